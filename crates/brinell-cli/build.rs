@@ -1,5 +1,5 @@
-//! Finds the commit for `brinell --version`, in this order: the variable `BRINELL_COMMIT`, what `cargo package` noted in the package, the checkout
-//! that an optimised build is made in. Nothing of that need be there.
+//! Finds the commit for `brinell --version`, in this order: the variable `BRINELL_COMMIT`, what `cargo package` noted
+//! in the package, the checkout that an optimised build is made in. Nothing of that need be there.
 //!
 //! Only optimised builds ask git, so that a commit does not make the command of a debug build anew.
 
@@ -8,7 +8,8 @@ use std::process::Command;
 
 /// Where `cargo package` notes the commit that it packaged.
 const NOTE: &str = ".cargo_vcs_info.json";
-/// Where the crate is in its repository, as git prints it; a crate that was unpacked within somebody else's repository is elsewhere.
+/// Where the crate is in its repository, as git prints it; a crate that was unpacked within somebody else's repository
+/// is elsewhere.
 const PLACE: &str = "crates/brinell-cli/";
 /// Digits of a commit that are shown.
 const DIGITS: usize = 12;

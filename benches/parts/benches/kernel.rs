@@ -1,8 +1,9 @@
 //! A right-hand side: its time with each kernel, its arithmetic, and how near that comes to what the core can do.
 //!
-//! `cargo bench -p brinell-bench --bench kernel`. Operations are counted by running the equations in lanes that count; a fused product and sum is two, as is
-//! usual; comparisons and moves of bits are named apart. Work on single numbers (rings, cages, damage under a roller) is not counted.
-//! The peak is a loop of independent fused products and sums on the same core at the same moment.
+//! `cargo bench -p brinell-bench --bench kernel`. Operations are counted by running the equations in lanes that count;
+//! a fused product and sum is two, as is usual; comparisons and moves of bits are named apart. Work on single numbers
+//! (rings, cages, damage under a roller) is not counted. The peak is a loop of independent fused products and sums on
+//! the same core at the same moment.
 
 mod common;
 
@@ -296,10 +297,7 @@ fn bound(model: &Model, moments: &[Moment; 2]) {
             n.others
         );
         for kernel in kernels() {
-            let (peak, seconds) = (
-                peak(kernel),
-                time(model, kernel, std::slice::from_ref(moment)),
-            );
+            let (peak, seconds) = (peak(kernel), time(model, kernel, std::slice::from_ref(moment)));
             let rate = n.flops() as f64 / seconds;
             println!(
                 "  {kernel:?}: {:.0} ns, {:.1} GFLOP/s of a peak of {:.1}: {:.0} %",
@@ -312,8 +310,8 @@ fn bound(model: &Model, moments: &[Moment; 2]) {
     }
 }
 
-/// Twice the rollers: at most twice the time. Without damage, over many moments: how many groups of contacts are open differs
-/// from one to the next.
+/// Twice the rollers: at most twice the time. Without damage, over many moments: how many groups of contacts are open
+/// differs from one to the next.
 fn rollers() {
     let mut before: Option<f64> = None;
     for rollers_per_row in [19, 38, 76, 152] {
@@ -324,24 +322,18 @@ fn rollers() {
         let model = Model::new(&s).expect("a model");
         let seconds = time(&model, Kernel::fastest(), &moments(&model));
         let ratio = before.map_or(String::new(), |b| format!(", {:.2} times", seconds / b));
-        println!(
-            "{} rollers: {:.0} ns{ratio}",
-            model.layout.rollers(),
-            1e9 * seconds
-        );
+        println!("{} rollers: {:.0} ns{ratio}", model.layout.rollers(), 1e9 * seconds);
         before = Some(seconds);
     }
 }
 
-/// What an element costs: of the paper's rollers, and of balls in bearings that fill their slots and in one that does not. Bodies that are there
-/// once (rings, cage) count with the elements.
+/// What an element costs: of the paper's rollers, and of balls in bearings that fill their slots and in one that does
+/// not. Bodies that are there once (rings, cage) count with the elements.
 fn balls() {
     let healthy = |preset: &str| {
         let mut s = rectangle();
         if preset != "NN3007" {
-            let text = format!(
-                "[bearing]\npreset = \"{preset}\"\n[operation]\nspeed_rpm = 1800\nload_n = [300, 0]\n"
-            );
+            let text = format!("[bearing]\npreset = \"{preset}\"\n[operation]\nspeed_rpm = 1800\nload_n = [300, 0]\n");
             s = brinell::document::read(&text, &[]).expect("sound").scenario;
         }
         s.defects.clear();

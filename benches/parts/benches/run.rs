@@ -53,10 +53,7 @@ fn main() {
     }
     let mut group = criterion.benchmark_group("rectangle, 0.1 s");
     group.sample_size(10);
-    for (name, accuracy) in [
-        ("standard", Accuracy::Standard),
-        ("reference", Accuracy::Reference),
-    ] {
+    for (name, accuracy) in [("standard", Accuracy::Standard), ("reference", Accuracy::Reference)] {
         let mut s = rectangle();
         s.simulation.duration_s = DURATION_S;
         s.simulation.accuracy = accuracy;

@@ -58,7 +58,8 @@ pub(crate) enum Command {
     Diff(crate::diff::DiffArgs),
     /// Run the experiments of Li et al. (2023) and compare each of the paper's sentences with them
     Reproduce(crate::reproduce::ReproduceArgs),
-    /// Fit keys within bounds to targets or a measured signal; says how sure the values are, and which the data leave open
+    /// Fit keys within bounds to targets or a measured signal; says how sure the values are, and which the data leave
+    /// open
     Calibrate(Box<crate::calibrate::CalibrateArgs>),
     /// Make a data set of thousands of labelled signals from a plan; merge and verify data sets
     Dataset(Box<crate::dataset::DatasetArgs>),
@@ -103,37 +104,29 @@ pub(crate) struct RunArgs {
     /// The scenarios (TOML); `-` reads standard input
     #[arg(required = true, value_name = "SCENARIO")]
     pub(crate) scenarios: Vec<PathBuf>,
-    /// Override any key, in every scenario: `--set operation.speed_rpm=3000`, `--set defects.0.depth_um=40` (of defect 1: keys count list
-    /// elements from 0); a bare word is a string
+    /// Override any key, in every scenario: `--set operation.speed_rpm=3000`, `--set defects.0.depth_um=40` (of defect
+    /// 1: keys count list elements from 0); a bare word is a string
     #[arg(long = "set", value_name = "KEY=VALUE")]
     pub(crate) set: Vec<String>,
     /// Runs at a time, of several scenarios [default: one a core]
     #[arg(short, long, value_name = "N")]
     pub(crate) jobs: Option<NonZeroUsize>,
-    /// Folder for the results [default: out/NAME, NAME being the scenario's; of several scenarios out, each in out/STEM]
+    /// Folder for the results [default: out/NAME, NAME being the scenario's; of several scenarios out, each in
+    /// out/STEM]
     #[arg(short, long, value_name = "FOLDER")]
     pub(crate) output: Option<PathBuf>,
     /// Signal files to write, separated by commas
-    #[arg(
-        long,
-        value_delimiter = ',',
-        default_value = "parquet",
-        value_name = "FORMAT"
-    )]
+    #[arg(long, value_delimiter = ',', default_value = "parquet", value_name = "FORMAT")]
     pub(crate) signals: Vec<SignalFormat>,
-    /// Also write each picture of the report into FOLDER/plots, as files of these formats, and its curves as CSV into FOLDER/curves
+    /// Also write each picture of the report into FOLDER/plots, as files of these formats, and its curves as CSV into
+    /// FOLDER/curves
     #[arg(long, value_delimiter = ',', value_name = "FORMAT")]
     pub(crate) plots: Vec<PlotFormat>,
     #[command(flatten)]
     pub(crate) print: Print,
-    /// Also write line_loads.csv: the load along every loaded roller, slice by slice, at the samples next to these instants (s); of scenarios with
-    /// simulation.model = "tilting" or a bearing.profile
-    #[arg(
-        long,
-        value_delimiter = ',',
-        value_name = "T",
-        allow_negative_numbers = true
-    )]
+    /// Also write line_loads.csv: the load along every loaded roller, slice by slice, at the samples next to these
+    /// instants (s); of scenarios with simulation.model = "tilting" or a bearing.profile
+    #[arg(long, value_delimiter = ',', value_name = "T", allow_negative_numbers = true)]
     pub(crate) line_loads: Vec<f64>,
     /// Skip report.html
     #[arg(long)]
@@ -234,29 +227,13 @@ pub(crate) struct FrequenciesArgs {
     #[arg(long, value_name = "RPM", allow_negative_numbers = true)]
     pub(crate) speed: Option<f64>,
     /// Pitch diameter, mm
-    #[arg(
-        long,
-        value_name = "MM",
-        conflicts_with = "bearing",
-        allow_negative_numbers = true
-    )]
+    #[arg(long, value_name = "MM", conflicts_with = "bearing", allow_negative_numbers = true)]
     pub(crate) pitch: Option<f64>,
     /// Diameter of a rolling element, mm
-    #[arg(
-        long,
-        alias = "roller",
-        value_name = "MM",
-        conflicts_with = "bearing",
-        allow_negative_numbers = true
-    )]
+    #[arg(long, alias = "roller", value_name = "MM", conflicts_with = "bearing", allow_negative_numbers = true)]
     pub(crate) diameter: Option<f64>,
     /// Rollers in a row
-    #[arg(
-        long,
-        value_name = "Z",
-        conflicts_with = "bearing",
-        allow_negative_numbers = true
-    )]
+    #[arg(long, value_name = "Z", conflicts_with = "bearing", allow_negative_numbers = true)]
     pub(crate) rollers: Option<usize>,
     /// Print JSON
     #[arg(long)]
@@ -299,12 +276,7 @@ pub(crate) struct PreviewArgs {
     #[arg(short, long, value_name = "FOLDER")]
     pub(crate) output: Option<PathBuf>,
     /// Formats of the pictures, separated by commas
-    #[arg(
-        long,
-        value_delimiter = ',',
-        default_value = "svg,png",
-        value_name = "FORMAT"
-    )]
+    #[arg(long, value_delimiter = ',', default_value = "svg,png", value_name = "FORMAT")]
     pub(crate) formats: Vec<PlotFormat>,
     #[command(flatten)]
     pub(crate) print: Print,
@@ -329,12 +301,10 @@ pub(crate) enum Written {
 }
 
 #[derive(Debug, Args)]
-#[command(
-    after_help = "Prints a whole [[defects]] entry: paste it over the old one, or redirect it.\n\n\
+#[command(after_help = "Prints a whole [[defects]] entry: paste it over the old one, or redirect it.\n\n\
     A profile keeps L_s and h_s along the arc and forgets where across the roller the damage lies.\n\
     An outline keeps the place and has one depth, that of equal volume where the shape has several.\n\n\
-    Example: brinell defect convert spall.toml --to profile --points 200"
-)]
+    Example: brinell defect convert spall.toml --to profile --points 200")]
 pub(crate) struct ConvertArgs {
     #[command(flatten)]
     pub(crate) scenario: ScenarioArgs,
@@ -350,7 +320,8 @@ pub(crate) struct ConvertArgs {
     /// Outline of a depth map: what is deeper than this [default: the depth at which it encloses the damaged area]
     #[arg(long, value_name = "UM", allow_negative_numbers = true)]
     pub(crate) level_um: Option<f64>,
-    /// Outline of a depth map: corners closer than this to the line are left out [default: a tenth of the map's finer step]
+    /// Outline of a depth map: corners closer than this to the line are left out [default: a tenth of the map's finer
+    /// step]
     #[arg(long, value_name = "MM", allow_negative_numbers = true)]
     pub(crate) tolerance_mm: Option<f64>,
 }
@@ -431,11 +402,6 @@ pub(crate) struct RandomArgs {
     #[arg(long, default_value_t = 0.5, allow_negative_numbers = true)]
     pub(crate) roughness: f64,
     /// Mean depth
-    #[arg(
-        long,
-        value_name = "UM",
-        default_value_t = 20.0,
-        allow_negative_numbers = true
-    )]
+    #[arg(long, value_name = "UM", default_value_t = 20.0, allow_negative_numbers = true)]
     pub(crate) depth_um: f64,
 }

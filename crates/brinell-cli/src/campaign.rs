@@ -47,10 +47,7 @@ pub(crate) fn run_within(
     joint: &mut Joint,
     stop: &AtomicBool,
 ) -> Result<ControlFlow<()>, Failure> {
-    let terminal = Terminal {
-        joint: Mutex::new(joint),
-        stop,
-    };
+    let terminal = Terminal { joint: Mutex::new(joint), stop };
     runner::run(tasks, work, ledger, threads, &terminal)
 }
 

@@ -61,18 +61,12 @@ fn bearing(s: &Scenario) {
     let b = &s.bearing;
     let element = b.element.word();
     let size = match b.element {
-        Element::Roller => format!(
-            "{} x {} mm",
-            plain_number(b.roller_diameter_mm),
-            plain_number(b.roller_length_mm)
-        ),
+        Element::Roller => format!("{} x {} mm", plain_number(b.roller_diameter_mm), plain_number(b.roller_length_mm)),
         Element::Ball => format!("of {} mm", plain_number(b.roller_diameter_mm)),
     };
     say!(
         "Bearing   {}{} row(s) of {} {}s {size} on a {} mm pitch circle",
-        b.preset
-            .as_ref()
-            .map_or(String::new(), |p| format!("{p}: ")),
+        b.preset.as_ref().map_or(String::new(), |p| format!("{p}: ")),
         b.rows,
         b.rollers_per_row,
         element,
@@ -86,10 +80,7 @@ fn frequencies(s: &Scenario, d: &Derived) {
     let at = match s.operation.speed_rpm {
         Speed::Constant(rpm) if rpm < 0.0 => format!("at {} r/min, clockwise", plain_number(-rpm)),
         Speed::Constant(rpm) => format!("at {} r/min, counter-clockwise", plain_number(rpm)),
-        Speed::Profile(_) => format!(
-            "at the top speed, {} r/min",
-            short(60.0 * d.top_speed / TAU, 5)
-        ),
+        Speed::Profile(_) => format!("at the top speed, {} r/min", short(60.0 * d.top_speed / TAU, 5)),
     };
     say!("Frequencies in pure rolling, {at}");
     for (name, value, meaning) in d.kinematics.table(d.top_speed / TAU) {
@@ -116,11 +107,7 @@ fn stiffnesses(s: &Scenario, d: &Derived) {
         "  support over clearance  {} N of the {} N of load{}",
         short(carried, 3),
         short(load, 3),
-        if s.operation.gravity_m_per_s2 == [0.0; 2] {
-            ""
-        } else {
-            " and ring weight"
-        }
+        if s.operation.gravity_m_per_s2 == [0.0; 2] { "" } else { " and ring weight" }
     );
 }
 
@@ -138,11 +125,7 @@ fn time_scales(s: &Scenario, model: &Model, d: &Derived) {
         short(d.support_frequencies[0], 3),
         short(d.support_frequencies[1], 3)
     );
-    say!(
-        "  {:<23} {} ms",
-        format!("{element} after {element}"),
-        short(1e3 * d.roller_period, 4)
-    );
+    say!("  {:<23} {} ms", format!("{element} after {element}"), short(1e3 * d.roller_period, 4));
     for (defect, time) in model.defects.iter().zip(&d.defect_passes) {
         let (first, last) = defect.shape.arc();
         say!(
@@ -152,14 +135,8 @@ fn time_scales(s: &Scenario, model: &Model, d: &Derived) {
             short(1e3 * (last - first), 3)
         );
     }
-    say!(
-        "  longest step            {} us",
-        short(1e6 * d.longest_step, 3)
-    );
-    say!(
-        "  centrifugal force       {} N a {element}",
-        short(d.centrifugal_force, 3)
-    );
+    say!("  longest step            {} us", short(1e6 * d.longest_step, 3));
+    say!("  centrifugal force       {} N a {element}", short(d.centrifugal_force, 3));
 }
 
 fn recording(s: &Scenario, model: &Model) {
@@ -179,19 +156,10 @@ fn assumptions(loaded: &Loaded, listed: bool) {
     if listed {
         say!("Assumed, because it was not given:");
         for p in &assumed {
-            say!(
-                "  {} = {} {}  ({})",
-                p.key,
-                rounded(&p.value),
-                p.unit,
-                p.reason()
-            );
+            say!("  {} = {} {}  ({})", p.key, rounded(&p.value), p.unit, p.reason());
         }
     } else {
-        say!(
-            "{} values are assumed; --assumptions lists them",
-            assumed.len()
-        );
+        say!("{} values are assumed; --assumptions lists them", assumed.len());
     }
 }
 
@@ -209,16 +177,10 @@ fn clearance(b: &Bearing) -> String {
     let Some(bore) = bore_diameter_mm(b) else {
         return both;
     };
-    let classes: Vec<&str> = classes_of(b.element, bore, diametral)
-        .iter()
-        .map(|c| c.name())
-        .collect();
+    let classes: Vec<&str> = classes_of(b.element, bore, diametral).iter().map(|c| c.name()).collect();
     match classes.is_empty() {
         true => format!("{both}; in no class of ISO 5753-1 for a bore of {bore} mm"),
-        false => format!(
-            "{both}; ISO 5753-1 {} for a bore of {bore} mm",
-            classes.join(" and ")
-        ),
+        false => format!("{both}; ISO 5753-1 {} for a bore of {bore} mm", classes.join(" and ")),
     }
 }
 
@@ -226,11 +188,7 @@ fn clearance(b: &Bearing) -> String {
 fn rating(s: &Scenario) -> String {
     let rating = static_rating(&s.bearing);
     let load = s.operation.load_n[0].hypot(s.operation.load_n[1]);
-    let factor = if load > 0.0 {
-        format!(", {} times the load", short(rating.load / load, 3))
-    } else {
-        String::new()
-    };
+    let factor = if load > 0.0 { format!(", {} times the load", short(rating.load / load, 3)) } else { String::new() };
     format!(
         "C0 = {} kN{factor} ({})",
         short(1e-3 * rating.load, 3),
@@ -255,10 +213,7 @@ fn static_balance(s: &Scenario, model: &Model, zone: &StaticLoadZone) {
     if s.has_even_contacts() {
         even_pressures(s, model, zone.largest);
     }
-    say!(
-        "  load zone               {:.1} deg wide",
-        zone.extent.to_degrees()
-    );
+    say!("  load zone               {:.1} deg wide", zone.extent.to_degrees());
     say!(
         "  inner ring from outer   ({}, {}) um",
         significant(1e6 * zone.shift[0], 1e6 * size, 4),

@@ -2,10 +2,7 @@
 
 mod preview;
 
-use crate::args::{
-    ConvertArgs, DefectCommand, FitArgs, RandomArgs, ScenarioArgs, SimpleShape, SimplifyArgs,
-    Written,
-};
+use crate::args::{ConvertArgs, DefectCommand, FitArgs, RandomArgs, ScenarioArgs, SimpleShape, SimplifyArgs, Written};
 use crate::failure::Failure;
 use crate::files::Source;
 use crate::say::{complain, document, one_line, say, short, twelve_digits};
@@ -39,18 +36,14 @@ fn chosen(s: &Scenario, number: usize) -> Result<&scenario::Defect, Failure> {
     defect.ok_or_else(|| {
         Failure::Usage(match s.defects.len() {
             0 => format!("{}: the scenario has no [[defects]]", one_line(&s.name)),
-            n => format!(
-                "--defect {number}: {} has defects 1 to {n}",
-                one_line(&s.name)
-            ),
+            n => format!("--defect {number}: {} has defects 1 to {n}", one_line(&s.name)),
         })
     })
 }
 
 /// Its shape in SI, as the simulation takes it.
 fn shape(defect: &scenario::Defect) -> Result<Shape, Failure> {
-    Shape::new(&defect.shape, 1e-6 * defect.depth_um)
-        .ok_or_else(|| Failure::Usage("the shape makes no sense".into()))
+    Shape::new(&defect.shape, 1e-6 * defect.depth_um).ok_or_else(|| Failure::Usage("the shape makes no sense".into()))
 }
 
 /// The scenario of a command that prints an entry.
@@ -64,10 +57,7 @@ fn to_print_of(args: &ScenarioArgs) -> Result<Loaded, Failure> {
 /// One `[[defects]]` entry as TOML; what the scenario's checks say of it goes to standard error.
 fn print(s: &Scenario, mut defect: scenario::Defect, remarks: &[String]) {
     round(&mut defect);
-    let alone = Scenario {
-        defects: vec![defect],
-        ..s.clone()
-    };
+    let alone = Scenario { defects: vec![defect], ..s.clone() };
     for problem in alone.problems() {
         if problem.to_string().contains("defects") {
             complain!("{problem}");
@@ -82,19 +72,12 @@ fn round(defect: &mut scenario::Defect) {
     twelve(&mut defect.depth_um);
     twelve(&mut defect.center_deg);
     match &mut defect.shape {
-        scenario::Shape::Rectangle {
-            length_mm,
-            width_mm,
-        } => {
+        scenario::Shape::Rectangle { length_mm, width_mm } => {
             twelve(length_mm);
             twelve(width_mm);
         }
         scenario::Shape::Circle { diameter_mm } => twelve(diameter_mm),
-        scenario::Shape::Profile {
-            arc_mm,
-            width_mm,
-            depth_um,
-        } => {
+        scenario::Shape::Profile { arc_mm, width_mm, depth_um } => {
             arc_mm.iter_mut().for_each(twelve);
             width_mm.iter_mut().for_each(twelve);
             depth_um.iter_mut().flatten().for_each(twelve);
@@ -126,9 +109,7 @@ fn checked_points(points: usize, least: usize) -> Result<usize, Failure> {
     if (least..=MOST_POINTS).contains(&points) {
         return Ok(points);
     }
-    Err(Failure::Usage(format!(
-        "--points {points}: expected {least} to {MOST_POINTS}"
-    )))
+    Err(Failure::Usage(format!("--points {points}: expected {least} to {MOST_POINTS}")))
 }
 
 fn convert(args: &ConvertArgs) -> Result<(), Failure> {
@@ -147,8 +128,7 @@ fn convert(args: &ConvertArgs) -> Result<(), Failure> {
     let grid = plan::depth_grid(of).filter(|_| args.to == Written::Outline);
     if grid.is_none() && (args.level_um.is_some() || args.tolerance_mm.is_some()) {
         return Err(Failure::Usage(
-            "--level-um and --tolerance-mm belong to the outline of a depth map or a random spall"
-                .into(),
+            "--level-um and --tolerance-mm belong to the outline of a depth map or a random spall".into(),
         ));
     }
     let mut remarks = Vec::new();
@@ -160,14 +140,7 @@ fn convert(args: &ConvertArgs) -> Result<(), Failure> {
             let arc_mm: Vec<f64> = course.iter().map(|p| p.0).collect();
             let depth_um = has_depths.then(|| arc_mm.iter().map(depth).collect());
             let width_mm = course.iter().map(|p| p.1).collect();
-            (
-                scenario::Shape::Profile {
-                    arc_mm,
-                    width_mm,
-                    depth_um,
-                },
-                of.depth_um,
-            )
+            (scenario::Shape::Profile { arc_mm, width_mm, depth_um }, of.depth_um)
         }
         Written::Outline => match grid {
             Some(grid) => {
@@ -186,19 +159,12 @@ fn convert(args: &ConvertArgs) -> Result<(), Failure> {
                 let polygons_mm = outline.polygons_mm;
                 (scenario::Shape::Outline { polygons_mm }, depth_um)
             }
-            None => (
-                scenario::Shape::Outline {
-                    polygons_mm: plan::polygons_mm(of, &real, points),
-                },
-                1e6 * extent.depth,
-            ),
+            None => {
+                (scenario::Shape::Outline { polygons_mm: plan::polygons_mm(of, &real, points) }, 1e6 * extent.depth)
+            }
         },
     };
-    let defect = scenario::Defect {
-        shape,
-        depth_um,
-        ..of.clone()
-    };
+    let defect = scenario::Defect { shape, depth_um, ..of.clone() };
     let new = self::shape(&defect)?;
     remarks.push(format!(
         "area {} mm^2; the shape it was written from has {} mm^2",
@@ -212,10 +178,7 @@ fn convert(args: &ConvertArgs) -> Result<(), Failure> {
 /// An outline that cannot be drawn, with the options by their names.
 fn refused(error: brinell_damage::DamageError) -> Failure {
     let text = error.to_string();
-    Failure::Usage(
-        text.replace("`level_um`", "--level-um")
-            .replace("`tolerance_mm`", "--tolerance-mm"),
-    )
+    Failure::Usage(text.replace("`level_um`", "--level-um").replace("`tolerance_mm`", "--tolerance-mm"))
 }
 
 fn simple(args: &SimplifyArgs) -> Result<(), Failure> {
@@ -227,14 +190,9 @@ fn simple(args: &SimplifyArgs) -> Result<(), Failure> {
         SimpleShape::EqualAreaRectangle => (Simple::EqualAreaRectangle, "rectangle of equal area"),
         SimpleShape::EqualAreaCircle => (Simple::EqualAreaCircle, "circle of equal area"),
     };
-    let defect = simplify(of, &s.bearing, to)
-        .ok_or_else(|| Failure::Usage("the shape makes no sense".into()))?;
+    let defect = simplify(of, &s.bearing, to).ok_or_else(|| Failure::Usage("the shape makes no sense".into()))?;
     let area = |d: &scenario::Defect| Ok::<_, Failure>(1e6 * shape(d)?.area());
-    let remark = format!(
-        "{name}: {} mm^2 in place of {} mm^2",
-        short(area(&defect)?, 5),
-        short(area(of)?, 5)
-    );
+    let remark = format!("{name}: {} mm^2 in place of {} mm^2", short(area(&defect)?, 5), short(area(of)?, 5));
     print(s, defect, &[remark]);
     Ok(())
 }
@@ -243,11 +201,7 @@ fn fit(args: &FitArgs) -> Result<(), Failure> {
     let loaded = to_print_of(&args.scenario)?;
     let s = &loaded.scenario;
     let of = chosen(s, args.defect)?;
-    let settings = FitSettings {
-        segments: args.segments,
-        order: args.order,
-        samples: args.samples,
-    };
+    let settings = FitSettings { segments: args.segments, order: args.order, samples: args.samples };
     let bounded = args.segments <= 10_000 && args.samples <= MOST_POINTS;
     let fit = bounded
         .then(|| Fit::new(&shape(of).ok()?, 1e-6 * of.depth_um, &settings))
@@ -264,15 +218,9 @@ fn fit(args: &FitArgs) -> Result<(), Failure> {
         "fit error: width rms {} um, largest {} um; depth rms {} um, largest {} um",
         width[0], width[1], depth[0], depth[1]
     );
-    let head = format!(
-        "{} segments, order {}, {} samples each",
-        args.segments, args.order, args.samples
-    );
+    let head = format!("{} segments, order {}, {} samples each", args.segments, args.order, args.samples);
     if args.toml {
-        let defect = scenario::Defect {
-            shape: fit.shape(32),
-            ..of.clone()
-        };
+        let defect = scenario::Defect { shape: fit.shape(32), ..of.clone() };
         print(s, defect, &[head, error]);
         return Ok(());
     }
@@ -282,21 +230,14 @@ fn fit(args: &FitArgs) -> Result<(), Failure> {
     }
     say!("{head}");
     say!("{error}");
-    say!(
-        "L_s(x) in mm and h_s(x) in um, x = (2 s - from - to)/(to - from), coefficients of x^0, x^1, ..."
-    );
+    say!("L_s(x) in mm and h_s(x) in um, x = (2 s - from - to)/(to - from), coefficients of x^0, x^1, ...");
     let list = |values: &[f64], unit: f64| {
         let all = sound(values, unit);
         let all: Vec<String> = all.iter().map(|c| format!("{c:.6e}")).collect();
         all.join(" ")
     };
     for (k, g) in fit.segments.iter().enumerate() {
-        say!(
-            "segment {}: s from {:.6} to {:.6} mm",
-            k + 1,
-            mm(g.from),
-            mm(g.to)
-        );
+        say!("segment {}: s from {:.6} to {:.6} mm", k + 1, mm(g.from), mm(g.to));
         say!("  width {}", list(&g.width, 1e3));
         say!("  depth {}", list(&g.depth, 1e6));
     }
@@ -357,22 +298,15 @@ fn fit_json(fit: &Fit, args: &FitArgs) -> Value {
 }
 
 fn random(args: &RandomArgs) -> Result<(), Failure> {
-    for (name, x, top) in [
-        ("--length-mm", args.length_mm, 1e4),
-        ("--width-mm", args.width_mm, 1e4),
-        ("--depth-um", args.depth_um, 1e5),
-    ] {
+    for (name, x, top) in
+        [("--length-mm", args.length_mm, 1e4), ("--width-mm", args.width_mm, 1e4), ("--depth-um", args.depth_um, 1e5)]
+    {
         if !(x > 0.0 && x <= top) {
-            return Err(Failure::Usage(format!(
-                "{name} {x}: expected more than 0, at most {top}"
-            )));
+            return Err(Failure::Usage(format!("{name} {x}: expected more than 0, at most {top}")));
         }
     }
     if !(0.0..=1.0).contains(&args.roughness) {
-        return Err(Failure::Usage(format!(
-            "--roughness {}: expected 0 (an ellipse) to 1 (ragged)",
-            args.roughness
-        )));
+        return Err(Failure::Usage(format!("--roughness {}: expected 0 (an ellipse) to 1 (ragged)", args.roughness)));
     }
     let defect = scenario::Defect {
         on: Surface::OuterRaceway,
@@ -392,10 +326,7 @@ fn random(args: &RandomArgs) -> Result<(), Failure> {
         Shape::DepthMap(grid) => 1e6 * grid.extremes().0,
         _ => args.depth_um,
     };
-    let alone = Scenario {
-        defects: vec![defect],
-        ..Scenario::example()
-    };
+    let alone = Scenario { defects: vec![defect], ..Scenario::example() };
     let remark = format!(
         "area {} mm^2, deepest {} um; see it: brinell defect preview SCENARIO",
         short(area, 4),

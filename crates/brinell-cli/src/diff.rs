@@ -67,21 +67,12 @@ struct Difference<'a> {
 
 fn differences<'a>(a: &'a Loaded, b: &'a Loaded) -> Vec<Difference<'a>> {
     let of = |loaded: &'a Loaded, key: &str| loaded.provenance.iter().find(|p| p.key == key);
-    let own = a.provenance.iter().map(|p| Difference {
-        key: &p.key,
-        unit: p.unit,
-        sides: [Some(p), of(b, &p.key)],
-    });
+    let own = a.provenance.iter().map(|p| Difference { key: &p.key, unit: p.unit, sides: [Some(p), of(b, &p.key)] });
     let others = b.provenance.iter().filter(|p| of(a, &p.key).is_none());
-    let others = others.map(|p| Difference {
-        key: &p.key,
-        unit: p.unit,
-        sides: [None, Some(p)],
-    });
+    let others = others.map(|p| Difference { key: &p.key, unit: p.unit, sides: [None, Some(p)] });
     let value = |side: Option<&'a Provenance>| side.map(|p| p.value.as_str());
     let all = own.chain(others);
-    all.filter(|d| value(d.sides[0]) != value(d.sides[1]))
-        .collect()
+    all.filter(|d| value(d.sides[0]) != value(d.sides[1])).collect()
 }
 
 impl Difference<'_> {

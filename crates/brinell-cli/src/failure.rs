@@ -16,11 +16,7 @@ pub(crate) const INTERRUPTED: u8 = 130;
 #[derive(Debug)]
 pub(crate) enum Failure {
     /// The scenario is bad; its text and name are for pointing at lines.
-    Scenario {
-        name: String,
-        text: String,
-        problems: Vec<Problem>,
-    },
+    Scenario { name: String, text: String, problems: Vec<Problem> },
     /// Anything else that the user got wrong.
     Usage(String),
     /// A file cannot be read.
@@ -50,11 +46,7 @@ impl Failure {
                 | IoError::NotAFileName { .. }
                 | IoError::Busy { .. },
             ) => BAD_INPUT,
-            Self::Write(_)
-            | Self::Picture(_)
-            | Self::Run(_)
-            | Self::NotOpened(_)
-            | Self::Unsaid(_) => 1,
+            Self::Write(_) | Self::Picture(_) | Self::Run(_) | Self::NotOpened(_) | Self::Unsaid(_) => 1,
         })
     }
 
@@ -81,17 +73,9 @@ impl Failure {
 
     /// To standard error, with the scenario `of` in front where the message does not name it itself.
     pub(crate) fn print_of(&self, of: &str) {
-        let of = if of.is_empty() {
-            String::new()
-        } else {
-            format!("{of}: ")
-        };
+        let of = if of.is_empty() { String::new() } else { format!("{of}: ") };
         match self {
-            Self::Scenario {
-                name,
-                text,
-                problems,
-            } => print_problems(name, text, problems),
+            Self::Scenario { name, text, problems } => print_problems(name, text, problems),
             Self::Usage(message) | Self::NotOpened(message) => {
                 complain!("error: {of}{message}");
             }

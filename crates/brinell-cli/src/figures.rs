@@ -15,8 +15,8 @@ const CURVES: &str = "curves";
 /// How pictures are drawn for files.
 #[derive(Debug, Clone, Copy, clap::Args)]
 pub(crate) struct Print {
-    /// Draw the pictures for print, this wide (mm, cm or in): 90mm for a column, 190mm for two. Text is 7 to 9 pt there, SVG and PDF hold
-    /// their typeface, PNG has 600 dots an inch
+    /// Draw the pictures for print, this wide (mm, cm or in): 90mm for a column, 190mm for two. Text is 7 to 9 pt
+    /// there, SVG and PDF hold their typeface, PNG has 600 dots an inch
     #[arg(long, value_name = "WIDTH", allow_hyphen_values = true)]
     pub(crate) width: Option<Width>,
 }
@@ -25,9 +25,9 @@ impl Print {
     /// What pictures of these formats are drawn for.
     pub(crate) fn layout(self, formats: &[PlotFormat]) -> Result<Layout, Failure> {
         match self.width {
-            Some(_) if formats.is_empty() => Err(Failure::Usage(
-                "--width is that of pictures in files: say which with --plots svg,png,pdf".into(),
-            )),
+            Some(_) if formats.is_empty() => {
+                Err(Failure::Usage("--width is that of pictures in files: say which with --plots svg,png,pdf".into()))
+            }
             Some(Width(mm)) => Ok(Layout::Print(mm)),
             None => Ok(Layout::Wide),
         }
@@ -51,9 +51,7 @@ impl FromStr for Width {
         match known {
             Some(mm) if Layout::WIDTHS_MM.contains(&mm) => Ok(Self(mm)),
             Some(_) => Err(format!("expected {least} to {most} mm")),
-            None => Err(format!(
-                "expected a number with its unit, mm, cm or in, of {least} to {most} mm: 90mm"
-            )),
+            None => Err(format!("expected a number with its unit, mm, cm or in, of {least} to {most} mm: 90mm")),
         }
     }
 }
@@ -76,11 +74,7 @@ fn bytes(picture: &Picture, format: PlotFormat) -> Result<Vec<u8>, Failure> {
 }
 
 /// Pictures as files of a folder, up to their names.
-pub(crate) fn drawn(
-    pictures: &[Picture],
-    formats: &[PlotFormat],
-    folder: &Path,
-) -> Result<Vec<Complete>, Failure> {
+pub(crate) fn drawn(pictures: &[Picture], formats: &[PlotFormat], folder: &Path) -> Result<Vec<Complete>, Failure> {
     let mut ready = Vec::new();
     for picture in pictures {
         for format in formats {
@@ -118,19 +112,11 @@ fn curve_file(table: &CurveTable) -> String {
 }
 
 /// What [`ready_pictures`] will write.
-pub(crate) fn picture_files(
-    pictures: &[Picture],
-    formats: &[PlotFormat],
-    folder: &Path,
-) -> Vec<PathBuf> {
-    let file = |picture: &Picture, format: &PlotFormat| {
-        folder.join(PLOTS).join(file_name(picture, *format))
-    };
+pub(crate) fn picture_files(pictures: &[Picture], formats: &[PlotFormat], folder: &Path) -> Vec<PathBuf> {
+    let file = |picture: &Picture, format: &PlotFormat| folder.join(PLOTS).join(file_name(picture, *format));
     let of = |picture| formats.iter().map(move |format| file(picture, format));
     let curves = tables(pictures, formats);
-    let curves = curves
-        .iter()
-        .map(|table| folder.join(CURVES).join(curve_file(table)));
+    let curves = curves.iter().map(|table| folder.join(CURVES).join(curve_file(table)));
     pictures.iter().flat_map(of).chain(curves).collect()
 }
 
@@ -168,12 +154,7 @@ mod tests {
 
     #[test]
     fn analytic_widths_of_three_units() {
-        for (text, mm) in [
-            ("90mm", 90.0),
-            ("9 cm", 90.0),
-            ("3.5in", 88.9),
-            ("190.0mm", 190.0),
-        ] {
+        for (text, mm) in [("90mm", 90.0), ("9 cm", 90.0), ("3.5in", 88.9), ("190.0mm", 190.0)] {
             let Width(found) = text.parse().unwrap();
             assert!((found - mm).abs() < 1e-9, "{text}: {found}");
         }
@@ -181,9 +162,7 @@ mod tests {
 
     #[test]
     fn regress_a_bad_width_is_refused_with_range_and_unit() {
-        for text in [
-            "90", "79mm", "201mm", "-90mm", "NaNmm", "mm", "", "9m", "infin",
-        ] {
+        for text in ["90", "79mm", "201mm", "-90mm", "NaNmm", "mm", "", "9m", "infin"] {
             let words = text.parse::<Width>().unwrap_err();
             assert!(words.contains("80 to 200 mm"), "{text}: {words}");
         }

@@ -31,24 +31,15 @@ impl Source {
     pub(crate) fn open(args: &ScenarioArgs) -> Result<Self, Failure> {
         let overrides = args.set.iter().map(|text| setting("--set ", text));
         let overrides = overrides.collect::<Result<_, _>>()?;
-        let name = if is_stdin(&args.scenario) {
-            "standard input".to_owned()
-        } else {
-            args.scenario.display().to_string()
-        };
+        let name =
+            if is_stdin(&args.scenario) { "standard input".to_owned() } else { args.scenario.display().to_string() };
         let bytes = bytes(&args.scenario)?;
         let mut inputs = Inputs::default();
         match is_stdin(&args.scenario) {
             true => inputs.add_standard_input(),
             false => inputs.add(&args.scenario),
         }
-        Ok(Self {
-            bytes,
-            inputs: Mutex::new(inputs),
-            path: args.scenario.clone(),
-            name,
-            overrides,
-        })
+        Ok(Self { bytes, inputs: Mutex::new(inputs), path: args.scenario.clone(), name, overrides })
     }
 
     /// The file as written.
@@ -70,9 +61,7 @@ impl Source {
     /// The photos of its defects with the outlines read from them, on a page's scale.
     pub(crate) fn photos(&self) -> Vec<Option<brinell_damage::Photo>> {
         let unread = read_bytes(&self.bytes, &self.overrides);
-        unread.map_or(Vec::new(), |loaded| {
-            brinell_damage::photos(&loaded.scenario, folder(&self.path))
-        })
+        unread.map_or(Vec::new(), |loaded| brinell_damage::photos(&loaded.scenario, folder(&self.path)))
     }
 
     /// That the file is the plan of a data set, where it is one.
@@ -87,17 +76,9 @@ impl Source {
     }
 
     /// The scenario with `settings` over the overrides; its warnings go to standard error unless `quiet`.
-    pub(crate) fn load(
-        &self,
-        settings: &[(String, String)],
-        quiet: bool,
-    ) -> Result<Loaded, Failure> {
+    pub(crate) fn load(&self, settings: &[(String, String)], quiet: bool) -> Result<Loaded, Failure> {
         let overrides = [&self.overrides, settings].concat();
-        let failed = |problems| Failure::Scenario {
-            name: self.name.clone(),
-            text: self.text(),
-            problems,
-        };
+        let failed = |problems| Failure::Scenario { name: self.name.clone(), text: self.text(), problems };
         let mut loaded = read_bytes(&self.bytes, &overrides)
             .map_err(|problems| self.plan_in_place().unwrap_or_else(|| failed(problems)))?;
         if !quiet && !loaded.warnings.is_empty() {
@@ -122,9 +103,7 @@ impl Source {
 /// `KEY=VALUE`, what was requested by `option`.
 pub(crate) fn setting(option: &str, text: &str) -> Result<(String, String), Failure> {
     match text.split_once('=') {
-        Some((key, value)) if !key.trim().is_empty() => {
-            Ok((key.trim().to_owned(), value.trim().to_owned()))
-        }
+        Some((key, value)) if !key.trim().is_empty() => Ok((key.trim().to_owned(), value.trim().to_owned())),
         _ => Err(Failure::Usage(format!(
             "{option}{text}: expected KEY=VALUE, for instance {option}operation.speed_rpm=3000"
         ))),
@@ -161,10 +140,7 @@ fn folder(path: &Path) -> &Path {
 }
 
 fn bytes(path: &Path) -> Result<Vec<u8>, Failure> {
-    let read = if is_stdin(path) {
-        read_text(std::io::stdin().lock())
-    } else {
-        std::fs::File::open(path).and_then(read_text)
-    };
+    let read =
+        if is_stdin(path) { read_text(std::io::stdin().lock()) } else { std::fs::File::open(path).and_then(read_text) };
     read.map_err(|error| Failure::Read(path.to_owned(), error))
 }

@@ -76,9 +76,7 @@ impl Inputs {
     pub(crate) fn add_standard_input(&mut self) {
         #[cfg(unix)]
         if let Some(identity) = identity_of_open(std::io::stdin()) {
-            self.files
-                .entry(identity)
-                .or_insert("standard input".into());
+            self.files.entry(identity).or_insert("standard input".into());
         }
     }
 
@@ -88,9 +86,7 @@ impl Inputs {
     /// Where it was.
     pub(crate) fn spare_standard_output(&self) -> Result<(), Failure> {
         #[cfg(unix)]
-        if let Some(input) =
-            identity_of_open(std::io::stdout()).and_then(|identity| self.files.get(&identity))
-        {
+        if let Some(input) = identity_of_open(std::io::stdout()).and_then(|identity| self.files.get(&identity)) {
             return Err(refusal("standard output", input));
         }
         Ok(())

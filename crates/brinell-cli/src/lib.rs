@@ -1,4 +1,5 @@
-//! The `brinell` command as a function: reads arguments and files, prints, and writes results; what is computed is the libraries'.
+//! The `brinell` command as a function: reads arguments and files, prints, and writes results; what is computed is the
+//! libraries'.
 
 #![cfg_attr(not(test), deny(clippy::print_stdout, clippy::print_stderr))]
 
@@ -35,12 +36,14 @@ use failure::{BAD_INPUT, Failure};
 use std::ffi::OsString;
 use std::process::ExitCode;
 
-/// Runs the command with these arguments, the first of which is the program's name, and prints to the process's standard output and error.
+/// Runs the command with these arguments, the first of which is the program's name, and prints to the process's
+/// standard output and error.
 ///
-/// Exit codes: 0 done, 1 the run failed or a result could not be written, 2 the input is bad, 130 interrupted (what was computed is kept).
+/// Exit codes: 0 done, 1 the run failed or a result could not be written, 2 the input is bad, 130 interrupted (what was
+/// computed is kept).
 ///
-/// It is for a process of its own: it raises that process's limit of open files to what the system allows, ignores SIGXFSZ, and some
-/// commands listen for Ctrl-C, the second of which ends the process.
+/// It is for a process of its own: it raises that process's limit of open files to what the system allows, ignores
+/// SIGXFSZ, and some commands listen for Ctrl-C, the second of which ends the process.
 pub fn run(args: impl IntoIterator<Item = OsString>) -> ExitCode {
     hear_of_full_files();
     allow_open_files();
@@ -60,11 +63,7 @@ pub fn run(args: impl IntoIterator<Item = OsString>) -> ExitCode {
         Ok(()) => code,
         Err(failure) => {
             let unsaid = code_of(Err(failure));
-            if code == ExitCode::SUCCESS {
-                unsaid
-            } else {
-                code
-            }
+            if code == ExitCode::SUCCESS { unsaid } else { code }
         }
     }
 }
@@ -78,13 +77,11 @@ fn code_of(result: Result<ExitCode, Failure>) -> ExitCode {
 
 fn chosen_kernel() -> Result<(), Failure> {
     let kernel = Kernel::chosen();
-    kernel
-        .map(drop)
-        .map_err(|error| Failure::Usage(error.to_string()))
+    kernel.map(drop).map_err(|error| Failure::Usage(error.to_string()))
 }
 
-/// A file that grows beyond the limit on files (`ulimit -f`) is an error of its writer, which removes what is there of it; unasked, the process
-/// would be killed.
+/// A file that grows beyond the limit on files (`ulimit -f`) is an error of its writer, which removes what is there of
+/// it; unasked, the process would be killed.
 fn hear_of_full_files() {
     #[cfg(unix)]
     // SAFETY: to ignore a signal runs no code.
@@ -93,7 +90,8 @@ fn hear_of_full_files() {
     }
 }
 
-/// As many open files as the system lets a process ask for: new results are held open, all of them, until they are complete.
+/// As many open files as the system lets a process ask for: new results are held open, all of them, until they are
+/// complete.
 fn allow_open_files() {
     #[cfg(unix)]
     // SAFETY: both calls read and write `limit` alone, which outlives them.

@@ -60,9 +60,7 @@ fn list() {
         };
         say!("{:<8} {}{ratings}", entry.name, entry.title);
     }
-    say!(
-        "\nOf public data sets, for `frequencies` and `analyze`; they are no presets of a scenario:"
-    );
+    say!("\nOf public data sets, for `frequencies` and `analyze`; they are no presets of a scenario:");
     for known in KnownBearing::all() {
         if let KnownBearing::DataSet(bearing) = known {
             say!("{:<8} {}", bearing.name, bearing.source);
@@ -100,12 +98,10 @@ fn shown(known: KnownBearing, class: Option<ClearanceClass>) -> Value {
                 let cell = json!({ "value": value, "source": v.source, "estimated": v.estimated });
                 (v.key.clone(), cell)
             };
-            let numbers: serde_json::Map<String, Value> =
-                entry.facts.iter().chain(&entry.values).map(of).collect();
+            let numbers: serde_json::Map<String, Value> = entry.facts.iter().chain(&entry.values).map(of).collect();
             json["numbers"] = numbers.into();
-            let classes: serde_json::Map<String, Value> = classes(entry)
-                .map(|(class, [low, high])| (class.name().to_owned(), json!([low, high])))
-                .collect();
+            let classes: serde_json::Map<String, Value> =
+                classes(entry).map(|(class, [low, high])| (class.name().to_owned(), json!([low, high]))).collect();
             json["diametral_clearance_um"] = classes.into();
             if let Some((class, middle)) = class.and_then(|c| Some((c, middle(entry, c)?))) {
                 json["clearance_class"] = class.name().into();
@@ -150,10 +146,7 @@ fn middle(entry: &Entry, class: ClearanceClass) -> Option<f64> {
 
 /// Where the clearance of a name with a class comes from.
 fn of_the_name(class: ClearanceClass) -> String {
-    format!(
-        "{} in the name: half of the middle of its diametral range, ISO 5753-1 for the bore",
-        class.name()
-    )
+    format!("{} in the name: half of the middle of its diametral range, ISO 5753-1 for the bore", class.name())
 }
 
 /// `named`: the class of clearance in the name it was requested by.
@@ -169,17 +162,8 @@ fn show_entry(entry: &Entry, named: Option<ClearanceClass>) {
         }
         // Most sources say it themselves.
         let said = value.source.starts_with("Estimated");
-        let estimated = if value.estimated && !said {
-            "estimated: "
-        } else {
-            ""
-        };
-        say!(
-            "  {:<width$}  {:>11}  {estimated}{}",
-            value.key,
-            datum(&value.value),
-            value.source
-        );
+        let estimated = if value.estimated && !said { "estimated: " } else { "" };
+        say!("  {:<width$}  {:>11}  {estimated}{}", value.key, datum(&value.value), value.source);
     }
     for (class, [low, high]) in classes(entry) {
         let this = match named == Some(class) {
@@ -202,10 +186,7 @@ fn show_named(bearing: &NamedBearing) {
         ("rolling elements", Datum::Integer(elements)),
         ("pitch_diameter_mm", Datum::Number(bearing.pitch_mm)),
         ("roller_diameter_mm", Datum::Number(bearing.diameter_mm)),
-        (
-            "contact_angle_deg",
-            Datum::Number(bearing.contact_angle_deg),
-        ),
+        ("contact_angle_deg", Datum::Number(bearing.contact_angle_deg)),
     ] {
         say!("  {name:<18}  {:>10}", datum(&value));
     }
@@ -231,9 +212,7 @@ pub(crate) fn frequencies(args: &FrequenciesArgs) -> Result<ExitCode, Failure> {
     let (which, own_speed) = which(args)?;
     let rpm = args.speed.or(own_speed).unwrap_or(ORDERS);
     if !rpm.is_finite() || rpm == 0.0 {
-        return Err(Failure::Usage(format!(
-            "--speed {rpm}: expected a speed other than 0, in r/min"
-        )));
+        return Err(Failure::Usage(format!("--speed {rpm}: expected a speed other than 0, in r/min")));
     }
     let rows = match which {
         Which::Known(known) => known.frequencies(rpm).map_err(Failure::Usage)?,
@@ -242,25 +221,14 @@ pub(crate) fn frequencies(args: &FrequenciesArgs) -> Result<ExitCode, Failure> {
     if args.json {
         let values: serde_json::Map<String, Value> = rows
             .iter()
-            .map(|(name, hz, _)| {
-                (
-                    format!("{}_hz", name.to_lowercase().replace(' ', "")),
-                    (*hz).into(),
-                )
-            })
+            .map(|(name, hz, _)| (format!("{}_hz", name.to_lowercase().replace(' ', "")), (*hz).into()))
             .chain([("speed_rpm".to_owned(), rpm.into())])
             .collect();
         document(&Value::Object(values).to_string());
     } else {
-        say!(
-            "Pure rolling at {} r/min, outer ring at rest",
-            plain_number(rpm)
-        );
+        say!("Pure rolling at {} r/min, outer ring at rest", plain_number(rpm));
         for (name, hz, meaning) in rows {
-            say!(
-                "  {name:<7} {hz:>11.4} Hz  {:>9.5} x shaft  {meaning}",
-                hz / (rpm.abs() / 60.0)
-            );
+            say!("  {name:<7} {hz:>11.4} Hz  {:>9.5} x shaft  {meaning}", hz / (rpm.abs() / 60.0));
         }
     }
     Ok(ExitCode::SUCCESS)
@@ -277,16 +245,9 @@ fn which(args: &FrequenciesArgs) -> Result<(Which, Option<f64>), Failure> {
         return from_numbers(args).map(|g| (Which::Geometry(g), None));
     };
     let path = PathBuf::from(bearing);
-    let written_as_a_file =
-        files::is_stdin(&path) || path.components().count() > 1 || bearing.ends_with(".toml");
+    let written_as_a_file = files::is_stdin(&path) || path.components().count() > 1 || bearing.ends_with(".toml");
     if KnownBearing::find(bearing).is_none() && (path.exists() || written_as_a_file) {
-        let loaded = files::scenario(
-            &ScenarioArgs {
-                scenario: path,
-                set: Vec::new(),
-            },
-            true,
-        )?;
+        let loaded = files::scenario(&ScenarioArgs { scenario: path, set: Vec::new() }, true)?;
         let speed = match &loaded.scenario.operation.speed_rpm {
             Speed::Constant(rpm) => Some(*rpm),
             Speed::Profile(_) => None,
@@ -299,8 +260,7 @@ fn which(args: &FrequenciesArgs) -> Result<(Which, Option<f64>), Failure> {
 
 /// Raceways follow from pitch and rollers.
 fn from_numbers(args: &FrequenciesArgs) -> Result<Geometry, Failure> {
-    let (Some(pitch), Some(diameter), Some(rollers)) = (args.pitch, args.diameter, args.rollers)
-    else {
+    let (Some(pitch), Some(diameter), Some(rollers)) = (args.pitch, args.diameter, args.rollers) else {
         return Err(Failure::Usage(
             "which bearing? Give a name (`brinell bearing list`), a scenario file, or --pitch, --diameter and --rollers together".into(),
         ));
@@ -312,9 +272,7 @@ fn from_numbers(args: &FrequenciesArgs) -> Result<Geometry, Failure> {
         )));
     }
     if rollers < 3 {
-        return Err(Failure::Usage(format!(
-            "--rollers {rollers}: expected at least 3"
-        )));
+        return Err(Failure::Usage(format!("--rollers {rollers}: expected at least 3")));
     }
     Ok(Geometry {
         inner_raceway_diameter: 1e-3 * (pitch - diameter),

@@ -36,11 +36,7 @@ fn page_of(place: &Path) -> Result<PathBuf, Failure> {
         let page = pages().map(|name| place.join(name)).find(|p| p.is_file());
         return page.ok_or_else(|| {
             let names: Vec<&str> = pages().collect();
-            Failure::Usage(format!(
-                "{} holds no page of results: none of {}",
-                place.display(),
-                names.join(", ")
-            ))
+            Failure::Usage(format!("{} holds no page of results: none of {}", place.display(), names.join(", ")))
         });
     }
     let ending = place.extension().unwrap_or_default();
@@ -60,9 +56,6 @@ fn page_of(place: &Path) -> Result<PathBuf, Failure> {
 pub(crate) fn show(page: &Path) -> Result<(), String> {
     let whole = page.canonicalize().unwrap_or_else(|_| page.to_owned());
     open::that_detached_with_timeout(&whole, PATIENCE).map_err(|error| {
-        format!(
-            "nothing on this system opened the page ({error}); open it in a browser: {}",
-            whole.display()
-        )
+        format!("nothing on this system opened the page ({error}); open it in a browser: {}", whole.display())
     })
 }

@@ -27,13 +27,7 @@ pub(crate) struct Progress {
 impl Progress {
     /// For a run of `duration` seconds.
     pub(crate) fn new(duration: f64, quiet: bool) -> Self {
-        Self {
-            bar: bar(duration, quiet, Arc::default()),
-            duration,
-            begin: Instant::now(),
-            skipped: 0,
-            shared: None,
-        }
+        Self { bar: bar(duration, quiet, Arc::default()), duration, begin: Instant::now(), skipped: 0, shared: None }
     }
 
     /// Simulated time `t` is reached.
@@ -51,17 +45,15 @@ impl Progress {
         }
         self.bar.set_position(micros(t));
         let speed = t / self.begin.elapsed().as_secs_f64();
-        self.bar.set_message(format!(
-            "{t:.3} of {} s, {speed:.2} x real time",
-            short(self.duration, 3)
-        ));
+        self.bar.set_message(format!("{t:.3} of {} s, {speed:.2} x real time", short(self.duration, 3)));
     }
 
     fn elapsed(&self) -> f64 {
         self.begin.elapsed().as_secs_f64()
     }
 
-    /// Takes the bar away; a common one stays for the others, with this run's share full, unless the run was broken off.
+    /// Takes the bar away; a common one stays for the others, with this run's share full, unless the run was broken
+    /// off.
     fn finish(&self, broken_off: bool) {
         match self.shared {
             Some(_) if broken_off => {}
@@ -114,26 +106,15 @@ impl Joint {
     /// For `runs` runs of `duration` seconds together.
     pub(crate) fn new(runs: usize, duration: f64, quiet: bool) -> Self {
         let before = Arc::default();
-        let joint = Self {
-            bar: bar(duration, quiet, Arc::clone(&before)),
-            runs,
-            ended: 0,
-            before,
-        };
+        let joint = Self { bar: bar(duration, quiet, Arc::clone(&before)), runs, ended: 0, before };
         joint.tell();
         joint
     }
 
-    /// For one of the runs, `duration` seconds long. Threads may hold theirs at once: what they share is an atomic number, drawn by
-    /// whoever finds that a tenth of a second has passed.
+    /// For one of the runs, `duration` seconds long. Threads may hold theirs at once: what they share is an atomic
+    /// number, drawn by whoever finds that a tenth of a second has passed.
     pub(crate) fn part(bar: &ProgressBar, duration: f64) -> Progress {
-        Progress {
-            bar: bar.clone(),
-            duration,
-            begin: Instant::now(),
-            skipped: 0,
-            shared: Some(0),
-        }
+        Progress { bar: bar.clone(), duration, begin: Instant::now(), skipped: 0, shared: Some(0) }
     }
 
     /// What the runs' parts are made from.
@@ -171,8 +152,7 @@ impl Joint {
     }
 
     fn tell(&self) {
-        self.bar
-            .set_message(format!("{} of {} runs done", self.ended, self.runs));
+        self.bar.set_message(format!("{} of {} runs done", self.ended, self.runs));
     }
 }
 
@@ -190,7 +170,8 @@ fn bar(duration: f64, quiet: bool, before: Arc<AtomicU64>) -> ProgressBar {
         ProgressDrawTarget::stderr_with_hz(10)
     };
     let bar = ProgressBar::with_draw_target(Some(micros(duration)), target);
-    // Within the 80 columns of a plain terminal, or it would wrap. The template is constant; indicatif's default is used should it ever not parse.
+    // Within the 80 columns of a plain terminal, or it would wrap. The template is constant; indicatif's default is
+    // used should it ever not parse.
     let style = ProgressStyle::with_template("{bar:24} {percent:>3} %  {msg}{to_go}")
         .unwrap_or_else(|_| ProgressStyle::default_bar());
     let to_go = move |state: &ProgressState, line: &mut dyn Write| {
@@ -213,8 +194,8 @@ fn share_of(done: u64, of: u64, before: u64) -> f32 {
     }
 }
 
-/// Wall time to go where `done` of the whole took `elapsed`; `None` while too little is done to know (an estimate is 0 or anything then), and at
-/// the end.
+/// Wall time to go where `done` of the whole took `elapsed`; `None` while too little is done to know (an estimate is 0
+/// or anything then), and at the end.
 fn time_left(done: f32, elapsed: Duration) -> Option<Duration> {
     /// Of the whole, and of time.
     const ENOUGH: (f32, Duration) = (0.01, Duration::from_millis(500));
@@ -243,12 +224,10 @@ mod tests {
         assert_eq!(time_left(1.0, ms(5000)), None);
         assert_eq!(time_left(0.5, ms(5500)), Some(ms(6000)));
         assert_eq!(time_left(0.999, ms(1000)), Some(ms(1000)));
-        // 390 of 400 runs were there before: the first second tells nothing, one run in two seconds that 18 s are to go.
+        // 390 of 400 runs were there before: the first second tells nothing, one run in two seconds that 18 s are to
+        // go.
         assert_eq!(time_left(share_of(390, 400, 390), ms(1000)), None);
-        assert_eq!(
-            time_left(share_of(391, 400, 390), ms(2010)),
-            Some(ms(19_000))
-        );
+        assert_eq!(time_left(share_of(391, 400, 390), ms(2010)), Some(ms(19_000)));
         assert_eq!(time_left(share_of(400, 400, 400), ms(1000)), None);
     }
 

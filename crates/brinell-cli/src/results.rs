@@ -1,8 +1,10 @@
-//! Folders of results: what a command leaves in its folder, whose results lie there already, and which files of them have to go.
+//! Folders of results: what a command leaves in its folder, whose results lie there already, and which files of them
+//! have to go.
 //!
-//! All results in a folder are of one command and one scenario (or signal, or plan). One file tells of them: `summary.json` of a run,
-//! `analysis.json` of an analysis, ... It lists the others under `files`. A new call removes what the earlier one listed, after its own files are
-//! complete, and nothing else is ever removed. Finished runs that a command resumes from are never removed.
+//! All results in a folder are of one command and one scenario (or signal, or plan). One file tells of them:
+//! `summary.json` of a run, `analysis.json` of an analysis, ... It lists the others under `files`. A new call removes
+//! what the earlier one listed, after its own files are complete, and nothing else is ever removed. Finished runs that
+//! a command resumes from are never removed.
 
 use crate::failure::Failure;
 use crate::inputs::Inputs;
@@ -22,13 +24,7 @@ pub(crate) const REPORT: &str = "report.html";
 pub(crate) const ANALYSIS: &str = "analysis.json";
 pub(crate) const COMPARISON: &str = "compare.json";
 pub(crate) const PREVIEW: &str = "preview.json";
-const PREVIEWED: [&str; 5] = [
-    PREVIEW,
-    "damage-*.svg",
-    "damage-*.png",
-    "damage-*.pdf",
-    "damage-*.csv",
-];
+const PREVIEWED: [&str; 5] = [PREVIEW, "damage-*.svg", "damage-*.png", "damage-*.pdf", "damage-*.csv"];
 /// Folder of the pictures.
 pub(crate) const PLOTS: &str = "plots";
 
@@ -48,10 +44,7 @@ pub(crate) enum Results {
 /// The pages that commands leave in their folders, by their names.
 pub(crate) fn pages() -> impl Iterator<Item = &'static str> {
     let pages: BTreeSet<&str> = Results::ALL.into_iter().flat_map(Results::files).collect();
-    pages
-        .into_iter()
-        .filter(|name| name.ends_with(".html"))
-        .rev()
+    pages.into_iter().filter(|name| name.ends_with(".html")).rev()
 }
 
 impl Results {
@@ -124,48 +117,15 @@ impl Results {
         let (own, pictures): (&[&str], _) = match self {
             Self::Run => (&[SCENARIO, SUMMARY, REPORT], true),
             Self::Analysis => (&[ANALYSIS, REPORT], true),
-            Self::Comparison => (
-                &[
-                    COMPARISON,
-                    "compare.csv",
-                    "compare.parquet",
-                    "compare.html",
-                    "scenarios/*.toml",
-                ],
-                true,
-            ),
+            Self::Comparison => {
+                (&[COMPARISON, "compare.csv", "compare.parquet", "compare.html", "scenarios/*.toml"], true)
+            }
             Self::Preview => (&PREVIEWED, false),
-            Self::Sweep => (
-                &[
-                    JOURNAL,
-                    "sweep.json",
-                    "sweep.csv",
-                    "sweep.parquet",
-                    "sweep.html",
-                    "signals/*.parquet",
-                ],
-                true,
-            ),
-            Self::Calibration => (
-                &[
-                    JOURNAL,
-                    "calibrate.json",
-                    "calibrate.csv",
-                    "calibrate.html",
-                    "best.toml",
-                ],
-                false,
-            ),
-            Self::Reproduction => (
-                &[
-                    JOURNAL,
-                    "claims.json",
-                    "claims.csv",
-                    "reproduce.html",
-                    "curves/*",
-                ],
-                true,
-            ),
+            Self::Sweep => {
+                (&[JOURNAL, "sweep.json", "sweep.csv", "sweep.parquet", "sweep.html", "signals/*.parquet"], true)
+            }
+            Self::Calibration => (&[JOURNAL, "calibrate.json", "calibrate.csv", "calibrate.html", "best.toml"], false),
+            Self::Reproduction => (&[JOURNAL, "claims.json", "claims.csv", "reproduce.html", "curves/*"], true),
             Self::DataSet => (
                 &[
                     "dataset.json",
@@ -206,11 +166,7 @@ impl Results {
         let text = File::open(folder.join(self.tells())).and_then(read_text);
         let told = serde_json::from_slice::<Value>(&text.unwrap_or_default());
         let told = told.unwrap_or_default();
-        let version = if self == Self::Preview {
-            "version"
-        } else {
-            "brinell"
-        };
+        let version = if self == Self::Preview { "version" } else { "brinell" };
         match told[version].is_string() {
             true => told,
             false => Value::Null,
@@ -251,10 +207,7 @@ impl Results {
         match told["files"].as_array() {
             Some(files) => {
                 let files = files.iter().filter_map(Value::as_str);
-                files
-                    .filter(|name| self.leaves(name))
-                    .map(str::to_owned)
-                    .collect()
+                files.filter(|name| self.leaves(name)).map(str::to_owned).collect()
             }
             None if told.is_null() => Vec::new(),
             // Written before results listed files.
@@ -286,9 +239,7 @@ fn journal_of(folder: &Path) -> Option<String> {
     const LONGEST: u64 = 1 << 24;
     let file = File::open(folder.join(JOURNAL)).ok()?;
     let mut line = Vec::new();
-    BufReader::new(file.take(LONGEST))
-        .read_until(b'\n', &mut line)
-        .ok()?;
+    BufReader::new(file.take(LONGEST)).read_until(b'\n', &mut line).ok()?;
     let header: Value = serde_json::from_slice(&line).ok()?;
     header["campaign"].as_str().map(str::to_owned)
 }
@@ -329,12 +280,13 @@ impl Place<'_> {
         Ok(())
     }
 
-    /// The earlier results in the folder, which the new ones replace; nothing is changed. `writes` are the names that will be written whatever
-    /// happens; `same` says whether the earlier results, by what tells of them, are of the same.
+    /// The earlier results in the folder, which the new ones replace; nothing is changed. `writes` are the names that
+    /// will be written whatever happens; `same` says whether the earlier results, by what tells of them, are of the
+    /// same.
     ///
     /// # Errors
-    /// Where results of another command, or of another scenario, lie there and `overwrite` was not requested, or files with a result's name that
-    /// nothing lists; where a file that may be written or removed is an input.
+    /// Where results of another command, or of another scenario, lie there and `overwrite` was not requested, or files
+    /// with a result's name that nothing lists; where a file that may be written or removed is an input.
     pub(crate) fn earlier(
         &self,
         overwrite: bool,
@@ -366,13 +318,8 @@ impl Place<'_> {
         files.extend(own.filter(|name| name != SCENARIO));
         let there = kind.direct(folder);
         let is_unlisted = |name: &&String| *name != SCENARIO && !files.contains(name);
-        let unlisted: Vec<&str> = there
-            .iter()
-            .filter(is_unlisted)
-            .map(String::as_str)
-            .collect();
-        let replaced =
-            files.iter().any(|name| there.contains(name)) || there.contains(&SCENARIO.into());
+        let unlisted: Vec<&str> = there.iter().filter(is_unlisted).map(String::as_str).collect();
+        let replaced = files.iter().any(|name| there.contains(name)) || there.contains(&SCENARIO.into());
         if replaced && !overwrite && !same(&kind.told(folder)) {
             return Err(Failure::Usage(format!(
                 "{at} holds results of another {} ({}); choose another folder with -o, or replace them with --overwrite",
@@ -387,10 +334,8 @@ impl Place<'_> {
                 unlisted.join(", ")
             )));
         }
-        let stays: Vec<&str> = unlisted
-            .into_iter()
-            .filter(|name| !writes.iter().any(|written| written == name))
-            .collect();
+        let stays: Vec<&str> =
+            unlisted.into_iter().filter(|name| !writes.iter().any(|written| written == name)).collect();
         if !stays.is_empty() {
             return Err(Failure::Usage(format!(
                 "{at} holds {}, which is not written this time and which no {tells} there lists: a reader would take it for one of the new \
@@ -398,10 +343,7 @@ impl Place<'_> {
                 stays.join(", ")
             )));
         }
-        Ok(Earlier {
-            folder: folder.to_owned(),
-            files,
-        })
+        Ok(Earlier { folder: folder.to_owned(), files })
     }
 
     /// Other commands whose results are there.
@@ -418,14 +360,12 @@ impl Place<'_> {
 
     fn spares_inputs(&self) -> Result<(), Failure> {
         let found = self.kind.found(self.folder).into_iter();
-        found
-            .map(|name| self.folder.join(name))
-            .try_for_each(|path| self.inputs.spare(&path))
+        found.map(|name| self.folder.join(name)).try_for_each(|path| self.inputs.spare(&path))
     }
 }
 
-/// The earlier results of a folder, which new ones replace. They stay until all new files are complete beside them: a full disk or an interruption
-/// costs nothing that was there.
+/// The earlier results of a folder, which new ones replace. They stay until all new files are complete beside them: a
+/// full disk or an interruption costs nothing that was there.
 #[derive(Debug, Default)]
 pub(crate) struct Earlier {
     folder: PathBuf,
@@ -434,8 +374,8 @@ pub(crate) struct Earlier {
 }
 
 impl Earlier {
-    /// Gives the new files their names and removes what they did not take the place of. The file that tells of the new ones comes first: what
-    /// replaces these knows of them even where this is cut short between two names.
+    /// Gives the new files their names and removes what they did not take the place of. The file that tells of the new
+    /// ones comes first: what replaces these knows of them even where this is cut short between two names.
     pub(crate) fn give_way(&self, ready: Vec<Complete>) -> Result<Vec<PathBuf>, Failure> {
         let published = ready.into_iter().map(Complete::publish);
         let written: Vec<PathBuf> = published.collect::<Result<_, _>>()?;
@@ -457,11 +397,7 @@ impl Earlier {
                 _ => {}
             }
         }
-        for folder in self
-            .files
-            .iter()
-            .filter_map(|name| Some(name.split_once('/')?.0))
-        {
+        for folder in self.files.iter().filter_map(|name| Some(name.split_once('/')?.0)) {
             // Unless something else lies there.
             let _ = std::fs::remove_dir(self.folder.join(folder));
         }
@@ -474,8 +410,9 @@ pub(crate) fn is_of(folder: &Path, scenario: &Scenario) -> bool {
     scenario_in(folder).is_some_and(|(_, there)| there.scenario == *scenario)
 }
 
-/// Whether the scenario in a run's folder, where one is, is as this version writes it, to the letter: a comment, or a key left out, is somebody's work
-/// though the values are the same. `new` is what would take its place; that says of files of damage what cannot be read back.
+/// Whether the scenario in a run's folder, where one is, is as this version writes it, to the letter: a comment, or a
+/// key left out, is somebody's work though the values are the same. `new` is what would take its place; that says of
+/// files of damage what cannot be read back.
 pub(crate) fn is_written(folder: &Path, new: &str) -> bool {
     !folder.join(SCENARIO).exists()
         || scenario_in(folder).is_some_and(|(text, there)| text == new || text == there.to_toml())

@@ -12,9 +12,7 @@ use crate::files;
 use crate::files::Source;
 use crate::inputs::Inputs;
 use crate::progress::{Progress, Shown};
-use crate::results::{
-    Earlier, Place, REPORT, Results, SCENARIO, SUMMARY, is_of, is_written, names_below,
-};
+use crate::results::{Earlier, Place, REPORT, Results, SCENARIO, SUMMARY, is_of, is_written, names_below};
 use crate::say::{complain, document, one_line, say, short};
 use brinell::document::Loaded;
 use brinell::observe::{DefectLine, Findings, Kind};
@@ -40,18 +38,10 @@ pub(crate) fn run(args: &RunArgs) -> Result<ExitCode, Failure> {
             (_, true) => "--json prints the summary.json",
             _ => return many::run(args),
         };
-        return Err(Failure::Usage(format!(
-            "{alone} of one scenario; here are {}",
-            args.scenarios.len()
-        )));
+        return Err(Failure::Usage(format!("{alone} of one scenario; here are {}", args.scenarios.len())));
     };
     let mut inputs = Inputs::default();
-    let Ready {
-        loaded,
-        simulation,
-        beforehand,
-        photos,
-    } = ready(args, path, &mut inputs)?;
+    let Ready { loaded, simulation, beforehand, photos } = ready(args, path, &mut inputs)?;
     if !args.quiet {
         files::warn_idle(simulation.idle_patterns());
     }
@@ -61,13 +51,7 @@ pub(crate) fn run(args: &RunArgs) -> Result<ExitCode, Failure> {
     let progress = Progress::new(loaded.scenario.simulation.duration_s, args.quiet);
     let stop = stop_flag()?;
     let task = (&loaded, folder.as_path(), &earlier);
-    let done = execute(
-        args,
-        task,
-        (simulation, &beforehand, &photos),
-        progress,
-        &stop,
-    )?;
+    let done = execute(args, task, (simulation, &beforehand, &photos), progress, &stop)?;
     if args.json {
         document(done.summary.trim_end());
     }
@@ -99,10 +83,7 @@ struct Ready {
 
 /// What a scenario was read from goes to `inputs`.
 fn ready(args: &RunArgs, path: &Path, inputs: &mut Inputs) -> Result<Ready, Failure> {
-    let source = Source::open(&ScenarioArgs {
-        scenario: path.to_owned(),
-        set: args.set.clone(),
-    })?;
+    let source = Source::open(&ScenarioArgs { scenario: path.to_owned(), set: args.set.clone() })?;
     let loaded = source.load(&[], args.quiet)?;
     inputs.add_all(&source.inputs());
     let simulation = Simulation::new(&loaded.scenario).map_err(Failure::Run)?;
@@ -118,12 +99,7 @@ fn ready(args: &RunArgs, path: &Path, inputs: &mut Inputs) -> Result<Ready, Fail
         true => Vec::new(),
         false => source.photos(),
     };
-    Ok(Ready {
-        photos,
-        loaded,
-        simulation,
-        beforehand,
-    })
+    Ok(Ready { photos, loaded, simulation, beforehand })
 }
 
 /// A run that is over, its files written.
@@ -138,12 +114,7 @@ struct Done {
 }
 
 /// Earlier results in `folder` that a run of the scenario may replace.
-fn earlier(
-    args: &RunArgs,
-    loaded: &Loaded,
-    folder: &Path,
-    inputs: &Inputs,
-) -> Result<Earlier, Failure> {
+fn earlier(args: &RunArgs, loaded: &Loaded, folder: &Path, inputs: &Inputs) -> Result<Earlier, Failure> {
     let mut writes: Vec<&str> = formats(args).into_iter().map(Format::file_name).collect();
     writes.push(SUMMARY);
     if writes.contains(&Format::Parquet.file_name()) {
@@ -156,11 +127,7 @@ fn earlier(
         writes.push(REPORT);
     }
     let writes: Vec<String> = writes.into_iter().map(str::to_owned).collect();
-    let place = Place {
-        kind: Results::Run,
-        folder,
-        inputs,
-    };
+    let place = Place { kind: Results::Run, folder, inputs };
     let earlier = place.earlier(args.overwrite, &writes, |_| is_of(folder, &loaded.scenario))?;
     if !args.overwrite && !is_written(folder, &loaded.to_toml()) {
         return Err(Failure::Usage(format!(
@@ -190,13 +157,9 @@ fn execute(
 
     let mut shown = Shown::new(progress, stop);
     let mut recorder = Recorder::new(&simulation, writers, &mut shown);
-    let mut reading = line_loads::Reading {
-        inner: &mut recorder,
-        loads,
-    };
-    let (finished, healthy) = healthy::beside(args, &loaded.scenario, stop, || {
-        finish(loaded.scenario.clone(), simulation, &mut reading)
-    });
+    let mut reading = line_loads::Reading { inner: &mut recorder, loads };
+    let (finished, healthy) =
+        healthy::beside(args, &loaded.scenario, stop, || finish(loaded.scenario.clone(), simulation, &mut reading));
     let loads = reading.loads;
     let recording = recorder.close(&finished.outcome.end, true);
     let elapsed = shown.elapsed();
@@ -209,12 +172,7 @@ fn execute(
     if formats(args).contains(&Format::Parquet) {
         ready.extend(spectra::ready(&finished.findings, folder)?);
     }
-    let RunResult {
-        simulation,
-        outcome,
-        findings,
-        ..
-    } = finished;
+    let RunResult { simulation, outcome, findings, .. } = finished;
     let interrupted = stop.load(Ordering::Relaxed) && outcome.end == End::Stopped;
     let parts = Parts {
         loaded,
@@ -245,12 +203,7 @@ fn execute(
     }
     ready.extend(ready_pictures(&pictures, &args.plots, folder)?);
     let written = earlier.give_way(ready)?;
-    Ok(Done {
-        told: tell(&parts, elapsed, &written),
-        end: outcome.end,
-        interrupted,
-        summary: text,
-    })
+    Ok(Done { told: tell(&parts, elapsed, &written), end: outcome.end, interrupted, summary: text })
 }
 
 fn report(parts: &Parts, photos: &[Option<Photo>]) -> Report {
@@ -264,11 +217,7 @@ fn report(parts: &Parts, photos: &[Option<Photo>]) -> Report {
 /// A name is free text; a folder's is not.
 pub(crate) fn safe_name(name: &str) -> String {
     let safe = |c: char| {
-        if c.is_alphanumeric() || "-_.".contains(c) {
-            c
-        } else {
-            '_'
-        }
+        if c.is_alphanumeric() || "-_.".contains(c) { c } else { '_' }
     };
     let name: String = name.chars().map(safe).collect();
     match name.trim_matches('.') {
@@ -285,11 +234,7 @@ fn writers(
 ) -> Result<Vec<Box<dyn SignalWriter>>, Failure> {
     let columns = signal_columns(simulation);
     let metadata = signal_metadata(loaded.to_toml(), simulation);
-    let make = |format: Format| {
-        format
-            .create(folder, &columns, &metadata)
-            .map_err(Failure::from)
-    };
+    let make = |format: Format| format.create(folder, &columns, &metadata).map_err(Failure::from);
     formats(args).into_iter().map(make).collect()
 }
 
@@ -330,12 +275,8 @@ pub(crate) fn signal_metadata(scenario_toml: String, simulation: &Simulation) ->
 }
 
 pub(crate) fn make_folder(folder: &Path) -> Result<(), Failure> {
-    std::fs::create_dir_all(folder).map_err(|error| {
-        Failure::Usage(format!(
-            "cannot make the folder {}: {error}",
-            folder.display()
-        ))
-    })
+    std::fs::create_dir_all(folder)
+        .map_err(|error| Failure::Usage(format!("cannot make the folder {}: {error}", folder.display())))
 }
 
 /// Set by Ctrl-C; a second Ctrl-C ends the process at once.
@@ -354,21 +295,12 @@ pub(crate) fn stop_flag() -> Result<Arc<AtomicBool>, Failure> {
 /// A few lines on what came out.
 fn tell(parts: &Parts, elapsed: f64, written: &[PathBuf]) -> Vec<String> {
     let mut told = Vec::new();
-    let Parts {
-        outcome,
-        findings,
-        loaded,
-        ..
-    } = *parts;
+    let Parts { outcome, findings, loaded, .. } = *parts;
     let reached = outcome.reached;
     match &outcome.end {
         End::Complete => {}
-        End::Stopped => told.push(format!(
-            "Interrupted: the results are partial, up to t = {reached:.4} s."
-        )),
-        End::Failed(_) => told.push(format!(
-            "Failed: the results are partial, up to t = {reached:.4} s."
-        )),
+        End::Stopped => told.push(format!("Interrupted: the results are partial, up to t = {reached:.4} s.")),
+        End::Failed(_) => told.push(format!("Failed: the results are partial, up to t = {reached:.4} s.")),
     }
     told.push(format!(
         "{}: {} s simulated in {elapsed:.2} s ({:.2} x real time), {} steps, {} right-hand sides",
@@ -380,9 +312,7 @@ fn tell(parts: &Parts, elapsed: f64, written: &[PathBuf]) -> Vec<String> {
     ));
     told.extend(sensor_lines(findings));
     told.extend(healthy_line(parts));
-    let heed = summary::clipped(parts)
-        .into_iter()
-        .chain(summary::unsettled(findings));
+    let heed = summary::clipped(parts).into_iter().chain(summary::unsettled(findings));
     told.extend(heed.map(|words| format!("  {words}")));
     told.extend(findings.lines.iter().map(defect_line));
     let part = (fields::RELATIVE_RESIDUAL.of)(outcome);
@@ -409,15 +339,9 @@ fn sensor_lines(findings: &Findings) -> Vec<String> {
         let Some(rms) = channel.blocks.estimate(Indicator::Rms) else {
             continue;
         };
-        let interval = rms.interval.map_or(String::new(), |i| {
-            format!(" (95 %: {} to {})", short(i.low, 3), short(i.high, 3))
-        });
-        let other = |i: Indicator| {
-            channel
-                .blocks
-                .estimate(i)
-                .map_or("-".into(), |e| short(e.value, 3))
-        };
+        let interval =
+            rms.interval.map_or(String::new(), |i| format!(" (95 %: {} to {})", short(i.low, 3), short(i.high, 3)));
+        let other = |i: Indicator| channel.blocks.estimate(i).map_or("-".into(), |e| short(e.value, 3));
         told.push(format!(
             "  {}: RMS {}{interval} {}, peak to peak {} a revolution, kurtosis {}",
             channel.name,
@@ -434,9 +358,8 @@ fn sensor_lines(findings: &Findings) -> Vec<String> {
 fn healthy_line(parts: &Parts) -> Option<String> {
     let healthy = parts.healthy?;
     let (rms, ratio) = (healthy.rms()?, parts.findings.over_healthy(healthy)?);
-    let interval = ratio.interval.map_or(String::new(), |(low, high)| {
-        format!(" (95 %: {} to {})", short(low, 3), short(high, 3))
-    });
+    let interval =
+        ratio.interval.map_or(String::new(), |(low, high)| format!(" (95 %: {} to {})", short(low, 3), short(high, 3)));
     Some(format!(
         "  {} without the damage: RMS {} m/s^2; with it {} x that{interval}",
         healthy.sensor_name(),
@@ -448,15 +371,8 @@ fn healthy_line(parts: &Parts) -> Option<String> {
 /// What the envelope has of a defect.
 fn defect_line(line: &DefectLine) -> String {
     let found = line.found.map_or("not found in the envelope".into(), |f| {
-        let interval = line.interval.map_or(String::new(), |i| {
-            format!(" (95 %: {:.2} to {:.2})", i.low, i.high)
-        });
+        let interval = line.interval.map_or(String::new(), |i| format!(" (95 %: {:.2} to {:.2})", i.low, i.high));
         format!("{:.2} Hz{interval} in the envelope", f.frequency)
     });
-    format!(
-        "  defect {}: {} {found}; pure rolling {:.2} Hz",
-        line.defect + 1,
-        line.name,
-        line.nominal
-    )
+    format!("  defect {}: {} {found}; pure rolling {:.2} Hz", line.defect + 1, line.name, line.nominal)
 }

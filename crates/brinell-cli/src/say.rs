@@ -1,5 +1,5 @@
-//! Text to the terminal: what was read from files cannot steer it, and a text that cannot be written is not passed over. Where nobody reads on
-//! (a closed pipe), the command continues quietly.
+//! Text to the terminal: what was read from files cannot steer it, and a text that cannot be written is not passed
+//! over. Where nobody reads on (a closed pipe), the command continues quietly.
 
 use crate::failure::Failure;
 use anstyle::AnsiColor;
@@ -16,8 +16,8 @@ static FAILED: OnceLock<std::io::Error> = OnceLock::new();
 /// Whether standard output was closed when the process began (`>&-`).
 static CLOSED: AtomicBool = AtomicBool::new(false);
 
-/// Rust opens /dev/null in the place of a closed standard output before `main`, and what is said would be lost without a word. So this looks
-/// before that does.
+/// Rust opens /dev/null in the place of a closed standard output before `main`, and what is said would be lost without
+/// a word. So this looks before that does.
 #[cfg(target_os = "linux")]
 mod before_main {
     use super::{CLOSED, Ordering};
@@ -36,12 +36,11 @@ mod before_main {
 
 /// Writes one line of words to standard output.
 pub(crate) fn line(text: Arguments) {
-    put(&printable(&text.to_string(), |c| {
-        format!("\\u{{{:x}}}", u32::from(c))
-    }));
+    put(&printable(&text.to_string(), |c| format!("\\u{{{:x}}}", u32::from(c))));
 }
 
-/// Writes JSON or TOML to standard output. Control characters are in strings there, and get these languages' own escape.
+/// Writes JSON or TOML to standard output. Control characters are in strings there, and get these languages' own
+/// escape.
 pub(crate) fn document(text: &str) {
     put(&printable(text, |c| format!("\\u{:04x}", u32::from(c))));
 }
@@ -88,8 +87,7 @@ pub(crate) fn complaint(text: Arguments) {
 
 /// The words that begin a complaint's lines, in the colours that other commands have for them.
 fn coloured(text: &str) -> String {
-    const BEGINNINGS: [(&str, AnsiColor); 2] =
-        [("error", AnsiColor::Red), ("warning", AnsiColor::Yellow)];
+    const BEGINNINGS: [(&str, AnsiColor); 2] = [("error", AnsiColor::Red), ("warning", AnsiColor::Yellow)];
     const PLACE: &str = "-->";
     let line = |line: &str| {
         for (word, colour) in BEGINNINGS {
@@ -105,9 +103,7 @@ fn coloured(text: &str) -> String {
             }
         }
         let marks = line.split_once(" | ").is_some_and(|(gutter, rest)| {
-            gutter.trim().is_empty()
-                && !rest.trim().is_empty()
-                && rest.trim_matches([' ', '^']).is_empty()
+            gutter.trim().is_empty() && !rest.trim().is_empty() && rest.trim_matches([' ', '^']).is_empty()
         });
         let blue = AnsiColor::Blue.on_default().bold();
         match line.split_once(PLACE) {
@@ -125,7 +121,8 @@ fn coloured(text: &str) -> String {
     text.split('\n').map(line).collect::<Vec<_>>().join("\n")
 }
 
-/// Whether a terminal would act upon it: control characters, and those that turn the direction of writing (Unicode's Bidi_Control).
+/// Whether a terminal would act upon it: control characters, and those that turn the direction of writing (Unicode's
+/// Bidi_Control).
 fn acts(c: char) -> bool {
     let turns = matches!(c, '\u{61c}' | '\u{200e}' | '\u{200f}' | '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}');
     turns || c.is_control() && !matches!(c, '\n' | '\t')
@@ -184,14 +181,7 @@ pub(crate) fn plain_number(x: f64) -> String {
 pub(crate) fn significant(x: f64, scale: f64, digits: usize) -> String {
     // The static balance leaves 1e-10 of the forces over.
     const ROUND_OFF: f64 = 1e-9;
-    short(
-        if x.abs() < ROUND_OFF * scale.abs() {
-            0.0
-        } else {
-            x
-        },
-        digits,
-    )
+    short(if x.abs() < ROUND_OFF * scale.abs() { 0.0 } else { x }, digits)
 }
 
 #[cfg(test)]
@@ -205,25 +195,15 @@ mod tests {
         assert_eq!(anstream::adapter::strip_str(&shown).to_string(), text);
         let red = "\u{1b}[1m\u{1b}[31m";
         let lines: Vec<&str> = shown.lines().collect();
-        assert!(
-            lines[0].starts_with(red) && lines[3].contains(red),
-            "{shown:?}"
-        );
-        assert!(
-            lines[4].starts_with("\u{1b}[1m\u{1b}[33mwarning:"),
-            "{shown:?}"
-        );
+        assert!(lines[0].starts_with(red) && lines[3].contains(red), "{shown:?}");
+        assert!(lines[4].starts_with("\u{1b}[1m\u{1b}[33mwarning:"), "{shown:?}");
         assert_eq!((lines[2], lines[5]), ("  1 | error: x", "errors 2"));
-        assert!(
-            lines[6].starts_with("\u{1b}[1m\u{1b}[31merror\u{1b}[0m, line 2"),
-            "{shown:?}"
-        );
+        assert!(lines[6].starts_with("\u{1b}[1m\u{1b}[31merror\u{1b}[0m, line 2"), "{shown:?}");
     }
 
     #[test]
     fn prop_nothing_that_a_terminal_acts_upon_is_printed() {
-        let words =
-            |text: &str| printable(text, |c| format!("\\u{{{:x}}}", u32::from(c))).into_owned();
+        let words = |text: &str| printable(text, |c| format!("\\u{{{:x}}}", u32::from(c))).into_owned();
         assert_eq!(words("µm\t1\n"), "µm\t1\n");
         assert_eq!(words("a\u{1b}]52;c;x\u{7}"), "a\\u{1b}]52;c;x\\u{7}");
         for code in 0..0x2100_u32 {

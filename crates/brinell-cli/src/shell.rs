@@ -43,9 +43,7 @@ pub(crate) fn completions(args: &CompletionsArgs) -> Result<ExitCode, Failure> {
 pub(crate) fn man(args: &ManArgs) -> Result<ExitCode, Failure> {
     make_folder(&args.folder)?;
     // Without the lines on this machine's kernel.
-    let mut command = Cli::command()
-        .disable_help_subcommand(true)
-        .long_version(None::<&'static str>);
+    let mut command = Cli::command().disable_help_subcommand(true).long_version(None::<&'static str>);
     command.build();
     let count = pages(&command, &args.folder)?;
     say!("wrote {count} pages into {}", args.folder.display());
@@ -60,8 +58,7 @@ fn pages(command: &Command, folder: &Path) -> Result<usize, Failure> {
     }
     let page = Man::new(command.clone());
     let mut text = Vec::new();
-    page.render(&mut text)
-        .map_err(|error| Failure::Usage(format!("{}: {error}", page.get_filename())))?;
+    page.render(&mut text).map_err(|error| Failure::Usage(format!("{}: {error}", page.get_filename())))?;
     atomic_write(folder.join(page.get_filename()), &text)?;
     Ok(count)
 }

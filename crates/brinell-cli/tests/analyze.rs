@@ -45,43 +45,30 @@ fn column(path: &Path, values: &[f64]) {
 }
 
 fn with<'a>(file: &'a str, more: &[&'a str]) -> Vec<&'a str> {
-    ["analyze", file]
-        .into_iter()
-        .chain(GIVEN)
-        .chain(more.iter().copied())
-        .collect()
+    ["analyze", file].into_iter().chain(GIVEN).chain(more.iter().copied()).collect()
 }
 
 #[test]
 fn regress_words_and_json_of_outer_race_damage() {
     let folder = tempdir().unwrap();
     column(&folder.path().join("outer.csv"), &signal(2.0, 6.0, 0.0));
-    brinell(folder.path(), &with("outer.csv", &["-o", "look"]))
-        .exits(0)
-        .keeps_quiet()
-        .says(&[
-            "sample rate 12000 Hz, as given",
-            "shaft speed 1800 r/min, from --speed",
-            "Outer race damage, very clear: BPFO at 107.",
-            "of pure rolling), harmonics 1, 2, 3, 4, 5 up to",
-            "outer race       BPFO       107.",
-            "wrote look/report.html",
-        ]);
+    brinell(folder.path(), &with("outer.csv", &["-o", "look"])).exits(0).keeps_quiet().says(&[
+        "sample rate 12000 Hz, as given",
+        "shaft speed 1800 r/min, from --speed",
+        "Outer race damage, very clear: BPFO at 107.",
+        "of pure rolling), harmonics 1, 2, 3, 4, 5 up to",
+        "outer race       BPFO       107.",
+        "wrote look/report.html",
+    ]);
     let found = json(&folder.path().join("look/analysis.json"));
     assert_eq!(found["verdict"]["damage"][0], "outer_race");
     assert_eq!(found["verdict"]["damage"].as_array().unwrap().len(), 1);
     assert_eq!(found["verdict"]["says"], "damage");
     let family = &found["families"][0];
-    assert_eq!(
-        (&family["name"], &family["says"]),
-        (&"BPFO".into(), &"damage".into())
-    );
+    assert_eq!((&family["name"], &family["says"]), (&"BPFO".into(), &"damage".into()));
     assert!(family["score"].as_f64().unwrap() > family["limit"].as_f64().unwrap());
     let page = fs::read_to_string(folder.path().join("look/report.html")).unwrap();
-    let headline = format!(
-        "<h1>Damage: outer race, {}</h1>",
-        found["verdict"]["clarity"].as_str().unwrap()
-    );
+    let headline = format!("<h1>Damage: outer race, {}</h1>", found["verdict"]["clarity"].as_str().unwrap());
     for part in [headline.as_str(), "id=\"kurtogram\"", "id=\"envelope\""] {
         assert!(page.contains(part), "{part}");
     }
@@ -92,9 +79,7 @@ fn regress_words_and_json_of_outer_race_damage() {
 fn regress_words_on_noise() {
     let folder = tempdir().unwrap();
     column(&folder.path().join("noise.csv"), &signal(2.0, 0.0, 0.0));
-    brinell(folder.path(), &with("noise.csv", &[]))
-        .exits(0)
-        .says(&["No damage found.", "nothing"]);
+    brinell(folder.path(), &with("noise.csv", &[])).exits(0).says(&["No damage found.", "nothing"]);
 }
 
 #[test]
@@ -104,11 +89,7 @@ fn prop_a_speed_that_varies_is_followed() {
     let x = signal(seconds, 4.0, 0.3);
     let mut text = String::from("acc,speed\n");
     for (i, v) in x.iter().enumerate() {
-        let _ = writeln!(
-            text,
-            "{v:.5},{:.3}",
-            60.0 * shaft(i as f64 / FS, seconds, 0.3)
-        );
+        let _ = writeln!(text, "{v:.5},{:.3}", 60.0 * shaft(i as f64 / FS, seconds, 0.3));
     }
     fs::write(folder.path().join("ramp.csv"), text).unwrap();
     let given = typed("analyze ramp.csv --channel acc --rate 12000 --unit g --bearing 6205");
@@ -116,10 +97,9 @@ fn prop_a_speed_that_varies_is_followed() {
         let args: Vec<&str> = given.iter().chain(more).copied().collect();
         brinell(folder.path(), &args)
     };
-    call(&["--speed-channel", "speed"]).exits(0).says(&[
-        "so envelopes are taken at equal angles of the shaft",
-        "Outer race damage, very clear: BPFO at 107.",
-    ]);
+    call(&["--speed-channel", "speed"])
+        .exits(0)
+        .says(&["so envelopes are taken at equal angles of the shaft", "Outer race damage, very clear: BPFO at 107."]);
     // At the mean speed alone the lines smear over 30 % and are not present.
     let plain = call(&["--speed", "1800"]).exits(0);
     assert!(!plain.out.contains("very clear"), "{}", plain.out);
@@ -138,34 +118,18 @@ fn regress_files_that_are_no_signal() {
     column(&at("holes.csv"), &holes);
     column(&at("short.csv"), &x[..1200]);
     fs::write(at("text.mat"), "no matrix\n".repeat(100)).unwrap();
-    let pairs: String = x
-        .iter()
-        .fold("a,b\n".into(), |text, v| text + &format!("{v:.4},{v:.4}\n"));
+    let pairs: String = x.iter().fold("a,b\n".into(), |text, v| text + &format!("{v:.4},{v:.4}\n"));
     fs::write(at("two.csv"), pairs).unwrap();
     for (file, parts) in [
         ("empty.csv", &["empty.csv: the file is empty"][..]),
-        (
-            "constant.csv",
-            &["all 20000 samples are 1.5: a constant is no vibration"],
-        ),
-        (
-            "holes.csv",
-            &["2 of 24000 samples are missing or infinite, the first at sample 101"],
-        ),
-        (
-            "short.csv",
-            &["0.100 s are 3.0 revolutions", "it takes 0.267 s or more"],
-        ),
+        ("constant.csv", &["all 20000 samples are 1.5: a constant is no vibration"]),
+        ("holes.csv", &["2 of 24000 samples are missing or infinite, the first at sample 101"]),
+        ("short.csv", &["0.100 s are 3.0 revolutions", "it takes 0.267 s or more"]),
         ("text.mat", &["named like MATLAB, but the content is text"]),
-        (
-            "two.csv",
-            &["several channels may be the signal; choose one with --channel: a, b"],
-        ),
+        ("two.csv", &["several channels may be the signal; choose one with --channel: a, b"]),
         ("missing.csv", &["missing.csv: cannot read"]),
     ] {
-        brinell(folder.path(), &with(file, &[]))
-            .exits(2)
-            .complains(parts);
+        brinell(folder.path(), &with(file, &[])).exits(2).complains(parts);
     }
 }
 
@@ -184,15 +148,11 @@ fn regress_what_the_other_file_does_not_say_has_options_of_its_own() {
         "the file states no sample rate; give --against-rate HZ",
         "give --against-unit, such as --against-unit g",
     ]);
-    over(&["--against-rate", "12000"])
-        .exits(2)
-        .complains(&["y.csv: the file states no unit", "--against-unit m/s^2"]);
+    over(&["--against-rate", "12000"]).exits(2).complains(&["y.csv: the file states no unit", "--against-unit m/s^2"]);
     over(&["--against-rate", "12000", "--against-unit", "furlong"])
         .exits(2)
         .complains(&["--against-unit furlong: no unit is called `furlong`"]);
-    over(&["--against-rate", "12000", "--against-unit", "g"])
-        .exits(0)
-        .says(&["this over the other"]);
+    over(&["--against-rate", "12000", "--against-unit", "g"]).exits(0).says(&["this over the other"]);
     brinell(folder.path(), &with("x.csv", &["--band", "1000", "1010"]))
         .exits(2)
         .complains(&["is 10.0 Hz wide", "Hz or more, for two harmonics"]);
@@ -220,53 +180,23 @@ fn regress_what_the_file_does_not_say_is_requested() {
             &["--unit", "g", "--speed", "1800", "--bearing", "6205"][..],
             "x.csv: the file states no sample rate; give --rate HZ",
         ),
-        (
-            &["--rate", "12000", "--unit", "furlong"],
-            "--unit furlong: no unit is called `furlong`; known are m/s^2",
-        ),
-        (
-            &["--rate", "12000", "--unit", "g", "--speed", "1800"],
-            "x.csv: which bearing? Give --bearing NAME",
-        ),
-        (
-            &["--rate", "-1", "--unit", "g"],
-            "--rate -1: expected more than 0 Hz",
-        ),
+        (&["--rate", "12000", "--unit", "furlong"], "--unit furlong: no unit is called `furlong`; known are m/s^2"),
+        (&["--rate", "12000", "--unit", "g", "--speed", "1800"], "x.csv: which bearing? Give --bearing NAME"),
+        (&["--rate", "-1", "--unit", "g"], "--rate -1: expected more than 0 Hz"),
         (
             &["--rate", "12000", "--unit", "g", "--speed", "0"],
             "shaft speed 0 r/min, from --speed: expected a speed other than 0",
         ),
         (
-            &[
-                "--rate",
-                "500",
-                "--unit",
-                "g",
-                "--speed",
-                "1800",
-                "--bearing",
-                "6205",
-            ],
+            &["--rate", "500", "--unit", "g", "--speed", "1800", "--bearing", "6205"],
             "sampled at 500 Hz the signal holds nothing above 250.0 Hz",
         ),
         (
-            &[
-                "--rate",
-                "12000",
-                "--unit",
-                "g",
-                "--speed",
-                "1800",
-                "--bearing",
-                "9999",
-            ],
+            &["--rate", "12000", "--unit", "g", "--speed", "1800", "--bearing", "9999"],
             "--bearing 9999: no bearing \"9999\"; there are NN3007",
         ),
     ] {
-        let all: Vec<&str> = ["analyze", "x.csv"]
-            .into_iter()
-            .chain(args.iter().copied())
-            .collect();
+        let all: Vec<&str> = ["analyze", "x.csv"].into_iter().chain(args.iter().copied()).collect();
         brinell(folder.path(), &all).exits(2).complains(&[part]);
     }
 }
@@ -275,13 +205,11 @@ fn regress_what_the_file_does_not_say_is_requested() {
 fn regress_which_of_two_channels_is_asked_with_all_the_rest() {
     let folder = tempdir().unwrap();
     fs::write(folder.path().join("two.csv"), "a,b\n1,2\n2,3\n").unwrap();
-    brinell(folder.path(), &["analyze", "two.csv", "--rate", "12000"])
-        .exits(2)
-        .complains(&[
-            "two.csv: 4 things have to be given:",
-            "choose one with --channel: a, b",
-            "the file states no unit for",
-        ]);
+    brinell(folder.path(), &["analyze", "two.csv", "--rate", "12000"]).exits(2).complains(&[
+        "two.csv: 4 things have to be given:",
+        "choose one with --channel: a, b",
+        "the file states no unit for",
+    ]);
 }
 
 /// A unit in brackets or at the end of the name.
@@ -315,30 +243,20 @@ fn regress_uneven_times_are_reported_with_their_worst_step() {
         brinell(folder.path(), &[&given[..], more].concat())
     };
     let why = "its steps are uneven (0.50008 after 3000 values, where 8.3";
-    call(&[])
-        .exits(2)
-        .complains(&["no sample rate follows from `time [s]`", why]);
-    call(&["--rate", "12000"]).exits(0).complains(&[
-        "warning: --rate 12000 Hz was taken, but the times in `time [s]` give no rate",
-        why,
-    ]);
+    call(&[]).exits(2).complains(&["no sample rate follows from `time [s]`", why]);
+    call(&["--rate", "12000"])
+        .exits(0)
+        .complains(&["warning: --rate 12000 Hz was taken, but the times in `time [s]` give no rate", why]);
 }
 
-/// What a run's files say of it: every format in its folder, and alone as far as it carries the scenario; a speed that varies is followed.
+/// What a run's files say of it: every format in its folder, and alone as far as it carries the scenario; a speed that
+/// varies is followed.
 #[test]
 fn regress_a_run_is_known_whatever_its_format() {
     let folder = tempdir().unwrap();
     let run = |name: &str, more: &[&'static str]| {
         let out = format!("out/{name}");
-        let short = [
-            "run",
-            "s.toml",
-            "--no-report",
-            "--set",
-            "simulation.duration_s=0.4",
-            "-o",
-            &out,
-        ];
+        let short = ["run", "s.toml", "--no-report", "--set", "simulation.duration_s=0.4", "-o", &out];
         brinell(folder.path(), &[&short[..], more].concat()).exits(0);
     };
     brinell(folder.path(), &["init", "s.toml"]).exits(0);
@@ -346,53 +264,27 @@ fn regress_a_run_is_known_whatever_its_format() {
     for ending in ["csv", "parquet", "mat", "npz", "uff", "wav"] {
         let file = format!("out/steady/signals.{ending}");
         let words = "shaft speed 1800 r/min, from the scenario of the run in the file";
-        brinell(folder.path(), &["analyze", &file])
-            .exits(0)
-            .says(&[words]);
+        brinell(folder.path(), &["analyze", &file]).exits(0).says(&[words]);
         if !["csv", "uff"].contains(&ending) {
             let alone = format!("alone.{ending}");
             fs::copy(folder.path().join(file), folder.path().join(&alone)).unwrap();
-            brinell(folder.path(), &["analyze", &alone])
-                .exits(0)
-                .says(&[words]);
+            brinell(folder.path(), &["analyze", &alone]).exits(0).says(&[words]);
         }
     }
-    run(
-        "ramp",
-        &[
-            "--set",
-            "operation.speed_rpm=[[0.0, 1600.0], [0.4, 2000.0]]",
-        ],
-    );
-    brinell(folder.path(), &["analyze", "out/ramp"]).exits(0).says(&[
-        "from the scenario of the run in the file: 1620.0 to 2000.0, so envelopes are taken at equal angles",
-    ]);
+    run("ramp", &["--set", "operation.speed_rpm=[[0.0, 1600.0], [0.4, 2000.0]]"]);
+    brinell(folder.path(), &["analyze", "out/ramp"])
+        .exits(0)
+        .says(&["from the scenario of the run in the file: 1620.0 to 2000.0, so envelopes are taken at equal angles"]);
 }
 
 #[test]
 fn regress_pictures_in_the_formats_requested() {
     let folder = tempdir().unwrap();
     column(&folder.path().join("x.csv"), &signal(1.0, 0.0, 0.0));
-    brinell(
-        folder.path(),
-        &with("x.csv", &["-o", "look", "--plots", "svg,png"]),
-    )
-    .exits(0);
-    for name in [
-        "waveform",
-        "close-up",
-        "spectrum",
-        "kurtogram",
-        "envelope-spectrum",
-    ] {
+    brinell(folder.path(), &with("x.csv", &["-o", "look", "--plots", "svg,png"])).exits(0);
+    for name in ["waveform", "close-up", "spectrum", "kurtogram", "envelope-spectrum"] {
         for ending in ["svg", "png"] {
-            assert!(
-                folder
-                    .path()
-                    .join(format!("look/plots/{name}.{ending}"))
-                    .is_file(),
-                "{name}.{ending}"
-            );
+            assert!(folder.path().join(format!("look/plots/{name}.{ending}")).is_file(), "{name}.{ending}");
         }
     }
 }
@@ -408,13 +300,9 @@ fn regress_a_healthy_record_changes_the_verdict() {
         args.extend(more);
         brinell(folder.path(), &args)
     };
-    over("before.csv", &["--healthy"])
-        .exits(0)
-        .says(&["Outer race damage, very clear", "this over the other"]);
+    over("before.csv", &["--healthy"]).exits(0).says(&["Outer race damage, very clear", "this over the other"]);
     over("now.csv", &["--healthy"])
         .exits(0)
         .says(&["Cannot tell: lines of BPFO would be damage, and the record given as healthy has them as well."]);
-    over("now.csv", &[])
-        .exits(0)
-        .says(&["Outer race damage, very clear"]);
+    over("now.csv", &[]).exits(0).says(&["Outer race damage, very clear"]);
 }

@@ -24,29 +24,18 @@ fn outer() -> TempDir {
     folder
 }
 
-const SIGNAL: [&str; 8] = [
-    "analyze", "x.csv", "--rate", "12000", "--unit", "g", "--speed", "1800",
-];
+const SIGNAL: [&str; 8] = ["analyze", "x.csv", "--rate", "12000", "--unit", "g", "--speed", "1800"];
 
 #[test]
 fn regress_each_bearing_is_judged_by_itself() {
     let folder = outer();
     // The sound one is named first.
-    let both = [
-        "--bearing",
-        "6203-2RS",
-        "--bearing",
-        "6205-2RS",
-        "-o",
-        "look",
-    ];
-    brinell(folder.path(), &[&SIGNAL[..], &both].concat())
-        .exits(0)
-        .says(&[
-            "Bearing 1 of 2, 6203-2RS: Cannot tell: the strongest comb of lines lies at 107.",
-            "These lines are 6205-2RS's, whose BPFO is called damage",
-            "Bearing 2 of 2, 6205-2RS: Outer race damage, very clear: BPFO at 107.",
-        ]);
+    let both = ["--bearing", "6203-2RS", "--bearing", "6205-2RS", "-o", "look"];
+    brinell(folder.path(), &[&SIGNAL[..], &both].concat()).exits(0).says(&[
+        "Bearing 1 of 2, 6203-2RS: Cannot tell: the strongest comb of lines lies at 107.",
+        "These lines are 6205-2RS's, whose BPFO is called damage",
+        "Bearing 2 of 2, 6205-2RS: Outer race damage, very clear: BPFO at 107.",
+    ]);
     let found = json(&folder.path().join("look/analysis.json"));
     assert_eq!(found["leads"], "6205-2RS");
     assert_eq!(found["bearings"][0]["bearing"], "6203-2RS");
@@ -54,11 +43,7 @@ fn regress_each_bearing_is_judged_by_itself() {
     assert_eq!(found["verdict"]["damage"][0], "outer_race");
     assert_eq!(found["bearings"][1]["verdict"]["damage"][0], "outer_race");
     let page = fs::read_to_string(folder.path().join("look/report.html")).unwrap();
-    for part in [
-        "<h2>Bearings</h2>",
-        "6205-2RS: Outer race damage",
-        "6203-2RS",
-    ] {
+    for part in ["<h2>Bearings</h2>", "6205-2RS: Outer race damage", "6203-2RS"] {
         assert!(page.contains(part), "{part}");
     }
     // One of them alone has the same verdict.
@@ -68,18 +53,12 @@ fn regress_each_bearing_is_judged_by_itself() {
     assert_eq!(one["verdict"], found["bearings"][1]["verdict"]);
 }
 
-/// Two names of bearings whose frequencies are the same to 1 %: the lines are either's, and the first one's cannot be told from the other's.
+/// Two names of bearings whose frequencies are the same to 1 %: the lines are either's, and the first one's cannot be
+/// told from the other's.
 #[test]
 fn prop_lines_that_both_explain_are_eithers() {
     let folder = outer();
-    let both = [
-        "--bearing",
-        "6205-2RS",
-        "--bearing",
-        "6205",
-        "--json",
-        "r.json",
-    ];
+    let both = ["--bearing", "6205-2RS", "--bearing", "6205", "--json", "r.json"];
     brinell(folder.path(), &[&SIGNAL[..], &both].concat())
         .exits(0)
         .says(&["The lines of BPFO are either bearing's: BPFO of 6205"]);
@@ -99,24 +78,13 @@ fn regress_several_bearings_of_several_files_and_what_goes_with_one_only() {
     let folder = outer();
     fs::copy(folder.path().join("x.csv"), folder.path().join("y.csv")).unwrap();
     let both = ["y.csv", "--bearing", "6203-2RS", "--bearing", "6205-2RS"];
-    let told = brinell(
-        folder.path(),
-        &[&SIGNAL[..], &both, &["-o", "look"]].concat(),
-    )
-    .exits(0);
-    assert_eq!(
-        told.out.matches("6205-2RS outer race").count(),
-        2,
-        "{}",
-        told.out
-    );
+    let told = brinell(folder.path(), &[&SIGNAL[..], &both, &["-o", "look"]].concat()).exits(0);
+    assert_eq!(told.out.matches("6205-2RS outer race").count(), 2, "{}", told.out);
     let page = fs::read_to_string(folder.path().join("look/report.html")).unwrap();
     assert!(page.contains("6203-2RS BPFI") && page.contains("6205-2RS BPFO"));
     for more in [&["--bpfo", "3.5x"][..], &["--against", "y.csv"]] {
         let two = [&SIGNAL[..], &both[1..], more].concat();
-        brinell(folder.path(), &two)
-            .exits(2)
-            .complains(&["--bearing: expected one bearing with --bpfo"]);
+        brinell(folder.path(), &two).exits(2).complains(&["--bearing: expected one bearing with --bpfo"]);
     }
     let unknown = ["--bearing", "6205-2RS", "--bearing", "9999"];
     brinell(folder.path(), &[&SIGNAL[..], &unknown].concat())

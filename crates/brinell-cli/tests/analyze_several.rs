@@ -44,14 +44,7 @@ fn call<'a>(what: &[&'a str], more: &[&'a str]) -> Vec<&'a str> {
 #[test]
 fn regress_a_folder_is_a_row_a_file_and_a_bad_one_stops_nothing() {
     let folder = records();
-    let more = [
-        "-o",
-        "look",
-        "--json",
-        "all.json",
-        "--machine-class",
-        "2-rigid",
-    ];
+    let more = ["-o", "look", "--json", "all.json", "--machine-class", "2-rigid"];
     let done = brinell(folder.path(), &call(&["records"], &more))
         .exits(1)
         .complains(&["error: 1 of 3 files could not be analysed"])
@@ -74,9 +67,8 @@ fn regress_a_folder_is_a_row_a_file_and_a_bad_one_stops_nothing() {
     assert!(records[2]["severity"]["velocity_rms_10_1000_hz"]["value"].is_number());
 
     let listed = json(&folder.path().join("look/analysis.json"));
-    let mut names: Vec<&str> = (listed["files"].as_array().unwrap().iter())
-        .map(|name| name.as_str().unwrap())
-        .collect();
+    let mut names: Vec<&str> =
+        (listed["files"].as_array().unwrap().iter()).map(|name| name.as_str().unwrap()).collect();
     names.sort_unstable();
     assert_eq!(names, files(&folder.path().join("look")));
     assert!(names.contains(&"plots/trend-rms.svg") && names.contains(&"plots/trend-score.svg"));
@@ -111,23 +103,15 @@ fn regress_what_no_file_can_do_without_is_requested_once() {
     let folder = records();
     brinell(folder.path(), &["analyze", "records"])
         .exits(2)
-        .complains(&[
-            "none of the 3 files could be analysed; the first, r1.csv: 4 things have to be given",
-        ]);
-    brinell(
-        folder.path(),
-        &call(&["records"], &["--against", "records/r1.csv"]),
-    )
-    .exits(2)
-    .complains(&["--against: expected one file to lay another over"]);
+        .complains(&["none of the 3 files could be analysed; the first, r1.csv: 4 things have to be given"]);
+    brinell(folder.path(), &call(&["records"], &["--against", "records/r1.csv"]))
+        .exits(2)
+        .complains(&["--against: expected one file to lay another over"]);
     fs::create_dir(folder.path().join("none")).unwrap();
     brinell(folder.path(), &call(&["none"], &[]))
         .exits(2)
         .complains(&["none is a folder without files of signals (csv, "]);
-    brinell(
-        folder.path(),
-        &call(&["records"], &["--json", "records/r10.csv"]),
-    )
-    .exits(2)
-    .complains(&["is an input of this command"]);
+    brinell(folder.path(), &call(&["records"], &["--json", "records/r10.csv"]))
+        .exits(2)
+        .complains(&["is an input of this command"]);
 }

@@ -53,20 +53,11 @@ fn column(path: &Path, values: &[f64]) {
 
 /// RMS and unit of what a call finds.
 fn rms(folder: &Path, file: &str, more: &[&str]) -> (f64, String) {
-    let args = [
-        &["analyze", file][..],
-        &MACHINE,
-        more,
-        &["--json", "r.json"],
-    ]
-    .concat();
+    let args = [&["analyze", file][..], &MACHINE, more, &["--json", "r.json"]].concat();
     brinell(folder, &args).exits(0);
     let found = json(&folder.join("r.json"));
     let rms = &found["indicators"]["rms"];
-    (
-        rms["value"].as_f64().unwrap(),
-        rms["unit"].as_str().unwrap().to_owned(),
-    )
+    (rms["value"].as_f64().unwrap(), rms["unit"].as_str().unwrap().to_owned())
 }
 
 /// The same vibration in g, in volts, in mV, in counts of 16 bits and in parts of a full scale.
@@ -88,18 +79,8 @@ fn analytic_a_vibration_is_the_same_in_every_form() {
     let scale = ["--full-scale", "5V", "--sensitivity"];
     for (file, more, name, factor) in [
         ("volt.csv", [&volt[..], &["100mV/g"]].concat(), "g", 1.0),
-        (
-            "volt.csv",
-            [&volt[..], &["0.1V/(m/s2)"]].concat(),
-            "m/s^2",
-            1.0,
-        ),
-        (
-            "volt.csv",
-            [&volt[..], &["50 mV/(mm/s)"]].concat(),
-            "mm/s",
-            2.0,
-        ),
+        ("volt.csv", [&volt[..], &["0.1V/(m/s2)"]].concat(), "m/s^2", 1.0),
+        ("volt.csv", [&volt[..], &["50 mV/(mm/s)"]].concat(), "mm/s", 2.0),
         ("whole.wav", [&scale[..], &["100mV/g"]].concat(), "g", 1.0),
         ("whole.wav", vec!["--full-scale", "50g"], "g", 1.0),
         ("part.wav", [&scale[..], &["100mV/g"]].concat(), "g", 1.0),
@@ -111,13 +92,7 @@ fn analytic_a_vibration_is_the_same_in_every_form() {
         let off = (found / (factor * truth) - 1.0).abs();
         assert!(off < 1e-4, "{file} {more:?}: {found} for {truth}");
     }
-    let words = [
-        &["analyze", "whole.wav"][..],
-        &MACHINE,
-        &scale,
-        &["100mV/g"],
-    ]
-    .concat();
+    let words = [&["analyze", "whole.wav"][..], &MACHINE, &scale, &["100mV/g"]].concat();
     brinell(folder.path(), &words).exits(0).says(&[
         "full scale 5 V, as given: 1 in the file (int16) is 0.0001526 V",
         "sensitivity 100 mV/g, as given: the signal is in g",
@@ -141,47 +116,27 @@ fn regress_scales_that_say_nothing_are_refused() {
             &["--unit", "g", "--sensitivity", "100mV/g"],
             "--sensitivity 100mV/g: expected a signal that is a voltage, and `column1` is in g",
         ),
-        (
-            "x.csv",
-            &["--unit", "counts", "--sensitivity", "100mV/g"],
-            "is in counts; is it --unit V?",
-        ),
+        ("x.csv", &["--unit", "counts", "--sensitivity", "100mV/g"], "is in counts; is it --unit V?"),
         (
             "x.csv",
             &["--sensitivity", "100mV/g"],
             "the file states no unit for `column1`; give --unit, such as --unit V",
         ),
-        (
-            "x.csv",
-            &["--full-scale", "5V"],
-            "--full-scale 5V: only a WAV's numbers are parts of a full scale",
-        ),
+        ("x.csv", &["--full-scale", "5V"], "--full-scale 5V: only a WAV's numbers are parts of a full scale"),
         (
             "x.wav",
             &["--full-scale", "5"],
             "--full-scale `5`: expected what the largest number means, with its unit, such as 5V",
         ),
-        (
-            "x.wav",
-            &["--unit", "V"],
-            "--unit V: the numbers of this WAV are counts of an ADC (int16, full scale 32768)",
-        ),
+        ("x.wav", &["--unit", "V"], "--unit V: the numbers of this WAV are counts of an ADC (int16, full scale 32768)"),
         (
             "x.wav",
             &["--unit", "counts", "--sensitivity", "100mV/g"],
             "is in counts; give --full-scale, such as --full-scale 5V, in place of the unit",
         ),
-        (
-            "x.wav",
-            &[],
-            "a WAV states no unit; give --full-scale, such as --full-scale 10g",
-        ),
+        ("x.wav", &[], "a WAV states no unit; give --full-scale, such as --full-scale 10g"),
     ] {
-        let rate: &[&str] = if file == "x.csv" {
-            &["--rate", "12000"]
-        } else {
-            &[]
-        };
+        let rate: &[&str] = if file == "x.csv" { &["--rate", "12000"] } else { &[] };
         let args = [&["analyze", file][..], &MACHINE, rate, more].concat();
         brinell(folder.path(), &args).exits(2).complains(&[part]);
     }
@@ -209,12 +164,7 @@ fn analytic_velocity_and_zone_of_a_tone() {
     // The noise adds 0.006 mm/s, in power.
     assert!((velocity / expected - 1.0).abs() < 1e-3, "{velocity}");
     assert_eq!(found["iso_20816_3"]["zone"], "D");
-    assert!(
-        found["band_shown"]["envelope_rms"]["value"]
-            .as_f64()
-            .unwrap()
-            > 0.0
-    );
+    assert!(found["band_shown"]["envelope_rms"]["value"].as_f64().unwrap() > 0.0);
     let page = fs::read_to_string(folder.path().join("look/report.html")).unwrap();
     assert!(page.contains("RMS velocity, 10 to 1000 Hz") && page.contains("zone D"));
 
@@ -222,10 +172,6 @@ fn analytic_velocity_and_zone_of_a_tone() {
         "velocity RMS 10 to 1000 Hz not known, as a signal in V is neither an acceleration nor a velocity",
         "zone not known, without a velocity",
     ]);
-    call(&["--unit", "g", "--duration", "0.9"])
-        .exits(0)
-        .says(&["not known, as 0.900 s are too short for 10 Hz"]);
-    call(&["--unit", "g", "--machine-class", "3"])
-        .exits(2)
-        .complains(&["1-rigid, 1-flexible, 2-rigid, 2-flexible"]);
+    call(&["--unit", "g", "--duration", "0.9"]).exits(0).says(&["not known, as 0.900 s are too short for 10 Hz"]);
+    call(&["--unit", "g", "--machine-class", "3"]).exits(2).complains(&["1-rigid, 1-flexible, 2-rigid, 2-flexible"]);
 }

@@ -1,4 +1,5 @@
-//! Calibrations: known keys come back from brinell's own runs, nothing depends on threads or interruptions, and what is wrong is said.
+//! Calibrations: known keys come back from brinell's own runs, nothing depends on threads or interruptions, and what is
+//! wrong is said.
 
 use crate::common::{brinell, files, interrupted, json, lines, same, typed, with_blocks};
 use serde_json::Value;
@@ -11,11 +12,7 @@ fn folder() -> TempDir {
 }
 
 fn call<'a>(more: &[&'a str]) -> Vec<&'a str> {
-    ["calibrate", "base.toml"]
-        .iter()
-        .chain(more)
-        .copied()
-        .collect()
+    ["calibrate", "base.toml"].iter().chain(more).copied().collect()
 }
 
 /// Numbers of a run of the base with a setting, from a sweep of one point.
@@ -60,16 +57,7 @@ fn prop_a_known_speed_comes_back() {
         .says(&["1 key to 2 targets", "up to 20 runs", "wrote cal/best.toml"])
         .keeps_quiet();
     let cal = folder.path().join("cal");
-    assert_eq!(
-        files(&cal),
-        [
-            "best.toml",
-            "calibrate.csv",
-            "calibrate.html",
-            "calibrate.json",
-            "journal.jsonl"
-        ]
-    );
+    assert_eq!(files(&cal), ["best.toml", "calibrate.csv", "calibrate.html", "calibrate.json", "journal.jsonl"]);
     let found = json(&cal.join("calibrate.json"));
     let speed = &found["keys"][0];
     assert_eq!(speed["determined"], true, "{found:#}");
@@ -84,11 +72,7 @@ fn prop_a_known_speed_comes_back() {
 fn prop_two_known_keys_come_back_within_their_intervals() {
     let folder = folder();
     // Of a run with both keys off the middle of their ranges.
-    let truth = truth_with(
-        folder.path(),
-        "operation.speed_rpm=2950",
-        &["--set", "operation.load_n=[410.0,0.0]"],
-    );
+    let truth = truth_with(folder.path(), "operation.speed_rpm=2950", &["--set", "operation.load_n=[410.0,0.0]"]);
     let target = |name: &str, share: &str| format!("{name}={:?}~{share}", value(&truth, name));
     let frequency = target("defect1.pure_rolling_frequency", "0.1%");
     let force = target("row1.largest_outer_force", "2%");
@@ -127,10 +111,7 @@ fn prop_two_known_keys_come_back_within_their_intervals() {
 fn prop_neither_threads_nor_interruptions_change_a_byte() {
     let folder = folder();
     let truth = truth(folder.path(), "operation.speed_rpm=2900");
-    let target = format!(
-        "defect1.pure_rolling_frequency={:?}~0.2",
-        value(&truth, "defect1.pure_rolling_frequency")
-    );
+    let target = format!("defect1.pure_rolling_frequency={:?}~0.2", value(&truth, "defect1.pure_rolling_frequency"));
     let args = |out: &'static str, jobs: &'static str| {
         call(&[
             "--fit",
@@ -156,9 +137,7 @@ fn prop_neither_threads_nor_interruptions_change_a_byte() {
     same(&out("one"), &out("three"));
     // The header and four runs are whole, the fifth was being written.
     let journal = fs::read(out("three").join("journal.jsonl")).unwrap();
-    let ends: Vec<usize> = (0..journal.len())
-        .filter(|k| journal[*k] == b'\n')
-        .collect();
+    let ends: Vec<usize> = (0..journal.len()).filter(|k| journal[*k] == b'\n').collect();
     fs::create_dir(out("cut")).unwrap();
     fs::write(out("cut").join("journal.jsonl"), &journal[..ends[4] + 100]).unwrap();
     run("cut", "2").says(&["4 runs in the journal"]);
@@ -180,13 +159,8 @@ fn prop_a_measured_signal_is_met_by_the_run_that_made_it() {
     let folder = folder();
     let args = typed("run base.toml --set operation.speed_rpm=3300 --no-report -q -o rig");
     brinell(folder.path(), &args).exits(0);
-    let args = call(&typed(
-        "--fit operation.speed_rpm=2700:3700 --measured rig --budget 20 -o cal",
-    ));
-    brinell(folder.path(), &args)
-        .exits(0)
-        .keeps_quiet()
-        .says(&["against sensor_ax", "signature.octave_5120_10240_hz"]);
+    let args = call(&typed("--fit operation.speed_rpm=2700:3700 --measured rig --budget 20 -o cal"));
+    brinell(folder.path(), &args).exits(0).keeps_quiet().says(&["against sensor_ax", "signature.octave_5120_10240_hz"]);
     let found = json(&folder.path().join("cal/calibrate.json"));
     assert!(found["chi_square"].is_number(), "{found:#}");
     let columns = fs::read_to_string(folder.path().join("cal/calibrate.csv")).unwrap();
@@ -236,106 +210,49 @@ fn regress_bad_input_is_reported_with_key_value_and_range() {
     let folder = folder();
     let good = ["--fit", "operation.speed_rpm=2900:3100"];
     let refuse = |more: &[&str], parts: &[&str]| {
-        brinell(folder.path(), &call(more))
-            .exits(2)
-            .complains(parts);
+        brinell(folder.path(), &call(more)).exits(2).complains(parts);
     };
     refuse(&[], &["--fit"]);
-    refuse(
-        &good,
-        &["there is nothing to fit to: give --target NAME=VALUE~UNCERTAINTY, or --measured FILE"],
-    );
+    refuse(&good, &["there is nothing to fit to: give --target NAME=VALUE~UNCERTAINTY, or --measured FILE"]);
     let with = |more: &[&'static str]| [&good[..], more].concat();
     refuse(
-        &[
-            "--fit",
-            "operation.speed_rmp=1:2",
-            "--target",
-            "sensor_ax.rms=30~1",
-        ],
+        &["--fit", "operation.speed_rmp=1:2", "--target", "sensor_ax.rms=30~1"],
         &["operation.speed_rmp", "speed_rpm"],
     );
     refuse(
-        &[
-            "--fit",
-            "operation.speed_rpm=3100:2900",
-            "--target",
-            "sensor_ax.rms=30~1",
-        ],
-        &[
-            "--fit: operation.speed_rpm = 3100:2900: the bounds are reversed; 2900.0:3100.0 is meant",
-        ],
+        &["--fit", "operation.speed_rpm=3100:2900", "--target", "sensor_ax.rms=30~1"],
+        &["--fit: operation.speed_rpm = 3100:2900: the bounds are reversed; 2900.0:3100.0 is meant"],
     );
     refuse(
-        &[
-            "--fit",
-            "bearing.radial_clearance_um=a:20",
-            "--target",
-            "sensor_ax.rms=30~1",
-        ],
+        &["--fit", "bearing.radial_clearance_um=a:20", "--target", "sensor_ax.rms=30~1"],
         &["the lower bound, `a`, is not a number"],
     );
     refuse(
-        &[
-            "--fit",
-            "bearing.roller_diameter_mm=-3:8",
-            "--target",
-            "sensor_ax.rms=30~1",
-        ],
+        &["--fit", "bearing.roller_diameter_mm=-3:8", "--target", "sensor_ax.rms=30~1"],
         &["bearing.roller_diameter_mm", "-3", "mm"],
     );
-    refuse(
-        &["--fit", "name=1:2", "--target", "sensor_ax.rms=30~1"],
-        &["name"],
-    );
+    refuse(&["--fit", "name=1:2", "--target", "sensor_ax.rms=30~1"], &["name"]);
     refuse(
         &with(&["--target", "sensor_ax.rmss=30~1"]),
-        &[
-            "--target sensor_ax.rmss: no such number of a run",
-            "allowed: the columns of `brinell sweep`, such as",
-        ],
+        &["--target sensor_ax.rmss: no such number of a run", "allowed: the columns of `brinell sweep`, such as"],
     );
     refuse(
         &with(&["--target", "sensor_ax.rms=30"]),
         &["--target: sensor_ax.rms = 30: no standard uncertainty is given"],
     );
-    refuse(
-        &with(&["--target", "sensor_ax.rms=30~0"]),
-        &["the standard uncertainty is not above 0"],
-    );
+    refuse(&with(&["--target", "sensor_ax.rms=30~0"]), &["the standard uncertainty is not above 0"]);
     refuse(
         &with(&["--target", "sensor_ax.rms=30~1", "--budget", "3"]),
         &["--budget 3: expected 6 runs or more for 1 key"],
     );
     refuse(&with(&["--measured", "nowhere.csv"]), &["nowhere.csv"]);
-    fs::write(
-        folder.path().join("rig.csv"),
-        "t,a\n0,1\n0.001,2\n0.002,1\n0.003,3\n",
-    )
-    .unwrap();
+    fs::write(folder.path().join("rig.csv"), "t,a\n0,1\n0.001,2\n0.002,1\n0.003,3\n").unwrap();
     let rig = with(&["--measured", "rig.csv", "--channel", "a", "--unit", "m/s^2"]);
     let rated = [&rig[..], &["--rate", "1000"]].concat();
-    refuse(
-        &rated,
-        &[
-            "is sampled at 1000 Hz, and the scenario at 25600 Hz",
-            "--set simulation.sample_rate_hz=1000.0",
-        ],
-    );
-    let unit = with(&[
-        "--measured",
-        "rig.csv",
-        "--channel",
-        "a",
-        "--unit",
-        "V",
-        "--rate",
-        "25600",
-    ]);
+    refuse(&rated, &["is sampled at 1000 Hz, and the scenario at 25600 Hz", "--set simulation.sample_rate_hz=1000.0"]);
+    let unit = with(&["--measured", "rig.csv", "--channel", "a", "--unit", "V", "--rate", "25600"]);
     refuse(&unit, &["a calibration takes accelerations"]);
     assert!(files(folder.path()).len() == 2, "nothing is written");
     let plan = with(&["--target", "sensor_ax.rms=30~1", "--dry-run"]);
-    brinell(folder.path(), &call(&plan))
-        .exits(0)
-        .says(&["1 key to 1 target", "up to 30 runs"]);
+    brinell(folder.path(), &call(&plan)).exits(0).says(&["1 key to 1 target", "up to 30 runs"]);
 }

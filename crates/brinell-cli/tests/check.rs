@@ -25,17 +25,12 @@ fn lit_check_shows_clearance_rating_and_pressure() {
     ]);
     // C0 presses the heaviest roller with 4000 MPa where the load zone is half a turn; clearance makes it narrower.
     let line = call.out.lines().find(|l| l.contains("contact pressure"));
-    let inner: f64 = line
-        .and_then(|l| l.split_whitespace().nth(2))
-        .and_then(|x| x.parse().ok())
-        .unwrap();
+    let inner: f64 = line.and_then(|l| l.split_whitespace().nth(2)).and_then(|x| x.parse().ok()).unwrap();
     assert!((4000.0 / 10f64.sqrt()..1700.0).contains(&inner), "{inner}");
     check(&["bearing.clearance_class=C3"])
         .exits(0)
         .says(&["Clearance 23.75 um on one side, 47.5 um on the diameter; ISO 5753-1 C3 for"]);
-    check(&["bearing.rollers_per_row=12"])
-        .exits(0)
-        .says(&["(estimate by the formula of ISO 76)"]);
+    check(&["bearing.rollers_per_row=12"]).exits(0).says(&["(estimate by the formula of ISO 76)"]);
 }
 
 #[test]
@@ -58,57 +53,31 @@ fn prop_check_shows_slices_where_the_load_along_a_roller_is_uneven() {
     ]);
     // It would be of an even load.
     assert!(!call.out.contains("contact pressure "), "{}", call.out);
-    // Straight rollers are pressed at their ends, and a load off the middle presses one end beyond the limit that the even load keeps.
-    let off = [
-        "simulation.model=tilting",
-        "operation.load_n=[20000, 0]",
-        "operation.load_offset_mm=10",
-        "defects=[]",
-    ];
+    // Straight rollers are pressed at their ends, and a load off the middle presses one end beyond the limit that the
+    // even load keeps.
+    let off = ["simulation.model=tilting", "operation.load_n=[20000, 0]", "operation.load_offset_mm=10", "defects=[]"];
     let call = check(&off).exits(0);
     let peak = call.out.split("in the end slices ").nth(1).unwrap();
     let peak: f64 = peak.split_whitespace().next().unwrap().parse().unwrap();
     assert!(peak > 4000.0, "{}", call.out);
-    assert!(
-        call.err
-            .contains(&format!("the contact pressure reaches {peak:.0} MPa")),
-        "{peak} {}",
-        call.err
-    );
+    assert!(call.err.contains(&format!("the contact pressure reaches {peak:.0} MPa")), "{peak} {}", call.err);
 }
 
 #[test]
 fn prop_check_as_json_has_the_numbers_of_the_text() {
-    let settings = [
-        "contact.law=sliced",
-        "simulation.model=tilting",
-        "bearing.profile=logarithmic",
-    ];
+    let settings = ["contact.law=sliced", "simulation.model=tilting", "bearing.profile=logarithmic"];
     let text = check(&settings).exits(0);
     let folder = tempdir().unwrap();
-    fs::write(
-        folder.path().join("s.toml"),
-        SHORT.replace("duration_s = 0.02", "duration_s = 0.2"),
-    )
-    .unwrap();
+    fs::write(folder.path().join("s.toml"), SHORT.replace("duration_s = 0.02", "duration_s = 0.2")).unwrap();
     let mut args = vec!["check", "s.toml", "--json"];
     settings.iter().for_each(|s| args.extend(["--set", s]));
     let call = brinell(folder.path(), &args).exits(0);
     let json: serde_json::Value = serde_json::from_str(&call.out).unwrap();
     let slices = &json["slices"];
-    let largest = slices["damaged"]["largest"]["pressure_mpa"]
-        .as_f64()
-        .unwrap();
-    let line = text
-        .out
-        .lines()
-        .find(|l| l.contains("damaged, largest"))
-        .unwrap();
+    let largest = slices["damaged"]["largest"]["pressure_mpa"].as_f64().unwrap();
+    let line = text.out.lines().find(|l| l.contains("damaged, largest")).unwrap();
     let printed: f64 = line.split_whitespace().nth(2).unwrap().parse().unwrap();
-    assert!(
-        (printed / largest - 1.0).abs() < 1e-3,
-        "{printed} {largest}"
-    );
+    assert!((printed / largest - 1.0).abs() < 1e-3, "{printed} {largest}");
     assert_eq!(slices["healthy"]["stiffness"].as_array().unwrap().len(), 4);
     assert!(slices["life_revolutions"].as_f64().unwrap() > 1e6);
     assert!(json["frequencies_hz"]["bpfo"].as_f64().unwrap() > 0.0);
@@ -116,29 +85,17 @@ fn prop_check_as_json_has_the_numbers_of_the_text() {
 
 #[test]
 fn regress_check_prints_numbers_that_can_be_read() {
-    let call = check(&[
-        "operation.load_n=[0, -2500]",
-        "bearing.radial_clearance_um=-10",
-        "defects=[]",
-    ])
-    .exits(0)
-    .says(&[
-        "load zone               360.0 deg wide",
-        "-10 um on one side, -20 um on the diameter: preload",
-    ]);
+    let call = check(&["operation.load_n=[0, -2500]", "bearing.radial_clearance_um=-10", "defects=[]"])
+        .exits(0)
+        .says(&["load zone               360.0 deg wide", "-10 um on one side, -20 um on the diameter: preload"]);
     let after = |name: &str| {
         let line = call.out.lines().find(|l| l.trim_start().starts_with(name));
-        line.unwrap_or_else(|| panic!("{name}: {}", call.out))
-            .to_owned()
+        line.unwrap_or_else(|| panic!("{name}: {}", call.out)).to_owned()
     };
     // What the solver leaves over is no displacement.
     let shift = after("inner ring from outer");
     assert!(shift.contains("(0, -"), "{shift}");
-    assert!(
-        after("bearing stiffness").ends_with("xy 0 N/m"),
-        "{}",
-        call.out
-    );
+    assert!(after("bearing stiffness").ends_with("xy 0 N/m"), "{}", call.out);
     // Values are in one column.
     let starts: Vec<usize> = ["healthy contacts", "at ", "support over"]
         .iter()
@@ -149,20 +106,14 @@ fn regress_check_prints_numbers_that_can_be_read() {
         })
         .collect();
     assert_eq!(starts, [26, 26, 26], "{}", call.out);
-    check(&["operation.speed_rpm=-1500"])
-        .exits(0)
-        .says(&["in pure rolling, at 1500 r/min, clockwise"])
-        .keeps_quiet();
+    check(&["operation.speed_rpm=-1500"]).exits(0).says(&["in pure rolling, at 1500 r/min, clockwise"]).keeps_quiet();
 }
 
 #[test]
 fn regress_check_and_run_warn_alike() {
     for (setting, words) in [
         ("defects.0.center_deg=180", "outside the load zone"),
-        (
-            "operation.load_n=[90000, 0]",
-            "static load rating C0 = 36.5 kN",
-        ),
+        ("operation.load_n=[90000, 0]", "static load rating C0 = 36.5 kN"),
         ("bearing.radial_clearance_um=0.02", "in mm instead of um?"),
         ("operation.load_n=[2, 0]", "gravity is left out"),
         ("defects.0.depth_um=2000", "\"envelope\""),
@@ -172,9 +123,7 @@ fn regress_check_and_run_warn_alike() {
     let folder = tempdir().unwrap();
     fs::write(folder.path().join("s.toml"), SHORT).unwrap();
     let args = typed("run s.toml -o o --signals none --set defects.0.center_deg=180");
-    brinell(folder.path(), &args)
-        .exits(0)
-        .complains(&["outside the load zone", "too short to settle"]);
+    brinell(folder.path(), &args).exits(0).complains(&["outside the load zone", "too short to settle"]);
     let summary = fs::read_to_string(folder.path().join("o/summary.json")).unwrap();
     let page = fs::read_to_string(folder.path().join("o/report.html")).unwrap();
     for text in [summary, page] {
@@ -189,15 +138,12 @@ fn prop_a_plan_in_place_of_a_scenario_is_said_to_be_one() {
     let data_set = ["init", "plan.toml", "--template", "data-set"];
     brinell(here, &data_set).exits(0);
     for command in ["check", "run"] {
-        let call = brinell(here, &[command, "plan.toml"]).exits(2).complains(&[
-            "plan.toml is no scenario but the plan of a data set",
-            "brinell dataset plan.toml --dry-run",
-        ]);
+        let call = brinell(here, &[command, "plan.toml"])
+            .exits(2)
+            .complains(&["plan.toml is no scenario but the plan of a data set", "brinell dataset plan.toml --dry-run"]);
         assert_eq!(call.err.lines().count(), 1, "{call:?}");
     }
     // A scenario with keys that it must not have stays one.
     std::fs::write(here.join("s.toml"), "base = \"x\"\nruns = 2\n[bearing]\n").unwrap();
-    brinell(here, &["check", "s.toml"])
-        .exits(2)
-        .complains(&["unknown key", "preset"]);
+    brinell(here, &["check", "s.toml"]).exits(2).complains(&["unknown key", "preset"]);
 }

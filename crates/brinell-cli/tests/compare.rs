@@ -63,26 +63,14 @@ fn regress_files_and_variants_come_side_by_side() {
     let number = |key: &str| ratio[key].as_f64().unwrap();
     assert!(number("low") < number("value") && number("value") < number("high"));
     assert!(rms["ratios"].get("actual").is_none());
-    assert!(
-        json["scenarios"]["lumped"]
-            .as_str()
-            .unwrap()
-            .contains("model = \"lumped\"")
-    );
+    assert!(json["scenarios"]["lumped"].as_str().unwrap().contains("model = \"lumped\""));
     let page = fs::read_to_string(out.join("compare.html")).unwrap();
-    for part in [
-        "What differs",
-        "simulation.model",
-        "Entry and exit",
-        "simple / actual",
-    ] {
+    for part in ["What differs", "simulation.model", "Entry and exit", "simple / actual"] {
         assert!(page.contains(part), "no {part}");
     }
     // Values travel in base64, which may spell anything.
     let parts = page.split("<script");
-    let seen: String = parts
-        .filter_map(|part| part.rsplit("</script>").next())
-        .collect();
+    let seen: String = parts.filter_map(|part| part.rsplit("</script>").next()).collect();
     assert!(!seen.contains("NaN"));
 }
 
@@ -91,11 +79,7 @@ fn prop_a_run_beside_itself_is_itself_on_any_number_of_threads() {
     let folder = folder();
     let args = typed("compare actual.toml --variant again:name=twin -o");
     for (out, jobs) in [("one", "1"), ("two", "2")] {
-        let args: Vec<&str> = args
-            .iter()
-            .copied()
-            .chain([out, "-q", "-j", jobs])
-            .collect();
+        let args: Vec<&str> = args.iter().copied().chain([out, "-q", "-j", jobs]).collect();
         brinell(folder.path(), &args).exits(0).keeps_quiet();
     }
     same(&folder.path().join("one"), &folder.path().join("two"));
@@ -117,11 +101,7 @@ fn prop_a_run_beside_itself_is_itself_on_any_number_of_threads() {
 fn regress_what_cannot_be_compared() {
     let folder = folder();
     let call = |more: &[&str]| {
-        let args: Vec<&str> = ["compare", "actual.toml"]
-            .iter()
-            .chain(more)
-            .copied()
-            .collect();
+        let args: Vec<&str> = ["compare", "actual.toml"].iter().chain(more).copied().collect();
         brinell(folder.path(), &args).exits(2)
     };
     call(&[]).complains(&["1 to compare", "allowed: 2 to 6 scenarios and variants"]);
@@ -134,9 +114,8 @@ fn regress_what_cannot_be_compared() {
     // Found before anything runs, not when the table is written.
     for name in ["unit", "actual.low"] {
         let variant = format!("{name}:operation.speed_rpm=1000");
-        call(&["--variant", &variant]).complains(&[&format!(
-            "two columns of compare.csv would be called {name}: rename a file or a variant"
-        )]);
+        call(&["--variant", &variant])
+            .complains(&[&format!("two columns of compare.csv would be called {name}: rename a file or a variant")]);
     }
     call(&["--variant", "x:name=a; name=b"]).complains(&["name is set twice"]);
     call(&["none.toml"]).complains(&["cannot read none.toml"]);

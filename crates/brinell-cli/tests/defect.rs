@@ -9,10 +9,7 @@ const SQUARE_WITH_A_HOLE: &str = "[[defects]]\non = \"outer-raceway\"\ndepth_um 
     shape = { outline = { polygons_mm = [[[-2, -2], [2, -2], [2, 2], [-2, 2]], [[-1, -1], [1, -1], [1, 1], [-1, 1]]] } }\n";
 
 fn brinell(args: &[&str]) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_brinell"))
-        .args(args)
-        .output()
-        .unwrap()
+    Command::new(env!("CARGO_BIN_EXE_brinell")).args(args).output().unwrap()
 }
 
 /// Standard output of a command that must succeed.
@@ -51,9 +48,7 @@ fn number(json: &serde_json::Value, key: &str) -> f64 {
 fn analytic_preview_measures_closed_forms() {
     let folder = tempfile::tempdir().unwrap();
     let circle = preview(folder.path(), &example("circle.toml"));
-    assert!(
-        (number(&circle, "area_mm2") / (std::f64::consts::PI * 2.25 * 2.25) - 1.0).abs() < 1e-5
-    );
+    assert!((number(&circle, "area_mm2") / (std::f64::consts::PI * 2.25 * 2.25) - 1.0).abs() < 1e-5);
     assert!((number(&circle, "arc_deg") - (4.5f64 / 27.5).to_degrees()).abs() < 1e-9);
     let hole = scenario(folder.path(), "hole.toml", SQUARE_WITH_A_HOLE);
     let hole = preview(folder.path(), &hole);
@@ -64,21 +59,9 @@ fn analytic_preview_measures_closed_forms() {
         let values = passage[name].as_array().unwrap();
         values.iter().map(|x| x.as_f64().unwrap()).collect()
     };
-    let (damaged, left) = (
-        curve("length_damaged_l_s_mm"),
-        curve("length_in_contact_l_e_mm"),
-    );
-    assert!(
-        damaged
-            .iter()
-            .zip(&left)
-            .all(|(a, b)| (a + b - 6.0).abs() < 1e-12)
-    );
-    assert!(
-        damaged
-            .iter()
-            .all(|x| [0.0, 2.0, 4.0].iter().any(|y| (x - y).abs() < 1e-9))
-    );
+    let (damaged, left) = (curve("length_damaged_l_s_mm"), curve("length_in_contact_l_e_mm"));
+    assert!(damaged.iter().zip(&left).all(|(a, b)| (a + b - 6.0).abs() < 1e-12));
+    assert!(damaged.iter().all(|x| [0.0, 2.0, 4.0].iter().any(|y| (x - y).abs() < 1e-9)));
     // Below the floor K is that of the remaining length, Eq. (23).
     let k = curve("stiffness_k_ecl_point_n_m_10_9");
     let healthy = k[0];
@@ -88,12 +71,7 @@ fn analytic_preview_measures_closed_forms() {
     // An envelope is never deeper.
     let (point, envelope) = (curve("depth_h_s_point_um"), curve("depth_h_s_envelope_um"));
     assert!(point.iter().zip(&envelope).all(|(p, e)| *e <= p + 1e-9));
-    for file in [
-        "damage-1.svg",
-        "damage-1-passage.svg",
-        "damage-1-passage.csv",
-        "damage-1-section.csv",
-    ] {
+    for file in ["damage-1.svg", "damage-1-passage.svg", "damage-1-passage.csv", "damage-1-section.csv"] {
         assert!(folder.path().join("preview").join(file).exists(), "{file}");
     }
 }
@@ -109,10 +87,7 @@ fn analytic_a_rollers_preview_holds_both_contacts() {
     };
     // 1 mm of a roller of 3 mm radius; the envelope's parabola has the contact's relative radius.
     let angle = curve("angle_deg");
-    for (side, curvature) in [
-        ("outer", 1.0 / 3.0 - 1.0 / 27.5),
-        ("inner", 1.0 / 3.0 + 1.0 / 21.5),
-    ] {
+    for (side, curvature) in [("outer", 1.0 / 3.0 - 1.0 / 27.5), ("inner", 1.0 / 3.0 + 1.0 / 21.5)] {
         let depth = curve(&format!("depth_h_s_envelope_{side}_contact_um"));
         for (u, h) in angle.iter().zip(depth) {
             let from_edge = (0.5 - 3.0 * u.to_radians().abs()).max(0.0);
@@ -132,18 +107,7 @@ fn analytic_a_rollers_preview_holds_both_contacts() {
 #[test]
 fn prop_what_is_printed_reads_back_with_the_same_area() {
     let folder = tempfile::tempdir().unwrap();
-    let spall = out(&[
-        "defect",
-        "random",
-        "--seed",
-        "7",
-        "--length-mm",
-        "4",
-        "--width-mm",
-        "3",
-        "--roughness",
-        "0.7",
-    ]);
+    let spall = out(&["defect", "random", "--seed", "7", "--length-mm", "4", "--width-mm", "3", "--roughness", "0.7"]);
     let sources = [
         example("rectangle.toml"),
         example("circle.toml"),
@@ -165,23 +129,14 @@ fn prop_what_is_printed_reads_back_with_the_same_area() {
             let printed = out(&args);
             let again = scenario(folder.path(), "again.toml", &printed);
             let off = number(&preview(folder.path(), &again), "area_mm2") / area - 1.0;
-            assert!(
-                off.abs() < 3e-3,
-                "{command:?} of {source}: area off by {off}"
-            );
+            assert!(off.abs() < 3e-3, "{command:?} of {source}: area off by {off}");
         }
     }
 }
 
 #[test]
 fn lit_the_bounding_rectangle_of_the_papers_shape_is_seven_by_four() {
-    let printed = out(&[
-        "defect",
-        "simplify",
-        &example("irregular.toml"),
-        "--to",
-        "bounding-rectangle",
-    ]);
+    let printed = out(&["defect", "simplify", &example("irregular.toml"), "--to", "bounding-rectangle"]);
     let folder = tempfile::tempdir().unwrap();
     let again = scenario(folder.path(), "again.toml", &printed);
     let json = preview(folder.path(), &again);
@@ -192,14 +147,8 @@ fn lit_the_bounding_rectangle_of_the_papers_shape_is_seven_by_four() {
 #[test]
 fn lit_the_fit_is_the_papers_six_segments_and_states_its_error() {
     let text = out(&["defect", "fit", &example("irregular.toml")]);
-    assert!(
-        text.starts_with("6 segments, order 5, 113 samples each"),
-        "{text}"
-    );
-    assert!(
-        text.contains("fit error: width rms") && text.contains("segment 6:"),
-        "{text}"
-    );
+    assert!(text.starts_with("6 segments, order 5, 113 samples each"), "{text}");
+    assert!(text.contains("fit error: width rms") && text.contains("segment 6:"), "{text}");
 }
 
 #[test]
@@ -208,66 +157,24 @@ fn regress_bad_input_ends_with_two_and_says_what_is_allowed() {
     let healthy = example("healthy.toml");
     let scan = example("scan.toml");
     for (args, words) in [
-        (
-            &["preview", &irregular, "--defect", "0"][..],
-            "defects 1 to 1",
-        ),
+        (&["preview", &irregular, "--defect", "0"][..], "defects 1 to 1"),
         (&["preview", &healthy], "no [[defects]]"),
-        (
-            &["preview", &irregular, "--ring-thickness-mm", "-1"],
-            "above 0",
-        ),
+        (&["preview", &irregular, "--ring-thickness-mm", "-1"], "above 0"),
         (
             &["preview", &irregular, "--ring-thickness-mm", "0.001"],
             "defect 1 is 0.02000 mm deep; expected a thicker ring",
         ),
-        (
-            &["convert", &irregular, "--to", "profile", "--points", "1"],
-            "expected 8 to",
-        ),
-        (
-            &["fit", &irregular, "--order", "200"],
-            "an order of at most 20",
-        ),
+        (&["convert", &irregular, "--to", "profile", "--points", "1"], "expected 8 to"),
+        (&["fit", &irregular, "--order", "200"], "an order of at most 20"),
         (&["fit", &irregular, "--segments", "0"], "expected 1 to"),
-        (
-            &["convert", &irregular, "--to", "outline", "--level-um", "3"],
-            "belong to the outline of a depth map",
-        ),
+        (&["convert", &irregular, "--to", "outline", "--level-um", "3"], "belong to the outline of a depth map"),
         (
             &["convert", &scan, "--to", "outline", "--level-um", "90"],
             "no depth is above --level-um = 90; the deepest is",
         ),
-        (
-            &["convert", &scan, "--to", "outline", "--tolerance-mm", "-1"],
-            "--tolerance-mm is -1; it must be",
-        ),
-        (
-            &[
-                "random",
-                "--seed",
-                "1",
-                "--length-mm",
-                "nan",
-                "--width-mm",
-                "1",
-            ],
-            "--length-mm NaN",
-        ),
-        (
-            &[
-                "random",
-                "--seed",
-                "1",
-                "--length-mm",
-                "1",
-                "--width-mm",
-                "1",
-                "--roughness",
-                "2",
-            ],
-            "--roughness 2",
-        ),
+        (&["convert", &scan, "--to", "outline", "--tolerance-mm", "-1"], "--tolerance-mm is -1; it must be"),
+        (&["random", "--seed", "1", "--length-mm", "nan", "--width-mm", "1"], "--length-mm NaN"),
+        (&["random", "--seed", "1", "--length-mm", "1", "--width-mm", "1", "--roughness", "2"], "--roughness 2"),
     ] {
         let mut all = vec!["defect"];
         all.extend(args);

@@ -11,48 +11,22 @@ fn prop_what_differs_is_reported_with_units_and_defaults() {
     fs::write(here.join("a.toml"), SHORT).unwrap();
     let b = SHORT
         .replace("speed_rpm = 1500.0", "speed_rpm = \"50 Hz\"")
-        .replace(
-            "[operation]",
-            "[lubricant]\nviscosity_pa_s = 0.02\n[operation]",
-        );
+        .replace("[operation]", "[lubricant]\nviscosity_pa_s = 0.02\n[operation]");
     fs::write(here.join("b.toml"), b).unwrap();
-    let told = brinell(here, &["diff", "a.toml", "b.toml"])
-        .exits(0)
-        .keeps_quiet()
-        .out;
-    let lines: Vec<Vec<&str>> = told
-        .lines()
-        .map(|l| l.split_whitespace().collect())
-        .collect();
+    let told = brinell(here, &["diff", "a.toml", "b.toml"]).exits(0).keeps_quiet().out;
+    let lines: Vec<Vec<&str>> = told.lines().map(|l| l.split_whitespace().collect()).collect();
     assert_eq!(lines[0], ["key", "a.toml", "b.toml", "unit"]);
-    assert!(
-        lines.contains(&vec!["operation.speed_rpm", "1500", "3000", "r/min"]),
-        "{told}"
-    );
+    assert!(lines.contains(&vec!["operation.speed_rpm", "1500", "3000", "r/min"]), "{told}");
     let viscosity = lines.iter().find(|l| l[0] == "lubricant.viscosity_pa_s");
-    assert_eq!(
-        viscosity.unwrap()[1..],
-        ["0.01", "(default)", "0.02", "Pa", "s"]
-    );
+    assert_eq!(viscosity.unwrap()[1..], ["0.01", "(default)", "0.02", "Pa", "s"]);
     assert_eq!(lines.len(), 3, "{told}");
-    let json = brinell(here, &["diff", "a.toml", "b.toml", "--json"])
-        .exits(0)
-        .out;
+    let json = brinell(here, &["diff", "a.toml", "b.toml", "--json"]).exits(0).out;
     let json: serde_json::Value = serde_json::from_str(&json).unwrap();
     let all = json["differences"].as_array().unwrap();
     assert_eq!(all.len(), 2);
-    let speed = all
-        .iter()
-        .find(|d| d["key"] == "operation.speed_rpm")
-        .unwrap();
-    assert_eq!(
-        (&speed["a"]["value"], &speed["b"]["value"]),
-        (&1500.0.into(), &3000.0.into())
-    );
-    assert_eq!(
-        (&speed["unit"], &speed["b"]["origin"]),
-        (&"r/min".into(), &"file".into())
-    );
+    let speed = all.iter().find(|d| d["key"] == "operation.speed_rpm").unwrap();
+    assert_eq!((&speed["a"]["value"], &speed["b"]["value"]), (&1500.0.into(), &3000.0.into()));
+    assert_eq!((&speed["unit"], &speed["b"]["origin"]), (&"r/min".into(), &"file".into()));
 }
 
 #[test]
@@ -60,31 +34,18 @@ fn prop_a_written_scenario_is_the_same_run_and_so_is_its_folder() {
     let folder = tempdir().unwrap();
     let here = folder.path();
     fs::write(here.join("a.toml"), SHORT).unwrap();
-    brinell(
-        here,
-        &typed("run a.toml -o o -q --no-report --signals none"),
-    )
-    .exits(0);
-    brinell(here, &["diff", "a.toml", "o"])
-        .exits(0)
-        .says(&["no difference: the same run"]);
+    brinell(here, &typed("run a.toml -o o -q --no-report --signals none")).exits(0);
+    brinell(here, &["diff", "a.toml", "o"]).exits(0).says(&["no difference: the same run"]);
     // One more defect: its keys are in one alone.
     let more = format!(
         "{SHORT}\n[[defects]]\non = \"roller\"\nroller = 3\ncenter_deg = 0.0\ndepth_um = 5.0\nshape = {{ circle = {{ diameter_mm = 1.0 }} }}\n"
     );
     fs::write(here.join("b.toml"), more).unwrap();
     let told = brinell(here, &["diff", "a.toml", "b.toml"]).exits(0).out;
-    let depth = told
-        .lines()
-        .find(|l| l.starts_with("defects.1.depth_um"))
-        .unwrap();
+    let depth = told.lines().find(|l| l.starts_with("defects.1.depth_um")).unwrap();
     let words: Vec<&str> = depth.split_whitespace().collect();
     assert_eq!(words, ["defects.1.depth_um", "-", "5", "um"]);
     fs::write(here.join("bad.toml"), "x = 1").unwrap();
-    brinell(here, &["diff", "a.toml", "bad.toml"])
-        .exits(2)
-        .complains(&["bad.toml", "unknown key"]);
-    brinell(here, &["diff", "a.toml", "none.toml"])
-        .exits(2)
-        .complains(&["cannot read none.toml"]);
+    brinell(here, &["diff", "a.toml", "bad.toml"]).exits(2).complains(&["bad.toml", "unknown key"]);
+    brinell(here, &["diff", "a.toml", "none.toml"]).exits(2).complains(&["cannot read none.toml"]);
 }

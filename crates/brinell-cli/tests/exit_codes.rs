@@ -15,14 +15,8 @@ fn check_with(from: &str, to: &str) -> Call {
 
 #[test]
 fn regress_a_sound_scenario_exits_0_without_complaint() {
-    check_with("duration_s = 0.02", "duration_s = 0.2")
-        .exits(0)
-        .says(&["short: the scenario is valid"])
-        .keeps_quiet();
-    check_with("short", "brief")
-        .exits(0)
-        .says(&["brief: the scenario is valid"])
-        .warns_of_the_short_run_alone();
+    check_with("duration_s = 0.02", "duration_s = 0.2").exits(0).says(&["short: the scenario is valid"]).keeps_quiet();
+    check_with("short", "brief").exits(0).says(&["brief: the scenario is valid"]).warns_of_the_short_run_alone();
 }
 
 #[test]
@@ -33,70 +27,25 @@ fn regress_a_misspelt_key_is_answered_with_the_nearest() {
         "7 | sped_rpm = 1500.0\n",
         "| ^^^^^^^^\n",
     ]);
-    check_with("center_deg = 0.0", "load_n = 3")
-        .exits(2)
-        .complains(&["line 12", "it belongs in [operation]"]);
-    check_with("[operation]", "[operatoin]")
-        .exits(2)
-        .complains(&["did you mean `operation`?"]);
+    check_with("center_deg = 0.0", "load_n = 3").exits(2).complains(&["line 12", "it belongs in [operation]"]);
+    check_with("[operation]", "[operatoin]").exits(2).complains(&["did you mean `operation`?"]);
 }
 
 #[test]
 fn regress_a_wrong_value_is_named_with_range_unit_and_line() {
     for (from, to, parts) in [
-        (
-            "1500.0",
-            "\"fast\"",
-            &["line 7", "speed_rpm = \"fast\"", "a number in r/min"][..],
-        ),
-        (
-            "1500.0",
-            "0",
-            &["line 7", "speed_rpm = 0:", "must turn", "not 0, in r/min"],
-        ),
-        (
-            "1500.0",
-            "nan",
-            &["line 7", "speed_rpm = nan", "not a finite number", "r/min"],
-        ),
-        (
-            "1500.0",
-            "inf",
-            &["line 7", "speed_rpm = inf", "not a finite number", "r/min"],
-        ),
-        (
-            "[300.0, 0.0]",
-            "[300.0]",
-            &["line 8", "load_n = [300.0]", "two numbers in N"],
-        ),
-        (
-            "depth_um = 20.0",
-            "depth_um = -1",
-            &["line 13", "defects.0.depth_um = -1", ">= 0 um"],
-        ),
-        (
-            "duration_s = 0.02",
-            "duration_s = 0",
-            &["line 17", "duration_s = 0:", "> 0 and <= 1e6 s"],
-        ),
-        (
-            "\"outer-raceway\"",
-            "\"outer-racewy\"",
-            &[
-                "line 11",
-                "did you mean \"outer-raceway\"?",
-                "\"inner-raceway\"",
-            ],
-        ),
+        ("1500.0", "\"fast\"", &["line 7", "speed_rpm = \"fast\"", "a number in r/min"][..]),
+        ("1500.0", "0", &["line 7", "speed_rpm = 0:", "must turn", "not 0, in r/min"]),
+        ("1500.0", "nan", &["line 7", "speed_rpm = nan", "not a finite number", "r/min"]),
+        ("1500.0", "inf", &["line 7", "speed_rpm = inf", "not a finite number", "r/min"]),
+        ("[300.0, 0.0]", "[300.0]", &["line 8", "load_n = [300.0]", "two numbers in N"]),
+        ("depth_um = 20.0", "depth_um = -1", &["line 13", "defects.0.depth_um = -1", ">= 0 um"]),
+        ("duration_s = 0.02", "duration_s = 0", &["line 17", "duration_s = 0:", "> 0 and <= 1e6 s"]),
+        ("\"outer-raceway\"", "\"outer-racewy\"", &["line 11", "did you mean \"outer-raceway\"?", "\"inner-raceway\""]),
         (
             "NU206",
             "NU211",
-            &[
-                "line 4",
-                "bearing.preset = \"NU211\": not in the catalogue",
-                "did you mean \"NU210\"?",
-                "NN3007",
-            ],
+            &["line 4", "bearing.preset = \"NU211\": not in the catalogue", "did you mean \"NU210\"?", "NN3007"],
         ),
     ] {
         check_with(from, to).exits(2).complains(parts);
@@ -119,31 +68,12 @@ fn regress_what_no_file_holds_is_refused_in_a_few_lines() {
     let long = vec!["a"; 60_000].join(".") + "=1";
     for (args, words) in [
         (&["check", "s.toml", "--set", &*long][..], "has 60000 parts"),
+        (&["run", "s.toml", "-o", "o", "--set", &*long], "has 60000 parts"),
+        (&["sweep", "s.toml", "-o", "o", "--vary", &*long], "has 60000 parts"),
+        (&["dataset", "plan.toml", "-o", "o"], "larger than 4 MiB; a scenario or a plan"),
+        (&["check", "s.toml", "--set", "operation.speed_rpm=1e12"], "is a speed factor of 4.6"),
         (
-            &["run", "s.toml", "-o", "o", "--set", &*long],
-            "has 60000 parts",
-        ),
-        (
-            &["sweep", "s.toml", "-o", "o", "--vary", &*long],
-            "has 60000 parts",
-        ),
-        (
-            &["dataset", "plan.toml", "-o", "o"],
-            "larger than 4 MiB; a scenario or a plan",
-        ),
-        (
-            &["check", "s.toml", "--set", "operation.speed_rpm=1e12"],
-            "is a speed factor of 4.6",
-        ),
-        (
-            &[
-                "run",
-                "s.toml",
-                "-o",
-                "o",
-                "--set",
-                "operation.load_n=[1e15, 0]",
-            ],
+            &["run", "s.toml", "-o", "o", "--set", "operation.load_n=[1e15, 0]"],
             "times the static load rating C0 = 36500 N",
         ),
     ] {
@@ -155,76 +85,37 @@ fn regress_what_no_file_holds_is_refused_in_a_few_lines() {
 fn regress_impossible_geometry_is_refused_with_what_would_be_possible() {
     let preset = "preset = \"NU206\"";
     for (key, parts) in [
-        (
-            "rollers_per_row = 40",
-            &[
-                "line 5",
-                "rollers_per_row = 40",
-                "rollers overlap",
-                "allowed: 3 to ",
-            ][..],
-        ),
-        (
-            "pitch_diameter_mm = 40.0",
-            &[
-                "line 5",
-                "pitch_diameter_mm = 40.0",
-                "the gap is in the wrong place",
-                "mm",
-            ],
-        ),
-        (
-            "roller_diameter_mm = 20.0",
-            &["line 5", "roller_diameter_mm = 20.0", "mm"],
-        ),
+        ("rollers_per_row = 40", &["line 5", "rollers_per_row = 40", "rollers overlap", "allowed: 3 to "][..]),
+        ("pitch_diameter_mm = 40.0", &["line 5", "pitch_diameter_mm = 40.0", "the gap is in the wrong place", "mm"]),
+        ("roller_diameter_mm = 20.0", &["line 5", "roller_diameter_mm = 20.0", "mm"]),
     ] {
-        check_with(preset, &format!("{preset}\n{key}"))
-            .exits(2)
-            .complains(parts);
+        check_with(preset, &format!("{preset}\n{key}")).exits(2).complains(parts);
     }
-    check_with(
-        "[[defects]]",
-        "[cage]\nouter_diameter_mm = 90.0\n[[defects]]",
-    )
-    .exits(2)
-    .complains(&["line 11", "cage.outer_diameter_mm = 90.0", "mm"]);
-    check_with("width_mm = 4.0", "width_mm = 40.0")
-        .exits(2)
-        .complains(&[
-            "line 14",
-            "wider than the roller, whose length is 8.8 mm",
-            "allowed: <= 8.8 mm",
-        ]);
-    check_with("length_mm = 2.0", "length_mm = 400.0")
-        .exits(2)
-        .complains(&["line 14", "past a full circle", "mm"]);
+    check_with("[[defects]]", "[cage]\nouter_diameter_mm = 90.0\n[[defects]]").exits(2).complains(&[
+        "line 11",
+        "cage.outer_diameter_mm = 90.0",
+        "mm",
+    ]);
+    check_with("width_mm = 4.0", "width_mm = 40.0").exits(2).complains(&[
+        "line 14",
+        "wider than the roller, whose length is 8.8 mm",
+        "allowed: <= 8.8 mm",
+    ]);
+    check_with("length_mm = 2.0", "length_mm = 400.0").exits(2).complains(&["line 14", "past a full circle", "mm"]);
 }
 
 #[test]
 fn regress_all_errors_come_at_once_in_the_order_of_the_file() {
     let folder = tempdir().unwrap();
-    let text = SHORT
-        .replace("load_n", "laod_n")
-        .replace("20.0", "-20.0")
-        .replace("25600.0", "\"often\"");
-    let call = brinell_reading(folder.path(), &["check", "-"], text.as_bytes())
-        .exits(2)
-        .complains(&[
-            "operation.load_n: missing",
-            "4 errors in standard input",
-            "--> standard input:8:1",
-        ]);
-    let at = |part: &str| {
-        call.err
-            .find(part)
-            .unwrap_or_else(|| panic!("no {part} in {}", call.err))
-    };
-    assert!(
-        at("line 8: operation.laod_n = [300.0, 0.0]") < at("line 13: defects.0.depth_um = -20.0")
-    );
-    assert!(
-        at("line 13: defects.0.depth_um") < at("line 18: simulation.sample_rate_hz = \"often\"")
-    );
+    let text = SHORT.replace("load_n", "laod_n").replace("20.0", "-20.0").replace("25600.0", "\"often\"");
+    let call = brinell_reading(folder.path(), &["check", "-"], text.as_bytes()).exits(2).complains(&[
+        "operation.load_n: missing",
+        "4 errors in standard input",
+        "--> standard input:8:1",
+    ]);
+    let at = |part: &str| call.err.find(part).unwrap_or_else(|| panic!("no {part} in {}", call.err));
+    assert!(at("line 8: operation.laod_n = [300.0, 0.0]") < at("line 13: defects.0.depth_um = -20.0"));
+    assert!(at("line 13: defects.0.depth_um") < at("line 18: simulation.sample_rate_hz = \"often\""));
     assert_eq!(call.out, "");
 }
 
@@ -232,15 +123,9 @@ fn regress_all_errors_come_at_once_in_the_order_of_the_file() {
 fn regress_what_is_no_scenario_is_refused() {
     let folder = tempdir().unwrap();
     let here = folder.path();
-    brinell(here, &["check", "missing.toml"])
-        .exits(2)
-        .complains(&["cannot read missing.toml"]);
-    brinell(here, &["check", "."])
-        .exits(2)
-        .complains(&["cannot read ."]);
-    brinell_reading(here, &["check", "-"], b"name = \"\xff\xfe\"\n")
-        .exits(2)
-        .complains(&["line 1", "UTF-8"]);
+    brinell(here, &["check", "missing.toml"]).exits(2).complains(&["cannot read missing.toml"]);
+    brinell(here, &["check", "."]).exits(2).complains(&["cannot read ."]);
+    brinell_reading(here, &["check", "-"], b"name = \"\xff\xfe\"\n").exits(2).complains(&["line 1", "UTF-8"]);
     brinell_reading(here, &["check", "-"], b"name = \n[bearing")
         .exits(2)
         .complains(&["line 1: not valid TOML", "line 2: not valid TOML"]);
@@ -266,30 +151,15 @@ fn regress_overrides_are_checked_like_the_file() {
     let folder = tempdir().unwrap();
     fs::write(folder.path().join("s.toml"), SHORT).unwrap();
     let set = |value: &str| brinell(folder.path(), &["check", "s.toml", "--set", value]);
-    set("operation.speed_rpm=3000")
-        .exits(0)
-        .says(&["at 3000 r/min"]);
+    set("operation.speed_rpm=3000").exits(0).says(&["at 3000 r/min"]);
     set("defects.0.on=inner-raceway").exits(0);
-    set("nonsense").exits(2).complains(&[
-        "--set nonsense: expected KEY=VALUE",
-        "--set operation.speed_rpm=3000",
-    ]);
+    set("nonsense").exits(2).complains(&["--set nonsense: expected KEY=VALUE", "--set operation.speed_rpm=3000"]);
     set("=3").exits(2).complains(&["expected KEY=VALUE"]);
-    set("operation.sped_rpm=3")
-        .exits(2)
-        .complains(&["did you mean `speed_rpm`?"]);
-    set("operation.speed_rpm=fast")
-        .exits(2)
-        .complains(&["a number in r/min", "override"]);
-    set("operation.load_n=[1, 2")
-        .exits(2)
-        .complains(&["operation.load_n", "not a TOML value"]);
-    set("defects.7.depth_um=3")
-        .exits(2)
-        .complains(&["defects has 1 elements"]);
-    set("name.first=3")
-        .exits(2)
-        .complains(&["name is a string"]);
+    set("operation.sped_rpm=3").exits(2).complains(&["did you mean `speed_rpm`?"]);
+    set("operation.speed_rpm=fast").exits(2).complains(&["a number in r/min", "override"]);
+    set("operation.load_n=[1, 2").exits(2).complains(&["operation.load_n", "not a TOML value"]);
+    set("defects.7.depth_um=3").exits(2).complains(&["defects has 1 elements"]);
+    set("name.first=3").exits(2).complains(&["name is a string"]);
 }
 
 #[test]
@@ -299,15 +169,11 @@ fn regress_an_unwritable_place_is_bad_input() {
     fs::write(here.join("s.toml"), SHORT).unwrap();
     fs::write(here.join("file"), "").unwrap();
     fs::create_dir_all(here.join("o/signals.csv")).unwrap();
-    brinell(here, &["run", "s.toml", "-o", "file"])
-        .exits(2)
-        .complains(&["cannot make the folder file"]);
+    brinell(here, &["run", "s.toml", "-o", "file"]).exits(2).complains(&["cannot make the folder file"]);
     brinell(here, &["run", "s.toml", "-o", "o", "--signals", "csv"])
         .exits(2)
         .complains(&["signals.csv: this is a folder"]);
-    brinell(here, &["init", "nowhere/s.toml"])
-        .exits(2)
-        .complains(&["no such folder as nowhere"]);
+    brinell(here, &["init", "nowhere/s.toml"]).exits(2).complains(&["no such folder as nowhere"]);
     assert_eq!(fs::read(here.join("file")).unwrap(), b"");
 }
 
@@ -340,20 +206,17 @@ fn regress_a_failed_run_exits_1_says_where_and_keeps_what_it_has() {
     let stiff = "cage.contact_stiffness_n_per_m=1e28";
     let args = ["run", "s.toml", "-o", "o", "--signals", "csv,parquet"];
     let damping = "cage.contact_damping_ns_per_m=20";
-    let call = brinell(
-        here,
-        &[&args[..], &["--set", stiff, "--set", damping]].concat(),
-    )
-    .exits(1)
-    .complains(&[
-        "error: ",
-        " at t = 0.0",
-        " s: ",
-        " in row ",
-        // Which contact or pocket is pressed hardest there hangs on round-off.
-        " carries ",
-    ])
-    .says(&["Failed: the results are partial, up to t = 0.0"]);
+    let call = brinell(here, &[&args[..], &["--set", stiff, "--set", damping]].concat())
+        .exits(1)
+        .complains(&[
+            "error: ",
+            " at t = 0.0",
+            " s: ",
+            " in row ",
+            // Which contact or pocket is pressed hardest there hangs on round-off.
+            " carries ",
+        ])
+        .says(&["Failed: the results are partial, up to t = 0.0"]);
     let errors = call.err.lines().filter(|l| l.starts_with("error"));
     assert_eq!(errors.count(), 1, "{call:#?}");
     let (_, rows) = csv(&here.join("o/signals.csv"));
@@ -366,18 +229,11 @@ fn regress_a_failed_run_exits_1_says_where_and_keeps_what_it_has() {
     assert!(call.err.ends_with(&format!("error: {reason}\n")));
     // The footer's metadata is there as plain text.
     let parquet = fs::read(here.join("o/signals.parquet")).unwrap();
-    let footer =
-        String::from_utf8_lossy(&parquet[parquet.len().saturating_sub(20_000)..]).into_owned();
+    let footer = String::from_utf8_lossy(&parquet[parquet.len().saturating_sub(20_000)..]).into_owned();
     assert!(footer.contains(&format!("partial: {reason}")));
     assert_eq!(
         files(&here.join("o")),
-        [
-            "report.html",
-            "scenario.toml",
-            "signals.csv",
-            "signals.parquet",
-            "summary.json"
-        ]
+        ["report.html", "scenario.toml", "signals.csv", "signals.parquet", "summary.json"]
     );
 }
 
@@ -393,36 +249,18 @@ mod interrupted {
         let folder = tempdir().unwrap();
         let here = folder.path();
         fs::write(here.join("s.toml"), SHORT).unwrap();
-        let args = [
-            "run",
-            "s.toml",
-            "-o",
-            "o",
-            "--signals",
-            "csv,parquet",
-            "--set",
-            "simulation.duration_s=300",
-        ];
-        let child = command(here, &[&args[..], extra].concat())
-            .stdout(Stdio::piped())
-            .stderr(Stdio::piped())
-            .spawn()
-            .unwrap();
+        let args = ["run", "s.toml", "-o", "o", "--signals", "csv,parquet", "--set", "simulation.duration_s=300"];
+        let child =
+            command(here, &[&args[..], extra].concat()).stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
         let begin = Instant::now();
         let partial = here.join("o/signals.csv.partial");
         while fs::metadata(&partial).map_or(true, |m| m.len() < bytes) {
-            assert!(
-                begin.elapsed() < Duration::from_secs(30),
-                "nothing is written"
-            );
+            assert!(begin.elapsed() < Duration::from_secs(30), "nothing is written");
             std::thread::sleep(Duration::from_millis(10));
         }
         // The handler is set before the first step, not before the file's creation.
         std::thread::sleep(Duration::from_millis(200));
-        let signal = std::process::Command::new("kill")
-            .args(["-INT", &child.id().to_string()])
-            .status()
-            .unwrap();
+        let signal = std::process::Command::new("kill").args(["-INT", &child.id().to_string()]).status().unwrap();
         assert!(signal.success());
         (folder, child.wait_with_output().unwrap().into())
     }
@@ -430,10 +268,7 @@ mod interrupted {
     #[test]
     fn regress_an_interrupted_run_exits_130_and_keeps_what_it_has() {
         let (folder, call) = interrupt(&[], 1);
-        let call = call
-            .exits(130)
-            .says(&["Interrupted: the results are partial, up to t = "])
-            .keeps_quiet();
+        let call = call.exits(130).says(&["Interrupted: the results are partial, up to t = "]).keeps_quiet();
         assert!(call.out.contains("wrote o/signals.csv"));
         let output = folder.path().join("o");
         let (_, rows) = csv(&output.join("signals.csv"));
@@ -447,14 +282,7 @@ mod interrupted {
         assert!(String::from_utf8_lossy(&parquet).contains("partial: interrupted"));
         assert_eq!(
             files(&output),
-            [
-                "report.html",
-                "scenario.toml",
-                "signals.csv",
-                "signals.parquet",
-                "spectra.parquet",
-                "summary.json"
-            ]
+            ["report.html", "scenario.toml", "signals.csv", "signals.parquet", "spectra.parquet", "summary.json"]
         );
     }
 
@@ -463,8 +291,7 @@ mod interrupted {
     fn regress_ctrl_c_is_noticed_between_samples() {
         let begin = Instant::now();
         let (_folder, call) = interrupt(&["--set", "simulation.sample_rate_hz=0.005"], 0);
-        call.exits(130)
-            .says(&["Interrupted: the results are partial, up to t = 0.0000 s."]);
+        call.exits(130).says(&["Interrupted: the results are partial, up to t = 0.0000 s."]);
         assert!(begin.elapsed() < Duration::from_secs(20));
     }
 }

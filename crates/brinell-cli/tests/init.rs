@@ -4,67 +4,31 @@ use crate::common::{brinell, csv, files};
 use std::fs;
 use tempfile::tempdir;
 
-const TEMPLATES: [&str; 8] = [
-    "outer-spall",
-    "inner-spall",
-    "photo",
-    "scan",
-    "run-up",
-    "measured",
-    "data-set",
-    "ball",
-];
+const TEMPLATES: [&str; 8] = ["outer-spall", "inner-spall", "photo", "scan", "run-up", "measured", "data-set", "ball"];
 
 #[test]
 fn prop_every_template_passes_check_with_bearings_of_every_kind() {
     for template in TEMPLATES {
-        for bearing in [
-            "NN3007",
-            "NU 306 ECP",
-            "NJ205",
-            "6205-2RS/C3",
-            "6001",
-            "UC204",
-        ] {
+        for bearing in ["NN3007", "NU 306 ECP", "NJ205", "6205-2RS/C3", "6001", "UC204"] {
             if template == "ball" && bearing.starts_with('N') {
                 continue;
             }
             let folder = tempdir().unwrap();
             let here = folder.path();
-            let args = [
-                "init",
-                "s.toml",
-                "--template",
-                template,
-                "--bearing",
-                bearing,
-            ];
+            let args = ["init", "s.toml", "--template", template, "--bearing", bearing];
             brinell(here, &args).exits(0).keeps_quiet();
             let text = fs::read_to_string(here.join("s.toml")).unwrap();
             let call = if template == "data-set" {
-                brinell(here, &["check", "s-base.toml"])
-                    .exits(0)
-                    .keeps_quiet();
+                brinell(here, &["check", "s-base.toml"]).exits(0).keeps_quiet();
                 brinell(here, &["dataset", "s.toml", "--dry-run"]).exits(0)
             } else {
-                assert!(
-                    text.starts_with("#:schema ./brinell-schema.json\n"),
-                    "{text}"
-                );
-                brinell(here, &["check", "s.toml"])
-                    .exits(0)
-                    .says(&["the scenario is valid"])
+                assert!(text.starts_with("#:schema ./brinell-schema.json\n"), "{text}");
+                brinell(here, &["check", "s.toml"]).exits(0).says(&["the scenario is valid"])
             };
-            assert!(
-                !call.err.contains("error"),
-                "{template}, {bearing}: {call:?}"
-            );
-            // What a first scenario draws no warning for: damage off the load zone, a run too short, loads beyond the rating.
-            let remarks: Vec<&str> = call
-                .err
-                .lines()
-                .filter(|l| l.starts_with("warning:"))
-                .collect();
+            assert!(!call.err.contains("error"), "{template}, {bearing}: {call:?}");
+            // What a first scenario draws no warning for: damage off the load zone, a run too short, loads beyond the
+            // rating.
+            let remarks: Vec<&str> = call.err.lines().filter(|l| l.starts_with("warning:")).collect();
             let of_files = |line: &&&str| line.contains("image") || line.contains("depth");
             let others = remarks.iter().filter(|line| !of_files(line)).count();
             assert_eq!(others, 0, "{template}, {bearing}: {}", call.err);
@@ -91,18 +55,7 @@ fn prop_every_template_runs() {
             continue;
         }
         let short = "simulation.duration_s=0.05";
-        let run = [
-            "run",
-            "s.toml",
-            "-o",
-            "o",
-            "-q",
-            "--signals",
-            "csv",
-            "--no-report",
-            "--set",
-            short,
-        ];
+        let run = ["run", "s.toml", "-o", "o", "-q", "--signals", "csv", "--no-report", "--set", short];
         brinell(here, &run).exits(0);
         let (names, rows) = csv(&here.join("o/signals.csv"));
         assert!(names.iter().any(|n| n.starts_with("sensor_")), "{names:?}");
@@ -117,51 +70,24 @@ fn prop_the_template_of_an_inner_race_is_long_enough_for_its_line() {
     let here = folder.path();
     let init = ["init", "s.toml", "--template", "inner-spall"];
     brinell(here, &init).exits(0);
-    brinell(here, &["run", "s.toml", "-o", "o", "--no-report"])
-        .exits(0)
-        .says(&["defect 1: BPFI 32"]);
-    brinell(here, &["analyze", "o"])
-        .exits(0)
-        .says(&["Inner race damage, clear: BPFI at 32"]);
+    brinell(here, &["run", "s.toml", "-o", "o", "--no-report"]).exits(0).says(&["defect 1: BPFI 32"]);
+    brinell(here, &["analyze", "o"]).exits(0).says(&["Inner race damage, clear: BPFI at 32"]);
 }
 
 #[test]
 fn prop_full_templates_are_the_same_scenario() {
-    for template in [
-        "outer-spall",
-        "inner-spall",
-        "run-up",
-        "measured",
-        "ball",
-        "photo",
-        "scan",
-    ] {
+    for template in ["outer-spall", "inner-spall", "run-up", "measured", "ball", "photo", "scan"] {
         let folder = tempdir().unwrap();
         let here = folder.path();
         brinell(here, &["init", "s.toml", "--template", template]).exits(0);
         let full = ["init", "full.toml", "--template", template, "--full"];
         brinell(here, &full).exits(0);
-        brinell(here, &["diff", "s.toml", "full.toml"])
-            .exits(0)
-            .says(&["key", "name"]);
-        let same = [
-            "init",
-            "full.toml",
-            "--template",
-            template,
-            "--full",
-            "--force",
-        ];
+        brinell(here, &["diff", "s.toml", "full.toml"]).exits(0).says(&["key", "name"]);
+        let same = ["init", "full.toml", "--template", template, "--full", "--force"];
         brinell(here, &same).exits(0);
         let text = fs::read_to_string(here.join("full.toml")).unwrap();
-        fs::write(
-            here.join("full.toml"),
-            text.replace("name = \"full\"", "name = \"s\""),
-        )
-        .unwrap();
-        brinell(here, &["diff", "s.toml", "full.toml"])
-            .exits(0)
-            .says(&["no difference: the same run"]);
+        fs::write(here.join("full.toml"), text.replace("name = \"full\"", "name = \"s\"")).unwrap();
+        brinell(here, &["diff", "s.toml", "full.toml"]).exits(0).says(&["no difference: the same run"]);
         assert!(text.lines().count() > 80, "{template}");
     }
 }
@@ -172,55 +98,28 @@ fn prop_init_overwrites_nothing_of_the_users() {
     let here = folder.path();
     let photo = ["init", "s.toml", "--template", "photo"];
     fs::write(here.join("photo-spall.png"), "mine").unwrap();
-    brinell(here, &photo)
-        .exits(2)
-        .complains(&["photo-spall.png exists; --force overwrites it"]);
+    brinell(here, &photo).exits(2).complains(&["photo-spall.png exists; --force overwrites it"]);
     assert_eq!(files(here), ["photo-spall.png"], "nothing was written");
     fs::remove_file(here.join("photo-spall.png")).unwrap();
-    brinell(here, &photo)
-        .exits(0)
-        .says(&["wrote photo-spall.png", "brinell run s.toml"]);
-    assert_eq!(
-        files(here),
-        ["brinell-schema.json", "photo-spall.png", "s.toml"]
-    );
+    brinell(here, &photo).exits(0).says(&["wrote photo-spall.png", "brinell run s.toml"]);
+    assert_eq!(files(here), ["brinell-schema.json", "photo-spall.png", "s.toml"]);
     // The same example and schema again are no reason to refuse; a file that is no schema of brinell's is.
     brinell(here, &["init", "t.toml", "--template", "photo"]).exits(0);
     fs::write(here.join("brinell-schema.json"), "{}").unwrap();
-    brinell(here, &["init", "u.toml"])
-        .exits(2)
-        .complains(&["brinell-schema.json exists"]);
+    brinell(here, &["init", "u.toml"]).exits(2).complains(&["brinell-schema.json exists"]);
     brinell(here, &["init", "u.toml", "--force"]).exits(0);
     let schema = brinell(here, &["schema"]).exits(0).out;
-    assert_eq!(
-        fs::read_to_string(here.join("brinell-schema.json")).unwrap(),
-        schema
-    );
+    assert_eq!(fs::read_to_string(here.join("brinell-schema.json")).unwrap(), schema);
 }
 
 #[test]
 fn regress_what_init_refuses() {
     for (args, words) in [
-        (
-            &["init", "--template", "photo"][..],
-            "--template photo writes files beside the scenario",
-        ),
-        (
-            &["init", "s.toml", "--bearing", "NU2O6"],
-            "did you mean NU206?",
-        ),
-        (
-            &["init", "s.toml", "--bearing", "ZA-2115"],
-            "only the defect frequencies are known",
-        ),
-        (
-            &["init", "s.toml", "--template", "ball", "--bearing", "NU206"],
-            "takes a ball bearing",
-        ),
-        (
-            &["init", "s.toml", "--template", "data-set", "--full"],
-            "--full is about scenarios",
-        ),
+        (&["init", "--template", "photo"][..], "--template photo writes files beside the scenario"),
+        (&["init", "s.toml", "--bearing", "NU2O6"], "did you mean NU206?"),
+        (&["init", "s.toml", "--bearing", "ZA-2115"], "only the defect frequencies are known"),
+        (&["init", "s.toml", "--template", "ball", "--bearing", "NU206"], "takes a ball bearing"),
+        (&["init", "s.toml", "--template", "data-set", "--full"], "--full is about scenarios"),
         (&["init", "s.toml", "--template", "spall"], "outer-spall"),
     ] {
         let folder = tempdir().unwrap();

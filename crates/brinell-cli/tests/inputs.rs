@@ -34,13 +34,8 @@ fn run(here: &Path, more: &[&str]) -> Call {
 #[track_caller]
 fn refused(here: &Path, args: &[&str]) {
     let before = crate::common::results(here);
-    brinell(here, args)
-        .exits(2)
-        .complains(&["would be written, and is an input of this command"]);
-    assert!(
-        crate::common::results(here) == before,
-        "{args:?} changed something"
-    );
+    brinell(here, args).exits(2).complains(&["would be written, and is an input of this command"]);
+    assert!(crate::common::results(here) == before, "{args:?} changed something");
 }
 
 #[test]
@@ -62,12 +57,8 @@ fn prop_a_run_never_writes_over_what_it_reads() {
     {
         let before = crate::common::results(here);
         let input = fs::File::open(here.join("scenario.toml")).unwrap();
-        let call = crate::common::command(here, &["run", "-", "-o", ".", "-q"])
-            .stdin(input)
-            .output();
-        Call::from(call.unwrap())
-            .exits(2)
-            .complains(&["scenario.toml would be written", "(standard input)"]);
+        let call = crate::common::command(here, &["run", "-", "-o", ".", "-q"]).stdin(input).output();
+        Call::from(call.unwrap()).exits(2).complains(&["scenario.toml would be written", "(standard input)"]);
         assert!(crate::common::results(here) == before);
     }
     // A run's own results, from its own folder.
@@ -154,10 +145,7 @@ fn prop_campaigns_spare_their_inputs() {
     for name in ["a.toml", "b.toml"] {
         fs::write(here.join("scenarios").join(name), SHORT).unwrap();
     }
-    refused(
-        here,
-        &["compare", "scenarios/a.toml", "scenarios/b.toml", "-o", "."],
-    );
+    refused(here, &["compare", "scenarios/a.toml", "scenarios/b.toml", "-o", "."]);
     // A file of the same name that is no input is not written over either.
     fs::write(here.join("base.toml"), SHORT).unwrap();
     let before = crate::common::results(here);
@@ -178,12 +166,8 @@ fn prop_a_printed_entry_is_not_appended_to_its_own_scenario() {
     let here = folder.path();
     let out = fs::File::options().append(true).open(here.join("s.toml"));
     let args = ["defect", "convert", "s.toml", "--to", "profile"];
-    let call = crate::common::command(here, &args)
-        .stdout(out.unwrap())
-        .output();
-    Call::from(call.unwrap())
-        .exits(2)
-        .complains(&["standard output would be written"]);
+    let call = crate::common::command(here, &args).stdout(out.unwrap()).output();
+    Call::from(call.unwrap()).exits(2).complains(&["standard output would be written"]);
     assert_eq!(fs::read_to_string(here.join("s.toml")).unwrap(), SHORT);
 }
 
@@ -197,9 +181,7 @@ fn regress_results_of_another_command_are_refused_or_replaced_whole() {
     fs::write(here.join("o/notes.txt"), "mine").unwrap();
     let before = crate::common::results(&here.join("o"));
     let words = ["o holds results of `brinell run`", "-o", "--overwrite"];
-    analyze(here, "x.csv", &["-o", "o"])
-        .exits(2)
-        .complains(&words);
+    analyze(here, "x.csv", &["-o", "o"]).exits(2).complains(&words);
     let sweep = typed("sweep s.toml --vary operation.speed_rpm=1500 -q -o");
     for args in [
         &["compare", "s.toml", "--variant", "t:name=t", "-o", "o"][..],
@@ -215,37 +197,19 @@ fn regress_results_of_another_command_are_refused_or_replaced_whole() {
     let there = files(&here.join("o"));
     let listed = json(&here.join("o/analysis.json"))["files"].clone();
     let listed: Vec<String> = serde_json::from_value(listed).unwrap();
-    assert!(
-        there
-            .iter()
-            .all(|name| name == "notes.txt" || listed.contains(name)),
-        "{there:?}"
-    );
+    assert!(there.iter().all(|name| name == "notes.txt" || listed.contains(name)), "{there:?}");
     assert_eq!(there.len(), listed.len() + 1);
     // The same signal again is the same results; another signal's are not.
     analyze(here, "x.csv", &["-o", "o", "--plots", "png"]).exits(0);
-    assert!(
-        !files(&here.join("o"))
-            .iter()
-            .any(|name| name.ends_with(".svg"))
-    );
-    analyze(here, "y.csv", &["-o", "o"])
-        .exits(2)
-        .complains(&["o holds results of another signal"]);
-    run(here, &["s.toml", "-o", "o"])
-        .exits(2)
-        .complains(&["o holds results of `brinell analyze`"]);
+    assert!(!files(&here.join("o")).iter().any(|name| name.ends_with(".svg")));
+    analyze(here, "y.csv", &["-o", "o"]).exits(2).complains(&["o holds results of another signal"]);
+    run(here, &["s.toml", "-o", "o"]).exits(2).complains(&["o holds results of `brinell analyze`"]);
     run(here, &["s.toml", "-o", "o", "--overwrite"]).exits(0);
-    assert_eq!(
-        files(&here.join("o")),
-        ["notes.txt", "scenario.toml", "signals.csv", "summary.json"]
-    );
+    assert_eq!(files(&here.join("o")), ["notes.txt", "scenario.toml", "signals.csv", "summary.json"]);
     // Finished runs are never removed.
     brinell(here, &[&sweep[..], &["points"]].concat()).exits(0);
     let before = crate::common::results(&here.join("points"));
-    run(here, &["s.toml", "-o", "points", "--overwrite"])
-        .exits(2)
-        .complains(&["`brinell sweep`, with finished runs"]);
+    run(here, &["s.toml", "-o", "points", "--overwrite"]).exits(2).complains(&["`brinell sweep`, with finished runs"]);
     assert!(crate::common::results(&here.join("points")) == before);
 }
 
@@ -261,19 +225,10 @@ fn regress_a_comparison_of_other_scenarios_leaves_none_of_the_first() {
     let both = ["t:name=t", "u:defects.0.depth_um=10"];
     compare(&both, &["--plots", "svg"]).exits(0);
     compare(&both, &[]).exits(0);
-    compare(&both[..1], &[])
-        .exits(2)
-        .complains(&["c holds results of another set of scenarios"]);
+    compare(&both[..1], &[]).exits(2).complains(&["c holds results of another set of scenarios"]);
     compare(&both[..1], &["--overwrite"]).exits(0);
     assert_eq!(
         files(&here.join("c")),
-        [
-            "compare.csv",
-            "compare.html",
-            "compare.json",
-            "compare.parquet",
-            "scenarios/1-a.toml",
-            "scenarios/2-t.toml"
-        ]
+        ["compare.csv", "compare.html", "compare.json", "compare.parquet", "scenarios/1-a.toml", "scenarios/2-t.toml"]
     );
 }

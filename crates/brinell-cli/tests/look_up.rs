@@ -6,12 +6,7 @@ use std::fs;
 use tempfile::tempdir;
 
 /// model.md, section 13: NN3007 at 1800 r/min, Hz.
-const SECTION_13: [(&str, f64); 4] = [
-    ("bpfo", 250.102),
-    ("bpfi", 319.898),
-    ("ftf", 13.163),
-    ("bsf", 120.663),
-];
+const SECTION_13: [(&str, f64); 4] = [("bpfo", 250.102), ("bpfi", 319.898), ("ftf", 13.163), ("bsf", 120.663)];
 
 fn call(args: &[&str]) -> crate::common::Call {
     brinell(tempdir().unwrap().path(), args)
@@ -23,10 +18,7 @@ fn parsed(text: &str) -> Value {
 
 #[test]
 fn analytic_frequencies_of_the_papers_bearing() {
-    let text = call(&["frequencies", "NN3007", "--speed", "1800"])
-        .exits(0)
-        .keeps_quiet()
-        .out;
+    let text = call(&["frequencies", "NN3007", "--speed", "1800"]).exits(0).keeps_quiet().out;
     let by_numbers = typed("frequencies --pitch 49 --diameter 6 --rollers 19 --speed 1800 --json");
     let catalogued = call(&["frequencies", "nn3007", "--speed", "1800", "--json"]).exits(0);
     let [catalogued, given] = [catalogued, call(&by_numbers).exits(0)].map(|c| parsed(&c.out));
@@ -40,10 +32,7 @@ fn analytic_frequencies_of_the_papers_bearing() {
             let found = found[format!("{name}_hz")].as_f64().unwrap();
             // Half of the last digit, there of section 13, here of the terminal.
             assert!((found - hz).abs() <= 5e-4, "{name}: {found}");
-            assert!(
-                (found - printed).abs() <= 5.1e-5,
-                "{name}: {printed} printed, {found} in JSON"
-            );
+            assert!((found - printed).abs() <= 5.1e-5, "{name}: {printed} printed, {found} in JSON");
         }
     }
     assert_eq!(catalogued["speed_rpm"], 1800.0);
@@ -57,11 +46,7 @@ fn prop_frequencies_are_orders_without_a_speed_and_know_no_sense_of_rotation() {
         let args = [&["frequencies", "NU206", "--json"], args].concat();
         parsed(&call(&args).exits(0).out)
     };
-    let (order, forth, back) = (
-        json(&[]),
-        json(&["--speed", "1500"]),
-        json(&["--speed", "-1500"]),
-    );
+    let (order, forth, back) = (json(&[]), json(&["--speed", "1500"]), json(&["--speed", "-1500"]));
     assert_eq!(order["shaft_hz"], 1.0);
     for name in ["ftf_hz", "bpfo_hz", "bpfi_hz", "bsf_hz"] {
         let [order, forth, back] = [&order, &forth, &back].map(|v| v[name].as_f64().unwrap());
@@ -74,9 +59,7 @@ fn prop_frequencies_are_orders_without_a_speed_and_know_no_sense_of_rotation() {
 fn regress_frequencies_of_a_scenario_use_its_speed() {
     let folder = tempdir().unwrap();
     fs::write(folder.path().join("s"), SHORT).unwrap();
-    let read = brinell(folder.path(), &["frequencies", "s"])
-        .exits(0)
-        .says(&["Pure rolling at 1500 r/min"]);
+    let read = brinell(folder.path(), &["frequencies", "s"]).exits(0).says(&["Pure rolling at 1500 r/min"]);
     let piped = brinell_reading(folder.path(), &["frequencies", "-"], SHORT.as_bytes()).exits(0);
     assert_eq!(read.out, piped.out);
 }
@@ -85,40 +68,17 @@ fn regress_frequencies_of_a_scenario_use_its_speed() {
 fn regress_frequencies_refuse_what_makes_no_bearing() {
     for (args, parts) in [
         (&[][..], &["brinell bearing list", "--pitch"][..]),
-        (
-            &["NN3008"],
-            &[
-                "no bearing \"NN3008\"",
-                "did you mean NN3007?",
-                "There are NN3007",
-                "NU206",
-                "ZA-2115",
-            ],
-        ),
+        (&["NN3008"], &["no bearing \"NN3008\"", "did you mean NN3007?", "There are NN3007", "NU206", "ZA-2115"]),
         (&["missing.toml"], &["cannot read missing.toml"]),
         (&["NN3007", "--speed", "0"], &["--speed 0", "r/min"]),
         (&["NN3007", "--speed", "nan"], &["--speed NaN", "r/min"]),
         (&["NN3007", "--pitch", "49"], &["--pitch"]),
-        (
-            &["--pitch", "49"],
-            &["--pitch, --diameter and --rollers together"],
-        ),
-        (
-            &["--pitch", "49", "--diameter", "-6", "--rollers", "19"],
-            &["--diameter -6", "0 < diameter < pitch, in mm"],
-        ),
-        (
-            &["--pitch", "49", "--diameter", "60", "--rollers", "19"],
-            &["--diameter 60", "in mm"],
-        ),
-        (
-            &["--pitch", "49", "--diameter", "6", "--rollers", "2"],
-            &["--rollers 2", "at least 3"],
-        ),
+        (&["--pitch", "49"], &["--pitch, --diameter and --rollers together"]),
+        (&["--pitch", "49", "--diameter", "-6", "--rollers", "19"], &["--diameter -6", "0 < diameter < pitch, in mm"]),
+        (&["--pitch", "49", "--diameter", "60", "--rollers", "19"], &["--diameter 60", "in mm"]),
+        (&["--pitch", "49", "--diameter", "6", "--rollers", "2"], &["--rollers 2", "at least 3"]),
     ] {
-        let call = call(&[&["frequencies"], args].concat())
-            .exits(2)
-            .complains(parts);
+        let call = call(&[&["frequencies"], args].concat()).exits(2).complains(parts);
         assert_eq!(call.out, "");
     }
 }
@@ -126,11 +86,8 @@ fn regress_frequencies_refuse_what_makes_no_bearing() {
 #[test]
 fn regress_bearings_are_listed_and_shown_with_their_sources() {
     let list = call(&["bearing", "list"]).exits(0).keeps_quiet().out;
-    let names: Vec<&str> = list
-        .lines()
-        .take_while(|line| !line.is_empty())
-        .map(|line| line.split(' ').next().unwrap())
-        .collect();
+    let names: Vec<&str> =
+        list.lines().take_while(|line| !line.is_empty()).map(|line| line.split(' ').next().unwrap()).collect();
     assert!(names.contains(&"NN3007") && names.len() >= 5, "{names:?}");
     for name in names {
         let shown = call(&["bearing", "show", name]).exits(0).keeps_quiet().out;
@@ -145,47 +102,26 @@ fn regress_bearings_are_listed_and_shown_with_their_sources() {
             })
             .collect();
         assert!(ends.len() > 8, "{shown}");
-        assert!(
-            ends.iter().all(|end| *end == ends[0]),
-            "not aligned:\n{shown}"
-        );
+        assert!(ends.iter().all(|end| *end == ends[0]), "not aligned:\n{shown}");
     }
-    call(&["bearing", "show", "NN307"])
-        .exits(2)
-        .complains(&["no bearing \"NN307\"", "did you mean NN3007?"]);
+    call(&["bearing", "show", "NN307"]).exits(2).complains(&["no bearing \"NN307\"", "did you mean NN3007?"]);
 }
 
 #[test]
 fn regress_every_listed_bearing_is_known_to_frequencies_and_show() {
     let list = call(&["bearing", "list"]).exits(0).out;
     let blocks: Vec<&str> = list.split("\n\n").collect();
-    let of_data_sets: Vec<&str> = blocks[1]
-        .lines()
-        .skip(1)
-        .map(|line| line.split(' ').next().unwrap())
-        .collect();
+    let of_data_sets: Vec<&str> = blocks[1].lines().skip(1).map(|line| line.split(' ').next().unwrap()).collect();
     assert!(of_data_sets.contains(&"ZA-2115"), "{list}");
     for name in of_data_sets {
-        call(&["bearing", "show", name]).exits(0).says(&[
-            name,
-            "pitch_diameter_mm",
-            "contact_angle_deg",
-        ]);
+        call(&["bearing", "show", name]).exits(0).says(&[name, "pitch_diameter_mm", "contact_angle_deg"]);
         call(&["frequencies", name]).exits(0).keeps_quiet();
     }
     // The data set prints 3.5848; the option's earlier name is still understood.
     let json = parsed(&call(&["frequencies", "6205", "--json"]).exits(0).out);
     assert!((json["bpfo_hz"].as_f64().unwrap() - 3.5848).abs() < 1e-4);
     let numbers = |diameter: &str| {
-        let args = [
-            "frequencies",
-            "--pitch",
-            "39",
-            diameter,
-            "7.5",
-            "--rollers",
-            "13",
-        ];
+        let args = ["frequencies", "--pitch", "39", diameter, "7.5", "--rollers", "13"];
         call(&args).exits(0).out
     };
     assert_eq!(numbers("--diameter"), numbers("--roller"));
@@ -203,23 +139,11 @@ fn regress_the_schema_of_plans_has_their_keys_and_those_of_scenarios() {
 #[test]
 fn regress_the_schema_is_a_json_schema() {
     let schema = parsed(&call(&["schema"]).exits(0).keeps_quiet().out);
-    assert_eq!(
-        schema["$schema"],
-        "https://json-schema.org/draft/2020-12/schema"
-    );
+    assert_eq!(schema["$schema"], "https://json-schema.org/draft/2020-12/schema");
     let sections = schema["properties"].as_object().unwrap();
-    for section in [
-        "name",
-        "bearing",
-        "cage",
-        "contact",
-        "friction",
-        "lubricant",
-        "support",
-        "operation",
-        "defects",
-        "simulation",
-    ] {
+    for section in
+        ["name", "bearing", "cage", "contact", "friction", "lubricant", "support", "operation", "defects", "simulation"]
+    {
         assert!(sections.contains_key(section), "{section}");
     }
 }
@@ -228,19 +152,14 @@ fn regress_the_schema_is_a_json_schema() {
 fn regress_init_writes_a_scenario_that_passes_and_overwrites_nothing() {
     let folder = tempdir().unwrap();
     let here = folder.path();
-    brinell(here, &["init", "s.toml"])
-        .exits(0)
-        .keeps_quiet()
-        .says(&["wrote s.toml", "brinell run s.toml"]);
+    brinell(here, &["init", "s.toml"]).exits(0).keeps_quiet().says(&["wrote s.toml", "brinell run s.toml"]);
     let written = fs::read_to_string(here.join("s.toml")).unwrap();
     // A file's name is its scenario's.
     let named = written.replace("name = \"s\"", "name = \"outer-spall\"");
     assert_eq!(brinell(here, &["init"]).exits(0).out, named);
     brinell(here, &["check", "s.toml"]).exits(0).keeps_quiet();
     fs::write(here.join("s.toml"), "mine").unwrap();
-    brinell(here, &["init", "s.toml"])
-        .exits(2)
-        .complains(&["s.toml exists; --force overwrites it"]);
+    brinell(here, &["init", "s.toml"]).exits(2).complains(&["s.toml exists; --force overwrites it"]);
     assert_eq!(fs::read(here.join("s.toml")).unwrap(), b"mine");
     brinell(here, &["init", "s.toml", "--force"]).exits(0);
     assert_eq!(fs::read_to_string(here.join("s.toml")).unwrap(), written);
@@ -249,38 +168,13 @@ fn regress_init_writes_a_scenario_that_passes_and_overwrites_nothing() {
 #[test]
 fn regress_help_mentions_every_option() {
     for (command, options) in [
-        (
-            &[][..],
-            &[
-                "run",
-                "check",
-                "init",
-                "bearing",
-                "frequencies",
-                "schema",
-                "--version",
-                "Exit codes",
-            ][..],
-        ),
+        (&[][..], &["run", "check", "init", "bearing", "frequencies", "schema", "--version", "Exit codes"][..]),
         (
             &["run"],
-            &[
-                "SCENARIO",
-                "--set",
-                "--output",
-                "--signals",
-                "--plots",
-                "--no-report",
-                "--quiet",
-                "parquet",
-                "Ctrl-C",
-            ],
+            &["SCENARIO", "--set", "--output", "--signals", "--plots", "--no-report", "--quiet", "parquet", "Ctrl-C"],
         ),
         (&["check"], &["SCENARIO", "--set", "--assumptions"]),
-        (
-            &["init"],
-            &["FILE", "--template", "--bearing", "--full", "--force"],
-        ),
+        (&["init"], &["FILE", "--template", "--bearing", "--full", "--force"]),
         (&["diff"], &["A", "B", "--json"]),
         (&["open"], &["FOLDER_OR_PAGE"]),
         (&["completions"], &["bash", "zsh", "fish", "powershell"]),
@@ -288,31 +182,15 @@ fn regress_help_mentions_every_option() {
         (&["bearing"], &["list", "show"]),
         (&["bearing", "list"], &["catalogue"]),
         (&["bearing", "show"], &["NAME"]),
-        (
-            &["frequencies"],
-            &[
-                "BEARING",
-                "--speed",
-                "--pitch",
-                "--diameter",
-                "--rollers",
-                "--json",
-                "Examples:",
-            ],
-        ),
+        (&["frequencies"], &["BEARING", "--speed", "--pitch", "--diameter", "--rollers", "--json", "Examples:"]),
         (&["schema"], &["JSON Schema"]),
     ] {
         for flag in ["--help", "-h"] {
-            let call = call(&[command, &[flag]].concat())
-                .exits(0)
-                .keeps_quiet()
-                .says(options);
+            let call = call(&[command, &[flag]].concat()).exits(0).keeps_quiet().says(options);
             let widest = call.out.lines().map(|line| line.chars().count()).max();
             // clap wraps at 100 columns where there is no terminal.
             assert!(widest <= Some(100), "{}", call.out);
         }
     }
-    call(&["--version"])
-        .exits(0)
-        .says(&["brinell ", env!("CARGO_PKG_VERSION")]);
+    call(&["--version"]).exits(0).says(&["brinell ", env!("CARGO_PKG_VERSION")]);
 }

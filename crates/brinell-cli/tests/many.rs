@@ -20,20 +20,13 @@ fn prop_several_runs_give_the_bits_of_each_alone() {
     for (name, depth) in names.into_iter().zip(["5.0", "10.0", "20.0"]) {
         scenario(folder.path(), &format!("{name}.toml"), depth);
     }
-    brinell(
-        folder.path(),
-        &[
-            "run", "a.toml", "b.toml", "c.toml", "-o", "many", "--jobs", "2",
-        ],
-    )
-    .exits(0)
-    .says(&["many/b: short: 0.02", "3 runs, 2 at a time, in"])
-    .warns_of_the_short_run_alone();
+    brinell(folder.path(), &["run", "a.toml", "b.toml", "c.toml", "-o", "many", "--jobs", "2"])
+        .exits(0)
+        .says(&["many/b: short: 0.02", "3 runs, 2 at a time, in"])
+        .warns_of_the_short_run_alone();
     for name in names {
         let (file, alone) = (format!("{name}.toml"), format!("alone/{name}"));
-        brinell(folder.path(), &["run", &file, "-o", &alone, "-q"])
-            .exits(0)
-            .keeps_quiet();
+        brinell(folder.path(), &["run", &file, "-o", &alone, "-q"]).exits(0).keeps_quiet();
         let many = folder.path().join("many").join(name);
         let alone = folder.path().join("alone").join(name);
         assert_eq!(files(&many), files(&alone));
@@ -49,15 +42,9 @@ fn regress_two_scenarios_of_one_stem_are_refused_before_anything_runs() {
     let folder = tempdir().unwrap();
     scenario(folder.path(), "x/spall.toml", "5.0");
     scenario(folder.path(), "y/Spall.toml", "10.0");
-    brinell(
-        folder.path(),
-        &["run", "x/spall.toml", "y/Spall.toml", "-o", "out"],
-    )
-    .exits(2)
-    .complains(&[
-        "x/spall.toml and y/Spall.toml would both be written to",
-        "rename one",
-    ]);
+    brinell(folder.path(), &["run", "x/spall.toml", "y/Spall.toml", "-o", "out"])
+        .exits(2)
+        .complains(&["x/spall.toml and y/Spall.toml would both be written to", "rename one"]);
     assert!(!folder.path().join("out").exists());
 }
 
@@ -67,12 +54,7 @@ fn regress_every_scenario_is_checked_before_any_runs() {
     scenario(folder.path(), "good.toml", "5.0");
     scenario(folder.path(), "bad.toml", "-1");
     scenario(folder.path(), "worse.toml", "-2");
-    brinell(
-        folder.path(),
-        &typed("run good.toml bad.toml worse.toml none.toml -o out"),
-    )
-    .exits(2)
-    .complains(&[
+    brinell(folder.path(), &typed("run good.toml bad.toml worse.toml none.toml -o out")).exits(2).complains(&[
         "--> bad.toml:13",
         "--> worse.toml:13",
         "cannot read none.toml",
@@ -89,22 +71,12 @@ fn regress_one_that_fails_stops_no_other() {
     }
     // A folder where the run of b wants a file.
     fs::create_dir_all(folder.path().join("out/b/summary.json/in-the-way")).unwrap();
-    brinell(
-        folder.path(),
-        &["run", "a.toml", "b.toml", "c.toml", "-o", "out", "-j", "1"],
-    )
-    .exits(1)
-    .says(&["out/a: short", "out/c: short"])
-    .complains(&["error: b.toml: ", "summary.json", "1 of 3 runs failed"]);
+    brinell(folder.path(), &["run", "a.toml", "b.toml", "c.toml", "-o", "out", "-j", "1"])
+        .exits(1)
+        .says(&["out/a: short", "out/c: short"])
+        .complains(&["error: b.toml: ", "summary.json", "1 of 3 runs failed"]);
     for name in ["a", "c"] {
-        assert!(
-            folder
-                .path()
-                .join("out")
-                .join(name)
-                .join("report.html")
-                .exists()
-        );
+        assert!(folder.path().join("out").join(name).join("report.html").exists());
     }
 }
 
@@ -112,9 +84,7 @@ fn regress_one_that_fails_stops_no_other() {
 fn regress_jobs_is_at_least_one() {
     let folder = tempdir().unwrap();
     scenario(folder.path(), "a.toml", "5.0");
-    brinell(folder.path(), &["run", "a.toml", "--jobs", "0"])
-        .exits(2)
-        .complains(&["--jobs"]);
+    brinell(folder.path(), &["run", "a.toml", "--jobs", "0"]).exits(2).complains(&["--jobs"]);
 }
 
 /// `..` is what is left of `...toml` without its ending, and `.` of `..toml`.
@@ -131,13 +101,8 @@ fn prop_no_name_of_a_file_leads_out_of_the_folder() {
         let mut there = files(folder.path());
         there.retain(|file| !own.contains(file));
         let one = |stem: &str| {
-            [
-                "scenario.toml",
-                "signals.parquet",
-                "spectra.parquet",
-                "summary.json",
-            ]
-            .map(|file| format!("m/deep/{stem}/{file}"))
+            ["scenario.toml", "signals.parquet", "spectra.parquet", "summary.json"]
+                .map(|file| format!("m/deep/{stem}/{file}"))
         };
         assert_eq!(there, [one("a"), one("run")].concat());
     }

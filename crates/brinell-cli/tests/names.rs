@@ -23,30 +23,18 @@ fn prop_every_command_finds_bearings_however_they_are_written() {
         let shown = brinell(here, &["bearing", "show", name]).exits(0).out;
         // The drive end of the Case Western rig has an entry of its own.
         let data_set = name == "62052RS" && shown.starts_with("6205-2RS: ");
-        assert!(
-            shown.starts_with(&format!("{found}: ")) || data_set,
-            "{shown}"
-        );
-        brinell(here, &["frequencies", name])
-            .exits(0)
-            .says(&["BPFO"]);
+        assert!(shown.starts_with(&format!("{found}: ")) || data_set, "{shown}");
+        brinell(here, &["frequencies", name]).exits(0).says(&["BPFO"]);
         fs::write(
             here.join("s.toml"),
             SHORT
                 .replace("NU206", name)
                 .replace("profile = \"straight\"", "")
-                .replace(
-                    "length_mm = 2.0, width_mm = 4.0",
-                    "length_mm = 1.0, width_mm = 1.0",
-                ),
+                .replace("length_mm = 2.0, width_mm = 4.0", "length_mm = 1.0, width_mm = 1.0"),
         )
         .unwrap();
-        brinell(here, &["check", "s.toml"])
-            .exits(0)
-            .says(&[&format!("{found}: 1 row(s)")]);
-        brinell(here, &["init", "--bearing", name])
-            .exits(0)
-            .says(&[found]);
+        brinell(here, &["check", "s.toml"]).exits(0).says(&[&format!("{found}: 1 row(s)")]);
+        brinell(here, &["init", "--bearing", name]).exits(0).says(&[found]);
     }
     for args in [
         &["bearing", "show", "NU2O6"][..],
@@ -55,10 +43,7 @@ fn prop_every_command_finds_bearings_however_they_are_written() {
         &["check", "s.toml", "--set", "bearing.preset=NU260"],
     ] {
         let call = brinell(here, args).exits(2);
-        assert!(
-            call.err.contains("did you mean") && call.err.contains("NU206"),
-            "{call:?}"
-        );
+        assert!(call.err.contains("did you mean") && call.err.contains("NU206"), "{call:?}");
     }
 }
 
@@ -79,9 +64,7 @@ fn lit_the_class_of_clearance_in_a_name_is_used() {
     // What the file says outranks the name.
     let own = text.replace("[operation]", "radial_clearance_um = 3.0\n[operation]");
     fs::write(here.join("s.toml"), own).unwrap();
-    brinell(here, &["check", "s.toml"])
-        .exits(0)
-        .says(&["3 um on one side"]);
+    brinell(here, &["check", "s.toml"]).exits(0).says(&["3 um on one side"]);
 }
 
 #[test]
@@ -91,7 +74,8 @@ fn lit_bearing_show_gives_the_clearance_of_the_class_in_the_name() {
         let args = [&["bearing", "show"], more].concat();
         brinell(folder.path(), &args).exits(0).keeps_quiet().out
     };
-    // ISO 5753-1: C3 of ball bearings is 13 to 28 um on the diameter for a bore of 25 mm; a quarter of the sum is on one side.
+    // ISO 5753-1: C3 of ball bearings is 13 to 28 um on the diameter for a bore of 25 mm; a quarter of the sum is on
+    // one side.
     let told = parsed(&show(&["6205-2RS/C3", "--json"]));
     assert_eq!(told["clearance_class"], "C3");
     let clearance = &told["numbers"]["bearing.radial_clearance_um"];
@@ -101,15 +85,10 @@ fn lit_bearing_show_gives_the_clearance_of_the_class_in_the_name() {
         let found = text.lines().find(|l| l.contains(of));
         found.unwrap_or_default().to_owned()
     };
-    assert!(
-        line(&text, "bearing.radial_clearance_um").contains(" 10.25  estimated: C3 in the name")
-    );
+    assert!(line(&text, "bearing.radial_clearance_um").contains(" 10.25  estimated: C3 in the name"));
     assert!(line(&text, "clearance_C3").ends_with("(this bearing, as its name says)"));
     let plain = show(&["6205"]);
-    assert!(
-        !plain.contains("in the name") && !plain.contains("this bearing"),
-        "{plain}"
-    );
+    assert!(!plain.contains("in the name") && !plain.contains("this bearing"), "{plain}");
     assert!(parsed(&show(&["6205", "--json"]))["clearance_class"].is_null());
 }
 
@@ -117,23 +96,13 @@ fn lit_bearing_show_gives_the_clearance_of_the_class_in_the_name() {
 fn prop_a_letter_o_in_a_size_is_taken_for_the_digit() {
     let folder = tempdir().unwrap();
     let here = folder.path();
-    let scenario = |preset| {
-        format!("[bearing]\npreset = \"{preset}\"\n[operation]\nspeed_rpm = 1\nload_n = [1, 0]\n")
-    };
-    for (name, meant) in [
-        ("62O5", "6205"),
-        ("nu 2o6 ECP", "NU206"),
-        ("NN3OO7", "NN3007"),
-    ] {
+    let scenario = |preset| format!("[bearing]\npreset = \"{preset}\"\n[operation]\nspeed_rpm = 1\nload_n = [1, 0]\n");
+    for (name, meant) in [("62O5", "6205"), ("nu 2o6 ECP", "NU206"), ("NN3OO7", "NN3007")] {
         let hint = format!("did you mean {meant}?");
-        brinell(here, &["bearing", "show", name])
-            .exits(2)
-            .complains(&[&hint]);
+        brinell(here, &["bearing", "show", name]).exits(2).complains(&[&hint]);
         fs::write(here.join("s.toml"), scenario(name)).unwrap();
         let hint = format!("did you mean \"{meant}\"?");
-        brinell(here, &["check", "s.toml"])
-            .exits(2)
-            .complains(&[&hint]);
+        brinell(here, &["check", "s.toml"]).exits(2).complains(&[&hint]);
     }
 }
 
@@ -150,20 +119,9 @@ fn prop_quantities_with_units_are_the_numbers() {
     let check = |args: &[&str]| brinell(here, &[&["check"], args].concat()).exits(0).out;
     let plain = check(&["s.toml"]);
     assert_eq!(check(&["u.toml"]), plain);
-    let set = [
-        "s.toml",
-        "--set",
-        "operation.speed_rpm=25 Hz",
-        "--set",
-        "operation.load_n=[\"300 N\", \"0 N\"]",
-    ];
+    let set = ["s.toml", "--set", "operation.speed_rpm=25 Hz", "--set", "operation.load_n=[\"300 N\", \"0 N\"]"];
     assert_eq!(check(&set), plain);
-    brinell(
-        here,
-        &["check", "s.toml", "--set", "operation.speed_rpm=2 kN"],
-    )
-    .exits(2)
-    .complains(&[
+    brinell(here, &["check", "s.toml", "--set", "operation.speed_rpm=2 kN"]).exits(2).complains(&[
         "operation.speed_rpm",
         "does not convert to r/min",
         "rpm, Hz",
@@ -179,21 +137,11 @@ fn prop_json_is_what_the_files_hold() {
     assert_eq!(told, json(&here.join("o/summary.json")));
     fs::copy(here.join("s.toml"), here.join("t.toml")).unwrap();
     let variant = "deep:defects.0.depth_um=40";
-    let compare = [
-        "compare",
-        "s.toml",
-        "--variant",
-        variant,
-        "-o",
-        "c",
-        "--json",
-    ];
+    let compare = ["compare", "s.toml", "--variant", variant, "-o", "c", "--json"];
     let told = parsed(&brinell(here, &compare).exits(0).keeps_quiet().out);
     assert_eq!(told, json(&here.join("c/compare.json")));
     let both = ["run", "s.toml", "t.toml", "--json"];
-    brinell(here, &both)
-        .exits(2)
-        .complains(&["of one scenario; here are 2"]);
+    brinell(here, &both).exits(2).complains(&["of one scenario; here are 2"]);
     let preview = ["defect", "preview", "s.toml", "-o", "p", "--json"];
     let told = parsed(&brinell(here, &preview).exits(0).keeps_quiet().out);
     assert_eq!(told, json(&here.join("p/preview.json")));
@@ -215,10 +163,7 @@ fn prop_a_sweep_as_json_has_the_rows_of_its_table() {
         head.position(|n| n == name).unwrap()
     };
     let rms = column("sensor_ax.rms");
-    assert_eq!(
-        rows.as_array().unwrap().len(),
-        lines.by_ref().skip(1).count()
-    );
+    assert_eq!(rows.as_array().unwrap().len(), lines.by_ref().skip(1).count());
     for (row, line) in rows.as_array().unwrap().iter().zip(text.lines().skip(1)) {
         let printed: f64 = line.split(',').nth(rms).unwrap().parse().unwrap();
         assert_eq!(row["sensor_ax.rms"], printed);
@@ -239,12 +184,7 @@ fn prop_a_fit_as_json_has_the_numbers_of_the_text() {
     assert_eq!(segments.len(), 6);
     let widths = text.lines().filter_map(|l| l.strip_prefix("  width "));
     for (segment, line) in segments.iter().zip(widths) {
-        for (c, printed) in segment["width_mm"]
-            .as_array()
-            .unwrap()
-            .iter()
-            .zip(line.split(' '))
-        {
+        for (c, printed) in segment["width_mm"].as_array().unwrap().iter().zip(line.split(' ')) {
             assert_eq!(format!("{:.6e}", c.as_f64().unwrap()), printed);
         }
     }
@@ -258,28 +198,16 @@ fn prop_bearings_as_json_have_every_number_with_its_source() {
     let list = list.as_array().unwrap();
     let catalogued = list.iter().filter(|b| b["kind"] == "catalogue").count();
     assert!(catalogued >= 40, "{catalogued}");
-    let rated = |b: &&Value| {
-        b["dynamic_load_rating_n"].is_number() && b["static_load_rating_n"].is_number()
-    };
+    let rated = |b: &&Value| b["dynamic_load_rating_n"].is_number() && b["static_load_rating_n"].is_number();
     assert!(list.iter().filter(rated).count() >= 40);
-    let shown = parsed(
-        &brinell(here, &["bearing", "show", "N 206", "--json"])
-            .exits(0)
-            .out,
-    );
+    let shown = parsed(&brinell(here, &["bearing", "show", "N 206", "--json"]).exits(0).out);
     // SKF General catalogue: N 206 ECP has E = 55.5 mm, C = 44 kN, C0 = 36.5 kN.
     let outer = &shown["numbers"]["bearing.outer_raceway_diameter_mm"];
-    assert_eq!(
-        (&outer["value"], &outer["estimated"]),
-        (&55.5.into(), &false.into())
-    );
+    assert_eq!((&outer["value"], &outer["estimated"]), (&55.5.into(), &false.into()));
     assert!(outer["source"].as_str().unwrap().contains("E of N 206 ECP"));
     assert_eq!(shown["dynamic_load_rating_n"], 44000.0);
     assert_eq!(shown["static_load_rating_n"], 36500.0);
-    assert_eq!(
-        shown["diametral_clearance_um"]["C3"],
-        serde_json::json!([35.0, 60.0])
-    );
+    assert_eq!(shown["diametral_clearance_um"]["C3"], serde_json::json!([35.0, 60.0]));
     let counted = &shown["numbers"]["bearing.rollers_per_row"];
     assert_eq!(counted["estimated"], true, "{counted}");
 }

@@ -43,25 +43,11 @@ const CHANNELS: [&str; 20] = [
 fn regress_csv_has_the_documented_channels_and_number_of_rows() {
     let folder = folder_with(SHORT);
     let args = ["run", "s.toml", "-o", "o", "--signals", "csv"];
-    let call = brinell(folder.path(), &args)
-        .exits(0)
-        .warns_of_the_short_run_alone();
+    let call = brinell(folder.path(), &args).exits(0).warns_of_the_short_run_alone();
     let output = folder.path().join("o");
-    assert_eq!(
-        files(&output),
-        [
-            "report.html",
-            "scenario.toml",
-            "signals.csv",
-            "summary.json"
-        ]
-    );
+    assert_eq!(files(&output), ["report.html", "scenario.toml", "signals.csv", "summary.json"]);
     for name in files(&output) {
-        assert!(
-            call.out.contains(&format!("  wrote o/{name}\n")),
-            "{}",
-            call.out
-        );
+        assert!(call.out.contains(&format!("  wrote o/{name}\n")), "{}", call.out);
     }
     let (names, rows) = csv(&output.join("signals.csv"));
     assert_eq!(names, CHANNELS);
@@ -87,16 +73,7 @@ fn prop_the_same_scenario_gives_the_same_bytes_and_its_written_form_the_same_sig
     let folder = folder_with(SHORT);
     let here = folder.path();
     let run = |scenario: &str, output: &str| {
-        let args = [
-            "run",
-            scenario,
-            "-o",
-            output,
-            "--signals",
-            "csv,parquet",
-            "--plots",
-            "svg,png",
-        ];
+        let args = ["run", scenario, "-o", output, "--signals", "csv,parquet", "--plots", "svg,png"];
         brinell(here, &args).exits(0).warns_of_the_short_run_alone();
     };
     run("s.toml", "a");
@@ -112,24 +89,15 @@ fn prop_the_same_scenario_gives_the_same_bytes_and_its_written_form_the_same_sig
     // What was assumed is stated in the written form, so its comments differ; its values do not.
     let values = |run: &str| -> Vec<String> {
         let text = text(run, "scenario.toml");
-        let lines = text
-            .lines()
-            .map(|line| line.split("  #").next().unwrap_or(""));
+        let lines = text.lines().map(|line| line.split("  #").next().unwrap_or(""));
         lines.map(|line| line.trim_end().to_owned()).collect()
     };
     assert_eq!(values("a"), values("c"));
     let plots: Vec<_> = names.iter().filter(|n| n.starts_with("plots/")).collect();
-    assert!(
-        plots.len() >= 8 && plots.len().is_multiple_of(2),
-        "{plots:?}"
-    );
+    assert!(plots.len() >= 8 && plots.len().is_multiple_of(2), "{plots:?}");
     for name in plots {
         let bytes = fs::read(here.join("a").join(name)).unwrap();
-        let head: &[u8] = if name.ends_with(".svg") {
-            b"<svg"
-        } else {
-            b"\x89PNG\r\n\x1a\n"
-        };
+        let head: &[u8] = if name.ends_with(".svg") { b"<svg" } else { b"\x89PNG\r\n\x1a\n" };
         assert!(bytes.starts_with(head), "{name}");
     }
 }
@@ -141,11 +109,7 @@ fn regress_summary_has_the_documented_members() {
     let here = folder.path();
     let args = typed("run s.toml -o o --signals none --no-report");
     let call = brinell(here, &args).exits(0).keeps_quiet();
-    assert!(
-        call.out.contains("in the envelope; pure rolling 131.05 Hz"),
-        "{}",
-        call.out
-    );
+    assert!(call.out.contains("in the envelope; pure rolling 131.05 Hz"), "{}", call.out);
     assert_eq!(files(&here.join("o")), ["scenario.toml", "summary.json"]);
     let s = json(&here.join("o/summary.json"));
     assert_eq!(s["name"], "short");
@@ -176,26 +140,10 @@ fn regress_summary_has_the_documented_members() {
         }
     }
     assert!(s["slip"]["rows"][0]["cage"].is_number());
-    assert!(
-        s["load_zone"]["static"]["largest_contact_force_n"]
-            .as_f64()
-            .unwrap()
-            > 0.0
-    );
+    assert!(s["load_zone"]["static"]["largest_contact_force_n"].as_f64().unwrap() > 0.0);
     assert!(s["solver"]["steps"].as_u64().unwrap() > 0);
-    assert!(
-        s["energy_audit_j"]["residual_over_turnover"]
-            .as_f64()
-            .unwrap()
-            .abs()
-            < 0.02
-    );
-    assert!(
-        s["momentum_audit"]["largest_relative_imbalance"]
-            .as_f64()
-            .unwrap()
-            < 1e-12
-    );
+    assert!(s["energy_audit_j"]["residual_over_turnover"].as_f64().unwrap().abs() < 0.02);
+    assert!(s["momentum_audit"]["largest_relative_imbalance"].as_f64().unwrap() < 1e-12);
     // Every value that `check` lists as assumed, and no other.
     let check = brinell(here, &["check", "s.toml", "--assumptions"]).exits(0);
     let listed: Vec<String> = check
@@ -228,9 +176,7 @@ fn regress_report_stands_alone() {
     brinell(folder.path(), &args).exits(0);
     let html = fs::read_to_string(folder.path().join("o/report.html")).unwrap();
     assert!(!html.contains("<script>x"));
-    for outside in [
-        "http:", "https:", "src=", "@import", "<link", "<iframe", "file:",
-    ] {
+    for outside in ["http:", "https:", "src=", "@import", "<link", "<iframe", "file:"] {
         assert!(!html.contains(outside), "{outside}");
     }
     // Fonts and clips are in the page.
@@ -245,9 +191,7 @@ fn regress_report_stands_alone() {
             // A picture's shades, inside the page.
             continue;
         }
-        let id = target
-            .strip_prefix('#')
-            .unwrap_or_else(|| panic!("{target}"));
+        let id = target.strip_prefix('#').unwrap_or_else(|| panic!("{target}"));
         assert!(html.contains(&format!("id=\"{id}\"")), "{id}");
     }
 }
@@ -256,40 +200,20 @@ fn regress_report_stands_alone() {
 fn regress_pictures_for_print_come_with_their_numbers() {
     let folder = folder_with(SHORT);
     let here = folder.path();
-    let args = [
-        "run",
-        "s.toml",
-        "-q",
-        "--no-report",
-        "-o",
-        "o",
-        "--plots",
-        "pdf,svg",
-        "--width",
-        "9cm",
-    ];
+    let args = ["run", "s.toml", "-q", "--no-report", "-o", "o", "--plots", "pdf,svg", "--width", "9cm"];
     brinell(here, &args).exits(0).keeps_quiet();
     let names = files(&here.join("o"));
-    for name in [
-        "plots/waveform.pdf",
-        "plots/waveform.svg",
-        "plots/headline.pdf",
-    ] {
+    for name in ["plots/waveform.pdf", "plots/waveform.svg", "plots/headline.pdf"] {
         assert!(names.contains(&name.to_owned()), "{names:?}");
     }
     let svg = fs::read_to_string(here.join("o/plots/waveform.svg")).unwrap();
     assert!(svg.contains(" width=\"90mm\""));
     let curve = fs::read_to_string(here.join("o/curves/waveform.csv")).unwrap();
     let head = curve.lines().next().unwrap();
-    assert!(
-        head.starts_with("Time (ms),Outer ring acceleration; ") && head.ends_with(" (m/s^2)"),
-        "{head}"
-    );
+    assert!(head.starts_with("Time (ms),Outer ring acceleration; ") && head.ends_with(" (m/s^2)"), "{head}");
     assert!(curve.lines().count() > 100);
     let bad = ["run", "s.toml", "--plots", "pdf", "--width", "250mm"];
-    brinell(here, &bad)
-        .exits(2)
-        .complains(&["250mm", "--width", "80 to 200 mm"]);
+    brinell(here, &bad).exits(2).complains(&["250mm", "--width", "80 to 200 mm"]);
 }
 
 #[test]
@@ -300,15 +224,9 @@ fn regress_signal_formats_are_what_was_requested() {
         (&[][..], &["signals.parquet"][..]),
         (&["--signals", "none"], &[]),
         (&["--signals", "csv"], &["signals.csv"]),
-        (
-            &["--signals", "csv,parquet"],
-            &["signals.csv", "signals.parquet"],
-        ),
+        (&["--signals", "csv,parquet"], &["signals.csv", "signals.parquet"]),
         (&["--signals", "csv,csv,none"], &["signals.csv"]),
-        (
-            &["--signals", "mat,npz,uff58,wav"],
-            &["signals.mat", "signals.npz", "signals.uff", "signals.wav"],
-        ),
+        (&["--signals", "mat,npz,uff58,wav"], &["signals.mat", "signals.npz", "signals.uff", "signals.wav"]),
     ] {
         let output = format!("o{}", formats.join(""));
         let args = [&["run", "s.toml", "--no-report", "-o", &output], formats].concat();
@@ -323,28 +241,15 @@ fn regress_signal_formats_are_what_was_requested() {
 fn regress_quiet_is_silent_and_the_default_folder_bears_the_name() {
     let folder = tempdir().unwrap();
     let here = folder.path();
-    let text = SHORT
-        .replace("\"short\"", "\"../a b/ü\"")
-        .replace("0.02", "0.002")
-        .replace("25600.0", "1000.0");
+    let text = SHORT.replace("\"short\"", "\"../a b/ü\"").replace("0.02", "0.002").replace("25600.0", "1000.0");
     // A sample rate this low is warned about, unless quiet.
     let call = brinell_reading(here, &["run", "-", "-q", "--no-report"], text.as_bytes()).exits(0);
     assert_eq!((call.out.as_str(), call.err.as_str()), ("", ""));
-    assert_eq!(
-        files(&here.join("out")),
-        [
-            "_a_b_ü/scenario.toml",
-            "_a_b_ü/signals.parquet",
-            "_a_b_ü/summary.json"
-        ]
-    );
+    assert_eq!(files(&here.join("out")), ["_a_b_ü/scenario.toml", "_a_b_ü/signals.parquet", "_a_b_ü/summary.json"]);
     let args = ["run", "-", "--no-report", "--signals", "none"];
     brinell_reading(here, &args, text.as_bytes())
         .exits(0)
-        .complains(&[
-            "warning, line 18: simulation.sample_rate_hz = 1000.0",
-            "too low",
-        ]);
+        .complains(&["warning, line 18: simulation.sample_rate_hz = 1000.0", "too low"]);
 }
 
 /// Names of the recorded columns, and what was said on standard error.
@@ -373,27 +278,10 @@ fn regress_record_picks_channels_by_wildcards() {
     let folder = folder_with(SHORT);
     let here = folder.path();
     let (names, err) = columns(here, r#"["outer_a*", "contact3_*", "roller1_03_*"]"#);
-    assert!(
-        names.starts_with(&["t", "outer_ax", "outer_ay"].map(String::from)),
-        "{names:?}"
-    );
-    for channel in [
-        "r",
-        "x",
-        "y",
-        "ax",
-        "ay",
-        "orbit",
-        "orbit_speed",
-        "spin",
-        "spin_speed",
-        "slip_inner",
-        "slip_outer",
-    ] {
-        assert!(
-            names.contains(&format!("roller1_03_{channel}")),
-            "{channel} in {names:?}"
-        );
+    assert!(names.starts_with(&["t", "outer_ax", "outer_ay"].map(String::from)), "{names:?}");
+    for channel in ["r", "x", "y", "ax", "ay", "orbit", "orbit_speed", "spin", "spin_speed", "slip_inner", "slip_outer"]
+    {
+        assert!(names.contains(&format!("roller1_03_{channel}")), "{channel} in {names:?}");
     }
     assert_eq!(names.len(), 3 + 11, "{names:?}");
     // There is no third row.
@@ -419,16 +307,10 @@ fn regress_record_picks_channels_by_wildcards() {
 #[test]
 fn regress_a_closed_pipe_is_no_failure() {
     let folder = folder_with(&SHORT.replace("speed_rpm", "sped_rpm"));
-    for (args, code) in [
-        (&["schema"][..], 0),
-        (&["bearing", "list"], 0),
-        (&["check", "s.toml", "--set", "operation.speed_rpm=9"], 2),
-    ] {
-        let mut child = command(folder.path(), args)
-            .stdout(Stdio::piped())
-            .stderr(Stdio::piped())
-            .spawn()
-            .unwrap();
+    for (args, code) in
+        [(&["schema"][..], 0), (&["bearing", "list"], 0), (&["check", "s.toml", "--set", "operation.speed_rpm=9"], 2)]
+    {
+        let mut child = command(folder.path(), args).stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
         drop((child.stdout.take(), child.stderr.take()));
         assert_eq!(child.wait().unwrap().code(), Some(code), "{args:?}");
     }

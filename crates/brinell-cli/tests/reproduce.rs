@@ -14,9 +14,7 @@ fn with<'a>(more: &[&'a str]) -> Vec<&'a str> {
 /// Every file but the journal, whose lines come in the order of completion.
 fn results(folder: &Path) -> Vec<(String, Vec<u8>)> {
     let names = files(folder).into_iter().filter(|n| n != "journal.jsonl");
-    names
-        .map(|name| (name.clone(), fs::read(folder.join(name)).unwrap()))
-        .collect()
+    names.map(|name| (name.clone(), fs::read(folder.join(name)).unwrap())).collect()
 }
 
 #[test]
@@ -25,25 +23,13 @@ fn prop_one_figure_whole_cut_and_on_another_number_of_threads() {
     let run = |name: &str, jobs: &str| {
         brinell(
             folder.path(),
-            &with(&[
-                "-o",
-                name,
-                "--jobs",
-                jobs,
-                "--plots",
-                "svg",
-                "--book",
-                &format!("{name}/book"),
-            ]),
+            &with(&["-o", name, "--jobs", jobs, "--plots", "svg", "--book", &format!("{name}/book")]),
         )
         .exits(0)
     };
     run("a", "1");
     run("b", "2");
-    let (a, b) = (
-        results(&folder.path().join("a")),
-        results(&folder.path().join("b")),
-    );
+    let (a, b) = (results(&folder.path().join("a")), results(&folder.path().join("b")));
     let names: Vec<&str> = a.iter().map(|f| f.0.as_str()).collect();
     for name in [
         "claims.csv",
@@ -72,16 +58,11 @@ fn prop_one_figure_whole_cut_and_on_another_number_of_threads() {
     let all = claims["claims"].as_array().unwrap();
     let length = all.iter().find(|c| c["id"] == "effective-length").unwrap();
     assert_eq!(length["verdict"], "holds");
-    assert!(
-        all.iter().all(|c| c["id"] != "load-cage"),
-        "belongs to another figure"
-    );
+    assert!(all.iter().all(|c| c["id"] != "load-cage"), "belongs to another figure");
     let page = fs::read_to_string(folder.path().join("a/reproduce.html")).unwrap();
     // Values travel in base64, which may spell anything.
     let parts = page.split("<script");
-    let seen: String = parts
-        .filter_map(|part| part.rsplit("</script>").next())
-        .collect();
+    let seen: String = parts.filter_map(|part| part.rsplit("</script>").next()).collect();
     assert!(seen.contains("Effective contact length") && !seen.contains("NaN"));
     let book = fs::read_to_string(folder.path().join("a/book/reproduction.md")).unwrap();
     assert!(book.contains("](book/fig09-length.svg)"));
@@ -100,19 +81,11 @@ fn prop_the_start_up_is_read_and_said_with_fig_20() {
     // Three statements about the steady part, three about the record from t = 0; every verdict says what it rests on.
     let statements = rms["statements"].as_array().unwrap();
     assert_eq!(statements.len(), 6);
-    assert!(
-        statements.iter().all(|s| s["verdict"] != "not computed"),
-        "{statements:?}"
-    );
+    assert!(statements.iter().all(|s| s["verdict"] != "not computed"), "{statements:?}");
     let words = rms["in_words"].as_str().unwrap();
     assert!(words.ends_with("under our reading of Ref. [43]"), "{words}");
     let book = fs::read_to_string(folder.path().join("a/book/reproduction.md")).unwrap();
-    for part in [
-        "sufficient, not proven",
-        "](book/fig20-start.svg)",
-        "(paper 30.414)",
-        "no damage, from t = 0",
-    ] {
+    for part in ["sufficient, not proven", "](book/fig20-start.svg)", "(paper 30.414)", "no damage, from t = 0"] {
         let picture = fs::read_to_string(folder.path().join("a/book/fig20-start.svg")).unwrap();
         assert!(book.contains(part) || picture.contains(part), "{part}");
     }
@@ -122,16 +95,10 @@ fn prop_the_start_up_is_read_and_said_with_fig_20() {
 fn regress_what_is_refused() {
     let folder = tempdir().unwrap();
     for (args, part) in [
-        (
-            vec!["reproduce", "--figure", "7"],
-            "allowed: 8 to 20, the figures of section 4",
-        ),
+        (vec!["reproduce", "--figure", "7"], "allowed: 8 to 20, the figures of section 4"),
         (vec!["reproduce", "--figure", "x"], "allowed: 8 to 20"),
         (vec!["reproduce", "--turns", "2"], "3..=100000"),
-        (
-            vec!["reproduce", "--figure", "9", "--sensitivity"],
-            "cannot be used with",
-        ),
+        (vec!["reproduce", "--figure", "9", "--sensitivity"], "cannot be used with"),
     ] {
         let call = brinell(folder.path(), &args).exits(2);
         assert!(call.err.contains(part), "{args:?}: {}", call.err);
@@ -139,15 +106,7 @@ fn regress_what_is_refused() {
     assert!(files(folder.path()).is_empty());
     // Another campaign's folder.
     fs::create_dir(folder.path().join("s")).unwrap();
-    fs::write(
-        folder.path().join("s/journal.jsonl"),
-        "{\"campaign\":\"sweep\"}\n",
-    )
-    .unwrap();
+    fs::write(folder.path().join("s/journal.jsonl"), "{\"campaign\":\"sweep\"}\n").unwrap();
     let call = brinell(folder.path(), &with(&["-o", "s"])).exits(2);
-    assert!(
-        call.err.contains("holds the journal of something else"),
-        "{}",
-        call.err
-    );
+    assert!(call.err.contains("holds the journal of something else"), "{}", call.err);
 }

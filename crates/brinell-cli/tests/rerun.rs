@@ -28,16 +28,11 @@ fn text(folder: &Path, name: &str) -> String {
 fn regress_the_same_scenario_again_leaves_no_file_of_the_run_before() {
     let folder = folder();
     let here = folder.path();
-    brinell(
-        here,
-        &typed("run a.toml -o o --quiet --signals csv --plots svg"),
-    )
-    .exits(0);
+    brinell(here, &typed("run a.toml -o o --quiet --signals csv --plots svg")).exits(0);
     let output = here.join("o");
     let first = files(&output);
     assert!(first.iter().any(|n| n.starts_with("plots/")) && first.contains(&"report.html".into()));
-    let listed: Vec<String> =
-        serde_json::from_value(json(&output.join("summary.json"))["files"].clone()).unwrap();
+    let listed: Vec<String> = serde_json::from_value(json(&output.join("summary.json"))["files"].clone()).unwrap();
     let mut sorted = listed.clone();
     sorted.sort();
     assert_eq!(sorted, first, "the summary lists what is there");
@@ -60,26 +55,14 @@ fn regress_the_same_scenario_again_leaves_no_file_of_the_run_before() {
     fs::remove_file(here.join("o/plots/own.svg")).unwrap();
     fs::copy(output.join("scenario.toml"), here.join("written.toml")).unwrap();
     brinell(here, &run("written.toml", &["--signals", "none"])).exits(0);
-    assert_eq!(
-        files(&output),
-        [
-            "my-signals.csv",
-            "notes.txt",
-            "scenario.toml",
-            "summary.json"
-        ]
-    );
+    assert_eq!(files(&output), ["my-signals.csv", "notes.txt", "scenario.toml", "summary.json"]);
 }
 
 #[test]
 fn regress_results_of_another_scenario_are_refused_or_replaced_as_a_whole() {
     let folder = folder();
     let here = folder.path();
-    brinell(
-        here,
-        &run("a.toml", &["--signals", "csv", "--plots", "svg"]),
-    )
-    .exits(0);
+    brinell(here, &run("a.toml", &["--signals", "csv", "--plots", "svg"])).exits(0);
     let before = crate::common::results(&here.join("o"));
     brinell(here, &run("b.toml", &[])).exits(2).complains(&[
         "o holds results of another scenario",
@@ -89,22 +72,9 @@ fn regress_results_of_another_scenario_are_refused_or_replaced_as_a_whole() {
     ]);
     // An override makes another scenario as well.
     brinell(here, &run("a.toml", &["--set", "operation.speed_rpm=900"])).exits(2);
-    assert!(
-        crate::common::results(&here.join("o")) == before,
-        "a refused run changes nothing"
-    );
-    brinell(here, &run("b.toml", &["--overwrite"]))
-        .exits(0)
-        .keeps_quiet();
-    assert_eq!(
-        files(&here.join("o")),
-        [
-            "scenario.toml",
-            "signals.parquet",
-            "spectra.parquet",
-            "summary.json"
-        ]
-    );
+    assert!(crate::common::results(&here.join("o")) == before, "a refused run changes nothing");
+    brinell(here, &run("b.toml", &["--overwrite"])).exits(0).keeps_quiet();
+    assert_eq!(files(&here.join("o")), ["scenario.toml", "signals.parquet", "spectra.parquet", "summary.json"]);
     assert!(text(here, "o/scenario.toml").contains("depth_um = 5.0"));
 }
 
@@ -115,9 +85,7 @@ fn regress_files_that_no_summary_lists_are_neither_removed_nor_taken_for_results
     fs::create_dir(here.join("o")).unwrap();
     fs::write(here.join("o/signals.csv"), "measured").unwrap();
     for flags in [&[][..], &["--overwrite"]] {
-        brinell(here, &run("a.toml", flags))
-            .exits(2)
-            .complains(&["signals.csv"]);
+        brinell(here, &run("a.toml", flags)).exits(2).complains(&["signals.csv"]);
         assert_eq!(files(&here.join("o")), ["signals.csv"]);
         assert_eq!(text(here, "o/signals.csv"), "measured");
     }
@@ -140,13 +108,7 @@ fn regress_files_that_no_summary_lists_are_neither_removed_nor_taken_for_results
     brinell(here, &run("a.toml", &[])).exits(0);
     assert_eq!(
         files(&here.join("o")),
-        [
-            "scenario.toml",
-            "signals.parquet",
-            "spectra.parquet",
-            "summary.json",
-            "thesis.txt"
-        ]
+        ["scenario.toml", "signals.parquet", "spectra.parquet", "summary.json", "thesis.txt"]
     );
     assert!(here.join("a.toml").exists() && here.join("b.toml").exists());
     // As written before summaries listed files, and before there were spectra.
@@ -154,10 +116,7 @@ fn regress_files_that_no_summary_lists_are_neither_removed_nor_taken_for_results
     summary.as_object_mut().unwrap().remove("files");
     fs::write(here.join("o/summary.json"), summary.to_string()).unwrap();
     brinell(here, &run("a.toml", &["--signals", "none"])).exits(0);
-    assert_eq!(
-        files(&here.join("o")),
-        ["scenario.toml", "summary.json", "thesis.txt"]
-    );
+    assert_eq!(files(&here.join("o")), ["scenario.toml", "summary.json", "thesis.txt"]);
 }
 
 #[test]
@@ -166,16 +125,12 @@ fn regress_a_run_beside_its_own_scenario_keeps_it() {
     let here = folder.path();
     fs::write(here.join("scenario.toml"), SHORT).unwrap();
     let args = ["run", "scenario.toml", "-o", ".", "--quiet", "--no-report"];
-    brinell(here, &args)
-        .exits(2)
-        .complains(&["scenario.toml would be written, and is an input"]);
+    brinell(here, &args).exits(2).complains(&["scenario.toml would be written, and is an input"]);
     assert_eq!(files(here), ["scenario.toml"]);
     // Nor is another scenario beside it written over.
     fs::write(here.join("b.toml"), SHORT.replace("20.0", "5.0")).unwrap();
     let kept = text(here, "scenario.toml");
-    brinell(here, &["run", "b.toml", "-o", ".", "--quiet"])
-        .exits(2)
-        .complains(&["scenario.toml", "--overwrite"]);
+    brinell(here, &["run", "b.toml", "-o", ".", "--quiet"]).exits(2).complains(&["scenario.toml", "--overwrite"]);
     assert_eq!(text(here, "scenario.toml"), kept);
 }
 
@@ -207,33 +162,19 @@ fn regress_one_foreign_folder_stops_all_of_several_runs() {
     let folder = folder();
     let here = folder.path();
     let both = typed("run a.toml b.toml -o o --quiet --no-report --signals none");
-    brinell(
-        here,
-        &["run", "a.toml", "-o", "o/b", "--quiet", "--no-report"],
-    )
-    .exits(0);
-    brinell(here, &both).exits(2).complains(&[
-        "b.toml: o/b holds results of another scenario",
-        "nothing was run",
-    ]);
+    brinell(here, &["run", "a.toml", "-o", "o/b", "--quiet", "--no-report"]).exits(0);
+    brinell(here, &both).exits(2).complains(&["b.toml: o/b holds results of another scenario", "nothing was run"]);
     assert!(!here.join("o/a").exists());
     brinell(here, &[&both[..], &["--overwrite"]].concat()).exits(0);
     for stem in ["a", "b"] {
-        assert_eq!(
-            files(&here.join("o").join(stem)),
-            ["scenario.toml", "summary.json"]
-        );
+        assert_eq!(files(&here.join("o").join(stem)), ["scenario.toml", "summary.json"]);
     }
 }
 
 /// The keys and reasons that `check --assumptions` prints.
 fn assumptions(here: &Path, scenario: &str) -> Vec<String> {
     let call = brinell(here, &["check", scenario, "--assumptions"]).exits(0);
-    let list = call
-        .out
-        .split("Assumed, because it was not given:\n")
-        .nth(1)
-        .unwrap();
+    let list = call.out.split("Assumed, because it was not given:\n").nth(1).unwrap();
     list.lines().map(str::to_owned).collect()
 }
 
@@ -246,28 +187,14 @@ fn regress_written_scenarios_keep_what_was_assumed() {
     assert!(source.len() > 10, "{source:?}");
     assert_eq!(assumptions(here, "o/scenario.toml"), source);
     let first = json(&here.join("o/summary.json"));
-    brinell(
-        here,
-        &typed("run o/scenario.toml -o again --quiet --no-report --signals none"),
-    )
-    .exits(0);
+    brinell(here, &typed("run o/scenario.toml -o again --quiet --no-report --signals none")).exits(0);
     let again = json(&here.join("again/summary.json"));
     assert_eq!(first["assumed"].as_array().unwrap().len(), source.len());
     assert_eq!(again["assumed"], first["assumed"]);
     // Third hand, and of a comparison.
-    assert_eq!(
-        text(here, "again/scenario.toml"),
-        text(here, "o/scenario.toml")
-    );
-    brinell(
-        here,
-        &["compare", "a.toml", "o/scenario.toml", "-o", "c", "--quiet"],
-    )
-    .exits(0);
-    let written: Vec<String> = files(&here.join("c"))
-        .into_iter()
-        .filter(|n| n.ends_with(".toml"))
-        .collect();
+    assert_eq!(text(here, "again/scenario.toml"), text(here, "o/scenario.toml"));
+    brinell(here, &["compare", "a.toml", "o/scenario.toml", "-o", "c", "--quiet"]).exits(0);
+    let written: Vec<String> = files(&here.join("c")).into_iter().filter(|n| n.ends_with(".toml")).collect();
     assert_eq!(written.len(), 2, "{written:?}");
     for name in written {
         assert_eq!(assumptions(&here.join("c"), &name), source, "{name}");
@@ -284,29 +211,15 @@ fn prop_the_kernel_is_recorded_and_an_unknown_one_refused() {
         command.output().unwrap().into()
     };
     for kernel in ["plain", "portable"] {
-        let args = [
-            "run",
-            "a.toml",
-            "-o",
-            kernel,
-            "--quiet",
-            "--no-report",
-            "--signals",
-            "csv",
-        ];
+        let args = ["run", "a.toml", "-o", kernel, "--quiet", "--no-report", "--signals", "csv"];
         call(kernel, &args).exits(0);
         let summary = json(&here.join(kernel).join("summary.json"));
         assert_eq!(summary["solver"]["kernel"], kernel);
     }
     // It reaches the run: libm rounds otherwise than the lanes' functions.
-    assert_ne!(
-        text(here, "plain/signals.csv"),
-        text(here, "portable/signals.csv")
-    );
+    assert_ne!(text(here, "plain/signals.csv"), text(here, "portable/signals.csv"));
     for args in [&["run", "a.toml", "-o", "bad"][..], &["check", "a.toml"]] {
-        call("sse9", args)
-            .exits(2)
-            .complains(&["BRINELL_KERNEL = \"sse9\"", "plain, portable"]);
+        call("sse9", args).exits(2).complains(&["BRINELL_KERNEL = \"sse9\"", "plain, portable"]);
     }
     assert!(!here.join("bad").exists());
 }

@@ -22,59 +22,36 @@ fn subcommands() -> Vec<String> {
 #[test]
 fn prop_completions_know_every_command_in_every_shell() {
     for shell in ["bash", "zsh", "fish", "powershell"] {
-        let script = brinell(Path::new("."), &["completions", shell])
-            .exits(0)
-            .keeps_quiet()
-            .out;
+        let script = brinell(Path::new("."), &["completions", shell]).exits(0).keeps_quiet().out;
         for name in subcommands() {
             assert!(script.contains(&name), "{shell}: no {name}");
         }
         assert!(script.contains("line-loads"), "{shell}: no options");
     }
-    brinell(Path::new("."), &["completions", "tcsh"])
-        .exits(2)
-        .complains(&["tcsh", "bash", "powershell"]);
+    brinell(Path::new("."), &["completions", "tcsh"]).exits(2).complains(&["tcsh", "bash", "powershell"]);
 }
 
 #[test]
 fn prop_every_command_has_a_manual_page() {
     let folder = tempdir().unwrap();
-    brinell(folder.path(), &["man", "man1"])
-        .exits(0)
-        .keeps_quiet()
-        .says(&["pages into man1"]);
+    brinell(folder.path(), &["man", "man1"]).exits(0).keeps_quiet().says(&["pages into man1"]);
     let pages = files(&folder.path().join("man1"));
     for name in subcommands() {
         assert!(pages.contains(&format!("brinell-{name}.1")), "{pages:?}");
     }
-    for name in [
-        "brinell.1",
-        "brinell-bearing-show.1",
-        "brinell-defect-preview.1",
-    ] {
-        assert!(
-            pages.iter().any(|page| page == name),
-            "no {name} in {pages:?}"
-        );
+    for name in ["brinell.1", "brinell-bearing-show.1", "brinell-defect-preview.1"] {
+        assert!(pages.iter().any(|page| page == name), "no {name} in {pages:?}");
     }
     let run = fs::read_to_string(folder.path().join("man1/brinell-run.1")).unwrap();
-    assert!(
-        run.contains(".TH brinell-run 1") && run.contains("overwrite"),
-        "{run}"
-    );
+    assert!(run.contains(".TH brinell-run 1") && run.contains("overwrite"), "{run}");
     // Where no folder can be.
     fs::write(folder.path().join("file"), "").unwrap();
-    brinell(folder.path(), &["man", "file"])
-        .exits(2)
-        .complains(&["file"]);
+    brinell(folder.path(), &["man", "file"]).exits(2).complains(&["file"]);
 }
 
 #[test]
 fn regress_version_tells_the_commit_and_the_kernel() {
-    let told = command(Path::new("."), &["--version"])
-        .env("BRINELL_KERNEL", "portable")
-        .output()
-        .unwrap();
+    let told = command(Path::new("."), &["--version"]).env("BRINELL_KERNEL", "portable").output().unwrap();
     let told = String::from_utf8(told.stdout).unwrap();
     let lines: Vec<&str> = told.lines().collect();
     assert_eq!(lines[0], concat!("brinell ", env!("CARGO_PKG_VERSION")));
@@ -109,11 +86,7 @@ fn prop_pages_are_handed_to_the_systems_opener() {
     fs::write(here.join("s.toml"), SHORT).unwrap();
     let bin = opener(here);
     let call = |args: &[&str], path: &Path| -> crate::common::Call {
-        command(here, args)
-            .env("PATH", path)
-            .output()
-            .unwrap()
-            .into()
+        command(here, args).env("PATH", path).output().unwrap().into()
     };
     call(&["run", "s.toml", "-o", "o", "-q", "--open"], &bin).exits(0);
     let note = here.join("opened");
@@ -130,19 +103,14 @@ fn prop_pages_are_handed_to_the_systems_opener() {
     };
     assert_eq!(noted(), page.display().to_string());
     fs::remove_file(&note).unwrap();
-    call(&["open", "o"], &bin)
-        .exits(0)
-        .says(&["opened o/report.html"]);
+    call(&["open", "o"], &bin).exits(0).says(&["opened o/report.html"]);
     assert_eq!(noted(), page.display().to_string());
     // No opener: the page's place is printed; a run is not failed by that.
     let none = here.join("none");
     fs::create_dir(&none).unwrap();
     call(&["open", "o/report.html"], &none)
         .exits(1)
-        .complains(&[
-            "error: nothing on this system opened the page",
-            &page.display().to_string(),
-        ]);
+        .complains(&["error: nothing on this system opened the page", &page.display().to_string()]);
     call(&["run", "s.toml", "-o", "o", "-q", "--open"], &none)
         .exits(0)
         .complains(&["warning: nothing on this system opened the page"]);
@@ -157,14 +125,8 @@ fn regress_what_is_no_page_is_not_opened() {
         (&["open", "none"][..], "cannot read none"),
         (&["open", "."], ". holds no page of results: none of"),
         (&["open", "s.toml"], "s.toml is no page"),
-        (
-            &["run", "s.toml", "s.toml", "--open"],
-            "--open shows the report of one scenario; here are 2",
-        ),
-        (
-            &["run", "s.toml", "--open", "--no-report"],
-            "cannot be used with",
-        ),
+        (&["run", "s.toml", "s.toml", "--open"], "--open shows the report of one scenario; here are 2"),
+        (&["run", "s.toml", "--open", "--no-report"], "cannot be used with"),
     ] {
         brinell(here, args).exits(2).complains(&[words]);
     }

@@ -1,4 +1,5 @@
-//! Sweeps: the plan, what a killed one costs, that neither threads nor interruptions change a byte, and what happens to bad points.
+//! Sweeps: the plan, what a killed one costs, that neither threads nor interruptions change a byte, and what happens to
+//! bad points.
 
 use crate::common::{brinell, files, interrupted, json, lines, results, same, typed, with_blocks};
 use brinell_io::{Cells, Table};
@@ -10,14 +11,8 @@ fn folder() -> TempDir {
     with_blocks("base.toml")
 }
 
-const GRID: [&str; 6] = [
-    "sweep",
-    "base.toml",
-    "--vary",
-    "operation.speed_rpm=2900,3100",
-    "--vary",
-    "simulation.model=lumped,full",
-];
+const GRID: [&str; 6] =
+    ["sweep", "base.toml", "--vary", "operation.speed_rpm=2900,3100", "--vary", "simulation.model=lumped,full"];
 
 fn with<'a>(more: &[&'a str]) -> Vec<&'a str> {
     GRID.iter().chain(more).copied().collect()
@@ -59,40 +54,27 @@ fn prop_neither_threads_nor_a_cut_journal_change_a_byte() {
             "4 of 4 points complete",
         ])
         .keeps_quiet();
-    brinell(folder.path(), &with(&["-o", "two", "--jobs", "2", "-q"]))
-        .exits(0)
-        .keeps_quiet();
+    brinell(folder.path(), &with(&["-o", "two", "--jobs", "2", "-q"])).exits(0).keeps_quiet();
     same(&out("one"), &out("two"));
     assert_eq!(
-        results(&out("one"))
-            .into_iter()
-            .map(|f| f.0)
-            .collect::<Vec<_>>(),
+        results(&out("one")).into_iter().map(|f| f.0).collect::<Vec<_>>(),
         ["sweep.csv", "sweep.html", "sweep.json", "sweep.parquet"]
     );
 
     // The header and two points are whole, the third was being written.
     let journal = fs::read(out("two").join("journal.jsonl")).unwrap();
-    let ends: Vec<usize> = (0..journal.len())
-        .filter(|k| journal[*k] == b'\n')
-        .collect();
+    let ends: Vec<usize> = (0..journal.len()).filter(|k| journal[*k] == b'\n').collect();
     assert_eq!(ends.len(), 5);
     fs::create_dir(out("cut")).unwrap();
     fs::write(out("cut").join("journal.jsonl"), &journal[..ends[2] + 100]).unwrap();
     brinell(folder.path(), &with(&["-o", "cut"]))
         .exits(0)
-        .says(&[
-            "2 points finished before",
-            "2 runs to do",
-            "4 of 4 points complete",
-        ])
+        .says(&["2 points finished before", "2 runs to do", "4 of 4 points complete"])
         .keeps_quiet();
     same(&out("one"), &out("cut"));
 
     // Once more: nothing is left to do.
-    brinell(folder.path(), &with(&["-o", "cut"]))
-        .exits(0)
-        .says(&["4 points finished before", "0 runs in"]);
+    brinell(folder.path(), &with(&["-o", "cut"])).exits(0).says(&["4 points finished before", "0 runs in"]);
     same(&out("one"), &out("cut"));
 }
 
@@ -105,16 +87,7 @@ fn prop_csv_and_parquet_hold_the_same_table() {
     let table = Table::read_parquet(out.join("sweep.parquet")).unwrap();
     let names: Vec<&str> = table.columns.iter().map(|c| c.name.as_str()).collect();
     assert_eq!(rows[0], names);
-    assert_eq!(
-        names[..5],
-        [
-            "point",
-            "operation.speed_rpm",
-            "simulation.model",
-            "status",
-            "reason"
-        ]
-    );
+    assert_eq!(names[..5], ["point", "operation.speed_rpm", "simulation.model", "status", "reason"]);
     assert_eq!((rows.len(), table.rows()), (5, 4));
     for (k, cells) in table.cells.iter().enumerate() {
         for row in 0..4 {
@@ -162,22 +135,11 @@ fn regress_a_bad_point_is_a_row_and_the_others_run() {
     ];
     brinell(folder.path(), &args)
         .exits(1)
-        .says(&[
-            "3 points",
-            "1 point with a bad scenario",
-            "2 of 3 points complete",
-        ])
-        .complains(&[
-            "point 2 failed (defects.0.depth_um=-1): ",
-            "allowed: ",
-            "1 of 3 points failed",
-        ]);
+        .says(&["3 points", "1 point with a bad scenario", "2 of 3 points complete"])
+        .complains(&["point 2 failed (defects.0.depth_um=-1): ", "allowed: ", "1 of 3 points failed"]);
     let rows = csv(&folder.path().join("out/sweep.csv"));
     let column = |name: &str| rows[0].iter().position(|n| n == name).unwrap();
-    let status: Vec<&str> = rows[1..]
-        .iter()
-        .map(|r| r[column("status")].as_str())
-        .collect();
+    let status: Vec<&str> = rows[1..].iter().map(|r| r[column("status")].as_str()).collect();
     assert_eq!(status, ["complete", "failed", "complete"]);
     assert!(rows[2][column("reason")].contains("defects.0.depth_um = -1"));
     assert_eq!(rows[2][column("sensor_ax.rms")], "");
@@ -199,24 +161,13 @@ fn regress_what_no_point_can_run_with_is_bad_input() {
     ]);
     call(&["--vary", "a.b=1", "--vary", "a.b=2"]).complains(&["the sweep: a.b varies twice"]);
     let depths = ["--vary", "defects.0.depth_um=10,20", "--set"];
-    call(&[&depths[..], &["defects.0.depth_um=5"]].concat()).complains(&[
-        "--set defects.0.depth_um=5: every point gives defects.0.depth_um another value",
-    ]);
-    call(&[
-        "--vary",
-        "operation={speed_rpm=900},{speed_rpm=950}",
-        "--set",
-        "operation.speed_rpm=1000",
-    ])
-    .complains(&["--set operation.speed_rpm=1000: every point gives operation another value"]);
+    call(&[&depths[..], &["defects.0.depth_um=5"]].concat())
+        .complains(&["--set defects.0.depth_um=5: every point gives defects.0.depth_um another value"]);
+    call(&["--vary", "operation={speed_rpm=900},{speed_rpm=950}", "--set", "operation.speed_rpm=1000"])
+        .complains(&["--set operation.speed_rpm=1000: every point gives operation another value"]);
     call(&["--together", "a=1,2; b=1"]).complains(&["--together: a and b have 2 and 1 values"]);
-    call(&[
-        "--vary",
-        "bearing.radial_clearance_um=5,10",
-        "--plot",
-        "sensor_ax.rsm",
-    ])
-    .complains(&["--plot sensor_ax.rsm: no such number"]);
+    call(&["--vary", "bearing.radial_clearance_um=5,10", "--plot", "sensor_ax.rsm"])
+        .complains(&["--plot sensor_ax.rsm: no such number"]);
     assert!(!folder.path().join("out").exists());
 }
 
@@ -236,23 +187,16 @@ fn regress_another_sweep_is_refused_unless_extended() {
         "out holds another sweep, of operation.speed_rpm (2), or of another base scenario; choose another folder",
         "--extend",
     ]);
-    assert!(
-        before == results(&folder.path().join("out")),
-        "nothing is touched"
-    );
+    assert!(before == results(&folder.path().join("out")), "nothing is touched");
     sweep("2900,3000,3100", &["--extend"]).exits(0).says(&[
         "2 points finished before",
         "1 run to do",
         "3 of 3 points complete",
     ]);
     // The extended one is now the folder's.
-    sweep("2900,3000,3100", &[])
-        .exits(0)
-        .says(&["3 points finished before"]);
+    sweep("2900,3000,3100", &[]).exits(0).says(&["3 points finished before"]);
     // Another base, the same plan.
-    sweep("2900,3000,3100", &["--set", "defects.0.depth_um=5"])
-        .exits(2)
-        .complains(&["another base scenario"]);
+    sweep("2900,3000,3100", &["--set", "defects.0.depth_um=5"]).exits(2).complains(&["another base scenario"]);
     // A journal of something else.
     let journal = folder.path().join("out/journal.jsonl");
     fs::write(&journal, "{\"campaign\":\"calibration\"}\n").unwrap();
@@ -260,9 +204,7 @@ fn regress_another_sweep_is_refused_unless_extended() {
         .exits(2)
         .complains(&["is the journal of calibration; choose another folder"]);
     fs::write(&journal, "[1]\n").unwrap();
-    sweep("2900,3000,3100", &[])
-        .exits(2)
-        .complains(&["is the journal of something else"]);
+    sweep("2900,3000,3100", &[]).exits(2).complains(&["is the journal of something else"]);
 }
 
 #[test]
@@ -304,51 +246,32 @@ fn regress_signals_are_kept_on_request_and_a_dry_run_leaves_nothing() {
     };
     brinell(folder.path(), &args(&["--dry-run"]))
         .exits(0)
-        .says(&[
-            "2 points: operation.speed_rpm with operation.load_n (2)",
-            "2 runs to do",
-        ]);
+        .says(&["2 points: operation.speed_rpm with operation.load_n (2)", "2 runs to do"]);
     assert!(!folder.path().join("out").exists());
     brinell(folder.path(), &args(&["--plots", "svg"])).exits(0);
     let out = folder.path().join("out");
     assert!(files(&out).contains(&"plots/sensor_ax.rms.svg".to_owned()));
     assert!(!out.join("signals").exists());
     let journal = fs::read(out.join("journal.jsonl")).unwrap();
-    brinell(folder.path(), &args(&["--dry-run"]))
-        .exits(0)
-        .says(&["2 points finished before"]);
+    brinell(folder.path(), &args(&["--dry-run"])).exits(0).says(&["2 points finished before"]);
     assert!(journal == fs::read(out.join("journal.jsonl")).unwrap());
     // Signals were not kept: requested now, the points run again.
-    brinell(folder.path(), &args(&["--keep-signals"]))
-        .exits(0)
-        .says(&["2 runs to do"]);
+    brinell(folder.path(), &args(&["--keep-signals"])).exits(0).says(&["2 runs to do"]);
     let table = Table::read_parquet(out.join("sweep.parquet")).unwrap();
-    let k = table
-        .columns
-        .iter()
-        .position(|c| c.name == "signals")
-        .unwrap();
-    let Cells::Words(names) = &table.cells[k] else {
-        panic!("names are words")
-    };
+    let k = table.columns.iter().position(|c| c.name == "signals").unwrap();
+    let Cells::Words(names) = &table.cells[k] else { panic!("names are words") };
     for name in names.iter().flatten() {
         let signals = brinell_io::read_parquet(out.join(name)).unwrap();
         assert!(signals.column("sensor_ax").is_some_and(|x| x.len() == 4609));
     }
     assert_eq!(names.iter().flatten().count(), 2);
-    brinell(folder.path(), &args(&["--keep-signals"]))
-        .exits(0)
-        .says(&["2 points finished before"]);
+    brinell(folder.path(), &args(&["--keep-signals"])).exits(0).says(&["2 points finished before"]);
     // Its own signals are written over where no journal names them, and nobody else's.
     fs::remove_file(out.join("journal.jsonl")).unwrap();
-    brinell(folder.path(), &args(&["--keep-signals"]))
-        .exits(0)
-        .says(&["2 runs to do"]);
+    brinell(folder.path(), &args(&["--keep-signals"])).exits(0).says(&["2 runs to do"]);
     let signals = out.join(names[0].as_deref().unwrap());
     fs::write(&signals, "mine").unwrap();
-    brinell(folder.path(), &args(&["--keep-signals"]))
-        .exits(2)
-        .complains(&["no sweep wrote it", "signals/", "-o"]);
+    brinell(folder.path(), &args(&["--keep-signals"])).exits(2).complains(&["no sweep wrote it", "signals/", "-o"]);
     assert_eq!(fs::read(&signals).unwrap(), b"mine");
 }
 
@@ -356,24 +279,17 @@ fn regress_signals_are_kept_on_request_and_a_dry_run_leaves_nothing() {
 #[test]
 fn regress_ctrl_c_keeps_what_is_finished_and_the_same_command_goes_on() {
     let folder = folder();
-    let args = typed(
-        "sweep base.toml --vary operation.speed_rpm=2000:3000:10 --set simulation.model=lumped -o out -j 1",
-    );
+    let args =
+        typed("sweep base.toml --vary operation.speed_rpm=2000:3000:10 --set simulation.model=lumped -o out -j 1");
     let journal = folder.path().join("out/journal.jsonl");
     let call = interrupted(folder.path(), &args, &journal, 3);
-    call.exits(1).complains(&[
-        "interrupted: ",
-        "to go; the same command resumes where this one stopped",
-    ]);
+    call.exits(1).complains(&["interrupted: ", "to go; the same command resumes where this one stopped"]);
     let done = lines(&journal) - 1;
     assert!((2..101).contains(&done));
     let rows = csv(&folder.path().join("out/sweep.csv"));
     assert_eq!(rows.len(), 102);
     let status = rows[0].iter().position(|n| n == "status").unwrap();
-    assert_eq!(
-        rows.iter().filter(|r| r[status] == "complete").count(),
-        done
-    );
+    assert_eq!(rows.iter().filter(|r| r[status] == "complete").count(), done);
     let page = fs::read_to_string(folder.path().join("out/sweep.html")).unwrap();
     assert!(page.contains("This sweep is incomplete."));
 }

@@ -16,8 +16,7 @@ fn folder_with(scenario: &str) -> TempDir {
 fn prop_a_standard_output_that_takes_nothing_is_exit_1_everywhere() {
     let folder = folder_with(SHORT);
     let here = folder.path();
-    let plan =
-        "base = \"s.toml\"\nruns = 2\nseed = 1\nlicence = \"CC0-1.0\"\n[[classes]]\nname = \"c\"\n";
+    let plan = "base = \"s.toml\"\nruns = 2\nseed = 1\nlicence = \"CC0-1.0\"\n[[classes]]\nname = \"c\"\n";
     fs::write(here.join("plan.toml"), plan).unwrap();
     let long = "simulation.duration_s=0.5";
     let fast = "operation.speed_rpm=3000";
@@ -45,16 +44,7 @@ fn prop_a_standard_output_that_takes_nothing_is_exit_1_everywhere() {
         &["defect", "simplify", "s.toml", "--to", "equal-area-circle"],
         &["defect", "fit", "s.toml"],
         &["defect", "preview", "s.toml", "-o", "p"],
-        &[
-            "defect",
-            "random",
-            "--seed",
-            "1",
-            "--length-mm",
-            "2",
-            "--width-mm",
-            "2",
-        ],
+        &["defect", "random", "--seed", "1", "--length-mm", "2", "--width-mm", "2"],
         &["analyze", "RUN", "--json", "-"],
         &["analyze", "RUN"],
         &["run", "s.toml", "-o", "o", "--no-report"],
@@ -63,14 +53,9 @@ fn prop_a_standard_output_that_takes_nothing_is_exit_1_everywhere() {
         &["dataset", "verify", "data"],
         &["dataset", "merge", "data", "-o", "joined"],
     ] {
-        call(args)
-            .exits(1)
-            .complains(&["error: cannot write to standard output: No space left on device"]);
+        call(args).exits(1).complains(&["error: cannot write to standard output: No space left on device"]);
     }
-    assert!(
-        here.join("o/summary.json").exists(),
-        "the results are there"
-    );
+    assert!(here.join("o/summary.json").exists(), "the results are there");
     // Bad input stays bad input; and who asks for no words misses none.
     call(&["check", "none.toml"]).exits(2);
     call(&["run", "s.toml", "-o", "o", "--no-report", "-q"]).exits(0);
@@ -98,10 +83,7 @@ fn prop_names_from_files_do_not_steer_the_terminal() {
     fs::copy(here.join("s.toml"), here.join("s2.toml")).unwrap();
     harmless(&brinell(here, &both).exits(0), shown);
     // A key, and a line of the file, as raw as a file can hold it.
-    for text in [
-        format!("\"\\u001b]0;x\\u0007\" = 1\n{SHORT}"),
-        format!("# \u{9b}2J\nnamed = \"\u{9b}2J\"\n{SHORT}"),
-    ] {
+    for text in [format!("\"\\u001b]0;x\\u0007\" = 1\n{SHORT}"), format!("# \u{9b}2J\nnamed = \"\u{9b}2J\"\n{SHORT}")] {
         fs::write(here.join("bad.toml"), text).unwrap();
         harmless(&brinell(here, &["check", "bad.toml"]).exits(2), "\\u{");
     }
@@ -166,8 +148,7 @@ fn regress_a_run_that_cannot_be_written_keeps_the_results_before_it() {
     let before = crate::common::results(&folder.path().join("o"));
     // Signals too long; then signals that fit, and a report that does not.
     for (blocks, signals, lacks) in [(32, "csv", "signals.csv"), (100, "none", "report.html")] {
-        let limited =
-            format!("ulimit -f {blocks}; exec \"$0\" run s.toml -o o -q --signals {signals}");
+        let limited = format!("ulimit -f {blocks}; exec \"$0\" run s.toml -o o -q --signals {signals}");
         let call = std::process::Command::new("sh")
             .args(["-c", &limited, env!("CARGO_BIN_EXE_brinell")])
             .current_dir(folder.path())
@@ -179,10 +160,7 @@ fn regress_a_run_that_cannot_be_written_keeps_the_results_before_it() {
     // With room for them the new results come, and what they have not goes.
     let again = ["run", "s.toml", "-o", "o", "-q", "--signals", "none"];
     brinell(folder.path(), &again).exits(0);
-    assert_eq!(
-        crate::common::files(&folder.path().join("o")),
-        ["report.html", "scenario.toml", "summary.json"]
-    );
+    assert_eq!(crate::common::files(&folder.path().join("o")), ["report.html", "scenario.toml", "summary.json"]);
 }
 
 #[cfg(target_os = "linux")]
@@ -201,10 +179,7 @@ fn regress_results_that_cannot_be_written_leave_those_before_them() {
     for (args, lacks) in [
         ("analyze r -o a -q", "report.html"),
         ("compare s.toml b.toml -o c -q", "compare.json"),
-        (
-            "defect preview s.toml -o p --formats svg",
-            "damage-1-passage.csv",
-        ),
+        ("defect preview s.toml -o p --formats svg", "damage-1-passage.csv"),
     ] {
         let args: Vec<&str> = args.split(' ').collect();
         let output = here.join(args[args.iter().position(|a| *a == "-o").unwrap() + 1]);

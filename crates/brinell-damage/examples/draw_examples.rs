@@ -54,9 +54,7 @@ impl Patches {
     const SIDE: usize = 64;
 
     fn new(noise: &mut Noise, cell: f64) -> Self {
-        let values = (0..Self::SIDE * Self::SIDE)
-            .map(|_| noise.normal())
-            .collect();
+        let values = (0..Self::SIDE * Self::SIDE).map(|_| noise.normal()).collect();
         Self { values, cell }
     }
 
@@ -84,9 +82,7 @@ fn photo(path: &Path) -> Result<(), Box<dyn Error>> {
             let a = TAU * f64::from(i) / 3600.0;
             outline(a) * axis(a)
         });
-        ends.fold((0.0, 0.0), |(low, high): (f64, f64), v| {
-            (low.min(v), high.max(v))
-        })
+        ends.fold((0.0, 0.0), |(low, high): (f64, f64), v| (low.min(v), high.max(v)))
     };
     let (left, right) = reach(f64::cos);
     let (low, high) = reach(f64::sin);
@@ -157,9 +153,7 @@ fn scan(path: &Path) -> Result<(), Box<dyn Error>> {
 }
 
 fn main() -> Result<(), Box<dyn Error>> {
-    let folder = std::env::args()
-        .nth(1)
-        .unwrap_or_else(|| "examples".to_owned());
+    let folder = std::env::args().nth(1).unwrap_or_else(|| "examples".to_owned());
     let folder = Path::new(&folder);
     photo(&folder.join("photo-spall.png"))?;
     scan(&folder.join("scan.csv"))

@@ -1,8 +1,8 @@
 //! The light on the sound surface: what a photo would show without damage.
 //!
-//! Medians of cells of the picture; a polynomial of degree 2 through them that half of the cells fit best (least median of squares,
-//! Rousseeuw, J. Am. Stat. Assoc. 79 (1984) 871), so that damage may take a third of the picture; degrees 3 and 4 by Tukey's weights from
-//! there; then, with the damage found, what remains of the cells outside it, smoothed.
+//! Medians of cells of the picture; a polynomial of degree 2 through them that half of the cells fit best (least median
+//! of squares, Rousseeuw, J. Am. Stat. Assoc. 79 (1984) 871), so that damage may take a third of the picture; degrees 3
+//! and 4 by Tukey's weights from there; then, with the damage found, what remains of the cells outside it, smoothed.
 
 use crate::numbers::{median, solved};
 use crate::pixels::Pixels;
@@ -55,21 +55,13 @@ impl Cells {
                 values.push(f64::from(*all.select_nth_unstable(middle).1));
             }
         }
-        Self {
-            columns,
-            rows,
-            side,
-            values,
-        }
+        Self { columns, rows, side, values }
     }
 
     /// Of a cell, from -1 to 1.
     fn place(&self, i: usize) -> [f64; 2] {
         let share = |k: usize, n: usize| (2 * k + 1) as f64 / n as f64 - 1.0;
-        [
-            share(i % self.columns, self.columns),
-            share(i / self.columns, self.rows),
-        ]
+        [share(i % self.columns, self.columns), share(i / self.columns, self.rows)]
     }
 
     /// The light at each cell, `damaged` ones left out of it.
@@ -88,9 +80,8 @@ impl Cells {
                 fit = self.fitted(degree, &used, &weights).unwrap_or(fit);
             }
         }
-        let mut light: Vec<f64> = (0..self.values.len())
-            .map(|i| value(&fit, self.place(i)).max(DARKEST * level))
-            .collect();
+        let mut light: Vec<f64> =
+            (0..self.values.len()).map(|i| value(&fit, self.place(i)).max(DARKEST * level)).collect();
         if damaged.is_some() {
             self.follow(&mut light, &used, &weights);
         }
@@ -101,15 +92,11 @@ impl Cells {
     fn half(&self, used: &[usize]) -> Vec<f64> {
         let mut state = 0x2545_F491_4F6C_DD1D_u64;
         let mut draw = || {
-            state = state
-                .wrapping_mul(6_364_136_223_846_793_005)
-                .wrapping_add(1_442_695_040_888_963_407);
+            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
             used[(state >> 33) as usize % used.len()]
         };
         let judges = used.iter().step_by(1 + used.len() / JUDGES);
-        let judges: Vec<(f64, Vec<f64>)> = judges
-            .map(|&i| (self.values[i], basis(2, self.place(i))))
-            .collect();
+        let judges: Vec<(f64, Vec<f64>)> = judges.map(|&i| (self.values[i], basis(2, self.place(i)))).collect();
         let mut best = (f64::INFINITY, vec![0.0; terms(2)]);
         let alike = vec![1.0; terms(2) + 2];
         for _ in 0..DRAWS {
@@ -128,10 +115,7 @@ impl Cells {
 
     /// Tukey's weights of the cells about a fit.
     fn weights(&self, fit: &[f64], used: &[usize], level: f64) -> Vec<f64> {
-        let off: Vec<f64> = used
-            .iter()
-            .map(|&i| self.values[i] - value(fit, self.place(i)))
-            .collect();
+        let off: Vec<f64> = used.iter().map(|&i| self.values[i] - value(fit, self.place(i))).collect();
         let scale = 1.4826 * median(off.iter().map(|r| r.abs()));
         let reach = TUKEY * scale.max(LEAST_SCALE * level);
         let weight = |r: &f64| (1.0 - (r / reach).powi(2)).max(0.0).powi(2);
@@ -153,11 +137,7 @@ impl Cells {
         }
         let largest = matrix
             .iter()
-            .map(|row| {
-                row[..row.len() - 1]
-                    .iter()
-                    .fold(0.0_f64, |m, v| m.max(v.abs()))
-            })
+            .map(|row| row[..row.len() - 1].iter().fold(0.0_f64, |m, v| m.max(v.abs())))
             .fold(0.0, f64::max);
         solved(&mut matrix, 1e-9 * largest)
     }
@@ -196,9 +176,7 @@ impl Cells {
         };
         let (left, right, u) = along(x, self.columns);
         let (up, down, v) = along(y, self.rows);
-        let row = |r: usize| {
-            light[r * self.columns + left] * (1.0 - u) + light[r * self.columns + right] * u
-        };
+        let row = |r: usize| light[r * self.columns + left] * (1.0 - u) + light[r * self.columns + right] * u;
         row(up) * (1.0 - v) + row(down) * v
     }
 }

@@ -29,7 +29,8 @@ pub(crate) fn gaussian(pixels: &mut Pixels, sigma: f64) {
             *value = sum.round() as u16;
         }
     }
-    // In place: a second picture would double the memory. The rows above that are still needed are kept as they were, row y in place y mod reach + 1.
+    // In place: a second picture would double the memory. The rows above that are still needed are kept as they were,
+    // row y in place y mod reach + 1.
     let mut above = vec![0; (reach + 1) * width];
     let kept = |y: usize| (y % (reach + 1)) * width..(y % (reach + 1) + 1) * width;
     let mut sums = vec![0.0_f32; width];

@@ -139,9 +139,7 @@ impl<T: Copy + Into<f64>> Field<'_, T> {
 
     /// The mean of the four pixels around an inner corner.
     fn middle(&self, corner: [isize; 2]) -> f64 {
-        let sum: f64 = (0..4)
-            .map(|heading| self.value(Self::beside(corner, heading)).unwrap_or(0.0))
-            .sum();
+        let sum: f64 = (0..4).map(|heading| self.value(Self::beside(corner, heading)).unwrap_or(0.0)).sum();
         0.25 * sum
     }
 

@@ -61,10 +61,7 @@ impl Scan {
     /// `(s, z)` of a point, mm.
     pub(crate) fn place(&self, column: usize, row: usize) -> (f64, f64) {
         let from_middle = |i: usize, n: usize| i as f64 - 0.5 * (n - 1) as f64;
-        (
-            from_middle(column, self.columns) * self.ds_mm,
-            from_middle(row, self.rows) * self.dz_mm,
-        )
+        (from_middle(column, self.columns) * self.ds_mm, from_middle(row, self.rows) * self.dz_mm)
     }
 }
 
@@ -89,10 +86,7 @@ pub fn read_depth_map(
             way_out: "at least 2 x 2 are needed, one line per row",
         });
     }
-    let (mut warnings, notes) = (
-        std::mem::take(&mut raw.warnings),
-        std::mem::take(&mut raw.notes),
-    );
+    let (mut warnings, notes) = (std::mem::take(&mut raw.warnings), std::mem::take(&mut raw.notes));
     let spacing_mm = spacing(&raw, options)?;
     to_depth(&mut raw, options)?;
     let missing = check_missing(&raw, options)?;
@@ -136,11 +130,7 @@ pub fn read_depth_map(
 }
 
 /// The map as its file has it.
-fn raw(
-    bytes: &[u8],
-    kind: Option<FileKind>,
-    options: &DepthMapOptions,
-) -> Result<Raw, DamageError> {
+fn raw(bytes: &[u8], kind: Option<FileKind>, options: &DepthMapOptions) -> Result<Raw, DamageError> {
     Ok(match kind {
         Some(FileKind::Csv) => depth_csv::read(bytes, stated(options))?,
         Some(FileKind::Sdf) => surface::read_sdf(bytes)?,
@@ -149,20 +139,14 @@ fn raw(
         Some(FileKind::X3p) => surface::read_x3p(bytes)?,
         #[cfg(not(feature = "x3p"))]
         Some(FileKind::X3p) => {
-            return Err(DamageError::LeftOut {
-                kind: FileKind::X3p,
-                feature: "x3p",
-            });
+            return Err(DamageError::LeftOut { kind: FileKind::X3p, feature: "x3p" });
         }
         Some(FileKind::Npy) => depth_npy::read(bytes)?,
         #[cfg(feature = "image")]
         Some(FileKind::Png) => crate::pixels::heights(bytes)?,
         #[cfg(not(feature = "image"))]
         Some(FileKind::Png) => {
-            return Err(DamageError::LeftOut {
-                kind: FileKind::Png,
-                feature: "image",
-            });
+            return Err(DamageError::LeftOut { kind: FileKind::Png, feature: "image" });
         }
         _ => {
             return Err(DamageError::WrongKind {
@@ -186,12 +170,10 @@ fn stated(options: &DepthMapOptions) -> [Option<f64>; 2] {
 fn spacing(raw: &Raw, options: &DepthMapOptions) -> Result<[f64; 2], DamageError> {
     /// How far what is stated may be from what the file says.
     const SAME: f64 = 0.01;
-    let own = raw
-        .spacing_mm
-        .map(|[x, y]| match options.rolling_direction.along_rows() {
-            true => [x, y],
-            false => [y, x],
-        });
+    let own = raw.spacing_mm.map(|[x, y]| match options.rolling_direction.along_rows() {
+        true => [x, y],
+        false => [y, x],
+    });
     let of = |k: usize, name: &'static str, stated: Option<f64>| match (stated, own) {
         (Some(mm), Some(own)) if (mm / own[k] - 1.0).abs() > SAME => Err(DamageError::Option {
             option: name,
@@ -206,10 +188,7 @@ fn spacing(raw: &Raw, options: &DepthMapOptions) -> Result<[f64; 2], DamageError
             way_out: "give `ds_mm` and `dz_mm`",
         }),
     };
-    Ok([
-        of(0, "ds_mm", options.ds_mm)?,
-        of(1, "dz_mm", options.dz_mm)?,
-    ])
+    Ok([of(0, "ds_mm", options.ds_mm)?, of(1, "dz_mm", options.dz_mm)?])
 }
 
 /// To depths in um, positive into the material; NaN where missing.
@@ -275,18 +254,8 @@ fn turned(mut raw: Raw, [ds_mm, dz_mm]: [f64; 2], options: &DepthMapOptions) -> 
         }
     }
     let direction = options.rolling_direction;
-    let (columns, rows) = if direction.along_rows() {
-        (raw.width, raw.height)
-    } else {
-        (raw.height, raw.width)
-    };
-    Scan {
-        columns,
-        rows,
-        ds_mm,
-        dz_mm,
-        depth_um: direction.turn_grid(raw.width, raw.height, &raw.values),
-    }
+    let (columns, rows) = if direction.along_rows() { (raw.width, raw.height) } else { (raw.height, raw.width) };
+    Scan { columns, rows, ds_mm, dz_mm, depth_um: direction.turn_grid(raw.width, raw.height, &raw.values) }
 }
 
 fn set_zero(scan: &mut Scan, zero: Zero) {
@@ -308,11 +277,7 @@ fn set_zero(scan: &mut Scan, zero: Zero) {
     scan.depth_um.iter_mut().for_each(|d| *d -= level);
 }
 
-fn finish_depths(
-    scan: &mut Scan,
-    options: &DepthMapOptions,
-    warnings: &mut Vec<String>,
-) -> Result<(), DamageError> {
+fn finish_depths(scan: &mut Scan, options: &DepthMapOptions, warnings: &mut Vec<String>) -> Result<(), DamageError> {
     for depth in &mut scan.depth_um {
         if depth.abs() < options.threshold_um {
             *depth = 0.0;
@@ -330,16 +295,9 @@ fn finish_depths(
         });
     }
     let smallest = options.speck_mm2 / (scan.ds_mm * scan.dz_mm);
-    let dropped = if smallest > 0.0 {
-        drop_specks(scan, smallest)
-    } else {
-        0
-    };
+    let dropped = if smallest > 0.0 { drop_specks(scan, smallest) } else { 0 };
     if dropped > 0 {
-        warnings.push(format!(
-            "{dropped} damaged spots below {} mm^2 were dropped as noise",
-            options.speck_mm2
-        ));
+        warnings.push(format!("{dropped} damaged spots below {} mm^2 were dropped as noise", options.speck_mm2));
     }
     if scan.depth_um.iter().all(|&d| d == 0.0) {
         return Err(DamageError::NothingDamaged {

@@ -1,4 +1,5 @@
-//! Tables that are no plain grid: three columns x, y, z of a point cloud, and grids with their axes in the first row and column.
+//! Tables that are no plain grid: three columns x, y, z of a point cloud, and grids with their axes in the first row
+//! and column.
 
 use crate::depth::{MAX_POINTS, Raw};
 use crate::depth_options::Unit;
@@ -13,22 +14,15 @@ const LEAST_FILLED: f64 = 0.5;
 /// How far a spacing may be from the one that is stated.
 const SAME: f64 = 0.01;
 
-/// A point cloud put on its grid, x to the right and y upwards; another table as it is. `names`: the cells of its line of names;
-/// `stated_mm`: the distances of x and of y where they are known.
-pub(crate) fn gridded(
-    raw: Raw,
-    names: &[String],
-    stated_mm: [Option<f64>; 2],
-) -> Result<Raw, DamageError> {
+/// A point cloud put on its grid, x to the right and y upwards; another table as it is. `names`: the cells of its line
+/// of names; `stated_mm`: the distances of x and of y where they are known.
+pub(crate) fn gridded(raw: Raw, names: &[String], stated_mm: [Option<f64>; 2]) -> Result<Raw, DamageError> {
     if raw.width != 3 || raw.height < LEAST_POINTS {
         return Ok(raw);
     }
     let column = |k: usize| raw.values.iter().skip(k).step_by(3).copied();
-    let named = names.len() == 3
-        && names
-            .iter()
-            .zip(["x", "y", "z"])
-            .all(|(n, axis)| n.to_ascii_lowercase().starts_with(axis));
+    let named =
+        names.len() == 3 && names.iter().zip(["x", "y", "z"]).all(|(n, axis)| n.to_ascii_lowercase().starts_with(axis));
     let nodes = (Axis::of(column(0)), Axis::of(column(1)));
     let (x, y) = match nodes {
         (Some(x), Some(y)) if is_grid(&x, &y, raw.height) => (x, y),
@@ -41,12 +35,7 @@ pub(crate) fn gridded(
         }
         _ => return Ok(raw),
     };
-    let unit = |k: usize| {
-        names
-            .get(k)
-            .filter(|_| named)
-            .and_then(|name| unit_in(name))
-    };
+    let unit = |k: usize| names.get(k).filter(|_| named).and_then(|name| unit_in(name));
     let mm = |axis: &Axis, k: usize| -> Result<f64, DamageError> {
         let factor = unit(k).or_else(|| stated_mm[k].and_then(|mm| factor(axis.step, mm)));
         factor.map(|f| f * axis.step).ok_or_else(|| DamageError::Unsupported {
@@ -79,11 +68,7 @@ pub(crate) fn gridded(
 
 fn is_grid(x: &Axis, y: &Axis, points: usize) -> bool {
     let nodes = x.count.saturating_mul(y.count);
-    x.count > 1
-        && y.count > 1
-        && nodes <= MAX_POINTS
-        && points <= nodes
-        && points as f64 >= LEAST_FILLED * nodes as f64
+    x.count > 1 && y.count > 1 && nodes <= MAX_POINTS && points <= nodes && points as f64 >= LEAST_FILLED * nodes as f64
 }
 
 /// Evenly spaced places of points.
@@ -103,11 +88,7 @@ impl Axis {
         all.sort_by(f64::total_cmp);
         let (first, last) = (*all.first()?, *all.last()?);
         let range = last - first;
-        let mut gaps: Vec<f64> = all
-            .windows(2)
-            .map(|w| w[1] - w[0])
-            .filter(|d| *d > 1e-6 * range)
-            .collect();
+        let mut gaps: Vec<f64> = all.windows(2).map(|w| w[1] - w[0]).filter(|d| *d > 1e-6 * range).collect();
         if gaps.is_empty() || !range.is_finite() {
             return None;
         }
@@ -116,11 +97,7 @@ impl Axis {
         if !(1.0..MAX_POINTS as f64).contains(&nodes) {
             return None;
         }
-        let axis = Self {
-            first,
-            step: range / nodes,
-            count: nodes as usize + 1,
-        };
+        let axis = Self { first, step: range / nodes, count: nodes as usize + 1 };
         all.iter().all(|v| axis.node(*v).is_some()).then_some(axis)
     }
 
@@ -128,8 +105,7 @@ impl Axis {
     fn node(&self, value: f64) -> Option<usize> {
         let at = (value - self.first) / self.step;
         let node = at.round();
-        ((at - node).abs() <= OFF_NODE && node >= 0.0 && node < self.count as f64)
-            .then_some(node as usize)
+        ((at - node).abs() <= OFF_NODE && node >= 0.0 && node < self.count as f64).then_some(node as usize)
     }
 }
 
@@ -168,9 +144,7 @@ pub(crate) fn refuse_axes(raw: &Raw) -> Result<(), DamageError> {
     }
     Err(DamageError::Unsupported {
         at: "line 1 and column 1".to_owned(),
-        what: format!(
-            "a table whose first row and column count its axes, in steps of {across} and {down},"
-        ),
+        what: format!("a table whose first row and column count its axes, in steps of {across} and {down},"),
         way_out: "delete both, and give the steps as `ds_mm` and `dz_mm`",
     })
 }

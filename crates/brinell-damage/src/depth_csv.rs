@@ -25,10 +25,7 @@ pub(crate) fn read(bytes: &[u8], stated_mm: [Option<f64>; 2]) -> Result<Raw, Dam
     })?;
     let text = text.trim_start_matches('\u{feff}');
     let lines = || {
-        let lines = text
-            .lines()
-            .enumerate()
-            .map(|(i, line)| (i + 1, line.trim_end_matches('\r')));
+        let lines = text.lines().enumerate().map(|(i, line)| (i + 1, line.trim_end_matches('\r')));
         lines.filter(|(_, line)| !line.trim().is_empty() && !line.trim_start().starts_with('#'))
     };
     let layout = Layout::of(lines().map(|(_, line)| line));
@@ -59,11 +56,7 @@ pub(crate) fn read(bytes: &[u8], stated_mm: [Option<f64>; 2]) -> Result<Raw, Dam
         if raw.height == 0 {
             raw.width = got;
         } else if got != raw.width {
-            return Err(DamageError::RowLength {
-                line,
-                expected: raw.width,
-                got,
-            });
+            return Err(DamageError::RowLength { line, expected: raw.width, got });
         }
         raw.height += 1;
         if raw.values.len() > MAX_POINTS {
@@ -77,15 +70,11 @@ pub(crate) fn read(bytes: &[u8], stated_mm: [Option<f64>; 2]) -> Result<Raw, Dam
         return Err(error);
     }
     let names: Vec<String> = header.map_or(Vec::new(), |(_, content)| {
-        layout
-            .cells(content)
-            .map(|cell| cell.trim().trim_matches('"').trim().to_owned())
-            .collect()
+        layout.cells(content).map(|cell| cell.trim().trim_matches('"').trim().to_owned()).collect()
     });
     let mut raw = gridded(raw, &names, stated_mm)?;
     if let (Some((line, _)), None) = (header, raw.spacing_mm) {
-        raw.notes
-            .push(format!("line {line} was taken as names and passed over"));
+        raw.notes.push(format!("line {line} was taken as names and passed over"));
     }
     Ok(raw)
 }
@@ -112,17 +101,9 @@ impl Layout {
         } else {
             None
         };
-        let trailing = separator.is_some_and(|c| {
-            !head.is_empty()
-                && head
-                    .iter()
-                    .all(|line| line.trim_end_matches(' ').ends_with(c))
-        });
-        Self {
-            separator,
-            decimal_comma: separator != Some(',') && has(',') && !has('.'),
-            trailing,
-        }
+        let trailing = separator
+            .is_some_and(|c| !head.is_empty() && head.iter().all(|line| line.trim_end_matches(' ').ends_with(c)));
+        Self { separator, decimal_comma: separator != Some(',') && has(',') && !has('.'), trailing }
     }
 
     fn cells<'a>(&self, line: &'a str) -> Box<dyn Iterator<Item = &'a str> + 'a> {
@@ -161,11 +142,7 @@ impl Layout {
     fn value(&self, cell: &str) -> Option<f64> {
         let cell = cell.trim().trim_matches('"').trim();
         let missing = |word: &str| cell.eq_ignore_ascii_case(word);
-        if cell.is_empty()
-            || ["nan", "na", "n/a", "null", "bad", "-", "--", "---", "***"]
-                .iter()
-                .any(|w| missing(w))
-        {
+        if cell.is_empty() || ["nan", "na", "n/a", "null", "bad", "-", "--", "---", "***"].iter().any(|w| missing(w)) {
             return Some(f64::NAN);
         }
         if self.decimal_comma && cell.contains(',') {
@@ -175,8 +152,7 @@ impl Layout {
     }
 
     fn names(&self, line: &str) -> bool {
-        self.cells(line)
-            .all(|cell| self.value(cell).is_none_or(f64::is_nan))
+        self.cells(line).all(|cell| self.value(cell).is_none_or(f64::is_nan))
     }
 }
 

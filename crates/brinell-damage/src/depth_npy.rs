@@ -6,11 +6,7 @@ use crate::error::{DamageError, excerpt};
 use crate::kind::FileKind;
 
 fn broken(at: &str, why: impl Into<String>) -> DamageError {
-    DamageError::Broken {
-        kind: FileKind::Npy,
-        at: at.to_owned(),
-        why: why.into(),
-    }
+    DamageError::Broken { kind: FileKind::Npy, at: at.to_owned(), why: why.into() }
 }
 
 pub(crate) fn read(bytes: &[u8]) -> Result<Raw, DamageError> {
@@ -43,28 +39,15 @@ pub(crate) fn read(bytes: &[u8]) -> Result<Raw, DamageError> {
     if data.len() != points * kind.size {
         return Err(broken(
             "its data",
-            format!(
-                "{} bytes where {rows} x {columns} values need {}",
-                data.len(),
-                points * kind.size
-            ),
+            format!("{} bytes where {rows} x {columns} values need {}", data.len(), points * kind.size),
         ));
     }
     let mut values = vec![0.0; points];
     for (i, item) in data.chunks_exact(kind.size).enumerate() {
-        let at = if fortran {
-            i % rows * columns + i / rows
-        } else {
-            i
-        };
+        let at = if fortran { i % rows * columns + i / rows } else { i };
         values[at] = kind.value(item);
     }
-    Ok(Raw {
-        width: columns,
-        height: rows,
-        values,
-        ..Raw::default()
-    })
+    Ok(Raw { width: columns, height: rows, values, ..Raw::default() })
 }
 
 /// What follows a key of the header, a Python dictionary of three known keys.
@@ -89,17 +72,10 @@ fn quoted(text: &str) -> &str {
 }
 
 fn shape(text: &str) -> Result<[usize; 2], DamageError> {
-    let inside = text
-        .strip_prefix('(')
-        .and_then(|t| t.split_once(')'))
-        .map(|t| t.0);
+    let inside = text.strip_prefix('(').and_then(|t| t.split_once(')')).map(|t| t.0);
     let inside = inside.ok_or_else(|| broken("shape", format!("`{}`", excerpt(text))))?;
-    let sides: Option<Vec<usize>> = inside
-        .split(',')
-        .map(str::trim)
-        .filter(|side| !side.is_empty())
-        .map(|side| side.parse().ok())
-        .collect();
+    let sides: Option<Vec<usize>> =
+        inside.split(',').map(str::trim).filter(|side| !side.is_empty()).map(|side| side.parse().ok()).collect();
     match sides.as_deref() {
         Some(&[rows, columns]) => Ok([rows, columns]),
         _ => Err(DamageError::Unsupported {

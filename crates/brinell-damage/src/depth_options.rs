@@ -111,40 +111,16 @@ pub(crate) fn check(options: &DepthMapOptions) -> Result<(), DamageError> {
         }
     }
     let least = -f64::MIN_POSITIVE;
-    check_range(
-        "threshold_um",
-        options.threshold_um,
-        least,
-        MAX_DEPTH_UM,
-        "0 to 5000 um",
-    )?;
-    check_range(
-        "speck_mm2",
-        options.speck_mm2,
-        least,
-        1e6,
-        "an area of 0 mm^2 or more",
-    )?;
+    check_range("threshold_um", options.threshold_um, least, MAX_DEPTH_UM, "0 to 5000 um")?;
+    check_range("speck_mm2", options.speck_mm2, least, 1e6, "an area of 0 mm^2 or more")?;
     if let Unit::NmPerCount(nm) = options.unit {
-        check_range(
-            "unit",
-            nm,
-            0.0,
-            1e6,
-            "a number of nm per count above 0, at most 1e6",
-        )?;
+        check_range("unit", nm, 0.0, 1e6, "a number of nm per count above 0, at most 1e6")?;
     }
     if let Zero::Percentile(p) = options.zero {
         check_range("zero", p, least, 100.0, "a percentile from 0 to 100")?;
     }
     if let Form::Cylinder { radius_mm: Some(r) } = options.remove_form {
-        check_range(
-            "radius_mm",
-            r,
-            0.0,
-            1e5,
-            "a number of mm above 0, at most 100000",
-        )?;
+        check_range("radius_mm", r, 0.0, 1e5, "a number of mm above 0, at most 100000")?;
     }
     Ok(())
 }

@@ -35,11 +35,7 @@ impl Direction {
     pub(crate) fn turn_grid<T: Copy>(self, width: usize, height: usize, picture: &[T]) -> Vec<T> {
         let at = |x: usize, y: usize| picture[y * width + x];
         let mut grid = Vec::with_capacity(picture.len());
-        let (columns, rows) = if self.along_rows() {
-            (width, height)
-        } else {
-            (height, width)
-        };
+        let (columns, rows) = if self.along_rows() { (width, height) } else { (height, width) };
         for row in 0..rows {
             for column in 0..columns {
                 grid.push(match self {

@@ -102,9 +102,7 @@ pub enum DamageError {
         known: String,
     },
     /// An unfilled line whose ends do not meet.
-    #[error(
-        "{at}: the line is open by {gap_mm:.4} mm (at most {tolerance_mm} mm is closed); join its ends or fill it"
-    )]
+    #[error("{at}: the line is open by {gap_mm:.4} mm (at most {tolerance_mm} mm is closed); join its ends or fill it")]
     OpenOutline {
         /// The element.
         at: String,
@@ -122,9 +120,7 @@ pub enum DamageError {
         why: String,
     },
     /// A value of a table that is no number.
-    #[error(
-        "line {line}, column {column}: `{text}` is not a number; a missing point is an empty cell or `nan`"
-    )]
+    #[error("line {line}, column {column}: `{text}` is not a number; a missing point is an empty cell or `nan`")]
     NotANumber {
         /// The line, from 1.
         line: usize,
@@ -144,9 +140,7 @@ pub enum DamageError {
         got: usize,
     },
     /// Points without a value, and no leave to fill them.
-    #[error(
-        "{count} of {total} points are missing (the first in row {row}, column {column}); {way_out}"
-    )]
+    #[error("{count} of {total} points are missing (the first in row {row}, column {column}); {way_out}")]
     MissingPoints {
         /// How many.
         count: usize,
@@ -188,11 +182,7 @@ pub(crate) fn check_range(
     if value > low && value <= high {
         return Ok(());
     }
-    Err(DamageError::Option {
-        option,
-        value: value.to_string(),
-        allowed,
-    })
+    Err(DamageError::Option { option, value: value.to_string(), allowed })
 }
 
 /// A few words of a file's text, fit for a message.

@@ -8,8 +8,8 @@
 //!
 //! y is the circle of curvature k through (0, 0) with slope angle asin(p) there; at k = 0 it is a straight line, and
 //! nothing is singular on the way. Gauss-Newton steps, first with weights 1/|residual| (so that damage pulls little),
-//! then on the better half of the points (Rousseeuw's concentration steps), then on the points within three robust standard deviations of the surface, or within the threshold, until that
-//! set stays.
+//! then on the better half of the points (Rousseeuw's concentration steps), then on the points within three robust
+//! standard deviations of the surface, or within the threshold, until that set stays.
 
 use crate::depth::Scan;
 use crate::error::DamageError;
@@ -58,11 +58,7 @@ fn height(q: &Parameters, s: f64, z: f64) -> Option<f64> {
 }
 
 /// Takes `form` off the scan's depths. `threshold_um`: what lies closer to the surface always belongs to it.
-pub(crate) fn remove(
-    scan: &mut Scan,
-    form: Form,
-    threshold_um: f64,
-) -> Result<Option<FormReport>, DamageError> {
+pub(crate) fn remove(scan: &mut Scan, form: Form, threshold_um: f64) -> Result<Option<FormReport>, DamageError> {
     let samples = samples(scan);
     let fit = |name, free: &[usize], k| {
         Fit {
@@ -77,14 +73,9 @@ pub(crate) fn remove(
         Form::None => return Ok(None),
         Form::Plane => fit("plane", &[C, B, P], 0.0)?,
         Form::Cylinder { radius_mm: None } => fit("cylinder", &[C, B, P, M, K], 0.0)?,
-        Form::Cylinder {
-            radius_mm: Some(radius),
-        } => {
+        Form::Cylinder { radius_mm: Some(radius) } => {
             let free = [C, B, P, M];
-            match (
-                fit("cylinder", &free, 1.0 / radius),
-                fit("cylinder", &free, -1.0 / radius),
-            ) {
+            match (fit("cylinder", &free, 1.0 / radius), fit("cylinder", &free, -1.0 / radius)) {
                 (Ok(hollow), Ok(bulging)) if bulging.1.typical < hollow.1.typical => bulging,
                 (Ok(hollow), _) => hollow,
                 (Err(_), other) => other?,
@@ -94,10 +85,8 @@ pub(crate) fn remove(
     for row in 0..scan.rows {
         for column in 0..scan.columns {
             let (s, z) = scan.place(column, row);
-            let surface = height(&best, s, z).ok_or_else(|| DamageError::NoFit {
-                form: "cylinder",
-                why: "it ends inside the scan".to_owned(),
-            })?;
+            let surface = height(&best, s, z)
+                .ok_or_else(|| DamageError::NoFit { form: "cylinder", why: "it ends inside the scan".to_owned() })?;
             scan.depth_um[row * scan.columns + column] += 1e3 * surface;
         }
     }
@@ -115,10 +104,7 @@ pub(crate) fn remove(
 
 /// Points that have a value, thinned evenly.
 fn samples(scan: &Scan) -> Vec<Sample> {
-    let step = (scan.depth_um.len() as f64 / MAX_SAMPLES as f64)
-        .sqrt()
-        .ceil()
-        .max(1.0) as usize;
+    let step = (scan.depth_um.len() as f64 / MAX_SAMPLES as f64).sqrt().ceil().max(1.0) as usize;
     let mut samples = Vec::new();
     for row in (0..scan.rows).step_by(step) {
         for column in (0..scan.columns).step_by(step) {
@@ -149,11 +135,7 @@ struct Fit<'a> {
 }
 
 impl Fit<'_> {
-    fn run(
-        mut self,
-        form: &'static str,
-        curvature: f64,
-    ) -> Result<(Parameters, Found), DamageError> {
+    fn run(mut self, form: &'static str, curvature: f64) -> Result<(Parameters, Found), DamageError> {
         let no_fit = |why: String| DamageError::NoFit { form, why };
         if self.samples.len() < MIN_SAMPLES {
             return Err(no_fit(format!(
@@ -163,12 +145,8 @@ impl Fit<'_> {
         }
         let middle = median(self.samples.iter().map(|p| p.height));
         let mut q = [middle, 0.0, 0.0, 0.0, curvature];
-        let past_end = || {
-            no_fit(
-                "the scan is longer than the cylinder is wide; check the radius and `ds_mm`"
-                    .to_owned(),
-            )
-        };
+        let past_end =
+            || no_fit("the scan is longer than the cylinder is wide; check the radius and `ds_mm`".to_owned());
         for _ in 0..SOFT_PASSES {
             q = self.step(&q).ok_or_else(past_end)?;
             let residuals = self.residuals(&q).ok_or_else(past_end)?;
@@ -212,11 +190,7 @@ impl Fit<'_> {
         }
         let residuals = self.residuals(&q).ok_or_else(past_end)?;
         let used = self.weights.iter().filter(|&&w| w > 0.0).count();
-        let squares: f64 = residuals
-            .iter()
-            .zip(&self.weights)
-            .map(|(r, w)| w * r * r)
-            .sum();
+        let squares: f64 = residuals.iter().zip(&self.weights).map(|(r, w)| w * r * r).sum();
         let found = Found {
             used,
             rms: (squares / used.max(1) as f64).sqrt(),
@@ -226,31 +200,19 @@ impl Fit<'_> {
     }
 
     fn residuals(&self, q: &Parameters) -> Option<Vec<f64>> {
-        self.samples
-            .iter()
-            .map(|p| Some(p.height - height(q, p.s, p.z)?))
-            .collect()
+        self.samples.iter().map(|p| Some(p.height - height(q, p.s, p.z)?)).collect()
     }
 
     fn cost(&self, q: &Parameters) -> Option<f64> {
         let residuals = self.residuals(q)?;
-        Some(
-            residuals
-                .iter()
-                .zip(&self.weights)
-                .map(|(r, w)| w * r * r)
-                .sum(),
-        )
+        Some(residuals.iter().zip(&self.weights).map(|(r, w)| w * r * r).sum())
     }
 
     /// One Gauss-Newton step with the present weights, shortened until it does not make things worse.
     fn step(&self, q: &Parameters) -> Option<Parameters> {
         let n = self.free.len();
         let mut normal = [[0.0; 6]; 5];
-        let reach = self
-            .samples
-            .iter()
-            .fold(1e-6_f64, |most, p| most.max(p.s.abs()));
+        let reach = self.samples.iter().fold(1e-6_f64, |most, p| most.max(p.s.abs()));
         // Differences for the slope and the curvature: their closed forms are singular where either vanishes.
         let nudge = [1e-6, 1e-6 / reach];
         for (p, &weight) in self.samples.iter().zip(&self.weights) {

@@ -28,10 +28,7 @@ impl Polygons {
         let mut points = self.polygons_mm.iter().flatten();
         let first = *points.next()?;
         Some(points.fold([first, first], |[low, high], p| {
-            [
-                [low[0].min(p[0]), low[1].min(p[1])],
-                [high[0].max(p[0]), high[1].max(p[1])],
-            ]
+            [[low[0].min(p[0]), low[1].min(p[1])], [high[0].max(p[0]), high[1].max(p[1])]]
         }))
     }
 

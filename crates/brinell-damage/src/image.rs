@@ -34,9 +34,10 @@ pub enum Smooth {
 pub struct ImageOptions {
     /// The side of a pixel, mm.
     pub mm_per_pixel: f64,
-    /// Between 0 and 1: darker than this is damage (with `use_alpha`: more opaque than this). `None`: 0.5 for alpha; along pixel edges the
-    /// level that divides the picture's brightness best (Otsu); else the light is evened out where it is uneven, and the border of the
-    /// damage is where half of its contrast is left. What was found is said in the notes.
+    /// Between 0 and 1: darker than this is damage (with `use_alpha`: more opaque than this). `None`: 0.5 for alpha;
+    /// along pixel edges the level that divides the picture's brightness best (Otsu); else the light is evened out
+    /// where it is uneven, and the border of the damage is where half of its contrast is left. What was found is said
+    /// in the notes.
     pub threshold: Option<f64>,
     /// The mask is the alpha channel: what is drawn is damage, whatever its colour.
     pub use_alpha: bool,
@@ -52,7 +53,8 @@ pub struct ImageOptions {
     pub speck_mm2: f64,
     /// What of the picture is read: left, top, width and height in pixels. `None`: all.
     pub region_px: Option<[f64; 4]>,
-    /// Which pieces are damage. `None`: the largest of a photo; of a mask (alpha, or along pixel edges) or with a stated threshold all.
+    /// Which pieces are damage. `None`: the largest of a photo; of a mask (alpha, or along pixel edges) or with a
+    /// stated threshold all.
     pub pieces: Option<Pieces>,
 }
 
@@ -64,8 +66,7 @@ impl ImageOptions {
 
     fn pieces(&self) -> Pieces {
         let mask = self.has_level() || self.smooth == Smooth::PixelEdges;
-        self.pieces
-            .unwrap_or(if mask { Pieces::All } else { Pieces::Largest })
+        self.pieces.unwrap_or(if mask { Pieces::All } else { Pieces::Largest })
     }
 }
 
@@ -115,9 +116,7 @@ pub fn trace_image(bytes: &[u8], options: &ImageOptions) -> Result<Traced, Damag
     let channel = if options.use_alpha {
         Channel::Alpha
     } else {
-        Channel::Luminance {
-            behind: if options.invert { 0 } else { u16::MAX },
-        }
+        Channel::Luminance { behind: if options.invert { 0 } else { u16::MAX } }
     };
     let whole = decode(bytes, channel)?;
     let size_px = [whole.width, whole.height];
@@ -155,11 +154,7 @@ pub fn trace_image(bytes: &[u8], options: &ImageOptions) -> Result<Traced, Damag
     if rings.iter().flatten().any(cut) {
         said.warnings.push(format!(
             "the damage reaches the {} border and is cut there; it may continue outside",
-            if options.region_px.is_some() {
-                "region's"
-            } else {
-                "image's"
-            }
+            if options.region_px.is_some() { "region's" } else { "image's" }
         ));
     }
     for point in rings.iter_mut().flatten() {
@@ -174,11 +169,7 @@ pub fn trace_image(bytes: &[u8], options: &ImageOptions) -> Result<Traced, Damag
     if options.center {
         polygons.centre();
     }
-    Ok(Traced {
-        polygons,
-        rings_px: rings,
-        size_px,
-    })
+    Ok(Traced { polygons, rings_px: rings, size_px })
 }
 
 /// What there is to say of a picture.
@@ -191,11 +182,7 @@ struct Said {
 }
 
 /// From pixels to mm about the picture's middle.
-fn in_mm(
-    rings: &[Vec<[f64; 2]>],
-    size_px: [usize; 2],
-    options: &ImageOptions,
-) -> Vec<Vec<[f64; 2]>> {
+fn in_mm(rings: &[Vec<[f64; 2]>], size_px: [usize; 2], options: &ImageOptions) -> Vec<Vec<[f64; 2]>> {
     let half = size_px.map(|n| 0.5 * n as f64);
     let place = |p: &[f64; 2]| {
         let x = (p[0] - half[0]) * options.mm_per_pixel;
@@ -203,10 +190,7 @@ fn in_mm(
         options.rolling_direction.turn(x, y)
     };
     // The outlines run clockwise on the screen.
-    rings
-        .iter()
-        .map(|ring| ring.iter().rev().map(place).collect())
-        .collect()
+    rings.iter().map(|ring| ring.iter().rev().map(place).collect()).collect()
 }
 
 /// The picture with damage above a level, and nothing but the damage that is wanted above it.
@@ -256,8 +240,7 @@ fn told_apart(
             }
             None => {
                 said.threshold = Some(shown);
-                said.notes
-                    .push(format!("the threshold was found as {shown:.3}"));
+                said.notes.push(format!("the threshold was found as {shown:.3}"));
             }
         }
         said.specks = found.specks;
@@ -296,10 +279,7 @@ fn take(all: &mut Vec<Piece>, wanted: Pieces, options: &ImageOptions) -> Result<
             Pieces::At([x, y]) => {
                 format!("no damage lies at `at_px` = [{x}, {y}]; check it, or `threshold`")
             }
-            _ => format!(
-                "nothing is as large as `speck_mm2` = {} mm^2",
-                options.speck_mm2
-            ),
+            _ => format!("nothing is as large as `speck_mm2` = {} mm^2", options.speck_mm2),
         },
     })?;
     all.remove(place);
@@ -327,11 +307,7 @@ fn without(pixels: &mut Pixels, level: f64, smallest: f64) -> Result<(), DamageE
         return Ok(());
     }
     let (all, _) = pieces(pixels, level, 1.0)?;
-    for run in all
-        .iter()
-        .filter(|p| (p.area as f64) < smallest)
-        .flat_map(|p| &p.runs)
-    {
+    for run in all.iter().filter(|p| (p.area as f64) < smallest).flat_map(|p| &p.runs) {
         let start = run.row * pixels.width;
         pixels.values[start + run.from..start + run.to].fill(0);
     }
@@ -352,10 +328,7 @@ fn too_small(outlines: &Outlines, options: &ImageOptions) -> DamageError {
 
 /// That no piece is a class of its own, with what would help.
 fn no_spall(pixels: &Pixels, wanted: Wanted, options: &ImageOptions) -> DamageError {
-    let (first, last) = pixels
-        .values
-        .iter()
-        .fold((u16::MAX, 0), |(a, b), &v| (a.min(v), b.max(v)));
+    let (first, last) = pixels.values.iter().fold((u16::MAX, 0), |(a, b), &v| (a.min(v), b.max(v)));
     if first == last {
         return DamageError::NothingDamaged {
             why: "the image has one brightness only (if the mask is its transparency, set `use_alpha`)".to_owned(),
@@ -371,11 +344,7 @@ fn no_spall(pixels: &Pixels, wanted: Wanted, options: &ImageOptions) -> DamageEr
             options.speck_mm2
         ),
     };
-    let other = Wanted {
-        bright: !wanted.bright,
-        pieces: Pieces::Largest,
-        ..wanted
-    };
+    let other = Wanted { bright: !wanted.bright, pieces: Pieces::Largest, ..wanted };
     if let Ok(Some(found)) = find(pixels, other) {
         let mm2 = found.chosen[0].area as f64 * options.mm_per_pixel.powi(2);
         why += &format!(
@@ -390,61 +359,30 @@ fn no_spall(pixels: &Pixels, wanted: Wanted, options: &ImageOptions) -> DamageEr
 }
 
 fn check(options: &ImageOptions) -> Result<(), DamageError> {
-    check_range(
-        "mm_per_pixel",
-        options.mm_per_pixel,
-        0.0,
-        10.0,
-        "a number of mm above 0, at most 10",
-    )?;
+    check_range("mm_per_pixel", options.mm_per_pixel, 0.0, 10.0, "a number of mm above 0, at most 10")?;
     if let Some(threshold) = options.threshold {
-        check_range(
-            "threshold",
-            threshold,
-            0.0,
-            1.0 - f64::EPSILON,
-            "a number above 0 and below 1",
-        )?;
+        check_range("threshold", threshold, 0.0, 1.0 - f64::EPSILON, "a number above 0 and below 1")?;
     }
     let speck = options.speck_mm2;
-    check_range(
-        "speck_mm2",
-        speck,
-        -f64::MIN_POSITIVE,
-        1e6,
-        "an area of 0 mm^2 or more",
-    )?;
+    check_range("speck_mm2", speck, -f64::MIN_POSITIVE, 1e6, "an area of 0 mm^2 or more")?;
     if let Smooth::SubPixel { blur_px } = options.smooth {
-        check_range(
-            "blur_px",
-            blur_px,
-            -f64::MIN_POSITIVE,
-            20.0,
-            "0 to 20 pixels",
-        )?;
+        check_range("blur_px", blur_px, -f64::MIN_POSITIVE, 20.0, "0 to 20 pixels")?;
     }
     Ok(())
 }
 
 /// The level above which a pixel is damage: as stated, that of alpha, or Otsu's.
-fn level(
-    pixels: &Pixels,
-    options: &ImageOptions,
-    flip: bool,
-    said: &mut Said,
-) -> Result<f64, DamageError> {
+fn level(pixels: &Pixels, options: &ImageOptions, flip: bool, said: &mut Said) -> Result<f64, DamageError> {
     let given = options.threshold.or(options.use_alpha.then_some(0.5));
     let facing = |level: f64| if flip { 1.0 - level } else { level };
     if let Some(threshold) = given {
         return Ok(FULL * facing(threshold));
     }
     let split = otsu(&pixels.values).ok_or_else(|| DamageError::NothingDamaged {
-        why: "the image has one brightness only (if the mask is its transparency, set `use_alpha`)"
-            .to_owned(),
+        why: "the image has one brightness only (if the mask is its transparency, set `use_alpha`)".to_owned(),
     })?;
     let shown = facing(split.level / FULL);
-    said.notes
-        .push(format!("the threshold was found as {shown:.3}"));
+    said.notes.push(format!("the threshold was found as {shown:.3}"));
     said.threshold = Some(shown);
     if split.separation < CLEAR_SEPARATION {
         said.warnings.push(format!(
@@ -456,11 +394,7 @@ fn level(
 }
 
 fn all_or_nothing(pixels: &Pixels, level: f64) -> Result<(), DamageError> {
-    let damaged = pixels
-        .values
-        .iter()
-        .filter(|&&v| f64::from(v) > level)
-        .count();
+    let damaged = pixels.values.iter().filter(|&&v| f64::from(v) > level).count();
     let advice = "check `threshold`, `invert` and `use_alpha`";
     if damaged == 0 {
         return Err(DamageError::NothingDamaged {

@@ -16,10 +16,7 @@ fn direction(direction: RollingDirection) -> Direction {
 }
 
 #[cfg(feature = "image")]
-pub(crate) fn read_outline(
-    bytes: &[u8],
-    image: &ImageFile,
-) -> Result<crate::Polygons, DamageError> {
+pub(crate) fn read_outline(bytes: &[u8], image: &ImageFile) -> Result<crate::Polygons, DamageError> {
     crate::read_image(bytes, &image_options(image))
 }
 
@@ -33,9 +30,7 @@ pub(crate) fn image_options(image: &ImageFile) -> crate::ImageOptions {
         rolling_direction: direction(image.rolling_direction),
         center: image.center,
         smooth: match image.edges {
-            scenario::ImageEdges::SubPixel => crate::Smooth::SubPixel {
-                blur_px: image.blur_px.unwrap_or(0.0),
-            },
+            scenario::ImageEdges::SubPixel => crate::Smooth::SubPixel { blur_px: image.blur_px.unwrap_or(0.0) },
             scenario::ImageEdges::PixelEdges => crate::Smooth::PixelEdges,
         },
         speck_mm2: image.speck_mm2,
@@ -52,17 +47,11 @@ pub(crate) fn image_options(image: &ImageFile) -> crate::ImageOptions {
 
 #[cfg(not(feature = "image"))]
 pub(crate) fn read_outline(_: &[u8], _: &ImageFile) -> Result<crate::Polygons, DamageError> {
-    Err(DamageError::LeftOut {
-        kind: FileKind::Png,
-        feature: "image",
-    })
+    Err(DamageError::LeftOut { kind: FileKind::Png, feature: "image" })
 }
 
 #[cfg(feature = "svg")]
-pub(crate) fn read_drawing(
-    bytes: &[u8],
-    drawing: &SvgFile,
-) -> Result<crate::Polygons, DamageError> {
+pub(crate) fn read_drawing(bytes: &[u8], drawing: &SvgFile) -> Result<crate::Polygons, DamageError> {
     let options = crate::SvgOptions {
         path_id: drawing.path_id.clone(),
         mm_per_unit: drawing.mm_per_unit,
@@ -74,10 +63,7 @@ pub(crate) fn read_drawing(
 
 #[cfg(not(feature = "svg"))]
 pub(crate) fn read_drawing(_: &[u8], _: &SvgFile) -> Result<crate::Polygons, DamageError> {
-    Err(DamageError::LeftOut {
-        kind: FileKind::Svg,
-        feature: "svg",
-    })
+    Err(DamageError::LeftOut { kind: FileKind::Svg, feature: "svg" })
 }
 
 pub(crate) fn scan_options(scan: &ScanFile) -> DepthMapOptions {
@@ -99,16 +85,12 @@ pub(crate) fn scan_options(scan: &ScanFile) -> DepthMapOptions {
         remove_form: match scan.remove_form {
             scenario::ScanForm::None => Form::None,
             scenario::ScanForm::Plane => Form::Plane,
-            scenario::ScanForm::Cylinder => Form::Cylinder {
-                radius_mm: scan.radius_mm,
-            },
+            scenario::ScanForm::Cylinder => Form::Cylinder { radius_mm: scan.radius_mm },
         },
         zero: match scan.zero {
             scenario::ScanZero::AsIs => Zero::AsIs,
             scenario::ScanZero::RimMedian => Zero::RimMedian,
-            scenario::ScanZero::Percentile => {
-                Zero::Percentile(scan.zero_percentile.unwrap_or(f64::NAN))
-            }
+            scenario::ScanZero::Percentile => Zero::Percentile(scan.zero_percentile.unwrap_or(f64::NAN)),
         },
         first_row: match scan.first_row {
             scenario::FirstRow::Top => FirstRow::Top,

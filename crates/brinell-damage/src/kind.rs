@@ -37,10 +37,7 @@ impl FileKind {
         if bytes.starts_with(b"\x93NUMPY") {
             return Some(Self::Npy);
         }
-        if [&b"aISO-1.0"[..], b"bISO-1.0", b"aBCR-1.0", b"bBCR-1.0"]
-            .iter()
-            .any(|m| bytes.starts_with(m))
-        {
+        if [&b"aISO-1.0"[..], b"bISO-1.0", b"aBCR-1.0", b"bBCR-1.0"].iter().any(|m| bytes.starts_with(m)) {
             return Some(Self::Sdf);
         }
         if bytes.starts_with(b"DIGITAL SURF") || bytes.starts_with(b"DSCOMPRESSED") {
@@ -100,10 +97,7 @@ impl FileKind {
         if found == Some(self) {
             return Ok(self);
         }
-        Err(DamageError::NotWhatItsNameSays {
-            expected: self,
-            found,
-        })
+        Err(DamageError::NotWhatItsNameSays { expected: self, found })
     }
 }
 
@@ -120,16 +114,12 @@ pub(crate) fn describe(bytes: &[u8]) -> String {
         None if bytes.is_empty() => "an empty file".to_owned(),
         None if bytes.starts_with(b"PK") => "a zip archive (such as npz or xlsx)".to_owned(),
         None if bytes.starts_with(b"GIF8") => "a GIF image".to_owned(),
-        None if bytes.starts_with(b"II*\0") || bytes.starts_with(b"MM\0*") => {
-            "a TIFF image".to_owned()
-        }
+        None if bytes.starts_with(b"II*\0") || bytes.starts_with(b"MM\0*") => "a TIFF image".to_owned(),
         None if bytes.starts_with(b"BM") => "a BMP image".to_owned(),
         None if bytes.starts_with(b"%PDF") => "a PDF document".to_owned(),
         None if bytes.get(4..8) == Some(b"ftyp") => "a HEIC or AVIF photo".to_owned(),
         None if bytes.get(8..12) == Some(b"WEBP") => "a WebP image".to_owned(),
-        None if bytes.starts_with(&[0x1f, 0x8b]) => {
-            "a gzip file (such as svgz; unpack it first)".to_owned()
-        }
+        None if bytes.starts_with(&[0x1f, 0x8b]) => "a gzip file (such as svgz; unpack it first)".to_owned(),
         None => "content of an unknown format".to_owned(),
     }
 }

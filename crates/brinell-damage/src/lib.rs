@@ -3,8 +3,9 @@
 //! - [`read_svg`]: an outline drawn in a vector editor -> [`Polygons`]
 //! - [`read_image`]: a photo or a mask, PNG or JPEG -> [`Polygons`]
 //! - [`read_depth_map`]: a profilometer's grid or point cloud, CSV, NPY, PNG, SDF, X3P or SUR -> [`DepthGrid`]
-//! - [`resolve`], [`resolve_loaded`]: every file that a scenario names -> the scenario with geometry in its place. For this the crate
-//!   uses `brinell`, which opens no files: its scenario, and its checks on what came out. The readers know no bearing.
+//! - [`resolve`], [`resolve_loaded`]: every file that a scenario names -> the scenario with geometry in its place. For
+//!   this the crate uses `brinell`, which opens no files: its scenario, and its checks on what came out. The readers
+//!   know no bearing.
 //! - [`DepthGrid::outline`]: the line along which a grid has one depth -> [`Polygons`]
 //!
 //! Frame. `s` runs along the rolling direction, `z` along the axis, both in mm, right-handed as seen by someone

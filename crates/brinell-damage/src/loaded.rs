@@ -5,8 +5,8 @@ use crate::resolve::resolve_noting;
 use brinell::document::{Loaded, Problem, Problems, Severity, locate};
 use std::path::Path;
 
-/// [`crate::resolve`] for a scenario read from `text` with `overrides`: problems point at the line that names the file, and the provenance says which
-/// values came from it. Gives warnings.
+/// [`crate::resolve`] for a scenario read from `text` with `overrides`: problems point at the line that names the file,
+/// and the provenance says which values came from it. Gives warnings.
 ///
 /// # Errors
 /// Every file that could not be read or does not fit the bearing.
@@ -16,27 +16,22 @@ pub fn resolve_loaded(
     overrides: &[(String, String)],
     folder: &Path,
 ) -> Result<Vec<String>, Vec<Problem>> {
-    let files: Vec<Option<String>> = loaded
-        .scenario
-        .defects
-        .iter()
-        .map(|d| d.shape.file().map(str::to_owned))
-        .collect();
+    let files: Vec<Option<String>> =
+        loaded.scenario.defects.iter().map(|d| d.shape.file().map(str::to_owned)).collect();
     let mut thresholds = Vec::new();
-    let warnings =
-        resolve_noting(&mut loaded.scenario, folder, &mut thresholds).map_err(|errors| {
-            let placed = |error: Unresolved| {
-                // What an override gave is nowhere in the text.
-                let given = overrides.iter().any(|(key, _)| error.key.starts_with(key));
-                let place = locate(text, &error.key).filter(|_| !given);
-                Problem::of_file(&error.key, &error.file, &error.message).placed(place)
-            };
-            let mut problems = Problems::of(text);
-            for error in errors {
-                problems.add_of(Severity::Error, "file of damage", || (placed(error), None));
-            }
-            problems.finish()
-        })?;
+    let warnings = resolve_noting(&mut loaded.scenario, folder, &mut thresholds).map_err(|errors| {
+        let placed = |error: Unresolved| {
+            // What an override gave is nowhere in the text.
+            let given = overrides.iter().any(|(key, _)| error.key.starts_with(key));
+            let place = locate(text, &error.key).filter(|_| !given);
+            Problem::of_file(&error.key, &error.file, &error.message).placed(place)
+        };
+        let mut problems = Problems::of(text);
+        for error in errors {
+            problems.add_of(Severity::Error, "file of damage", || (placed(error), None));
+        }
+        problems.finish()
+    })?;
     for (defect, file) in files.iter().enumerate() {
         if let Some(file) = file {
             loaded.read_from(defect, file);

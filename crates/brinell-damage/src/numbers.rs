@@ -1,11 +1,8 @@
 //! Small numerics that fits share: linear equations, middle values.
 
-/// Solution of linear equations by Gaussian elimination with pivots: a row each, its right side in the last column. `None` where no pivot is above
-/// `least` in magnitude, or a number is not finite.
-pub(crate) fn solved<R: AsRef<[f64]> + AsMut<[f64]>>(
-    rows: &mut [R],
-    least: f64,
-) -> Option<Vec<f64>> {
+/// Solution of linear equations by Gaussian elimination with pivots: a row each, its right side in the last column.
+/// `None` where no pivot is above `least` in magnitude, or a number is not finite.
+pub(crate) fn solved<R: AsRef<[f64]> + AsMut<[f64]>>(rows: &mut [R], least: f64) -> Option<Vec<f64>> {
     let n = rows.len();
     let size = |row: &R, k: usize| row.as_ref()[k].abs();
     for k in 0..n {

@@ -6,8 +6,8 @@ use crate::geometry::{DepthGrid, Polygons, signed_area};
 use brinell::defect::{Fault, faults};
 
 impl DepthGrid {
-    /// What is deeper than `level_um`, its border found between nodes by straight interpolation (marching squares) and then freed of the
-    /// corners that lie within `tolerance_mm` of it; along the grid's edge where damage reaches that.
+    /// What is deeper than `level_um`, its border found between nodes by straight interpolation (marching squares) and
+    /// then freed of the corners that lie within `tolerance_mm` of it; along the grid's edge where damage reaches that.
     ///
     /// Polygons as elsewhere: outer rings counter-clockwise, holes clockwise, none crossing itself or another.
     ///
@@ -15,20 +15,8 @@ impl DepthGrid {
     ///
     /// A level below 0 or a tolerance below 0; nothing deeper than the level; a border of more than two million points.
     pub fn outline(&self, level_um: f64, tolerance_mm: f64) -> Result<Polygons, DamageError> {
-        check_range(
-            "level_um",
-            level_um,
-            -f64::MIN_POSITIVE,
-            f64::MAX,
-            "a depth of 0 um or more",
-        )?;
-        check_range(
-            "tolerance_mm",
-            tolerance_mm,
-            -f64::MIN_POSITIVE,
-            f64::MAX,
-            "a distance of 0 mm or more",
-        )?;
+        check_range("level_um", level_um, -f64::MIN_POSITIVE, f64::MAX, "a depth of 0 um or more")?;
+        check_range("tolerance_mm", tolerance_mm, -f64::MIN_POSITIVE, f64::MAX, "a distance of 0 mm or more")?;
         let mut rings = self.field(level_um).outlines(0.0)?.rings;
         if rings.is_empty() {
             return Err(DamageError::NothingDamaged {
@@ -40,10 +28,7 @@ impl DepthGrid {
         }
         for point in rings.iter_mut().flatten() {
             // Node (0, 0) is the middle of pixel (0, 0).
-            *point = [
-                self.s0_mm + (point[0] - 0.5) * self.ds_mm,
-                self.z0_mm + (point[1] - 0.5) * self.dz_mm,
-            ];
+            *point = [self.s0_mm + (point[0] - 0.5) * self.ds_mm, self.z0_mm + (point[1] - 0.5) * self.dz_mm];
         }
         Ok(Polygons {
             polygons_mm: simplified(rings, tolerance_mm),
@@ -77,14 +62,7 @@ impl DepthGrid {
     }
 
     fn field(&self, level: f64) -> Field<'_, f64> {
-        Field {
-            width: self.columns,
-            height: self.rows,
-            values: &self.depth_um,
-            level,
-            rim: 0.0,
-            sub_pixel: true,
-        }
+        Field { width: self.columns, height: self.rows, values: &self.depth_um, level, rim: 0.0, sub_pixel: true }
     }
 }
 
@@ -107,7 +85,8 @@ fn simplified(rings: Vec<Vec<[f64; 2]>>, mut tolerance: f64) -> Vec<Vec<[f64; 2]
     rings
 }
 
-/// Douglas and Peucker's choice of corners on a closed ring: no corner left out lies farther than `tolerance` from the side in its place.
+/// Douglas and Peucker's choice of corners on a closed ring: no corner left out lies farther than `tolerance` from the
+/// side in its place.
 fn without_close_corners(ring: &[[f64; 2]], tolerance: f64) -> Vec<[f64; 2]> {
     let squared = |p: [f64; 2], q: [f64; 2]| (p[0] - q[0]).powi(2) + (p[1] - q[1]).powi(2);
     let farthest = |from: usize| {
@@ -139,10 +118,6 @@ fn without_close_corners(ring: &[[f64; 2]], tolerance: f64) -> Vec<[f64; 2]> {
 fn from_side(p: [f64; 2], a: [f64; 2], b: [f64; 2]) -> f64 {
     let (along, to) = ([b[0] - a[0], b[1] - a[1]], [p[0] - a[0], p[1] - a[1]]);
     let length = along[0] * along[0] + along[1] * along[1];
-    let share = if length > 0.0 {
-        ((to[0] * along[0] + to[1] * along[1]) / length).clamp(0.0, 1.0)
-    } else {
-        0.0
-    };
+    let share = if length > 0.0 { ((to[0] * along[0] + to[1] * along[1]) / length).clamp(0.0, 1.0) } else { 0.0 };
     (to[0] - share * along[0]).hypot(to[1] - share * along[1])
 }

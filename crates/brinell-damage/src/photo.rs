@@ -56,10 +56,7 @@ pub fn photo(bytes: &[u8], options: &ImageOptions) -> Result<Photo, DamageError>
 
 /// Means of squares of pixels.
 fn shrunk(pixels: &Pixels, factor: usize) -> Vec<u8> {
-    let (columns, rows) = (
-        pixels.width.div_ceil(factor),
-        pixels.height.div_ceil(factor),
-    );
+    let (columns, rows) = (pixels.width.div_ceil(factor), pixels.height.div_ceil(factor));
     let mut grey = Vec::with_capacity(columns * rows);
     for row in 0..rows {
         let lines = row * factor..((row + 1) * factor).min(pixels.height);
@@ -77,7 +74,8 @@ fn shrunk(pixels: &Pixels, factor: usize) -> Vec<u8> {
     grey
 }
 
-/// The photo of each defect of a scenario whose files are not read yet; `None` where there is none, or it cannot be read.
+/// The photo of each defect of a scenario whose files are not read yet; `None` where there is none, or it cannot be
+/// read.
 pub fn photos(scenario: &Scenario, folder: &Path) -> Vec<Option<Photo>> {
     let of = |shape: &Shape| {
         let Shape::Image(image) = shape else {
@@ -85,10 +83,7 @@ pub fn photos(scenario: &Scenario, folder: &Path) -> Vec<Option<Photo>> {
         };
         let bytes = bytes_of(shape, folder).ok()?;
         let photo = photo(&bytes, &image_options(image)).ok()?;
-        Some(Photo {
-            file: image.file.clone(),
-            ..photo
-        })
+        Some(Photo { file: image.file.clone(), ..photo })
     };
     scenario.defects.iter().map(|d| of(&d.shape)).collect()
 }

@@ -35,9 +35,7 @@ impl Piece {
     }
 
     pub(crate) fn holds(&self, [x, y]: [usize; 2]) -> bool {
-        self.runs
-            .iter()
-            .any(|r| r.row == y && (r.from..r.to).contains(&x))
+        self.runs.iter().any(|r| r.row == y && (r.from..r.to).contains(&x))
     }
 
     /// Pixels that both have.
@@ -45,11 +43,7 @@ impl Piece {
         // Runs come row by row, and within a row from the left.
         let (mut shared, mut next) = (0, 0);
         for run in &self.runs {
-            while other
-                .runs
-                .get(next)
-                .is_some_and(|o| (o.row, o.to) <= (run.row, run.from))
-            {
+            while other.runs.get(next).is_some_and(|o| (o.row, o.to) <= (run.row, run.from)) {
                 next += 1;
             }
             let reached = |o: &&Run| (o.row, o.from) < (run.row, run.to);
@@ -67,21 +61,13 @@ impl Piece {
         self.touch[0] += usize::from(run.from == 0);
         self.touch[1] += usize::from(run.to == pixels.width);
         self.touch[2] += if run.row == 0 { length } else { 0 };
-        self.touch[3] += if run.row + 1 == pixels.height {
-            length
-        } else {
-            0
-        };
+        self.touch[3] += if run.row + 1 == pixels.height { length } else { 0 };
         self.runs.push(run);
     }
 }
 
 /// All pieces of at least `smallest` pixels, the largest first, and how many smaller ones there are.
-pub(crate) fn pieces(
-    pixels: &Pixels,
-    level: f64,
-    smallest: f64,
-) -> Result<(Vec<Piece>, usize), DamageError> {
+pub(crate) fn pieces(pixels: &Pixels, level: f64, smallest: f64) -> Result<(Vec<Piece>, usize), DamageError> {
     let runs = runs(pixels, level)?;
     let mut parents: Vec<u32> = (0..runs.len() as u32).collect();
     // Sides that a run shares with the row above it.
@@ -89,8 +75,7 @@ pub(crate) fn pieces(
     let mut above = 0;
     for (k, run) in runs.iter().enumerate() {
         while above < k
-            && (runs[above].row + 1 < run.row
-                || (runs[above].row + 1 == run.row && runs[above].to < run.from))
+            && (runs[above].row + 1 < run.row || (runs[above].row + 1 == run.row && runs[above].to < run.from))
         {
             above += 1;
         }
@@ -98,10 +83,7 @@ pub(crate) fn pieces(
         for (j, other) in (above..).zip(runs[above..k].iter().take_while(reached)) {
             if other.to >= run.from {
                 join(&mut parents, j as u32, k as u32);
-                let both = other
-                    .to
-                    .min(run.to)
-                    .saturating_sub(other.from.max(run.from));
+                let both = other.to.min(run.to).saturating_sub(other.from.max(run.from));
                 shared[k] += both as u32;
             }
         }
@@ -110,10 +92,7 @@ pub(crate) fn pieces(
     for (k, run) in runs.iter().enumerate() {
         areas[root(&mut parents, k as u32)] += run.to - run.from;
     }
-    let dropped = areas
-        .iter()
-        .filter(|&&a| a > 0 && (a as f64) < smallest)
-        .count();
+    let dropped = areas.iter().filter(|&&a| a > 0 && (a as f64) < smallest).count();
     let mut places = vec![usize::MAX; runs.len()];
     let mut all: Vec<Piece> = Vec::new();
     for (k, &run) in runs.iter().enumerate() {

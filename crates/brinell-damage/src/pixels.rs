@@ -61,21 +61,8 @@ impl Canvas {
             _ => (0, 1, w),
         };
         let values = vec![0; width * height];
-        let (width, height) = if turn >= 5 {
-            (height, width)
-        } else {
-            (width, height)
-        };
-        Self {
-            pixels: Pixels {
-                width,
-                height,
-                values,
-            },
-            origin,
-            column,
-            row,
-        }
+        let (width, height) = if turn >= 5 { (height, width) } else { (width, height) };
+        Self { pixels: Pixels { width, height, values }, origin, column, row }
     }
 
     /// Row `y` of the file.
@@ -95,31 +82,21 @@ pub(crate) fn decode(bytes: &[u8], channel: Channel) -> Result<Pixels, DamageErr
     match FileKind::of_content(bytes) {
         Some(FileKind::Png) => decode_png(bytes, channel),
         Some(FileKind::Jpeg) => decode_jpeg(bytes, channel),
-        _ => Err(DamageError::WrongKind {
-            what: describe(bytes),
-            wanted: "an image",
-            way_out: "save it as PNG or JPEG",
-        }),
+        _ => {
+            Err(DamageError::WrongKind { what: describe(bytes), wanted: "an image", way_out: "save it as PNG or JPEG" })
+        }
     }
 }
 
 /// That a picture of two bytes a pixel fits beside the `frame` bytes that it is decoded into.
-fn check_frame(
-    what: &'static str,
-    width: usize,
-    height: usize,
-    frame: u64,
-) -> Result<(), DamageError> {
+fn check_frame(what: &'static str, width: usize, height: usize, frame: u64) -> Result<(), DamageError> {
     let bytes = frame.saturating_add(2 * (width * height) as u64);
     if bytes <= MOST_BYTES {
         return Ok(());
     }
     Err(DamageError::TooLarge {
         what,
-        value: format!(
-            "{width} x {height} pixels, {} MB to decode",
-            bytes / 1_000_000
-        ),
+        value: format!("{width} x {height} pixels, {} MB to decode", bytes / 1_000_000),
         limit: format!("{} MB", MOST_BYTES / 1_000_000),
         way_out: "save it neither interlaced nor progressive, cut out the damage, or scale the image down and adapt the spacing",
     })
@@ -145,11 +122,7 @@ fn check_size(kind: FileKind, width: u64, height: u64) -> Result<(), DamageError
 }
 
 fn broken(kind: FileKind, at: &str, why: impl ToString) -> DamageError {
-    DamageError::Broken {
-        kind,
-        at: at.to_owned(),
-        why: why.to_string(),
-    }
+    DamageError::Broken { kind, at: at.to_owned(), why: why.to_string() }
 }
 
 fn decode_png(bytes: &[u8], channel: Channel) -> Result<Pixels, DamageError> {
@@ -157,27 +130,18 @@ fn decode_png(bytes: &[u8], channel: Channel) -> Result<Pixels, DamageError> {
     let (mut plain, mut y) = (false, 0);
     png_rows(bytes, |sheet, row, samples, wide| {
         let pixel = |sample: usize| -> u16 {
-            if wide {
-                u16::from_be_bytes([row[2 * sample], row[2 * sample + 1]])
-            } else {
-                u16::from(row[sample]) * 257
-            }
+            if wide { u16::from_be_bytes([row[2 * sample], row[2 * sample + 1]]) } else { u16::from(row[sample]) * 257 }
         };
         let step = if wide { 2 * samples } else { samples };
         plain |= channel == Channel::Alpha && samples % 2 == 1;
-        let canvas =
-            canvas.get_or_insert_with(|| Canvas::new(sheet.width, sheet.height, sheet.turn));
+        let canvas = canvas.get_or_insert_with(|| Canvas::new(sheet.width, sheet.height, sheet.turn));
         let row = (0..row.len() / step).map(|x| {
             let at = |i: usize| pixel(x * samples + i);
             let grey = || match samples {
                 1 | 2 => at(0),
                 _ => luminance(at(0), at(1), at(2)),
             };
-            let alpha = if samples % 2 == 0 {
-                at(samples - 1)
-            } else {
-                u16::MAX
-            };
+            let alpha = if samples % 2 == 0 { at(samples - 1) } else { u16::MAX };
             match channel {
                 Channel::Alpha => alpha,
                 Channel::Luminance { behind } => over(grey(), alpha, behind),
@@ -221,20 +185,15 @@ pub(crate) struct Sheet {
     pub(crate) bits: u8,
 }
 
-/// Gives `take` every row from the top: the sheet, the row's bytes, samples per pixel, and whether a sample has two bytes.
-pub(crate) fn png_rows(
-    bytes: &[u8],
-    mut take: impl FnMut(&Sheet, &[u8], usize, bool),
-) -> Result<Sheet, DamageError> {
+/// Gives `take` every row from the top: the sheet, the row's bytes, samples per pixel, and whether a sample has two
+/// bytes.
+pub(crate) fn png_rows(bytes: &[u8], mut take: impl FnMut(&Sheet, &[u8], usize, bool)) -> Result<Sheet, DamageError> {
     let fault = |at: &str, error: png::DecodingError| broken(FileKind::Png, at, error);
-    let mut decoder =
-        png::Decoder::new_with_limits(Cursor::new(bytes), png::Limits { bytes: PNG_BYTES });
+    let mut decoder = png::Decoder::new_with_limits(Cursor::new(bytes), png::Limits { bytes: PNG_BYTES });
     decoder.set_transformations(Transformations::EXPAND);
     decoder.set_ignore_text_chunk(true);
     decoder.set_ignore_iccp_chunk(true);
-    let info = decoder
-        .read_header_info()
-        .map_err(|e| fault("its header", e))?;
+    let info = decoder.read_header_info().map_err(|e| fault("its header", e))?;
     check_size(FileKind::Png, u64::from(info.width), u64::from(info.height))?;
     let mut reader = decoder.read_info().map_err(|e| fault("its header", e))?;
     let (color, depth) = reader.output_color_type();
@@ -255,17 +214,9 @@ pub(crate) fn png_rows(
     };
     if info.interlaced {
         let size = reader.output_buffer_size().unwrap_or(usize::MAX);
-        check_frame(
-            "the interlaced image",
-            sheet.width,
-            sheet.height,
-            size as u64,
-        )?;
+        check_frame("the interlaced image", sheet.width, sheet.height, size as u64)?;
         let mut frame = vec![0; size];
-        let line = reader
-            .next_frame(&mut frame)
-            .map_err(|e| fault("its pixels", e))?
-            .line_size;
+        let line = reader.next_frame(&mut frame).map_err(|e| fault("its pixels", e))?.line_size;
         for row in frame.chunks_exact(line.max(1)).take(sheet.height) {
             take(&sheet, row, samples, wide);
         }
@@ -291,19 +242,14 @@ pub(crate) fn heights(bytes: &[u8]) -> Result<Raw, DamageError> {
             return;
         }
         let size = if wide { 2 } else { 1 };
-        raw.values
-            .extend(row.chunks_exact(samples * size).map(|pixel| {
-                let sample = |i: usize| match pixel[i * size..] {
-                    [high, low, ..] if wide => u16::from_be_bytes([high, low]),
-                    [value, ..] => u16::from(value),
-                    [] => 0,
-                };
-                if samples == 2 && sample(1) == 0 {
-                    f64::NAN
-                } else {
-                    f64::from(sample(0))
-                }
-            }));
+        raw.values.extend(row.chunks_exact(samples * size).map(|pixel| {
+            let sample = |i: usize| match pixel[i * size..] {
+                [high, low, ..] if wide => u16::from_be_bytes([high, low]),
+                [value, ..] => u16::from(value),
+                [] => 0,
+            };
+            if samples == 2 && sample(1) == 0 { f64::NAN } else { f64::from(sample(0)) }
+        }));
     })?;
     if colour {
         return Err(DamageError::Unsupported {
@@ -317,11 +263,7 @@ pub(crate) fn heights(bytes: &[u8]) -> Result<Raw, DamageError> {
         return Err(Raw::too_large(format!("{} x {}", raw.width, raw.height)));
     }
     if sheet.bits < 16 {
-        raw.warnings.push(format!(
-            "the PNG has {} bits: {} steps of depth at most",
-            sheet.bits,
-            1_u32 << sheet.bits
-        ));
+        raw.warnings.push(format!("the PNG has {} bits: {} steps of depth at most", sheet.bits, 1_u32 << sheet.bits));
     }
     Ok(raw)
 }
@@ -338,12 +280,8 @@ fn decode_jpeg(bytes: &[u8], channel: Channel) -> Result<Pixels, DamageError> {
         .set_strict_mode(true);
     let mut decoder = JpegDecoder::new_with_options(Cursor::new(bytes), options);
     let fault = |at: &str, error| broken(FileKind::Jpeg, at, format!("{error:?}"));
-    decoder
-        .decode_headers()
-        .map_err(|e| fault("its header", e))?;
-    let info = decoder
-        .info()
-        .ok_or_else(|| broken(FileKind::Jpeg, "its header", "no size"))?;
+    decoder.decode_headers().map_err(|e| fault("its header", e))?;
+    let info = decoder.info().ok_or_else(|| broken(FileKind::Jpeg, "its header", "no size"))?;
     let (width, height) = (usize::from(info.width), usize::from(info.height));
     check_size(FileKind::Jpeg, width as u64, height as u64)?;
     // Of a progressive file the decoder holds two bytes a pixel and component; its type for that has no public name.
@@ -354,11 +292,7 @@ fn decode_jpeg(bytes: &[u8], channel: Channel) -> Result<Pixels, DamageError> {
     check_frame("the JPEG", width, height, held * (width * height) as u64)?;
     let grey = decoder.decode().map_err(|e| fault("its pixels", e))?;
     if grey.len() != width * height {
-        return Err(broken(
-            FileKind::Jpeg,
-            "its pixels",
-            "its colours cannot be read as grey; save it as PNG",
-        ));
+        return Err(broken(FileKind::Jpeg, "its pixels", "its colours cannot be read as grey; save it as PNG"));
     }
     let turn = decoder.exif().map_or(1, |exif| exif_orientation(exif));
     let mut canvas = Canvas::new(width, height, turn);
@@ -370,9 +304,7 @@ fn decode_jpeg(bytes: &[u8], channel: Channel) -> Result<Pixels, DamageError> {
 
 /// The EXIF orientation, 1 to 8; 1 where there is none.
 fn exif_orientation(exif: &[u8]) -> u8 {
-    orientation_entry(exif)
-        .filter(|v| (1..=8).contains(v))
-        .unwrap_or(1)
+    orientation_entry(exif).filter(|v| (1..=8).contains(v)).unwrap_or(1)
 }
 
 fn orientation_entry(exif: &[u8]) -> Option<u8> {
@@ -385,18 +317,10 @@ fn orientation_entry(exif: &[u8]) -> Option<u8> {
     };
     let short = |at: usize| -> Option<u16> {
         let b: [u8; 2] = exif.get(at..at.checked_add(2)?)?.try_into().ok()?;
-        Some(if little {
-            u16::from_le_bytes(b)
-        } else {
-            u16::from_be_bytes(b)
-        })
+        Some(if little { u16::from_le_bytes(b) } else { u16::from_be_bytes(b) })
     };
     let long: [u8; 4] = exif.get(4..8)?.try_into().ok()?;
-    let first = if little {
-        u32::from_le_bytes(long)
-    } else {
-        u32::from_be_bytes(long)
-    } as usize;
+    let first = if little { u32::from_le_bytes(long) } else { u32::from_be_bytes(long) } as usize;
     let entries = usize::from(short(first)?);
     for entry in 0..entries {
         let at = first.checked_add(2 + 12 * entry)?;
@@ -432,11 +356,7 @@ mod tests {
             }
             let shown = canvas.pixels;
             let text: String = shown.values.iter().map(u16::to_string).collect();
-            assert_eq!(
-                (shown.width, text),
-                (3, UPRIGHT.concat()),
-                "orientation {turn}"
-            );
+            assert_eq!((shown.width, text), (3, UPRIGHT.concat()), "orientation {turn}");
         }
     }
 

@@ -11,18 +11,9 @@ pub const CORNERS: usize = 113;
 pub fn depth_grid(of: &scenario::Defect) -> Option<crate::DepthGrid> {
     let grid = match &of.shape {
         scenario::Shape::DepthMap { grid } => grid.clone(),
-        scenario::Shape::Random {
-            seed,
-            length_mm,
-            width_mm,
-            roughness,
-        } => spall(
-            *seed,
-            *length_mm,
-            *width_mm,
-            *roughness,
-            of.depth_um.max(1.0),
-        ),
+        scenario::Shape::Random { seed, length_mm, width_mm, roughness } => {
+            spall(*seed, *length_mm, *width_mm, *roughness, of.depth_um.max(1.0))
+        }
         _ => return None,
     };
     Some(grid.into())
@@ -42,14 +33,12 @@ impl Contour {
     /// # Errors
     /// Where no depth's line encloses that area.
     pub fn of(grid: &crate::DepthGrid, shape: &Shape) -> Result<Self, crate::DamageError> {
-        Ok(Self {
-            level_um: grid.level_of_area(1e6 * shape.area())?,
-            tolerance_mm: 0.1 * grid.ds_mm.min(grid.dz_mm),
-        })
+        Ok(Self { level_um: grid.level_of_area(1e6 * shape.area())?, tolerance_mm: 0.1 * grid.ds_mm.min(grid.dz_mm) })
     }
 }
 
-/// The damage seen from above, mm: exact where it has corners, `points` of them on a curved edge; widths alone are centred.
+/// The damage seen from above, mm: exact where it has corners, `points` of them on a curved edge; widths alone are
+/// centred.
 pub fn polygons_mm(of: &scenario::Defect, shape: &Shape, points: usize) -> Vec<Vec<[f64; 2]>> {
     match shape {
         Shape::Rectangle { half_length, width } if *width > 0.0 => {
@@ -82,12 +71,7 @@ fn centred(shape: &Shape, points: usize) -> Vec<Vec<[f64; 2]>> {
     let mut parts: Vec<Vec<[f64; 2]>> = Vec::new();
     let mut open: Vec<[f64; 2]> = Vec::new();
     let mut close = |open: &mut Vec<[f64; 2]>| {
-        let back: Vec<[f64; 2]> = open
-            .iter()
-            .rev()
-            .filter(|p| p[1] > 0.0)
-            .map(|p| [p[0], -p[1]])
-            .collect();
+        let back: Vec<[f64; 2]> = open.iter().rev().filter(|p| p[1] > 0.0).map(|p| [p[0], -p[1]]).collect();
         if open.len() > 1 && !back.is_empty() {
             parts.push(open.drain(..).chain(back).collect());
         }
@@ -126,9 +110,7 @@ pub fn course(shape: &Shape, points: usize) -> Vec<(f64, f64)> {
     };
     if nodes.len() > 4 * points {
         let n = points.max(2) - 1;
-        nodes = (0..=n)
-            .map(|k| first + length * k as f64 / n as f64)
-            .collect();
+        nodes = (0..=n).map(|k| first + length * k as f64 / n as f64).collect();
     }
     let hair = 1e-9 * length;
     let width = |s: f64| shape.damaged_length(s.clamp(first, last)).max(0.0);

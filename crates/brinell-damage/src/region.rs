@@ -4,10 +4,7 @@ use crate::error::DamageError;
 use crate::pixels::Pixels;
 
 /// The region (left, top, width, height in pixels) of a picture, and its upper left corner.
-pub(crate) fn cut(
-    picture: Pixels,
-    region_px: Option<[f64; 4]>,
-) -> Result<(Pixels, [usize; 2]), DamageError> {
+pub(crate) fn cut(picture: Pixels, region_px: Option<[f64; 4]>) -> Result<(Pixels, [usize; 2]), DamageError> {
     let Some([left, top, width, height]) = region_px else {
         return Ok((picture, [0, 0]));
     };
@@ -27,10 +24,6 @@ pub(crate) fn cut(
             picture.values[start..start + width].iter().copied()
         })
         .collect();
-    let part = Pixels {
-        width,
-        height,
-        values,
-    };
+    let part = Pixels { width, height, values };
     Ok((part, [left, top]))
 }

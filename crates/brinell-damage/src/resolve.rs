@@ -93,19 +93,11 @@ pub(crate) fn resolve_noting(
             Ok(read) => {
                 resolved.defects[*i].shape = read.shape;
                 thresholds.extend(read.threshold.map(|level| (*i, level)));
-                warnings.extend(
-                    read.warnings
-                        .iter()
-                        .map(|text| format!("{key} = \"{file}\" (defect {}): {text}", i + 1)),
-                );
+                warnings
+                    .extend(read.warnings.iter().map(|text| format!("{key} = \"{file}\" (defect {}): {text}", i + 1)));
                 hints.push((*i, read.warnings));
             }
-            Err(message) => errors.push(Unresolved {
-                defect: *i,
-                key: key.clone(),
-                file: file.clone(),
-                message,
-            }),
+            Err(message) => errors.push(Unresolved { defect: *i, key: key.clone(), file: file.clone(), message }),
         }
     }
     if !errors.is_empty() {
@@ -132,9 +124,7 @@ pub(crate) fn resolve_noting(
 fn can_be_read_again(resolved: &Scenario, files: &[Named]) -> Result<(), Vec<Unresolved>> {
     let text = resolved.to_toml().len();
     if text > MOST_TEXT {
-        let largest = files
-            .iter()
-            .max_by_key(|(i, ..)| size(&resolved.defects[*i].shape));
+        let largest = files.iter().max_by_key(|(i, ..)| size(&resolved.defects[*i].shape));
         let (defect, key, file) = largest.unwrap_or(&files[0]).clone();
         let message = format!(
             "with the geometry of its files the scenario takes {:.1} MiB, more than the {} MiB that are read again; this file has {} numbers: \
@@ -143,22 +133,13 @@ fn can_be_read_again(resolved: &Scenario, files: &[Named]) -> Result<(), Vec<Unr
             MOST_TEXT >> 20,
             size(&resolved.defects[defect].shape)
         );
-        return Err(vec![Unresolved {
-            defect,
-            key,
-            file,
-            message,
-        }]);
+        return Err(vec![Unresolved { defect, key, file, message }]);
     }
     Ok(())
 }
 
 /// What the scenario with its geometry is warned of and refused for, beyond what it was without.
-fn new_problems(
-    scenario: &Scenario,
-    resolved: &Scenario,
-    files: &[Named],
-) -> (Vec<String>, Vec<Unresolved>) {
+fn new_problems(scenario: &Scenario, resolved: &Scenario, files: &[Named]) -> (Vec<String>, Vec<Unresolved>) {
     let (mut warnings, mut errors) = (Vec::new(), Vec::new());
     let before = scenario.problems();
     for problem in resolved.problems() {
@@ -166,31 +147,20 @@ fn new_problems(
             continue;
         }
         let of = |(i, ..): &&Named| {
-            problem.key.starts_with(&format!("defects.{i}."))
-                || problem.key == format!("defects.{i}")
+            problem.key.starts_with(&format!("defects.{i}.")) || problem.key == format!("defects.{i}")
         };
         // What no defect is named for (memory of slices, for one) has come with the files all the same.
         let (defect, key, file) = files.iter().find(of).unwrap_or(&files[0]);
         let mut message = words(&problem);
         // Against the bearing it is the size that does not fit.
-        if problem
-            .also
-            .iter()
-            .any(|(key, _)| key.starts_with("bearing."))
-        {
+        if problem.also.iter().any(|(key, _)| key.starts_with("bearing.")) {
             message += &scale(&scenario.defects[*defect].shape);
         }
         match problem.severity {
-            Severity::Warning => warnings.push(format!(
-                "{key} = \"{file}\" (defect {}): {message}",
-                defect + 1
-            )),
-            Severity::Error => errors.push(Unresolved {
-                defect: *defect,
-                key: key.clone(),
-                file: file.clone(),
-                message,
-            }),
+            Severity::Warning => warnings.push(format!("{key} = \"{file}\" (defect {}): {message}", defect + 1)),
+            Severity::Error => {
+                errors.push(Unresolved { defect: *defect, key: key.clone(), file: file.clone(), message })
+            }
         }
     }
     (warnings, errors)
@@ -221,22 +191,14 @@ fn words(problem: &Problem) -> String {
 /// What the size of a file's damage follows from.
 fn scale(shape: &Shape) -> String {
     match shape {
-        Shape::Image(image) => format!(
-            "; its size follows from mm_per_pixel = {}",
-            image.mm_per_pixel
-        ),
-        Shape::Svg(SvgFile {
-            mm_per_unit: Some(scale),
-            ..
-        }) => {
+        Shape::Image(image) => format!("; its size follows from mm_per_pixel = {}", image.mm_per_pixel),
+        Shape::Svg(SvgFile { mm_per_unit: Some(scale), .. }) => {
             format!("; its size follows from mm_per_unit = {scale}")
         }
         Shape::Svg(_) => "; its size is the drawing's own, or give mm_per_unit".into(),
-        Shape::Scan(ScanFile {
-            ds_mm: Some(ds),
-            dz_mm: Some(dz),
-            ..
-        }) => format!("; its size follows from ds_mm = {ds} and dz_mm = {dz}"),
+        Shape::Scan(ScanFile { ds_mm: Some(ds), dz_mm: Some(dz), .. }) => {
+            format!("; its size follows from ds_mm = {ds} and dz_mm = {dz}")
+        }
         Shape::Scan(_) => "; its size is what the file says of its spacing".into(),
         _ => String::new(),
     }
@@ -268,12 +230,7 @@ fn read_noting(shape: &Shape, folder: &Path) -> Result<ReadShape, String> {
 /// # Errors
 /// In words.
 pub fn shape_of_bytes(shape: &Shape, bytes: &[u8]) -> Result<ReadShape, String> {
-    let as_it_is = || ReadShape {
-        shape: shape.clone(),
-        warnings: Vec::new(),
-        notes: Vec::new(),
-        threshold: None,
-    };
+    let as_it_is = || ReadShape { shape: shape.clone(), warnings: Vec::new(), notes: Vec::new(), threshold: None };
     let Some(file) = shape.file() else {
         return Ok(as_it_is());
     };
@@ -285,8 +242,7 @@ pub fn shape_of_bytes(shape: &Shape, bytes: &[u8]) -> Result<ReadShape, String> 
         Shape::Image(image) => read_outline(bytes, image),
         Shape::Svg(drawing) => read_drawing(bytes, drawing),
         Shape::Scan(scan) => {
-            let grid = read_depth_map(bytes, Some(kind), &scan_options(scan))
-                .map_err(|e| e.to_string())?;
+            let grid = read_depth_map(bytes, Some(kind), &scan_options(scan)).map_err(|e| e.to_string())?;
             // What may be wrong explains what cannot be used.
             let with_hints = |error: String| [&[error], &grid.warnings[..]].concat().join("; ");
             let doubt = doubt(&grid).map_err(with_hints)?;
@@ -301,9 +257,7 @@ pub fn shape_of_bytes(shape: &Shape, bytes: &[u8]) -> Result<ReadShape, String> 
     };
     let polygons = read.map_err(|e| e.to_string())?;
     Ok(ReadShape {
-        shape: Shape::Outline {
-            polygons_mm: polygons.polygons_mm,
-        },
+        shape: Shape::Outline { polygons_mm: polygons.polygons_mm },
         warnings: polygons.warnings,
         notes: polygons.notes,
         threshold: polygons.threshold,
@@ -312,10 +266,7 @@ pub fn shape_of_bytes(shape: &Shape, bytes: &[u8]) -> Result<ReadShape, String> 
 
 /// The content of a shape's file.
 pub(crate) fn bytes_of(shape: &Shape, folder: &Path) -> Result<Vec<u8>, String> {
-    bytes(
-        &folder.join(shape.file().unwrap_or_default()),
-        largest(shape),
-    )
+    bytes(&folder.join(shape.file().unwrap_or_default()), largest(shape))
 }
 
 /// Bytes of a file for a shape at most.
@@ -335,15 +286,9 @@ fn bytes(path: &Path, largest: u64) -> Result<Vec<u8>, String> {
     }
     let mut bytes = Vec::new();
     let file = std::fs::File::open(path).map_err(failed)?;
-    file.take(largest + 1)
-        .read_to_end(&mut bytes)
-        .map_err(failed)?;
+    file.take(largest + 1).read_to_end(&mut bytes).map_err(failed)?;
     if bytes.len() as u64 > largest {
-        return Err(format!(
-            "{} is larger than {} MiB; cut out the damage",
-            path.display(),
-            largest >> 20
-        ));
+        return Err(format!("{} is larger than {} MiB; cut out the damage", path.display(), largest >> 20));
     }
     Ok(bytes)
 }

@@ -1,8 +1,9 @@
 //! Damage told from the sound surface in a photo whose threshold nobody states.
 //!
-//! Under even light the level is Otsu's. Else the light is fitted and divided out ([`crate::background`]), and the level lies halfway between
-//! the sound surface and the piece that is found: what exceeds the noise, then what exceeds half the contrast of that, until it stays.
-//! A piece is a class of its own where its contrast is well above the noise, its border is a step, and it is more than a line.
+//! Under even light the level is Otsu's. Else the light is fitted and divided out ([`crate::background`]), and the
+//! level lies halfway between the sound surface and the piece that is found: what exceeds the noise, then what exceeds
+//! half the contrast of that, until it stays. A piece is a class of its own where its contrast is well above the noise,
+//! its border is a step, and it is more than a line.
 
 use crate::background::Cells;
 use crate::error::DamageError;
@@ -24,7 +25,8 @@ const FIRST_LEVEL: f64 = 3.5;
 const LEAST_STEP: f64 = 0.4;
 /// Contrast of a piece, at least: the blocks of a JPEG make steps of one or two hundredths.
 const LEAST_VISIBLE: f64 = 0.03;
-/// Half of a piece's thickness, px, at least; and in standard deviations of the blur, under which its contrast is not its own.
+/// Half of a piece's thickness, px, at least; and in standard deviations of the blur, under which its contrast is not
+/// its own.
 const LEAST_RADIUS: f64 = 2.5;
 const RESOLVED: f64 = 3.0;
 /// Share of a side of the picture that a strip along it takes: the ring's shoulder, not a spall.
@@ -49,7 +51,8 @@ pub enum Pieces {
     Largest,
     /// All.
     All,
-    /// The one at this point, columns and rows of pixels from the upper left corner of the picture as a viewer shows it.
+    /// The one at this point, columns and rows of pixels from the upper left corner of the picture as a viewer shows
+    /// it.
     At([f64; 2]),
 }
 
@@ -90,10 +93,7 @@ impl Sound {
         let level = median(all.iter().copied());
         // Of the side away from damage, which is free of it.
         let away = all.iter().filter(|v| **v <= level).map(|v| level - v);
-        Self {
-            level,
-            sigma: 1.4826 * median(away),
-        }
+        Self { level, sigma: 1.4826 * median(away) }
     }
 }
 
@@ -119,21 +119,12 @@ pub(crate) fn find(photo: &Pixels, wanted: Wanted) -> Result<Option<Found>, Dama
 }
 
 /// By Otsu's level, where either side of it has one grey.
-fn under_even_light(
-    photo: &Pixels,
-    cells: &Cells,
-    wanted: Wanted,
-) -> Result<Option<Found>, DamageError> {
+fn under_even_light(photo: &Pixels, cells: &Cells, wanted: Wanted) -> Result<Option<Found>, DamageError> {
     let Some(split) = otsu(&photo.values) else {
         return Ok(None);
     };
     let side = |above: bool| -> Vec<f64> {
-        let mut all: Vec<f64> = cells
-            .values
-            .iter()
-            .copied()
-            .filter(|&v| (v > split.level) == above)
-            .collect();
+        let mut all: Vec<f64> = cells.values.iter().copied().filter(|&v| (v > split.level) == above).collect();
         all.sort_by(f64::total_cmp);
         all
     };
@@ -154,14 +145,7 @@ fn under_even_light(
         level = f64::from(u16::MAX) - level;
     }
     chosen(&pixels, level, wanted).map(|found| {
-        found.map(|(chosen, left_out, specks)| Found {
-            pixels,
-            level,
-            share_of_light: None,
-            chosen,
-            left_out,
-            specks,
-        })
+        found.map(|(chosen, left_out, specks)| Found { pixels, level, share_of_light: None, chosen, left_out, specks })
     })
 }
 
@@ -195,13 +179,8 @@ fn halfway(flat: Pixels, sound: Sound, wanted: Wanted) -> Result<Option<Found>, 
     let mut best: Option<(Step, Piece)> = None;
     let mut seen = Vec::new();
     for start in levels.starts() {
-        for piece in levels
-            .at(start)?
-            .iter()
-            .take(LOOKED_AT)
-            .filter(|p| levels.is_wanted(p))
-            .cloned()
-            .collect::<Vec<_>>()
+        for piece in
+            levels.at(start)?.iter().take(LOOKED_AT).filter(|p| levels.is_wanted(p)).cloned().collect::<Vec<_>>()
         {
             let Some((step, piece)) = levels.settled(start, piece)? else {
                 continue;
@@ -231,11 +210,7 @@ fn halfway(flat: Pixels, sound: Sound, wanted: Wanted) -> Result<Option<Found>, 
     Ok(Some(Found {
         pixels: flat,
         level,
-        share_of_light: Some(if wanted.bright {
-            1.0 + contrast
-        } else {
-            1.0 - contrast
-        }),
+        share_of_light: Some(if wanted.bright { 1.0 + contrast } else { 1.0 - contrast }),
         chosen,
         left_out: all,
         specks,
@@ -255,12 +230,7 @@ struct Levels<'a> {
 
 impl<'a> Levels<'a> {
     fn of(flat: &'a Pixels, sound: Sound, wanted: Wanted) -> Self {
-        Self {
-            flat,
-            sound,
-            wanted,
-            found: HashMap::new(),
-        }
+        Self { flat, sound, wanted, found: HashMap::new() }
     }
 
     fn level(&self, step: Step) -> f64 {
@@ -269,20 +239,13 @@ impl<'a> Levels<'a> {
 
     /// The step nearest to a level, above the noise.
     fn step(&self, level: f64) -> Step {
-        let least = (FIRST_LEVEL * self.sound.sigma / (STEP * CONTRAST))
-            .ceil()
-            .max(3.0);
-        ((level - self.sound.level) / (STEP * CONTRAST))
-            .round()
-            .max(least) as Step
+        let least = (FIRST_LEVEL * self.sound.sigma / (STEP * CONTRAST)).ceil().max(3.0);
+        ((level - self.sound.level) / (STEP * CONTRAST)).round().max(least) as Step
     }
 
     /// Where to begin: at the noise, then at contrasts that keep shade apart.
     fn starts(&self) -> Vec<Step> {
-        let mut starts: Vec<Step> = STARTS
-            .iter()
-            .map(|c| self.step(self.sound.level + c * CONTRAST))
-            .collect();
+        let mut starts: Vec<Step> = STARTS.iter().map(|c| self.step(self.sound.level + c * CONTRAST)).collect();
         starts.dedup();
         starts
     }
@@ -307,11 +270,7 @@ impl<'a> Levels<'a> {
     }
 
     /// Moves the level to half of the piece's contrast until it stays there.
-    fn settled(
-        &mut self,
-        mut step: Step,
-        mut piece: Piece,
-    ) -> Result<Option<(Step, Piece)>, DamageError> {
+    fn settled(&mut self, mut step: Step, mut piece: Piece) -> Result<Option<(Step, Piece)>, DamageError> {
         for _ in 0..ROUNDS_OF_LEVEL {
             let next = self.step(0.5 * (self.sound.level + grey(self.flat, &piece)));
             if next == step {
@@ -320,11 +279,8 @@ impl<'a> Levels<'a> {
             step = next;
             let all = self.at(step)?;
             let shared = |other: &&Piece| other.shared(&piece);
-            let Some(other) = all
-                .iter()
-                .filter(|p| self.is_wanted(p))
-                .max_by_key(shared)
-                .filter(|p| p.shared(&piece) > 0)
+            let Some(other) =
+                all.iter().filter(|p| self.is_wanted(p)).max_by_key(shared).filter(|p| p.shared(&piece) > 0)
             else {
                 return Ok(None);
             };
@@ -383,11 +339,7 @@ fn line<'a>(pixels: &'a Pixels, run: &Run) -> &'a [u16] {
 /// Whether a piece is more than noise, shade, a scratch or the ring's shoulder.
 fn is_own_class(pixels: &Pixels, level: f64, wanted: Wanted, piece: &Piece) -> bool {
     let sides = [pixels.height, pixels.height, pixels.width, pixels.width];
-    let strip = piece
-        .touch
-        .iter()
-        .zip(sides)
-        .any(|(&t, side)| t as f64 > STRIP * side as f64);
+    let strip = piece.touch.iter().zip(sides).any(|(&t, side)| t as f64 > STRIP * side as f64);
     let radius = LEAST_RADIUS.max(RESOLVED * wanted.blur_px);
     if strip || piece.radius() < radius {
         return false;
@@ -398,22 +350,14 @@ fn is_own_class(pixels: &Pixels, level: f64, wanted: Wanted, piece: &Piece) -> b
         && step(pixels, level, piece) >= LEAST_STEP * contrast
 }
 
-/// The sound surface around a piece: what lies below the level within its own radius, and as far again, of its bounding box.
+/// The sound surface around a piece: what lies below the level within its own radius, and as far again, of its bounding
+/// box.
 fn around(pixels: &Pixels, level: f64, piece: &Piece) -> Sound {
     let reach = 2 * piece.radius().ceil() as usize;
-    let first = piece
-        .runs
-        .iter()
-        .map(|r| r.from)
-        .min()
-        .unwrap_or(0)
-        .saturating_sub(reach);
+    let first = piece.runs.iter().map(|r| r.from).min().unwrap_or(0).saturating_sub(reach);
     let last = (piece.runs.iter().map(|r| r.to).max().unwrap_or(0) + reach).min(pixels.width);
     let rows = [piece.runs.first(), piece.runs.last()].map(|r| r.map_or(0, |r| r.row));
-    let (top, bottom) = (
-        rows[0].saturating_sub(reach),
-        (rows[1] + reach + 1).min(pixels.height),
-    );
+    let (top, bottom) = (rows[0].saturating_sub(reach), (rows[1] + reach + 1).min(pixels.height));
     let step = 1 + (last - first) * (bottom - top) / 100_000;
     let place = |i: usize| (top + i / (last - first)) * pixels.width + first + i % (last - first);
     let all: Vec<f64> = (0..(last - first) * (bottom - top))
@@ -457,12 +401,7 @@ fn step(pixels: &Pixels, level: f64, piece: &Piece) -> f64 {
 /// Cells that hold any of the pieces, and those beside them.
 fn covered(cells: &Cells, found: &Found) -> Vec<bool> {
     let mut covered = vec![false; cells.columns * cells.rows];
-    for run in found
-        .chosen
-        .iter()
-        .chain(&found.left_out)
-        .flat_map(|p| &p.runs)
-    {
+    for run in found.chosen.iter().chain(&found.left_out).flat_map(|p| &p.runs) {
         let row = run.row / cells.side;
         let (from, to) = (run.from / cells.side, (run.to - 1) / cells.side);
         for r in row.saturating_sub(1)..(row + 2).min(cells.rows) {

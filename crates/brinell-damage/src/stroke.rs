@@ -11,8 +11,8 @@ const CORNERS: usize = 8;
 const AT_ONCE: usize = 8;
 /// Most points of a stroke.
 const MOST_POINTS: usize = 2000;
-/// Most nodes of a grid that a brush grows, and of one that it begins, whose steps are wider where it would have more: a stroke is worked out while
-/// the hand moves.
+/// Most nodes of a grid that a brush grows, and of one that it begins, whose steps are wider where it would have more:
+/// a stroke is worked out while the hand moves.
 const MOST_NODES: usize = 1 << 16;
 const MOST_FRESH: f64 = 16384.0;
 /// Widest pen, mm.
@@ -71,18 +71,12 @@ pub fn scratch(stroke: &Stroke) -> Result<Polygons, DamageError> {
     let last = points[points.len() - 1];
     let ends = points.windows(2).map(|w| (w[0], w[1]));
     let dot = (points.len() == 1).then_some((last, last));
-    let rings: Vec<Vec<[f64; 2]>> = ends
-        .chain(dot)
-        .map(|(a, b)| capsule(a, b, radius))
-        .collect();
-    Ok(Polygons {
-        polygons_mm: covered(&rings),
-        ..Polygons::default()
-    })
+    let rings: Vec<Vec<[f64; 2]>> = ends.chain(dot).map(|(a, b)| capsule(a, b, radius)).collect();
+    Ok(Polygons { polygons_mm: covered(&rings), ..Polygons::default() })
 }
 
-/// The union of areas that follow each other along a line. Neighbours are united first: what lies inside is gone before far parts meet, so the
-/// cost grows little faster than the number of areas.
+/// The union of areas that follow each other along a line. Neighbours are united first: what lies inside is gone before
+/// far parts meet, so the cost grows little faster than the number of areas.
 fn covered(rings: &[Vec<[f64; 2]>]) -> Vec<Vec<[f64; 2]>> {
     if rings.len() <= AT_ONCE {
         return united(rings, FillRule::NonZero);
@@ -101,21 +95,16 @@ fn capsule(a: [f64; 2], b: [f64; 2], radius: f64) -> Vec<[f64; 2]> {
             [center[0] + radius * cos, center[1] + radius * sin]
         })
     };
-    end(b, heading - 0.5 * PI)
-        .chain(end(a, heading + 0.5 * PI))
-        .collect()
+    end(b, heading - 0.5 * PI).chain(end(a, heading + 0.5 * PI)).collect()
 }
 
-/// A grid with depth added under a brush (or taken off, where `depth_um` is negative; never below the sound surface): all of it along the line,
-/// nothing at the brush's rim, with the square of the distance between. Without a grid a new one begins.
+/// A grid with depth added under a brush (or taken off, where `depth_um` is negative; never below the sound surface):
+/// all of it along the line, nothing at the brush's rim, with the square of the distance between. Without a grid a new
+/// one begins.
 ///
 /// # Errors
 /// As [`scratch`], and where the grid would get too large.
-pub fn brush(
-    grid: Option<&DepthGrid>,
-    stroke: &Stroke,
-    depth_um: f64,
-) -> Result<DepthGrid, DamageError> {
+pub fn brush(grid: Option<&DepthGrid>, stroke: &Stroke, depth_um: f64) -> Result<DepthGrid, DamageError> {
     stroke.check()?;
     let points = stroke.thinned();
     let radius = 0.5 * stroke.width_mm;
@@ -130,7 +119,8 @@ pub fn brush(
     Ok(grid)
 }
 
-/// Squared distances (mm^2) of a grid's nodes from a line, where they are within a radius. Only nodes near a part of the line are visited.
+/// Squared distances (mm^2) of a grid's nodes from a line, where they are within a radius. Only nodes near a part of
+/// the line are visited.
 struct Distances {
     squared: Vec<f64>,
 }
@@ -179,13 +169,9 @@ impl Distances {
     }
 }
 
-/// A grid that reaches a node beyond the brush on every side; its steps are those that it has, or a sixteenth of the brush, or as wide as a long
-/// stroke needs.
-fn grown(
-    grid: Option<&DepthGrid>,
-    points: &[[f64; 2]],
-    radius: f64,
-) -> Result<DepthGrid, DamageError> {
+/// A grid that reaches a node beyond the brush on every side; its steps are those that it has, or a sixteenth of the
+/// brush, or as wide as a long stroke needs.
+fn grown(grid: Option<&DepthGrid>, points: &[[f64; 2]], radius: f64) -> Result<DepthGrid, DamageError> {
     let extent = |axis: usize| {
         let values = points.iter().map(|p| p[axis]);
         let (low, high) = values.fold((f64::MAX, f64::MIN), |(l, h), v| (l.min(v), h.max(v)));
@@ -198,15 +184,10 @@ fn grown(
     let counts = grid.map_or([0; 2], |g| [g.columns as i64, g.rows as i64]);
     // First node and the one past the last, counted from the origin of the old grid.
     let range = |axis: usize| {
-        let values = points
-            .iter()
-            .map(|p| (p[axis] - origin[axis]) / steps[axis]);
+        let values = points.iter().map(|p| (p[axis] - origin[axis]) / steps[axis]);
         let (low, high) = values.fold((f64::MAX, f64::MIN), |(l, h), v| (l.min(v), h.max(v)));
         let reach = radius / steps[axis] + 1.0;
-        let (low, high) = (
-            (low - reach).floor() as i64,
-            (high + reach).ceil() as i64 + 1,
-        );
+        let (low, high) = ((low - reach).floor() as i64, (high + reach).ceil() as i64 + 1);
         match counts[axis] {
             0 => (low, high),
             n => (low.min(0), high.max(n)),
@@ -251,16 +232,10 @@ mod tests {
     fn analytic_area_of_a_straight_scratch_and_of_a_dot() {
         let polygon = 0.5 * 16.0 * (2.0 * PI / 16.0).sin();
         for (points, length) in [(vec![[0.0, 0.0], [3.0, 0.0]], 3.0), (vec![[1.0, 2.0]], 0.0)] {
-            let stroke = Stroke {
-                points_mm: &points,
-                width_mm: 0.5,
-            };
+            let stroke = Stroke { points_mm: &points, width_mm: 0.5 };
             let area = scratch(&stroke).unwrap().area_mm2();
             let expected = 0.5 * length + polygon * 0.0625;
-            assert!(
-                (area - expected).abs() < 1e-3 * expected,
-                "{area} {expected}"
-            );
+            assert!((area - expected).abs() < 1e-3 * expected, "{area} {expected}");
         }
     }
 
@@ -275,36 +250,18 @@ mod tests {
             .collect();
         let width_mm = 0.3;
         let points_mm = &points;
-        let stroke = Stroke {
-            points_mm,
-            width_mm,
-        };
-        let rings: Vec<Vec<[f64; 2]>> = (points.windows(2))
-            .map(|w| capsule(w[0], w[1], 0.5 * width_mm))
-            .collect();
-        let at_once = Polygons {
-            polygons_mm: united(&rings, FillRule::NonZero),
-            ..Polygons::default()
-        };
+        let stroke = Stroke { points_mm, width_mm };
+        let rings: Vec<Vec<[f64; 2]>> = (points.windows(2)).map(|w| capsule(w[0], w[1], 0.5 * width_mm)).collect();
+        let at_once = Polygons { polygons_mm: united(&rings, FillRule::NonZero), ..Polygons::default() };
         let (area, expected) = (scratch(&stroke).unwrap().area_mm2(), at_once.area_mm2());
-        assert!(
-            (area - expected).abs() < 1e-6 * expected,
-            "{area} {expected}"
-        );
+        assert!((area - expected).abs() < 1e-6 * expected, "{area} {expected}");
     }
 
     #[test]
     fn prop_a_long_stroke_of_a_narrow_brush_has_a_coarser_grid() {
         let across = |width_mm: f64| {
             let points_mm = &[[0.0, -2.0], [20.0, 2.0]];
-            brush(
-                None,
-                &Stroke {
-                    points_mm,
-                    width_mm,
-                },
-                5.0,
-            )
+            brush(None, &Stroke { points_mm, width_mm }, 5.0)
         };
         let grid = across(0.5).unwrap();
         assert!(grid.columns * grid.rows < 20_000 && grid.ds_mm < 0.125);
@@ -314,10 +271,7 @@ mod tests {
     #[test]
     fn prop_a_stroke_that_crosses_itself_is_one_area() {
         let points = [[0.0, 0.0], [2.0, 0.0], [2.0, 1.0], [1.0, 1.0], [1.0, -1.0]];
-        let stroke = Stroke {
-            points_mm: &points,
-            width_mm: 0.2,
-        };
+        let stroke = Stroke { points_mm: &points, width_mm: 0.2 };
         let crossed = scratch(&stroke).unwrap();
         let parts: f64 = points.windows(2).map(|w| distance(w[0], w[1]) * 0.2).sum();
         assert!(crossed.area_mm2() < parts + 0.04 && crossed.area_mm2() > parts - 0.12);
@@ -351,37 +305,22 @@ mod tests {
 
     #[test]
     fn prop_the_brush_adds_takes_off_and_grows_its_grid() {
-        let stroke = Stroke {
-            points_mm: &[[0.0, 0.0], [2.0, 0.0]],
-            width_mm: 1.0,
-        };
+        let stroke = Stroke { points_mm: &[[0.0, 0.0], [2.0, 0.0]], width_mm: 1.0 };
         let once = brush(None, &stroke, 10.0).unwrap();
         let deepest = |g: &DepthGrid| g.depth_um.iter().copied().fold(0.0, f64::max);
         assert!((deepest(&once) - 10.0).abs() < 0.05);
-        let aside = Stroke {
-            points_mm: &[[5.0, 1.0]],
-            width_mm: 1.0,
-        };
+        let aside = Stroke { points_mm: &[[5.0, 1.0]], width_mm: 1.0 };
         let wider = brush(Some(&once), &aside, 4.0).unwrap();
         assert!(wider.columns > once.columns && wider.rows > once.rows);
         let sum = |g: &DepthGrid| g.depth_um.iter().sum::<f64>();
         assert!(sum(&wider) > sum(&once));
         let back = brush(Some(&wider), &aside, -4.0).unwrap();
         assert!((sum(&back) - sum(&once)).abs() < 1e-9 * sum(&once));
-        let far = Stroke {
-            points_mm: &[[5000.0, 0.0]],
-            width_mm: 1.0,
-        };
+        let far = Stroke { points_mm: &[[5000.0, 0.0]], width_mm: 1.0 };
         assert!(brush(Some(&once), &far, 1.0).is_err());
         for width_mm in [0.0, -1.0, f64::NAN, 1e9] {
             let points_mm = stroke.points_mm;
-            assert!(
-                scratch(&Stroke {
-                    points_mm,
-                    width_mm
-                })
-                .is_err()
-            );
+            assert!(scratch(&Stroke { points_mm, width_mm }).is_err());
         }
     }
 }

@@ -42,32 +42,15 @@ pub struct SvgOptions {
 impl Default for SvgOptions {
     /// The whole drawing at its own scale, within a micrometre, centred.
     fn default() -> Self {
-        Self {
-            path_id: None,
-            mm_per_unit: None,
-            tolerance_mm: 0.001,
-            center: true,
-        }
+        Self { path_id: None, mm_per_unit: None, tolerance_mm: 0.001, center: true }
     }
 }
 
 /// Reads the shapes of an SVG drawing as polygons: `s` to the right, `z` up.
 pub fn read_svg(bytes: &[u8], options: &SvgOptions) -> Result<Polygons, DamageError> {
-    check_range(
-        "tolerance_mm",
-        options.tolerance_mm,
-        9.9e-6,
-        1.0,
-        "1e-5 to 1 mm",
-    )?;
+    check_range("tolerance_mm", options.tolerance_mm, 9.9e-6, 1.0, "1e-5 to 1 mm")?;
     if let Some(scale) = options.mm_per_unit {
-        check_range(
-            "mm_per_unit",
-            scale,
-            0.0,
-            1e4,
-            "a number of mm above 0, at most 10000",
-        )?;
+        check_range("mm_per_unit", scale, 0.0, 1e4, "a number of mm above 0, at most 10000")?;
     }
     if FileKind::of_content(bytes) != Some(FileKind::Svg) {
         return Err(DamageError::WrongKind {
@@ -84,18 +67,11 @@ pub fn read_svg(bytes: &[u8], options: &SvgOptions) -> Result<Polygons, DamageEr
             way_out: "save the damage's outline alone",
         });
     }
-    let fault = |at: String, why: String| DamageError::Broken {
-        kind: FileKind::Svg,
-        at,
-        why,
-    };
-    let text = std::str::from_utf8(bytes)
-        .map_err(|e| fault(format!("byte {}", e.valid_up_to()), "not UTF-8".to_owned()))?;
-    let parsing = roxmltree::ParsingOptions {
-        allow_dtd: true,
-        nodes_limit: 4 * MAX_ELEMENTS as u32,
-        ..Default::default()
-    };
+    let fault = |at: String, why: String| DamageError::Broken { kind: FileKind::Svg, at, why };
+    let text =
+        std::str::from_utf8(bytes).map_err(|e| fault(format!("byte {}", e.valid_up_to()), "not UTF-8".to_owned()))?;
+    let parsing =
+        roxmltree::ParsingOptions { allow_dtd: true, nodes_limit: 4 * MAX_ELEMENTS as u32, ..Default::default() };
     let document = Document::parse_with_options(text.trim_start_matches('\u{feff}'), parsing)
         .map_err(|e| fault(format!("line {}", e.pos().row), e.to_string()))?;
     let root = document.root_element();
@@ -108,11 +84,7 @@ pub fn read_svg(bytes: &[u8], options: &SvgOptions) -> Result<Polygons, DamageEr
     let mut reader = Reader {
         sheets: Sheets::of(&document),
         options,
-        wanted: options
-            .path_id
-            .as_deref()
-            .and_then(|id| find(&document, id).ok())
-            .map(|n| n.id()),
+        wanted: options.path_id.as_deref().and_then(|id| find(&document, id).ok()).map(|n| n.id()),
         shapes: Vec::new(),
         points: 0,
         elements: 0,
@@ -134,11 +106,7 @@ fn find<'a, 'i>(document: &'a Document<'i>, id: &str) -> Result<Node<'a, 'i>, Da
     let known: Vec<String> = document
         .descendants()
         .filter(|n| {
-            with_id(n)
-                && matches!(
-                    n.tag_name().name(),
-                    "path" | "g" | "rect" | "circle" | "ellipse" | "polygon"
-                )
+            with_id(n) && matches!(n.tag_name().name(), "path" | "g" | "rect" | "circle" | "ellipse" | "polygon")
         })
         .take(8)
         .map(|n| excerpt(n.attribute("id").unwrap_or_default()))
@@ -205,11 +173,7 @@ impl Reader<'_> {
             way_out: "save the damage's outline alone, as plain SVG",
         };
         if self.elements > MAX_ELEMENTS {
-            return Err(too_large(
-                "the number of elements",
-                self.elements,
-                MAX_ELEMENTS,
-            ));
+            return Err(too_large("the number of elements", self.elements, MAX_ELEMENTS));
         }
         if depth > MAX_DEPTH {
             return Err(too_large("the depth of groups", depth, MAX_DEPTH));
@@ -236,10 +200,7 @@ impl Reader<'_> {
             }
             "svg" if inside => return Err(nested(node)),
             "text" | "image" | "foreignObject" | "line" if inside => {
-                self.warn(format!(
-                    "{}: left out; only closed shapes are damage",
-                    place(node)
-                ));
+                self.warn(format!("{}: left out; only closed shapes are damage", place(node)));
                 return Ok(());
             }
             _ => {}
@@ -251,10 +212,7 @@ impl Reader<'_> {
             return Ok(());
         };
         if !style.filled && !style.stroked {
-            self.warn(format!(
-                "{}: left out; neither its fill nor its stroke shows",
-                place(node)
-            ));
+            self.warn(format!("{}: left out; neither its fill nor its stroke shows", place(node)));
             return Ok(());
         }
         self.mention_clips(node, inside);
@@ -274,12 +232,7 @@ impl Reader<'_> {
         }
     }
 
-    fn shape(
-        &mut self,
-        node: Node<'_, '_>,
-        path: &BezPath,
-        style: Style,
-    ) -> Result<(), DamageError> {
+    fn shape(&mut self, node: Node<'_, '_>, path: &BezPath, style: Style) -> Result<(), DamageError> {
         check_reach(node, path)?;
         let tolerance = self.options.tolerance_mm;
         let (rings, open) = self.flatten(path)?;
@@ -290,26 +243,12 @@ impl Reader<'_> {
                 continue;
             }
             if !style.filled {
-                return Err(DamageError::OpenOutline {
-                    at: place(node),
-                    gap_mm,
-                    tolerance_mm: tolerance,
-                });
+                return Err(DamageError::OpenOutline { at: place(node), gap_mm, tolerance_mm: tolerance });
             }
-            self.warn(format!(
-                "{}: open by {gap_mm:.4} mm; closed by a straight line, as its fill is",
-                place(node)
-            ));
+            self.warn(format!("{}: open by {gap_mm:.4} mm; closed by a straight line, as its fill is", place(node)));
         }
-        let rule = if style.even_odd {
-            FillRule::EvenOdd
-        } else {
-            FillRule::NonZero
-        };
-        check_crossings(&rings).map_err(|why| DamageError::Tangled {
-            at: place(node),
-            why: why.to_string(),
-        })?;
+        let rule = if style.even_odd { FillRule::EvenOdd } else { FillRule::NonZero };
+        check_crossings(&rings).map_err(|why| DamageError::Tangled { at: place(node), why: why.to_string() })?;
         let rings = united(&rings, rule);
         if rings.is_empty() {
             self.warn(format!("{}: left out; it encloses nothing", place(node)));
@@ -324,33 +263,29 @@ impl Reader<'_> {
         let mut rings: Rings = Vec::new();
         let mut open: Vec<bool> = Vec::new();
         let mut points = self.points;
-        kurbo::flatten(
-            path.elements().iter().copied(),
-            self.options.tolerance_mm,
-            |element| match element {
-                _ if points > MAX_POINTS => {}
-                PathEl::MoveTo(p) => {
-                    rings.push(vec![[p.x, p.y]]);
+        kurbo::flatten(path.elements().iter().copied(), self.options.tolerance_mm, |element| match element {
+            _ if points > MAX_POINTS => {}
+            PathEl::MoveTo(p) => {
+                rings.push(vec![[p.x, p.y]]);
+                open.push(true);
+            }
+            PathEl::LineTo(p) => {
+                points += 1;
+                if let (Some(ring), Some(true)) = (rings.last_mut(), open.last()) {
+                    ring.push([p.x, p.y]);
+                } else if let Some(start) = rings.last().map(|ring| ring[0]) {
+                    // Drawing on after closing starts anew at the same point.
+                    rings.push(vec![start, [p.x, p.y]]);
                     open.push(true);
                 }
-                PathEl::LineTo(p) => {
-                    points += 1;
-                    if let (Some(ring), Some(true)) = (rings.last_mut(), open.last()) {
-                        ring.push([p.x, p.y]);
-                    } else if let Some(start) = rings.last().map(|ring| ring[0]) {
-                        // Drawing on after closing starts anew at the same point.
-                        rings.push(vec![start, [p.x, p.y]]);
-                        open.push(true);
-                    }
+            }
+            PathEl::ClosePath => {
+                if let Some(open) = open.last_mut() {
+                    *open = false;
                 }
-                PathEl::ClosePath => {
-                    if let Some(open) = open.last_mut() {
-                        *open = false;
-                    }
-                }
-                PathEl::QuadTo(..) | PathEl::CurveTo(..) => {}
-            },
-        );
+            }
+            PathEl::QuadTo(..) | PathEl::CurveTo(..) => {}
+        });
         self.points = points;
         if points > MAX_POINTS {
             return Err(DamageError::TooLarge {
@@ -375,19 +310,12 @@ impl Reader<'_> {
             1 => self.shapes.remove(0),
             _ => {
                 let all = self.shapes.concat();
-                check_crossings(&all).map_err(|why| DamageError::Tangled {
-                    at: "its shapes together".into(),
-                    why: why.to_string(),
-                })?;
+                check_crossings(&all)
+                    .map_err(|why| DamageError::Tangled { at: "its shapes together".into(), why: why.to_string() })?;
                 united(&all, FillRule::NonZero)
             }
         };
-        let mut result = Polygons {
-            polygons_mm: rings,
-            warnings: self.warnings,
-            notes: Vec::new(),
-            threshold: None,
-        };
+        let mut result = Polygons { polygons_mm: rings, warnings: self.warnings, notes: Vec::new(), threshold: None };
         if self.options.center {
             result.centre();
         }
@@ -398,10 +326,7 @@ impl Reader<'_> {
 /// The element that a `use` copies.
 fn used<'a, 'input>(node: Node<'a, 'input>) -> Result<Node<'a, 'input>, DamageError> {
     let xlink = ("http://www.w3.org/1999/xlink", "href");
-    let href = node
-        .attribute("href")
-        .or_else(|| node.attribute(xlink))
-        .unwrap_or_default();
+    let href = node.attribute("href").or_else(|| node.attribute(xlink)).unwrap_or_default();
     let id = href.trim().trim_start_matches('#');
     let target = find(node.document(), id)?;
     if matches!(target.tag_name().name(), "svg" | "symbol") {

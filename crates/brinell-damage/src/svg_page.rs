@@ -13,10 +13,7 @@ pub(crate) fn page(root: Node<'_, '_>, mm_per_unit: Option<f64>) -> Result<Affin
         Some(text) => match numbers(root, text)?.as_slice() {
             &[x, y, w, h] if w > 0.0 && h > 0.0 => Some([x, y, w, h]),
             _ => {
-                return Err(broken(
-                    root,
-                    "its viewBox must be four numbers, the last two above 0",
-                ));
+                return Err(broken(root, "its viewBox must be four numbers, the last two above 0"));
             }
         },
     };
@@ -45,11 +42,8 @@ pub(crate) fn page(root: Node<'_, '_>, mm_per_unit: Option<f64>) -> Result<Affin
         Some(scale) => scale,
         None => own_scale()?,
     };
-    let user = |side: Option<(f64, &str)>| {
-        side.map_or(0.0, |(v, unit)| {
-            v * mm_per(unit).map_or(1.0, |mm| mm * 96.0 / 25.4)
-        })
-    };
+    let user =
+        |side: Option<(f64, &str)>| side.map_or(0.0, |(v, unit)| v * mm_per(unit).map_or(1.0, |mm| mm * 96.0 / 25.4));
     let [x, y, w, h] = view.unwrap_or([0.0, 0.0, user(width), user(height)]);
     Ok(Affine::scale_non_uniform(scale, -scale) * Affine::translate((-x - 0.5 * w, -y - 0.5 * h)))
 }

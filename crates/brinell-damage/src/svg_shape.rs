@@ -8,24 +8,19 @@ use crate::kind::FileKind;
 
 /// Numbers above this in a drawing are a mistake, and would keep the curve routines busy for ever.
 const MAX_NUMBER: f64 = 1e7;
-/// Ellipses become cubics this close to them, relative to their radius: much closer than the four-piece ones of editors.
+/// Ellipses become cubics this close to them, relative to their radius: much closer than the four-piece ones of
+/// editors.
 const ROUND: f64 = 1e-6;
 
 /// "line 12, `path` #spall".
 pub(crate) fn place(node: Node<'_, '_>) -> String {
     let line = node.document().text_pos_at(node.range().start).row;
-    let id = node
-        .attribute("id")
-        .map_or(String::new(), |id| format!(" #{}", excerpt(id)));
+    let id = node.attribute("id").map_or(String::new(), |id| format!(" #{}", excerpt(id)));
     format!("line {line}, `{}`{id}", excerpt(node.tag_name().name()))
 }
 
 pub(crate) fn broken(node: Node<'_, '_>, why: impl Into<String>) -> DamageError {
-    DamageError::Broken {
-        kind: FileKind::Svg,
-        at: place(node),
-        why: why.into(),
-    }
+    DamageError::Broken { kind: FileKind::Svg, at: place(node), why: why.into() }
 }
 
 /// The outline of a shape element; `None` for an element that is no shape.
@@ -35,8 +30,7 @@ pub(crate) fn outline(node: Node<'_, '_>) -> Result<Option<BezPath>, DamageError
         "path" => {
             let data = node.attribute("d").unwrap_or_default();
             check_numbers(node, data)?;
-            BezPath::from_svg(data)
-                .map_err(|error| broken(node, format!("its path data: {error}")))?
+            BezPath::from_svg(data).map_err(|error| broken(node, format!("its path data: {error}")))?
         }
         "rect" => {
             let (x, y) = (number("x")?, number("y")?);
@@ -112,10 +106,7 @@ pub(crate) fn number(node: Node<'_, '_>, name: &str) -> Result<f64, DamageError>
         return Ok(0.0);
     };
     let Some((value, unit)) = length(text) else {
-        return Err(broken(
-            node,
-            format!("{name} = \"{}\" is not a number", excerpt(text)),
-        ));
+        return Err(broken(node, format!("{name} = \"{}\" is not a number", excerpt(text))));
     };
     // CSS: 96 px to the inch.
     let factor = match unit {
@@ -190,8 +181,7 @@ fn check_numbers(node: Node<'_, '_>, data: &str) -> Result<(), DamageError> {
         }
         if i > start && i < bytes.len() && matches!(bytes[i], b'e' | b'E') {
             i += 1;
-            while i < bytes.len() && (bytes[i].is_ascii_digit() || matches!(bytes[i], b'+' | b'-'))
-            {
+            while i < bytes.len() && (bytes[i].is_ascii_digit() || matches!(bytes[i], b'+' | b'-')) {
                 i += 1;
             }
         }
@@ -209,12 +199,7 @@ pub(crate) fn transform(node: Node<'_, '_>) -> Result<Affine, DamageError> {
     let mut total = Affine::IDENTITY;
     let mut rest = node.attribute("transform").unwrap_or_default().trim();
     while !rest.is_empty() {
-        let wrong = || {
-            broken(
-                node,
-                format!("transform `{}` is not understood", excerpt(rest)),
-            )
-        };
+        let wrong = || broken(node, format!("transform `{}` is not understood", excerpt(rest)));
         let (name, tail) = rest.split_once('(').ok_or_else(wrong)?;
         let (inside, tail) = tail.split_once(')').ok_or_else(wrong)?;
         let v = numbers(node, inside)?;

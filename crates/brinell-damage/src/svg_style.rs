@@ -15,13 +15,7 @@ pub(crate) struct Style {
 
 impl Default for Style {
     fn default() -> Self {
-        Self {
-            filled: true,
-            stroked: false,
-            even_odd: false,
-            visible: true,
-            removed: false,
-        }
+        Self { filled: true, stroked: false, even_odd: false, visible: true, removed: false }
     }
 }
 
@@ -60,10 +54,7 @@ impl<'a> Sheets<'a> {
     /// All `<style>` elements, without at-rules and combined selectors.
     pub(crate) fn of(document: &'a Document<'_>) -> Self {
         let mut rules = Vec::new();
-        for node in document
-            .descendants()
-            .filter(|n| n.has_tag_name("style") || n.tag_name().name() == "style")
-        {
+        for node in document.descendants().filter(|n| n.has_tag_name("style") || n.tag_name().name() == "style") {
             for text in node.children().filter_map(|child| child.text()) {
                 for block in text.split('}') {
                     let Some((selectors, declarations)) = block.split_once('{') else {

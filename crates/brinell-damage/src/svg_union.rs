@@ -9,11 +9,7 @@ pub(crate) type Rings = Vec<Vec<[f64; 2]>>;
 
 /// The union of rings by a fill rule: outer rings counter-clockwise, holes clockwise, none crossing.
 pub(crate) fn united(rings: &[Vec<[f64; 2]>], rule: FillRule) -> Rings {
-    let rings: Rings = rings
-        .iter()
-        .filter(|ring| ring.len() >= 3)
-        .cloned()
-        .collect();
+    let rings: Rings = rings.iter().filter(|ring| ring.len() >= 3).cloned().collect();
     let shapes = rings.simplify_shape_as::<i64>(rule);
     let mut result = Rings::new();
     for shape in shapes {

@@ -37,15 +37,9 @@ pub(crate) fn otsu(values: &[u16]) -> Option<Split> {
             last = i;
         }
     }
-    Some(Split {
-        level: 128.0 * (first + last + 2) as f64,
-        separation: best / variance,
-    })
+    Some(Split { level: 128.0 * (first + last + 2) as f64, separation: best / variance })
 }
 
 fn weighted(bins: &[u64; 256], weight: impl Fn(f64) -> f64) -> f64 {
-    (0..)
-        .zip(bins)
-        .map(|(i, &count)| weight(f64::from(i)) * count as f64)
-        .sum()
+    (0..).zip(bins).map(|(i, &count)| weight(f64::from(i)) * count as f64).sum()
 }

@@ -4,17 +4,12 @@ use std::f64::consts::PI;
 
 use crate::common::{Noise, npy, npy_f8};
 use brinell_damage::{
-    DepthGrid, DepthMapOptions, Direction, FileKind, Fill, FirstRow, Form, Unit, Zero,
-    read_depth_map,
+    DepthGrid, DepthMapOptions, Direction, FileKind, Fill, FirstRow, Form, Unit, Zero, read_depth_map,
 };
 
 /// Points 0.01 mm apart where a test does not care.
 fn spaced(options: &DepthMapOptions) -> DepthMapOptions {
-    DepthMapOptions {
-        ds_mm: options.ds_mm.or(Some(0.01)),
-        dz_mm: options.dz_mm.or(Some(0.01)),
-        ..options.clone()
-    }
+    DepthMapOptions { ds_mm: options.ds_mm.or(Some(0.01)), dz_mm: options.dz_mm.or(Some(0.01)), ..options.clone() }
 }
 
 pub(crate) fn read(bytes: &[u8], options: &DepthMapOptions) -> DepthGrid {
@@ -22,37 +17,17 @@ pub(crate) fn read(bytes: &[u8], options: &DepthMapOptions) -> DepthGrid {
 }
 
 pub(crate) fn refuse(bytes: &[u8], options: &DepthMapOptions) -> String {
-    read_depth_map(bytes, None, &spaced(options))
-        .unwrap_err()
-        .to_string()
+    read_depth_map(bytes, None, &spaced(options)).unwrap_err().to_string()
 }
 
 pub(crate) fn csv(rows: usize, columns: usize, cell: impl Fn(usize, usize) -> String) -> Vec<u8> {
-    let line = |row| {
-        (0..columns)
-            .map(|column| cell(row, column))
-            .collect::<Vec<_>>()
-            .join(",")
-    };
-    (0..rows)
-        .map(line)
-        .collect::<Vec<_>>()
-        .join("\n")
-        .into_bytes()
+    let line = |row| (0..columns).map(|column| cell(row, column)).collect::<Vec<_>>().join(",");
+    (0..rows).map(line).collect::<Vec<_>>().join("\n").into_bytes()
 }
 
 /// `(s, z)` of a point of a map with `rows` x `columns`, `step` mm apart, first row on top.
-pub(crate) fn place(
-    rows: usize,
-    columns: usize,
-    step: f64,
-    row: usize,
-    column: usize,
-) -> (f64, f64) {
-    (
-        (column as f64 - 0.5 * (columns - 1) as f64) * step,
-        (0.5 * (rows - 1) as f64 - row as f64) * step,
-    )
+pub(crate) fn place(rows: usize, columns: usize, step: f64, row: usize, column: usize) -> (f64, f64) {
+    ((column as f64 - 0.5 * (columns - 1) as f64) * step, (0.5 * (rows - 1) as f64 - row as f64) * step)
 }
 
 #[test]
@@ -64,29 +39,16 @@ fn analytic_circle_and_rectangle_have_their_area_and_widths_within_the_spacing()
             if inside(s, z) { -20.0 } else { 0.0 }
         })
     };
-    let options = DepthMapOptions {
-        ds_mm: Some(step),
-        dz_mm: Some(step),
-        ..Default::default()
-    };
+    let options = DepthMapOptions { ds_mm: Some(step), dz_mm: Some(step), ..Default::default() };
     let rectangle = read(&map(&|s, z| s.abs() < 1.5 && z.abs() < 2.0), &options);
     assert!((rectangle.area_mm2() - 12.0).abs() < 1e-9);
     let disc = read(&map(&|s, z| s.hypot(z) < 2.0), &options);
-    assert!(
-        (disc.area_mm2() / (4.0 * PI) - 1.0).abs() < 2e-3,
-        "{}",
-        disc.area_mm2()
-    );
+    assert!((disc.area_mm2() / (4.0 * PI) - 1.0).abs() < 2e-3, "{}", disc.area_mm2());
     for column in 0..disc.columns {
         let s = disc.s0_mm + column as f64 * step;
-        let count = (0..disc.rows)
-            .filter(|&row| disc.at(column, row) != 0.0)
-            .count();
+        let count = (0..disc.rows).filter(|&row| disc.at(column, row) != 0.0).count();
         let chord = 2.0 * (4.0 - s * s).max(0.0).sqrt();
-        assert!(
-            (count as f64 * step - chord).abs() <= step + 1e-9,
-            "s = {s}"
-        );
+        assert!((count as f64 * step - chord).abs() <= step + 1e-9, "s = {s}");
     }
     assert!(disc.depth_um.iter().all(|&d| d == 0.0 || d == 20.0));
     assert!(disc.form.is_none() && disc.warnings.is_empty());
@@ -96,11 +58,7 @@ fn analytic_circle_and_rectangle_have_their_area_and_widths_within_the_spacing()
 fn letter(row: usize, column: usize) -> f64 {
     let long = (2..4).contains(&column) && (1..9).contains(&row);
     let short = (2..7).contains(&column) && (7..9).contains(&row);
-    if long || short {
-        10.0 + column as f64
-    } else {
-        0.0
-    }
+    if long || short { 10.0 + column as f64 } else { 0.0 }
 }
 
 #[test]
@@ -125,25 +83,12 @@ fn analytic_an_l_is_turned_and_never_mirrored() {
                 ..Default::default()
             };
             let grid = read(&map, &options);
-            let depth = |[s, z]: [f64; 2]| {
-                grid.at(
-                    (s - grid.s0_mm).round() as usize,
-                    (z - grid.z0_mm).round() as usize,
-                )
-            };
-            assert!(
-                depth(top) >= 12.0 && depth(top) <= 13.0,
-                "{direction:?} {first_row:?}"
-            );
+            let depth =
+                |[s, z]: [f64; 2]| grid.at((s - grid.s0_mm).round() as usize, (z - grid.z0_mm).round() as usize);
+            assert!(depth(top) >= 12.0 && depth(top) <= 13.0, "{direction:?} {first_row:?}");
             assert_eq!(depth(foot), 16.0, "{direction:?} {first_row:?}");
             assert_eq!(depth(empty), 0.0, "{direction:?} {first_row:?}");
-            let there = read(
-                &map,
-                &DepthMapOptions {
-                    center: false,
-                    ..options
-                },
-            );
+            let there = read(&map, &DepthMapOptions { center: false, ..options });
             assert_eq!(there.s0_mm, -0.5 * (there.columns - 1) as f64);
             assert_eq!(there.depth_um, grid.depth_um);
         }
@@ -159,11 +104,7 @@ pub(crate) fn raceway(radius: f64, turn: f64, s: f64, z: f64) -> f64 {
 }
 
 pub(crate) fn spall(s: f64, z: f64) -> f64 {
-    if (s - 0.3).abs() < 1.0 && z.abs() < 0.8 {
-        25.0
-    } else {
-        0.0
-    }
+    if (s - 0.3).abs() < 1.0 && z.abs() < 0.8 { 25.0 } else { 0.0 }
 }
 
 #[test]
@@ -175,29 +116,13 @@ fn analytic_tilt_and_curvature_are_removed_exactly() {
         (Form::Cylinder { radius_mm: None }, 27.5, 0.05),
         (Form::Cylinder { radius_mm: None }, -21.5, -0.03),
         (Form::Cylinder { radius_mm: None }, -3.5, 0.02),
-        (
-            Form::Cylinder {
-                radius_mm: Some(27.5),
-            },
-            27.5,
-            0.05,
-        ),
-        (
-            Form::Cylinder {
-                radius_mm: Some(21.5),
-            },
-            -21.5,
-            0.02,
-        ),
+        (Form::Cylinder { radius_mm: Some(27.5) }, 27.5, 0.05),
+        (Form::Cylinder { radius_mm: Some(21.5) }, -21.5, 0.02),
     ] {
         let map = npy_f8(rows, columns, |row, column| {
             let (s, z) = place(rows, columns, step, row, column);
             let tilt = if form == Form::Plane { 7.0 * s } else { 0.0 };
-            let form = if form == Form::Plane {
-                4.0 * z
-            } else {
-                raceway(radius, turn, s, z)
-            };
+            let form = if form == Form::Plane { 4.0 * z } else { raceway(radius, turn, s, z) };
             form + tilt - spall(s, z)
         });
         let options = DepthMapOptions {
@@ -212,20 +137,14 @@ fn analytic_tilt_and_curvature_are_removed_exactly() {
         println!("{form:?} {radius}: {found:?}");
         for row in 0..rows {
             for column in 0..columns {
-                let (s, z) = (
-                    grid.s0_mm + column as f64 * step,
-                    grid.z0_mm + row as f64 * step,
-                );
+                let (s, z) = (grid.s0_mm + column as f64 * step, grid.z0_mm + row as f64 * step);
                 let error = (grid.at(column, row) - spall(s, z)).abs();
                 assert!(error < 1e-5, "{form:?} {radius}: {error} um at {s} {z}");
             }
         }
         assert!(found.residual_rms_um < 1e-6);
         if form == Form::Plane {
-            assert!(
-                (found.slope_s_um_per_mm - 7.0).abs() < 1e-6
-                    && (found.slope_z_um_per_mm - 4.0).abs() < 1e-6
-            );
+            assert!((found.slope_s_um_per_mm - 7.0).abs() < 1e-6 && (found.slope_z_um_per_mm - 4.0).abs() < 1e-6);
         } else {
             assert!((found.radius_mm.unwrap() / radius - 1.0).abs() < 1e-6);
             assert!((found.axis_turn_deg - turn.atan().to_degrees()).abs() < 1e-4);
@@ -243,8 +162,7 @@ fn analytic_noise_and_a_large_spall_hardly_move_the_form() {
         let inside = |s: f64, z: f64| (s - 0.4).abs() < side && z.abs() < side;
         let map = npy_f8(rows, columns, |row, column| {
             let (s, z) = place(rows, columns, step, row, column);
-            raceway(27.5, 0.02, s, z) + grain[row * columns + column]
-                - if inside(s, z) { 25.0 } else { 0.0 }
+            raceway(27.5, 0.02, s, z) + grain[row * columns + column] - if inside(s, z) { 25.0 } else { 0.0 }
         });
         let options = DepthMapOptions {
             ds_mm: Some(step),
@@ -256,12 +174,7 @@ fn analytic_noise_and_a_large_spall_hardly_move_the_form() {
         };
         let grid = read(&map, &options);
         let found = grid.form.unwrap();
-        let damaged: Vec<f64> = grid
-            .depth_um
-            .iter()
-            .copied()
-            .filter(|&d| d != 0.0)
-            .collect();
+        let damaged: Vec<f64> = grid.depth_um.iter().copied().filter(|&d| d != 0.0).collect();
         let mean = damaged.iter().sum::<f64>() / damaged.len() as f64;
         println!("{share}: {found:?}, mean depth {mean}");
         assert!((mean - 25.0).abs() < bound, "{share}: {mean}");
@@ -287,35 +200,13 @@ fn analytic_the_drawn_scan_gives_its_raceway_and_its_spall() {
     println!("{found:?} {} mm^2 {:?}", grid.area_mm2(), grid.warnings);
     // See examples/draw_examples.rs.
     assert!((found.radius_mm.unwrap() / 27.5 - 1.0).abs() < 0.01);
-    assert!(
-        (found.slope_s_um_per_mm - 3.0).abs() < 0.05
-            && (found.slope_z_um_per_mm + 2.0).abs() < 0.05
-    );
+    assert!((found.slope_s_um_per_mm - 3.0).abs() < 0.05 && (found.slope_z_um_per_mm + 2.0).abs() < 0.05);
     assert!((found.residual_rms_um - 0.15).abs() < 0.03);
-    let mut deep: Vec<f64> = grid
-        .depth_um
-        .iter()
-        .copied()
-        .filter(|&d| d > 20.0)
-        .collect();
+    let mut deep: Vec<f64> = grid.depth_um.iter().copied().filter(|&d| d > 20.0).collect();
     deep.sort_by(f64::total_cmp);
     assert!((deep[deep.len() / 2] - 25.0).abs() < 0.5);
-    assert!(
-        grid.warnings
-            .iter()
-            .any(|w| w.contains("points were missing and are filled"))
-    );
-    assert!(
-        read_depth_map(
-            scan,
-            None,
-            &DepthMapOptions {
-                fill: Fill::None,
-                ..options
-            }
-        )
-        .is_err()
-    );
+    assert!(grid.warnings.iter().any(|w| w.contains("points were missing and are filled")));
+    assert!(read_depth_map(scan, None, &DepthMapOptions { fill: Fill::None, ..options }).is_err());
 }
 
 #[test]
@@ -337,11 +228,7 @@ fn analytic_missing_points_of_a_slope_are_filled_on_it() {
     };
     let grid = read(&map, &options);
     for (row, column) in [(6, 6), (5, 7), (12, 12), (12, 14)] {
-        assert!(
-            (grid.at(column, row) - (2 * row + column) as f64).abs() < 1e-3,
-            "{}",
-            grid.at(column, row)
-        );
+        assert!((grid.at(column, row) - (2 * row + column) as f64).abs() < 1e-3, "{}", grid.at(column, row));
     }
     assert_eq!(
         grid.warnings[0],
@@ -350,13 +237,7 @@ fn analytic_missing_points_of_a_slope_are_filled_on_it() {
     // A slope that nobody takes off.
     assert!(grid.warnings[1].contains("as a tilted part does"));
     assert_eq!(
-        refuse(
-            &map,
-            &DepthMapOptions {
-                fill: Fill::None,
-                ..options
-            }
-        ),
+        refuse(&map, &DepthMapOptions { fill: Fill::None, ..options }),
         "13 of 400 points are missing (the first in row 1, column 1); fill them from their neighbours with `fill`"
     );
 }
@@ -364,21 +245,12 @@ fn analytic_missing_points_of_a_slope_are_filled_on_it() {
 #[test]
 fn xval_every_way_of_writing_a_map_gives_the_same_grid() {
     let depth = |row: usize, column: usize| -> i32 {
-        if (2..5).contains(&row) && (3..7).contains(&column) {
-            20 + (row * 9 + column) as i32 % 7
-        } else {
-            0
-        }
+        if (2..5).contains(&row) && (3..7).contains(&column) { 20 + (row * 9 + column) as i32 % 7 } else { 0 }
     };
     let (rows, columns) = (8, 9);
     let items = |size: usize, big: bool, fortran: bool, bits: &dyn Fn(i32) -> u64| -> Vec<u8> {
-        let order = (0..rows * columns).map(|i| {
-            if fortran {
-                (i % rows, i / rows)
-            } else {
-                (i / columns, i % columns)
-            }
-        });
+        let order =
+            (0..rows * columns).map(|i| if fortran { (i % rows, i / rows) } else { (i / columns, i % columns) });
         order
             .flat_map(|(row, column)| {
                 let mut bytes = bits(depth(row, column)).to_le_bytes()[..size].to_vec();
@@ -395,13 +267,7 @@ fn xval_every_way_of_writing_a_map_gives_the_same_grid() {
     let shape = [rows, columns];
     let text = |separator: &str, decimal: char, end: &str| -> Vec<u8> {
         let cell = |row, column| format!("{}{decimal}0", depth(row, column));
-        let line = |row| {
-            (0..columns)
-                .map(|c| cell(row, c))
-                .collect::<Vec<_>>()
-                .join(separator)
-                + end
-        };
+        let line = |row| (0..columns).map(|c| cell(row, c)).collect::<Vec<_>>().join(separator) + end;
         (0..rows).map(line).collect::<String>().into_bytes()
     };
     let mut with_names = b"\xef\xbb\xbf# a comment, with commas\na,b,c,d,e,f,g,h,i\n".to_vec();
@@ -426,50 +292,23 @@ fn xval_every_way_of_writing_a_map_gives_the_same_grid() {
         text("  ", ',', "\n"),
         with_names,
     ];
-    let options = DepthMapOptions {
-        height_positive_up: false,
-        ..Default::default()
-    };
+    let options = DepthMapOptions { height_positive_up: false, ..Default::default() };
     let expected = read(&files[0], &options);
     assert_eq!(expected.at(3, 5), f64::from(depth(2, 3)));
     for (i, file) in files.iter().enumerate() {
         assert_eq!(read(file, &options).depth_um, expected.depth_um, "file {i}");
     }
     // Negative integers, and units.
-    let negative = npy(
-        "<i2",
-        false,
-        shape,
-        &items(2, false, false, &|v| (-v) as u64),
-    );
-    let heights = DepthMapOptions {
-        unit: Unit::NmPerCount(1000.0),
-        ..Default::default()
-    };
+    let negative = npy("<i2", false, shape, &items(2, false, false, &|v| (-v) as u64));
+    let heights = DepthMapOptions { unit: Unit::NmPerCount(1000.0), ..Default::default() };
     assert_eq!(read(&negative, &heights).depth_um, expected.depth_um);
-    let mm = DepthMapOptions {
-        unit: Unit::Mm,
-        threshold_um: 0.0,
-        ..options.clone()
-    };
-    assert!(
-        refuse(&files[0], &mm)
-            .starts_with("the depth of a point is 2.400e4 um, more than the 5e3 um")
-    );
+    let mm = DepthMapOptions { unit: Unit::Mm, threshold_um: 0.0, ..options.clone() };
+    assert!(refuse(&files[0], &mm).starts_with("the depth of a point is 2.400e4 um, more than the 5e3 um"));
     #[cfg(feature = "image")]
     {
         let wide = items(2, true, false, &|v| (30_000 - 10 * v) as u64);
-        let png = crate::common::png(
-            columns,
-            rows,
-            png::ColorType::Grayscale,
-            png::BitDepth::Sixteen,
-            &wide,
-        );
-        let counts = DepthMapOptions {
-            unit: Unit::NmPerCount(100.0),
-            ..Default::default()
-        };
+        let png = crate::common::png(columns, rows, png::ColorType::Grayscale, png::BitDepth::Sixteen, &wide);
+        let counts = DepthMapOptions { unit: Unit::NmPerCount(100.0), ..Default::default() };
         let grid = read(&png, &counts);
         for (a, b) in grid.depth_um.iter().zip(&expected.depth_um) {
             assert!((a - b).abs() < 1e-9);

@@ -7,9 +7,7 @@ use crate::common::{Noise, holds, width_at};
 use brinell_damage::{DamageError, Polygons, SvgOptions, read_svg};
 
 fn page(inside: &str) -> String {
-    format!(
-        r#"<svg xmlns="http://www.w3.org/2000/svg" width="20mm" height="10mm" viewBox="0 0 20 10">{inside}</svg>"#
-    )
+    format!(r#"<svg xmlns="http://www.w3.org/2000/svg" width="20mm" height="10mm" viewBox="0 0 20 10">{inside}</svg>"#)
 }
 
 fn read(inside: &str) -> Polygons {
@@ -39,21 +37,12 @@ fn analytic_circle_in_five_ways_has_its_area_and_chords_within_the_tolerance() {
     for (shape, shape_error) in [
         (r#"<circle cx="5" cy="5" r="2"/>"#.to_owned(), 1e-6),
         (r#"<ellipse cx="5" cy="5" rx="2" ry="2"/>"#.to_owned(), 1e-6),
-        (
-            r#"<g transform="translate(5 5) scale(0.02)"><circle r="100"/></g>"#.to_owned(),
-            1e-6,
-        ),
-        (
-            r#"<path d="M7 5A2 2 0 0 1 3 5A2 2 0 0 1 7 5"/>"#.to_owned(),
-            arc,
-        ),
+        (r#"<g transform="translate(5 5) scale(0.02)"><circle r="100"/></g>"#.to_owned(), 1e-6),
+        (r#"<path d="M7 5A2 2 0 0 1 3 5A2 2 0 0 1 7 5"/>"#.to_owned(), arc),
         (format!(r#"<path d="{four_cubics}"/>"#), arc),
     ] {
         for tolerance_mm in [1e-2, 1e-3, 1e-4] {
-            let options = SvgOptions {
-                tolerance_mm,
-                ..Default::default()
-            };
+            let options = SvgOptions { tolerance_mm, ..Default::default() };
             let damage = read_svg(page(&shape).as_bytes(), &options).unwrap();
             let off = tolerance_mm + 2.0 * shape_error;
             let area_error = (damage.area_mm2() - 4.0 * PI).abs();
@@ -76,40 +65,21 @@ fn analytic_holes_follow_the_fill_rule_and_overlaps_unite() {
     for (shape, area) in [
         (format!(r#"<path d="{twice}"/>"#), 16.0),
         (format!(r#"<path fill-rule="evenodd" d="{twice}"/>"#), 12.0),
-        (
-            format!(r#"<path style="fill-rule:evenodd" d="{twice}"/>"#),
-            12.0,
-        ),
+        (format!(r#"<path style="fill-rule:evenodd" d="{twice}"/>"#), 12.0),
         (format!(r#"<path d="{opposite}"/>"#), 12.0),
-        (
-            r#"<rect width="4" height="4"/><rect x="2" y="2" width="4" height="4"/>"#.to_owned(),
-            28.0,
-        ),
+        (r#"<rect width="4" height="4"/><rect x="2" y="2" width="4" height="4"/>"#.to_owned(), 28.0),
         // A second shape fills half of the first one's hole.
-        (
-            format!(r#"<path d="{opposite}"/><rect x="1" y="1" width="1" height="2"/>"#),
-            14.0,
-        ),
+        (format!(r#"<path d="{opposite}"/><rect x="1" y="1" width="1" height="2"/>"#), 14.0),
         // A bow tie: two triangles, whatever their sense.
         (r#"<polygon points="0,0 4,4 4,0 0,4"/>"#.to_owned(), 8.0),
     ] {
         let damage = read(&shape);
-        assert!(
-            (damage.area_mm2() - area).abs() < 1e-6,
-            "{shape}: {}",
-            damage.area_mm2()
-        );
+        assert!((damage.area_mm2() - area).abs() < 1e-6, "{shape}: {}", damage.area_mm2());
         let even_odd = (0..4000).filter(|i| {
-            let point = [
-                f64::from(i % 80) * 0.1 - 3.97,
-                f64::from(i / 80) * 0.16 - 3.93,
-            ];
+            let point = [f64::from(i % 80) * 0.1 - 3.97, f64::from(i / 80) * 0.16 - 3.93];
             holds(&damage.polygons_mm, point)
         });
-        assert!(
-            (even_odd.count() as f64 * 0.016 - area).abs() < 0.5,
-            "{shape}"
-        );
+        assert!((even_odd.count() as f64 * 0.016 - area).abs() < 0.5, "{shape}");
     }
 }
 
@@ -118,14 +88,8 @@ fn analytic_an_l_stays_an_l() {
     // Upright on the screen: the long stroke on the left, the short one at the bottom to the right.
     let damage = read(r#"<path d="M2 1H3V6H5V7H2Z"/>"#);
     assert!((damage.area_mm2() - 8.0).abs() < 1e-9);
-    assert!(
-        holds(&damage.polygons_mm, [-1.0, 2.5]),
-        "the top of the long stroke"
-    );
-    assert!(
-        holds(&damage.polygons_mm, [1.0, -2.5]),
-        "the end of the short stroke"
-    );
+    assert!(holds(&damage.polygons_mm, [-1.0, 2.5]), "the top of the long stroke");
+    assert!(holds(&damage.polygons_mm, [1.0, -2.5]), "the end of the short stroke");
     assert!(!holds(&damage.polygons_mm, [1.0, 2.5]));
     let turned = read(r#"<path transform="rotate(90)" d="M2 1H3V6H5V7H2Z"/>"#);
     // Clockwise on the screen: the long stroke now on top, the short one down on the left.
@@ -135,15 +99,8 @@ fn analytic_an_l_stays_an_l() {
 
 #[test]
 fn analytic_without_center_the_page_centre_is_the_origin() {
-    let options = SvgOptions {
-        center: false,
-        ..Default::default()
-    };
-    let damage = read_svg(
-        page(r#"<rect x="12" y="1" width="2" height="1"/>"#).as_bytes(),
-        &options,
-    )
-    .unwrap();
+    let options = SvgOptions { center: false, ..Default::default() };
+    let damage = read_svg(page(r#"<rect x="12" y="1" width="2" height="1"/>"#).as_bytes(), &options).unwrap();
     let [low, high] = damage.bounds_mm().unwrap();
     for (got, expected) in low.into_iter().chain(high).zip([2.0, 3.0, 4.0, 4.0]) {
         assert!((got - expected).abs() < 1e-9);
@@ -152,42 +109,20 @@ fn analytic_without_center_the_page_centre_is_the_origin() {
 
 #[test]
 fn analytic_scale_from_the_page_or_from_the_option() {
-    let drawing = |head: &str| {
-        format!(
-            r#"<svg xmlns="http://www.w3.org/2000/svg" {head}><rect width="10" height="5"/></svg>"#
-        )
-    };
-    let by_hand = SvgOptions {
-        mm_per_unit: Some(0.5),
-        ..Default::default()
-    };
+    let drawing =
+        |head: &str| format!(r#"<svg xmlns="http://www.w3.org/2000/svg" {head}><rect width="10" height="5"/></svg>"#);
+    let by_hand = SvgOptions { mm_per_unit: Some(0.5), ..Default::default() };
     for (head, options, area) in [
-        (
-            r#"width="40mm" height="20mm" viewBox="0 0 20 10""#,
-            SvgOptions::default(),
-            200.0,
-        ),
-        (
-            r#"width="1in" height="1in" viewBox="0 0 254 254""#,
-            SvgOptions::default(),
-            0.5,
-        ),
-        (
-            r#"width="10cm" height="5cm""#,
-            SvgOptions::default(),
-            50.0 * (25.4_f64 / 96.0).powi(2),
-        ),
+        (r#"width="40mm" height="20mm" viewBox="0 0 20 10""#, SvgOptions::default(), 200.0),
+        (r#"width="1in" height="1in" viewBox="0 0 254 254""#, SvgOptions::default(), 0.5),
+        (r#"width="10cm" height="5cm""#, SvgOptions::default(), 50.0 * (25.4_f64 / 96.0).powi(2)),
         (r#"width="800px" height="600px""#, by_hand.clone(), 12.5),
         ("", by_hand, 12.5),
     ] {
         let damage = read_svg(drawing(head).as_bytes(), &options).unwrap();
         assert!((damage.area_mm2() / area - 1.0).abs() < 1e-8, "{head}");
     }
-    for head in [
-        r#"width="800" height="600""#,
-        "",
-        r#"width="10mm" height="10mm" viewBox="0 0 20 10""#,
-    ] {
+    for head in [r#"width="800" height="600""#, "", r#"width="10mm" height="10mm" viewBox="0 0 20 10""#] {
         let error = refuse(&drawing(head), &SvgOptions::default());
         assert!(matches!(error, DamageError::NoScale { .. }), "{error}");
         assert!(error.to_string().contains("`mm_per_unit`"));
@@ -216,20 +151,10 @@ fn regress_a_drawing_as_inkscape_saves_it() {
 </svg>"##;
     // The integral of y dx under the cubic (0, 0) (0, 2) (4, 2) (4, 0).
     let arch = 4.8;
-    let options = |id: Option<&str>| SvgOptions {
-        path_id: id.map(str::to_owned),
-        ..Default::default()
-    };
+    let options = |id: Option<&str>| SvgOptions { path_id: id.map(str::to_owned), ..Default::default() };
     let all = read_svg(text.as_bytes(), &options(None)).unwrap();
-    assert!(
-        (all.area_mm2() - (12.0 + arch + 2.0)).abs() < 0.01,
-        "{}",
-        all.area_mm2()
-    );
-    assert_eq!(
-        all.warnings,
-        ["line 16, `text` #text1: left out; only closed shapes are damage"]
-    );
+    assert!((all.area_mm2() - (12.0 + arch + 2.0)).abs() < 0.01, "{}", all.area_mm2());
+    assert_eq!(all.warnings, ["line 16, `text` #text1: left out; only closed shapes are damage"]);
     let one = read_svg(text.as_bytes(), &options(Some("second"))).unwrap();
     // Not its copy by `use`.
     assert!((one.area_mm2() - 1.0).abs() < 1e-6);
@@ -253,20 +178,10 @@ fn regress_a_drawing_as_illustrator_saves_it() {
 <rect class="st0" width="283.46" height="283.46"/>
 <path class="st1" d="M10,10h28.346v28.346H10V10z"/>
 </svg>"#;
-    let points = SvgOptions {
-        mm_per_unit: Some(25.4 / 72.0),
-        ..Default::default()
-    };
+    let points = SvgOptions { mm_per_unit: Some(25.4 / 72.0), ..Default::default() };
     let damage = read_svg(text.as_bytes(), &points).unwrap();
-    assert!(
-        (damage.area_mm2() - 100.0).abs() < 0.01,
-        "{}",
-        damage.area_mm2()
-    );
-    assert!(matches!(
-        refuse(text, &SvgOptions::default()),
-        DamageError::NoScale { .. }
-    ));
+    assert!((damage.area_mm2() - 100.0).abs() < 0.01, "{}", damage.area_mm2());
+    assert!(matches!(refuse(text, &SvgOptions::default()), DamageError::NoScale { .. }));
 }
 
 #[test]
@@ -279,53 +194,29 @@ fn prop_unusable_drawings_are_refused_in_words() {
         ),
         ("", "there is no damage in it: no shape with an area shows"),
         (r#"<path d="M0 0L1 1"/>"#, "encloses nothing"),
-        (
-            r#"<path d="M0 0 Lx"/>"#,
-            "this SVG file is broken at line 1, `path`: its path data:",
-        ),
+        (r#"<path d="M0 0 Lx"/>"#, "this SVG file is broken at line 1, `path`: its path data:"),
         (r#"<circle r="-1"/>"#, "its r must be above 0"),
         (r#"<circle r="5%"/>"#, "use plain numbers"),
-        (
-            r#"<path d="M0 0A1e300 1e300 0 0 1 4 4Z"/>"#,
-            "a number in the drawing is 1e300",
-        ),
+        (r#"<path d="M0 0A1e300 1e300 0 0 1 4 4Z"/>"#, "a number in the drawing is 1e300"),
         (r#"<rect width="99999" height="9"/>"#, "check `mm_per_unit`"),
-        (
-            r#"<g transform="spin(3)"><rect width="9" height="9"/></g>"#,
-            "transform `spin(3)` is not understood",
-        ),
+        (r#"<g transform="spin(3)"><rect width="9" height="9"/></g>"#, "transform `spin(3)` is not understood"),
         (r##"<g id="a"><use href="#a"/></g>"##, "the depth of groups"),
-        (
-            r#"<svg><rect width="9" height="9"/></svg>"#,
-            "a nested `svg` is not understood",
-        ),
+        (r#"<svg><rect width="9" height="9"/></svg>"#, "a nested `svg` is not understood"),
     ] {
         let error = refuse(&page(inside), &default).to_string();
         assert!(error.contains(words), "{inside}: {error}");
     }
     let png = read_svg(b"\x89PNG\r\n\x1a\n", &default).unwrap_err();
-    assert_eq!(
-        png.to_string(),
-        "PNG cannot be read as a drawing; save it as plain SVG"
-    );
-    let coarse = SvgOptions {
-        tolerance_mm: f64::NAN,
-        ..default
-    };
-    assert_eq!(
-        refuse(&page(""), &coarse).to_string(),
-        "`tolerance_mm` is NaN; it must be 1e-5 to 1 mm"
-    );
+    assert_eq!(png.to_string(), "PNG cannot be read as a drawing; save it as plain SVG");
+    let coarse = SvgOptions { tolerance_mm: f64::NAN, ..default };
+    assert_eq!(refuse(&page(""), &coarse).to_string(), "`tolerance_mm` is NaN; it must be 1e-5 to 1 mm");
 }
 
 #[test]
 fn prop_a_drawing_that_doubles_itself_is_refused_quickly() {
     let mut text = r#"<rect id="g0" width="1" height="1"/>"#.to_owned();
     for i in 1..40 {
-        text.push_str(&format!(
-            r##"<g id="g{i}"><use href="#g{0}"/><use href="#g{0}"/></g>"##,
-            i - 1
-        ));
+        text.push_str(&format!(r##"<g id="g{i}"><use href="#g{0}"/><use href="#g{0}"/></g>"##, i - 1));
     }
     let begin = std::time::Instant::now();
     let error = refuse(&page(&text), &SvgOptions::default());
@@ -336,21 +227,13 @@ fn prop_a_drawing_that_doubles_itself_is_refused_quickly() {
 #[test]
 fn regress_lines_that_cross_everywhere_are_refused() {
     let mut noise = Noise(1);
-    let mut point = || {
-        format!(
-            "{:.3} {:.3}",
-            20.0 * noise.uniform(),
-            10.0 * noise.uniform()
-        )
-    };
+    let mut point = || format!("{:.3} {:.3}", 20.0 * noise.uniform(), 10.0 * noise.uniform());
     let points: Vec<String> = (0..2000).map(|_| point()).collect();
     let path = format!("<path d=\"M {} Z\"/>", points.join(" "));
     // Bars across bars: none crosses itself.
     let bar = |k: usize| {
         let at = 0.05 * k as f64;
-        format!(
-            "<rect x=\"{at}\" width=\"0.02\" height=\"10\"/><rect y=\"{at}\" width=\"20\" height=\"0.02\"/>"
-        )
+        format!("<rect x=\"{at}\" width=\"0.02\" height=\"10\"/><rect y=\"{at}\" width=\"20\" height=\"0.02\"/>")
     };
     let bars: String = (0..100).map(bar).collect();
     for (drawing, at) in [(path, "line 1, `path`"), (bars, "its shapes together")] {
@@ -365,8 +248,5 @@ fn regress_lines_that_cross_everywhere_are_refused() {
 fn regress_a_drawing_has_4_mib_at_most() {
     let long = page(&format!("<!--{}-->", "x".repeat(4 << 20)));
     let error = refuse(&long, &SvgOptions::default()).to_string();
-    assert!(
-        error.contains("more than the 4 MiB that are read"),
-        "{error}"
-    );
+    assert!(error.contains("more than the 4 MiB that are read"), "{error}");
 }

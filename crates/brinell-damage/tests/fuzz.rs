@@ -1,4 +1,5 @@
-//! Mutated files against all readers: no bytes and no options may make one panic or hang. A program of its own: an abort ends no other test.
+//! Mutated files against all readers: no bytes and no options may make one panic or hang. A program of its own: an
+//! abort ends no other test.
 //!
 //! A few seconds in the suite; `BRINELL_FUZZ_SECONDS=600` for longer, `BRINELL_FUZZ_SEED` for other mutations. A file
 //! that makes a reader panic is kept in `tests/corpus/` and replayed from then on. `BRINELL_FUZZ_WRITE=1` writes the
@@ -23,40 +24,21 @@ fn folder() -> PathBuf {
 
 fn made_seeds() -> Vec<(&'static str, Vec<u8>)> {
     let spot = |x: usize, y: usize| {
-        if (x as f64 - 10.0).hypot(y as f64 - 9.0) < 6.0 {
-            0.2
-        } else {
-            0.8
-        }
+        if (x as f64 - 10.0).hypot(y as f64 - 9.0) < 6.0 { 0.2 } else { 0.8 }
     };
-    let rgba: Vec<u8> = (0..400)
-        .flat_map(|i| [9, 9, 9, if i % 7 < 3 { 255 } else { 0 }])
-        .collect();
-    let wide: Vec<u8> = (0..400_u16)
-        .flat_map(|i| (30_000 + i * 7 % 900).to_be_bytes())
-        .collect();
+    let rgba: Vec<u8> = (0..400).flat_map(|i| [9, 9, 9, if i % 7 < 3 { 255 } else { 0 }]).collect();
+    let wide: Vec<u8> = (0..400_u16).flat_map(|i| (30_000 + i * 7 % 900).to_be_bytes()).collect();
     let jpeg = |progressive| {
         let mut bytes = Vec::new();
         let mut encoder = jpeg_encoder::Encoder::new(&mut bytes, 60);
         encoder.set_progressive(progressive);
-        encoder
-            .encode(
-                &grey_bytes(20, 20, spot),
-                20,
-                20,
-                jpeg_encoder::ColorType::Luma,
-            )
-            .unwrap();
+        encoder.encode(&grey_bytes(20, 20, spot), 20, 20, jpeg_encoder::ColorType::Luma).unwrap();
         bytes
     };
     let head = r#"<svg xmlns="http://www.w3.org/2000/svg" xmlns:xlink="http://www.w3.org/1999/xlink" width="20mm" height="10mm" viewBox="0 0 20 10">"#;
     let svg = |inside: &str| format!("{head}{inside}</svg>").into_bytes();
-    let i2: Vec<u8> = (0..48_i16)
-        .flat_map(|i| (i % 9 - 20).to_le_bytes())
-        .collect();
-    let f4: Vec<u8> = (0..48)
-        .flat_map(|i| (if i % 11 == 3 { f32::NAN } else { i as f32 }).to_be_bytes())
-        .collect();
+    let i2: Vec<u8> = (0..48_i16).flat_map(|i| (i % 9 - 20).to_le_bytes()).collect();
+    let f4: Vec<u8> = (0..48).flat_map(|i| (if i % 11 == 3 { f32::NAN } else { i as f32 }).to_be_bytes()).collect();
     let pit = |column: usize, row: usize| match (column, row) {
         (2..=4, 3..=6) => -20.0 + column as f64,
         (6, 1) => f64::NAN,
@@ -82,47 +64,15 @@ fn made_seeds() -> Vec<(&'static str, Vec<u8>)> {
             ),
         ),
         ("grey.png", grey_png(20, 20, spot)),
-        (
-            "alpha.png",
-            png(20, 20, ColorType::Rgba, BitDepth::Eight, &rgba),
-        ),
-        (
-            "height.png",
-            png(20, 20, ColorType::Grayscale, BitDepth::Sixteen, &wide),
-        ),
-        (
-            "bits.png",
-            png(
-                16,
-                4,
-                ColorType::Grayscale,
-                BitDepth::One,
-                &[0x0f, 0xf0, 0x3c, 0x18, 0, 0xff, 7, 9],
-            ),
-        ),
+        ("alpha.png", png(20, 20, ColorType::Rgba, BitDepth::Eight, &rgba)),
+        ("height.png", png(20, 20, ColorType::Grayscale, BitDepth::Sixteen, &wide)),
+        ("bits.png", png(16, 4, ColorType::Grayscale, BitDepth::One, &[0x0f, 0xf0, 0x3c, 0x18, 0, 0xff, 7, 9])),
         ("base.jpg", jpeg(false)),
         ("progressive.jpg", jpeg(true)),
-        (
-            "plain.csv",
-            b"# um\n0,0.1,0,0\n0,-9,-8.5,0\n0,-9,,0\n0,0,nan,0\n".to_vec(),
-        ),
-        (
-            "decimal.csv",
-            "\u{feff}a;b;c;\r\n0,1;0;1e-3;\r\n0;-22,5;0;\r\n"
-                .as_bytes()
-                .to_vec(),
-        ),
+        ("plain.csv", b"# um\n0,0.1,0,0\n0,-9,-8.5,0\n0,-9,,0\n0,0,nan,0\n".to_vec()),
+        ("decimal.csv", "\u{feff}a;b;c;\r\n0,1;0;1e-3;\r\n0;-22,5;0;\r\n".as_bytes().to_vec()),
         ("blank.txt", b"0 0 0\n0 -5 0\n0 0 0\n".to_vec()),
-        (
-            "float.npy",
-            npy_f8(8, 9, |r, c| {
-                if r > 2 && c > 3 && r < 6 {
-                    -20.0
-                } else {
-                    0.1 * c as f64
-                }
-            }),
-        ),
+        ("float.npy", npy_f8(8, 9, |r, c| if r > 2 && c > 3 && r < 6 { -20.0 } else { 0.1 * c as f64 })),
         ("short.npy", npy("<i2", true, [6, 8], &i2)),
         ("big.npy", npy(">f4", false, [8, 6], &f4)),
         ("text.sdf", sdf_text(8, 9, 100.0, &pit)),
@@ -174,9 +124,7 @@ fn mutate(noise: &mut Noise, seed: &[u8], other: &[u8]) -> Vec<u8> {
         let end = (at + noise.below(24)).min(bytes.len());
         match noise.below(9) {
             0 | 1 if at < bytes.len() => bytes[at] ^= 1 << noise.below(8),
-            2 if at < bytes.len() => {
-                bytes[at] = [0, 0xff, 0x7f, 0x80, b'9', b'-', b'e'][noise.below(7)]
-            }
+            2 if at < bytes.len() => bytes[at] = [0, 0xff, 0x7f, 0x80, b'9', b'-', b'e'][noise.below(7)],
             3 => drop(bytes.drain(at..end)),
             4 => {
                 let copy = bytes[at..end].to_vec();
@@ -215,13 +163,7 @@ fn mend_png(bytes: &mut [u8]) {
             return;
         };
         let crc = body.iter().fold(!0_u32, |crc, &byte| {
-            (0..8).fold(crc ^ u32::from(byte), |c, _| {
-                if c & 1 == 1 {
-                    c >> 1 ^ 0xEDB8_8320
-                } else {
-                    c >> 1
-                }
-            })
+            (0..8).fold(crc ^ u32::from(byte), |c, _| if c & 1 == 1 { c >> 1 ^ 0xEDB8_8320 } else { c >> 1 })
         });
         let Some(slot) = bytes.get_mut(end..end + 4) else {
             return;
@@ -242,12 +184,7 @@ fn number(noise: &mut Noise, usual: f64) -> f64 {
 }
 
 fn read_all(noise: &mut Noise, bytes: &[u8]) -> usize {
-    let directions = [
-        Direction::Right,
-        Direction::Up,
-        Direction::Left,
-        Direction::Down,
-    ];
+    let directions = [Direction::Right, Direction::Up, Direction::Left, Direction::Down];
     let svg = SvgOptions {
         path_id: (noise.below(4) == 0).then(|| ["a", "b", "p"][noise.below(3)].to_owned()),
         mm_per_unit: (noise.below(3) == 0).then(|| number(noise, 0.3)),
@@ -261,32 +198,17 @@ fn read_all(noise: &mut Noise, bytes: &[u8]) -> usize {
         invert: noise.below(3) == 0,
         rolling_direction: directions[noise.below(4)],
         center: noise.below(2) == 0,
-        smooth: [
-            Smooth::PixelEdges,
-            Smooth::SubPixel {
-                blur_px: number(noise, 1.0),
-            },
-        ][noise.below(2)],
+        smooth: [Smooth::PixelEdges, Smooth::SubPixel { blur_px: number(noise, 1.0) }][noise.below(2)],
         speck_mm2: number(noise, 0.01),
-        region_px: (noise.below(4) == 0)
-            .then(|| [0.0, number(noise, 2.0), number(noise, 10.0), 9.0]),
-        pieces: [
-            None,
-            Some(Pieces::Largest),
-            Some(Pieces::All),
-            Some(Pieces::At([number(noise, 9.0), 8.0])),
-        ][noise.below(4)],
+        region_px: (noise.below(4) == 0).then(|| [0.0, number(noise, 2.0), number(noise, 10.0), 9.0]),
+        pieces: [None, Some(Pieces::Largest), Some(Pieces::All), Some(Pieces::At([number(noise, 9.0), 8.0]))]
+            [noise.below(4)],
     };
     let radius = number(noise, 20.0);
     let depth = DepthMapOptions {
         ds_mm: (noise.below(2) == 0).then(|| number(noise, 0.1)),
         dz_mm: Some(number(noise, 0.1)).filter(|_| noise.below(2) == 0),
-        unit: [
-            Unit::Um,
-            Unit::Mm,
-            Unit::M,
-            Unit::NmPerCount(number(noise, 10.0)),
-        ][noise.below(4)],
+        unit: [Unit::Um, Unit::Mm, Unit::M, Unit::NmPerCount(number(noise, 10.0))][noise.below(4)],
         height_positive_up: noise.below(2) == 0,
         missing: (noise.below(3) == 0).then(|| number(noise, 0.0)),
         fill: [Fill::None, Fill::Neighbours][noise.below(3).min(1)],
@@ -294,15 +216,9 @@ fn read_all(noise: &mut Noise, bytes: &[u8]) -> usize {
             Form::None,
             Form::Plane,
             Form::Cylinder { radius_mm: None },
-            Form::Cylinder {
-                radius_mm: Some(radius),
-            },
+            Form::Cylinder { radius_mm: Some(radius) },
         ][noise.below(4)],
-        zero: [
-            Zero::AsIs,
-            Zero::RimMedian,
-            Zero::Percentile(number(noise, 50.0)),
-        ][noise.below(3)],
+        zero: [Zero::AsIs, Zero::RimMedian, Zero::Percentile(number(noise, 50.0))][noise.below(3)],
         first_row: [FirstRow::Top, FirstRow::Bottom][noise.below(2)],
         rolling_direction: directions[noise.below(4)],
         threshold_um: number(noise, 1.0),
@@ -312,14 +228,7 @@ fn read_all(noise: &mut Noise, bytes: &[u8]) -> usize {
     let sound = |polygons: Polygons| {
         assert!(!polygons.polygons_mm.is_empty());
         assert!(polygons.polygons_mm.iter().all(|ring| ring.len() >= 3));
-        assert!(
-            polygons
-                .polygons_mm
-                .iter()
-                .flatten()
-                .flatten()
-                .all(|v| v.is_finite())
-        );
+        assert!(polygons.polygons_mm.iter().flatten().flatten().all(|v| v.is_finite()));
     };
     let mut read = 0;
     read += usize::from(read_svg(bytes, &svg).map(sound).is_ok());
@@ -335,24 +244,15 @@ fn read_all(noise: &mut Noise, bytes: &[u8]) -> usize {
 
 #[test]
 fn prop_no_bytes_make_a_reader_panic() {
-    let seconds = std::env::var("BRINELL_FUZZ_SECONDS")
-        .ok()
-        .and_then(|s| s.parse().ok())
-        .unwrap_or(4);
-    let seed = std::env::var("BRINELL_FUZZ_SEED")
-        .ok()
-        .and_then(|s| s.parse().ok())
-        .unwrap_or(1_u64);
+    let seconds = std::env::var("BRINELL_FUZZ_SECONDS").ok().and_then(|s| s.parse().ok()).unwrap_or(4);
+    let seed = std::env::var("BRINELL_FUZZ_SEED").ok().and_then(|s| s.parse().ok()).unwrap_or(1_u64);
     let mut seeds: Vec<Vec<u8>> = Vec::new();
     for (name, bytes) in made_seeds() {
         if std::env::var_os("BRINELL_FUZZ_WRITE").is_some() {
             std::fs::write(folder().join(name), &bytes).unwrap();
         }
     }
-    let mut names: Vec<PathBuf> = std::fs::read_dir(folder())
-        .unwrap()
-        .map(|f| f.unwrap().path())
-        .collect();
+    let mut names: Vec<PathBuf> = std::fs::read_dir(folder()).unwrap().map(|f| f.unwrap().path()).collect();
     names.sort();
     for name in names {
         seeds.push(std::fs::read(name).unwrap());
@@ -388,10 +288,7 @@ fn prop_no_bytes_make_a_reader_panic() {
         }
         runs += 1;
     }
-    println!(
-        "{runs} files, {readable} readable, {panics} panics, slowest {slowest:?}, {:?}",
-        begin.elapsed()
-    );
+    println!("{runs} files, {readable} readable, {panics} panics, slowest {slowest:?}, {:?}", begin.elapsed());
     assert_eq!(panics, 0);
     assert!(slowest < Duration::from_secs(30), "{slowest:?}");
 }

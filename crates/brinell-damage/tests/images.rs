@@ -11,11 +11,7 @@ use proptest::prelude::*;
 const PIXEL: f64 = 0.02;
 
 pub(crate) fn options(smooth: Smooth) -> ImageOptions {
-    ImageOptions {
-        mm_per_pixel: PIXEL,
-        smooth,
-        ..Default::default()
-    }
+    ImageOptions { mm_per_pixel: PIXEL, smooth, ..Default::default() }
 }
 
 pub(crate) const EDGES: Smooth = Smooth::PixelEdges;
@@ -23,13 +19,7 @@ pub(crate) const SHARP: Smooth = Smooth::SubPixel { blur_px: 0.0 };
 
 #[test]
 fn analytic_rectangle_on_pixel_edges_is_exact() {
-    let image = grey_png(250, 300, |x, y| {
-        if (50..200).contains(&x) && (40..240).contains(&y) {
-            0.1
-        } else {
-            0.8
-        }
-    });
+    let image = grey_png(250, 300, |x, y| if (50..200).contains(&x) && (40..240).contains(&y) { 0.1 } else { 0.8 });
     let damage = read_image(&image, &options(EDGES)).unwrap();
     assert_eq!(damage.polygons_mm.len(), 1);
     assert_eq!(damage.polygons_mm[0].len(), 4);
@@ -47,25 +37,13 @@ fn analytic_circle_has_its_area_and_chords_within_the_resolution() {
     let (middle, radius) = (120.3, 100.0);
     let disc = |x: f64, y: f64| (x - middle).hypot(y - middle) < radius;
     let soft = grey_png(240, 240, |x, y| 1.0 - cover(x, y, disc));
-    let hard = grey_png(240, 240, |x, y| {
-        if disc(x as f64 + 0.5, y as f64 + 0.5) {
-            0.0
-        } else {
-            1.0
-        }
-    });
+    let hard = grey_png(240, 240, |x, y| if disc(x as f64 + 0.5, y as f64 + 0.5) { 0.0 } else { 1.0 });
     let true_area = PI * (radius * PIXEL).powi(2);
     for (name, image, smooth, area_bound, pixels) in [
         ("hard mask, edges", &hard, EDGES, 5e-3, 1.0),
         ("hard mask, sub-pixel", &hard, SHARP, 5e-3, 0.75),
         ("soft mask, sub-pixel", &soft, SHARP, 5e-4, 0.1),
-        (
-            "soft mask, blurred",
-            &soft,
-            Smooth::SubPixel { blur_px: 1.5 },
-            1e-3,
-            0.15,
-        ),
+        ("soft mask, blurred", &soft, Smooth::SubPixel { blur_px: 1.5 }, 1e-3, 0.15),
     ] {
         let damage = read_image(image, &options(smooth)).unwrap();
         let error = damage.area_mm2() / true_area - 1.0;
@@ -74,10 +52,7 @@ fn analytic_circle_has_its_area_and_chords_within_the_resolution() {
             let chord = 2.0 * (4.0 - s * s).sqrt();
             let slope = 4.0 / chord;
             let error = (width_at(&damage.polygons_mm, s) - chord).abs();
-            assert!(
-                error < 2.0 * slope * pixels * PIXEL,
-                "{name}, s = {s}: {error}"
-            );
+            assert!(error < 2.0 * slope * pixels * PIXEL, "{name}, s = {s}: {error}");
         }
     }
 }
@@ -96,25 +71,15 @@ fn analytic_an_l_is_turned_and_never_mirrored() {
         (Direction::Left, [1.5, -3.0], [-2.0, 3.0], [-2.0, -3.0]),
         (Direction::Down, [-3.0, -1.5], [3.0, 2.0], [-3.0, 2.0]),
     ] {
-        let options = ImageOptions {
-            mm_per_pixel: 1.0,
-            rolling_direction: direction,
-            speck_mm2: 0.0,
-            ..options(EDGES)
-        };
+        let options =
+            ImageOptions { mm_per_pixel: 1.0, rolling_direction: direction, speck_mm2: 0.0, ..options(EDGES) };
         let damage = read_image(&image, &options).unwrap();
-        assert!(
-            (damage.area_mm2() - 22.0).abs() < 1e-9,
-            "outer rings counter-clockwise"
-        );
+        assert!((damage.area_mm2() - 22.0).abs() < 1e-9, "outer rings counter-clockwise");
         assert!(holds(&damage.polygons_mm, top), "{direction:?}");
         assert!(holds(&damage.polygons_mm, foot), "{direction:?}");
         assert!(!holds(&damage.polygons_mm, empty), "{direction:?}");
         // Without centring, pixel (3, 2) of the long stroke is 1.5 left of and 3.5 above the image's centre.
-        let there = ImageOptions {
-            center: false,
-            ..options
-        };
+        let there = ImageOptions { center: false, ..options };
         let damage = read_image(&image, &there).unwrap();
         let point = match direction {
             Direction::Right => [-1.5, 3.5],
@@ -172,18 +137,12 @@ proptest! {
 #[test]
 fn analytic_holes_stay_and_specks_go() {
     let mut noise = Noise(7);
-    let specks: Vec<[usize; 2]> = (0..60)
-        .map(|_| [noise.below(300), noise.below(30)])
-        .collect();
+    let specks: Vec<[usize; 2]> = (0..60).map(|_| [noise.below(300), noise.below(30)]).collect();
     let image = grey_png(300, 300, |x, y| {
         let r = (x as f64 - 149.5).hypot(y as f64 - 160.0);
         let dark = (50.0..100.0).contains(&r) || specks.contains(&[x, y]) || (x, y) == (149, 85);
         // A light speck within the dark ring, a dark one in its hole.
-        if (x, y) == (149, 235) || !dark {
-            0.9
-        } else {
-            0.2
-        }
+        if (x, y) == (149, 235) || !dark { 0.9 } else { 0.2 }
     });
     let damage = read_image(&image, &options(EDGES)).unwrap();
     assert_eq!(damage.polygons_mm.len(), 2);
@@ -191,102 +150,40 @@ fn analytic_holes_stay_and_specks_go() {
     assert!((damage.area_mm2() / area - 1.0).abs() < 5e-3);
     let said = damage.notes.join("\n");
     assert!(said.contains("the threshold was found as 0.5"), "{said}");
-    assert!(
-        said.contains("and filled 1 hole that enclose less than 0.02 mm^2"),
-        "{said}"
-    );
+    assert!(said.contains("and filled 1 hole that enclose less than 0.02 mm^2"), "{said}");
 }
 
 #[test]
 fn analytic_a_mask_drawn_in_the_alpha_channel() {
     let drawn = |x: usize, y: usize| (10..40).contains(&x) && (5..25).contains(&y);
-    let rgba: Vec<u8> = (0..50 * 30)
-        .flat_map(|i| [200, 30, 30, if drawn(i % 50, i / 50) { 255 } else { 0 }])
-        .collect();
+    let rgba: Vec<u8> = (0..50 * 30).flat_map(|i| [200, 30, 30, if drawn(i % 50, i / 50) { 255 } else { 0 }]).collect();
     let image = png(50, 30, ColorType::Rgba, BitDepth::Eight, &rgba);
-    for (use_alpha, invert, area) in [
-        (true, false, 600.0),
-        (true, true, 900.0),
-        (false, false, 600.0),
-    ] {
-        let options = ImageOptions {
-            mm_per_pixel: 1.0,
-            use_alpha,
-            invert,
-            ..options(EDGES)
-        };
+    for (use_alpha, invert, area) in [(true, false, 600.0), (true, true, 900.0), (false, false, 600.0)] {
+        let options = ImageOptions { mm_per_pixel: 1.0, use_alpha, invert, ..options(EDGES) };
         let damage = read_image(&image, &options).unwrap();
-        assert!(
-            (damage.area_mm2() - area).abs() < 1e-9,
-            "{use_alpha} {invert}"
-        );
+        assert!((damage.area_mm2() - area).abs() < 1e-9, "{use_alpha} {invert}");
     }
     let grey = grey_png(4, 4, |_, _| 0.5);
-    let with_alpha = ImageOptions {
-        use_alpha: true,
-        ..options(EDGES)
-    };
-    assert!(
-        read_image(&grey, &with_alpha)
-            .unwrap_err()
-            .to_string()
-            .contains("without an alpha channel")
-    );
+    let with_alpha = ImageOptions { use_alpha: true, ..options(EDGES) };
+    assert!(read_image(&grey, &with_alpha).unwrap_err().to_string().contains("without an alpha channel"));
 }
 
 #[test]
 fn xval_every_kind_of_png_gives_the_same_outline() {
     let dark = |i: usize| (i % 16 > 3 && i % 16 < 12) && (i / 16 > 2 && i / 16 < 9);
     let expand = |pixel: fn(u8) -> Vec<u8>| -> Vec<u8> {
-        (0..256)
-            .flat_map(|i| pixel(if dark(i) { 40 } else { 220 }))
-            .collect()
+        (0..256).flat_map(|i| pixel(if dark(i) { 40 } else { 220 })).collect()
     };
-    let bits: Vec<u8> = (0..32)
-        .map(|i| (0..8).fold(0, |b, k| b << 1 | u8::from(!dark(8 * i + k))))
-        .collect();
+    let bits: Vec<u8> = (0..32).map(|i| (0..8).fold(0, |b, k| b << 1 | u8::from(!dark(8 * i + k)))).collect();
     let images = [
-        png(
-            16,
-            16,
-            ColorType::Grayscale,
-            BitDepth::Eight,
-            &expand(|v| vec![v]),
-        ),
+        png(16, 16, ColorType::Grayscale, BitDepth::Eight, &expand(|v| vec![v])),
         png(16, 16, ColorType::Grayscale, BitDepth::One, &bits),
-        png(
-            16,
-            16,
-            ColorType::Grayscale,
-            BitDepth::Sixteen,
-            &expand(|v| vec![v, 7]),
-        ),
-        png(
-            16,
-            16,
-            ColorType::GrayscaleAlpha,
-            BitDepth::Eight,
-            &expand(|v| vec![v, 255]),
-        ),
-        png(
-            16,
-            16,
-            ColorType::Rgb,
-            BitDepth::Eight,
-            &expand(|v| vec![v, v, v]),
-        ),
-        png(
-            16,
-            16,
-            ColorType::Rgba,
-            BitDepth::Sixteen,
-            &expand(|v| vec![v, 0, v, 0, v, 0, 255, 255]),
-        ),
+        png(16, 16, ColorType::Grayscale, BitDepth::Sixteen, &expand(|v| vec![v, 7])),
+        png(16, 16, ColorType::GrayscaleAlpha, BitDepth::Eight, &expand(|v| vec![v, 255])),
+        png(16, 16, ColorType::Rgb, BitDepth::Eight, &expand(|v| vec![v, v, v])),
+        png(16, 16, ColorType::Rgba, BitDepth::Sixteen, &expand(|v| vec![v, 0, v, 0, v, 0, 255, 255])),
     ];
-    let options = ImageOptions {
-        speck_mm2: 0.0,
-        ..options(EDGES)
-    };
+    let options = ImageOptions { speck_mm2: 0.0, ..options(EDGES) };
     let read = |image: &[u8]| read_image(image, &options).unwrap().polygons_mm;
     for image in &images[1..] {
         assert_eq!(read(image), read(&images[0]));
@@ -309,9 +206,7 @@ fn prop_jpeg_quality_moves_the_outline_by_little() {
             let mut jpeg = Vec::new();
             let mut encoder = jpeg_encoder::Encoder::new(&mut jpeg, quality);
             encoder.set_progressive(progressive);
-            encoder
-                .encode(&grey, 200, 200, jpeg_encoder::ColorType::Luma)
-                .unwrap();
+            encoder.encode(&grey, 200, 200, jpeg_encoder::ColorType::Luma).unwrap();
             let damage = read_image(&jpeg, &options(Smooth::SubPixel { blur_px: 1.5 })).unwrap();
             let error = (damage.area_mm2() / true_area - 1.0).abs();
             println!("quality {quality}, progressive {progressive}: area off by {error:.1e}");
@@ -324,18 +219,10 @@ fn prop_jpeg_quality_moves_the_outline_by_little() {
 #[test]
 fn analytic_the_drawn_photo_has_its_length_and_width() {
     let photo = include_bytes!("../../../examples/photo-spall.png");
-    let options = ImageOptions {
-        mm_per_pixel: PIXEL,
-        ..Default::default()
-    };
+    let options = ImageOptions { mm_per_pixel: PIXEL, ..Default::default() };
     let damage = read_image(photo, &options).unwrap();
     let [low, high] = damage.bounds_mm().unwrap();
-    println!(
-        "{:?} area {} {:?}",
-        [low, high],
-        damage.area_mm2(),
-        damage.warnings
-    );
+    println!("{:?} area {} {:?}", [low, high], damage.area_mm2(), damage.warnings);
     assert_eq!(damage.polygons_mm.len(), 1);
     // See examples/draw_examples.rs; a soft edge and Otsu's level move it by a pixel or so.
     assert!((high[0] - low[0] - 3.0).abs() < 3.0 * PIXEL);

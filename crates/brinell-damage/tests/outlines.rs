@@ -15,12 +15,7 @@ fn grid(half: [f64; 2], step: f64, depth: impl Fn(f64, f64) -> f64) -> DepthGrid
         columns,
         rows,
         depth_um: (0..columns * rows)
-            .map(|k| {
-                depth(
-                    -half[0] + step * (k % columns) as f64,
-                    -half[1] + step * (k / columns) as f64,
-                )
-            })
+            .map(|k| depth(-half[0] + step * (k % columns) as f64, -half[1] + step * (k / columns) as f64))
             .collect(),
         ..DepthGrid::default()
     }
@@ -30,19 +25,10 @@ fn grid(half: [f64; 2], step: f64, depth: impl Fn(f64, f64) -> f64) -> DepthGrid
 fn analytic_a_circular_wall_keeps_its_area_within_the_resolution() {
     let exact = PI * 1.5 * 1.5;
     for step in [0.1, 0.05, 0.02] {
-        let wall = grid(
-            [2.0, 2.5],
-            step,
-            |s, z| {
-                if s.hypot(z) <= 1.5 { 20.0 } else { 0.0 }
-            },
-        );
+        let wall = grid([2.0, 2.5], step, |s, z| if s.hypot(z) <= 1.5 { 20.0 } else { 0.0 });
         let outline = wall.outline(10.0, 0.1 * step).unwrap();
         // The wall lies somewhere between two nodes, the line in their middle.
-        assert!(
-            (outline.area_mm2() - exact).abs() < 0.5 * step * 2.0 * PI * 1.5,
-            "{step}"
-        );
+        assert!((outline.area_mm2() - exact).abs() < 0.5 * step * 2.0 * PI * 1.5, "{step}");
         let off = |p: &[f64; 2]| (p[0].hypot(p[1]) - 1.5).abs();
         let farthest = outline.polygons_mm[0].iter().map(off).fold(0.0, f64::max);
         assert!(farthest <= 0.75 * step, "{step}: {farthest}");
@@ -54,9 +40,7 @@ fn analytic_a_dents_contour_converges_at_second_order_in_the_step() {
     // 20 um deep in the middle of a paraboloid of 1.5 mm: 8 um deep at 1.5 sqrt(0.6) mm.
     let exact = PI * 1.5 * 1.5 * 0.6;
     let error = |step: f64| {
-        let dent = grid([2.0, 2.0], step, |s, z| {
-            (20.0 * (1.0 - (s * s + z * z) / 2.25)).max(0.0)
-        });
+        let dent = grid([2.0, 2.0], step, |s, z| (20.0 * (1.0 - (s * s + z * z) / 2.25)).max(0.0));
         (dent.outline(8.0, 0.0).unwrap().area_mm2() / exact - 1.0).abs()
     };
     let errors = [0.1, 0.05, 0.025].map(error);
@@ -77,30 +61,16 @@ fn analytic_a_ring_has_a_hole_and_fewer_corners_within_the_tolerance() {
     assert_eq!(all.polygons_mm.len(), 2);
     // Half the depth is reached 1/8 mm to both sides of the ridge.
     let exact = PI * (1.325f64.powi(2) - 1.075f64.powi(2));
-    assert!(
-        (all.area_mm2() / exact - 1.0).abs() < 2e-3,
-        "{}",
-        all.area_mm2()
-    );
+    assert!((all.area_mm2() / exact - 1.0).abs() < 2e-3, "{}", all.area_mm2());
     for tolerance in [0.002, 0.01, 0.05] {
         let few = ring.outline(5.0, tolerance).unwrap();
-        let corners =
-            |p: &brinell_damage::Polygons| p.polygons_mm.iter().map(Vec::len).sum::<usize>();
-        assert!(
-            4 * corners(&few) < corners(&all),
-            "{tolerance}: {}",
-            corners(&few)
-        );
+        let corners = |p: &brinell_damage::Polygons| p.polygons_mm.iter().map(Vec::len).sum::<usize>();
+        assert!(4 * corners(&few) < corners(&all), "{tolerance}: {}", corners(&few));
         let off = |p: &[f64; 2]| {
             let r = p[0].hypot(p[1]);
             (r - 1.325).abs().min((r - 1.075).abs())
         };
-        let farthest = few
-            .polygons_mm
-            .iter()
-            .flatten()
-            .map(off)
-            .fold(0.0, f64::max);
+        let farthest = few.polygons_mm.iter().flatten().map(off).fold(0.0, f64::max);
         assert!(farthest < 1e-3, "corners lie on the line: {farthest}");
         let lost = (few.area_mm2() - all.area_mm2()).abs();
         assert!(lost < tolerance * 2.0 * PI * 2.4, "{tolerance}: {lost}");
@@ -110,25 +80,16 @@ fn analytic_a_ring_has_a_hole_and_fewer_corners_within_the_tolerance() {
 
 #[test]
 fn analytic_the_level_of_an_area_encloses_it() {
-    let dent = grid([2.0, 2.0], 0.05, |s, z| {
-        (20.0 * (1.0 - (s * s + z * z) / 2.25)).max(0.0)
-    });
+    let dent = grid([2.0, 2.0], 0.05, |s, z| (20.0 * (1.0 - (s * s + z * z) / 2.25)).max(0.0));
     for area in [0.5, 3.0, 6.0] {
         let level = dent.level_of_area(area).unwrap();
         let enclosed = dent.outline(level, 0.0).unwrap().area_mm2();
         assert!((enclosed / area - 1.0).abs() < 1e-4, "{area}: {enclosed}");
         // The paraboloid's own: r^2 = 2.25 (1 - h / 20).
-        assert!(
-            (level - 20.0 * (1.0 - area / PI / 2.25)).abs() < 0.05,
-            "{area}: {level}"
-        );
+        assert!((level - 20.0 * (1.0 - area / PI / 2.25)).abs() < 0.05, "{area}: {level}");
     }
     // A mask: its cells are what the middle between deep and sound nodes encloses, but for the corners.
-    let mask = grid(
-        [2.0, 2.5],
-        0.05,
-        |s, z| if s.hypot(z) <= 1.5 { 20.0 } else { 0.0 },
-    );
+    let mask = grid([2.0, 2.5], 0.05, |s, z| if s.hypot(z) <= 1.5 { 20.0 } else { 0.0 });
     let level = mask.level_of_area(mask.area_mm2()).unwrap();
     assert!((8.0..=12.0).contains(&level), "{level}");
     assert!(dent.level_of_area(1e3).unwrap() < 1e-4);
@@ -146,10 +107,7 @@ fn analytic_damage_at_the_grids_edge_is_closed_along_it() {
 #[test]
 fn regress_what_cannot_be_outlined_is_reported() {
     let flat = grid([1.0, 1.0], 0.5, |s, _| if s == 0.0 { 3.0 } else { 0.0 });
-    assert!(matches!(
-        flat.outline(4.0, 0.0),
-        Err(DamageError::NothingDamaged { .. })
-    ));
+    assert!(matches!(flat.outline(4.0, 0.0), Err(DamageError::NothingDamaged { .. })));
     for (level, tolerance) in [(-1.0, 0.0), (f64::NAN, 0.0), (1.0, -0.1), (1.0, f64::NAN)] {
         let error = flat.outline(level, tolerance).unwrap_err();
         assert!(matches!(error, DamageError::Option { .. }), "{error}");

@@ -11,10 +11,7 @@ const ALL: usize = 60;
 const TOLERANCE: f64 = 0.05;
 
 fn options(photo: &Photo) -> ImageOptions {
-    ImageOptions {
-        mm_per_pixel: photo.mm_per_pixel,
-        ..Default::default()
-    }
+    ImageOptions { mm_per_pixel: photo.mm_per_pixel, ..Default::default() }
 }
 
 /// The area that was read, 0 where the answer is that there is no spall.
@@ -40,10 +37,7 @@ fn score(seed: u64) -> (usize, usize) {
         right += usize::from(is_right);
         false_spalls += usize::from(k >= SPALLED && !is_right);
         let word = if is_right { "right" } else { "WRONG" };
-        println!(
-            "{word} {}: {found:.4} of {:.4} mm^2",
-            photo.name, photo.area_mm2
-        );
+        println!("{word} {}: {found:.4} of {:.4} mm^2", photo.name, photo.area_mm2);
     }
     println!("seed {seed}: {right} of {ALL} right, {false_spalls} false spalls");
     (right, false_spalls)
@@ -67,19 +61,11 @@ fn analytic_areas_of_spalls_in_sixty_photos_that_the_reader_was_not_written_with
 #[test]
 fn analytic_a_light_spall_is_reported_and_read_with_invert() {
     let photo = photo(1, 0);
-    let decoded = |invert: bool| ImageOptions {
-        invert,
-        ..options(&photo)
-    };
+    let decoded = |invert: bool| ImageOptions { invert, ..options(&photo) };
     // The photo's negative.
     let negative = crate::common::negative_png(&photo.bytes);
-    let said = read_image(&negative, &decoded(false))
-        .unwrap_err()
-        .to_string();
-    assert!(
-        said.starts_with("no spall found") && said.contains("give `invert = true`"),
-        "{said}"
-    );
+    let said = read_image(&negative, &decoded(false)).unwrap_err().to_string();
+    assert!(said.starts_with("no spall found") && said.contains("give `invert = true`"), "{said}");
     let found = read_image(&negative, &decoded(true)).unwrap().area_mm2();
     assert!((found / photo.area_mm2 - 1.0).abs() < TOLERANCE, "{found}");
 }
@@ -87,61 +73,22 @@ fn analytic_a_light_spall_is_reported_and_read_with_invert() {
 #[test]
 fn prop_a_region_and_a_point_choose_the_piece() {
     // Two discs of radius 30 and 20 px under a gradient.
-    let disc =
-        |x: usize, y: usize, at: [f64; 2], r: f64| (x as f64 - at[0]).hypot(y as f64 - at[1]) < r;
+    let disc = |x: usize, y: usize, at: [f64; 2], r: f64| (x as f64 - at[0]).hypot(y as f64 - at[1]) < r;
     let image = crate::common::grey_png(300, 200, |x, y| {
         let dark = disc(x, y, [80.0, 100.0], 30.0) || disc(x, y, [220.0, 100.0], 20.0);
         (0.4 + 0.4 * x as f64 / 300.0) * if dark { 0.5 } else { 1.0 }
     });
     let area = |options: ImageOptions| read_image(&image, &options).unwrap().area_mm2();
-    let plain = ImageOptions {
-        mm_per_pixel: 0.02,
-        ..Default::default()
-    };
+    let plain = ImageOptions { mm_per_pixel: 0.02, ..Default::default() };
     let disc_mm2 = |r: f64| std::f64::consts::PI * (0.02 * r) * (0.02 * r);
-    let near =
-        |found: f64, wanted: f64| assert!((found / wanted - 1.0).abs() < 0.02, "{found} {wanted}");
+    let near = |found: f64, wanted: f64| assert!((found / wanted - 1.0).abs() < 0.02, "{found} {wanted}");
     near(area(plain.clone()), disc_mm2(30.0));
-    near(
-        area(ImageOptions {
-            pieces: Some(Pieces::At([220.0, 95.0])),
-            ..plain.clone()
-        }),
-        disc_mm2(20.0),
-    );
-    near(
-        area(ImageOptions {
-            pieces: Some(Pieces::All),
-            ..plain.clone()
-        }),
-        disc_mm2(30.0) + disc_mm2(20.0),
-    );
+    near(area(ImageOptions { pieces: Some(Pieces::At([220.0, 95.0])), ..plain.clone() }), disc_mm2(20.0));
+    near(area(ImageOptions { pieces: Some(Pieces::All), ..plain.clone() }), disc_mm2(30.0) + disc_mm2(20.0));
     let region = Some([150.0, 20.0, 150.0, 160.0]);
-    near(
-        area(ImageOptions {
-            region_px: region,
-            ..plain.clone()
-        }),
-        disc_mm2(20.0),
-    );
-    let outside = ImageOptions {
-        region_px: Some([150.0, 20.0, 151.0, 160.0]),
-        ..plain.clone()
-    };
-    assert!(
-        read_image(&image, &outside)
-            .unwrap_err()
-            .to_string()
-            .contains("`region_px` is [150, 20, 151, 160]")
-    );
-    let nowhere = ImageOptions {
-        pieces: Some(Pieces::At([150.0, 20.0])),
-        ..plain
-    };
-    assert!(
-        read_image(&image, &nowhere)
-            .unwrap_err()
-            .to_string()
-            .contains("at_px")
-    );
+    near(area(ImageOptions { region_px: region, ..plain.clone() }), disc_mm2(20.0));
+    let outside = ImageOptions { region_px: Some([150.0, 20.0, 151.0, 160.0]), ..plain.clone() };
+    assert!(read_image(&image, &outside).unwrap_err().to_string().contains("`region_px` is [150, 20, 151, 160]"));
+    let nowhere = ImageOptions { pieces: Some(Pieces::At([150.0, 20.0])), ..plain };
+    assert!(read_image(&image, &nowhere).unwrap_err().to_string().contains("at_px"));
 }

@@ -74,10 +74,7 @@ fn analytic_the_scan_becomes_a_grid_around_its_damage() {
         panic!("no grid");
     };
     let deepest = grid.depth_um.iter().copied().fold(0.0, f64::max);
-    println!(
-        "{} x {} nodes, {deepest} um, {warnings:?}",
-        grid.columns, grid.rows
-    );
+    println!("{} x {} nodes, {deepest} um, {warnings:?}", grid.columns, grid.rows);
     assert!((24.0..27.0).contains(&deepest));
     // One undamaged node all round: nothing ends in a wall that the scan does not have.
     let rim = |i: usize| {
@@ -127,40 +124,21 @@ fn regress_a_drawing_is_read_from_the_scenarios_folder() {
 
 #[test]
 fn regress_files_that_do_not_do_are_refused_in_words() {
-    let photo = |scale: &str, more: &str| {
-        format!("image = {{ file = \"photo-spall.png\", mm_per_pixel = {scale}{more} }}")
-    };
+    let photo =
+        |scale: &str, more: &str| format!("image = {{ file = \"photo-spall.png\", mm_per_pixel = {scale}{more} }}");
     let examples = examples();
     for (shape, wanted) in [
-        (
-            "image = { file = \"none.png\", mm_per_pixel = 0.02 }",
-            "cannot read",
-        ),
-        (
-            "image = { file = \".\", mm_per_pixel = 0.02 }",
-            "not a plain file",
-        ),
-        (
-            "image = { file = \"scan.csv\", mm_per_pixel = 0.02 }",
-            "cannot be read as an image",
-        ),
+        ("image = { file = \"none.png\", mm_per_pixel = 0.02 }", "cannot read"),
+        ("image = { file = \".\", mm_per_pixel = 0.02 }", "not a plain file"),
+        ("image = { file = \"scan.csv\", mm_per_pixel = 0.02 }", "cannot be read as an image"),
         ("svg = { file = \"photo-spall.png\" }", "PNG"),
-        (
-            "depth_map = { file = \"photo.toml\", ds_mm = 0.1, dz_mm = 0.1 }",
-            "not a number",
-        ),
+        ("depth_map = { file = \"photo.toml\", ds_mm = 0.1, dz_mm = 0.1 }", "not a number"),
         // Nothing is as dark as that, and everything darker than this.
         (&photo("0.02", ", threshold = 0.01"), "no damage"),
-        (
-            &photo("0.02", ", threshold = 0.999"),
-            "all of it would be damage",
-        ),
+        (&photo("0.02", ", threshold = 0.999"), "all of it would be damage"),
         (&photo("0.05", ""), "off the raceway's edge"),
         (&photo("2.0", ""), "past a full circle"),
-        (
-            "depth_map = { file = \"scan.csv\", ds_mm = 0.06, dz_mm = 0.06 }",
-            "are missing",
-        ),
+        ("depth_map = { file = \"scan.csv\", ds_mm = 0.06, dz_mm = 0.06 }", "are missing"),
         (
             "depth_map = { file = \"scan.csv\", ds_mm = 0.06, dz_mm = 0.06, fill = \"neighbours\", zero = \"as-is\" }",
             "all of it would be damage",
@@ -178,24 +156,17 @@ fn regress_a_file_that_is_not_what_its_name_says_is_refused() {
     let folder = std::env::temp_dir().join(format!("brinell-resolve-{}", std::process::id()));
     fs::create_dir_all(&folder).unwrap();
     fs::copy(examples().join("scan.csv"), folder.join("photo.png")).unwrap();
-    let words = refusal(
-        "image = { file = \"photo.png\", mm_per_pixel = 0.02 }",
-        &folder,
-    );
+    let words = refusal("image = { file = \"photo.png\", mm_per_pixel = 0.02 }", &folder);
     fs::remove_dir_all(&folder).unwrap();
-    assert!(
-        words.contains("should be PNG") && words.contains("CSV"),
-        "{words}"
-    );
+    assert!(words.contains("should be PNG") && words.contains("CSV"), "{words}");
 }
 
 #[test]
 fn regress_every_bad_file_is_reported_at_once_and_overlaps_are_seen_after_reading() {
     let photo = "shape = { image = { file = \"photo-spall.png\", mm_per_pixel = 0.02 } }";
     let missing = "shape = { image = { file = \"none.png\", mm_per_pixel = 0.02 } }";
-    let defect = |shape: &str| {
-        format!("[[defects]]\non = \"outer-raceway\"\ncenter_deg = 0.0\ndepth_um = 20.0\n{shape}\n")
-    };
+    let defect =
+        |shape: &str| format!("[[defects]]\non = \"outer-raceway\"\ncenter_deg = 0.0\ndepth_um = 20.0\n{shape}\n");
     let both = |shape: &str| {
         let text = format!("{HEAD}{}{}", defect(shape), defect(shape));
         read(&text, &[]).unwrap()
@@ -205,10 +176,7 @@ fn regress_every_bad_file_is_reported_at_once_and_overlaps_are_seen_after_readin
     let mut loaded = both(photo);
     assert_eq!(loaded.warnings, []);
     let warnings = resolve(&mut loaded.scenario, &examples()).unwrap();
-    assert!(
-        warnings.iter().any(|w| w.contains("overlaps defect 1")),
-        "{warnings:?}"
-    );
+    assert!(warnings.iter().any(|w| w.contains("overlaps defect 1")), "{warnings:?}");
 }
 
 #[test]
@@ -237,32 +205,15 @@ fn regress_keys_of_a_written_grid_and_of_a_file_exclude_each_other() {
     let Ok(loaded) = read_shape(grid) else {
         panic!("a written grid reads");
     };
-    assert!(matches!(
-        loaded.scenario.defects[0].shape,
-        Shape::DepthMap {
-            grid: DepthGrid { columns: 2, .. }
-        }
-    ));
+    assert!(matches!(loaded.scenario.defects[0].shape, Shape::DepthMap { grid: DepthGrid { columns: 2, .. } }));
     for (keys, wanted) in [
-        (
-            "file = \"a.csv\", columns = 2",
-            "only where there is no `file`",
-        ),
-        (
-            &format!("{grid}, remove_form = \"plane\""),
-            "only where there is a `file`",
-        ),
-        (
-            &format!("{grid}, missing = 3"),
-            "only where there is a `file`",
-        ),
+        ("file = \"a.csv\", columns = 2", "only where there is no `file`"),
+        (&format!("{grid}, remove_form = \"plane\""), "only where there is a `file`"),
+        (&format!("{grid}, missing = 3"), "only where there is a `file`"),
         ("columns = 2, rows = 2", "depth_um"),
         ("file = \"a.csv\", radius_mm = 3.0", "remove_form"),
         ("file = \"a.csv\", unit = \"counts\"", "nm_per_count"),
-        (
-            "file = \"a.csv\", remove_from = \"plane\"",
-            "did you mean `remove_form`",
-        ),
+        ("file = \"a.csv\", remove_from = \"plane\"", "did you mean `remove_form`"),
     ] {
         let words = read_shape(keys).unwrap_err();
         assert!(words.contains(wanted), "{keys}\n{words}");

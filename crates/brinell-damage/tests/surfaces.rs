@@ -20,18 +20,11 @@ fn heights(column: usize, row: usize) -> f64 {
 }
 
 fn options(spacing_mm: Option<f64>) -> DepthMapOptions {
-    DepthMapOptions {
-        ds_mm: spacing_mm,
-        dz_mm: spacing_mm,
-        fill: Fill::Neighbours,
-        ..Default::default()
-    }
+    DepthMapOptions { ds_mm: spacing_mm, dz_mm: spacing_mm, fill: Fill::Neighbours, ..Default::default() }
 }
 
 fn words(bytes: &[u8], options: &DepthMapOptions) -> String {
-    read_depth_map(bytes, None, options)
-        .unwrap_err()
-        .to_string()
+    read_depth_map(bytes, None, options).unwrap_err().to_string()
 }
 
 #[test]
@@ -42,34 +35,17 @@ fn xval_every_format_gives_the_map_of_the_array() {
     let h = &heights;
     for (name, kind, bytes) in [
         ("SDF, text", FileKind::Sdf, sdf_text(COLUMNS, ROWS, STEP, h)),
-        (
-            "SDF, binary",
-            FileKind::Sdf,
-            sdf_binary(COLUMNS, ROWS, STEP, h),
-        ),
+        ("SDF, binary", FileKind::Sdf, sdf_binary(COLUMNS, ROWS, STEP, h)),
         ("SUR", FileKind::Sur, sur(COLUMNS, ROWS, STEP, h, false)),
-        (
-            "SUR, packed",
-            FileKind::Sur,
-            sur(COLUMNS, ROWS, STEP, h, true),
-        ),
+        ("SUR, packed", FileKind::Sur, sur(COLUMNS, ROWS, STEP, h, true)),
         #[cfg(feature = "x3p")]
         ("X3P", FileKind::X3p, x3p(COLUMNS, ROWS, STEP, h, false)),
         #[cfg(feature = "x3p")]
-        (
-            "X3P, packed",
-            FileKind::X3p,
-            x3p(COLUMNS, ROWS, STEP, h, true),
-        ),
-        (
-            "cloud",
-            FileKind::Csv,
-            cloud(COLUMNS, ROWS, STEP, h, "x_mm,y_mm,z_um\n"),
-        ),
+        ("X3P, packed", FileKind::X3p, x3p(COLUMNS, ROWS, STEP, h, true)),
+        ("cloud", FileKind::Csv, cloud(COLUMNS, ROWS, STEP, h, "x_mm,y_mm,z_um\n")),
     ] {
         assert_eq!(FileKind::of_content(&bytes), Some(kind), "{name}");
-        let found = read_depth_map(&bytes, Some(kind), &options(None))
-            .unwrap_or_else(|e| panic!("{name}: {e}"));
+        let found = read_depth_map(&bytes, Some(kind), &options(None)).unwrap_or_else(|e| panic!("{name}: {e}"));
         same(name, &found, &wanted);
         let wrong = words(&bytes, &options(Some(2.0 * step_mm)));
         assert!(wrong.contains("`ds_mm` is 0.05"), "{name}: {wrong}");
@@ -79,17 +55,10 @@ fn xval_every_format_gives_the_map_of_the_array() {
 }
 
 fn same(name: &str, found: &DepthGrid, wanted: &DepthGrid) {
-    assert_eq!(
-        (found.columns, found.rows),
-        (wanted.columns, wanted.rows),
-        "{name}"
-    );
+    assert_eq!((found.columns, found.rows), (wanted.columns, wanted.rows), "{name}");
     // Spacing and heights go through 32-bit numbers or decimals.
     let near = |a: f64, b: f64, by: f64| (a - b).abs() <= by;
-    assert!(
-        near(found.ds_mm, wanted.ds_mm, 1e-6) && near(found.s0_mm, wanted.s0_mm, 1e-5),
-        "{name}"
-    );
+    assert!(near(found.ds_mm, wanted.ds_mm, 1e-6) && near(found.s0_mm, wanted.s0_mm, 1e-5), "{name}");
     assert!(near(found.z0_mm, wanted.z0_mm, 1e-5), "{name}");
     let all = found.depth_um.iter().zip(&wanted.depth_um);
     assert!(all.clone().all(|(a, b)| near(*a, *b, 1e-6)), "{name}");
@@ -117,21 +86,11 @@ fn regress_axes_in_the_first_row_and_column_are_seen() {
         for row in 1..9 {
             text += &format!("\n{row}");
             for column in 1..8 {
-                text += &format!(
-                    ",{}",
-                    if (3..6).contains(&row) && column > 2 {
-                        -(row * column)
-                    } else {
-                        0
-                    }
-                );
+                text += &format!(",{}", if (3..6).contains(&row) && column > 2 { -(row * column) } else { 0 });
             }
         }
         let said = words(text.as_bytes(), &options(Some(0.1)));
-        assert!(
-            said.contains("count its axes, in steps of 0.5 and 1"),
-            "{corner}: {said}"
-        );
+        assert!(said.contains("count its axes, in steps of 0.5 and 1"), "{corner}: {said}");
     }
 }
 
@@ -141,27 +100,13 @@ fn regress_depths_read_as_heights_and_a_tilt_are_said() {
     let depths = npy_f8(ROWS, COLUMNS, |row, column| -heights(column, row));
     let grid = read_depth_map(&depths, None, &options).unwrap();
     let said = grid.warnings.join("\n");
-    assert!(
-        said.contains("are these depths? `height_positive_up = false`"),
-        "{said}"
-    );
-    let tilted = npy_f8(ROWS, COLUMNS, |row, column| {
-        heights(column, row) + 0.5 * column as f64 - 0.2 * row as f64
-    });
-    let said = read_depth_map(&tilted, None, &options)
-        .unwrap()
-        .warnings
-        .join("\n");
+    assert!(said.contains("are these depths? `height_positive_up = false`"), "{said}");
+    let tilted = npy_f8(ROWS, COLUMNS, |row, column| heights(column, row) + 0.5 * column as f64 - 0.2 * row as f64);
+    let said = read_depth_map(&tilted, None, &options).unwrap().warnings.join("\n");
     // 30 columns of 0.5 um and 20 rows of 0.2 um.
-    assert!(
-        said.contains("rises by 19.0 um") && said.contains("remove_form = \"plane\""),
-        "{said}"
-    );
+    assert!(said.contains("rises by 19.0 um") && said.contains("remove_form = \"plane\""), "{said}");
     let plain = npy_f8(ROWS, COLUMNS, |row, column| heights(column, row));
-    let said = read_depth_map(&plain, None, &options)
-        .unwrap()
-        .warnings
-        .join("\n");
+    let said = read_depth_map(&plain, None, &options).unwrap().warnings.join("\n");
     assert!(!said.contains("raised") && !said.contains("rim"), "{said}");
 }
 

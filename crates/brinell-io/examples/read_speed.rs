@@ -51,10 +51,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         );
     }
     if let Ok(status) = std::fs::read_to_string("/proc/self/status") {
-        status
-            .lines()
-            .filter(|l| l.starts_with("VmHWM"))
-            .for_each(|l| println!("peak memory: {l}"));
+        status.lines().filter(|l| l.starts_with("VmHWM")).for_each(|l| println!("peak memory: {l}"));
     }
     std::fs::remove_file(path)?;
     Ok(())

@@ -27,10 +27,7 @@ fn main() -> Result<(), Box<dyn Error>> {
 
     let mut row = Vec::new();
 
-    for format in Format::ALL
-        .into_iter()
-        .filter(|f| formats.as_deref().is_none_or(|name| name == f.name()))
-    {
+    for format in Format::ALL.into_iter().filter(|f| formats.as_deref().is_none_or(|name| name == f.name())) {
         let start = Instant::now();
         let mut writer = format.create(&folder, &names, &metadata)?;
         for i in 0..rows {
@@ -52,20 +49,13 @@ fn main() -> Result<(), Box<dyn Error>> {
         );
     }
     if let Ok(status) = std::fs::read_to_string("/proc/self/status") {
-        status
-            .lines()
-            .filter(|l| l.starts_with("VmHWM"))
-            .for_each(|l| println!("peak memory: {l}"));
+        status.lines().filter(|l| l.starts_with("VmHWM")).for_each(|l| println!("peak memory: {l}"));
     }
     Ok(())
 }
 
 fn made_up_row(i: u32, columns: usize) -> Vec<f64> {
     let t = f64::from(i) / 25_600.0;
-    let channel = |j: usize| {
-        (700.0 * t * (1.0 + 0.1 * j as f64)).sin() * (j as f64).exp2().min(1e6).sqrt() + 1e-3 * t
-    };
-    std::iter::once(t)
-        .chain((1..columns).map(channel))
-        .collect()
+    let channel = |j: usize| (700.0 * t * (1.0 + 0.1 * j as f64)).sin() * (j as f64).exp2().min(1e6).sqrt() + 1e-3 * t;
+    std::iter::once(t).chain((1..columns).map(channel)).collect()
 }

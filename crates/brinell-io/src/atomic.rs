@@ -36,11 +36,7 @@ pub(crate) struct PartialFile {
 
 #[derive(Debug)]
 enum Place {
-    Disk {
-        file: File,
-        partial: PathBuf,
-        committed: bool,
-    },
+    Disk { file: File, partial: PathBuf, committed: bool },
     Memory(Cursor<Vec<u8>>),
 }
 
@@ -48,9 +44,7 @@ impl PartialFile {
     /// Opens `path`.partial, emptied of what a killed run may have left in it.
     pub(crate) fn create(path: &Path) -> Result<Self, IoError> {
         let Some(name) = path.file_name().filter(|_| !path.is_dir()) else {
-            return Err(IoError::NotAFileName {
-                path: path.to_owned(),
-            });
+            return Err(IoError::NotAFileName { path: path.to_owned() });
         };
         let mut name = name.to_owned();
         name.push(".partial");
@@ -61,15 +55,8 @@ impl PartialFile {
             _ => file.set_len(0),
         };
         let emptied = empty();
-        let this = Self {
-            place: Place::Disk {
-                file,
-                partial,
-                committed: false,
-            },
-            path: path.to_owned(),
-            failed: false,
-        };
+        let this =
+            Self { place: Place::Disk { file, partial, committed: false }, path: path.to_owned(), failed: false };
         emptied.map_err(|e| IoError::writing(path, e))?;
         Ok(this)
     }
@@ -78,11 +65,9 @@ impl PartialFile {
     pub(crate) fn at(destination: Destination<'_>) -> Result<Self, IoError> {
         match destination {
             Destination::Disk(path) => Self::create(path),
-            Destination::Memory(path) => Ok(Self {
-                place: Place::Memory(Cursor::default()),
-                path: path.to_owned(),
-                failed: false,
-            }),
+            Destination::Memory(path) => {
+                Ok(Self { place: Place::Memory(Cursor::default()), path: path.to_owned(), failed: false })
+            }
         }
     }
 
@@ -117,21 +102,14 @@ impl PartialFile {
 
     /// Refuses where an earlier append failed.
     pub(crate) fn check(&self) -> Result<(), IoError> {
-        if self.failed {
-            Err(IoError::AlreadyFailed {
-                path: self.path.clone(),
-            })
-        } else {
-            Ok(())
-        }
+        if self.failed { Err(IoError::AlreadyFailed { path: self.path.clone() }) } else { Ok(()) }
     }
 
     /// Forces the contents to the disk, where they are on one.
     pub(crate) fn complete(self) -> Result<Complete, IoError> {
         self.check()?;
         if let Place::Disk { file, .. } = &self.place {
-            file.sync_all()
-                .map_err(|e| IoError::writing(&self.path, e))?;
+            file.sync_all().map_err(|e| IoError::writing(&self.path, e))?;
         }
         Ok(Complete(self))
     }
@@ -142,8 +120,8 @@ impl PartialFile {
     }
 }
 
-/// A file whose contents are on the disk, as `NAME.partial`: a file of its name is still there. Several of these are published together, when
-/// nothing is left that can fail for want of space. Dropped before, it is removed.
+/// A file whose contents are on the disk, as `NAME.partial`: a file of its name is still there. Several of these are
+/// published together, when nothing is left that can fail for want of space. Dropped before, it is removed.
 #[derive(Debug)]
 pub struct Complete(PartialFile);
 
@@ -160,10 +138,7 @@ impl Complete {
     pub fn publish(mut self) -> Result<PathBuf, IoError> {
         let path = self.path().to_owned();
         // A file in memory gets no name; nobody outside has a `Complete` of one.
-        if let Place::Disk {
-            partial, committed, ..
-        } = &mut self.0.place
-        {
+        if let Place::Disk { partial, committed, .. } = &mut self.0.place {
             std::fs::rename(partial, &path).map_err(|e| IoError::writing(&path, e))?;
             *committed = true;
             sync_folder_of(&path);
@@ -224,12 +199,7 @@ impl Seek for PartialFile {
 
 impl Drop for PartialFile {
     fn drop(&mut self) {
-        if let Place::Disk {
-            partial,
-            committed: false,
-            ..
-        } = &self.place
-        {
+        if let Place::Disk { partial, committed: false, .. } = &self.place {
             // Nobody is left to tell of a failure here; the name says that the file is partial.
             let _ = std::fs::remove_file(partial);
         }
@@ -255,17 +225,16 @@ fn open_alone(partial: &Path, path: &Path) -> Result<File, IoError> {
     }
 }
 
-/// Keeps other processes away from an open file, for as long as it is open; `path` is what they would be told is busy. False where the file
-/// system has no locks, as some networks' have not: that is no reason not to work, and the user keeps runs apart.
+/// Keeps other processes away from an open file, for as long as it is open; `path` is what they would be told is busy.
+/// False where the file system has no locks, as some networks' have not: that is no reason not to work, and the user
+/// keeps runs apart.
 ///
 /// # Errors
 /// [`IoError::Busy`] where another process has it.
 pub fn lock(file: &File, path: &Path) -> Result<bool, IoError> {
     match file.try_lock() {
         Ok(()) => Ok(true),
-        Err(TryLockError::WouldBlock) => Err(IoError::Busy {
-            path: path.to_owned(),
-        }),
+        Err(TryLockError::WouldBlock) => Err(IoError::Busy { path: path.to_owned() }),
         Err(TryLockError::Error(_)) => Ok(false),
     }
 }
@@ -286,10 +255,7 @@ fn is_still_at(_: &File, _: &Path) -> bool {
 /// Makes the rename itself durable. The file is complete either way, so a system without this is no error.
 fn sync_folder_of(path: &Path) {
     if cfg!(unix) {
-        let folder = path
-            .parent()
-            .filter(|p| !p.as_os_str().is_empty())
-            .unwrap_or(Path::new("."));
+        let folder = path.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
         let _ = File::open(folder).and_then(|f| f.sync_all());
     }
 }
@@ -306,7 +272,8 @@ pub fn atomic_copy(from: impl AsRef<Path>, to: impl AsRef<Path>) -> Result<(), I
     file.commit().map(drop)
 }
 
-/// Writes a small file (JSON, TOML, HTML) that appears whole or not at all, replacing one of the same name. To a device or a pipe the bytes go as they are.
+/// Writes a small file (JSON, TOML, HTML) that appears whole or not at all, replacing one of the same name. To a device
+/// or a pipe the bytes go as they are.
 pub fn atomic_write(path: impl AsRef<Path>, bytes: impl AsRef<[u8]>) -> Result<(), IoError> {
     let there = path.as_ref().metadata();
     if there.is_ok_and(|m| !m.is_file() && !m.is_dir()) {
@@ -322,10 +289,7 @@ pub fn atomic_write(path: impl AsRef<Path>, bytes: impl AsRef<[u8]>) -> Result<(
 ///
 /// # Errors
 /// Where the file cannot be written, or another process is about to write it.
-pub fn atomic_prepare(
-    path: impl AsRef<Path>,
-    bytes: impl AsRef<[u8]>,
-) -> Result<Complete, IoError> {
+pub fn atomic_prepare(path: impl AsRef<Path>, bytes: impl AsRef<[u8]>) -> Result<Complete, IoError> {
     let mut file = PartialFile::create(path.as_ref())?;
     file.append(bytes.as_ref())?;
     file.complete()

@@ -1,8 +1,8 @@
 //! CSV: a header line of channel names, then one line of numbers per row.
 //!
-//! Each number is the shortest decimal that reads back to the same 64 bits, plain near 1 and with an
-//! exponent far from it: `0.5`, `-0.0`, `0.00001`, `1e-7`. Not-a-number and the infinities are `NaN`, `inf`, `-inf`, which
-//! NumPy, pandas and MATLAB understand.
+//! Each number is the shortest decimal that reads back to the same 64 bits, plain near 1 and with an exponent far from
+//! it: `0.5`, `-0.0`, `0.00001`, `1e-7`. Not-a-number and the infinities are `NaN`, `inf`, `-inf`, which NumPy, pandas
+//! and MATLAB understand.
 
 use std::fs::File;
 use std::io::{BufRead, BufReader};
@@ -44,12 +44,7 @@ impl CsvWriter {
             text.extend_from_slice(column.name.as_bytes());
         }
         text.push(b'\n');
-        let mut this = Self {
-            file,
-            columns: columns.len(),
-            text,
-            number: zmij::Buffer::new(),
-        };
+        let mut this = Self { file, columns: columns.len(), text, number: zmij::Buffer::new() };
         this.flush_if_full()?;
         Ok(this)
     }
@@ -69,8 +64,7 @@ impl SignalWriter for CsvWriter {
         self.file.check()?;
         check_row(self.file.path(), self.columns, row)?;
         for &value in row {
-            self.text
-                .extend_from_slice(self.number.format(value).as_bytes());
+            self.text.extend_from_slice(self.number.format(value).as_bytes());
             self.text.push(b',');
         }
         if let Some(last) = self.text.last_mut() {
@@ -95,16 +89,11 @@ pub fn read_csv(path: impl AsRef<Path>) -> Result<Signals, IoError> {
 /// Reads CSV from anywhere; `path` is what errors call it. Names may be quoted; blank lines are skipped.
 pub fn read_csv_from(mut reader: impl BufRead, path: impl AsRef<Path>) -> Result<Signals, IoError> {
     let path = path.as_ref();
-    let header = |why| IoError::CsvHeader {
-        path: path.to_owned(),
-        why,
-    };
+    let header = |why| IoError::CsvHeader { path: path.to_owned(), why };
     let mut line = Vec::new();
     let mut next = |line: &mut Vec<u8>| {
         line.clear();
-        reader
-            .read_until(b'\n', line)
-            .map_err(|e| IoError::reading(path, e))
+        reader.read_until(b'\n', line).map_err(|e| IoError::reading(path, e))
     };
 
     if next(&mut line)? == 0 {
@@ -130,39 +119,21 @@ pub fn read_csv_from(mut reader: impl BufRead, path: impl AsRef<Path>) -> Result
         let mut got = 0;
         for field in row.split(|&b| b == b',') {
             if let (Some(values), Some(name)) = (data.get_mut(got), names.get(got)) {
-                values.push(parse(field).ok_or_else(|| {
-                    IoError::CsvNumber {
-                        path: path.to_owned(),
-                        line: number,
-                        column: name.clone(),
-                        text: String::from_utf8_lossy(field)
-                            .trim()
-                            .chars()
-                            .take(40)
-                            .collect(),
-                    }
+                values.push(parse(field).ok_or_else(|| IoError::CsvNumber {
+                    path: path.to_owned(),
+                    line: number,
+                    column: name.clone(),
+                    text: String::from_utf8_lossy(field).trim().chars().take(40).collect(),
                 })?);
             }
             got += 1;
         }
         if got != names.len() {
-            return Err(IoError::CsvRow {
-                path: path.to_owned(),
-                line: number,
-                expected: names.len(),
-                got,
-            });
+            return Err(IoError::CsvRow { path: path.to_owned(), line: number, expected: names.len(), got });
         }
     }
-    let columns = names
-        .into_iter()
-        .map(|name| Column::new(name, "", ""))
-        .collect();
-    Ok(Signals {
-        columns,
-        data,
-        metadata: Metadata::default(),
-    })
+    let columns = names.into_iter().map(|name| Column::new(name, "", "")).collect();
+    Ok(Signals { columns, data, metadata: Metadata::default() })
 }
 
 fn parse(field: &[u8]) -> Option<f64> {

@@ -280,10 +280,7 @@ impl IoError {
 
     /// A system error met while reading `path`.
     pub(crate) fn reading(path: &Path, source: io::Error) -> Self {
-        Self::Read {
-            path: path.to_owned(),
-            source,
-        }
+        Self::Read { path: path.to_owned(), source }
     }
 }
 
@@ -293,9 +290,7 @@ mod tests {
 
     #[test]
     fn regress_errors_say_which_file_and_what_to_do() {
-        let say = |kind: io::ErrorKind| {
-            IoError::writing(Path::new("out/signals.csv"), kind.into()).to_string()
-        };
+        let say = |kind: io::ErrorKind| IoError::writing(Path::new("out/signals.csv"), kind.into()).to_string();
         assert_eq!(
             say(io::ErrorKind::StorageFull),
             "out/signals.csv: the disk is full; free some space or write to another disk (the unfinished file is removed)"
@@ -304,9 +299,6 @@ mod tests {
             say(io::ErrorKind::PermissionDenied),
             "out/signals.csv: writing is not permitted here; choose a folder that you may write to"
         );
-        assert_eq!(
-            say(io::ErrorKind::NotFound),
-            "out/signals.csv: there is no such folder as out; create it first"
-        );
+        assert_eq!(say(io::ErrorKind::NotFound), "out/signals.csv: there is no such folder as out; create it first");
     }
 }

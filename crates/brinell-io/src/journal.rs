@@ -1,8 +1,8 @@
 //! A journal: lines of JSON that are on the disk when [`Journal::append`] returns.
 //!
-//! Lines are only ever added. A line that a killed process left unfinished is the last one and has no end; it is cut off when the journal
-//! is opened again, and everything before it counts. The first line is an object: a file that begins otherwise is somebody else's, and
-//! stays as it is. One process at a time has a journal open.
+//! Lines are only ever added. A line that a killed process left unfinished is the last one and has no end; it is cut
+//! off when the journal is opened again, and everything before it counts. The first line is an object: a file that
+//! begins otherwise is somebody else's, and stays as it is. One process at a time has a journal open.
 
 use crate::IoError;
 use crate::atomic::lock;
@@ -35,8 +35,7 @@ impl Journal {
             .map_err(|e| IoError::writing(path, e))?;
         lock(&file, path)?;
         let mut bytes = Vec::new();
-        file.read_to_end(&mut bytes)
-            .map_err(|e| IoError::reading(path, e))?;
+        file.read_to_end(&mut bytes).map_err(|e| IoError::reading(path, e))?;
         let (lines, good) = whole_lines(path, &bytes)?;
         let mut cut = || {
             if good < bytes.len() {
@@ -46,11 +45,7 @@ impl Journal {
             file.seek(SeekFrom::Start(good as u64))
         };
         cut().map_err(|e| IoError::writing(path, e))?;
-        let journal = Self {
-            file,
-            path: path.to_owned(),
-            failed: false,
-        };
+        let journal = Self { file, path: path.to_owned(), failed: false };
         Ok((journal, lines))
     }
 
@@ -73,9 +68,7 @@ impl Journal {
     /// Where the disk does; the journal then takes no more.
     pub fn append(&mut self, line: &Value) -> Result<(), IoError> {
         if self.failed {
-            return Err(IoError::AlreadyFailed {
-                path: self.path.clone(),
-            });
+            return Err(IoError::AlreadyFailed { path: self.path.clone() });
         }
         let mut text = line.to_string();
         text.push('\n');
@@ -90,8 +83,8 @@ impl Journal {
     }
 }
 
-/// The lines, and the bytes that they take. A last line without its end was being written when the process died; zeros are what some
-/// file systems leave of it.
+/// The lines, and the bytes that they take. A last line without its end was being written when the process died; zeros
+/// are what some file systems leave of it.
 fn whole_lines(path: &Path, bytes: &[u8]) -> Result<(Vec<Value>, usize), IoError> {
     let mut lines = Vec::new();
     let mut good = 0;

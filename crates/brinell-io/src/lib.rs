@@ -35,8 +35,9 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
-//! Without a file system, as in a browser, [`open_bytes`] reads and [`Format::in_memory`] writes: the same readers and writers, the same
-//! bytes. For `wasm32-unknown-unknown` leave out the features `parquet` and `parquet-write`, which need a C compiler.
+//! Without a file system, as in a browser, [`open_bytes`] reads and [`Format::in_memory`] writes: the same readers and
+//! writers, the same bytes. For `wasm32-unknown-unknown` leave out the features `parquet` and `parquet-write`, which
+//! need a C compiler.
 
 #![cfg_attr(not(test), deny(clippy::print_stdout, clippy::print_stderr))]
 
@@ -68,8 +69,8 @@ pub use read::parquet::read_parquet;
 #[doc(hidden)]
 pub use read::records::read_records;
 pub use read::{
-    Channel, Decimal, Delimiter, FileKind, NoRate, Rate, RateSource, SignalFile, TextFormat, open,
-    open_as, open_bytes, open_bytes_as, rate_of_times, seconds_in,
+    Channel, Decimal, Delimiter, FileKind, NoRate, Rate, RateSource, SignalFile, TextFormat, open, open_as, open_bytes,
+    open_bytes_as, rate_of_times, seconds_in,
 };
 #[cfg(feature = "parquet")]
 #[doc(hidden)]

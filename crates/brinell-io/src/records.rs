@@ -1,5 +1,5 @@
-//! Rows of cells of many kinds, lists among them: what a data set is made of. One finished row goes to a small file of its own, whole or
-//! not at all; many rows become one Parquet file ([`crate::RecordWriter`]).
+//! Rows of cells of many kinds, lists among them: what a data set is made of. One finished row goes to a small file of
+//! its own, whole or not at all; many rows become one Parquet file ([`crate::RecordWriter`]).
 
 use crate::{Column, IoError, atomic_write};
 use sha2::{Digest, Sha256};
@@ -52,8 +52,7 @@ pub enum Cell {
 impl Cell {
     /// A number, or nothing where there is none or it is not finite.
     pub fn number(x: Option<f64>) -> Self {
-        x.filter(|x| x.is_finite())
-            .map_or(Self::Empty, Self::Number)
+        x.filter(|x| x.is_finite()).map_or(Self::Empty, Self::Number)
     }
 
     /// Bytes that it takes, roughly.
@@ -232,21 +231,11 @@ mod tests {
             (Kind::Signal, Cell::Signal(vec![1.5, f32::MIN, 0.0])),
             (Kind::Wholes, Cell::Wholes(vec![])),
             (Kind::Numbers, Cell::Numbers(vec![f64::MAX, -0.0])),
-            (
-                Kind::WordsList,
-                Cell::WordsList(vec!["a".into(), String::new()]),
-            ),
+            (Kind::WordsList, Cell::WordsList(vec!["a".into(), String::new()])),
             (Kind::Number, Cell::Empty),
         ];
-        let column = |k: usize, kind| RecordColumn {
-            column: Column::new(format!("c{k}"), "1", ""),
-            kind,
-        };
-        let columns = cells
-            .iter()
-            .enumerate()
-            .map(|(k, (kind, _))| column(k, *kind))
-            .collect();
+        let column = |k: usize, kind| RecordColumn { column: Column::new(format!("c{k}"), "1", ""), kind };
+        let columns = cells.iter().enumerate().map(|(k, (kind, _))| column(k, *kind)).collect();
         (columns, cells.into_iter().map(|(_, cell)| cell).collect())
     }
 

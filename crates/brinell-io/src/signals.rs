@@ -49,16 +49,8 @@ pub struct Column {
 
 impl Column {
     /// A column of this name, unit and description.
-    pub fn new(
-        name: impl Into<String>,
-        unit: impl Into<String>,
-        description: impl Into<String>,
-    ) -> Self {
-        Self {
-            name: name.into(),
-            unit: unit.into(),
-            description: description.into(),
-        }
+    pub fn new(name: impl Into<String>, unit: impl Into<String>, description: impl Into<String>) -> Self {
+        Self { name: name.into(), unit: unit.into(), description: description.into() }
     }
 }
 
@@ -85,16 +77,12 @@ impl Metadata {
 
     /// The sample rate in hertz, or what a file that cannot do without says.
     pub(crate) fn needed_sample_rate(&self) -> Result<f64, String> {
-        self.sample_rate()
-            .ok_or_else(|| format!("it needs a sample rate, `{}`", keys::SAMPLE_RATE_HZ))
+        self.sample_rate().ok_or_else(|| format!("it needs a sample rate, `{}`", keys::SAMPLE_RATE_HZ))
     }
 
     /// The value of a key: the first, should a file repeat it.
     pub fn get(&self, key: &str) -> Option<&str> {
-        self.pairs
-            .iter()
-            .find(|(k, _)| k == key)
-            .map(|(_, value)| value.as_str())
+        self.pairs.iter().find(|(k, _)| k == key).map(|(_, value)| value.as_str())
     }
 }
 
@@ -132,7 +120,8 @@ pub trait SignalWriter: Send {
     }
 }
 
-/// Takes a table row by row and makes of it, in memory, the bytes that its file would have: for where there is no file system.
+/// Takes a table row by row and makes of it, in memory, the bytes that its file would have: for where there is no file
+/// system.
 ///
 /// Memory is that of the file; MAT, NPZ and UFF take it twice, for they store one channel after the other.
 pub struct MemoryWriter(Box<dyn SignalWriter>);
@@ -180,14 +169,7 @@ pub enum Format {
 
 impl Format {
     /// Every format there is, also those that this build left out.
-    pub const ALL: [Self; 6] = [
-        Self::Csv,
-        Self::Parquet,
-        Self::Mat,
-        Self::Npz,
-        Self::Uff58,
-        Self::Wav,
-    ];
+    pub const ALL: [Self; 6] = [Self::Csv, Self::Parquet, Self::Mat, Self::Npz, Self::Uff58, Self::Wav];
 
     /// The name that selects it: `csv`, `parquet`, `mat`, `npz`, `uff58` or `wav`.
     pub fn name(self) -> &'static str {
@@ -215,8 +197,9 @@ impl Format {
 
     /// A writer of this format's file in an existing folder. CSV has no place for metadata and leaves it out.
     ///
-    /// MAT, NPZ and UFF keep the rows in a nameless temporary file of that folder until the end, for they store one channel after the
-    /// other. UFF and WAV need [`keys::SAMPLE_RATE_HZ`] and leave out a column `t` in seconds, which it replaces.
+    /// MAT, NPZ and UFF keep the rows in a nameless temporary file of that folder until the end, for they store one
+    /// channel after the other. UFF and WAV need [`keys::SAMPLE_RATE_HZ`] and leave out a column `t` in seconds, which
+    /// it replaces.
     pub fn create(
         self,
         folder: &Path,
@@ -227,7 +210,8 @@ impl Format {
         self.writer(Destination::Disk(&path), columns, metadata)
     }
 
-    /// A writer of this format's bytes in memory, the same as [`Format::create`] makes a file of. Errors call it [`Format::file_name`].
+    /// A writer of this format's bytes in memory, the same as [`Format::create`] makes a file of. Errors call it
+    /// [`Format::file_name`].
     ///
     /// ```
     /// use brinell_io::{Column, Format, Metadata, Outcome};
@@ -241,11 +225,7 @@ impl Format {
     ///
     /// # Errors
     /// Where the format cannot hold such columns, needs metadata that are not there, or is not in this build.
-    pub fn in_memory(
-        self,
-        columns: &[Column],
-        metadata: &Metadata,
-    ) -> Result<MemoryWriter, IoError> {
+    pub fn in_memory(self, columns: &[Column], metadata: &Metadata) -> Result<MemoryWriter, IoError> {
         let destination = Destination::Memory(Path::new(self.file_name()));
         Ok(MemoryWriter(self.writer(destination, columns, metadata)?))
     }
@@ -262,11 +242,7 @@ impl Format {
             Self::Parquet => Box::new(crate::ParquetWriter::at(destination, columns, metadata)?),
             Self::Mat => Box::new(MatWriter::at(destination, columns, metadata, false)?),
             #[cfg(feature = "npz")]
-            Self::Npz => Box::new(crate::write::npz::NpzWriter::at(
-                destination,
-                columns,
-                metadata,
-            )?),
+            Self::Npz => Box::new(crate::write::npz::NpzWriter::at(destination, columns, metadata)?),
             Self::Uff58 => Box::new(UffWriter::at(destination, columns, metadata)?),
             Self::Wav => Box::new(WavWriter::at(destination, columns, metadata)?),
             #[cfg(not(feature = "parquet-write"))]
@@ -293,10 +269,7 @@ impl FromStr for Format {
     type Err = IoError;
 
     fn from_str(name: &str) -> Result<Self, IoError> {
-        Self::ALL
-            .into_iter()
-            .find(|f| f.name() == name)
-            .ok_or_else(|| IoError::UnknownFormat(name.to_owned()))
+        Self::ALL.into_iter().find(|f| f.name() == name).ok_or_else(|| IoError::UnknownFormat(name.to_owned()))
     }
 }
 
@@ -327,9 +300,7 @@ impl Signals {
 /// Refuses names that some reader would take apart or take for data.
 pub(crate) fn check_columns(path: &Path, columns: &[Column]) -> Result<(), IoError> {
     if columns.is_empty() {
-        return Err(IoError::NoColumns {
-            path: path.to_owned(),
-        });
+        return Err(IoError::NoColumns { path: path.to_owned() });
     }
     let mut seen = HashSet::new();
     for Column { name, .. } in columns {
@@ -346,29 +317,21 @@ pub(crate) fn check_columns(path: &Path, columns: &[Column]) -> Result<(), IoErr
         } else {
             continue;
         };
-        return Err(IoError::ColumnName {
-            path: path.to_owned(),
-            name: name.clone(),
-            why,
-        });
+        return Err(IoError::ColumnName { path: path.to_owned(), name: name.clone(), why });
     }
     Ok(())
 }
 
 /// The unit of each column as a JSON object.
 pub(crate) fn units_json(columns: &[Column]) -> String {
-    let units = columns
-        .iter()
-        .map(|c| (c.name.clone(), c.unit.as_str().into()));
+    let units = columns.iter().map(|c| (c.name.clone(), c.unit.as_str().into()));
     serde_json::Value::Object(units.collect()).to_string()
 }
 
 /// Where the columns to be written are: not `t`, in files that hold a start and a rate instead.
 pub(crate) fn without_time(columns: &[Column]) -> Vec<usize> {
     let is_time = |c: &Column| c.name == "t" && c.unit == "s";
-    (0..columns.len())
-        .filter(|&i| !is_time(&columns[i]))
-        .collect()
+    (0..columns.len()).filter(|&i| !is_time(&columns[i])).collect()
 }
 
 /// Checks a row against the number of columns.
@@ -376,10 +339,6 @@ pub(crate) fn check_row(path: &Path, columns: usize, row: &[f64]) -> Result<(), 
     if row.len() == columns {
         Ok(())
     } else {
-        Err(IoError::RowLength {
-            path: path.to_owned(),
-            expected: columns,
-            got: row.len(),
-        })
+        Err(IoError::RowLength { path: path.to_owned(), expected: columns, got: row.len() })
     }
 }

@@ -1,8 +1,10 @@
-//! Tables of numbers and words, small enough to be held whole: what a campaign of many runs leaves. As CSV and as Parquet.
+//! Tables of numbers and words, small enough to be held whole: what a campaign of many runs leaves. As CSV and as
+//! Parquet.
 //!
-//! A cell may be empty. CSV follows RFC 4180: words are quoted where they hold a comma, a quote or a line's end, numbers are the shortest
-//! decimals that read back to the same 64 bits. Parquet holds optional columns of doubles and of UTF-8; units and metadata go to its footer
-//! under the same keys as those of signals. The same table gives the same bytes.
+//! A cell may be empty. CSV follows RFC 4180: words are quoted where they hold a comma, a quote or a line's end,
+//! numbers are the shortest decimals that read back to the same 64 bits. Parquet holds optional columns of doubles and
+//! of UTF-8; units and metadata go to its footer under the same keys as those of signals. The same table gives the same
+//! bytes.
 
 use crate::atomic::{Complete, atomic_prepare};
 use crate::signals::check_columns;
@@ -60,11 +62,7 @@ impl Table {
         check_columns(path, &self.columns)?;
         let rows = self.rows();
         match self.cells.iter().find(|cells| cells.len() != rows) {
-            Some(cells) => Err(IoError::RowLength {
-                path: path.to_owned(),
-                expected: rows,
-                got: cells.len(),
-            }),
+            Some(cells) => Err(IoError::RowLength { path: path.to_owned(), expected: rows, got: cells.len() }),
             None => Ok(()),
         }
     }
@@ -115,11 +113,7 @@ impl Table {
     /// # Errors
     /// Where the columns have no sound names or not one length, or the disk refuses.
     #[cfg(feature = "parquet")]
-    pub fn write_parquet(
-        &self,
-        path: impl AsRef<Path>,
-        metadata: &Metadata,
-    ) -> Result<PathBuf, IoError> {
+    pub fn write_parquet(&self, path: impl AsRef<Path>, metadata: &Metadata) -> Result<PathBuf, IoError> {
         self.prepare_parquet(path, metadata)?.publish()
     }
 
@@ -128,11 +122,7 @@ impl Table {
     /// # Errors
     /// As [`Table::write_parquet`].
     #[cfg(feature = "parquet")]
-    pub fn prepare_parquet(
-        &self,
-        path: impl AsRef<Path>,
-        metadata: &Metadata,
-    ) -> Result<Complete, IoError> {
+    pub fn prepare_parquet(&self, path: impl AsRef<Path>, metadata: &Metadata) -> Result<Complete, IoError> {
         let path = path.as_ref();
         self.check(path)?;
         let columns = self.columns.iter().zip(&self.cells);
@@ -166,21 +156,14 @@ impl Table {
     #[cfg(feature = "parquet")]
     pub fn read_parquet(path: impl AsRef<Path>) -> Result<Self, IoError> {
         let path = path.as_ref();
-        parquet::table(path).map_err(|error| IoError::Parquet {
-            path: path.to_owned(),
-            why: error.to_string(),
-        })
+        parquet::table(path).map_err(|error| IoError::Parquet { path: path.to_owned(), why: error.to_string() })
     }
 }
 
 /// Quotes where they are needed.
 fn quoted(text: &str) -> String {
     let plain = !text.contains([',', '"', '\n', '\r']) && text.trim() == text;
-    if plain {
-        text.to_owned()
-    } else {
-        format!("\"{}\"", text.replace('"', "\"\""))
-    }
+    if plain { text.to_owned() } else { format!("\"{}\"", text.replace('"', "\"\"")) }
 }
 
 #[cfg(feature = "parquet")]

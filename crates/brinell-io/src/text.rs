@@ -2,8 +2,8 @@
 
 use std::io::{Error, ErrorKind, Read, Result};
 
-/// Largest text that is read, bytes: nobody writes longer ones, a device file never ends, and what is made of a text takes a hundred times its
-/// room.
+/// Largest text that is read, bytes: nobody writes longer ones, a device file never ends, and what is made of a text
+/// takes a hundred times its room.
 pub const LARGEST_TEXT: u64 = 4 << 20;
 
 /// Everything of a scenario or a plan.
@@ -14,10 +14,8 @@ pub fn read_text(source: impl Read) -> Result<Vec<u8>> {
     let mut bytes = Vec::new();
     source.take(LARGEST_TEXT + 1).read_to_end(&mut bytes)?;
     if bytes.len() as u64 > LARGEST_TEXT {
-        let why = format!(
-            "larger than {} MiB; a scenario or a plan is a text file of a few kilobytes",
-            LARGEST_TEXT >> 20
-        );
+        let why =
+            format!("larger than {} MiB; a scenario or a plan is a text file of a few kilobytes", LARGEST_TEXT >> 20);
         return Err(Error::new(ErrorKind::FileTooLarge, why));
     }
     Ok(bytes)

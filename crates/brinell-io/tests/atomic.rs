@@ -33,15 +33,11 @@ fn prop_a_dropped_writer_keeps_the_old_file() {
     for format in formats() {
         let path = folder.path().join(format.file_name());
         std::fs::write(&path, "old").unwrap();
-        let mut writer = format
-            .create(folder.path(), &columns(), &sampled())
-            .unwrap();
+        let mut writer = format.create(folder.path(), &columns(), &sampled()).unwrap();
         writer.write_row(&[0.0, 1.0]).unwrap();
         drop(writer);
         assert_eq!(std::fs::read_to_string(&path).unwrap(), "old");
-        let writer = format
-            .create(folder.path(), &columns(), &sampled())
-            .unwrap();
+        let writer = format.create(folder.path(), &columns(), &sampled()).unwrap();
         writer.finish(Outcome::Complete).unwrap();
         assert_ne!(std::fs::read(&path).unwrap(), b"old");
     }
@@ -51,11 +47,7 @@ fn prop_a_dropped_writer_keeps_the_old_file() {
 fn prop_what_a_killed_run_left_does_not_leak_into_the_next() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("summary.json");
-    std::fs::write(
-        folder.path().join("summary.json.partial"),
-        "a long unfinished text",
-    )
-    .unwrap();
+    std::fs::write(folder.path().join("summary.json.partial"), "a long unfinished text").unwrap();
     atomic_write(&path, "{}").unwrap();
     assert_eq!(std::fs::read_to_string(&path).unwrap(), "{}");
     atomic_write(&path, "[]").unwrap();
@@ -69,15 +61,9 @@ fn regress_two_writers_of_one_file_do_not_mix() {
     let path = folder.path().join("signals.csv");
     let mut first = Box::new(CsvWriter::create(&path, &columns()).unwrap());
     first.write_row(&[0.0, 1.0]).unwrap();
-    assert!(matches!(
-        CsvWriter::create(&path, &columns()),
-        Err(IoError::Busy { .. })
-    ));
+    assert!(matches!(CsvWriter::create(&path, &columns()), Err(IoError::Busy { .. })));
     first.finish(Outcome::Complete).unwrap();
-    assert_eq!(
-        std::fs::read_to_string(&path).unwrap(),
-        "t,outer_ax\n0.0,1.0\n"
-    );
+    assert_eq!(std::fs::read_to_string(&path).unwrap(), "t,outer_ax\n0.0,1.0\n");
     CsvWriter::create(&path, &columns()).unwrap();
 }
 
@@ -87,23 +73,14 @@ fn regress_a_folder_that_cannot_be_written_is_named() {
     let missing = folder.path().join("nowhere/signals.csv");
     let error = atomic_write(&missing, "").unwrap_err();
     assert!(matches!(error, IoError::NoFolder { .. }));
-    assert!(
-        error.to_string().contains("nowhere; create it first"),
-        "{error}"
-    );
+    assert!(error.to_string().contains("nowhere; create it first"), "{error}");
 
     std::fs::write(folder.path().join("file"), "").unwrap();
     let error = atomic_write(folder.path().join("file/a.json"), "").unwrap_err();
     assert!(matches!(error, IoError::NoFolder { .. }), "{error}");
 
-    assert!(matches!(
-        atomic_write(folder.path(), ""),
-        Err(IoError::NotAFileName { .. })
-    ));
-    assert!(matches!(
-        atomic_write("..", ""),
-        Err(IoError::NotAFileName { .. })
-    ));
+    assert!(matches!(atomic_write(folder.path(), ""), Err(IoError::NotAFileName { .. })));
+    assert!(matches!(atomic_write("..", ""), Err(IoError::NotAFileName { .. })));
     assert_eq!(names_in(folder.path()), ["file"]);
 }
 
@@ -113,9 +90,7 @@ fn regress_a_folder_that_cannot_be_written_is_named() {
 fn regress_a_full_disk_is_named_and_leaves_nothing_behind() {
     for format in formats() {
         let folder = tempfile::tempdir().unwrap();
-        let partial = folder
-            .path()
-            .join(format!("{}.partial", format.file_name()));
+        let partial = folder.path().join(format!("{}.partial", format.file_name()));
         std::os::unix::fs::symlink("/dev/full", partial).unwrap();
         let mut writer = match format.create(folder.path(), &columns(), &sampled()) {
             Ok(writer) => writer,
@@ -134,14 +109,8 @@ fn regress_a_full_disk_is_named_and_leaves_nothing_behind() {
             continue;
         };
         assert!(matches!(error, IoError::DiskFull { .. }), "{error}");
-        assert!(matches!(
-            writer.write_row(&[0.0, 0.0]),
-            Err(IoError::AlreadyFailed { .. })
-        ));
-        assert!(matches!(
-            writer.finish(Outcome::Complete),
-            Err(IoError::AlreadyFailed { .. })
-        ));
+        assert!(matches!(writer.write_row(&[0.0, 0.0]), Err(IoError::AlreadyFailed { .. })));
+        assert!(matches!(writer.finish(Outcome::Complete), Err(IoError::AlreadyFailed { .. })));
         assert!(names_in(folder.path()).is_empty());
     }
 }

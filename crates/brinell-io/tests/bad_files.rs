@@ -1,4 +1,5 @@
-//! Files that are cut, mislabelled, empty, or claim what they do not have: each gets its own words, and none gets memory.
+//! Files that are cut, mislabelled, empty, or claim what they do not have: each gets its own words, and none gets
+//! memory.
 
 use std::io::Write;
 use std::path::{Path, PathBuf};
@@ -6,9 +7,7 @@ use std::path::{Path, PathBuf};
 use brinell_io::{Decimal, Delimiter, IoError, TextFormat, open, open_as};
 
 fn data(name: &str) -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR"))
-        .join("tests/data")
-        .join(name)
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/data").join(name)
 }
 
 struct Here(tempfile::TempDir);
@@ -65,10 +64,7 @@ fn regress_mislabelled_files_name_both() {
         "a.dat: cannot read: a gzip archive; known are csv and other text, parquet, mat, hdf5, npy, npz, wav and uff"
     );
     assert_eq!(here.says("a.csv", ""), "a.csv: the file is empty");
-    assert!(matches!(
-        open(here.0.path()),
-        Err(IoError::NotAFileName { .. })
-    ));
+    assert!(matches!(open(here.0.path()), Err(IoError::NotAFileName { .. })));
     assert!(matches!(open("nowhere.csv"), Err(IoError::Read { .. })));
 }
 
@@ -78,10 +74,7 @@ fn regress_content_decides_where_the_name_is_silent() {
     let here = Here::new();
     for name in ["cwru_v7.mat", "f8.npy", "ascii.uff", "f32.wav", "xjtu.csv"] {
         let path = here.file("signal.bin", std::fs::read(data(name)).unwrap());
-        assert_eq!(
-            open(&path).unwrap().kind(),
-            open(data(name)).unwrap().kind()
-        );
+        assert_eq!(open(&path).unwrap().kind(), open(data(name)).unwrap().kind());
     }
 }
 
@@ -89,13 +82,7 @@ fn regress_content_decides_where_the_name_is_silent() {
 fn regress_claims_without_bytes_are_refused() {
     let here = Here::new();
     let mut npy = b"\x93NUMPY\x01\x00\x76\x00".to_vec();
-    npy.extend(
-        format!(
-            "{:<117}\n",
-            "{'descr': '<f8', 'fortran_order': False, 'shape': (1000000000000,), }"
-        )
-        .bytes(),
-    );
+    npy.extend(format!("{:<117}\n", "{'descr': '<f8', 'fortran_order': False, 'shape': (1000000000000,), }").bytes());
     npy.extend([0; 64]);
     assert_eq!(
         here.says("a.npy", npy),
@@ -104,10 +91,7 @@ fn regress_claims_without_bytes_are_refused() {
     let mut wav = std::fs::read(data("f64.wav")).unwrap();
     let at = wav.windows(4).position(|w| w == b"data").unwrap();
     wav[at + 4..at + 8].copy_from_slice(&0xf000_0000u32.to_le_bytes());
-    assert!(
-        here.says("a.wav", wav)
-            .contains("promises 4026531840 bytes")
-    );
+    assert!(here.says("a.wav", wav).contains("promises 4026531840 bytes"));
     let mut mat = std::fs::read(data("cwru_v5.mat")).unwrap();
     mat[132..136].copy_from_slice(&0x7fff_ffffu32.to_le_bytes());
     assert!(here.says("a.mat", mat).contains("claims 2147483647 bytes"));
@@ -124,24 +108,7 @@ fn regress_compressed_bombs_cost_no_memory() {
     let bomb = |claimed: u32, zeros: usize| {
         let mut encoder = ZlibEncoder::new(Vec::new(), Compression::best());
         let values = claimed - 56;
-        let words = [
-            14,
-            claimed,
-            6,
-            8,
-            6,
-            0,
-            5,
-            8,
-            values / 8,
-            1,
-            1,
-            1,
-            u32::from(b'x'),
-            0,
-            9,
-            values,
-        ];
+        let words = [14, claimed, 6, 8, 6, 0, 5, 8, values / 8, 1, 1, 1, u32::from(b'x'), 0, 9, values];
         for word in words {
             encoder.write_all(&word.to_le_bytes()).unwrap();
         }
@@ -192,10 +159,7 @@ fn regress_bad_text_gets_the_line() {
         here.says("a.csv", "t,x\n0,1\n1,2\n2\n"),
         "a.csv: line 4 has 1 values where the first line of numbers has 2"
     );
-    assert_eq!(
-        here.says("a.csv", "t,x\n0,1\n1,2\n2,two\n"),
-        "a.csv: line 4, column `x`: `two` is not a number"
-    );
+    assert_eq!(here.says("a.csv", "t,x\n0,1\n1,2\n2,two\n"), "a.csv: line 4, column `x`: `two` is not a number");
     assert_eq!(
         here.says("a.txt", "nothing\nbut words\n"),
         "a.txt: damaged text file: no line of numbers among its first lines"
@@ -214,22 +178,10 @@ fn regress_bad_text_gets_the_line() {
 fn regress_what_the_caller_knows_of_text_decides() {
     let here = Here::new();
     let path = here.file("a.txt", "0,5\n1,25\n");
-    let comma = TextFormat {
-        decimal: Some(Decimal::Comma),
-        ..TextFormat::default()
-    };
-    assert_eq!(
-        open_as(&path, &comma).unwrap().read("column1").unwrap(),
-        [0.5, 1.25]
-    );
-    let two = TextFormat {
-        delimiter: Some(Delimiter::Comma),
-        decimal: None,
-    };
-    assert_eq!(
-        open_as(&path, &two).unwrap().read("column2").unwrap(),
-        [5.0, 25.0]
-    );
+    let comma = TextFormat { decimal: Some(Decimal::Comma), ..TextFormat::default() };
+    assert_eq!(open_as(&path, &comma).unwrap().read("column1").unwrap(), [0.5, 1.25]);
+    let two = TextFormat { delimiter: Some(Delimiter::Comma), decimal: None };
+    assert_eq!(open_as(&path, &two).unwrap().read("column2").unwrap(), [5.0, 25.0]);
 }
 
 #[test]
@@ -247,17 +199,11 @@ fn regress_odd_and_sound_text() {
     assert!(values[0] == 1.0 && values[1].is_nan());
     // Trailing delimiters make no column; a constant and a NaN are values like others.
     let (names, values) = read("a;b;\n1;nan;\n1;NaN;\n", "a");
-    assert_eq!(
-        (names.as_str(), values.as_slice()),
-        ("a|b", &[1.0, 1.0][..])
-    );
+    assert_eq!((names.as_str(), values.as_slice()), ("a|b", &[1.0, 1.0][..]));
     assert_eq!(read("x\n0,5\n1,5\n", "x").1, [0.5, 1.5]);
     assert_eq!(read("a,a\n1,2\n3,4\n", "a#2").1, [2.0, 4.0]);
     assert_eq!(read("7", "column1").1, [7.0]);
     assert_eq!(read("0,1  0,2\n-1,5e-3 +2\n", "column2").1, [0.2, 2.0]);
     assert_eq!(read("% c\n1\t2\n# c\n3\t4", "column2").1, [2.0, 4.0]);
-    assert_eq!(
-        read("Rig;7\nDate;today\nx;y\n1;2\n3;4\n", "y").1,
-        [2.0, 4.0]
-    );
+    assert_eq!(read("Rig;7\nDate;today\nx;y\n1;2\n3;4\n", "y").1, [2.0, 4.0]);
 }

@@ -30,18 +30,10 @@ proptest! {
 #[test]
 fn regress_csv_is_a_header_and_numbers() {
     let folder = tempfile::tempdir().unwrap();
-    let mut writer =
-        Box::new(CsvWriter::create(folder.path().join("signals.csv"), &columns()).unwrap());
-    let rows = [
-        vec![0.0, -0.0],
-        vec![3.90625e-5, 1e-7],
-        vec![5e-324, f64::MAX],
-        vec![f64::NAN, f64::NEG_INFINITY],
-    ];
+    let mut writer = Box::new(CsvWriter::create(folder.path().join("signals.csv"), &columns()).unwrap());
+    let rows = [vec![0.0, -0.0], vec![3.90625e-5, 1e-7], vec![5e-324, f64::MAX], vec![f64::NAN, f64::NEG_INFINITY]];
     write(&mut *writer, &rows).unwrap();
-    let path = writer
-        .finish(Outcome::Partial("interrupted".into()))
-        .unwrap();
+    let path = writer.finish(Outcome::Partial("interrupted".into())).unwrap();
     assert_eq!(
         std::fs::read_to_string(path).unwrap(),
         "t,outer_ax\n0.0,-0.0\n0.0000390625,1e-7\n5e-324,1.7976931348623157e+308\nNaN,-inf\n"
@@ -60,31 +52,12 @@ fn regress_csv_of_others_is_read() {
 
 #[test]
 fn regress_bad_csv_gets_the_line_and_the_column() {
-    let say = |text: &str| {
-        read_csv_from(text.as_bytes(), "a.csv")
-            .unwrap_err()
-            .to_string()
-    };
-    assert_eq!(
-        say(""),
-        "a.csv: line 1 must name the columns, such as `t,outer_ax`; the file is empty"
-    );
-    assert_eq!(
-        say("0,1\n1,2\n"),
-        "a.csv: line 1 must name the columns, such as `t,outer_ax`; it holds numbers"
-    );
-    assert_eq!(
-        say("t,x\n0,1\n1\n"),
-        "a.csv: line 3 has 1 values where the header names 2 columns"
-    );
-    assert_eq!(
-        say("t,x\n0,1,2\n"),
-        "a.csv: line 2 has 3 values where the header names 2 columns"
-    );
-    assert_eq!(
-        say("t,x\n0,one\n"),
-        "a.csv: line 2, column `x`: `one` is not a number"
-    );
+    let say = |text: &str| read_csv_from(text.as_bytes(), "a.csv").unwrap_err().to_string();
+    assert_eq!(say(""), "a.csv: line 1 must name the columns, such as `t,outer_ax`; the file is empty");
+    assert_eq!(say("0,1\n1,2\n"), "a.csv: line 1 must name the columns, such as `t,outer_ax`; it holds numbers");
+    assert_eq!(say("t,x\n0,1\n1\n"), "a.csv: line 3 has 1 values where the header names 2 columns");
+    assert_eq!(say("t,x\n0,1,2\n"), "a.csv: line 2 has 3 values where the header names 2 columns");
+    assert_eq!(say("t,x\n0,one\n"), "a.csv: line 2, column `x`: `one` is not a number");
 }
 
 #[test]
@@ -92,24 +65,11 @@ fn regress_names_that_csv_would_break_are_refused() {
     let folder = tempfile::tempdir().unwrap();
     let refused = |names: &[&str]| {
         let columns: Vec<Column> = names.iter().map(|&n| Column::new(n, "", "")).collect();
-        CsvWriter::create(folder.path().join("a.csv"), &columns)
-            .map(drop)
-            .unwrap_err()
+        CsvWriter::create(folder.path().join("a.csv"), &columns).map(drop).unwrap_err()
     };
     assert!(matches!(refused(&[]), IoError::NoColumns { .. }));
-    for names in [
-        &["a,b"][..],
-        &["a\n"],
-        &["\"a"],
-        &[""],
-        &[" a"],
-        &["1.5"],
-        &["t", "t"],
-    ] {
-        assert!(
-            matches!(refused(names), IoError::ColumnName { .. }),
-            "{names:?}"
-        );
+    for names in [&["a,b"][..], &["a\n"], &["\"a"], &[""], &[" a"], &["1.5"], &["t", "t"]] {
+        assert!(matches!(refused(names), IoError::ColumnName { .. }), "{names:?}");
     }
     assert!(names_in(folder.path()).is_empty());
 }
@@ -119,15 +79,8 @@ fn regress_a_row_of_the_wrong_length_is_refused_and_the_file_goes_on() {
     let folder = tempfile::tempdir().unwrap();
     let mut writer = Box::new(CsvWriter::create(folder.path().join("a.csv"), &columns()).unwrap());
     let error = writer.write_row(&[1.0]).unwrap_err();
-    assert!(
-        error
-            .to_string()
-            .ends_with("a row has 1 values for 2 columns")
-    );
+    assert!(error.to_string().ends_with("a row has 1 values for 2 columns"));
     writer.write_row(&[1.0, 2.0]).unwrap();
     let path = writer.finish(Outcome::Complete).unwrap();
-    assert_eq!(
-        std::fs::read_to_string(path).unwrap(),
-        "t,outer_ax\n1.0,2.0\n"
-    );
+    assert_eq!(std::fs::read_to_string(path).unwrap(), "t,outer_ax\n1.0,2.0\n");
 }

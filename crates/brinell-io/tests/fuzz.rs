@@ -1,9 +1,11 @@
-//! Mutated files against all readers: no bytes may make one panic, hang or take much memory. A program of its own: its panic hook and peak memory are the process's.
+//! Mutated files against all readers: no bytes may make one panic, hang or take much memory. A program of its own: its
+//! panic hook and peak memory are the process's.
 //!
-//! A few seconds in the suite, the same mutations each time; `BRINELL_FUZZ_SECONDS=600` goes on for so long, `BRINELL_FUZZ_SEED` takes others.
-//! The seeds are the files in `tests/data/` and `tests/corpus/`; a file that breaks a reader is kept in the latter and replayed from then on.
-//! Panics of other people's readers are caught in the library and told as damage; here only our own count. Each file is read from the disk and
-//! from memory, which must come to the same.
+//! A few seconds in the suite, the same mutations each time; `BRINELL_FUZZ_SECONDS=600` goes on for so long,
+//! `BRINELL_FUZZ_SEED` takes others. The seeds are the files in `tests/data/` and `tests/corpus/`; a file that breaks a
+//! reader is kept in the latter and replayed from then on. Panics of other people's readers are caught in the library
+//! and told as damage; here only our own count. Each file is read from the disk and from memory, which must come to the
+//! same.
 #![cfg(all(feature = "parquet", feature = "hdf5", feature = "npz"))]
 
 use std::ops::ControlFlow;
@@ -37,9 +39,7 @@ impl Noise {
 }
 
 fn folder(name: &str) -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR"))
-        .join("tests")
-        .join(name)
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("tests").join(name)
 }
 
 const WORDS: [&[u8]; 26] = [
@@ -126,21 +126,15 @@ fn read_all(file: Result<SignalFile, IoError>) -> Seen {
             return seen;
         }
     };
-    seen.words
-        .extend(file.only_signal().err().map(|e| e.to_string()));
+    seen.words.extend(file.only_signal().err().map(|e| e.to_string()));
     let names: Vec<String> = file.channels().iter().map(|c| c.name.clone()).collect();
     for name in names.iter().take(40) {
         let mut count = 0;
         let mut take = |values: &[f64]| {
             count += values.len() as u64;
-            seen.digest = values.iter().fold(seen.digest, |sum, value| {
-                (sum ^ value.to_bits()).wrapping_mul(0x0100_0000_01b3)
-            });
-            if count > MAX_VALUES {
-                ControlFlow::Break(())
-            } else {
-                ControlFlow::Continue(())
-            }
+            seen.digest =
+                values.iter().fold(seen.digest, |sum, value| (sum ^ value.to_bits()).wrapping_mul(0x0100_0000_01b3));
+            if count > MAX_VALUES { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
         };
         let mut read = |name: &str| file.read_pieces(name, &mut take);
         let result = match read(name) {
@@ -173,20 +167,10 @@ fn parquet(path: &Path) {
 fn prop_no_bytes_make_a_reader_panic() {
     let number = |key: &str| std::env::var(key).ok().and_then(|s| s.parse::<u64>().ok());
     let seconds = number("BRINELL_FUZZ_SECONDS").map(Duration::from_secs);
-    let mut noise = Noise(
-        number("BRINELL_FUZZ_SEED")
-            .unwrap_or(1)
-            .wrapping_mul(0x9E37_79B9_7F4A_7C15)
-            | 1,
-    );
+    let mut noise = Noise(number("BRINELL_FUZZ_SEED").unwrap_or(1).wrapping_mul(0x9E37_79B9_7F4A_7C15) | 1);
     // In memory, where the system has such a folder.
     let shm = Path::new("/dev/shm");
-    let here = if shm.is_dir() {
-        tempfile::tempdir_in(shm)
-    } else {
-        tempfile::tempdir()
-    }
-    .unwrap();
+    let here = if shm.is_dir() { tempfile::tempdir_in(shm) } else { tempfile::tempdir() }.unwrap();
     parquet(here.path());
     let mut paths = vec![here.path().join("signals.parquet")];
     for name in ["data", "corpus"] {
@@ -216,11 +200,7 @@ fn prop_no_bytes_make_a_reader_panic() {
     while runs < RUNS || seconds.is_some_and(|s| begin.elapsed() < s) {
         let pick = &seeds[runs as usize % seeds.len()];
         let other = noise.below(seeds.len());
-        let bytes = if runs < seeds.len() as u64 {
-            pick.clone()
-        } else {
-            mutate(&mut noise, pick, &seeds[other])
-        };
+        let bytes = if runs < seeds.len() as u64 { pick.clone() } else { mutate(&mut noise, pick, &seeds[other]) };
         std::fs::write(&path, &bytes).unwrap();
         let (ours, started) = (OURS.load(Ordering::Relaxed), Instant::now());
         let seen = read_all(open(&path));
@@ -237,11 +217,7 @@ fn prop_no_bytes_make_a_reader_panic() {
                 (_, true) => "differs",
                 _ => "slow",
             };
-            std::fs::write(
-                folder("corpus").join(format!("{what}-{:016x}", noise.0)),
-                &bytes,
-            )
-            .unwrap();
+            std::fs::write(folder("corpus").join(format!("{what}-{:016x}", noise.0)), &bytes).unwrap();
         }
         runs += 1;
     }

@@ -1,13 +1,12 @@
-//! Files of other programs, read. `validation/readers/make_files.py` made them with SciPy, h5py, hdf5storage, NumPy, pyarrow and pyuff.
+//! Files of other programs, read. `validation/readers/make_files.py` made them with SciPy, h5py, hdf5storage, NumPy,
+//! pyarrow and pyuff.
 
 use std::path::PathBuf;
 
 use brinell_io::{Channel, FileKind, RateSource, SignalFile, open};
 
 fn data(name: &str) -> PathBuf {
-    PathBuf::from(env!("CARGO_MANIFEST_DIR"))
-        .join("tests/data")
-        .join(name)
+    PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("tests/data").join(name)
 }
 
 fn opened(name: &str) -> SignalFile {
@@ -16,9 +15,7 @@ fn opened(name: &str) -> SignalFile {
 
 /// Channel k, as `signal` in make_files.py.
 fn signal(k: i64) -> Vec<f64> {
-    (0..300)
-        .map(|i| ((i * (37 + k) + 11 * k) % 101 - 50) as f64 / 8.0)
-        .collect()
+    (0..300).map(|i| ((i * (37 + k) + 11 * k) % 101 - 50) as f64 / 8.0).collect()
 }
 
 fn eighths(k: i64) -> Vec<f64> {
@@ -51,10 +48,7 @@ fn xval_mat_like_cwru() {
         assert_eq!(file.kind(), FileKind::Mat5);
         assert_eq!(names(&file), ["X097_DE_time", "X097_FE_time", "X097RPM"]);
         let first = channel(&file, "X097_DE_time");
-        assert_eq!(
-            (first.shape.as_slice(), first.length),
-            (&[300, 1][..], Some(300))
-        );
+        assert_eq!((first.shape.as_slice(), first.length), (&[300, 1][..], Some(300)));
         assert_eq!((first.rate.as_ref(), first.unit.as_ref()), (None, None));
         holds(&mut file, "X097_DE_time", &signal(0));
         holds(&mut file, "X097_FE_time", &signal(1));
@@ -62,9 +56,7 @@ fn xval_mat_like_cwru() {
         holds(&mut file, "X097RPM", &[1796.0]);
         let error = file.only_signal().unwrap_err().to_string();
         assert!(
-            error.ends_with(
-                "several channels may be the signal; name one of X097_DE_time, X097_FE_time"
-            ),
+            error.ends_with("several channels may be the signal; name one of X097_DE_time, X097_FE_time"),
             "{error}"
         );
     }
@@ -73,14 +65,8 @@ fn xval_mat_like_cwru() {
 #[test]
 fn xval_mat_like_mfpt_and_paderborn() {
     let mut file = opened("mfpt.mat");
-    assert_eq!(
-        names(&file),
-        ["bearing.sr", "bearing.gs", "bearing.load", "bearing.rate"]
-    );
-    assert_eq!(
-        rate(file.only_signal().unwrap()),
-        Some((97656.0, &RateSource::Variable("bearing.sr".into())))
-    );
+    assert_eq!(names(&file), ["bearing.sr", "bearing.gs", "bearing.load", "bearing.rate"]);
+    assert_eq!(rate(file.only_signal().unwrap()), Some((97656.0, &RateSource::Variable("bearing.sr".into()))));
     holds(&mut file, "bearing.gs", &signal(2));
     holds(&mut file, "bearing.rate", &[25.0]);
 
@@ -118,10 +104,7 @@ fn xval_mat_numbers_of_every_kind() {
     holds(&mut file, "empty", &[]);
     assert_eq!(file.metadata().get("title"), Some("Prüfstand"));
     assert_eq!(file.metadata().get("cell[2]"), Some("a word"));
-    assert_eq!(
-        rate(channel(&file, "single")),
-        Some((25600.0, &RateSource::Variable("fs".into())))
-    );
+    assert_eq!(rate(channel(&file, "single")), Some((25600.0, &RateSource::Variable("fs".into()))));
     for (name, why) in [
         ("complex", "`complex` holds complex numbers"),
         ("sparse", "`sparse` is a sparse matrix"),
@@ -139,10 +122,7 @@ fn xval_mat_v73() {
     let mut file = opened("v73.mat");
     assert_eq!(file.kind(), FileKind::Hdf5);
     assert_eq!(channel(&file, "acc").shape, [300, 1]);
-    assert_eq!(
-        rate(channel(&file, "acc")),
-        Some((25600.0, &RateSource::Variable("fs".into())))
-    );
+    assert_eq!(rate(channel(&file, "acc")), Some((25600.0, &RateSource::Variable("fs".into()))));
     holds(&mut file, "acc", &signal(0));
     holds(&mut file, "row", &signal(1));
     holds(&mut file, "counts", &eighths(2));
@@ -151,10 +131,7 @@ fn xval_mat_v73() {
     holds(&mut file, "matrix(:,2)", &signal(4));
     holds(&mut file, "matrix(7,:)", &[3, 4].map(|k| signal(k)[6]));
     holds(&mut file, "bearing.gs", &signal(5));
-    assert_eq!(
-        rate(channel(&file, "bearing.gs")),
-        Some((97656.0, &RateSource::Variable("bearing.sr".into())))
-    );
+    assert_eq!(rate(channel(&file, "bearing.gs")), Some((97656.0, &RateSource::Variable("bearing.sr".into()))));
     holds(&mut file, "Y[1].Data", &signal(6));
     holds(&mut file, "Y[2].Data", &signal(7));
     holds(&mut file, "cell", &signal(6));
@@ -172,28 +149,18 @@ fn xval_hdf5_of_h5py() {
     let mut file = opened("latest.h5");
     let acc = channel(&file, "run/acc");
     assert_eq!(acc.unit.as_deref(), Some("m/s^2"));
-    assert_eq!(
-        rate(acc),
-        Some((51200.0, &RateSource::Variable("run/fs".into())))
-    );
+    assert_eq!(rate(acc), Some((51200.0, &RateSource::Variable("run/fs".into()))));
     holds(&mut file, "run/acc", &signal(0));
     holds(&mut file, "run/big", &signal(1));
     holds(&mut file, "run/growing", &signal(2));
     holds(&mut file, "run/matrix(:,2)", &signal(4));
     let error = file.read("run/half").unwrap_err().to_string();
-    assert!(
-        error.contains("values from 10 on were never written"),
-        "{error}"
-    );
+    assert!(error.contains("values from 10 on were never written"), "{error}");
 }
 
 #[test]
 fn xval_numpy_arrays() {
-    for (name, values) in [
-        ("f8.npy", signal(0)),
-        ("i2_big.npy", eighths(3)),
-        ("f2.npy", signal(4)),
-    ] {
+    for (name, values) in [("f8.npy", signal(0)), ("i2_big.npy", eighths(3)), ("f2.npy", signal(4))] {
         let mut file = opened(name);
         assert_eq!(file.kind(), FileKind::Npy);
         holds(&mut file, "array", &values);
@@ -208,22 +175,14 @@ fn xval_numpy_arrays() {
 fn xval_numpy_archives() {
     let mut file = opened("plain.npz");
     assert_eq!(names(&file), ["acc", "pair", "fs"]);
-    assert_eq!(
-        rate(channel(&file, "acc")),
-        Some((25600.0, &RateSource::Variable("fs".into())))
-    );
+    assert_eq!(rate(channel(&file, "acc")), Some((25600.0, &RateSource::Variable("fs".into()))));
     assert_eq!(file.metadata().get("title"), Some("Prüfstand"));
     holds(&mut file, "acc", &signal(0));
     holds(&mut file, "pair(:,2)", &signal(2));
     let mut file = opened("packed.npz");
     holds(&mut file, "acc", &signal(0));
     holds(&mut file, "number", &[3.0]);
-    assert!(
-        file.read("z")
-            .unwrap_err()
-            .to_string()
-            .contains("not real numbers")
-    );
+    assert!(file.read("z").unwrap_err().to_string().contains("not real numbers"));
 }
 
 #[test]
@@ -259,15 +218,10 @@ fn xval_uff_of_pyuff() {
         holds(&mut file, "acc x", &signal(0));
         holds(&mut file, "uneven", &signal(2));
         let x = file.read("uneven.x").unwrap();
-        assert!(
-            x.iter()
-                .zip(0..)
-                .all(|(x, i)| (x - f64::from(i) / 25600.0).abs() < 1e-6)
-        );
+        assert!(x.iter().zip(0..).all(|(x, i)| (x - f64::from(i) / 25600.0).abs() < 1e-6));
         assert!(file.read("complex").is_err());
         if name == "ascii.uff" {
-            let near =
-                |a: Vec<f64>, b: Vec<f64>| a.iter().zip(&b).all(|(a, b)| (a - b).abs() < 1e-4);
+            let near = |a: Vec<f64>, b: Vec<f64>| a.iter().zip(&b).all(|(a, b)| (a - b).abs() < 1e-4);
             assert!(near(file.read("acc y").unwrap(), signal(1)));
             assert!(near(file.read("single").unwrap(), signal(3)));
         }
@@ -357,20 +311,11 @@ fn xval_parquet_with_half_precision_and_decimals() {
 #[test]
 fn xval_parquet_with_nested_columns() {
     let mut file = opened("nested.parquet");
-    assert_eq!(
-        names(&file),
-        ["label", "load", "acc", "bearing.bore", "bearing.name"]
-    );
+    assert_eq!(names(&file), ["label", "load", "acc", "bearing.bore", "bearing.name"]);
     holds(&mut file, "load", &[100.0, 200.0]);
     for (name, why) in [
-        (
-            "acc",
-            "is nested, a list in each row, which is not supported here: save one row as a table",
-        ),
-        (
-            "bearing.bore",
-            "is nested, which is not supported here: save it as a flat column",
-        ),
+        ("acc", "is nested, a list in each row, which is not supported here: save one row as a table"),
+        ("bearing.bore", "is nested, which is not supported here: save it as a flat column"),
         ("label", "does not hold numbers"),
     ] {
         let error = file.read(name).unwrap_err();

@@ -5,20 +5,14 @@ use std::sync::Arc;
 
 use crate::common::{columns, sampled};
 use brinell_io::{
-    Decimal, Delimiter, Format, IoError, Metadata, Outcome, SignalFile, TextFormat, keys, open,
-    open_bytes, open_bytes_as,
+    Decimal, Delimiter, Format, IoError, Metadata, Outcome, SignalFile, TextFormat, keys, open, open_bytes,
+    open_bytes_as,
 };
 
 /// All that is in a file, errors by their words; values by their bits, for some are NaN.
 fn everything(file: Result<SignalFile, IoError>) -> Result<String, String> {
     let mut file = file.map_err(|e| e.to_string())?;
-    let mut all = format!(
-        "{} {:?}\n{:?}\n{:?}\n",
-        file.kind(),
-        file.path(),
-        file.channels(),
-        file.metadata()
-    );
+    let mut all = format!("{} {:?}\n{:?}\n{:?}\n", file.kind(), file.path(), file.channels(), file.metadata());
     let names: Vec<String> = file.channels().iter().map(|c| c.name.clone()).collect();
     let parts = ["", "(:,2)", "(3,:)"];
     for name in names {
@@ -55,48 +49,30 @@ fn prop_bytes_are_read_as_the_file_is() {
         let shared: Arc<[u8]> = bytes.into();
         assert_eq!(by_path, everything(open_bytes(name, shared.clone())));
     }
-    let least = if cfg!(all(feature = "parquet", feature = "hdf5", feature = "npz")) {
-        38
-    } else {
-        20
-    };
+    let least = if cfg!(all(feature = "parquet", feature = "hdf5", feature = "npz")) { 38 } else { 20 };
     assert!(readable >= least, "{readable} files are readable");
 }
 
 #[test]
 fn prop_bytes_are_called_by_their_name() {
-    let says = |name: &str, bytes: &[u8]| {
-        open_bytes(name, bytes.to_vec())
-            .map(drop)
-            .unwrap_err()
-            .to_string()
-    };
+    let says = |name: &str, bytes: &[u8]| open_bytes(name, bytes.to_vec()).map(drop).unwrap_err().to_string();
     assert_eq!(says("a.csv", b""), "a.csv: the file is empty");
     assert_eq!(
         says("a.wav", b"1,2\n3,4\n"),
         "a.wav: named like WAV, but the content is text; rename it or save it again"
     );
     let error = open_bytes("a.txt", *b"1\n2\nx\n").and_then(|mut f| f.read("column1"));
-    assert_eq!(
-        error.unwrap_err().to_string(),
-        "a.txt: line 3, column `column1`: `x` is not a number"
-    );
+    assert_eq!(error.unwrap_err().to_string(), "a.txt: line 3, column `column1`: `x` is not a number");
 }
 
 #[test]
 fn prop_bytes_of_text_take_the_callers_format() {
     let text = b"1,5\n2,5\n";
     assert!(open_bytes("a.csv", *text).is_err());
-    let mut format = TextFormat {
-        decimal: Some(Decimal::Comma),
-        ..TextFormat::default()
-    };
+    let mut format = TextFormat { decimal: Some(Decimal::Comma), ..TextFormat::default() };
     let mut file = open_bytes_as("a.csv", *text, &format).unwrap();
     assert_eq!(file.read("column1").unwrap(), [1.5, 2.5]);
-    format = TextFormat {
-        delimiter: Some(Delimiter::Comma),
-        decimal: None,
-    };
+    format = TextFormat { delimiter: Some(Delimiter::Comma), decimal: None };
     let mut file = open_bytes_as("a.csv", *text, &format).unwrap();
     assert_eq!(file.read("column2").unwrap(), [5.0, 5.0]);
 }
@@ -107,12 +83,9 @@ fn prop_written_bytes_are_the_files() {
     let folder = tempfile::tempdir().unwrap();
     let metadata = sampled().with(keys::SCENARIO, "name = \"Prüfstand\"\n");
     let outcomes = [Outcome::Complete, Outcome::Partial("interrupted".into())];
-    for (format, (rows, outcome)) in Format::ALL.into_iter().flat_map(|format| {
-        [0, 140_001]
-            .into_iter()
-            .zip(&outcomes)
-            .map(move |r| (format, r))
-    }) {
+    for (format, (rows, outcome)) in
+        Format::ALL.into_iter().flat_map(|format| [0, 140_001].into_iter().zip(&outcomes).map(move |r| (format, r)))
+    {
         let file = format.create(folder.path(), &columns(), &metadata);
         let memory = format.in_memory(&columns(), &metadata);
         let (mut file, mut memory) = match (file, memory) {
@@ -150,8 +123,5 @@ fn prop_in_memory_the_same_is_refused() {
         }
     }
     let mut writer = Format::Csv.in_memory(&columns(), &none).unwrap();
-    assert_eq!(
-        writer.write_row(&[1.0]).unwrap_err().to_string(),
-        "signals.csv: a row has 1 values for 2 columns"
-    );
+    assert_eq!(writer.write_row(&[1.0]).unwrap_err().to_string(), "signals.csv: a row has 1 values for 2 columns");
 }

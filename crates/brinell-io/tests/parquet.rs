@@ -15,17 +15,9 @@ use proptest::prelude::*;
 use serde_json::{Value, json};
 
 fn write_all(folder: &Path, rows: &[Vec<f64>], outcome: Outcome) -> PathBuf {
-    let metadata = Metadata::default()
-        .with(keys::SCENARIO, "name = \"Prüfstand\"\n")
-        .with(keys::VERSION, "0.1.0");
-    let columns = if rows[0].len() == 2 {
-        columns()
-    } else {
-        numbered(rows[0].len())
-    };
-    let mut writer = Box::new(
-        ParquetWriter::create(folder.join("signals.parquet"), &columns, &metadata).unwrap(),
-    );
+    let metadata = Metadata::default().with(keys::SCENARIO, "name = \"Prüfstand\"\n").with(keys::VERSION, "0.1.0");
+    let columns = if rows[0].len() == 2 { columns() } else { numbered(rows[0].len()) };
+    let mut writer = Box::new(ParquetWriter::create(folder.join("signals.parquet"), &columns, &metadata).unwrap());
     write(&mut *writer, rows).unwrap();
     writer.finish(outcome).unwrap()
 }
@@ -66,12 +58,8 @@ proptest! {
 fn regress_parquet_carries_units_scenario_version_and_outcome() {
     let folder = tempfile::tempdir().unwrap();
     let rows = [vec![0.0, 1.0]];
-    let signals = read_parquet(write_all(
-        folder.path(),
-        &rows,
-        Outcome::Partial("interrupted at 0.1 s".into()),
-    ))
-    .unwrap();
+    let signals =
+        read_parquet(write_all(folder.path(), &rows, Outcome::Partial("interrupted at 0.1 s".into()))).unwrap();
     assert_eq!(signals.columns, columns());
     assert_eq!(signals.column("outer_ax"), Some(&[1.0][..]));
     let get = |key| signals.metadata.get(key).unwrap();
@@ -101,37 +89,21 @@ fn regress_a_table_without_rows_is_a_whole_file() {
 fn prop_row_groups_stay_within_their_memory() {
     let folder = tempfile::tempdir().unwrap();
     for (columns, rows) in [(400, 12_000), (1, 140_000)] {
-        let table: Vec<Vec<f64>> = (0..rows)
-            .map(|i| vec![f64::from(i) * 0.1; columns])
-            .collect();
+        let table: Vec<Vec<f64>> = (0..rows).map(|i| vec![f64::from(i) * 0.1; columns]).collect();
         let path = write_all(folder.path(), &table, Outcome::Complete);
         let reader = SerializedFileReader::new(std::fs::File::open(&path).unwrap()).unwrap();
         let groups = reader.metadata().row_groups();
         assert!(groups.len() > 1);
-        assert_eq!(
-            groups.iter().map(|g| g.num_rows()).sum::<i64>(),
-            i64::from(rows)
-        );
+        assert_eq!(groups.iter().map(|g| g.num_rows()).sum::<i64>(), i64::from(rows));
         for group in groups {
             assert!(group.num_rows() as usize * columns * 8 <= 16 << 20);
             let chunks = group.columns().iter();
-            assert_eq!(
-                chunks.clone().map(|c| c.compressed_size()).sum::<i64>(),
-                group.compressed_size()
-            );
-            assert_eq!(
-                chunks.map(|c| c.uncompressed_size()).sum::<i64>(),
-                group.total_byte_size()
-            );
+            assert_eq!(chunks.clone().map(|c| c.compressed_size()).sum::<i64>(), group.compressed_size());
+            assert_eq!(chunks.map(|c| c.uncompressed_size()).sum::<i64>(), group.total_byte_size());
         }
         let signals = read_parquet(&path).unwrap();
         for column in &signals.data {
-            assert!(
-                column
-                    .iter()
-                    .zip(&table)
-                    .all(|(value, row)| *value == row[0])
-            );
+            assert!(column.iter().zip(&table).all(|(value, row)| *value == row[0]));
         }
     }
 }
@@ -141,10 +113,7 @@ fn regress_reserved_metadata_and_foreign_files_are_refused() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("a.parquet");
     let metadata = Metadata::default().with(keys::UNITS, "{}");
-    assert!(matches!(
-        ParquetWriter::create(&path, &columns(), &metadata),
-        Err(IoError::ReservedKey { .. })
-    ));
+    assert!(matches!(ParquetWriter::create(&path, &columns(), &metadata), Err(IoError::ReservedKey { .. })));
     assert!(names_in(folder.path()).is_empty());
     assert!(matches!(read_parquet(&path), Err(IoError::Read { .. })));
     std::fs::write(&path, "t,x\n0,1\n").unwrap();
@@ -156,32 +125,19 @@ fn regress_reserved_metadata_and_foreign_files_are_refused() {
 fn regress_parquet_of_others_is_read() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("theirs.parquet");
-    let schema =
-        parse_message_type("message m { optional double a; required int64 n; optional float f; }")
-            .unwrap();
-    let properties = WriterProperties::builder()
-        .set_compression(Compression::SNAPPY)
-        .build();
+    let schema = parse_message_type("message m { optional double a; required int64 n; optional float f; }").unwrap();
+    let properties = WriterProperties::builder().set_compression(Compression::SNAPPY).build();
     let file = std::fs::File::create(&path).unwrap();
     let mut writer = SerializedFileWriter::new(file, schema.into(), properties.into()).unwrap();
     let mut group = writer.next_row_group().unwrap();
     let mut column = group.next_column().unwrap().unwrap();
-    column
-        .typed::<DoubleType>()
-        .write_batch(&[1.5, 2.5], Some(&[1, 0, 1]), None)
-        .unwrap();
+    column.typed::<DoubleType>().write_batch(&[1.5, 2.5], Some(&[1, 0, 1]), None).unwrap();
     column.close().unwrap();
     let mut column = group.next_column().unwrap().unwrap();
-    column
-        .typed::<Int64Type>()
-        .write_batch(&[7, 7, -8], None, None)
-        .unwrap();
+    column.typed::<Int64Type>().write_batch(&[7, 7, -8], None, None).unwrap();
     column.close().unwrap();
     let mut column = group.next_column().unwrap().unwrap();
-    column
-        .typed::<FloatType>()
-        .write_batch(&[0.25, 0.5, 4.0], Some(&[1, 1, 1]), None)
-        .unwrap();
+    column.typed::<FloatType>().write_batch(&[0.25, 0.5, 4.0], Some(&[1, 1, 1]), None).unwrap();
     column.close().unwrap();
     group.close().unwrap();
     writer.close().unwrap();

@@ -2,9 +2,7 @@
 
 #![cfg(feature = "parquet")]
 
-use brinell_io::{
-    Cell, Column, IoError, Kind, Metadata, RecordColumn, RecordWriter, record_facts, sha256_of,
-};
+use brinell_io::{Cell, Column, IoError, Kind, Metadata, RecordColumn, RecordWriter, record_facts, sha256_of};
 use parquet::file::reader::{FileReader, SerializedFileReader};
 use parquet::record::Field;
 use serde_json::{Value, json};
@@ -34,10 +32,7 @@ fn columns() -> Vec<RecordColumn> {
         ("entry_t_s", Kind::Numbers),
         ("places", Kind::WordsList),
     ]
-    .map(|(name, kind)| RecordColumn {
-        column: Column::new(name, "1", ""),
-        kind,
-    })
+    .map(|(name, kind)| RecordColumn { column: Column::new(name, "1", ""), kind })
     .to_vec()
 }
 
@@ -97,12 +92,8 @@ fn prop_rows_come_back_empty_ones_and_empty_lists_included() {
                 Cell::Number(x) => assert_eq!(found, x),
                 Cell::Words(x) => assert_eq!(found, x),
                 Cell::Signal(x) => {
-                    let found: Vec<f32> = found
-                        .as_array()
-                        .unwrap()
-                        .iter()
-                        .map(|x| x.as_f64().unwrap() as f32)
-                        .collect();
+                    let found: Vec<f32> =
+                        found.as_array().unwrap().iter().map(|x| x.as_f64().unwrap() as f32).collect();
                     assert_eq!(&found, x);
                 }
                 Cell::Wholes(x) => assert_eq!(found, &json!(x)),
@@ -119,14 +110,11 @@ fn prop_the_same_rows_give_the_same_bytes_and_a_dropped_writer_leaves_nothing() 
     let write = |name: &str| {
         let path = folder.path().join(name);
         let mut writer = RecordWriter::create(&path, &columns(), &Metadata::default()).unwrap();
-        rows()
-            .chunks(2)
-            .for_each(|rows| writer.write_group(rows).unwrap());
+        rows().chunks(2).for_each(|rows| writer.write_group(rows).unwrap());
         writer.finish().unwrap().sha256
     };
     assert_eq!(write("a"), write("b"));
-    let mut writer =
-        RecordWriter::create(folder.path().join("c"), &columns(), &Metadata::default()).unwrap();
+    let mut writer = RecordWriter::create(folder.path().join("c"), &columns(), &Metadata::default()).unwrap();
     writer.write_group(&rows()).unwrap();
     drop(writer);
     assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 2);
@@ -137,10 +125,7 @@ fn regress_rows_that_do_not_fit_are_refused() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("a");
     let mut writer = RecordWriter::create(&path, &columns(), &Metadata::default()).unwrap();
-    assert!(matches!(
-        writer.write_group(&[vec![Cell::Empty; 7]]),
-        Err(IoError::RowLength { .. })
-    ));
+    assert!(matches!(writer.write_group(&[vec![Cell::Empty; 7]]), Err(IoError::RowLength { .. })));
     let mut row = vec![Cell::Empty; 8];
     row[0] = Cell::Number(1.0);
     assert!(writer.write_group(&[row]).is_err());

@@ -42,10 +42,7 @@ fn prop_parquet_gives_the_table_back_and_the_same_bytes_each_time() {
     assert_eq!(back, table());
     assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 2);
     // No row at all is a table too.
-    let empty = Table {
-        cells: vec![Cells::Words(vec![]), Cells::Numbers(vec![])],
-        ..table()
-    };
+    let empty = Table { cells: vec![Cells::Words(vec![]), Cells::Numbers(vec![])], ..table() };
     empty.write_parquet(&a, &metadata).unwrap();
     assert_eq!(Table::read_parquet(&a).unwrap(), empty);
 }
@@ -56,14 +53,7 @@ fn regress_uneven_columns_are_refused() {
     let mut table = table();
     table.push(Column::new("x", "m", ""), Cells::Numbers(vec![None]));
     let error = table.write_csv(folder.path().join("t.csv")).unwrap_err();
-    assert!(matches!(
-        error,
-        IoError::RowLength {
-            expected: 4,
-            got: 1,
-            ..
-        }
-    ));
+    assert!(matches!(error, IoError::RowLength { expected: 4, got: 1, .. }));
     assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 0);
 }
 
@@ -71,9 +61,7 @@ fn regress_uneven_columns_are_refused() {
 fn prop_a_journal_cut_anywhere_keeps_its_whole_lines() {
     let folder = tempdir().unwrap();
     let path = folder.path().join("journal.jsonl");
-    let lines: Vec<_> = (0..4)
-        .map(|k| json!({ "k": k, "x": 0.1 * f64::from(k), "s": "ü\n" }))
-        .collect();
+    let lines: Vec<_> = (0..4).map(|k| json!({ "k": k, "x": 0.1 * f64::from(k), "s": "ü\n" })).collect();
     let (mut journal, found) = Journal::open(&path).unwrap();
     assert!(found.is_empty());
     for line in &lines {

@@ -1,20 +1,16 @@
-//! Files that brinell writes, read back by its own readers. Other people's read them in validation/readers/check_written.py.
+//! Files that brinell writes, read back by its own readers. Other people's read them in
+//! validation/readers/check_written.py.
 
 use std::path::Path;
 
 use crate::common::{any_table, columns, names_in, numbered, sampled, write};
-use brinell_io::{
-    Column, Format, IoError, MatWriter, Metadata, Outcome, RateSource, SignalWriter, keys, open,
-};
+use brinell_io::{Column, Format, IoError, MatWriter, Metadata, Outcome, RateSource, SignalWriter, keys, open};
 use proptest::prelude::*;
 use proptest::test_runner::{Config, RngAlgorithm, TestRng, TestRunner};
 
 /// The same tables at every run.
 fn with_tables(mut check: impl FnMut(Vec<Vec<f64>>)) {
-    let config = Config {
-        failure_persistence: None,
-        ..Config::with_cases(64)
-    };
+    let config = Config { failure_persistence: None, ..Config::with_cases(64) };
     let rng = TestRng::from_seed(RngAlgorithm::ChaCha, &[7; 32]);
     let mut runner = TestRunner::new_with_rng(config, rng);
     for _ in 0..64 {
@@ -75,9 +71,7 @@ fn prop_parquet_gives_back_every_bit_by_the_common_reader() {
 fn prop_csv_gives_back_every_number_by_the_common_reader() {
     with_tables(|rows| {
         let folder = tempfile::tempdir().unwrap();
-        let mut writer = Format::Csv
-            .create(folder.path(), &numbered(rows[0].len()), &sampled())
-            .unwrap();
+        let mut writer = Format::Csv.create(folder.path(), &numbered(rows[0].len()), &sampled()).unwrap();
         write(&mut *writer, &rows).unwrap();
         let mut file = open(writer.finish(Outcome::Complete).unwrap()).unwrap();
         for i in 0..rows[0].len() {
@@ -113,13 +107,9 @@ fn prop_wav_gives_back_floats_names_and_units() {
         let folder = tempfile::tempdir().unwrap();
         let columns = numbered(rows[0].len());
         let metadata = sampled().with(keys::SCENARIO, "name = \"Prüfstand\"\n");
-        let mut writer = Format::Wav
-            .create(folder.path(), &columns, &metadata)
-            .unwrap();
+        let mut writer = Format::Wav.create(folder.path(), &columns, &metadata).unwrap();
         write(&mut *writer, &rows).unwrap();
-        let path = writer
-            .finish(Outcome::Partial("interrupted".into()))
-            .unwrap();
+        let path = writer.finish(Outcome::Partial("interrupted".into())).unwrap();
         let mut file = open(&path).unwrap();
         for (i, column) in columns.iter().enumerate() {
             assert_eq!(file.channels()[i].unit.as_deref(), Some("m"));
@@ -138,9 +128,7 @@ fn prop_wav_gives_back_floats_names_and_units() {
 #[test]
 fn prop_long_tables_keep_their_order() {
     let folder = tempfile::tempdir().unwrap();
-    let columns: Vec<Column> = (0..40)
-        .map(|i| Column::new(format!("c{i}"), "m", ""))
-        .collect();
+    let columns: Vec<Column> = (0..40).map(|i| Column::new(format!("c{i}"), "m", "")).collect();
     let rows = 120_000;
     for format in [Format::Mat, Format::Uff58] {
         let mut writer = format.create(folder.path(), &columns, &sampled()).unwrap();
@@ -165,17 +153,12 @@ fn prop_long_tables_keep_their_order() {
 fn regress_time_gives_way_to_start_and_rate() {
     let folder = tempfile::tempdir().unwrap();
     for format in [Format::Uff58, Format::Wav] {
-        let mut writer = format
-            .create(folder.path(), &columns(), &sampled())
-            .unwrap();
+        let mut writer = format.create(folder.path(), &columns(), &sampled()).unwrap();
         writer.write_row(&[0.5, 1.0]).unwrap();
         writer.write_row(&[0.5 + 1.0 / 25600.0, 2.0]).unwrap();
         let mut file = open(writer.finish(Outcome::Complete).unwrap()).unwrap();
         let only = file.only_signal().unwrap();
-        assert_eq!(
-            (only.name.as_str(), only.unit.as_deref()),
-            ("outer_ax", Some("m/s^2"))
-        );
+        assert_eq!((only.name.as_str(), only.unit.as_deref()), ("outer_ax", Some("m/s^2")));
         let rate = only.rate.clone().unwrap();
         assert!(rate.hz == 25600.0 && matches!(rate.source, RateSource::Header(_)));
         assert_eq!(file.read("outer_ax").unwrap(), [1.0, 2.0]);

@@ -35,10 +35,7 @@ pub(crate) fn pieces(reproduction: &Reproduction) -> Vec<StudyPiece> {
         }
     };
     put("What the motion of the bearing says:", &dynamics);
-    put(
-        "What follows from geometry, speed and slip, whatever the contact forces:",
-        &geometry,
-    );
+    put("What follows from geometry, speed and slip, whatever the contact forces:", &geometry);
     if pieces.is_empty() {
         pieces.push(StudyPiece::Words("Too little was run to say.".into()));
     }
@@ -89,16 +86,9 @@ impl Facts<'_> {
 
     fn simplification(&self) -> Option<String> {
         let name = "outer_ax.rms";
-        let (irregular, simplified) = (
-            self.value("irregular", name)?,
-            self.value("simplified", name)?,
-        );
+        let (irregular, simplified) = (self.value("irregular", name)?, self.value("simplified", name)?);
         let ratio = self.plain("simplified", name)? / self.plain("irregular", name)?;
-        let range = self
-            .reproduction
-            .sensitivity
-            .as_ref()
-            .and_then(|s| s.ratios("simplified", "irregular", name));
+        let range = self.reproduction.sensitivity.as_ref().and_then(|s| s.ratios("simplified", "irregular", name));
         let range = range.map_or(String::new(), |(low, high)| {
             let sign = if low < 1.0 {
                 "the lowest belong to readings of Eq. (27) that make another shape of it; believe the sign for the shape as drawn, and no size"
@@ -254,19 +244,15 @@ impl Facts<'_> {
     fn frequency(&self) -> Option<String> {
         let of = |case: &str| self.plain(case, "defect1.frequency");
         let all = [of("rectangle")?, of("circle")?, of("irregular")?];
-        let (least, most) = (
-            all.iter().copied().fold(f64::INFINITY, f64::min),
-            all.iter().copied().fold(0.0, f64::max),
-        );
+        let (least, most) =
+            (all.iter().copied().fold(f64::INFINITY, f64::min), all.iter().copied().fold(0.0, f64::max));
         let hertz = |all: [f64; 3]| all.map(|f| format!("{f:.2}")).join(", ");
         let mean = all.iter().sum::<f64>() / 3.0;
         let film = self.reproduction.sensitivity.as_ref().and_then(|s| {
             let of = |case: &str| s.value("film-quasi-static", case, "defect1.frequency");
             Some([of("rectangle")?, of("circle")?, of("irregular")?])
         });
-        let film = film.map_or(String::new(), |all| {
-            format!(" (with the paper’s film of Eq. (42): {})", hertz(all))
-        });
+        let film = film.map_or(String::new(), |all| format!(" (with the paper’s film of Eq. (42): {})", hertz(all)));
         Some(format!(
             "The defect frequency is one of speed, geometry and the cage’s slip: pure rolling, {ROLLING_HZ:.2} Hz, agrees with all six printed values \
              within 1 % by itself. Ours are {} Hz{film}, {} % below it, since the cage slips by so much under the film assumed here; that they \
@@ -283,14 +269,8 @@ impl Facts<'_> {
     }
 
     fn shapes(&self) -> Option<String> {
-        let length = |case: &str| {
-            self.plain(case, "defect1.least_contact_length")
-                .map(|x| short(1e3 * x, 3))
-        };
-        let drop = |case: &str| {
-            self.plain(case, "defect1.entry_drop")
-                .map(|x| short(100.0 * x, 3))
-        };
+        let length = |case: &str| self.plain(case, "defect1.least_contact_length").map(|x| short(1e3 * x, 3));
+        let drop = |case: &str| self.plain(case, "defect1.entry_drop").map(|x| short(100.0 * x, 3));
         Some(format!(
             "The least effective contact lengths ({}, {} and {} mm for rectangle, circle and irregular shape), their fall with the greatest width, and \
              the gradual entry of the irregular shape ({} % of the drop in stiffness within the first tenth of the arc, against {} % of the \

@@ -8,15 +8,10 @@ use std::path::Path;
 
 /// The text. Pictures are linked as from the folder above `book`, where the file that includes this one is.
 pub(crate) fn text(study: &Study, reproduction: &Reproduction, book: &Path) -> String {
-    let folder = book
-        .file_name()
-        .map_or(String::new(), |name| format!("{}/", name.to_string_lossy()));
-    let mut text =
-        String::from("<!-- Written by `brinell reproduce --book`; edits are lost. -->\n\n");
-    let counts: Vec<String> = counts(&reproduction.outcomes)
-        .iter()
-        .map(|(verdict, n)| format!("{} {n}", verdict.words()))
-        .collect();
+    let folder = book.file_name().map_or(String::new(), |name| format!("{}/", name.to_string_lossy()));
+    let mut text = String::from("<!-- Written by `brinell reproduce --book`; edits are lost. -->\n\n");
+    let counts: Vec<String> =
+        counts(&reproduction.outcomes).iter().map(|(verdict, n)| format!("{} {n}", verdict.words())).collect();
     let _ = writeln!(text, "{}. Claims: {}.\n", study.subtitle, counts.join(", "));
     for warning in &study.warnings {
         let _ = writeln!(text, "> {warning}\n");
@@ -74,11 +69,7 @@ fn claims(text: &mut String, all: &[Outcome]) {
             outcome.claim.place,
             cell(&verdict),
             cell(outcome.claim.paper),
-            lines
-                .iter()
-                .map(|o| cell(o))
-                .collect::<Vec<_>>()
-                .join("<br>")
+            lines.iter().map(|o| cell(o)).collect::<Vec<_>>().join("<br>")
         );
     }
     text.push('\n');
@@ -94,11 +85,7 @@ fn table(text: &mut String, table: &Table) {
         text.push_str("```\n\n");
         return;
     }
-    let heads: Vec<String> = table
-        .columns
-        .iter()
-        .map(|c| cell(c.trim_start_matches('#')))
-        .collect();
+    let heads: Vec<String> = table.columns.iter().map(|c| cell(c.trim_start_matches('#'))).collect();
     let rule = |c: &String| if c.starts_with('#') { "---:" } else { "---" };
     let rules: Vec<&str> = table.columns.iter().map(rule).collect();
     let _ = writeln!(text, "| {} |\n| {} |", heads.join(" | "), rules.join(" | "));

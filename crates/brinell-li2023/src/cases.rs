@@ -111,11 +111,7 @@ pub(crate) fn case(id: &str) -> Option<&'static Case> {
 
 /// How long a case runs where the others run `length`: those about the start need no more than that.
 pub(crate) fn length_of(case: &Case, length: Length) -> Length {
-    if STARTS.iter().any(|start| start.id == case.id) {
-        Length::START
-    } else {
-        length
-    }
+    if STARTS.iter().any(|start| start.id == case.id) { Length::START } else { length }
 }
 
 /// What a figure or several of them show.
@@ -146,17 +142,9 @@ mod tests {
     #[test]
     fn prop_every_case_is_a_sound_scenario_without_warnings() {
         for case in CASES.iter().chain(STARTS.iter()) {
-            let settings: Vec<_> = case
-                .settings
-                .iter()
-                .map(|(k, v)| ((*k).to_owned(), (*v).to_owned()))
-                .collect();
-            let loaded =
-                document::read(BASE, &settings).unwrap_or_else(|e| panic!("{}: {e:?}", case.id));
-            assert_eq!(
-                loaded.scenario.operation.speed_rpm,
-                brinell::scenario::Speed::Constant(case.rpm)
-            );
+            let settings: Vec<_> = case.settings.iter().map(|(k, v)| ((*k).to_owned(), (*v).to_owned())).collect();
+            let loaded = document::read(BASE, &settings).unwrap_or_else(|e| panic!("{}: {e:?}", case.id));
+            assert_eq!(loaded.scenario.operation.speed_rpm, brinell::scenario::Speed::Constant(case.rpm));
             let width = match loaded.scenario.defects[0].shape {
                 Shape::Li2023Irregular { max_width_mm } => Some(max_width_mm),
                 _ => None,
@@ -179,11 +167,7 @@ mod tests {
         let all: Vec<&Case> = CASES.iter().chain(STARTS.iter()).collect();
         for (k, one) in all.iter().enumerate() {
             assert!(all[..k].iter().all(|other| other.id != one.id));
-            assert!(
-                EXPERIMENTS.iter().any(|e| e.cases.contains(&one.id)),
-                "{}",
-                one.id
-            );
+            assert!(EXPERIMENTS.iter().any(|e| e.cases.contains(&one.id)), "{}", one.id);
         }
     }
 

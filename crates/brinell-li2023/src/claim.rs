@@ -171,9 +171,7 @@ impl Check {
             Self::Greater { of, than } => vec![of.0, than.0],
             Self::Ratio { of, to, .. } => vec![of.0, to.0],
             Self::Differs { of, from, .. } => vec![of.0, from.0],
-            Self::Follows { cases, .. }
-            | Self::Changes { cases, .. }
-            | Self::Apart { cases, .. } => cases.clone(),
+            Self::Follows { cases, .. } | Self::Changes { cases, .. } | Self::Apart { cases, .. } => cases.clone(),
         }
     }
 }
@@ -182,12 +180,7 @@ impl Claim {
     /// Cases that it needs.
     pub fn cases(&self) -> Vec<&'static str> {
         let other = self.otherwise.iter().flat_map(|o| &o.statements);
-        let mut all: Vec<_> = self
-            .statements
-            .iter()
-            .chain(other)
-            .flat_map(|s| s.check.cases())
-            .collect();
+        let mut all: Vec<_> = self.statements.iter().chain(other).flat_map(|s| s.check.cases()).collect();
         all.sort_unstable();
         all.dedup();
         all
@@ -198,8 +191,8 @@ impl Claim {
 mod tests {
     use super::claims;
 
-    /// The paper's running text on one line, without emphasis and the captions that are between its lines. `None` where it is not beside the
-    /// project, of which it is no part.
+    /// The paper's running text on one line, without emphasis and the captions that are between its lines. `None` where
+    /// it is not beside the project, of which it is no part.
     fn paper() -> Option<String> {
         let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../../../shared/paper.txt");
         let text = std::fs::read_to_string(path).ok()?;
@@ -239,10 +232,7 @@ mod tests {
 
     #[test]
     fn lit_sentences_are_the_papers_to_the_letter() {
-        assert_eq!(
-            quoted("a [x] b [43] c [...], [our words]."),
-            ["a", "b [43] c"]
-        );
+        assert_eq!(quoted("a [x] b [43] c [...], [our words]."), ["a", "b [43] c"]);
         let Some(paper) = paper() else {
             eprintln!("skipped: the paper's text is not beside the project");
             return;

@@ -21,13 +21,7 @@ pub struct CurveFiles {
 impl CurveFiles {
     /// Of a request whose results go to `folder`.
     pub fn new(folder: &Path, request: &Request) -> Self {
-        Self {
-            folder: folder.join("curves"),
-            keep: request
-                .with_curves()
-                .map(|p| p.fingerprint.clone())
-                .collect(),
-        }
+        Self { folder: folder.join("curves"), keep: request.with_curves().map(|p| p.fingerprint.clone()).collect() }
     }
 
     fn path(&self, fingerprint: &str) -> PathBuf {
@@ -49,10 +43,7 @@ impl CurveFiles {
     /// Observes the run of a point, and keeps its curves where pictures need them.
     pub fn observer(&self, fingerprint: &str, simulation: &Simulation) -> CaseObserver {
         let keep = self.keep.contains(fingerprint);
-        CaseObserver {
-            from_start: FromStart::new(simulation),
-            curves: keep.then(|| self.path(fingerprint)),
-        }
+        CaseObserver { from_start: FromStart::new(simulation), curves: keep.then(|| self.path(fingerprint)) }
     }
 }
 
@@ -102,8 +93,5 @@ impl Observer for CaseObserver {
 }
 
 pub(crate) fn make_folder(folder: &Path) -> Result<(), Error> {
-    std::fs::create_dir_all(folder).map_err(|source| Error::Folder {
-        folder: folder.to_path_buf(),
-        source,
-    })
+    std::fs::create_dir_all(folder).map_err(|source| Error::Folder { folder: folder.to_path_buf(), source })
 }

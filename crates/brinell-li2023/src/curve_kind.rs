@@ -42,27 +42,15 @@ impl CurveKind {
         }
     }
 
-    /// Of some cases, by their place among the names; of waveforms the loudest lies lowest, so that none hides another. `None` where none of them
-    /// has the curve.
-    pub(crate) fn overlay(
-        self,
-        name: &str,
-        title: &str,
-        cases: &[(usize, &Curves)],
-    ) -> Option<Overlay> {
+    /// Of some cases, by their place among the names; of waveforms the loudest lies lowest, so that none hides another.
+    /// `None` where none of them has the curve.
+    pub(crate) fn overlay(self, name: &str, title: &str, cases: &[(usize, &Curves)]) -> Option<Overlay> {
         let mut curves = Vec::new();
         for (of, case) in cases {
             let (along, values) = self.curve(case);
             if !values.is_empty() {
                 let size = values.iter().map(|x| x.abs()).sum::<f64>();
-                curves.push((
-                    size,
-                    OverlaidCurve {
-                        of: *of,
-                        along,
-                        values,
-                    },
-                ));
+                curves.push((size, OverlaidCurve { of: *of, along, values }));
             }
         }
         let first = cases.first()?.1;
@@ -82,20 +70,13 @@ impl CurveKind {
             y_label: y_label.into(),
             y_unit: y_unit.into(),
             vertical: match self {
-                Self::Length
-                | Self::Stiffness
-                | Self::Spectrum
-                | Self::Envelope
-                | Self::Load
-                | Self::Pocket => Vertical::FromZero,
+                Self::Length | Self::Stiffness | Self::Spectrum | Self::Envelope | Self::Load | Self::Pocket => {
+                    Vertical::FromZero
+                }
                 _ => Vertical::Around,
             },
             curves: curves.into_iter().map(|c| c.1).collect(),
-            markers: if matches!(self, Self::Spectrum | Self::Envelope) {
-                vec![bpfo()]
-            } else {
-                vec![]
-            },
+            markers: if matches!(self, Self::Spectrum | Self::Envelope) { vec![bpfo()] } else { vec![] },
             note: self.note().into(),
         })
     }
@@ -103,10 +84,7 @@ impl CurveKind {
     /// Of the x axis and of the y axis: quantity and unit.
     fn labels(self) -> ([&'static str; 2], [&'static str; 2]) {
         const ANGLE: [&str; 2] = ["Angle from the defect’s centre", "°"];
-        const AROUND: [&str; 2] = [
-            "Angle around the bearing from the middle of the load zone",
-            "°",
-        ];
+        const AROUND: [&str; 2] = ["Angle around the bearing from the middle of the load zone", "°"];
         match self {
             Self::Length => (ANGLE, ["Effective contact length", "mm"]),
             Self::Stiffness => (ANGLE, ["Contact stiffness", "N/m^(10/9)"]),
@@ -146,26 +124,18 @@ impl CurveKind {
             Self::Impact => "From just before defect entry until after the exit.",
             Self::Entry | Self::Exit => "Behind the anti-alias filter, averaged over all rollers.",
             Self::Start => "Behind the anti-alias filter.",
-            Self::Load | Self::Pocket | Self::Spin => {
-                "The damaged row, the settled part of the run."
-            }
+            Self::Load | Self::Pocket | Self::Spin => "The damaged row, the settled part of the run.",
         }
     }
 
     fn curve(self, of: &Curves) -> (Along, Vec<f64>) {
         let even = |e: &Even, scale: f64| {
-            let along = Along::Even {
-                first: scale * e.first,
-                step: scale * e.step,
-            };
+            let along = Along::Even { first: scale * e.first, step: scale * e.step };
             (along, e.values.clone())
         };
         let over = |values: &[f64], scale: f64| {
             let degrees = of.angle.iter().map(|a| a.to_degrees()).collect();
-            (
-                Along::At(degrees),
-                values.iter().map(|v| scale * v).collect(),
-            )
+            (Along::At(degrees), values.iter().map(|v| scale * v).collect())
         };
         match self {
             Self::Length => over(&of.length, 1e3),
@@ -197,10 +167,7 @@ impl CurveKind {
                 Some((from, from + 40.0))
             }
             Self::Impact => {
-                let enter = first
-                    .enters
-                    .iter()
-                    .find(|t| **t > first.waveform.first + 1e-3)?;
+                let enter = first.enters.iter().find(|t| **t > first.waveform.first + 1e-3)?;
                 let leave = first.leaves.iter().find(|t| *t > enter)?;
                 let margin = 0.4 * (leave - enter);
                 Some((1e3 * (enter - margin), 1e3 * (leave + 3.0 * margin)))
@@ -225,9 +192,6 @@ fn bpfo() -> Marker {
 fn around(bins: &[f64]) -> (Along, Vec<f64>) {
     let n = bins.len();
     let step = 360.0 / n.max(1) as f64;
-    let along = Along::Even {
-        first: -180.0 + 0.5 * step,
-        step,
-    };
+    let along = Along::Even { first: -180.0 + 0.5 * step, step };
     (along, (0..n).map(|k| bins[(k + n / 2) % n]).collect())
 }

@@ -54,11 +54,7 @@ impl Curves {
         let (findings, rate) = (&run.findings, run.simulation.sample_rate());
         let (first, values) = findings.waveform.latest();
         let short = values.len() as f64 <= SHORT_S * rate;
-        let kept = if short {
-            values.len()
-        } else {
-            (KEPT_S * rate) as usize
-        };
+        let kept = if short { values.len() } else { (KEPT_S * rate) as usize };
         let skipped = values.len().saturating_sub(kept);
         let waveform = Even {
             first: (first as f64 + skipped as f64) / rate,
@@ -78,28 +74,19 @@ impl Curves {
         let mean = |enters: bool| {
             let all = impacts(&run.simulation, findings);
             let one = all.into_iter().find(|i| i.enters == enters);
-            one.map_or(Even::default(), |i| Even {
-                first: i.from,
-                step: i.step,
-                values: i.mean,
-            })
+            one.map_or(Even::default(), |i| Even { first: i.from, step: i.step, values: i.mean })
         };
         let pass = findings.passes.best().into_iter().next();
         let points = pass.map_or(Vec::new(), |pass| pass.points);
         let stride = points.len().div_ceil(PASS).max(1);
-        let along = |of: fn(&brinell::observe::passes::PassPoint) -> f64| {
-            points.iter().step_by(stride).map(of).collect()
-        };
+        let along =
+            |of: fn(&brinell::observe::passes::PassPoint) -> f64| points.iter().step_by(stride).map(of).collect();
         Self {
-            spectrum: findings.spectrum.as_ref().map_or(Even::default(), |s| {
-                spectrum(&s.amplitude, s.frequency_step)
-            }),
+            spectrum: findings.spectrum.as_ref().map_or(Even::default(), |s| spectrum(&s.amplitude, s.frequency_step)),
             envelope: findings
                 .envelope
                 .as_ref()
-                .map_or(Even::default(), |(e, _)| {
-                    spectrum(&e.spectrum.amplitude, e.spectrum.frequency_step)
-                }),
+                .map_or(Even::default(), |(e, _)| spectrum(&e.spectrum.amplitude, e.spectrum.frequency_step)),
             enters: instants(true),
             leaves: instants(false),
             entry: mean(true),
@@ -108,18 +95,8 @@ impl Curves {
             length: along(|p| p.length),
             stiffness: along(|p| p.stiffness),
             force: along(|p| p.force),
-            around_load: findings
-                .load_zone
-                .rows
-                .first()
-                .map_or(Vec::new(), |row| row.mean()),
-            around_spin: findings
-                .slip_course
-                .over_angle(0)
-                .spin
-                .iter()
-                .map(|slip| 1.0 - slip)
-                .collect(),
+            around_load: findings.load_zone.rows.first().map_or(Vec::new(), |row| row.mean()),
+            around_spin: findings.slip_course.over_angle(0).spin.iter().map(|slip| 1.0 - slip).collect(),
             around_pocket,
             waveform,
         }
@@ -153,11 +130,7 @@ impl Curves {
         // JSON has no NaN: what no roller came by is null.
         let gaps = |key: &str| {
             let values = value.get(key)?.as_array()?.iter();
-            Some(
-                values
-                    .map(|x| x.as_f64().unwrap_or(f64::NAN))
-                    .collect::<Vec<_>>(),
-            )
+            Some(values.map(|x| x.as_f64().unwrap_or(f64::NAN)).collect::<Vec<_>>())
         };
         Some(Self {
             waveform: even("waveform")?,

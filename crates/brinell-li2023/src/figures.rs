@@ -6,9 +6,7 @@ use crate::points::scenario;
 use crate::{Case, Experiment, Number, Numbers, Outline, RMS, STARTS, case};
 use brinell::scenario::Scenario;
 use brinell_report::short;
-use brinell_report::{
-    Chapter, DamageView, IndicatorLine, IndicatorPlot, IndicatorPoint, Stack, StudyPiece, Table,
-};
+use brinell_report::{Chapter, DamageView, IndicatorLine, IndicatorPlot, IndicatorPoint, Stack, StudyPiece, Table};
 
 /// Channels of a plot, and what is plotted: one picture.
 struct Shown {
@@ -25,10 +23,7 @@ const RINGS: &[(&str, &str)] = &[
     ("outer ring, y", "outer_ay"),
 ];
 const CAGE: &[(&str, &str)] = &[("cage, x", "cage1_ax"), ("cage, y", "cage1_ay")];
-const ROLLER: &[(&str, &str)] = &[
-    ("roller, x", "roller1_01_ax"),
-    ("roller, y", "roller1_01_ay"),
-];
+const ROLLER: &[(&str, &str)] = &[("roller, x", "roller1_01_ax"), ("roller, y", "roller1_01_ay")];
 
 const fn shown(
     label: &'static str,
@@ -36,36 +31,16 @@ const fn shown(
     channels: &'static [(&'static str, &'static str)],
     indicator: &'static str,
 ) -> Shown {
-    Shown {
-        label,
-        name,
-        channels,
-        indicator,
-    }
+    Shown { label, name, channels, indicator }
 }
 
 const TRENDS: [Shown; 6] = [
     shown("RMS acceleration of the rings", "rings-rms", RINGS, "rms"),
     shown("RMS acceleration of the cage", "cage-rms", CAGE, "rms"),
     shown("RMS acceleration of a roller", "roller-rms", ROLLER, "rms"),
-    shown(
-        "Peak-to-peak acceleration of the rings",
-        "rings-ptp",
-        RINGS,
-        "peak_to_peak",
-    ),
-    shown(
-        "Peak-to-peak acceleration of the cage",
-        "cage-ptp",
-        CAGE,
-        "peak_to_peak",
-    ),
-    shown(
-        "Peak-to-peak acceleration of a roller",
-        "roller-ptp",
-        ROLLER,
-        "peak_to_peak",
-    ),
+    shown("Peak-to-peak acceleration of the rings", "rings-ptp", RINGS, "peak_to_peak"),
+    shown("Peak-to-peak acceleration of the cage", "cage-ptp", CAGE, "peak_to_peak"),
+    shown("Peak-to-peak acceleration of a roller", "roller-ptp", ROLLER, "peak_to_peak"),
 ];
 
 /// "Figs. 13 and 14".
@@ -97,16 +72,8 @@ pub(crate) fn chapter(
     };
     drawn.figures(first, &cases, plan);
     if first == 20 {
-        drawn.names = (cases.iter())
-            .map(|case| with_rms(case, "sensor_ax.rms", numbers))
-            .collect();
-        drawn.stack(
-            "fig20-waveform",
-            CurveKind::Waveform,
-            &panels(false),
-            true,
-            "",
-        );
+        drawn.names = (cases.iter()).map(|case| with_rms(case, "sensor_ax.rms", numbers)).collect();
+        drawn.stack("fig20-waveform", CurveKind::Waveform, &panels(false), true, "");
         drawn.pieces.extend(from_start(&starts, numbers, &curves));
     }
     let mut pieces = drawn.pieces;
@@ -141,15 +108,9 @@ pub(crate) fn chapter(
 }
 
 /// Waveforms from t = 0.
-fn from_start(
-    starts: &[&Case],
-    numbers: &Numbers,
-    curves: &impl Fn(&str) -> Option<Curves>,
-) -> Vec<StudyPiece> {
+fn from_start(starts: &[&Case], numbers: &Numbers, curves: &impl Fn(&str) -> Option<Curves>) -> Vec<StudyPiece> {
     let mut drawn = Drawn {
-        names: (starts.iter())
-            .map(|case| with_rms(case, "sensor_ax.first_285ms.rms", numbers))
-            .collect(),
+        names: (starts.iter()).map(|case| with_rms(case, "sensor_ax.first_285ms.rms", numbers)).collect(),
         curves: starts.iter().map(|case| curves(case.id)).collect(),
         pieces: vec![],
     };
@@ -172,22 +133,14 @@ fn one_by_one(cases: &[&Case]) -> Vec<(String, Vec<usize>)> {
 fn panels(from_start: bool) -> Vec<(String, Vec<usize>)> {
     let [full, simplified, reference] = if from_start { [0, 1, 2] } else { [0, 1, 3] };
     vec![
-        (
-            "a  full model and irregular defect; reference model and simplified defect".into(),
-            vec![full, reference],
-        ),
-        (
-            "b  full model and irregular defect; full model and simplified defect".into(),
-            vec![full, simplified],
-        ),
+        ("a  full model and irregular defect; reference model and simplified defect".into(), vec![full, reference]),
+        ("b  full model and irregular defect; full model and simplified defect".into(), vec![full, simplified]),
     ]
 }
 
 /// A legend's entry with the RMS of what is drawn, and the paper's.
 fn with_rms(case: &Case, name: &str, numbers: &Numbers) -> String {
-    let rms = numbers
-        .get(case.id, name)
-        .map_or("–".into(), |n| short(n.value, 4));
+    let rms = numbers.get(case.id, name).map_or("–".into(), |n| short(n.value, 4));
     let printed = match case.id {
         "irregular" | "start-irregular" => RMS[0],
         "simplified" | "start-simplified" => RMS[1],
@@ -206,33 +159,17 @@ struct Drawn {
 
 impl Drawn {
     /// The pictures of the experiment whose first figure this is.
-    fn figures(
-        &mut self,
-        first: u32,
-        cases: &[&Case],
-        plan: &dyn Fn(&Scenario) -> Option<DamageView>,
-    ) {
+    fn figures(&mut self, first: u32, cases: &[&Case], plan: &dyn Fn(&Scenario) -> Option<DamageView>) {
         let every: Vec<usize> = (0..cases.len()).collect();
         match first {
             8 => {
                 for case in cases {
                     self.plan(&format!("fig08-{}", case.id), case, None, plan);
                 }
-                self.stack(
-                    "fig09-length",
-                    CurveKind::Length,
-                    &one_by_one(cases),
-                    true,
-                    "",
-                );
+                self.stack("fig09-length", CurveKind::Length, &one_by_one(cases), true, "");
             }
             10..=12 => {
-                for kind in [
-                    CurveKind::Spectrum,
-                    CurveKind::Envelope,
-                    CurveKind::Waveform,
-                    CurveKind::Impact,
-                ] {
+                for kind in [CurveKind::Spectrum, CurveKind::Envelope, CurveKind::Waveform, CurveKind::Impact] {
                     self.together(&format!("fig{first}-{}", kind.file()), kind, &every);
                 }
                 if first == 12 {
@@ -244,38 +181,14 @@ impl Drawn {
                     self.plan("fig13-plan", irregular, Some(simplified), plan);
                 }
                 let own = "Each plot has its own scale: in one, the simplified shape would hide the irregular one.";
-                self.stack(
-                    "fig14-waveform",
-                    CurveKind::Waveform,
-                    &one_by_one(cases),
-                    false,
-                    own,
-                );
+                self.stack("fig14-waveform", CurveKind::Waveform, &one_by_one(cases), false, own);
                 self.together("fig14-stiffness", CurveKind::Stiffness, &every);
-                self.stack(
-                    "fig14-entry",
-                    CurveKind::Entry,
-                    &one_by_one(cases),
-                    false,
-                    own,
-                );
-                self.stack(
-                    "fig14-exit",
-                    CurveKind::Exit,
-                    &one_by_one(cases),
-                    false,
-                    own,
-                );
+                self.stack("fig14-entry", CurveKind::Entry, &one_by_one(cases), false, own);
+                self.stack("fig14-exit", CurveKind::Exit, &one_by_one(cases), false, own);
             }
             15 => {
                 self.together("fig15-length", CurveKind::Length, &every);
-                self.stack(
-                    "fig16-waveform",
-                    CurveKind::Waveform,
-                    &one_by_one(cases),
-                    true,
-                    "One scale for all.",
-                );
+                self.stack("fig16-waveform", CurveKind::Waveform, &one_by_one(cases), true, "One scale for all.");
             }
             _ => {}
         }
@@ -287,10 +200,7 @@ impl Drawn {
     }
 
     fn missing(&mut self, kind: CurveKind) {
-        self.pieces.push(StudyPiece::Words(format!(
-            "{}: not computed.",
-            kind.title()
-        )));
+        self.pieces.push(StudyPiece::Words(format!("{}: not computed.", kind.title())));
     }
 
     /// Curves in one plot.
@@ -305,17 +215,8 @@ impl Drawn {
     }
 
     /// Plots one below the other, each of some cases.
-    fn stack(
-        &mut self,
-        name: &str,
-        kind: CurveKind,
-        panels: &[(String, Vec<usize>)],
-        alike: bool,
-        more: &str,
-    ) {
-        let plots = panels
-            .iter()
-            .filter_map(|(title, places)| kind.overlay(name, title, &self.some(places)));
+    fn stack(&mut self, name: &str, kind: CurveKind, panels: &[(String, Vec<usize>)], alike: bool, more: &str) {
+        let plots = panels.iter().filter_map(|(title, places)| kind.overlay(name, title, &self.some(places)));
         let plots: Vec<_> = plots.collect();
         if plots.is_empty() {
             return self.missing(kind);
@@ -334,9 +235,7 @@ impl Drawn {
     /// Load, cage forces and spin around the bearing, of the first case.
     fn around(&mut self, name: &str) {
         let kinds = [CurveKind::Load, CurveKind::Pocket, CurveKind::Spin];
-        let plots = kinds
-            .iter()
-            .filter_map(|kind| kind.overlay(name, kind.title(), &self.some(&[0])));
+        let plots = kinds.iter().filter_map(|kind| kind.overlay(name, kind.title(), &self.some(&[0])));
         let plots: Vec<_> = plots.collect();
         if plots.is_empty() {
             return self.missing(CurveKind::Pocket);
@@ -347,10 +246,7 @@ impl Drawn {
             panels: plots,
             names: self.names.clone(),
             alike: false,
-            note: format!(
-                "{} Rollers go from left to right.",
-                CurveKind::Pocket.note()
-            ),
+            note: format!("{} Rollers go from left to right.", CurveKind::Pocket.note()),
         }));
     }
 
@@ -369,8 +265,7 @@ impl Drawn {
             shown.against_mm = other.polygons_mm.into_iter().next().unwrap_or_default();
             shown.against = case.label.into();
         }
-        self.pieces
-            .push(StudyPiece::Plan(name.into(), Box::new(shown)));
+        self.pieces.push(StudyPiece::Plan(name.into(), Box::new(shown)));
     }
 }
 
@@ -394,10 +289,7 @@ fn trend(
                     .filter(|(low, high)| low.is_finite() && high.is_finite()),
             }
         };
-        IndicatorLine {
-            label: (*label).to_owned(),
-            points: cases.iter().zip(values).map(point).collect(),
-        }
+        IndicatorLine { label: (*label).to_owned(), points: cases.iter().zip(values).map(point).collect() }
     };
     IndicatorPlot {
         name: format!("{name}-{}", shown.name),
@@ -417,12 +309,7 @@ pub(crate) fn with_interval(value: Option<f64>, interval: Option<(f64, f64)>) ->
     };
     // A run too short to tell has no finite one.
     match interval.filter(|(low, high)| low.is_finite() && high.is_finite()) {
-        Some((low, high)) => format!(
-            "{} [{}, {}]",
-            short(value, 4),
-            short(low, 4),
-            short(high, 4)
-        ),
+        Some((low, high)) => format!("{} [{}, {}]", short(value, 4), short(low, 4), short(high, 4)),
         None => short(value, 4),
     }
 }
@@ -449,18 +336,16 @@ fn table(cases: &[&Case], numbers: &Numbers) -> Table {
     columns.extend(COLUMNS.iter().map(|(head, _)| format!("#{head}")));
     let row = |case: &&Case| {
         let mut row = vec![case.label.to_owned()];
-        row.extend(
-            COLUMNS
-                .iter()
-                .map(|(_, name)| cell(numbers.get(case.id, name))),
-        );
+        row.extend(COLUMNS.iter().map(|(_, name)| cell(numbers.get(case.id, name))));
         row
     };
     Table {
         title: "Numbers".into(),
         columns,
         rows: cases.iter().map(row).collect(),
-        note: "Accelerations in m/s². Averages over whole turns with 95 % intervals; peaks: means over entries or exits.".into(),
+        note:
+            "Accelerations in m/s². Averages over whole turns with 95 % intervals; peaks: means over entries or exits."
+                .into(),
     }
 }
 
@@ -474,9 +359,7 @@ fn start_table(cases: &[&Case], numbers: &Numbers) -> Table {
         ("Steady part, instantaneous", "outer_ax.rms"),
     ];
     let row = |case: &&Case| {
-        let cells = columns
-            .iter()
-            .map(|(_, name)| cell(numbers.get(case.id, name)));
+        let cells = columns.iter().map(|(_, name)| cell(numbers.get(case.id, name)));
         [case.label.to_owned()].into_iter().chain(cells).collect()
     };
     let heads = columns.iter().map(|(head, _)| format!("#{head}"));

@@ -37,11 +37,7 @@ impl Judged {
     /// The verdict in words, with what it is conditional on: "undecided: holds if the RMS includes the start-up".
     pub fn words(&self, claim: &Claim) -> String {
         let mut words = self.verdict.words().to_owned();
-        if let Some(other) = claim
-            .otherwise
-            .as_ref()
-            .filter(|_| self.verdict != self.plain)
-        {
+        if let Some(other) = claim.otherwise.as_ref().filter(|_| self.verdict != self.plain) {
             words += &format!(": holds {}", other.words);
         }
         if !claim.under.is_empty() && self.verdict != Verdict::Missing {
@@ -62,21 +58,13 @@ pub(crate) fn judge(claim: &Claim, numbers: &Numbers) -> Judged {
     let (plain, statements) = all(&claim.statements);
     let otherwise = claim.otherwise.as_ref().map(|other| all(&other.statements));
     let turned = matches!(plain, Verdict::Fails | Verdict::Partly)
-        && otherwise
-            .as_ref()
-            .is_some_and(|other| other.0 == Verdict::Holds);
-    Judged {
-        verdict: if turned { Verdict::Undecided } else { plain },
-        plain,
-        statements,
-        otherwise,
-    }
+        && otherwise.as_ref().is_some_and(|other| other.0 == Verdict::Holds);
+    Judged { verdict: if turned { Verdict::Undecided } else { plain }, plain, statements, otherwise }
 }
 
 /// SI unit of a number, by its name.
 fn unit(name: &str) -> &'static str {
-    let of_acceleration =
-        name.ends_with(".rms") || name.contains("peak") && !name.ends_with("force");
+    let of_acceleration = name.ends_with(".rms") || name.contains("peak") && !name.ends_with("force");
     match name {
         _ if name.ends_with("frequency") => "Hz",
         _ if name.ends_with("contact_length") => "m",
@@ -100,21 +88,14 @@ fn quotient(what: String, ratio: Option<brinell::signal::ratio::Ratio>) -> Found
         what,
         value: ratio.map(|r| r.value),
         // Of two exact numbers it is no interval.
-        interval: ratio
-            .and_then(|r| r.interval)
-            .filter(|(low, high)| low < high),
+        interval: ratio.and_then(|r| r.interval).filter(|(low, high)| low < high),
         unit: "",
     }
 }
 
 fn decide(check: &Check, numbers: &Numbers) -> (Verdict, Vec<Found>) {
     match *check {
-        Check::Near {
-            case,
-            name,
-            paper,
-            share,
-        } => {
+        Check::Near { case, name, paper, share } => {
             let number = numbers.get(case, name);
             let verdict = number.map_or(Verdict::Missing, |n| {
                 let ends = n.interval.map_or((n.value, n.value), |i| (i.low, i.high));
@@ -125,11 +106,7 @@ fn decide(check: &Check, numbers: &Numbers) -> (Verdict, Vec<Found>) {
         Check::Greater { of, than } => {
             let (a, b) = (numbers.get(of.0, of.1), numbers.get(than.0, than.1));
             let ratio = a.zip(b).and_then(|(a, b)| over(a, b));
-            let all = vec![
-                found(of.0, of.1, a),
-                found(than.0, than.1, b),
-                quotient("ratio".into(), ratio),
-            ];
+            let all = vec![found(of.0, of.1, a), found(than.0, than.1, b), quotient("ratio".into(), ratio)];
             (greater(ratio), all)
         }
         Check::Ratio { of, to, low, high } => {
@@ -148,27 +125,13 @@ fn decide(check: &Check, numbers: &Numbers) -> (Verdict, Vec<Found>) {
             });
             (verdict, vec![quotient(quotient_words(of, from), ratio)])
         }
-        Check::Apart {
-            ref cases,
-            name,
-            least,
-        } => apart(cases, name, least, numbers),
-        Check::Follows {
-            trend,
-            ref cases,
-            name,
-        } => followed(trend, cases, name, numbers),
-        Check::Changes {
-            ref cases,
-            name,
-            times,
-        } => match ends(cases, name, numbers) {
+        Check::Apart { ref cases, name, least } => apart(cases, name, least, numbers),
+        Check::Follows { trend, ref cases, name } => followed(trend, cases, name, numbers),
+        Check::Changes { ref cases, name, times } => match ends(cases, name, numbers) {
             Ok((most, least)) => {
                 let ratio = over(most.1, least.1);
                 let what = format!("{} / {}: {name}", most.0, least.0);
-                let verdict = ratio.map_or(Verdict::Missing, |r| {
-                    between(r.interval, times, f64::INFINITY)
-                });
+                let verdict = ratio.map_or(Verdict::Missing, |r| between(r.interval, times, f64::INFINITY));
                 (verdict, vec![quotient(what, ratio)])
             }
             Err(missing) => (Verdict::Missing, vec![missing]),
@@ -177,12 +140,7 @@ fn decide(check: &Check, numbers: &Numbers) -> (Verdict, Vec<Found>) {
 }
 
 /// Whether the largest of the cases exceeds the smallest by `least`.
-fn apart(
-    cases: &[&'static str],
-    name: &'static str,
-    least: f64,
-    numbers: &Numbers,
-) -> (Verdict, Vec<Found>) {
+fn apart(cases: &[&'static str], name: &'static str, least: f64, numbers: &Numbers) -> (Verdict, Vec<Found>) {
     match ends(cases, name, numbers) {
         Ok((most, smallest)) => {
             let half = |n: Number| n.interval.map_or(0.0, |i| 0.5 * (i.high - i.low));
@@ -203,19 +161,12 @@ fn apart(
 }
 
 /// Whether the cases follow the trend, step by step.
-fn followed(
-    trend: Trend,
-    cases: &[&'static str],
-    name: &'static str,
-    numbers: &Numbers,
-) -> (Verdict, Vec<Found>) {
+fn followed(trend: Trend, cases: &[&'static str], name: &'static str, numbers: &Numbers) -> (Verdict, Vec<Found>) {
     let values: Vec<_> = cases.iter().map(|case| numbers.get(case, name)).collect();
     let step = |pair: &[Option<Number>]| over(pair[1]?, pair[0]?);
     let steps: Vec<_> = values.windows(2).map(step).collect();
     let all = cases.iter().zip(&values);
-    let all = all
-        .map(|(case, number)| found(case, name, *number))
-        .collect();
+    let all = all.map(|(case, number)| found(case, name, *number)).collect();
     (follows(trend, &steps), all)
 }
 
@@ -257,14 +208,7 @@ mod tests {
     use brinell::signal::Interval;
 
     fn scattered(center: f64) -> Number {
-        Number {
-            value: center,
-            interval: Some(Interval {
-                low: 0.98 * center,
-                high: 1.02 * center,
-                freedom: 29,
-            }),
-        }
+        Number { value: center, interval: Some(Interval { low: 0.98 * center, high: 1.02 * center, freedom: 29 }) }
     }
 
     fn of(check: &Check, values: &[(&str, f64)]) -> Verdict {
@@ -277,126 +221,53 @@ mod tests {
 
     #[test]
     fn prop_each_kind_of_check_comes_out_each_way() {
-        let near = Check::Near {
-            case: "a",
-            name: "q.rms",
-            paper: 10.0,
-            share: 0.1,
-        };
+        let near = Check::Near { case: "a", name: "q.rms", paper: 10.0, share: 0.1 };
         assert_eq!(of(&near, &[("a", 10.2)]), Verdict::Holds);
         assert_eq!(of(&near, &[("a", 11.0)]), Verdict::Undecided);
         assert_eq!(of(&near, &[("a", 13.0)]), Verdict::Fails);
         assert_eq!(of(&near, &[]), Verdict::Missing);
-        let greater = Check::Greater {
-            of: ("a", "q.rms"),
-            than: ("b", "q.rms"),
-        };
+        let greater = Check::Greater { of: ("a", "q.rms"), than: ("b", "q.rms") };
         assert_eq!(of(&greater, &[("a", 2.0), ("b", 1.0)]), Verdict::Holds);
         assert_eq!(of(&greater, &[("a", 1.0), ("b", 1.0)]), Verdict::Undecided);
         assert_eq!(of(&greater, &[("a", 1.0), ("b", 2.0)]), Verdict::Fails);
         assert_eq!(of(&greater, &[("a", 1.0)]), Verdict::Missing);
-        let ratio = Check::Ratio {
-            of: ("a", "q.rms"),
-            to: ("b", "q.rms"),
-            low: 1.0,
-            high: 1.1,
-        };
+        let ratio = Check::Ratio { of: ("a", "q.rms"), to: ("b", "q.rms"), low: 1.0, high: 1.1 };
         assert_eq!(of(&ratio, &[("a", 1.05), ("b", 1.0)]), Verdict::Holds);
         assert_eq!(of(&ratio, &[("a", 1.1), ("b", 1.0)]), Verdict::Undecided);
         assert_eq!(of(&ratio, &[("a", 1.5), ("b", 1.0)]), Verdict::Fails);
-        let follows = Check::Follows {
-            trend: Trend::Rises,
-            cases: vec!["a", "b", "c"],
-            name: "q.rms",
-        };
-        assert_eq!(
-            of(&follows, &[("a", 1.0), ("b", 2.0), ("c", 3.0)]),
-            Verdict::Holds
-        );
-        assert_eq!(
-            of(&follows, &[("a", 1.0), ("b", 2.0), ("c", 2.0)]),
-            Verdict::Undecided
-        );
-        assert_eq!(
-            of(&follows, &[("a", 1.0), ("b", 3.0), ("c", 2.0)]),
-            Verdict::Fails
-        );
+        let follows = Check::Follows { trend: Trend::Rises, cases: vec!["a", "b", "c"], name: "q.rms" };
+        assert_eq!(of(&follows, &[("a", 1.0), ("b", 2.0), ("c", 3.0)]), Verdict::Holds);
+        assert_eq!(of(&follows, &[("a", 1.0), ("b", 2.0), ("c", 2.0)]), Verdict::Undecided);
+        assert_eq!(of(&follows, &[("a", 1.0), ("b", 3.0), ("c", 2.0)]), Verdict::Fails);
         assert_eq!(of(&follows, &[("a", 1.0), ("c", 2.0)]), Verdict::Missing);
-        let changes = Check::Changes {
-            cases: vec!["a", "b", "c"],
-            name: "q.rms",
-            times: 1.5,
-        };
-        assert_eq!(
-            of(&changes, &[("a", 2.0), ("b", 1.0), ("c", 1.5)]),
-            Verdict::Holds
-        );
-        assert_eq!(
-            of(&changes, &[("a", 1.5), ("b", 1.0), ("c", 1.2)]),
-            Verdict::Undecided
-        );
-        assert_eq!(
-            of(&changes, &[("a", 1.1), ("b", 1.0), ("c", 1.0)]),
-            Verdict::Fails
-        );
+        let changes = Check::Changes { cases: vec!["a", "b", "c"], name: "q.rms", times: 1.5 };
+        assert_eq!(of(&changes, &[("a", 2.0), ("b", 1.0), ("c", 1.5)]), Verdict::Holds);
+        assert_eq!(of(&changes, &[("a", 1.5), ("b", 1.0), ("c", 1.2)]), Verdict::Undecided);
+        assert_eq!(of(&changes, &[("a", 1.1), ("b", 1.0), ("c", 1.0)]), Verdict::Fails);
         assert_eq!(of(&changes, &[("a", 1.1)]), Verdict::Missing);
-        let differs = Check::Differs {
-            of: ("a", "q.rms"),
-            from: ("b", "q.rms"),
-            times: 1.5,
-        };
+        let differs = Check::Differs { of: ("a", "q.rms"), from: ("b", "q.rms"), times: 1.5 };
         assert_eq!(of(&differs, &[("a", 2.0), ("b", 1.0)]), Verdict::Holds);
         assert_eq!(of(&differs, &[("a", 1.0), ("b", 2.0)]), Verdict::Holds);
         assert_eq!(of(&differs, &[("a", 1.5), ("b", 1.0)]), Verdict::Undecided);
         assert_eq!(of(&differs, &[("a", 1.1), ("b", 1.0)]), Verdict::Fails);
         assert_eq!(of(&differs, &[("a", 1.1)]), Verdict::Missing);
-        let apart = Check::Apart {
-            cases: vec!["a", "b", "c"],
-            name: "q.rms",
-            least: 0.5,
-        };
-        assert_eq!(
-            of(&apart, &[("a", 2.0), ("b", 1.0), ("c", 1.5)]),
-            Verdict::Holds
-        );
-        assert_eq!(
-            of(&apart, &[("a", 1.5), ("b", 1.0), ("c", 1.2)]),
-            Verdict::Undecided
-        );
-        assert_eq!(
-            of(&apart, &[("a", 1.1), ("b", 1.0), ("c", 1.0)]),
-            Verdict::Fails
-        );
+        let apart = Check::Apart { cases: vec!["a", "b", "c"], name: "q.rms", least: 0.5 };
+        assert_eq!(of(&apart, &[("a", 2.0), ("b", 1.0), ("c", 1.5)]), Verdict::Holds);
+        assert_eq!(of(&apart, &[("a", 1.5), ("b", 1.0), ("c", 1.2)]), Verdict::Undecided);
+        assert_eq!(of(&apart, &[("a", 1.1), ("b", 1.0), ("c", 1.0)]), Verdict::Fails);
         assert_eq!(of(&apart, &[("a", 1.1)]), Verdict::Missing);
     }
 
     #[test]
     fn prop_another_reading_makes_a_failure_undecided_and_says_so() {
-        let as_read = vec![Statement {
-            words: "near",
-            check: Check::Near {
-                case: "a",
-                name: "q.rms",
-                paper: 10.0,
-                share: 0.1,
-            },
-        }];
-        let other = vec![Statement {
-            words: "near",
-            check: Check::Near {
-                case: "b",
-                name: "q.rms",
-                paper: 10.0,
-                share: 0.1,
-            },
-        }];
+        let as_read =
+            vec![Statement { words: "near", check: Check::Near { case: "a", name: "q.rms", paper: 10.0, share: 0.1 } }];
+        let other =
+            vec![Statement { words: "near", check: Check::Near { case: "b", name: "q.rms", paper: 10.0, share: 0.1 } }];
         let claim = Claim {
             statements: as_read,
             under: "under a guess",
-            otherwise: Some(Otherwise {
-                words: "if b",
-                statements: other,
-            }),
+            otherwise: Some(Otherwise { words: "if b", statements: other }),
             ..Claim::default()
         };
         let words = |a: f64, b: Option<f64>| {
@@ -407,10 +278,7 @@ mod tests {
             }
             judge(&claim, &numbers).words(&claim)
         };
-        assert_eq!(
-            words(20.0, Some(10.0)),
-            "undecided: holds if b, under a guess"
-        );
+        assert_eq!(words(20.0, Some(10.0)), "undecided: holds if b, under a guess");
         assert_eq!(words(20.0, Some(20.0)), "does not hold, under a guess");
         assert_eq!(words(20.0, None), "does not hold, under a guess");
         assert_eq!(words(10.0, Some(20.0)), "holds, under a guess");
@@ -419,28 +287,12 @@ mod tests {
     #[test]
     fn prop_claims_are_whole() {
         for (k, claim) in claims().enumerate() {
-            assert!(
-                claims().take(k).all(|other| other.id != claim.id),
-                "{}",
-                claim.id
-            );
-            assert!(
-                claim.cases().iter().all(|id| case(id).is_some()),
-                "{}",
-                claim.id
-            );
+            assert!(claims().take(k).all(|other| other.id != claim.id), "{}", claim.id);
+            assert!(claim.cases().iter().all(|id| case(id).is_some()), "{}", claim.id);
             // What cannot be checked says why.
-            assert!(
-                !claim.statements.is_empty() || !claim.note.is_empty(),
-                "{}",
-                claim.id
-            );
+            assert!(!claim.statements.is_empty() || !claim.note.is_empty(), "{}", claim.id);
             let judged = judge(claim, &Numbers::default());
-            let nothing = if claim.statements.is_empty() {
-                Verdict::NotCheckable
-            } else {
-                Verdict::Missing
-            };
+            let nothing = if claim.statements.is_empty() { Verdict::NotCheckable } else { Verdict::Missing };
             assert_eq!(judged.verdict, nothing, "{}", claim.id);
         }
     }

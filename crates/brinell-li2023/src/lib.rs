@@ -1,7 +1,8 @@
-//! The experiments of Li et al. (2023), section 4, and what its text says of them, as data; and how a sentence is compared with numbers.
+//! The experiments of Li et al. (2023), section 4, and what its text says of them, as data; and how a sentence is
+//! compared with numbers.
 //!
-//! A [`Request`] knows the [`Point`]s to be run, [`Runs`] makes them, and a [`Reproduction`] is what came out: outcomes of the claims, page,
-//! tables, and the book's chapter.
+//! A [`Request`] knows the [`Point`]s to be run, [`Runs`] makes them, and a [`Reproduction`] is what came out: outcomes
+//! of the claims, page, tables, and the book's chapter.
 
 #![cfg_attr(not(test), deny(clippy::print_stdout, clippy::print_stderr))]
 
@@ -49,9 +50,7 @@ pub(crate) use outline::Outline;
 pub(crate) use ranges::{RANGES, READ_AS, RECORDS, Values};
 pub(crate) use reading::{Reading, Record};
 pub(crate) use record::FromStart;
-pub(crate) use search::{
-    Distance, Draw, RMS, SEARCHED, answers, axes, distance, draw, held, targets,
-};
+pub(crate) use search::{Distance, Draw, RMS, SEARCHED, answers, axes, distance, draw, held, targets};
 pub(crate) use variants::{VARIANTS, Variant};
 pub(crate) use verdict::Verdict;
 

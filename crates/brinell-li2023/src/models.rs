@@ -17,11 +17,7 @@ struct OtherModel {
 
 /// In slices first, so that what the law changes is not put down to tilting. The lumped cases keep their model.
 const TILTING: [OtherModel; 2] = [
-    OtherModel {
-        id: "sliced",
-        words: "planar, sliced",
-        settings: &[("contact.law", "sliced")],
-    },
+    OtherModel { id: "sliced", words: "planar, sliced", settings: &[("contact.law", "sliced")] },
     OtherModel {
         id: "tilting",
         words: "tilting",
@@ -48,9 +44,7 @@ impl OtherRuns {
         let set = |model: OtherModel| {
             let own = model.settings.iter();
             let more: Vec<_> = own.map(|(k, v)| ((*k).into(), (*v).into())).collect();
-            let points = cases
-                .iter()
-                .map(|case| Point::new(case, &more, Outline::Joined, length));
+            let points = cases.iter().map(|case| Point::new(case, &more, Outline::Joined, length));
             Ok((model, points.collect::<Result<_, Error>>()?))
         };
         let sets = TILTING.into_iter().map(set).collect::<Result<_, Error>>()?;
@@ -79,12 +73,8 @@ impl OtherRuns {
 impl OtherVerdicts {
     /// How many verdicts of the last model differ from those of the same cases in slices, in a sentence.
     pub(crate) fn found(&self) -> String {
-        let changed: Vec<&str> = self
-            .rows
-            .iter()
-            .filter(|(_, _, verdicts)| verdicts[1] != verdicts[2])
-            .map(|(id, ..)| *id)
-            .collect();
+        let changed: Vec<&str> =
+            self.rows.iter().filter(|(_, _, verdicts)| verdicts[1] != verdicts[2]).map(|(id, ..)| *id).collect();
         match changed.len() {
             0 => "Tilting changes no verdict that slices alone leave.".into(),
             n => format!(
@@ -97,14 +87,10 @@ impl OtherVerdicts {
 
     pub(crate) fn chapter(&self) -> Chapter {
         let columns = ["The paper", "planar, effective length"];
-        let columns = columns
-            .into_iter()
-            .chain(self.models.iter().map(|m| m.words));
+        let columns = columns.into_iter().chain(self.models.iter().map(|m| m.words));
         let rows = self.rows.iter().map(|(_, sentence, verdicts)| {
             let words = verdicts.iter().map(|v| v.words().to_owned());
-            std::iter::once((*sentence).to_owned())
-                .chain(words)
-                .collect()
+            std::iter::once((*sentence).to_owned()).chain(words).collect()
         });
         Chapter {
             id: "models".into(),
@@ -132,11 +118,7 @@ impl OtherVerdicts {
         let ids = self.rows.iter().map(|row| row.0.to_owned());
         push("claim", "its name here", ids.collect());
         let verdicts = |k: usize| self.rows.iter().map(move |row| row.2[k].words().to_owned());
-        push(
-            "ecl",
-            "verdict in the plane, by effective length",
-            verdicts(0).collect(),
-        );
+        push("ecl", "verdict in the plane, by effective length", verdicts(0).collect());
         for (k, model) in self.models.iter().enumerate() {
             push(model.id, model.words, verdicts(k + 1).collect());
         }

@@ -8,11 +8,7 @@ use brinell_study::campaign::Row;
 use std::collections::BTreeMap;
 
 /// Of a number that scatters, in a run too short to say how much: it decides nothing.
-const UNKNOWN: Interval = Interval {
-    low: f64::NEG_INFINITY,
-    high: f64::INFINITY,
-    freedom: 1,
-};
+const UNKNOWN: Interval = Interval { low: f64::NEG_INFINITY, high: f64::INFINITY, freedom: 1 };
 
 /// One number with what is known of its scatter.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -27,10 +23,7 @@ impl Number {
     /// A number that does not scatter.
     #[cfg(test)]
     pub(crate) fn exact(value: f64) -> Self {
-        Self {
-            value,
-            interval: None,
-        }
+        Self { value, interval: None }
     }
 }
 
@@ -71,11 +64,7 @@ impl Numbers {
         let mut all = self.all.clone();
         if let Record::FromStart(ms) = reading.record {
             let window = format!(".first_{ms}ms");
-            let of = |name: &str| {
-                ["rms", "peak_to_peak"]
-                    .iter()
-                    .any(|i| name.ends_with(&format!(".{i}")))
-            };
+            let of = |name: &str| ["rms", "peak_to_peak"].iter().any(|i| name.ends_with(&format!(".{i}")));
             all.retain(|(_, name), _| !of(name));
             for ((case, name), number) in &self.all {
                 let mut parts = name.split(window.as_str());
@@ -96,14 +85,15 @@ impl Numbers {
     }
 }
 
-/// Share of the drop in contact stiffness within the first tenth of a roller's passage over the damage, `length` (rad) long around
-/// the angle 0; `None` where the pass does not tell.
+/// Share of the drop in contact stiffness within the first tenth of a roller's passage over the damage, `length` (rad)
+/// long around the angle 0; `None` where the pass does not tell.
 pub(crate) fn entry_drop(points: &[PassPoint], length: f64) -> Option<f64> {
     let healthy = points.iter().map(|p| p.stiffness).max_by(f64::total_cmp)?;
     let inside = |p: &&PassPoint| p.angle.abs() <= 0.5 * length;
     let lowest = points.iter().filter(inside).map(|p| p.stiffness);
     let lowest = lowest.min_by(f64::total_cmp)?;
-    // Rollers orbit with increasing angle where the shaft turns counter-clockwise; whichever way, a pass begins at its first point.
+    // Rollers orbit with increasing angle where the shaft turns counter-clockwise; whichever way, a pass begins at its
+    // first point.
     let forward = points.last()?.angle > points.first()?.angle;
     let along = |p: &PassPoint| 0.5 * length + if forward { p.angle } else { -p.angle };
     let early = |p: &&PassPoint| (0.0..=0.1 * length).contains(&along(p));
@@ -122,13 +112,7 @@ mod tests {
     fn pass(stiffness: impl Fn(f64) -> f64) -> Vec<PassPoint> {
         let point = |k: i32| {
             let angle = f64::from(k) * 0.01;
-            PassPoint {
-                t: f64::from(k),
-                angle,
-                length: 6e-3,
-                stiffness: stiffness(angle),
-                force: 1.0,
-            }
+            PassPoint { t: f64::from(k), angle, length: 6e-3, stiffness: stiffness(angle), force: 1.0 }
         };
         (-100..=100).map(point).collect()
     }
@@ -148,17 +132,8 @@ mod tests {
 
     #[test]
     fn prop_rows_become_numbers() {
-        let quantity = |name: &str, value, spread| Quantity {
-            name: name.into(),
-            unit: "1".into(),
-            value,
-            spread,
-        };
-        let interval = Interval {
-            low: 2.0,
-            high: 4.0,
-            freedom: 8,
-        };
+        let quantity = |name: &str, value, spread| Quantity { name: name.into(), unit: "1".into(), value, spread };
+        let interval = Interval { low: 2.0, high: 4.0, freedom: 8 };
         let row = Row {
             settings: vec![],
             scenario: String::new(),
@@ -188,15 +163,11 @@ mod tests {
         }
         assert_eq!(numbers.get("a", "turns"), Some(Number::exact(12.0)));
         let usual = Reading::USUAL;
-        let read =
-            |reading: Reading, name: &str| numbers.read(reading).get("a", name).map(|n| n.value);
+        let read = |reading: Reading, name: &str| numbers.read(reading).get("a", name).map(|n| n.value);
         assert_eq!(read(usual, "outer_ax.rms"), Some(3.3));
         assert_eq!(read(usual.behind_filter(), "outer_ax.rms"), Some(2.0));
         assert_eq!(read(usual.over_start(285), "outer_ax.rms"), Some(40.0));
-        assert_eq!(
-            read(usual.over_start(285).behind_filter(), "outer_ax.rms"),
-            Some(30.0)
-        );
+        assert_eq!(read(usual.over_start(285).behind_filter(), "outer_ax.rms"), Some(30.0));
         assert_eq!(read(usual.over_start(285), "inner_ax.rms"), None);
         assert_eq!(read(usual.over_start(100), "outer_ax.rms"), None);
     }

@@ -21,42 +21,27 @@ pub struct Outcome {
 impl Outcome {
     /// The verdict, "depends" where an assumption turns it.
     pub fn words(&self) -> &'static str {
-        if self.flips.is_empty() {
-            self.judged.verdict.words()
-        } else {
-            "depends"
-        }
+        if self.flips.is_empty() { self.judged.verdict.words() } else { "depends" }
     }
 
     /// Each statement with its verdict and its numbers; those of another reading after that reading's words.
     pub(crate) fn statements(&self) -> Vec<(String, Verdict, &[Found])> {
         let own = self.claim.statements.iter().zip(&self.judged.statements);
-        let mut all: Vec<(String, Verdict, &[Found])> = own
-            .map(|(s, (verdict, found))| (s.words.to_owned(), *verdict, found.as_slice()))
-            .collect();
+        let mut all: Vec<(String, Verdict, &[Found])> =
+            own.map(|(s, (verdict, found))| (s.words.to_owned(), *verdict, found.as_slice())).collect();
         if let (Some(other), Some((_, judged))) = (&self.claim.otherwise, &self.judged.otherwise) {
             let more = other.statements.iter().zip(judged);
-            all.extend(more.map(|(s, (verdict, found))| {
-                (
-                    format!("{}: {}", other.words, s.words),
-                    *verdict,
-                    found.as_slice(),
-                )
-            }));
+            all.extend(
+                more.map(|(s, (verdict, found))| (format!("{}: {}", other.words, s.words), *verdict, found.as_slice())),
+            );
         }
         all
     }
 
     /// "supports (outer ring on 1e5 N/m: does not hold); ...": what turns it.
     pub(crate) fn depends(&self) -> String {
-        let one = |flip: &Flip| {
-            format!(
-                "{} ({}: {})",
-                flip.variant.aspect.words(),
-                flip.variant.words,
-                flip.verdict.words()
-            )
-        };
+        let one =
+            |flip: &Flip| format!("{} ({}: {})", flip.variant.aspect.words(), flip.variant.words, flip.verdict.words());
         self.flips.iter().map(one).collect::<Vec<_>>().join("; ")
     }
 }
@@ -85,11 +70,7 @@ pub(crate) fn ours(found: &[Found]) -> String {
             _ => (1.0, ""),
         };
         let interval = f.interval.map(|(low, high)| (scale * low, scale * high));
-        format!(
-            "{} {}{unit}",
-            f.what,
-            with_interval(f.value.map(|x| scale * x), interval)
-        )
+        format!("{} {}{unit}", f.what, with_interval(f.value.map(|x| scale * x), interval))
     };
     found.iter().map(one).collect::<Vec<_>>().join("; ")
 }
@@ -102,10 +83,7 @@ pub(crate) fn card(outcome: &Outcome) -> ClaimCard {
         place: format!("{} · {}", outcome.claim.id, outcome.claim.place),
         sentence: outcome.claim.sentence.into(),
         printed: outcome.claim.paper.into(),
-        verdict: Tagged {
-            word: outcome.judged.words(outcome.claim),
-            ..tagged(outcome.judged.verdict)
-        },
+        verdict: Tagged { word: outcome.judged.words(outcome.claim), ..tagged(outcome.judged.verdict) },
         depends: outcome.depends(),
         parts: parts
             .map(|(words, verdict, found)| ClaimPart {
@@ -130,10 +108,7 @@ pub(crate) fn counts(all: &[Outcome]) -> Vec<(Verdict, usize)> {
 
 /// Claims with a verdict of a basis: how many of them hold.
 pub(crate) fn held(all: &[Outcome], basis: Basis) -> (usize, usize) {
-    let mine = || {
-        all.iter()
-            .filter(move |t| t.claim.basis == basis && !t.claim.statements.is_empty())
-    };
+    let mine = || all.iter().filter(move |t| t.claim.basis == basis && !t.claim.statements.is_empty());
     let holds = mine().filter(|t| t.judged.verdict == Verdict::Holds);
     (holds.count(), mine().count())
 }
@@ -197,10 +172,7 @@ fn table(all: &[Outcome]) -> Table {
         ("place", "section and figure of the paper"),
         ("sentence", "the paper's words"),
         ("paper", "what it prints"),
-        (
-            "claim_verdict",
-            "of all statements together, and what it is conditional on",
-        ),
+        ("claim_verdict", "of all statements together, and what it is conditional on"),
         ("about", "what the verdict is a finding about"),
         ("statement", "what is checked"),
         ("verdict", "of the statement"),

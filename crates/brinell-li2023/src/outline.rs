@@ -1,6 +1,7 @@
 //! Eq. (27) in other readings: the irregular defect as a profile with the jumps of the print.
 //!
-//! Half-widths h in mm over six arcs, as in section 12 of the model. Joined, they are [`brinell::defect::Shape::Li2023Irregular`].
+//! Half-widths h in mm over six arcs, as in section 12 of the model. Joined, they are
+//! [`brinell::defect::Shape::Li2023Irregular`].
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
@@ -9,9 +10,11 @@ use std::f64::consts::{FRAC_PI_2, PI};
 pub enum Outline {
     /// The six arcs joined.
     Joined,
-    /// The third arc with the square of the print: it stays at 1 mm, and a step of 0.71 mm in half-width leads to the fourth.
+    /// The third arc with the square of the print: it stays at 1 mm, and a step of 0.71 mm in half-width leads to the
+    /// fourth.
     ThirdArc,
-    /// The third arc as printed, and the last arc with the print's theta_4 and theta_5, where the root is imaginary: no width there.
+    /// The third arc as printed, and the last arc with the print's theta_4 and theta_5, where the root is imaginary: no
+    /// width there.
     LastArc,
     /// Both arcs as printed, over the printed angles on the raceway's radius.
     PrintedAngles,
@@ -45,17 +48,11 @@ impl Outline {
         match self {
             Self::Joined => "arcs joined",
             Self::ThirdArc => "third arc as printed (a jump of 0.71 mm in half-width)",
-            Self::LastArc => {
-                "third arc as printed, last arc imaginary, hence 0 (jumps of 0.71 and 1 mm)"
-            }
+            Self::LastArc => "third arc as printed, last arc imaginary, hence 0 (jumps of 0.71 and 1 mm)",
             Self::PrintedAngles => "both arcs as printed, on the printed angles (5.1 mm long)",
-            Self::Factor16 => {
-                "both arcs as printed, with the factor 16, at most the roller's length"
-            }
+            Self::Factor16 => "both arcs as printed, with the factor 16, at most the roller's length",
             Self::Inverted => "left side read as the effective length",
-            Self::Depth => {
-                "depth follows the width: 20 µm at the widest place, over the whole roller"
-            }
+            Self::Depth => "depth follows the width: 20 µm at the widest place, over the whole roller",
         }
     }
 
@@ -67,18 +64,12 @@ impl Outline {
         let scale = max_width_mm / WIDTH_MM;
         let (mut arc, mut half) = (Vec::new(), Vec::new());
         let lengths: [f64; 6] = match self {
-            Self::PrintedAngles => {
-                std::array::from_fn(|k| (ANGLES[k + 1] - ANGLES[k]) * RACEWAY_MM)
-            }
+            Self::PrintedAngles => std::array::from_fn(|k| (ANGLES[k + 1] - ANGLES[k]) * RACEWAY_MM),
             _ => ARCS_MM,
         };
         let printed_end = matches!(self, Self::LastArc | Self::PrintedAngles | Self::Factor16);
         let mut from = -0.5 * lengths.iter().sum::<f64>();
-        for (k, length) in lengths
-            .iter()
-            .enumerate()
-            .take(if printed_end { 5 } else { 6 })
-        {
+        for (k, length) in lengths.iter().enumerate().take(if printed_end { 5 } else { 6 }) {
             for point in 0..=POINTS {
                 let s = spaced(k, point);
                 arc.push(from + s * length);
@@ -93,11 +84,8 @@ impl Outline {
             _ => 2.0 * h * scale,
         };
         let width = half.iter().map(|h| width(h).clamp(0.0, ROLLER_MM));
-        let mut text = format!(
-            "{{ profile = {{ arc_mm = {}, width_mm = {}",
-            list(&arc),
-            list(&width.collect::<Vec<_>>())
-        );
+        let mut text =
+            format!("{{ profile = {{ arc_mm = {}, width_mm = {}", list(&arc), list(&width.collect::<Vec<_>>()));
         if self == Self::Depth {
             let depth: Vec<f64> = half
                 .iter()
@@ -148,10 +136,7 @@ mod tests {
     use brinell::defect::Shape;
 
     fn shape(text: Option<String>) -> Shape {
-        let settings: Vec<_> = text
-            .into_iter()
-            .map(|t| ("defects.0.shape".to_owned(), t))
-            .collect();
+        let settings: Vec<_> = text.into_iter().map(|t| ("defects.0.shape".to_owned(), t)).collect();
         let loaded = brinell::document::read(BASE, &settings).unwrap_or_else(|e| panic!("{e:?}"));
         Shape::new(&loaded.scenario.defects[0].shape, 20e-6).unwrap()
     }
@@ -161,7 +146,8 @@ mod tests {
         let joined = shape(None);
         let (first, last) = joined.arc();
         let places = |k: i32| first + (last - first) * (f64::from(k) + 0.37) / 400.0;
-        // The depth of the depth law is the joined width, 20 um at 4 mm; straight pieces stay within 10 um of the arcs' 4 mm.
+        // The depth of the depth law is the joined width, 20 um at 4 mm; straight pieces stay within 10 um of the arcs'
+        // 4 mm.
         let depth = shape(Outline::Depth.shape(4.0));
         for s in (0..400).map(places) {
             let expected = 20e-6 * joined.damaged_length(s) / 4e-3;
@@ -172,20 +158,14 @@ mod tests {
         let third = shape(Outline::ThirdArc.shape(4.0));
         let last_arc = shape(Outline::LastArc.shape(3.0));
         for s in (0..400).map(places) {
-            assert!(
-                (inverted.damaged_length(s) - (6e-3 - joined.damaged_length(s))).abs() < 1e-5,
-                "{s}"
-            );
+            assert!((inverted.damaged_length(s) - (6e-3 - joined.damaged_length(s))).abs() < 1e-5, "{s}");
             let mm = 1e3 * (s - first);
             let wide = joined.damaged_length(s);
             let in_third = (3.1695..3.8766).contains(&mm);
             let expected = if in_third { 2e-3 } else { wide };
             assert!((third.damaged_length(s) - expected).abs() < 1e-5, "{mm}");
             if mm < 5.9 {
-                assert!(
-                    (last_arc.damaged_length(s) - 0.75 * expected).abs() < 1e-5,
-                    "{mm}"
-                );
+                assert!((last_arc.damaged_length(s) - 0.75 * expected).abs() < 1e-5, "{mm}");
             }
         }
         // No arc is left beyond the fifth: 1 mm in 7 less.

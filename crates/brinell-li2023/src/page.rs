@@ -45,13 +45,10 @@ pub(crate) fn study(
         id: "claims".into(),
         short: "Claims".into(),
         title: "The paper’s claims".into(),
-        pieces: vec![StudyPiece::Claims(
-            reproduction.outcomes.iter().map(card).collect(),
-        )],
+        pieces: vec![StudyPiece::Claims(reproduction.outcomes.iter().map(card).collect())],
     });
     let experiments = request.experiments.iter();
-    chapters
-        .extend(experiments.map(|e| figures::chapter(e, &reproduction.numbers, &curves, &plan)));
+    chapters.extend(experiments.map(|e| figures::chapter(e, &reproduction.numbers, &curves, &plan)));
     if let Some(sensitivity) = &reproduction.sensitivity {
         chapters.extend(sensitivity.chapters());
     }
@@ -96,29 +93,15 @@ fn facts(reproduction: &Reproduction) -> Vec<Fact> {
         .iter()
         .map(|(verdict, n)| {
             let note = if *n == 1 { "claim" } else { "claims" };
-            Fact::new(
-                capital(verdict.words()),
-                Value::Text(n.to_string()),
-                "",
-                note,
-            )
+            Fact::new(capital(verdict.words()), Value::Text(n.to_string()), "", note)
         })
         .collect();
     if reproduction.sensitivity.is_some() {
-        let n = reproduction
-            .outcomes
-            .iter()
-            .filter(|outcome| !outcome.flips.is_empty())
-            .count();
-        facts.push(Fact::new(
-            "Depend on an assumption",
-            Value::Text(n.to_string()),
-            "",
-            "of the above",
-        ));
+        let n = reproduction.outcomes.iter().filter(|outcome| !outcome.flips.is_empty()).count();
+        facts.push(Fact::new("Depend on an assumption", Value::Text(n.to_string()), "", "of the above"));
     }
-    let [dynamics, shapes, kinematics] = [Basis::Dynamics, Basis::Shapes, Basis::Kinematics]
-        .map(|b| outcome::held(&reproduction.outcomes, b));
+    let [dynamics, shapes, kinematics] =
+        [Basis::Dynamics, Basis::Shapes, Basis::Kinematics].map(|b| outcome::held(&reproduction.outcomes, b));
     facts.insert(
         0,
         Fact::new(
@@ -144,23 +127,11 @@ fn runs(request: &Request) -> Table {
     let rows = request.points.iter().map(|point| {
         let own = point.case.settings.iter();
         let settings: Vec<String> = own.map(|(k, v)| format!("{k} = {v}")).collect();
-        vec![
-            point.case.id.into(),
-            point.case.label.into(),
-            settings.join("; "),
-            format!("{}", point.duration_s),
-        ]
+        vec![point.case.id.into(), point.case.label.into(), settings.join("; "), format!("{}", point.duration_s)]
     });
     Table {
         title: "Runs".into(),
-        columns: [
-            "Case",
-            "What",
-            "Settings over the base scenario",
-            "#Duration (s)",
-        ]
-        .map(str::to_owned)
-        .to_vec(),
+        columns: ["Case", "What", "Settings over the base scenario", "#Duration (s)"].map(str::to_owned).to_vec(),
         rows: rows.collect(),
         note: String::new(),
     }

@@ -19,8 +19,8 @@ pub struct Point {
 }
 
 impl Point {
-    /// A case with `more` settings below its own, its irregular defect in a reading of Eq. (27). What it sets itself, its shape or its load,
-    /// stays.
+    /// A case with `more` settings below its own, its irregular defect in a reading of Eq. (27). What it sets itself,
+    /// its shape or its load, stays.
     pub(crate) fn new(
         case: &'static Case,
         more: &[(String, String)],
@@ -30,12 +30,7 @@ impl Point {
         let mut settings = case.over(more, outline);
         let duration = length_of(case, length).duration_s(case.rpm);
         settings.push(("simulation.duration_s".into(), format!("{duration:?}")));
-        Ok(Self {
-            case,
-            fingerprint: fingerprint(&scenario(&settings)?),
-            duration_s: duration,
-            settings,
-        })
+        Ok(Self { case, fingerprint: fingerprint(&scenario(&settings)?), duration_s: duration, settings })
     }
 }
 
@@ -49,10 +44,7 @@ pub fn scenario(settings: &[(String, String)]) -> Result<Scenario, Error> {
 }
 
 /// Numbers of all points that are finished.
-pub(crate) fn numbers<'a>(
-    points: impl IntoIterator<Item = &'a Point>,
-    runs: &impl Runs,
-) -> Numbers {
+pub(crate) fn numbers<'a>(points: impl IntoIterator<Item = &'a Point>, runs: &impl Runs) -> Numbers {
     let mut numbers = Numbers::default();
     for point in points {
         if let Some(row) = runs.row(&point.fingerprint) {

@@ -23,7 +23,8 @@ pub(crate) enum Values {
     OneOf(&'static [&'static [&'static str]]),
 }
 
-/// What a search varies together; beside these keys it chooses one of [`READ_AS`], one of [`RECORDS`], and whether a filter is before.
+/// What a search varies together; beside these keys it chooses one of [`READ_AS`], one of [`RECORDS`], and whether a
+/// filter is before.
 pub(crate) const RANGES: &[Range] = &[
     Range {
         keys: &["support.outer_stiffness_n_per_m"],
@@ -40,22 +41,14 @@ pub(crate) const RANGES: &[Range] = &[
         values: Values::Between(50.0, 3000.0),
         why: "2 to 30 % of critical at the stiffnesses above, and beyond",
     },
-    Range {
-        keys: &["support.inner_damping_ns_per_m"],
-        values: Values::Between(50.0, 5000.0),
-        why: "likewise",
-    },
+    Range { keys: &["support.inner_damping_ns_per_m"], values: Values::Between(50.0, 5000.0), why: "likewise" },
     Range {
         keys: &["bearing.radial_clearance_um", "bearing.outer_gap_um"],
         values: Values::OneOf(&[&["5.0", "0.0"], &["10.0", "0.0"], &["10.0", "10.0"]]),
         why: "10 um on the diameter, on one side, or at both contacts as Eq. (24)",
     },
     Range {
-        keys: &[
-            "contact.exponent",
-            "contact.inner_stiffness",
-            "contact.outer_stiffness",
-        ],
+        keys: &["contact.exponent", "contact.inner_stiffness", "contact.outer_stiffness"],
         values: Values::OneOf(&[
             &["1.1111111111111112", "1.828e8", "1.898e8"],
             &["1.0", "1.828e8", "1.898e8"],
@@ -131,9 +124,5 @@ pub(crate) const READ_AS: &[Outline] = &[
 ];
 
 /// Stretches of the record that a search chooses from.
-pub(crate) const RECORDS: &[Record] = &[
-    Record::Steady,
-    Record::FromStart(100),
-    Record::FromStart(200),
-    Record::FromStart(285),
-];
+pub(crate) const RECORDS: &[Record] =
+    &[Record::Steady, Record::FromStart(100), Record::FromStart(200), Record::FromStart(285)];

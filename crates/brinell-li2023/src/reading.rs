@@ -23,27 +23,18 @@ pub(crate) struct Reading {
 
 impl Reading {
     /// The program's own: instantaneous accelerations, the steady part.
-    pub(crate) const USUAL: Self = Self {
-        filtered: false,
-        record: Record::Steady,
-    };
+    pub(crate) const USUAL: Self = Self { filtered: false, record: Record::Steady };
 
     /// The same record behind the filter.
     #[must_use]
     pub(crate) const fn behind_filter(self) -> Self {
-        Self {
-            filtered: true,
-            ..self
-        }
+        Self { filtered: true, ..self }
     }
 
     /// The same signal from t = 0 over `ms` milliseconds.
     #[must_use]
     pub(crate) const fn over_start(self, ms: u32) -> Self {
-        Self {
-            record: Record::FromStart(ms),
-            ..self
-        }
+        Self { record: Record::FromStart(ms), ..self }
     }
 }
 

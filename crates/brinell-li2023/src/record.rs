@@ -1,5 +1,5 @@
-//! What the paper's cases need of a run beside its findings: statistics from t = 0 on, and the forces between cage and rollers around the
-//! bearing.
+//! What the paper's cases need of a run beside its findings: statistics from t = 0 on, and the forces between cage and
+//! rollers around the bearing.
 
 use crate::reading::{WINDOWS_MS, from_start_name};
 use brinell::channel::Frame;
@@ -44,69 +44,43 @@ impl FromStart {
     /// For one run.
     pub(crate) fn new(simulation: &Simulation) -> Self {
         let rate = simulation.sample_rate();
-        let names: Vec<String> = simulation
-            .channels()
-            .iter()
-            .map(|c| c.name.clone())
-            .collect();
-        let none = Sums {
-            squares: 0.0,
-            low: f64::INFINITY,
-            high: f64::NEG_INFINITY,
-        };
+        let names: Vec<String> = simulation.channels().iter().map(|c| c.name.clone()).collect();
+        let none = Sums { squares: 0.0, low: f64::INFINITY, high: f64::NEG_INFINITY };
         let turn = TAU / simulation.model().rotation.max_speed().abs();
         Self {
             sums: vec![none; names.len()],
             names,
-            ends: WINDOWS_MS
-                .iter()
-                .map(|ms| (f64::from(*ms) * 1e-3 * rate).round() as u64)
-                .collect(),
+            ends: WINDOWS_MS.iter().map(|ms| (f64::from(*ms) * 1e-3 * rate).round() as u64).collect(),
             closed: Vec::new(),
             pockets: vec![Pocket::default(); BINS],
             settled: turn + simulation.model().load.ramp,
         }
     }
 
-    /// Mean force between roller and cage in each bin around the bearing, N: bin k spans [k, k + 1) 2 pi / [`BINS`] from +X. NaN where no
-    /// roller came by.
+    /// Mean force between roller and cage in each bin around the bearing, N: bin k spans [k, k + 1) 2 pi / [`BINS`]
+    /// from +X. NaN where no roller came by.
     pub(crate) fn pocket_forces(&self) -> Vec<f64> {
         let mean = |p: &Pocket| p.sum / f64::from(p.count);
         self.pockets.iter().map(mean).collect()
     }
 
-    /// The numbers: RMS and peak to peak of each channel over each of [`WINDOWS_MS`], how much a roller's spin changes around the bearing,
-    /// and the mean force between cage and rollers at the ends of the load zone and elsewhere.
+    /// The numbers: RMS and peak to peak of each channel over each of [`WINDOWS_MS`], how much a roller's spin changes
+    /// around the bearing, and the mean force between cage and rollers at the ends of the load zone and elsewhere.
     pub(crate) fn quantities(&self, findings: &Findings) -> Vec<Quantity> {
         let mut all = Vec::new();
         for (k, channel) in self.names.iter().enumerate() {
             for (window, ms) in WINDOWS_MS.iter().enumerate() {
                 let of = self.closed.get(window).map(|channels| channels[k]);
-                all.push(number(
-                    from_start_name(channel, *ms, "rms"),
-                    "m/s^2",
-                    of.map(|x| x.0),
-                ));
+                all.push(number(from_start_name(channel, *ms, "rms"), "m/s^2", of.map(|x| x.0)));
                 let range = from_start_name(channel, *ms, "peak_to_peak");
                 all.push(number(range, "m/s^2", of.map(|x| x.1)));
             }
         }
         let spin = findings.slip_course.over_angle(0).spin;
         let known = || spin.iter().copied().filter(|x| x.is_finite());
-        let (least, most) = (
-            known().fold(f64::INFINITY, f64::min),
-            known().fold(f64::NEG_INFINITY, f64::max),
-        );
-        all.push(number(
-            "row1.spin_change".into(),
-            "1",
-            (most >= least).then_some(most - least),
-        ));
-        let loads = findings
-            .load_zone
-            .rows
-            .first()
-            .map_or(Vec::new(), |row| row.mean());
+        let (least, most) = (known().fold(f64::INFINITY, f64::min), known().fold(f64::NEG_INFINITY, f64::max));
+        all.push(number("row1.spin_change".into(), "1", (most >= least).then_some(most - least)));
+        let loads = findings.load_zone.rows.first().map_or(Vec::new(), |row| row.mean());
         let (ends, elsewhere) = at_ends(&loads, &self.pocket_forces()).unzip();
         all.push(number("row1.pocket_force_at_zone_ends".into(), "N", ends));
         all.push(number("row1.pocket_force_elsewhere".into(), "N", elsewhere));
@@ -115,12 +89,7 @@ impl FromStart {
 }
 
 fn number(name: String, unit: &str, value: Option<f64>) -> Quantity {
-    Quantity {
-        name,
-        unit: unit.into(),
-        value: value.filter(|x| x.is_finite()),
-        spread: Spread::Without,
-    }
+    Quantity { name, unit: unit.into(), value: value.filter(|x| x.is_finite()), spread: Spread::Without }
 }
 
 /// Bins to either side of an end of the load zone that count as its end: 15 degrees.
@@ -128,7 +97,8 @@ const BESIDE: usize = 3;
 /// Share of the largest mean load from which on a bin belongs to the load zone.
 const LOADED: f64 = 0.02;
 
-/// Mean of `forces` within 15 degrees of the ends of the load zone, and elsewhere; `None` where `loads` show no such zone.
+/// Mean of `forces` within 15 degrees of the ends of the load zone, and elsewhere; `None` where `loads` show no such
+/// zone.
 fn at_ends(loads: &[f64], forces: &[f64]) -> Option<(f64, f64)> {
     let n = loads.len();
     let most = loads.iter().copied().fold(0.0, f64::max);
@@ -171,11 +141,7 @@ impl Observer for FromStart {
     }
 
     fn row(&mut self, index: u64, row: &[f64], _: &[f64]) -> ControlFlow<()> {
-        while self
-            .ends
-            .get(self.closed.len())
-            .is_some_and(|end| index >= *end)
-        {
+        while self.ends.get(self.closed.len()).is_some_and(|end| index >= *end) {
             let n = self.ends[self.closed.len()] as f64;
             let of = |s: &Sums| ((s.squares / n).sqrt(), s.high - s.low);
             self.closed.push(self.sums.iter().map(of).collect());
@@ -218,9 +184,7 @@ mod tests {
     #[test]
     fn analytic_ends_of_the_load_zone() {
         // Loaded from bin 10 to 61 the long way round, over bin 0; a defect takes the load off bin 1.
-        let loads: Vec<f64> = (0..72)
-            .map(|k| f64::from(!(10..62).contains(&k) && k != 1))
-            .collect();
+        let loads: Vec<f64> = (0..72).map(|k| f64::from(!(10..62).contains(&k) && k != 1)).collect();
         let at = |k: usize| (7..13).contains(&k) || (59..65).contains(&k);
         let forces: Vec<f64> = (0..72).map(|k| if at(k) { 5.0 } else { 1.0 }).collect();
         assert_eq!(at_ends(&loads, &forces), Some((5.0, 1.0)));

@@ -6,8 +6,8 @@ use crate::outcome::Outcome;
 use crate::points::numbers;
 use crate::sensitivity::{Plan, Sensitivity};
 use crate::{
-    BASE, Case, EXPERIMENTS, Error, Experiment, Length, Numbers, Outline, Point, Runs, Stage, book,
-    case, claims, judge, outcome, page,
+    BASE, Case, EXPERIMENTS, Error, Experiment, Length, Numbers, Outline, Point, Runs, Stage, book, case, claims,
+    judge, outcome, page,
 };
 use brinell::scenario::Scenario;
 use brinell_io::atomic_write;
@@ -33,8 +33,7 @@ impl Request {
     /// # Errors
     /// Where a case is no scenario.
     pub fn new(figures: &[u32], length: Length) -> Result<Self, Error> {
-        let wanted =
-            |e: &&Experiment| figures.is_empty() || e.figures.iter().any(|f| figures.contains(f));
+        let wanted = |e: &&Experiment| figures.is_empty() || e.figures.iter().any(|f| figures.contains(f));
         let experiments: Vec<&Experiment> = EXPERIMENTS.iter().filter(wanted).collect();
         let mut cases: Vec<&'static Case> = Vec::new();
         for id in experiments.iter().flat_map(|e| &e.cases) {
@@ -43,9 +42,7 @@ impl Request {
                 _ => {}
             }
         }
-        let points = cases
-            .into_iter()
-            .map(|case| Point::new(case, &[], Outline::Joined, length));
+        let points = cases.into_iter().map(|case| Point::new(case, &[], Outline::Joined, length));
         Ok(Self {
             whole: figures.is_empty(),
             points: points.collect::<Result<_, Error>>()?,
@@ -61,10 +58,7 @@ impl Request {
     /// # Errors
     /// Where a variant of a case is no scenario.
     pub fn with_sensitivity(self, quick: bool) -> Result<Self, Error> {
-        Ok(Self {
-            plan: Some(Plan::new(quick)?),
-            ..self
-        })
+        Ok(Self { plan: Some(Plan::new(quick)?), ..self })
     }
 
     /// The same with every case also in slices and with tilting, the verdicts side by side.
@@ -73,10 +67,7 @@ impl Request {
     /// Where a case is no scenario of those models.
     pub fn with_tilting(self) -> Result<Self, Error> {
         let cases: Vec<_> = self.points.iter().map(|point| point.case).collect();
-        Ok(Self {
-            models: Some(OtherRuns::new(&cases, self.length)?),
-            ..self
-        })
+        Ok(Self { models: Some(OtherRuns::new(&cases, self.length)?), ..self })
     }
 
     /// Points of which pictures show curves.
@@ -125,12 +116,7 @@ impl Reproduction {
         Ok(Self::decided(request, runs, sensitivity, flow.is_break()))
     }
 
-    fn decided(
-        request: Request,
-        runs: &impl Runs,
-        sensitivity: Option<Sensitivity>,
-        interrupted: bool,
-    ) -> Self {
+    fn decided(request: Request, runs: &impl Runs, sensitivity: Option<Sensitivity>, interrupted: bool) -> Self {
         let numbers = numbers(&request.points, runs);
         let has = |id: &str| request.points.iter().any(|p| p.case.id == id);
         let outcomes = claims().enumerate().filter_map(|(place, claim)| {
@@ -138,14 +124,8 @@ impl Reproduction {
             // What cannot be checked belongs to the whole.
             let wanted = cases.iter().all(|id| has(id)) && (request.whole || !cases.is_empty());
             let judged = judge(claim, &numbers);
-            let flips = sensitivity
-                .as_ref()
-                .map_or(Vec::new(), |s| s.flips(place, judged.plain));
-            wanted.then_some(Outcome {
-                claim,
-                judged,
-                flips,
-            })
+            let flips = sensitivity.as_ref().map_or(Vec::new(), |s| s.flips(place, judged.plain));
+            wanted.then_some(Outcome { claim, judged, flips })
         });
         let failures = request.points.iter().filter_map(|point| {
             let row = runs.row(&point.fingerprint)?;
@@ -176,11 +156,7 @@ impl Reproduction {
     }
 
     /// The page. `plan` gives the view from above of a scenario's first defect.
-    pub fn study(
-        &self,
-        files: &CurveFiles,
-        plan: impl Fn(&Scenario) -> Option<DamageView>,
-    ) -> Study {
+    pub fn study(&self, files: &CurveFiles, plan: impl Fn(&Scenario) -> Option<DamageView>) -> Study {
         let curves = |id: &str| {
             let point = self.request.points.iter().find(|p| p.case.id == id)?;
             files.curves(&point.fingerprint)
@@ -211,12 +187,7 @@ impl Reproduction {
     ///
     /// # Errors
     /// Where the folder cannot be made or a file cannot be written.
-    pub fn write_book(
-        &self,
-        study: &Study,
-        pictures: &[Picture],
-        book: &Path,
-    ) -> Result<Vec<PathBuf>, Error> {
+    pub fn write_book(&self, study: &Study, pictures: &[Picture], book: &Path) -> Result<Vec<PathBuf>, Error> {
         make_folder(book)?;
         let text = book::text(study, self, book);
         let mut written = vec![put(book, "reproduction.md", &text)?];

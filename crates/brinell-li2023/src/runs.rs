@@ -1,4 +1,5 @@
-//! What makes the runs of a reproduction and keeps their numbers, from outside: this crate knows neither threads nor a journal.
+//! What makes the runs of a reproduction and keeps their numbers, from outside: this crate knows neither threads nor a
+//! journal.
 
 use crate::{Error, Point};
 use brinell_study::campaign::Row;

@@ -1,5 +1,5 @@
-//! A search for one set of assumptions: a unit cube over [`crate::RANGES`], what [`brinell_study::calibrate::fit`] is to meet in it, and how far a set
-//! stays from the paper's figures.
+//! A search for one set of assumptions: a unit cube over [`crate::RANGES`], what [`brinell_study::calibrate::fit`] is
+//! to meet in it, and how far a set stays from the paper's figures.
 
 use crate::numbers::Numbers;
 use crate::outline::Outline;
@@ -31,14 +31,14 @@ pub(crate) struct Draw {
     pub reading: Reading,
 }
 
-/// Axes of the cube that is searched: one for each of [`RANGES`], in their order, one for the reading of Eq. (27), one for the filter, and one
-/// for the record unless that is `fixed`.
+/// Axes of the cube that is searched: one for each of [`RANGES`], in their order, one for the reading of Eq. (27), one
+/// for the filter, and one for the record unless that is `fixed`.
 pub(crate) fn axes(fixed: Option<Record>) -> usize {
     RANGES.len() + 2 + usize::from(fixed.is_none())
 }
 
-/// The set at a place of the unit cube, the `number`th that is looked at. Numbers carry four digits: that is what a table shows, and what is
-/// run.
+/// The set at a place of the unit cube, the `number`th that is looked at. Numbers carry four digits: that is what a
+/// table shows, and what is run.
 ///
 /// # Panics
 /// Where the place has not as many coordinates as there are [`axes`].
@@ -66,10 +66,7 @@ pub(crate) fn draw(number: usize, place: &[f64], fixed: Option<Record>) -> Draw 
         place: place.to_vec(),
         settings,
         outline: chosen(READ_AS, others[0]),
-        reading: Reading {
-            filtered: others[1] >= 0.5,
-            record: record.unwrap_or(Record::Steady),
-        },
+        reading: Reading { filtered: others[1] >= 0.5, record: record.unwrap_or(Record::Steady) },
     }
 }
 
@@ -78,34 +75,25 @@ fn chosen<T: Copy>(choices: &[T], place: f64) -> T {
     choices[k.min(choices.len() - 1)]
 }
 
-/// What the search is to meet: the logarithms of the paper's RMS values, to 5 %, its frequency, to the 0.4 % that model and paper differ by
-/// at most in any case, and every statement about these cases, a tenth of them being worth as much as 5 % of an RMS value.
+/// What the search is to meet: the logarithms of the paper's RMS values, to 5 %, its frequency, to the 0.4 % that model
+/// and paper differ by at most in any case, and every statement about these cases, a tenth of them being worth as much
+/// as 5 % of an RMS value.
 pub(crate) fn targets() -> Vec<Target> {
     let rms = SEARCHED.iter().zip(RMS).map(|(case, rms)| Target {
         name: format!("ln outer_ax.rms, {case}"),
         value: rms.ln(),
         uncertainty: 0.05,
     });
-    let frequency = Target {
-        name: "defect1.frequency, irregular".into(),
-        value: FREQUENCY,
-        uncertainty: 0.004 * FREQUENCY,
-    };
-    let held = Target {
-        name: "statements that hold".into(),
-        value: 1.0,
-        uncertainty: 0.1,
-    };
+    let frequency =
+        Target { name: "defect1.frequency, irregular".into(), value: FREQUENCY, uncertainty: 0.004 * FREQUENCY };
+    let held = Target { name: "statements that hold".into(), value: 1.0, uncertainty: 0.1 };
     rms.chain([frequency, held]).collect()
 }
 
 /// What a set's runs have for the [`targets`]; `None` where one of them failed.
 pub(crate) fn answers(numbers: &Numbers) -> Option<Vec<Answer>> {
     let distance = distance(numbers)?;
-    let answer = |value: Option<f64>| Answer {
-        value,
-        uncertainty: 0.0,
-    };
+    let answer = |value: Option<f64>| Answer { value, uncertainty: 0.0 };
     let rms = distance.values.iter().map(|rms| answer(Some(rms.ln())));
     let frequency = distance.frequency.map(|off| FREQUENCY + off);
     let held = answer(Some(held(numbers)));
@@ -117,14 +105,10 @@ pub(crate) fn held(numbers: &Numbers) -> f64 {
     let mut verdicts: Vec<Verdict> = Vec::new();
     for claim in claims() {
         let judged = judge(claim, numbers).statements;
-        let about = claim
-            .statements
-            .iter()
-            .zip(judged)
-            .filter(|(statement, _)| {
-                let cases = statement.check.cases();
-                cases.iter().all(|case| SEARCHED.contains(case))
-            });
+        let about = claim.statements.iter().zip(judged).filter(|(statement, _)| {
+            let cases = statement.check.cases();
+            cases.iter().all(|case| SEARCHED.contains(case))
+        });
         verdicts.extend(about.map(|(_, (verdict, _))| verdict));
     }
     let held = verdicts.iter().filter(|v| **v == Verdict::Holds).count();
@@ -151,10 +135,7 @@ pub(crate) fn distance(numbers: &Numbers) -> Option<Distance> {
     if values.iter().any(|value| *value <= 0.0) {
         return None;
     }
-    let squares = values
-        .iter()
-        .zip(RMS)
-        .map(|(x, paper)| (x / paper).ln().powi(2));
+    let squares = values.iter().zip(RMS).map(|(x, paper)| (x / paper).ln().powi(2));
     let frequency = numbers.get("irregular", "defect1.frequency");
     Some(Distance {
         rms: (squares.sum::<f64>() / 3.0).sqrt(),
@@ -192,9 +173,7 @@ mod tests {
             match range.values {
                 Values::Between(low, high) => {
                     let ends = [&all[0], &all[n]].map(|draw| of(draw)[0].parse::<f64>().unwrap());
-                    assert!(
-                        (ends[0] / low - 1.0).abs() < 1e-3 && (ends[1] / high - 1.0).abs() < 1e-3
-                    );
+                    assert!((ends[0] / low - 1.0).abs() < 1e-3 && (ends[1] / high - 1.0).abs() < 1e-3);
                     assert_eq!(seen.len(), n + 1);
                 }
                 Values::OneOf(choices) => assert_eq!(seen.len(), choices.len(), "{:?}", range.keys),
@@ -202,18 +181,10 @@ mod tests {
         }
         let (outline, filter, record) = (RANGES.len(), RANGES.len() + 1, RANGES.len() + 2);
         assert!(!along(filter, 0).reading.filtered && along(filter, n).reading.filtered);
-        assert!(
-            READ_AS
-                .iter()
-                .all(|o| (0..=n).any(|k| along(outline, k).outline == *o))
-        );
+        assert!(READ_AS.iter().all(|o| (0..=n).any(|k| along(outline, k).outline == *o)));
         let seen = |r: &Record| (0..=n).any(|k| along(record, k).reading.record == *r);
         assert!(RECORDS.iter().all(seen));
-        let fixed = draw(
-            1,
-            &vec![0.5; axes(Some(Record::Steady))],
-            Some(Record::Steady),
-        );
+        let fixed = draw(1, &vec![0.5; axes(Some(Record::Steady))], Some(Record::Steady));
         assert_eq!(fixed.reading.record, Record::Steady);
     }
 

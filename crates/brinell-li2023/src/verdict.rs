@@ -1,9 +1,11 @@
-//! How numbers with intervals decide a statement. A number without an interval is exact: it is read off a shape, not off a signal.
+//! How numbers with intervals decide a statement. A number without an interval is exact: it is read off a shape, not
+//! off a signal.
 //!
 //! - a > b: by the 95 % interval of the ratio ([`brinell::signal::ratio`]); decided where it excludes equality.
 //! - near: decided where the interval lies wholly inside, or wholly outside, the stated bounds.
-//! - trends: by the ratios of neighbours. A step whose interval includes equality may go either way; the trend holds where it holds
-//!   whichever way such steps go, fails where it fails whichever way they go, and is undecided otherwise.
+//! - trends: by the ratios of neighbours. A step whose interval includes equality may go either way; the trend holds
+//!   where it holds whichever way such steps go, fails where it fails whichever way they go, and is undecided
+//!   otherwise.
 //!
 //! Each interval is at 95 % by itself: of twenty true equalities one is expected to look decided.
 
@@ -77,20 +79,14 @@ pub(crate) fn over(of: Number, to: Number) -> Option<Ratio> {
             ratio(&estimate(of), &estimate(to))
         }
         _ if !(of.value > 0.0 && to.value > 0.0) => None,
-        (Some(_), None) => Some(Ratio {
-            value: of.value / to.value,
-            interval: scaled(of, 1.0 / to.value),
-        }),
+        (Some(_), None) => Some(Ratio { value: of.value / to.value, interval: scaled(of, 1.0 / to.value) }),
         (None, Some(b)) => Some(Ratio {
             value: of.value / to.value,
             interval: (b.low > 0.0).then(|| (of.value / b.high, of.value / b.low)),
         }),
         (None, None) => {
             let value = of.value / to.value;
-            Some(Ratio {
-                value,
-                interval: Some((value, value)),
-            })
+            Some(Ratio { value, interval: Some((value, value)) })
         }
     }
 }
@@ -176,14 +172,7 @@ mod tests {
     use brinell::signal::Interval;
 
     fn number(value: f64, half: f64) -> Number {
-        Number {
-            value,
-            interval: Some(Interval {
-                low: value - half,
-                high: value + half,
-                freedom: 19,
-            }),
-        }
+        Number { value, interval: Some(Interval { low: value - half, high: value + half, freedom: 19 }) }
     }
 
     /// A step up, down, or open.
@@ -221,10 +210,7 @@ mod tests {
     fn analytic_ratio_of_equal_scatter_is_that_of_the_signal_room() {
         // ln r +- t sqrt(u_a + u_b) with 38 degrees of freedom; the halves are t(19) s.
         let t = |freedom| brinell::signal::student_t_quantile(0.975, freedom);
-        let (low, high) = over(number(2.0, 0.1), number(1.0, 0.05))
-            .unwrap()
-            .interval
-            .unwrap();
+        let (low, high) = over(number(2.0, 0.1), number(1.0, 0.05)).unwrap().interval.unwrap();
         let log_half = 0.5 * (2.1_f64 / 1.9).ln();
         let half = t(38) / t(19) * log_half * 2.0_f64.sqrt();
         assert!((low - 2.0 * (-half).exp()).abs() < 1e-9);
@@ -251,19 +237,9 @@ mod tests {
             // Whichever way the open step goes, it rises and then falls.
             ("++?-", Verdict::Fails, Verdict::Fails, Verdict::Holds),
             // The peak may lie at the end.
-            (
-                "+++?",
-                Verdict::Undecided,
-                Verdict::Fails,
-                Verdict::Undecided,
-            ),
+            ("+++?", Verdict::Undecided, Verdict::Fails, Verdict::Undecided),
             ("+?++", Verdict::Undecided, Verdict::Fails, Verdict::Fails),
-            (
-                "????",
-                Verdict::Undecided,
-                Verdict::Undecided,
-                Verdict::Undecided,
-            ),
+            ("????", Verdict::Undecided, Verdict::Undecided, Verdict::Undecided),
             ("+ -", Verdict::Fails, Verdict::Fails, Verdict::Holds),
         ] {
             assert_eq!(trend(Trend::Rises, ways), rises, "{ways} rises");

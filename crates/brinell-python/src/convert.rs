@@ -83,9 +83,9 @@ fn write_toml(value: &Bound<'_, PyAny>, out: &mut String, depth: usize) -> PyRes
             if value.is_none() {
                 continue;
             }
-            let key = key.cast::<PyString>().map_err(|_| {
-                PyTypeError::new_err(format!("{key}: keys of a scenario are strings"))
-            })?;
+            let key = key
+                .cast::<PyString>()
+                .map_err(|_| PyTypeError::new_err(format!("{key}: keys of a scenario are strings")))?;
             out.push_str(lead);
             out.push_str(&brinell::document::toml_quote(key.to_str()?));
             out.push_str(" = ");
@@ -122,11 +122,9 @@ fn write_toml(value: &Bound<'_, PyAny>, out: &mut String, depth: usize) -> PyRes
 pub(crate) fn overrides(settings: &Bound<'_, PyDict>) -> PyResult<Vec<(String, String)>> {
     let mut all = Vec::new();
     for (key, value) in settings {
-        let key: String = key.extract().map_err(|_| {
-            PyTypeError::new_err(format!(
-                "{key}: a key is a dotted path, such as operation.speed_rpm"
-            ))
-        })?;
+        let key: String = key
+            .extract()
+            .map_err(|_| PyTypeError::new_err(format!("{key}: a key is a dotted path, such as operation.speed_rpm")))?;
         all.push((key, python_to_toml(&value)?));
     }
     Ok(all)

@@ -18,11 +18,7 @@ const BEAT: Duration = Duration::from_millis(50);
 
 fn failed(py: Python, error: DatasetError) -> PyErr {
     match error {
-        DatasetError::Document {
-            name,
-            text,
-            problems,
-        } => scenario_error(py, problems, Some((&name, &text))),
+        DatasetError::Document { name, text, problems } => scenario_error(py, problems, Some((&name, &text))),
         DatasetError::Refused(words) => bad_value(words),
         DatasetError::Read { path, error } => unreadable(&path, &error),
         DatasetError::Io(error) => ReadError::new_err(error.to_string()),
@@ -64,7 +60,8 @@ impl RunListener for Stop<'_> {
 
 #[pymethods]
 impl Campaign {
-    /// Of a plan file; with `check`, every run is tried first. Ctrl-C is obeyed, and what is under way then ends on its own.
+    /// Of a plan file; with `check`, every run is tried first. Ctrl-C is obeyed, and what is under way then ends on its
+    /// own.
     #[staticmethod]
     fn open(py: Python, path: PathBuf, check: bool) -> PyResult<Self> {
         let (ended, over) = channel();
@@ -104,8 +101,7 @@ impl Campaign {
 
     /// Makes a folder this plan's, or finds that it is.
     fn claim(&self, py: Python, folder: PathBuf) -> PyResult<()> {
-        py.detach(|| self.0.claim(folder))
-            .map_err(|error| failed(py, error))
+        py.detach(|| self.0.claim(folder)).map_err(|error| failed(py, error))
     }
 
     /// What its author should know, where runs were tried.
@@ -146,18 +142,14 @@ impl Campaign {
     /// Name, unit and description of each column of the files.
     fn columns(&self) -> Vec<(String, String, String)> {
         let columns = self.0.columns().iter().map(|c| &c.record.column);
-        columns
-            .map(|c| (c.name.clone(), c.unit.clone(), c.description.clone()))
-            .collect()
+        columns.map(|c| (c.name.clone(), c.unit.clone(), c.description.clone())).collect()
     }
 
     /// A run's scenario as TOML with every key given, its class, and what it drew.
     fn run(&self, py: Python<'_>, index: usize) -> PyResult<(String, String)> {
         if index >= self.0.draws().runs() {
             let last = self.0.draws().runs() - 1;
-            return Err(bad_value(format!(
-                "run {index}: no such run\n  allowed: 0 to {last}"
-            )));
+            return Err(bad_value(format!("run {index}: no such run\n  allowed: 0 to {last}")));
         }
         let (loaded, _) = self.0.scenario(index).map_err(|error| failed(py, error))?;
         let class = self.0.draws().class(index);
@@ -175,9 +167,7 @@ impl Campaign {
             if let Ok(value) = toml::from_str::<serde_json::Value>(text) {
                 named(&value, false, &mut names);
             }
-            let paths = names
-                .into_iter()
-                .filter(|name| Path::new(name).is_relative());
+            let paths = names.into_iter().filter(|name| Path::new(name).is_relative());
             files.extend(paths.map(|name| folder.join(name)).filter(|p| p.is_file()));
         }
         files.dedup();
@@ -195,9 +185,7 @@ impl Campaign {
     ) -> PyResult<Bound<'py, PyDict>> {
         let (index, of) = shard;
         if !(1..=of).contains(&index) {
-            return Err(bad_value(format!(
-                "shard = ({index}, {of}): expected (I, N), I from 1 to N"
-            )));
+            return Err(bad_value(format!("shard = ({index}, {of}): expected (I, N), I from 1 to N")));
         }
         let shard = Shard { index, of };
         let parts = (0..self.0.parts()).filter(|part| shard.has(*part));
@@ -274,28 +262,15 @@ pub(crate) fn kernel() -> PyResult<&'static str> {
 
 /// Joins folders in which shares ran apart; what is still to do, where something is.
 #[pyfunction]
-pub(crate) fn merge(
-    py: Python<'_>,
-    folders: Vec<PathBuf>,
-    into: PathBuf,
-) -> PyResult<Option<String>> {
+pub(crate) fn merge(py: Python<'_>, folders: Vec<PathBuf>, into: PathBuf) -> PyResult<Option<String>> {
     let merged = py.detach(|| dataset::merge(&folders, &into));
     Ok(merged.map_err(|error| failed(py, error))?.lack())
 }
 
 /// Checks a data set: files, of how many, rows, failed runs, and everything that is wrong.
 #[pyfunction]
-pub(crate) fn verify(
-    py: Python<'_>,
-    folder: PathBuf,
-) -> PyResult<(usize, usize, u64, u64, Vec<String>)> {
+pub(crate) fn verify(py: Python<'_>, folder: PathBuf) -> PyResult<(usize, usize, u64, u64, Vec<String>)> {
     let found = py.detach(|| dataset::verify(&folder));
     let found = found.map_err(|error| failed(py, error))?;
-    Ok((
-        found.files,
-        found.of,
-        found.rows,
-        found.failed,
-        found.problems,
-    ))
+    Ok((found.files, found.of, found.rows, found.failed, found.problems))
 }

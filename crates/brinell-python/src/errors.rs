@@ -21,18 +21,8 @@ pyo3::create_exception!(
     PyRuntimeError,
     "A run that failed. ``partial`` holds what was computed until then, a `Result`."
 );
-pyo3::create_exception!(
-    brinell,
-    ReadError,
-    PyOSError,
-    "A file that cannot be read or written."
-);
-pyo3::create_exception!(
-    brinell,
-    SignalError,
-    PyValueError,
-    "A signal that cannot be analysed as asked."
-);
+pyo3::create_exception!(brinell, ReadError, PyOSError, "A file that cannot be read or written.");
+pyo3::create_exception!(brinell, SignalError, PyValueError, "A signal that cannot be analysed as asked.");
 
 /// `python` has no errors for what a user gets wrong: these are its own, in the command's words.
 pub(crate) fn bad_value(words: impl Display) -> PyErr {
@@ -45,11 +35,7 @@ pub(crate) fn unreadable(path: &Path, error: &std::io::Error) -> PyErr {
 }
 
 /// What is wrong with a scenario; `seen` is the name and text of a file that its author can look at.
-pub(crate) fn scenario_error(
-    py: Python,
-    problems: Vec<Problem>,
-    seen: Option<(&str, &str)>,
-) -> PyErr {
+pub(crate) fn scenario_error(py: Python, problems: Vec<Problem>, seen: Option<(&str, &str)>) -> PyErr {
     let words = match seen {
         Some((name, text)) => pointed_out(name, text, &problems),
         None => {
@@ -76,20 +62,15 @@ pub(crate) fn scenario_error(
 
 /// A scenario that makes no model is a bad one; anything else is a run that failed, or too large a one.
 pub(crate) fn run_error(py: Python, failure: &Failure) -> PyErr {
-    let none =
-        |error: PyErr, name: &str, value: Py<PyAny>| match error.value(py).setattr(name, value) {
-            Ok(()) => error,
-            Err(other) => other,
-        };
+    let none = |error: PyErr, name: &str, value: Py<PyAny>| match error.value(py).setattr(name, value) {
+        Ok(()) => error,
+        Err(other) => other,
+    };
     match failure {
         Failure::TooLarge { .. } => PyMemoryError::new_err(failure.to_string()),
         _ if failure.is_bad_input() => {
             let empty = pyo3::types::PyList::empty(py).into_any().unbind();
-            none(
-                ScenarioError::new_err(failure.to_string()),
-                "problems",
-                empty,
-            )
+            none(ScenarioError::new_err(failure.to_string()), "problems", empty)
         }
         _ => none(RunError::new_err(failure.to_string()), "partial", py.None()),
     }

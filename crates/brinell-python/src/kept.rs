@@ -25,9 +25,7 @@ impl Work for Points<'_> {
 
     fn scenario(&self, task: &Task) -> Result<Scenario, RunnerError> {
         let loaded = self.0.with(&task.settings).load();
-        loaded
-            .map(|(loaded, _)| loaded.scenario)
-            .map_err(|_| RunnerError::Changed)
+        loaded.map(|(loaded, _)| loaded.scenario).map_err(|_| RunnerError::Changed)
     }
 }
 
@@ -82,20 +80,15 @@ pub(crate) fn run(
             Ok(())
         },
     )?;
-    let prints = points
-        .iter()
-        .map(|p| p.as_ref().ok().map(|t| &*t.fingerprint));
-    std::fs::create_dir_all(folder).map_err(|error| {
-        ReadError::new_err(format!("cannot make {}: {error}", folder.display()))
-    })?;
+    let prints = points.iter().map(|p| p.as_ref().ok().map(|t| &*t.fingerprint));
+    std::fs::create_dir_all(folder)
+        .map_err(|error| ReadError::new_err(format!("cannot make {}: {error}", folder.display())))?;
     let ledger = Ledger::open(folder, &plan.header(prints), false);
     let mut ledger = ledger.map_err(|error| refused(folder, error))?;
     let mut seen = HashSet::new();
     let good = points.iter().flatten();
-    let tasks: Vec<Task> = good
-        .filter(|t| ledger.kept.row(&t.fingerprint).is_none() && seen.insert(&t.fingerprint))
-        .cloned()
-        .collect();
+    let tasks: Vec<Task> =
+        good.filter(|t| ledger.kept.row(&t.fingerprint).is_none() && seen.insert(&t.fingerprint)).cloned().collect();
     let threads = threads(jobs, tasks.len())?;
     let mut done = plan.points() - tasks.len();
     progress(py, done)?;
@@ -106,8 +99,7 @@ pub(crate) fn run(
         let heard = Heard { stop: &stop, ended };
         std::thread::scope(|scope| {
             let (tasks, ledger) = (&tasks, &mut ledger);
-            let runs =
-                scope.spawn(move || runner::run(tasks, &Points(source), ledger, threads, &heard));
+            let runs = scope.spawn(move || runner::run(tasks, &Points(source), ledger, threads, &heard));
             loop {
                 let next = hears.recv_timeout(PATIENCE);
                 if next == Err(RecvTimeoutError::Disconnected) {
@@ -140,9 +132,5 @@ pub(crate) fn run(
 fn task(settings: Vec<(String, String)>, source: &Source) -> Result<Task, String> {
     let loaded = source.with(&settings).load();
     let (loaded, _) = loaded.map_err(|problems| on_one_line(&problems))?;
-    Ok(Task {
-        fingerprint: fingerprint(&loaded.scenario),
-        duration_s: loaded.scenario.simulation.duration_s,
-        settings,
-    })
+    Ok(Task { fingerprint: fingerprint(&loaded.scenario), duration_s: loaded.scenario.simulation.duration_s, settings })
 }

@@ -1,5 +1,5 @@
-//! brinell for Python: the module `brinell._brinell`. It converts and does nothing else; `python/brinell` beside the workspace is what
-//! users see. Python's lock is given up while anything is computed.
+//! brinell for Python: the module `brinell._brinell`. It converts and does nothing else; `python/brinell` beside the
+//! workspace is what users see. Python's lock is given up while anything is computed.
 
 mod convert;
 mod dataset;
@@ -31,9 +31,7 @@ mod _brinell {
     #[pymodule_export]
     use scenario::{Scenario, bearings, schema, template};
     #[pymodule_export]
-    use signal::{
-        Findings, analyze, envelope, envelope_spectrum, indicators, kurtogram, psd, spectrogram,
-    };
+    use signal::{Findings, analyze, envelope, envelope_spectrum, indicators, kurtogram, psd, spectrogram};
     #[pymodule_export]
     use studio::{StudioEngine, studio_page};
     #[pymodule_export]

@@ -26,17 +26,13 @@ pub(crate) fn statics<'py>(py: Python<'py>, scenario: &Scenario) -> PyResult<Bou
     let dict = PyDict::new(py);
     let rows: Vec<i64> = zone.points.iter().map(|p| p.0 as i64 + 1).collect();
     dict.set_item("row", numpy::IntoPyArray::into_pyarray(rows, py))?;
-    let column =
-        |of: fn(&(usize, f64, f64, f64)) -> f64| array(py, zone.points.iter().map(of).collect());
+    let column = |of: fn(&(usize, f64, f64, f64)) -> f64| array(py, zone.points.iter().map(of).collect());
     dict.set_item("angle_deg", column(|p| p.1.to_degrees()))?;
     dict.set_item("inner_force_n", column(|p| p.2))?;
     dict.set_item("outer_force_n", column(|p| p.3))?;
     dict.set_item("largest_contact_force_n", zone.largest)?;
     dict.set_item("extent_deg", zone.extent.to_degrees())?;
-    dict.set_item(
-        "shift_inner_to_outer_um",
-        zone.shift.map(|x| 1e6 * x).to_vec(),
-    )?;
+    dict.set_item("shift_inner_to_outer_um", zone.shift.map(|x| 1e6 * x).to_vec())?;
     let stiffness = zone.stiffness.map(|row| row.to_vec()).to_vec();
     dict.set_item("stiffness_n_per_m", stiffness)?;
     Ok(dict)
@@ -69,8 +65,7 @@ pub(crate) fn frequencies<'py>(
 ) -> PyResult<Bound<'py, PyAny>> {
     let (which, own) = match (bearing, scenario) {
         (Some(name), _) => {
-            let known =
-                KnownBearing::find(name).ok_or_else(|| bad_value(KnownBearing::unknown(name)))?;
+            let known = KnownBearing::find(name).ok_or_else(|| bad_value(KnownBearing::unknown(name)))?;
             (Which::Known(known), None)
         }
         (None, Some(scenario)) => {
@@ -83,13 +78,9 @@ pub(crate) fn frequencies<'py>(
         }
         (None, None) => return Err(bad_value("which bearing? Give a name or a scenario")),
     };
-    let rpm = speed_rpm
-        .or(own)
-        .ok_or_else(|| bad_value("speed_rpm: needed, for nothing else states one speed"))?;
+    let rpm = speed_rpm.or(own).ok_or_else(|| bad_value("speed_rpm: needed, for nothing else states one speed"))?;
     if !rpm.is_finite() || rpm == 0.0 {
-        return Err(bad_value(format!(
-            "speed_rpm = {rpm}: expected a speed other than 0, in r/min"
-        )));
+        return Err(bad_value(format!("speed_rpm = {rpm}: expected a speed other than 0, in r/min")));
     }
     let rows = match which {
         Which::Known(known) => known.frequencies(rpm).map_err(bad_value)?,

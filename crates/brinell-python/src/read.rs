@@ -23,13 +23,9 @@ pub(crate) fn read_signal<'py>(
         let about = file.channels().iter().find(|c| c.name == name).cloned();
         Ok((name, values, about.unwrap_or_default()))
     });
-    let (name, values, about) =
-        read.map_err(|error: brinell_io::IoError| ReadError::new_err(error.to_string()))?;
+    let (name, values, about) = read.map_err(|error: brinell_io::IoError| ReadError::new_err(error.to_string()))?;
     if values.is_empty() {
-        return Err(bad_value(format!(
-            "{}: `{name}` holds no values",
-            path.display()
-        )));
+        return Err(bad_value(format!("{}: `{name}` holds no values", path.display())));
     }
     let dict = PyDict::new(py);
     dict.set_item("channel", name)?;

@@ -55,10 +55,7 @@ fn run(scenario: &Scenario, mut go_on: impl FnMut(f64) -> ControlFlow<()>) -> Ra
         Ok(begun) => begun,
         Err(error) => return Ran::Bad(error),
     };
-    let mut recorder = Recorder {
-        signals,
-        go_on: &mut go_on,
-    };
+    let mut recorder = Recorder { signals, go_on: &mut go_on };
     let finished = result::finish(scenario.clone(), simulation, &mut recorder);
     Ran::Over(Box::new(finished), recorder.signals)
 }
@@ -86,11 +83,7 @@ impl Ran {
 /// Runs one scenario. `progress` gets the simulated time reached, s.
 #[pyfunction]
 #[pyo3(signature = (scenario, progress=None))]
-pub(crate) fn simulate(
-    py: Python<'_>,
-    scenario: &Bound<'_, Scenario>,
-    progress: Option<Py<PyAny>>,
-) -> PyResult<Run> {
+pub(crate) fn simulate(py: Python<'_>, scenario: &Bound<'_, Scenario>, progress: Option<Py<PyAny>>) -> PyResult<Run> {
     let inner = scenario.get();
     let mut raised = None;
     let ran = py.detach(|| {
@@ -128,15 +121,12 @@ pub(crate) fn threads(jobs: Option<isize>, count: usize) -> PyResult<NonZeroUsiz
         return Ok(brinell::many::threads(count));
     };
     let jobs_or_none = usize::try_from(jobs).ok().and_then(NonZeroUsize::new);
-    jobs_or_none.ok_or_else(|| {
-        bad_value(format!(
-            "jobs = {jobs}: runs at a time\n  allowed: 1 or more"
-        ))
-    })
+    jobs_or_none.ok_or_else(|| bad_value(format!("jobs = {jobs}: runs at a time\n  allowed: 1 or more")))
 }
 
-/// Does `job` for every index below `count` on threads of its own, and hands each result to `deliver` on this one, with Python's lock. Signals
-/// are noticed meanwhile. An error of `deliver`, or a signal's, stops the rest: jobs see the flag.
+/// Does `job` for every index below `count` on threads of its own, and hands each result to `deliver` on this one, with
+/// Python's lock. Signals are noticed meanwhile. An error of `deliver`, or a signal's, stops the rest: jobs see the
+/// flag.
 pub(crate) fn over_threads<T: Send>(
     py: Python<'_>,
     count: usize,
@@ -216,30 +206,16 @@ pub(crate) struct Run {
 }
 
 impl Run {
-    fn new(
-        py: Python<'_>,
-        scenario: Py<Scenario>,
-        finished: RunResult,
-        signals: Signals,
-    ) -> PyResult<Self> {
+    fn new(py: Python<'_>, scenario: Py<Scenario>, finished: RunResult, signals: Signals) -> PyResult<Self> {
         let dict = PyDict::new(py);
         for (name, column) in signals {
             dict.set_item(name, array(py, column))?;
         }
-        Ok(Self {
-            signals: dict.unbind(),
-            scenario,
-            finished,
-        })
+        Ok(Self { signals: dict.unbind(), scenario, finished })
     }
 
     /// Everything that summary and page are made of.
-    fn with_parts<T: Send>(
-        &self,
-        py: Python<'_>,
-        healthy: Option<&Self>,
-        of: impl FnOnce(&Parts) -> T + Send,
-    ) -> T {
+    fn with_parts<T: Send>(&self, py: Python<'_>, healthy: Option<&Self>, of: impl FnOnce(&Parts) -> T + Send) -> T {
         let loaded = &self.scenario.get().loaded;
         let healthy = healthy.map(|run| &run.finished.findings);
         py.detach(|| {
@@ -274,9 +250,7 @@ impl Run {
     fn channels(&self) -> Vec<(String, String, String)> {
         let text = |name: &str, unit: &str, about: &str| (name.into(), unit.into(), about.into());
         let channels = self.finished.simulation.channels().iter();
-        std::iter::once(text("t", "s", "time"))
-            .chain(channels.map(|c| text(&c.name, c.unit, &c.description)))
-            .collect()
+        std::iter::once(text("t", "s", "time")).chain(channels.map(|c| text(&c.name, c.unit, &c.description))).collect()
     }
 
     /// Samples a second.
@@ -308,18 +282,13 @@ impl Run {
         let all = self.finished.quantities().into_iter();
         all.map(|q| {
             let ends = q.interval();
-            (
-                q.name,
-                q.unit,
-                q.value,
-                ends.map(|i| i.0),
-                ends.map(|i| i.1),
-            )
+            (q.name, q.unit, q.value, ends.map(|i| i.0), ends.map(|i| i.1))
         })
         .collect()
     }
 
-    /// Averaged spectrum of the sensor acceleration: channel, distance of bins (Hz), amplitudes, densities. None of a run too short.
+    /// Averaged spectrum of the sensor acceleration: channel, distance of bins (Hz), amplitudes, densities. None of a
+    /// run too short.
     fn spectrum<'py>(&self, py: Python<'py>) -> PyResult<Option<Bound<'py, PyDict>>> {
         let Some(spectrum) = &self.finished.findings.spectrum else {
             return Ok(None);

@@ -28,13 +28,7 @@ pub(crate) type Read = (Loaded, Vec<String>);
 
 impl Source {
     fn new(text: String, folder: PathBuf, file: Option<String>) -> Self {
-        Self {
-            text,
-            folder,
-            file,
-            overrides: Vec::new(),
-            resolved: None,
-        }
+        Self { text, folder, file, overrides: Vec::new(), resolved: None }
     }
 
     /// The source with more overrides; a later one of the same key counts.
@@ -91,11 +85,7 @@ impl Source {
 
     fn scenario(self, py: Python) -> PyResult<Scenario> {
         match py.detach(|| self.load()) {
-            Ok((loaded, warnings)) => Ok(Scenario {
-                source: self,
-                loaded,
-                warnings,
-            }),
+            Ok((loaded, warnings)) => Ok(Scenario { source: self, loaded, warnings }),
             Err(problems) => Err(self.error(py, problems)),
         }
     }
@@ -134,12 +124,7 @@ impl Scenario {
     /// Of a text; paths in it count from `folder`.
     #[staticmethod]
     #[pyo3(signature = (text, settings=None, folder=PathBuf::new()))]
-    fn parse(
-        py: Python,
-        text: String,
-        settings: Option<&Bound<'_, PyDict>>,
-        folder: PathBuf,
-    ) -> PyResult<Self> {
+    fn parse(py: Python, text: String, settings: Option<&Bound<'_, PyDict>>, folder: PathBuf) -> PyResult<Self> {
         let source = Source::new(text, folder, Some("text".into()));
         with(source, settings)?.scenario(py)
     }
@@ -160,27 +145,13 @@ impl Scenario {
         overrides: Vec<(String, String)>,
         resolved: Option<String>,
     ) -> PyResult<Self> {
-        let source = Source {
-            text,
-            folder,
-            file,
-            overrides,
-            resolved,
-        };
+        let source = Source { text, folder, file, overrides, resolved };
         source.scenario(py)
     }
 
     /// Everything that `restore` needs, without the files of damage.
     #[expect(clippy::type_complexity, reason = "a tuple for pickle")]
-    fn state(
-        &self,
-    ) -> (
-        String,
-        PathBuf,
-        Option<String>,
-        Vec<(String, String)>,
-        Option<String>,
-    ) {
+    fn state(&self) -> (String, PathBuf, Option<String>, Vec<(String, String)>, Option<String>) {
         let s = &self.source;
         let from_files = read(&s.text, &s.overrides).is_ok_and(|loaded| {
             let mut defects = loaded.scenario.defects.iter();
@@ -225,9 +196,8 @@ impl Scenario {
     #[getter]
     fn assumed<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         let assumed = self.loaded.provenance.iter().filter(|p| p.assumed);
-        let list: Vec<Value> = assumed
-            .map(|p| json!({ "key": p.key, "value": p.value, "unit": p.unit, "why": p.reason() }))
-            .collect();
+        let list: Vec<Value> =
+            assumed.map(|p| json!({ "key": p.key, "value": p.value, "unit": p.unit, "why": p.reason() })).collect();
         json_to_python(py, &list.into())
     }
 

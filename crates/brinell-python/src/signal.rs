@@ -3,14 +3,11 @@
 use crate::convert::{Samples, array, json_to_python, slice};
 use crate::errors::{SignalError, bad_value};
 use brinell::analysis::{
-    Analysis, DefectOrders, Levels, MachineClass, Options, Quantity, SUPPLY_HZ, Sensitivity, Unit,
-    to_json, velocity,
+    Analysis, DefectOrders, Levels, MachineClass, Options, Quantity, SUPPLY_HZ, Sensitivity, Unit, to_json, velocity,
 };
 use brinell::bearing::kinematics::Geometry;
 use brinell::bearing::{KnownBearing, orders_of};
-use brinell::signal::{
-    self, Band, Blocks, Detrend, Indicator, Segments, Spectrum, VelocityBands, Window,
-};
+use brinell::signal::{self, Band, Blocks, Detrend, Indicator, Segments, Spectrum, VelocityBands, Window};
 use brinell_report::{AnalysisReport, Analyzed, analysis_html};
 use numpy::{PyArray1, PyArrayMethods};
 use pyo3::prelude::*;
@@ -35,17 +32,9 @@ pub(crate) fn spectrum_dict(py: Python<'_>, s: Spectrum) -> PyResult<Bound<'_, P
 }
 
 /// Segments as requested: `length` samples, or the whole signal.
-fn segments(
-    samples: usize,
-    length: Option<usize>,
-    overlap: f64,
-    window: &str,
-    detrend: &str,
-) -> PyResult<Segments> {
+fn segments(samples: usize, length: Option<usize>, overlap: f64, window: &str, detrend: &str) -> PyResult<Segments> {
     let unknown = |name: &str, given: &str, allowed: &str| {
-        failed(format!(
-            "{name} = \"{given}\": not known\n  allowed: {allowed}"
-        ))
+        failed(format!("{name} = \"{given}\": not known\n  allowed: {allowed}"))
     };
     Ok(Segments {
         length: length.unwrap_or(samples),
@@ -106,9 +95,7 @@ pub(crate) fn envelope_spectrum<'py>(
     let mut copy = Vec::new();
     let x = slice(&x, &mut copy);
     let segments = segments(x.len(), length, overlap, window, "mean")?;
-    let envelope = py
-        .detach(|| signal::envelope_spectrum(x, rate_hz, band(band_hz), &segments))
-        .map_err(failed)?;
+    let envelope = py.detach(|| signal::envelope_spectrum(x, rate_hz, band(band_hz), &segments)).map_err(failed)?;
     let dict = spectrum_dict(py, envelope.spectrum)?;
     dict.set_item("mean", envelope.mean)?;
     Ok(dict)
@@ -146,20 +133,14 @@ pub(crate) fn spectrogram<'py>(
     let mut copy = Vec::new();
     let x = slice(&x, &mut copy);
     let segments = segments(x.len(), Some(length), overlap, window, "none")?;
-    let s = py
-        .detach(|| signal::spectrogram(x, rate_hz, &segments))
-        .map_err(failed)?;
+    let s = py.detach(|| signal::spectrogram(x, rate_hz, &segments)).map_err(failed)?;
     let shape = [s.frames(), s.bins];
     let density = array(py, s.density).reshape(shape)?;
-    Ok((
-        s.first_time,
-        s.time_step,
-        s.frequency_step,
-        density.into_any(),
-    ))
+    Ok((s.first_time, s.time_step, s.frequency_step, density.into_any()))
 }
 
-/// Every band: low and high edge (Hz), kurtosis, its scatter under noise; and the index of the most impulsive one at least `narrowest_hz` wide.
+/// Every band: low and high edge (Hz), kurtosis, its scatter under noise; and the index of the most impulsive one at
+/// least `narrowest_hz` wide.
 #[pyfunction]
 pub(crate) fn kurtogram<'py>(
     py: Python<'py>,
@@ -170,12 +151,9 @@ pub(crate) fn kurtogram<'py>(
 ) -> PyResult<Bound<'py, PyDict>> {
     let mut copy = Vec::new();
     let x = slice(&x, &mut copy);
-    let map = py
-        .detach(|| signal::kurtogram(x, rate_hz, depth))
-        .map_err(failed)?;
+    let map = py.detach(|| signal::kurtogram(x, rate_hz, depth)).map_err(failed)?;
     let dict = PyDict::new(py);
-    let column =
-        |of: fn(&signal::KurtogramBand) -> f64| array(py, map.bands().map(|b| of(&b)).collect());
+    let column = |of: fn(&signal::KurtogramBand) -> f64| array(py, map.bands().map(|b| of(&b)).collect());
     dict.set_item("low_hz", column(|b| b.band.low))?;
     dict.set_item("high_hz", column(|b| b.band.high))?;
     dict.set_item("kurtosis", column(|b| b.kurtosis))?;
@@ -198,9 +176,7 @@ pub(crate) fn indicators<'py>(
     let mut copy = Vec::new();
     let x = slice(&x, &mut copy);
     if !(rate_hz > 0.0 && rate_hz.is_finite() && block_s > 0.0 && block_s.is_finite()) {
-        return Err(failed(format!(
-            "rate_hz = {rate_hz}, block_s = {block_s}: expected numbers above 0"
-        )));
+        return Err(failed(format!("rate_hz = {rate_hz}, block_s = {block_s}: expected numbers above 0")));
     }
     if let Some(index) = x.iter().position(|v| !v.is_finite()) {
         return Err(failed(format!("sample {index} is not finite")));
@@ -231,8 +207,7 @@ fn orders(
 ) -> PyResult<(DefectOrders, String)> {
     let (mut orders, source) = match (name, scenario) {
         (Some(name), _) => {
-            let known =
-                KnownBearing::find(name).ok_or_else(|| bad_value(KnownBearing::unknown(name)))?;
+            let known = KnownBearing::find(name).ok_or_else(|| bad_value(KnownBearing::unknown(name)))?;
             known.orders().map_err(bad_value)?
         }
         (None, Some(scenario)) => {
@@ -260,16 +235,13 @@ fn class(name: &str) -> PyResult<MachineClass> {
     let known = MachineClass::ALL.into_iter().find(|c| c.name() == name);
     known.ok_or_else(|| {
         let names = MachineClass::ALL.map(MachineClass::name).join(", ");
-        bad_value(format!(
-            "machine_class = \"{name}\": no such class\n  allowed: {names}"
-        ))
+        bad_value(format!("machine_class = \"{name}\": no such class\n  allowed: {names}"))
     })
 }
 
 /// What a signal in `unit` is multiplied by, what it is in then, and that in words.
 fn sensor(text: &str, unit: &Unit) -> PyResult<(f64, Unit, String)> {
-    let sensitivity =
-        Sensitivity::given(text).map_err(|error| bad_value(format!("sensitivity = {error}")))?;
+    let sensitivity = Sensitivity::given(text).map_err(|error| bad_value(format!("sensitivity = {error}")))?;
     let Some(factor) = sensitivity.factor(unit) else {
         return Err(bad_value(format!(
             "sensitivity = \"{text}\": expected a signal that is a {}, and unit = \"{}\"",
@@ -277,11 +249,7 @@ fn sensor(text: &str, unit: &Unit) -> PyResult<(f64, Unit, String)> {
             unit.name
         )));
     };
-    let words = format!(
-        "sensitivity {}, as given: the signal is in {}",
-        sensitivity.words(),
-        sensitivity.of.name
-    );
+    let words = format!("sensitivity {}, as given: the signal is in {}", sensitivity.words(), sensitivity.of.name);
     Ok((factor, sensitivity.of, words))
 }
 
@@ -311,12 +279,7 @@ impl Findings {
         let warnings: Vec<String> = warnings.map(ToString::to_string).collect();
         Ok(py.detach(|| {
             analysis_html(&AnalysisReport::of_findings(&brinell_report::Findings {
-                signal: Analyzed {
-                    name: title,
-                    x: &x,
-                    rate: self.rate,
-                    analysis: &self.analysis,
-                },
+                signal: Analyzed { name: title, x: &x, rate: self.rate, analysis: &self.analysis },
                 unit: &self.unit,
                 verdict: &verdict,
                 notes: &self.notes,
@@ -335,18 +298,14 @@ impl Findings {
 fn supply(hz: f64) -> PyResult<f64> {
     match SUPPLY_HZ.contains(&hz) {
         true => Ok(hz),
-        false => Err(bad_value(format!(
-            "supply_hz = {hz}: expected 1 to 1000 Hz"
-        ))),
+        false => Err(bad_value(format!("supply_hz = {hz}: expected 1 to 1000 Hz"))),
     }
 }
 
-/// Which component's defect frequencies are detected: the JSON of `brinell analyze`, the envelope spectrum that shows most, and what the page is made of.
+/// Which component's defect frequencies are detected: the JSON of `brinell analyze`, the envelope spectrum that shows
+/// most, and what the page is made of.
 #[pyfunction]
-#[expect(
-    clippy::too_many_arguments,
-    reason = "keywords, given by the Python around it"
-)]
+#[expect(clippy::too_many_arguments, reason = "keywords, given by the Python around it")]
 pub(crate) fn analyze<'py>(
     py: Python<'py>,
     x: Samples<'py>,
@@ -377,9 +336,7 @@ pub(crate) fn analyze<'py>(
         (x, unit) = (&scaled, of);
     }
     if !(speed_rpm.is_finite() && speed_rpm != 0.0) {
-        return Err(failed(format!(
-            "speed_rpm = {speed_rpm}: expected a speed other than 0, in r/min"
-        )));
+        return Err(failed(format!("speed_rpm = {speed_rpm}: expected a speed other than 0, in r/min")));
     }
     let shaft = speed_rpm.abs() / 60.0;
     let (orders, bearing) = orders(bearing, scenario, orders_given)?;
@@ -397,8 +354,7 @@ pub(crate) fn analyze<'py>(
             let levels = Levels::of(x, &unit, &analysis, class);
             (analysis, levels)
         });
-        let bands = (unit.quantity == Quantity::Acceleration)
-            .then(|| velocity(&unit.in_si(x), rate_hz, shaft).ok());
+        let bands = (unit.quantity == Quantity::Acceleration).then(|| velocity(&unit.in_si(x), rate_hz, shaft).ok());
         (analysis, bands.flatten())
     });
     let (analysis, levels) = analysis.map_err(failed)?;

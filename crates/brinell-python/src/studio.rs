@@ -15,9 +15,7 @@ impl StudioEngine {
     /// Without a bearing.
     #[new]
     fn new() -> Self {
-        Self {
-            studio: SharedStudio::default(),
-        }
+        Self { studio: SharedStudio::default() }
     }
 
     /// Answers one message; `messages.md` of `crates/brinell-studio` says what they hold.
@@ -31,8 +29,5 @@ impl StudioEngine {
 #[pyfunction]
 pub(crate) fn studio_page(py: Python<'_>) -> PyResult<Bound<'_, PyList>> {
     let files = PAGE.iter();
-    PyList::new(
-        py,
-        files.map(|(name, kind, bytes)| (*name, *kind, PyBytes::new(py, bytes))),
-    )
+    PyList::new(py, files.map(|(name, kind, bytes)| (*name, *kind, PyBytes::new(py, bytes))))
 }

@@ -17,14 +17,12 @@ use std::path::PathBuf;
 /// A point's numbers, or why there are none.
 pub(crate) type Numbers = Result<Vec<Quantity>, String>;
 
-/// Runs every combination of the axes, each `(keys, settings)` with a value for each key in every setting. Gives for each point which setting
-/// of each axis it has, and why it failed or None; and the columns: name, unit, values, NaN where a run has none. `progress` gets the points
-/// done and how many there are. With a `folder`, finished points are in its journal and not run again.
+/// Runs every combination of the axes, each `(keys, settings)` with a value for each key in every setting. Gives for
+/// each point which setting of each axis it has, and why it failed or None; and the columns: name, unit, values, NaN
+/// where a run has none. `progress` gets the points done and how many there are. With a `folder`, finished points are
+/// in its journal and not run again.
 #[pyfunction]
-#[expect(
-    clippy::type_complexity,
-    reason = "taken apart by the Python around it"
-)]
+#[expect(clippy::type_complexity, reason = "taken apart by the Python around it")]
 pub(crate) fn sweep<'py>(
     py: Python<'py>,
     scenario: &Scenario,
@@ -52,10 +50,7 @@ pub(crate) fn sweep<'py>(
         Some(folder) => kept::run(py, (&plan, &scenario.source), &folder, jobs, told)?,
         None => in_memory(py, (&plan, &scenario.source), jobs, told)?,
     };
-    let runs: Vec<&[Quantity]> = results
-        .iter()
-        .map(|r| r.as_deref().unwrap_or_default())
-        .collect();
+    let runs: Vec<&[Quantity]> = results.iter().map(|r| r.as_deref().unwrap_or_default()).collect();
     let list = PyList::empty(py);
     for column in columns(&runs) {
         let values = column.values.iter().map(|v| v.unwrap_or(f64::NAN));
@@ -80,10 +75,7 @@ fn in_memory(
         plan.points(),
         jobs,
         |k, stop| {
-            let (loaded, _) = source
-                .with(&plan.settings(k))
-                .load()
-                .map_err(|problems| on_one_line(&problems))?;
+            let (loaded, _) = source.with(&plan.settings(k)).load().map_err(|problems| on_one_line(&problems))?;
             let mut progress = Progress(|_| brinell::many::go_on(stop));
             match simulate_with(&loaded.scenario, &mut progress) {
                 Ok(result) => Ok(result.quantities()),

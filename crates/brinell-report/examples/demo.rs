@@ -1,14 +1,13 @@
-//! Writes `report.html`, `headline.png` and every picture as SVG and PNG into the directory given, from made-up signals: an
-//! impulse train at the BPFO of an NN3007 rings a resonance. Nothing here is a simulation.
+//! Writes `report.html`, `headline.png` and every picture as SVG and PNG into the directory given, from made-up
+//! signals: an impulse train at the BPFO of an NN3007 rings a resonance. Nothing here is a simulation.
 
 use std::error::Error;
 use std::f64::consts::TAU;
 use std::path::PathBuf;
 
 use brinell_report::{
-    Assumption, Estimate, Event, EventKind, Fact, IndicatorRow, IndicatorTable, Layout, Marker,
-    MinMax, Pass, Report, RowLoad, Series, Spectrum, Waveform, bin_centres, headline_png, html,
-    pictures,
+    Assumption, Estimate, Event, EventKind, Fact, IndicatorRow, IndicatorTable, Layout, Marker, MinMax, Pass, Report,
+    RowLoad, Series, Spectrum, Waveform, bin_centres, headline_png, html, pictures,
 };
 
 const RATE: f64 = 25_600.0;
@@ -25,19 +24,14 @@ fn main() -> Result<(), Box<dyn Error>> {
     std::fs::write(out.join("headline.png"), headline_png(&report)?)?;
     for picture in pictures(&report, Layout::Wide) {
         std::fs::write(out.join(format!("{}.svg", picture.name)), picture.svg())?;
-        std::fs::write(
-            out.join(format!("{}.png", picture.name)),
-            picture.png_file()?,
-        )?;
+        std::fs::write(out.join(format!("{}.png", picture.name)), picture.png_file()?)?;
     }
     Ok(())
 }
 
 /// Noise that needs no crate.
 fn noise(state: &mut u64) -> f64 {
-    *state = state
-        .wrapping_mul(6_364_136_223_846_793_005)
-        .wrapping_add(1_442_695_040_888_963_407);
+    *state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
     (*state >> 33) as f64 / f64::from(1u32 << 31) - 0.5
 }
 
@@ -49,16 +43,8 @@ fn demo(duration: f64) -> Report {
     for hit in 0..(duration * BPFO) as usize {
         let t = hit as f64 / BPFO;
         let roller = format!("1·{:02}", hit % 19 + 1);
-        events.push(Event {
-            t_s: t,
-            kind: EventKind::Enter,
-            label: roller.clone(),
-        });
-        events.push(Event {
-            t_s: t + 0.0013,
-            kind: EventKind::Leave,
-            label: roller,
-        });
+        events.push(Event { t_s: t, kind: EventKind::Enter, label: roller.clone() });
+        events.push(Event { t_s: t + 0.0013, kind: EventKind::Leave, label: roller });
         for (delay, size) in [(0.0, 45.0), (0.0013, 80.0)] {
             let first = ((t + delay) * RATE).ceil() as usize;
             for (k, value) in values.iter_mut().enumerate().skip(first).take(200) {
@@ -70,10 +56,7 @@ fn demo(duration: f64) -> Report {
     let bins = 2000;
     let chunk = count / bins;
     let extreme = |pick: fn(f64, f64) -> f64| {
-        values
-            .chunks(chunk)
-            .map(|c| c.iter().copied().reduce(pick).unwrap_or(0.0))
-            .collect()
+        values.chunks(chunk).map(|c| c.iter().copied().reduce(pick).unwrap_or(0.0)).collect()
     };
     let kept = values[count - 65_536.min(count)..].to_vec();
     let t0 = (count - kept.len()) as f64 / RATE;
@@ -190,15 +173,7 @@ fn indicators() -> IndicatorTable {
         }
     };
     IndicatorTable {
-        columns: [
-            "RMS",
-            "Peak to peak",
-            "Crest factor",
-            "Kurtosis",
-            "Skewness",
-        ]
-        .map(str::to_owned)
-        .to_vec(),
+        columns: ["RMS", "Peak to peak", "Crest factor", "Kurtosis", "Skewness"].map(str::to_owned).to_vec(),
         rows: vec![
             row("sensor_ax", "anti-aliased", 1.0),
             row("sensor_ay", "anti-aliased", 0.61),
@@ -210,31 +185,17 @@ fn indicators() -> IndicatorTable {
 }
 
 fn rectangle_pass() -> Pass {
-    let angle_deg: Vec<f64> = (0..400)
-        .map(|i| -6.0 + 12.0 * f64::from(i) / 399.0)
-        .collect();
+    let angle_deg: Vec<f64> = (0..400).map(|i| -6.0 + 12.0 * f64::from(i) / 399.0).collect();
     let over = |a: f64| a.abs() <= 3.125;
     Pass {
         title: "Row 1, roller 7 over defect 1 (rectangle, outer raceway)".into(),
-        length_mm: angle_deg
-            .iter()
-            .map(|a| if over(*a) { 2.0 } else { 6.0 })
-            .collect(),
+        length_mm: angle_deg.iter().map(|a| if over(*a) { 2.0 } else { 6.0 }).collect(),
         other_length_mm: Some(vec![6.0; 400]),
-        stiffness: angle_deg
-            .iter()
-            .map(|a| if over(*a) { 7.15e7 } else { 1.898e8 })
-            .collect(),
+        stiffness: angle_deg.iter().map(|a| if over(*a) { 7.15e7 } else { 1.898e8 }).collect(),
         stiffness_unit: "N/m^(10/9)".into(),
         force_n: angle_deg
             .iter()
-            .map(|a| {
-                if over(*a) {
-                    20.0 + 12.0 * (-(a + 3.1)).exp() * (9.0 * a).cos()
-                } else {
-                    38.0 - 0.2 * a * a
-                }
-            })
+            .map(|a| if over(*a) { 20.0 + 12.0 * (-(a + 3.1)).exp() * (9.0 * a).cos() } else { 38.0 - 0.2 * a * a })
             .collect(),
         contact: "outer contact".into(),
         other_contact: "inner contact".into(),
@@ -261,11 +222,8 @@ fn row_load(row: u32) -> RowLoad {
 fn spectrum(values: &[f64], scale: f64, label: &str, note: &str) -> Spectrum {
     let n = 8192.min(values.len());
     let mean = values[..n].iter().sum::<f64>() / n as f64;
-    let windowed: Vec<f64> = values[..n]
-        .iter()
-        .enumerate()
-        .map(|(i, v)| (v - mean) * (1.0 - (TAU * i as f64 / n as f64).cos()))
-        .collect();
+    let windowed: Vec<f64> =
+        values[..n].iter().enumerate().map(|(i, v)| (v - mean) * (1.0 - (TAU * i as f64 / n as f64).cos())).collect();
     let amplitude = (0..n / 2)
         .map(|line| {
             let (mut re, mut im) = (0.0, 0.0);
@@ -279,11 +237,5 @@ fn spectrum(values: &[f64], scale: f64, label: &str, note: &str) -> Spectrum {
             scale * 2.0 * f64::hypot(re, im) / n as f64
         })
         .collect();
-    Spectrum {
-        label: label.into(),
-        df_hz: RATE / n as f64,
-        amplitude,
-        unit: "m/s^2".into(),
-        note: note.into(),
-    }
+    Spectrum { label: label.into(), df_hz: RATE / n as f64, amplitude, unit: "m/s^2".into(), note: note.into() }
 }

@@ -7,7 +7,8 @@ use crate::number::significant;
 use crate::picture::{Anchor, Paint, Picture, Shape, Text, ink};
 use crate::plots::{Layout, legend};
 
-/// A section along the bearing's axis, frame after frame. Lengths in mm, slopes and angles in rad, line loads in N/mm; Z to the right, outwards up.
+/// A section along the bearing's axis, frame after frame. Lengths in mm, slopes and angles in rad, line loads in N/mm;
+/// Z to the right, outwards up.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct AxialSection {
     /// Through what, for the caption: "the damage".
@@ -49,11 +50,7 @@ const WALL: f64 = 0.35;
 impl AxialSection {
     /// Frames that every list holds.
     pub(crate) fn frames(&self) -> usize {
-        let sizes = [
-            self.width_mm,
-            self.roller_length_mm,
-            self.roller_diameter_mm,
-        ];
+        let sizes = [self.width_mm, self.roller_length_mm, self.roller_diameter_mm];
         let sound = |mm: f64| mm.is_finite() && mm > 0.0 && mm < 1e6;
         let middles = self.rows.iter().all(|row| row.middle_mm.abs() < 1e6);
         if self.strips == 0 || !middles || !sizes.into_iter().all(sound) {
@@ -70,10 +67,7 @@ impl AxialSection {
 
     /// Largest line load.
     fn heaviest(&self) -> f64 {
-        let loads = self
-            .rows
-            .iter()
-            .flat_map(|r| r.inner.iter().chain(&r.outer));
+        let loads = self.rows.iter().flat_map(|r| r.inner.iter().chain(&r.outer));
         loads.fold(0.0, |m, q| m.max(finite(*q)))
     }
 
@@ -103,9 +97,7 @@ impl AxialSection {
             let tilts = self.rows.iter().filter(loaded);
             tilts.fold(0.0_f64, |m, row| m.max(finite(row.tilt[frame]).abs()))
         };
-        (0..self.frames())
-            .max_by(|a, b| most(*a).total_cmp(&most(*b)))
-            .unwrap_or(0)
+        (0..self.frames()).max_by(|a, b| most(*a).total_cmp(&most(*b))).unwrap_or(0)
     }
 
     /// How many times as large tilts are drawn: 1, 2 or 5 times a power of ten.
@@ -151,10 +143,7 @@ struct Place {
 impl Place {
     fn at(&self, z: f64, out: f64, slope: f32) -> (f64, f64) {
         let slope = (self.factor * finite(slope)).clamp(-0.5, 0.5);
-        (
-            self.x + self.scale * z,
-            self.y - self.scale * (out + slope * z),
-        )
+        (self.x + self.scale * z, self.y - self.scale * (out + slope * z))
     }
 }
 
@@ -165,10 +154,7 @@ pub fn axial_section(section: &AxialSection, frame: usize, layout: Layout) -> Pi
     let mut picture = Picture::new("tilt", "Tilts and loads along the rollers", size.width, 0.0);
     let [inner_paint, outer_paint] =
         [ink::BLUE, ink::VERMILLION].map(|colour| Paint::line(colour, 1.4).filled(colour, 0.35));
-    let shown = [
-        ("load at the outer raceway", outer_paint),
-        ("load at the inner raceway", inner_paint),
-    ];
+    let shown = [("load at the outer raceway", outer_paint), ("load at the inner raceway", inner_paint)];
     let top = legend(&mut picture, &shown, 12.0, size.width - 12.0, 2.0, font);
     let frames = section.frames();
     if frames == 0 {
@@ -187,11 +173,7 @@ pub fn axial_section(section: &AxialSection, frame: usize, layout: Layout) -> Pi
         factor: section.exaggeration(),
         load: if heaviest > 0.0 { LOAD / heaviest } else { 0.0 },
     };
-    let drawing = Drawing {
-        section,
-        frame,
-        place: &place,
-    };
+    let drawing = Drawing { section, frame, place: &place };
     drawing.rings(&mut picture.shapes);
     for row in &section.rows {
         drawing.row(row, [inner_paint, outer_paint], &mut picture.shapes);
@@ -246,12 +228,7 @@ pub(crate) fn data(page: &mut String, section: &AxialSection, frames: usize) {
 }
 
 fn closed(line: Vec<(f64, f64)>, paint: Paint) -> Shape {
-    Shape::Path {
-        lines: vec![line],
-        close: true,
-        paint,
-        clip: None,
-    }
+    Shape::Path { lines: vec![line], close: true, paint, clip: None }
 }
 
 /// One instant of a section as it is drawn.
@@ -277,10 +254,7 @@ impl Drawing<'_> {
             ]
         };
         let wall = raceway + WALL * diameter;
-        for (name, slope, sign) in [
-            ("t-outer", outer_slope, 1.0),
-            ("t-inner", inner_slope, -1.0),
-        ] {
+        for (name, slope, sign) in [("t-outer", outer_slope, 1.0), ("t-inner", inner_slope, -1.0)] {
             shapes.push(Shape::Open(name));
             shapes.push(closed(ring(slope, sign * raceway, sign * wall), steel));
             shapes.push(Shape::Close);
@@ -317,10 +291,7 @@ impl Drawing<'_> {
             line
         };
         shapes.push(Shape::Open("t-row"));
-        shapes.push(closed(
-            body,
-            Paint::line(ink::TEXT, 1.0).filled("#ffffff", 1.0),
-        ));
+        shapes.push(closed(body, Paint::line(ink::TEXT, 1.0).filled("#ffffff", 1.0)));
         shapes.push(closed(load(&row.outer, outer_slope, 1.0), outer));
         shapes.push(closed(load(&row.inner, inner_slope, -1.0), inner));
         shapes.push(Shape::Close);

@@ -154,13 +154,7 @@ impl Fact {
         unit: impl Into<String>,
         note: impl Into<String>,
     ) -> Self {
-        Self {
-            label: label.into(),
-            value: value.into(),
-            unit: unit.into(),
-            note: note.into(),
-            ok: None,
-        }
+        Self { label: label.into(), value: value.into(), unit: unit.into(), note: note.into(), ok: None }
     }
 
     /// The same fact, judged against its limit.

@@ -10,11 +10,8 @@ use crate::picture::escape;
 pub(crate) const KEPT: usize = 65_536;
 
 /// What the script draws every plot with, in this order.
-pub(crate) const SCRIPT: [&str; 3] = [
-    include_str!("script/plot.js"),
-    include_str!("script/read.js"),
-    include_str!("script/tools.js"),
-];
+pub(crate) const SCRIPT: [&str; 3] =
+    [include_str!("script/plot.js"), include_str!("script/read.js"), include_str!("script/tools.js")];
 
 /// Standard acceleration of free fall, m/s^2: the unit g.
 const G: f64 = 9.80665;
@@ -109,9 +106,7 @@ impl Chart<'_> {
             [] => (0..curves.len()).collect(),
             drawn => drawn.to_vec(),
         };
-        let band = self
-            .band
-            .map_or("null".into(), |b| format!("[{},{}]", b.0, b.1));
+        let band = self.band.map_or("null".into(), |b| format!("[{},{}]", b.0, b.1));
         let x_names: Vec<String> = self.x_names.iter().map(|name| json(name)).collect();
         let _ = write!(
             page,
@@ -166,9 +161,7 @@ impl Chart<'_> {
         };
         let packed = base64(&packed(&values, self.peak));
         let count = values.len();
-        Some(format!(
-            "{start}{places},\"count\":{count},\"values\":\"{packed}\"}}"
-        ))
+        Some(format!("{start}{places},\"count\":{count},\"values\":\"{packed}\"}}"))
     }
 
     fn marks(&self, page: &mut String) {
@@ -206,9 +199,7 @@ impl Chart<'_> {
 
 /// Whether places go from left to right, all of them numbers.
 fn ascending(places: &[f64]) -> bool {
-    !places.is_empty()
-        && places.iter().all(|x| x.is_finite())
-        && places.windows(2).all(|pair| pair[0] <= pair[1])
+    !places.is_empty() && places.iter().all(|x| x.is_finite()) && places.windows(2).all(|pair| pair[0] <= pair[1])
 }
 
 /// Values that share a scale.
@@ -218,8 +209,9 @@ const STEPS: u16 = 65_533;
 const ZERO: u16 = 65_534;
 const MISSING: u16 = 65_535;
 
-/// 16 bits a value: [`STEPS`] from the smallest to the largest of each [`BLOCK`], in the logarithm where `log`. A block begins with both
-/// ends as 32-bit floats. So a close-up of a quiet stretch keeps its detail beside an impact, and a spectrum its notches beside a line.
+/// 16 bits a value: [`STEPS`] from the smallest to the largest of each [`BLOCK`], in the logarithm where `log`. A block
+/// begins with both ends as 32-bit floats. So a close-up of a quiet stretch keeps its detail beside an impact, and a
+/// spectrum its notches beside a line.
 fn packed(values: &[f64], log: bool) -> Vec<u8> {
     let mut bytes = Vec::with_capacity(2 * values.len() + values.len() / 8 + 8);
     for block in values.chunks(BLOCK) {
@@ -233,9 +225,7 @@ fn packed(values: &[f64], log: bool) -> Vec<u8> {
             .iter()
             .filter(shown)
             .map(|v| scaled(*v))
-            .fold(None, |ends, v| {
-                Some(ends.map_or((v, v), |(lo, hi): (f64, f64)| (lo.min(v), hi.max(v))))
-            });
+            .fold(None, |ends, v| Some(ends.map_or((v, v), |(lo, hi): (f64, f64)| (lo.min(v), hi.max(v)))));
         let (lo, hi) = ends.unwrap_or((0.0, 0.0));
         let (lo, hi) = (lo as f32, hi as f32);
         bytes.extend_from_slice(&lo.to_le_bytes());
@@ -269,17 +259,11 @@ fn kept(values: &[f64], dx: f64, peak: bool, most: usize) -> (Vec<f64>, f64) {
         .chunks(group)
         .flat_map(|chunk| {
             let at = |wins: fn(f64, f64) -> bool| {
-                (0..chunk.len())
-                    .reduce(|best, i| if wins(chunk[i], chunk[best]) { i } else { best })
-                    .unwrap_or(0)
+                (0..chunk.len()).reduce(|best, i| if wins(chunk[i], chunk[best]) { i } else { best }).unwrap_or(0)
             };
             let (low, high) = (at(|a, b| a < b), at(|a, b| a > b));
             let both = [chunk[low.min(high)], chunk[low.max(high)]];
-            if peak {
-                vec![chunk[high]]
-            } else {
-                both.to_vec()
-            }
+            if peak { vec![chunk[high]] } else { both.to_vec() }
         })
         .collect();
     (thin, dx * group as f64 / per as f64)
@@ -327,19 +311,10 @@ mod tests {
 
     #[test]
     fn regress_base64_and_json() {
-        for (bytes, text) in [
-            ("", ""),
-            ("f", "Zg=="),
-            ("fo", "Zm8="),
-            ("foo", "Zm9v"),
-            ("foobar", "Zm9vYmFy"),
-        ] {
+        for (bytes, text) in [("", ""), ("f", "Zg=="), ("fo", "Zm8="), ("foo", "Zm9v"), ("foobar", "Zm9vYmFy")] {
             assert_eq!(base64(bytes.as_bytes()), text);
         }
-        assert_eq!(
-            json("</script>\"\\\n"),
-            "\"\\u003c/script\\u003e\\\"\\\\\\u000a\""
-        );
+        assert_eq!(json("</script>\"\\\n"), "\"\\u003c/script\\u003e\\\"\\\\\\u000a\"");
     }
 
     /// As the script reads it.
@@ -380,20 +355,13 @@ mod tests {
             }
         }
         // Lines over seven decades: four digits each.
-        let mut lines: Vec<f64> = (0..500)
-            .map(|k| 10f64.powf(3.5 * (0.37 * f64::from(k)).sin()))
-            .collect();
+        let mut lines: Vec<f64> = (0..500).map(|k| 10f64.powf(3.5 * (0.37 * f64::from(k)).sin())).collect();
         lines[3] = 0.0;
         let back = unpacked(&packed(&lines, true), true);
         for (v, b) in lines.iter().zip(&back) {
             assert!((v - b).abs() <= 2e-4 * v, "{v} {b}");
         }
-        for odd in [
-            vec![],
-            vec![3.0],
-            vec![f64::MAX, f64::MIN, f64::INFINITY],
-            vec![-1.0, 0.0],
-        ] {
+        for odd in [vec![], vec![3.0], vec![f64::MAX, f64::MIN, f64::INFINITY], vec![-1.0, 0.0]] {
             for log in [false, true] {
                 assert_eq!(unpacked(&packed(&odd, log), log).len(), odd.len());
             }

@@ -19,18 +19,12 @@ fn face(bold: bool) -> Option<&'static Face<'static>> {
 }
 
 fn glyph(face: &Face<'_>, c: char) -> GlyphId {
-    face.glyph_index(c)
-        .or_else(|| face.glyph_index('\u{fffd}'))
-        .unwrap_or(GlyphId(0))
+    face.glyph_index(c).or_else(|| face.glyph_index('\u{fffd}')).unwrap_or(GlyphId(0))
 }
 
 /// The style rule with which a page or a picture brings its typeface along.
 pub(crate) fn css(bold: bool) -> String {
-    let (weight, file) = if bold {
-        (600, SEMI_BOLD)
-    } else {
-        (400, REGULAR)
-    };
+    let (weight, file) = if bold { (600, SEMI_BOLD) } else { (400, REGULAR) };
     format!(
         "@font-face {{ font-family: Inter; font-weight: {weight}; src: url(data:font/otf;base64,{}) format(\"opentype\"); }}\n",
         base64(file)
@@ -53,11 +47,7 @@ pub(crate) fn glyphs(text: &str, bold: bool) -> impl Iterator<Item = Glyph> {
         text.chars().map(move |character| {
             let id = glyph(face, character);
             let units = f64::from(face.glyph_hor_advance(id).unwrap_or(0));
-            Glyph {
-                id: id.0,
-                character,
-                advance: 1000.0 * units / f64::from(face.units_per_em()),
-            }
+            Glyph { id: id.0, character, advance: 1000.0 * units / f64::from(face.units_per_em()) }
         })
     })
 }
@@ -78,11 +68,7 @@ pub(crate) fn program(bold: bool) -> Option<Program> {
     let length = |units: i16| 1000.0 * f64::from(units) / f64::from(face.units_per_em());
     let around = face.global_bounding_box();
     Some(Program {
-        name: if bold {
-            "Inter-SemiBold"
-        } else {
-            "Inter-Regular"
-        },
+        name: if bold { "Inter-SemiBold" } else { "Inter-Regular" },
         cff: face.raw_face().table(Tag::from_bytes(b"CFF "))?,
         bounds: [around.x_min, around.y_min, around.x_max, around.y_max].map(length),
         ascent: length(face.ascender()),
@@ -96,10 +82,7 @@ pub(crate) fn width(text: &str, size: f64, bold: bool) -> f64 {
     let Some(face) = face(bold) else {
         return 0.6 * size * text.chars().count() as f64;
     };
-    let units: f64 = text
-        .chars()
-        .map(|c| f64::from(face.glyph_hor_advance(glyph(face, c)).unwrap_or(0)))
-        .sum();
+    let units: f64 = text.chars().map(|c| f64::from(face.glyph_hor_advance(glyph(face, c)).unwrap_or(0))).sum();
     units * size / f64::from(face.units_per_em())
 }
 
@@ -119,25 +102,13 @@ pub(crate) fn fitted(text: &str, size: f64, bold: bool, limit: f64) -> String {
 }
 
 /// Sends the outline of `text` to `draw`, pen at (x, y) on the baseline, y down; returns the pen's x after it.
-pub(crate) fn outline(
-    text: &str,
-    size: f64,
-    bold: bool,
-    x: f64,
-    y: f64,
-    draw: &mut impl OutlineBuilder,
-) -> f64 {
+pub(crate) fn outline(text: &str, size: f64, bold: bool, x: f64, y: f64, draw: &mut impl OutlineBuilder) -> f64 {
     let Some(face) = face(bold) else { return x };
     let scale = size / f64::from(face.units_per_em());
     let mut pen = x;
     for c in text.chars() {
         let id = glyph(face, c);
-        let mut placed = Placed {
-            draw,
-            scale: scale as f32,
-            x: pen as f32,
-            y: y as f32,
-        };
+        let mut placed = Placed { draw, scale: scale as f32, x: pen as f32, y: y as f32 };
         face.outline_glyph(id, &mut placed);
         pen += f64::from(face.glyph_hor_advance(id).unwrap_or(0)) * scale;
     }

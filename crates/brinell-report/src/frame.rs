@@ -12,8 +12,8 @@ use sha2::{Digest, Sha256};
 /// At the foot of pages with curves.
 pub(crate) const THINNED: &str = "Curves are thinned to the pixels of the page: each column keeps its smallest and largest value, in spectra its largest.";
 
-/// A page up to the end of its header: title, a line under it, the version of the program that `done` it ("Simulated"); both may be empty.
-/// Each of `alerts` is a few words in bold, and what is to be said of them; either may be empty.
+/// A page up to the end of its header: title, a line under it, the version of the program that `done` it ("Simulated");
+/// both may be empty. Each of `alerts` is a few words in bold, and what is to be said of them; either may be empty.
 pub(crate) fn open<'a>(
     title: &str,
     subtitle: &str,
@@ -26,12 +26,7 @@ pub(crate) fn open<'a>(
         let _ = writeln!(page, "<p class=\"subtitle\">{}</p>", escape(subtitle));
     }
     if !version.is_empty() {
-        let _ = writeln!(
-            page,
-            "<p class=\"version\">{} by brinell {}</p>",
-            done,
-            escape(version)
-        );
+        let _ = writeln!(page, "<p class=\"version\">{} by brinell {}</p>", done, escape(version));
     }
     for (strong, words) in alerts {
         alert(&mut page, strong, words);
@@ -64,11 +59,7 @@ pub(crate) fn alert(page: &mut String, strong: &str, words: &str) {
 /// The end of a page whose `main` is open; `script` is what it runs beside what every page does.
 pub(crate) fn close(mut page: String, footer: &str, script: &[&str]) -> String {
     let _ = writeln!(page, "</main>\n<footer>{}</footer>", escape(footer));
-    let parts = [
-        &embedded::SCRIPT[..],
-        script,
-        &[include_str!("script/frame.js")],
-    ];
+    let parts = [&embedded::SCRIPT[..], script, &[include_str!("script/frame.js")]];
     let script = format!("\n{}", parts.concat().concat());
     let _ = writeln!(page, "<script>{script}</script>");
     page.push_str("</body>\n</html>\n");
@@ -82,8 +73,8 @@ pub(crate) fn close(mut page: String, footer: &str, script: &[&str]) -> String {
 /// The page's first element after `<head>`.
 const CHARSET: &str = "<meta charset=\"utf-8\">\n";
 
-/// What the page may do: run this one script, and show what is inside it. Whatever else is in it, from a scenario or a measured file, is not
-/// run and loads nothing. Pictures carry styles in their elements.
+/// What the page may do: run this one script, and show what is inside it. Whatever else is in it, from a scenario or a
+/// measured file, is not run and loads nothing. Pictures carry styles in their elements.
 fn policy(script: &str) -> String {
     let script = format!("'sha256-{}'", base64(&Sha256::digest(script)));
     format!(
@@ -104,10 +95,7 @@ fn head(page: &mut String, title: &str) {
         page.push_str(&font::css(bold));
     }
     page.push_str(include_str!("script/page.css"));
-    let _ = write!(
-        page,
-        "</style>\n</head>\n<body>\n<header>\n<h1>{title}</h1>\n"
-    );
+    let _ = write!(page, "</style>\n</head>\n<body>\n<header>\n<h1>{title}</h1>\n");
 }
 
 /// A section with its heading, and what `write` puts under it.
@@ -177,8 +165,7 @@ mod tests {
         assert!(before.contains(&format!("script-src 'sha256-{hash}';")));
         for page in [with, page(&[])] {
             // Before anything that it is about.
-            let at = page
-                .find("<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none';");
+            let at = page.find("<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none';");
             let first = ["<style", "<script", "<title"].map(|tag| page.find(tag));
             assert!(first.into_iter().flatten().all(|tag| at.unwrap() < tag));
             assert_eq!(page.matches("Content-Security-Policy").count(), 1);

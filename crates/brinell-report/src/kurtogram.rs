@@ -74,13 +74,7 @@ pub(crate) fn kurtogram(view: &Kurtogram, layout: Layout) -> Picture {
         return chart.finish();
     };
     let highest = if highest > 0.0 { highest } else { 1.0 };
-    chart.shades(&Shades {
-        columns: MOST_COLUMNS,
-        values: &values,
-        range: (0.0, highest),
-        ticks: 5,
-        head: "kurtosis",
-    });
+    chart.shades(&Shades { columns: MOST_COLUMNS, values: &values, range: (0.0, highest), ticks: 5, head: "kurtosis" });
     let frame = chart.frame;
     let narrow = |l: &&KurtogramLevel| {
         let (low, high) = view.chosen_hz.unwrap_or((0.0, 0.0));
@@ -92,15 +86,8 @@ pub(crate) fn kurtogram(view: &Kurtogram, layout: Layout) -> Picture {
     {
         let x = |f: f64| frame.left + f / top * (frame.right - frame.left);
         let y = |row: f64| frame.bottom - row / rows * frame.height();
-        let around = Rect {
-            left: x(low),
-            right: x(high),
-            top: y(level as f64 + 1.0),
-            bottom: y(level as f64),
-        };
-        chart
-            .picture
-            .rect(around, Paint::line(ink::VERMILLION, 2.0));
+        let around = Rect { left: x(low), right: x(high), top: y(level as f64 + 1.0), bottom: y(level as f64) };
+        chart.picture.rect(around, Paint::line(ink::VERMILLION, 2.0));
     }
     chart.finish()
 }
@@ -110,16 +97,9 @@ mod tests {
     use super::*;
 
     fn map() -> Kurtogram {
-        let level = |bandwidth_hz: f64, kurtosis: &[f64]| KurtogramLevel {
-            bandwidth_hz,
-            kurtosis: kurtosis.to_vec(),
-        };
+        let level = |bandwidth_hz: f64, kurtosis: &[f64]| KurtogramLevel { bandwidth_hz, kurtosis: kurtosis.to_vec() };
         Kurtogram {
-            levels: vec![
-                level(3000.0, &[0.1]),
-                level(1500.0, &[0.2, 0.3]),
-                level(1000.0, &[1.0, 2.0, 3.0]),
-            ],
+            levels: vec![level(3000.0, &[0.1]), level(1500.0, &[0.2, 0.3]), level(1000.0, &[1.0, 2.0, 3.0])],
             chosen_hz: Some((1000.0, 2000.0)),
             note: String::new(),
         }
@@ -134,29 +114,19 @@ mod tests {
         let third = MOST_COLUMNS / 3;
         assert_eq!([rows[0], rows[third], rows[3 * third - 1]], [1.0, 2.0, 3.0]);
         let second = &rows[MOST_COLUMNS..2 * MOST_COLUMNS];
-        assert_eq!(
-            [second[MOST_COLUMNS / 2 - 1], second[MOST_COLUMNS / 2]],
-            [0.2, 0.3]
-        );
+        assert_eq!([second[MOST_COLUMNS / 2 - 1], second[MOST_COLUMNS / 2]], [0.2, 0.3]);
         assert!(rows[2 * MOST_COLUMNS..].iter().all(|k| *k == 0.1));
     }
 
     #[test]
     fn analytic_the_chosen_band_is_outlined() {
         let with = kurtogram(&map(), Layout::Wide).svg();
-        let none = Kurtogram {
-            chosen_hz: None,
-            ..map()
-        };
+        let none = Kurtogram { chosen_hz: None, ..map() };
         assert!(with.len() > kurtogram(&none, Layout::Wide).svg().len());
     }
 
     #[test]
     fn prop_an_empty_map_says_so() {
-        assert!(
-            kurtogram(&Kurtogram::default(), Layout::Wide)
-                .svg()
-                .contains("No kurtogram")
-        );
+        assert!(kurtogram(&Kurtogram::default(), Layout::Wide).svg().contains("No kurtogram"));
     }
 }

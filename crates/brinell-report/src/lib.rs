@@ -1,9 +1,9 @@
 //! Plots and the HTML report: a run or plain data in, one self-contained page, SVG and PNG out.
 //!
 //! The page needs no network and is complete without its script, which only adds zoom, cursors and saving of pictures.
-//! Every picture is drawn twice, for a desktop and for a phone, and thinned to the pixels it has (smallest and largest value
-//! of each column; the largest alone in spectra); nothing here changes a number that was computed.
-//! The pages of a measured signal and of studies are public for the command alone, and are not listed here.
+//! Every picture is drawn twice, for a desktop and for a phone, and thinned to the pixels it has (smallest and largest
+//! value of each column; the largest alone in spectra); nothing here changes a number that was computed. The pages of a
+//! measured signal and of studies are public for the command alone, and are not listed here.
 //!
 //! ```
 //! use brinell_report::{Report, headline_png, html};
@@ -49,8 +49,8 @@ mod trend;
 
 #[doc(hidden)]
 pub use analysis::{
-    AnalysisReport, Analyzed, Badge, Findings, ZONES, analysis_html, analysis_pictures, called,
-    level_lines, ratio, scaled, shaft_lines,
+    AnalysisReport, Analyzed, Badge, Findings, ZONES, analysis_html, analysis_pictures, called, level_lines, ratio,
+    scaled, shaft_lines,
 };
 #[doc(hidden)]
 pub use axial::{AxialRow, AxialSection, axial_section};
@@ -60,8 +60,8 @@ pub use damage::{AlongRoller, DamageCurve, DamagePanel, DamageView, DepthPatch};
 #[doc(hidden)]
 pub use damage::{damage_passage, damage_photo, damage_plan, damage_section, load_along};
 pub use data::{
-    Assumption, Estimate, Event, EventKind, Fact, Healthy, IndicatorRow, IndicatorTable, Marker,
-    MinMax, Pass, Report, RowLoad, Series, Spectrum, Value, Waveform,
+    Assumption, Estimate, Event, EventKind, Fact, Healthy, IndicatorRow, IndicatorTable, Marker, MinMax, Pass, Report,
+    RowLoad, Series, Spectrum, Value, Waveform,
 };
 #[doc(hidden)]
 pub use defects::{Damage, Measures, damage_of};
@@ -88,8 +88,7 @@ pub use sensor::SensorView;
 pub use sheet::{SheetDamage, SheetGroup, SheetReport, SheetTile, sheet_html};
 #[doc(hidden)]
 pub use side_by_side::{
-    Along, OverlaidCurve, Overlay, Part, Piece, SideBySide, Vertical, overlay, side_by_side_html,
-    side_by_side_pictures,
+    Along, OverlaidCurve, Overlay, Part, Piece, SideBySide, Vertical, overlay, side_by_side_html, side_by_side_pictures,
 };
 pub use slip::SlipRow;
 #[doc(hidden)]
@@ -98,14 +97,9 @@ pub use spectrogram::Spectrogram;
 #[doc(hidden)]
 pub use spectrogram::spectrogram;
 #[doc(hidden)]
-pub use study::{
-    Chapter, ClaimCard, ClaimPart, Stack, Study, StudyPiece, Tagged, Tone, study_html,
-    study_pictures,
-};
+pub use study::{Chapter, ClaimCard, ClaimPart, Stack, Study, StudyPiece, Tagged, Tone, study_html, study_pictures};
 #[doc(hidden)]
-pub use sweep::{
-    HeatMap, IndicatorLine, IndicatorPlot, IndicatorPoint, SweepReport, sweep_html, sweep_pictures,
-};
+pub use sweep::{HeatMap, IndicatorLine, IndicatorPlot, IndicatorPoint, SweepReport, sweep_html, sweep_pictures};
 pub use tables::Table;
 #[doc(hidden)]
 pub use trend::{TrendReport, trend_html, trend_pictures};

@@ -13,53 +13,24 @@ use crate::thin::straightened;
 /// Contact force around the bearing, one circle to a row: 0° is +X, angles run counter-clockwise.
 pub fn load_distribution(rows: &[RowLoad], layout: Layout) -> Picture {
     let Size { width, font, .. } = layout.size(0.0);
-    let per_line = if layout.roomy() {
-        rows.len().clamp(1, 2)
-    } else {
-        1
-    };
+    let per_line = if layout.roomy() { rows.len().clamp(1, 2) } else { 1 };
     let cell = layout.cell(400.0, per_line);
     let lines = rows.len().div_ceil(per_line).max(1);
     let entries = [
-        (
-            "largest force",
-            Paint::line(ink::VERMILLION, 1.8).dashed(&[5.0, 3.0]),
-        ),
-        (
-            "mean force",
-            Paint::line(ink::BLUE, 1.8).filled(ink::BLUE, 0.18),
-        ),
-        (
-            "static equilibrium",
-            Paint::line(ink::BLACK, 1.8).dashed(&[1.5, 3.5]),
-        ),
+        ("largest force", Paint::line(ink::VERMILLION, 1.8).dashed(&[5.0, 3.0])),
+        ("mean force", Paint::line(ink::BLUE, 1.8).filled(ink::BLUE, 0.18)),
+        ("static equilibrium", Paint::line(ink::BLACK, 1.8).dashed(&[1.5, 3.5])),
     ];
-    let mut picture = Picture::new(
-        "load-distribution",
-        "Contact force around the bearing",
-        width,
-        0.0,
-    );
+    let mut picture = Picture::new("load-distribution", "Contact force around the bearing", width, 0.0);
     let top = legend(&mut picture, &entries, 12.0, width - 12.0, 2.0, font);
     picture.height = top + cell * lines as f64;
     let forces = rows.iter().flat_map(|row| {
-        row.mean_n
-            .iter()
-            .chain(&row.max_n)
-            .copied()
-            .chain(row.static_points.iter().map(|(_, force)| *force))
+        row.mean_n.iter().chain(&row.max_n).copied().chain(row.static_points.iter().map(|(_, force)| *force))
     });
     let largest = range(forces).map_or(0.0, |(_, hi)| hi);
     let largest = if largest > 0.0 { largest } else { 1.0 };
-    let rings: Vec<f64> = linear_ticks(0.0, largest * 1.02, 5)
-        .into_iter()
-        .filter(|r| *r > 0.0)
-        .collect();
-    let polar = Polar {
-        radius: 0.5 * cell - 44.0,
-        largest,
-        font,
-    };
+    let rings: Vec<f64> = linear_ticks(0.0, largest * 1.02, 5).into_iter().filter(|r| *r > 0.0).collect();
+    let polar = Polar { radius: 0.5 * cell - 44.0, largest, font };
     for (index, row) in rows.iter().enumerate() {
         let inset = (width - cell * per_line as f64) / (per_line as f64 + 1.0);
         let column = (index % per_line) as f64;
@@ -77,10 +48,7 @@ pub fn load_distribution(rows: &[RowLoad], layout: Layout) -> Picture {
 
 /// The numbers that a circle is drawn from.
 fn keep(picture: &mut Picture, row: &RowLoad) {
-    let axis = |label: &str, unit: &str| Axis {
-        label: label.to_owned(),
-        unit: unit.to_owned(),
-    };
+    let axis = |label: &str, unit: &str| Axis { label: label.to_owned(), unit: unit.to_owned() };
     let (angles, forces) = row.static_points.iter().copied().unzip();
     for (label, xs, ys) in [
         ("Mean force", &row.angle_deg, &row.mean_n),
@@ -133,12 +101,7 @@ impl Polar {
             picture.text(Text::new(label_x, label_y, font, anchor, &label).color(ink::FAINT));
         }
         let mut circle = |r: f64, color: &'static str| {
-            picture.shapes.push(Shape::Circle {
-                x,
-                y,
-                r,
-                paint: Paint::line(color, 1.0),
-            });
+            picture.shapes.push(Shape::Circle { x, y, r, paint: Paint::line(color, 1.0) });
         };
         for ring in rings {
             circle(radius * ring / (self.largest * 1.04), ink::GRID);
@@ -147,28 +110,15 @@ impl Polar {
     }
 
     /// Paints are those of the largest, the mean and the static force.
-    fn curves(
-        &self,
-        picture: &mut Picture,
-        centre: (f64, f64),
-        row: &RowLoad,
-        [largest, mean, at_rest]: [Paint; 3],
-    ) {
+    fn curves(&self, picture: &mut Picture, centre: (f64, f64), row: &RowLoad, [largest, mean, at_rest]: [Paint; 3]) {
         let mut closed = |lines: Vec<Vec<(f64, f64)>>, paint: Paint| {
-            picture.shapes.push(Shape::Path {
-                lines,
-                close: true,
-                paint,
-                clip: None,
-            });
+            picture.shapes.push(Shape::Path { lines, close: true, paint, clip: None });
         };
         let curve = |forces: &[f64]| -> Vec<(f64, f64)> {
             let known = row.angle_deg.iter().zip(forces);
             let known = known.filter(|(angle, _)| angle.is_finite());
             let force = |force: &f64| if force.is_finite() { *force } else { 0.0 };
-            known
-                .map(|(angle, f)| self.at(centre, *angle, force(f)))
-                .collect()
+            known.map(|(angle, f)| self.at(centre, *angle, force(f))).collect()
         };
         closed(vec![curve(&row.mean_n)], mean);
         closed(vec![curve(&row.max_n)], largest);
@@ -185,21 +135,12 @@ impl Polar {
         let (labels, power) = tick_labels(rings);
         for (ring, label) in rings.iter().zip(&labels) {
             let (x, y) = self.at(centre, 247.5, *ring);
-            let scale = if power == 0 {
-                String::new()
-            } else {
-                format!("·10{}", crate::number::superscript(power))
-            };
+            let scale = if power == 0 { String::new() } else { format!("·10{}", crate::number::superscript(power)) };
             let words = format!("{label}{scale} N");
             let label = Text::new(x, y + 0.36 * font, font - 1.0, Anchor::Middle, &words);
             let half = 0.5 * label.width() + 2.0;
             let (top, bottom) = (y - 0.6 * font, y + 0.6 * font);
-            let back = Rect {
-                left: x - half,
-                right: x + half,
-                top,
-                bottom,
-            };
+            let back = Rect { left: x - half, right: x + half, top, bottom };
             picture.rect(back, Paint::fill("#ffffff", 0.85));
             picture.text(label.color(ink::FAINT));
         }
@@ -208,7 +149,5 @@ impl Polar {
 
 /// Angles of equal bins around the circle, degrees: what `RowLoad::angle_deg` holds.
 pub fn bin_centres(bins: usize) -> Vec<f64> {
-    (0..bins)
-        .map(|bin| ((bin as f64 + 0.5) * TAU / bins as f64).to_degrees())
-        .collect()
+    (0..bins).map(|bin| ((bin as f64 + 0.5) * TAU / bins as f64).to_degrees()).collect()
 }

@@ -89,12 +89,7 @@ const RING: f64 = 0.1;
 impl Motion {
     /// Frames that every list holds.
     fn frames(&self) -> usize {
-        let radii = [
-            self.inner_radius_mm,
-            self.outer_radius_mm,
-            self.pitch_radius_mm,
-            self.roller_radius_mm,
-        ];
+        let radii = [self.inner_radius_mm, self.outer_radius_mm, self.pitch_radius_mm, self.roller_radius_mm];
         let sound = radii.iter().all(|r| r.is_finite() && *r > 0.0 && *r < 1e6);
         let times = self.t0_s.is_finite() && self.dt_s.is_finite() && self.dt_s > 0.0;
         if !sound || !times || self.roller_radius_mm >= self.pitch_radius_mm {
@@ -112,42 +107,25 @@ impl Motion {
 
     /// Largest contact force.
     fn largest(&self) -> f64 {
-        let forces = self
-            .rows
-            .iter()
-            .flat_map(|row| row.inner_n.iter().chain(&row.outer_n));
-        let largest = forces
-            .copied()
-            .filter(|f| f.is_finite())
-            .fold(0.0f32, f32::max);
+        let forces = self.rows.iter().flat_map(|row| row.inner_n.iter().chain(&row.outer_n));
+        let largest = forces.copied().filter(|f| f.is_finite()).fold(0.0f32, f32::max);
         f64::from(largest)
     }
 }
 
 pub(crate) fn finite(value: f32) -> f64 {
-    if value.is_finite() {
-        f64::from(value)
-    } else {
-        0.0
-    }
+    if value.is_finite() { f64::from(value) } else { 0.0 }
 }
 
 /// A force to label the scale with: 1, 2 or 5 times a power of ten, at least a third of the largest.
 fn round_force(largest: f64) -> f64 {
     let decade = 10f64.powf(largest.log10().floor());
-    [5.0, 2.0, 1.0]
-        .map(|m| m * decade)
-        .into_iter()
-        .find(|f| *f <= largest)
-        .unwrap_or(decade)
+    [5.0, 2.0, 1.0].map(|m| m * decade).into_iter().find(|f| *f <= largest).unwrap_or(decade)
 }
 
 /// What is drawn in which colour.
 const COLORS: [(&str, Paint); 4] = [
-    (
-        "force at the outer contact",
-        Paint::line(ink::VERMILLION, 2.2),
-    ),
+    ("force at the outer contact", Paint::line(ink::VERMILLION, 2.2)),
     ("force at the inner contact", Paint::line(ink::BLUE, 2.2)),
     ("cage", Paint::line(ink::GREEN, 5.0)),
     ("damage", Paint::line(ink::ORANGE, 5.0)),
@@ -157,24 +135,14 @@ const COLORS: [(&str, Paint); 4] = [
 pub fn bearing_motion(motion: &Motion, frame: usize, layout: Layout) -> Picture {
     let size = layout.size(0.0);
     let font = size.font;
-    let per_line = if layout.roomy() {
-        motion.rows.len().clamp(1, 2)
-    } else {
-        1
-    };
+    let per_line = if layout.roomy() { motion.rows.len().clamp(1, 2) } else { 1 };
     let cell = layout.cell(460.0, per_line);
     let mut picture = Picture::new("motion", "The bearing in motion", size.width, 0.0);
     let shown = &COLORS[..if motion.damage.is_empty() { 3 } else { 4 }];
     let frames = motion.frames();
     if frames == 0 {
         picture.height = 4.0 * font;
-        let words = Text::new(
-            0.5 * size.width,
-            2.0 * font,
-            font,
-            Anchor::Middle,
-            "Not recorded",
-        );
+        let words = Text::new(0.5 * size.width, 2.0 * font, font, Anchor::Middle, "Not recorded");
         picture.text(words);
         return picture;
     }
@@ -195,13 +163,7 @@ pub fn bearing_motion(motion: &Motion, frame: usize, layout: Layout) -> Picture 
         let x = gap + (index % per_line) as f64 * (cell + gap) + 0.5 * cell;
         let y = top + (index / per_line) as f64 * tall + 1.6 * font + 0.5 * cell;
         let _ = write!(centres, " {x:.2} {y:.2}");
-        let drawn = DrawnRow {
-            motion,
-            row,
-            frame,
-            centre: (x, y),
-            scale,
-        };
+        let drawn = DrawnRow { motion, row, frame, centre: (x, y), scale };
         let s = &mut picture.shapes;
         s.push(Shape::Open("m-row"));
         drawn.rings(s);
@@ -210,8 +172,7 @@ pub fn bearing_motion(motion: &Motion, frame: usize, layout: Layout) -> Picture 
         drawn.forces(s, per_newton);
         s.push(Shape::Close);
         let title = font::fitted(&row.title, font, true, cell);
-        picture
-            .text(Text::new(x, y - 0.5 * cell - 0.4 * font, font, Anchor::Middle, &title).bold());
+        picture.text(Text::new(x, y - 0.5 * cell - 0.4 * font, font, Anchor::Middle, &title).bold());
     }
     picture.height = top + motion.rows.len().div_ceil(per_line) as f64 * tall;
     picture.attributes = format!(" data-motion=\"{scale:.4} {per_newton:.6}{centres}\"");
@@ -222,11 +183,7 @@ fn draw_ruler(picture: &mut Picture, largest: f64, per_newton: f64, y: f64, font
     let round = round_force(largest);
     let end = 12.0 + round * per_newton;
     picture.path(&[(12.0, y), (end, y)], Paint::line(ink::BLACK, 2.2));
-    let words = format!(
-        "{} N; the largest force here is {} N",
-        significant(round, 2),
-        significant(largest, 3)
-    );
+    let words = format!("{} N; the largest force here is {} N", significant(round, 2), significant(largest, 3));
     let (x, y) = (end + 8.0, y + 0.36 * font);
     picture.text(Text::new(x, y, font, Anchor::Start, &words));
 }
@@ -263,35 +220,16 @@ fn data(page: &mut String, motion: &Motion, frames: usize) {
             DamagedSurface::Inner => ("inner", 0),
             DamagedSurface::Roller(k) => ("roller", k),
         };
-        let [from, to] = damage.angle.map(|a| {
-            if a.is_finite() {
-                a.clamp(-TAU, TAU)
-            } else {
-                0.0
-            }
-        });
-        let _ = write!(
-            page,
-            "{}[{},\"{kind}\",{from},{to},{roller}]",
-            if index == 0 { "" } else { "," },
-            damage.row
-        );
+        let [from, to] = damage.angle.map(|a| if a.is_finite() { a.clamp(-TAU, TAU) } else { 0.0 });
+        let _ = write!(page, "{}[{},\"{kind}\",{from},{to},{roller}]", if index == 0 { "" } else { "," }, damage.row);
     }
     page.push_str("],\"rows\":[");
     for (index, row) in motion.rows.iter().enumerate() {
         let n = row.pockets.len();
         let share = |f: &f32| {
-            if largest > 0.0 {
-                ((finite(*f) / largest).clamp(0.0, 1.0) * 65535.0).round() as u16
-            } else {
-                0
-            }
+            if largest > 0.0 { ((finite(*f) / largest).clamp(0.0, 1.0) * 65535.0).round() as u16 } else { 0 }
         };
-        let pockets: Vec<String> = row
-            .pockets
-            .iter()
-            .map(|p| format!("{:.5}", finite(*p)))
-            .collect();
+        let pockets: Vec<String> = row.pockets.iter().map(|p| format!("{:.5}", finite(*p))).collect();
         let numbers = turns(&row.orbit[..frames * n])
             .chain(turns(&row.spin[..frames * n]))
             .chain(row.inner_n[..frames * n].iter().map(share))
@@ -327,19 +265,9 @@ pub(crate) fn section(page: &mut String, report: &Report) {
         significant(motion.t0_s, 5),
         significant(end, 5)
     );
-    figure(
-        page,
-        "motion",
-        |layout| bearing_motion(motion, frames - 1, layout),
-        &escape(&caption),
-    );
+    figure(page, "motion", |layout| bearing_motion(motion, frames - 1, layout), &escape(&caption));
     if let Some(section) = motion.section.as_ref().filter(|s| s.frames() >= frames) {
-        figure(
-            page,
-            "tilt",
-            |layout| axial_section(section, frames - 1, layout),
-            &escape(&section.caption()),
-        );
+        figure(page, "tilt", |layout| axial_section(section, frames - 1, layout), &escape(&section.caption()));
     }
     data(page, motion, frames);
 }

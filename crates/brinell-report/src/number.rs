@@ -1,6 +1,8 @@
-//! Numbers as people read them: ticks at round values, true minus signs, units with raised exponents, symbols with lowered indices.
+//! Numbers as people read them: ticks at round values, true minus signs, units with raised exponents, symbols with
+//! lowered indices.
 
-/// A number with `digits` significant digits, plain where that is short: "1800", "0.0123", "1.90e8". For text that is copied or searched, so without spaces and raised digits.
+/// A number with `digits` significant digits, plain where that is short: "1800", "0.0123", "1.90e8". For text that is
+/// copied or searched, so without spaces and raised digits.
 pub fn short(x: f64, digits: usize) -> String {
     if x == 0.0 {
         return "0".into();
@@ -41,7 +43,8 @@ pub(crate) fn significant(value: f64, digits: usize) -> String {
     format!("{}×10{}", trim_zeros(mantissa), superscript(exponent)).replace('-', "−")
 }
 
-/// A value and the ends of its interval, with as many decimals as half the interval's width deserves (two significant digits).
+/// A value and the ends of its interval, with as many decimals as half the interval's width deserves (two significant
+/// digits).
 pub(crate) fn with_interval(value: f64, low: f64, high: f64) -> [String; 3] {
     let all = [value, low, high];
     let half_width = 0.5 * (high - low);
@@ -53,21 +56,13 @@ pub(crate) fn with_interval(value: f64, low: f64, high: f64) -> [String; 3] {
 }
 
 fn trim_zeros(text: &str) -> String {
-    if text.contains('.') {
-        text.trim_end_matches('0').trim_end_matches('.').to_owned()
-    } else {
-        text.to_owned()
-    }
+    if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').to_owned() } else { text.to_owned() }
 }
 
 /// Thin spaces between groups of three digits before the decimal point, from five digits on.
 fn group_thousands(text: &str) -> String {
-    let (sign, rest) = text
-        .strip_prefix('-')
-        .map_or(("", text), |rest| ("-", rest));
-    let (whole, fraction) = rest
-        .split_once('.')
-        .map_or((rest, None), |(w, f)| (w, Some(f)));
+    let (sign, rest) = text.strip_prefix('-').map_or(("", text), |rest| ("-", rest));
+    let (whole, fraction) = rest.split_once('.').map_or((rest, None), |(w, f)| (w, Some(f)));
     let mut grouped = String::with_capacity(text.len() + 4);
     grouped.push_str(sign);
     for (place, digit) in whole.chars().enumerate() {
@@ -115,18 +110,15 @@ pub(crate) struct Run {
     pub(crate) height: Height,
 }
 
-/// Splits text at `^`: what follows, in brackets or up to the next character that is no letter, digit or sign, is raised.
-/// Squares and cubes become the characters made for them. At `_` after a single letter, what follows up to the next character that is no
-/// letter or digit is lowered; longer names with `_` are names.
+/// Splits text at `^`: what follows, in brackets or up to the next character that is no letter, digit or sign, is
+/// raised. Squares and cubes become the characters made for them. At `_` after a single letter, what follows up to the
+/// next character that is no letter or digit is lowered; longer names with `_` are names.
 pub(crate) fn runs(text: &str) -> Vec<Run> {
     let mut runs: Vec<Run> = Vec::new();
     let put = |runs: &mut Vec<Run>, text: &str, height: Height| match runs.last_mut() {
         _ if text.is_empty() => {}
         Some(last) if last.height == height => last.text.push_str(text),
-        _ => runs.push(Run {
-            text: text.to_owned(),
-            height,
-        }),
+        _ => runs.push(Run { text: text.to_owned(), height }),
     };
     let push = |runs: &mut Vec<Run>, text: &str, raised: bool| {
         if raised {
@@ -144,15 +136,11 @@ pub(crate) fn runs(text: &str) -> Vec<Run> {
     while let Some(at) = rest.find('^') {
         push(&mut runs, &rest[..at], false);
         let after = &rest[at + 1..];
-        let (exponent, tail) = match after
-            .strip_prefix('(')
-            .and_then(|inner| inner.split_once(')'))
-        {
+        let (exponent, tail) = match after.strip_prefix('(').and_then(|inner| inner.split_once(')')) {
             Some(pair) => pair,
             None => {
-                let end = after
-                    .find(|c: char| !(c.is_ascii_alphanumeric() || c == '-' || c == '−'))
-                    .unwrap_or(after.len());
+                let end =
+                    after.find(|c: char| !(c.is_ascii_alphanumeric() || c == '-' || c == '−')).unwrap_or(after.len());
                 after.split_at(end)
             }
         };
@@ -173,13 +161,9 @@ fn symbol(text: &str) -> Option<(&str, &str, &str)> {
     text.match_indices('_').find_map(|(at, _)| {
         let mut before = text[..at].chars().rev();
         let alone = before.next().is_some_and(|c| c.is_ascii_alphabetic())
-            && before
-                .next()
-                .is_none_or(|c| !c.is_alphanumeric() && c != '_');
+            && before.next().is_none_or(|c| !c.is_alphanumeric() && c != '_');
         let after = &text[at + 1..];
-        let end = after
-            .find(|c: char| !c.is_ascii_alphanumeric())
-            .unwrap_or(after.len());
+        let end = after.find(|c: char| !c.is_ascii_alphanumeric()).unwrap_or(after.len());
         let name = after[end..].starts_with('_');
         (alone && end > 0 && !name).then(|| (&text[..at], &after[..end], &after[end..]))
     })
@@ -195,18 +179,12 @@ pub(crate) fn linear_ticks(lo: f64, hi: f64, target: usize) -> Vec<f64> {
     let first = (lo / step - 1e-9).ceil();
     let last = (hi / step + 1e-9).floor();
     let count = (last - first).clamp(-1.0, 100.0) as i64;
-    (0..=count)
-        .map(|i| (first + i as f64) * step)
-        .map(|tick| if tick == 0.0 { 0.0 } else { tick })
-        .collect()
+    (0..=count).map(|i| (first + i as f64) * step).map(|tick| if tick == 0.0 { 0.0 } else { tick }).collect()
 }
 
 fn nice_step(raw: f64) -> f64 {
     let magnitude = 10f64.powf(raw.log10().floor());
-    let step = [1.0, 2.0, 5.0, 10.0]
-        .into_iter()
-        .find(|m| m * magnitude >= raw * (1.0 - 1e-9))
-        .unwrap_or(10.0);
+    let step = [1.0, 2.0, 5.0, 10.0].into_iter().find(|m| m * magnitude >= raw * (1.0 - 1e-9)).unwrap_or(10.0);
     step * magnitude
 }
 
@@ -218,10 +196,7 @@ pub(crate) fn log_ticks(lo: f64, hi: f64, target: usize) -> Vec<f64> {
     let first = (lo.log10() - 1e-9).ceil() as i32;
     let last = (hi.log10() + 1e-9).floor() as i32;
     let skip = (((last - first).max(0) as usize) / target.max(1) + 1) as i32;
-    (first..=last)
-        .filter(|decade| decade.rem_euclid(skip) == 0)
-        .map(|decade| 10f64.powi(decade))
-        .collect()
+    (first..=last).filter(|decade| decade.rem_euclid(skip) == 0).map(|decade| 10f64.powi(decade)).collect()
 }
 
 /// Labels for evenly spaced ticks, and the power of ten that they leave to the axis label (0 mostly).
@@ -231,35 +206,17 @@ pub(crate) fn tick_labels(ticks: &[f64]) -> (Vec<String>, i32) {
         return (ticks.iter().map(|_| "0".to_owned()).collect(), 0);
     }
     let order = largest.log10().floor() as i32;
-    let power = if (-3..5).contains(&order) {
-        0
-    } else {
-        order.div_euclid(3) * 3
-    };
+    let power = if (-3..5).contains(&order) { 0 } else { order.div_euclid(3) * 3 };
     let scale = 10f64.powi(-power);
-    let step = ticks
-        .windows(2)
-        .map(|w| (w[1] - w[0]).abs() * scale)
-        .fold(f64::INFINITY, f64::min);
-    let step = if step.is_finite() && step > 0.0 {
-        step
-    } else {
-        largest * scale
-    };
+    let step = ticks.windows(2).map(|w| (w[1] - w[0]).abs() * scale).fold(f64::INFINITY, f64::min);
+    let step = if step.is_finite() && step > 0.0 { step } else { largest * scale };
     let decimals = (-(step * (1.0 + 1e-9)).log10().floor()).clamp(0.0, 9.0) as usize;
     let labels = ticks
         .iter()
         .map(|t| {
             let text = format!("{:.*}", decimals, t * scale);
-            let text = if text
-                .trim_start_matches('-')
-                .chars()
-                .all(|c| c == '0' || c == '.')
-            {
-                "0".into()
-            } else {
-                text
-            };
+            let text =
+                if text.trim_start_matches('-').chars().all(|c| c == '0' || c == '.') { "0".into() } else { text };
             group_thousands(&text).replace('-', "−")
         })
         .collect();
@@ -286,41 +243,21 @@ mod tests {
         ] {
             assert_eq!(significant(value, 4), text);
         }
-        assert_eq!(
-            with_interval(22.913, 22.5, 23.3426),
-            ["22.91", "22.50", "23.34"]
-        );
-        assert_eq!(
-            with_interval(1234.5, 1200.0, 1274.0),
-            ["1234", "1200", "1274"]
-        );
+        assert_eq!(with_interval(22.913, 22.5, 23.3426), ["22.91", "22.50", "23.34"]);
+        assert_eq!(with_interval(1234.5, 1200.0, 1274.0), ["1234", "1200", "1274"]);
     }
 
     #[test]
     fn regress_units_are_split_at_exponents() {
-        let of = |height: Height| {
-            move |t: &str| Run {
-                text: t.into(),
-                height,
-            }
-        };
+        let of = |height: Height| move |t: &str| Run { text: t.into(), height };
         let (plain, raised, lowered) = (of(Height::Line), of(Height::Raised), of(Height::Lowered));
         assert_eq!(
             runs("h_I / h_a^2, sensor_ax, a_b_c, x_"),
-            [
-                plain("h"),
-                lowered("I"),
-                plain(" / h"),
-                lowered("a"),
-                plain("², sensor_ax, a_b_c, x_")
-            ]
+            [plain("h"), lowered("I"), plain(" / h"), lowered("a"), plain("², sensor_ax, a_b_c, x_")]
         );
         assert_eq!(runs("m/s^2"), [plain("m/s²")]);
         assert_eq!(runs("N/m^(10/9)"), [plain("N/m"), raised("10/9")]);
-        assert_eq!(
-            runs("N/m^n, outer"),
-            [plain("N/m"), raised("n"), plain(", outer")]
-        );
+        assert_eq!(runs("N/m^n, outer"), [plain("N/m"), raised("n"), plain(", outer")]);
         assert_eq!(runs("a^"), [plain("a^")]);
         assert_eq!(runs("^(2"), [plain("^(2")]);
     }
@@ -332,10 +269,7 @@ mod tests {
             tick_labels(&[0.0, 5e7, 1e8, 1.5e8]),
             (vec!["0".into(), "50".into(), "100".into(), "150".into()], 6)
         );
-        assert_eq!(
-            tick_labels(&[-0.5, 0.0, 0.5]),
-            (vec!["−0.5".into(), "0".into(), "0.5".into()], 0)
-        );
+        assert_eq!(tick_labels(&[-0.5, 0.0, 0.5]), (vec!["−0.5".into(), "0".into(), "0.5".into()], 0));
         assert!(linear_ticks(0.0, 0.0, 5).is_empty());
         assert_eq!(log_ticks(1e-3, 1.0, 5), [1e-3, 1e-2, 1e-1, 1.0]);
     }

@@ -44,17 +44,11 @@ const MOST: usize = 2048;
 /// A square a cage, both axes to one scale.
 pub fn cage_orbit(orbits: &CageOrbits, layout: Layout) -> Picture {
     let size = layout.size(0.0);
-    let per_line = if layout.roomy() {
-        orbits.rows.len().clamp(1, 2)
-    } else {
-        1
-    };
+    let per_line = if layout.roomy() { orbits.rows.len().clamp(1, 2) } else { 1 };
     let cell = layout.cell(440.0, per_line);
     let finite = |row: &CageOrbit| -> Vec<(f64, f64)> {
         let points = row.x_um.iter().copied().zip(row.y_um.iter().copied());
-        points
-            .filter(|(x, y)| x.is_finite() && y.is_finite())
-            .collect()
+        points.filter(|(x, y)| x.is_finite() && y.is_finite()).collect()
     };
     let rows: Vec<Vec<(f64, f64)>> = orbits.rows.iter().map(finite).collect();
     let farthest = range(rows.iter().flatten().map(|(x, y)| x.hypot(*y))).map_or(0.0, |r| r.1);
@@ -65,10 +59,7 @@ pub fn cage_orbit(orbits: &CageOrbits, layout: Layout) -> Picture {
     let reach = if reach > 0.0 { reach } else { 1.0 };
 
     let mut picture = Picture::new("cage-orbit", "Orbit of the cages’ centres", size.width, 0.0);
-    let mut entries = vec![
-        ("last turn of the cage", LAST),
-        ("turns before it", EARLIER),
-    ];
+    let mut entries = vec![("last turn of the cage", LAST), ("turns before it", EARLIER)];
     let words = clearance.map(|c| {
         let c = crate::number::significant(c, 3);
         match seen {
@@ -79,14 +70,7 @@ pub fn cage_orbit(orbits: &CageOrbits, layout: Layout) -> Picture {
     if let Some(words) = &words {
         entries.push((words, land()));
     }
-    let top = legend(
-        &mut picture,
-        &entries,
-        12.0,
-        size.width - 12.0,
-        2.0,
-        size.font,
-    );
+    let top = legend(&mut picture, &entries, 12.0, size.width - 12.0, 2.0, size.font);
     let mut height = 0.0f64;
     for (index, (row, points)) in orbits.rows.iter().zip(&rows).enumerate() {
         let (chart, tall) = orbit_chart(row, points, (reach, seen), (cell, size));
@@ -114,10 +98,7 @@ fn orbit_chart(
     let mut spec = Spec {
         name: String::new(),
         title: String::new(),
-        size: Size {
-            width: cell,
-            ..size
-        },
+        size: Size { width: cell, ..size },
         x: Domain::exact(-reach, reach),
         y: Domain::exact(-reach, reach),
         x_label: "X".into(),
@@ -171,10 +152,5 @@ pub(crate) fn section(page: &mut String, report: &Report) {
     if orbits.rows.is_empty() {
         return none(page, "The motion of the cages was not recorded.");
     }
-    figure(
-        page,
-        "orbit",
-        |layout| cage_orbit(orbits, layout),
-        &escape(&orbits.note),
-    );
+    figure(page, "orbit", |layout| cage_orbit(orbits, layout), &escape(&orbits.note));
 }

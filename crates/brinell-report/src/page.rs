@@ -17,19 +17,12 @@ const PASSES: usize = 12;
 
 /// The self-contained report page.
 pub fn html(report: &Report) -> String {
-    let title = if report.title.is_empty() {
-        "Bearing vibration"
-    } else {
-        &report.title
-    };
+    let title = if report.title.is_empty() { "Bearing vibration" } else { &report.title };
     let mut page = open(
         title,
         &report.subtitle,
         ("Simulated", &report.version),
-        report
-            .partial
-            .as_deref()
-            .map(|why| ("This run is partial.", why)),
+        report.partial.as_deref().map(|why| ("This run is partial.", why)),
     );
     let mut sections: Vec<Section> = vec![
         ("waveform", "Waveform", waveform),
@@ -102,24 +95,12 @@ fn waveform(page: &mut String, report: &Report) {
         0 => "No rolling element passes a defect while this signal was kept.".to_owned(),
         _ => "Lines mark rolling elements (row·number) that enter and leave the defect.".to_owned(),
     };
-    let name = if series.label.is_empty() {
-        String::new()
-    } else {
-        format!("{}. ", escape(&series.label))
-    };
-    figure(
-        page,
-        "waveform",
-        |layout| plots::waveform(report, layout),
-        &format!("{name}{events}"),
-    );
+    let name = if series.label.is_empty() { String::new() } else { format!("{}. ", escape(&series.label)) };
+    figure(page, "waveform", |layout| plots::waveform(report, layout), &format!("{name}{events}"));
     let (unit, scale) = plots::waveform_unit(report);
     let (overview_lo, overview_hi) = match &report.waveform.overview {
         Some(bins) => (bins.t0_s, bins.t0_s + bins.dt_s * bins.min.len() as f64),
-        None => (
-            series.t0_s,
-            series.t0_s + series.dt_s * series.values.len() as f64,
-        ),
+        None => (series.t0_s, series.t0_s + series.dt_s * series.values.len() as f64),
     };
     let overview_scale = plots::time_unit(overview_hi - overview_lo).1;
     let places = Places::Even(series.t0_s * scale, series.dt_s * scale);
@@ -140,11 +121,7 @@ fn waveform(page: &mut String, report: &Report) {
 
 /// The run's curve and, where it was run, the healthy bearing's.
 fn beside<'a>(places: Places<'a>, values: &'a [f64], healthy: &'a [f64]) -> Vec<Curve<'a>> {
-    let curve = |name, values| Curve {
-        name,
-        places,
-        values,
-    };
+    let curve = |name, values| Curve { name, places, values };
     match healthy {
         [] => vec![curve("", values)],
         healthy => vec![curve("damaged", values), curve("healthy", healthy)],
@@ -170,12 +147,7 @@ fn spectrum(page: &mut String, report: &Report) {
     if spectrum.amplitude.is_empty() {
         return none(page, "No spectrum was made.");
     }
-    figure(
-        page,
-        "spectrum",
-        |layout| plots::spectrum(report, layout),
-        &escape(&spectrum.note),
-    );
+    figure(page, "spectrum", |layout| plots::spectrum(report, layout), &escape(&spectrum.note));
     let curves = lines_of(spectrum, &report.healthy.spectrum);
     Chart {
         name: "spectrum",
@@ -207,12 +179,7 @@ fn envelope(page: &mut String, report: &Report) {
              through it as dashed lines.",
         );
     }
-    figure(
-        page,
-        "envelope",
-        |layout| plots::envelope_spectrum(report, layout),
-        &caption,
-    );
+    figure(page, "envelope", |layout| plots::envelope_spectrum(report, layout), &caption);
     let lanes = plots::marker_lanes(&report.markers);
     let curves = lines_of(spectrum, &report.healthy.envelope_spectrum);
     Chart {
@@ -242,11 +209,7 @@ fn envelope(page: &mut String, report: &Report) {
             escape(&marker.label),
             significant(marker.frequency_hz, 6),
             escape(&marker.meaning),
-            if marker.present {
-                "<span class=\"tag assumed\">yes</span>"
-            } else {
-                "no"
-            },
+            if marker.present { "<span class=\"tag assumed\">yes</span>" } else { "no" },
         );
     }
     page.push_str("</tbody></table></div>\n");
@@ -254,12 +217,7 @@ fn envelope(page: &mut String, report: &Report) {
 
 fn orders(page: &mut String, report: &Report) {
     let spectrum = &report.envelope_orders;
-    figure(
-        page,
-        "orders",
-        |layout| plots::order_spectrum(report, layout),
-        &escape(&spectrum.note),
-    );
+    figure(page, "orders", |layout| plots::order_spectrum(report, layout), &escape(&spectrum.note));
     let lanes = plots::order_lanes(&report.order_markers);
     let curves = lines_of(spectrum, &report.healthy.envelope_orders);
     Chart {
@@ -287,11 +245,7 @@ fn damage(page: &mut String, report: &Report) {
     }
     for (index, view) in report.damage.iter().take(PASSES).enumerate() {
         let _ = writeln!(page, "<h3>{}</h3>", escape(&view.title));
-        if let Some(photo) = view
-            .photo
-            .as_ref()
-            .filter(|_| damage_photo(view, index, Layout::Wide).is_some())
-        {
+        if let Some(photo) = view.photo.as_ref().filter(|_| damage_photo(view, index, Layout::Wide).is_some()) {
             let empty = || Picture::new("", "", 0.0, 0.0);
             figure(
                 page,
@@ -305,15 +259,8 @@ fn damage(page: &mut String, report: &Report) {
             (None, "ball") => "the track, as wide as a ball is thick".into(),
             (None, _) => "the track, as wide as a roller is long".into(),
         };
-        let caption = format!(
-            "The damaged surface unrolled, both axes to one scale. The grey band is {band}."
-        );
-        figure(
-            page,
-            &format!("damage{index}"),
-            |layout| damage_plan(view, index, layout),
-            &caption,
-        );
+        let caption = format!("The damaged surface unrolled, both axes to one scale. The grey band is {band}.");
+        figure(page, &format!("damage{index}"), |layout| damage_plan(view, index, layout), &caption);
         fact_table(page, &view.facts, "Nothing is known of its size.");
         if !view.passage.is_empty() {
             figure(
@@ -354,24 +301,14 @@ fn damage(page: &mut String, report: &Report) {
 /// A note as a sentence of the page.
 fn sentence(note: &str) -> String {
     let mut letters = note.chars();
-    let first: String = letters
-        .next()
-        .map(|c| c.to_uppercase().collect())
-        .unwrap_or_default();
-    let end = if note.is_empty() || note.ends_with('.') {
-        ""
-    } else {
-        "."
-    };
+    let first: String = letters.next().map(|c| c.to_uppercase().collect()).unwrap_or_default();
+    let end = if note.is_empty() || note.ends_with('.') { "" } else { "." };
     escape(&format!("{first}{}{end}", letters.as_str()))
 }
 
 fn passes(page: &mut String, report: &Report) {
     if report.passes.is_empty() {
-        return none(
-            page,
-            "No rolling element passed a defect while it was recorded.",
-        );
+        return none(page, "No rolling element passed a defect while it was recorded.");
     }
     for (index, pass) in report.passes.iter().take(PASSES).enumerate() {
         let _ = writeln!(page, "<h3>{}</h3>", escape(&pass.title));
@@ -383,13 +320,7 @@ fn passes(page: &mut String, report: &Report) {
          defect’s centre.</p>\n",
     );
     if report.passes.len() > PASSES {
-        none(
-            page,
-            &format!(
-                "{} more passes are not drawn.",
-                report.passes.len() - PASSES
-            ),
-        );
+        none(page, &format!("{} more passes are not drawn.", report.passes.len() - PASSES));
     }
 }
 
@@ -404,12 +335,7 @@ fn load(page: &mut String, report: &Report) {
         "Contact force of the rolling elements over their place in the bearing. 0° is the +X direction, angles run counter-clockwise.",
     );
     if let Some(along) = &report.along {
-        figure(
-            page,
-            "along",
-            |layout| load_along(along, "along", layout),
-            &sentence(&along.note),
-        );
+        figure(page, "along", |layout| load_along(along, "along", layout), &sentence(&along.note));
     }
 }
 
@@ -418,11 +344,7 @@ fn audits(page: &mut String, report: &Report) {
 }
 
 fn work(page: &mut String, report: &Report) {
-    fact_table(
-        page,
-        &report.solver_work,
-        "The solver’s work was not counted.",
-    );
+    fact_table(page, &report.solver_work, "The solver’s work was not counted.");
 }
 
 fn scenario(page: &mut String, report: &Report) {

@@ -72,8 +72,7 @@ impl Picture {
 
     /// Lengths on paper to those of the drawing, mm per px.
     fn mm_per_px(&self) -> f64 {
-        self.print_mm
-            .map_or(25.4 / CSS_PX_PER_INCH, |mm| mm / self.width)
+        self.print_mm.map_or(25.4 / CSS_PX_PER_INCH, |mm| mm / self.width)
     }
 
     /// The curves as tables, those over the same values of x together.
@@ -82,28 +81,13 @@ impl Picture {
     }
 
     pub(crate) fn path(&mut self, points: &[(f64, f64)], paint: Paint) {
-        self.shapes.push(Shape::Path {
-            lines: vec![points.to_vec()],
-            close: false,
-            paint,
-            clip: None,
-        });
+        self.shapes.push(Shape::Path { lines: vec![points.to_vec()], close: false, paint, clip: None });
     }
 
     pub(crate) fn rect(&mut self, rect: Rect, paint: Paint) {
-        let Rect {
-            left,
-            top,
-            right,
-            bottom,
-        } = rect;
+        let Rect { left, top, right, bottom } = rect;
         let corners = vec![(left, top), (right, top), (right, bottom), (left, bottom)];
-        self.shapes.push(Shape::Path {
-            lines: vec![corners],
-            close: true,
-            paint,
-            clip: None,
-        });
+        self.shapes.push(Shape::Path { lines: vec![corners], close: true, paint, clip: None });
     }
 
     pub(crate) fn text(&mut self, text: Text) {
@@ -165,10 +149,7 @@ impl Picture {
         );
         if self.print_mm.is_some() {
             svg.push_str("<style>\n");
-            for bold in [false, true]
-                .into_iter()
-                .filter(|bold| self.has_text(*bold))
-            {
+            for bold in [false, true].into_iter().filter(|bold| self.has_text(*bold)) {
                 svg.push_str(&font::css(bold));
             }
             svg.push_str("</style>\n");
@@ -204,9 +185,7 @@ impl Picture {
     fn body(&self, svg: &mut String, id: &str) {
         let mut clips: Vec<Rect> = vec![];
         for shape in &self.shapes {
-            if let Shape::Path {
-                clip: Some(clip), ..
-            } = shape
+            if let Shape::Path { clip: Some(clip), .. } = shape
                 && !clips.contains(clip)
             {
                 let _ = write!(
@@ -224,12 +203,7 @@ impl Picture {
         }
         for shape in &self.shapes {
             match shape {
-                Shape::Path {
-                    lines,
-                    close,
-                    paint,
-                    clip,
-                } => {
+                Shape::Path { lines, close, paint, clip } => {
                     svg.push_str("<path d=\"");
                     for line in lines {
                         write_line(svg, line, *close);
@@ -253,11 +227,7 @@ impl Picture {
                     svg.push_str("/>\n");
                 }
                 Shape::Text(text) => write_text(svg, text),
-                Shape::Image {
-                    place,
-                    columns,
-                    pixels,
-                } => raster::write(svg, *place, *columns, pixels),
+                Shape::Image { place, columns, pixels } => raster::write(svg, *place, *columns, pixels),
                 Shape::Open(class) => {
                     let _ = write!(svg, "<g class=\"{class}\">");
                 }
@@ -287,18 +257,10 @@ pub(crate) fn escape(text: &str) -> String {
 
 /// A coordinate to a tenth of a pixel; nothing a picture holds may be written as NaN.
 pub(crate) fn coordinate(value: f64) -> String {
-    let tenths = if value.is_finite() {
-        (value.clamp(-1e5, 1e5) * 10.0).round() as i64
-    } else {
-        0
-    };
+    let tenths = if value.is_finite() { (value.clamp(-1e5, 1e5) * 10.0).round() as i64 } else { 0 };
     let (whole, tenth) = (tenths / 10, (tenths % 10).abs());
     let sign = if tenths < 0 && whole == 0 { "-" } else { "" };
-    if tenth == 0 {
-        format!("{whole}")
-    } else {
-        format!("{sign}{whole}.{tenth}")
-    }
+    if tenth == 0 { format!("{whole}") } else { format!("{sign}{whole}.{tenth}") }
 }
 
 fn write_line(svg: &mut String, line: &[(f64, f64)], close: bool) {
@@ -324,11 +286,7 @@ fn write_paint(svg: &mut String, paint: &Paint) {
         None => svg.push_str(" fill=\"none\""),
     }
     if paint.width > 0.0 {
-        let _ = write!(
-            svg,
-            " stroke=\"{}\" stroke-width=\"{}\" stroke-linejoin=\"round\"",
-            paint.stroke, paint.width
-        );
+        let _ = write!(svg, " stroke=\"{}\" stroke-width=\"{}\" stroke-linejoin=\"round\"", paint.stroke, paint.width);
         if !paint.dash.is_empty() {
             let dash: Vec<String> = paint.dash.iter().map(f64::to_string).collect();
             let _ = write!(svg, " stroke-dasharray=\"{}\"", dash.join(" "));
@@ -366,10 +324,7 @@ fn write_text(svg: &mut String, text: &Text) {
             svg.push_str(&words);
         } else {
             let (dy, size) = (drop - below, run_size(text.size, run));
-            let _ = write!(
-                svg,
-                "<tspan dy=\"{dy:.1}\" font-size=\"{size:.1}\">{words}</tspan>"
-            );
+            let _ = write!(svg, "<tspan dy=\"{dy:.1}\" font-size=\"{size:.1}\">{words}</tspan>");
         }
         below = drop;
     }
@@ -382,35 +337,16 @@ mod tests {
 
     #[test]
     fn regress_markup_is_escaped() {
-        assert_eq!(
-            escape("<a href=\"x\">&'\u{1}"),
-            "&lt;a href=&quot;x&quot;&gt;&amp;&#39;\u{fffd}"
-        );
+        assert_eq!(escape("<a href=\"x\">&'\u{1}"), "&lt;a href=&quot;x&quot;&gt;&amp;&#39;\u{fffd}");
         let mut picture = Picture::new("p", "a < b", 10.0, 10.0);
-        picture.text(Text::with_unit(
-            0.0,
-            0.0,
-            10.0,
-            Anchor::Start,
-            "N/m^(10/9) <b>",
-        ));
+        picture.text(Text::with_unit(0.0, 0.0, 10.0, Anchor::Start, "N/m^(10/9) <b>"));
         let svg = picture.svg();
-        assert!(
-            svg.contains("<title>a &lt; b</title>")
-                && svg.contains("&lt;b&gt;")
-                && svg.contains("dy=\"-3.2\"")
-        );
+        assert!(svg.contains("<title>a &lt; b</title>") && svg.contains("&lt;b&gt;") && svg.contains("dy=\"-3.2\""));
     }
 
     #[test]
     fn regress_coordinates_are_short_and_finite() {
-        for (value, text) in [
-            (1.0, "1"),
-            (-0.04, "0"),
-            (-0.26, "-0.3"),
-            (12.35, "12.4"),
-            (-7.5, "-7.5"),
-        ] {
+        for (value, text) in [(1.0, "1"), (-0.04, "0"), (-0.26, "-0.3"), (12.35, "12.4"), (-7.5, "-7.5")] {
             assert_eq!(coordinate(value), text);
         }
         assert_eq!(coordinate(f64::NAN), "0");
@@ -422,10 +358,6 @@ mod tests {
         assert!(Picture::new("p", "", 0.0, 10.0).png(1.0).is_err());
         assert!(Picture::new("p", "", 10.0, 10.0).png(1e9).is_err());
         assert!(Picture::new("p", "", 10.0, 10.0).png(f64::NAN).is_err());
-        assert!(
-            Picture::new("p", "", 10.0, 10.0)
-                .png(1.0)
-                .is_ok_and(|png| png.starts_with(b"\x89PNG"))
-        );
+        assert!(Picture::new("p", "", 10.0, 10.0).png(1.0).is_ok_and(|png| png.starts_with(b"\x89PNG")));
     }
 }

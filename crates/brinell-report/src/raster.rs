@@ -22,11 +22,7 @@ pub(crate) const LEVELS: usize = 28;
 
 /// The shade of a share of the range, 0 to 1.
 pub(crate) fn shade(share: f64) -> [u8; 3] {
-    let share = if share.is_finite() {
-        share.clamp(0.0, 1.0)
-    } else {
-        0.0
-    };
+    let share = if share.is_finite() { share.clamp(0.0, 1.0) } else { 0.0 };
     let level = (share * (LEVELS - 1) as f64).round() / (LEVELS - 1) as f64;
     let at = level * (STOPS.len() - 1) as f64;
     let low = (at as usize).min(STOPS.len() - 2);
@@ -71,9 +67,7 @@ pub(crate) fn draw(
     };
     let across = place.width() / f64::from(map.width());
     let down = place.height() / f64::from(map.height());
-    let to = transform
-        .pre_translate(place.left as f32, place.top as f32)
-        .pre_scale(across as f32, down as f32);
+    let to = transform.pre_translate(place.left as f32, place.top as f32).pre_scale(across as f32, down as f32);
     onto.draw_pixmap(0, 0, map.as_ref(), &skia::PixmapPaint::default(), to, None);
 }
 
@@ -87,9 +81,7 @@ mod tests {
             let [r, g, b] = shade(share).map(f64::from);
             0.2126 * r + 0.7152 * g + 0.0722 * b
         };
-        let greys: Vec<f64> = (0..LEVELS)
-            .map(|k| grey(k as f64 / (LEVELS - 1) as f64))
-            .collect();
+        let greys: Vec<f64> = (0..LEVELS).map(|k| grey(k as f64 / (LEVELS - 1) as f64)).collect();
         assert!(greys.windows(2).all(|w| w[1] < w[0] - 1.0), "{greys:?}");
         assert_eq!(shade(f64::NAN), shade(-1.0));
     }

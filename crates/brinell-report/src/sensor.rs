@@ -32,11 +32,7 @@ const DEEPEST_DB: f64 = 80.0;
 pub(crate) fn sensor_response(view: &SensorView, layout: Layout) -> Picture {
     let khz: Vec<f64> = view.frequency_hz.iter().map(|f| 1e-3 * f).collect();
     let highest = range(view.gain_db.iter().copied()).map_or(0.0, |r| r.1);
-    let gain: Vec<f64> = view
-        .gain_db
-        .iter()
-        .map(|g| g.max(highest - DEEPEST_DB))
-        .collect();
+    let gain: Vec<f64> = view.gain_db.iter().map(|g| g.max(highest - DEEPEST_DB)).collect();
     let (lo, hi) = range(khz.iter().copied()).unwrap_or((0.0, 1.0));
     let mut chart = Chart::new(Spec {
         name: "sensor-response".into(),
@@ -53,11 +49,7 @@ pub(crate) fn sensor_response(view: &SensorView, layout: Layout) -> Picture {
         right: 0.0,
         x_axis: true,
     });
-    chart.points(
-        &[lo, hi],
-        &[0.0, 0.0],
-        Paint::line(ink::FAINT, 1.0).dashed(&[4.0, 4.0]),
-    );
+    chart.points(&[lo, hi], &[0.0, 0.0], Paint::line(ink::FAINT, 1.0).dashed(&[4.0, 4.0]));
     chart.points(&khz, &gain, Paint::line(ink::BLUE, 1.6));
     chart.finish()
 }

@@ -60,31 +60,16 @@ pub(crate) struct Paint {
 
 impl Paint {
     pub(crate) const fn line(stroke: &'static str, width: f64) -> Self {
-        Self {
-            stroke,
-            width,
-            dash: &[],
-            fill: None,
-            opacity: 1.0,
-        }
+        Self { stroke, width, dash: &[], fill: None, opacity: 1.0 }
     }
     pub(crate) fn fill(color: &'static str, opacity: f64) -> Self {
-        Self {
-            stroke: color,
-            width: 0.0,
-            dash: &[],
-            fill: Some((color, opacity)),
-            opacity: 1.0,
-        }
+        Self { stroke: color, width: 0.0, dash: &[], fill: Some((color, opacity)), opacity: 1.0 }
     }
     pub(crate) fn dashed(self, dash: &'static [f64]) -> Self {
         Self { dash, ..self }
     }
     pub(crate) fn filled(self, color: &'static str, opacity: f64) -> Self {
-        Self {
-            fill: Some((color, opacity)),
-            ..self
-        }
+        Self { fill: Some((color, opacity)), ..self }
     }
     pub(crate) fn faded(self, opacity: f64) -> Self {
         Self { opacity, ..self }
@@ -106,27 +91,12 @@ pub(crate) struct Text {
 
 impl Text {
     pub(crate) fn new(x: f64, y: f64, size: f64, anchor: Anchor, text: &str) -> Self {
-        let plain = vec![Run {
-            text: text.to_owned(),
-            height: Height::Line,
-        }];
-        Self {
-            x,
-            y,
-            size,
-            bold: false,
-            anchor,
-            color: ink::TEXT,
-            upright: false,
-            runs: plain,
-        }
+        let plain = vec![Run { text: text.to_owned(), height: Height::Line }];
+        Self { x, y, size, bold: false, anchor, color: ink::TEXT, upright: false, runs: plain }
     }
     /// Text that may hold a unit with an exponent or a symbol with an index.
     pub(crate) fn with_unit(x: f64, y: f64, size: f64, anchor: Anchor, text: &str) -> Self {
-        Self {
-            runs: runs(text),
-            ..Self::new(x, y, size, anchor, "")
-        }
+        Self { runs: runs(text), ..Self::new(x, y, size, anchor, "") }
     }
     pub(crate) fn bold(self) -> Self {
         Self { bold: true, ..self }
@@ -135,10 +105,7 @@ impl Text {
         Self { color, ..self }
     }
     pub(crate) fn upright(self) -> Self {
-        Self {
-            upright: true,
-            ..self
-        }
+        Self { upright: true, ..self }
     }
     /// From the text's place to where its first letter begins.
     pub(crate) fn start(&self) -> f64 {
@@ -149,10 +116,7 @@ impl Text {
         }
     }
     pub(crate) fn width(&self) -> f64 {
-        self.runs
-            .iter()
-            .map(|run| font::width(&run.text, run_size(self.size, run), self.bold))
-            .sum()
+        self.runs.iter().map(|run| font::width(&run.text, run_size(self.size, run), self.bold)).sum()
     }
 }
 

@@ -1,4 +1,5 @@
-//! The contact sheet of a data set: a few runs of each class, each with its labels, its waveform and its envelope spectrum.
+//! The contact sheet of a data set: a few runs of each class, each with its labels, its waveform and its envelope
+//! spectrum.
 
 use std::fmt::Write as _;
 
@@ -81,11 +82,7 @@ pub struct SheetDamage {
 }
 
 /// Two of these are beside each other on a desktop, one under the other on a phone.
-const SIZE: Size = Size {
-    width: 460.0,
-    height: 190.0,
-    font: 13.0,
-};
+const SIZE: Size = Size { width: 460.0, height: 190.0, font: 13.0 };
 const CURVE: Paint = Paint::line(ink::BLUE, 1.0);
 
 /// The self-contained page.
@@ -102,20 +99,12 @@ pub fn sheet_html(report: &SheetReport) -> String {
     );
     for group in &report.groups {
         let title = format!("{} · label {}", group.name, group.label);
-        section(
-            &mut page,
-            &format!("class{}", group.label),
-            &title,
-            |page| {
-                none(
-                    page,
-                    &format!("{} of {} runs.", group.tiles.len(), group.runs),
-                );
-                for tile in &group.tiles {
-                    put(page, report, tile);
-                }
-            },
-        );
+        section(&mut page, &format!("class{}", group.label), &title, |page| {
+            none(page, &format!("{} of {} runs.", group.tiles.len(), group.runs));
+            for tile in &group.tiles {
+                put(page, report, tile);
+            }
+        });
     }
     close(page, "", &[])
 }
@@ -166,20 +155,10 @@ fn put(page: &mut String, report: &SheetReport, tile: &SheetTile) {
 const KEPT: usize = 4096;
 
 /// Writes what the page's script needs of one picture of a tile.
-fn embed(
-    page: &mut String,
-    tile: &SheetTile,
-    what: &str,
-    (places, values): (Places, &[f64]),
-    chart: embedded::Chart,
-) {
+fn embed(page: &mut String, tile: &SheetTile, what: &str, (places, values): (Places, &[f64]), chart: embedded::Chart) {
     embedded::Chart {
         name: &format!("run{}-{what}", tile.run),
-        curves: &[Curve {
-            name: "",
-            places,
-            values,
-        }],
+        curves: &[Curve { name: "", places, values }],
         most: KEPT,
         small: true,
         ..chart
@@ -209,17 +188,9 @@ fn words(report: &SheetReport, tile: &SheetTile) -> String {
             significant(damage.depth_um, 2)
         ));
     }
-    words.push(format!(
-        "RMS {} {}",
-        significant(tile.rms, 3),
-        unit_html(&report.unit)
-    ));
+    words.push(format!("RMS {} {}", significant(tile.rms, 3), unit_html(&report.unit)));
     let (low, high) = tile.band_hz;
-    words.push(format!(
-        "envelope {} to {} kHz",
-        significant(1e-3 * low, 2),
-        significant(1e-3 * high, 2)
-    ));
+    words.push(format!("envelope {} to {} kHz", significant(1e-3 * low, 2), significant(1e-3 * high, 2)));
     words.join(" · ")
 }
 
@@ -303,11 +274,7 @@ fn lanes(tile: &SheetTile, top: f64) -> Vec<Lane> {
         dash: &[4.0, 3.0],
         through: true,
         marks: (1..=(top / hz) as usize)
-            .map(|k| Mark {
-                x: k as f64 * hz,
-                name: format!("{k} x {} Hz", significant(hz, 4)),
-                label: format!("{k}"),
-            })
+            .map(|k| Mark { x: k as f64 * hz, name: format!("{k} x {} Hz", significant(hz, 4)), label: format!("{k}") })
             .collect(),
     };
     found.into_iter().zip(colors).map(lane).collect()
@@ -347,16 +314,8 @@ mod tests {
                 frequency_hz: Some(100.0),
                 ..SheetDamage::default()
             }],
-            stretch: Series {
-                dt_s: 1e-4,
-                values: vec![0.0, 1.0, -1.0],
-                ..Series::default()
-            },
-            envelope: Spectrum {
-                df_hz: 5.0,
-                amplitude: envelope,
-                ..Spectrum::default()
-            },
+            stretch: Series { dt_s: 1e-4, values: vec![0.0, 1.0, -1.0], ..Series::default() },
+            envelope: Spectrum { df_hz: 5.0, amplitude: envelope, ..Spectrum::default() },
             top_hz: 450.0,
             ..SheetTile::default()
         }

@@ -7,7 +7,8 @@ use crate::picture::{Paint, Picture, ink};
 use crate::plots::{Layout, legend, time_unit};
 use crate::tables::fact_table;
 
-/// Slip of one row, in percent of the pure-rolling speed. Vectors over time are of one length, as are those over the angle.
+/// Slip of one row, in percent of the pure-rolling speed. Vectors over time are of one length, as are those over the
+/// angle.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct SlipRow {
     /// "row 1".
@@ -30,12 +31,8 @@ pub struct SlipRow {
     pub spin_there: Vec<f64>,
 }
 
-const ROWS: [(&str, &[f64]); 4] = [
-    (ink::BLUE, &[]),
-    (ink::VERMILLION, &[6.0, 3.0]),
-    (ink::GREEN, &[2.0, 2.0]),
-    (ink::BLACK, &[9.0, 2.0, 2.0, 2.0]),
-];
+const ROWS: [(&str, &[f64]); 4] =
+    [(ink::BLUE, &[]), (ink::VERMILLION, &[6.0, 3.0]), (ink::GREEN, &[2.0, 2.0]), (ink::BLACK, &[9.0, 2.0, 2.0, 2.0])];
 
 fn paint(row: usize) -> Paint {
     let (color, dash) = ROWS[row % ROWS.len()];
@@ -98,18 +95,11 @@ fn means(xs: &[f64], ys: &[f64]) -> Curve {
         let known = || g.iter().filter(|v| v.is_finite());
         known().sum::<f64>() / known().count() as f64
     };
-    xs.chunks(group)
-        .zip(ys.chunks(group))
-        .map(|(x, y)| (mean(x), mean(y)))
-        .unzip()
+    xs.chunks(group).zip(ys.chunks(group)).map(|(x, y)| (mean(x), mean(y))).unzip()
 }
 
 /// What each panel needs: one x axis, below the last, and one left edge.
-fn specs(
-    layout: Layout,
-    (x_label, x_unit): (&str, &str),
-    panels: &[(&str, Vec<Curve>)],
-) -> Vec<Spec> {
+fn specs(layout: Layout, (x_label, x_unit): (&str, &str), panels: &[(&str, Vec<Curve>)]) -> Vec<Spec> {
     let size = layout.size(0.0);
     let part = if layout.roomy() { 140.0 } else { 130.0 };
     let xs = panels.iter().flat_map(|p| &p.1).flat_map(|c| &c.0);
@@ -123,10 +113,7 @@ fn specs(
             Spec {
                 name: String::new(),
                 title: String::new(),
-                size: Size {
-                    height: part + if x_axis { 3.4 * size.font } else { 0.0 },
-                    ..size
-                },
+                size: Size { height: part + if x_axis { 3.4 * size.font } else { 0.0 }, ..size },
                 x: Domain::exact(lo, hi),
                 y: Domain::around(curves.iter().flat_map(|c| &c.1).copied()),
                 x_label: x_label.into(),
@@ -157,9 +144,7 @@ fn panels(
     let specs = specs(layout, axis, panels);
     let left = specs.first().map_or(0.0, |spec| spec.left);
     let mut picture = Picture::new(name, title, size.width, 0.0);
-    let any_close = panels
-        .iter()
-        .any(|(_, curves)| crowded(curves, size.width - left));
+    let any_close = panels.iter().any(|(_, curves)| crowded(curves, size.width - left));
     let names: Vec<String> = rows
         .iter()
         .map(|row| match any_close {
@@ -167,16 +152,9 @@ fn panels(
             false => row.name.clone(),
         })
         .collect();
-    let mut entries: Vec<(&str, Paint)> = names
-        .iter()
-        .enumerate()
-        .map(|(k, name)| (name.as_str(), paint(k)))
-        .collect();
+    let mut entries: Vec<(&str, Paint)> = names.iter().enumerate().map(|(k, name)| (name.as_str(), paint(k))).collect();
     if any_close {
-        entries.push((
-            "shade: smallest to largest",
-            Paint::line(paint(0).stroke, 9.0).faded(SHADE),
-        ));
+        entries.push(("shade: smallest to largest", Paint::line(paint(0).stroke, 9.0).faded(SHADE)));
     }
     let mut top = legend(&mut picture, &entries, left, size.width, 2.0, size.font);
     for (spec, (_, curves)) in specs.into_iter().zip(panels) {

@@ -46,10 +46,7 @@ impl Spectrogram {
     /// Levels in dB, columns by rows with the highest frequency on top: means over neighbours.
     fn levels(&self, most: usize) -> (usize, Vec<f64>) {
         let frames = self.frames();
-        let (wide, tall) = (
-            frames.div_ceil(most).max(1),
-            self.bins.div_ceil(ROWS).max(1),
-        );
+        let (wide, tall) = (frames.div_ceil(most).max(1), self.bins.div_ceil(ROWS).max(1));
         let (columns, rows) = (frames.div_ceil(wide), self.bins.div_ceil(tall));
         let mut levels = Vec::with_capacity(columns * rows);
         for row in (0..rows).rev() {
@@ -73,20 +70,13 @@ pub fn spectrogram(view: &Spectrogram, layout: Layout) -> Picture {
     let size = layout.size(if layout.roomy() { 330.0 } else { 280.0 });
     let frames = view.frames();
     let (first, last) = if frames > 0 {
-        (
-            view.t0_s - 0.5 * view.dt_s,
-            view.t0_s + (frames as f64 - 0.5) * view.dt_s,
-        )
+        (view.t0_s - 0.5 * view.dt_s, view.t0_s + (frames as f64 - 0.5) * view.dt_s)
     } else {
         (0.0, 1.0)
     };
     let (unit, scale) = time_unit(last - first);
     // A bin's shade covers half a bin to each side of it.
-    let top = if frames > 0 {
-        view.df_hz * (view.bins as f64 - 0.5)
-    } else {
-        1.0
-    };
+    let top = if frames > 0 { view.df_hz * (view.bins as f64 - 0.5) } else { 1.0 };
     let mut chart = Chart::new(Spec {
         name: "spectrogram".into(),
         title: format!("Spectrogram: {}", view.label),
@@ -113,23 +103,11 @@ pub fn spectrogram(view: &Spectrogram, layout: Layout) -> Picture {
     let highest = (highest / 5.0).ceil() * 5.0;
     let floor = sorted.get(sorted.len() / 50).copied().unwrap_or(highest);
     let lowest = ((floor / 5.0).floor() * 5.0).clamp(highest - RANGE_DB, highest - 10.0);
-    let bar = chart.shades(&Shades {
-        columns,
-        values: &levels,
-        range: (lowest, highest),
-        ticks: 6,
-        head: "dB",
-    });
+    let bar = chart.shades(&Shades { columns, values: &levels, range: (lowest, highest), ticks: 6, head: "dB" });
     if !view.unit.is_empty() {
         let words = format!("re 1 {}", view.unit);
         let middle = 0.5 * (bar.top + bar.bottom);
-        let unit = Text::with_unit(
-            size.width - 0.4 * size.font,
-            middle,
-            size.font,
-            Anchor::Middle,
-            &words,
-        );
+        let unit = Text::with_unit(size.width - 0.4 * size.font, middle, size.font, Anchor::Middle, &words);
         chart.picture.text(unit.upright());
     }
     chart.finish()
@@ -142,15 +120,6 @@ pub(crate) fn section(page: &mut String, report: &Report) {
         return none(page, "No spectrogram was made.");
     }
     let mut caption = escape(&view.note);
-    let _ = write!(
-        caption,
-        " Shades: power spectral density in dB re 1 {}.",
-        unit_html(&view.unit)
-    );
-    figure(
-        page,
-        "spectrogram",
-        |layout| spectrogram(view, layout),
-        &caption,
-    );
+    let _ = write!(caption, " Shades: power spectral density in dB re 1 {}.", unit_html(&view.unit));
+    figure(page, "spectrogram", |layout| spectrogram(view, layout), &caption);
 }

@@ -31,11 +31,7 @@ pub(crate) fn facts(page: &mut String, facts: &[Fact]) {
             Value::Number(number) => ("value words", significant(*number, 4)),
             Value::Text(text) => ("value words", escape(text)),
         };
-        let _ = write!(
-            page,
-            "<div><dt>{}</dt><dd class=\"{class}\">{value}",
-            escape(&fact.label)
-        );
+        let _ = write!(page, "<div><dt>{}</dt><dd class=\"{class}\">{value}", escape(&fact.label));
         if !fact.unit.is_empty() {
             let gap = if fact.unit == "°" { "" } else { " " };
             let unit = unit_html(&fact.unit);
@@ -84,11 +80,7 @@ pub(crate) fn fact_table(page: &mut String, facts: &[Fact], absent: &str) {
 fn value_cells(page: &mut String, value: &Value, unit: &str) {
     match value {
         Value::Number(number) => {
-            let _ = write!(
-                page,
-                "<td class=\"number\">{}</td>",
-                significant(*number, 6)
-            );
+            let _ = write!(page, "<td class=\"number\">{}</td>", significant(*number, 6));
         }
         Value::Text(text) => {
             let _ = write!(page, "<td class=\"number\">{}</td>", escape(text));
@@ -114,18 +106,10 @@ pub(crate) fn indicators(page: &mut String, report: &Report) {
             escape(&row.channel),
             escape(&row.kind)
         );
-        for cell in row
-            .cells
-            .iter()
-            .map(Some)
-            .chain(std::iter::repeat(None))
-            .take(table.columns.len().max(row.cells.len()))
+        for cell in
+            row.cells.iter().map(Some).chain(std::iter::repeat(None)).take(table.columns.len().max(row.cells.len()))
         {
-            let _ = write!(
-                page,
-                "<td class=\"number\">{}</td>",
-                cell.map_or_else(|| "–".to_owned(), estimate)
-            );
+            let _ = write!(page, "<td class=\"number\">{}</td>", cell.map_or_else(|| "–".to_owned(), estimate));
         }
         page.push_str("</tr>\n");
     }
@@ -159,21 +143,12 @@ pub(crate) fn assumptions(page: &mut String, report: &Report) {
         "<p>{estimated} of {} values were assumed or estimated; the others were stated by the source named.</p>",
         report.assumptions.len()
     );
-    let part = |estimated: bool| {
-        report
-            .assumptions
-            .iter()
-            .filter(move |a| a.estimated == estimated)
-    };
+    let part = |estimated: bool| report.assumptions.iter().filter(move |a| a.estimated == estimated);
     if estimated > 0 {
         values(page, part(true));
     }
     if estimated < report.assumptions.len() {
-        let _ = writeln!(
-            page,
-            "<details><summary>{} stated values</summary>",
-            report.assumptions.len() - estimated
-        );
+        let _ = writeln!(page, "<details><summary>{} stated values</summary>", report.assumptions.len() - estimated);
         values(page, part(false));
         page.push_str("</details>\n");
     }
@@ -185,40 +160,23 @@ fn values<'a>(page: &mut String, all: impl Iterator<Item = &'a Assumption>) {
          <th>Source or reason</th></tr></thead><tbody>\n",
     );
     for assumption in all {
-        let _ = write!(
-            page,
-            "<tr><th scope=\"row\"><code>{}</code></th>",
-            escape(&assumption.key)
-        );
+        let _ = write!(page, "<tr><th scope=\"row\"><code>{}</code></th>", escape(&assumption.key));
         value_cells(page, &assumption.value, &assumption.unit);
         let tag = match assumption.estimated {
             true => "<span class=\"tag assumed\">assumed</span> ",
             false => "",
         };
-        let _ = writeln!(
-            page,
-            "<td class=\"note\">{tag}{}</td></tr>",
-            escape(&assumption.source)
-        );
+        let _ = writeln!(page, "<td class=\"note\">{tag}{}</td></tr>", escape(&assumption.source));
     }
     page.push_str("</tbody></table></div>\n");
 }
 
 pub(crate) fn table(page: &mut String, table: &Table) {
-    let _ = write!(
-        page,
-        "<section>\n<h2>{}</h2>\n<div class=\"scroll\"><table><thead><tr>",
-        escape(&table.title)
-    );
+    let _ = write!(page, "<section>\n<h2>{}</h2>\n<div class=\"scroll\"><table><thead><tr>", escape(&table.title));
     let number = |i: usize| table.columns.get(i).is_some_and(|c| c.starts_with('#'));
     let class = |i: usize| if number(i) { " class=\"number\"" } else { "" };
     for (i, column) in table.columns.iter().enumerate() {
-        let _ = write!(
-            page,
-            "<th{}>{}</th>",
-            class(i),
-            escape(column.trim_start_matches('#'))
-        );
+        let _ = write!(page, "<th{}>{}</th>", class(i), escape(column.trim_start_matches('#')));
     }
     page.push_str("</tr></thead><tbody>\n");
     for row in &table.rows {

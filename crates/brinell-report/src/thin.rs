@@ -1,11 +1,8 @@
 //! Curves thinned to the pixels there are.
 
-/// Joins points into lines, broken where a value is missing; of the points that share a pixel column only the first, the
-/// lowest, the highest and the last stay, or with `peak` the highest alone.
-pub(crate) fn thinned(
-    points: impl Iterator<Item = (f64, Option<f64>)>,
-    peak: bool,
-) -> Vec<Vec<(f64, f64)>> {
+/// Joins points into lines, broken where a value is missing; of the points that share a pixel column only the first,
+/// the lowest, the highest and the last stay, or with `peak` the highest alone.
+pub(crate) fn thinned(points: impl Iterator<Item = (f64, Option<f64>)>, peak: bool) -> Vec<Vec<(f64, f64)>> {
     let mut lines: Vec<Vec<(f64, f64)>> = vec![];
     let mut line: Vec<(f64, f64)> = vec![];
     let mut column: Vec<(f64, f64)> = vec![];
@@ -20,11 +17,7 @@ pub(crate) fn thinned(
                 high = i;
             }
         }
-        let mut keep = if peak {
-            vec![high]
-        } else {
-            vec![0, low, high, column.len().saturating_sub(1)]
-        };
+        let mut keep = if peak { vec![high] } else { vec![0, low, high, column.len().saturating_sub(1)] };
         keep.sort_unstable();
         keep.dedup();
         line.extend(keep.into_iter().filter_map(|i| column.get(i)));
@@ -32,10 +25,7 @@ pub(crate) fn thinned(
     };
     for (x, y) in points {
         if let Some(y) = y {
-            if column
-                .last()
-                .is_some_and(|last| last.0.floor() != x.floor())
-            {
+            if column.last().is_some_and(|last| last.0.floor() != x.floor()) {
                 flush(&mut column, &mut line);
             }
             column.push((x, y));
@@ -70,8 +60,7 @@ pub(crate) fn straightened(mut lines: Vec<Vec<(f64, f64)>>) -> Vec<Vec<(f64, f64
                     let (px, py) = (point.0 - before.0, point.1 - before.1);
                     let along = dx * px + dy * py;
                     let length = dx.hypot(dy);
-                    (dx * py - dy * px).abs() <= OFF_LINE * length
-                        && (0.0..=length * length).contains(&along)
+                    (dx * py - dy * px).abs() <= OFF_LINE * length && (0.0..=length * length).contains(&along)
                 }
                 _ => false,
             };
@@ -93,9 +82,8 @@ mod tests {
 
     #[test]
     fn analytic_straight_stretches_lose_points_and_corners_stay() {
-        let step: Vec<(f64, f64)> = (0..2000)
-            .map(|k| (0.25 * f64::from(k), if k < 1000 { 50.0 } else { 10.0 }))
-            .collect();
+        let step: Vec<(f64, f64)> =
+            (0..2000).map(|k| (0.25 * f64::from(k), if k < 1000 { 50.0 } else { 10.0 })).collect();
         let thin = straightened(vec![step.clone()]).remove(0);
         assert!(thin.len() < 170, "{}", thin.len());
         for corner in [step[0], step[999], step[1000], step[1999]] {

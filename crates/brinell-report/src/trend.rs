@@ -33,20 +33,10 @@ pub fn trend_pictures(report: &TrendReport, layout: Layout) -> Vec<Picture> {
 
 /// The self-contained page.
 pub fn trend_html(report: &TrendReport) -> String {
-    let mut page = open(
-        &report.title,
-        &report.subtitle,
-        ("Analysed", &report.version),
-        [],
-    );
+    let mut page = open(&report.title, &report.subtitle, ("Analysed", &report.version), []);
     page.push_str("<main>\n");
     table(&mut page, &report.table);
-    failures(
-        &mut page,
-        "Files without a result",
-        "File",
-        &report.failures,
-    );
+    failures(&mut page, "Files without a result", "File", &report.failures);
     section(&mut page, "trend", "Trend", |page| {
         none(
             page,
@@ -84,12 +74,7 @@ mod tests {
             ..TrendReport::default()
         };
         let page = trend_html(&report);
-        for part in [
-            "a&lt;b.csv",
-            "RMS &amp; more",
-            "empty &lt;",
-            "Files without a result",
-        ] {
+        for part in ["a&lt;b.csv", "RMS &amp; more", "empty &lt;", "Files without a result"] {
             assert!(page.contains(part), "{part}");
         }
         assert_eq!(trend_pictures(&report, Layout::Wide)[0].name, "trend-rms");

@@ -1,8 +1,8 @@
 //! The page of an analysis: what must be on it, and that nothing odd breaks it.
 
 use brinell_report::{
-    AnalysisReport, Badge, Fact, Kurtogram, KurtogramLevel, Layout, Marker, Series, Spectrum,
-    Table, analysis_html, analysis_pictures,
+    AnalysisReport, Badge, Fact, Kurtogram, KurtogramLevel, Layout, Marker, Series, Spectrum, Table, analysis_html,
+    analysis_pictures,
 };
 use proptest::prelude::*;
 
@@ -10,13 +10,8 @@ const HOSTILE: &str = "</script><img src=\"x\" onerror='y'>&\u{0}\u{2028}";
 
 fn report(text: &str, values: &[f64]) -> AnalysisReport {
     let at = |i: usize| values.get(i).copied().unwrap_or(f64::NAN);
-    let spectrum = Spectrum {
-        label: text.into(),
-        df_hz: at(0),
-        amplitude: values.to_vec(),
-        unit: text.into(),
-        note: text.into(),
-    };
+    let spectrum =
+        Spectrum { label: text.into(), df_hz: at(0), amplitude: values.to_vec(), unit: text.into(), note: text.into() };
     AnalysisReport {
         title: text.into(),
         subtitle: text.into(),
@@ -49,13 +44,7 @@ fn report(text: &str, values: &[f64]) -> AnalysisReport {
         }],
         band_hz: Some((at(7), at(8))),
         kurtogram: Some(Kurtogram {
-            levels: values
-                .chunks(2)
-                .map(|v| KurtogramLevel {
-                    bandwidth_hz: at(0),
-                    kurtosis: v.to_vec(),
-                })
-                .collect(),
+            levels: values.chunks(2).map(|v| KurtogramLevel { bandwidth_hz: at(0), kurtosis: v.to_vec() }).collect(),
             chosen_hz: Some((at(7), at(8))),
             note: text.into(),
         }),
@@ -71,16 +60,9 @@ fn report(text: &str, values: &[f64]) -> AnalysisReport {
 /// Eight samples, a spectrum with one line, and a kurtogram of 1, 2 and 4 bands.
 fn plain() -> AnalysisReport {
     let mut r = report("plain", &[0.5, 1.0, 2.0, 0.0, 1.0, 1.5, 1.0, 1.0, 2.0]);
-    let level = |bandwidth_hz: f64, kurtosis: &[f64]| KurtogramLevel {
-        bandwidth_hz,
-        kurtosis: kurtosis.to_vec(),
-    };
+    let level = |bandwidth_hz: f64, kurtosis: &[f64]| KurtogramLevel { bandwidth_hz, kurtosis: kurtosis.to_vec() };
     r.kurtogram = Some(Kurtogram {
-        levels: vec![
-            level(4000.0, &[0.1]),
-            level(2000.0, &[0.0, 0.4]),
-            level(1000.0, &[0.0, 0.0, 3.5, 0.2]),
-        ],
+        levels: vec![level(4000.0, &[0.1]), level(2000.0, &[0.0, 0.4]), level(1000.0, &[0.0, 0.0, 3.5, 0.2])],
         chosen_hz: Some((2000.0, 3000.0)),
         note: String::new(),
     });
@@ -89,26 +71,13 @@ fn plain() -> AnalysisReport {
 
 #[test]
 fn prop_the_page_holds_every_part_and_escapes_all_of_it() {
-    let page = analysis_html(&report(
-        HOSTILE,
-        &[0.5, 1.0, 2.0, 3.0, 4.0, 5.0, 1.0, 7.0, 8.0],
-    ));
-    for part in [
-        "verdict",
-        "waveform",
-        "spectrum",
-        "kurtogram",
-        "envelope",
-        "given",
-    ] {
+    let page = analysis_html(&report(HOSTILE, &[0.5, 1.0, 2.0, 3.0, 4.0, 5.0, 1.0, 7.0, 8.0]));
+    for part in ["verdict", "waveform", "spectrum", "kurtogram", "envelope", "given"] {
         assert!(page.contains(&format!("<section id=\"{part}\">")), "{part}");
     }
     assert!(!page.contains("<img"));
     // The numbers of three plots and the script itself; none of them ends early.
-    let (opened, closed) = (
-        page.matches("<script").count(),
-        page.matches("</script>").count(),
-    );
+    let (opened, closed) = (page.matches("<script").count(), page.matches("</script>").count());
     assert_eq!((opened, closed), (4, 4));
     for plot in ["close-up", "spectrum", "envelope"] {
         assert!(page.contains(&format!("data-chart=\"{plot}\"")), "{plot}");
@@ -123,11 +92,7 @@ fn prop_the_page_holds_every_part_and_escapes_all_of_it() {
 #[test]
 fn regress_the_verdict_is_the_headline_and_has_its_colour() {
     let mut r = plain();
-    for (badge, class) in [
-        (Badge::Bad, "bad"),
-        (Badge::Good, "good"),
-        (Badge::Open, "open"),
-    ] {
+    for (badge, class) in [(Badge::Bad, "bad"), (Badge::Good, "good"), (Badge::Open, "open")] {
         (r.title, r.badge) = ("Damage: outer race".into(), badge);
         let page = analysis_html(&r);
         assert!(page.contains("<h1>Damage: outer race</h1>"));
@@ -138,25 +103,13 @@ fn regress_the_verdict_is_the_headline_and_has_its_colour() {
 #[test]
 fn regress_pictures_and_their_names() {
     let names = |r: &AnalysisReport| -> Vec<String> {
-        analysis_pictures(r, Layout::Wide)
-            .into_iter()
-            .map(|p| p.name)
-            .collect()
+        analysis_pictures(r, Layout::Wide).into_iter().map(|p| p.name).collect()
     };
     let mut r = plain();
-    let all = [
-        "waveform",
-        "close-up",
-        "spectrum",
-        "kurtogram",
-        "envelope-spectrum",
-    ];
+    let all = ["waveform", "close-up", "spectrum", "kurtogram", "envelope-spectrum"];
     assert_eq!(names(&r), all);
     r.kurtogram = None;
-    assert_eq!(
-        names(&r),
-        ["waveform", "close-up", "spectrum", "envelope-spectrum"]
-    );
+    assert_eq!(names(&r), ["waveform", "close-up", "spectrum", "envelope-spectrum"]);
     assert!(!analysis_html(&r).contains("id=\"kurtogram\""));
 }
 
@@ -184,9 +137,7 @@ fn analytic_a_second_signal_has_its_own_curve_and_name() {
 fn numbers(svg: &str) -> String {
     let mut parts = svg.split("base64,");
     let first = parts.next().unwrap_or_default().to_owned();
-    parts.fold(first, |text, part| {
-        text + part.split_once('"').expect("an image ends").1
-    })
+    parts.fold(first, |text, part| text + part.split_once('"').expect("an image ends").1)
 }
 
 proptest! {

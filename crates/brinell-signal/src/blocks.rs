@@ -1,23 +1,26 @@
 //! Condition indicators of a stream with their 95 % intervals, in bounded memory.
 //!
-//! [`Blocks`] gathers moments and extremes per revolution of the shaft. Every indicator is a function of averages over whole
-//! revolutions, so that records of different length estimate one number, and value and interval are of the same quantity:
+//! [`Blocks`] gathers moments and extremes per revolution of the shaft. Every indicator is a function of averages over
+//! whole revolutions, so that records of different length estimate one number, and value and interval are of the same
+//! quantity:
 //!
-//! - mean, mean square, central moments and mean |x| are averaged over all samples of the whole revolutions; the root of the RMS and of
-//!   the standard deviation and the ratios (kurtosis M_4 / M_2^2, skewness, shape factor) are taken after averaging;
-//! - `peak` and `peak_to_peak` are averages over revolutions of the largest |x| and of the largest less the smallest x of a
-//!   revolution; crest and impulse factor are that average peak over the RMS and over mean |x|.
+//! - mean, mean square, central moments and mean |x| are averaged over all samples of the whole revolutions; the root
+//!   of the RMS and of the standard deviation and the ratios (kurtosis M_4 / M_2^2, skewness, shape factor) are taken
+//!   after averaging;
+//! - `peak` and `peak_to_peak` are averages over revolutions of the largest |x| and of the largest less the smallest x
+//!   of a revolution; crest and impulse factor are that average peak over the RMS and over mean |x|.
 //!
 //! The largest |x| of the whole record grows with its length and has no interval; [`Blocks::record`] has it.
 //!
 //! # Interval
 //!
-//! A function g of averages has, to first order, the scatter of the average of its influence values z_i = sum_j (dg/dmu_j)(v_ij - mu_j),
-//! one for each block i with block averages v_ij (the infinitesimal jackknife; B. Efron, "The jackknife, the bootstrap and other
-//! resampling plans", SIAM 1982, chapter 6). The series z_i is correlated, because a cage turns in about 2.3 revolutions of the shaft;
-//! [`scatter`](super::scatter()) measures the standard error of its average in spite of that. Quantities that are positive by definition
-//! are taken on a logarithmic scale, g = ln of the indicator: their interval is value / f to value * f and never reaches zero.
-//! Mean and skewness are taken as they are: value +- half width. Either way the value lies within its interval.
+//! A function g of averages has, to first order, the scatter of the average of its influence values z_i = sum_j
+//! (dg/dmu_j)(v_ij - mu_j), one for each block i with block averages v_ij (the infinitesimal jackknife; B. Efron, "The
+//! jackknife, the bootstrap and other resampling plans", SIAM 1982, chapter 6). The series z_i is correlated, because a
+//! cage turns in about 2.3 revolutions of the shaft; [`scatter`](super::scatter()) measures the standard error of its
+//! average in spite of that. Quantities that are positive by definition are taken on a logarithmic scale, g = ln of the
+//! indicator: their interval is value / f to value * f and never reaches zero. Mean and skewness are taken as they are:
+//! value +- half width. Either way the value lies within its interval.
 
 use super::indicators::{Indicator, Moments};
 use super::scatter::{Scatter, drift, scatter};
@@ -42,14 +45,11 @@ pub struct Interval {
 impl Interval {
     /// Of a value whose standard uncertainty is known.
     pub fn normal(value: f64, uncertainty: f64) -> Self {
-        Interval {
-            low: value - NORMAL * uncertainty,
-            high: value + NORMAL * uncertainty,
-            freedom: MOST_FREEDOM,
-        }
+        Interval { low: value - NORMAL * uncertainty, high: value + NORMAL * uncertainty, freedom: MOST_FREEDOM }
     }
 
-    /// Half the width over 1.96: with many degrees of freedom the standard error; with few it is larger, so that 1.96 times it still covers.
+    /// Half the width over 1.96: with many degrees of freedom the standard error; with few it is larger, so that 1.96
+    /// times it still covers.
     pub fn standard_uncertainty(&self) -> f64 {
         0.5 * (self.high - self.low) / NORMAL
     }
@@ -71,41 +71,28 @@ pub struct Estimate {
 }
 
 impl Estimate {
-    /// Of a quantity that is positive by definition: value / f to value * f. `relative` is the standard error of its logarithm.
+    /// Of a quantity that is positive by definition: value / f to value * f. `relative` is the standard error of its
+    /// logarithm.
     pub fn positive(value: f64, relative: Option<Scatter>) -> Self {
         let interval = relative.filter(|_| value > 0.0).map(|s| {
             let factor = s.half_width().exp();
-            Interval {
-                low: value / factor,
-                high: value * factor,
-                freedom: s.freedom,
-            }
+            Interval { low: value / factor, high: value * factor, freedom: s.freedom }
         });
-        Estimate {
-            value,
-            interval: interval.filter(|i| i.high.is_finite()),
-        }
+        Estimate { value, interval: interval.filter(|i| i.high.is_finite()) }
     }
 
     /// Of a quantity of either sign: value +- half width.
     pub fn signed(value: f64, scatter: Option<Scatter>) -> Self {
-        let interval = scatter.map(|s| Interval {
-            low: value - s.half_width(),
-            high: value + s.half_width(),
-            freedom: s.freedom,
-        });
-        Estimate {
-            value,
-            interval: interval.filter(|i| i.low.is_finite() && i.high.is_finite()),
-        }
+        let interval =
+            scatter.map(|s| Interval { low: value - s.half_width(), high: value + s.half_width(), freedom: s.freedom });
+        Estimate { value, interval: interval.filter(|i| i.low.is_finite() && i.high.is_finite()) }
     }
 
     /// Of the mean of a correlated series of positive numbers, such as the peaks after impacts; `None` of an empty one.
     pub fn of_mean(series: &[f64]) -> Option<Self> {
         let mean = series.iter().sum::<f64>() / series.len() as f64;
         let relative: Vec<f64> = series.iter().map(|x| x / mean - 1.0).collect();
-        mean.is_finite()
-            .then(|| Self::positive(mean, scatter(&relative)))
+        mean.is_finite().then(|| Self::positive(mean, scatter(&relative)))
     }
 }
 
@@ -121,12 +108,7 @@ struct Block {
 }
 
 impl Merge for Block {
-    const NONE: Block = Block {
-        moments: Moments::new(),
-        peaks: 0.0,
-        ranges: 0.0,
-        revolutions: 0,
-    };
+    const NONE: Block = Block { moments: Moments::new(), peaks: 0.0, ranges: 0.0, revolutions: 0 };
 
     fn merge(&self, later: &Block) -> Block {
         Block {
@@ -141,12 +123,7 @@ impl Merge for Block {
 impl Block {
     /// Of the samples of one revolution.
     fn of(moments: Moments) -> Self {
-        Block {
-            peaks: moments.peak(),
-            ranges: moments.max() - moments.min(),
-            moments,
-            revolutions: 1,
-        }
+        Block { peaks: moments.peak(), ranges: moments.max() - moments.min(), moments, revolutions: 1 }
     }
 
     fn peak(&self) -> f64 {
@@ -174,9 +151,10 @@ impl Block {
 
 /// Statistics over consecutive blocks, in bounded memory.
 ///
-/// The caller says [`end_block`](Self::end_block) at each whole revolution of the inner ring. Where one more than [`MOST_BLOCKS`](super::series::MOST_BLOCKS)
-/// blocks would begin, neighbours merge in pairs and from then on a block is twice as many revolutions. Samples before the end of
-/// the last whole revolution count; those after it count only where there is no whole one.
+/// The caller says [`end_block`](Self::end_block) at each whole revolution of the inner ring. Where one more than
+/// [`MOST_BLOCKS`](super::series::MOST_BLOCKS) blocks would begin, neighbours merge in pairs and from then on a block
+/// is twice as many revolutions. Samples before the end of the last whole revolution count; those after it count only
+/// where there is no whole one.
 #[derive(Debug, Clone)]
 pub struct Blocks {
     series: Series<Block>,
@@ -193,10 +171,7 @@ impl Default for Blocks {
 impl Blocks {
     /// No samples, no blocks.
     pub fn new() -> Self {
-        Blocks {
-            series: Series::new(),
-            current: Moments::new(),
-        }
+        Blocks { series: Series::new(), current: Moments::new() }
     }
 
     /// Of a slice, in blocks of `samples` samples (not necessarily whole), 1 or more: a revolution is the sample rate
@@ -248,8 +223,8 @@ impl Blocks {
         }
     }
 
-    /// An indicator with its interval; `None` where it is not defined (see [`Moments::get`]). Of a record shorter than one revolution it
-    /// is the indicator of all samples, without an interval.
+    /// An indicator with its interval; `None` where it is not defined (see [`Moments::get`]). Of a record shorter than
+    /// one revolution it is the indicator of all samples, without an interval.
     pub fn estimate(&self, indicator: Indicator) -> Option<Estimate> {
         let all = self.all();
         let value = all.get(indicator)?;
@@ -261,15 +236,15 @@ impl Blocks {
         })
     }
 
-    /// By how much, on a logarithmic scale, the mean square began above its later value, where that is more than its scatter explains;
-    /// see [`drift`].
+    /// By how much, on a logarithmic scale, the mean square began above its later value, where that is more than its
+    /// scatter explains; see [`drift`].
     pub fn level_drift(&self) -> Option<f64> {
         let half = drift(&self.influence(&self.all(), Indicator::Rms))?;
         Some(2.0 * half)
     }
 
-    /// The influence values of the whole blocks on an indicator of `all`, or on its logarithm where it is positive by definition; in order
-    /// of time, their mean about 0.
+    /// The influence values of the whole blocks on an indicator of `all`, or on its logarithm where it is positive by
+    /// definition; in order of time, their mean about 0.
     fn influence(&self, all: &Block, indicator: Indicator) -> Vec<f64> {
         use Indicator::*;
         let (mean, [m2, m3, m4]) = (all.moments.mean(), all.moments.central(all.moments.mean()));
@@ -285,8 +260,7 @@ impl Blocks {
                 let [b2, b3, b4] = b.central(mean);
                 let d2 = weight * (b2 - m2);
                 let of_square = (d2 + 2.0 * mean * shift) / square;
-                let of_absolute =
-                    || weight * (b.mean_absolute() / all.moments.mean_absolute() - 1.0);
+                let of_absolute = || weight * (b.mean_absolute() / all.moments.mean_absolute() - 1.0);
                 let of_peak = || block.peak() / all.peak() - 1.0;
                 match indicator {
                     Mean => shift,

@@ -1,8 +1,8 @@
 //! Decimation: a linear-phase low-pass, then one sample in several.
 //!
-//! The low-pass has a Kaiser window: passband to 0.4 of the output rate, stopband from 0.5, 80 dB. Everything above half
-//! the output rate is therefore down by 80 dB before it can fold. The filter is J. F. Kaiser, "Nonrecursive digital filter design using
-//! the I0-sinh window function", Proc. IEEE Int. Symp. Circuits and Systems (1974), 20-23.
+//! The low-pass has a Kaiser window: passband to 0.4 of the output rate, stopband from 0.5, 80 dB. Everything above
+//! half the output rate is therefore down by 80 dB before it can fold. The filter is J. F. Kaiser, "Nonrecursive
+//! digital filter design using the I0-sinh window function", Proc. IEEE Int. Symp. Circuits and Systems (1974), 20-23.
 
 use std::f64::consts::PI;
 
@@ -49,10 +49,7 @@ pub fn kaiser_lowpass(passband: f64, stopband: f64, attenuation_db: f64) -> Vec<
         0.0 < passband && passband < stopband && stopband <= 0.5,
         "edges out of order: passband {passband}, stopband {stopband} cycles per sample"
     );
-    assert!(
-        (50.0..=160.0).contains(&attenuation_db),
-        "attenuation {attenuation_db} dB is outside 50 to 160 dB"
-    );
+    assert!((50.0..=160.0).contains(&attenuation_db), "attenuation {attenuation_db} dB is outside 50 to 160 dB");
     let attenuation = attenuation_db + 0.5;
     let beta = 0.1102 * (attenuation - 8.7);
     let order = (attenuation - 7.95) / (2.285 * 2.0 * PI * (stopband - passband));
@@ -63,11 +60,7 @@ pub fn kaiser_lowpass(passband: f64, stopband: f64, attenuation_db: f64) -> Vec<
     for m in 0..=half {
         let ratio = m as f64 / half as f64;
         let window = bessel_i0(beta * (1.0 - ratio * ratio).sqrt()) / bessel_i0(beta);
-        let ideal = if m == 0 {
-            2.0 * cutoff
-        } else {
-            (2.0 * PI * cutoff * m as f64).sin() / (PI * m as f64)
-        };
+        let ideal = if m == 0 { 2.0 * cutoff } else { (2.0 * PI * cutoff * m as f64).sin() / (PI * m as f64) };
         taps[half - m] = ideal * window;
         taps[half + m] = ideal * window;
     }
@@ -76,9 +69,9 @@ pub fn kaiser_lowpass(passband: f64, stopband: f64, attenuation_db: f64) -> Vec<
     taps
 }
 
-/// One sample in `factor` of a slice, behind the same anti-alias filter scaled to that factor: output k represents input
-/// k `factor`, without delay, and nothing above half the new sampling rate folds by more than 80 dB down. Flat to 0.4 of
-/// the new sampling rate. A factor of 1 gives the slice back.
+/// One sample in `factor` of a slice, behind the same anti-alias filter scaled to that factor: output k represents
+/// input k `factor`, without delay, and nothing above half the new sampling rate folds by more than 80 dB down. Flat to
+/// 0.4 of the new sampling rate. A factor of 1 gives the slice back.
 ///
 /// The ends are extended by the signal turned about its end point; half the filter's length, about 25 output samples,
 /// leans on that.
@@ -87,12 +80,7 @@ pub fn kaiser_lowpass(passband: f64, stopband: f64, attenuation_db: f64) -> Vec<
 /// [`SignalError`] where the signal is shorter than the filter (about 51 `factor` samples), a sample is not finite, or
 /// the factor is 0 or above 1000.
 pub fn decimate(x: &[f64], factor: usize) -> Result<Vec<f64>, SignalError> {
-    require(
-        (1..=1000).contains(&factor),
-        "decimation factor",
-        factor as f64,
-        "1 to 1000",
-    )?;
+    require((1..=1000).contains(&factor), "decimation factor", factor as f64, "1 to 1000")?;
     if factor == 1 {
         check(x, 1.0, 0, "decimation")?;
         return Ok(x.to_vec());
@@ -113,25 +101,14 @@ mod tests {
     /// Zero-phase response at `f` cycles per input sample.
     fn response(taps: &[f64], f: f64) -> f64 {
         let half = (taps.len() / 2) as f64;
-        taps.iter()
-            .enumerate()
-            .map(|(m, h)| h * (2.0 * PI * f * (m as f64 - half)).cos())
-            .sum()
+        taps.iter().enumerate().map(|(m, h)| h * (2.0 * PI * f * (m as f64 - half)).cos()).sum()
     }
 
     #[test]
     fn lit_bessel_i0() {
         // Abramowitz and Stegun, tables 9.8 and 9.11.
-        for (x, value) in [
-            (1.0, 1.266_065_877_752_008),
-            (5.0, 27.239_871_823_604_44),
-            (10.0, 2_815.716_628_466_254),
-        ] {
-            assert!(
-                (bessel_i0(x) / value - 1.0).abs() < 1e-14,
-                "I0({x}) = {}",
-                bessel_i0(x)
-            );
+        for (x, value) in [(1.0, 1.266_065_877_752_008), (5.0, 27.239_871_823_604_44), (10.0, 2_815.716_628_466_254)] {
+            assert!((bessel_i0(x) / value - 1.0).abs() < 1e-14, "I0({x}) = {}", bessel_i0(x));
         }
     }
 
@@ -150,15 +127,9 @@ mod tests {
         }
         pass = pass.max((response(taps, PASSBAND / 8.0) - 1.0).abs());
         stop = stop.max(response(taps, STOPBAND / 8.0).abs());
-        assert!(
-            pass < 1e-4 && stop < 1e-4,
-            "passband {pass:e}, stopband {stop:e}"
-        );
+        assert!(pass < 1e-4 && stop < 1e-4, "passband {pass:e}, stopband {stop:e}");
         // Not bought with needless length either.
-        assert!(
-            pass.max(stop) > 0.8e-4,
-            "passband {pass:e}, stopband {stop:e}"
-        );
+        assert!(pass.max(stop) > 0.8e-4, "passband {pass:e}, stopband {stop:e}");
     }
 
     #[test]
@@ -183,10 +154,7 @@ mod tests {
         // (A - 7.95) / (14.36 df) + 1 with A = 80 dB, df = 0.1 / 8 cycles per sample.
         let formula = (80.0 - 7.95) / (14.36 * 0.1 / 8.0) + 1.0;
         let count = kaiser_lowpass(PASSBAND / 8.0, STOPBAND / 8.0, ATTENUATION_DB).len() as f64;
-        assert!(
-            (count - formula).abs() <= 6.0,
-            "{count} taps, formula {formula}"
-        );
+        assert!((count - formula).abs() <= 6.0, "{count} taps, formula {formula}");
     }
 
     #[test]
@@ -197,10 +165,7 @@ mod tests {
             let keep = cosine(n, FS, 0.38 * fs, 1.0, 0.4);
             let stop = cosine(n, FS, 0.55 * fs, 1.0, 0.4);
             let expected = cosine(400, fs, 0.38 * fs, 1.0, 0.4);
-            let (kept, stopped) = (
-                decimate(&keep, factor).unwrap(),
-                decimate(&stop, factor).unwrap(),
-            );
+            let (kept, stopped) = (decimate(&keep, factor).unwrap(), decimate(&stop, factor).unwrap());
             assert_eq!(kept.len(), 400);
             for k in 40..360 {
                 assert!((kept[k] - expected[k]).abs() < 1e-4 && stopped[k].abs() < 1e-4);

@@ -1,13 +1,15 @@
-//! Tails of the distributions that spectral estimates of noise follow: chi-square, F, the normal one, and their quantiles.
+//! Tails of the distributions that spectral estimates of noise follow: chi-square, F, the normal one, and their
+//! quantiles.
 //!
-//! Incomplete gamma and beta functions are those of `statrs`; relative errors are below 1e-10 for up to 1e4 degrees of freedom.
+//! Incomplete gamma and beta functions are those of `statrs`; relative errors are below 1e-10 for up to 1e4 degrees of
+//! freedom.
 
 use statrs::distribution::{ContinuousCDF, Normal};
 use statrs::function::beta::checked_beta_reg;
 use statrs::function::gamma::checked_gamma_ur;
 
-/// P(chi-square with `freedom` degrees of freedom > x): the false-alarm probability of a power `x / freedom` times the mean of
-/// noise. 1 for x <= 0; NaN where `freedom` is not positive.
+/// P(chi-square with `freedom` degrees of freedom > x): the false-alarm probability of a power `x / freedom` times the
+/// mean of noise. 1 for x <= 0; NaN where `freedom` is not positive.
 pub fn chi_square_tail(x: f64, freedom: f64) -> f64 {
     if x <= 0.0 {
         return 1.0;
@@ -49,8 +51,8 @@ pub fn normal_quantile(p: f64) -> f64 {
     Normal::standard().inverse_cdf(p)
 }
 
-/// P(F > x) with `d1` and `d2` degrees of freedom: the false-alarm probability of a power of `d1` degrees of freedom `x` times
-/// its mean, where that mean is itself estimated with `d2`. NaN where one of them is not positive.
+/// P(F > x) with `d1` and `d2` degrees of freedom: the false-alarm probability of a power of `d1` degrees of freedom
+/// `x` times its mean, where that mean is itself estimated with `d2`. NaN where one of them is not positive.
 pub fn f_tail(x: f64, d1: f64, d2: f64) -> f64 {
     if x <= 0.0 {
         return 1.0;
@@ -86,10 +88,7 @@ mod tests {
             (0.500_001, 2.506_628_274_705_705_2e-6),
         ] {
             let found = normal_quantile(p);
-            assert!(
-                (found - z).abs() <= 1e-9 * z.abs().max(1e-6),
-                "{p}: {found}"
-            );
+            assert!((found - z).abs() <= 1e-9 * z.abs().max(1e-6), "{p}: {found}");
             assert!((normal_tail(-found) - p).abs() < 1e-12 * p.max(1e-3), "{p}");
         }
         assert_eq!(normal_quantile(0.0), f64::NEG_INFINITY);

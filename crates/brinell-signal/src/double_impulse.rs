@@ -1,9 +1,9 @@
 //! Entry and exit of a defect: how far apart in time, and what length that implies.
 //!
-//! A rolling element that passes a spall causes two impulses: where it enters, and where it hits the far edge or leaves. The
-//! time between the two is the spall's length over the speed of the contact: N. Sawalhi and R. B. Randall, "Vibration
-//! response of spalled rolling element bearings: observations, simulations and signal processing techniques to track
-//! the spall size", Mech. Syst. Signal Process. 25 (2011) 846-870.
+//! A rolling element that passes a spall causes two impulses: where it enters, and where it hits the far edge or
+//! leaves. The time between the two is the spall's length over the speed of the contact: N. Sawalhi and R. B. Randall,
+//! "Vibration response of spalled rolling element bearings: observations, simulations and signal processing techniques
+//! to track the spall size", Mech. Syst. Signal Process. 25 (2011) 846-870.
 //!
 //! Three ways to the time, all from the squared envelope of a band: the [autocorrelation](Method::Autocorrelation), in
 //! which every pair adds up at its separation; the power [cepstrum](Method::Cepstrum), in which the ripple that a pair
@@ -77,11 +77,7 @@ pub struct Separation {
 /// # Errors
 /// [`SignalError`] where the signal is shorter than 24 times the longest separation or 6 periods, has samples that are
 /// not finite, or the search is out of range.
-pub fn separations(
-    x: &[f64],
-    fs: f64,
-    search: &SeparationSearch,
-) -> Result<Vec<Separation>, SignalError> {
+pub fn separations(x: &[f64], fs: f64, search: &SeparationSearch) -> Result<Vec<Separation>, SignalError> {
     let squared = squared_envelope(x, fs, search)?;
     let lags = Lags::new(fs, search);
     let parts = Parts::new(&squared, fs, search);
@@ -112,8 +108,8 @@ pub enum Events {
     /// far edge. Length = speed times separation.
     BothEdges,
     /// The contact reaches the near edge; later the roller, bridging the defect, hits the far edge when its centre is
-    /// over the middle. Length = twice speed times separation (Sawalhi and Randall 2011, for defects in which the roller
-    /// does not reach the floor).
+    /// over the middle. Length = twice speed times separation (Sawalhi and Randall 2011, for defects in which the
+    /// roller does not reach the floor).
     EdgeAndImpact,
 }
 
@@ -129,35 +125,20 @@ pub struct DefectLength {
 /// The length that a separation implies, where the contact moves along the damaged surface at `speed` (m/s, either
 /// sense, with its standard uncertainty): R_o times the orbit speed on an outer raceway at rest, R_i times the
 /// orbit speed relative to the inner ring on an inner raceway.
-pub fn defect_length(
-    separation: &Separation,
-    speed: f64,
-    speed_uncertainty: f64,
-    events: Events,
-) -> DefectLength {
+pub fn defect_length(separation: &Separation, speed: f64, speed_uncertainty: f64, events: Events) -> DefectLength {
     let factor = match events {
         Events::BothEdges => 1.0,
         Events::EdgeAndImpact => 2.0,
     };
     DefectLength {
         length: factor * speed.abs() * separation.time,
-        uncertainty: factor
-            * (speed * separation.uncertainty).hypot(speed_uncertainty * separation.time),
+        uncertainty: factor * (speed * separation.uncertainty).hypot(speed_uncertainty * separation.time),
     }
 }
 
-fn squared_envelope(
-    x: &[f64],
-    fs: f64,
-    search: &SeparationSearch,
-) -> Result<Vec<f64>, SignalError> {
+fn squared_envelope(x: &[f64], fs: f64, search: &SeparationSearch) -> Result<Vec<f64>, SignalError> {
     check(x, fs, 64, "a search for double impulses")?;
-    let SeparationSearch {
-        band,
-        shortest,
-        longest,
-        repetition,
-    } = *search;
+    let SeparationSearch { band, shortest, longest, repetition } = *search;
     require(
         band.low >= 0.0 && band.low < band.high && band.low < 0.5 * fs,
         "lower edge of the band (Hz)",
@@ -170,12 +151,7 @@ fn squared_envelope(
         repetition,
         "above 0, below a quarter of the sampling rate",
     )?;
-    require(
-        longest <= 0.5 / repetition,
-        "longest separation (s)",
-        longest,
-        "at most half a repetition period",
-    )?;
+    require(longest <= 0.5 / repetition, "longest separation (s)", longest, "at most half a repetition period")?;
     require(
         shortest > 0.0 && shortest * fs >= 2.0 && longest * fs >= shortest * fs + 4.0,
         "shortest separation (s)",
@@ -198,11 +174,7 @@ struct Lags {
 
 impl Lags {
     fn new(fs: f64, search: &SeparationSearch) -> Self {
-        Lags {
-            fs,
-            first: (search.shortest * fs).ceil() as usize,
-            last: (search.longest * fs).floor() as usize,
-        }
+        Lags { fs, first: (search.shortest * fs).ceil() as usize, last: (search.longest * fs).floor() as usize }
     }
 }
 
@@ -225,11 +197,8 @@ impl Parts {
     /// By lag: the function's mean over the parts and its standard error, in units of its value at lag 0; then its most
     /// prominent peak.
     fn peak(&self, x: &[f64], lags: &Lags, method: Method) -> Option<Separation> {
-        let curves: Vec<Vec<f64>> = x
-            .chunks_exact(self.length)
-            .take(self.count)
-            .map(|part| self.curve(part, lags.last + 2, method))
-            .collect();
+        let curves: Vec<Vec<f64>> =
+            x.chunks_exact(self.length).take(self.count).map(|part| self.curve(part, lags.last + 2, method)).collect();
         let mut mean = vec![0.0; lags.last + 2];
         let mut error = vec![0.0; lags.last + 2];
         for lag in 0..mean.len() {
@@ -256,12 +225,7 @@ impl Parts {
             places.push(refine(curve, top));
         }
         let spread = places.standard_deviation() / ((self.count - 1) as f64).sqrt();
-        Some(Separation {
-            time: time / lags.fs,
-            uncertainty: spread.max(0.1) / lags.fs,
-            clearance,
-            method,
-        })
+        Some(Separation { time: time / lags.fs, uncertainty: spread.max(0.1) / lags.fs, clearance, method })
     }
 
     /// Autocorrelation or cepstrum of a part, lags 0 to `count` - 1.
@@ -279,11 +243,7 @@ impl Parts {
         // A real, even sequence: its transform is the inverse one, over its length.
         for (k, v) in output.iter().enumerate() {
             let power = v.norm_sqr();
-            let value = if method == Method::Cepstrum {
-                power.max(smallest).ln()
-            } else {
-                power
-            };
+            let value = if method == Method::Cepstrum { power.max(smallest).ln() } else { power };
             input[k] = value;
             let mirrored = (self.fft.len() - k) % self.fft.len();
             input[mirrored] = value;
@@ -330,11 +290,7 @@ fn refine(curve: &[f64], top: usize) -> f64 {
     }
     let (left, middle, right) = (curve[top - 1], curve[top], curve[top + 1]);
     let bend = left - 2.0 * middle + right;
-    let offset = if bend < 0.0 {
-        0.5 * (left - right) / bend
-    } else {
-        0.0
-    };
+    let offset = if bend < 0.0 { 0.5 * (left - right) / bend } else { 0.0 };
     top as f64 + offset.clamp(-0.5, 0.5)
 }
 
@@ -378,12 +334,7 @@ fn pairs(x: &[f64], fs: f64, search: &SeparationSearch, lags: &Lags) -> Option<S
     let mut scatter = Moments::new();
     near.iter().for_each(|d| scatter.push(*d));
     let spread = scatter.standard_deviation() / (near.len() as f64).sqrt();
-    Some(Separation {
-        time: time / fs,
-        uncertainty: spread.max(0.1) / fs,
-        clearance,
-        method: Method::Pairs,
-    })
+    Some(Separation { time: time / fs, uncertainty: spread.max(0.1) / fs, clearance, method: Method::Pairs })
 }
 
 #[cfg(test)]
@@ -394,25 +345,13 @@ mod tests {
     const FS: f64 = 51_200.0;
 
     fn search() -> SeparationSearch {
-        SeparationSearch {
-            band: Band::between(4000.0, 16_000.0),
-            shortest: 4e-4,
-            longest: 4e-3,
-            repetition: 87.0,
-        }
+        SeparationSearch { band: Band::between(4000.0, 16_000.0), shortest: 4e-4, longest: 4e-3, repetition: 87.0 }
     }
 
     /// Impacts at 87 Hz, each followed by one of `second` times its height, `separation` s later.
     fn double(separation: f64, second: f64, noise: f64, seed: u64) -> Vec<f64> {
         let n = 102_400;
-        let train = ImpactTrain {
-            fs: FS,
-            rate: 87.0,
-            jitter: 0.005,
-            resonance: 9000.0,
-            decay: 1e-4,
-            noise: 0.0,
-        };
+        let train = ImpactTrain { fs: FS, rate: 87.0, jitter: 0.005, resonance: 9000.0, decay: 1e-4, noise: 0.0 };
         let single = train.generate(n, seed);
         let shift = (separation * FS).round() as usize;
         let mut random = Noise::new(seed + 77);
@@ -442,10 +381,7 @@ mod tests {
     #[test]
     fn prop_single_impulses_and_noise_have_no_consensus() {
         for seed in 0..20 {
-            for x in [
-                double(1e-3, 0.0, 0.05, seed),
-                Noise::new(seed).normals(102_400),
-            ] {
+            for x in [double(1e-3, 0.0, 0.05, seed), Noise::new(seed).normals(102_400)] {
                 let found = separations(&x, FS, &search()).unwrap();
                 assert_eq!(consensus(&found), None, "{seed} {found:?}");
             }
@@ -454,12 +390,7 @@ mod tests {
 
     #[test]
     fn analytic_length() {
-        let separation = Separation {
-            time: 1e-3,
-            uncertainty: 1e-5,
-            clearance: 9.0,
-            method: Method::Pairs,
-        };
+        let separation = Separation { time: 1e-3, uncertainty: 1e-5, clearance: 9.0, method: Method::Pairs };
         let length = defect_length(&separation, -2.0, 0.0, Events::BothEdges);
         assert!((length.length - 2e-3).abs() < 1e-18 && (length.uncertainty - 2e-5).abs() < 1e-18);
         let length = defect_length(&separation, 2.0, 0.02, Events::EdgeAndImpact);

@@ -36,10 +36,7 @@ impl Band {
 
     /// Everything above a high-pass frequency, Hz.
     pub fn above(low: f64) -> Self {
-        Band {
-            low,
-            high: f64::INFINITY,
-        }
+        Band { low, high: f64::INFINITY }
     }
 }
 
@@ -69,12 +66,7 @@ pub struct EnvelopeSpectrum {
 ///
 /// # Errors
 /// [`SignalError`] with fewer than 8 samples, samples that are not finite, or a band or segments out of range.
-pub fn envelope_spectrum(
-    x: &[f64],
-    fs: f64,
-    band: Band,
-    segments: &Segments,
-) -> Result<EnvelopeSpectrum, SignalError> {
+pub fn envelope_spectrum(x: &[f64], fs: f64, band: Band, segments: &Segments) -> Result<EnvelopeSpectrum, SignalError> {
     check(x, fs, FEWEST_SAMPLES, "an envelope")?;
     require(
         0.0 <= band.low && band.low < band.high && band.low < 0.5 * fs,
@@ -92,10 +84,7 @@ pub fn envelope_spectrum(
         },
         ..*segments
     };
-    Ok(EnvelopeSpectrum {
-        spectrum: psd(&envelope, fs, &segments)?,
-        mean,
-    })
+    Ok(EnvelopeSpectrum { spectrum: psd(&envelope, fs, &segments)?, mean })
 }
 
 /// Subtracts the window-weighted mean, and gives it.
@@ -121,13 +110,12 @@ pub(super) fn bins(fs: f64, length: usize, band: Band) -> Range<usize> {
     let most = length.div_ceil(2);
     let step = fs / length as f64;
     let first = ((band.low / step).ceil() as usize).clamp(1, most);
-    let end = ((band.high / step).floor() as usize)
-        .saturating_add(1)
-        .clamp(first, most);
+    let end = ((band.high / step).floor() as usize).saturating_add(1).clamp(first, most);
     first..end
 }
 
-/// Moduli of complex values: roots of sums of squares, by the much slower `hypot` only where a square would leave the range of numbers.
+/// Moduli of complex values: roots of sums of squares, by the much slower `hypot` only where a square would leave the
+/// range of numbers.
 pub(super) fn moduli(values: &[Complex<f64>], moduli: &mut [f64]) {
     for (modulus, value) in moduli.iter_mut().zip(values) {
         *modulus = value.norm_sqr().sqrt();
@@ -161,8 +149,8 @@ impl Demodulator {
         }
     }
 
-    /// The envelope of the segment whose transform this is: the modulus of its analytic signal, which has the band's positive frequencies
-    /// twice and nothing else.
+    /// The envelope of the segment whose transform this is: the modulus of its analytic signal, which has the band's
+    /// positive frequencies twice and nothing else.
     pub(super) fn envelope(&mut self, transform: &[Complex<f64>], envelope: &mut [f64]) {
         let twice = 2.0 / envelope.len() as f64;
         self.values.fill(Complex::ZERO);
@@ -170,8 +158,7 @@ impl Demodulator {
         for (value, bin) in band.zip(&transform[self.bins.clone()]) {
             *value = bin * twice;
         }
-        self.fft
-            .process_with_scratch(&mut self.values, &mut self.scratch);
+        self.fft.process_with_scratch(&mut self.values, &mut self.scratch);
         moduli(&self.values, envelope);
     }
 }
@@ -201,40 +188,23 @@ mod tests {
     /// 2 (1 + depth cos 2 pi f t) cos 2 pi 6000.3 t.
     fn modulated(n: usize, f: f64, depth: f64) -> Vec<f64> {
         let carrier = cosine(n, FS, 6000.3, 2.0, 0.2);
-        carrier
-            .iter()
-            .enumerate()
-            .map(|(i, c)| c * (1.0 + depth * (TAU * f * i as f64 / FS).cos()))
-            .collect()
+        carrier.iter().enumerate().map(|(i, c)| c * (1.0 + depth * (TAU * f * i as f64 / FS).cos())).collect()
     }
 
     #[test]
     fn analytic_modulation_frequency_and_depth() {
         // A slow component fifty times as strong lies outside the band.
         let mut x = modulated(40_000, 87.3, 0.4);
-        x.iter_mut()
-            .zip(cosine(40_000, FS, 33.0, 100.0, 0.0))
-            .for_each(|(x, slow)| *x += slow);
+        x.iter_mut().zip(cosine(40_000, FS, 33.0, 100.0, 0.0)).for_each(|(x, slow)| *x += slow);
         for band in [Band::between(5000.0, 7000.0), Band::above(4000.0)] {
             let result = envelope_spectrum(&x, 8192, band);
             let line = peak_near(&result.spectrum, 87.0, 10.0).unwrap();
             assert!((line.frequency - 87.3).abs() < 0.01, "{line:?}");
-            assert!(
-                (line.amplitude / result.mean / 0.4 - 1.0).abs() < 2e-3,
-                "{line:?} {}",
-                result.mean
-            );
+            assert!((line.amplitude / result.mean / 0.4 - 1.0).abs() < 2e-3, "{line:?} {}", result.mean);
             assert!((result.mean / 2.0 - 1.0).abs() < 1e-3, "{}", result.mean);
             assert!(result.spectrum.amplitude[0] < 1e-12);
-            let strongest = result
-                .spectrum
-                .amplitude
-                .iter()
-                .fold(0.0, |m: f64, a| m.max(*a));
-            assert!(
-                strongest <= line.amplitude,
-                "nothing is present above the modulation"
-            );
+            let strongest = result.spectrum.amplitude.iter().fold(0.0, |m: f64, a| m.max(*a));
+            assert!(strongest <= line.amplitude, "nothing is present above the modulation");
         }
     }
 
@@ -259,42 +229,23 @@ mod tests {
             let phase = TAU * 100.0 * i as f64 / FS;
             (1.0 + 0.25 * phase.sin()).hypot(0.25 * phase.cos())
         };
-        assert!(
-            cut.iter()
-                .enumerate()
-                .all(|(i, e)| (e - lower(i)).abs() < 1e-12)
-        );
+        assert!(cut.iter().enumerate().all(|(i, e)| (e - lower(i)).abs() < 1e-12));
     }
 
     #[test]
     fn analytic_impulse_train_shows_its_rate_and_harmonics() {
-        let train = ImpactTrain {
-            fs: FS,
-            rate: 99.7,
-            jitter: 0.0,
-            resonance: 6000.0,
-            decay: 2e-3,
-            noise: 0.0,
-        };
+        let train = ImpactTrain { fs: FS, rate: 99.7, jitter: 0.0, resonance: 6000.0, decay: 2e-3, noise: 0.0 };
         let result = envelope_spectrum(&train.generate(100_000, 1), 16_384, Band::above(2000.0));
         let fundamental = peak_near(&result.spectrum, 100.0, 20.0).unwrap();
         for h in 1..=4 {
             let order = f64::from(h);
             let line = peak_near(&result.spectrum, 100.0 * order, 20.0).unwrap();
-            assert!(
-                (line.frequency - 99.7 * order).abs() < 0.02,
-                "{h}: {line:?}"
-            );
+            assert!((line.frequency - 99.7 * order).abs() < 0.02, "{h}: {line:?}");
             // Envelope exp(-t/tau) repeated: amplitudes fall as 1 / sqrt(1 + (2 pi h f tau)^2). The sharp onset is
             // not narrow-band, so the analytic signal rounds it: 2.6 % at the fourth harmonic.
-            let expected = ((1.0 + (TAU * 99.7 * 2e-3).powi(2))
-                / (1.0 + (TAU * 99.7 * order * 2e-3).powi(2)))
-            .sqrt();
+            let expected = ((1.0 + (TAU * 99.7 * 2e-3).powi(2)) / (1.0 + (TAU * 99.7 * order * 2e-3).powi(2))).sqrt();
             let ratio = line.amplitude / fundamental.amplitude;
-            assert!(
-                (ratio / expected - 1.0).abs() < 0.03,
-                "{h}: {ratio} {expected}"
-            );
+            assert!((ratio / expected - 1.0).abs() < 0.03, "{h}: {ratio} {expected}");
         }
         // Nothing half way between them.
         let between = peak_near(&result.spectrum, 150.0, 20.0).map_or(0.0, |p| p.amplitude);
@@ -328,11 +279,7 @@ mod tests {
             (400, 1.010816918952086),
             (511, 0.7949315959817936),
         ] {
-            assert!(
-                (result[i] - value).abs() < 1e-12,
-                "{i}: {} {value}",
-                result[i]
-            );
+            assert!((result[i] - value).abs() < 1e-12, "{i}: {} {value}", result[i]);
         }
     }
 
@@ -340,15 +287,9 @@ mod tests {
     fn prop_short_run_is_one_segment_of_its_own_length() {
         let x = modulated(3001, 200.0, 0.3);
         let result = envelope_spectrum(&x, 4096, Band::above(1000.0));
-        assert_eq!(
-            (result.spectrum.segment_length, result.spectrum.segments),
-            (3001, 1)
-        );
+        assert_eq!((result.spectrum.segment_length, result.spectrum.segments), (3001, 1));
         let line = peak_near(&result.spectrum, 200.0, 20.0).unwrap();
-        assert!(
-            (line.frequency - 200.0).abs() < 0.1 && (line.amplitude - 0.6).abs() < 0.01,
-            "{line:?}"
-        );
+        assert!((line.frequency - 200.0).abs() < 0.1 && (line.amplitude - 0.6).abs() < 0.01, "{line:?}");
     }
 
     #[test]

@@ -38,24 +38,10 @@ pub enum SignalError {
 }
 
 /// That `x` has at least `need` samples, all finite, and that the sample rate is a positive number.
-pub(super) fn check(
-    x: &[f64],
-    fs: f64,
-    need: usize,
-    what: &'static str,
-) -> Result<(), SignalError> {
-    require(
-        fs > 0.0 && fs.is_finite(),
-        "sample rate (Hz)",
-        fs,
-        "above 0",
-    )?;
+pub(super) fn check(x: &[f64], fs: f64, need: usize, what: &'static str) -> Result<(), SignalError> {
+    require(fs > 0.0 && fs.is_finite(), "sample rate (Hz)", fs, "above 0")?;
     if x.len() < need {
-        return Err(SignalError::TooShort {
-            what,
-            have: x.len(),
-            need,
-        });
+        return Err(SignalError::TooShort { what, have: x.len(), need });
     }
     match x.iter().position(|v| !v.is_finite()) {
         Some(index) => Err(SignalError::NotFinite { index }),
@@ -64,15 +50,6 @@ pub(super) fn check(
 }
 
 /// An error unless `holds`.
-pub(super) fn require(
-    holds: bool,
-    name: &'static str,
-    value: f64,
-    range: &'static str,
-) -> Result<(), SignalError> {
-    if holds {
-        Ok(())
-    } else {
-        Err(SignalError::OutOfRange { name, value, range })
-    }
+pub(super) fn require(holds: bool, name: &'static str, value: f64, range: &'static str) -> Result<(), SignalError> {
+    if holds { Ok(()) } else { Err(SignalError::OutOfRange { name, value, range }) }
 }

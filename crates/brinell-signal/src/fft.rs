@@ -1,5 +1,5 @@
-//! Plans of Fourier transforms of real signals. Here alone is the planner called for them: each crate that called it would compile all of
-//! the transforms' code again, a third of a minute.
+//! Plans of Fourier transforms of real signals. Here alone is the planner called for them: each crate that called it
+//! would compile all of the transforms' code again, a third of a minute.
 
 use realfft::{RealFftPlanner, RealToComplex};
 use std::sync::Arc;

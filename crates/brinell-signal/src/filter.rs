@@ -1,9 +1,9 @@
 //! Butterworth filters as second-order sections, applied once or forwards and backwards.
 //!
-//! The analogue prototype's poles lie on the unit circle's left half; they are scaled (low-pass), inverted (high-pass) or
-//! split (band-pass), and mapped by the bilinear transform with the edges pre-warped, so the digital gain at an edge is
-//! 1 / sqrt 2 exactly: A. V. Oppenheim and R. W. Schafer, "Discrete-time signal processing", 3rd ed. (2010), section 7.3.
-//! Forwards and backwards the phase is zero and the gain squared: 1/2 (-6.02 dB) at an edge.
+//! The analogue prototype's poles lie on the unit circle's left half; they are scaled (low-pass), inverted (high-pass)
+//! or split (band-pass), and mapped by the bilinear transform with the edges pre-warped, so the digital gain at an edge
+//! is 1 / sqrt 2 exactly: A. V. Oppenheim and R. W. Schafer, "Discrete-time signal processing", 3rd ed. (2010), section
+//! 7.3. Forwards and backwards the phase is zero and the gain squared: 1/2 (-6.02 dB) at an edge.
 
 use std::f64::consts::PI;
 
@@ -31,20 +31,10 @@ impl Passband {
             Passband::Between(band) => vec![band.low, band.high],
         };
         for f in &hertz {
-            require(
-                *f > 0.0 && *f < 0.5 * fs,
-                "filter edge (Hz)",
-                *f,
-                "above 0 and below half the sampling rate",
-            )?;
+            require(*f > 0.0 && *f < 0.5 * fs, "filter edge (Hz)", *f, "above 0 and below half the sampling rate")?;
         }
         let last = hertz[hertz.len() - 1];
-        require(
-            hertz.len() == 1 || hertz[0] < last,
-            "upper filter edge (Hz)",
-            last,
-            "above the lower edge",
-        )?;
+        require(hertz.len() == 1 || hertz[0] < last, "upper filter edge (Hz)", last, "above the lower edge")?;
         Ok(hertz.iter().map(|f| f / fs).collect())
     }
 }
@@ -63,10 +53,7 @@ impl Section {
     fn normalised(shape: [f64; 3], a: [f64; 2], at: f64) -> Self {
         let section = Section { b: shape, a };
         let gain = section.response(at).norm();
-        Section {
-            b: shape.map(|b| b / gain),
-            a,
-        }
+        Section { b: shape.map(|b| b / gain), a }
     }
 
     /// Its response at z = e^(i `angle`), the angle in radians a sample.
@@ -95,27 +82,13 @@ impl Butterworth {
     /// # Errors
     /// [`SignalError::OutOfRange`] where the order or an edge is out of range.
     pub fn new(order: usize, pass: Passband, fs: f64) -> Result<Self, SignalError> {
-        require(
-            (1..=HIGHEST_ORDER).contains(&order),
-            "filter order",
-            order as f64,
-            "1 to 24",
-        )?;
-        require(
-            fs > 0.0 && fs.is_finite(),
-            "sample rate (Hz)",
-            fs,
-            "above 0",
-        )?;
+        require((1..=HIGHEST_ORDER).contains(&order), "filter order", order as f64, "1 to 24")?;
+        require(fs > 0.0 && fs.is_finite(), "sample rate (Hz)", fs, "above 0")?;
         let warped: Vec<f64> = pass.edges(fs)?.iter().map(|f| (PI * f).tan()).collect();
         // Upper half of the prototype's poles; the real one of an odd order comes last.
         let poles = (0..order.div_ceil(2)).map(|i| {
             let angle = PI * (2 * i + order + 1) as f64 / (2 * order) as f64;
-            if 2 * i + 1 == order {
-                Complex::new(-1.0, 0.0)
-            } else {
-                Complex::from_polar(1.0, angle)
-            }
+            if 2 * i + 1 == order { Complex::new(-1.0, 0.0) } else { Complex::from_polar(1.0, angle) }
         });
         let mut sections = Vec::new();
         for p in poles {
@@ -124,17 +97,12 @@ impl Butterworth {
                 Passband::Below(_) => sections.push(edge_section(p * warped[0], real, 1.0)),
                 Passband::Above(_) => sections.push(edge_section(warped[0] / p, real, -1.0)),
                 Passband::Between(_) => {
-                    let (half_width, center2) =
-                        (0.5 * (warped[1] - warped[0]), warped[0] * warped[1]);
+                    let (half_width, center2) = (0.5 * (warped[1] - warped[0]), warped[0] * warped[1]);
                     let center = 2.0 * center2.sqrt().atan();
                     let mid = p * half_width;
                     let root = (mid * mid - center2).sqrt();
                     let (s1, s2) = (mid + root, mid - root);
-                    let pairs = if real {
-                        vec![(s1, s2)]
-                    } else {
-                        vec![(s1, s1.conj()), (s2, s2.conj())]
-                    };
+                    let pairs = if real { vec![(s1, s2)] } else { vec![(s1, s1.conj()), (s2, s2.conj())] };
                     sections.extend(pairs.into_iter().map(|(s, t)| {
                         let (z, y) = (bilinear(s), bilinear(t));
                         let a = [-(z + y).re, (z * y).re];
@@ -154,9 +122,7 @@ impl Butterworth {
     /// Gain of one application at `frequency` Hz.
     pub fn gain(&self, frequency: f64) -> f64 {
         let angle = 2.0 * PI * frequency / self.fs;
-        (self.sections.iter())
-            .map(|s| s.response(angle).norm())
-            .product()
+        (self.sections.iter()).map(|s| s.response(angle).norm()).product()
     }
 
     /// The filtered signal, from rest: causal, with the filter's delay.
@@ -172,19 +138,17 @@ impl Butterworth {
 
     /// Samples by which [`zero_phase`](Self::zero_phase) extends the signal at each end; it needs one more than that.
     pub fn extension(&self) -> usize {
-        let first_order = self
-            .sections
-            .iter()
-            .filter(|s| s.b[2] == 0.0 && s.a[1] == 0.0);
+        let first_order = self.sections.iter().filter(|s| s.b[2] == 0.0 && s.a[1] == 0.0);
         3 * (2 * self.sections.len() + 1 - first_order.count())
     }
 
     /// The signal filtered forwards and backwards: no delay, and the square of [`gain`](Self::gain).
     ///
     /// Both ends are extended by the signal turned about its end point (odd extension) and the filter starts settled on
-    /// the first value, as in F. Gustafsson, "Determining the initial states in forward-backward filtering", IEEE Trans.
-    /// Signal Process. 44 (1996) 988-992, and SciPy's `sosfiltfilt`. The filter's own transient is longer than the
-    /// extension where an edge is below about a fiftieth of the sampling rate: distrust a few periods of the lowest edge.
+    /// the first value, as in F. Gustafsson, "Determining the initial states in forward-backward filtering", IEEE
+    /// Trans. Signal Process. 44 (1996) 988-992, and SciPy's `sosfiltfilt`. The filter's own transient is longer than
+    /// the extension where an edge is below about a fiftieth of the sampling rate: distrust a few periods of the lowest
+    /// edge.
     ///
     /// # Errors
     /// [`SignalError::TooShort`], [`SignalError::NotFinite`].
@@ -299,13 +263,8 @@ mod tests {
     fn analytic_zero_phase_halves_a_sine_at_the_edge() {
         let x = cosine(4000, FS, 80.0, 1.0, 0.3);
         for pass in [Passband::Below(80.0), Passband::Above(80.0)] {
-            let y = Butterworth::new(4, pass, FS)
-                .unwrap()
-                .zero_phase(&x)
-                .unwrap();
-            let worst = (500..3500)
-                .map(|i| (y[i] - 0.5 * x[i]).abs())
-                .fold(0.0, f64::max);
+            let y = Butterworth::new(4, pass, FS).unwrap().zero_phase(&x).unwrap();
+            let worst = (500..3500).map(|i| (y[i] - 0.5 * x[i]).abs()).fold(0.0, f64::max);
             assert!(worst < 1e-9, "{worst:e}");
         }
     }
@@ -319,9 +278,7 @@ mod tests {
             let y = filter.zero_phase(&x).unwrap();
             let mut z = filter.zero_phase(&reversed).unwrap();
             z.reverse();
-            let worst = (1200..1800)
-                .map(|i| (y[i] - z[i]).abs())
-                .fold(0.0, f64::max);
+            let worst = (1200..1800).map(|i| (y[i] - z[i]).abs()).fold(0.0, f64::max);
             assert!(worst < 1e-6, "{worst:e} {:?}", filter.sections().len());
         }
     }
@@ -341,18 +298,8 @@ mod tests {
         assert!(Butterworth::new(0, Passband::Below(10.0), FS).is_err());
         assert!(Butterworth::new(2, Passband::Below(0.1), 0.0).is_err());
         let filter = Butterworth::new(4, Passband::Below(80.0), FS).unwrap();
-        assert!(matches!(
-            filter.zero_phase(&[1.0; 15]),
-            Err(SignalError::TooShort {
-                have: 15,
-                need: 16,
-                ..
-            })
-        ));
-        assert_eq!(
-            filter.zero_phase(&[f64::NAN; 40]),
-            Err(SignalError::NotFinite { index: 0 })
-        );
+        assert!(matches!(filter.zero_phase(&[1.0; 15]), Err(SignalError::TooShort { have: 15, need: 16, .. })));
+        assert_eq!(filter.zero_phase(&[f64::NAN; 40]), Err(SignalError::NotFinite { index: 0 }));
         assert!(filter.once(&[]).unwrap().is_empty());
         let constant = filter.zero_phase(&[3.0; 40]).unwrap();
         assert!(constant.iter().all(|y| (y - 3.0).abs() < 1e-12));

@@ -1,7 +1,7 @@
 //! FIR filters of linear phase, designed by windowing and applied without delay.
 //!
-//! A. V. Oppenheim and R. W. Schafer, "Discrete-time signal processing", 3rd ed. (2010), section 7.5: the ideal filter's
-//! impulse response, cut off by a window. For a Kaiser window of given attenuation see
+//! A. V. Oppenheim and R. W. Schafer, "Discrete-time signal processing", 3rd ed. (2010), section 7.5: the ideal
+//! filter's impulse response, cut off by a window. For a Kaiser window of given attenuation see
 //! [`kaiser_lowpass`](super::kaiser_lowpass).
 
 use std::f64::consts::PI;
@@ -12,24 +12,14 @@ use super::window::Window;
 
 /// Taps of a linear-phase filter, odd in number and symmetric, for samples at `fs` Hz.
 ///
-/// The gain is 1 at zero frequency (low-pass), half the sampling rate (high-pass) or the band's middle, and about 1/2 at
-/// an edge. Between pass and stop band lie about `4 fs / taps` Hz with Hann; the stop band is then down by 44 dB.
+/// The gain is 1 at zero frequency (low-pass), half the sampling rate (high-pass) or the band's middle, and about 1/2
+/// at an edge. Between pass and stop band lie about `4 fs / taps` Hz with Hann; the stop band is then down by 44 dB.
 ///
 /// # Errors
 /// [`SignalError::OutOfRange`] where an edge is out of range or `taps` is even or below 3.
 pub fn fir(taps: usize, pass: Passband, window: Window, fs: f64) -> Result<Vec<f64>, SignalError> {
-    require(
-        taps >= 3 && taps % 2 == 1,
-        "number of taps",
-        taps as f64,
-        "odd, 3 or more",
-    )?;
-    require(
-        fs > 0.0 && fs.is_finite(),
-        "sample rate (Hz)",
-        fs,
-        "above 0",
-    )?;
+    require(taps >= 3 && taps % 2 == 1, "number of taps", taps as f64, "odd, 3 or more")?;
+    require(fs > 0.0 && fs.is_finite(), "sample rate (Hz)", fs, "above 0")?;
     let edges = pass.edges(fs)?;
     let (low, high, center) = match pass {
         Passband::Below(_) => (0.0, edges[0], 0.0),
@@ -38,11 +28,7 @@ pub fn fir(taps: usize, pass: Passband, window: Window, fs: f64) -> Result<Vec<f
     };
     let half = (taps / 2) as f64;
     let ideal = |cutoff: f64, m: f64| {
-        if m == 0.0 {
-            2.0 * cutoff
-        } else {
-            (2.0 * PI * cutoff * m).sin() / (PI * m)
-        }
+        if m == 0.0 { 2.0 * cutoff } else { (2.0 * PI * cutoff * m).sin() / (PI * m) }
     };
     let mut h = window.symmetric(taps);
     let mut gain = 0.0;
@@ -51,12 +37,7 @@ pub fn fir(taps: usize, pass: Passband, window: Window, fs: f64) -> Result<Vec<f
         *h *= ideal(high, m) - ideal(low, m);
         gain += *h * (2.0 * PI * center * m).cos();
     }
-    require(
-        gain > 0.0,
-        "number of taps",
-        taps as f64,
-        "enough for the band's width",
-    )?;
+    require(gain > 0.0, "number of taps", taps as f64, "enough for the band's width")?;
     h.iter_mut().for_each(|h| *h /= gain);
     Ok(h)
 }
@@ -67,15 +48,10 @@ pub fn fir(taps: usize, pass: Passband, window: Window, fs: f64) -> Result<Vec<f
 /// [`Butterworth::zero_phase`](super::Butterworth::zero_phase). Costs `taps` multiplications a sample.
 ///
 /// # Errors
-/// [`SignalError::TooShort`] with fewer samples than taps, [`SignalError::NotFinite`], [`SignalError::OutOfRange`] where
-/// the taps are even in number.
+/// [`SignalError::TooShort`] with fewer samples than taps, [`SignalError::NotFinite`], [`SignalError::OutOfRange`]
+/// where the taps are even in number.
 pub fn convolve(x: &[f64], taps: &[f64]) -> Result<Vec<f64>, SignalError> {
-    require(
-        taps.len() % 2 == 1,
-        "number of taps",
-        taps.len() as f64,
-        "odd",
-    )?;
+    require(taps.len() % 2 == 1, "number of taps", taps.len() as f64, "odd")?;
     check(x, 1.0, taps.len(), "a filter of this length")?;
     let extended = extend_oddly(x, taps.len() / 2);
     Ok(strided(&extended, taps, 1))
@@ -89,9 +65,7 @@ pub(super) fn strided(x: &[f64], taps: &[f64], step: usize) -> Vec<f64> {
         .map(|window| {
             let mut sums = [0.0; LANES];
             let (w, t) = (window.chunks_exact(LANES), taps.chunks_exact(LANES));
-            let rest: f64 = (w.remainder().iter().zip(t.remainder()))
-                .map(|(x, h)| x * h)
-                .sum();
+            let rest: f64 = (w.remainder().iter().zip(t.remainder())).map(|(x, h)| x * h).sum();
             for (x, h) in w.zip(t) {
                 for lane in 0..LANES {
                     sums[lane] += x[lane] * h[lane];
@@ -125,9 +99,7 @@ mod tests {
             let taps = fir(201, pass, Window::Hann, FS).unwrap();
             let y = convolve(&x, &taps).unwrap();
             assert_eq!(y.len(), x.len());
-            let worst = (200..1800)
-                .map(|i| (y[i] - gain * x[i]).abs())
-                .fold(0.0, f64::max);
+            let worst = (200..1800).map(|i| (y[i] - gain * x[i]).abs()).fold(0.0, f64::max);
             assert!(worst < 6e-3, "{pass:?} {worst:e}");
         }
     }
@@ -139,9 +111,7 @@ mod tests {
         let taps = fir(51, Passband::Below(100.0), Window::Hamming, FS).unwrap();
         let y = convolve(&x, &taps).unwrap();
         let z = convolve(&reversed, &taps).unwrap();
-        let worst = (0..500)
-            .map(|i| (y[i] - z[499 - i]).abs())
-            .fold(0.0, f64::max);
+        let worst = (0..500).map(|i| (y[i] - z[499 - i]).abs()).fold(0.0, f64::max);
         assert!(worst < 1e-14, "{worst:e}");
     }
 

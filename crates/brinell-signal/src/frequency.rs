@@ -52,9 +52,9 @@ const NOISE_FLOOR: f64 = 1e-9;
 const PLACES_PER_BIN: f64 = 3.0;
 /// What interpolation adds to the uncertainty, in bins of the highest harmonic that counts.
 const INTERPOLATION_ERROR: f64 = 1e-3;
-/// A slow wander f(t) of the rate moves the maximum by the integral of v(t) f(t), where v(t) is proportional to the integral of n w(n) from t to the
-/// segment's end, and of integral 1: the phase's regression on time under the window. With the segment as the unit of time and Hann's window,
-/// the integral of v^2, and that of v(t) v(t + 1/2).
+/// A slow wander f(t) of the rate moves the maximum by the integral of v(t) f(t), where v(t) is proportional to the
+/// integral of n w(n) from t to the segment's end, and of integral 1: the phase's regression on time under the window.
+/// With the segment as the unit of time and Hann's window, the integral of v^2, and that of v(t) v(t + 1/2).
 const HANN_SQUARE: f64 = 1.684_784;
 const HANN_OVERLAP: f64 = 0.165_977;
 /// A comb that noise alone would show more often than this is not reported.
@@ -74,14 +74,11 @@ pub struct LineSearch {
 impl LineSearch {
     /// A comb of eight harmonics within 2 % of `nominal` (Hz).
     pub fn new(nominal: f64) -> Self {
-        LineSearch {
-            nominal,
-            tolerance: 0.02,
-            harmonics: 8,
-        }
+        LineSearch { nominal, tolerance: 0.02, harmonics: 8 }
     }
 
-    /// Whether so many samples at `fs` Hz hold what the search needs: 24 periods of the nominal frequency, and that below 0.4 `fs`.
+    /// Whether so many samples at `fs` Hz hold what the search needs: 24 periods of the nominal frequency, and that
+    /// below 0.4 `fs`.
     pub fn fits(&self, samples: usize, fs: f64) -> bool {
         let fewest = (FEWEST_PERIODS * fs / self.nominal).max(FEWEST_SAMPLES as f64);
         samples as f64 >= fewest && self.nominal < HIGHEST_NOMINAL * fs
@@ -97,10 +94,11 @@ pub struct LineFrequency {
     /// the impacts cause; slow wander of the rate within the segment is not in it. From three segments on, the
     /// observed spread of their estimates instead, wander included.
     pub uncertainty: f64,
-    /// The part of the uncertainty that noise and independent timing errors cause, Hz; slow wander of the rate is not in it.
+    /// The part of the uncertainty that noise and independent timing errors cause, Hz; slow wander of the rate is not
+    /// in it.
     pub noise: f64,
-    /// Time over which a slow wander of the rate is averaged, s: where the rate has spectral density S at frequency zero (two-sided), the
-    /// frequency scatters by sqrt(S / span). Hann's window makes it shorter than the record.
+    /// Time over which a slow wander of the rate is averaged, s: where the rate has spectral density S at frequency
+    /// zero (two-sided), the frequency scatters by sqrt(S / span). Hann's window makes it shorter than the record.
     pub span: f64,
     /// Distance at which two trains of impacts would show two fundamentals, Hz: two bins of the segment.
     pub resolution: f64,
@@ -112,18 +110,14 @@ pub struct LineFrequency {
     pub segments: usize,
 }
 
-/// The repetition frequency in the envelope of a whole signal sampled at `fs` Hz, taken as one segment. The `band`, Hz, is to hold the
-/// resonances that the impacts ring. `None` where the signal lasts fewer than 24 periods of the nominal frequency, or no comb inside the
-/// range is clear of the noise (false-alarm probability below 1e-4). For a long run use [`StreamSpectra`](super::StreamSpectra).
+/// The repetition frequency in the envelope of a whole signal sampled at `fs` Hz, taken as one segment. The `band`, Hz,
+/// is to hold the resonances that the impacts ring. `None` where the signal lasts fewer than 24 periods of the nominal
+/// frequency, or no comb inside the range is clear of the noise (false-alarm probability below 1e-4). For a long run
+/// use [`StreamSpectra`](super::StreamSpectra).
 ///
 /// # Panics
 /// Where the search is out of range (see [`LineSearch`] and [`Band`]).
-pub fn line_frequency(
-    x: &[f64],
-    fs: f64,
-    band: Band,
-    search: &LineSearch,
-) -> Option<LineFrequency> {
+pub fn line_frequency(x: &[f64], fs: f64, band: Band, search: &LineSearch) -> Option<LineFrequency> {
     search.fits(x.len(), fs).then(|| {
         let mut spectra = SegmentSpectra::new(fs, x.len(), band, &[*search]);
         spectra.add(x);
@@ -163,17 +157,13 @@ impl LineAverage {
         let interpolation = INTERPOLATION_ERROR * 0.5 * latest.resolution;
         let of_mean = |variance: f64| (variance / (0.5 * (n + 1.0))).sqrt().hypot(interpolation);
         let noise = of_mean(self.sum_of_variances / n);
-        let uncertainty = if count >= 3 {
-            of_mean(self.frequencies.standard_deviation().powi(2) * n / (n - 1.0))
-        } else {
-            noise
-        };
+        let uncertainty =
+            if count >= 3 { of_mean(self.frequencies.standard_deviation().powi(2) * n / (n - 1.0)) } else { noise };
         Some(LineFrequency {
             frequency: self.frequencies.mean(),
             uncertainty,
             noise,
-            span: latest.span * HANN_SQUARE * n * n
-                / (n * HANN_SQUARE + 2.0 * (n - 1.0) * HANN_OVERLAP),
+            span: latest.span * HANN_SQUARE * n * n / (n * HANN_SQUARE + 2.0 * (n - 1.0) * HANN_OVERLAP),
             false_alarm: self.worst_false_alarm,
             segments: count as usize,
             ..latest
@@ -210,17 +200,10 @@ impl Comb {
             search.tolerance
         );
         let periods = length as f64 * search.nominal / fs;
-        assert!(
-            search.fits(length, fs),
-            "a segment lasts {periods} nominal periods, fewer than {FEWEST_PERIODS}"
-        );
+        assert!(search.fits(length, fs), "a segment lasts {periods} nominal periods, fewer than {FEWEST_PERIODS}");
         let highest = (0.5 * fs / (search.nominal * (1.0 + search.tolerance))).ceil() as usize;
         let harmonics = search.harmonics.min(highest.saturating_sub(1));
-        assert!(
-            harmonics > 0,
-            "no harmonic of {} Hz to look for at {fs} Hz",
-            search.nominal
-        );
+        assert!(harmonics > 0, "no harmonic of {} Hz to look for at {fs} Hz", search.nominal);
 
         let (mut w0, mut w1, mut w2, mut v) = (0.0, 0.0, 0.0, 0.0);
         for (i, w) in window.iter().enumerate() {
@@ -263,9 +246,7 @@ impl Comb {
         let harmonics = self.noise.len() as f64;
         let bin = self.bin();
         let half_range = self.search.tolerance * self.search.nominal;
-        let half_steps = (half_range * harmonics * PADDING as f64 / bin)
-            .ceil()
-            .max(2.0);
+        let half_steps = (half_range * harmonics * PADDING as f64 / bin).ceil().max(2.0);
         let step = half_range / half_steps;
         let start = self.search.nominal - half_range;
         let steps = 2 * half_steps as usize;
@@ -323,9 +304,7 @@ impl Comb {
 
     /// J(f).
     fn height(&self, e: &Padded, f: f64) -> f64 {
-        (self.noise.iter().enumerate())
-            .map(|(h, noise)| e.at((h + 1) as f64 * f).norm_sqr() / noise)
-            .sum()
+        (self.noise.iter().enumerate()).map(|(h, noise)| e.at((h + 1) as f64 * f).norm_sqr() / noise).sum()
     }
 
     /// Standard uncertainty of a maximum of J, Hz (see the module).

@@ -1,13 +1,13 @@
 //! Condition indicators of samples, and the moments that they are made of.
 //!
-//! [`Moments`] gathers one pass over a signal. What a run or a measurement reports, with intervals, is made of one such pass per revolution:
-//! [`Blocks`](super::blocks::Blocks).
+//! [`Moments`] gathers one pass over a signal. What a run or a measurement reports, with intervals, is made of one such
+//! pass per revolution: [`Blocks`](super::blocks::Blocks).
 //!
-//! Definitions, over n samples x with mean m and central moments M_p = sum (x - m)^p / n:
-//! RMS sqrt(sum x^2 / n), about zero (ISO 20816-1, ISO 13373-2); standard deviation sqrt(M_2), the population's, so
-//! that RMS^2 = m^2 + M_2; peak max |x|; crest factor peak / RMS; shape factor RMS / mean |x|; impulse factor
-//! peak / mean |x|; skewness M_3 / M_2^1.5; kurtosis M_4 / M_2^2, which is 3 for a normal distribution. Over a record of several revolutions
-//! the peaks are those of a revolution, see [`blocks`](super::blocks).
+//! Definitions, over n samples x with mean m and central moments M_p = sum (x - m)^p / n: RMS sqrt(sum x^2 / n), about
+//! zero (ISO 20816-1, ISO 13373-2); standard deviation sqrt(M_2), the population's, so that RMS^2 = m^2 + M_2; peak max
+//! |x|; crest factor peak / RMS; shape factor RMS / mean |x|; impulse factor peak / mean |x|; skewness M_3 / M_2^1.5;
+//! kurtosis M_4 / M_2^2, which is 3 for a normal distribution. Over a record of several revolutions the peaks are those
+//! of a revolution, see [`blocks`](super::blocks).
 
 /// A condition indicator. Values up to `PeakToPeak` carry the signal's unit, the others are pure numbers.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -146,8 +146,7 @@ impl Moments {
         let step2 = step * step;
         let term = delta * step * before;
         self.mean += step;
-        self.sum4 += term * step2 * (n * n - 3.0 * n + 3.0) + 6.0 * step2 * self.sum2
-            - 4.0 * step * self.sum3;
+        self.sum4 += term * step2 * (n * n - 3.0 * n + 3.0) + 6.0 * step2 * self.sum2 - 4.0 * step * self.sum3;
         self.sum3 += term * step * (n - 2.0) - 3.0 * step * self.sum2;
         self.sum2 += term;
         self.mean_absolute += (x.abs() - self.mean_absolute) / n;
@@ -155,7 +154,8 @@ impl Moments {
         self.max = self.max.max(x);
     }
 
-    /// Takes samples in their order: what [`push`](Self::push) of each makes of them but for rounding, several times as fast.
+    /// Takes samples in their order: what [`push`](Self::push) of each makes of them but for rounding, several times as
+    /// fast.
     pub fn extend(&mut self, x: &[f64]) {
         // As many as stay in the nearest cache from one pass to the next.
         for part in x.chunks(1024) {
@@ -215,8 +215,7 @@ impl Moments {
             sum2,
             sum3,
             sum4,
-            mean_absolute: self.mean_absolute
-                + (other.mean_absolute - self.mean_absolute) * (b / n),
+            mean_absolute: self.mean_absolute + (other.mean_absolute - self.mean_absolute) * (b / n),
             min: self.min.min(other.min),
             max: self.max.max(other.max),
         }
@@ -253,11 +252,7 @@ impl Moments {
         let [m2, m3, m4] = [self.sum2 / n, self.sum3 / n, self.sum4 / n];
         let d = self.mean - center;
         let d2 = d * d;
-        [
-            m2 + d2,
-            m3 + 3.0 * d * m2 + d * d2,
-            m4 + 4.0 * d * m3 + 6.0 * d2 * m2 + d2 * d2,
-        ]
+        [m2 + d2, m3 + 3.0 * d * m2 + d * d2, m4 + 4.0 * d * m3 + 6.0 * d2 * m2 + d2 * d2]
     }
 
     /// Largest |x|; infinite where nothing was seen.

@@ -18,12 +18,12 @@ use super::psd::Detrend;
 /// over i 2 pi f, without the bins outside. `Band::above(f)` is a high-pass at f.
 ///
 /// The lower edge must be above 0. The straight line of least squares is removed first; the edges are sharp and the
-/// transform takes the signal as periodic, so a period of the lower edge at either end is disturbed. The gain inside the
-/// band is that of ideal integration, without the error of a quadrature rule.
+/// transform takes the signal as periodic, so a period of the lower edge at either end is disturbed. The gain inside
+/// the band is that of ideal integration, without the error of a quadrature rule.
 ///
 /// # Errors
-/// [`SignalError`] with fewer than 8 samples, samples that are not finite, or a lower edge that is not above 0 and below
-/// half the sampling rate and the upper edge.
+/// [`SignalError`] with fewer than 8 samples, samples that are not finite, or a lower edge that is not above 0 and
+/// below half the sampling rate and the upper edge.
 pub fn velocity(a: &[f64], fs: f64, band: Band) -> Result<Vec<f64>, SignalError> {
     whole(a, fs, band, Motion::Acceleration)
 }
@@ -60,8 +60,9 @@ fn whole(a: &[f64], fs: f64, band: Band, from: Motion) -> Result<Vec<f64>, Signa
     Ok(v)
 }
 
-/// [`velocity`] in several bands, from one transform: `each` gets a band's place and the velocity in it, at as many equal steps over the
-/// whole as `count` makes of the number of periods of the band's highest frequency in `a`: as many as it has bins, or more.
+/// [`velocity`] in several bands, from one transform: `each` gets a band's place and the velocity in it, at as many
+/// equal steps over the whole as `count` makes of the number of periods of the band's highest frequency in `a`: as many
+/// as it has bins, or more.
 pub(super) fn velocities(
     a: &[f64],
     fs: f64,
@@ -93,9 +94,7 @@ pub(super) fn velocities(
         let integral = |first: usize, bins: &[Complex<f64>], shaped: &mut [Complex<f64>]| {
             for (i, (shaped, bin)) in shaped.iter_mut().zip(bins).enumerate() {
                 *shaped = match from {
-                    Motion::Acceleration => {
-                        Complex::new(bin.im, -bin.re) * (scale / (first + i) as f64)
-                    }
+                    Motion::Acceleration => Complex::new(bin.im, -bin.re) * (scale / (first + i) as f64),
                     Motion::Velocity => bin * scale,
                 };
             }
@@ -131,34 +130,18 @@ mod tests {
         // Removing the slow sine's straight line leaks a little into the band.
         let v = velocity(&a, FS, Band::above(50.0)).unwrap();
         let expected = cosine(n, FS, f, 3.0 / (TAU * f), 0.2 - 0.5 * PI);
-        let worst = (200..3800)
-            .map(|i| (v[i] - expected[i]).abs())
-            .fold(0.0, f64::max);
+        let worst = (200..3800).map(|i| (v[i] - expected[i]).abs()).fold(0.0, f64::max);
         assert!(worst < 3e-2 * 3.0 / (TAU * f), "{worst:e}");
     }
 
     #[test]
     fn prop_bands_add_up() {
         let a = super::super::test_signals::Noise::new(2).normals(999);
-        let bands = [
-            Band::between(10.0, 400.0),
-            Band::between(400.1, 5000.0),
-            Band::above(10.0),
-        ];
+        let bands = [Band::between(10.0, 400.0), Band::between(400.1, 5000.0), Band::above(10.0)];
         let mut v = Vec::new();
         let whole = |_| a.len();
-        velocities(
-            &a,
-            FS,
-            Motion::Acceleration,
-            &bands,
-            whole,
-            |_, velocity| v.push(velocity.to_vec()),
-        )
-        .unwrap();
-        let worst = (0..999)
-            .map(|i| (v[0][i] + v[1][i] - v[2][i]).abs())
-            .fold(0.0, f64::max);
+        velocities(&a, FS, Motion::Acceleration, &bands, whole, |_, velocity| v.push(velocity.to_vec())).unwrap();
+        let worst = (0..999).map(|i| (v[0][i] + v[1][i] - v[2][i]).abs()).fold(0.0, f64::max);
         assert!(worst < 1e-15);
     }
 

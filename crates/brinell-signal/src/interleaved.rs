@@ -1,10 +1,11 @@
 //! Transforms of long signals in interleaved parts, each of which fits a processor's cache.
 //!
-//! Every P-th of N samples, from the p-th on, has a transform F_p of its own, L = N / P long. With w = e^(2 pi i / N) the whole one's is
-//! X_(j + L r) = sum over p of e^(-2 pi i r p / P) (w^(-j p) F_p[j]), and backward the samples p, p + P, p + 2 P, ... are the transform of
-//! length L of w^(j p) times the sum over r of e^(2 pi i r p / P) X_(j + L r) (J. W. Cooley and J. W. Tukey, Math. Comput. 19 (1965)
-//! 297-301): transforms of length P across the parts, and of length L along them. The tables of one transform of four million values take
-//! longer to make than the transform itself, and as much memory as its values.
+//! Every P-th of N samples, from the p-th on, has a transform F_p of its own, L = N / P long. With w = e^(2 pi i / N)
+//! the whole one's is X_(j + L r) = sum over p of e^(-2 pi i r p / P) (w^(-j p) F_p[j]), and backward the samples p, p +
+//! P, p + 2 P, ... are the transform of length L of w^(j p) times the sum over r of e^(2 pi i r p / P) X_(j + L r) (J.
+//! W. Cooley and J. W. Tukey, Math. Comput. 19 (1965) 297-301): transforms of length P across the parts, and of length
+//! L along them. The tables of one transform of four million values take longer to make than the transform itself, and
+//! as much memory as its values.
 
 use std::f64::consts::TAU;
 use std::ops::Range;
@@ -125,10 +126,10 @@ impl Interleaved {
         bins
     }
 
-    /// The complex signal that has the bins of `range` and no others, N times as large: `each` gets some samples p, p + P, ... of one of P
-    /// parts, after those of the other parts about there. `bins` are those from 0 on, of a transform of any length: with N or fewer in
-    /// `range`, the samples are the signal's at N equal steps. `shape` gets the number of the first of some bins, these, and where to put
-    /// what shall represent them.
+    /// The complex signal that has the bins of `range` and no others, N times as large: `each` gets some samples p, p +
+    /// P, ... of one of P parts, after those of the other parts about there. `bins` are those from 0 on, of a transform
+    /// of any length: with N or fewer in `range`, the samples are the signal's at N equal steps. `shape` gets the
+    /// number of the first of some bins, these, and where to put what shall represent them.
     pub(super) fn backward(
         &self,
         bins: &[Complex<f64>],
@@ -173,10 +174,7 @@ impl Interleaved {
         self.along.process_with_scratch(values, scratch);
         for first in (0..long).step_by(BLOCK) {
             for (p, values) in values.chunks_exact(long).enumerate() {
-                let place = Place {
-                    first: p + parts * first,
-                    step: parts,
-                };
+                let place = Place { first: p + parts * first, step: parts };
                 each(place, &values[first..long.min(first + BLOCK)]);
             }
         }
@@ -194,8 +192,8 @@ impl Interleaved {
     }
 }
 
-/// Into how many parts a signal goes: the fewest that are short enough, or as many as may be; two or more where its length can be divided,
-/// as two real parts are transformed in one.
+/// Into how many parts a signal goes: the fewest that are short enough, or as many as may be; two or more where its
+/// length can be divided, as two real parts are transformed in one.
 fn parts(length: usize) -> usize {
     let fits = || (2..=MOST_PARTS).filter(|p| length.is_multiple_of(*p));
     let short = fits().find(|p| length / p <= LONGEST);
@@ -242,11 +240,7 @@ mod tests {
                     }
                 },
             );
-            let half = if length % 2 == 0 && length > 1 {
-                bins[length / 2].re / length as f64
-            } else {
-                0.0
-            };
+            let half = if length % 2 == 0 && length > 1 { bins[length / 2].re / length as f64 } else { 0.0 };
             for (i, (a, b)) in back.iter().zip(&x).enumerate() {
                 let alternating = if i % 2 == 0 { half } else { -half };
                 assert!((a + alternating - b).abs() < 1e-13 * size, "{length} {i}");
@@ -257,16 +251,12 @@ mod tests {
     /// Fewer samples than there were, or more, are those of the same signal at other times.
     #[test]
     fn analytic_samples_at_other_times() {
-        let bins: Vec<Complex<f64>> = (0..4000)
-            .map(|k| Complex::new((k % 7) as f64 - 3.0, (k % 5) as f64))
-            .collect();
+        let bins: Vec<Complex<f64>> = (0..4000).map(|k| Complex::new((k % 7) as f64 - 3.0, (k % 5) as f64)).collect();
         let range = 1203..1297;
         for length in [97, 600, 2 * 3 * 1024, 9 << 17] {
             let at = |n: usize| -> Complex<f64> {
                 let angle = |k: usize| TAU * (k * n % length) as f64 / length as f64;
-                (range.clone())
-                    .map(|k| bins[k] * Complex::from_polar(1.0, angle(k)))
-                    .sum()
+                (range.clone()).map(|k| bins[k] * Complex::from_polar(1.0, angle(k))).sum()
             };
             let mut seen = 0;
             Interleaved::planned(length, &mut FftPlanner::new()).backward(
@@ -287,14 +277,7 @@ mod tests {
 
     #[test]
     fn regress_parts() {
-        for (length, expected) in [
-            (7, 7),
-            (13, 13),
-            (37, 1),
-            (512_000, 4),
-            (1 << 22, 32),
-            (1 << 25, 32),
-        ] {
+        for (length, expected) in [(7, 7), (13, 13), (37, 1), (512_000, 4), (1 << 22, 32), (1 << 25, 32)] {
             assert_eq!(parts(length), expected, "{length}");
         }
     }

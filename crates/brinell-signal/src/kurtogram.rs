@@ -90,9 +90,8 @@ impl Kurtogram {
 
     /// Every band of every level.
     pub fn bands(&self) -> impl Iterator<Item = KurtogramBand> {
-        (self.levels.iter().enumerate()).flat_map(move |(l, level)| {
-            (0..level.kurtosis.len()).filter_map(move |i| self.band(l, i))
-        })
+        (self.levels.iter().enumerate())
+            .flat_map(move |(l, level)| (0..level.kurtosis.len()).filter_map(move |i| self.band(l, i)))
     }
 
     /// The band with the largest kurtosis at least `narrowest` Hz wide; `None` where no band is or none holds power.
@@ -105,8 +104,8 @@ impl Kurtogram {
     }
 }
 
-/// The kurtogram of `x`, sampled at `fs` Hz, halved at most `depth` times (cut down to [`DEEPEST`] and so that every band
-/// has [`FEWEST_IN_BAND`] values).
+/// The kurtogram of `x`, sampled at `fs` Hz, halved at most `depth` times (cut down to [`DEEPEST`] and so that every
+/// band has [`FEWEST_IN_BAND`] values).
 ///
 /// # Errors
 /// [`SignalError`] with fewer than 128 samples, samples that are not finite, or a constant signal.
@@ -114,9 +113,7 @@ pub fn kurtogram(x: &[f64], fs: f64, depth: usize) -> Result<Kurtogram, SignalEr
     check(x, fs, FEWEST_IN_BAND, "a kurtogram")?;
     let mut moments = Moments::new();
     x.iter().for_each(|v| moments.push(*v));
-    let constant = SignalError::Constant {
-        what: "its kurtosis",
-    };
+    let constant = SignalError::Constant { what: "its kurtosis" };
     let whole = moments.get(Indicator::Kurtosis).ok_or(constant)? - 3.0;
     let filters = Filters {
         half: Branches::of(HALF_TAPS, HALF_EDGE, 2, 1.0 / 8.0)?,
@@ -172,11 +169,7 @@ pub fn kurtogram(x: &[f64], fs: f64, depth: usize) -> Result<Kurtogram, SignalEr
 
 /// Outputs of a filter of `taps` that see the signal under every tap, one in `factor`.
 fn outputs(length: usize, taps: usize, factor: usize) -> usize {
-    if length < taps {
-        0
-    } else {
-        (length - taps) / factor + 1
-    }
+    if length < taps { 0 } else { (length - taps) / factor + 1 }
 }
 
 struct Filters {
@@ -186,8 +179,9 @@ struct Filters {
 
 /// A prototype moved up and down in frequency by one distance, and as it is.
 ///
-/// With taps h_o about the middle and an angle t from sample to sample, the sum of h_o e^(-i t o) v_(c + o) is A - i B, and with -t it is A + i B:
-/// A is that of h_o cos(t o) (v_(c + o) + v_(c - o)), B that of h_o sin(t o) (v_(c + o) - v_(c - o)).
+/// With taps h_o about the middle and an angle t from sample to sample, the sum of h_o e^(-i t o) v_(c + o) is A - i B,
+/// and with -t it is A + i B: A is that of h_o cos(t o) (v_(c + o) + v_(c - o)), B that of h_o sin(t o) (v_(c + o) -
+/// v_(c - o)).
 struct Branches {
     /// Tap in the middle.
     middle: f64,
@@ -214,40 +208,23 @@ impl Branches {
         let row = |offset: usize| {
             let (sin, cos) = (std::f64::consts::TAU * turn * offset as f64).sin_cos();
             let plain = h[half + offset];
-            Row {
-                offset,
-                plain,
-                cosine: plain * cos,
-                sine: plain * sin,
-            }
+            Row { offset, plain, cosine: plain * cos, sine: plain * sin }
         };
         // A low-pass has its zeros at multiples of half a period of its edge.
         let zero = |offset: usize| 2.0 * edge * offset as f64 % 1.0 == 0.0;
-        Ok(Branches {
-            middle: h[half],
-            half,
-            factor,
-            rows: (1..=half).filter(|o| !zero(*o)).map(row).collect(),
-        })
+        Ok(Branches { middle: h[half], half, factor, rows: (1..=half).filter(|o| !zero(*o)).map(row).collect() })
     }
 
-    /// Of every output: what passes the prototype below, where it is (with `MIDDLE`; else nothing of use), and above, moved to zero frequency but for the
-    /// phase at the middle tap.
-    fn outputs<const MIDDLE: bool>(
-        &self,
-        node: &[Complex<f64>],
-        mut each: impl FnMut(usize, [Complex<f64>; 3]),
-    ) {
+    /// Of every output: what passes the prototype below, where it is (with `MIDDLE`; else nothing of use), and above,
+    /// moved to zero frequency but for the phase at the middle tap.
+    fn outputs<const MIDDLE: bool>(&self, node: &[Complex<f64>], mut each: impl FnMut(usize, [Complex<f64>; 3])) {
         let windows = node.windows(2 * self.half + 1).step_by(self.factor);
         for (m, around) in windows.enumerate() {
             let center = around[self.half];
             let middle = [self.middle * center.re, self.middle * center.im];
             let (mut a, mut b, mut c) = (middle, [0.0; 2], middle);
             for row in &self.rows {
-                let (u, v) = (
-                    around[self.half + row.offset],
-                    around[self.half - row.offset],
-                );
+                let (u, v) = (around[self.half + row.offset], around[self.half - row.offset]);
                 let (sum, difference) = ([u.re + v.re, u.im + v.im], [u.re - v.re, u.im - v.im]);
                 for i in 0..2 {
                     a[i] += row.cosine * sum[i];
@@ -289,7 +266,8 @@ impl Tree {
             let mut children = [(); 2].map(|()| Vec::with_capacity(node.len() / 2));
             let mut powers = [Powers::default(); 2];
             filters.half.outputs::<false>(node, |m, [below, _, above]| {
-                // An eighth of a cycle a sample is a quarter from one output to the next; at the first it is whole turns.
+                // An eighth of a cycle a sample is a quarter from one output to the next; at the first it is whole
+                // turns.
                 let [below, above] = match m % 4 {
                     0 => [below, above],
                     1 => [times_i(below), -times_i(above)],
@@ -343,14 +321,7 @@ mod tests {
     const FS: f64 = 25_600.0;
 
     fn train(resonance: f64, noise: f64) -> ImpactTrain {
-        ImpactTrain {
-            fs: FS,
-            rate: 87.0,
-            jitter: 0.01,
-            resonance,
-            decay: 4e-4,
-            noise,
-        }
+        ImpactTrain { fs: FS, rate: 87.0, jitter: 0.01, resonance, decay: 4e-4, noise }
     }
 
     #[test]
@@ -359,10 +330,7 @@ mod tests {
             let x = train(resonance, 0.3).generate(65_536, seed);
             let map = kurtogram(&x, FS, 5).unwrap();
             let best = map.best(300.0).unwrap();
-            assert!(
-                best.band.low < resonance + 600.0 && best.band.high > resonance - 600.0,
-                "{best:?}"
-            );
+            assert!(best.band.low < resonance + 600.0 && best.band.high > resonance - 600.0, "{best:?}");
             assert!(best.kurtosis > 8.0 * best.noise_scatter, "{best:?}");
         }
     }
@@ -372,17 +340,11 @@ mod tests {
         let noise = Noise::new(9).normals(100_000);
         let map = kurtogram(&noise, FS, 6).unwrap();
         assert_eq!(
-            map.levels
-                .iter()
-                .map(|l| l.kurtosis.len())
-                .collect::<Vec<_>>(),
+            map.levels.iter().map(|l| l.kurtosis.len()).collect::<Vec<_>>(),
             [1, 2, 3, 4, 6, 8, 12, 16, 24, 32, 48, 64]
         );
         for band in map.bands() {
-            assert!(
-                band.kurtosis.abs() < 4.5 * band.noise_scatter + 0.01,
-                "{band:?}"
-            );
+            assert!(band.kurtosis.abs() < 4.5 * band.noise_scatter + 0.01, "{band:?}");
         }
         let map = kurtogram(&cosine(10_000, FS, 4000.0, 1.0, 0.0), FS, 3).unwrap();
         assert!((map.levels[0].kurtosis[0] + 1.5).abs() < 1e-3);
@@ -392,10 +354,7 @@ mod tests {
     #[test]
     fn prop_short_or_constant_input() {
         assert!(kurtogram(&[1.0; 100], FS, 3).is_err());
-        assert!(matches!(
-            kurtogram(&[1.0; 1000], FS, 3),
-            Err(SignalError::Constant { .. })
-        ));
+        assert!(matches!(kurtogram(&[1.0; 1000], FS, 3), Err(SignalError::Constant { .. })));
         let map = kurtogram(&Noise::new(1).normals(128), FS, 9).unwrap();
         assert_eq!(map.levels.len(), 1);
         assert!(map.best(1e9).is_none());

@@ -11,10 +11,7 @@ fn smooth(mut n: usize) -> bool {
 
 /// The longest even one up to `n`; `n` itself where there is none.
 pub(crate) fn fast_up_to(n: usize) -> usize {
-    (1..=n)
-        .rev()
-        .find(|m| m % 2 == 0 && smooth(*m))
-        .unwrap_or(n)
+    (1..=n).rev().find(|m| m % 2 == 0 && smooth(*m)).unwrap_or(n)
 }
 
 /// The shortest one from `n` on.
@@ -28,14 +25,9 @@ mod tests {
 
     #[test]
     fn regress_lengths() {
-        for (n, down, up) in [
-            (0, 0, 1),
-            (1, 1, 1),
-            (7, 6, 8),
-            (15, 12, 15),
-            (51_200, 51_200, 51_200),
-            (1_000_003, 1_000_000, 1_012_500),
-        ] {
+        for (n, down, up) in
+            [(0, 0, 1), (1, 1, 1), (7, 6, 8), (15, 12, 15), (51_200, 51_200, 51_200), (1_000_003, 1_000_000, 1_012_500)]
+        {
             assert_eq!((fast_up_to(n), fast_from(n)), (down, up), "{n}");
         }
     }

@@ -33,21 +33,23 @@
 //!
 //! [`analysis`] takes one vibration signal to a verdict with its evidence.
 //!
-//! Following a signal, sample by sample: [`blocks`] gives the condition [`indicators`] with their intervals, which rest on
-//! [`mod@scatter`], [`mod@ratio`] how those of two signals compare, and [`stream`] the spectra: [`spectrum`] amplitudes and
-//! power spectral densities, [`mod@envelope`] the envelope's, and [`frequency`] the precise repetition frequency of a train of impacts.
-//! These hold a bounded amount of memory, however long the signal is; nothing is allocated per sample.
+//! Following a signal, sample by sample: [`blocks`] gives the condition [`indicators`] with their intervals, which rest
+//! on [`mod@scatter`], [`mod@ratio`] how those of two signals compare, and [`stream`] the spectra: [`spectrum`]
+//! amplitudes and power spectral densities, [`mod@envelope`] the envelope's, and [`frequency`] the precise repetition
+//! frequency of a train of impacts. These hold a bounded amount of memory, however long the signal is; nothing is
+//! allocated per sample.
 //!
 //! Of a signal held as a slice, with its sample rate in Hz: [`window`], [`mod@psd`] (Welch with any window),
-//! [`mod@spectrogram`], [`mod@kurtogram`] (which band to demodulate), [`order`] (varying speed), [`mod@decimate`], [`filter`] and
-//! [`mod@fir`] (zero phase), [`integrate`] (acceleration to velocity), [`mod@velocity_bands`], [`lines`] (harmonics over the local noise),
-//! [`double_impulse`] (entry and exit of a defect, and the length that they imply), and [`distribution`] (what powers
-//! of noise follow). They return [`SignalError`] for input that they cannot use, and do not panic.
+//! [`mod@spectrogram`], [`mod@kurtogram`] (which band to demodulate), [`order`] (varying speed), [`mod@decimate`],
+//! [`filter`] and [`mod@fir`] (zero phase), [`integrate`] (acceleration to velocity), [`mod@velocity_bands`], [`lines`]
+//! (harmonics over the local noise), [`double_impulse`] (entry and exit of a defect, and the length that they imply),
+//! and [`distribution`] (what powers of noise follow). They return [`SignalError`] for input that they cannot use, and
+//! do not panic.
 //!
 //! All values are SI: time in s, frequency in Hz, and a signal in its own unit (m/s^2 for an acceleration), here
-//! written "unit". Results do not depend on the number of threads; only [`analysis`] uses more than one. The FFT chooses
-//! its instructions by processor, so between processors spectra may differ in the last bits; decimated signals and
-//! indicators use plain arithmetic and do not.
+//! written "unit". Results do not depend on the number of threads; only [`analysis`] uses more than one. The FFT
+//! chooses its instructions by processor, so between processors spectra may differ in the last bits; decimated signals
+//! and indicators use plain arithmetic and do not.
 
 #![cfg_attr(not(test), deny(clippy::print_stdout, clippy::print_stderr))]
 
@@ -88,9 +90,7 @@ pub(crate) mod test_signals;
 
 pub use blocks::{Blocks, Estimate, Interval, RECORD_PEAK, RECORD_PEAK_TO_PEAK};
 pub use decimate::{decimate, kaiser_lowpass};
-pub use double_impulse::{
-    DefectLength, Events, Separation, SeparationSearch, consensus, defect_length, separations,
-};
+pub use double_impulse::{DefectLength, Events, Separation, SeparationSearch, consensus, defect_length, separations};
 pub use envelope::{Band, EnvelopeSpectrum, envelope, envelope_spectrum};
 pub use error::SignalError;
 pub use filter::{Butterworth, Passband, Section};

@@ -52,13 +52,7 @@ impl LineSet {
 
     /// Root of the sum of the squared amplitudes over sqrt 2: RMS of all the lines together, noise included.
     pub fn rms(&self) -> f64 {
-        (self
-            .lines
-            .iter()
-            .map(|l| l.amplitude * l.amplitude)
-            .sum::<f64>()
-            / 2.0)
-            .sqrt()
+        (self.lines.iter().map(|l| l.amplitude * l.amplitude).sum::<f64>() / 2.0).sqrt()
     }
 }
 
@@ -70,32 +64,15 @@ impl LineSet {
 /// # Errors
 /// [`SignalError::OutOfRange`] where the frequency is not positive, the tolerance is negative or reaches half the
 /// frequency, or the spectrum has too few bins for a floor.
-pub fn harmonics(
-    spectrum: &Spectrum,
-    frequency: f64,
-    tolerance: f64,
-    count: usize,
-) -> Result<LineSet, SignalError> {
-    require(
-        frequency > 0.0 && frequency.is_finite(),
-        "frequency (Hz)",
-        frequency,
-        "above 0",
-    )?;
-    require(
-        (0.0..0.5 * frequency).contains(&tolerance),
-        "tolerance (Hz)",
-        tolerance,
-        "0 to below half the frequency",
-    )?;
+pub fn harmonics(spectrum: &Spectrum, frequency: f64, tolerance: f64, count: usize) -> Result<LineSet, SignalError> {
+    require(frequency > 0.0 && frequency.is_finite(), "frequency (Hz)", frequency, "above 0")?;
+    require((0.0..0.5 * frequency).contains(&tolerance), "tolerance (Hz)", tolerance, "0 to below half the frequency")?;
     let floor = Floor::new(spectrum)?;
     let lines = (1..=count).filter_map(|h| {
         let h_f = h as f64;
         floor.line(h as i32, h_f * frequency, h_f * tolerance)
     });
-    Ok(LineSet {
-        lines: lines.collect(),
-    })
+    Ok(LineSet { lines: lines.collect() })
 }
 
 /// The noise of a spectrum, place by place.
@@ -128,12 +105,7 @@ impl<'a> Floor<'a> {
         )?;
         let freedom = spectrum.degrees_of_freedom;
         let strongest = spectrum.amplitude.iter().fold(0.0, |m: f64, a| m.max(*a));
-        require(
-            strongest.is_finite(),
-            "amplitude of the spectrum",
-            strongest,
-            "finite",
-        )?;
+        require(strongest.is_finite(), "amplitude of the spectrum", strongest, "finite")?;
         Ok(Floor {
             spectrum,
             freedom,
@@ -159,7 +131,8 @@ impl<'a> Floor<'a> {
         let top = self.spectrum.amplitude.len() - 2;
         let below = first.saturating_sub(SKIRT).saturating_sub(1);
         let above = (top + 1).saturating_sub(last + SKIRT + 1);
-        // As far on either side, so that a slope cancels; beyond an end of the spectrum only a few bins of the other side.
+        // As far on either side, so that a slope cancels; beyond an end of the spectrum only a few bins of the other
+        // side.
         let reach = below.min(above).clamp(FEWEST_BINS, NEIGHBOURHOOD);
         let (take_below, take_above) = (below.min(reach), above.min(reach));
         let start_below = first.saturating_sub(SKIRT) - take_below;
@@ -169,24 +142,16 @@ impl<'a> Floor<'a> {
             .map(|k| self.power(k))
             .collect();
         if powers.is_empty() {
-            return Level {
-                power: self.lowest,
-                freedom: 1.0,
-            };
+            return Level { power: self.lowest, freedom: 1.0 };
         }
         let middle = powers.len() / 2;
         let (_, median, _) = powers.select_nth_unstable_by(middle, f64::total_cmp);
-        let power = (*median / self.median)
-            .max(self.lowest)
-            .max(f64::MIN_POSITIVE);
+        let power = (*median / self.median).max(self.lowest).max(f64::MIN_POSITIVE);
         // A median of n values is as good as a mean of about 2 n / pi; exactly so for many degrees of freedom, and
         // with two (exponential powers) of ln(2)^2 n.
         let efficiency = if self.freedom < 4.0 { 0.48 } else { 0.6 };
         let independent = powers.len() as f64 / self.correlation;
-        Level {
-            power,
-            freedom: self.freedom * independent * efficiency,
-        }
+        Level { power, freedom: self.freedom * independent * efficiency }
     }
 
     /// False-alarm probability of a power in a bin, over noise at `level`.
@@ -199,15 +164,9 @@ impl<'a> Floor<'a> {
     fn line(&self, order: i32, expected: f64, tolerance: f64) -> Option<Line> {
         let step = self.spectrum.frequency_step;
         let nearest = self.bin(expected)?;
-        let first = self
-            .bin(expected - tolerance)
-            .map_or(nearest, |b| b.min(nearest));
-        let last = self
-            .bin(expected + tolerance)
-            .map_or(nearest, |b| b.max(nearest));
-        let top = (first..=last)
-            .max_by(|&a, &b| self.power(a).total_cmp(&self.power(b)))
-            .unwrap_or(nearest);
+        let first = self.bin(expected - tolerance).map_or(nearest, |b| b.min(nearest));
+        let last = self.bin(expected + tolerance).map_or(nearest, |b| b.max(nearest));
+        let top = (first..=last).max_by(|&a, &b| self.power(a).total_cmp(&self.power(b))).unwrap_or(nearest);
         let level = self.level(first, last);
         let power = self.power(top);
         // Interpolated where it is a maximum of its own; the skirt of a line outside is taken as it is.
@@ -237,13 +196,9 @@ mod tests {
 
     fn comb(noise: f64, seed: u64) -> Vec<f64> {
         let n = 32_768;
-        let mut x: Vec<f64> = (Noise::new(seed).normals(n).iter())
-            .map(|v| noise * v)
-            .collect();
+        let mut x: Vec<f64> = (Noise::new(seed).normals(n).iter()).map(|v| noise * v).collect();
         for (f, a) in [(100.3, 1.0), (200.6, 0.5), (300.9, 0.25)] {
-            x.iter_mut()
-                .zip(cosine(n, FS, f, a, f))
-                .for_each(|(x, c)| *x += c);
+            x.iter_mut().zip(cosine(n, FS, f, a, f)).for_each(|(x, c)| *x += c);
         }
         x
     }
@@ -256,11 +211,7 @@ mod tests {
         assert_eq!(set.lines.len(), 4);
         // Mean square amplitude of noise: its density over the noise bandwidth, twice for a peak value.
         let noise = 2.0 * (2.0 * sigma * sigma / FS) * s.noise_bandwidth;
-        for (line, (f, a)) in set
-            .lines
-            .iter()
-            .zip([(100.3, 1.0), (200.6, 0.5), (300.9, 0.25)])
-        {
+        for (line, (f, a)) in set.lines.iter().zip([(100.3, 1.0), (200.6, 0.5), (300.9, 0.25)]) {
             assert!((line.frequency - f).abs() < 0.02, "{line:?}");
             assert!((line.amplitude / a - 1.0).abs() < 0.05, "{line:?}");
             assert!((line.floor / noise.sqrt() - 1.0).abs() < 0.15, "{line:?}");
@@ -303,10 +254,6 @@ mod tests {
         assert!(harmonics(&short, 500.0, 1.0, 3).is_err());
         let zero = psd(&[0.0; 1024], FS, &Segments::of(1024)).unwrap();
         let set = harmonics(&zero, 500.0, 1.0, 3).unwrap();
-        assert!(
-            set.lines
-                .iter()
-                .all(|l| l.amplitude.is_finite() && l.false_alarm == 1.0)
-        );
+        assert!(set.lines.iter().all(|l| l.amplitude.is_finite() && l.false_alarm == 1.0));
     }
 }

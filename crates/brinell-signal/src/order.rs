@@ -29,15 +29,8 @@ impl Rotation {
     /// # Errors
     /// [`SignalError::OutOfRange`] where the speed is not positive.
     pub fn steady(speed: f64) -> Result<Self, SignalError> {
-        require(
-            speed > 0.0 && speed.is_finite(),
-            "speed (Hz)",
-            speed,
-            "above 0",
-        )?;
-        Ok(Rotation {
-            knots: vec![[0.0, 0.0, speed]],
-        })
+        require(speed > 0.0 && speed.is_finite(), "speed (Hz)", speed, "above 0")?;
+        Ok(Rotation { knots: vec![[0.0, 0.0, speed]] })
     }
 
     /// From points (time in s, speed in Hz), linear between, constant before the first and after the last; angle 0 at
@@ -49,15 +42,8 @@ impl Rotation {
         increasing(points)?;
         let mut knots: Vec<[f64; 3]> = Vec::with_capacity(points.len());
         for &(t, speed) in points {
-            require(
-                speed >= 0.0 && speed.is_finite(),
-                "speed (Hz)",
-                speed,
-                "0 or above",
-            )?;
-            let angle = knots
-                .last()
-                .map_or(0.0, |k| k[1] + 0.5 * (k[2] + speed) * (t - k[0]));
+            require(speed >= 0.0 && speed.is_finite(), "speed (Hz)", speed, "0 or above")?;
+            let angle = knots.last().map_or(0.0, |k| k[1] + 0.5 * (k[2] + speed) * (t - k[0]));
             knots.push([t, angle, speed]);
         }
         Ok(Rotation { knots })
@@ -72,21 +58,12 @@ impl Rotation {
     pub fn from_angles(points: &[(f64, f64)]) -> Result<Self, SignalError> {
         increasing(points)?;
         if points.len() < 2 {
-            return Err(SignalError::TooShort {
-                what: "an angle over time",
-                have: points.len(),
-                need: 2,
-            });
+            return Err(SignalError::TooShort { what: "an angle over time", have: points.len(), need: 2 });
         }
         let mut slopes = Vec::with_capacity(points.len() - 1);
         for pair in points.windows(2) {
             let slope = (pair[1].1 - pair[0].1) / (pair[1].0 - pair[0].0);
-            require(
-                slope >= 0.0 && slope.is_finite(),
-                "angle (revolutions)",
-                pair[1].1,
-                "not below the one before",
-            )?;
+            require(slope >= 0.0 && slope.is_finite(), "angle (revolutions)", pair[1].1, "not below the one before")?;
             slopes.push(slope);
         }
         let width = |i: usize| points[i + 1].0 - points[i].0;
@@ -107,9 +84,7 @@ impl Rotation {
             };
             [t, angle, speed]
         });
-        Ok(Rotation {
-            knots: knots.collect(),
-        })
+        Ok(Rotation { knots: knots.collect() })
     }
 
     /// Angle (revolutions) and speed (Hz) at a time, s.
@@ -141,11 +116,7 @@ impl Rotation {
 
 fn increasing(points: &[(f64, f64)]) -> Result<(), SignalError> {
     if points.is_empty() {
-        return Err(SignalError::TooShort {
-            what: "a rotation",
-            have: 0,
-            need: 1,
-        });
+        return Err(SignalError::TooShort { what: "a rotation", have: 0, need: 1 });
     }
     let mut before = f64::NEG_INFINITY;
     for &(t, _) in points {
@@ -192,9 +163,9 @@ const LOWEST_EDGE: f64 = 0.01;
 /// Values made at most for each sample of the signal.
 const MOST_PER_SAMPLE: f64 = 64.0;
 
-/// Spectrum over orders (events a revolution) of `x`, sampled at `fs` Hz from t = 0: resampled at `samples_per_revolution`,
-/// which reaches to half as many orders, then [`psd`] in segments of so many resampled values. In the result "Hz"
-/// reads orders: `frequency_step` is in orders, and `density` in unit^2 per order.
+/// Spectrum over orders (events a revolution) of `x`, sampled at `fs` Hz from t = 0: resampled at
+/// `samples_per_revolution`, which reaches to half as many orders, then [`psd`] in segments of so many resampled
+/// values. In the result "Hz" reads orders: `frequency_step` is in orders, and `density` in unit^2 per order.
 ///
 /// # Errors
 /// As [`resample`] and [`psd`].
@@ -226,12 +197,7 @@ pub fn resample(
 ) -> Result<Angular, SignalError> {
     let need = (2.0 * CROSSINGS / (2.0 * EDGE)).ceil() as usize + 2;
     check(x, fs, need, "resampling")?;
-    require(
-        samples_per_revolution >= 4,
-        "samples per revolution",
-        samples_per_revolution as f64,
-        "4 or more",
-    )?;
+    require(samples_per_revolution >= 4, "samples per revolution", samples_per_revolution as f64, "4 or more")?;
     let rate = samples_per_revolution as f64;
     let last_time = (x.len() - 1) as f64 / fs;
     let expected = (rotation.at(last_time).0 - rotation.at(0.0).0) * rate;
@@ -245,11 +211,7 @@ pub fn resample(
     let kernel = Kernel::new();
     let mut values = Vec::new();
     let mut first_angle = None;
-    let mut clock = Inverse {
-        rotation,
-        knot: 0,
-        time: 0.0,
-    };
+    let mut clock = Inverse { rotation, knot: 0, time: 0.0 };
     let mut index = first;
     while let Some((t, speed)) = clock.time_of(index / rate, last_time) {
         let edge = EDGE * (rate * speed / fs).clamp(LOWEST_EDGE / EDGE, 1.0);
@@ -262,16 +224,8 @@ pub fn resample(
         index += 1.0;
     }
     match first_angle {
-        Some(first_angle) => Ok(Angular {
-            values,
-            samples_per_revolution: rate,
-            first_angle,
-        }),
-        None => Err(SignalError::TooShort {
-            what: "resampling at this speed",
-            have: x.len(),
-            need,
-        }),
+        Some(first_angle) => Ok(Angular { values, samples_per_revolution: rate, first_angle }),
+        None => Err(SignalError::TooShort { what: "resampling at this speed", have: x.len(), need }),
     }
 }
 
@@ -310,11 +264,7 @@ impl Inverse<'_> {
                 high = t;
             }
             let next = t + short / speed;
-            t = if next > low && next < high {
-                next
-            } else {
-                0.5 * (low + high)
-            };
+            t = if next > low && next < high { next } else { 0.5 * (low + high) };
         }
         self.time = t;
         Some((t, self.rotation.within(self.knot, t).1))
@@ -334,17 +284,11 @@ impl Kernel {
         let table = (0..=count + 1).map(|i| {
             let u = i as f64 / TABLE as f64;
             let ratio = (u / CROSSINGS).min(1.0);
-            let sinc = if i == 0 {
-                1.0
-            } else {
-                (PI * u).sin() / (PI * u)
-            };
+            let sinc = if i == 0 { 1.0 } else { (PI * u).sin() / (PI * u) };
             sinc * bessel_i0(BETA * (1.0 - ratio * ratio).sqrt()) * scale
         });
         let table: Vec<f64> = table.collect();
-        Kernel {
-            table: table.windows(2).map(|w| [w[0], w[1] - w[0]]).collect(),
-        }
+        Kernel { table: table.windows(2).map(|w| [w[0], w[1] - w[0]]).collect() }
     }
 
     /// `x` at `position` samples, low-passed at `edge` cycles a sample; `None` where the kernel reaches past its ends.
@@ -436,10 +380,7 @@ mod tests {
         for i in 1..60 {
             let t = 0.05 * f64::from(i);
             let (a, b) = (speeds.at(t), angles.at(t));
-            assert!(
-                (a.0 - b.0).abs() < 2e-5 && (a.1 - b.1).abs() < 0.02,
-                "{t} {a:?} {b:?}"
-            );
+            assert!((a.0 - b.0).abs() < 2e-5 && (a.1 - b.1).abs() < 0.02, "{t} {a:?} {b:?}");
         }
     }
 

@@ -1,4 +1,5 @@
-//! Many jobs over a few threads, results in the order of completion. Threads meet when a job ends, never while one runs.
+//! Many jobs over a few threads, results in the order of completion. Threads meet when a job ends, never while one
+//! runs.
 
 use std::num::NonZeroUsize;
 use std::ops::ControlFlow;
@@ -39,8 +40,8 @@ pub fn go_on(stop: &AtomicBool) -> ControlFlow<()> {
     }
 }
 
-/// Does `job(k)` for every k below `count`, each once, on up to `threads` threads that take the next as they get free. `done` gets each
-/// k with its result, in the order of completion, on the calling thread.
+/// Does `job(k)` for every k below `count`, each once, on up to `threads` threads that take the next as they get free.
+/// `done` gets each k with its result, in the order of completion, on the calling thread.
 ///
 /// # Panics
 /// Where a job does, after the other threads have done the rest.

@@ -1,7 +1,8 @@
 //! Spectra of a slice by Welch's method, with any window, overlap and detrending.
 //!
 //! The scaling is that of [`spectrum`](super::spectrum): amplitudes are peak values of a sine at the bin, densities
-//! unit^2/Hz, both one-sided. [`StreamSpectra`](super::StreamSpectra) has the same for a stream, with Hann's window and half overlap.
+//! unit^2/Hz, both one-sided. [`StreamSpectra`](super::StreamSpectra) has the same for a stream, with Hann's window and
+//! half overlap.
 
 use super::distribution::chi_square_quantile;
 use super::error::{SignalError, check, require};
@@ -31,9 +32,7 @@ impl Detrend {
         let middle = 0.5 * (n - 1.0);
         let mut slope = 0.0;
         if self == Detrend::Linear && x.len() > 1 {
-            let moment: f64 = (x.iter().enumerate())
-                .map(|(i, v)| (i as f64 - middle) * v)
-                .sum();
+            let moment: f64 = (x.iter().enumerate()).map(|(i, v)| (i as f64 - middle) * v).sum();
             slope = moment * 12.0 / (n * (n * n - 1.0));
         }
         for (i, v) in x.iter_mut().enumerate() {
@@ -59,29 +58,14 @@ pub struct Segments {
 impl Segments {
     /// Hann's window, half overlap, nothing removed.
     pub fn of(length: usize) -> Self {
-        Segments {
-            length,
-            overlap: 0.5,
-            window: Window::Hann,
-            detrend: Detrend::None,
-        }
+        Segments { length, overlap: 0.5, window: Window::Hann, detrend: Detrend::None }
     }
 
     /// Length and distance of the segments of a signal.
     pub(super) fn plan(&self, x: &[f64], fs: f64) -> Result<(usize, usize), SignalError> {
         check(x, fs, FEWEST_SAMPLES, "a spectrum")?;
-        require(
-            self.length >= FEWEST_SAMPLES,
-            "segment length (samples)",
-            self.length as f64,
-            "8 or more",
-        )?;
-        require(
-            (0.0..1.0).contains(&self.overlap),
-            "overlap",
-            self.overlap,
-            "0 to below 1",
-        )?;
+        require(self.length >= FEWEST_SAMPLES, "segment length (samples)", self.length as f64, "8 or more")?;
+        require((0.0..1.0).contains(&self.overlap), "overlap", self.overlap, "0 to below 1")?;
         let length = self.length.min(x.len());
         let step = length - ((self.overlap * length as f64).floor() as usize).min(length - 1);
         Ok((length, step))
@@ -105,19 +89,16 @@ pub fn psd(x: &[f64], fs: f64, segments: &Segments) -> Result<Spectrum, SignalEr
     Ok(average.finish(fs, &transform.window, step))
 }
 
-/// Factors by which a bin's density is to be multiplied for the ends of its confidence interval, from chi-square with the
-/// spectrum's degrees of freedom; for `probability` 0.95 and one segment (0.27, 39.5). Holds for Gaussian noise whose
-/// density hardly changes over a bin. `None` where `probability` is not within 0 and 1.
+/// Factors by which a bin's density is to be multiplied for the ends of its confidence interval, from chi-square with
+/// the spectrum's degrees of freedom; for `probability` 0.95 and one segment (0.27, 39.5). Holds for Gaussian noise
+/// whose density hardly changes over a bin. `None` where `probability` is not within 0 and 1.
 pub fn density_interval(spectrum: &Spectrum, probability: f64) -> Option<(f64, f64)> {
     if !(probability > 0.0 && probability < 1.0) {
         return None;
     }
     let freedom = spectrum.degrees_of_freedom;
     let factor = |p: f64| freedom / chi_square_quantile(p, freedom);
-    Some((
-        factor(0.5 * (1.0 + probability)),
-        factor(0.5 * (1.0 - probability)),
-    ))
+    Some((factor(0.5 * (1.0 + probability)), factor(0.5 * (1.0 - probability))))
 }
 
 #[cfg(test)]
@@ -128,10 +109,7 @@ mod tests {
     const FS: f64 = 2048.0;
 
     fn segments(window: Window) -> Segments {
-        Segments {
-            window,
-            ..Segments::of(512)
-        }
+        Segments { window, ..Segments::of(512) }
     }
 
     #[test]
@@ -152,9 +130,7 @@ mod tests {
     #[test]
     fn analytic_white_noise_level_and_its_interval() {
         let sigma = 1.7;
-        let x: Vec<f64> = (Noise::new(5).normals(400_000).iter())
-            .map(|v| sigma * v)
-            .collect();
+        let x: Vec<f64> = (Noise::new(5).normals(400_000).iter()).map(|v| sigma * v).collect();
         let level = 2.0 * sigma * sigma / FS;
         for window in Window::ALL {
             let s = psd(&x, FS, &segments(window)).unwrap();
@@ -162,9 +138,7 @@ mod tests {
             let mean = inner.iter().sum::<f64>() / inner.len() as f64;
             assert!((mean / level - 1.0).abs() < 0.01, "{window:?}");
             let (low, high) = density_interval(&s, 0.95).unwrap();
-            let inside = inner
-                .iter()
-                .filter(|d| (low * **d..=high * **d).contains(&level));
+            let inside = inner.iter().filter(|d| (low * **d..=high * **d).contains(&level));
             let share = inside.count() as f64 / inner.len() as f64;
             // 245 correlated bins: a standard error of some 0.02.
             assert!((share - 0.95).abs() < 0.06, "{window:?} {share}");
@@ -185,14 +159,9 @@ mod tests {
 
     #[test]
     fn analytic_parseval_with_detrending() {
-        let x: Vec<f64> = (Noise::new(7).normals(300).iter().enumerate())
-            .map(|(i, v)| v + 3.0 + 0.05 * i as f64)
-            .collect();
-        let options = Segments {
-            window: Window::Rectangular,
-            detrend: Detrend::Linear,
-            ..Segments::of(300)
-        };
+        let x: Vec<f64> =
+            (Noise::new(7).normals(300).iter().enumerate()).map(|(i, v)| v + 3.0 + 0.05 * i as f64).collect();
+        let options = Segments { window: Window::Rectangular, detrend: Detrend::Linear, ..Segments::of(300) };
         let s = psd(&x, FS, &options).unwrap();
         let mut rest = x.clone();
         Detrend::Linear.apply(&mut rest);
@@ -210,10 +179,7 @@ mod tests {
         assert!(psd(&[f64::NAN; 70], FS, &good).is_err());
         assert!(psd(&[1.0; 70], f64::NAN, &good).is_err());
         assert!(psd(&[1.0; 70], FS, &Segments::of(4)).is_err());
-        let overlap = Segments {
-            overlap: 1.0,
-            ..good
-        };
+        let overlap = Segments { overlap: 1.0, ..good };
         assert!(psd(&[1.0; 70], FS, &overlap).is_err());
         assert!(psd(&[1.0; 70], FS, &good).is_ok());
     }

@@ -1,7 +1,8 @@
-//! Seeded random numbers: SplitMix64 (G. L. Steele, D. Lea and C. H. Flood, "Fast splittable pseudorandom number generators", OOPSLA 2014).
+//! Seeded random numbers: SplitMix64 (G. L. Steele, D. Lea and C. H. Flood, "Fast splittable pseudorandom number
+//! generators", OOPSLA 2014).
 //!
-//! Integers and uniform numbers are the same bits on every machine; normal numbers take a logarithm and a cosine, which may round otherwise
-//! elsewhere. Not for secrets.
+//! Integers and uniform numbers are the same bits on every machine; normal numbers take a logarithm and a cosine, which
+//! may round otherwise elsewhere. Not for secrets.
 
 use std::f64::consts::TAU;
 
@@ -63,14 +64,7 @@ mod tests {
         // The first outputs, as the authors' reference code gives them.
         let mut random = Random::new(1_234_567);
         let first = [random.bits(), random.bits(), random.bits()];
-        assert_eq!(
-            first,
-            [
-                6_457_827_717_110_365_317,
-                3_203_168_211_198_807_973,
-                9_817_491_932_198_370_423
-            ]
-        );
+        assert_eq!(first, [6_457_827_717_110_365_317, 3_203_168_211_198_807_973, 9_817_491_932_198_370_423]);
     }
 
     #[test]

@@ -1,15 +1,16 @@
 //! The ratio of one quantity in two runs, with the interval that follows from the intervals of both.
 //!
-//! With values a and b, r = a / b, standard errors s_a and s_b of their logarithms with nu_a and nu_b degrees of freedom:
+//! With values a and b, r = a / b, standard errors s_a and s_b of their logarithms with nu_a and nu_b degrees of
+//! freedom:
 //!
 //! ```text
 //! ln r +- t(0.975, nu) sqrt(u_a + u_b),   u = s^2,   nu = (u_a + u_b)^2 / (u_a^2 / nu_a + u_b^2 / nu_b)
 //! ```
 //!
-//! Degrees of freedom are those of Welch and Satterthwaite, rounded down. s is half the width of the 95 % interval on a logarithmic scale
-//! over Student's t; an interval that reaches zero says nothing of the logarithm, and then the ratio has none. It supposes runs that
-//! scatter independently. Runs that begin alike go alike for a while; that makes the true scatter of the ratio smaller, so
-//! the interval errs on the wide side.
+//! Degrees of freedom are those of Welch and Satterthwaite, rounded down. s is half the width of the 95 % interval on a
+//! logarithmic scale over Student's t; an interval that reaches zero says nothing of the logarithm, and then the ratio
+//! has none. It supposes runs that scatter independently. Runs that begin alike go alike for a while; that makes the
+//! true scatter of the ratio smaller, so the interval errs on the wide side.
 
 use super::blocks::{Estimate, Interval};
 use super::scatter::student_t_quantile;
@@ -29,10 +30,7 @@ pub fn ratio(of: &Estimate, to: &Estimate) -> Option<Ratio> {
         return None;
     }
     let value = of.value / to.value;
-    Some(Ratio {
-        value,
-        interval: half_width(of, to).map(|half| (value * (-half).exp(), value * half.exp())),
-    })
+    Some(Ratio { value, interval: half_width(of, to).map(|half| (value * (-half).exp(), value * half.exp())) })
 }
 
 /// Half the interval of ln r.
@@ -83,11 +81,9 @@ mod tests {
                 covered += usize::from(low <= 2.5 && 2.5 <= high);
             }
             let share = covered as f64 / f64::from(trials);
-            // Four standard errors of a binomial share: 0.0195; degrees of freedom rounded down may cover a little more.
-            assert!(
-                (0.95 - 0.0195..0.95 + 0.03).contains(&share),
-                "{m} and {n} blocks: {share}"
-            );
+            // Four standard errors of a binomial share: 0.0195; degrees of freedom rounded down may cover a little
+            // more.
+            assert!((0.95 - 0.0195..0.95 + 0.03).contains(&share), "{m} and {n} blocks: {share}");
         }
     }
 
@@ -106,14 +102,8 @@ mod tests {
 
     #[test]
     fn prop_what_has_no_ratio_or_no_interval() {
-        let of = |value: f64, low: f64, high: f64| Estimate {
-            value,
-            interval: Some(Interval {
-                low,
-                high,
-                freedom: 9,
-            }),
-        };
+        let of =
+            |value: f64, low: f64, high: f64| Estimate { value, interval: Some(Interval { low, high, freedom: 9 }) };
         let sound = of(2.0, 1.8, 2.2);
         assert_eq!(ratio(&sound, &of(0.0, 0.0, 0.0)), None);
         assert_eq!(ratio(&sound, &of(-1.0, -2.0, 1.0)), None);

@@ -1,21 +1,25 @@
 //! How far the mean of a correlated series may be trusted.
 //!
-//! The variance of the mean of n values of a stationary series is S / n, S being the sum of its autocovariances over all lags: the
-//! spectral density at frequency zero. Blocks of one revolution are correlated, as cages, rollers and whirl move at rates of their own, so
-//! S is not their variance: a slow wander makes it larger, a periodic exchange between neighbours smaller.
+//! The variance of the mean of n values of a stationary series is S / n, S being the sum of its autocovariances over
+//! all lags: the spectral density at frequency zero. Blocks of one revolution are correlated, as cages, rollers and
+//! whirl move at rates of their own, so S is not their variance: a slow wander makes it larger, a periodic exchange
+//! between neighbours smaller.
 //!
-//! S is measured where it matters, by the slowest variation that the series itself shows, as the mean of the squares of its first B cosines
+//! S is measured where it matters, by the slowest variation that the series itself shows, as the mean of the squares of
+//! its first B cosines
 //!
 //! ```text
 //! c_k = sqrt(2 / n) sum over i of z_i cos(pi k (i - 1/2) / n),   k = 1 ... B,
 //! ```
 //!
-//! each of which has variance S where the spectrum is flat below B / (2 n) per value. The mean over its standard error sqrt(S / n) then follows
-//! Student's t with B degrees of freedom (U. K. Mueller, "A theory of robust long-run variance estimation", J. Econometrics 141, 2007;
-//! E. Lazarus, D. J. Lewis, J. H. Stock and M. W. Watson, "HAR inference: recommendations for practice", J. Business and Economic
-//! Statistics 36, 2018). B is 4 (3 of 6 or 7 values): correlation over up to n / 8 values is accounted for without a model of it, and the few degrees
-//! of freedom widen the interval. With up to 8 cosines intervals would be a sixth narrower, and those of runs of 2 s too narrow by as much
-//! (`examples/coverage.rs`): cages and whirl exchange energy over many revolutions. What is slower than the record shows in none of its values, and in no interval.
+//! each of which has variance S where the spectrum is flat below B / (2 n) per value. The mean over its standard error
+//! sqrt(S / n) then follows Student's t with B degrees of freedom (U. K. Mueller, "A theory of robust long-run variance
+//! estimation", J. Econometrics 141, 2007; E. Lazarus, D. J. Lewis, J. H. Stock and M. W. Watson, "HAR inference:
+//! recommendations for practice", J. Business and Economic Statistics 36, 2018). B is 4 (3 of 6 or 7 values):
+//! correlation over up to n / 8 values is accounted for without a model of it, and the few degrees of freedom widen the
+//! interval. With up to 8 cosines intervals would be a sixth narrower, and those of runs of 2 s too narrow by as much
+//! (`examples/coverage.rs`): cages and whirl exchange energy over many revolutions. What is slower than the record
+//! shows in none of its values, and in no interval.
 
 use statrs::distribution::{ContinuousCDF, StudentsT};
 
@@ -23,8 +27,8 @@ use statrs::distribution::{ContinuousCDF, StudentsT};
 pub const FEWEST: usize = 6;
 /// Cosines of an interval, of 8 values or more; of fewer, half as many as values.
 const TERMS: usize = 4;
-/// Cosines of a comparison of two parts of a record at most, a quarter as many as values: with 4 it would hardly ever see a difference at a
-/// false-alarm probability of one in five hundred.
+/// Cosines of a comparison of two parts of a record at most, a quarter as many as values: with 4 it would hardly ever
+/// see a difference at a false-alarm probability of one in five hundred.
 const MOST_TERMS: usize = 8;
 
 /// Scatter of a mean.
@@ -43,7 +47,8 @@ impl Scatter {
     }
 }
 
-/// Scatter of the mean of a series of values at equal distances, in order; `None` of fewer than [`FEWEST`], or where one is not finite.
+/// Scatter of the mean of a series of values at equal distances, in order; `None` of fewer than [`FEWEST`], or where
+/// one is not finite.
 pub fn scatter(series: &[f64]) -> Option<Scatter> {
     by_cosines(series, TERMS.min(series.len() / 2))
 }
@@ -55,10 +60,7 @@ fn by_cosines(series: &[f64], terms: usize) -> Option<Scatter> {
     }
     let sum: f64 = (1..=terms).map(|k| cosine(series, k).powi(2)).sum();
     let error = (sum / terms as f64 / n as f64).sqrt();
-    error.is_finite().then_some(Scatter {
-        error,
-        freedom: terms as u32,
-    })
+    error.is_finite().then_some(Scatter { error, freedom: terms as u32 })
 }
 
 /// c_k. Values are taken about the first, so that a constant has none.
@@ -67,9 +69,7 @@ fn cosine(series: &[f64], k: usize) -> f64 {
     let step = std::f64::consts::PI * k as f64 / n as f64;
     let about = series[0];
     let terms = series.iter().enumerate();
-    let sum: f64 = terms
-        .map(|(i, z)| (z - about) * (step * (i as f64 + 0.5)).cos())
-        .sum();
+    let sum: f64 = terms.map(|(i, z)| (z - about) * (step * (i as f64 + 0.5)).cos()).sum();
     (2.0 / n as f64).sqrt() * sum
 }
 
@@ -78,29 +78,28 @@ const BEGINNING: f64 = 0.2;
 /// False-alarm probability: a steady series is called drifting.
 const FALSE_ALARM: f64 = 2e-3;
 
-/// By how much the mean of the first fifth of a series lies above that of its last half, where that is more than its scatter explains, or where
-/// the series has a trend: then it was not steady when it began. `None` where it is not, or the series is too short to tell.
+/// By how much the mean of the first fifth of a series lies above that of its last half, where that is more than its
+/// scatter explains, or where the series has a trend: then it was not steady when it began. `None` where it is not, or
+/// the series is too short to tell.
 ///
-/// J. Geweke's comparison ("Evaluating the accuracy of sampling-based approaches", Bayesian Statistics 4, 1992), with the scatter of the
-/// last half, autocorrelation included, and Student's t; and, because a trend that goes on inflates that scatter, the trend of the whole. Each
-/// has a false-alarm probability of one in five hundred.
+/// J. Geweke's comparison ("Evaluating the accuracy of sampling-based approaches", Bayesian Statistics 4, 1992), with
+/// the scatter of the last half, autocorrelation included, and Student's t; and, because a trend that goes on inflates
+/// that scatter, the trend of the whole. Each has a false-alarm probability of one in five hundred.
 pub fn drift(series: &[f64]) -> Option<f64> {
     let n = series.len();
     let mean = |x: &[f64]| x.iter().sum::<f64>() / x.len() as f64;
     let first = &series[..((BEGINNING * n as f64) as usize).max(1).min(n)];
     let last = &series[n / 2..];
-    let steady = by_cosines(
-        last,
-        (last.len() / 4).clamp(TERMS.min(last.len() / 2), MOST_TERMS),
-    )?;
+    let steady = by_cosines(last, (last.len() / 4).clamp(TERMS.min(last.len() / 2), MOST_TERMS))?;
     let difference = mean(first) - mean(last);
     let error = steady.error * (1.0 + last.len() as f64 / first.len() as f64).sqrt();
     let limit = student_t_quantile(1.0 - 0.5 * FALSE_ALARM, steady.freedom) * error;
     (difference.abs() > limit || has_trend(series)).then_some(difference)
 }
 
-/// Whether a series has a linear trend: its projection on the line, over the mean square of cosines of even order, all of which have the variance S where
-/// it is steady. A line has none of the even cosines, so that a trend does not hide in the scatter that it is held against.
+/// Whether a series has a linear trend: its projection on the line, over the mean square of cosines of even order, all
+/// of which have the variance S where it is steady. A line has none of the even cosines, so that a trend does not hide
+/// in the scatter that it is held against.
 fn has_trend(series: &[f64]) -> bool {
     let n = series.len();
     let terms = (n / 4).min(TERMS);
@@ -111,10 +110,7 @@ fn has_trend(series: &[f64]) -> bool {
     let places = series.iter().enumerate();
     let projection: f64 = places.map(|(i, z)| (z - about) * (i as f64 - middle)).sum();
     let length = (n as f64 * (n as f64 * n as f64 - 1.0) / 12.0).sqrt();
-    let variance = (1..=terms)
-        .map(|k| cosine(series, 2 * k).powi(2))
-        .sum::<f64>()
-        / terms as f64;
+    let variance = (1..=terms).map(|k| cosine(series, 2 * k).powi(2)).sum::<f64>() / terms as f64;
     let limit = student_t_quantile(1.0 - 0.5 * FALSE_ALARM, terms as u32);
     (projection / length).abs() > limit * variance.sqrt()
 }
@@ -124,10 +120,7 @@ fn has_trend(series: &[f64]) -> bool {
 /// # Panics
 /// Where `freedom` is zero or p is not between 0 and 1.
 pub fn student_t_quantile(p: f64, freedom: u32) -> f64 {
-    assert!(
-        freedom > 0,
-        "Student's t needs at least one degree of freedom"
-    );
+    assert!(freedom > 0, "Student's t needs at least one degree of freedom");
     assert!(0.0 < p && p < 1.0, "probability {p} is not between 0 and 1");
     StudentsT::new(0.0, 1.0, f64::from(freedom)).map_or(f64::NAN, |t| t.inverse_cdf(p))
 }

@@ -13,8 +13,8 @@ pub(super) trait Merge: Copy {
     fn merge(&self, later: &Self) -> Self;
 }
 
-/// Consecutive blocks of equally many revolutions. Where one more than [`MOST_BLOCKS`] would begin, neighbours merge in pairs, and from then on a block
-/// is twice as many revolutions.
+/// Consecutive blocks of equally many revolutions. Where one more than [`MOST_BLOCKS`] would begin, neighbours merge in
+/// pairs, and from then on a block is twice as many revolutions.
 #[derive(Debug, Clone)]
 pub(super) struct Series<B> {
     pub(super) closed: Vec<B>,
@@ -26,12 +26,7 @@ pub(super) struct Series<B> {
 
 impl<B: Merge> Series<B> {
     pub(super) fn new() -> Self {
-        Series {
-            closed: Vec::with_capacity(MOST_BLOCKS),
-            open: B::NONE,
-            revolutions_in_open: 0,
-            per_block: 1,
-        }
+        Series { closed: Vec::with_capacity(MOST_BLOCKS), open: B::NONE, revolutions_in_open: 0, per_block: 1 }
     }
 
     /// Takes a whole revolution.
@@ -73,20 +68,15 @@ struct Sum {
 }
 
 impl Merge for Sum {
-    const NONE: Sum = Sum {
-        sum: 0.0,
-        weight: 0.0,
-    };
+    const NONE: Sum = Sum { sum: 0.0, weight: 0.0 };
 
     fn merge(&self, later: &Sum) -> Sum {
-        Sum {
-            sum: self.sum + later.sum,
-            weight: self.weight + later.weight,
-        }
+        Sum { sum: self.sum + later.sum, weight: self.weight + later.weight }
     }
 }
 
-/// The average of a quantity over the whole revolutions of a run, with its 95 % interval (see [`scatter`](super::scatter())).
+/// The average of a quantity over the whole revolutions of a run, with its 95 % interval (see
+/// [`scatter`](super::scatter())).
 #[derive(Debug, Clone)]
 pub struct Averages {
     series: Series<Sum>,
@@ -102,10 +92,7 @@ impl Default for Averages {
 impl Averages {
     /// Nothing seen yet.
     pub fn new() -> Self {
-        Averages {
-            series: Series::new(),
-            current: Sum::NONE,
-        }
+        Averages { series: Series::new(), current: Sum::NONE }
     }
 
     /// Takes a value.
@@ -136,7 +123,8 @@ impl Averages {
         }
     }
 
-    /// The average over whole revolutions, or without one, over what has been seen, and its interval; `None` of nothing.
+    /// The average over whole revolutions, or without one, over what has been seen, and its interval; `None` of
+    /// nothing.
     pub fn estimate(&self) -> Option<Estimate> {
         let all = self.all();
         let value = all.sum / all.weight;
@@ -157,8 +145,9 @@ impl Averages {
         blocks.map(|b| (b.sum - mean * b.weight) / each).collect()
     }
 
-    /// Spectral density of the average at frequency zero (two-sided, in its unit squared times that of the weight), from all blocks but the
-    /// first share `skipped` of them, with its degrees of freedom; `None` of a series too short to tell.
+    /// Spectral density of the average at frequency zero (two-sided, in its unit squared times that of the weight),
+    /// from all blocks but the first share `skipped` of them, with its degrees of freedom; `None` of a series too short
+    /// to tell.
     pub fn density(&self, skipped: f64) -> Option<(f64, u32)> {
         let all = self.all();
         let influence = self.influence(all.sum / all.weight, all.weight);
@@ -169,7 +158,8 @@ impl Averages {
         Some((found.error * found.error * weight, found.freedom))
     }
 
-    /// By how much the average began above its later value, where that is more than its scatter explains; see [`drift`].
+    /// By how much the average began above its later value, where that is more than its scatter explains; see
+    /// [`drift`].
     pub fn drift(&self) -> Option<f64> {
         let all = self.all();
         drift(&self.influence(all.sum / all.weight, all.weight))

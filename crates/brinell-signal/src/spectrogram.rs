@@ -36,8 +36,8 @@ impl Spectrogram {
     }
 }
 
-/// Spectrogram of `x`, sampled at `fs` Hz, in segments that each make a frame; an incomplete last one is dropped. Nothing
-/// is padded, so the first frame lies half a segment into the signal. Holds every frame.
+/// Spectrogram of `x`, sampled at `fs` Hz, in segments that each make a frame; an incomplete last one is dropped.
+/// Nothing is padded, so the first frame lies half a segment into the signal. Holds every frame.
 ///
 /// # Errors
 /// As [`psd`](super::psd()).
@@ -55,8 +55,7 @@ pub fn spectrogram(x: &[f64], fs: f64, segments: &Segments) -> Result<Spectrogra
         input.copy_from_slice(segment);
         segments.detrend.apply(&mut input);
         input.iter_mut().zip(&window).for_each(|(x, w)| *x *= w);
-        fft.process_with_scratch(&mut input, &mut output, &mut scratch)
-            .expect("buffers were made by the plan");
+        fft.process_with_scratch(&mut input, &mut output, &mut scratch).expect("buffers were made by the plan");
         density.extend(output.iter().enumerate().map(|(k, value)| {
             let sides = if k == 0 || 2 * k == length { 1.0 } else { 2.0 };
             sides * value.norm_sqr() / (fs * energy)
@@ -86,21 +85,14 @@ mod tests {
     #[test]
     fn analytic_chirp_is_followed() {
         // 500 Hz to 2500 Hz over a second, amplitude 2.
-        let x: Vec<f64> = (0..8000)
-            .map(|i| i as f64 / FS)
-            .map(|t| 2.0 * (TAU * (500.0 * t + 1000.0 * t * t)).cos())
-            .collect();
-        let options = Segments {
-            window: Window::FlatTop,
-            ..Segments::of(256)
-        };
+        let x: Vec<f64> =
+            (0..8000).map(|i| i as f64 / FS).map(|t| 2.0 * (TAU * (500.0 * t + 1000.0 * t * t)).cos()).collect();
+        let options = Segments { window: Window::FlatTop, ..Segments::of(256) };
         let s = spectrogram(&x, FS, &options).unwrap();
         assert_eq!((s.frames(), s.bins), (61, 129));
         for i in 0..s.frames() {
             let frame = s.frame(i);
-            let top = (0..s.bins)
-                .max_by(|&a, &b| frame[a].total_cmp(&frame[b]))
-                .unwrap();
+            let top = (0..s.bins).max_by(|&a, &b| frame[a].total_cmp(&frame[b])).unwrap();
             let t = s.first_time + i as f64 * s.time_step;
             let f = 500.0 + 2000.0 * t;
             assert!((top as f64 * s.frequency_step - f).abs() < 1.5 * s.frequency_step);
@@ -113,10 +105,7 @@ mod tests {
     fn prop_mean_over_frames_is_the_density() {
         let x = Noise::new(8).normals(3000);
         let options = Segments::of(200);
-        let (s, p) = (
-            spectrogram(&x, FS, &options).unwrap(),
-            psd(&x, FS, &options).unwrap(),
-        );
+        let (s, p) = (spectrogram(&x, FS, &options).unwrap(), psd(&x, FS, &options).unwrap());
         assert_eq!(s.frames(), p.segments);
         for k in 0..s.bins {
             let mean = (0..s.frames()).map(|i| s.frame(i)[k]).sum::<f64>() / s.frames() as f64;

@@ -78,23 +78,14 @@ const PEAK_EXPONENT: f64 = 0.23;
 pub fn peak_near(spectrum: &Spectrum, frequency: f64, halfwidth: f64) -> Option<Peak> {
     let amplitude = &spectrum.amplitude;
     let nearest = (frequency / spectrum.frequency_step).round();
-    let first = ((frequency - halfwidth) / spectrum.frequency_step)
-        .ceil()
-        .min(nearest)
-        .max(1.0) as usize;
-    let last = ((frequency + halfwidth) / spectrum.frequency_step)
-        .floor()
-        .max(nearest)
-        .max(0.0) as usize;
+    let first = ((frequency - halfwidth) / spectrum.frequency_step).ceil().min(nearest).max(1.0) as usize;
+    let last = ((frequency + halfwidth) / spectrum.frequency_step).floor().max(nearest).max(0.0) as usize;
     let last = last.min(amplitude.len().saturating_sub(2));
     let top = (first..=last)
         .filter(|&k| amplitude[k] > amplitude[k - 1] && amplitude[k] >= amplitude[k + 1])
         .max_by(|&a, &b| amplitude[a].total_cmp(&amplitude[b]))?;
     let (offset, amplitude) = interpolate([amplitude[top - 1], amplitude[top], amplitude[top + 1]]);
-    Some(Peak {
-        frequency: (top as f64 + offset) * spectrum.frequency_step,
-        amplitude,
-    })
+    Some(Peak { frequency: (top as f64 + offset) * spectrum.frequency_step, amplitude })
 }
 
 /// Offset in bins and height of the peak of a Hann line, from the highest bin and its neighbours.
@@ -105,8 +96,9 @@ fn interpolate(magnitudes: [f64; 3]) -> (f64, f64) {
     (offset, height.powf(1.0 / PEAK_EXPONENT))
 }
 
-/// Amplitude spectrum and density of a whole signal as one Hann-windowed segment, sampled at `fs` Hz; `None` with
-/// fewer than [`FEWEST_SAMPLES`] samples. Holds the signal's transform in memory; for a run use [`StreamSpectra`](super::StreamSpectra).
+/// Amplitude spectrum and density of a whole signal as one Hann-windowed segment, sampled at `fs` Hz; `None` with fewer
+/// than [`FEWEST_SAMPLES`] samples. Holds the signal's transform in memory; for a run use
+/// [`StreamSpectra`](super::StreamSpectra).
 pub fn amplitude_spectrum(x: &[f64], fs: f64) -> Option<Spectrum> {
     if x.len() < FEWEST_SAMPLES {
         return None;
@@ -176,10 +168,7 @@ pub(super) struct PowerAverage {
 impl PowerAverage {
     /// For segments of `length` samples.
     pub(super) fn new(length: usize) -> Self {
-        PowerAverage {
-            power: vec![0.0; length / 2 + 1],
-            segments: 0,
-        }
+        PowerAverage { power: vec![0.0; length / 2 + 1], segments: 0 }
     }
 
     /// Takes the transform of a segment under its window.
@@ -252,13 +241,7 @@ mod tests {
         assert!((spectrum.amplitude[20] - 3.0).abs() < 1e-12);
         // Hann: half the amplitude in the neighbours, nothing beyond.
         assert!((spectrum.amplitude[19] - 1.5).abs() < 1e-12);
-        assert!(
-            spectrum
-                .amplitude
-                .iter()
-                .enumerate()
-                .all(|(k, a)| k.abs_diff(20) < 2 || *a < 1e-11)
-        );
+        assert!(spectrum.amplitude.iter().enumerate().all(|(k, a)| k.abs_diff(20) < 2 || *a < 1e-11));
         assert!((spectrum.noise_bandwidth - 1.5 * 12.5).abs() < 1e-12);
         // Mean square A^2 / 2 over the three bins of the density.
         assert!((spectrum.band_rms(230.0, 270.0) - 3.0 / 2f64.sqrt()).abs() < 1e-12);
@@ -266,9 +249,7 @@ mod tests {
 
     #[test]
     fn analytic_mean_and_nyquist_are_not_doubled() {
-        let x: Vec<f64> = (0..256)
-            .map(|i| if i % 2 == 0 { 5.0 } else { 1.0 })
-            .collect();
+        let x: Vec<f64> = (0..256).map(|i| if i % 2 == 0 { 5.0 } else { 1.0 }).collect();
         let spectrum = amplitude_spectrum(&x, FS).unwrap();
         assert!((spectrum.amplitude[0] - 3.0).abs() < 1e-13);
         assert!((spectrum.amplitude[128] - 2.0).abs() < 1e-13);
@@ -285,10 +266,7 @@ mod tests {
             worst_frequency = worst_frequency.max((peak.frequency - bin).abs());
             worst_amplitude = worst_amplitude.max((peak.amplitude / 2.0 - 1.0).abs());
         }
-        assert!(
-            worst_frequency < 3e-4 && worst_amplitude < 1.2e-3,
-            "{worst_frequency} {worst_amplitude}"
-        );
+        assert!(worst_frequency < 3e-4 && worst_amplitude < 1.2e-3, "{worst_frequency} {worst_amplitude}");
     }
 
     #[test]
@@ -304,11 +282,7 @@ mod tests {
     #[test]
     fn analytic_white_noise_density() {
         let sigma = 2.0;
-        let x: Vec<f64> = Noise::new(11)
-            .normals(1_000_000)
-            .iter()
-            .map(|v| sigma * v)
-            .collect();
+        let x: Vec<f64> = Noise::new(11).normals(1_000_000).iter().map(|v| sigma * v).collect();
         let spectrum = welch(&x, 1024);
         assert_eq!(spectrum.segments, 1952);
         let level = 2.0 * sigma * sigma / FS;
@@ -351,10 +325,7 @@ mod tests {
             let mean_square = weighted / w.iter().map(|w| w * w).sum::<f64>();
             let spectrum = amplitude_spectrum(&x, FS).unwrap();
             let sum = spectrum.density.iter().sum::<f64>() * spectrum.frequency_step;
-            assert!(
-                (sum / mean_square - 1.0).abs() < 1e-12,
-                "{n}: {sum} {mean_square}"
-            );
+            assert!((sum / mean_square - 1.0).abs() < 1e-12, "{n}: {sum} {mean_square}");
             assert!((spectrum.band_rms(0.0, FS).powi(2) / sum - 1.0).abs() < 1e-12);
         }
     }

@@ -1,8 +1,8 @@
 //! The spectra of a stream: amplitudes, envelope, and the precise rates of impacts, all from the same segments.
 //!
-//! Segments overlap by half; an incomplete last segment is dropped. A stream shorter than one segment is taken whole, as one segment of
-//! its own length (and so with bins farther apart), not padded with zeros. One segment is held, with the room for its transforms: some 9 MB
-//! for the longest, however long the stream is.
+//! Segments overlap by half; an incomplete last segment is dropped. A stream shorter than one segment is taken whole,
+//! as one segment of its own length (and so with bins farther apart), not padded with zeros. One segment is held, with
+//! the room for its transforms: some 9 MB for the longest, however long the stream is.
 
 use super::envelope::{Band, Demodulator, EnvelopeSpectrum, remove_weighted_mean};
 use super::frequency::{Comb, LineAverage, LineFrequency, LineSearch, Padded};
@@ -16,9 +16,11 @@ pub const LONGEST_SEGMENT: usize = 65_536;
 pub struct Spectra {
     /// By Welch's method under Hann's window; `None` with fewer than 8 samples.
     pub spectrum: Option<Spectrum>,
-    /// Each segment demodulated by itself, the window-weighted mean taken off, then as `spectrum`; `None` with fewer than 8 samples.
+    /// Each segment demodulated by itself, the window-weighted mean taken off, then as `spectrum`; `None` with fewer
+    /// than 8 samples.
     pub envelope: Option<EnvelopeSpectrum>,
-    /// One a search: the mean over the segments in which a comb is clear of the noise; `None` where none does, or a segment is too short to tell.
+    /// One a search: the mean over the segments in which a comb is clear of the noise; `None` where none does, or a
+    /// segment is too short to tell.
     pub lines: Vec<Option<LineFrequency>>,
 }
 
@@ -72,11 +74,7 @@ impl StreamSpectra {
         }
         let rest = self.segmenter.rest();
         if rest.len() < FEWEST_SAMPLES {
-            return Spectra {
-                spectrum: None,
-                envelope: None,
-                lines: vec![None; self.searches.len()],
-            };
+            return Spectra { spectrum: None, envelope: None, lines: vec![None; self.searches.len()] };
         }
         drop(self.segments);
         let mut whole = SegmentSpectra::new(self.fs, rest.len(), self.band, &self.searches);
@@ -132,8 +130,7 @@ impl SegmentSpectra {
         self.demodulator.envelope(&transform.output, envelope);
         self.sum_of_means += remove_weighted_mean(envelope, &transform.window);
         if !self.combs.is_empty() {
-            self.padded
-                .transform(envelope, &transform.window, &mut self.demodulator);
+            self.padded.transform(envelope, &transform.window, &mut self.demodulator);
         }
         for (comb, line) in &mut self.lines {
             if let Some(comb) = comb {
@@ -171,10 +168,7 @@ impl Segmenter {
             (FEWEST_SAMPLES..=LONGEST_SEGMENT).contains(&length),
             "segment of {length} samples: must be {FEWEST_SAMPLES} to {LONGEST_SEGMENT}"
         );
-        Segmenter {
-            buffer: vec![0.0; length],
-            fill: 0,
-        }
+        Segmenter { buffer: vec![0.0; length], fill: 0 }
     }
 
     /// Takes a sample; gives a segment whenever one is full.

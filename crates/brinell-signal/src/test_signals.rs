@@ -6,9 +6,7 @@ pub(crate) use crate::random::Random as Noise;
 
 /// `amplitude * cos(2 pi f t + phase)`, n samples from t = 0.
 pub(crate) fn cosine(n: usize, fs: f64, f: f64, amplitude: f64, phase: f64) -> Vec<f64> {
-    (0..n)
-        .map(|i| amplitude * (TAU * f * i as f64 / fs + phase).cos())
-        .collect()
+    (0..n).map(|i| amplitude * (TAU * f * i as f64 / fs + phase).cos()).collect()
 }
 
 /// ((7 i^2 + 3 i) mod 101) / 50 - 1, with 3 added every 37th sample: a sequence that other programs make exactly,
@@ -55,8 +53,5 @@ impl ImpactTrain {
 /// Asserts that a value is there and within `relative` of the expected one.
 pub(crate) fn close(value: Option<f64>, expected: f64, relative: f64) {
     let value = value.expect("defined");
-    assert!(
-        (value - expected).abs() <= relative * expected.abs(),
-        "{value} for {expected}"
-    );
+    assert!((value - expected).abs() <= relative * expected.abs(), "{value} for {expected}");
 }

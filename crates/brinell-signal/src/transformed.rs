@@ -1,13 +1,16 @@
 //! Envelopes in many bands of one signal, from one transform of it, thinned out as they come.
 //!
-//! What is sought in an envelope lies far below the band's own frequencies: means over some neighbours are all that is kept of it.
+//! What is sought in an envelope lies far below the band's own frequencies: means over some neighbours are all that is
+//! kept of it.
 //!
-//! The analytic signal a(t) of a band of b bins is a sum of b turning values, so a transform of any length M of b or more gives it exactly at
-//! M times: no more are taken than the band's width asks for. |a|^2 holds nothing above the width B, and of |a| itself what lies beyond falls off fast:
-//! of Gaussian noise with correlation r, that of |a| goes as 1 + r^2 / 4 + r^4 / 64 + ..., and r^2 ends at B, r^4 at 2 B. Tones need more than noise: two
-//! of them, f apart, make a modulus with lines at k f, and f reaches B. Taken at 4 B (`AMPLE`), the fourth line is the first that folds back onto the lowest
-//! frequencies: 3.2 % of the mean where both are equally strong, less where they are not (2 / (4 k^2 - 1), the series of |cos|). The envelope of a
-//! band as wide as the spectrum is taken at every sample, as everybody takes it.
+//! The analytic signal a(t) of a band of b bins is a sum of b turning values, so a transform of any length M of b or
+//! more gives it exactly at M times: no more are taken than the band's width asks for. |a|^2 holds nothing above the
+//! width B, and of |a| itself what lies beyond falls off fast: of Gaussian noise with correlation r, that of |a| goes
+//! as 1 + r^2 / 4 + r^4 / 64 + ..., and r^2 ends at B, r^4 at 2 B. Tones need more than noise: two of them, f apart,
+//! make a modulus with lines at k f, and f reaches B. Taken at 4 B (`AMPLE`), the fourth line is the first that folds
+//! back onto the lowest frequencies: 3.2 % of the mean where both are equally strong, less where they are not (2 / (4
+//! k^2 - 1), the series of |cos|). The envelope of a band as wide as the spectrum is taken at every sample, as
+//! everybody takes it.
 
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
@@ -29,8 +32,9 @@ const AMPLE: f64 = 4.0;
 pub struct Thinned {
     /// Mean of the whole envelope, in the signal's unit.
     pub mean: f64,
-    /// One for each of so many equal stretches of the signal, in the signal's unit: where several samples lie in one, means over it and the next,
-    /// each weighted by a triangle about where the two meet, and over the last alone. So what folds back has been brought down twice.
+    /// One for each of so many equal stretches of the signal, in the signal's unit: where several samples lie in one,
+    /// means over it and the next, each weighted by a triangle about where the two meet, and over the last alone. So
+    /// what folds back has been brought down twice.
     pub values: Vec<f64>,
 }
 
@@ -66,16 +70,12 @@ impl Transformed {
         let plan = Interleaved::planned(x.len(), &mut planner);
         let mut workshop = Workshop::default();
         let bins = plan.forward(x, &mut workshop.room);
-        Transformed {
-            fs,
-            bins,
-            length: x.len(),
-            kept: Mutex::new((planner, vec![workshop])),
-        }
+        Transformed { fs, bins, length: x.len(), kept: Mutex::new((planner, vec![workshop])) }
     }
 
-    /// The same with white noise of `relative` times the signal's RMS, and of the RMS `noise` in the signal's unit, by a seed of its own. Where
-    /// a signal holds nothing, as a computed tone between its lines, there is round-off, whose pattern no chance explains.
+    /// The same with white noise of `relative` times the signal's RMS, and of the RMS `noise` in the signal's unit, by
+    /// a seed of its own. Where a signal holds nothing, as a computed tone between its lines, there is round-off, whose
+    /// pattern no chance explains.
     #[must_use]
     pub fn dithered(mut self, relative: f64, noise: f64) -> Self {
         let power: f64 = self.bins.iter().map(Complex::norm_sqr).sum();
@@ -101,8 +101,8 @@ impl Transformed {
         self.length
     }
 
-    /// As [`envelope()`](super::envelope()), in means over `count` equal stretches, each of samples as close as the band's width asks for: with
-    /// as many stretches as there were samples, the envelope sample by sample.
+    /// As [`envelope()`](super::envelope()), in means over `count` equal stretches, each of samples as close as the
+    /// band's width asks for: with as many stretches as there were samples, the envelope sample by sample.
     ///
     /// # Panics
     /// Where the band does not satisfy 0 <= low < high and low < fs / 2, or `count` is 0.
@@ -121,8 +121,7 @@ impl Transformed {
         sums.resize(count, [0.0; 2]);
         let rises = 1.0 / every as f64;
         let mut here = Vec::new();
-        let shape =
-            |_, bins: &[Complex<f64>], shaped: &mut [Complex<f64>]| shaped.copy_from_slice(bins);
+        let shape = |_, bins: &[Complex<f64>], shaped: &mut [Complex<f64>]| shaped.copy_from_slice(bins);
         plan.backward(&self.bins, band, room, shape, |place, values| {
             here.resize(values.len(), 0.0);
             moduli(values, &mut here);
@@ -150,10 +149,7 @@ impl Transformed {
             .collect();
         values.iter_mut().for_each(|v| *v *= each);
         self.kept().1.push(workshop);
-        Thinned {
-            mean: each * whole / count as f64,
-            values,
-        }
+        Thinned { mean: each * whole / count as f64, values }
     }
 
     fn kept(&self) -> MutexGuard<'_, (FftPlanner<f64>, Vec<Workshop>)> {
@@ -181,14 +177,9 @@ mod tests {
         // The envelope of noise in a fraction b of the spectrum has a mean of RMS sqrt(b pi / 2).
         let rms = part.hypot(part);
         for low in [4000.0, 8000.0] {
-            let mean = dithered
-                .envelope(Band::between(low, low + 3200.0), n as usize)
-                .mean;
+            let mean = dithered.envelope(Band::between(low, low + 3200.0), n as usize).mean;
             let expected = rms * (0.25 * std::f64::consts::FRAC_PI_2).sqrt();
-            assert!(
-                (mean / expected - 1.0).abs() < 0.05,
-                "{mean:e} {expected:e}"
-            );
+            assert!((mean / expected - 1.0).abs() < 0.05, "{mean:e} {expected:e}");
         }
     }
 
@@ -199,13 +190,7 @@ mod tests {
         for n in [48_000, 15 << 17] {
             let x = Noise::new(5).normals(n);
             let transformed = Transformed::of(&x, FS).unwrap();
-            for (count, every, apart) in [
-                (n, 1, 1),
-                (n / 2, 1, 2),
-                (n / 4, 2, 2),
-                (n / 6, 2, 3),
-                (n / 12, 4, 3),
-            ] {
+            for (count, every, apart) in [(n, 1, 1), (n / 2, 1, 2), (n / 4, 2, 2), (n / 6, 2, 3), (n / 12, 4, 3)] {
                 {
                     let whole = envelope(&x, FS, band).unwrap();
                     let thinned = transformed.envelope(band, count);
@@ -213,11 +198,7 @@ mod tests {
                     let taken: Vec<f64> = whole.iter().step_by(apart).copied().collect();
                     let mean = taken.iter().sum::<f64>() / taken.len() as f64;
                     assert!((thinned.mean / mean - 1.0).abs() < 1e-12, "{n}");
-                    for (value, two) in thinned
-                        .values
-                        .iter()
-                        .zip(taken.windows(2 * every).step_by(every))
-                    {
+                    for (value, two) in thinned.values.iter().zip(taken.windows(2 * every).step_by(every)) {
                         let weight = |i: usize| {
                             let side = i.min(2 * every - 1 - i);
                             (side as f64 + 0.5) / (every * every) as f64
@@ -236,7 +217,8 @@ mod tests {
         }
     }
 
-    /// Two tones, however far apart in the band: what is present where nothing should be, is the fourth line of their beat and those beyond.
+    /// Two tones, however far apart in the band: what is present where nothing should be, is the fourth line of their
+    /// beat and those beyond.
     #[test]
     fn analytic_beats_fold_back_as_little_as_said() {
         let (n, count) = (1 << 17, 1 << 13);
@@ -246,13 +228,12 @@ mod tests {
         let mut highest = [0.0_f64; 2];
         for apart in (1..=60).map(|k| 50.0 * f64::from(k) - 7.0) {
             for (weaker, highest) in [1.0, 0.6].into_iter().zip(&mut highest) {
-                let x: Vec<f64> = (0..n)
-                    .map(|i| turn(2003.0, i) + weaker * turn(2003.0 + apart, i))
-                    .collect();
+                let x: Vec<f64> = (0..n).map(|i| turn(2003.0, i) + weaker * turn(2003.0 + apart, i)).collect();
                 let thinned = Transformed::of(&x, FS).unwrap().envelope(band, count);
                 let spectrum = psd(&thinned.values, rate, &Segments::of(count)).unwrap();
                 let low = (20.0 / spectrum.frequency_step) as usize;
-                // Below the lowest line of the beat itself, and where the triangles have taken 98 % off what folds back onto there.
+                // Below the lowest line of the beat itself, and where the triangles have taken 98 % off what folds back
+                // onto there.
                 let end = (0.9 * apart.min(0.1 * rate) / spectrum.frequency_step) as usize;
                 let there = spectrum.amplitude.get(low..end).unwrap_or_default();
                 let most = there.iter().fold(0.0, |m: f64, a| m.max(*a));
@@ -264,7 +245,8 @@ mod tests {
         assert!(highest[1] < 0.01, "{highest:?}");
     }
 
-    /// What folds back is below 2 % of the envelope's noise at low frequencies, as the series says; each level scatters by 1 %.
+    /// What folds back is below 2 % of the envelope's noise at low frequencies, as the series says; each level scatters
+    /// by 1 %.
     #[test]
     fn analytic_the_noise_of_an_envelope_is_that_of_every_sample() {
         let (n, count) = (1_440_000, 200_000);
@@ -276,7 +258,8 @@ mod tests {
                 let thinned = transformed.envelope(band, count);
                 let rate = FS * count as f64 / n as f64;
                 let spectrum = psd(&thinned.values, rate, &Segments::of(count / 100)).unwrap();
-                // From half a hundredth to a tenth of the rate of stretches, where a triangle takes less than 1 % off the RMS.
+                // From half a hundredth to a tenth of the rate of stretches, where a triangle takes less than 1 % off
+                // the RMS.
                 spectrum.band_rms(20.0, 350.0)
             };
             let ratio = level(count) / level(n);

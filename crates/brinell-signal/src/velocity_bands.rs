@@ -3,10 +3,11 @@
 //! ISO 15242 (parts 2 to 4) measures the RMS vibration velocity of a bearing turned at a nominal speed, 1800 r/min for
 //! most, in a low (50 to 300 Hz), a medium (300 to 1800 Hz) and a high band (1800 to 10000 Hz).
 //!
-//! Differences to a measurement by the standard: it is of the resting ring under the standard's axial or radial load and
-//! its pick-up, none of which is this function's business; its band-pass filters have slopes within a prescribed mask,
-//! here the edges are sharp. [`scaled`] moves the bands in proportion to the speed, which keeps each at the same orders
-//! of rotation; whether the standard asks for that at speeds of its own choosing was not checked against its text.
+//! Differences to a measurement by the standard: it is of the resting ring under the standard's axial or radial load
+//! and its pick-up, none of which is this function's business; its band-pass filters have slopes within a prescribed
+//! mask, here the edges are sharp. [`scaled`] moves the bands in proportion to the speed, which keeps each at the same
+//! orders of rotation; whether the standard asks for that at speeds of its own choosing was not checked against its
+//! text.
 
 use super::blocks::{Blocks, Estimate};
 use super::envelope::Band;
@@ -20,20 +21,8 @@ use super::spectrum::FEWEST_SAMPLES;
 pub const NOMINAL_SPEED: f64 = 30.0;
 
 /// Low, medium and high band at 1800 r/min, Hz.
-pub const NOMINAL: [Band; 3] = [
-    Band {
-        low: 50.0,
-        high: 300.0,
-    },
-    Band {
-        low: 300.0,
-        high: 1800.0,
-    },
-    Band {
-        low: 1800.0,
-        high: 10_000.0,
-    },
-];
+pub const NOMINAL: [Band; 3] =
+    [Band { low: 50.0, high: 300.0 }, Band { low: 300.0, high: 1800.0 }, Band { low: 1800.0, high: 10_000.0 }];
 
 /// [`NOMINAL`] in proportion to the speed `shaft` (Hz).
 pub fn scaled(shaft: f64) -> [Band; 3] {
@@ -57,77 +46,38 @@ pub struct BandVelocity {
 /// Low, medium and high band; `None` for one that lies above half the sampling rate altogether.
 pub type VelocityBands = [Option<BandVelocity>; 3];
 
-/// RMS velocity in `bands` of an acceleration `a` sampled at `fs` Hz, with 95 % intervals from blocks of `block` s (whole
-/// revolutions, best). Bands are [`NOMINAL`] or [`scaled`].
+/// RMS velocity in `bands` of an acceleration `a` sampled at `fs` Hz, with 95 % intervals from blocks of `block` s
+/// (whole revolutions, best). Bands are [`NOMINAL`] or [`scaled`].
 ///
 /// # Errors
 /// [`SignalError`] with fewer than 8 samples, samples that are not finite, a band that is empty or begins at 0, or a
 /// block that is not longer than a sample.
-pub fn velocity_bands(
-    a: &[f64],
-    fs: f64,
-    bands: &[Band; 3],
-    block: f64,
-) -> Result<VelocityBands, SignalError> {
+pub fn velocity_bands(a: &[f64], fs: f64, bands: &[Band; 3], block: f64) -> Result<VelocityBands, SignalError> {
     let samples = block * fs;
-    require(
-        samples >= 1.0 && samples.is_finite(),
-        "block (s)",
-        block,
-        "at least one sample",
-    )?;
-    let inside: Vec<usize> = (0..bands.len())
-        .filter(|i| bands[*i].low < 0.5 * fs)
-        .collect();
+    require(samples >= 1.0 && samples.is_finite(), "block (s)", block, "at least one sample")?;
+    let inside: Vec<usize> = (0..bands.len()).filter(|i| bands[*i].low < 0.5 * fs).collect();
     let wanted: Vec<Band> = inside.iter().map(|i| bands[*i]).collect();
     let mut found = [None; 3];
     let count = |periods| steps(periods, a.len());
-    velocities(
-        a,
-        fs,
-        Motion::Acceleration,
-        &wanted,
-        count,
-        |place, velocity| {
-            let band = wanted[place];
-            let samples = samples * velocity.len() as f64 / a.len() as f64;
-            let rms = Blocks::of(velocity, samples).estimate(Indicator::Rms);
-            found[inside[place]] = rms.map(|rms| BandVelocity {
-                band,
-                rms,
-                cut_short: band.high > 0.5 * fs,
-            });
-        },
-    )?;
+    velocities(a, fs, Motion::Acceleration, &wanted, count, |place, velocity| {
+        let band = wanted[place];
+        let samples = samples * velocity.len() as f64 / a.len() as f64;
+        let rms = Blocks::of(velocity, samples).estimate(Indicator::Rms);
+        found[inside[place]] = rms.map(|rms| BandVelocity { band, rms, cut_short: band.high > 0.5 * fs });
+    })?;
     Ok(found)
 }
 
-/// RMS velocity in one band of a signal sampled at `fs` Hz, with its 95 % interval from blocks of `block` s. A period of the band's lower edge at
-/// either end is left out: it is disturbed where the signal's ends do not meet.
+/// RMS velocity in one band of a signal sampled at `fs` Hz, with its 95 % interval from blocks of `block` s. A period
+/// of the band's lower edge at either end is left out: it is disturbed where the signal's ends do not meet.
 ///
 /// # Errors
-/// [`SignalError`] with samples that are not finite, a band that is empty or begins at 0, a block that is not longer than a sample, or fewer
-/// samples than three periods of the lower edge hold.
-pub fn velocity_rms(
-    x: &[f64],
-    fs: f64,
-    from: Motion,
-    band: Band,
-    block: f64,
-) -> Result<Estimate, SignalError> {
+/// [`SignalError`] with samples that are not finite, a band that is empty or begins at 0, a block that is not longer
+/// than a sample, or fewer samples than three periods of the lower edge hold.
+pub fn velocity_rms(x: &[f64], fs: f64, from: Motion, band: Band, block: f64) -> Result<Estimate, SignalError> {
     let seconds = x.len() as f64 / fs;
-    require(
-        seconds * band.low >= 3.0,
-        "signal (s)",
-        seconds,
-        "at least three periods of the band's lower edge",
-    )?;
-    require(
-        block * fs >= 1.0 && block.is_finite(),
-        "block (s)",
-        block,
-        "at least one sample",
-    )?;
+    require(seconds * band.low >= 3.0, "signal (s)", seconds, "at least three periods of the band's lower edge")?;
+    require(block * fs >= 1.0 && block.is_finite(), "block (s)", block, "at least one sample")?;
     let mut found = None;
     let count = |periods| steps(periods, x.len());
     velocities(x, fs, from, &[band], count, |_, velocity| {
@@ -137,15 +87,11 @@ pub fn velocity_rms(
         let blocks = Blocks::of(inner.unwrap_or_default(), block * rate);
         found = blocks.estimate(Indicator::Rms);
     })?;
-    found.ok_or(SignalError::OutOfRange {
-        name: "block (s)",
-        value: block,
-        range: "at most the signal's length",
-    })
+    found.ok_or(SignalError::OutOfRange { name: "block (s)", value: block, range: "at most the signal's length" })
 }
 
-/// How often a velocity is taken. Its squares reach up to twice a band's highest frequency: with more steps than that little folds back to where a
-/// block's mean would see it.
+/// How often a velocity is taken. Its squares reach up to twice a band's highest frequency: with more steps than that
+/// little folds back to where a block's mean would see it.
 fn steps(periods: usize, samples: usize) -> usize {
     fast_from(5 * periods / 2).min(samples).max(FEWEST_SAMPLES)
 }
@@ -191,22 +137,16 @@ mod tests {
         assert_eq!(scaled(15.0)[1], Band::between(150.0, 900.0));
     }
 
-    /// RMS velocity A / (2 pi f sqrt 2) of a sine of acceleration A, at frequencies whose periods do not fit the record.
+    /// RMS velocity A / (2 pi f sqrt 2) of a sine of acceleration A, at frequencies whose periods do not fit the
+    /// record.
     #[test]
     fn analytic_a_sine_of_known_acceleration_has_its_velocity() {
         let fs = 25_600.0;
         let band = Band::between(10.0, 1000.0);
-        for (f, n) in [
-            (24.7, 25_600),
-            (49.83, 40_001),
-            (160.3, 30_011),
-            (811.7, 102_400),
-        ] {
+        for (f, n) in [(24.7, 25_600), (49.83, 40_001), (160.3, 30_011), (811.7, 102_400)] {
             let a = cosine(n, fs, f, 9.80665, 0.3);
             let expected = 9.80665 / (TAU * f) / 2f64.sqrt();
-            let of = |x: &[f64], from| {
-                velocity_rms(x, fs, from, band, 1.0 / f).unwrap().value / expected - 1.0
-            };
+            let of = |x: &[f64], from| velocity_rms(x, fs, from, band, 1.0 / f).unwrap().value / expected - 1.0;
             let off = of(&a, Motion::Acceleration);
             assert!(off.abs() < 0.01, "{f} Hz: {off:+.4}");
             let v = cosine(n, fs, f, 9.80665 / (TAU * f), 0.3);

@@ -1,7 +1,7 @@
 //! Windows: cosine sums, with the two numbers that calibrate a spectrum taken through them.
 //!
-//! F. J. Harris, "On the use of windows for harmonic analysis with the discrete Fourier transform", Proc. IEEE 66 (1978)
-//! 51-83. w(t) = a_0 - a_1 cos 2 pi t + a_2 cos 4 pi t - ..., t from 0 to 1. A periodic window of n samples has
+//! F. J. Harris, "On the use of windows for harmonic analysis with the discrete Fourier transform", Proc. IEEE 66
+//! (1978) 51-83. w(t) = a_0 - a_1 cos 2 pi t + a_2 cos 4 pi t - ..., t from 0 to 1. A periodic window of n samples has
 //! t = i / n and belongs to a transform of n samples; a symmetric one has t = i / (n - 1) and belongs to a filter.
 
 use std::f64::consts::{PI, TAU};
@@ -24,13 +24,8 @@ pub enum Window {
 
 impl Window {
     /// Every window.
-    pub const ALL: [Window; 5] = [
-        Window::Rectangular,
-        Window::Hann,
-        Window::Hamming,
-        Window::BlackmanHarris,
-        Window::FlatTop,
-    ];
+    pub const ALL: [Window; 5] =
+        [Window::Rectangular, Window::Hann, Window::Hamming, Window::BlackmanHarris, Window::FlatTop];
 
     /// a_0, a_1, ...
     fn coefficients(self) -> &'static [f64] {
@@ -40,13 +35,7 @@ impl Window {
             Window::Hamming => &[0.54, 0.46],
             Window::BlackmanHarris => &[0.35875, 0.48829, 0.14128, 0.01168],
             // G. D'Antona, A. Ferrero, "Digital signal processing for measurement systems" (2006), table 3.2.
-            Window::FlatTop => &[
-                0.21557895,
-                0.41663158,
-                0.277263158,
-                0.083578947,
-                0.006947368,
-            ],
+            Window::FlatTop => &[0.21557895, 0.41663158, 0.277263158, 0.083578947, 0.006947368],
         }
     }
 
@@ -57,9 +46,7 @@ impl Window {
         }
         let n = length as f64;
         if self == Window::Hann {
-            return (0..length)
-                .map(|i| (PI * i as f64 / n).sin().powi(2))
-                .collect();
+            return (0..length).map(|i| (PI * i as f64 / n).sin().powi(2)).collect();
         }
         (0..length).map(|i| self.at(i as f64 / n)).collect()
     }

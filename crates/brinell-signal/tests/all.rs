@@ -1,4 +1,5 @@
-//! The crate's tests in one program, because each program links the library anew; `signal_allocations.rs` needs a process of its own.
+//! The crate's tests in one program, because each program links the library anew; `signal_allocations.rs` needs a
+//! process of its own.
 
 mod analysis;
 mod cases;

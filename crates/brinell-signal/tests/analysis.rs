@@ -4,8 +4,7 @@ use crate::cases::{CASES, first};
 use std::f64::consts::TAU;
 
 use brinell_signal::analysis::{
-    Analysis, AnalysisError, Component, NamedBearing, Options, Side, Standing, Verdict, analyze,
-    compare,
+    Analysis, AnalysisError, Component, NamedBearing, Options, Side, Standing, Verdict, analyze, compare,
 };
 use brinell_signal::random::Random;
 
@@ -20,14 +19,8 @@ fn healthy(fs: f64, seconds: f64, seed: u64) -> Vec<f64> {
     (0..(fs * seconds) as usize)
         .map(|i| {
             let t = i as f64 / fs;
-            let shaft: f64 = (1..=6)
-                .map(|k| 0.5 / k as f64 * (TAU * SHAFT * k as f64 * t + phases[k]).sin())
-                .sum();
-            let mains: f64 = [50.0, 100.0, 150.0]
-                .iter()
-                .zip(&phases)
-                .map(|(f, p)| 0.2 * (TAU * f * t + p).sin())
-                .sum();
+            let shaft: f64 = (1..=6).map(|k| 0.5 / k as f64 * (TAU * SHAFT * k as f64 * t + phases[k]).sin()).sum();
+            let mains: f64 = [50.0, 100.0, 150.0].iter().zip(&phases).map(|(f, p)| 0.2 * (TAU * f * t + p).sin()).sum();
             // Unbalance turns the load, and with it the noise of rolling, a little.
             let breathing = 1.0 + 0.1 * (TAU * SHAFT * t).sin();
             shaft + mains + breathing * noise.normal()
@@ -35,8 +28,8 @@ fn healthy(fs: f64, seconds: f64, seed: u64) -> Vec<f64> {
         .collect()
 }
 
-/// Damage: impacts at `order` with cumulative slip and jitter `jitter`, heights modulated at `modulation` orders, ringing at 3 kHz,
-/// with `snr_db` of impacts to noise over the whole band.
+/// Damage: impacts at `order` with cumulative slip and jitter `jitter`, heights modulated at `modulation` orders,
+/// ringing at 3 kHz, with `snr_db` of impacts to noise over the whole band.
 pub(crate) struct Damage {
     pub(crate) order: f64,
     pub(crate) modulation: f64,
@@ -58,12 +51,7 @@ pub(crate) fn damaged(fs: f64, seconds: f64, seed: u64, d: &Damage) -> Vec<f64> 
             m => (0.5 + 0.5 * (TAU * m * SHAFT * at).cos()).max(0.0),
         };
         let first = (at * fs).ceil().max(0.0) as usize;
-        for (i, value) in ring
-            .iter_mut()
-            .enumerate()
-            .skip(first)
-            .take((0.006 * fs) as usize)
-        {
+        for (i, value) in ring.iter_mut().enumerate().skip(first).take((0.006 * fs) as usize) {
             let since = i as f64 / fs - at;
             *value += height * (-since / 8e-4).exp() * (TAU * 3000.0 * since).sin();
         }
@@ -72,9 +60,7 @@ pub(crate) fn damaged(fs: f64, seconds: f64, seed: u64, d: &Damage) -> Vec<f64> 
     }
     let rms = (ring.iter().map(|v| v * v).sum::<f64>() / n as f64).sqrt();
     let scale = 10f64.powf(d.snr_db / 20.0) / rms;
-    (healthy(fs, seconds, seed).iter().zip(&ring))
-        .map(|(h, r)| h + scale * r)
-        .collect()
+    (healthy(fs, seconds, seed).iter().zip(&ring)).map(|(h, r)| h + scale * r).collect()
 }
 
 pub(crate) fn look(x: &[f64], fs: f64) -> Analysis {
@@ -89,18 +75,10 @@ fn prop_the_right_component_ranks_first() {
         for (seconds, snr_db) in [(1.0, -3.0), (2.0, -6.0), (5.0, -10.0)] {
             for (component, order, modulation) in CASES {
                 for jitter in [0.01, 0.02] {
-                    let damage = Damage {
-                        order,
-                        modulation,
-                        jitter,
-                        snr_db,
-                    };
+                    let damage = Damage { order, modulation, jitter, snr_db };
                     let a = look(&damaged(fs, seconds, 11, &damage), fs);
                     if first(&a).is_none() {
-                        println!(
-                            "missed {component:?} {fs} Hz {seconds} s {snr_db} dB {jitter}: {:?}",
-                            a.families
-                        );
+                        println!("missed {component:?} {fs} Hz {seconds} s {snr_db} dB {jitter}: {:?}", a.families);
                         missed += 1;
                     } else if first(&a) != Some(component) {
                         wrong.push(format!(
@@ -172,14 +150,8 @@ fn regress_the_verdict_at_falling_signal_to_noise() {
     println!("2 s, right | another's, of {seeds} each, at {levels:?} dB");
     for (component, order, modulation) in CASES {
         let counts = levels.map(|snr_db| {
-            let damage = Damage {
-                order,
-                modulation,
-                jitter: 0.01,
-                snr_db,
-            };
-            let named =
-                (0..seeds).map(|s| first(&look(&damaged(12_000.0, 2.0, s, &damage), 12_000.0)));
+            let damage = Damage { order, modulation, jitter: 0.01, snr_db };
+            let named = (0..seeds).map(|s| first(&look(&damaged(12_000.0, 2.0, s, &damage), 12_000.0)));
             named.fold((0, 0), |(right, wrong), n| match n {
                 Some(n) if n == component => (right + 1, wrong),
                 Some(_) => (right, wrong + 1),
@@ -187,10 +159,7 @@ fn regress_the_verdict_at_falling_signal_to_noise() {
             })
         });
         println!("{component:?}: {counts:?}");
-        assert!(
-            counts[0].0 == seeds && counts[1].0 >= seeds - 2,
-            "{component:?} {counts:?}"
-        );
+        assert!(counts[0].0 == seeds && counts[1].0 >= seeds - 2, "{component:?} {counts:?}");
         // Buried, it is missed, and nothing else is named.
         assert!(counts.iter().all(|c| c.1 <= 1), "{component:?} {counts:?}");
     }
@@ -200,9 +169,7 @@ fn regress_the_verdict_at_falling_signal_to_noise() {
 #[test]
 fn regress_a_computed_tone_is_no_damage() {
     for hz in [330.0, 1000.0, 2517.0] {
-        let x: Vec<f64> = (0..60_000)
-            .map(|i| (TAU * hz * f64::from(i) / 12_000.0).sin())
-            .collect();
+        let x: Vec<f64> = (0..60_000).map(|i| (TAU * hz * f64::from(i) / 12_000.0).sin()).collect();
         let orders = NamedBearing::find("6205-2RS").unwrap().orders();
         let analysis = analyze(&x, 12_000.0, &Options::new(1750.0 / 60.0, orders)).unwrap();
         assert_eq!(first(&analysis), None, "{hz} Hz: {}", analysis.verdict());
@@ -258,12 +225,7 @@ fn regress_one_line_is_reported_and_not_called_damage() {
 #[test]
 fn prop_a_wrong_speed_is_pointed_to_and_blamed_on_nobody() {
     let fs = 12_000.0;
-    let damage = Damage {
-        order: 3.5848,
-        modulation: 0.0,
-        jitter: 0.01,
-        snr_db: 3.0,
-    };
+    let damage = Damage { order: 3.5848, modulation: 0.0, jitter: 0.01, snr_db: 3.0 };
     for (seed, wrong) in [0.96, 0.97, 1.03, 1.04].into_iter().enumerate() {
         // Without the shaft's own lines, which would tell its speed.
         let rig = damaged(fs, 2.0, seed as u64, &damage);
@@ -275,16 +237,11 @@ fn prop_a_wrong_speed_is_pointed_to_and_blamed_on_nobody() {
         let told = analyze(&x, fs, &Options::new(wrong * SHAFT, orders)).unwrap();
         assert_eq!(first(&told), None, "{}", told.verdict());
         assert_eq!(told.conclusion(), Verdict::CannotTell);
-        let elsewhere = told
-            .elsewhere
-            .expect("a comb at no frequency of the bearing");
+        let elsewhere = told.elsewhere.expect("a comb at no frequency of the bearing");
         let nearest = elsewhere.nearest.expect("near BPFO");
         assert_eq!(nearest.name, "BPFO");
         // Half a per cent of slip.
-        assert!(
-            (nearest.shaft / (0.995 * SHAFT) - 1.0).abs() < 5e-3,
-            "{nearest:?}"
-        );
+        assert!((nearest.shaft / (0.995 * SHAFT) - 1.0).abs() < 5e-3, "{nearest:?}");
         assert!(told.verdict().contains("Are speed and bearing right?"));
     }
 }
@@ -294,12 +251,7 @@ fn prop_a_wrong_speed_is_pointed_to_and_blamed_on_nobody() {
 fn prop_a_slower_comb_is_distinguished_from_damage_at_its_multiple() {
     let fs = 12_000.0;
     for part in 2..=6 {
-        let slower = Damage {
-            order: 3.5848 / f64::from(part),
-            modulation: 0.0,
-            jitter: 0.002,
-            snr_db: 6.0,
-        };
+        let slower = Damage { order: 3.5848 / f64::from(part), modulation: 0.0, jitter: 0.002, snr_db: 6.0 };
         let told = look(&damaged(fs, 4.0, part as u64, &slower), fs);
         assert_eq!(first(&told), None, "{}", told.verdict());
         let comb = told.elsewhere.expect("a comb between the lines");
@@ -324,22 +276,12 @@ fn prop_lines_of_the_supply_are_excluded() {
         .collect();
     let mut options = Options::new(SHAFT, NamedBearing::find("6203-2RS").unwrap().orders());
     let told = analyze(&x, fs, &options).unwrap();
-    assert_eq!(
-        first(&told),
-        Some(Component::OuterRace),
-        "{}",
-        told.verdict()
-    );
+    assert_eq!(first(&told), Some(Component::OuterRace), "{}", told.verdict());
     let doubt = "has lines there too where an inverter feeds it";
     assert!(told.verdict().contains(doubt), "{}", told.verdict());
     options.supply = Some(1.002 * supply);
     let told = analyze(&x, fs, &options).unwrap();
-    assert_eq!(
-        told.conclusion(),
-        Verdict::NothingFound,
-        "{}",
-        told.verdict()
-    );
+    assert_eq!(told.conclusion(), Verdict::NothingFound, "{}", told.verdict());
     // Multiples of nothing would have no end.
     for bad in [0.0, -50.0, f64::NAN, 1001.0] {
         options.supply = Some(bad);
@@ -347,44 +289,28 @@ fn prop_lines_of_the_supply_are_excluded() {
     }
 }
 
-/// A record of the healthy machine: lines too faint for damage are reported where they have grown, and damage that was there before is none.
+/// A record of the healthy machine: lines too faint for damage are reported where they have grown, and damage that was
+/// there before is none.
 #[test]
 fn prop_a_healthy_record_shows_what_has_grown() {
     // Another sample rate: families are compared in the range that both hold.
     let (fs, before_fs) = (12_000.0, 25_600.0);
-    let at = |snr_db| Damage {
-        order: 3.5848,
-        modulation: 0.0,
-        jitter: 0.01,
-        snr_db,
-    };
+    let at = |snr_db| Damage { order: 3.5848, modulation: 0.0, jitter: 0.01, snr_db };
     let beside = |x: &[f64], before: &[f64]| {
         let mut analysis = look(x, fs);
-        let before = Side {
-            x: before,
-            analysis: &look(before, before_fs),
-        };
+        let before = Side { x: before, analysis: &look(before, before_fs) };
         analysis.beside_healthy(x, before).unwrap();
         let outer = analysis.families.iter().find(|f| f.name == "BPFO").cloned();
         (analysis.conclusion(), outer.unwrap())
     };
-    let (sound, weak, plain) = (
-        healthy(before_fs, 4.0, 1),
-        damaged(fs, 4.0, 2, &at(-11.0)),
-        damaged(fs, 4.0, 3, &at(-3.0)),
-    );
+    let (sound, weak, plain) =
+        (healthy(before_fs, 4.0, 1), damaged(fs, 4.0, 2, &at(-11.0)), damaged(fs, 4.0, 3, &at(-3.0)));
     assert_eq!(look(&weak, fs).conclusion(), Verdict::NothingFound);
     let (verdict, outer) = beside(&weak, &sound);
-    assert_eq!(
-        (verdict, outer.standing),
-        (Verdict::CannotTell, Standing::Grown)
-    );
+    assert_eq!((verdict, outer.standing), (Verdict::CannotTell, Standing::Grown));
     assert!(outer.growth.unwrap() > 2.0);
     let (verdict, outer) = beside(&plain, &sound);
-    assert_eq!(
-        (verdict, outer.standing),
-        (Verdict::Damage, Standing::Damage)
-    );
+    assert_eq!((verdict, outer.standing), (Verdict::Damage, Standing::Damage));
     let before = damaged(before_fs, 4.0, 4, &at(0.0));
     let (verdict, outer) = beside(&plain, &before);
     assert_eq!(outer.standing, Standing::AsBefore);
@@ -399,31 +325,19 @@ fn prop_a_healthy_record_shows_what_has_grown() {
 #[test]
 fn regress_words_on_what_cannot_be_analysed() {
     let orders = NamedBearing::find("6205-2RS").unwrap().orders();
-    let say = |x: &[f64], fs: f64| {
-        analyze(x, fs, &Options::new(30.0, orders))
-            .unwrap_err()
-            .to_string()
-    };
+    let say = |x: &[f64], fs: f64| analyze(x, fs, &Options::new(30.0, orders)).unwrap_err().to_string();
     let x = healthy(12_000.0, 1.0, 1);
     let slow = say(&x, 600.0);
     assert!(
-        slow.starts_with(
-            "sampled at 600 Hz the signal holds nothing above 300.0 Hz, and BPFI lies at 162.5 Hz"
-        ),
+        slow.starts_with("sampled at 600 Hz the signal holds nothing above 300.0 Hz, and BPFI lies at 162.5 Hz"),
         "{slow}"
     );
     assert!(say(&x[..1200], 12_000.0).starts_with("0.100 s are 3.0 revolutions"));
-    assert_eq!(
-        say(&[2.5; 9000], 12_000.0),
-        "all 9000 samples are 2.5: a constant is no vibration"
-    );
+    assert_eq!(say(&[2.5; 9000], 12_000.0), "all 9000 samples are 2.5: a constant is no vibration");
     let mut holes = x.clone();
     holes[7] = f64::NAN;
     holes[9] = f64::INFINITY;
-    assert!(
-        say(&holes, 12_000.0)
-            .starts_with("2 of 12000 samples are missing or infinite, the first at sample 8")
-    );
+    assert!(say(&holes, 12_000.0).starts_with("2 of 12000 samples are missing or infinite, the first at sample 8"));
     let none = analyze(&x, 12_000.0, &Options::new(30.0, Default::default()));
     assert!(matches!(none, Err(AnalysisError::NoFrequencies)));
 }
@@ -438,53 +352,24 @@ fn prop_odd_input_does_not_panic() {
             }
         }
     }
-    let spike: Vec<f64> = (0..12_000)
-        .map(|i| f64::from(u8::from(i == 6000)))
-        .collect();
+    let spike: Vec<f64> = (0..12_000).map(|i| f64::from(u8::from(i == 6000))).collect();
     assert!(look(&spike, 12_000.0).causes().next().is_none());
 }
 
 #[test]
 fn analytic_a_signal_over_itself_differs_nowhere() {
-    let damage = Damage {
-        order: 3.5848,
-        modulation: 0.0,
-        jitter: 0.01,
-        snr_db: 0.0,
-    };
+    let damage = Damage { order: 3.5848, modulation: 0.0, jitter: 0.01, snr_db: 0.0 };
     let x = damaged(25_600.0, 2.0, 1, &damage);
     let a = look(&x, 25_600.0);
-    let side = Side {
-        x: &x,
-        analysis: &a,
-    };
+    let side = Side { x: &x, analysis: &a };
     let c = compare(side, side).unwrap();
     assert!(c.level_db.0.abs() < 1e-12 && c.level_db.1 < 1e-12);
-    assert!(
-        c.indicators
-            .iter()
-            .all(|d| d.first == d.second && d.apart == Some(false))
-    );
-    assert!(
-        c.lines
-            .iter()
-            .any(|l| l.name == "BPFO" && l.snr_db[0] > 10.0)
-    );
+    assert!(c.indicators.iter().all(|d| d.first == d.second && d.apart == Some(false)));
+    assert!(c.lines.iter().any(|l| l.name == "BPFO" && l.snr_db[0] > 10.0));
     // Half as high: 6 dB everywhere, and the same modulation.
     let half: Vec<f64> = x.iter().map(|v| 0.5 * v).collect();
     let b = look(&half, 25_600.0);
-    let c = compare(
-        side,
-        Side {
-            x: &half,
-            analysis: &b,
-        },
-    )
-    .unwrap();
+    let c = compare(side, Side { x: &half, analysis: &b }).unwrap();
     assert!((c.level_db.0 + 6.0206).abs() < 1e-3, "{:?}", c.level_db);
-    assert!(
-        c.lines
-            .iter()
-            .all(|l| (l.modulation[0] / l.modulation[1] - 1.0).abs() < 1e-9)
-    );
+    assert!(c.lines.iter().all(|l| (l.modulation[0] / l.modulation[1] - 1.0).abs() < 1e-9));
 }

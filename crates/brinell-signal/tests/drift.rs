@@ -1,5 +1,5 @@
-//! A shaft whose speed drifts during the record: noticed by its own lines or a defect's, followed where that tells more, and nothing made up where it
-//! is steady.
+//! A shaft whose speed drifts during the record: noticed by its own lines or a defect's, followed where that tells
+//! more, and nothing made up where it is steady.
 
 use crate::cases::{CASES, first};
 use brinell_signal::Rotation;
@@ -10,8 +10,9 @@ use std::f64::consts::TAU;
 const FS: f64 = 12_000.0;
 const SHAFT: f64 = 27.3;
 
-/// A rig whose speed rises by `ramp` from the first sample to the last, relative: harmonics of the shaft where `lines`, mains, and white noise
-/// of unit RMS; impacts of `order` where there are some, turning through the load at `modulation` orders, `snr_db` over the noise.
+/// A rig whose speed rises by `ramp` from the first sample to the last, relative: harmonics of the shaft where `lines`,
+/// mains, and white noise of unit RMS; impacts of `order` where there are some, turning through the load at
+/// `modulation` orders, `snr_db` over the noise.
 struct Rig {
     seconds: f64,
     ramp: f64,
@@ -57,8 +58,7 @@ impl Rig {
                 strike += (1.005 + 1e-3 * noise.normal()) / order;
             }
             let rms = (x.iter().map(|v| v * v).sum::<f64>() / n as f64).sqrt();
-            x.iter_mut()
-                .for_each(|v| *v *= 10f64.powf(snr_db / 20.0) / rms);
+            x.iter_mut().for_each(|v| *v *= 10f64.powf(snr_db / 20.0) / rms);
         }
         for (i, value) in x.iter_mut().enumerate() {
             let t = i as f64 / FS;
@@ -84,10 +84,7 @@ fn look(x: &[f64]) -> Analysis {
 /// How far the course strays from the truth, relative, RMS; the mean left out where a defect's lines told it.
 fn stray(analysis: &Analysis, rig: &Rig) -> f64 {
     let drift = analysis.drift.as_ref().unwrap();
-    let off = drift
-        .course
-        .iter()
-        .map(|(t, hz)| (hz / (SHAFT * rig.speed(*t)) - 1.0).powi(2));
+    let off = drift.course.iter().map(|(t, hz)| (hz / (SHAFT * rig.speed(*t)) - 1.0).powi(2));
     (off.sum::<f64>() / drift.course.len() as f64).sqrt()
 }
 
@@ -95,19 +92,10 @@ fn stray(analysis: &Analysis, rig: &Rig) -> f64 {
 fn prop_a_drift_is_found_from_the_shafts_lines() {
     for ramp in [0.02, -0.02, 0.05, -0.05] {
         for seed in 0..2 {
-            let rig = Rig {
-                seconds: 4.0,
-                ramp,
-                lines: true,
-                strikes: None,
-            };
+            let rig = Rig { seconds: 4.0, ramp, lines: true, strikes: None };
             let a = look(&rig.signal(seed));
             let drift = a.drift.as_ref().expect("a drift");
-            println!(
-                "{ramp} {seed}: {} stray {:.5}",
-                drift.words(),
-                stray(&a, &rig)
-            );
+            println!("{ramp} {seed}: {} stray {:.5}", drift.words(), stray(&a, &rig));
             assert_eq!(drift.by, "shaft");
             assert!(stray(&a, &rig) < 2e-3);
             let (low, high) = (drift.lowest(), drift.highest());
@@ -117,20 +105,16 @@ fn prop_a_drift_is_found_from_the_shafts_lines() {
     }
 }
 
-/// Damage that smears until it is not named, or another part is, is named where the drift is followed: by the shaft's lines where they are significant, and by
-/// the damage's own where they do not. At a steady rotation, which is what is done without, most of it is lost.
+/// Damage that smears until it is not named, or another part is, is named where the drift is followed: by the shaft's
+/// lines where they are significant, and by the damage's own where they do not. At a steady rotation, which is what is
+/// done without, most of it is lost.
 #[test]
 fn prop_followed_the_damage_is_named() {
     let (mut lost, mut count) = (0, 0);
     for lines in [true, false] {
         for (component, order, modulation) in CASES {
             for (seed, ramp) in [(0, 0.01), (1, 0.03), (2, -0.05)] {
-                let rig = Rig {
-                    seconds: 4.0,
-                    ramp,
-                    lines,
-                    strikes: Some((order, modulation, -6.0)),
-                };
+                let rig = Rig { seconds: 4.0, ramp, lines, strikes: Some((order, modulation, -6.0)) };
                 let x = rig.signal(seed);
                 let a = look(&x);
                 let drift = a.drift.as_ref().expect("a drift");
@@ -156,16 +140,9 @@ fn prop_what_is_steady_does_not_drift() {
     for seed in 0..12 {
         for seconds in [2.0, 4.0, if seed < 4 { 10.0 } else { 3.0 }] {
             let mut noise = Random::new(31 * seed + 3);
-            let white: Vec<f64> = (0..(FS * seconds) as usize)
-                .map(|_| noise.normal())
-                .collect();
+            let white: Vec<f64> = (0..(FS * seconds) as usize).map(|_| noise.normal()).collect();
             let strikes = CASES[seed as usize % 3];
-            let rig = |lines, strikes| Rig {
-                seconds,
-                ramp: 0.0,
-                lines,
-                strikes,
-            };
+            let rig = |lines, strikes| Rig { seconds, ramp: 0.0, lines, strikes };
             let strikes = Some((strikes.1, strikes.2, -3.0));
             let signals = [
                 ("noise", white),

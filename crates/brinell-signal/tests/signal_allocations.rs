@@ -1,11 +1,8 @@
-//! Following a signal costs no memory: after construction, pushing samples allocates nothing. A program of its own for its allocator, which counts.
+//! Following a signal costs no memory: after construction, pushing samples allocates nothing. A program of its own for
+//! its allocator, which counts.
 
 #[path = "common/counting.rs"]
-#[allow(
-    dead_code,
-    unreachable_pub,
-    reason = "shared with test programs that use more of it"
-)]
+#[allow(dead_code, unreachable_pub, reason = "shared with test programs that use more of it")]
 mod counting;
 
 use brinell_signal::{Band, Blocks, LineSearch, StreamSpectra};

@@ -2,8 +2,8 @@
 
 use brinell_signal::distribution::{chi_square_quantile, chi_square_tail, f_tail};
 use brinell_signal::{
-    Band, Butterworth, Detrend, Indicator, Moments, Passband, Rotation, Segments, Window, convolve,
-    decimate, envelope, fir, kurtogram, psd, spectrogram, velocity,
+    Band, Butterworth, Detrend, Indicator, Moments, Passband, Rotation, Segments, Window, convolve, decimate, envelope,
+    fir, kurtogram, psd, spectrogram, velocity,
 };
 use serde_json::Value;
 
@@ -18,21 +18,11 @@ fn number(value: &Value) -> f64 {
 }
 
 fn numbers(value: &Value) -> Vec<f64> {
-    value
-        .as_array()
-        .expect("an array")
-        .iter()
-        .map(number)
-        .collect()
+    value.as_array().expect("an array").iter().map(number).collect()
 }
 
 fn rows(value: &Value) -> Vec<Vec<f64>> {
-    value
-        .as_array()
-        .expect("an array")
-        .iter()
-        .map(numbers)
-        .collect()
+    value.as_array().expect("an array").iter().map(numbers).collect()
 }
 
 fn input(name: &str) -> (Vec<f64>, f64) {
@@ -86,22 +76,13 @@ fn xval_windows() {
 fn xval_distributions() {
     let golden = golden("distributions");
     for r in rows(&golden["chi_square_tail"]) {
-        assert!(
-            (chi_square_tail(r[0], r[1]) / r[2] - 1.0).abs() < 1e-10,
-            "{r:?}"
-        );
+        assert!((chi_square_tail(r[0], r[1]) / r[2] - 1.0).abs() < 1e-10, "{r:?}");
     }
     for r in rows(&golden["f_tail"]) {
-        assert!(
-            (f_tail(r[0], r[1], r[2]) / r[3] - 1.0).abs() < 1e-10,
-            "{r:?}"
-        );
+        assert!((f_tail(r[0], r[1], r[2]) / r[3] - 1.0).abs() < 1e-10, "{r:?}");
     }
     for r in rows(&golden["chi_square_quantile"]) {
-        assert!(
-            (chi_square_quantile(r[0], r[1]) / r[2] - 1.0).abs() < 1e-10,
-            "{r:?}"
-        );
+        assert!((chi_square_quantile(r[0], r[1]) / r[2] - 1.0).abs() < 1e-10, "{r:?}");
     }
 }
 
@@ -124,23 +105,17 @@ fn xval_welch_and_spectrogram() {
         // SciPy's spectrum is a mean square: half our amplitude squared except at the ends.
         let last = s.amplitude.len() - 1;
         let ends = |k: usize| k == 0 || (k == last && segments.length.is_multiple_of(2));
-        let mean_square: Vec<f64> = (s.amplitude.iter().enumerate())
-            .map(|(k, a)| a * a * if ends(k) { 1.0 } else { 0.5 })
-            .collect();
+        let mean_square: Vec<f64> =
+            (s.amplitude.iter().enumerate()).map(|(k, a)| a * a * if ends(k) { 1.0 } else { 0.5 }).collect();
         assert_close(&mean_square, &numbers(&case["mean_square"]), 1e-13);
     }
     let theirs = &golden["spectrogram"];
-    let segments = Segments {
-        overlap: number(&theirs["overlap"]),
-        ..Segments::of(number(&theirs["length"]) as usize)
-    };
+    let segments = Segments { overlap: number(&theirs["overlap"]), ..Segments::of(number(&theirs["length"]) as usize) };
     let s = spectrogram(&x, fs, &segments).unwrap();
     assert_eq!(s.frames(), number(&theirs["frames"]) as usize);
     assert_eq!(s.first_time, number(&theirs["first_time"]));
     assert!((s.time_step - number(&theirs["time_step"])).abs() < 1e-15);
-    let kept: Vec<f64> = (numbers(&theirs["kept"]).iter())
-        .flat_map(|i| s.frame(*i as usize).to_vec())
-        .collect();
+    let kept: Vec<f64> = (numbers(&theirs["kept"]).iter()).flat_map(|i| s.frame(*i as usize).to_vec()).collect();
     assert_close(&kept, &rows(&theirs["density"]).concat(), 1e-13);
 }
 
@@ -158,9 +133,7 @@ fn xval_butterworth() {
     for case in golden["butterworth"].as_array().expect("cases") {
         let order = number(&case["order"]) as usize;
         let filter = Butterworth::new(order, passband(case), fs).unwrap();
-        let gain: Vec<f64> = (numbers(&case["frequencies"]).iter())
-            .map(|f| filter.gain(*f))
-            .collect();
+        let gain: Vec<f64> = (numbers(&case["frequencies"]).iter()).map(|f| filter.gain(*f)).collect();
         assert_close(&gain, &numbers(&case["gain"]), 1e-11);
         let once = filter.once(&x).unwrap();
         assert_close(&once[..200], &numbers(&case["once"]), 1e-11);
@@ -203,10 +176,7 @@ fn xval_indicators() {
     let mut moments = Moments::new();
     x.iter().for_each(|v| moments.push(*v));
     for indicator in Indicator::ALL {
-        let (ours, theirs) = (
-            moments.get(indicator).unwrap(),
-            number(&golden[indicator.name()]),
-        );
+        let (ours, theirs) = (moments.get(indicator).unwrap(), number(&golden[indicator.name()]));
         assert!((ours / theirs - 1.0).abs() < 1e-12, "{}", indicator.name());
     }
 }
@@ -222,23 +192,15 @@ fn xval_kurtogram() {
     }
     // The impacts ring at 500 Hz.
     let best = map.best(100.0).unwrap();
-    assert!(
-        best.band.low <= 500.0 && best.band.high >= 500.0,
-        "{best:?}"
-    );
+    assert!(best.band.low <= 500.0 && best.band.high >= 500.0, "{best:?}");
 }
 
 #[test]
 fn xval_angle_from_pulses() {
     let golden = golden("order");
-    let pulses: Vec<(f64, f64)> = rows(&golden["pulses"])
-        .iter()
-        .map(|r| (r[0], r[1]))
-        .collect();
+    let pulses: Vec<(f64, f64)> = rows(&golden["pulses"]).iter().map(|r| (r[0], r[1])).collect();
     let rotation = Rotation::from_angles(&pulses).unwrap();
-    let (angle, speed): (Vec<f64>, Vec<f64>) = (numbers(&golden["t"]).iter())
-        .map(|t| rotation.at(*t))
-        .unzip();
+    let (angle, speed): (Vec<f64>, Vec<f64>) = (numbers(&golden["t"]).iter()).map(|t| rotation.at(*t)).unzip();
     assert_close(&angle, &numbers(&golden["angle"]), 1e-13);
     assert_close(&speed, &numbers(&golden["speed"]), 1e-12);
 }

@@ -1,6 +1,7 @@
 //! A full analysis of ten seconds at 51.2 kHz takes less than a second on one core.
 //!
-//! `cargo test --release -p brinell-signal --test all signal_speed:: -- --ignored --nocapture` prints what each part takes.
+//! `cargo test --release -p brinell-signal --test all signal_speed:: -- --ignored --nocapture` prints what each part
+//! takes.
 
 use crate::analysis::{Damage, damaged, look};
 use std::f64::consts::TAU;
@@ -8,8 +9,8 @@ use std::time::{Duration, Instant};
 
 use brinell_signal::velocity_bands::NOMINAL;
 use brinell_signal::{
-    Band, Blocks, Butterworth, Indicator, Passband, Rotation, Segments, SeparationSearch, decimate,
-    envelope_spectrum, kurtogram, order_spectrum, psd, separations, spectrogram, velocity_bands,
+    Band, Blocks, Butterworth, Indicator, Passband, Rotation, Segments, SeparationSearch, decimate, envelope_spectrum,
+    kurtogram, order_spectrum, psd, separations, spectrogram, velocity_bands,
 };
 
 const FS: f64 = 51_200.0;
@@ -34,9 +35,7 @@ fn signal() -> Vec<f64> {
     let mut state = 1u64;
     (0..512_000)
         .map(|i| {
-            state = state
-                .wrapping_mul(6364136223846793005)
-                .wrapping_add(1442695040888963407);
+            state = state.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
             let noise = (state >> 40) as f64 / (1u64 << 24) as f64 - 0.5;
             let ring = |since: f64| {
                 if since < 0.0 {
@@ -54,10 +53,7 @@ fn signal() -> Vec<f64> {
 #[ignore = "a time, which means something in a release build on a quiet machine"]
 fn prop_full_analysis_takes_less_than_a_second() {
     let x = signal();
-    let mut clock = Clock {
-        start: Instant::now(),
-        total: Duration::ZERO,
-    };
+    let mut clock = Clock { start: Instant::now(), total: Duration::ZERO };
     let blocks = Blocks::of(&x, FS / SHAFT);
     assert!(blocks.estimate(Indicator::Kurtosis).is_some());
     clock.lap("indicators");
@@ -70,12 +66,8 @@ fn prop_full_analysis_takes_less_than_a_second() {
     let band = map.best(1500.0).unwrap().band;
     envelope_spectrum(&x, FS, band, &Segments::of(131_072)).unwrap();
     clock.lap("envelope spectrum");
-    let search = SeparationSearch {
-        band: Band::between(4000.0, 16_000.0),
-        shortest: 4e-4,
-        longest: 1.9e-3,
-        repetition: 250.0,
-    };
+    let search =
+        SeparationSearch { band: Band::between(4000.0, 16_000.0), shortest: 4e-4, longest: 1.9e-3, repetition: 250.0 };
     assert!(!separations(&x, FS, &search).unwrap().is_empty());
     clock.lap("double impulses");
     velocity_bands(&x, FS, &NOMINAL, 1.0 / SHAFT).unwrap();
@@ -95,12 +87,7 @@ fn prop_full_analysis_takes_less_than_a_second() {
 #[test]
 #[ignore = "a time, which means something in a release build on a quiet machine"]
 fn prop_a_verdict_on_ten_seconds_takes_less_than_one() {
-    let damage = Damage {
-        order: 3.5848,
-        modulation: 0.0,
-        jitter: 0.01,
-        snr_db: -5.0,
-    };
+    let damage = Damage { order: 3.5848, modulation: 0.0, jitter: 0.01, snr_db: -5.0 };
     let x = damaged(FS, 10.0, 1, &damage);
     let start = Instant::now();
     let a = look(&x, FS);

@@ -4,8 +4,9 @@
 //!
 //!     cargo test --release -p brinell-signal --test all verdicts:: -- --ignored --nocapture
 //!
-//! Signals of even numbers were looked at while the method was made, those of odd numbers were held out. `BRINELL_HALF=even`
-//! chooses the former, `BRINELL_COUNT=200` how many of each kind, `BRINELL_LIST=1` prints what went wrong.
+//! Signals of even numbers were looked at while the method was made, those of odd numbers were held out.
+//! `BRINELL_HALF=even` chooses the former, `BRINELL_COUNT=200` how many of each kind, `BRINELL_LIST=1` prints what went
+//! wrong.
 
 use crate::rig::{self, BACKGROUNDS, Damage, Signal, plan, signal};
 use brinell_signal::analysis::{Component, NamedBearing, Options, analyze};
@@ -56,21 +57,13 @@ fn look(s: &Signal, list: bool, index: u64) -> Outcome {
 }
 
 fn campaign(half: u64, count: u64, kinds: &[Damage], list: bool) -> Vec<Outcome> {
-    let jobs: Vec<(u64, Damage)> = (0..count)
-        .flat_map(|i| kinds.iter().map(move |k| (2 * i + half, *k)))
-        .collect();
+    let jobs: Vec<(u64, Damage)> = (0..count).flat_map(|i| kinds.iter().map(move |k| (2 * i + half, *k))).collect();
     // The analysis itself uses two threads.
-    jobs.iter()
-        .map(|(index, damage)| look(&signal(*index, *damage), list, *index))
-        .collect()
+    jobs.iter().map(|(index, damage)| look(&signal(*index, *damage), list, *index)).collect()
 }
 
 /// Share of those that `count`, of those that `among`; and how many there were.
-fn share(
-    all: &[Outcome],
-    among: impl Fn(&Outcome) -> bool,
-    count: impl Fn(&Outcome) -> bool,
-) -> (f64, usize) {
+fn share(all: &[Outcome], among: impl Fn(&Outcome) -> bool, count: impl Fn(&Outcome) -> bool) -> (f64, usize) {
     let of: Vec<&Outcome> = all.iter().filter(|o| among(o)).collect();
     let n = of.iter().filter(|o| count(o)).count();
     (n as f64 / of.len().max(1) as f64, of.len())
@@ -86,11 +79,7 @@ const CLASSES: [(&str, f64, f64); 3] = [
 #[ignore = "minutes; prints the table of docs and changelog"]
 fn prop_campaign() {
     let set = |name: &str, usual: &str| std::env::var(name).unwrap_or(usual.into());
-    let half = if set("BRINELL_HALF", "odd") == "odd" {
-        1
-    } else {
-        0
-    };
+    let half = if set("BRINELL_HALF", "odd") == "odd" { 1 } else { 0 };
     let count = set("BRINELL_COUNT", "120").parse().unwrap();
     let list = set("BRINELL_LIST", "0") != "0";
     let kinds = [Damage::None, Damage::Outer, Damage::Inner, Damage::Element];
@@ -99,11 +88,7 @@ fn prop_campaign() {
     let wrong = |o: &Outcome| o.first.is_some() && !right(o);
     println!("healthy: alarms");
     for background in BACKGROUNDS {
-        let (alarms, n) = share(
-            &all,
-            |o| o.truth == Damage::None && o.background == background,
-            |o| o.first.is_some(),
-        );
+        let (alarms, n) = share(&all, |o| o.truth == Damage::None && o.background == background, |o| o.first.is_some());
         println!("  {background:?}: {:.1} % of {n}", 100.0 * alarms);
     }
     let (alarms, n) = share(&all, |o| o.truth == Damage::None, |o| o.first.is_some());
@@ -116,24 +101,14 @@ fn prop_campaign() {
             let (hit, n) = share(&all, among, right);
             let (miss, _) = share(&all, among, wrong);
             let (more, _) = share(&all, among, |o| o.further > 0);
-            println!(
-                "    {kind:?}: {:.0} % | {:.0} % | {:.0} %  of {n}",
-                100.0 * hit,
-                100.0 * miss,
-                100.0 * more
-            );
+            println!("    {kind:?}: {:.0} % | {:.0} % | {:.0} %  of {n}", 100.0 * hit, 100.0 * miss, 100.0 * more);
         }
     }
     let damaged = |o: &Outcome| o.truth != Damage::None;
     let (hit, n) = share(&all, damaged, right);
     let (miss, _) = share(&all, damaged, wrong);
     let (more, _) = share(&all, damaged, |o| o.further > 0);
-    println!(
-        "  all: {:.1} % | {:.1} % | {:.1} % of {n}",
-        100.0 * hit,
-        100.0 * miss,
-        100.0 * more
-    );
+    println!("  all: {:.1} % | {:.1} % | {:.1} % of {n}", 100.0 * hit, 100.0 * miss, 100.0 * more);
 }
 
 /// A small part of it: damage that is plain to see, and rigs without any.
@@ -145,21 +120,17 @@ fn prop_plain_damage_is_named_and_healthy_rigs_are_not() {
     };
     let list: Vec<u64> = (0..400).filter(plain).take(8).collect();
     let named = (list.iter())
-        .filter(|i| {
-            look(&signal(**i, Damage::Outer), false, **i).first == Some(Component::OuterRace)
-        })
+        .filter(|i| look(&signal(**i, Damage::Outer), false, **i).first == Some(Component::OuterRace))
         .count();
-    // In records this short the 6203's BPFO, 3.05 a turn, can hide behind the shaft's third harmonic: 6 of 8 when written.
+    // In records this short the 6203's BPFO, 3.05 a turn, can hide behind the shaft's third harmonic: 6 of 8 when
+    // written.
     assert!(list.len() == 8 && named >= 6, "{named} of 8");
     let short = |i: &u64| {
         let s = plan(*i, Damage::None);
         s.seconds < 3.0 && s.fs < 30_000.0
     };
-    let alarms = (0..400)
-        .filter(short)
-        .take(24)
-        .filter(|i| look(&signal(*i, Damage::None), false, *i).first.is_some())
-        .count();
+    let alarms =
+        (0..400).filter(short).take(24).filter(|i| look(&signal(*i, Damage::None), false, *i).first.is_some()).count();
     // At 2 % of alarms, more than two of 24 come with a chance of 1 %.
     assert!(alarms <= 2, "{alarms} of 24");
 }

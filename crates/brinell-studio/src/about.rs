@@ -22,19 +22,13 @@ const EXAMPLES: [(&str, &str); 12] = [
 
 /// Files that they name.
 const FILES: [(&str, &[u8]); 2] = [
-    (
-        "photo-spall.png",
-        include_bytes!("../examples/photo-spall.png"),
-    ),
+    ("photo-spall.png", include_bytes!("../examples/photo-spall.png")),
     ("scan.csv", include_bytes!("../examples/scan.csv")),
 ];
 
 /// A file that the examples name: `photo-spall.png` or `scan.csv`.
 pub fn example_file(name: &str) -> Option<&'static [u8]> {
-    FILES
-        .iter()
-        .find(|(n, _)| *n == name)
-        .map(|(_, bytes)| *bytes)
+    FILES.iter().find(|(n, _)| *n == name).map(|(_, bytes)| *bytes)
 }
 
 /// The answer to `about`.
@@ -45,9 +39,8 @@ pub(crate) fn about() -> Value {
             json!({ "name": entry.name, "words": entry.title, "element": element })
         })
         .collect();
-    let examples: Vec<Value> = (EXAMPLES.iter())
-        .map(|(name, text)| json!({ "name": name, "words": words(text), "toml": text }))
-        .collect();
+    let examples: Vec<Value> =
+        (EXAMPLES.iter()).map(|(name, text)| json!({ "name": name, "words": words(text), "toml": text })).collect();
     json!({
         "version": brinell::VERSION,
         "engine": if cfg!(target_family = "wasm") { "webassembly" } else { "native" },
@@ -59,15 +52,7 @@ pub(crate) fn about() -> Value {
 
 /// The first sentence of the comment on top of an example.
 fn words(text: &str) -> String {
-    let comment: Vec<&str> = (text.lines())
-        .map_while(|line| line.strip_prefix('#'))
-        .map(str::trim)
-        .collect();
+    let comment: Vec<&str> = (text.lines()).map_while(|line| line.strip_prefix('#')).map(str::trim).collect();
     let comment = comment.join(" ");
-    comment
-        .split_inclusive(". ")
-        .next()
-        .unwrap_or_default()
-        .trim()
-        .to_owned()
+    comment.split_inclusive(". ").next().unwrap_or_default().trim().to_owned()
 }

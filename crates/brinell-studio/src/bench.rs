@@ -45,7 +45,8 @@ pub(crate) struct Heard {
     pub(crate) moments: Moments,
     /// How many.
     pub(crate) count: u64,
-    /// Index of the first row that counts for indicators and verdict: a turn of the shaft after the start or the edit, and after the load is up.
+    /// Index of the first row that counts for indicators and verdict: a turn of the shaft after the start or the edit,
+    /// and after the load is up.
     settled: u64,
     pub(crate) frames: Frames,
     /// Gathers the findings of a run from t = 0.
@@ -56,9 +57,7 @@ pub(crate) struct Heard {
 
 impl std::fmt::Debug for Heard {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.debug_struct("Heard")
-            .field("count", &self.count)
-            .finish_non_exhaustive()
+        f.debug_struct("Heard").field("count", &self.count).finish_non_exhaustive()
     }
 }
 
@@ -157,9 +156,7 @@ impl Bench {
         if !same_parts(&loaded.scenario, &self.loaded.scenario) {
             return Ok(false);
         }
-        let (Speed::Constant(rpm), Some(course)) =
-            (&loaded.scenario.operation.speed_rpm, &self.course)
-        else {
+        let (Speed::Constant(rpm), Some(course)) = (&loaded.scenario.operation.speed_rpm, &self.course) else {
             return Ok(false);
         };
         let mut course = course.clone();
@@ -226,11 +223,7 @@ fn shaft_of(loaded: &Loaded) -> Option<f64> {
 
 /// Whether a run of one may go on in the other: the same bearing but for what a force may change at once.
 fn same_parts(a: &Scenario, b: &Scenario) -> bool {
-    let bearing = |s: &Scenario| Bearing {
-        preset: None,
-        radial_clearance_um: 0.0,
-        ..s.bearing.clone()
-    };
+    let bearing = |s: &Scenario| Bearing { preset: None, radial_clearance_um: 0.0, ..s.bearing.clone() };
     bearing(a) == bearing(b)
         && a.cage == b.cage
         && a.simulation.model == b.simulation.model

@@ -19,9 +19,7 @@ impl Course {
     /// Constant so far; `None` of a profile, which is its own course.
     pub(crate) fn of(speed: &Speed) -> Option<Self> {
         match speed {
-            Speed::Constant(rpm) => Some(Self {
-                knots: vec![[0.0, *rpm]],
-            }),
+            Speed::Constant(rpm) => Some(Self { knots: vec![[0.0, *rpm]] }),
             Speed::Profile(_) => None,
         }
     }

@@ -21,21 +21,16 @@ const FALLBACK_APPROACH: f64 = 10e-6;
 pub(crate) fn seen(bench: &Bench, arrays: &mut Arrays) -> Value {
     let model = bench.simulation().model();
     let stated = &bench.loaded.scenario.defects;
-    let all: Vec<Value> = (stated.iter().zip(&model.defects).enumerate())
-        .map(|(k, (of, defect))| one(k, of, defect, arrays))
-        .collect();
+    let all: Vec<Value> =
+        (stated.iter().zip(&model.defects).enumerate()).map(|(k, (of, defect))| one(k, of, defect, arrays)).collect();
     json!({ "defects": all })
 }
 
 fn one(k: usize, of: &scenario::Defect, defect: &Defect, arrays: &mut Arrays) -> Value {
-    let polygons: Vec<Value> = polygons_mm(of, &defect.shape, CORNERS)
-        .into_iter()
-        .map(|ring| arrays.rounded(ring.as_flattened()))
-        .collect();
+    let polygons: Vec<Value> =
+        polygons_mm(of, &defect.shape, CORNERS).into_iter().map(|ring| arrays.rounded(ring.as_flattened())).collect();
     let depths = depth_grid(of);
-    let deepest = depths
-        .as_ref()
-        .map(|g| g.depth_um.iter().copied().fold(0.0, f64::max));
+    let deepest = depths.as_ref().map(|g| g.depth_um.iter().copied().fold(0.0, f64::max));
     let grid = depths.map(|g| {
         json!({
             "ds_mm": g.ds_mm, "dz_mm": g.dz_mm, "s0_mm": g.s0_mm, "z0_mm": g.z0_mm,
@@ -71,8 +66,8 @@ fn one(k: usize, of: &scenario::Defect, defect: &Defect, arrays: &mut Arrays) ->
     })
 }
 
-/// One roller at rest, at places over a defect: what of it touches, and the force that the approach of the healthy bearing's heaviest
-/// contact gives there.
+/// One roller at rest, at places over a defect: what of it touches, and the force that the approach of the healthy
+/// bearing's heaviest contact gives there.
 pub(crate) fn passage(bench: &Bench, number: usize, arrays: &mut Arrays) -> Answer<Value> {
     let scenario = &bench.loaded.scenario;
     let model = bench.simulation().model();
@@ -85,41 +80,30 @@ pub(crate) fn passage(bench: &Bench, number: usize, arrays: &mut Arrays) -> Answ
         Surface::InnerRaceway => Side::Inner,
         _ => Side::Outer,
     };
-    let healthy = Model::new(&scenario::Scenario {
-        defects: Vec::new(),
-        ..scenario.clone()
-    })
-    .map_err(|e| Trouble::of(e.to_string()))?;
+    let healthy = Model::new(&scenario::Scenario { defects: Vec::new(), ..scenario.clone() })
+        .map_err(|e| Trouble::of(e.to_string()))?;
     let heaviest = static_load_zone(&healthy).ok().map(|z| z.largest);
     let heaviest = heaviest.filter(|f| *f > 0.0);
     let approach = heaviest.map_or(FALLBACK_APPROACH, |f| model.deflection(side, f));
     let (first, last) = defect.shape.arc();
     let pad = 0.25 * (last - first);
-    let places: Vec<f64> = (0..POINTS)
-        .map(|k| first - pad + (last - first + 2.0 * pad) * k as f64 / (POINTS - 1) as f64)
-        .collect();
+    let places: Vec<f64> =
+        (0..POINTS).map(|k| first - pad + (last - first + 2.0 * pad) * k as f64 / (POINTS - 1) as f64).collect();
     let mut cover = Cover::new(model.profiled().map_or(0, |s| s.count));
     let law = model.contact(side);
     // Of a ball the axis of its ellipse across the groove.
-    let ellipse = law
-        .strips
-        .as_ref()
-        .map(|strips| strips.pressed(approach).length([f64::MIN, f64::MAX]));
+    let ellipse = law.strips.as_ref().map(|strips| strips.pressed(approach).length([f64::MIN, f64::MAX]));
     let whole = ellipse.unwrap_or(defect.roller_length);
     let lost = |s: f64| match ellipse {
         None => defect.damaged_length(s),
         Some(_) => {
             let met = defect.met_at(side, s / defect.radius);
-            damaged_contact(std::iter::once(defect), law, &met, side, approach)
-                .map_or(0.0, |d| d.floor.damaged_length)
+            damaged_contact(std::iter::once(defect), law, &met, side, approach).map_or(0.0, |d| d.floor.damaged_length)
         }
     };
-    let lengths: Vec<f64> = (places.iter())
-        .map(|s| 1e3 * (whole - lost(*s)).max(0.0))
-        .collect();
-    let force: Vec<f64> = (places.iter())
-        .map(|s| model.force_over(defect, side, s / defect.radius, approach, &mut cover))
-        .collect();
+    let lengths: Vec<f64> = (places.iter()).map(|s| 1e3 * (whole - lost(*s)).max(0.0)).collect();
+    let force: Vec<f64> =
+        (places.iter()).map(|s| model.force_over(defect, side, s / defect.radius, approach, &mut cover)).collect();
     let places_mm: Vec<f64> = places.iter().map(|s| 1e3 * s).collect();
     Ok(json!({
         "s_mm": arrays.rounded(&places_mm),

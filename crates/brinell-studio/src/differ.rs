@@ -6,12 +6,8 @@ use brinell::signal::{Estimate, Interval};
 use serde_json::{Value, json};
 
 /// Indicators that are compared, as verdicts name them, and what the page calls them.
-const COMPARED: [(&str, &str); 4] = [
-    ("rms", "RMS"),
-    ("peak", "peak"),
-    ("crest_factor", "crest factor"),
-    ("kurtosis", "kurtosis"),
-];
+const COMPARED: [(&str, &str); 4] =
+    [("rms", "RMS"), ("peak", "peak"), ("crest_factor", "crest factor"), ("kurtosis", "kurtosis")];
 
 /// `differ`: of two answers of `verdict`.
 pub(crate) fn differ(request: &Value) -> Answer<Value> {
@@ -21,13 +17,9 @@ pub(crate) fn differ(request: &Value) -> Answer<Value> {
             return Err(Trouble::of(format!("\"{key}\" must be a verdict")));
         }
     }
-    let ratios: Vec<(&str, Ratio)> = (COMPARED.iter())
-        .filter_map(|(key, words)| Some((*words, ratio(&of(b, key)?, &of(a, key)?)?)))
-        .collect();
-    let apart = |r: &Ratio| {
-        r.interval
-            .is_some_and(|(low, high)| low > 1.0 || high < 1.0)
-    };
+    let ratios: Vec<(&str, Ratio)> =
+        (COMPARED.iter()).filter_map(|(key, words)| Some((*words, ratio(&of(b, key)?, &of(a, key)?)?))).collect();
+    let apart = |r: &Ratio| r.interval.is_some_and(|(low, high)| low > 1.0 || high < 1.0);
     let all: Vec<Value> = (ratios.iter())
         .map(|(words, r)| {
             json!({
@@ -51,19 +43,14 @@ fn of(side: &Value, name: &str) -> Option<Estimate> {
             freedom: u32::try_from(found["freedom"].as_u64()?).ok()?.max(1),
         })
     };
-    Some(Estimate {
-        value: found["value"].as_f64()?,
-        interval: interval(),
-    })
+    Some(Estimate { value: found["value"].as_f64()?, interval: interval() })
 }
 
 /// Families that are damage in one of them or in both.
 fn damage(a: &Value, b: &Value) -> String {
     let names = |side: &Value| -> Vec<String> {
         let found = side["damage"].as_array().into_iter().flatten();
-        found
-            .filter_map(|f| f["name"].as_str().map(str::to_owned))
-            .collect()
+        found.filter_map(|f| f["name"].as_str().map(str::to_owned)).collect()
     };
     let (a, b) = (names(a), names(b));
     let without = |these: &[String], those: &[String]| -> Vec<String> {
@@ -127,7 +114,8 @@ mod tests {
         answer["headline"].as_str().unwrap().to_owned()
     }
 
-    /// Intervals of +-5 % each on a logarithmic scale make one of sqrt(2) times that; Student's t with 40 for 20 degrees of freedom narrows it.
+    /// Intervals of +-5 % each on a logarithmic scale make one of sqrt(2) times that; Student's t with 40 for 20
+    /// degrees of freedom narrows it.
     #[test]
     fn analytic_the_ratio_has_the_interval_of_both() {
         let a = verdict(&[], [2.0, 2.0 / 1.05, 2.0 * 1.05]);
@@ -149,10 +137,7 @@ mod tests {
     fn prop_alike_bearings_are_not_distinguished() {
         let one = verdict(&["BPFI"], [2.0, 1.9, 2.1]);
         let words = said(&one, &one);
-        assert!(
-            words.contains("damage at BPFI in both; no difference of level is clear"),
-            "{words}"
-        );
+        assert!(words.contains("damage at BPFI in both; no difference of level is clear"), "{words}");
         let none = json!({ "damage": [], "indicators": [] });
         assert!(said(&none, &one).contains("damage at BPFI in B alone; no indicator"));
         assert!(differ(&json!({ "a": none })).is_err());

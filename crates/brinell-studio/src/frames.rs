@@ -48,10 +48,8 @@ impl Frames {
                 let cage: Vec<f32> = shown.clone().map(|k| motion.cages(k)[row]).collect();
                 let rollers = 0..self.layout.rollers_per_row;
                 let slots: Vec<usize> = rollers.map(|k| self.layout.slot(row, k)).collect();
-                let states: Vec<_> = shown
-                    .clone()
-                    .flat_map(|k| slots.iter().map(move |slot| motion.rollers(k)[*slot]))
-                    .collect();
+                let states: Vec<_> =
+                    shown.clone().flat_map(|k| slots.iter().map(move |slot| motion.rollers(k)[*slot])).collect();
                 json!({
                     "cage": arrays.singles(cage.into_iter()),
                     "orbit": arrays.singles(states.iter().map(|s| s.orbit)),

@@ -3,9 +3,7 @@
 use crate::bench::Bench;
 use crate::message::Arrays;
 use crate::report::{Answer, Trouble};
-use brinell::analysis::{
-    Analysis, COLUMNS, DefectOrders, Family, Options, Quantity, Unit, analyze, shown_spectrum,
-};
+use brinell::analysis::{Analysis, COLUMNS, DefectOrders, Family, Options, Quantity, Unit, analyze, shown_spectrum};
 use brinell::bearing::kinematics::Geometry;
 use brinell::bearing::{KnownBearing, orders_of};
 use brinell::scenario::{Scenario, Speed};
@@ -27,10 +25,7 @@ fn file(request: &Value, arrays: &Arrays) -> Answer<SignalFile> {
 /// `listen`: the channels of a file.
 pub(crate) fn listen(request: &Value, arrays: &Arrays) -> Answer<Value> {
     let mut file = file(request, arrays)?;
-    let signals: Vec<_> = (file.channels().iter())
-        .filter(|c| c.may_be_signal())
-        .cloned()
-        .collect();
+    let signals: Vec<_> = (file.channels().iter()).filter(|c| c.may_be_signal()).cloned().collect();
     let time = signals.iter().find(|c| c.is_time()).cloned();
     let timed = time.and_then(|time| {
         let t = file.read(&time.name).ok()?;
@@ -64,8 +59,7 @@ pub(crate) fn listen(request: &Value, arrays: &Arrays) -> Answer<Value> {
 /// The scenario of the run that made a file, where the file carries it.
 fn made_by(file: &SignalFile) -> Option<Scenario> {
     let mut words = file.metadata().pairs.iter();
-    let (_, text) =
-        words.find(|(key, _)| key.starts_with("brinell") && key.ends_with("scenario"))?;
+    let (_, text) = words.find(|(key, _)| key.starts_with("brinell") && key.ends_with("scenario"))?;
     Scenario::from_toml(text).ok()
 }
 
@@ -81,9 +75,7 @@ pub(crate) fn judge(request: &Value, given: &Arrays, arrays: &mut Arrays) -> Ans
     let mut file = file(request, given)?;
     let name = match request["channel"].as_str() {
         Some(name) => name.to_owned(),
-        None => (file.only_signal().map_err(|e| Trouble::of(e.to_string()))?)
-            .name
-            .clone(),
+        None => (file.only_signal().map_err(|e| Trouble::of(e.to_string()))?).name.clone(),
     };
     let stated = file.channels().iter().find(|c| c.name == name);
     let stated_rate = stated.and_then(|c| c.rate.as_ref()).map(|r| r.hz);
@@ -91,8 +83,7 @@ pub(crate) fn judge(request: &Value, given: &Arrays, arrays: &mut Arrays) -> Ans
         .or_else(|| stated.and_then(|c| c.unit.clone()))
         .unwrap_or_default();
     let rate = positive(request, "rate_hz").or(stated_rate);
-    let rate =
-        rate.ok_or_else(|| Trouble::of("the sample rate is missing: the file does not state it"))?;
+    let rate = rate.ok_or_else(|| Trouble::of("the sample rate is missing: the file does not state it"))?;
     let run = made_by(&file);
     let unit = Unit::of(&unit);
     let options = options(request, run.as_ref(), &unit)?;
@@ -246,9 +237,7 @@ pub(crate) fn save(request: &Value, bench: &Bench, arrays: &mut Arrays) -> Answe
         Some("wav") => (Format::Wav, "audio/wav"),
         Some("npz") => (Format::Npz, "application/zip"),
         _ => {
-            return Err(Trouble::of(
-                "\"format\" must be \"csv\", \"wav\" or \"npz\"",
-            ));
+            return Err(Trouble::of("\"format\" must be \"csv\", \"wav\" or \"npz\""));
         }
     };
     let simulation = bench.simulation();
@@ -262,11 +251,7 @@ pub(crate) fn save(request: &Value, bench: &Bench, arrays: &mut Arrays) -> Answe
         .with(keys::SAMPLE_RATE_HZ, simulation.sample_rate().to_string());
     let failed = |e: brinell_io::IoError| Trouble::of(e.to_string());
     let mut writer = format.in_memory(&columns, &metadata).map_err(failed)?;
-    let all: Vec<&[f64]> = signals
-        .names()
-        .iter()
-        .filter_map(|n| signals.get(n))
-        .collect();
+    let all: Vec<&[f64]> = signals.names().iter().filter_map(|n| signals.get(n)).collect();
     let mut row = vec![0.0; all.len()];
     for k in 0..all.first().map_or(0, |c| c.len()) {
         for (value, column) in row.iter_mut().zip(&all) {
@@ -276,13 +261,7 @@ pub(crate) fn save(request: &Value, bench: &Bench, arrays: &mut Arrays) -> Answe
     }
     let bytes = writer.finish(Outcome::Complete).map_err(failed)?;
     let stem: String = (bench.loaded.scenario.name.chars())
-        .map(|c| {
-            if c.is_alphanumeric() || "-_".contains(c) {
-                c
-            } else {
-                '-'
-            }
-        })
+        .map(|c| if c.is_alphanumeric() || "-_".contains(c) { c } else { '-' })
         .collect();
     let ending = format.name();
     Ok(json!({ "name": format!("{stem}.{ending}"), "type": kind, "bytes": arrays.bytes(&bytes) }))

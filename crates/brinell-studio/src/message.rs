@@ -77,10 +77,7 @@ impl Message {
         let json = serde_json::from_slice(text).map_err(|e| format!("not JSON: {e}"))?;
         let start = (4 + length).next_multiple_of(ALIGNMENT);
         let arrays = bytes.get(start..).unwrap_or_default().to_vec();
-        Ok(Self {
-            json,
-            arrays: Arrays(arrays),
-        })
+        Ok(Self { json, arrays: Arrays(arrays) })
     }
 
     /// As bytes.

@@ -6,7 +6,8 @@ const JS: &str = "text/javascript; charset=utf-8";
 /// Name, type and content.
 macro_rules! files {
     ($($name:literal: $kind:expr,)*) => {
-        /// Every file of the page: its path from the page's root, its type and its content. The first is the page itself.
+        /// Every file of the page: its path from the page's root, its type and its content. The first is the page
+        /// itself.
         pub const PAGE: &[(&str, &str, &[u8])] =
             &[$(($name, $kind, include_bytes!(concat!("../page/", $name)))),*];
     };
@@ -72,12 +73,7 @@ mod tests {
         while let Some(folder) = folders.pop() {
             for entry in std::fs::read_dir(folder).unwrap() {
                 let path = entry.unwrap().path();
-                let name = path
-                    .strip_prefix(&root)
-                    .unwrap()
-                    .to_str()
-                    .unwrap()
-                    .replace('\\', "/");
+                let name = path.strip_prefix(&root).unwrap().to_str().unwrap().replace('\\', "/");
                 match path.extension().and_then(|e| e.to_str()) {
                     _ if path.is_dir() => folders.push(path),
                     Some("js" | "mjs") => drop(found.insert(name)),

@@ -10,8 +10,7 @@ use brinell_damage::{DepthGrid, Stroke, brush, scratch, shape_of_bytes};
 use serde_json::{Value, json};
 
 /// A bearing that any shape of damage fits on, to read and write shapes with.
-const WIDE: &str =
-    "[bearing]\npreset = \"NN3007\"\n[operation]\nspeed_rpm = 1800\nload_n = [300, 0]\n";
+const WIDE: &str = "[bearing]\npreset = \"NN3007\"\n[operation]\nspeed_rpm = 1800\nload_n = [300, 0]\n";
 
 /// A shape as its defect states it.
 fn stated(shape: Shape) -> Answer<Value> {
@@ -30,8 +29,7 @@ fn stated(shape: Shape) -> Answer<Value> {
 /// The shape that a defect would state.
 fn read(shape: &Value) -> Answer<Shape> {
     let mut whole = text::stated(WIDE);
-    whole["defects"] =
-        json!([{ "on": "outer-raceway", "center_deg": 0, "depth_um": 10, "shape": shape }]);
+    whole["defects"] = json!([{ "on": "outer-raceway", "center_deg": 0, "depth_um": 10, "shape": shape }]);
     let text = text::of_request(&json!({ "scenario": whole }))?;
     let mut loaded = text::read(&text)?;
     Ok(loaded.scenario.defects.remove(0).shape)
@@ -51,30 +49,21 @@ fn number(request: &Value, key: &str) -> Answer<f64> {
 /// A shape moved so that the middle of its extents is its origin, with its size; `points` gives all its (s, z), mm.
 fn placed(points: impl Iterator<Item = [f64; 2]>) -> [[f64; 2]; 2] {
     let start = [[f64::MAX; 2], [f64::MIN; 2]];
-    points.fold(start, |[low, high], p| {
-        [
-            [low[0].min(p[0]), low[1].min(p[1])],
-            [high[0].max(p[0]), high[1].max(p[1])],
-        ]
-    })
+    points.fold(start, |[low, high], p| [[low[0].min(p[0]), low[1].min(p[1])], [high[0].max(p[0]), high[1].max(p[1])]])
 }
 
 /// `scratch`: the area under a round pen.
 pub(crate) fn scratched(request: &Value, arrays: &Arrays) -> Answer<Value> {
     let points = points(request, arrays)?;
-    let stroke = Stroke {
-        points_mm: &points,
-        width_mm: number(request, "width_mm")?,
-    };
+    let stroke = Stroke { points_mm: &points, width_mm: number(request, "width_mm")? };
     let outline = scratch(&stroke).map_err(|e| Trouble::of(e.to_string()))?;
     let [low, high] = placed(outline.polygons_mm.iter().flatten().copied());
     let middle = [0.5 * (low[0] + high[0]), 0.5 * (low[1] + high[1])];
     // A thousandth of a millimetre: what the page draws, and a share link carries.
     let near = |x: f64| (x * 1e4).round() / 1e4;
     let about = |p: &[f64; 2]| [near(p[0] - middle[0]), near(p[1] - middle[1])];
-    let polygons_mm: Vec<Vec<[f64; 2]>> = (outline.polygons_mm.iter())
-        .map(|ring| ring.iter().map(about).collect())
-        .collect();
+    let polygons_mm: Vec<Vec<[f64; 2]>> =
+        (outline.polygons_mm.iter()).map(|ring| ring.iter().map(about).collect()).collect();
     Ok(json!({
         "shape": stated(Shape::Outline { polygons_mm })?,
         "center_mm": middle,
@@ -86,15 +75,8 @@ pub(crate) fn scratched(request: &Value, arrays: &Arrays) -> Answer<Value> {
 /// `brush`: depth under a round brush, added to a grid.
 pub(crate) fn brushed(request: &Value, arrays: &Arrays) -> Answer<Value> {
     let points = points(request, arrays)?;
-    let stroke = Stroke {
-        points_mm: &points,
-        width_mm: number(request, "width_mm")?,
-    };
-    let sign = if request["raise"] == json!(true) {
-        -1.0
-    } else {
-        1.0
-    };
+    let stroke = Stroke { points_mm: &points, width_mm: number(request, "width_mm")? };
+    let sign = if request["raise"] == json!(true) { -1.0 } else { 1.0 };
     let before = match request.get("grid").filter(|g| !g.is_null()) {
         Some(shape) => match read(shape)? {
             Shape::DepthMap { grid } => Some(DepthGrid::from(grid)),
@@ -108,19 +90,12 @@ pub(crate) fn brushed(request: &Value, arrays: &Arrays) -> Answer<Value> {
     let damaged = (grid.depth_um.iter().enumerate()).filter(|(_, d)| **d > 0.0);
     let [low, high] = placed(damaged.map(|(k, _)| {
         let (column, row) = (k % columns, k / columns);
-        [
-            grid.s0_mm + grid.ds_mm * column as f64,
-            grid.z0_mm + grid.dz_mm * row as f64,
-        ]
+        [grid.s0_mm + grid.ds_mm * column as f64, grid.z0_mm + grid.dz_mm * row as f64]
     }));
     if low[0] > high[0] {
         return Err(Trouble::of("nothing is left of the damage; delete it"));
     }
-    let middle = if before.is_some() {
-        [0.0; 2]
-    } else {
-        [0.5 * (low[0] + high[0]), 0.5 * (low[1] + high[1])]
-    };
+    let middle = if before.is_some() { [0.0; 2] } else { [0.5 * (low[0] + high[0]), 0.5 * (low[1] + high[1])] };
     let shape = Shape::DepthMap {
         grid: scenario::DepthGrid {
             s0_mm: grid.s0_mm - middle[0],
@@ -129,11 +104,7 @@ pub(crate) fn brushed(request: &Value, arrays: &Arrays) -> Answer<Value> {
             dz_mm: grid.dz_mm,
             columns: grid.columns,
             rows: grid.rows,
-            depth_um: grid
-                .depth_um
-                .iter()
-                .map(|d| (d * 1e3).round() / 1e3)
-                .collect(),
+            depth_um: grid.depth_um.iter().map(|d| (d * 1e3).round() / 1e3).collect(),
         },
     };
     Ok(json!({
@@ -154,9 +125,7 @@ pub(crate) fn outlined(request: &Value, arrays: &Arrays) -> Answer<Value> {
         Some("svg") => "svg",
         Some("depth") => "depth_map",
         _ => {
-            return Err(Trouble::of(
-                "\"kind\" must be \"photo\", \"svg\" or \"depth\"",
-            ));
+            return Err(Trouble::of("\"kind\" must be \"photo\", \"svg\" or \"depth\""));
         }
     };
     let mut options = request.get("options").cloned().unwrap_or_else(|| json!({}));
@@ -184,14 +153,9 @@ pub(crate) fn resolved(mut loaded: Loaded, text: String) -> Answer<(Loaded, Stri
             continue;
         };
         let bytes = about::example_file(&file).ok_or_else(|| {
-            Trouble::of(format!(
-                "defect {}: {file} is not here; drop the file on the raceway",
-                k + 1
-            ))
+            Trouble::of(format!("defect {}: {file} is not here; drop the file on the raceway", k + 1))
         })?;
-        let shape = shape_of_bytes(&defect.shape, bytes)
-            .map_err(Trouble::of)?
-            .shape;
+        let shape = shape_of_bytes(&defect.shape, bytes).map_err(Trouble::of)?.shape;
         let keys = stated_keys.get_or_insert_with(|| text::stated(&text));
         keys["defects"][k]["shape"] = stated(shape)?;
     }

@@ -46,11 +46,9 @@ pub(crate) fn spectra(bench: &Bench, longest: usize, arrays: &mut Arrays) -> Val
             // A comb near that of a part without damage belongs to another part, or to nobody.
             let line = line.as_ref().filter(|_| name.defect.is_some());
             let hz = line.map(|l| l.frequency);
-            let present =
-                hz.and_then(|hz| harmonics(&envelope.spectrum, hz, 0.01 * hz, HARMONICS).ok());
-            let present: Vec<f64> = present.map_or(Vec::new(), |set| {
-                set.standing(FALSE_ALARM).map(|l| l.snr_db).collect()
-            });
+            let present = hz.and_then(|hz| harmonics(&envelope.spectrum, hz, 0.01 * hz, HARMONICS).ok());
+            let present: Vec<f64> =
+                present.map_or(Vec::new(), |set| set.standing(FALSE_ALARM).map(|l| l.snr_db).collect());
             json!({
                 "name": name.name,
                 "hz": hz,
@@ -90,20 +88,13 @@ fn names(bench: &Bench) -> Vec<Named> {
     };
     let scenario = &bench.loaded.scenario;
     let geometry = Geometry::of(&scenario.bearing);
-    let k = brinell::bearing::kinematics::Kinematics::pure_rolling(
-        &geometry,
-        std::f64::consts::TAU * shaft,
-    );
+    let k = brinell::bearing::kinematics::Kinematics::pure_rolling(&geometry, std::f64::consts::TAU * shaft);
     let own = |name: &str| {
         let excited = |d: &brinell::scenario::Defect| k.defect_frequency(d.on).0 == name;
         scenario.defects.iter().position(excited).map(|at| at + 1)
     };
     [("BPFO", k.bpfo), ("BPFI", k.bpfi), ("2 BSF", 2.0 * k.bsf)]
-        .map(|(name, hz)| Named {
-            name,
-            hz,
-            defect: own(name),
-        })
+        .map(|(name, hz)| Named { name, hz, defect: own(name) })
         .into()
 }
 
@@ -118,8 +109,7 @@ pub(crate) fn verdict(bench: &Bench) -> Answer<Value> {
     options.exact = true;
     let sensor = &scenario.sensor;
     options.silent = Unit::of("m/s^2").missing_noise(sensor.noise_rms().unwrap_or(0.0));
-    let analysis = analyze(&x, bench.simulation().sample_rate(), &options)
-        .map_err(|e| Trouble::of(e.to_string()))?;
+    let analysis = analyze(&x, bench.simulation().sample_rate(), &options).map_err(|e| Trouble::of(e.to_string()))?;
     Ok(judged::verdict(&analysis))
 }
 
@@ -136,9 +126,7 @@ pub(crate) fn sound(bench: &Bench, arrays: &mut Arrays) -> Answer<Value> {
     let wanted = (LOOP_S * fs / turn).ceil().max(1.0);
     let turns = wanted.min((held / turn).floor());
     if turns < 1.0 {
-        return Err(Trouble::of(
-            "not a turn of the shaft has been simulated yet",
-        ));
+        return Err(Trouble::of("not a turn of the shaft has been simulated yet"));
     }
     let length = (turns * turn).round() as usize;
     let fade = (FADE * length as f64) as usize;

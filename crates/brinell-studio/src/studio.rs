@@ -86,11 +86,7 @@ impl Studio {
             "advance" => self.advance(request, arrays),
             "spectra" => {
                 let longest = request["longest"].as_u64().map_or(LONGEST, |n| n as usize);
-                Ok(spectra::spectra(
-                    self.bench(request)?,
-                    longest.min(LONGEST),
-                    arrays,
-                ))
+                Ok(spectra::spectra(self.bench(request)?, longest.min(LONGEST), arrays))
             }
             "verdict" => spectra::verdict(self.bench(request)?),
             "sound" => spectra::sound(self.bench(request)?, arrays),
@@ -114,9 +110,7 @@ impl Studio {
 
     fn bench(&mut self, request: &Value) -> Answer<&mut Bench> {
         let slot = Self::slot(request)?;
-        self.slots[slot]
-            .as_mut()
-            .ok_or_else(|| Trouble::empty(slot))
+        self.slots[slot].as_mut().ok_or_else(|| Trouble::empty(slot))
     }
 
     fn open(&mut self, request: &Value) -> Answer<Value> {
@@ -131,9 +125,7 @@ impl Studio {
         if !carried {
             self.slots[slot] = Some(Bench::start(loaded, text)?);
         }
-        let bench = self.slots[slot]
-            .as_ref()
-            .ok_or_else(|| Trouble::empty(slot))?;
+        let bench = self.slots[slot].as_ref().ok_or_else(|| Trouble::empty(slot))?;
         let mut answer = opened(bench);
         answer["carried"] = json!(carried);
         Ok(answer)
@@ -176,14 +168,8 @@ fn opened(bench: &Bench) -> Value {
     let (loaded, simulation) = (&bench.loaded, bench.simulation());
     let (scenario, model) = (&loaded.scenario, simulation.model());
     let before = Beforehand::of(scenario, model);
-    let warnings: Vec<String> = (loaded.warnings.iter().chain(&before.warnings))
-        .map(text::words)
-        .collect();
-    let assumed = loaded
-        .provenance
-        .iter()
-        .filter(|p| p.assumed)
-        .map(|p| &p.key);
+    let warnings: Vec<String> = (loaded.warnings.iter().chain(&before.warnings)).map(text::words).collect();
+    let assumed = loaded.provenance.iter().filter(|p| p.assumed).map(|p| &p.key);
     let orders = orders_of(&Geometry::of(&scenario.bearing));
     let load = model.load.full;
     json!({

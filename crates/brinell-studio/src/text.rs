@@ -12,12 +12,8 @@ use serde_json::{Value, json};
 pub(crate) fn of_request(request: &Value) -> Answer<String> {
     match (request.get("toml"), request.get("scenario")) {
         (Some(Value::String(text)), _) => Ok(text.clone()),
-        (_, Some(stated)) => {
-            toml::to_string(stated).map_err(|e| Trouble::of(format!("not a scenario: {e}")))
-        }
-        _ => Err(Trouble::of(
-            "a scenario is missing: \"toml\" or \"scenario\"",
-        )),
+        (_, Some(stated)) => toml::to_string(stated).map_err(|e| Trouble::of(format!("not a scenario: {e}"))),
+        _ => Err(Trouble::of("a scenario is missing: \"toml\" or \"scenario\"")),
     }
 }
 
@@ -43,9 +39,7 @@ impl Trouble {
     /// One problem of no key.
     pub(crate) fn of(message: impl Into<String>) -> Self {
         let message: String = message.into();
-        Self(vec![
-            json!({ "key": null, "line": null, "message": message }),
-        ])
+        Self(vec![json!({ "key": null, "line": null, "message": message })])
     }
 
     /// The errors of a scenario.
@@ -89,8 +83,6 @@ fn counted(key: &str) -> String {
 /// A problem in the library's words, in one line, without its severity.
 pub(crate) fn words(p: &Problem) -> String {
     let text = p.to_string();
-    let said = text
-        .split_once(": ")
-        .map_or(text.as_str(), |(_, said)| said);
+    let said = text.split_once(": ").map_or(text.as_str(), |(_, said)| said);
     said.replace("\n  ", "; ")
 }

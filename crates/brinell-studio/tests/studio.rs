@@ -38,11 +38,7 @@ fn singles(answer: &Message, of: &Value) -> Vec<f32> {
     let at = |k: usize| of["$"][k].as_u64().unwrap() as usize;
     assert_eq!(of["$"][0], "f32");
     let data = &bytes[start + at(1)..][..4 * at(2)];
-    data.as_chunks()
-        .0
-        .iter()
-        .map(|b| f32::from_le_bytes(*b))
-        .collect()
+    data.as_chunks().0.iter().map(|b| f32::from_le_bytes(*b)).collect()
 }
 
 fn run(studio: &mut Studio, rows: u64) -> Vec<f32> {
@@ -62,19 +58,10 @@ fn prop_a_run_in_slices_is_the_run_of_the_library() {
     let text = format!("{HEALTHY}{SPALL}");
     let scenario = brinell::Scenario::from_toml(&text).unwrap();
     let (result, signals) = brinell::record(&scenario).unwrap();
-    let expected: Vec<f32> = signals
-        .get("sensor_ax")
-        .unwrap()
-        .iter()
-        .map(|x| *x as f32)
-        .collect();
+    let expected: Vec<f32> = signals.get("sensor_ax").unwrap().iter().map(|x| *x as f32).collect();
     for rows in [97, 10_000] {
         let mut studio = Studio::new();
-        let opened = good(
-            &mut studio,
-            json!({ "do": "open", "slot": 0, "toml": text }),
-        )
-        .json;
+        let opened = good(&mut studio, json!({ "do": "open", "slot": 0, "toml": text })).json;
         assert_eq!(opened["samples"], json!(expected.len()));
         assert_eq!(run(&mut studio, rows), expected);
         let indicators = good(&mut studio, json!({ "do": "indicators", "slot": 0 })).json;
@@ -82,10 +69,7 @@ fn prop_a_run_in_slices_is_the_run_of_the_library() {
         let named = result.quantities();
         assert_eq!(all.len(), named.len());
         for (shown, q) in all.iter().zip(named) {
-            assert_eq!(
-                (&shown["name"], &shown["value"]),
-                (&json!(q.name), &json!(q.value))
-            );
+            assert_eq!((&shown["name"], &shown["value"]), (&json!(q.name), &json!(q.value)));
         }
         assert_eq!(indicators["steps"], json!(result.outcome.work.solver.steps));
     }
@@ -94,33 +78,16 @@ fn prop_a_run_in_slices_is_the_run_of_the_library() {
 #[test]
 fn prop_an_edit_changes_the_signal_without_a_new_start() {
     let mut studio = Studio::new();
-    good(
-        &mut studio,
-        json!({ "do": "open", "slot": 0, "toml": HEALTHY }),
-    );
+    good(&mut studio, json!({ "do": "open", "slot": 0, "toml": HEALTHY }));
     let quiet = run(&mut studio, 256);
     let text = format!("{HEALTHY}{SPALL}");
-    let opened = good(
-        &mut studio,
-        json!({ "do": "open", "slot": 0, "toml": text, "carry": true }),
-    )
-    .json;
-    assert_eq!(
-        (&opened["carried"], &opened["live"]),
-        (&json!(true), &json!(true))
-    );
-    let before = ask(
-        &mut studio,
-        json!({ "do": "spectra", "slot": 0, "longest": 4096 }),
-    )
-    .json;
+    let opened = good(&mut studio, json!({ "do": "open", "slot": 0, "toml": text, "carry": true })).json;
+    assert_eq!((&opened["carried"], &opened["live"]), (&json!(true), &json!(true)));
+    let before = ask(&mut studio, json!({ "do": "spectra", "slot": 0, "longest": 4096 })).json;
     assert_eq!(before["samples"], json!(0));
     let mut damaged = Vec::new();
     for _ in 0..64 {
-        let answer = good(
-            &mut studio,
-            json!({ "do": "advance", "slot": 0, "rows": 256, "frames": true }),
-        );
+        let answer = good(&mut studio, json!({ "do": "advance", "slot": 0, "rows": 256, "frames": true }));
         damaged.extend(singles(&answer, &answer.json["x"]));
         let frames = &answer.json["frames"];
         assert_eq!(frames["count"], json!(32));
@@ -129,85 +96,39 @@ fn prop_an_edit_changes_the_signal_without_a_new_start() {
         assert_eq!(orbit.len(), 32 * 19);
         // Neighbours of a row are a pitch apart, but for the pockets' clearance.
         let apart = (orbit[1] - orbit[0]).rem_euclid(std::f32::consts::TAU);
-        assert!(
-            (apart - std::f32::consts::TAU / 19.0).abs() < 0.02,
-            "{apart}"
-        );
+        assert!((apart - std::f32::consts::TAU / 19.0).abs() < 0.02, "{apart}");
     }
     let rms = |x: &[f32]| (x.iter().map(|v| v * v).sum::<f32>() / x.len() as f32).sqrt();
     assert!(rms(&damaged) > 1.5 * rms(&quiet[quiet.len() / 2..]));
-    let spectra = good(
-        &mut studio,
-        json!({ "do": "spectra", "slot": 0, "longest": 16384 }),
-    )
-    .json;
+    let spectra = good(&mut studio, json!({ "do": "spectra", "slot": 0, "longest": 16384 })).json;
     assert_eq!(spectra["samples"], json!(16384));
     let bpfo = &spectra["lines"][0];
-    assert_eq!(
-        (&bpfo["name"], &bpfo["defect"]),
-        (&json!("BPFO"), &json!(1))
-    );
-    let (hz, nominal) = (
-        bpfo["hz"].as_f64().unwrap(),
-        bpfo["nominal_hz"].as_f64().unwrap(),
-    );
+    assert_eq!((&bpfo["name"], &bpfo["defect"]), (&json!("BPFO"), &json!(1)));
+    let (hz, nominal) = (bpfo["hz"].as_f64().unwrap(), bpfo["nominal_hz"].as_f64().unwrap());
     assert!((hz / nominal - 1.0).abs() < 0.02, "{hz} {nominal}");
     let sound = good(&mut studio, json!({ "do": "sound", "slot": 0 }));
     let heard = singles(&sound, &sound.json["x"]);
     assert!(heard.iter().all(|v| v.abs() <= 1.0) && heard.len() > 800);
     let faster = text.replace("1800", "1500");
-    let opened = good(
-        &mut studio,
-        json!({ "do": "open", "slot": 0, "toml": faster, "carry": true }),
-    )
-    .json;
-    assert_eq!(
-        (&opened["carried"], &opened["rpm"]),
-        (&json!(true), &json!(1500.0))
-    );
+    let opened = good(&mut studio, json!({ "do": "open", "slot": 0, "toml": faster, "carry": true })).json;
+    assert_eq!((&opened["carried"], &opened["rpm"]), (&json!(true), &json!(1500.0)));
     let other = text.replace("NN3007", "NU206");
-    let opened = good(
-        &mut studio,
-        json!({ "do": "open", "slot": 0, "toml": other, "carry": true }),
-    )
-    .json;
-    assert_eq!(
-        (&opened["carried"], &opened["live"]),
-        (&json!(false), &json!(false))
-    );
+    let opened = good(&mut studio, json!({ "do": "open", "slot": 0, "toml": other, "carry": true })).json;
+    assert_eq!((&opened["carried"], &opened["live"]), (&json!(false), &json!(false)));
 }
 
 #[test]
 fn prop_a_bad_scenario_is_reported_in_the_librarys_words_and_the_last_good_one_runs_on() {
     let mut studio = Studio::new();
-    good(
-        &mut studio,
-        json!({ "do": "open", "slot": 0, "toml": HEALTHY }),
-    );
-    let wide = format!(
-        "{HEALTHY}{}",
-        SPALL.replace("width_mm = 4", "width_mm = 90")
-    );
-    let answer = ask(
-        &mut studio,
-        json!({ "do": "open", "slot": 0, "toml": wide, "carry": true }),
-    )
-    .json;
+    good(&mut studio, json!({ "do": "open", "slot": 0, "toml": HEALTHY }));
+    let wide = format!("{HEALTHY}{}", SPALL.replace("width_mm = 4", "width_mm = 90"));
+    let answer = ask(&mut studio, json!({ "do": "open", "slot": 0, "toml": wide, "carry": true })).json;
     assert_eq!(answer["ok"], json!(false));
     let problem = &answer["problems"][0];
-    assert!(
-        problem["key"].as_str().unwrap().starts_with("defects[1]"),
-        "{problem}"
-    );
-    assert!(
-        problem["message"].as_str().unwrap().contains("90"),
-        "{problem}"
-    );
+    assert!(problem["key"].as_str().unwrap().starts_with("defects[1]"), "{problem}");
+    assert!(problem["message"].as_str().unwrap().contains("90"), "{problem}");
     assert_eq!(problem["line"], json!(12));
-    good(
-        &mut studio,
-        json!({ "do": "advance", "slot": 0, "rows": 10 }),
-    );
+    good(&mut studio, json!({ "do": "advance", "slot": 0, "rows": 10 }));
     for wrong in [
         json!({ "do": "advance", "slot": 1 }),
         json!({ "do": "advance", "slot": 7 }),
@@ -226,10 +147,7 @@ fn prop_a_bad_scenario_is_reported_in_the_librarys_words_and_the_last_good_one_r
         assert!(answer["problems"][0]["message"].is_string(), "{wrong}");
     }
     let noise: Vec<u8> = (0..64).map(|k| (k * 37 % 251) as u8).collect();
-    assert_eq!(
-        Message::read(&studio.ask(&noise)).unwrap().json["ok"],
-        json!(false)
-    );
+    assert_eq!(Message::read(&studio.ask(&noise)).unwrap().json["ok"], json!(false));
 }
 
 #[test]
@@ -240,45 +158,23 @@ fn prop_what_is_drawn_is_a_shape_that_a_scenario_takes() {
     let stroke = json!({ "$": ["f64", 0, 6] });
     let scratch = json!({ "do": "scratch", "points_mm": stroke, "width_mm": 0.4 });
     let drawn = ask_with(&mut studio, scratch, &bytes).json;
-    assert!(
-        (drawn["length_mm"].as_f64().unwrap() - 3.4).abs() < 0.02,
-        "{drawn}"
-    );
+    assert!((drawn["length_mm"].as_f64().unwrap() - 3.4).abs() < 0.02, "{drawn}");
     let brush = json!({ "do": "brush", "grid": null, "points_mm": stroke, "width_mm": 0.8, "depth_um": 12 });
     let first = ask_with(&mut studio, brush, &bytes).json;
     let again = json!({ "do": "brush", "grid": first["shape"], "points_mm": stroke, "width_mm": 0.8, "depth_um": 5 });
     let deeper = ask_with(&mut studio, again, &bytes).json;
     let base: Value = toml::from_str(HEALTHY).unwrap();
-    for (shape, deepest) in [
-        (&drawn["shape"], 15.0),
-        (&first["shape"], 12.0),
-        (&deeper["shape"], 17.0),
-    ] {
+    for (shape, deepest) in [(&drawn["shape"], 15.0), (&first["shape"], 12.0), (&deeper["shape"], 17.0)] {
         let mut scenario = base.clone();
-        scenario["defects"] =
-            json!([{ "on": "outer-raceway", "center_deg": 0, "depth_um": 15, "shape": shape }]);
-        let opened = good(
-            &mut studio,
-            json!({ "do": "open", "slot": 0, "scenario": scenario }),
-        )
-        .json;
-        let reread = good(
-            &mut studio,
-            json!({ "do": "normal", "toml": opened["toml"] }),
-        )
-        .json;
+        scenario["defects"] = json!([{ "on": "outer-raceway", "center_deg": 0, "depth_um": 15, "shape": shape }]);
+        let opened = good(&mut studio, json!({ "do": "open", "slot": 0, "scenario": scenario })).json;
+        let reread = good(&mut studio, json!({ "do": "normal", "toml": opened["toml"] })).json;
         assert_eq!(reread["toml"], opened["toml"]);
         let damage = good(&mut studio, json!({ "do": "damage", "slot": 0 }));
         let one = &damage.json["defects"][0];
-        assert!(
-            (one["deepest_um"].as_f64().unwrap() - deepest).abs() < 0.1,
-            "{one}"
-        );
+        assert!((one["deepest_um"].as_f64().unwrap() - deepest).abs() < 0.1, "{one}");
         assert!(!one["polygons_mm"].as_array().unwrap().is_empty());
-        let passage = good(
-            &mut studio,
-            json!({ "do": "passage", "slot": 0, "defect": 1 }),
-        );
+        let passage = good(&mut studio, json!({ "do": "passage", "slot": 0, "defect": 1 }));
         let force = singles(&passage, &passage.json["force_n"]);
         let healthy = passage.json["healthy_n"].as_f64().unwrap() as f32;
         assert!((force[0] / healthy - 1.0).abs() < 1e-4);
@@ -306,16 +202,8 @@ fn prop_every_example_opens_and_the_photo_is_read() {
     let about = good(&mut studio, json!({ "do": "about" })).json;
     assert!(about["bearings"].as_array().unwrap().len() > 15);
     for example in about["examples"].as_array().unwrap() {
-        assert!(
-            !example["words"].as_str().unwrap().is_empty(),
-            "{}",
-            example["name"]
-        );
-        let opened = good(
-            &mut studio,
-            json!({ "do": "open", "slot": 0, "toml": example["toml"] }),
-        )
-        .json;
+        assert!(!example["words"].as_str().unwrap().is_empty(), "{}", example["name"]);
+        let opened = good(&mut studio, json!({ "do": "open", "slot": 0, "toml": example["toml"] })).json;
         assert!(opened["orders"]["BPFO"].as_f64().unwrap() > 1.0);
         if example["name"] == "photo" {
             let damage = good(&mut studio, json!({ "do": "damage", "slot": 0 })).json;
@@ -327,45 +215,25 @@ fn prop_every_example_opens_and_the_photo_is_read() {
     let asked = json!({ "do": "outline", "kind": "photo", "name": "photo-spall.png", "bytes": { "$": ["u8", 0, png.len()] },
         "options": { "mm_per_pixel": 0.02, "rolling_direction": "right" } });
     let outline = ask_with(&mut studio, asked, png).json;
-    assert!(
-        (outline["area_mm2"].as_f64().unwrap() - 8.92).abs() < 0.05,
-        "{outline}"
-    );
+    assert!((outline["area_mm2"].as_f64().unwrap() - 8.92).abs() < 0.05, "{outline}");
 }
 
 #[test]
 fn prop_a_run_is_saved_as_the_command_saves_it_and_judged_when_it_is_read_again() {
     let mut studio = Studio::new();
     let text = format!("{HEALTHY}{SPALL}").replace("0.06", "0.5");
-    good(
-        &mut studio,
-        json!({ "do": "open", "slot": 0, "toml": text }),
-    );
+    good(&mut studio, json!({ "do": "open", "slot": 0, "toml": text }));
     let save = |format: &str| json!({ "do": "save", "slot": 0, "format": format });
-    assert_eq!(
-        ask(&mut studio, save("csv")).json["ok"],
-        json!(false),
-        "before its end"
-    );
+    assert_eq!(ask(&mut studio, save("csv")).json["ok"], json!(false), "before its end");
     run(&mut studio, 5000);
-    let octets = |answer: &Message| {
-        answer
-            .arrays
-            .octets(&answer.json["bytes"])
-            .unwrap()
-            .to_vec()
-    };
+    let octets = |answer: &Message| answer.arrays.octets(&answer.json["bytes"]).unwrap().to_vec();
     let csv = octets(&good(&mut studio, save("csv")));
     let scenario = brinell::Scenario::from_toml(&text).unwrap();
     let (_, signals) = brinell::record(&scenario).unwrap();
     let lines: Vec<&str> = std::str::from_utf8(&csv).unwrap().lines().collect();
     assert_eq!(lines[0], signals.names().join(","));
     assert_eq!(lines.len() - 1, signals.get("t").unwrap().len());
-    let expected: Vec<f64> = signals
-        .names()
-        .iter()
-        .map(|n| signals.get(n).unwrap()[700])
-        .collect();
+    let expected: Vec<f64> = signals.names().iter().map(|n| signals.get(n).unwrap()[700]).collect();
     let found: Vec<f64> = lines[701].split(',').map(|x| x.parse().unwrap()).collect();
     assert_eq!(found, expected);
     for format in ["npz", "wav"] {
@@ -411,21 +279,11 @@ fn prop_two_verdicts_are_held_against_each_other() {
     };
     let healthy = verdict(HEALTHY.to_owned());
     let damaged = verdict(format!("{HEALTHY}{SPALL}"));
-    let answer = good(
-        &mut studio,
-        json!({ "do": "differ", "a": healthy, "b": damaged }),
-    )
-    .json;
+    let answer = good(&mut studio, json!({ "do": "differ", "a": healthy, "b": damaged })).json;
     let headline = answer["headline"].as_str().unwrap();
-    assert!(
-        headline.starts_with("B against A: damage at BPFO in B alone; RMS × "),
-        "{headline}"
-    );
+    assert!(headline.starts_with("B against A: damage at BPFO in B alone; RMS × "), "{headline}");
     let rms = &answer["ratios"][0];
-    assert!(
-        rms["apart"] == json!(true) && rms["low"].as_f64().unwrap() > 2.0,
-        "{rms}"
-    );
+    assert!(rms["apart"] == json!(true) && rms["low"].as_f64().unwrap() > 2.0, "{rms}");
     let without = json!({ "do": "differ", "a": healthy });
     assert_eq!(ask(&mut studio, without).json["ok"], json!(false));
 }

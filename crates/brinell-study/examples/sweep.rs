@@ -11,10 +11,8 @@ fn main() -> Result<(), Box<dyn Error>> {
     let path = std::env::args().nth(1);
     let path = path.as_deref().unwrap_or("examples/rectangle.toml");
     let text = std::fs::read_to_string(path)?;
-    let plan = Plan::new(vec![
-        Axis::vary("operation.speed_rpm=900,1800")?,
-        Axis::vary("simulation.model=full,lumped")?,
-    ])?;
+    let plan =
+        Plan::new(vec![Axis::vary("operation.speed_rpm=900,1800")?, Axis::vary("simulation.model=full,lumped")?])?;
     let scenarios = (0..plan.points()).map(|point| {
         let loaded = document::read(&text, &plan.settings(point))?;
         Ok(loaded.scenario)
@@ -24,10 +22,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let threads = brinell::many::threads(scenarios.len());
     let results = run_all(&scenarios, threads, |_, _| ControlFlow::Continue(()));
     // A run that failed has a row without numbers.
-    let numbers: Vec<_> = results
-        .iter()
-        .map(|result| result.as_ref().map_or(Vec::new(), |r| r.quantities()))
-        .collect();
+    let numbers: Vec<_> = results.iter().map(|result| result.as_ref().map_or(Vec::new(), |r| r.quantities())).collect();
     let rows: Vec<_> = numbers.iter().map(Vec::as_slice).collect();
     let table = columns(&rows);
     let rms = table.iter().find(|column| column.name == "sensor_ax.rms");

@@ -5,32 +5,17 @@ use brinell_study::calibrate::{Answer, Fit, Settings, Target, Unfit, fit, least_
 use std::collections::HashMap;
 
 fn targets(values: &[f64], uncertainty: f64) -> Vec<Target> {
-    let one = |(k, value): (usize, &f64)| Target {
-        name: format!("t{k}"),
-        value: *value,
-        uncertainty,
-    };
+    let one = |(k, value): (usize, &f64)| Target { name: format!("t{k}"), value: *value, uncertainty };
     values.iter().enumerate().map(one).collect()
 }
 
 fn answers(values: Vec<f64>) -> Option<Vec<Answer>> {
-    let one = |value| Answer {
-        value: Some(value),
-        uncertainty: 0.0,
-    };
+    let one = |value| Answer { value: Some(value), uncertainty: 0.0 };
     Some(values.into_iter().map(one).collect())
 }
 
-fn search(
-    keys: usize,
-    targets: &[Target],
-    settings: Settings,
-    model: impl Fn(&[f64]) -> Option<Vec<Answer>>,
-) -> Fit {
-    fit(keys, targets, settings, &mut |points| {
-        Ok(points.iter().map(|p| model(p)).collect())
-    })
-    .unwrap()
+fn search(keys: usize, targets: &[Target], settings: Settings, model: impl Fn(&[f64]) -> Option<Vec<Answer>>) -> Fit {
+    fit(keys, targets, settings, &mut |points| Ok(points.iter().map(|p| model(p)).collect())).unwrap()
 }
 
 /// Rosenbrock's valley over [-2, 2]^2, as two residuals: its optimum is (1, 1).
@@ -43,9 +28,7 @@ fn rosenbrock(unit: &[f64]) -> Vec<f64> {
 fn prop_the_valley_of_rosenbrock_is_followed_to_its_end() {
     for seed in 0..8 {
         let settings = Settings { seed, budget: 150 };
-        let fit = search(2, &targets(&[0.0; 2], 1.0), settings, |p| {
-            answers(rosenbrock(p))
-        });
+        let fit = search(2, &targets(&[0.0; 2], 1.0), settings, |p| answers(rosenbrock(p)));
         let best = &fit.evaluations[fit.best];
         assert!(fit.evaluations.len() <= 150);
         for unit in &best.place {
@@ -91,13 +74,8 @@ fn analytic_a_linear_problem_has_its_known_uncertainty() {
         ]
     };
     let truth = [0.4, 0.7, 0.55];
-    let settings = Settings {
-        seed: 3,
-        budget: 60,
-    };
-    let fit = search(3, &targets(&model(&truth), 0.1), settings, |p| {
-        answers(model(p))
-    });
+    let settings = Settings { seed: 3, budget: 60 };
+    let fit = search(3, &targets(&model(&truth), 0.1), settings, |p| answers(model(p)));
     let zero = model(&[0.0; 3]);
     let jacobian = nalgebra::DMatrix::from_fn(5, 3, |row, column| {
         let mut unit = [0.0; 3];
@@ -117,13 +95,8 @@ fn analytic_a_linear_problem_has_its_known_uncertainty() {
 fn analytic_a_product_leaves_its_factors_undetermined() {
     // In logarithms a product is a sum: nothing tells the factors apart.
     let model = |p: &[f64]| vec![(p[0] + p[1]).exp(), 2.0 * (p[0] + p[1])];
-    let settings = Settings {
-        seed: 1,
-        budget: 40,
-    };
-    let fit = search(2, &targets(&model(&[0.5, 0.4]), 0.01), settings, |p| {
-        answers(model(p))
-    });
+    let settings = Settings { seed: 1, budget: 40 };
+    let fit = search(2, &targets(&model(&[0.5, 0.4]), 0.01), settings, |p| answers(model(p)));
     let sum: f64 = fit.evaluations[fit.best].place.iter().sum();
     assert!((sum - 0.9).abs() < 0.01);
     let free = &fit.identified.directions[1];
@@ -139,15 +112,8 @@ fn rough(point: &[f64]) -> Option<Vec<Answer>> {
         return None;
     }
     let noise = |k: f64| 0.05 * (1000.0 * (k + x + 3.0 * y)).sin();
-    let value = |k: f64, v: f64| Answer {
-        value: (v > -5.0).then_some(v + noise(k)),
-        uncertainty: 0.05,
-    };
-    Some(vec![
-        value(1.0, 5.0 * x * x),
-        value(2.0, 3.0 * x + y),
-        value(3.0, (4.0 * y).sin()),
-    ])
+    let value = |k: f64, v: f64| Answer { value: (v > -5.0).then_some(v + noise(k)), uncertainty: 0.05 };
+    Some(vec![value(1.0, 5.0 * x * x), value(2.0, 3.0 * x + y), value(3.0, (4.0 * y).sin())])
 }
 
 fn same(a: &Fit, b: &Fit) {
@@ -157,13 +123,11 @@ fn same(a: &Fit, b: &Fit) {
 #[test]
 fn prop_interruptions_change_nothing() {
     let targets = targets(&[1.5, 2.2, 0.9], 0.05);
-    let settings = Settings {
-        seed: 11,
-        budget: 60,
-    };
+    let settings = Settings { seed: 11, budget: 60 };
     let whole = search(2, &targets, settings, rough);
     assert!(whole.evaluations.len() <= 60);
-    // Each attempt answers so many new points and is then stopped, in the middle of a batch too; what was answered is remembered.
+    // Each attempt answers so many new points and is then stopped, in the middle of a batch too; what was answered is
+    // remembered.
     for patience in [1, 3, 7, 25] {
         let mut known: HashMap<Vec<u64>, Option<Vec<Answer>>> = HashMap::new();
         let mut attempts = 0;
@@ -196,15 +160,7 @@ fn prop_interruptions_change_nothing() {
 
 #[test]
 fn prop_a_run_weighs_with_its_own_uncertainty() {
-    let fit = search(
-        2,
-        &targets(&[1.5, 2.2, 0.9], 0.12),
-        Settings {
-            seed: 5,
-            budget: 50,
-        },
-        rough,
-    );
+    let fit = search(2, &targets(&[1.5, 2.2, 0.9], 0.12), Settings { seed: 5, budget: 50 }, rough);
     for (sigma, own) in fit.sigma.iter().zip(&fit.own) {
         assert!((own - 0.05).abs() < 1e-12 && (sigma - 0.13).abs() < 1e-12);
     }
@@ -215,10 +171,7 @@ fn prop_the_start_has_one_point_in_each_slice() {
     for (seed, keys, count) in [(0, 1, 1), (1, 3, 17), (9, 5, 40)] {
         let points = latin_hypercube(seed, keys, count);
         for axis in 0..keys {
-            let mut slices: Vec<usize> = points
-                .iter()
-                .map(|p| (p[axis] * count as f64) as usize)
-                .collect();
+            let mut slices: Vec<usize> = points.iter().map(|p| (p[axis] * count as f64) as usize).collect();
             slices.sort_unstable();
             assert_eq!(slices, (0..count).collect::<Vec<_>>());
         }
@@ -229,10 +182,7 @@ fn prop_the_start_has_one_point_in_each_slice() {
 #[test]
 fn regress_what_no_run_can_answer_is_said() {
     let targets = targets(&[1.0, 2.0], 0.1);
-    let settings = Settings {
-        seed: 1,
-        budget: least_budget(1),
-    };
+    let settings = Settings { seed: 1, budget: least_budget(1) };
     let failed = fit(1, &targets, settings, &mut |p| Ok(vec![None; p.len()]));
     assert_eq!(failed.unwrap_err(), Unfit::AllFailed(4));
     let without = fit(1, &targets, settings, &mut |p| {
@@ -240,10 +190,7 @@ fn regress_what_no_run_can_answer_is_said() {
         one[1].value = None;
         Ok(vec![Some(one); p.len()])
     });
-    assert_eq!(
-        without.unwrap_err().to_string(),
-        "t1: none of the 4 runs spread over the bounds has a value of it"
-    );
+    assert_eq!(without.unwrap_err().to_string(), "t1: none of the 4 runs spread over the bounds has a value of it");
     // The fewest runs suffice for an answer.
     let fit = search(1, &targets, settings, |p| answers(vec![p[0] * 2.0, 2.0]));
     assert!(fit.evaluations.len() <= settings.budget);

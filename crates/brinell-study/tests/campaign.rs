@@ -1,4 +1,5 @@
-//! Many runs as one piece of work: company changes nothing, names are known beforehand, and numbers say what findings say.
+//! Many runs as one piece of work: company changes nothing, names are known beforehand, and numbers say what findings
+//! say.
 
 use brinell::document::read;
 use brinell::scenario::Scenario;
@@ -13,10 +14,8 @@ fn scenario(settings: &[(&str, &str)]) -> Scenario {
     let text = include_str!("../../../examples/single-row.toml");
     let mut overrides = vec![("simulation.duration_s", "0.32")];
     overrides.extend(settings);
-    let overrides: Vec<(String, String)> = overrides
-        .into_iter()
-        .map(|(key, value)| (key.into(), value.into()))
-        .collect();
+    let overrides: Vec<(String, String)> =
+        overrides.into_iter().map(|(key, value)| (key.into(), value.into())).collect();
     read(text, &overrides).expect("it is sound").scenario
 }
 
@@ -26,11 +25,7 @@ fn go_on(_: usize, _: f64) -> ControlFlow<()> {
 
 #[test]
 fn prop_runs_side_by_side_are_those_of_each_alone() {
-    let list = [
-        scenario(&[]),
-        scenario(&[("simulation.model", "lumped")]),
-        scenario(&[("defects", "[]")]),
-    ];
+    let list = [scenario(&[]), scenario(&[("simulation.model", "lumped")]), scenario(&[("defects", "[]")])];
     let all = campaign::run_all(&list, NonZeroUsize::new(3).unwrap(), go_on);
     let mut finished = Vec::new();
     for (one, result) in list.iter().zip(all) {
@@ -50,9 +45,7 @@ fn prop_runs_side_by_side_are_those_of_each_alone() {
     }
 
     // Numbers are those of the findings.
-    let [full, lumped, healthy] = &finished[..] else {
-        panic!("three runs")
-    };
+    let [full, lumped, healthy] = &finished[..] else { panic!("three runs") };
     let quantity = |run: &RunResult, name: &str| run.quantity(name).expect("it is told");
     let sensor = &full.findings.channels;
     let sensor = sensor.iter().find(|c| c.name == "sensor_ay").unwrap();
@@ -69,12 +62,7 @@ fn prop_runs_side_by_side_are_those_of_each_alone() {
         let impact = quantity(full, name).value.unwrap();
         assert!(0.0 < impact && impact <= peak, "{name} {impact}, {peak}");
     }
-    assert!(
-        healthy
-            .quantities()
-            .iter()
-            .all(|q| !q.name.starts_with("defect"))
-    );
+    assert!(healthy.quantities().iter().all(|q| !q.name.starts_with("defect")));
 
     // Against each other: what one run lacks has no ratio, and the first has none.
     let compared = campaign::compare(&[full, lumped, healthy]);
@@ -83,7 +71,8 @@ fn prop_runs_side_by_side_are_those_of_each_alone() {
     assert_eq!(rms.ratios[0], None);
     let quieter = rms.ratios[2].expect("both rings move");
     assert!(quieter.value < 1.0 && quieter.interval.is_some());
-    // The lumped model holds the outer ring where the load is on the inner one: nothing is measured, and nothing has no ratio.
+    // The lumped model holds the outer ring where the load is on the inner one: nothing is measured, and nothing has no
+    // ratio.
     assert_eq!(rms.of[1].as_ref().and_then(|q| q.value), Some(0.0));
     assert_eq!(rms.ratios[1], None);
     assert!(one("inner_ay.rms").ratios[1].is_some());
@@ -106,16 +95,10 @@ fn prop_a_run_that_is_broken_off_is_none() {
 #[test]
 fn prop_scenarios_that_mean_the_same_have_one_fingerprint() {
     let plain = campaign::fingerprint(&scenario(&[]));
-    let same = scenario(&[
-        ("operation.speed_rpm", "1500"),
-        ("bearing.radial_clearance_um", "5"),
-    ]);
+    let same = scenario(&[("operation.speed_rpm", "1500"), ("bearing.radial_clearance_um", "5")]);
     assert_eq!(campaign::fingerprint(&same), plain);
     let other = scenario(&[("bearing.radial_clearance_um", "5.000000000000001")]);
     assert_ne!(campaign::fingerprint(&other), plain);
     // FIPS 180-2, appendix B.1.
-    assert_eq!(
-        campaign::digest("abc"),
-        "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad"
-    );
+    assert_eq!(campaign::digest("abc"), "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
 }

@@ -1,6 +1,7 @@
 //! [`Studio`] as WebAssembly: three functions and the memory, without imports.
 //!
-//! The page writes a request at the place that [`give`] gives, calls [`ask`], reads the answer and calls [`release`]. One instance has one studio.
+//! The page writes a request at the place that [`give`] gives, calls [`ask`], reads the answer and calls [`release`].
+//! One instance has one studio.
 
 use brinell_studio::Studio;
 use std::cell::RefCell;
@@ -21,7 +22,8 @@ pub extern "C" fn give(length: usize) -> *mut u8 {
     })
 }
 
-/// Answers the request that was written there. At the place that is returned are the answer's length (four bytes, the least first) and the answer.
+/// Answers the request that was written there. At the place that is returned are the answer's length (four bytes, the
+/// least first) and the answer.
 #[unsafe(no_mangle)]
 pub extern "C" fn ask(_place: *const u8, _length: usize) -> *const u8 {
     let request = REQUEST.take();

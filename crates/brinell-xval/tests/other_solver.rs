@@ -10,9 +10,7 @@ use brinell::model::{Model, Motion};
 use brinell::scenario::{Accuracy, Sensor};
 use brinell::solver::Stepper;
 use brinell::{accuracy, document, start};
-use diffsol::{
-    NalgebraLU, NalgebraMat, OdeBuilder, OdeEquations, OdeSolverMethod, OdeSolverProblem,
-};
+use diffsol::{NalgebraLU, NalgebraMat, OdeBuilder, OdeEquations, OdeSolverMethod, OdeSolverProblem};
 use std::cell::RefCell;
 use std::path::Path;
 
@@ -20,19 +18,10 @@ use std::path::Path;
 const FROM_S: f64 = 1e-3;
 
 /// Rings and cages with everything that is recorded of them, and the states of every roller.
-const CHANNELS: [&str; 6] = [
-    "inner_*",
-    "outer_*",
-    "cage*",
-    "roller*_r",
-    "roller*_orbit_speed",
-    "roller*_spin_speed",
-];
+const CHANNELS: [&str; 6] = ["inner_*", "outer_*", "cage*", "roller*_r", "roller*_orbit_speed", "roller*_spin_speed"];
 
 fn model(path: &str) -> (Model, f64) {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR"))
-        .join("../brinell/tests")
-        .join(path);
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../brinell/tests").join(path);
     let text = std::fs::read_to_string(&path).unwrap();
     let loaded = document::read(&text, &[]).unwrap_or_else(|p| panic!("{}: {p:?}", path.display()));
     let model = Model::new(&loaded.scenario).unwrap();
@@ -62,10 +51,7 @@ impl<'a> Record<'a> {
             motion: Motion::new(model),
             channels,
             dy: vec![0.0; 2 * model.layout.dof()],
-            trajectory: Trajectory {
-                columns: vec![Vec::new(); channels.len()],
-                closed: Vec::new(),
-            },
+            trajectory: Trajectory { columns: vec![Vec::new(); channels.len()], closed: Vec::new() },
         }
     }
 
@@ -76,13 +62,7 @@ impl<'a> Record<'a> {
         let forces = [&inner.force, &outer.force, &ws.pocket_force];
         let closed = forces.iter().flat_map(|f| f.iter().map(|f| *f != 0.0));
         self.trajectory.closed.push(closed.collect());
-        let frame = Frame {
-            model: self.motion.model,
-            t,
-            y,
-            a: &self.dy[y.len() / 2..],
-            ws: &self.motion.ws,
-        };
+        let frame = Frame { model: self.motion.model, t, y, a: &self.dy[y.len() / 2..], ws: &self.motion.ws };
         for (column, channel) in self.trajectory.columns.iter_mut().zip(self.channels) {
             column.push(channel.value(&frame));
         }
@@ -145,10 +125,7 @@ fn coordinates(model: &Model) -> Vec<(usize, f64)> {
     let (half, pads) = (l.dof(), mass.iter().filter(|m| **m == 0.0).count());
     let inert = columns * (l.slots - l.rollers()) + (half - end);
     assert_eq!(pads, inert, "only pads weigh nothing");
-    (0..2 * half)
-        .filter(|k| mass[k % half] > 0.0)
-        .map(|k| (k, lever[k % half]))
-        .collect()
+    (0..2 * half).filter(|k| mass[k % half] > 0.0).map(|k| (k, lever[k % half])).collect()
 }
 
 /// The model's equations in the bearing's own coordinates.
@@ -190,24 +167,14 @@ where
     println!("theirs: {}", solver.get_statistics());
 }
 
-fn theirs(
-    model: &Model,
-    channels: &[Channel],
-    times: &[f64],
-    method: Method,
-    tolerance: &Tolerance,
-) -> Trajectory {
+fn theirs(model: &Model, channels: &[Channel], times: &[f64], method: Method, tolerance: &Tolerance) -> Trajectory {
     let initial = start::state(model).unwrap();
     let coordinates = coordinates(model);
     let half = model.layout.dof();
     let atol: Vec<f64> = coordinates
         .iter()
         .map(|&(k, lever)| {
-            let size = if k < half {
-                tolerance.length
-            } else {
-                tolerance.speed
-            };
+            let size = if k < half { tolerance.length } else { tolerance.speed };
             size / lever
         })
         .collect();
@@ -222,10 +189,7 @@ fn theirs(
     let (mut ahead, mut here) = (first.clone(), first.clone());
     let scratch = RefCell::new((&mut ahead, &mut here));
     let jacobian_product = |y: &[f64], _: &[f64], t: f64, v: &[f64], out: &mut [f64]| {
-        let largest = v
-            .iter()
-            .zip(&scale)
-            .fold(0.0f64, |m, (v, s)| m.max(v.abs() / s));
+        let largest = v.iter().zip(&scale).fold(0.0f64, |m, (v, s)| m.max(v.abs() / s));
         if largest == 0.0 {
             out.fill(0.0);
             return;
@@ -247,10 +211,7 @@ fn theirs(
         .rtol(f64::EPSILON)
         .atol(atol)
         .h0(1e-9)
-        .rhs_implicit(
-            |y, _, t, dy| compact.borrow_mut().derivative(t, y, dy),
-            jacobian_product,
-        )
+        .rhs_implicit(|y, _, t, dy| compact.borrow_mut().derivative(t, y, dy), jacobian_product)
         .init(|_, _, y: &mut [f64]| y.copy_from_slice(&first), size)
         .build()
         .unwrap();
@@ -301,9 +262,9 @@ fn difference(ours: &[f64], theirs: &[f64], counts: &[bool]) -> f64 {
     if num == 0.0 { 0.0 } else { (num / den).sqrt() }
 }
 
-/// Samples in a run at which one solver has a contact or pocket closed that the other has open. A damper's force jumps there, so accelerations
-/// of such a sample differ by the jump however near the instants are: they are not compared. Found with any
-/// of four kernels: 1 or none.
+/// Samples in a run at which one solver has a contact or pocket closed that the other has open. A damper's force jumps
+/// there, so accelerations of such a sample differ by the jump however near the instants are: they are not compared.
+/// Found with any of four kernels: 1 or none.
 const JUMPS: usize = 2;
 
 /// What a channel's limit goes by.
@@ -328,20 +289,21 @@ impl Kind {
 /// Limits on the relative difference of displacements, rates and accelerations.
 type Limits = [f64; 3];
 
-/// Our `reference` accuracy against Tsitouras. Worst found: 3e-5, 1.5e-4 and 8e-4, all in the heavy load, where a profile's steps
-/// make forces of kilonewtons jump; elsewhere 2e-5, 5e-5 and 2.5e-4, across the load, where a channel is small and the
-/// shift of an impact's instant weighs more.
+/// Our `reference` accuracy against Tsitouras. Worst found: 3e-5, 1.5e-4 and 8e-4, all in the heavy load, where a
+/// profile's steps make forces of kilonewtons jump; elsewhere 2e-5, 5e-5 and 2.5e-4, across the load, where a channel
+/// is small and the shift of an impact's instant weighs more.
 const REFERENCE: Limits = [1e-4, 5e-4, 3e-3];
-/// The same with a hundredth of our tolerance. Worst found: 3e-6, 1.5e-5 and 9e-5. So what is seen at `reference` accuracy is our
-/// tolerance, and both solvers tend to one trajectory.
+/// The same with a hundredth of our tolerance. Worst found: 3e-6, 1.5e-5 and 9e-5. So what is seen at `reference`
+/// accuracy is our tolerance, and both solvers tend to one trajectory.
 const HUNDREDTH: Limits = [1e-5, 5e-5, 3e-4];
-/// The implicit method at its looser tolerance, which is what is seen in y across the load (1.3e-4); accelerations come as near as
-/// Tsitouras's.
+/// The implicit method at its looser tolerance, which is what is seen in y across the load (1.3e-4); accelerations come
+/// as near as Tsitouras's.
 const IMPLICIT: Limits = [5e-4, 5e-4, 1e-3];
 
-/// Both rungs where rollers and rings tilt: each slice that closes or opens switches its damper, 32 to a contact, and no solver places every
-/// switch. Worst found with any of four kernels: 2e-4, 6e-4 and 4.2e-3 (of tilts a millionth of a radian small), then 2.5e-5, 9e-5 and 6.6e-4.
-/// Kernels differ by round-off alone, and by up to three in these; so the limits are three times the worst.
+/// Both rungs where rollers and rings tilt: each slice that closes or opens switches its damper, 32 to a contact, and
+/// no solver places every switch. Worst found with any of four kernels: 2e-4, 6e-4 and 4.2e-3 (of tilts a millionth of
+/// a radian small), then 2.5e-5, 9e-5 and 6.6e-4. Kernels differ by round-off alone, and by up to three in these; so
+/// the limits are three times the worst.
 const TILTING: [(f64, Limits); 2] = [(1.0, [6e-4, 2e-3, 1.2e-2]), (0.01, [8e-5, 3e-4, 2e-3])];
 
 struct Case {
@@ -357,22 +319,16 @@ impl Case {
         let patterns: Vec<String> = CHANNELS.map(str::to_owned).to_vec();
         let (channels, idle) = channel::select(&model, &Sensor::off(), &patterns);
         assert!(idle.is_empty(), "{idle:?}");
-        let times: Vec<f64> = (0..=(self.duration * rate) as u64)
-            .map(|k| k as f64 / rate)
-            .collect();
+        let times: Vec<f64> = (0..=(self.duration * rate) as u64).map(|k| k as f64 / rate).collect();
         let b = theirs(&model, &channels, &times, self.method, &self.tolerance);
         let mut failures = Vec::new();
         for &(share, limits) in rungs {
             let a = ours(&model, &channels, &times, share);
             let late: Vec<bool> = times.iter().map(|t| *t >= FROM_S).collect();
-            let alike: Vec<bool> = (a.closed.iter().zip(&b.closed).zip(&late))
-                .map(|((a, b), late)| *late && a == b)
-                .collect();
+            let alike: Vec<bool> =
+                (a.closed.iter().zip(&b.closed).zip(&late)).map(|((a, b), late)| *late && a == b).collect();
             let jumps = late.iter().zip(&alike).filter(|(l, a)| l != a).count();
-            println!(
-                "{} at {share} of our tolerance: {jumps} samples at a jump",
-                self.path
-            );
+            println!("{} at {share} of our tolerance: {jumps} samples at a jump", self.path);
             if jumps > JUMPS {
                 failures.push(format!(
                     "{} at {share} of our tolerance: different contacts are closed at {jumps} samples, limit {JUMPS}",
@@ -410,15 +366,7 @@ fn tsit45(path: &'static str) {
 }
 
 fn explicit(path: &'static str) -> Case {
-    Case {
-        path,
-        duration: 8e-3,
-        method: Method::Tsit45,
-        tolerance: Tolerance {
-            length: 1e-15,
-            speed: 1e-10,
-        },
-    }
+    Case { path, duration: 8e-3, method: Method::Tsit45, tolerance: Tolerance { length: 1e-15, speed: 1e-10 } }
 }
 
 #[test]
@@ -465,10 +413,7 @@ fn xval_esdirk34_outer_rectangle() {
         path: "reference/outer-rectangle.toml",
         duration: 3e-3,
         method: Method::Esdirk34,
-        tolerance: Tolerance {
-            length: 1e-13,
-            speed: 1e-8,
-        },
+        tolerance: Tolerance { length: 1e-13, speed: 1e-8 },
     };
     case.check(&[(1.0, IMPLICIT)]);
 }

@@ -1,9 +1,11 @@
-//! How often a run's 95 % interval holds the long-run value: `cargo run --release -p brinell --example coverage -- [STARTS [THREADS [LONGEST_S]]]`.
+//! How often a run's 95 % interval holds the long-run value: `cargo run --release -p brinell --example coverage --
+//! [STARTS [THREADS [LONGEST_S]]]`.
 //!
-//! Each case is started anew `STARTS` times (200), the load larger by one part in 10^5 each time: after a few impacts these runs go ways of their
-//! own. Each run is evaluated as if it had ended at 0.5, 1 and 2 s (up to `LONGEST_S`), the way `brinell run` would. The long-run value is the average over
-//! `STARTS / 20` further starts of 20 s each. A cell holds: how often the interval held the long-run value; half the interval's width (median over
-//! starts); the mean of the values less the long-run value, and their standard deviation; all relative.
+//! Each case is started anew `STARTS` times (200), the load larger by one part in 10^5 each time: after a few impacts
+//! these runs go ways of their own. Each run is evaluated as if it had ended at 0.5, 1 and 2 s (up to `LONGEST_S`), the
+//! way `brinell run` would. The long-run value is the average over `STARTS / 20` further starts of 20 s each. A cell
+//! holds: how often the interval held the long-run value; half the interval's width (median over starts); the mean of
+//! the values less the long-run value, and their standard deviation; all relative.
 //!
 //! With 200 starts an exact 95 % interval counts 92 to 98 % in 19 of 20 cases.
 
@@ -20,25 +22,12 @@ use std::ops::ControlFlow;
 
 /// Name, scenario, and its sensor channel along the load.
 const CASES: [(&str, &str, &str); 2] = [
-    (
-        "rectangle (NN3007)",
-        include_str!("../../../examples/rectangle.toml"),
-        "sensor_ax",
-    ),
-    (
-        "single row (NU206)",
-        include_str!("../../../examples/single-row.toml"),
-        "sensor_ay",
-    ),
+    ("rectangle (NN3007)", include_str!("../../../examples/rectangle.toml"), "sensor_ax"),
+    ("single row (NU206)", include_str!("../../../examples/single-row.toml"), "sensor_ay"),
 ];
 const DURATIONS: [f64; 3] = [0.5, 1.0, 2.0];
 const LONG: f64 = 20.0;
-const INDICATORS: [Indicator; 4] = [
-    Indicator::Rms,
-    Indicator::Kurtosis,
-    Indicator::CrestFactor,
-    Indicator::PeakToPeak,
-];
+const INDICATORS: [Indicator; 4] = [Indicator::Rms, Indicator::Kurtosis, Indicator::CrestFactor, Indicator::PeakToPeak];
 
 /// One run, evaluated as runs of several durations.
 struct Several {
@@ -76,11 +65,7 @@ fn numbers(findings: &Findings, channel: &str) -> Vec<Option<Estimate>> {
     let channel = findings.channels.iter().find(|c| c.name == channel);
     let indicator = |i| channel.and_then(|c| c.blocks.estimate(i));
     let line = findings.lines.first().and_then(|l| l.estimate());
-    INDICATORS
-        .map(indicator)
-        .into_iter()
-        .chain([line])
-        .collect()
+    INDICATORS.map(indicator).into_iter().chain([line]).collect()
 }
 
 /// Of a start: the numbers by duration.
@@ -106,9 +91,7 @@ fn start(
     // The last duration is the longest.
     Simulation::new(&scenario)?.run(&mut several);
     let each = several.watches.into_iter();
-    Ok(each
-        .map(|(simulation, watch)| numbers(&watch.finish(&simulation), channel))
-        .collect())
+    Ok(each.map(|(simulation, watch)| numbers(&watch.finish(&simulation), channel)).collect())
 }
 
 type Results = Vec<Vec<Vec<Option<Estimate>>>>;
@@ -152,22 +135,12 @@ fn main() -> Result<(), Box<dyn Error + Send + Sync>> {
     println!("{}", head.trim_end());
     println!("|{}", " --- |".repeat(names.len() + 3));
     for (name, text, channel) in CASES {
-        let loaded =
-            document::read(text, &[]).map_err(|problems| format!("{name}: {problems:?}"))?;
+        let loaded = document::read(text, &[]).map_err(|problems| format!("{name}: {problems:?}"))?;
         let base = loaded.scenario;
-        let long = all(
-            &base,
-            starts..starts + starts.div_ceil(20),
-            &[LONG],
-            channel,
-            threads,
-        )?;
+        let long = all(&base, starts..starts + starts.div_ceil(20), &[LONG], channel, threads)?;
         let truth: Vec<f64> = (0..=names.len())
             .map(|k| {
-                let values: Vec<f64> = long
-                    .iter()
-                    .filter_map(|run| Some(run[0][k]?.value))
-                    .collect();
+                let values: Vec<f64> = long.iter().filter_map(|run| Some(run[0][k]?.value)).collect();
                 values.iter().sum::<f64>() / values.len() as f64
             })
             .collect();
@@ -180,19 +153,11 @@ fn main() -> Result<(), Box<dyn Error + Send + Sync>> {
                     Some((estimate.value, estimate.interval?))
                 });
                 let intervals: Vec<_> = intervals.collect();
-                let held = intervals
-                    .iter()
-                    .filter(|(_, i)| i.low <= *truth && *truth <= i.high)
-                    .count();
-                let widths = intervals
-                    .iter()
-                    .map(|(value, i)| 0.5 * (i.high - i.low) / value);
+                let held = intervals.iter().filter(|(_, i)| i.low <= *truth && *truth <= i.high).count();
+                let widths = intervals.iter().map(|(value, i)| 0.5 * (i.high - i.low) / value);
                 let width = median(widths.collect());
                 let told = intervals.len();
-                let values: Vec<f64> = intervals
-                    .iter()
-                    .map(|(value, _)| value / truth - 1.0)
-                    .collect();
+                let values: Vec<f64> = intervals.iter().map(|(value, _)| value / truth - 1.0).collect();
                 let bias = values.iter().sum::<f64>() / told as f64;
                 let square = values.iter().map(|v| (v - bias).powi(2)).sum::<f64>();
                 let spread = (square / (told as f64 - 1.0)).sqrt();

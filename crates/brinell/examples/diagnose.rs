@@ -15,9 +15,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let text = std::fs::read_to_string(path)?;
     // A verdict needs more revolutions than the example's half second has.
     let longer = [("simulation.duration_s".into(), "2.0".into())];
-    let scenario = document::read(&text, &longer)
-        .map_err(brinell::Error::from)?
-        .scenario;
+    let scenario = document::read(&text, &longer).map_err(brinell::Error::from)?.scenario;
     let Speed::Constant(rpm) = scenario.operation.speed_rpm else {
         return Err("a constant speed is needed".into());
     };
@@ -26,9 +24,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     // After the start has settled.
     let fs = signals.rate_hz();
     let settled = (result.findings.from * fs).ceil() as usize;
-    let x = signals
-        .get("sensor_ax")
-        .ok_or("sensor_ax is not recorded")?;
+    let x = signals.get("sensor_ax").ok_or("sensor_ax is not recorded")?;
     let mut options = Options::new(rpm / 60.0, orders_of(&Geometry::of(&scenario.bearing)));
     options.silent = Some(MACHINE_NOISE);
     options.exact = true;

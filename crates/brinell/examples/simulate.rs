@@ -11,10 +11,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let scenario = Scenario::from_toml(&std::fs::read_to_string(path)?)?;
     let (result, signals) = brinell::record(&scenario)?;
 
-    println!(
-        "{}: {} steps",
-        scenario.name, result.outcome.work.solver.steps
-    );
+    println!("{}: {} steps", scenario.name, result.outcome.work.solver.steps);
     for name in ["sensor_ax.rms", "sensor_ax.kurtosis", "defect1.frequency"] {
         // A healthy bearing has no defect1.
         let Some(number) = result.quantity(name) else {
@@ -29,9 +26,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     }
 
     let t = signals.get("t").ok_or("no time")?;
-    let x = signals
-        .get("sensor_ax")
-        .ok_or("sensor_ax is not recorded")?;
+    let x = signals.get("sensor_ax").ok_or("sensor_ax is not recorded")?;
     // After the start has settled.
     let settled = t.iter().zip(x).filter(|(t, _)| **t >= result.findings.from);
     let peak = settled.max_by(|a, b| a.1.abs().total_cmp(&b.1.abs()));

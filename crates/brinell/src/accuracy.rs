@@ -4,17 +4,15 @@ use crate::model::{Model, PAIR};
 use crate::scenario::{Accuracy, Element};
 use crate::solver::Settings;
 
-/// Tolerance of a step's error norm, sqrt(J): a fraction of the square root of the elastic energy that the bearing holds under its
-/// load, so that one number serves a bearing of any size.
+/// Tolerance of a step's error norm, sqrt(J): a fraction of the square root of the elastic energy that the bearing
+/// holds under its load, so that one number serves a bearing of any size.
 pub fn tolerance(model: &Model, accuracy: Accuracy) -> f64 {
     let fraction = match accuracy {
         Accuracy::Standard => STANDARD,
         Accuracy::Reference => REFERENCE,
     };
     let force = characteristic_force(model);
-    let deflection = model
-        .series_contact
-        .deflection(heaviest_contact(model, force));
+    let deflection = model.series_contact.deflection(heaviest_contact(model, force));
     fraction * (force * deflection).sqrt()
 }
 
@@ -23,8 +21,7 @@ fn characteristic_force(model: &Model) -> f64 {
     let m = &model.inertia;
     let rollers = model.layout.rollers() as f64;
     let load = model.load.full[0].hypot(model.load.full[1]);
-    let weight = model.gravity[0].hypot(model.gravity[1])
-        * (m.inner_ring + m.outer_ring + rollers * m.roller);
+    let weight = model.gravity[0].hypot(model.gravity[1]) * (m.inner_ring + m.outer_ring + rollers * m.roller);
     let orbit = model.rolling_orbit_speed(model.rotation.max_speed());
     let centrifugal = rollers * m.roller * model.geometry.pitch_radius * orbit * orbit;
     load.max(weight).max(centrifugal)
@@ -52,9 +49,10 @@ const PITCH_SHARE: f64 = 1.0 / 200.0;
 /// Longest step, s, however slow the bearing.
 const LONGEST_STEP: f64 = 5e-5;
 
-/// How much more an error of a ring's rate weighs than that of a roller or a cage of the same energy. Accelerations of rings are what is
-/// measured; they add up the rollers' forces, whose errors they share. Chosen on the rectangle case and a healthy bearing: at as many
-/// right-hand sides outer_ax of the one comes out nearer by half, and no channel of either further off by more than a tenth.
+/// How much more an error of a ring's rate weighs than that of a roller or a cage of the same energy. Accelerations of
+/// rings are what is measured; they add up the rollers' forces, whose errors they share. Chosen on the rectangle case
+/// and a healthy bearing: at as many right-hand sides outer_ax of the one comes out nearer by half, and no channel of
+/// either further off by more than a tenth.
 const RING: f64 = 30.0;
 
 /// Settings of the solver for a model.

@@ -69,10 +69,7 @@ impl Pocket {
 /// `along` times a vector and `across` times the same turned by +90 degrees.
 #[inline]
 fn turned(of: [f64; 2], along: f64, across: f64) -> [f64; 2] {
-    [
-        along * of[0] - across * of[1],
-        along * of[1] + across * of[0],
-    ]
+    [along * of[0] - across * of[1], along * of[1] + across * of[0]]
 }
 
 /// Film and land between the cage and its guiding ring.
@@ -110,19 +107,15 @@ pub struct GuideForce {
 }
 
 impl Guide {
-    /// Force and moment for the cage's `offset` (m) and `velocity` (m/s) from its guiding ring, its speed and the ring's (rad/s): Ocvirk's
-    /// short bearing with the half film that pushes (Guembel). Valid to an eccentricity ratio of 0.95, held there beyond.
+    /// Force and moment for the cage's `offset` (m) and `velocity` (m/s) from its guiding ring, its speed and the
+    /// ring's (rad/s): Ocvirk's short bearing with the half film that pushes (Guembel). Valid to an eccentricity ratio
+    /// of 0.95, held there beyond.
     ///
-    /// `Dynamic` holds for any motion of the centres. Seen in a frame that turns at half the sum of both speeds the film is squeezed alone, so
-    /// that its force never does work there. `QuasiStatic`, Eq. (42), is the same force for resting centres, whatever they do.
+    /// `Dynamic` holds for any motion of the centres. Seen in a frame that turns at half the sum of both speeds the
+    /// film is squeezed alone, so that its force never does work there. `QuasiStatic`, Eq. (42), is the same force for
+    /// resting centres, whatever they do.
     #[inline(always)]
-    pub fn force(
-        &self,
-        offset: [f64; 2],
-        velocity: [f64; 2],
-        cage_speed: f64,
-        ring_speed: f64,
-    ) -> GuideForce {
+    pub fn force(&self, offset: [f64; 2], velocity: [f64; 2], cage_speed: f64, ring_speed: f64) -> GuideForce {
         let mut f = GuideForce::default();
         // Offsets are far from where squares overflow.
         let square = offset[0] * offset[0] + offset[1] * offset[1];
@@ -143,14 +136,7 @@ impl Guide {
         let per_gap = 1.0 / (1.0 - ratio2);
         let per_root = per_gap.sqrt();
         let shear = self.radius * (cage_speed - ring_speed);
-        f.moment = -2.0
-            * PI
-            * self.viscosity
-            * shear
-            * self.radius.powi(2)
-            * self.width
-            * per_clearance
-            * per_root;
+        f.moment = -2.0 * PI * self.viscosity * shear * self.radius.powi(2) * self.width * per_clearance * per_root;
         match film {
             GuidanceFilm::QuasiStatic => {
                 let entrainment = self.radius * (cage_speed + ring_speed);
@@ -162,10 +148,7 @@ impl Guide {
             }
             GuidanceFilm::Dynamic => {
                 let half_sum = 0.5 * (cage_speed + ring_speed);
-                let squeeze = [
-                    velocity[0] + half_sum * offset[1],
-                    velocity[1] - half_sum * offset[0],
-                ];
+                let squeeze = [velocity[0] + half_sum * offset[1], velocity[1] - half_sum * offset[0]];
                 let speed2 = squeeze[0] * squeeze[0] + squeeze[1] * squeeze[1];
                 if speed2 > 0.0 {
                     let per_speed = 1.0 / speed2.sqrt();
@@ -221,12 +204,7 @@ mod tests {
         assert_eq!(g.film, [0.0, 0.0]);
         // Petroff: tau = eta U / C over the area 2 pi R L at the lever R.
         let u = GUIDE.radius * 80.0;
-        let petroff = GUIDE.viscosity * u / GUIDE.clearance
-            * 2.0
-            * PI
-            * GUIDE.radius
-            * GUIDE.width
-            * GUIDE.radius;
+        let petroff = GUIDE.viscosity * u / GUIDE.clearance * 2.0 * PI * GUIDE.radius * GUIDE.width * GUIDE.radius;
         assert!((g.moment / -petroff - 1.0).abs() < 1e-14);
     }
 
@@ -258,11 +236,7 @@ mod tests {
 
     #[test]
     fn analytic_damped_land_never_pulls_and_only_dissipates() {
-        let guide = Guide {
-            film: None,
-            land_damping: 20.0,
-            ..GUIDE
-        };
+        let guide = Guide { film: None, land_damping: 20.0, ..GUIDE };
         let at = |rate: f64| guide.force([1.01e-3, 0.0], [rate, 3.0], 80.0, 0.0);
         assert!((at(0.5).land[0] + 110.0).abs() < 1e-6);
         assert!((at(0.5).land_loss - 5.0).abs() < 1e-6);
@@ -287,11 +261,7 @@ mod tests {
 
     #[test]
     fn analytic_pocket_has_clearance_to_both_sides_and_never_pulls() {
-        let p = Pocket {
-            stiffness: 1e7,
-            damping: 20.0,
-            clearance: 9e-5,
-        };
+        let p = Pocket { stiffness: 1e7, damping: 20.0, clearance: 9e-5 };
         assert_eq!(p.penetration(8e-5), 0.0);
         assert!((p.penetration(10e-5) - 1e-5).abs() < 1e-18);
         assert!((p.penetration(-10e-5) + 1e-5).abs() < 1e-18);

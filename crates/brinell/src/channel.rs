@@ -1,7 +1,8 @@
 //! Named channels: what can be recorded of a run, with units, and how each is read off an evaluated state.
 //!
 //! All SI. Rows, rollers and cages count from 1 in names. Accelerations are those of the equations of motion at the
-//! instant of the sample; `sensor_*` are the outer ring's, or what a sensor makes of them, after the anti-alias filter (section 11 of the model).
+//! instant of the sample; `sensor_*` are the outer ring's, or what a sensor makes of them, after the anti-alias filter
+//! (section 11 of the model).
 
 mod all;
 
@@ -83,7 +84,8 @@ pub struct Channel {
 pub const STIFFNESS_UNIT: &str = "N/m^n";
 
 impl Channel {
-    /// Whether the channel comes from the anti-alias filter rather than from a frame; then its axis, 0 for x, 1 for y, 2 for the sensor's own.
+    /// Whether the channel comes from the anti-alias filter rather than from a frame; then its axis, 0 for x, 1 for y,
+    /// 2 for the sensor's own.
     pub fn sensor_axis(&self) -> Option<usize> {
         match self.quantity {
             Quantity::Sensor(axis) => Some(axis),
@@ -136,8 +138,7 @@ fn roller(f: &Frame, quantity: RollerQuantity, slot: usize) -> f64 {
             (
                 f.ws.kinematic_orbit[slot],
                 f.model.rolling_orbit_speed(w),
-                f.model
-                    .rolling_orbit_speed(f.model.rotation.acceleration(f.t)),
+                f.model.rolling_orbit_speed(f.model.rotation.acceleration(f.t)),
                 f.ws.kinematic_spin,
                 f.model.rolling_spin_speed(w),
             )
@@ -171,7 +172,8 @@ fn contact(f: &Frame, quantity: ContactQuantity, side: Side, slot: usize) -> f64
     }
 }
 
-/// Effective contact length, m: of a roller what damage leaves of it, L - L_s; of a ball what carries of its ellipse's axis across the groove.
+/// Effective contact length, m: of a roller what damage leaves of it, L - L_s; of a ball what carries of its ellipse's
+/// axis across the groove.
 #[doc(hidden)]
 pub fn contact_length(model: &Model, ws: &Workspace, side: Side, slot: usize) -> f64 {
     let c = &ws.contacts[side as usize];
@@ -184,16 +186,14 @@ pub fn contact_length(model: &Model, ws: &Workspace, side: Side, slot: usize) ->
                 // One contact in series for both sides.
                 ModelKind::Lumped => law.deflection(c.elastic[slot]),
             };
-            strips
-                .pressed(delta)
-                .length([f64::NEG_INFINITY, f64::INFINITY])
+            strips.pressed(delta).length([f64::NEG_INFINITY, f64::INFINITY])
         }
     };
     whole - c.damaged_length[slot]
 }
 
-/// Time-varying contact stiffness Q_elastic / delta^n of a closed contact, N/m^n; of an open one, the stiffness with which it would
-/// close (Eqs. 22, 23), for a ball over damage 0.
+/// Time-varying contact stiffness Q_elastic / delta^n of a closed contact, N/m^n; of an open one, the stiffness with
+/// which it would close (Eqs. 22, 23), for a ball over damage 0.
 #[doc(hidden)]
 pub fn contact_stiffness(model: &Model, ws: &Workspace, side: Side, slot: usize) -> f64 {
     let c = &ws.contacts[side as usize];
@@ -230,14 +230,11 @@ pub fn contact_stiffness(model: &Model, ws: &Workspace, side: Side, slot: usize)
     law.stiffness * (c.elastic[slot] / healthy)
 }
 
-/// What passes the anti-alias filter and, where there is one, the sensor: along x and y, then along the sensor's own direction.
+/// What passes the anti-alias filter and, where there is one, the sensor: along x and y, then along the sensor's own
+/// direction.
 #[doc(hidden)]
 pub fn sensor_channels(sensor: &Sensor) -> Vec<Channel> {
-    let what = if sensor.is_on() {
-        "acceleration that the sensor reads"
-    } else {
-        "acceleration of the outer ring"
-    };
+    let what = if sensor.is_on() { "acceleration that the sensor reads" } else { "acceleration of the outer ring" };
     let one = |k: usize, name: String, unit: &'static str, along: String| Channel {
         name,
         unit,
@@ -291,24 +288,15 @@ pub fn matches(pattern: &str, name: &str) -> bool {
 #[doc(hidden)]
 pub fn select(model: &Model, sensor: &Sensor, record: &[String]) -> (Vec<Channel>, Vec<String>) {
     let channels = all(model, sensor);
-    let idle = record
-        .iter()
-        .filter(|p| !channels.iter().any(|c| matches(p, &c.name)))
-        .cloned()
-        .collect();
-    let chosen = channels
-        .into_iter()
-        .filter(|c| record.iter().any(|p| matches(p, &c.name)))
-        .collect();
+    let idle = record.iter().filter(|p| !channels.iter().any(|c| matches(p, &c.name))).cloned().collect();
+    let chosen = channels.into_iter().filter(|c| record.iter().any(|p| matches(p, &c.name))).collect();
     (chosen, idle)
 }
 
 /// What to say of a pattern of `record` that picks no channel; a name of earlier versions is answered with today's.
 #[doc(hidden)]
 pub fn idle_message(pattern: &str) -> String {
-    let today = today_name(pattern)
-        .map(|name| format!("; the channel is called \"{name}\""))
-        .unwrap_or_default();
+    let today = today_name(pattern).map(|name| format!("; the channel is called \"{name}\"")).unwrap_or_default();
     format!("simulation.record: \"{pattern}\" matches no channel of this bearing{today}")
 }
 
@@ -337,17 +325,8 @@ mod tests {
     #[test]
     fn analytic_wildcards() {
         assert!(matches("*", "t") && matches("inner_*", "inner_ax") && matches("*_ax", "inner_ax"));
-        assert!(
-            matches("contact1_*_force", "contact1_03_outer_force") && matches("a*b*c", "aXbYc")
-        );
-        assert!(
-            !matches("inner_*", "outer_ax")
-                && !matches("inner_a", "inner_ax")
-                && !matches("a*ba", "aba_")
-        );
-        assert!(
-            !matches("ab*ba", "aba"),
-            "prefix and suffix may not overlap"
-        );
+        assert!(matches("contact1_*_force", "contact1_03_outer_force") && matches("a*b*c", "aXbYc"));
+        assert!(!matches("inner_*", "outer_ax") && !matches("inner_a", "inner_ax") && !matches("a*ba", "aba_"));
+        assert!(!matches("ab*ba", "aba"), "prefix and suffix may not overlap");
     }
 }

@@ -1,6 +1,7 @@
 //! Normal contact of a roller and a raceway: the load-deflection law, healthy and damaged.
 //!
-//! Section 2 of the model and Eqs. (21)-(23), (29), (36). All SI; delta > 0 is the elastic deformation, the approach of the bodies beyond first touch.
+//! Section 2 of the model and Eqs. (21)-(23), (29), (36). All SI; delta > 0 is the elastic deformation, the approach of
+//! the bodies beyond first touch.
 
 pub mod ball;
 pub mod film;
@@ -20,11 +21,7 @@ pub fn palmgren_stiffness(length: f64) -> f64 {
 #[inline]
 pub fn remaining_share(length: f64, damaged: f64) -> f64 {
     let share = ((length - damaged) / length).max(0.0);
-    if share == 1.0 {
-        1.0
-    } else {
-        eight_ninths(share)
-    }
+    if share == 1.0 { 1.0 } else { eight_ninths(share) }
 }
 
 /// What damage leaves of a contact at one instant: the share g and the depth h of the floor.
@@ -71,7 +68,8 @@ impl Hertz {
         self.stiffness * (floor.share * power + (1.0 - floor.share) * sunk)
     }
 
-    /// Force of a closed contact, in each lane: `[elastic + c ddelta]_+` where the elastic sum is positive, else 0, N. Eqs. (30), (37).
+    /// Force of a closed contact, in each lane: `[elastic + c ddelta]_+` where the elastic sum is positive, else 0, N.
+    /// Eqs. (30), (37).
     #[inline(always)]
     pub fn with_damping<L: Lanes>(&self, elastic: L, ddelta: L) -> L {
         let pressed = ddelta.times_plus(L::splat(self.damping), elastic);
@@ -93,11 +91,7 @@ impl Hertz {
     /// d(elastic)/d(delta) of a contact, on damage or not, N/m.
     pub fn tangent(&self, delta: f64, floor: Option<&ContactReduction>) -> f64 {
         let slope = |x: f64| {
-            if x > 0.0 {
-                self.exponent.value() * self.healthy(x) / x
-            } else {
-                0.0
-            }
+            if x > 0.0 { self.exponent.value() * self.healthy(x) / x } else { 0.0 }
         };
         match floor {
             None => slope(delta),
@@ -105,7 +99,8 @@ impl Hertz {
         }
     }
 
-    /// d(elastic)/d(delta) of a healthy contact that carries `force` > 0, N/m: n K^(1/n) Q^(1 - 1/n). To seven digits: it is a scale.
+    /// d(elastic)/d(delta) of a healthy contact that carries `force` > 0, N/m: n K^(1/n) Q^(1 - 1/n). To seven digits:
+    /// it is a scale.
     #[inline]
     pub fn tangent_at(&self, force: f64) -> f64 {
         let n = self.exponent.value();
@@ -122,12 +117,7 @@ impl Hertz {
 mod tests {
     use super::*;
 
-    const NN3007: Hertz = Hertz {
-        stiffness: 1.898e8,
-        exponent: Exponent::TenNinths,
-        damping: 200.0,
-        strips: None,
-    };
+    const NN3007: Hertz = Hertz { stiffness: 1.898e8, exponent: Exponent::TenNinths, damping: 200.0, strips: None };
 
     #[test]
     fn analytic_palmgren_inverts_his_deflection_formula() {
@@ -135,10 +125,7 @@ mod tests {
         let length = 6e-3_f64;
         for force in [1.0, 30.0, 500.0, 2e4] {
             let delta = 3.84e-5 * f64::powf(force, 0.9) / (length * 1e3).powf(0.8) * 1e-3;
-            let law = Hertz {
-                stiffness: palmgren_stiffness(length),
-                ..NN3007
-            };
+            let law = Hertz { stiffness: palmgren_stiffness(length), ..NN3007 };
             assert!((law.healthy(delta) / force - 1.0).abs() < 2e-3);
         }
         assert!((palmgren_stiffness(length) / 8.54e8 - 1.0).abs() < 1e-3);
@@ -155,17 +142,11 @@ mod tests {
 
     #[test]
     fn analytic_energy_is_the_integral_of_the_force() {
-        let floor = ContactReduction {
-            share: 0.4,
-            depth: 3e-6,
-            damaged_length: 4e-3,
-        };
+        let floor = ContactReduction { share: 0.4, depth: 3e-6, damaged_length: 4e-3 };
         let steps = 200_000;
         let top = 1.1e-5;
         let dx = top / f64::from(steps);
-        let work: f64 = (0..steps)
-            .map(|i| NN3007.damaged((f64::from(i) + 0.5) * dx, &floor) * dx)
-            .sum();
+        let work: f64 = (0..steps).map(|i| NN3007.damaged((f64::from(i) + 0.5) * dx, &floor) * dx).sum();
         assert!((NN3007.damaged_energy(top, &floor) / work - 1.0).abs() < 1e-9);
     }
 
@@ -175,35 +156,14 @@ mod tests {
         let shallow = 4e-6;
         // Below the floor: K (L_e/L)^(8/9) delta^n, which is Palmgren's law for the length L_e.
         let damaged = 4e-3;
-        let floor = ContactReduction {
-            share: remaining_share(length, damaged),
-            depth: 20e-6,
-            damaged_length: damaged,
-        };
+        let floor = ContactReduction { share: remaining_share(length, damaged), depth: 20e-6, damaged_length: damaged };
         let ratio = palmgren_stiffness(length - damaged) / palmgren_stiffness(length);
-        assert!(
-            (NN3007.damaged(shallow, &floor) / (ratio * NN3007.healthy(shallow)) - 1.0).abs()
-                < 1e-13
-        );
+        assert!((NN3007.damaged(shallow, &floor) / (ratio * NN3007.healthy(shallow)) - 1.0).abs() < 1e-13);
         // Full width: the displacement law.
-        let full = ContactReduction {
-            share: remaining_share(length, length),
-            depth: 1e-6,
-            damaged_length: length,
-        };
-        assert_eq!(
-            NN3007.damaged(shallow, &full),
-            NN3007.healthy(shallow - 1e-6)
-        );
+        let full = ContactReduction { share: remaining_share(length, length), depth: 1e-6, damaged_length: length };
+        assert_eq!(NN3007.damaged(shallow, &full), NN3007.healthy(shallow - 1e-6));
         // No width: healthy, bit for bit.
-        let none = ContactReduction {
-            share: remaining_share(length, 0.0),
-            depth: 1e-6,
-            damaged_length: 0.0,
-        };
-        assert_eq!(
-            NN3007.damaged(shallow, &none).to_bits(),
-            NN3007.healthy(shallow).to_bits()
-        );
+        let none = ContactReduction { share: remaining_share(length, 0.0), depth: 1e-6, damaged_length: 0.0 };
+        assert_eq!(NN3007.damaged(shallow, &none).to_bits(), NN3007.healthy(shallow).to_bits());
     }
 }

@@ -38,8 +38,8 @@ pub struct Derived {
     pub defect_passes: Vec<f64>,
     /// Longest step that the solver may take, s.
     pub longest_step: f64,
-    /// Load times clearance bound of section 12: the force of the loaded ring's support over the clearance, N, and what acts on that ring,
-    /// load and weight together, N.
+    /// Load times clearance bound of section 12: the force of the loaded ring's support over the clearance, N, and what
+    /// acts on that ring, load and weight together, N.
     pub support_share: (f64, f64),
 }
 
@@ -69,10 +69,7 @@ impl Derived {
         let kinematics = model.kinematics(top_speed);
         let statics = static_load_zone(model);
         let centrifugal_force = m.roller * g.pitch_radius * kinematics.orbit_speed.powi(2);
-        let contact_force = statics
-            .as_ref()
-            .map_or(0.0, |z| z.largest)
-            .max(centrifugal_force);
+        let contact_force = statics.as_ref().map_or(0.0, |z| z.largest).max(centrifugal_force);
         let contact_stiffness = SIDES.map(|side| model.stiffness_at(side, contact_force));
         let between = contact_stiffness[0] + contact_stiffness[1];
         let roller_angular = (between / m.roller).sqrt();
@@ -88,11 +85,7 @@ impl Derived {
             contact_force,
             contact_stiffness,
             roller_frequency: roller_angular / TAU,
-            roller_damping_ratio: if roller_angular > 0.0 {
-                damping / (2.0 * m.roller * roller_angular)
-            } else {
-                0.0
-            },
+            roller_damping_ratio: if roller_angular > 0.0 { damping / (2.0 * m.roller * roller_angular) } else { 0.0 },
             support_frequencies: [
                 natural(model.inner_support.stiffness, m.inner_ring),
                 natural(model.acting_outer_support().stiffness, m.outer_ring),
@@ -103,9 +96,7 @@ impl Derived {
             longest_step: settings(model, accuracy).max_step,
             support_share: (
                 loaded.stiffness * g.clearance.max(0.0),
-                model
-                    .load
-                    .with_weight([m.inner_ring, m.outer_ring], model.gravity),
+                model.load.with_weight([m.inner_ring, m.outer_ring], model.gravity),
             ),
             statics,
         }

@@ -36,9 +36,7 @@ pub enum Error {
         contact: String,
     },
     /// No step is short enough for the tolerance.
-    #[error(
-        "no step is short enough at t = {t:.9} s: {body} changes too fast for the tolerance; {contact}"
-    )]
+    #[error("no step is short enough at t = {t:.9} s: {body} changes too fast for the tolerance; {contact}")]
     StepVanished {
         /// Time of the last good state, s.
         t: f64,
@@ -53,7 +51,8 @@ pub enum Error {
 }
 
 impl Error {
-    /// Whether the scenario is at fault, and not the run: the command then exits with code 2, and with 1 after a failed run.
+    /// Whether the scenario is at fault, and not the run: the command then exits with code 2, and with 1 after a failed
+    /// run.
     ///
     /// ```
     /// let error = brinell::Scenario::from_toml("[bearing]\npreset = \"NN3007\"").unwrap_err();
@@ -61,10 +60,7 @@ impl Error {
     /// assert!(error.to_string().contains("operation.speed_rpm"));
     /// ```
     pub fn is_bad_input(&self) -> bool {
-        matches!(
-            self,
-            Self::Scenario(_) | Self::Model(_) | Self::NoBalance(_)
-        )
+        matches!(self, Self::Scenario(_) | Self::Model(_) | Self::NoBalance(_))
     }
 }
 

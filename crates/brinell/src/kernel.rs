@@ -1,20 +1,21 @@
 //! Which processor instructions the simulation's arithmetic uses, and the environment variable that chooses them.
 //!
-//! A process has one kernel for every simulation in it: the one that [`SETTING`] names, or the fastest that the processor can run. The kernels
-//! compute the same equations and differ in round-off alone.
+//! A process has one kernel for every simulation in it: the one that [`SETTING`] names, or the fastest that the
+//! processor can run. The kernels compute the same equations and differ in round-off alone.
 
 use std::fmt;
 use std::sync::LazyLock;
 
-/// Environment variable that chooses the kernel of a process by its [`Kernel::name`]. Unset or empty: the fastest. It is read once, when the first
-/// model is made.
+/// Environment variable that chooses the kernel of a process by its [`Kernel::name`]. Unset or empty: the fastest. It
+/// is read once, when the first model is made.
 pub const SETTING: &str = "BRINELL_KERNEL";
 
-/// How the equations of motion, the integrator's sums and the sensor's filters are computed. [`Kernel::Plain`] and [`Kernel::Portable`] round
-/// every product on x86-64, the others fuse products with sums.
+/// How the equations of motion, the integrator's sums and the sensor's filters are computed. [`Kernel::Plain`] and
+/// [`Kernel::Portable`] round every product on x86-64, the others fuse products with sums.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Kernel {
-    /// One roller at a time, with the standard library's sine, exponential and tanh. Several times slower than the others.
+    /// One roller at a time, with the standard library's sine, exponential and tanh. Several times slower than the
+    /// others.
     Plain,
     /// Whatever the target always has: SSE2 on x86-64, NEON on 64-bit Arm.
     Portable,
@@ -83,11 +84,7 @@ impl Kernel {
 
     /// The widest that this processor can run.
     pub fn fastest() -> Self {
-        Self::ALL
-            .into_iter()
-            .rev()
-            .find(|k| k.is_there())
-            .unwrap_or(Self::Portable)
+        Self::ALL.into_iter().rev().find(|k| k.is_there()).unwrap_or(Self::Portable)
     }
 
     /// The kernel of a value of [`SETTING`]; the fastest where it is empty.
@@ -103,11 +100,7 @@ impl Kernel {
         {
             return Ok(kernel);
         }
-        let there: Vec<&str> = Self::ALL
-            .into_iter()
-            .filter(|k| k.is_there())
-            .map(Self::name)
-            .collect();
+        let there: Vec<&str> = Self::ALL.into_iter().filter(|k| k.is_there()).map(Self::name).collect();
         let what = match Self::ALL.iter().any(|k| k.name() == value) {
             true => "this processor lacks its instructions",
             false => "no such kernel",
@@ -132,7 +125,8 @@ impl Kernel {
         }
     }
 
-    /// The kernel of this process for code that a model is needed to reach: no model is made where [`SETTING`] is wrong.
+    /// The kernel of this process for code that a model is needed to reach: no model is made where [`SETTING`] is
+    /// wrong.
     #[inline]
     pub(crate) fn in_use() -> Self {
         match &*CHOICE {

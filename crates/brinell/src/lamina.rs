@@ -1,8 +1,9 @@
-//! Static load of every contact slice by slice: line load, Hertz's pressure, stiffness of the bearing, and the life that follows.
+//! Static load of every contact slice by slice: line load, Hertz's pressure, stiffness of the bearing, and the life
+//! that follows.
 //!
-//! For `law = "sliced"`, planar or tilting. Roller and raceway touch as
-//! laminae that do not know of each other: the pressure of a slice is that of an even line contact with its line load. It has no stress
-//! concentration, neither at the roller's end nor beside damage. Planar and tilting frames are those of [`crate::model`]; SI.
+//! For `law = "sliced"`, planar or tilting. Roller and raceway touch as laminae that do not know of each other: the
+//! pressure of a slice is that of an even line contact with its line load. It has no stress concentration, neither at
+//! the roller's end nor beside damage. Planar and tilting frames are those of [`crate::model`]; SI.
 
 mod along;
 mod life;
@@ -71,16 +72,19 @@ pub struct Distribution {
     pub drop: Vec<f64>,
     /// Inner and outer contact of every roller at every position, position after position.
     pub contacts: Vec<[ContactLine; 2]>,
-    /// Groups of positions that each cover all there are, to tell how sure a mean over them is: position k belongs to group k modulo this number.
+    /// Groups of positions that each cover all there are, to tell how sure a mean over them is: position k belongs to
+    /// group k modulo this number.
     pub groups: usize,
-    /// The roller over damage, at places across each defect (of the first 32), in the middle of the load zone where the damage turns.
+    /// The roller over damage, at places across each defect (of the first 32), in the middle of the load zone where the
+    /// damage turns.
     pub over_damage: Vec<[ContactLine; 2]>,
     /// Tilt of the inner ring in the outer one, mean over the positions, rad; 0 in the plane.
     pub tilt: [f64; 2],
     /// Largest tilt of a roller, rad.
     pub roller_tilt: f64,
-    /// Mean stiffness between the rings over (x, y, tau_x, tau_y): N/m, N/rad, N m/rad. In the plane the first two alone, `None` here. Along the
-    /// axis cylindrical rollers hold nothing, and about it they turn: what would be the fifth and sixth are 0.
+    /// Mean stiffness between the rings over (x, y, tau_x, tau_y): N/m, N/rad, N m/rad. In the plane the first two
+    /// alone, `None` here. Along the axis cylindrical rollers hold nothing, and about it they turn: what would be the
+    /// fifth and sixth are 0.
     pub stiffness: Option<[[f64; 4]; 4]>,
 }
 
@@ -110,13 +114,7 @@ impl Distribution {
         let (line, k) = all
             .filter(|(line, k)| line.pressure[*k] > 0.0)
             .max_by(|(a, i), (b, j)| a.pressure[*i].total_cmp(&b.pressure[*j]))?;
-        Some(Peak {
-            pressure: line.pressure[k],
-            side: line.side,
-            row: line.row,
-            angle: line.angle,
-            z: self.z[k],
-        })
+        Some(Peak { pressure: line.pressure[k], side: line.side, row: line.row, angle: line.angle, z: self.z[k] })
     }
 
     /// The contacts of the roller whose inner or outer contact carries most.
@@ -136,8 +134,9 @@ pub struct Rating {
     pub damaged: Option<Distribution>,
     /// L10r of the healthy bearing, revolutions; none without load.
     pub life: Option<f64>,
-    /// The same formula over the load distribution of the damaged bearing: what the redistribution of load takes. Fatigue that starts at the
-    /// damage, its stress concentration and its impacts are not in it: it is no forecast of the damaged bearing's life.
+    /// The same formula over the load distribution of the damaged bearing: what the redistribution of load takes.
+    /// Fatigue that starts at the damage, its stress concentration and its impacts are not in it: it is no forecast of
+    /// the damaged bearing's life.
     pub damaged_life: Option<f64>,
     /// Its standard error from the positions of turning damage, revolutions.
     pub damaged_life_error: Option<f64>,
@@ -181,7 +180,8 @@ impl Rating {
     }
 }
 
-/// The scenario with [`FEWEST_SLICES`] to [`MOST_SLICES`]; `None` where its rollers have no slices (`law = "ecl"`, the lumped model), and of balls.
+/// The scenario with [`FEWEST_SLICES`] to [`MOST_SLICES`]; `None` where its rollers have no slices (`law = "ecl"`, the
+/// lumped model), and of balls.
 fn in_slices(s: &Scenario) -> Option<Scenario> {
     let rollers = s.bearing.element == Element::Roller;
     if !rollers || s.contact.law != Law::Sliced || !s.simulation.model.moves_every_part() {
@@ -236,9 +236,7 @@ fn distribution(model: &Model, bearing: &Bearing) -> Result<Distribution, NoBala
         let tilts = tilted.rollers.iter().map(|beta| beta.abs());
         all.roller_tilt = tilts.fold(all.roller_tilt, f64::max);
         for (sum, own) in all.stiffness.iter_mut().flatten().zip(&tilted.stiffness) {
-            sum.iter_mut()
-                .zip(own)
-                .for_each(|(k, own)| *k += share * own);
+            sum.iter_mut().zip(own).for_each(|(k, own)| *k += share * own);
         }
     }
     all.over_damage = over_damage(model, bearing, &slices)?;
@@ -265,11 +263,7 @@ fn approach(model: &Model, balance: &Balance, orbit: f64, (slot, side): (usize, 
             (r - raceway, beta - slopes[1])
         }
     };
-    Approach {
-        deformation,
-        tilt,
-        ..Approach::default()
-    }
+    Approach { deformation, tilt, ..Approach::default() }
 }
 
 /// Inner and outer contact of a roller in a balance.
@@ -296,11 +290,7 @@ fn line(
 ) -> ContactLine {
     let orbit = problem.orbit[slot];
     let at = approach(model, balance, orbit, (slot, side));
-    let angles = Angles {
-        orbit,
-        spin: problem.spin[slot],
-        ring: problem.ring_angle,
-    };
+    let angles = Angles { orbit, spin: problem.spin[slot], ring: problem.ring_angle };
     let mut cover = Cover::new(slices.count);
     cover_slices(model.defects_of(slot, side), &angles, side, &mut cover);
     let law = model.contact(side);
@@ -318,8 +308,7 @@ fn line(
     for k in 0..slices.count {
         let delta = at.deformation + at.tilt * slices.z[k] - slices.drop[k];
         // Of the whole slice, as if all of it were left, and as if all of it were damaged.
-        let [left, sunk] =
-            [delta, delta - cover.depth[k]].map(|delta| law.healthy(delta) / slices.count as f64);
+        let [left, sunk] = [delta, delta - cover.depth[k]].map(|delta| law.healthy(delta) / slices.count as f64);
         let covered = cover.fraction[k];
         let force = (1.0 - covered) * left + covered * sunk;
         let touching = [(1.0 - covered, left), (covered, sunk)];

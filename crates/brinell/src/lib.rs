@@ -1,5 +1,6 @@
-//! Vibration of rolling bearings with damage: a bearing, its damage and its operation in one [`Scenario`]; forces, motion and the
-//! signal of a sensor out of it. The equations are those of Li et al. (2023), corrected and extended; the book, `docs/src/theory`, has them.
+//! Vibration of rolling bearings with damage: a bearing, its damage and its operation in one [`Scenario`]; forces,
+//! motion and the signal of a sensor out of it. The equations are those of Li et al. (2023), corrected and extended;
+//! the book, `docs/src/theory`, has them.
 //!
 //! # From a scenario to a result
 //!
@@ -14,12 +15,14 @@
 //! ```
 //!
 //! - A [`Scenario`] is plain data with a field for every key of the scenario file. [`Scenario::from_toml`] reads one;
-//!   [`document::read`] also takes overrides (`operation.speed_rpm` = `900`), and gives warnings and the origin of every value.
-//!   [`Scenario::to_toml`] writes it with every default.
-//! - [`simulate()`] runs it to its end. The same scenario gives the same bits on the same machine, on any number of threads.
-//! - A [`RunResult`] has the [`Simulation`](simulate::Simulation) that was run, its outcome ([`Outcome`](simulate::Outcome): counted work,
-//!   audits of energy and momentum), what was gathered on the way ([`Findings`](observe::Findings): spectra, load zone, slip, passes of rollers
-//!   over damage), and all of it as named numbers ([`Quantity`](result::Quantity)). Its size does not grow with the duration.
+//!   [`document::read`] also takes overrides (`operation.speed_rpm` = `900`), and gives warnings and the origin of
+//!   every value. [`Scenario::to_toml`] writes it with every default.
+//! - [`simulate()`] runs it to its end. The same scenario gives the same bits on the same machine, on any number of
+//!   threads.
+//! - A [`RunResult`] has the [`Simulation`](simulate::Simulation) that was run, its outcome
+//!   ([`Outcome`](simulate::Outcome): counted work, audits of energy and momentum), what was gathered on the way
+//!   ([`Findings`](observe::Findings): spectra, load zone, slip, passes of rollers over damage), and all of it as named
+//!   numbers ([`Quantity`](result::Quantity)). Its size does not grow with the duration.
 //! - An [`Observer`] is informed of every step, sample and row of a run, and may stop it: [`simulate_with`].
 //! - An [`Error`] says why there is no result. [`Error::is_bad_input`] tells a bad scenario from a failed run.
 //!
@@ -47,13 +50,13 @@
 //! # Ok::<(), brinell::Error>(())
 //! ```
 //!
-//! A scenario built or changed in code is checked by [`Scenario::problems`]. Photos, drawings and scans of damage are files: the crate
-//! `brinell-damage` puts their geometry into a scenario.
+//! A scenario built or changed in code is checked by [`Scenario::problems`]. Photos, drawings and scans of damage are
+//! files: the crate `brinell-damage` puts their geometry into a scenario.
 //!
 //! # Channels
 //!
-//! `simulation.record` of the scenario selects channels by patterns ([`channel`] says which there are). [`record`] keeps them in memory;
-//! an observer gets them row by row.
+//! `simulation.record` of the scenario selects channels by patterns ([`channel`] says which there are). [`record`]
+//! keeps them in memory; an observer gets them row by row.
 //!
 //! ```
 //! # let text = "[bearing]\npreset = \"NN3007\"\n[operation]\nspeed_rpm = 1800\nload_n = [300, 0]\n[simulation]\nduration_s = 0.05";
@@ -82,8 +85,9 @@
 //!
 //! # Spectra
 //!
-//! [`RunResult`] has an amplitude spectrum and an envelope spectrum of the sensor. Any other band, window or method, and the verdict on a
-//! measured signal, is in [`signal`] and [`analysis`]: the crate `brinell-signal`, which knows no simulator.
+//! [`RunResult`] has an amplitude spectrum and an envelope spectrum of the sensor. Any other band, window or method,
+//! and the verdict on a measured signal, is in [`signal`] and [`analysis`]: the crate `brinell-signal`, which knows no
+//! simulator.
 //!
 //! ```
 //! use brinell::signal::{Band, Segments, envelope_spectrum, peak_near};
@@ -103,13 +107,14 @@
 //!
 //! # Units and frame
 //!
-//! Planar: x to the right, y up, angles counter-clockwise from +x, origin at the centre of the bearing at rest. Everything that a run gives is
-//! in SI units. Keys of a scenario have other units, in their names (`depth_um`). Rows, rollers and cages count from 1 in scenarios and names of
-//! channels, and from 0 in code.
+//! Planar: x to the right, y up, angles counter-clockwise from +x, origin at the centre of the bearing at rest.
+//! Everything that a run gives is in SI units. Keys of a scenario have other units, in their names (`depth_um`). Rows,
+//! rollers and cages count from 1 in scenarios and names of channels, and from 0 in code.
 //!
 //! # Modules that this page does not list
 //!
-//! The model, its forces and the solver are public for the tests and for the other crates of brinell, and may change with any version.
+//! The model, its forces and the solver are public for the tests and for the other crates of brinell, and may change
+//! with any version.
 
 #![cfg_attr(not(test), deny(clippy::print_stdout, clippy::print_stderr))]
 

@@ -13,11 +13,8 @@ pub(crate) fn nearest<'a>(word: &str, known: impl Iterator<Item = &'a str>) -> O
             let plain = candidate.to_lowercase().replace('-', "_");
             let stem = |a: &str, b: &str| a.len() >= 4 && b.starts_with(a);
             // Most often the unit is missing or another one: `load`, `speed_hz`.
-            let distance = if stem(&word, &plain) || stem(&plain, &word) {
-                1
-            } else {
-                strsim::damerau_levenshtein(&word, &plain)
-            };
+            let distance =
+                if stem(&word, &plain) || stem(&plain, &word) { 1 } else { strsim::damerau_levenshtein(&word, &plain) };
             (distance, plain.len().max(word.len()), candidate)
         })
         .filter(|(distance, length, _)| *distance <= (*length / 3).max(1))

@@ -20,9 +20,7 @@ impl Rotation {
         let mut knots: Vec<[f64; 3]> = Vec::with_capacity(points.len());
         for [t, rpm] in points {
             let w = rad(rpm);
-            let angle = knots
-                .last()
-                .map_or(w * t, |&[t0, w0, a0]| a0 + 0.5 * (w0 + w) * (t - t0));
+            let angle = knots.last().map_or(w * t, |&[t0, w0, a0]| a0 + 0.5 * (w0 + w) * (t - t0));
             knots.push([t, w, angle]);
         }
         let mut rotation = Self { knots };
@@ -78,11 +76,7 @@ impl Load {
     /// Share of the load at t.
     #[inline]
     pub fn share(&self, t: f64) -> f64 {
-        if self.ramp > 0.0 {
-            (t / self.ramp).clamp(0.0, 1.0)
-        } else {
-            1.0
-        }
+        if self.ramp > 0.0 { (t / self.ramp).clamp(0.0, 1.0) } else { 1.0 }
     }
 
     /// Forces on the inner and on the outer ring for a share of the load, N.
@@ -95,8 +89,8 @@ impl Load {
         }
     }
 
-    /// Size of the full load and the weight together on the ring that the load acts on, N; masses (kg) of the inner and the outer ring,
-    /// gravity in m/s^2.
+    /// Size of the full load and the weight together on the ring that the load acts on, N; masses (kg) of the inner and
+    /// the outer ring, gravity in m/s^2.
     pub fn with_weight(&self, masses: [f64; 2], gravity: [f64; 2]) -> f64 {
         let (inner, outer) = self.on_rings(1.0);
         let (force, mass) = match self.on {
@@ -114,11 +108,7 @@ mod tests {
 
     #[test]
     fn analytic_angle_is_the_integral_of_the_speed() {
-        let r = Rotation::new(&Speed::Profile(vec![
-            [0.1, 0.0],
-            [0.3, 3000.0],
-            [0.4, 1500.0],
-        ]));
+        let r = Rotation::new(&Speed::Profile(vec![[0.1, 0.0], [0.3, 3000.0], [0.4, 1500.0]]));
         assert_eq!(r.at(0.05), (0.0, 0.0));
         let (w, angle) = r.at(0.2);
         assert!((w - 50.0 * PI).abs() < 1e-12 && (angle - 0.5 * 0.1 * 50.0 * PI).abs() < 1e-12);

@@ -1,8 +1,9 @@
-//! What an engineer would ask about a scenario that can run: whether the damage is loaded, the steel bears the load, the run is long enough.
+//! What an engineer would ask about a scenario that can run: whether the damage is loaded, the steel bears the load,
+//! the run is long enough.
 //!
-//! These are warnings, not errors. [`before`] needs the model and its static balance, and takes milliseconds; `brinell check` and
-//! `brinell run` say it, and `summary.json` holds it. [`after`] needs the energy audit of a run. What a scenario file alone can say is in
-//! [`crate::document`].
+//! These are warnings, not errors. [`before`] needs the model and its static balance, and takes milliseconds; `brinell
+//! check` and `brinell run` say it, and `summary.json` holds it. [`after`] needs the energy audit of a run. What a
+//! scenario file alone can say is in [`crate::document`].
 
 mod slices;
 mod tilting;
@@ -26,7 +27,8 @@ pub(crate) const PARAMETRIC_SHARE: f64 = 0.1;
 const WEIGHT_SHARE: f64 = 0.1;
 /// Share of a defect's depth that a roller must reach: the deepest point of a rough floor is nobody's.
 const REACHED_SHARE: f64 = 0.9;
-/// Static deformations of the heaviest contact: deeper damage over a roller's whole width takes all load off it where it begins.
+/// Static deformations of the heaviest contact: deeper damage over a roller's whole width takes all load off it where
+/// it begins.
 const DROP: f64 = 10.0;
 /// Share of the turnover that an energy audit may miss before the run is worth a warning; sound runs stay far below.
 const RESIDUAL_SHARE: f64 = 0.01;
@@ -35,7 +37,8 @@ const GRAVITY: f64 = 9.80665;
 
 const LOAD: &str = "operation.load_n";
 
-/// What is known of a scenario before anything moves; found once, because solving for a static balance takes milliseconds.
+/// What is known of a scenario before anything moves; found once, because solving for a static balance takes
+/// milliseconds.
 #[derive(Debug)]
 pub struct Beforehand {
     /// The static load distribution.
@@ -48,40 +51,23 @@ impl Beforehand {
     /// Of a scenario and its model.
     pub fn of(scenario: &Scenario, model: &Model) -> Self {
         let statics = static_load_zone(model);
-        Beforehand {
-            warnings: before(scenario, model, &statics),
-            statics,
-        }
+        Beforehand { warnings: before(scenario, model, &statics), statics }
     }
 }
 
 /// Warnings of a scenario that makes a model; `statics` is its static load zone.
-pub fn before(
-    scenario: &Scenario,
-    model: &Model,
-    statics: &Result<StaticLoadZone, NoBalance>,
-) -> Vec<Problem> {
+pub fn before(scenario: &Scenario, model: &Model, statics: &Result<StaticLoadZone, NoBalance>) -> Vec<Problem> {
     let mut warnings = Vec::new();
     warnings.extend(no_load(scenario, model));
     warnings.extend(weight_left_out(scenario, model));
     match statics {
         Ok(zone) => warnings.extend(overload(scenario, zone)),
-        Err(error) => warnings.push(warning(
-            LOAD,
-            list(scenario.operation.load_n),
-            error.to_string(),
-            "",
-        )),
+        Err(error) => warnings.push(warning(LOAD, list(scenario.operation.load_n), error.to_string(), "")),
     }
     warnings.extend(outside_the_load_zone(scenario, model));
     let deformation = statics.as_ref().ok().map(|zone| deformation(model, zone));
     warnings.extend(felt_by_a_point(scenario, model, deformation));
-    warnings.extend(
-        statics
-            .as_ref()
-            .ok()
-            .and_then(|zone| coarse_slices(scenario, model, zone)),
-    );
+    warnings.extend(statics.as_ref().ok().and_then(|zone| coarse_slices(scenario, model, zone)));
     warnings.extend(tilting::warnings(scenario, model));
     warnings.extend(too_short(scenario, model));
     few_of_a_kind(warnings)
@@ -101,10 +87,7 @@ pub fn after(scenario: &Scenario, energy: &EnergyAudit) -> Vec<String> {
 }
 
 fn warning(key: &str, value: String, message: String, allowed: impl Into<String>) -> Problem {
-    Problem::new(Severity::Warning, key, message)
-        .value(value)
-        .allowed(allowed)
-        .unit(unit_of_key(key))
+    Problem::new(Severity::Warning, key, message).value(value).allowed(allowed).unit(unit_of_key(key))
 }
 
 /// A number in a message.
@@ -174,9 +157,7 @@ fn overload(scenario: &Scenario, zone: &StaticLoadZone) -> Vec<Problem> {
     let mut warnings = Vec::new();
     let load = o.load_n[0].hypot(o.load_n[1]);
     let rating = static_rating(&scenario.bearing);
-    let source = rating
-        .source
-        .unwrap_or("estimated by the formula of ISO 76");
+    let source = rating.source.unwrap_or("estimated by the formula of ISO 76");
     if load > rating.load {
         warnings.push(warning(
             LOAD,
@@ -213,7 +194,8 @@ fn overload(scenario: &Scenario, zone: &StaticLoadZone) -> Vec<Problem> {
     warnings
 }
 
-/// Largest pressure of the healthy bearing, Pa, and its raceway: of even contacts, but slice by slice where a profile or a tilt makes them uneven.
+/// Largest pressure of the healthy bearing, Pa, and its raceway: of even contacts, but slice by slice where a profile
+/// or a tilt makes them uneven.
 fn highest_pressure(scenario: &Scenario, zone: &StaticLoadZone) -> (Side, f64) {
     let peak = (!scenario.has_even_contacts()).then(|| Rating::healthy(scenario).ok()??.peak());
     if let Some(peak) = peak.flatten() {
@@ -226,17 +208,15 @@ fn highest_pressure(scenario: &Scenario, zone: &StaticLoadZone) -> (Side, f64) {
     }
 }
 
-/// Damage on the outer raceway that no loaded roller meets. Damage on the inner raceway and on rollers turns into the load zone.
+/// Damage on the outer raceway that no loaded roller meets. Damage on the inner raceway and on rollers turns into the
+/// load zone.
 fn outside_the_load_zone(scenario: &Scenario, model: &Model) -> Vec<Problem> {
     let fixed = |surface: &Surface| *surface == Surface::OuterRaceway;
     if !model.defects.iter().any(|d| fixed(&d.surface)) {
         return Vec::new();
     }
     // Of the healthy bearing: damage takes the load off the rollers on it.
-    let healthy = Scenario {
-        defects: Vec::new(),
-        ..scenario.clone()
-    };
+    let healthy = Scenario { defects: Vec::new(), ..scenario.clone() };
     let Ok(healthy) = Model::new(&healthy) else {
         return Vec::new();
     };
@@ -256,10 +236,7 @@ fn outside_the_load_zone(scenario: &Scenario, model: &Model) -> Vec<Problem> {
         }
         let degrees = |x: f64| wrap(x).to_degrees();
         let (words, allowed) = if zone.extent > 0.0 {
-            let (from, to) = (
-                degrees(zone.middle + zone.ends.0),
-                degrees(zone.middle + zone.ends.1),
-            );
+            let (from, to) = (degrees(zone.middle + zone.ends.0), degrees(zone.middle + zone.ends.1));
             (
                 format!(
                     "this damage is outside the load zone, which is {:.0} deg wide around {:.0} deg: rollers pass it without load",
@@ -269,11 +246,7 @@ fn outside_the_load_zone(scenario: &Scenario, model: &Model) -> Vec<Problem> {
                 format!("{from:.0} to {to:.0}, counter-clockwise"),
             )
         } else {
-            (
-                "no roller is loaded at rest: there is no load zone that this damage could be in"
-                    .into(),
-                String::new(),
-            )
+            ("no roller is loaded at rest: there is no load zone that this damage could be in".into(), String::new())
         };
         warnings.push(warning(
             &format!("defects.{k}.center_deg"),
@@ -291,17 +264,16 @@ fn deformation(model: &Model, zone: &StaticLoadZone) -> f64 {
     SIDES.into_iter().map(on).fold(0.0, f64::max)
 }
 
-/// What `roller_path = "point"` makes of damage: a floor that the roller's radius keeps it from is felt all the same; and where the damage is as
-/// wide as the roller, it drops by the whole depth at once. `deformation` is that of the heaviest contact, m.
+/// What `roller_path = "point"` makes of damage: a floor that the roller's radius keeps it from is felt all the same;
+/// and where the damage is as wide as the roller, it drops by the whole depth at once. `deformation` is that of the
+/// heaviest contact, m.
 fn felt_by_a_point(scenario: &Scenario, model: &Model, deformation: Option<f64>) -> Vec<Problem> {
     if scenario.contact.roller_path != RollerPath::Point {
         return Vec::new();
     }
     let mut warnings = Vec::new();
     for (k, defect) in model.defects.iter().enumerate() {
-        let met = SIDES
-            .into_iter()
-            .filter(|s| defect.depth_profile(*s).is_some());
+        let met = SIDES.into_iter().filter(|s| defect.depth_profile(*s).is_some());
         let worst = met
             .map(|side| (side, defect.reach(relative_radius(&scenario.bearing, side))))
             .min_by(|a, b| a.1.1.total_cmp(&b.1.1));
@@ -333,12 +305,7 @@ fn felt_by_a_point(scenario: &Scenario, model: &Model, deformation: Option<f64>)
         } else {
             continue;
         };
-        warnings.push(warning(
-            "contact.roller_path",
-            "\"point\"".into(),
-            words,
-            "\"envelope\"",
-        ));
+        warnings.push(warning("contact.roller_path", "\"point\"".into(), words, "\"envelope\""));
     }
     warnings
 }
@@ -347,9 +314,7 @@ fn felt_by_a_point(scenario: &Scenario, model: &Model, deformation: Option<f64>)
 fn drop_at_once(defect: &Defect) -> f64 {
     let (first, last) = defect.shape.arc();
     let ends = [first, last].into_iter();
-    ends.filter(|s| defect.damaged_length(*s) >= defect.roller_length)
-        .map(|s| defect.depth_at(s))
-        .fold(0.0, f64::max)
+    ends.filter(|s| defect.damaged_length(*s) >= defect.roller_length).map(|s| defect.depth_at(s)).fold(0.0, f64::max)
 }
 
 /// A run that ends before every roller has passed the load zone once after the start.
@@ -367,11 +332,7 @@ fn too_short(scenario: &Scenario, model: &Model) -> Option<Problem> {
         }
     };
     let turns = |t: f64| rotation.at(t).1.abs() / TAU;
-    let turned = if duration > ramp {
-        turns(duration) - turns(ramp)
-    } else {
-        0.0
-    };
+    let turned = if duration > ramp { turns(duration) - turns(ramp) } else { 0.0 };
     if turned >= needed {
         return None;
     }
@@ -379,11 +340,7 @@ fn too_short(scenario: &Scenario, model: &Model) -> Option<Problem> {
         Speed::Constant(rpm) => format!(">= {}", short(1.005 * (ramp + needed * 60.0 / rpm.abs()))),
         Speed::Profile(_) => String::new(),
     };
-    let ramp = if ramp > 0.0 {
-        format!("the load's ramp of {} s, ", short(ramp))
-    } else {
-        String::new()
-    };
+    let ramp = if ramp > 0.0 { format!("the load's ramp of {} s, ", short(ramp)) } else { String::new() };
     Some(warning(
         "simulation.duration_s",
         toml_float(duration),
@@ -425,25 +382,15 @@ fn parametric(scenario: &Scenario, energy: &EnergyAudit) -> Option<String> {
         size if size >= 1e-3 => format!("{} mJ", short(1e3 * x)),
         _ => format!("{} uJ", short(1e6 * x)),
     };
-    let (done, by) = if work > 0.0 {
-        ("put energy into", "supplies it")
-    } else {
-        ("took energy out of", "takes it up")
-    };
+    let (done, by) =
+        if work > 0.0 { ("put energy into", "supplies it") } else { ("took energy out of", "takes it up") };
     let share = if dissipated <= 0.0 {
         "while contact damping dissipates nothing".to_owned()
     } else if work.abs() < 10.0 * dissipated {
         let percent = 100.0 * work.abs() / dissipated;
-        format!(
-            "{percent:.0} % of the {} that contact damping dissipates",
-            joule(dissipated)
-        )
+        format!("{percent:.0} % of the {} that contact damping dissipates", joule(dissipated))
     } else {
-        format!(
-            "{:.0} times the {} that contact damping dissipates",
-            work.abs() / dissipated,
-            joule(dissipated)
-        )
+        format!("{:.0} times the {} that contact damping dissipates", work.abs() / dissipated, joule(dissipated))
     };
     let remedy = match scenario.simulation.model {
         ModelKind::Full | ModelKind::Tilting => {

@@ -12,8 +12,8 @@ use std::f64::consts::PI;
 pub(crate) const YOUNGS_MODULUS: f64 = 206e9;
 /// Poisson's ratio of steel.
 pub(crate) const POISSONS_RATIO: f64 = 0.3;
-/// Largest contact pressure under the static load rating of roller bearings, Pa (ISO 76): there the roller and the raceway together keep a
-/// permanent deformation of about 1/10000 of the roller's diameter.
+/// Largest contact pressure under the static load rating of roller bearings, Pa (ISO 76): there the roller and the
+/// raceway together keep a permanent deformation of about 1/10000 of the roller's diameter.
 pub const STATIC_LIMIT: f64 = 4.0e9;
 /// The same of radial ball bearings.
 const STATIC_LIMIT_OF_BALLS: f64 = 4.2e9;
@@ -26,12 +26,13 @@ pub fn static_limit(bearing: &Bearing) -> f64 {
     }
 }
 
-/// Largest pressure of a line contact of two steel bodies, Pa: Hertz's p = sqrt(E* w / (pi R)) with the line load w = Q/L and
-/// E* = E / (2 (1 - nu^2)). `force` is Q (N), `length` is L (m), `radius` is R with 1/R = 1/r +- 1/R_raceway (m).
+/// Largest pressure of a line contact of two steel bodies, Pa: Hertz's p = sqrt(E* w / (pi R)) with the line load w =
+/// Q/L and E* = E / (2 (1 - nu^2)). `force` is Q (N), `length` is L (m), `radius` is R with 1/R = 1/r +- 1/R_raceway
+/// (m).
 ///
-/// With E = 206 GPa and nu = 0.3 this is Harris's 190 sqrt(Q Sigma-rho / L) N/mm^2, in N and mm (Rolling Bearing Analysis, chapter on
-/// contact stress). The pressure is even along L: it knows neither edge stress nor crowning nor tilt. It is elastic, so a value far above
-/// [`STATIC_LIMIT`] says that the steel yields, not how hard it is pressed.
+/// With E = 206 GPa and nu = 0.3 this is Harris's 190 sqrt(Q Sigma-rho / L) N/mm^2, in N and mm (Rolling Bearing
+/// Analysis, chapter on contact stress). The pressure is even along L: it knows neither edge stress nor crowning nor
+/// tilt. It is elastic, so a value far above [`STATIC_LIMIT`] says that the steel yields, not how hard it is pressed.
 pub(crate) fn line_pressure(force: f64, length: f64, radius: f64) -> f64 {
     let modulus = 0.5 * YOUNGS_MODULUS / (1.0 - POISSONS_RATIO * POISSONS_RATIO);
     (modulus * force.max(0.0) / length / (PI * radius)).sqrt()
@@ -49,15 +50,10 @@ pub fn pressures(scenario: &Scenario, force: f64) -> [f64; 2] {
     })
 }
 
-/// Pressure on what a defect leaves of a contact at its widest place, under `force` (N) on that contact: the length left (m) and the
-/// pressure (Pa), the larger one of the sides that it meets. `None` where nothing is left, or where the roller is pressed down to the
-/// damage's floor, which then carries its share.
-pub fn pressure_beside(
-    model: &Model,
-    bearing: &Bearing,
-    defect: usize,
-    force: f64,
-) -> Option<(f64, f64)> {
+/// Pressure on what a defect leaves of a contact at its widest place, under `force` (N) on that contact: the length
+/// left (m) and the pressure (Pa), the larger one of the sides that it meets. `None` where nothing is left, or where
+/// the roller is pressed down to the damage's floor, which then carries its share.
+pub fn pressure_beside(model: &Model, bearing: &Bearing, defect: usize, force: f64) -> Option<(f64, f64)> {
     // Under a ball there is no length beside the damage that an even pressure would stand for.
     if bearing.has_balls() {
         return None;
@@ -68,11 +64,7 @@ pub fn pressure_beside(
     const PLACES: u32 = 400;
     let widest = (0..=PLACES)
         .map(|k| first + (last - first) * f64::from(k) / f64::from(PLACES))
-        .max_by(|a, b| {
-            defect
-                .damaged_length(*a)
-                .total_cmp(&defect.damaged_length(*b))
-        })?;
+        .max_by(|a, b| defect.damaged_length(*a).total_cmp(&defect.damaged_length(*b)))?;
     let left = defect.roller_length - defect.damaged_length(widest);
     if left <= 1e-9 * defect.roller_length {
         return None;
@@ -98,29 +90,26 @@ mod tests {
     use crate::document::read;
 
     fn preset(name: &str) -> Scenario {
-        let text = format!(
-            "[bearing]\npreset = \"{name}\"\n[operation]\nspeed_rpm = 1500\nload_n = [1000, 0]\n"
-        );
+        let text = format!("[bearing]\npreset = \"{name}\"\n[operation]\nspeed_rpm = 1500\nload_n = [1000, 0]\n");
         read(&text, &[]).unwrap().scenario
     }
 
     #[test]
     fn lit_pressure_of_harris() {
-        // Harris: half width b = 3.35e-3 sqrt(Q/(L Sigma-rho)) mm and pressure 2 Q/(pi L b), for steel; 3.35e-3 has three figures.
+        // Harris: half width b = 3.35e-3 sqrt(Q/(L Sigma-rho)) mm and pressure 2 Q/(pi L b), for steel; 3.35e-3 has
+        // three figures.
         let (force, length, r, raceway) = (1000.0_f64, 8.8e-3, 4.5e-3, 18.75e-3);
         let curvature = 1.0 / r + 1.0 / raceway;
         let half_width = 3.35e-3 * (force / (8.8 * 1e-3 * curvature)).sqrt();
         let harris = 2.0 * force / (PI * 8.8 * half_width);
         let ours = 1e-6 * line_pressure(force, length, 1.0 / curvature);
-        assert!(
-            (ours / harris - 1.0).abs() < 2e-3,
-            "{ours} against {harris}"
-        );
+        assert!((ours / harris - 1.0).abs() < 2e-3, "{ours} against {harris}");
     }
 
     #[test]
     fn lit_iso_76_load_gives_iso_76_pressure() {
-        // ISO 76: C0 is the load whose heaviest roller, 5 C0/(i Z) with a small clearance, is pressed with 4000 MPa at the inner raceway.
+        // ISO 76: C0 is the load whose heaviest roller, 5 C0/(i Z) with a small clearance, is pressed with 4000 MPa at
+        // the inner raceway.
         for name in ["NU204", "NU205", "NU2205", "NU206"] {
             let s = preset(name);
             let b = &s.bearing;

@@ -1,7 +1,7 @@
 //! Slices across a roller: where they lie, the profile's drop there, and what they carry together (sections 3, 15, 16).
 //!
-//! The contact laws of [`crate::contact`] hold for each slice with 1/n_s of the stiffness and of the damping. SI; z from the roller's
-//! middle along +Z.
+//! The contact laws of [`crate::contact`] hold for each slice with 1/n_s of the stiffness and of the damping. SI; z
+//! from the roller's middle along +Z.
 
 use crate::contact::Hertz;
 use crate::lanes::{Column, Lanes};
@@ -14,18 +14,15 @@ pub(crate) fn borders(k: usize, slices: usize, length: f64) -> [f64; 2] {
     [border(k), border(k + 1)]
 }
 
-/// Drop p(z) of a profile, m: section 15, ISO/TS 16281. z, the roller's length and its diameter in m; infinite at the logarithm's ends.
+/// Drop p(z) of a profile, m: section 15, ISO/TS 16281. z, the roller's length and its diameter in m; infinite at the
+/// logarithm's ends.
 pub fn drop(profile: &RollerProfile, z: f64, length: f64, diameter: f64) -> f64 {
     match profile {
         RollerProfile::Straight => 0.0,
         RollerProfile::Crowned { crowned_radius_mm } => z * z / (2e-3 * crowned_radius_mm),
         RollerProfile::Logarithmic => {
             let curved = (2.5 * diameter).min(length);
-            let scale = if length <= 2.5 * diameter {
-                0.35e-3
-            } else {
-                0.5e-3
-            };
+            let scale = if length <= 2.5 * diameter { 0.35e-3 } else { 0.5e-3 };
             let from_straight = (2.0 * z.abs() - (length - curved)).max(0.0);
             -scale * diameter * (1.0 - (from_straight / curved).powi(2)).ln()
         }
@@ -35,9 +32,7 @@ pub fn drop(profile: &RollerProfile, z: f64, length: f64, diameter: f64) -> f64 
             1e-6 * match (above.checked_sub(1), z_mm.get(above)) {
                 (None, _) => drop_um[0],
                 (Some(k), None) => drop_um[k],
-                (Some(k), Some(next)) => {
-                    drop_um[k] + (drop_um[above] - drop_um[k]) * (z - z_mm[k]) / (next - z_mm[k])
-                }
+                (Some(k), Some(next)) => drop_um[k] + (drop_um[above] - drop_um[k]) * (z - z_mm[k]) / (next - z_mm[k]),
             }
         }
     }
@@ -56,7 +51,8 @@ pub struct Slices {
     pub weight: Column,
     /// Half the roller's length, m.
     half: f64,
-    /// The drops that there are, rising, and the weight of all slices of each: what counts where nothing tilts. Padding repeats the last and weighs nothing.
+    /// The drops that there are, rising, and the weight of all slices of each: what counts where nothing tilts. Padding
+    /// repeats the last and weighs nothing.
     level_drop: Column,
     level_weight: Column,
 }
@@ -94,10 +90,7 @@ impl Cover {
     /// Nothing covered.
     pub fn new(count: usize) -> Self {
         let padded = count.next_multiple_of(crate::lanes::WIDTH);
-        Self {
-            fraction: Column::new(padded, 0.0),
-            depth: Column::new(padded, 0.0),
-        }
+        Self { fraction: Column::new(padded, 0.0), depth: Column::new(padded, 0.0) }
     }
 }
 
@@ -117,10 +110,7 @@ pub struct Approach {
 impl Approach {
     /// At rest, all along the roller alike.
     pub fn pressed(deformation: f64) -> Self {
-        Self {
-            deformation,
-            ..Self::default()
-        }
+        Self { deformation, ..Self::default() }
     }
 }
 
@@ -165,9 +155,7 @@ impl Slices {
             (0..count).for_each(|k| column[k] = of(k));
             column
         };
-        let drops: Vec<f64> = (0..count)
-            .map(|k| drop(profile, middle(k), length, diameter))
-            .collect();
+        let drops: Vec<f64> = (0..count).map(|k| drop(profile, middle(k), length, diameter)).collect();
         let [level_drop, level_weight] = levels(&drops);
         Self {
             count,
@@ -218,7 +206,8 @@ impl Slices {
         }
     }
 
-    /// Elastic sum (N) and touching share of the length at a deformation (m) without tilt and damage: those of [`Slices::press`], to round-off.
+    /// Elastic sum (N) and touching share of the length at a deformation (m) without tilt and damage: those of
+    /// [`Slices::press`], to round-off.
     #[inline(always)]
     pub fn press_evenly<L: Lanes>(&self, law: &Hertz, deformation: f64) -> [f64; 2] {
         let whole = L::splat(deformation);
@@ -277,7 +266,8 @@ impl Slices {
         sum
     }
 
-    /// Deformation at the roller's middle under `force` (N) without tilt and damage, m; at least `least`, that of a straight roller.
+    /// Deformation at the roller's middle under `force` (N) without tilt and damage, m; at least `least`, that of a
+    /// straight roller.
     pub fn deflection(&self, law: &Hertz, force: f64, least: f64) -> f64 {
         let carried = |delta: f64| self.carry(law, &Approach::pressed(delta), None).force;
         let (mut low, mut high) = (least, least);
@@ -319,17 +309,11 @@ struct Sums<L> {
 impl<L: Lanes> Sums<L> {
     #[inline(always)]
     fn new() -> Self {
-        Self {
-            elastic: L::zero(),
-            force: L::zero(),
-            moment: L::zero(),
-            loss: L::zero(),
-            touching: L::zero(),
-        }
+        Self { elastic: L::zero(), force: L::zero(), moment: L::zero(), loss: L::zero(), touching: L::zero() }
     }
 
-    /// Adds `share` of a group of slices at z whose deformation is `delta` and grows at `d`. A function, since a closure would not be compiled for
-    /// the kernel's instructions.
+    /// Adds `share` of a group of slices at z whose deformation is `delta` and grows at `d`. A function, since a
+    /// closure would not be compiled for the kernel's instructions.
     #[inline(always)]
     fn add(&mut self, law: &Hertz, (z, d): (L, L), delta: L, share: L) {
         if !delta.any_positive() {
@@ -355,28 +339,15 @@ mod tests {
 
     #[test]
     fn prop_slices_of_equal_drop_carry_together_what_each_carries_alone() {
-        let law = Hertz {
-            stiffness: 1e9,
-            exponent: Exponent::TenNinths,
-            damping: 200.0,
-            strips: None,
-        };
+        let law = Hertz { stiffness: 1e9, exponent: Exponent::TenNinths, damping: 200.0, strips: None };
         let profiles = [
             RollerProfile::Straight,
             RollerProfile::Logarithmic,
-            RollerProfile::Crowned {
-                crowned_radius_mm: 800.0,
-            },
+            RollerProfile::Crowned { crowned_radius_mm: 800.0 },
             // Neither even nor rising.
-            RollerProfile::Table {
-                z_mm: vec![-4.0, -1.0, 0.0, 3.0, 4.0],
-                drop_um: vec![6.0, 0.0, 0.5, 0.2, 4.0],
-            },
+            RollerProfile::Table { z_mm: vec![-4.0, -1.0, 0.0, 3.0, 4.0], drop_um: vec![6.0, 0.0, 0.5, 0.2, 4.0] },
         ];
-        for (profile, count) in profiles
-            .iter()
-            .flat_map(|p| [1, 2, 7, 30, 33].map(|n| (p, n)))
-        {
+        for (profile, count) in profiles.iter().flat_map(|p| [1, 2, 7, 30, 33].map(|n| (p, n))) {
             let slices = Slices::new(count, 9e-3, 9e-3, profile);
             for deformation in [-1e-6, 0.0, 1e-8, 3e-7, 2e-6, 9e-6, 4e-5] {
                 let at = Approach::pressed(deformation);

@@ -1,8 +1,8 @@
 //! Static balance: ring offsets under the full load, with every roller in equilibrium between its raceways.
 //!
-//! The potential energy of contacts, supports and loads is minimised over the ring offsets by a damped Newton method; each
-//! roller's radial offset is eliminated, for it has one equilibrium at given ring offsets. Centrifugal force and gravity act
-//! on the rollers, damage is taken as it lies at the given angles. SI; frame as in [`crate::model`].
+//! The potential energy of contacts, supports and loads is minimised over the ring offsets by a damped Newton method;
+//! each roller's radial offset is eliminated, for it has one equilibrium at given ring offsets. Centrifugal force and
+//! gravity act on the rollers, damage is taken as it lies at the given angles. SI; frame as in [`crate::model`].
 
 mod load_zone;
 mod newton;
@@ -67,7 +67,8 @@ pub struct Balance {
     pub inner_force: Vec<f64>,
     /// Q_out of each slot, N.
     pub outer_force: Vec<f64>,
-    /// Stiffness of the bearing between its rings, N/m: the force on the inner ring is minus this times its displacement.
+    /// Stiffness of the bearing between its rings, N/m: the force on the inner ring is minus this times its
+    /// displacement.
     pub stiffness: [[f64; 2]; 2],
     /// Tilts, where rollers and rings tilt.
     pub tilting: Option<Tilted>,
@@ -87,7 +88,8 @@ pub struct Tilted {
     pub rollers: Vec<f64>,
     /// T of each slot's inner and outer contact, N m.
     pub moments: [Vec<f64>; 2],
-    /// Stiffness of the bearing between its rings over (x, y, tau_x, tau_y): N/m, N/rad, N m/rad. Along the axis cylindrical rollers hold nothing.
+    /// Stiffness of the bearing between its rings over (x, y, tau_x, tau_y): N/m, N/rad, N m/rad. Along the axis
+    /// cylindrical rollers hold nothing.
     pub stiffness: [[f64; 4]; 4],
 }
 
@@ -136,12 +138,7 @@ pub fn solve(model: &Model, problem: &Problem) -> Result<Balance, NoBalance> {
     if let Some(tilt) = &model.tilt {
         return tilting::solve(model, tilt, problem);
     }
-    let free = [
-        !problem.fix_inner,
-        !problem.fix_inner,
-        !problem.fix_outer,
-        !problem.fix_outer,
-    ];
+    let free = [!problem.fix_inner, !problem.fix_inner, !problem.fix_outer, !problem.fix_outer];
     let guess: Offsets = std::array::from_fn(|k| problem.guess[k / 2][k % 2]);
     let mut rollers = vec![Roller::default(); model.layout.rollers()];
     let forces = external(model, problem);
@@ -149,11 +146,7 @@ pub fn solve(model: &Model, problem: &Problem) -> Result<Balance, NoBalance> {
     let found = minimise(guess, &free, (scale, softest(model)), |x| {
         let potential = evaluate(model, problem, &forces, x, &mut rollers);
         let (gradient, hessian) = derivatives(model, problem, &forces, x, &rollers);
-        State {
-            potential,
-            gradient,
-            hessian,
-        }
+        State { potential, gradient, hessian }
     })?;
     evaluate(model, problem, &forces, &found.x, &mut rollers);
     Ok(finish(model, problem, &found, &rollers))
@@ -163,14 +156,11 @@ pub fn solve(model: &Model, problem: &Problem) -> Result<Balance, NoBalance> {
 fn force_scale(model: &Model, problem: &Problem, forces: &[f64]) -> f64 {
     let count = model.layout.rollers() as f64;
     let weight = count * model.inertia.roller * centrifugal(model, problem.speed).abs();
-    forces
-        .iter()
-        .fold(0.0_f64, |m, f| m.max(f.abs()))
-        .max(weight)
-        .max(1e-9)
+    forces.iter().fold(0.0_f64, |m, f| m.max(f.abs())).max(weight).max(1e-9)
 }
 
-/// Where the damping of Newton's method begins, N/m: the series stiffness at a deflection of a micrometre. Any value of this order does.
+/// Where the damping of Newton's method begins, N/m: the series stiffness at a deflection of a micrometre. Any value of
+/// this order does.
 fn softest(model: &Model) -> f64 {
     1e-3 * model.series_contact.tangent(1e-6, None).max(1.0)
 }
@@ -193,21 +183,10 @@ fn external(model: &Model, problem: &Problem) -> Offsets {
 }
 
 /// Potential energy at ring offsets `x`; fills `rollers`.
-fn evaluate(
-    model: &Model,
-    problem: &Problem,
-    forces: &Offsets,
-    x: &Offsets,
-    rollers: &mut [Roller],
-) -> f64 {
-    let (ki, ko) = (
-        model.inner_support.stiffness,
-        model.acting_outer_support().stiffness,
-    );
+fn evaluate(model: &Model, problem: &Problem, forces: &Offsets, x: &Offsets, rollers: &mut [Roller]) -> f64 {
+    let (ki, ko) = (model.inner_support.stiffness, model.acting_outer_support().stiffness);
     let k = [ki, ki, ko, ko];
-    let mut potential: f64 = (0..4)
-        .map(|i| 0.5 * k[i] * x[i] * x[i] - forces[i] * x[i])
-        .sum();
+    let mut potential: f64 = (0..4).map(|i| 0.5 * k[i] * x[i] * x[i] - forces[i] * x[i]).sum();
     for (slot, roller) in rollers.iter_mut().enumerate() {
         *roller = match model.kind {
             ModelKind::Full | ModelKind::Tilting => between_raceways(model, problem, slot, x),
@@ -219,11 +198,7 @@ fn evaluate(
 }
 
 fn angles(problem: &Problem, slot: usize) -> Angles {
-    Angles {
-        orbit: problem.orbit[slot],
-        spin: problem.spin[slot],
-        ring: problem.ring_angle,
-    }
+    Angles { orbit: problem.orbit[slot], spin: problem.spin[slot], ring: problem.ring_angle }
 }
 
 fn in_series(model: &Model, problem: &Problem, slot: usize, x: &Offsets) -> Roller {
@@ -231,13 +206,7 @@ fn in_series(model: &Model, problem: &Problem, slot: usize, x: &Offsets) -> Roll
     let g = &model.geometry;
     let delta = cos * (x[0] - x[2]) + sin * (x[1] - x[3]) - g.clearance - g.outer_gap;
     let (force, tangent, energy) = lumped::elastic_at(model, slot, &angles(problem, slot), delta);
-    Roller {
-        r: 0.0,
-        inner: force,
-        outer: force,
-        tangent,
-        energy,
-    }
+    Roller { r: 0.0, inner: force, outer: force, tangent, energy }
 }
 
 /// What damage covers of a roller's inner and outer contact.
@@ -252,10 +221,7 @@ fn covers(model: &Model, slices: &Slices, slot: usize, angles: &Angles) -> [Opti
 fn between_raceways(model: &Model, problem: &Problem, slot: usize, x: &Offsets) -> Roller {
     let angles = angles(problem, slot);
     let (sin, cos) = angles.orbit.sin_cos();
-    let covers = model
-        .slices
-        .as_ref()
-        .map(|s| covers(model, s, slot, &angles));
+    let covers = model.slices.as_ref().map(|s| covers(model, s, slot, &angles));
     let between = Between {
         model,
         slot,
@@ -272,11 +238,7 @@ fn between_raceways(model: &Model, problem: &Problem, slot: usize, x: &Offsets) 
         r,
         inner: q_in,
         outer: q_out,
-        tangent: if k_in + k_out > 0.0 {
-            k_in * k_out / (k_in + k_out)
-        } else {
-            0.0
-        },
+        tangent: if k_in + k_out > 0.0 { k_in * k_out / (k_in + k_out) } else { 0.0 },
         energy: between.energy(r),
     }
 }
@@ -297,10 +259,7 @@ struct Between<'a> {
 
 impl Between<'_> {
     fn sliced(&self, slices: &Slices, side: Side, delta: f64) -> Carried {
-        let at = Approach {
-            deformation: delta,
-            ..Approach::default()
-        };
+        let at = Approach { deformation: delta, ..Approach::default() };
         let cover = self.covers.as_ref().and_then(|c| c[side as usize].as_ref());
         slices.carry(self.model.contact(side), &at, cover)
     }
@@ -326,10 +285,7 @@ impl Between<'_> {
 
     /// Both contacts of the roller at r.
     fn contacts(&self, r: f64) -> [(f64, f64); 2] {
-        [
-            self.contact(Side::Inner, self.inner_at - r),
-            self.contact(Side::Outer, r - self.outer_at),
-        ]
+        [self.contact(Side::Inner, self.inner_at - r), self.contact(Side::Outer, r - self.outer_at)]
     }
 
     /// Q_in - Q_out + N, which falls with r, and how steeply.
@@ -377,11 +333,7 @@ impl Between<'_> {
             if (newton - r).abs() <= grain {
                 break;
             }
-            let next = if newton > low && newton < high {
-                newton
-            } else {
-                0.5 * (low + high)
-            };
+            let next = if newton > low && newton < high { newton } else { 0.5 * (low + high) };
             r = next;
             if high - low <= grain {
                 break;
@@ -397,16 +349,9 @@ impl Between<'_> {
             if let Some(slices) = &model.slices {
                 return self.sliced(slices, side, delta).energy;
             }
-            energy(
-                model.defects_of(self.slot, side),
-                model.contact(side),
-                &self.angles,
-                side,
-                delta,
-            )
+            energy(model.defects_of(self.slot, side), model.contact(side), &self.angles, side, delta)
         };
-        stored(Side::Inner, self.inner_at - r) + stored(Side::Outer, r - self.outer_at)
-            - self.own * r
+        stored(Side::Inner, self.inner_at - r) + stored(Side::Outer, r - self.outer_at) - self.own * r
     }
 }
 
@@ -418,10 +363,7 @@ fn derivatives(
     x: &Offsets,
     rollers: &[Roller],
 ) -> (Offsets, [[f64; 4]; 4]) {
-    let (ki, ko) = (
-        model.inner_support.stiffness,
-        model.acting_outer_support().stiffness,
-    );
+    let (ki, ko) = (model.inner_support.stiffness, model.acting_outer_support().stiffness);
     let k = [ki, ki, ko, ko];
     let mut gradient: Offsets = std::array::from_fn(|i| k[i] * x[i] - forces[i]);
     let mut hessian = [[0.0; 4]; 4];

@@ -33,13 +33,7 @@ pub struct Parts<'a> {
 
 /// The summary as JSON; the same run gives the same bytes.
 pub fn to_json(parts: &Parts) -> Value {
-    let Parts {
-        loaded,
-        simulation,
-        outcome,
-        findings,
-        ..
-    } = *parts;
+    let Parts { loaded, simulation, outcome, findings, .. } = *parts;
     let scenario = &loaded.scenario;
     let model = simulation.model();
     let mut summary = json!({
@@ -147,12 +141,7 @@ pub fn status(end: &End) -> Value {
 /// What the run's reader should know, warnings of the scenario first.
 #[doc(hidden)]
 pub fn warnings(parts: &Parts) -> Vec<String> {
-    let mut all: Vec<String> = parts
-        .loaded
-        .warnings
-        .iter()
-        .map(ToString::to_string)
-        .collect();
+    let mut all: Vec<String> = parts.loaded.warnings.iter().map(ToString::to_string).collect();
     for pattern in parts.simulation.idle_patterns() {
         all.push(crate::channel::idle_message(pattern));
     }
@@ -170,13 +159,7 @@ pub fn warnings(parts: &Parts) -> Vec<String> {
 /// What had not settled when statistics began, in words.
 #[doc(hidden)]
 pub fn unsettled(findings: &Findings) -> Vec<String> {
-    let change = |x: f64| {
-        format!(
-            "{:.1} % {}",
-            100.0 * x.abs(),
-            if x > 0.0 { "higher" } else { "lower" }
-        )
-    };
+    let change = |x: f64| format!("{:.1} % {}", 100.0 * x.abs(), if x > 0.0 { "higher" } else { "lower" });
     let words = findings.drifts.iter().map(|drift| match drift {
         Drift::CageSlip(row, by) => format!(
             "not settled: the cage of row {} was {:.2} % of its pure-rolling speed {} in the first fifth of the analysed time than in its last half; \
@@ -265,15 +248,9 @@ fn indicators(findings: &Findings) -> Value {
             .collect();
         let record = channel.blocks.record();
         for field in fields::record(channel.unit) {
-            values.extend(
-                record
-                    .get(field.of)
-                    .map(|x| (field.name.to_owned(), x.into())),
-            );
+            values.extend(record.get(field.of).map(|x| (field.name.to_owned(), x.into())));
         }
-        let entry = channels
-            .entry(channel.name.clone())
-            .or_insert_with(|| json!({ "unit": channel.unit }));
+        let entry = channels.entry(channel.name.clone()).or_insert_with(|| json!({ "unit": channel.unit }));
         entry[channel.kind.name()] = values.into();
     }
     json!({
@@ -308,15 +285,8 @@ fn slip(findings: &Findings) -> Value {
 }
 
 fn load_zone(parts: &Parts) -> Value {
-    let rows = parts
-        .findings
-        .load_zone
-        .rows
-        .iter()
-        .map(|row| json!({ "mean_n": row.mean(), "max_n": row.max }));
-    let centers: Vec<f64> = (0..BINS)
-        .map(|k| (k as f64 + 0.5) * 360.0 / BINS as f64)
-        .collect();
+    let rows = parts.findings.load_zone.rows.iter().map(|row| json!({ "mean_n": row.mean(), "max_n": row.max }));
+    let centers: Vec<f64> = (0..BINS).map(|k| (k as f64 + 0.5) * 360.0 / BINS as f64).collect();
     let statics = parts.beforehand.statics.as_ref().ok().map(|z| {
         json!({
             "largest_contact_force_n": z.largest,

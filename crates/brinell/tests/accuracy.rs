@@ -61,9 +61,7 @@ fn window(model: &Model, settings: Settings, t: f64, y: &[f64]) -> (Vec<f64>, u6
 
 /// Relative L2 difference of two signals.
 fn difference(ours: &[f64], exact: &[f64]) -> f64 {
-    let (num, den) = ours.iter().zip(exact).fold((0.0, 0.0), |s, (a, b)| {
-        (s.0 + (a - b) * (a - b), s.1 + b * b)
-    });
+    let (num, den) = ours.iter().zip(exact).fold((0.0, 0.0), |s, (a, b)| (s.0 + (a - b) * (a - b), s.1 + b * b));
     (num / den).sqrt()
 }
 
@@ -84,21 +82,14 @@ impl Windows {
     fn new(s: &Scenario, count: u32, exact: f64) -> Self {
         let model = Model::new(s).unwrap();
         // Not a multiple of any period of the bearing.
-        let starts: Vec<f64> = (0..count)
-            .map(|k| 0.02 + 0.18 * f64::from(k) / f64::from(count))
-            .collect();
+        let starts: Vec<f64> = (0..count).map(|k| 0.02 + 0.18 * f64::from(k) / f64::from(count)).collect();
         let states = states(&model, tuned(&model, Accuracy::Reference, 1.0), &starts);
         let exact = starts
             .iter()
             .zip(&states)
             .map(|(t, y)| window(&model, tuned(&model, Accuracy::Reference, exact), *t, y).0)
             .collect();
-        Self {
-            model,
-            starts,
-            states,
-            exact,
-        }
+        Self { model, starts, states, exact }
     }
 
     fn errors(&self, accuracy: Accuracy, factor: f64) -> Errors {
@@ -112,10 +103,7 @@ impl Windows {
                 difference(&signal, exact)
             })
             .collect();
-        Errors {
-            worst: errors.iter().copied().fold(0.0, f64::max),
-            median: median(errors),
-        }
+        Errors { worst: errors.iter().copied().fold(0.0, f64::max), median: median(errors) }
     }
 }
 
@@ -128,15 +116,11 @@ fn long(path: &str) -> Scenario {
 
 #[test]
 fn prop_standard_stays_near_reference_over_windows() {
-    // 1.5 % is the product's promise for the median window. A window in which an impact falls on either side of a switch is worse;
-    // none may be off by more than ten times that.
+    // 1.5 % is the product's promise for the median window. A window in which an impact falls on either side of a
+    // switch is worse; none may be off by more than ten times that.
     let windows = Windows::new(&rectangle(), 24, 1.0);
     let standard = windows.errors(Accuracy::Standard, 1.0);
-    println!(
-        "standard: median {:.2} %, worst {:.2} %",
-        100.0 * standard.median,
-        100.0 * standard.worst
-    );
+    println!("standard: median {:.2} %, worst {:.2} %", 100.0 * standard.median, 100.0 * standard.worst);
     assert!(standard.median <= 0.015, "median {:e}", standard.median);
     assert!(standard.worst <= 0.15, "worst {:e}", standard.worst);
     // And it does not spend what it need not: a hundredth of the tolerance would be better by far.
@@ -145,34 +129,24 @@ fn prop_standard_stays_near_reference_over_windows() {
 
 #[test]
 fn prop_reference_no_longer_depends_on_its_tolerance() {
-    // The given trajectories ask for 1e-3 of positions and 1e-2 of accelerations over 20 ms; a tenth of the latter over a window.
+    // The given trajectories ask for 1e-3 of positions and 1e-2 of accelerations over 20 ms; a tenth of the latter over
+    // a window.
     let windows = Windows::new(&rectangle(), 8, 0.1);
     let errors = windows.errors(Accuracy::Reference, 1.0);
-    println!(
-        "reference: median {:.1e}, worst {:.1e}",
-        errors.median, errors.worst
-    );
+    println!("reference: median {:.1e}, worst {:.1e}", errors.median, errors.worst);
     assert!(errors.median < 1e-3, "median {:e}", errors.median);
 }
 
-/// Fastest rate of a roller between both raceways under the heaviest static load, 1/s: |lambda| of m x'' + 2 c x' + 2 k x = 0.
+/// Fastest rate of a roller between both raceways under the heaviest static load, 1/s: |lambda| of m x'' + 2 c x' + 2 k
+/// x = 0.
 fn fastest_rate(model: &Model) -> f64 {
     let problem = Problem::at_start(model);
-    let heaviest = statics::solve(model, &problem)
-        .unwrap()
-        .outer_force
-        .iter()
-        .copied()
-        .fold(0.0, f64::max);
+    let heaviest = statics::solve(model, &problem).unwrap().outer_force.iter().copied().fold(0.0, f64::max);
     let law = &model.outer_contact;
     let k = law.tangent(law.deflection(heaviest), None);
     let (m, c) = (model.inertia.roller, law.damping);
     let under_root = c * c - 2.0 * k * m;
-    if under_root > 0.0 {
-        (c + under_root.sqrt()) / m
-    } else {
-        (2.0 * k / m).sqrt()
-    }
+    if under_root > 0.0 { (c + under_root.sqrt()) / m } else { (2.0 * k / m).sqrt() }
 }
 
 /// Share of a signal's power below 10.24 kHz, as a sum of squares over Hann-windowed lines 400 Hz apart.
@@ -202,10 +176,7 @@ fn median(mut x: Vec<f64>) -> f64 {
 fn regress_table_of_tolerances() {
     for (name, s) in [
         ("rectangle", rectangle()),
-        (
-            "inner-defect-gravity",
-            long("reference/inner-defect-gravity"),
-        ),
+        ("inner-defect-gravity", long("reference/inner-defect-gravity")),
         ("heavy-load-profile", long("xval/heavy-load-profile")),
         ("roller-defect", long("xval/roller-defect")),
         ("healthy", healthy()),
@@ -219,14 +190,8 @@ fn regress_table_of_tolerances() {
         let rms = |x: &[f64]| (x.iter().map(|v| v * v).sum::<f64>() / x.len() as f64).sqrt();
         let exact_rms = median(windows.exact.iter().map(|x| rms(x)).collect());
         let row = |label: String, settings: Settings| {
-            let (mut all, mut low, mut size, mut evaluations) =
-                (Vec::new(), Vec::new(), Vec::new(), 0);
-            for ((t, y), exact) in windows
-                .starts
-                .iter()
-                .zip(&windows.states)
-                .zip(&windows.exact)
-            {
+            let (mut all, mut low, mut size, mut evaluations) = (Vec::new(), Vec::new(), Vec::new(), 0);
+            for ((t, y), exact) in windows.starts.iter().zip(&windows.states).zip(&windows.exact) {
                 let (signal, work) = window(model, settings.clone(), *t, y);
                 let error: Vec<f64> = signal.iter().zip(exact).map(|(a, b)| a - b).collect();
                 all.push(difference(&signal, exact));
@@ -246,19 +211,9 @@ fn regress_table_of_tolerances() {
             assert!(worst.is_finite());
         };
         for factor in [4.0, 2.0, 1.0, 0.5, 0.25, 0.125, 0.0625] {
-            row(
-                format!("standard x {factor}"),
-                tuned(model, Accuracy::Standard, factor),
-            );
+            row(format!("standard x {factor}"), tuned(model, Accuracy::Standard, factor));
         }
-        for (factor, cap) in [
-            (2.0, 1.5),
-            (1.0, 2.0),
-            (1.0, 1.5),
-            (1.0, 1.2),
-            (1.0, 1.0),
-            (0.25, 1.5),
-        ] {
+        for (factor, cap) in [(2.0, 1.5), (1.0, 2.0), (1.0, 1.5), (1.0, 1.2), (1.0, 1.0), (0.25, 1.5)] {
             let mut settings = tuned(model, Accuracy::Standard, factor);
             settings.max_step = settings.max_step.min(cap / rate);
             row(format!("standard x {factor} capped {cap}"), settings);
@@ -302,18 +257,12 @@ fn analytic_pair_is_of_third_order_where_nothing_switches() {
     let exact = end(1e-8);
     let error = |step: f64| {
         let state = end(step);
-        (0..dof)
-            .map(|k| mass[k] * (state[dof + k] - exact[dof + k]).powi(2))
-            .sum::<f64>()
-            .sqrt()
+        (0..dof).map(|k| mass[k] * (state[dof + k] - exact[dof + k]).powi(2)).sum::<f64>().sqrt()
     };
     let errors = [8e-7, 4e-7, 2e-7].map(error);
     for pair in errors.windows(2) {
         let order = (pair[0] / pair[1]).log2();
-        println!(
-            "error {:.2e}, then {:.2e}: order {order:.2}",
-            pair[0], pair[1]
-        );
+        println!("error {:.2e}, then {:.2e}: order {order:.2}", pair[0], pair[1]);
         // The next term of the error is smaller by step x frequency, 0.3 at most here.
         assert!((order - 3.0).abs() < 0.15, "order {order}");
     }

@@ -1,4 +1,5 @@
-//! The crate's tests in one program, because each program links the library anew; `allocations.rs` and `damage_allocations.rs` need processes of their own.
+//! The crate's tests in one program, because each program links the library anew; `allocations.rs` and
+//! `damage_allocations.rs` need processes of their own.
 
 mod accuracy;
 mod architecture;

@@ -1,4 +1,5 @@
-//! A run costs memory once: nothing is allocated per step, and what it holds does not grow with its duration. A program of its own for its allocator.
+//! A run costs memory once: nothing is allocated per step, and what it holds does not grow with its duration. A program
+//! of its own for its allocator.
 
 mod common;
 
@@ -65,11 +66,7 @@ fn metered(s: &Scenario, between: [f64; 2], watched: bool) -> (isize, usize, u64
     let outcome = simulation.run(&mut meter);
     assert_eq!(outcome.end, End::Complete);
     assert!(meter.live[0] > 0 && meter.live[1] > 0, "both instants met");
-    (
-        meter.live[1] - meter.live[0],
-        meter.allocations[1] - meter.allocations[0],
-        meter.steps,
-    )
+    (meter.live[1] - meter.live[0], meter.allocations[1] - meter.allocations[0], meter.steps)
 }
 
 #[test]
@@ -118,9 +115,7 @@ fn prop_steps_allocate_nothing_and_memory_does_not_grow() {
     s.simulation.sample_rate_hz = 10.0 * KEPT as f64 * 1.01;
     s.simulation.record = vec!["outer_*".into()];
     let (grown, allocations, _) = metered(&s, [0.1, 0.29], true);
-    println!(
-        "watched: {grown} bytes more at 0.29 s than at 0.1 s, {allocations} allocations between"
-    );
+    println!("watched: {grown} bytes more at 0.29 s than at 0.1 s, {allocations} allocations between");
     // Statistics close a block for each revolution, 33 ms: some numbers of each of 8 channels.
     assert!(grown < 16_384, "{grown} bytes");
 }

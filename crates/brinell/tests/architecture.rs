@@ -1,5 +1,5 @@
-//! ARCHITECTURE.md against the code: which module of the engine uses which, and which crate depends on which. The book's list of a
-//! run's numbers against the engine's. Files of tests against the programs that run them.
+//! ARCHITECTURE.md against the code: which module of the engine uses which, and which crate depends on which. The
+//! book's list of a run's numbers against the engine's. Files of tests against the programs that run them.
 
 use brinell::result::fields::{self, Field};
 use brinell::signal::Indicator;
@@ -29,9 +29,7 @@ fn table(page: &str, heading: &str) -> Vec<Vec<String>> {
 fn code(path: &Path) -> String {
     let text = fs::read_to_string(path).unwrap();
     let text = text.split("#[cfg(test)]").next().unwrap_or("");
-    let lines = text
-        .lines()
-        .map(|line| line.split("//").next().unwrap_or(""));
+    let lines = text.lines().map(|line| line.split("//").next().unwrap_or(""));
     lines.collect::<Vec<_>>().join("\n")
 }
 
@@ -50,9 +48,7 @@ fn modules(src: &Path) -> Uses {
     for path in entries.filter(|path| !path.ends_with("lib.rs")) {
         let name = path.file_stem().unwrap().to_str().unwrap().to_owned();
         let uses = all.entry(name).or_default();
-        for file in files(&path)
-            .iter()
-            .filter(|f| f.extension().is_some_and(|e| e == "rs") && !f.ends_with("tests.rs"))
+        for file in files(&path).iter().filter(|f| f.extension().is_some_and(|e| e == "rs") && !f.ends_with("tests.rs"))
         {
             for after in code(file).split("crate::").skip(1) {
                 let end = after.find(|c: char| !c.is_alphanumeric() && c != '_');
@@ -71,9 +67,7 @@ fn modules(src: &Path) -> Uses {
 fn cycle(uses: &Uses) -> Option<String> {
     let mut left = uses.clone();
     loop {
-        let free = left
-            .iter()
-            .find(|(_, uses)| !uses.iter().any(|u| left.contains_key(u)));
+        let free = left.iter().find(|(_, uses)| !uses.iter().any(|u| left.contains_key(u)));
         let Some(name) = free.map(|(name, _)| name.clone()) else {
             return (!left.is_empty()).then(|| format!("{:?}", left.keys()));
         };
@@ -94,22 +88,12 @@ fn prop_architecture_says_which_module_uses_which() {
             .filter(|name| code.contains_key(name))
             .collect();
         for name in row[0].split(',') {
-            let name = name
-                .trim()
-                .trim_matches('`')
-                .trim_end_matches('/')
-                .trim_end_matches(".rs");
-            told.entry(name.to_owned())
-                .or_default()
-                .extend(uses.clone());
+            let name = name.trim().trim_matches('`').trim_end_matches('/').trim_end_matches(".rs");
+            told.entry(name.to_owned()).or_default().extend(uses.clone());
         }
     }
     let names = |uses: &Uses| uses.keys().cloned().collect::<BTreeSet<_>>();
-    assert_eq!(
-        names(&told),
-        names(&code),
-        "modules in the table, and in the code"
-    );
+    assert_eq!(names(&told), names(&code), "modules in the table, and in the code");
     for (name, uses) in &code {
         let missing: Vec<_> = uses.difference(&told[name]).collect();
         let stale: Vec<_> = told[name].difference(uses).collect();
@@ -132,13 +116,8 @@ fn prop_architecture_says_which_crate_depends_on_which() {
         let ours = manifest.lines().filter(|line| line.starts_with("brinell"));
         let ours = ours.map(|line| line.split(['.', ' ', '=']).next().unwrap_or("").to_owned());
         uses.insert(name.clone(), ours.collect());
-        let row = rows.iter().find(|row| {
-            row[0]
-                .split('`')
-                .any(|part| part == format!("crates/{name}"))
-        });
-        let row =
-            row.unwrap_or_else(|| panic!("crates/{name} is not in the table of ARCHITECTURE.md"));
+        let row = rows.iter().find(|row| row[0].split('`').any(|part| part == format!("crates/{name}")));
+        let row = row.unwrap_or_else(|| panic!("crates/{name} is not in the table of ARCHITECTURE.md"));
         let said = &row[2];
         for used in &uses[&name] {
             let whole = said.starts_with("all ");
@@ -147,10 +126,8 @@ fn prop_architecture_says_which_crate_depends_on_which() {
                 "{name} depends on {used}; ARCHITECTURE.md says: {said}"
             );
         }
-        let stale = said
-            .split('`')
-            .filter_map(|part| part.strip_prefix("crates/"))
-            .find(|part| !uses[&name].contains(*part));
+        let stale =
+            said.split('`').filter_map(|part| part.strip_prefix("crates/")).find(|part| !uses[&name].contains(*part));
         assert_eq!(stale, None, "{name} does not depend on it");
     }
     assert_eq!(cycle(&uses), None, "crates that depend on each other");
@@ -184,17 +161,10 @@ fn prop_every_file_of_tests_is_run() {
 /// Rows of the book's table.
 fn rows<F>(subject: &str, list: &[Field<F>]) -> Vec<String> {
     let row = |f: &Field<F>| {
-        let interval = if f.estimator.has_interval() {
-            "95 %"
-        } else {
-            ""
-        };
+        let interval = if f.estimator.has_interval() { "95 %" } else { "" };
         let estimator = format!("{:?}", f.estimator).to_lowercase();
         let meaning = f.meaning.replace('|', "\\|");
-        format!(
-            "| `{subject}{}` | {} | {meaning} | {estimator} | {interval} |\n",
-            f.name, f.unit
-        )
+        format!("| `{subject}{}` | {} | {meaning} | {estimator} | {interval} |\n", f.name, f.unit)
     };
     list.iter().map(row).collect()
 }
@@ -203,10 +173,7 @@ fn rows<F>(subject: &str, list: &[Field<F>]) -> Vec<String> {
 fn regress_the_book_lists_every_number() {
     let unit = "of the channel";
     let all = [
-        rows(
-            "CHANNEL.",
-            &Indicator::ALL.map(|i| fields::indicator(i, unit)),
-        ),
+        rows("CHANNEL.", &Indicator::ALL.map(|i| fields::indicator(i, unit))),
         rows("CHANNEL.", &fields::record(unit)),
         rows("envelope.", fields::LINES),
         rows("defectN.", fields::DEFECT),
@@ -225,8 +192,5 @@ fn regress_the_book_lists_every_number() {
     assert_eq!(once.len(), all.len(), "every name is there once");
     let page = fs::read_to_string(root().join("docs/src/results/numbers.md")).unwrap();
     let table = all.concat();
-    assert!(
-        page.contains(&table),
-        "docs/src/results/numbers.md should hold\n{table}"
-    );
+    assert!(page.contains(&table), "docs/src/results/numbers.md should hold\n{table}");
 }

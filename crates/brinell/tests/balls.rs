@@ -3,9 +3,7 @@
 use crate::common::cases::case;
 use brinell::contact::Hertz;
 use brinell::contact::ball::Strips;
-use brinell::defect::{
-    Angles, Defect, SIDES, Side, damaged_contact, depth_at_bottom, edge_gradient, energy, tangent,
-};
+use brinell::defect::{Angles, Defect, SIDES, Side, damaged_contact, depth_at_bottom, edge_gradient, energy, tangent};
 use brinell::document::read;
 use brinell::elementary::Exponent;
 use brinell::model::Model;
@@ -14,12 +12,7 @@ use brinell::statics::{Problem, solve};
 use proptest::prelude::*;
 use std::f64::consts::PI;
 
-const LAW: Hertz = Hertz {
-    stiffness: 2.68371e10,
-    exponent: Exponent::ThreeHalves,
-    damping: 150.0,
-    strips: None,
-};
+const LAW: Hertz = Hertz { stiffness: 2.68371e10, exponent: Exponent::ThreeHalves, damping: 150.0, strips: None };
 
 /// R_w of the 6205's outer contact, and the R_eq that its balls have there, m.
 const ACROSS: f64 = 73.241e-3;
@@ -28,10 +21,7 @@ const ALONG: f64 = 1.0 / (1.0 / 3.97e-3 - 1.0 / 23.49e-3);
 const RACEWAY: f64 = 23.49e-3;
 
 fn law() -> Hertz {
-    Hertz {
-        strips: Some(Strips::new(LAW.stiffness, ACROSS)),
-        ..LAW
-    }
+    Hertz { strips: Some(Strips::new(LAW.stiffness, ACROSS)), ..LAW }
 }
 
 fn bearing() -> Scenario {
@@ -57,24 +47,16 @@ fn defects(shapes: &[(scenario::Shape, f64, f64)], path: RollerPath, slices: usi
 }
 
 fn at(s: f64) -> Angles {
-    Angles {
-        orbit: s / RACEWAY,
-        spin: 0.0,
-        ring: 0.0,
-    }
+    Angles { orbit: s / RACEWAY, spin: 0.0, ring: 0.0 }
 }
 
 fn elastic(defects: &[Defect], s: f64, delta: f64) -> f64 {
     let law = law();
-    damaged_contact(defects.iter(), &law, &at(s), Side::Outer, delta)
-        .map_or(law.healthy(delta), |d| d.elastic)
+    damaged_contact(defects.iter(), &law, &at(s), Side::Outer, delta).map_or(law.healthy(delta), |d| d.elastic)
 }
 
 fn rectangle(length_mm: f64, width_mm: f64) -> scenario::Shape {
-    scenario::Shape::Rectangle {
-        length_mm,
-        width_mm,
-    }
+    scenario::Shape::Rectangle { length_mm, width_mm }
 }
 
 fn circle(diameter_mm: f64) -> scenario::Shape {
@@ -96,9 +78,7 @@ fn bowl() -> scenario::Shape {
             dz_mm: step,
             columns,
             rows,
-            depth_um: (0..rows * columns)
-                .map(|k| depth(k % columns, k / columns))
-                .collect(),
+            depth_um: (0..rows * columns).map(|k| depth(k % columns, k / columns)).collect(),
         },
     }
 }
@@ -125,7 +105,8 @@ const PATHS: [RollerPath; 2] = [RollerPath::Point, RollerPath::Envelope];
 
 #[test]
 fn lit_stribecks_heaviest_ball() {
-    // Harris: Q_max = 4.37 F/Z for many balls without clearance; of nine, one of them at the load, 4.385 (model.md, section 17).
+    // Harris: Q_max = 4.37 F/Z for many balls without clearance; of nine, one of them at the load, 4.385 (model.md,
+    // section 17).
     for (balls, expected) in [(9, 4.385), (900, 4.37)] {
         let mut s = bearing();
         s.defects.clear();
@@ -163,17 +144,15 @@ fn lit_shift_of_a_6205_and_of_a_commercial_code() {
                    radial_clearance_um = 0";
     let ours = shift(of_6205, 200.0);
     assert!((ours / 4.8180 - 1.0).abs() < 2e-5, "{ours}");
-    // Seven balls of 11.5 mm on 43.5 mm, 0.52 inside and 0.53 outside, 210 GPa, 1000 N; the commercial code prints 15.1101 and 21.223 um.
+    // Seven balls of 11.5 mm on 43.5 mm, 0.52 inside and 0.53 outside, 210 GPa, 1000 N; the commercial code prints
+    // 15.1101 and 21.223 um.
     for (clearance, expected) in [(0.0, 15.1102), (5.0, 21.2228)] {
         let bearing = format!(
             "inner_raceway_diameter_mm = 32\nouter_raceway_diameter_mm = 55\nroller_diameter_mm = 11.5\nrollers_per_row = 7\n\
              outer_groove_conformity = 0.53\nradial_clearance_um = {clearance}\n[contact]\nyoungs_modulus_gpa = 210"
         );
         let ours = shift(&bearing, 1000.0);
-        assert!(
-            (ours / expected - 1.0).abs() < 1e-5,
-            "{ours} against {expected}"
-        );
+        assert!((ours / expected - 1.0).abs() < 1e-5, "{ours} against {expected}");
     }
 }
 
@@ -181,12 +160,7 @@ fn lit_shift_of_a_6205_and_of_a_commercial_code() {
 fn lit_frequencies_of_cwru() {
     let model = Model::new(&bearing()).unwrap();
     let k = model.kinematics(2.0 * PI);
-    for (ours, given) in [
-        (k.bpfo, 3.5848),
-        (k.bpfi, 5.4152),
-        (k.ftf, 0.39831),
-        (2.0 * k.bsf, 4.7135),
-    ] {
+    for (ours, given) in [(k.bpfo, 3.5848), (k.bpfi, 5.4152), (k.ftf, 0.39831), (2.0 * k.bsf, 4.7135)] {
         assert!((ours / given - 1.0).abs() < 3e-5, "{ours} against {given}");
     }
 }
@@ -197,12 +171,7 @@ fn analytic_no_depth_is_hertz() {
         let flat: Vec<_> = kind
             .iter()
             .map(|(shape, offset, _)| (shape.clone(), *offset, 0.0))
-            .filter(|(shape, ..)| {
-                matches!(
-                    shape,
-                    scenario::Shape::Rectangle { .. } | scenario::Shape::Circle { .. }
-                )
-            })
+            .filter(|(shape, ..)| matches!(shape, scenario::Shape::Rectangle { .. } | scenario::Shape::Circle { .. }))
             .collect();
         for path in PATHS {
             let all = defects(&flat, path, 7);
@@ -241,10 +210,8 @@ fn analytic_slices_against_the_integral_they_stand_for() {
     const CELLS: i32 = 40_000;
     let strips = law().strips.unwrap();
     for path in PATHS {
-        let (rectangular, round) = (
-            defects(&[(rectangle(1.0, 0.9), 0.2, 8.0)], path, 9),
-            defects(&[(circle(1.2), 0.0, 6.0)], path, 1000),
-        );
+        let (rectangular, round) =
+            (defects(&[(rectangle(1.0, 0.9), 0.2, 8.0)], path, 9), defects(&[(circle(1.2), 0.0, 6.0)], path, 1000));
         for (s, delta) in [(0.0, 3e-6), (0.2e-3, 7e-6), (-0.41e-3, 2e-5)] {
             let integral = |h: &dyn Fn(f64) -> f64| -> f64 {
                 let dz = 4e-3 / f64::from(2 * CELLS);
@@ -255,30 +222,16 @@ fn analytic_slices_against_the_integral_they_stand_for() {
                 strips.stiffness * dz * (-CELLS..CELLS).map(at).sum::<f64>()
             };
             let of_rectangle = |z: f64| {
-                if (-0.25e-3..0.65e-3).contains(&z) {
-                    depth(0.5e-3, 8e-6, path, s)
-                } else {
-                    0.0
-                }
+                if (-0.25e-3..0.65e-3).contains(&z) { depth(0.5e-3, 8e-6, path, s) } else { 0.0 }
             };
             let of_circle = |z: f64| {
                 let half = (0.36e-6 - z * z).max(0.0).sqrt();
-                if s.abs() < half {
-                    depth(half, 6e-6, path, s)
-                } else {
-                    0.0
-                }
+                if s.abs() < half { depth(half, 6e-6, path, s) } else { 0.0 }
             };
             let (ours, exact) = (elastic(&rectangular, s, delta), integral(&of_rectangle));
-            assert!(
-                (ours - exact).abs() < 2e-4 * law().healthy(delta),
-                "{path:?}: {ours} {exact}"
-            );
+            assert!((ours - exact).abs() < 2e-4 * law().healthy(delta), "{path:?}: {ours} {exact}");
             let (ours, exact) = (elastic(&round, s, delta), integral(&of_circle));
-            assert!(
-                (ours - exact).abs() < 3e-4 * law().healthy(delta),
-                "{path:?}: {ours} {exact}"
-            );
+            assert!((ours - exact).abs() < 3e-4 * law().healthy(delta), "{path:?}: {ours} {exact}");
         }
     }
 }
@@ -292,15 +245,12 @@ fn analytic_energy_is_the_integral_of_the_force_and_the_tangent_its_slope() {
             let all = defects(&kind, path, 6);
             for s in [-0.31e-3, 0.05e-3, 0.44e-3] {
                 let dx = top / f64::from(CELLS);
-                let work: f64 = (0..CELLS)
-                    .map(|k| elastic(&all, s, (f64::from(k) + 0.5) * dx) * dx)
-                    .sum();
+                let work: f64 = (0..CELLS).map(|k| elastic(&all, s, (f64::from(k) + 0.5) * dx) * dx).sum();
                 let ours = energy(all.iter(), &law(), &at(s), Side::Outer, top);
                 let size = law().energy(top);
                 assert!((ours - work).abs() < 1e-6 * size, "{ours} against {work}");
                 let step = 1e-9;
-                let slope =
-                    (elastic(&all, s, top + step) - elastic(&all, s, top - step)) / (2.0 * step);
+                let slope = (elastic(&all, s, top + step) - elastic(&all, s, top - step)) / (2.0 * step);
                 let ours = tangent(all.iter(), &law(), &at(s), Side::Outer, top);
                 let size = law().tangent(top, None);
                 assert!((ours - slope).abs() < 1e-3 * size, "{ours} against {slope}");
@@ -354,10 +304,7 @@ fn prop_mirrored_slices_are_those_of_both_sides() {
             let alike = defects(&[(circle(1.3), 0.0, 6.0)], path, slices);
             let moved = defects(&[(circle(1.3), 1e-9, 6.0)], path, slices);
             for delta in [1e-6, 8e-6, 3e-5] {
-                let (a, b) = (
-                    elastic(&alike, 0.2e-3, delta),
-                    elastic(&moved, 0.2e-3, delta),
-                );
+                let (a, b) = (elastic(&alike, 0.2e-3, delta), elastic(&moved, 0.2e-3, delta));
                 assert!((a - b).abs() < 1e-5 * law().healthy(delta), "{a} {b}");
             }
         }
@@ -368,10 +315,7 @@ fn prop_mirrored_slices_are_those_of_both_sides() {
 fn prop_two_halves_are_a_whole() {
     for path in PATHS {
         let whole = defects(&[(rectangle(1.0, 1.2), 0.0, 7.0)], path, 8);
-        let halves = [
-            (rectangle(1.0, 0.6), 0.3, 7.0),
-            (rectangle(1.0, 0.6), -0.3, 7.0),
-        ];
+        let halves = [(rectangle(1.0, 0.6), 0.3, 7.0), (rectangle(1.0, 0.6), -0.3, 7.0)];
         let halves = defects(&halves, path, 8);
         for (s, delta) in [(0.0, 5e-6), (0.33e-3, 9e-6), (0.46e-3, 2e-5)] {
             let (a, b) = (elastic(&whole, s, delta), elastic(&halves, s, delta));
@@ -389,10 +333,7 @@ fn analytic_depth_at_the_bottom_by_the_path() {
         assert!((depth / expected - 1.0).abs() < 1e-9, "{depth}");
         // Beside the bottom the lumped model knows of none; off the arc none is met.
         let beside = defects(&[(rectangle(1.0, 0.9), 0.5, 80.0)], path, 5);
-        assert_eq!(
-            depth_at_bottom(beside.iter(), &at(0.3e-3), Side::Outer),
-            Some(0.0)
-        );
+        assert_eq!(depth_at_bottom(beside.iter(), &at(0.3e-3), Side::Outer), Some(0.0));
         assert_eq!(depth_at_bottom(all.iter(), &at(0.6e-3), Side::Outer), None);
     }
 }
@@ -405,11 +346,7 @@ fn prop_a_ball_with_damage_meets_both_raceways() {
     let all = Defect::all(&s.defects, &s.bearing, &s.contact).unwrap();
     let model = Model::new(&s).unwrap();
     for (side, spin) in [(Side::Outer, 0.0), (Side::Inner, PI)] {
-        let angles = Angles {
-            orbit: 0.0,
-            spin,
-            ring: 0.0,
-        };
+        let angles = Angles { orbit: 0.0, spin, ring: 0.0 };
         let law = model.contact(side);
         let damaged = damaged_contact(all.iter(), law, &angles, side, 1e-5).unwrap();
         assert!(damaged.elastic < 0.9 * law.healthy(1e-5));

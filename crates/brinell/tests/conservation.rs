@@ -11,15 +11,9 @@ use brinell::solver::Stepper;
 use brinell::start;
 use proptest::prelude::*;
 
-/// Sum of m a of all bodies less loads, weights, supports and drag, in X and Y, and the sum of their sizes; N. Written from section 8
-/// with the scenario's numbers, rollers as point masses on Cartesian paths.
-fn unexplained_force(
-    s: &Scenario,
-    model: &Model,
-    t: f64,
-    y: &[f64],
-    dy: &[f64],
-) -> ([f64; 2], f64) {
+/// Sum of m a of all bodies less loads, weights, supports and drag, in X and Y, and the sum of their sizes; N. Written
+/// from section 8 with the scenario's numbers, rollers as point masses on Cartesian paths.
+fn unexplained_force(s: &Scenario, model: &Model, t: f64, y: &[f64], dy: &[f64]) -> ([f64; 2], f64) {
     let l = &model.layout;
     let (q, v) = y.split_at(l.dof());
     let a = &dy[l.dof()..];
@@ -32,11 +26,7 @@ fn unexplained_force(
         }
     };
     let g = s.operation.gravity_m_per_s2;
-    let share = if s.operation.load_ramp_s > 0.0 {
-        (t / s.operation.load_ramp_s).min(1.0)
-    } else {
-        1.0
-    };
+    let share = if s.operation.load_ramp_s > 0.0 { (t / s.operation.load_ramp_s).min(1.0) } else { 1.0 };
     let load = s.operation.load_n.map(|f| f * share);
     add(match s.operation.load_on {
         LoadOn::InnerRing => [-load[0], -load[1]],
@@ -46,34 +36,17 @@ fn unexplained_force(
     let p = &s.support;
     let lumped = s.simulation.model == ModelKind::Lumped;
     let rings = [
-        (
-            l.inner(),
-            b.inner_ring_mass_kg,
-            p.inner_stiffness_n_per_m,
-            p.inner_damping_ns_per_m,
-        ),
+        (l.inner(), b.inner_ring_mass_kg, p.inner_stiffness_n_per_m, p.inner_damping_ns_per_m),
         (
             l.outer(),
             b.outer_ring_mass_kg,
-            if lumped {
-                0.0
-            } else {
-                p.outer_stiffness_n_per_m
-            },
-            if lumped {
-                0.0
-            } else {
-                p.outer_damping_ns_per_m
-            },
+            if lumped { 0.0 } else { p.outer_stiffness_n_per_m },
+            if lumped { 0.0 } else { p.outer_damping_ns_per_m },
         ),
     ];
     for (at, mass, k, c) in rings {
         for axis in 0..2 {
-            for force in [
-                mass * (a[at + axis] - g[axis]),
-                k * q[at + axis],
-                c * v[at + axis],
-            ] {
+            for force in [mass * (a[at + axis] - g[axis]), k * q[at + axis], c * v[at + axis]] {
                 let mut f = [0.0; 2];
                 f[axis] = force;
                 add(f);
@@ -86,11 +59,7 @@ fn unexplained_force(
     let m = b.roller_mass_kg;
     let pitch = 0.5e-3 * b.pitch_diameter_mm;
     let o = &s.lubricant;
-    let drag = 0.5e-6
-        * o.drag_coefficient
-        * o.effective_density_kg_per_m3
-        * b.roller_length_mm
-        * b.roller_diameter_mm;
+    let drag = 0.5e-6 * o.drag_coefficient * o.effective_density_kg_per_m3 * b.roller_length_mm * b.roller_diameter_mm;
     for slot in 0..l.rollers() {
         let (sin, cos) = q[l.theta() + slot].sin_cos();
         let radius = pitch + q[l.r() + slot];
@@ -141,8 +110,8 @@ proptest! {
     }
 }
 
-/// Rate at which stiffnesses that change under the rollers change the energy of the contacts, W: the change of the elastic energy with
-/// the angles at a fixed deformation, by central difference.
+/// Rate at which stiffnesses that change under the rollers change the energy of the contacts, W: the change of the
+/// elastic energy with the angles at a fixed deformation, by central difference.
 fn parametric_rate(model: &Model, t: f64, y: &[f64], motion: &Motion, h: f64) -> f64 {
     let l = &model.layout;
     let dof = l.dof();
@@ -161,21 +130,11 @@ fn parametric_rate(model: &Model, t: f64, y: &[f64], motion: &Motion, h: f64) ->
                     let mut cover = Cover::new(slices.count);
                     let defects = model.defects_of(slot, side);
                     let covered = cover_slices(defects, &angles(dt), side, &mut cover);
-                    let at = Approach {
-                        deformation: delta,
-                        tilt: contacts.approach(slot).tilt,
-                        ..Approach::default()
-                    };
+                    let at = Approach { deformation: delta, tilt: contacts.approach(slot).tilt, ..Approach::default() };
                     let law = model.contact(side);
                     return slices.carry(law, &at, covered.then_some(&cover)).energy;
                 }
-                energy(
-                    model.defects_of(slot, side),
-                    model.contact(side),
-                    &angles(dt),
-                    side,
-                    delta,
-                )
+                energy(model.defects_of(slot, side), model.contact(side), &angles(dt), side, delta)
             };
             rate += (held(h) - held(-h)) / (2.0 * h);
         }
@@ -185,8 +144,8 @@ fn parametric_rate(model: &Model, t: f64, y: &[f64], motion: &Motion, h: f64) ->
 
 #[test]
 fn prop_power_balance_at_any_instant() {
-    // Displacements within h are below 1e-9 m, a thousandth of a deformation, so third derivatives do not matter; round-off of 2 J of
-    // kinetic energy over 2 h is 1e-8 W.
+    // Displacements within h are below 1e-9 m, a thousandth of a deformation, so third derivatives do not matter;
+    // round-off of 2 J of kinetic energy over 2 h is 1e-8 W.
     const H: f64 = 1e-8;
     let mut compared = 0;
     let mut skipped = 0;
@@ -237,27 +196,22 @@ fn prop_power_balance_at_any_instant() {
             }
             compared += 1;
             let expected = power.net() + parametric;
-            let scale = power.dissipated()
-                + power.load.abs()
-                + power.drive.abs()
-                + power.lever.abs()
-                + parametric.abs();
+            let scale =
+                power.dissipated() + power.load.abs() + power.drive.abs() + power.lever.abs() + parametric.abs();
             assert!(
                 (rate - expected).abs() < 1e-6 * scale + 1e-6,
                 "{name}, seed {seed}: energy changes by {rate} W, flows say {expected} W"
             );
         }
     }
-    assert!(
-        compared > 10 * skipped,
-        "{compared} compared, {skipped} skipped"
-    );
+    assert!(compared > 10 * skipped, "{compared} compared, {skipped} skipped");
 }
 
 #[test]
 fn prop_energy_audit_closes() {
-    // What an accuracy leaves unexplained, as a share of everything that moved: three times the largest found. Switches and damage edges make it first
-    // order in the step there, so a thousandth of the tolerance (a tenth of the step) may leave as much as a tenth; a fifth is asked.
+    // What an accuracy leaves unexplained, as a share of everything that moved: three times the largest found. Switches
+    // and damage edges make it first order in the step there, so a thousandth of the tolerance (a tenth of the step)
+    // may leave as much as a tenth; a fifth is asked.
     const STANDARD: f64 = 1e-3;
     const REFERENCE: f64 = 5e-5;
     const SHRINKS: f64 = 0.2;
@@ -270,15 +224,8 @@ fn prop_energy_audit_closes() {
         let mut share = |accuracy| {
             s.simulation.accuracy = accuracy;
             let (_, outcome) = simulate(&s);
-            assert!(
-                outcome.energy.turnover() > 1e-4,
-                "{name}: something must move"
-            );
-            (
-                outcome.energy.residual(),
-                outcome.energy.turnover(),
-                outcome.energy.flows.lever,
-            )
+            assert!(outcome.energy.turnover() > 1e-4, "{name}: something must move");
+            (outcome.energy.residual(), outcome.energy.turnover(), outcome.energy.flows.lever)
         };
         let (standard, turnover, _) = share(Accuracy::Standard);
         let (reference, _, lever) = share(Accuracy::Reference);
@@ -316,31 +263,25 @@ fn smooth_residual(model: &Model, factor: f64, span: f64) -> f64 {
 
 #[test]
 fn prop_energy_residual_falls_with_the_tolerance() {
-    // Preloaded, so that no contact opens: the pair is of third order, its step goes as the cube root of the tolerance, and the energy
-    // left over goes as the tolerance. Measured over a factor of 512 (three octaves of the step), from where the tolerance and not the
-    // longest step sets it.
+    // Preloaded, so that no contact opens: the pair is of third order, its step goes as the cube root of the tolerance,
+    // and the energy left over goes as the tolerance. Measured over a factor of 512 (three octaves of the step), from
+    // where the tolerance and not the longest step sets it.
     let mut s = rectangle();
     s.defects.clear();
     s.bearing.radial_clearance_um = -4.0;
     s.cage.pocket_clearance_mm = 0.5;
     s.simulation.start = Start::Equilibrium;
     let model = Model::new(&s).unwrap();
-    let (coarse, fine) = (
-        smooth_residual(&model, 4e-3, 1e-3),
-        smooth_residual(&model, 4e-3 / 512.0, 1e-3),
-    );
+    let (coarse, fine) = (smooth_residual(&model, 4e-3, 1e-3), smooth_residual(&model, 4e-3 / 512.0, 1e-3));
     let order = (coarse / fine).abs().log2() / 3.0;
     println!("energy left over {coarse:.2e} J and {fine:.2e} J: order {order:.2} in the step");
-    assert!(
-        (2.5..4.0).contains(&order),
-        "{coarse:e} J, then {fine:e} J: order {order}"
-    );
+    assert!((2.5..4.0).contains(&order), "{coarse:e} J, then {fine:e} J: order {order}");
 }
 
 #[test]
 fn prop_no_gain_without_input() {
-    // No load, no gravity, no friction to be driven by, no film: dampers alone remain, so what the bodies hold can only fall, but for
-    // the work that the paper's levers leave over (section 8), which the audit books.
+    // No load, no gravity, no friction to be driven by, no film: dampers alone remain, so what the bodies hold can only
+    // fall, but for the work that the paper's levers leave over (section 8), which the audit books.
     let mut s = rectangle();
     s.defects.clear();
     s.operation.load_n = [0.0, 0.0];
@@ -358,8 +299,7 @@ fn prop_no_gain_without_input() {
         let mut settings = settings(&model, Accuracy::Reference);
         settings.tolerance = tolerance;
         let mut stepper = Stepper::new(&mut motion, settings, 0.0, &y);
-        let energy =
-            |t: f64, y: &[f64], motion: &Motion| Energy::of(&model, t, y, &motion.ws).total();
+        let energy = |t: f64, y: &[f64], motion: &Motion| Energy::of(&model, t, y, &motion.ws).total();
         let start = energy(0.0, &y, &motion);
         let mut lever = 0.0;
         let mut lowest = start;
@@ -369,7 +309,8 @@ fn prop_no_gain_without_input() {
             assert_eq!((flow.load, flow.drive, flow.film), (0.0, 0.0, 0.0));
             lever += flow.lever;
             last = energy(stepper.t(), stepper.y(), &motion) - lever;
-            // The error of a step is below the tolerance in velocity: sqrt(2 E) times it in energy, and a few hundred switches.
+            // The error of a step is below the tolerance in velocity: sqrt(2 E) times it in energy, and a few hundred
+            // switches.
             assert!(
                 last < lowest + 100.0 * tolerance * (2.0 * start).sqrt(),
                 "seed {seed}: gained {:e} J at {:e} s",
@@ -378,10 +319,7 @@ fn prop_no_gain_without_input() {
             );
             lowest = lowest.min(last);
         }
-        println!(
-            "seed {seed}: {start:.3e} J fell by {:.3e} J, lever {lever:.1e} J",
-            start - last
-        );
+        println!("seed {seed}: {start:.3e} J fell by {:.3e} J, lever {lever:.1e} J", start - last);
         assert!(last < 0.999 * start, "seed {seed}: dampers took something");
     }
 }
@@ -400,8 +338,7 @@ fn prop_levers_leave_little_in_the_papers_case() {
 #[test]
 fn regress_a_cage_that_rollers_guide_stays_in_its_bearing() {
     // Without a land it strayed by 3.5 mm in this time, and by more than the bearing's radius in twice as long.
-    let text =
-        "[bearing]\npreset = \"NU206\"\n[operation]\nspeed_rpm = 3600.0\nload_n = [300.0, 0.0]\n";
+    let text = "[bearing]\npreset = \"NU206\"\n[operation]\nspeed_rpm = 3600.0\nload_n = [300.0, 0.0]\n";
     let s = brinell::document::read(text, &[]).unwrap().scenario;
     assert_eq!(s.cage.guidance, Guidance::Rollers);
     let model = Model::new(&s).unwrap();
@@ -416,8 +353,5 @@ fn regress_a_cage_that_rollers_guide_stays_in_its_bearing() {
         farthest = farthest.max(stepper.y()[at].hypot(stepper.y()[at + 1]));
     }
     let clearance = model.guide.clearance;
-    assert!(
-        (clearance..1.2 * clearance).contains(&farthest),
-        "{farthest} m of {clearance} m"
-    );
+    assert!((clearance..1.2 * clearance).contains(&farthest), "{farthest} m of {clearance} m");
 }

@@ -16,12 +16,7 @@ const ORDER: f64 = 3.0;
 const NEAR: f64 = 0.1;
 
 fn fixed(step: f64, mass: Vec<f64>) -> Settings {
-    Settings {
-        tableau: DAMPED_CONTACT,
-        tolerance: f64::MAX,
-        mass,
-        max_step: step,
-    }
+    Settings { tableau: DAMPED_CONTACT, tolerance: f64::MAX, mass, max_step: step }
 }
 
 /// Orders between consecutive halvings of the step.
@@ -33,15 +28,12 @@ fn assert_order(what: &str, errors: &[f64], order: f64, near: f64) {
     let measured = orders(errors);
     println!("{what}: errors {errors:?}, orders {measured:.3?}");
     for m in &measured {
-        assert!(
-            (m - order).abs() <= near,
-            "{what}: order {m:.3}, not {order}; errors {errors:?}"
-        );
+        assert!((m - order).abs() <= near, "{what}: order {m:.3}, not {order}; errors {errors:?}");
     }
 }
 
-/// Two oscillators with elementary solutions: Ermakov's x'' = 1/x^3 - x from x = 2 at rest, and z'' = 2 cos t^2 - 4 t^2 z, whose
-/// solution sin t^2 is reached only with the right nodes. Along with them, the integral of 1/x^2.
+/// Two oscillators with elementary solutions: Ermakov's x'' = 1/x^3 - x from x = 2 at rest, and z'' = 2 cos t^2 - 4 t^2
+/// z, whose solution sin t^2 is reached only with the right nodes. Along with them, the integral of 1/x^2.
 struct Oscillators {
     flow: f64,
 }
@@ -81,11 +73,7 @@ impl System for Oscillators {
 }
 
 fn distance(a: &[f64], b: &[f64]) -> f64 {
-    a.iter()
-        .zip(b)
-        .map(|(a, b)| (a - b) * (a - b))
-        .sum::<f64>()
-        .sqrt()
+    a.iter().zip(b).map(|(a, b)| (a - b) * (a - b)).sum::<f64>().sqrt()
 }
 
 /// Points within a step where its dense output is looked at.
@@ -168,19 +156,15 @@ impl Acting {
         let contacts = || ws.contacts.iter();
         let sign = |f: &f64| i8::from(*f > 0.0) - i8::from(*f < 0.0);
         Self {
-            closed: contacts()
-                .flat_map(|c| c.force.iter().map(|f| *f > 0.0))
-                .collect(),
+            closed: contacts().flat_map(|c| c.force.iter().map(|f| *f > 0.0)).collect(),
             pocket: ws.pocket_force.iter().map(sign).collect(),
-            on_damage: contacts()
-                .flat_map(|c| c.on_damage.iter().copied())
-                .collect(),
+            on_damage: contacts().flat_map(|c| c.on_damage.iter().copied()).collect(),
         }
     }
 }
 
-/// Share of a stretch left out at each of its ends. A contact that has just closed or is about to open is near delta = 0, where
-/// delta^(10/9) is not smooth, and no step is short enough there for an order to show.
+/// Share of a stretch left out at each of its ends. A contact that has just closed or is about to open is near delta =
+/// 0, where delta^(10/9) is not smooth, and no step is short enough there for an order to show.
 const MARGIN: f64 = 0.1;
 
 /// The longest stretch between two switches, no roller on damage, without its margins; and the state at its start.
@@ -223,8 +207,8 @@ const LEVELS: i32 = 5;
 /// Of these, the ones whose audit is well above its round-off, about 5e-16 J.
 const AUDITED: usize = 3;
 
-/// Between two switches the bearing is smooth, and the order is the method's there: against steps eight times as short as
-/// the shortest, and against the energy audit, which needs no other solution.
+/// Between two switches the bearing is smooth, and the order is the method's there: against steps eight times as short
+/// as the shortest, and against the energy audit, which needs no other solution.
 #[test]
 fn analytic_order_on_the_bearing_between_switches() {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/reference/outer-rectangle.toml");
@@ -236,11 +220,7 @@ fn analytic_order_on_the_bearing_between_switches() {
     let mass = model.mass();
     let norm = |a: &[f64], b: &[f64]| {
         let half = mass.len();
-        let sum: f64 = mass
-            .iter()
-            .zip(a[half..].iter().zip(&b[half..]))
-            .map(|(m, (a, b))| m * (a - b) * (a - b))
-            .sum();
+        let sum: f64 = mass.iter().zip(a[half..].iter().zip(&b[half..])).map(|(m, (a, b))| m * (a - b) * (a - b)).sum();
         sum.sqrt()
     };
     let run = |step: f64, at: &mut dyn FnMut(&Stepper<_>)| {
@@ -260,9 +240,7 @@ fn analytic_order_on_the_bearing_between_switches() {
         residual
     };
     // Grid of the comparisons, the same for all.
-    let grid: Vec<f64> = (1..40)
-        .map(|k| from + (to - from) * f64::from(k) / 40.0)
-        .collect();
+    let grid: Vec<f64> = (1..40).map(|k| from + (to - from) * f64::from(k) / 40.0).collect();
     let sample = |step: f64| {
         let mut states = Vec::new();
         let mut y = vec![0.0; first.len()];
@@ -279,13 +257,7 @@ fn analytic_order_on_the_bearing_between_switches() {
     let mut errors = [Vec::new(), Vec::new()];
     for level in 0..LEVELS {
         let (states, residual) = sample(LONGEST * 0.5f64.powi(level));
-        errors[0].push(
-            states
-                .iter()
-                .zip(&exact)
-                .map(|(a, b)| norm(a, b))
-                .fold(0.0, f64::max),
-        );
+        errors[0].push(states.iter().zip(&exact).map(|(a, b)| norm(a, b)).fold(0.0, f64::max));
         errors[1].push(residual);
     }
     assert_order("bearing, dense output", &errors[0], ORDER, NEAR);

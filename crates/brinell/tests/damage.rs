@@ -3,9 +3,7 @@
 use crate::common::{Rows, simulate};
 use brinell::defect::{Side, spall};
 use brinell::model::{Model, Motion};
-use brinell::scenario::{
-    self, Accuracy, Defect, EdgeReaction, Law, RollerPath, Scenario, Shape, Surface,
-};
+use brinell::scenario::{self, Accuracy, Defect, EdgeReaction, Law, RollerPath, Scenario, Shape, Surface};
 use brinell::solver::Stepper;
 
 fn run_of(shape: Shape, law: Law, path: RollerPath, duration_s: f64) -> Scenario {
@@ -19,10 +17,7 @@ fn run_of(shape: Shape, law: Law, path: RollerPath, duration_s: f64) -> Scenario
 }
 
 fn rectangle(width_mm: f64) -> Shape {
-    Shape::Rectangle {
-        length_mm: 3.0,
-        width_mm,
-    }
+    Shape::Rectangle { length_mm: 3.0, width_mm }
 }
 
 #[test]
@@ -40,11 +35,13 @@ fn prop_no_width_is_the_healthy_bearing_to_the_bit() {
     }
 }
 
-/// Forces of models that are the same but for round-off differ by less than this share of the largest: some hundred additions (30 slices).
+/// Forces of models that are the same but for round-off differ by less than this share of the largest: some hundred
+/// additions (30 slices).
 const SAME: f64 = 1e-12;
 
-/// Largest difference of a contact force or an acceleration between two models at the same states, over the largest of its kind; the states are
-/// those of a run of the first. Two runs would not do: impacts amplify the round-off of either until it hides what is compared.
+/// Largest difference of a contact force or an acceleration between two models at the same states, over the largest of
+/// its kind; the states are those of a run of the first. Two runs would not do: impacts amplify the round-off of either
+/// until it hides what is compared.
 fn force_difference(models: &[Model; 2], until: f64) -> f64 {
     let mut motions = models.each_ref().map(Motion::new);
     let y = brinell::start::state(&models[0]).unwrap();
@@ -57,15 +54,10 @@ fn force_difference(models: &[Model; 2], until: f64) -> f64 {
         for (motion, rate) in motions.iter_mut().zip(&mut rates) {
             motion.derivative(stepper.t(), stepper.y(), rate);
         }
-        let contacts = motions
-            .each_ref()
-            .map(|m| &m.ws.contacts[Side::Outer as usize]);
+        let contacts = motions.each_ref().map(|m| &m.ws.contacts[Side::Outer as usize]);
         assert_eq!(contacts[0].on_damage, contacts[1].on_damage);
         on_damage += contacts[0].on_damage.iter().filter(|on| **on).count();
-        let largest = contacts[0]
-            .force
-            .iter()
-            .fold(0.0, |m: f64, q| m.max(q.abs()));
+        let largest = contacts[0].force.iter().fold(0.0, |m: f64, q| m.max(q.abs()));
         for (a, b) in contacts[0].force.iter().zip(contacts[1].force.iter()) {
             worst = worst.max((a - b).abs() / largest);
         }
@@ -88,20 +80,15 @@ fn model_of(shape: &Shape, law: Law, path: RollerPath) -> Model {
 #[test]
 fn prop_a_rectangle_drawn_as_an_outline_runs_the_same() {
     let corners = vec![[-1.5, -2.0], [1.5, -2.0], [1.5, 2.0], [-1.5, 2.0]];
-    let drawn = Shape::Outline {
-        polygons_mm: vec![corners],
-    };
+    let drawn = Shape::Outline { polygons_mm: vec![corners] };
     for law in [Law::Ecl, Law::Sliced] {
         for path in [RollerPath::Point, RollerPath::Envelope] {
             let models = [&drawn, &rectangle(4.0)].map(|shape| model_of(shape, law, path));
             let off = force_difference(&models, 0.012);
             println!("{law:?} {path:?}: {off:.1e}");
-            // Slices along the envelope are fitted to 1e-9 of the depth in the outline, and closed forms in the rectangle.
-            let most = if (law, path) == (Law::Sliced, RollerPath::Envelope) {
-                1e-6
-            } else {
-                SAME
-            };
+            // Slices along the envelope are fitted to 1e-9 of the depth in the outline, and closed forms in the
+            // rectangle.
+            let most = if (law, path) == (Law::Sliced, RollerPath::Envelope) { 1e-6 } else { SAME };
             assert!(off < most, "{law:?} {path:?}: {off:e}");
         }
     }
@@ -120,12 +107,7 @@ fn prop_full_width_damage_runs_the_same_in_both_laws() {
 #[test]
 fn analytic_a_run_from_equilibrium_on_sliced_damage_starts_as_quietly_as_a_healthy_one() {
     for seed in [1, 2, 3] {
-        let spall = Shape::Random {
-            seed,
-            length_mm: 6.0,
-            width_mm: 5.0,
-            roughness: 0.5,
-        };
+        let spall = Shape::Random { seed, length_mm: 6.0, width_mm: 5.0, roughness: 0.5 };
         let mut s = run_of(spall, Law::Sliced, RollerPath::Envelope, 1e-3);
         s.simulation.start = scenario::Start::Equilibrium;
         s.defects[0].depth_um = 8.0;
@@ -133,9 +115,7 @@ fn analytic_a_run_from_equilibrium_on_sliced_damage_starts_as_quietly_as_a_healt
         // The orbit's dampers and friction are no part of a static balance: the healthy bearing has their push too.
         s.defects.clear();
         let healthy = simulate(&s).0;
-        let push = |rows: &Rows| {
-            ["outer_ax", "outer_ay", "inner_ax", "inner_ay"].map(|name| rows.column(name)[0])
-        };
+        let push = |rows: &Rows| ["outer_ax", "outer_ay", "inner_ax", "inner_ay"].map(|name| rows.column(name)[0]);
         for (a, b) in push(&rows).into_iter().zip(push(&healthy)) {
             assert!((a - b).abs() < 1.0, "seed {seed}: {a} and {b} m/s^2");
         }
@@ -143,14 +123,7 @@ fn analytic_a_run_from_equilibrium_on_sliced_damage_starts_as_quietly_as_a_healt
 }
 
 fn on(surface: Surface, shape: Shape) -> Defect {
-    Defect {
-        on: surface,
-        row: 1,
-        center_deg: 0.0,
-        depth_um: 12.0,
-        axial_offset_mm: 0.0,
-        shape,
-    }
+    Defect { on: surface, row: 1, center_deg: 0.0, depth_um: 12.0, axial_offset_mm: 0.0, shape }
 }
 
 /// Energy that no entry explains, the parametric work and the turnover, J.
@@ -164,12 +137,7 @@ fn audit(defects: Vec<Defect>, edge_reaction: EdgeReaction) -> [f64; 4] {
     s.defects = defects;
     let outcome = simulate(&s).1;
     let e = outcome.energy;
-    [
-        e.residual(),
-        e.parametric,
-        e.turnover(),
-        outcome.momentum_imbalance.unwrap(),
-    ]
+    [e.residual(), e.parametric, e.turnover(), outcome.momentum_imbalance.unwrap()]
 }
 
 #[test]
@@ -179,8 +147,9 @@ fn analytic_conservative_edges_close_the_energy_audit_on_every_surface() {
         ("inner", vec![on(Surface::InnerRaceway, rectangle(4.0))]),
         ("roller", vec![on(Surface::Roller(1), rectangle(4.0))]),
         (
-            // Without a depth map: a map covers cell by cell, so that a slice's covered share, and with it the mean depth of what is covered,
-            // jumps from one column to the next. The energy then is not continuous (3.5 % of a contact's force at 10 slices).
+            // Without a depth map: a map covers cell by cell, so that a slice's covered share, and with it the mean
+            // depth of what is covered, jumps from one column to the next. The energy then is not continuous (3.5 % of
+            // a contact's force at 10 slices).
             "overlap",
             vec![
                 on(Surface::OuterRaceway, rectangle(4.0)),
@@ -211,24 +180,21 @@ fn map(columns: usize, rows: usize, depth: impl Fn(usize, usize) -> f64) -> Shap
         dz_mm: 4.0 / (rows - 1) as f64,
         columns,
         rows,
-        depth_um: (0..columns * rows)
-            .map(|k| depth(k % columns, k / columns))
-            .collect(),
+        depth_um: (0..columns * rows).map(|k| depth(k % columns, k / columns)).collect(),
     };
     Shape::DepthMap { grid }
 }
 
 /// Right-hand sides counted, which noise cannot touch; times are printed beside them.
 ///
-/// The same damage as the rectangle's, scanned with relief at every node, costs what the rectangle costs. A spall of another outline is another
-/// excitation: along the envelope it stays within the same bound, at a point every node of its ragged border makes the force fall within a few micrometres.
+/// The same damage as the rectangle's, scanned with relief at every node, costs what the rectangle costs. A spall of
+/// another outline is another excitation: along the envelope it stays within the same bound, at a point every node of
+/// its ragged border makes the force fall within a few micrometres.
 #[test]
 fn prop_a_detailed_depth_map_costs_little_more_than_a_rectangle() {
     let relief = |c: usize, r: usize| 1.0 + 0.1 * (0.9 * c as f64).sin() * (0.7 * r as f64).cos();
     let scan = map(301, 201, |c, r| 20.0 * relief(c, r));
-    let spall = Shape::DepthMap {
-        grid: spall(11, 3.0, 4.0, 0.6, 20.0),
-    };
+    let spall = Shape::DepthMap { grid: spall(11, 3.0, 4.0, 0.6, 20.0) };
     for (law, path, spall_bound) in [
         (Law::Ecl, RollerPath::Point, 1.25),
         (Law::Ecl, RollerPath::Envelope, 1.25),

@@ -1,4 +1,5 @@
-//! A run over damage allocates nothing between its steps, whatever the damage. A program of its own for its allocator, which counts.
+//! A run over damage allocates nothing between its steps, whatever the damage. A program of its own for its allocator,
+//! which counts.
 
 mod common;
 
@@ -34,23 +35,14 @@ fn prop_steps_over_damage_allocate_nothing() {
     for (law, path, edge_reaction) in [
         (Law::Ecl, RollerPath::Envelope, EdgeReaction::None),
         (Law::Sliced, RollerPath::Point, EdgeReaction::None),
-        (
-            Law::Sliced,
-            RollerPath::Envelope,
-            EdgeReaction::Conservative,
-        ),
+        (Law::Sliced, RollerPath::Envelope, EdgeReaction::Conservative),
     ] {
         let mut s = Scenario::example();
         s.contact.law = law;
         s.contact.roller_path = path;
         s.contact.edge_reaction = edge_reaction;
         s.simulation.duration_s = 0.02;
-        s.defects[0].shape = Shape::Random {
-            seed: 4,
-            length_mm: 5.0,
-            width_mm: 4.0,
-            roughness: 0.6,
-        };
+        s.defects[0].shape = Shape::Random { seed: 4, length_mm: 5.0, width_mm: 4.0, roughness: 0.6 };
         // A second one across the first, so that slices choose between them.
         s.defects.push(s.defects[0].clone());
         s.defects[1].shape = Shape::Circle { diameter_mm: 3.0 };
@@ -61,10 +53,7 @@ fn prop_steps_over_damage_allocate_nothing() {
     s.contact.edge_reaction = EdgeReaction::Conservative;
     s.defects[0].shape = Shape::Circle { diameter_mm: 2.0 };
     s.defects.push(s.defects[0].clone());
-    s.defects[1].shape = Shape::Rectangle {
-        length_mm: 0.5,
-        width_mm: 1.5,
-    };
+    s.defects[1].shape = Shape::Rectangle { length_mm: 0.5, width_mm: 1.5 };
     allocates_nothing(&s);
     s.defects.truncate(1);
     allocates_nothing(&s);

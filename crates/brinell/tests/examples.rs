@@ -1,6 +1,7 @@
 //! The scenarios in `examples/` at the top of the repository: each reads without a word and runs as it is.
 //!
-//! Two of them name a file of damage, which the core does not open: `crates/brinell-damage/tests/resolve.rs` runs those.
+//! Two of them name a file of damage, which the core does not open: `crates/brinell-damage/tests/resolve.rs` runs
+//! those.
 
 use brinell::document::{Loaded, read};
 use brinell::model::Model;

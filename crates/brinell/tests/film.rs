@@ -11,7 +11,8 @@ use brinell::solver::Stepper;
 use brinell::start;
 use std::f64::consts::{PI, TAU};
 
-/// The bearing of Friswell, Penny, Garvey and Lees, Dynamics of Rotating Machines (2010), Example 5.5.1, whose oil is 0.1 Pa s.
+/// The bearing of Friswell, Penny, Garvey and Lees, Dynamics of Rotating Machines (2010), Example 5.5.1, whose oil is
+/// 0.1 Pa s.
 const BEARING: Guide = Guide {
     film: Some(GuidanceFilm::Dynamic),
     viscosity: 0.1,
@@ -28,8 +29,8 @@ fn film(guide: &Guide, offset: [f64; 2], velocity: [f64; 2]) -> [f64; 2] {
     guide.force(offset, velocity, SPEED, 0.0).film
 }
 
-/// The load that the film carries at rest at the eccentricity ratio `eps`, N, and its eight coefficients: stiffness (N/m) and damping
-/// (N s/m), uu, uv, vu, vv with v along the load and u turned from it by -90 degrees.
+/// The load that the film carries at rest at the eccentricity ratio `eps`, N, and its eight coefficients: stiffness
+/// (N/m) and damping (N s/m), uu, uv, vu, vv with v along the load and u turned from it by -90 degrees.
 fn coefficients(eps: f64) -> (f64, [f64; 4], [f64; 4]) {
     let at = [eps * BEARING.clearance, 0.0];
     let force = film(&BEARING, at, [0.0; 2]);
@@ -43,17 +44,11 @@ fn coefficients(eps: f64) -> (f64, [f64; 4], [f64; 4]) {
     let mut damping = [0.0; 4];
     for (column, axis) in [u, v].into_iter().enumerate() {
         let moved = |share: f64| {
-            let x = [
-                at[0] + share * step * axis[0],
-                at[1] + share * step * axis[1],
-            ];
+            let x = [at[0] + share * step * axis[0], at[1] + share * step * axis[1]];
             film(&BEARING, x, [0.0; 2])
         };
         let pushed = |share: f64| {
-            let w = [
-                share * step * SPEED * axis[0],
-                share * step * SPEED * axis[1],
-            ];
+            let w = [share * step * SPEED * axis[0], share * step * SPEED * axis[1]];
             film(&BEARING, at, w)
         };
         for (row, felt) in [u, v].into_iter().enumerate() {
@@ -65,8 +60,8 @@ fn coefficients(eps: f64) -> (f64, [f64; 4], [f64; 4]) {
     (load, stiffness, damping)
 }
 
-/// The short bearing's coefficients over load / c and load / (c speed): Friswell et al. (2010), Section 5.5.1; the same in Lund and
-/// Thomsen (1978) and Childs (1993).
+/// The short bearing's coefficients over load / c and load / (c speed): Friswell et al. (2010), Section 5.5.1; the same
+/// in Lund and Thomsen (1978) and Childs (1993).
 fn published(eps: f64) -> ([f64; 4], [f64; 4]) {
     let (e2, p2) = (eps * eps, PI * PI);
     let root = (1.0 - e2).sqrt();
@@ -93,10 +88,7 @@ fn lit_short_bearing_stiffness_and_damping_at_five_eccentricities() {
         let (load, stiffness, damping) = coefficients(eps);
         let (a, b) = published(eps);
         let scales = [load / BEARING.clearance, load / (BEARING.clearance * SPEED)];
-        for (own, theirs, scale, what) in [
-            (stiffness, a, scales[0], "stiffness"),
-            (damping, b, scales[1], "damping"),
-        ] {
+        for (own, theirs, scale, what) in [(stiffness, a, scales[0], "stiffness"), (damping, b, scales[1], "damping")] {
             let size = theirs.iter().fold(0.0f64, |s, x| s.max(x.abs()));
             for (own, theirs) in own.into_iter().zip(theirs) {
                 // What central differences leave: (1e-6 / (1 - eps))^2, and round-off over 1e-6.
@@ -127,21 +119,16 @@ fn lit_short_bearing_example_of_friswell() {
     let (_, stiffness, damping) = coefficients(low);
     let printed = [12.81e6, 16.39e6, -25.06e6, 8.815e6];
     for (own, printed) in stiffness.into_iter().zip(printed) {
-        assert!(
-            (own / printed - 1.0).abs() < 5e-4,
-            "{own} N/m, printed {printed}"
-        );
+        assert!((own / printed - 1.0).abs() < 5e-4, "{own} N/m, printed {printed}");
     }
     let printed = [232.9e3, -81.92e3, -81.92e3, 294.9e3];
     for (own, printed) in damping.into_iter().zip(printed) {
-        assert!(
-            (own / printed - 1.0).abs() < 5e-4,
-            "{own} N s/m, printed {printed}"
-        );
+        assert!((own / printed - 1.0).abs() < 5e-4, "{own} N s/m, printed {printed}");
     }
 }
 
-/// A random guide and a state of it: offset up to 1.3 gaps, velocities from far below to far above what rotation gives, both speeds.
+/// A random guide and a state of it: offset up to 1.3 gaps, velocities from far below to far above what rotation gives,
+/// both speeds.
 fn random_state(random: &mut Random) -> (Guide, [f64; 2], [f64; 2], f64, f64) {
     let mut within = |low: f64, high: f64| low + (high - low) * 0.5 * (1.0 + random.signed());
     let guide = Guide {
@@ -154,29 +141,18 @@ fn random_state(random: &mut Random) -> (Guide, [f64; 2], [f64; 2], f64, f64) {
         land_damping: 20.0,
     };
     let (angle, e) = (within(-PI, PI), within(0.0, 1.3) * guide.clearance);
-    let (toward, speeds) = (
-        within(-PI, PI),
-        [within(-300.0, 300.0), within(-300.0, 300.0)],
-    );
+    let (toward, speeds) = (within(-PI, PI), [within(-300.0, 300.0), within(-300.0, 300.0)]);
     let speed = 100.0 * guide.clearance * 10f64.powf(within(-3.0, 2.0));
-    (
-        guide,
-        [e * angle.cos(), e * angle.sin()],
-        [speed * toward.cos(), speed * toward.sin()],
-        speeds[0],
-        speeds[1],
-    )
+    (guide, [e * angle.cos(), e * angle.sin()], [speed * toward.cos(), speed * toward.sin()], speeds[0], speeds[1])
 }
 
 /// v* of section 6: the velocity seen in the frame that turns at half the sum of both speeds.
 fn squeeze(offset: [f64; 2], velocity: [f64; 2], sum: f64) -> [f64; 2] {
-    [
-        velocity[0] + 0.5 * sum * offset[1],
-        velocity[1] - 0.5 * sum * offset[0],
-    ]
+    [velocity[0] + 0.5 * sum * offset[1], velocity[1] - 0.5 * sum * offset[0]]
 }
 
-/// The force as section 6 states it, by the midpoint rule: what a Gauss rule in `cage/film.rs` shows for the integrals alone.
+/// The force as section 6 states it, by the midpoint rule: what a Gauss rule in `cage/film.rs` shows for the integrals
+/// alone.
 fn by_quadrature(g: &Guide, offset: [f64; 2], v: [f64; 2]) -> [f64; 2] {
     const POINTS: usize = 20_000;
     let e = offset[0].hypot(offset[1]);
@@ -203,11 +179,9 @@ fn analytic_film_is_the_integral_of_its_pressure_in_any_motion() {
         let own = guide.force(offset, velocity, cage, ring).film;
         let sum = by_quadrature(&guide, offset, squeeze(offset, velocity, cage + ring));
         let off = (own[0] - sum[0]).hypot(own[1] - sum[1]) / sum[0].hypot(sum[1]);
-        // The midpoint rule's, (pi / 20000)^2 times the integrand's slope at the ends, up to 20 of it where the gap is 0.05 C.
-        assert!(
-            off < 1e-6,
-            "{off:e} of {sum:?} N: {guide:?} {offset:?} {velocity:?}"
-        );
+        // The midpoint rule's, (pi / 20000)^2 times the integrand's slope at the ends, up to 20 of it where the gap is
+        // 0.05 C.
+        assert!(off < 1e-6, "{off:e} of {sum:?} N: {guide:?} {offset:?} {velocity:?}");
     }
 }
 
@@ -221,18 +195,12 @@ fn analytic_resting_centres_feel_the_papers_film() {
         if e > MAX_ECCENTRICITY * guide.clearance {
             continue;
         }
-        let paper = Guide {
-            film: Some(GuidanceFilm::QuasiStatic),
-            ..guide
-        };
+        let paper = Guide { film: Some(GuidanceFilm::QuasiStatic), ..guide };
         let dynamic = guide.force(offset, [0.0; 2], cage, ring);
         let paper = paper.force(offset, [0.0; 2], cage, ring);
         let size = paper.film[0].hypot(paper.film[1]);
         for k in 0..2 {
-            assert!(
-                (dynamic.film[k] - paper.film[k]).abs() <= 1e-13 * size,
-                "{dynamic:?} {paper:?}"
-            );
+            assert!((dynamic.film[k] - paper.film[k]).abs() <= 1e-13 * size, "{dynamic:?} {paper:?}");
         }
         assert_eq!(dynamic.moment, paper.moment);
     }
@@ -259,8 +227,7 @@ fn prop_film_is_continuous_through_the_centre_and_about_it() {
         let angle = f64::from(k) * PI / 8.0;
         for eps in [0.0, 1e-15, 1e-9, 1e-6] {
             let half = HalfFilm::at(eps * angle.cos(), eps * angle.sin());
-            let off =
-                (half.along - 0.5 * PI).abs() + (half.across - 0.5 * PI).abs() + half.mixed.abs();
+            let off = (half.along - 0.5 * PI).abs() + (half.across - 0.5 * PI).abs() + half.mixed.abs();
             assert!(off <= 1e-14 + 12.0 * eps, "{eps}: {half:?}");
         }
     }
@@ -274,7 +241,8 @@ struct Whirl {
     eccentricity: f64,
 }
 
-/// Each cage from `from` to `to`, s. The centre's angle is unwrapped from step to step: half a turn of the cage takes thousands.
+/// Each cage from `from` to `to`, s. The centre's angle is unwrapped from step to step: half a turn of the cage takes
+/// thousands.
 fn whirl(s: &Scenario, from: f64, to: f64) -> Vec<Whirl> {
     let model = Model::new(s).unwrap();
     let mut motion = Motion::new(&model);
@@ -338,17 +306,14 @@ fn told(name: &str, s: &Scenario) -> Vec<Whirl> {
     cages
 }
 
-/// A plain film's centre whirls at half the sum of its surfaces' speeds at most: there v* vanishes, and with it the force.
+/// A plain film's centre whirls at half the sum of its surfaces' speeds at most: there v* vanishes, and with it the
+/// force.
 #[test]
 fn lit_cages_whirl_at_most_half_as_fast_as_they_turn() {
     use Guidance::{InnerRing, OuterRing};
-    for (preset, guidance) in [
-        ("NN3007", OuterRing),
-        ("N205", OuterRing),
-        ("N205", InnerRing),
-        ("NU206", OuterRing),
-        ("NU206", InnerRing),
-    ] {
+    for (preset, guidance) in
+        [("NN3007", OuterRing), ("N205", OuterRing), ("N205", InnerRing), ("NU206", OuterRing), ("NU206", InnerRing)]
+    {
         let mut s = healthy(preset, guidance, GuidanceFilm::Dynamic);
         if preset != "NN3007" {
             // As of a cage that runs on a ring; theirs are guided by rollers.
@@ -369,7 +334,8 @@ fn regress_quasi_static_film_makes_a_cage_whirl_faster_than_it_turns() {
     }
 }
 
-/// Rollers of a slow bearing fall from the outer to the inner raceway where nothing presses them; without oil each fall is an impact on steel.
+/// Rollers of a slow bearing fall from the outer to the inner raceway where nothing presses them; without oil each fall
+/// is an impact on steel.
 #[test]
 fn prop_the_raceway_film_cushions_rollers_that_fall() {
     let mut s = raceway_film();

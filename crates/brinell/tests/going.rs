@@ -4,8 +4,7 @@ use brinell::Scenario;
 use brinell::simulate::{CannotGoOn, End, Observer, Simulation};
 use std::ops::ControlFlow;
 
-const BEARING: &str =
-    "[bearing]\npreset = \"NN3007\"\n[operation]\nspeed_rpm = 1800\nload_n = [300, 0]\n";
+const BEARING: &str = "[bearing]\npreset = \"NN3007\"\n[operation]\nspeed_rpm = 1800\nload_n = [300, 0]\n";
 const SPALL: &str = "[[defects]]\non = \"outer-raceway\"\ncenter_deg = 0\ndepth_um = 20\n\
     shape = { rectangle = { length_mm = 3, width_mm = 4 } }\n";
 
@@ -82,12 +81,7 @@ fn prop_a_spall_in_a_running_bearing_raises_the_rms_and_the_run_has_no_end() {
     run.go_on_in(&damaged).unwrap();
     assert_eq!(run.advance(2560, &mut sensor), None);
     let (quiet, damaged) = (&sensor.0[before / 2..before], &sensor.0[before..]);
-    assert!(
-        rms(damaged) > 1.5 * rms(quiet),
-        "{} {}",
-        rms(damaged),
-        rms(quiet)
-    );
+    assert!(rms(damaged) > 1.5 * rms(quiet), "{} {}", rms(damaged), rms(quiet));
     let outcome = run.outcome(End::Stopped);
     assert!(outcome.energy.residual().abs() < 0.01 * outcome.energy.turnover());
 }
@@ -96,9 +90,7 @@ fn prop_a_spall_in_a_running_bearing_raises_the_rms_and_the_run_has_no_end() {
 fn prop_a_run_goes_on_only_where_the_states_correspond() {
     let simulation_ = simulation("");
     let mut run = simulation_.start();
-    let one_row =
-        Simulation::new(&Scenario::from_toml(&BEARING.replace("NN3007", "NU206")).unwrap())
-            .unwrap();
+    let one_row = Simulation::new(&Scenario::from_toml(&BEARING.replace("NN3007", "NU206")).unwrap()).unwrap();
     assert_eq!(run.go_on_in(&one_row), Err(CannotGoOn::Layout));
     let faster = simulation("[simulation]\nsample_rate_hz = 51200\n");
     assert_eq!(run.go_on_in(&faster), Err(CannotGoOn::SampleRate));

@@ -8,9 +8,7 @@ use brinell::simulate::Simulation;
 use std::path::Path;
 
 fn scenario(name: &str) -> Scenario {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR"))
-        .join("tests")
-        .join(name);
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests").join(name);
     let text = std::fs::read_to_string(path.with_extension("toml")).unwrap();
     read(&text, &[]).unwrap().scenario
 }
@@ -34,8 +32,8 @@ fn states(s: &Scenario) -> Vec<(f64, Vec<f64>)> {
     states
 }
 
-/// Largest difference of a derivative between two kernels, relative to the largest force at play: forces cancel in sums, so an
-/// acceleration cannot be closer than the round-off of its largest term.
+/// Largest difference of a derivative between two kernels, relative to the largest force at play: forces cancel in
+/// sums, so an acceleration cannot be closer than the round-off of its largest term.
 const LIMIT: f64 = 2e-13;
 
 #[test]
@@ -50,11 +48,7 @@ fn xval_kernels_agree_to_round_off() {
         "xval/rest-speed-profile",
         "raceway film",
     ] {
-        let s = if name == "raceway film" {
-            raceway_film()
-        } else {
-            scenario(name)
-        };
+        let s = if name == "raceway film" { raceway_film() } else { scenario(name) };
         let model = Model::new(&s).unwrap();
         let dof = model.layout.dof();
         let mass = model.mass();
@@ -71,16 +65,10 @@ fn xval_kernels_agree_to_round_off() {
                 model.derivative(t, &y, &mut b, &mut other);
                 assert_eq!(a[..dof], b[..dof], "rates are copied");
                 // Work of a force per unit of rate: the generalised force; angles' levers make them moments.
-                let size = (0..dof)
-                    .map(|k| (mass[k] * a[dof + k]).abs())
-                    .fold(0.0, f64::max);
+                let size = (0..dof).map(|k| (mass[k] * a[dof + k]).abs()).fold(0.0, f64::max);
                 let pressed: f64 = plain.contacts.iter().flat_map(|c| &c.elastic).sum();
                 for k in 0..dof {
-                    let lever = if mass[k] < 1e-5 {
-                        model.geometry.roller_radius
-                    } else {
-                        1.0
-                    };
+                    let lever = if mass[k] < 1e-5 { model.geometry.roller_radius } else { 1.0 };
                     let difference = mass[k] * (a[dof + k] - b[dof + k]).abs() / lever;
                     worst = worst.max(difference / (size + pressed));
                 }

@@ -40,10 +40,7 @@ impl Observer for Speeds {
             return;
         };
         for row in 0..l.rows {
-            push(
-                &mut self.cage[window],
-                1.0 - f.y[dof + l.cage(row) + 2] / rolling,
-            );
+            push(&mut self.cage[window], 1.0 - f.y[dof + l.cage(row) + 2] / rolling);
         }
         if window == 0 {
             return;
@@ -80,16 +77,8 @@ fn analytic_pure_rolling() {
     let centrifugal = model.inertia.roller * model.geometry.pitch_radius * orbit * orbit;
     assert!((centrifugal - 0.218).abs() < 5e-4);
     let k = model.kinematics(w);
-    for (found, printed) in [
-        (k.bpfo, 250.102),
-        (k.bpfi, 319.898),
-        (k.ftf, 13.163),
-        (k.bsf, 120.663),
-    ] {
-        assert!(
-            (found - printed).abs() < 5e-4,
-            "{found} Hz, printed {printed}"
-        );
+    for (found, printed) in [(k.bpfo, 250.102), (k.bpfi, 319.898), (k.ftf, 13.163), (k.bsf, 120.663)] {
+        assert!((found - printed).abs() < 5e-4, "{found} Hz, printed {printed}");
     }
 }
 
@@ -111,20 +100,12 @@ fn lit_loaded_rollers_roll_and_the_cage_settles() {
         100.0 * orbit,
         100.0 * surface
     );
-    // Section 13 says "less than 0.03 %": here 0.024 to 0.036 %, by the window and by the load from which a roller counts as loaded.
+    // Section 13 says "less than 0.03 %": here 0.024 to 0.036 %, by the window and by the load from which a roller
+    // counts as loaded.
     assert!(orbit.abs() < 4.5e-4, "loaded rollers slip {orbit:e}");
-    assert!(
-        surface < 4.5e-4,
-        "loaded rollers' surfaces slip {surface:e}"
-    );
-    // "Starts with 1 % and settles to about 0.1 %". Its means over 0.1 s wander between 0.03 and 0.35 % from 0.25 s on, whatever the accuracy,
-    // so half a digit is what can be asked.
-    assert!(
-        (5e-3..2e-2).contains(&early),
-        "cage slip {early:e} at first"
-    );
-    assert!(
-        (3e-4..4e-3).contains(&late),
-        "cage slip {late:e} after half a second"
-    );
+    assert!(surface < 4.5e-4, "loaded rollers' surfaces slip {surface:e}");
+    // "Starts with 1 % and settles to about 0.1 %". Its means over 0.1 s wander between 0.03 and 0.35 % from 0.25 s on,
+    // whatever the accuracy, so half a digit is what can be asked.
+    assert!((5e-3..2e-2).contains(&early), "cage slip {early:e} at first");
+    assert!((3e-4..4e-3).contains(&late), "cage slip {late:e} after half a second");
 }

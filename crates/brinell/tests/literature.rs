@@ -1,7 +1,7 @@
 //! The paper's own figures: defect frequencies of its three shapes at 1800 r/min and 300 N.
 //!
-//! The paper: simulated 249.60 (rectangle 3 x 4 mm), 250.39 (circle 4.5 mm) and 249.40 Hz (irregular, 7 x 4 mm); it states neither the duration
-//! nor the resolution, nor which cage slip holds. Pure rolling gives 250.10 Hz.
+//! The paper: simulated 249.60 (rectangle 3 x 4 mm), 250.39 (circle 4.5 mm) and 249.40 Hz (irregular, 7 x 4 mm); it
+//! states neither the duration nor the resolution, nor which cage slip holds. Pure rolling gives 250.10 Hz.
 
 use brinell::channel::Frame;
 use brinell::observe::Watch;
@@ -47,12 +47,14 @@ fn found(name: &str, shape: Shape, printed: f64) {
     let mut s = Scenario::example();
     s.defects[0].shape = shape;
     s.defects[0].depth_um = 20.0;
-    // The paper's film. In the dynamic one the cages run 0.7 mm off centre, slip by 1.2 %, and the line lies 1.3 % below the print.
+    // The paper's film. In the dynamic one the cages run 0.7 mm off centre, slip by 1.2 %, and the line lies 1.3 %
+    // below the print.
     s.cage.guidance_film = GuidanceFilm::QuasiStatic;
     // The cages slip by 1 % for the first 0.2 s and would pull the mean over half a second 0.6 % below pure rolling.
     s.simulation.duration_s = 1.0;
     s.simulation.sample_rate_hz = 25_600.0;
-    // Some starts end in a motion in which the cages slip by another per cent; which ones hangs on round-off. So the median of several.
+    // Some starts end in a motion in which the cages slip by another per cent; which ones hangs on round-off. So the
+    // median of several.
     let load = s.operation.load_n;
     let mut lines: Vec<LineFrequency> = (0..STARTS)
         .map(|k| {
@@ -63,10 +65,7 @@ fn found(name: &str, shape: Shape, printed: f64) {
         })
         .collect();
     lines.sort_by(|a, b| a.frequency.total_cmp(&b.frequency));
-    let all: Vec<String> = lines
-        .iter()
-        .map(|l| format!("{:.2}", l.frequency))
-        .collect();
+    let all: Vec<String> = lines.iter().map(|l| format!("{:.2}", l.frequency)).collect();
     println!("{name}: {} Hz", all.join(", "));
     let f = lines[lines.len() / 2];
     println!(
@@ -75,29 +74,14 @@ fn found(name: &str, shape: Shape, printed: f64) {
         f.uncertainty,
         100.0 * (f.frequency / printed - 1.0)
     );
-    assert!(
-        (f.frequency / printed - 1.0).abs() < TOLERANCE,
-        "{} Hz, printed {printed} Hz",
-        f.frequency
-    );
+    assert!((f.frequency / printed - 1.0).abs() < TOLERANCE, "{} Hz, printed {printed} Hz", f.frequency);
     // A match means something only where the line is known that well.
-    assert!(
-        f.uncertainty < TOLERANCE * printed,
-        "known to {} Hz only",
-        f.uncertainty
-    );
+    assert!(f.uncertainty < TOLERANCE * printed, "known to {} Hz only", f.uncertainty);
 }
 
 #[test]
 fn lit_rectangle_frequency() {
-    found(
-        "rectangle",
-        Shape::Rectangle {
-            length_mm: 3.0,
-            width_mm: 4.0,
-        },
-        249.60,
-    );
+    found("rectangle", Shape::Rectangle { length_mm: 3.0, width_mm: 4.0 }, 249.60);
 }
 
 #[test]
@@ -107,9 +91,5 @@ fn lit_circle_frequency() {
 
 #[test]
 fn lit_irregular_frequency() {
-    found(
-        "irregular",
-        Shape::Li2023Irregular { max_width_mm: 4.0 },
-        249.40,
-    );
+    found("irregular", Shape::Li2023Irregular { max_width_mm: 4.0 }, 249.40);
 }

@@ -1,4 +1,5 @@
-//! What is kept of a run, fed with motions that are known: the bearing in motion, cage orbits, slip over time and place.
+//! What is kept of a run, fed with motions that are known: the bearing in motion, cage orbits, slip over time and
+//! place.
 
 use crate::common::cases::healthy;
 use brinell::channel::Frame;
@@ -14,25 +15,14 @@ use std::f64::consts::{PI, TAU};
 const RATE: f64 = 25_600.0;
 
 /// Goes through `samples` instants of a state that `set` fills: (t, y, workspace).
-fn go(
-    model: &Model,
-    samples: u64,
-    mut set: impl FnMut(f64, &mut [f64], &mut Workspace),
-    mut take: impl FnMut(&Frame),
-) {
+fn go(model: &Model, samples: u64, mut set: impl FnMut(f64, &mut [f64], &mut Workspace), mut take: impl FnMut(&Frame)) {
     let mut ws = Workspace::new(model);
     let mut y = vec![0.0; 2 * model.layout.dof()];
     let a = vec![0.0; model.layout.dof()];
     for index in 0..samples {
         let t = index as f64 / RATE;
         set(t, &mut y, &mut ws);
-        take(&Frame {
-            model,
-            t,
-            y: &y,
-            a: &a,
-            ws: &ws,
-        });
+        take(&Frame { model, t, y: &y, a: &a, ws: &ws });
     }
 }
 
@@ -49,10 +39,7 @@ fn speed(model: &Model) -> f64 {
 /// Rates of the cages, the orbits and the spins that slip by these shares.
 fn slipping(model: &Model, y: &mut [f64], cage: f64, orbit: f64, spin: f64) {
     let l = &model.layout;
-    let (rolling, spinning) = (
-        model.rolling_orbit_speed(speed(model)),
-        model.rolling_spin_speed(speed(model)),
-    );
+    let (rolling, spinning) = (model.rolling_orbit_speed(speed(model)), model.rolling_spin_speed(speed(model)));
     let dof = l.dof();
     for row in 0..l.rows {
         y[dof + l.cage(row) + 2] = (1.0 - cage) * rolling;
@@ -126,10 +113,7 @@ fn analytic_slip_over_the_place_is_found_where_it_was() {
             // Uneven within a bin, so half a bin's change at most.
             let middle = (bin as f64 + 0.5) * TAU / BINS as f64;
             let half = 0.5 * TAU / BINS as f64;
-            assert!(
-                (there.orbit[bin] - slip(middle)).abs() < 0.01 * half,
-                "{bin}"
-            );
+            assert!((there.orbit[bin] - slip(middle)).abs() < 0.01 * half, "{bin}");
             assert!(there.spin[bin].abs() < 1e-12);
             let expected = 40.0 + 30.0 * middle.cos();
             assert!((force[bin] - expected).abs() < 30.0 * half, "{bin}");
@@ -145,19 +129,9 @@ fn analytic_slip_is_missing_where_there_is_no_speed_to_compare_with() {
         s.operation.speed_rpm = Speed::Profile(vec![[0.0, 0.0], [0.1, 0.0], [0.2, 1800.0]]);
     });
     let mut course = SlipCourse::new(&from_rest.layout);
-    go(
-        &from_rest,
-        500,
-        |_, _, _| (),
-        |f| course.take(f, Places::default().at(f), true),
-    );
+    go(&from_rest, 500, |_, _, _| (), |f| course.take(f, Places::default().at(f), true));
     assert!(course.over_time(0).cage.is_empty());
-    go(
-        &from_rest,
-        6000,
-        |_, _, _| (),
-        |f| course.take(f, Places::default().at(f), true),
-    );
+    go(&from_rest, 6000, |_, _, _| (), |f| course.take(f, Places::default().at(f), true));
     let slip = course.over_time(0);
     // Cage and rollers are at rest all the time: NaN before the shaft turns, then all of its speed is missing.
     assert!(slip.cage[0].is_nan() && slip.orbit[0].is_nan());
@@ -180,7 +154,8 @@ fn analytic_slip_is_missing_where_there_is_no_speed_to_compare_with() {
     assert_eq!(orbit.rows(), 0);
 }
 
-/// Everything turns at speeds of its own: the frames hold the last turn of the shaft, evenly spaced, with the angles and forces of their times.
+/// Everything turns at speeds of its own: the frames hold the last turn of the shaft, evenly spaced, with the angles
+/// and forces of their times.
 #[test]
 fn analytic_motion_keeps_the_last_turn_of_the_shaft() {
     let model = model(|_| ());
@@ -213,10 +188,7 @@ fn analytic_motion_keeps_the_last_turn_of_the_shaft() {
     let span = motion.time(frames - 1) - motion.time(0);
     let turn = TAU / speed(&model);
     // A whole number of samples from frame to frame: a turn within a frame's rounding.
-    assert!(
-        (span + step - turn).abs() < 0.5 * FRAMES as f64 / RATE,
-        "{span}"
-    );
+    assert!((span + step - turn).abs() < 0.5 * FRAMES as f64 / RATE, "{span}");
     assert!(motion.time(frames - 1) + step > (samples - 1) as f64 / RATE);
     let same = |kept: f32, angle: f64| wrap(f64::from(kept) - angle).abs() < 1e-6;
     for frame in 0..frames {
@@ -239,13 +211,7 @@ fn analytic_motion_keeps_the_last_turn_of_the_shaft() {
 
 #[test]
 fn prop_motion_is_in_order_and_bounded_at_any_length() {
-    for (duration, rpm) in [
-        (1e-4, 1800.0),
-        (0.01, 1800.0),
-        (0.2, -600.0),
-        (0.3, 20_000.0),
-        (0.1, 0.0),
-    ] {
+    for (duration, rpm) in [(1e-4, 1800.0), (0.01, 1800.0), (0.2, -600.0), (0.3, 20_000.0), (0.1, 0.0)] {
         let model = model(|s| s.operation.speed_rpm = Speed::Constant(rpm));
         let mut motion = Motion::new(&model, duration, RATE);
         let mut orbit = CageOrbit::new(&model, duration, RATE);

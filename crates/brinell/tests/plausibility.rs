@@ -26,10 +26,7 @@ duration_s = 0.5
 ";
 
 fn base(settings: &[(&str, &str)]) -> Loaded {
-    let settings: Vec<_> = settings
-        .iter()
-        .map(|(key, value)| ((*key).to_owned(), (*value).to_owned()))
-        .collect();
+    let settings: Vec<_> = settings.iter().map(|(key, value)| ((*key).to_owned(), (*value).to_owned())).collect();
     read(BASE, &settings).unwrap_or_else(|problems| panic!("{settings:?}: {problems:?}"))
 }
 
@@ -47,11 +44,7 @@ fn warning(settings: &[(&str, &str)]) -> String {
 }
 
 fn silent(settings: &[(&str, &str)]) {
-    assert_eq!(
-        warnings(&base(settings).scenario),
-        Vec::<String>::new(),
-        "{settings:?}"
-    );
+    assert_eq!(warnings(&base(settings).scenario), Vec::<String>::new(), "{settings:?}");
 }
 
 #[test]
@@ -64,15 +57,9 @@ fn regress_a_sensible_scenario_earns_no_word() {
 #[test]
 fn prop_damage_outside_the_load_zone_is_said_of_the_outer_raceway_alone() {
     // The zone of 300 N and 10 um is about 76 degrees wide, around 0 degrees.
-    for (center, outside) in [
-        ("0", false),
-        ("30", false),
-        ("-40", false),
-        ("60", true),
-        ("-60", true),
-        ("180", true),
-        ("340", false),
-    ] {
+    for (center, outside) in
+        [("0", false), ("30", false), ("-40", false), ("60", true), ("-60", true), ("180", true), ("340", false)]
+    {
         let settings = [("defects.0.center_deg", center)];
         if outside {
             let told = warning(&settings);
@@ -88,15 +75,9 @@ fn prop_damage_outside_the_load_zone_is_said_of_the_outer_raceway_alone() {
         silent(&[settings[0], ("defects.0.on", "inner-raceway")]);
     }
     // A preloaded bearing is loaded all around.
-    silent(&[
-        ("defects.0.center_deg", "180"),
-        ("bearing.radial_clearance_um", "-10"),
-    ]);
+    silent(&[("defects.0.center_deg", "180"), ("bearing.radial_clearance_um", "-10")]);
     // Clearance 0: half of the circumference.
-    silent(&[
-        ("defects.0.center_deg", "80"),
-        ("bearing.radial_clearance_um", "0"),
-    ]);
+    silent(&[("defects.0.center_deg", "80"), ("bearing.radial_clearance_um", "0")]);
     // A pit that takes all load off the rollers on it lies in the zone all the same.
     let pit = "{ rectangle = { length_mm = 3.0, width_mm = 6.0 } }";
     let along = ("contact.roller_path", "envelope");
@@ -125,19 +106,12 @@ fn prop_pressure_and_rating_are_held_against_the_load() {
     };
     let (quarter, none) = nu206("-9000");
     assert!(none.is_empty() && quarter[0] < STATIC_LIMIT, "{none:?}");
-    assert!(
-        quarter[0] > quarter[1],
-        "the inner contact is the sharper one"
-    );
+    assert!(quarter[0] > quarter[1], "the inner contact is the sharper one");
     let (over, told) = nu206("-80000");
     assert!(over[0] > STATIC_LIMIT);
     assert_eq!(told.len(), 2, "{told:#?}");
     assert!(told[0].contains("C0 = 36.5 kN (SKF"), "{}", told[0]);
-    assert!(
-        told[1].contains("at the inner raceway") && told[1].contains("4000 MPa"),
-        "{}",
-        told[1]
-    );
+    assert!(told[1].contains("at the inner raceway") && told[1].contains("4000 MPa"), "{}", told[1]);
     // Hertz: the pressure grows with the root of the force.
     let s = base(&[]).scenario;
     let [one, four] = [100.0, 400.0].map(|force| pressures(&s, force)[0]);
@@ -149,29 +123,16 @@ fn regress_a_load_beyond_an_estimated_rating_is_said() {
     // ISO 76: 44 (1 - 6/49) 38 x 6 x 6 = 52.8 kN.
     let all = warnings(&base(&[("operation.load_n", "[60000, 0]")]).scenario);
     let said = |words: &str| all.iter().any(|told| told.contains(words));
-    assert!(
-        said("C0 = 52.8 kN (estimated by the formula of ISO 76)"),
-        "{all:#?}"
-    );
-    silent(&[
-        ("operation.load_n", "[5000, 0]"),
-        ("contact.roller_path", "envelope"),
-    ]);
+    assert!(said("C0 = 52.8 kN (estimated by the formula of ISO 76)"), "{all:#?}");
+    silent(&[("operation.load_n", "[5000, 0]"), ("contact.roller_path", "envelope")]);
 }
 
 #[test]
 fn prop_a_deep_step_over_the_whole_width_is_said_of_a_point_alone() {
-    let whole = (
-        "defects.0.shape",
-        "{ rectangle = { length_mm = 3.0, width_mm = 6.0 } }",
-    );
+    let whole = ("defects.0.shape", "{ rectangle = { length_mm = 3.0, width_mm = 6.0 } }");
     let deep = ("defects.0.depth_um", "100");
     let told = warning(&[whole, deep]);
-    for words in [
-        "100 um deep",
-        "drops by the whole depth at once",
-        "allowed: \"envelope\"",
-    ] {
+    for words in ["100 um deep", "drops by the whole depth at once", "allowed: \"envelope\""] {
         assert!(told.contains(words), "no {words} in {told}");
     }
     silent(&[whole, deep, ("contact.roller_path", "envelope")]);
@@ -191,10 +152,7 @@ fn analytic_pressure_beside_damage_is_that_of_the_length_left() {
     assert!((pressure / whole - 3f64.sqrt()).abs() < 1e-9);
     for shape in [
         // Nothing is left.
-        (
-            "defects.0.shape",
-            "{ rectangle = { length_mm = 3.0, width_mm = 6.0 } }",
-        ),
+        ("defects.0.shape", "{ rectangle = { length_mm = 3.0, width_mm = 6.0 } }"),
         // The roller is pressed down to the floor.
         ("defects.0.depth_um", "0.1"),
     ] {
@@ -208,11 +166,7 @@ fn analytic_pressure_beside_damage_is_that_of_the_length_left() {
 fn prop_no_load_and_weight_left_out_are_said() {
     let told = warning(&[("operation.load_n", "[0, 0]"), ("defects", "[]")]);
     assert!(told.contains("neither load nor weight"), "{told}");
-    silent(&[
-        ("operation.load_n", "[0, 0]"),
-        ("operation.gravity_m_per_s2", "[0, -9.81]"),
-        ("defects", "[]"),
-    ]);
+    silent(&[("operation.load_n", "[0, 0]"), ("operation.gravity_m_per_s2", "[0, -9.81]"), ("defects", "[]")]);
     // Rings, two cages and 38 rollers: 0.259 kg, 2.54 N.
     let told = warning(&[("operation.load_n", "[10, 0]"), ("defects", "[]")]);
     assert!(told.contains("weigh 2.54 N, 25 % of the load"), "{told}");
@@ -222,17 +176,10 @@ fn prop_no_load_and_weight_left_out_are_said() {
 #[test]
 fn analytic_weight_alone_is_held_against_the_support() {
     // 0.0791 kg: 0.776 N on the outer ring; the support takes 10 N before the clearance is closed.
-    let loaded = base(&[
-        ("operation.load_n", "[0, 0]"),
-        ("operation.gravity_m_per_s2", "[0, -9.81]"),
-    ]);
+    let loaded = base(&[("operation.load_n", "[0, 0]"), ("operation.gravity_m_per_s2", "[0, -9.81]")]);
     let told: Vec<_> = loaded.warnings.iter().map(ToString::to_string).collect();
     assert_eq!(told.len(), 1, "{told:?}");
-    assert!(
-        told[0].contains("k C_r = 10 N against 0.776 N, the ring's weight included"),
-        "{}",
-        told[0]
-    );
+    assert!(told[0].contains("k C_r = 10 N against 0.776 N, the ring's weight included"), "{}", told[0]);
 }
 
 #[test]
@@ -243,38 +190,22 @@ fn analytic_a_floor_out_of_reach_is_said_with_the_depth_that_is_reached() {
         let reach = 1e3 * length * length / (8.0 * radius);
         let shape = format!("{{ rectangle = {{ length_mm = {length}, width_mm = 5.0 }} }}");
         let depth_um = depth.to_string();
-        let settings = [
-            ("defects.0.shape", shape.as_str()),
-            ("defects.0.depth_um", depth_um.as_str()),
-        ];
+        let settings = [("defects.0.shape", shape.as_str()), ("defects.0.depth_um", depth_um.as_str())];
         if reach < 0.9 * depth {
             let told = warning(&settings);
-            let figures = format!(
-                "sink {:.*} um",
-                (2 - reach.log10().floor() as i32).max(0) as usize,
-                reach
-            );
-            assert!(
-                told.contains(&figures) && told.contains("\"envelope\""),
-                "{told} {figures}"
-            );
-            silent(&[
-                settings[0],
-                settings[1],
-                ("contact.roller_path", "envelope"),
-            ]);
+            let figures = format!("sink {:.*} um", (2 - reach.log10().floor() as i32).max(0) as usize, reach);
+            assert!(told.contains(&figures) && told.contains("\"envelope\""), "{told} {figures}");
+            silent(&[settings[0], settings[1], ("contact.roller_path", "envelope")]);
         } else {
             silent(&settings);
         }
     }
-    // A roller's damage meets both raceways; the inner one lets it sink less far: R_eq = 2.63 mm there, so 47 against 37 um.
+    // A roller's damage meets both raceways; the inner one lets it sink less far: R_eq = 2.63 mm there, so 47 against
+    // 37 um.
     let on = [
         ("defects.0.on", "roller"),
         ("defects.0.roller", "1"),
-        (
-            "defects.0.shape",
-            "{ rectangle = { length_mm = 1.0, width_mm = 4.0 } }",
-        ),
+        ("defects.0.shape", "{ rectangle = { length_mm = 1.0, width_mm = 4.0 } }"),
     ];
     silent(&on);
     let told = warning(&[on[0], on[1], on[2], ("defects.0.depth_um", "42")]);
@@ -292,24 +223,20 @@ fn analytic_slices_follow_the_slant_of_an_edge_along_an_envelope() {
         let number = told.split("allowed: >= ").nth(1).expect("a bound");
         number.split_whitespace().next().unwrap().parse().unwrap()
     };
-    // Each half of a circle's edge runs its radius over a half of its width: 45 degrees on average. NN3007's L = 6 mm, R_eq of the outer contact.
+    // Each half of a circle's edge runs its radius over a half of its width: 45 degrees on average. NN3007's L = 6 mm,
+    // R_eq of the outer contact.
     let way = told.split("less than ").nth(1).expect("a way");
     let way: f64 = way.split_whitespace().next().unwrap().parse().unwrap();
     let needed = 6.0 / way;
-    assert!(
-        (asked(&told) / needed - 1.0).abs() < 0.15,
-        "{told}, {needed}"
-    );
+    assert!((asked(&told) / needed - 1.0).abs() < 0.15, "{told}, {needed}");
     let enough = asked(&told).to_string();
     silent(&[circle, sliced, envelope, ("contact.slices", &enough)]);
     // A longer slant across the same width takes more of them.
-    let long = (
-        "defects.0.shape",
-        "{ profile = { arc_mm = [0.0, 4.0, 8.0], width_mm = [0.0, 4.0, 0.0] } }",
-    );
+    let long = ("defects.0.shape", "{ profile = { arc_mm = [0.0, 4.0, 8.0], width_mm = [0.0, 4.0, 0.0] } }");
     let longer = warning(&[long, sliced, envelope]);
     assert!((asked(&longer) / needed - 2.0).abs() < 0.3, "{longer}");
-    // The same circle as strips of rectangles is the same surface, and too shallow a one, or one that no roller is pressed onto, is none.
+    // The same circle as strips of rectangles is the same surface, and too shallow a one, or one that no roller is
+    // pressed onto, is none.
     let shallow = ("defects.0.depth_um", "0.5");
     silent(&[circle, sliced, envelope, shallow]);
     let steps = "{ outline = { polygons_mm = [[[-2, -0.5], [-1, -0.5], [-1, -1.5], [1, -1.5], [1, -0.5], [2, -0.5], [2, 0.5], [1, 0.5], \
@@ -332,16 +259,12 @@ fn analytic_a_run_must_outlast_its_start() {
     silent(&duration("0.13"));
     let told = warning(&duration("0.129"));
     assert!(
-        told.contains("too short to settle: the load's ramp of 0.0200 s")
-            && told.contains("allowed: >= 0.130 s"),
+        told.contains("too short to settle: the load's ramp of 0.0200 s") && told.contains("allowed: >= 0.130 s"),
         "{told}"
     );
     warning(&duration("0.01"));
     // From the static balance there is no ramp.
-    silent(&[
-        ("simulation.duration_s", "0.11"),
-        ("simulation.start", "equilibrium"),
-    ]);
+    silent(&[("simulation.duration_s", "0.11"), ("simulation.start", "equilibrium")]);
     // A run-up to 1800 r/min in 0.4 s makes 6 turns.
     let up = ("operation.speed_rpm", "[[0, 0], [0.4, 1800]]");
     silent(&[up, ("simulation.duration_s", "0.4")]);
@@ -354,10 +277,7 @@ fn analytic_a_run_must_outlast_its_start() {
 fn prop_energy_from_nowhere_is_said_with_what_conserves_it() {
     // 0.06 s of the pit that a review found: 2 mm deep over the whole width, 5 mm long.
     let pit = [
-        (
-            "defects.0.shape",
-            "{ rectangle = { length_mm = 5.0, width_mm = 6.0 } }",
-        ),
+        ("defects.0.shape", "{ rectangle = { length_mm = 5.0, width_mm = 6.0 } }"),
         ("defects.0.depth_um", "2000"),
         ("simulation.duration_s", "0.06"),
     ];
@@ -418,14 +338,8 @@ fn analytic_a_tenth_of_the_dissipation_is_the_limit_in_both_directions() {
     for (work, words) in [
         (0.399, None),
         (-0.399, None),
-        (
-            0.401,
-            Some("put energy into the bearing, 401 mJ, 10 % of the 4.00 J"),
-        ),
-        (
-            -0.5,
-            Some("took energy out of the bearing, 500 mJ, 12 % of the 4.00 J"),
-        ),
+        (0.401, Some("put energy into the bearing, 401 mJ, 10 % of the 4.00 J")),
+        (-0.5, Some("took energy out of the bearing, 500 mJ, 12 % of the 4.00 J")),
         (80.0, Some("80.0 J, 20 times the 4.00 J")),
     ] {
         energy.parametric = work;
@@ -442,8 +356,5 @@ fn analytic_a_tenth_of_the_dissipation_is_the_limit_in_both_directions() {
     energy.parametric = 1.0;
     energy.flows.load = 3.0;
     let told = after(&lumped, &energy).join("\n");
-    assert!(
-        told.contains("in simulation.model = \"full\" alone"),
-        "{told}"
-    );
+    assert!(told.contains("in simulation.model = \"full\" alone"), "{told}");
 }

@@ -28,11 +28,7 @@ fn everything() -> Sensor {
         noise_seed: 3,
         converter_bits: Some(12),
         converter_range_m_per_s2: Some(60.0),
-        path: vec![PathMode {
-            frequency_hz: 3_000.0,
-            damping_ratio: 0.05,
-            gain: 0.8,
-        }],
+        path: vec![PathMode { frequency_hz: 3_000.0, damping_ratio: 0.05, gain: 0.8 }],
         ..Sensor::off()
     }
 }
@@ -49,10 +45,7 @@ fn with(sensor: Sensor) -> Scenario {
 fn prop_a_direction_alone_leaves_the_other_channels_as_they_are() {
     let (plain, off) = simulate(&short());
     assert!(off.sensor.is_empty());
-    let direction = Sensor {
-        direction_deg: Some(60.0),
-        ..Sensor::off()
-    };
+    let direction = Sensor { direction_deg: Some(60.0), ..Sensor::off() };
     let (turned, outcome) = simulate(&with(direction));
     for name in ["outer_ax", "outer_ay", "sensor_ax", "sensor_ay"] {
         assert_eq!(bits(&plain, name), bits(&turned, name), "{name}");
@@ -91,14 +84,7 @@ fn prop_the_bearing_does_not_feel_the_sensor() {
 fn prop_noise_repeats_whatever_runs_beside() {
     let seeds = [3, 3, 4];
     let rows = |jobs: usize| -> Vec<Vec<u64>> {
-        let scenarios: Vec<Scenario> = seeds
-            .map(|noise_seed| {
-                with(Sensor {
-                    noise_seed,
-                    ..everything()
-                })
-            })
-            .to_vec();
+        let scenarios: Vec<Scenario> = seeds.map(|noise_seed| with(Sensor { noise_seed, ..everything() })).to_vec();
         let mut all = vec![Vec::new(); seeds.len()];
         each(
             scenarios.len(),
@@ -117,17 +103,10 @@ fn prop_noise_repeats_whatever_runs_beside() {
 #[test]
 fn analytic_noise_has_the_ratio_requested() {
     // A ratio to the run's own level, which a first run tells.
-    let quiet = Sensor {
-        high_cut_hz: Some(10_000.0),
-        ..Sensor::off()
-    };
+    let quiet = Sensor { high_cut_hz: Some(10_000.0), ..Sensor::off() };
     let (clean, outcome) = simulate(&with(quiet.clone()));
     let level = outcome.sensor[0].signal_rms().unwrap();
-    let noisy = Sensor {
-        noise_snr_db: Some(6.0),
-        noise_reference_rms_m_per_s2: level,
-        ..quiet
-    };
+    let noisy = Sensor { noise_snr_db: Some(6.0), noise_reference_rms_m_per_s2: level, ..quiet };
     let (sensed, outcome) = simulate(&with(noisy));
     assert_eq!(outcome.sensor[0].signal_rms(), Some(level));
     let (a, b) = (clean.column("sensor_ax"), sensed.column("sensor_ax"));
@@ -135,10 +114,7 @@ fn analytic_noise_has_the_ratio_requested() {
     let power = a.iter().zip(b).map(|(a, b)| (b - a).powi(2)).sum::<f64>() / n;
     let db = 10.0 * (level * level / power).log10();
     // The variance of n normal numbers strays by sqrt(2 / n) of itself: 0.16 dB here.
-    assert!(
-        (db - 6.0).abs() < 4.0 * 10.0 / 10f64.ln() * (2.0 / n).sqrt(),
-        "{db} dB"
-    );
+    assert!((db - 6.0).abs() < 4.0 * 10.0 / 10f64.ln() * (2.0 / n).sqrt(), "{db} dB");
 }
 
 #[test]
@@ -150,14 +126,7 @@ fn regress_channels_and_units_say_what_the_sensor_gives() {
         .filter(|c| c.name.starts_with("sensor"))
         .map(|c| (c.name.as_str(), c.unit))
         .collect();
-    assert_eq!(
-        told,
-        [
-            ("sensor_ax", "m/s^2"),
-            ("sensor_ay", "m/s^2"),
-            ("sensor_out", "mV")
-        ]
-    );
+    assert_eq!(told, [("sensor_ax", "m/s^2"), ("sensor_ay", "m/s^2"), ("sensor_out", "mV")]);
     assert!(Simulation::new(&short()).unwrap().sensor().is_none());
 }
 
@@ -177,136 +146,55 @@ fn refused(keys: &str) -> Vec<Problem> {
 #[test]
 fn regress_bad_sensors_are_named_with_line_and_remedy() {
     let cases = [
-        (
-            "mounting_resonance_hz = 200e3",
-            "sensor.mounting_resonance_hz",
-            "beyond half the rate",
-            "< 102400 Hz",
-        ),
-        (
-            "mounting_resonance_hz = 0.1",
-            "sensor.mounting_resonance_hz",
-            "too slow",
-            ">= 0.256 Hz",
-        ),
+        ("mounting_resonance_hz = 200e3", "sensor.mounting_resonance_hz", "beyond half the rate", "< 102400 Hz"),
+        ("mounting_resonance_hz = 0.1", "sensor.mounting_resonance_hz", "too slow", ">= 0.256 Hz"),
         (
             "mounting_damping_ratio = 0.1",
             "sensor.mounting_damping_ratio",
             "only where mounting_resonance_hz is given",
             "",
         ),
-        (
-            "high_cut_hz = -1",
-            "sensor.high_cut_hz",
-            "out of range",
-            "> 0",
-        ),
-        (
-            "noise_rms_m_per_s2 = -1",
-            "sensor.noise_rms_m_per_s2",
-            "out of range",
-            ">= 0",
-        ),
-        (
-            "noise_seed = 3",
-            "sensor.noise_seed",
-            "only where noise_rms_m_per_s2 or noise_snr_db",
-            "",
-        ),
-        (
-            "noise_snr_db = 20",
-            "sensor.noise_reference_rms_m_per_s2",
-            "missing",
-            "",
-        ),
-        (
-            "converter_bits = 16",
-            "sensor.converter_bits",
-            "range, which is not given",
-            "converter_range_mv",
-        ),
-        (
-            "converter_range_m_per_s2 = 16",
-            "sensor.converter_range_m_per_s2",
-            "without an ADC",
-            "converter_bits",
-        ),
-        (
-            "converter_bits = 64",
-            "sensor.converter_bits",
-            "out of range",
-            "2 to 32",
-        ),
-        (
-            "direction_dge = 3",
-            "sensor.direction_dge",
-            "did you mean `direction_deg`",
-            "",
-        ),
+        ("high_cut_hz = -1", "sensor.high_cut_hz", "out of range", "> 0"),
+        ("noise_rms_m_per_s2 = -1", "sensor.noise_rms_m_per_s2", "out of range", ">= 0"),
+        ("noise_seed = 3", "sensor.noise_seed", "only where noise_rms_m_per_s2 or noise_snr_db", ""),
+        ("noise_snr_db = 20", "sensor.noise_reference_rms_m_per_s2", "missing", ""),
+        ("converter_bits = 16", "sensor.converter_bits", "range, which is not given", "converter_range_mv"),
+        ("converter_range_m_per_s2 = 16", "sensor.converter_range_m_per_s2", "without an ADC", "converter_bits"),
+        ("converter_bits = 64", "sensor.converter_bits", "out of range", "2 to 32"),
+        ("direction_dge = 3", "sensor.direction_dge", "did you mean `direction_deg`", ""),
         (
             "path = [{ frequency_hz = 300e3, gain = 1 }]",
             "sensor.path.0.frequency_hz",
             "beyond half the rate",
             "< 102400 Hz",
         ),
-        (
-            "path = [{ frequency_hz = 300.0 }]",
-            "sensor.path.0.gain",
-            "missing",
-            "",
-        ),
+        ("path = [{ frequency_hz = 300.0 }]", "sensor.path.0.gain", "missing", ""),
         ("path = 3", "sensor.path", "[[sensor.path]]", ""),
     ];
     for (text, key, message, allowed) in cases {
         let problems = refused(text);
-        let problem = problems
-            .iter()
-            .find(|p| p.key == key)
-            .unwrap_or_else(|| panic!("{text}: {problems:?}"));
+        let problem = problems.iter().find(|p| p.key == key).unwrap_or_else(|| panic!("{text}: {problems:?}"));
         let shown = problem.to_string();
         assert_eq!(problem.severity, Severity::Error, "{shown}");
-        assert!(
-            problem.line.is_some_and(|line| line == 6 || line == 7),
-            "{shown}"
-        );
-        assert!(
-            shown.contains(message) && shown.contains(allowed),
-            "{shown}"
-        );
+        assert!(problem.line.is_some_and(|line| line == 6 || line == 7), "{shown}");
+        assert!(shown.contains(message) && shown.contains(allowed), "{shown}");
     }
     for (text, key) in [
         ("low_cut_hz = 9\nhigh_cut_hz = 8", "sensor.low_cut_hz"),
         ("low_cut_hz = 13e3", "sensor.low_cut_hz"),
-        (
-            "noise_rms_m_per_s2 = 1\nnoise_snr_db = 3\nnoise_reference_rms_m_per_s2 = 1",
-            "sensor.noise_snr_db",
-        ),
-        (
-            "noise_rms_m_per_s2 = 1\nnoise_colour = \"pink\"\nnoise_corner_hz = 20e3",
-            "sensor.noise_corner_hz",
-        ),
-        (
-            "converter_bits = 8\nconverter_range_mv = 3",
-            "sensor.converter_range_mv",
-        ),
+        ("noise_rms_m_per_s2 = 1\nnoise_snr_db = 3\nnoise_reference_rms_m_per_s2 = 1", "sensor.noise_snr_db"),
+        ("noise_rms_m_per_s2 = 1\nnoise_colour = \"pink\"\nnoise_corner_hz = 20e3", "sensor.noise_corner_hz"),
+        ("converter_bits = 8\nconverter_range_mv = 3", "sensor.converter_range_mv"),
         (
             "converter_bits = 8\nconverter_range_mv = 3\nconverter_range_m_per_s2 = 3\nsensitivity_mv_per_m_per_s2 = 1",
             "sensor.converter_range_mv",
         ),
     ] {
         let problems = refused(text);
-        assert!(
-            problems.iter().any(|p| p.key == key),
-            "{text}: {problems:?}"
-        );
+        assert!(problems.iter().any(|p| p.key == key), "{text}: {problems:?}");
     }
     let warned = read(&format!("{FILE}sensitivity_mv_per_m_per_s2 = 10\n"), &[]).unwrap();
-    assert!(
-        warned
-            .warnings
-            .iter()
-            .any(|w| w.to_string().contains("changes nothing"))
-    );
+    assert!(warned.warnings.iter().any(|w| w.to_string().contains("changes nothing")));
 }
 
 #[test]
@@ -316,33 +204,14 @@ fn prop_a_scenario_without_a_sensor_does_not_mention_one() {
     // But for the channels that every run has.
     let text = loaded.to_toml().replace("\"sensor_*\"", "");
     assert!(!text.contains("sensor"), "{text}");
-    assert!(
-        loaded
-            .provenance
-            .iter()
-            .all(|p| !p.key.starts_with("sensor"))
-    );
+    assert!(loaded.provenance.iter().all(|p| !p.key.starts_with("sensor")));
     // What is not given of a chain that is there is on the assumption sheet.
     let text = format!(
         "{FILE}mounting_resonance_hz = 9e3\nnoise_rms_m_per_s2 = 1.0\n[[sensor.path]]\nfrequency_hz = 700.0\ngain = 1.0\n"
     );
     let loaded = read(&text, &[]).unwrap();
-    let assumed: Vec<&str> = loaded
-        .provenance
-        .iter()
-        .filter(|p| p.assumed && p.key.starts_with("sensor"))
-        .map(|p| p.key.as_str())
-        .collect();
-    assert_eq!(
-        assumed,
-        [
-            "sensor.mounting_damping_ratio",
-            "sensor.noise_colour",
-            "sensor.path.0.damping_ratio"
-        ]
-    );
-    assert_eq!(
-        read(&loaded.to_toml(), &[]).unwrap().scenario,
-        loaded.scenario
-    );
+    let assumed: Vec<&str> =
+        loaded.provenance.iter().filter(|p| p.assumed && p.key.starts_with("sensor")).map(|p| p.key.as_str()).collect();
+    assert_eq!(assumed, ["sensor.mounting_damping_ratio", "sensor.noise_colour", "sensor.path.0.damping_ratio"]);
+    assert_eq!(read(&loaded.to_toml(), &[]).unwrap().scenario, loaded.scenario);
 }

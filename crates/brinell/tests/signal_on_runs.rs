@@ -48,10 +48,7 @@ fn damaged(on: Surface) -> Scenario {
     let mut s = Scenario::example();
     s.defects[0].on = on;
     s.defects[0].depth_um = 20.0;
-    s.defects[0].shape = Shape::Rectangle {
-        length_mm: 3.0,
-        width_mm: 4.0,
-    };
+    s.defects[0].shape = Shape::Rectangle { length_mm: 3.0, width_mm: 4.0 };
     s
 }
 
@@ -60,9 +57,7 @@ fn with_noise(x: &[f64], share: f64) -> Vec<f64> {
     let rms = (x.iter().map(|x| x * x).sum::<f64>() / x.len() as f64).sqrt();
     // Twelve uniform numbers make a nearly normal one.
     let mut random = Random::new(7);
-    x.iter()
-        .map(|x| x + share * rms * ((0..12).map(|_| random.part()).sum::<f64>() - 6.0))
-        .collect()
+    x.iter().map(|x| x + share * rms * ((0..12).map(|_| random.part()).sum::<f64>() - 6.0)).collect()
 }
 
 /// The damaged surface comes first in the verdict; on a raceway, the length found is the rectangle's.
@@ -72,10 +67,7 @@ fn found(on: Surface, component: Component) {
     let k = Kinematics::pure_rolling(&geometry, 30.0 * TAU);
     let x = run(&mut s);
     // As the command treats runs of brinell's: nothing else turns, and a record of two seconds tells the cage's lines.
-    let options = Options {
-        exact: true,
-        ..Options::new(30.0, orders_of(&geometry))
-    };
+    let options = Options { exact: true, ..Options::new(30.0, orders_of(&geometry)) };
     let analysis = analyze(&with_noise(&x, 0.3), FS, &options).unwrap();
     println!("{on:?}: {}", analysis.verdict());
     let first = analysis.causes().next().map(|f| f.component);
@@ -113,7 +105,8 @@ fn analytic_roller_damage() {
     found(Surface::Roller(2), Component::Element);
 }
 
-/// What `brinell analyze` says of runs: speeds, lengths, and no noise at all, in which sidebands of damage that turns are present everywhere.
+/// What `brinell analyze` says of runs: speeds, lengths, and no noise at all, in which sidebands of damage that turns
+/// are present everywhere.
 #[test]
 fn regress_verdicts_on_short_runs_with_and_without_noise() {
     let rate = 25_600.0;
@@ -131,10 +124,7 @@ fn regress_verdicts_on_short_runs_with_and_without_noise() {
                 None => s.defects.clear(),
                 Some(Surface::Roller(_)) => {
                     s.defects[0].center_deg = 90.0;
-                    s.defects[0].shape = Shape::Rectangle {
-                        length_mm: 1.0,
-                        width_mm: 4.0,
-                    };
+                    s.defects[0].shape = Shape::Rectangle { length_mm: 1.0, width_mm: 4.0 };
                 }
                 _ => {}
             }
@@ -153,11 +143,10 @@ fn regress_verdicts_on_short_runs_with_and_without_noise() {
                     let analysis = analyze(&x, rate, &options).unwrap();
                     let first = analysis.causes().next().map(|f| f.component);
                     count += 1;
-                    // Where nothing else shows, the rollers of a healthy bearing show by themselves, in some runs and not in others
-                    // that differ in their last digits; that may be said, but weakly.
-                    let passing = first.is_some()
-                        && component.is_none()
-                        && analysis.causes().all(|f| analysis.may_be_passing(f));
+                    // Where nothing else shows, the rollers of a healthy bearing show by themselves, in some runs and
+                    // not in others that differ in their last digits; that may be said, but weakly.
+                    let passing =
+                        first.is_some() && component.is_none() && analysis.causes().all(|f| analysis.may_be_passing(f));
                     passings += usize::from(passing);
                     if first.is_none() && component.is_some() {
                         missed += 1;
@@ -176,20 +165,19 @@ fn regress_verdicts_on_short_runs_with_and_without_noise() {
         wrong.len(),
         wrong.join("\n")
     );
-    // Which of these runs shows another rate hangs on the last digits of the run, as impacts amplify them: it is another run with another kernel,
-    // another processor or another start. Held to are shares alone: with none of four kernels any of 96 named another part.
+    // Which of these runs shows another rate hangs on the last digits of the run, as impacts amplify them: it is
+    // another run with another kernel, another processor or another start. Held to are shares alone: with none of four
+    // kernels any of 96 named another part.
     assert!(15 * wrong.len() <= count, "{}", wrong.join("\n"));
     // The inner ring's damage is loaded once a turn: in half a second it is mostly missed.
-    assert!(
-        15 * (missed - missed_inner) <= count,
-        "{missed}, {missed_inner}"
-    );
+    assert!(15 * (missed - missed_inner) <= count, "{missed}, {missed_inner}");
 }
 
 /// The examples that a newcomer runs first, of half a second, one and two, without noise.
 ///
-/// Impacts amplify round-off, so that another kernel or processor makes another run of the same bearing: held to are shares. With each of the four
-/// kernels the damaged part came first, alone, in 17 or 18 of 18 (the inner race of half a second takes a longer record), and no healthy run had any.
+/// Impacts amplify round-off, so that another kernel or processor makes another run of the same bearing: held to are
+/// shares. With each of the four kernels the damaged part came first, alone, in 17 or 18 of 18 (the inner race of half
+/// a second takes a longer record), and no healthy run had any.
 #[test]
 fn regress_verdicts_on_the_examples() {
     let (mut right, mut wrong) = (0, Vec::new());
@@ -211,19 +199,13 @@ fn regress_verdicts_on_the_examples() {
         if component.is_none() {
             s.defects.clear();
         }
-        let Speed::Constant(rpm) = s.operation.speed_rpm else {
-            panic!("a speed that varies")
-        };
+        let Speed::Constant(rpm) = s.operation.speed_rpm else { panic!("a speed that varies") };
         let orders = orders_of(&Geometry::of(&s.bearing));
         let rate = s.simulation.sample_rate_hz;
         let start = s.operation.load_ramp_s + 60.0 / rpm;
         let x = recorded(&mut s, rate, 2.0, start);
         for seconds in [0.5, 1.0, 2.0] {
-            let options = Options {
-                silent: Some(MACHINE_NOISE),
-                exact: true,
-                ..Options::new(rpm / 60.0, orders)
-            };
+            let options = Options { silent: Some(MACHINE_NOISE), exact: true, ..Options::new(rpm / 60.0, orders) };
             let length = ((seconds - start) * rate) as usize;
             let analysis = analyze(&x[..length], rate, &options).unwrap();
             let verdict = format!("{name}, {seconds} s: {}", analysis.verdict());
@@ -240,7 +222,8 @@ fn regress_verdicts_on_the_examples() {
     assert!(right >= 19, "{right} of 21");
 }
 
-/// From standstill to 1800 r/min in 0.4 s the cage lags by 4 %: followed on the shaft's known speed, the damage is named.
+/// From standstill to 1800 r/min in 0.4 s the cage lags by 4 %: followed on the shaft's known speed, the damage is
+/// named.
 #[test]
 fn regress_the_verdict_on_the_run_up() {
     let path = format!("{}/../../examples/run-up.toml", env!("CARGO_MANIFEST_DIR"));
@@ -264,16 +247,14 @@ fn regress_the_verdict_on_the_run_up() {
     assert_eq!(causes, [Component::OuterRace], "{}", analysis.verdict());
 }
 
-/// How deep the passing rollers of healthy bearings modulate the envelope at BPFO in two seconds: what docs/src/results/analyze.md says of it.
+/// How deep the passing rollers of healthy bearings modulate the envelope at BPFO in two seconds: what
+/// docs/src/results/analyze.md says of it.
 #[test]
 #[ignore = "prints a table; 28 runs of two seconds"]
 fn regress_bpfo_of_healthy_bearings() {
     let loads = [150.0, 250.0, 300.0, 350.0, 600.0, 1000.0, 3000.0];
     let speeds = [1800.0, 3600.0];
-    for (preset, rpm) in ["NN3007", "NU206"]
-        .into_iter()
-        .flat_map(|preset| speeds.map(|rpm| (preset, rpm)))
-    {
+    for (preset, rpm) in ["NN3007", "NU206"].into_iter().flat_map(|preset| speeds.map(|rpm| (preset, rpm))) {
         for load in loads {
             let text = format!(
                 "bearing.preset = \"{preset}\"\noperation = {{ speed_rpm = {rpm:?}, load_n = [{load:?}, 0.0], load_on = \"outer-ring\" }}\n"
@@ -281,11 +262,7 @@ fn regress_bpfo_of_healthy_bearings() {
             let mut s = document::read(&text, &[]).unwrap().scenario;
             let orders = orders_of(&Geometry::of(&s.bearing));
             let x = recorded(&mut s, 25_600.0, 2.12, 0.02 + 60.0 / rpm);
-            let options = Options {
-                silent: Some(MACHINE_NOISE),
-                exact: true,
-                ..Options::new(rpm / 60.0, orders)
-            };
+            let options = Options { silent: Some(MACHINE_NOISE), exact: true, ..Options::new(rpm / 60.0, orders) };
             let analysis = analyze(&x, 25_600.0, &options).unwrap();
             let found: Vec<String> = (analysis.causes())
                 .map(|f| {
@@ -295,8 +272,11 @@ fn regress_bpfo_of_healthy_bearings() {
                 .collect();
             println!("{preset}, {rpm} r/min, {load} N: {}", found.join("; "));
             // A single row's passing may be clear; all other lines of an undamaged bearing have to be called weak.
-            assert!(analysis.causes().all(|f| analysis.clarity(f) == "weak"
-                || preset == "NU206" && f.component == Component::OuterRace));
+            assert!(
+                analysis
+                    .causes()
+                    .all(|f| analysis.clarity(f) == "weak" || preset == "NU206" && f.component == Component::OuterRace)
+            );
         }
     }
 }

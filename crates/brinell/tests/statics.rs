@@ -20,11 +20,7 @@ fn bench(clearance_um: f64, load: f64) -> Model {
 
 /// No speed, no centrifugal force.
 fn at_rest(model: &Model) -> Problem {
-    Problem {
-        speed: 0.0,
-        fix_inner: true,
-        ..Problem::at_start(model)
-    }
+    Problem { speed: 0.0, fix_inner: true, ..Problem::at_start(model) }
 }
 
 fn balance(model: &Model, problem: &Problem) -> Balance {
@@ -34,11 +30,7 @@ fn balance(model: &Model, problem: &Problem) -> Balance {
 /// The load zone moves towards +X when the outer ring goes to -X.
 fn shift_um(model: &Model) -> f64 {
     let b = balance(model, &at_rest(model));
-    assert!(
-        b.outer[1].abs() < 1e-12,
-        "no force in Y, shift {:e}",
-        b.outer[1]
-    );
+    assert!(b.outer[1].abs() < 1e-12, "no force in Y, shift {:e}", b.outer[1]);
     -1e6 * b.outer[0]
 }
 
@@ -47,10 +39,7 @@ fn analytic_static_shift() {
     // Four digits are printed: half of the last one.
     for (clearance, expected) in [(0.0, 1.643), (5.0, 7.438), (10.0, 12.861)] {
         let found = shift_um(&bench(clearance, 300.0));
-        assert!(
-            (found - expected).abs() < 5e-4,
-            "C_r = {clearance} um: {found:.5} um, expected {expected}"
-        );
+        assert!((found - expected).abs() < 5e-4, "C_r = {clearance} um: {found:.5} um, expected {expected}");
     }
 }
 
@@ -90,13 +79,11 @@ fn analytic_heaviest_roller_without_clearance() {
 fn analytic_shift_grows_with_the_load_to_the_nine_tenths() {
     let base = shift_um(&bench(0.0, 1.0));
     for load in [0.03, 30.0, 300.0, 2e4] {
-        // Without clearance the set of loaded rollers is the same at any load, so the law is exact; the solver stops at 1e-10 of the load.
+        // Without clearance the set of loaded rollers is the same at any load, so the law is exact; the solver stops at
+        // 1e-10 of the load.
         let exact = base * f64::powf(load, 0.9);
         let found = shift_um(&bench(0.0, load));
-        assert!(
-            (found / exact - 1.0).abs() < 1e-8,
-            "{load} N: {found} um against {exact}"
-        );
+        assert!((found / exact - 1.0).abs() < 1e-8, "{load} N: {found} um against {exact}");
     }
 }
 
@@ -107,10 +94,8 @@ fn residuals(model: &Model, problem: &Problem, b: &Balance) -> (f64, f64) {
     let mut inner = [0.0; 2];
     let mut outer = [0.0; 2];
     for k in 0..2 {
-        inner[k] = load_in[k] + m.inner_ring * model.gravity[k]
-            - model.inner_support.stiffness * b.inner[k];
-        outer[k] = load_out[k] + m.outer_ring * model.gravity[k]
-            - model.acting_outer_support().stiffness * b.outer[k];
+        inner[k] = load_in[k] + m.inner_ring * model.gravity[k] - model.inner_support.stiffness * b.inner[k];
+        outer[k] = load_out[k] + m.outer_ring * model.gravity[k] - model.acting_outer_support().stiffness * b.outer[k];
     }
     let orbit = model.rolling_orbit_speed(problem.speed);
     let mut roller = 0.0_f64;
@@ -121,17 +106,11 @@ fn residuals(model: &Model, problem: &Problem, b: &Balance) -> (f64, f64) {
             outer[k] += b.outer_force[slot] * e[k];
         }
         let own = m.roller
-            * (model.geometry.pitch_radius * orbit * orbit
-                + model.gravity[0] * e[0]
-                + model.gravity[1] * e[1]);
+            * (model.geometry.pitch_radius * orbit * orbit + model.gravity[0] * e[0] + model.gravity[1] * e[1]);
         roller = roller.max((b.inner_force[slot] - b.outer_force[slot] + own).abs());
     }
     let largest = |f: [f64; 2], free: bool| {
-        if free {
-            f[0].abs().max(f[1].abs())
-        } else {
-            0.0
-        }
+        if free { f[0].abs().max(f[1].abs()) } else { 0.0 }
     };
     let rings = largest(inner, !problem.fix_inner).max(largest(outer, !problem.fix_outer));
     (rings, roller)
@@ -141,41 +120,25 @@ fn residuals(model: &Model, problem: &Problem, b: &Balance) -> (f64, f64) {
 fn prop_balance_leaves_no_force() {
     let mut random = Random::new(7);
     for trial in 0..300 {
-        let mut s = if trial % 3 == 0 {
-            case("xval/three-rows-drag-gap")
-        } else {
-            rectangle()
-        };
+        let mut s = if trial % 3 == 0 { case("xval/three-rows-drag-gap") } else { rectangle() };
         let mut uniform = |low: f64, high: f64| low + (high - low) * 0.5 * (1.0 + random.signed());
         s.bearing.radial_clearance_um = uniform(-5.0, 20.0);
         s.operation.load_n = [uniform(-2e3, 2e3), uniform(-2e3, 2e3)];
         s.operation.gravity_m_per_s2 = [uniform(-20.0, 20.0), uniform(-20.0, 20.0)];
-        s.operation.load_on = if trial % 2 == 0 {
-            LoadOn::InnerRing
-        } else {
-            LoadOn::OuterRing
-        };
+        s.operation.load_on = if trial % 2 == 0 { LoadOn::InnerRing } else { LoadOn::OuterRing };
         s.support.inner_stiffness_n_per_m = 10f64.powf(uniform(5.0, 9.0));
         s.support.outer_stiffness_n_per_m = 10f64.powf(uniform(5.0, 9.0));
         s.defects[0].center_deg = uniform(-180.0, 180.0);
         let model = Model::new(&s).unwrap();
-        let problem = Problem {
-            speed: uniform(-500.0, 500.0),
-            ..Problem::at_start(&model)
-        };
+        let problem = Problem { speed: uniform(-500.0, 500.0), ..Problem::at_start(&model) };
         let b = balance(&model, &problem);
         let scale = s.operation.load_n[0].hypot(s.operation.load_n[1]) + 10.0;
         let (rings, roller) = residuals(&model, &problem, &b);
         // The solver accepts 1e-7 of the load where round-off in the potential hides further progress.
-        assert!(
-            rings < 2e-7 * scale,
-            "trial {trial}: {rings:e} N on a ring of {scale} N"
-        );
-        // A roller's balance is solved to round-off of r: stiffness times the spacing of r at 1e-4 m, below 1e-11 N, and of the ring offsets.
-        assert!(
-            roller < 1e-9 * scale,
-            "trial {trial}: {roller:e} N on a roller"
-        );
+        assert!(rings < 2e-7 * scale, "trial {trial}: {rings:e} N on a ring of {scale} N");
+        // A roller's balance is solved to round-off of r: stiffness times the spacing of r at 1e-4 m, below 1e-11 N,
+        // and of the ring offsets.
+        assert!(roller < 1e-9 * scale, "trial {trial}: {roller:e} N on a roller");
         assert!((b.residual - rings).abs() < 1e-9 * scale);
     }
 }
@@ -187,19 +150,12 @@ fn analytic_unloaded_roller_rests_on_the_outer_raceway() {
     let b = balance(&model, &problem);
     let orbit = 60.0 * std::f64::consts::PI * 21.5e-3 / 49e-3;
     let centrifugal = 1.3e-3 * 24.5e-3 * orbit * orbit;
-    assert!(
-        (centrifugal - 0.218).abs() < 5e-4,
-        "section 13: {centrifugal}"
-    );
+    assert!((centrifugal - 0.218).abs() < 5e-4, "section 13: {centrifugal}");
     let unloaded: Vec<usize> = (0..38).filter(|&k| b.inner_force[k] == 0.0).collect();
     // The load zone of 10 um clearance is narrow: most rollers are out of it.
     assert!(unloaded.len() > 20 && unloaded.len() < 38);
     for slot in unloaded {
-        assert!(
-            (b.outer_force[slot] / centrifugal - 1.0).abs() < 1e-9,
-            "slot {slot}: {}",
-            b.outer_force[slot]
-        );
+        assert!((b.outer_force[slot] / centrifugal - 1.0).abs() < 1e-9, "slot {slot}: {}", b.outer_force[slot]);
     }
 }
 
@@ -216,24 +172,15 @@ fn analytic_gravity_beyond_centrifugal_drops_a_roller() {
     for (fraction, drops) in [(0.9_f64, true), (1.1, false)] {
         // The orbit speed at which m R_m dtheta^2 is this share of the weight.
         let orbit = (fraction * weight / (1.3e-3 * 24.5e-3)).sqrt();
-        let problem = Problem {
-            speed: orbit * 49.0 / 21.5,
-            ..Problem::at_start(&model)
-        };
+        let problem = Problem { speed: orbit * 49.0 / 21.5, ..Problem::at_start(&model) };
         let b = balance(&model, &problem);
         // Roller 6 of row 1 is nearest to the top, at 94.7 degrees.
         let slot = model.layout.slot(0, 5);
         let own = fraction * weight - weight * problem.orbit[slot].sin();
-        let (carries, free) = if drops {
-            (b.inner_force[slot], b.outer_force[slot])
-        } else {
-            (b.outer_force[slot], b.inner_force[slot])
-        };
+        let (carries, free) =
+            if drops { (b.inner_force[slot], b.outer_force[slot]) } else { (b.outer_force[slot], b.inner_force[slot]) };
         assert_eq!(free, 0.0, "share {fraction}");
-        assert!(
-            (carries / own.abs() - 1.0).abs() < 1e-9,
-            "share {fraction}: {carries} N against {own}"
-        );
+        assert!((carries / own.abs() - 1.0).abs() < 1e-9, "share {fraction}: {carries} N against {own}");
     }
 }
 
@@ -248,10 +195,7 @@ fn analytic_stiffness_is_the_derivative_of_the_force() {
             let mut s = s.clone();
             s.operation.load_n = load;
             let model = Model::new(&s).unwrap();
-            let problem = Problem {
-                fix_inner: true,
-                ..Problem::at_start(&model)
-            };
+            let problem = Problem { fix_inner: true, ..Problem::at_start(&model) };
             balance(&model, &problem)
         };
         let middle = solved([300.0, 120.0]);
@@ -266,12 +210,10 @@ fn analytic_stiffness_is_the_derivative_of_the_force() {
             let d = [plus[0] - minus[0], plus[1] - minus[1]];
             for k in 0..2 {
                 let force = middle.stiffness[k][0] * d[0] + middle.stiffness[k][1] * d[1];
-                // The load acts as -F on the outer ring. Central difference: (h/F)^2 = 3e-8, and 1e-9 of the load by the solver.
+                // The load acts as -F on the outer ring. Central difference: (h/F)^2 = 3e-8, and 1e-9 of the load by
+                // the solver.
                 let expected = if k == axis { -2.0 * h } else { 0.0 };
-                assert!(
-                    (force - expected).abs() < 1e-4 * 2.0 * h,
-                    "axis {axis}, row {k}: {force} N for {expected} N"
-                );
+                assert!((force - expected).abs() < 1e-4 * 2.0 * h, "axis {axis}, row {k}: {force} N for {expected} N");
             }
         }
         let k = middle.stiffness;
@@ -294,65 +236,41 @@ fn analytic_equilibrium_start_is_in_balance_but_for_damping_and_film() {
     let l = &model.layout;
     let load_over_mass = 294.0 / model.inertia.outer_ring;
 
-    // What a static balance leaves out: rings off centre make the gaps of orbiting rollers change, which the contact dampers feel,
-    // and the centred cages run eccentric in a displaced outer ring.
+    // What a static balance leaves out: rings off centre make the gaps of orbiting rollers change, which the contact
+    // dampers feel, and the centred cages run eccentric in a displaced outer ring.
     let orbit = model.rolling_orbit_speed(model.rotation.at(0.0).0);
     let c = s.contact.damping_ns_per_m;
     let mut damping = [[0.0; 2]; 2];
     for slot in 0..l.rollers() {
         let (sin, cos) = model.pocket_angle[slot].sin_cos();
         let clipped = |q: f64, rate: f64| {
-            if q > 0.0 {
-                (q + c * rate).max(0.0) - q
-            } else {
-                0.0
-            }
+            if q > 0.0 { (q + c * rate).max(0.0) - q } else { 0.0 }
         };
         let rate_in = orbit * (cos * b.inner[1] - sin * b.inner[0]);
         let rate_out = -orbit * (cos * b.outer[1] - sin * b.outer[0]);
-        let extra = [
-            -clipped(b.inner_force[slot], rate_in),
-            clipped(b.outer_force[slot], rate_out),
-        ];
+        let extra = [-clipped(b.inner_force[slot], rate_in), clipped(b.outer_force[slot], rate_out)];
         for (sum, q) in damping.iter_mut().zip(extra) {
             sum[0] += q * cos;
             sum[1] += q * sin;
         }
     }
-    let film = model
-        .guide
-        .force([-b.outer[0], -b.outer[1]], [0.0; 2], orbit, 0.0)
-        .film;
+    let film = model.guide.force([-b.outer[0], -b.outer[1]], [0.0; 2], orbit, 0.0).film;
     let rows = l.rows as f64;
-    let expected_outer = [
-        damping[1][0] - rows * film[0],
-        damping[1][1] - rows * film[1],
-    ];
+    let expected_outer = [damping[1][0] - rows * film[0], damping[1][1] - rows * film[1]];
     let a = &dy[l.dof()..];
     for k in 0..2 {
         let inner = model.inertia.inner_ring * a[l.inner() + k];
         let outer = model.inertia.outer_ring * a[l.outer() + k];
         // Beyond these terms, the solver's 1e-7 of the load.
-        assert!(
-            (inner - damping[0][k]).abs() < 1e-4,
-            "inner {k}: {inner} N, dampers {}",
-            damping[0][k]
-        );
-        assert!(
-            (outer - expected_outer[k]).abs() < 1e-4,
-            "outer {k}: {outer} N, expected {}",
-            expected_outer[k]
-        );
+        assert!((inner - damping[0][k]).abs() < 1e-4, "inner {k}: {inner} N, dampers {}", damping[0][k]);
+        assert!((outer - expected_outer[k]).abs() < 1e-4, "outer {k}: {outer} N, expected {}", expected_outer[k]);
         // And these terms are small: c x orbit speed x 38 rollers x 13 um is 8 N at most, of 300.
-        assert!(
-            a[l.outer() + k].abs() < 0.03 * load_over_mass,
-            "{} m/s^2",
-            a[l.outer() + k]
-        );
+        assert!(a[l.outer() + k].abs() < 0.03 * load_over_mass, "{} m/s^2", a[l.outer() + k]);
     }
     for slot in 0..l.rollers() {
         let force = model.inertia.roller * a[l.r() + slot];
-        // A roller's own damping: c x 82.7 rad/s x 13 um = 0.2 N at each of two contacts; gravity and centrifugal balance.
+        // A roller's own damping: c x 82.7 rad/s x 13 um = 0.2 N at each of two contacts; gravity and centrifugal
+        // balance.
         assert!(force.abs() < 0.5, "slot {slot}: {force} N left over");
     }
 }
@@ -369,10 +287,7 @@ fn prop_ring_that_nothing_holds_is_refused() {
     assert!(!refused(&s), "the inner ring is held, and holds the outer");
     // A load zone that full-width damage has sunk still holds the ring once its neighbours take over.
     s.defects = rectangle().defects;
-    s.defects[0].shape = Shape::Rectangle {
-        length_mm: 3.0,
-        width_mm: 6.0,
-    };
+    s.defects[0].shape = Shape::Rectangle { length_mm: 3.0, width_mm: 6.0 };
     assert!(!refused(&s));
     s.support.inner_stiffness_n_per_m = 0.0;
     s.operation.load_n = [0.0, 0.0];
@@ -383,10 +298,7 @@ fn prop_ring_that_nothing_holds_is_refused() {
 #[test]
 fn regress_no_balance_is_reported_without_a_nan() {
     let told = |residual: f64| {
-        let none = brinell::statics::NoBalance {
-            residual,
-            iterations: 200,
-        };
+        let none = brinell::statics::NoBalance { residual, iterations: 200 };
         none.to_string()
     };
     assert!(told(12.5).starts_with("no static balance: 1.250e1 N are left on a ring after 200"));

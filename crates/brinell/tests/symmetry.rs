@@ -11,8 +11,8 @@ use std::f64::consts::TAU;
 
 const SPAN_S: f64 = 5e-3;
 
-/// States at every 0.1 ms. At `standard`, a step that round-off lets pass here and not there moves a run by as much as the tolerance, and
-/// the comparison would be of tolerances.
+/// States at every 0.1 ms. At `standard`, a step that round-off lets pass here and not there moves a run by as much as
+/// the tolerance, and the comparison would be of tolerances.
 fn trajectory(model: &Model, y: &[f64]) -> Vec<Vec<f64>> {
     let mut motion = Motion::new(model);
     let mut stepper = Stepper::new(&mut motion, settings(model, Accuracy::Reference), 0.0, y);
@@ -29,22 +29,18 @@ fn trajectory(model: &Model, y: &[f64]) -> Vec<Vec<f64>> {
     states
 }
 
-/// Largest difference of two trajectories against the largest motion, both as mass-weighted speeds; pure rotation does not count as motion.
+/// Largest difference of two trajectories against the largest motion, both as mass-weighted speeds; pure rotation does
+/// not count as motion.
 fn difference(model: &Model, a: &[Vec<f64>], b: &[Vec<f64>]) -> f64 {
     let (mass, l) = (model.mass(), &model.layout);
     let dof = l.dof();
-    let norm =
-        |f: &dyn Fn(usize) -> f64| (0..dof).map(|k| mass[k] * f(k).powi(2)).sum::<f64>().sqrt();
+    let norm = |f: &dyn Fn(usize) -> f64| (0..dof).map(|k| mass[k] * f(k).powi(2)).sum::<f64>().sqrt();
     let mut worst = 0.0_f64;
     let mut motion = 0.0_f64;
     for (a, b) in a.iter().zip(b) {
         worst = worst.max(norm(&|k| a[dof + k] - b[dof + k]));
         motion = motion.max(norm(&|k| {
-            if k < l.slots || k >= l.inner() {
-                a[dof + k]
-            } else {
-                0.0
-            }
+            if k < l.slots || k >= l.inner() { a[dof + k] } else { 0.0 }
         }));
     }
     worst / motion
@@ -76,12 +72,7 @@ impl Change {
         s.bearing.row_stagger_deg *= self.sense;
         s.operation.speed_rpm = match s.operation.speed_rpm {
             Speed::Constant(rpm) => Speed::Constant(self.sense * rpm),
-            Speed::Profile(points) => Speed::Profile(
-                points
-                    .iter()
-                    .map(|[t, rpm]| [*t, self.sense * rpm])
-                    .collect(),
-            ),
+            Speed::Profile(points) => Speed::Profile(points.iter().map(|[t, rpm]| [*t, self.sense * rpm]).collect()),
         };
         for d in &mut s.defects {
             d.center_deg *= self.sense;
@@ -89,15 +80,7 @@ impl Change {
                 Surface::Roller(k) => *k = (self.roller)(*k - 1) + 1,
                 _ => d.center_deg += self.damage.to_degrees(),
             }
-            if let (
-                Shape::Profile {
-                    arc_mm,
-                    width_mm,
-                    depth_um,
-                },
-                true,
-            ) = (&mut d.shape, self.sense < 0.0)
-            {
+            if let (Shape::Profile { arc_mm, width_mm, depth_um }, true) = (&mut d.shape, self.sense < 0.0) {
                 arc_mm.iter_mut().for_each(|a| *a = -*a);
                 arc_mm.reverse();
                 width_mm.reverse();
@@ -114,8 +97,7 @@ impl Change {
         for slot in 0..l.rollers() {
             let to = l.slot(l.row(slot), (self.roller)(l.roller(slot)));
             // Within half a turn of its pocket, which counts turns.
-            let pocket =
-                changed.pocket_angle[to] + self.sense * y[l.cage(l.row(slot)) + 2] + self.cage;
+            let pocket = changed.pocket_angle[to] + self.sense * y[l.cage(l.row(slot)) + 2] + self.cage;
             let theta = self.sense * y[l.theta() + slot] + self.orbit;
             out[l.theta() + to] = theta + TAU * ((pocket - theta) / TAU).round();
             out[l.r() + to] = y[l.r() + slot];
@@ -164,8 +146,9 @@ impl Change {
     }
 }
 
-/// Impacts make round-off grow: from the drop of the `rolling` start, where every roller bounces, to 1e-2 of the motion within 1 ms; from equilibrium to
-/// 1e-5 (NN3007) or 6e-4 (the single row under gravity) in 5 ms. Past this bound the comparison with round-off would say nothing.
+/// Impacts make round-off grow: from the drop of the `rolling` start, where every roller bounces, to 1e-2 of the motion
+/// within 1 ms; from equilibrium to 1e-5 (NN3007) or 6e-4 (the single row under gravity) in 5 ms. Past this bound the
+/// comparison with round-off would say nothing.
 const LARGEST: f64 = 3e-3;
 
 /// Damage on every surface, a load and gravity off the axes.
@@ -175,10 +158,7 @@ fn askew(base: Scenario) -> Scenario {
     s.operation.gravity_m_per_s2 = [1.0, -9.81];
     s.simulation.start = Start::Equilibrium;
     s.defects[0].center_deg = 24.0;
-    s.defects[0].shape = Shape::Rectangle {
-        length_mm: 3.0,
-        width_mm: 4.0,
-    };
+    s.defects[0].shape = Shape::Rectangle { length_mm: 3.0, width_mm: 4.0 };
     s.defects.push(Defect {
         on: Surface::InnerRaceway,
         row: s.bearing.rows,
@@ -204,11 +184,7 @@ fn askew(base: Scenario) -> Scenario {
 
 #[test]
 fn prop_mirrored_bearing_moves_mirrored() {
-    for base in [
-        rectangle(),
-        case("xval/single-row-inner-guided"),
-        case("xval/three-rows-drag-gap"),
-    ] {
+    for base in [rectangle(), case("xval/single-row-inner-guided"), case("xval/three-rows-drag-gap")] {
         let rollers = base.bearing.rollers_per_row;
         let mirror = Change {
             roller: Box::new(move |j| (rollers - j) % rollers),
@@ -278,9 +254,10 @@ fn prop_bearing_turned_by_pitches_moves_turned() {
 fn same_bits(a: &Rows, b: &Rows) -> bool {
     a.names == b.names
         && a.data.len() == b.data.len()
-        && a.data.iter().zip(&b.data).all(|(a, b)| {
-            a.len() == b.len() && a.iter().zip(b).all(|(x, y)| x.to_bits() == y.to_bits())
-        })
+        && a.data
+            .iter()
+            .zip(&b.data)
+            .all(|(a, b)| a.len() == b.len() && a.iter().zip(b).all(|(x, y)| x.to_bits() == y.to_bits()))
 }
 
 /// Everything recorded.
@@ -294,15 +271,8 @@ fn all(mut s: Scenario, duration: f64) -> Scenario {
 fn prop_damage_of_no_width_is_healthy_to_the_bit() {
     let healthy = simulate_rows(&all(healthy(), 0.03));
     let shapes = [
-        Shape::Rectangle {
-            length_mm: 3.0,
-            width_mm: 0.0,
-        },
-        Shape::Profile {
-            arc_mm: vec![-2.0, 0.0, 2.0],
-            width_mm: vec![0.0; 3],
-            depth_um: Some(vec![1.0, 20.0, 1.0]),
-        },
+        Shape::Rectangle { length_mm: 3.0, width_mm: 0.0 },
+        Shape::Profile { arc_mm: vec![-2.0, 0.0, 2.0], width_mm: vec![0.0; 3], depth_um: Some(vec![1.0, 20.0, 1.0]) },
     ];
     for shape in shapes {
         let mut s = all(rectangle(), 0.03);
@@ -314,10 +284,7 @@ fn prop_damage_of_no_width_is_healthy_to_the_bit() {
         }
         assert!(same_bits(&healthy, &simulate_rows(&s)));
     }
-    assert!(
-        !same_bits(&healthy, &simulate_rows(&all(rectangle(), 0.03))),
-        "damage shows"
-    );
+    assert!(!same_bits(&healthy, &simulate_rows(&all(rectangle(), 0.03))), "damage shows");
 }
 
 #[test]
@@ -361,10 +328,7 @@ fn prop_sample_rate_does_not_change_the_motion() {
 
 #[test]
 fn prop_duration_does_not_change_earlier_samples() {
-    let (short, long) = (
-        simulate_rows(&all(rectangle(), 0.01)),
-        simulate_rows(&all(rectangle(), 0.017)),
-    );
+    let (short, long) = (simulate_rows(&all(rectangle(), 0.01)), simulate_rows(&all(rectangle(), 0.017)));
     for (name, (a, b)) in short.names.iter().zip(short.data.iter().zip(&long.data)) {
         assert_eq!(a.len(), 257);
         for (k, (a, b)) in a.iter().zip(b).enumerate() {

@@ -4,9 +4,7 @@ use crate::common::cases::{case, random_state, tilting_offset};
 use brinell::channel::Frame;
 use brinell::model::{Model, Workspace};
 use brinell::observe::line_load::LineLoads;
-use brinell::scenario::{
-    Defect, EdgeReaction, LoadOn, ModelKind, RollerPath, RollerProfile, Scenario, Shape, Start,
-};
+use brinell::scenario::{Defect, EdgeReaction, LoadOn, ModelKind, RollerPath, RollerProfile, Scenario, Shape, Start};
 use brinell::simulate::{Observer, Simulation};
 use brinell::slices::drop;
 use brinell::statics::{Problem, solve};
@@ -38,7 +36,8 @@ fn lit_logarithmic_drop_of_iso_16281() {
 
 #[test]
 fn analytic_nothing_tilted_is_the_planar_model() {
-    // Without damping at the contacts, where every slice is damped by itself; at states without tilt the other coordinates move as in the plane.
+    // Without damping at the contacts, where every slice is damped by itself; at states without tilt the other
+    // coordinates move as in the plane.
     let mut tilting = edge();
     tilting.contact.damping_ns_per_m = 0.0;
     let mut planar = tilting.clone();
@@ -106,14 +105,7 @@ fn prop_mirrored_damage_mirrors_the_tilts() {
                 let row = (k - l.cage(0)) / 3;
                 (l.cage(l.rows - 1 - row) + (k - l.cage(0)) % 3, 1.0)
             } else {
-                (
-                    k,
-                    if (l.inner_tilt()..l.outer_tilt() + 2).contains(&k) {
-                        -1.0
-                    } else {
-                        1.0
-                    },
-                )
+                (k, if (l.inner_tilt()..l.outer_tilt() + 2).contains(&k) { -1.0 } else { 1.0 })
             }
         };
         for seed in 0..20 {
@@ -130,11 +122,7 @@ fn prop_mirrored_damage_mirrors_the_tilts() {
             for k in 0..l.dof() {
                 let (to, sign) = place(k);
                 let difference = (sign * a[k] - b[to]).abs();
-                assert!(
-                    difference < 1e-11 * largest,
-                    "{}: {difference:e}",
-                    l.name(k)
-                );
+                assert!(difference < 1e-11 * largest, "{}: {difference:e}", l.name(k));
             }
         }
     }
@@ -174,10 +162,7 @@ fn analytic_a_load_off_the_middle_tilts_one_row() {
         let shift = balance.inner[0] - balance.outer[0];
         let n = slices as f64;
         let expected = 12.0 * shift * 1e-3 * offset / (36e-6 * (1.0 - 1.0 / (n * n)));
-        assert!(
-            (tilt / expected - 1.0).abs() < 1e-6,
-            "{slices} slices: {tilt:e} rad, {expected:e} expected"
-        );
+        assert!((tilt / expected - 1.0).abs() < 1e-6, "{slices} slices: {tilt:e} rad, {expected:e} expected");
     }
 }
 
@@ -186,8 +171,8 @@ fn analytic_an_equilibrium_is_one() {
     let mut s = tilting_offset();
     s.contact.edge_reaction = EdgeReaction::None;
     s.simulation.start = Start::Equilibrium;
-    // Neither friction nor film nor damping, which the orbit makes felt: what is left is the balance's error, and the centrifugal force on the arm
-    // R_m + r in place of R_m, 0.2 N times 20 um over 25 mm.
+    // Neither friction nor film nor damping, which the orbit makes felt: what is left is the balance's error, and the
+    // centrifugal force on the arm R_m + r in place of R_m, 0.2 N times 20 um over 25 mm.
     s.friction.raceway_coefficient = 0.0;
     s.contact.damping_ns_per_m = 0.0;
     s.lubricant.viscosity_pa_s = 0.0;
@@ -215,10 +200,7 @@ fn analytic_a_profile_of_no_drop_is_straight() {
     s.simulation.model = ModelKind::Full;
     s.bearing.profile = RollerProfile::Straight;
     let mut table = s.clone();
-    table.bearing.profile = RollerProfile::Table {
-        z_mm: vec![-1.0, 1.0],
-        drop_um: vec![0.0, 0.0],
-    };
+    table.bearing.profile = RollerProfile::Table { z_mm: vec![-1.0, 1.0], drop_um: vec![0.0, 0.0] };
     for path in [RollerPath::Point, RollerPath::Envelope] {
         s.contact.roller_path = path;
         table.contact.roller_path = path;
@@ -228,12 +210,7 @@ fn analytic_a_profile_of_no_drop_is_straight() {
             let (a, b) = (accelerations(&s, 0.01, &y), accelerations(&table, 0.01, &y));
             let largest = a.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
             for k in 0..a.len() {
-                assert!(
-                    (a[k] - b[k]).abs() < 1e-9 * largest,
-                    "{} and {}",
-                    a[k],
-                    b[k]
-                );
+                assert!((a[k] - b[k]).abs() < 1e-9 * largest, "{} and {}", a[k], b[k]);
             }
         }
     }
@@ -243,10 +220,7 @@ fn analytic_a_profile_of_no_drop_is_straight() {
 fn prop_damage_in_the_middle_of_one_row_tilts_nothing() {
     let mut s = one_row(20, 0.0);
     s.defects = vec![Defect {
-        shape: Shape::Rectangle {
-            length_mm: 3.0,
-            width_mm: 4.0,
-        },
+        shape: Shape::Rectangle { length_mm: 3.0, width_mm: 4.0 },
         row: 1,
         axial_offset_mm: 0.0,
         ..edge().defects[0].clone()
@@ -277,11 +251,7 @@ impl Observer for Loads {
         let before = self.lines.rows.len();
         self.lines.take(index, frame);
         if self.lines.rows.len() > before {
-            let all = frame
-                .ws
-                .contacts
-                .iter()
-                .map(|c| c.force.iter().sum::<f64>());
+            let all = frame.ws.contacts.iter().map(|c| c.force.iter().sum::<f64>());
             self.forces.push(all.sum());
         }
     }
@@ -294,10 +264,7 @@ fn prop_line_loads_add_up_to_the_forces() {
     let simulation = Simulation::new(&s).unwrap();
     let instants = [0.008, 0.01, 0.0115];
     let lines = LineLoads::new(simulation.model(), &instants, 25600.0).unwrap();
-    let mut loads = Loads {
-        lines,
-        forces: Vec::new(),
-    };
+    let mut loads = Loads { lines, forces: Vec::new() };
     simulation.run(&mut loads);
     assert_eq!(loads.forces.len(), 3);
     let width = 6e-3 / 32.0;

@@ -13,9 +13,7 @@ use std::path::Path;
 const FROM_S: f64 = 1e-3;
 
 fn folder(name: &str) -> std::path::PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR"))
-        .join("tests")
-        .join(name)
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("tests").join(name)
 }
 
 /// Relative L2 difference from 1 ms to `to`, s; `dropped` is the share of the worst samples left out.
@@ -28,9 +26,7 @@ fn difference(ours: &[f64], theirs: &[f64], t: &[f64], to: f64, dropped: f64) ->
         .collect();
     squares.sort_by(|a, b| a.0.total_cmp(&b.0));
     let kept = squares.len() - (squares.len() as f64 * dropped) as usize;
-    let (num, den) = squares[..kept]
-        .iter()
-        .fold((0.0, 0.0), |s, x| (s.0 + x.0, s.1 + x.1));
+    let (num, den) = squares[..kept].iter().fold((0.0, 0.0), |s, x| (s.0 + x.0, s.1 + x.1));
     if num == 0.0 { 0.0 } else { (num / den).sqrt() }
 }
 
@@ -43,11 +39,9 @@ fn compare(path: &Path) -> (Vec<(String, f64, f64)>, Rows) {
 fn compare_until(path: &Path, to: f64) -> (Vec<(String, f64, f64)>, Rows) {
     let text = std::fs::read_to_string(path.with_extension("toml")).unwrap();
     let golden = columns(&std::fs::read_to_string(path.with_extension("csv")).unwrap());
-    let mut loaded =
-        document::read(&text, &[]).unwrap_or_else(|p| panic!("{}: {p:?}", path.display()));
+    let mut loaded = document::read(&text, &[]).unwrap_or_else(|p| panic!("{}: {p:?}", path.display()));
     loaded.scenario.simulation.accuracy = scenario::Accuracy::Reference;
-    loaded.scenario.simulation.record =
-        golden.names.iter().filter(|n| *n != "t").cloned().collect();
+    loaded.scenario.simulation.record = golden.names.iter().filter(|n| *n != "t").cloned().collect();
     let ours = simulate_rows(&loaded.scenario);
     let t = golden.column("t");
     assert_eq!(ours.column("t").len(), t.len(), "number of samples");
@@ -56,11 +50,7 @@ fn compare_until(path: &Path, to: f64) -> (Vec<(String, f64, f64)>, Rows) {
         .iter()
         .map(|name| {
             let (a, b) = (ours.column(name), golden.column(name));
-            (
-                name.clone(),
-                difference(a, b, t, to, 0.0),
-                difference(a, b, t, to, 0.02),
-            )
+            (name.clone(), difference(a, b, t, to, 0.0), difference(a, b, t, to, 0.02))
         })
         .collect();
     (differences, ours)
@@ -73,15 +63,8 @@ fn is_acceleration(name: &str) -> bool {
 fn given(name: &str, position: f64, acceleration: f64) {
     let (differences, _) = compare(&folder("reference").join(name));
     for (channel, all, _) in differences {
-        let limit = if is_acceleration(&channel) {
-            acceleration
-        } else {
-            position
-        };
-        assert!(
-            all <= limit,
-            "{name}: {channel} differs by {all:.2e}, limit {limit:.0e}"
-        );
+        let limit = if is_acceleration(&channel) { acceleration } else { position };
+        assert!(all <= limit, "{name}: {channel} differs by {all:.2e}, limit {limit:.0e}");
     }
 }
 
@@ -107,10 +90,7 @@ fn given_later(name: &str, to: f64) {
             (all, 6e-3)
         };
         println!("{name}: {channel} differs by {difference:.1e}");
-        assert!(
-            difference <= limit,
-            "{name}: {channel} differs by {difference:.2e}, limit {limit:.0e}"
-        );
+        assert!(difference <= limit, "{name}: {channel} differs by {difference:.2e}, limit {limit:.0e}");
     }
 }
 
@@ -145,10 +125,7 @@ fn xval_independent_implementation() {
     let mut limits: HashMap<(String, String), [f64; 2]> = HashMap::new();
     for line in tolerances.lines().skip(1) {
         let f: Vec<&str> = line.split(',').collect();
-        limits.insert(
-            (f[0].into(), f[1].into()),
-            [f[2].parse().unwrap(), f[3].parse().unwrap()],
-        );
+        limits.insert((f[0].into(), f[1].into()), [f[2].parse().unwrap(), f[3].parse().unwrap()]);
     }
     let mut names: Vec<String> = std::fs::read_dir(folder("xval"))
         .unwrap()
@@ -166,12 +143,12 @@ fn xval_independent_implementation() {
             if channel == "t" {
                 continue;
             }
-            let own = limits
-                .get(&(name.clone(), channel.clone()))
-                .unwrap_or_else(|| panic!("{name} {channel}"));
+            let own = limits.get(&(name.clone(), channel.clone())).unwrap_or_else(|| panic!("{name} {channel}"));
             let limit = |own: f64| (SELF_FACTOR * own).max(FLOOR);
             if all > limit(own[0]) || kept > limit(own[1]) {
-                failures.push(format!("{name}: {channel} differs by {all:.2e} ({kept:.2e} without the worst 2 %), own {own:?}"));
+                failures.push(format!(
+                    "{name}: {channel} differs by {all:.2e} ({kept:.2e} without the worst 2 %), own {own:?}"
+                ));
             }
             if all > worst.0 {
                 worst = (all, channel);

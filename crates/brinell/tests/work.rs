@@ -1,9 +1,9 @@
 //! The solver's counted work stays what it was: a check of speed that no noise can move.
 //!
-//! `work.csv` holds steps, rejections and right-hand sides per simulated second: the mean over runs whose starts differ in the last digits,
-//! with rounded and with fused products, and the standard deviation of one run. Impacts amplify round-off, so such runs are different
-//! runs of the same process after some tens of milliseconds, as runs on another processor are; that scatter is what the bounds come
-//! from. The fastest kernel represents all with fused products.
+//! `work.csv` holds steps, rejections and right-hand sides per simulated second: the mean over runs whose starts differ
+//! in the last digits, with rounded and with fused products, and the standard deviation of one run. Impacts amplify
+//! round-off, so such runs are different runs of the same process after some tens of milliseconds, as runs on another
+//! processor are; that scatter is what the bounds come from. The fastest kernel represents all with fused products.
 //!
 //! A change that moves the counts on purpose records them anew, and says why where it is committed:
 //!
@@ -27,8 +27,8 @@ const PUSH: f64 = 1e-13;
 const STARTS: usize = 4;
 /// Starts of each kernel when recording.
 const RECORDED: usize = 16;
-/// Mean and recorded mean may differ by this many times the standard deviation of that difference: one of 10^4 differences between runs
-/// of the same process does, and the file has 27.
+/// Mean and recorded mean may differ by this many times the standard deviation of that difference: one of 10^4
+/// differences between runs of the same process does, and the file has 27.
 const DEVIATIONS: f64 = 4.5;
 /// And by this share of the mean, where nothing scatters.
 const SHARE: f64 = 0.005;
@@ -37,10 +37,7 @@ const SHARE: f64 = 0.005;
 const COUNTS: [&str; 3] = ["steps", "rejections", "right_hand_sides"];
 
 fn example(name: &str) -> Scenario {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR"))
-        .join("../../examples")
-        .join(name)
-        .with_extension("toml");
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../examples").join(name).with_extension("toml");
     let text = std::fs::read_to_string(path).unwrap();
     brinell::document::read(&text, &[]).unwrap().scenario
 }
@@ -77,16 +74,8 @@ fn counted(s: &Scenario, kernel: Kernel, start: usize) -> [f64; 3] {
     for angle in &mut y[at..at + model.layout.rollers()] {
         *angle += PUSH * start as f64;
     }
-    let mut motion = Motion {
-        ws: Workspace::with_kernel(&model, kernel),
-        model: &model,
-    };
-    let mut stepper = Stepper::new(
-        &mut motion,
-        settings(&model, s.simulation.accuracy),
-        0.0,
-        &y,
-    );
+    let mut motion = Motion { ws: Workspace::with_kernel(&model, kernel), model: &model };
+    let mut stepper = Stepper::new(&mut motion, settings(&model, s.simulation.accuracy), 0.0, &y);
     // At least as long as the damage needs to be met; `reference` costs many times as much.
     let duration = match s.simulation.accuracy {
         Accuracy::Standard => DURATION_S,
@@ -147,8 +136,7 @@ fn regress_counted_work_stays_as_recorded() {
         for (count, (mean, _)) in COUNTS.iter().zip(counts) {
             let line: Vec<&str> = recorded.next().expect("a line").split(',').collect();
             assert_eq!(line[..2], [name, *count]);
-            let [was, deviation, runs] =
-                [line[2], line[3], line[4]].map(|cell| cell.parse::<f64>().unwrap());
+            let [was, deviation, runs] = [line[2], line[3], line[4]].map(|cell| cell.parse::<f64>().unwrap());
             let scatter = deviation * (1.0 / n + 1.0 / runs).sqrt();
             let bound = (DEVIATIONS * scatter).max(SHARE * was);
             let told = format!(

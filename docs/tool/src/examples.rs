@@ -1,9 +1,9 @@
 //! Scenarios and console examples in the text, tried on the program.
 //!
-//! A block of `toml` is a whole scenario (lines that begin with `~` are hidden from the reader): `brinell check` has to find it sound; one of `toml own.toml`
-//! is that file for the commands that follow. In a block of
-//! `console` each line after `$ ` is run by the shell in a folder that holds a copy of `examples/`, and has to succeed; what follows it is what
-//! it prints. In a line of that `[..]` stands for anything, a line of `...` for any lines.
+//! A block of `toml` is a whole scenario (lines that begin with `~` are hidden from the reader): `brinell check` has to
+//! find it sound; one of `toml own.toml` is that file for the commands that follow. In a block of `console` each line
+//! after `$ ` is run by the shell in a folder that holds a copy of `examples/`, and has to succeed; what follows it is
+//! what it prints. In a line of that `[..]` stands for anything, a line of `...` for any lines.
 
 use crate::{copy, fail};
 use mdbook_driver::errors::Result;
@@ -31,12 +31,7 @@ fn try_all(docs: &Path, brinell: &Path, folder: &Path) -> Result<(usize, usize)>
     path.push(":");
     path.push(std::env::var_os("PATH").unwrap_or_default());
     let run = |line: &str| {
-        Command::new("sh")
-            .arg("-c")
-            .arg(format!("exec 2>&1; {line}"))
-            .current_dir(folder)
-            .env("PATH", &path)
-            .output()
+        Command::new("sh").arg("-c").arg(format!("exec 2>&1; {line}")).current_dir(folder).env("PATH", &path).output()
     };
 
     let (mut scenarios, mut commands) = (0, 0);
@@ -44,28 +39,18 @@ fn try_all(docs: &Path, brinell: &Path, folder: &Path) -> Result<(usize, usize)>
     let mut sources = Vec::new();
     gather(&docs.join("src"), &mut sources)?;
     for source in sources {
-        let name = source
-            .strip_prefix(docs)
-            .unwrap_or(&source)
-            .display()
-            .to_string();
+        let name = source.strip_prefix(docs).unwrap_or(&source).display().to_string();
         for (kind, block) in blocks(&fs::read_to_string(&source)?) {
             let (kind, file) = kind.split_once(' ').unwrap_or((kind.as_str(), FILE));
             match kind {
                 "toml" if block.contains("{{#include") => {}
                 "toml" => {
                     scenarios += 1;
-                    let text: Vec<&str> = block
-                        .lines()
-                        .map(|l| l.strip_prefix('~').unwrap_or(l))
-                        .collect();
+                    let text: Vec<&str> = block.lines().map(|l| l.strip_prefix('~').unwrap_or(l)).collect();
                     fs::write(folder.join(file), text.join("\n"))?;
                     let output = run(&format!("brinell check {file}"))?;
                     if !output.status.success() {
-                        problems.push(format!(
-                            "{name}:\n{block}\n{}",
-                            String::from_utf8_lossy(&output.stdout)
-                        ));
+                        problems.push(format!("{name}:\n{block}\n{}", String::from_utf8_lossy(&output.stdout)));
                     }
                 }
                 "console" => {
@@ -75,10 +60,7 @@ fn try_all(docs: &Path, brinell: &Path, folder: &Path) -> Result<(usize, usize)>
                         let printed = String::from_utf8_lossy(&output.stdout);
                         let lines: Vec<&str> = printed.lines().map(str::trim_end).collect();
                         if !output.status.success() || !matches(&shown, &lines) {
-                            problems.push(format!(
-                                "{name}: $ {command}\n{}\n--- prints\n{printed}",
-                                shown.join("\n")
-                            ));
+                            problems.push(format!("{name}: $ {command}\n{}\n--- prints\n{printed}", shown.join("\n")));
                         }
                     }
                 }
@@ -91,9 +73,8 @@ fn try_all(docs: &Path, brinell: &Path, folder: &Path) -> Result<(usize, usize)>
 }
 
 fn gather(folder: &Path, sources: &mut Vec<PathBuf>) -> Result<()> {
-    let mut entries: Vec<PathBuf> = fs::read_dir(folder)?
-        .map(|e| e.map(|e| e.path()))
-        .collect::<std::io::Result<_>>()?;
+    let mut entries: Vec<PathBuf> =
+        fs::read_dir(folder)?.map(|e| e.map(|e| e.path())).collect::<std::io::Result<_>>()?;
     entries.sort();
     for path in entries {
         if path.is_dir() {
@@ -149,9 +130,7 @@ fn alike(shown: &str, printed: &str) -> bool {
     match shown.split_once("[..]") {
         None => shown == printed,
         Some((before, after)) => printed.strip_prefix(before).is_some_and(|rest| {
-            (0..=rest.len())
-                .filter(|&k| rest.is_char_boundary(k))
-                .any(|k| alike(after, &rest[k..]))
+            (0..=rest.len()).filter(|&k| rest.is_char_boundary(k)).any(|k| alike(after, &rest[k..]))
         }),
     }
 }

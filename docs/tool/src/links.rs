@@ -10,10 +10,8 @@ use std::path::{Path, PathBuf};
 pub fn check(out: &Path) -> Result<usize> {
     let mut pages = BTreeMap::new();
     gather(out, &mut pages)?;
-    let ids: BTreeMap<&PathBuf, BTreeSet<&str>> = pages
-        .iter()
-        .map(|(path, text)| (path, values(text, "id").collect()))
-        .collect();
+    let ids: BTreeMap<&PathBuf, BTreeSet<&str>> =
+        pages.iter().map(|(path, text)| (path, values(text, "id").collect())).collect();
     let mut problems = Vec::new();
     for (path, text) in &pages {
         let folder = path.parent().unwrap_or(out);
@@ -26,16 +24,10 @@ pub fn check(out: &Path) -> Result<usize> {
                 continue;
             }
             let (file, fragment) = link.split_once('#').unwrap_or((link, ""));
-            let target = if file.is_empty() {
-                path.clone()
-            } else {
-                tidy(&folder.join(file))
-            };
+            let target = if file.is_empty() { path.clone() } else { tidy(&folder.join(file)) };
             if !target.exists() {
                 problems.push(format!("{shown}: {link}: no such file"));
-            } else if !fragment.is_empty()
-                && !ids.get(&target).is_some_and(|all| all.contains(fragment))
-            {
+            } else if !fragment.is_empty() && !ids.get(&target).is_some_and(|all| all.contains(fragment)) {
                 problems.push(format!("{shown}: {link}: no such place"));
             }
         }
@@ -59,23 +51,20 @@ fn gather(folder: &Path, pages: &mut BTreeMap<PathBuf, String>) -> Result<()> {
 /// Values of an attribute in the tags of a page.
 fn values<'a>(page: &'a str, name: &'static str) -> impl Iterator<Item = &'a str> {
     let start = format!("{name}=\"");
-    page.split('<')
-        .skip(1)
-        .filter_map(|tag| tag.split_once('>').map(|(tag, _)| tag))
-        .flat_map(move |tag| {
-            let mut found = Vec::new();
-            let mut rest = tag;
-            while let Some((before, after)) = rest.split_once(&start) {
-                let Some((value, next)) = after.split_once('"') else {
-                    break;
-                };
-                if before.ends_with(char::is_whitespace) {
-                    found.push(value);
-                }
-                rest = next;
+    page.split('<').skip(1).filter_map(|tag| tag.split_once('>').map(|(tag, _)| tag)).flat_map(move |tag| {
+        let mut found = Vec::new();
+        let mut rest = tag;
+        while let Some((before, after)) = rest.split_once(&start) {
+            let Some((value, next)) = after.split_once('"') else {
+                break;
+            };
+            if before.ends_with(char::is_whitespace) {
+                found.push(value);
             }
-            found
-        })
+            rest = next;
+        }
+        found
+    })
 }
 
 /// Without `..`.

@@ -2,9 +2,10 @@
 //!
 //!     cargo run --manifest-path docs/tool/Cargo.toml
 //!
-//! writes `target/book/index.html`. LaTeX becomes MathML here, so that the pages need no network and no script to show equations. The build fails
-//! on a formula that does not parse, on an equation of the paper that is missing or appears twice, and on a link that leads nowhere. Where
-//! the variable BRINELL names a `brinell` command, every scenario in the text is checked by it and every console example is run and compared.
+//! writes `target/book/index.html`. LaTeX becomes MathML here, so that the pages need no network and no script to show
+//! equations. The build fails on a formula that does not parse, on an equation of the paper that is missing or appears
+//! twice, and on a link that leads nowhere. Where the variable BRINELL names a `brinell` command, every scenario in the
+//! text is checked by it and every console example is run and compared.
 
 mod examples;
 mod links;
@@ -16,9 +17,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 fn main() -> Result<()> {
-    let docs = Path::new(env!("CARGO_MANIFEST_DIR"))
-        .join("..")
-        .canonicalize()?;
+    let docs = Path::new(env!("CARGO_MANIFEST_DIR")).join("..").canonicalize()?;
     let mut book = MDBook::load(&docs)?;
     let out = book.build_dir_for("html");
     book.with_preprocessor(math::Equations);
@@ -31,18 +30,12 @@ fn main() -> Result<()> {
     }
     let out = out.canonicalize()?;
     let pages = links::check(&out)?;
-    println!(
-        "{pages} pages, no broken link: {}",
-        out.join("index.html").display()
-    );
+    println!("{pages} pages, no broken link: {}", out.join("index.html").display());
     match std::env::var_os("BRINELL") {
         Some(command) => {
             let command = PathBuf::from(command).canonicalize()?;
             let counts = examples::check(&docs, &command)?;
-            println!(
-                "{} scenarios sound, {} console examples as shown",
-                counts.0, counts.1
-            );
+            println!("{} scenarios sound, {} console examples as shown", counts.0, counts.1);
         }
         None => println!("examples not checked: BRINELL names no command"),
     }

@@ -13,9 +13,7 @@ use std::time::Duration;
 pub fn rectangle() -> Scenario {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../examples/rectangle.toml");
     let text = std::fs::read_to_string(path).expect("the example is there");
-    brinell::document::read(&text, &[])
-        .expect("the example is sound")
-        .scenario
+    brinell::document::read(&text, &[]).expect("the example is sound").scenario
 }
 
 /// A time and the state there.
@@ -30,11 +28,7 @@ pub fn off_and_on_damage(model: &Model) -> [Moment; 2] {
     let mut found: [Option<Moment>; 2] = [None, None];
     while found.iter().any(Option::is_none) && stepper.t() < 0.5 {
         stepper.step(&mut motion).expect("a step");
-        let on = motion
-            .ws
-            .contacts
-            .iter()
-            .any(|c| c.on_damage.iter().any(|on| *on));
+        let on = motion.ws.contacts.iter().any(|c| c.on_damage.iter().any(|on| *on));
         let place = &mut found[usize::from(on)];
         if stepper.t() > 0.05 && place.is_none() {
             *place = Some((stepper.t(), stepper.y().to_vec()));

@@ -16,37 +16,24 @@ pub fn scenario(path: &str, overrides: &[(&str, String)]) -> Scenario {
 
 fn load(path: &str, overrides: &[(&str, String)]) -> Loaded {
     let text = std::fs::read_to_string(path).unwrap_or_else(|e| panic!("{path}: {e}"));
-    let overrides: Vec<(String, String)> = overrides
-        .iter()
-        .map(|(k, v)| ((*k).to_owned(), v.clone()))
-        .collect();
+    let overrides: Vec<(String, String)> = overrides.iter().map(|(k, v)| ((*k).to_owned(), v.clone())).collect();
     document::read(&text, &overrides).unwrap_or_else(|problems| panic!("{path}: {problems:?}"))
 }
 
-/// Where each coordinate of the tables' layout is in brinell's: r of every roller (row by row), theta, phi, then x, y, theta of
-/// each cage, tilts where there are any (beta of every roller, slopes of the inner and the outer ring), and x, y of the inner and the outer ring.
+/// Where each coordinate of the tables' layout is in brinell's: r of every roller (row by row), theta, phi, then x, y,
+/// theta of each cage, tilts where there are any (beta of every roller, slopes of the inner and the outer ring), and x,
+/// y of the inner and the outer ring.
 pub fn coordinates(l: &Layout) -> Vec<usize> {
-    let rollers: Vec<usize> = (0..l.rows)
-        .flat_map(|row| (0..l.rollers_per_row).map(move |roller| l.slot(row, roller)))
-        .collect();
+    let rollers: Vec<usize> =
+        (0..l.rows).flat_map(|row| (0..l.rollers_per_row).map(move |roller| l.slot(row, roller))).collect();
     let blocks = [l.r(), l.theta(), l.phi()];
-    let of_rollers = blocks
-        .into_iter()
-        .flat_map(|block| rollers.iter().map(move |slot| block + slot));
+    let of_rollers = blocks.into_iter().flat_map(|block| rollers.iter().map(move |slot| block + slot));
     let of_cages = (0..l.rows).flat_map(|row| (0..3).map(move |k| l.cage(row) + k));
-    let of_rings = [l.inner(), l.outer()]
-        .into_iter()
-        .flat_map(|at| [at, at + 1]);
+    let of_rings = [l.inner(), l.outer()].into_iter().flat_map(|at| [at, at + 1]);
     let betas = rollers.iter().map(|slot| l.beta() + slot);
-    let slopes = [l.inner_tilt(), l.outer_tilt()]
-        .into_iter()
-        .flat_map(|at| [at, at + 1]);
+    let slopes = [l.inner_tilt(), l.outer_tilt()].into_iter().flat_map(|at| [at, at + 1]);
     let tilts = betas.chain(slopes).filter(|_| l.tilts);
-    of_rollers
-        .chain(of_cages)
-        .chain(tilts)
-        .chain(of_rings)
-        .collect()
+    of_rollers.chain(of_cages).chain(tilts).chain(of_rings).collect()
 }
 
 /// The radius that turns each coordinate of the tables' layout into a length on a surface.
@@ -96,11 +83,7 @@ impl<'a> Compact<'a> {
     pub fn compact(&self, y: &[f64]) -> Vec<f64> {
         let half = y.len() / 2;
         let rates = self.coordinates.iter().map(|k| y[half + k]);
-        self.coordinates
-            .iter()
-            .map(|k| y[*k])
-            .chain(rates)
-            .collect()
+        self.coordinates.iter().map(|k| y[*k]).chain(rates).collect()
     }
 
     /// dy/dt.
@@ -118,7 +101,8 @@ impl<'a> Compact<'a> {
     }
 }
 
-/// Prints the accelerations at every state of a table, which starts with their number and holds t and y of each, then the start.
+/// Prints the accelerations at every state of a table, which starts with their number and holds t and y of each, then
+/// the start.
 fn check(model: &Model, path: &str) {
     let text = std::fs::read_to_string(path).unwrap_or_else(|e| panic!("{path}: {e}"));
     let mut numbers = text.split_whitespace().map(|w| w.parse::<f64>().unwrap());
@@ -171,7 +155,8 @@ pub struct Job {
 }
 
 impl Job {
-    /// From the command line; answers `check SCENARIO STATES` by itself, and `resolve SCENARIO` with every default filled in.
+    /// From the command line; answers `check SCENARIO STATES` by itself, and `resolve SCENARIO` with every default
+    /// filled in.
     pub fn new() -> Option<Self> {
         let args: Vec<String> = std::env::args().skip(1).collect();
         if let [what, path] = &args[..]
@@ -186,10 +171,7 @@ impl Job {
             check(&Model::new(&scenario(path, &[])).unwrap(), states);
             return None;
         }
-        assert!(
-            args.len() > 10,
-            "METHOD SCENARIO OUT DURATION RATE LENGTH SPEED RTOL MAX_STEP BUDGET TOL..."
-        );
+        assert!(args.len() > 10, "METHOD SCENARIO OUT DURATION RATE LENGTH SPEED RTOL MAX_STEP BUDGET TOL...");
         let number = |k: usize| args[k].parse::<f64>().unwrap();
         Some(Self {
             method: args[0].clone(),
@@ -214,16 +196,12 @@ impl Job {
     /// Runs every tolerance again and again within the budget; keeps the shortest times.
     pub fn go(&self, mut run: impl FnMut(f64, &mut Vec<Sample>) -> Work) {
         for (i, &tolerance) in self.tolerances.iter().enumerate() {
-            let (mut wall, mut cpu, mut spent, mut repeats) =
-                (f64::INFINITY, f64::INFINITY, 0.0, 0);
+            let (mut wall, mut cpu, mut spent, mut repeats) = (f64::INFINITY, f64::INFINITY, 0.0, 0);
             let mut samples = Vec::new();
             let mut work;
             loop {
                 samples.clear();
-                let start = (
-                    clock(libc::CLOCK_MONOTONIC),
-                    clock(libc::CLOCK_PROCESS_CPUTIME_ID),
-                );
+                let start = (clock(libc::CLOCK_MONOTONIC), clock(libc::CLOCK_PROCESS_CPUTIME_ID));
                 work = run(tolerance, &mut samples);
                 let took = clock(libc::CLOCK_MONOTONIC) - start.0;
                 wall = took.min(wall);
@@ -245,10 +223,7 @@ impl Job {
 }
 
 fn clock(id: libc::clockid_t) -> f64 {
-    let mut now = libc::timespec {
-        tv_sec: 0,
-        tv_nsec: 0,
-    };
+    let mut now = libc::timespec { tv_sec: 0, tv_nsec: 0 };
     // SAFETY: `now` is a timespec to write to.
     let status = unsafe { libc::clock_gettime(id, &raw mut now) };
     assert_eq!(status, 0, "clock_gettime");

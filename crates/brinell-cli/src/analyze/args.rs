@@ -22,8 +22,9 @@ use std::path::PathBuf;
     Exit codes: 0 analysed (whatever the verdict), 1 a result could not be written, or one of several files could not be analysed, 2 bad input."
 )]
 pub(crate) struct AnalyzeArgs {
-    /// Signals: csv and other text, parquet, mat (v5 to v7.3), hdf5, npy, npz, wav, uff; or the folder of a run. Several files, or a folder of
-    /// them, are analysed with the same options, one after the other; a folder's by name, with 2 before 10
+    /// Signals: csv and other text, parquet, mat (v5 to v7.3), hdf5, npy, npz, wav, uff; or the folder of a run.
+    /// Several files, or a folder of them, are analysed with the same options, one after the other; a folder's by name,
+    /// with 2 before 10
     #[arg(required = true, value_name = "FILE")]
     pub(crate) files: Vec<PathBuf>,
     /// Channel: its name, a part of it that no other has, or its number from 1; `X(:,2)` takes a matrix's column
@@ -45,17 +46,13 @@ pub(crate) struct AnalyzeArgs {
     #[arg(long, value_name = "mV/g", allow_negative_numbers = true)]
     pub(crate) sensitivity: Option<String>,
     /// Of a WAV: what its largest number means, as 5V (with --sensitivity) or 10g
-    #[arg(
-        long,
-        value_name = "VALUE",
-        conflicts_with = "unit",
-        allow_negative_numbers = true
-    )]
+    #[arg(long, value_name = "VALUE", conflicts_with = "unit", allow_negative_numbers = true)]
     pub(crate) full_scale: Option<String>,
     /// Shaft speed (the inner ring turns, the outer rests)
     #[arg(long, value_name = "RPM", allow_negative_numbers = true)]
     pub(crate) speed: Option<f64>,
-    /// Channel that holds the shaft speed in r/min; where it strays by more than 0.5 % it is followed (order tracking), else its mean counts
+    /// Channel that holds the shaft speed in r/min; where it strays by more than 0.5 % it is followed (order tracking),
+    /// else its mean counts
     #[arg(long, value_name = "NAME|N", conflicts_with = "speed")]
     pub(crate) speed_channel: Option<String>,
     /// Bearing by name; again for a further one of the same shaft, as at a motor's other end: each is judged
@@ -65,31 +62,16 @@ pub(crate) struct AnalyzeArgs {
     #[arg(long, value_name = "Z", conflicts_with = "bearing")]
     pub(crate) rollers: Option<usize>,
     /// Pitch diameter
-    #[arg(
-        long,
-        value_name = "MM",
-        conflicts_with = "bearing",
-        allow_negative_numbers = true
-    )]
+    #[arg(long, value_name = "MM", conflicts_with = "bearing", allow_negative_numbers = true)]
     pub(crate) pitch: Option<f64>,
     /// Diameter of a rolling element
-    #[arg(
-        long,
-        alias = "roller",
-        value_name = "MM",
-        conflicts_with = "bearing",
-        allow_negative_numbers = true
-    )]
+    #[arg(long, alias = "roller", value_name = "MM", conflicts_with = "bearing", allow_negative_numbers = true)]
     pub(crate) diameter: Option<f64>,
     /// Contact angle
-    #[arg(
-        long,
-        value_name = "DEG",
-        conflicts_with = "bearing",
-        allow_negative_numbers = true
-    )]
+    #[arg(long, value_name = "DEG", conflicts_with = "bearing", allow_negative_numbers = true)]
     pub(crate) contact_angle: Option<f64>,
-    /// Ball-pass frequency of the outer race in Hz; with x, as 3.585x, a multiple of the shaft's. Likewise the next three
+    /// Ball-pass frequency of the outer race in Hz; with x, as 3.585x, a multiple of the shaft's. Likewise the next
+    /// three
     #[arg(long, value_name = "HZ|Nx", allow_negative_numbers = true)]
     pub(crate) bpfo: Option<String>,
     /// Ball-pass frequency of the inner race
@@ -105,18 +87,13 @@ pub(crate) struct AnalyzeArgs {
     #[arg(long, value_name = "CLASS", value_parser = machine_class())]
     pub(crate) machine_class: Option<MachineClass>,
     /// How far slip and an inexact speed may move a defect frequency
-    #[arg(
-        long,
-        value_name = "PERCENT",
-        default_value_t = 2.0,
-        allow_negative_numbers = true
-    )]
+    #[arg(long, value_name = "PERCENT", default_value_t = 2.0, allow_negative_numbers = true)]
     pub(crate) tolerance: f64,
     /// Range to demodulate [default: everything above three times the highest defect frequency]
     #[arg(long, num_args = 2, value_names = ["LOW", "HIGH"], allow_negative_numbers = true)]
     pub(crate) band: Option<Vec<f64>>,
-    /// Frequency of the motor's supply where an inverter makes it, known to 0.5 %: lines at its multiples are excluded [default: those of 50 and 60 Hz
-    /// where three are significant]
+    /// Frequency of the motor's supply where an inverter makes it, known to 0.5 %: lines at its multiples are excluded
+    /// [default: those of 50 and 60 Hz where three are significant]
     #[arg(long, value_name = "HZ", allow_negative_numbers = true)]
     pub(crate) supply: Option<f64>,
     /// Skip so much of the signal's beginning
@@ -128,30 +105,21 @@ pub(crate) struct AnalyzeArgs {
     /// Compare it with this: another file of signals, or the folder of a run
     #[arg(long, value_name = "FILE|FOLDER")]
     pub(crate) against: Option<PathBuf>,
-    /// The other is of the same machine when it was healthy: what was there already is no damage, and what has grown is reported
+    /// The other is of the same machine when it was healthy: what was there already is no damage, and what has grown is
+    /// reported
     #[arg(long, requires = "against")]
     pub(crate) healthy: bool,
     /// Channel of the other [default: sensor_ay or sensor_ax of a run, whichever the load points along]
     #[arg(long, value_name = "NAME|N", requires = "against")]
     pub(crate) against_channel: Option<String>,
     /// Sample rate of the other, where its file does not state it
-    #[arg(
-        long,
-        value_name = "HZ",
-        requires = "against",
-        allow_negative_numbers = true
-    )]
+    #[arg(long, value_name = "HZ", requires = "against", allow_negative_numbers = true)]
     pub(crate) against_rate: Option<f64>,
     /// Unit of the other, where its file does not state it
     #[arg(long, value_name = "UNIT", requires = "against")]
     pub(crate) against_unit: Option<String>,
     /// Sensitivity of the other's sensor
-    #[arg(
-        long,
-        value_name = "mV/g",
-        requires = "against",
-        allow_negative_numbers = true
-    )]
+    #[arg(long, value_name = "mV/g", requires = "against", allow_negative_numbers = true)]
     pub(crate) against_sensitivity: Option<String>,
     /// Full scale of the other, a WAV
     #[arg(
@@ -172,12 +140,7 @@ pub(crate) struct AnalyzeArgs {
     #[arg(long, requires = "output")]
     pub(crate) overwrite: bool,
     /// Formats of the pictures in FOLDER/plots; their curves go to FOLDER/curves as CSV
-    #[arg(
-        long,
-        value_delimiter = ',',
-        default_value = "svg",
-        value_name = "FORMAT"
-    )]
+    #[arg(long, value_delimiter = ',', default_value = "svg", value_name = "FORMAT")]
     pub(crate) plots: Vec<PlotFormat>,
     #[command(flatten)]
     pub(crate) print: Print,
@@ -188,12 +151,8 @@ pub(crate) struct AnalyzeArgs {
 
 /// Reads `2-rigid`.
 fn machine_class() -> impl TypedValueParser<Value = MachineClass> {
-    PossibleValuesParser::new(MachineClass::ALL.map(MachineClass::name)).try_map(|name| {
-        (MachineClass::ALL
-            .into_iter()
-            .find(|class| class.name() == name))
-        .ok_or("no such class")
-    })
+    PossibleValuesParser::new(MachineClass::ALL.map(MachineClass::name))
+        .try_map(|name| (MachineClass::ALL.into_iter().find(|class| class.name() == name)).ok_or("no such class"))
 }
 
 impl AnalyzeArgs {

@@ -7,11 +7,12 @@ use brinell::analysis::DefectOrders;
 use brinell::bearing::kinematics::Geometry;
 use brinell::bearing::{KnownBearing, orders_of};
 
-/// What BPFO, BPFI, BSF and FTF may be over the shaft's frequency, the outer ring at rest: Z (1 - g) / 2, Z (1 + g) / 2, (1 / g - g) / 2 and (1 - g) / 2
-/// for five or more elements and a g = (d / D) cos a up to 0.6.
+/// What BPFO, BPFI, BSF and FTF may be over the shaft's frequency, the outer ring at rest: Z (1 - g) / 2, Z (1 + g) /
+/// 2, (1 / g - g) / 2 and (1 - g) / 2 for five or more elements and a g = (d / D) cos a up to 0.6.
 const POSSIBLE: [(f64, f64); 4] = [(1.0, 200.0), (2.5, 200.0), (0.5, 25.0), (0.19, 0.51)];
 
-/// Orders over the shaft's frequency `shaft` (Hz), of the bearing of this name where there is one, and where they come from.
+/// Orders over the shaft's frequency `shaft` (Hz), of the bearing of this name where there is one, and where they come
+/// from.
 pub(super) fn orders(
     args: &AnalyzeArgs,
     name: Option<&str>,
@@ -41,11 +42,7 @@ pub(super) fn orders(
     }
     if !named.is_empty() {
         let words = format!("{} as given", named.join(", "));
-        source = if source.is_empty() {
-            words
-        } else {
-            format!("{source}; {words}")
-        };
+        source = if source.is_empty() { words } else { format!("{source}; {words}") };
     }
     if orders.is_empty() {
         return Err(Failure::Usage(ASK_BEARING.into()));
@@ -53,11 +50,7 @@ pub(super) fn orders(
     Ok((orders, source))
 }
 
-fn base(
-    args: &AnalyzeArgs,
-    name: Option<&str>,
-    measured: &Measured,
-) -> Result<(DefectOrders, String), Failure> {
+fn base(args: &AnalyzeArgs, name: Option<&str>, measured: &Measured) -> Result<(DefectOrders, String), Failure> {
     if let Some(name) = name {
         let Some(known) = KnownBearing::find(name) else {
             return Err(Failure::Usage(format!(
@@ -76,9 +69,8 @@ fn base(
                      0 < diameter < pitch in mm, and an angle of 0 to below 90 degrees"
                 ))
             })?;
-            let words = format!(
-                "{z} elements of {d} mm on a pitch circle of {pitch} mm, contact angle {angle} degrees"
-            );
+            let words =
+                format!("{z} elements of {d} mm on a pitch circle of {pitch} mm, contact angle {angle} degrees");
             return Ok((orders, words));
         }
         (None, None, None) if args.contact_angle.is_none() => {}
@@ -102,12 +94,7 @@ fn base(
 }
 
 /// `107.4` in Hz or `3.585x` the shaft, as an order within what is possible.
-fn frequency(
-    option: &str,
-    text: &str,
-    shaft: f64,
-    (least, most): (f64, f64),
-) -> Result<f64, Failure> {
+fn frequency(option: &str, text: &str, shaft: f64, (least, most): (f64, f64)) -> Result<f64, Failure> {
     let plain = text.trim();
     let (number, per, in_hz) = match plain.strip_suffix(['x', 'X']) {
         Some(number) => (number, 1.0, false),

@@ -1,7 +1,7 @@
 //! Several bearings of one machine in one signal: which one leads, and what may be another's.
 //!
-//! Each bearing is judged by itself. A sensor hears all of them, so where two are called damaged the lines of one may be sidebands or
-//! harmonics of the other's; the higher score leads.
+//! Each bearing is judged by itself. A sensor hears all of them, so where two are called damaged the lines of one may
+//! be sidebands or harmonics of the other's; the higher score leads.
 
 use super::{Result_, as_json};
 use brinell::analysis::Family;
@@ -86,9 +86,7 @@ pub(super) fn to_json(results: &[Result_], of: impl Fn(&Result_) -> Value) -> Va
     if let [only] = results {
         return of(only);
     }
-    let path = results
-        .first()
-        .map(|r| r.measured.path.display().to_string());
+    let path = results.first().map(|r| r.measured.path.display().to_string());
     let lead = lead(results);
     let one = |result: &Result_| {
         let mut one = of(result);
@@ -121,19 +119,10 @@ pub(super) fn table(results: &[Result_]) -> Table {
         let call = call(result);
         let found = call.map(|f| {
             let hz = f.frequency;
-            [
-                format!("{} at {hz:.2} Hz", f.name),
-                format!("{:.1}", f.score),
-            ]
+            [format!("{} at {hz:.2} Hz", f.name), format!("{:.1}", f.score)]
         });
         let [frequency, score] = found.unwrap_or(["–", "–"].map(str::to_owned));
-        vec![
-            result.name.clone(),
-            brinell_report::called(&result.analysis),
-            frequency,
-            score,
-            result.told(),
-        ]
+        vec![result.name.clone(), brinell_report::called(&result.analysis), frequency, score, result.told()]
     };
     Table {
         title: "Bearings".into(),

@@ -7,10 +7,8 @@ use std::cmp::Ordering;
 use std::path::{Path, PathBuf};
 
 /// Endings of files of signals that are looked for in a folder.
-const ENDINGS: [&str; 15] = [
-    "csv", "tsv", "lvm", "wav", "mat", "npz", "npy", "parquet", "pq", "h5", "hdf5", "hdf", "uff",
-    "unv", "uf",
-];
+const ENDINGS: [&str; 15] =
+    ["csv", "tsv", "lvm", "wav", "mat", "npz", "npy", "parquet", "pq", "h5", "hdf5", "hdf", "uff", "unv", "uf"];
 
 /// What was named.
 pub(super) enum Files {
@@ -52,8 +50,7 @@ fn inside(folder: &Path) -> Result<Vec<PathBuf>, Failure> {
     for entry in std::fs::read_dir(folder).map_err(failed)? {
         let path = entry.map_err(failed)?.path();
         let hidden = (path.file_name()).is_some_and(|n| n.to_string_lossy().starts_with('.'));
-        let is_signal = (path.extension())
-            .is_some_and(|e| ENDINGS.iter().any(|known| e.eq_ignore_ascii_case(known)));
+        let is_signal = (path.extension()).is_some_and(|e| ENDINGS.iter().any(|known| e.eq_ignore_ascii_case(known)));
         if is_signal && !hidden && path.is_file() {
             found.push(path);
         }
@@ -70,7 +67,8 @@ fn inside(folder: &Path) -> Result<Vec<PathBuf>, Failure> {
     Ok(found)
 }
 
-/// Order of names as people have it: numbers within them by their values, so that 2 comes before 10; capitals and small letters side by side.
+/// Order of names as people have it: numbers within them by their values, so that 2 comes before 10; capitals and small
+/// letters side by side.
 fn by_name(a: &str, b: &str) -> Ordering {
     let (mut left, mut right) = (a, b);
     while let (Some(l), Some(r)) = (left.chars().next(), right.chars().next()) {
@@ -91,9 +89,7 @@ fn by_name(a: &str, b: &str) -> Ordering {
 
 /// Takes the digits in front, and gives them without the zeros in front.
 fn digits<'a>(text: &mut &'a str) -> &'a str {
-    let end = text
-        .find(|c: char| !c.is_ascii_digit())
-        .unwrap_or(text.len());
+    let end = text.find(|c: char| !c.is_ascii_digit()).unwrap_or(text.len());
     let (number, rest) = text.split_at(end);
     *text = rest;
     number.trim_start_matches('0')
@@ -105,10 +101,7 @@ mod tests {
 
     #[test]
     fn prop_names_are_in_the_order_of_their_numbers() {
-        let ordered = [
-            "a", "a1.csv", "a2.csv", "A10.csv", "a10b2", "a10b011", "a100.csv", "b", "b 3", "b12",
-            "é2",
-        ];
+        let ordered = ["a", "a1.csv", "a2.csv", "A10.csv", "a10b2", "a10b011", "a100.csv", "b", "b 3", "b12", "é2"];
         for (i, a) in ordered.iter().enumerate() {
             for (j, b) in ordered.iter().enumerate() {
                 assert_eq!(by_name(a, b), i.cmp(&j), "{a} {b}");

@@ -9,12 +9,7 @@ use serde_json::{Value, json};
 pub(super) fn as_json(result: &Result_) -> Value {
     let m = &result.measured;
     let comparison = result.against.as_ref().map(|a| &a.comparison);
-    let mut value = to_json(
-        &result.analysis,
-        &m.unit,
-        result.velocity.as_ref(),
-        comparison,
-    );
+    let mut value = to_json(&result.analysis, &m.unit, result.velocity.as_ref(), comparison);
     value["brinell"] = brinell::VERSION.into();
     value["severity"] = result.levels.to_json(&m.unit);
     value["file"] = json!({

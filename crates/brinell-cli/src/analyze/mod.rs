@@ -19,8 +19,8 @@ use crate::inputs::Inputs;
 use crate::results::{ANALYSIS, Earlier, Place, REPORT, Results, SCENARIO, names_below};
 use crate::say::{complain, document};
 use brinell::analysis::{
-    Analysis, Comparison, Component, Levels, Options, Quantity, SUPPLY_HZ, Side,
-    analyze as analysis_of, compare, velocity,
+    Analysis, Comparison, Component, Levels, Options, Quantity, SUPPLY_HZ, Side, analyze as analysis_of, compare,
+    velocity,
 };
 use brinell::scenario::Surface;
 use brinell::signal::{Band, Indicator, Rotation, VelocityBands};
@@ -34,12 +34,7 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 /// Indicators that are printed.
-const HEADLINES: [Indicator; 4] = [
-    Indicator::Rms,
-    Indicator::Peak,
-    Indicator::CrestFactor,
-    Indicator::Kurtosis,
-];
+const HEADLINES: [Indicator; 4] = [Indicator::Rms, Indicator::Peak, Indicator::CrestFactor, Indicator::Kurtosis];
 
 /// Everything that words, JSON and page are made of.
 struct Result_ {
@@ -65,13 +60,12 @@ struct Result_ {
 impl Result_ {
     /// The verdict, and what is to be said beside it.
     fn told(&self) -> String {
-        let beside = (self.beside.iter().cloned())
-            .chain(self.contradicted())
-            .map(|words| format!(" {words}"));
+        let beside = (self.beside.iter().cloned()).chain(self.contradicted()).map(|words| format!(" {words}"));
         self.analysis.verdict() + &beside.collect::<String>()
     }
 
-    /// That parts are named which the run that made the signal had no damage on: the verdict itself knows nothing of it.
+    /// That parts are named which the run that made the signal had no damage on: the verdict itself knows nothing of
+    /// it.
     fn contradicted(&self) -> Option<String> {
         let run = self.measured.scenario.as_deref()?;
         let is_damaged = |component: Component| {
@@ -83,16 +77,11 @@ impl Result_ {
             };
             run.scenario.defects.iter().any(|d| on(d.on))
         };
-        let mut wrong: Vec<&str> = (self.analysis.causes())
-            .filter(|f| !is_damaged(f.component))
-            .map(|f| f.component.words())
-            .collect();
+        let mut wrong: Vec<&str> =
+            (self.analysis.causes()).filter(|f| !is_damaged(f.component)).map(|f| f.component.words()).collect();
         wrong.dedup();
         (!wrong.is_empty()).then(|| {
-            format!(
-                "Wrong: in the run that made the signal nothing was damaged on the {}.",
-                wrong.join(" and the ")
-            )
+            format!("Wrong: in the run that made the signal nothing was damaged on the {}.", wrong.join(" and the "))
         })
     }
 }
@@ -109,21 +98,17 @@ pub(crate) fn analyze(args: &AnalyzeArgs) -> Result<ExitCode, Failure> {
         turning(rpm, "--speed")?;
     }
     if !(args.tolerance > 0.0 && args.tolerance <= 10.0) {
-        return Err(Failure::Usage(format!(
-            "--tolerance {}: expected more than 0 to 10 per cent",
-            args.tolerance
-        )));
+        return Err(Failure::Usage(format!("--tolerance {}: expected more than 0 to 10 per cent", args.tolerance)));
     }
     if let Some(hz) = args.supply.filter(|hz| !SUPPLY_HZ.contains(hz)) {
-        return Err(Failure::Usage(format!(
-            "--supply {hz}: expected 1 to 1000 Hz"
-        )));
+        return Err(Failure::Usage(format!("--supply {hz}: expected 1 to 1000 Hz")));
     }
     if args.bearing.len() > 1 {
         let beside = [&args.bpfo, &args.bpfi, &args.bsf, &args.ftf];
         if args.against.is_some() || beside.iter().any(|option| option.is_some()) {
             return Err(Failure::Usage(
-                "--bearing: expected one bearing with --bpfo, --bpfi, --bsf, --ftf or --against, and there are several".into(),
+                "--bearing: expected one bearing with --bpfo, --bpfi, --bsf, --ftf or --against, and there are several"
+                    .into(),
             ));
         }
     }
@@ -207,11 +192,7 @@ fn load(args: &AnalyzeArgs, path: &Path) -> Result<Measured, Failure> {
 }
 
 /// Everything that follows from a signal.
-fn examine(
-    args: &AnalyzeArgs,
-    mut measured: Measured,
-    name: Option<&str>,
-) -> Result<Result_, Failure> {
+fn examine(args: &AnalyzeArgs, mut measured: Measured, name: Option<&str>) -> Result<Result_, Failure> {
     let (rpm, speed) = speed(args, &measured)?;
     let shaft = rpm.abs() / 60.0;
     let (orders, bearing) = bearing::orders(args, name, &measured, shaft)?;
@@ -232,13 +213,7 @@ fn examine(
     let levels = Levels::of(&measured.x, &measured.unit, &analysis, args.machine_class);
     let mut rest = reading.map(Reading::finish).transpose()?;
     let last = match rest.as_mut() {
-        Some(rest) => Some(look_at_last(
-            &measured.path,
-            &measured.channel,
-            rest,
-            measured.rate,
-            &options,
-        )?),
+        Some(rest) => Some(look_at_last(&measured.path, &measured.channel, rest, measured.rate, &options)?),
         None => None,
     };
     let against = match &args.against {
@@ -250,10 +225,7 @@ fn examine(
         rest,
         analysis,
         // A mean has more digits than anybody reads.
-        speed: format!(
-            "shaft speed {} r/min, from {speed}",
-            (100.0 * rpm).round() / 100.0
-        ),
+        speed: format!("shaft speed {} r/min, from {speed}", (100.0 * rpm).round() / 100.0),
         name: name.unwrap_or_default().to_owned(),
         bearing,
         beside: None,
@@ -264,12 +236,9 @@ fn examine(
     })
 }
 
-/// That no result will be written over what is `read`; and the earlier results in the folder. `same` says whether these are of the same signals.
-fn earlier(
-    args: &AnalyzeArgs,
-    read: &[PathBuf],
-    same: impl FnOnce(&Value) -> bool,
-) -> Result<Earlier, Failure> {
+/// That no result will be written over what is `read`; and the earlier results in the folder. `same` says whether these
+/// are of the same signals.
+fn earlier(args: &AnalyzeArgs, read: &[PathBuf], same: impl FnOnce(&Value) -> bool) -> Result<Earlier, Failure> {
     let mut inputs = Inputs::default();
     // Of a run everything, whichever of its files is read.
     for path in read.iter().chain(&args.against) {
@@ -284,11 +253,7 @@ fn earlier(
     let Some(folder) = &args.output else {
         return Ok(Earlier::default());
     };
-    let place = Place {
-        kind: Results::Analysis,
-        folder,
-        inputs: &inputs,
-    };
+    let place = Place { kind: Results::Analysis, folder, inputs: &inputs };
     place.earlier(args.overwrite, &[ANALYSIS.into(), REPORT.into()], same)
 }
 
@@ -312,13 +277,8 @@ fn turning(rpm: f64, source: &str) -> Result<(), Failure> {
 }
 
 fn look(measured: &Measured, options: &Options) -> Result<Analysis, Failure> {
-    analysis_of(&measured.x, measured.rate, options).map_err(|error| {
-        Failure::Usage(format!(
-            "{}, `{}`: {error}",
-            measured.path.display(),
-            measured.channel
-        ))
-    })
+    analysis_of(&measured.x, measured.rate, options)
+        .map_err(|error| Failure::Usage(format!("{}, `{}`: {error}", measured.path.display(), measured.channel)))
 }
 
 /// The shaft's angle over time, where its speed varies.
@@ -327,10 +287,7 @@ fn rotation(measured: &Measured) -> Result<Option<Rotation>, Failure> {
         Some(stated) if !stated.course.is_empty() => &stated.course,
         _ => return Ok(None),
     };
-    let points: Vec<(f64, f64)> = course
-        .iter()
-        .map(|(t, rpm)| (*t, rpm.abs() / 60.0))
-        .collect();
+    let points: Vec<(f64, f64)> = course.iter().map(|(t, rpm)| (*t, rpm.abs() / 60.0)).collect();
     Rotation::from_speeds(&points)
         .map(Some)
         .map_err(|error| Failure::Usage(format!("the course of the speed: {error}")))
@@ -354,11 +311,7 @@ fn look_at_last(
     }
     let last = std::mem::take(&mut rest.last);
     analysis_of(&last, rate, &options).map_err(|error| {
-        Failure::Usage(format!(
-            "{}, `{channel}`, from {:.3} s on: {error}",
-            path.display(),
-            rest.last_start
-        ))
+        Failure::Usage(format!("{}, `{channel}`, from {:.3} s on: {error}", path.display(), rest.last_start))
     })
 }
 
@@ -371,12 +324,7 @@ fn velocities(measured: &Measured, shaft: f64) -> Option<VelocityBands> {
     velocity(&x, measured.rate, shaft).ok()
 }
 
-fn lay_over(
-    path: &Path,
-    args: &AnalyzeArgs,
-    measured: &Measured,
-    analysis: &mut Analysis,
-) -> Result<Against, Failure> {
+fn lay_over(path: &Path, args: &AnalyzeArgs, measured: &Measured, analysis: &mut Analysis) -> Result<Against, Failure> {
     let wanted = Wanted {
         channel: args.against_channel.as_deref(),
         rate: args.against_rate,
@@ -414,26 +362,12 @@ fn lay_over(
     }
     let found = look(&other, &options)?;
     let refused = |error| Failure::Usage(format!("--against {}: {error}", path.display()));
-    let other_side = Side {
-        x: &other.x,
-        analysis: &found,
-    };
+    let other_side = Side { x: &other.x, analysis: &found };
     if args.healthy {
         (analysis.beside_healthy(&measured.x, other_side)).map_err(refused)?;
     }
-    let comparison = compare(
-        Side {
-            x: &measured.x,
-            analysis,
-        },
-        other_side,
-    )
-    .map_err(refused)?;
-    Ok(Against {
-        measured: other,
-        analysis: found,
-        comparison,
-    })
+    let comparison = compare(Side { x: &measured.x, analysis }, other_side).map_err(refused)?;
+    Ok(Against { measured: other, analysis: found, comparison })
 }
 
 /// A page with its pictures, and the JSON that describes them, into a folder.
@@ -450,10 +384,8 @@ fn put_pages(
     files.extend(picture_files(pictures, formats, folder));
     let mut listing = json.clone();
     listing["files"] = names_below(folder, &files).into();
-    let mut ready = vec![
-        atomic_prepare(folder.join(ANALYSIS), pretty(&listing))?,
-        atomic_prepare(folder.join(REPORT), page)?,
-    ];
+    let mut ready =
+        vec![atomic_prepare(folder.join(ANALYSIS), pretty(&listing))?, atomic_prepare(folder.join(REPORT), page)?];
     ready.extend(ready_pictures(pictures, formats, folder)?);
     earlier.give_way(ready)
 }

@@ -32,12 +32,7 @@ pub(super) fn report(result: &Result_) -> AnalysisReport {
 }
 
 fn signal<'a>(m: &'a Measured, name: &'a str, analysis: &'a Analysis) -> Analyzed<'a> {
-    Analyzed {
-        name,
-        x: &m.x,
-        rate: m.rate,
-        analysis,
-    }
+    Analyzed { name, x: &m.x, rate: m.rate, analysis }
 }
 
 /// File and channel.
@@ -45,15 +40,8 @@ fn name(m: &Measured) -> String {
     // `signals.parquet` is what every run calls it: its folder tells more.
     let own = m.path.file_stem().is_some_and(|n| n == "signals");
     let of = if own { m.path.parent() } else { None };
-    let file = of
-        .and_then(|f| f.file_name())
-        .or_else(|| m.path.file_name())
-        .map(|n| n.to_string_lossy().into_owned());
-    format!(
-        "{} · {}",
-        shortened(&file.unwrap_or_default()),
-        shortened(&m.channel)
-    )
+    let file = of.and_then(|f| f.file_name()).or_else(|| m.path.file_name()).map(|n| n.to_string_lossy().into_owned());
+    format!("{} · {}", shortened(&file.unwrap_or_default()), shortened(&m.channel))
 }
 
 /// A name that fits a legend: of a long one its ends, which tell most.
@@ -64,9 +52,5 @@ fn shortened(name: &str) -> String {
     }
     let (head, tail) = (LONGEST_NAME / 2, LONGEST_NAME - LONGEST_NAME / 2 - 1);
     let of = |part: &[char]| part.iter().collect::<String>();
-    format!(
-        "{}…{}",
-        of(&letters[..head]),
-        of(&letters[letters.len() - tail..])
-    )
+    format!("{}…{}", of(&letters[..head]), of(&letters[letters.len() - tail..]))
 }

@@ -8,8 +8,7 @@ use crate::say::{complain, one_line, say, short};
 use brinell::analysis::{MachineClass, Unit};
 use brinell::signal::{Estimate, Indicator};
 use brinell_report::{
-    IndicatorLine, IndicatorPlot, IndicatorPoint, Table, TrendReport, ZONES, called, scaled,
-    trend_html, trend_pictures,
+    IndicatorLine, IndicatorPlot, IndicatorPoint, Table, TrendReport, ZONES, called, scaled, trend_html, trend_pictures,
 };
 use serde_json::{Value, json};
 use std::path::{Path, PathBuf};
@@ -41,23 +40,14 @@ struct Found {
 }
 
 /// Columns after the name, with their widths on the terminal.
-const COLUMNS: [(&str, usize); 7] = [
-    ("s", 8),
-    ("damage", 28),
-    ("RMS", 16),
-    ("peak", 16),
-    ("kurtosis", 9),
-    ("mm/s", 9),
-    ("zone", 5),
-];
+const COLUMNS: [(&str, usize); 7] =
+    [("s", 8), ("damage", 28), ("RMS", 16), ("peak", 16), ("kurtosis", 9), ("mm/s", 9), ("zone", 5)];
 /// Longest name that the terminal's table makes room for.
 const WIDEST: usize = 48;
 
 pub(super) fn analyze(args: &AnalyzeArgs, files: &[PathBuf]) -> Result<ExitCode, Failure> {
     if args.against.is_some() {
-        return Err(Failure::Usage(
-            "--against: expected one file to lay another over, and there are several".into(),
-        ));
+        return Err(Failure::Usage("--against: expected one file to lay another over, and there are several".into()));
     }
     let paths: Vec<String> = files.iter().map(|f| f.display().to_string()).collect();
     let of_same = |told: &Value| {
@@ -84,17 +74,14 @@ pub(super) fn analyze(args: &AnalyzeArgs, files: &[PathBuf]) -> Result<ExitCode,
             let words = error.words().replace('\n', " ");
             // The row has its name.
             let named = format!("{}: ", path.display());
-            words
-                .strip_prefix(&named)
-                .map_or(words.clone(), str::to_owned)
+            words.strip_prefix(&named).map_or(words.clone(), str::to_owned)
         });
         let row = Row { name, found };
         if !quiet {
             match &row.found {
                 Ok(found) => {
                     let cells = found.cells();
-                    let cells = (cells.iter().zip(columns))
-                        .map(|(cell, (_, width))| format!("{cell:>width$}"));
+                    let cells = (cells.iter().zip(columns)).map(|(cell, (_, width))| format!("{cell:>width$}"));
                     let cells: Vec<String> = cells.collect();
                     say!("{:<width$} {}", one_line(&row.name), cells.join(" "));
                 }
@@ -104,26 +91,15 @@ pub(super) fn analyze(args: &AnalyzeArgs, files: &[PathBuf]) -> Result<ExitCode,
         rows.push(row);
     }
     let failed = rows.iter().filter(|r| r.found.is_err()).count();
-    if let [
-        Row {
-            name,
-            found: Err(why),
-        },
-        ..,
-    ] = &rows[..]
+    if let [Row { name, found: Err(why) }, ..] = &rows[..]
         && failed == rows.len()
     {
         // Most often an option that is missing.
-        return Err(Failure::Usage(format!(
-            "none of the {failed} files could be analysed; the first, {name}: {why}"
-        )));
+        return Err(Failure::Usage(format!("none of the {failed} files could be analysed; the first, {name}: {why}")));
     }
     let written = write(args, &rows, &paths, &earlier)?;
     if failed > 0 {
-        complain!(
-            "error: {failed} of {} files could not be analysed",
-            rows.len()
-        );
+        complain!("error: {failed} of {} files could not be analysed", rows.len());
     }
     if !quiet {
         for path in written {
@@ -227,12 +203,7 @@ fn said_of_bearings(results: &[Result_]) -> String {
     all.join("; ")
 }
 
-fn write(
-    args: &AnalyzeArgs,
-    rows: &[Row],
-    paths: &[String],
-    earlier: &Earlier,
-) -> Result<Vec<PathBuf>, Failure> {
+fn write(args: &AnalyzeArgs, rows: &[Row], paths: &[String], earlier: &Earlier) -> Result<Vec<PathBuf>, Failure> {
     let records: Vec<Value> = (rows.iter().zip(paths))
         .map(|(row, path)| match &row.found {
             Ok(found) => found.json.clone(),
@@ -258,34 +229,20 @@ fn write(
 
 fn report(rows: &[Row]) -> TrendReport {
     let found = || rows.iter().filter_map(|r| r.found.as_ref().ok());
-    let failures = rows
-        .iter()
-        .filter_map(|r| Some((r.name.clone(), r.found.as_ref().err()?.clone())));
+    let failures = rows.iter().filter_map(|r| Some((r.name.clone(), r.found.as_ref().err()?.clone())));
     let failures: Vec<(String, String)> = failures.collect();
     let damaged = found().filter(|f| f.damage).count();
     let table = Table {
         title: "Files".into(),
-        columns: [
-            "#No.",
-            "File",
-            "#Length, s",
-            "Damage",
-            "#RMS",
-            "#Peak",
-            "#Kurtosis",
-            "#RMS velocity, mm/s",
-            "Zone",
-        ]
-        .map(str::to_owned)
-        .to_vec(),
+        columns: ["#No.", "File", "#Length, s", "Damage", "#RMS", "#Peak", "#Kurtosis", "#RMS velocity, mm/s", "Zone"]
+            .map(str::to_owned)
+            .to_vec(),
         rows: (rows.iter().enumerate())
             .map(|(i, row)| {
                 let mut cells = vec![(i + 1).to_string(), row.name.clone()];
                 match &row.found {
                     Ok(found) => cells.extend(found.cells()),
-                    Err(_) => {
-                        cells.extend(["–", "no result", "–", "–", "–", "–", "–"].map(str::to_owned))
-                    }
+                    Err(_) => cells.extend(["–", "no result", "–", "–", "–", "–", "–"].map(str::to_owned)),
                 }
                 cells
             })
@@ -294,11 +251,7 @@ fn report(rows: &[Row]) -> TrendReport {
     };
     TrendReport {
         title: "Several signals".into(),
-        subtitle: format!(
-            "{} files, damage called in {damaged}, no result from {}",
-            rows.len(),
-            failures.len()
-        ),
+        subtitle: format!("{} files, damage called in {damaged}, no result from {}", rows.len(), failures.len()),
         version: brinell::VERSION.into(),
         table,
         plots: plots(rows),
@@ -334,10 +287,7 @@ fn line(rows: &[Row], label: &str, of: impl Fn(&Found) -> Option<Estimate>) -> I
             interval: e.and_then(|e| e.interval).map(|i| (i.low, i.high)),
         }
     };
-    IndicatorLine {
-        label: label.into(),
-        points: rows.iter().enumerate().map(point).collect(),
-    }
+    IndicatorLine { label: label.into(), points: rows.iter().enumerate().map(point).collect() }
 }
 
 fn plots(rows: &[Row]) -> Vec<IndicatorPlot> {
@@ -366,20 +316,10 @@ fn plots(rows: &[Row]) -> Vec<IndicatorPlot> {
         });
         plots.push(plot("rms", "RMS", &unit.name, vec![rms]));
     }
-    plots.push(plot(
-        "kurtosis",
-        "Kurtosis",
-        "",
-        vec![line(rows, "Kurtosis", |f| f.kurtosis)],
-    ));
+    plots.push(plot("kurtosis", "Kurtosis", "", vec![line(rows, "Kurtosis", |f| f.kurtosis)]));
     if found().any(|f| f.velocity.is_some()) {
         let lines = vec![line(rows, "RMS velocity", |f| f.velocity)];
-        plots.push(plot(
-            "velocity",
-            "RMS velocity, 10 to 1000 Hz",
-            "mm/s",
-            lines,
-        ));
+        plots.push(plot("velocity", "RMS velocity, 10 to 1000 Hz", "mm/s", lines));
     }
     let mut families: Vec<&str> = Vec::new();
     for (name, _) in found().flat_map(|f| &f.scores) {
@@ -390,10 +330,7 @@ fn plots(rows: &[Row]) -> Vec<IndicatorPlot> {
     let lines = families.into_iter().map(|name| {
         line(rows, name, |f| {
             let score = f.scores.iter().find(|(n, _)| n == name)?.1;
-            Some(Estimate {
-                value: score,
-                interval: None,
-            })
+            Some(Estimate { value: score, interval: None })
         })
     });
     plots.push(plot("score", "Score of a family", "", lines.collect()));

@@ -14,11 +14,9 @@ fn families(a: &Analysis) {
     let width = |i: usize| rows.iter().map(|r| r[i].chars().count()).max().unwrap_or(0);
     let widths: Vec<usize> = (0..COLUMNS.len()).map(width).collect();
     for row in &rows {
-        let cells = (row.iter().zip(COLUMNS).zip(&widths)).map(|((cell, head), w)| {
-            match head.starts_with('#') {
-                true => format!("{cell:>w$}"),
-                false => format!("{cell:<w$}"),
-            }
+        let cells = (row.iter().zip(COLUMNS).zip(&widths)).map(|((cell, head), w)| match head.starts_with('#') {
+            true => format!("{cell:>w$}"),
+            false => format!("{cell:<w$}"),
         });
         say!("  {}", cells.collect::<Vec<_>>().join("  ").trim_end());
     }
@@ -28,13 +26,7 @@ fn families(a: &Analysis) {
 /// Of each bearing the verdict, of the signal the rest: `result` is one of them.
 pub(super) fn tell(results: &[Result_], result: &Result_, written: &[PathBuf]) {
     let (m, a) = (&result.measured, &result.analysis);
-    say!(
-        "{}, channel {}: {:.3} s, {} samples",
-        m.path.display(),
-        m.channel,
-        a.duration(),
-        a.samples
-    );
+    say!("{}, channel {}: {:.3} s, {} samples", m.path.display(), m.channel, a.duration(), a.samples);
     for note in &m.notes {
         say!("  {note}");
     }
@@ -50,12 +42,7 @@ pub(super) fn tell(results: &[Result_], result: &Result_, written: &[PathBuf]) {
         say!("\n{of}{}\n", one.told());
         families(&one.analysis);
         if let (Some(rest), Some(last)) = (&one.rest, &one.last) {
-            say!(
-                "\nThe last {} samples, from {:.1} s on: {}",
-                last.samples,
-                rest.last_start,
-                last.verdict()
-            );
+            say!("\nThe last {} samples, from {:.1} s on: {}", last.samples, rest.last_start, last.verdict());
         }
     }
     indicators(a, &m.unit.name);
@@ -63,9 +50,8 @@ pub(super) fn tell(results: &[Result_], result: &Result_, written: &[PathBuf]) {
         say!("  {line}");
     }
     if let Some(rest) = &result.rest {
-        let whole: Vec<String> = whole_indicators(rest)
-            .map(|(name, v)| format!("{} {}", name.replace('_', " "), short(v, 4)))
-            .collect();
+        let whole: Vec<String> =
+            whole_indicators(rest).map(|(name, v)| format!("{} {}", name.replace('_', " "), short(v, 4))).collect();
         say!("  of all {} samples: {}", rest.samples, whole.join(", "));
     }
     if let Some(other) = &result.against {
@@ -81,11 +67,7 @@ fn indicators(a: &Analysis, unit: &str) {
     let rows: Vec<String> = (a.indicators.iter())
         .filter(|(i, _)| HEADLINES.contains(i))
         .map(|(i, e)| {
-            let unit = if i.has_unit() {
-                format!(" {}", unit)
-            } else {
-                String::new()
-            };
+            let unit = if i.has_unit() { format!(" {}", unit) } else { String::new() };
             // Averages over revolutions; the largest of all samples is on the page.
             let name = match i {
                 Indicator::Peak => "peak of a revolution".into(),
@@ -106,16 +88,8 @@ fn against(other: &Against, unit: &str) {
         other.analysis.verdict()
     );
     let (mean, rms) = other.comparison.level_db;
-    say!(
-        "  third octaves: this one is {:+.1} dB from the other on average, {rms:.1} dB RMS",
-        0.0 - mean
-    );
-    say!(
-        "    {:<16} {:>12} {:>12}  this over the other",
-        "",
-        "this",
-        "the other"
-    );
+    say!("  third octaves: this one is {:+.1} dB from the other on average, {rms:.1} dB RMS", 0.0 - mean);
+    say!("    {:<16} {:>12} {:>12}  this over the other", "", "this", "the other");
     for d in &other.comparison.indicators {
         say!(
             "    {:<16} {:>12} {:>12}  {}{}",

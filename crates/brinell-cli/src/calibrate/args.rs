@@ -43,28 +43,18 @@ pub(crate) struct CalibrateArgs {
     /// Override any key, in every run
     #[arg(long = "set", value_name = "KEY=VALUE")]
     pub(crate) set: Vec<String>,
-    /// A measured acceleration to fit to: csv and other text, parquet, mat, hdf5, npy, npz, wav, uff; or the folder of a run
+    /// A measured acceleration to fit to: csv and other text, parquet, mat, hdf5, npy, npz, wav, uff; or the folder of
+    /// a run
     #[arg(long, value_name = "FILE|FOLDER")]
     pub(crate) measured: Option<PathBuf>,
     /// Channel of the measured signal: its name, a part of it that no other has, or its number from 1
     #[arg(long, value_name = "NAME|N", requires = "measured")]
     pub(crate) channel: Option<String>,
     /// Its sample rate
-    #[arg(
-        long,
-        alias = "sample-rate",
-        value_name = "HZ",
-        requires = "measured",
-        allow_negative_numbers = true
-    )]
+    #[arg(long, alias = "sample-rate", value_name = "HZ", requires = "measured", allow_negative_numbers = true)]
     pub(crate) rate: Option<f64>,
     /// Column of times to take the rate from [default: one called t, time or the like]
-    #[arg(
-        long,
-        value_name = "NAME|N",
-        requires = "measured",
-        conflicts_with = "rate"
-    )]
+    #[arg(long, value_name = "NAME|N", requires = "measured", conflicts_with = "rate")]
     pub(crate) time_channel: Option<String>,
     /// Unit of the times where the file does not say
     #[arg(long, value_name = "s|ms|us", requires = "measured")]
@@ -73,31 +63,16 @@ pub(crate) struct CalibrateArgs {
     #[arg(long, value_name = "UNIT", requires = "measured")]
     pub(crate) unit: Option<String>,
     /// Skip so much of the signal's beginning
-    #[arg(
-        long,
-        value_name = "S",
-        requires = "measured",
-        allow_negative_numbers = true
-    )]
+    #[arg(long, value_name = "S", requires = "measured", allow_negative_numbers = true)]
     pub(crate) start: Option<f64>,
     /// Use so much from there [default: what is there, up to 4194304 samples]
-    #[arg(
-        long,
-        value_name = "S",
-        requires = "measured",
-        allow_negative_numbers = true
-    )]
+    #[arg(long, value_name = "S", requires = "measured", allow_negative_numbers = true)]
     pub(crate) duration: Option<f64>,
     /// Sensor's axis in the simulation: x or y [default: the axis nearer the load]
     #[arg(long, value_name = "x|y", requires = "measured")]
     pub(crate) axis: Option<String>,
     /// Standard uncertainty of the model's levels against a machine's
-    #[arg(
-        long,
-        value_name = "PERCENT",
-        default_value_t = 5.0,
-        allow_negative_numbers = true
-    )]
+    #[arg(long, value_name = "PERCENT", default_value_t = 5.0, allow_negative_numbers = true)]
     pub(crate) model_uncertainty: f64,
     /// Runs at most [default: 30 a key]
     #[arg(short, long, value_name = "N")]

@@ -94,15 +94,7 @@ pub(super) fn pattern(
     let factor = measured.unit.to_si;
     measured.x.iter_mut().for_each(|v| *v *= factor);
     let turns = rpm.abs() / 60.0;
-    targets(
-        scenario,
-        simulation,
-        &measured,
-        (axis, channel),
-        turns,
-        share,
-    )
-    .map(Some)
+    targets(scenario, simulation, &measured, (axis, channel), turns, share).map(Some)
 }
 
 fn targets(
@@ -114,9 +106,7 @@ fn targets(
     share: f64,
 ) -> Result<Pattern, Failure> {
     let rate = measured.rate;
-    let failed = |error: brinell::signal::SignalError| {
-        usage(format!("{}: {error}", measured.path.display()))
-    };
+    let failed = |error: brinell::signal::SignalError| usage(format!("{}: {error}", measured.path.display()));
     let model = simulation.model();
     let kinematics = model.kinematics(model.rotation.at(0.0).0);
     let lines = lines(scenario, &kinematics);
@@ -124,18 +114,13 @@ fn targets(
     let simulated = simulation.samples() as usize / 2;
     let highest = lines.iter().map(|l| l.1).fold(0.0, f64::max);
     let band = Band::between((10.0 * highest).clamp(0.02 * rate, 0.1 * rate), 0.4 * rate);
-    let signature =
-        Signature::new(rate, simulated.min(measured.x.len()), band, &lines).map_err(failed)?;
+    let signature = Signature::new(rate, simulated.min(measured.x.len()), band, &lines).map_err(failed)?;
     let level = decibels(share);
     let mut targets: Vec<Target> = signature
         .of(&measured.x)
         .map_err(failed)?
         .into_iter()
-        .map(|l| Target {
-            name: l.name,
-            value: l.decibels,
-            uncertainty: l.uncertainty.hypot(level),
-        })
+        .map(|l| Target { name: l.name, value: l.decibels, uncertainty: l.uncertainty.hypot(level) })
         .collect();
     let blocks = Blocks::of(&measured.x, rate / shaft);
     for indicator in [Indicator::Rms, Indicator::Kurtosis] {
@@ -170,14 +155,7 @@ fn targets(
         measured.start
     )];
     notes.extend(measured.notes.iter().cloned());
-    Ok(Pattern {
-        signature,
-        axis,
-        channel,
-        targets,
-        notes,
-        warnings: measured.warnings.clone(),
-    })
+    Ok(Pattern { signature, axis, channel, targets, notes, warnings: measured.warnings.clone() })
 }
 
 /// The defect frequencies, Hz, each once, by the names that levels have.

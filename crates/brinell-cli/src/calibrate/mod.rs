@@ -57,11 +57,7 @@ pub(crate) fn calibrate(args: &CalibrateArgs) -> Result<ExitCode, Failure> {
     let begin = Instant::now();
     let plan = Plan::read(args)?;
     let threads = args.jobs.unwrap_or(brinell::many::threads(usize::MAX));
-    let points = FromPoints {
-        source: &plan.source,
-        keys: &plan.keys,
-        pattern: plan.pattern.as_ref(),
-    };
+    let points = FromPoints { source: &plan.source, keys: &plan.keys, pattern: plan.pattern.as_ref() };
     if args.dry_run {
         plan.tell(&points, threads, None);
         return Ok(ExitCode::SUCCESS);
@@ -70,11 +66,7 @@ pub(crate) fn calibrate(args: &CalibrateArgs) -> Result<ExitCode, Failure> {
     let folder = args.output.clone().unwrap_or_else(named);
     let mut inputs = plan.source.inputs();
     args.measured.iter().for_each(|path| inputs.add(path));
-    let place = Place {
-        kind: Results::Calibration,
-        folder: &folder,
-        inputs: &inputs,
-    };
+    let place = Place { kind: Results::Calibration, folder: &folder, inputs: &inputs };
     place.alone()?;
     make_folder(&folder)?;
     let words = |other: &Value| other_calibration(&folder, other);
@@ -129,12 +121,7 @@ pub(crate) fn calibrate(args: &CalibrateArgs) -> Result<ExitCode, Failure> {
 }
 
 fn tell(runs: &Runs, outcome: &Outcome, written: &[PathBuf], begin: Instant) {
-    say!(
-        "{} in {:.2} s, {} from the journal",
-        plural(runs.done, "run"),
-        begin.elapsed().as_secs_f64(),
-        runs.before
-    );
+    say!("{} in {:.2} s, {} from the journal", plural(runs.done, "run"), begin.elapsed().as_secs_f64(), runs.before);
     outcome.tell();
     for path in written {
         say!("  wrote {}", path.display());
@@ -148,22 +135,16 @@ fn usage(error: &CalibrateError, option: &str) -> Failure {
 impl Plan {
     /// Reads and checks everything, before anything runs.
     fn read(args: &CalibrateArgs) -> Result<Self, Failure> {
-        let keys: Vec<Key> = (args.fit.iter())
-            .map(|text| Key::read(text).map_err(|e| usage(&e, "--fit")))
-            .collect::<Result<_, _>>()?;
+        let keys: Vec<Key> =
+            (args.fit.iter()).map(|text| Key::read(text).map_err(|e| usage(&e, "--fit"))).collect::<Result<_, _>>()?;
         check_keys(&keys).map_err(|e| usage(&e, "--fit"))?;
         let mut targets: Vec<Target> = (args.target.iter())
             .map(|text| Target::read(text).map_err(|e| usage(&e, "--target")))
             .collect::<Result<_, _>>()?;
-        let source = Source::open(&ScenarioArgs {
-            scenario: args.scenario.clone(),
-            set: args.set.clone(),
-        })?;
+        let source = Source::open(&ScenarioArgs { scenario: args.scenario.clone(), set: args.set.clone() })?;
         let settings = |places: &[f64]| -> Vec<(String, String)> {
             let pairs = keys.iter().zip(places);
-            pairs
-                .map(|(k, unit)| (k.name.clone(), k.text(*unit)))
-                .collect()
+            pairs.map(|(k, unit)| (k.name.clone(), k.text(*unit))).collect()
         };
         let centre = vec![0.5; keys.len()];
         for k in 0..keys.len() {
@@ -182,8 +163,7 @@ impl Plan {
         let simulation = Simulation::new(&middle.scenario).map_err(Failure::Run)?;
         let names = names(&middle.scenario, &simulation);
         for target in &targets {
-            check_name(&target.name, &names)
-                .map_err(|error| Failure::Usage(format!("--target {error}")))?;
+            check_name(&target.name, &names).map_err(|error| Failure::Usage(format!("--target {error}")))?;
         }
         let pattern = measured::pattern(args, &middle.scenario, &simulation)?;
         if let Some(pattern) = &pattern {
@@ -206,25 +186,13 @@ impl Plan {
                 plural(keys.len(), "key")
             )));
         }
-        Ok(Self {
-            settings: Settings {
-                seed: args.seed,
-                budget,
-            },
-            source,
-            keys,
-            units,
-            targets,
-            pattern,
-            middle,
-        })
+        Ok(Self { settings: Settings { seed: args.seed, budget }, source, keys, units, targets, pattern, middle })
     }
 
     /// What distinguishes this calibration from others. A larger budget resumes the same one.
     fn header(&self) -> Value {
-        let keys: Vec<Value> = (self.keys.iter())
-            .map(|k| json!({ "key": k.name, "low": k.low, "high": k.high, "log": k.log }))
-            .collect();
+        let keys: Vec<Value> =
+            (self.keys.iter()).map(|k| json!({ "key": k.name, "low": k.low, "high": k.high, "log": k.log })).collect();
         let targets: Vec<Value> = (self.targets.iter())
             .map(|t| json!({ "name": t.name, "value": t.value, "standard_uncertainty": t.uncertainty }))
             .collect();
@@ -238,19 +206,10 @@ impl Plan {
     }
 
     fn tell(&self, points: &FromPoints, threads: NonZeroUsize, ledger: Option<&Ledger>) {
-        say!(
-            "{} to {}:",
-            plural(self.keys.len(), "key"),
-            plural(self.targets.len(), "target")
-        );
+        say!("{} to {}:", plural(self.keys.len(), "key"), plural(self.targets.len(), "target"));
         for (key, unit) in self.keys.iter().zip(&self.units) {
             let log = if key.log { ", in its logarithm" } else { "" };
-            say!(
-                "  {} from {:?} to {:?} {unit}{log}",
-                key.name,
-                key.low,
-                key.high
-            );
+            say!("  {} from {:?} to {:?} {unit}{log}", key.name, key.low, key.high);
         }
         if let Some(pattern) = &self.pattern {
             for note in &pattern.notes {
@@ -261,33 +220,19 @@ impl Plan {
             }
         }
         for target in &self.targets {
-            say!(
-                "  {} = {} ~ {}",
-                target.name,
-                short(target.value, 5),
-                short(target.uncertainty, 2)
-            );
+            say!("  {} = {} ~ {}", target.name, short(target.value, 5), short(target.uncertainty, 2));
         }
         let budget = self.settings.budget;
         let sample = latin_hypercube(self.settings.seed, self.keys.len(), budget.min(100));
         let tasks: Vec<Task> = sample.iter().filter_map(|p| points.task(p).ok()).collect();
         let scale = budget as f64 / tasks.len().max(1) as f64;
-        let cost = estimate(&tasks, points, threads).map_or(String::new(), |seconds| {
-            format!(", about {}", duration(scale * seconds))
-        });
+        let cost = estimate(&tasks, points, threads)
+            .map_or(String::new(), |seconds| format!(", about {}", duration(scale * seconds)));
         let simulated = self.middle.scenario.simulation.duration_s * budget as f64;
-        say!(
-            "  up to {}: {} s simulated, {} at a time{cost}",
-            plural(budget, "run"),
-            short(simulated, 3),
-            threads
-        );
+        say!("  up to {}: {} s simulated, {} at a time{cost}", plural(budget, "run"), short(simulated, 3), threads);
         let kept = ledger.map_or(0, |l| l.kept.len());
         if kept > 0 {
-            say!(
-                "  {} in the journal, not to be run again",
-                plural(kept, "run")
-            );
+            say!("  {} in the journal, not to be run again", plural(kept, "run"));
         }
     }
 }
@@ -297,9 +242,7 @@ fn other_calibration(folder: &Path, other: &Value) -> String {
     let folder = folder.display();
     if other["campaign"] != "calibrate" {
         let kind = other["campaign"].as_str().unwrap_or("something else");
-        return format!(
-            "{folder}/{JOURNAL} is the journal of {kind}; choose another folder with -o"
-        );
+        return format!("{folder}/{JOURNAL} is the journal of {kind}; choose another folder with -o");
     }
     let keys = other["keys"].as_array().into_iter().flatten();
     let keys: Vec<&str> = keys.filter_map(|k| k["key"].as_str()).collect();
@@ -316,11 +259,7 @@ fn tell_reasons(runs: &Runs, plan: &Plan) {
     let size = plan.settings.budget;
     let mut told: Vec<String> = Vec::new();
     // The start lies in the journal or was never a scenario; its points follow from the seed.
-    for place in latin_hypercube(
-        plan.settings.seed,
-        plan.keys.len(),
-        start(size, plan.keys.len()),
-    ) {
+    for place in latin_hypercube(plan.settings.seed, plan.keys.len(), start(size, plan.keys.len())) {
         if let Err(reason) = runs.row(&place)
             && !told.contains(&reason)
             && told.len() < SHOWN

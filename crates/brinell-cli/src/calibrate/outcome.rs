@@ -33,13 +33,11 @@ impl Found {
         self.interval.is_some()
     }
 
-    /// Whether the interval runs beyond the lower and the upper bound, where it ends for want of runs and not because data say so.
+    /// Whether the interval runs beyond the lower and the upper bound, where it ends for want of runs and not because
+    /// data say so.
     pub(super) fn is_cut(&self) -> [bool; 2] {
         let within = self.is_determined();
-        [
-            within && self.place - self.half_width < 0.0,
-            within && self.place + self.half_width > 1.0,
-        ]
+        [within && self.place - self.half_width < 0.0, within && self.place + self.half_width > 1.0]
     }
 }
 
@@ -76,12 +74,8 @@ impl<'a> Outcome<'a> {
                 place: place[k],
                 half_width,
                 bounds: (key.low, key.high),
-                interval: (2.0 * half_width < MOST).then(|| {
-                    (
-                        key.value(place[k] - half_width),
-                        key.value(place[k] + half_width),
-                    )
-                }),
+                interval: (2.0 * half_width < MOST)
+                    .then(|| (key.value(place[k] - half_width), key.value(place[k] + half_width))),
             }
         });
         let found = found.collect();
@@ -103,14 +97,7 @@ impl<'a> Outcome<'a> {
         });
         let compared = compared.collect();
         let best = plan.source.load(&runs.points.settings(place), true)?;
-        Ok(Self {
-            plan,
-            runs,
-            found,
-            compared,
-            best,
-            fit,
-        })
+        Ok(Self { plan, runs, found, compared, best, fit })
     }
 
     pub(super) fn chi_square(&self) -> f64 {
@@ -147,69 +134,40 @@ impl<'a> Outcome<'a> {
     fn table(&self) -> Table {
         let all = &self.fit.evaluations;
         let mut table = Table::default();
-        let mut numbers =
-            |name: String, unit: &str, about: &str, of: &dyn Fn(usize) -> Option<f64>| {
-                let cells = (0..all.len()).map(of).collect();
-                table.push(Column::new(name, unit, about), Cells::Numbers(cells));
-            };
-        numbers("run".into(), "1", "number of the run", &|k| {
-            Some((k + 1) as f64)
-        });
+        let mut numbers = |name: String, unit: &str, about: &str, of: &dyn Fn(usize) -> Option<f64>| {
+            let cells = (0..all.len()).map(of).collect();
+            table.push(Column::new(name, unit, about), Cells::Numbers(cells));
+        };
+        numbers("run".into(), "1", "number of the run", &|k| Some((k + 1) as f64));
         for (index, key) in self.plan.keys.iter().enumerate() {
             let value = |k: usize| Some(key.value(all[k].place[index]));
             numbers(key.name.clone(), self.plan.units[index], "fitted", &value);
         }
-        numbers(
-            "chi_square".into(),
-            "1",
-            "sum of squares of the residuals",
-            &|k| Some(all[k].chi_square).filter(|c| c.is_finite()),
-        );
+        numbers("chi_square".into(), "1", "sum of squares of the residuals", &|k| {
+            Some(all[k].chi_square).filter(|c| c.is_finite())
+        });
         for (t, compared) in self.compared.iter().enumerate() {
             let answer = |k: usize| all[k].answers.as_ref().map(|a| a[t]);
             let name = &compared.name;
             numbers(name.clone(), &compared.unit, "", &|k| answer(k)?.value);
             let about = "the run's own standard uncertainty";
-            numbers(
-                format!("{name}.own_uncertainty"),
-                &compared.unit,
-                about,
-                &|k| Some(answer(k)?.uncertainty),
-            );
+            numbers(format!("{name}.own_uncertainty"), &compared.unit, about, &|k| Some(answer(k)?.uncertainty));
             let about = "difference from the target in standard uncertainties";
             numbers(format!("{name}.residual"), "1", about, &|k| {
                 let value = answer(k)?.value?;
                 Some((value - compared.target) / self.fit.sigma[t])
             });
         }
-        let stages = all
-            .iter()
-            .map(|e| Some(e.stage.word().to_owned()))
-            .collect();
+        let stages = all.iter().map(|e| Some(e.stage.word().to_owned())).collect();
         let about = "start, swarm, local, or around the best";
         table.push(Column::new("stage", "", about), Cells::Words(stages));
         let reasons = all.iter().map(|e| match e.answers {
             Some(_) => None,
             None => self.runs.row(&e.place).err(),
         });
-        let status = all.iter().map(|e| {
-            Some(
-                if e.answers.is_some() {
-                    "complete"
-                } else {
-                    "failed"
-                }
-                .to_owned(),
-            )
-        });
-        table.push(
-            Column::new("status", "", "complete or failed"),
-            Cells::Words(status.collect()),
-        );
-        table.push(
-            Column::new("reason", "", "why it failed"),
-            Cells::Words(reasons.collect()),
-        );
+        let status = all.iter().map(|e| Some(if e.answers.is_some() { "complete" } else { "failed" }.to_owned()));
+        table.push(Column::new("status", "", "complete or failed"), Cells::Words(status.collect()));
+        table.push(Column::new("reason", "", "why it failed"), Cells::Words(reasons.collect()));
         table
     }
 
@@ -237,30 +195,19 @@ impl<'a> Outcome<'a> {
             })
             .collect();
         let keys_count = self.found.len();
-        let correlation: Vec<Vec<f64>> = (0..keys_count)
-            .map(|a| {
-                (0..keys_count)
-                    .map(|b| identified.correlation[(a, b)])
-                    .collect()
-            })
-            .collect();
+        let correlation: Vec<Vec<f64>> =
+            (0..keys_count).map(|a| (0..keys_count).map(|b| identified.correlation[(a, b)]).collect()).collect();
         let directions: Vec<Value> = (identified.directions.iter())
             .map(|d| {
-                let parts: Map<String, Value> = (self.found.iter().zip(&d.vector))
-                    .map(|(f, v)| (f.name.clone(), json!(v)))
-                    .collect();
+                let parts: Map<String, Value> =
+                    (self.found.iter().zip(&d.vector)).map(|(f, v)| (f.name.clone(), json!(v))).collect();
                 json!({
                     "of_ranges": parts, "singular_value": d.singular_value, "noise": d.noise,
                     "half_interval_95_in_ranges": finite(d.half_width), "determined": d.is_determined(),
                 })
             })
             .collect();
-        let failed = self
-            .fit
-            .evaluations
-            .iter()
-            .filter(|e| e.answers.is_none())
-            .count();
+        let failed = self.fit.evaluations.iter().filter(|e| e.answers.is_none()).count();
         json!({
             "brinell": brinell::VERSION,
             "plan": self.plan.header(),

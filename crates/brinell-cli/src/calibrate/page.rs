@@ -13,8 +13,7 @@ impl Outcome<'_> {
             .filter(|(_, e)| e.answers.is_none())
             .map(|(k, e)| {
                 let settings = self.runs.points.settings(&e.place);
-                let texts: Vec<String> =
-                    settings.iter().map(|(k, v)| format!("{k} = {v}")).collect();
+                let texts: Vec<String> = settings.iter().map(|(k, v)| format!("{k} = {v}")).collect();
                 let reason = self.runs.row(&e.place).err().unwrap_or_default();
                 (format!("{}: {}", k + 1, texts.join(", ")), reason)
             })
@@ -22,11 +21,7 @@ impl Outcome<'_> {
         let determined = self.found.iter().filter(|f| f.is_determined()).count();
         let names: Vec<&str> = self.found.iter().map(|f| f.name.as_str()).collect();
         let text = |t: String| Value::Text(t);
-        let p_value = self
-            .p_value()
-            .map_or("no degree of freedom".to_owned(), |p| {
-                format!("p-value {}", short(p, 2))
-            });
+        let p_value = self.p_value().map_or("no degree of freedom".to_owned(), |p| format!("p-value {}", short(p, 2)));
         let mut facts = vec![
             Fact::new(
                 "Chi-square",
@@ -40,36 +35,20 @@ impl Outcome<'_> {
                 "",
                 "by their 95 % interval",
             ),
-            Fact::new(
-                "Runs",
-                text(all.len().to_string()),
-                "",
-                format!("the best is run {}", self.fit.best + 1),
-            ),
+            Fact::new("Runs", text(all.len().to_string()), "", format!("the best is run {}", self.fit.best + 1)),
         ];
         if !failed.is_empty() {
-            facts.push(Fact::new(
-                "Failed",
-                text(failed.len().to_string()),
-                "",
-                "reasons below",
-            ));
+            facts.push(Fact::new("Failed", text(failed.len().to_string()), "", "reasons below"));
         }
         CalibrationReport {
             title: format!("Calibration of {}", self.best.scenario.name),
-            subtitle: format!(
-                "{} to {}",
-                names.join(", "),
-                plural(self.compared.len(), "target")
-            ),
+            subtitle: format!("{} to {}", names.join(", "), plural(self.compared.len(), "target")),
             version: brinell::VERSION.into(),
             met: self.is_met(),
             verdict: self.verdict(),
             facts,
             keys: self.keys(),
-            found: (self.found.iter())
-                .map(|f| Fact::new(&f.name, text(short(f.value, 5)), f.unit, f.told()))
-                .collect(),
+            found: (self.found.iter()).map(|f| Fact::new(&f.name, text(short(f.value, 5)), f.unit, f.told())).collect(),
             undetermined: self.undetermined(),
             targets: self.targets(),
             correlation: self.correlation(),
@@ -96,13 +75,7 @@ impl Outcome<'_> {
     fn tried(&self) -> Vec<Tried> {
         let best = &self.fit.evaluations[self.fit.best].place;
         let one = |e: &brinell_study::calibrate::Evaluation| Tried {
-            values: self
-                .plan
-                .keys
-                .iter()
-                .zip(&e.place)
-                .map(|(k, u)| k.value(*u))
-                .collect(),
+            values: self.plan.keys.iter().zip(&e.place).map(|(k, u)| k.value(*u)).collect(),
             chi_square: e.chi_square,
             alone: (0..best.len())
                 .map(|k| (0..best.len()).all(|other| other == k || e.place[other] == best[other]))
@@ -113,17 +86,12 @@ impl Outcome<'_> {
 
     fn targets(&self) -> Table {
         let row = |c: &super::outcome::Compared| {
-            let own = if c.own > 0.0 {
-                format!(" ± {}", short(c.own, 2))
-            } else {
-                String::new()
-            };
+            let own = if c.own > 0.0 { format!(" ± {}", short(c.own, 2)) } else { String::new() };
             vec![
                 c.name.clone(),
                 c.unit.clone(),
                 format!("{} ± {}", short(c.target, 5), short(c.uncertainty, 2)),
-                c.value
-                    .map_or("–".into(), |v| format!("{}{own}", short(v, 5))),
+                c.value.map_or("–".into(), |v| format!("{}{own}", short(v, 5))),
                 format!("{:+.1}", c.residual),
             ]
         };
@@ -143,9 +111,7 @@ impl Outcome<'_> {
         columns.extend(self.found.iter().map(|f| format!("#{}", f.name)));
         let row = |a: usize| {
             let mut row = vec![self.found[a].name.clone()];
-            row.extend(
-                (0..self.found.len()).map(|b| format!("{:.2}", identified.correlation[(a, b)])),
-            );
+            row.extend((0..self.found.len()).map(|b| format!("{:.2}", identified.correlation[(a, b)])));
             row
         };
         Table {
@@ -159,34 +125,16 @@ impl Outcome<'_> {
     fn directions(&self) -> Table {
         let mut columns = vec!["Direction".to_owned()];
         columns.extend(self.found.iter().map(|f| format!("#{}", f.name)));
-        columns.extend(
-            [
-                "#Singular value",
-                "#Noise",
-                "#Half 95 % interval",
-                "Determined",
-            ]
-            .map(String::from),
-        );
-        let rows = self
-            .fit
-            .identified
-            .directions
-            .iter()
-            .enumerate()
-            .map(|(k, d)| {
-                let mut row = vec![(k + 1).to_string()];
-                row.extend(d.vector.iter().map(|v| format!("{v:.2}")));
-                row.push(short(d.singular_value, 3));
-                row.push(short(d.noise, 2));
-                row.push(if d.half_width.is_finite() {
-                    short(d.half_width, 2)
-                } else {
-                    "∞".into()
-                });
-                row.push(if d.is_determined() { "yes" } else { "no" }.into());
-                row
-            });
+        columns.extend(["#Singular value", "#Noise", "#Half 95 % interval", "Determined"].map(String::from));
+        let rows = self.fit.identified.directions.iter().enumerate().map(|(k, d)| {
+            let mut row = vec![(k + 1).to_string()];
+            row.extend(d.vector.iter().map(|v| format!("{v:.2}")));
+            row.push(short(d.singular_value, 3));
+            row.push(short(d.noise, 2));
+            row.push(if d.half_width.is_finite() { short(d.half_width, 2) } else { "∞".into() });
+            row.push(if d.is_determined() { "yes" } else { "no" }.into());
+            row
+        });
         Table {
             title: "Directions, from the best to the least determined".into(),
             columns,

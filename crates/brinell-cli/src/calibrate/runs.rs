@@ -23,23 +23,15 @@ pub(super) struct FromPoints<'a> {
 impl FromPoints<'_> {
     pub(super) fn settings(&self, place: &[f64]) -> Vec<(String, String)> {
         let pairs = self.keys.iter().zip(place);
-        pairs
-            .map(|(key, unit)| (key.name.clone(), key.text(*unit)))
-            .collect()
+        pairs.map(|(key, unit)| (key.name.clone(), key.text(*unit))).collect()
     }
 
     /// What is to be run at a point, or why its scenario is bad.
     pub(super) fn task(&self, place: &[f64]) -> Result<Task, String> {
         let settings = self.settings(place);
         let loaded = self.source.load(&settings, true);
-        let scenario = loaded
-            .map_err(|failure| crate::sweep::reason(&failure))?
-            .scenario;
-        Ok(Task {
-            fingerprint: self.fingerprint(&scenario),
-            duration_s: scenario.simulation.duration_s,
-            settings,
-        })
+        let scenario = loaded.map_err(|failure| crate::sweep::reason(&failure))?.scenario;
+        Ok(Task { fingerprint: self.fingerprint(&scenario), duration_s: scenario.simulation.duration_s, settings })
     }
 }
 
@@ -66,12 +58,7 @@ impl Work for FromPoints<'_> {
         self.pattern.map(|pattern| pattern.axis)
     }
 
-    fn finished(
-        &self,
-        _: &Task,
-        _: &RunResult,
-        captured: &[f64],
-    ) -> Result<Vec<Quantity>, Failure> {
+    fn finished(&self, _: &Task, _: &RunResult, captured: &[f64]) -> Result<Vec<Quantity>, Failure> {
         let own = |pattern: &Pattern| pattern.quantities(captured);
         Ok(self.pattern.map_or(Vec::new(), own))
     }
@@ -95,8 +82,7 @@ pub(super) struct Runs<'a> {
 impl Runs<'_> {
     /// For [`brinell_study::calibrate::fit`].
     pub(super) fn ask(&mut self, places: &[Vec<f64>]) -> Result<Vec<Option<Vec<Answer>>>, Unfit> {
-        let wanted: Vec<Result<Task, String>> =
-            places.iter().map(|place| self.points.task(place)).collect();
+        let wanted: Vec<Result<Task, String>> = places.iter().map(|place| self.points.task(place)).collect();
         let mut tasks: Vec<Task> = Vec::new();
         for task in wanted.iter().flatten() {
             if self.ledger.kept.row(&task.fingerprint).is_some() {
@@ -107,14 +93,8 @@ impl Runs<'_> {
             }
         }
         self.done += tasks.len();
-        let went = campaign::run_within(
-            &tasks,
-            &self.points,
-            &mut self.ledger,
-            self.threads,
-            &mut self.joint,
-            self.stop,
-        );
+        let went =
+            campaign::run_within(&tasks, &self.points, &mut self.ledger, self.threads, &mut self.joint, self.stop);
         match went {
             Ok(flow) if flow.is_continue() => {}
             Ok(_) => return Err(Unfit::Interrupted),
@@ -146,10 +126,7 @@ fn answers(row: &Row, targets: &[Target]) -> Option<Vec<Answer>> {
     row.result.as_ref().ok()?;
     let one = |target: &Target| {
         let quantity = row.quantity(&target.name);
-        Answer {
-            value: quantity.and_then(|q| q.value),
-            uncertainty: quantity.map_or(0.0, own_uncertainty),
-        }
+        Answer { value: quantity.and_then(|q| q.value), uncertainty: quantity.map_or(0.0, own_uncertainty) }
     };
     Some(targets.iter().map(one).collect())
 }

@@ -19,32 +19,18 @@ impl Outcome<'_> {
         let identified = &self.fit.identified;
         let chi = self.chi_square();
         let mut all = Vec::new();
-        let p_value = self
-            .p_value()
-            .map_or(String::new(), |p| format!("; p-value {}", short(p, 2)));
+        let p_value = self.p_value().map_or(String::new(), |p| format!("; p-value {}", short(p, 2)));
         let freedom = match identified.freedom {
             1.. => plural(identified.freedom as usize, "degree") + " of freedom",
             _ => "no degree of freedom left".into(),
         };
-        let base = format!(
-            "chi-square {} over {}, {freedom}{p_value}",
-            short(chi, 3),
-            plural(targets, "target")
-        );
+        let base = format!("chi-square {} over {}, {freedom}{p_value}", short(chi, 3), plural(targets, "target"));
         if self.is_met() {
-            all.push(format!(
-                "The targets are met within their uncertainties: {base}."
-            ));
+            all.push(format!("The targets are met within their uncertainties: {base}."));
         } else {
-            all.push(format!(
-                "The targets are not met within the bounds: {base}."
-            ));
+            all.push(format!("The targets are not met within the bounds: {base}."));
         }
-        let mut worst: Vec<_> = self
-            .compared
-            .iter()
-            .filter(|c| c.residual.abs() > LARGE)
-            .collect();
+        let mut worst: Vec<_> = self.compared.iter().filter(|c| c.residual.abs() > LARGE).collect();
         worst.sort_by(|a, b| b.residual.abs().total_cmp(&a.residual.abs()));
         for c in worst.iter().take(6) {
             all.push(match c.value {
@@ -61,10 +47,7 @@ impl Outcome<'_> {
             });
         }
         if worst.len() > 6 {
-            all.push(format!(
-                "And {} more are off by more than {LARGE}.",
-                worst.len() - 6
-            ));
+            all.push(format!("And {} more are off by more than {LARGE}.", worst.len() - 6));
         }
         for found in &self.found {
             let side = match found.place {
@@ -72,10 +55,7 @@ impl Outcome<'_> {
                 p if p > 1.0 - 1e-3 => "upper",
                 _ => continue,
             };
-            all.push(format!(
-                "{}: the best value is on its {side} bound; a better one may be beyond.",
-                found.name
-            ));
+            all.push(format!("{}: the best value is on its {side} bound; a better one may be beyond.", found.name));
         }
         all
     }
@@ -149,9 +129,7 @@ impl Outcome<'_> {
                 } else {
                     let by = share * (key.high - key.low);
                     let sign = if by > 0.0 { "plus" } else { "minus" };
-                    format!("{} {sign} {} {unit}", key.name, short(by.abs(), 2))
-                        .trim_end()
-                        .to_owned()
+                    format!("{} {sign} {} {unit}", key.name, short(by.abs(), 2)).trim_end().to_owned()
                 }
             })
             .collect();
@@ -163,21 +141,12 @@ impl Outcome<'_> {
         } else {
             "less than the data can resolve"
         };
-        Some(format!(
-            "A combination is not determined: {} together change the targets by {why}.",
-            parts.join(" and ")
-        ))
+        Some(format!("A combination is not determined: {} together change the targets by {why}.", parts.join(" and ")))
     }
 
     pub(super) fn tell(&self) {
         for found in &self.found {
-            say!(
-                "  {} = {} {}  {}",
-                found.name,
-                short(found.value, 5),
-                found.unit,
-                found.told()
-            );
+            say!("  {} = {} {}  {}", found.name, short(found.value, 5), found.unit, found.told());
         }
         for sentence in self.verdict().iter().chain(&self.undetermined()) {
             say!("  {sentence}");
@@ -192,17 +161,9 @@ impl Found {
             Some((low, high)) => {
                 let bound = |cut: bool| if cut { " (bound)" } else { "" };
                 let [below, above] = self.is_cut().map(bound);
-                format!(
-                    "95 %: {}{below} to {}{above}",
-                    short(low, 4),
-                    short(high, 4)
-                )
+                format!("95 %: {}{below} to {}{above}", short(low, 4), short(high, 4))
             }
-            None => format!(
-                "not determined between {} and {}",
-                short(self.bounds.0, 4),
-                short(self.bounds.1, 4)
-            ),
+            None => format!("not determined between {} and {}", short(self.bounds.0, 4), short(self.bounds.1, 4)),
         }
     }
 }

@@ -32,11 +32,7 @@ pub(super) fn print(s: &Scenario, top_speed: f64) -> Result<(), Failure> {
     if let Some(k) = shown.stiffness {
         tilts(shown, &k);
     }
-    life(
-        &rating,
-        s.bearing.profile == RollerProfile::Straight,
-        top_speed,
-    );
+    life(&rating, s.bearing.profile == RollerProfile::Straight, top_speed);
     say!("");
     Ok(())
 }
@@ -45,9 +41,7 @@ pub(super) fn print(s: &Scenario, top_speed: f64) -> Result<(), Failure> {
 const NO_TILT: f64 = 1e-9;
 
 fn tilts(d: &Distribution, stiffness: &[[f64; 4]; 4]) {
-    let [x, y] = d
-        .tilt
-        .map(|tau| if tau.abs() < NO_TILT { 0.0 } else { 1e6 * tau });
+    let [x, y] = d.tilt.map(|tau| if tau.abs() < NO_TILT { 0.0 } else { 1e6 * tau });
     say!(
         "  inner ring from outer   tilted by ({}, {}) urad; rollers by up to {} urad",
         significant(x, x.hypot(y), 3),
@@ -70,9 +64,7 @@ fn pressures(of: &str, d: &Distribution) {
         say!("  {of:<23} no contact carries load");
         return;
     };
-    let end = d.end_peak().map_or("no load".to_owned(), |end| {
-        format!("{} MPa", short(1e-6 * end.pressure, 4))
-    });
+    let end = d.end_peak().map_or("no load".to_owned(), |end| format!("{} MPa", short(1e-6 * end.pressure, 4)));
     say!(
         "  {:<23} {} MPa at {}; in the end slices {end}",
         format!("{of}, largest"),
@@ -86,11 +78,7 @@ fn place(peak: &Peak) -> String {
         Side::Inner => "inner",
         Side::Outer => "outer",
     };
-    format!(
-        "the {ring} raceway of row {}, z = {} mm",
-        peak.row + 1,
-        short(1e3 * peak.z, 3)
-    )
+    format!("the {ring} raceway of row {}, z = {} mm", peak.row + 1, short(1e3 * peak.z, 3))
 }
 
 fn life(rating: &Rating, straight: bool, top_speed: f64) {
@@ -105,17 +93,16 @@ fn life(rating: &Rating, straight: bool, top_speed: f64) {
         short(hours, 3),
         short(60.0 * top_speed / TAU, 4),
         match straight {
-            true =>
-                "; of straight rollers it falls with wider slices: compare at one number of them",
+            true => "; of straight rollers it falls with wider slices: compare at one number of them",
             false => "",
         }
     );
     let Some(damaged) = rating.damaged_life else {
         return;
     };
-    let error = rating.damaged_life_error.map_or(String::new(), |error| {
-        format!(" (standard error {} %)", short(100.0 * error / life, 2))
-    });
+    let error = rating
+        .damaged_life_error
+        .map_or(String::new(), |error| format!(" (standard error {} %)", short(100.0 * error / life, 2)));
     let longer = match damaged > life {
         true => ": what lies over damage carries nothing and no longer counts",
         false => "",

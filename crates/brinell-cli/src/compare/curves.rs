@@ -8,19 +8,12 @@ use brinell_report::{Along, OverlaidCurve, Overlay, Piece, Vertical};
 
 /// Name of the acceleration that a run's curves show.
 fn acceleration(run: &RunResult) -> String {
-    format!(
-        "acceleration sensor_a{}",
-        if run.findings.axis == 0 { "x" } else { "y" }
-    )
+    format!("acceleration sensor_a{}", if run.findings.axis == 0 { "x" } else { "y" })
 }
 
 fn capital(text: &str) -> String {
     let mut letters = text.chars();
-    let first: String = letters
-        .next()
-        .into_iter()
-        .flat_map(char::to_uppercase)
-        .collect();
+    let first: String = letters.next().into_iter().flat_map(char::to_uppercase).collect();
     first + letters.as_str()
 }
 
@@ -35,10 +28,7 @@ pub(super) fn waveform(runs: &[&RunResult]) -> Overlay {
     let ball_pass = |run: &&RunResult| {
         let model = run.simulation.model();
         let k = model.kinematics(model.rotation.max_speed());
-        let of_defects = model
-            .defects
-            .iter()
-            .map(|d| k.defect_frequency(d.surface).1);
+        let of_defects = model.defects.iter().map(|d| k.defect_frequency(d.surface).1);
         of_defects.fold(k.bpfo, f64::max)
     };
     let quickest = runs.iter().map(ball_pass).fold(0.0, f64::max);
@@ -46,10 +36,7 @@ pub(super) fn waveform(runs: &[&RunResult]) -> Overlay {
     let curves = runs.iter().enumerate().map(|(of, run)| {
         let (first, values) = kept(run);
         let step = 1e3 / run.simulation.sample_rate();
-        let along = Along::Even {
-            first: 1e3 * first,
-            step,
-        };
+        let along = Along::Even { first: 1e3 * first, step };
         OverlaidCurve { of, along, values }
     });
     Overlay {
@@ -140,38 +127,19 @@ pub(super) fn called(runs: &[&RunResult], defect: usize) -> String {
 }
 
 /// Name of the picture, quantity, unit, and how a point of a pass gives it.
-type Shown = (
-    &'static str,
-    &'static str,
-    &'static str,
-    fn(&PassPoint) -> f64,
-);
+type Shown = (&'static str, &'static str, &'static str, fn(&PassPoint) -> f64);
 
 /// Contact length, stiffness and force of the heaviest pass of each run.
 pub(super) fn over_defect(runs: &[&RunResult], defect: usize) -> Vec<Piece> {
-    let passes: Vec<_> = runs
-        .iter()
-        .map(|run| {
-            run.findings
-                .passes
-                .best()
-                .into_iter()
-                .find(|p| p.defect == defect)
-        })
-        .collect();
+    let passes: Vec<_> =
+        runs.iter().map(|run| run.findings.passes.best().into_iter().find(|p| p.defect == defect)).collect();
     if passes.iter().all(Option::is_none) {
         return vec![Piece::Words("No roller passed it from end to end.".into())];
     }
     let usual = |run: &&RunResult| (run.scenario.contact.exponent - 10.0 / 9.0).abs() < 1e-9;
-    let stiffness = if runs.iter().all(usual) {
-        "N/m^(10/9)"
-    } else {
-        STIFFNESS_UNIT
-    };
+    let stiffness = if runs.iter().all(usual) { "N/m^(10/9)" } else { STIFFNESS_UNIT };
     let quantities: [Shown; 3] = [
-        ("length", "Effective contact length", "mm", |p| {
-            1e3 * p.length
-        }),
+        ("length", "Effective contact length", "mm", |p| 1e3 * p.length),
         ("stiffness", "Contact stiffness", stiffness, |p| p.stiffness),
         ("force", "Contact force", "N", |p| p.force),
     ];
@@ -179,11 +147,7 @@ pub(super) fn over_defect(runs: &[&RunResult], defect: usize) -> Vec<Piece> {
         let curves = passes.iter().enumerate().filter_map(|(of, pass)| {
             let points = &pass.as_ref()?.points;
             let degrees = points.iter().map(|p| p.angle.to_degrees());
-            Some(OverlaidCurve {
-                of,
-                along: Along::At(degrees.collect()),
-                values: points.iter().map(value).collect(),
-            })
+            Some(OverlaidCurve { of, along: Along::At(degrees.collect()), values: points.iter().map(value).collect() })
         });
         Piece::Overlay(Overlay {
             name: format!("defect{}-{name}", defect + 1),
@@ -197,18 +161,14 @@ pub(super) fn over_defect(runs: &[&RunResult], defect: usize) -> Vec<Piece> {
         })
     };
     let mut pieces: Vec<Piece> = quantities.into_iter().map(overlay).collect();
-    pieces.push(Piece::Words(
-        "The pass with the largest contact force of each run, step by step of the solver.".into(),
-    ));
+    pieces
+        .push(Piece::Words("The pass with the largest contact force of each run, step by step of the solver.".into()));
     pieces
 }
 
 /// The mean acceleration around the instants of rollers' entry to and exit from the defect.
 pub(super) fn entry_and_exit(runs: &[&RunResult], defect: usize) -> Vec<Piece> {
-    let all: Vec<Vec<Impacts>> = runs
-        .iter()
-        .map(|run| impacts(&run.simulation, &run.findings))
-        .collect();
+    let all: Vec<Vec<Impacts>> = runs.iter().map(|run| impacts(&run.simulation, &run.findings)).collect();
     let mut pieces = Vec::new();
     for (enters, word) in [(true, "entry"), (false, "exit")] {
         let mut counts = Vec::new();
@@ -219,10 +179,7 @@ pub(super) fn entry_and_exit(runs: &[&RunResult], defect: usize) -> Vec<Piece> {
                 continue;
             };
             counts.push(one.count.to_string());
-            let along = Along::Even {
-                first: 1e3 * one.from,
-                step: 1e3 * one.step,
-            };
+            let along = Along::Even { first: 1e3 * one.from, step: 1e3 * one.step };
             let values = one.mean.clone();
             curves.push(OverlaidCurve { of, along, values });
         }

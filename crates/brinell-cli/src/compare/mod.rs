@@ -100,27 +100,14 @@ pub(crate) fn side_by_side(args: &CompareArgs) -> Result<ExitCode, Failure> {
 fn scenario_files(sides: &[Side], folder: &Path) -> Vec<PathBuf> {
     let name = |(k, side): (usize, &Side)| format!("{}-{}.toml", k + 1, safe_name(&side.label));
     let names = sides.iter().enumerate().map(name);
-    names
-        .map(|name| folder.join(SCENARIOS).join(name))
-        .collect()
+    names.map(|name| folder.join(SCENARIOS).join(name)).collect()
 }
 
 /// Earlier results in the folder that the comparison may replace.
-fn earlier(
-    args: &CompareArgs,
-    sides: &[Side],
-    folder: &Path,
-    inputs: &Inputs,
-) -> Result<Earlier, Failure> {
-    let place = Place {
-        kind: Results::Comparison,
-        folder,
-        inputs,
-    };
+fn earlier(args: &CompareArgs, sides: &[Side], folder: &Path, inputs: &Inputs) -> Result<Earlier, Failure> {
+    let place = Place { kind: Results::Comparison, folder, inputs };
     let writes = [COMPARISON, PAGE, CSV, PARQUET].map(str::to_owned);
-    let same = |told: &Value| {
-        told.is_null() || told["scenarios"] == Value::Object(table::scenarios(sides))
-    };
+    let same = |told: &Value| told.is_null() || told["scenarios"] == Value::Object(table::scenarios(sides));
     place.earlier(args.overwrite, &writes, same)
 }
 
@@ -133,10 +120,7 @@ fn run(args: &CompareArgs, sides: &[Side]) -> Result<Option<Vec<RunResult>>, Fai
     let duration = |side: &Side| side.loaded.scenario.simulation.duration_s;
     let joint = Joint::new(list.len(), sides.iter().map(duration).sum(), args.quiet);
     let bar = joint.bar();
-    let parts: Vec<Mutex<_>> = sides
-        .iter()
-        .map(|side| Mutex::new(Joint::part(&bar, duration(side))))
-        .collect();
+    let parts: Vec<Mutex<_>> = sides.iter().map(|side| Mutex::new(Joint::part(&bar, duration(side)))).collect();
     let results = run_all(&list, args.jobs.unwrap_or(threads), |k, t| {
         if let Ok(mut part) = parts[k].lock() {
             part.at(t);
@@ -161,22 +145,14 @@ fn run(args: &CompareArgs, sides: &[Side]) -> Result<Option<Vec<RunResult>>, Fai
 /// What matters most of the comparison.
 fn tell(sides: &[Side], compared: &[Compared]) {
     for (k, side) in sides.iter().enumerate().skip(1) {
-        say!(
-            "{} over {} (the baseline), ratios:",
-            side.label,
-            sides[0].label
-        );
+        say!("{} over {} (the baseline), ratios:", side.label, sides[0].label);
         for name in page::headline(compared) {
-            let Some(ratio) = compared
-                .iter()
-                .find(|c| c.name == name)
-                .and_then(|c| c.ratios[k])
-            else {
+            let Some(ratio) = compared.iter().find(|c| c.name == name).and_then(|c| c.ratios[k]) else {
                 continue;
             };
-            let interval = ratio.interval.map_or(String::new(), |(low, high)| {
-                format!(" (95 %: {} x to {} x)", short(low, 3), short(high, 3))
-            });
+            let interval = ratio
+                .interval
+                .map_or(String::new(), |(low, high)| format!(" (95 %: {} x to {} x)", short(low, 3), short(high, 3)));
             say!("  {name}: {} x{interval}", short(ratio.value, 3));
         }
     }

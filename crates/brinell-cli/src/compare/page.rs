@@ -23,22 +23,13 @@ pub(super) fn report(sides: &[Side], runs: &[&RunResult], compared: &[Compared])
     ];
     let defects = runs.iter().map(|run| run.scenario.defects.len()).max();
     for defect in 0..defects.unwrap_or(0) {
-        parts.push(part(
-            &format!("Over {}", called(runs, defect)),
-            over_defect(runs, defect),
-        ));
-        parts.push(part(
-            &format!("Entry and exit, {}", called(runs, defect)),
-            entry_and_exit(runs, defect),
-        ));
+        parts.push(part(&format!("Over {}", called(runs, defect)), over_defect(runs, defect)));
+        parts.push(part(&format!("Entry and exit, {}", called(runs, defect)), entry_and_exit(runs, defect)));
     }
     for (title, wanted) in TABLES {
         let rows: Vec<&Compared> = compared.iter().filter(|c| wanted(&c.name)).collect();
         if !rows.is_empty() {
-            parts.push(part(
-                title,
-                vec![Piece::Table(numbers(title, &names, &rows))],
-            ));
+            parts.push(part(title, vec![Piece::Table(numbers(title, &names, &rows))]));
         }
     }
     SideBySide {
@@ -63,34 +54,23 @@ const TABLES: [Wanted; 3] = [
             && which.iter().any(|w| name.ends_with(w))
             && !name.contains("anti_aliased")
     }),
-    ("Defects, envelope and slip", |name| {
-        ["defect", "envelope.", "row"]
-            .iter()
-            .any(|o| name.starts_with(o))
-    }),
-    ("Audits and work", |name| {
-        ["audit.", "work."].iter().any(|o| name.starts_with(o))
-    }),
+    ("Defects, envelope and slip", |name| ["defect", "envelope.", "row"].iter().any(|o| name.starts_with(o))),
+    ("Audits and work", |name| ["audit.", "work."].iter().any(|o| name.starts_with(o))),
 ];
 
 /// Names of the numbers that say most, of those that are there.
 pub(super) fn headline(compared: &[Compared]) -> Vec<&str> {
     let names = compared.iter().map(|c| c.name.as_str());
     let wanted = |name: &&str| {
-        let of_acceleration = name.starts_with("sensor_a")
-            && [".rms", ".peak_to_peak", ".kurtosis"]
-                .iter()
-                .any(|w| name.ends_with(w));
+        let of_acceleration =
+            name.starts_with("sensor_a") && [".rms", ".peak_to_peak", ".kurtosis"].iter().any(|w| name.ends_with(w));
         of_acceleration || name.ends_with("entry_peak") || name.ends_with("exit_peak")
     };
     names.filter(wanted).collect()
 }
 
 fn part(title: &str, pieces: Vec<Piece>) -> Part {
-    Part {
-        title: title.into(),
-        pieces,
-    }
+    Part { title: title.into(), pieces }
 }
 
 fn facts(names: &[String], compared: &[Compared]) -> Vec<Fact> {
@@ -115,12 +95,7 @@ fn facts(names: &[String], compared: &[Compared]) -> Vec<Fact> {
         for more in rest {
             note = format!("{note}; {more}");
         }
-        facts.push(Fact::new(
-            words(name),
-            Value::Text(format!("{value} ×")),
-            "",
-            note,
-        ));
+        facts.push(Fact::new(words(name), Value::Text(format!("{value} ×")), "", note));
     }
     facts
 }
@@ -144,10 +119,7 @@ fn warnings(sides: &[Side], runs: &[&RunResult]) -> Vec<String> {
         all.push("The runs' sample rates differ: what is above half the lower one is in one of them alone.".into());
     }
     let duration = |side: &Side| side.loaded.scenario.simulation.duration_s;
-    if sides
-        .iter()
-        .any(|side| duration(side) != duration(&sides[0]))
-    {
+    if sides.iter().any(|side| duration(side) != duration(&sides[0])) {
         all.push(
             "The runs' durations differ: the largest of a whole run (record_*) grows with it; everything else compares."
                 .into(),
@@ -161,24 +133,14 @@ fn warnings(sides: &[Side], runs: &[&RunResult]) -> Vec<String> {
     if runs.iter().any(|run| exponent(run) != exponent(runs[0])) {
         all.push("The contacts' exponents n differ: stiffnesses in N/m^n have different units and no ratio.".into());
     }
-    let band = |run: &RunResult| {
-        run.findings
-            .envelope
-            .as_ref()
-            .map(|(_, band)| (band.low, band.high))
-    };
+    let band = |run: &RunResult| run.findings.envelope.as_ref().map(|(_, band)| (band.low, band.high));
     let mut bands = runs.iter().filter_map(|run| band(run));
     if let Some(first) = bands.next()
         && bands.any(|other| other != first)
     {
-        all.push(
-            "The envelopes' bands differ: levels of their lines are of different bands.".into(),
-        );
+        all.push("The envelopes' bands differ: levels of their lines are of different bands.".into());
     }
-    let most = runs
-        .iter()
-        .map(|run| run.simulation.model().defects.len())
-        .max();
+    let most = runs.iter().map(|run| run.simulation.model().defects.len()).max();
     for defect in 0..most.unwrap_or(0) {
         let here = |run: &&RunResult| run.simulation.model().defects.get(defect).map(place);
         let mut places: Vec<String> = runs.iter().filter_map(here).collect();
@@ -213,16 +175,8 @@ fn differing(sides: &[Side]) -> Table {
             continue;
         }
         let unit = values.iter().flatten().map(|v| v.1).next().unwrap_or("");
-        let mut row = vec![if unit.is_empty() {
-            key.to_owned()
-        } else {
-            format!("{key} ({unit})")
-        }];
-        row.extend(
-            values
-                .into_iter()
-                .map(|v| v.map_or("–".into(), |v| cut(&v.0))),
-        );
+        let mut row = vec![if unit.is_empty() { key.to_owned() } else { format!("{key} ({unit})") }];
+        row.extend(values.into_iter().map(|v| v.map_or("–".into(), |v| cut(&v.0))));
         rows.push(row);
     }
     let note = if rows.is_empty() {
@@ -232,12 +186,7 @@ fn differing(sides: &[Side]) -> Table {
     };
     let mut columns = vec!["Key".to_owned()];
     columns.extend(sides.iter().map(|side| side.label.clone()));
-    Table {
-        title: "What differs".into(),
-        columns,
-        rows,
-        note: note.into(),
-    }
+    Table { title: "What differs".into(), columns, rows, note: note.into() }
 }
 
 /// A value as it is shown: numbers without the round-off of a change of unit, long texts cut.
@@ -265,12 +214,7 @@ fn unit(unit: &str) -> String {
 fn numbers(title: &str, names: &[String], rows: &[&Compared]) -> Table {
     let mut columns = vec!["Quantity".to_owned(), "Unit".to_owned()];
     columns.extend(names.iter().map(|name| format!("#{name}")));
-    columns.extend(
-        names
-            .iter()
-            .skip(1)
-            .map(|name| format!("#{name} / {}", names[0])),
-    );
+    columns.extend(names.iter().skip(1).map(|name| format!("#{name} / {}", names[0])));
     let rows = rows.iter().map(|c| {
         let mut row = vec![c.name.clone(), unit(&c.unit)];
         let told = |q: &Option<Quantity>| q.as_ref().map_or("–".into(), told);

@@ -26,39 +26,25 @@ pub(super) fn read(args: &CompareArgs, inputs: &mut Inputs) -> Result<Vec<Side>,
             "{count} to compare\n  allowed: 2 to {MOST} scenarios and variants; give a second scenario, or --variant NAME:KEY=VALUE"
         )));
     }
-    let open = |path: &Path| {
-        Source::open(&ScenarioArgs {
-            scenario: path.to_owned(),
-            set: args.set.clone(),
-        })
-    };
+    let open = |path: &Path| Source::open(&ScenarioArgs { scenario: path.to_owned(), set: args.set.clone() });
     let mut sides = Vec::new();
     let mut first = None;
     for path in &args.scenarios {
         let source = open(path)?;
-        sides.push(Side {
-            label: label(path)?,
-            loaded: source.load(&[], args.quiet)?,
-        });
+        sides.push(Side { label: label(path)?, loaded: source.load(&[], args.quiet)? });
         inputs.add_all(&source.inputs());
         first.get_or_insert(source);
     }
     for text in &args.variant {
         let (label, settings) = variant(text)?;
         if let Some(source) = &first {
-            sides.push(Side {
-                label,
-                loaded: source.load(&settings, args.quiet)?,
-            });
+            sides.push(Side { label, loaded: source.load(&settings, args.quiet)? });
             inputs.add_all(&source.inputs());
         }
     }
     for (k, side) in sides.iter().enumerate() {
         if sides[..k].iter().any(|other| other.label == side.label) {
-            return Err(Failure::Usage(format!(
-                "two runs would be called {}: rename a file or a variant",
-                side.label
-            )));
+            return Err(Failure::Usage(format!("two runs would be called {}: rename a file or a variant", side.label)));
         }
     }
     let columns: Vec<String> = columns(&sides).collect();
@@ -74,9 +60,7 @@ pub(super) fn read(args: &CompareArgs, inputs: &mut Inputs) -> Result<Vec<Side>,
 /// Names of the table's columns.
 fn columns(sides: &[Side]) -> impl Iterator<Item = String> {
     let of = |(k, side): (usize, &Side)| {
-        let endings = table::VALUE
-            .iter()
-            .chain(if k > 0 { &table::RATIO[..] } else { &[] });
+        let endings = table::VALUE.iter().chain(if k > 0 { &table::RATIO[..] } else { &[] });
         let label = side.label.clone();
         let names: Vec<String> = endings.map(|ending| format!("{label}{ending}")).collect();
         names
@@ -98,10 +82,8 @@ fn label(path: &Path) -> Result<String, Failure> {
 /// A name that can head a column.
 fn sound(name: &str) -> Result<String, Failure> {
     let name = name.trim();
-    let bad = name.is_empty()
-        || name.contains([',', '"'])
-        || name.contains(char::is_control)
-        || name.parse::<f64>().is_ok();
+    let bad =
+        name.is_empty() || name.contains([',', '"']) || name.contains(char::is_control) || name.parse::<f64>().is_ok();
     if bad {
         return Err(Failure::Usage(format!(
             "`{name}` cannot name a run\n  allowed: words without commas and quotes that are no number"
@@ -128,9 +110,7 @@ fn variant(text: &str) -> Result<(String, Vec<(String, String)>), Failure> {
     }
     for (k, (key, _)) in settings.iter().enumerate() {
         if settings[..k].iter().any(|(other, _)| other == key) {
-            return Err(Failure::Usage(format!(
-                "--variant {text}: {key} is set twice"
-            )));
+            return Err(Failure::Usage(format!("--variant {text}: {key} is set twice")));
         }
     }
     Ok((sound(name)?, settings))

@@ -1,4 +1,5 @@
-//! A comparison as a table and as JSON: every number of each run, and its ratio to the baseline's, which is the first run.
+//! A comparison as a table and as JSON: every number of each run, and its ratio to the baseline's, which is the first
+//! run.
 
 use super::sides::Side;
 use brinell::result::Quantity;
@@ -16,9 +17,7 @@ pub(super) static RATIO: [&str; 3] = [".ratio", ".ratio.low", ".ratio.high"];
 
 pub(super) fn table(sides: &[Side], compared: &[Compared]) -> Table {
     let mut table = Table::default();
-    let words = |of: fn(&Compared) -> &str| {
-        Cells::Words(compared.iter().map(|c| Some(of(c).to_owned())).collect())
-    };
+    let words = |of: fn(&Compared) -> &str| Cells::Words(compared.iter().map(|c| Some(of(c).to_owned())).collect());
     table.push(Column::new(OWN[0], "", ""), words(|c| &c.name));
     table.push(Column::new(OWN[1], "", "SI"), words(|c| &c.unit));
     let mut push = |name: String, of: &dyn Fn(&Compared) -> Option<f64>| {
@@ -51,9 +50,7 @@ pub(super) fn json(sides: &[Side], compared: &[Compared]) -> Value {
     let ratio = |r: &Ratio| with_interval(r.value, r.interval);
     let by_label = |of: &dyn Fn(usize) -> Option<Value>| -> Map<String, Value> {
         let pairs = sides.iter().enumerate();
-        pairs
-            .filter_map(|(k, side)| Some((side.label.clone(), of(k)?)))
-            .collect()
+        pairs.filter_map(|(k, side)| Some((side.label.clone(), of(k)?))).collect()
     };
     let quantities: Map<String, Value> = compared
         .iter()

@@ -58,12 +58,7 @@ pub(crate) struct DatasetArgs {
     #[arg(short, long, value_name = "FOLDER")]
     pub(crate) output: Option<PathBuf>,
     /// Only this share of the files, I from 1 to N
-    #[arg(
-        long,
-        value_name = "I/N",
-        default_value = "1/1",
-        hide_default_value = true
-    )]
+    #[arg(long, value_name = "I/N", default_value = "1/1", hide_default_value = true)]
     pub(crate) shard: Shard,
     /// Runs at a time [default: one a core]
     #[arg(short, long, value_name = "N")]
@@ -85,7 +80,8 @@ pub(crate) enum DatasetCommand {
     Merge(MergeArgs),
     /// Check a data set: every file there, its checksum, its rows, one campaign and one version in all
     Verify(VerifyArgs),
-    /// Draw a contact sheet, sheet.html in the folder: of a few runs of each class the labels, the waveform and the envelope spectrum
+    /// Draw a contact sheet, sheet.html in the folder: of a few runs of each class the labels, the waveform and the
+    /// envelope spectrum
     Sheet(SheetArgs),
 }
 

@@ -31,15 +31,7 @@ const SHOWN: usize = 10;
 impl From<DatasetError> for Failure {
     fn from(error: DatasetError) -> Self {
         match error {
-            DatasetError::Document {
-                name,
-                text,
-                problems,
-            } => Self::Scenario {
-                name,
-                text,
-                problems,
-            },
+            DatasetError::Document { name, text, problems } => Self::Scenario { name, text, problems },
             DatasetError::Refused(message) => Self::Usage(message),
             DatasetError::Read { path, error } => Self::Read(path, error),
             DatasetError::Io(error) => Self::Write(error),
@@ -53,9 +45,7 @@ pub(crate) fn dataset(args: &DatasetArgs) -> Result<ExitCode, Failure> {
         (Some(DatasetCommand::Verify(args)), _) => check(args),
         (Some(DatasetCommand::Sheet(args)), _) => sheet::draw(args),
         (None, Some(plan)) => make(args, plan),
-        (None, None) => Err(Failure::Usage(
-            "give a plan, for instance `brinell dataset plan.toml`".into(),
-        )),
+        (None, None) => Err(Failure::Usage("give a plan, for instance `brinell dataset plan.toml`".into())),
     }
 }
 
@@ -63,10 +53,7 @@ fn make(args: &DatasetArgs, path: &Path) -> Result<ExitCode, Failure> {
     let begin = Instant::now();
     let campaign = Campaign::open(path)?;
     let name = safe_name(&campaign.plan().name);
-    let folder = args
-        .output
-        .clone()
-        .unwrap_or_else(|| Path::new("out").join(name));
+    let folder = args.output.clone().unwrap_or_else(|| Path::new("out").join(name));
     let mut inputs = Inputs::default();
     for (path, _) in [campaign.plan_file(), campaign.base_file()] {
         inputs.add(path);
@@ -89,9 +76,7 @@ fn make(args: &DatasetArgs, path: &Path) -> Result<ExitCode, Failure> {
         return Ok(ExitCode::SUCCESS);
     }
     let stop = stop_flag()?;
-    let duration = campaign
-        .scenario(0)
-        .map_or(1.0, |(l, _)| l.scenario.simulation.duration_s);
+    let duration = campaign.scenario(0).map_or(1.0, |(l, _)| l.scenario.simulation.duration_s);
     let terminal = Terminal {
         stop: &stop,
         duration,
@@ -99,13 +84,9 @@ fn make(args: &DatasetArgs, path: &Path) -> Result<ExitCode, Failure> {
         failures: Mutex::new(Vec::new()),
     };
     let went = run(&campaign, &folder, args.shard, threads, &terminal);
-    let Terminal {
-        joint, failures, ..
-    } = terminal;
+    let Terminal { joint, failures, .. } = terminal;
     drop(joint);
-    let failures = failures
-        .into_inner()
-        .unwrap_or_else(PoisonError::into_inner);
+    let failures = failures.into_inner().unwrap_or_else(PoisonError::into_inner);
     tell_failures(&failures);
     let went = went?;
     let left = went.runs - went.done - went.before;
@@ -127,10 +108,7 @@ fn tell_failures(failures: &[(usize, String)]) {
         complain!("run {run} failed: {}", reason.lines().next().unwrap_or(""));
     }
     if failures.len() > SHOWN {
-        complain!(
-            "and {} more: see the column `reason`",
-            failures.len() - SHOWN
-        );
+        complain!("and {} more: see the column `reason`", failures.len() - SHOWN);
     }
 }
 
@@ -140,10 +118,7 @@ fn print(json: &Value) {
 
 /// What [`tell`] and [`tell_failures`] say, as JSON.
 fn summary(went: &ShardSummary, left: usize, folder: &Path, failures: &[(usize, String)]) -> Value {
-    let failures: Vec<Value> = failures
-        .iter()
-        .map(|(run, reason)| json!({ "run": run, "reason": reason }))
-        .collect();
+    let failures: Vec<Value> = failures.iter().map(|(run, reason)| json!({ "run": run, "reason": reason })).collect();
     json!({
         "folder": folder.display().to_string(),
         "complete": went.whole,
@@ -169,19 +144,13 @@ fn tell(went: &ShardSummary, left: usize, folder: &Path, seconds: f64) {
     if went.whole {
         say!("  complete: {}", folder.join("dataset.json").display());
     } else if left == 0 {
-        say!(
-            "  other shards are to come; `brinell dataset merge` joins folders, where they ran apart"
-        );
+        say!("  other shards are to come; `brinell dataset merge` joins folders, where they ran apart");
     }
 }
 
 /// That no other command's results lie in the data set's folder.
 fn alone(folder: &Path, inputs: &Inputs) -> Result<(), Failure> {
-    let place = Place {
-        kind: Results::DataSet,
-        folder,
-        inputs,
-    };
+    let place = Place { kind: Results::DataSet, folder, inputs };
     place.alone()
 }
 
@@ -194,12 +163,7 @@ fn join(args: &MergeArgs) -> Result<ExitCode, Failure> {
             "files": { "brought": merged.brought, "before": merged.before, "missing": merged.missing },
         }));
     } else if !args.quiet {
-        say!(
-            "{}: {} brought, {} there before",
-            args.output.display(),
-            plural(merged.brought, "file"),
-            merged.before
-        );
+        say!("{}: {} brought, {} there before", args.output.display(), plural(merged.brought, "file"), merged.before);
     }
     let Some(lack) = merged.lack() else {
         return Ok(ExitCode::SUCCESS);
@@ -234,9 +198,7 @@ fn check(args: &VerifyArgs) -> Result<ExitCode, Failure> {
         complain!("{problem}");
     }
     if !found.problems.is_empty() {
-        complain!(
-            "remove what is damaged: the plan's own command makes again what is missing, with the same bytes"
-        );
+        complain!("remove what is damaged: the plan's own command makes again what is missing, with the same bytes");
     }
     Ok(match found.problems.is_empty() {
         true => ExitCode::SUCCESS,

@@ -16,13 +16,7 @@ const COMPRESSED: f64 = 0.9;
 const BESIDES: f64 = 12e3;
 
 /// The plan, to standard output; warnings to standard error.
-pub(super) fn tell(
-    campaign: &Campaign,
-    survey: &Survey,
-    runs: usize,
-    threads: NonZeroUsize,
-    args: &DatasetArgs,
-) {
+pub(super) fn tell(campaign: &Campaign, survey: &Survey, runs: usize, threads: NonZeroUsize, args: &DatasetArgs) {
     let (plan, draws) = (campaign.plan(), campaign.draws());
     for warning in campaign.warnings(survey) {
         complain!("{warning}");
@@ -39,27 +33,14 @@ pub(super) fn tell(
         plan.seed
     );
     for (label, class) in plan.classes.iter().enumerate() {
-        say!(
-            "  {label} {}: {}",
-            class.name,
-            plural(draws.runs_of(label), "run")
-        );
+        say!("  {label} {}: {}", class.name, plural(draws.runs_of(label), "run"));
     }
     let names: Vec<&str> = draws.parameters().iter().map(|p| p.key.as_str()).collect();
-    say!(
-        "  varies: {}",
-        if names.is_empty() {
-            "nothing".into()
-        } else {
-            names.join(", ")
-        }
-    );
+    say!("  varies: {}", if names.is_empty() { "nothing".into() } else { names.join(", ") });
     let signals: Vec<&str> = campaign.signals().iter().map(|s| s.name.as_str()).collect();
     say!("  signals: {}", signals.join(", "));
     if plan.holds_out() {
-        let apart = (0..draws.runs())
-            .filter(|run| draws.is_held_out(*run))
-            .count();
+        let apart = (0..draws.runs()).filter(|run| draws.is_held_out(*run)).count();
         say!("  labels of {} in held_out/", plural(apart, "run"));
     }
     if survey.unfit > 0 {
@@ -95,17 +76,11 @@ fn fate(out_of_range: OutOfRange) -> &'static str {
 }
 
 /// The same as JSON.
-pub(super) fn json(
-    campaign: &Campaign,
-    survey: &Survey,
-    runs: usize,
-    threads: NonZeroUsize,
-) -> Value {
+pub(super) fn json(campaign: &Campaign, survey: &Survey, runs: usize, threads: NonZeroUsize) -> Value {
     let (plan, draws) = (campaign.plan(), campaign.draws());
     let classes = plan.classes.iter().enumerate();
-    let classes: Vec<Value> = classes
-        .map(|(label, c)| json!({ "label": label, "name": c.name, "runs": draws.runs_of(label) }))
-        .collect();
+    let classes: Vec<Value> =
+        classes.map(|(label, c)| json!({ "label": label, "name": c.name, "runs": draws.runs_of(label) })).collect();
     let names = draws.parameters().iter().map(|p| p.key.as_str());
     let held_out = (0..draws.runs()).filter(|run| draws.is_held_out(*run));
     let warnings = campaign.warnings(survey);
@@ -147,8 +122,7 @@ impl Costs {
         let simulated_s = survey.simulated / good * runs as f64;
         let values = survey.samples / good * all * campaign.signals().len() as f64;
         Self {
-            bytes: 4.0 * COMPRESSED * values
-                + BESIDES * all * (1.0 - survey.hopeless as f64 / looked),
+            bytes: 4.0 * COMPRESSED * values + BESIDES * all * (1.0 - survey.hopeless as f64 / looked),
             simulated_s,
             at_a_time: threads.get().min(runs.max(1)),
             wall_s: cost(campaign, simulated_s, runs, threads),
@@ -157,12 +131,7 @@ impl Costs {
 }
 
 fn tell_misses(survey: &Survey) {
-    for Misses {
-        problem,
-        run,
-        count,
-    } in &survey.errors
-    {
+    for Misses { problem, run, count } in &survey.errors {
         complain!(
             "  {count} of {}, such as run {run}: {}",
             plural(survey.runs, "run"),

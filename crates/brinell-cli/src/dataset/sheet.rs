@@ -5,9 +5,7 @@ use crate::failure::Failure;
 use crate::say::say;
 use crate::sweep::plural;
 use brinell_io::atomic_write;
-use brinell_report::{
-    Series, SheetDamage, SheetGroup, SheetReport, SheetTile, Spectrum, sheet_html,
-};
+use brinell_report::{Series, SheetDamage, SheetGroup, SheetReport, SheetTile, Spectrum, sheet_html};
 use brinell_study::dataset::{Sheet, SheetClass, SheetDefect, SheetRun, sheet};
 use std::process::ExitCode;
 
@@ -53,18 +51,9 @@ fn tile(run: SheetRun) -> SheetTile {
         load_n: run.load_n,
         damage: run.defects.into_iter().map(damage).collect(),
         rms: run.rms,
-        stretch: Series {
-            t0_s: run.from_s,
-            dt_s: run.dt_s,
-            values: run.stretch,
-            ..Series::default()
-        },
+        stretch: Series { t0_s: run.from_s, dt_s: run.dt_s, values: run.stretch, ..Series::default() },
         band_hz: run.band_hz,
-        envelope: Spectrum {
-            df_hz: run.df_hz,
-            amplitude: run.envelope,
-            ..Spectrum::default()
-        },
+        envelope: Spectrum { df_hz: run.df_hz, amplitude: run.envelope, ..Spectrum::default() },
         top_hz: run.top_hz,
     }
 }

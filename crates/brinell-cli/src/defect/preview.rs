@@ -26,15 +26,8 @@ pub(super) fn preview(args: &PreviewArgs) -> Result<(), Failure> {
     for (index, damage) in &mut all {
         damage.view.photo = photos.get_mut(*index).and_then(Option::take);
     }
-    let folder = args
-        .output
-        .clone()
-        .unwrap_or_else(|| Path::new("out").join(safe_name(&s.name)).join("damage"));
-    let place = Place {
-        kind: Results::Preview,
-        folder: &folder,
-        inputs: &source.inputs(),
-    };
+    let folder = args.output.clone().unwrap_or_else(|| Path::new("out").join(safe_name(&s.name)).join("damage"));
+    let place = Place { kind: Results::Preview, folder: &folder, inputs: &source.inputs() };
     // Any scenario's preview gives way to the next: it takes a moment to make.
     let earlier = place.earlier(args.overwrite, &[PREVIEW.into()], |_| true)?;
     make_folder(&folder)?;
@@ -69,20 +62,11 @@ pub(super) fn preview(args: &PreviewArgs) -> Result<(), Failure> {
 
 /// The defects requested, each with its index, in a ring that is thick enough for them.
 fn damages(s: &Scenario, args: &PreviewArgs) -> Result<Vec<(usize, Damage)>, Failure> {
-    if let Some(x) = args
-        .ring_thickness_mm
-        .filter(|x| !(x.is_finite() && *x > 0.0))
-    {
-        return Err(Failure::Usage(format!(
-            "--ring-thickness-mm {x}: expected a thickness above 0, in mm"
-        )));
+    if let Some(x) = args.ring_thickness_mm.filter(|x| !(x.is_finite() && *x > 0.0)) {
+        return Err(Failure::Usage(format!("--ring-thickness-mm {x}: expected a thickness above 0, in mm")));
     }
-    let all = damage_of(s, args.ring_thickness_mm)?
-        .into_iter()
-        .enumerate();
-    let previewed: Vec<_> = all
-        .filter(|(index, _)| args.defect.is_none_or(|n| n == index + 1))
-        .collect();
+    let all = damage_of(s, args.ring_thickness_mm)?.into_iter().enumerate();
+    let previewed: Vec<_> = all.filter(|(index, _)| args.defect.is_none_or(|n| n == index + 1)).collect();
     for (index, damage) in &previewed {
         let deepest_mm = 1e-3 * damage.measures.deepest_um;
         if let Some(x) = args.ring_thickness_mm.filter(|x| *x <= deepest_mm) {
@@ -98,9 +82,7 @@ fn damages(s: &Scenario, args: &PreviewArgs) -> Result<Vec<(usize, Damage)>, Fai
 
 fn pictures(index: usize, damage: &Damage, layout: Layout) -> Vec<Picture> {
     let view = &damage.view;
-    let mut pictures: Vec<Picture> = brinell_report::damage_photo(view, index, layout)
-        .into_iter()
-        .collect();
+    let mut pictures: Vec<Picture> = brinell_report::damage_photo(view, index, layout).into_iter().collect();
     pictures.push(brinell_report::damage_plan(view, index, layout));
     pictures.push(brinell_report::damage_passage(view, index, layout));
     if !view.section.is_empty() {
@@ -114,12 +96,7 @@ fn pictures(index: usize, damage: &Damage, layout: Layout) -> Vec<Picture> {
 }
 
 /// The curves of each picture as CSV.
-fn tables(
-    index: usize,
-    damage: &Damage,
-    folder: &Path,
-    ready: &mut Vec<Complete>,
-) -> Result<(), Failure> {
+fn tables(index: usize, damage: &Damage, folder: &Path, ready: &mut Vec<Complete>) -> Result<(), Failure> {
     let view = &damage.view;
     let along = view.along.clone().unwrap_or_default();
     for (name, axis, xs, panels) in [
@@ -143,11 +120,7 @@ fn tell(damage: &Damage) {
             continue;
         };
         let unit = fact.unit.replace('µ', "u").replace('°', "deg");
-        say!(
-            "  {:<24} {value:>9} {unit:<5} {}",
-            fact.label,
-            fact.note.replace('µ', "u")
-        );
+        say!("  {:<24} {value:>9} {unit:<5} {}", fact.label, fact.note.replace('µ', "u"));
     }
     for note in view.photo.iter().flat_map(|photo| &photo.notes) {
         say!("  Photo: {note}");
@@ -178,11 +151,7 @@ fn slug(words: &[&str]) -> String {
 fn columns(panels: &[DamagePanel]) -> Vec<(String, &[f64])> {
     panels
         .iter()
-        .flat_map(|p| {
-            p.curves
-                .iter()
-                .map(|c| (slug(&[&p.label, &c.name, &p.unit]), c.values.as_slice()))
-        })
+        .flat_map(|p| p.curves.iter().map(|c| (slug(&[&p.label, &c.name, &p.unit]), c.values.as_slice())))
         .collect()
 }
 

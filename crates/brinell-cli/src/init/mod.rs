@@ -131,17 +131,15 @@ pub(crate) fn init(args: &InitArgs) -> Result<ExitCode, Failure> {
     Ok(ExitCode::SUCCESS)
 }
 
-/// Writes the files, all of them or none: one that is there with other content is spared unless `force`. The schema, which nobody edits, is made anew.
+/// Writes the files, all of them or none: one that is there with other content is spared unless `force`. The schema,
+/// which nobody edits, is made anew.
 fn write(files: &[(PathBuf, Vec<u8>)], force: bool) -> Result<(), Failure> {
     for (path, bytes) in files {
         let schema = path.ends_with(SCHEMA) && is_schema(path);
         let same = || std::fs::read(path).is_ok_and(|there| there == *bytes);
         let scenario = path == &files[files.len() - 1].0;
         if path.exists() && !force && !schema && (scenario || !same()) {
-            return Err(Failure::Usage(format!(
-                "{} exists; --force overwrites it",
-                path.display()
-            )));
+            return Err(Failure::Usage(format!("{} exists; --force overwrites it", path.display())));
         }
     }
     for (path, bytes) in files {
@@ -160,9 +158,7 @@ fn is_schema(path: &Path) -> bool {
 /// The template with every key in it.
 fn full(template: Template, text: &str) -> Result<String, Failure> {
     if template == Template::DataSet {
-        return Err(Failure::Usage(
-            "--full is about scenarios; --template data-set writes a plan".into(),
-        ));
+        return Err(Failure::Usage("--full is about scenarios; --template data-set writes a plan".into()));
     }
     let head = text.lines().next().unwrap_or_default();
     let explained = brinell::document::explained(text).map_err(|problems| Failure::Scenario {
@@ -305,14 +301,8 @@ fn filled(text: &str, names: &Names, of: &Fitted) -> String {
         ("{width}", number(of.spall[1])),
         ("{small}", number(tenth(0.25 * of.spall[0]).max(0.1))),
         ("{pit}", number(of.pit)),
-        (
-            "{scale}",
-            number((1000.0 * 0.02 * of.scale).round() / 1000.0),
-        ),
-        (
-            "{step}",
-            number((1000.0 * 0.06 * of.scale).round() / 1000.0),
-        ),
+        ("{scale}", number((1000.0 * 0.02 * of.scale).round() / 1000.0)),
+        ("{step}", number((1000.0 * 0.06 * of.scale).round() / 1000.0)),
     ];
     let mut text = text.to_owned();
     for (place, value) in places {

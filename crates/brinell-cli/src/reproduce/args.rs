@@ -29,7 +29,8 @@ pub(crate) struct ReproduceArgs {
     /// Shorter runs, wider intervals
     #[arg(long)]
     pub(crate) quick: bool,
-    /// Also vary what the paper does not state, one assumption at a time, and search over 1000 sets of assumptions for those that agree best
+    /// Also vary what the paper does not state, one assumption at a time, and search over 1000 sets of assumptions for
+    /// those that agree best
     #[arg(long, conflicts_with = "figure")]
     pub(crate) sensitivity: bool,
     /// Also make every case with this model, and in slices, and show the verdicts side by side
@@ -49,7 +50,8 @@ pub(crate) struct ReproduceArgs {
     pub(crate) plots: Vec<PlotFormat>,
     #[command(flatten)]
     pub(crate) print: Print,
-    /// Also write reproduction.md and its pictures (SVG) into this folder; the file is meant to be included from the folder above
+    /// Also write reproduction.md and its pictures (SVG) into this folder; the file is meant to be included from the
+    /// folder above
     #[arg(long, value_name = "FOLDER")]
     pub(crate) book: Option<PathBuf>,
     /// Print the numbers of claims.json as JSON, and no words
@@ -68,17 +70,7 @@ pub(crate) enum OtherModel {
 }
 
 fn figure(text: &str) -> Result<u32, String> {
-    let allowed = || {
-        format!(
-            "allowed: {} to {}, the figures of section 4",
-            FIGURES.start(),
-            FIGURES.end()
-        )
-    };
+    let allowed = || format!("allowed: {} to {}, the figures of section 4", FIGURES.start(), FIGURES.end());
     let number: u32 = text.parse().map_err(|_| allowed())?;
-    if FIGURES.contains(&number) {
-        Ok(number)
-    } else {
-        Err(allowed())
-    }
+    if FIGURES.contains(&number) { Ok(number) } else { Err(allowed()) }
 }

@@ -16,8 +16,7 @@ use brinell::result::{Quantity, RunResult};
 use brinell::scenario::Scenario;
 use brinell::simulate::Simulation;
 use brinell_li2023::{
-    BASE, CaseObserver, CurveFiles, Error, Length, Point, Reproduction, Request, Runs, Stage,
-    scenario, write_page,
+    BASE, CaseObserver, CurveFiles, Error, Length, Point, Reproduction, Request, Runs, Stage, scenario, write_page,
 };
 use brinell_study::campaign::Row;
 use brinell_study::runner::{Beside, Ledger, Task, Work};
@@ -34,11 +33,7 @@ const INCOMPLETE: u8 = 1;
 
 pub(crate) fn reproduce(args: &ReproduceArgs) -> Result<ExitCode, Failure> {
     let begin = Instant::now();
-    let usual = if args.quick {
-        Length::QUICK
-    } else {
-        Length::FULL
-    };
+    let usual = if args.quick { Length::QUICK } else { Length::FULL };
     let mut request = Request::new(&args.figure, args.turns.map_or(usual, Length::Turns))?;
     if args.sensitivity {
         request = request.with_sensitivity(args.quick)?;
@@ -46,30 +41,17 @@ pub(crate) fn reproduce(args: &ReproduceArgs) -> Result<ExitCode, Failure> {
     if args.model == Some(OtherModel::Tilting) {
         request = request.with_tilting()?;
     }
-    let place = Place {
-        kind: Results::Reproduction,
-        folder: &args.output,
-        inputs: &Inputs::default(),
-    };
+    let place = Place { kind: Results::Reproduction, folder: &args.output, inputs: &Inputs::default() };
     place.alone()?;
     make_folder(&args.output)?;
     let header = json!({ "campaign": "reproduce" });
     let words = |_: &Value| {
-        format!(
-            "{} holds the journal of something else\n  choose another folder with --output",
-            args.output.display()
-        )
+        format!("{} holds the journal of something else\n  choose another folder with --output", args.output.display())
     };
     let curves = CurveFiles::new(&args.output, &request);
     let ledger = campaign::ledger(&args.output, &header, false, words)?;
     let stop = stop_flag()?;
-    let mut runner = Runner {
-        args,
-        ledger,
-        curves: &curves,
-        stop: &stop,
-        done: 0,
-    };
+    let mut runner = Runner { args, ledger, curves: &curves, stop: &stop, done: 0 };
     let reproduction = Reproduction::run(request, &mut runner)?;
     let written = write(args, &reproduction, &curves)?;
     if args.json {
@@ -84,27 +66,21 @@ pub(crate) fn reproduce(args: &ReproduceArgs) -> Result<ExitCode, Failure> {
         complain!("{case}: {reason}");
     }
     if reproduction.interrupted {
-        complain!(
-            "interrupted: what is finished is kept; the same command resumes where this one stopped"
-        );
+        complain!("interrupted: what is finished is kept; the same command resumes where this one stopped");
     }
-    Ok(
-        if reproduction.interrupted || !reproduction.failures.is_empty() {
-            ExitCode::from(INCOMPLETE)
-        } else {
-            ExitCode::SUCCESS
-        },
-    )
+    Ok(if reproduction.interrupted || !reproduction.failures.is_empty() {
+        ExitCode::from(INCOMPLETE)
+    } else {
+        ExitCode::SUCCESS
+    })
 }
 
 impl From<Error> for Failure {
     fn from(error: Error) -> Self {
         match error {
-            Error::Scenario(problems) => Self::Scenario {
-                name: "the paper's scenario".into(),
-                text: BASE.into(),
-                problems,
-            },
+            Error::Scenario(problems) => {
+                Self::Scenario { name: "the paper's scenario".into(), text: BASE.into(), problems }
+            }
             Error::Folder { .. } => Self::Usage(error.to_string()),
             Error::Io(error) => Self::Write(error),
         }
@@ -128,8 +104,7 @@ impl Runner<'_> {
             let print = &point.fingerprint;
             let known = open_tasks.iter().any(|t| t.fingerprint == *print);
             let row = self.ledger.kept.row(print);
-            let is_done =
-                row.is_some_and(|row| row.result.is_err() || self.curves.is_complete(print));
+            let is_done = row.is_some_and(|row| row.result.is_err() || self.curves.is_complete(print));
             if !known && !is_done {
                 open_tasks.push(Task {
                     settings: point.settings.clone(),
@@ -172,14 +147,7 @@ impl Runs for Runner<'_> {
         }
         let work = CaseWork(self.curves);
         let quiet = self.args.quiet;
-        let went = campaign::run(
-            &open_tasks,
-            &work,
-            &mut self.ledger,
-            threads,
-            quiet,
-            self.stop,
-        )?;
+        let went = campaign::run(&open_tasks, &work, &mut self.ledger, threads, quiet, self.stop)?;
         let rows = |task: &&Task| self.ledger.kept.row(&task.fingerprint).is_some();
         self.done += open_tasks.iter().filter(rows).count();
         Ok(went)
@@ -213,11 +181,7 @@ impl Beside<Failure> for CaseObserver {
     }
 }
 
-fn write(
-    args: &ReproduceArgs,
-    reproduction: &Reproduction,
-    curves: &CurveFiles,
-) -> Result<Vec<PathBuf>, Failure> {
+fn write(args: &ReproduceArgs, reproduction: &Reproduction, curves: &CurveFiles) -> Result<Vec<PathBuf>, Failure> {
     let folder = &args.output;
     let mut written = reproduction.write_claims(folder)?;
     let study = reproduction.study(curves, |scenario| {
@@ -237,30 +201,19 @@ fn write(
 }
 
 fn tell(reproduction: &Reproduction, written: &[PathBuf], done: usize, begin: Instant) {
-    say!(
-        "{} in {:.1} s",
-        plural(done, "run"),
-        begin.elapsed().as_secs_f64()
-    );
+    say!("{} in {:.1} s", plural(done, "run"), begin.elapsed().as_secs_f64());
     for outcome in &reproduction.outcomes {
         let claim = outcome.claim;
-        say!(
-            "  {:<15} {} ({}; {})",
-            outcome.words(),
-            claim.sentence,
-            claim.place,
-            claim.id
-        );
+        say!("  {:<15} {} ({}; {})", outcome.words(), claim.sentence, claim.place, claim.id);
     }
     let found = [reproduction.search_result(), reproduction.tilting_result()];
     for found in found.into_iter().flatten() {
         say!("{found}");
     }
     // One line for all pictures of a folder.
-    let (pictures, files): (Vec<_>, Vec<_>) = written.iter().partition(|p| {
-        p.extension()
-            .is_some_and(|e| ["svg", "png", "pdf"].iter().any(|known| e == *known))
-    });
+    let (pictures, files): (Vec<_>, Vec<_>) = written
+        .iter()
+        .partition(|p| p.extension().is_some_and(|e| ["svg", "png", "pdf"].iter().any(|known| e == *known)));
     for path in files {
         say!("  wrote {}", path.display());
     }

@@ -8,8 +8,8 @@ use brinell::simulate::{End, Observer, SolverWork};
 use std::ops::ControlFlow;
 use std::sync::atomic::AtomicBool;
 
-/// Runs `damaged`, and the healthy bearing on another thread, where there is damage and somewhere to show it. It is dropped where either
-/// did not come to its end.
+/// Runs `damaged`, and the healthy bearing on another thread, where there is damage and somewhere to show it. It is
+/// dropped where either did not come to its end.
 pub(super) fn beside(
     args: &RunArgs,
     scenario: &Scenario,

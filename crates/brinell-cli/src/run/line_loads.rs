@@ -14,19 +14,13 @@ use std::path::Path;
 pub(super) const FILE: &str = "line_loads.csv";
 
 /// What the instants requested are read with; `None` where none are.
-pub(super) fn asked(
-    args: &RunArgs,
-    simulation: &Simulation,
-    end: f64,
-) -> Result<Option<LineLoads>, Failure> {
+pub(super) fn asked(args: &RunArgs, simulation: &Simulation, end: f64) -> Result<Option<LineLoads>, Failure> {
     let instants = &args.line_loads;
     if instants.is_empty() {
         return Ok(None);
     }
     if let Some(t) = instants.iter().find(|t| !(0.0..=end).contains(*t)) {
-        return Err(Failure::Usage(format!(
-            "--line-loads {t}: the run goes from 0 to {end} s"
-        )));
+        return Err(Failure::Usage(format!("--line-loads {t}: the run goes from 0 to {end} s")));
     }
     match LineLoads::new(simulation.model(), instants, simulation.sample_rate()) {
         None => Err(Failure::Usage(
@@ -68,9 +62,7 @@ impl<O: Observer> Observer for Reading<'_, O> {
 /// The table as a file of `folder`, up to its name.
 pub(super) fn ready(loads: &LineLoads, folder: &Path) -> Result<Complete, Failure> {
     let rows = &loads.rows;
-    let numbers = |of: &dyn Fn(&LineLoadRow) -> f64| {
-        Cells::Numbers(rows.iter().map(|row| Some(of(row))).collect())
-    };
+    let numbers = |of: &dyn Fn(&LineLoadRow) -> f64| Cells::Numbers(rows.iter().map(|row| Some(of(row))).collect());
     let side = |row: &LineLoadRow| match row.side {
         Side::Inner => Some("inner".to_owned()),
         Side::Outer => Some("outer".to_owned()),
@@ -87,11 +79,6 @@ pub(super) fn ready(loads: &LineLoads, folder: &Path) -> Result<Complete, Failur
     let z = numbers(&|row| row.z);
     push("z", "m", "middle of the slice along the roller", z);
     let load = numbers(&|row| row.line_load);
-    push(
-        "line_load",
-        "N/m",
-        "load along the roller, with its damping",
-        load,
-    );
+    push("line_load", "N/m", "load along the roller, with its damping", load);
     Ok(table.prepare_csv(folder.join(FILE))?)
 }

@@ -18,7 +18,8 @@ use std::process::ExitCode;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Instant;
 
-/// What one run will be. The model is made anew by the thread that runs it, so that memory goes with the runs in progress.
+/// What one run will be. The model is made anew by the thread that runs it, so that memory goes with the runs in
+/// progress.
 struct Task {
     path: PathBuf,
     loaded: Loaded,
@@ -41,9 +42,7 @@ pub(super) fn run(args: &RunArgs) -> Result<ExitCode, Failure> {
     }
     let stop = stop_flag()?;
     let threads = args.jobs.unwrap_or(brinell::many::threads(tasks.len()));
-    let durations = tasks
-        .iter()
-        .map(|t| t.loaded.scenario.simulation.duration_s);
+    let durations = tasks.iter().map(|t| t.loaded.scenario.simulation.duration_s);
     let total = durations.sum();
     let mut joint = Joint::new(tasks.len(), total, args.quiet);
     let bar = joint.bar();
@@ -109,24 +108,14 @@ pub(super) fn run(args: &RunArgs) -> Result<ExitCode, Failure> {
     })
 }
 
-fn one(
-    args: &RunArgs,
-    task: &Task,
-    progress: crate::progress::Progress,
-    stop: &AtomicBool,
-) -> Result<Done, Failure> {
+fn one(args: &RunArgs, task: &Task, progress: crate::progress::Progress, stop: &AtomicBool) -> Result<Done, Failure> {
     let simulation = Simulation::new(&task.loaded.scenario).map_err(Failure::Run)?;
     let replaced = (&task.loaded, &*task.folder, &task.earlier);
-    execute(
-        args,
-        replaced,
-        (simulation, &task.beforehand, &task.photos),
-        progress,
-        stop,
-    )
+    execute(args, replaced, (simulation, &task.beforehand, &task.photos), progress, stop)
 }
 
-/// The name of a scenario's file without ending, as a folder's: where it is none (`...toml` would leave `..`), made one.
+/// The name of a scenario's file without ending, as a folder's: where it is none (`...toml` would leave `..`), made
+/// one.
 fn stem(path: &Path) -> OsString {
     if files::is_stdin(path) {
         return "stdin".into();
@@ -165,12 +154,7 @@ fn checked(args: &RunArgs, folders: Vec<PathBuf>) -> Option<Vec<Task>> {
     // No run may write over what any of them reads.
     let mut inputs = Inputs::default();
     let mut read = |path: &PathBuf| {
-        let Ready {
-            loaded,
-            simulation,
-            beforehand,
-            photos,
-        } = ready(args, path, &mut inputs)?;
+        let Ready { loaded, simulation, beforehand, photos } = ready(args, path, &mut inputs)?;
         if !args.quiet && !simulation.idle_patterns().is_empty() {
             complain!("{}:", path.display());
             files::warn_idle(simulation.idle_patterns());
@@ -185,14 +169,9 @@ fn checked(args: &RunArgs, folders: Vec<PathBuf>) -> Option<Vec<Task>> {
             Ok((loaded, earlier, beforehand, photos))
         });
         match found {
-            Ok((loaded, earlier, beforehand, photos)) => tasks.push(Task {
-                path: path.clone(),
-                loaded,
-                folder,
-                earlier,
-                beforehand,
-                photos,
-            }),
+            Ok((loaded, earlier, beforehand, photos)) => {
+                tasks.push(Task { path: path.clone(), loaded, folder, earlier, beforehand, photos })
+            }
             Err(failure) => failure.print_of(&path.display().to_string()),
         }
     }

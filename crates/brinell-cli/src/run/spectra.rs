@@ -10,10 +10,7 @@ pub(super) const FILE: &str = "spectra.parquet";
 /// A row a line of a spectrum, one spectrum after the other; `None` of a run too short for any.
 pub(super) fn ready(findings: &Findings, folder: &Path) -> Result<Option<Complete>, Failure> {
     let envelope = findings.envelope.as_ref().map(|(e, _)| &e.spectrum);
-    let all = [
-        ("amplitude", findings.spectrum.as_ref()),
-        ("envelope", envelope),
-    ];
+    let all = [("amplitude", findings.spectrum.as_ref()), ("envelope", envelope)];
     let (mut names, mut frequencies, mut amplitudes) = (vec![], vec![], vec![]);
     for (name, spectrum) in all {
         let Some(spectrum) = spectrum else { continue };
@@ -32,12 +29,7 @@ pub(super) fn ready(findings: &Findings, folder: &Path) -> Result<Option<Complet
     };
     let about = "amplitude: of the sensor acceleration; envelope: of its envelope";
     column("spectrum", "", about, Cells::Words(names));
-    column(
-        "frequency_hz",
-        "Hz",
-        "frequency",
-        Cells::Numbers(frequencies),
-    );
+    column("frequency_hz", "Hz", "frequency", Cells::Numbers(frequencies));
     let about = "peak amplitude of the line; at 0 Hz the mean";
     column("amplitude", "m/s^2", about, Cells::Numbers(amplitudes));
     let metadata = Metadata::default().with(keys::VERSION, brinell::VERSION);

@@ -30,15 +30,10 @@ impl Door {
         format!("http://127.0.0.1:{}/?token={}", self.port, self.token)
     }
 
-    /// The host must be this machine by name or number, so that no page can reach it by a name of its own (DNS rebinding); where a
-    /// browser says which page asks, it must be this one; and the engine answers those alone who have the token.
-    pub(super) fn asked<'a>(
-        &self,
-        method: &str,
-        url: &'a str,
-        host: Option<&str>,
-        origin: Option<&str>,
-    ) -> Asked<'a> {
+    /// The host must be this machine by name or number, so that no page can reach it by a name of its own (DNS
+    /// rebinding); where a browser says which page asks, it must be this one; and the engine answers those alone who
+    /// have the token.
+    pub(super) fn asked<'a>(&self, method: &str, url: &'a str, host: Option<&str>, origin: Option<&str>) -> Asked<'a> {
         let own = ["127.0.0.1", "localhost"].map(|name| format!("{name}:{}", self.port));
         if !host.is_some_and(|host| own.iter().any(|own| own == host)) {
             return Asked::Refused(FORBIDDEN, "this server answers to 127.0.0.1 alone");
@@ -55,10 +50,7 @@ impl Door {
             ("GET", path) => Asked::Page(path.trim_start_matches('/')),
             ("POST", "/ask") if token.is_some_and(|t| same(t, &self.token)) => Asked::Engine,
             ("POST", "/ask") => Asked::Refused(FORBIDDEN, "the address lacks its token"),
-            _ => Asked::Refused(
-                "405 Method Not Allowed",
-                "only GET of the page and POST of /ask",
-            ),
+            _ => Asked::Refused("405 Method Not Allowed", "only GET of the page and POST of /ask"),
         }
     }
 }
@@ -80,10 +72,7 @@ mod tests {
         let ask = |url, host, origin| door.asked("POST", url, host, origin);
         let good = "/ask?token=5ec3e7";
         assert_eq!(ask(good, here, None), Asked::Engine);
-        assert_eq!(
-            ask(good, Some("localhost:4000"), Some("http://localhost:4000")),
-            Asked::Engine
-        );
+        assert_eq!(ask(good, Some("localhost:4000"), Some("http://localhost:4000")), Asked::Engine);
         for (url, host, origin) in [
             ("/ask", here, None),
             ("/ask?token=", here, None),
@@ -98,22 +87,10 @@ mod tests {
             (good, here, Some("https://127.0.0.1:4000")),
             (good, here, Some("null")),
         ] {
-            assert!(
-                matches!(ask(url, host, origin), Asked::Refused(FORBIDDEN, _)),
-                "{url}"
-            );
+            assert!(matches!(ask(url, host, origin), Asked::Refused(FORBIDDEN, _)), "{url}");
         }
-        assert_eq!(
-            door.asked("GET", "/?token=x", here, None),
-            Asked::Page("index.html")
-        );
-        assert_eq!(
-            door.asked("GET", "/src/main.js", here, None),
-            Asked::Page("src/main.js")
-        );
-        assert!(matches!(
-            door.asked("PUT", good, here, None),
-            Asked::Refused("405 Method Not Allowed", _)
-        ));
+        assert_eq!(door.asked("GET", "/?token=x", here, None), Asked::Page("index.html"));
+        assert_eq!(door.asked("GET", "/src/main.js", here, None), Asked::Page("src/main.js"));
+        assert!(matches!(door.asked("PUT", good, here, None), Asked::Refused("405 Method Not Allowed", _)));
     }
 }

@@ -42,10 +42,7 @@ impl Request {
             if let Ok(httparse::Status::Complete(end)) = parsed {
                 // Of several of a name all, which are then nobody's.
                 let field = |name: &str| {
-                    let named = head
-                        .headers
-                        .iter()
-                        .filter(|h| h.name.eq_ignore_ascii_case(name));
+                    let named = head.headers.iter().filter(|h| h.name.eq_ignore_ascii_case(name));
                     let values: Vec<_> = named.map(|h| String::from_utf8_lossy(h.value)).collect();
                     (!values.is_empty()).then(|| values.join(", "))
                 };
@@ -71,24 +68,14 @@ impl Request {
     pub(super) fn body(mut self) -> Result<std::result::Result<(TcpStream, Vec<u8>), Reply>> {
         let Some(length) = self.length else {
             let words = "the request does not state its length";
-            return Ok(Err(Reply::refusal(
-                self.stream,
-                "411 Length Required",
-                words,
-            )));
+            return Ok(Err(Reply::refusal(self.stream, "411 Length Required", words)));
         };
         if length > LONGEST_BODY {
             let words = "the request is longer than 256 MiB";
-            return Ok(Err(Reply::refusal(
-                self.stream,
-                "413 Content Too Large",
-                words,
-            )));
+            return Ok(Err(Reply::refusal(self.stream, "413 Content Too Large", words)));
         }
         let missing = length.saturating_sub(self.begun.len() as u64);
-        (&mut self.stream)
-            .take(missing)
-            .read_to_end(&mut self.begun)?;
+        (&mut self.stream).take(missing).read_to_end(&mut self.begun)?;
         Ok(Ok((self.stream, self.begun)))
     }
 }
@@ -111,19 +98,11 @@ pub(super) struct Reply {
 
 impl Reply {
     pub(super) fn of(stream: TcpStream, kind: &str, body: Vec<u8>) -> Self {
-        Self {
-            stream,
-            status: "200 OK",
-            kind: kind.to_owned(),
-            body,
-        }
+        Self { stream, status: "200 OK", kind: kind.to_owned(), body }
     }
 
     pub(super) fn refusal(stream: TcpStream, status: &'static str, words: &str) -> Self {
-        Self {
-            status,
-            ..Self::of(stream, "text/plain; charset=utf-8", words.into())
-        }
+        Self { status, ..Self::of(stream, "text/plain; charset=utf-8", words.into()) }
     }
 
     pub(super) fn send(mut self) -> Result<()> {

@@ -46,11 +46,7 @@ impl Drop for Counted {
 /// Serves until the process ends.
 pub(crate) fn studio(args: &StudioArgs) -> Result<ExitCode, Failure> {
     let port = args.port.unwrap_or(0);
-    let no_port = |e: std::io::Error| {
-        Failure::Usage(format!(
-            "--port {port}: 127.0.0.1 cannot be listened on: {e}"
-        ))
-    };
+    let no_port = |e: std::io::Error| Failure::Usage(format!("--port {port}: 127.0.0.1 cannot be listened on: {e}"));
     let listener = TcpListener::bind((Ipv4Addr::LOCALHOST, port)).map_err(no_port)?;
     let port = listener.local_addr().map_err(no_port)?.port();
     let shared = Arc::new(Shared {
@@ -83,8 +79,7 @@ pub(crate) fn studio(args: &StudioArgs) -> Result<ExitCode, Failure> {
 /// 128 bits that nobody guesses.
 fn token() -> Result<String, Failure> {
     let mut bytes = [0_u8; 16];
-    getrandom::fill(&mut bytes)
-        .map_err(|e| Failure::Usage(format!("no random numbers for the address: {e}")))?;
+    getrandom::fill(&mut bytes).map_err(|e| Failure::Usage(format!("no random numbers for the address: {e}")))?;
     Ok(bytes.iter().map(|b| format!("{b:02x}")).collect())
 }
 
@@ -97,9 +92,7 @@ fn serve(shared: &Shared, stream: TcpStream) -> std::io::Result<()> {
     let host = request.host.take();
     let origin = request.origin.take();
     let (method, url) = (request.method.clone(), request.url.clone());
-    let asked = shared
-        .door
-        .asked(&method, &url, host.as_deref(), origin.as_deref());
+    let asked = shared.door.asked(&method, &url, host.as_deref(), origin.as_deref());
     let reply = match asked {
         Asked::Page(name) => match PAGE.iter().find(|(n, ..)| *n == name) {
             Some((_, kind, bytes)) => Reply::of(request.stream, kind, bytes.to_vec()),

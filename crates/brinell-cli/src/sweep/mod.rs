@@ -42,19 +42,12 @@ pub(crate) fn sweep(args: &SweepArgs) -> Result<ExitCode, Failure> {
     let plots = plots(args, &points)?;
     let named = || Path::new("out").join(format!("sweep-{}", stem(&args.scenario)));
     let folder = args.output.clone().unwrap_or_else(named);
-    let work = FromSource {
-        source: &points.source,
-        signals: args.keep_signals.then(|| folder.join("signals")),
-    };
+    let work = FromSource { source: &points.source, signals: args.keep_signals.then(|| folder.join("signals")) };
     if args.dry_run {
         plan(&points, &Kept::look(&folder)?, &work, threads, true);
         return Ok(ExitCode::SUCCESS);
     }
-    let place = Place {
-        kind: Results::Sweep,
-        folder: &folder,
-        inputs: &points.source.inputs(),
-    };
+    let place = Place { kind: Results::Sweep, folder: &folder, inputs: &points.source.inputs() };
     place.alone()?;
     spare_signals(&points, &work)?;
     make_folder(&folder)?;
@@ -92,20 +85,14 @@ pub(crate) fn sweep(args: &SweepArgs) -> Result<ExitCode, Failure> {
             plural(states.len() - missing, "finished point")
         );
     }
-    Ok(if failed > 0 || went.is_break() {
-        ExitCode::from(NOT_WHOLE)
-    } else {
-        ExitCode::SUCCESS
-    })
+    Ok(if failed > 0 || went.is_break() { ExitCode::from(NOT_WHOLE) } else { ExitCode::SUCCESS })
 }
 
 /// How many points' averages hold part of the start.
 fn tell_unsettled(states: &[State]) {
     let name = fields::NOT_SETTLED.name;
     let of = |row: &Row| row.quantity(name)?.value;
-    let count = (states.iter())
-        .filter(|s| matches!(s, State::Complete(row) if of(row) == Some(1.0)))
-        .count();
+    let count = (states.iter()).filter(|s| matches!(s, State::Complete(row) if of(row) == Some(1.0))).count();
     if count > 0 {
         complain!(
             "warning: not settled: in {} averages hold part of the start (column `{name}`); simulate longer",
@@ -135,7 +122,8 @@ fn spare_signals(points: &Points, work: &FromSource) -> Result<(), Failure> {
     Ok(())
 }
 
-/// The runs that are to be made: those of sound points that are not finished, once where settings mean the same. Told, where `told`.
+/// The runs that are to be made: those of sound points that are not finished, once where settings mean the same. Told,
+/// where `told`.
 fn plan(
     points: &Points,
     kept: &Kept,
@@ -150,20 +138,14 @@ fn plan(
     };
     let good = || points.tasks.iter().flatten();
     let mut seen = HashSet::new();
-    let tasks: Vec<Task> = good()
-        .filter(|task| !finished(task) && seen.insert(&task.fingerprint))
-        .cloned()
-        .collect();
+    let tasks: Vec<Task> = good().filter(|task| !finished(task) && seen.insert(&task.fingerprint)).cloned().collect();
     if told {
         let before = good().filter(finished).count();
         tell_plan(points, &tasks, before, work, threads(tasks.len()));
         let outdated = |task: &&Task| kept.is_outdated(&task.fingerprint);
         let outdated = good().filter(outdated).count();
         if outdated > 0 {
-            say!(
-                "  {} of another version of brinell, to be run again",
-                plural(outdated, "finished point")
-            );
+            say!("  {} of another version of brinell, to be run again", plural(outdated, "finished point"));
         }
     }
     tasks
@@ -172,8 +154,7 @@ fn plan(
 /// What is plotted; a name that no point will have is refused before anything runs.
 fn plots(args: &SweepArgs, points: &Points) -> Result<Vec<String>, Failure> {
     // A point without a model is a row with its reason, and says nothing of the others' numbers.
-    let names = Simulation::new(&points.example)
-        .map_or(Vec::new(), |simulation| names(&points.example, &simulation));
+    let names = Simulation::new(&points.example).map_or(Vec::new(), |simulation| names(&points.example, &simulation));
     for name in args.plot.iter().filter(|_| !names.is_empty()) {
         check_name(name, &names).map_err(|error| Failure::Usage(format!("--plot {error}")))?;
     }
@@ -183,41 +164,21 @@ fn plots(args: &SweepArgs, points: &Points) -> Result<Vec<String>, Failure> {
     })
 }
 
-fn tell_plan(
-    points: &Points,
-    tasks: &[Task],
-    before: usize,
-    work: &FromSource,
-    threads: NonZeroUsize,
-) {
+fn tell_plan(points: &Points, tasks: &[Task], before: usize, work: &FromSource, threads: NonZeroUsize) {
     let axes: Vec<String> = points
         .plan
         .axes()
         .iter()
         .map(|axis| format!("{} ({})", axis.keys().join(" with "), axis.settings().len()))
         .collect();
-    say!(
-        "{}: {}",
-        plural(points.tasks.len(), "point"),
-        axes.join(" x ")
-    );
+    say!("{}: {}", plural(points.tasks.len(), "point"), axes.join(" x "));
     for (warning, count) in &points.warnings {
-        let first = if *count > 1 {
-            ", as the first of them has it"
-        } else {
-            ""
-        };
-        complain!(
-            "{warning}\n  (in {} of the sweep{first})",
-            plural(*count, "point")
-        );
+        let first = if *count > 1 { ", as the first of them has it" } else { "" };
+        complain!("{warning}\n  (in {} of the sweep{first})", plural(*count, "point"));
     }
     let bad = points.tasks.iter().filter(|task| task.is_err()).count();
     if bad > 0 {
-        say!(
-            "  {} with a bad scenario, not to be run",
-            plural(bad, "point")
-        );
+        say!("  {} with a bad scenario, not to be run", plural(bad, "point"));
     }
     if before > 0 {
         say!("  {} finished before", plural(before, "point"));
@@ -226,9 +187,7 @@ fn tell_plan(
         return;
     }
     let simulated: f64 = tasks.iter().map(|task| task.duration_s).sum();
-    let cost = estimate(tasks, work, threads).map_or(String::new(), |seconds| {
-        format!(", about {}", duration(seconds))
-    });
+    let cost = estimate(tasks, work, threads).map_or(String::new(), |seconds| format!(", about {}", duration(seconds)));
     say!(
         "  {} to do: {} s simulated, {} at a time{cost}",
         plural(tasks.len(), "run"),
@@ -250,14 +209,9 @@ pub(crate) fn duration(seconds: f64) -> String {
 /// The folder's journal is of something else.
 fn other_sweep(folder: &Path, other: &Value) -> String {
     let folder = folder.display();
-    let Some(axes) = other["plan"]
-        .as_array()
-        .filter(|_| other["campaign"] == "sweep")
-    else {
+    let Some(axes) = other["plan"].as_array().filter(|_| other["campaign"] == "sweep") else {
         let kind = other["campaign"].as_str().unwrap_or("something else");
-        return format!(
-            "{folder}/{JOURNAL} is the journal of {kind}; choose another folder with -o"
-        );
+        return format!("{folder}/{JOURNAL} is the journal of {kind}; choose another folder with -o");
     };
     let axis = |axis: &Value| {
         let keys = axis["keys"].as_array().into_iter().flatten();
@@ -289,11 +243,7 @@ fn tell_failures(points: &Points, states: &[State]) {
         complain!("and {} more: see sweep.csv", failed.len() - SHOWN);
     }
     if !failed.is_empty() {
-        complain!(
-            "{} of {} failed",
-            failed.len(),
-            plural(states.len(), "point")
-        );
+        complain!("{} of {} failed", failed.len(), plural(states.len(), "point"));
     }
 }
 
@@ -306,25 +256,14 @@ fn write(
     folder: &Path,
 ) -> Result<Vec<PathBuf>, Failure> {
     let table = table::table(points, states, args.keep_signals);
-    let metadata = Metadata::default()
-        .with(keys::VERSION, brinell::VERSION)
-        .with(keys::SCENARIO, points.source.text());
-    let mut written = vec![
-        table.write_csv(folder.join("sweep.csv"))?,
-        table.write_parquet(folder.join("sweep.parquet"), &metadata)?,
-    ];
+    let metadata = Metadata::default().with(keys::VERSION, brinell::VERSION).with(keys::SCENARIO, points.source.text());
+    let mut written =
+        vec![table.write_csv(folder.join("sweep.csv"))?, table.write_parquet(folder.join("sweep.parquet"), &metadata)?];
     let count = |word: &str| states.iter().filter(|s| s.word() == word).count();
-    let columns: serde_json::Map<String, Value> = table
-        .columns
-        .iter()
-        .map(|c| (c.name.clone(), c.unit.as_str().into()))
-        .collect();
-    let overrides: serde_json::Map<String, Value> = points
-        .source
-        .overrides()
-        .iter()
-        .map(|(key, value)| (key.clone(), value.as_str().into()))
-        .collect();
+    let columns: serde_json::Map<String, Value> =
+        table.columns.iter().map(|c| (c.name.clone(), c.unit.as_str().into())).collect();
+    let overrides: serde_json::Map<String, Value> =
+        points.source.overrides().iter().map(|(key, value)| (key.clone(), value.as_str().into())).collect();
     let json = json!({
         "brinell": brinell::VERSION,
         "plan": points.header()["plan"],

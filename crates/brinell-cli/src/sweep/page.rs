@@ -5,9 +5,7 @@ use super::table::{State, number};
 use crate::say::{bracketed, short};
 use brinell::result::Quantity;
 use brinell::scenario::Scenario;
-use brinell_report::{
-    Fact, HeatMap, IndicatorLine, IndicatorPlot, IndicatorPoint, SweepReport, Table, Value,
-};
+use brinell_report::{Fact, HeatMap, IndicatorLine, IndicatorPlot, IndicatorPoint, SweepReport, Table, Value};
 use brinell_study::campaign::{Axis, Row};
 use std::collections::HashMap;
 
@@ -20,7 +18,8 @@ const GRID: usize = 3;
 /// Pictures of one indicator; lines beyond them are in the tables alone.
 const PICTURES: usize = 4;
 
-/// RMS and peak to peak of the sensor acceleration, the rings' and a cage's, along the axis nearer the load; of `names` that are there.
+/// RMS and peak to peak of the sensor acceleration, the rings' and a cage's, along the axis nearer the load; of `names`
+/// that are there.
 pub(super) fn usual(scenario: &Scenario, names: &[String]) -> Vec<String> {
     let [x, y] = scenario.operation.load_n;
     let axis = if y.abs() > x.abs() { "y" } else { "x" };
@@ -37,14 +36,8 @@ pub(super) fn usual(scenario: &Scenario, names: &[String]) -> Vec<String> {
 pub(super) fn report(points: &Points, states: &[State], plots: &[String]) -> SweepReport {
     let count = |word: &str| states.iter().filter(|s| s.word() == word).count();
     let (failed, missing) = (count("failed"), count("not run"));
-    let axes: Vec<String> = points
-        .plan
-        .axes()
-        .iter()
-        .map(|axis| axis.keys().join(" with "))
-        .collect();
-    let fact =
-        |label: &str, n: usize, note: &str| Fact::new(label, Value::Text(n.to_string()), "", note);
+    let axes: Vec<String> = points.plan.axes().iter().map(|axis| axis.keys().join(" with ")).collect();
+    let fact = |label: &str, n: usize, note: &str| Fact::new(label, Value::Text(n.to_string()), "", note);
     let mut facts = vec![fact("Points", states.len(), &axes.join(" × "))];
     facts.push(fact("Complete", count("complete"), ""));
     if failed > 0 {
@@ -70,27 +63,12 @@ pub(super) fn report(points: &Points, states: &[State], plots: &[String]) -> Swe
     });
     SweepReport {
         title: format!("Sweep of {}", points.example.name),
-        subtitle: format!(
-            "{} over {}",
-            plural(states.len(), "point"),
-            axes.join(" × ")
-        ),
+        subtitle: format!("{} over {}", plural(states.len(), "point"), axes.join(" × ")),
         version: brinell::VERSION.into(),
-        partial: (missing > 0).then(|| {
-            format!(
-                "{} not run yet; the same command resumes.",
-                plural(missing, "point")
-            )
-        }),
+        partial: (missing > 0).then(|| format!("{} not run yet; the same command resumes.", plural(missing, "point"))),
         facts,
-        plots: plots
-            .iter()
-            .flat_map(|name| pictures(points, states, name))
-            .collect(),
-        maps: plots
-            .iter()
-            .filter_map(|name| map(points, states, name))
-            .collect(),
+        plots: plots.iter().flat_map(|name| pictures(points, states, name)).collect(),
+        maps: plots.iter().filter_map(|name| map(points, states, name)).collect(),
         failures: failures.take(LISTED).collect(),
         table: table(points, states, plots),
         scenario_toml: points.source.text(),
@@ -121,9 +99,7 @@ fn pictures(points: &Points, states: &[State], name: &str) -> Vec<IndicatorPlot>
     let along = &points.plan.axes()[axis];
     let values: Vec<&str> = along.settings().iter().map(|s| s[key].as_str()).collect();
     let numeric: Option<Vec<f64>> = values.iter().map(|v| number(v)).collect();
-    let others: Vec<usize> = (0..points.plan.axes().len())
-        .filter(|a| *a != axis)
-        .collect();
+    let others: Vec<usize> = (0..points.plan.axes().len()).filter(|a| *a != axis).collect();
     let mut lines: Vec<IndicatorLine> = Vec::new();
     let mut line_of: HashMap<Vec<usize>, usize> = HashMap::new();
     let mut unit = String::new();
@@ -135,21 +111,12 @@ fn pictures(points: &Points, states: &[State], name: &str) -> Vec<IndicatorPlot>
             _ => None,
         };
         if let Some(q) = quantity {
-            unit = if q.unit == "1" {
-                String::new()
-            } else {
-                q.unit.clone()
-            };
+            unit = if q.unit == "1" { String::new() } else { q.unit.clone() };
         }
-        let x = numeric
-            .as_ref()
-            .map_or(place[axis] as f64, |numbers| numbers[place[axis]]);
+        let x = numeric.as_ref().map_or(place[axis] as f64, |numbers| numbers[place[axis]]);
         let point = point(x, quantity);
         let line = *line_of.entry(rest).or_insert_with_key(|rest| {
-            lines.push(IndicatorLine {
-                label: label(points, &others, rest),
-                points: Vec::new(),
-            });
+            lines.push(IndicatorLine { label: label(points, &others, rest), points: Vec::new() });
             lines.len() - 1
         });
         lines[line].points.push(point);
@@ -158,10 +125,7 @@ fn pictures(points: &Points, states: &[State], name: &str) -> Vec<IndicatorPlot>
         line.points.sort_by(|a, b| a.x.total_cmp(&b.x));
     }
     let x_key = &along.keys()[key];
-    let legend: Vec<String> = others
-        .iter()
-        .map(|a| points.plan.axes()[*a].keys().join(" with "))
-        .collect();
+    let legend: Vec<String> = others.iter().map(|a| points.plan.axes()[*a].keys().join(" with ")).collect();
     let parts = lines.chunks(LINES).take(PICTURES).enumerate();
     parts
         .map(|(part, lines)| IndicatorPlot {
@@ -204,13 +168,8 @@ fn map(points: &Points, states: &[State], name: &str) -> Option<HeatMap> {
             continue;
         };
         let place = points.plan.place(k);
-        values[place[1 - x] * along.settings().len() + place[x]] =
-            quantity.value.unwrap_or(f64::NAN);
-        unit = if quantity.unit == "1" {
-            ""
-        } else {
-            &quantity.unit
-        };
+        values[place[1 - x] * along.settings().len() + place[x]] = quantity.value.unwrap_or(f64::NAN);
+        unit = if quantity.unit == "1" { "" } else { &quantity.unit };
     }
     let key = |axis: &Axis| {
         let keys = axis.keys().iter().map(|key| match points.units.get(key) {
@@ -235,25 +194,15 @@ fn map(points: &Points, states: &[State], name: &str) -> Option<HeatMap> {
 /// What a line's points have in common.
 fn label(points: &Points, others: &[usize], rest: &[usize]) -> String {
     let axes = others.iter().zip(rest);
-    let parts: Vec<String> = axes
-        .map(|(axis, k)| points.plan.axes()[*axis].settings()[*k].join(" with "))
-        .collect();
+    let parts: Vec<String> = axes.map(|(axis, k)| points.plan.axes()[*axis].settings()[*k].join(" with ")).collect();
     parts.join(", ")
 }
 
 fn point(x: f64, quantity: Option<&Quantity>) -> IndicatorPoint {
     let value = quantity.and_then(|q| q.value).unwrap_or(f64::NAN);
     match quantity.and_then(Quantity::interval) {
-        Some((low, high)) => IndicatorPoint {
-            x,
-            value,
-            interval: Some((low, high)),
-        },
-        None => IndicatorPoint {
-            x,
-            value,
-            interval: None,
-        },
+        Some((low, high)) => IndicatorPoint { x, value, interval: Some((low, high)) },
+        None => IndicatorPoint { x, value, interval: None },
     }
 }
 
@@ -273,10 +222,7 @@ pub(crate) fn words(name: &str) -> String {
     match of {
         "envelope" => format!("Envelope spectrum at {}", what.to_uppercase()),
         "work" | "audit" => what,
-        of => format!(
-            "{what} of {}",
-            of.replace(".anti_aliased", ", anti-aliased,")
-        ),
+        of => format!("{what} of {}", of.replace(".anti_aliased", ", anti-aliased,")),
     }
 }
 
@@ -314,12 +260,7 @@ fn table(points: &Points, states: &[State], plots: &[String]) -> Table {
         more => format!("{more} more points are in sweep.csv. "),
     };
     let note = "Averages over whole revolutions, in brackets their 95 % intervals; peaks are those of a revolution.";
-    Table {
-        title: "Points".into(),
-        columns,
-        rows: rows.collect(),
-        note: more + note,
-    }
+    Table { title: "Points".into(), columns, rows: rows.collect(), note: more + note }
 }
 
 fn complete<'a>(state: &State<'a>) -> Option<&'a Row> {

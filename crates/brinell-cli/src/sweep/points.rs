@@ -32,17 +32,9 @@ pub(super) struct Points {
 
 /// The plan of the command line.
 fn plan(args: &SweepArgs) -> Result<Plan, Failure> {
-    let usage = |option: &str, error: brinell_study::campaign::PlanError| {
-        Failure::Usage(format!("{option}: {error}"))
-    };
-    let vary = args
-        .vary
-        .iter()
-        .map(|text| Axis::vary(text).map_err(|e| usage("--vary", e)));
-    let together = args
-        .together
-        .iter()
-        .map(|text| Axis::together(text).map_err(|e| usage("--together", e)));
+    let usage = |option: &str, error: brinell_study::campaign::PlanError| Failure::Usage(format!("{option}: {error}"));
+    let vary = args.vary.iter().map(|text| Axis::vary(text).map_err(|e| usage("--vary", e)));
+    let together = args.together.iter().map(|text| Axis::together(text).map_err(|e| usage("--together", e)));
     let axes = vary.chain(together).collect::<Result<Vec<_>, _>>()?;
     if axes.is_empty() {
         return Err(Failure::Usage(
@@ -63,15 +55,10 @@ impl Points {
     /// Reads every point. A point that is bad is a row of the table; where all are, the input is.
     pub(super) fn read(args: &SweepArgs, threads: NonZeroUsize) -> Result<Self, Failure> {
         let plan = plan(args)?;
-        let source = Source::open(&ScenarioArgs {
-            scenario: args.scenario.clone(),
-            set: args.set.clone(),
-        })?;
+        let source = Source::open(&ScenarioArgs { scenario: args.scenario.clone(), set: args.set.clone() })?;
         for (key, value) in source.overrides() {
-            let hides = |varied: &&str| {
-                key.strip_prefix(varied)
-                    .is_some_and(|rest| rest.is_empty() || rest.starts_with('.'))
-            };
+            let hides =
+                |varied: &&str| key.strip_prefix(varied).is_some_and(|rest| rest.is_empty() || rest.starts_with('.'));
             if let Some(varied) = plan.keys().find(hides) {
                 return Err(Failure::Usage(format!(
                     "--set {key}={value}: every point gives {varied} another value; leave out the one or the other"
@@ -92,10 +79,7 @@ impl Points {
             tasks.push(match result {
                 Ok(checked) => {
                     units.extend(checked.units);
-                    checked
-                        .warnings
-                        .into_iter()
-                        .for_each(|w| count(w, &mut warnings));
+                    checked.warnings.into_iter().for_each(|w| count(w, &mut warnings));
                     Ok(checked.task)
                 }
                 Err(failure) => {
@@ -114,10 +98,7 @@ impl Points {
             plan,
             tasks,
             units,
-            warnings: warnings
-                .into_iter()
-                .map(|(warning, points)| (warning.to_string(), points))
-                .collect(),
+            warnings: warnings.into_iter().map(|(warning, points)| (warning.to_string(), points)).collect(),
             example,
         })
     }
@@ -147,12 +128,11 @@ fn check(source: &Source, settings: Vec<(String, String)>) -> Result<Checked, Fa
     })
 }
 
-/// Adds a warning to those of other points: one about the same key with the same value is given once, as the first point has it.
+/// Adds a warning to those of other points: one about the same key with the same value is given once, as the first
+/// point has it.
 fn count(mut warning: Problem, warnings: &mut Vec<(Problem, usize)>) {
     let same = |w: &Problem| {
-        w.key == warning.key
-            && w.value == warning.value
-            && numberless(&w.message) == numberless(&warning.message)
+        w.key == warning.key && w.value == warning.value && numberless(&w.message) == numberless(&warning.message)
     };
     if let Some((_, points)) = warnings.iter_mut().find(|(w, _)| same(w)) {
         *points += 1;
@@ -196,11 +176,7 @@ impl Work for FromSource<'_> {
         Ok(self.source.load(&task.settings, true)?.scenario)
     }
 
-    fn signals(
-        &self,
-        task: &Task,
-        simulation: &Simulation,
-    ) -> Result<Option<Box<dyn SignalWriter>>, Failure> {
+    fn signals(&self, task: &Task, simulation: &Simulation) -> Result<Option<Box<dyn SignalWriter>>, Failure> {
         let (Some(folder), Some(path)) = (&self.signals, self.path(&task.fingerprint)) else {
             return Ok(None);
         };

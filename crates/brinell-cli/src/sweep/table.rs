@@ -25,18 +25,12 @@ impl State<'_> {
 }
 
 /// The state of every point.
-pub(super) fn states<'a>(
-    points: &'a Points,
-    row: impl Fn(&str) -> Option<&'a Row>,
-) -> Vec<State<'a>> {
+pub(super) fn states<'a>(points: &'a Points, row: impl Fn(&str) -> Option<&'a Row>) -> Vec<State<'a>> {
     let one = |task: &'a Result<Task, String>| match task {
         Err(reason) => State::Failed(reason),
         Ok(task) => match row(&task.fingerprint) {
             None => State::NotRun,
-            Some(Row {
-                result: Err(reason),
-                ..
-            }) => State::Failed(reason),
+            Some(Row { result: Err(reason), .. }) => State::Failed(reason),
             Some(row) => State::Complete(row),
         },
     };
@@ -54,18 +48,11 @@ pub(super) fn table(points: &Points, states: &[State], signals: bool) -> Table {
     for (index, key) in points.plan.keys().enumerate() {
         let values: Vec<&str> = settings.iter().map(|s| s[index].1.as_str()).collect();
         let unit = points.units.get(key).copied().unwrap_or("");
-        table.push(
-            Column::new(key, unit, "what the point sets"),
-            cells(&values),
-        );
+        table.push(Column::new(key, unit, "what the point sets"), cells(&values));
     }
-    let words =
-        |of: &dyn Fn(&State) -> Option<String>| Cells::Words(states.iter().map(of).collect());
+    let words = |of: &dyn Fn(&State) -> Option<String>| Cells::Words(states.iter().map(of).collect());
     let status = words(&|s| Some(s.word().to_owned()));
-    table.push(
-        Column::new("status", "", "complete, failed or not run"),
-        status,
-    );
+    table.push(Column::new("status", "", "complete, failed or not run"), status);
     let reason = words(&|s| match s {
         State::Failed(reason) => Some((*reason).to_owned()),
         _ => None,
@@ -119,11 +106,7 @@ pub(super) fn number(value: &str) -> Option<f64> {
 fn numbers(states: &[State], table: &mut Table) {
     let runs: Vec<&[Quantity]> = states.iter().map(of).collect();
     for column in columns(&runs) {
-        let about = if column.end {
-            "end of its 95 % interval"
-        } else {
-            ""
-        };
+        let about = if column.end { "end of its 95 % interval" } else { "" };
         let head = Column::new(column.name, &column.unit, about);
         table.push(head, Cells::Numbers(column.values));
     }

@@ -69,8 +69,8 @@ impl Call {
     #[track_caller]
     pub(crate) fn warns_of_the_short_run_alone(self) -> Self {
         let told = |line: &&str| {
-            let short = line.starts_with("warning: simulation.duration_s = 0.0")
-                && line.contains("too short to settle");
+            let short =
+                line.starts_with("warning: simulation.duration_s = 0.0") && line.contains("too short to settle");
             short || *line == "  allowed: >= 0.160 s" || line.ends_with(".toml:")
         };
         let (told, rest): (Vec<&str>, Vec<&str>) = self.err.lines().partition(told);
@@ -102,10 +102,7 @@ pub(crate) fn command(folder: &Path, args: &[&str]) -> Command {
 }
 
 pub(crate) fn brinell(folder: &Path, args: &[&str]) -> Call {
-    command(folder, args)
-        .output()
-        .expect("brinell starts")
-        .into()
+    command(folder, args).output().expect("brinell starts").into()
 }
 
 /// With `input` on standard input.
@@ -117,11 +114,7 @@ pub(crate) fn brinell_reading(folder: &Path, args: &[&str], input: &[u8]) -> Cal
         .spawn()
         .expect("brinell starts");
     // Bad arguments end the command before it reads.
-    let _ = child
-        .stdin
-        .take()
-        .expect("standard input is piped")
-        .write_all(input);
+    let _ = child.stdin.take().expect("standard input is piped").write_all(input);
     child.wait_with_output().expect("brinell ends").into()
 }
 
@@ -147,9 +140,8 @@ pub(crate) fn files(folder: &Path) -> Vec<String> {
 /// SHORT, four turns of the shaft long, so that there are blocks for intervals, as `name` in a folder of its own.
 pub(crate) fn with_blocks(name: &str) -> TempDir {
     let folder = tempfile::tempdir().expect("a folder");
-    let text = SHORT
-        .replace("speed_rpm = 1500.0", "speed_rpm = 3000.0")
-        .replace("duration_s = 0.02", "duration_s = 0.18");
+    let text =
+        SHORT.replace("speed_rpm = 1500.0", "speed_rpm = 3000.0").replace("duration_s = 0.02", "duration_s = 0.18");
     std::fs::write(folder.path().join(name), text).expect("it is written");
     folder
 }
@@ -161,19 +153,13 @@ pub(crate) fn lines(journal: &Path) -> usize {
 
 /// A call that gets Ctrl-C once its journal has so many lines.
 pub(crate) fn interrupted(folder: &Path, args: &[&str], journal: &Path, at: usize) -> Call {
-    let child = command(folder, args)
-        .stdout(Stdio::piped())
-        .stderr(Stdio::piped())
-        .spawn()
-        .expect("brinell starts");
+    let child = command(folder, args).stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().expect("brinell starts");
     let begin = std::time::Instant::now();
     while lines(journal) < at {
         assert!(begin.elapsed().as_secs() < 60, "no point is finished");
         std::thread::sleep(std::time::Duration::from_millis(2));
     }
-    let kill = Command::new("kill")
-        .args(["-INT", &child.id().to_string()])
-        .status();
+    let kill = Command::new("kill").args(["-INT", &child.id().to_string()]).status();
     assert!(kill.expect("kill starts").success());
     child.wait_with_output().expect("brinell ends").into()
 }
@@ -207,13 +193,8 @@ pub(crate) fn csv(path: &Path) -> (Vec<String>, Vec<Vec<f64>>) {
     let mut lines = text.lines();
     let header = lines.next().expect("a header");
     let names: Vec<String> = header.split(',').map(str::to_owned).collect();
-    let rows: Vec<Vec<f64>> = lines
-        .map(|line| {
-            line.split(',')
-                .map(|v| v.parse().expect("a number"))
-                .collect()
-        })
-        .collect();
+    let rows: Vec<Vec<f64>> =
+        lines.map(|line| line.split(',').map(|v| v.parse().expect("a number")).collect()).collect();
     assert!(rows.iter().all(|row| row.len() == names.len()));
     (names, rows)
 }
@@ -224,13 +205,4 @@ pub(crate) fn json(path: &Path) -> serde_json::Value {
 }
 
 /// What `analyze` needs beside the file: `6205` at 1800 r/min has BPFO 107.5 Hz.
-pub(crate) const GIVEN: [&str; 8] = [
-    "--rate",
-    "12000",
-    "--unit",
-    "g",
-    "--bearing",
-    "6205",
-    "--speed",
-    "1800",
-];
+pub(crate) const GIVEN: [&str; 8] = ["--rate", "12000", "--unit", "g", "--bearing", "6205", "--speed", "1800"];

@@ -1,4 +1,5 @@
-//! Data sets: the same bytes whatever the threads, the shards and the interruptions; what is there stays; what does not fit is reported.
+//! Data sets: the same bytes whatever the threads, the shards and the interruptions; what is there stays; what does not
+//! fit is reported.
 
 mod bytes;
 mod refusals;
@@ -48,9 +49,7 @@ fn make(folder: &Path, more: &[&str]) -> Call {
 
 fn contents(folder: &Path) -> Vec<(String, Vec<u8>)> {
     let names = files(folder).into_iter();
-    names
-        .map(|name| (name.clone(), fs::read(folder.join(name)).unwrap()))
-        .collect()
+    names.map(|name| (name.clone(), fs::read(folder.join(name)).unwrap())).collect()
 }
 
 #[track_caller]
@@ -65,18 +64,11 @@ fn same(a: &Path, b: &Path) {
 
 fn rows(path: &Path) -> Vec<Row> {
     let reader = SerializedFileReader::new(fs::File::open(path).unwrap()).unwrap();
-    reader
-        .get_row_iter(None)
-        .unwrap()
-        .map(Result::unwrap)
-        .collect()
+    reader.get_row_iter(None).unwrap().map(Result::unwrap).collect()
 }
 
 fn cell<'a>(row: &'a Row, name: &str) -> &'a Field {
-    row.get_column_iter()
-        .find(|(n, _)| *n == name)
-        .unwrap_or_else(|| panic!("{name}"))
-        .1
+    row.get_column_iter().find(|(n, _)| *n == name).unwrap_or_else(|| panic!("{name}")).1
 }
 
 fn text(row: &Row, name: &str) -> Option<String> {

@@ -8,20 +8,13 @@ use std::fs;
 fn prop_a_row_is_the_run_that_its_scenario_gives() {
     let folder = folder_with(PLAN);
     make(folder.path(), &["-o", "out", "-q"]).exits(0);
-    let all: Vec<Row> = (0..3)
-        .flat_map(|k| rows(&folder.path().join(format!("out/runs/part-0000{k}.parquet"))))
-        .collect();
+    let all: Vec<Row> =
+        (0..3).flat_map(|k| rows(&folder.path().join(format!("out/runs/part-0000{k}.parquet")))).collect();
     for (run, row) in all.iter().enumerate() {
         assert_eq!(cell(row, "run"), &Field::Long(run as i64));
         let outer = run % 2 == 1;
-        assert_eq!(
-            text(row, "class").as_deref(),
-            Some(if outer { "outer" } else { "healthy" })
-        );
-        assert_eq!(
-            list(row, "defect_depth_um").unwrap().len(),
-            usize::from(outer)
-        );
+        assert_eq!(text(row, "class").as_deref(), Some(if outer { "outer" } else { "healthy" }));
+        assert_eq!(list(row, "defect_depth_um").unwrap().len(), usize::from(outer));
         let entries = list(row, "entry_t_s").unwrap();
         assert_eq!(entries.is_empty(), !outer, "{run}");
         assert!(entries.is_sorted() && entries.iter().all(|t| (0.0..0.03).contains(t)));
@@ -29,16 +22,8 @@ fn prop_a_row_is_the_run_that_its_scenario_gives() {
     }
     // The row's own scenario, run by itself, gives the same signal.
     let row = &all[3];
-    fs::write(
-        folder.path().join("again.toml"),
-        text(row, "scenario").unwrap(),
-    )
-    .unwrap();
-    brinell(
-        folder.path(),
-        &["run", "again.toml", "-o", "again", "--no-report", "-q"],
-    )
-    .exits(0);
+    fs::write(folder.path().join("again.toml"), text(row, "scenario").unwrap()).unwrap();
+    brinell(folder.path(), &["run", "again.toml", "-o", "again", "--no-report", "-q"]).exits(0);
     let again = brinell_io::read_parquet(folder.path().join("again/signals.parquet")).unwrap();
     let whole = again.column("sensor_ax").unwrap();
     // All but the sample at the run's end: 0.02 s at 25.6 kHz are 512.
@@ -49,53 +34,35 @@ fn prop_a_row_is_the_run_that_its_scenario_gives() {
     assert_eq!(about["licence"], "CC0-1.0");
     assert_eq!(about["rate"]["sample_rate_hz"], 25600.0);
     assert_eq!(about["runs"]["complete"], 7);
-    let unit = about["columns"]
-        .as_array()
-        .unwrap()
-        .iter()
-        .find(|c| c["name"] == "sensor_ax")
-        .unwrap();
+    let unit = about["columns"].as_array().unwrap().iter().find(|c| c["name"] == "sensor_ax").unwrap();
     assert_eq!(unit["unit"], "m/s^2");
 }
 
 #[test]
 fn prop_a_failed_run_is_a_row_with_its_reason() {
     // Values that make no scenario, in two runs of six.
-    let plan = PLAN.replace("runs = 7", "runs = 6").replace(
-        "[vary]",
-        "out_of_range = \"fail\"\n[vary]\nlubricant.viscosity_pa_s = { grid = [0.01, -1.0, 0.02] }",
-    );
+    let plan = PLAN
+        .replace("runs = 7", "runs = 6")
+        .replace("[vary]", "out_of_range = \"fail\"\n[vary]\nlubricant.viscosity_pa_s = { grid = [0.01, -1.0, 0.02] }");
     let folder = folder_with(&plan);
     make(folder.path(), &["-o", "out"])
         .exits(0)
-        .says(&[
-            "2 of 6 runs looked at draw values that make no scenario: kept as failed",
-            "6 runs in",
-        ])
+        .says(&["2 of 6 runs looked at draw values that make no scenario: kept as failed", "6 runs in"])
         .complains(&[
             "2 of 6 runs, such as run 2: lubricant.viscosity_pa_s = -1.0: out of range; allowed: >= 0 Pa s",
             "failed: lubricant.viscosity_pa_s = -1.0: out of range",
         ]);
-    let all: Vec<Row> = (0..2)
-        .flat_map(|k| rows(&folder.path().join(format!("out/runs/part-0000{k}.parquet"))))
-        .collect();
-    let failed: Vec<&Row> = all
-        .iter()
-        .filter(|row| text(row, "status").as_deref() == Some("failed"))
-        .collect();
+    let all: Vec<Row> =
+        (0..2).flat_map(|k| rows(&folder.path().join(format!("out/runs/part-0000{k}.parquet")))).collect();
+    let failed: Vec<&Row> = all.iter().filter(|row| text(row, "status").as_deref() == Some("failed")).collect();
     assert_eq!(failed.len(), 2);
     for row in failed {
         assert!(text(row, "reason").unwrap().contains("out of range"));
         assert_eq!(cell(row, "lubricant.viscosity_pa_s"), &Field::Double(-1.0));
-        assert_eq!(
-            (list(row, "sensor_ax"), list(row, "entry_t_s")),
-            (None, None)
-        );
+        assert_eq!((list(row, "sensor_ax"), list(row, "entry_t_s")), (None, None));
         assert!(text(row, "class").is_some() && text(row, "settings").unwrap().contains("-1.0"));
     }
-    brinell(folder.path(), &["dataset", "verify", "out"])
-        .exits(0)
-        .says(&["6 runs with 2 failed"]);
+    brinell(folder.path(), &["dataset", "verify", "out"]).exits(0).says(&["6 runs with 2 failed"]);
     // A scenario that is sound, and has nothing to start from.
     let loose = "vary.simulation.start = \"equilibrium\"\nvary.support = { inner_stiffness_n_per_m = 0.0, outer_stiffness_n_per_m = 0.0 }";
     let plan = PLAN.replace("name = \"outer\"", &format!("name = \"outer\"\n{loose}"));
@@ -109,22 +76,17 @@ fn prop_a_failed_run_is_a_row_with_its_reason() {
     // Nothing to start from in any run.
     let plan = PLAN.replace("[vary]", &format!("[vary]\n{}", loose.replace("vary.", "")));
     let folder = folder_with(&plan);
-    make(folder.path(), &["-o", "out"]).exits(2).complains(&[
-        "none of the first runs can begin; run 0: start = \"equilibrium\": no static balance",
-    ]);
+    make(folder.path(), &["-o", "out"])
+        .exits(2)
+        .complains(&["none of the first runs can begin; run 0: start = \"equilibrium\": no static balance"]);
 }
 
 #[test]
 fn prop_a_contact_sheet_shows_runs_of_each_class_and_none_that_is_held_out() {
-    let folder = folder_with(&PLAN.replace(
-        "runs = 7",
-        &format!("runs = 12\nheld_out = 0.4\nsecret = \"{SECRET}\""),
-    ));
+    let folder = folder_with(&PLAN.replace("runs = 7", &format!("runs = 12\nheld_out = 0.4\nsecret = \"{SECRET}\"")));
     make(folder.path(), &["-o", "out"]).exits(0);
     let out = folder.path().join("out");
-    brinell(folder.path(), &["dataset", "sheet", "out", "--runs", "2"])
-        .exits(0)
-        .says(&["sheet.html: 4 runs"]);
+    brinell(folder.path(), &["dataset", "sheet", "out", "--runs", "2"]).exits(0).says(&["sheet.html: 4 runs"]);
     let page = fs::read_to_string(out.join("sheet.html")).unwrap();
     let mut shown = [0, 0];
     for part in fs::read_dir(out.join("runs")).unwrap() {
@@ -149,20 +111,13 @@ fn prop_a_contact_sheet_shows_runs_of_each_class_and_none_that_is_held_out() {
     }
     brinell(folder.path(), &["dataset", "verify", "out"]).exits(0);
     std::fs::create_dir(folder.path().join("empty")).unwrap();
-    brinell(folder.path(), &["dataset", "sheet", "empty"])
-        .exits(2)
-        .complains(&["no data set is here"]);
+    brinell(folder.path(), &["dataset", "sheet", "empty"]).exits(2).complains(&["no data set is here"]);
 }
 
 #[test]
 fn prop_held_out_labels_lie_apart() {
-    let folder = folder_with(&PLAN.replace(
-        "runs = 7",
-        &format!("runs = 12\nheld_out = 0.5\nsecret = \"{SECRET}\""),
-    ));
-    make(folder.path(), &["-o", "out"])
-        .exits(0)
-        .says(&["labels of "]);
+    let folder = folder_with(&PLAN.replace("runs = 7", &format!("runs = 12\nheld_out = 0.5\nsecret = \"{SECRET}\"")));
+    make(folder.path(), &["-o", "out"]).exits(0).says(&["labels of "]);
     let out = folder.path().join("out");
     let secret = ["class", "label", "settings", "scenario", "reason"];
     let mut apart = 0;
@@ -173,28 +128,15 @@ fn prop_held_out_labels_lie_apart() {
         let labels = out.join(format!("held_out/part-0000{part}.parquet"));
         // Runs of a file are for one thing.
         assert_eq!(labels.exists(), file["split"] == "held-out");
-        assert!(
-            open.iter()
-                .all(|row| text(row, "split").as_deref() == file["split"].as_str())
-        );
-        let held = if labels.exists() {
-            rows(&labels)
-        } else {
-            Vec::new()
-        };
+        assert!(open.iter().all(|row| text(row, "split").as_deref() == file["split"].as_str()));
+        let held = if labels.exists() { rows(&labels) } else { Vec::new() };
         let mut held = held.iter();
         for row in &open {
             let is_held = text(row, "split").as_deref() == Some("held-out");
             for name in secret {
                 assert!(!is_held || cell(row, name) == &Field::Null, "{name} shows");
             }
-            for name in [
-                "entry_t_s",
-                "defect_on",
-                "largest_contact_force_n",
-                "defects.0.depth_um",
-                "solver_steps",
-            ] {
+            for name in ["entry_t_s", "defect_on", "largest_contact_force_n", "defects.0.depth_um", "solver_steps"] {
                 assert!(!is_held || cell(row, name) == &Field::Null, "{name} shows");
             }
             // What a sensor knows stays.
@@ -213,28 +155,14 @@ fn prop_held_out_labels_lie_apart() {
     assert!((1..12).contains(&apart), "{apart}");
     let sidecar = fs::read_to_string(out.join("dataset.json")).unwrap();
     // Nor does anything else that is published give them away: plan and secret would.
-    for name in files(&out)
-        .iter()
-        .filter(|name| !name.starts_with("held_out") && !name.starts_with("work"))
-    {
+    for name in files(&out).iter().filter(|name| !name.starts_with("held_out") && !name.starts_with("work")) {
         let bytes = fs::read(out.join(name)).unwrap();
         let has = |words: &str| bytes.windows(words.len()).any(|w| w == words.as_bytes());
-        assert!(
-            !has(SECRET) && !has("depth_um = {") && !has("\"seed\""),
-            "{name}"
-        );
+        assert!(!has(SECRET) && !has("depth_um = {") && !has("\"seed\""), "{name}");
     }
-    assert!(
-        fs::read_to_string(out.join("held_out/_plan.json"))
-            .unwrap()
-            .contains("\"seed\": 11")
-    );
+    assert!(fs::read_to_string(out.join("held_out/_plan.json")).unwrap().contains("\"seed\": 11"));
     // How many bytes the labels take would tell too: a damaged run has more.
-    assert!(
-        about["held_out"].get("files").is_none(),
-        "{}",
-        about["held_out"]
-    );
+    assert!(about["held_out"].get("files").is_none(), "{}", about["held_out"]);
     for (part, file) in parts.iter().enumerate() {
         if file["split"] == "held-out" {
             let labels = fs::read(out.join(format!("held_out/part-0000{part}.parquet"))).unwrap();
@@ -243,14 +171,11 @@ fn prop_held_out_labels_lie_apart() {
     }
     // The classes' numbers are those of the runs whose labels anybody sees.
     let classes = json(&out.join("dataset.json"))["classes"].clone();
-    let counted = classes
-        .as_array()
-        .unwrap()
-        .iter()
-        .map(|c| c["open_runs"].as_u64().unwrap());
+    let counted = classes.as_array().unwrap().iter().map(|c| c["open_runs"].as_u64().unwrap());
     assert_eq!(counted.sum::<u64>(), 12 - apart);
     brinell(folder.path(), &["dataset", "verify", "out"]).exits(0);
-    // What the labels are made from is checked as well; and one file of labels may not be missing where others are here.
+    // What the labels are made from is checked as well; and one file of labels may not be missing where others are
+    // here.
     let secret = fs::read(out.join("held_out/_plan.json")).unwrap();
     fs::write(out.join("held_out/_plan.json"), "").unwrap();
     brinell(folder.path(), &["dataset", "verify", "out"])
@@ -264,9 +189,7 @@ fn prop_held_out_labels_lie_apart() {
         .complains(&[&format!("{last} is missing, and others are here")]);
     // All labels may be elsewhere.
     fs::remove_dir_all(out.join("held_out")).unwrap();
-    brinell(folder.path(), &["dataset", "verify", "out"])
-        .exits(0)
-        .says(&["; labels are not here"]);
+    brinell(folder.path(), &["dataset", "verify", "out"]).exits(0).says(&["; labels are not here"]);
 }
 
 #[test]
@@ -279,26 +202,14 @@ fn prop_what_a_data_set_is_and_what_was_made_are_reported_as_json() {
     };
     let plan = told(&["dataset", "plan.toml", "--dry-run", "--json"]);
     assert_eq!((&plan["runs"], &plan["files"]), (&7.into(), &3.into()));
-    assert_eq!(
-        plan["classes"][0],
-        serde_json::json!({ "label": 0, "name": "healthy", "runs": 4 })
-    );
+    assert_eq!(plan["classes"][0], serde_json::json!({ "label": 0, "name": "healthy", "runs": 4 }));
     assert_eq!(plan["shard"]["simulated_s"], 0.14);
     let made = told(&["dataset", "plan.toml", "-o", "d", "--json"]);
-    assert_eq!(
-        (&made["complete"], &made["shard"]["done"]),
-        (&true.into(), &7.into())
-    );
+    assert_eq!((&made["complete"], &made["shard"]["done"]), (&true.into(), &7.into()));
     let again = told(&["dataset", "plan.toml", "-o", "d", "--json"]);
-    assert_eq!(
-        (&again["shard"]["before"], &again["shard"]["done"]),
-        (&7.into(), &0.into())
-    );
+    assert_eq!((&again["shard"]["before"], &again["shard"]["done"]), (&7.into(), &0.into()));
     let verified = told(&["dataset", "verify", "d", "--json"]);
-    assert_eq!(
-        verified["files"],
-        serde_json::json!({ "sound": 3, "of": 3 })
-    );
+    assert_eq!(verified["files"], serde_json::json!({ "sound": 3, "of": 3 }));
     assert_eq!(verified["problems"], serde_json::json!([]));
     let merged = told(&["dataset", "merge", "d", "-o", "all", "--json"]);
     assert_eq!(merged["files"]["brought"], 3);

@@ -1,4 +1,5 @@
-//! Surfaces as instruments save them, with their spacing: ISO 25178-71 (`.sdf`), ISO 5436-2 (`.x3p`), MountainsMap (`.sur`).
+//! Surfaces as instruments save them, with their spacing: ISO 25178-71 (`.sdf`), ISO 5436-2 (`.x3p`), MountainsMap
+//! (`.sur`).
 
 mod bytes;
 mod sdf;
@@ -18,19 +19,11 @@ use crate::error::DamageError;
 use crate::kind::FileKind;
 
 fn broken(kind: FileKind, at: &str, why: impl Into<String>) -> DamageError {
-    DamageError::Broken {
-        kind,
-        at: at.to_owned(),
-        why: why.into(),
-    }
+    DamageError::Broken { kind, at: at.to_owned(), why: why.into() }
 }
 
 fn unsupported(kind: FileKind, what: impl Into<String>, way_out: &'static str) -> DamageError {
-    DamageError::Unsupported {
-        at: format!("this {kind} file"),
-        what: what.into(),
-        way_out,
-    }
+    DamageError::Unsupported { at: format!("this {kind} file"), what: what.into(), way_out }
 }
 
 /// Points of a grid that is not too large.

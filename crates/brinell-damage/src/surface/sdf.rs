@@ -1,5 +1,5 @@
-//! ISO 25178-71: a header of 13 entries, in text or in 81 bytes, then the heights profile by profile. The same layout as BCR-STM, from
-//! which the standard took it: versions `aISO-1.0`, `bISO-1.0`, `aBCR-1.0`, `bBCR-1.0`.
+//! ISO 25178-71: a header of 13 entries, in text or in 81 bytes, then the heights profile by profile. The same layout
+//! as BCR-STM, from which the standard took it: versions `aISO-1.0`, `bISO-1.0`, `aBCR-1.0`, `bBCR-1.0`.
 
 use super::bytes::{Number, f64, u16};
 use super::{broken, map, points, spacing, unsupported};
@@ -22,11 +22,7 @@ struct Header {
 }
 
 pub(crate) fn read(bytes: &[u8]) -> Result<Raw, DamageError> {
-    if bytes.first() == Some(&b'b') {
-        binary(bytes)
-    } else {
-        text(bytes)
-    }
+    if bytes.first() == Some(&b'b') { binary(bytes) } else { text(bytes) }
 }
 
 fn number(code: u8) -> Result<Number, DamageError> {
@@ -54,20 +50,13 @@ fn is_missing(number: Number, value: f64) -> bool {
 
 fn finished(header: &Header, mut values: Vec<f64>) -> Result<Raw, DamageError> {
     if header.compression != 0.0 {
-        return Err(unsupported(
-            KIND,
-            "compression",
-            "save it without compression",
-        ));
+        return Err(unsupported(KIND, "compression", "save it without compression"));
     }
     if !(header.z.is_finite() && header.z != 0.0) {
         return Err(broken(KIND, "Zscale", format!("{} is no scale", header.z)));
     }
     values.iter_mut().for_each(|v| *v *= header.z);
-    let between = [
-        spacing(KIND, "Xscale", header.x)?,
-        spacing(KIND, "Yscale", header.y)?,
-    ];
+    let between = [spacing(KIND, "Xscale", header.x)?, spacing(KIND, "Yscale", header.y)?];
     Ok(map(header.columns, between, values))
 }
 
@@ -89,53 +78,33 @@ fn binary(bytes: &[u8]) -> Result<Raw, DamageError> {
     let data = bytes.get(BINARY_HEADER..).ok_or_else(short)?;
     // A trailer may follow.
     let data = data.get(..count * number.size()).ok_or_else(|| {
-        let why = format!(
-            "{} bytes where {count} points need {}",
-            data.len(),
-            count * number.size()
-        );
+        let why = format!("{} bytes where {count} points need {}", data.len(), count * number.size());
         broken(KIND, "its data", why)
     })?;
     let value = |item: &[u8]| {
         let value = number.value(item);
-        if is_missing(number, value) {
-            f64::NAN
-        } else {
-            value
-        }
+        if is_missing(number, value) { f64::NAN } else { value }
     };
-    finished(
-        &header,
-        data.chunks_exact(number.size()).map(value).collect(),
-    )
+    finished(&header, data.chunks_exact(number.size()).map(value).collect())
 }
 
 fn text(bytes: &[u8]) -> Result<Raw, DamageError> {
-    let text = std::str::from_utf8(bytes)
-        .map_err(|e| broken(KIND, &format!("byte {}", e.valid_up_to()), "not text"))?;
+    let text =
+        std::str::from_utf8(bytes).map_err(|e| broken(KIND, &format!("byte {}", e.valid_up_to()), "not text"))?;
     let mut parts = text.splitn(2, '*');
     let head = parts.next().unwrap_or_default();
-    let body = parts
-        .next()
-        .ok_or_else(|| broken(KIND, "its header", "no `*` ends it"))?;
+    let body = parts.next().ok_or_else(|| broken(KIND, "its header", "no `*` ends it"))?;
     let entry = |name: &str| -> Result<f64, DamageError> {
         let lines = head.lines().filter_map(|line| line.split_once('='));
-        let value = lines
-            .filter(|(key, _)| key.trim().eq_ignore_ascii_case(name))
-            .map(|(_, v)| v)
-            .next();
+        let value = lines.filter(|(key, _)| key.trim().eq_ignore_ascii_case(name)).map(|(_, v)| v).next();
         let value = value.ok_or_else(|| broken(KIND, name, "it is missing"))?;
         let value = value.split(';').next().unwrap_or_default().trim();
-        value
-            .parse()
-            .map_err(|_| broken(KIND, name, format!("`{}`", excerpt(value))))
+        value.parse().map_err(|_| broken(KIND, name, format!("`{}`", excerpt(value))))
     };
     let count = |name: &str| -> Result<usize, DamageError> {
         let value = entry(name)?;
         let whole = (0.0..=1e9).contains(&value) && value.fract() == 0.0;
-        whole
-            .then_some(value as usize)
-            .ok_or_else(|| broken(KIND, name, format!("{value}")))
+        whole.then_some(value as usize).ok_or_else(|| broken(KIND, name, format!("{value}")))
     };
     let header = Header {
         columns: count("NumPoints")?,
@@ -151,31 +120,18 @@ fn text(bytes: &[u8]) -> Result<Raw, DamageError> {
     let body = body.split('*').next().unwrap_or_default();
     for (k, word) in body.split_whitespace().enumerate() {
         if k >= wanted {
-            return Err(broken(
-                KIND,
-                "its data",
-                format!("more than {wanted} heights"),
-            ));
+            return Err(broken(KIND, "its data", format!("more than {wanted} heights")));
         }
         let value = match word.eq_ignore_ascii_case("bad") {
             true => f64::NAN,
             false => word.parse().map_err(|_| {
-                broken(
-                    KIND,
-                    &format!("height {}", k + 1),
-                    format!("`{}` is not a number", excerpt(word)),
-                )
+                broken(KIND, &format!("height {}", k + 1), format!("`{}` is not a number", excerpt(word)))
             })?,
         };
         values.push(value);
     }
     if values.len() < wanted {
-        let why = format!(
-            "{} heights where {} x {} belong",
-            values.len(),
-            header.columns,
-            header.rows
-        );
+        let why = format!("{} heights where {} x {} belong", values.len(), header.columns, header.rows);
         return Err(broken(KIND, "its data", why));
     }
     finished(&header, values)

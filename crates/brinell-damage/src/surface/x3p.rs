@@ -18,12 +18,8 @@ pub(crate) fn read(bytes: &[u8]) -> Result<Raw, DamageError> {
     let archive = Archive::open(bytes)?;
     let text = archive.file(MAIN, MOST_TEXT)?;
     let text = std::str::from_utf8(&text).map_err(|_| broken(KIND, MAIN, "not UTF-8"))?;
-    let options = ParsingOptions {
-        nodes_limit: MOST_NODES,
-        ..ParsingOptions::default()
-    };
-    let document = Document::parse_with_options(text, options)
-        .map_err(|e| broken(KIND, MAIN, e.to_string()))?;
+    let options = ParsingOptions { nodes_limit: MOST_NODES, ..ParsingOptions::default() };
+    let document = Document::parse_with_options(text, options).map_err(|e| broken(KIND, MAIN, e.to_string()))?;
     let root = document.root_element();
     match text_of(root, "FeatureType").as_deref() {
         Some("SUR") | None => {}
@@ -35,26 +31,17 @@ pub(crate) fn read(bytes: &[u8]) -> Result<Raw, DamageError> {
     let axis = |name: &str| child(root, name).ok_or_else(|| broken(KIND, name, "it is missing"));
     let side = |name: &'static str| -> Result<usize, DamageError> {
         let text = text_of(root, name).unwrap_or_default();
-        text.parse()
-            .map_err(|_| broken(KIND, name, format!("`{}`", excerpt(&text))))
+        text.parse().map_err(|_| broken(KIND, name, format!("`{}`", excerpt(&text))))
     };
     let (columns, rows) = (side("SizeX")?, side("SizeY")?);
     if side("SizeZ").unwrap_or(1) > 1 {
-        return Err(unsupported(
-            KIND,
-            "several layers",
-            "save one surface alone",
-        ));
+        return Err(unsupported(KIND, "several layers", "save one surface alone"));
     }
     let count = points(columns, rows)?;
     let between = |name: &'static str| -> Result<f64, DamageError> {
         let axis = axis(name)?;
         if text_of(axis, "AxisType").as_deref() == Some("A") {
-            return Err(unsupported(
-                KIND,
-                "points with places of their own",
-                "save them on a grid",
-            ));
+            return Err(unsupported(KIND, "points with places of their own", "save them on a grid"));
         }
         spacing(KIND, name, decimal(axis, "Increment")?.unwrap_or(f64::NAN))
     };
@@ -79,8 +66,7 @@ pub(crate) fn read(bytes: &[u8]) -> Result<Raw, DamageError> {
 
 /// The first element of a name below another.
 fn child<'a, 'b>(of: Node<'a, 'b>, name: &str) -> Option<Node<'a, 'b>> {
-    of.descendants()
-        .find(|n| n.is_element() && n.tag_name().name() == name)
+    of.descendants().find(|n| n.is_element() && n.tag_name().name() == name)
 }
 
 fn text_of(of: Node<'_, '_>, name: &str) -> Option<String> {
@@ -93,9 +79,7 @@ fn decimal(of: Node<'_, '_>, name: &'static str) -> Result<Option<f64>, DamageEr
         return Ok(None);
     };
     let value = text.parse::<f64>().ok().filter(|v| v.is_finite());
-    value
-        .map(Some)
-        .ok_or_else(|| broken(KIND, name, format!("`{}`", excerpt(&text))))
+    value.map(Some).ok_or_else(|| broken(KIND, name, format!("`{}`", excerpt(&text))))
 }
 
 /// Heights in a file of the archive; points that are not valid are missing.
@@ -112,10 +96,7 @@ fn linked(
         let why = format!("{} bytes where {count} points need {wanted}", data.len());
         return Err(broken(KIND, link, why));
     }
-    let mut values: Vec<f64> = data
-        .chunks_exact(number.size())
-        .map(|item| number.value(item))
-        .collect();
+    let mut values: Vec<f64> = data.chunks_exact(number.size()).map(|item| number.value(item)).collect();
     if let Some(link) = text_of(root, "ValidPointsLink") {
         let valid = archive.file(&link, count.div_ceil(8) + 8)?;
         if valid.len() < count.div_ceil(8) {
@@ -132,34 +113,21 @@ fn linked(
 
 /// Heights within `main.xml`: the last number of each entry; an empty entry is a missing point.
 fn listed(root: Node<'_, '_>, count: usize) -> Result<Vec<f64>, DamageError> {
-    let list =
-        child(root, "DataList").ok_or_else(|| broken(KIND, "DataList", "there are no heights"))?;
+    let list = child(root, "DataList").ok_or_else(|| broken(KIND, "DataList", "there are no heights"))?;
     let mut values = Vec::new();
-    for entry in list
-        .children()
-        .filter(|n| n.tag_name().name() == "Datum")
-        .take(count + 1)
-    {
+    for entry in list.children().filter(|n| n.tag_name().name() == "Datum").take(count + 1) {
         let text = entry.text().unwrap_or_default();
         let word = text.rsplit(';').next().unwrap_or_default().trim();
         let value = match word.is_empty() {
             true => f64::NAN,
-            false => word.parse().map_err(|_| {
-                broken(
-                    KIND,
-                    &format!("height {}", values.len() + 1),
-                    format!("`{}`", excerpt(word)),
-                )
-            })?,
+            false => word
+                .parse()
+                .map_err(|_| broken(KIND, &format!("height {}", values.len() + 1), format!("`{}`", excerpt(word))))?,
         };
         values.push(value);
     }
     if values.len() != count {
-        return Err(broken(
-            KIND,
-            "DataList",
-            format!("{} heights where {count} belong", values.len()),
-        ));
+        return Err(broken(KIND, "DataList", format!("{} heights where {count} belong", values.len())));
     }
     Ok(values)
 }

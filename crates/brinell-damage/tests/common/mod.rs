@@ -5,13 +5,7 @@ pub mod photos;
 pub mod surfaces;
 
 /// A PNG of these rows of samples.
-pub fn png(
-    width: usize,
-    height: usize,
-    color: png::ColorType,
-    depth: png::BitDepth,
-    data: &[u8],
-) -> Vec<u8> {
+pub fn png(width: usize, height: usize, color: png::ColorType, depth: png::BitDepth, data: &[u8]) -> Vec<u8> {
     let mut bytes = Vec::new();
     let mut encoder = png::Encoder::new(&mut bytes, width as u32, height as u32);
     encoder.set_color(color);
@@ -24,30 +18,16 @@ pub fn png(
 
 /// An 8-bit grey PNG of `grey(x, y)`, 0 to 1.
 pub fn grey_png(width: usize, height: usize, grey: impl Fn(usize, usize) -> f64) -> Vec<u8> {
-    png(
-        width,
-        height,
-        png::ColorType::Grayscale,
-        png::BitDepth::Eight,
-        &grey_bytes(width, height, grey),
-    )
+    png(width, height, png::ColorType::Grayscale, png::BitDepth::Eight, &grey_bytes(width, height, grey))
 }
 
 /// The negative of an 8-bit grey PNG.
 pub fn negative_png(bytes: &[u8]) -> Vec<u8> {
-    let mut reader = png::Decoder::new(std::io::Cursor::new(bytes))
-        .read_info()
-        .unwrap();
+    let mut reader = png::Decoder::new(std::io::Cursor::new(bytes)).read_info().unwrap();
     let mut data = vec![0; reader.output_buffer_size().unwrap()];
     let info = reader.next_frame(&mut data).unwrap();
     data.iter_mut().for_each(|v| *v = 255 - *v);
-    png(
-        info.width as usize,
-        info.height as usize,
-        info.color_type,
-        info.bit_depth,
-        &data,
-    )
+    png(info.width as usize, info.height as usize, info.color_type, info.bit_depth, &data)
 }
 
 pub fn grey_bytes(width: usize, height: usize, grey: impl Fn(usize, usize) -> f64) -> Vec<u8> {
@@ -58,10 +38,8 @@ pub fn grey_bytes(width: usize, height: usize, grey: impl Fn(usize, usize) -> f6
 /// An NPY file, version 1, of raw items.
 pub fn npy(descr: &str, fortran: bool, shape: [usize; 2], data: &[u8]) -> Vec<u8> {
     let order = if fortran { "True" } else { "False" };
-    let mut header = format!(
-        "{{'descr': '{descr}', 'fortran_order': {order}, 'shape': ({}, {}), }}",
-        shape[0], shape[1]
-    );
+    let mut header =
+        format!("{{'descr': '{descr}', 'fortran_order': {order}, 'shape': ({}, {}), }}", shape[0], shape[1]);
     while (10 + header.len() + 1) % 64 != 0 {
         header.push(' ');
     }
@@ -74,18 +52,14 @@ pub fn npy(descr: &str, fortran: bool, shape: [usize; 2], data: &[u8]) -> Vec<u8
 }
 
 pub fn npy_f8(rows: usize, columns: usize, value: impl Fn(usize, usize) -> f64) -> Vec<u8> {
-    let data: Vec<u8> = (0..rows * columns)
-        .flat_map(|i| value(i / columns, i % columns).to_le_bytes())
-        .collect();
+    let data: Vec<u8> = (0..rows * columns).flat_map(|i| value(i / columns, i % columns).to_le_bytes()).collect();
     npy("<f8", false, [rows, columns], &data)
 }
 
 /// The share of a pixel's 16 x 16 sub-points that `inside` holds.
 pub fn cover(x: usize, y: usize, inside: impl Fn(f64, f64) -> bool) -> f64 {
     let at = |i: usize, k: usize| i as f64 + (k as f64 + 0.5) / 16.0;
-    let hits = (0..256)
-        .filter(|k| inside(at(x, k % 16), at(y, k / 16)))
-        .count();
+    let hits = (0..256).filter(|k| inside(at(x, k % 16), at(y, k / 16))).count();
     hits as f64 / 256.0
 }
 

@@ -1,7 +1,7 @@
 //! Photos of raceways with and without a spall, drawn from a seed, with the spall's true area.
 //!
-//! A picture is the light on the raceway times what the surface reflects, blurred as a lens does, with a sensor's noise, then PNG or JPEG.
-//! Written before the reader that is tested with it, and not changed to suit that.
+//! A picture is the light on the raceway times what the surface reflects, blurred as a lens does, with a sensor's
+//! noise, then PNG or JPEG. Written before the reader that is tested with it, and not changed to suit that.
 
 use super::{Noise, png};
 use std::f64::consts::{PI, TAU};
@@ -21,18 +21,8 @@ pub struct Photo {
 }
 
 /// What is wrong with a picture beside its spall; a photo has one of them in full and some others in part.
-const TROUBLES: [&str; 10] = [
-    "clean",
-    "gradient",
-    "vignette",
-    "shoulder",
-    "noise",
-    "phone",
-    "glints",
-    "marks",
-    "low contrast",
-    "specks",
-];
+const TROUBLES: [&str; 10] =
+    ["clean", "gradient", "vignette", "shoulder", "noise", "phone", "glints", "marks", "low contrast", "specks"];
 
 /// Photo `k` of a set of 60: in 50 there is a spall, five for each trouble; in the last 10 there is none.
 pub fn photo(seed: u64, k: usize) -> Photo {
@@ -52,16 +42,13 @@ pub fn photo(seed: u64, k: usize) -> Photo {
         light: Light::default(),
         reflects: vec![between(n, 0.5, 0.85); width * height],
     };
-    let shoulder =
-        (trouble == 3 || (trouble != 0 && n.below(8) == 0)).then(|| Shoulder::new(n, &scene));
+    let shoulder = (trouble == 3 || (trouble != 0 && n.below(8) == 0)).then(|| Shoulder::new(n, &scene));
     let contrast = match trouble {
         8 => between(n, 0.08, 0.14),
         _ => between(n, 0.22, 0.6),
     };
     let spall = spalled.then(|| Spall::new(n, &scene, shoulder.as_ref()));
-    let area_px = spall
-        .as_ref()
-        .map_or(0.0, |s| scene.draw_spall(n, s, contrast));
+    let area_px = spall.as_ref().map_or(0.0, |s| scene.draw_spall(n, s, contrast));
     scene.draw_troubles(n, trouble, spall.as_ref(), shoulder.as_ref());
     scene.blur(between(n, 0.6, 1.4));
     let sigma = match trouble {
@@ -81,11 +68,7 @@ pub fn photo(seed: u64, k: usize) -> Photo {
         name: format!(
             "{k}: {}{}, {width} x {height}, {:.1} % of it, contrast {contrast:.2}, noise {sigma:.3}, JPEG {quality:?}",
             TROUBLES[trouble],
-            if shoulder.is_some() {
-                " (shoulder)"
-            } else {
-                ""
-            },
+            if shoulder.is_some() { " (shoulder)" } else { "" },
             100.0 * area_px / (width * height) as f64,
         ),
         bytes: encoded(&grey, width, height, quality),
@@ -101,22 +84,11 @@ fn between(n: &mut Noise, low: f64, high: f64) -> f64 {
 
 fn encoded(grey: &[u8], width: usize, height: usize, quality: Option<u8>) -> Vec<u8> {
     let Some(quality) = quality else {
-        return png(
-            width,
-            height,
-            png::ColorType::Grayscale,
-            png::BitDepth::Eight,
-            grey,
-        );
+        return png(width, height, png::ColorType::Grayscale, png::BitDepth::Eight, grey);
     };
     let mut bytes = Vec::new();
     jpeg_encoder::Encoder::new(&mut bytes, quality)
-        .encode(
-            grey,
-            width as u16,
-            height as u16,
-            jpeg_encoder::ColorType::Luma,
-        )
+        .encode(grey, width as u16, height as u16, jpeg_encoder::ColorType::Luma)
         .unwrap();
     bytes
 }
@@ -159,12 +131,7 @@ impl Shoulder {
     fn new(n: &mut Noise, scene: &Scene) -> Self {
         let side = n.below(4);
         let angle = 0.5 * PI * side as f64 + between(n, -0.05, 0.05);
-        let half = 0.5
-            * if side.is_multiple_of(2) {
-                scene.width
-            } else {
-                scene.height
-            } as f64;
+        let half = 0.5 * if side.is_multiple_of(2) { scene.width } else { scene.height } as f64;
         Self {
             normal: [angle.cos(), angle.sin()],
             distance: half * between(n, 0.72, 0.9),
@@ -204,9 +171,7 @@ impl Lobe {
     fn new(n: &mut Noise, area: f64) -> Self {
         let aspect = between(n, 0.5, 2.0);
         let radius = (area / PI).sqrt();
-        let waves = (2..7_usize)
-            .map(|k| (between(n, 0.0, 0.3) / k as f64, between(n, 0.0, TAU)))
-            .collect();
+        let waves = (2..7_usize).map(|k| (between(n, 0.0, 0.3) / k as f64, between(n, 0.0, TAU))).collect();
         Self {
             centre: [0.0; 2],
             turn: between(n, 0.0, PI),
@@ -225,10 +190,7 @@ impl Lobe {
             return false;
         }
         let angle = v.atan2(u);
-        let wave: f64 = (2..)
-            .zip(&self.waves)
-            .map(|(k, (a, p))| a * (f64::from(k) * angle + p).cos())
-            .sum();
+        let wave: f64 = (2..).zip(&self.waves).map(|(k, (a, p))| a * (f64::from(k) * angle + p).cos()).sum();
         u.abs().powf(self.power) + v.abs().powf(self.power) < (1.0 + wave).powf(self.power)
     }
 }
@@ -249,14 +211,8 @@ impl Spall {
                     let (mut a, mut b) = (Lobe::new(n, 0.6 * area), Lobe::new(n, 0.5 * area));
                     let angle = between(n, 0.0, TAU);
                     let apart = 0.55 * (area / PI).sqrt();
-                    a.centre = [
-                        middle[0] + apart * angle.cos(),
-                        middle[1] + apart * angle.sin(),
-                    ];
-                    b.centre = [
-                        middle[0] - apart * angle.cos(),
-                        middle[1] - apart * angle.sin(),
-                    ];
+                    a.centre = [middle[0] + apart * angle.cos(), middle[1] + apart * angle.sin()];
+                    b.centre = [middle[0] - apart * angle.cos(), middle[1] - apart * angle.sin()];
                     vec![a, b]
                 }
                 _ => {
@@ -278,9 +234,7 @@ impl Spall {
         let margin = 12.0;
         let free = |x: f64, y: f64| {
             let within = x > margin && y > margin && x < w - margin && y < h - margin;
-            within
-                && shoulder
-                    .is_none_or(|s| s.beyond(x - 0.5 * w, y - 0.5 * h) < -margin - 2.0 * s.soft)
+            within && shoulder.is_none_or(|s| s.beyond(x - 0.5 * w, y - 0.5 * h) < -margin - 2.0 * s.soft)
         };
         (0..scene.height).step_by(3).all(|y| {
             (0..scene.width).step_by(3).all(|x| {
@@ -307,9 +261,7 @@ impl Spall {
             return corners as f64 / 4.0;
         }
         let part = |k: usize| (k as f64 + 0.5) / 4.0;
-        let hits = (0..16)
-            .filter(|k| self.holds(at(x, part(k % 4)), at(y, part(k / 4))))
-            .count();
+        let hits = (0..16).filter(|k| self.holds(at(x, part(k % 4)), at(y, part(k / 4)))).count();
         hits as f64 / 16.0
     }
 }
@@ -344,13 +296,7 @@ impl Scene {
         area
     }
 
-    fn draw_troubles(
-        &mut self,
-        n: &mut Noise,
-        trouble: usize,
-        spall: Option<&Spall>,
-        shoulder: Option<&Shoulder>,
-    ) {
+    fn draw_troubles(&mut self, n: &mut Noise, trouble: usize, spall: Option<&Spall>, shoulder: Option<&Shoulder>) {
         // What is not the photo's own trouble is there in part, and not in a clean photo.
         let share = |n: &mut Noise, wanted: bool| match (wanted, trouble) {
             (true, _) => between(n, 0.6, 1.0),
@@ -363,11 +309,7 @@ impl Scene {
         self.light.gradient = [1.2 * gradient * angle.cos(), 1.2 * gradient * angle.sin()];
         self.light.vignette = 0.6 * share(n, trouble == 2 || trouble == 5);
         self.light.centre = [between(n, -0.15, 0.15), between(n, -0.15, 0.15)];
-        self.light.haze = if n.below(3) == 0 {
-            between(n, 0.0, 0.1)
-        } else {
-            0.0
-        };
+        self.light.haze = if n.below(3) == 0 { between(n, 0.0, 0.1) } else { 0.0 };
         let marks = share(n, trouble == 7);
         self.draw_marks(n, 0.03 * marks);
         let specks = (15.0 * share(n, trouble == 9)) as usize;
@@ -378,10 +320,7 @@ impl Scene {
                 true => between(n, 0.8, 3.0),
                 false => between(n, 0.015, 0.065) / self.mm_per_pixel,
             };
-            let at = [
-                between(n, 0.0, self.width as f64),
-                between(n, 0.0, self.height as f64),
-            ];
+            let at = [between(n, 0.0, self.width as f64), between(n, 0.0, self.height as f64)];
             let near = |s: &Spall| {
                 (0..16).any(|k| {
                     let (sin, cos) = (TAU * f64::from(k) / 16.0).sin_cos();
@@ -408,26 +347,14 @@ impl Scene {
             return;
         }
         let upright = n.below(4) == 0;
-        let (long, across) = if upright {
-            (self.height, self.width)
-        } else {
-            (self.width, self.height)
-        };
+        let (long, across) = if upright { (self.height, self.width) } else { (self.width, self.height) };
         for row in 0..across {
             let whole = amplitude * n.normal();
             let (from, to) = (n.below(long), n.below(long));
             let part = 1.5 * amplitude * n.normal();
             for k in 0..long {
-                let stretch = if (from.min(to)..from.max(to)).contains(&k) {
-                    part
-                } else {
-                    0.0
-                };
-                let i = if upright {
-                    k * self.width + row
-                } else {
-                    row * self.width + k
-                };
+                let stretch = if (from.min(to)..from.max(to)).contains(&k) { part } else { 0.0 };
+                let i = if upright { k * self.width + row } else { row * self.width + k };
                 self.reflects[i] *= 1.0 + whole + stretch;
             }
         }
@@ -472,9 +399,6 @@ impl Scene {
             let shown = self.light.haze + (1.0 - self.light.haze) * light * self.reflects[i];
             shown + sigma * n.normal()
         };
-        (0..self.reflects.len())
-            .map(grey)
-            .map(|g| (255.0 * g.clamp(0.0, 1.0)).round() as u8)
-            .collect()
+        (0..self.reflects.len()).map(grey).map(|g| (255.0 * g.clamp(0.0, 1.0)).round() as u8).collect()
     }
 }

@@ -4,19 +4,13 @@
 pub type Height<'a> = &'a dyn Fn(usize, usize) -> f64;
 
 fn all(columns: usize, rows: usize, um: Height<'_>) -> Vec<f64> {
-    (0..columns * rows)
-        .map(|i| um(i % columns, i / columns))
-        .collect()
+    (0..columns * rows).map(|i| um(i % columns, i / columns)).collect()
 }
 
 /// ISO 25178-71 in text.
 pub fn sdf_text(columns: usize, rows: usize, step: f64, um: Height<'_>) -> Vec<u8> {
     let word = |v: &f64| {
-        if v.is_nan() {
-            "BAD".to_owned()
-        } else {
-            v.to_string()
-        }
+        if v.is_nan() { "BAD".to_owned() } else { v.to_string() }
     };
     let words: Vec<String> = all(columns, rows, um).iter().map(word).collect();
     format!(
@@ -38,11 +32,7 @@ pub fn sdf_binary(columns: usize, rows: usize, step: f64, um: Height<'_>) -> Vec
     }
     bytes.extend([0, 6, 0]);
     for v in all(columns, rows, um) {
-        let count = if v.is_nan() {
-            i32::MIN
-        } else {
-            (1e3 * v).round() as i32
-        };
+        let count = if v.is_nan() { i32::MIN } else { (1e3 * v).round() as i32 };
         bytes.extend(count.to_le_bytes());
     }
     bytes
@@ -53,14 +43,7 @@ pub fn sur(columns: usize, rows: usize, step: f64, um: Height<'_>, packed: bool)
     const LEAST: i32 = -1_000_000;
     let mut head = vec![0_u8; 512];
     let mut put = |at: usize, bytes: &[u8]| head[at..at + bytes.len()].copy_from_slice(bytes);
-    put(
-        0,
-        if packed {
-            b"DSCOMPRESSED"
-        } else {
-            b"DIGITAL SURF"
-        },
-    );
+    put(0, if packed { b"DSCOMPRESSED" } else { b"DIGITAL SURF" });
     put(14, &1_i16.to_le_bytes());
     put(18, &2_i16.to_le_bytes());
     put(86, &1_i16.to_le_bytes());
@@ -75,16 +58,8 @@ pub fn sur(columns: usize, rows: usize, step: f64, um: Height<'_>, packed: bool)
     put(196, b"\xb5m              ");
     put(212, b"nm              ");
     let numbers = all(columns, rows, um).into_iter();
-    let data: Vec<u8> = numbers
-        .flat_map(|v| {
-            if v.is_nan() {
-                LEAST - 2
-            } else {
-                (1e3 * v).round() as i32
-            }
-            .to_le_bytes()
-        })
-        .collect();
+    let data: Vec<u8> =
+        numbers.flat_map(|v| if v.is_nan() { LEAST - 2 } else { (1e3 * v).round() as i32 }.to_le_bytes()).collect();
     if packed {
         let stream = miniz_oxide::deflate::compress_to_vec_zlib(&data, 6);
         for number in [1, data.len() as u32, stream.len() as u32] {
@@ -99,13 +74,8 @@ pub fn sur(columns: usize, rows: usize, step: f64, um: Height<'_>, packed: bool)
 
 /// ISO 5436-2 with the heights in a file of their own, in 64-bit floats of m.
 pub fn x3p(columns: usize, rows: usize, step: f64, um: Height<'_>, packed: bool) -> Vec<u8> {
-    let axis = |name: &str, kind: &str, more: &str| {
-        format!("<{name}><AxisType>{kind}</AxisType>{more}</{name}>")
-    };
-    let increment = format!(
-        "<DataType>D</DataType><Increment>{:e}</Increment><Offset>0</Offset>",
-        1e-6 * step
-    );
+    let axis = |name: &str, kind: &str, more: &str| format!("<{name}><AxisType>{kind}</AxisType>{more}</{name}>");
+    let increment = format!("<DataType>D</DataType><Increment>{:e}</Increment><Offset>0</Offset>", 1e-6 * step);
     let main = format!(
         "<?xml version=\"1.0\" encoding=\"UTF-8\"?><p:ISO5436_2 xmlns:p=\"http://www.opengps.eu/2008/ISO5436_2\"><Record1>\
          <Revision>ISO5436 - 2000</Revision><FeatureType>SUR</FeatureType><Axes>{}{}{}</Axes></Record1><Record3><MatrixDimension>\
@@ -115,14 +85,8 @@ pub fn x3p(columns: usize, rows: usize, step: f64, um: Height<'_>, packed: bool)
         axis("CY", "I", &increment),
         axis("CZ", "A", "<DataType>D</DataType>"),
     );
-    let data: Vec<u8> = all(columns, rows, um)
-        .iter()
-        .flat_map(|v| (1e-6 * v).to_le_bytes())
-        .collect();
-    zip(
-        &[("main.xml", main.as_bytes()), ("bindata/data.bin", &data)],
-        packed,
-    )
+    let data: Vec<u8> = all(columns, rows, um).iter().flat_map(|v| (1e-6 * v).to_le_bytes()).collect();
+    zip(&[("main.xml", main.as_bytes()), ("bindata/data.bin", &data)], packed)
 }
 
 /// An archive; its checksums are left out.
@@ -134,38 +98,14 @@ pub fn zip(files: &[(&str, &[u8])], packed: bool) -> Vec<u8> {
             false => content.to_vec(),
         };
         // Version, flags, method, time, date, checksum, sizes, length of the name, no extra field.
-        let mut facts = vec![
-            20,
-            0,
-            0,
-            0,
-            if packed { 8 } else { 0 },
-            0,
-            0,
-            0,
-            0,
-            0,
-            0,
-            0,
-            0,
-            0,
-        ];
+        let mut facts = vec![20, 0, 0, 0, if packed { 8 } else { 0 }, 0, 0, 0, 0, 0, 0, 0, 0, 0];
         facts.extend((data.len() as u32).to_le_bytes());
         facts.extend((content.len() as u32).to_le_bytes());
         facts.extend((name.len() as u16).to_le_bytes());
         facts.extend([0, 0]);
         let at = bytes.len() as u32;
         bytes.extend([&b"PK\x03\x04"[..], &facts[..], name.as_bytes(), &data].concat());
-        directory.extend(
-            [
-                &b"PK\x01\x02\x14\0"[..],
-                &facts[..],
-                &[0; 10],
-                &at.to_le_bytes(),
-                name.as_bytes(),
-            ]
-            .concat(),
-        );
+        directory.extend([&b"PK\x01\x02\x14\0"[..], &facts[..], &[0; 10], &at.to_le_bytes(), name.as_bytes()].concat());
     }
     let at = bytes.len() as u32;
     let size = directory.len() as u32;

@@ -16,21 +16,22 @@ pub struct Rate {
 pub enum RateSource {
     /// The format has a field for it; holds the field's name.
     Header(String),
-    /// A variable beside the channel is called like a sample rate; holds its name. The format gives that name no meaning, so a
-    /// caller should show it.
+    /// A variable beside the channel is called like a sample rate; holds its name. The format gives that name no
+    /// meaning, so a caller should show it.
     Variable(String),
 }
 
 /// One array of numbers in a file.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Channel {
-    /// The name that [`crate::SignalFile::read`] takes: a column of a table, a path such as `bearing.gs` or `Y[2].Data`.
-    /// Indices count from 1, as in MATLAB.
+    /// The name that [`crate::SignalFile::read`] takes: a column of a table, a path such as `bearing.gs` or
+    /// `Y[2].Data`. Indices count from 1, as in MATLAB.
     pub name: String,
-    /// What the file calls it besides: the text `Y[2].Name` that lies beside `Y[2].Data`. [`crate::SignalFile::read`] takes it too, where it is
-    /// one channel's only.
+    /// What the file calls it besides: the text `Y[2].Name` that lies beside `Y[2].Data`. [`crate::SignalFile::read`]
+    /// takes it too, where it is one channel's only.
     pub label: Option<String>,
-    /// The size along each dimension, rows first. Empty for a single number, and for a text file, whose length nobody knows before it is read.
+    /// The size along each dimension, rows first. Empty for a single number, and for a text file, whose length nobody
+    /// knows before it is read.
     pub shape: Vec<u64>,
     /// The number of values; `None` for a text file.
     pub length: Option<u64>,
@@ -107,19 +108,15 @@ pub(crate) fn lend_rates(channels: &mut [Channel], rates: &[(String, f64)]) {
             continue;
         }
         let mine = &channel.name[..folder(&channel.name)];
-        let mut beside = rates
-            .iter()
-            .filter(|(path, hz)| &path[..folder(path)] == mine && hz.is_finite() && *hz > 0.0);
+        let mut beside = rates.iter().filter(|(path, hz)| &path[..folder(path)] == mine && hz.is_finite() && *hz > 0.0);
         if let (Some((path, hz)), None) = (beside.next(), beside.next()) {
-            channel.rate = Some(Rate {
-                hz: *hz,
-                source: RateSource::Variable(path.clone()),
-            });
+            channel.rate = Some(Rate { hz: *hz, source: RateSource::Variable(path.clone()) });
         }
     }
 }
 
-/// Gives every signal the name that lies beside it as a text called `Name`, where it is the only signal there. `texts` holds paths and texts.
+/// Gives every signal the name that lies beside it as a text called `Name`, where it is the only signal there. `texts`
+/// holds paths and texts.
 pub(crate) fn lend_labels(channels: &mut [Channel], texts: &[(String, String)]) {
     let labels: std::collections::HashMap<&str, &str> = texts
         .iter()
@@ -132,9 +129,7 @@ pub(crate) fn lend_labels(channels: &mut [Channel], texts: &[(String, String)]) 
     let folder = |c: &Channel| c.name.rsplit_once('.').map(|(folder, _)| folder.to_owned());
     let mut signals = std::collections::HashMap::<String, usize>::new();
     for channel in channels.iter().filter(|c| c.may_be_signal()) {
-        *signals
-            .entry(folder(channel).unwrap_or_default())
-            .or_default() += 1;
+        *signals.entry(folder(channel).unwrap_or_default()).or_default() += 1;
     }
     for channel in channels.iter_mut().filter(|c| c.may_be_signal()) {
         if let Some(folder) = folder(channel)

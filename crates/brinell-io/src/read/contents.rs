@@ -1,7 +1,7 @@
 //! What the readers read from: a file of the disk or bytes in memory, behind one type.
 //!
-//! Several readers may share one source, each with a place of its own: the libraries of HDF5 and Parquet keep one, the values are read
-//! through another.
+//! Several readers may share one source, each with a place of its own: the libraries of HDF5 and Parquet keep one, the
+//! values are read through another.
 
 use std::fs::File;
 use std::io::{self, Cursor, Read, Seek, SeekFrom};
@@ -29,11 +29,7 @@ struct Shared {
 impl Contents {
     /// Of a source of so many bytes that is at its begin.
     fn new(source: Box<dyn ReadSeek>, length: u64) -> Self {
-        Self {
-            shared: Arc::new(Mutex::new(Shared { source, at: 0 })),
-            at: 0,
-            length,
-        }
+        Self { shared: Arc::new(Mutex::new(Shared { source, at: 0 })), at: 0, length }
     }
 
     /// Of a file that is at its begin.

@@ -14,17 +14,9 @@ pub(crate) enum Fault {
     /// Sound, and beyond this reader.
     Unsupported(String),
     /// A value of a text file that is no number.
-    Number {
-        line: u64,
-        column: String,
-        text: String,
-    },
+    Number { line: u64, column: String, text: String },
     /// A line of a text file with more or fewer values than the lines above it.
-    Row {
-        line: u64,
-        expected: usize,
-        got: usize,
-    },
+    Row { line: u64, expected: usize, got: usize },
 }
 
 impl Fault {
@@ -42,9 +34,7 @@ impl From<io::Error> for Fault {
         match error.kind() {
             io::ErrorKind::UnexpectedEof => Self::Damaged("the file ends early".into()),
             // What the decompressors say of their input.
-            io::ErrorKind::InvalidData | io::ErrorKind::InvalidInput => {
-                Self::Damaged(error.to_string())
-            }
+            io::ErrorKind::InvalidData | io::ErrorKind::InvalidInput => Self::Damaged(error.to_string()),
             _ => Self::Io(error),
         }
     }

@@ -1,7 +1,7 @@
 //! HDF5, read: MATLAB v7.3 files and those of h5py and others.
 //!
-//! The `hdf5-pure` crate reads the structure; the values are read here, chunk by chunk, for that crate takes a vector whole. HDF5 lists a
-//! MATLAB array's dimensions last to first; they are turned here, so a shape is what MATLAB shows.
+//! The `hdf5-pure` crate reads the structure; the values are read here, chunk by chunk, for that crate takes a vector
+//! whole. HDF5 lists a MATLAB array's dimensions last to first; they are turned here, so a shape is what MATLAB shows.
 
 use std::collections::HashSet;
 use std::io::{Read, Seek, SeekFrom};
@@ -73,14 +73,10 @@ pub(super) fn list(mut contents: Contents) -> Result<Listing, Fault> {
         visits: 0,
     };
     walk.group(&tree.root(), "", 0)?;
-    let mut source = Source5 {
-        contents,
-        arrays: walk.arrays,
-    };
+    let mut source = Source5 { contents, arrays: walk.arrays };
     let mut rates = Vec::new();
     for (index, channel) in walk.channels.iter().enumerate() {
-        if channel.length == Some(1) && names_a_rate(&channel.name) && channel.unreadable.is_none()
-        {
+        if channel.length == Some(1) && names_a_rate(&channel.name) && channel.unreadable.is_none() {
             source.stream(index, &mut |v: &[f64]| {
                 rates.extend(v.iter().map(|&hz| (channel.name.clone(), hz)));
                 ControlFlow::Continue(())
@@ -88,11 +84,7 @@ pub(super) fn list(mut contents: Contents) -> Result<Listing, Fault> {
         }
     }
     lend_rates(&mut walk.channels, &rates);
-    Ok(Listing {
-        channels: walk.channels,
-        metadata: walk.metadata,
-        source: Box::new(source),
-    })
+    Ok(Listing { channels: walk.channels, metadata: walk.metadata, source: Box::new(source) })
 }
 
 /// The text of an attribute.
@@ -121,10 +113,8 @@ impl Walk {
             (_, true) => format!("{path}.{name}"),
             (_, false) => format!("{path}/{name}"),
         };
-        let datasets: Vec<(String, Dataset)> = group
-            .iter_datasets()?
-            .map(|(name, dataset)| (within(&name), dataset))
-            .collect();
+        let datasets: Vec<(String, Dataset)> =
+            group.iter_datasets()?.map(|(name, dataset)| (within(&name), dataset)).collect();
         // What MATLAB hides: the targets of references, and objects of its own.
         let groups: Vec<(String, Group)> = group
             .iter_groups()?
@@ -154,9 +144,7 @@ impl Walk {
         let count = shape.iter().copied().fold(1, u64::saturating_mul);
         let bytes = count.saturating_mul(dataset.element_size()?);
         if bytes > self.most {
-            return Err(damaged(format!(
-                "`{name}` claims {bytes} bytes of values, more than the file can hold"
-            )));
+            return Err(damaged(format!("`{name}` claims {bytes} bytes of values, more than the file can hold")));
         }
         let attributes = dataset.attrs().unwrap_or_default();
         let class = text_of(&attributes, "MATLAB_class");
@@ -171,9 +159,7 @@ impl Walk {
                 if count <= 1
                     && let Ok(texts) = dataset.read_string()
                 {
-                    self.metadata
-                        .pairs
-                        .extend(texts.into_iter().map(|t| (name.clone(), t)));
+                    self.metadata.pairs.extend(texts.into_iter().map(|t| (name.clone(), t)));
                     return Ok(());
                 }
                 None
@@ -193,19 +179,11 @@ impl Walk {
         let stored = stored.filter(|_| !empty);
         if stored.is_none() {
             channel.stored_as = "other";
-            channel.unreadable = Some(if empty {
-                "is empty".into()
-            } else {
-                "holds no real numbers".into()
-            });
+            channel.unreadable = Some(if empty { "is empty".into() } else { "holds no real numbers".into() });
         }
         let big_endian = is_big_endian(&dataset)?;
         self.channels.push(channel);
-        self.arrays.push(stored.map(|stored| Array {
-            dataset,
-            stored,
-            big_endian,
-        }));
+        self.arrays.push(stored.map(|stored| Array { dataset, stored, big_endian }));
         Ok(())
     }
 
@@ -213,21 +191,13 @@ impl Walk {
     fn text(&mut self, dataset: &Dataset, name: String, count: u64) -> Result<(), Fault> {
         if count <= MAX_TEXT && matches!(dataset.dtype()?, DType::U16) {
             let units = dataset.read_u16()?;
-            self.metadata
-                .pairs
-                .push((name, String::from_utf16_lossy(&units)));
+            self.metadata.pairs.push((name, String::from_utf16_lossy(&units)));
         }
         Ok(())
     }
 
     /// The members of a cell, or of one field of a struct array.
-    fn members(
-        &mut self,
-        dataset: &Dataset,
-        name: &str,
-        count: u64,
-        depth: usize,
-    ) -> Result<(), Fault> {
+    fn members(&mut self, dataset: &Dataset, name: &str, count: u64, depth: usize) -> Result<(), Fault> {
         if count > MAX_MEMBERS {
             return Err(damaged(format!("`{name}` claims {count} members")));
         }
@@ -256,18 +226,11 @@ impl Source for Source5 {
         let shape = array.dataset.shape()?;
         let count = shape.iter().copied().fold(1, u64::saturating_mul);
         match array.dataset.layout()? {
-            Layout::Contiguous {
-                address: Some(address),
-                ..
-            } => {
+            Layout::Contiguous { address: Some(address), .. } => {
                 self.contents.seek(SeekFrom::Start(address))?;
-                array
-                    .stored
-                    .stream(array.big_endian, &mut self.contents, count, sink)
+                array.stored.stream(array.big_endian, &mut self.contents, count, sink)
             }
-            Layout::Contiguous { address: None, .. } if count > 0 => {
-                Err(unsupported("the values were never written"))
-            }
+            Layout::Contiguous { address: None, .. } if count > 0 => Err(unsupported("the values were never written")),
             Layout::Chunked { chunk_shape, .. } => {
                 let chunk = chunk_shape.iter().copied().fold(1, u64::saturating_mul);
                 let bytes = chunk.saturating_mul(array.stored.bytes() as u64);
@@ -287,12 +250,7 @@ impl Source for Source5 {
                             return Err(damaged("a chunk reaches past the end of the file"));
                         }
                     }
-                    rows(
-                        array,
-                        &shape,
-                        chunk_shape.first().copied().unwrap_or(1),
-                        sink,
-                    )
+                    rows(array, &shape, chunk_shape.first().copied().unwrap_or(1), sink)
                 }
             }
             Layout::Virtual => Err(unsupported("a virtual dataset, whose values are elsewhere")),
@@ -308,9 +266,7 @@ fn rows(array: &Array, shape: &[u64], chunk: u64, sink: Sink<'_>) -> Result<(), 
     let row_bytes = inner.saturating_mul(array.stored.bytes() as u64).max(1);
     let step = (MAX_CHUNK / 8 / row_bytes).max(chunk).max(1);
     if row_bytes.saturating_mul(step.min(rows)) > 4 * MAX_CHUNK {
-        return Err(unsupported(format!(
-            "rows of {row_bytes} bytes are too long to be read one by one"
-        )));
+        return Err(unsupported(format!("rows of {row_bytes} bytes are too long to be read one by one")));
     }
     let mut at = 0;
     while at < rows {
@@ -319,9 +275,7 @@ fn rows(array: &Array, shape: &[u64], chunk: u64, sink: Sink<'_>) -> Result<(), 
         if count == 0 {
             return Err(damaged("rows are missing"));
         }
-        array
-            .stored
-            .stream(array.big_endian, &mut &bytes[..], count, sink)?;
+        array.stored.stream(array.big_endian, &mut &bytes[..], count, sink)?;
         at += step;
     }
     Ok(())
@@ -352,9 +306,7 @@ fn vector(
             break;
         }
         if chunk.offset.get(axis).copied().unwrap_or(0) != at {
-            return Err(unsupported(format!(
-                "values from {at} on were never written"
-            )));
+            return Err(unsupported(format!("values from {at} on were never written")));
         }
         if chunk.storage_size > 2 * MAX_CHUNK {
             return Err(damaged("a chunk is too long"));
@@ -369,9 +321,7 @@ fn vector(
             match *filter {
                 DEFLATE => {
                     raw.clear();
-                    ZlibDecoder::new(&stored[..])
-                        .take(chunk_bytes as u64 + 4)
-                        .read_to_end(&mut raw)?;
+                    ZlibDecoder::new(&stored[..]).take(chunk_bytes as u64 + 4).read_to_end(&mut raw)?;
                     std::mem::swap(&mut raw, &mut stored);
                 }
                 SHUFFLE => {
@@ -400,9 +350,7 @@ fn vector(
         at += along;
     }
     if at < length {
-        return Err(unsupported(format!(
-            "values from {at} on were never written"
-        )));
+        return Err(unsupported(format!("values from {at} on were never written")));
     }
     Ok(())
 }
@@ -412,10 +360,7 @@ fn unshuffle(bytes: &[u8], width: usize, out: &mut Vec<u8>) {
     let count = bytes.len() / width;
     out.clear();
     out.resize(bytes.len(), 0);
-    for (k, plane) in bytes[..count * width]
-        .chunks_exact(count.max(1))
-        .enumerate()
-    {
+    for (k, plane) in bytes[..count * width].chunks_exact(count.max(1)).enumerate() {
         for (i, &byte) in plane.iter().enumerate() {
             out[i * width + k] = byte;
         }
@@ -443,9 +388,7 @@ fn number(kind: &DType) -> Option<Number> {
 fn is_big_endian(dataset: &Dataset) -> Result<bool, Fault> {
     use hdf5_pure::{Datatype as T, DatatypeByteOrder as Order};
     Ok(match dataset.datatype()? {
-        T::FixedPoint { byte_order, .. } | T::FloatingPoint { byte_order, .. } => {
-            byte_order == Order::BigEndian
-        }
+        T::FixedPoint { byte_order, .. } | T::FloatingPoint { byte_order, .. } => byte_order == Order::BigEndian,
         _ => false,
     })
 }

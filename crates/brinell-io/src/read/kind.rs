@@ -67,34 +67,18 @@ fn promised(path: &Path) -> Option<(&'static [FileKind], &'static str)> {
 /// The kind of a file; an error where content and name disagree.
 pub(crate) fn sniff(path: &Path, contents: impl Read) -> Result<FileKind, IoError> {
     let mut head = Vec::new();
-    contents
-        .take(HEAD)
-        .read_to_end(&mut head)
-        .map_err(|e| IoError::reading(path, e))?;
+    contents.take(HEAD).read_to_end(&mut head).map_err(|e| IoError::reading(path, e))?;
     if head.is_empty() {
-        return Err(IoError::EmptyFile {
-            path: path.to_owned(),
-        });
+        return Err(IoError::EmptyFile { path: path.to_owned() });
     }
     let found = from_content(&head);
-    let mislabelled = |name_says, content_is| IoError::Mislabelled {
-        path: path.to_owned(),
-        name_says,
-        content_is,
-    };
+    let mislabelled = |name_says, content_is| IoError::Mislabelled { path: path.to_owned(), name_says, content_is };
     match (found, promised(path)) {
-        (Ok(kind), Some((kinds, name))) if !kinds.contains(&kind) => {
-            Err(mislabelled(name, kind.to_string()))
-        }
+        (Ok(kind), Some((kinds, name))) if !kinds.contains(&kind) => Err(mislabelled(name, kind.to_string())),
         (Ok(kind), _) => Ok(kind),
         // Text of a kind that is not read is what its name says.
-        (Err(what), Some((_, name))) if !what.starts_with(name) => {
-            Err(mislabelled(name, what.to_owned()))
-        }
-        (Err(what), _) => Err(IoError::UnknownContent {
-            path: path.to_owned(),
-            what,
-        }),
+        (Err(what), Some((_, name))) if !what.starts_with(name) => Err(mislabelled(name, what.to_owned())),
+        (Err(what), _) => Err(IoError::UnknownContent { path: path.to_owned(), what }),
     }
 }
 
@@ -109,11 +93,7 @@ fn from_content(head: &[u8]) -> Result<FileKind, &'static str> {
     }
     if at(0, b"PK\x03\x04") || at(0, b"PK\x05\x06") {
         let office = memchr::memmem::find(head, b"[Content_Types].xml").is_some();
-        return if office {
-            Err("a spreadsheet or other Office document")
-        } else {
-            Ok(FileKind::Npz)
-        };
+        return if office { Err("a spreadsheet or other Office document") } else { Ok(FileKind::Npz) };
     }
     if (at(0, b"RIFF") || at(0, b"RF64") || at(0, b"BW64")) && at(8, b"WAVE") {
         return Ok(FileKind::Wav);
@@ -140,21 +120,14 @@ fn from_content(head: &[u8]) -> Result<FileKind, &'static str> {
     let text = String::from_utf8_lossy(head);
     let mut lines = text.lines().filter(|line| !line.trim().is_empty());
     let delimiter = lines.next().is_some_and(|line| line.trim_end() == "    -1");
-    let number = |line: &str| {
-        line.get(..6)
-            .is_some_and(|n| n.trim().parse::<u16>().is_ok())
-    };
+    let number = |line: &str| line.get(..6).is_some_and(|n| n.trim().parse::<u16>().is_ok());
     if delimiter && lines.next().is_some_and(number) {
         return Ok(FileKind::Uff58);
     }
     if head.contains(&0) {
         // Four bytes that say little-endian numbers of a known width, then sizes: MATLAB's format before 1996.
         let old = head.len() >= 20 && head[..4].iter().skip(1).all(|&b| b < 0x10) && head[1] == 0;
-        return Err(if old {
-            "no known format (perhaps MATLAB v4; save it again as v7)"
-        } else {
-            "no known format"
-        });
+        return Err(if old { "no known format (perhaps MATLAB v4; save it again as v7)" } else { "no known format" });
     }
     Ok(FileKind::Text)
 }

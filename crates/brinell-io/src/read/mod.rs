@@ -1,8 +1,8 @@
 //! Measured signals from the files that instruments and other programs write.
 //!
 //! [`open`] looks at the content, lists what is there and reads nothing else yet. A channel is then read whole
-//! ([`SignalFile::read`]) or piece by piece ([`SignalFile::read_pieces`]), which holds a few megabytes whatever the file's size. [`open_bytes`]
-//! does the same to a file that is in memory already, and needs no file system.
+//! ([`SignalFile::read`]) or piece by piece ([`SignalFile::read_pieces`]), which holds a few megabytes whatever the
+//! file's size. [`open_bytes`] does the same to a file that is in memory already, and needs no file system.
 //!
 //! Sample rates and units are what the file states, with the place where it does; there are no guesses.
 
@@ -43,12 +43,9 @@ use contents::Contents;
 use fault::Fault;
 use numbers::Sink;
 
-/// The most values that [`SignalFile::read`] collects: 2 GiB of them, and 512 MiB where all memory is 4 GiB, as on WebAssembly.
-pub const MAX_VALUES: u64 = if cfg!(target_pointer_width = "32") {
-    1 << 26
-} else {
-    1 << 28
-};
+/// The most values that [`SignalFile::read`] collects: 2 GiB of them, and 512 MiB where all memory is 4 GiB, as on
+/// WebAssembly.
+pub const MAX_VALUES: u64 = if cfg!(target_pointer_width = "32") { 1 << 26 } else { 1 << 28 };
 
 /// What a format's reader gives.
 struct Listing {
@@ -84,8 +81,8 @@ impl std::fmt::Debug for SignalFile {
 
 /// Opens a file of signals and lists its channels.
 ///
-/// The format is what the content shows; where the name promises another, that is an error which names both. Refused are also
-/// files that are empty, cut off, damaged, or claim more than they can hold.
+/// The format is what the content shows; where the name promises another, that is an error which names both. Refused
+/// are also files that are empty, cut off, damaged, or claim more than they can hold.
 pub fn open(path: impl AsRef<Path>) -> Result<SignalFile, IoError> {
     open_as(path, &TextFormat::default())
 }
@@ -96,9 +93,7 @@ pub fn open_as(path: impl AsRef<Path>, text: &TextFormat) -> Result<SignalFile, 
     let reading = |e| IoError::reading(path, e);
     let mut file = File::open(path).map_err(reading)?;
     if file.metadata().map_err(reading)?.is_dir() {
-        return Err(IoError::NotAFileName {
-            path: path.to_owned(),
-        });
+        return Err(IoError::NotAFileName { path: path.to_owned() });
     }
     let kind = kind::sniff(path, &mut file)?;
     file.rewind().map_err(reading)?;
@@ -106,10 +101,11 @@ pub fn open_as(path: impl AsRef<Path>, text: &TextFormat) -> Result<SignalFile, 
     listed(path, kind, contents, text)
 }
 
-/// [`open`] for a file in memory, as a browser hands it over. `name` is what errors call it; its ending is held against the content as
-/// a path's is.
+/// [`open`] for a file in memory, as a browser hands it over. `name` is what errors call it; its ending is held against
+/// the content as a path's is.
 ///
-/// `bytes` are a `Vec<u8>`, an `Arc<[u8]>`, or anything else that holds them; they are not copied, and kept as long as the [`SignalFile`].
+/// `bytes` are a `Vec<u8>`, an `Arc<[u8]>`, or anything else that holds them; they are not copied, and kept as long as
+/// the [`SignalFile`].
 ///
 /// ```
 /// let bytes = b"time [s];acc [g]\n0,0;1,5\n0,1;-2,25\n".to_vec();
@@ -120,10 +116,7 @@ pub fn open_as(path: impl AsRef<Path>, text: &TextFormat) -> Result<SignalFile, 
 ///
 /// # Errors
 /// As [`open`], without those of the file system.
-pub fn open_bytes(
-    name: &str,
-    bytes: impl AsRef<[u8]> + Send + 'static,
-) -> Result<SignalFile, IoError> {
+pub fn open_bytes(name: &str, bytes: impl AsRef<[u8]> + Send + 'static) -> Result<SignalFile, IoError> {
     open_bytes_as(name, bytes, &TextFormat::default())
 }
 
@@ -142,12 +135,7 @@ pub fn open_bytes_as(
 }
 
 /// The file with its channels.
-fn listed(
-    path: &Path,
-    kind: FileKind,
-    contents: Contents,
-    text: &TextFormat,
-) -> Result<SignalFile, IoError> {
+fn listed(path: &Path, kind: FileKind, contents: Contents, text: &TextFormat) -> Result<SignalFile, IoError> {
     let list = || match kind {
         FileKind::Text => text::list(contents, text),
         #[cfg(feature = "parquet")]
@@ -161,9 +149,7 @@ fn listed(
         FileKind::Wav => wav::list(contents),
         FileKind::Uff58 => uff::list(contents),
         #[cfg(not(all(feature = "parquet", feature = "hdf5", feature = "npz")))]
-        _ => Err(fault::unsupported(
-            "this build leaves the format out; build brinell-io with its default features",
-        )),
+        _ => Err(fault::unsupported("this build leaves the format out; build brinell-io with its default features")),
     };
     let mut listing = guarded(list).map_err(|fault| told(path, kind, fault))?;
     channel::tell_apart(&mut listing.channels);
@@ -202,10 +188,7 @@ impl SignalFile {
         let mut signals = self.channels.iter().filter(|c| c.may_be_signal());
         match (signals.next(), signals.next()) {
             (Some(signal), None) => Ok(signal),
-            (None, _) => Err(IoError::NoSignal {
-                path: self.path.clone(),
-                found: names(self.channels.iter()),
-            }),
+            (None, _) => Err(IoError::NoSignal { path: self.path.clone(), found: names(self.channels.iter()) }),
             (Some(_), Some(_)) => Err(IoError::SeveralSignals {
                 path: self.path.clone(),
                 names: names(self.channels.iter().filter(|c| c.may_be_signal())),
@@ -215,7 +198,8 @@ impl SignalFile {
 
     /// All values of a channel, or of a matrix's column or row such as `X(:,2)`: at most [`MAX_VALUES`].
     ///
-    /// Memory is taken as values arrive, so that a file cannot claim it. Missing values are NaN. 64-bit integers beyond 2^53 round.
+    /// Memory is taken as values arrive, so that a file cannot claim it. Missing values are NaN. 64-bit integers beyond
+    /// 2^53 round.
     pub fn read(&mut self, name: &str) -> Result<Vec<f64>, IoError> {
         let mut values = Vec::new();
         let mut too_long = false;
@@ -228,21 +212,13 @@ impl SignalFile {
             ControlFlow::Continue(())
         })?;
         if too_long {
-            return Err(IoError::TooLong {
-                path: self.path.clone(),
-                name: name.to_owned(),
-                limit: MAX_VALUES,
-            });
+            return Err(IoError::TooLong { path: self.path.clone(), name: name.to_owned(), limit: MAX_VALUES });
         }
         Ok(values)
     }
 
     /// Hands the values of a channel to `sink` in order, piece by piece, until the end or until it breaks off.
-    pub fn read_pieces(
-        &mut self,
-        name: &str,
-        sink: impl FnMut(&[f64]) -> ControlFlow<()>,
-    ) -> Result<(), IoError> {
+    pub fn read_pieces(&mut self, name: &str, sink: impl FnMut(&[f64]) -> ControlFlow<()>) -> Result<(), IoError> {
         let find = |name: &str| {
             let named = self.channels.iter().position(|c| c.name == name);
             let called = |c: &Channel| c.label.as_deref() == Some(name);
@@ -263,10 +239,7 @@ impl SignalFile {
             }
         };
         let channel = &self.channels[index];
-        let cannot = |why: String| IoError::Unsupported {
-            path: self.path.clone(),
-            why,
-        };
+        let cannot = |why: String| IoError::Unsupported { path: self.path.clone(), why };
         if let Some(why) = &channel.unreadable {
             return Err(cannot(format!("`{}` {why}", channel.name)));
         }
@@ -295,11 +268,10 @@ fn names<'a>(channels: impl Iterator<Item = &'a Channel>) -> String {
     text
 }
 
-/// Other people's readers assert some of what a damaged file can break; such a panic ends here. On WebAssembly no panic can be caught: there
-/// it ends the module, and the page starts another.
+/// Other people's readers assert some of what a damaged file can break; such a panic ends here. On WebAssembly no panic
+/// can be caught: there it ends the module, and the page starts another.
 fn guarded<T>(work: impl FnOnce() -> Result<T, Fault>) -> Result<T, Fault> {
-    catch_unwind(AssertUnwindSafe(work))
-        .unwrap_or_else(|_| Err(fault::damaged("a reader gave up on it")))
+    catch_unwind(AssertUnwindSafe(work)).unwrap_or_else(|_| Err(fault::damaged("a reader gave up on it")))
 }
 
 fn told(path: &Path, kind: FileKind, fault: Fault) -> IoError {
@@ -308,27 +280,9 @@ fn told(path: &Path, kind: FileKind, fault: Fault) -> IoError {
         Fault::Io(source) => IoError::Read { path, source },
         Fault::Damaged(why) => IoError::Damaged { path, kind, why },
         Fault::Unsupported(why) => IoError::Unsupported { path, why },
-        Fault::Number { line, column, text } => IoError::CsvNumber {
-            path,
-            line,
-            column,
-            text,
-        },
-        Fault::Row {
-            line,
-            expected,
-            got,
-        } => IoError::TextRow {
-            path,
-            line,
-            expected,
-            got,
-        },
+        Fault::Number { line, column, text } => IoError::CsvNumber { path, line, column, text },
+        Fault::Row { line, expected, got } => IoError::TextRow { path, line, expected, got },
         // Only `read_pieces` has a receiver, and takes this out before.
-        Fault::Stopped => IoError::Damaged {
-            path,
-            kind,
-            why: "reading stopped".into(),
-        },
+        Fault::Stopped => IoError::Damaged { path, kind, why: "reading stopped".into() },
     }
 }

@@ -47,8 +47,7 @@ pub(super) fn header(reader: &mut impl Read, name: &str) -> Result<Array, Fault>
     let after = |key: &str| {
         let at = text.find(key).map(|at| at + key.len());
         let rest = at.and_then(|at| text[at..].trim_start().strip_prefix(':'));
-        rest.map(str::trim_start)
-            .ok_or_else(|| damaged(format!("the header has no {key}")))
+        rest.map(str::trim_start).ok_or_else(|| damaged(format!("the header has no {key}")))
     };
     let column_major = after("'fortran_order'")?.starts_with("True");
     let shape = after("'shape'")?;
@@ -65,10 +64,7 @@ pub(super) fn header(reader: &mut impl Read, name: &str) -> Result<Array, Fault>
         .collect::<Result<_, _>>()
         .map_err(|_| damaged(format!("`{shape}` is no shape")))?;
     let kind = after("'descr'")?;
-    let word = kind
-        .strip_prefix('\'')
-        .and_then(|k| k.split_once('\''))
-        .map(|(word, _)| word);
+    let word = kind.strip_prefix('\'').and_then(|k| k.split_once('\'')).map(|(word, _)| word);
     let (order, number) = word.and_then(|w| w.split_at_checked(1)).unwrap_or(("", ""));
     let stored = stored_as(number).filter(|_| matches!(order, "<" | ">" | "|" | "="));
     let mut channel = Channel::array(name, shape, stored.unwrap_or(Number::U8));
@@ -79,16 +75,8 @@ pub(super) fn header(reader: &mut impl Read, name: &str) -> Result<Array, Fault>
         channel.unreadable = Some(format!("holds {what}, not real numbers"));
     }
     // Saturated products mean more than any file holds.
-    let bytes = channel
-        .length
-        .unwrap_or(u64::MAX)
-        .saturating_mul(stored.map_or(1, Number::bytes) as u64);
-    Ok(Array {
-        channel,
-        stored,
-        big_endian: order == ">",
-        bytes,
-    })
+    let bytes = channel.length.unwrap_or(u64::MAX).saturating_mul(stored.map_or(1, Number::bytes) as u64);
+    Ok(Array { channel, stored, big_endian: order == ">", bytes })
 }
 
 /// How the numbers of a type's word are stored, where they are real ones.
@@ -130,11 +118,7 @@ pub(super) fn list(contents: Contents) -> Result<Listing, Fault> {
     Ok(Listing {
         channels: vec![array.channel.clone()],
         metadata: Metadata::default(),
-        source: Box::new(Npy {
-            contents: reader.into_inner(),
-            start,
-            array,
-        }),
+        source: Box::new(Npy { contents: reader.into_inner(), start, array }),
     })
 }
 

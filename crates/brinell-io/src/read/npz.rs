@@ -1,7 +1,7 @@
 //! NumPy's archive of arrays, read: a zip file, stored or deflated.
 //!
-//! A small archive may inflate to a huge one. Values are streamed, so that costs no memory; and an array may not claim more bytes than
-//! deflate can make of what is stored.
+//! A small archive may inflate to a huge one. Values are streamed, so that costs no memory; and an array may not claim
+//! more bytes than deflate can make of what is stored.
 
 use std::io::{BufReader, Read};
 
@@ -77,11 +77,7 @@ pub(super) fn list(contents: Contents) -> Result<Listing, Fault> {
     }
     lend_rates(&mut channels, &rates);
     lend_units(&mut channels, &metadata);
-    Ok(Listing {
-        channels,
-        metadata,
-        source: Box::new(Npz { archive, entries }),
-    })
+    Ok(Listing { channels, metadata, source: Box::new(Npz { archive, entries }) })
 }
 
 /// A single text, NumPy's kinds `U` and `S`.
@@ -90,9 +86,7 @@ fn text(array: &Array, reader: &mut impl Read) -> Result<Option<String>, Fault> 
     let kind = array.channel.unreadable.as_deref().unwrap_or_default();
     let word = kind.split('`').nth(1).unwrap_or_default();
     let width = |sign| {
-        let digits = word
-            .trim_start_matches(['<', '>', '|', '='])
-            .strip_prefix(sign)?;
+        let digits = word.trim_start_matches(['<', '>', '|', '=']).strip_prefix(sign)?;
         digits.parse::<usize>().ok().filter(|&n| n <= MAX_TEXT / 4)
     };
     let bytes = |reader: &mut dyn Read, n: usize| -> Result<Vec<u8>, Fault> {
@@ -104,19 +98,10 @@ fn text(array: &Array, reader: &mut impl Read) -> Result<Option<String>, Fault> 
         return Ok(None);
     } else if let Some(n) = width('U') {
         let to_char = |b: &[u8; 4]| {
-            let code = if array.big_endian {
-                u32::from_be_bytes(*b)
-            } else {
-                u32::from_le_bytes(*b)
-            };
+            let code = if array.big_endian { u32::from_be_bytes(*b) } else { u32::from_le_bytes(*b) };
             char::from_u32(code).unwrap_or(char::REPLACEMENT_CHARACTER)
         };
-        bytes(reader, 4 * n)?
-            .as_chunks::<4>()
-            .0
-            .iter()
-            .map(to_char)
-            .collect()
+        bytes(reader, 4 * n)?.as_chunks::<4>().0.iter().map(to_char).collect()
     } else if let Some(n) = width('S') {
         String::from_utf8_lossy(&bytes(reader, n)?).into_owned()
     } else {

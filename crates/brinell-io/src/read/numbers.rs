@@ -84,11 +84,7 @@ impl Number {
             Self::F32 => each!(f32, f64::from),
             Self::F64 => each!(f64, |v| v),
             Self::I24 => out.extend(bytes.as_chunks::<3>().0.iter().map(|&[a, b, c]| {
-                let wide = if big_endian {
-                    [0, c, b, a]
-                } else {
-                    [0, a, b, c]
-                };
+                let wide = if big_endian { [0, c, b, a] } else { [0, a, b, c] };
                 f64::from(i32::from_le_bytes(wide) >> 8)
             })),
         }
@@ -151,10 +147,7 @@ mod tests {
         };
         assert_eq!(decode(Number::I8, false, &[0xff, 1]), [-1.0, 1.0]);
         assert_eq!(decode(Number::I16, true, &[0xff, 0xfe]), [-2.0]);
-        assert_eq!(
-            decode(Number::I24, false, &[0xff, 0xff, 0xff, 0, 0, 0x80]),
-            [-1.0, -8_388_608.0]
-        );
+        assert_eq!(decode(Number::I24, false, &[0xff, 0xff, 0xff, 0, 0, 0x80]), [-1.0, -8_388_608.0]);
         assert_eq!(decode(Number::I24, true, &[0, 1, 0]), [256.0]);
         assert_eq!(decode(Number::U64, false, &[1, 0, 0, 0, 0, 0, 0, 0]), [1.0]);
         let halves = [0x3c00u16, 0xc000, 0x0001, 0x7bff, 0x7c00].map(u16::to_le_bytes);

@@ -1,5 +1,5 @@
-//! Parquet, read: flat columns of numbers, from brinell or anyone else (plain, Snappy, Zstandard, gzip or LZ4). Nested columns are listed and
-//! not read.
+//! Parquet, read: flat columns of numbers, from brinell or anyone else (plain, Snappy, Zstandard, gzip or LZ4). Nested
+//! columns are listed and not read.
 
 use std::fs::File;
 use std::io::{self, BufReader, Read, Seek, SeekFrom};
@@ -33,10 +33,7 @@ pub fn read_parquet(path: impl AsRef<Path>) -> Result<Signals, IoError> {
     // The crate asserts some of what a damaged file can break; what `check_chunks` does not foresee ends here.
     let damaged = |_| Err(ParquetError::General("the file is damaged".to_owned()));
     let result = catch_unwind(AssertUnwindSafe(|| read(contents))).unwrap_or_else(damaged);
-    result.map_err(|e| IoError::Parquet {
-        path: path.to_owned(),
-        why: e.to_string(),
-    })
+    result.map_err(|e| IoError::Parquet { path: path.to_owned(), why: e.to_string() })
 }
 
 fn read(contents: Contents) -> Result<Signals, ParquetError> {
@@ -54,19 +51,13 @@ fn read(contents: Contents) -> Result<Signals, ParquetError> {
         })?;
     }
     if let Some(odd) = data.iter().position(|values| values.len() != data[0].len()) {
-        return Err(ParquetError::General(format!(
-            "column `{}` has another length",
-            columns[odd].name
-        )));
+        return Err(ParquetError::General(format!("column `{}` has another length", columns[odd].name)));
     }
-    Ok(Signals {
-        columns,
-        data,
-        metadata,
-    })
+    Ok(Signals { columns, data, metadata })
 }
 
-/// A file that ends: the crate takes the length of a read from the file's own claims and waits at the end for bytes to come.
+/// A file that ends: the crate takes the length of a read from the file's own claims and waits at the end for bytes to
+/// come.
 struct Bounded(Contents);
 
 /// Reads on after the end are errors.
@@ -117,16 +108,9 @@ fn head(contents: Contents) -> Result<Head, ParquetError> {
     check_chunks(reader.metadata(), file_bytes)?;
     let file_metadata = reader.metadata().file_metadata();
     let pairs = file_metadata.key_value_metadata().into_iter().flatten();
-    let metadata = Metadata {
-        pairs: pairs
-            .map(|kv| (kv.key.clone(), kv.value.clone().unwrap_or_default()))
-            .collect(),
-    };
+    let metadata = Metadata { pairs: pairs.map(|kv| (kv.key.clone(), kv.value.clone().unwrap_or_default())).collect() };
     let object = |key| -> Map<String, Value> {
-        metadata
-            .get(key)
-            .and_then(|text| serde_json::from_str(text).ok())
-            .unwrap_or_default()
+        metadata.get(key).and_then(|text| serde_json::from_str(text).ok()).unwrap_or_default()
     };
     let (units, descriptions) = (object(keys::UNITS), object(keys::DESCRIPTIONS));
     let mut columns = Vec::new();
@@ -137,17 +121,8 @@ fn head(contents: Contents) -> Result<Head, ParquetError> {
             [name] => name.clone(),
             _ => column.path().string(),
         };
-        let text = |of: &Map<String, Value>| {
-            of.get(name)
-                .and_then(Value::as_str)
-                .unwrap_or_default()
-                .to_owned()
-        };
-        columns.push(Column {
-            unit: text(&units),
-            description: text(&descriptions),
-            name: name.clone(),
-        });
+        let text = |of: &Map<String, Value>| of.get(name).and_then(Value::as_str).unwrap_or_default().to_owned();
+        columns.push(Column { unit: text(&units), description: text(&descriptions), name: name.clone() });
     }
     Ok((reader, columns, metadata))
 }
@@ -173,15 +148,11 @@ fn unreadable(about: &ParquetMetaData, index: usize) -> Option<String> {
             }
         });
     }
-    let packed =
-        about
-            .row_groups()
-            .iter()
-            .find_map(|group| match group.column(index).compression() {
-                Compression::BROTLI(_) => Some("Brotli"),
-                Compression::LZO => Some("LZO"),
-                _ => None,
-            })?;
+    let packed = about.row_groups().iter().find_map(|group| match group.column(index).compression() {
+        Compression::BROTLI(_) => Some("Brotli"),
+        Compression::LZO => Some("LZO"),
+        _ => None,
+    })?;
     Some(format!(
         "is compressed with {packed}, which is not supported here: save the file with zstd, snappy, lz4 or gzip"
     ))
@@ -222,10 +193,7 @@ fn is_unsigned(column: &ColumnDescriptor) -> bool {
     match column.logical_type_ref() {
         Some(LogicalType::Integer(integer)) => !integer.is_signed,
         Some(_) => false,
-        None => matches!(
-            column.converted_type(),
-            ConvertedType::UINT_32 | ConvertedType::UINT_64
-        ),
+        None => matches!(column.converted_type(), ConvertedType::UINT_32 | ConvertedType::UINT_64),
     }
 }
 
@@ -233,9 +201,7 @@ fn is_unsigned(column: &ColumnDescriptor) -> bool {
 fn integer(bytes: &[u8]) -> i128 {
     let negative = bytes.first().is_some_and(|byte| byte & 0x80 != 0);
     let start = if negative { -1 } else { 0 };
-    bytes
-        .iter()
-        .fold(start, |sum, byte| sum << 8 | i128::from(*byte))
+    bytes.iter().fold(start, |sum, byte| sum << 8 | i128::from(*byte))
 }
 
 type Take<'a> = &'a mut dyn FnMut(&[f64]) -> Result<(), ParquetError>;
@@ -247,11 +213,7 @@ fn column_pieces(
     name: &str,
     take: Take<'_>,
 ) -> Result<(), ParquetError> {
-    let column = reader
-        .metadata()
-        .file_metadata()
-        .schema_descr()
-        .column(index);
+    let column = reader.metadata().file_metadata().schema_descr().column(index);
     let unit = decimals(&column).map_or(1.0, |places| 10_f64.powi(places));
     let is_unsigned = is_unsigned(&column);
     for group in 0..reader.num_row_groups() {
@@ -270,12 +232,10 @@ fn column_pieces(
             ColumnReader::FixedLenByteArrayColumnReader(r) if decimals(&column).is_some() => {
                 pieces(r, take, |v| integer(v.data()) as f64 / unit)?;
             }
-            ColumnReader::FixedLenByteArrayColumnReader(r) => {
-                pieces(r, take, |v| match v.data() {
-                    [low, high] => half(u16::from_le_bytes([*low, *high])),
-                    _ => f64::NAN,
-                })?
-            }
+            ColumnReader::FixedLenByteArrayColumnReader(r) => pieces(r, take, |v| match v.data() {
+                [low, high] => half(u16::from_le_bytes([*low, *high])),
+                _ => f64::NAN,
+            })?,
             _ => {
                 return Err(ParquetError::NYI(format!("`{name}` does not hold numbers")));
             }
@@ -287,21 +247,13 @@ fn column_pieces(
 /// Every column chunk must lie within the file: the crate asserts it where we can still say it.
 fn check_chunks(metadata: &ParquetMetaData, file_bytes: u64) -> Result<(), ParquetError> {
     let inside = |chunk: &ColumnChunkMetaData| {
-        let start = chunk
-            .dictionary_page_offset()
-            .unwrap_or(chunk.data_page_offset());
+        let start = chunk.dictionary_page_offset().unwrap_or(chunk.data_page_offset());
         let end = start.checked_add(chunk.compressed_size())?;
         (start >= 0 && start <= end && u64::try_from(end).ok()? <= file_bytes).then_some(())
     };
-    let mut chunks = metadata
-        .row_groups()
-        .iter()
-        .flat_map(|group| group.columns());
+    let mut chunks = metadata.row_groups().iter().flat_map(|group| group.columns());
     match chunks.find(|chunk| inside(chunk).is_none()) {
-        Some(chunk) => Err(ParquetError::General(format!(
-            "column `{}` points outside the file",
-            chunk.column_path()
-        ))),
+        Some(chunk) => Err(ParquetError::General(format!("column `{}` points outside the file", chunk.column_path()))),
         None => Ok(()),
     }
 }
@@ -325,11 +277,7 @@ fn pieces<T: DataType>(
         } else {
             let mut values = values.drain(..);
             let value = |&level: &i16| {
-                if level > 0 {
-                    values.next().map_or(f64::NAN, &convert)
-                } else {
-                    f64::NAN
-                }
+                if level > 0 { values.next().map_or(f64::NAN, &convert) } else { f64::NAN }
             };
             piece.extend(present.iter().map(value));
         }
@@ -355,15 +303,10 @@ pub(super) fn list(contents: Contents) -> Result<Listing, Fault> {
     let (reader, columns, metadata) = head(contents)?;
     let about = reader.metadata();
     let rows: i64 = about.row_groups().iter().map(|g| g.num_rows().max(0)).sum();
-    let hz = metadata
-        .get(keys::SAMPLE_RATE_HZ)
-        .and_then(|t| t.parse().ok());
+    let hz = metadata.get(keys::SAMPLE_RATE_HZ).and_then(|t| t.parse().ok());
     let rate = hz
         .filter(|hz: &f64| hz.is_finite() && *hz > 0.0)
-        .map(|hz| Rate {
-            hz,
-            source: RateSource::Header(keys::SAMPLE_RATE_HZ.into()),
-        });
+        .map(|hz| Rate { hz, source: RateSource::Header(keys::SAMPLE_RATE_HZ.into()) });
     let schema = about.file_metadata().schema_descr();
     let channel = |(i, column): (usize, &Column)| {
         let (number, name) = stored(&schema.column(i)).unwrap_or((Number::F64, "other"));
@@ -377,10 +320,7 @@ pub(super) fn list(contents: Contents) -> Result<Listing, Fault> {
     Ok(Listing {
         channels: columns.iter().enumerate().map(channel).collect(),
         metadata,
-        source: Box::new(Table {
-            reader,
-            names: columns.into_iter().map(|c| c.name).collect(),
-        }),
+        source: Box::new(Table { reader, names: columns.into_iter().map(|c| c.name).collect() }),
     })
 }
 

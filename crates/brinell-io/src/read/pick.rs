@@ -51,11 +51,7 @@ pub(crate) fn stride(channel: &Channel, pick: Pick) -> Result<Stride, String> {
             };
             return Err(format!("`{name}` is {}; {way_out}", sizes.join(" x ")));
         }
-        return Ok(Stride {
-            first: 0,
-            step: 1,
-            count: u64::MAX,
-        });
+        return Ok(Stride { first: 0, step: 1, count: u64::MAX });
     }
     let plane = channel.plane();
     let &[rows, columns] = &plane[..] else {
@@ -74,17 +70,9 @@ pub(crate) fn stride(channel: &Channel, pick: Pick) -> Result<Stride, String> {
     // A column is contiguous where the first index runs fastest, a row where the last does.
     let contiguous = matches!(pick, Pick::Column(_)) == channel.column_major;
     Ok(if contiguous {
-        Stride {
-            first: at.saturating_mul(count),
-            step: 1,
-            count,
-        }
+        Stride { first: at.saturating_mul(count), step: 1, count }
     } else {
-        Stride {
-            first: at,
-            step: of,
-            count,
-        }
+        Stride { first: at, step: of, count }
     })
 }
 
@@ -106,18 +94,10 @@ pub(crate) fn through<'a>(
                 next = next.saturating_add(stride.step);
                 left -= 1;
             }
-            if picked.is_empty() {
-                ControlFlow::Continue(())
-            } else {
-                sink(&picked)
-            }
+            if picked.is_empty() { ControlFlow::Continue(()) } else { sink(&picked) }
         };
         passed = end;
-        if left == 0 {
-            ControlFlow::Break(())
-        } else {
-            flow
-        }
+        if left == 0 { ControlFlow::Break(()) } else { flow }
     }
 }
 
@@ -160,9 +140,6 @@ mod tests {
         let channel = Channel::array("X", vec![2, 3], Number::F64);
         let say = |name| stride(&channel, split(name).1).unwrap_err();
         assert_eq!(say("X(:,4)"), "`X` has no column 4; it has 3");
-        assert_eq!(
-            say("X"),
-            "`X` is 2 x 3; choose a column such as `X(:,1)`, or a row such as `X(1,:)`"
-        );
+        assert_eq!(say("X"), "`X` is 2 x 3; choose a column such as `X(:,1)`, or a row such as `X(1,:)`");
     }
 }

@@ -10,8 +10,8 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::Path;
 use std::sync::Arc;
 
-/// The `columns` of those rows for which `wanted` says so, rows counting from 0; cells in the order of `columns`. A list without elements is one of
-/// numbers. One row is in memory beside what comes back.
+/// The `columns` of those rows for which `wanted` says so, rows counting from 0; cells in the order of `columns`. A
+/// list without elements is one of numbers. One row is in memory beside what comes back.
 ///
 /// # Errors
 /// Where the file cannot be read, has no such column, or a cell is of a kind that no row has.
@@ -25,25 +25,15 @@ pub fn read_records(
     // The crate asserts some of what a damaged file can break.
     let damaged = |_| Err(ParquetError::General("the file is damaged".to_owned()));
     let rows = catch_unwind(AssertUnwindSafe(|| read(file, columns, wanted)));
-    rows.unwrap_or_else(damaged)
-        .map_err(|error| IoError::Parquet {
-            path: path.to_owned(),
-            why: error.to_string(),
-        })
+    rows.unwrap_or_else(damaged).map_err(|error| IoError::Parquet { path: path.to_owned(), why: error.to_string() })
 }
 
-fn read(
-    file: File,
-    columns: &[&str],
-    wanted: impl Fn(usize) -> bool,
-) -> Result<Vec<Vec<Cell>>, ParquetError> {
+fn read(file: File, columns: &[&str], wanted: impl Fn(usize) -> bool) -> Result<Vec<Vec<Cell>>, ParquetError> {
     let reader = SerializedFileReader::new(file)?;
     let schema = reader.metadata().file_metadata().schema();
     let fields = schema.get_fields().iter();
     let fields = fields.filter(|field| columns.contains(&field.name()));
-    let projected = Type::group_type_builder(schema.name())
-        .with_fields(fields.cloned().collect())
-        .build()?;
+    let projected = Type::group_type_builder(schema.name()).with_fields(fields.cloned().collect()).build()?;
     let projected = Arc::new(projected);
     let (mut all, mut first) = (Vec::new(), 0);
     for group in 0..reader.num_row_groups() {
@@ -132,10 +122,7 @@ mod tests {
             ("numbers", Kind::Numbers),
             ("list", Kind::WordsList),
         ];
-        let columns = columns.map(|(name, kind)| RecordColumn {
-            column: Column::new(name, "1", ""),
-            kind,
-        });
+        let columns = columns.map(|(name, kind)| RecordColumn { column: Column::new(name, "1", ""), kind });
         let row = |k: i64| {
             vec![
                 Cell::Whole(k),
@@ -153,9 +140,7 @@ mod tests {
         writer.write_group(&rows[3..]).unwrap();
         writer.finish().unwrap();
         // In another order than the file's, and of both groups.
-        let names = [
-            "signal", "list", "numbers", "wholes", "words", "number", "whole",
-        ];
+        let names = ["signal", "list", "numbers", "wholes", "words", "number", "whole"];
         let back = read_records(&path, &names, |row| row % 2 == 0).unwrap();
         let expected = rows.iter().step_by(2).map(|row| {
             let place = |name| columns.iter().position(|c| c.column.name == name);

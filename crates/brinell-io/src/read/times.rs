@@ -29,11 +29,7 @@ impl Channel {
 /// A channel's name, in small letters, without a unit in brackets.
 fn bare(channel: &Channel) -> String {
     let name = channel.name.to_lowercase();
-    name.split(['[', '('])
-        .next()
-        .unwrap_or("")
-        .trim()
-        .to_owned()
+    name.split(['[', '(']).next().unwrap_or("").trim().to_owned()
 }
 
 /// Seconds in the unit that the name of a column of times ends in.
@@ -90,31 +86,17 @@ pub fn rate_of_times(times: &[f64], unit: f64) -> Result<f64, NoRate> {
         let off = (w[1] - w[0] - step).abs();
         off.is_nan() || off > allowed
     });
-    let rounded = times
-        .iter()
-        .enumerate()
-        .all(|(i, t)| (t - times[0] - i as f64 * step).abs() <= 0.6 * step);
+    let rounded = times.iter().enumerate().all(|(i, t)| (t - times[0] - i as f64 * step).abs() <= 0.6 * step);
     if off.is_some() && !rounded {
         let steps: Vec<f64> = times.windows(2).map(|w| w[1] - w[0]).collect();
         let middle = steps.len() / 2;
-        let usual = *steps
-            .clone()
-            .select_nth_unstable_by(middle, f64::total_cmp)
-            .1;
+        let usual = *steps.clone().select_nth_unstable_by(middle, f64::total_cmp).1;
         let away = |(_, step): &(usize, &f64)| (*step - usual).abs();
         let worst = (steps.iter().enumerate()).max_by(|a, b| away(a).total_cmp(&away(b)));
         let (i, step) = worst.unwrap_or((0, &usual));
-        return Err(NoRate::Uneven {
-            step: *step,
-            after: i + 1,
-            usual,
-        });
+        return Err(NoRate::Uneven { step: *step, after: i + 1, usual });
     }
     let hz = 1.0 / (step * unit);
     let round = hz.round();
-    Ok(if (hz / round - 1.0).abs() < 1e-5 {
-        round
-    } else {
-        hz
-    })
+    Ok(if (hz / round - 1.0).abs() < 1e-5 { round } else { hz })
 }

@@ -1,7 +1,8 @@
-//! Universal File Format, dataset 58, read: functions at nodes, as text or binary (58b). Other datasets are passed over.
+//! Universal File Format, dataset 58, read: functions at nodes, as text or binary (58b). Other datasets are passed
+//! over.
 //!
-//! Layout: University of Cincinnati, SDRL, "Universal File Datasets Summary", 58 and 58b. Real functions are read, evenly spaced or not; the
-//! abscissa of an uneven one is a channel of its own, `NAME.x`.
+//! Layout: University of Cincinnati, SDRL, "Universal File Datasets Summary", 58 and 58b. Real functions are read,
+//! evenly spaced or not; the abscissa of an uneven one is a channel of its own, `NAME.x`.
 
 use std::io::{BufRead, BufReader, Read, Seek, SeekFrom};
 
@@ -47,9 +48,7 @@ impl Lines {
     /// The next line without its end; `None` after the last.
     fn next(&mut self) -> Result<Option<String>, Fault> {
         let mut bytes = Vec::new();
-        let got = (&mut self.reader)
-            .take(MAX_LINE)
-            .read_until(b'\n', &mut bytes)?;
+        let got = (&mut self.reader).take(MAX_LINE).read_until(b'\n', &mut bytes)?;
         self.at += got as u64;
         self.number += 1;
         if got as u64 == MAX_LINE {
@@ -60,8 +59,7 @@ impl Lines {
     }
 
     fn expect(&mut self) -> Result<String, Fault> {
-        self.next()?
-            .ok_or_else(|| damaged("the file ends within a dataset"))
+        self.next()?.ok_or_else(|| damaged("the file ends within a dataset"))
     }
 
     fn go(&mut self, to: u64) -> Result<(), Fault> {
@@ -79,17 +77,12 @@ fn field(line: &str, from: usize, width: usize) -> &str {
 
 fn integer(line: &str, from: usize, width: usize, what: &str) -> Result<i64, Fault> {
     let text = field(line, from, width);
-    text.parse()
-        .map_err(|_| damaged(format!("`{text}` is no {what}")))
+    text.parse().map_err(|_| damaged(format!("`{text}` is no {what}")))
 }
 
 pub(super) fn list(contents: Contents) -> Result<Listing, Fault> {
     let length = contents.length();
-    let mut lines = Lines {
-        reader: BufReader::new(contents),
-        at: 0,
-        number: 0,
-    };
+    let mut lines = Lines { reader: BufReader::new(contents), at: 0, number: 0 };
     let (mut channels, mut functions) = (Vec::new(), Vec::new());
     let mut metadata = Metadata::default();
     // Outside of datasets; each begins and ends with a line of -1.
@@ -120,14 +113,7 @@ pub(super) fn list(contents: Contents) -> Result<Listing, Fault> {
     if channels.is_empty() {
         return Err(damaged("it has no dataset 58"));
     }
-    Ok(Listing {
-        channels,
-        metadata,
-        source: Box::new(Uff {
-            contents: lines.reader.into_inner(),
-            functions,
-        }),
-    })
+    Ok(Listing { channels, metadata, source: Box::new(Uff { contents: lines.reader.into_inner(), functions }) })
 }
 
 /// One dataset 58; the lines then are behind it.
@@ -156,15 +142,7 @@ fn function(
     if !matches!(data_type, 2 | 4 | 5 | 6) {
         return Err(damaged(format!("`{name}` has data of type {data_type}")));
     }
-    let mut function = Function {
-        start: lines.at,
-        count,
-        binary,
-        big_endian: false,
-        double,
-        even,
-        short_x: false,
-    };
+    let mut function = Function { start: lines.at, count, binary, big_endian: false, double, even, short_x: false };
     if binary {
         function.pass_binary(lines, head, &name, complex, length)?;
     } else {
@@ -174,9 +152,7 @@ fn function(
     for (i, key) in keys.iter().enumerate().skip(1) {
         let text = records[i].trim();
         if !text.is_empty() && text != "NONE" {
-            metadata
-                .pairs
-                .push((format!("{name}.{key}"), text.to_owned()));
+            metadata.pairs.push((format!("{name}.{key}"), text.to_owned()));
         }
     }
     let channel = channel(name, &records, &function, complex);
@@ -202,8 +178,7 @@ impl Function {
         let bytes = u64::try_from(bytes).map_err(|_| damaged(format!("{bytes} bytes")))?;
         let width = if self.double { 8 } else { 4 };
         // The standard's uneven doubles have single abscissae, pyuff's have double ones.
-        self.short_x =
-            self.double && !self.even && self.count.saturating_mul(per * width + 4) == bytes;
+        self.short_x = self.double && !self.even && self.count.saturating_mul(per * width + 4) == bytes;
         let x_width = match (self.even, self.short_x) {
             (true, _) => 0,
             (false, true) => 4,
@@ -212,10 +187,7 @@ impl Function {
         // pyuff counts the bytes of real, even functions for every kind.
         let bytes = bytes.max(self.count.saturating_mul(per * width + x_width));
         if bytes > length.saturating_sub(lines.at) {
-            return Err(damaged(format!(
-                "`{name}` claims {} values, more than are there",
-                self.count
-            )));
+            return Err(damaged(format!("`{name}` claims {} values, more than are there", self.count)));
         }
         lines.go(self.start + bytes)?;
         // The line of values may or may not end before the closing -1.
@@ -225,10 +197,7 @@ impl Function {
 
     fn pass_text(&self, lines: &mut Lines, name: &str, length: u64) -> Result<(), Fault> {
         if self.count > length - lines.at.min(length) {
-            return Err(damaged(format!(
-                "`{name}` claims {} values, more than are there",
-                self.count
-            )));
+            return Err(damaged(format!("`{name}` claims {} values, more than are there", self.count)));
         }
         while lines.expect()?.trim_end() != "    -1" {}
         Ok(())
@@ -237,11 +206,7 @@ impl Function {
 
 /// The channel of a function.
 fn channel(name: String, records: &[String], function: &Function, complex: bool) -> Channel {
-    let stored = if function.double {
-        Number::F64
-    } else {
-        Number::F32
-    };
+    let stored = if function.double { Number::F64 } else { Number::F32 };
     let mut channel = Channel::array(name, vec![function.count], stored);
     if complex {
         channel.unreadable = Some("holds complex numbers".into());
@@ -288,11 +253,7 @@ impl Source for Uff {
         if function.short_x {
             mixed(&mut reader, function, &mut pick)
         } else if function.binary {
-            let stored = if function.double {
-                Number::F64
-            } else {
-                Number::F32
-            };
+            let stored = if function.double { Number::F64 } else { Number::F32 };
             stored.stream(function.big_endian, &mut reader, total, &mut pick)
         } else {
             text(&mut reader, function, total, &mut pick)
@@ -301,12 +262,7 @@ impl Source for Uff {
 }
 
 /// Numbers in fixed columns, which may touch.
-fn text(
-    reader: &mut impl BufRead,
-    function: Function,
-    total: u64,
-    sink: Sink<'_>,
-) -> Result<(), Fault> {
+fn text(reader: &mut impl BufRead, function: Function, total: u64, sink: Sink<'_>) -> Result<(), Fault> {
     let widths: &[usize] = match (function.double, function.even) {
         (false, _) => &[13],
         (true, true) => &[20],

@@ -1,8 +1,8 @@
 //! WAV, read: RIFF and RF64, PCM of 8, 16, 24 and 32 bits, floats of 32 and 64 bits, plain or `WAVE_FORMAT_EXTENSIBLE`.
 //!
-//! Own code, for `hound` has no 64-bit floats, no RF64 and no comments. PCM values are counts, as stored, not scaled to 1: what a count is worth
-//! is not in the file. 8-bit PCM is unsigned with its zero at 128, which is taken off. Layout: Microsoft "Multiple Channel Audio Data
-//! and WAVE Files"; RF64: EBU Tech 3306.
+//! Own code, for `hound` has no 64-bit floats, no RF64 and no comments. PCM values are counts, as stored, not scaled to
+//! 1: what a count is worth is not in the file. 8-bit PCM is unsigned with its zero at 128, which is taken off. Layout:
+//! Microsoft "Multiple Channel Audio Data and WAVE Files"; RF64: EBU Tech 3306.
 
 use std::io::{BufReader, Read, Seek, SeekFrom};
 
@@ -54,11 +54,7 @@ pub(super) fn list(contents: Contents) -> Result<Listing, Fault> {
             b"ds64" => {
                 let mut sizes = [0; 16];
                 reader.read_exact(&mut sizes)?;
-                long_data = sizes
-                    .as_chunks::<8>()
-                    .0
-                    .last()
-                    .map(|b| u64::from_le_bytes(*b));
+                long_data = sizes.as_chunks::<8>().0.last().map(|b| u64::from_le_bytes(*b));
             }
             b"fmt " => layout = Some(format(&mut reader, size)?),
             b"data" => {
@@ -90,16 +86,13 @@ pub(super) fn list(contents: Contents) -> Result<Listing, Fault> {
     metadata.pairs.extend(said);
     let channels = (0..layout.channels)
         .map(|i| {
-            let mut channel =
-                Channel::array(format!("channel{}", i + 1), vec![frames], layout.stored);
+            let mut channel = Channel::array(format!("channel{}", i + 1), vec![frames], layout.stored);
             if let Some((name, unit)) = brinell.get(usize::from(i)) {
                 channel.name.clone_from(name);
                 channel.unit = Some(unit.clone()).filter(|u| !u.is_empty());
             }
-            channel.rate = (layout.rate > 0).then(|| Rate {
-                hz: f64::from(layout.rate),
-                source: RateSource::Header("WAV sample rate".into()),
-            });
+            channel.rate = (layout.rate > 0)
+                .then(|| Rate { hz: f64::from(layout.rate), source: RateSource::Header("WAV sample rate".into()) });
             channel
         })
         .collect();
@@ -146,16 +139,9 @@ fn format(reader: &mut impl Read, size: u64) -> Result<Layout, Fault> {
         return Err(damaged("it claims no channels"));
     }
     if usize::from(u16_at(12)) != usize::from(channels) * stored.bytes() {
-        return Err(damaged(format!(
-            "a frame of {channels} channels of {bits} bits cannot have {} bytes",
-            u16_at(12)
-        )));
+        return Err(damaged(format!("a frame of {channels} channels of {bits} bits cannot have {} bytes", u16_at(12))));
     }
-    Ok(Layout {
-        stored,
-        channels,
-        rate,
-    })
+    Ok(Layout { stored, channels, rate })
 }
 
 /// The texts of a `LIST` chunk of kind `INFO`.
@@ -171,10 +157,7 @@ fn info(reader: &mut impl Read, size: u64, metadata: &mut Metadata) -> Result<()
             break;
         };
         let text = String::from_utf8_lossy(text);
-        metadata.pairs.push((
-            String::from_utf8_lossy(&head[..4]).into_owned(),
-            text.trim_end_matches('\0').to_owned(),
-        ));
+        metadata.pairs.push((String::from_utf8_lossy(&head[..4]).into_owned(), text.trim_end_matches('\0').to_owned()));
         rest = tail.get(size + size % 2..).unwrap_or_default();
     }
     Ok(())

@@ -1,7 +1,8 @@
 //! MATLAB v5, written: a column vector of doubles per channel, the sample rate as `fs`, and texts.
 //!
-//! Plain files are what MATLAB calls v6, compressed ones v7. Vibration compresses little and slowly, so [`crate::Format::Mat`] is plain. Texts:
-//! `brinell_units` (a JSON object), `brinell_outcome`, and each pair of the metadata with `_` for the dots of its key.
+//! Plain files are what MATLAB calls v6, compressed ones v7. Vibration compresses little and slowly, so
+//! [`crate::Format::Mat`] is plain. Texts: `brinell_units` (a JSON object), `brinell_outcome`, and each pair of the
+//! metadata with `_` for the dots of its key.
 
 use std::io::Write;
 use std::path::Path;
@@ -38,19 +39,15 @@ pub struct MatWriter {
 }
 
 impl MatWriter {
-    /// Starts the file. Names must be MATLAB's: a letter, then letters, digits and `_`, 63 at most; `fs` and `brinell_...` are taken.
+    /// Starts the file. Names must be MATLAB's: a letter, then letters, digits and `_`, 63 at most; `fs` and
+    /// `brinell_...` are taken.
     pub fn create(
         path: impl AsRef<Path>,
         columns: &[Column],
         metadata: &Metadata,
         compress: bool,
     ) -> Result<Self, IoError> {
-        Self::at(
-            Destination::Disk(path.as_ref()),
-            columns,
-            metadata,
-            compress,
-        )
+        Self::at(Destination::Disk(path.as_ref()), columns, metadata, compress)
     }
 
     /// The same on the disk or in memory.
@@ -70,11 +67,7 @@ impl MatWriter {
             } else {
                 continue;
             };
-            return Err(IoError::ColumnName {
-                path: path.to_owned(),
-                name: name.clone(),
-                why,
-            });
+            return Err(IoError::ColumnName { path: path.to_owned(), name: name.clone(), why });
         }
         Ok(Self {
             file: PartialFile::at(destination)?,
@@ -86,34 +79,20 @@ impl MatWriter {
     }
 
     fn write(&mut self, outcome: &Outcome) -> Result<(), IoError> {
-        let mut header = format!(
-            "MATLAB 5.0 MAT-file, written by brinell {}",
-            env!("CARGO_PKG_VERSION")
-        )
-        .into_bytes();
+        let mut header = format!("MATLAB 5.0 MAT-file, written by brinell {}", env!("CARGO_PKG_VERSION")).into_bytes();
         header.resize(124, b' ');
         header.extend_from_slice(&0x0100u16.to_le_bytes());
         header.extend_from_slice(b"IM");
         self.file.append(&header)?;
         let rows = self.spool.rows();
         for index in 0..self.columns.len() {
-            let head = head(
-                &self.columns[index].name,
-                CLASS_DOUBLE,
-                [rows, 1],
-                MI_DOUBLE,
-                8 * rows,
-            );
+            let head = head(&self.columns[index].name, CLASS_DOUBLE, [rows, 1], MI_DOUBLE, 8 * rows);
             let spool = &mut self.spool;
-            variable(&mut self.file, self.compress, &head, |take| {
-                spool.column(index, take)
-            })?;
+            variable(&mut self.file, self.compress, &head, |take| spool.column(index, take))?;
         }
         if let Some(hz) = self.metadata.sample_rate() {
             let head = head("fs", CLASS_DOUBLE, [1, 1], MI_DOUBLE, 8);
-            variable(&mut self.file, self.compress, &head, |take| {
-                take(&hz.to_le_bytes())
-            })?;
+            variable(&mut self.file, self.compress, &head, |take| take(&hz.to_le_bytes()))?;
         }
         let mut texts = vec![
             (keys::UNITS_VARIABLE.to_owned(), units_json(&self.columns)),
@@ -147,9 +126,7 @@ fn head(name: &str, class: u32, shape: [u64; 2], kind: u32, bytes: u64) -> Vec<u
     let mut word = |n: u32| inner.extend_from_slice(&n.to_le_bytes());
     // Rows are limited, so every length is far inside 32 bits.
     [MI_UINT32, 8, class, 0].into_iter().for_each(&mut word);
-    [MI_INT32, 8, shape[0] as u32, shape[1] as u32]
-        .into_iter()
-        .for_each(&mut word);
+    [MI_INT32, 8, shape[0] as u32, shape[1] as u32].into_iter().for_each(&mut word);
     [MI_INT8, name.len() as u32].into_iter().for_each(&mut word);
     inner.extend_from_slice(name.as_bytes());
     inner.resize(inner.len().next_multiple_of(8), 0);

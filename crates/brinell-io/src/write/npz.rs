@@ -1,6 +1,8 @@
-//! NumPy's archive, written: an array of float64 per channel, the sample rate as `fs`, and texts, as `numpy.savez` would.
+//! NumPy's archive, written: an array of float64 per channel, the sample rate as `fs`, and texts, as `numpy.savez`
+//! would.
 //!
-//! Nothing is compressed: vibration compresses little. Texts are those of the MAT files: `brinell_units`, `brinell_outcome`, and the metadata.
+//! Nothing is compressed: vibration compresses little. Texts are those of the MAT files: `brinell_units`,
+//! `brinell_outcome`, and the metadata.
 
 use std::io::Write;
 use zip::write::SimpleFileOptions;
@@ -21,11 +23,7 @@ pub(crate) struct NpzWriter {
 
 impl NpzWriter {
     /// Starts the file. The names `fs` and `brinell_...` are taken.
-    pub(crate) fn at(
-        destination: Destination<'_>,
-        columns: &[Column],
-        metadata: &Metadata,
-    ) -> Result<Self, IoError> {
+    pub(crate) fn at(destination: Destination<'_>, columns: &[Column], metadata: &Metadata) -> Result<Self, IoError> {
         let path = destination.path();
         check_columns(path, columns)?;
         let why = |name: &str| {
@@ -38,11 +36,7 @@ impl NpzWriter {
             }
         };
         if let Some((name, why)) = columns.iter().find_map(|c| Some((&c.name, why(&c.name)?))) {
-            return Err(IoError::ColumnName {
-                path: path.to_owned(),
-                name: name.clone(),
-                why,
-            });
+            return Err(IoError::ColumnName { path: path.to_owned(), name: name.clone(), why });
         }
         Ok(Self {
             file: PartialFile::at(destination)?,
@@ -79,15 +73,11 @@ impl SignalWriter for NpzWriter {
         let path = self.file.path().to_owned();
         let failed = |e: std::io::Error| IoError::writing(&path, e);
         let mut archive = ZipWriter::new(self.file);
-        let options = SimpleFileOptions::default()
-            .compression_method(CompressionMethod::Stored)
-            .large_file(true);
+        let options = SimpleFileOptions::default().compression_method(CompressionMethod::Stored).large_file(true);
         let rows = spool.rows();
         for (index, column) in self.columns.iter().enumerate() {
             let name = format!("{}.npy", column.name);
-            archive
-                .start_file(name, options)
-                .map_err(|e| failed(e.into()))?;
+            archive.start_file(name, options).map_err(|e| failed(e.into()))?;
             let header = header("<f8", &format!("({rows},)"));
             archive.write_all(&header).map_err(failed)?;
             spool.column(index, |bytes| archive.write_all(bytes).map_err(failed))?;
@@ -118,9 +108,7 @@ impl SignalWriter for NpzWriter {
             others.push((name, bytes));
         }
         for (name, bytes) in others {
-            archive
-                .start_file(format!("{name}.npy"), options)
-                .map_err(|e| failed(e.into()))?;
+            archive.start_file(format!("{name}.npy"), options).map_err(|e| failed(e.into()))?;
             archive.write_all(&bytes).map_err(failed)?;
         }
         archive.finish().map_err(|e| failed(e.into()))?.complete()

@@ -97,31 +97,16 @@ impl Chunk {
 
 impl ParquetWriter {
     /// Starts the file. The metadata comes at its end, with the columns' units and the outcome.
-    pub fn create(
-        path: impl AsRef<Path>,
-        columns: &[Column],
-        metadata: &Metadata,
-    ) -> Result<Self, IoError> {
+    pub fn create(path: impl AsRef<Path>, columns: &[Column], metadata: &Metadata) -> Result<Self, IoError> {
         Self::at(Destination::Disk(path.as_ref()), columns, metadata)
     }
 
     /// The same on the disk or in memory.
-    pub(crate) fn at(
-        destination: Destination<'_>,
-        columns: &[Column],
-        metadata: &Metadata,
-    ) -> Result<Self, IoError> {
+    pub(crate) fn at(destination: Destination<'_>, columns: &[Column], metadata: &Metadata) -> Result<Self, IoError> {
         let path = destination.path();
         check_columns(path, columns)?;
-        if let Some((key, _)) = metadata
-            .pairs
-            .iter()
-            .find(|(key, _)| keys::RESERVED.contains(&key.as_str()))
-        {
-            return Err(IoError::ReservedKey {
-                path: path.to_owned(),
-                key: key.clone(),
-            });
+        if let Some((key, _)) = metadata.pairs.iter().find(|(key, _)| keys::RESERVED.contains(&key.as_str())) {
+            return Err(IoError::ReservedKey { path: path.to_owned(), key: key.clone() });
         }
         let group_rows = (GROUP_BYTES / size_of::<f64>() / columns.len()).clamp(1, MAX_GROUP_ROWS);
         let compressor = Compressor::new(ZSTD_LEVEL).map_err(|e| IoError::writing(path, e))?;
@@ -150,8 +135,7 @@ impl ParquetWriter {
         for column in self.values.chunks_exact(self.group_rows) {
             byte_stream_split(&column[..rows], &mut self.split);
             self.page.clear();
-            self.page
-                .reserve(zstd::zstd_safe::compress_bound(self.split.len()));
+            self.page.reserve(zstd::zstd_safe::compress_bound(self.split.len()));
             self.compressor
                 .compress_to_buffer(&self.split, &mut self.page)
                 .map_err(|e| IoError::writing(self.file.path(), e))?;
@@ -159,10 +143,7 @@ impl ParquetWriter {
             self.file.append(&header)?;
             self.file.append(&self.page)?;
             // A page is at most 8 * MAX_GROUP_ROWS bytes before compression: far inside 32 bits.
-            self.chunks.push(Chunk {
-                header_bytes: header.len() as u32,
-                page_bytes: self.page.len() as u32,
-            });
+            self.chunks.push(Chunk { header_bytes: header.len() as u32, page_bytes: self.page.len() as u32 });
         }
         self.groups.push(rows as u32);
         self.pending = 0;
@@ -172,24 +153,15 @@ impl ParquetWriter {
     /// Key and value of everything known about the table.
     fn key_values(&self, outcome: &Outcome) -> Vec<(String, String)> {
         let object = |of: fn(&Column) -> &str| -> Value {
-            let pairs = self
-                .columns
-                .iter()
-                .map(|c| (c.name.clone(), Value::from(of(c))));
+            let pairs = self.columns.iter().map(|c| (c.name.clone(), Value::from(of(c))));
             Value::Object(pairs.collect::<Map<_, _>>())
         };
         let units = object(|c| &c.unit);
         let mut pairs = self.metadata.pairs.clone();
         pairs.push((keys::UNITS.into(), units.to_string()));
-        pairs.push((
-            keys::DESCRIPTIONS.into(),
-            object(|c| &c.description).to_string(),
-        ));
+        pairs.push((keys::DESCRIPTIONS.into(), object(|c| &c.description).to_string()));
         pairs.push((keys::OUTCOME.into(), outcome.to_string()));
-        pairs.push((
-            keys::PANDAS_ATTRS.into(),
-            json!({ "units": units }).to_string(),
-        ));
+        pairs.push((keys::PANDAS_ATTRS.into(), json!({ "units": units }).to_string()));
         pairs
     }
 
@@ -213,11 +185,7 @@ impl ParquetWriter {
         out.i64(3, self.groups.iter().map(|&rows| i64::from(rows)).sum());
         out.list(4, Thrift::STRUCT, self.groups.len());
         let mut offset = MAGIC.len() as i64;
-        for (&rows, chunks) in self
-            .groups
-            .iter()
-            .zip(self.chunks.chunks_exact(self.columns.len()))
-        {
+        for (&rows, chunks) in self.groups.iter().zip(self.chunks.chunks_exact(self.columns.len())) {
             out.begin();
             let group_offset = offset;
             let mut raw_total = 0;
@@ -251,10 +219,7 @@ impl ParquetWriter {
         length += out.buffer.len();
         // Readers take the length for a signed number; past it there are some ten terabytes of signal.
         let length = i32::try_from(length).map_err(|_| {
-            IoError::writing(
-                self.file.path(),
-                std::io::Error::other("too many row groups for one Parquet file"),
-            )
+            IoError::writing(self.file.path(), std::io::Error::other("too many row groups for one Parquet file"))
         })?;
         out.buffer.extend_from_slice(&length.to_le_bytes());
         out.buffer.extend_from_slice(MAGIC);
@@ -270,11 +235,7 @@ impl SignalWriter for ParquetWriter {
             column[self.pending] = value;
         }
         self.pending += 1;
-        if self.pending == self.group_rows {
-            self.write_group()
-        } else {
-            Ok(())
-        }
+        if self.pending == self.group_rows { self.write_group() } else { Ok(()) }
     }
 
     fn complete(mut self: Box<Self>, outcome: Outcome) -> Result<Complete, IoError> {

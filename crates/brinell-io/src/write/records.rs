@@ -1,7 +1,8 @@
 //! Rows with lists as Parquet, row group by row group: memory is one group's, whatever the number of rows.
 //!
-//! Every column is optional; lists are Parquet's LIST with required elements, so that pandas, polars, Arrow and Spark read arrays. Numbers
-//! are plain under Zstandard (fastparquet cannot read byte-stream-split ones, which would save a tenth), words have dictionaries. The same rows in the same groups give the same bytes.
+//! Every column is optional; lists are Parquet's LIST with required elements, so that pandas, polars, Arrow and Spark
+//! read arrays. Numbers are plain under Zstandard (fastparquet cannot read byte-stream-split ones, which would save a
+//! tenth), words have dictionaries. The same rows in the same groups give the same bytes.
 
 use crate::atomic::{Complete, PartialFile};
 use crate::records::{Cell, Kind, RecordColumn, hexadecimal};
@@ -9,9 +10,7 @@ use crate::signals::{check_columns, units_json};
 use crate::{IoError, Metadata, keys};
 use parquet::basic::{Compression, Encoding, LogicalType, Repetition, Type as Physical, ZstdLevel};
 use parquet::column::writer::ColumnWriterImpl;
-use parquet::data_type::{
-    BoolType, ByteArray, ByteArrayType, DataType, DoubleType, FloatType, Int64Type,
-};
+use parquet::data_type::{BoolType, ByteArray, ByteArrayType, DataType, DoubleType, FloatType, Int64Type};
 use parquet::errors::{ParquetError, Result};
 use parquet::file::metadata::KeyValue;
 use parquet::file::properties::{EnabledStatistics, WriterProperties};
@@ -76,17 +75,10 @@ impl RecordWriter {
         let path = path.as_ref();
         let plain: Vec<_> = columns.iter().map(|c| c.column.clone()).collect();
         check_columns(path, &plain)?;
-        let mut pairs: Vec<KeyValue> = metadata
-            .pairs
-            .iter()
-            .map(|(key, value)| KeyValue::new(key.clone(), value.clone()))
-            .collect();
+        let mut pairs: Vec<KeyValue> =
+            metadata.pairs.iter().map(|(key, value)| KeyValue::new(key.clone(), value.clone())).collect();
         pairs.push(KeyValue::new(keys::UNITS.into(), units_json(&plain)));
-        let target = Summed {
-            file: PartialFile::create(path)?,
-            sum: Sha256::new(),
-            bytes: 0,
-        };
+        let target = Summed { file: PartialFile::create(path)?, sum: Sha256::new(), bytes: 0 };
         let start = || -> Result<_> {
             let properties = Arc::new(properties(columns, pairs)?);
             SerializedFileWriter::new(target, schema(columns)?, properties)
@@ -104,65 +96,45 @@ impl RecordWriter {
     /// Where a row does not fit the columns, or the disk refuses.
     pub fn write_group(&mut self, rows: &[Vec<Cell>]) -> std::result::Result<(), IoError> {
         let misfit = |row: &&Vec<Cell>| {
-            row.len() != self.columns.len()
-                || row
-                    .iter()
-                    .zip(&self.columns)
-                    .any(|(cell, c)| !cell.fits(c.kind))
+            row.len() != self.columns.len() || row.iter().zip(&self.columns).any(|(cell, c)| !cell.fits(c.kind))
         };
         if let Some(row) = rows.iter().find(misfit) {
-            return Err(IoError::RowLength {
-                path: self.path.clone(),
-                expected: self.columns.len(),
-                got: row.len(),
-            });
+            return Err(IoError::RowLength { path: self.path.clone(), expected: self.columns.len(), got: row.len() });
         }
         let mut write = || -> Result<()> {
             let mut group = self.file.next_row_group()?;
             for (k, column) in self.columns.iter().enumerate() {
                 let cells = rows.iter().map(|row| &row[k]);
                 let is_list = is_list(column.kind);
-                let mut out = group
-                    .next_column()?
-                    .ok_or_else(|| ParquetError::General("fewer columns than fields".into()))?;
+                let mut out =
+                    group.next_column()?.ok_or_else(|| ParquetError::General("fewer columns than fields".into()))?;
                 match column.kind {
                     Kind::Flag => put(out.typed::<BoolType>(), is_list, cells, |c, v| {
                         if let Cell::Flag(x) = c {
                             v.push(*x);
                         }
                     })?,
-                    Kind::Whole | Kind::Wholes => {
-                        put(out.typed::<Int64Type>(), is_list, cells, |c, v| match c {
-                            Cell::Whole(x) => v.push(*x),
-                            Cell::Wholes(x) => v.extend_from_slice(x),
-                            _ => {}
-                        })?
-                    }
-                    Kind::Number | Kind::Numbers => {
-                        put(out.typed::<DoubleType>(), is_list, cells, |c, v| match c {
-                            Cell::Number(x) => v.push(*x),
-                            Cell::Numbers(x) => v.extend_from_slice(x),
-                            _ => {}
-                        })?
-                    }
+                    Kind::Whole | Kind::Wholes => put(out.typed::<Int64Type>(), is_list, cells, |c, v| match c {
+                        Cell::Whole(x) => v.push(*x),
+                        Cell::Wholes(x) => v.extend_from_slice(x),
+                        _ => {}
+                    })?,
+                    Kind::Number | Kind::Numbers => put(out.typed::<DoubleType>(), is_list, cells, |c, v| match c {
+                        Cell::Number(x) => v.push(*x),
+                        Cell::Numbers(x) => v.extend_from_slice(x),
+                        _ => {}
+                    })?,
                     Kind::Signal => put(out.typed::<FloatType>(), is_list, cells, |c, v| {
                         if let Cell::Signal(x) = c {
                             v.extend_from_slice(x);
                         }
                     })?,
                     Kind::Words | Kind::WordsList => {
-                        put(
-                            out.typed::<ByteArrayType>(),
-                            is_list,
-                            cells,
-                            |c, v: &mut Vec<ByteArray>| match c {
-                                Cell::Words(text) => v.push(text.as_str().into()),
-                                Cell::WordsList(x) => {
-                                    v.extend(x.iter().map(|t| ByteArray::from(t.as_str())))
-                                }
-                                _ => {}
-                            },
-                        )?;
+                        put(out.typed::<ByteArrayType>(), is_list, cells, |c, v: &mut Vec<ByteArray>| match c {
+                            Cell::Words(text) => v.push(text.as_str().into()),
+                            Cell::WordsList(x) => v.extend(x.iter().map(|t| ByteArray::from(t.as_str()))),
+                            _ => {}
+                        })?;
                     }
                 }
                 out.close()?;
@@ -179,11 +151,7 @@ impl RecordWriter {
     pub fn finish(self) -> std::result::Result<Written, IoError> {
         let target = self.end()?;
         let (bytes, sha256) = (target.bytes, hexadecimal(&target.sum.finalize()));
-        Ok(Written {
-            path: target.file.commit()?,
-            bytes,
-            sha256,
-        })
+        Ok(Written { path: target.file.commit()?, bytes, sha256 })
     }
 
     /// Writes the footer; [`Complete::publish`] gives the file its name.
@@ -197,7 +165,8 @@ impl RecordWriter {
     }
 }
 
-/// One column of a row group, cell by cell: a signal's levels are as long as the signal, so that not all rows' are made at once.
+/// One column of a row group, cell by cell: a signal's levels are as long as the signal, so that not all rows' are made
+/// at once.
 fn put<'a, T: DataType>(
     out: &mut ColumnWriterImpl<'_, T>,
     is_list: bool,
@@ -208,8 +177,8 @@ fn put<'a, T: DataType>(
     for cell in cells {
         values.clear();
         values_of(cell, &mut values);
-        // Levels of an optional value: 0 none, 1 there. Of an optional list of required elements: 0 no list, 1 an empty one, 2 an element;
-        // the first element of a row repeats at 0, the others at 1.
+        // Levels of an optional value: 0 none, 1 there. Of an optional list of required elements: 0 no list, 1 an empty
+        // one, 2 an element; the first element of a row repeats at 0, the others at 1.
         let level = match cell {
             Cell::Empty => 0,
             _ if is_list && !values.is_empty() => 2,
@@ -232,19 +201,12 @@ fn failed(path: &Path, error: ParquetError) -> IoError {
             Ok(error) => IoError::writing(path, *error),
             Err(other) => IoError::writing(path, io::Error::other(other.to_string())),
         },
-        other => IoError::NotWritable {
-            path: path.to_owned(),
-            format: "Parquet",
-            why: other.to_string(),
-        },
+        other => IoError::NotWritable { path: path.to_owned(), format: "Parquet", why: other.to_string() },
     }
 }
 
 fn is_list(kind: Kind) -> bool {
-    matches!(
-        kind,
-        Kind::Signal | Kind::Wholes | Kind::Numbers | Kind::WordsList
-    )
+    matches!(kind, Kind::Signal | Kind::Wholes | Kind::Numbers | Kind::WordsList)
 }
 
 fn schema(columns: &[RecordColumn]) -> Result<TypePtr> {
@@ -279,11 +241,7 @@ fn schema(columns: &[RecordColumn]) -> Result<TypePtr> {
         Ok(Arc::new(whole))
     };
     let fields = columns.iter().map(field).collect::<Result<_>>()?;
-    Ok(Arc::new(
-        Type::group_type_builder("schema")
-            .with_fields(fields)
-            .build()?,
-    ))
+    Ok(Arc::new(Type::group_type_builder("schema").with_fields(fields).build()?))
 }
 
 fn properties(columns: &[RecordColumn], pairs: Vec<KeyValue>) -> Result<WriterProperties> {
@@ -317,25 +275,14 @@ pub fn record_facts(path: impl AsRef<Path>) -> std::result::Result<RecordFacts, 
     use parquet::file::reader::{FileReader, SerializedFileReader};
     let path = path.as_ref();
     let file = std::fs::File::open(path).map_err(|e| IoError::reading(path, e))?;
-    let reader = SerializedFileReader::new(file).map_err(|error| IoError::Parquet {
-        path: path.to_owned(),
-        why: error.to_string(),
-    })?;
+    let reader = SerializedFileReader::new(file)
+        .map_err(|error| IoError::Parquet { path: path.to_owned(), why: error.to_string() })?;
     let facts = reader.metadata().file_metadata();
     let pairs = facts.key_value_metadata().into_iter().flatten();
     Ok(RecordFacts {
         rows: facts.num_rows().max(0) as u64,
-        columns: facts
-            .schema()
-            .get_fields()
-            .iter()
-            .map(|f| f.name().to_owned())
-            .collect(),
-        metadata: Metadata {
-            pairs: pairs
-                .filter_map(|pair| Some((pair.key.clone(), pair.value.clone()?)))
-                .collect(),
-        },
+        columns: facts.schema().get_fields().iter().map(|f| f.name().to_owned()).collect(),
+        metadata: Metadata { pairs: pairs.filter_map(|pair| Some((pair.key.clone(), pair.value.clone()?))).collect() },
     })
 }
 

@@ -1,8 +1,8 @@
 //! Rows in, columns out: for formats that store one channel after the other.
 //!
-//! Rows are collected by column until a block is full; blocks go to a nameless temporary file beside the result, which the system removes even
-//! after a kill. It takes as much room as the result. Memory is one block, whatever the number of rows; only for a result in memory the blocks
-//! are there too.
+//! Rows are collected by column until a block is full; blocks go to a nameless temporary file beside the result, which
+//! the system removes even after a kill. It takes as much room as the result. Memory is one block, whatever the number
+//! of rows; only for a result in memory the blocks are there too.
 
 use std::io::{self, Cursor, Read, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
@@ -60,9 +60,7 @@ impl Spool {
     /// Adds a row of as many values as there are columns.
     pub(super) fn push(&mut self, row: impl Iterator<Item = f64>) -> Result<(), IoError> {
         if self.failed {
-            return Err(IoError::AlreadyFailed {
-                path: self.path.clone(),
-            });
+            return Err(IoError::AlreadyFailed { path: self.path.clone() });
         }
         for (column, value) in self.block.chunks_exact_mut(self.block_rows).zip(row) {
             column[self.pending] = value;
@@ -74,8 +72,7 @@ impl Spool {
         self.bytes.clear();
         for column in self.block.chunks_exact(self.block_rows) {
             self.bytes.clear();
-            self.bytes
-                .extend(column.iter().flat_map(|v| v.to_le_bytes()));
+            self.bytes.extend(column.iter().flat_map(|v| v.to_le_bytes()));
             self.file.write_all(&self.bytes).map_err(|e| {
                 self.failed = true;
                 IoError::writing(&self.path, e)
@@ -114,10 +111,7 @@ impl Spool {
 /// A nameless file in the folder of the result.
 #[cfg(not(target_family = "wasm"))]
 fn beside(path: &Path) -> io::Result<Box<dyn Store>> {
-    let folder = path
-        .parent()
-        .filter(|p| !p.as_os_str().is_empty())
-        .unwrap_or(Path::new("."));
+    let folder = path.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
     Ok(Box::new(tempfile::tempfile_in(folder)?))
 }
 

@@ -1,7 +1,7 @@
 //! Universal File Format, dataset 58b, written: one function per channel, doubles, evenly spaced in time.
 //!
-//! Layout: University of Cincinnati, SDRL, "Universal File Datasets Summary", 58 and 58b. The abscissa's step has seven digits, as many as
-//! its place in the file holds.
+//! Layout: University of Cincinnati, SDRL, "Universal File Datasets Summary", 58 and 58b. The abscissa's step has seven
+//! digits, as many as its place in the file holds.
 
 use super::spool::Spool;
 use crate::atomic::{Complete, Destination, PartialFile};
@@ -24,20 +24,12 @@ pub(crate) struct UffWriter {
 }
 
 impl UffWriter {
-    /// Starts the file. The metadata must hold [`crate::keys::SAMPLE_RATE_HZ`]; a column `t` in seconds gives the first instant and is not
-    /// written itself.
-    pub(crate) fn at(
-        destination: Destination<'_>,
-        columns: &[Column],
-        metadata: &Metadata,
-    ) -> Result<Self, IoError> {
+    /// Starts the file. The metadata must hold [`crate::keys::SAMPLE_RATE_HZ`]; a column `t` in seconds gives the first
+    /// instant and is not written itself.
+    pub(crate) fn at(destination: Destination<'_>, columns: &[Column], metadata: &Metadata) -> Result<Self, IoError> {
         let path = destination.path();
         check_columns(path, columns)?;
-        let refused = |why: String| IoError::NotWritable {
-            path: path.to_owned(),
-            format: "UFF 58",
-            why,
-        };
+        let refused = |why: String| IoError::NotWritable { path: path.to_owned(), format: "UFF 58", why };
         let rate_hz = metadata.needed_sample_rate().map_err(refused)?;
         let kept = without_time(columns);
         if kept.is_empty() {
@@ -67,14 +59,7 @@ impl UffWriter {
         };
         let line = |text: &str| format!("{:<80}\n", short(text, 80));
         let axis = |code: u32, name: &str, unit: &str| {
-            format!(
-                "{code:>10}{:>5}{:>5}{:>5} {:<20} {:<20}\n",
-                0,
-                0,
-                0,
-                short(name, 20),
-                short(unit, 20)
-            )
+            format!("{code:>10}{:>5}{:>5}{:>5} {:<20} {:<20}\n", 0, 0, 0, short(name, 20), short(unit, 20))
         };
         let mut text = format!(
             "{:>6}\n{:>6}b{:>6}{:>6}{:>12}{:>12}{:>6}{:>6}{:>12}{:>12}\n",
@@ -118,18 +103,10 @@ impl UffWriter {
 /// At most so many characters, plain ASCII, `NONE` for nothing.
 fn short(text: &str, most: usize) -> String {
     let plain = |c: char| {
-        if c.is_ascii() && !c.is_ascii_control() {
-            c
-        } else {
-            '?'
-        }
+        if c.is_ascii() && !c.is_ascii_control() { c } else { '?' }
     };
     let text: String = text.chars().map(plain).take(most).collect();
-    if text.trim().is_empty() {
-        "NONE".into()
-    } else {
-        text
-    }
+    if text.trim().is_empty() { "NONE".into() } else { text }
 }
 
 /// A number in thirteen columns, as C's `%13.6e` and Fortran's E13.6.

@@ -1,8 +1,9 @@
 //! WAV, written: 32-bit floats, all channels, in the channels' own units.
 //!
-//! A sound file has no place for a unit, so nothing is scaled: 1.0 is one unit of the channel, m/s^2 mostly, and a player that takes 1.0 for full
-//! scale will clip. The comment (LIST INFO, ICMT) holds a JSON object with name and unit of each channel, the metadata and the outcome. Floats
-//! of 32 bits keep seven digits. Past 4 GiB the file becomes an RF64 (EBU Tech 3306).
+//! A sound file has no place for a unit, so nothing is scaled: 1.0 is one unit of the channel, m/s^2 mostly, and a
+//! player that takes 1.0 for full scale will clip. The comment (LIST INFO, ICMT) holds a JSON object with name and unit
+//! of each channel, the metadata and the outcome. Floats of 32 bits keep seven digits. Past 4 GiB the file becomes an
+//! RF64 (EBU Tech 3306).
 
 use serde_json::{Map, Value, json};
 
@@ -29,31 +30,19 @@ pub(crate) struct WavWriter {
 }
 
 impl WavWriter {
-    /// Starts the file. The metadata must hold [`keys::SAMPLE_RATE_HZ`], a whole number; a column `t` in seconds is not written.
-    pub(crate) fn at(
-        destination: Destination<'_>,
-        columns: &[Column],
-        metadata: &Metadata,
-    ) -> Result<Self, IoError> {
+    /// Starts the file. The metadata must hold [`keys::SAMPLE_RATE_HZ`], a whole number; a column `t` in seconds is not
+    /// written.
+    pub(crate) fn at(destination: Destination<'_>, columns: &[Column], metadata: &Metadata) -> Result<Self, IoError> {
         let path = destination.path();
         check_columns(path, columns)?;
-        let refused = |why: String| IoError::NotWritable {
-            path: path.to_owned(),
-            format: "WAV",
-            why,
-        };
+        let refused = |why: String| IoError::NotWritable { path: path.to_owned(), format: "WAV", why };
         let rate = metadata.needed_sample_rate().map_err(refused)?;
         if rate.fract() != 0.0 || rate > f64::from(u32::MAX / 4) {
-            return Err(refused(format!(
-                "its sample rate is a whole number of hertz, and not {rate}"
-            )));
+            return Err(refused(format!("its sample rate is a whole number of hertz, and not {rate}")));
         }
         let kept = without_time(columns);
         if kept.is_empty() || kept.len() > 16_383 {
-            return Err(refused(format!(
-                "it takes 1 to 16383 channels, and not {}",
-                kept.len()
-            )));
+            return Err(refused(format!("it takes 1 to 16383 channels, and not {}", kept.len())));
         }
         let (count, rate, frame) = (kept.len() as u16, rate as u32, 4 * kept.len() as u32);
         let mut head = b"RIFF\0\0\0\0WAVEJUNK".to_vec();
@@ -83,14 +72,8 @@ impl WavWriter {
     fn comment(&self, outcome: &Outcome) -> String {
         let channels = self.kept.iter().map(|&i| &self.columns[i]);
         let mut object = Map::new();
-        object.insert(
-            keys::CHANNELS.into(),
-            channels.map(|c| json!([c.name, c.unit])).collect(),
-        );
-        object.insert(
-            "brinell.scale".into(),
-            "1.0 is one unit of the channel".into(),
-        );
+        object.insert(keys::CHANNELS.into(), channels.map(|c| json!([c.name, c.unit])).collect());
+        object.insert("brinell.scale".into(), "1.0 is one unit of the channel".into());
         object.insert(keys::OUTCOME.into(), outcome.to_string().into());
         for (key, value) in &self.metadata.pairs {
             object.entry(key).or_insert(value.as_str().into());
@@ -114,8 +97,7 @@ impl SignalWriter for WavWriter {
         self.file.check()?;
         check_row(self.file.path(), self.columns.len(), row)?;
         for &i in &self.kept {
-            self.buffer
-                .extend_from_slice(&(row[i] as f32).to_le_bytes());
+            self.buffer.extend_from_slice(&(row[i] as f32).to_le_bytes());
         }
         self.rows += 1;
         if self.buffer.len() >= BUFFER_BYTES {
@@ -139,8 +121,7 @@ impl SignalWriter for WavWriter {
         match u32::try_from(total) {
             Ok(total) => {
                 self.file.patch(4, &total.to_le_bytes())?;
-                self.file
-                    .patch(FACT + 8, &(self.rows as u32).to_le_bytes())?;
+                self.file.patch(FACT + 8, &(self.rows as u32).to_le_bytes())?;
                 self.file.patch(DATA + 4, &(data as u32).to_le_bytes())?;
             }
             Err(_) => {

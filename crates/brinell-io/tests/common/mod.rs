@@ -7,10 +7,7 @@ use proptest::prelude::*;
 
 /// A time and an acceleration.
 pub(crate) fn columns() -> Vec<Column> {
-    vec![
-        Column::new("t", "s", "time"),
-        Column::new("outer_ax", "m/s^2", "outer ring \"along\" x"),
-    ]
+    vec![Column::new("t", "s", "time"), Column::new("outer_ax", "m/s^2", "outer ring \"along\" x")]
 }
 
 /// What every format can be written with.
@@ -34,29 +31,21 @@ pub(crate) fn any_f64() -> impl Strategy<Value = f64> {
         1e23,
         9_007_199_254_740_993.0,
     ];
-    prop_oneof![
-        (0..AWKWARD.len()).prop_map(|i| AWKWARD[i]),
-        any::<u64>().prop_map(f64::from_bits),
-        -1e4..1e4f64,
-    ]
+    prop_oneof![(0..AWKWARD.len()).prop_map(|i| AWKWARD[i]), any::<u64>().prop_map(f64::from_bits), -1e4..1e4f64,]
 }
 
 /// Rows of one length from 1 to 5.
 pub(crate) fn any_table() -> impl Strategy<Value = Vec<Vec<f64>>> {
     (1..6usize).prop_flat_map(|columns| {
-        prop::collection::vec(prop::collection::vec(any_f64(), columns), 0..40).prop_map(
-            move |mut rows| {
-                rows.push(vec![1.0; columns]);
-                rows
-            },
-        )
+        prop::collection::vec(prop::collection::vec(any_f64(), columns), 0..40).prop_map(move |mut rows| {
+            rows.push(vec![1.0; columns]);
+            rows
+        })
     })
 }
 
 pub(crate) fn numbered(columns: usize) -> Vec<Column> {
-    (0..columns)
-        .map(|i| Column::new(format!("channel_{i}"), "m", ""))
-        .collect()
+    (0..columns).map(|i| Column::new(format!("channel_{i}"), "m", "")).collect()
 }
 
 pub(crate) fn write(writer: &mut dyn SignalWriter, rows: &[Vec<f64>]) -> Result<(), IoError> {
@@ -65,9 +54,7 @@ pub(crate) fn write(writer: &mut dyn SignalWriter, rows: &[Vec<f64>]) -> Result<
 
 pub(crate) fn names_in(folder: &Path) -> Vec<String> {
     let entries = std::fs::read_dir(folder).unwrap();
-    let mut names: Vec<String> = entries
-        .map(|e| e.unwrap().file_name().into_string().unwrap())
-        .collect();
+    let mut names: Vec<String> = entries.map(|e| e.unwrap().file_name().into_string().unwrap()).collect();
     names.sort();
     names
 }

@@ -9,12 +9,8 @@ use serde_json::{Value, json};
 impl Sensitivity {
     pub(crate) fn json(&self) -> Value {
         let candidate = |c: &Candidate| {
-            let settings: serde_json::Map<String, Value> = c
-                .draw
-                .settings
-                .iter()
-                .map(|(k, v)| (k.clone(), v.as_str().into()))
-                .collect();
+            let settings: serde_json::Map<String, Value> =
+                c.draw.settings.iter().map(|(k, v)| (k.clone(), v.as_str().into())).collect();
             json!({
                 "draw": c.draw.number, "settings": settings, "behind_filter": c.draw.reading.filtered,
                 "record": c.draw.reading.record.words(), "eq_27": c.draw.outline.words(), "claims_held": c.held(),
@@ -26,9 +22,7 @@ impl Sensitivity {
         let variant = |tried: &Tried| {
             let (v, verdicts) = (tried.variant, claims().zip(&tried.judged));
             let read = tried.numbers.read(v.reading);
-            let rms = SEARCHED
-                .iter()
-                .map(|case| read.get(case, "outer_ax.rms").map(|n| n.value));
+            let rms = SEARCHED.iter().map(|case| read.get(case, "outer_ax.rms").map(|n| n.value));
             json!({
                 "id": v.id, "about": v.aspect.words(), "is": v.words, "eq_27": v.outline.words(),
                 "behind_filter": v.reading.filtered, "record": v.reading.record.words(), "rms_m_per_s2": rms.collect::<Vec<_>>(),
@@ -88,9 +82,7 @@ impl Sensitivity {
         });
         Table {
             title: "Assumptions".into(),
-            columns: ["#No.", "About", "Assumed (instead of)", "#Claims that hold"]
-                .map(str::to_owned)
-                .to_vec(),
+            columns: ["#No.", "About", "Assumed (instead of)", "#Claims that hold"].map(str::to_owned).to_vec(),
             rows: rows.collect(),
             note: String::new(),
         }
@@ -99,18 +91,10 @@ impl Sensitivity {
     fn matrix(&self) -> Table {
         let mut columns = vec!["Claim".to_owned()];
         columns.extend((0..self.variants.len()).map(|k| k.to_string()));
-        let rows = claims()
-            .enumerate()
-            .filter(|(_, c)| !c.statements.is_empty());
+        let rows = claims().enumerate().filter(|(_, c)| !c.statements.is_empty());
         let rows = rows.map(|(k, claim)| {
-            let marks = self
-                .variants
-                .iter()
-                .map(|tried| mark(tried.judged[k].plain));
-            [claim.id.to_owned()]
-                .into_iter()
-                .chain(marks.map(str::to_owned))
-                .collect()
+            let marks = self.variants.iter().map(|tried| mark(tried.judged[k].plain));
+            [claim.id.to_owned()].into_iter().chain(marks.map(str::to_owned)).collect()
         });
         Table {
             title: "Verdicts under each".into(),
@@ -154,9 +138,7 @@ impl Sensitivity {
             (true, false) => {
                 "A set was found under which most of the checkable claims hold, but not one that meets the RMS values within 5 %"
             }
-            (false, _) => {
-                "No set was found under which most of the checkable claims hold; the nearest is this one"
-            }
+            (false, _) => "No set was found under which most of the checkable claims hold; the nearest is this one",
         };
         let values: Vec<String> = best.distance.values.iter().map(|x| short(*x, 4)).collect();
         let mut text = format!(
@@ -172,10 +154,7 @@ impl Sensitivity {
             .map(|(claim, _)| claim.id)
             .collect();
         if !off.is_empty() {
-            text += &format!(
-                " Under it these do not hold, or in part alone: {}.",
-                off.join(", ")
-            );
+            text += &format!(" Under it these do not hold, or in part alone: {}.", off.join(", "));
         }
         text
     }
@@ -206,22 +185,11 @@ fn ranges() -> Table {
     let others = [
         (
             "Eq. (27)",
-            READ_AS
-                .iter()
-                .map(|o| o.words().to_owned())
-                .collect::<Vec<_>>(),
+            READ_AS.iter().map(|o| o.words().to_owned()).collect::<Vec<_>>(),
             "what is printed, mended or not",
         ),
-        (
-            "RMS over",
-            RECORDS.iter().map(|r| r.words()).collect(),
-            "the paper states no record",
-        ),
-        (
-            "Filter",
-            vec!["none".into(), "anti-alias".into()],
-            "likewise",
-        ),
+        ("RMS over", RECORDS.iter().map(|r| r.words()).collect(), "the paper states no record"),
+        ("Filter", vec!["none".into(), "anti-alias".into()], "likewise"),
     ];
     rows.extend(others.map(|(key, all, why)| vec![key.into(), all.join(" | "), why.into()]));
     Table {

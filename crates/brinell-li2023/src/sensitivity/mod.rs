@@ -5,9 +5,8 @@ mod tables;
 
 use crate::points::numbers;
 use crate::{
-    CASES, Claim, Distance, Draw, Error, Judged, Length, Numbers, Point, RECORDS, Reading, Record,
-    Runs, SEARCHED, Stage, VARIANTS, Variant, Verdict, answers, axes, case, claims, distance, draw,
-    held, judge, targets,
+    CASES, Claim, Distance, Draw, Error, Judged, Length, Numbers, Point, RECORDS, Reading, Record, Runs, SEARCHED,
+    Stage, VARIANTS, Variant, Verdict, answers, axes, case, claims, distance, draw, held, judge, targets,
 };
 use brinell_study::calibrate::{Settings, Unfit, fit, least_budget};
 use std::ops::ControlFlow;
@@ -18,8 +17,8 @@ const SEED: u64 = 2023;
 const BEST: usize = 5;
 const APART: f64 = 0.15;
 
-/// The searches: one chooses the stretch of the record too, the other keeps to the steady part, since the first goes where the paper's
-/// figures are met most easily.
+/// The searches: one chooses the stretch of the record too, the other keeps to the steady part, since the first goes
+/// where the paper's figures are met most easily.
 const SCOPES: [(Option<Record>, usize); 2] = [(None, 640), (Some(Record::Steady), 460)];
 
 /// An assumption that turns a verdict.
@@ -95,34 +94,19 @@ pub(crate) struct Sensitivity {
 
 impl Plan {
     pub(crate) fn new(quick: bool) -> Result<Self, Error> {
-        let length = if quick {
-            Length::QUICK_VARIANT
-        } else {
-            Length::VARIANT
-        };
+        let length = if quick { Length::QUICK_VARIANT } else { Length::VARIANT };
         let varied = VARIANTS.iter().map(|variant| {
             let settings = owned(variant.settings);
             let points = CASES.iter();
             let points = points.map(|case| Point::new(case, &settings, variant.outline, length));
-            Ok(Varied {
-                variant,
-                points: points.collect::<Result<_, Error>>()?,
-            })
+            Ok(Varied { variant, points: points.collect::<Result<_, Error>>()? })
         });
-        Ok(Self {
-            varied: varied.collect::<Result<_, Error>>()?,
-            quick,
-            length,
-        })
+        Ok(Self { varied: varied.collect::<Result<_, Error>>()?, quick, length })
     }
 
     fn budget(&self, scope: (Option<Record>, usize)) -> usize {
         let least = least_budget(axes(scope.0));
-        if self.quick {
-            least
-        } else {
-            scope.1.max(least)
-        }
+        if self.quick { least } else { scope.1.max(least) }
     }
 
     /// Sets that the searches look at, at most.
@@ -135,7 +119,8 @@ impl Plan {
         self.varied.iter().flat_map(|v| &v.points)
     }
 
-    /// The searches, the best sets in all cases, and everything judged; the runs of [`Plan::points`] are made. `None` where it was interrupted.
+    /// The searches, the best sets in all cases, and everything judged; the runs of [`Plan::points`] are made. `None`
+    /// where it was interrupted.
     pub(crate) fn run<R: Runs>(&self, runs: &mut R) -> Result<Option<Sensitivity>, R::Error> {
         runs.search_begins(self.sets());
         let mut drawn = Vec::new();
@@ -147,9 +132,7 @@ impl Plan {
         let finalists = self.finalists(&drawn, runs)?;
         let points: Vec<&Point> = finalists.iter().flat_map(|f| &f.points).collect();
         let flow = runs.make(&points, Stage::Best)?;
-        Ok(flow
-            .is_continue()
-            .then(|| self.finish(&drawn, finalists, runs)))
+        Ok(flow.is_continue().then(|| self.finish(&drawn, finalists, runs)))
     }
 
     /// One search: its sets are added to `all` in the order in which they were looked at.
@@ -164,8 +147,7 @@ impl Plan {
             let made = places.iter().enumerate().map(|(k, place)| {
                 let draw = draw(all.len() + k + 1, place, scope.0);
                 let cases = SEARCHED.iter().filter_map(|id| case(id));
-                let points =
-                    cases.map(|case| Point::new(case, &draw.settings, draw.outline, Length::START));
+                let points = cases.map(|case| Point::new(case, &draw.settings, draw.outline, Length::START));
                 let points = points.collect::<Result<_, Error>>()?;
                 Ok((draw, points))
             });
@@ -187,10 +169,7 @@ impl Plan {
             all.extend(batch);
             Ok(answered)
         };
-        let settings = Settings {
-            seed: SEED,
-            budget: self.budget(scope),
-        };
+        let settings = Settings { seed: SEED, budget: self.budget(scope) };
         let targets = targets();
         let found = fit(axes(scope.0), &targets, settings, &mut ask);
         match (failure, found) {
@@ -204,9 +183,7 @@ impl Plan {
     /// The best sets, on all cases: what runs then.
     fn finalists(&self, drawn: &[Drawn], runs: &impl Runs) -> Result<Vec<Finalist>, Error> {
         let scored = drawn.iter().enumerate();
-        let mut scored: Vec<(f64, usize)> = scored
-            .filter_map(|(k, one)| Some((score(&read(one, runs))?, k)))
-            .collect();
+        let mut scored: Vec<(f64, usize)> = scored.filter_map(|(k, one)| Some((score(&read(one, runs))?, k))).collect();
         scored.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
         // Neighbours would say the same of the other cases.
         let mut best: Vec<&Draw> = Vec::new();
@@ -223,13 +200,8 @@ impl Plan {
             }
         }
         let finalist = |draw: &Draw| {
-            let points = CASES
-                .iter()
-                .map(|case| Point::new(case, &draw.settings, draw.outline, self.length));
-            Ok(Finalist {
-                points: points.collect::<Result<_, Error>>()?,
-                draw: draw.clone(),
-            })
+            let points = CASES.iter().map(|case| Point::new(case, &draw.settings, draw.outline, self.length));
+            Ok(Finalist { points: points.collect::<Result<_, Error>>()?, draw: draw.clone() })
         };
         best.into_iter().map(finalist).collect()
     }
@@ -238,19 +210,13 @@ impl Plan {
         let variants = self.varied.iter().map(|v| {
             let plain = numbers(&v.points, runs);
             let read = plain.read(v.variant.reading);
-            Tried {
-                variant: v.variant,
-                judged: claims().map(|claim| judge(claim, &read)).collect(),
-                numbers: plain,
-            }
+            Tried { variant: v.variant, judged: claims().map(|claim| judge(claim, &read)).collect(), numbers: plain }
         });
         let candidates = finalists.into_iter().filter_map(|f| {
             let numbers = numbers(&f.points, runs).read(f.draw.reading);
             Some(Candidate {
                 distance: distance(&numbers)?,
-                judged: claims()
-                    .map(|claim| (claim, judge(claim, &numbers)))
-                    .collect(),
+                judged: claims().map(|claim| (claim, judge(claim, &numbers))).collect(),
                 draw: f.draw,
             })
         });
@@ -273,18 +239,9 @@ impl Plan {
 fn nearest(drawn: &[Drawn], runs: &impl Runs) -> Vec<Nearest> {
     let mut all: Vec<Nearest> = Vec::new();
     for record in RECORDS {
-        let mine: Vec<&Drawn> = drawn
-            .iter()
-            .filter(|d| d.0.reading.record == *record)
-            .collect();
-        let known = mine
-            .iter()
-            .filter_map(|one| Some((one.0.number, distance(&read(one, runs))?)));
-        all.push(Nearest {
-            record: *record,
-            sets: mine.len(),
-            best: known.min_by(|a, b| a.1.rms.total_cmp(&b.1.rms)),
-        });
+        let mine: Vec<&Drawn> = drawn.iter().filter(|d| d.0.reading.record == *record).collect();
+        let known = mine.iter().filter_map(|one| Some((one.0.number, distance(&read(one, runs))?)));
+        all.push(Nearest { record: *record, sets: mine.len(), best: known.min_by(|a, b| a.1.rms.total_cmp(&b.1.rms)) });
     }
     all
 }
@@ -310,21 +267,16 @@ fn score(numbers: &Numbers) -> Option<f64> {
 }
 
 impl Sensitivity {
-    /// Assumptions under which a claim that held fails, or one that failed holds. `verdict` is that of its own statements alone.
+    /// Assumptions under which a claim that held fails, or one that failed holds. `verdict` is that of its own
+    /// statements alone.
     pub(crate) fn flips(&self, place: usize, verdict: Verdict) -> Vec<Flip> {
         let turned = |other: Verdict| {
             use Verdict::{Fails, Holds, Partly};
-            matches!(
-                (verdict, other),
-                (Holds, Fails | Partly) | (Fails, Holds | Partly) | (Partly, Holds | Fails)
-            )
+            matches!((verdict, other), (Holds, Fails | Partly) | (Fails, Holds | Partly) | (Partly, Holds | Fails))
         };
         let all = self.variants.iter().filter_map(|tried| {
             let other = tried.judged[place].plain;
-            turned(other).then_some(Flip {
-                variant: tried.variant,
-                verdict: other,
-            })
+            turned(other).then_some(Flip { variant: tried.variant, verdict: other })
         });
         all.collect()
     }
@@ -342,12 +294,10 @@ impl Sensitivity {
         tried.numbers.get(case, name).map(|n| n.value)
     }
 
-    /// Smallest and largest ratio of a number in two cases, both of the steady part, over the assumptions under which that is what is read.
+    /// Smallest and largest ratio of a number in two cases, both of the steady part, over the assumptions under which
+    /// that is what is read.
     pub(crate) fn ratios(&self, of: &str, to: &str, name: &str) -> Option<(f64, f64)> {
-        let steady = self
-            .variants
-            .iter()
-            .filter(|t| t.variant.reading == Reading::USUAL);
+        let steady = self.variants.iter().filter(|t| t.variant.reading == Reading::USUAL);
         let ratio = |tried: &Tried| {
             let (a, b) = (tried.numbers.get(of, name)?, tried.numbers.get(to, name)?);
             (b.value > 0.0).then(|| a.value / b.value)
@@ -357,14 +307,11 @@ impl Sensitivity {
         Some((least, all.iter().copied().max_by(f64::total_cmp)?))
     }
 
-    /// Sets that were looked at with the steady part and with a record from t = 0, and how near the nearest of each came.
+    /// Sets that were looked at with the steady part and with a record from t = 0, and how near the nearest of each
+    /// came.
     pub(crate) fn nearest(&self) -> [(usize, Option<&Distance>); 2] {
         [true, false].map(|steady| {
-            let mine = || {
-                self.nearest
-                    .iter()
-                    .filter(move |n| (n.record == Record::Steady) == steady)
-            };
+            let mine = || self.nearest.iter().filter(move |n| (n.record == Record::Steady) == steady);
             let best = mine().filter_map(|n| n.best.as_ref().map(|b| &b.1));
             let best = best.min_by(|a, b| a.rms.total_cmp(&b.rms));
             (mine().map(|n| n.sets).sum(), best)

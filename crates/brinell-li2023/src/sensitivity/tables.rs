@@ -23,12 +23,7 @@ impl Sensitivity {
         let mut rows = vec![vec!["".to_owned(), "the paper".to_owned()]];
         rows[0].extend(paper().into_iter().chain(paper()));
         rows[0].push("0".into());
-        rows.extend(
-            self.variants
-                .iter()
-                .enumerate()
-                .map(|(k, tried)| row(k, tried)),
-        );
+        rows.extend(self.variants.iter().enumerate().map(|(k, tried)| row(k, tried)));
         Table {
             title: "The three RMS values under each assumption".into(),
             columns,
@@ -46,40 +41,22 @@ impl Sensitivity {
     /// What the best sets are.
     pub(super) fn best_sets(&self) -> Table {
         let mut columns = vec!["Quantity".to_owned(), "#Paper".to_owned()];
-        columns.extend(
-            self.candidates
-                .iter()
-                .map(|c| format!("#Set {}", c.draw.number)),
-        );
+        columns.extend(self.candidates.iter().map(|c| format!("#Set {}", c.draw.number)));
         let mut rows = Vec::new();
         let mut row = |name: &str, paper: &str, of: &dyn Fn(&Candidate) -> String| {
             let mut row = vec![name.to_owned(), paper.to_owned()];
             row.extend(self.candidates.iter().map(of));
             rows.push(row);
         };
-        row("Claims that hold, of the checkable", "", &|c| {
-            format!("{} of {}", c.held(), c.checkable())
-        });
-        let cases = [
-            "RMS full, irregular (m/s²)",
-            "RMS full, simplified (m/s²)",
-            "RMS reference, simplified (m/s²)",
-        ];
+        row("Claims that hold, of the checkable", "", &|c| format!("{} of {}", c.held(), c.checkable()));
+        let cases = ["RMS full, irregular (m/s²)", "RMS full, simplified (m/s²)", "RMS reference, simplified (m/s²)"];
         for (k, name) in cases.into_iter().enumerate() {
-            row(name, &RMS[k].to_string(), &|c| {
-                short(c.distance.values[k], 4)
-            });
+            row(name, &RMS[k].to_string(), &|c| short(c.distance.values[k], 4));
         }
-        row("Distance of the three RMS", "0", &|c| {
-            short(c.distance.rms, 3)
-        });
-        row("Defect frequency less 249.40 Hz", "0", &|c| {
-            c.distance.frequency.map_or("–".into(), |f| short(f, 3))
-        });
+        row("Distance of the three RMS", "0", &|c| short(c.distance.rms, 3));
+        row("Defect frequency less 249.40 Hz", "0", &|c| c.distance.frequency.map_or("–".into(), |f| short(f, 3)));
         row("RMS over", "", &|c| c.draw.reading.record.words());
-        row("Outer ring behind the filter", "", &|c| {
-            if c.draw.reading.filtered { "yes" } else { "no" }.into()
-        });
+        row("Outer ring behind the filter", "", &|c| if c.draw.reading.filtered { "yes" } else { "no" }.into());
         row("Eq. (27)", "", &|c| c.draw.outline.words().into());
         for range in RANGES {
             for key in range.keys {
@@ -94,7 +71,9 @@ impl Sensitivity {
             title: "The nearest sets".into(),
             columns,
             rows,
-            note: "Distance: root mean square of ln(ours/paper's); 0.05 is 5 %. In all cases, longer than in the search.".into(),
+            note:
+                "Distance: root mean square of ln(ours/paper's); 0.05 is 5 %. In all cases, longer than in the search."
+                    .into(),
         }
     }
 
@@ -113,20 +92,13 @@ impl Sensitivity {
                 value(2),
             ]
         };
-        let columns = [
-            "RMS over",
-            "#Sets",
-            "#Nearest set",
-            "#Distance",
-            "#irregular",
-            "#simplified",
-            "#reference",
-        ];
+        let columns = ["RMS over", "#Sets", "#Nearest set", "#Distance", "#irregular", "#simplified", "#reference"];
         Table {
             title: "How near the sets came, by the stretch of the record".into(),
             columns: columns.map(str::to_owned).to_vec(),
             rows: self.nearest.iter().map(row).collect(),
-            note: "The paper: 30.414, 32.06, 29.01 m/s². By the distance of the three RMS alone, whatever else holds.".into(),
+            note: "The paper: 30.414, 32.06, 29.01 m/s². By the distance of the three RMS alone, whatever else holds."
+                .into(),
         }
     }
 }
@@ -139,10 +111,7 @@ fn row(k: usize, tried: &Tried) -> Vec<String> {
     };
     let usual = Reading::USUAL;
     let readings = [usual, usual.over_start(ms)];
-    let mut row = vec![
-        k.to_string(),
-        format!("{}: {}", tried.variant.aspect.words(), tried.variant.words),
-    ];
+    let mut row = vec![k.to_string(), format!("{}: {}", tried.variant.aspect.words(), tried.variant.words)];
     let mut nearest: Option<f64> = None;
     for reading in readings {
         let plain = tried.numbers.read(reading);
@@ -152,25 +121,12 @@ fn row(k: usize, tried: &Tried) -> Vec<String> {
                 let interval = n.and_then(|n| n.interval).map(|i| (i.low, i.high));
                 with_interval(n.map(|n| n.value), interval)
             };
-            let behind = filtered
-                .get(case, "outer_ax.rms")
-                .map(|n| short(n.value, 4));
-            row.push(format!(
-                "{} / {}",
-                of(plain.get(case, "outer_ax.rms")),
-                behind.unwrap_or("–".into())
-            ));
+            let behind = filtered.get(case, "outer_ax.rms").map(|n| short(n.value, 4));
+            row.push(format!("{} / {}", of(plain.get(case, "outer_ax.rms")), behind.unwrap_or("–".into())));
         }
         let all = [distance(&plain), distance(&filtered)];
-        let least = all
-            .into_iter()
-            .flatten()
-            .map(|d| d.rms)
-            .min_by(f64::total_cmp);
-        nearest = [nearest, least]
-            .into_iter()
-            .flatten()
-            .min_by(f64::total_cmp);
+        let least = all.into_iter().flatten().map(|d| d.rms).min_by(f64::total_cmp);
+        nearest = [nearest, least].into_iter().flatten().min_by(f64::total_cmp);
     }
     row.push(nearest.map_or("–".into(), |d| short(d, 2)));
     row

@@ -8,8 +8,7 @@ use crate::kurtogram::{Kurtogram, KurtogramLevel};
 use crate::number::short;
 use crate::tables::Table;
 use brinell::analysis::{
-    Analysis, COLUMNS, Comparison, Family, HARMONICS, Levels, Standing, Unit, Verdict,
-    shown_spectrum,
+    Analysis, COLUMNS, Comparison, Family, HARMONICS, Levels, Standing, Unit, Verdict, shown_spectrum,
 };
 use brinell::signal::{Estimate, Indicator, Spectrum, VelocityBands};
 
@@ -67,21 +66,11 @@ fn report(of: &Findings) -> AnalysisReport {
     notes_shown.push(format!("{}; {}", of.speed, shaft_lines(a)));
     notes_shown.push(format!("bearing: {}", of.bearing));
     notes_shown.extend(notes(of.levels));
-    notes_shown.push(format!(
-        "mean removed: {} {}",
-        short(a.mean, 4),
-        of.unit.name
-    ));
+    notes_shown.push(format!("mean removed: {} {}", short(a.mean, 4), of.unit.name));
     let (title, badge) = headline(a);
     let mut page = AnalysisReport {
         title,
-        subtitle: format!(
-            "{}, {:.2} s at {} Hz, shaft {:.1} r/min",
-            m.name,
-            a.duration(),
-            m.rate,
-            60.0 * a.shaft
-        ),
+        subtitle: format!("{}, {:.2} s at {} Hz, shaft {:.1} r/min", m.name, a.duration(), m.rate, 60.0 * a.shaft),
         version: brinell::VERSION.into(),
         verdict: of.verdict.into(),
         badge,
@@ -122,32 +111,19 @@ fn curves(page: &mut AnalysisReport, of: &Findings) {
         unit: of.unit.name.clone(),
         note,
     };
-    let note = |s: &Spectrum| {
-        format!(
-            "Hann window, lines {} Hz apart, averages: {}.",
-            short(s.frequency_step, 3),
-            s.segments
-        )
-    };
+    let note =
+        |s: &Spectrum| format!("Hann window, lines {} Hz apart, averages: {}.", short(s.frequency_step, 3), s.segments);
     let (low, high) = (a.view.band.low, a.view.band.high);
-    let shaded = format!(
-        " Shaded: the band demodulated below, {low:.0} to {high:.0} Hz ({}).",
-        a.view.choice.words()
-    );
+    let shaded = format!(" Shaded: the band demodulated below, {low:.0} to {high:.0} Hz ({}).", a.view.choice.words());
     let lanes = " Above the plot lie the defect frequencies and their harmonics, where their lines are highest; those of damage, and a comb at none of them on which the verdict rests, run through it as dashed lines.";
     page.waveforms.push(series(m));
     page.band_hz = Some((low, high));
-    let (label, of_envelope) = (
-        format!("{quantity} amplitude"),
-        "Envelope amplitude".to_owned(),
-    );
+    let (label, of_envelope) = (format!("{quantity} amplitude"), "Envelope amplitude".to_owned());
     match &of.against {
         None => {
             // Samples that could be analysed have a spectrum.
             let shown = shown_spectrum(m.x, m.rate).ok();
-            page.spectra = (shown.iter())
-                .map(|s| spectrum(s, label.clone(), note(s) + &shaded))
-                .collect();
+            page.spectra = (shown.iter()).map(|s| spectrum(s, label.clone(), note(s) + &shaded)).collect();
             let s = &a.view.spectrum;
             page.envelopes = vec![spectrum(s, of_envelope, note(s) + lanes)];
         }
@@ -155,12 +131,8 @@ fn curves(page: &mut AnalysisReport, of: &Findings) {
             page.names.push(format!("against {}", other.name));
             page.waveforms.push(series(other));
             for (s, e) in c.spectra.iter().zip(&c.envelopes) {
-                page.spectra
-                    .push(spectrum(s, label.clone(), note(s) + &shaded));
-                let words = format!(
-                    "{} Both in the band of {low:.0} to {high:.0} Hz.{lanes}",
-                    note(e)
-                );
+                page.spectra.push(spectrum(s, label.clone(), note(s) + &shaded));
+                let words = format!("{} Both in the band of {low:.0} to {high:.0} Hz.{lanes}", note(e));
                 page.envelopes.push(spectrum(e, of_envelope.clone(), words));
             }
         }
@@ -168,15 +140,10 @@ fn curves(page: &mut AnalysisReport, of: &Findings) {
 }
 
 fn kurtogram(a: &Analysis, map: &brinell::signal::Kurtogram) -> Kurtogram {
-    let bands: Vec<String> = (map.levels.iter())
-        .map(|l| l.kurtosis.len().to_string())
-        .collect();
+    let bands: Vec<String> = (map.levels.iter()).map(|l| l.kurtosis.len().to_string()).collect();
     Kurtogram {
         levels: (map.levels.iter())
-            .map(|l| KurtogramLevel {
-                bandwidth_hz: l.bandwidth,
-                kurtosis: l.kurtosis.clone(),
-            })
+            .map(|l| KurtogramLevel { bandwidth_hz: l.bandwidth, kurtosis: l.kurtosis.clone() })
             .collect(),
         chosen_hz: a.kurtogram.map(|k| (k.band.low, k.band.high)),
         note: format!(
@@ -276,33 +243,16 @@ fn indicators(of: &Findings) -> Table {
     let mut shown: Vec<Vec<String>> = (of.signal.analysis.indicators.iter())
         .map(|(i, e)| {
             let unit = i.unit(unit).to_owned();
-            vec![
-                capital(&i.name().replace('_', " ")),
-                short(e.value, 4),
-                with_interval(e),
-                unit,
-            ]
+            vec![capital(&i.name().replace('_', " ")), short(e.value, 4), with_interval(e), unit]
         })
         .collect();
     for (name, e, unit) in rows(of.levels, unit) {
-        shown.push(vec![
-            name,
-            short(e.value, 4),
-            with_interval(&e),
-            unit.to_owned(),
-        ]);
+        shown.push(vec![name, short(e.value, 4), with_interval(&e), unit.to_owned()]);
     }
     for b in of.velocity.iter().copied().flatten().flatten() {
-        let cut = if b.cut_short {
-            ", cut short by the sample rate"
-        } else {
-            ""
-        };
+        let cut = if b.cut_short { ", cut short by the sample rate" } else { "" };
         shown.push(vec![
-            format!(
-                "RMS velocity, {:.0} to {:.0} Hz{cut}",
-                b.band.low, b.band.high
-            ),
+            format!("RMS velocity, {:.0} to {:.0} Hz{cut}", b.band.low, b.band.high),
             short(1e3 * b.rms.value, 4),
             with_interval(&scaled(&b.rms, 1e3)),
             "mm/s".into(),
@@ -341,11 +291,7 @@ fn differences(of: &Findings, other: &Analyzed, c: &Comparison) -> Vec<Table> {
     let lines = (c.lines.iter())
         .map(|l| {
             let pair = |v: [f64; 2], digits: usize| v.map(|v| format!("{v:.digits$}"));
-            let (f, m, s) = (
-                pair(l.frequency, 2),
-                pair(l.modulation.map(|v| 100.0 * v), 1),
-                pair(l.snr_db, 0),
-            );
+            let (f, m, s) = (pair(l.frequency, 2), pair(l.modulation.map(|v| 100.0 * v), 1), pair(l.snr_db, 0));
             let [fa, fb] = f;
             let [ma, mb] = m;
             let [sa, sb] = s;
@@ -355,16 +301,7 @@ fn differences(of: &Findings, other: &Analyzed, c: &Comparison) -> Vec<Table> {
     vec![
         Table {
             title: "Differences".into(),
-            columns: [
-                "Indicator",
-                "#This",
-                "#Other",
-                "Unit",
-                "#This over the other",
-                "",
-            ]
-            .map(str::to_owned)
-            .to_vec(),
+            columns: ["Indicator", "#This", "#Other", "Unit", "#This over the other", ""].map(str::to_owned).to_vec(),
             rows: indicators,
             note: format!(
                 "Third octaves from 10 Hz up: this one lies {:+.1} dB from the other on average, {:.1} dB RMS. Verdict on the other: {}",
@@ -387,9 +324,7 @@ fn differences(of: &Findings, other: &Analyzed, c: &Comparison) -> Vec<Table> {
             .map(str::to_owned)
             .to_vec(),
             rows: lines,
-            note:
-                "Amplitudes over the mean of the envelope in one band; free of the sensor's scale."
-                    .into(),
+            note: "Amplitudes over the mean of the envelope in one band; free of the sensor's scale.".into(),
         },
     ]
 }

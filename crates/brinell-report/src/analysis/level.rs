@@ -73,11 +73,7 @@ pub(super) fn fact(levels: &Levels) -> Option<Fact> {
 pub(super) fn rows<'a>(levels: &Levels, unit: &'a str) -> Vec<(String, Estimate, &'a str)> {
     let mut rows = Vec::new();
     if let Ok(v) = &levels.velocity {
-        rows.push((
-            "RMS velocity, 10 to 1000 Hz".to_owned(),
-            scaled(v, 1e3),
-            "mm/s",
-        ));
+        rows.push(("RMS velocity, 10 to 1000 Hz".to_owned(), scaled(v, 1e3), "mm/s"));
     }
     if let Some(b) = &levels.band {
         let of = |what: &str| format!("{what}, {:.0} to {:.0} Hz", b.band.low, b.band.high);
@@ -91,10 +87,7 @@ pub(super) fn rows<'a>(levels: &Levels, unit: &'a str) -> Vec<(String, Estimate,
 /// What the page says under them.
 pub(super) fn notes(levels: &Levels) -> Vec<String> {
     let why = levels.velocity.as_ref().err();
-    let mut notes: Vec<String> = why
-        .map(|w| format!("{} {w}", named()))
-        .into_iter()
-        .collect();
+    let mut notes: Vec<String> = why.map(|w| format!("{} {w}", named())).into_iter().collect();
     notes.extend(zone_words(levels));
     notes
 }

@@ -72,10 +72,7 @@ pub struct AnalysisReport {
 }
 
 fn paints() -> [Paint; 2] {
-    [
-        Paint::line(ink::BLUE, 1.1),
-        Paint::line(ink::VERMILLION, 1.1),
-    ]
+    [Paint::line(ink::BLUE, 1.1), Paint::line(ink::VERMILLION, 1.1)]
 }
 
 /// The order in which curves are drawn: what reaches farther lies below, and hides nothing.
@@ -91,7 +88,8 @@ fn drawing_order(curves: &[(f64, f64, &[f64])], peak: bool) -> Vec<usize> {
     order
 }
 
-/// A plot of all curves, with a legend where there are several; `plot` is its name to the page's script, empty for a still one.
+/// A plot of all curves, with a legend where there are several; `plot` is its name to the page's script, empty for a
+/// still one.
 fn draw(
     report: &AnalysisReport,
     layout: Layout,
@@ -106,9 +104,8 @@ fn draw(
     let mut picture = Picture::new(&spec.name, &spec.title, width, size.height);
     let mut top = 0.0;
     if curves.len() > 1 {
-        let entries: Vec<(&str, Paint)> = (report.names.iter().zip(paints()))
-            .map(|(name, paint)| (name.as_str(), paint))
-            .collect();
+        let entries: Vec<(&str, Paint)> =
+            (report.names.iter().zip(paints())).map(|(name, paint)| (name.as_str(), paint)).collect();
         top = legend(&mut picture, &entries, 12.0, width - 12.0, 2.0, size.font);
         picture.height = top + size.height;
     }
@@ -139,33 +136,14 @@ fn draw(
 }
 
 /// Writes what the page's script needs of a plot drawn by [`draw`]: `chart` without its curves.
-fn embed(
-    page: &mut String,
-    names: &[String],
-    curves: &[(f64, f64, &[f64])],
-    chart: embedded::Chart,
-) {
+fn embed(page: &mut String, names: &[String], curves: &[(f64, f64, &[f64])], chart: embedded::Chart) {
     let order = drawing_order(curves, chart.peak);
-    let drawn: Vec<usize> = (0..curves.len())
-        .filter_map(|i| order.iter().position(|o| *o == i))
-        .collect();
-    let named = names
-        .iter()
-        .map(String::as_str)
-        .chain(std::iter::repeat(""));
+    let drawn: Vec<usize> = (0..curves.len()).filter_map(|i| order.iter().position(|o| *o == i)).collect();
+    let named = names.iter().map(String::as_str).chain(std::iter::repeat(""));
     let curves: Vec<Curve> = (curves.iter().zip(named))
-        .map(|((x0, dx, values), name)| Curve {
-            name,
-            places: Places::Even(*x0, *dx),
-            values,
-        })
+        .map(|((x0, dx, values), name)| Curve { name, places: Places::Even(*x0, *dx), values })
         .collect();
-    embedded::Chart {
-        curves: &curves,
-        drawn: &drawn,
-        ..chart
-    }
-    .write(page);
+    embedded::Chart { curves: &curves, drawn: &drawn, ..chart }.write(page);
 }
 
 fn spectrum_spec(
@@ -195,15 +173,11 @@ fn spectrum_spec(
 }
 
 fn end(spectra: &[Spectrum]) -> f64 {
-    (spectra.iter())
-        .map(|s| s.df_hz * s.amplitude.len().saturating_sub(1) as f64)
-        .fold(0.0, f64::max)
+    (spectra.iter()).map(|s| s.df_hz * s.amplitude.len().saturating_sub(1) as f64).fold(0.0, f64::max)
 }
 
 fn curves(spectra: &[Spectrum]) -> Vec<(f64, f64, &[f64])> {
-    (spectra.iter())
-        .map(|s| (0.0, s.df_hz, &s.amplitude[..]))
-        .collect()
+    (spectra.iter()).map(|s| (0.0, s.df_hz, &s.amplitude[..])).collect()
 }
 
 /// Values of all spectra from bin `from` on.
@@ -221,15 +195,7 @@ fn spectrum(report: &AnalysisReport, layout: Layout) -> Picture {
     let (y, top) = (spectrum_domain(report), end(&report.spectra));
     let spec = spectrum_spec("spectrum", &first, layout, height, top, y, vec![]);
     let curves = curves(&report.spectra);
-    draw(
-        report,
-        layout,
-        spec,
-        "spectrum",
-        &curves,
-        true,
-        report.band_hz,
-    )
+    draw(report, layout, spec, "spectrum", &curves, true, report.band_hz)
 }
 
 fn envelope_domain(report: &AnalysisReport) -> Domain {
@@ -242,24 +208,12 @@ fn envelope(report: &AnalysisReport, layout: Layout) -> Picture {
     let lanes = marker_lanes(&report.markers);
     let (y, top) = (envelope_domain(report), end(&report.envelopes));
     let spec = spectrum_spec("envelope-spectrum", &first, layout, height, top, y, lanes);
-    draw(
-        report,
-        layout,
-        spec,
-        "envelope",
-        &curves(&report.envelopes),
-        true,
-        None,
-    )
+    draw(report, layout, spec, "envelope", &curves(&report.envelopes), true, None)
 }
 
 /// The page's pictures, for saving as files.
 pub fn analysis_pictures(report: &AnalysisReport, layout: Layout) -> Vec<Picture> {
-    let mut pictures = vec![
-        whole(report, layout),
-        close(report, layout),
-        spectrum(report, layout),
-    ];
+    let mut pictures = vec![whole(report, layout), close(report, layout), spectrum(report, layout)];
     pictures.extend(report.kurtogram.as_ref().map(|k| kurtogram(k, layout)));
     pictures.push(envelope(report, layout));
     layout.finished(pictures)
@@ -267,16 +221,9 @@ pub fn analysis_pictures(report: &AnalysisReport, layout: Layout) -> Vec<Picture
 
 /// The self-contained page.
 pub fn analysis_html(report: &AnalysisReport) -> String {
-    let mut page = open(
-        &report.title,
-        &report.subtitle,
-        ("Analysed", &report.version),
-        plain(&report.warnings),
-    );
+    let mut page = open(&report.title, &report.subtitle, ("Analysed", &report.version), plain(&report.warnings));
     page.push_str("<main>\n");
-    section(&mut page, "verdict", "Verdict", |page| {
-        verdict(page, report)
-    });
+    section(&mut page, "verdict", "Verdict", |page| verdict(page, report));
     section(&mut page, "waveform", "Waveform", |page| {
         figure(page, "whole", |layout| whole(report, layout), "");
         figure(

@@ -9,18 +9,11 @@ use crate::plots::{Layout, time_unit};
 
 /// The stretch that is shown close up, s, and how far from its middle samples are kept for zooming.
 fn close_up(report: &AnalysisReport) -> (f64, f64, f64) {
-    let spans = report
-        .waveforms
-        .iter()
-        .map(|s| s.dt_s * s.values.len() as f64);
+    let spans = report.waveforms.iter().map(|s| s.dt_s * s.values.len() as f64);
     let shortest = spans.fold(f64::INFINITY, f64::min);
     let from = (0.5 * (shortest - report.close_up_s)).max(0.0);
     let finest = (report.waveforms.iter().map(|s| s.dt_s)).fold(f64::INFINITY, f64::min);
-    (
-        from,
-        from + report.close_up_s.min(shortest),
-        0.5 * KEPT as f64 * finest,
-    )
+    (from, from + report.close_up_s.min(shortest), 0.5 * KEPT as f64 * finest)
 }
 
 /// Units a second of the close-up's axis, with their name.
@@ -38,11 +31,7 @@ pub(super) fn about_middle(report: &AnalysisReport) -> Vec<(f64, f64, &[f64])> {
             let (dt, values) = (s.dt_s, &s.values);
             let bin = |t: f64| ((t / dt).max(0.0) as usize).min(values.len());
             let (first, end) = (bin(middle - reach), bin(middle + reach));
-            (
-                first as f64 * dt * scale,
-                dt * scale,
-                &values[first.min(end)..end],
-            )
+            (first as f64 * dt * scale, dt * scale, &values[first.min(end)..end])
         })
         .collect()
 }
@@ -84,22 +73,13 @@ fn waveform_spec(
 }
 
 pub(super) fn whole(report: &AnalysisReport, layout: Layout) -> Picture {
-    let spans = report
-        .waveforms
-        .iter()
-        .map(|s| s.dt_s * s.values.len() as f64);
+    let spans = report.waveforms.iter().map(|s| s.dt_s * s.values.len() as f64);
     let longest = spans.fold(0.0, f64::max);
     let (unit, scale) = time_unit(longest);
     let x = Domain::exact(0.0, longest * scale);
-    let y = Domain::around(
-        report
-            .waveforms
-            .iter()
-            .flat_map(|s| s.values.iter().copied()),
-    );
-    let curves: Vec<(f64, f64, &[f64])> = (report.waveforms.iter())
-        .map(|s| (0.0, s.dt_s * scale, &s.values[..]))
-        .collect();
+    let y = Domain::around(report.waveforms.iter().flat_map(|s| s.values.iter().copied()));
+    let curves: Vec<(f64, f64, &[f64])> =
+        (report.waveforms.iter()).map(|s| (0.0, s.dt_s * scale, &s.values[..])).collect();
     let spec = waveform_spec(report, layout, ("waveform", 200.0), x, unit, y);
     draw(report, layout, spec, "", &curves, false, None)
 }
@@ -110,13 +90,5 @@ pub(super) fn close(report: &AnalysisReport, layout: Layout) -> Picture {
     let x = Domain::exact(from * scale, to * scale);
     let y = close_up_domain(report);
     let spec = waveform_spec(report, layout, ("close-up", 300.0), x, unit, y);
-    draw(
-        report,
-        layout,
-        spec,
-        "close-up",
-        &about_middle(report),
-        false,
-        None,
-    )
+    draw(report, layout, spec, "close-up", &about_middle(report), false, None)
 }

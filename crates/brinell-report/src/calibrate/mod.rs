@@ -123,12 +123,7 @@ pub fn calibration_html(report: &CalibrationReport) -> String {
     });
     section(&mut page, "course", "Course of the search", |page| {
         let caption = "Dots: each run in the order requested. Line: the best so far.";
-        figure(
-            page,
-            "course",
-            |layout| course_plot(report, layout),
-            caption,
-        );
+        figure(page, "course", |layout| course_plot(report, layout), caption);
         embed_course(page, report);
     });
     table(&mut page, &report.directions);

@@ -11,11 +11,7 @@ const DECADES: f64 = 6.0;
 
 /// The misfit's axis: from below the best up, in decades; a floor, as a perfect fit has no logarithm.
 fn misfits(report: &CalibrationReport) -> (Domain, f64) {
-    let finite = report
-        .tried
-        .iter()
-        .map(|t| t.chi_square)
-        .filter(|c| c.is_finite());
+    let finite = report.tried.iter().map(|t| t.chi_square).filter(|c| c.is_finite());
     let lowest = finite.clone().fold(f64::INFINITY, f64::min);
     let highest = finite.fold(0.0, f64::max);
     if !lowest.is_finite() {
@@ -24,21 +20,12 @@ fn misfits(report: &CalibrationReport) -> (Domain, f64) {
     }
     let floor = lowest.max(1e-3);
     let lo = 10_f64.powf((floor.log10() - 0.3).floor());
-    let hi = 10_f64
-        .powf((highest.max(floor).log10() + 0.1).ceil())
-        .min(lo * 10_f64.powf(DECADES));
+    let hi = 10_f64.powf((highest.max(floor).log10() + 0.1).ceil()).min(lo * 10_f64.powf(DECADES));
     let hi = hi.max(10.0 * lo);
     (Domain { lo, hi, log: true }, floor)
 }
 
-fn spec(
-    name: String,
-    title: String,
-    layout: Layout,
-    x: Domain,
-    y: Domain,
-    x_label: (&str, &str),
-) -> Spec {
+fn spec(name: String, title: String, layout: Layout, x: Domain, y: Domain, x_label: (&str, &str)) -> Spec {
     let height = if layout.roomy() { 300.0 } else { 260.0 };
     Spec {
         name,
@@ -58,17 +45,9 @@ fn spec(
 }
 
 fn dot(chart: &mut Chart, x: f64, y: f64, filled: bool) {
-    let paint = if filled {
-        Paint::fill(ink::VERMILLION, 1.0)
-    } else {
-        Paint::line(ink::BLUE, 1.2).filled("#ffffff", 1.0)
-    };
-    chart.picture.shapes.push(Shape::Circle {
-        x: chart.x.at(x),
-        y: chart.y.at(y),
-        r: 3.2,
-        paint,
-    });
+    let paint =
+        if filled { Paint::fill(ink::VERMILLION, 1.0) } else { Paint::line(ink::BLUE, 1.2).filled("#ffffff", 1.0) };
+    chart.picture.shapes.push(Shape::Circle { x: chart.x.at(x), y: chart.y.at(y), r: 3.2, paint });
 }
 
 /// Sum of squares against one key.
@@ -77,11 +56,7 @@ pub(crate) fn key_plot(report: &CalibrationReport, key: usize, layout: Layout) -
     let (low, high) = about.bounds;
     let x = if about.log {
         let room = (high / low).powf(0.02);
-        Domain {
-            lo: low / room,
-            hi: high * room,
-            log: true,
-        }
+        Domain { lo: low / room, hi: high * room, log: true }
     } else {
         let room = 0.02 * (high - low);
         Domain::exact(low - room, high + room)
@@ -95,10 +70,7 @@ pub(crate) fn key_plot(report: &CalibrationReport, key: usize, layout: Layout) -
     }
     let best = chart.x.at(about.best);
     let upright = [(best, chart.frame.top), (best, chart.frame.bottom)];
-    chart.picture.path(
-        &upright,
-        Paint::line(ink::VERMILLION, 1.2).dashed(&[4.0, 3.0]),
-    );
+    chart.picture.path(&upright, Paint::line(ink::VERMILLION, 1.2).dashed(&[4.0, 3.0]));
     let height = |c: f64| c.clamp(floor, y.hi);
     let runs = report.tried.iter().filter(|t| t.chi_square.is_finite());
     let mut alone: Vec<(f64, f64)> = Vec::new();
@@ -147,11 +119,7 @@ fn embed(page: &mut String, name: &str, x: (&str, &str), x_log: bool, mut runs: 
     let (places, values): (Vec<f64>, Vec<f64>) = runs.into_iter().unzip();
     embedded::Chart {
         name,
-        curves: &[Curve {
-            name: "",
-            places: Places::Each(&places),
-            values: &values,
-        }],
+        curves: &[Curve { name: "", places: Places::Each(&places), values: &values }],
         x,
         y: ("Chi-square", ""),
         still: true,

@@ -15,11 +15,7 @@ const HUGE: f64 = 1e150;
 
 /// The value that a plot computes with.
 fn tame(value: f64) -> f64 {
-    if value.abs() < 1.0 / HUGE {
-        0.0
-    } else {
-        value.clamp(-HUGE, HUGE)
-    }
+    if value.abs() < 1.0 / HUGE { 0.0 } else { value.clamp(-HUGE, HUGE) }
 }
 
 /// Smallest and largest finite value.
@@ -28,9 +24,7 @@ pub(crate) fn range(values: impl IntoIterator<Item = f64>) -> Option<(f64, f64)>
         .into_iter()
         .filter(|v| v.is_finite())
         .map(tame)
-        .fold(None, |range, v| {
-            Some(range.map_or((v, v), |(lo, hi): (f64, f64)| (lo.min(v), hi.max(v))))
-        })
+        .fold(None, |range, v| Some(range.map_or((v, v), |(lo, hi): (f64, f64)| (lo.min(v), hi.max(v)))))
 }
 
 impl Domain {
@@ -38,46 +32,22 @@ impl Domain {
         let (lo, hi) = range([lo, hi]).unwrap_or((0.0, 1.0));
         let largest = lo.abs().max(hi.abs());
         // A span that rounding swallows shows nothing.
-        let room = if hi - lo > 1e-12 * largest.max(1e-290) {
-            0.0
-        } else {
-            (1e-9 * largest).max(0.5)
-        };
-        Self {
-            lo: lo - room,
-            hi: hi + room,
-            log: false,
-        }
+        let room = if hi - lo > 1e-12 * largest.max(1e-290) { 0.0 } else { (1e-9 * largest).max(0.5) };
+        Self { lo: lo - room, hi: hi + room, log: false }
     }
 
     /// Holds every value with some room; a constant gets room around it.
     pub(crate) fn around(values: impl IntoIterator<Item = f64>) -> Self {
         match range(values) {
-            None => Self {
-                lo: 0.0,
-                hi: 1.0,
-                log: false,
-            },
+            None => Self { lo: 0.0, hi: 1.0, log: false },
             Some((lo, hi)) if hi - lo > 1e-9 * lo.abs().max(hi.abs()) => {
                 let room = 0.06 * (hi - lo);
-                Self {
-                    lo: lo - room,
-                    hi: hi + room,
-                    log: false,
-                }
+                Self { lo: lo - room, hi: hi + room, log: false }
             }
-            Some((0.0, _)) => Self {
-                lo: -1.0,
-                hi: 1.0,
-                log: false,
-            },
+            Some((0.0, _)) => Self { lo: -1.0, hi: 1.0, log: false },
             Some((lo, hi)) => {
                 let room = 0.1 * lo.abs().max(hi.abs());
-                Self {
-                    lo: lo - room,
-                    hi: hi + room,
-                    log: false,
-                }
+                Self { lo: lo - room, hi: hi + room, log: false }
             }
         }
     }
@@ -88,22 +58,14 @@ impl Domain {
         if lo < 0.0 {
             return Self::around([lo, hi.max(0.0)]);
         }
-        Self {
-            lo: 0.0,
-            hi: if hi > 0.0 { hi * 1.08 } else { 1.0 },
-            log: false,
-        }
+        Self { lo: 0.0, hi: if hi > 0.0 { hi * 1.08 } else { 1.0 }, log: false }
     }
 
     /// Whole decades, at most six of them below the largest value.
     pub(crate) fn decades(values: &[f64]) -> Self {
         let positive = || values.iter().copied().filter(|v| *v > 1e-300);
         let Some((lo, hi)) = range(positive()) else {
-            return Self {
-                lo: 0.1,
-                hi: 1.0,
-                log: true,
-            };
+            return Self { lo: 0.1, hi: 1.0, log: true };
         };
         // The floor follows the bulk of the lines, not the deepest notch.
         let mut sample: Vec<f64> = positive().step_by(values.len() / 4096 + 1).collect();
@@ -111,16 +73,9 @@ impl Domain {
         let floor = sample.get(sample.len() / 20).copied().unwrap_or(lo);
         let decade = hi.log10().floor();
         let tops = [2.0f64, 5.0, 10.0, 20.0].map(|m| m.log10() + decade);
-        let top = tops
-            .into_iter()
-            .find(|top| *top > hi.log10() + 0.04)
-            .unwrap_or(decade + 1.0);
+        let top = tops.into_iter().find(|top| *top > hi.log10() + 0.04).unwrap_or(decade + 1.0);
         let bottom = floor.log10().floor().clamp(decade - 5.0, decade - 1.0);
-        Self {
-            lo: 10f64.powf(bottom),
-            hi: 10f64.powf(top),
-            log: true,
-        }
+        Self { lo: 10f64.powf(bottom), hi: 10f64.powf(top), log: true }
     }
 }
 
@@ -182,11 +137,7 @@ pub(super) fn ticks(domain: Domain, target: usize) -> (Vec<f64>, Vec<String>, i3
 pub(super) fn halves(label: &str) -> (String, String) {
     let unit = label.rfind(" (").map_or(label.len(), |at| at + 1);
     let middle = label.len() / 2;
-    match label[..unit]
-        .match_indices(' ')
-        .map(|(at, _)| at)
-        .min_by_key(|at| at.abs_diff(middle))
-    {
+    match label[..unit].match_indices(' ').map(|(at, _)| at).min_by_key(|at| at.abs_diff(middle)) {
         Some(at) => (label[..at].to_owned(), label[at + 1..].to_owned()),
         None => (label.to_owned(), String::new()),
     }
@@ -197,27 +148,16 @@ mod tests {
 
     #[test]
     fn regress_domains_hold_odd_data() {
-        for values in [
-            vec![],
-            vec![f64::NAN],
-            vec![0.0],
-            vec![3.0; 4],
-            vec![f64::INFINITY, 1e308, -1e308],
-            vec![1e-320],
-        ] {
+        for values in
+            [vec![], vec![f64::NAN], vec![0.0], vec![3.0; 4], vec![f64::INFINITY, 1e308, -1e308], vec![1e-320]]
+        {
             for domain in [
                 Domain::around(values.clone()),
                 Domain::from_zero(values.clone()),
                 Domain::decades(&values),
-                Domain::exact(
-                    values.first().copied().unwrap_or(0.0),
-                    values.last().copied().unwrap_or(0.0),
-                ),
+                Domain::exact(values.first().copied().unwrap_or(0.0), values.last().copied().unwrap_or(0.0)),
             ] {
-                assert!(
-                    domain.lo < domain.hi && (domain.hi - domain.lo).is_finite(),
-                    "{values:?} {domain:?}"
-                );
+                assert!(domain.lo < domain.hi && (domain.hi - domain.lo).is_finite(), "{values:?} {domain:?}");
             }
         }
     }

@@ -8,7 +8,8 @@ use crate::thin::{straightened, thinned};
 /// Points of a curve that are kept as numbers, at most.
 const MOST_KEPT: usize = 65_536;
 
-/// Which values of a curve are kept: all, or of so long a curve the smallest and the largest of each of as many stretches as there is room for.
+/// Which values of a curve are kept: all, or of so long a curve the smallest and the largest of each of as many
+/// stretches as there is room for.
 fn telling(values: &[f64]) -> Box<dyn Iterator<Item = usize> + '_> {
     if values.len() <= MOST_KEPT {
         return Box::new(0..values.len());
@@ -36,10 +37,7 @@ impl Chart {
 
     /// Keeps what a curve is drawn from; `kind` is said after its name.
     pub(crate) fn keep(&mut self, kind: &str, xs: Vec<f64>, ys: Vec<f64>) {
-        let axis = |label: &str, unit: &str| Axis {
-            label: label.to_owned(),
-            unit: unit.to_owned(),
-        };
+        let axis = |label: &str, unit: &str| Axis { label: label.to_owned(), unit: unit.to_owned() };
         let both = !self.curve.is_empty() && !kind.is_empty();
         self.picture.curves.push(Curve {
             name: format!("{}{}{kind}", self.curve, if both { " " } else { "" }),
@@ -54,23 +52,14 @@ impl Chart {
     pub(crate) fn curve(&mut self, x0: f64, dx: f64, values: &[f64], peak: bool, paint: Paint) {
         let Domain { lo, hi, .. } = self.spec.x;
         let index = |x: f64| {
-            if dx > 0.0 {
-                ((x - x0) / dx).clamp(-1.0, values.len() as f64)
-            } else {
-                0.0
-            }
+            if dx > 0.0 { ((x - x0) / dx).clamp(-1.0, values.len() as f64) } else { 0.0 }
         };
         let first = (index(lo).floor() - 1.0).max(0.0) as usize;
         let last = ((index(hi).ceil() + 2.0).max(0.0) as usize).min(values.len());
         let points = values[first.min(last)..last]
             .iter()
             .enumerate()
-            .map(|(i, v)| {
-                (
-                    self.x.at(x0 + (first + i) as f64 * dx),
-                    v.is_finite().then(|| self.y.at(*v)),
-                )
-            });
+            .map(|(i, v)| (self.x.at(x0 + (first + i) as f64 * dx), v.is_finite().then(|| self.y.at(*v))));
         let lines = thinned(points, peak);
         let seen = telling(&values[first.min(last)..last]).map(|i| first + i);
         let (xs, ys) = seen.map(|i| (x0 + i as f64 * dx, values[i])).unzip();
@@ -82,10 +71,7 @@ impl Chart {
     pub(crate) fn points(&mut self, xs: &[f64], ys: &[f64], paint: Paint) {
         let points = xs.iter().zip(ys).map(|(x, y)| (*x, *y)).map(|(x, y)| {
             let seen = x.is_finite() && y.is_finite();
-            (
-                if x.is_finite() { self.x.at(x) } else { 0.0 },
-                seen.then(|| self.y.at(y)),
-            )
+            (if x.is_finite() { self.x.at(x) } else { 0.0 }, seen.then(|| self.y.at(y)))
         });
         let lines = straightened(thinned(points, false));
         let count = xs.len().min(ys.len());
@@ -132,35 +118,16 @@ impl Chart {
         }
         flush(&mut columns);
         let clip = Some(self.frame);
-        self.picture.shapes.push(Shape::Path {
-            lines,
-            close: true,
-            paint,
-            clip,
-        });
+        self.picture.shapes.push(Shape::Path { lines, close: true, paint, clip });
     }
 
     fn lines(&mut self, mut lines: Vec<Vec<(f64, f64)>>, paint: Paint) {
-        let dots: Vec<(f64, f64)> = lines
-            .iter()
-            .filter(|line| line.len() == 1)
-            .map(|line| line[0])
-            .collect();
+        let dots: Vec<(f64, f64)> = lines.iter().filter(|line| line.len() == 1).map(|line| line[0]).collect();
         lines.retain(|line| line.len() > 1);
         self.picture.shapes.push(Shape::Open("series"));
-        self.picture.shapes.push(Shape::Path {
-            lines,
-            close: false,
-            paint,
-            clip: Some(self.frame),
-        });
+        self.picture.shapes.push(Shape::Path { lines, close: false, paint, clip: Some(self.frame) });
         for (x, y) in dots {
-            self.picture.shapes.push(Shape::Circle {
-                x,
-                y,
-                r: 2.0,
-                paint: Paint::fill(paint.stroke, 1.0),
-            });
+            self.picture.shapes.push(Shape::Circle { x, y, r: 2.0, paint: Paint::fill(paint.stroke, 1.0) });
         }
         self.picture.shapes.push(Shape::Close);
     }
@@ -169,21 +136,11 @@ impl Chart {
     pub(crate) fn highlight(&mut self, lo: f64, hi: f64) {
         let (left, right) = (self.x.at(lo), self.x.at(hi));
         let widen = (3.0 - (right - left)).max(0.0) / 2.0;
-        let (left, right) = (
-            (left - widen).max(self.frame.left),
-            (right + widen).min(self.frame.right),
-        );
+        let (left, right) = ((left - widen).max(self.frame.left), (right + widen).min(self.frame.right));
         if right > left {
-            let rect = Rect {
-                left,
-                right,
-                ..self.frame
-            };
+            let rect = Rect { left, right, ..self.frame };
             self.picture.shapes.push(Shape::Open("window"));
-            self.picture.rect(
-                rect,
-                Paint::line(ink::ORANGE, 1.5).filled(ink::ORANGE, 0.25),
-            );
+            self.picture.rect(rect, Paint::line(ink::ORANGE, 1.5).filled(ink::ORANGE, 0.25));
             self.picture.shapes.push(Shape::Close);
         }
     }
@@ -213,8 +170,6 @@ impl Chart {
     pub(crate) fn say(&mut self, words: &str) {
         let x = 0.5 * (self.frame.left + self.frame.right);
         let y = 0.5 * (self.frame.top + self.frame.bottom);
-        self.picture.text(
-            Text::new(x, y, self.spec.size.font + 1.0, Anchor::Middle, words).color(ink::FAINT),
-        );
+        self.picture.text(Text::new(x, y, self.spec.size.font + 1.0, Anchor::Middle, words).color(ink::FAINT));
     }
 }

@@ -39,25 +39,12 @@ impl Chart {
         let text = base - 0.5 * (LANE_HEIGHT - 0.72 * font);
         let color = if lane.through { ink::BLACK } else { ink::FAINT };
         let name = font::fitted(&lane.label, font, true, frame.left - 10.0);
-        self.picture.text(
-            Text::new(frame.left - 7.0, text, font, Anchor::End, &name)
-                .bold()
-                .color(color),
-        );
-        self.picture.text(
-            Text::new(frame.right + 7.0, text, font, Anchor::Start, &lane.value).color(color),
-        );
+        self.picture.text(Text::new(frame.left - 7.0, text, font, Anchor::End, &name).bold().color(color));
+        self.picture.text(Text::new(frame.right + 7.0, text, font, Anchor::Start, &lane.value).color(color));
         let ruler = base - 0.5 * LANE_HEIGHT;
-        self.picture.path(
-            &[(frame.left, ruler), (frame.right, ruler)],
-            Paint::line(ink::GRID, 1.0),
-        );
+        self.picture.path(&[(frame.left, ruler), (frame.right, ruler)], Paint::line(ink::GRID, 1.0));
 
-        let seen = || {
-            lane.marks
-                .iter()
-                .filter(|mark| mark.x >= lo && mark.x <= hi)
-        };
+        let seen = || lane.marks.iter().filter(|mark| mark.x >= lo && mark.x <= hi);
         let across = |top: f64, bottom: f64| -> Vec<Vec<(f64, f64)>> {
             let mut lines: Vec<Vec<(f64, f64)>> = vec![];
             for mark in seen() {
@@ -96,13 +83,9 @@ impl Chart {
                 continue;
             }
             free = end;
-            labels.push(
-                Text::new(x, text - 0.4, font - 1.0, Anchor::Start, &mark.label).color(ink::TEXT),
-            );
+            labels.push(Text::new(x, text - 0.4, font - 1.0, Anchor::Start, &mark.label).color(ink::TEXT));
         }
-        self.picture
-            .shapes
-            .extend(labels.into_iter().map(Shape::Text));
+        self.picture.shapes.extend(labels.into_iter().map(Shape::Text));
         self.picture.shapes.push(Shape::Close);
     }
 }

@@ -55,15 +55,8 @@ pub(crate) struct Chart {
 pub(crate) fn left_margin(spec: &Spec) -> f64 {
     let font = spec.size.font;
     let (_, labels, _) = ticks(spec.y, y_target(spec));
-    let numbers = labels
-        .iter()
-        .map(|l| font::width(l, font, false))
-        .fold(font::width("−0.05", font, false), f64::max);
-    let lanes = spec
-        .lanes
-        .iter()
-        .map(|l| font::width(&l.label, font, true))
-        .fold(0.0, f64::max);
+    let numbers = labels.iter().map(|l| font::width(l, font, false)).fold(font::width("−0.05", font, false), f64::max);
+    let lanes = spec.lanes.iter().map(|l| font::width(&l.label, font, true)).fold(0.0, f64::max);
     let lines = if label_is_long(spec) { 2.0 } else { 1.0 };
     (numbers + 10.0 + lines * 1.3 * font + 4.0).max((lanes + 14.0).min(0.3 * spec.size.width))
 }
@@ -71,20 +64,12 @@ pub(crate) fn left_margin(spec: &Spec) -> f64 {
 /// Margin that the values of a plot's lanes need.
 pub(crate) fn right_margin(spec: &Spec) -> f64 {
     let font = spec.size.font;
-    let ends = spec
-        .lanes
-        .iter()
-        .map(|l| font::width(&l.value, font, false))
-        .fold(0.0, f64::max);
+    let ends = spec.lanes.iter().map(|l| font::width(&l.value, font, false)).fold(0.0, f64::max);
     if ends > 0.0 { ends + 12.0 } else { 1.2 * font }
 }
 
 fn plot_height(spec: &Spec) -> f64 {
-    let below = if spec.x_axis {
-        3.4 * spec.size.font
-    } else {
-        8.0
-    };
+    let below = if spec.x_axis { 3.4 * spec.size.font } else { 8.0 };
     (spec.size.height - 8.0 - LANE_HEIGHT * spec.lanes.len() as f64 - below).max(20.0)
 }
 
@@ -103,22 +88,9 @@ impl Chart {
         let left = left_margin(&spec).max(spec.left);
         let right = right_margin(&spec).max(spec.right);
         let top = 8.0 + LANE_HEIGHT * spec.lanes.len() as f64;
-        let frame = Rect {
-            left,
-            top,
-            right: (width - right).max(left + 20.0),
-            bottom: top + plot_height(&spec),
-        };
-        let x = Scale {
-            domain: spec.x,
-            from: frame.left,
-            to: frame.right,
-        };
-        let y = Scale {
-            domain: spec.y,
-            from: frame.bottom,
-            to: frame.top,
-        };
+        let frame = Rect { left, top, right: (width - right).max(left + 20.0), bottom: top + plot_height(&spec) };
+        let x = Scale { domain: spec.x, from: frame.left, to: frame.right };
+        let y = Scale { domain: spec.y, from: frame.bottom, to: frame.top };
         let mut chart = Self {
             picture: Picture::new(&spec.name, &spec.title, width, height),
             frame,
@@ -140,17 +112,8 @@ impl Chart {
         self.picture.shapes.push(Shape::Open("ticks-y"));
         for (value, label) in values.iter().zip(&labels) {
             let at = self.y.at(*value);
-            self.picture.path(
-                &[(self.frame.left, at), (self.frame.right, at)],
-                Paint::line(ink::GRID, 1.0),
-            );
-            self.picture.text(Text::new(
-                self.frame.left - 7.0,
-                at + 0.36 * font,
-                font,
-                Anchor::End,
-                label,
-            ));
+            self.picture.path(&[(self.frame.left, at), (self.frame.right, at)], Paint::line(ink::GRID, 1.0));
+            self.picture.text(Text::new(self.frame.left - 7.0, at + 0.36 * font, font, Anchor::End, label));
         }
         self.picture.shapes.push(Shape::Close);
         y_power
@@ -159,12 +122,7 @@ impl Chart {
     /// Lines and numbers of the x axis, as many as have room; the power of ten of its numbers.
     fn ticks_x(&mut self) -> i32 {
         let font = self.spec.size.font;
-        let widest = |labels: &[String]| {
-            labels
-                .iter()
-                .map(|l| font::width(l, font, false))
-                .fold(0.0, f64::max)
-        };
+        let widest = |labels: &[String]| labels.iter().map(|l| font::width(l, font, false)).fold(0.0, f64::max);
         let mut target = ((self.frame.width() / 60.0) as usize).clamp(3, 10);
         while target > 1 {
             let (values, labels, _) = ticks(self.spec.x, target);
@@ -177,18 +135,9 @@ impl Chart {
         self.picture.shapes.push(Shape::Open("ticks-x"));
         for (value, label) in values.iter().zip(&labels) {
             let at = self.x.at(*value);
-            self.picture.path(
-                &[(at, self.frame.top), (at, self.frame.bottom)],
-                Paint::line(ink::GRID, 1.0),
-            );
+            self.picture.path(&[(at, self.frame.top), (at, self.frame.bottom)], Paint::line(ink::GRID, 1.0));
             if self.spec.x_axis {
-                self.picture.text(Text::new(
-                    at,
-                    self.frame.bottom + 1.4 * font,
-                    font,
-                    Anchor::Middle,
-                    label,
-                ));
+                self.picture.text(Text::new(at, self.frame.bottom + 1.4 * font, font, Anchor::Middle, label));
             }
         }
         self.picture.shapes.push(Shape::Close);
@@ -200,20 +149,13 @@ impl Chart {
         if self.spec.x_axis {
             let label = axis_label(&self.spec.x_label, &self.spec.x_unit, x_power);
             let middle = 0.5 * (frame.left + frame.right);
-            self.picture.text(Text::with_unit(
-                middle,
-                frame.bottom + 3.0 * font,
-                font,
-                Anchor::Middle,
-                &label,
-            ));
+            self.picture.text(Text::with_unit(middle, frame.bottom + 3.0 * font, font, Anchor::Middle, &label));
         }
         let label = axis_label(&self.spec.y_label, &self.spec.y_unit, y_power);
         let middle = 0.5 * (frame.top + frame.bottom);
         self.picture.shapes.push(Shape::Open("label-y"));
         let mut line = |x: f64, text: &str| {
-            self.picture
-                .text(Text::with_unit(x, middle, font, Anchor::Middle, text).upright());
+            self.picture.text(Text::with_unit(x, middle, font, Anchor::Middle, text).upright());
         };
         if label_is_long(&self.spec) {
             let (first, second) = halves(&label);
@@ -239,14 +181,10 @@ impl Chart {
         self.interactive_at(plot, 0.0);
     }
 
-    /// The same where the plot is placed `top` below the picture's upper edge; the picture it is placed in takes its attributes.
+    /// The same where the plot is placed `top` below the picture's upper edge; the picture it is placed in takes its
+    /// attributes.
     pub(crate) fn interactive_at(&mut self, plot: &str, top: f64) {
-        let Rect {
-            left,
-            top: upper,
-            right,
-            bottom,
-        } = self.frame;
+        let Rect { left, top: upper, right, bottom } = self.frame;
         let [l, t, r, b] = [left, upper + top, right, bottom + top].map(coordinate);
         let Domain { lo, hi, log } = self.spec.x;
         let [lo, hi] = [lo, hi].map(|x| if log { x.log10() } else { x });

@@ -23,7 +23,8 @@ pub(crate) struct Shades<'a> {
 }
 
 impl Chart {
-    /// Fills the frame with cells, and draws their scale into the right margin, which is [`SCALE_MARGIN`] wide. Gives the scale's place.
+    /// Fills the frame with cells, and draws their scale into the right margin, which is [`SCALE_MARGIN`] wide. Gives
+    /// the scale's place.
     pub(crate) fn shades(&mut self, shades: &Shades) -> Rect {
         let (low, high) = shades.range;
         let share = |value: f64| (value - low) / (high - low);
@@ -43,10 +44,7 @@ impl Chart {
         self.picture.shapes.push(Shape::Image {
             place: bar,
             columns: 1,
-            pixels: (0..LEVELS)
-                .rev()
-                .map(|k| shade(k as f64 / (LEVELS - 1) as f64))
-                .collect(),
+            pixels: (0..LEVELS).rev().map(|k| shade(k as f64 / (LEVELS - 1) as f64)).collect(),
         });
         self.picture.rect(bar, Paint::line(ink::FRAME, 1.0));
         let mut write = |x: f64, y: f64, words: &str| {

@@ -48,12 +48,8 @@ pub fn load_along(along: &AlongRoller, name: &str, layout: Layout) -> Picture {
     )
 }
 
-const LINES: [(&str, f64, &[f64]); 4] = [
-    (ink::BLUE, 2.2, &[]),
-    (ink::ORANGE, 2.0, &[7.0, 3.0]),
-    (ink::GREEN, 1.6, &[]),
-    (ink::PURPLE, 1.6, &[3.0, 3.0]),
-];
+const LINES: [(&str, f64, &[f64]); 4] =
+    [(ink::BLUE, 2.2, &[]), (ink::ORANGE, 2.0, &[7.0, 3.0]), (ink::GREEN, 1.6, &[]), (ink::PURPLE, 1.6, &[3.0, 3.0])];
 
 /// Panels over one axis, each with its own legend where it holds several curves.
 fn stack(
@@ -76,16 +72,9 @@ fn stack(
             Spec {
                 name: String::new(),
                 title: String::new(),
-                size: Size {
-                    height: part + if last { 3.4 * size.font } else { 0.0 },
-                    ..size
-                },
+                size: Size { height: part + if last { 3.4 * size.font } else { 0.0 }, ..size },
                 x: Domain::exact(lo, hi),
-                y: if panel.from_zero {
-                    Domain::from_zero(values)
-                } else {
-                    Domain::around(values)
-                },
+                y: if panel.from_zero { Domain::from_zero(values) } else { Domain::around(values) },
                 x_label: x_label.into(),
                 x_unit: x_unit.into(),
                 y_label: panel.label.clone(),
@@ -119,9 +108,7 @@ fn stack(
         }
         let height = spec.size.height;
         let mut chart = Chart::new(spec);
-        if range(panel.curves.iter().flat_map(|c| c.values.iter().copied())).is_none()
-            || xs.is_empty()
-        {
+        if range(panel.curves.iter().flat_map(|c| c.values.iter().copied())).is_none() || xs.is_empty() {
             chart.say("Not computed");
         }
         for (k, curve) in panel.curves.iter().enumerate() {

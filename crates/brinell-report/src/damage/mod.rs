@@ -1,4 +1,5 @@
-//! Pictures of damage: the raceway unrolled, the contact conditions during roller passage, and the ring's section under it.
+//! Pictures of damage: the raceway unrolled, the contact conditions during roller passage, and the ring's section under
+//! it.
 
 mod curves;
 mod photo;
@@ -43,8 +44,8 @@ pub struct DamageView {
     pub roller_length_mm: f64,
     /// d of the roller.
     pub roller_diameter_mm: f64,
-    /// Of a roller, half its circumference: the view from above goes once around, and either contact meets the damage half a turn after the
-    /// other.
+    /// Of a roller, half its circumference: the view from above goes once around, and either contact meets the damage
+    /// half a turn after the other.
     pub half_turn_mm: Option<f64>,
     /// s of the load zone's ends, where the surface rests in it.
     pub load_zone_mm: Option<[f64; 2]>,

@@ -11,8 +11,8 @@ const TRACK: &str = "#eef2f6";
 /// Largest picture of a raceway, px.
 const TALLEST: f64 = 440.0;
 
-/// The surface unrolled, s to the right and z upwards to one scale: damage, the track of the roller, the roller at defect entry, and
-/// the load zone. Of a roller the whole circumference, with both lines of contact.
+/// The surface unrolled, s to the right and z upwards to one scale: damage, the track of the roller, the roller at
+/// defect entry, and the load zone. Of a roller the whole circumference, with both lines of contact.
 pub fn damage_plan(view: &DamageView, index: usize, layout: Layout) -> Picture {
     let Size { width, font, .. } = layout.size(0.0);
     let mut plan = Plan::new(view, index, layout);
@@ -89,11 +89,7 @@ impl<'a> Plan<'a> {
                 true => view.title.clone(),
                 false => view.plan_title.clone(),
             },
-            size: Size {
-                width,
-                height,
-                font,
-            },
+            size: Size { width, height, font },
             x: Domain::exact(middle - half, middle + half),
             y: Domain::exact(-0.5 * tall, 0.5 * tall),
             x_label: along(view, half_turn.is_some()),
@@ -117,26 +113,11 @@ impl<'a> Plan<'a> {
             Some(half) => [chart.x.at(-half), chart.x.at(half)],
             None => [chart.frame.left, chart.frame.right],
         };
-        Self {
-            view,
-            chart,
-            extent,
-            radius,
-            half_turn,
-            track,
-            ends,
-            left,
-            height,
-        }
+        Self { view, chart, extent, radius, half_turn, track, ends, left, height }
     }
 
     fn clipped(&self, lines: Vec<Vec<(f64, f64)>>, close: bool, paint: Paint) -> Shape {
-        Shape::Path {
-            lines,
-            close,
-            paint,
-            clip: Some(self.chart.frame),
-        }
+        Shape::Path { lines, close, paint, clip: Some(self.chart.frame) }
     }
 
     fn draw(&mut self, lines: Vec<Vec<(f64, f64)>>, close: bool, paint: Paint) {
@@ -160,12 +141,7 @@ impl<'a> Plan<'a> {
     fn draw_damage(&mut self) -> Option<f64> {
         if let Some(patch) = &self.view.depths {
             let clip = Some(self.chart.frame);
-            let clipped = |lines, close, paint| Shape::Path {
-                lines,
-                close,
-                paint,
-                clip,
-            };
+            let clipped = |lines, close, paint| Shape::Path { lines, close, paint, clip };
             let depths = shade(&mut self.chart, patch, self.extent, clipped);
             return Some(depths.into_iter().fold(0.0, f64::max));
         }
@@ -174,10 +150,8 @@ impl<'a> Plan<'a> {
             self.chart.keep(&format!("outline {}", k + 1), s, z);
         }
         let (x, y) = (&self.chart.x, &self.chart.y);
-        let lines: Vec<Vec<(f64, f64)>> = wound(&self.view.polygons_mm)
-            .iter()
-            .map(|p| drawn(p.iter().map(|q| (x.at(q[0]), y.at(q[1])))))
-            .collect();
+        let lines: Vec<Vec<(f64, f64)>> =
+            wound(&self.view.polygons_mm).iter().map(|p| drawn(p.iter().map(|q| (x.at(q[0]), y.at(q[1]))))).collect();
         if lines.is_empty() {
             self.chart.say("No damage");
         } else {
@@ -266,14 +240,10 @@ impl<'a> Plan<'a> {
 /// Words for the two lines of [`Plan::draw_rollers`].
 fn contact_words(view: &DamageView) -> [String; 2] {
     match view.half_turn_mm {
-        Some(half) if half.is_finite() && half > 0.0 => [
-            "line of contact at defect entry".into(),
-            "the contact with the other raceway then".into(),
-        ],
-        _ => [
-            "line of contact at defect entry".into(),
-            format!("the {} above it", view.element()),
-        ],
+        Some(half) if half.is_finite() && half > 0.0 => {
+            ["line of contact at defect entry".into(), "the contact with the other raceway then".into()]
+        }
+        _ => ["line of contact at defect entry".into(), format!("the {} above it", view.element())],
     }
 }
 
@@ -322,9 +292,7 @@ fn drawn(points: impl Iterator<Item = (f64, f64)>) -> Vec<(f64, f64)> {
 
 /// Polygons turned so that a hole winds against what it lies in: the inside is then the same by either fill rule.
 fn wound(polygons: &[Vec<[f64; 2]>]) -> Vec<Vec<[f64; 2]>> {
-    let finite = polygons
-        .iter()
-        .filter(|p| p.len() > 2 && p.iter().flatten().all(|x| x.is_finite()));
+    let finite = polygons.iter().filter(|p| p.len() > 2 && p.iter().flatten().all(|x| x.is_finite()));
     let all: Vec<&Vec<[f64; 2]>> = finite.collect();
     let sides = |p: &[[f64; 2]]| {
         let next: Vec<[f64; 2]> = p.iter().skip(1).chain(p.first()).copied().collect();
@@ -332,8 +300,8 @@ fn wound(polygons: &[Vec<[f64; 2]>]) -> Vec<Vec<[f64; 2]>> {
     };
     let within = |q: [f64; 2], p: &[[f64; 2]]| {
         sides(p).iter().fold(false, |inside, (a, b)| {
-            let passes = (a[1] <= q[1]) != (b[1] <= q[1])
-                && q[0] < a[0] + (q[1] - a[1]) / (b[1] - a[1]) * (b[0] - a[0]);
+            let passes =
+                (a[1] <= q[1]) != (b[1] <= q[1]) && q[0] < a[0] + (q[1] - a[1]) / (b[1] - a[1]) * (b[0] - a[0]);
             inside != passes
         })
     };
@@ -342,10 +310,7 @@ fn wound(polygons: &[Vec<[f64; 2]>]) -> Vec<Vec<[f64; 2]>> {
         .map(|(i, p)| {
             let others = all.iter().enumerate().filter(|(j, _)| *j != i);
             let hole = others.filter(|(_, other)| within(p[0], other)).count() % 2 == 1;
-            let area: f64 = sides(p)
-                .iter()
-                .map(|(a, b)| a[0] * b[1] - b[0] * a[1])
-                .sum();
+            let area: f64 = sides(p).iter().map(|(a, b)| a[0] * b[1] - b[0] * a[1]).sum();
             let mut p = (*p).clone();
             if (area < 0.0) != hole {
                 p.reverse();

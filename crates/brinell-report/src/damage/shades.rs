@@ -7,9 +7,8 @@ use crate::number::significant;
 use crate::picture::{Anchor, Paint, Picture, Rect, Shape, Text};
 
 /// Undamaged to deepest.
-pub(super) const SHADES: [&str; 8] = [
-    "#fbe3cb", "#f8c99c", "#f2aa6b", "#e78a42", "#d46a22", "#b34e12", "#8a380b", "#602506",
-];
+pub(super) const SHADES: [&str; 8] =
+    ["#fbe3cb", "#f8c99c", "#f2aa6b", "#e78a42", "#d46a22", "#b34e12", "#8a380b", "#602506"];
 /// Raised edges.
 const RAISED: &str = "#9fd0ee";
 /// Side of a shaded cell, px.
@@ -26,11 +25,7 @@ pub(super) fn shade(
 ) -> Vec<f64> {
     let columns = patch.columns;
     let rows = patch.depth_um.len().checked_div(columns).unwrap_or(0);
-    let finite: Vec<f64> = patch
-        .depth_um
-        .iter()
-        .map(|h| if h.is_finite() { *h } else { 0.0 })
-        .collect();
+    let finite: Vec<f64> = patch.depth_um.iter().map(|h| if h.is_finite() { *h } else { 0.0 }).collect();
     let deepest = finite.iter().copied().fold(0.0, f64::max);
     let (left, right) = (chart.x.at(first), chart.x.at(last));
     let (top, bottom) = (chart.y.at(high), chart.y.at(low));
@@ -46,13 +41,9 @@ pub(super) fn shade(
         let (c, r) = ((u as usize).min(columns - 2), (v as usize).min(rows - 2));
         let (u, v) = (u - c as f64, v - r as f64);
         let node = |dr: usize, dc: usize| finite[(r + dr) * columns + c + dc];
-        (node(0, 0) * (1.0 - u) + node(0, 1) * u) * (1.0 - v)
-            + (node(1, 0) * (1.0 - u) + node(1, 1) * u) * v
+        (node(0, 0) * (1.0 - u) + node(0, 1) * u) * (1.0 - v) + (node(1, 0) * (1.0 - u) + node(1, 1) * u) * v
     };
-    let cells: Vec<f64> = (0..down)
-        .flat_map(|j| (0..across).map(move |i| (i, j)))
-        .map(|(i, j)| depth(i, j))
-        .collect();
+    let cells: Vec<f64> = (0..down).flat_map(|j| (0..across).map(move |i| (i, j))).map(|(i, j)| depth(i, j)).collect();
     // Each shade lies over the lighter one, a little wider than its cells: no seams.
     let mut layer = |color: &'static str, shown: &dyn Fn(f64) -> bool| {
         let mut runs = vec![];
@@ -67,10 +58,7 @@ pub(super) fn shade(
                 if i > from {
                     let x = |i: usize| left + wide * i as f64;
                     let (a, b) = (x(from) - 0.3, x(i) + 0.3);
-                    let (c, d) = (
-                        top + high * j as f64 - 0.3,
-                        top + high * (j + 1) as f64 + 0.3,
-                    );
+                    let (c, d) = (top + high * j as f64 - 0.3, top + high * (j + 1) as f64 + 0.3);
                     runs.push(vec![(a, c), (b, c), (b, d), (a, d)]);
                 }
                 i = i.max(from + 1);
@@ -106,12 +94,7 @@ pub(super) fn colour_bar(
     let mut x = left + font::width("depth 0", font, false) + 6.0;
     for color in SHADES {
         let (right, bottom) = (x + swatch, base + 1.0);
-        let rect = Rect {
-            left: x,
-            top: base - 0.8 * font,
-            right,
-            bottom,
-        };
+        let rect = Rect { left: x, top: base - 0.8 * font, right, bottom };
         picture.rect(rect, Paint::fill(color, 1.0));
         x = right;
     }
@@ -124,12 +107,7 @@ pub(super) fn colour_bar(
             x = left;
             base += 1.6 * font;
         }
-        let rect = Rect {
-            left: x,
-            top: base - 0.8 * font,
-            right: x + swatch,
-            bottom: base + 1.0,
-        };
+        let rect = Rect { left: x, top: base - 0.8 * font, right: x + swatch, bottom: base + 1.0 };
         picture.rect(rect, Paint::fill(RAISED, 1.0));
         picture.text(text(x + swatch + 6.0, base, &words));
     }

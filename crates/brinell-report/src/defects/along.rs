@@ -6,7 +6,8 @@ use crate::{AlongRoller, DamagePanel};
 use brinell::lamina::{AtRest, ContactLine};
 use brinell::scenario::Scenario;
 
-/// Of the roller in the middle of the load zone. `None` where rollers have no slices, or nothing holds the rings against the load.
+/// Of the roller in the middle of the load zone. `None` where rollers have no slices, or nothing holds the rings
+/// against the load.
 pub(crate) fn along_healthy_roller(s: &Scenario) -> Option<AlongRoller> {
     along_roller(&AtRest::of(s).ok()??, None)
 }
@@ -21,9 +22,8 @@ pub(super) fn along_roller(at_rest: &AtRest, defect: Option<usize>) -> Option<Al
     };
     let curves = |values: &dyn Fn(&ContactLine) -> Vec<f64>| {
         let of = |(side, name): (usize, &'static str)| {
-            conditions().map(move |(condition, pair)| {
-                curve(&format!("{condition}, {name} contact"), values(&pair[side]))
-            })
+            conditions()
+                .map(move |(condition, pair)| curve(&format!("{condition}, {name} contact"), values(&pair[side])))
         };
         sides.into_iter().flat_map(of).collect::<Vec<_>>()
     };
@@ -39,29 +39,11 @@ pub(super) fn along_roller(at_rest: &AtRest, defect: Option<usize>) -> Option<Al
         let drop = curve("", scaled(1e6, &load.drop));
         panels.push(panel("Drop p", "µm", vec![drop]));
     }
-    panels.push(panel(
-        "Line load q",
-        "N/mm",
-        curves(&|line| scaled(1e-3, &line.line_load)),
-    ));
-    panels.push(panel(
-        "Pressure",
-        "MPa",
-        curves(&|line| scaled(1e-6, &line.pressure)),
-    ));
+    panels.push(panel("Line load q", "N/mm", curves(&|line| scaled(1e-3, &line.line_load))));
+    panels.push(panel("Pressure", "MPa", curves(&|line| scaled(1e-6, &line.pressure))));
     let says = |(condition, pair): (&str, &[ContactLine; 2])| {
-        let of = |line: &ContactLine| {
-            format!(
-                "{} N over {} mm",
-                short(line.force, 3),
-                short(1e3 * line.touching, 3)
-            )
-        };
-        format!(
-            "{condition}: {} at the outer, {} at the inner contact",
-            of(&pair[1]),
-            of(&pair[0])
-        )
+        let of = |line: &ContactLine| format!("{} N over {} mm", short(line.force, 3), short(1e3 * line.touching, 3));
+        format!("{condition}: {} at the outer, {} at the inner contact", of(&pair[1]), of(&pair[0]))
     };
     let said: Vec<String> = conditions().map(says).collect();
     let place = match defect {

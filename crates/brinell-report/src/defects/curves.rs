@@ -1,4 +1,5 @@
-//! Contact conditions during roller passage over a defect, and the ring's section under it; depths for the picture from above.
+//! Contact conditions during roller passage over a defect, and the ring's section under it; depths for the picture from
+//! above.
 
 use crate::{DamageCurve, DamagePanel, DepthPatch};
 use brinell::defect::section::{Section, sections};
@@ -10,10 +11,7 @@ const POINTS: usize = 1601;
 const SHADED: [usize; 2] = [161, 121];
 
 pub(super) fn curve(name: &str, values: Vec<f64>) -> DamageCurve {
-    DamageCurve {
-        name: name.into(),
-        values,
-    }
+    DamageCurve { name: name.into(), values }
 }
 
 pub(super) fn section(defect: &Defect, width: f64, thickness: f64) -> (Vec<f64>, Vec<DamagePanel>) {
@@ -50,9 +48,7 @@ pub(super) fn section(defect: &Defect, width: f64, thickness: f64) -> (Vec<f64>,
             "Ratio",
             "",
             vec![
-                of("inertia over the whole section's, K_I", &|x| {
-                    x.inertia_ratio
-                }),
+                of("inertia over the whole section's, K_I", &|x| x.inertia_ratio),
                 of("h_I / h_a = K_r", &|x| x.thickness_ratio),
             ],
         ),
@@ -66,10 +62,7 @@ pub(super) fn depths(shape: &Shape) -> Option<DepthPatch> {
     };
     let ((first, last), (low, high)) = (shape.arc(), grid.heights());
     let [columns, rows] = SHADED;
-    let (ds, dz) = (
-        (last - first) / (columns - 1) as f64,
-        (high - low) / (rows - 1) as f64,
-    );
+    let (ds, dz) = ((last - first) / (columns - 1) as f64, (high - low) / (rows - 1) as f64);
     let at = |k: usize| {
         let (row, column) = (k / columns, k % columns);
         1e6 * grid.depth(first + ds * column as f64, low + dz * row as f64)

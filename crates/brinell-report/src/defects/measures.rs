@@ -45,18 +45,14 @@ fn along(shape: &Shape, points: usize) -> impl Iterator<Item = f64> + use<> {
 }
 
 pub(super) fn widest(defect: &Defect) -> f64 {
-    along(&defect.shape, 20_001)
-        .map(|s| defect.damaged_length(s))
-        .fold(0.0, f64::max)
+    along(&defect.shape, 20_001).map(|s| defect.damaged_length(s)).fold(0.0, f64::max)
 }
 
 /// Deepest point and height of the highest raised edge, m.
 pub(super) fn deepest(defect: &Defect) -> (f64, f64) {
     let own = match &defect.shape {
         Shape::DepthMap(grid) => grid.extremes().0,
-        shape => along(shape, 20_001)
-            .map(|s| shape.own_depth(s).unwrap_or(defect.depth))
-            .fold(0.0, f64::max),
+        shape => along(shape, 20_001).map(|s| shape.own_depth(s).unwrap_or(defect.depth)).fold(0.0, f64::max),
     };
     (own, defect.shape.raised())
 }
@@ -72,19 +68,10 @@ pub(super) fn facts(m: &Measures, bearing: &Bearing) -> Vec<Fact> {
             short(m.approach_um, 3)
         )
     } else {
-        format!(
-            "less than the elastic deformation of {} µm: the bottom carries load too",
-            short(m.approach_um, 3)
-        )
+        format!("less than the elastic deformation of {} µm: the bottom carries load too", short(m.approach_um, 3))
     };
     let mut facts = vec![
-        fact(
-            "Length",
-            m.length_mm,
-            4,
-            "mm",
-            "along the rolling direction".into(),
-        ),
+        fact("Length", m.length_mm, 4, "mm", "along the rolling direction".into()),
         fact("Arc", m.arc_deg, 4, "°", "of the damaged surface".into()),
         fact(
             "Widest",
@@ -100,30 +87,12 @@ pub(super) fn facts(m: &Measures, bearing: &Bearing) -> Vec<Fact> {
             ),
         ),
         fact("Area", m.area_mm2, 4, "mm^2", none()),
-        fact(
-            "Mean depth",
-            m.mean_depth_um,
-            4,
-            "µm",
-            "volume over area".into(),
-        ),
+        fact("Mean depth", m.mean_depth_um, 4, "µm", "volume over area".into()),
         fact("Deepest", m.deepest_um, 4, "µm", floor),
-        fact(
-            "Time to pass",
-            m.pass_ms,
-            4,
-            "ms",
-            format!("of the line of contact, at {} r/min", short(m.speed_rpm, 4)),
-        ),
+        fact("Time to pass", m.pass_ms, 4, "ms", format!("of the line of contact, at {} r/min", short(m.speed_rpm, 4))),
     ];
     if m.raised_um > 0.0 {
-        facts.push(fact(
-            "Raised edge",
-            m.raised_um,
-            4,
-            "µm",
-            "felt by the law \"sliced\"".into(),
-        ));
+        facts.push(fact("Raised edge", m.raised_um, 4, "µm", "felt by the law \"sliced\"".into()));
     }
     if let Some(share) = m.load_zone_share {
         facts.push(fact(

@@ -1,4 +1,5 @@
-//! Damage as it is seen before it is simulated: extents, outlines, contact conditions during roller passage, the ring's section.
+//! Damage as it is seen before it is simulated: extents, outlines, contact conditions during roller passage, the ring's
+//! section.
 
 mod along;
 mod curves;
@@ -34,15 +35,11 @@ pub fn damage_of(s: &Scenario, thickness_mm: Option<f64>) -> Result<Vec<Damage>,
         return Ok(Vec::new());
     }
     let model = Model::new(s)?;
-    let healthy = Model::new(&Scenario {
-        defects: Vec::new(),
-        ..s.clone()
-    })?;
+    let healthy = Model::new(&Scenario { defects: Vec::new(), ..s.clone() })?;
     let passes = defect_passes(&model);
     let statics = static_load_zone(&healthy).ok();
     let at_rest = AtRest::of(s).ok().flatten();
-    let seen = (0..model.defects.len()).map(|k| {
-        Seen::of((s, &model, k), passes[k], statics.as_ref(), thickness_mm).damage(at_rest.as_ref())
-    });
+    let seen = (0..model.defects.len())
+        .map(|k| Seen::of((s, &model, k), passes[k], statics.as_ref(), thickness_mm).damage(at_rest.as_ref()));
     Ok(seen.collect())
 }

@@ -41,9 +41,7 @@ impl Passage<'_> {
         let radius = self.defect.radius;
         let pad = 0.2 * (last - first);
         let (from, to) = ((first - pad) / radius, (last + pad) / radius);
-        let mut angles: Vec<f64> = (0..POINTS)
-            .map(|k| from + (to - from) * k as f64 / (POINTS - 1) as f64)
-            .collect();
+        let mut angles: Vec<f64> = (0..POINTS).map(|k| from + (to - from) * k as f64 / (POINTS - 1) as f64).collect();
         // Edges are jumps, not slopes between two points.
         let hair = 1e-6 * (to - from);
         for edge in [first, last] {
@@ -56,12 +54,7 @@ impl Passage<'_> {
 
     /// The defect under a law and a path.
     fn under(&self, law: Law, roller_path: RollerPath) -> Option<Defect> {
-        let contact = Contact {
-            law,
-            roller_path,
-            edge_reaction: EdgeReaction::None,
-            ..self.scenario.contact.clone()
-        };
+        let contact = Contact { law, roller_path, edge_reaction: EdgeReaction::None, ..self.scenario.contact.clone() };
         Defect::new(self.of, &self.scenario.bearing, &contact)
     }
 
@@ -69,17 +62,13 @@ impl Passage<'_> {
         let damaged = |u: &f64| 1e3 * self.defect.damaged_length(u * self.defect.radius);
         let damaged: Vec<f64> = angles.iter().map(damaged).collect();
         let left = self.sides.first().and_then(|&(side, delta)| {
-            self.left_of_a_ball(angles, side, delta)
-                .or_else(|| self.left_of_a_profile(angles, side, delta))
+            self.left_of_a_ball(angles, side, delta).or_else(|| self.left_of_a_profile(angles, side, delta))
         });
         let left = left.unwrap_or_else(|| {
             let whole = 1e3 * self.defect.roller_length;
             damaged.iter().map(|x| whole - x).collect()
         });
-        let curves = vec![
-            curve("in contact, L_e", left),
-            curve("damaged, L_s", damaged),
-        ];
+        let curves = vec![curve("in contact, L_e", left), curve("damaged, L_s", damaged)];
         panel("Length", "mm", curves)
     }
 
@@ -120,9 +109,7 @@ impl Passage<'_> {
             Some(curve(name, angles.iter().map(h).collect()))
         };
         let first = self.sides.first().map_or(Side::Outer, |s| s.0);
-        let mut curves: Vec<DamageCurve> = depths(RollerPath::Point, first, "point")
-            .into_iter()
-            .collect();
+        let mut curves: Vec<DamageCurve> = depths(RollerPath::Point, first, "point").into_iter().collect();
         for &(side, _) in self.sides {
             let name = match self.sides.len() > 1 {
                 true => format!("envelope, {}", contact(side)),
@@ -178,10 +165,5 @@ fn contact(side: Side) -> &'static str {
 }
 
 fn panel(label: &str, unit: &str, curves: Vec<DamageCurve>) -> DamagePanel {
-    DamagePanel {
-        label: label.into(),
-        unit: unit.into(),
-        from_zero: true,
-        curves,
-    }
+    DamagePanel { label: label.into(), unit: unit.into(), from_zero: true, curves }
 }

@@ -95,14 +95,7 @@ impl<'a> Seen<'a> {
     pub(super) fn damage(self, at_rest: Option<&AtRest>) -> Damage {
         let (s, defect) = (self.scenario, self.defect);
         let of = &s.defects[self.index];
-        let (angle_deg, passage) = Passage {
-            scenario: s,
-            of,
-            defect,
-            model: self.model,
-            sides: &self.sides,
-        }
-        .panels();
+        let (angle_deg, passage) = Passage { scenario: s, of, defect, model: self.model, sides: &self.sides }.panels();
         let (section_s_mm, section) = match self.is_roller() || self.is_through() {
             true => (Vec::new(), Vec::new()),
             false => section(defect, ring_width(s), self.thickness),
@@ -112,10 +105,7 @@ impl<'a> Seen<'a> {
         let view = DamageView {
             plan_title: format!("{title}. {}", self.unrolled()),
             passage_title: format!("{title}. {}", self.conditions()),
-            section_title: format!(
-                "{title}. Section under it of a ring {} mm thick",
-                short(1e3 * self.thickness, 3)
-            ),
+            section_title: format!("{title}. Section under it of a ring {} mm thick", short(1e3 * self.thickness, 3)),
             element: element.into(),
             surface: match defect.surface {
                 Surface::OuterRaceway => "outer raceway".into(),
@@ -141,10 +131,7 @@ impl<'a> Seen<'a> {
             section,
             section_note: self.section_note(),
         };
-        Damage {
-            measures: self.measures,
-            view,
-        }
+        Damage { measures: self.measures, view }
     }
 
     fn is_roller(&self) -> bool {
@@ -189,15 +176,9 @@ impl<'a> Seen<'a> {
     }
 
     fn passage_note(&self) -> String {
-        let by_force = self
-            .measures
-            .force_n
-            .map_or("no static balance, assumed".to_owned(), |f| {
-                format!(
-                    "the heaviest static contact of the healthy bearing, {} N",
-                    short(f, 3)
-                )
-            });
+        let by_force = self.measures.force_n.map_or("no static balance, assumed".to_owned(), |f| {
+            format!("the heaviest static contact of the healthy bearing, {} N", short(f, 3))
+        });
         let profile = match self.model.profiled() {
             Some(_) => "; along the profile, the roller does not tilt",
             None => "",
@@ -228,9 +209,7 @@ impl<'a> Seen<'a> {
             let element = bearing.element.word();
             format!("section properties describe rings; this damage is on a {element}")
         } else if self.is_through() {
-            format!(
-                "the damage is deeper than the ring is thick, {thick} mm ({assumed}): no section is left"
-            )
+            format!("the damage is deeper than the ring is thick, {thick} mm ({assumed}): no section is left")
         } else {
             let width = match bearing.has_balls() {
                 true => "the bearing",
@@ -268,10 +247,7 @@ fn in_place(of: &scenario::Defect, shape: &Shape) -> Vec<Vec<[f64; 2]>> {
 fn ends(points: &[(usize, f64, f64, f64)], shift: [f64; 2], row: usize) -> Option<[f64; 2]> {
     let middle = shift[1].atan2(shift[0]);
     let loaded = points.iter().filter(|p| p.0 == row && p.2 > 0.0);
-    let (first, last) = loaded
-        .map(|p| wrap(p.1 - middle))
-        .fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), x| {
-            (a.min(x), b.max(x))
-        });
+    let (first, last) =
+        loaded.map(|p| wrap(p.1 - middle)).fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), x| (a.min(x), b.max(x)));
     (last > first).then_some([middle + first, middle + last])
 }

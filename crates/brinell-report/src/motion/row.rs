@@ -17,12 +17,7 @@ pub(super) struct DrawnRow<'a> {
 
 /// Lines that do not close.
 fn open(lines: Vec<Vec<(f64, f64)>>, paint: Paint) -> Shape {
-    Shape::Path {
-        lines,
-        close: false,
-        paint,
-        clip: None,
-    }
+    Shape::Path { lines, close: false, paint, clip: None }
 }
 
 fn group(shapes: &mut Vec<Shape>, name: &'static str, lines: Vec<Vec<(f64, f64)>>, paint: Paint) {
@@ -54,12 +49,7 @@ impl DrawnRow<'_> {
         let (inner, outer) = (self.motion.inner_radius_mm, self.motion.outer_radius_mm);
         let (x, y) = self.centre;
         let mut circle = |r: f64, fill: &'static str| {
-            s.push(Shape::Circle {
-                x,
-                y,
-                r: self.scale * r,
-                paint: Paint::line(ink::FRAME, 1.0).filled(fill, 1.0),
-            });
+            s.push(Shape::Circle { x, y, r: self.scale * r, paint: Paint::line(ink::FRAME, 1.0).filled(fill, 1.0) });
         };
         let thick = RING * outer;
         let bore = (inner - thick).max(0.2 * inner);
@@ -79,9 +69,7 @@ impl DrawnRow<'_> {
         let cage = finite(self.row.cage[self.frame]);
         let bars = self.row.pockets.iter().map(|pocket| {
             let middle = finite(*pocket) + cage + PI / n as f64;
-            [-half, 0.0, half]
-                .map(|a| self.at(pitch, middle + a))
-                .to_vec()
+            [-half, 0.0, half].map(|a| self.at(pitch, middle + a)).to_vec()
         });
         let [_, _, (_, cage_paint), _] = COLORS;
         group(s, "m-cage", bars.collect(), cage_paint);
@@ -119,12 +107,8 @@ impl DrawnRow<'_> {
             });
             let along = (0..=8).map(|k| ends[0] + f64::from(k) / 8.0 * (ends[1] - ends[0]));
             let line = match damage.surface {
-                DamagedSurface::Outer => {
-                    along.map(|a| self.at(motion.outer_radius_mm, a)).collect()
-                }
-                DamagedSurface::Inner => along
-                    .map(|a| self.at(motion.inner_radius_mm, a + self.ring()))
-                    .collect(),
+                DamagedSurface::Outer => along.map(|a| self.at(motion.outer_radius_mm, a)).collect(),
+                DamagedSurface::Inner => along.map(|a| self.at(motion.inner_radius_mm, a + self.ring())).collect(),
                 DamagedSurface::Roller(k) => {
                     let (Some(orbit), Some(spin)) = (orbit.get(k), spin.get(k)) else {
                         continue;
@@ -156,10 +140,7 @@ impl DrawnRow<'_> {
         };
         let (inner, outer) = (self.motion.inner_radius_mm, self.motion.outer_radius_mm);
         let [(_, outer_paint), (_, inner_paint), ..] = COLORS;
-        let (outside, inside) = (
-            lines(&self.row.outer_n, outer, 1.0),
-            lines(&self.row.inner_n, inner, -1.0),
-        );
+        let (outside, inside) = (lines(&self.row.outer_n, outer, 1.0), lines(&self.row.inner_n, inner, -1.0));
         group(s, "m-outer", outside, outer_paint);
         group(s, "m-inner", inside, inner_paint);
     }

@@ -53,15 +53,10 @@ fn heading(axis: &Axis, name: &str) -> String {
 }
 
 pub(super) fn tables(picture: &str, curves: &[Curve]) -> Vec<CurveTable> {
-    let same = |a: &[f64], b: &[f64]| {
-        a.len() == b.len() && a.iter().zip(b).all(|(a, b)| a.to_bits() == b.to_bits())
-    };
+    let same = |a: &[f64], b: &[f64]| a.len() == b.len() && a.iter().zip(b).all(|(a, b)| a.to_bits() == b.to_bits());
     let mut groups: Vec<Vec<&Curve>> = vec![];
     for curve in curves.iter().filter(|curve| !curve.xs.is_empty()) {
-        match groups
-            .iter_mut()
-            .find(|group| group[0].x == curve.x && same(&group[0].xs, &curve.xs))
-        {
+        match groups.iter_mut().find(|group| group[0].x == curve.x && same(&group[0].xs, &curve.xs)) {
             Some(group) => group.push(curve),
             None => groups.push(vec![curve]),
         }
@@ -69,22 +64,12 @@ pub(super) fn tables(picture: &str, curves: &[Curve]) -> Vec<CurveTable> {
     let alone = groups.len() == 1;
     let table = |(index, group): (usize, Vec<&Curve>)| {
         let first = group[0];
-        let mut columns = vec![(
-            heading(&first.x, ""),
-            first.x.unit.clone(),
-            first.xs.clone(),
-        )];
+        let mut columns = vec![(heading(&first.x, ""), first.x.unit.clone(), first.xs.clone())];
         for curve in group {
             let words = heading(&curve.y, &curve.name);
             let taken = |name: &str| columns.iter().any(|column| column.0 == name);
             let name = (1..)
-                .map(|k| {
-                    if k == 1 {
-                        words.clone()
-                    } else {
-                        format!("{words} {k}")
-                    }
-                })
+                .map(|k| if k == 1 { words.clone() } else { format!("{words} {k}") })
                 .find(|name| !taken(name))
                 .unwrap_or_default();
             columns.push((name, curve.y.unit.clone(), curve.ys.clone()));

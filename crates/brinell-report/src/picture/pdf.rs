@@ -16,11 +16,7 @@ const PT_PER_MM: f64 = 72.0 / 25.4;
 const EFFORT: u8 = 6;
 /// A quarter of a circle as a cubic: handles this share of the radius long.
 const ROUND: f64 = 0.552_284_75;
-const REGISTRY: SystemInfo = SystemInfo {
-    registry: Str(b"Adobe"),
-    ordering: Str(b"Identity"),
-    supplement: 0,
-};
+const REGISTRY: SystemInfo = SystemInfo { registry: Str(b"Adobe"), ordering: Str(b"Identity"), supplement: 0 };
 
 /// The page's objects come first; each font, state and image takes what it needs after them.
 const CATALOG: Ref = Ref::new(1);
@@ -35,12 +31,7 @@ impl Picture {
     pub fn pdf(&self) -> Vec<u8> {
         let scale = self.mm_per_px() * PT_PER_MM;
         let (width, height) = ((scale * self.width) as f32, (scale * self.height) as f32);
-        let mut page = Page {
-            content: Content::new(),
-            glyphs: Default::default(),
-            images: vec![],
-            opacities: vec![],
-        };
+        let mut page = Page { content: Content::new(), glyphs: Default::default(), images: vec![], opacities: vec![] };
         page.content
             // From pixels, y down, to points, y up.
             .transform([scale as f32, 0.0, 0.0, -scale as f32, 0.0, height])
@@ -51,9 +42,7 @@ impl Picture {
         let mut pdf = Pdf::new();
         pdf.catalog(CATALOG).pages(PAGES);
         pdf.pages(PAGES).kids([PAGE]).count(1);
-        pdf.document_info(INFO)
-            .title(TextStr(&self.title))
-            .producer(TextStr("brinell"));
+        pdf.document_info(INFO).title(TextStr(&self.title)).producer(TextStr("brinell"));
         let mut free = Free(FIRST_FREE);
         let fonts = page.write_fonts(&mut pdf, &mut free);
         let images = page.write_images(&mut pdf, &mut free);
@@ -76,9 +65,8 @@ impl Picture {
         let mut named = resources.ext_g_states();
         for (k, percent) in page.opacities.iter().enumerate() {
             let part = f32::from(*percent) / 100.0;
-            let mut state = named
-                .insert(Name(format!("G{k}").as_bytes()))
-                .start::<pdf_writer::writers::ExtGraphicsState>();
+            let mut state =
+                named.insert(Name(format!("G{k}").as_bytes())).start::<pdf_writer::writers::ExtGraphicsState>();
             state.stroking_alpha(part).non_stroking_alpha(part);
         }
         named.finish();
@@ -112,21 +100,14 @@ struct Page<'a> {
 impl<'a> Page<'a> {
     fn draw(&mut self, shape: &'a Shape) {
         match shape {
-            Shape::Path {
-                lines,
-                close,
-                paint,
-                clip,
-            } => self.painted(paint, *clip, |content| trace(content, lines, *close)),
+            Shape::Path { lines, close, paint, clip } => {
+                self.painted(paint, *clip, |content| trace(content, lines, *close))
+            }
             Shape::Circle { x, y, r, paint } => {
                 self.painted(paint, None, |content| circle(content, [*x, *y, *r]));
             }
             Shape::Text(text) => self.text(text),
-            Shape::Image {
-                place,
-                columns,
-                pixels,
-            } => self.image(*place, *columns, pixels),
+            Shape::Image { place, columns, pixels } => self.image(*place, *columns, pixels),
             Shape::Open(_) | Shape::Close => {}
         }
     }
@@ -137,12 +118,7 @@ impl<'a> Page<'a> {
             self.content.save_state();
             if let Some(clip) = clip {
                 self.content
-                    .rect(
-                        clip.left as f32,
-                        clip.top as f32,
-                        clip.width() as f32,
-                        clip.height() as f32,
-                    )
+                    .rect(clip.left as f32, clip.top as f32, clip.width() as f32, clip.height() as f32)
                     .clip_nonzero()
                     .end_path();
             }
@@ -153,8 +129,7 @@ impl<'a> Page<'a> {
                     self.opacities.push(percent);
                     self.opacities.len() - 1
                 });
-                self.content
-                    .set_parameters(Name(format!("G{index}").as_bytes()));
+                self.content.set_parameters(Name(format!("G{index}").as_bytes()));
             }
             let [r, g, b] = rgb(color).map(|part| f32::from(part) / 255.0);
             if filled {
@@ -162,9 +137,7 @@ impl<'a> Page<'a> {
                 trace(&mut self.content);
                 self.content.fill_nonzero();
             } else {
-                self.content
-                    .set_stroke_rgb(r, g, b)
-                    .set_line_width(paint.width as f32);
+                self.content.set_stroke_rgb(r, g, b).set_line_width(paint.width as f32);
                 if !paint.dash.is_empty() {
                     let dash = paint.dash.iter().map(|d| *d as f32);
                     self.content.set_dash_pattern(dash, 0.0);
@@ -260,9 +233,7 @@ impl<'a> Page<'a> {
                 .stem_v(if k == 1 { 120.0 } else { 80.0 })
                 .font_file3(file);
             let bytes = compress_to_vec_zlib(program.cff, EFFORT);
-            pdf.stream(file, &bytes)
-                .filter(Filter::FlateDecode)
-                .pair(Name(b"Subtype"), Name(b"CIDFontType0C"));
+            pdf.stream(file, &bytes).filter(Filter::FlateDecode).pair(Name(b"Subtype"), Name(b"CIDFontType0C"));
             let mut unicode = UnicodeCmap::new(Name(b"Custom"), REGISTRY);
             for (id, glyph) in glyphs {
                 unicode.pair(*id, glyph.character);

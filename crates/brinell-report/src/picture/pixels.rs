@@ -41,19 +41,10 @@ impl Picture {
         };
         pixels.fill(skia::Color::WHITE);
         let transform = skia::Transform::from_scale(scale as f32, scale as f32);
-        let mut masks = Masks {
-            size: (width as u32, height as u32),
-            transform,
-            made: vec![],
-        };
+        let mut masks = Masks { size: (width as u32, height as u32), transform, made: vec![] };
         for shape in &self.shapes {
             match shape {
-                Shape::Path {
-                    lines,
-                    close,
-                    paint,
-                    clip,
-                } => {
+                Shape::Path { lines, close, paint, clip } => {
                     let clip = clip.filter(|clip| !within(lines, paint, clip));
                     let mask = clip.and_then(|clip| masks.of(clip));
                     draw(&mut pixels, traced(lines, *close), paint, transform, mask);
@@ -64,11 +55,9 @@ impl Picture {
                     draw(&mut pixels, builder, paint, transform, None);
                 }
                 Shape::Text(text) => draw_text(&mut pixels, text, transform),
-                Shape::Image {
-                    place,
-                    columns,
-                    pixels: image,
-                } => raster::draw(&mut pixels, *place, *columns, image, transform),
+                Shape::Image { place, columns, pixels: image } => {
+                    raster::draw(&mut pixels, *place, *columns, image, transform)
+                }
                 Shape::Open(_) | Shape::Close => {}
             }
         }
@@ -79,9 +68,7 @@ impl Picture {
 /// Nothing is transparent, so three bytes a pixel.
 fn encode(pixels: &skia::Pixmap, per_metre: Option<f64>) -> Result<Vec<u8>, Error> {
     let opaque = pixels.pixels().iter();
-    let bytes: Vec<u8> = opaque
-        .flat_map(|p| [p.red(), p.green(), p.blue()])
-        .collect();
+    let bytes: Vec<u8> = opaque.flat_map(|p| [p.red(), p.green(), p.blue()]).collect();
     let failed = |error: png::EncodingError| Error::Png(error.to_string());
     let mut file = vec![];
     let mut encoder = png::Encoder::new(&mut file, pixels.width(), pixels.height());
@@ -123,10 +110,7 @@ fn within(lines: &[Vec<(f64, f64)>], paint: &Paint, clip: &Rect) -> bool {
     // Joins are round and ends are cut off square: neither reaches further than that.
     let reach = paint.width;
     let inside = |&(x, y): &(f64, f64)| {
-        x >= clip.left + reach
-            && x <= clip.right - reach
-            && y >= clip.top + reach
-            && y <= clip.bottom - reach
+        x >= clip.left + reach && x <= clip.right - reach && y >= clip.top + reach && y <= clip.bottom - reach
     };
     lines.iter().flatten().all(inside)
 }
@@ -153,25 +137,10 @@ impl Masks {
     }
 }
 
-fn clip_mask(
-    clip: Rect,
-    width: u32,
-    height: u32,
-    transform: skia::Transform,
-) -> Option<skia::Mask> {
-    let rect = skia::Rect::from_ltrb(
-        clip.left as f32,
-        clip.top as f32,
-        clip.right as f32,
-        clip.bottom as f32,
-    )?;
+fn clip_mask(clip: Rect, width: u32, height: u32, transform: skia::Transform) -> Option<skia::Mask> {
+    let rect = skia::Rect::from_ltrb(clip.left as f32, clip.top as f32, clip.right as f32, clip.bottom as f32)?;
     let mut mask = skia::Mask::new(width, height)?;
-    mask.fill_path(
-        &skia::PathBuilder::from_rect(rect),
-        skia::FillRule::Winding,
-        true,
-        transform,
-    );
+    mask.fill_path(&skia::PathBuilder::from_rect(rect), skia::FillRule::Winding, true, transform);
     Some(mask)
 }
 
@@ -202,13 +171,7 @@ fn draw(
             dash: skia::StrokeDash::new(paint.dash.iter().map(|d| *d as f32).collect(), 0.0),
             ..skia::Stroke::default()
         };
-        pixels.stroke_path(
-            &path,
-            &skia_paint(paint.stroke, paint.opacity),
-            &stroke,
-            transform,
-            mask,
-        );
+        pixels.stroke_path(&path, &skia_paint(paint.stroke, paint.opacity), &stroke, transform, mask);
     }
 }
 
@@ -227,13 +190,7 @@ fn draw_text(pixels: &mut skia::Pixmap, text: &Text, transform: skia::Transform)
     if text.upright {
         place = place.pre_rotate(-90.0);
     }
-    pixels.fill_path(
-        &path,
-        &skia_paint(text.color, 1.0),
-        skia::FillRule::Winding,
-        place,
-        None,
-    );
+    pixels.fill_path(&path, &skia_paint(text.color, 1.0), skia::FillRule::Winding, place, None);
 }
 
 struct Glyphs(skia::PathBuilder);

@@ -37,13 +37,7 @@ impl Plan {
             };
         };
         let chart = layout.size(210.0);
-        Self {
-            width: chart.width,
-            type_sizes: [chart.font + 1.0, chart.font],
-            top: 40.0,
-            below: true,
-            chart,
-        }
+        Self { width: chart.width, type_sizes: [chart.font + 1.0, chart.font], top: 40.0, below: true, chart }
     }
 }
 
@@ -79,11 +73,7 @@ pub fn headline(report: &Report, layout: Layout) -> Picture {
         false => width - beside - 26.0,
     };
     let subtitle = font::fitted(&report.subtitle, small, false, room);
-    picture.text(
-        Text::new(start, first, large, Anchor::Start, &title)
-            .bold()
-            .color(ink::BLACK),
-    );
+    picture.text(Text::new(start, first, large, Anchor::Start, &title).bold().color(ink::BLACK));
     picture.text(Text::new(beside, second, small, Anchor::Start, &subtitle));
     picture.place(draw_waveform(report, upper), 0.0, plan.top);
     picture.place(draw_envelope(report, lower), 0.0, plan.top + chart.height);

@@ -49,48 +49,23 @@ impl Layout {
 
     pub(crate) fn size(self, height: f64) -> Size {
         match self {
-            Self::Wide => Size {
-                width: 960.0,
-                height,
-                font: 12.5,
-            },
-            Self::Narrow => Size {
-                width: 360.0,
-                height,
-                font: 11.0,
-            },
-            Self::Print(mm) => Size {
-                width: PX_PER_MM * mm,
-                height,
-                font: 11.0,
-            },
+            Self::Wide => Size { width: 960.0, height, font: 12.5 },
+            Self::Narrow => Size { width: 360.0, height, font: 11.0 },
+            Self::Print(mm) => Size { width: PX_PER_MM * mm, height, font: 11.0 },
         }
     }
 }
 
-pub(super) const CURVE: Paint = Paint {
-    stroke: ink::BLUE,
-    width: 1.2,
-    dash: &[],
-    fill: None,
-    opacity: 1.0,
-};
+pub(super) const CURVE: Paint = Paint { stroke: ink::BLUE, width: 1.2, dash: &[], fill: None, opacity: 1.0 };
 
 /// Of the healthy bearing behind it.
-pub(super) const HEALTHY: Paint = Paint {
-    stroke: ink::FRAME,
-    ..CURVE
-};
+pub(super) const HEALTHY: Paint = Paint { stroke: ink::FRAME, ..CURVE };
 /// What it is.
 pub(super) const HEALTHY_WORDS: &str = "Grey: the same bearing without the damage";
 
 /// Seconds or milliseconds, whichever reads better over `span`.
 pub(crate) fn time_unit(span: f64) -> (&'static str, f64) {
-    if span.is_finite() && span >= 0.5 {
-        ("s", 1.0)
-    } else {
-        ("ms", 1e3)
-    }
+    if span.is_finite() && span >= 0.5 { ("s", 1.0) } else { ("ms", 1e3) }
 }
 
 pub(super) fn known(spacing: f64) -> bool {
@@ -127,26 +102,11 @@ pub(crate) fn legend(
         }
         let middle = y - 0.36 * font;
         if paint.width > 0.0 || paint.fill.is_none() {
-            picture.path(
-                &[(x, middle), (x + 20.0, middle)],
-                Paint {
-                    fill: None,
-                    ..*paint
-                },
-            );
+            picture.path(&[(x, middle), (x + 20.0, middle)], Paint { fill: None, ..*paint });
         } else {
-            picture.shapes.push(Shape::Circle {
-                x: x + 10.0,
-                y: middle,
-                r: 3.5,
-                paint: *paint,
-            });
+            picture.shapes.push(Shape::Circle { x: x + 10.0, y: middle, r: 3.5, paint: *paint });
         }
-        picture.text(Text {
-            x: x + 26.0,
-            y,
-            ..words
-        });
+        picture.text(Text { x: x + 26.0, y, ..words });
         x += width;
     }
     y - top + 0.6 * font

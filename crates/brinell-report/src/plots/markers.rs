@@ -6,29 +6,16 @@ use crate::number::significant;
 use crate::picture::ink;
 
 fn usable(markers: &[Marker]) -> impl Iterator<Item = &Marker> {
-    markers
-        .iter()
-        .filter(|m| m.frequency_hz.is_finite() && m.frequency_hz > 0.0)
+    markers.iter().filter(|m| m.frequency_hz.is_finite() && m.frequency_hz > 0.0)
 }
 
 /// The markers that decide what is shown: those of damage that is there, or all of them.
 pub(super) fn telling(markers: &[Marker]) -> Vec<&Marker> {
     let present: Vec<&Marker> = usable(markers).filter(|m| m.present).collect();
-    if present.is_empty() {
-        usable(markers).collect()
-    } else {
-        present
-    }
+    if present.is_empty() { usable(markers).collect() } else { present }
 }
 
-const MARKER_COLORS: [&str; 6] = [
-    ink::VERMILLION,
-    ink::GREEN,
-    ink::PURPLE,
-    ink::ORANGE,
-    ink::SKY,
-    ink::BLACK,
-];
+const MARKER_COLORS: [&str; 6] = [ink::VERMILLION, ink::GREEN, ink::PURPLE, ink::ORANGE, ink::SKY, ink::BLACK];
 
 pub(crate) fn marker_lanes(markers: &[Marker]) -> Vec<Lane> {
     usable(markers)
@@ -42,16 +29,8 @@ pub(crate) fn marker_lanes(markers: &[Marker]) -> Vec<Lane> {
             marks: (1..=marker.harmonics.clamp(1, 200))
                 .map(|n| Mark {
                     x: n as f64 * marker.frequency_hz,
-                    name: if n == 1 {
-                        marker.label.clone()
-                    } else {
-                        format!("{n} × {}", marker.label)
-                    },
-                    label: if n == 1 {
-                        String::new()
-                    } else {
-                        format!("×{n}")
-                    },
+                    name: if n == 1 { marker.label.clone() } else { format!("{n} × {}", marker.label) },
+                    label: if n == 1 { String::new() } else { format!("×{n}") },
                 })
                 .collect(),
         })

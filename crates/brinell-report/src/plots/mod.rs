@@ -50,13 +50,7 @@ pub fn pictures(report: &Report, layout: Layout) -> Vec<Picture> {
             pictures.push(damage_section(view, index, layout));
         }
     }
-    pictures.extend(
-        report
-            .passes
-            .iter()
-            .enumerate()
-            .map(|(i, p)| pass(p, i, layout)),
-    );
+    pictures.extend(report.passes.iter().enumerate().map(|(i, p)| pass(p, i, layout)));
     if !report.load_distribution.is_empty() {
         pictures.push(load_distribution(&report.load_distribution, layout));
     }

@@ -12,11 +12,7 @@ pub(crate) fn pass(pass: &Pass, index: usize, layout: Layout) -> Picture {
     let second = Paint::line(ink::ORANGE, 1.8).dashed(&[6.0, 3.0]);
     let first = Paint::line(ink::BLUE, 1.8);
     let or = |name: &str, fallback: &str| {
-        if name.is_empty() {
-            fallback.to_owned()
-        } else {
-            name.to_owned()
-        }
+        if name.is_empty() { fallback.to_owned() } else { name.to_owned() }
     };
     let specs = specs(pass, layout);
     let left = specs[0].left;
@@ -24,10 +20,7 @@ pub(crate) fn pass(pass: &Pass, index: usize, layout: Layout) -> Picture {
     let name = format!("pass-{}", index + 1);
     let mut picture = Picture::new(&name, &pass.title, size.width, total);
     let mut entries = vec![];
-    let names = (
-        or(&pass.contact, "this contact"),
-        or(&pass.other_contact, "other contact"),
-    );
+    let names = (or(&pass.contact, "this contact"), or(&pass.other_contact, "other contact"));
     entries.push((names.0.as_str(), first));
     if other.is_some() {
         entries.push((names.1.as_str(), second));
@@ -69,10 +62,7 @@ fn specs(pass: &Pass, layout: Layout) -> [Spec; 3] {
     let panel = |y_label: &str, unit: &str, y: Domain, last: bool| Spec {
         name: String::new(),
         title: String::new(),
-        size: Size {
-            height: part + if last { 3.4 * size.font } else { 0.0 },
-            ..size
-        },
+        size: Size { height: part + if last { 3.4 * size.font } else { 0.0 }, ..size },
         x,
         y,
         x_label: "Angle from the defect’s centre".into(),
@@ -87,18 +77,8 @@ fn specs(pass: &Pass, layout: Layout) -> [Spec; 3] {
     let lengths = pass.length_mm.iter().chain(other).copied();
     let mut specs = [
         panel("Contact length", "mm", Domain::from_zero(lengths), false),
-        panel(
-            "Stiffness",
-            &pass.stiffness_unit,
-            Domain::from_zero(pass.stiffness.iter().copied()),
-            false,
-        ),
-        panel(
-            "Force",
-            "N",
-            Domain::from_zero(pass.force_n.iter().copied()),
-            true,
-        ),
+        panel("Stiffness", &pass.stiffness_unit, Domain::from_zero(pass.stiffness.iter().copied()), false),
+        panel("Force", "N", Domain::from_zero(pass.force_n.iter().copied()), true),
     ];
     let left = specs.iter().map(left_margin).fold(0.0, f64::max);
     specs.iter_mut().for_each(|spec| spec.left = left);

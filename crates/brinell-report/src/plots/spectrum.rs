@@ -13,10 +13,8 @@ fn envelope_top(report: &Report) -> f64 {
 
 fn top(spectrum: &Spectrum, markers: &[Marker]) -> f64 {
     let end = spacing(spectrum.df_hz) * spectrum.amplitude.len().saturating_sub(1) as f64;
-    let top = telling(markers)
-        .iter()
-        .map(|m| m.frequency_hz * (m.harmonics.clamp(1, 20) as f64 + 0.5))
-        .fold(0.0, f64::max);
+    let top =
+        telling(markers).iter().map(|m| m.frequency_hz * (m.harmonics.clamp(1, 20) as f64 + 0.5)).fold(0.0, f64::max);
     if top > 0.0 { top.min(end) } else { end }
 }
 
@@ -27,15 +25,7 @@ pub(crate) fn spectrum(report: &Report, layout: Layout) -> Picture {
     let end = spacing(spectrum.df_hz) * spectrum.amplitude.len().saturating_sub(1) as f64;
     let title = format!("Spectrum: {}", spectrum.label);
     let y = spectrum_domain(report);
-    let mut chart = Chart::new(spectrum_spec(
-        "spectrum",
-        title,
-        spectrum,
-        size,
-        end,
-        y,
-        vec![],
-    ));
+    let mut chart = Chart::new(spectrum_spec("spectrum", title, spectrum, size, end, y, vec![]));
     draw_spectrum(&mut chart, spectrum, &report.healthy.spectrum);
     chart.interactive("spectrum");
     chart.finish()
@@ -43,9 +33,7 @@ pub(crate) fn spectrum(report: &Report, layout: Layout) -> Picture {
 
 pub(crate) fn spectrum_domain(report: &Report) -> Domain {
     let healthy = report.healthy.spectrum.iter().copied();
-    let all: Vec<f64> = (report.spectrum.amplitude.iter().copied())
-        .chain(healthy)
-        .collect();
+    let all: Vec<f64> = (report.spectrum.amplitude.iter().copied()).chain(healthy).collect();
     Domain::decades(&all)
 }
 
@@ -91,16 +79,8 @@ pub(crate) fn order_spectrum(report: &Report, layout: Layout) -> Picture {
 
 fn lines_domain(spectrum: &Spectrum, healthy: &[f64], top: f64) -> Domain {
     // The line at 0 Hz is the envelope's mean and says nothing about damage.
-    let shown =
-        ((top / spacing(spectrum.df_hz)) as usize).min(spectrum.amplitude.len().saturating_sub(1));
-    let shown = |values: &[f64]| {
-        values
-            .iter()
-            .take(shown + 1)
-            .skip(1)
-            .copied()
-            .collect::<Vec<f64>>()
-    };
+    let shown = ((top / spacing(spectrum.df_hz)) as usize).min(spectrum.amplitude.len().saturating_sub(1));
+    let shown = |values: &[f64]| values.iter().take(shown + 1).skip(1).copied().collect::<Vec<f64>>();
     Domain::from_zero([shown(&spectrum.amplitude), shown(healthy)].concat())
 }
 
@@ -108,15 +88,7 @@ pub(super) fn envelope_spec(report: &Report, size: Size) -> Spec {
     let spectrum = &report.envelope_spectrum;
     let (top, y) = (envelope_top(report), envelope_domain(report));
     let title = format!("Envelope spectrum: {}", spectrum.label);
-    spectrum_spec(
-        "envelope-spectrum",
-        title,
-        spectrum,
-        size,
-        top,
-        y,
-        marker_lanes(&report.markers),
-    )
+    spectrum_spec("envelope-spectrum", title, spectrum, size, top, y, marker_lanes(&report.markers))
 }
 
 pub(super) fn draw_envelope(report: &Report, spec: Spec) -> Picture {
@@ -144,11 +116,7 @@ fn spectrum_spec(
         y,
         x_label: "Frequency".into(),
         x_unit: "Hz".into(),
-        y_label: if spectrum.label.is_empty() {
-            "Amplitude".into()
-        } else {
-            spectrum.label.clone()
-        },
+        y_label: if spectrum.label.is_empty() { "Amplitude".into() } else { spectrum.label.clone() },
         y_unit: spectrum.unit.clone(),
         lanes,
         left: 0.0,

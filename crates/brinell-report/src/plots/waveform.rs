@@ -12,14 +12,12 @@ fn span(series: &Series) -> (f64, f64) {
     (t0, t0 + dt * series.values.len().saturating_sub(1) as f64)
 }
 
-/// Start and end in seconds of the waveform shown close up: the last five periods of the quickest damage in the bearing.
+/// Start and end in seconds of the waveform shown close up: the last five periods of the quickest damage in the
+/// bearing.
 pub fn detail_window(report: &Report) -> (f64, f64) {
     let series = &report.waveform.series;
     let (first, last) = span(series);
-    let quickest = telling(&report.markers)
-        .iter()
-        .map(|m| m.frequency_hz)
-        .fold(0.0, f64::max);
+    let quickest = telling(&report.markers).iter().map(|m| m.frequency_hz).fold(0.0, f64::max);
     let wanted = if quickest > 0.0 { 5.0 / quickest } else { 0.02 };
     let width = wanted.max(32.0 * spacing(series.dt_s));
     ((last - width).max(first), last)
@@ -30,8 +28,8 @@ const START: f64 = 0.05;
 /// The start is cut off where it is as many times as large as all that follows.
 const OUTSHINES: f64 = 2.0;
 
-/// What the overview's axis shows, and from where to where the start goes where it is cut off: else a bearing that drops into its load zone
-/// would flatten the run to a line.
+/// What the overview's axis shows, and from where to where the start goes where it is cut off: else a bearing that
+/// drops into its load zone would flatten the run to a line.
 fn settled_domain(min: &[f64], max: &[f64]) -> (Domain, Option<(f64, f64)>) {
     let whole = || min.iter().chain(max).copied();
     let first = ((START * min.len() as f64) as usize).max(1).min(min.len());
@@ -56,11 +54,7 @@ pub fn overview(report: &Report, layout: Layout) -> Picture {
         max: series.values.clone(),
     };
     let bins = report.waveform.overview.as_ref().unwrap_or(&whole);
-    let (t0, dt, count) = (
-        start(bins.t0_s),
-        spacing(bins.dt_s),
-        bins.min.len().min(bins.max.len()),
-    );
+    let (t0, dt, count) = (start(bins.t0_s), spacing(bins.dt_s), bins.min.len().min(bins.max.len()));
     let end = t0 + dt * count as f64;
     let (unit, scale) = time_unit(end - t0);
     let (y, cut) = settled_domain(&bins.min[..count], &bins.max[..count]);
@@ -124,13 +118,10 @@ pub(crate) fn event_lanes(report: &Report, scale: f64) -> Vec<Lane> {
             marks
         },
     };
-    [
-        lane(EventKind::Enter, "enters", ink::VERMILLION, &[]),
-        lane(EventKind::Leave, "leaves", ink::GREEN, &[5.0, 3.0]),
-    ]
-    .into_iter()
-    .filter(|lane| !lane.marks.is_empty())
-    .collect()
+    [lane(EventKind::Enter, "enters", ink::VERMILLION, &[]), lane(EventKind::Leave, "leaves", ink::GREEN, &[5.0, 3.0])]
+        .into_iter()
+        .filter(|lane| !lane.marks.is_empty())
+        .collect()
 }
 
 /// The sensor signal close up, with the instants at which rollers enter and leave defects.
@@ -172,8 +163,7 @@ pub(crate) fn waveform_unit(report: &Report) -> (&'static str, f64) {
 pub(crate) fn waveform_domain(report: &Report) -> Domain {
     let series = &report.waveform.series;
     let (t0, dt) = (start(series.t0_s), spacing(series.dt_s));
-    let first =
-        (((detail_window(report).0 - t0) / dt).floor().max(0.0) as usize).min(series.values.len());
+    let first = (((detail_window(report).0 - t0) / dt).floor().max(0.0) as usize).min(series.values.len());
     let healthy = report.healthy.waveform.iter().skip(first);
     Domain::around(series.values[first..].iter().chain(healthy).copied())
 }

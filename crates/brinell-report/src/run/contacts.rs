@@ -53,11 +53,8 @@ pub(super) fn load_distribution(parts: &Parts) -> Vec<RowLoad> {
     };
     let rows = parts.findings.load_zone.rows.iter().enumerate();
     rows.map(|(row, load)| {
-        let mut static_points: Vec<(f64, f64)> = statics
-            .iter()
-            .filter(|p| p.0 == row)
-            .map(|p| (p.1.to_degrees(), p.3))
-            .collect();
+        let mut static_points: Vec<(f64, f64)> =
+            statics.iter().filter(|p| p.0 == row).map(|p| (p.1.to_degrees(), p.3)).collect();
         static_points.sort_by(|a, b| a.0.total_cmp(&b.0));
         RowLoad {
             title: format!("Row {}, force at the outer contact", row + 1),

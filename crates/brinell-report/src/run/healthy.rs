@@ -7,7 +7,8 @@ use brinell::observe::Findings;
 use brinell::signal::Spectrum;
 use brinell::summary::Parts;
 
-/// Curves at the places of the damaged bearing's own, whose envelope over orders is `orders`; what lies elsewhere is left out.
+/// Curves at the places of the damaged bearing's own, whose envelope over orders is `orders`; what lies elsewhere is
+/// left out.
 pub(super) fn healthy(parts: &Parts, orders: &crate::Spectrum) -> Healthy {
     let Some(healthy) = parts.healthy else {
         return Healthy::default();
@@ -33,8 +34,7 @@ fn envelope(findings: &Findings) -> Option<&Spectrum> {
 fn lines(of: Option<&Spectrum>, healthy: Option<&Spectrum>) -> Vec<f64> {
     match (of, healthy) {
         (Some(of), Some(healthy))
-            if of.frequency_step == healthy.frequency_step
-                && of.amplitude.len() == healthy.amplitude.len() =>
+            if of.frequency_step == healthy.frequency_step && of.amplitude.len() == healthy.amplitude.len() =>
         {
             healthy.amplitude.clone()
         }
@@ -45,9 +45,8 @@ fn lines(of: Option<&Spectrum>, healthy: Option<&Spectrum>) -> Vec<f64> {
 /// "4.1 times the healthy bearing's", and its interval; `None` where there is no healthy bearing or no level.
 pub(super) fn times(parts: &Parts) -> Option<(String, String)> {
     let ratio = parts.findings.over_healthy(parts.healthy?)?;
-    let interval = ratio.interval.map_or(String::new(), |(low, high)| {
-        format!("95 %: {} to {}", short(low, 2), short(high, 2))
-    });
+    let interval =
+        ratio.interval.map_or(String::new(), |(low, high)| format!("95 %: {} to {}", short(low, 2), short(high, 2)));
     let words = format!("{} times the healthy bearing’s", short(ratio.value, 2));
     Some((words, interval))
 }

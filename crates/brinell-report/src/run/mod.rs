@@ -21,7 +21,8 @@ use signals::{envelope_spectrum, indicators, spectrum, waveform};
 use tables::{assumptions, audits, facts, slip, solver_work};
 
 impl Report {
-    /// What the page of a run shows: `report.html` of `brinell run`. Damage that makes no model is not drawn, and the page says why.
+    /// What the page of a run shows: `report.html` of `brinell run`. Damage that makes no model is not drawn, and the
+    /// page says why.
     pub fn of_run(parts: &Parts) -> Self {
         report(parts)
     }
@@ -56,13 +57,7 @@ fn report(parts: &Parts) -> Report {
         markers: defect_markers(scenario, parts.simulation.model()),
         damage: damage.into_iter().map(|d| d.view).collect(),
         undrawn_damage,
-        passes: parts
-            .findings
-            .passes
-            .best()
-            .iter()
-            .map(|p| pass(parts, p))
-            .collect(),
+        passes: parts.findings.passes.best().iter().map(|p| pass(parts, p)).collect(),
         load_distribution: load_distribution(parts),
         along: match scenario.defects.is_empty() {
             true => crate::defects::along_healthy_roller(scenario),
@@ -99,11 +94,7 @@ fn speed(scenario: &Scenario) -> String {
         Speed::Constant(rpm) => format!("{rpm} r/min"),
         Speed::Profile(points) => {
             let ends = |k: usize| points.get(k).map_or(0.0, |p| p[1]);
-            format!(
-                "{} to {} r/min",
-                ends(0),
-                ends(points.len().saturating_sub(1))
-            )
+            format!("{} to {} r/min", ends(0), ends(points.len().saturating_sub(1)))
         }
     }
 }
@@ -111,13 +102,7 @@ fn speed(scenario: &Scenario) -> String {
 fn subtitle(scenario: &Scenario) -> String {
     let b = &scenario.bearing;
     let bearing = b.preset.clone().unwrap_or_else(|| {
-        format!(
-            "{} rows of {} {}s, {} mm pitch",
-            b.rows,
-            b.rollers_per_row,
-            b.element.word(),
-            b.pitch_diameter_mm
-        )
+        format!("{} rows of {} {}s, {} mm pitch", b.rows, b.rollers_per_row, b.element.word(), b.pitch_diameter_mm)
     });
     let damage = match scenario.defects.len() {
         0 => "healthy".to_owned(),
@@ -130,9 +115,5 @@ fn subtitle(scenario: &Scenario) -> String {
         ModelKind::Lumped => "lumped model",
         ModelKind::Tilting => "tilting model",
     };
-    format!(
-        "{bearing}, {damage}, {}, load {} N, {model}",
-        speed(scenario),
-        short(load[0].hypot(load[1]), 4)
-    )
+    format!("{bearing}, {damage}, {}, load {} N, {model}", speed(scenario), short(load[0].hypot(load[1]), 4))
 }

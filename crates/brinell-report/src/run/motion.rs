@@ -2,8 +2,8 @@
 
 use crate::number::short;
 use crate::{
-    AxialRow, AxialSection, CageOrbit, CageOrbits, DamagedSurface, Motion, MotionDamage, MotionRow,
-    SlipRow, Spectrogram,
+    AxialRow, AxialSection, CageOrbit, CageOrbits, DamagedSurface, Motion, MotionDamage, MotionRow, SlipRow,
+    Spectrogram,
 };
 use brinell::defect::Side;
 use brinell::observe::load_zone::BINS;
@@ -17,11 +17,7 @@ pub(super) fn spectrogram(parts: &Parts, label: String) -> Spectrogram {
         return Spectrogram::default();
     };
     let frames = s.time_step * s.frequency_step * 2.0;
-    let averaged = if frames > 1.5 {
-        format!(", means of {frames:.0} segments")
-    } else {
-        String::new()
-    };
+    let averaged = if frames > 1.5 { format!(", means of {frames:.0} segments") } else { String::new() };
     Spectrogram {
         label,
         unit: "(m/s^2)^2/Hz".into(),
@@ -48,11 +44,7 @@ pub(super) fn cage_orbits(parts: &Parts) -> CageOrbits {
         let points: Vec<(f64, [f64; 2])> = orbit.points(row).collect();
         let end = points.last().map_or(0.0, |p| p.0);
         let speed = model.rolling_orbit_speed(model.rotation.at(end).0).abs();
-        let turn = if speed > 0.0 {
-            TAU / speed
-        } else {
-            f64::INFINITY
-        };
+        let turn = if speed > 0.0 { TAU / speed } else { f64::INFINITY };
         CageOrbit {
             title: format!("Cage of row {}", row + 1),
             x_um: points.iter().map(|p| 1e6 * p.1[0]).collect(),
@@ -103,9 +95,7 @@ pub(super) fn motion(parts: &Parts) -> Motion {
         let slots = || (0..l.rollers_per_row).map(|roller| l.slot(row, roller));
         let mut data = MotionRow {
             title: format!("Row {}", row + 1),
-            pockets: slots()
-                .map(|slot| model.pocket_angle[slot] as f32)
-                .collect(),
+            pockets: slots().map(|slot| model.pocket_angle[slot] as f32).collect(),
             ..MotionRow::default()
         };
         for frame in 0..frames {
@@ -147,17 +137,10 @@ pub(super) fn motion(parts: &Parts) -> Motion {
 /// The bearing from the side; `None` where nothing tilts.
 fn axial_section(parts: &Parts, frames: usize) -> Option<AxialSection> {
     let model = parts.simulation.model();
-    let (tilt, g, kept) = (
-        model.tilt.as_ref()?,
-        &model.geometry,
-        &parts.findings.motion,
-    );
+    let (tilt, g, kept) = (model.tilt.as_ref()?, &model.geometry, &parts.findings.motion);
     let strips = kept.section_row(0, 0)?.line_loads[0].len();
     let rows = tilt.rows.iter().enumerate().map(|(row, middle)| {
-        let mut data = AxialRow {
-            middle_mm: 1e3 * middle,
-            ..AxialRow::default()
-        };
+        let mut data = AxialRow { middle_mm: 1e3 * middle, ..AxialRow::default() };
         for kept in (0..frames).filter_map(|frame| kept.section_row(frame, row)) {
             data.tilt.push(kept.tilt);
             let [inner, outer] = kept.line_loads;
@@ -174,9 +157,7 @@ fn axial_section(parts: &Parts, frames: usize) -> Option<AxialSection> {
         width_mm: parts.loaded.scenario.bearing.width_mm,
         roller_length_mm: 1e3 * g.roller_length,
         roller_diameter_mm: 2e3 * g.roller_radius,
-        rings: (0..frames)
-            .filter_map(|frame| kept.ring_tilts(frame))
-            .collect(),
+        rings: (0..frames).filter_map(|frame| kept.ring_tilts(frame)).collect(),
         rows: rows.collect(),
         strips,
     })

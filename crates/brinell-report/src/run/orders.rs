@@ -1,4 +1,5 @@
-//! Of the report's data, the envelope over orders: where the speed varies, what a defect frequency is to a steady shaft.
+//! Of the report's data, the envelope over orders: where the speed varies, what a defect frequency is to a steady
+//! shaft.
 
 use super::axis;
 use super::signals::{HARMONICS, markers_at};
@@ -12,7 +13,8 @@ use std::f64::consts::TAU;
 /// Instants a second at which the shaft's angle is given to the resampling.
 const ANGLES_PER_S: f64 = 1000.0;
 
-/// The envelope of what findings of the run keep of the signal at equal angles of the shaft, and the bearing's orders; both empty where the speed is constant.
+/// The envelope of what findings of the run keep of the signal at equal angles of the shaft, and the bearing's orders;
+/// both empty where the speed is constant.
 pub(super) fn orders(parts: &Parts, findings: &Findings) -> (Spectrum, Vec<Marker>) {
     spectrum(parts, findings).unwrap_or_default()
 }
@@ -30,10 +32,7 @@ fn spectrum(parts: &Parts, findings: &Findings) -> Option<(Spectrum, Vec<Marker>
     let span = values.len() as f64 / fs;
     let turns = |t: f64| model.rotation.at(from + t).1.abs() / TAU;
     let count = (span * ANGLES_PER_S).ceil() as usize + 1;
-    let angles: Vec<(f64, f64)> = (0..=count)
-        .map(|k| k as f64 / ANGLES_PER_S)
-        .map(|t| (t, turns(t)))
-        .collect();
+    let angles: Vec<(f64, f64)> = (0..=count).map(|k| k as f64 / ANGLES_PER_S).map(|t| (t, turns(t))).collect();
     let rotation = Rotation::from_angles(&angles).ok()?;
     // At one turn a second, frequencies are orders.
     let markers = markers_at(scenario, model, TAU);

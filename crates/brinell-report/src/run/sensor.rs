@@ -13,18 +13,12 @@ pub(super) fn view(parts: &Parts) -> SensorView {
     };
     let top = 0.5 * parts.simulation.sample_rate();
     let frequency_hz: Vec<f64> = if chain.shapes_the_signal() {
-        (1..=POINTS)
-            .map(|k| top * k as f64 / POINTS as f64)
-            .collect()
+        (1..=POINTS).map(|k| top * k as f64 / POINTS as f64).collect()
     } else {
         Vec::new()
     };
     let gain = |f: &f64| 20.0 * chain.response(*f).norm().max(1e-12).log10();
-    SensorView {
-        gain_db: frequency_hz.iter().map(gain).collect(),
-        frequency_hz,
-        facts: facts(parts),
-    }
+    SensorView { gain_db: frequency_hz.iter().map(gain).collect(), frequency_hz, facts: facts(parts) }
 }
 
 fn facts(parts: &Parts) -> Vec<Fact> {
@@ -46,9 +40,7 @@ fn facts(parts: &Parts) -> Vec<Fact> {
             let ratio = chain
                 .noise_rms()
                 .filter(|noise| *noise > 0.0 && rms > 0.0)
-                .map_or(String::new(), |noise| {
-                    format!("; {:.1} dB over the noise", 20.0 * (rms / noise).log10())
-                });
+                .map_or(String::new(), |noise| format!("; {:.1} dB over the noise", 20.0 * (rms / noise).log10()));
             let note = format!("RMS before noise and ADC, once the load is up{ratio}");
             facts.push(Fact::new(channel.name.clone(), text(rms), "m/s^2", note));
         }

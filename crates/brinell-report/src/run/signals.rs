@@ -2,10 +2,7 @@
 
 use super::{axis, sensor_label};
 use crate::number::short;
-use crate::{
-    Estimate, Event, EventKind, IndicatorRow, IndicatorTable, Marker, MinMax, Series, Spectrum,
-    Waveform,
-};
+use crate::{Estimate, Event, EventKind, IndicatorRow, IndicatorTable, Marker, MinMax, Series, Spectrum, Waveform};
 use brinell::bearing::Kinematics;
 use brinell::model::Model;
 use brinell::observe::{ChannelStatistics, Kind};
@@ -33,13 +30,7 @@ pub(super) fn waveform(parts: &Parts) -> Waveform {
     let (bins, per_bin) = f.waveform.overview();
     let l = &parts.simulation.model().layout;
     Waveform {
-        series: Series {
-            label: sensor_label(parts),
-            unit: "m/s^2".into(),
-            t0_s: t0,
-            dt_s: dt,
-            values,
-        },
+        series: Series { label: sensor_label(parts), unit: "m/s^2".into(), t0_s: t0, dt_s: dt, values },
         overview: Some(MinMax {
             t0_s: 0.0,
             dt_s: per_bin as f64 * dt,
@@ -53,11 +44,7 @@ pub(super) fn waveform(parts: &Parts) -> Waveform {
             .filter(|e| e.t >= t0)
             .map(|e| Event {
                 t_s: e.t,
-                kind: if e.enters {
-                    EventKind::Enter
-                } else {
-                    EventKind::Leave
-                },
+                kind: if e.enters { EventKind::Enter } else { EventKind::Leave },
                 label: format!("{}·{:02}", l.row(e.slot) + 1, l.roller(e.slot) + 1),
             })
             .collect(),
@@ -76,11 +63,7 @@ pub(super) fn spectrum(parts: &Parts) -> Spectrum {
         note: format!(
             "Sensor acceleration along {}, peak amplitude, Hann window, {} of {} samples.",
             axis(parts),
-            if s.segments == 1 {
-                "one segment".to_owned()
-            } else {
-                format!("mean of {} segments", s.segments)
-            },
+            if s.segments == 1 { "one segment".to_owned() } else { format!("mean of {} segments", s.segments) },
             s.segment_length
         ),
     }
@@ -119,11 +102,7 @@ pub fn defect_markers(scenario: &Scenario, model: &Model) -> Vec<Marker> {
 /// Defect frequencies at a speed of the shaft, rad/s.
 pub(super) fn markers_at(scenario: &Scenario, model: &Model, speed: f64) -> Vec<Marker> {
     let k: Kinematics = model.kinematics(speed);
-    let damaged: Vec<&str> = scenario
-        .defects
-        .iter()
-        .map(|d| k.defect_frequency(d.on).0)
-        .collect();
+    let damaged: Vec<&str> = scenario.defects.iter().map(|d| k.defect_frequency(d.on).0).collect();
     // Impacts first, then what modulates them.
     let shaft = speed.abs() / TAU;
     ["BPFO", "BPFI", "2 BSF", "FTF", "shaft"]
@@ -143,16 +122,8 @@ pub(super) fn indicators(parts: &Parts) -> IndicatorTable {
     let cell = |channel: &ChannelStatistics, indicator: Indicator| {
         let unit = indicator.unit(channel.unit);
         match channel.blocks.estimate(indicator) {
-            Some(e) => Estimate {
-                value: e.value,
-                interval: e.interval.map(|i| (i.low, i.high)),
-                unit: unit.into(),
-            },
-            None => Estimate {
-                value: f64::NAN,
-                interval: None,
-                unit: unit.into(),
-            },
+            Some(e) => Estimate { value: e.value, interval: e.interval.map(|i| (i.low, i.high)), unit: unit.into() },
+            None => Estimate { value: f64::NAN, interval: None, unit: unit.into() },
         }
     };
     let mut rows: Vec<IndicatorRow> = parts

@@ -29,28 +29,13 @@ pub(super) fn facts(parts: &Parts) -> Vec<Fact> {
             };
             let unit = indicator.unit(channel.unit);
             let note = e.interval.map_or("anti-aliased".to_owned(), |i| {
-                format!(
-                    "anti-aliased; 95 %: {} to {}",
-                    short(i.low, 3),
-                    short(i.high, 3)
-                )
+                format!("anti-aliased; 95 %: {} to {}", short(i.low, 3), short(i.high, 3))
             });
-            facts.push(Fact::new(
-                label,
-                crate::Value::Text(short(e.value, 3)),
-                unit,
-                note,
-            ));
+            facts.push(Fact::new(label, crate::Value::Text(short(e.value, 3)), unit, note));
         }
     }
     facts.extend(healthy_fact(parts));
-    facts.extend(
-        parts
-            .findings
-            .lines
-            .iter()
-            .map(|line| line_fact(parts, line)),
-    );
+    facts.extend(parts.findings.lines.iter().map(|line| line_fact(parts, line)));
     if let Ok(zone) = &parts.beforehand.statics {
         facts.push(Fact::new(
             "Heaviest contact, static",
@@ -83,17 +68,12 @@ fn healthy_fact(parts: &Parts) -> Option<Fact> {
 /// A defect's frequency.
 fn line_fact(parts: &Parts, line: &DefectLine) -> Fact {
     let defect = &parts.simulation.model().defects[line.defect];
-    let value = line
-        .found
-        .map_or("not found".to_owned(), |f| format!("{:.2}", f.frequency));
+    let value = line.found.map_or("not found".to_owned(), |f| format!("{:.2}", f.frequency));
     let note = match line.found {
         Some(_) => format!(
             "{} in the envelope; {}pure rolling {:.2} Hz",
             place(defect),
-            line.interval.map_or(String::new(), |i| format!(
-                "95 %: {:.2} to {:.2} Hz; ",
-                i.low, i.high
-            )),
+            line.interval.map_or(String::new(), |i| format!("95 %: {:.2} to {:.2} Hz; ", i.low, i.high)),
             line.nominal
         ),
         None => format!("{}; pure rolling {:.2} Hz", place(defect), line.nominal),
@@ -108,30 +88,18 @@ pub(super) fn slip(parts: &Parts) -> Vec<Fact> {
     for (row, slip) in parts.findings.slip.rows.iter().enumerate() {
         let entries = [
             ("cage", fields::CAGE_SLIP, "behind its pure-rolling speed"),
-            (
-                "loaded rolling elements, orbit",
-                fields::LOADED_ORBIT_SLIP,
-                "behind their pure-rolling orbit speed",
-            ),
+            ("loaded rolling elements, orbit", fields::LOADED_ORBIT_SLIP, "behind their pure-rolling orbit speed"),
             (
                 "loaded rolling elements, inner contact",
                 fields::LOADED_SURFACE_SLIP,
                 "mean |slip| over the raceway's surface speed",
             ),
-            (
-                "unloaded rolling elements, orbit",
-                fields::UNLOADED_ORBIT_SLIP,
-                "behind their pure-rolling orbit speed",
-            ),
+            ("unloaded rolling elements, orbit", fields::UNLOADED_ORBIT_SLIP, "behind their pure-rolling orbit speed"),
         ];
         for (label, field, note) in entries {
             if let Some(estimate) = (field.of)(slip) {
                 let interval = estimate.interval.map_or(String::new(), |i| {
-                    format!(
-                        "; 95 %: {} to {} %",
-                        short(100.0 * i.low, 3),
-                        short(100.0 * i.high, 3)
-                    )
+                    format!("; 95 %: {} to {} %", short(100.0 * i.low, 3), short(100.0 * i.high, 3))
                 });
                 facts.push(Fact::new(
                     format!("Row {}: {label}", row + 1),
@@ -152,50 +120,28 @@ const ENERGY_LIMIT: f64 = 1e-2;
 pub(super) fn audits(parts: &Parts) -> Vec<Fact> {
     let e = &parts.outcome.energy;
     let f = &e.flows;
-    let mj = |label: &str, joule: f64, note: &str| {
-        Fact::new(label, crate::Value::Text(short(1e3 * joule, 4)), "mJ", note)
-    };
+    let mj =
+        |label: &str, joule: f64, note: &str| Fact::new(label, crate::Value::Text(short(1e3 * joule, 4)), "mJ", note);
     let mut facts = Vec::new();
     if let Some(x) = (fields::MOMENTUM_IMBALANCE.of)(parts.outcome) {
         let value = crate::Value::Text(short(x, 2));
-        let note =
-            "largest force without a reaction, relative to all forces; round-off is about 1e-15";
+        let note = "largest force without a reaction, relative to all forces; round-off is about 1e-15";
         facts.push(Fact::new("Momentum imbalance", value, "", note).judged(x < MOMENTUM_LIMIT));
     }
     // Where nothing moved, no residual is left over.
     let relative = (fields::RELATIVE_RESIDUAL.of)(parts.outcome);
     facts.push(
-        mj(
-            "Energy residual",
-            e.residual(),
-            "change less everything booked: the integrator's error",
-        )
-        .judged(relative.is_none_or(|x| x.abs() < ENERGY_LIMIT)),
+        mj("Energy residual", e.residual(), "change less everything booked: the integrator's error")
+            .judged(relative.is_none_or(|x| x.abs() < ENERGY_LIMIT)),
     );
-    facts.push(mj(
-        "Change of energy held",
-        e.last.total() - e.initial.total(),
-        "kinetic, elastic and gravity",
-    ));
-    facts.push(mj(
-        "Input by the drive",
-        f.drive,
-        "through the friction of the inner raceway",
-    ));
+    facts.push(mj("Change of energy held", e.last.total() - e.initial.total(), "kinetic, elastic and gravity"));
+    facts.push(mj("Input by the drive", f.drive, "through the friction of the inner raceway"));
     facts.push(mj("Input by the load", f.load, ""));
     facts.push(mj("Guidance film", f.film, "net work on the bodies"));
     facts.push(mj("Dissipated in contact damping", f.contact, ""));
     facts.push(mj("Dissipated in raceway friction", f.friction, ""));
-    facts.push(mj(
-        "Dissipated in pockets",
-        f.pocket + f.pocket_friction,
-        "damping and friction",
-    ));
-    facts.push(mj(
-        "Dissipated at the cages' lands",
-        f.land,
-        "damping where a cage touches its guiding ring",
-    ));
+    facts.push(mj("Dissipated in pockets", f.pocket + f.pocket_friction, "damping and friction"));
+    facts.push(mj("Dissipated at the cages' lands", f.land, "damping where a cage touches its guiding ring"));
     facts.push(mj("Dissipated in supports", f.support, ""));
     facts.push(mj("Dissipated in drag", f.drag, ""));
     facts.push(mj(
@@ -203,11 +149,7 @@ pub(super) fn audits(parts: &Parts) -> Vec<Fact> {
         e.parametric,
         "stiffness that changes under a rolling element; no body pays for it in the paper's model",
     ));
-    facts.push(mj(
-        "Centred levers",
-        f.lever,
-        "contact forces act through the bearing's centre, as in the paper",
-    ));
+    facts.push(mj("Centred levers", f.lever, "contact forces act through the bearing's centre, as in the paper"));
     facts
 }
 

@@ -127,23 +127,14 @@ pub fn side_by_side_pictures(report: &SideBySide, layout: Layout) -> Vec<Picture
 
 /// The self-contained page.
 pub fn side_by_side_html(report: &SideBySide) -> String {
-    let mut page = open(
-        &report.title,
-        &report.subtitle,
-        ("Simulated", &report.version),
-        plain(&report.warnings),
-    );
+    let mut page = open(&report.title, &report.subtitle, ("Simulated", &report.version), plain(&report.warnings));
     page.push_str("<main>\n");
-    lead(
-        &mut page,
-        &report.facts.first().map_or(String::new(), Fact::words),
-    );
+    lead(&mut page, &report.facts.first().map_or(String::new(), Fact::words));
     facts(&mut page, &report.facts);
     let mut count = 0;
     for part in &report.parts {
         // A lone table brings its own heading.
-        let headed =
-            !matches!(&part.pieces[..], [Piece::Table(table)] if table.title == part.title);
+        let headed = !matches!(&part.pieces[..], [Piece::Table(table)] if table.title == part.title);
         let _ = writeln!(page, "<section>");
         if headed {
             let _ = writeln!(page, "<h2>{}</h2>", escape(&part.title));
@@ -156,12 +147,7 @@ pub fn side_by_side_html(report: &SideBySide) -> String {
                     }
                     count += 1;
                     let draw = |layout| overlay(one, &report.names, layout);
-                    figure(
-                        &mut page,
-                        &format!("overlay{count}"),
-                        draw,
-                        &escape(&one.note),
-                    );
+                    figure(&mut page, &format!("overlay{count}"), draw, &escape(&one.note));
                     embed(&mut page, one, &report.names);
                 }
                 Piece::Table(one) => table(&mut page, one),

@@ -24,10 +24,7 @@ fn paint(run: usize) -> Paint {
 
 fn ends(curve: &OverlaidCurve) -> [f64; 2] {
     match &curve.along {
-        Along::Even { first, step } => [
-            *first,
-            first + step * curve.values.len().saturating_sub(1) as f64,
-        ],
+        Along::Even { first, step } => [*first, first + step * curve.values.len().saturating_sub(1) as f64],
         Along::At(places) => {
             let (lo, hi) = range(places.iter().copied()).unwrap_or((f64::NAN, f64::NAN));
             [lo, hi]
@@ -86,9 +83,7 @@ pub(crate) fn embed(page: &mut String, overlay: &Overlay, names: &[String]) {
 
 /// Both axes; the upright one holds `common` too.
 fn domains(overlay: &Overlay, common: Option<&[f64]>) -> (Domain, Domain) {
-    let (lo, hi) = overlay
-        .x_range
-        .unwrap_or_else(|| range(overlay.curves.iter().flat_map(ends)).unwrap_or((0.0, 1.0)));
+    let (lo, hi) = overlay.x_range.unwrap_or_else(|| range(overlay.curves.iter().flat_map(ends)).unwrap_or((0.0, 1.0)));
     let values: Vec<f64> = overlay
         .curves
         .iter()
@@ -103,7 +98,8 @@ fn domains(overlay: &Overlay, common: Option<&[f64]>) -> (Domain, Domain) {
     (Domain::exact(lo, hi), y)
 }
 
-/// Plots one below the other, each under its title, with the same axes for all where `alike`. A panel of one curve needs no legend.
+/// Plots one below the other, each under its title, with the same axes for all where `alike`. A panel of one curve
+/// needs no legend.
 pub(crate) fn stacked(
     name: &str,
     title: &str,
@@ -128,10 +124,7 @@ pub(crate) fn stacked(
         let words = font::fitted(&panel.title, size.font, true, size.width - 24.0);
         picture.text(Text::new(12.0, top + size.font, size.font, Anchor::Start, &words).bold());
         top += 1.5 * size.font;
-        let panel = Overlay {
-            x_range: panel.x_range.or(along.filter(|_| alike)),
-            ..panel.clone()
-        };
+        let panel = Overlay { x_range: panel.x_range.or(along.filter(|_| alike)), ..panel.clone() };
         let named = if panel.curves.len() > 1 { names } else { &[] };
         let drawn = plot(&panel, named, layout, 215.0, common);
         let height = drawn.height;
@@ -143,13 +136,7 @@ pub(crate) fn stacked(
 }
 
 /// A plot of some height under its legend; its y axis holds `common` too.
-fn plot(
-    overlay: &Overlay,
-    names: &[String],
-    layout: Layout,
-    height: f64,
-    common: Option<&[f64]>,
-) -> Picture {
+fn plot(overlay: &Overlay, names: &[String], layout: Layout, height: f64, common: Option<&[f64]>) -> Picture {
     let (x, y) = domains(overlay, common);
     let lanes = marker_lanes(&overlay.markers);
     let spec = Spec {

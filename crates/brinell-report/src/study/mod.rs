@@ -1,4 +1,5 @@
-//! The page of a study: chapters of curves, trends, tables, and claims with their verdicts. What they are is the caller's.
+//! The page of a study: chapters of curves, trends, tables, and claims with their verdicts. What they are is the
+//! caller's.
 
 use std::fmt::Write as _;
 
@@ -165,26 +166,13 @@ fn draw(piece: &StudyPiece, layout: Layout) -> Option<Picture> {
 
 /// The self-contained page.
 pub fn study_html(study: &Study) -> String {
-    let mut page = open(
-        &study.title,
-        &study.subtitle,
-        ("Simulated", &study.version),
-        plain(&study.warnings),
-    );
+    let mut page = open(&study.title, &study.subtitle, ("Simulated", &study.version), plain(&study.warnings));
     page.push_str("<nav aria-label=\"Contents\"><ul>");
     for chapter in &study.chapters {
-        let _ = write!(
-            page,
-            "<li><a href=\"#{}\">{}</a></li>",
-            chapter.id,
-            escape(&chapter.short)
-        );
+        let _ = write!(page, "<li><a href=\"#{}\">{}</a></li>", chapter.id, escape(&chapter.short));
     }
     page.push_str("</ul></nav>\n<main>\n");
-    lead(
-        &mut page,
-        &study.facts.first().map_or(String::new(), Fact::words),
-    );
+    lead(&mut page, &study.facts.first().map_or(String::new(), Fact::words));
     facts(&mut page, &study.facts);
     let mut count = 0;
     for chapter in &study.chapters {
@@ -228,11 +216,7 @@ fn write_piece(page: &mut String, piece: &StudyPiece, count: usize) {
 }
 
 fn tag(tagged: &Tagged) -> String {
-    format!(
-        "<span class=\"{}\">{}</span>",
-        tagged.tone.class(),
-        escape(&tagged.word)
-    )
+    format!("<span class=\"{}\">{}</span>", tagged.tone.class(), escape(&tagged.word))
 }
 
 fn claim(page: &mut String, card: &ClaimCard) {
@@ -244,18 +228,10 @@ fn claim(page: &mut String, card: &ClaimCard) {
         escape(&card.sentence)
     );
     if !card.printed.is_empty() {
-        let _ = writeln!(
-            page,
-            "<p class=\"note\">Printed: {}</p>",
-            escape(&card.printed)
-        );
+        let _ = writeln!(page, "<p class=\"note\">Printed: {}</p>", escape(&card.printed));
     }
     if !card.depends.is_empty() {
-        let _ = writeln!(
-            page,
-            "<p class=\"depends\">Depends on {}</p>",
-            escape(&card.depends)
-        );
+        let _ = writeln!(page, "<p class=\"depends\">Depends on {}</p>", escape(&card.depends));
     }
     if !card.parts.is_empty() {
         page.push_str("<ul>\n");
@@ -285,16 +261,9 @@ mod tests {
         let card = ClaimCard {
             place: "4.2".into(),
             sentence: "a < b & c".into(),
-            verdict: Tagged {
-                word: "holds".into(),
-                tone: Tone::Good,
-            },
+            verdict: Tagged { word: "holds".into(), tone: Tone::Good },
             depends: "the filter".into(),
-            parts: vec![ClaimPart {
-                words: "RMS".into(),
-                ours: "<script>".into(),
-                ..ClaimPart::default()
-            }],
+            parts: vec![ClaimPart { words: "RMS".into(), ours: "<script>".into(), ..ClaimPart::default() }],
             ..ClaimCard::default()
         };
         let study = Study {
@@ -308,20 +277,11 @@ mod tests {
                     StudyPiece::Curves(Overlay::default(), vec![]),
                     StudyPiece::Trend(IndicatorPlot::default()),
                     StudyPiece::Stack(Stack {
-                        panels: vec![
-                            Overlay {
-                                title: "Panel a".into(),
-                                ..Overlay::default()
-                            },
-                            Overlay::default(),
-                        ],
+                        panels: vec![Overlay { title: "Panel a".into(), ..Overlay::default() }, Overlay::default()],
                         ..Stack::default()
                     }),
                     StudyPiece::Plan("seen-from-above".into(), Box::default()),
-                    StudyPiece::Table(Table {
-                        title: "A table".into(),
-                        ..Table::default()
-                    }),
+                    StudyPiece::Table(Table { title: "A table".into(), ..Table::default() }),
                     StudyPiece::Claims(vec![card]),
                     StudyPiece::Claims(vec![]),
                 ],

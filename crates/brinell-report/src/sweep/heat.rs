@@ -1,4 +1,5 @@
-//! An indicator over two keys: a cell for each pair of their values, darker where it is larger, with its number where that fits.
+//! An indicator over two keys: a cell for each pair of their values, darker where it is larger, with its number where
+//! that fits.
 
 use crate::chart::{Chart, Domain, SCALE_MARGIN, Shades, Spec, range};
 use crate::font;
@@ -67,20 +68,8 @@ pub(crate) fn heat_map(map: &HeatMap, layout: Layout) -> Option<Picture> {
     for axis in ["ticks-x", "ticks-y"] {
         clear(&mut chart.picture, axis);
     }
-    let top_down: Vec<f64> = map
-        .values
-        .chunks(columns)
-        .rev()
-        .flatten()
-        .copied()
-        .collect();
-    chart.shades(&Shades {
-        columns,
-        values: &top_down,
-        range: (low, high),
-        ticks: 5,
-        head: "",
-    });
+    let top_down: Vec<f64> = map.values.chunks(columns).rev().flatten().copied().collect();
+    chart.shades(&Shades { columns, values: &top_down, range: (low, high), ticks: 5, head: "" });
     name(&mut chart, map, size.font);
     numbers(&mut chart, map, size.font, (low, high));
     let mut picture = chart.finish();
@@ -106,26 +95,16 @@ fn name(chart: &mut Chart, map: &HeatMap, size: f64) {
     for (k, words) in map.x_names.iter().enumerate() {
         let words = font::fitted(words, size, false, room);
         let (x, y) = (chart.x.at(k as f64 + 0.5), frame.bottom + 1.4 * size);
-        chart
-            .picture
-            .text(Text::new(x, y, size, Anchor::Middle, &words));
+        chart.picture.text(Text::new(x, y, size, Anchor::Middle, &words));
     }
     for (k, words) in map.y_names.iter().enumerate() {
         let words = font::fitted(words, size, false, frame.left - 2.0 * size);
         let (x, y) = (frame.left - 6.0, chart.y.at(k as f64 + 0.5) + 0.36 * size);
-        chart
-            .picture
-            .text(Text::new(x, y, size, Anchor::End, &words));
+        chart.picture.text(Text::new(x, y, size, Anchor::End, &words));
     }
     let middle = 0.5 * (frame.left + frame.right);
     let y = frame.bottom + 3.0 * size;
-    chart.picture.text(Text::with_unit(
-        middle,
-        y,
-        size,
-        Anchor::Middle,
-        &map.x_label,
-    ));
+    chart.picture.text(Text::with_unit(middle, y, size, Anchor::Middle, &map.x_label));
 }
 
 /// The value of each cell, where all of them fit.
@@ -150,9 +129,7 @@ fn numbers(chart: &mut Chart, map: &HeatMap, size: f64, (low, high): (f64, f64))
         let y = chart.y.at((k / columns) as f64 + 0.5) + 0.36 * size;
         let dark = (value - low) / (high - low) > DARK;
         let color = if dark { "#ffffff" } else { ink::BLACK };
-        chart
-            .picture
-            .text(Text::new(x, y, size, Anchor::Middle, words).color(color));
+        chart.picture.text(Text::new(x, y, size, Anchor::Middle, words).color(color));
     }
 }
 
@@ -191,10 +168,7 @@ mod tests {
         short.values.pop();
         assert!(heat_map(&short, Layout::Narrow).is_none());
         assert!(heat_map(&HeatMap::default(), Layout::Narrow).is_none());
-        let nothing = HeatMap {
-            values: vec![f64::NAN; 6],
-            ..map()
-        };
+        let nothing = HeatMap { values: vec![f64::NAN; 6], ..map() };
         assert!(heat_map(&nothing, Layout::Wide).is_none());
     }
 }

@@ -96,10 +96,7 @@ pub fn sweep_html(report: &SweepReport) -> String {
         &report.title,
         &report.subtitle,
         ("Simulated", &report.version),
-        report
-            .partial
-            .as_deref()
-            .map(|why| ("This sweep is incomplete.", why)),
+        report.partial.as_deref().map(|why| ("This sweep is incomplete.", why)),
     );
     page.push_str("<main>\n");
     lead(&mut page, &extremes(&report.plots));
@@ -144,15 +141,10 @@ fn extremes(plots: &[IndicatorPlot]) -> String {
     };
     let of_line = |line: &'_ IndicatorLine| {
         let points = line.points.iter().filter(|p| p.value.is_finite());
-        points
-            .map(|p| (p.value, p.x, line.label.clone()))
-            .collect::<Vec<_>>()
+        points.map(|p| (p.value, p.x, line.label.clone())).collect::<Vec<_>>()
     };
     let all: Vec<(f64, f64, String)> = plot.lines.iter().flat_map(of_line).collect();
-    let ends = (
-        all.iter().min_by(|a, b| a.0.total_cmp(&b.0)),
-        all.iter().max_by(|a, b| a.0.total_cmp(&b.0)),
-    );
+    let ends = (all.iter().min_by(|a, b| a.0.total_cmp(&b.0)), all.iter().max_by(|a, b| a.0.total_cmp(&b.0)));
     let (Some(least), Some(most)) = ends else {
         return String::new();
     };
@@ -169,11 +161,7 @@ fn extremes(plots: &[IndicatorPlot]) -> String {
             _ => String::new(),
         };
         let unit = plot.unit.replace("^2", "²");
-        format!(
-            "{} {unit} ({} = {at}{beside})",
-            significant(*value, 3),
-            plot.x_label
-        )
+        format!("{} {unit} ({} = {at}{beside})", significant(*value, 3), plot.x_label)
     };
     format!("{}: from {} to {}.", plot.label, told(least), told(most))
 }

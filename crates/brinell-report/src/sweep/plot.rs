@@ -8,14 +8,7 @@ use crate::picture::{Anchor, Paint, Picture, Shape, Text, ink};
 use crate::plots::{Layout, legend};
 
 /// Colours that the colour-blind distinguish too, then the same with dashes.
-const COLORS: [&str; 6] = [
-    ink::BLUE,
-    ink::VERMILLION,
-    ink::GREEN,
-    ink::PURPLE,
-    ink::ORANGE,
-    ink::BLACK,
-];
+const COLORS: [&str; 6] = [ink::BLUE, ink::VERMILLION, ink::GREEN, ink::PURPLE, ink::ORANGE, ink::BLACK];
 const DASHES: [&[f64]; 3] = [&[], &[6.0, 3.0], &[2.0, 2.5]];
 /// Pixels between the same point of neighbouring lines, and of all lines together at most.
 const BESIDE: f64 = 5.0;
@@ -62,23 +55,13 @@ pub(crate) fn indicator_plot(plot: &IndicatorPlot, layout: Layout) -> Picture {
     if count < 2 {
         return finish(chart, 0.0);
     }
-    let entries: Vec<(&str, Paint)> = plot
-        .lines
-        .iter()
-        .enumerate()
-        .map(|(k, line)| (line.label.as_str(), paint(k)))
-        .collect();
+    let entries: Vec<(&str, Paint)> =
+        plot.lines.iter().enumerate().map(|(k, line)| (line.label.as_str(), paint(k))).collect();
     let width = layout.size(0.0).width;
     let mut picture = Picture::new(&name, &title, width, 0.0);
     let mut top = 2.0;
     if !plot.legend.is_empty() {
-        let words = Text::new(
-            12.0,
-            top + size.font,
-            size.font,
-            Anchor::Start,
-            &plot.legend,
-        );
+        let words = Text::new(12.0, top + size.font, size.font, Anchor::Start, &plot.legend);
         picture.text(words.color(ink::FAINT));
         top += 1.6 * size.font;
     }
@@ -94,17 +77,11 @@ pub(crate) fn indicator_plot(plot: &IndicatorPlot, layout: Layout) -> Picture {
 pub(crate) fn embed(page: &mut String, plot: &IndicatorPlot) {
     let columns = |line: &IndicatorLine| {
         let points = line.points.iter();
-        points
-            .map(|p| (p.x, p.value))
-            .unzip::<f64, f64, Vec<f64>, Vec<f64>>()
+        points.map(|p| (p.x, p.value)).unzip::<f64, f64, Vec<f64>, Vec<f64>>()
     };
     let lines: Vec<(Vec<f64>, Vec<f64>)> = plot.lines.iter().map(columns).collect();
     let curves: Vec<Curve> = (plot.lines.iter().zip(&lines))
-        .map(|(line, (places, values))| Curve {
-            name: &line.label,
-            places: Places::Each(places),
-            values,
-        })
+        .map(|(line, (places, values))| Curve { name: &line.label, places: Places::Each(places), values })
         .collect();
     embedded::Chart {
         name: &plot.name,
@@ -161,14 +138,8 @@ fn y_domain(values: impl Iterator<Item = f64>) -> Domain {
 fn name_x(chart: &mut Chart, plot: &IndicatorPlot, size: f64) {
     // Between names there is nothing to divide: the lines of a numeric axis go.
     let shapes = &mut chart.picture.shapes;
-    if let Some(open) = shapes
-        .iter()
-        .position(|s| matches!(s, Shape::Open("ticks-x")))
-    {
-        let length = shapes[open..]
-            .iter()
-            .position(|s| matches!(s, Shape::Close))
-            .unwrap_or(0);
+    if let Some(open) = shapes.iter().position(|s| matches!(s, Shape::Open("ticks-x"))) {
+        let length = shapes[open..].iter().position(|s| matches!(s, Shape::Close)).unwrap_or(0);
         shapes.drain(open + 1..open + length);
     }
     let room = chart.frame.width() / plot.x_names.len() as f64 - 6.0;
@@ -186,10 +157,7 @@ fn name_x(chart: &mut Chart, plot: &IndicatorPlot, size: f64) {
 
 fn draw(chart: &mut Chart, line: &IndicatorLine, paint: Paint, beside: f64, joined: bool) {
     let at = |chart: &Chart, p: &IndicatorPoint| chart.x.at(p.x) + beside;
-    let solid = Paint {
-        dash: &[],
-        ..Paint::line(paint.stroke, 1.4)
-    };
+    let solid = Paint { dash: &[], ..Paint::line(paint.stroke, 1.4) };
     let clip = Some(chart.frame);
     let mut strokes: Vec<Vec<(f64, f64)>> = vec![vec![]];
     let (mut bars, mut crosses) = (vec![], vec![]);
@@ -226,12 +194,7 @@ fn draw(chart: &mut Chart, line: &IndicatorLine, paint: Paint, beside: f64, join
     strokes.retain(|stroke| joined && stroke.len() > 1);
     let mut path = |lines: Vec<Vec<(f64, f64)>>, paint: Paint, clip| {
         if !lines.is_empty() {
-            chart.picture.shapes.push(Shape::Path {
-                lines,
-                close: false,
-                paint,
-                clip,
-            });
+            chart.picture.shapes.push(Shape::Path { lines, close: false, paint, clip });
         }
     };
     path(strokes, paint.faded(0.7), clip);

@@ -14,29 +14,16 @@ fn key(log: bool, interval: Option<(f64, f64)>) -> FittedKey {
 }
 
 fn run(value: f64, chi_square: f64, alone: bool) -> Tried {
-    Tried {
-        values: vec![value],
-        chi_square,
-        alone: vec![alone],
-    }
+    Tried { values: vec![value], chi_square, alone: vec![alone] }
 }
 
 fn report(key: FittedKey, tried: Vec<Tried>) -> CalibrationReport {
-    CalibrationReport {
-        title: "Calibration of <x>".into(),
-        keys: vec![key],
-        tried,
-        ..CalibrationReport::default()
-    }
+    CalibrationReport { title: "Calibration of <x>".into(), keys: vec![key], tried, ..CalibrationReport::default() }
 }
 
 #[test]
 fn regress_targets_that_are_not_met_are_reported_first() {
-    let tried = vec![
-        run(1e6, 30.0, false),
-        run(2e6, 8.0, true),
-        run(3e6, 12.0, true),
-    ];
+    let tried = vec![run(1e6, 30.0, false), run(2e6, 8.0, true), run(3e6, 12.0, true)];
     let mut report = report(key(true, Some((1.5e6, 2.5e6))), tried);
     report.verdict = vec!["a < b".into()];
     let page = calibration_html(&report);
@@ -61,11 +48,7 @@ fn prop_no_numbers_break_the_pictures() {
         vec![],
         vec![run(1e6, f64::INFINITY, true)],
         vec![run(1e6, 0.0, true)],
-        vec![
-            run(1e6, 0.0, true),
-            run(1e7, 1e300, false),
-            run(1e5, f64::NAN, true),
-        ],
+        vec![run(1e6, 0.0, true), run(1e7, 1e300, false), run(1e5, f64::NAN, true)],
         vec![run(2e6, 5.0, true), run(2e6, 5.0, true)],
     ];
     for tried in runs {
@@ -73,10 +56,7 @@ fn prop_no_numbers_break_the_pictures() {
             for interval in [None, Some((1e5, 1e7)), Some((2e6, 2e6))] {
                 let report = report(key(log, interval), tried.clone());
                 let page = calibration_html(&report);
-                assert!(
-                    !page.contains("NaN") && !page.contains("inf\""),
-                    "{tried:?}"
-                );
+                assert!(!page.contains("NaN") && !page.contains("inf\""), "{tried:?}");
             }
         }
     }

@@ -25,40 +25,22 @@ pub(crate) fn check(page: &str) {
         let at = page[from..].find(heading);
         from += at.unwrap_or_else(|| panic!("{heading} is missing or out of order"));
     }
-    for (open, close) in [
-        ("<svg", "</svg>"),
-        ("<table", "</table>"),
-        ("<figure>", "</figure>"),
-        ("<script", "</script>"),
-    ] {
-        assert_eq!(
-            page.matches(open).count(),
-            page.matches(close).count(),
-            "{open}"
-        );
+    for (open, close) in
+        [("<svg", "</svg>"), ("<table", "</table>"), ("<figure>", "</figure>"), ("<script", "</script>")]
+    {
+        assert_eq!(page.matches(open).count(), page.matches(close).count(), "{open}");
     }
     for part in page.match_indices("url(").map(|(at, _)| &page[at..at + 9]) {
-        assert!(
-            part.starts_with("url(data:") || part.starts_with("url(#"),
-            "{part}"
-        );
+        assert!(part.starts_with("url(data:") || part.starts_with("url(#"), "{part}");
     }
     // Samples and images travel in base64, which may spell anything.
     let page = page.replace(";base64,", "\"values\":\"");
     let plain: String = page
         .split("\"values\":\"")
         .enumerate()
-        .map(|(k, part)| {
-            if k == 0 {
-                part
-            } else {
-                part.split_once('"').map_or("", |p| p.1)
-            }
-        })
+        .map(|(k, part)| if k == 0 { part } else { part.split_once('"').map_or("", |p| p.1) })
         .collect();
-    for never in [
-        "http:", "https:", "@import", "<link", "<iframe", " src=\"", "NaN", ":inf", ",inf",
-    ] {
+    for never in ["http:", "https:", "@import", "<link", "<iframe", " src=\"", "NaN", ":inf", ",inf"] {
         assert!(!plain.contains(never), "{never} in the page");
     }
 }
@@ -68,10 +50,6 @@ pub(crate) fn check_pictures(report: &Report) {
         let svg = picture.svg();
         let tree = roxmltree::Document::parse(&svg);
         assert!(tree.is_ok(), "{}: {tree:?}", picture.name);
-        assert!(
-            !svg.contains("NaN") && !svg.contains("inf\""),
-            "{}",
-            picture.name
-        );
+        assert!(!svg.contains("NaN") && !svg.contains("inf\""), "{}", picture.name);
     }
 }

@@ -2,18 +2,14 @@
 
 use super::sample::{filled, ordinary, square_with_a_hole};
 use brinell_report::{
-    DamageCurve, DamagePanel, DamageView, Layout, damage_passage, damage_plan, damage_section,
-    html, pictures,
+    DamageCurve, DamagePanel, DamageView, Layout, damage_passage, damage_plan, damage_section, html, pictures,
 };
 
 #[test]
 fn analytic_the_plan_is_to_one_scale_and_a_hole_winds_against_its_outline() {
     for layout in [Layout::Wide, Layout::Narrow] {
         let svg = damage_plan(&square_with_a_hole(), 0, layout).svg();
-        let path = svg
-            .split("<path d=\"")
-            .find(|p| p.contains("fill=\"#f2aa6b\""))
-            .expect("the damage is drawn");
+        let path = svg.split("<path d=\"").find(|p| p.contains("fill=\"#f2aa6b\"")).expect("the damage is drawn");
         let rings: Vec<Vec<[f64; 2]>> = path
             .split('"')
             .next()
@@ -33,11 +29,7 @@ fn analytic_the_plan_is_to_one_scale_and_a_hole_winds_against_its_outline() {
         assert_eq!(rings.len(), 2);
         let area = |r: &[[f64; 2]]| -> f64 {
             let next = r.iter().skip(1).chain(r.first());
-            0.5 * r
-                .iter()
-                .zip(next)
-                .map(|(a, b)| a[0] * b[1] - b[0] * a[1])
-                .sum::<f64>()
+            0.5 * r.iter().zip(next).map(|(a, b)| a[0] * b[1] - b[0] * a[1]).sum::<f64>()
         };
         let (outer, hole) = (area(&rings[0]), area(&rings[1]));
         assert!(outer * hole < 0.0, "{outer} {hole}");
@@ -46,12 +38,7 @@ fn analytic_the_plan_is_to_one_scale_and_a_hole_winds_against_its_outline() {
             (0..4).map(|i| rings[0][i][k]).fold(0.0, f64::max)
                 - (0..4).map(|i| rings[0][i][k]).fold(f64::INFINITY, f64::min)
         };
-        assert!(
-            (side(0) / side(1) - 1.0).abs() < 0.005,
-            "{} {}",
-            side(0),
-            side(1)
-        );
+        assert!((side(0) / side(1) - 1.0).abs() < 0.005, "{} {}", side(0), side(1));
     }
 }
 
@@ -67,11 +54,7 @@ fn regress_a_view_of_nothing_is_drawn_all_the_same() {
 #[test]
 fn analytic_a_rollers_view_goes_once_around_with_both_contacts_half_a_turn_apart() {
     let around = 6.0 * std::f64::consts::PI;
-    let view = DamageView {
-        half_turn_mm: Some(0.5 * around),
-        load_zone_mm: None,
-        ..square_with_a_hole()
-    };
+    let view = DamageView { half_turn_mm: Some(0.5 * around), load_zone_mm: None, ..square_with_a_hole() };
     let svg = damage_plan(&view, 0, Layout::Wide).svg();
     assert!(svg.contains("Around the roller") && svg.contains("the other raceway"));
     let tree = roxmltree::Document::parse(&svg).expect("valid");
@@ -96,14 +79,9 @@ fn analytic_a_rollers_view_goes_once_around_with_both_contacts_half_a_turn_apart
     let (one, other) = (uprights("2.4"), uprights("2"));
     assert!(one.len() == 1 && other.len() == 1, "{one:?} {other:?}");
     let ends = uprights("1");
-    let [.., from, to] = ends[..] else {
-        panic!("the ends of the surface are drawn: {ends:?}")
-    };
+    let [.., from, to] = ends[..] else { panic!("the ends of the surface are drawn: {ends:?}") };
     let mm = (other[0] - one[0]).abs() / (to - from).abs() * around;
-    assert!(
-        (mm - 0.5 * around).abs() < 0.05,
-        "{one:?} {other:?} {ends:?}"
-    );
+    assert!((mm - 0.5 * around).abs() < 0.05, "{one:?} {other:?} {ends:?}");
 }
 
 #[test]
@@ -121,10 +99,7 @@ fn regress_damage_that_cannot_be_drawn_is_not_called_healthy() {
 #[test]
 fn regress_the_page_shows_the_roller_passage_and_the_rings_section() {
     let mut report = ordinary();
-    let curve = |name: &str| DamageCurve {
-        name: name.into(),
-        values: vec![1.0, 2.0, 1.0],
-    };
+    let curve = |name: &str| DamageCurve { name: name.into(), values: vec![1.0, 2.0, 1.0] };
     let panel = |label: &str| DamagePanel {
         label: label.into(),
         unit: "mm".into(),
@@ -142,19 +117,12 @@ fn regress_the_page_shows_the_roller_passage_and_the_rings_section() {
         ..square_with_a_hole()
     }];
     let page = html(&report);
-    for words in [
-        "Contact conditions during roller passage",
-        "Section under it",
-        "Stiffness at 1 um.",
-    ] {
+    for words in ["Contact conditions during roller passage", "Section under it", "Stiffness at 1 um."] {
         assert!(page.contains(words), "{words}");
     }
     // Symbols have lowered indices, not underscores.
     assert!(!page.contains(">damaged, L_s<") && page.contains(">damaged, L<tspan"));
-    let names: Vec<String> = pictures(&report, Layout::Wide)
-        .into_iter()
-        .map(|p| p.name)
-        .collect();
+    let names: Vec<String> = pictures(&report, Layout::Wide).into_iter().map(|p| p.name).collect();
     for name in ["damage-1", "damage-1-passage", "damage-1-section"] {
         assert!(names.iter().any(|n| n == name), "{names:?}");
     }

@@ -3,8 +3,7 @@
 use super::checks::{check, check_pictures};
 use super::sample::{filled, ordinary};
 use brinell_report::{
-    Assumption, Fact, Layout, MinMax, Report, detail_window, headline_png, html, load_distribution,
-    overview, pictures,
+    Assumption, Fact, Layout, MinMax, Report, detail_window, headline_png, html, load_distribution, overview, pictures,
 };
 use proptest::prelude::*;
 
@@ -21,14 +20,12 @@ fn regress_an_ordinary_page_is_whole_and_small() {
         assert!(page.contains(text), "{text}");
     }
     // Two drawings of every figure, and data for the four that zoom.
-    assert_eq!(
-        page.matches("class=\"wide\"").count(),
-        page.matches("class=\"narrow\"").count()
-    );
+    assert_eq!(page.matches("class=\"wide\"").count(), page.matches("class=\"narrow\"").count());
     assert_eq!(page.matches("data-chart=").count(), 4);
 }
 
-/// The result is before everything; what was assumed before what was stated, which is folded; over orders only where the speed varies.
+/// The result is before everything; what was assumed before what was stated, which is folded; over orders only where
+/// the speed varies.
 #[test]
 fn regress_the_result_comes_first_and_assumptions_before_statements() {
     let mut report = ordinary();
@@ -78,17 +75,10 @@ fn regress_the_healthy_bearing_lies_behind_the_damaged_one() {
         assert!(svg.contains(BEHIND), "{name}");
         // Drawn first, and so behind.
         let at = |color: &str| svg.find(&format!("stroke=\"{color}\" stroke-width=\"1.2\""));
-        assert!(
-            at("#9aa4ae") < at("#0072B2") && at("#9aa4ae").is_some(),
-            "{name}"
-        );
-        let names: Vec<String> = (picture.tables().iter())
-            .flat_map(|t| t.columns.iter().map(|c| c.0.clone()))
-            .collect();
-        assert!(
-            names.iter().any(|n| n.contains("healthy")),
-            "{name}: {names:?}"
-        );
+        assert!(at("#9aa4ae") < at("#0072B2") && at("#9aa4ae").is_some(), "{name}");
+        let names: Vec<String> =
+            (picture.tables().iter()).flat_map(|t| t.columns.iter().map(|c| c.0.clone())).collect();
+        assert!(names.iter().any(|n| n.contains("healthy")), "{name}: {names:?}");
     }
 }
 
@@ -105,12 +95,9 @@ fn regress_an_empty_report_says_so() {
     let page = html(&Report::default());
     check(&page);
     check_pictures(&Report::default());
-    for words in [
-        "No waveform was recorded",
-        "No spectrum was made",
-        "No rolling element passed a defect",
-        "No audit was made",
-    ] {
+    for words in
+        ["No waveform was recorded", "No spectrum was made", "No rolling element passed a defect", "No audit was made"]
+    {
         assert!(page.contains(words), "{words}");
     }
     assert!(!page.contains("<svg"));
@@ -149,10 +136,7 @@ fn regress_the_start_does_not_flatten_the_overview() {
     };
     report.waveform.overview = Some(bins(650.0));
     let svg = overview(&report, Layout::Wide).svg();
-    assert!(
-        svg.contains("the start reaches from −650 to 1 m/s²"),
-        "{svg}"
-    );
+    assert!(svg.contains("the start reaches from −650 to 1 m/s²"), "{svg}");
     report.waveform.overview = Some(bins(2.5));
     assert!(!overview(&report, Layout::Wide).svg().contains("Cut off"));
 }
@@ -169,12 +153,7 @@ fn regress_odd_data_is_drawn() {
         vec![f64::MAX, f64::MIN, f64::MIN_POSITIVE, 5e-324],
         vec![-1.0, -2.0, -3.0],
     ] {
-        for (dt, frequency) in [
-            (0.1, 2.0),
-            (0.0, 0.0),
-            (f64::NAN, f64::INFINITY),
-            (1e300, 1e-300),
-        ] {
+        for (dt, frequency) in [(0.1, 2.0), (0.0, 0.0), (f64::NAN, f64::INFINITY), (1e300, 1e-300)] {
             let report = filled("x", &values, dt, frequency);
             check(&html(&report));
             check_pictures(&report);

@@ -1,11 +1,12 @@
 //! Pictures: places and lengths in them against what they are to show.
 
 use brinell_report::{
-    CageOrbit, CageOrbits, Layout, Motion, MotionRow, SlipRow, Spectrogram, bearing_motion,
-    cage_orbit, slip_over_time, spectrogram,
+    CageOrbit, CageOrbits, Layout, Motion, MotionRow, SlipRow, Spectrogram, bearing_motion, cage_orbit, slip_over_time,
+    spectrogram,
 };
 
-/// A quarter turn on, a roller that orbits at (r, 0) is at (0, r), its force's line above it; the scale is the same both ways.
+/// A quarter turn on, a roller that orbits at (r, 0) is at (0, r), its force's line above it; the scale is the same
+/// both ways.
 #[test]
 fn analytic_a_force_line_begins_at_its_contact_and_is_as_long_as_the_force() {
     let quarter = std::f32::consts::FRAC_PI_2;
@@ -30,12 +31,7 @@ fn analytic_a_force_line_begins_at_its_contact_and_is_as_long_as_the_force() {
     let numbers = |svg: &str, group: &str| -> Vec<f64> {
         let after = svg.split(&format!("class=\"{group}\">")).nth(1).unwrap();
         let d = after.split("d=\"").nth(1).unwrap();
-        d.split('"')
-            .next()
-            .unwrap()
-            .split(['M', 'L', ' '])
-            .filter_map(|n| n.parse().ok())
-            .collect()
+        d.split('"').next().unwrap().split(['M', 'L', ' ']).filter_map(|n| n.parse().ok()).collect()
     };
     let first = bearing_motion(&motion, 0, Layout::Wide).svg();
     let second = bearing_motion(&motion, 1, Layout::Wide).svg();
@@ -61,11 +57,7 @@ fn analytic_a_cage_orbit_has_one_scale() {
         y_um: (0..=60).map(|k| 30.0 * turn(k).sin()).collect(),
         last_turn: 61,
     };
-    let orbits = CageOrbits {
-        rows: vec![row.clone(), row],
-        clearance_um: Some(40.0),
-        note: String::new(),
-    };
+    let orbits = CageOrbits { rows: vec![row.clone(), row], clearance_um: Some(40.0), note: String::new() };
     for layout in [Layout::Wide, Layout::Narrow] {
         let svg = cage_orbit(&orbits, layout).svg();
         let way = svg
@@ -74,10 +66,7 @@ fn analytic_a_cage_orbit_has_one_scale() {
             .map(|p| p.split('"').next().unwrap())
             .next()
             .expect("the orbit is drawn");
-        let points: Vec<f64> = way
-            .split(['M', 'L', ' '])
-            .filter_map(|n| n.parse().ok())
-            .collect();
+        let points: Vec<f64> = way.split(['M', 'L', ' ']).filter_map(|n| n.parse().ok()).collect();
         let extent = |first: usize| {
             let seen = || points.iter().skip(first).step_by(2).copied();
             seen().fold(f64::MIN, f64::max) - seen().fold(f64::MAX, f64::min)
@@ -116,9 +105,7 @@ fn analytic_the_spectrogram_puts_a_tone_where_it_is() {
     let (x, y, width, height) = (place("x"), place(" y"), place("width"), place("height"));
     let lightness = |column: f64, row: f64| {
         let at = |share: f64, from: f64, span: f64| (from + share * span) as u32;
-        let color = map
-            .pixel(at(column / 40.0, x, width), at(1.0 - row / 20.0, y, height))
-            .unwrap();
+        let color = map.pixel(at(column / 40.0, x, width), at(1.0 - row / 20.0, y, height)).unwrap();
         u32::from(color.red()) + u32::from(color.green()) + u32::from(color.blue())
     };
     assert!(lightness(10.5, 15.5) < 150, "{}", lightness(10.5, 15.5));
@@ -131,9 +118,8 @@ fn analytic_the_spectrogram_puts_a_tone_where_it_is() {
 #[test]
 fn analytic_slip_that_swings_too_often_is_drawn_by_its_mean_and_extremes() {
     let row = |swings: f64| {
-        let wave: Vec<f64> = (0..1000)
-            .map(|k| 0.5 + 2.0 * (swings * std::f64::consts::TAU * f64::from(k) / 1000.0).sin())
-            .collect();
+        let wave: Vec<f64> =
+            (0..1000).map(|k| 0.5 + 2.0 * (swings * std::f64::consts::TAU * f64::from(k) / 1000.0).sin()).collect();
         SlipRow {
             name: "row 1".into(),
             t0_s: 0.005,
@@ -162,10 +148,7 @@ fn analytic_slip_that_swings_too_often_is_drawn_by_its_mean_and_extremes() {
         let (highest, lowest) = heights(mean.unwrap());
         // The shade spans the wave, 4 %; the mean stays near its middle.
         assert!(bottom - top > 60.0, "{top} {bottom}");
-        assert!(
-            lowest - highest < 0.1 * (bottom - top),
-            "{highest} {lowest}"
-        );
+        assert!(lowest - highest < 0.1 * (bottom - top), "{highest} {lowest}");
         let middle = 0.5 * (top + bottom);
         assert!((0.5 * (highest + lowest) - middle).abs() < 0.05 * (bottom - top));
     }

@@ -1,10 +1,10 @@
 //! Reports to draw: everything filled from given strings and numbers, and an ordinary run.
 
 use brinell_report::{
-    AlongRoller, Assumption, AxialRow, AxialSection, CageOrbit, CageOrbits, DamageCurve,
-    DamagePanel, DamageView, DamagedSurface, DepthPatch, Estimate, Event, EventKind, Fact, Healthy,
-    IndicatorRow, IndicatorTable, Marker, MinMax, Motion, MotionDamage, MotionRow, Pass, Report,
-    RowLoad, SensorView, Series, SlipRow, Spectrogram, Spectrum, Waveform, bin_centres,
+    AlongRoller, Assumption, AxialRow, AxialSection, CageOrbit, CageOrbits, DamageCurve, DamagePanel, DamageView,
+    DamagedSurface, DepthPatch, Estimate, Event, EventKind, Fact, Healthy, IndicatorRow, IndicatorTable, Marker,
+    MinMax, Motion, MotionDamage, MotionRow, Pass, Report, RowLoad, SensorView, Series, SlipRow, Spectrogram, Spectrum,
+    Waveform, bin_centres,
 };
 
 /// Damage in which every list is filled; one with depths and one of a polygon come from the sign of the first value.
@@ -14,13 +14,7 @@ fn damage_view(text: &str, values: &[f64]) -> DamageView {
         label: text.into(),
         unit: text.into(),
         from_zero: at(1) > 0.0,
-        curves: vec![
-            DamageCurve {
-                name: text.into(),
-                values: values.to_vec(),
-            };
-            2
-        ],
+        curves: vec![DamageCurve { name: text.into(), values: values.to_vec() }; 2],
     };
     DamageView {
         title: text.into(),
@@ -124,20 +118,13 @@ fn motion(text: &str, values: &[f64], dt: f64) -> Motion {
         roller_radius_mm: 3.0,
         ring: some,
         rows: vec![row; 2],
-        damage: [
-            DamagedSurface::Outer,
-            DamagedSurface::Inner,
-            DamagedSurface::Roller(1),
-        ]
-        .map(|surface| MotionDamage {
-            row: 0,
-            surface,
-            angle: [
-                values.first().copied().unwrap_or(f64::NAN),
-                values.last().copied().unwrap_or(0.1),
-            ],
-        })
-        .to_vec(),
+        damage: [DamagedSurface::Outer, DamagedSurface::Inner, DamagedSurface::Roller(1)]
+            .map(|surface| MotionDamage {
+                row: 0,
+                surface,
+                angle: [values.first().copied().unwrap_or(f64::NAN), values.last().copied().unwrap_or(0.1)],
+            })
+            .to_vec(),
     }
 }
 
@@ -145,13 +132,8 @@ fn motion(text: &str, values: &[f64], dt: f64) -> Motion {
 pub(crate) fn filled(text: &str, values: &[f64], dt: f64, frequency: f64) -> Report {
     let at = |i: usize| values.get(i).copied().unwrap_or(f64::NAN);
     let fact = || Fact::new(text, at(0), text, text).judged(at(1) > 0.0);
-    let spectrum = || Spectrum {
-        label: text.into(),
-        df_hz: dt,
-        amplitude: values.to_vec(),
-        unit: text.into(),
-        note: text.into(),
-    };
+    let spectrum =
+        || Spectrum { label: text.into(), df_hz: dt, amplitude: values.to_vec(), unit: text.into(), note: text.into() };
     Report {
         lead: text.into(),
         healthy: Healthy {
@@ -176,13 +158,7 @@ pub(crate) fn filled(text: &str, values: &[f64], dt: f64, frequency: f64) -> Rep
         undrawn_damage: (at(2) < 0.0).then(|| text.to_owned()),
         facts: vec![fact(), Fact::new(text, text, text, text)],
         waveform: Waveform {
-            series: Series {
-                label: text.into(),
-                unit: text.into(),
-                t0_s: at(2),
-                dt_s: dt,
-                values: values.to_vec(),
-            },
+            series: Series { label: text.into(), unit: text.into(), t0_s: at(2), dt_s: dt, values: values.to_vec() },
             overview: Some(MinMax {
                 t0_s: at(2),
                 dt_s: dt,
@@ -190,16 +166,8 @@ pub(crate) fn filled(text: &str, values: &[f64], dt: f64, frequency: f64) -> Rep
                 max: values.iter().skip(1).copied().collect(),
             }),
             events: vec![
-                Event {
-                    t_s: at(3),
-                    kind: EventKind::Enter,
-                    label: text.into(),
-                },
-                Event {
-                    t_s: at(4),
-                    kind: EventKind::Leave,
-                    label: text.into(),
-                },
+                Event { t_s: at(3), kind: EventKind::Enter, label: text.into() },
+                Event { t_s: at(4), kind: EventKind::Leave, label: text.into() },
             ],
         },
         spectrum: spectrum(),
@@ -238,11 +206,7 @@ pub(crate) fn filled(text: &str, values: &[f64], dt: f64, frequency: f64) -> Rep
             rows: vec![IndicatorRow {
                 channel: text.into(),
                 kind: text.into(),
-                cells: vec![Estimate {
-                    value: at(0),
-                    interval: Some((at(1), at(2))),
-                    unit: text.into(),
-                }],
+                cells: vec![Estimate { value: at(0), interval: Some((at(1), at(2))), unit: text.into() }],
             }],
             note: text.into(),
         },
@@ -308,10 +272,7 @@ pub(crate) fn ordinary() -> Report {
     report.damage = vec![square_with_a_hole()];
     report.passes[0] = Pass {
         title: "Row 1, roller 7".into(),
-        length_mm: angle_deg
-            .iter()
-            .map(|a| if a.abs() < 3.1 { 2.0 } else { 6.0 })
-            .collect(),
+        length_mm: angle_deg.iter().map(|a| if a.abs() < 3.1 { 2.0 } else { 6.0 }).collect(),
         other_length_mm: None,
         stiffness: vec![1.9e8; 500],
         stiffness_unit: "N/m^(10/9)".into(),

@@ -1,9 +1,8 @@
 //! The pages of a sweep and of runs side by side: what is in them, whatever the data.
 
 use brinell_report::{
-    Along, HeatMap, IndicatorLine, IndicatorPlot, IndicatorPoint, Layout, OverlaidCurve, Overlay,
-    Part, Piece, SideBySide, SweepReport, Vertical, side_by_side_html, side_by_side_pictures,
-    sweep_html, sweep_pictures,
+    Along, HeatMap, IndicatorLine, IndicatorPlot, IndicatorPoint, Layout, OverlaidCurve, Overlay, Part, Piece,
+    SideBySide, SweepReport, Vertical, side_by_side_html, side_by_side_pictures, sweep_html, sweep_pictures,
 };
 
 fn point(x: f64, value: f64, interval: Option<(f64, f64)>) -> IndicatorPoint {
@@ -20,19 +19,12 @@ fn plot(points: Vec<IndicatorPoint>, names: &[&str]) -> IndicatorPlot {
         x_names: names.iter().map(|n| (*n).to_owned()).collect(),
         legend: String::new(),
         ordered: false,
-        lines: vec![IndicatorLine {
-            label: "full".into(),
-            points,
-        }],
+        lines: vec![IndicatorLine { label: "full".into(), points }],
     }
 }
 
 fn page(plot: IndicatorPlot) -> (String, String) {
-    let report = SweepReport {
-        title: "Sweep of <x>".into(),
-        plots: vec![plot],
-        ..SweepReport::default()
-    };
+    let report = SweepReport { title: "Sweep of <x>".into(), plots: vec![plot], ..SweepReport::default() };
     let pictures = sweep_pictures(&report, Layout::Wide);
     assert_eq!(pictures.len(), 1);
     (sweep_html(&report), pictures[0].svg())
@@ -40,17 +32,9 @@ fn page(plot: IndicatorPlot) -> (String, String) {
 
 #[test]
 fn regress_a_failed_point_is_a_gap_and_the_marks_are_explained() {
-    let points = vec![
-        point(1000.0, 3.0, Some((2.5, 3.5))),
-        point(2000.0, f64::NAN, None),
-        point(3000.0, 5.0, None),
-    ];
+    let points = vec![point(1000.0, 3.0, Some((2.5, 3.5))), point(2000.0, f64::NAN, None), point(3000.0, 5.0, None)];
     let (page, svg) = page(plot(points, &[]));
-    for words in [
-        "Dots: averages over whole revolutions",
-        "Rings: a value",
-        "Crosses on the axis",
-    ] {
+    for words in ["Dots: averages over whole revolutions", "Rings: a value", "Crosses on the axis"] {
         assert!(page.contains(words), "no {words}");
     }
     assert!(page.contains("Sweep of &lt;x&gt;") && !page.contains("Short bars"));
@@ -85,16 +69,9 @@ fn prop_odd_data_make_a_page() {
 }
 
 fn overlaid(vertical: Vertical, values: Vec<f64>) -> SideBySide {
-    let curve = |of, along| OverlaidCurve {
-        of,
-        along,
-        values: values.clone(),
-    };
+    let curve = |of, along| OverlaidCurve { of, along, values: values.clone() };
     let places = (0..values.len()).map(|k| k as f64).collect();
-    let even = Along::Even {
-        first: 0.0,
-        step: 1.0,
-    };
+    let even = Along::Even { first: 0.0, step: 1.0 };
     let overlay = Overlay {
         name: "spectrum".into(),
         x_label: "Frequency".into(),
@@ -130,12 +107,9 @@ fn regress_an_overlay_names_the_runs_that_it_shows() {
 fn regress_an_overlay_is_read_out_with_the_names_of_its_runs() {
     let mut report = overlaid(Vertical::FromZero, vec![1.0, 2.0, f64::NAN, 4.0]);
     let page = side_by_side_html(&report);
-    for part in [
-        "data-plot=\"spectrum\"",
-        "data-chart=\"spectrum\"",
-        "\"name\":\"actual\"",
-        "\"name\":\"simple\",\"places\":",
-    ] {
+    for part in
+        ["data-plot=\"spectrum\"", "data-chart=\"spectrum\"", "\"name\":\"actual\"", "\"name\":\"simple\",\"places\":"]
+    {
         assert!(page.contains(part), "{part}");
     }
     // Places that go back and forth are no axis: such a plot is drawn, and not read out.
@@ -149,10 +123,7 @@ fn regress_an_overlay_is_read_out_with_the_names_of_its_runs() {
 #[test]
 fn regress_two_keys_make_a_map_and_the_page_begins_with_the_ends() {
     let report = SweepReport {
-        plots: vec![plot(
-            vec![point(1000.0, 3.0, None), point(2000.0, 5.0, None)],
-            &[],
-        )],
+        plots: vec![plot(vec![point(1000.0, 3.0, None), point(2000.0, 5.0, None)], &[])],
         maps: vec![HeatMap {
             name: "map".into(),
             label: "RMS <of>".into(),
@@ -177,12 +148,7 @@ fn regress_two_keys_make_a_map_and_the_page_begins_with_the_ends() {
 #[test]
 fn prop_odd_curves_make_a_page() {
     for vertical in [Vertical::Around, Vertical::FromZero, Vertical::Decades] {
-        for values in [
-            vec![],
-            vec![f64::NAN; 3],
-            vec![f64::INFINITY, -1e308, 1e308],
-            vec![0.0; 4],
-        ] {
+        for values in [vec![], vec![f64::NAN; 3], vec![f64::INFINITY, -1e308, 1e308], vec![0.0; 4]] {
             let page = side_by_side_html(&overlaid(vertical, values));
             assert!(page.ends_with("</html>\n") && !page.contains("NaN"));
         }

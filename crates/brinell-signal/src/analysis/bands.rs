@@ -34,8 +34,8 @@ impl BandChoice {
     }
 }
 
-/// Lower parts of a range, each half as wide as the last: where the sample rate is high, bands with nothing but noise outnumber those in which
-/// impacts ring, and hide them in an average over all.
+/// Lower parts of a range, each half as wide as the last: where the sample rate is high, bands with nothing but noise
+/// outnumber those in which impacts ring, and hide them in an average over all.
 pub(super) fn lower(range: Band) -> impl Iterator<Item = Band> {
     let tops = (1..).map(move |k| range.high * 0.5_f64.powi(k));
     tops.take_while(move |top| *top >= LOWEST_TOP && *top > 2.0 * range.low)
@@ -56,27 +56,17 @@ pub(super) fn range(fs: f64, options: &Options) -> Result<Band, AnalysisError> {
     let fits = band.low >= 0.0 && band.low < band.high && band.low < top;
     if !fits {
         let range = "0 to below the upper edge and half the sample rate";
-        return Err(super::out_of_range(
-            "lower edge of the band (Hz)",
-            band.low,
-            range,
-        ));
+        return Err(super::out_of_range("lower edge of the band (Hz)", band.low, range));
     }
     if band.high > top && band.high.is_finite() {
-        return Err(AnalysisError::BandTooHigh {
-            high_hz: band.high,
-            most_hz: top,
-        });
+        return Err(AnalysisError::BandTooHigh { high_hz: band.high, most_hz: top });
     }
     // Everything above the lower edge.
     let band = Band::between(band.low, band.high.min(top));
     // An envelope holds nothing above its band's width.
     let needed = HARMONICS_IN_BAND * highest(options);
     if band.high - band.low < needed {
-        return Err(AnalysisError::BandTooNarrow {
-            width_hz: band.high - band.low,
-            needed_hz: needed,
-        });
+        return Err(AnalysisError::BandTooNarrow { width_hz: band.high - band.low, needed_hz: needed });
     }
     Ok(band)
 }

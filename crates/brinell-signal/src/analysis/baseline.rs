@@ -6,16 +6,18 @@ use crate::{Band, Indicator};
 
 /// Growth of the modulation from which lines that are no damage by themselves are told.
 const GROWN: f64 = 2.0;
-/// Part of the modulation, and of the lines' level, that the healthy record shows already, from which lines say nothing of damage.
+/// Part of the modulation, and of the lines' level, that the healthy record shows already, from which lines say nothing
+/// of damage.
 const BEFORE: f64 = 0.5;
 
 impl Analysis {
-    /// Judges again what was found in `x`, in view of a record of the `healthy` machine in the same unit: damage whose lines modulate half as deep
-    /// there, and are half as high, is none ([`Standing::AsBefore`]); lines that have at least doubled their modulation have grown
-    /// ([`Standing::Grown`]).
+    /// Judges again what was found in `x`, in view of a record of the `healthy` machine in the same unit: damage whose
+    /// lines modulate half as deep there, and are half as high, is none ([`Standing::AsBefore`]); lines that have at
+    /// least doubled their modulation have grown ([`Standing::Grown`]).
     ///
-    /// Families are compared in the range that both sample rates hold. How high their lines are goes by modulation times the signal's RMS. A level
-    /// that has merely risen says nothing of the part: load, speed and other parts raise it.
+    /// Families are compared in the range that both sample rates hold. How high their lines are goes by modulation
+    /// times the signal's RMS. A level that has merely risen says nothing of the part: load, speed and other parts
+    /// raise it.
     ///
     /// # Errors
     /// As [`analyze()`].
@@ -34,12 +36,8 @@ impl Analysis {
             let ratio = own.modulation / healthy.modulation.max(f64::MIN_POSITIVE);
             family.growth = Some(ratio);
             family.standing = match family.standing {
-                Standing::Damage if healthy.is_damage() && BEFORE * louder * ratio < 1.0 => {
-                    Standing::AsBefore
-                }
-                Standing::Faint | Standing::Open if family.is_whole() && ratio >= GROWN => {
-                    Standing::Grown
-                }
+                Standing::Damage if healthy.is_damage() && BEFORE * louder * ratio < 1.0 => Standing::AsBefore,
+                Standing::Faint | Standing::Open if family.is_whole() && ratio >= GROWN => Standing::Grown,
                 other => other,
             };
         }
@@ -49,19 +47,11 @@ impl Analysis {
 
 /// Families in the range up to `top` (Hz): what was found, where the signal holds no more.
 fn families_up_to(top: f64, side: Side) -> Result<Vec<Family>, AnalysisError> {
-    let Analysis {
-        options,
-        sample_rate,
-        families,
-        ..
-    } = side.analysis;
+    let Analysis { options, sample_rate, families, .. } = side.analysis;
     let low = bands::BROAD * bands::highest(options);
     if options.band.is_some() || 0.5 * sample_rate <= top || low >= top {
         return Ok(families.clone());
     }
-    let options = Options {
-        band: Some(Band::between(low, top)),
-        ..options.clone()
-    };
+    let options = Options { band: Some(Band::between(low, top)), ..options.clone() };
     Ok(analyze(side.x, *sample_rate, &options)?.families)
 }

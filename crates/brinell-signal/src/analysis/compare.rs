@@ -63,7 +63,8 @@ pub struct Side<'a> {
 /// Lays `second` over `first`, in the band that shows most in the first, as far as both sample rates hold it.
 ///
 /// # Errors
-/// [`AnalysisError`] where the band lies above what the lower sample rate holds, or a signal is too short for a spectrum.
+/// [`AnalysisError`] where the band lies above what the lower sample rate holds, or a signal is too short for a
+/// spectrum.
 pub fn compare(first: Side, second: Side) -> Result<Comparison, AnalysisError> {
     let sides = [first, second];
     let rates = sides.map(|s| s.analysis.sample_rate);
@@ -74,10 +75,7 @@ pub fn compare(first: Side, second: Side) -> Result<Comparison, AnalysisError> {
         let range = "below half of both sample rates";
         return Err(super::out_of_range("band (Hz)", band.low, range));
     }
-    let shortest = sides
-        .map(|s| s.analysis.duration())
-        .into_iter()
-        .fold(f64::INFINITY, f64::min);
+    let shortest = sides.map(|s| s.analysis.duration()).into_iter().fold(f64::INFINITY, f64::min);
     let step = (4.0 / shortest).max(1.0);
     let view = &first.analysis.view;
     let envelope_step = (1.0 / shortest).max(view.spectrum.frequency_step);
@@ -111,9 +109,7 @@ fn one(
     let x: Vec<f64> = side.x.iter().map(|v| v - side.analysis.mean).collect();
     let length = |step: f64| ((fs / step).round() as usize).clamp(64, x.len().max(64));
     let mut spectrum = psd(&x, fs, &Segments::of(length(step)))?;
-    spectrum
-        .amplitude
-        .truncate((top / spectrum.frequency_step) as usize + 1);
+    spectrum.amplitude.truncate((top / spectrum.frequency_step) as usize + 1);
     let mut e = envelope(&x, fs, band).unwrap_or_default();
     let mean = e.iter().sum::<f64>() / e.len().max(1) as f64;
     e.iter_mut().for_each(|v| *v -= mean);
@@ -129,21 +125,12 @@ fn indicators(sides: &[Side; 2]) -> Vec<Difference> {
         .filter_map(|i| {
             let (a, b) = (first.indicator(i)?, second.indicator(i)?);
             let apart = (a.interval.zip(b.interval)).map(|(a, b)| a.high < b.low || b.high < a.low);
-            Some(Difference {
-                indicator: i,
-                first: a.value,
-                second: b.value,
-                apart,
-            })
+            Some(Difference { indicator: i, first: a.value, second: b.value, apart })
         })
         .collect()
 }
 
-fn lines(
-    sides: &[Side; 2],
-    envelopes: &[Spectrum; 2],
-    means: &[f64; 2],
-) -> Result<Vec<LineDifference>, AnalysisError> {
+fn lines(sides: &[Side; 2], envelopes: &[Spectrum; 2], means: &[f64; 2]) -> Result<Vec<LineDifference>, AnalysisError> {
     let mut all = Vec::new();
     let options = &sides[0].analysis.options;
     for (_, name, order) in options.orders.strikes().filter(|s| s.1 != "BSF") {
@@ -152,8 +139,7 @@ fn lines(
             let analysis = side.analysis;
             // Where its comb stands highest, or where pure rolling has it.
             let found = analysis.families.iter().find(|f| f.name == name);
-            let place = (found.filter(|f| f.standing_harmonics() > 0))
-                .map_or(order * analysis.shaft, |f| f.frequency);
+            let place = (found.filter(|f| f.standing_harmonics() > 0)).map_or(order * analysis.shaft, |f| f.frequency);
             sets.push(harmonics(spectrum, place, 0.005 * place, HARMONICS)?);
         }
         for (a, b) in sets[0].lines.iter().zip(&sets[1].lines) {
@@ -173,10 +159,7 @@ fn lines(
 
 /// Mean and RMS difference of levels over third octaves from 10 Hz up.
 fn level(spectra: &[Spectrum; 2]) -> (f64, f64) {
-    let top = spectra
-        .iter()
-        .map(|s| s.frequency_step * s.amplitude.len() as f64)
-        .fold(f64::INFINITY, f64::min);
+    let top = spectra.iter().map(|s| s.frequency_step * s.amplitude.len() as f64).fold(f64::INFINITY, f64::min);
     let (mut low, mut count, mut sum, mut squares) = (10.0, 0.0f64, 0.0, 0.0);
     let third = 2f64.powf(1.0 / 3.0);
     while low * third < top {

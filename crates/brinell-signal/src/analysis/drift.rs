@@ -1,13 +1,15 @@
 //! A shaft speed that drifts during the record, by the lines that it moves.
 //!
-//! The record is cut into stretches of [`TURNS`] revolutions. In the spectrum of each, every speed near the one given has a merit: power over the
-//! noise floor, summed over the harmonics of one comb - the shaft's in the signal or, where its lines do not stand, a defect frequency's in the
-//! envelopes. The course of highest merit, changes of speed weighed against it, is found by dynamic programming (A. J. Viterbi, IEEE Trans. Inf.
-//! Theory 13 (1967) 260-269); several orders that tell one speed are the idea of Q. Leclère, H. André and J. Antoni, "A multi-order probabilistic
-//! approach for instantaneous angular speed tracking", Mech. Syst. Signal Process. 81 (2016) 375-386.
+//! The record is cut into stretches of [`TURNS`] revolutions. In the spectrum of each, every speed near the one given
+//! has a merit: power over the noise floor, summed over the harmonics of one comb - the shaft's in the signal or, where
+//! its lines do not stand, a defect frequency's in the envelopes. The course of highest merit, changes of speed weighed
+//! against it, is found by dynamic programming (A. J. Viterbi, IEEE Trans. Inf. Theory 13 (1967) 260-269); several
+//! orders that tell one speed are the idea of Q. Leclère, H. André and J. Antoni, "A multi-order probabilistic approach
+//! for instantaneous angular speed tracking", Mech. Syst. Signal Process. 81 (2016) 375-386.
 //!
-//! A course of many speeds always has more merit than one speed. It is a drift where it has far more, and where two harmonics say so, each against
-//! the one speed that suits it best: a course that passes from one steady line to another has no harmonic that moves along.
+//! A course of many speeds always has more merit than one speed. It is a drift where it has far more, and where two
+//! harmonics say so, each against the one speed that suits it best: a course that passes from one steady line to
+//! another has no harmonic that moves along.
 
 use super::Options;
 use super::known_lines::near_mains;
@@ -32,11 +34,13 @@ const FARTHEST: f64 = 0.045;
 const FINE: f64 = 0.1;
 /// Bins of a stretch's spectrum between two that are independent.
 const PADDED: usize = 4;
-/// Merit of a line at most: the peaks of a strong one are told to a small part of a bin, and it moves by more than that.
+/// Merit of a line at most: the peaks of a strong one are told to a small part of a bin, and it moves by more than
+/// that.
 const MOST: f64 = 200.0;
 /// Change of speed from one stretch to the next that costs a merit of 1, relative; it goes as the square.
 const CHANGE: f64 = 0.005;
-/// Merit over that of one speed from which a course is a drift, for each stretch. Noise and steady rigs stay below 1 (tests/drift.rs).
+/// Merit over that of one speed from which a course is a drift, for each stretch. Noise and steady rigs stay below 1
+/// (tests/drift.rs).
 const GAIN: f64 = 1.5;
 /// The same of a single harmonic.
 const OWN_GAIN: f64 = 0.4;
@@ -52,7 +56,8 @@ const HIGHEST: f64 = 1e12;
 /// A speed that changes during the record.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Drift {
-    /// Whose lines told it: `shaft`, or a defect frequency's name. A defect frequency tells changes, not the speed: its mean is then the speed given.
+    /// Whose lines told it: `shaft`, or a defect frequency's name. A defect frequency tells changes, not the speed: its
+    /// mean is then the speed given.
     pub by: &'static str,
     /// Middle of each stretch, s, and the speed there, Hz.
     pub course: Vec<(f64, f64)>,
@@ -83,21 +88,14 @@ impl Drift {
     /// For a sentence about the shaft's speed.
     pub fn words(&self) -> String {
         let (low, high) = (self.lowest(), self.highest());
-        let (from, to) = if low.0 < high.0 {
-            (low, high)
-        } else {
-            (high, low)
-        };
+        let (from, to) = if low.0 < high.0 { (low, high) } else { (high, low) };
         let by = match self.by {
             "shaft" => "its own lines".to_owned(),
             name => format!("the lines of {name}"),
         };
         let then = match self.followed {
             true => format!("followed by {by}"),
-            false => format!(
-                "by {by}; lines of order 10 smear over {:.0} bins",
-                self.smear
-            ),
+            false => format!("by {by}; lines of order 10 smear over {:.0} bins", self.smear),
         };
         format!(
             "it drifts from {:.0} r/min at {:.1} s to {:.0} r/min at {:.1} s, {then}",
@@ -173,9 +171,7 @@ impl<'a> Stretches<'a> {
         let length = samples / count;
         let padded = fast_from(PADDED * length);
         let step = fs / padded as f64;
-        let top = (OF_SHAFT as f64).max(HARMONICS as f64 * options.orders.highest())
-            * (1.0 + FARTHEST)
-            + 1.0;
+        let top = (OF_SHAFT as f64).max(HARMONICS as f64 * options.orders.highest()) * (1.0 + FARTHEST) + 1.0;
         let bins = (top * options.shaft / step) as usize;
         let independent = PADDED as f64;
         let width = (FLOOR.0 * options.shaft / step).max(FLOOR.1 * independent) as usize;
@@ -194,9 +190,7 @@ impl<'a> Stretches<'a> {
                 // The window is zero beyond; what an earlier transform left there is not.
                 transform.input[length..].fill(0.0);
                 let spectrum = transform.windowed_input();
-                let power: Vec<f64> = (spectrum.iter().take(bins))
-                    .map(|line| line.norm_sqr())
-                    .collect();
+                let power: Vec<f64> = (spectrum.iter().take(bins)).map(|line| line.norm_sqr()).collect();
                 sum.resize(power.len(), 0.0);
                 // The median of an exponential distribution is ln 2 of its mean.
                 let floor = running_median(&power, width.min(power.len()));
@@ -207,12 +201,7 @@ impl<'a> Stretches<'a> {
             }
             heights.push(sum);
         }
-        Some(Stretches {
-            heights,
-            step,
-            seconds: length as f64 / fs,
-            options,
-        })
+        Some(Stretches { heights, step, seconds: length as f64 / fs, options })
     }
 
     /// The course that lines at `orders` tell, where it is a drift, and what it gains.
@@ -222,27 +211,13 @@ impl<'a> Stretches<'a> {
         let fine = FINE / (self.seconds * highest * shaft);
         let reach = (self.options.tolerance + BEYOND).min(FARTHEST);
         let half = (reach / fine) as i32;
-        let speeds: Vec<f64> = (-half..=half)
-            .map(|k| shaft * (1.0 + f64::from(k) * fine))
-            .collect();
-        let orders: Vec<f64> = (orders.iter().copied())
-            .filter(|o| !(mains && self.meets_mains(*o, &speeds)))
-            .collect();
+        let speeds: Vec<f64> = (-half..=half).map(|k| shaft * (1.0 + f64::from(k) * fine)).collect();
+        let orders: Vec<f64> = (orders.iter().copied()).filter(|o| !(mains && self.meets_mains(*o, &speeds))).collect();
         // Of each order: of each stretch: of each speed.
-        let merits: Vec<Vec<Vec<f64>>> = (orders.iter())
-            .map(|o| {
-                self.heights
-                    .iter()
-                    .map(|h| self.merits(h, *o, &speeds))
-                    .collect()
-            })
-            .collect();
+        let merits: Vec<Vec<Vec<f64>>> =
+            (orders.iter()).map(|o| self.heights.iter().map(|h| self.merits(h, *o, &speeds)).collect()).collect();
         let total: Vec<Vec<f64>> = (0..self.heights.len())
-            .map(|k| {
-                (0..speeds.len())
-                    .map(|i| merits.iter().map(|m| m[k][i]).sum())
-                    .collect()
-            })
+            .map(|k| (0..speeds.len()).map(|i| merits.iter().map(|m| m[k][i]).sum()).collect())
             .collect();
         let (path, merit) = course(&total, CHANGE / fine);
         let along = |of: &[Vec<f64>]| path.iter().zip(of).map(|(i, m)| m[*i]).sum::<f64>();
@@ -250,20 +225,11 @@ impl<'a> Stretches<'a> {
         let own = |m: &&Vec<Vec<f64>>| along(m) - steady(m) >= OWN_GAIN * stretches;
         let telling = path.iter().zip(&total).filter(|(i, m)| m[**i] >= TELLS);
         let gain = merit - steady(&total);
-        let is_drift = gain >= GAIN * stretches
-            && merits.iter().filter(own).count() >= AGREEING
-            && telling.count() >= FEWEST;
+        let is_drift =
+            gain >= GAIN * stretches && merits.iter().filter(own).count() >= AGREEING && telling.count() >= FEWEST;
         let middle = |k: usize| (k as f64 + 0.5) * self.seconds;
-        let course = path
-            .iter()
-            .enumerate()
-            .map(|(k, i)| (middle(k), speeds[*i]));
-        let drift = Drift {
-            by,
-            course: course.collect(),
-            smear: 0.0,
-            followed: false,
-        };
+        let course = path.iter().enumerate().map(|(k, i)| (middle(k), speeds[*i]));
+        let drift = Drift { by, course: course.collect(), smear: 0.0, followed: false };
         is_drift.then_some((gain, drift))
     }
 
@@ -311,9 +277,7 @@ fn course(merits: &[Vec<f64>], change: f64) -> (Vec<usize>, f64) {
                 let near = i.saturating_sub(reach)..(i + reach + 1).min(best.len());
                 let value = |j: usize| best[j] - ((i.abs_diff(j)) as f64 / change).powi(2);
                 let places = near.map(|j| (j, value(j)));
-                places
-                    .max_by(|a, b| a.1.total_cmp(&b.1))
-                    .unwrap_or((i, best[i]))
+                places.max_by(|a, b| a.1.total_cmp(&b.1)).unwrap_or((i, best[i]))
             })
             .collect();
         best = came.iter().zip(merits).map(|(c, m)| c.1 + m).collect();

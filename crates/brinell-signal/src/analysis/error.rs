@@ -34,9 +34,7 @@ pub enum AnalysisError {
         needed_s: f64,
     },
     /// Samples that are not numbers.
-    #[error(
-        "{count} of {samples} samples are missing or infinite, the first at sample {first} (counted from 1)"
-    )]
+    #[error("{count} of {samples} samples are missing or infinite, the first at sample {first} (counted from 1)")]
     NotFinite {
         /// How many.
         count: usize,
@@ -71,9 +69,7 @@ pub enum AnalysisError {
         needed_hz: f64,
     },
     /// A band to demodulate that reaches beyond what the signal holds.
-    #[error(
-        "the band to demodulate ends at {high_hz} Hz: expected at most {most_hz} Hz, half the sample rate"
-    )]
+    #[error("the band to demodulate ends at {high_hz} Hz: expected at most {most_hz} Hz, half the sample rate")]
     BandTooHigh {
         /// Its upper edge, Hz.
         high_hz: f64,
@@ -96,9 +92,7 @@ pub enum AnalysisError {
         text: String,
     },
     /// No full scale.
-    #[error(
-        "`{text}`: expected what the largest number means, with its unit, such as 5V, 500mV or 10g"
-    )]
+    #[error("`{text}`: expected what the largest number means, with its unit, such as 5V, 500mV or 10g")]
     NoFullScale {
         /// As it was given.
         text: String,

@@ -1,37 +1,41 @@
 //! A defect frequency with its harmonics, all of one slip, in all bands together: the evidence that a verdict rests on.
 //!
 //! A family has
-//! - a score, the sum over five harmonics of ln(power over floor), in which a harmonic counts no more than any below it: lines from the
-//!   fundamental up make it, and lines that another family happens to share do not;
-//! - a modulation, the depth to which its lines and their sidebands modulate the envelopes: what a longer record does not change. A sideband
-//!   counts up to its carrier.
+//! - a score, the sum over five harmonics of ln(power over floor), in which a harmonic counts no more than any below
+//!   it: lines from the fundamental up make it, and lines that another family happens to share do not;
+//! - a modulation, the depth to which its lines and their sidebands modulate the envelopes: what a longer record does
+//!   not change. A sideband counts up to its carrier.
 //!
-//! In measured records of sound bearings families stand too, some of them high, and none of them modulates; of those that do, none stands high. So
-//! damage takes both ([`Family::is_damage`]). The limits were set on 72 public records of three rigs (docs/src/results/analyze.md): of 31 of sound
-//! bearings none scores more than 10.7 or, at a score beyond noise, modulates by more than 20 %.
+//! In measured records of sound bearings families stand too, some of them high, and none of them modulates; of those
+//! that do, none stands high. So damage takes both ([`Family::is_damage`]). The limits were set on 72 public records of
+//! three rigs (docs/src/results/analyze.md): of 31 of sound bearings none scores more than 10.7 or, at a score beyond
+//! noise, modulates by more than 20 %.
 
 use super::Options;
 use super::frequencies::Component;
 use super::together::{HARMONICS, Place, Together};
 
-/// Score from which a family that modulates by [`FAINT`] is damage. In a record of fewer than [`REVOLUTIONS`](super::together::REVOLUTIONS) true lines
-/// stand less high over the noise, and chance lines hardly less: the limit does not fall with them.
+/// Score from which a family that modulates by [`FAINT`] is damage. In a record of fewer than
+/// [`REVOLUTIONS`](super::together::REVOLUTIONS) true lines stand less high over the noise, and chance lines hardly
+/// less: the limit does not fall with them.
 pub(super) const SCORE: f64 = 14.5;
-/// Score below which lines are not told from noise, however long the record: bands that one impact excites are not independent.
+/// Score below which lines are not told from noise, however long the record: bands that one impact excites are not
+/// independent.
 const LEAST_SCORE: f64 = 5.0;
 /// Modulation below which lines are no damage, however high they stand: a sound machine's stand too.
 pub(super) const FAINT: f64 = 0.14;
 /// Modulation from which a family is damage that merely stands out of the noise.
 pub(super) const DEEP: f64 = 0.25;
-/// Lines that have to stand, and how many of them have to be harmonics. A harmonic that shaft or mains hide is given the benefit of the doubt; a
-/// pair of sidebands counts as one.
+/// Lines that have to stand, and how many of them have to be harmonics. A harmonic that shaft or mains hide is given
+/// the benefit of the doubt; a pair of sidebands counts as one.
 const FEWEST: (usize, usize) = (3, 2);
 /// Score beyond the limit from which evidence is very clear, where it is deep too.
 const VERY_CLEAR: f64 = 6.0;
 /// Sidebands to either side of a harmonic that are looked at.
 const SIDEBANDS: i32 = 2;
-/// Rates of an element and of the cage lie above pure rolling by less than this, relative: they slip, and do not run ahead. A contact angle of 15
-/// degrees, from an axial load, raises them by 0.9 % at most where elements are a fifth of the pitch diameter or less.
+/// Rates of an element and of the cage lie above pure rolling by less than this, relative: they slip, and do not run
+/// ahead. A contact angle of 15 degrees, from an axial load, raises them by 0.9 % at most where elements are a fifth of
+/// the pitch diameter or less.
 const AHEAD: f64 = 0.01;
 /// So many times the tolerance a cage may slip where speed and bearing are exact.
 const SLIPS: f64 = 3.0;
@@ -45,7 +49,8 @@ pub struct Harmonic {
     pub order: usize,
     /// Where it is, Hz.
     pub frequency: f64,
-    /// Power over the noise floor about it, averaged over the bands, dB; `None` where a line of shaft or mains hides it.
+    /// Power over the noise floor about it, averaged over the bands, dB; `None` where a line of shaft or mains hides
+    /// it.
     pub snr_db: Option<f64>,
     /// Whether it stands out of the noise, by 3 dB at least.
     pub stands: bool,
@@ -142,9 +147,7 @@ impl Family {
 
     /// How many harmonics a line of shaft or mains hides.
     pub fn hidden_harmonics(&self) -> usize {
-        (self.harmonics.iter())
-            .filter(|h| h.snr_db.is_none())
-            .count()
+        (self.harmonics.iter()).filter(|h| h.snr_db.is_none()).count()
     }
 
     /// How many sidebands stand.
@@ -175,11 +178,10 @@ impl Family {
             && standing >= FEWEST.1
     }
 
-    /// An element passes through the load once for each turn of the cage: lines at its rate without sidebands are somebody else's, of slip in BPFO
-    /// most often.
+    /// An element passes through the load once for each turn of the cage: lines at its rate without sidebands are
+    /// somebody else's, of slip in BPFO most often.
     pub(super) fn lacks_sidebands(&self) -> bool {
-        self.component == Component::Element
-            && self.standing_sidebands() < self.standing_harmonics()
+        self.component == Component::Element && self.standing_sidebands() < self.standing_harmonics()
     }
 
     /// Whether its evidence is both high and deep.
@@ -210,7 +212,8 @@ pub(super) fn cage(shaft: f64, options: &Options) -> f64 {
 
 /// Each family at the slip at which its score is highest, up to the tolerance from pure rolling.
 pub(super) fn read(together: &Together, shaft: f64, options: &Options) -> Vec<Family> {
-    // Damage on an element strikes twice a turn; a ball that turns about another axis, once, at lines that 2 BSF has as well.
+    // Damage on an element strikes twice a turn; a ball that turns about another axis, once, at lines that 2 BSF has as
+    // well.
     let strikes = (options.orders.strikes()).filter(|(_, name, _)| *name != "BSF");
     let noise = (HARMONICS as f64 * together.noise.ln()).max(LEAST_SCORE);
     let limit = SCORE.max(noise);
@@ -222,9 +225,7 @@ pub(super) fn read(together: &Together, shaft: f64, options: &Options) -> Vec<Fa
             let steps = ((ahead + behind) / step) as usize;
             let places = (0..=steps).map(|k| expected * (1.0 - behind + k as f64 * step));
             let scored = places.map(|f| (f, score(together, f)));
-            let (frequency, score) = scored
-                .max_by(|a, b| a.1.total_cmp(&b.1))
-                .unwrap_or((expected, 0.0));
+            let (frequency, score) = scored.max_by(|a, b| a.1.total_cmp(&b.1)).unwrap_or((expected, 0.0));
             let spacing = match component {
                 Component::InnerRace => Some(shaft),
                 Component::Element => Some(cage(shaft, options)),
@@ -245,7 +246,8 @@ pub(super) fn read(together: &Together, shaft: f64, options: &Options) -> Vec<Fa
                 noise,
                 faint: match component {
                     Component::Cage => f64::INFINITY,
-                    // Rollers that enter the load strike the race of a healthy bearing too, and little drowns them in a simulation.
+                    // Rollers that enter the load strike the race of a healthy bearing too, and little drowns them in a
+                    // simulation.
                     Component::OuterRace if options.silent.is_some() || options.exact => DEEP,
                     _ => FAINT,
                 },
@@ -262,8 +264,8 @@ pub(super) fn read(together: &Together, shaft: f64, options: &Options) -> Vec<Fa
         .collect()
 }
 
-/// How far below and above pure rolling a rate may lie, relative. Where speed and bearing are exact, what goes farther is slip: a cage that lags
-/// takes BPFO with it, and raises BPFI.
+/// How far below and above pure rolling a rate may lie, relative. Where speed and bearing are exact, what goes farther
+/// is slip: a cage that lags takes BPFO with it, and raises BPFI.
 fn reach(component: Component, tolerance: f64, exact: bool) -> (f64, f64) {
     let slips = if exact { SLIPS * tolerance } else { tolerance };
     match component {
@@ -298,11 +300,7 @@ pub(super) struct Lines {
 /// The comb of a frequency, with sidebands at a distance of `spacing` Hz where it has any.
 pub(super) fn lines(together: &Together, frequency: f64, spacing: Option<f64>) -> Lines {
     let stands = |place: Place| place.ratio.is_some_and(|r| r >= together.standing());
-    let mut sidebands = spacing.map(|spacing| Sidebands {
-        spacing,
-        standing: 0,
-        of: 0,
-    });
+    let mut sidebands = spacing.map(|spacing| Sidebands { spacing, standing: 0, of: 0 });
     let mut depth = 0.0;
     let mut harmonics = Vec::with_capacity(HARMONICS);
     for order in 1..=HARMONICS {
@@ -325,9 +323,5 @@ pub(super) fn lines(together: &Together, frequency: f64, spacing: Option<f64>) -
             depth += line.depth.min(carrier.depth);
         }
     }
-    Lines {
-        harmonics,
-        sidebands,
-        modulation: (2.0 * depth).sqrt(),
-    }
+    Lines { harmonics, sidebands, modulation: (2.0 * depth).sqrt() }
 }

@@ -1,8 +1,9 @@
-//! Frequencies at which damage would cause impacts, as orders of the shaft: from a geometry, from given frequencies, or by a bearing's name.
+//! Frequencies at which damage would cause impacts, as orders of the shaft: from a geometry, from given frequencies, or
+//! by a bearing's name.
 //!
-//! T. A. Harris and M. N. Kotzalas, "Rolling bearing analysis", 5th ed. (2006), vol. 1, chapter 8: with Z elements of diameter
-//! d on a pitch circle D, contact angle a and g = (d / D) cos a, in turns of the inner ring, outer ring at rest, pure rolling:
-//! FTF = (1 - g) / 2, BPFO = Z (1 - g) / 2, BPFI = Z (1 + g) / 2, BSF = (D / d) (1 - g^2) / 2.
+//! T. A. Harris and M. N. Kotzalas, "Rolling bearing analysis", 5th ed. (2006), vol. 1, chapter 8: with Z elements of
+//! diameter d on a pitch circle D, contact angle a and g = (d / D) cos a, in turns of the inner ring, outer ring at
+//! rest, pure rolling: FTF = (1 - g) / 2, BPFO = Z (1 - g) / 2, BPFI = Z (1 + g) / 2, BSF = (D / d) (1 - g^2) / 2.
 
 /// What can be damaged.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -55,12 +56,7 @@ pub struct DefectOrders {
 impl DefectOrders {
     /// Of Z elements of diameter `d` on a pitch circle `pitch` (one unit), contact angle in degrees. `None` unless
     /// 0 < d < pitch, Z is 3 or more and the angle is 0 to below 90.
-    pub fn of_geometry(
-        elements: usize,
-        d: f64,
-        pitch: f64,
-        contact_angle_deg: f64,
-    ) -> Option<Self> {
+    pub fn of_geometry(elements: usize, d: f64, pitch: f64, contact_angle_deg: f64) -> Option<Self> {
         let fits = d > 0.0 && d < pitch && pitch.is_finite() && elements >= 3;
         if !fits || !(0.0..90.0).contains(&contact_angle_deg) {
             return None;
@@ -166,16 +162,10 @@ impl NamedBearing {
     /// The bearing whose name begins alike; case, spaces and hyphens do not matter, and `6205` or `LDK UER204` will do.
     pub fn find(name: &str) -> Option<&'static Self> {
         let plain = |text: &str| -> String {
-            (text.chars().filter(|c| c.is_alphanumeric()))
-                .flat_map(char::to_lowercase)
-                .collect()
+            (text.chars().filter(|c| c.is_alphanumeric())).flat_map(char::to_lowercase).collect()
         };
         let wanted = plain(name);
-        let maker = |known: &str| {
-            ["skf", "ldk", "rexnord"]
-                .iter()
-                .any(|m| wanted == format!("{m}{known}"))
-        };
+        let maker = |known: &str| ["skf", "ldk", "rexnord"].iter().any(|m| wanted == format!("{m}{known}"));
         NAMED.iter().find(|b| {
             let known = plain(b.name);
             let short = known.trim_end_matches("2rs");
@@ -185,13 +175,8 @@ impl NamedBearing {
 
     /// Its orders.
     pub fn orders(&self) -> DefectOrders {
-        DefectOrders::of_geometry(
-            self.elements,
-            self.diameter_mm,
-            self.pitch_mm,
-            self.contact_angle_deg,
-        )
-        .unwrap_or_default()
+        DefectOrders::of_geometry(self.elements, self.diameter_mm, self.pitch_mm, self.contact_angle_deg)
+            .unwrap_or_default()
     }
 }
 
@@ -210,9 +195,7 @@ mod tests {
             ("LDK UER204", 3.083, 4.917, 0.3854, 4.133),
         ] {
             let o = NamedBearing::find(name).unwrap().orders();
-            let near = |a: Option<f64>, b: f64| {
-                assert!((a.unwrap() / b - 1.0).abs() < 8e-4, "{name} {a:?} {b}")
-            };
+            let near = |a: Option<f64>, b: f64| assert!((a.unwrap() / b - 1.0).abs() < 8e-4, "{name} {a:?} {b}");
             near(o.bpfo, bpfo);
             near(o.bpfi, bpfi);
             near(o.ftf, ftf);

@@ -1,5 +1,5 @@
-//! What is tried in turn until one shows damage: the speed that the shaft's own lines tell, the speed as given, a speed that drifts, and the
-//! lower parts of the range.
+//! What is tried in turn until one shows damage: the speed that the shaft's own lines tell, the speed as given, a speed
+//! that drifts, and the lower parts of the range.
 
 use super::drift::{self, Drift};
 use super::family::{Family, Standing};
@@ -35,11 +35,7 @@ pub(super) struct Best {
 }
 
 /// Tries them.
-pub(super) fn best(
-    transformed: &Transformed,
-    told: Told,
-    options: &Options,
-) -> Result<Best, AnalysisError> {
+pub(super) fn best(transformed: &Transformed, told: Told, options: &Options) -> Result<Best, AnalysisError> {
     let range = bands::range(transformed.sample_rate(), options)?;
     let (shaft, shaft_lines) = match told.lines {
         Some(found) => (found.speed, found.orders),
@@ -49,21 +45,13 @@ pub(super) fn best(
         true => 0.0,
         false => told.bin.max(SHAFT_KNOWN * shaft),
     };
-    let known = Shaft {
-        hz: shaft,
-        tolerance,
-    };
+    let known = Shaft { hz: shaft, tolerance };
     let envelopes = Envelopes::of(transformed, range, shaft, options)?;
     let drift = match told.drift {
         None if shaft_lines.is_empty() && told.may_drift => drift::by_families(&envelopes, options),
         drift => drift,
     };
-    let mut best = Best {
-        record: Record::of(&envelopes, known, options)?,
-        envelopes,
-        shaft_lines,
-        drift,
-    };
+    let mut best = Best { record: Record::of(&envelopes, known, options)?, envelopes, shaft_lines, drift };
     if !best.shaft_lines.is_empty() && !options.exact && !best.record.is_damage() {
         best.try_as_given(options)?;
     }
@@ -75,13 +63,10 @@ pub(super) fn best(
 }
 
 impl Best {
-    /// Lines that agree by chance, or another shaft's, may have told a wrong speed. At a speed that is off, lines of the shaft are not hidden: only
-    /// what is very clear counts.
+    /// Lines that agree by chance, or another shaft's, may have told a wrong speed. At a speed that is off, lines of
+    /// the shaft are not hidden: only what is very clear counts.
     fn try_as_given(&mut self, options: &Options) -> Result<(), AnalysisError> {
-        let given = Shaft {
-            hz: options.shaft,
-            tolerance: 0.0,
-        };
+        let given = Shaft { hz: options.shaft, tolerance: 0.0 };
         let as_given = Record::of(&self.envelopes, given, options)?;
         let clear = |f: &Family| f.standing == Standing::Damage && f.is_very_clear();
         if as_given.families.iter().any(clear) {
@@ -97,14 +82,8 @@ impl Best {
             return Ok(());
         };
         drift.smear = self.record.together.smear(&drift.course);
-        let followed = Options {
-            rotation: Some(drift.rotation()?),
-            ..options.clone()
-        };
-        let known = Shaft {
-            hz: drift.mean(),
-            tolerance: SHAFT_KNOWN * drift.mean(),
-        };
+        let followed = Options { rotation: Some(drift.rotation()?), ..options.clone() };
+        let known = Shaft { hz: drift.mean(), tolerance: SHAFT_KNOWN * drift.mean() };
         let at_angles = Record::of(&self.envelopes, known, &followed)?;
         if at_angles.evidence() > self.record.evidence() {
             drift.followed = true;
@@ -114,16 +93,8 @@ impl Best {
     }
 
     /// At a high sample rate bands of mere noise hide those in which impacts ring.
-    fn try_lower(
-        &mut self,
-        transformed: &Transformed,
-        range: Band,
-        tolerance: f64,
-    ) -> Result<(), AnalysisError> {
-        let known = Shaft {
-            hz: self.record.shaft,
-            tolerance,
-        };
+    fn try_lower(&mut self, transformed: &Transformed, range: Band, tolerance: f64) -> Result<(), AnalysisError> {
+        let known = Shaft { hz: self.record.shaft, tolerance };
         for part in bands::lower(range) {
             let envelopes = Envelopes::of(transformed, part, known.hz, &self.record.options)?;
             let record = Record::of(&envelopes, known, &self.record.options)?;

@@ -29,8 +29,8 @@ impl Mains {
 
 /// Chance under noise at which a line of the shaft counts as found.
 const SHAFT_LEVEL: f64 = 1e-4;
-/// Bins by which a line that stands may miss a multiple of the speed: its peak is told to a fraction of a bin. With a whole bin, any line
-/// within the tolerance would agree with any other.
+/// Bins by which a line that stands may miss a multiple of the speed: its peak is told to a fraction of a bin. With a
+/// whole bin, any line within the tolerance would agree with any other.
 const AGREE: f64 = 0.5;
 
 /// A shaft's speed by lines at its harmonics.
@@ -44,11 +44,7 @@ pub(super) struct ShaftLines {
 /// Shaft speed by its own harmonics in the spectrum within the tolerance; `None` where they do not stand.
 ///
 /// Another shaft's lines within the tolerance look the same: nothing in the signal tells the two apart.
-pub(super) fn shaft(
-    x: &[f64],
-    fs: f64,
-    options: &Options,
-) -> Result<Option<ShaftLines>, AnalysisError> {
+pub(super) fn shaft(x: &[f64], fs: f64, options: &Options) -> Result<Option<ShaftLines>, AnalysisError> {
     // Bins a fortieth of the shaft's frequency apart: 2 % are then a bin or so at the first harmonics.
     let length = (40.0 * fs / options.shaft).max(256.0) as usize;
     let length = fast_up_to(length.min(x.len()));
@@ -68,13 +64,8 @@ pub(super) fn shaft(
         .map(|l| (f64::from(l.order), l.frequency))
         .collect();
     // The speed that most lines agree on, then least squares of those.
-    let agree = |f: f64| {
-        mine.iter()
-            .filter(move |(h, at)| (h * f - at).abs() <= AGREE * step)
-    };
-    let best = (mine.iter().map(|(h, at)| at / h))
-        .rev()
-        .max_by_key(|f| agree(*f).count());
+    let agree = |f: f64| mine.iter().filter(move |(h, at)| (h * f - at).abs() <= AGREE * step);
+    let best = (mine.iter().map(|(h, at)| at / h)).rev().max_by_key(|f| agree(*f).count());
     // Every third of the shaft's may be an outer race's.
     let own = |f: f64| {
         let orders = || agree(f).map(|(h, _)| *h as i32);
@@ -85,10 +76,7 @@ pub(super) fn shaft(
         return Ok(None);
     };
     let (above, below) = agree(best).fold((0.0, 0.0), |(a, b), (h, at)| (a + h * at, b + h * h));
-    Ok(Some(ShaftLines {
-        speed: above / below,
-        orders: agree(best).map(|(h, _)| *h as usize).collect(),
-    }))
+    Ok(Some(ShaftLines { speed: above / below, orders: agree(best).map(|(h, _)| *h as usize).collect() }))
 }
 
 /// Whether a harmonic of the mains lies within `width` (Hz) of a frequency.

@@ -1,8 +1,7 @@
-//! Levels of a signal, whatever the verdict: RMS velocity with its zone, kurtosis and envelope of the band shown; and as JSON.
+//! Levels of a signal, whatever the verdict: RMS velocity with its zone, kurtosis and envelope of the band shown; and
+//! as JSON.
 
-use super::{
-    Analysis, BandLevel, MachineClass, NoVelocity, NoZone, Unit, Zone, band_level, severity,
-};
+use super::{Analysis, BandLevel, MachineClass, NoVelocity, NoZone, Unit, Zone, band_level, severity};
 use crate::Estimate;
 use serde_json::{Value, json};
 

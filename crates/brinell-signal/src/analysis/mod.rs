@@ -1,9 +1,10 @@
 //! Analysis of one vibration signal: samples in, a verdict with its evidence out.
 //!
-//! The chain is that of R. B. Randall and J. Antoni, "Rolling element bearing diagnostics - a tutorial", Mech. Syst. Signal
-//! Process. 25 (2011) 485-520: the mean is removed, the range above three times the highest defect frequency is demodulated in one to two dozen bands,
-//! and their envelope spectra are averaged over their noise floors. In the average each defect frequency is sought with its harmonics and sidebands,
-//! all of one slip: a [`Family`]. Line present, source identified and damage likely are three statements; [`Standing`] says which holds. Lines of the
+//! The chain is that of R. B. Randall and J. Antoni, "Rolling element bearing diagnostics - a tutorial", Mech. Syst.
+//! Signal Process. 25 (2011) 485-520: the mean is removed, the range above three times the highest defect frequency is
+//! demodulated in one to two dozen bands, and their envelope spectra are averaged over their noise floors. In the
+//! average each defect frequency is sought with its harmonics and sidebands, all of one slip: a [`Family`]. Line
+//! present, source identified and damage likely are three statements; [`Standing`] says which holds. Lines of the
 //! shaft's harmonics and of 50 and 60 Hz mains are set aside.
 //!
 //! Nothing here knows files. Times are s, frequencies Hz, amplitudes the signal's unit.
@@ -53,9 +54,7 @@ pub use json::to_json;
 pub use known_lines::Mains;
 pub use levels::Levels;
 pub use sensitivity::{FullScale, Sensitivity};
-pub use severity::{
-    BandLevel, MachineClass, NoVelocity, NoZone, SEVERITY_BAND, Zone, band_level, severity,
-};
+pub use severity::{BandLevel, MachineClass, NoVelocity, NoZone, SEVERITY_BAND, Zone, band_level, severity};
 pub use soundness::Flaw;
 pub use together::HARMONICS;
 pub use unit::{Quantity, Unit};
@@ -65,8 +64,8 @@ pub use words::COLUMNS;
 use crate::lengths::fast_up_to;
 use crate::parallel::join;
 use crate::{
-    Band, Blocks, Estimate, Indicator, Kurtogram, KurtogramBand, Rotation, Segments, Spectrum,
-    Transformed, VelocityBands, kurtogram, psd,
+    Band, Blocks, Estimate, Indicator, Kurtogram, KurtogramBand, Rotation, Segments, Spectrum, Transformed,
+    VelocityBands, kurtogram, psd,
 };
 use hypotheses::{Best, Told};
 use std::ops::RangeInclusive;
@@ -84,31 +83,25 @@ pub struct Options {
     pub tolerance: f64,
     /// The range to demodulate; `None` takes everything above three times the highest defect frequency.
     pub band: Option<Band>,
-    /// Frequency of the motor's supply, Hz, where an inverter makes it: lines at its multiples are set aside, as those of the mains are.
+    /// Frequency of the motor's supply, Hz, where an inverter makes it: lines at its multiples are set aside, as those
+    /// of the mains are.
     pub supply: Option<f64>,
-    /// The shaft's angle over time, where its speed varies: envelopes are then taken at equal angles, and a frequency in Hz is
-    /// its order times `shaft`, the mean speed. Time counts from the first sample.
+    /// The shaft's angle over time, where its speed varies: envelopes are then taken at equal angles, and a frequency
+    /// in Hz is its order times `shaft`, the mean speed. Time counts from the first sample.
     pub rotation: Option<Rotation>,
-    /// For a simulation's signal without a sensor's noise, in which healthy rollers that enter the load are heard too: RMS of the white noise
-    /// that a machine would add, in the signal's unit ([`MACHINE_NOISE`] of an acceleration). `None` for a signal that has its own.
+    /// For a simulation's signal without a sensor's noise, in which healthy rollers that enter the load are heard too:
+    /// RMS of the white noise that a machine would add, in the signal's unit ([`MACHINE_NOISE`] of an acceleration).
+    /// `None` for a signal that has its own.
     pub silent: Option<f64>,
-    /// Whether speed and bearing are those of a simulation: nothing but the bearing turns, and a shift beyond the tolerance is slip of the cage.
+    /// Whether speed and bearing are those of a simulation: nothing but the bearing turns, and a shift beyond the
+    /// tolerance is slip of the cage.
     pub exact: bool,
 }
 
 impl Options {
     /// With the usual tolerance, for a measured signal.
     pub fn new(shaft: f64, orders: DefectOrders) -> Self {
-        Options {
-            shaft,
-            orders,
-            tolerance: 0.02,
-            band: None,
-            supply: None,
-            rotation: None,
-            silent: None,
-            exact: false,
-        }
+        Options { shaft, orders, tolerance: 0.02, band: None, supply: None, rotation: None, silent: None, exact: false }
     }
 }
 
@@ -117,13 +110,14 @@ pub const SUPPLY_HZ: RangeInclusive<f64> = 1.0..=1000.0;
 /// Fourth powers of larger values, and of the inverse of smaller ones, leave a double's range.
 const LARGEST: f64 = 1e60;
 
-/// RMS of a machine's noise, m/s^2: somewhat below that of the sound motor in the public records of Case Western Reserve University, 0.63 and 0.67
-/// above 1 kHz at its two ends (48 kHz, 1797 r/min).
+/// RMS of a machine's noise, m/s^2: somewhat below that of the sound motor in the public records of Case Western
+/// Reserve University, 0.63 and 0.67 above 1 kHz at its two ends (48 kHz, 1797 r/min).
 pub const MACHINE_NOISE: f64 = 0.5;
 /// Noise over the signal's RMS that is added to it: the last bit of an ADC of 32.
 const DITHER: f64 = 1.0 / 4_294_967_296.0;
-/// Rollers that enter the load of a healthy bearing strike the resting race at the same rate as its damage is struck (varying compliance), which
-/// simulations without noise show. Evidence that modulates by less is weak there; some healthy single-row bearings go beyond.
+/// Rollers that enter the load of a healthy bearing strike the resting race at the same rate as its damage is struck
+/// (varying compliance), which simulations without noise show. Evidence that modulates by less is weak there; some
+/// healthy single-row bearings go beyond.
 const PASSING: f64 = 0.4;
 /// Halvings of the kurtogram.
 const DEPTH: usize = 6;
@@ -196,7 +190,8 @@ pub struct Analysis {
     pub view: View,
     /// Bands whose envelope spectra were averaged.
     pub bands: usize,
-    /// Each defect frequency with its harmonics, over all bands together: damage first, the part that leads before others.
+    /// Each defect frequency with its harmonics, over all bands together: damage first, the part that leads before
+    /// others.
     pub families: Vec<Family>,
     /// Where no damage is called: a comb deeper than any of the bearing's, where the bearing has no frequency.
     pub elsewhere: Option<Elsewhere>,
@@ -216,12 +211,8 @@ impl Analysis {
 
     /// What it amounts to.
     pub fn conclusion(&self) -> Verdict {
-        let open = (self.families.iter()).any(|f| {
-            matches!(
-                f.standing,
-                Standing::Open | Standing::Grown | Standing::AsBefore
-            )
-        });
+        let open =
+            (self.families.iter()).any(|f| matches!(f.standing, Standing::Open | Standing::Grown | Standing::AsBefore));
         if self.causes().next().is_some() {
             Verdict::Damage
         } else if open || self.elsewhere.is_some() {
@@ -265,8 +256,8 @@ impl Analysis {
 /// Analyses `x`, sampled at `fs` Hz.
 ///
 /// # Errors
-/// [`AnalysisError`] where a sample is not finite, the signal is constant, shorter than [`FEWEST_REVOLUTIONS`] revolutions, or
-/// sampled too slowly for the defect frequencies, or an option is out of range.
+/// [`AnalysisError`] where a sample is not finite, the signal is constant, shorter than [`FEWEST_REVOLUTIONS`]
+/// revolutions, or sampled too slowly for the defect frequencies, or an option is out of range.
 pub fn analyze(x: &[f64], fs: f64, options: &Options) -> Result<Analysis, AnalysisError> {
     check(x, fs, options)?;
     let mean = x.iter().sum::<f64>() / x.len() as f64;
@@ -274,20 +265,10 @@ pub fn analyze(x: &[f64], fs: f64, options: &Options) -> Result<Analysis, Analys
     let flaws = soundness::flaws(&x, fs, options.shaft);
     // What is missing has no speed.
     let whole = !(flaws.iter()).any(|f| matches!(f, Flaw::Held { .. }));
-    let Heard {
-        indicators,
-        map,
-        told,
-        transformed,
-    } = hear(&x, fs, options, whole)?;
+    let Heard { indicators, map, told, transformed } = hear(&x, fs, options, whole)?;
     let samples = x.len();
     drop(x);
-    let Best {
-        record,
-        envelopes,
-        shaft_lines,
-        drift,
-    } = hypotheses::best(&transformed, told, options)?;
+    let Best { record, envelopes, shaft_lines, drift } = hypotheses::best(&transformed, told, options)?;
     let view = view(&record, &envelopes, &transformed)?;
     Ok(Analysis {
         sample_rate: fs,
@@ -333,10 +314,8 @@ fn hear(x: &[f64], fs: f64, options: &Options, whole: bool) -> Result<Heard, Ana
     // As much as is transformed fast, with a trace of noise, and a machine's where a simulation has none.
     let noise = options.silent.unwrap_or(0.0);
     let transformed = || Transformed::of(&x[..fast_up_to(x.len())], fs);
-    let (indicators, (map, (lines, (drift, transformed)))) = join(
-        || indicators(x, fs / options.shaft),
-        || join(map, || join(lines, || join(drift, transformed))),
-    );
+    let (indicators, (map, (lines, (drift, transformed)))) =
+        join(|| indicators(x, fs / options.shaft), || join(map, || join(lines, || join(drift, transformed))));
     Ok(Heard {
         indicators,
         map: map?,
@@ -351,12 +330,9 @@ fn hear(x: &[f64], fs: f64, options: &Options, whole: bool) -> Result<Heard, Ana
     })
 }
 
-/// The envelope spectrum to show: of the band in which the family that leads stands highest; of the whole range where none leads.
-fn view(
-    record: &Record,
-    envelopes: &Envelopes,
-    transformed: &Transformed,
-) -> Result<View, AnalysisError> {
+/// The envelope spectrum to show: of the band in which the family that leads stands highest; of the whole range where
+/// none leads.
+fn view(record: &Record, envelopes: &Envelopes, transformed: &Transformed) -> Result<View, AnalysisError> {
     let (shaft, options) = (record.shaft, &record.options);
     let (band, choice, (mean, spectrum)) = match (options.band, record.lead()) {
         (None, Some(lead)) => {
@@ -374,12 +350,7 @@ fn view(
             (range, choice, spectrum)
         }
     };
-    Ok(View {
-        band,
-        choice,
-        spectrum,
-        mean,
-    })
+    Ok(View { band, choice, spectrum, mean })
 }
 
 /// Of a signal less its mean, averaged over revolutions of `revolution` samples.
@@ -391,8 +362,8 @@ fn indicators(x: &[f64], revolution: f64) -> Vec<(Indicator, Estimate)> {
         .collect()
 }
 
-/// Amplitude spectrum of `x` less its mean, sampled at `fs` Hz, averaged: lines about 1 Hz apart, eight averages where the signal is long
-/// enough. No verdict rests on it.
+/// Amplitude spectrum of `x` less its mean, sampled at `fs` Hz, averaged: lines about 1 Hz apart, eight averages where
+/// the signal is long enough. No verdict rests on it.
 ///
 /// # Errors
 /// As [`crate::psd()`].
@@ -427,11 +398,7 @@ fn check(x: &[f64], fs: f64, options: &Options) -> Result<(), AnalysisError> {
     }
     let missing = x.iter().filter(|v| !v.is_finite()).count();
     if let Some(first) = x.iter().position(|v| !v.is_finite()) {
-        return Err(AnalysisError::NotFinite {
-            count: missing,
-            samples: x.len(),
-            first: first + 1,
-        });
+        return Err(AnalysisError::NotFinite { count: missing, samples: x.len(), first: first + 1 });
     }
     let largest = x.iter().fold(0.0, |m: f64, v| m.max(v.abs()));
     if largest > LARGEST || largest > 0.0 && largest < 1.0 / LARGEST {
@@ -440,10 +407,7 @@ fn check(x: &[f64], fs: f64, options: &Options) -> Result<(), AnalysisError> {
     if let Some(&value) = x.first()
         && x.iter().all(|v| *v == value)
     {
-        return Err(AnalysisError::Constant {
-            samples: x.len(),
-            value,
-        });
+        return Err(AnalysisError::Constant { samples: x.len(), value });
     }
     if let Some(hz) = options.supply.filter(|hz| !SUPPLY_HZ.contains(hz)) {
         return Err(out_of_range("supply (Hz)", hz, "1 to 1000"));
@@ -459,21 +423,12 @@ fn check(x: &[f64], fs: f64, options: &Options) -> Result<(), AnalysisError> {
     // Below: a band to demodulate that is twice as wide as the second harmonic, above three times the frequency.
     let needed = 2.0 * (bands::BROAD + bands::NARROWEST) * frequency;
     if fs < needed {
-        return Err(AnalysisError::RateTooLow {
-            rate_hz: fs,
-            name,
-            frequency_hz: frequency,
-            needed_hz: needed,
-        });
+        return Err(AnalysisError::RateTooLow { rate_hz: fs, name, frequency_hz: frequency, needed_hz: needed });
     }
     let seconds = x.len() as f64 / fs;
     let revolutions = seconds * options.shaft;
     if revolutions < FEWEST_REVOLUTIONS {
-        return Err(AnalysisError::TooShort {
-            seconds,
-            revolutions,
-            needed_s: FEWEST_REVOLUTIONS / options.shaft,
-        });
+        return Err(AnalysisError::TooShort { seconds, revolutions, needed_s: FEWEST_REVOLUTIONS / options.shaft });
     }
     Ok(())
 }

@@ -20,29 +20,24 @@ impl Sensitivity {
     /// Reads `100mV/g`.
     ///
     /// # Errors
-    /// [`AnalysisError::NoSensitivity`] for anything but a number above 0, a unit of voltage or current, and one of vibration.
+    /// [`AnalysisError::NoSensitivity`] for anything but a number above 0, a unit of voltage or current, and one of
+    /// vibration.
     pub fn given(text: &str) -> Result<Self, AnalysisError> {
-        let read =
-            || {
-                let (value, units) = number(text)?;
-                let (output, of) = units.split_once('/')?;
-                let of = of.trim();
-                let of = of
-                    .strip_prefix('(')
-                    .map_or(Some(of), |o| o.strip_suffix(')'))?;
-                let (output, of) = (Unit::given(output).ok()?, Unit::given(of).ok()?);
-                (output.quantity.is_electrical() && of.quantity.is_vibration())
-                    .then_some(Sensitivity { value, output, of })
-            };
-        read().ok_or_else(|| AnalysisError::NoSensitivity {
-            text: text.trim().to_owned(),
-        })
+        let read = || {
+            let (value, units) = number(text)?;
+            let (output, of) = units.split_once('/')?;
+            let of = of.trim();
+            let of = of.strip_prefix('(').map_or(Some(of), |o| o.strip_suffix(')'))?;
+            let (output, of) = (Unit::given(output).ok()?, Unit::given(of).ok()?);
+            (output.quantity.is_electrical() && of.quantity.is_vibration()).then_some(Sensitivity { value, output, of })
+        };
+        read().ok_or_else(|| AnalysisError::NoSensitivity { text: text.trim().to_owned() })
     }
 
-    /// What a signal in `unit` is multiplied by to be in [`Sensitivity::of`]; `None` where `unit` is not of the output's kind.
+    /// What a signal in `unit` is multiplied by to be in [`Sensitivity::of`]; `None` where `unit` is not of the
+    /// output's kind.
     pub fn factor(&self, unit: &Unit) -> Option<f64> {
-        (unit.quantity == self.output.quantity)
-            .then(|| unit.to_si / (self.value * self.output.to_si))
+        (unit.quantity == self.output.quantity).then(|| unit.to_si / (self.value * self.output.to_si))
     }
 
     /// As a data sheet has it: `100 mV/g`, `4 mV/(mm/s)`.
@@ -76,9 +71,7 @@ impl FullScale {
             let known = unit.quantity.is_electrical() || unit.quantity.is_vibration();
             known.then_some(FullScale { value, unit })
         };
-        read().ok_or_else(|| AnalysisError::NoFullScale {
-            text: text.trim().to_owned(),
-        })
+        read().ok_or_else(|| AnalysisError::NoFullScale { text: text.trim().to_owned() })
     }
 }
 
@@ -136,9 +129,7 @@ mod tests {
 
     #[test]
     fn prop_what_is_no_sensitivity_is_refused() {
-        for text in [
-            "100", "100mV", "mV/g", "-1mV/g", "0V/g", "100g/mV", "1V/V", "1V/(g", "",
-        ] {
+        for text in ["100", "100mV", "mV/g", "-1mV/g", "0V/g", "100g/mV", "1V/V", "1V/(g", ""] {
             let words = Sensitivity::given(text).unwrap_err().to_string();
             assert!(words.contains("100mV/g, 10.2mV/(m/s2)"), "{text}: {words}");
         }
@@ -146,16 +137,8 @@ mod tests {
             let words = FullScale::given(text).unwrap_err().to_string();
             assert!(words.contains("5V"), "{text}: {words}");
         }
-        assert_eq!(
-            Sensitivity::given("1V/g").unwrap().factor(&Unit::of("g")),
-            None
-        );
-        assert_eq!(
-            Sensitivity::given("1V/g")
-                .unwrap()
-                .factor(&Unit::of("counts")),
-            None
-        );
+        assert_eq!(Sensitivity::given("1V/g").unwrap().factor(&Unit::of("g")), None);
+        assert_eq!(Sensitivity::given("1V/g").unwrap().factor(&Unit::of("counts")), None);
         assert_eq!(FullScale::given("10 g").unwrap().unit.name, "g");
     }
 

@@ -1,14 +1,12 @@
-//! How severe a vibration is, whatever causes it: RMS velocity from 10 to 1000 Hz and its zone by ISO 20816-3; levels of the band demodulated.
+//! How severe a vibration is, whatever causes it: RMS velocity from 10 to 1000 Hz and its zone by ISO 20816-3; levels
+//! of the band demodulated.
 
 use super::{Quantity, Unit};
 use crate::integrate::Motion;
 use crate::{Band, Blocks, Estimate, Indicator, SignalError, band_pass, envelope, velocity_rms};
 
 /// The band of ISO 20816-3 for shafts of 600 r/min and more, Hz.
-pub const SEVERITY_BAND: Band = Band {
-    low: 10.0,
-    high: 1000.0,
-};
+pub const SEVERITY_BAND: Band = Band { low: 10.0, high: 1000.0 };
 /// Periods of the band's lower edge that a record has to hold.
 const PERIODS: f64 = 10.0;
 /// Speeds that the zones are for, r/min. Below 600 the standard measures from 2 Hz.
@@ -33,7 +31,8 @@ pub enum NoVelocity {
     Signal(#[from] SignalError),
 }
 
-/// RMS velocity in [`SEVERITY_BAND`], m/s, of a signal in `unit` sampled at `fs` Hz; intervals are of whole revolutions of `shaft` Hz.
+/// RMS velocity in [`SEVERITY_BAND`], m/s, of a signal in `unit` sampled at `fs` Hz; intervals are of whole revolutions
+/// of `shaft` Hz.
 ///
 /// # Errors
 /// [`NoVelocity`] says why there is none.
@@ -50,13 +49,7 @@ pub fn severity(x: &[f64], unit: &Unit, fs: f64, shaft: f64) -> Result<Estimate,
     if seconds < PERIODS / SEVERITY_BAND.low {
         return Err(NoVelocity::Length(seconds));
     }
-    Ok(velocity_rms(
-        &unit.in_si(x),
-        fs,
-        from,
-        SEVERITY_BAND,
-        1.0 / shaft,
-    )?)
+    Ok(velocity_rms(&unit.in_si(x), fs, from, SEVERITY_BAND, 1.0 / shaft)?)
 }
 
 /// A class of machines of ISO 20816-3.
@@ -94,20 +87,13 @@ pub enum NoZone {
     )]
     Slow(f64),
     /// No zone is for it.
-    #[error(
-        "not known, as the standard is for 120 to 30000 r/min, and this shaft turns at {0:.0} r/min"
-    )]
+    #[error("not known, as the standard is for 120 to 30000 r/min, and this shaft turns at {0:.0} r/min")]
     Speed(f64),
 }
 
 impl MachineClass {
     /// All, in the order of the standard's tables.
-    pub const ALL: [Self; 4] = [
-        Self::LargeRigid,
-        Self::LargeFlexible,
-        Self::MediumRigid,
-        Self::MediumFlexible,
-    ];
+    pub const ALL: [Self; 4] = [Self::LargeRigid, Self::LargeFlexible, Self::MediumRigid, Self::MediumFlexible];
 
     /// As it is given: `1-rigid`.
     pub fn name(self) -> &'static str {
@@ -149,11 +135,7 @@ impl MachineClass {
             _ if rpm < from_ten => return Err(NoZone::Slow(rpm)),
             _ => {}
         }
-        let beyond = self
-            .boundaries()
-            .iter()
-            .filter(|b| 1e3 * velocity > **b)
-            .count();
+        let beyond = self.boundaries().iter().filter(|b| 1e3 * velocity > **b).count();
         Ok(Zone::ALL[beyond.min(3)])
     }
 }
@@ -190,8 +172,8 @@ pub struct BandLevel {
     pub envelope_peak: Estimate,
 }
 
-/// Of a signal sampled at `fs` Hz; averages are over whole revolutions of `shaft` Hz. The envelope is the modulus of the analytic signal: an amplitude
-/// A has an envelope A. `None` where nothing lies within the band.
+/// Of a signal sampled at `fs` Hz; averages are over whole revolutions of `shaft` Hz. The envelope is the modulus of
+/// the analytic signal: an amplitude A has an envelope A. `None` where nothing lies within the band.
 pub fn band_level(x: &[f64], fs: f64, band: Band, shaft: f64) -> Option<BandLevel> {
     let revolution = fs / shaft;
     let inside = Blocks::of(&band_pass(x, fs, band).ok()?, revolution);
@@ -226,10 +208,7 @@ mod tests {
         ] {
             let x = sine(n, fs, f, amplitude);
             let found = severity(&x, &Unit::of(unit), fs, 25.0).unwrap().value;
-            assert!(
-                (1e3 * found / 9.80665 - 1.0).abs() < 2e-3,
-                "{unit}: {found}"
-            );
+            assert!((1e3 * found / 9.80665 - 1.0).abs() < 2e-3, "{unit}: {found}");
         }
     }
 
@@ -260,18 +239,11 @@ mod tests {
             (MediumRigid, 4.6, Zone::D),
             (MediumFlexible, 4.4, Zone::B),
         ] {
-            assert_eq!(
-                class.zone(1e-3 * mm_s, 1500.0),
-                Ok(zone),
-                "{class:?} {mm_s}"
-            );
+            assert_eq!(class.zone(1e-3 * mm_s, 1500.0), Ok(zone), "{class:?} {mm_s}");
         }
         assert_eq!(LargeRigid.zone(1e-3, 500.0), Err(NoZone::Slow(500.0)));
         assert_eq!(LargeRigid.zone(1e-3, 100.0), Err(NoZone::Speed(100.0)));
-        assert_eq!(
-            LargeRigid.zone(1e-3, 31_000.0),
-            Err(NoZone::Speed(31_000.0))
-        );
+        assert_eq!(LargeRigid.zone(1e-3, 31_000.0), Err(NoZone::Speed(31_000.0)));
     }
 
     /// A sine's kurtosis is 1.5, and its envelope its amplitude.

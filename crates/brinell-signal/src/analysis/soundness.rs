@@ -4,9 +4,11 @@ use std::fmt;
 
 /// The least length of a stretch of one value, in revolutions: no vibration holds still for so long.
 const STRETCH: f64 = 0.25;
-/// Share of the samples at the largest or the smallest value from which an ADC is taken to have been driven beyond its range; and how many.
+/// Share of the samples at the largest or the smallest value from which an ADC is taken to have been driven beyond its
+/// range; and how many.
 const AT_LIMITS: (f64, usize) = (1e-3, 20);
-/// Share of the signal's energy in one revolution from which levels are that revolution's, and revolutions from which it says something.
+/// Share of the signal's energy in one revolution from which levels are that revolution's, and revolutions from which
+/// it says something.
 const ONE_EVENT: (f64, usize) = (0.5, 10);
 
 /// A fault of a record, in words by its `Display`.
@@ -57,29 +59,17 @@ impl fmt::Display for Flaw {
 /// Of a signal less its mean, sampled at `fs` Hz on a machine whose shaft turns `shaft` times a second.
 pub(super) fn flaws(x: &[f64], fs: f64, shaft: f64) -> Vec<Flaw> {
     let revolution = (fs / shaft).max(4.0);
-    [
-        held(x, fs, revolution),
-        at_limits(x),
-        one_event(x, fs, revolution),
-    ]
-    .into_iter()
-    .flatten()
-    .collect()
+    [held(x, fs, revolution), at_limits(x), one_event(x, fs, revolution)].into_iter().flatten().collect()
 }
 
 fn held(x: &[f64], fs: f64, revolution: f64) -> Option<Flaw> {
     let runs = x.chunk_by(|a, b| a == b).map(<[f64]>::len);
     let samples: usize = runs.filter(|n| *n as f64 >= STRETCH * revolution).sum();
-    (samples > 0).then(|| Flaw::Held {
-        seconds: samples as f64 / fs,
-        of: x.len() as f64 / fs,
-    })
+    (samples > 0).then(|| Flaw::Held { seconds: samples as f64 / fs, of: x.len() as f64 / fs })
 }
 
 fn at_limits(x: &[f64]) -> Option<Flaw> {
-    let (low, high) = (x.iter()).fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), v| {
-        (a.min(*v), b.max(*v))
-    });
+    let (low, high) = (x.iter()).fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), v| (a.min(*v), b.max(*v)));
     let count = x.iter().filter(|v| **v == low || **v == high).count();
     let share = count as f64 / x.len() as f64;
     (share >= AT_LIMITS.0 && count >= AT_LIMITS.1).then_some(Flaw::AtLimits { share })
@@ -99,10 +89,7 @@ fn one_event(x: &[f64], fs: f64, revolution: f64) -> Option<Flaw> {
         }
     }
     let share = largest.1 / whole;
-    (share >= ONE_EVENT.0).then(|| Flaw::OneEvent {
-        at: (largest.0 * revolution as usize) as f64 / fs,
-        share,
-    })
+    (share >= ONE_EVENT.0).then(|| Flaw::OneEvent { at: (largest.0 * revolution as usize) as f64 / fs, share })
 }
 
 #[cfg(test)]
@@ -123,10 +110,7 @@ mod tests {
         assert_eq!(flaws(&noise(), FS, SHAFT), []);
         let mut off = noise();
         off[10_000..].fill(0.0);
-        let held = Flaw::Held {
-            seconds: 1.0,
-            of: 2.0,
-        };
+        let held = Flaw::Held { seconds: 1.0, of: 2.0 };
         assert_eq!(flaws(&off, FS, SHAFT), [held]);
         // 4.55 % of normal numbers lie beyond two standard deviations.
         let clipped: Vec<f64> = noise().iter().map(|v| v.clamp(-2.0, 2.0)).collect();
@@ -136,8 +120,6 @@ mod tests {
         let mut struck = noise();
         struck[8_100] = 200.0;
         let told = flaws(&struck, FS, SHAFT);
-        assert!(
-            matches!(told[..], [Flaw::OneEvent { at, share }] if at == 0.8 && (share - 2.0 / 3.0).abs() < 0.02)
-        );
+        assert!(matches!(told[..], [Flaw::OneEvent { at, share }] if at == 0.8 && (share - 2.0 / 3.0).abs() < 0.02));
     }
 }

@@ -1,9 +1,9 @@
 //! The envelope spectra of many bands, averaged: what stands in all of them together.
 //!
-//! The range above three times the highest defect frequency is tiled by bands of equal width, each half over the next. Power in the envelope
-//! spectrum of each is divided by the noise floor about it (a running median) and averaged over the bands: every band counts alike, whatever its
-//! level, as in the integrated cyclic spectral coherence (J. Antoni, "Cyclic spectral analysis in practice", Mech. Syst. Signal
-//! Process. 21 (2007) 597-630).
+//! The range above three times the highest defect frequency is tiled by bands of equal width, each half over the next.
+//! Power in the envelope spectrum of each is divided by the noise floor about it (a running median) and averaged over
+//! the bands: every band counts alike, whatever its level, as in the integrated cyclic spectral coherence (J. Antoni,
+//! "Cyclic spectral analysis in practice", Mech. Syst. Signal Process. 21 (2007) 597-630).
 
 use super::family::{Family, Harmonic};
 use super::known_lines::Mains;
@@ -17,7 +17,8 @@ use crate::{Band, Segments, Spectrum, Thinned, Transformed, psd, resample};
 pub const HARMONICS: usize = 5;
 /// Bands side by side in the whole range at most; half as many again lie between them.
 const BANDS: f64 = 12.0;
-/// Revolutions of a segment: lines are then a fraction of 1/120 of the shaft's frequency wide. In longer ones slip would smear them.
+/// Revolutions of a segment: lines are then a fraction of 1/120 of the shaft's frequency wide. In longer ones slip
+/// would smear them.
 pub(super) const REVOLUTIONS: f64 = 120.0;
 /// The envelope is sampled so many times as often as its highest line sought.
 const ENVELOPE_RATE: f64 = 8.0;
@@ -69,22 +70,10 @@ pub(super) struct Place {
 
 impl Together {
     /// Of a signal's envelopes.
-    pub(super) fn of(
-        envelopes: &Envelopes,
-        shaft: Shaft,
-        options: &Options,
-    ) -> Result<Self, AnalysisError> {
-        let spectra = side_by_side(&envelopes.each, |(_, envelope)| {
-            envelopes.spectrum(envelope, shaft.hz, options)
-        })?;
-        let bins = spectra
-            .iter()
-            .map(|s| s.1.amplitude.len())
-            .min()
-            .unwrap_or(0);
-        let (step, freedom) = (spectra.first()).map_or((1.0, 2.0), |(_, s)| {
-            (s.frequency_step, s.degrees_of_freedom)
-        });
+    pub(super) fn of(envelopes: &Envelopes, shaft: Shaft, options: &Options) -> Result<Self, AnalysisError> {
+        let spectra = side_by_side(&envelopes.each, |(_, envelope)| envelopes.spectrum(envelope, shaft.hz, options))?;
+        let bins = spectra.iter().map(|s| s.1.amplitude.len()).min().unwrap_or(0);
+        let (step, freedom) = (spectra.first()).map_or((1.0, 2.0), |(_, s)| (s.frequency_step, s.degrees_of_freedom));
         let width = (FLOOR.0 * shaft.hz / step).max(FLOOR.1) as usize;
         let apart = apart(spectra.len());
         let mut together = Together {
@@ -119,8 +108,7 @@ impl Together {
     fn hide_known(&mut self, shaft: Shaft, options: &Options) {
         let mains = Mains::ALL.map(|m| m.frequency());
         let this = &*self;
-        let lines =
-            |f: f64, n: usize| (1..=n).map(move |k| this.at(k as f64 * f).ratio.unwrap_or(1.0));
+        let lines = |f: f64, n: usize| (1..=n).map(move |k| this.at(k as f64 * f).ratio.unwrap_or(1.0));
         let stand = |f: &f64| lines(*f, OF_MAINS).all(|ratio| ratio >= this.standing());
         // Of the places at which lines may be, the one at which they stand highest.
         let height = |f: f64| -> f64 { lines(f, OF_SHAFT).map(f64::ln).sum() };
@@ -185,14 +173,8 @@ impl Together {
         let bin = self.bin(frequency.max(0.0));
         let hidden = self.hidden.get(bin).is_some_and(|h| *h);
         match (peak(&self.ratio, bin), peak(&self.depth, bin)) {
-            (Some(ratio), Some(depth)) if !hidden => Place {
-                ratio: Some(ratio),
-                depth,
-            },
-            _ => Place {
-                ratio: None,
-                depth: 0.0,
-            },
+            (Some(ratio), Some(depth)) if !hidden => Place { ratio: Some(ratio), depth },
+            _ => Place { ratio: None, depth: 0.0 },
         }
     }
 
@@ -212,9 +194,7 @@ impl Together {
         let seen = |h: &&Harmonic| h.snr_db.is_some();
         let height = |ratio: &[f64]| -> f64 {
             let lines = family.harmonics.iter().filter(seen);
-            lines
-                .map(|h| peak(ratio, self.bin(h.frequency)).unwrap_or(1.0).ln())
-                .sum()
+            lines.map(|h| peak(ratio, self.bin(h.frequency)).unwrap_or(1.0).ln()).sum()
         };
         let heights = self.each.iter().map(|ratio| height(ratio)).enumerate();
         let highest = heights.max_by(|a, b| a.1.total_cmp(&b.1));
@@ -268,12 +248,7 @@ pub(super) fn envelope_spectrum(
     spectrum_of(&envelope, rate, shaft, options)
 }
 
-fn spectrum_of(
-    envelope: &Thinned,
-    rate: f64,
-    shaft: f64,
-    options: &Options,
-) -> Result<(f64, Spectrum), AnalysisError> {
+fn spectrum_of(envelope: &Thinned, rate: f64, shaft: f64, options: &Options) -> Result<(f64, Spectrum), AnalysisError> {
     let (values, rate) = at_angles(envelope, rate, shaft, options)?;
     let length = ((REVOLUTIONS * rate / shaft) as usize).min(values.len());
     let mut spectrum = psd(&values, rate, &Segments::of(fast_up_to(length)))?;
@@ -298,9 +273,7 @@ impl Envelopes {
         options: &Options,
     ) -> Result<Self, AnalysisError> {
         let top = top(shaft, options);
-        let each = side_by_side(&tiles(range, top), |band| {
-            Ok((*band, thinned(transformed, *band, top)))
-        })?;
+        let each = side_by_side(&tiles(range, top), |band| Ok((*band, thinned(transformed, *band, top))))?;
         let rate = each.first().map_or(1.0, |(_, e)| rate_of(e, transformed));
         Ok(Envelopes { each, rate })
     }
@@ -323,23 +296,17 @@ fn rate_of(envelope: &Thinned, transformed: &Transformed) -> f64 {
 /// A band's envelope, thinned out as far as lines up to `top` Hz allow.
 fn thinned(transformed: &Transformed, band: Band, top: f64) -> Thinned {
     let samples = transformed.samples();
-    // Triangles over two stretches are filter enough: of the envelope as it is taken, what folds back onto the highest line sought has been
-    // brought down by 34 dB.
+    // Triangles over two stretches are filter enough: of the envelope as it is taken, what folds back onto the highest
+    // line sought has been brought down by 34 dB.
     let factor = ((transformed.sample_rate() / (ENVELOPE_RATE * top)).floor() as usize).max(1);
     let count = fast_up_to((samples / factor).max(64.min(samples)));
     transformed.envelope(band, count)
 }
 
-/// An envelope less its mean, at equal angles of the shaft where its speed varies; and the rate that it is then sampled at, Hz.
-fn at_angles(
-    envelope: &Thinned,
-    rate: f64,
-    shaft: f64,
-    options: &Options,
-) -> Result<(Vec<f64>, f64), AnalysisError> {
-    let values: Vec<f64> = (envelope.values.iter())
-        .map(|v| v - envelope.mean)
-        .collect();
+/// An envelope less its mean, at equal angles of the shaft where its speed varies; and the rate that it is then sampled
+/// at, Hz.
+fn at_angles(envelope: &Thinned, rate: f64, shaft: f64, options: &Options) -> Result<(Vec<f64>, f64), AnalysisError> {
+    let values: Vec<f64> = (envelope.values.iter()).map(|v| v - envelope.mean).collect();
     let Some(rotation) = &options.rotation else {
         return Ok((values, rate));
     };
@@ -354,12 +321,7 @@ fn side_by_side<T: Sync, R: Send>(
     one: impl Fn(&T) -> Result<R, AnalysisError> + Sync,
 ) -> Result<Vec<R>, AnalysisError> {
     let mut results: Vec<_> = of.iter().map(|_| None).collect();
-    parallel::each(
-        of.len(),
-        parallel::threads(of.len()),
-        |k| one(&of[k]),
-        |k, result| results[k] = Some(result),
-    );
+    parallel::each(of.len(), parallel::threads(of.len()), |k| one(&of[k]), |k, result| results[k] = Some(result));
     results.into_iter().flatten().collect()
 }
 
@@ -368,16 +330,12 @@ pub(super) fn running_median(values: &[f64], width: usize) -> Vec<f64> {
     let n = values.len();
     let every = (width / 8).max(1);
     let median = |center: usize| {
-        let from = center
-            .saturating_sub(width / 2)
-            .min(n.saturating_sub(width));
+        let from = center.saturating_sub(width / 2).min(n.saturating_sub(width));
         let mut near = values[from..(from + width).min(n)].to_vec();
         let middle = near.len() / 2;
         *near.select_nth_unstable_by(middle, f64::total_cmp).1
     };
-    let knots: Vec<f64> = (0..n.div_ceil(every) + 1)
-        .map(|k| median((k * every).min(n - 1)))
-        .collect();
+    let knots: Vec<f64> = (0..n.div_ceil(every) + 1).map(|k| median((k * every).min(n - 1))).collect();
     (0..n)
         .map(|k| {
             let (knot, part) = (k / every, (k % every) as f64 / every as f64);

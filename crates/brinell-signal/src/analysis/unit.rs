@@ -49,8 +49,9 @@ impl Unit {
     /// Units that a user may name; the last line is of raw signals, whose scale to vibration nobody states.
     pub const KNOWN: &str = "m/s^2, mm/s^2, g, mg, in/s^2; m/s, mm/s, in/s; m, mm, um; or, of a raw signal, V, mV, uV, A, mA, N, Pa, counts";
 
-    /// What a simulation's sensor lacks of a machine's white noise ([`MACHINE_NOISE`](super::MACHINE_NOISE)), RMS in this unit, where its own has the
-    /// RMS `own`, m/s^2: both together are as strong. `None` where it lacks nothing; 0 for what is no acceleration, of which nothing is known.
+    /// What a simulation's sensor lacks of a machine's white noise ([`MACHINE_NOISE`](super::MACHINE_NOISE)), RMS in
+    /// this unit, where its own has the RMS `own`, m/s^2: both together are as strong. `None` where it lacks nothing; 0
+    /// for what is no acceleration, of which nothing is known.
     pub fn missing_noise(&self, own: f64) -> Option<f64> {
         let missing = (super::MACHINE_NOISE.powi(2) - own * own).max(0.0).sqrt();
         (missing > 0.0).then_some(match self.quantity {
@@ -73,9 +74,7 @@ impl Unit {
     /// # Errors
     /// [`AnalysisError::UnknownUnit`] for any that is not of [`Unit::KNOWN`].
     pub fn given(spelling: &str) -> Result<Self, AnalysisError> {
-        Unit::known(spelling).ok_or_else(|| AnalysisError::UnknownUnit {
-            spelling: spelling.trim().to_owned(),
-        })
+        Unit::known(spelling).ok_or_else(|| AnalysisError::UnknownUnit { spelling: spelling.trim().to_owned() })
     }
 
     /// A signal in this unit, in SI units.
@@ -115,11 +114,7 @@ impl Unit {
             "count" | "counts" => ("counts", Other, 1.0),
             _ => return None,
         };
-        Some(Unit {
-            name: name.to_owned(),
-            quantity,
-            to_si,
-        })
+        Some(Unit { name: name.to_owned(), quantity, to_si })
     }
 }
 

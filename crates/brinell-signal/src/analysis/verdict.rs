@@ -7,13 +7,15 @@ use super::{AnalysisError, Options};
 
 /// Lead in score that an element needs over the races: its sidebands at the cage's frequency reach most lines.
 const LEAD: f64 = 2.0;
-/// Multiples of the shaft's or the cage's frequency about the first's harmonics that are taken out before a second one is sought.
+/// Multiples of the shaft's or the cage's frequency about the first's harmonics that are taken out before a second one
+/// is sought.
 const SIDES: i32 = 3;
 /// So many times the tolerance off, a comb may be the bearing's at another speed.
 const FARTHER: f64 = 3.0;
 /// A comb elsewhere may have so much less than the score of the family that leads.
 const HARDLY: f64 = 3.0;
-/// Depth over that of the family that leads from which such a comb counts: the sidebands of a turning source may be as deep as its own lines.
+/// Depth over that of the family that leads from which such a comb counts: the sidebands of a turning source may be as
+/// deep as its own lines.
 const DEEPER: f64 = 1.25;
 /// And this score at least: of some ten thousand places the highest shows as much by chance.
 const LEAST_ELSEWHERE: f64 = 8.0;
@@ -25,7 +27,8 @@ const FEWEST_HARMONICS: f64 = 3.0;
 const SLOWER: usize = 8;
 /// Bins within which two combs are one.
 const WIDTH: f64 = 3.0;
-/// Turns of the cage from which sidebands at its frequency are told from other lines: in a shorter record they fill the spectrum.
+/// Turns of the cage from which sidebands at its frequency are told from other lines: in a shorter record they fill the
+/// spectrum.
 const TELLING: f64 = 20.0;
 /// The same for the cage's own lines.
 const TELLING_CAGE: f64 = 40.0;
@@ -70,11 +73,7 @@ pub(super) struct Record {
 }
 
 impl Record {
-    pub(super) fn of(
-        envelopes: &Envelopes,
-        known: Shaft,
-        options: &Options,
-    ) -> Result<Self, AnalysisError> {
+    pub(super) fn of(envelopes: &Envelopes, known: Shaft, options: &Options) -> Result<Self, AnalysisError> {
         let samples = envelopes.each.first().map_or(0, |(_, e)| e.values.len());
         let seconds = samples as f64 / envelopes.rate;
         let mut record = Record {
@@ -128,8 +127,7 @@ impl Record {
         self.take_out(lead.frequency);
         let left = read(&self.together, self.shaft, &self.options);
         // Frequencies that slip may bring together are not told apart.
-        let apart =
-            |f: &Family| (f.expected / lead.expected - 1.0).abs() > 2.0 * self.options.tolerance;
+        let apart = |f: &Family| (f.expected / lead.expected - 1.0).abs() > 2.0 * self.options.tolerance;
         for family in &mut all {
             let own = left.iter().find(|f| f.name == family.name);
             let stays = own.is_some_and(Family::is_damage) && apart(family);
@@ -155,7 +153,8 @@ impl Record {
         (all, None)
     }
 
-    /// Whether the record holds so few turns of the cage that a rolling element's sidebands, or the cage's lines, are not told from others.
+    /// Whether the record holds so few turns of the cage that a rolling element's sidebands, or the cage's lines, are
+    /// not told from others.
     fn is_short_for(&self, component: Component) -> bool {
         let needed = match component {
             Component::OuterRace | Component::InnerRace => 0.0,
@@ -167,8 +166,9 @@ impl Record {
         self.revolutions * cage(self.shaft, &self.options) < needed * self.shaft
     }
 
-    /// The deepest comb that is deeper than the family that leads and hardly lower in score, at no frequency of the bearing: then the bearing or the speed is
-    /// not the one given, or the lines are another machine part's. Without a family that leads, one that would be damage.
+    /// The deepest comb that is deeper than the family that leads and hardly lower in score, at no frequency of the
+    /// bearing: then the bearing or the speed is not the one given, or the lines are another machine part's. Without a
+    /// family that leads, one that would be damage.
     ///
     /// A simulation has nothing else that turns.
     fn elsewhere(&self, lead: Option<&Family>) -> Option<Elsewhere> {
@@ -191,24 +191,18 @@ impl Record {
         let depth = |f: f64| lines(together, f, spacing).modulation;
         let step = 0.25 * together.step() / HARMONICS as f64;
         let top = together.top() / (FEWEST_HARMONICS + 0.5);
-        let places = (0..)
-            .map(|k| LOWEST * self.shaft + f64::from(k) * step)
-            .take_while(|f| *f < top);
+        let places = (0..).map(|k| LOWEST * self.shaft + f64::from(k) * step).take_while(|f| *f < top);
         let (frequency, modulation) = places
             .filter(|f| score(together, *f) >= least && !self.is_explained(*f, lead))
             .map(|f| (f, depth(f)))
             .filter(|(_, depth)| *depth > shallow)
             .max_by(|a, b| a.1.total_cmp(&b.1))?;
-        Some(Elsewhere {
-            frequency,
-            score: score(together, frequency),
-            modulation,
-            nearest: self.nearest(frequency),
-        })
+        Some(Elsewhere { frequency, score: score(together, frequency), modulation, nearest: self.nearest(frequency) })
     }
 
-    /// The comb of which a race's lines are every second, third... and which scores hardly less: nothing that strikes a race at equal distances leaves
-    /// the lines between so high. (Where elements differ the cage's lines stand there too: in measured records at most three quarters as high in score.)
+    /// The comb of which a race's lines are every second, third... and which scores hardly less: nothing that strikes a
+    /// race at equal distances leaves the lines between so high. (Where elements differ the cage's lines stand there
+    /// too: in measured records at most three quarters as high in score.)
     fn slower(&self, lead: &Family) -> Option<Elsewhere> {
         let races = [Component::OuterRace, Component::InnerRace];
         if !races.contains(&lead.component) {
@@ -266,9 +260,9 @@ impl Record {
             })
     }
 
-    /// Harmonics of a frequency and their sidebands are nobody's from now on. Sums of shaft and cage are not taken: nine elements pass the inner
-    /// race at nine times the shaft's frequency less that at which they pass the outer one, and the cage turns at two fifths of it or so, so that
-    /// their places are those of the other race's lines.
+    /// Harmonics of a frequency and their sidebands are nobody's from now on. Sums of shaft and cage are not taken:
+    /// nine elements pass the inner race at nine times the shaft's frequency less that at which they pass the outer
+    /// one, and the cage turns at two fifths of it or so, so that their places are those of the other race's lines.
     fn take_out(&mut self, frequency: f64) {
         let sides = [self.shaft, cage(self.shaft, &self.options)];
         let most = self.together.top();
@@ -287,12 +281,12 @@ impl Record {
     }
 }
 
-/// The cage carries the elements past both races: the slip s of FTF is that of BPFO, and BPFI has -s f_c/(f_s - f_c). A race's comb farther than the tolerance from where a cage
-/// that is clear of the noise puts it is somebody else's: of a damaged element where 2 BSF lies a few per cent below BPFO.
+/// The cage carries the elements past both races: the slip s of FTF is that of BPFO, and BPFI has -s f_c/(f_s - f_c). A
+/// race's comb farther than the tolerance from where a cage that is clear of the noise puts it is somebody else's: of a
+/// damaged element where 2 BSF lies a few per cent below BPFO.
 fn one_slip(all: &mut [Family], shaft: f64, tolerance: f64) {
-    let cage = (all.iter()).find(|f| {
-        f.component == Component::Cage && f.score > f.limit && f.standing_harmonics() >= 3
-    });
+    let cage =
+        (all.iter()).find(|f| f.component == Component::Cage && f.score > f.limit && f.standing_harmonics() >= 3);
     let Some((name, slip, turns)) = cage.map(|f| (f.name, f.shift(), f.expected)) else {
         return;
     };
@@ -311,8 +305,7 @@ fn one_slip(all: &mut [Family], shaft: f64, tolerance: f64) {
 /// The family that leads: the highest score; an element's or the cage's only with a lead over the races'.
 fn leading(all: &[Family]) -> Option<usize> {
     let highest = |of: &dyn Fn(Component) -> bool| {
-        let these = (all.iter().enumerate())
-            .filter(|(_, f)| f.standing == Standing::Damage && of(f.component));
+        let these = (all.iter().enumerate()).filter(|(_, f)| f.standing == Standing::Damage && of(f.component));
         these.max_by(|a, b| a.1.score.total_cmp(&b.1.score))
     };
     let race = highest(&|c| matches!(c, Component::OuterRace | Component::InnerRace));

@@ -4,16 +4,8 @@ use super::family::{Family, Standing};
 use super::{Analysis, Elsewhere, Verdict};
 
 /// What a row of [`Analysis::rows`] holds; a column of numbers begins with `#`.
-pub const COLUMNS: [&str; 8] = [
-    "Part",
-    "Frequency",
-    "#At, Hz",
-    "#Shift, %",
-    "#Harmonics",
-    "#Over noise, dB",
-    "#Modulation, %",
-    "Says",
-];
+pub const COLUMNS: [&str; 8] =
+    ["Part", "Frequency", "#At, Hz", "#Shift, %", "#Harmonics", "#Over noise, dB", "#Modulation, %", "Says"];
 
 /// Slip of a loaded induction motor, at most.
 const MOST_SLIP: f64 = 0.05;
@@ -52,12 +44,8 @@ pub(super) fn verdict(analysis: &Analysis) -> String {
 fn damage(analysis: &Analysis, text: &mut Vec<String>) {
     for (i, family) in analysis.causes().enumerate() {
         let beside = if i > 0 { "Also " } else { "" };
-        let headline = format!(
-            "{beside}{} damage, {}: {}.",
-            family.component.words(),
-            analysis.clarity(family),
-            told(family)
-        );
+        let headline =
+            format!("{beside}{} damage, {}: {}.", family.component.words(), analysis.clarity(family), told(family));
         text.push(capital(&headline));
         if family.name == "FTF" {
             text.push("One element causes an impact once a turn of the cage, in the load zone; damage of the cage shows the same.".into());
@@ -85,11 +73,7 @@ fn cannot_tell(analysis: &Analysis, text: &mut Vec<String>) {
     let open = (analysis.families.iter()).filter(|f| f.standing == Standing::Open);
     for family in open {
         if analysis.elsewhere.is_some() && family.is_damage() {
-            text.push(format!(
-                "Without them it would be {} damage: {}.",
-                family.component.words(),
-                told(family)
-            ));
+            text.push(format!("Without them it would be {} damage: {}.", family.component.words(), told(family)));
             continue;
         }
         text.push(format!(
@@ -109,8 +93,8 @@ fn cannot_tell(analysis: &Analysis, text: &mut Vec<String>) {
     }
 }
 
-/// Whether the lines of a race may be an inverter's: in motors of 2, 4 or 6 poles multiples of its output lie above those of the shaft's frequency
-/// by the slip.
+/// Whether the lines of a race may be an inverter's: in motors of 2, 4 or 6 poles multiples of its output lie above
+/// those of the shaft's frequency by the slip.
 fn inverter(analysis: &Analysis, family: &Family) -> Option<String> {
     let (options, order) = (&analysis.options, family.frequency / analysis.shaft);
     let slip = 1.0 - order.floor() / order;
@@ -192,11 +176,7 @@ pub(super) fn rows(analysis: &Analysis) -> Vec<[String; COLUMNS.len()]> {
             format!("{:+.2}", 100.0 * f.shift()),
             match f.hidden_harmonics() {
                 0 => format!("{} of {}", f.standing_harmonics(), f.harmonics.len()),
-                n => format!(
-                    "{} of {}, {n} hidden",
-                    f.standing_harmonics(),
-                    f.harmonics.len() - n
-                ),
+                n => format!("{} of {}, {n} hidden", f.standing_harmonics(), f.harmonics.len() - n),
             },
             format!("{:.0}", f.highest_db()),
             format!("{:.0}", 100.0 * f.modulation),

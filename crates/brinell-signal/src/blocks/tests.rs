@@ -9,22 +9,13 @@ fn moments(x: &[f64]) -> Moments {
 }
 
 fn close(value: f64, expected: f64, relative: f64) {
-    assert!(
-        (value - expected).abs() <= relative * expected.abs(),
-        "{value} for {expected}"
-    );
+    assert!((value - expected).abs() <= relative * expected.abs(), "{value} for {expected}");
 }
 
-/// Impacts of random height (15 %; with 50 % the kurtosis rests on heights so rare that 40 revolutions lack them) in noise, a revolution every 512 samples with about 8 impacts.
+/// Impacts of random height (15 %; with 50 % the kurtosis rests on heights so rare that 40 revolutions lack them) in
+/// noise, a revolution every 512 samples with about 8 impacts.
 fn impacts(revolutions: usize, seed: u64) -> Vec<f64> {
-    let train = ImpactTrain {
-        fs: 25_600.0,
-        rate: 403.0,
-        jitter: 0.05,
-        resonance: 4000.0,
-        decay: 5e-4,
-        noise: 0.1,
-    };
+    let train = ImpactTrain { fs: 25_600.0, rate: 403.0, jitter: 0.05, resonance: 4000.0, decay: 5e-4, noise: 0.1 };
     let mut heights = Noise::new(seed ^ 0x5eed);
     let mut height = 1.0;
     train
@@ -55,9 +46,7 @@ fn prop_blocks_of_a_slice_end_where_pushed_ones_do() {
         }
         let counts = |b: &Blocks| -> Vec<u64> {
             let closed = b.series.closed.iter().map(|block| block.moments.count());
-            closed
-                .chain([b.revolutions(), b.current.count(), b.record().count()])
-                .collect()
+            closed.chain([b.revolutions(), b.current.count(), b.record().count()]).collect()
         };
         assert_eq!(counts(&all), counts(&one), "{samples}");
     }
@@ -75,14 +64,8 @@ fn prop_blocks_stay_bounded_and_merging_is_one_pass() {
         assert!(blocks.series.closed.len() <= MOST_BLOCKS);
     }
     // 2000 revolutions: 16 to a block is the first power of two that needs no more than 128.
-    assert_eq!(
-        (blocks.series.closed.len(), blocks.series.per_block),
-        (125, 16)
-    );
-    assert_eq!(
-        (blocks.revolutions(), blocks.record().count()),
-        (2000, 20_005)
-    );
+    assert_eq!((blocks.series.closed.len(), blocks.series.per_block), (125, 16));
+    assert_eq!((blocks.revolutions(), blocks.record().count()), (2000, 20_005));
     for (i, block) in blocks.series.closed.iter().enumerate() {
         let whole = moments(&x[160 * i..160 * (i + 1)]);
         close(block.moments.rms(), whole.rms(), 1e-13);
@@ -90,12 +73,7 @@ fn prop_blocks_stay_bounded_and_merging_is_one_pass() {
     // Averages over whole revolutions are those of one pass over them; peaks those of each revolution.
     let whole = moments(&x[..20_000]);
     let value = |i| blocks.estimate(i).unwrap().value;
-    for i in [
-        Indicator::Rms,
-        Indicator::Kurtosis,
-        Indicator::Skewness,
-        Indicator::ShapeFactor,
-    ] {
+    for i in [Indicator::Rms, Indicator::Kurtosis, Indicator::Skewness, Indicator::ShapeFactor] {
         close(value(i), whole.get(i).unwrap(), 1e-11);
     }
     let revolutions = || x[..20_000].chunks(10).map(moments);
@@ -104,11 +82,7 @@ fn prop_blocks_stay_bounded_and_merging_is_one_pass() {
     close(value(Indicator::Peak), peak, 1e-12);
     close(value(Indicator::PeakToPeak), range, 1e-12);
     close(value(Indicator::CrestFactor), peak / whole.rms(), 1e-12);
-    close(
-        value(Indicator::ImpulseFactor),
-        peak / whole.mean_absolute(),
-        1e-12,
-    );
+    close(value(Indicator::ImpulseFactor), peak / whole.mean_absolute(), 1e-12);
 }
 
 #[test]
@@ -120,15 +94,9 @@ fn prop_a_value_lies_within_its_interval() {
         for indicator in Indicator::ALL {
             let estimate = blocks.estimate(indicator).unwrap();
             let interval = estimate.interval.unwrap();
-            assert!(
-                interval.low <= estimate.value && estimate.value <= interval.high,
-                "{indicator:?} {estimate:?}"
-            );
+            assert!(interval.low <= estimate.value && estimate.value <= interval.high, "{indicator:?} {estimate:?}");
             assert!(interval.low < interval.high);
-            assert!(
-                interval.low > 0.0 || !indicator.is_positive(),
-                "{indicator:?}"
-            );
+            assert!(interval.low > 0.0 || !indicator.is_positive(), "{indicator:?}");
         }
         let largest = blocks.record().get(Indicator::Peak).unwrap();
         assert!(largest >= blocks.estimate(Indicator::Peak).unwrap().value);
@@ -137,7 +105,8 @@ fn prop_a_value_lies_within_its_interval() {
 
 #[test]
 fn analytic_intervals_of_impacts_cover_the_long_run_95_times_in_100() {
-    // The long run is 4000 revolutions, a hundred times as many as a trial's 40. With 400 trials a share of 0.95 scatters by 0.011.
+    // The long run is 4000 revolutions, a hundred times as many as a trial's 40. With 400 trials a share of 0.95
+    // scatters by 0.011.
     let long = Blocks::of(&impacts(4000, 77), 512.0);
     let all = [
         Indicator::Rms,
@@ -167,24 +136,13 @@ fn analytic_intervals_of_impacts_cover_the_long_run_95_times_in_100() {
 #[test]
 fn prop_records_of_different_length_estimate_one_number() {
     // Peaks too: the mean over 3 or 50 times as many revolutions stays within the interval of the shorter.
-    let estimates = |revolutions: usize, indicator| {
-        Blocks::of(&impacts(revolutions, 5), 512.0)
-            .estimate(indicator)
-            .unwrap()
-    };
-    for indicator in [
-        Indicator::Peak,
-        Indicator::CrestFactor,
-        Indicator::PeakToPeak,
-        Indicator::Rms,
-    ] {
+    let estimates =
+        |revolutions: usize, indicator| Blocks::of(&impacts(revolutions, 5), 512.0).estimate(indicator).unwrap();
+    for indicator in [Indicator::Peak, Indicator::CrestFactor, Indicator::PeakToPeak, Indicator::Rms] {
         let short = estimates(40, indicator).interval.unwrap();
         for revolutions in [120, 2000] {
             let value = estimates(revolutions, indicator).value;
-            assert!(
-                short.low < value && value < short.high,
-                "{indicator:?} {value} {short:?}"
-            );
+            assert!(short.low < value && value < short.high, "{indicator:?} {value} {short:?}");
         }
     }
 }
@@ -203,23 +161,14 @@ fn prop_short_records_have_values_without_intervals() {
     let part = Blocks::of(&x[..100], 512.0);
     let expected = moments(&x[..100]);
     for indicator in Indicator::ALL {
-        close(
-            part.estimate(indicator).unwrap().value,
-            expected.get(indicator).unwrap(),
-            1e-12,
-        );
+        close(part.estimate(indicator).unwrap().value, expected.get(indicator).unwrap(), 1e-12);
     }
     assert_eq!(Blocks::new().estimate(Indicator::Rms), None);
-    let zero = Blocks::of(&[0.0; 100], 10.0)
-        .estimate(Indicator::Rms)
-        .unwrap();
+    let zero = Blocks::of(&[0.0; 100], 10.0).estimate(Indicator::Rms).unwrap();
     assert_eq!((zero.value, zero.interval), (0.0, None));
     let constant = Blocks::of(&[-0.1; 100], 10.0);
     let rms = constant.estimate(Indicator::Rms).unwrap();
-    assert_eq!(
-        rms.interval.map(|i| (i.low, i.high)),
-        Some((rms.value, rms.value))
-    );
+    assert_eq!(rms.interval.map(|i| (i.low, i.high)), Some((rms.value, rms.value)));
 }
 
 #[test]
@@ -233,25 +182,14 @@ fn analytic_influence_is_the_change_by_leaving_a_block_out() {
         let whole = all.estimate(indicator).unwrap().value;
         let mut worst: f64 = 0.0;
         for left_out in 0..revolutions {
-            let rest: Vec<f64> = x
-                .chunks(512)
-                .enumerate()
-                .filter(|(k, _)| *k != left_out)
-                .flat_map(|(_, c)| c.to_vec())
-                .collect();
+            let rest: Vec<f64> =
+                x.chunks(512).enumerate().filter(|(k, _)| *k != left_out).flat_map(|(_, c)| c.to_vec()).collect();
             let without = Blocks::of(&rest, 512.0).estimate(indicator).unwrap().value;
-            let change = if indicator.is_positive() {
-                (whole / without).ln()
-            } else {
-                whole - without
-            };
+            let change = if indicator.is_positive() { (whole / without).ln() } else { whole - without };
             worst = worst.max((99.0 * change - influence[left_out]).abs());
         }
         let largest = influence.iter().fold(0.0_f64, |m, z| m.max(z.abs()));
-        assert!(
-            worst < (0.15 * largest).max(1.5 * largest * largest / 99.0),
-            "{indicator:?}: {worst} of {largest}"
-        );
+        assert!(worst < (0.15 * largest).max(1.5 * largest * largest / 99.0), "{indicator:?}: {worst} of {largest}");
         assert!(influence.iter().sum::<f64>().abs() < 1e-9 * largest * 100.0);
     }
 }
@@ -267,11 +205,7 @@ fn analytic_a_revolution_of_more_samples_weighs_more() {
         }
     }
     let all = blocks.all();
-    close(
-        blocks.estimate(Indicator::Rms).unwrap().value,
-        3.25_f64.sqrt(),
-        1e-14,
-    );
+    close(blocks.estimate(Indicator::Rms).unwrap().value, 3.25_f64.sqrt(), 1e-14);
     let influence = blocks.influence(&all, Indicator::Rms);
     // Half of weight (x^2 - 3.25) / 3.25, the weights being 1/2 and 3/2.
     close(influence[0], 0.25 * (1.0 - 3.25) / 3.25, 1e-12);

@@ -10,11 +10,13 @@ use super::Comb;
 /// Points of the padded spectrum for each bin of the segment; even.
 pub(super) const PADDING: usize = 8;
 
-/// Transforms of the windowed, mean-free envelope of segments of one length, interpolated by zero padding, below a highest frequency.
+/// Transforms of the windowed, mean-free envelope of segments of one length, interpolated by zero padding, below a
+/// highest frequency.
 pub(in super::super) struct Padded {
     fs: f64,
     length: usize,
-    /// E: padded bin m represents frequency m fs / (PADDING length). Its phase has the window's middle at time zero, so that it is smooth.
+    /// E: padded bin m represents frequency m fs / (PADDING length). Its phase has the window's middle at time zero, so
+    /// that it is smooth.
     pub(super) values: Vec<Complex<f64>>,
 }
 
@@ -24,34 +26,22 @@ impl Padded {
         let highest = combs.iter().map(Comb::highest).fold(0.0, f64::max);
         // The cubic takes a point below and two above.
         let count = (highest / fs * (PADDING * length) as f64) as usize + 4;
-        Padded {
-            fs,
-            length,
-            values: vec![Complex::ZERO; count.min(PADDING * length / 2 + 1)],
-        }
+        Padded { fs, length, values: vec![Complex::ZERO; count.min(PADDING * length / 2 + 1)] }
     }
 
-    /// Of an envelope less its mean, `window` not yet applied. The transform padded to PADDING times the length is that of the values turned
-    /// by r / PADDING of a bin, r = 0, 1, ..., bin by bin; as they are real, the turn by r has that by -r in its negative frequencies. The
-    /// demodulator lends its backward plan, which gives the complex conjugate.
-    pub(in super::super) fn transform(
-        &mut self,
-        envelope: &[f64],
-        window: &[f64],
-        room: &mut Demodulator,
-    ) {
+    /// Of an envelope less its mean, `window` not yet applied. The transform padded to PADDING times the length is that
+    /// of the values turned by r / PADDING of a bin, r = 0, 1, ..., bin by bin; as they are real, the turn by r has
+    /// that by -r in its negative frequencies. The demodulator lends its backward plan, which gives the complex
+    /// conjugate.
+    pub(in super::super) fn transform(&mut self, envelope: &[f64], window: &[f64], room: &mut Demodulator) {
         let n = self.length;
         let turn = TAU / (PADDING * n) as f64;
         for r in 0..=PADDING / 2 {
-            for (t, (value, (e, w))) in (room.values.iter_mut())
-                .zip(envelope.iter().zip(window))
-                .enumerate()
-            {
+            for (t, (value, (e, w))) in (room.values.iter_mut()).zip(envelope.iter().zip(window)).enumerate() {
                 let (sin, cos) = (turn * (r * t) as f64).sin_cos();
                 *value = Complex::new(e * w * cos, e * w * sin);
             }
-            room.fft
-                .process_with_scratch(&mut room.values, &mut room.scratch);
+            room.fft.process_with_scratch(&mut room.values, &mut room.scratch);
             for k in 0..=n / 2 {
                 let above = PADDING * k + r;
                 if let Some(place) = self.values.get_mut(above) {

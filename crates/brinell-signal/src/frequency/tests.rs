@@ -8,20 +8,10 @@ const FS: f64 = 25_600.0;
 
 /// Half a second of impacts as from a raceway defect of the NN3007 at 1800 r/min.
 fn train(rate: f64, jitter: f64, noise: f64) -> ImpactTrain {
-    ImpactTrain {
-        fs: FS,
-        rate,
-        jitter,
-        resonance: 4000.0,
-        decay: 6e-4,
-        noise,
-    }
+    ImpactTrain { fs: FS, rate, jitter, resonance: 4000.0, decay: 6e-4, noise }
 }
 
-const BAND: Band = Band {
-    low: 2000.0,
-    high: f64::INFINITY,
-};
+const BAND: Band = Band { low: 2000.0, high: f64::INFINITY };
 
 fn search() -> LineSearch {
     LineSearch::new(250.102)
@@ -34,13 +24,7 @@ fn tracked(x: &[f64], length: usize) -> Option<LineFrequency> {
 #[test]
 fn analytic_clean_train() {
     for rate in [246.31, 249.6, 250.102, 254.7] {
-        let found = line_frequency(
-            &train(rate, 0.0, 0.0).generate(12_800, 1),
-            FS,
-            BAND,
-            &search(),
-        )
-        .unwrap();
+        let found = line_frequency(&train(rate, 0.0, 0.0).generate(12_800, 1), FS, BAND, &search()).unwrap();
         assert!((found.frequency - rate).abs() < 5e-3, "{rate}: {found:?}");
         assert_eq!((found.harmonics, found.resolution), (8, 4.0));
     }
@@ -70,10 +54,7 @@ fn analytic_uncertainty_is_the_scatter() {
             scores.push((found.frequency - 249.6) / found.uncertainty);
         }
         let rms = scores.rms();
-        assert!(
-            (0.75..1.33).contains(&rms),
-            "jitter {jitter}, noise {noise}: {rms}"
-        );
+        assert!((0.75..1.33).contains(&rms), "jitter {jitter}, noise {noise}: {rms}");
     }
 }
 
@@ -89,9 +70,7 @@ fn analytic_variance_of_one_line_follows_the_formula() {
     let modulation = cosine(n, FS, 250.0, 0.5, 1.0);
     let (mut errors, mut predicted) = (Moments::new(), Moments::new());
     for _ in 0..trials {
-        let x: Vec<f64> = (0..n)
-            .map(|i| carrier[i] * (1.0 + modulation[i]) + 0.5 * noise.normal())
-            .collect();
+        let x: Vec<f64> = (0..n).map(|i| carrier[i] * (1.0 + modulation[i]) + 0.5 * noise.normal()).collect();
         let found = line_frequency(&x, FS, band, &one).unwrap();
         errors.push(found.frequency - 250.0);
         predicted.push(found.uncertainty);
@@ -114,23 +93,10 @@ fn prop_noise_alone_shows_no_line() {
 fn prop_line_outside_the_range_is_not_found_at_its_edge() {
     let mut narrow = search();
     narrow.tolerance = 0.004;
-    let found = line_frequency(
-        &train(252.5, 0.0, 0.05).generate(12_800, 3),
-        FS,
-        BAND,
-        &narrow,
-    );
+    let found = line_frequency(&train(252.5, 0.0, 0.05).generate(12_800, 3), FS, BAND, &narrow);
     assert_eq!(found, None);
     narrow.tolerance = 0.012;
-    assert!(
-        line_frequency(
-            &train(252.5, 0.0, 0.05).generate(12_800, 3),
-            FS,
-            BAND,
-            &narrow
-        )
-        .is_some()
-    );
+    assert!(line_frequency(&train(252.5, 0.0, 0.05).generate(12_800, 3), FS, BAND, &narrow).is_some());
 }
 
 #[test]
@@ -148,10 +114,7 @@ fn analytic_tracker_averages_a_long_run() {
     let found = tracked(&x, 16_384).unwrap();
     assert_eq!(found.segments, 30);
     assert!(found.uncertainty < 0.03, "{found:?}");
-    assert!(
-        (found.frequency - rate).abs() < 3.0 * found.uncertainty,
-        "{found:?}"
-    );
+    assert!((found.frequency - rate).abs() < 3.0 * found.uncertainty, "{found:?}");
 }
 
 #[test]
@@ -161,10 +124,7 @@ fn analytic_tracker_owns_its_interpolation_error() {
     let x: Vec<f64> = (0..131_072).map(one).collect();
     let found = tracked(&x, 16_384).unwrap();
     let error = (found.frequency - FS / 103.0).abs();
-    assert!(
-        found.uncertainty < 2e-3 && error < found.uncertainty,
-        "{found:?} {error}"
-    );
+    assert!(found.uncertainty < 2e-3 && error < found.uncertainty, "{found:?} {error}");
 }
 
 #[test]

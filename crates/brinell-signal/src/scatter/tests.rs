@@ -43,9 +43,7 @@ fn autoregressive(noise: &mut Noise, n: usize, rho: f64) -> Vec<f64> {
 fn analytic_a_cosine_of_the_basis_has_its_amplitude() {
     // z_i = cos(pi 3 (i - 1/2) / n) has c_3 = sqrt(n / 2) and no other.
     let n = 40;
-    let z: Vec<f64> = (0..n)
-        .map(|i| (std::f64::consts::PI * 3.0 * (f64::from(i) + 0.5) / 40.0).cos())
-        .collect();
+    let z: Vec<f64> = (0..n).map(|i| (std::f64::consts::PI * 3.0 * (f64::from(i) + 0.5) / 40.0).cos()).collect();
     close(Some(cosine(&z, 3)), 20f64.sqrt(), 1e-12);
     for k in [1, 2, 4, 7, 39] {
         assert!(cosine(&z, k).abs() < 1e-12, "{k}");
@@ -57,8 +55,8 @@ fn analytic_a_cosine_of_the_basis_has_its_amplitude() {
 
 #[test]
 fn analytic_interval_of_a_correlated_mean_covers_the_truth_95_times_in_100() {
-    // First-order autoregression: S = 1 / (1 - rho)^2, while the variance of one value is 1 / (1 - rho^2). Treating values as independent would cover
-    // 74 % at rho = 0.5 and nearly all at -0.5.
+    // First-order autoregression: S = 1 / (1 - rho)^2, while the variance of one value is 1 / (1 - rho^2). Treating
+    // values as independent would cover 74 % at rho = 0.5 and nearly all at -0.5.
     let trials = 4000;
     for (n, rho, least, most) in [
         (13, 0.0, 0.935, 0.965),
@@ -80,10 +78,7 @@ fn analytic_interval_of_a_correlated_mean_covers_the_truth_95_times_in_100() {
             covered += usize::from(mean.abs() <= scatter.half_width());
         }
         let share = covered as f64 / f64::from(trials);
-        assert!(
-            (least..most).contains(&share),
-            "{n} values, rho {rho}: {share} with {freedom} degrees of freedom"
-        );
+        assert!((least..most).contains(&share), "{n} values, rho {rho}: {share} with {freedom} degrees of freedom");
     }
 }
 
@@ -112,9 +107,7 @@ fn analytic_drift_is_called_when_there_is_one() {
             // Settles with a time constant of a tenth of the record, from 30 standard errors of its mean.
             let height = 30.0 / (1.0 - rho) / (n as f64).sqrt();
             let settling = z.iter().enumerate();
-            let settling: Vec<f64> = settling
-                .map(|(i, z)| z + height * (-10.0 * i as f64 / n as f64).exp())
-                .collect();
+            let settling: Vec<f64> = settling.map(|(i, z)| z + height * (-10.0 * i as f64 / n as f64).exp()).collect();
             called[1] += usize::from(drift(&settling).is_some_and(|by| by > 0.0));
         }
         // One in 500 by its own account; a beginning that is correlated with itself is called a little more often.
@@ -136,10 +129,7 @@ fn analytic_a_drift_that_goes_on_is_called() {
             let decaying: Vec<f64> = (z.iter().enumerate())
                 .map(|(i, z)| 0.01 * z + 3.0 * (-(i as f64) / (constant * n as f64)).exp())
                 .collect();
-            assert!(
-                drift(&decaying).is_some_and(|by| by > 0.0),
-                "{n} {constant}"
-            );
+            assert!(drift(&decaying).is_some_and(|by| by > 0.0), "{n} {constant}");
         }
     }
 }

@@ -21,7 +21,8 @@ pub fn live() -> isize {
     LIVE.get()
 }
 
-// SAFETY: every call is handed on to the system's allocator unchanged, and the counters neither allocate nor need to be dropped.
+// SAFETY: every call is handed on to the system's allocator unchanged, and the counters neither allocate nor need to be
+// dropped.
 unsafe impl GlobalAlloc for Counting {
     unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
         CALLS.set(CALLS.get() + 1);

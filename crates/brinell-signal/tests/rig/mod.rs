@@ -1,10 +1,11 @@
 //! Made-up signals of a test rig whose damage is known. Nothing here knows brinell's own model of a bearing.
 //!
-//! Impacts: P. D. McFadden and J. D. Smith, J. Sound Vib. 96 (1984) 69-82, with the random slip of J. Antoni and R. B. Randall,
-//! J. Vib. Acoust. 125 (2003) 282-289: intervals that vary about their mean and do not make up for it, and a timing error of each
-//! impact besides. Each impact rings two resonances. Around them: harmonics of the shaft, gear mesh with sidebands, mains, a
-//! frequency converter's carrier, clicks, and coloured noise that breathes with the shaft. The bearing's frequencies
-//! lie off their nominal places by slip and contact angle, and the analyst's speed is off too.
+//! Impacts: P. D. McFadden and J. D. Smith, J. Sound Vib. 96 (1984) 69-82, with the random slip of J. Antoni and R. B.
+//! Randall, J. Vib. Acoust. 125 (2003) 282-289: intervals that vary about their mean and do not make up for it, and a
+//! timing error of each impact besides. Each impact rings two resonances. Around them: harmonics of the shaft, gear
+//! mesh with sidebands, mains, a frequency converter's carrier, clicks, and coloured noise that breathes with the
+//! shaft. The bearing's frequencies lie off their nominal places by slip and contact angle, and the analyst's speed is
+//! off too.
 
 use std::f64::consts::TAU;
 
@@ -114,15 +115,7 @@ fn draw(r: &mut Random) -> Plan {
     let shaft = r.between(15.0, 50.0);
     let told = shaft * (1.0 + 0.004 * r.normal().clamp(-2.5, 2.5));
     let background = r.pick(&BACKGROUNDS);
-    Plan {
-        fs,
-        seconds,
-        snr_db: r.between(-22.0, 6.0),
-        bearing,
-        shaft,
-        told,
-        background,
-    }
+    Plan { fs, seconds, snr_db: r.between(-22.0, 6.0), bearing, shaft, told, background }
 }
 
 fn random(index: u64, damage: Damage) -> Random {
@@ -137,35 +130,18 @@ pub(crate) fn plan(index: u64, damage: Damage) -> Plan {
 /// The signal number `index` of a campaign; the same for the same index.
 pub(crate) fn signal(index: u64, damage: Damage) -> Signal {
     let mut r = random(index, damage);
-    let Plan {
-        fs,
-        seconds,
-        snr_db,
-        bearing: (bearing, z, ratio, cosine),
-        shaft,
-        told,
-        background,
-    } = draw(&mut r);
+    let Plan { fs, seconds, snr_db, bearing: (bearing, z, ratio, cosine), shaft, told, background } = draw(&mut r);
     // Contact angle and load move d / D cos a; sliding slows the cage.
     let g = ratio * cosine * (1.0 + 0.008 * r.normal().clamp(-2.0, 2.0));
     let cage = 0.5 * (1.0 - g) * (1.0 - 0.008 * r.uniform());
     let n = (fs * seconds) as usize;
 
     let resonances = [
-        (
-            r.between(2000.0, 5000.0_f64.min(0.4 * fs)),
-            r.between(0.02, 0.06),
-        ),
-        (
-            r.between(3500.0, 16_000.0_f64.min(0.42 * fs)),
-            r.between(0.01, 0.05),
-        ),
+        (r.between(2000.0, 5000.0_f64.min(0.4 * fs)), r.between(0.02, 0.06)),
+        (r.between(3500.0, 16_000.0_f64.min(0.42 * fs)), r.between(0.01, 0.05)),
     ];
     let share = r.between(0.2, 0.8);
-    let modes = [
-        Mode::new(resonances[0], share, fs),
-        Mode::new(resonances[1], 1.0 - share, fs),
-    ];
+    let modes = [Mode::new(resonances[0], share, fs), Mode::new(resonances[1], 1.0 - share, fs)];
     let mut x = background_of(&mut r, background, n, fs, shaft, &modes);
 
     if damage != Damage::None {
@@ -181,16 +157,7 @@ pub(crate) fn signal(index: u64, damage: Damage) -> Signal {
         ring.iter_mut().for_each(|v| *v *= scale);
         x.iter_mut().zip(&ring).for_each(|(x, v)| *x += v);
     }
-    Signal {
-        x,
-        fs,
-        seconds,
-        bearing,
-        told,
-        damage,
-        background,
-        snr_db,
-    }
+    Signal { x, fs, seconds, bearing, told, damage, background, snr_db }
 }
 
 /// A resonance: its ring after a unit impact, by recursion.
@@ -205,9 +172,7 @@ impl Mode {
         let radius = (-damping * w).exp();
         // Unit energy of the ring, times its share.
         let gain = (share * (1.0 - radius * radius) * 2.0).sqrt();
-        Mode {
-            pole: [2.0 * radius * w.cos(), radius * radius, gain],
-        }
+        Mode { pole: [2.0 * radius * w.cos(), radius * radius, gain] }
     }
 
     fn ring(&self, force: &[f64], out: &mut [f64]) {
@@ -262,11 +227,7 @@ fn impacts(
         Damage::Element => cage,
         _ => 0.0,
     };
-    let swing = if damage == Damage::Outer {
-        r.between(0.0, 0.3)
-    } else {
-        0.0
-    };
+    let swing = if damage == Damage::Outer { r.between(0.0, 0.3) } else { 0.0 };
     // The other raceway, half a spin later, shows less.
     let other = r.between(0.3, 1.0);
     let phase = r.uniform();
@@ -282,11 +243,7 @@ fn impacts(
         } else {
             1.0 + swing * (TAU * turn).cos()
         };
-        let side = if damage == Damage::Element && count % 2 == 1 {
-            other
-        } else {
-            1.0
-        };
+        let side = if damage == Damage::Element && count % 2 == 1 { other } else { 1.0 };
         let height = height * side * (spread * r.normal()).exp();
         strike(&mut force, at + jitter * period * r.normal(), height);
         at += period * (1.0 + wander * r.normal());
@@ -295,14 +252,7 @@ fn impacts(
     ringing(&force, modes)
 }
 
-fn background_of(
-    r: &mut Random,
-    background: Background,
-    n: usize,
-    fs: f64,
-    shaft: f64,
-    modes: &[Mode],
-) -> Vec<f64> {
+fn background_of(r: &mut Random, background: Background, n: usize, fs: f64, shaft: f64, modes: &[Mode]) -> Vec<f64> {
     // White noise, noise through the structure's resonances, and noise that falls with frequency; unit RMS together.
     let shares = [r.uniform() + 0.2, r.uniform(), r.uniform()];
     let white: Vec<f64> = (0..n).map(|_| r.normal()).collect();
@@ -319,15 +269,9 @@ fn background_of(
     let rms = |v: &[f64]| (v.iter().map(|x| x * x).sum::<f64>() / n as f64).sqrt();
     let total = shares.iter().sum::<f64>();
     let parts = [white, structure, red];
-    let gains: Vec<f64> = (parts.iter().zip(shares))
-        .map(|(p, s)| (s / total).sqrt() / rms(p))
-        .collect();
+    let gains: Vec<f64> = (parts.iter().zip(shares)).map(|(p, s)| (s / total).sqrt() / rms(p)).collect();
     let loud = |kind: Background| background == kind;
-    let breathing = if loud(Background::Unbalance) {
-        r.between(0.05, 0.3)
-    } else {
-        r.between(0.0, 0.05)
-    };
+    let breathing = if loud(Background::Unbalance) { r.between(0.05, 0.3) } else { r.between(0.0, 0.05) };
     let mut x: Vec<f64> = (0..n)
         .map(|i| {
             let noise: f64 = parts.iter().zip(&gains).map(|(p, g)| g * p[i]).sum();
@@ -337,23 +281,14 @@ fn background_of(
 
     let mut tones: Vec<(f64, f64, f64)> = Vec::new();
     let tone = |r: &mut Random, f: f64, a: f64| (f, a, TAU * r.uniform());
-    let strong = if loud(Background::Unbalance) {
-        3.0
-    } else {
-        0.4
-    };
+    let strong = if loud(Background::Unbalance) { 3.0 } else { 0.4 };
     for k in 1..=12 {
         let a = strong * r.uniform() / f64::from(k);
         tones.push(tone(r, f64::from(k) * shaft, a));
     }
     let mains = r.pick(&[50.0, 60.0]);
     for k in 1..=6 {
-        let a = if loud(Background::Electrical) {
-            1.0
-        } else {
-            0.1
-        } * r.uniform()
-            / f64::from(k);
+        let a = if loud(Background::Electrical) { 1.0 } else { 0.1 } * r.uniform() / f64::from(k);
         let off = r.between(0.9995, 1.0005);
         tones.push(tone(r, f64::from(k) * mains * off, a));
     }
@@ -397,11 +332,7 @@ fn background_of(
         let mut at = r.uniform() * period;
         while at < n as f64 {
             let strength = (0.2 * r.normal()).exp();
-            strike(
-                &mut force,
-                at + 0.002 * period * r.normal(),
-                height * strength,
-            );
+            strike(&mut force, at + 0.002 * period * r.normal(), height * strength);
             at += period;
         }
         let rms_of_one = (shaft / fs).sqrt();

@@ -1,7 +1,8 @@
 //! One fit from its first point to the Jacobian at its best: who asks for how many runs, and what they weigh.
 //!
-//! A quarter of the runs is spread over the whole cube, a fifth flies with the swarm, and the rest goes downhill from the best places;
-//! so many are kept back that each key can be moved to both sides of the best point, twice where the budget allows it.
+//! A quarter of the runs is spread over the whole cube, a fifth flies with the swarm, and the rest goes downhill from
+//! the best places; so many are kept back that each key can be moved to both sides of the best point, twice where the
+//! budget allows it.
 
 use super::identify::{Identified, column_noise, identify};
 use super::search::{Ask, Halt, STEP, around, chi_square, latin_hypercube, local, slopes, swarm};
@@ -9,8 +10,8 @@ use super::target::{Answer, Target, residuals};
 use nalgebra::{DMatrix, DVector};
 use std::cell::RefCell;
 
-/// Runs a batch of points of the unit cube: answers in the order of the points, `None` for a run that failed; it may refuse with
-/// [`Unfit::Interrupted`].
+/// Runs a batch of points of the unit cube: answers in the order of the points, `None` for a run that failed; it may
+/// refuse with [`Unfit::Interrupted`].
 pub type Run<'a> = dyn FnMut(&[Vec<f64>]) -> Result<Vec<Option<Vec<Answer>>>, Unfit> + 'a;
 
 /// How a search is made.
@@ -154,9 +155,7 @@ impl Book<'_> {
         if !new.is_empty() {
             let answers = (self.ask)(&new).map_err(|_| Halt::Interrupted)?;
             for (place, answers) in new.into_iter().zip(answers) {
-                let found = answers
-                    .as_ref()
-                    .map(|a| residuals(self.targets, &self.sigma, a));
+                let found = answers.as_ref().map(|a| residuals(self.targets, &self.sigma, a));
                 self.evaluations.push(Evaluation {
                     place,
                     stage: self.stage,
@@ -189,13 +188,11 @@ impl Book<'_> {
         order
     }
 
-    /// The weights, from what the `count` best runs say of their own uncertainty. They are the same for all runs, so that none is
-    /// preferred for being uncertain.
+    /// The weights, from what the `count` best runs say of their own uncertainty. They are the same for all runs, so
+    /// that none is preferred for being uncertain.
     fn weigh(&mut self, count: usize) -> Vec<f64> {
         let best = self.ranked().into_iter().take(count);
-        let best: Vec<&Vec<Answer>> = best
-            .filter_map(|k| self.evaluations[k].answers.as_ref())
-            .collect();
+        let best: Vec<&Vec<Answer>> = best.filter_map(|k| self.evaluations[k].answers.as_ref()).collect();
         let own: Vec<f64> = (0..self.targets.len())
             .map(|t| {
                 let with = best.iter().filter(|a| a[t].value.is_some());
@@ -221,18 +218,13 @@ impl Book<'_> {
 
     /// Whether some of the `runs` runs of the start has a value of each target.
     fn has_every_target(&self, runs: usize) -> Result<(), Unfit> {
-        let answered: Vec<&Vec<Answer>> = (self.evaluations.iter())
-            .filter_map(|e| e.answers.as_ref())
-            .collect();
+        let answered: Vec<&Vec<Answer>> = (self.evaluations.iter()).filter_map(|e| e.answers.as_ref()).collect();
         if answered.is_empty() {
             return Err(Unfit::AllFailed(runs));
         }
         let missing = |t: &usize| answered.iter().all(|a| a[*t].value.is_none());
         match (0..self.targets.len()).find(missing) {
-            Some(t) => Err(Unfit::NoValue {
-                name: self.targets[t].name.clone(),
-                runs,
-            }),
+            Some(t) => Err(Unfit::NoValue { name: self.targets[t].name.clone(), runs }),
             None => Ok(()),
         }
     }
@@ -261,12 +253,7 @@ impl Book<'_> {
 ///
 /// # Panics
 /// Where the budget is below [`least_budget`], or there is no target.
-pub fn fit<'a>(
-    keys: usize,
-    targets: &'a [Target],
-    settings: Settings,
-    ask: &'a mut Run<'a>,
-) -> Result<Fit, Unfit> {
+pub fn fit<'a>(keys: usize, targets: &'a [Target], settings: Settings, ask: &'a mut Run<'a>) -> Result<Fit, Unfit> {
     assert!(keys > 0 && settings.budget >= least_budget(keys) && !targets.is_empty());
     let start = start_size(keys, settings.budget);
     let reserve = (4 * keys + 1).min(settings.budget / 5).max(2 * keys);
@@ -286,17 +273,14 @@ pub fn fit<'a>(
     let step = if noisy { 2.0 * STEP } else { STEP };
 
     let particles = (2 * keys + 2).min(start);
-    let rounds =
-        (settings.budget.saturating_sub(start + reserve)).min(settings.budget / 5) / particles;
+    let rounds = (settings.budget.saturating_sub(start + reserve)).min(settings.budget / 5) / particles;
     let population: Vec<(Vec<f64>, f64)> = (book.ranked().into_iter().take(particles))
         .map(|k| &book.evaluations[k])
         .map(|e| (e.place.clone(), e.chi_square))
         .collect();
     book.stage = Stage::Swarm;
     book.limit = start + rounds * particles;
-    stage(&mut book, |ask| {
-        swarm(ask, &population, rounds as u64, settings.seed)
-    })?;
+    stage(&mut book, |ask| swarm(ask, &population, rounds as u64, settings.seed))?;
 
     book.stage = Stage::Local;
     book.limit = settings.budget - reserve;
@@ -337,13 +321,9 @@ fn stage(
     }
 }
 
-/// Differences around the best point: where a neighbour is better, around that, while points are left. A key that moves the targets by less
-/// than thrice the noise is moved further.
-fn look_around(
-    book: &mut Book,
-    noise: &[f64],
-    mut steps: Vec<f64>,
-) -> Result<(usize, Vec<f64>, Identified), Unfit> {
+/// Differences around the best point: where a neighbour is better, around that, while points are left. A key that moves
+/// the targets by less than thrice the noise is moved further.
+fn look_around(book: &mut Book, noise: &[f64], mut steps: Vec<f64>) -> Result<(usize, Vec<f64>, Identified), Unfit> {
     let keys = steps.len();
     let mut centre = book.best();
     let mut last = None;
@@ -359,9 +339,7 @@ fn look_around(
         let middle = book.residuals(centre).unwrap_or_default();
         let jacobian = slopes(&place, &middle, &points, &answers);
         let distance = |k: usize| points[2 * k + 1][k] - points[2 * k][k];
-        let floor: Vec<f64> = (0..keys)
-            .map(|k| column_noise(noise, distance(k)))
-            .collect();
+        let floor: Vec<f64> = (0..keys).map(|k| column_noise(noise, distance(k))).collect();
         let identified = identify(&middle, &jacobian, &floor);
         last = Some((centre, steps.clone(), identified));
         // Over wide differences the step of least squares sees past the roughness that stops a search downhill.
@@ -375,10 +353,7 @@ fn look_around(
             continue;
         }
         let weak = |k: &usize| jacobian.column(*k).norm() < ABOVE_NOISE * floor[*k];
-        let weak: Vec<usize> = (0..keys)
-            .filter(weak)
-            .filter(|k| steps[*k] < WIDEST)
-            .collect();
+        let weak: Vec<usize> = (0..keys).filter(weak).filter(|k| steps[*k] < WIDEST).collect();
         if weak.is_empty() {
             break;
         }
@@ -393,8 +368,8 @@ fn look_around(
     }
 }
 
-/// Where linear least squares expects the least misfit, no further than [`FARTHEST`] along any axis and within the cube. Directions with a
-/// thousandth of the largest singular value stay as they are.
+/// Where linear least squares expects the least misfit, no further than [`FARTHEST`] along any axis and within the
+/// cube. Directions with a thousandth of the largest singular value stay as they are.
 fn least_squares(place: &[f64], residuals: &[f64], jacobian: DMatrix<f64>) -> Vec<f64> {
     let svd = jacobian.svd(true, true);
     let least = 1e-3 * svd.singular_values.max();
@@ -403,13 +378,7 @@ fn least_squares(place: &[f64], residuals: &[f64], jacobian: DMatrix<f64>) -> Ve
         return place.to_vec();
     };
     let longest = step.amax();
-    let scale = if longest > FARTHEST {
-        FARTHEST / longest
-    } else {
-        1.0
-    };
+    let scale = if longest > FARTHEST { FARTHEST / longest } else { 1.0 };
     let moved = place.iter().zip(step.iter());
-    moved
-        .map(|(x, d)| (x + scale * d).clamp(0.0, 1.0))
-        .collect()
+    moved.map(|(x, d)| (x + scale * d).clamp(0.0, 1.0)).collect()
 }

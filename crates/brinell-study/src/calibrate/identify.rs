@@ -1,11 +1,12 @@
 //! What a Jacobian says of the keys: intervals, correlations, and the directions along which the targets do not change.
 //!
-//! Everything is in the unit cube, and residuals are in standard uncertainties. With J = U S V^T, the variance along column i of V is
-//! 1/s_i^2 and the covariance V S^-2 V^T (linear least squares; Bates and Watts 1988, section 1.2). Where the residuals are larger than
-//! their uncertainties explain, with f degrees of freedom left, the covariance is multiplied by chi^2/f (Birge 1932).
+//! Everything is in the unit cube, and residuals are in standard uncertainties. With J = U S V^T, the variance along
+//! column i of V is 1/s_i^2 and the covariance V S^-2 V^T (linear least squares; Bates and Watts 1988, section 1.2).
+//! Where the residuals are larger than their uncertainties explain, with f degrees of freedom left, the covariance is
+//! multiplied by chi^2/f (Birge 1932).
 //!
-//! Differences of noisy runs give a Jacobian with noise in it, which on average adds its own square to each s^2. That share is taken
-//! off: a direction that shows no more than noise has no information.
+//! Differences of noisy runs give a Jacobian with noise in it, which on average adds its own square to each s^2. That
+//! share is taken off: a direction that shows no more than noise has no information.
 
 use brinell::signal::student_t_quantile;
 use nalgebra::{DMatrix, DVector};
@@ -54,12 +55,13 @@ pub struct Identified {
     pub chi_square: f64,
     /// Targets less keys.
     pub freedom: i64,
-    /// What standard deviations were multiplied by, as the residuals are larger than their uncertainties explain; at least 1.
+    /// What standard deviations were multiplied by, as the residuals are larger than their uncertainties explain; at
+    /// least 1.
     pub inflation: f64,
 }
 
-/// From the residuals at a point, the Jacobian there, and the noise of its columns: the standard deviation of a column's length that
-/// noise causes (see `column_noise`).
+/// From the residuals at a point, the Jacobian there, and the noise of its columns: the standard deviation of a
+/// column's length that noise causes (see `column_noise`).
 #[doc(hidden)]
 pub fn identify(residuals: &[f64], jacobian: &DMatrix<f64>, noise: &[f64]) -> Identified {
     let keys = jacobian.ncols();
@@ -69,22 +71,11 @@ pub fn identify(residuals: &[f64], jacobian: &DMatrix<f64>, noise: &[f64]) -> Id
         1.. => (chi_square / freedom as f64).sqrt().max(1.0),
         _ => 1.0,
     };
-    let factor = if birge > 1.0 {
-        student_t_quantile(0.975, freedom.min(1_000_000) as u32) * birge
-    } else {
-        NORMAL
-    };
+    let factor = if birge > 1.0 { student_t_quantile(0.975, freedom.min(1_000_000) as u32) * birge } else { NORMAL };
     let information = directions(jacobian, residuals.len(), noise, factor);
     let largest = information.first().map_or(0.0, |i| i.0);
     let exact = covariance(&information, 0.0);
-    let wide = covariance(
-        &information,
-        if largest > 0.0 {
-            ROUND_OFF * largest
-        } else {
-            1.0
-        },
-    );
+    let wide = covariance(&information, if largest > 0.0 { ROUND_OFF * largest } else { 1.0 });
     let deviation = |k: usize| match exact[(k, k)] {
         v if v.is_finite() => v.sqrt(),
         _ => f64::INFINITY,
@@ -106,43 +97,26 @@ pub fn identify(residuals: &[f64], jacobian: &DMatrix<f64>, noise: &[f64]) -> Id
     }
 }
 
-/// Directions with what is known along each, from the best determined to the worst: the square of the singular value less the noise's share.
-/// `factor` times a standard deviation is half an interval.
-fn directions(
-    jacobian: &DMatrix<f64>,
-    residuals: usize,
-    noise: &[f64],
-    factor: f64,
-) -> Vec<(f64, Direction)> {
+/// Directions with what is known along each, from the best determined to the worst: the square of the singular value
+/// less the noise's share. `factor` times a standard deviation is half an interval.
+fn directions(jacobian: &DMatrix<f64>, residuals: usize, noise: &[f64], factor: f64) -> Vec<(f64, Direction)> {
     let keys = jacobian.ncols();
     // Rows of zeros, so that V is whole where there are fewer targets than keys.
     let tall = jacobian.clone().resize_vertically(residuals.max(keys), 0.0);
     let (values, vectors) = match tall.svd(false, true) {
-        nalgebra::SVD {
-            singular_values,
-            v_t: Some(v_t),
-            ..
-        } => (singular_values, v_t),
+        nalgebra::SVD { singular_values, v_t: Some(v_t), .. } => (singular_values, v_t),
         _ => (DVector::zeros(keys), DMatrix::identity(keys, keys)),
     };
     let mut information: Vec<(f64, Direction)> = (0..keys)
         .map(|i| {
             let mut vector: Vec<f64> = vectors.row(i).iter().copied().collect();
-            let largest = vector
-                .iter()
-                .copied()
-                .max_by(|a, b| a.abs().total_cmp(&b.abs()));
+            let largest = vector.iter().copied().max_by(|a, b| a.abs().total_cmp(&b.abs()));
             if largest.is_some_and(|v| v < 0.0) {
                 vector.iter_mut().for_each(|v| *v = -*v);
             }
             let noise2: f64 = vector.iter().zip(noise).map(|(v, c)| (v * c).powi(2)).sum();
             let known = (values[i] * values[i] - noise2).max(0.0);
-            let direction = Direction {
-                vector,
-                singular_value: values[i],
-                noise: noise2.sqrt(),
-                half_width: 0.0,
-            };
+            let direction = Direction { vector, singular_value: values[i], noise: noise2.sqrt(), half_width: 0.0 };
             (known, direction)
         })
         .collect();
@@ -173,8 +147,8 @@ fn covariance(information: &[(f64, Direction)], least: f64) -> DMatrix<f64> {
     })
 }
 
-/// Standard deviation of a column's length from noise alone: `noise` is that of each residual in one run, `distance` the length of the
-/// difference.
+/// Standard deviation of a column's length from noise alone: `noise` is that of each residual in one run, `distance`
+/// the length of the difference.
 pub(crate) fn column_noise(noise: &[f64], distance: f64) -> f64 {
     let sum: f64 = noise.iter().map(|n| 2.0 * n * n).sum();
     sum.sqrt() / distance
@@ -188,13 +162,7 @@ mod tests {
     #[test]
     fn analytic_a_straight_line_has_the_covariance_of_the_textbook() {
         let (x, sigma) = ([-1.0, 0.5, 2.0, 4.0, 7.0], 0.3);
-        let jacobian = DMatrix::from_fn(5, 2, |row, column| {
-            if column == 0 {
-                1.0 / sigma
-            } else {
-                x[row] / sigma
-            }
-        });
+        let jacobian = DMatrix::from_fn(5, 2, |row, column| if column == 0 { 1.0 / sigma } else { x[row] / sigma });
         let found = identify(&[0.1, -0.2, 0.3, 0.1, -0.3], &jacobian, &[0.0, 0.0]);
         let (n, sx): (f64, f64) = (5.0, x.iter().sum());
         let sxx: f64 = x.iter().map(|x| x * x).sum();
@@ -223,13 +191,8 @@ mod tests {
     /// r depends on a + 2 b alone: 2 a - b is free, and c is determined.
     #[test]
     fn analytic_a_combination_that_nothing_depends_on_is_found() {
-        let jacobian = DMatrix::from_row_slice(
-            4,
-            3,
-            &[
-                10.0, 20.0, 0.0, -5.0, -10.0, 0.0, 0.0, 0.0, 40.0, 3.0, 6.0, 0.0,
-            ],
-        );
+        let jacobian =
+            DMatrix::from_row_slice(4, 3, &[10.0, 20.0, 0.0, -5.0, -10.0, 0.0, 0.0, 0.0, 40.0, 3.0, 6.0, 0.0]);
         let found = identify(&[0.0; 4], &jacobian, &[0.0; 3]);
         let free = &found.directions[2];
         assert!(!free.is_determined() && free.half_width.is_infinite());

@@ -27,10 +27,7 @@ impl Key {
     /// # Errors
     /// Where the text is not that, or the bounds span nothing.
     pub fn read(text: &str) -> Result<Self, CalibrateError> {
-        let syntax = || CalibrateError::Syntax {
-            text: text.trim().into(),
-            expected: SYNTAX.into(),
-        };
+        let syntax = || CalibrateError::Syntax { text: text.trim().into(), expected: SYNTAX.into() };
         let (name, bounds) = text.split_once('=').ok_or_else(syntax)?;
         let name = name.trim();
         let sound = |part: &str| !part.is_empty() && !part.contains(char::is_whitespace);
@@ -51,10 +48,7 @@ impl Key {
         };
         let number = |what: &str, text: &str| match text.replace('_', "").parse::<f64>() {
             Ok(x) if x.is_finite() => Ok(x),
-            _ => Err(wrong(
-                format!("the {what} bound, `{text}`, is not a number"),
-                SYNTAX,
-            )),
+            _ => Err(wrong(format!("the {what} bound, `{text}`, is not a number"), SYNTAX)),
         };
         let (low, high) = (number("lower", low)?, number("upper", high)?);
         if low >= high {
@@ -66,17 +60,9 @@ impl Key {
             return Err(wrong(why, "a lower bound below the upper one"));
         }
         if log && low <= 0.0 {
-            return Err(wrong(
-                "a logarithm needs bounds above 0".into(),
-                "bounds above 0, or no `:log`",
-            ));
+            return Err(wrong("a logarithm needs bounds above 0".into(), "bounds above 0, or no `:log`"));
         }
-        Ok(Self {
-            name: name.into(),
-            low,
-            high,
-            log,
-        })
+        Ok(Self { name: name.into(), low, high, log })
     }
 
     /// The value at a place of the unit interval, to six digits.
@@ -128,12 +114,7 @@ mod tests {
 
     #[test]
     fn prop_values_and_places_are_inverse() {
-        for text in [
-            "a.b=2:20",
-            "a.b=-3:1e4",
-            "a.b=1e5:1e7:log",
-            "a.b=1_000:2_000:log",
-        ] {
+        for text in ["a.b=2:20", "a.b=-3:1e4", "a.b=1e5:1e7:log", "a.b=1_000:2_000:log"] {
             let key = Key::read(text).unwrap();
             assert_eq!((key.value(0.0), key.value(1.0)), (key.low, key.high));
             for step in 0..=100 {
@@ -156,10 +137,7 @@ mod tests {
             ("a=1:2:lin", "expected KEY=LOW:HIGH"),
             ("a=x:2", "a = x:2: the lower bound, `x`, is not a number"),
             ("a=1:inf", "the upper bound, `inf`, is not a number"),
-            (
-                "a=20:2",
-                "a = 20:2: the bounds are reversed; 2.0:20.0 is meant",
-            ),
+            ("a=20:2", "a = 20:2: the bounds are reversed; 2.0:20.0 is meant"),
             ("a=2:2", "the bounds are equal"),
             ("a=0:2:log", "a logarithm needs bounds above 0"),
         ] {

@@ -1,9 +1,11 @@
-//! Fitting keys of a scenario to numbers that are known: which values, how sure, and which the data do not determine. Knows no files.
+//! Fitting keys of a scenario to numbers that are known: which values, how sure, and which the data do not determine.
+//! Knows no files.
 //!
-//! [`Key`]s with bounds span the unit cube. [`fit`] asks for batches of points there, gets a run's [`Answer`]s to the [`Target`]s, and
-//! searches: a Latin hypercube and a particle swarm over the whole, then Levenberg and Marquardt's method from the best places
-//! ([`search`]). Differences around the best point give the Jacobian, from which [`identify`] takes intervals, correlations, and
-//! the directions along which nothing changes. [`signature`] boils a signal down to levels that can be compared with another's.
+//! [`Key`]s with bounds span the unit cube. [`fit`] asks for batches of points there, gets a run's [`Answer`]s to the
+//! [`Target`]s, and searches: a Latin hypercube and a particle swarm over the whole, then Levenberg and Marquardt's
+//! method from the best places ([`search`]). Differences around the best point give the Jacobian, from which
+//! [`identify`] takes intervals, correlations, and the directions along which nothing changes. [`signature`] boils a
+//! signal down to levels that can be compared with another's.
 
 mod error;
 mod fit;

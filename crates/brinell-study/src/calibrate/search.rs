@@ -1,7 +1,9 @@
-//! Where to look next: a Latin hypercube, a particle swarm, and Levenberg and Marquardt's method. All in the unit cube; knows no bearing.
+//! Where to look next: a Latin hypercube, a particle swarm, and Levenberg and Marquardt's method. All in the unit cube;
+//! knows no bearing.
 //!
-//! Points are requested in batches, and a batch does not depend on how many threads answer it or in which order. A search is a function of
-//! its seed and the answers alone: asked again with the same answers, it asks for the same points. That is how an interrupted one goes on.
+//! Points are requested in batches, and a batch does not depend on how many threads answer it or in which order. A
+//! search is a function of its seed and the answers alone: asked again with the same answers, it asks for the same
+//! points. That is how an interrupted one goes on.
 
 use argmin::core::{CostFunction, Error, Executor, PopulationState};
 use argmin::solver::particleswarm::{Particle, ParticleSwarm};
@@ -23,8 +25,8 @@ pub enum Halt {
 /// Answers a batch of points with their residuals; `None` for one that failed.
 pub type Ask<'a> = dyn FnMut(&[Vec<f64>]) -> Result<Vec<Option<Vec<f64>>>, Halt> + 'a;
 
-/// Half the distance of a difference at least, in the unit cube; twice that where runs state an uncertainty of their own: a chaotic run is
-/// uncertain by per cents, which closer points would take for a slope.
+/// Half the distance of a difference at least, in the unit cube; twice that where runs state an uncertainty of their
+/// own: a chaotic run is uncertain by per cents, which closer points would take for a slope.
 pub const STEP: f64 = 0.05;
 /// Residual of a failed point for the local search, which then shortens its step.
 const FAILED: f64 = 1e4;
@@ -110,9 +112,7 @@ pub fn swarm<'b>(
     let bounds = (vec![0.0; dimensions], vec![1.0; dimensions]);
     let solver = ParticleSwarm::new(bounds, particles.len()).with_rng_generator(random);
     let result = Executor::new(problem, solver)
-        .configure(|state: PopulationState<Particle<Vec<f64>, f64>, f64>| {
-            state.population(particles).max_iters(rounds)
-        })
+        .configure(|state: PopulationState<Particle<Vec<f64>, f64>, f64>| state.population(particles).max_iters(rounds))
         .run();
     match (result, halt.get()) {
         (_, Some(halt)) => Err(halt),
@@ -121,7 +121,8 @@ pub fn swarm<'b>(
     }
 }
 
-/// Residuals by differences, for the least-squares solver. Its parameters may leave the cube; what is requested does not.
+/// Residuals by differences, for the least-squares solver. Its parameters may leave the cube; what is requested does
+/// not.
 struct Local<'a, 'b> {
     ask: &'a RefCell<&'b mut Ask<'b>>,
     halt: Cell<Option<Halt>>,
@@ -203,23 +204,14 @@ pub fn around(place: &[f64], steps: &[f64]) -> Vec<Vec<f64>> {
     points
 }
 
-/// Slopes of the residuals along each axis, from the answers to [`around`]: between both sides, or from the middle where one failed;
-/// zero where both did.
-pub fn slopes(
-    place: &[f64],
-    middle: &[f64],
-    points: &[Vec<f64>],
-    answers: &[Option<Vec<f64>>],
-) -> DMatrix<f64> {
+/// Slopes of the residuals along each axis, from the answers to [`around`]: between both sides, or from the middle
+/// where one failed; zero where both did.
+pub fn slopes(place: &[f64], middle: &[f64], points: &[Vec<f64>], answers: &[Option<Vec<f64>>]) -> DMatrix<f64> {
     let mut slopes = DMatrix::zeros(middle.len(), place.len());
     for axis in 0..place.len() {
         let side = |k: usize| {
             let found = answers[2 * axis + k].as_deref();
-            (
-                points[2 * axis + k][axis],
-                found.unwrap_or(middle),
-                found.is_some(),
-            )
+            (points[2 * axis + k][axis], found.unwrap_or(middle), found.is_some())
         };
         let ((low, below, has_low), (high, above, has_high)) = (side(0), side(1));
         let low = if has_low { low } else { place[axis] };
@@ -237,27 +229,12 @@ pub fn slopes(
 ///
 /// # Errors
 /// Where it was not answered.
-pub fn local<'b>(
-    ask: &RefCell<&'b mut Ask<'b>>,
-    start: &[f64],
-    residuals: usize,
-    step: f64,
-) -> Result<(), Halt> {
-    let mut problem = Local {
-        ask,
-        halt: Cell::new(None),
-        place: start.to_vec(),
-        residuals: None,
-        count: residuals,
-        step,
-    };
+pub fn local<'b>(ask: &RefCell<&'b mut Ask<'b>>, start: &[f64], residuals: usize, step: f64) -> Result<(), Halt> {
+    let mut problem =
+        Local { ask, halt: Cell::new(None), place: start.to_vec(), residuals: None, count: residuals, step };
     problem.set_params(&DVector::from_column_slice(start));
     // Finer than a thousandth of the sum of squares, or of the range, is finer than the noise of a run.
-    let method = LevenbergMarquardt::new()
-        .with_ftol(1e-3)
-        .with_xtol(1e-3)
-        .with_gtol(1e-6)
-        .with_stepbound(0.5);
+    let method = LevenbergMarquardt::new().with_ftol(1e-3).with_xtol(1e-3).with_gtol(1e-6).with_stepbound(0.5);
     let (problem, _) = method.minimize(problem);
     match problem.halt.get() {
         Some(halt) => Err(halt),

@@ -1,8 +1,10 @@
-//! A signal as levels that can be compared with another's: its spectrum in octaves, and its envelope spectrum at defect frequencies.
+//! A signal as levels that can be compared with another's: its spectrum in octaves, and its envelope spectrum at defect
+//! frequencies.
 //!
-//! Levels are decibels of a root mean square against one unit of the signal. The logarithm lets a weak band count like a strong one.
-//! The signal is cut into segments that do not overlap; the mean square of a level is their mean, and its standard uncertainty follows
-//! from their scatter. Both signals have the same rate and the same segments, so that what a window smears, it smears alike.
+//! Levels are decibels of a root mean square against one unit of the signal. The logarithm lets a weak band count like
+//! a strong one. The signal is cut into segments that do not overlap; the mean square of a level is their mean, and its
+//! standard uncertainty follows from their scatter. Both signals have the same rate and the same segments, so that what
+//! a window smears, it smears alike.
 
 use brinell::signal::spectrum::FEWEST_SAMPLES;
 use brinell::signal::{Band, Detrend, Segments, SignalError, envelope, psd};
@@ -16,7 +18,8 @@ const TOP: f64 = 0.4;
 const FEWEST_BINS: f64 = 8.0;
 /// Harmonics of a defect frequency.
 pub(crate) const HARMONICS: usize = 5;
-/// Half the band about a harmonic, as a share of its frequency: what slip may do. Two bins at least, which is a line's width.
+/// Half the band about a harmonic, as a share of its frequency: what slip may do. Two bins at least, which is a line's
+/// width.
 const SLIP: f64 = 0.02;
 const LINE_BINS: f64 = 2.0;
 
@@ -48,33 +51,19 @@ pub fn decibels(relative: f64) -> f64 {
 }
 
 impl Signature {
-    /// For signals at `rate` Hz of which the shorter has `samples`; the envelope is that of `band`, and `lines` are defect frequencies
-    /// with their names, Hz.
+    /// For signals at `rate` Hz of which the shorter has `samples`; the envelope is that of `band`, and `lines` are
+    /// defect frequencies with their names, Hz.
     ///
     /// # Errors
     /// Where the shorter signal is too short to be cut.
-    pub fn new(
-        rate: f64,
-        samples: usize,
-        band: Band,
-        lines: &[(&str, f64)],
-    ) -> Result<Self, SignalError> {
+    pub fn new(rate: f64, samples: usize, band: Band, lines: &[(&str, f64)]) -> Result<Self, SignalError> {
         let segment = samples / SEGMENTS / 2 * 2;
         if segment < FEWEST_SAMPLES {
-            return Err(SignalError::TooShort {
-                what: "a signature",
-                have: samples,
-                need: SEGMENTS * FEWEST_SAMPLES,
-            });
+            return Err(SignalError::TooShort { what: "a signature", have: samples, need: SEGMENTS * FEWEST_SAMPLES });
         }
         let bin = rate / segment as f64;
         let octaves = (0..OCTAVES)
-            .map(|k| {
-                (
-                    TOP * rate * 0.5_f64.powi(k + 1),
-                    TOP * rate * 0.5_f64.powi(k),
-                )
-            })
+            .map(|k| (TOP * rate * 0.5_f64.powi(k + 1), TOP * rate * 0.5_f64.powi(k)))
             .filter(|(low, high)| high - low >= FEWEST_BINS * bin);
         let mut bands = Vec::new();
         for (name, frequency) in lines {
@@ -88,13 +77,7 @@ impl Signature {
                 }
             }
         }
-        Ok(Self {
-            rate,
-            segment,
-            band,
-            octaves: octaves.collect(),
-            lines: bands,
-        })
+        Ok(Self { rate, segment, band, octaves: octaves.collect(), lines: bands })
     }
 
     /// Of a signal at the rate.
@@ -102,15 +85,8 @@ impl Signature {
     /// # Errors
     /// Where the signal is shorter than a segment, or not finite.
     pub fn of(&self, x: &[f64]) -> Result<Vec<Level>, SignalError> {
-        let segments = |detrend| Segments {
-            detrend,
-            ..Segments::of(self.segment)
-        };
-        let too_short = SignalError::TooShort {
-            what: "a signature",
-            have: x.len(),
-            need: self.segment,
-        };
+        let segments = |detrend| Segments { detrend, ..Segments::of(self.segment) };
+        let too_short = SignalError::TooShort { what: "a signature", have: x.len(), need: self.segment };
         if x.len() < self.segment {
             return Err(too_short);
         }
@@ -124,11 +100,7 @@ impl Signature {
             let n = squares.len() as f64;
             let mean = squares.iter().sum::<f64>() / n;
             let scatter = squares.iter().map(|s| (s - mean).powi(2)).sum::<f64>();
-            let relative = if n > 1.0 && mean > 0.0 {
-                (scatter / (n * (n - 1.0))).sqrt() / mean
-            } else {
-                0.0
-            };
+            let relative = if n > 1.0 && mean > 0.0 { (scatter / (n * (n - 1.0))).sqrt() / mean } else { 0.0 };
             // A mean square's relative uncertainty is twice an amplitude's.
             Level {
                 name,
@@ -143,8 +115,7 @@ impl Signature {
             let name = format!("signature.octave_{low:.0}_{high:.0}_hz");
             level(name, *low, *high, &plain)
         });
-        let lines = (self.lines.iter())
-            .map(|(name, low, high)| level(name.clone(), *low, *high, &demodulated));
+        let lines = (self.lines.iter()).map(|(name, low, high)| level(name.clone(), *low, *high, &demodulated));
         Ok(octaves.chain(lines).collect())
     }
 
@@ -176,9 +147,7 @@ mod tests {
     #[test]
     fn analytic_levels_of_a_modulated_carrier() {
         let (amplitude, depth) = (3.0, 0.4);
-        let levels = signature(&[("bpfo", 200.0)])
-            .of(&modulated(amplitude, depth, 200.0, 8192))
-            .unwrap();
+        let levels = signature(&[("bpfo", 200.0)]).of(&modulated(amplitude, depth, 200.0, 8192)).unwrap();
         let find = |name: &str| levels.iter().find(|l| l.name == name).unwrap().decibels;
         // Mean square of the carrier with both sidebands, all within one octave; of the envelope's line.
         let all = 10.0 * (0.5 * amplitude * amplitude * (1.0 + 0.5 * depth * depth)).log10();

@@ -23,10 +23,7 @@ impl Target {
     /// # Errors
     /// Where the text is not that.
     pub fn read(text: &str) -> Result<Self, CalibrateError> {
-        let syntax = || CalibrateError::Syntax {
-            text: text.trim().into(),
-            expected: SYNTAX.into(),
-        };
+        let syntax = || CalibrateError::Syntax { text: text.trim().into(), expected: SYNTAX.into() };
         let (name, rest) = text.split_once('=').ok_or_else(syntax)?;
         let name = name.trim();
         if name.is_empty() || name.contains(char::is_whitespace) {
@@ -40,10 +37,7 @@ impl Target {
         };
         let number = |what: &str, text: &str| match text.trim().replace('_', "").parse::<f64>() {
             Ok(x) if x.is_finite() => Ok(x),
-            _ => Err(wrong(
-                format!("the {what}, `{}`, is not a number", text.trim()),
-                SYNTAX,
-            )),
+            _ => Err(wrong(format!("the {what}, `{}`, is not a number", text.trim()), SYNTAX)),
         };
         let Some((value, uncertainty)) = rest.split_once('~') else {
             number("value", rest)?;
@@ -63,11 +57,7 @@ impl Target {
                 "a standard uncertainty above 0; in per cent only of a value other than 0",
             ));
         }
-        Ok(Self {
-            name: name.into(),
-            value,
-            uncertainty,
-        })
+        Ok(Self { name: name.into(), value, uncertainty })
     }
 }
 
@@ -96,7 +86,8 @@ pub struct Answer {
     pub uncertainty: f64,
 }
 
-/// Residual of a target for which a run has no number, in standard uncertainties: far off, yet no more than a search can climb over.
+/// Residual of a target for which a run has no number, in standard uncertainties: far off, yet no more than a search
+/// can climb over.
 pub const MISSING: f64 = 10.0;
 
 /// Difference from the targets over the standard uncertainties `sigma`.
@@ -116,10 +107,7 @@ mod tests {
     fn regress_targets_are_read() {
         let read = |text| Target::read(text).unwrap();
         let target = read("sensor_ax.rms = 30.4 ~ 1.5");
-        assert_eq!(
-            (&target.name[..], target.value, target.uncertainty),
-            ("sensor_ax.rms", 30.4, 1.5)
-        );
+        assert_eq!((&target.name[..], target.value, target.uncertainty), ("sensor_ax.rms", 30.4, 1.5));
         assert_eq!(read("a=-50~2%").uncertainty, 1.0);
     }
 
@@ -141,14 +129,8 @@ mod tests {
 
     #[test]
     fn analytic_residuals_are_in_standard_uncertainties() {
-        let targets = [
-            Target::read("a=10~1").unwrap(),
-            Target::read("b=5~1").unwrap(),
-        ];
-        let answer = |value| Answer {
-            value,
-            uncertainty: 0.0,
-        };
+        let targets = [Target::read("a=10~1").unwrap(), Target::read("b=5~1").unwrap()];
+        let answer = |value| Answer { value, uncertainty: 0.0 };
         let r = residuals(&targets, &[2.0, 1.0], &[answer(Some(13.0)), answer(None)]);
         assert_eq!(r, [1.5, MISSING]);
     }

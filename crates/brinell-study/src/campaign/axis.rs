@@ -23,10 +23,7 @@ impl Axis {
     /// Where the text is not that.
     pub fn vary(text: &str) -> Result<Self, PlanError> {
         let (key, values) = one(text)?;
-        Self::new(
-            vec![key],
-            values.into_iter().map(|value| vec![value]).collect(),
-        )
+        Self::new(vec![key], values.into_iter().map(|value| vec![value]).collect())
     }
 
     /// `KEY=VALUES; KEY=VALUES; ...`: the first values of all keys, then the second ones, and so on.
@@ -50,15 +47,10 @@ impl Axis {
             return Err(PlanError::Keys {
                 first: first.0.clone(),
                 second: other.0.clone(),
-                why: format!(
-                    "have {length} and {} values; keys that vary together have equally many",
-                    other.1.len()
-                ),
+                why: format!("have {length} and {} values; keys that vary together have equally many", other.1.len()),
             });
         }
-        let settings = (0..length)
-            .map(|k| parts.iter().map(|part| part.1[k].clone()).collect())
-            .collect();
+        let settings = (0..length).map(|k| parts.iter().map(|part| part.1[k].clone()).collect()).collect();
         Self::new(parts.iter().map(|part| part.0.clone()).collect(), settings)
     }
 
@@ -101,15 +93,13 @@ impl Axis {
 }
 
 fn syntax(text: &str, expected: &str) -> PlanError {
-    PlanError::Syntax {
-        text: text.trim().into(),
-        expected: expected.into(),
-    }
+    PlanError::Syntax { text: text.trim().into(), expected: expected.into() }
 }
 
 /// `KEY=VALUES`.
 fn one(text: &str) -> Result<(String, Vec<String>), PlanError> {
-    const EXAMPLE: &str = "KEY=VALUES, for instance operation.speed_rpm=1000:5000:500 or bearing.radial_clearance_um=5,10,20";
+    const EXAMPLE: &str =
+        "KEY=VALUES, for instance operation.speed_rpm=1000:5000:500 or bearing.radial_clearance_um=5,10,20";
     let (key, values) = text.split_once('=').ok_or_else(|| syntax(text, EXAMPLE))?;
     let key = key.trim();
     let sound = |part: &str| !part.is_empty() && !part.contains(|c: char| c.is_whitespace());
@@ -153,12 +143,7 @@ pub fn split(text: &str, separator: char) -> Vec<&str> {
 
 /// One value, or a range of them.
 fn expand(key: &str, item: &str, all: &mut Vec<String>) -> Result<(), PlanError> {
-    let wrong = |why: String| PlanError::Value {
-        key: key.into(),
-        value: item.into(),
-        why,
-        allowed: VALUES.into(),
-    };
+    let wrong = |why: String| PlanError::Value { key: key.into(), value: item.into(), why, allowed: VALUES.into() };
     if item.is_empty() {
         return Err(wrong("a value is missing".into()));
     }
@@ -173,9 +158,7 @@ fn expand(key: &str, item: &str, all: &mut Vec<String>) -> Result<(), PlanError>
     };
     let read = |name: &str, text: &str| match number(text) {
         Some(x) if x.is_finite() => Ok(x),
-        _ => Err(wrong(format!(
-            "the range's {name}, `{text}`, is not a number"
-        ))),
+        _ => Err(wrong(format!("the range's {name}, `{text}`, is not a number"))),
     };
     let (a, b, d) = (read("start", from)?, read("end", to)?, read("step", step)?);
     if d == 0.0 {
@@ -194,9 +177,7 @@ fn expand(key: &str, item: &str, all: &mut Vec<String>) -> Result<(), PlanError>
     // A hair of room: 0:1:0.1 holds its end.
     let steps = (b - a) / d * (1.0 + 1e-12);
     if steps >= MOST_POINTS as f64 {
-        return Err(wrong(format!(
-            "the range has more than {MOST_POINTS} values"
-        )));
+        return Err(wrong(format!("the range has more than {MOST_POINTS} values")));
     }
     let exact = [from, to, step].map(decimal);
     for k in 0..=steps.floor() as i64 {
@@ -255,10 +236,7 @@ mod tests {
             ("o.load_n=[100,0],[200,0]", vec!["[100,0]", "[200,0]"]),
             (
                 "d.0.shape={ circle = { diameter_mm = 3 } }, {rectangle={length_mm=3,width_mm=2}}",
-                vec![
-                    "{ circle = { diameter_mm = 3 } }",
-                    "{rectangle={length_mm=3,width_mm=2}}",
-                ],
+                vec!["{ circle = { diameter_mm = 3 } }", "{rectangle={length_mm=3,width_mm=2}}"],
             ),
             (r#"name="a,b\",:1",'c,d'"#, vec![r#""a,b\",:1""#, "'c,d'"]),
             ("k=half:way", vec!["half:way"]),
@@ -275,10 +253,7 @@ mod tests {
             assert_eq!(all.len() as i64, 700 / step + 1);
             for (k, text) in all.iter().enumerate() {
                 let hundredths = k as i64 * step;
-                assert_eq!(
-                    *text,
-                    format!("{}.{:02}", hundredths / 100, hundredths % 100)
-                );
+                assert_eq!(*text, format!("{}.{:02}", hundredths / 100, hundredths % 100));
             }
         }
     }
@@ -287,10 +262,7 @@ mod tests {
     fn regress_keys_that_vary_together() {
         let axis = Axis::together("a.speed=1000:3000:1000; a.load=[1,0],[2,0],[3,0];").unwrap();
         assert_eq!(axis.keys(), ["a.speed", "a.load"]);
-        assert_eq!(
-            axis.settings(),
-            [["1000", "[1,0]"], ["2000", "[2,0]"], ["3000", "[3,0]"]]
-        );
+        assert_eq!(axis.settings(), [["1000", "[1,0]"], ["2000", "[2,0]"], ["3000", "[3,0]"]]);
     }
 
     #[test]
@@ -309,10 +281,7 @@ mod tests {
             ("a.b=1,,2", "a value is missing"),
             ("a.b=1:5", "a range has three parts, FROM:TO:STEP"),
             ("a.b=1:5:0", "the range's step is zero"),
-            (
-                "a.b=5:1:2",
-                "a.b = 5:1:2: the range's step leads away from its end; a step of -2 would reach it",
-            ),
+            ("a.b=5:1:2", "a.b = 5:1:2: the range's step leads away from its end; a step of -2 would reach it"),
             ("a.b=1:5:-2", "a step of 2 would reach it"),
             ("a.b=1:x:1", "the range's end, `x`, is not a number"),
             ("a.b=1:inf:1", "the range's end, `inf`, is not a number"),
@@ -323,10 +292,7 @@ mod tests {
         }
         assert!(say("a.b=1:5:0").contains("\n  allowed: a list (5,10,20), a range"));
         let say = |text: &str| Axis::together(text).unwrap_err().to_string();
-        assert_eq!(
-            say("a=1,2; b=1,2,3"),
-            "a and b have 2 and 3 values; keys that vary together have equally many"
-        );
+        assert_eq!(say("a=1,2; b=1,2,3"), "a and b have 2 and 3 values; keys that vary together have equally many");
         assert!(say("a=1,2").contains("two keys or more"));
         assert!(say("").contains("expected KEY=VALUES; KEY=VALUES"));
     }

@@ -16,7 +16,8 @@ pub struct NumberColumn {
     pub values: Vec<Option<f64>>,
 }
 
-/// A column for each number, three for one with an interval, in the order of the first run that has them. A run that failed has no numbers.
+/// A column for each number, three for one with an interval, in the order of the first run that has them. A run that
+/// failed has no numbers.
 pub fn columns(runs: &[&[Quantity]]) -> Vec<NumberColumn> {
     let mut order: Vec<&Quantity> = Vec::new();
     let mut places: HashMap<&str, usize> = HashMap::new();

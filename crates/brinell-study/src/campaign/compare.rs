@@ -14,12 +14,13 @@ pub struct Compared {
     pub unit: String,
     /// Of each run, in their order; `None` where a run has no such number.
     pub of: Vec<Option<Quantity>>,
-    /// Value of each run over the baseline's, with an interval where both values have one; `None` of the baseline itself, of what is not
-    /// positive, and of stiffnesses with different exponents, whose units differ.
+    /// Value of each run over the baseline's, with an interval where both values have one; `None` of the baseline
+    /// itself, of what is not positive, and of stiffnesses with different exponents, whose units differ.
     pub ratios: Vec<Option<Ratio>>,
 }
 
-/// Everything that the runs have, in the order of the first that has it. A ratio is that of the two values; see [`brinell::signal::ratio`].
+/// Everything that the runs have, in the order of the first that has it. A ratio is that of the two values; see
+/// [`brinell::signal::ratio`].
 pub fn compare(runs: &[&RunResult]) -> Vec<Compared> {
     let mut all: Vec<Compared> = Vec::new();
     let mut places: HashMap<String, usize> = HashMap::new();
@@ -44,8 +45,7 @@ pub fn compare(runs: &[&RunResult]) -> Vec<Compared> {
             if compared.name.ends_with(LEAST_STIFFNESS.name) && exponent(k) != exponent(0) {
                 continue;
             }
-            compared.ratios[k] =
-                (estimate(k).zip(estimate(0))).and_then(|(of, to)| ratio(&of, &to));
+            compared.ratios[k] = (estimate(k).zip(estimate(0))).and_then(|(of, to)| ratio(&of, &to));
         }
     }
     all

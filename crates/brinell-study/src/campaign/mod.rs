@@ -1,8 +1,10 @@
-//! Many scenarios as one piece of work: which they are, what is kept of each, and running them side by side. Knows no files.
+//! Many scenarios as one piece of work: which they are, what is kept of each, and running them side by side. Knows no
+//! files.
 //!
-//! A [`Plan`] spans a grid of settings; each of its points is a list of overrides for [`brinell::document::read`]. [`run_all`] does a
-//! list of scenarios over threads. A [`Row`] is the numbers of a finished run ([`brinell::result`]) with what they belong to: it goes to
-//! JSON and comes back bit for bit, so that a finished point need not be run again. [`fingerprint`] says whether it is the same point. [`compare()`] lays finished runs side by side.
+//! A [`Plan`] spans a grid of settings; each of its points is a list of overrides for [`brinell::document::read`].
+//! [`run_all`] does a list of scenarios over threads. A [`Row`] is the numbers of a finished run ([`brinell::result`])
+//! with what they belong to: it goes to JSON and comes back bit for bit, so that a finished point need not be run
+//! again. [`fingerprint`] says whether it is the same point. [`compare()`] lays finished runs side by side.
 
 mod axis;
 mod columns;

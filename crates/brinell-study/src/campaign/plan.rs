@@ -69,8 +69,7 @@ impl Plan {
                 if other == key {
                     return Err(PlanError::Twice((*key).clone()));
                 }
-                let inside =
-                    |a: &str, b: &str| a.strip_prefix(b).is_some_and(|rest| rest.starts_with('.'));
+                let inside = |a: &str, b: &str| a.strip_prefix(b).is_some_and(|rest| rest.starts_with('.'));
                 if inside(key, other) || inside(other, key) {
                     return Err(PlanError::Keys {
                         first: (*other).clone(),
@@ -81,9 +80,7 @@ impl Plan {
             }
         }
         // At most 100000^axes: a command line is too short to overflow this, and saturation would still refuse.
-        let points = axes.iter().fold(1_u128, |product, axis| {
-            product.saturating_mul(axis.settings().len() as u128)
-        });
+        let points = axes.iter().fold(1_u128, |product, axis| product.saturating_mul(axis.settings().len() as u128));
         if points > MOST_POINTS as u128 {
             return Err(PlanError::TooMany { points });
         }
@@ -97,9 +94,7 @@ impl Plan {
 
     /// All keys that vary, in order.
     pub fn keys(&self) -> impl Iterator<Item = &str> {
-        self.axes
-            .iter()
-            .flat_map(|axis| axis.keys().iter().map(String::as_str))
+        self.axes.iter().flat_map(|axis| axis.keys().iter().map(String::as_str))
     }
 
     /// Points, at least one.
@@ -124,7 +119,8 @@ impl Plan {
         place
     }
 
-    /// Head of a sweep's journal, which tells it from others: the axes, and the fingerprints of the points' scenarios, none of a bad one.
+    /// Head of a sweep's journal, which tells it from others: the axes, and the fingerprints of the points' scenarios,
+    /// none of a bad one.
     #[doc(hidden)]
     pub fn header<'a>(&self, scenarios: impl Iterator<Item = Option<&'a str>>) -> Value {
         let axis = |axis: &Axis| json!({ "keys": axis.keys(), "settings": axis.settings() });
@@ -160,8 +156,7 @@ mod tests {
         for a in ["1", "2", "3"] {
             for b in ["x", "y"] {
                 for c in ["4", "5", "6"] {
-                    expected
-                        .push([("a", a), ("b", b), ("c", c)].map(|(k, v)| (k.into(), v.into())));
+                    expected.push([("a", a), ("b", b), ("c", c)].map(|(k, v)| (k.into(), v.into())));
                 }
             }
         }
@@ -182,18 +177,12 @@ mod tests {
     #[test]
     fn regress_plans_that_cannot_be() {
         let say = |axes: &[&str]| plan(axes).unwrap_err().to_string();
-        assert_eq!(
-            say(&["a.b=1", "a.b=2"]),
-            "a.b varies twice; each key varies in one place"
-        );
+        assert_eq!(say(&["a.b=1", "a.b=2"]), "a.b varies twice; each key varies in one place");
         assert_eq!(
             say(&["defects.0=1", "defects.0.depth_um=2"]),
             "defects.0 and defects.0.depth_um lie one inside the other, and would overwrite each other"
         );
-        assert_eq!(
-            say(&["a=1:1000:1", "b=1:1000:1"]),
-            "1000000 points\n  allowed: 1 to 100000 points"
-        );
+        assert_eq!(say(&["a=1:1000:1", "b=1:1000:1"]), "1000000 points\n  allowed: 1 to 100000 points");
         assert!(plan(&["defects.1.depth_um=1", "defects.10.depth_um=2"]).is_ok());
     }
 }

@@ -19,8 +19,8 @@ pub struct Row {
     pub result: Result<Vec<Quantity>, String>,
 }
 
-/// Which scenario it is: SHA-256 of its text with every key given, in hexadecimal. Scenarios that mean the same have the same, however
-/// their files were written; files of damage count by what was read from them.
+/// Which scenario it is: SHA-256 of its text with every key given, in hexadecimal. Scenarios that mean the same have
+/// the same, however their files were written; files of damage count by what was read from them.
 pub fn fingerprint(scenario: &Scenario) -> String {
     digest(&scenario.to_toml())
 }
@@ -34,11 +34,8 @@ pub fn digest(text: &str) -> String {
 impl Row {
     /// As one JSON object. Numbers come back bit for bit from a parser that rounds correctly.
     pub fn to_json(&self) -> Value {
-        let settings: Map<String, Value> = self
-            .settings
-            .iter()
-            .map(|(key, value)| (key.clone(), value.as_str().into()))
-            .collect();
+        let settings: Map<String, Value> =
+            self.settings.iter().map(|(key, value)| (key.clone(), value.as_str().into())).collect();
         let mut object = json!({
             "settings": settings, "scenario": self.scenario, "brinell": self.version,
         });
@@ -73,9 +70,7 @@ impl Row {
             Some(reason) => Err(reason.as_str()?.to_owned()),
             None => {
                 let values = value.get("values")?.as_object()?.iter();
-                Ok(values
-                    .map(|(name, parts)| quantity(name, parts.as_array()?))
-                    .collect::<Option<Vec<_>>>()?)
+                Ok(values.map(|(name, parts)| quantity(name, parts.as_array()?)).collect::<Option<Vec<_>>>()?)
             }
         };
         Some(Row {
@@ -111,12 +106,7 @@ fn quantity(name: &str, parts: &[Value]) -> Option<Quantity> {
         }
         _ => return None,
     };
-    Some(Quantity {
-        name: name.to_owned(),
-        unit: unit.as_str()?.to_owned(),
-        value: number(value)?,
-        spread,
-    })
+    Some(Quantity { name: name.to_owned(), unit: unit.as_str()?.to_owned(), value: number(value)?, spread })
 }
 
 #[cfg(test)]
@@ -124,21 +114,13 @@ mod tests {
     use super::*;
 
     fn quantity(name: &str, value: Option<f64>, spread: Spread) -> Quantity {
-        Quantity {
-            name: name.into(),
-            unit: "m/s^2".into(),
-            value,
-            spread,
-        }
+        Quantity { name: name.into(), unit: "m/s^2".into(), value, spread }
     }
 
     #[test]
     fn prop_rows_come_back_from_json_bit_for_bit() {
         let mut row = Row {
-            settings: vec![
-                ("b".into(), "[1, 0]".into()),
-                ("a".into(), "x \"y\"".into()),
-            ],
+            settings: vec![("b".into(), "[1, 0]".into()), ("a".into(), "x \"y\"".into())],
             scenario: "ab12".into(),
             version: "0.1.0".into(),
             result: Err("the state stopped being finite\nat t = 1 s".into()),
@@ -152,19 +134,13 @@ mod tests {
         // Awkward numbers: every one a double that a careless parser misses by a digit.
         let mut seed = 0x9E37_79B9_7F4A_7C15_u64;
         let quantities = (0..2000).map(|k| {
-            seed = seed
-                .wrapping_mul(6364136223846793005)
-                .wrapping_add(1442695040888963407);
+            seed = seed.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
             let x = f64::from_bits(seed);
             let x = if x.is_finite() { x } else { -0.0 };
             let spread = match k % 3 {
                 0 => Spread::Without,
                 1 => Spread::Unknown,
-                _ => Spread::Interval(Interval {
-                    low: -x,
-                    high: 0.1 * x,
-                    freedom: 7,
-                }),
+                _ => Spread::Interval(Interval { low: -x, high: 0.1 * x, freedom: 7 }),
             };
             quantity(&format!("q{k}"), (k % 7 > 0).then_some(x), spread)
         });
@@ -188,11 +164,7 @@ mod tests {
             r#"{"settings":{},"scenario":"a","brinell":"1","values":{"a":[1,2]}}"#,
             r#"{"settings":{},"scenario":"a","brinell":"1","values":{"a":["m","2"]}}"#,
         ] {
-            assert_eq!(
-                Row::from_json(&serde_json::from_str(text).unwrap()),
-                None,
-                "{text}"
-            );
+            assert_eq!(Row::from_json(&serde_json::from_str(text).unwrap()), None, "{text}");
         }
     }
 }

@@ -6,8 +6,9 @@ use brinell::{Error, RunResult, Scenario, simulate_with};
 use std::num::NonZeroUsize;
 use std::ops::ControlFlow;
 
-/// Runs scenarios side by side, up to `threads` at a time; each result in the place of its scenario. `progress` gets which scenario
-/// has reached which time, s, from the thread that runs it. Results are those of each run alone, bit for bit.
+/// Runs scenarios side by side, up to `threads` at a time; each result in the place of its scenario. `progress` gets
+/// which scenario has reached which time, s, from the thread that runs it. Results are those of each run alone, bit for
+/// bit.
 pub fn run_all(
     scenarios: &[Scenario],
     threads: NonZeroUsize,
@@ -20,7 +21,5 @@ pub fn run_all(
         |k| simulate_with(&scenarios[k], &mut Progress(|t| progress(k, t))),
         |k, result| all[k] = Some(result),
     );
-    all.into_iter()
-        .map(|result| result.unwrap_or(Err(Error::Stopped)))
-        .collect()
+    all.into_iter().map(|result| result.unwrap_or(Err(Error::Stopped))).collect()
 }

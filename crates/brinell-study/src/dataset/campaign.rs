@@ -20,7 +20,8 @@ use std::sync::atomic::AtomicBool;
 
 /// Runs that are looked at before any runs; of longer plans every second, third, ... one.
 const SURVEYED: usize = 100_000;
-/// First runs that are asked which channels there are, where the bearing varies; and that are tried before a plan counts as impossible.
+/// First runs that are asked which channels there are, where the bearing varies; and that are tried before a plan
+/// counts as impossible.
 const ASKED: usize = 64;
 
 /// A plan that can be run.
@@ -88,20 +89,11 @@ pub(crate) struct Document {
 impl Document {
     fn open(path: &Path) -> Result<Self, DatasetError> {
         let bytes = File::open(path).and_then(read_text);
-        let bytes = bytes.map_err(|error| DatasetError::Read {
-            path: path.to_owned(),
-            error,
-        })?;
+        let bytes = bytes.map_err(|error| DatasetError::Read { path: path.to_owned(), error })?;
         let text = String::from_utf8(bytes).map_err(|_| {
-            DatasetError::Refused(format!(
-                "{}: not a text file in UTF-8, as TOML must be",
-                path.display()
-            ))
+            DatasetError::Refused(format!("{}: not a text file in UTF-8, as TOML must be", path.display()))
         })?;
-        Ok(Self {
-            path: path.to_owned(),
-            text,
-        })
+        Ok(Self { path: path.to_owned(), text })
     }
 
     /// What is wrong with a value of its own.
@@ -121,11 +113,7 @@ impl Document {
     }
 
     pub(crate) fn problems(&self, problems: Vec<Problem>) -> DatasetError {
-        DatasetError::Document {
-            name: self.path.display().to_string(),
-            text: self.text.clone(),
-            problems,
-        }
+        DatasetError::Document { name: self.path.display().to_string(), text: self.text.clone(), problems }
     }
 }
 
@@ -136,30 +124,23 @@ impl Campaign {
     /// Where a file cannot be read, the plan is bad or impossible, or no first run can be made.
     pub fn open(path: impl AsRef<Path>) -> Result<Self, DatasetError> {
         let plan = Document::open(path.as_ref())?;
-        let read = Plan::read(&plan.text).map_err(|problems| {
-            plan.scenario_in_place()
-                .unwrap_or_else(|| plan.problems(problems))
-        })?;
+        let read = Plan::read(&plan.text)
+            .map_err(|problems| plan.scenario_in_place().unwrap_or_else(|| plan.problems(problems)))?;
         let folder = plan.path.parent().unwrap_or(Path::new(""));
         let base = Document::open(&folder.join(&read.base)).map_err(|error| match error {
             // The file is the plan's to name.
-            DatasetError::Read { path, error } => plan.problem_of(
-                "base",
-                &read.base,
-                &format!("cannot read {}: {error}", path.display()),
-            ),
+            DatasetError::Read { path, error } => {
+                plan.problem_of("base", &read.base, &format!("cannot read {}: {error}", path.display()))
+            }
             other => other,
         })?;
         let draws = Draws::new(read).map_err(|problems| {
-            let placed = problems
-                .into_iter()
-                .map(|problem| draws_problem(problem, &plan.text));
+            let placed = problems.into_iter().map(|problem| draws_problem(problem, &plan.text));
             plan.problems(placed.collect())
         })?;
         let mut meaning = Vec::new();
         for document in [&plan, &base] {
-            meaning
-                .push(canonical(&document.text).map_err(|problems| document.problems(problems))?);
+            meaning.push(canonical(&document.text).map_err(|problems| document.problems(problems))?);
         }
         Sources { draws, plan, base }.settle(meaning)
     }
@@ -227,7 +208,8 @@ impl Campaign {
         Folder::new(folder.as_ref()).claim(self)
     }
 
-    /// Looks at what the runs draw: all of them, or of more than 100000 every second, third, ... one; once `stop` is set, at no further ones.
+    /// Looks at what the runs draw: all of them, or of more than 100000 every second, third, ... one; once `stop` is
+    /// set, at no further ones.
     pub fn survey(&self, stop: &AtomicBool) -> Survey {
         survey(self.draws(), &self.sources.base.text, stop)
     }
@@ -245,9 +227,7 @@ impl Campaign {
             )
         });
         let notes = self.draws().notes().into_iter();
-        of_runs
-            .chain(notes.map(|note| format!("warning: {note}")))
-            .collect()
+        of_runs.chain(notes.map(|note| format!("warning: {note}"))).collect()
     }
 
     /// That the plan may be run, by what a survey found.
@@ -266,10 +246,7 @@ impl Campaign {
         self.sources.scenario(run)
     }
 
-    pub(crate) fn try_scenario(
-        &self,
-        run: usize,
-    ) -> Result<(Loaded, Draw), (Vec<Problem>, Option<Draw>)> {
+    pub(crate) fn try_scenario(&self, run: usize) -> Result<(Loaded, Draw), (Vec<Problem>, Option<Draw>)> {
         self.sources.try_scenario(run)
     }
 }
@@ -322,11 +299,7 @@ impl Sources {
             });
             for channel in simulation.channels() {
                 if known.insert(channel.name.clone()) {
-                    found.signals.push(Column::new(
-                        &channel.name,
-                        channel.unit,
-                        &channel.description,
-                    ));
+                    found.signals.push(Column::new(&channel.name, channel.unit, &channel.description));
                 }
             }
             found.first.get_or_insert(loaded);
@@ -337,13 +310,7 @@ impl Sources {
     /// What follows from first runs: the signals, the columns, and what tells this campaign from others.
     fn settle(self, mut meaning: Vec<String>) -> Result<Campaign, DatasetError> {
         let draws = &self.draws;
-        let FirstRuns {
-            first,
-            failure,
-            unable,
-            signals,
-            idle,
-        } = self.first_runs(&mut meaning);
+        let FirstRuns { first, failure, unable, signals, idle } = self.first_runs(&mut meaning);
         let Some(first) = first else {
             if let Some((run, error)) = unable {
                 return Err(DatasetError::Refused(format!(
@@ -354,9 +321,7 @@ impl Sources {
             // Said of all runs, where that can be: which keys, and of how many runs.
             let survey = survey(draws, &self.base.text, &AtomicBool::new(false));
             refused(draws, &self.plan, &survey)?;
-            return Err(failure.unwrap_or_else(|| {
-                DatasetError::Refused("no run of the plan makes a scenario".into())
-            }));
+            return Err(failure.unwrap_or_else(|| DatasetError::Refused("no run of the plan makes a scenario".into())));
         };
         if let Some(pattern) = idle.iter().flatten().min() {
             let near = brinell::channel::today_name(pattern).unwrap_or("sensor_ax".into());
@@ -385,9 +350,7 @@ impl Sources {
     fn problems(&self, run: usize, problems: Vec<Problem>) -> DatasetError {
         let plan = &self.plan;
         let place = |p: &Problem| place_in_plan(&self.draws, &plan.text, run, p);
-        let is_placed = problems
-            .iter()
-            .any(|p| p.line.is_none() && place(p).is_some());
+        let is_placed = problems.iter().any(|p| p.line.is_none() && place(p).is_some());
         if !is_placed {
             return self.base.problems(problems);
         }

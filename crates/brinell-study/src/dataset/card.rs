@@ -1,4 +1,5 @@
-//! The data set's card: `README.md` with the splits for Hugging Face's `load_dataset`, and `croissant.json` for tools that read MLCommons' Croissant.
+//! The data set's card: `README.md` with the splits for Hugging Face's `load_dataset`, and `croissant.json` for tools
+//! that read MLCommons' Croissant.
 
 use crate::campaign::digest;
 use crate::dataset::error::DatasetError;
@@ -8,22 +9,14 @@ use std::fmt::Write;
 use std::path::Path;
 
 /// Licences that Hugging Face knows by the SPDX identifier in small letters.
-const KNOWN_LICENCES: [&str; 8] = [
-    "cc0-1.0",
-    "cc-by-4.0",
-    "cc-by-sa-4.0",
-    "cc-by-nc-4.0",
-    "cc-by-nc-sa-4.0",
-    "mit",
-    "apache-2.0",
-    "odbl",
-];
+const KNOWN_LICENCES: [&str; 8] =
+    ["cc0-1.0", "cc-by-4.0", "cc-by-sa-4.0", "cc-by-nc-4.0", "cc-by-nc-sa-4.0", "mit", "apache-2.0", "odbl"];
 
 /// The file that tools read.
 pub(crate) const CROISSANT: &str = "croissant.json";
 
-/// Writes both, and gives what `dataset.json` says of the one that is nobody's to change. A README.md that is there stays: its author may have
-/// gone on with it.
+/// Writes both, and gives what `dataset.json` says of the one that is nobody's to change. A README.md that is there
+/// stays: its author may have gone on with it.
 pub(crate) fn write(folder: &Path, about: &Value) -> Result<Value, DatasetError> {
     let readme = folder.join("README.md");
     if !readme.exists() {
@@ -107,21 +100,11 @@ fn card(about: &Value) -> String {
         description(about)
     );
     for class in list(about, "classes") {
-        let _ = writeln!(
-            card,
-            "| {} | {} |",
-            text(class, "name").replace('|', "\\|"),
-            class["label"]
-        );
+        let _ = writeln!(card, "| {} | {} |", text(class, "name").replace('|', "\\|"), class["label"]);
     }
     let _ = write!(card, "\n| split | runs |\n| --- | --- |\n");
     for split in list(about, "splits") {
-        let _ = writeln!(
-            card,
-            "| {} | {} |",
-            split_name(text(split, "name")),
-            split["runs"]
-        );
+        let _ = writeln!(card, "| {} | {} |", split_name(text(split, "name")), split["runs"]);
     }
     let signals: Vec<String> = list(about, "columns")
         .filter(|c| text(c, "type") == "list<float>")

@@ -1,4 +1,5 @@
-//! The columns of a data set, once: what each is called, what it holds, what it is read from, and whether it gives a label away.
+//! The columns of a data set, once: what each is called, what it holds, what it is read from, and whether it gives a
+//! label away.
 
 use crate::campaign::fingerprint;
 use crate::dataset::row::{Run, largest};
@@ -56,18 +57,9 @@ impl Source {
 }
 
 impl DataColumn {
-    fn new(
-        name: &str,
-        unit: &str,
-        description: impl Into<String>,
-        tells: bool,
-        source: Source,
-    ) -> Self {
+    fn new(name: &str, unit: &str, description: impl Into<String>, tells: bool, source: Source) -> Self {
         Self {
-            record: RecordColumn {
-                column: Column::new(name, unit, description.into()),
-                kind: source.kind(),
-            },
+            record: RecordColumn { column: Column::new(name, unit, description.into()), kind: source.kind() },
             tells,
             source,
         }
@@ -234,37 +226,20 @@ fn fixed((name, unit, description, source): &Fixed, tells: bool) -> DataColumn {
 pub(crate) fn columns(draws: &Draws, signals: &[Column]) -> Vec<DataColumn> {
     let head = HEAD.iter().map(|c| fixed(c, false));
     let signals = signals.iter().enumerate().map(|(k, column)| DataColumn {
-        record: RecordColumn {
-            column: column.clone(),
-            kind: Kind::Signal,
-        },
+        record: RecordColumn { column: column.clone(), kind: Kind::Signal },
         tells: false,
         source: Source::Signal(k),
     });
     let known = KNOWN.iter().map(|c| fixed(c, false));
     let parameters = draws.parameters().iter().enumerate().map(|(k, parameter)| {
-        let kind = if parameter.numeric {
-            Kind::Number
-        } else {
-            Kind::Words
-        };
+        let kind = if parameter.numeric { Kind::Number } else { Kind::Words };
         let unit = brinell::document::unit_of_key(&parameter.key);
         let unit = if unit.is_empty() { "1" } else { unit };
         // What only some classes draw, or what is drawn for damage, tells the class.
         let tells = !parameter.common || parameter.key.starts_with("defects");
         let source = Source::Parameter(k, kind);
-        DataColumn::new(
-            &parameter.key,
-            unit,
-            "drawn: key of the scenario",
-            tells,
-            source,
-        )
+        DataColumn::new(&parameter.key, unit, "drawn: key of the scenario", tells, source)
     });
     let truth = TRUTH.iter().map(|c| fixed(c, true));
-    head.chain(signals)
-        .chain(known)
-        .chain(parameters)
-        .chain(truth)
-        .collect()
+    head.chain(signals).chain(known).chain(parameters).chain(truth).collect()
 }

@@ -27,9 +27,7 @@ pub(crate) struct Folder {
 
 impl Folder {
     pub(crate) fn new(root: &Path) -> Self {
-        Self {
-            root: root.to_owned(),
-        }
+        Self { root: root.to_owned() }
     }
 
     pub(crate) fn sidecar(&self) -> PathBuf {
@@ -44,7 +42,8 @@ impl Folder {
         self.root.join("held_out").join(file_name(part))
     }
 
-    /// What belongs to the labels: plan and base, from which anybody could make them. Readers of a folder of Parquet pass over names with `_`.
+    /// What belongs to the labels: plan and base, from which anybody could make them. Readers of a folder of Parquet
+    /// pass over names with `_`.
     pub(crate) fn secret(&self) -> PathBuf {
         self.root.join(SECRET_PATH)
     }
@@ -107,10 +106,9 @@ impl Folder {
         };
         match serde_json::from_slice(&bytes) {
             Ok(about) => Ok(Some(about)),
-            Err(error) => Err(DatasetError::Refused(format!(
-                "{}: {error}; this is no file of a data set",
-                path.display()
-            ))),
+            Err(error) => {
+                Err(DatasetError::Refused(format!("{}: {error}; this is no file of a data set", path.display())))
+            }
         }
     }
 
@@ -181,9 +179,7 @@ impl Folder {
         if !path.exists() {
             return Ok(None);
         }
-        let told: Option<Value> = std::fs::read(self.facts(part))
-            .ok()
-            .and_then(|b| serde_json::from_slice(&b).ok());
+        let told: Option<Value> = std::fs::read(self.facts(part)).ok().and_then(|b| serde_json::from_slice(&b).ok());
         if let Some(facts) = told {
             self.are_lengths(part, &facts)?;
             return Ok(Some(facts));
@@ -226,16 +222,8 @@ impl Folder {
 
     fn file_facts(&self, path: &Path) -> Result<Value, DatasetError> {
         let RecordFacts { rows, metadata, .. } = record_facts(path)?;
-        let bytes = std::fs::metadata(path).map_err(|error| DatasetError::Read {
-            path: path.to_owned(),
-            error,
-        })?;
-        Ok(facts_of(
-            rows,
-            failed_of(&metadata),
-            bytes.len(),
-            &sha256_of(path)?,
-        ))
+        let bytes = std::fs::metadata(path).map_err(|error| DatasetError::Read { path: path.to_owned(), error })?;
+        Ok(facts_of(rows, failed_of(&metadata), bytes.len(), &sha256_of(path)?))
     }
 
     /// Holds a file's runs to oneself for as long as what comes back lives, on file systems that have locks.
@@ -244,9 +232,8 @@ impl Folder {
     /// Where somebody else holds them.
     pub(crate) fn lock(&self, part: usize) -> Result<File, DatasetError> {
         let path = self.spool(part).join("lock");
-        let file = File::create(&path).map_err(|error| {
-            DatasetError::Refused(format!("cannot write {}: {error}", path.display()))
-        })?;
+        let file = File::create(&path)
+            .map_err(|error| DatasetError::Refused(format!("cannot write {}: {error}", path.display())))?;
         match lock(&file, &path) {
             Ok(_) => Ok(file),
             Err(IoError::Busy { .. }) => Err(DatasetError::Refused(format!(
@@ -262,10 +249,7 @@ impl Folder {
 pub(crate) const FAILED: &str = "brinell.failed_runs";
 
 fn failed_of(metadata: &Metadata) -> u64 {
-    metadata
-        .get(FAILED)
-        .and_then(|text| text.parse().ok())
-        .unwrap_or(0)
+    metadata.get(FAILED).and_then(|text| text.parse().ok()).unwrap_or(0)
 }
 
 pub(crate) fn facts_of(rows: u64, failed: u64, bytes: u64, sha256: &str) -> Value {
@@ -277,10 +261,6 @@ pub(crate) fn file_name(part: usize) -> String {
 }
 
 pub(crate) fn make(folder: &Path) -> Result<(), DatasetError> {
-    std::fs::create_dir_all(folder).map_err(|error| {
-        DatasetError::Refused(format!(
-            "cannot make the folder {}: {error}",
-            folder.display()
-        ))
-    })
+    std::fs::create_dir_all(folder)
+        .map_err(|error| DatasetError::Refused(format!("cannot make the folder {}: {error}", folder.display())))
 }

@@ -23,12 +23,7 @@ impl Merged {
     pub fn lack(&self) -> Option<String> {
         /// Numbers that are printed.
         const SHOWN: usize = 10;
-        let first: Vec<String> = self
-            .missing
-            .iter()
-            .take(SHOWN)
-            .map(ToString::to_string)
-            .collect();
+        let first: Vec<String> = self.missing.iter().take(SHOWN).map(ToString::to_string).collect();
         let (count, more) = (self.missing.len(), self.missing.len() > SHOWN);
         (count > 0).then(|| {
             format!(
@@ -41,8 +36,8 @@ impl Merged {
     }
 }
 
-/// Brings the finished files of `from` into `into`, which may be one of them, or new, and writes `dataset.json` where all are there then.
-/// A file that is there already stays; where two folders have it, both must be the same.
+/// Brings the finished files of `from` into `into`, which may be one of them, or new, and writes `dataset.json` where
+/// all are there then. A file that is there already stays; where two folders have it, both must be the same.
 ///
 /// # Errors
 /// Where a folder is none of a data set, or of another campaign or version; where a file is not what its checksum says.

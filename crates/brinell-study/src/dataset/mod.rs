@@ -1,8 +1,9 @@
 //! Data sets: a plan to Parquet files of labelled signals with ground truth.
 //!
-//! A [`Campaign`] is a plan with its base scenario. [`run`] does a [`Shard`] of it into a folder: each finished run goes to the disk whole, and as soon as
-//! all runs of a file are there, they become that file. The same files come out, byte for byte, whatever the threads, the shards and the
-//! interruptions; what is there already is not touched. [`merge`] joins folders in which shards ran apart, [`verify`] checks one.
+//! A [`Campaign`] is a plan with its base scenario. [`run`] does a [`Shard`] of it into a folder: each finished run
+//! goes to the disk whole, and as soon as all runs of a file are there, they become that file. The same files come out,
+//! byte for byte, whatever the threads, the shards and the interruptions; what is there already is not touched.
+//! [`merge`] joins folders in which shards ran apart, [`verify`] checks one.
 //!
 //! In a folder:
 //!

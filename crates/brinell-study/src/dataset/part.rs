@@ -48,15 +48,8 @@ impl Rows {
 }
 
 fn metadata(campaign: &Campaign, columns: &[&DataColumn], part: usize, failed: u64) -> Metadata {
-    let descriptions: Map<String, Value> = columns
-        .iter()
-        .map(|c| {
-            (
-                c.record.column.name.clone(),
-                c.record.column.description.as_str().into(),
-            )
-        })
-        .collect();
+    let descriptions: Map<String, Value> =
+        columns.iter().map(|c| (c.record.column.name.clone(), c.record.column.description.as_str().into())).collect();
     let plan = campaign.plan();
     Metadata::default()
         .with(keys::VERSION, brinell::VERSION)
@@ -69,16 +62,8 @@ fn metadata(campaign: &Campaign, columns: &[&DataColumn], part: usize, failed: u
 }
 
 /// Writes file `part` from its finished runs; `None` where one of them is not there, or not whole.
-pub(crate) fn write(
-    campaign: &Campaign,
-    folder: &Folder,
-    part: usize,
-) -> Result<Option<Value>, DatasetError> {
-    let records: Vec<RecordColumn> = campaign
-        .columns()
-        .iter()
-        .map(|c| c.record.clone())
-        .collect();
+pub(crate) fn write(campaign: &Campaign, folder: &Folder, part: usize) -> Result<Option<Value>, DatasetError> {
+    let records: Vec<RecordColumn> = campaign.columns().iter().map(|c| c.record.clone()).collect();
     let read = |run: usize| read_row_file(folder.row(part, run), &records);
     // Read twice rather than held: how many failed is in the footer, which a writer is given at its beginning.
     let mut failed = 0;
@@ -96,20 +81,14 @@ pub(crate) fn write(
     let start = |path, columns: &[&DataColumn]| -> Result<Rows, DatasetError> {
         let records: Vec<RecordColumn> = columns.iter().map(|c| c.record.clone()).collect();
         Ok(Rows {
-            writer: RecordWriter::create(
-                path,
-                &records,
-                &metadata(campaign, columns, part, failed),
-            )?,
+            writer: RecordWriter::create(path, &records, &metadata(campaign, columns, part, failed))?,
             waiting: Vec::new(),
             bytes: 0,
             rows: 0,
         })
     };
     let mut rows = start(folder.part(part), &all)?;
-    let apart: Vec<usize> = (0..all.len())
-        .filter(|k| all[*k].record.column.name == "run" || all[*k].tells)
-        .collect();
+    let apart: Vec<usize> = (0..all.len()).filter(|k| all[*k].record.column.name == "run" || all[*k].tells).collect();
     let mut labels = match campaign.split_of(part) == Part::HeldOut {
         true => {
             let columns: Vec<&DataColumn> = apart.iter().map(|k| all[*k]).collect();

@@ -23,11 +23,7 @@ pub(crate) fn refused(draws: &Draws, plan: &Document, survey: &Survey) -> Result
             survey.runs,
             if survey.runs == 1 { "" } else { "s" },
             miss.run,
-            if asked {
-                ", and 1000 further draws did not fit either"
-            } else {
-                ""
-            }
+            if asked { ", and 1000 further draws did not fit either" } else { "" }
         );
         // A key that the plan sets is found there; what the base gives has its line there already.
         let place = place_in_plan(draws, &plan.text, miss.run, &problem);

@@ -45,37 +45,23 @@ enum Short {
 
 /// Runs `index` and makes its row; nothing where it was broken off. A run that cannot be is a row with its reason.
 pub(crate) fn make(campaign: &Campaign, index: usize, listener: &dyn Listener) -> Option<Row> {
-    let mut run = Run {
-        campaign,
-        index,
-        draw: None,
-        loaded: None,
-        ended: None,
-        failed: None,
-    };
+    let mut run = Run { campaign, index, draw: None, loaded: None, ended: None, failed: None };
     match run.go(listener) {
         Ok(()) => {}
         Err(Short::Failed(reason)) => run.failed = Some(reason),
         Err(Short::Stopped) => return None,
     }
-    let cells = campaign
-        .columns()
-        .iter()
-        .map(|column| column.cell(&mut run));
-    Some(Row {
-        cells: cells.collect(),
-        failed: run.failed,
-    })
+    let cells = campaign.columns().iter().map(|column| column.cell(&mut run));
+    Some(Row { cells: cells.collect(), failed: run.failed })
 }
 
 impl<'a> Run<'a> {
     fn go(&mut self, listener: &'a dyn Listener) -> Result<(), Short> {
         let failed = |error: &dyn std::fmt::Display| Short::Failed(one_line(&error.to_string()));
-        let (loaded, draw) =
-            (self.campaign.try_scenario(self.index)).map_err(|(problems, draw)| {
-                self.draw = draw;
-                Short::Failed(unsaid(&on_one_line(&problems)))
-            })?;
+        let (loaded, draw) = (self.campaign.try_scenario(self.index)).map_err(|(problems, draw)| {
+            self.draw = draw;
+            Short::Failed(unsaid(&on_one_line(&problems)))
+        })?;
         self.draw = Some(draw);
         let scenario = &self.loaded.insert(loaded).scenario;
         let simulation = Simulation::new(scenario).map_err(|error| failed(&error))?;
@@ -136,21 +122,14 @@ impl<'a> Run<'a> {
     }
 
     /// Of each defect, as written and as made.
-    pub(crate) fn defects<T>(
-        &self,
-        of: impl Fn(&scenario::Defect, &Defect) -> T,
-    ) -> Option<Vec<T>> {
+    pub(crate) fn defects<T>(&self, of: impl Fn(&scenario::Defect, &Defect) -> T) -> Option<Vec<T>> {
         let made = self.ended.as_ref()?.0.model().defects.iter();
         let pairs = self.scenario()?.defects.iter().zip(made);
         Some(pairs.map(|(written, defect)| of(written, defect)).collect())
     }
 
     /// Of each entry or exit.
-    pub(crate) fn instants<T>(
-        &self,
-        enters: bool,
-        of: impl Fn(&Instant, &Layout) -> T,
-    ) -> Option<Vec<T>> {
+    pub(crate) fn instants<T>(&self, enters: bool, of: impl Fn(&Instant, &Layout) -> T) -> Option<Vec<T>> {
         let layout = &self.ended.as_ref()?.0.model().layout;
         let these = self.gathered()?.instants.iter();
         let these = these.filter(|i| i.event.enters == enters);
@@ -177,9 +156,7 @@ impl<'a> Run<'a> {
     /// What it sets over the base scenario, as JSON.
     pub(crate) fn settings(&self) -> Option<String> {
         let settings = self.draw.as_ref()?.settings.iter();
-        let settings: Map<String, Json> = settings
-            .map(|(key, value)| (key.clone(), value.as_str().into()))
-            .collect();
+        let settings: Map<String, Json> = settings.map(|(key, value)| (key.clone(), value.as_str().into())).collect();
         Some(Json::from(settings).to_string())
     }
 }
@@ -188,8 +165,7 @@ impl<'a> Run<'a> {
 pub(crate) fn largest(defect: &Defect, of: impl Fn(f64) -> f64) -> f64 {
     const PARTS: u32 = 2000;
     let (first, last) = defect.shape.arc();
-    let at =
-        |k: u32| of((first + (last - first) * f64::from(k) / f64::from(PARTS)).clamp(first, last));
+    let at = |k: u32| of((first + (last - first) * f64::from(k) / f64::from(PARTS)).clamp(first, last));
     (0..=PARTS).map(at).fold(0.0, f64::max)
 }
 

@@ -39,9 +39,7 @@ impl FromStr for Shard {
 
     fn from_str(text: &str) -> Result<Self, String> {
         let number = |text: &str| text.trim().parse::<usize>().ok();
-        let parts = text
-            .split_once('/')
-            .and_then(|(i, n)| Some((number(i)?, number(n)?)));
+        let parts = text.split_once('/').and_then(|(i, n)| Some((number(i)?, number(n)?)));
         match parts {
             Some((index, of)) if (1..=of).contains(&index) => Ok(Self { index, of }),
             Some((0, of)) if of > 0 => Err(format!("shards count from 1: 1/{of} to {of}/{of}")),
@@ -91,10 +89,12 @@ enum Ended {
     Stopped,
 }
 
-/// Does what is missing of a shard in `folder`, up to `threads` runs at a time. Call it again to resume where it stopped.
+/// Does what is missing of a shard in `folder`, up to `threads` runs at a time. Call it again to resume where it
+/// stopped.
 ///
 /// # Errors
-/// Where the folder holds something else, another process is at work on the same runs, or files cannot be written: what was finished stays.
+/// Where the folder holds something else, another process is at work on the same runs, or files cannot be written: what
+/// was finished stays.
 pub fn run(
     campaign: &Campaign,
     folder: impl AsRef<Path>,
@@ -106,9 +106,7 @@ pub fn run(
     folder.claim(campaign)?;
     let mut went = ShardSummary::default();
     let mut jobs = Vec::new();
-    let parts: Vec<usize> = (0..campaign.parts())
-        .filter(|part| shard.has(*part))
-        .collect();
+    let parts: Vec<usize> = (0..campaign.parts()).filter(|part| shard.has(*part)).collect();
     for part in &parts {
         let runs = campaign.runs_of(*part);
         went.runs += runs.len();
@@ -120,13 +118,8 @@ pub fn run(
             jobs.extend(runs.iter().map(|run| (*part, *run)));
         }
     }
-    let work = Work {
-        campaign,
-        folder: &folder,
-        listener,
-        stop: AtomicBool::new(false),
-        open: Mutex::new(HashMap::new()),
-    };
+    let work =
+        Work { campaign, folder: &folder, listener, stop: AtomicBool::new(false), open: Mutex::new(HashMap::new()) };
     let mut failure = None;
     many::each(
         jobs.len(),
@@ -197,10 +190,7 @@ impl Work<'_> {
         let mut open = self.open.lock().unwrap_or_else(PoisonError::into_inner);
         if let std::collections::hash_map::Entry::Vacant(entry) = open.entry(part) {
             make(&self.folder.spool(part))?;
-            entry.insert(Open {
-                _lock: self.folder.lock(part)?,
-                left: self.campaign.runs_of(part).len(),
-            });
+            entry.insert(Open { _lock: self.folder.lock(part)?, left: self.campaign.runs_of(part).len() });
         }
         Ok(())
     }
@@ -218,11 +208,7 @@ impl Work<'_> {
     fn close(&self, part: usize) -> Result<(), DatasetError> {
         while part::write(self.campaign, self.folder, part)?.is_none() {
             // A row that a crashed machine left in pieces.
-            let broken = self
-                .campaign
-                .runs_of(part)
-                .iter()
-                .filter(|run| !self.folder.row(part, **run).exists());
+            let broken = self.campaign.runs_of(part).iter().filter(|run| !self.folder.row(part, **run).exists());
             for run in broken.collect::<Vec<_>>() {
                 if !self.make(part, *run)? {
                     return Ok(());
@@ -230,10 +216,7 @@ impl Work<'_> {
             }
         }
         clear(self.folder, part);
-        self.open
-            .lock()
-            .unwrap_or_else(PoisonError::into_inner)
-            .remove(&part);
+        self.open.lock().unwrap_or_else(PoisonError::into_inner).remove(&part);
         Ok(())
     }
 }

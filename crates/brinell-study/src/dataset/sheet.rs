@@ -99,7 +99,8 @@ struct Place {
     label: usize,
 }
 
-/// At most `each` runs of each class of the data set in `folder`, spread over its files. Runs that failed, and runs whose labels are held out, are left out.
+/// At most `each` runs of each class of the data set in `folder`, spread over its files. Runs that failed, and runs
+/// whose labels are held out, are left out.
 ///
 /// # Errors
 /// Where there is no data set, or it cannot be read.
@@ -123,12 +124,7 @@ pub fn sheet(folder: impl AsRef<Path>, each: usize) -> Result<Sheet, DatasetErro
     let places = places(&parts)?;
     let mut classes: Vec<SheetClass> = list("classes")
         .enumerate()
-        .map(|(label, class)| SheetClass {
-            name: text(&class["name"]),
-            label,
-            runs: 0,
-            shown: Vec::new(),
-        })
+        .map(|(label, class)| SheetClass { name: text(&class["name"]), label, runs: 0, shown: Vec::new() })
         .collect();
     let mut chosen = BTreeSet::new();
     for class in &mut classes {

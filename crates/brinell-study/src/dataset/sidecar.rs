@@ -47,11 +47,7 @@ pub(crate) fn about(campaign: &Campaign) -> Value {
     };
     let rate = &first.scenario.simulation.sample_rate_hz;
     let keys = first.provenance.iter().filter(|p| {
-        let tells = p.key.starts_with("defects")
-            || draws
-                .parameters()
-                .iter()
-                .any(|q| !q.common && q.key == p.key);
+        let tells = p.key.starts_with("defects") || draws.parameters().iter().any(|q| !q.common && q.key == p.key);
         !(plan.holds_out() && tells)
     });
     let mut about = json!({
@@ -88,11 +84,7 @@ pub(crate) fn about(campaign: &Campaign) -> Value {
         "to_repeat": format!("brinell {}, `brinell dataset PLAN -o FOLDER` with these two files", brinell::VERSION),
     });
     // With plan and seed anybody could make the labels.
-    let place = if plan.holds_out() {
-        "secret"
-    } else {
-        "sources"
-    };
+    let place = if plan.holds_out() { "secret" } else { "sources" };
     about[place] = sources;
     about
 }
@@ -108,9 +100,7 @@ fn splits(campaign: &Campaign) -> Vec<Value> {
         }
     }
     let splits = splits.into_iter();
-    splits
-        .map(|(part, runs, files)| json!({ "name": part.word(), "runs": runs, "files": files }))
-        .collect()
+    splits.map(|(part, runs, files)| json!({ "name": part.word(), "runs": runs, "files": files })).collect()
 }
 
 /// Split and rows of each file, in order, as a data set's description has them.
@@ -118,10 +108,7 @@ pub(crate) fn files_of(about: &Value) -> Vec<(String, u64)> {
     let each = about["runs_per_file"].as_u64().unwrap_or(1).max(1);
     let mut files = Vec::new();
     for split in about["splits"].as_array().into_iter().flatten() {
-        let (name, mut left) = (
-            split["name"].as_str().unwrap_or("?"),
-            split["runs"].as_u64().unwrap_or(0),
-        );
+        let (name, mut left) = (split["name"].as_str().unwrap_or("?"), split["runs"].as_u64().unwrap_or(0));
         while left > 0 {
             files.push((name.to_owned(), left.min(each)));
             left -= left.min(each);
@@ -131,11 +118,7 @@ pub(crate) fn files_of(about: &Value) -> Vec<(String, u64)> {
 }
 
 fn key(p: &Provenance, varies: bool) -> Value {
-    let value = if varies {
-        Value::Null
-    } else {
-        p.value.as_str().into()
-    };
+    let value = if varies { Value::Null } else { p.value.as_str().into() };
     let mut entry = json!({ "key": p.key, "value": value, "unit": p.unit });
     let told = matches!(p.origin, Origin::File | Origin::Override);
     if !told {
@@ -160,7 +143,8 @@ fn type_name(kind: Kind) -> &'static str {
     }
 }
 
-/// Writes `dataset.json` where every file is there; true where it is written or was. What is there with the same content stays.
+/// Writes `dataset.json` where every file is there; true where it is written or was. What is there with the same
+/// content stays.
 pub(crate) fn write(folder: &Folder) -> Result<bool, DatasetError> {
     let Some(about) = folder.about()? else {
         return Ok(false);
@@ -192,10 +176,7 @@ pub(crate) fn write(folder: &Folder) -> Result<bool, DatasetError> {
     }
     let sources = about.remove("sources");
     let runs = about["runs"].as_u64().unwrap_or(0);
-    about.insert(
-        "runs".into(),
-        json!({ "total": runs, "complete": runs - failed.min(runs), "failed": failed }),
-    );
+    about.insert("runs".into(), json!({ "total": runs, "complete": runs - failed.min(runs), "failed": failed }));
     about.insert("files".into(), files.into());
     if plan.is_object() {
         about.insert("held_out".into(), json!({
@@ -216,8 +197,7 @@ pub(crate) fn write(folder: &Folder) -> Result<bool, DatasetError> {
 
 /// With a checksum of all the rest.
 fn signed(mut about: Value) -> Value {
-    about[CHECKSUM] =
-        json!({ "of": "this file without this key", "sha256": digest(&written(&about)) });
+    about[CHECKSUM] = json!({ "of": "this file without this key", "sha256": digest(&written(&about)) });
     about
 }
 

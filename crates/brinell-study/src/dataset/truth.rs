@@ -1,4 +1,5 @@
-//! Hears a run: its signals as 32-bit floats, and what happened that no sensor tells. Allocates as rollers pass damage, never in a step.
+//! Hears a run: its signals as 32-bit floats, and what happened that no sensor tells. Allocates as rollers pass damage,
+//! never in a step.
 
 use crate::listener::RunListener;
 use brinell::channel::Frame;
@@ -39,8 +40,8 @@ pub(crate) struct Truth<'a> {
     pub(crate) outer: Vec<(f64, f64)>,
     pub(crate) samples: u64,
     pub(crate) largest: f64,
-    /// Samples of the signals: sample_rate_hz * duration_s, half a second at 25 600 Hz being 12 800. The sample at the end of the run would be the
-    /// first of what follows.
+    /// Samples of the signals: sample_rate_hz * duration_s, half a second at 25 600 Hz being 12 800. The sample at the
+    /// end of the run would be the first of what follows.
     keep: u64,
     pub(crate) kept: u64,
     /// Of each signal: its place in a row, where the run has it.
@@ -56,12 +57,7 @@ impl<'a> Truth<'a> {
         listener: Box<dyn RunListener + 'a>,
     ) -> Self {
         let layout = &simulation.model().layout;
-        let place = |signal: &Column| {
-            simulation
-                .channels()
-                .iter()
-                .position(|c| c.name == signal.name)
-        };
+        let place = |signal: &Column| simulation.channels().iter().position(|c| c.name == signal.name);
         let places: Vec<Option<usize>> = signals.iter().map(place).collect();
         let whole = (scenario.simulation.duration_s * simulation.sample_rate()).round();
         let keep = simulation.samples().min(whole.max(1.0) as u64);

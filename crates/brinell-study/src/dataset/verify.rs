@@ -25,16 +25,16 @@ pub struct Verified {
     pub problems: Vec<String>,
 }
 
-/// Checks every file: that it is there, its checksum, its rows, and that campaign, version and columns are the same in all.
+/// Checks every file: that it is there, its checksum, its rows, and that campaign, version and columns are the same in
+/// all.
 ///
 /// # Errors
 /// Where there is no data set, or it cannot be read at all.
 pub fn verify(path: impl AsRef<Path>) -> Result<Verified, DatasetError> {
     let folder = Folder::new(path.as_ref());
     let sidecar = match std::fs::read(folder.sidecar()) {
-        Ok(bytes) => serde_json::from_slice::<Value>(&bytes).map_err(|error| {
-            DatasetError::Refused(format!("{}: {error}", folder.sidecar().display()))
-        })?,
+        Ok(bytes) => serde_json::from_slice::<Value>(&bytes)
+            .map_err(|error| DatasetError::Refused(format!("{}: {error}", folder.sidecar().display())))?,
         Err(_) => Value::Null,
     };
     let about = match folder.about()? {
@@ -54,11 +54,7 @@ pub fn verify(path: impl AsRef<Path>) -> Result<Verified, DatasetError> {
         },
         ..Verified::default()
     };
-    let set = Set {
-        folder: &folder,
-        sidecar: &sidecar,
-        about: &about,
-    };
+    let set = Set { folder: &folder, sidecar: &sidecar, about: &about };
     set.sidecar(&mut found);
     set.files(&mut found)?;
     set.strangers(&mut found)?;
@@ -81,8 +77,7 @@ impl Set<'_> {
         let (sidecar, about) = (self.sidecar, self.about);
         let problem = if !sidecar.is_object() {
             "dataset.json is missing: the data set is not finished"
-        } else if about["campaign"] != sidecar["campaign"] || about["brinell"] != sidecar["brinell"]
-        {
+        } else if about["campaign"] != sidecar["campaign"] || about["brinell"] != sidecar["brinell"] {
             "dataset.json is of another campaign or version than work/campaign.json"
         } else if is_whole(sidecar) != Some(true) {
             "dataset.json: its checksum is another than when it was written"
@@ -104,13 +99,7 @@ impl Set<'_> {
     }
 
     /// One file, which should hold `columns` and so many `rows`.
-    fn file(
-        &self,
-        part: usize,
-        columns: &[&str],
-        rows: u64,
-        found: &mut Verified,
-    ) -> Result<(), DatasetError> {
+    fn file(&self, part: usize, columns: &[&str], rows: u64, found: &mut Verified) -> Result<(), DatasetError> {
         let path = self.folder.part(part);
         let name = format!("runs/{}", file_name(part));
         if !path.exists() {
@@ -135,18 +124,11 @@ impl Set<'_> {
         say(get(CAMPAIGN) != ours, "of another campaign");
         let (version, theirs) = (self.about["brinell"].as_str(), get(keys::VERSION));
         let word = |version: Option<&str>| version.unwrap_or("?").to_owned();
-        let other = format!(
-            "of brinell {}, the others of {}",
-            word(theirs),
-            word(version)
-        );
+        let other = format!("of brinell {}, the others of {}", word(theirs), word(version));
         say(theirs != version, &other);
         let other_part = get(PART) != Some(part.to_string().as_str());
         say(other_part, "another file under this name");
-        say(
-            facts.columns != columns,
-            "other columns than the data set's",
-        );
+        say(facts.columns != columns, "other columns than the data set's");
         let count = format!("{} rows instead of {rows}", facts.rows);
         say(facts.rows != rows, &count);
         if let Some(told) = self.told(part) {
@@ -196,7 +178,8 @@ impl Set<'_> {
         Ok(())
     }
 
-    /// Held-out labels may have been taken elsewhere, all of them: those that are here are checked, and what they are made from.
+    /// Held-out labels may have been taken elsewhere, all of them: those that are here are checked, and what they are
+    /// made from.
     fn labels(&self, found: &mut Verified) -> Result<(), DatasetError> {
         let plan = &self.sidecar["held_out"]["plan"];
         let secret: Value = std::fs::read(self.folder.secret())
@@ -226,23 +209,14 @@ impl Set<'_> {
                 false => "remove the file of that name in runs/ as well, and both are made again",
                 true => "the plan's own command writes it again",
             };
-            found
-                .problems
-                .push(format!("{path} is missing, and others are here: {remedy}"));
+            found.problems.push(format!("{path} is missing, and others are here: {remedy}"));
         }
         Ok(())
     }
 
-    fn unchanged(
-        &self,
-        path: &str,
-        told: Option<&str>,
-        found: &mut Verified,
-    ) -> Result<(), DatasetError> {
+    fn unchanged(&self, path: &str, told: Option<&str>, found: &mut Verified) -> Result<(), DatasetError> {
         if Some(sha256_of(self.folder.root.join(path))?.as_str()) != told {
-            found.problems.push(format!(
-                "{path}: its checksum is another than when it was written"
-            ));
+            found.problems.push(format!("{path}: its checksum is another than when it was written"));
         }
         Ok(())
     }

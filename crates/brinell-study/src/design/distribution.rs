@@ -4,7 +4,8 @@ use crate::campaign::{Axis, PlanError};
 use brinell::document::reading::{Misfit, Node, Toml};
 use brinell::signal::distribution::{normal_quantile, normal_tail};
 
-/// Significant digits of a drawn number: finer ones mean nothing, and the last bit of a logarithm is not the same on every machine.
+/// Significant digits of a drawn number: finer ones mean nothing, and the last bit of a logarithm is not the same on
+/// every machine.
 const DIGITS: usize = 9;
 /// Values of a `whole` distribution and of a grid at most.
 const MOST_VALUES: f64 = 1e9;
@@ -21,10 +22,7 @@ pub struct Value {
 impl Value {
     fn float(x: f64) -> Self {
         let x: f64 = format!("{x:.*e}", DIGITS - 1).parse().unwrap_or(x);
-        Self {
-            toml: format!("{x:?}"),
-            number: Some(x),
-        }
+        Self { toml: format!("{x:?}"), number: Some(x) }
     }
 
     fn of(node: &Node) -> Self {
@@ -40,10 +38,7 @@ impl Value {
 
     /// The words of a string, anything else as TOML.
     pub fn words(&self) -> &str {
-        let inner = self
-            .toml
-            .strip_prefix('"')
-            .and_then(|t| t.strip_suffix('"'));
+        let inner = self.toml.strip_prefix('"').and_then(|t| t.strip_suffix('"'));
         inner.filter(|t| !t.contains('\\')).unwrap_or(&self.toml)
     }
 }
@@ -101,7 +96,8 @@ pub enum Distribution {
 pub(super) const KINDS: [&str; 6] = ["uniform", "log", "normal", "whole", "choice", "grid"];
 
 impl Distribution {
-    /// Reads a table that has one of the distributions' names as its key; `None` where it has none: it is no distribution.
+    /// Reads a table that has one of the distributions' names as its key; `None` where it has none: it is no
+    /// distribution.
     pub(super) fn read(node: &Node) -> Option<Result<Self, Misfit>> {
         let Toml::Table(table) = &node.value else {
             return None;
@@ -130,11 +126,7 @@ impl Distribution {
         Some(Self::of_kind(kind, &table[kind].node, get).map_err(|m| m.in_element(node)))
     }
 
-    fn of_kind<'a>(
-        kind: &str,
-        node: &Node,
-        get: impl Fn(&str) -> Option<&'a Node>,
-    ) -> Result<Self, Misfit> {
+    fn of_kind<'a>(kind: &str, node: &Node, get: impl Fn(&str) -> Option<&'a Node>) -> Result<Self, Misfit> {
         Ok(match kind {
             "uniform" => {
                 let (low, high) = ends(kind, node)?;
@@ -143,10 +135,7 @@ impl Distribution {
             "log" => {
                 let (low, high) = ends(kind, node)?;
                 if low <= 0.0 {
-                    return Err(Misfit::new(
-                        "a logarithm needs ends above 0",
-                        "log = [low, high] with low > 0",
-                    ));
+                    return Err(Misfit::new("a logarithm needs ends above 0", "log = [low, high] with low > 0"));
                 }
                 Self::Log { low, high }
             }
@@ -160,14 +149,9 @@ impl Distribution {
                         "whole = [least, largest], both included, within 1e9 of 0",
                     ));
                 }
-                Self::Whole {
-                    low: low as i64,
-                    high: high as i64,
-                }
+                Self::Whole { low: low as i64, high: high as i64 }
             }
-            "grid" => Self::Grid {
-                values: grid(node)?,
-            },
+            "grid" => Self::Grid { values: grid(node)? },
             _ => Self::choice(kind, node, get)?,
         })
     }
@@ -183,8 +167,7 @@ impl Distribution {
         let within = get("within").map(|node| ends("within", node)).transpose()?;
         let clip = get("clip").map(|node| ends("clip", node)).transpose()?;
         if let Some((low, high)) = within {
-            let share =
-                normal_tail((low - mean) / deviation) - normal_tail((high - mean) / deviation);
+            let share = normal_tail((low - mean) / deviation) - normal_tail((high - mean) / deviation);
             if share < 1e-6 {
                 return Err(Misfit::new(
                     "less than a millionth of the distribution is within these ends",
@@ -192,29 +175,18 @@ impl Distribution {
                 ));
             }
         }
-        Ok(Self::Normal {
-            mean,
-            deviation,
-            within,
-            clip,
-        })
+        Ok(Self::Normal { mean, deviation, within, clip })
     }
 
     /// Values with their weights.
-    fn choice<'a>(
-        kind: &str,
-        node: &Node,
-        get: impl Fn(&str) -> Option<&'a Node>,
-    ) -> Result<Self, Misfit> {
+    fn choice<'a>(kind: &str, node: &Node, get: impl Fn(&str) -> Option<&'a Node>) -> Result<Self, Misfit> {
         let values = values(kind, node)?;
         let weights = match get("weights") {
             None => vec![1.0; values.len()],
             Some(node) => numbers("weights = [...], one for each value of choice", node)?,
         };
         let total: f64 = weights.iter().sum();
-        let sound = weights.len() == values.len()
-            && weights.iter().all(|w| *w >= 0.0 && w.is_finite())
-            && total > 0.0;
+        let sound = weights.len() == values.len() && weights.iter().all(|w| *w >= 0.0 && w.is_finite()) && total > 0.0;
         if !sound {
             return Err(Misfit::new(
                 format!("{} values and the weights {weights:?}", values.len()),
@@ -240,12 +212,7 @@ impl Distribution {
         match self {
             Self::Uniform { low, high } => Value::float(low + place * (high - low)),
             Self::Log { low, high } => Value::float((low.ln() + place * (high / low).ln()).exp()),
-            Self::Normal {
-                mean,
-                deviation,
-                within,
-                clip,
-            } => {
+            Self::Normal { mean, deviation, within, clip } => {
                 let place = match within {
                     Some((low, high)) => {
                         let [a, b] = [low, high].map(|x| normal_tail((mean - x) / deviation));
@@ -260,27 +227,20 @@ impl Distribution {
             Self::Whole { low, high } => {
                 let count = (high - low + 1) as f64;
                 let n = low + ((place * count) as i64).min(high - low);
-                Value {
-                    toml: n.to_string(),
-                    number: Some(n as f64),
-                }
+                Value { toml: n.to_string(), number: Some(n as f64) }
             }
             Self::Choice { values, sums } => {
                 let k = sums.iter().position(|sum| place < *sum);
                 values[k.unwrap_or(values.len() - 1)].clone()
             }
-            Self::Grid { values } => {
-                values[((place * values.len() as f64) as usize).min(values.len() - 1)].clone()
-            }
+            Self::Grid { values } => values[((place * values.len() as f64) as usize).min(values.len() - 1)].clone(),
         }
     }
 
     /// Whether every value is a number.
     pub fn is_numeric(&self) -> bool {
         match self {
-            Self::Choice { values, .. } | Self::Grid { values } => {
-                values.iter().all(|value| value.number.is_some())
-            }
+            Self::Choice { values, .. } | Self::Grid { values } => values.iter().all(|value| value.number.is_some()),
             _ => true,
         }
     }
@@ -302,8 +262,7 @@ fn numbers(what: &str, node: &Node) -> Result<Vec<f64>, Misfit> {
 fn pair(what: &str, node: &Node) -> Result<[f64; 2], Misfit> {
     let all = numbers(what, node)?;
     let count = all.len();
-    all.try_into()
-        .map_err(|_| Misfit::new(format!("expected two numbers, found {count} of them"), what))
+    all.try_into().map_err(|_| Misfit::new(format!("expected two numbers, found {count} of them"), what))
 }
 
 /// [low, high] with low < high.
@@ -324,10 +283,7 @@ fn ends(name: &str, node: &Node) -> Result<(f64, f64), Misfit> {
 fn values(name: &str, node: &Node) -> Result<Vec<Value>, Misfit> {
     match &node.value {
         Toml::Array(items) if !items.is_empty() => Ok(items.iter().map(Value::of).collect()),
-        _ => Err(Misfit::new(
-            "expected a list of values",
-            format!("{name} = [...] with one value or more"),
-        )),
+        _ => Err(Misfit::new("expected a list of values", format!("{name} = [...] with one value or more"))),
     }
 }
 
@@ -344,9 +300,6 @@ fn grid(node: &Node) -> Result<Vec<Value>, Misfit> {
         };
         Misfit::new(why, "a list, or a range \"FROM:TO:STEP\"")
     })?;
-    let of = |setting: &Vec<String>| Value {
-        number: setting[0].parse().ok(),
-        toml: setting[0].clone(),
-    };
+    let of = |setting: &Vec<String>| Value { number: setting[0].parse().ok(), toml: setting[0].clone() };
     Ok(axis.settings().iter().map(of).collect())
 }

@@ -27,16 +27,8 @@ struct Seeded {
 
 /// Keys that are seeded per run, where the plan does not set them.
 const SEEDED_PER_RUN: [Seeded; 2] = [
-    Seeded {
-        table: "defects.*.shape.random",
-        name: "seed",
-        with: &[],
-    },
-    Seeded {
-        table: "sensor",
-        name: "noise_seed",
-        with: &["noise_rms_m_per_s2", "noise_snr_db"],
-    },
+    Seeded { table: "defects.*.shape.random", name: "seed", with: &[] },
+    Seeded { table: "sensor", name: "noise_seed", with: &["noise_rms_m_per_s2", "noise_snr_db"] },
 ];
 
 /// One run's settings.
@@ -82,7 +74,8 @@ impl Draws {
     /// Of a plan.
     ///
     /// # Errors
-    /// Where the plan cannot be: fewer runs than combinations of its grids, more distributions than a Sobol sequence has dimensions.
+    /// Where the plan cannot be: fewer runs than combinations of its grids, more distributions than a Sobol sequence
+    /// has dimensions.
     pub fn new(plan: Plan) -> Result<Self, Vec<Problem>> {
         let secret = Secret::of(&plan.secret).filter(|_| plan.holds_out());
         let places = places(&plan, secret.as_ref());
@@ -100,16 +93,7 @@ impl Draws {
         let common = common_axes(&plan);
         let open = order.iter().filter(|place| **place != APART).count();
         let common = (common, sequence(&plan, u64::MAX, common, open));
-        let mut draws = Self {
-            plan,
-            secret,
-            classes,
-            places,
-            common,
-            order,
-            parts: Vec::new(),
-            parameters,
-        };
+        let mut draws = Self { plan, secret, classes, places, common, order, parts: Vec::new(), parameters };
         draws.parts = split::parts(&draws)?;
         Ok(draws)
     }
@@ -154,22 +138,20 @@ impl Draws {
         self.parts[run]
     }
 
-    /// Under which conditions run `run` runs: of each key its value, or in which of so many bands of equal probability it lies where it is drawn from a
-    /// continuous distribution.
+    /// Under which conditions run `run` runs: of each key its value, or in which of so many bands of equal probability
+    /// it lies where it is drawn from a continuous distribution.
     pub(super) fn conditions(&self, run: usize, keys: &[String], bands: f64) -> Vec<String> {
         let class = &self.classes[self.class(run)];
         let of_grid = self.of_grid(run);
         let axes = class.axes.iter().enumerate();
         axes.filter(|(_, axis)| keys.contains(&self.parameters[axis.parameter].key))
             .map(|(k, axis)| match axis.distribution {
-                Distribution::Uniform { .. }
-                | Distribution::Log { .. }
-                | Distribution::Normal { .. } => {
+                Distribution::Uniform { .. } | Distribution::Log { .. } | Distribution::Normal { .. } => {
                     format!("{:.0}", (bands * self.unit(run, k, 0)).floor())
                 }
-                Distribution::Whole { .. }
-                | Distribution::Choice { .. }
-                | Distribution::Grid { .. } => self.value(run, k, 0, of_grid.as_deref()).toml,
+                Distribution::Whole { .. } | Distribution::Choice { .. } | Distribution::Grid { .. } => {
+                    self.value(run, k, 0, of_grid.as_deref()).toml
+                }
             })
             .collect()
     }
@@ -200,9 +182,7 @@ impl Draws {
 
     /// Bits that belong to a run and words: of the secret where its labels are held out, and of nothing else then.
     fn own_bits(&self, run: usize, words: &[u64]) -> u64 {
-        let run_and: Vec<u64> = std::iter::once(run as u64)
-            .chain(words.iter().copied())
-            .collect();
+        let run_and: Vec<u64> = std::iter::once(run as u64).chain(words.iter().copied()).collect();
         match &self.secret {
             Some(secret) if self.is_held_out(run) => secret.bits(&run_and),
             _ => bits(&[&[self.plan.seed], &*run_and].concat()),
@@ -214,7 +194,8 @@ impl Draws {
         let Place { class, number } = self.places[run];
         let class = &self.classes[class as usize];
         let own = word(&self.parameters[class.axes[axis].parameter].key);
-        // A second draw has no place in the design, nor has a run whose labels are held out: the place would tell the class.
+        // A second draw has no place in the design, nor has a run whose labels are held out: the place would tell the
+        // class.
         if attempt == 0 && number != APART {
             let (common, together) = &self.common;
             let place = match axis.checked_sub(*common) {
@@ -233,23 +214,19 @@ impl Draws {
         let class = &self.classes[self.class(run)];
         let of_grid = self.of_grid(run);
         let axes = 0..class.axes.len();
-        axes.map(|k| self.value(run, k, attempt, of_grid.as_deref()))
-            .collect()
+        axes.map(|k| self.value(run, k, attempt, of_grid.as_deref())).collect()
     }
 
     /// The same along one axis of its class.
     fn value(&self, run: usize, axis: usize, attempt: u64, of_grid: Option<&[usize]>) -> Value {
-        match (
-            &self.classes[self.class(run)].axes[axis].distribution,
-            of_grid,
-        ) {
+        match (&self.classes[self.class(run)].axes[axis].distribution, of_grid) {
             (Distribution::Grid { values }, Some(of_grid)) => values[of_grid[axis]].clone(),
             (distribution, _) => distribution.value(self.unit(run, axis, attempt)),
         }
     }
 
-    /// Which value of each grid a run takes: they are walked through in order, the last one changing from run to run, whatever the attempt.
-    /// `None` where its labels are held out.
+    /// Which value of each grid a run takes: they are walked through in order, the last one changing from run to run,
+    /// whatever the attempt. `None` where its labels are held out.
     fn of_grid(&self, run: usize) -> Option<Vec<usize>> {
         let Place { class, number } = self.places[run];
         let class = &self.classes[class as usize];
@@ -287,12 +264,7 @@ impl Draws {
         for (axis, value) in self.classes[c].axes.iter().zip(drawn) {
             values[axis.parameter] = Some(value);
         }
-        Ok(Draw {
-            class: c,
-            settings,
-            values,
-            redrawn: attempt,
-        })
+        Ok(Draw { class: c, settings, values, redrawn: attempt })
     }
 
     /// Seeds of the keys in [`SEEDED_PER_RUN`].
@@ -322,39 +294,32 @@ impl Draws {
     fn sets(&self, class: usize, key: &str) -> bool {
         let class = &self.plan.classes[class];
         let in_class = key.strip_prefix("defects.").zip(class.defects.as_ref());
-        self.plan.vary.sets(key)
-            || class.vary.sets(key)
-            || in_class.is_some_and(|(rest, defects)| defects.sets(rest))
+        self.plan.vary.sets(key) || class.vary.sets(key) || in_class.is_some_and(|(rest, defects)| defects.sets(rest))
     }
 
     /// Whether runs have a seed of their own under this key, which is no parameter and differs all the same.
     pub fn is_seed(&self, key: &str) -> bool {
         let is = |seeded: &Seeded| {
             let (pattern, words) = (seeded.table.split('.').chain([seeded.name]), key.split('.'));
-            pattern.clone().count() == words.clone().count()
-                && pattern.zip(words).all(|(p, w)| p == "*" || p == w)
+            pattern.clone().count() == words.clone().count() && pattern.zip(words).all(|(p, w)| p == "*" || p == w)
         };
         SEEDED_PER_RUN.iter().any(is) && (0..self.classes.len()).any(|c| !self.sets(c, key))
     }
 
-    /// A run's scenario, read from the base scenario's text with what the run draws; drawn again where the plan says so.
+    /// A run's scenario, read from the base scenario's text with what the run draws; drawn again where the plan says
+    /// so.
     ///
     /// # Errors
-    /// Every problem of the first draw: of the one and only, or where no other fitted either. With the draw, where there is one.
-    pub fn scenario(
-        &self,
-        base: &str,
-        run: usize,
-    ) -> Result<(Loaded, Draw), (Vec<Problem>, Option<Draw>)> {
+    /// Every problem of the first draw: of the one and only, or where no other fitted either. With the draw, where
+    /// there is one.
+    pub fn scenario(&self, base: &str, run: usize) -> Result<(Loaded, Draw), (Vec<Problem>, Option<Draw>)> {
         let attempts = match self.plan.out_of_range {
             OutOfRange::Redraw => MOST_ATTEMPTS,
             OutOfRange::Refuse | OutOfRange::Fail => 1,
         };
         let mut first = None;
         for attempt in 0..attempts {
-            let draw = self
-                .draw(base, run, attempt)
-                .map_err(|problems| (problems, None))?;
+            let draw = self.draw(base, run, attempt).map_err(|problems| (problems, None))?;
             match read(base, &draw.settings) {
                 Ok(loaded) => return Ok((loaded, draw)),
                 Err(problems) => {
@@ -386,7 +351,8 @@ fn shuffled(plan: &Plan, places: &[Place]) -> Vec<u32> {
     order
 }
 
-/// What was to be set and has no place in the base: most often a distribution whose name is misspelt, and so a key below a number.
+/// What was to be set and has no place in the base: most often a distribution whose name is misspelt, and so a key
+/// below a number.
 fn no_place(problems: Vec<Problem>) -> Vec<Problem> {
     let hinted = |problem: Problem| match problem.allowed {
         None => problem.allowed(format!("a value, or {{ {} = ... }}", KINDS.join(" | "))),
@@ -398,16 +364,9 @@ fn no_place(problems: Vec<Problem>) -> Vec<Problem> {
 /// Paths of the tables that a pattern names and that have one of the keys `with`.
 fn holding(node: &Node, pattern: &str, with: &[&str], path: &str, all: &mut Vec<String>) {
     let join = |name: &str| {
-        if path.is_empty() {
-            name.to_owned()
-        } else {
-            format!("{path}.{name}")
-        }
+        if path.is_empty() { name.to_owned() } else { format!("{path}.{name}") }
     };
-    let Some((head, rest)) = pattern
-        .split_once('.')
-        .or((!pattern.is_empty()).then_some((pattern, "")))
-    else {
+    let Some((head, rest)) = pattern.split_once('.').or((!pattern.is_empty()).then_some((pattern, ""))) else {
         if let Toml::Table(table) = &node.value
             && (with.is_empty() || with.iter().any(|key| table.contains_key(*key)))
         {

@@ -1,4 +1,5 @@
-//! A scenario and the plan of a data set, told apart by their first keys: for the messages where one is given in place of the other.
+//! A scenario and the plan of a data set, told apart by their first keys: for the messages where one is given in place
+//! of the other.
 
 use brinell::document::reading::parse;
 

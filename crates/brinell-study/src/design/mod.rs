@@ -1,8 +1,8 @@
 //! Which runs a data set has: a plan file, its distributions, and what each run draws from them. Knows no other files.
 //!
-//! A [`Plan`] says which keys of a base scenario vary and how, which classes of damage there are, and how many runs. [`Draws`] makes
-//! of it the overrides of each run for [`brinell::document::read`]. What run k draws depends on the plan, its seed and k, and on nothing
-//! else: neither on threads, nor on which runs were done before.
+//! A [`Plan`] says which keys of a base scenario vary and how, which classes of damage there are, and how many runs.
+//! [`Draws`] makes of it the overrides of each run for [`brinell::document::read`]. What run k draws depends on the
+//! plan, its seed and k, and on nothing else: neither on threads, nor on which runs were done before.
 
 mod distribution;
 mod draws;

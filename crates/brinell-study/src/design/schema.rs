@@ -1,4 +1,5 @@
-//! A plan file as a JSON Schema (draft 2020-12): the plan's own keys, and those of a scenario in which any value may be a distribution.
+//! A plan file as a JSON Schema (draft 2020-12): the plan's own keys, and those of a scenario in which any value may be
+//! a distribution.
 
 use super::plan::{Plan, keys};
 use brinell::document::json_schema;
@@ -12,8 +13,8 @@ const PIECES: [(&str, &str); 3] = [
     ("/properties/classes/items/properties/defects", "defects"),
 ];
 
-/// JSON Schema (draft 2020-12) of a plan file; TOML tables are objects. What no single key can say is not in it: that shares leave runs to train with, that a
-/// drawn value makes a scenario.
+/// JSON Schema (draft 2020-12) of a plan file; TOML tables are objects. What no single key can say is not in it: that
+/// shares leave runs to train with, that a drawn value makes a scenario.
 pub fn plan_schema() -> Json {
     let mut schema = schema_of("brinell plan", "the plan of a data set", |walk| {
         keys(walk, &mut Plan::blank());
@@ -95,10 +96,7 @@ fn drawn(schema: &Json, sets: Sets) -> Json {
             open.remove(key);
         }
     }
-    either.insert(
-        "anyOf".into(),
-        json!([open, { "$ref": "#/$defs/distribution" }]),
-    );
+    either.insert("anyOf".into(), json!([open, { "$ref": "#/$defs/distribution" }]));
     either.into()
 }
 
@@ -136,10 +134,7 @@ mod tests {
     fn prop_every_kind_of_distribution_and_every_piece_of_a_scenario_is_in_the_schema() {
         let schema = plan_schema();
         let kinds = schema["$defs"]["distribution"]["oneOf"].as_array().unwrap();
-        let kinds: Vec<&str> = kinds
-            .iter()
-            .map(|kind| kind["required"][0].as_str().unwrap())
-            .collect();
+        let kinds: Vec<&str> = kinds.iter().map(|kind| kind["required"][0].as_str().unwrap()).collect();
         assert_eq!(kinds, KINDS);
         for (place, piece) in PIECES {
             let to = format!("#/$defs/{piece}");
@@ -147,12 +142,7 @@ mod tests {
             assert!(schema["$defs"][piece].is_object(), "{piece}");
         }
         let defects = &schema["$defs"]["defects"]["items"]["anyOf"][0];
-        assert!(
-            defects["required"]
-                .as_array()
-                .unwrap()
-                .contains(&json!("on"))
-        );
+        assert!(defects["required"].as_array().unwrap().contains(&json!("on")));
         assert!(schema["$defs"]["vary"].get("required").is_none());
     }
 }

@@ -4,11 +4,11 @@ use super::stream::bits;
 use crate::calibrate::search::latin_hypercube;
 use sobol::params::JoeKuoD6;
 
-/// Sobol's sequence with the direction numbers of Joe and Kuo (2008), table new-joe-kuo-6, in the order of Antonov and Saleev (Gray code): point n by
-/// its number, without those before it.
+/// Sobol's sequence with the direction numbers of Joe and Kuo (2008), table new-joe-kuo-6, in the order of Antonov and
+/// Saleev (Gray code): point n by its number, without those before it.
 ///
-/// A shift moves every point by the same bits in each dimension (a digital shift): the points stay as even as they were, no two seeds
-/// have the same ones, and the first one is not the corner of the cube.
+/// A shift moves every point by the same bits in each dimension (a digital shift): the points stay as even as they
+/// were, no two seeds have the same ones, and the first one is not the corner of the cube.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Sobol {
     directions: Vec<Vec<u32>>,
@@ -26,11 +26,7 @@ impl Sobol {
     pub fn new(dimensions: usize) -> Self {
         let parameters = JoeKuoD6::minimal();
         Self {
-            directions: sobol::Sobol::<u32>::init_direction_vals(
-                dimensions,
-                BITS as usize,
-                &parameters,
-            ),
+            directions: sobol::Sobol::<u32>::init_direction_vals(dimensions, BITS as usize, &parameters),
             shift: vec![0; dimensions],
         }
     }
@@ -86,7 +82,8 @@ mod tests {
 
     #[test]
     fn lit_sobol_begins_as_published() {
-        // S. Joe and F. Y. Kuo, "Notes on generating Sobol' sequences", August 2008, and the output of their program `sobol 10 3`.
+        // S. Joe and F. Y. Kuo, "Notes on generating Sobol' sequences", August 2008, and the output of their program
+        // `sobol 10 3`.
         let sobol = Sobol::new(3);
         let expected = [
             [0.0, 0.0, 0.0],
@@ -124,8 +121,8 @@ mod tests {
 
     #[test]
     fn prop_every_stretch_of_two_to_the_m_points_is_stratified() {
-        // Each dimension of a Sobol sequence is a (0, 1)-sequence in base 2: of 2^m points from a multiple of 2^m on, one lies in
-        // each slice of 2^-m, and a digital shift keeps that.
+        // Each dimension of a Sobol sequence is a (0, 1)-sequence in base 2: of 2^m points from a multiple of 2^m on,
+        // one lies in each slice of 2^-m, and a digital shift keeps that.
         for sobol in [Sobol::new(100), Sobol::new(100).shifted(5)] {
             for m in 0..9 {
                 let count = 1_u32 << m;
@@ -146,9 +143,7 @@ mod tests {
     fn prop_a_latin_hypercube_has_one_run_in_each_slice() {
         let sequence = Sequence::latin(3, 4, 37);
         for axis in 0..4 {
-            let mut slices: Vec<usize> = (0..37)
-                .map(|n| (sequence.place(n, axis).unwrap() * 37.0) as usize)
-                .collect();
+            let mut slices: Vec<usize> = (0..37).map(|n| (sequence.place(n, axis).unwrap() * 37.0) as usize).collect();
             slices.sort_unstable();
             assert_eq!(slices, (0..37).collect::<Vec<_>>());
         }

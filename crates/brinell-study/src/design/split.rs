@@ -1,4 +1,5 @@
-//! Which runs are for training, validation and test: whole groups of runs under like conditions, so that no test repeats what was trained on.
+//! Which runs are for training, validation and test: whole groups of runs under like conditions, so that no test
+//! repeats what was trained on.
 
 use super::draws::Draws;
 use super::plan::{HeldSeverity, Split};
@@ -26,13 +27,7 @@ pub enum Part {
 
 impl Part {
     /// All, in the order of the files.
-    pub const ALL: [Part; 5] = [
-        Part::Open,
-        Part::Train,
-        Part::Validation,
-        Part::Test,
-        Part::HeldOut,
-    ];
+    pub const ALL: [Part; 5] = [Part::Open, Part::Train, Part::Validation, Part::Test, Part::HeldOut];
 
     /// As the column `split` says it.
     pub fn word(self) -> &'static str {
@@ -48,12 +43,13 @@ impl Part {
 
 /// What each run is for.
 ///
-/// Groups are put in an order by chance (of the plan's seed) and go to the test until it has its share, then to validation, the rest to
-/// training; each of these has one group at least. Then runs of the severities that are held out go to the test, whatever their group.
+/// Groups are put in an order by chance (of the plan's seed) and go to the test until it has its share, then to
+/// validation, the rest to training; each of these has one group at least. Then runs of the severities that are held
+/// out go to the test, whatever their group.
 ///
 /// # Errors
-/// Where a key of `by` is not drawn by all classes, there are fewer groups than parts, or the severities held out are those of no run or leave none to
-/// train with.
+/// Where a key of `by` is not drawn by all classes, there are fewer groups than parts, or the severities held out are
+/// those of no run or leave none to train with.
 pub(super) fn parts(draws: &Draws) -> Result<Vec<Part>, Vec<Problem>> {
     let plan = draws.plan();
     let mut parts: Vec<Part> = (0..draws.runs())
@@ -77,26 +73,17 @@ pub(super) fn parts(draws: &Draws) -> Result<Vec<Part>, Vec<Problem>> {
         groups.entry(conditions).or_default().push(run);
     }
     let runs: usize = groups.values().map(Vec::len).sum();
-    let shares = [
-        (Part::Test, split.test),
-        (Part::Validation, split.validation),
-    ];
+    let shares = [(Part::Test, split.test), (Part::Validation, split.validation)];
     let wanted = 1 + shares.iter().filter(|(_, share)| *share > 0.0).count();
     if groups.len() < wanted {
         let message = format!(
             "the runs have {} group{} of conditions by {}, and {wanted} parts are wanted",
             groups.len(),
             if groups.len() == 1 { "" } else { "s" },
-            if keys.is_empty() {
-                "run".into()
-            } else {
-                keys.join(", ")
-            },
+            if keys.is_empty() { "run".into() } else { keys.join(", ") },
         );
         let problem = Problem::error("split.by", message);
-        return Err(vec![problem.allowed(
-            "keys that take more values, or [] for each run by itself",
-        )]);
+        return Err(vec![problem.allowed("keys that take more values, or [] for each run by itself")]);
     }
     let mut order: Vec<(u64, Vec<usize>)> = groups
         .into_iter()
@@ -126,25 +113,15 @@ pub(super) fn parts(draws: &Draws) -> Result<Vec<Part>, Vec<Problem>> {
 }
 
 /// Puts the runs of the severities into the test.
-fn hold_out(
-    draws: &Draws,
-    severity: &HeldSeverity,
-    parts: &mut [Part],
-) -> Result<(), Vec<Problem>> {
+fn hold_out(draws: &Draws, severity: &HeldSeverity, parts: &mut [Part]) -> Result<(), Vec<Problem>> {
     let numeric = || draws.parameters().iter().filter(|p| p.numeric);
     let names: Vec<&str> = numeric().map(|p| p.key.as_str()).collect();
-    let unknown = severity
-        .keys
-        .iter()
-        .filter(|key| !names.contains(&key.as_str()));
+    let unknown = severity.keys.iter().filter(|key| !names.contains(&key.as_str()));
     let problems: Vec<Problem> = unknown
         .map(|key| {
-            Problem::error(
-                "split.severity",
-                "no class draws numbers of this key".to_owned(),
-            )
-            .value(format!("{key:?}"))
-            .allowed(names.join(", "))
+            Problem::error("split.severity", "no class draws numbers of this key".to_owned())
+                .value(format!("{key:?}"))
+                .allowed(names.join(", "))
         })
         .collect();
     if !problems.is_empty() {
@@ -165,22 +142,14 @@ fn hold_out(
         (_, true) => return Ok(()),
     };
     let problem = Problem::error("split.severity_range", message.to_owned());
-    Err(vec![
-        problem
-            .value(format!("[{low:?}, {high:?}]"))
-            .allowed("a range of some of the runs"),
-    ])
+    Err(vec![problem.value(format!("[{low:?}, {high:?}]")).allowed("a range of some of the runs")])
 }
 
 /// The keys that make groups.
 fn keys(draws: &Draws, split: &Split) -> Result<Vec<String>, Vec<Problem>> {
     let common = || draws.parameters().iter().filter(|p| p.common);
     let Some(by) = &split.by else {
-        let is_condition = |key: &str| {
-            ["bearing.", "operation."]
-                .iter()
-                .any(|s| key.starts_with(s))
-        };
+        let is_condition = |key: &str| ["bearing.", "operation."].iter().any(|s| key.starts_with(s));
         let keys = common().filter(|p| is_condition(&p.key));
         return Ok(keys.map(|p| p.key.clone()).collect());
     };

@@ -1,7 +1,8 @@
 //! Numbers that belong to a place in a campaign: functions of a key and the place, not of what was drawn before.
 //!
-//! What anybody may know comes of the plan's seed ([`bits`]), fast and invertible. What is held out comes of the plan's secret by
-//! HMAC-SHA-256 (RFC 2104, FIPS 198-1): who has any number of these numbers learns nothing of the secret, nor of another number.
+//! What anybody may know comes of the plan's seed ([`bits`]), fast and invertible. What is held out comes of the plan's
+//! secret by HMAC-SHA-256 (RFC 2104, FIPS 198-1): who has any number of these numbers learns nothing of the secret, nor
+//! of another number.
 
 use brinell::random::mix;
 use hmac::{Hmac, Mac};
@@ -59,9 +60,7 @@ pub(super) fn seed(bits: u64) -> u64 {
 
 /// A key's own word, whatever its place among the keys: FNV-1a.
 pub(super) fn word(key: &str) -> u64 {
-    key.bytes().fold(0xcbf2_9ce4_8422_2325, |hash, byte| {
-        (hash ^ u64::from(byte)).wrapping_mul(0x100_0000_01b3)
-    })
+    key.bytes().fold(0xcbf2_9ce4_8422_2325, |hash, byte| (hash ^ u64::from(byte)).wrapping_mul(0x100_0000_01b3))
 }
 
 #[cfg(test)]
@@ -72,10 +71,7 @@ mod tests {
     fn xval_secret_bits_are_hmac_sha_256() {
         // Python: hmac.new(b"000102030405060708090a0b0c0d0e0f", struct.pack("<2Q", 1, 2), "sha256").digest()[:8].
         let secret = Secret::of("000102030405060708090A0B0C0D0E0F").unwrap();
-        assert_eq!(
-            secret.bits(&[1, 2]).to_le_bytes(),
-            [0x4b, 0x21, 0x7a, 0x57, 0x21, 0x45, 0xa5, 0x05]
-        );
+        assert_eq!(secret.bits(&[1, 2]).to_le_bytes(), [0x4b, 0x21, 0x7a, 0x57, 0x21, 0x45, 0xa5, 0x05]);
         assert_ne!(secret.bits(&[1, 2]), secret.bits(&[2, 1]));
     }
 
@@ -107,10 +103,7 @@ mod tests {
         for run in 0..20_000 {
             counts[(20.0 * unit(bits(&[7, run]))) as usize] += 1;
         }
-        let chi: f64 = counts
-            .iter()
-            .map(|n| (f64::from(*n) - 1000.0).powi(2) / 1000.0)
-            .sum();
+        let chi: f64 = counts.iter().map(|n| (f64::from(*n) - 1000.0).powi(2) / 1000.0).sum();
         assert!(chi < 43.8, "{chi}");
     }
 }

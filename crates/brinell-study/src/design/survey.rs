@@ -42,13 +42,7 @@ pub struct Survey {
 
 impl Survey {
     /// Looks at every `step`-th run; once `stop` is set, at no further ones.
-    pub fn of(
-        draws: &Draws,
-        base: &str,
-        step: NonZeroUsize,
-        threads: NonZeroUsize,
-        stop: &AtomicBool,
-    ) -> Self {
+    pub fn of(draws: &Draws, base: &str, step: NonZeroUsize, threads: NonZeroUsize, stop: &AtomicBool) -> Self {
         let looked = draws.runs().div_ceil(step.get());
         let chunks = looked.div_ceil(CHUNK);
         let mut parts: Vec<Option<Self>> = vec![None; chunks];
@@ -119,10 +113,7 @@ impl Survey {
         self.hopeless += other.hopeless;
         self.simulated += other.simulated;
         self.samples += other.samples;
-        for (mine, theirs) in [
-            (&mut self.errors, other.errors),
-            (&mut self.warnings, other.warnings),
-        ] {
+        for (mine, theirs) in [(&mut self.errors, other.errors), (&mut self.warnings, other.warnings)] {
             for miss in theirs {
                 count(mine, miss.problem, miss.run, miss.count);
             }
@@ -133,19 +124,14 @@ impl Survey {
 /// Adds to those that differ in numbers alone.
 fn count(all: &mut Vec<Misses>, mut problem: Problem, run: usize, times: usize) {
     let same = |m: &&mut Misses| {
-        m.problem.key == problem.key
-            && numberless(&m.problem.message) == numberless(&problem.message)
+        m.problem.key == problem.key && numberless(&m.problem.message) == numberless(&problem.message)
     };
     if let Some(miss) = all.iter_mut().find(same) {
         miss.count += times;
         return;
     }
     problem.message = unsaid(&problem.message);
-    all.push(Misses {
-        problem,
-        run,
-        count: times,
-    });
+    all.push(Misses { problem, run, count: times });
 }
 
 /// A message without the word that its value is an override's: in a plan every drawn value is.
@@ -153,21 +139,13 @@ pub(crate) fn unsaid(message: &str) -> String {
     message.replace(" (given as an override)", "")
 }
 
-/// Where the plan sets the key that a problem of a run is about: a place in the plan's text. `None` where it does not: the base does.
-pub(crate) fn place_in_plan(
-    draws: &Draws,
-    plan_text: &str,
-    run: usize,
-    problem: &Problem,
-) -> Option<Place> {
+/// Where the plan sets the key that a problem of a run is about: a place in the plan's text. `None` where it does not:
+/// the base does.
+pub(crate) fn place_in_plan(draws: &Draws, plan_text: &str, run: usize, problem: &Problem) -> Option<Place> {
     let class = draws.class(run);
     let mut key = problem.key.as_str();
     loop {
-        for at in [
-            format!("vary.{key}"),
-            format!("classes.{class}.vary.{key}"),
-            format!("classes.{class}.{key}"),
-        ] {
+        for at in [format!("vary.{key}"), format!("classes.{class}.vary.{key}"), format!("classes.{class}.{key}")] {
             if let Some(place) = locate(plan_text, &at) {
                 return Some(place);
             }

@@ -47,8 +47,8 @@ impl Template {
         })
     }
 
-    /// The settings of a table: paths of keys, and what they are set to. Tables are gone into, so that keys beside the ones named stay;
-    /// a list is one value.
+    /// The settings of a table: paths of keys, and what they are set to. Tables are gone into, so that keys beside the
+    /// ones named stay; a list is one value.
     pub(super) fn settings(&self) -> Vec<(String, &Template)> {
         let mut all = Vec::new();
         self.gather("", &mut all);
@@ -67,11 +67,7 @@ impl Template {
     }
 
     /// Every distribution with the path of its key, in the order of [`Template::toml`].
-    pub(super) fn distributions<'a>(
-        &'a self,
-        path: &str,
-        all: &mut Vec<(String, &'a Distribution)>,
-    ) {
+    pub(super) fn distributions<'a>(&'a self, path: &str, all: &mut Vec<(String, &'a Distribution)>) {
         match self {
             Self::Fixed(_) => {}
             Self::Drawn(distribution) => all.push((path.to_owned(), distribution)),
@@ -92,18 +88,14 @@ impl Template {
     pub(super) fn toml<'a>(&self, drawn: &mut impl Iterator<Item = &'a Value>) -> String {
         match self {
             Self::Fixed(text) => text.clone(),
-            Self::Drawn(_) => drawn
-                .next()
-                .map_or(String::new(), |value| value.toml.clone()),
+            Self::Drawn(_) => drawn.next().map_or(String::new(), |value| value.toml.clone()),
             Self::List(items) => {
                 let items: Vec<String> = items.iter().map(|item| item.toml(drawn)).collect();
                 format!("[{}]", items.join(", "))
             }
             Self::Table(table) => {
-                let pairs: Vec<String> = table
-                    .iter()
-                    .map(|(name, inner)| format!("{} = {}", key_text(name), inner.toml(drawn)))
-                    .collect();
+                let pairs: Vec<String> =
+                    table.iter().map(|(name, inner)| format!("{} = {}", key_text(name), inner.toml(drawn))).collect();
                 format!("{{ {} }}", pairs.join(", "))
             }
         }
@@ -126,11 +118,7 @@ impl Template {
 }
 
 fn join(path: &str, name: &str) -> String {
-    if path.is_empty() {
-        name.to_owned()
-    } else {
-        format!("{path}.{name}")
-    }
+    if path.is_empty() { name.to_owned() } else { format!("{path}.{name}") }
 }
 
 impl Leaf for Template {

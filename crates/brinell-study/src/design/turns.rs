@@ -14,11 +14,12 @@ pub(super) struct Place {
 /// No place in the design.
 pub(super) const APART: u32 = u32::MAX;
 
-/// Classes in turn by their shares: after any number of runs each class has its share to within one run. So every file of a data set
-/// holds all classes, and a longer plan begins with the runs of a shorter one (but for a Latin hypercube).
+/// Classes in turn by their shares: after any number of runs each class has its share to within one run. So every file
+/// of a data set holds all classes, and a longer plan begins with the runs of a shorter one (but for a Latin
+/// hypercube).
 ///
-/// A run whose labels are held out draws its class by the secret, and takes no turn: neither its own place nor the gaps between the others tell
-/// what it is.
+/// A run whose labels are held out draws its class by the secret, and takes no turn: neither its own place nor the gaps
+/// between the others tell what it is.
 pub(super) fn places(plan: &Plan, secret: Option<&Secret>) -> Vec<Place> {
     let total: f64 = plan.classes.iter().map(|class| class.share).sum();
     let mut counts = vec![0_u32; plan.classes.len()];
@@ -28,22 +29,14 @@ pub(super) fn places(plan: &Plan, secret: Option<&Secret>) -> Vec<Place> {
             if let Some(secret) = secret {
                 let draw = |what: &str| unit(secret.bits(&[word(what), run]));
                 if draw("held_out") < plan.held_out {
-                    return Place {
-                        class: drawn_class(plan, draw("class") * total),
-                        number: APART,
-                    };
+                    return Place { class: drawn_class(plan, draw("class") * total), number: APART };
                 }
             }
             open += 1;
-            let behind =
-                |c: usize| plan.classes[c].share / total * f64::from(open) - f64::from(counts[c]);
-            let next = (0..counts.len())
-                .fold(0, |best, c| if behind(c) > behind(best) { c } else { best });
+            let behind = |c: usize| plan.classes[c].share / total * f64::from(open) - f64::from(counts[c]);
+            let next = (0..counts.len()).fold(0, |best, c| if behind(c) > behind(best) { c } else { best });
             counts[next] += 1;
-            Place {
-                class: next as u32,
-                number: counts[next] - 1,
-            }
+            Place { class: next as u32, number: counts[next] - 1 }
         })
         .collect()
 }

@@ -1,4 +1,5 @@
-//! What a campaign will cost: some of its runs are made for a moment, and the clock is read. Nothing of that enters the results.
+//! What a campaign will cost: some of its runs are made for a moment, and the clock is read. Nothing of that enters the
+//! results.
 
 use super::{Task, Work};
 use brinell::result::finish;
@@ -32,10 +33,7 @@ pub fn mean_pace(count: usize, scenario: impl Fn(usize) -> Option<Scenario>) -> 
 /// Wall time of a simulated second, s; `None` where the scenario does not run.
 fn pace(scenario: Scenario) -> Option<f64> {
     let simulation = Simulation::new(&scenario).ok()?;
-    let mut trial = Trial {
-        begin: Instant::now(),
-        reached: 0.0,
-    };
+    let mut trial = Trial { begin: Instant::now(), reached: 0.0 };
     let duration = scenario.simulation.duration_s;
     finish(scenario, simulation, &mut trial);
     let reached = trial.reached.min(duration);

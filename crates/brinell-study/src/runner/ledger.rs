@@ -67,8 +67,9 @@ pub struct Ledger {
 }
 
 impl Ledger {
-    /// Opens the journal of `folder`, which exists, for the campaign that `header` describes: an object with `campaign`, its kind, and
-    /// whatever tells it from others. `extend` makes a journal of another plan of that kind this one's.
+    /// Opens the journal of `folder`, which exists, for the campaign that `header` describes: an object with
+    /// `campaign`, its kind, and whatever tells it from others. `extend` makes a journal of another plan of that kind
+    /// this one's.
     ///
     /// # Errors
     /// Where it is another campaign's, or cannot be written.

@@ -1,4 +1,5 @@
-//! The observer of a recorded run: writes rows to files, captures one filtered signal where requested, and reports the time to its listener.
+//! The observer of a recorded run: writes rows to files, captures one filtered signal where requested, and reports the
+//! time to its listener.
 
 use crate::listener::RunListener;
 use brinell::simulate::{End, Observer, Simulation, SolverWork};
@@ -40,8 +41,8 @@ impl<'a> Recorder<'a> {
         self
     }
 
-    /// Ends the files as the run ended, up to their names. Gives them and the captured signal. A run that was broken off leaves whole files of the
-    /// part that was run, which say so, or none: `keep_stopped` decides.
+    /// Ends the files as the run ended, up to their names. Gives them and the captured signal. A run that was broken
+    /// off leaves whole files of the part that was run, which say so, or none: `keep_stopped` decides.
     ///
     /// # Errors
     /// Where a file could not be written.
@@ -60,10 +61,7 @@ impl<'a> Recorder<'a> {
                 files.push(writer.complete(outcome.clone())?);
             }
         }
-        Ok(Recording {
-            files,
-            signal: self.captured,
-        })
+        Ok(Recording { files, signal: self.captured })
     }
 }
 

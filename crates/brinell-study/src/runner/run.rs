@@ -52,11 +52,7 @@ pub trait Work: Sync {
     ///
     /// # Errors
     /// Where they cannot go there.
-    fn signals(
-        &self,
-        _: &Task,
-        _: &Simulation,
-    ) -> Result<Option<Box<dyn SignalWriter>>, Self::Error> {
+    fn signals(&self, _: &Task, _: &Simulation) -> Result<Option<Box<dyn SignalWriter>>, Self::Error> {
         Ok(None)
     }
 
@@ -70,23 +66,19 @@ pub trait Work: Sync {
         None
     }
 
-    /// Keeps of a run that came to its end what its row does not hold, and gives numbers of its own for the row. `captured` is the captured
-    /// signal, from when the run had settled.
+    /// Keeps of a run that came to its end what its row does not hold, and gives numbers of its own for the row.
+    /// `captured` is the captured signal, from when the run had settled.
     ///
     /// # Errors
     /// Where that cannot be kept.
-    fn finished(
-        &self,
-        _: &Task,
-        _: &RunResult,
-        _captured: &[f64],
-    ) -> Result<Vec<Quantity>, Self::Error> {
+    fn finished(&self, _: &Task, _: &RunResult, _captured: &[f64]) -> Result<Vec<Quantity>, Self::Error> {
         Ok(Vec::new())
     }
 }
 
-/// Runs tasks side by side, up to `threads` at a time, each on the disk as soon as it is done. A run that fails is a row like
-/// another; only files that cannot be read or written end the campaign. Breaks where `listener` broke a run off.
+/// Runs tasks side by side, up to `threads` at a time, each on the disk as soon as it is done. A run that fails is a
+/// row like another; only files that cannot be read or written end the campaign. Breaks where `listener` broke a run
+/// off.
 ///
 /// # Errors
 /// Where files cannot be read or written: what was finished stays.
@@ -160,8 +152,7 @@ fn one<W: Work>(
     let writers = work.signals(task, &simulation)?;
     let mut hearer = listener.begin(k, task.duration_s);
     let writers = writers.into_iter().collect();
-    let mut recorder =
-        Recorder::new(&simulation, writers, hearer.as_mut()).capturing(work.captured_channel());
+    let mut recorder = Recorder::new(&simulation, writers, hearer.as_mut()).capturing(work.captured_channel());
     let mut beside = work.beside(task, &simulation);
     let finished = match &mut beside {
         Some(other) => {
@@ -183,10 +174,7 @@ fn one<W: Work>(
         End::Failed(error) => Err(error.to_string()),
         End::Complete => {
             let settled = finished.findings.from * finished.simulation.sample_rate();
-            let settled = recording
-                .signal
-                .get(settled.ceil() as usize..)
-                .unwrap_or(&[]);
+            let settled = recording.signal.get(settled.ceil() as usize..).unwrap_or(&[]);
             let more = work.finished(task, &finished, settled)?;
             let besides = beside.map_or(Ok(Vec::new()), |b| b.finished(&finished))?;
             Ok([finished.quantities(), more, besides].concat())

@@ -38,15 +38,7 @@ fn prop_every_run_makes_a_scenario_of_its_class_with_a_seed_of_its_own() {
 fn prop_a_sensors_noise_is_another_in_every_run() {
     let seeds = |base: &str, plan: &str| -> Vec<u64> {
         let draws = draws(plan);
-        let seed = |run| {
-            draws
-                .scenario(base, run)
-                .unwrap()
-                .0
-                .scenario
-                .sensor
-                .noise_seed
-        };
+        let seed = |run| draws.scenario(base, run).unwrap().0.scenario.sensor.noise_seed;
         let mut seeds: Vec<u64> = (0..60).map(seed).collect();
         seeds.sort_unstable();
         seeds.dedup();
@@ -77,36 +69,22 @@ fn prop_a_run_draws_the_same_whatever_else_the_plan_runs() {
         assert_ne!(draw, other.first(BASE, run).unwrap());
     }
     // A key that is added leaves the others as they were.
-    let more = draws(&PLAN.replace(
-        "[vary]",
-        "[vary]\nbearing.radial_clearance_um = { uniform = [1, 2] }",
-    ));
-    assert_eq!(
-        numbers(&one, "operation.speed_rpm"),
-        numbers(&more, "operation.speed_rpm")
-    );
+    let more = draws(&PLAN.replace("[vary]", "[vary]\nbearing.radial_clearance_um = { uniform = [1, 2] }"));
+    assert_eq!(numbers(&one, "operation.speed_rpm"), numbers(&more, "operation.speed_rpm"));
 }
 
 #[test]
 fn analytic_distributions_have_their_moments() {
     // 4000 independent runs: means within 4.5 standard errors of the distributions'.
-    let plan = PLAN
-        .replace("runs = 60", "runs = 6000")
-        .replace(", within = [300, 700]", "");
+    let plan = PLAN.replace("runs = 60", "runs = 6000").replace(", within = [300, 700]", "");
     let draws = draws(&plan);
     let check = |key: &str, of: fn(f64) -> f64, mean: f64, deviation: f64| {
         let x: Vec<f64> = numbers(&draws, key).into_iter().map(of).collect();
         let n = x.len() as f64;
         let found = x.iter().sum::<f64>() / n;
-        assert!(
-            (found - mean).abs() < 4.5 * deviation / n.sqrt(),
-            "{key}: mean {found}"
-        );
+        assert!((found - mean).abs() < 4.5 * deviation / n.sqrt(), "{key}: mean {found}");
         let spread = (x.iter().map(|x| (x - mean).powi(2)).sum::<f64>() / n).sqrt();
-        assert!(
-            (spread / deviation - 1.0).abs() < 0.06,
-            "{key}: deviation {spread}"
-        );
+        assert!((spread / deviation - 1.0).abs() < 0.06, "{key}: deviation {spread}");
     };
     check("operation.speed_rpm", |x| x, 2000.0, 2000.0 / 12_f64.sqrt());
     check("operation.load_n.0", |x| x, 500.0, 100.0);
@@ -115,24 +93,17 @@ fn analytic_distributions_have_their_moments() {
 
 #[test]
 fn prop_designs_fill_each_distribution_evenly() {
-    // 64 runs of one class: a Latin hypercube and a Sobol sequence have one in each 64th part, independent draws have not.
+    // 64 runs of one class: a Latin hypercube and a Sobol sequence have one in each 64th part, independent draws have
+    // not.
     let plan = |design: &str| {
         format!(
             "base = 'b'\nruns = 64\ndesign = '{design}'\n[vary]\noperation.speed_rpm = {{ uniform = [0, 64] }}\n\
              operation.load_n = [{{ uniform = [0, 64] }}, {{ uniform = [0, 64] }}]\n"
         )
     };
-    for (design, even) in [
-        ("latin-hypercube", true),
-        ("sobol", true),
-        ("random", false),
-    ] {
+    for (design, even) in [("latin-hypercube", true), ("sobol", true), ("random", false)] {
         let draws = draws(&plan(design));
-        for key in [
-            "operation.speed_rpm",
-            "operation.load_n.0",
-            "operation.load_n.1",
-        ] {
+        for key in ["operation.speed_rpm", "operation.load_n.0", "operation.load_n.1"] {
             let mut parts: Vec<u64> = numbers(&draws, key).into_iter().map(|x| x as u64).collect();
             parts.sort_unstable();
             parts.dedup();
@@ -146,9 +117,7 @@ fn prop_designs_fill_each_distribution_evenly() {
 fn prop_no_vacancy_of_a_design_tells_the_class_of_a_run() {
     let plan = |design: &str| {
         let class = |k: usize| {
-            format!(
-                "[[classes]]\nname = 'c{k}'\nvary.bearing.radial_clearance_um = {{ uniform = [1, 2] }}\n"
-            )
+            format!("[[classes]]\nname = 'c{k}'\nvary.bearing.radial_clearance_um = {{ uniform = [1, 2] }}\n")
         };
         let classes: String = (0..4).map(class).collect();
         format!(
@@ -196,9 +165,7 @@ fn prop_grids_are_crossed_and_come_equally_often() {
     for run in 0..24 {
         let draw = draws.first(BASE, run).unwrap();
         let of = |key: &str| draw.settings.iter().find(|s| s.0 == key).unwrap().1.clone();
-        *counts
-            .entry((of("operation.speed_rpm"), of("simulation.model")))
-            .or_insert(0) += 1;
+        *counts.entry((of("operation.speed_rpm"), of("simulation.model"))).or_insert(0) += 1;
     }
     assert_eq!(counts.len(), 6);
     assert!(counts.values().all(|n| *n == 4));
@@ -212,11 +179,7 @@ fn prop_choices_follow_their_weights_and_whole_numbers_reach_both_ends() {
         "base = 'b'\nruns = 4000\n[vary]\nbearing.preset = { choice = ['NU206', 'N205', 'NU205'], weights = [3, 0, 1] }\n\
          contact.slices = { whole = [3, 6] }\n",
     );
-    let k = draws
-        .parameters()
-        .iter()
-        .position(|p| p.key == "bearing.preset")
-        .unwrap();
+    let k = draws.parameters().iter().position(|p| p.key == "bearing.preset").unwrap();
     assert!(!draws.parameters()[k].numeric);
     let (mut nu206, mut slices) = (0, [0; 4]);
     for run in 0..4000 {
@@ -228,10 +191,7 @@ fn prop_choices_follow_their_weights_and_whole_numbers_reach_both_ends() {
     }
     // Binomial: 4.5 standard deviations are 123 of 3000 +- and of 1000 +-.
     assert!((nu206 as i32 - 3000).abs() < 123, "{nu206}");
-    assert!(
-        slices.iter().all(|n| (n - 1000_i32).abs() < 123),
-        "{slices:?}"
-    );
+    assert!(slices.iter().all(|n| (n - 1000_i32).abs() < 123), "{slices:?}");
 }
 
 #[test]
@@ -245,46 +205,23 @@ fn analytic_values_beyond_a_keys_range_are_counted() {
     };
     let survey = |policy: &str, threads: usize| {
         let one = NonZeroUsize::MIN;
-        Survey::of(
-            &draws(&plan(policy)),
-            BASE,
-            one,
-            NonZeroUsize::new(threads).unwrap(),
-            &AtomicBool::new(false),
-        )
+        Survey::of(&draws(&plan(policy)), BASE, one, NonZeroUsize::new(threads).unwrap(), &AtomicBool::new(false))
     };
     let found = survey("refuse", 1);
     assert_eq!(found, survey("refuse", 2));
     // A Latin hypercube puts exactly half of the runs below the median.
     assert_eq!((found.runs, found.unfit, found.hopeless), (1000, 500, 500));
-    let [miss] = &found.errors[..] else {
-        panic!("{:?}", found.errors)
-    };
+    let [miss] = &found.errors[..] else { panic!("{:?}", found.errors) };
     assert_eq!(miss.problem.key, "lubricant.viscosity_pa_s");
-    assert_eq!(
-        (miss.count, miss.problem.allowed.as_deref()),
-        (500, Some(">= 0"))
-    );
+    assert_eq!((miss.count, miss.problem.allowed.as_deref()), (500, Some(">= 0")));
     assert!(!found.is_sound(OutOfRange::Refuse) && found.is_sound(OutOfRange::Fail));
     let redrawn = survey("redraw", 2);
     assert_eq!((redrawn.unfit, redrawn.hopeless), (500, 0));
     assert!(redrawn.is_sound(OutOfRange::Redraw));
     // What is drawn again fits, and follows the half normal: its mean is sqrt(2/pi).
     let draws = draws(&plan("redraw"));
-    let eta = |run| {
-        draws
-            .scenario(BASE, run)
-            .unwrap()
-            .0
-            .scenario
-            .lubricant
-            .viscosity_pa_s
-    };
-    let mean = (0..1000)
-        .map(eta)
-        .inspect(|x| assert!(*x >= 0.0))
-        .sum::<f64>()
-        / 1000.0;
+    let eta = |run| draws.scenario(BASE, run).unwrap().0.scenario.lubricant.viscosity_pa_s;
+    let mean = (0..1000).map(eta).inspect(|x| assert!(*x >= 0.0)).sum::<f64>() / 1000.0;
     let (expected, error) = ((2.0 / std::f64::consts::PI).sqrt(), 0.603 / 1000_f64.sqrt());
     assert!((mean - expected).abs() < 4.5 * error, "{mean}");
 }

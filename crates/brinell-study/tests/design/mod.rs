@@ -43,8 +43,7 @@ shape.random = { length_mm = { uniform = [0.5, 4] }, width_mm = 3 }
 const SECRET: &str = "secret = \"9f86d081884c7d659a2feaa0c55ad015\"";
 
 fn draws(plan: &str) -> Draws {
-    Draws::new(Plan::read(plan).unwrap_or_else(|p| panic!("{p:?}")))
-        .unwrap_or_else(|p| panic!("{p:?}"))
+    Draws::new(Plan::read(plan).unwrap_or_else(|p| panic!("{p:?}"))).unwrap_or_else(|p| panic!("{p:?}"))
 }
 
 fn refusals(plan: &str) -> Vec<String> {

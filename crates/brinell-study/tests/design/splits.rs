@@ -5,30 +5,18 @@ use brinell_study::design::{Draws, Part};
 
 #[test]
 fn prop_splits_share_no_conditions_and_have_their_shares() {
-    let plan = PLAN.replace("runs = 60", "runs = 2000").replace(
-        "{ normal = [500, 100], within = [300, 700] }",
-        "{ uniform = [300, 700] }",
-    );
-    let split = |more: &str| {
-        draws(&plan.replace(
-            "[vary]",
-            &format!("[split]\nvalidation = 0.1\ntest = 0.2\n{more}\n[vary]"),
-        ))
-    };
-    let count = |draws: &Draws, part| {
-        (0..2000).filter(|run| draws.part(*run) == part).count() as f64 / 2000.0
-    };
+    let plan = PLAN
+        .replace("runs = 60", "runs = 2000")
+        .replace("{ normal = [500, 100], within = [300, 700] }", "{ uniform = [300, 700] }");
+    let split =
+        |more: &str| draws(&plan.replace("[vary]", &format!("[split]\nvalidation = 0.1\ntest = 0.2\n{more}\n[vary]")));
+    let count = |draws: &Draws, part| (0..2000).filter(|run| draws.part(*run) == part).count() as f64 / 2000.0;
     let divided = split("");
     // 64 groups of two keys in eight bands each.
-    for (part, share) in [
-        (Part::Validation, 0.1),
-        (Part::Test, 0.2),
-        (Part::Train, 0.7),
-    ] {
+    for (part, share) in [(Part::Validation, 0.1), (Part::Test, 0.2), (Part::Train, 0.7)] {
         assert!((count(&divided, part) - share).abs() < 0.03, "{part:?}");
     }
-    let [speed, load] =
-        ["operation.speed_rpm", "operation.load_n.0"].map(|key| numbers(&divided, key));
+    let [speed, load] = ["operation.speed_rpm", "operation.load_n.0"].map(|key| numbers(&divided, key));
     // Bands of equal probability are here bands of equal width.
     let band = |run: usize| ((speed[run] - 1000.0) / 250.0) as usize;
     let group = |run: usize| (band(run), ((load[run] - 300.0) / 50.0) as usize);
@@ -49,21 +37,16 @@ fn prop_splits_share_no_conditions_and_have_their_shares() {
     assert!((count(&split("by = []"), Part::Test) - 0.2).abs() < 0.001);
     let refused = |more: &str| refusals(&plan.replace("[vary]", &format!("{more}\n[vary]")));
     assert!(
-        refused("[split]\ntest = 0.2\nby = [\"lubricant.viscosity_pa_s\"]")[0]
-            .contains("[vary] draws no such key")
+        refused("[split]\ntest = 0.2\nby = [\"lubricant.viscosity_pa_s\"]")[0].contains("[vary] draws no such key")
     );
-    assert!(
-        refused("[split]\ntest = 0.5\nvalidation = 0.5")[0].contains("leave none to train with")
-    );
+    assert!(refused("[split]\ntest = 0.5\nvalidation = 0.5")[0].contains("leave none to train with"));
     assert!(refused("out_of_range = \"redraw\"\n[split]\ntest = 0.5")[0].contains("drawn again"));
 }
 
 #[test]
 fn prop_no_severity_that_is_held_out_is_in_training_or_validation() {
-    let plan = |split: &str| {
-        PLAN.replace("runs = 60", "runs = 600")
-            .replace("[vary]", &format!("[split]\n{split}\n[vary]"))
-    };
+    let plan =
+        |split: &str| PLAN.replace("runs = 60", "runs = 600").replace("[vary]", &format!("[split]\n{split}\n[vary]"));
     let key = "defects.0.depth_um";
     let range = "severity = [\"defects.0.depth_um\"]\nseverity_range = [10, 20]";
     let with = draws(&plan(&format!("validation = 0.1\ntest = 0.2\n{range}")));
@@ -92,14 +75,8 @@ fn prop_no_severity_that_is_held_out_is_in_training_or_validation() {
     for (split, words) in [
         ("severity = [\"defects.0.depth_um\"]", "which severities"),
         ("severity_range = [10, 20]", "of no key"),
-        (
-            "severity = [\"defects.0.depth\"]\nseverity_range = [10, 20]",
-            "no class draws numbers of this key",
-        ),
-        (
-            "severity = [\"defects.0.depth_um\"]\nseverity_range = [1e6, 2e6]",
-            "no run draws a severity of this range",
-        ),
+        ("severity = [\"defects.0.depth\"]\nseverity_range = [10, 20]", "no class draws numbers of this key"),
+        ("severity = [\"defects.0.depth_um\"]\nseverity_range = [1e6, 2e6]", "no run draws a severity of this range"),
         (
             "severity = [\"defects.0.depth_um\", \"operation.speed_rpm\"]\nseverity_range = [0, 1e6]",
             "leaves no run to train with",

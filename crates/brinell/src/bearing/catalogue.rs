@@ -111,17 +111,16 @@ impl Datum {
     }
 }
 
-static ENTRIES: LazyLock<Vec<Entry>> = LazyLock::new(|| {
-    parse(include_str!("catalogue.toml")).unwrap_or_else(|fault| panic!("catalogue.toml: {fault}"))
-});
+static ENTRIES: LazyLock<Vec<Entry>> =
+    LazyLock::new(|| parse(include_str!("catalogue.toml")).unwrap_or_else(|fault| panic!("catalogue.toml: {fault}")));
 
 /// Every bearing, in the file's order.
 pub fn all() -> &'static [Entry] {
     &ENTRIES
 }
 
-/// The bearing of that name; case, spaces and hyphens do not matter, nor does a maker in front or what follows the size: `SKF NU 206 ECP`,
-/// `6205-2RSH/C3`.
+/// The bearing of that name; case, spaces and hyphens do not matter, nor does a maker in front or what follows the
+/// size: `SKF NU 206 ECP`, `6205-2RSH/C3`.
 pub fn find(name: &str) -> Option<&'static Entry> {
     let mut readings = readings(name).into_iter();
     find_exactly(name).or_else(|| readings.find_map(|(base, _)| find_exactly(&base)))
@@ -145,9 +144,7 @@ pub fn nearest_name(name: &str) -> Option<&'static str> {
 
 fn parse(text: &str) -> Result<Vec<Entry>, String> {
     let file: toml::Table = text.parse().map_err(|fault| format!("{fault}"))?;
-    file.into_iter()
-        .map(|(name, table)| entry(name, table))
-        .collect()
+    file.into_iter().map(|(name, table)| entry(name, table)).collect()
 }
 
 fn entry(name: String, table: toml::Value) -> Result<Entry, String> {
@@ -160,18 +157,12 @@ fn entry(name: String, table: toml::Value) -> Result<Entry, String> {
     let values: Vec<Value> = table
         .into_iter()
         .map(|(key, cell)| {
-            value(&key, cell)
-                .ok_or_else(|| format!("{name}: {key} is not {{ value, source, estimated }}"))
+            value(&key, cell).ok_or_else(|| format!("{name}: {key} is not {{ value, source, estimated }}"))
         })
         .collect::<Result<_, _>>()?;
     // A scenario's key has its section in front.
     let (values, facts) = values.into_iter().partition(|v| v.key.contains('.'));
-    Ok(Entry {
-        name,
-        title,
-        values,
-        facts,
-    })
+    Ok(Entry { name, title, values, facts })
 }
 
 fn value(key: &str, cell: toml::Value) -> Option<Value> {
@@ -186,12 +177,7 @@ fn value(key: &str, cell: toml::Value) -> Option<Value> {
     };
     let source = cell.remove("source")?.as_str()?.to_owned();
     let estimated = cell.remove("estimated")?.as_bool()?;
-    cell.is_empty().then(|| Value {
-        key: key.to_owned(),
-        value,
-        source,
-        estimated,
-    })
+    cell.is_empty().then(|| Value { key: key.to_owned(), value, source, estimated })
 }
 
 #[cfg(test)]

@@ -1,12 +1,14 @@
-//! Radial internal clearance of cylindrical roller and of deep-groove ball bearings with a cylindrical bore: the classes of ISO 5753-1.
+//! Radial internal clearance of cylindrical roller and of deep-groove ball bearings with a cylindrical bore: the
+//! classes of ISO 5753-1.
 //!
-//! All values are diametral, as the standard and every catalogue give them. `bearing.radial_clearance_um` (C_r of the model) is the gap on
-//! one side, half of that. They hold for the bearing before it is mounted: interference fits and a warm inner ring make the clearance
-//! smaller.
+//! All values are diametral, as the standard and every catalogue give them. `bearing.radial_clearance_um` (C_r of the
+//! model) is the gap on one side, half of that. They hold for the bearing before it is mounted: interference fits and a
+//! warm inner ring make the clearance smaller.
 //!
-//! Source: ISO 5753-1:2009, radial internal clearance of cylindrical roller bearings with cylindrical bore, as tabulated at
-//! original-bearing.com, article s103; C2 to C4 compared with ahrinternational.com, bearing clearance. Deep-groove ball bearings as tabulated at
-//! bmzbearings.com, technical data 4, and the bore of 100 mm at en.shjfbearing.com, news 2525, which agree elsewhere but for misprints.
+//! Source: ISO 5753-1:2009, radial internal clearance of cylindrical roller bearings with cylindrical bore, as
+//! tabulated at original-bearing.com, article s103; C2 to C4 compared with ahrinternational.com, bearing clearance.
+//! Deep-groove ball bearings as tabulated at bmzbearings.com, technical data 4, and the bore of 100 mm at
+//! en.shjfbearing.com, news 2525, which agree elsewhere but for misprints.
 
 use super::catalogue;
 use crate::scenario::{Bearing, Element};
@@ -41,27 +43,24 @@ impl ClearanceClass {
         }
     }
 
-    /// Smallest and largest diametral clearance (um) for a bore (mm); `None` outside the table, which ends at [`largest_bore_mm`].
+    /// Smallest and largest diametral clearance (um) for a bore (mm); `None` outside the table, which ends at
+    /// [`largest_bore_mm`].
     pub fn limits(self, of: Element, bore_mm: f64) -> Option<[f64; 2]> {
-        let row = table(of)
-            .iter()
-            .find(|row| bore_mm > 0.0 && bore_mm <= f64::from(row.0))?;
+        let row = table(of).iter().find(|row| bore_mm > 0.0 && bore_mm <= f64::from(row.0))?;
         Some(row.1[self as usize].map(f64::from))
     }
 
     /// The middle of the class on one side (um): a quarter of the sum of its limits.
     pub fn one_sided_middle(self, of: Element, bore_mm: f64) -> Option<f64> {
-        self.limits(of, bore_mm)
-            .map(|[low, high]| 0.25 * (low + high))
+        self.limits(of, bore_mm).map(|[low, high]| 0.25 * (low + high))
     }
 }
 
-/// The classes that hold a diametral clearance (um) for a bore (mm). They overlap, so there may be two; none beyond the table.
+/// The classes that hold a diametral clearance (um) for a bore (mm). They overlap, so there may be two; none beyond the
+/// table.
 pub fn classes_of(of: Element, bore_mm: f64, diametral_um: f64) -> Vec<ClearanceClass> {
     let holds = |class: &ClearanceClass| {
-        class
-            .limits(of, bore_mm)
-            .is_some_and(|[low, high]| (low..=high).contains(&diametral_um))
+        class.limits(of, bore_mm).is_some_and(|[low, high]| (low..=high).contains(&diametral_um))
     };
     ClearanceClass::ALL.into_iter().filter(holds).collect()
 }
@@ -147,19 +146,12 @@ mod tests {
             (ClearanceClass::C3, 100.0, [75.0, 110.0]),
             (ClearanceClass::C5, 1000.0, [1215.0, 1405.0]),
         ] {
-            assert_eq!(
-                class.limits(Element::Roller, bore),
-                Some(limits),
-                "{class:?} at {bore} mm"
-            );
+            assert_eq!(class.limits(Element::Roller, bore), Some(limits), "{class:?} at {bore} mm");
         }
         for bore in [0.0, -1.0, 1000.1, f64::NAN] {
             assert_eq!(ClearanceClass::CN.limits(Element::Roller, bore), None);
         }
-        assert_eq!(
-            ClearanceClass::CN.one_sided_middle(Element::Roller, 30.0),
-            Some(16.25)
-        );
+        assert_eq!(ClearanceClass::CN.one_sided_middle(Element::Roller, 30.0), Some(16.25));
     }
 
     #[test]
@@ -179,18 +171,11 @@ mod tests {
 
     #[test]
     fn prop_classes_and_bores_rise() {
-        for (rows, k) in [&ROLLERS[..], &BALLS[..]]
-            .into_iter()
-            .flat_map(|rows| (0..rows.len()).map(move |k| (rows, k)))
+        for (rows, k) in [&ROLLERS[..], &BALLS[..]].into_iter().flat_map(|rows| (0..rows.len()).map(move |k| (rows, k)))
         {
             let (bore, classes) = &rows[k];
             assert!(classes.iter().all(|[low, high]| low < high), "{bore}");
-            assert!(
-                classes
-                    .windows(2)
-                    .all(|w| w[0][0] < w[1][0] && w[0][1] < w[1][1]),
-                "{bore}"
-            );
+            assert!(classes.windows(2).all(|w| w[0][0] < w[1][0] && w[0][1] < w[1][1]), "{bore}");
             if k > 0 {
                 let (before, smaller) = rows[k - 1];
                 assert!(before < *bore);

@@ -1,27 +1,14 @@
 //! Names of bearings as people write them: `NU 206 ECP`, `nu206`, `6205-2RS`, `SKF 6205 2RSH/C3`.
 //!
-//! A designation is a series and a size (letters, then digits), and suffixes for cage, seals, clearance and the like, which do not change the
-//! bearing's inner geometry. The class of clearance among them is reported, because it does change the clearance.
+//! A designation is a series and a size (letters, then digits), and suffixes for cage, seals, clearance and the like,
+//! which do not change the bearing's inner geometry. The class of clearance among them is reported, because it does
+//! change the clearance.
 
 use super::clearance::ClearanceClass;
 
 /// Makers, whose names may be in front.
-const MAKERS: [&str; 14] = [
-    "SKF",
-    "FAG",
-    "INA",
-    "NSK",
-    "NTN",
-    "SNR",
-    "KOYO",
-    "NACHI",
-    "TIMKEN",
-    "LDK",
-    "REXNORD",
-    "ZKL",
-    "RHP",
-    "SCHAEFFLER",
-];
+const MAKERS: [&str; 14] =
+    ["SKF", "FAG", "INA", "NSK", "NTN", "SNR", "KOYO", "NACHI", "TIMKEN", "LDK", "REXNORD", "ZKL", "RHP", "SCHAEFFLER"];
 
 /// Letters and digits, the letters large.
 pub(super) fn plain(name: &str) -> String {
@@ -29,7 +16,8 @@ pub(super) fn plain(name: &str) -> String {
     kept.flat_map(char::to_uppercase).collect()
 }
 
-/// Series and size with what follows them: `NU206` and ` ECP`. Several readings, the likeliest first; none where the name is no designation.
+/// Series and size with what follows them: `NU206` and ` ECP`. Several readings, the likeliest first; none where the
+/// name is no designation.
 pub(super) fn readings(name: &str) -> Vec<(String, String)> {
     let name = name.trim().to_uppercase();
     let mut rest = name.as_str();
@@ -40,11 +28,7 @@ pub(super) fn readings(name: &str) -> Vec<(String, String)> {
             rest = after;
         }
     }
-    let letters: String = rest
-        .chars()
-        .filter(|c| !is_gap(*c))
-        .take_while(|c| c.is_ascii_alphabetic())
-        .collect();
+    let letters: String = rest.chars().filter(|c| !is_gap(*c)).take_while(|c| c.is_ascii_alphabetic()).collect();
     let mut at = 0;
     let mut left = letters.len();
     for (k, c) in rest.char_indices() {
@@ -78,18 +62,16 @@ fn is_gap(c: char) -> bool {
 /// What follows a size without changing it: letters first, or the number of seals.
 fn is_suffix(text: &str) -> bool {
     let bare = text.trim_start_matches(|c| is_gap(c) || c == '/');
-    let seals = bare
-        .strip_prefix('2')
-        .is_some_and(|after| after.starts_with(['R', 'Z', 'L', 'N']));
+    let seals = bare.strip_prefix('2').is_some_and(|after| after.starts_with(['R', 'Z', 'L', 'N']));
     bare.is_empty() || seals || bare.starts_with(|c: char| c.is_ascii_alphabetic())
 }
 
-/// The name with the digit in place of each letter O behind its first digit: `NU2O6`, `62O5`. `None` where there is none.
+/// The name with the digit in place of each letter O behind its first digit: `NU2O6`, `62O5`. `None` where there is
+/// none.
 pub(super) fn with_zeros(name: &str) -> Option<String> {
     let size = name.find(|c: char| c.is_ascii_digit())?;
     let (series, rest) = name.split_at(size);
-    rest.contains(['O', 'o'])
-        .then(|| format!("{series}{}", rest.replace(['O', 'o'], "0")))
+    rest.contains(['O', 'o']).then(|| format!("{series}{}", rest.replace(['O', 'o'], "0")))
 }
 
 /// The class of radial clearance that a name's suffixes give: `C3` of `6205-2RSH/C3`.
@@ -99,9 +81,7 @@ pub fn clearance_of(name: &str) -> Option<ClearanceClass> {
     let mut classes = words.filter_map(|word| {
         // The letters of the grease may follow it: C3WT.
         let two = word.get(..2)?;
-        ClearanceClass::ALL
-            .into_iter()
-            .find(|class| class.name() == two)
+        ClearanceClass::ALL.into_iter().find(|class| class.name() == two)
     });
     classes.next()
 }

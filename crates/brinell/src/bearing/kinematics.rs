@@ -35,7 +35,8 @@ impl Geometry {
         }
     }
 
-    /// Name, value (Hz) and meaning of every frequency in pure rolling at a shaft speed in r/min, that of the shaft first.
+    /// Name, value (Hz) and meaning of every frequency in pure rolling at a shaft speed in r/min, that of the shaft
+    /// first.
     pub fn frequencies(&self, speed_rpm: f64) -> [(&'static str, f64, &'static str); 6] {
         Kinematics::pure_rolling(self, speed_rpm / 60.0 * TAU).table(speed_rpm.abs() / 60.0)
     }
@@ -112,21 +113,9 @@ pub(super) fn frequency_table(
     [
         ("shaft", shaft, "turns of the inner ring"),
         ("FTF", ftf, "turns of the cage"),
-        (
-            "BPFO",
-            bpfo,
-            "rolling elements passing a point of the outer raceway",
-        ),
-        (
-            "BPFI",
-            bpfi,
-            "rolling elements passing a point of the inner raceway",
-        ),
-        (
-            "BSF",
-            bsf,
-            "turns of a rolling element relative to the cage",
-        ),
+        ("BPFO", bpfo, "rolling elements passing a point of the outer raceway"),
+        ("BPFI", bpfi, "rolling elements passing a point of the inner raceway"),
+        ("BSF", bsf, "turns of a rolling element relative to the cage"),
         ("2 BSF", 2.0 * bsf, "impacts of damage on a rolling element"),
     ]
 }
@@ -148,10 +137,7 @@ mod tests {
     #[track_caller]
     fn assert_digits(value: f64, printed: f64, digits: i32) {
         let tolerance = 0.5 * 10f64.powi(-digits) * (1.0 + 1e-9);
-        assert!(
-            (value - printed).abs() <= tolerance,
-            "{value} is not {printed} to {digits} digits"
-        );
+        assert!((value - printed).abs() <= tolerance, "{value} is not {printed} to {digits} digits");
     }
 
     #[test]
@@ -176,46 +162,28 @@ mod tests {
             (k.bpfi, 19.0 * turns / 2.0 * (1.0 + ratio)),
             (k.bsf, turns / (2.0 * ratio) * (1.0 - ratio * ratio)),
         ] {
-            assert!(
-                (value / textbook - 1.0).abs() < 1e-14,
-                "{value} is not {textbook}"
-            );
+            assert!((value / textbook - 1.0).abs() < 1e-14, "{value} is not {textbook}");
         }
     }
 
     #[test]
     fn analytic_no_slip_at_either_raceway() {
         // A raceway that does not touch the roller exactly, and a shaft turning clockwise.
-        let geometry = Geometry {
-            inner_raceway_diameter: 0.0429,
-            ..NN3007
-        };
+        let geometry = Geometry { inner_raceway_diameter: 0.0429, ..NN3007 };
         let speed = -123.0;
         let k = Kinematics::pure_rolling(&geometry, speed);
         let centre = geometry.pitch_diameter / 2.0 * k.orbit_speed;
         let spin = geometry.roller_diameter / 2.0 * k.spin_speed;
         let slip_inner = speed * geometry.inner_raceway_diameter / 2.0 - (centre - spin);
         let slip_outer = -(centre + spin);
-        assert!(
-            slip_inner.abs() < 1e-15 && slip_outer.abs() < 1e-15,
-            "{slip_inner} {slip_outer}"
-        );
+        assert!(slip_inner.abs() < 1e-15 && slip_outer.abs() < 1e-15, "{slip_inner} {slip_outer}");
     }
 
     #[test]
     fn prop_frequencies_do_not_depend_on_the_sense_of_rotation() {
-        let (ccw, cw) = (
-            Kinematics::pure_rolling(&NN3007, SHAFT),
-            Kinematics::pure_rolling(&NN3007, -SHAFT),
-        );
-        assert_eq!(
-            (ccw.ftf, ccw.bpfo, ccw.bpfi, ccw.bsf),
-            (cw.ftf, cw.bpfo, cw.bpfi, cw.bsf)
-        );
-        assert_eq!(
-            (ccw.orbit_speed, ccw.spin_speed),
-            (-cw.orbit_speed, -cw.spin_speed)
-        );
+        let (ccw, cw) = (Kinematics::pure_rolling(&NN3007, SHAFT), Kinematics::pure_rolling(&NN3007, -SHAFT));
+        assert_eq!((ccw.ftf, ccw.bpfo, ccw.bpfi, ccw.bsf), (cw.ftf, cw.bpfo, cw.bpfi, cw.bsf));
+        assert_eq!((ccw.orbit_speed, ccw.spin_speed), (-cw.orbit_speed, -cw.spin_speed));
     }
 
     #[test]

@@ -1,5 +1,5 @@
-//! Bearings as such: the catalogue of real ones, classes of clearance, static load ratings, the speeds at which parts turn, and orders of
-//! their defect frequencies.
+//! Bearings as such: the catalogue of real ones, classes of clearance, static load ratings, the speeds at which parts
+//! turn, and orders of their defect frequencies.
 
 pub mod catalogue;
 pub mod clearance;

@@ -1,4 +1,5 @@
-//! Bearings known by name, those of the catalogue and those of public data sets; defect frequencies as orders of the shaft.
+//! Bearings known by name, those of the catalogue and those of public data sets; defect frequencies as orders of the
+//! shaft.
 
 use super::catalogue::{self, Entry};
 use super::designation::with_zeros;
@@ -10,12 +11,7 @@ use std::f64::consts::TAU;
 /// Of a bearing of the catalogue or a scenario.
 pub fn orders_of(geometry: &Geometry) -> DefectOrders {
     let k = Kinematics::pure_rolling(geometry, TAU);
-    DefectOrders {
-        ftf: Some(k.ftf),
-        bpfo: Some(k.bpfo),
-        bpfi: Some(k.bpfi),
-        bsf: Some(k.bsf),
-    }
+    DefectOrders { ftf: Some(k.ftf), bpfo: Some(k.bpfo), bpfi: Some(k.bpfi), bsf: Some(k.bsf) }
 }
 
 /// A bearing that every command knows by its name. A preset of a scenario is one of the catalogue.
@@ -38,15 +34,13 @@ impl KnownBearing {
     /// The bearing of this name.
     pub fn find(name: &str) -> Option<Self> {
         // A data set's own bearing before one of the catalogue that has but the same size: 6205-2RS.
-        let catalogued =
-            |found: fn(&str) -> Option<&'static Entry>| found(name).map(Self::Catalogue);
+        let catalogued = |found: fn(&str) -> Option<&'static Entry>| found(name).map(Self::Catalogue);
         let named = || NamedBearing::find(name).map(Self::DataSet);
-        catalogued(catalogue::find_exactly)
-            .or_else(named)
-            .or_else(|| catalogued(catalogue::find))
+        catalogued(catalogue::find_exactly).or_else(named).or_else(|| catalogued(catalogue::find))
     }
 
-    /// Why there is no bearing of this name: the name that was meant, where that can be guessed, and the names that there are.
+    /// Why there is no bearing of this name: the name that was meant, where that can be guessed, and the names that
+    /// there are.
     pub fn unknown(name: &str) -> String {
         let names: Vec<&str> = Self::all().map(Self::name).collect();
         let zeros = with_zeros(name).and_then(|name| Self::find(&name));
@@ -88,26 +82,19 @@ impl KnownBearing {
         })
     }
 
-    /// Name, value (Hz) and meaning of every frequency in pure rolling at a shaft speed in r/min, that of the shaft first.
+    /// Name, value (Hz) and meaning of every frequency in pure rolling at a shaft speed in r/min, that of the shaft
+    /// first.
     ///
     /// # Errors
     /// In words, the key that an entry of the catalogue lacks.
-    pub fn frequencies(
-        self,
-        speed_rpm: f64,
-    ) -> Result<[(&'static str, f64, &'static str); 6], String> {
+    pub fn frequencies(self, speed_rpm: f64) -> Result<[(&'static str, f64, &'static str); 6], String> {
         Ok(match self {
             Self::Catalogue(entry) => geometry(entry)?.frequencies(speed_rpm),
             Self::DataSet(bearing) => {
                 let shaft = speed_rpm.abs() / 60.0;
                 let orders = bearing.orders();
                 let hz = |order: Option<f64>| order.unwrap_or(f64::NAN) * shaft;
-                let DefectOrders {
-                    ftf,
-                    bpfo,
-                    bpfi,
-                    bsf,
-                } = orders;
+                let DefectOrders { ftf, bpfo, bpfi, bsf } = orders;
                 frequency_table(shaft, hz(ftf), hz(bpfo), hz(bpfi), hz(bsf))
             }
         })

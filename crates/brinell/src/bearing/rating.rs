@@ -12,9 +12,9 @@ pub struct StaticRating {
     pub source: Option<&'static str>,
 }
 
-/// C0 of a bearing: the catalogue's where the bearing is a preset with its rollers as they are, else ISO 76's formula for cylindrical
-/// rollers, C0 = 44 (1 - d/D_m) i Z L d in N and mm, or for deep-groove ball bearings, C0 = f0 i Z d^2. A maker's rating may differ from that by
-/// his own factors.
+/// C0 of a bearing: the catalogue's where the bearing is a preset with its rollers as they are, else ISO 76's formula
+/// for cylindrical rollers, C0 = 44 (1 - d/D_m) i Z L d in N and mm, or for deep-groove ball bearings, C0 = f0 i Z d^2.
+/// A maker's rating may differ from that by his own factors.
 pub fn static_rating(bearing: &Bearing) -> StaticRating {
     let b = bearing;
     let catalogued = b.preset.as_deref().and_then(catalogue::find);
@@ -31,32 +31,26 @@ pub fn static_rating(bearing: &Bearing) -> StaticRating {
         .filter(|(key, _)| !(b.has_balls() && *key == "roller_length_mm"))
         .all(|(key, value)| entry.number(key) == Some(*value))
     };
-    let printed = catalogued
-        .filter(same)
-        .and_then(|entry| entry.fact_of(catalogue::STATIC_RATING));
+    let printed = catalogued.filter(same).and_then(|entry| entry.fact_of(catalogue::STATIC_RATING));
     if let Some((load, source)) = printed {
-        return StaticRating {
-            load,
-            source: Some(source),
-        };
+        return StaticRating { load, source: Some(source) };
     }
     let (d, rollers) = (b.roller_diameter_mm, (b.rows * b.rollers_per_row) as f64);
     let load = match b.element {
-        Element::Roller => {
-            44.0 * (1.0 - d / b.pitch_diameter_mm) * rollers * b.roller_length_mm * d
-        }
+        Element::Roller => 44.0 * (1.0 - d / b.pitch_diameter_mm) * rollers * b.roller_length_mm * d,
         Element::Ball => ball_factor(d / b.pitch_diameter_mm) * rollers * d * d,
     };
     StaticRating { load, source: None }
 }
 
-/// f0 of ISO 76, table 1, for radial contact ball bearings by d/D_m, straight between its lines: grooves of 0.52 inside and 0.53 outside.
+/// f0 of ISO 76, table 1, for radial contact ball bearings by d/D_m, straight between its lines: grooves of 0.52 inside
+/// and 0.53 outside.
 fn ball_factor(ratio: f64) -> f64 {
     /// From d/D_m = 0 in steps of 0.01.
     const F0: [f64; 41] = [
-        14.7, 14.9, 15.1, 15.3, 15.5, 15.7, 15.9, 16.1, 16.3, 16.5, 16.4, 16.1, 15.9, 15.6, 15.4,
-        15.2, 14.9, 14.7, 14.4, 14.2, 14.0, 13.7, 13.5, 13.2, 13.0, 12.8, 12.5, 12.3, 12.1, 11.8,
-        11.6, 11.4, 11.2, 10.9, 10.7, 10.5, 10.3, 10.0, 9.8, 9.6, 9.4,
+        14.7, 14.9, 15.1, 15.3, 15.5, 15.7, 15.9, 16.1, 16.3, 16.5, 16.4, 16.1, 15.9, 15.6, 15.4, 15.2, 14.9, 14.7,
+        14.4, 14.2, 14.0, 13.7, 13.5, 13.2, 13.0, 12.8, 12.5, 12.3, 12.1, 11.8, 11.6, 11.4, 11.2, 10.9, 10.7, 10.5,
+        10.3, 10.0, 9.8, 9.6, 9.4,
     ];
     let at = (100.0 * ratio).clamp(0.0, 39.999_999);
     let k = at as usize;
@@ -71,8 +65,8 @@ const MATERIAL: f64 = 1.1;
 /// Basic dynamic radial load rating C_r of a cylindrical roller bearing by ISO 281, N.
 ///
 /// C_r = b_m f_c (i L)^(7/9) Z^(3/4) d^(29/27), f_c = 208 lambda nu gamma^(2/9) (1 - gamma)^(29/27) (1 + gamma)^(-1/4)
-/// (1 + (1.04 ((1 - gamma)/(1 + gamma))^(143/108))^(9/2))^(-2/9), gamma = d/D_m, in N and mm (ISO/TR 1281-1). Makers print more for steel and
-/// rollers of their own: SKF about a seventh.
+/// (1 + (1.04 ((1 - gamma)/(1 + gamma))^(143/108))^(9/2))^(-2/9), gamma = d/D_m, in N and mm (ISO/TR 1281-1). Makers
+/// print more for steel and rollers of their own: SKF about a seventh.
 pub fn dynamic_rating(bearing: &Bearing) -> f64 {
     let (b, d) = (bearing, bearing.roller_diameter_mm);
     let length = (b.rows as f64 * b.roller_length_mm).powf(7.0 / 9.0);
@@ -86,8 +80,7 @@ pub fn dynamic_rating(bearing: &Bearing) -> f64 {
 /// f_c of ISO 281 for gamma = d/D_m.
 fn geometry_factor(gamma: f64) -> f64 {
     let rings = 1.04 * ((1.0 - gamma) / (1.0 + gamma)).powf(143.0 / 108.0);
-    208.0 * LAMBDA_NU * gamma.powf(2.0 / 9.0) * (1.0 - gamma).powf(29.0 / 27.0)
-        / (1.0 + gamma).powf(0.25)
+    208.0 * LAMBDA_NU * gamma.powf(2.0 / 9.0) * (1.0 - gamma).powf(29.0 / 27.0) / (1.0 + gamma).powf(0.25)
         * (1.0 + rings.powf(4.5)).powf(-2.0 / 9.0)
 }
 
@@ -98,8 +91,7 @@ mod tests {
 
     #[test]
     fn analytic_rating_of_changed_rollers_is_the_estimate() {
-        let text =
-            "[bearing]\npreset = \"NU206\"\n[operation]\nspeed_rpm = 1500\nload_n = [1000, 0]\n";
+        let text = "[bearing]\npreset = \"NU206\"\n[operation]\nspeed_rpm = 1500\nload_n = [1000, 0]\n";
         let mut b = read(text, &[]).unwrap().scenario.bearing;
         b.rollers_per_row = 12;
         let estimate = static_rating(&b);

@@ -7,10 +7,7 @@ use crate::scenario::Sensor;
 
 /// Every channel of a model, in the order of files.
 pub fn all(model: &Model, sensor: &Sensor) -> Vec<Channel> {
-    let mut list = List {
-        model,
-        channels: Vec::new(),
-    };
+    let mut list = List { model, channels: Vec::new() };
     list.rings();
     list.cages();
     if model.tilt.is_some() {
@@ -38,12 +35,7 @@ struct List<'a> {
 
 impl List<'_> {
     fn add(&mut self, name: String, unit: &'static str, description: String, quantity: Quantity) {
-        self.channels.push(Channel {
-            name,
-            unit,
-            description,
-            quantity,
-        });
+        self.channels.push(Channel { name, unit, description, quantity });
     }
 
     /// A roller in names ("1_07") and in descriptions ("of roller 7 in row 1").
@@ -51,12 +43,7 @@ impl List<'_> {
         let digits = self.model.layout.rollers_per_row.to_string().len().max(2);
         (
             format!("{}_{:0digits$}", row + 1, roller + 1),
-            format!(
-                "of {} {} in row {}",
-                self.model.element.word(),
-                roller + 1,
-                row + 1
-            ),
+            format!("of {} {} in row {}", self.model.element.word(), roller + 1, row + 1),
         )
     }
 
@@ -64,18 +51,12 @@ impl List<'_> {
         let l = &self.model.layout;
         let dof = l.dof();
         for (ring, at) in [("inner", l.inner()), ("outer", l.outer())] {
-            for (suffix, unit, what, offset) in [
-                ("", "m", "displacement", 0),
-                ("v", "m/s", "velocity", dof),
-                ("a", "m/s^2", "acceleration", 0),
-            ] {
+            for (suffix, unit, what, offset) in
+                [("", "m", "displacement", 0), ("v", "m/s", "velocity", dof), ("a", "m/s^2", "acceleration", 0)]
+            {
                 for (k, axis) in ["x", "y"].into_iter().enumerate() {
                     let index = offset + at + k;
-                    let quantity = if suffix == "a" {
-                        Quantity::Acceleration(index)
-                    } else {
-                        Quantity::State(index)
-                    };
+                    let quantity = if suffix == "a" { Quantity::Acceleration(index) } else { Quantity::State(index) };
                     self.add(
                         format!("{ring}_{suffix}{axis}"),
                         unit,
@@ -94,29 +75,14 @@ impl List<'_> {
             let (at, number) = (l.cage(row), row + 1);
             for (k, axis) in ["x", "y"].into_iter().enumerate() {
                 let text = format!("displacement of cage {number} along {axis}");
-                self.add(
-                    format!("cage{number}_{axis}"),
-                    "m",
-                    text,
-                    Quantity::State(at + k),
-                );
+                self.add(format!("cage{number}_{axis}"), "m", text, Quantity::State(at + k));
             }
             for (k, axis) in ["x", "y"].into_iter().enumerate() {
                 let text = format!("acceleration of cage {number} along {axis}");
-                self.add(
-                    format!("cage{number}_a{axis}"),
-                    "m/s^2",
-                    text,
-                    Quantity::Acceleration(at + k),
-                );
+                self.add(format!("cage{number}_a{axis}"), "m/s^2", text, Quantity::Acceleration(at + k));
             }
             let text = format!("rotational speed of cage {number}");
-            self.add(
-                format!("cage{number}_speed"),
-                "rad/s",
-                text,
-                Quantity::CageSpeed(dof + at + 2),
-            );
+            self.add(format!("cage{number}_speed"), "rad/s", text, Quantity::CageSpeed(dof + at + 2));
         }
     }
 
@@ -147,21 +113,11 @@ impl List<'_> {
             ("spin_speed", "rad/s", "absolute spin speed", R::SpinSpeed),
         ] {
             let quantity = Quantity::Roller(quantity, slot);
-            self.add(
-                format!("roller{number}_{suffix}"),
-                unit,
-                format!("{what} {of}"),
-                quantity,
-            );
+            self.add(format!("roller{number}_{suffix}"), unit, format!("{what} {of}"), quantity);
         }
         if self.model.tilt.is_some() {
             let text = format!("tilt {of}");
-            self.add(
-                format!("roller{number}_tilt"),
-                "rad",
-                text,
-                Quantity::Tilt(slot),
-            );
+            self.add(format!("roller{number}_tilt"), "rad", text, Quantity::Tilt(slot));
         }
         for (side, name) in [(Side::Inner, "inner"), (Side::Outer, "outer")] {
             let quantity = Quantity::Contact(ContactQuantity::Slip, side, slot);
@@ -176,39 +132,19 @@ impl List<'_> {
         for (side, name) in [(Side::Outer, "outer"), (Side::Inner, "inner")] {
             for (suffix, unit, what, quantity) in [
                 ("force", "N", "normal force", ContactQuantity::Force),
-                (
-                    "length",
-                    "m",
-                    "effective length L_e",
-                    ContactQuantity::Length,
-                ),
-                (
-                    "stiffness",
-                    STIFFNESS_UNIT,
-                    "stiffness",
-                    ContactQuantity::Stiffness,
-                ),
+                ("length", "m", "effective length L_e", ContactQuantity::Length),
+                ("stiffness", STIFFNESS_UNIT, "stiffness", ContactQuantity::Stiffness),
             ] {
                 let text = format!("{what} at the {name} contact {of}");
                 let quantity = Quantity::Contact(quantity, side, slot);
-                self.add(
-                    format!("contact{number}_{name}_{suffix}"),
-                    unit,
-                    text,
-                    quantity,
-                );
+                self.add(format!("contact{number}_{name}_{suffix}"), unit, text, quantity);
             }
         }
         if self.model.tilt.is_some() {
             for (side, name) in [(Side::Outer, "outer"), (Side::Inner, "inner")] {
                 let text = format!("moment of the line load at the {name} contact {of}");
                 let quantity = Quantity::Contact(ContactQuantity::Moment, side, slot);
-                self.add(
-                    format!("contact{number}_{name}_moment"),
-                    "N m",
-                    text,
-                    quantity,
-                );
+                self.add(format!("contact{number}_{name}_moment"), "N m", text, quantity);
             }
         }
     }
@@ -216,16 +152,7 @@ impl List<'_> {
     fn pocket(&mut self, row: usize, roller: usize) {
         let slot = self.model.layout.slot(row, roller);
         let (number, _) = self.words(row, roller);
-        let text = format!(
-            "force of the pocket along the orbit on roller {} in row {}",
-            roller + 1,
-            row + 1
-        );
-        self.add(
-            format!("pocket{number}_force"),
-            "N",
-            text,
-            Quantity::PocketForce(slot),
-        );
+        let text = format!("force of the pocket along the orbit on roller {} in row {}", roller + 1, row + 1);
+        self.add(format!("pocket{number}_force"), "N", text, Quantity::PocketForce(slot));
     }
 }

@@ -1,7 +1,8 @@
 //! Hertz's contact of a ball and a groove: stiffness, ellipse, and how its load is spread across the groove.
 //!
-//! SI. x is along the rolling direction, z across the groove from its bottom. The ellipse is in Hamrock's form (Hamrock, Schmid, Jacobson:
-//! Fundamentals of Fluid Film Lubrication, chapter 17); ball and rings are of one elastic material.
+//! SI. x is along the rolling direction, z across the groove from its bottom. The ellipse is in Hamrock's form
+//! (Hamrock, Schmid, Jacobson: Fundamentals of Fluid Film Lubrication, chapter 17); ball and rings are of one elastic
+//! material.
 
 use crate::scenario::{Bearing, Contact};
 use std::f64::consts::{FRAC_PI_2, PI};
@@ -16,13 +17,11 @@ pub struct Curvature {
 }
 
 impl Curvature {
-    /// Of a ball and a groove (diameters in m): the raceway's at its bottom, negative around the balls, and the groove's cross-section over the ball's.
+    /// Of a ball and a groove (diameters in m): the raceway's at its bottom, negative around the balls, and the
+    /// groove's cross-section over the ball's.
     pub fn new(ball: f64, raceway: f64, conformity: f64) -> Self {
         let of_ball = 2.0 / ball;
-        Self {
-            along: 1.0 / (of_ball + 2.0 / raceway),
-            across: 1.0 / (of_ball - 1.0 / (conformity * ball)),
-        }
+        Self { along: 1.0 / (of_ball + 2.0 / raceway), across: 1.0 / (of_ball - 1.0 / (conformity * ball)) }
     }
 
     /// R of 1/R = 1/R_x + 1/R_y, m: Harris's sum of curvatures is 1/R.
@@ -56,13 +55,8 @@ impl Ellipse {
         }
         let kappa = axis_ratio(gamma);
         let [first, second] = elliptic_integrals(kappa);
-        let stiffness =
-            PI * kappa * modulus * (2.0 * second * radius / (9.0 * first.powi(3))).sqrt();
-        Some(Self {
-            stiffness,
-            kappa,
-            across: kappa * kappa * radius * second / first,
-        })
+        let stiffness = PI * kappa * modulus * (2.0 * second * radius / (9.0 * first.powi(3))).sqrt();
+        Some(Self { stiffness, kappa, across: kappa * kappa * radius * second / first })
     }
 
     /// Half-axes along the rolling direction and across the groove under the force Q, m.
@@ -75,15 +69,12 @@ impl Ellipse {
     /// Largest pressure under the force Q, Pa: 3 Q / (2 pi a_x a_z).
     pub fn pressure(&self, force: f64) -> f64 {
         let [along, across] = self.half_axes(force);
-        if across > 0.0 {
-            1.5 * force / (PI * along * across)
-        } else {
-            0.0
-        }
+        if across > 0.0 { 1.5 * force / (PI * along * across) } else { 0.0 }
     }
 }
 
-/// kappa of kappa^2 = (2 F - E (1 + Gamma)) / (E (1 - Gamma)), other than its root 1 that every Gamma has, by bisection.
+/// kappa of kappa^2 = (2 F - E (1 + Gamma)) / (E (1 - Gamma)), other than its root 1 that every Gamma has, by
+/// bisection.
 fn axis_ratio(gamma: f64) -> f64 {
     // Below 0 between the roots and above beyond.
     let excess = |log: f64| {
@@ -110,8 +101,8 @@ fn axis_ratio(gamma: f64) -> f64 {
     }
 }
 
-/// Complete elliptic integrals of the first and second kind of the parameter m = 1 - 1/kappa^2 by the arithmetic-geometric mean
-/// (Abramowitz and Stegun 17.6).
+/// Complete elliptic integrals of the first and second kind of the parameter m = 1 - 1/kappa^2 by the
+/// arithmetic-geometric mean (Abramowitz and Stegun 17.6).
 fn elliptic_integrals(kappa: f64) -> [f64; 2] {
     let (mut a, mut b) = (1.0, 1.0 / kappa);
     let mut squares = 0.5 * (1.0 - b * b);
@@ -128,30 +119,21 @@ fn elliptic_integrals(kappa: f64) -> [f64; 2] {
 
 /// The ellipses at the inner and the outer groove; `None` for rollers, or where radii make no ellipse.
 pub fn ellipses(bearing: &Bearing, contact: &Contact) -> Option<[Ellipse; 2]> {
-    let [inner, outer] = [
-        bearing.inner_groove_conformity?,
-        bearing.outer_groove_conformity?,
-    ];
+    let [inner, outer] = [bearing.inner_groove_conformity?, bearing.outer_groove_conformity?];
     let ratio = contact.poisson_ratio?;
     let modulus = 1e9 * contact.youngs_modulus_gpa? / (1.0 - ratio * ratio);
     let of = |raceway_mm: f64, conformity: f64| {
-        let of = Curvature::new(
-            1e-3 * bearing.roller_diameter_mm,
-            1e-3 * raceway_mm,
-            conformity,
-        );
+        let of = Curvature::new(1e-3 * bearing.roller_diameter_mm, 1e-3 * raceway_mm, conformity);
         Ellipse::new(of, modulus)
     };
-    Some([
-        of(bearing.inner_raceway_diameter_mm, inner)?,
-        of(-bearing.outer_raceway_diameter_mm, outer)?,
-    ])
+    Some([of(bearing.inner_raceway_diameter_mm, inner)?, of(-bearing.outer_raceway_diameter_mm, outer)?])
 }
 
-/// Independent strips along the rolling direction that carry together what the ellipse carries, each as much as Hertz's pressure sums up to there.
+/// Independent strips along the rolling direction that carry together what the ellipse carries, each as much as Hertz's
+/// pressure sums up to there.
 ///
-/// The line load across the ellipse, 3 Q/(4 a_z) (1 - z^2/a_z^2), is that of strips of the stiffness C = 3 K/(4 sqrt(2 R_w)) per length on the
-/// profile z^2/(2 R_w), because a_z = sqrt(2 R_w delta).
+/// The line load across the ellipse, 3 Q/(4 a_z) (1 - z^2/a_z^2), is that of strips of the stiffness C = 3 K/(4 sqrt(2
+/// R_w)) per length on the profile z^2/(2 R_w), because a_z = sqrt(2 R_w delta).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Strips {
     /// C, N/m^2.
@@ -163,21 +145,14 @@ pub struct Strips {
 impl Strips {
     /// Of a contact of the stiffness K (N/m^1.5) and R_w (m).
     pub fn new(stiffness: f64, across: f64) -> Self {
-        Self {
-            stiffness: 0.75 * stiffness / (2.0 * across).sqrt(),
-            radius: across,
-        }
+        Self { stiffness: 0.75 * stiffness / (2.0 * across).sqrt(), radius: across }
     }
 
     /// What is pressed at a deformation, m.
     #[inline]
     pub fn pressed(&self, delta: f64) -> Pressed {
         let squared = 2.0 * self.radius * delta.max(0.0);
-        Pressed {
-            squared,
-            end: squared.sqrt(),
-            per_radius: 0.5 / self.radius,
-        }
+        Pressed { squared, end: squared.sqrt(), per_radius: 0.5 / self.radius }
     }
 }
 
@@ -214,7 +189,8 @@ impl Pressed {
         ((to - from) * (self.squared - mean_square) * self.per_radius).max(0.0)
     }
 
-    /// The integral of half its square over a range of z, m^3: by Gauss's three points, which are exact for it and add up what is not negative.
+    /// The integral of half its square over a range of z, m^3: by Gauss's three points, which are exact for it and add
+    /// up what is not negative.
     #[inline]
     pub fn half_squares(&self, range: [f64; 2]) -> f64 {
         let [from, to] = self.within(range);

@@ -1,11 +1,13 @@
 //! Oil that a closing gap of roller and raceway squeezes out.
 //!
-//! Reynolds' equation for a rigid roller on the gap h + x^2/(2 R), long against its width and closing at the rate -dh/dt, is h^3 dp/dx = 12 eta x dh/dt; its pressure
-//! -6 eta R (dh/dt)/h(x)^2 carries -3 sqrt(2) pi eta L (R/h)^(3/2) dh/dt over both sides of the roller. While it rolls, the film cavitates where the gap
-//! widens, so that half of it pushes (Guembel), S/h^(3/2) with S = (3/sqrt(2)) pi eta L R^(3/2). A gap that opens pulls nothing.
+//! Reynolds' equation for a rigid roller on the gap h + x^2/(2 R), long against its width and closing at the rate
+//! -dh/dt, is h^3 dp/dx = 12 eta x dh/dt; its pressure -6 eta R (dh/dt)/h(x)^2 carries -3 sqrt(2) pi eta L (R/h)^(3/2)
+//! dh/dt over both sides of the roller. While it rolls, the film cavitates where the gap widens, so that half of it
+//! pushes (Guembel), S/h^(3/2) with S = (3/sqrt(2)) pi eta L R^(3/2). A gap that opens pulls nothing.
 //!
-//! Where the surfaces touch the contact's own damper c acts; the two in series, 1/(1/c + h^(3/2)/S), meet there without a step.
-//! The film is taken to be full; neither the wedge that rolling drags in nor what pressure does to viscosity and surfaces is in it.
+//! Where the surfaces touch the contact's own damper c acts; the two in series, 1/(1/c + h^(3/2)/S), meet there without
+//! a step. The film is taken to be full; neither the wedge that rolling drags in nor what pressure does to viscosity
+//! and surfaces is in it.
 
 use crate::lanes::Lanes;
 use std::f64::consts::{FRAC_1_SQRT_2, PI};
@@ -20,12 +22,11 @@ pub struct SqueezeFilm {
 impl SqueezeFilm {
     /// Of the viscosity eta (Pa s), a roller's length L and the relative radius R of roller and raceway (m).
     pub fn new(viscosity: f64, length: f64, radius: f64) -> Self {
-        Self {
-            scale: 3.0 * FRAC_1_SQRT_2 * PI * viscosity * length * radius.powf(1.5),
-        }
+        Self { scale: 3.0 * FRAC_1_SQRT_2 * PI * viscosity * length * radius.powf(1.5) }
     }
 
-    /// Force of the film, N, in each lane, on a gap of `gap` (m, from 0) that closes at `closing` (m/s) before a contact of the `damping` c, N s/m.
+    /// Force of the film, N, in each lane, on a gap of `gap` (m, from 0) that closes at `closing` (m/s) before a
+    /// contact of the `damping` c, N s/m.
     #[inline(always)]
     pub fn force<L: Lanes>(&self, damping: f64, gap: L, closing: L) -> L {
         let (scale, damping) = (L::splat(self.scale), L::splat(damping));
@@ -64,10 +65,7 @@ mod tests {
         assert_eq!(film.force(200.0, 1e-6, -1e-3), 0.0);
         assert_eq!(film.force(0.0, 1e-6, 1e-3), 0.0);
         assert_eq!(film.force(200.0, 1e3, 0.0), 0.0);
-        assert_eq!(
-            SqueezeFilm::new(0.0, 9e-3, 3.6e-3).force(200.0, 1e-6, 1e-3),
-            0.0
-        );
+        assert_eq!(SqueezeFilm::new(0.0, 9e-3, 3.6e-3).force(200.0, 1e-6, 1e-3), 0.0);
     }
 
     #[test]
@@ -90,9 +88,7 @@ mod tests {
     #[test]
     fn prop_a_wider_gap_carries_less() {
         let film = SqueezeFilm::new(0.01, 9e-3, 3.6e-3);
-        let forces: Vec<f64> = (0..100)
-            .map(|k| film.force(200.0, f64::from(k) * 5e-7, 1e-3))
-            .collect();
+        let forces: Vec<f64> = (0..100).map(|k| film.force(200.0, f64::from(k) * 5e-7, 1e-3)).collect();
         assert!(forces.windows(2).all(|pair| pair[1] < pair[0]));
     }
 }

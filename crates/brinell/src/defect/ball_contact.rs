@@ -1,8 +1,8 @@
 //! Force, stiffness and energy of a ball's contact that is on damage (section 17).
 //!
-//! The ellipse's load is carried by independent strips across the groove ([`Strips`]). Damage divides its own axial extent into slices; over the
-//! covered part of a slice the strips are pressed by delta - h_k, over everything else by delta. No term is negative: an ellipse wholly within a
-//! pit carries exactly nothing.
+//! The ellipse's load is carried by independent strips across the groove ([`Strips`]). Damage divides its own axial
+//! extent into slices; over the covered part of a slice the strips are pressed by delta - h_k, over everything else by
+//! delta. No term is negative: an ellipse wholly within a pit carries exactly nothing.
 
 use super::DamagedContact;
 use super::damaged_contact::{Cut, joint};
@@ -36,15 +36,11 @@ impl Across {
             let [low, high] = slice_borders(track.slice, slices, extent);
             ([if mirrored { low.max(0.0) } else { low }, high], track)
         });
-        Self {
-            ranges: ranges.collect(),
-            mirrored,
-            raised,
-        }
+        Self { ranges: ranges.collect(), mirrored, raised }
     }
 
-    /// Of damage that is as deep at every z between two: the slices that it covers from end to end are one. `of` gives the track of a slice by
-    /// the fraction that is covered.
+    /// Of damage that is as deep at every z between two: the slices that it covers from end to end are one. `of` gives
+    /// the track of a slice by the fraction that is covered.
     pub(super) fn of_rectangle(
         [low, high]: [f64; 2],
         (slices, extent): (usize, Extent),
@@ -63,11 +59,7 @@ impl Across {
             }
             last_is_whole = is_whole;
         }
-        Self {
-            ranges,
-            mirrored: false,
-            raised: 0.0,
-        }
+        Self { ranges, mirrored: false, raised: 0.0 }
     }
 
     /// First and last s of each range, m.
@@ -108,9 +100,7 @@ fn parts<'a>(
         if across.mirrored {
             (from, side) = (0.0, 2.0);
         }
-        let end = strips
-            .pressed(delta + across.raised)
-            .length([0.0, f64::INFINITY]);
+        let end = strips.pressed(delta + across.raised).length([0.0, f64::INFINITY]);
         for (z, track) in &across.ranges {
             if z[0] >= end {
                 break;
@@ -127,7 +117,8 @@ fn parts<'a>(
     Some(())
 }
 
-/// What acts where the contact is on damage; `None` off all of it. Its length is what is not carried of the ellipse's axis across.
+/// What acts where the contact is on damage; `None` off all of it. Its length is what is not carried of the ellipse's
+/// axis across.
 #[inline]
 pub(super) fn damaged<'a>(
     cuts: impl Iterator<Item = Cut<'a>> + Clone,
@@ -151,11 +142,7 @@ pub(super) fn damaged<'a>(
 }
 
 /// d(elastic)/d(delta) on damage, N/m; `None` off all of it.
-pub(super) fn tangent<'a>(
-    cuts: impl Iterator<Item = Cut<'a>> + Clone,
-    strips: &Strips,
-    delta: f64,
-) -> Option<f64> {
+pub(super) fn tangent<'a>(cuts: impl Iterator<Item = Cut<'a>> + Clone, strips: &Strips, delta: f64) -> Option<f64> {
     let mut carried = 0.0;
     parts(cuts, strips, delta, |weight, pressed, z| {
         carried += weight * pressed.length(z);
@@ -164,11 +151,7 @@ pub(super) fn tangent<'a>(
 }
 
 /// Elastic energy on damage, J; `None` off all of it.
-pub(super) fn energy<'a>(
-    cuts: impl Iterator<Item = Cut<'a>> + Clone,
-    strips: &Strips,
-    delta: f64,
-) -> Option<f64> {
+pub(super) fn energy<'a>(cuts: impl Iterator<Item = Cut<'a>> + Clone, strips: &Strips, delta: f64) -> Option<f64> {
     let mut sum = 0.0;
     parts(cuts, strips, delta, |weight, pressed, z| {
         sum += weight * pressed.half_squares(z);
@@ -195,7 +178,8 @@ pub(super) fn edge_slope(across: &Across, s: f64, strips: &Strips, delta: f64) -
     sides * strips.stiffness * sum
 }
 
-/// Depth of the damage under the groove's bottom, z = 0, by the ball's path, m: all that the lumped model knows of it. `None` where no damage is met.
+/// Depth of the damage under the groove's bottom, z = 0, by the ball's path, m: all that the lumped model knows of it.
+/// `None` where no damage is met.
 pub(super) fn depth_at_bottom<'a>(cuts: impl Iterator<Item = Cut<'a>> + Clone) -> Option<f64> {
     let first = cuts.clone().next()?;
     Some(match &first.profile.surface {

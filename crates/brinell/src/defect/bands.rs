@@ -1,6 +1,8 @@
-//! Damage seen from above, cut along z = const into bands: within one its borders span the whole band and keep their order.
+//! Damage seen from above, cut along z = const into bands: within one its borders span the whole band and keep their
+//! order.
 //!
-//! So what damage covers of a slice, and the mean depth there that a roller's envelope leaves, are sums of closed forms (section 3). s and z in m.
+//! So what damage covers of a slice, and the mean depth there that a roller's envelope leaves, are sums of closed forms
+//! (section 3). s and z in m.
 
 /// One border of damage as a function s(z), monotone between two z.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -40,47 +42,23 @@ impl Border {
     /// Between two points (s, z); `None` where it runs along s.
     pub(super) fn straight(p: [f64; 2], q: [f64; 2]) -> Option<Self> {
         let (low, high) = if p[1] <= q[1] { (p, q) } else { (q, p) };
-        (low[1] < high[1]).then_some(Self {
-            z: [low[1], high[1]],
-            form: Form::Straight([low[0], high[0]]),
-        })
+        (low[1] < high[1]).then_some(Self { z: [low[1], high[1]], form: Form::Straight([low[0], high[0]]) })
     }
 
     /// A part of an ellipse about `center` (s, z) within the quadrant `side`, between two z.
-    pub(super) fn arc(
-        center: [f64; 2],
-        radii: [f64; 2],
-        side: [f64; 2],
-        z: [f64; 2],
-    ) -> Option<Self> {
-        (z[0] < z[1]).then_some(Self {
-            z,
-            form: Form::Arc {
-                center,
-                radii,
-                side,
-            },
-        })
+    pub(super) fn arc(center: [f64; 2], radii: [f64; 2], side: [f64; 2], z: [f64; 2]) -> Option<Self> {
+        (z[0] < z[1]).then_some(Self { z, form: Form::Arc { center, radii, side } })
     }
 
     /// Mirrored at z = 0.
     pub(super) fn mirrored(self) -> Self {
         let form = match self.form {
             Form::Straight([a, b]) => Form::Straight([b, a]),
-            Form::Arc {
-                center,
-                radii,
-                side,
-            } => Form::Arc {
-                center: [center[0], -center[1]],
-                radii,
-                side: [side[0], -side[1]],
-            },
+            Form::Arc { center, radii, side } => {
+                Form::Arc { center: [center[0], -center[1]], radii, side: [side[0], -side[1]] }
+            }
         };
-        Self {
-            z: [-self.z[1], -self.z[0]],
-            form,
-        }
+        Self { z: [-self.z[1], -self.z[0]], form }
     }
 
     /// Moved along z.
@@ -96,11 +74,7 @@ impl Border {
     pub(super) fn s(&self, z: f64) -> f64 {
         match self.form {
             Form::Straight([a, b]) => a + (b - a) * (z - self.z[0]) / (self.z[1] - self.z[0]),
-            Form::Arc {
-                center,
-                radii,
-                side,
-            } => {
+            Form::Arc { center, radii, side } => {
                 let y = (z - center[1]) / radii[1];
                 center[0] + side[0] * radii[0] * (1.0 - y * y).max(0.0).sqrt()
             }
@@ -111,11 +85,7 @@ impl Border {
     fn z(&self, s: f64) -> f64 {
         match self.form {
             Form::Straight([a, b]) => self.z[0] + (self.z[1] - self.z[0]) * (s - a) / (b - a),
-            Form::Arc {
-                center,
-                radii,
-                side,
-            } => {
+            Form::Arc { center, radii, side } => {
                 let x = (s - center[0]) / radii[0];
                 center[1] + side[1] * radii[1] * (1.0 - x * x).max(0.0).sqrt()
             }
@@ -149,18 +119,13 @@ impl Border {
                 let d = [a, 0.5 * (a + b), b].map(|z| x - self.s(z));
                 (b - a) / 6.0 * (d[0] * d[0] + 4.0 * d[1] * d[1] + d[2] * d[2])
             }
-            Form::Arc {
-                center,
-                radii,
-                side,
-            } => {
+            Form::Arc { center, radii, side } => {
                 // z = z_c + r_z sin t, s = s_c +- r_s cos t.
                 let (away, r) = (side[0] * (x - center[0]), radii[0]);
                 let of = |z: f64| {
                     let sin = ((z - center[1]) / radii[1]).clamp(-1.0, 1.0);
                     let (t, cos) = (sin.asin(), (1.0 - sin * sin).sqrt());
-                    away * away * sin - away * r * (t + sin * cos)
-                        + r * r * sin * (1.0 - sin * sin / 3.0)
+                    away * away * sin - away * r * (t + sin * cos) + r * r * sin * (1.0 - sin * sin / 3.0)
                 };
                 radii[1] * (of(b) - of(a))
             }
@@ -204,19 +169,14 @@ impl Band {
             active.retain(|b| b.z[1] >= z[1]);
             active.sort_by(|a, b| a.s(middle).total_cmp(&b.s(middle)));
             if active.len() >= 2 {
-                bands.push(Self {
-                    z,
-                    borders: active.clone(),
-                });
+                bands.push(Self { z, borders: active.clone() });
             }
         }
         bands
     }
 
     fn pairs(&self) -> impl DoubleEndedIterator<Item = (&Border, &Border)> {
-        self.borders
-            .chunks_exact(2)
-            .map(|pair| (&pair[0], &pair[1]))
+        self.borders.chunks_exact(2).map(|pair| (&pair[0], &pair[1]))
     }
 
     /// Damaged intervals of s at z, ascending.
@@ -226,13 +186,12 @@ impl Band {
 
     /// How much of the band's z is damaged at s, m.
     pub(super) fn covered(&self, s: f64) -> f64 {
-        self.pairs()
-            .map(|(l, r)| long(both(l.before(s, self.z), r.after(s, self.z))))
-            .sum()
+        self.pairs().map(|(l, r)| long(both(l.before(s, self.z), r.after(s, self.z)))).sum()
     }
 
-    /// Integral over what is damaged at s of min(floor, d^2 / (2 R)), m^2, d being the distance along s from the damage's end: the depth that a
-    /// roller of relative radius R reaches over a floor that it would follow to the depth `floor` (m) if damage had no ends.
+    /// Integral over what is damaged at s of min(floor, d^2 / (2 R)), m^2, d being the distance along s from the
+    /// damage's end: the depth that a roller of relative radius R reaches over a floor that it would follow to the
+    /// depth `floor` (m) if damage had no ends.
     pub(super) fn reached(&self, s: f64, floor: f64, radius: f64) -> f64 {
         let reach = (2.0 * radius * floor.max(0.0)).sqrt();
         let mut sum = 0.0;
@@ -302,7 +261,8 @@ impl Band {
         (band.z[0] <= z).then_some(band)
     }
 
-    /// s at which the covered length or, for a floor that is reached `reach` (m) from an end, the depth changes its form.
+    /// s at which the covered length or, for a floor that is reached `reach` (m) from an end, the depth changes its
+    /// form.
     pub(super) fn kinks(&self, reach: Option<f64>) -> Vec<f64> {
         let mut kinks = Vec::new();
         for (l, r) in self.pairs() {
@@ -344,32 +304,17 @@ mod tests {
 
     fn circle(radius: f64) -> Vec<Border> {
         let quadrant = |side: [f64; 2]| {
-            let z = if side[1] > 0.0 {
-                [0.0, radius]
-            } else {
-                [-radius, 0.0]
-            };
+            let z = if side[1] > 0.0 { [0.0, radius] } else { [-radius, 0.0] };
             Border::arc([0.0, 0.0], [radius; 2], side, z).unwrap()
         };
-        [[1.0, 1.0], [1.0, -1.0], [-1.0, 1.0], [-1.0, -1.0]]
-            .map(quadrant)
-            .to_vec()
+        [[1.0, 1.0], [1.0, -1.0], [-1.0, 1.0], [-1.0, -1.0]].map(quadrant).to_vec()
     }
 
     #[test]
     fn analytic_bands_of_a_circle_and_of_slanted_edges_agree_with_fine_sums() {
-        let corners = [
-            [-1.7, 0.15],
-            [0.4, -0.65],
-            [1.6, 0.9],
-            [1.1, 2.75],
-            [-0.3, 1.35],
-            [-1.2, 2.4],
-        ]
-        .map(|p: [f64; 2]| p.map(|x| 1e-3 * x));
-        let slanted: Vec<Border> = (0..6)
-            .filter_map(|k| Border::straight(corners[k], corners[(k + 1) % 6]))
-            .collect();
+        let corners = [[-1.7, 0.15], [0.4, -0.65], [1.6, 0.9], [1.1, 2.75], [-0.3, 1.35], [-1.2, 2.4]]
+            .map(|p: [f64; 2]| p.map(|x| 1e-3 * x));
+        let slanted: Vec<Border> = (0..6).filter_map(|k| Border::straight(corners[k], corners[(k + 1) % 6])).collect();
         let cuts = [-3e-3, -0.4e-3, 0.3e-3, 1.7e-3, 3e-3];
         for borders in [circle(1.1e-3), slanted] {
             let bands = Band::all(&borders, &[], &cuts);
@@ -380,10 +325,7 @@ mod tests {
                     let ours: f64 = bands.iter().map(|b| b.covered(s)).sum();
                     assert!((ours - covered).abs() < 1e-7, "at {s}: {ours} {covered}");
                     let ours: f64 = bands.iter().map(|b| b.reached(s, floor, R)).sum();
-                    assert!(
-                        (ours - reached).abs() < 1e-7 * floor.min(5e-5),
-                        "at {s}, floor {floor}: {ours} {reached}"
-                    );
+                    assert!((ours - reached).abs() < 1e-7 * floor.min(5e-5), "at {s}, floor {floor}: {ours} {reached}");
                 }
             }
         }

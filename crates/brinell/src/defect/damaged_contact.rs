@@ -1,8 +1,8 @@
 //! Force, stiffness and energy of a contact that is on damage, one defect or several (section 3).
 //!
-//! Under `ecl` the defect with the smallest elastic sum acts. Under `sliced` all defects at a contact are one surface, the deepest at each point;
-//! a defect that leaves a point alone has no say there, so that it does not level another's raised edge. Along an envelope the roller follows
-//! the envelope of that joint surface, neighbouring defects included.
+//! Under `ecl` the defect with the smallest elastic sum acts. Under `sliced` all defects at a contact are one surface,
+//! the deepest at each point; a defect that leaves a point alone has no say there, so that it does not level another's
+//! raised edge. Along an envelope the roller follows the envelope of that joint surface, neighbouring defects included.
 
 use super::ball_contact;
 use super::bands::Band;
@@ -57,7 +57,8 @@ impl<'a> Cut<'a> {
         covered.then(|| self.defect.depth_at(self.s))
     }
 
-    /// The next z above z at which that, or the form of the borders along s, may change; of a depth map along an envelope only where damage ends.
+    /// The next z above z at which that, or the form of the borders along s, may change; of a depth map along an
+    /// envelope only where damage ends.
     fn next(&self, z: f64) -> f64 {
         if let Shape::DepthMap(grid) = &self.defect.shape {
             return match &self.profile.surface {
@@ -85,8 +86,8 @@ impl<'a> Cut<'a> {
     }
 }
 
-/// The defects that bear on a contact: none where it is on no damage; along an envelope also those beside it that a roller, resting on the
-/// deepest floor under it, would reach.
+/// The defects that bear on a contact: none where it is on no damage; along an envelope also those beside it that a
+/// roller, resting on the deepest floor under it, would reach.
 #[inline]
 pub(super) fn cuts<'a>(
     defects: impl Iterator<Item = &'a Defect> + Clone,
@@ -120,7 +121,8 @@ fn rolling<'a>(cuts: impl Iterator<Item = Cut<'a>> + Clone) -> Option<(f64, f64)
     Some((surfaces.map(|x| x.extremes.0).fold(0.0, f64::min), radius))
 }
 
-/// Borders, phi_k and h_k of the slices under several defects, for `add`: what any of them covers, the deepest at each point.
+/// Borders, phi_k and h_k of the slices under several defects, for `add`: what any of them covers, the deepest at each
+/// point.
 pub(super) fn joint<'a>(
     cuts: impl Iterator<Item = Cut<'a>> + Clone,
     (slices, extent): (usize, Extent),
@@ -181,7 +183,8 @@ pub(super) struct Mean {
     covered: f64,
 }
 
-/// Mean of f(delta - h) over what is damaged and of f(delta), which is `undamaged`, over the rest; where nothing is, that to the bit.
+/// Mean of f(delta - h) over what is damaged and of f(delta), which is `undamaged`, over the rest; where nothing is,
+/// that to the bit.
 #[inline]
 pub(super) fn mean<'a>(
     mut cuts: impl Iterator<Item = Cut<'a>> + Clone,
@@ -253,10 +256,7 @@ pub fn cover_slices<'a>(
     cover_cuts(cuts(defects, angles, side), cover)
 }
 
-pub(super) fn cover_cuts<'a>(
-    mut cuts: impl Iterator<Item = Cut<'a>> + Clone,
-    cover: &mut slices::Cover,
-) -> bool {
+pub(super) fn cover_cuts<'a>(mut cuts: impl Iterator<Item = Cut<'a>> + Clone, cover: &mut slices::Cover) -> bool {
     let all = cuts.clone();
     let Some(first) = cuts.next() else {
         return false;
@@ -342,32 +342,23 @@ pub fn damaged_contact_given<'a>(
         let mean = mean(cuts, undamaged, delta, |x| law.healthy(x))?;
         return Some(DamagedContact {
             elastic: mean.value,
-            floor: ContactReduction {
-                share: 1.0 - mean.covered,
-                depth: 0.0,
-                damaged_length: mean.covered * length,
-            },
+            floor: ContactReduction { share: 1.0 - mean.covered, depth: 0.0, damaged_length: mean.covered * length },
         });
     }
     floors(defects, angles, side)
-        .map(|floor| DamagedContact {
-            elastic: law.damaged_given(power, delta, &floor),
-            floor,
-        })
+        .map(|floor| DamagedContact { elastic: law.damaged_given(power, delta, &floor), floor })
         .reduce(|a, b| {
-            // With no force on either (a gap, or both floors below), the shorter remaining length represents the contact.
-            if b.elastic < a.elastic || (b.elastic == a.elastic && b.floor.share < a.floor.share) {
-                b
-            } else {
-                a
-            }
+            // With no force on either (a gap, or both floors below), the shorter remaining length represents the
+            // contact.
+            if b.elastic < a.elastic || (b.elastic == a.elastic && b.floor.share < a.floor.share) { b } else { a }
         })
 }
 
 /// What each defect under a contact leaves of it, under a law that knows one width and one depth.
 ///
-/// Along an envelope, where several bear on the contact, the roller follows the envelope of the joint surface of their h_s; no floor is deeper for
-/// that than its own defect is there. Each keeps its own L_s, so that a narrow pit in a wide dent makes the dent no deeper.
+/// Along an envelope, where several bear on the contact, the roller follows the envelope of the joint surface of their
+/// h_s; no floor is deeper for that than its own defect is there. Each keeps its own L_s, so that a narrow pit in a
+/// wide dent makes the dent no deeper.
 pub fn floors<'a>(
     defects: impl Iterator<Item = &'a Defect> + Clone,
     angles: &Angles,
@@ -393,10 +384,7 @@ pub fn floors<'a>(
         let floor = d.floor(u, side)?;
         Some(match &joint {
             None => floor,
-            Some(rest) => ContactReduction {
-                depth: d.depth_at(u * d.radius).min(*rest).max(0.0),
-                ..floor
-            },
+            Some(rest) => ContactReduction { depth: d.depth_at(u * d.radius).min(*rest).max(0.0), ..floor },
         })
     })
 }
@@ -466,17 +454,12 @@ pub fn energy<'a>(
         (None, _) => law.energy(delta),
         (Some(floor), None) => law.damaged_energy(delta, &floor),
         _ => {
-            // Overlapping damage: the defect that counts may change on the way, so the work is integrated (midpoint rule).
+            // Overlapping damage: the defect that counts may change on the way, so the work is integrated (midpoint
+            // rule).
             const CELLS: u32 = 64;
             let dx = delta / f64::from(CELLS);
-            let force = |x: f64| {
-                all.clone()
-                    .map(|f| law.damaged(x, &f))
-                    .fold(f64::INFINITY, f64::min)
-            };
-            (0..CELLS)
-                .map(|k| force((f64::from(k) + 0.5) * dx) * dx)
-                .sum()
+            let force = |x: f64| all.clone().map(|f| law.damaged(x, &f)).fold(f64::INFINITY, f64::min);
+            (0..CELLS).map(|k| force((f64::from(k) + 0.5) * dx) * dx).sum()
         }
     }
 }

@@ -1,4 +1,5 @@
-//! Damage under a roller, made ready for one surface, law and path: h_s(s), and phi_k(s) and h_k(s) of slices, in constant time.
+//! Damage under a roller, made ready for one surface, law and path: h_s(s), and phi_k(s) and h_k(s) of slices, in
+//! constant time.
 
 use super::Shape;
 use super::ball_contact::Across;
@@ -53,20 +54,12 @@ pub(super) struct Extent {
 impl Extent {
     /// A roller of length L, m.
     pub(super) fn of_roller(length: f64) -> Self {
-        Self {
-            middle: 0.0,
-            length,
-            of_balls: false,
-        }
+        Self { middle: 0.0, length, of_balls: false }
     }
 
     /// Damage between two z, m.
     pub(super) fn of_damage([low, high]: [f64; 2]) -> Self {
-        Self {
-            middle: 0.5 * (low + high),
-            length: high - low,
-            of_balls: true,
-        }
+        Self { middle: 0.5 * (low + high), length: high - low, of_balls: true }
     }
 }
 
@@ -91,9 +84,11 @@ pub(super) enum Cover {
 /// Depths under one side of a roller.
 #[derive(Debug, Clone, PartialEq)]
 pub struct DepthProfile {
-    /// First and last s at which the contact is on damage, m: the shape's arc, and what the envelope of raised edges adds.
+    /// First and last s at which the contact is on damage, m: the shape's arc, and what the envelope of raised edges
+    /// adds.
     pub(super) arc: (f64, f64),
-    /// h_env of h_s, where the path is the envelope: for the laws that know one depth, and under slices that the damage covers from end to end.
+    /// h_env of h_s, where the path is the envelope: for the laws that know one depth, and under slices that the damage
+    /// covers from end to end.
     pub(super) floor: Option<PiecewisePolynomial>,
     /// Slices.
     pub(super) cover: Cover,
@@ -119,15 +114,9 @@ pub(super) struct Surface {
 }
 
 impl DepthProfile {
-    /// For rollers or balls that meet the damage with the relative radius R_eq (m) and whose slices divide `extent`; `depth` (m) is the defect's,
-    /// `middle` (m) the z of a shape that is a width alone.
-    pub(super) fn new(
-        shape: &Shape,
-        (depth, middle): (f64, f64),
-        extent: Extent,
-        radius: f64,
-        rules: &Rules,
-    ) -> Self {
+    /// For rollers or balls that meet the damage with the relative radius R_eq (m) and whose slices divide `extent`;
+    /// `depth` (m) is the defect's, `middle` (m) the z of a shape that is a width alone.
+    pub(super) fn new(shape: &Shape, (depth, middle): (f64, f64), extent: Extent, radius: f64, rules: &Rules) -> Self {
         let sliced = rules.law == Law::Sliced;
         let along_envelope = rules.path == RollerPath::Envelope;
         let surface = along_envelope.then(|| Surface::new(shape, depth, radius, sliced));
@@ -143,15 +132,11 @@ impl DepthProfile {
         };
         if sliced {
             let (edges, crossings) = shape.borders(middle);
-            let mut cuts: Vec<f64> = (0..rules.slices)
-                .map(|k| slice_borders(k, rules.slices, extent)[0])
-                .collect();
+            let mut cuts: Vec<f64> = (0..rules.slices).map(|k| slice_borders(k, rules.slices, extent)[0]).collect();
             cuts.push(extent.middle + 0.5 * extent.length);
             profile.bands = Band::all(&edges, &crossings, &cuts);
             profile.cover = match shape {
-                _ if extent.of_balls => {
-                    Cover::Across(profile.across(shape, (depth, middle), radius))
-                }
+                _ if extent.of_balls => Cover::Across(profile.across(shape, (depth, middle), radius)),
                 Shape::DepthMap(grid) => Cover::Slices(profile.of_map(grid, radius)),
                 _ if !along_envelope || shape.is_straight() => Cover::Even,
                 _ => Cover::Slices(profile.tracks(shape, (depth, middle), radius)),
@@ -208,8 +193,8 @@ impl DepthProfile {
 
     /// Slices of damage that has one depth at each s.
     ///
-    /// Along the envelope a roller then rests on that floor, or on the nearer end of the damage along s at its z: h_env(s, z) = min(F(s), d^2 / (2 R_eq)), F being the
-    /// envelope of a floor without ends.
+    /// Along the envelope a roller then rests on that floor, or on the nearer end of the damage along s at its z:
+    /// h_env(s, z) = min(F(s), d^2 / (2 R_eq)), F being the envelope of a floor without ends.
     fn tracks(&self, shape: &Shape, (depth, middle): (f64, f64), radius: f64) -> Vec<Track> {
         let own = self.floor.as_ref().filter(|_| shape.has_depths());
         let floor = |s: f64| own.map_or(depth, |floor| floor.value(s).max(0.0));
@@ -228,9 +213,7 @@ impl DepthProfile {
             let to = self.bands.partition_point(|b| b.z[0] < high);
             let bands = &self.bands[from..to];
             let kinks = bands.iter().flat_map(|b| b.kinks(None));
-            let (first, last) = kinks.fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), s| {
-                (a.min(s), b.max(s))
-            });
+            let (first, last) = kinks.fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), s| (a.min(s), b.max(s)));
             let mut stops: Vec<f64> = bands.iter().flat_map(|b| b.kinks(reach)).collect();
             stops.extend(own.iter().flat_map(|floor| floor.breakpoints()));
             if !along_envelope {
@@ -263,9 +246,7 @@ impl Surface {
         let mut floor = shape.depths(depth);
         floor.retain(|l| l.to > l.from);
         let along = floor.iter().flat_map(|l| [l.at_from, l.at_to]);
-        let extremes = along.fold((0.0_f64, 0.0_f64), |(low, high), h| {
-            (low.min(h), high.max(h))
-        });
+        let extremes = along.fold((0.0_f64, 0.0_f64), |(low, high), h| (low.min(h), high.max(h)));
         let extremes = match shape {
             Shape::DepthMap(grid) if sliced => {
                 let (deepest, highest) = grid.extremes();
@@ -273,16 +254,12 @@ impl Surface {
             }
             _ => extremes,
         };
-        Self {
-            radius,
-            floor,
-            extremes,
-        }
+        Self { radius, floor, extremes }
     }
 }
 
-/// Relative radius of curvature R_eq (m) of a roller of radius r on a raceway: 1/R_eq = 1/r - 1/R_o at the outer one, 1/r + 1/R_i at the
-/// inner one.
+/// Relative radius of curvature R_eq (m) of a roller of radius r on a raceway: 1/R_eq = 1/r - 1/R_o at the outer one,
+/// 1/r + 1/R_i at the inner one.
 pub fn relative_radius(bearing: &scenario::Bearing, side: super::Side) -> f64 {
     let roller = 2e3 / bearing.roller_diameter_mm;
     match side {

@@ -11,9 +11,10 @@ use crate::slices;
 
 /// Derivatives of a contact's elastic energy at a fixed deformation with the angles that carry it over damage, N m.
 ///
-/// With E(x) the energy of the healthy contact at the deformation x and Q(x) its force, dE/ds = (1/n_s) sum over slices of
-/// dphi_k/ds (E(delta - h_k) - E(delta)) - phi_k Q(delta - h_k) dh_k/ds; dE/du = R dE/ds, and u = theta - psi, theta - psi - W or
-/// theta - phi - psi (+ pi) by the damaged surface: so dE/dtheta = dE/du always, dE/dphi = -dE/du for a roller's defect, dE/dW = -dE/du for an inner one.
+/// With E(x) the energy of the healthy contact at the deformation x and Q(x) its force, dE/ds = (1/n_s) sum over slices
+/// of dphi_k/ds (E(delta - h_k) - E(delta)) - phi_k Q(delta - h_k) dh_k/ds; dE/du = R dE/ds, and u = theta - psi, theta -
+/// psi - W or theta - phi - psi (+ pi) by the damaged surface: so dE/dtheta = dE/du always, dE/dphi = -dE/du for a
+/// roller's defect, dE/dW = -dE/du for an inner one.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct EdgeGradient {
     /// dE/dtheta.
@@ -36,25 +37,21 @@ impl EdgeGradient {
     }
 }
 
-/// Derivatives of an energy of what is cut by central differences. Defects on the roller move over the contact apart from those on the raceway.
+/// Derivatives of an energy of what is cut by central differences. Defects on the roller move over the contact apart
+/// from those on the raceway.
 fn central_differences<'a, C: Iterator<Item = Cut<'a>> + Clone>(
     cuts: C,
     mut energy: impl FnMut(Moved<C>) -> f64,
 ) -> EdgeGradient {
-    /// m. A thousandth of what h changes over, and a hundred times the ridges that the search over several defects leaves out.
+    /// m. A thousandth of what h changes over, and a hundred times the ridges that the search over several defects
+    /// leaves out.
     const STEP: f64 = 1e-7;
     let mut gradient = EdgeGradient::default();
     for on_roller in [false, true] {
         let Some(one) = cuts.clone().find(|cut| cut.is_on_roller() == on_roller) else {
             continue;
         };
-        let mut held = |by: f64| {
-            energy(Moved {
-                cuts: cuts.clone(),
-                on_roller,
-                by,
-            })
-        };
+        let mut held = |by: f64| energy(Moved { cuts: cuts.clone(), on_roller, by });
         let slope = (held(STEP) - held(-STEP)) / (2.0 * STEP);
         gradient.add(one.defect.surface, slope * one.defect.radius);
     }
@@ -82,7 +79,8 @@ impl<'a, C: Iterator<Item = Cut<'a>>> Iterator for Moved<C> {
     }
 }
 
-/// The derivatives under `sliced` and `envelope`. Of one defect exact; of several a central difference over 0.2 um of the arc.
+/// The derivatives under `sliced` and `envelope`. Of one defect exact; of several a central difference over 0.2 um of
+/// the arc.
 pub fn edge_gradient<'a>(
     defects: impl Iterator<Item = &'a Defect> + Clone,
     law: &Hertz,
@@ -97,9 +95,7 @@ pub fn edge_gradient<'a>(
     };
     if cuts.clone().nth(1).is_some() {
         if let Some(strips) = &law.strips {
-            return central_differences(cuts, |moved| {
-                ball_contact::energy(moved, strips, delta).unwrap_or_default()
-            });
+            return central_differences(cuts, |moved| ball_contact::energy(moved, strips, delta).unwrap_or_default());
         }
         let undamaged = law.energy(delta);
         return central_differences(cuts, |moved| {
@@ -109,15 +105,11 @@ pub fn edge_gradient<'a>(
     let (profile, s) = (first.profile, first.s);
     let slope = match &profile.cover {
         Cover::Unsliced => 0.0,
-        Cover::Across(across) => law.strips.map_or(0.0, |strips| {
-            ball_contact::edge_slope(across, s, &strips, delta)
-        }),
+        Cover::Across(across) => law.strips.map_or(0.0, |strips| ball_contact::edge_slope(across, s, &strips, delta)),
         Cover::Even => {
             let phi = settled(first.defect.damaged_length(s) / first.defect.roller_length);
             let floor = profile.floor.as_ref();
-            floor.map_or(0.0, |floor| {
-                -phi * law.healthy(delta - floor.value(s).max(0.0)) * floor.slope(s)
-            })
+            floor.map_or(0.0, |floor| -phi * law.healthy(delta - floor.value(s).max(0.0)) * floor.slope(s))
         }
         Cover::Slices(tracks) => {
             let whole = law.energy(delta);
@@ -127,11 +119,7 @@ pub fn edge_gradient<'a>(
                 if phi > 0.0 {
                     let (widens, sinks) = track.slope(s);
                     let x = delta - h;
-                    let edge = if phi < 1.0 && widens != 0.0 {
-                        widens * (law.energy(x) - whole)
-                    } else {
-                        0.0
-                    };
+                    let edge = if phi < 1.0 && widens != 0.0 { widens * (law.energy(x) - whole) } else { 0.0 };
                     sum += track.count * (edge - phi * law.healthy(x) * sinks);
                 }
             }
@@ -142,7 +130,8 @@ pub fn edge_gradient<'a>(
     gradient
 }
 
-/// Derivatives of the elastic energy that `energy` gives of what damage covers: central differences over 0.2 um of the arc.
+/// Derivatives of the elastic energy that `energy` gives of what damage covers: central differences over 0.2 um of the
+/// arc.
 pub fn edge_gradient_of_slices<'a>(
     defects: impl Iterator<Item = &'a Defect> + Clone,
     angles: &Angles,
@@ -150,10 +139,8 @@ pub fn edge_gradient_of_slices<'a>(
     cover: &mut slices::Cover,
     energy: impl Fn(Option<&slices::Cover>) -> f64,
 ) -> EdgeGradient {
-    central_differences(cuts(defects, angles, side), |moved| {
-        match cover_cuts(moved, cover) {
-            true => energy(Some(cover)),
-            false => energy(None),
-        }
+    central_differences(cuts(defects, angles, side), |moved| match cover_cuts(moved, cover) {
+        true => energy(Some(cover)),
+        false => energy(None),
     })
 }

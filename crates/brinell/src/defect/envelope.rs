@@ -1,10 +1,11 @@
 //! What a roller of finite radius can reach: h_env(s) = min over s' of [h(s') + (s - s')^2 / (2 R_eq)] (section 3).
 //!
-//! h is made of straight pieces with jumps, 0 elsewhere. Each piece lends the envelope one function of s: its own line moved by
-//! m^2 R_eq / 2 where the minimum lies inside the piece, and the parabola about an end elsewhere. Of two such functions the
-//! right-hand one falls faster everywhere, so they cross once, and the lower envelope of all comes from one pass with a stack
-//! (Felzenszwalb and Huttenlocher's distance transform, with lines besides parabolas). The result is exact but for the
-//! crossings, which are found to round-off; a step of the simulation costs what it costs without an envelope.
+//! h is made of straight pieces with jumps, 0 elsewhere. Each piece lends the envelope one function of s: its own line
+//! moved by m^2 R_eq / 2 where the minimum lies inside the piece, and the parabola about an end elsewhere. Of two such
+//! functions the right-hand one falls faster everywhere, so they cross once, and the lower envelope of all comes from
+//! one pass with a stack (Felzenszwalb and Huttenlocher's distance transform, with lines besides parabolas). The result
+//! is exact but for the crossings, which are found to round-off; a step of the simulation costs what it costs without
+//! an envelope.
 
 use super::piecewise::{Line, Piece, PiecewisePolynomial};
 
@@ -52,20 +53,14 @@ impl Candidate {
         let [low, high] = self.regimes(radius);
         let parabola = |start: f64, vertex: f64, value: f64| {
             let x = start - vertex;
-            Piece {
-                start,
-                c: [value + x * x / (2.0 * radius), x / radius, 0.5 / radius],
-            }
+            Piece { start, c: [value + x * x / (2.0 * radius), x / radius, 0.5 / radius] }
         };
         if from < low {
             pieces.push(parabola(from, self.from, self.at_from));
         }
         let (a, b) = (from.max(low), to.min(high));
         if a < b {
-            pieces.push(Piece {
-                start: a,
-                c: [self.value(a, radius), self.slope, 0.0],
-            });
+            pieces.push(Piece { start: a, c: [self.value(a, radius), self.slope, 0.0] });
         }
         if to > high {
             pieces.push(parabola(from.max(high), self.to, self.at_to));
@@ -75,26 +70,19 @@ impl Candidate {
 
 /// The envelope of h for the radius R_eq (m); `lines` as in [`PiecewisePolynomial::of_lines`].
 ///
-/// Where h >= 0 the envelope is 0 outside the damage. A raised edge (h < 0) is felt before the contact line reaches it: there the
-/// envelope extends to where it comes back to 0.
+/// Where h >= 0 the envelope is 0 outside the damage. A raised edge (h < 0) is felt before the contact line reaches it:
+/// there the envelope extends to where it comes back to 0.
 pub fn envelope(lines: &[Line], radius: f64) -> PiecewisePolynomial {
     let lines: Vec<&Line> = lines.iter().filter(|l| l.to > l.from).collect();
     let (Some(first), Some(last)) = (lines.first(), lines.last()) else {
         return PiecewisePolynomial::default();
     };
-    let lowest = lines
-        .iter()
-        .map(|l| l.at_from.min(l.at_to))
-        .fold(0.0, f64::min);
+    let lowest = lines.iter().map(|l| l.at_from.min(l.at_to)).fold(0.0, f64::min);
     let reach = (-2.0 * radius * lowest).sqrt();
     let (start, end) = (first.from - reach, last.to + reach);
     // The undamaged surface on both sides and in the gaps; "far" is beyond all that matters.
     let far = 1.0 + (end - start);
-    let mut candidates = vec![Candidate::new(&Line::flat(
-        first.from - far,
-        first.from,
-        0.0,
-    ))];
+    let mut candidates = vec![Candidate::new(&Line::flat(first.from - far, first.from, 0.0))];
     let mut at = first.from;
     for line in &lines {
         if line.from > at {
@@ -133,19 +121,15 @@ pub fn envelope(lines: &[Line], radius: f64) -> PiecewisePolynomial {
     PiecewisePolynomial::of_pieces(start, end, pieces)
 }
 
-/// Where a function that does not fall changes sign from below 0 at `low` to above 0 at `high`: secant steps kept within the bracket
-/// (Illinois), bisection where they stall.
+/// Where a function that does not fall changes sign from below 0 at `low` to above 0 at `high`: secant steps kept
+/// within the bracket (Illinois), bisection where they stall.
 fn crossing(f: impl Fn(f64) -> f64, mut low: f64, mut high: f64) -> f64 {
     let (mut at_low, mut at_high) = (f(low), f(high));
     let mut kept = 0;
     for round in 0..200 {
         let secant = low - at_low * (high - low) / (at_high - at_low);
         let middle = 0.5 * (low + high);
-        let s = if round % 4 == 3 || !(secant > low && secant < high) {
-            middle
-        } else {
-            secant
-        };
+        let s = if round % 4 == 3 || !(secant > low && secant < high) { middle } else { secant };
         if middle <= low || middle >= high || high - low < 1e-16 {
             break;
         }
@@ -177,16 +161,9 @@ mod tests {
     fn brute(lines: &[Line], s: f64, radius: f64) -> f64 {
         const TRIES: i32 = 4000;
         let (first, last) = (lines[0].from, lines[lines.len() - 1].to);
-        let mut best = if s <= first || s >= last {
-            0.0
-        } else {
-            f64::INFINITY
-        };
+        let mut best = if s <= first || s >= last { 0.0 } else { f64::INFINITY };
         let mut at = first;
-        let mut all = vec![
-            Line::flat(first - 1e-3, first, 0.0),
-            Line::flat(last, last + 1e-3, 0.0),
-        ];
+        let mut all = vec![Line::flat(first - 1e-3, first, 0.0), Line::flat(last, last + 1e-3, 0.0)];
         for l in lines {
             if l.from > at {
                 all.push(Line::flat(at, l.from, 0.0));
@@ -223,34 +200,17 @@ mod tests {
         let (half, depth) = (1e-3, 30e-6);
         let m = depth / half;
         let groove = [
-            Line {
-                from: -half,
-                to: 0.0,
-                at_from: 0.0,
-                at_to: depth,
-            },
-            Line {
-                from: 0.0,
-                to: half,
-                at_from: depth,
-                at_to: 0.0,
-            },
+            Line { from: -half, to: 0.0, at_from: 0.0, at_to: depth },
+            Line { from: 0.0, to: half, at_from: depth, at_to: 0.0 },
         ];
         let e = envelope(&groove, R);
         for k in -2000..=2000 {
             let x = half * (f64::from(k) / 2000.0);
             // Resting on a flank where the foot lies within it, else on the groove's edge.
             let foot = x.abs() + m * R;
-            let exact = if foot <= half {
-                depth - m * x.abs() - 0.5 * m * m * R
-            } else {
-                (half - x.abs()).powi(2) / (2.0 * R)
-            };
-            assert!(
-                (e.value(x) - exact).abs() < 1e-18,
-                "at {x}: {} {exact}",
-                e.value(x)
-            );
+            let exact =
+                if foot <= half { depth - m * x.abs() - 0.5 * m * m * R } else { (half - x.abs()).powi(2) / (2.0 * R) };
+            assert!((e.value(x) - exact).abs() < 1e-18, "at {x}: {} {exact}", e.value(x));
         }
     }
 
@@ -258,9 +218,7 @@ mod tests {
     fn prop_envelope_of_random_courses_agrees_with_its_definition() {
         let mut state = 7u64;
         let mut draw = || {
-            state = state
-                .wrapping_mul(6364136223846793005)
-                .wrapping_add(1442695040888963407);
+            state = state.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
             (state >> 11) as f64 / (1u64 << 53) as f64
         };
         for round in 0..60 {
@@ -272,12 +230,7 @@ mod tests {
                 let depth = |x: f64| 30e-6 * if raised { x - 0.3 } else { x };
                 let (a, b) = (depth(draw()), depth(draw()));
                 if draw() > 0.25 {
-                    lines.push(Line {
-                        from: at,
-                        to,
-                        at_from: a,
-                        at_to: b,
-                    });
+                    lines.push(Line { from: at, to, at_from: a, at_to: b });
                 }
                 at = to;
             }
@@ -286,18 +239,9 @@ mod tests {
             for k in 0..200 {
                 let s = -1.6e-3 + 4e-3 * f64::from(k) / 200.0;
                 let (ours, tried) = (e.value(s), brute(&lines, s, R));
-                assert!(
-                    ours <= tried + 1e-15,
-                    "round {round} at {s}: {ours} above {tried}"
-                );
-                assert!(
-                    ours >= tried - 2e-8,
-                    "round {round} at {s}: {ours} below {tried}"
-                );
-                assert!(
-                    ours <= plain.value(s).max(0.0) + 1e-15,
-                    "deeper than the floor"
-                );
+                assert!(ours <= tried + 1e-15, "round {round} at {s}: {ours} above {tried}");
+                assert!(ours >= tried - 2e-8, "round {round} at {s}: {ours} below {tried}");
+                assert!(ours <= plain.value(s).max(0.0) + 1e-15, "deeper than the floor");
             }
         }
     }

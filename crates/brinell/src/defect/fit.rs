@@ -1,8 +1,9 @@
 //! Width and depth of damage as piecewise polynomials, Eqs. (25) and (26).
 //!
-//! The arc is cut into segments; in each L_s and h_s are sampled at equal distances and fitted by least squares, as `polyfit` does. Polynomials are
-//! in x = (2 s - from - to)/(to - from), which runs from -1 to 1 over its segment: in the angle itself high orders would be ill-conditioned.
-//! A fit acts as damage itself through [`Fit::shape`], a dense profile.
+//! The arc is cut into segments; in each L_s and h_s are sampled at equal distances and fitted by least squares, as
+//! `polyfit` does. Polynomials are in x = (2 s - from - to)/(to - from), which runs from -1 to 1 over its segment: in
+//! the angle itself high orders would be ill-conditioned. A fit acts as damage itself through [`Fit::shape`], a dense
+//! profile.
 
 use super::Shape;
 use crate::scenario;
@@ -20,11 +21,7 @@ pub struct FitSettings {
 
 impl FitSettings {
     /// The paper's six segments of 113 samples. It does not state the order: 5 is assumed.
-    pub const PAPER: Self = Self {
-        segments: 6,
-        order: 5,
-        samples: 113,
-    };
+    pub const PAPER: Self = Self { segments: 6, order: 5, samples: 113 };
 }
 
 /// Distance of a fit from the shape.
@@ -68,14 +65,11 @@ const BETWEEN: usize = 20;
 pub const HIGHEST_ORDER: usize = 20;
 
 impl Fit {
-    /// Fits a shape; `depth` (m) is used where it has none of its own. The paper's irregular shape in six segments is cut where its arcs join, everything else
-    /// into equal parts. `None` without segments or with too few samples for the order.
+    /// Fits a shape; `depth` (m) is used where it has none of its own. The paper's irregular shape in six segments is
+    /// cut where its arcs join, everything else into equal parts. `None` without segments or with too few samples for
+    /// the order.
     pub fn new(shape: &Shape, depth: f64, settings: &FitSettings) -> Option<Self> {
-        let FitSettings {
-            segments,
-            order,
-            samples,
-        } = *settings;
+        let FitSettings { segments, order, samples } = *settings;
         if segments == 0 || order > HIGHEST_ORDER || samples < 2 || samples <= order {
             return None;
         }
@@ -88,11 +82,8 @@ impl Fit {
         for pair in joints.windows(2) {
             let (from, to) = (pair[0], pair[1]);
             let s = |x: f64| 0.5 * (from + to) + 0.5 * (to - from) * (1.0 - INSET) * x;
-            let nodes: Vec<f64> = (0..samples)
-                .map(|k| 2.0 * k as f64 / (samples - 1) as f64 - 1.0)
-                .collect();
-            let sampled =
-                |f: &dyn Fn(f64) -> f64| nodes.iter().map(|x| f(s(*x))).collect::<Vec<_>>();
+            let nodes: Vec<f64> = (0..samples).map(|k| 2.0 * k as f64 / (samples - 1) as f64 - 1.0).collect();
+            let sampled = |f: &dyn Fn(f64) -> f64| nodes.iter().map(|x| f(s(*x))).collect::<Vec<_>>();
             let segment = Segment {
                 from,
                 to,
@@ -101,10 +92,7 @@ impl Fit {
             };
             for k in 0..checks {
                 let x = (2.0 * k as f64 + 1.0) / checks as f64 - 1.0;
-                let off = [
-                    polynomial(&segment.width, x) - width(s(x)),
-                    polynomial(&segment.depth, x) - deep(s(x)),
-                ];
+                let off = [polynomial(&segment.width, x) - width(s(x)), polynomial(&segment.depth, x) - deep(s(x))];
                 for (error, off) in errors.iter_mut().zip(off) {
                     error.0 += off * off * (to - from) / checks as f64;
                     error.1 = error.1.max(off.abs());
@@ -113,15 +101,8 @@ impl Fit {
             all.push(segment);
         }
         let length = joints[segments] - joints[0];
-        let [width_error, depth_error] = errors.map(|(square, max)| FitError {
-            rms: (square / length).sqrt(),
-            max,
-        });
-        Some(Self {
-            segments: all,
-            width_error,
-            depth_error,
-        })
+        let [width_error, depth_error] = errors.map(|(square, max)| FitError { rms: (square / length).sqrt(), max });
+        Some(Self { segments: all, width_error, depth_error })
     }
 
     /// L_s and h_s (m) at s (m), as fitted: a polynomial may dip below 0. `None` outside the arc.
@@ -131,7 +112,8 @@ impl Fit {
         Some((polynomial(&segment.width, x), polynomial(&segment.depth, x)))
     }
 
-    /// The fit as damage: a profile of `points` points in each segment, jumping where the polynomials of two segments do; what dips below 0 is 0.
+    /// The fit as damage: a profile of `points` points in each segment, jumping where the polynomials of two segments
+    /// do; what dips below 0 is 0.
     pub fn shape(&self, points: usize) -> scenario::Shape {
         let points = points.max(2);
         let (mut arc_mm, mut width_mm, mut depth_um) = (Vec::new(), Vec::new(), Vec::new());
@@ -140,21 +122,13 @@ impl Fit {
                 let share = k as f64 / (points - 1) as f64;
                 let x = 2.0 * share - 1.0;
                 // The last point of a segment is the first of the next, to the bit.
-                let s = if k + 1 == points {
-                    g.to
-                } else {
-                    g.from + (g.to - g.from) * share
-                };
+                let s = if k + 1 == points { g.to } else { g.from + (g.to - g.from) * share };
                 arc_mm.push(1e3 * s);
                 width_mm.push((1e3 * polynomial(&g.width, x)).max(0.0));
                 depth_um.push((1e6 * polynomial(&g.depth, x)).max(0.0));
             }
         }
-        scenario::Shape::Profile {
-            arc_mm,
-            width_mm,
-            depth_um: Some(depth_um),
-        }
+        scenario::Shape::Profile { arc_mm, width_mm, depth_um: Some(depth_um) }
     }
 }
 
@@ -162,7 +136,8 @@ fn polynomial(coefficients: &[f64], x: f64) -> f64 {
     coefficients.iter().rev().fold(0.0, |sum, c| sum * x + c)
 }
 
-/// Coefficients of x^0, x^1, ... of the least-squares polynomial, through polynomials that are orthogonal on the nodes (Forsythe 1957).
+/// Coefficients of x^0, x^1, ... of the least-squares polynomial, through polynomials that are orthogonal on the nodes
+/// (Forsythe 1957).
 fn least_squares(nodes: &[f64], values: &[f64], order: usize) -> Vec<f64> {
     let mut fitted = vec![0.0; order + 1];
     let (mut before, mut now) = (vec![0.0], vec![1.0]);
@@ -183,9 +158,7 @@ fn least_squares(nodes: &[f64], values: &[f64], order: usize) -> Vec<f64> {
         let mut next = vec![0.0];
         next.extend_from_slice(&now);
         next.iter_mut().zip(&now).for_each(|(n, c)| *n -= alpha * c);
-        next.iter_mut()
-            .zip(&before)
-            .for_each(|(n, c)| *n -= beta * c);
+        next.iter_mut().zip(&before).for_each(|(n, c)| *n -= beta * c);
         (before, now) = (now, next);
         norm_before = norm;
     }
@@ -216,10 +189,7 @@ mod tests {
         for g in smooth {
             for k in 1..100 {
                 let s = g.from + (g.to - g.from) * f64::from(k) / 100.0;
-                assert!(
-                    (fit.at(s).unwrap().0 - shape.damaged_length(s)).abs() < 1e-5,
-                    "at {s}"
-                );
+                assert!((fit.at(s).unwrap().0 - shape.damaged_length(s)).abs() < 1e-5, "at {s}");
             }
         }
         println!("L_s: {:?}", fit.width_error);
@@ -235,20 +205,12 @@ mod tests {
     fn prop_more_order_never_fits_the_samples_worse() {
         let shape = Shape::Circle { radius: 2e-3 };
         let rms = |order| {
-            let settings = FitSettings {
-                segments: 4,
-                order,
-                samples: 113,
-            };
+            let settings = FitSettings { segments: 4, order, samples: 113 };
             Fit::new(&shape, 1e-5, &settings).unwrap().width_error.rms
         };
         let all: Vec<f64> = (0..=12).map(rms).collect();
         assert!(all.windows(2).all(|w| w[1] <= w[0] * 1.001), "{all:?}");
-        let bad = FitSettings {
-            segments: 4,
-            order: 5,
-            samples: 5,
-        };
+        let bad = FitSettings { segments: 4, order: 5, samples: 5 };
         assert!(Fit::new(&shape, 1e-5, &bad).is_none());
     }
 }

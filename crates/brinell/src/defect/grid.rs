@@ -5,8 +5,8 @@ use crate::scenario::DepthGrid;
 
 /// Depths at the nodes of a grid, with their width L_s(s) and mean depth h_s(s).
 ///
-/// In L_s every damaged node (depth other than 0) represents its cell, dz wide; h_s is the mean depth over that width, so that
-/// L_s h_s is the section of the damage. Both are tabulated at the columns and straight between them.
+/// In L_s every damaged node (depth other than 0) represents its cell, dz wide; h_s is the mean depth over that width,
+/// so that L_s h_s is the section of the damage. Both are tabulated at the columns and straight between them.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Grid {
     start: [f64; 2],
@@ -78,11 +78,7 @@ impl Grid {
                 }
             }
         }
-        let mean: Vec<f64> = width
-            .iter()
-            .zip(&section)
-            .map(|(w, a)| if *w > 0.0 { a / w } else { 0.0 })
-            .collect();
+        let mean: Vec<f64> = width.iter().zip(&section).map(|(w, a)| if *w > 0.0 { a / w } else { 0.0 }).collect();
         self.width = PiecewisePolynomial::of_lines(&self.lines(&width));
         self.mean_lines = self.lines(&mean);
         self.mean = PiecewisePolynomial::of_lines(&self.mean_lines);
@@ -114,9 +110,7 @@ impl Grid {
     /// Whether anything is damaged between two columns and two rows, given the first of each.
     pub(super) fn is_damaged(&self, column: usize, row: usize) -> bool {
         let at = row * self.columns + column;
-        [at, at + 1, at + self.columns, at + self.columns + 1]
-            .iter()
-            .any(|k| self.depth[*k] != 0.0)
+        [at, at + 1, at + self.columns, at + self.columns + 1].iter().any(|k| self.depth[*k] != 0.0)
     }
 
     /// Depth of a column at z between the row given and the next, m.
@@ -132,9 +126,7 @@ impl Grid {
     }
 
     fn place(x: f64, nodes: usize) -> Option<usize> {
-        (0.0..=(nodes - 1) as f64)
-            .contains(&x)
-            .then(|| (x as usize).min(nodes - 2))
+        (0.0..=(nodes - 1) as f64).contains(&x).then(|| (x as usize).min(nodes - 2))
     }
 
     /// Depth at (s, z), m; `None` where nothing is damaged.
@@ -143,10 +135,7 @@ impl Grid {
         let column = Self::place((s - self.start[0]) / self.step[0], self.columns)?;
         self.is_damaged(column, row).then(|| {
             let share = (s - self.s(column)) / self.step[0];
-            let (a, b) = (
-                self.between_rows(column, row, z),
-                self.between_rows(column + 1, row, z),
-            );
+            let (a, b) = (self.between_rows(column, row, z), self.between_rows(column + 1, row, z));
             a + share * (b - a)
         })
     }
@@ -158,11 +147,7 @@ impl Grid {
         while row < self.rows && self.z(row) <= z {
             row += 1;
         }
-        if row < self.rows {
-            self.z(row)
-        } else {
-            f64::INFINITY
-        }
+        if row < self.rows { self.z(row) } else { f64::INFINITY }
     }
 
     /// z of the next row above z at which damage begins or ends at s, m; infinite beyond the last.
@@ -170,10 +155,7 @@ impl Grid {
         let Some(column) = Self::place((s - self.start[0]) / self.step[0], self.columns) else {
             return f64::INFINITY;
         };
-        let damaged = |z: f64| {
-            self.row_at(z)
-                .is_some_and(|row| self.is_damaged(column, row))
-        };
+        let damaged = |z: f64| self.row_at(z).is_some_and(|row| self.is_damaged(column, row));
         let inside = |row: f64| row + 0.5 * self.step[1];
         let mut next = self.next_row(z);
         let here = damaged(next - 0.5 * self.step[1]);
@@ -196,12 +178,7 @@ impl Grid {
     fn lines(&self, values: &[f64]) -> Vec<Line> {
         (0..self.columns - 1)
             .filter(|&c| values[c] != 0.0 || values[c + 1] != 0.0)
-            .map(|c| Line {
-                from: self.s(c),
-                to: self.s(c + 1),
-                at_from: values[c],
-                at_to: values[c + 1],
-            })
+            .map(|c| Line { from: self.s(c), to: self.s(c + 1), at_from: values[c], at_to: values[c + 1] })
             .collect()
     }
 
@@ -232,10 +209,7 @@ impl Grid {
         let share = place - row as f64;
         let values: Vec<f64> = (0..self.columns)
             .map(|c| {
-                let (a, b) = (
-                    self.depth[row * self.columns + c],
-                    self.depth[(row + 1) * self.columns + c],
-                );
+                let (a, b) = (self.depth[row * self.columns + c], self.depth[(row + 1) * self.columns + c]);
                 (1.0 - share) * a + share * b
             })
             .collect();
@@ -250,25 +224,15 @@ impl Grid {
     /// Deepest and highest node, m; the highest is below 0 where an edge is raised.
     pub fn extremes(&self) -> (f64, f64) {
         let all = || self.depth.iter().copied();
-        (
-            all().fold(f64::NEG_INFINITY, f64::max),
-            all().fold(f64::INFINITY, f64::min),
-        )
+        (all().fold(f64::NEG_INFINITY, f64::max), all().fold(f64::INFINITY, f64::min))
     }
 
     /// Smallest and largest z of damaged nodes with the ramp to their undamaged neighbours, m.
     pub fn heights(&self) -> (f64, f64) {
-        let damaged = |row: &usize| {
-            self.depth[row * self.columns..(row + 1) * self.columns]
-                .iter()
-                .any(|h| *h != 0.0)
-        };
+        let damaged = |row: &usize| self.depth[row * self.columns..(row + 1) * self.columns].iter().any(|h| *h != 0.0);
         let first = (0..self.rows).find(damaged).unwrap_or(0);
         let last = (0..self.rows).rfind(damaged).unwrap_or(0);
-        (
-            self.z(first.saturating_sub(1)),
-            self.z((last + 1).min(self.rows - 1)),
-        )
+        (self.z(first.saturating_sub(1)), self.z((last + 1).min(self.rows - 1)))
     }
 }
 
@@ -281,27 +245,11 @@ mod tests {
         // One node 6 um deep in the middle of 5 x 3 nodes, 1 mm apart: a tent in every direction.
         let mut depth_um = vec![0.0; 15];
         depth_um[7] = 6.0;
-        let g = Grid::new(&DepthGrid {
-            s0_mm: -2.0,
-            z0_mm: -1.0,
-            ds_mm: 1.0,
-            dz_mm: 1.0,
-            columns: 5,
-            rows: 3,
-            depth_um,
-        })
-        .unwrap();
-        for (s, z, h) in [
-            (0.0, 0.0, 6.0),
-            (0.5, 0.0, 3.0),
-            (0.5, -0.5, 1.5),
-            (1.5, 0.0, 0.0),
-            (0.0, 1.2, 0.0),
-        ] {
-            assert!(
-                (g.depth(1e-3 * s, 1e-3 * z) - 1e-6 * h).abs() < 1e-18,
-                "at {s} {z}"
-            );
+        let g =
+            Grid::new(&DepthGrid { s0_mm: -2.0, z0_mm: -1.0, ds_mm: 1.0, dz_mm: 1.0, columns: 5, rows: 3, depth_um })
+                .unwrap();
+        for (s, z, h) in [(0.0, 0.0, 6.0), (0.5, 0.0, 3.0), (0.5, -0.5, 1.5), (1.5, 0.0, 0.0), (0.0, 1.2, 0.0)] {
+            assert!((g.depth(1e-3 * s, 1e-3 * z) - 1e-6 * h).abs() < 1e-18, "at {s} {z}");
         }
         assert_eq!(g.width().span(), (-1e-3, 1e-3));
         assert!((g.width().value(0.0) - 1e-3).abs() < 1e-15);

@@ -1,18 +1,21 @@
-//! Several defects at one contact are one surface, the deepest at each point (section 3); a defect that leaves a point alone has no say there.
+//! Several defects at one contact are one surface, the deepest at each point (section 3); a defect that leaves a point
+//! alone has no say there.
 //!
-//! Along an envelope a roller rests on that surface at the height min over x of [h(x) + x^2 / (2 R_eq)], x being the distance from its line
-//! of contact. Defects on one surface keep their distance, one on a roller and one on a raceway do not, so the minimum is searched for each position of
-//! the roller.
+//! Along an envelope a roller rests on that surface at the height min over x of [h(x) + x^2 / (2 R_eq)], x being the
+//! distance from its line of contact. Defects on one surface keep their distance, one on a roller and one on a raceway
+//! do not, so the minimum is searched for each position of the roller.
 //!
-//! The joint surface is nowhere higher than any defect alone (raised edges apart), so no envelope of one lies below that of all: where the
-//! point on which the roller rests over the defect with the lowest-lying envelope is not removed by the others, that is the answer. Else
-//! the search goes outwards from x = 0, from one end of a straight piece to the next, until the roller's own curvature lies above what was found.
+//! The joint surface is nowhere higher than any defect alone (raised edges apart), so no envelope of one lies below
+//! that of all: where the point on which the roller rests over the defect with the lowest-lying envelope is not removed
+//! by the others, that is the answer. Else the search goes outwards from x = 0, from one end of a straight piece to the
+//! next, until the roller's own curvature lies above what was found.
 
 use super::bands::Band;
 use super::grid::Grid;
 use super::piecewise::{Line, PiecewisePolynomial};
 
-/// A ridge between defects that is narrower than this (m) carries nothing: it is the rounding of their centres and lengths.
+/// A ridge between defects that is narrower than this (m) carries nothing: it is the rounding of their centres and
+/// lengths.
 const NARROWEST: f64 = 1e-9;
 
 /// Depths (m) that differ by less are equal: round-off of a defect's depth, far below an atom.
@@ -32,13 +35,9 @@ pub(super) struct Strip<'a> {
 pub(super) enum Depths<'a> {
     /// Straight pieces in ascending order, 0 between them, and their envelope where it is known.
     Lines(&'a [Line], Option<&'a PiecewisePolynomial>),
-    /// Within the borders at z of a band, if there are any, as deep as `floor`; `reached` is the envelope of that floor without ends.
-    Within {
-        band: Option<&'a Band>,
-        z: f64,
-        floor: &'a [Line],
-        reached: &'a PiecewisePolynomial,
-    },
+    /// Within the borders at z of a band, if there are any, as deep as `floor`; `reached` is the envelope of that floor
+    /// without ends.
+    Within { band: Option<&'a Band>, z: f64, floor: &'a [Line], reached: &'a PiecewisePolynomial },
     /// A depth map at z.
     Map(&'a Grid, f64),
 }
@@ -58,22 +57,17 @@ impl Straight {
 
 /// The part of a straight piece between two s.
 fn part(line: &Line, from: f64, to: f64) -> Line {
-    let at = |s: f64| {
-        line.at_from + (line.at_to - line.at_from) * ((s - line.from) / (line.to - line.from))
-    };
+    let at = |s: f64| line.at_from + (line.at_to - line.at_from) * ((s - line.from) / (line.to - line.from));
     Line {
         from: if from > line.from { from } else { line.from },
         to: if to < line.to { to } else { line.to },
-        at_from: if from > line.from {
-            at(from)
-        } else {
-            line.at_from
-        },
+        at_from: if from > line.from { at(from) } else { line.at_from },
         at_to: if to < line.to { at(to) } else { line.at_to },
     }
 }
 
-/// The piece of `lines` that begins at s and goes on in a direction (1 or -1), and the s of its end. `None`: nothing there.
+/// The piece of `lines` that begins at s and goes on in a direction (1 or -1), and the s of its end. `None`: nothing
+/// there.
 fn piece_of(lines: &[Line], s: f64, direction: f64) -> (Option<Line>, f64) {
     if direction > 0.0 {
         let k = lines.partition_point(|l| l.to <= s + NARROWEST);
@@ -93,21 +87,12 @@ fn piece_of(lines: &[Line], s: f64, direction: f64) -> (Option<Line>, f64) {
 }
 
 /// The same within the chords of a band.
-fn piece_within(
-    band: &Band,
-    z: f64,
-    floor: &[Line],
-    s: f64,
-    direction: f64,
-) -> (Option<Line>, f64) {
+fn piece_within(band: &Band, z: f64, floor: &[Line], s: f64, direction: f64) -> (Option<Line>, f64) {
     let wide = |c: &[f64; 2]| c[1] - c[0] > NARROWEST;
     let chord = if direction > 0.0 {
         band.chords(z).filter(wide).find(|c| c[1] > s + NARROWEST)
     } else {
-        band.chords(z)
-            .rev()
-            .filter(wide)
-            .find(|c| c[0] < s - NARROWEST)
+        band.chords(z).rev().filter(wide).find(|c| c[0] < s - NARROWEST)
     };
     let Some([from, to]) = chord else {
         return (None, direction * f64::INFINITY);
@@ -121,10 +106,7 @@ fn piece_within(
     match piece_of(floor, s, direction) {
         (Some(line), _) => {
             let line = part(&line, from, to);
-            (
-                Some(line),
-                if direction > 0.0 { line.to } else { line.from },
-            )
+            (Some(line), if direction > 0.0 { line.to } else { line.from })
         }
         (None, end) => (None, end.clamp(from, to)),
     }
@@ -151,17 +133,9 @@ fn piece_on(grid: &Grid, z: f64, s: f64, direction: f64) -> (Option<Line>, f64) 
     let mut end = f64::INFINITY;
     while (0..=last).contains(&column) {
         let line = cell(column);
-        let ahead = if direction > 0.0 {
-            line.to > s + NARROWEST
-        } else {
-            line.from < s - NARROWEST
-        };
+        let ahead = if direction > 0.0 { line.to > s + NARROWEST } else { line.from < s - NARROWEST };
         if ahead && (line.at_from != 0.0 || line.at_to != 0.0) {
-            let (near, far) = if direction > 0.0 {
-                (line.from, line.to)
-            } else {
-                (line.to, line.from)
-            };
+            let (near, far) = if direction > 0.0 { (line.from, line.to) } else { (line.to, line.from) };
             if direction * (near - s) <= NARROWEST {
                 return (Some(line), far);
             }
@@ -186,17 +160,13 @@ impl Strip<'_> {
             .fold(0.0, f64::max)
     }
 
-    /// The piece that begins at x and goes on in a direction (1 or -1), and the x of its end. `None`: not damaged there.
+    /// The piece that begins at x and goes on in a direction (1 or -1), and the x of its end. `None`: not damaged
+    /// there.
     fn piece(&self, x: f64, direction: f64) -> (Option<Line>, f64) {
         let s = self.s + x;
         let (line, end) = match self.depths {
             Depths::Lines(lines, _) => piece_of(lines, s, direction),
-            Depths::Within {
-                band: Some(band),
-                z,
-                floor,
-                ..
-            } => piece_within(band, z, floor, s, direction),
+            Depths::Within { band: Some(band), z, floor, .. } => piece_within(band, z, floor, s, direction),
             Depths::Within { band: None, .. } => (None, direction * f64::INFINITY),
             Depths::Map(grid, z) => piece_on(grid, z, s, direction),
         };
@@ -210,9 +180,7 @@ impl Strip<'_> {
                 let envelope = envelope?;
                 Some((envelope.value(self.s), envelope.slope(self.s)))
             }
-            Depths::Within {
-                band, z, reached, ..
-            } => {
+            Depths::Within { band, z, reached, .. } => {
                 let s = self.s;
                 let holds = |c: &[f64; 2]| c[0] <= s && s <= c[1];
                 let Some([from, to]) = band.and_then(|b| b.chords(z).find(holds)) else {
@@ -220,11 +188,7 @@ impl Strip<'_> {
                 };
                 let d = if s - from <= to - s { s - from } else { s - to };
                 let (end, floor) = (d * d / (2.0 * radius), reached.value(s).max(0.0));
-                Some(if end < floor {
-                    (end, d / radius)
-                } else {
-                    (floor, reached.slope(s))
-                })
+                Some(if end < floor { (end, d / radius) } else { (floor, reached.slope(s)) })
             }
             Depths::Map(..) => None,
         }
@@ -240,10 +204,8 @@ fn straights<'a>(
     strips.filter_map(move |it| {
         let line = it.piece(x, direction).0?;
         let slope = (line.at_to - line.at_from) / (line.to - line.from);
-        (line.at_from != 0.0 || line.at_to != 0.0).then_some(Straight {
-            at: line.at_from + slope * (it.s - line.from),
-            slope,
-        })
+        (line.at_from != 0.0 || line.at_to != 0.0)
+            .then_some(Straight { at: line.at_from + slope * (it.s - line.from), slope })
     })
 }
 
@@ -260,21 +222,15 @@ fn on_one<'a>(strips: impl Iterator<Item = Strip<'a>> + Clone, radius: f64) -> O
     // An envelope falls towards the point that it is on: its slope is the distance from there over R_eq.
     let x = -slope * radius;
     let point = depth - x * x / (2.0 * radius);
-    let left = strips
-        .enumerate()
-        .all(|(k, it)| k == deepest || it.deepest(x) <= point + ROUND_OFF);
+    let left = strips.enumerate().all(|(k, it)| k == deepest || it.deepest(x) <= point + ROUND_OFF);
     left.then_some(depth)
 }
 
-/// Height of the path of a roller of relative radius `radius` (m) over several strips, below the undamaged surface, m; below 0 on raised edges.
-/// `lowest` (m, 0 or less) is the height of the highest raised edge.
+/// Height of the path of a roller of relative radius `radius` (m) over several strips, below the undamaged surface, m;
+/// below 0 on raised edges. `lowest` (m, 0 or less) is the height of the highest raised edge.
 ///
 /// Exact but for ridges that are narrower than a nanometre.
-pub(super) fn rest<'a>(
-    strips: impl Iterator<Item = Strip<'a>> + Clone,
-    lowest: f64,
-    radius: f64,
-) -> f64 {
+pub(super) fn rest<'a>(strips: impl Iterator<Item = Strip<'a>> + Clone, lowest: f64, radius: f64) -> f64 {
     if lowest >= 0.0
         && let Some(depth) = on_one(strips.clone(), radius)
     {
@@ -285,9 +241,7 @@ pub(super) fn rest<'a>(
         // Where the piece begins.
         let mut x = 0.0_f64;
         while x.is_finite() && x * x / (2.0 * radius) + lowest < best {
-            let ends = strips
-                .clone()
-                .map(|strip| direction * strip.piece(x, direction).1);
+            let ends = strips.clone().map(|strip| direction * strip.piece(x, direction).1);
             let end = direction * ends.fold(f64::INFINITY, f64::min);
             let here = straights(strips.clone(), x, direction);
             best = best.min(lowest_of(here, x, end, radius));
@@ -300,12 +254,7 @@ pub(super) fn rest<'a>(
 /// The lowest of max h(x) + x^2 / (2 R_eq) between two x, of which the first is nearer to 0.
 ///
 /// The function is convex: its minimum lies on one straight line's own, where two cross, or at an end.
-fn lowest_of(
-    straights: impl Iterator<Item = Straight> + Clone,
-    from: f64,
-    to: f64,
-    radius: f64,
-) -> f64 {
+fn lowest_of(straights: impl Iterator<Item = Straight> + Clone, from: f64, to: f64, radius: f64) -> f64 {
     let (low, high) = (from.min(to), from.max(to));
     let path = |x: f64| {
         let top = straights.clone().map(|l| l.value(x)).reduce(f64::max);
@@ -335,9 +284,7 @@ mod tests {
     /// Numbers in 0..1, the same ones each time.
     fn draws(mut state: u64) -> impl FnMut() -> f64 {
         move || {
-            state = state
-                .wrapping_mul(6364136223846793005)
-                .wrapping_add(1442695040888963407);
+            state = state.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
             (state >> 11) as f64 / (1u64 << 53) as f64
         }
     }
@@ -350,12 +297,7 @@ mod tests {
             let mut depth = || 30e-6 * (draw() - raised);
             let (at_from, at_to) = (depth(), depth());
             if draw() > 0.25 {
-                lines.push(Line {
-                    from: at,
-                    to,
-                    at_from,
-                    at_to,
-                });
+                lines.push(Line { from: at, to, at_from, at_to });
             }
             at = to;
         }
@@ -388,10 +330,7 @@ mod tests {
                 let s = -1.5e-3 + 3e-3 * f64::from(k) / 200.0;
                 let depths = Depths::Lines(&lines, None);
                 let ours = resting(&[Strip { depths, s }]);
-                assert!(
-                    (ours - plain.value(s)).abs() < 1e-15,
-                    "round {round} at {s}"
-                );
+                assert!((ours - plain.value(s)).abs() < 1e-15, "round {round} at {s}");
             }
         }
     }
@@ -406,9 +345,7 @@ mod tests {
             });
             depths.reduce(f64::max).unwrap_or(0.0) + x * x / (2.0 * R)
         };
-        (-20_000..=20_000)
-            .map(|k| height(5e-8 * f64::from(k)))
-            .fold(f64::INFINITY, f64::min)
+        (-20_000..=20_000).map(|k| height(5e-8 * f64::from(k))).fold(f64::INFINITY, f64::min)
     }
 
     #[test]
@@ -416,11 +353,8 @@ mod tests {
         let mut draw = draws(11);
         for round in 0..400 {
             let raised = if round % 2 == 0 { 0.0 } else { 0.3 };
-            let lines: Vec<Vec<Line>> = (0..2 + round % 2)
-                .map(|_| random_lines(&mut draw, raised))
-                .collect();
-            let envelopes: Vec<PiecewisePolynomial> =
-                lines.iter().map(|l| envelope(l, R)).collect();
+            let lines: Vec<Vec<Line>> = (0..2 + round % 2).map(|_| random_lines(&mut draw, raised)).collect();
+            let envelopes: Vec<PiecewisePolynomial> = lines.iter().map(|l| envelope(l, R)).collect();
             let strips: Vec<Strip> = lines
                 .iter()
                 .zip(&envelopes)

@@ -1,7 +1,8 @@
 //! Slices of a depth map: what it covers of each and how deep, at a point and along the envelope (section 3).
 //!
-//! Between four nodes of the grid the surface is damaged unless all four are 0. Depths are straight along z there, so the mean at a point is exact; the
-//! mean of envelopes is a sum over lines z = const, by Gauss's rule between the rows of the grid.
+//! Between four nodes of the grid the surface is damaged unless all four are 0. Depths are straight along z there, so
+//! the mean at a point is exact; the mean of envelopes is a sum over lines z = const, by Gauss's rule between the rows
+//! of the grid.
 
 use super::depth_profile::{Extent, slice_borders};
 use super::envelope::envelope;
@@ -17,15 +18,8 @@ const MOST_PIECES: usize = 1_000_000;
 /// Gauss's rules on 0..1: points and weights.
 pub(super) const GAUSS: [&[[f64; 2]]; 3] = [
     &[[0.5, 1.0]],
-    &[
-        [0.211_324_865_405_187_1, 0.5],
-        [0.788_675_134_594_812_9, 0.5],
-    ],
-    &[
-        [0.112_701_665_379_258_3, 5.0 / 18.0],
-        [0.5, 8.0 / 18.0],
-        [0.887_298_334_620_741_7, 5.0 / 18.0],
-    ],
+    &[[0.211_324_865_405_187_1, 0.5], [0.788_675_134_594_812_9, 0.5]],
+    &[[0.112_701_665_379_258_3, 5.0 / 18.0], [0.5, 8.0 / 18.0], [0.887_298_334_620_741_7, 5.0 / 18.0]],
 ];
 
 /// Along the arc for every slice, at a point: phi_k the same and h_k straight between two columns.
@@ -85,13 +79,9 @@ struct Along {
 
 /// Along the arc for every slice, on the envelope for the relative radius `radius` (m).
 ///
-/// A raised edge lifts the roller before its line of contact is on damage: what it lifts counts as covered, so that the force has no jump there.
-pub(super) fn along_the_envelope(
-    grid: &Grid,
-    slices: usize,
-    extent: Extent,
-    radius: f64,
-) -> Vec<Track> {
+/// A raised edge lifts the roller before its line of contact is on damage: what it lifts counts as covered, so that the
+/// force has no jump there.
+pub(super) fn along_the_envelope(grid: &Grid, slices: usize, extent: Extent, radius: f64) -> Vec<Track> {
     let most = MOST_PIECES / (2 * grid.columns() * slices);
     let most = most.clamp(1, MOST_LINES);
     let columns: Vec<f64> = (0..grid.columns()).map(|c| grid.s(c)).collect();
@@ -109,13 +99,8 @@ pub(super) fn along_the_envelope(
                 }
             })
             .collect();
-        let covered: Vec<f64> = (0..grid.columns() - 1)
-            .map(|column| section(grid, column, &cells).0)
-            .collect();
-        let mut stops: Vec<f64> = lines
-            .iter()
-            .flat_map(|l| l.envelope.breakpoints())
-            .collect();
+        let covered: Vec<f64> = (0..grid.columns() - 1).map(|column| section(grid, column, &cells).0).collect();
+        let mut stops: Vec<f64> = lines.iter().flat_map(|l| l.envelope.breakpoints()).collect();
         stops.extend(&columns);
         stops.sort_by(f64::total_cmp);
         stops.dedup_by(|b, a| *b - *a < 1e-13);
@@ -123,10 +108,7 @@ pub(super) fn along_the_envelope(
         for pair in stops.windows(2) {
             let (from, middle) = (pair[0], 0.5 * (pair[0] + pair[1]));
             let column = columns.partition_point(|s| *s <= middle);
-            let mut phi = column
-                .checked_sub(1)
-                .and_then(|c| covered.get(c))
-                .map_or(0.0, |x| x / (high - low));
+            let mut phi = column.checked_sub(1).and_then(|c| covered.get(c)).map_or(0.0, |x| x / (high - low));
             let (mut weight, mut sum) = (0.0, [0.0; 3]);
             for line in &lines {
                 let c = line.envelope.quadratic(middle);
@@ -152,12 +134,7 @@ pub(super) fn along_the_envelope(
             parts.push(Part {
                 start: from,
                 phi: [phi.min(1.0), 0.0, 0.0, 0.0],
-                h: [
-                    c[0] + x * (c[1] + x * c[2]),
-                    c[1] + 2.0 * x * c[2],
-                    c[2],
-                    0.0,
-                ],
+                h: [c[0] + x * (c[1] + x * c[2]), c[1] + 2.0 * x * c[2], c[2], 0.0],
             });
         }
         trimmed(k, parts, *stops.last()?)
@@ -165,7 +142,8 @@ pub(super) fn along_the_envelope(
     tracks.collect()
 }
 
-/// z of lines within a slice with the share of its width that each represents: Gauss's points between rows where they are few, else equal parts.
+/// z of lines within a slice with the share of its width that each represents: Gauss's points between rows where they
+/// are few, else equal parts.
 fn places(cells: &[(usize, [f64; 2])], [low, high]: [f64; 2], most: usize) -> Vec<[f64; 2]> {
     let each = most / cells.len().max(1);
     if each == 0 {

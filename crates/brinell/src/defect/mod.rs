@@ -1,7 +1,7 @@
 //! Damage where it lies: which contact it meets, at which angle, and what it leaves of that contact (section 3).
 //!
-//! A [`Shape`] is damage seen from above; a [`DepthProfile`] is the same made ready for one law, path and surface, so that a step of the
-//! simulation looks depths up in constant time; [`damaged_contact()`] is what a contact feels of it.
+//! A [`Shape`] is damage seen from above; a [`DepthProfile`] is the same made ready for one law, path and surface, so
+//! that a step of the simulation looks depths up in constant time; [`damaged_contact()`] is what a contact feels of it.
 
 mod ball_contact;
 mod bands;
@@ -23,8 +23,7 @@ pub mod simplify;
 mod track;
 
 pub use damaged_contact::{
-    DamagedContact, cover_slices, damaged_contact, damaged_contact_given, depth_at_bottom, energy,
-    floors, tangent,
+    DamagedContact, cover_slices, damaged_contact, damaged_contact_given, depth_at_bottom, energy, floors, tangent,
 };
 use depth_profile::Extent;
 pub use depth_profile::{DepthProfile, Rules, relative_radius};
@@ -120,11 +119,7 @@ pub struct Defect {
 
 impl Defect {
     /// From the scenario, alone on its bearing. `None` where its shape makes no sense, or its row or roller counts from 0.
-    pub fn new(
-        defect: &scenario::Defect,
-        bearing: &scenario::Bearing,
-        contact: &scenario::Contact,
-    ) -> Option<Self> {
+    pub fn new(defect: &scenario::Defect, bearing: &scenario::Bearing, contact: &scenario::Contact) -> Option<Self> {
         let alone = Self::all(std::slice::from_ref(defect), bearing, contact);
         alone.ok()?.pop()
     }
@@ -141,17 +136,11 @@ impl Defect {
         let length = 1e-3 * bearing.axial_reach_mm();
         let heights: Vec<[f64; 2]> = match bearing.has_balls() {
             false => Vec::new(),
-            true => defects
-                .iter()
-                .enumerate()
-                .map(|(k, d)| heights(d, length).ok_or(k))
-                .collect::<Result<_, _>>()?,
+            true => defects.iter().enumerate().map(|(k, d)| heights(d, length).ok_or(k)).collect::<Result<_, _>>()?,
         };
         let extent = |row: usize| {
             let all = defects.iter().zip(&heights).filter(|(d, _)| d.row == row);
-            let bounds = all
-                .map(|(_, h)| *h)
-                .reduce(|a, b| [a[0].min(b[0]), a[1].max(b[1])]);
+            let bounds = all.map(|(_, h)| *h).reduce(|a, b| [a[0].min(b[0]), a[1].max(b[1])]);
             bounds.map_or(Extent::of_roller(length), Extent::of_damage)
         };
         let of = |(k, defect): (usize, &scenario::Defect)| {
@@ -169,10 +158,7 @@ impl Defect {
         let (surface, diameter) = match defect.on {
             Surface::OuterRaceway => (defect.on, bearing.outer_raceway_diameter_mm),
             Surface::InnerRaceway => (defect.on, bearing.inner_raceway_diameter_mm),
-            Surface::Roller(k) => (
-                Surface::Roller(k.checked_sub(1)?),
-                bearing.roller_diameter_mm,
-            ),
+            Surface::Roller(k) => (Surface::Roller(k.checked_sub(1)?), bearing.roller_diameter_mm),
         };
         let depth = 1e-6 * defect.depth_um;
         let roller_length = 1e-3 * bearing.axial_reach_mm();
@@ -194,10 +180,7 @@ impl Defect {
         let windows = [0, 1].map(|side| {
             let (first, last) = profiles[side].as_ref().map_or(arc, |g| g.arc);
             // A little wider, so that round-off decides in `floor` alone.
-            (
-                arc.0.min(first) / radius - 1e-9,
-                arc.1.max(last) / radius + 1e-9,
-            )
+            (arc.0.min(first) / radius - 1e-9, arc.1.max(last) / radius + 1e-9)
         });
         Some(Self {
             windows,
@@ -255,11 +238,7 @@ impl Defect {
             (Surface::Roller(_), Side::Inner) => PI,
             _ => 0.0,
         };
-        Angles {
-            orbit: self.center + u - half_turn,
-            spin: 0.0,
-            ring: 0.0,
-        }
+        Angles { orbit: self.center + u - half_turn, spin: 0.0, ring: 0.0 }
     }
 
     /// L_s at the arc coordinate s (m): the covered z within the roller's length; 0 off the damage.
@@ -284,20 +263,19 @@ impl Defect {
         self.shape.own_depth(s).unwrap_or(self.depth)
     }
 
-    /// Depth of the damage, and depth to which a roller can sink into it that meets it with the relative radius `radius` (m): the largest of
-    /// h_s and of its envelope (section 3), m.
+    /// Depth of the damage, and depth to which a roller can sink into it that meets it with the relative radius
+    /// `radius` (m): the largest of h_s and of its envelope (section 3), m.
     pub fn reach(&self, radius: f64) -> (f64, f64) {
         let floor = self.shape.depths(self.depth);
-        (
-            PiecewisePolynomial::of_lines(&floor).largest(),
-            envelope(&floor, radius).largest(),
-        )
+        (PiecewisePolynomial::of_lines(&floor).largest(), envelope(&floor, radius).largest())
     }
 
-    /// What the damage leaves at the local angle u under a law that knows one width and one depth; `None` outside its arc.
+    /// What the damage leaves at the local angle u under a law that knows one width and one depth; `None` outside its
+    /// arc.
     ///
-    /// Along an envelope L_s stays that of the point under the contact line and h_s is replaced by its envelope, which comes up to 0
-    /// at both ends of the arc: the force is continuous there, and the floor starts where the damage does.
+    /// Along an envelope L_s stays that of the point under the contact line and h_s is replaced by its envelope, which
+    /// comes up to 0 at both ends of the arc: the force is continuous there, and the floor starts where the damage
+    /// does.
     #[inline]
     pub fn floor(&self, u: f64, side: Side) -> Option<ContactReduction> {
         let s = u * self.radius;

@@ -85,7 +85,8 @@ pub struct Outline {
 }
 
 impl Outline {
-    /// From polygons in m. `None` where one has a coordinate that is not finite, nothing has an area, or sides cross in too many places.
+    /// From polygons in m. `None` where one has a coordinate that is not finite, nothing has an area, or sides cross in
+    /// too many places.
     pub fn new(polygons: Vec<Vec<[f64; 2]>>) -> Option<Self> {
         if !polygons.iter().flatten().flatten().all(|x| x.is_finite()) {
             return None;
@@ -118,10 +119,7 @@ impl Outline {
     pub(super) fn borders(&self) -> (Vec<Border>, Vec<f64>) {
         let all = self.polygons.iter().flat_map(|p| sides(p));
         let crossings = crossings(&edges(&self.polygons)).unwrap_or_default();
-        (
-            all.filter_map(|(p, q)| Border::straight(p, q)).collect(),
-            crossings.iter().map(|(_, at)| at[1]).collect(),
-        )
+        (all.filter_map(|(p, q)| Border::straight(p, q)).collect(), crossings.iter().map(|(_, at)| at[1]).collect())
     }
 
     /// The same, larger by `factor` in both directions about the origin.
@@ -143,10 +141,7 @@ impl Outline {
     /// Smallest and largest z, m.
     pub fn heights(&self) -> (f64, f64) {
         let z = || self.polygons.iter().flatten().map(|p| p[1]);
-        (
-            z().fold(f64::INFINITY, f64::min),
-            z().fold(f64::NEG_INFINITY, f64::max),
-        )
+        (z().fold(f64::INFINITY, f64::min), z().fold(f64::NEG_INFINITY, f64::max))
     }
 }
 
@@ -166,19 +161,15 @@ fn edges(polygons: &[Vec<[f64; 2]>]) -> Vec<Edge> {
     for (polygon, corners) in polygons.iter().enumerate() {
         for (p, q) in sides(corners).filter(|(p, q)| p != q) {
             let (left, right) = if p[0] <= q[0] { (p, q) } else { (q, p) };
-            all.push(Edge {
-                polygon,
-                left,
-                right,
-            });
+            all.push(Edge { polygon, left, right });
         }
     }
     all.sort_by(|a, b| a.left[0].total_cmp(&b.left[0]));
     all
 }
 
-/// L_s(s) within |z| <= `half` by a sweep over the corners: between two of them the edges keep their order and L_s is straight.
-/// `None` where they cross in too many places.
+/// L_s(s) within |z| <= `half` by a sweep over the corners: between two of them the edges keep their order and L_s is
+/// straight. `None` where they cross in too many places.
 fn width(polygons: &[Vec<[f64; 2]>], half: f64) -> Option<PiecewisePolynomial> {
     let edges = edges(polygons);
     let mut stops: Vec<f64> = polygons.iter().flatten().map(|p| p[0]).collect();
@@ -215,12 +206,7 @@ fn width(polygons: &[Vec<[f64; 2]>], half: f64) -> Option<PiecewisePolynomial> {
                 })
                 .sum::<f64>()
         };
-        let line = Line {
-            from: a,
-            to: b,
-            at_from: sum(a),
-            at_to: sum(b),
-        };
+        let line = Line { from: a, to: b, at_from: sum(a), at_to: sum(b) };
         if line.at_from > 0.0 || line.at_to > 0.0 {
             lines.push(line);
         }
@@ -270,8 +256,7 @@ pub fn check_crossings(polygons: &[Vec<[f64; 2]>]) -> Result<(), Tangle> {
 /// The point where two edges cross within both; touching is no crossing.
 fn crossing(a: &Edge, b: &Edge) -> Option<[f64; 2]> {
     let side = |e: &Edge, p: [f64; 2]| {
-        (e.right[0] - e.left[0]) * (p[1] - e.left[1])
-            - (e.right[1] - e.left[1]) * (p[0] - e.left[0])
+        (e.right[0] - e.left[0]) * (p[1] - e.left[1]) - (e.right[1] - e.left[1]) * (p[0] - e.left[0])
     };
     let (a0, a1) = (side(b, a.left), side(b, a.right));
     let (b0, b1) = (side(a, b.left), side(a, b.right));
@@ -299,10 +284,7 @@ pub fn faults(polygons: &[Vec<[f64; 2]>]) -> Vec<Fault> {
         let mut different: Vec<&[f64; 2]> = corners.iter().collect();
         different.sort_by(|a, b| a.partial_cmp(b).unwrap_or(std::cmp::Ordering::Equal));
         different.dedup();
-        let extent = corners
-            .iter()
-            .flatten()
-            .fold(0.0, |m: f64, x| m.max(x.abs()));
+        let extent = corners.iter().flatten().fold(0.0, |m: f64, x| m.max(x.abs()));
         if different.len() < 3 {
             faults.push(Fault::Open { polygon });
         } else if double_area(corners).abs() <= 1e-12 * extent * extent {
@@ -313,10 +295,7 @@ pub fn faults(polygons: &[Vec<[f64; 2]>]) -> Vec<Fault> {
             }
         }
     }
-    if faults
-        .iter()
-        .any(|f| matches!(f, Fault::NotFinite { .. } | Fault::Nothing))
-    {
+    if faults.iter().any(|f| matches!(f, Fault::NotFinite { .. } | Fault::Nothing)) {
         return faults;
     }
     let crossings = match crossings(&edges(polygons)) {
@@ -333,10 +312,7 @@ pub fn faults(polygons: &[Vec<[f64; 2]>]) -> Vec<Fault> {
             continue;
         }
         faults.push(if pair[0] == pair[1] {
-            Fault::CrossesItself {
-                polygon: pair[0],
-                at,
-            }
+            Fault::CrossesItself { polygon: pair[0], at }
         } else {
             Fault::Cross { polygons: pair, at }
         });
@@ -357,47 +333,22 @@ mod tests {
     fn analytic_square_with_a_hole() {
         let o = Outline::new(vec![square(2.0), square(1.0)]).unwrap();
         assert!((o.width().integral() - 12.0).abs() < 1e-13);
-        assert_eq!(
-            (
-                o.width().value(0.0),
-                o.width().value(1.5),
-                o.width().value(2.1)
-            ),
-            (2.0, 4.0, 0.0)
-        );
+        assert_eq!((o.width().value(0.0), o.width().value(1.5), o.width().value(2.1)), (2.0, 4.0, 0.0));
         assert_eq!(o.clone().within(3.0).width().value(0.0), 1.0);
         let moved = o.moved(1.0).within(4.0);
-        assert_eq!(
-            (moved.width().value(0.0), moved.width().value(1.5)),
-            (1.0, 3.0)
-        );
+        assert_eq!((moved.width().value(0.0), moved.width().value(1.5)), (1.0, 3.0));
     }
 
     #[test]
     fn analytic_faults_are_distinguished() {
         let bow = vec![[0.0, 0.0], [1.0, 1.0], [1.0, 0.0], [0.0, 1.0]];
-        assert!(matches!(
-            faults(&[bow])[..],
-            [Fault::CrossesItself { polygon: 0, .. }]
-        ));
-        assert_eq!(
-            faults(&[vec![[0.0, 0.0], [1.0, 1.0]]]),
-            [Fault::Open { polygon: 0 }]
-        );
+        assert!(matches!(faults(&[bow])[..], [Fault::CrossesItself { polygon: 0, .. }]));
+        assert_eq!(faults(&[vec![[0.0, 0.0], [1.0, 1.0]]]), [Fault::Open { polygon: 0 }]);
         let flat = vec![[0.0, 0.0], [1.0, 1.0], [2.0, 2.0]];
         assert_eq!(faults(&[flat]), [Fault::Flat { polygon: 0 }]);
         assert_eq!(faults(&[]), [Fault::Nothing]);
-        let moved = square(1.0)
-            .iter()
-            .map(|p| [p[0] + 0.5, p[1] + 0.5])
-            .collect();
-        assert!(matches!(
-            faults(&[square(1.0), moved])[..],
-            [Fault::Cross {
-                polygons: [0, 1],
-                ..
-            }]
-        ));
+        let moved = square(1.0).iter().map(|p| [p[0] + 0.5, p[1] + 0.5]).collect();
+        assert!(matches!(faults(&[square(1.0), moved])[..], [Fault::Cross { polygons: [0, 1], .. }]));
         assert!(faults(&[square(2.0), square(1.0)]).is_empty());
         // Points all over the place: every third pair of sides crosses.
         let mut random = Random::new(1);

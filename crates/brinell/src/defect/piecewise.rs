@@ -1,7 +1,7 @@
 //! A function of the arc, exactly: straight and parabolic pieces between breakpoints, found in constant time.
 //!
-//! Widths L_s(s), depths h_s(s) and the depths of slices h_k(s) are made of straight pieces with jumps; their envelopes of
-//! parabolas as well. s and values in m.
+//! Widths L_s(s), depths h_s(s) and the depths of slices h_k(s) are made of straight pieces with jumps; their envelopes
+//! of parabolas as well. s and values in m.
 
 /// A straight piece of a function; elsewhere the function is 0.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -19,12 +19,7 @@ pub struct Line {
 impl Line {
     /// The same value all along.
     pub fn flat(from: f64, to: f64, value: f64) -> Self {
-        Self {
-            from,
-            to,
-            at_from: value,
-            at_to: value,
-        }
+        Self { from, to, at_from: value, at_to: value }
     }
 }
 
@@ -62,13 +57,7 @@ impl Lookup {
                 k.saturating_sub(1) as u32
             })
             .collect();
-        Self {
-            first,
-            last,
-            pieces,
-            index,
-            buckets_per_metre: 1.0 / width,
-        }
+        Self { first, last, pieces, index, buckets_per_metre: 1.0 / width }
     }
 
     /// First and last s, m.
@@ -106,17 +95,11 @@ impl PiecewisePolynomial {
         let mut first = None;
         for line in lines.iter().filter(|l| l.to > l.from) {
             if first.is_some() && line.from > end {
-                pieces.push(Piece {
-                    start: end,
-                    c: [0.0; 3],
-                });
+                pieces.push(Piece { start: end, c: [0.0; 3] });
             }
             first.get_or_insert(line.from);
             let slope = (line.at_to - line.at_from) / (line.to - line.from);
-            pieces.push(Piece {
-                start: line.from,
-                c: [line.at_from, slope, 0.0],
-            });
+            pieces.push(Piece { start: line.from, c: [line.at_from, slope, 0.0] });
             end = line.to;
         }
         first.map_or_else(Self::default, |first| Self::of_pieces(first, end, pieces))
@@ -127,10 +110,7 @@ impl PiecewisePolynomial {
         if pieces.is_empty() {
             return Self::default();
         }
-        Self {
-            lookup: Lookup::new(first, last, pieces.len(), |k| pieces[k].start),
-            pieces,
-        }
+        Self { lookup: Lookup::new(first, last, pieces.len(), |k| pieces[k].start), pieces }
     }
 
     /// First and last s of what is not 0, m.
@@ -149,8 +129,7 @@ impl PiecewisePolynomial {
     /// Value at s, m.
     #[inline]
     pub fn value(&self, s: f64) -> f64 {
-        self.at(s)
-            .map_or(0.0, |(p, x)| p.c[0] + x * (p.c[1] + x * p.c[2]))
+        self.at(s).map_or(0.0, |(p, x)| p.c[0] + x * (p.c[1] + x * p.c[2]))
     }
 
     /// Derivative at s, right-hand at a kink.
@@ -161,13 +140,7 @@ impl PiecewisePolynomial {
 
     /// Value, derivative and half the second derivative at s.
     pub(super) fn quadratic(&self, s: f64) -> [f64; 3] {
-        self.at(s).map_or([0.0; 3], |(p, x)| {
-            [
-                p.c[0] + x * (p.c[1] + x * p.c[2]),
-                p.c[1] + 2.0 * x * p.c[2],
-                p.c[2],
-            ]
-        })
+        self.at(s).map_or([0.0; 3], |(p, x)| [p.c[0] + x * (p.c[1] + x * p.c[2]), p.c[1] + 2.0 * x * p.c[2], p.c[2]])
     }
 
     /// Each piece and where it ends, m.
@@ -186,7 +159,8 @@ impl PiecewisePolynomial {
             .sum()
     }
 
-    /// Largest value at a breakpoint or between, m; straight pieces, and parabolas that open upwards, as those of an envelope.
+    /// Largest value at a breakpoint or between, m; straight pieces, and parabolas that open upwards, as those of an
+    /// envelope.
     pub fn largest(&self) -> f64 {
         self.with_ends()
             .map(|(p, end)| {
@@ -213,25 +187,11 @@ mod tests {
     #[test]
     fn analytic_lines_gaps_and_jumps() {
         let c = PiecewisePolynomial::of_lines(&[
-            Line {
-                from: -1.0,
-                to: 0.0,
-                at_from: 0.0,
-                at_to: 2.0,
-            },
+            Line { from: -1.0, to: 0.0, at_from: 0.0, at_to: 2.0 },
             Line::flat(0.0, 0.5, 5.0),
             Line::flat(1.0, 2.0, 3.0),
         ]);
-        let at = [
-            (-1.5, 0.0),
-            (-0.5, 1.0),
-            (0.0, 5.0),
-            (0.25, 5.0),
-            (0.75, 0.0),
-            (1.5, 3.0),
-            (2.0, 3.0),
-            (2.1, 0.0),
-        ];
+        let at = [(-1.5, 0.0), (-0.5, 1.0), (0.0, 5.0), (0.25, 5.0), (0.75, 0.0), (1.5, 3.0), (2.0, 3.0), (2.1, 0.0)];
         for (s, value) in at {
             assert!((c.value(s) - value).abs() < 1e-14, "at {s}");
         }
@@ -250,12 +210,7 @@ mod tests {
         }
         let lines: Vec<Line> = arcs
             .windows(2)
-            .map(|w| Line {
-                from: w[0],
-                to: w[1],
-                at_from: w[0].sin(),
-                at_to: w[1].cos(),
-            })
+            .map(|w| Line { from: w[0], to: w[1], at_from: w[0].sin(), at_to: w[1].cos() })
             .filter(|l| l.to > l.from)
             .collect();
         let c = PiecewisePolynomial::of_lines(&lines);
@@ -266,9 +221,7 @@ mod tests {
                 .rev()
                 .find(|l| l.from <= s)
                 .filter(|_| s <= lines[lines.len() - 1].to)
-                .map_or(0.0, |l| {
-                    l.at_from + (l.at_to - l.at_from) / (l.to - l.from) * (s - l.from)
-                });
+                .map_or(0.0, |l| l.at_from + (l.at_to - l.at_from) / (l.to - l.from) * (s - l.from));
             assert!((c.value(s) - plain).abs() < 1e-9, "at {s}");
         }
     }

@@ -51,28 +51,15 @@ impl Profile {
     pub(super) fn depths(&self, depth: f64) -> Vec<Line> {
         let h = |k: usize| self.depth.as_ref().map_or(depth, |d| d[k]);
         (0..self.arc.len() - 1)
-            .map(|k| Line {
-                from: self.arc[k],
-                to: self.arc[k + 1],
-                at_from: h(k),
-                at_to: h(k + 1),
-            })
+            .map(|k| Line { from: self.arc[k], to: self.arc[k + 1], at_from: h(k), at_to: h(k + 1) })
             .collect()
     }
 
     /// Index k and fraction f with s between points k and k + 1; the right-hand value at a jump.
     fn locate(&self, s: f64) -> (usize, f64) {
-        let k = self
-            .arc
-            .partition_point(|&a| a <= s)
-            .clamp(1, self.arc.len() - 1)
-            - 1;
+        let k = self.arc.partition_point(|&a| a <= s).clamp(1, self.arc.len() - 1) - 1;
         let step = self.arc[k + 1] - self.arc[k];
-        let fraction = if step > 0.0 {
-            ((s - self.arc[k]) / step).clamp(0.0, 1.0)
-        } else {
-            1.0
-        };
+        let fraction = if step > 0.0 { ((s - self.arc[k]) / step).clamp(0.0, 1.0) } else { 1.0 };
         (k, fraction)
     }
 }

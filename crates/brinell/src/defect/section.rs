@@ -1,7 +1,8 @@
 //! Section properties of a damaged ring, Eqs. (1)-(20) in the form of section 3 of the model.
 //!
-//! The cross-section is a rectangle of width L and thickness 2 h_z with a notch L_s x h_s in its raceway side. As in the paper, none of this
-//! enters the equations of motion: it describes the damage. All SI; L_s in [0, L], h_s in [0, 2 h_z), and at least one of them below its limit.
+//! The cross-section is a rectangle of width L and thickness 2 h_z with a notch L_s x h_s in its raceway side. As in
+//! the paper, none of this enters the equations of motion: it describes the damage. All SI; L_s in [0, L], h_s in [0, 2
+//! h_z), and at least one of them below its limit.
 
 use super::Shape;
 
@@ -28,8 +29,7 @@ impl Section {
         let v = (damaged_length / width).clamp(0.0, 1.0);
         let q = (depth / thickness).clamp(0.0, 1.0);
         let a = v * q;
-        let ratio =
-            (1.0 - 4.0 * a + 6.0 * v * q * q - 4.0 * v * q.powi(3) + v * v * q.powi(4)) / (1.0 - a);
+        let ratio = (1.0 - 4.0 * a + 6.0 * v * q * q - 4.0 * v * q.powi(3) + v * v * q.powi(4)) / (1.0 - a);
         let area_thickness = thickness * (1.0 - a);
         let inertia_thickness = thickness * ratio.cbrt();
         Self {
@@ -43,15 +43,9 @@ impl Section {
     }
 }
 
-/// Section properties at `points` equally spaced s (m) over the damage: of a ring of width L and the given thickness (m), `depth` (m) is for
-/// where the shape has none of its own.
-pub fn sections(
-    shape: &Shape,
-    depth: f64,
-    width: f64,
-    thickness: f64,
-    points: usize,
-) -> Vec<(f64, Section)> {
+/// Section properties at `points` equally spaced s (m) over the damage: of a ring of width L and the given thickness
+/// (m), `depth` (m) is for where the shape has none of its own.
+pub fn sections(shape: &Shape, depth: f64, width: f64, thickness: f64, points: usize) -> Vec<(f64, Section)> {
     let (first, last) = shape.arc();
     (0..points)
         .map(|k| {

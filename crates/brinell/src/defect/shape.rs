@@ -1,6 +1,7 @@
 //! Outlines and floors of damage as functions of the arc: L_s(s) and h_s(s), section 3 and Eqs. (25)-(27).
 //!
-//! s in m along the rolling direction from the defect's centre; L_s and h_s in m. Outside `[first, last]` there is no damage.
+//! s in m along the rolling direction from the defect's centre; L_s and h_s in m. Outside `[first, last]` there is no
+//! damage.
 
 use super::bands::Border;
 use super::grid::Grid;
@@ -59,40 +60,26 @@ pub enum Shape {
 }
 
 impl Shape {
-    /// From the scenario's units; `depth` (m) is the defect's. `None` where a shape makes no sense: a profile whose lists do not fit, polygons
-    /// without area, a grid with holes; and where it is still a file.
+    /// From the scenario's units; `depth` (m) is the defect's. `None` where a shape makes no sense: a profile whose
+    /// lists do not fit, polygons without area, a grid with holes; and where it is still a file.
     pub fn new(shape: &scenario::Shape, depth: f64) -> Option<Self> {
         let metres = |v: &[f64], unit: f64| v.iter().map(|x| x * unit).collect::<Vec<_>>();
         Some(match shape {
-            scenario::Shape::Rectangle {
-                length_mm,
-                width_mm,
-            } => Self::Rectangle {
-                half_length: 0.5e-3 * length_mm,
-                width: 1e-3 * width_mm,
-            },
-            scenario::Shape::Circle { diameter_mm } => Self::Circle {
-                radius: 0.5e-3 * diameter_mm,
-            },
-            scenario::Shape::Profile {
-                arc_mm,
-                width_mm,
-                depth_um,
-            } => Self::Profile(Profile::new(
+            scenario::Shape::Rectangle { length_mm, width_mm } => {
+                Self::Rectangle { half_length: 0.5e-3 * length_mm, width: 1e-3 * width_mm }
+            }
+            scenario::Shape::Circle { diameter_mm } => Self::Circle { radius: 0.5e-3 * diameter_mm },
+            scenario::Shape::Profile { arc_mm, width_mm, depth_um } => Self::Profile(Profile::new(
                 metres(arc_mm, 1e-3),
                 metres(width_mm, 1e-3),
                 depth_um.as_ref().map(|d| metres(d, 1e-6)),
             )?),
-            scenario::Shape::Li2023Irregular { max_width_mm } => Self::Li2023Irregular {
-                scale: max_width_mm / LI2023_WIDTH_MM,
-            },
+            scenario::Shape::Li2023Irregular { max_width_mm } => {
+                Self::Li2023Irregular { scale: max_width_mm / LI2023_WIDTH_MM }
+            }
             scenario::Shape::Outline { polygons_mm } => Self::Outline(outline(polygons_mm)?),
             scenario::Shape::DepthMap { grid } => Self::DepthMap(Grid::new(grid)?),
-            scenario::Shape::Grown {
-                outline: polygons,
-                max_width_mm,
-                area_mm2,
-            } => {
+            scenario::Shape::Grown { outline: polygons, max_width_mm, area_mm2 } => {
                 let seed = outline(polygons)?;
                 let factor = match (max_width_mm, area_mm2) {
                     (Some(width), None) => 1e-3 * width / seed.width().largest(),
@@ -101,15 +88,8 @@ impl Shape {
                 };
                 Self::Outline(seed.scaled(factor)?)
             }
-            scenario::Shape::Random {
-                seed,
-                length_mm,
-                width_mm,
-                roughness,
-            } => {
-                let fits = [length_mm, width_mm]
-                    .iter()
-                    .all(|x| x.is_finite() && **x > 0.0)
+            scenario::Shape::Random { seed, length_mm, width_mm, roughness } => {
+                let fits = [length_mm, width_mm].iter().all(|x| x.is_finite() && **x > 0.0)
                     && (0.0..=1.0).contains(roughness)
                     && depth.is_finite();
                 if !fits {
@@ -119,10 +99,7 @@ impl Shape {
                 let grid = random::spall(*seed, *length_mm, *width_mm, *roughness, 1e6 * depth);
                 match Grid::new(&grid) {
                     Some(grid) => Self::DepthMap(grid),
-                    None => Self::Rectangle {
-                        half_length: 0.5e-3 * length_mm,
-                        width: 0.0,
-                    },
+                    None => Self::Rectangle { half_length: 0.5e-3 * length_mm, width: 0.0 },
                 }
             }
             scenario::Shape::Image(_) | scenario::Shape::Svg(_) | scenario::Shape::Scan(_) => {
@@ -131,17 +108,13 @@ impl Shape {
         })
     }
 
-    /// The same without what a roller of length L (m) does not reach, moved along z by `offset` (m). A shape that is a width alone stays
-    /// about z = 0: its defect keeps the offset.
+    /// The same without what a roller of length L (m) does not reach, moved along z by `offset` (m). A shape that is a
+    /// width alone stays about z = 0: its defect keeps the offset.
     pub fn placed(self, offset: f64, length: f64) -> Self {
         match self {
-            Self::DepthMap(grid) if offset != 0.0 => {
-                Self::DepthMap(grid.moved(offset).within(length))
-            }
+            Self::DepthMap(grid) if offset != 0.0 => Self::DepthMap(grid.moved(offset).within(length)),
             Self::DepthMap(grid) => Self::DepthMap(grid.within(length)),
-            Self::Outline(outline) if offset != 0.0 => {
-                Self::Outline(outline.moved(offset).within(length))
-            }
+            Self::Outline(outline) if offset != 0.0 => Self::Outline(outline.moved(offset).within(length)),
             Self::Outline(outline) => Self::Outline(outline.within(length)),
             other => other,
         }
@@ -189,7 +162,8 @@ impl Shape {
         }
     }
 
-    /// h_s(s), m, where the shape carries its own depths: of a depth map the mean over the damaged width, 0 where that is raised.
+    /// h_s(s), m, where the shape carries its own depths: of a depth map the mean over the damaged width, 0 where that
+    /// is raised.
     #[inline]
     pub fn own_depth(&self, s: f64) -> Option<f64> {
         match self {
@@ -199,7 +173,8 @@ impl Shape {
         }
     }
 
-    /// h_s(s) over the arc as straight pieces; `depth` (m) where the shape has none of its own. 0 where an outline leaves a gap.
+    /// h_s(s) over the arc as straight pieces; `depth` (m) where the shape has none of its own. 0 where an outline
+    /// leaves a gap.
     pub(super) fn depths(&self, depth: f64) -> Vec<Line> {
         match self {
             Self::Profile(p) => p.depths(depth),
@@ -218,7 +193,8 @@ impl Shape {
         }
     }
 
-    /// Borders between damage and none with the z at which they cross; a width alone is centred on z = `middle` (m). None for a depth map.
+    /// Borders between damage and none with the z at which they cross; a width alone is centred on z = `middle` (m).
+    /// None for a depth map.
     pub(super) fn borders(&self, middle: f64) -> (Vec<Border>, Vec<f64>) {
         let upper: Vec<Border> = match self {
             Self::Outline(outline) => return outline.borders(),
@@ -245,8 +221,7 @@ impl Shape {
         }
         let (borders, _) = self.borders(middle);
         let all = borders.iter().map(|b| b.z);
-        all.reduce(|a, b| [a[0].min(b[0]), a[1].max(b[1])])
-            .unwrap_or([middle; 2])
+        all.reduce(|a, b| [a[0].min(b[0]), a[1].max(b[1])]).unwrap_or([middle; 2])
     }
 
     /// Whether every line z = const that meets the damage meets it from its first to its last s.
@@ -271,7 +246,8 @@ impl Shape {
         }
     }
 
-    /// Ends of `segments` parts of the arc, m: the joints of the paper's six arcs where there are six, else equal parts.
+    /// Ends of `segments` parts of the arc, m: the joints of the paper's six arcs where there are six, else equal
+    /// parts.
     pub(super) fn joints(&self, segments: usize) -> Vec<f64> {
         let (first, last) = self.arc();
         if matches!(self, Self::Li2023Irregular { .. }) && segments == LI2023_ARCS_MM.len() {
@@ -281,9 +257,7 @@ impl Shape {
             });
             return [first].into_iter().chain(ends).collect();
         }
-        (0..=segments)
-            .map(|k| first + (last - first) * k as f64 / segments as f64)
-            .collect()
+        (0..=segments).map(|k| first + (last - first) * k as f64 / segments as f64).collect()
     }
 
     /// Area of the outline, m^2; of a closed form by the midpoint rule.
@@ -296,9 +270,7 @@ impl Shape {
         }
         let (first, last) = self.arc();
         let ds = (last - first) / f64::from(CELLS);
-        (0..CELLS)
-            .map(|k| self.damaged_length(first + (f64::from(k) + 0.5) * ds) * ds)
-            .sum()
+        (0..CELLS).map(|k| self.damaged_length(first + (f64::from(k) + 0.5) * ds) * ds).sum()
     }
 }
 
@@ -306,19 +278,9 @@ impl Shape {
 fn sunk(line: &Line) -> impl Iterator<Item = Line> + use<> {
     let (a, b) = (line.at_from, line.at_to);
     let zero = line.from + (line.to - line.from) * (a / (a - b)).clamp(0.0, 1.0);
-    let part = |from: f64, to: f64, at_from: f64, at_to: f64| {
-        (to > from).then_some(Line {
-            from,
-            to,
-            at_from,
-            at_to,
-        })
-    };
+    let part = |from: f64, to: f64, at_from: f64, at_to: f64| (to > from).then_some(Line { from, to, at_from, at_to });
     let parts = if a * b < 0.0 {
-        [
-            part(line.from, zero, a.max(0.0), 0.0),
-            part(zero, line.to, 0.0, b.max(0.0)),
-        ]
+        [part(line.from, zero, a.max(0.0), 0.0), part(zero, line.to, 0.0, b.max(0.0))]
     } else {
         [part(line.from, line.to, a.max(0.0), b.max(0.0)), None]
     };
@@ -340,13 +302,11 @@ fn joined(points: impl IntoIterator<Item = [f64; 2]>) -> Vec<Border> {
         .chain(points.iter().copied())
         .chain(points.last().map(|p| [p[0], 0.0]));
     let all: Vec<[f64; 2]> = ends.collect();
-    all.windows(2)
-        .filter_map(|w| Border::straight(w[0], w[1]))
-        .collect()
+    all.windows(2).filter_map(|w| Border::straight(w[0], w[1])).collect()
 }
 
-/// Borders of the half z >= 0 of the paper's irregular shape, whose first s is `first` (m). The six arcs are printed to four digits and do not quite
-/// meet: straight borders join them.
+/// Borders of the half z >= 0 of the paper's irregular shape, whose first s is `first` (m). The six arcs are printed to
+/// four digits and do not quite meet: straight borders join them.
 #[expect(clippy::approx_constant, reason = "the paper's printed digits")]
 fn li2023_borders(first: f64, scale: f64) -> Vec<Border> {
     const MM: f64 = 1e-3;
@@ -388,10 +348,7 @@ mod tests {
     fn analytic_circle_and_rectangle_areas() {
         let circle = Shape::Circle { radius: 2.25e-3 };
         assert!((circle.area() / (std::f64::consts::PI * 2.25e-3 * 2.25e-3) - 1.0).abs() < 1e-5);
-        let rectangle = Shape::Rectangle {
-            half_length: 1.5e-3,
-            width: 4e-3,
-        };
+        let rectangle = Shape::Rectangle { half_length: 1.5e-3, width: 4e-3 };
         assert!((rectangle.area() / 12e-6 - 1.0).abs() < 1e-12);
     }
 
@@ -401,30 +358,21 @@ mod tests {
         let (first, last) = shape.arc();
         assert!(((last - first) - 7e-3).abs() < 5e-6);
         let n = 70_000;
-        let width: Vec<f64> = (0..=n)
-            .map(|k| shape.damaged_length(first + (last - first) * f64::from(k) / f64::from(n)))
-            .collect();
+        let width: Vec<f64> =
+            (0..=n).map(|k| shape.damaged_length(first + (last - first) * f64::from(k) / f64::from(n))).collect();
         let widest = width.iter().copied().fold(0.0, f64::max);
         assert!((widest - 4e-3).abs() < 1e-6, "widest {widest}");
         assert!(width[0] < 1e-6 && width[n as usize] < 1e-6);
         // The last arc ends with a vertical tangent, 2 sqrt(1 - s^2); elsewhere neighbours are close.
-        let jump = width
-            .windows(2)
-            .map(|w| (w[1] - w[0]).abs())
-            .take(69_000)
-            .fold(0.0, f64::max);
+        let jump = width.windows(2).map(|w| (w[1] - w[0]).abs()).take(69_000).fold(0.0, f64::max);
         assert!(jump < 2e-6, "jump {jump}");
     }
 
     #[test]
     fn analytic_profile_is_linear_and_jumps_where_the_arc_repeats() {
         let p = Shape::Profile(
-            Profile::new(
-                vec![-1e-3, 0.0, 0.0, 2e-3],
-                vec![0.0, 1e-3, 3e-3, 1e-3],
-                Some(vec![0.0, 4e-6, 8e-6, 0.0]),
-            )
-            .unwrap(),
+            Profile::new(vec![-1e-3, 0.0, 0.0, 2e-3], vec![0.0, 1e-3, 3e-3, 1e-3], Some(vec![0.0, 4e-6, 8e-6, 0.0]))
+                .unwrap(),
         );
         assert!((p.damaged_length(-0.5e-3) - 0.5e-3).abs() < 1e-15);
         assert!((p.damaged_length(-1e-12) - 1e-3).abs() < 1e-9);

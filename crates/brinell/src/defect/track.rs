@@ -1,4 +1,5 @@
-//! One slice along the arc: which fraction of its width damage covers, and the mean depth of what is covered (section 3).
+//! One slice along the arc: which fraction of its width damage covers, and the mean depth of what is covered (section
+//! 3).
 //!
 //! Both are made of cubic pieces between breakpoints, found in constant time.
 
@@ -36,11 +37,7 @@ pub(super) struct Part {
 
 impl Part {
     pub(super) fn nothing(start: f64) -> Self {
-        Self {
-            start,
-            phi: [0.0; 4],
-            h: [0.0; 4],
-        }
+        Self { start, phi: [0.0; 4], h: [0.0; 4] }
     }
 }
 
@@ -70,12 +67,7 @@ impl Track {
     pub(super) fn new(slice: usize, count: f64, parts: Vec<Part>, last: f64) -> Option<Self> {
         let first = parts.first()?.start;
         let covers = parts.iter().any(|p| p.phi != [0.0; 4]);
-        covers.then(|| Self {
-            slice,
-            count,
-            lookup: Lookup::new(first, last, parts.len(), |k| parts[k].start),
-            parts,
-        })
+        covers.then(|| Self { slice, count, lookup: Lookup::new(first, last, parts.len(), |k| parts[k].start), parts })
     }
 
     /// First and last s where anything is covered, m.
@@ -102,13 +94,12 @@ impl Track {
     /// dphi/ds (1/m) and dh/ds at s, right-hand at a kink.
     #[inline]
     pub(super) fn slope(&self, s: f64) -> (f64, f64) {
-        self.at(s).map_or((0.0, 0.0), |(part, x)| {
-            (slope(&part.phi, x), slope(&part.h, x))
-        })
+        self.at(s).map_or((0.0, 0.0), |(part, x)| (slope(&part.phi, x), slope(&part.h, x)))
     }
 }
 
-/// Cubic pieces of a function s -> (phi, h) between breakpoints (ascending), as many as its error asks for; `deepest` (m) is the scale of h.
+/// Cubic pieces of a function s -> (phi, h) between breakpoints (ascending), as many as its error asks for; `deepest`
+/// (m) is the scale of h.
 pub(super) fn fit(breaks: &[f64], deepest: f64, of: impl Fn(f64) -> (f64, f64)) -> Vec<Part> {
     let mut parts = Vec::new();
     for pair in breaks.windows(2) {
@@ -118,8 +109,7 @@ pub(super) fn fit(breaks: &[f64], deepest: f64, of: impl Fn(f64) -> (f64, f64)) 
             let good = |share: f64| {
                 let x = share * (to - from);
                 let ((phi, h), ours) = (of(from + x), (value(&part.phi, x), value(&part.h, x)));
-                (phi - ours.0).abs() <= TOLERANCE
-                    && phi * (h - ours.1).abs() <= TOLERANCE * deepest.max(1e-9)
+                (phi - ours.0).abs() <= TOLERANCE && phi * (h - ours.1).abs() <= TOLERANCE * deepest.max(1e-9)
             };
             let middle = 0.5 * (from + to);
             if to - from <= SHORTEST || [0.003, 0.16, 0.5, 0.84, 0.997].into_iter().all(good) {
@@ -135,12 +125,8 @@ pub(super) fn fit(breaks: &[f64], deepest: f64, of: impl Fn(f64) -> (f64, f64)) 
 /// The cubics through a function's values at four points within from..to.
 fn through(from: f64, to: f64, of: &impl Fn(f64) -> (f64, f64)) -> Part {
     // Chebyshev's points, on which a cubic errs least; never an end, where the function may jump.
-    const AT: [f64; 4] = [
-        0.038_060_233_744_356_62,
-        0.308_658_283_817_455_1,
-        0.691_341_716_182_544_9,
-        0.961_939_766_255_643_3,
-    ];
+    const AT: [f64; 4] =
+        [0.038_060_233_744_356_62, 0.308_658_283_817_455_1, 0.691_341_716_182_544_9, 0.961_939_766_255_643_3];
     let width = to - from;
     let values = AT.map(|t| of(from + t * width));
     let cubic = |y: [f64; 4]| {
@@ -159,18 +145,9 @@ fn through(from: f64, to: f64, of: &impl Fn(f64) -> (f64, f64)) -> Part {
             }
             c[0] = d[k] - AT[k] * c[0];
         }
-        [
-            c[0],
-            c[1] / width,
-            c[2] / width.powi(2),
-            c[3] / width.powi(3),
-        ]
+        [c[0], c[1] / width, c[2] / width.powi(2), c[3] / width.powi(3)]
     };
-    Part {
-        start: from,
-        phi: cubic(values.map(|v| v.0)),
-        h: cubic(values.map(|v| v.1)),
-    }
+    Part { start: from, phi: cubic(values.map(|v| v.0)), h: cubic(values.map(|v| v.1)) }
 }
 
 #[cfg(test)]
@@ -179,17 +156,12 @@ mod tests {
 
     #[test]
     fn analytic_fit_is_exact_for_cubics_and_close_for_a_vertical_tangent() {
-        let exact = fit(&[-1e-3, 1e-3], 1.0, |s| {
-            (1e9 * s.powi(3) + 0.5, 2e3 * s * s)
-        });
+        let exact = fit(&[-1e-3, 1e-3], 1.0, |s| (1e9 * s.powi(3) + 0.5, 2e3 * s * s));
         assert_eq!(exact.len(), 1);
         let track = Track::new(0, 1.0, exact, 1e-3).unwrap();
         for s in [-1e-3, -2e-4, 0.0, 3e-4, 1e-3] {
             let (phi, h) = track.value(s);
-            assert!(
-                (phi - settled(1e9 * s.powi(3) + 0.5)).abs() < 1e-12
-                    && (h - 2e3 * s * s).abs() < 1e-15
-            );
+            assert!((phi - settled(1e9 * s.powi(3) + 0.5)).abs() < 1e-12 && (h - 2e3 * s * s).abs() < 1e-15);
             let (dphi, dh) = track.slope(s);
             assert!((dphi - 3e9 * s * s).abs() < 1e-8 && (dh - 4e3 * s).abs() < 1e-11);
         }

@@ -11,7 +11,8 @@ use crate::scenario::Scenario;
 use serde_json::{Map, Value, json};
 use std::f64::consts::TAU;
 
-/// Units are in the names. `slices` is `null` where contacts have none; of a static balance that does not exist the warnings tell.
+/// Units are in the names. `slices` is `null` where contacts have none; of a static balance that does not exist the
+/// warnings tell.
 pub fn to_json(s: &Scenario, model: &Model, d: &Derived) -> Value {
     let (carried, load) = d.support_share;
     let pressures = pressures(s, d.contact_force);
@@ -49,8 +50,7 @@ pub fn to_json(s: &Scenario, model: &Model, d: &Derived) -> Value {
 /// Frequencies by names in lower case without spaces: `bpfo`, `2bsf`.
 pub fn frequencies(rows: [(&str, f64, &str); 6]) -> Map<String, Value> {
     let rows = rows.into_iter();
-    rows.map(|(name, hz, _)| (name.to_lowercase().replace(' ', ""), hz.into()))
-        .collect()
+    rows.map(|(name, hz, _)| (name.to_lowercase().replace(' ', ""), hz.into())).collect()
 }
 
 /// Load, stiffness and life by ISO/TS 16281.

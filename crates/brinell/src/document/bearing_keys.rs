@@ -9,39 +9,21 @@ use crate::bearing::clearance::{ClearanceClass, bore_diameter_mm};
 use crate::scenario::*;
 
 pub(super) fn bearing<K: Keys>(k: &mut K, model: ModelKind, b: &mut Bearing) {
-    k.preset(
-        key("preset", "catalogue bearing that fills the keys left out"),
-        &mut b.preset,
-    );
+    k.preset(key("preset", "catalogue bearing that fills the keys left out"), &mut b.preset);
     k.key(
-        key(
-            "element",
-            "what rolls; the keys named after rollers are then a ball's",
-        ),
+        key("element", "what rolls; the keys named after rollers are then a ball's"),
         stated(Element::Roller, "cylindrical rollers, as in the paper"),
         &mut b.element,
     );
-    k.key(
-        key("inner_raceway_diameter_mm", "D_i").above(0.0),
-        Catalogued,
-        &mut b.inner_raceway_diameter_mm,
-    );
-    k.key(
-        key("outer_raceway_diameter_mm", "D_o").above(0.0),
-        Catalogued,
-        &mut b.outer_raceway_diameter_mm,
-    );
+    k.key(key("inner_raceway_diameter_mm", "D_i").above(0.0), Catalogued, &mut b.inner_raceway_diameter_mm);
+    k.key(key("outer_raceway_diameter_mm", "D_o").above(0.0), Catalogued, &mut b.outer_raceway_diameter_mm);
     let mean = 0.5 * (b.inner_raceway_diameter_mm + b.outer_raceway_diameter_mm);
     k.key(
         key("pitch_diameter_mm", "D_m, circle of the roller centres").above(0.0),
         derived(mean, "mean of the raceway diameters"),
         &mut b.pitch_diameter_mm,
     );
-    k.key(
-        key("roller_diameter_mm", "d").above(0.0),
-        Catalogued,
-        &mut b.roller_diameter_mm,
-    );
+    k.key(key("roller_diameter_mm", "d").above(0.0), Catalogued, &mut b.roller_diameter_mm);
     k.key_where(
         key("roller_length_mm", "L, effective contact length").above(0.0),
         (!b.has_balls(), ROLLERS),
@@ -52,16 +34,8 @@ pub(super) fn bearing<K: Keys>(k: &mut K, model: ModelKind, b: &mut Bearing) {
         b.roller_length_mm = b.roller_diameter_mm;
     }
     grooves(k, b);
-    k.key(
-        key("rollers_per_row", "Z").from(3.0).to(1000.0),
-        Catalogued,
-        &mut b.rollers_per_row,
-    );
-    k.key(
-        key("rows", "N_r").from(1.0).to(100.0),
-        assumed(1, "a single row"),
-        &mut b.rows,
-    );
+    k.key(key("rollers_per_row", "Z").from(3.0).to(1000.0), Catalogued, &mut b.rollers_per_row);
+    k.key(key("rows", "N_r").from(1.0).to(100.0), assumed(1, "a single row"), &mut b.rows);
     let stagger = key("row_stagger_deg", "row i starts (i - 1) times this later");
     let stagger_default = if b.rows == 1 {
         stated(0.0, "a single row")
@@ -75,24 +49,14 @@ pub(super) fn bearing<K: Keys>(k: &mut K, model: ModelKind, b: &mut Bearing) {
         stated(0.0, "all clearance is at the inner contact"),
         &mut b.outer_gap_um,
     );
-    // Rings of rectangular section. Of rollers: wall 0.6 d, width 1.6 L for each row, within 8 % of the NN3007's sum; of balls: wall 0.45 d, width
-    // 1.75 d, within 12 % of what makers print for 6204 to 6206 less balls and cage.
+    // Rings of rectangular section. Of rollers: wall 0.6 d, width 1.6 L for each row, within 8 % of the NN3007's sum;
+    // of balls: wall 0.45 d, width 1.75 d, within 12 % of what makers print for 6204 to 6206 less balls and cage.
     let (wall, width, ring_how) = match b.element {
-        Element::Roller => (
-            0.6,
-            1.6,
-            "steel ring, wall 0.6 roller diameters, width 1.6 roller lengths a row",
-        ),
-        Element::Ball => (
-            0.45,
-            1.75,
-            "steel ring, wall 0.45 and width 1.75 ball diameters",
-        ),
+        Element::Roller => (0.6, 1.6, "steel ring, wall 0.6 roller diameters, width 1.6 roller lengths a row"),
+        Element::Ball => (0.45, 1.75, "steel ring, wall 0.45 and width 1.75 ball diameters"),
     };
     let wall = wall * b.roller_diameter_mm;
-    let ring = |mean_diameter: f64| {
-        STEEL * PI * mean_diameter * wall * width * b.roller_length_mm * b.rows as f64
-    };
+    let ring = |mean_diameter: f64| STEEL * PI * mean_diameter * wall * width * b.roller_length_mm * b.rows as f64;
     let inner_ring = ring(b.inner_raceway_diameter_mm - wall);
     let outer_ring = ring(b.outer_raceway_diameter_mm + wall);
     k.key(
@@ -106,31 +70,17 @@ pub(super) fn bearing<K: Keys>(k: &mut K, model: ModelKind, b: &mut Bearing) {
         &mut b.outer_ring_mass_kg,
     );
     let roller = match b.element {
-        Element::Roller => derived(
-            STEEL * PI / 4.0 * b.roller_diameter_mm.powi(2) * b.roller_length_mm,
-            "steel cylinder",
-        ),
-        Element::Ball => derived(
-            STEEL * PI / 6.0 * b.roller_diameter_mm.powi(3),
-            "steel ball",
-        ),
+        Element::Roller => {
+            derived(STEEL * PI / 4.0 * b.roller_diameter_mm.powi(2) * b.roller_length_mm, "steel cylinder")
+        }
+        Element::Ball => derived(STEEL * PI / 6.0 * b.roller_diameter_mm.powi(3), "steel ball"),
     };
-    k.key(
-        key("roller_mass_kg", "m").above(0.0),
-        roller,
-        &mut b.roller_mass_kg,
-    );
+    k.key(key("roller_mass_kg", "m").above(0.0), roller, &mut b.roller_mass_kg);
     // A catalogue bearing's profile is no reason to refuse a scenario that has no slices.
-    let unsliced = |how| Fallback::Instead {
-        value: RollerProfile::Straight,
-        how,
-        assumed: false,
-    };
+    let unsliced = |how| Fallback::Instead { value: RollerProfile::Straight, how, assumed: false };
     let profile = match (model, k.foretold("contact", "law")) {
         (ModelKind::Lumped, _) => unsliced("the lumped model has no slices, and so no profile"),
-        (ModelKind::Full, Some(Law::Ecl)) => {
-            unsliced("law \"ecl\" has no slices, and so no profile")
-        }
+        (ModelKind::Full, Some(Law::Ecl)) => unsliced("law \"ecl\" has no slices, and so no profile"),
         _ => stated(RollerProfile::Straight, PAPER),
     };
     k.key_where(
@@ -143,17 +93,11 @@ pub(super) fn bearing<K: Keys>(k: &mut K, model: ModelKind, b: &mut Bearing) {
         k,
         (model, b.element),
         key("width_mm", "B, width of the rings").above(0.0),
-        derived(
-            1.6 * b.roller_length_mm * b.rows as f64,
-            "1.6 roller lengths a row",
-        ),
+        derived(1.6 * b.roller_length_mm * b.rows as f64, "1.6 roller lengths a row"),
         &mut b.width_mm,
     );
-    let spacing = if b.rows == 1 {
-        stated(0.0, "a single row")
-    } else {
-        derived(1.5 * b.roller_length_mm, "1.5 roller lengths")
-    };
+    let spacing =
+        if b.rows == 1 { stated(0.0, "a single row") } else { derived(1.5 * b.roller_length_mm, "1.5 roller lengths") };
     tilt_key(
         k,
         (model, b.element),
@@ -171,10 +115,7 @@ pub(super) fn tilt_key<K: Keys>(
     fallback: Fallback<f64>,
     value: &mut f64,
 ) {
-    let acts = (
-        model == ModelKind::Tilting,
-        "simulation.model is \"tilting\"",
-    );
+    let acts = (model == ModelKind::Tilting, "simulation.model is \"tilting\"");
     match element {
         Element::Roller => k.key_acting_where(spec, acts, fallback, value),
         Element::Ball => {
@@ -190,17 +131,11 @@ fn grooves<K: Keys>(k: &mut K, b: &mut Bearing) {
     let has_balls = b.has_balls();
     for (spec, value) in [
         (
-            key(
-                "inner_groove_conformity",
-                "radius of the inner groove's cross-section over the ball's diameter",
-            ),
+            key("inner_groove_conformity", "radius of the inner groove's cross-section over the ball's diameter"),
             &mut b.inner_groove_conformity,
         ),
         (
-            key(
-                "outer_groove_conformity",
-                "radius of the outer groove's cross-section over the ball's diameter",
-            ),
+            key("outer_groove_conformity", "radius of the outer groove's cross-section over the ball's diameter"),
             &mut b.outer_groove_conformity,
         ),
     ] {
@@ -215,14 +150,11 @@ fn grooves<K: Keys>(k: &mut K, b: &mut Bearing) {
     }
 }
 
-/// The clearance: on one side, on the diameter, or as a class of ISO 5753-1. `checks` sees to it that only one is given.
+/// The clearance: on one side, on the diameter, or as a class of ISO 5753-1. `checks` sees to it that only one is
+/// given.
 fn clearance<K: Keys>(k: &mut K, b: &mut Bearing) {
     k.optional(
-        key(
-            "bore_diameter_mm",
-            "bore, for clearance_class; left out, the preset's",
-        )
-        .above(0.0),
+        key("bore_diameter_mm", "bore, for clearance_class; left out, the preset's").above(0.0),
         &mut b.bore_diameter_mm,
     );
     let (mut diametral, mut class): (Option<f64>, Option<ClearanceClass>) = (None, None);
@@ -234,10 +166,7 @@ fn clearance<K: Keys>(k: &mut K, b: &mut Bearing) {
         &mut diametral,
     );
     k.optional(
-        key(
-            "clearance_class",
-            "class of ISO 5753-1 for the bore, its middle is used; in place of radial_clearance_um",
-        ),
+        key("clearance_class", "class of ISO 5753-1 for the bore, its middle is used; in place of radial_clearance_um"),
         &mut class,
     );
     let of_class = |class: ClearanceClass| {
@@ -245,11 +174,9 @@ fn clearance<K: Keys>(k: &mut K, b: &mut Bearing) {
         middle.unwrap_or(f64::NAN)
     };
     let default = match (diametral, class) {
-        (Some(diametral), _) => Fallback::Instead {
-            value: 0.5 * diametral,
-            how: "half of bearing.diametral_clearance_um",
-            assumed: false,
-        },
+        (Some(diametral), _) => {
+            Fallback::Instead { value: 0.5 * diametral, how: "half of bearing.diametral_clearance_um", assumed: false }
+        }
         (None, Some(class)) => Fallback::Instead {
             value: of_class(class),
             how: "bearing.clearance_class, half of the middle of its diametral range (ISO 5753-1)",
@@ -262,17 +189,11 @@ fn clearance<K: Keys>(k: &mut K, b: &mut Bearing) {
         },
         (None, None) => match b.element {
             Element::Roller => assumed(10.0, "a small bearing's usual gap, and the NN3007's"),
-            Element::Ball => assumed(
-                6.25,
-                "half of the middle of class CN of ISO 5753-1 for bores of 18 to 30 mm",
-            ),
+            Element::Ball => assumed(6.25, "half of the middle of class CN of ISO 5753-1 for bores of 18 to 30 mm"),
         },
     };
     k.key(
-        key(
-            "radial_clearance_um",
-            "C_r, gap on one side, half of ISO 5753's; negative is preload",
-        ),
+        key("radial_clearance_um", "C_r, gap on one side, half of ISO 5753's; negative is preload"),
         default,
         &mut b.radial_clearance_um,
     );

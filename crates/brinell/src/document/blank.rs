@@ -55,10 +55,7 @@ pub(crate) fn scenario() -> Scenario {
             outer_stiffness: NONE,
             damping_ns_per_m: NONE,
         },
-        friction: Friction {
-            raceway_coefficient: NONE,
-            slip_velocity_m_per_s: NONE,
-        },
+        friction: Friction { raceway_coefficient: NONE, slip_velocity_m_per_s: NONE },
         lubricant: Lubricant {
             viscosity_pa_s: NONE,
             raceway_film: Leaf::blank(),
@@ -108,18 +105,11 @@ pub(crate) fn defect() -> Defect {
 }
 
 pub(crate) fn path_mode() -> PathMode {
-    PathMode {
-        frequency_hz: NONE,
-        damping_ratio: NONE,
-        gain: NONE,
-    }
+    PathMode { frequency_hz: NONE, damping_ratio: NONE, gain: NONE }
 }
 
 pub(crate) fn rectangle() -> Shape {
-    Shape::Rectangle {
-        length_mm: NONE,
-        width_mm: NONE,
-    }
+    Shape::Rectangle { length_mm: NONE, width_mm: NONE }
 }
 
 pub(crate) fn circle() -> Shape {
@@ -127,11 +117,7 @@ pub(crate) fn circle() -> Shape {
 }
 
 pub(crate) fn profile() -> Shape {
-    Shape::Profile {
-        arc_mm: Vec::new(),
-        width_mm: Vec::new(),
-        depth_um: None,
-    }
+    Shape::Profile { arc_mm: Vec::new(), width_mm: Vec::new(), depth_um: None }
 }
 
 pub(crate) fn irregular() -> Shape {
@@ -139,9 +125,7 @@ pub(crate) fn irregular() -> Shape {
 }
 
 pub(crate) fn outline() -> Shape {
-    Shape::Outline {
-        polygons_mm: Vec::new(),
-    }
+    Shape::Outline { polygons_mm: Vec::new() }
 }
 
 pub(crate) fn depth_map() -> Shape {
@@ -149,32 +133,15 @@ pub(crate) fn depth_map() -> Shape {
 }
 
 pub(crate) fn grid() -> DepthGrid {
-    DepthGrid {
-        s0_mm: NONE,
-        z0_mm: NONE,
-        ds_mm: NONE,
-        dz_mm: NONE,
-        columns: 0,
-        rows: 0,
-        depth_um: Vec::new(),
-    }
+    DepthGrid { s0_mm: NONE, z0_mm: NONE, ds_mm: NONE, dz_mm: NONE, columns: 0, rows: 0, depth_um: Vec::new() }
 }
 
 pub(crate) fn grown() -> Shape {
-    Shape::Grown {
-        outline: Vec::new(),
-        max_width_mm: None,
-        area_mm2: None,
-    }
+    Shape::Grown { outline: Vec::new(), max_width_mm: None, area_mm2: None }
 }
 
 pub(crate) fn random() -> Shape {
-    Shape::Random {
-        seed: 0,
-        length_mm: NONE,
-        width_mm: NONE,
-        roughness: NONE,
-    }
+    Shape::Random { seed: 0, length_mm: NONE, width_mm: NONE, roughness: NONE }
 }
 
 pub(crate) fn image() -> Shape {
@@ -197,13 +164,7 @@ pub(crate) fn image() -> Shape {
 }
 
 pub(crate) fn svg() -> Shape {
-    Shape::Svg(SvgFile {
-        file: String::new(),
-        path_id: None,
-        mm_per_unit: None,
-        tolerance_mm: NONE,
-        center: true,
-    })
+    Shape::Svg(SvgFile { file: String::new(), path_id: None, mm_per_unit: None, tolerance_mm: NONE, center: true })
 }
 
 pub(crate) fn scan() -> ScanFile {

@@ -97,46 +97,25 @@ pub(super) fn defect<K: Keys>(k: &mut K, load: [f64; 2], d: &mut Defect) {
         SurfaceWord::InnerRaceway => Surface::InnerRaceway,
         SurfaceWord::Roller => Surface::Roller(roller),
     };
-    k.key(
-        key("row", "which row, from 1").from(1.0),
-        assumed(1, "the first row"),
-        &mut d.row,
-    );
+    k.key(key("row", "which row, from 1").from(1.0), assumed(1, "the first row"), &mut d.row);
     let center = if word == SurfaceWord::OuterRaceway {
-        derived(
-            load[1].atan2(load[0]).to_degrees(),
-            "the middle of the load zone",
-        )
+        derived(load[1].atan2(load[0]).to_degrees(), "the middle of the load zone")
     } else {
         assumed(0.0, "it turns through the load anyway")
     };
-    k.key(
-        key("center_deg", "psi, counter-clockwise from +x"),
-        center,
-        &mut d.center_deg,
-    );
+    k.key(key("center_deg", "psi, counter-clockwise from +x"), center, &mut d.center_deg);
     k.one_of(
-        key(
-            "shape",
-            "outline; length along the rolling direction, width along the axis",
-        ),
+        key("shape", "outline; length along the rolling direction, width along the axis"),
         SHAPES,
         &mut d.shape,
         shape,
     );
     let depth = match &d.shape {
-        Shape::Profile {
-            depth_um: Some(_), ..
-        } => stated(0.0, "the profile has depths of its own"),
-        Shape::DepthMap { .. } | Shape::Scan(_) => {
-            stated(0.0, "the depth map has depths of its own")
-        }
+        Shape::Profile { depth_um: Some(_), .. } => stated(0.0, "the profile has depths of its own"),
+        Shape::DepthMap { .. } | Shape::Scan(_) => stated(0.0, "the depth map has depths of its own"),
         _ => Needed("a profile with depth_um of its own, or a depth map, does without"),
     };
-    let spec = key(
-        "depth_um",
-        "h; depths of a profile or a depth map override it",
-    );
+    let spec = key("depth_um", "h; depths of a profile or a depth map override it");
     k.key(spec.from(0.0), depth, &mut d.depth_um);
     k.key(
         key("axial_offset_mm", "moves the shape along the axis, +z"),
@@ -146,16 +125,9 @@ pub(super) fn defect<K: Keys>(k: &mut K, load: [f64; 2], d: &mut Defect) {
 }
 
 fn shape<K: Keys>(k: &mut K, shape: &mut Shape) {
-    const WIDTH: Spec = key(
-        "width_mm",
-        "L_s, along the axis, at most the roller's length",
-    )
-    .from(0.0);
+    const WIDTH: Spec = key("width_mm", "L_s, along the axis, at most the roller's length").from(0.0);
     match shape {
-        Shape::Rectangle {
-            length_mm,
-            width_mm,
-        } => {
+        Shape::Rectangle { length_mm, width_mm } => {
             let length = key("length_mm", "along the rolling direction").above(0.0);
             k.key(length, Required, length_mm);
             k.key(WIDTH, Required, width_mm);
@@ -164,18 +136,11 @@ fn shape<K: Keys>(k: &mut K, shape: &mut Shape) {
             let diameter = key("diameter_mm", "2 a, at most the roller's length").above(0.0);
             k.key(diameter, Required, diameter_mm);
         }
-        Shape::Profile {
-            arc_mm,
-            width_mm,
-            depth_um,
-        } => {
+        Shape::Profile { arc_mm, width_mm, depth_um } => {
             let arc = key("arc_mm", "s of each point, never decreasing");
             k.key(arc, Required, arc_mm);
             k.key(WIDTH, Required, width_mm);
-            let depth = key(
-                "depth_um",
-                "h_s at each point; left out: the defect's depth",
-            );
+            let depth = key("depth_um", "h_s at each point; left out: the defect's depth");
             k.optional(depth.from(0.0), depth_um);
         }
         Shape::Li2023Irregular { max_width_mm } => {
@@ -186,36 +151,20 @@ fn shape<K: Keys>(k: &mut K, shape: &mut Shape) {
         Shape::DepthMap { .. } | Shape::Scan(_) => depth_map(k, shape),
         Shape::Image(image) => damage_files::image(k, image),
         Shape::Svg(drawing) => damage_files::svg(k, drawing),
-        Shape::Grown {
-            outline,
-            max_width_mm,
-            area_mm2,
-        } => {
+        Shape::Grown { outline, max_width_mm, area_mm2 } => {
             polygons(k, outline);
-            let width = key(
-                "max_width_mm",
-                "largest L_s after scaling; this or the area",
-            );
+            let width = key("max_width_mm", "largest L_s after scaling; this or the area");
             k.optional(width.above(0.0), max_width_mm);
             let area = key("area_mm2", "area after scaling; this or the width");
             k.optional(area.above(0.0), area_mm2);
         }
-        Shape::Random {
-            seed,
-            length_mm,
-            width_mm,
-            roughness,
-        } => {
+        Shape::Random { seed, length_mm, width_mm, roughness } => {
             k.key(key("seed", "which spall"), stated(1, "the first"), seed);
             let length = key("length_mm", "extent along the rolling direction").above(0.0);
             k.key(length, Required, length_mm);
             k.key(WIDTH.above(0.0), Required, width_mm);
             let rough = key("roughness", "0: even ellipse; 1: as ragged as it gets");
-            k.key(
-                rough.from(0.0).to(1.0),
-                assumed(0.5, "between even and ragged"),
-                roughness,
-            );
+            k.key(rough.from(0.0).to(1.0), assumed(0.5, "between even and ragged"), roughness);
         }
     }
 }
@@ -227,18 +176,9 @@ fn polygons<K: Keys>(k: &mut K, polygons: &mut Vec<Vec<[f64; 2]>>) {
         [only] => (Some(only.clone()), None),
         _ => (None, Some(polygons.clone())),
     };
-    k.optional(
-        key("points_mm", "corners [s, z] of one polygon, in order"),
-        &mut one,
-    );
-    k.optional(
-        key("polygons_mm", "lists of corners, for several polygons"),
-        &mut several,
-    );
-    *polygons = one
-        .into_iter()
-        .chain(several.into_iter().flatten())
-        .collect();
+    k.optional(key("points_mm", "corners [s, z] of one polygon, in order"), &mut one);
+    k.optional(key("polygons_mm", "lists of corners, for several polygons"), &mut several);
+    *polygons = one.into_iter().chain(several.into_iter().flatten()).collect();
 }
 
 /// Columns or rows of a grid at the most.
@@ -251,7 +191,9 @@ fn depth_map<K: Keys>(k: &mut K, shape: &mut Shape) {
         _ => return,
     };
     k.optional(
-        damage_files::FILE.doc("CSV, NPY, 16-bit PNG, SDF, X3P or SUR, from the scenario's folder; instead of columns, rows, depth_um"),
+        damage_files::FILE.doc(
+            "CSV, NPY, 16-bit PNG, SDF, X3P or SUR, from the scenario's folder; instead of columns, rows, depth_um",
+        ),
         &mut file,
     );
     let written = (file.is_none(), "there is no `file`");
@@ -261,14 +203,9 @@ fn depth_map<K: Keys>(k: &mut K, shape: &mut Shape) {
         let start = -0.5 * n.saturating_sub(1) as f64 * d;
         derived(start, "the grid's middle at the defect's centre")
     };
-    let ds = spacing(
-        "ds_mm",
-        "distance of columns, along the rolling direction; of a file that says its own, left out",
-    );
-    let dz = spacing(
-        "dz_mm",
-        "distance of rows, along the axis; of a file that says its own, left out",
-    );
+    let ds =
+        spacing("ds_mm", "distance of columns, along the rolling direction; of a file that says its own, left out");
+    let dz = spacing("dz_mm", "distance of rows, along the axis; of a file that says its own, left out");
     match file {
         Some(_) => {
             k.optional(ds, &mut scan.ds_mm);
@@ -279,35 +216,12 @@ fn depth_map<K: Keys>(k: &mut K, shape: &mut Shape) {
             k.only_where(dz, true, written.1, &mut g.dz_mm);
         }
     }
+    k.key_where(count("columns", "nodes along s"), written, Required, &mut g.columns);
+    k.key_where(count("rows", "nodes along z"), written, Required, &mut g.rows);
+    k.key_where(key("s0_mm", "s of the first column"), written, centred(g.columns, g.ds_mm), &mut g.s0_mm);
+    k.key_where(key("z0_mm", "z of the first row"), written, centred(g.rows, g.dz_mm), &mut g.z0_mm);
     k.key_where(
-        count("columns", "nodes along s"),
-        written,
-        Required,
-        &mut g.columns,
-    );
-    k.key_where(
-        count("rows", "nodes along z"),
-        written,
-        Required,
-        &mut g.rows,
-    );
-    k.key_where(
-        key("s0_mm", "s of the first column"),
-        written,
-        centred(g.columns, g.ds_mm),
-        &mut g.s0_mm,
-    );
-    k.key_where(
-        key("z0_mm", "z of the first row"),
-        written,
-        centred(g.rows, g.dz_mm),
-        &mut g.z0_mm,
-    );
-    k.key_where(
-        key(
-            "depth_um",
-            "depths row by row, columns of a row in order; 0 undamaged, negative raised",
-        ),
+        key("depth_um", "depths row by row, columns of a row in order; 0 undamaged, negative raised"),
         written,
         Required,
         &mut g.depth_um,

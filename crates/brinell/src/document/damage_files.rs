@@ -9,14 +9,9 @@ pub(super) const FILE: Spec = key("file", "path, from the scenario's folder");
 /// What the keys of a scan need; a `depth_map` may hold its numbers instead.
 const FILED: &str = "there is a `file`";
 
-/// A key that every file of damage has: of a scan only where there is one (`filed`), of an image or a drawing always (`None`).
-fn shared<K: Keys, T: Leaf>(
-    k: &mut K,
-    filed: Option<bool>,
-    spec: Spec,
-    fallback: Fallback<T>,
-    value: &mut T,
-) {
+/// A key that every file of damage has: of a scan only where there is one (`filed`), of an image or a drawing always
+/// (`None`).
+fn shared<K: Keys, T: Leaf>(k: &mut K, filed: Option<bool>, spec: Spec, fallback: Fallback<T>, value: &mut T) {
     match filed {
         None => k.key(spec, fallback, value),
         Some(wanted) => k.key_where(spec, (wanted, FILED), fallback, value),
@@ -24,10 +19,7 @@ fn shared<K: Keys, T: Leaf>(
 }
 
 fn center<K: Keys>(k: &mut K, filed: Option<bool>, value: &mut bool) {
-    let spec = key(
-        "center",
-        "the damage's bounding box at the defect's centre; false: the middle of the picture",
-    );
+    let spec = key("center", "the damage's bounding box at the defect's centre; false: the middle of the picture");
     shared(k, filed, spec, stated(true, "centred"), value);
 }
 
@@ -44,19 +36,9 @@ fn speck<K: Keys>(k: &mut K, filed: Option<bool>, fallback: Fallback<f64>, value
 
 pub(super) fn image<K: Keys>(k: &mut K, i: &mut ImageFile) {
     k.key(FILE, Required, &mut i.file);
-    k.optional(
-        key(
-            "scale_bar",
-            "a length in the picture, from which mm_per_pixel follows",
-        ),
-        &mut i.scale_bar,
-    );
+    k.optional(key("scale_bar", "a length in the picture, from which mm_per_pixel follows"), &mut i.scale_bar);
     let scale = key("mm_per_pixel", "the side of a pixel").above(0.0);
-    let of_bar = |bar: ScaleBar| Fallback::Instead {
-        value: bar.mm / bar.px,
-        how: "from scale_bar",
-        assumed: false,
-    };
+    let of_bar = |bar: ScaleBar| Fallback::Instead { value: bar.mm / bar.px, how: "from scale_bar", assumed: false };
     let fallback = i.scale_bar.map_or(Required, of_bar);
     k.key(scale.to(10.0).unit("mm"), fallback, &mut i.mm_per_pixel);
     let threshold = key(
@@ -69,18 +51,10 @@ pub(super) fn image<K: Keys>(k: &mut K, i: &mut ImageFile) {
         stated(false, "the picture's brightness"),
         &mut i.use_alpha,
     );
-    k.key(
-        key("invert", "lighter, or more transparent, is damage"),
-        stated(false, "damage is darker"),
-        &mut i.invert,
-    );
+    k.key(key("invert", "lighter, or more transparent, is damage"), stated(false, "damage is darker"), &mut i.invert);
     direction(k, None, &mut i.rolling_direction);
     center(k, None, &mut i.center);
-    k.key(
-        key("edges", "how the outline runs between pixels"),
-        stated(ImageEdges::SubPixel, "a photo"),
-        &mut i.edges,
-    );
+    k.key(key("edges", "how the outline runs between pixels"), stated(ImageEdges::SubPixel, "a photo"), &mut i.edges);
     let mut blur_px = i.blur_px.unwrap_or(f64::NAN);
     let blur = key("blur_px", "standard deviation of the blur before, pixels");
     k.key_where(
@@ -93,10 +67,7 @@ pub(super) fn image<K: Keys>(k: &mut K, i: &mut ImageFile) {
     let dirt = assumed(0.02, "dirt and grinding marks");
     speck(k, None, dirt, &mut i.speck_mm2);
     let region = "what of the picture is read: left, top, width, height; left out: all";
-    k.optional(
-        key("region_px", region).from(0.0).to(65_535.0),
-        &mut i.region_px,
-    );
+    k.optional(key("region_px", region).from(0.0).to(65_535.0), &mut i.region_px);
     let pieces = "which dark pieces are damage; left out: of a photo the largest, of a mask or with a threshold all";
     k.optional(key("pieces", pieces), &mut i.pieces);
     let at = "a point within the piece that is damage, from the upper left corner";
@@ -110,29 +81,17 @@ pub(super) fn svg<K: Keys>(k: &mut K, d: &mut SvgFile) {
     let scale = key("mm_per_unit", "scale; left out: the drawing's own").above(0.0);
     k.optional(scale.to(1e4).unit("mm"), &mut d.mm_per_unit);
     let tolerance = key("tolerance_mm", "how far polygons stray from curves");
-    k.key(
-        tolerance.from(1e-5).to(1.0),
-        stated(0.001, "far below what is felt"),
-        &mut d.tolerance_mm,
-    );
+    k.key(tolerance.from(1e-5).to(1.0), stated(0.001, "far below what is felt"), &mut d.tolerance_mm);
     center(k, None, &mut d.center);
 }
 
 /// The keys of a scan beside its file and spacing.
 pub(super) fn scan<K: Keys>(k: &mut K, wanted: bool, s: &mut ScanFile) {
     let filed = (wanted, FILED);
-    k.key_where(
-        key("unit", "what the numbers count"),
-        filed,
-        stated(ScanUnit::Um, "micrometres"),
-        &mut s.unit,
-    );
+    k.key_where(key("unit", "what the numbers count"), filed, stated(ScanUnit::Um, "micrometres"), &mut s.unit);
     let mut nm_per_count = s.nm_per_count.unwrap_or(f64::NAN);
     k.only_where(
-        key("nm_per_count", "height of one count")
-            .above(0.0)
-            .to(1e6)
-            .unit("nm"),
+        key("nm_per_count", "height of one count").above(0.0).to(1e6).unit("nm"),
         wanted && s.unit == ScanUnit::Counts,
         "unit = \"counts\"",
         &mut nm_per_count,
@@ -144,24 +103,10 @@ pub(super) fn scan<K: Keys>(k: &mut K, wanted: bool, s: &mut ScanFile) {
         stated(true, "a profilometer's heights"),
         &mut s.height_positive_up,
     );
-    k.optional(
-        key(
-            "missing",
-            "number that marks a missing point, beside empty cells and nan",
-        ),
-        &mut s.missing,
-    );
+    k.optional(key("missing", "number that marks a missing point, beside empty cells and nan"), &mut s.missing);
+    k.key_where(key("fill", "what to do about missing points"), filed, stated(ScanFill::None, "refused"), &mut s.fill);
     k.key_where(
-        key("fill", "what to do about missing points"),
-        filed,
-        stated(ScanFill::None, "refused"),
-        &mut s.fill,
-    );
-    k.key_where(
-        key(
-            "remove_form",
-            "the raceway's own form, fitted and taken off",
-        ),
+        key("remove_form", "the raceway's own form, fitted and taken off"),
         filed,
         stated(ScanForm::None, "nothing is taken off"),
         &mut s.remove_form,
@@ -176,10 +121,7 @@ pub(super) fn scan<K: Keys>(k: &mut K, wanted: bool, s: &mut ScanFile) {
     );
     let mut zero_percentile = s.zero_percentile.unwrap_or(f64::NAN);
     k.only_where(
-        key("zero_percentile", "percent of the points")
-            .from(0.0)
-            .to(100.0)
-            .unit("%"),
+        key("zero_percentile", "percent of the points").from(0.0).to(100.0).unit("%"),
         wanted && s.zero == ScanZero::Percentile,
         "zero = \"percentile\"",
         &mut zero_percentile,
@@ -193,9 +135,7 @@ pub(super) fn scan<K: Keys>(k: &mut K, wanted: bool, s: &mut ScanFile) {
     );
     direction(k, Some(wanted), &mut s.rolling_direction);
     k.key_where(
-        key("threshold_um", "shallower is undamaged")
-            .from(0.0)
-            .to(5000.0),
+        key("threshold_um", "shallower is undamaged").from(0.0).to(5000.0),
         filed,
         assumed(1.0, "noise and roughness"),
         &mut s.threshold_um,

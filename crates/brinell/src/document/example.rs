@@ -36,7 +36,8 @@ pub fn template() -> String {
     explained(SHORTEST).expect("the example reads: a test holds it to that")
 }
 
-/// A scenario file with every key in it, explained: those that the text leaves out are comments that show what holds then.
+/// A scenario file with every key in it, explained: those that the text leaves out are comments that show what holds
+/// then.
 ///
 /// # Errors
 /// Every problem of the text.

@@ -20,12 +20,7 @@ pub struct Spec {
 
 /// A key without a range; its unit is the one in its name.
 pub const fn key(name: &'static str, doc: &'static str) -> Spec {
-    Spec {
-        name,
-        doc,
-        unit: unit_of(name),
-        range: Range::ANY,
-    }
+    Spec { name, doc, unit: unit_of(name), range: Range::ANY }
 }
 
 impl Spec {
@@ -124,32 +119,20 @@ pub struct Range {
 }
 
 impl Range {
-    pub(crate) const ANY: Range = Range {
-        low: None,
-        high: None,
-    };
+    pub(crate) const ANY: Range = Range { low: None, high: None };
 
     pub(crate) fn contains(&self, x: f64) -> bool {
         x.is_finite()
-            && self
-                .low
-                .is_none_or(|(low, closed)| x > low || (closed && x == low))
-            && self
-                .high
-                .is_none_or(|(high, closed)| x < high || (closed && x == high))
+            && self.low.is_none_or(|(low, closed)| x > low || (closed && x == low))
+            && self.high.is_none_or(|(high, closed)| x < high || (closed && x == high))
     }
 }
 
 impl fmt::Display for Range {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let sign =
-            |closed, open: &'static str, shut: &'static str| if closed { shut } else { open };
+        let sign = |closed, open: &'static str, shut: &'static str| if closed { shut } else { open };
         let text = |x: f64| {
-            if x.abs() >= 1e6 {
-                format!("{x:e}")
-            } else {
-                x.to_string()
-            }
+            if x.abs() >= 1e6 { format!("{x:e}") } else { x.to_string() }
         };
         let low = self.low.map(|(low, closed)| (text(low), closed));
         let high = self.high.map(|(high, closed)| (text(high), closed));
@@ -158,12 +141,9 @@ impl fmt::Display for Range {
             (Some((low, closed)), None) => write!(f, "{} {low}", sign(closed, ">", ">=")),
             (None, Some((high, closed))) => write!(f, "{} {high}", sign(closed, "<", "<=")),
             (Some((low, true)), Some((high, true))) => write!(f, "{low} to {high}"),
-            (Some((low, a)), Some((high, b))) => write!(
-                f,
-                "{} {low} and {} {high}",
-                sign(a, ">", ">="),
-                sign(b, "<", "<=")
-            ),
+            (Some((low, a)), Some((high, b))) => {
+                write!(f, "{} {low} and {} {high}", sign(a, ">", ">="), sign(b, "<", "<="))
+            }
         }
     }
 }
@@ -210,20 +190,12 @@ pub(crate) fn derived<T>(value: T, how: &'static str) -> Fallback<T> {
 
 /// A default that was not given: it goes on the assumption sheet.
 pub(crate) fn assumed<T>(value: T, why: &'static str) -> Fallback<T> {
-    Fallback::Fixed {
-        value,
-        why,
-        assumed: true,
-    }
+    Fallback::Fixed { value, why, assumed: true }
 }
 
 /// A default that the source of the model states, or that is no statement about the bearing.
 pub fn stated<T>(value: T, why: &'static str) -> Fallback<T> {
-    Fallback::Fixed {
-        value,
-        why,
-        assumed: false,
-    }
+    Fallback::Fixed { value, why, assumed: false }
 }
 
 impl<T> Fallback<T> {
@@ -233,37 +205,16 @@ impl<T> Fallback<T> {
             Self::Required => Fallback::Required,
             Self::Catalogued => Fallback::Catalogued,
             Self::Needed(case) => Fallback::Needed(case),
-            Self::Derived { value, how } => Fallback::Derived {
-                value: change(value),
-                how,
-            },
-            Self::Instead {
-                value,
-                how,
-                assumed,
-            } => Fallback::Instead {
-                value: change(value),
-                how,
-                assumed,
-            },
-            Self::Fixed {
-                value,
-                why,
-                assumed,
-            } => Fallback::Fixed {
-                value: change(value),
-                why,
-                assumed,
-            },
+            Self::Derived { value, how } => Fallback::Derived { value: change(value), how },
+            Self::Instead { value, how, assumed } => Fallback::Instead { value: change(value), how, assumed },
+            Self::Fixed { value, why, assumed } => Fallback::Fixed { value: change(value), why, assumed },
         }
     }
 
     /// The value, where there is one.
     pub(crate) fn value(self) -> Option<T> {
         match self {
-            Self::Derived { value, .. }
-            | Self::Instead { value, .. }
-            | Self::Fixed { value, .. } => Some(value),
+            Self::Derived { value, .. } | Self::Instead { value, .. } | Self::Fixed { value, .. } => Some(value),
             Self::Required | Self::Catalogued | Self::Needed(_) => None,
         }
     }
@@ -280,10 +231,7 @@ pub struct Variant<T> {
 
 /// The alternative that `value` is.
 pub(crate) fn variant_of<T>(variants: &'static [Variant<T>], value: &T) -> &'static Variant<T> {
-    variants
-        .iter()
-        .find(|variant| (variant.is)(value))
-        .unwrap_or(&variants[0])
+    variants.iter().find(|variant| (variant.is)(value)).unwrap_or(&variants[0])
 }
 
 /// A walk over the keys of a scenario.
@@ -298,15 +246,10 @@ pub trait Keys: Sized {
     fn only_where<T: Leaf>(&mut self, spec: Spec, wanted: bool, case: &'static str, value: &mut T);
 
     /// A key with a default where `wanted`, and without a meaning elsewhere; the words say where.
-    fn key_where<T: Leaf>(
-        &mut self,
-        spec: Spec,
-        wanted: (bool, &'static str),
-        fallback: Fallback<T>,
-        value: &mut T,
-    );
+    fn key_where<T: Leaf>(&mut self, spec: Spec, wanted: (bool, &'static str), fallback: Fallback<T>, value: &mut T);
 
-    /// A key of one case, with a default; elsewhere it has no effect, which is said of a file that gives it. The words say where it has one.
+    /// A key of one case, with a default; elsewhere it has no effect, which is said of a file that gives it. The words
+    /// say where it has one.
     fn key_acting_where<T: Leaf>(
         &mut self,
         spec: Spec,
@@ -315,7 +258,8 @@ pub trait Keys: Sized {
         value: &mut T,
     );
 
-    /// The value of a key of a later section, before the walk is there: `None` where it is known already or the file does not give it.
+    /// The value of a key of a later section, before the walk is there: `None` where it is known already or the file
+    /// does not give it.
     fn foretold<T: Leaf>(&mut self, _section: &str, _name: &'static str) -> Option<T> {
         None
     }
@@ -334,13 +278,7 @@ pub trait Keys: Sized {
     fn section(&mut self, spec: Spec, keys: impl FnMut(&mut Self));
 
     /// Any number of tables.
-    fn tables<T>(
-        &mut self,
-        spec: Spec,
-        items: &mut Vec<T>,
-        blank: fn() -> T,
-        keys: impl FnMut(&mut Self, &mut T),
-    );
+    fn tables<T>(&mut self, spec: Spec, items: &mut Vec<T>, blank: fn() -> T, keys: impl FnMut(&mut Self, &mut T));
 
     /// A table with exactly one of several keys, each a table.
     fn one_of<T: 'static>(

@@ -22,12 +22,7 @@ pub struct Misfit {
 impl Misfit {
     /// Of the whole value.
     pub fn new(message: impl Into<String>, allowed: impl Into<String>) -> Misfit {
-        Misfit {
-            message: message.into(),
-            allowed: allowed.into(),
-            element: None,
-            under: String::new(),
-        }
+        Misfit { message: message.into(), allowed: allowed.into(), element: None, under: String::new() }
     }
 
     /// Of a key below this one.
@@ -76,7 +71,8 @@ pub trait Leaf: Sized + Clone {
     }
 }
 
-/// What a kind of value says of a key, such as [`Leaf::range`]: as a value, so that what uses it is compiled once and not for each kind.
+/// What a kind of value says of a key, such as [`Leaf::range`]: as a value, so that what uses it is compiled once and
+/// not for each kind.
 pub(super) type Words = fn(&Spec) -> String;
 
 pub(super) fn wrong_type<T: Leaf>(node: &Node, spec: &Spec) -> Misfit {
@@ -94,37 +90,22 @@ pub(super) fn in_unit(what: &str, spec: &Spec) -> String {
 fn number_schema(kind: &str, spec: &Spec) -> Json {
     let mut schema = json!({ "type": kind });
     if let Some((low, closed)) = spec.range.low {
-        schema[if closed {
-            "minimum"
-        } else {
-            "exclusiveMinimum"
-        }] = json_number(low);
+        schema[if closed { "minimum" } else { "exclusiveMinimum" }] = json_number(low);
     }
     if let Some((high, closed)) = spec.range.high {
-        schema[if closed {
-            "maximum"
-        } else {
-            "exclusiveMaximum"
-        }] = json_number(high);
+        schema[if closed { "maximum" } else { "exclusiveMaximum" }] = json_number(high);
     }
     schema
 }
 
 fn json_number(x: f64) -> Json {
-    if x.fract() == 0.0 && x.abs() < 1e15 {
-        json!(x as i64)
-    } else {
-        json!(x)
-    }
+    if x.fract() == 0.0 && x.abs() < 1e15 { json!(x as i64) } else { json!(x) }
 }
 
 fn not_a_quantity(words: String, spec: &Spec) -> Misfit {
     let others = quantity::examples(spec.unit).join(", ");
     let allowed = match others.as_str() {
-        "" => format!(
-            "a number, or a string with a unit that converts to {}",
-            spec.unit
-        ),
+        "" => format!("a number, or a string with a unit that converts to {}", spec.unit),
         _ => format!("a number, or a string with a unit: {}, {others}", spec.unit),
     };
     Misfit::new(words, allowed)
@@ -132,11 +113,7 @@ fn not_a_quantity(words: String, spec: &Spec) -> Misfit {
 
 fn out_of_range(x: f64, spec: &Spec) -> Misfit {
     let allowed = spec.range.to_string();
-    if x.is_finite() {
-        Misfit::new("out of range", allowed)
-    } else {
-        Misfit::new("not a finite number", allowed)
-    }
+    if x.is_finite() { Misfit::new("out of range", allowed) } else { Misfit::new("not a finite number", allowed) }
 }
 
 impl Leaf for f64 {
@@ -160,11 +137,7 @@ impl Leaf for f64 {
             }
             _ => return Err(wrong_type::<f64>(node, spec)),
         };
-        if spec.range.contains(x) {
-            Ok(x)
-        } else {
-            Err(out_of_range(x, spec))
-        }
+        if spec.range.contains(x) { Ok(x) } else { Err(out_of_range(x, spec)) }
     }
 
     fn write(&self) -> String {
@@ -293,10 +266,7 @@ pub(super) fn elements<'a, T: Leaf>(node: &'a Node, spec: &Spec) -> Result<&'a [
 }
 
 pub(super) fn read_each<T: Leaf>(items: &[Node], spec: &Spec) -> Result<Vec<T>, Misfit> {
-    items
-        .iter()
-        .map(|item| T::read(item, spec).map_err(|misfit| misfit.in_element(item)))
-        .collect()
+    items.iter().map(|item| T::read(item, spec).map_err(|misfit| misfit.in_element(item))).collect()
 }
 
 pub(super) fn write_each<T: Leaf>(items: &[T]) -> String {
@@ -441,18 +411,14 @@ impl<T: Choice> Leaf for T {
     }
 
     fn schema(_: &Spec) -> Json {
-        let words: Vec<Json> = T::WORDS
-            .iter()
-            .map(|(word, _, meaning)| json!({ "const": word, "description": meaning }))
-            .collect();
+        let words: Vec<Json> =
+            T::WORDS.iter().map(|(word, _, meaning)| json!({ "const": word, "description": meaning })).collect();
         json!({ "type": "string", "oneOf": words })
     }
 
     fn range(_: &Spec) -> String {
-        let words: Vec<String> = T::WORDS
-            .iter()
-            .map(|(word, _, meaning)| format!("{} ({meaning})", quote(word)))
-            .collect();
+        let words: Vec<String> =
+            T::WORDS.iter().map(|(word, _, meaning)| format!("{} ({meaning})", quote(word))).collect();
         words.join(" | ")
     }
 }

@@ -35,17 +35,10 @@ pub fn read(text: &str, overrides: &[(String, String)]) -> Result<Loaded, Vec<Pr
     reader.finish();
     let finder = Finder::new(text, &reader.found, &reader.provenance);
     let problems = checks::check(&scenario, &finder, reader.problems).finish();
-    if problems
-        .iter()
-        .any(|problem| problem.severity == Severity::Error)
-    {
+    if problems.iter().any(|problem| problem.severity == Severity::Error) {
         return Err(problems);
     }
-    Ok(Loaded {
-        scenario,
-        provenance: reader.provenance,
-        warnings: problems,
-    })
+    Ok(Loaded { scenario, provenance: reader.provenance, warnings: problems })
 }
 
 /// Reads a scenario file's bytes, which must be UTF-8.
@@ -61,9 +54,7 @@ pub fn read_bytes(bytes: &[u8], overrides: &[(String, String)]) -> Result<Loaded
             let mut place = Place::new(&text, good..good);
             place.span = good..good + error.error_len().unwrap_or(bytes.len() - good);
             let message = "not a text file in UTF-8, as TOML must be";
-            let problem = Problem::error("", message)
-                .value(format!("byte 0x{:02x}", bytes[good]))
-                .at(Some(place));
+            let problem = Problem::error("", message).value(format!("byte 0x{:02x}", bytes[good])).at(Some(place));
             Err(vec![problem])
         }
     }
@@ -105,25 +96,20 @@ impl Loaded {
         let of = |name: &str| format!("defects.{defect}.shape.image.{name}");
         // After all that the file says of its image: where a written scenario has it.
         let of_image = of("");
-        let place = self
-            .provenance
-            .iter()
-            .rposition(|p| p.key.starts_with(&of_image));
+        let place = self.provenance.iter().rposition(|p| p.key.starts_with(&of_image));
         let found = Provenance {
             key: of("threshold"),
             value: source::float(level),
             unit: "",
-            origin: Origin::Derived(
-                "found in the image, its light evened out where that is uneven",
-            ),
+            origin: Origin::Derived("found in the image, its light evened out where that is uneven"),
             assumed: true,
         };
         let place = place.map_or(self.provenance.len(), |place| place + 1);
         self.provenance.insert(place, found);
     }
 
-    /// The scenario as TOML with every default filled in, each assumed value with its reason beside it and in the section `[provenance]`,
-    /// so that [`read`] says the same of it.
+    /// The scenario as TOML with every default filled in, each assumed value with its reason beside it and in the
+    /// section `[provenance]`, so that [`read`] says the same of it.
     pub fn to_toml(&self) -> String {
         let style = Style::Resolved(by_key(&self.provenance));
         let mut writer = Writer::new(style);
@@ -155,10 +141,7 @@ impl Scenario {
 }
 
 pub(crate) fn by_key(provenance: &[Provenance]) -> HashMap<&str, &Provenance> {
-    provenance
-        .iter()
-        .map(|entry| (entry.key.as_str(), entry))
-        .collect()
+    provenance.iter().map(|entry| (entry.key.as_str(), entry)).collect()
 }
 
 pub(crate) fn write(scenario: &Scenario, style: Style<'_>) -> String {

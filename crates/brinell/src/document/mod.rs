@@ -53,7 +53,5 @@ pub mod reading {
     pub use super::leaf::{Choice, Leaf, Misfit};
     pub use super::reader::Reader;
     pub use super::schema::{Schema, schema_of};
-    pub use super::source::{
-        Entry, Node, Table, Value as Toml, brief_path, key_text, parse, path_parts, quote,
-    };
+    pub use super::source::{Entry, Node, Table, Value as Toml, brief_path, key_text, parse, path_parts, quote};
 }

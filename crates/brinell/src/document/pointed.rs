@@ -2,8 +2,8 @@
 
 use super::problem::{Problem, Severity};
 
-/// The problems of a text called `name`, each followed by the line that it is about, the place marked beneath; last how many errors
-/// there are, where there are several. No line break at the end.
+/// The problems of a text called `name`, each followed by the line that it is about, the place marked beneath; last how
+/// many errors there are, where there are several. No line break at the end.
 pub fn pointed_out(name: &str, text: &str, problems: &[Problem]) -> String {
     let mut told = Vec::new();
     let lines: Vec<&str> = match problems.iter().any(|p| p.line.is_some()) {
@@ -20,8 +20,7 @@ pub fn pointed_out(name: &str, text: &str, problems: &[Problem]) -> String {
         };
         let length = problem.span.as_ref().map_or(1, |s| {
             let end = s.end.min(text.len());
-            text.get(s.start..end)
-                .map_or(1, |t| t.lines().next().unwrap_or("").chars().count().max(1))
+            text.get(s.start..end).map_or(1, |t| t.lines().next().unwrap_or("").chars().count().max(1))
         });
         // A long line (a profile's list) is shown around the place.
         let from = column.saturating_sub(60);
@@ -34,11 +33,7 @@ pub fn pointed_out(name: &str, text: &str, problems: &[Problem]) -> String {
         let before = " ".repeat(column - 1 - from);
         told.push(format!("  {gutter} | {before}{marks}"));
     }
-    let errors: usize = problems
-        .iter()
-        .filter(|p| p.severity == Severity::Error)
-        .map(|p| p.count)
-        .sum();
+    let errors: usize = problems.iter().filter(|p| p.severity == Severity::Error).map(|p| p.count).sum();
     if errors > 1 {
         told.push(format!("{errors} errors in {name}"));
     }
@@ -48,9 +43,8 @@ pub fn pointed_out(name: &str, text: &str, problems: &[Problem]) -> String {
 /// The errors among problems on one line, as tables have them: without the word itself.
 pub fn on_one_line(problems: &[Problem]) -> String {
     let errors = problems.iter().filter(|p| p.severity == Severity::Error);
-    let texts: Vec<String> = errors
-        .map(|problem| one_line(problem.to_string().trim_start_matches("error: ")))
-        .collect();
+    let texts: Vec<String> =
+        errors.map(|problem| one_line(problem.to_string().trim_start_matches("error: "))).collect();
     texts.join("; ")
 }
 

@@ -74,11 +74,7 @@ pub struct Problem {
 }
 
 impl Problem {
-    pub(crate) fn new(
-        severity: Severity,
-        key: impl Into<String>,
-        message: impl Into<String>,
-    ) -> Problem {
+    pub(crate) fn new(severity: Severity, key: impl Into<String>, message: impl Into<String>) -> Problem {
         Problem {
             severity,
             key: key.into(),
@@ -140,15 +136,12 @@ impl Problem {
 
     /// Orders problems as the file reads; those without a line come last.
     pub(crate) fn order(&self) -> (Severity, usize, usize) {
-        (
-            self.severity,
-            self.line.unwrap_or(usize::MAX),
-            self.column.unwrap_or(usize::MAX),
-        )
+        (self.severity, self.line.unwrap_or(usize::MAX), self.column.unwrap_or(usize::MAX))
     }
 }
 
-/// Number of the defect, from 1, that a key is about: 1 for `defects.0.depth_um`, whose path counts from 0 as every list's does.
+/// Number of the defect, from 1, that a key is about: 1 for `defects.0.depth_um`, whose path counts from 0 as every
+/// list's does.
 fn defect_number(key: &str) -> Option<usize> {
     let index = key.strip_prefix("defects.")?.split('.').next()?;
     index.parse::<usize>().ok()?.checked_add(1)

@@ -1,4 +1,5 @@
-//! Problems as they are gathered: the first of each kind, and how many more there are. A file of a megabyte can have a million of them.
+//! Problems as they are gathered: the first of each kind, and how many more there are. A file of a megabyte can have a
+//! million of them.
 
 use super::problem::{Place, Problem, Severity};
 use std::borrow::Cow;
@@ -36,11 +37,7 @@ pub fn numberless(message: &str) -> String {
 impl<'a> Problems<'a> {
     /// None yet, of a text in which places are looked up.
     pub fn of(text: &'a str) -> Self {
-        Self {
-            text,
-            list: Vec::new(),
-            kinds: BTreeMap::new(),
-        }
+        Self { text, list: Vec::new(), kinds: BTreeMap::new() }
     }
 
     /// Counts one more of a kind. It is made where it is one of the first alone.
@@ -54,11 +51,7 @@ impl<'a> Problems<'a> {
         if self.kinds.len() >= MOST_KINDS && !self.kinds.contains_key(&kind) {
             kind = Cow::Borrowed("");
         }
-        let kind = self.kinds.entry(kind).or_insert_with(|| Kind {
-            severity,
-            count: 0,
-            name: String::new(),
-        });
+        let kind = self.kinds.entry(kind).or_insert_with(|| Kind { severity, count: 0, name: String::new() });
         kind.count += 1;
         if kind.count > MOST_OF_A_KIND {
             return;

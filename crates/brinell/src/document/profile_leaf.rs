@@ -10,8 +10,7 @@ use crate::scenario::RollerProfile;
 const RADIUS: Spec = key("crowned_radius_mm", "R_c").above(0.0);
 const Z: Spec = key("z_mm", "z, rising");
 const DROP: Spec = key("drop_um", "p at each z").from(0.0);
-const ALLOWED: &str =
-    "\"straight\", \"logarithmic\", { crowned_radius_mm = R }, { z_mm = [..], drop_um = [..] }";
+const ALLOWED: &str = "\"straight\", \"logarithmic\", { crowned_radius_mm = R }, { z_mm = [..], drop_um = [..] }";
 
 impl Leaf for RollerProfile {
     fn blank() -> Self {
@@ -40,9 +39,9 @@ impl Leaf for RollerProfile {
         };
         let names: Vec<&str> = table.keys().map(String::as_str).collect();
         match names[..] {
-            ["crowned_radius_mm"] => Ok(Self::Crowned {
-                crowned_radius_mm: read_under(&table[RADIUS.name].node, &RADIUS)?,
-            }),
+            ["crowned_radius_mm"] => {
+                Ok(Self::Crowned { crowned_radius_mm: read_under(&table[RADIUS.name].node, &RADIUS)? })
+            }
             ["drop_um", "z_mm"] => {
                 let z_mm: Vec<f64> = read_under(&table[Z.name].node, &Z)?;
                 let drop_um: Vec<f64> = read_under(&table[DROP.name].node, &DROP)?;
@@ -55,10 +54,7 @@ impl Leaf for RollerProfile {
                 }
                 Ok(Self::Table { z_mm, drop_um })
             }
-            _ => Err(Misfit::new(
-                format!("keys {} make no profile", names.join(", ")),
-                ALLOWED,
-            )),
+            _ => Err(Misfit::new(format!("keys {} make no profile", names.join(", ")), ALLOWED)),
         }
     }
 
@@ -69,13 +65,9 @@ impl Leaf for RollerProfile {
             Self::Crowned { crowned_radius_mm } => {
                 format!("{{ {} = {} }}", RADIUS.name, crowned_radius_mm.write())
             }
-            Self::Table { z_mm, drop_um } => format!(
-                "{{ {} = {}, {} = {} }}",
-                Z.name,
-                z_mm.write(),
-                DROP.name,
-                drop_um.write()
-            ),
+            Self::Table { z_mm, drop_um } => {
+                format!("{{ {} = {}, {} = {} }}", Z.name, z_mm.write(), DROP.name, drop_um.write())
+            }
         }
     }
 

@@ -45,14 +45,8 @@ impl Provenance {
         match &self.origin {
             Origin::File => "scenario file".into(),
             Origin::Override => "override".into(),
-            Origin::Preset {
-                source,
-                estimated: false,
-            } => format!("catalogue: {source}"),
-            Origin::Preset {
-                source,
-                estimated: true,
-            } => format!("catalogue estimate: {source}"),
+            Origin::Preset { source, estimated: false } => format!("catalogue: {source}"),
+            Origin::Preset { source, estimated: true } => format!("catalogue estimate: {source}"),
             Origin::DamageFile(file) => format!("read from {file}"),
             Origin::Derived(how) => format!("derived: {how}"),
             Origin::Default(why) => format!("default: {why}"),

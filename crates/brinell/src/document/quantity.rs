@@ -1,7 +1,8 @@
 //! Quantities with a unit of their own, as strings: `"25 Hz"` where a key is in r/min, `"2 kN"` where it is in N.
 //!
-//! A unit is a product of names with powers: `N s/m`, `m/s^2`, `mV/(m/s^2)`. Hz is one turn per second, so that a frequency and a speed of rotation
-//! convert into each other. `g` is the gram, and standard gravity where an acceleration is wanted.
+//! A unit is a product of names with powers: `N s/m`, `m/s^2`, `mV/(m/s^2)`. Hz is one turn per second, so that a
+//! frequency and a speed of rotation convert into each other. `g` is the gram, and standard gravity where an
+//! acceleration is wanted.
 
 use std::f64::consts::{PI, TAU};
 
@@ -83,8 +84,7 @@ pub(super) fn is_convertible(unit: &str) -> bool {
 }
 
 /// What a string may hold where a key is in `unit`, as a regular expression of JSON Schema.
-pub(super) const PATTERN: &str =
-    r"^\s*[-+]?([0-9]+\.?[0-9]*|\.[0-9]+)([eE][-+]?[0-9]+)?\s*[^0-9\s.].*$";
+pub(super) const PATTERN: &str = r"^\s*[-+]?([0-9]+\.?[0-9]*|\.[0-9]+)([eE][-+]?[0-9]+)?\s*[^0-9\s.].*$";
 
 /// Units that a key in `unit` is often given in.
 pub(super) fn examples(unit: &str) -> Vec<&'static str> {
@@ -111,17 +111,13 @@ pub(super) fn read(text: &str, wanted: &str) -> Result<f64, String> {
     let value: f64 = number.parse().map_err(no_number)?;
     let unit = unit.trim();
     if unit.is_empty() {
-        return Err(format!(
-            "no unit: a string needs one; without quotes the number is in {wanted}"
-        ));
+        return Err(format!("no unit: a string needs one; without quotes the number is in {wanted}"));
     }
     let to = product(wanted).ok_or_else(|| format!("{wanted} has no other units"))?;
     let from = match product(unit) {
         Some(from) if from.powers == to.powers => Some(from),
         // As gravity, where the gram does not fit.
-        known => product(&unit.replace('g', "gravity"))
-            .filter(|from| from.powers == to.powers)
-            .or(known),
+        known => product(&unit.replace('g', "gravity")).filter(|from| from.powers == to.powers).or(known),
     };
     let Some(from) = from else {
         return Err(format!("unknown unit {unit:?}"));
@@ -185,14 +181,8 @@ fn product(text: &str) -> Option<Unit> {
 
 /// Names with powers, between spaces or points.
 fn factors(text: &str) -> Option<Unit> {
-    let mut unit = Unit {
-        factor: 1.0,
-        powers: NONE,
-    };
-    let mut names = text
-        .split([' ', '*', '\u{b7}'])
-        .filter(|n| !n.is_empty())
-        .peekable();
+    let mut unit = Unit { factor: 1.0, powers: NONE };
+    let mut names = text.split([' ', '*', '\u{b7}']).filter(|n| !n.is_empty()).peekable();
     names.peek()?;
     for name in names {
         let one = power(name)?;
@@ -216,27 +206,16 @@ fn power(text: &str) -> Option<Unit> {
         },
     };
     let unit = named(name).filter(|_| (-3..=3).contains(&power))?;
-    Some(Unit {
-        factor: unit.factor.powi(power.into()),
-        powers: unit.powers.map(|p| p * power),
-    })
+    Some(Unit { factor: unit.factor.powi(power.into()), powers: unit.powers.map(|p| p * power) })
 }
 
 fn named(name: &str) -> Option<Unit> {
     if name == "gravity" {
-        return Some(Unit {
-            factor: GRAVITY,
-            powers: [1, 0, -2, 0, 0],
-        });
+        return Some(Unit { factor: GRAVITY, powers: [1, 0, -2, 0, 0] });
     }
     let of = |name: &str, prefix: f64| {
-        let known = NAMES
-            .iter()
-            .find(|(known, _, _, takes)| *known == name && (*takes || prefix == 1.0));
-        known.map(|(_, factor, powers, _)| Unit {
-            factor: factor * prefix,
-            powers: *powers,
-        })
+        let known = NAMES.iter().find(|(known, _, _, takes)| *known == name && (*takes || prefix == 1.0));
+        known.map(|(_, factor, powers, _)| Unit { factor: factor * prefix, powers: *powers })
     };
     of(name, 1.0).or_else(|| {
         let mut prefixes = PREFIXES.iter();

@@ -55,11 +55,7 @@ pub struct Reader<'a> {
 }
 
 fn join(path: &str, name: &str) -> String {
-    if path.is_empty() {
-        name.to_string()
-    } else {
-        format!("{path}.{name}")
-    }
+    if path.is_empty() { name.to_string() } else { format!("{path}.{name}") }
 }
 
 impl<'a> Reader<'a> {
@@ -69,18 +65,8 @@ impl<'a> Reader<'a> {
     }
 
     /// Of another document.
-    pub fn with_vocabulary(
-        text: &'a str,
-        root: &'a Table,
-        vocabulary: &'a [(String, String)],
-    ) -> Reader<'a> {
-        let root = Frame {
-            path: String::new(),
-            table: Some(root),
-            header: None,
-            named: Vec::new(),
-            broken: false,
-        };
+    pub fn with_vocabulary(text: &'a str, root: &'a Table, vocabulary: &'a [(String, String)]) -> Reader<'a> {
+        let root = Frame { path: String::new(), table: Some(root), header: None, named: Vec::new(), broken: false };
         Reader {
             frames: vec![root],
             preset: None,
@@ -111,9 +97,7 @@ impl<'a> Reader<'a> {
     }
 
     fn frame(&mut self) -> &mut Frame<'a> {
-        self.frames
-            .last_mut()
-            .expect("the root frame stays until the walk ends")
+        self.frames.last_mut().expect("the root frame stays until the walk ends")
     }
 
     /// Names a key of the present table; its path and what the file says of it.
@@ -134,13 +118,7 @@ impl<'a> Reader<'a> {
             Value::Table(table) => Some(table),
             _ => None,
         });
-        self.frames.push(Frame {
-            path,
-            table,
-            header,
-            named: Vec::new(),
-            broken: node.is_some() && table.is_none(),
-        });
+        self.frames.push(Frame { path, table, header, named: Vec::new(), broken: node.is_some() && table.is_none() });
     }
 
     fn leave(&mut self) {
@@ -165,11 +143,7 @@ impl<'a> Reader<'a> {
     fn misfit(&mut self, path: String, spec: &Spec, node: &Node, misfit: Misfit) {
         let element = misfit.element.as_deref().unwrap_or(node);
         let span = element.span.clone().or_else(|| node.span.clone());
-        let source = if span.is_none() {
-            " (given as an override)"
-        } else {
-            ""
-        };
+        let source = if span.is_none() { " (given as an override)" } else { "" };
         let (path, unit) = match misfit.under.as_str() {
             "" => (path, spec.unit),
             under => {
@@ -178,10 +152,8 @@ impl<'a> Reader<'a> {
                 (path, unit)
             }
         };
-        let problem = Problem::error(path, misfit.message + source)
-            .value(element.brief())
-            .allowed(misfit.allowed)
-            .unit(unit);
+        let problem =
+            Problem::error(path, misfit.message + source).value(element.brief()).allowed(misfit.allowed).unit(unit);
         self.problems.add(problem, span);
     }
 
@@ -196,13 +168,7 @@ impl<'a> Reader<'a> {
     }
 
     fn record(&mut self, path: &str, spec: &Spec, value: String, origin: Origin, assumed: bool) {
-        self.provenance.push(Provenance {
-            key: path.to_string(),
-            value,
-            unit: spec.unit,
-            origin,
-            assumed,
-        });
+        self.provenance.push(Provenance { key: path.to_string(), value, unit: spec.unit, origin, assumed });
     }
 
     /// Reads a key that the file gives.
@@ -221,14 +187,7 @@ impl<'a> Reader<'a> {
     }
 
     /// Records a value that the file gives; `again` reads what was recorded of the key as it reads the key.
-    fn given(
-        &mut self,
-        path: &str,
-        spec: &Spec,
-        node: &Node,
-        value: String,
-        again: &dyn Fn(&Node) -> Option<String>,
-    ) {
+    fn given(&mut self, path: &str, spec: &Spec, node: &Node, value: String, again: &dyn Fn(&Node) -> Option<String>) {
         let recorded = || {
             let entry = self.recorded.get(path)?;
             let was = again(&override_value(&entry.value).ok()?)?;
@@ -264,10 +223,7 @@ impl<'a> Reader<'a> {
     }
 
     fn record_datum(&mut self, path: &str, spec: &Spec, value: String, datum: &catalogue::Value) {
-        let origin = Origin::Preset {
-            source: datum.source.clone(),
-            estimated: datum.estimated,
-        };
+        let origin = Origin::Preset { source: datum.source.clone(), estimated: datum.estimated };
         self.record(path, spec, value, origin, datum.estimated);
     }
 
@@ -276,8 +232,8 @@ impl<'a> Reader<'a> {
         self.problems.add(Problem::error(path, message), None);
     }
 
-    /// Keeps what was assumed of the file that the geometry of a shape came of. Geometry that an override gives came of none, and a shape that
-    /// names its file says itself how it is read.
+    /// Keeps what was assumed of the file that the geometry of a shape came of. Geometry that an override gives came of
+    /// none, and a shape that names its file says itself how it is read.
     fn keep_of_file(&mut self, path: &str, variant: &str, node: &Node) {
         let Value::Table(table) = &node.value else {
             return;
@@ -287,8 +243,7 @@ impl<'a> Reader<'a> {
             return;
         }
         let of_file = self.recorded_of_files.iter();
-        let kept = of_file
-            .filter(|entry| entry.is_of(path, variant) && !self.found.contains_key(&entry.key));
+        let kept = of_file.filter(|entry| entry.is_of(path, variant) && !self.found.contains_key(&entry.key));
         let kept = kept.map(|entry| Provenance {
             key: entry.key.clone(),
             value: entry.value.clone(),
@@ -299,19 +254,10 @@ impl<'a> Reader<'a> {
         self.provenance.extend(kept.collect::<Vec<_>>());
     }
 
-    fn fall_back<T: Leaf>(
-        &mut self,
-        path: String,
-        spec: &Spec,
-        fallback: Fallback<T>,
-    ) -> Option<T> {
+    fn fall_back<T: Leaf>(&mut self, path: String, spec: &Spec, fallback: Fallback<T>) -> Option<T> {
         let mut kept = None;
         let seen = fallback.map(|value| {
-            let seen = Seen {
-                written: value.write(),
-                fits: value.fits(spec),
-                defined: value.is_defined(),
-            };
+            let seen = Seen { written: value.write(), fits: value.fits(spec), defined: value.is_defined() };
             kept = Some(value);
             seen
         });
@@ -355,16 +301,8 @@ impl<'a> Reader<'a> {
             Fallback::Derived { value, how } => (value, Origin::Derived(how), true),
             // What cannot be used comes of a key that is at fault itself, and reported.
             Fallback::Instead { value, .. } if !value.fits => return false,
-            Fallback::Instead {
-                value,
-                how,
-                assumed,
-            } => (value, Origin::Derived(how), assumed),
-            Fallback::Fixed {
-                value,
-                why,
-                assumed,
-            } => (value, Origin::Default(why), assumed),
+            Fallback::Instead { value, how, assumed } => (value, Origin::Derived(how), assumed),
+            Fallback::Fixed { value, why, assumed } => (value, Origin::Default(why), assumed),
         };
         self.record(&path, spec, value.written, origin, assumed);
         true
@@ -379,12 +317,7 @@ struct Seen {
 }
 
 /// A key that a table has and should not, with the one that was meant where that can be guessed.
-fn unknown(
-    vocabulary: &[(String, String)],
-    frame: &Frame<'_>,
-    name: &str,
-    entry: &Entry,
-) -> Problem {
+fn unknown(vocabulary: &[(String, String)], frame: &Frame<'_>, name: &str, entry: &Entry) -> Problem {
     let home = |section: &str| match section {
         "" => "the top of the file, before any section".to_string(),
         section => format!("[{section}]"),
@@ -403,13 +336,7 @@ fn unknown(
     } else {
         String::new()
     };
-    let allowed = if hint.is_empty() {
-        frame.named.join(", ")
-    } else {
-        String::new()
-    };
+    let allowed = if hint.is_empty() { frame.named.join(", ") } else { String::new() };
     let path = join(&frame.path, name);
-    Problem::error(brief_path(&path), format!("unknown key{hint}"))
-        .value(entry.node.brief())
-        .allowed(allowed)
+    Problem::error(brief_path(&path), format!("unknown key{hint}")).value(entry.node.brief()).allowed(allowed)
 }

@@ -1,9 +1,11 @@
-//! The section `[provenance]` of a written scenario: which of its values are assumed, so that reading the file says so again.
+//! The section `[provenance]` of a written scenario: which of its values are assumed, so that reading the file says so
+//! again.
 //!
-//! A written scenario gives every key, so the file itself no longer tells what its author stated from what was assumed. Each entry of
-//! `assumed` holds a key, the value that was assumed and the reason. A value of the file that equals its entry's stays assumed. One that
-//! differs is its author's, as is any override. An entry whose key the file does not hold says nothing, but for the keys of a file of
-//! damage: a written scenario holds the geometry that came of them, and they stay beside it.
+//! A written scenario gives every key, so the file itself no longer tells what its author stated from what was assumed.
+//! Each entry of `assumed` holds a key, the value that was assumed and the reason. A value of the file that equals its
+//! entry's stays assumed. One that differs is its author's, as is any override. An entry whose key the file does not
+//! hold says nothing, but for the keys of a file of damage: a written scenario holds the geometry that came of them,
+//! and they stay beside it.
 
 use std::collections::{HashMap, HashSet};
 
@@ -41,13 +43,8 @@ pub(crate) fn provenance<K: Keys>(k: &mut K, assumed: &mut Option<Vec<Assumed>>)
 /// What a writer has to say of a scenario's values.
 pub(crate) fn of(provenance: &[Provenance]) -> Option<Vec<Assumed>> {
     let assumed = provenance.iter().filter(|p| p.assumed);
-    let list: Vec<Assumed> = assumed
-        .map(|p| Assumed {
-            key: p.key.clone(),
-            value: p.value.clone(),
-            reason: p.reason(),
-        })
-        .collect();
+    let list: Vec<Assumed> =
+        assumed.map(|p| Assumed { key: p.key.clone(), value: p.value.clone(), reason: p.reason() }).collect();
     (!list.is_empty()).then_some(list)
 }
 
@@ -86,16 +83,10 @@ impl Assumed {
 
     fn read(node: &Node) -> Result<Self, Misfit> {
         let Value::Table(table) = &node.value else {
-            return Err(Misfit::new(
-                format!("expected a table, found {}", node.kind()),
-                KEYS.join(", "),
-            ));
+            return Err(Misfit::new(format!("expected a table, found {}", node.kind()), KEYS.join(", ")));
         };
         if let Some(unknown) = table.keys().find(|name| !KEYS.contains(&name.as_str())) {
-            return Err(Misfit::new(
-                format!("unknown key `{unknown}`"),
-                KEYS.join(", "),
-            ));
+            return Err(Misfit::new(format!("unknown key `{unknown}`"), KEYS.join(", ")));
         }
         let of = |name: &str| {
             let entry = table.get(name).map(|entry| &entry.node);
@@ -107,20 +98,13 @@ impl Assumed {
         };
         let key = text("key")?;
         exists(&key)?;
-        Ok(Self {
-            key,
-            value: of("value")?.text(),
-            reason: text("reason")?,
-        })
+        Ok(Self { key, value: of("value")?.text(), reason: text("reason")? })
     }
 }
 
 /// Refuses a key that no scenario has. Numbers of list items are passed over.
 fn exists(key: &str) -> Result<(), Misfit> {
-    let words: Vec<&str> = key
-        .split('.')
-        .filter(|word| word.parse::<usize>().is_err())
-        .collect();
+    let words: Vec<&str> = key.split('.').filter(|word| word.parse::<usize>().is_err()).collect();
     let (name, section) = words.split_last().unwrap_or((&"", &[]));
     let section = section.join(".");
     if known_keys().iter().any(|(s, n)| *s == section && n == name) {
@@ -128,14 +112,7 @@ fn exists(key: &str) -> Result<(), Misfit> {
     }
     let near = nearest(name, known_keys().iter().map(|(_, name)| name.as_str()));
     let hint = near.map(|known| format!("; did you mean `{known}`?"));
-    Err(Misfit::new(
-        format!(
-            "{} is no key of a scenario{}",
-            quote(key),
-            hint.unwrap_or_default()
-        ),
-        "",
-    ))
+    Err(Misfit::new(format!("{} is no key of a scenario{}", quote(key), hint.unwrap_or_default()), ""))
 }
 
 impl Leaf for Vec<Assumed> {
@@ -170,9 +147,7 @@ impl Leaf for Vec<Assumed> {
         );
         for Assumed { key, value, reason } in self {
             let (key, reason) = (quote(key), quote(reason));
-            text.push_str(&format!(
-                "  {{ key = {key}, value = {value}, reason = {reason} }},\n"
-            ));
+            text.push_str(&format!("  {{ key = {key}, value = {value}, reason = {reason} }},\n"));
         }
         text + "]"
     }

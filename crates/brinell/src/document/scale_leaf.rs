@@ -7,19 +7,13 @@ use super::leaf::{Leaf, Misfit, wrong_type};
 use super::source::{Node, Value};
 use crate::scenario::ScaleBar;
 
-const PX: Spec = key("px", "its length in the picture")
-    .above(0.0)
-    .to(1e5)
-    .unit("px");
+const PX: Spec = key("px", "its length in the picture").above(0.0).to(1e5).unit("px");
 const MM: Spec = key("mm", "its length").above(0.0).to(1e4).unit("mm");
 const ALLOWED: &str = "{ px = 412, mm = 5 }";
 
 impl Leaf for ScaleBar {
     fn blank() -> Self {
-        Self {
-            px: f64::NAN,
-            mm: f64::NAN,
-        }
+        Self { px: f64::NAN, mm: f64::NAN }
     }
 
     fn expected(_: &Spec) -> String {
@@ -43,10 +37,7 @@ impl Leaf for ScaleBar {
             let node = &table[spec.name].node;
             f64::read(node, spec).map_err(|misfit| misfit.in_element(node).under(spec.name))
         };
-        Ok(Self {
-            px: value(&PX)?,
-            mm: value(&MM)?,
-        })
+        Ok(Self { px: value(&PX)?, mm: value(&MM)? })
     }
 
     fn write(&self) -> String {

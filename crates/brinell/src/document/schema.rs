@@ -52,9 +52,7 @@ pub struct Schema {
 
 impl Schema {
     fn object(&mut self) -> &mut Object {
-        self.objects
-            .last_mut()
-            .expect("the root object stays until the walk ends")
+        self.objects.last_mut().expect("the root object stays until the walk ends")
     }
 
     fn put(&mut self, spec: &Spec, mut schema: Json, doc: String) {
@@ -75,9 +73,7 @@ impl Schema {
                 doc.push_str("; required without a preset that states it");
             }
             Fallback::Needed(case) => doc.push_str(&format!("; required: {case}")),
-            Fallback::Derived { how, .. } | Fallback::Instead { how, .. } => {
-                doc.push_str(&format!("; default: {how}"))
-            }
+            Fallback::Derived { how, .. } | Fallback::Instead { how, .. } => doc.push_str(&format!("; default: {how}")),
             Fallback::Fixed { value, why, .. } => {
                 if let Ok(value) = serde_json::from_str::<Json>(value) {
                     schema["default"] = value;
@@ -174,13 +170,7 @@ impl Keys for Schema {
         self.object().properties.insert(spec.name.into(), schema);
     }
 
-    fn tables<T>(
-        &mut self,
-        spec: Spec,
-        _: &mut Vec<T>,
-        blank: fn() -> T,
-        mut keys: impl FnMut(&mut Self, &mut T),
-    ) {
+    fn tables<T>(&mut self, spec: Spec, _: &mut Vec<T>, blank: fn() -> T, mut keys: impl FnMut(&mut Self, &mut T)) {
         let object = self.nested(|schema| keys(schema, &mut blank()));
         let schema = json!({ "type": "array", "items": object.schema(spec.doc) });
         self.put(&spec, schema, spec.doc.to_string());
@@ -197,10 +187,7 @@ impl Keys for Schema {
             for variant in variants {
                 let inner = schema.nested(|schema| keys(schema, &mut (variant.blank)()));
                 let inner = inner.schema(variant.doc);
-                schema
-                    .object()
-                    .properties
-                    .insert(variant.name.into(), inner);
+                schema.object().properties.insert(variant.name.into(), inner);
             }
         });
         let mut schema = shapes.schema(spec.doc);
@@ -213,9 +200,7 @@ impl Keys for Schema {
 
 /// JSON Schema (draft 2020-12) of the file whose keys `list` names; TOML tables are objects.
 pub fn schema_of(title: &str, doc: &str, list: impl FnOnce(&mut Schema)) -> Json {
-    let mut walk = Schema {
-        objects: vec![Object::default()],
-    };
+    let mut walk = Schema { objects: vec![Object::default()] };
     list(&mut walk);
     let root = walk.objects.pop().unwrap_or_default();
     let mut schema = json!({

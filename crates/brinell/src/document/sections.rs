@@ -35,51 +35,27 @@ pub(crate) fn scenario<K: Keys>(k: &mut K, s: &mut Scenario) {
         s.simulation.model = model;
     }
     let model = s.simulation.model;
-    k.section(key("bearing", "geometry and masses"), |k| {
-        bearing(k, model, &mut s.bearing)
+    k.section(key("bearing", "geometry and masses"), |k| bearing(k, model, &mut s.bearing));
+    k.section(key("cage", "one cage for each row"), |k| cage(k, &s.bearing, &mut s.cage));
+    k.section(key("contact", "rollers on raceways, along the normal"), |k| {
+        contact(k, (model, &s.bearing), &mut s.contact)
     });
-    k.section(key("cage", "one cage for each row"), |k| {
-        cage(k, &s.bearing, &mut s.cage)
+    k.section(key("friction", "rollers on raceways, along the surface"), |k| friction(k, &mut s.friction));
+    k.section(key("lubricant", "oil"), |k| lubricant(k, &s.bearing, &mut s.lubricant));
+    k.section(key("operation", "speed, load and gravity"), |k| operation(k, (model, &s.bearing), &mut s.operation));
+    k.section(key("support", "springs and dampers that hold the rings"), |k| {
+        support(k, (model, &s.bearing, s.operation.load_on), &mut s.support)
     });
-    k.section(
-        key("contact", "rollers on raceways, along the normal"),
-        |k| contact(k, (model, &s.bearing), &mut s.contact),
-    );
-    k.section(
-        key("friction", "rollers on raceways, along the surface"),
-        |k| friction(k, &mut s.friction),
-    );
-    k.section(key("lubricant", "oil"), |k| {
-        lubricant(k, &s.bearing, &mut s.lubricant)
-    });
-    k.section(key("operation", "speed, load and gravity"), |k| {
-        operation(k, (model, &s.bearing), &mut s.operation)
-    });
-    k.section(
-        key("support", "springs and dampers that hold the rings"),
-        |k| support(k, (model, &s.bearing, s.operation.load_on), &mut s.support),
-    );
     let load = s.operation.load_n;
-    k.tables(
-        key("defects", "damage: none, one or many"),
-        &mut s.defects,
-        blank::defect,
-        |k, d| defect(k, load, d),
-    );
-    k.section(
-        key(
-            "sensor",
-            "from the outer ring to the record: nothing, unless a key says so",
-        ),
-        |k| sensor(k, &mut s.sensor),
-    );
-    k.section(key("simulation", "what to compute and to record"), |k| {
-        simulation(k, &mut s.simulation)
+    k.tables(key("defects", "damage: none, one or many"), &mut s.defects, blank::defect, |k, d| defect(k, load, d));
+    k.section(key("sensor", "from the outer ring to the record: nothing, unless a key says so"), |k| {
+        sensor(k, &mut s.sensor)
     });
+    k.section(key("simulation", "what to compute and to record"), |k| simulation(k, &mut s.simulation));
 }
 
-/// Force of an oiled pocket whose clearance is used up, N: the linear law that models of ball bearings take from Meeks and Ng (1985),
-/// K_c = 11/C_p. Taken for rollers too, of which no such number was found.
+/// Force of an oiled pocket whose clearance is used up, N: the linear law that models of ball bearings take from Meeks
+/// and Ng (1985), K_c = 11/C_p. Taken for rollers too, of which no such number was found.
 const OILED_POCKET_N: f64 = 11.0;
 /// Stiffness of a pocket of steel on steel, N/m, as assumed for the paper's bearing.
 const STEEL_POCKET: f64 = 1e7;
@@ -88,18 +64,12 @@ fn cage<K: Keys>(k: &mut K, b: &Bearing, c: &mut Cage) {
     let d = b.roller_diameter_mm;
     k.key(
         key("inner_diameter_mm", "2 a").above(0.0),
-        derived(
-            b.pitch_diameter_mm - 2.0 / 3.0 * d,
-            "pitch less 2/3 roller diameter",
-        ),
+        derived(b.pitch_diameter_mm - 2.0 / 3.0 * d, "pitch less 2/3 roller diameter"),
         &mut c.inner_diameter_mm,
     );
     k.key(
         key("outer_diameter_mm", "2 b").above(0.0),
-        derived(
-            b.pitch_diameter_mm + 2.0 / 3.0 * d,
-            "pitch plus 2/3 roller diameter",
-        ),
+        derived(b.pitch_diameter_mm + 2.0 / 3.0 * d, "pitch plus 2/3 roller diameter"),
         &mut c.outer_diameter_mm,
     );
     let thickness = 0.5 * (c.outer_diameter_mm - c.inner_diameter_mm);
@@ -130,29 +100,19 @@ fn cage<K: Keys>(k: &mut K, b: &Bearing, c: &mut Cage) {
     );
     let film = match c.guidance {
         Guidance::Rollers => stated(GuidanceFilm::Dynamic, "rollers guide: there is no film"),
-        Guidance::OuterRing | Guidance::InnerRing => assumed(
-            GuidanceFilm::Dynamic,
-            "with whirl and squeeze, which the paper's quasi-static film leaves out",
-        ),
+        Guidance::OuterRing | Guidance::InnerRing => {
+            assumed(GuidanceFilm::Dynamic, "with whirl and squeeze, which the paper's quasi-static film leaves out")
+        }
     };
-    k.key(
-        key(
-            "guidance_film",
-            "film between the cage and its guiding ring",
-        ),
-        film,
-        &mut c.guidance_film,
-    );
+    k.key(key("guidance_film", "film between the cage and its guiding ring"), film, &mut c.guidance_film);
     let (gap, how) = match c.guidance {
         Guidance::Rollers => (c.pocket_clearance_mm.max(0.01), "the pocket's"),
-        Guidance::InnerRing => (
-            0.5 * (c.inner_diameter_mm - b.inner_raceway_diameter_mm),
-            "gap between cage and inner raceway",
-        ),
-        Guidance::OuterRing => (
-            0.5 * (b.outer_raceway_diameter_mm - c.outer_diameter_mm),
-            "gap between cage and outer raceway",
-        ),
+        Guidance::InnerRing => {
+            (0.5 * (c.inner_diameter_mm - b.inner_raceway_diameter_mm), "gap between cage and inner raceway")
+        }
+        Guidance::OuterRing => {
+            (0.5 * (b.outer_raceway_diameter_mm - c.outer_diameter_mm), "gap between cage and outer raceway")
+        }
     };
     k.key(
         key("guide_clearance_mm", "C_g, radial gap of the land").above(0.0),
@@ -196,35 +156,21 @@ fn contact<K: Keys>(k: &mut K, (model, b): (ModelKind, &Bearing), c: &mut Contac
         Element::Roller => stated(RollerPath::Point, PAPER),
         Element::Ball => stated(RollerPath::Envelope, "what a ball's radius lets it reach"),
     };
-    k.key(
-        key("law", "force of a damaged contact; of balls only sliced"),
-        law,
-        &mut c.law,
-    );
-    k.key(
-        key("roller_path", "how a roller follows the damage's depth"),
-        path,
-        &mut c.roller_path,
-    );
+    k.key(key("law", "force of a damaged contact; of balls only sliced"), law, &mut c.law);
+    k.key(key("roller_path", "how a roller follows the damage's depth"), path, &mut c.roller_path);
     let slices_why = match b.element {
         Element::Roller => "ecl does not use them",
         Element::Ball => "as of rollers",
     };
     k.key(
-        key(
-            "slices",
-            "slices across the roller, under balls across the damage; ecl does not use them",
-        )
-        .from(1.0)
-        .to(10000.0),
+        key("slices", "slices across the roller, under balls across the damage; ecl does not use them")
+            .from(1.0)
+            .to(10000.0),
         stated(30, slices_why),
         &mut c.slices,
     );
     k.key(
-        key(
-            "edge_reaction",
-            "push of the damage's slopes along the orbit",
-        ),
+        key("edge_reaction", "push of the damage's slopes along the orbit"),
         stated(EdgeReaction::None, PAPER),
         &mut c.edge_reaction,
     );
@@ -239,25 +185,9 @@ fn contact<K: Keys>(k: &mut K, (model, b): (ModelKind, &Bearing), c: &mut Contac
     }
     steel(k, b, c);
     let [inner, outer] = stiffness(b, c);
-    k.key(
-        key("inner_stiffness", "K_in of a healthy contact")
-            .above(0.0)
-            .unit("N/m^n"),
-        inner,
-        &mut c.inner_stiffness,
-    );
-    k.key(
-        key("outer_stiffness", "K_out of a healthy contact")
-            .above(0.0)
-            .unit("N/m^n"),
-        outer,
-        &mut c.outer_stiffness,
-    );
-    k.key(
-        key("damping_ns_per_m", "c, at each raceway").from(0.0),
-        assumed(200.0, PAPER),
-        &mut c.damping_ns_per_m,
-    );
+    k.key(key("inner_stiffness", "K_in of a healthy contact").above(0.0).unit("N/m^n"), inner, &mut c.inner_stiffness);
+    k.key(key("outer_stiffness", "K_out of a healthy contact").above(0.0).unit("N/m^n"), outer, &mut c.outer_stiffness);
+    k.key(key("damping_ns_per_m", "c, at each raceway").from(0.0), assumed(200.0, PAPER), &mut c.damping_ns_per_m);
 }
 
 /// What Hertz's ellipse needs of the material; of rollers Palmgren's constant has it in it.
@@ -272,9 +202,7 @@ fn steel<K: Keys>(k: &mut K, b: &Bearing, c: &mut Contact) {
     );
     let mut ratio = c.poisson_ratio.unwrap_or(f64::NAN);
     k.key_where(
-        key("poisson_ratio", "Poisson's ratio of balls and rings")
-            .from(0.0)
-            .to(0.5),
+        key("poisson_ratio", "Poisson's ratio of balls and rings").from(0.0).to(0.5),
         wanted,
         stated(0.3, "steel"),
         &mut ratio,
@@ -286,20 +214,12 @@ fn steel<K: Keys>(k: &mut K, b: &Bearing, c: &mut Contact) {
 /// Stiffness of the healthy inner and outer contact where the file gives none.
 fn stiffness(b: &Bearing, c: &Contact) -> [Fallback<f64>; 2] {
     if let Some(ellipses) = ball::ellipses(b, c) {
-        return ellipses.map(|e| {
-            derived(
-                e.stiffness,
-                "Hertz, of the ball's and the groove's curvatures",
-            )
-        });
+        return ellipses.map(|e| derived(e.stiffness, "Hertz, of the ball's and the groove's curvatures"));
     }
     let palmgren = || {
         if (c.exponent - LINE_EXPONENT).abs() < 1e-9 {
             let k_mm = PALMGREN * b.roller_length_mm.powf(8.0 / 9.0);
-            derived(
-                k_mm * 1000f64.powf(LINE_EXPONENT),
-                "Palmgren, 8.06e4 L^(8/9)",
-            )
+            derived(k_mm * 1000f64.powf(LINE_EXPONENT), "Palmgren, 8.06e4 L^(8/9)")
         } else {
             Needed("where contact.exponent is not 10/9, Palmgren's stiffness does not hold")
         }
@@ -308,11 +228,7 @@ fn stiffness(b: &Bearing, c: &Contact) -> [Fallback<f64>; 2] {
 }
 
 fn friction<K: Keys>(k: &mut K, f: &mut Friction) {
-    k.key(
-        key("raceway_coefficient", "mu").from(0.0),
-        assumed(0.02, PAPER),
-        &mut f.raceway_coefficient,
-    );
+    k.key(key("raceway_coefficient", "mu").from(0.0), assumed(0.02, PAPER), &mut f.raceway_coefficient);
     k.key(
         key("slip_velocity_m_per_s", "v_s of tanh(slip / v_s)").above(0.0),
         assumed(0.05, "regularises friction; the paper does not state it"),
@@ -322,19 +238,12 @@ fn friction<K: Keys>(k: &mut K, f: &mut Friction) {
 
 fn lubricant<K: Keys>(k: &mut K, b: &Bearing, l: &mut Lubricant) {
     k.key(
-        key(
-            "viscosity_pa_s",
-            "eta of the cage's guidance film and of the raceway film",
-        )
-        .from(0.0),
+        key("viscosity_pa_s", "eta of the cage's guidance film and of the raceway film").from(0.0),
         assumed(0.01, "warm spindle oil; the paper does not state it"),
         &mut l.viscosity_pa_s,
     );
     k.key_where(
-        key(
-            "raceway_film",
-            "film of rollers and raceways that do not touch",
-        ),
+        key("raceway_film", "film of rollers and raceways that do not touch"),
         (!b.has_balls(), ROLLERS),
         stated(RacewayFilm::None, PAPER),
         &mut l.raceway_film,
@@ -345,11 +254,7 @@ fn lubricant<K: Keys>(k: &mut K, b: &Bearing, l: &mut Lubricant) {
         &mut l.drag_coefficient,
     );
     k.key(
-        key(
-            "effective_density_kg_per_m3",
-            "rho_f of the oil-air mixture",
-        )
-        .from(0.0),
+        key("effective_density_kg_per_m3", "rho_f of the oil-air mixture").from(0.0),
         stated(0.0, POINT_OF_SCOPE),
         &mut l.effective_density_kg_per_m3,
     );
@@ -364,19 +269,8 @@ fn operation<K: Keys>(k: &mut K, (model, b): (ModelKind, &Bearing), o: &mut Oper
         Required,
         &mut o.speed_rpm,
     );
-    k.key(
-        key(
-            "load_n",
-            "F = [x, y], from the bearing's centre to the load zone",
-        ),
-        Required,
-        &mut o.load_n,
-    );
-    k.key(
-        key("load_on", "ring that carries the load"),
-        stated(LoadOn::OuterRing, "the paper's rig"),
-        &mut o.load_on,
-    );
+    k.key(key("load_n", "F = [x, y], from the bearing's centre to the load zone"), Required, &mut o.load_n);
+    k.key(key("load_on", "ring that carries the load"), stated(LoadOn::OuterRing, "the paper's rig"), &mut o.load_on);
     k.key(
         key("load_ramp_s", "time over which the load rises").from(0.0),
         assumed(0.02, "the paper does not state it"),
@@ -390,41 +284,26 @@ fn operation<K: Keys>(k: &mut K, (model, b): (ModelKind, &Bearing), o: &mut Oper
     tilt_key(
         k,
         (model, b.element),
-        key(
-            "load_offset_mm",
-            "Z_F, where along the axis the load acts; 0 is the bearing's middle",
-        ),
+        key("load_offset_mm", "Z_F, where along the axis the load acts; 0 is the bearing's middle"),
         stated(0.0, "in the middle"),
         &mut o.load_offset_mm,
     );
 }
 
-fn support<K: Keys>(
-    k: &mut K,
-    (model, b, load_on): (ModelKind, &Bearing, LoadOn),
-    s: &mut Support,
-) {
+fn support<K: Keys>(k: &mut K, (model, b, load_on): (ModelKind, &Bearing, LoadOn), s: &mut Support) {
     // Soft where the load acts, or the support would carry it instead of the rollers (model.md, section 12).
     let why = "soft on the loaded ring, stiff on the other; the paper does not state it";
     let (inner, outer) = match load_on {
         LoadOn::OuterRing => (5e7, 1e6),
         LoadOn::InnerRing => (1e6, 5e7),
     };
-    k.key(
-        key("inner_stiffness_n_per_m", "k_i").from(0.0),
-        assumed(inner, why),
-        &mut s.inner_stiffness_n_per_m,
-    );
+    k.key(key("inner_stiffness_n_per_m", "k_i").from(0.0), assumed(inner, why), &mut s.inner_stiffness_n_per_m);
     k.key(
         key("inner_damping_ns_per_m", "c_i").from(0.0),
         assumed(500.0, "the paper does not state it"),
         &mut s.inner_damping_ns_per_m,
     );
-    k.key(
-        key("outer_stiffness_n_per_m", "k_o").from(0.0),
-        assumed(outer, why),
-        &mut s.outer_stiffness_n_per_m,
-    );
+    k.key(key("outer_stiffness_n_per_m", "k_o").from(0.0), assumed(outer, why), &mut s.outer_stiffness_n_per_m);
     k.key(
         key("outer_damping_ns_per_m", "c_o").from(0.0),
         assumed(500.0, "the paper does not state it"),
@@ -434,13 +313,7 @@ fn support<K: Keys>(
     let (stiffness, damping) = ("k R_m^2 of the same ring", "c R_m^2 of the same ring");
     let mut tilt = |name, symbol, own: f64, how, value: &mut f64| {
         let spec = key(name, symbol).from(0.0);
-        tilt_key(
-            k,
-            (model, b.element),
-            spec,
-            derived(own * lever, how),
-            value,
-        );
+        tilt_key(k, (model, b.element), spec, derived(own * lever, how), value);
     };
     tilt(
         "inner_tilt_stiffness_nm_per_rad",
@@ -473,11 +346,7 @@ fn support<K: Keys>(
 }
 
 fn simulation<K: Keys>(k: &mut K, s: &mut Simulation) {
-    k.key(
-        key("model", "equations"),
-        stated(ModelKind::Full, "the model itself"),
-        &mut s.model,
-    );
+    k.key(key("model", "equations"), stated(ModelKind::Full, "the model itself"), &mut s.model);
     k.key(
         key("duration_s", "simulated time").above(0.0).to(1e6),
         assumed(0.5, "the paper does not state it"),
@@ -488,17 +357,10 @@ fn simulation<K: Keys>(k: &mut K, s: &mut Simulation) {
         stated(25600.0, "the paper's data logger"),
         &mut s.sample_rate_hz,
     );
-    k.key(
-        key("start", "state at t = 0"),
-        stated(Start::Rolling, PAPER),
-        &mut s.start,
-    );
+    k.key(key("start", "state at t = 0"), stated(Start::Rolling, PAPER), &mut s.start);
     k.key(
         key("accuracy", "tolerance of the integrator"),
-        assumed(
-            Accuracy::Standard,
-            "the paper does not state its integrator",
-        ),
+        assumed(Accuracy::Standard, "the paper does not state its integrator"),
         &mut s.accuracy,
     );
     let usual = ["inner_*", "outer_*", "cage*", "sensor_*"].map(String::from);

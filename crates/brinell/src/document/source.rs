@@ -9,7 +9,8 @@ use super::problem::{Place, Problem, Severity};
 use super::problems::Problems;
 use crate::bearing::catalogue::Datum;
 
-/// Tables and lists within each other, and parts of a key's path, at most: a scenario's own have eight. What is deeper would end on the stack.
+/// Tables and lists within each other, and parts of a key's path, at most: a scenario's own have eight. What is deeper
+/// would end on the stack.
 pub(crate) const DEEPEST: usize = 32;
 /// Values and tables of a text at most: parsed, a value takes two hundred bytes and a table two kilobytes.
 const MOST_VALUES: usize = 500_000;
@@ -73,37 +74,25 @@ impl Node {
 
     /// # Errors
     /// Where tables and lists lie in each other deeper than [`DEEPEST`], from `depth` on: the place of the first.
-    fn from_toml(
-        value: &toml::Spanned<DeValue<'_>>,
-        placed: bool,
-        depth: usize,
-    ) -> Result<Node, Range<usize>> {
+    fn from_toml(value: &toml::Spanned<DeValue<'_>>, placed: bool, depth: usize) -> Result<Node, Range<usize>> {
         if depth > DEEPEST {
             return Err(value.span());
         }
         let inner = match value.get_ref() {
             DeValue::String(text) => Value::Text(text.to_string()),
-            DeValue::Integer(number) => {
-                match i64::from_str_radix(number.as_str(), number.radix()) {
-                    Ok(n) => Value::Integer(n),
-                    Err(_) => Value::HugeInteger(number.to_string()),
-                }
-            }
+            DeValue::Integer(number) => match i64::from_str_radix(number.as_str(), number.radix()) {
+                Ok(n) => Value::Integer(n),
+                Err(_) => Value::HugeInteger(number.to_string()),
+            },
             DeValue::Float(number) => Value::Float(number.as_str().parse().unwrap_or(f64::NAN)),
             DeValue::Boolean(truth) => Value::Boolean(*truth),
             DeValue::Datetime(time) => Value::Datetime(time.to_string()),
             DeValue::Array(items) => Value::Array(
-                items
-                    .iter()
-                    .map(|item| Node::from_toml(item, placed, depth + 1))
-                    .collect::<Result<_, _>>()?,
+                items.iter().map(|item| Node::from_toml(item, placed, depth + 1)).collect::<Result<_, _>>()?,
             ),
             DeValue::Table(table) => Value::Table(convert_table(table, placed, depth)?),
         };
-        Ok(Node {
-            value: inner,
-            span: placed.then(|| value.span()),
-        })
+        Ok(Node { value: inner, span: placed.then(|| value.span()) })
     }
 
     /// The TOML type with its article.
@@ -183,10 +172,8 @@ fn convert_table(table: &DeTable<'_>, placed: bool, depth: usize) -> Result<Tabl
     table
         .iter()
         .map(|(key, value)| {
-            let entry = Entry {
-                key_span: placed.then(|| key.span()),
-                node: Node::from_toml(value, placed, depth + 1)?,
-            };
+            let entry =
+                Entry { key_span: placed.then(|| key.span()), node: Node::from_toml(value, placed, depth + 1)? };
             Ok((key.get_ref().to_string(), entry))
         })
         .collect()
@@ -200,9 +187,7 @@ pub fn path_parts(path: &str) -> Result<Vec<&str>, String> {
     let parts: Vec<&str> = path.split('.').map(str::trim).collect();
     match parts.len() {
         0..=DEEPEST => Ok(parts),
-        count => Err(format!(
-            "the path of a key has {count} parts; there are at most {DEEPEST}"
-        )),
+        count => Err(format!("the path of a key has {count} parts; there are at most {DEEPEST}")),
     }
 }
 
@@ -230,11 +215,7 @@ pub fn float(x: f64) -> String {
 /// A key as TOML writes it.
 pub fn key_text(name: &str) -> String {
     let bare = |c: char| c.is_ascii_alphanumeric() || c == '_' || c == '-';
-    if !name.is_empty() && name.chars().all(bare) {
-        name.to_owned()
-    } else {
-        quote(name)
-    }
+    if !name.is_empty() && name.chars().all(bare) { name.to_owned() } else { quote(name) }
 }
 
 /// A string as TOML writes it, on one line.
@@ -312,7 +293,8 @@ fn too_much(text: &str) -> Option<String> {
         tables += usize::from(byte == b'{' || (byte == b'[' && before == b'\n'));
         before = byte;
     }
-    // Each dot of a key may represent a table that nobody writes: `a.b = 1`, `[a.b]`, `{ a.b = 1 }`. Those of numbers have digits after them.
+    // Each dot of a key may represent a table that nobody writes: `a.b = 1`, `[a.b]`, `{ a.b = 1 }`. Those of numbers
+    // have digits after them.
     for line in text.lines() {
         let header = line.trim_start().starts_with('[') && !line.contains(',');
         let (key, value) = match line.split_once('=') {
@@ -324,9 +306,7 @@ fn too_much(text: &str) -> Option<String> {
         // Every other piece of a key between quotes is a name, dots and all.
         let bare = key.split(['"', '\'']).step_by(2);
         tables += bare.map(|piece| piece.matches('.').count()).sum::<usize>()
-            + in_value
-                .filter(|w| w[0] == b'.' && !w[1].is_ascii_digit())
-                .count();
+            + in_value.filter(|w| w[0] == b'.' && !w[1].is_ascii_digit()).count();
     }
     let (count, what, most) = match tables > MOST_TABLES {
         true => (tables, "tables", MOST_TABLES),
@@ -339,7 +319,8 @@ fn too_deep() -> String {
     format!("tables and lists are nested more than {DEEPEST} levels deep")
 }
 
-/// A document without what means nothing: comments, spaces, the order of keys. Two texts that say the same have the same.
+/// A document without what means nothing: comments, spaces, the order of keys. Two texts that say the same have the
+/// same.
 ///
 /// # Errors
 /// Where the text is no TOML.
@@ -347,7 +328,8 @@ pub fn canonical(text: &str) -> Result<String, Vec<Problem>> {
     Ok(Node::table(parse(text, &[])?).text())
 }
 
-/// Where a key is in a scenario's text: a path as in [`Problem::key`]. `None` where the text does not hold it or is not TOML.
+/// Where a key is in a scenario's text: a path as in [`Problem::key`]. `None` where the text does not hold it or is not
+/// TOML.
 pub fn locate(text: &str, key: &str) -> Option<Place> {
     let mut table = Some(parse(text, &[]).ok()?);
     let mut items: Vec<Node> = Vec::new();
@@ -372,28 +354,21 @@ pub fn locate(text: &str, key: &str) -> Option<Place> {
 }
 
 fn lay_over(root: &mut Node, path: &str, text: &str) -> Result<(), Box<Problem>> {
-    let wrong = |message: String| {
-        Box::new(Problem::error(brief_path(path), message).value(brief_text(text)))
-    };
+    let wrong = |message: String| Box::new(Problem::error(brief_path(path), message).value(brief_text(text)));
     let parts = path_parts(path).map_err(wrong)?;
     let value = override_value(text).map_err(wrong)?;
     let mut node = root;
     let mut walked = String::new();
     for segment in parts {
         if segment.is_empty() {
-            return Err(wrong(
-                "an override names its key by a dotted path, such as operation.speed_rpm".into(),
-            ));
+            return Err(wrong("an override names its key by a dotted path, such as operation.speed_rpm".into()));
         }
         let kind = node.kind();
         node = match &mut node.value {
             Value::Table(table) => {
                 &mut table
                     .entry(segment.to_string())
-                    .or_insert_with(|| Entry {
-                        key_span: None,
-                        node: Node::unplaced(Value::Table(Table::new())),
-                    })
+                    .or_insert_with(|| Entry { key_span: None, node: Node::unplaced(Value::Table(Table::new())) })
                     .node
             }
             Value::Array(items) => {

@@ -17,11 +17,7 @@ impl Leaf for Speed {
     }
 
     fn expected(spec: &Spec) -> String {
-        format!(
-            "{} or a list of points [t in s, speed in {}]",
-            f64::expected(spec),
-            spec.unit
-        )
+        format!("{} or a list of points [t in s, speed in {}]", f64::expected(spec), spec.unit)
     }
 
     fn read(node: &Node, spec: &Spec) -> Result<Speed, Misfit> {
@@ -29,17 +25,13 @@ impl Leaf for Speed {
             Value::Array(items) => {
                 let point = |item: &Node| match &item.value {
                     Value::Array(pair) if pair.len() == 2 => {
-                        let read = |node, spec| {
-                            f64::read(node, spec).map_err(|misfit| misfit.in_element(node))
-                        };
+                        let read = |node, spec| f64::read(node, spec).map_err(|misfit| misfit.in_element(node));
                         Ok([read(&pair[0], &TIME)?, read(&pair[1], spec)?])
                     }
                     Value::Array(_) => <[f64; 2]>::read(item, spec),
                     _ => Err(wrong_type::<Speed>(item, spec)),
                 };
-                let points = items
-                    .iter()
-                    .map(|item| point(item).map_err(|misfit| misfit.in_element(item)));
+                let points = items.iter().map(|item| point(item).map_err(|misfit| misfit.in_element(item)));
                 Ok(Speed::Profile(points.collect::<Result<_, _>>()?))
             }
             Value::Text(text) if !quantity::begins(text) => Err(wrong_type::<Speed>(node, spec)),

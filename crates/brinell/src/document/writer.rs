@@ -32,14 +32,7 @@ pub(crate) struct Writer<'a> {
 
 impl<'a> Writer<'a> {
     pub(crate) fn new(style: Style<'a>) -> Writer<'a> {
-        Writer {
-            style,
-            out: String::new(),
-            lines: Vec::new(),
-            path: Vec::new(),
-            inline: None,
-            asides: Vec::new(),
-        }
+        Writer { style, out: String::new(), lines: Vec::new(), path: Vec::new(), inline: None, asides: Vec::new() }
     }
 
     pub(crate) fn finish(mut self) -> String {
@@ -74,18 +67,13 @@ impl<'a> Writer<'a> {
                 Some(provenance) if provenance.assumed => {
                     format!("assumed, {}", provenance.reason())
                 }
-                Some(provenance) if matches!(provenance.origin, Origin::DamageFile(_)) => {
-                    provenance.reason()
-                }
+                Some(provenance) if matches!(provenance.origin, Origin::DamageFile(_)) => provenance.reason(),
                 _ => String::new(),
             },
             Style::Template(_) => {
                 let origin = match provenance {
                     Some(provenance) if provenance.assumed => "; assumed",
-                    Some(Provenance {
-                        origin: Origin::Preset { .. },
-                        ..
-                    }) => "; catalogue",
+                    Some(Provenance { origin: Origin::Preset { .. }, .. }) => "; catalogue",
                     _ => "",
                 };
                 explain(spec, range) + origin
@@ -105,10 +93,7 @@ impl<'a> Writer<'a> {
             return;
         }
         let code = if live { code } else { format!("# {code}") };
-        self.lines.push(Line {
-            code,
-            comment: remark,
-        });
+        self.lines.push(Line { code, comment: remark });
     }
 
     /// Explains a key that has no value: beside the inline table that would hold it, or on a line of its own.
@@ -116,10 +101,7 @@ impl<'a> Writer<'a> {
         if self.inline.is_some() {
             self.asides.push(text);
         } else {
-            let line = Line {
-                code: String::new(),
-                comment: text,
-            };
+            let line = Line { code: String::new(), comment: text };
             self.lines.push(line);
         }
     }
@@ -129,11 +111,7 @@ impl<'a> Writer<'a> {
         const WIDEST: usize = 52;
         let width = |line: &Line| line.code.chars().count();
         let commented = self.lines.iter().filter(|line| !line.comment.is_empty());
-        let column = commented
-            .map(width)
-            .filter(|w| *w <= WIDEST)
-            .max()
-            .unwrap_or(0);
+        let column = commented.map(width).filter(|w| *w <= WIDEST).max().unwrap_or(0);
         for line in std::mem::take(&mut self.lines) {
             self.out.push_str(&line.code);
             if !line.comment.is_empty() {
@@ -195,11 +173,7 @@ impl Keys for Writer<'_> {
         if wanted {
             self.add(&spec, T::range, &value.write(), true);
         } else if self.is_template() && (self.inline.is_some() || !value.fits(&spec)) {
-            self.aside(format!(
-                "{}: {}; only where {case}",
-                spec.name,
-                explain(&spec, T::range)
-            ));
+            self.aside(format!("{}: {}; only where {case}", spec.name, explain(&spec, T::range)));
         } else if self.is_template() {
             self.add(&spec, T::range, &value.write(), false);
             if let Some(line) = self.lines.last_mut() {
@@ -218,11 +192,7 @@ impl Keys for Writer<'_> {
         if wanted {
             self.key(spec, fallback, value);
         } else if self.is_template() {
-            self.aside(format!(
-                "{}: {}; only where {case}",
-                spec.name,
-                explain(&spec, T::range)
-            ));
+            self.aside(format!("{}: {}; only where {case}", spec.name, explain(&spec, T::range)));
         }
     }
 
@@ -250,13 +220,7 @@ impl Keys for Writer<'_> {
         }
     }
 
-    fn tables<T>(
-        &mut self,
-        spec: Spec,
-        items: &mut Vec<T>,
-        _: fn() -> T,
-        mut keys: impl FnMut(&mut Self, &mut T),
-    ) {
+    fn tables<T>(&mut self, spec: Spec, items: &mut Vec<T>, _: fn() -> T, mut keys: impl FnMut(&mut Self, &mut T)) {
         if items.is_empty() && self.is_template() && !self.path.is_empty() {
             self.aside(format!("[[{}]]: {}", self.path_of(spec.name), spec.doc));
         }
@@ -288,10 +252,7 @@ impl Keys for Writer<'_> {
         };
         if self.is_template() {
             let say = |writer: &mut Self, comment: String| {
-                writer.lines.push(Line {
-                    code: String::new(),
-                    comment,
-                });
+                writer.lines.push(Line { code: String::new(), comment });
             };
             say(self, format!("{}: {}; one of", spec.name, spec.doc));
             for variant in variants {
@@ -308,9 +269,6 @@ impl Keys for Writer<'_> {
             Style::Resolved(_) => std::mem::take(&mut self.asides).join("; "),
             Style::Template(_) => String::new(),
         };
-        self.lines.push(Line {
-            code: format!("{} = {{ {chosen} = {{ {inner} }} }}", spec.name),
-            comment,
-        });
+        self.lines.push(Line { code: format!("{} = {{ {chosen} = {{ {inner} }} }}", spec.name), comment });
     }
 }

@@ -15,7 +15,8 @@ const ACROSS: usize = 64;
 /// Defects that are looked at one by one: thousands can be alike.
 const MOST_DEFECTS: usize = 32;
 
-/// One roller under the full load, every part at rest: over the damage where the contact carries least, or in the middle of the load zone.
+/// One roller under the full load, every part at rest: over the damage where the contact carries least, or in the
+/// middle of the load zone.
 #[derive(Debug, Clone, PartialEq)]
 pub struct LoadAlong {
     /// Middles of the slices, m from the roller's middle.
@@ -61,24 +62,16 @@ impl AtRest {
         let Some(s) = in_slices(s) else {
             return Ok(None);
         };
-        let healthy = Model::new(&Scenario {
-            defects: Vec::new(),
-            ..s.clone()
-        })?;
+        let healthy = Model::new(&Scenario { defects: Vec::new(), ..s.clone() })?;
         let zone = static_load_zone(&healthy)?;
         let model = Model::new(&s)?;
         let slices = slices_of(&model, &s.bearing);
-        Ok(Some(Self {
-            bearing: s.bearing,
-            healthy,
-            model,
-            zone,
-            slices,
-        }))
+        Ok(Some(Self { bearing: s.bearing, healthy, model, zone, slices }))
     }
 
-    /// Over the defect with this index: damage of the outer raceway where it lies, of the inner one or of a roller turned into the middle of the
-    /// load zone, a roller's towards the outer raceway. Without an index, or where that is of no defect, the roller in the middle of the load zone.
+    /// Over the defect with this index: damage of the outer raceway where it lies, of the inner one or of a roller
+    /// turned into the middle of the load zone, a roller's towards the outer raceway. Without an index, or where that
+    /// is of no defect, the roller in the middle of the load zone.
     ///
     /// # Errors
     /// Where nothing holds the rings against the load.
@@ -133,7 +126,8 @@ pub(super) fn over_damage(
     Ok(all)
 }
 
-/// The positions of all parts with a roller at s (m) of a defect, or in the middle of the load zone (rad), and the slot that is looked at.
+/// The positions of all parts with a roller at s (m) of a defect, or in the middle of the load zone (rad), and the slot
+/// that is looked at.
 fn at_rest(model: &Model, over: Option<(&Defect, f64)>, middle: f64) -> (Problem, usize) {
     let l = &model.layout;
     let mut problem = Problem::at_start(model);

@@ -29,11 +29,7 @@ impl Positions {
         }
         // What damage does not turn with need not turn; the rollers of a row are alike but for their own damage.
         let cage = if rollers { TAU } else { pitch };
-        let reach = [
-            cage,
-            if ring { TAU } else { 0.0 },
-            if rollers { TAU } else { 0.0 },
-        ];
+        let reach = [cage, if ring { TAU } else { 0.0 }, if rollers { TAU } else { 0.0 }];
         let dimensions = 1 + usize::from(ring) + usize::from(rollers);
         // Roberts's sequence fills the cube of turns evenly; each group is moved by its own shift.
         let ratio: f64 = match dimensions {
@@ -53,10 +49,7 @@ impl Positions {
                 reach * (shift + k as f64 * ratio.powi(-power)).fract()
             })
         });
-        Self {
-            places: places.collect(),
-            groups,
-        }
+        Self { places: places.collect(), groups }
     }
 
     fn over_a_pitch(model: &Model, pitch: f64) -> Self {
@@ -69,9 +62,6 @@ impl Positions {
         let count = (OVER_A_DEFECT * pitch / shortest).ceil() as usize;
         let count = count.clamp(least, most);
         let at = |k: usize| [pitch * k as f64 / count as f64, 0.0, 0.0];
-        Self {
-            places: (0..count).map(at).collect(),
-            groups: 1,
-        }
+        Self { places: (0..count).map(at).collect(), groups: 1 }
     }
 }

@@ -39,7 +39,8 @@ dispatched! {
 }
 
 dispatched! {
-    /// Sum over k of `weight[k]` times the square of the sum of the factors times their lists' k-th entries. All are equally long.
+    /// Sum over k of `weight[k]` times the square of the sum of the factors times their lists' k-th entries. All are
+    /// equally long.
     weighted_square, weighted_square_lanes, (weight: &[f64], factors: [f64; N], lists: [&[f64]; N]) -> f64
 }
 
@@ -87,8 +88,8 @@ fn inner_products_lanes<L: Lanes, const N: usize>(list: &[f64], lists: [&[f64]; 
 }
 
 dispatched! {
-    /// Which entries of each list are above 0, a bit each: groups of eight to a byte, the first in the lowest bit. An incomplete group at
-    /// the end is left out.
+    /// Which entries of each list are above 0, a bit each: groups of eight to a byte, the first in the lowest bit. An
+    /// incomplete group at the end is left out.
     positive, positive_lanes, (lists: [&[f64]; N], bits: [&mut [u8]; N])
 }
 
@@ -129,11 +130,7 @@ fn scalar<const N: usize>(factors: &[f64; N], lists: &[&[f64]; N], k: usize) -> 
 
 /// The same of a group.
 #[inline(always)]
-fn sum<L: Lanes, const N: usize>(
-    factors: &[f64; N],
-    columns: &[&[L::Group]; N],
-    group: usize,
-) -> L {
+fn sum<L: Lanes, const N: usize>(factors: &[f64; N], columns: &[&[L::Group]; N], group: usize) -> L {
     let mut sum = L::splat(factors[0]) * L::new(columns[0][group]);
     for k in 1..N {
         sum = L::splat(factors[k]).times_plus(L::new(columns[k][group]), sum);
@@ -165,11 +162,7 @@ fn blend_lanes<L: Lanes, const N: usize>(out: &mut [f64], factors: [f64; N], lis
 }
 
 #[inline(always)]
-fn weighted_square_lanes<L: Lanes, const N: usize>(
-    weight: &[f64],
-    factors: [f64; N],
-    lists: [&[f64]; N],
-) -> f64 {
+fn weighted_square_lanes<L: Lanes, const N: usize>(weight: &[f64], factors: [f64; N], lists: [&[f64]; N]) -> f64 {
     let head = L::groups(weight);
     let whole = head.len() * L::COUNT;
     let columns = groups::<L, N>(&lists, head.len());
@@ -178,9 +171,7 @@ fn weighted_square_lanes<L: Lanes, const N: usize>(
         let sum = sum::<L, N>(&factors, &columns, group);
         total = (L::new(*weight) * sum).times_plus(sum, total);
     }
-    let rest: f64 = (whole..weight.len())
-        .map(|k| weight[k] * scalar(&factors, &lists, k).powi(2))
-        .sum();
+    let rest: f64 = (whole..weight.len()).map(|k| weight[k] * scalar(&factors, &lists, k).powi(2)).sum();
     total.sum() + rest
 }
 
@@ -192,10 +183,7 @@ mod tests {
     fn analytic_inner_products() {
         let list: Vec<f64> = (0..29).map(f64::from).collect();
         let [squares, sum] = inner_products(&list, [&list, &[1.0; 29]]);
-        assert_eq!(
-            (squares, sum),
-            (28.0 * 29.0 * 57.0 / 6.0, 28.0 * 29.0 / 2.0)
-        );
+        assert_eq!((squares, sum), (28.0 * 29.0 * 57.0 / 6.0, 28.0 * 29.0 / 2.0));
     }
 
     #[test]
@@ -217,9 +205,7 @@ mod tests {
             let (a, b, c) = (list(f64::sin), list(f64::cos), list(|k| 1.0 + k));
             let mut out = vec![f64::NAN; n];
             blend(&mut out, factors, [&a, &b, &c]);
-            let plain: Vec<f64> = (0..n)
-                .map(|k| factors[0] * a[k] + factors[1] * b[k] + factors[2] * c[k])
-                .collect();
+            let plain: Vec<f64> = (0..n).map(|k| factors[0] * a[k] + factors[1] * b[k] + factors[2] * c[k]).collect();
             for (x, y) in out.iter().zip(&plain) {
                 assert!((x - y).abs() < 1e-15);
             }

@@ -18,10 +18,7 @@ pub struct Column {
 impl Column {
     /// `len` times `value`.
     pub fn new(len: usize, value: f64) -> Self {
-        Self {
-            lines: vec![Line([value; WIDTH]); len.div_ceil(WIDTH)],
-            len,
-        }
+        Self { lines: vec![Line([value; WIDTH]); len.div_ceil(WIDTH)], len }
     }
 }
 

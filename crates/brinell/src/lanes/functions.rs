@@ -6,13 +6,15 @@ use super::ninth::{EIGHT, FIT, ORIGIN};
 /// 1.5 * 2^52: added to a number of moderate size, it leaves the nearest integer in the low bits of the sum.
 const ROUNDER: f64 = 6_755_399_441_055_744.0;
 
-/// A polynomial, highest coefficient first: odd and even powers apart, each by Horner's rule in x^2, so that the two do not wait for each other.
+/// A polynomial, highest coefficient first: odd and even powers apart, each by Horner's rule in x^2, so that the two do
+/// not wait for each other.
 #[inline(always)]
 fn polynomial<L: Lanes, const N: usize>(x: L, coefficients: [f64; N]) -> L {
     let square = x * x;
     let sum = |first: usize| {
         let mut sum = L::splat(coefficients[first]);
-        // A plain loop over a constant range, which compilers unroll; an iterator's steps were left a loop in long series.
+        // A plain loop over a constant range, which compilers unroll; an iterator's steps were left a loop in long
+        // series.
         let mut k = first + 2;
         while k < N {
             sum = sum.times_plus(square, L::splat(coefficients[k]));
@@ -30,11 +32,7 @@ fn polynomial<L: Lanes, const N: usize>(x: L, coefficients: [f64; N]) -> L {
 /// the Cephes library on [-pi/4, pi/4].
 #[inline(always)]
 pub(super) fn sin_cos<L: Lanes>(x: L) -> (L, L) {
-    const PARTS: [f64; 3] = [
-        1.570_796_251_296_997,
-        7.549_789_415_861_596e-8,
-        5.390_302_858_158_119e-15,
-    ];
+    const PARTS: [f64; 3] = [1.570_796_251_296_997, 7.549_789_415_861_596e-8, 5.390_302_858_158_119e-15];
     let rounded = x.times_plus(L::splat(std::f64::consts::FRAC_2_PI), L::splat(ROUNDER));
     let k = rounded - L::splat(ROUNDER);
     let mut r = x;
@@ -74,9 +72,7 @@ pub(super) fn sin_cos<L: Lanes>(x: L) -> (L, L) {
     let odd = rounded.and_bits(1).minus_bits();
     let swapped = sine.xor(cosine).and(odd);
     let sin = sine.xor(swapped).xor(rounded.and_bits(2).shift_up::<62>());
-    let cos = cosine
-        .xor(swapped)
-        .xor(rounded.add_bits(1).and_bits(2).shift_up::<62>());
+    let cos = cosine.xor(swapped).xor(rounded.add_bits(1).and_bits(2).shift_up::<62>());
     (sin, cos)
 }
 
@@ -89,7 +85,8 @@ fn exp_parts<L: Lanes>(x: L) -> (L, L) {
     let k = rounded - L::splat(ROUNDER);
     let r = k.minus_times(L::splat(LN2_HIGH), x);
     let r = k.minus_times(L::splat(LN2_LOW), r);
-    // Chebyshev's fit of (e^r - 1 - r) / r^2 on |r| <= 1.0001 ln 2 / 2, to 2e-17 of e^r: `validation/coefficients/fits.py`.
+    // Chebyshev's fit of (e^r - 1 - r) / r^2 on |r| <= 1.0001 ln 2 / 2, to 2e-17 of e^r:
+    // `validation/coefficients/fits.py`.
     let tail = polynomial(
         r,
         [
@@ -137,8 +134,8 @@ fn one_minus_ninth<L: Lanes>(x: L, z: L) -> L {
 
 /// `[x]_+^(10/9)`, relative error below 5e-15 for normal x.
 ///
-/// z = x^(-1/9) from the exponent bits to 3 %, then a step z (1 - e)^(-1/9) with e = 1 - x z^9 and a cubic. The result is
-/// x^2 z^8 (1 - e)^(-8/9) with the e that is left: no division.
+/// z = x^(-1/9) from the exponent bits to 3 %, then a step z (1 - e)^(-1/9) with e = 1 - x z^9 and a cubic. The result
+/// is x^2 z^8 (1 - e)^(-8/9) with the e that is left: no division.
 #[inline(always)]
 pub(super) fn ten_ninths<L: Lanes>(x: L) -> L {
     /// 2^52: integers below it are in the low bits of the sum.
@@ -147,9 +144,7 @@ pub(super) fn ten_ninths<L: Lanes>(x: L) -> L {
     const SHIFTED: f64 = ORIGIN + INTEGER + INTEGER / 9.0;
     let size = x.if_above(L::splat(f64::MIN_POSITIVE), x, L::splat(1.0));
     let upper = size.shift_down::<32>().or_bits(INTEGER.to_bits());
-    let guess = upper
-        .times_plus(L::splat(-1.0 / 9.0), L::splat(SHIFTED))
-        .shift_up::<32>();
+    let guess = upper.times_plus(L::splat(-1.0 / 9.0), L::splat(SHIFTED)).shift_up::<32>();
     let z = guess * polynomial(one_minus_ninth(size, guess), FIT);
     let square = z * z;
     let root = square * square * size;
@@ -209,12 +204,7 @@ mod tests {
         }};
     }
 
-    fn check(
-        range: (f64, f64),
-        all: Vec<(&'static str, Function)>,
-        error: impl Fn(f64, f64) -> f64,
-        limit: f64,
-    ) {
+    fn check(range: (f64, f64), all: Vec<(&'static str, Function)>, error: impl Fn(f64, f64) -> f64, limit: f64) {
         let n = 400_000;
         for (name, f) in all {
             let mut worst: f64 = 0.0;
@@ -234,36 +224,17 @@ mod tests {
     #[test]
     fn xval_sine_and_cosine_against_libm() {
         for range in [(-4.0, 4.0), (0.0, 1e3), (9e4, 1e5)] {
-            check(
-                range,
-                each!((|x| sin_cos(x).0)),
-                |x, v| (v - x.sin()).abs(),
-                3e-16,
-            );
-            check(
-                range,
-                each!((|x| sin_cos(x).1)),
-                |x, v| (v - x.cos()).abs(),
-                3e-16,
-            );
+            check(range, each!((|x| sin_cos(x).0)), |x, v| (v - x.sin()).abs(), 3e-16);
+            check(range, each!((|x| sin_cos(x).1)), |x, v| (v - x.cos()).abs(), 3e-16);
         }
     }
 
     #[test]
     fn xval_exponential_and_hyperbolic_tangent_against_libm() {
-        check(
-            (-700.0, 700.0),
-            each!(exp),
-            |x, v| (v / x.exp() - 1.0).abs(),
-            1e-15,
-        );
+        check((-700.0, 700.0), each!(exp), |x, v| (v / x.exp() - 1.0).abs(), 1e-15);
         for range in [(-30.0, 30.0), (-1.0, 1.0), (-1e-6, 1e-6)] {
             let relative = |x: f64, v: f64| {
-                if x == 0.0 {
-                    v.abs()
-                } else {
-                    (v / x.tanh() - 1.0).abs()
-                }
+                if x == 0.0 { v.abs() } else { (v / x.tanh() - 1.0).abs() }
             };
             check(range, each!(tanh), relative, 6e-16);
         }

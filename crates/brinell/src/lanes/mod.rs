@@ -1,10 +1,13 @@
 //! Several numbers at a time, and the elementary functions that the right-hand side spends its time in.
 //!
-//! [`Lanes`] is what the equations of motion are written in: a group of numbers as wide as a register, or as two ([`Lanes::Pair`]). `one` is a single
-//! number, `portable` an array (`wasm` two registers of WebAssembly), `x86` a register of AVX2 (four) or AVX-512 (eight). Functions over lanes do not branch on a lane's value. The implementations differ
-//! in round-off alone: the portable one rounds every product, the others fuse products with sums.
+//! [`Lanes`] is what the equations of motion are written in: a group of numbers as wide as a register, or as two
+//! ([`Lanes::Pair`]). `one` is a single number, `portable` an array (`wasm` two registers of WebAssembly), `x86` a
+//! register of AVX2 (four) or AVX-512 (eight). Functions over lanes do not branch on a lane's value. The
+//! implementations differ in round-off alone: the portable one rounds every product, the others fuse products with
+//! sums.
 //!
-//! The lanes of `x86` are this crate's own: whoever makes one must have asked the processor first, which safe code elsewhere need not.
+//! The lanes of `x86` are this crate's own: whoever makes one must have asked the processor first, which safe code
+//! elsewhere need not.
 //!
 //! ```compile_fail
 //! use brinell::lanes::{Avx512, Lanes};
@@ -37,7 +40,8 @@ pub(crate) use x86::{Avx2, Avx512};
 
 use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
 
-/// Numbers in the widest group. Lists of numbers are padded to a multiple of it, so that each is a whole number of any lanes' groups.
+/// Numbers in the widest group. Lists of numbers are padded to a multiple of it, so that each is a whole number of any
+/// lanes' groups.
 pub const WIDTH: usize = 8;
 
 /// A group of numbers.
@@ -51,8 +55,8 @@ pub trait Lanes:
     + AddAssign
     + SubAssign
 {
-    /// Two groups at once, for long chains of operations that wait for one another; a group itself where it is the widest, or two of them
-    /// would not fit the registers.
+    /// Two groups at once, for long chains of operations that wait for one another; a group itself where it is the
+    /// widest, or two of them would not fit the registers.
     type Pair: Lanes;
     /// Numbers in a group: 1, 4 or 8.
     const COUNT: usize;

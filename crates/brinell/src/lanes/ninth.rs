@@ -4,22 +4,12 @@
 pub(super) const ORIGIN: f64 = 1_191_820_186.0;
 /// (1 - e)^(-1/9) for |e| <= 0.263, which is as far as the guess is off: Chebyshev's fit, to 3e-5; highest first
 /// (`validation/coefficients/fits.py`).
-pub(super) const FIT: [f64; 4] = [
-    4.550_793_648_527_396_7e-2,
-    6.415_495_782_232_466e-2,
-    1.110_914_322_528_898_1e-1,
-    9.999_790_091_846_329e-1,
-];
+pub(super) const FIT: [f64; 4] =
+    [4.550_793_648_527_396_7e-2, 6.415_495_782_232_466e-2, 1.110_914_322_528_898_1e-1, 9.999_790_091_846_329e-1];
 /// The series of (1 - e)^(-1/9), for the e below 3e-4 that is left.
 pub(super) const ONE: [f64; 4] = [95.0 / 2_187.0, 5.0 / 81.0, 1.0 / 9.0, 1.0];
 /// The same of (1 - e)^(-8/9).
-pub(super) const EIGHT: [f64; 5] = [
-    15_470.0 / 19_683.0,
-    1_768.0 / 2_187.0,
-    68.0 / 81.0,
-    8.0 / 9.0,
-    1.0,
-];
+pub(super) const EIGHT: [f64; 5] = [15_470.0 / 19_683.0, 1_768.0 / 2_187.0, 68.0 / 81.0, 8.0 / 9.0, 1.0];
 
 /// x^(8/9) for x >= 0, relative error below 3e-15.
 #[inline]
@@ -31,7 +21,8 @@ pub(crate) fn eight_ninths(x: f64) -> f64 {
     x * z * series(rest, ONE)
 }
 
-/// `[x]_+^(10/9)`, relative error below 5e-15 for normal x: one number's share of [`Lanes::ten_ninths`], whose code says how.
+/// `[x]_+^(10/9)`, relative error below 5e-15 for normal x: one number's share of [`Lanes::ten_ninths`], whose code
+/// says how.
 #[inline]
 pub(super) fn ten_ninths(x: f64) -> f64 {
     if x <= 0.0 {

@@ -1,4 +1,5 @@
-//! One number as a group of one lane, with the functions of the standard library: slow, and plain to follow in a debugger.
+//! One number as a group of one lane, with the functions of the standard library: slow, and plain to follow in a
+//! debugger.
 
 use super::{Lanes, grouped, ninth};
 

@@ -149,11 +149,7 @@ impl Lanes for Portable {
     fn if_above(self, other: Self, x: Self, y: Self) -> Self {
         let mut out = [0.0; COUNT];
         for i in 0..COUNT {
-            out[i] = if self.0[i] > other.0[i] {
-                x.0[i]
-            } else {
-                y.0[i]
-            };
+            out[i] = if self.0[i] > other.0[i] { x.0[i] } else { y.0[i] };
         }
         Self(out)
     }

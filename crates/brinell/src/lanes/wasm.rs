@@ -1,5 +1,5 @@
-//! Four numbers in two registers of WebAssembly's `simd128`, rounded as the array of `portable` rounds: the same bits in every browser, and with or
-//! without these instructions.
+//! Four numbers in two registers of WebAssembly's `simd128`, rounded as the array of `portable` rounds: the same bits
+//! in every browser, and with or without these instructions.
 
 use super::{Lanes, assigning, grouped};
 use std::arch::wasm32::*;
@@ -98,10 +98,7 @@ impl Lanes for Portable {
 
     #[inline(always)]
     fn if_above(self, other: Self, x: Self, y: Self) -> Self {
-        Self(
-            v128_bitselect(x.0, y.0, f64x2_gt(self.0, other.0)),
-            v128_bitselect(x.1, y.1, f64x2_gt(self.1, other.1)),
-        )
+        Self(v128_bitselect(x.0, y.0, f64x2_gt(self.0, other.0)), v128_bitselect(x.1, y.1, f64x2_gt(self.1, other.1)))
     }
 
     #[inline(always)]

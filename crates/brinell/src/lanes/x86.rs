@@ -262,12 +262,7 @@ impl Lanes for Avx2 {
 
     #[inline(always)]
     fn add_bits(self, bits: u64) -> Self {
-        unsafe {
-            Self::from_int(_mm256_add_epi64(
-                self.int(),
-                _mm256_set1_epi64x(bits as i64),
-            ))
-        }
+        unsafe { Self::from_int(_mm256_add_epi64(self.int(), _mm256_set1_epi64x(bits as i64))) }
     }
 
     #[inline(always)]

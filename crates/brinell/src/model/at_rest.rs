@@ -23,16 +23,9 @@ impl Model {
         }
     }
 
-    /// Elastic force (N) of a contact deformed by `delta` (m) at the roller's middle, at the angle `u` (rad) from the centre of `defect`, which
-    /// need not be of this model; `cover` is room for what damage covers of the slices.
-    pub fn force_over(
-        &self,
-        defect: &Defect,
-        side: Side,
-        u: f64,
-        delta: f64,
-        cover: &mut Cover,
-    ) -> f64 {
+    /// Elastic force (N) of a contact deformed by `delta` (m) at the roller's middle, at the angle `u` (rad) from the
+    /// centre of `defect`, which need not be of this model; `cover` is room for what damage covers of the slices.
+    pub fn force_over(&self, defect: &Defect, side: Side, u: f64, delta: f64, cover: &mut Cover) -> f64 {
         let (law, angles) = (self.contact(side), defect.met_at(side, u));
         let one = || std::iter::once(defect);
         match self.profiled() {
@@ -41,8 +34,7 @@ impl Model {
                 let covered = met.then_some(&*cover);
                 slices.carry(law, &Approach::pressed(delta), covered).force
             }
-            None => damaged_contact(one(), law, &angles, side, delta)
-                .map_or(law.healthy(delta), |a| a.elastic),
+            None => damaged_contact(one(), law, &angles, side, delta).map_or(law.healthy(delta), |a| a.elastic),
         }
     }
 

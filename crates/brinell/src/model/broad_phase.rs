@@ -12,8 +12,8 @@ struct Window {
     middle: f64,
     /// Whether it turns with the inner ring.
     turns: bool,
-    /// For each slot the cosine of half the angle that it takes up: a roller whose direction has a smaller component along the middle's is
-    /// off it. More than any cosine for the slots of other rows.
+    /// For each slot the cosine of half the angle that it takes up: a roller whose direction has a smaller component
+    /// along the middle's is off it. More than any cosine for the slots of other rows.
     least: Column,
 }
 
@@ -23,7 +23,8 @@ pub struct BroadPhase {
     /// Slots whose contact some defect can meet.
     pub slots: Vec<usize>,
     windows: Vec<Window>,
-    /// 1 for the slots of rollers that are damaged themselves, whose angles are looked at one by one; empty where none is.
+    /// 1 for the slots of rollers that are damaged themselves, whose angles are looked at one by one; empty where none
+    /// is.
     rollers: Column,
 }
 
@@ -80,10 +81,7 @@ impl BroadPhase {
 
     /// (cos, sin) of each window's middle at W_i = 0.
     pub(super) fn directions(&self) -> Vec<[f64; 2]> {
-        self.windows
-            .iter()
-            .map(|w| [w.middle.cos(), w.middle.sin()])
-            .collect()
+        self.windows.iter().map(|w| [w.middle.cos(), w.middle.sin()]).collect()
     }
 
     /// Turns the directions of what sits on the inner ring to the angle W_i.
@@ -111,9 +109,7 @@ impl BroadPhase {
         }
         for (window, [x, y]) in self.windows.iter().zip(directions) {
             let (x, y, least) = (L::splat(*x), L::splat(*y), L::groups(&window.least));
-            for (((candidates, sin), cos), least) in
-                candidates.iter_mut().zip(sin).zip(cos).zip(least)
-            {
+            for (((candidates, sin), cos), least) in candidates.iter_mut().zip(sin).zip(cos).zip(least) {
                 let along = L::new(*cos).times_plus(x, L::new(*sin) * y);
                 *candidates |= along.above(L::new(*least));
             }
@@ -165,8 +161,7 @@ mod tests {
                 let mut directions = broad_phase.directions();
                 broad_phase.turn(ring, &mut directions);
                 let theta = |slot: usize| model.pocket_angle[slot] + turn;
-                let (sin, cos): (Vec<f64>, Vec<f64>) =
-                    (0..l.slots).map(|slot| theta(slot).sin_cos()).unzip();
+                let (sin, cos): (Vec<f64>, Vec<f64>) = (0..l.slots).map(|slot| theta(slot).sin_cos()).unzip();
                 let mut candidates = vec![0; l.slots / Portable::COUNT];
                 broad_phase.lanes::<Portable>(
                     (Portable::groups(&sin), Portable::groups(&cos)),
@@ -176,11 +171,7 @@ mod tests {
                 for (group, lanes) in candidates.into_iter().enumerate() {
                     for lane in 0..Portable::COUNT {
                         let slot = group * Portable::COUNT + lane;
-                        let angles = crate::defect::Angles {
-                            orbit: theta(slot),
-                            spin: 0.0,
-                            ring,
-                        };
+                        let angles = crate::defect::Angles { orbit: theta(slot), spin: 0.0, ring };
                         let damaged = slot < l.rollers()
                             && model
                                 .defects_of(slot, side)
@@ -194,9 +185,6 @@ mod tests {
             }
         }
         assert!(met[0] > 1000, "the case has no damage under rollers");
-        assert!(
-            met[1] < met[0] + met[0] / 50 + 100,
-            "{met:?}: too many to look at"
-        );
+        assert!(met[1] < met[0] + met[0] / 50 + 100, "{met:?}: too many to look at");
     }
 }

@@ -6,14 +6,8 @@ use crate::scenario::{Law, ModelKind, Scenario, Surface};
 /// Refuses what would divide by zero or index out of range.
 pub(super) fn check(s: &Scenario) -> Result<(), ModelError> {
     let positive = [
-        (
-            "bearing.inner_raceway_diameter_mm",
-            s.bearing.inner_raceway_diameter_mm,
-        ),
-        (
-            "bearing.outer_raceway_diameter_mm",
-            s.bearing.outer_raceway_diameter_mm,
-        ),
+        ("bearing.inner_raceway_diameter_mm", s.bearing.inner_raceway_diameter_mm),
+        ("bearing.outer_raceway_diameter_mm", s.bearing.outer_raceway_diameter_mm),
         ("bearing.pitch_diameter_mm", s.bearing.pitch_diameter_mm),
         ("bearing.roller_diameter_mm", s.bearing.roller_diameter_mm),
         ("bearing.roller_length_mm", s.bearing.roller_length_mm),
@@ -27,10 +21,7 @@ pub(super) fn check(s: &Scenario) -> Result<(), ModelError> {
         ("contact.exponent", s.contact.exponent),
         ("contact.inner_stiffness", s.contact.inner_stiffness),
         ("contact.outer_stiffness", s.contact.outer_stiffness),
-        (
-            "friction.slip_velocity_m_per_s",
-            s.friction.slip_velocity_m_per_s,
-        ),
+        ("friction.slip_velocity_m_per_s", s.friction.slip_velocity_m_per_s),
         ("simulation.duration_s", s.simulation.duration_s),
         ("simulation.sample_rate_hz", s.simulation.sample_rate_hz),
     ];
@@ -43,10 +34,7 @@ pub(super) fn check(s: &Scenario) -> Result<(), ModelError> {
             });
         }
     }
-    let counts = [
-        ("bearing.rollers_per_row", s.bearing.rollers_per_row, 3),
-        ("bearing.rows", s.bearing.rows, 1),
-    ];
+    let counts = [("bearing.rollers_per_row", s.bearing.rollers_per_row, 3), ("bearing.rows", s.bearing.rows, 1)];
     for (key, value, least) in counts {
         if value < least {
             return Err(ModelError {

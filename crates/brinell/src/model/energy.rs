@@ -1,7 +1,8 @@
 //! Energy that the bodies and springs hold, and the flows that change it.
 //!
-//! d(energy)/dt = load + drive + film + lever - contact - friction - pocket - pocket_friction - land - support - drag, plus the
-//! parametric work of stiffnesses that change under a roller (section 3), which [`parametric_work`] measures over a step.
+//! d(energy)/dt = load + drive + film + lever - contact - friction - pocket - pocket_friction - land - support - drag,
+//! plus the parametric work of stiffnesses that change under a roller (section 3), which [`parametric_work`] measures
+//! over a step.
 
 use super::{Layout, Model, Workspace};
 use crate::defect::{Angles, SIDES, Side, cover_slices, energy};
@@ -45,13 +46,7 @@ impl Power {
 
     /// Everything dissipated, the film's share apart.
     pub fn dissipated(&self) -> f64 {
-        self.contact
-            + self.friction
-            + self.pocket
-            + self.pocket_friction
-            + self.land
-            + self.support
-            + self.drag
+        self.contact + self.friction + self.pocket + self.pocket_friction + self.land + self.support + self.drag
     }
 
     fn zip(self, other: Self, f: impl Fn(f64, f64) -> f64) -> Self {
@@ -113,23 +108,17 @@ impl Energy {
         let mut e = Self::default();
         let square = |u: &[f64]| u[0] * u[0] + u[1] * u[1];
         let along = |u: &[f64]| model.gravity[0] * u[0] + model.gravity[1] * u[1];
-        for (at, mass, support) in [
-            (l.inner(), m.inner_ring, model.inner_support),
-            (l.outer(), m.outer_ring, model.acting_outer_support()),
-        ] {
+        for (at, mass, support) in
+            [(l.inner(), m.inner_ring, model.inner_support), (l.outer(), m.outer_ring, model.acting_outer_support())]
+        {
             e.kinetic += 0.5 * mass * square(&v[at..]);
             e.supports += 0.5 * support.stiffness * square(&q[at..]);
             e.gravity -= mass * along(&q[at..]);
         }
-        let angles = |slot: usize| Angles {
-            orbit: q[l.theta() + slot],
-            spin: q[l.phi() + slot],
-            ring: model.rotation.at(t).1,
-        };
+        let angles =
+            |slot: usize| Angles { orbit: q[l.theta() + slot], spin: q[l.phi() + slot], ring: model.rotation.at(t).1 };
         if model.kind == ModelKind::Lumped {
-            e.contacts = (0..l.rollers())
-                .map(|slot| super::lumped::contact_energy(model, t, slot, ws))
-                .sum();
+            e.contacts = (0..l.rollers()).map(|slot| super::lumped::contact_energy(model, t, slot, ws)).sum();
             return e;
         }
         let g = &model.geometry;
@@ -146,41 +135,31 @@ impl Energy {
         for slot in 0..l.rollers() {
             let arm = g.pitch_radius + q[l.r() + slot];
             let (dr, dtheta, dphi) = (v[l.r() + slot], v[l.theta() + slot], v[l.phi() + slot]);
-            e.kinetic += 0.5 * m.roller * (dr * dr + (arm * dtheta).powi(2))
-                + 0.5 * m.roller_spin * dphi * dphi;
+            e.kinetic += 0.5 * m.roller * (dr * dr + (arm * dtheta).powi(2)) + 0.5 * m.roller_spin * dphi * dphi;
             e.gravity -= m.roller * arm * along(&[ws.cos[slot], ws.sin[slot]]);
             for side in SIDES {
                 let at = ws.contacts[side as usize].approach(slot);
                 e.contacts += held(model, (slot, side), &at, &angles(slot), &mut cover);
             }
             let xc = &q[l.cage(l.row(slot))..];
-            let s = g.pitch_radius * (xc[2] + model.pocket_angle[slot] - q[l.theta() + slot])
-                + ws.cos[slot] * xc[1]
+            let s = g.pitch_radius * (xc[2] + model.pocket_angle[slot] - q[l.theta() + slot]) + ws.cos[slot] * xc[1]
                 - ws.sin[slot] * xc[0];
             e.cage += 0.5 * model.pocket.stiffness * model.pocket.penetration(s).powi(2);
         }
         for row in 0..l.rows {
             let at = l.cage(row);
-            e.kinetic +=
-                0.5 * m.cage * square(&v[at..]) + 0.5 * m.cage_spin * v[at + 2] * v[at + 2];
+            e.kinetic += 0.5 * m.cage * square(&v[at..]) + 0.5 * m.cage_spin * v[at + 2] * v[at + 2];
             e.gravity -= m.cage * along(&q[at..]);
             let ring = model.land().centre(row, q);
             let offset = [q[at] - ring[0], q[at + 1] - ring[1]];
-            e.cage +=
-                0.5 * model.guide.land_stiffness * model.guide.land_penetration(offset).powi(2);
+            e.cage += 0.5 * model.guide.land_stiffness * model.guide.land_penetration(offset).powi(2);
         }
         e
     }
 }
 
 /// Elastic energy of a contact, J; its rates do not matter.
-fn held(
-    model: &Model,
-    (slot, side): (usize, Side),
-    at: &Approach,
-    angles: &Angles,
-    cover: &mut Cover,
-) -> f64 {
+fn held(model: &Model, (slot, side): (usize, Side), at: &Approach, angles: &Angles, cover: &mut Cover) -> f64 {
     let (defects, law) = (model.defects_of(slot, side), model.contact(side));
     let Some(slices) = &model.slices else {
         return energy(defects, law, angles, side, at.deformation);
@@ -241,24 +220,15 @@ impl ContactState {
     }
 
     fn angles(&self, slot: usize) -> Angles {
-        Angles {
-            orbit: self.orbit[slot],
-            spin: self.spin[slot],
-            ring: self.ring,
-        }
+        Angles { orbit: self.orbit[slot], spin: self.spin[slot], ring: self.ring }
     }
 }
 
-/// Work that the changing stiffness of damaged contacts does from `before` to `after`, J: the change of the elastic energy with
-/// the angle at a fixed deformation, the mean of both ends. Jumps at an edge are included.
+/// Work that the changing stiffness of damaged contacts does from `before` to `after`, J: the change of the elastic
+/// energy with the angle at a fixed deformation, the mean of both ends. Jumps at an edge are included.
 ///
 /// Where the edges push back (`conservative`) bodies and drive do that work, and none is parametric.
-pub(crate) fn parametric_work(
-    model: &Model,
-    before: &ContactState,
-    after: &ContactState,
-    cover: &mut Cover,
-) -> f64 {
+pub(crate) fn parametric_work(model: &Model, before: &ContactState, after: &ContactState, cover: &mut Cover) -> f64 {
     if model.rules.is_conservative() {
         return 0.0;
     }
@@ -303,16 +273,9 @@ fn work_at(
                 at(&to) - at(&from)
             }
             // One contact in series for both sides: counted at the inner one where that is on damage.
-            ModelKind::Lumped
-                if side == Side::Outer
-                    && (before.on_damage[0][slot] || after.on_damage[0][slot]) =>
-            {
-                0.0
-            }
+            ModelKind::Lumped if side == Side::Outer && (before.on_damage[0][slot] || after.on_damage[0][slot]) => 0.0,
             ModelKind::Lumped => {
-                let at = |angles: &Angles| {
-                    super::lumped::energy_at(model, slot, angles, pressed.deformation)
-                };
+                let at = |angles: &Angles| super::lumped::energy_at(model, slot, angles, pressed.deformation);
                 at(&to) - at(&from)
             }
         }

@@ -1,8 +1,6 @@
 //! A scenario as the model it stands for: from the file's names and units to SI.
 
-use super::{
-    BroadPhase, Geometry, Inertia, Kernel, Layout, Model, ModelError, Support, Tilt, check,
-};
+use super::{BroadPhase, Geometry, Inertia, Kernel, Layout, Model, ModelError, Support, Tilt, check};
 use crate::cage::{Guide, Pocket};
 use crate::contact::Hertz;
 use crate::contact::ball::{self, Strips};
@@ -14,8 +12,8 @@ use crate::kernel;
 use crate::lanes::Column;
 use crate::operation::{Load, Rotation};
 use crate::scenario::{
-    Bearing, Cage, Element, Guidance, GuidanceFilm, Law, Lubricant, ModelKind, RacewayFilm,
-    RollerProfile, Scenario, Start,
+    Bearing, Cage, Element, Guidance, GuidanceFilm, Law, Lubricant, ModelKind, RacewayFilm, RollerProfile, Scenario,
+    Start,
 };
 use crate::slices::Slices;
 use std::f64::consts::{FRAC_PI_2, TAU};
@@ -196,20 +194,14 @@ fn pocket_angles(b: &Bearing, layout: &Layout) -> Column {
     (0..layout.slots)
         .map(|slot| {
             let (row, roller) = (layout.row(slot) as f64, layout.roller(slot) as f64);
-            if slot < layout.rollers() {
-                TAU * roller / b.rollers_per_row as f64 + row * stagger
-            } else {
-                0.0
-            }
+            if slot < layout.rollers() { TAU * roller / b.rollers_per_row as f64 + row * stagger } else { 0.0 }
         })
         .collect()
 }
 
 fn row_lanes(layout: &Layout) -> Vec<Column> {
     let own = |row| move |slot| f64::from(u8::from(layout.row(slot) == row));
-    (0..layout.rows)
-        .map(|row| (0..layout.row_period()).map(own(row)).collect())
-        .collect()
+    (0..layout.rows).map(|row| (0..layout.row_period()).map(own(row)).collect()).collect()
 }
 
 /// Drag of a roller, kg/m.
@@ -245,11 +237,7 @@ fn guide(c: &Cage, lubricant: &Lubricant) -> Guide {
         viscosity: lubricant.viscosity_pa_s,
         clearance: 1e-3 * c.guide_clearance_mm,
         width: 1e-3 * c.guide_width_mm,
-        radius: half_mm(if c.guidance == Guidance::InnerRing {
-            c.inner_diameter_mm
-        } else {
-            c.outer_diameter_mm
-        }),
+        radius: half_mm(if c.guidance == Guidance::InnerRing { c.inner_diameter_mm } else { c.outer_diameter_mm }),
         land_stiffness: c.contact_stiffness_n_per_m,
         land_damping: match (c.guidance, c.guidance_film) {
             (Guidance::OuterRing | Guidance::InnerRing, GuidanceFilm::QuasiStatic) => 0.0,
@@ -262,23 +250,13 @@ fn load(s: &Scenario) -> Load {
     Load {
         full: s.operation.load_n,
         on: s.operation.load_on,
-        ramp: if s.simulation.start == Start::Equilibrium {
-            0.0
-        } else {
-            s.operation.load_ramp_s
-        },
+        ramp: if s.simulation.start == Start::Equilibrium { 0.0 } else { s.operation.load_ramp_s },
     }
 }
 
 /// The slices, where rollers tilt or have a profile.
 fn slices(s: &Scenario, rules: &Rules, geometry: &Geometry) -> Option<Slices> {
     let profiled = rules.law == Law::Sliced && s.bearing.profile != RollerProfile::Straight;
-    (profiled || s.simulation.model == ModelKind::Tilting).then(|| {
-        Slices::new(
-            rules.slices,
-            geometry.roller_length,
-            2.0 * geometry.roller_radius,
-            &s.bearing.profile,
-        )
-    })
+    (profiled || s.simulation.model == ModelKind::Tilting)
+        .then(|| Slices::new(rules.slices, geometry.roller_length, 2.0 * geometry.roller_radius, &s.bearing.profile))
 }

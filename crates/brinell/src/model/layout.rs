@@ -1,10 +1,10 @@
 //! Where each coordinate is in the state vector.
 //!
-//! The state is y = (q, dq/dt): `dof` positions, then their rates in the same order. Positions are structures of arrays,
-//! so that one operation on all rollers runs over contiguous memory: r of every slot, theta of every slot, phi of every
-//! slot and, where they tilt, beta of every slot; then (x, y, theta) of each cage, then (x, y) of the inner and of the outer ring and, where
-//! they tilt, their (tau_x, tau_y). Roller j of row i (both from 0)
-//! has slot j N_r + i: rows are interleaved, and slots are padded to a multiple of eight with inert ones.
+//! The state is y = (q, dq/dt): `dof` positions, then their rates in the same order. Positions are structures of
+//! arrays, so that one operation on all rollers runs over contiguous memory: r of every slot, theta of every slot, phi
+//! of every slot and, where they tilt, beta of every slot; then (x, y, theta) of each cage, then (x, y) of the inner
+//! and of the outer ring and, where they tilt, their (tau_x, tau_y). Roller j of row i (both from 0) has slot j N_r +
+//! i: rows are interleaved, and slots are padded to a multiple of eight with inert ones.
 
 use crate::lanes::WIDTH;
 
@@ -24,12 +24,7 @@ pub struct Layout {
 impl Layout {
     /// For N_r rows of Z rollers.
     pub fn new(rows: usize, rollers_per_row: usize, tilts: bool) -> Self {
-        Self {
-            rows,
-            rollers_per_row,
-            slots: (rows * rollers_per_row).next_multiple_of(WIDTH),
-            tilts,
-        }
+        Self { rows, rollers_per_row, slots: (rows * rollers_per_row).next_multiple_of(WIDTH), tilts }
     }
 
     /// Rollers of all rows: the slots below this number are real.
@@ -63,7 +58,8 @@ impl Layout {
 
     /// Number of positions; the state has twice as many entries.
     ///
-    /// Padded to a multiple of eight, so that the rates are on cache lines if the positions are; the last few are inert.
+    /// Padded to a multiple of eight, so that the rates are on cache lines if the positions are; the last few are
+    /// inert.
     pub fn dof(&self) -> usize {
         (self.outer() + if self.tilts { 6 } else { 2 }).next_multiple_of(WIDTH)
     }
@@ -124,11 +120,7 @@ impl Layout {
         if index < self.cage(0) {
             let slot = index % self.slots;
             let coordinate = ["r", "theta", "phi", "beta"][index / self.slots];
-            format!(
-                "{coordinate} of roller {} in row {}",
-                self.roller(slot) + 1,
-                self.row(slot) + 1
-            )
+            format!("{coordinate} of roller {} in row {}", self.roller(slot) + 1, self.row(slot) + 1)
         } else if index < self.inner() {
             let k = index - self.cage(0);
             format!("{} of cage {}", axis(k % 3), k / 3 + 1)
@@ -153,8 +145,7 @@ mod tests {
         for (tilts, coordinates) in [(false, 3 * 21 + 3 * 3 + 4), (true, 4 * 21 + 3 * 3 + 8)] {
             let layout = Layout::new(3, 7, tilts);
             let end = layout.outer() + if tilts { 6 } else { 2 };
-            let real =
-                (0..end).filter(|&k| k >= layout.cage(0) || k % layout.slots < layout.rollers());
+            let real = (0..end).filter(|&k| k >= layout.cage(0) || k % layout.slots < layout.rollers());
             let names: std::collections::BTreeSet<String> = real.map(|k| layout.name(k)).collect();
             assert_eq!(names.len(), coordinates);
         }

@@ -23,26 +23,16 @@ impl Series {
     }
 }
 
-/// The series contact of one roller. Damage on either side acts on its own contact; of several on one side, the one with the smallest
-/// elastic sum acts.
+/// The series contact of one roller. Damage on either side acts on its own contact; of several on one side, the one
+/// with the smallest elastic sum acts.
 fn series(model: &Model, slot: usize, angles: &Angles, delta: f64) -> Series {
-    let healthy = Series {
-        law: model.series_contact,
-        sunk: 0.0,
-        damaged_length: [0.0; 2],
-        on_damage: [false; 2],
-    };
+    let healthy = Series { law: model.series_contact, sunk: 0.0, damaged_length: [0.0; 2], on_damage: [false; 2] };
     if model.element == Element::Ball {
         return of_ball(model, slot, angles, healthy);
     }
     let damaged = SIDES.map(|side| {
         floors(model.defects_of(slot, side), angles, side)
-            .map(|floor| {
-                (
-                    with_floors(model, &healthy, &[(side, floor)]).elastic(delta),
-                    floor,
-                )
-            })
+            .map(|floor| (with_floors(model, &healthy, &[(side, floor)]).elastic(delta), floor))
             .reduce(|a, b| if b.0 < a.0 { b } else { a })
             .map(|(_, floor)| (side, floor))
     });
@@ -92,28 +82,15 @@ pub(super) fn energy_at(model: &Model, slot: usize, angles: &Angles, delta: f64)
 }
 
 /// Elastic force (N), its tangent (N/m) and energy (J) of one roller's series contact at a deformation.
-pub(crate) fn elastic_at(
-    model: &Model,
-    slot: usize,
-    angles: &Angles,
-    delta: f64,
-) -> (f64, f64, f64) {
+pub(crate) fn elastic_at(model: &Model, slot: usize, angles: &Angles, delta: f64) -> (f64, f64, f64) {
     let contact = series(model, slot, angles, delta);
     let x = delta - contact.sunk;
-    (
-        contact.law.healthy(x),
-        contact.law.tangent(x, None),
-        contact.law.energy(x),
-    )
+    (contact.law.healthy(x), contact.law.tangent(x, None), contact.law.energy(x))
 }
 
 /// Elastic energy of one roller's series contact as evaluated in `ws`, J.
 pub(super) fn contact_energy(model: &Model, t: f64, slot: usize, ws: &Workspace) -> f64 {
-    let angles = Angles {
-        orbit: ws.kinematic_orbit[slot],
-        spin: ws.kinematic_spin,
-        ring: model.rotation.at(t).1,
-    };
+    let angles = Angles { orbit: ws.kinematic_orbit[slot], spin: ws.kinematic_spin, ring: model.rotation.at(t).1 };
     energy_at(model, slot, &angles, ws.contacts[0].deformation[slot])
 }
 
@@ -143,11 +120,7 @@ pub(super) fn accelerations(model: &Model, t: f64, y: &[f64], a: &mut [f64], ws:
         let tangential = cos * x[1] - sin * x[0];
         let delta = cos * x[0] + sin * x[1] - g.clearance - g.outer_gap;
         let rate = cos * speed[0] + sin * speed[1] + orbit_speed * tangential;
-        let angles = Angles {
-            orbit,
-            spin: ws.kinematic_spin,
-            ring: ring_angle,
-        };
+        let angles = Angles { orbit, spin: ws.kinematic_spin, ring: ring_angle };
         let contact = series(model, slot, &angles, delta);
         let elastic = contact.elastic(delta);
         let force = contact.law.with_damping(elastic, rate);
@@ -155,8 +128,7 @@ pub(super) fn accelerations(model: &Model, t: f64, y: &[f64], a: &mut [f64], ws:
             let k = side as usize;
             let c = &mut ws.contacts[k];
             (c.deformation[slot], c.elastic[slot], c.force[slot]) = (delta, elastic, force);
-            (c.damaged_length[slot], c.on_damage[slot]) =
-                (contact.damaged_length[k], contact.on_damage[k]);
+            (c.damaged_length[slot], c.on_damage[slot]) = (contact.damaged_length[k], contact.on_damage[k]);
         }
         on_inner[0] -= force * cos;
         on_inner[1] -= force * sin;
@@ -168,10 +140,9 @@ pub(super) fn accelerations(model: &Model, t: f64, y: &[f64], a: &mut [f64], ws:
     for k in 0..2 {
         let speed_in = vi[k];
         let support = &model.inner_support;
-        a[l.inner() + k] =
-            (on_inner[k] + load_in[k] - support.stiffness * xi[k] - support.damping * speed_in)
-                / m.inner_ring
-                + model.gravity[k];
+        a[l.inner() + k] = (on_inner[k] + load_in[k] - support.stiffness * xi[k] - support.damping * speed_in)
+            / m.inner_ring
+            + model.gravity[k];
         power.load += load_in[k] * speed_in;
         power.support += support.damping * speed_in * speed_in;
         if outer_moves {

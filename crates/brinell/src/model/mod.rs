@@ -1,7 +1,7 @@
 //! The bearing as an immutable set of SI parameters, and its equations of motion.
 //!
-//! Planar; X right, Y up, angles counter-clockwise from +X, origin at the bearing's centre. Rows, rollers and cages count
-//! from 0 in code and from 1 in names and scenarios.
+//! Planar; X right, Y up, angles counter-clockwise from +X, origin at the bearing's centre. Rows, rollers and cages
+//! count from 0 in code and from 1 in names and scenarios.
 
 mod at_rest;
 mod broad_phase;
@@ -195,9 +195,7 @@ impl Model {
     #[inline]
     pub fn defects_of(&self, slot: usize, side: Side) -> impl Iterator<Item = &Defect> + Clone {
         let (row, roller) = (self.layout.row(slot), self.layout.roller(slot));
-        self.defects
-            .iter()
-            .filter(move |d| d.meets(row, roller, side))
+        self.defects.iter().filter(move |d| d.meets(row, roller, side))
     }
 
     /// Pure-rolling orbit speed at the inner ring's speed w_i, rad/s.
@@ -249,10 +247,7 @@ impl Model {
             Side::Inner => self.layout.inner_tilt(),
             Side::Outer => self.layout.outer_tilt(),
         };
-        Land {
-            at: self.land_ring(),
-            tilt: self.tilt.as_ref().map(|tilt| (slope, &tilt.rows[..])),
-        }
+        Land { at: self.land_ring(), tilt: self.tilt.as_ref().map(|tilt| (slope, &tilt.rows[..])) }
     }
 
     /// Whether the outer ring of the lumped model is rigidly mounted (section 10).
@@ -264,15 +259,12 @@ impl Model {
     pub fn acting_outer_support(&self) -> Support {
         match self.kind {
             ModelKind::Full | ModelKind::Tilting => self.outer_support,
-            ModelKind::Lumped => Support {
-                stiffness: 0.0,
-                damping: 0.0,
-            },
+            ModelKind::Lumped => Support { stiffness: 0.0, damping: 0.0 },
         }
     }
 
-    /// Masses of the positions, for norms and kinetic energies of the rates: kg for lengths, kg m^2 for angles. 0 for pads and
-    /// for coordinates that are prescribed.
+    /// Masses of the positions, for norms and kinetic energies of the rates: kg for lengths, kg m^2 for angles. 0 for
+    /// pads and for coordinates that are prescribed.
     pub fn mass(&self) -> Vec<f64> {
         let (l, m) = (&self.layout, &self.inertia);
         let mut mass = vec![0.0; l.dof()];
@@ -288,11 +280,7 @@ impl Model {
             }
         }
         mass[l.inner()..l.inner() + 2].fill(m.inner_ring);
-        mass[l.outer()..l.outer() + 2].fill(if self.outer_ring_is_fixed() {
-            0.0
-        } else {
-            m.outer_ring
-        });
+        mass[l.outer()..l.outer() + 2].fill(if self.outer_ring_is_fixed() { 0.0 } else { m.outer_ring });
         if let Some(tilt) = &self.tilt {
             mass[l.beta()..][..l.rollers()].fill(tilt.roller_inertia);
             mass[l.inner_tilt()..][..2].fill(tilt.inner.inertia);
@@ -301,7 +289,8 @@ impl Model {
         mass
     }
 
-    /// Second time derivatives `a` of the positions at the state `y` and `t` (section 8, or section 10); forces and energies stay in `ws`.
+    /// Second time derivatives `a` of the positions at the state `y` and `t` (section 8, or section 10); forces and
+    /// energies stay in `ws`.
     #[inline]
     pub fn accelerations(&self, t: f64, y: &[f64], a: &mut [f64], ws: &mut Workspace) {
         match self.kind {
@@ -317,8 +306,9 @@ impl Model {
         self.accelerations(t, y, &mut dy[dof..], ws);
     }
 
-    /// [`Self::accelerations`] of the full model in lanes of the caller's choice, whatever the workspace's kernel: `benches/kernel.rs` counts
-    /// operations with lanes that count. Compiled for the caller's instructions, so slow where those are the target's plain ones.
+    /// [`Self::accelerations`] of the full model in lanes of the caller's choice, whatever the workspace's kernel:
+    /// `benches/kernel.rs` counts operations with lanes that count. Compiled for the caller's instructions, so slow
+    /// where those are the target's plain ones.
     pub fn accelerations_in<L: Lanes>(&self, t: f64, y: &[f64], a: &mut [f64], ws: &mut Workspace) {
         full::equations::<L>(self, t, y, a, ws);
     }

@@ -1,11 +1,11 @@
-//! Momentum: every internal force has its reaction, so the bodies' mass times acceleration adds up to the external forces, and where rings tilt
-//! the same holds for the moments Z x force about the bearing's middle.
+//! Momentum: every internal force has its reaction, so the bodies' mass times acceleration adds up to the external
+//! forces, and where rings tilt the same holds for the moments Z x force about the bearing's middle.
 
 use super::{Model, Tilt, Workspace};
 
-/// Force that appears from nowhere, relative to the forces at play: |sum m a - external| / (sum of |internal| and |external|).
-/// Round-off where Newton's third law holds. `None` where the outer ring's mount takes unknown forces (the lumped model with a fixed
-/// outer ring). Where rings tilt, the larger one of that and the same of the moments.
+/// Force that appears from nowhere, relative to the forces at play: |sum m a - external| / (sum of |internal| and
+/// |external|). Round-off where Newton's third law holds. `None` where the outer ring's mount takes unknown forces (the
+/// lumped model with a fixed outer ring). Where rings tilt, the larger one of that and the same of the moments.
 pub fn imbalance(model: &Model, t: f64, y: &[f64], a: &[f64], ws: &Workspace) -> Option<f64> {
     if model.outer_ring_is_fixed() {
         return None;
@@ -18,18 +18,10 @@ pub fn imbalance(model: &Model, t: f64, y: &[f64], a: &[f64], ws: &Workspace) ->
     let (load_in, load_out) = model.load.on_rings(model.load.share(t));
     let rings = [
         (l.inner(), m.inner_ring, model.inner_support, load_in),
-        (
-            l.outer(),
-            m.outer_ring,
-            model.acting_outer_support(),
-            load_out,
-        ),
+        (l.outer(), m.outer_ring, model.acting_outer_support(), load_out),
     ];
     for (at, mass, support, load) in rings {
-        add([
-            mass * (a[at] - model.gravity[0]),
-            mass * (a[at + 1] - model.gravity[1]),
-        ]);
+        add([mass * (a[at] - model.gravity[0]), mass * (a[at + 1] - model.gravity[1])]);
         add([support.stiffness * q[at], support.stiffness * q[at + 1]]);
         add([support.damping * v[at], support.damping * v[at + 1]]);
         add([-load[0], -load[1]]);
@@ -38,17 +30,11 @@ pub fn imbalance(model: &Model, t: f64, y: &[f64], a: &[f64], ws: &Workspace) ->
         for slot in 0..l.rollers() {
             let (cos, sin) = (ws.cos[slot], ws.sin[slot]);
             let [radial, tangential] = internal_force(model, slot, (q, v, a), ws);
-            add([
-                radial * cos - tangential * sin,
-                radial * sin + tangential * cos,
-            ]);
+            add([radial * cos - tangential * sin, radial * sin + tangential * cos]);
         }
         for row in 0..l.rows {
             let at = l.cage(row);
-            add([
-                m.cage * (a[at] - model.gravity[0]),
-                m.cage * (a[at + 1] - model.gravity[1]),
-            ]);
+            add([m.cage * (a[at] - model.gravity[0]), m.cage * (a[at + 1] - model.gravity[1])]);
         }
     }
     let pressed = ws.contacts.iter().flat_map(|c| &c.force).sum::<f64>();
@@ -77,32 +63,20 @@ impl Sum {
     /// What is left of them, relative to their sizes and to `more`.
     fn relative(&self, more: f64) -> f64 {
         let scale = self.scale + more;
-        if scale > 0.0 {
-            (self.left[0].abs() + self.left[1].abs()) / scale
-        } else {
-            0.0
-        }
+        if scale > 0.0 { (self.left[0].abs() + self.left[1].abs()) / scale } else { 0.0 }
     }
 }
 
-/// Moments Z x force that appear from nowhere, relative to those at play: the only check that sees a wrong lever of the cages' guidance.
-fn moments(
-    model: &Model,
-    tilt: &Tilt,
-    t: f64,
-    (q, v, a): (&[f64], &[f64], &[f64]),
-    ws: &Workspace,
-) -> f64 {
+/// Moments Z x force that appear from nowhere, relative to those at play: the only check that sees a wrong lever of the
+/// cages' guidance.
+fn moments(model: &Model, tilt: &Tilt, t: f64, (q, v, a): (&[f64], &[f64], &[f64]), ws: &Workspace) -> f64 {
     let l = &model.layout;
     let m = &model.inertia;
     let mut sum = Sum::default();
     let mut add = |f| sum.add(f);
     let w = model.rotation.at(t).0;
     let (load_in, load_out) = model.load.on_rings(model.load.share(t));
-    let rings = [
-        (l.inner_tilt(), &tilt.inner, load_in),
-        (l.outer_tilt(), &tilt.outer, load_out),
-    ];
+    let rings = [(l.inner_tilt(), &tilt.inner, load_in), (l.outer_tilt(), &tilt.outer, load_out)];
     for (at, ring, load) in rings {
         let spin = ring.polar_inertia * w;
         add([ring.inertia * a[at], ring.inertia * a[at + 1]]);
@@ -116,10 +90,7 @@ fn moments(
         let [radial, tangential] = internal_force(model, slot, (q, v, a), ws);
         let radial = tilt.levers[slot] * radial + tilt.roller_inertia * a[l.beta() + slot];
         let tangential = tilt.levers[slot] * tangential;
-        add([
-            radial * cos - tangential * sin,
-            radial * sin + tangential * cos,
-        ]);
+        add([radial * cos - tangential * sin, radial * sin + tangential * cos]);
     }
     for row in 0..l.rows {
         let at = l.cage(row);
@@ -131,12 +102,7 @@ fn moments(
 
 /// Force of the raceways and the pocket on a roller along e_r and e_t, from its motion, N.
 #[inline(always)]
-fn internal_force(
-    model: &Model,
-    slot: usize,
-    (q, v, a): (&[f64], &[f64], &[f64]),
-    ws: &Workspace,
-) -> [f64; 2] {
+fn internal_force(model: &Model, slot: usize, (q, v, a): (&[f64], &[f64], &[f64]), ws: &Workspace) -> [f64; 2] {
     let (l, mass) = (&model.layout, model.inertia.roller);
     let (cos, sin) = (ws.cos[slot], ws.sin[slot]);
     let pitch = model.geometry.pitch_radius;
@@ -148,8 +114,5 @@ fn internal_force(
     let radial = a[l.r() + slot] - arm * dtheta * dtheta - (cos * gx + sin * gy);
     let tangential = arm * a[l.theta() + slot] + 2.0 * dr * dtheta - (cos * gy - sin * gx);
     // Drag and the push of damage's slopes have no reaction on any body.
-    [
-        mass * radial,
-        mass * tangential + drag - ws.edge_force[slot],
-    ]
+    [mass * radial, mass * tangential + drag - ws.edge_force[slot]]
 }

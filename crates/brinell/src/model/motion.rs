@@ -17,10 +17,7 @@ pub struct Motion<'a, W = Workspace> {
 impl<'a> Motion<'a> {
     /// With a fresh workspace.
     pub fn new(model: &'a Model) -> Self {
-        Self {
-            model,
-            ws: Workspace::new(model),
-        }
+        Self { model, ws: Workspace::new(model) }
     }
 
     /// dy/dt, for solvers that know nothing of rates and accelerations.

@@ -18,9 +18,9 @@ pub(super) fn stable_step(model: &Model, max_elastic: [f64; 2], film_damping: f6
     let [inner, outer] = SIDES.map(|side| spring(model, side, max_elastic[side as usize]));
     let mass = model.inertia.roller;
     // Between the raceways, or on one of them.
-    let between = [[inner[0] + outer[0], inner[1] + outer[1]], inner, outer]
-        .map(|spring| decaying_step(spring, mass));
-    // In rolling: friction's slope at no slip, mu Q / v_s of each contact, on the spin's I_r = m r^2 / 2, of a ball 2/5 m r^2.
+    let between = [[inner[0] + outer[0], inner[1] + outer[1]], inner, outer].map(|spring| decaying_step(spring, mass));
+    // In rolling: friction's slope at no slip, mu Q / v_s of each contact, on the spin's I_r = m r^2 / 2, of a ball 2/5
+    // m r^2.
     let slope = model.friction.coefficient / model.friction.slip_velocity;
     let per_inertia = match model.element {
         Element::Roller => 2.0,
@@ -33,30 +33,20 @@ pub(super) fn stable_step(model: &Model, max_elastic: [f64; 2], film_damping: f6
         Side::Outer => model.inertia.outer_ring,
     };
     let film = film_damping * (1.0 / model.inertia.cage + model.layout.rows as f64 / ring);
-    between.into_iter().fold(
-        PAIR.stability_limit(rolling.max(film), f64::INFINITY),
-        f64::min,
-    )
+    between.into_iter().fold(PAIR.stability_limit(rolling.max(film), f64::INFINITY), f64::min)
 }
 
-/// Tangent stiffness (N/m) and damping (N s/m) of a contact under the elastic force `force`, N; where it is open, what its film damps at most.
+/// Tangent stiffness (N/m) and damping (N s/m) of a contact under the elastic force `force`, N; where it is open, what
+/// its film damps at most.
 fn spring(model: &Model, side: Side, force: f64) -> [f64; 2] {
     let law = model.contact(side);
-    if force > 0.0 {
-        [law.tangent_at(force), law.damping]
-    } else {
-        [0.0, model.film.map_or(0.0, |_| law.damping)]
-    }
+    if force > 0.0 { [law.tangent_at(force), law.damping] } else { [0.0, model.film.map_or(0.0, |_| law.damping)] }
 }
 
 /// Longest step in which m x'' + c x' + k x = 0 decays, s.
 fn decaying_step([k, c]: [f64; 2], m: f64) -> f64 {
     let under_root = 0.25 * c * c - k * m;
-    let rate = if under_root > 0.0 {
-        (0.5 * c + under_root.sqrt()) / m
-    } else {
-        (k / m).sqrt()
-    };
+    let rate = if under_root > 0.0 { (0.5 * c + under_root.sqrt()) / m } else { (k / m).sqrt() };
     // k = 0 and c = 0: no motion, and any step.
     PAIR.stability_limit(rate, 0.5 * c / (k * m).sqrt())
 }

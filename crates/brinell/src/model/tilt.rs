@@ -37,31 +37,21 @@ impl Tilt {
         let spacing = 1e-3 * s.bearing.row_spacing_mm;
         let lever = |row: usize| (row as f64 - 0.5 * (layout.rows as f64 - 1.0)) * spacing;
         let width = 1e-3 * s.bearing.width_mm;
-        let inertia =
-            |mass: f64, radius: f64| mass * (0.5 * radius * radius + width * width / 12.0);
+        let inertia = |mass: f64, radius: f64| mass * (0.5 * radius * radius + width * width / 12.0);
         let support = |stiffness, damping| Support { stiffness, damping };
         Self {
             rows: (0..layout.rows).map(lever).collect(),
-            levers: (0..layout.slots)
-                .map(|slot| lever(layout.row(slot)))
-                .collect(),
-            roller_inertia: m.roller * (3.0 * g.roller_radius.powi(2) + g.roller_length.powi(2))
-                / 12.0,
+            levers: (0..layout.slots).map(|slot| lever(layout.row(slot))).collect(),
+            roller_inertia: m.roller * (3.0 * g.roller_radius.powi(2) + g.roller_length.powi(2)) / 12.0,
             inner: TiltingRing {
                 inertia: inertia(m.inner_ring, g.inner_radius),
                 polar_inertia: m.inner_ring * g.inner_radius.powi(2),
-                support: support(
-                    s.support.inner_tilt_stiffness_nm_per_rad,
-                    s.support.inner_tilt_damping_nms_per_rad,
-                ),
+                support: support(s.support.inner_tilt_stiffness_nm_per_rad, s.support.inner_tilt_damping_nms_per_rad),
             },
             outer: TiltingRing {
                 inertia: inertia(m.outer_ring, g.outer_radius),
                 polar_inertia: 0.0,
-                support: support(
-                    s.support.outer_tilt_stiffness_nm_per_rad,
-                    s.support.outer_tilt_damping_nms_per_rad,
-                ),
+                support: support(s.support.outer_tilt_stiffness_nm_per_rad, s.support.outer_tilt_damping_nms_per_rad),
             },
             load_offset: 1e-3 * s.operation.load_offset_mm,
         }

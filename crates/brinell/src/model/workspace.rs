@@ -91,7 +91,8 @@ pub struct Workspace {
     pub pocket_friction: Column,
     /// (cos, sin) of the middle of each raceway defect that meets the contacts of each side.
     pub(super) directions: [Vec<[f64; 2]>; 2],
-    /// Lanes of each group whose contact may be on damage, a bit each; as many groups as the kernel's pairs make of the slots.
+    /// Lanes of each group whose contact may be on damage, a bit each; as many groups as the kernel's pairs make of the
+    /// slots.
     pub(super) candidates: [Vec<u8>; 2],
     /// Groups of which some contact may be closed.
     pub(super) maybe_closed: [Vec<bool>; 2],
@@ -131,11 +132,7 @@ impl Workspace {
             candidates: [vec![0; slots], vec![0; slots]],
             maybe_closed: [vec![false; slots], vec![false; slots]],
             directions: [0, 1].map(|side| model.broad_phase[side].directions()),
-            kernel: if kernel.is_there() {
-                kernel
-            } else {
-                Kernel::fastest()
-            },
+            kernel: if kernel.is_there() { kernel } else { Kernel::fastest() },
             kinematic_orbit: vec![0.0; slots],
             kinematic_spin: 0.0,
             max_elastic: [[0.0; WIDTH]; 2],
@@ -146,8 +143,7 @@ impl Workspace {
 
     /// Largest elastic force of each side's contacts, N.
     pub fn max_elastic(&self) -> [f64; 2] {
-        self.max_elastic
-            .map(|lanes| lanes.into_iter().fold(0.0, f64::max))
+        self.max_elastic.map(|lanes| lanes.into_iter().fold(0.0, f64::max))
     }
 
     /// Largest damping of a cage's guidance film in any direction, N s/m.

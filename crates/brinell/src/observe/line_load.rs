@@ -15,13 +15,11 @@ pub struct LineLoad {
 impl LineLoad {
     /// For contacts in such slices.
     pub fn new(slices: &Slices) -> Self {
-        Self {
-            values: vec![0.0; slices.count],
-            cover: Cover::new(slices.count),
-        }
+        Self { values: vec![0.0; slices.count], cover: Cover::new(slices.count) }
     }
 
-    /// Line load of each slice of one contact, N/m, with each slice's own damping; empty where contacts have no slices of their own.
+    /// Line load of each slice of one contact, N/m, with each slice's own damping; empty where contacts have no slices
+    /// of their own.
     pub fn of(&mut self, f: &Frame, slot: usize, side: Side) -> &[f64] {
         let Some(slices) = &f.model.slices else {
             return &[];
@@ -29,18 +27,10 @@ impl LineLoad {
         let contacts = &f.ws.contacts[side as usize];
         let at = contacts.approach(slot);
         let l = &f.model.layout;
-        let angles = Angles {
-            orbit: f.y[l.theta() + slot],
-            spin: f.y[l.phi() + slot],
-            ring: f.model.rotation.at(f.t).1,
-        };
-        let covered = contacts.on_damage[slot]
-            && cover_slices(
-                f.model.defects_of(slot, side),
-                &angles,
-                side,
-                &mut self.cover,
-            );
+        let angles =
+            Angles { orbit: f.y[l.theta() + slot], spin: f.y[l.phi() + slot], ring: f.model.rotation.at(f.t).1 };
+        let covered =
+            contacts.on_damage[slot] && cover_slices(f.model.defects_of(slot, side), &angles, side, &mut self.cover);
         let cover = covered.then_some(&self.cover);
         slices.line_load(f.model.contact(side), &at, cover, &mut self.values);
         &self.values
@@ -75,17 +65,10 @@ pub struct LineLoadRow {
 impl LineLoads {
     /// At `instants` (s) of a run at `sample_rate` (Hz); `None` where contacts have no slices of their own.
     pub fn new(model: &Model, instants: &[f64], sample_rate: f64) -> Option<Self> {
-        let mut samples: Vec<u64> = instants
-            .iter()
-            .map(|t| (t * sample_rate).round() as u64)
-            .collect();
+        let mut samples: Vec<u64> = instants.iter().map(|t| (t * sample_rate).round() as u64).collect();
         samples.sort_unstable();
         samples.dedup();
-        Some(Self {
-            samples,
-            reader: LineLoad::new(model.slices.as_ref()?),
-            rows: Vec::new(),
-        })
+        Some(Self { samples, reader: LineLoad::new(model.slices.as_ref()?), rows: Vec::new() })
     }
 
     /// Takes one sample instant.

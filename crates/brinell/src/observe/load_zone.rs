@@ -23,8 +23,7 @@ impl Places {
             ModelKind::Lumped => &f.ws.kinematic_orbit[..],
         };
         self.0.clear();
-        self.0
-            .extend(orbits[..l.rollers()].iter().map(|orbit| bin_at(*orbit)));
+        self.0.extend(orbits[..l.rollers()].iter().map(|orbit| bin_at(*orbit)));
         &self.0
     }
 }
@@ -36,7 +35,8 @@ fn bin_at(orbit: f64) -> usize {
     ((turn * BINS as f64) as usize).min(BINS - 1)
 }
 
-/// Forces at the outer contacts of one row, by orbit angle: bin k spans [k, k + 1) 2 pi / BINS from +X, counter-clockwise.
+/// Forces at the outer contacts of one row, by orbit angle: bin k spans [k, k + 1) 2 pi / BINS from +X,
+/// counter-clockwise.
 #[derive(Debug, Clone, PartialEq)]
 pub struct RowLoad {
     /// Sum of forces in each bin, N.
@@ -49,20 +49,12 @@ pub struct RowLoad {
 
 impl RowLoad {
     fn new() -> Self {
-        Self {
-            sum: vec![0.0; BINS],
-            max: vec![0.0; BINS],
-            count: vec![0; BINS],
-        }
+        Self { sum: vec![0.0; BINS], max: vec![0.0; BINS], count: vec![0; BINS] }
     }
 
     /// Mean force in each bin, N; 0 where no roller came by.
     pub fn mean(&self) -> Vec<f64> {
-        self.sum
-            .iter()
-            .zip(&self.count)
-            .map(|(s, &n)| if n > 0 { s / n as f64 } else { 0.0 })
-            .collect()
+        self.sum.iter().zip(&self.count).map(|(s, &n)| if n > 0 { s / n as f64 } else { 0.0 }).collect()
     }
 }
 
@@ -76,9 +68,7 @@ pub struct LoadZone {
 impl LoadZone {
     /// Empty.
     pub fn new(layout: &Layout) -> Self {
-        Self {
-            rows: vec![RowLoad::new(); layout.rows],
-        }
+        Self { rows: vec![RowLoad::new(); layout.rows] }
     }
 
     /// Takes one instant, at which the rollers are in these bins.

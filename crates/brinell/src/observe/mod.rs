@@ -1,4 +1,5 @@
-//! What is kept of a run when its rows are gone: indicators, spectra, load zone, slip, passes, motion. Bounded memory, whatever the duration.
+//! What is kept of a run when its rows are gone: indicators, spectra, load zone, slip, passes, motion. Bounded memory,
+//! whatever the duration.
 
 pub mod line_load;
 pub mod load_zone;
@@ -18,8 +19,8 @@ use crate::scenario::{Defect, Scenario, Speed};
 use crate::signal::ratio::{Ratio, ratio};
 use crate::signal::stream::LONGEST_SEGMENT;
 use crate::signal::{
-    Band, Blocks, EnvelopeSpectrum, Estimate, Indicator, Interval, LineFrequency, LineSearch,
-    Spectrogram, Spectrum, StreamSpectra,
+    Band, Blocks, EnvelopeSpectrum, Estimate, Indicator, Interval, LineFrequency, LineSearch, Spectrogram, Spectrum,
+    StreamSpectra,
 };
 use crate::simulate::Simulation;
 use load_zone::{LoadZone, Places};
@@ -83,10 +84,7 @@ pub struct DefectLine {
 impl DefectLine {
     /// The frequency found, Hz, with its interval.
     pub fn estimate(&self) -> Option<Estimate> {
-        self.found.map(|found| Estimate {
-            value: found.frequency,
-            interval: self.interval,
-        })
+        self.found.map(|found| Estimate { value: found.frequency, interval: self.interval })
     }
 }
 
@@ -152,7 +150,8 @@ impl Findings {
 /// A quantity that was still on its way to its later value when statistics began.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Drift {
-    /// Slip of the cage of a row, counted from 0: by how much more it was in the first fifth of the analysed time than in the last half.
+    /// Slip of the cage of a row, counted from 0: by how much more it was in the first fifth of the analysed time than
+    /// in the last half.
     CageSlip(usize, f64),
     /// Of a channel: its RMS in the first fifth over that of the last half, less 1.
     Level(String, f64),
@@ -207,10 +206,7 @@ pub fn envelope_band(model: &Model, sample_rate: f64) -> Band {
 /// The same by the highest defect frequency, Hz.
 #[doc(hidden)]
 pub fn envelope_band_above(highest: f64, sample_rate: f64) -> Band {
-    Band::between(
-        (BAND_HARMONIC * highest).min(BAND_LATEST * sample_rate),
-        BAND_END * sample_rate,
-    )
+    Band::between((BAND_HARMONIC * highest).min(BAND_LATEST * sample_rate), BAND_END * sample_rate)
 }
 
 impl Watch {
@@ -218,31 +214,18 @@ impl Watch {
     pub fn new(scenario: &Scenario, simulation: &Simulation) -> Self {
         let model = simulation.model();
         let sample_rate = simulation.sample_rate();
-        let statistics = |name: &str, unit, kind| ChannelStatistics {
-            name: name.to_owned(),
-            unit,
-            kind,
-            blocks: Blocks::new(),
-        };
+        let statistics =
+            |name: &str, unit, kind| ChannelStatistics { name: name.to_owned(), unit, kind, blocks: Blocks::new() };
         let mut channels: Vec<ChannelStatistics> = simulation
             .channels()
             .iter()
             .map(|c| {
-                let kind = if c.sensor_axis().is_some() {
-                    Kind::AntiAliased
-                } else {
-                    Kind::Instantaneous
-                };
+                let kind = if c.sensor_axis().is_some() { Kind::AntiAliased } else { Kind::Instantaneous };
                 statistics(&c.name, c.unit, kind)
             })
             .collect();
         let recorded = channels.len();
-        channels.extend(
-            simulation
-                .filtered()
-                .iter()
-                .map(|c| statistics(&c.name, c.unit, Kind::AntiAliased)),
-        );
+        channels.extend(simulation.filtered().iter().map(|c| statistics(&c.name, c.unit, Kind::AntiAliased)));
         let load = model.load.full;
         let duration = scenario.simulation.duration_s;
         let band = envelope_band(model, sample_rate);
@@ -334,17 +317,11 @@ impl Watch {
     /// What came together.
     pub fn finish(mut self, simulation: &Simulation) -> Findings {
         // The sensor channels were counted twice where they are recorded.
-        let names: Vec<&str> = simulation
-            .channels()
-            .iter()
-            .map(|c| c.name.as_str())
-            .collect();
+        let names: Vec<&str> = simulation.channels().iter().map(|c| c.name.as_str()).collect();
         let mut index = 0;
         self.channels.retain(|c| {
             index += 1;
-            index <= self.recorded
-                || !names.contains(&c.name.as_str())
-                || !c.name.starts_with("sensor_")
+            index <= self.recorded || !names.contains(&c.name.as_str()) || !c.name.starts_with("sensor_")
         });
         let drifts = self.drifts();
         let spectra = self.spectra.finish();
@@ -386,8 +363,7 @@ impl Watch {
             let ratio = (0.5 * c.blocks.level_drift()?).exp() - 1.0;
             (ratio.abs() > LEAST_LEVEL_DRIFT).then_some(Drift::Level(c.name.clone(), ratio))
         });
-        let slips =
-            slips.filter(|d| !matches!(d, Drift::CageSlip(_, by) if by.abs() < LEAST_SLIP_DRIFT));
+        let slips = slips.filter(|d| !matches!(d, Drift::CageSlip(_, by) if by.abs() < LEAST_SLIP_DRIFT));
         slips.chain(level).collect()
     }
 }
@@ -396,7 +372,8 @@ impl Watch {
 const LEAST_SLIP_DRIFT: f64 = 1e-3;
 const LEAST_LEVEL_DRIFT: f64 = 0.02;
 
-/// Whether statistics count what a run shows from here on: the load is on and the shaft has turned once, or `half_way` (s) is reached.
+/// Whether statistics count what a run shows from here on: the load is on and the shaft has turned once, or `half_way`
+/// (s) is reached.
 #[doc(hidden)]
 pub fn has_settled(frame: &Frame, half_way: f64) -> bool {
     let turned = frame.model.rotation.at(frame.t).1.abs() >= TAU;
@@ -416,13 +393,7 @@ fn defect_lines(scenario: &Scenario, simulation: &Simulation) -> Vec<DefectLine>
     let k = model.kinematics(model.rotation.at(0.0).0);
     let line = |(defect, d): (usize, &Defect)| {
         let (name, nominal) = k.defect_frequency(d.on);
-        DefectLine {
-            defect,
-            name,
-            nominal,
-            found: None,
-            interval: None,
-        }
+        DefectLine { defect, name, nominal, found: None, interval: None }
     };
     scenario.defects.iter().enumerate().map(line).collect()
 }

@@ -46,22 +46,14 @@ pub struct Motion {
 }
 
 impl Motion {
-    /// For a run of `duration` s at `sample_rate` Hz: the frames span a turn of the shaft at its last speed, or its highest where it ends
-    /// at rest.
+    /// For a run of `duration` s at `sample_rate` Hz: the frames span a turn of the shaft at its last speed, or its
+    /// highest where it ends at rest.
     pub fn new(model: &Model, duration: f64, sample_rate: f64) -> Self {
         let l = &model.layout;
         let capacity = (FRAMES * ROLLERS / l.rollers().max(1)).clamp(FEWEST, FRAMES);
         let last = model.rotation.at(duration).0.abs();
-        let speed = if last > 0.0 {
-            last
-        } else {
-            model.rotation.max_speed().abs()
-        };
-        let span = if speed > 0.0 {
-            (TAU / speed).min(duration)
-        } else {
-            duration
-        };
+        let speed = if last > 0.0 { last } else { model.rotation.max_speed().abs() };
+        let span = if speed > 0.0 { (TAU / speed).min(duration) } else { duration };
         let stride = ((span * sample_rate / capacity as f64).round() as u64).max(1);
         Self::every(model, stride, capacity)
     }
@@ -70,12 +62,7 @@ impl Motion {
     #[doc(hidden)]
     pub fn every(model: &Model, stride: u64, capacity: usize) -> Self {
         let (rollers, rows) = (model.layout.rollers(), model.layout.rows);
-        let still = RollerState {
-            orbit: 0.0,
-            spin: 0.0,
-            inner_force: 0.0,
-            outer_force: 0.0,
-        };
+        let still = RollerState { orbit: 0.0, spin: 0.0, inner_force: 0.0, outer_force: 0.0 };
         Self {
             rollers,
             rows,
@@ -106,9 +93,7 @@ impl Motion {
         let [inner, outer] = [Side::Inner, Side::Outer].map(|s| &f.ws.contacts[s as usize].force);
         for slot in 0..self.rollers {
             let (orbit, spin) = match f.model.kind {
-                ModelKind::Full | ModelKind::Tilting => {
-                    (f.y[l.theta() + slot], f.y[l.phi() + slot])
-                }
+                ModelKind::Full | ModelKind::Tilting => (f.y[l.theta() + slot], f.y[l.phi() + slot]),
                 ModelKind::Lumped => (f.ws.kinematic_orbit[slot], f.ws.kinematic_spin),
             };
             self.states[at * self.rollers + slot] = RollerState {
@@ -121,9 +106,7 @@ impl Motion {
         for row in 0..self.rows {
             let angle = match f.model.kind {
                 ModelKind::Full | ModelKind::Tilting => f.y[l.cage(row) + 2],
-                ModelKind::Lumped => {
-                    f.ws.kinematic_orbit[l.slot(row, 0)] - f.model.pocket_angle[l.slot(row, 0)]
-                }
+                ModelKind::Lumped => f.ws.kinematic_orbit[l.slot(row, 0)] - f.model.pocket_angle[l.slot(row, 0)],
             };
             self.cages[at * self.rows + row] = wrap(angle) as f32;
         }

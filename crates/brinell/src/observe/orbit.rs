@@ -27,11 +27,7 @@ impl CageOrbit {
     /// For a run of `duration` s at `sample_rate` Hz.
     pub fn new(model: &Model, duration: f64, sample_rate: f64) -> Self {
         let last = model.rotation.at(duration).0.abs();
-        let speed = model.rolling_orbit_speed(if last > 0.0 {
-            last
-        } else {
-            model.rotation.max_speed().abs()
-        });
+        let speed = model.rolling_orbit_speed(if last > 0.0 { last } else { model.rotation.max_speed().abs() });
         let turn = if speed > 0.0 { TAU / speed } else { duration };
         // A cage of the lumped model has no freedom.
         let rows = match model.kind {
@@ -63,8 +59,7 @@ impl CageOrbit {
         self.times[at] = f.t;
         for row in 0..self.rows {
             let cage = l.cage(row);
-            self.centres[at * self.rows + row] =
-                [f.y[cage] - f.y[ring], f.y[cage + 1] - f.y[ring + 1]];
+            self.centres[at * self.rows + row] = [f.y[cage] - f.y[ring], f.y[cage + 1] - f.y[ring + 1]];
         }
     }
 

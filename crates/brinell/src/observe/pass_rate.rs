@@ -1,8 +1,9 @@
 //! The rate at which rollers meet each defect, from the motion itself: how slip lets a defect frequency wander.
 //!
-//! The phase of a defect, in impacts: Z theta / (2 pi) of a defect on the outer raceway, Z (alpha - theta) / (2 pi) on the inner one, with theta the mean
-//! orbit angle of the row's Z rollers and alpha the inner ring's angle, and 2 (phi - theta) / (2 pi) on a roller that turns by phi. Its rise over
-//! each revolution of the inner ring is kept; the scatter of these, autocorrelation included, is that of the mean rate.
+//! The phase of a defect, in impacts: Z theta / (2 pi) of a defect on the outer raceway, Z (alpha - theta) / (2 pi) on
+//! the inner one, with theta the mean orbit angle of the row's Z rollers and alpha the inner ring's angle, and 2 (phi -
+//! theta) / (2 pi) on a roller that turns by phi. Its rise over each revolution of the inner ring is kept; the scatter
+//! of these, autocorrelation included, is that of the mean rate.
 
 use crate::channel::Frame;
 use crate::model::{Layout, Model};
@@ -14,7 +15,8 @@ use std::f64::consts::TAU;
 /// Share of a run, at its beginning, that hardly moves a frequency found under Hann's window.
 const TAPERED: f64 = 0.2;
 
-/// Distance from the mean rate, relative, at which a comb is taken for a lobe of itself. Cages that settle move a frequency by 0.1 %.
+/// Distance from the mean rate, relative, at which a comb is taken for a lobe of itself. Cages that settle move a
+/// frequency by 0.1 %.
 const LOBE: f64 = 0.005;
 
 /// Of one defect.
@@ -30,8 +32,8 @@ struct Rate {
 }
 
 impl Rate {
-    /// Whether the mean rate of the motion is that of the impacts: a roller spins more slowly where nothing presses it, and causes impacts where something
-    /// does.
+    /// Whether the mean rate of the motion is that of the impacts: a roller spins more slowly where nothing presses it,
+    /// and causes impacts where something does.
     fn on_raceway(&self) -> bool {
         !matches!(self.surface, Surface::Roller(_))
     }
@@ -78,10 +80,7 @@ impl PassRates {
         };
         let kinematic = model.kind == ModelKind::Lumped;
         let defects = model.defects.iter().filter(|_| !kinematic);
-        Self {
-            last: None,
-            rates: defects.map(rate).collect(),
-        }
+        Self { last: None, rates: defects.map(rate).collect() }
     }
 
     /// Takes the instant at which statistics begin or a whole revolution of the inner ring has ended.
@@ -97,21 +96,18 @@ impl PassRates {
         self.last = Some(f.t);
     }
 
-    /// Impacts per second on a defect, counted from 0, over whole revolutions; negative where the phase falls. `None` in the lumped model, whose
-    /// rollers do not slip, and before the first revolution.
+    /// Impacts per second on a defect, counted from 0, over whole revolutions; negative where the phase falls. `None`
+    /// in the lumped model, whose rollers do not slip, and before the first revolution.
     pub(super) fn rate(&self, defect: usize) -> Option<Estimate> {
         self.rates.get(defect)?.averages.estimate()
     }
 
     /// The frequency found in the envelope as an estimate of the mean rate, with its interval.
     ///
-    /// Where the rate swings at a steady pace (a cage that whirls takes the rollers with it), each line of the comb splits into lobes, and the
-    /// highest lobe is not the mean rate: farther from the motion's own by more than half a percent, that one replaces it.
-    pub(super) fn mean_rate(
-        &self,
-        defect: usize,
-        found: LineFrequency,
-    ) -> (LineFrequency, Option<Interval>) {
+    /// Where the rate swings at a steady pace (a cage that whirls takes the rollers with it), each line of the comb
+    /// splits into lobes, and the highest lobe is not the mean rate: farther from the motion's own by more than half a
+    /// percent, that one replaces it.
+    pub(super) fn mean_rate(&self, defect: usize, found: LineFrequency) -> (LineFrequency, Option<Interval>) {
         let interval = self.interval(defect, &found);
         let raceway = self.rates.get(defect).is_some_and(Rate::on_raceway);
         let Some(rate) = self.rate(defect).filter(|_| raceway) else {
@@ -122,25 +118,23 @@ impl PassRates {
             return (found, interval);
         }
         let interval = rate.interval.map(|i| match rate.value < 0.0 {
-            true => Interval {
-                low: -i.high,
-                high: -i.low,
-                ..i
-            },
+            true => Interval { low: -i.high, high: -i.low, ..i },
             false => i,
         });
         (LineFrequency { frequency, ..found }, interval)
     }
 
-    /// The interval of a frequency found in the envelope: of its noise, of slip's wander about the mean rate, and of what sets it apart from the
-    /// motion's own mean.
+    /// The interval of a frequency found in the envelope: of its noise, of slip's wander about the mean rate, and of
+    /// what sets it apart from the motion's own mean.
     ///
-    /// A rate that wanders with spectral density S at frequency zero scatters by sqrt(S / T) over a time T, and the motion gives S. A comb of
-    /// many harmonics settles on the stretch in which the rate was steadiest, so on a raceway, where the motion's mean rate over the same time
-    /// is the same quantity, the distance between the two counts as a further error. A roller spins more slowly where it has no impacts:
-    /// there T is [`LineFrequency::span`], of a weighted average over the record. Hann's window gives the beginning little weight, so where
-    /// cages still settle there (Geweke's comparison finds a drift) it does not count as wander. Degrees of freedom by Welch and
-    /// Satterthwaite, those of the noise counting as many. `None` where the run is too short to tell.
+    /// A rate that wanders with spectral density S at frequency zero scatters by sqrt(S / T) over a time T, and the
+    /// motion gives S. A comb of many harmonics settles on the stretch in which the rate was steadiest, so on a
+    /// raceway, where the motion's mean rate over the same time is the same quantity, the distance between the two
+    /// counts as a further error. A roller spins more slowly where it has no impacts: there T is
+    /// [`LineFrequency::span`], of a weighted average over the record. Hann's window gives the beginning little weight,
+    /// so where cages still settle there (Geweke's comparison finds a drift) it does not count as wander. Degrees of
+    /// freedom by Welch and Satterthwaite, those of the noise counting as many. `None` where the run is too short to
+    /// tell.
     fn interval(&self, defect: usize, found: &LineFrequency) -> Option<Interval> {
         let noise = found.noise * found.noise;
         let (wander, freedom) = match self.rates.get(defect) {
@@ -161,10 +155,7 @@ impl PassRates {
         };
         let share = wander / (wander + noise);
         let freedom = (freedom / (share * share)).min(f64::from(MOST_FREEDOM));
-        let scatter = Scatter {
-            error: (wander + noise).sqrt(),
-            freedom: freedom as u32,
-        };
+        let scatter = Scatter { error: (wander + noise).sqrt(), freedom: freedom as u32 };
         Estimate::signed(found.frequency, Some(scatter)).interval
     }
 }

@@ -58,7 +58,8 @@ const MOST_POINTS: usize = 2048;
 const MOST_EVENTS: usize = 4096;
 /// A pass begins and ends this share of the defect's length beyond its edges.
 const MARGIN: f64 = 0.5;
-/// But a raceway's pass is over before the next roller's begins: at most this share of the way that the damage leaves between two rollers.
+/// But a raceway's pass is over before the next roller's begins: at most this share of the way that the damage leaves
+/// between two rollers.
 const MARGIN_BETWEEN: f64 = 0.45;
 
 /// One defect under watch.
@@ -113,8 +114,7 @@ impl Passes {
                 first: first / d.radius,
                 last: last / d.radius,
                 margin,
-                cos_near: (!matches!(d.surface, Surface::Roller(_)) && near < PI)
-                    .then(|| near.cos()),
+                cos_near: (!matches!(d.surface, Surface::Roller(_)) && near < PI).then(|| near.cos()),
                 contacts,
                 current: None,
                 stride: 1,
@@ -122,10 +122,7 @@ impl Passes {
                 best: None,
             }
         };
-        Self {
-            watches: model.defects.iter().map(watch).collect(),
-            events: VecDeque::new(),
-        }
+        Self { watches: model.defects.iter().map(watch).collect(), events: VecDeque::new() }
     }
 
     /// Takes one accepted step; whole passes are kept only where `keep`.
@@ -136,11 +133,7 @@ impl Passes {
             let defect = &f.model.defects[index];
             let middle = defect.center
                 + 0.5 * (watch.first + watch.last)
-                + if defect.surface == Surface::InnerRaceway {
-                    ring
-                } else {
-                    0.0
-                };
+                + if defect.surface == Surface::InnerRaceway { ring } else { 0.0 };
             let (sin, cos) = middle.sin_cos();
             for k in 0..watch.contacts.len() {
                 let (slot, side, inside) = watch.contacts[k];
@@ -150,16 +143,10 @@ impl Passes {
                     continue;
                 }
                 let angles = match f.model.kind {
-                    ModelKind::Full | ModelKind::Tilting => Angles {
-                        orbit: f.y[l.theta() + slot],
-                        spin: f.y[l.phi() + slot],
-                        ring,
-                    },
-                    ModelKind::Lumped => Angles {
-                        orbit: f.ws.kinematic_orbit[slot],
-                        spin: f.ws.kinematic_spin,
-                        ring,
-                    },
+                    ModelKind::Full | ModelKind::Tilting => {
+                        Angles { orbit: f.y[l.theta() + slot], spin: f.y[l.phi() + slot], ring }
+                    }
+                    ModelKind::Lumped => Angles { orbit: f.ws.kinematic_orbit[slot], spin: f.ws.kinematic_spin, ring },
                 };
                 let u = defect.local_angle(&angles, side);
                 let now = u >= watch.first && u <= watch.last;
@@ -168,16 +155,9 @@ impl Passes {
                     if self.events.len() == MOST_EVENTS {
                         self.events.pop_front();
                     }
-                    self.events.push_back(Event {
-                        t: f.t,
-                        defect: index,
-                        slot,
-                        side,
-                        enters: now,
-                    });
+                    self.events.push_back(Event { t: f.t, defect: index, slot, side, enters: now });
                 }
-                let near =
-                    from_middle(u, watch).abs() <= 0.5 * (watch.last - watch.first) + watch.margin;
+                let near = from_middle(u, watch).abs() <= 0.5 * (watch.last - watch.first) + watch.margin;
                 watch.follow(f, index, slot, side, u, near, keep);
             }
         }
@@ -201,29 +181,14 @@ impl Watch {
     }
 
     #[expect(clippy::too_many_arguments, reason = "one contact at one instant")]
-    fn follow(
-        &mut self,
-        f: &Frame,
-        defect: usize,
-        slot: usize,
-        side: Side,
-        u: f64,
-        near: bool,
-        keep: bool,
-    ) {
-        let mine = self
-            .current
-            .as_ref()
-            .map(|p| p.slot == slot && p.side == side);
+    fn follow(&mut self, f: &Frame, defect: usize, slot: usize, side: Side, u: f64, near: bool, keep: bool) {
+        let mine = self.current.as_ref().map(|p| p.slot == slot && p.side == side);
         match (mine, near) {
             (Some(true), true) => self.add(f, u),
             (Some(true), false) => {
                 // A pass counts where it was seen from one margin to the other.
                 if let Some(pass) = self.current.take() {
-                    let span = pass
-                        .points
-                        .last()
-                        .map_or(0.0, |p| wrap(p.angle - pass.points[0].angle).abs());
+                    let span = pass.points.last().map_or(0.0, |p| wrap(p.angle - pass.points[0].angle).abs());
                     let whole = span >= self.last - self.first + self.margin;
                     if whole && self.best.as_ref().is_none_or(|b| pass.peak > b.peak) {
                         self.best = Some(pass);
@@ -231,13 +196,7 @@ impl Watch {
                 }
             }
             (None, true) if keep => {
-                self.current = Some(Pass {
-                    defect,
-                    slot,
-                    side,
-                    points: Vec::with_capacity(MOST_POINTS),
-                    peak: 0.0,
-                });
+                self.current = Some(Pass { defect, slot, side, points: Vec::with_capacity(MOST_POINTS), peak: 0.0 });
                 (self.stride, self.skipped) = (1, 0);
                 self.add(f, u);
             }

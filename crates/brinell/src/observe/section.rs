@@ -1,4 +1,5 @@
-//! A tilting bearing seen from the side: a section along its axis, through the damage or through the middle of the load zone.
+//! A tilting bearing seen from the side: a section along its axis, through the damage or through the middle of the load
+//! zone.
 
 use super::line_load::LineLoad;
 use crate::channel::Frame;
@@ -121,9 +122,6 @@ impl Sections {
         let start = at * self.frame_size() + RINGS + row * self.row_size();
         let loads = &self.values[start + ROLLER..][..2 * self.strips];
         let (inner, outer) = loads.split_at(self.strips);
-        SectionRow {
-            tilt: self.values[start],
-            line_loads: [inner, outer],
-        }
+        SectionRow { tilt: self.values[start], line_loads: [inner, outer] }
     }
 }

@@ -18,18 +18,14 @@ pub struct RowSlip {
 
 impl RowSlip {
     fn end_revolution(&mut self) {
-        let RowSlip {
-            cage,
-            loaded_orbit,
-            loaded_surface,
-            unloaded_orbit,
-        } = self;
+        let RowSlip { cage, loaded_orbit, loaded_surface, unloaded_orbit } = self;
         for averages in [cage, loaded_orbit, loaded_surface, unloaded_orbit] {
             averages.end_block();
         }
     }
 
-    /// By how much the cage's slip was larger when statistics began than later, where that is more than its scatter explains.
+    /// By how much the cage's slip was larger when statistics began than later, where that is more than its scatter
+    /// explains.
     pub fn cage_drift(&self) -> Option<f64> {
         self.cage.drift()
     }
@@ -69,11 +65,7 @@ pub struct Slip {
 impl Slip {
     /// Empty.
     pub fn new(layout: &Layout) -> Self {
-        Self {
-            rows: vec![RowSlip::default(); layout.rows],
-            start_angle: None,
-            turn: 0,
-        }
+        Self { rows: vec![RowSlip::default(); layout.rows], start_angle: None, turn: 0 }
     }
 
     /// Takes one instant; skipped while the ring is at rest.
@@ -94,9 +86,7 @@ impl Slip {
         let surface = w * f.model.geometry.inner_radius;
         let inner = &f.ws.contacts[Side::Inner as usize];
         for row in 0..l.rows {
-            self.rows[row]
-                .cage
-                .push(1.0 - f.y[dof + l.cage(row) + 2] / rolling);
+            self.rows[row].cage.push(1.0 - f.y[dof + l.cage(row) + 2] / rolling);
         }
         for slot in 0..l.rollers() {
             let row = &mut self.rows[l.row(slot)];

@@ -81,10 +81,7 @@ impl SlipCourse {
         }
         self.in_stretch = (self.in_stretch + 1) % self.per_stretch;
         let (w, _) = f.model.rotation.at(f.t);
-        if f.model.kind == ModelKind::Lumped
-            || w == 0.0
-            || w.abs() < SLOWEST * f.model.rotation.max_speed().abs()
-        {
+        if f.model.kind == ModelKind::Lumped || w == 0.0 || w.abs() < SLOWEST * f.model.rotation.max_speed().abs() {
             return;
         }
         let l = &f.model.layout;
@@ -122,8 +119,7 @@ impl SlipCourse {
         for stretch in 0..half {
             for row in 0..self.rows {
                 let at = |k: usize| k * self.rows + row;
-                self.stretches[at(stretch)] =
-                    self.stretches[at(2 * stretch)].with(self.stretches[at(2 * stretch + 1)]);
+                self.stretches[at(stretch)] = self.stretches[at(2 * stretch)].with(self.stretches[at(2 * stretch + 1)]);
             }
         }
         self.stretches.truncate(half * self.rows);

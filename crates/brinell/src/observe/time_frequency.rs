@@ -72,9 +72,7 @@ impl TimeFrequency {
         }
         self.latest.copy_within(self.length / 2.., 0);
         self.filled = self.length - self.length / 2;
-        let done =
-            self.fft
-                .process_with_scratch(&mut self.input, &mut self.output, &mut self.scratch);
+        let done = self.fft.process_with_scratch(&mut self.input, &mut self.output, &mut self.scratch);
         if done.is_err() {
             return;
         }
@@ -89,11 +87,7 @@ impl TimeFrequency {
         let first = self.sums.len() - bins;
         let density = 1.0 / (self.sample_rate * self.energy);
         for (k, (sum, value)) in self.sums[first..].iter_mut().zip(&self.output).enumerate() {
-            let sides = if k == 0 || 2 * k == self.length {
-                1.0
-            } else {
-                2.0
-            };
+            let sides = if k == 0 || 2 * k == self.length { 1.0 } else { 2.0 };
             *sum += sides * value.norm_sqr() * density;
         }
     }
@@ -103,8 +97,7 @@ impl TimeFrequency {
         let bins = self.output.len();
         for frame in 0..FRAMES / 2 {
             for k in 0..bins {
-                self.sums[frame * bins + k] =
-                    self.sums[2 * frame * bins + k] + self.sums[(2 * frame + 1) * bins + k];
+                self.sums[frame * bins + k] = self.sums[2 * frame * bins + k] + self.sums[(2 * frame + 1) * bins + k];
             }
         }
         self.sums.truncate(FRAMES / 2 * bins);
@@ -120,15 +113,12 @@ impl TimeFrequency {
         if self.sums.is_empty() {
             return None;
         }
-        self.sums
-            .iter_mut()
-            .for_each(|sum| *sum /= self.per_frame as f64);
+        self.sums.iter_mut().for_each(|sum| *sum /= self.per_frame as f64);
         let step = (self.length / 2) as f64 / self.sample_rate;
         let whole: f64 = self.window.iter().sum();
         Some(Spectrogram {
             frequency_step: self.sample_rate / self.length as f64,
-            first_time: 0.5 * self.length as f64 / self.sample_rate
-                + 0.5 * (self.per_frame - 1) as f64 * step,
+            first_time: 0.5 * self.length as f64 / self.sample_rate + 0.5 * (self.per_frame - 1) as f64 * step,
             time_step: self.per_frame as f64 * step,
             bins,
             density: self.sums,
@@ -137,12 +127,11 @@ impl TimeFrequency {
     }
 }
 
-/// Samples of a segment: about as many bins as frames, moved to where frames do not beat with the ball-pass period. Either a segment holds
-/// several periods, or frames follow each other quickly enough to show each pass. Without such a length, bins as many as frames.
+/// Samples of a segment: about as many bins as frames, moved to where frames do not beat with the ball-pass period.
+/// Either a segment holds several periods, or frames follow each other quickly enough to show each pass. Without such a
+/// length, bins as many as frames.
 fn segment(samples: u64, [longest, shortest]: [f64; 2]) -> usize {
-    let even = ((samples.max(1) as f64).sqrt() as usize)
-        .next_power_of_two()
-        .clamp(SEGMENT[0], SEGMENT[1]);
+    let even = ((samples.max(1) as f64).sqrt() as usize).next_power_of_two().clamp(SEGMENT[0], SEGMENT[1]);
     let clear = |length: &usize| {
         let hop = (length / 2) as f64;
         let resolved = WITHIN * hop <= shortest && samples as f64 / hop <= FRAMES as f64;
@@ -164,18 +153,13 @@ mod tests {
     #[test]
     fn analytic_frames_are_those_of_the_whole_signal_and_means_of_them() {
         let fs = 1000.0;
-        let x: Vec<f64> = (0..64 * 300)
-            .map(|k| (k as f64 * 0.3).sin() + (k as f64 * k as f64 * 1e-5).cos())
-            .collect();
+        let x: Vec<f64> = (0..64 * 300).map(|k| (k as f64 * 0.3).sin() + (k as f64 * k as f64 * 1e-5).cos()).collect();
         let whole = spectrogram(&x, fs, &Segments::of(64)).unwrap();
         let mut streamed = TimeFrequency::with_length(fs, 64);
         x.iter().for_each(|x| streamed.push(*x));
         let streamed = streamed.finish().unwrap();
         // 599 segments: more than fit, so frames are means of two.
-        assert_eq!(
-            (whole.frames(), streamed.frames(), streamed.bins),
-            (599, 299, 33)
-        );
+        assert_eq!((whole.frames(), streamed.frames(), streamed.bins), (599, 299, 33));
         assert_eq!(streamed.time_step, 2.0 * whole.time_step);
         assert!((streamed.first_time - whole.first_time - 0.5 * whole.time_step).abs() < 1e-12);
         for frame in 0..streamed.frames() {
@@ -193,11 +177,7 @@ mod tests {
         (0..1_000_000_u32).for_each(|k| stream.push(f64::from(k % 7)));
         assert_eq!(stream.sums.capacity(), room);
         assert!(stream.finish().is_some_and(|s| s.frames() <= FRAMES));
-        assert!(
-            TimeFrequency::new(1000.0, 10, [100.0, 60.0])
-                .finish()
-                .is_none()
-        );
+        assert!(TimeFrequency::new(1000.0, 10, [100.0, 60.0]).finish().is_none());
     }
 
     /// Impacts once a ball-pass period are steady: so are the frames, whatever the period.
@@ -215,9 +195,7 @@ mod tests {
             let powers: Vec<f64> = frames.map(|frame| frame.iter().sum()).collect();
             let mean = powers.iter().sum::<f64>() / powers.len() as f64;
             // The window's side lobes, and impacts that fall between samples.
-            let most = powers
-                .iter()
-                .fold(0.0, |m: f64, p| m.max((p / mean - 1.0).abs()));
+            let most = powers.iter().fold(0.0, |m: f64, p| m.max((p / mean - 1.0).abs()));
             assert!(most < 0.02, "{samples} {period} {length}: {most}");
         }
         // Slow passes in a short run are resolved one by one.

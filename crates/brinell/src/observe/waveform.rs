@@ -22,13 +22,7 @@ pub struct Waveform {
 impl Waveform {
     /// Empty.
     pub fn new() -> Self {
-        Self {
-            latest: VecDeque::new(),
-            seen: 0,
-            per_bin: 1,
-            extremes: Vec::new(),
-            in_bin: 0,
-        }
+        Self { latest: VecDeque::new(), seen: 0, per_bin: 1, extremes: Vec::new(), in_bin: 0 }
     }
 
     /// Takes one sample.
@@ -40,10 +34,7 @@ impl Waveform {
         self.seen += 1;
         if self.in_bin == 0 {
             if self.extremes.len() == BINS {
-                let merged = self
-                    .extremes
-                    .chunks(2)
-                    .map(|c| [c[0][0].min(c[1][0]), c[0][1].max(c[1][1])]);
+                let merged = self.extremes.chunks(2).map(|c| [c[0][0].min(c[1][0]), c[0][1].max(c[1][1])]);
                 self.extremes = merged.collect();
                 self.per_bin *= 2;
             }
@@ -56,10 +47,7 @@ impl Waveform {
 
     /// The latest samples and the index of the first of them.
     pub fn latest(&self) -> (u64, Vec<f64>) {
-        (
-            self.seen - self.latest.len() as u64,
-            self.latest.iter().copied().collect(),
-        )
+        (self.seen - self.latest.len() as u64, self.latest.iter().copied().collect())
     }
 
     /// (smallest, largest) of each bin, and the samples in a bin.
@@ -82,11 +70,7 @@ mod tests {
     fn prop_overview_holds_the_extremes_and_stays_small() {
         let mut w = Waveform::new();
         for k in 0..1_000_000_u32 {
-            w.push(if k == 123_456 {
-                7.0
-            } else {
-                f64::from(k % 100) * 0.01
-            });
+            w.push(if k == 123_456 { 7.0 } else { f64::from(k % 100) * 0.01 });
         }
         let (bins, per_bin) = w.overview();
         assert!(bins.len() <= BINS);

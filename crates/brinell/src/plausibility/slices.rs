@@ -1,10 +1,11 @@
 //! Whether the slices are narrow enough for the edges of the damage.
 //!
-//! An edge that runs slantwise across a slice reaches its borders at different s. Away from an edge an envelope sinks as s^2 / (2 R_eq), so strips
-//! beside one another sink by different depths, while the slice has one mean depth (section 3) and lets go as a whole. A strip lets go where it
-//! has sunk by the contact's deformation delta, at s = sqrt(2 R_eq delta), and there the depth grows by sqrt(2 delta / R_eq) per length. Strips of
-//! one slice differ by less than delta if the edge runs less than sqrt(R_eq delta / 2) across it. Of depth maps only the edges are judged, not how
-//! the floor varies.
+//! An edge that runs slantwise across a slice reaches its borders at different s. Away from an edge an envelope sinks
+//! as s^2 / (2 R_eq), so strips beside one another sink by different depths, while the slice has one mean depth
+//! (section 3) and lets go as a whole. A strip lets go where it has sunk by the contact's deformation delta, at s =
+//! sqrt(2 R_eq delta), and there the depth grows by sqrt(2 delta / R_eq) per length. Strips of one slice differ by less
+//! than delta if the edge runs less than sqrt(R_eq delta / 2) across it. Of depth maps only the edges are judged, not
+//! how the floor varies.
 
 use super::{deformation, short, warning};
 use crate::defect::{Defect, SIDES, Side, cover_slices, relative_radius, wrap};
@@ -23,11 +24,7 @@ const DAMAGES: usize = 32;
 const MOST: usize = 10_000;
 
 /// Slices too wide for slanted edges along an envelope.
-pub(super) fn coarse_slices(
-    scenario: &Scenario,
-    model: &Model,
-    zone: &StaticLoadZone,
-) -> Option<Problem> {
+pub(super) fn coarse_slices(scenario: &Scenario, model: &Model, zone: &StaticLoadZone) -> Option<Problem> {
     let c = &scenario.contact;
     let counts = c.law == Law::Sliced
         && c.roller_path == RollerPath::Envelope
@@ -40,11 +37,7 @@ pub(super) fn coarse_slices(
     let edges = Edges {
         scenario,
         deformation: deformation(model, zone),
-        pressed: model
-            .defects
-            .iter()
-            .map(|d| is_pressed(model, zone, d))
-            .collect(),
+        pressed: model.defects.iter().map(|d| is_pressed(model, zone, d)).collect(),
     };
     let (run, way) = edges.worst(c.slices)?;
     let mut needed = c.slices;
@@ -91,23 +84,16 @@ struct Edges<'a> {
 }
 
 impl Edges<'_> {
-    /// The edge that runs farthest across one of so many slices beside the way that it may, and that way, m; none that runs too far.
+    /// The edge that runs farthest across one of so many slices beside the way that it may, and that way, m; none that
+    /// runs too far.
     fn worst(&self, slices: usize) -> Option<(f64, f64)> {
         // Edges are where they are by either path, and without an envelope they are found sooner.
-        let contact = Contact {
-            slices,
-            roller_path: RollerPath::Point,
-            ..self.scenario.contact.clone()
-        };
+        let contact = Contact { slices, roller_path: RollerPath::Point, ..self.scenario.contact.clone() };
         let looked_at: &[scenario::Defect] = &self.scenario.defects;
         let looked_at = &looked_at[..looked_at.len().min(DAMAGES)];
         let all = Defect::all(looked_at, &self.scenario.bearing, &contact).ok()?;
         let mut worst: Option<(f64, f64)> = None;
-        for (defect, _) in all
-            .iter()
-            .zip(&self.pressed)
-            .filter(|(_, pressed)| **pressed)
-        {
+        for (defect, _) in all.iter().zip(&self.pressed).filter(|(_, pressed)| **pressed) {
             for side in SIDES {
                 let radius = relative_radius(&self.scenario.bearing, side);
                 let way = (0.5 * radius * self.deformation).sqrt();
@@ -120,8 +106,9 @@ impl Edges<'_> {
         worst
     }
 
-    /// How far (m) the first or the last edge runs along s within one slice, on average over the slices that meet the damage; several defects are
-    /// one surface. 0 where the contact never meets the damage, or never sinks by the deformation.
+    /// How far (m) the first or the last edge runs along s within one slice, on average over the slices that meet the
+    /// damage; several defects are one surface. 0 where the contact never meets the damage, or never sinks by the
+    /// deformation.
     fn run_across(&self, all: &[Defect], defect: &Defect, side: Side, slices: usize) -> f64 {
         let radius = relative_radius(&self.scenario.bearing, side);
         if defect.depth_profile(side).is_none() || defect.reach(radius).1 <= self.deformation {
@@ -145,9 +132,7 @@ impl Edges<'_> {
             }
         }
         let met = || edges.iter().filter(|edge| edge.most > 0.0);
-        let mean = |of: &dyn Fn(&Edge) -> usize| {
-            met().map(of).sum::<usize>() as f64 / met().count().max(1) as f64
-        };
+        let mean = |of: &dyn Fn(&Edge) -> usize| met().map(of).sum::<usize>() as f64 / met().count().max(1) as f64;
         step * mean(&|e| e.full[0] - e.any[0]).max(mean(&|e| e.any[1] - e.full[1]))
     }
 }

@@ -28,20 +28,14 @@ fn rows_meet(scenario: &Scenario) -> Option<Problem> {
         (
             "bearing.row_spacing_mm",
             spacing,
-            format!(
-                "rollers {} mm long overlap with those of the next row",
-                short(length)
-            ),
+            format!("rollers {} mm long overlap with those of the next row", short(length)),
             format!(">= {}", short(length)),
         )
     } else if reach > faces {
         (
             "bearing.width_mm",
             faces,
-            format!(
-                "rollers reach over {} mm along the axis, beyond the bearing's faces",
-                short(reach)
-            ),
+            format!("rollers reach over {} mm along the axis, beyond the bearing's faces", short(reach)),
             format!(">= {}", short(reach)),
         )
     } else {
@@ -51,10 +45,7 @@ fn rows_meet(scenario: &Scenario) -> Option<Problem> {
 }
 
 fn load_beside_the_bearing(scenario: &Scenario) -> Option<Problem> {
-    let (offset, half) = (
-        scenario.operation.load_offset_mm,
-        0.5 * scenario.bearing.width_mm,
-    );
+    let (offset, half) = (scenario.operation.load_offset_mm, 0.5 * scenario.bearing.width_mm);
     (offset.abs() > half).then(|| {
         warning(
             "operation.load_offset_mm",

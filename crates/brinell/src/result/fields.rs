@@ -1,5 +1,5 @@
-//! The list of a run's numbers: name, unit, meaning, estimator, and what each is read from. Terminal, `summary.json`, sweeps, data
-//! sets, the page and Python take names, units and values from here.
+//! The list of a run's numbers: name, unit, meaning, estimator, and what each is read from. Terminal, `summary.json`,
+//! sweeps, data sets, the page and Python take names, units and values from here.
 
 use super::impacts::Impacts;
 use crate::bearing::kinematics::Kinematics;
@@ -172,13 +172,11 @@ fields! {
 
 /// A value that does not scatter, as an estimate.
 pub(super) fn exact(value: Option<f64>) -> Option<Estimate> {
-    value.map(|value| Estimate {
-        value,
-        interval: None,
-    })
+    value.map(|value| Estimate { value, interval: None })
 }
 
-/// An indicator of a channel whose unit is `unit`; [`Blocks::estimate`](crate::signal::Blocks::estimate) gives its value.
+/// An indicator of a channel whose unit is `unit`; [`Blocks::estimate`](crate::signal::Blocks::estimate) gives its
+/// value.
 pub fn indicator(indicator: Indicator, unit: &'static str) -> Field<Indicator> {
     Field {
         name: indicator.name(),
@@ -191,11 +189,7 @@ pub fn indicator(indicator: Indicator, unit: &'static str) -> Field<Indicator> {
 
 /// The extremes of a channel's whole record: its largest |value|, and its largest less its smallest value.
 pub fn record(unit: &'static str) -> [Field<Indicator>; 2] {
-    [
-        (RECORD_PEAK, Indicator::Peak),
-        (RECORD_PEAK_TO_PEAK, Indicator::PeakToPeak),
-    ]
-    .map(|(name, of)| Field {
+    [(RECORD_PEAK, Indicator::Peak), (RECORD_PEAK_TO_PEAK, Indicator::PeakToPeak)].map(|(name, of)| Field {
         name,
         estimator: Estimator::Extreme,
         ..indicator(of, unit)

@@ -1,10 +1,11 @@
-//! What the sensor acceleration does when rollers enter a defect and leave it: the mean course around those instants, and the
-//! peak after them.
+//! What the sensor acceleration does when rollers enter a defect and leave it: the mean course around those instants,
+//! and the peak after them.
 //!
-//! Instants are those of [`crate::observe::passes::Event`], as far as the waveform kept reaches. The window is the time that a roller takes over the
-//! defect at the top speed: half of it before the instant, one and a half after it; the peak is the largest |acceleration| within the half after it, so that what
-//! leaving does to the acceleration is no part of what coming did: the anti-alias filter spreads both to either side.
-//! Other rollers, in other places, add to both.
+//! Instants are those of [`crate::observe::passes::Event`], as far as the waveform kept reaches. The window is the time
+//! that a roller takes over the defect at the top speed: half of it before the instant, one and a half after it; the
+//! peak is the largest |acceleration| within the half after it, so that what leaving does to the acceleration is no
+//! part of what coming did: the anti-alias filter spreads both to either side. Other rollers, in other places, add to
+//! both.
 
 use crate::derived::defect_passes;
 use crate::observe::Findings;
@@ -33,7 +34,8 @@ pub struct Impacts {
     pub step: f64,
     /// The sensor acceleration averaged over the instants, m/s^2; empty without any.
     pub mean: Vec<f64>,
-    /// Largest |acceleration| in the half window after the instant, averaged over the instants, m/s^2, with its 95 % interval.
+    /// Largest |acceleration| in the half window after the instant, averaged over the instants, m/s^2, with its 95 %
+    /// interval.
     pub peak: Option<Estimate>,
 }
 
@@ -46,8 +48,7 @@ pub fn impacts(simulation: &Simulation, findings: &Findings) -> Vec<Impacts> {
         let window = if pass.is_finite() { pass } else { 0.0 }.max(FEWEST / rate);
         for enters in [true, false] {
             let events = findings.passes.events.iter();
-            let wanted =
-                events.filter(|e| e.defect == defect && e.enters == enters && e.t >= findings.from);
+            let wanted = events.filter(|e| e.defect == defect && e.enters == enters && e.t >= findings.from);
             // Samples from the first one kept.
             let instants = wanted.map(|e| e.t * rate - first as f64);
             let (mean, peaks) = around(&values, instants, window * rate);
@@ -66,13 +67,9 @@ pub fn impacts(simulation: &Simulation, findings: &Findings) -> Vec<Impacts> {
     all
 }
 
-/// Mean course from half a window before to one and a half after the instants, and the peak after each; all in samples. Instants whose
-/// surroundings are not all there do not count.
-fn around(
-    values: &[f64],
-    instants: impl Iterator<Item = f64>,
-    window: f64,
-) -> (Vec<f64>, Vec<f64>) {
+/// Mean course from half a window before to one and a half after the instants, and the peak after each; all in samples.
+/// Instants whose surroundings are not all there do not count.
+fn around(values: &[f64], instants: impl Iterator<Item = f64>, window: f64) -> (Vec<f64>, Vec<f64>) {
     let points = (2.0 * window * FINER as f64).ceil() as usize + 1;
     let (mut mean, mut peaks) = (vec![0.0; points], Vec::new());
     for instant in instants {
@@ -99,9 +96,7 @@ fn around(
 fn peak(values: &[f64], from: f64, samples: f64) -> f64 {
     let first = (from.ceil() as usize).min(values.len());
     let last = ((from + samples).floor() as usize + 1).clamp(first, values.len());
-    values[first..last]
-        .iter()
-        .fold(0.0, |peak, x| x.abs().max(peak))
+    values[first..last].iter().fold(0.0, |peak, x| x.abs().max(peak))
 }
 
 #[cfg(test)]
@@ -126,10 +121,7 @@ mod tests {
         for (k, mean) in mean.iter().enumerate() {
             let t = k as f64 / FINER as f64 - 10.0;
             let expected = -5.0 * (1.0 - (t - 4.0).abs() / 4.0).max(0.0);
-            assert!(
-                (mean - expected).abs() < 1e-12,
-                "{t}: {mean} for {expected}"
-            );
+            assert!((mean - expected).abs() < 1e-12, "{t}: {mean} for {expected}");
         }
     }
 
@@ -146,10 +138,7 @@ mod tests {
     fn prop_instants_at_the_ends_do_not_count() {
         let values = vec![1.0; 100];
         let count = |instant: f64| around(&values, [instant].into_iter(), 20.0).1.len();
-        assert_eq!(
-            [9.9, 10.0, 68.9, 69.0, 200.0, -5.0].map(count),
-            [0, 1, 1, 0, 0, 0]
-        );
+        assert_eq!([9.9, 10.0, 68.9, 69.0, 200.0, -5.0].map(count), [0, 1, 1, 0, 0, 0]);
         assert_eq!(around(&values, std::iter::empty(), 20.0), (vec![], vec![]));
         assert_eq!(Estimate::of_mean(&[]), None);
     }

@@ -1,5 +1,5 @@
-//! One run from its scenario to its result: [`simulate()`] gives [`RunResult`], which [`quantities()`] boils down to named numbers with
-//! intervals, as the list in [`fields`] says. Knows no files.
+//! One run from its scenario to its result: [`simulate()`] gives [`RunResult`], which [`quantities()`] boils down to
+//! named numbers with intervals, as the list in [`fields`] says. Knows no files.
 
 pub mod fields;
 mod impacts;

@@ -1,13 +1,14 @@
-//! A run as named numbers: every indicator of every channel with its interval, defect lines, contact, slip, audits and work.
+//! A run as named numbers: every indicator of every channel with its interval, defect lines, contact, slip, audits and
+//! work.
 //!
-//! Names are channel and indicator, `sensor_ax.rms`; SI units. A channel's values are instantaneous; what passed the anti-alias
-//! filter, and does not say so in its name as `sensor_*` does, is `outer_ax.anti_aliased.rms`. A scenario fixes the list of
-//! names; what a run does not have (slip in the lumped model, a defect's frequency in a short run) is there without a value.
-//! No wall time is among them: the same scenario gives the same numbers.
+//! Names are channel and indicator, `sensor_ax.rms`; SI units. A channel's values are instantaneous; what passed the
+//! anti-alias filter, and does not say so in its name as `sensor_*` does, is `outer_ax.anti_aliased.rms`. A scenario
+//! fixes the list of names; what a run does not have (slip in the lumped model, a defect's frequency in a short run) is
+//! there without a value. No wall time is among them: the same scenario gives the same numbers.
 
 use super::fields::{
-    ANALYSED_FROM, ANALYSED_TURNS, AUDITS, DEFECT, ENTRY_PEAK, EXIT_PEAK, Field, FoundDefect,
-    LINES, LOAD, NOT_SETTLED, SLIP, WORK, exact, indicator, record,
+    ANALYSED_FROM, ANALYSED_TURNS, AUDITS, DEFECT, ENTRY_PEAK, EXIT_PEAK, Field, FoundDefect, LINES, LOAD, NOT_SETTLED,
+    SLIP, WORK, exact, indicator, record,
 };
 use super::impacts::impacts;
 use crate::nearest::nearest;
@@ -91,8 +92,7 @@ pub fn quantities(
     rows(findings, &mut all);
     let audit = |f: &Field<fn(&Outcome) -> _>| f.quantity("audit", exact((f.of)(outcome)));
     all.extend(AUDITS.iter().map(audit));
-    let work =
-        |f: &Field<fn(&Outcome) -> u64>| f.quantity("work", exact(Some((f.of)(outcome) as f64)));
+    let work = |f: &Field<fn(&Outcome) -> u64>| f.quantity("work", exact(Some((f.of)(outcome) as f64)));
     all.extend(WORK.iter().map(work));
     all.push(analysed(&ANALYSED_FROM, findings));
     all.push(analysed(&NOT_SETTLED, findings));
@@ -114,10 +114,7 @@ fn of_kind(channel: &str, kind: Kind) -> String {
 fn indicators(findings: &Findings, all: &mut Vec<Quantity>) {
     for channel in &findings.channels {
         let of = of_kind(&channel.name, channel.kind);
-        all.extend(
-            Indicator::ALL
-                .map(|i| indicator(i, channel.unit).quantity(&of, channel.blocks.estimate(i))),
-        );
+        all.extend(Indicator::ALL.map(|i| indicator(i, channel.unit).quantity(&of, channel.blocks.estimate(i))));
     }
     for channel in &findings.channels {
         let of = of_kind(&channel.name, channel.kind);
@@ -127,14 +124,10 @@ fn indicators(findings: &Findings, all: &mut Vec<Quantity>) {
     all.push(analysed(&ANALYSED_TURNS, findings));
 }
 
-/// Levels of the envelope spectrum at the defect frequencies and their harmonics, within the share that [`LineSearch`] looks in. Where
-/// these shares overlap, as those of BPFO and 2 BSF of a slender bearing do, a line counts for the frequency that it is nearest to.
-fn lines(
-    scenario: &Scenario,
-    simulation: &Simulation,
-    findings: &Findings,
-    all: &mut Vec<Quantity>,
-) {
+/// Levels of the envelope spectrum at the defect frequencies and their harmonics, within the share that [`LineSearch`]
+/// looks in. Where these shares overlap, as those of BPFO and 2 BSF of a slender bearing do, a line counts for the
+/// frequency that it is nearest to.
+fn lines(scenario: &Scenario, simulation: &Simulation, findings: &Findings, all: &mut Vec<Quantity>) {
     let model = simulation.model();
     let constant = matches!(scenario.operation.speed_rpm, Speed::Constant(_));
     let k = model.kinematics(model.rotation.at(0.0).0);
@@ -153,15 +146,14 @@ fn lines(
     all.extend(levels.map(|(line, level)| line.quantity("envelope", exact(level))));
 }
 
-/// Height of the line found at each frequency, Hz; none where another frequency has the same line and lies nearer to it.
+/// Height of the line found at each frequency, Hz; none where another frequency has the same line and lies nearer to
+/// it.
 fn own_levels(found: &[(f64, Option<Peak>)]) -> Vec<Option<f64>> {
     let away = |at: f64, peak: &Peak| (peak.frequency / at - 1.0).abs();
     let own = |(at, peak): &(f64, Option<Peak>)| {
         let peak = peak.as_ref()?;
         let taken = found.iter().any(|(other, theirs)| {
-            let same = theirs
-                .as_ref()
-                .is_some_and(|t| t.frequency == peak.frequency);
+            let same = theirs.as_ref().is_some_and(|t| t.frequency == peak.frequency);
             same && away(*other, peak) < away(*at, peak)
         });
         (!taken).then_some(peak.amplitude)
@@ -181,11 +173,7 @@ fn defects(simulation: &Simulation, findings: &Findings, all: &mut Vec<Quantity>
         all.extend(DEFECT.iter().map(one));
     }
     all.extend(impacts(simulation, findings).iter().map(|impacts| {
-        let field = if impacts.enters {
-            ENTRY_PEAK
-        } else {
-            EXIT_PEAK
-        };
+        let field = if impacts.enters { ENTRY_PEAK } else { EXIT_PEAK };
         field.quantity(&named(impacts.defect), (field.of)(impacts))
     }));
 }
@@ -239,21 +227,13 @@ pub fn check_name(name: &str, names: &[String]) -> Result<(), UnknownName> {
         return Ok(());
     }
     let part = name.split('.').next_back().unwrap_or(name);
-    let alike = names
-        .iter()
-        .filter(|n| n.ends_with(part) || n.starts_with(name));
+    let alike = names.iter().filter(|n| n.ends_with(part) || n.starts_with(name));
     let mut such_as: Vec<String> = alike.take(8).cloned().collect();
     if such_as.is_empty() {
-        such_as = ["sensor_ax.rms", "envelope.bpfo", "row1.cage_slip"]
-            .map(str::to_owned)
-            .into();
+        such_as = ["sensor_ax.rms", "envelope.bpfo", "row1.cage_slip"].map(str::to_owned).into();
     }
     let near = nearest(name, names.iter().map(String::as_str));
-    Err(UnknownName {
-        name: name.to_owned(),
-        near: near.map(str::to_owned),
-        such_as,
-    })
+    Err(UnknownName { name: name.to_owned(), near: near.map(str::to_owned), such_as })
 }
 
 #[cfg(test)]
@@ -264,18 +244,10 @@ mod tests {
     fn analytic_a_line_counts_for_one_frequency() {
         let peak = |frequency: f64| {
             let amplitude = 2.0;
-            Some(Peak {
-                frequency,
-                amplitude,
-            })
+            Some(Peak { frequency, amplitude })
         };
         // The NN3007 at 1800 r/min with 1.7 % of slip: its one line lies within 2 % of both BPFO and 2 BSF.
-        let found = [
-            (250.1, peak(245.9)),
-            (319.9, None),
-            (241.3, peak(245.9)),
-            (482.6, peak(480.0)),
-        ];
+        let found = [(250.1, peak(245.9)), (319.9, None), (241.3, peak(245.9)), (482.6, peak(480.0))];
         assert_eq!(own_levels(&found), [Some(2.0), None, None, Some(2.0)]);
     }
 }

@@ -9,7 +9,8 @@ use crate::simulate::{End, Observer, Outcome, Signals, Simulation, SolverWork};
 use std::ops::ControlFlow;
 
 impl Scenario {
-    /// Reads the text of a scenario file. [`document::read`] takes overrides, and gives warnings and the origin of every value too.
+    /// Reads the text of a scenario file. [`document::read`] takes overrides, and gives warnings and the origin of
+    /// every value too.
     ///
     /// # Errors
     /// [`Error::Scenario`] with every problem of the text.
@@ -34,12 +35,7 @@ pub struct RunResult {
 impl RunResult {
     /// The run as named numbers.
     pub fn quantities(&self) -> Vec<super::Quantity> {
-        super::quantities(
-            &self.scenario,
-            &self.simulation,
-            &self.outcome,
-            &self.findings,
-        )
+        super::quantities(&self.scenario, &self.simulation, &self.outcome, &self.findings)
     }
 
     /// One of [`RunResult::quantities`] by its name, such as `sensor_ax.rms`.
@@ -50,19 +46,10 @@ impl RunResult {
 
 /// Runs a simulation and gathers its findings; `besides` gets every call of an observer too, and may stop it.
 pub fn finish(scenario: Scenario, simulation: Simulation, besides: &mut dyn Observer) -> RunResult {
-    let mut both = Both {
-        watch: Watch::new(&scenario, &simulation),
-        simulation: &simulation,
-        besides,
-    };
+    let mut both = Both { watch: Watch::new(&scenario, &simulation), simulation: &simulation, besides };
     let outcome = simulation.run(&mut both);
     let findings = both.watch.finish(&simulation);
-    RunResult {
-        scenario,
-        simulation,
-        outcome,
-        findings,
-    }
+    RunResult { scenario, simulation, outcome, findings }
 }
 
 /// Runs one scenario to its end.

@@ -42,7 +42,8 @@ pub enum Shape {
     },
     /// Seen from above: the inside of closed polygons, each closing on its first point. The even-odd rule makes holes.
     Outline {
-        /// Points (s, z) of each polygon, mm, from the defect's centre: s along the rolling direction, z along the axis.
+        /// Points (s, z) of each polygon, mm, from the defect's centre: s along the rolling direction, z along the
+        /// axis.
         polygons_mm: Vec<Vec<[f64; 2]>>,
     },
     /// Depths on a grid, a profilometer's scan for one; the defect's own depth is not used.
@@ -50,7 +51,8 @@ pub enum Shape {
         /// The scan.
         grid: DepthGrid,
     },
-    /// An outline enlarged or shrunk alike in both directions, about s = z = 0, until it has the width or the area requested.
+    /// An outline enlarged or shrunk alike in both directions, about s = z = 0, until it has the width or the area
+    /// requested.
     Grown {
         /// Polygons as in [`Shape::Outline`], mm.
         outline: Vec<Vec<[f64; 2]>>,

@@ -8,8 +8,8 @@ mod damage;
 mod sensor;
 
 pub use damage::{
-    Defect, DepthGrid, FirstRow, ImageEdges, ImageFile, ImagePieces, RollingDirection, ScaleBar,
-    ScanFile, ScanFill, ScanForm, ScanUnit, ScanZero, Shape, Surface, SvgFile,
+    Defect, DepthGrid, FirstRow, ImageEdges, ImageFile, ImagePieces, RollingDirection, ScaleBar, ScanFile, ScanFill,
+    ScanForm, ScanUnit, ScanZero, Shape, Surface, SvgFile,
 };
 pub use sensor::{NoiseColour, PathMode, Range, Sensor};
 
@@ -43,11 +43,11 @@ pub struct Scenario {
 impl Scenario {
     /// Whether a healthy contact is pressed evenly along its roller: no profile, nothing that tilts.
     pub fn has_even_contacts(&self) -> bool {
-        self.bearing.profile == RollerProfile::Straight
-            && self.simulation.model != ModelKind::Tilting
+        self.bearing.profile == RollerProfile::Straight && self.simulation.model != ModelKind::Tilting
     }
 
-    /// Where statistics of its run begin, s: after the load ramp and a turn of the shaft, half-way through at the latest.
+    /// Where statistics of its run begin, s: after the load ramp and a turn of the shaft, half-way through at the
+    /// latest.
     pub fn settled_s(&self) -> f64 {
         let turn = match &self.operation.speed_rpm {
             Speed::Constant(rpm) if *rpm != 0.0 => 60.0 / rpm.abs(),
@@ -95,8 +95,8 @@ pub struct Bearing {
     pub row_stagger_deg: f64,
     /// Bore, mm: for classes of clearance. `None`: that of the preset.
     pub bore_diameter_mm: Option<f64>,
-    /// C_r, radial gap on one side (half of ISO 5753's diametral value), um; negative is preload. A file may give the diametral value or a
-    /// class instead.
+    /// C_r, radial gap on one side (half of ISO 5753's diametral value), um; negative is preload. A file may give the
+    /// diametral value or a class instead.
     pub radial_clearance_um: f64,
     /// Gap subtracted at the outer contact too, um.
     pub outer_gap_um: f64,
@@ -179,7 +179,8 @@ pub struct Cage {
 pub enum Law {
     /// Effective contact length (the paper, made continuous).
     Ecl,
-    /// Independent slices across the roller, each with the fraction that damage covers and its mean depth (in the manner of ISO/TS 16281).
+    /// Independent slices across the roller, each with the fraction that damage covers and its mean depth (in the
+    /// manner of ISO/TS 16281).
     Sliced,
 }
 

@@ -93,11 +93,7 @@ impl Sensor {
 
     /// Whether any noise is requested.
     pub fn is_on(&self) -> bool {
-        let filters = [
-            self.mounting_resonance_hz,
-            self.low_cut_hz,
-            self.high_cut_hz,
-        ];
+        let filters = [self.mounting_resonance_hz, self.low_cut_hz, self.high_cut_hz];
         self.direction_deg.is_some()
             || filters.iter().any(Option::is_some)
             || self.noise_rms().is_some()
@@ -115,8 +111,6 @@ impl Sensor {
     pub fn range(&self) -> Option<Range> {
         self.converter_bits?;
         let volts = self.converter_range_mv.map(Range::Voltage);
-        self.converter_range_m_per_s2
-            .map(Range::Acceleration)
-            .or(volts)
+        self.converter_range_m_per_s2.map(Range::Acceleration).or(volts)
     }
 }

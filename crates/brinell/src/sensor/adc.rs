@@ -1,6 +1,7 @@
 //! The ADC: whole steps between plus and minus full scale.
 
-/// An ideal converter of N bits over plus and minus full scale: 2^N codes, step 2 R / 2^N, a code at 0, so the highest is R less a step.
+/// An ideal converter of N bits over plus and minus full scale: 2^N codes, step 2 R / 2^N, a code at 0, so the highest
+/// is R less a step.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Adc {
     step: f64,
@@ -11,11 +12,7 @@ pub(super) struct Adc {
 impl Adc {
     pub(super) fn new(bits: usize, full_scale: f64) -> Self {
         let half = 2f64.powi(bits as i32 - 1);
-        Self {
-            step: full_scale / half,
-            lowest: -half,
-            highest: half - 1.0,
-        }
+        Self { step: full_scale / half, lowest: -half, highest: half - 1.0 }
     }
 
     pub(super) fn step(&self) -> f64 {
@@ -40,17 +37,7 @@ mod tests {
         let c = Adc::new(3, 4.0);
         assert_eq!(c.step(), 1.0);
         let read: Vec<(f64, bool)> = [-9.0, -4.4, -0.2, 0.6, 3.4, 3.6].map(|x| c.read(x)).into();
-        assert_eq!(
-            read,
-            [
-                (-4.0, true),
-                (-4.0, false),
-                (0.0, false),
-                (1.0, false),
-                (3.0, false),
-                (3.0, true)
-            ]
-        );
+        assert_eq!(read, [(-4.0, true), (-4.0, false), (0.0, false), (1.0, false), (3.0, false), (3.0, true)]);
     }
 
     #[test]
@@ -69,10 +56,6 @@ mod tests {
         let due = c.step().powi(2) / 12.0;
         // The mean square of n uniform errors strays by sqrt(0.8 / n) of itself.
         assert!((variance / due - 1.0).abs() < 4.0 * (0.8 / f64::from(n)).sqrt());
-        assert!(
-            errors
-                .iter()
-                .all(|e| e.abs() <= 0.5 * c.step() * (1.0 + 1e-12))
-        );
+        assert!(errors.iter().all(|e| e.abs() <= 0.5 * c.step() * (1.0 + 1e-12)));
     }
 }

@@ -1,9 +1,10 @@
 //! The chain's analogue parts at the rate of the fast grid, as second-order sections that run.
 //!
-//! A mode's transfer is N(s) / (s^2 + 2 zeta w s + w^2). The section has its poles mapped exactly, z = exp(s T), so frequency and decay are the
-//! mode's own at any w below half the fast rate, and a numerator of three taps that makes the response exact at frequency 0 (a real number) and
-//! at the passband's end (a complex one), 0.4 of the output's rate. What lies above is the anti-alias filter's to remove, so the frequencies between
-//! are those that count. There the error, relative to the response, stays below 5e-4 where N = w^2 (below 1e-4 for zeta up to 0.1), and below 9e-3
+//! A mode's transfer is N(s) / (s^2 + 2 zeta w s + w^2). The section has its poles mapped exactly, z = exp(s T), so
+//! frequency and decay are the mode's own at any w below half the fast rate, and a numerator of three taps that makes
+//! the response exact at frequency 0 (a real number) and at the passband's end (a complex one), 0.4 of the output's
+//! rate. What lies above is the anti-alias filter's to remove, so the frequencies between are those that count. There
+//! the error, relative to the response, stays below 5e-4 where N = w^2 (below 1e-4 for zeta up to 0.1), and below 9e-3
 //! where N = 2 zeta w s + w^2 (0.08 dB; that much only far above the mode). The tests hold the section to that.
 
 use std::f64::consts::TAU;
@@ -66,21 +67,15 @@ impl Mode {
 /// exp(z) - 1, with all digits near 0.
 fn expm1(z: Complex<f64>) -> Complex<f64> {
     let half = (0.5 * z.im).sin();
-    Complex::new(
-        z.re.exp_m1() * z.im.cos() - 2.0 * half * half,
-        z.re.exp() * z.im.sin(),
-    )
+    Complex::new(z.re.exp_m1() * z.im.cos() - 2.0 * half * half, z.re.exp() * z.im.sin())
 }
 
-/// s / (s + w), its pole mapped exactly, no response at frequency 0 and 1 at half the rate. Its error below the passband's end is less
-/// than 0.035 w T.
+/// s / (s + w), its pole mapped exactly, no response at frequency 0 and 1 at half the rate. Its error below the
+/// passband's end is less than 0.035 w T.
 pub(super) fn low_cut(frequency: f64, rate: f64) -> Section {
     let pole = (-TAU * frequency / rate).exp();
     let gain = 0.5 * (1.0 + pole);
-    Section {
-        b: [gain, -gain, 0.0],
-        a: [-pole, 0.0],
-    }
+    Section { b: [gain, -gain, 0.0], a: [-pole, 0.0] }
 }
 
 /// Transfer of [`low_cut`]'s original at `f` Hz.
@@ -99,10 +94,7 @@ pub(super) struct Running {
 impl Running {
     /// At rest.
     pub(super) fn new(section: Section) -> Self {
-        Self {
-            section,
-            memory: [0.0; 2],
-        }
+        Self { section, memory: [0.0; 2] }
     }
 
     pub(super) fn push(&mut self, x: f64) -> f64 {
@@ -125,26 +117,15 @@ mod tests {
     fn analytic_modes_keep_their_response_in_the_passband() {
         for damping in [0.005, 0.02, 0.1, 0.5f64.sqrt(), 0.95] {
             let deflection = if damping > 0.1 { 5e-4 } else { 1e-4 };
-            for (passes, limit) in [
-                (Passes::Deflection, deflection),
-                (Passes::Transmitted, 9e-3),
-            ] {
+            for (passes, limit) in [(Passes::Deflection, deflection), (Passes::Transmitted, 9e-3)] {
                 for frequency in [1e-4, 1e-2, 0.1, 0.3, 0.45, 0.7, 1.5, 3.9] {
-                    let mode = Mode {
-                        frequency,
-                        damping,
-                        passes,
-                    };
+                    let mode = Mode { frequency, damping, passes };
                     let section = mode.section(RATE, EDGE);
                     for k in 1..=2000 {
                         let f = EDGE * f64::from(k) / 2000.0;
                         let exact = mode.response(f);
                         let error = (section.response(TAU * f / RATE) - exact).norm();
-                        assert!(
-                            error < limit * exact.norm(),
-                            "{mode:?} at {f}: {}",
-                            error / exact.norm()
-                        );
+                        assert!(error < limit * exact.norm(), "{mode:?} at {f}: {}", error / exact.norm());
                     }
                 }
             }
@@ -155,11 +136,7 @@ mod tests {
     fn analytic_step_response_of_a_mode() {
         // 1 - exp(-zeta w t) (cos + zeta / sqrt(1 - zeta^2) sin), for a step at t = 0.
         let (frequency, damping) = (0.05, 0.05);
-        let mode = Mode {
-            frequency,
-            damping,
-            passes: Passes::Deflection,
-        };
+        let mode = Mode { frequency, damping, passes: Passes::Deflection };
         let mut running = Running::new(mode.section(RATE, EDGE));
         let (w, root) = (TAU * frequency, (1.0 - damping * damping).sqrt());
         let mut worst: f64 = 0.0;

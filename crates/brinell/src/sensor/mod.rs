@@ -1,12 +1,15 @@
-//! From the outer ring's acceleration to what an accelerometer and its data logger hold of it: `[sensor]` of a scenario.
+//! From the outer ring's acceleration to what an accelerometer and its data logger hold of it: `[sensor]` of a
+//! scenario.
 //!
-//! In this order: the transfer path, the mounting's resonance, the amplifier's band; all linear, at the fast grid's rate, before the anti-alias filter
-//! removes what lies above half the sample rate, so a resonance beyond that still shows in what is left below. Then, at the sample rate, noise
-//! and the ADC. Along x and y (and along the sensor's own direction, if it has one) are sensors of one kind, with noise of their own.
+//! In this order: the transfer path, the mounting's resonance, the amplifier's band; all linear, at the fast grid's
+//! rate, before the anti-alias filter removes what lies above half the sample rate, so a resonance beyond that still
+//! shows in what is left below. Then, at the sample rate, noise and the ADC. Along x and y (and along the sensor's own
+//! direction, if it has one) are sensors of one kind, with noise of their own.
 //!
-//! The path is that of a point on a structure whose foot moves with the ring: its acceleration over the ring's is 1 - sum g_k s^2 / (s^2 + 2 zeta_k w_k s +
-//! w_k^2), the modes of a proportionally damped structure on a moving foot (R. W. Clough and J. Penzien, Dynamics of structures, 2nd ed. (1993),
-//! section 12-5). It is 1 at low frequencies; one mode with g = 1 is a mass on a spring and a damper. SI throughout.
+//! The path is that of a point on a structure whose foot moves with the ring: its acceleration over the ring's is 1 -
+//! sum g_k s^2 / (s^2 + 2 zeta_k w_k s + w_k^2), the modes of a proportionally damped structure on a moving foot (R. W.
+//! Clough and J. Penzien, Dynamics of structures, 2nd ed. (1993), section 12-5). It is 1 at low frequencies; one mode
+//! with g = 1 is a mass on a spring and a damper. SI throughout.
 
 mod adc;
 mod filter;
@@ -49,21 +52,11 @@ impl Chain {
         if !sensor.is_on() {
             return None;
         }
-        let deflection = |frequency, damping| Mode {
-            frequency,
-            damping,
-            passes: Passes::Deflection,
-        };
-        let mounting = sensor
-            .mounting_resonance_hz
-            .map(|f| deflection(f, sensor.mounting_damping_ratio));
+        let deflection = |frequency, damping| Mode { frequency, damping, passes: Passes::Deflection };
+        let mounting = sensor.mounting_resonance_hz.map(|f| deflection(f, sensor.mounting_damping_ratio));
         let high_cut = sensor.high_cut_hz.map(|f| deflection(f, FRAC_1_SQRT_2));
         let path = sensor.path.iter().map(|m| {
-            let mode = Mode {
-                frequency: m.frequency_hz,
-                damping: m.damping_ratio,
-                passes: Passes::Transmitted,
-            };
+            let mode = Mode { frequency: m.frequency_hz, damping: m.damping_ratio, passes: Passes::Transmitted };
             (m.gain, mode)
         });
         Some(Self {
@@ -107,17 +100,12 @@ impl Chain {
         self.direction.map(|[cos, sin]| cos * x + sin * y)
     }
 
-    /// Response at `f` Hz from the ring's acceleration to the sensor's, both in m/s^2; the anti-alias filter is not in it.
+    /// Response at `f` Hz from the ring's acceleration to the sensor's, both in m/s^2; the anti-alias filter is not in
+    /// it.
     pub fn response(&self, f: f64) -> Complex<f64> {
-        let path: Complex<f64> = self
-            .path
-            .iter()
-            .map(|(gain, mode)| (mode.response(f) - 1.0) * *gain)
-            .sum();
+        let path: Complex<f64> = self.path.iter().map(|(gain, mode)| (mode.response(f) - 1.0) * *gain).sum();
         let modes: Complex<f64> = self.modes.iter().map(|mode| mode.response(f)).product();
-        let low = self
-            .low_cut
-            .map_or(Complex::new(1.0, 0.0), |cut| low_cut_response(cut, f));
+        let low = self.low_cut.map_or(Complex::new(1.0, 0.0), |cut| low_cut_response(cut, f));
         (path + 1.0) * modes * low
     }
 
@@ -197,12 +185,7 @@ impl Sensing {
         let line = Line {
             direct: 1.0 - chain.path.iter().map(|(gain, _)| gain).sum::<f64>(),
             path: chain.path.iter().map(|(g, mode)| (*g, run(mode))).collect(),
-            series: chain
-                .modes
-                .iter()
-                .map(run)
-                .chain(chain.low_cut.map(|f| Running::new(low_cut(f, fast))))
-                .collect(),
+            series: chain.modes.iter().map(run).chain(chain.low_cut.map(|f| Running::new(low_cut(f, fast)))).collect(),
         };
         let channels = chain.channels();
         Self {
@@ -268,16 +251,8 @@ mod tests {
             low_cut_hz: Some(2.0),
             high_cut_hz: Some(9_000.0),
             path: vec![
-                PathMode {
-                    frequency_hz: 900.0,
-                    damping_ratio: 0.04,
-                    gain: 0.6,
-                },
-                PathMode {
-                    frequency_hz: 4_100.0,
-                    damping_ratio: 0.02,
-                    gain: -0.3,
-                },
+                PathMode { frequency_hz: 900.0, damping_ratio: 0.04, gain: 0.6 },
+                PathMode { frequency_hz: 4_100.0, damping_ratio: 0.02, gain: -0.3 },
             ],
             ..Sensor::off()
         }
@@ -323,14 +298,7 @@ mod tests {
     #[test]
     fn analytic_one_full_mode_is_a_mass_on_a_moved_foot() {
         let chain = Chain::new(
-            &Sensor {
-                path: vec![PathMode {
-                    frequency_hz: 500.0,
-                    damping_ratio: 0.1,
-                    gain: 1.0,
-                }],
-                ..Sensor::off()
-            },
+            &Sensor { path: vec![PathMode { frequency_hz: 500.0, damping_ratio: 0.1, gain: 1.0 }], ..Sensor::off() },
             RATE,
         )
         .unwrap();
@@ -360,30 +328,16 @@ mod tests {
         for k in 0..n {
             let mut frame = [5.0, 0.0, 0.0];
             sensing.sample(&mut frame, k >= 1000);
-            assert!(
-                (frame[2] / 0.01)
-                    .fract()
-                    .abs()
-                    .min(1.0 - (frame[2] / 0.01).fract().abs())
-                    < 1e-6
-            );
+            assert!((frame[2] / 0.01).fract().abs().min(1.0 - (frame[2] / 0.01).fract().abs()) < 1e-6);
             square += frame[2].powi(2);
         }
-        let [x, y, own] = sensing.records() else {
-            panic!("three channels")
-        };
+        let [x, y, own] = sensing.records() else { panic!("three channels") };
         // 5 m/s^2 is 50 mV, of which 20.48 are held.
-        assert_eq!(
-            (x.clipped, x.counted, x.signal_rms()),
-            (n, n - 1000, Some(5.0))
-        );
+        assert_eq!((x.clipped, x.counted, x.signal_rms()), (n, n - 1000, Some(5.0)));
         // Four standard deviations are reached by 4 samples in 100 000.
         assert!(y.clipped < 12 && own.signal_rms() == Some(0.0));
         let rms = (square / n as f64).sqrt();
-        assert!(
-            (rms / 5.0 - 1.0).abs() < 4.0 / (2.0 * n as f64).sqrt(),
-            "{rms}"
-        );
+        assert!((rms / 5.0 - 1.0).abs() < 4.0 / (2.0 * n as f64).sqrt(), "{rms}");
         assert_eq!(Chain::new(&Sensor::off(), RATE), None);
     }
 }

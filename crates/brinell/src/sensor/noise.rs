@@ -1,11 +1,13 @@
 //! Noise of a stated colour and level, a sample at a time.
 //!
-//! White noise is independent normal numbers. Coloured noise is a sum of independent Ornstein-Uhlenbeck processes, each sampled exactly:
-//! x_k = p x_(k-1) + sqrt(1 - p^2) w_k with p = exp(-2 pi f_i / f_s) has unit variance and, as a process in time, the power spectrum of a first-order
-//! low-pass with corner f_i. One, at the lowest corner, is brown noise; equal shares at corners a factor apart add up to 1/f between them (A. van der
-//! Ziel, Physica 16 (1950) 359-372). The states start from their stationary distribution, so there is no run-in, and the variance is exactly the one
-//! requested. Below the lowest corner the spectrum is flat. From ten times that to a tenth of the
-//! sample rate it keeps to its law within 0.3 dB; above, brown noise flattens (by 2.4 dB at 0.4 of the rate), because a sampled process folds.
+//! White noise is independent normal numbers. Coloured noise is a sum of independent Ornstein-Uhlenbeck processes, each
+//! sampled exactly: x_k = p x_(k-1) + sqrt(1 - p^2) w_k with p = exp(-2 pi f_i / f_s) has unit variance and, as a
+//! process in time, the power spectrum of a first-order low-pass with corner f_i. One, at the lowest corner, is brown
+//! noise; equal shares at corners a factor apart add up to 1/f between them (A. van der Ziel, Physica 16 (1950)
+//! 359-372). The states start from their stationary distribution, so there is no run-in, and the variance is exactly
+//! the one requested. Below the lowest corner the spectrum is flat. From ten times that to a tenth of the sample rate
+//! it keeps to its law within 0.3 dB; above, brown noise flattens (by 2.4 dB at 0.4 of the rate), because a sampled
+//! process folds.
 
 use std::f64::consts::TAU;
 
@@ -31,9 +33,9 @@ impl Level {
         match self.colour {
             NoiseColour::White => Vec::new(),
             NoiseColour::Brown => vec![self.corner],
-            NoiseColour::Pink => std::iter::successors(Some(self.corner), |f| Some(f * APART))
-                .take_while(|f| *f < 0.5 * rate)
-                .collect(),
+            NoiseColour::Pink => {
+                std::iter::successors(Some(self.corner), |f| Some(f * APART)).take_while(|f| *f < 0.5 * rate).collect()
+            }
         }
     }
 
@@ -72,18 +74,10 @@ impl Noise {
             .iter()
             .map(|corner| {
                 let angle = -TAU * corner / rate;
-                [
-                    random.normal(),
-                    angle.exp(),
-                    (-(2.0 * angle).exp_m1()).sqrt(),
-                ]
+                [random.normal(), angle.exp(), (-(2.0 * angle).exp_m1()).sqrt()]
             })
             .collect();
-        Self {
-            scale: level.rms / (processes.len().max(1) as f64).sqrt(),
-            random,
-            processes,
-        }
+        Self { scale: level.rms / (processes.len().max(1) as f64).sqrt(), random, processes }
     }
 
     pub(super) fn next(&mut self) -> f64 {
@@ -107,12 +101,7 @@ mod tests {
     const RATE: f64 = 25_600.0;
 
     fn level(colour: NoiseColour) -> Level {
-        Level {
-            rms: 2.5,
-            colour,
-            corner: 1.0,
-            seed: 11,
-        }
+        Level { rms: 2.5, colour, corner: 1.0, seed: 11 }
     }
 
     #[test]
@@ -132,9 +121,7 @@ mod tests {
             // The whole of it is the variance requested.
             let n = 2_000_000;
             let df = 0.5 * RATE / f64::from(n);
-            let power: f64 = (0..n)
-                .map(|k| density((f64::from(k) + 0.5) * df) * df)
-                .sum();
+            let power: f64 = (0..n).map(|k| density((f64::from(k) + 0.5) * df) * df).sum();
             assert!((power / level.rms.powi(2) - 1.0).abs() < 1e-6, "{power}");
         }
     }
@@ -164,10 +151,7 @@ mod tests {
     #[test]
     fn prop_channels_and_seeds_are_apart_and_repeat() {
         let take = |seed: u64, channel: u64| {
-            let level = Level {
-                seed,
-                ..level(NoiseColour::Pink)
-            };
+            let level = Level { seed, ..level(NoiseColour::Pink) };
             let mut noise = Noise::new(level, RATE, channel);
             (0..64).map(|_| noise.next().to_bits()).collect::<Vec<_>>()
         };
@@ -181,10 +165,7 @@ mod tests {
         // The variance of the first value over many seeds is that of any other: within 4 sqrt(2 / n).
         let n = 20_000_u32;
         let first = |seed: u32| {
-            let level = Level {
-                seed: seed.into(),
-                ..level(NoiseColour::Brown)
-            };
+            let level = Level { seed: seed.into(), ..level(NoiseColour::Brown) };
             Noise::new(level, RATE, 0).next().powi(2)
         };
         let variance = (0..n).map(first).sum::<f64>() / f64::from(n);

@@ -66,21 +66,13 @@ impl Decimator {
     /// # Panics
     /// Where the frame does not hold one value for each channel.
     pub fn push(&mut self, input_frame: &[f64]) -> Option<&[f64]> {
-        assert_eq!(
-            input_frame.len(),
-            self.channels,
-            "one value for each channel"
-        );
+        assert_eq!(input_frame.len(), self.channels, "one value for each channel");
         let length = self.taps.len();
         for (ring, &value) in self.rings.chunks_exact_mut(2 * length).zip(input_frame) {
             ring[self.at] = value;
             ring[self.at + length] = value;
         }
-        self.at = if self.at + 1 == length {
-            0
-        } else {
-            self.at + 1
-        };
+        self.at = if self.at + 1 == length { 0 } else { self.at + 1 };
         if self.wait > 0 {
             self.wait -= 1;
             return None;
@@ -109,16 +101,12 @@ mod tests {
 
     /// `amplitude * cos(2 pi f t + phase)`, n samples from t = 0.
     fn cosine(n: usize, fs: f64, f: f64, amplitude: f64, phase: f64) -> Vec<f64> {
-        (0..n)
-            .map(|i| amplitude * (TAU * f * i as f64 / fs + phase).cos())
-            .collect()
+        (0..n).map(|i| amplitude * (TAU * f * i as f64 / fs + phase).cos()).collect()
     }
 
     fn decimate(x: &[f64]) -> Vec<f64> {
         let mut decimator = Decimator::new(1);
-        x.iter()
-            .filter_map(|&v| decimator.push(&[v]).map(|y| y[0]))
-            .collect()
+        x.iter().filter_map(|&v| decimator.push(&[v]).map(|y| y[0])).collect()
     }
 
     #[test]
@@ -127,18 +115,14 @@ mod tests {
         let x = cosine(8 * n + 400, 8.0 * FS, 0.3 * FS, 1.7, 0.4);
         let expected = cosine(n, FS, 0.3 * FS, 1.7, 0.4);
         let y = decimate(&x);
-        let worst = (60..n)
-            .map(|k| (y[k] - expected[k]).abs())
-            .fold(0.0, f64::max);
+        let worst = (60..n).map(|k| (y[k] - expected[k]).abs()).fold(0.0, f64::max);
         assert!(worst < 1.7e-4, "{worst:e}");
     }
 
     #[test]
     fn analytic_alias_is_down_80_db() {
         let x = cosine(8 * 400, 8.0 * FS, 0.55 * FS, 1.0, 0.4);
-        let worst = decimate(&x)[60..]
-            .iter()
-            .fold(0.0, |m: f64, v| m.max(v.abs()));
+        let worst = decimate(&x)[60..].iter().fold(0.0, |m: f64, v| m.max(v.abs()));
         assert!(worst < 1e-4, "{worst:e}");
     }
 

@@ -9,16 +9,8 @@ use crate::solver::StepError;
 pub(super) fn explain(error: StepError, l: &Layout, ws: &Workspace) -> Error {
     let contact = suspect(l, ws);
     match error {
-        StepError::NonFinite { t, index } => Error::NonFinite {
-            t,
-            body: l.name(index % l.dof()),
-            contact,
-        },
-        StepError::Vanished { t, index } => Error::StepVanished {
-            t,
-            body: l.name(index % l.dof()),
-            contact,
-        },
+        StepError::NonFinite { t, index } => Error::NonFinite { t, body: l.name(index % l.dof()), contact },
+        StepError::Vanished { t, index } => Error::StepVanished { t, body: l.name(index % l.dof()), contact },
     }
 }
 
@@ -29,33 +21,19 @@ fn suspect(layout: &Layout, ws: &Workspace) -> String {
         let c = &ws.contacts[side as usize];
         for slot in 0..layout.rollers() {
             let force = c.force[slot];
-            let size = if force.is_finite() {
-                force
-            } else {
-                f64::INFINITY
-            };
+            let size = if force.is_finite() { force } else { f64::INFINITY };
             if size > worst.0.max(0.0) {
                 let (roller, row) = (layout.roller(slot) + 1, layout.row(slot) + 1);
                 let side = format!("{side:?}").to_lowercase();
-                worst = (
-                    size,
-                    format!("{side} contact of roller {roller} in row {row} carries {force:.4e} N"),
-                );
+                worst = (size, format!("{side} contact of roller {roller} in row {row} carries {force:.4e} N"));
             }
         }
     }
     for (slot, force) in ws.pocket_force[..layout.rollers()].iter().enumerate() {
-        let size = if force.is_finite() {
-            force.abs()
-        } else {
-            f64::INFINITY
-        };
+        let size = if force.is_finite() { force.abs() } else { f64::INFINITY };
         if size > worst.0.max(0.0) {
             let (roller, row) = (layout.roller(slot) + 1, layout.row(slot) + 1);
-            worst = (
-                size,
-                format!("the pocket of roller {roller} in row {row} carries {size:.4e} N"),
-            );
+            worst = (size, format!("the pocket of roller {roller} in row {row} carries {size:.4e} N"));
         }
     }
     worst.1

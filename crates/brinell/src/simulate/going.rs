@@ -29,11 +29,7 @@ impl Pending {
     fn new(simulation: &Simulation, decimator: &Decimator) -> Self {
         let width = simulation.channels.len();
         let depth = decimator.half_length() / FACTOR + 2;
-        Self {
-            width,
-            rows: vec![0.0; depth * width],
-            depth,
-        }
+        Self { width, rows: vec![0.0; depth * width], depth }
     }
 
     fn row(&mut self, index: u64) -> &mut [f64] {
@@ -197,8 +193,9 @@ impl<S: Deref<Target = Simulation>> Run<S> {
         }
     }
 
-    /// Goes on in another simulation, without an end: places, rates, filter and time stay, forces change at once. Such a run is no run of
-    /// the other scenario from t = 0. The sensor of the other starts from rest; the audits start anew.
+    /// Goes on in another simulation, without an end: places, rates, filter and time stay, forces change at once. Such
+    /// a run is no run of the other scenario from t = 0. The sensor of the other starts from rest; the audits start
+    /// anew.
     ///
     /// # Errors
     /// Where the states or the filtered channels of the two do not correspond; the run stays as it is.
@@ -209,8 +206,7 @@ impl<S: Deref<Target = Simulation>> Run<S> {
         if other.sample_rate != self.simulation.sample_rate {
             return Err(CannotGoOn::SampleRate);
         }
-        let names =
-            |s: &Simulation| -> Vec<String> { s.filtered.iter().map(|c| c.name.clone()).collect() };
+        let names = |s: &Simulation| -> Vec<String> { s.filtered.iter().map(|c| c.name.clone()).collect() };
         if names(&other) != names(&self.simulation) {
             return Err(CannotGoOn::Filtered);
         }
@@ -243,19 +239,14 @@ impl<S: Deref<Target = Simulation>> Run<S> {
         self.energy.parametric += parametric_work(model, before, after, &mut self.cover);
         self.contact_states.swap(0, 1);
         self.switches.count(&self.ws, &mut self.work);
-        observer.step(&Frame {
-            model,
-            t,
-            y,
-            a: self.stepper.accelerations(),
-            ws: &self.ws,
-        });
+        observer.step(&Frame { model, t, y, a: self.stepper.accelerations(), ws: &self.ws });
     }
 
     /// One instant of the fast grid.
     ///
-    /// What passes the anti-alias filter are slopes of the interpolated rates, not right-hand sides at interpolated states: an eighth of the
-    /// evaluations. They keep the momentum of every step, so they differ from those above the filter's band alone.
+    /// What passes the anti-alias filter are slopes of the interpolated rates, not right-hand sides at interpolated
+    /// states: an eighth of the evaluations. They keep the momentum of every step, so they differ from those above the
+    /// filter's band alone.
     fn sample(&mut self, t: f64, observer: &mut dyn Observer) -> ControlFlow<()> {
         let simulation: &Simulation = &self.simulation;
         let model = &simulation.model;
@@ -263,30 +254,20 @@ impl<S: Deref<Target = Simulation>> Run<S> {
             self.stepper.interpolate(t, &mut self.y);
             model.accelerations(t, &self.y, &mut self.a, &mut self.ws);
             self.work.sample_evaluations += 1;
-            let frame = Frame {
-                model,
-                t,
-                y: &self.y,
-                a: &self.a,
-                ws: &self.ws,
-            };
+            let frame = Frame { model, t, y: &self.y, a: &self.a, ws: &self.ws };
             let index = self.next / FACTOR as u64;
             let row = self.pending.row(index);
             for (value, channel) in row.iter_mut().zip(&simulation.channels) {
                 *value = channel.value(&frame);
             }
-            if let (Some(worst), Some(now)) = (
-                &mut self.imbalance,
-                imbalance(model, t, &self.y, &self.a, &self.ws),
-            ) {
+            if let (Some(worst), Some(now)) = (&mut self.imbalance, imbalance(model, t, &self.y, &self.a, &self.ws)) {
                 *worst = worst.max(now);
             }
             if index < self.last {
                 observer.sample(index, &frame);
             }
         }
-        self.stepper
-            .interpolated_accelerations(t, &simulation.filtered_entries, &mut self.fast);
+        self.stepper.interpolated_accelerations(t, &simulation.filtered_entries, &mut self.fast);
         if let (Some(sensing), Some(chain)) = (&mut self.sensing, &simulation.sensor) {
             if let Some(own) = chain.along([self.fast[0], self.fast[1]]) {
                 self.fast[2] = own;

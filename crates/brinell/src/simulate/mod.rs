@@ -1,8 +1,9 @@
 //! One run: from a scenario through the solver to rows of channels, streamed to an observer.
 //!
-//! Memory does not grow with the duration. Dense output at eight times the sample rate feeds the anti-alias filter; every eighth of
-//! those instants is a sample of the instantaneous channels, evaluated from the equations of motion at the interpolated state
-//! (section 11 of the model). To fill the filter at the end, the run continues for half the filter's length past the last sample.
+//! Memory does not grow with the duration. Dense output at eight times the sample rate feeds the anti-alias filter;
+//! every eighth of those instants is a sample of the instantaneous channels, evaluated from the equations of motion at
+//! the interpolated state (section 11 of the model). To fill the filter at the end, the run continues for half the
+//! filter's length past the last sample.
 
 mod anti_alias;
 mod failure;
@@ -94,11 +95,7 @@ pub struct EnergyAudit {
 impl From<Energy> for EnergyAudit {
     /// Before anything flowed.
     fn from(held: Energy) -> Self {
-        Self {
-            initial: held,
-            last: held,
-            ..Self::default()
-        }
+        Self { initial: held, last: held, ..Self::default() }
     }
 }
 
@@ -111,12 +108,7 @@ impl EnergyAudit {
     /// Everything that moved, as a scale for the residual.
     pub fn turnover(&self) -> f64 {
         let f = &self.flows;
-        f.load.abs()
-            + f.drive.abs()
-            + f.film.abs()
-            + f.lever.abs()
-            + f.dissipated()
-            + self.parametric.abs()
+        f.load.abs() + f.drive.abs() + f.film.abs() + f.lever.abs() + f.dissipated() + self.parametric.abs()
     }
 }
 
@@ -176,32 +168,25 @@ impl Simulation {
     pub fn new(scenario: &Scenario) -> Result<Self, Error> {
         let model = Model::new(scenario)?;
         let initial = start::state(&model)?;
-        let (channels, idle_patterns) =
-            channel::select(&model, &scenario.sensor, &scenario.simulation.record);
+        let (channels, idle_patterns) = channel::select(&model, &scenario.sensor, &scenario.simulation.record);
         let sample_rate = scenario.simulation.sample_rate_hz;
-        let (ring, others): (Vec<_>, Vec<_>) = channel::filterable(&model)
-            .into_iter()
-            .partition(|c| c.name.starts_with("outer_a"));
-        let others = others
-            .into_iter()
-            .filter(|c| channels.iter().any(|r| r.name == c.name));
+        let (ring, others): (Vec<_>, Vec<_>) =
+            channel::filterable(&model).into_iter().partition(|c| c.name.starts_with("outer_a"));
+        let others = others.into_iter().filter(|c| channels.iter().any(|r| r.name == c.name));
         let mut filtered = channel::sensor_channels(&scenario.sensor);
         let own = filtered.len();
         filtered.extend(others);
         let slopes = ring.iter().chain(&filtered[own..]);
         let places = (0..ring.len()).chain(own..);
         Ok(Self {
-            filtered_entries: places
-                .zip(slopes.filter_map(Channel::acceleration_entry))
-                .collect(),
+            filtered_entries: places.zip(slopes.filter_map(Channel::acceleration_entry)).collect(),
             sensor: Chain::new(&scenario.sensor, sample_rate),
             channels,
             filtered,
             idle_patterns,
             initial,
             sample_rate,
-            samples: (scenario.simulation.duration_s * sample_rate * (1.0 + 1e-12)).floor() as u64
-                + 1,
+            samples: (scenario.simulation.duration_s * sample_rate * (1.0 + 1e-12)).floor() as u64 + 1,
             accuracy: scenario.simulation.accuracy,
             model,
         })
@@ -217,8 +202,8 @@ impl Simulation {
         &self.channels
     }
 
-    /// The accelerations that pass the anti-alias filter: the sensor channels, x and y of the outer ring and the sensor's own if it has
-    /// one, then those of the other rings and cages that are recorded.
+    /// The accelerations that pass the anti-alias filter: the sensor channels, x and y of the outer ring and the
+    /// sensor's own if it has one, then those of the other rings and cages that are recorded.
     pub fn filtered(&self) -> &[Channel] {
         &self.filtered
     }

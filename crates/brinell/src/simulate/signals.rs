@@ -25,16 +25,10 @@ impl Signals {
         for column in &mut columns {
             let room = usize::try_from(samples).ok();
             if room.is_none_or(|n| column.try_reserve_exact(n).is_err()) {
-                return Err(Error::TooLarge {
-                    bytes: 8 * u128::from(samples) * names.len() as u128,
-                });
+                return Err(Error::TooLarge { bytes: 8 * u128::from(samples) * names.len() as u128 });
             }
         }
-        Ok(Self {
-            rate_hz: simulation.sample_rate(),
-            names,
-            columns,
-        })
+        Ok(Self { rate_hz: simulation.sample_rate(), names, columns })
     }
 
     /// Samples a second.

@@ -4,8 +4,8 @@ use super::SolverWork;
 use crate::lanes::{Column, WIDTH, blend, positive};
 use crate::model::{Layout, Workspace};
 
-/// Which forces act, to count the changes: closed contacts by side and pockets pressed from behind and from before, a bit a slot; and
-/// which contacts are on damage.
+/// Which forces act, to count the changes: closed contacts by side and pockets pressed from behind and from before, a
+/// bit a slot; and which contacts are on damage.
 #[derive(Debug)]
 pub(super) struct Switches {
     active: [Vec<u8>; 4],
@@ -33,10 +33,7 @@ impl Switches {
         blend(&mut self.pull, [-1.0], [&ws.pocket_force]);
         let [inner, outer] = &ws.contacts;
         let [a, b, c, d] = &mut self.now;
-        positive(
-            [&inner.force, &outer.force, &ws.pocket_force, &self.pull],
-            [a, b, c, d],
-        );
+        positive([&inner.force, &outer.force, &ws.pocket_force, &self.pull], [a, b, c, d]);
         let changed = |k: usize| -> u64 {
             let pairs = self.active[k].iter().zip(&self.now[k]);
             pairs.map(|(a, b)| u64::from((a ^ b).count_ones())).sum()
@@ -51,8 +48,7 @@ impl Switches {
         for (before, contacts) in self.on_damage.iter_mut().zip(&ws.contacts) {
             let now = &contacts.on_damage;
             if before != now {
-                work.damage_switches +=
-                    before.iter().zip(now).filter(|(a, b)| a != b).count() as u64;
+                work.damage_switches += before.iter().zip(now).filter(|(a, b)| a != b).count() as u64;
                 before.copy_from_slice(now);
             }
         }

@@ -1,8 +1,9 @@
 //! Adaptive explicit Runge-Kutta-Nystrom integration of q'' = f(t, q, q') with dense output.
 //!
-//! The state is y = (q, v), positions and their rates. A quantity (here, flows of energy) may be integrated along with it. Errors are
-//! measured on the rates, weighted by the system's masses, so the tolerance is the square root of an energy per step: an error of a
-//! velocity there is an error of a force integrated over the step. Nothing is allocated after [`Stepper::new`].
+//! The state is y = (q, v), positions and their rates. A quantity (here, flows of energy) may be integrated along with
+//! it. Errors are measured on the rates, weighted by the system's masses, so the tolerance is the square root of an
+//! energy per step: an error of a velocity there is an error of a force integrated over the step. Nothing is allocated
+//! after [`Stepper::new`].
 
 mod tableau;
 
@@ -78,7 +79,8 @@ pub enum StepError {
 #[derive(Debug, Clone)]
 pub struct Stepper<F> {
     settings: Settings,
-    /// Accelerations of the stages; the first are those of `y`, the last those of the trial state, and between steps those of `previous`.
+    /// Accelerations of the stages; the first are those of `y`, the last those of the trial state, and between steps
+    /// those of `previous`.
     stages: [Column; STAGES + 1],
     flows: [F; STAGES + 1],
     y: Column,
@@ -132,8 +134,8 @@ impl<F: Copy + Default + AddAssign + Mul<f64, Output = F>> Stepper<F> {
         stepper
     }
 
-    /// Goes on from the present state in a system with as many entries: accelerations are evaluated anew, the controller seeks its step
-    /// anew, and the last step's dense output and the counted work stay.
+    /// Goes on from the present state in a system with as many entries: accelerations are evaluated anew, the
+    /// controller seeks its step anew, and the last step's dense output and the counted work stay.
     pub fn go_on_in<S: System<Flow = F>>(&mut self, system: &mut S, settings: Settings) {
         let mut next = Self::new(system, settings, self.t, &self.y);
         std::mem::swap(&mut next.previous, &mut self.previous);
@@ -170,7 +172,8 @@ impl<F: Copy + Default + AddAssign + Mul<f64, Output = F>> Stepper<F> {
         self.work
     }
 
-    /// Takes one step and returns the integral of the flow over it. The last evaluation of `system` is the one at the new state.
+    /// Takes one step and returns the integral of the flow over it. The last evaluation of `system` is the one at the
+    /// new state.
     ///
     /// # Errors
     /// Where the state stops being finite, or no step is short enough.
@@ -200,8 +203,7 @@ impl<F: Copy + Default + AddAssign + Mul<f64, Output = F>> Stepper<F> {
                 let magnitude = (error.max(1e-10) as f32).log2();
                 let factor = SAFETY
                     * f64::from(
-                        ((0.75 * INTEGRAL - exponent) as f32 * magnitude
-                            + INTEGRAL as f32 * self.last_magnitude)
+                        ((0.75 * INTEGRAL - exponent) as f32 * magnitude + INTEGRAL as f32 * self.last_magnitude)
                             .exp2(),
                     );
                 let ceiling = if shrunk { 1.0 } else { *GROWTH.end() };
@@ -218,16 +220,13 @@ impl<F: Copy + Default + AddAssign + Mul<f64, Output = F>> Stepper<F> {
             }
             self.work.rejections += 1;
             shrunk = true;
-            let factor = if error.is_finite() {
-                SAFETY * error.powf(-exponent)
-            } else {
-                0.1
-            };
+            let factor = if error.is_finite() { SAFETY * error.powf(-exponent) } else { 0.1 };
             self.step = h * factor.clamp(0.1, 0.9);
         }
     }
 
-    /// Places the trial state of the stage after `V` - 1 = `Q` - 2 others: sums of `Q` lists for positions and `V` for rates.
+    /// Places the trial state of the stage after `V` - 1 = `Q` - 2 others: sums of `Q` lists for positions and `V` for
+    /// rates.
     fn place<const Q: usize, const V: usize>(&mut self, h: f64) {
         let tableau = &self.settings.tableau;
         let half = self.y.len() / 2;
@@ -268,11 +267,7 @@ impl<F: Copy + Default + AddAssign + Mul<f64, Output = F>> Stepper<F> {
         let ends = self.trial.iter().chain(&self.stages[STAGES]);
         if let Some(index) = ends.into_iter().position(|x| !x.is_finite()) {
             // Accelerations are the slopes of the rates.
-            let index = if index < 2 * half {
-                index
-            } else {
-                index - half
-            };
+            let index = if index < 2 * half { index } else { index - half };
             return StepError::NonFinite { t: self.t, index };
         }
         let share = |k: usize| {
@@ -280,35 +275,21 @@ impl<F: Copy + Default + AddAssign + Mul<f64, Output = F>> Stepper<F> {
             let e: f64 = weights.zip(&self.stages).map(|(w, s)| w * s[k]).sum();
             self.settings.mass[k] * e * e
         };
-        let index = (0..half)
-            .max_by(|&a, &b| share(a).total_cmp(&share(b)))
-            .unwrap_or(0);
-        StepError::Vanished {
-            t: self.t,
-            index: half + index,
-        }
+        let index = (0..half).max_by(|&a, &b| share(a).total_cmp(&share(b))).unwrap_or(0);
+        StepError::Vanished { t: self.t, index: half + index }
     }
 
     /// How far into the last step `t` lies, as a share of it, and the step.
     fn within(&self, t: f64) -> (f64, f64) {
         let h = self.t - self.t_previous;
-        if h > 0.0 {
-            ((t - self.t_previous) / h, h)
-        } else {
-            (1.0, h)
-        }
+        if h > 0.0 { ((t - self.t_previous) / h, h) } else { (1.0, h) }
     }
 
     /// State at a time within the last step, by the cubic Hermite polynomial of its ends (third order, as the pair is).
     pub fn interpolate(&self, t: f64, y: &mut [f64]) {
         let (s, h) = self.within(t);
         let r = 1.0 - s;
-        let factors = [
-            r * r * (1.0 + 2.0 * s),
-            s * s * (1.0 + 2.0 * r),
-            h * s * r * r,
-            -h * s * s * r,
-        ];
+        let factors = [r * r * (1.0 + 2.0 * s), s * s * (1.0 + 2.0 * r), h * s * r * r, -h * s * s * r];
         let half = self.y.len() / 2;
         let ((q0, v0), (q1, v1)) = (self.previous.split_at(half), self.y.split_at(half));
         let (q, v) = y.split_at_mut(half);
@@ -316,22 +297,14 @@ impl<F: Copy + Default + AddAssign + Mul<f64, Output = F>> Stepper<F> {
         blend(v, factors, [v0, v1, &self.stages[STAGES], &self.stages[0]]);
     }
 
-    /// Slopes of that polynomial, of the rates of positions: for each (place, position) of `entries` into that place of `slopes`.
-    /// Second order at an instant, but their means over the step are exact.
-    pub fn interpolated_accelerations(
-        &self,
-        t: f64,
-        entries: &[(usize, usize)],
-        slopes: &mut [f64],
-    ) {
+    /// Slopes of that polynomial, of the rates of positions: for each (place, position) of `entries` into that place of
+    /// `slopes`. Second order at an instant, but their means over the step are exact.
+    pub fn interpolated_accelerations(&self, t: f64, entries: &[(usize, usize)], slopes: &mut [f64]) {
         let (s, h) = self.within(t);
         let r = 1.0 - s;
         // Of the rise of the rate over the step, and of both ends' slopes.
-        let (rise, first, last) = if h > 0.0 {
-            (6.0 * s * r / h, r * (1.0 - 3.0 * s), s * (1.0 - 3.0 * r))
-        } else {
-            (0.0, 0.0, 1.0)
-        };
+        let (rise, first, last) =
+            if h > 0.0 { (6.0 * s * r / h, r * (1.0 - 3.0 * s), s * (1.0 - 3.0 * r)) } else { (0.0, 0.0, 1.0) };
         let (_, v0) = self.previous.split_at(self.previous.len() / 2);
         let (_, v1) = self.y.split_at(self.y.len() / 2);
         let (before, after) = (&self.stages[STAGES], &self.stages[0]);

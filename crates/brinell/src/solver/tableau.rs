@@ -1,12 +1,14 @@
-//! Embedded explicit Runge-Kutta-Nystrom pairs for q'' = f(t, q, q') with FSAL: the last stage is the first of the next step.
+//! Embedded explicit Runge-Kutta-Nystrom pairs for q'' = f(t, q, q') with FSAL: the last stage is the first of the next
+//! step.
 
 /// Stages before the shared one.
 pub const STAGES: usize = 4;
 
 /// Coefficients of a pair.
 ///
-/// Stage i is evaluated at t + c_i h, q + c_i h v + h^2 sum over j < i of ā_ij f_j and v + h sum of a_ij f_j; the last of them, with the weights
-/// b̄ and b in place of ā and a, is the step's end. Ordinary Runge-Kutta methods are those with ā = a a.
+/// Stage i is evaluated at t + c_i h, q + c_i h v + h^2 sum over j < i of ā_ij f_j and v + h sum of a_ij f_j; the last
+/// of them, with the weights b̄ and b in place of ā and a, is the step's end. Ordinary Runge-Kutta methods are those
+/// with ā = a a.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Tableau {
     /// Order of the solution that is propagated.
@@ -19,8 +21,8 @@ pub struct Tableau {
     pub positions: [[f64; STAGES]; STAGES],
     /// Weights of the error estimate of the rates, the shared stage's last.
     pub error: [f64; STAGES + 1],
-    /// Stability limits: damping ratios zeta, and for each the longest h |lambda| up to which the faster of the motions exp(lambda t) of
-    /// q'' + 2 zeta w q' + w^2 q = 0 decays. Linear between; beyond the last, its value.
+    /// Stability limits: damping ratios zeta, and for each the longest h |lambda| up to which the faster of the motions
+    /// exp(lambda t) of q'' + 2 zeta w q' + w^2 q = 0 decays. Linear between; beyond the last, its value.
     pub stability_limits: &'static [(f64, f64)],
 }
 
@@ -30,16 +32,11 @@ impl Tableau {
         self.rates[STAGES - 1]
     }
 
-    /// Stability limit: the longest step in which a motion of q'' + 2 zeta w q' + w^2 q = 0 decays, s; `rate` is |lambda| of the faster one, 1/s, and infinite
-    /// damping ratios are those of v' = -rate v.
+    /// Stability limit: the longest step in which a motion of q'' + 2 zeta w q' + w^2 q = 0 decays, s; `rate` is
+    /// |lambda| of the faster one, 1/s, and infinite damping ratios are those of v' = -rate v.
     pub fn stability_limit(&self, rate: f64, damping_ratio: f64) -> f64 {
-        let after = self
-            .stability_limits
-            .partition_point(|(z, _)| *z <= damping_ratio);
-        let limit = match (
-            after.checked_sub(1).map(|k| self.stability_limits[k]),
-            self.stability_limits.get(after),
-        ) {
+        let after = self.stability_limits.partition_point(|(z, _)| *z <= damping_ratio);
+        let limit = match (after.checked_sub(1).map(|k| self.stability_limits[k]), self.stability_limits.get(after)) {
             (Some((z0, d0)), Some(&(z1, d1))) => d0 + (d1 - d0) * (damping_ratio - z0) / (z1 - z0),
             (Some((_, d)), None) | (None, Some(&(_, d))) => d,
             (None, None) => 0.0,
@@ -50,10 +47,11 @@ impl Tableau {
 
 /// A 3(2) pair of four right-hand sides a step, made for contacts with dampers.
 ///
-/// Third order leaves thirteen coefficients free. They are the short decimals below, found by differential evolution: large stability limits for q'' + 2 zeta w q' + w^2 q = 0
-/// at all damping ratios, above all 0.5 to 0.7, and small residuals of the conditions of order 4 (root of their sum of squares 0.034; Bogacki and
-/// Shampine's pair: 0.095). The others follow from order 3; `validation/coefficients/nystrom.py` solves for them and prints these numbers. The error's weights
-/// give the leading terms of Bogacki and Shampine's estimate.
+/// Third order leaves thirteen coefficients free. They are the short decimals below, found by differential evolution:
+/// large stability limits for q'' + 2 zeta w q' + w^2 q = 0 at all damping ratios, above all 0.5 to 0.7, and small
+/// residuals of the conditions of order 4 (root of their sum of squares 0.034; Bogacki and Shampine's pair: 0.095). The
+/// others follow from order 3; `validation/coefficients/nystrom.py` solves for them and prints these numbers. The
+/// error's weights give the leading terms of Bogacki and Shampine's estimate.
 pub const DAMPED_CONTACT: Tableau = Tableau {
     order: 3,
     nodes: [0.46047, 0.54996, 0.93981, 1.0],
@@ -61,12 +59,7 @@ pub const DAMPED_CONTACT: Tableau = Tableau {
         [0.46047, 0.0, 0.0, 0.0],
         [-0.16378, 0.71374, 0.0, 0.0],
         [0.23138, 0.40763, 0.3008, 0.0],
-        [
-            0.17624979824552992,
-            0.3312685039618833,
-            0.2959559636316003,
-            0.19652573416098645,
-        ],
+        [0.17624979824552992, 0.3312685039618833, 0.2959559636316003, 0.19652573416098645],
     ],
     positions: [
         [0.07998, 0.0, 0.0, 0.0],
@@ -74,13 +67,7 @@ pub const DAMPED_CONTACT: Tableau = Tableau {
         [0.12514304090228176, 0.28241, 0.04175, 0.0],
         [0.15892796172027132, 0.2719420382797287, 0.06034, 0.00879],
     ],
-    error: [
-        -0.08093755043861751,
-        0.08281712599047082,
-        0.07398899090790008,
-        0.04913143354024661,
-        -0.125,
-    ],
+    error: [-0.08093755043861751, 0.08281712599047082, 0.07398899090790008, 0.04913143354024661, -0.125],
     stability_limits: &[
         (0.0, 2.3),
         (0.1, 2.8),
@@ -119,11 +106,7 @@ mod tests {
         };
         let mut c = [0.0; STAGES];
         c[1..].copy_from_slice(&PAIR.nodes[..STAGES - 1]);
-        Stages {
-            c,
-            a: below(&PAIR.rates),
-            abar: below(&PAIR.positions),
-        }
+        Stages { c, a: below(&PAIR.rates), abar: below(&PAIR.positions) }
     }
 
     fn dot(a: &[f64], b: &[f64]) -> f64 {
@@ -132,9 +115,7 @@ mod tests {
 
     /// Sum over i of w_i times the products of the lists' i-th entries.
     fn sum<const N: usize>(w: &[f64; N], lists: &[[f64; N]]) -> f64 {
-        (0..N)
-            .map(|i| w[i] * lists.iter().map(|l| l[i]).product::<f64>())
-            .sum()
+        (0..N).map(|i| w[i] * lists.iter().map(|l| l[i]).product::<f64>()).sum()
     }
 
     /// Conditions of q'' = f(t, q, q') (Hairer, Norsett, Wanner, Solving ODEs I, II.14), every tree up to the order.
@@ -186,19 +167,12 @@ mod tests {
                 let at = q + c[i] * v + dot(&abar[i], &f);
                 f[i] = -x * x * at - 2.0 * zeta * x * (v + dot(&a[i], &f));
             }
-            [
-                q + v + dot(&PAIR.positions[STAGES - 1], &f),
-                v + dot(&PAIR.weights(), &f),
-            ]
+            [q + v + dot(&PAIR.positions[STAGES - 1], &f), v + dot(&PAIR.weights(), &f)]
         };
         let ([m00, m10], [m01, m11]) = (step(1.0, 0.0), step(0.0, 1.0));
         let (half, det) = (0.5 * (m00 + m11), m00 * m11 - m01 * m10);
         let root = half * half - det;
-        if root > 0.0 {
-            half.abs() + root.sqrt()
-        } else {
-            det.sqrt()
-        }
+        if root > 0.0 { half.abs() + root.sqrt() } else { det.sqrt() }
     }
 
     #[test]
@@ -211,17 +185,15 @@ mod tests {
             for share in 1..=100 {
                 let reach = longest * f64::from(share) / 100.0;
                 let most = match (reach > 1.0, zeta) {
-                    // Slower than the step: nothing must grow. The slower motion of a strongly damped pair may be as slow as it likes.
+                    // Slower than the step: nothing must grow. The slower motion of a strongly damped pair may be as
+                    // slow as it likes.
                     (false, _) | (_, 1.2..) => 1.0,
                     (true, 0.3..) => 0.9,
                     // exp(-zeta) is what a step of 1 / |lambda| should leave.
                     (true, _) => 1.0 - 0.5 * zeta,
                 };
                 let left = amplification(reach / fast, zeta);
-                assert!(
-                    left <= most + 1e-12,
-                    "zeta {zeta}, h |lambda| {reach}: {left}"
-                );
+                assert!(left <= most + 1e-12, "zeta {zeta}, h |lambda| {reach}: {left}");
             }
         }
         // v' = -rate v.

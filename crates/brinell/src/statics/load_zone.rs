@@ -12,7 +12,8 @@ pub struct StaticLoadZone {
     pub points: Vec<(usize, f64, f64, f64)>,
     /// Largest Q_out, N.
     pub largest: f64,
-    /// Extent of the zone where the inner raceway carries, rad; 0 where none does, a full turn where every roller carries everywhere.
+    /// Extent of the zone where the inner raceway carries, rad; 0 where none does, a full turn where every roller
+    /// carries everywhere.
     pub extent: f64,
     /// Where it begins and ends, rad, counted from its middle [`Self::middle`].
     pub ends: (f64, f64),
@@ -46,21 +47,12 @@ pub fn static_load_zone(model: &Model) -> Result<StaticLoadZone, NoBalance> {
     };
     for phase in 0..PHASES {
         let turn = pitch * phase as f64 / PHASES as f64;
-        problem
-            .orbit
-            .iter_mut()
-            .zip(&model.pocket_angle)
-            .for_each(|(o, a)| *o = a + turn);
+        problem.orbit.iter_mut().zip(&model.pocket_angle).for_each(|(o, a)| *o = a + turn);
         let balance = solve(model, &problem)?;
         problem.guess = [balance.inner, balance.outer];
         for slot in 0..l.rollers() {
             let force = balance.outer_force[slot];
-            zone.points.push((
-                l.row(slot),
-                wrap(problem.orbit[slot]),
-                balance.inner_force[slot],
-                force,
-            ));
+            zone.points.push((l.row(slot), wrap(problem.orbit[slot]), balance.inner_force[slot], force));
             zone.largest = zone.largest.max(force);
         }
         for k in 0..2 {

@@ -18,8 +18,8 @@ pub(super) struct Minimum<const N: usize> {
     pub(super) iterations: usize,
 }
 
-/// The minimum near `guess` over the coordinates that are `free`; the others stay at 0. `scale` is the largest force at play, `damping` what is
-/// added to the Hessian at first.
+/// The minimum near `guess` over the coordinates that are `free`; the others stay at 0. `scale` is the largest force at
+/// play, `damping` what is added to the Hessian at first.
 pub(super) fn minimise<const N: usize>(
     guess: [f64; N],
     free: &[bool; N],
@@ -43,11 +43,7 @@ pub(super) fn minimise<const N: usize>(
     for iterations in 0..MAX_ITERATIONS {
         residual = largest(&state.gradient);
         if residual <= 1e-10 * scale {
-            return Ok(Minimum {
-                x,
-                residual,
-                iterations,
-            });
+            return Ok(Minimum { x, residual, iterations });
         }
         let mut improved = false;
         for _ in 0..60 {
@@ -57,14 +53,12 @@ pub(super) fn minimise<const N: usize>(
                 damping *= 10.0;
                 continue;
             };
-            let trial: [f64; N] =
-                std::array::from_fn(|k| if free[k] { x[k] + step[k] } else { x[k] });
+            let trial: [f64; N] = std::array::from_fn(|k| if free[k] { x[k] + step[k] } else { x[k] });
             let tried = held(&trial);
             let potential = state.potential;
             // Near the solution the potential no longer resolves the progress, but the residual does.
             if tried.potential < potential
-                || (largest(&tried.gradient) < residual
-                    && tried.potential <= potential + 1e-12 * potential.abs())
+                || (largest(&tried.gradient) < residual && tried.potential <= potential + 1e-12 * potential.abs())
             {
                 x = trial;
                 state = tried;
@@ -76,29 +70,18 @@ pub(super) fn minimise<const N: usize>(
         }
         if !improved {
             if residual <= 1e-7 * scale {
-                return Ok(Minimum {
-                    x,
-                    residual,
-                    iterations,
-                });
+                return Ok(Minimum { x, residual, iterations });
             }
-            return Err(NoBalance {
-                residual,
-                iterations,
-            });
+            return Err(NoBalance { residual, iterations });
         }
     }
-    Err(NoBalance {
-        residual,
-        iterations: MAX_ITERATIONS,
-    })
+    Err(NoBalance { residual, iterations: MAX_ITERATIONS })
 }
 
 /// Gaussian elimination with partial pivoting; `None` where the matrix is singular.
 pub(super) fn eliminate<const N: usize>(mut a: [[f64; N]; N], mut b: [f64; N]) -> Option<[f64; N]> {
     for column in 0..N {
-        let pivot =
-            (column..N).max_by(|&i, &j| a[i][column].abs().total_cmp(&a[j][column].abs()))?;
+        let pivot = (column..N).max_by(|&i, &j| a[i][column].abs().total_cmp(&a[j][column].abs()))?;
         if a[pivot][column] == 0.0 || !a[pivot][column].is_finite() {
             return None;
         }

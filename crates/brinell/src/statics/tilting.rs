@@ -1,10 +1,8 @@
-//! Static balance where rollers and rings tilt (section 16): each roller's (r, beta) is eliminated, the rings' eight coordinates are searched.
+//! Static balance where rollers and rings tilt (section 16): each roller's (r, beta) is eliminated, the rings' eight
+//! coordinates are searched.
 
 use super::newton::{State, eliminate, minimise};
-use super::{
-    Balance, NoBalance, Problem, Tilted, angles, centrifugal, covers, external, force_scale,
-    softest,
-};
+use super::{Balance, NoBalance, Problem, Tilted, angles, centrifugal, covers, external, force_scale, softest};
 use crate::model::{Model, Tilt};
 use crate::slices::{Approach, Carried, Cover, Slices};
 
@@ -24,7 +22,8 @@ struct Roller {
     tangent: [[f64; 2]; 2],
     /// J.
     energy: f64,
-    /// Why its own balance was not found; the search over the rings may pass places where it is not, and must not end there.
+    /// Why its own balance was not found; the search over the rings may pass places where it is not, and must not end
+    /// there.
     failed: Option<NoBalance>,
 }
 
@@ -55,9 +54,7 @@ pub(super) fn solve(model: &Model, tilt: &Tilt, problem: &Problem) -> Result<Bal
     let scale = force_scale(model, problem, &forces);
     let mut evaluate = |x: &Rings| {
         let mut state = State {
-            potential: (0..8)
-                .map(|i| 0.5 * springs[i] * x[i] * x[i] - forces[i] * x[i])
-                .sum(),
+            potential: (0..8).map(|i| 0.5 * springs[i] * x[i] * x[i] - forces[i] * x[i]).sum(),
             gradient: std::array::from_fn(|i| springs[i] * x[i] - forces[i]),
             hessian: [[0.0; 8]; 8],
         };
@@ -79,10 +76,7 @@ pub(super) fn solve(model: &Model, tilt: &Tilt, problem: &Problem) -> Result<Bal
     let slots = model.layout.slots;
     let gather = |of: &dyn Fn(&Roller) -> f64| {
         let mut values = vec![0.0; slots];
-        values
-            .iter_mut()
-            .zip(&rollers)
-            .for_each(|(v, r)| *v = of(r));
+        values.iter_mut().zip(&rollers).for_each(|(v, r)| *v = of(r));
         values
     };
     let stiffness = stiffness(tilt, problem, &rollers);
@@ -97,10 +91,7 @@ pub(super) fn solve(model: &Model, tilt: &Tilt, problem: &Problem) -> Result<Bal
         tilting: Some(Tilted {
             rings: [[x[2] / arm, x[3] / arm], [x[6] / arm, x[7] / arm]],
             rollers: gather(&|r| r.beta),
-            moments: [
-                gather(&|r| r.contacts[0].moment),
-                gather(&|r| r.contacts[1].moment),
-            ],
+            moments: [gather(&|r| r.contacts[0].moment), gather(&|r| r.contacts[1].moment)],
             stiffness,
         }),
         residual: found.residual,
@@ -110,27 +101,21 @@ pub(super) fn solve(model: &Model, tilt: &Tilt, problem: &Problem) -> Result<Bal
 
 fn supports(model: &Model, tilt: &Tilt) -> Rings {
     let arm = model.geometry.pitch_radius;
-    let (ki, ko) = (
-        model.inner_support.stiffness,
-        model.acting_outer_support().stiffness,
-    );
+    let (ki, ko) = (model.inner_support.stiffness, model.acting_outer_support().stiffness);
     let [ti, to] = [&tilt.inner, &tilt.outer].map(|ring| ring.support.stiffness / (arm * arm));
     [ki, ki, ti, ti, ko, ko, to, to]
 }
 
-/// How far a ring's coordinates (x, y, and tau times `arm`) bring its raceway along e_r at the roller's middle, and how that changes with z.
+/// How far a ring's coordinates (x, y, and tau times `arm`) bring its raceway along e_r at the roller's middle, and how
+/// that changes with z.
 fn directions(lever: f64, orbit: f64, arm: f64) -> [[f64; 4]; 2] {
     let (sin, cos) = orbit.sin_cos();
-    [
-        [cos, sin, lever * cos / arm, lever * sin / arm],
-        [0.0, 0.0, cos / arm, sin / arm],
-    ]
+    [[cos, sin, lever * cos / arm, lever * sin / arm], [0.0, 0.0, cos / arm, sin / arm]]
 }
 
 /// Raceways' (offset, slope) along e_r: inner and outer.
 fn meet(along: &[[f64; 4]; 2], x: &Rings) -> [[f64; 2]; 2] {
-    let at =
-        |ring: usize| [0, 1].map(|k| (0..4).map(|i| along[k][i] * x[4 * ring + i]).sum::<f64>());
+    let at = |ring: usize| [0, 1].map(|k| (0..4).map(|i| along[k][i] * x[4 * ring + i]).sum::<f64>());
     [at(0), at(1)]
 }
 
@@ -139,19 +124,13 @@ fn add(state: &mut State<8>, roller: &Roller, along: &[[f64; 4]; 2]) {
     let [inner, outer] = &roller.contacts;
     for i in 0..8 {
         let (ring, own) = (i / 4, i % 4);
-        let (carried, sign) = if ring == 0 {
-            (inner, 1.0)
-        } else {
-            (outer, -1.0)
-        };
-        state.gradient[i] +=
-            sign * (along[0][own] * carried.force + along[1][own] * carried.moment);
+        let (carried, sign) = if ring == 0 { (inner, 1.0) } else { (outer, -1.0) };
+        state.gradient[i] += sign * (along[0][own] * carried.force + along[1][own] * carried.moment);
         for j in 0..8 {
             let same = if ring == j / 4 { 1.0 } else { -1.0 };
             for k in 0..2 {
                 for m in 0..2 {
-                    state.hessian[i][j] +=
-                        same * along[k][own] * roller.tangent[k][m] * along[m][j % 4];
+                    state.hessian[i][j] += same * along[k][own] * roller.tangent[k][m] * along[m][j % 4];
                 }
             }
         }
@@ -178,7 +157,8 @@ fn stiffness(tilt: &Tilt, problem: &Problem, rollers: &[Roller]) -> [[f64; 4]; 4
 
 /// The roller's equilibrium between raceways at (offset, slope): Q_in - Q_out + its own radial force = 0, T_in = T_out.
 ///
-/// The potential over (r, beta) is convex: a damped Newton method finds its least. `load` is the largest force at play on the rings, N.
+/// The potential over (r, beta) is convex: a damped Newton method finds its least. `load` is the largest force at play
+/// on the rings, N.
 fn between_raceways(
     model: &Model,
     slices: &Slices,
@@ -189,28 +169,16 @@ fn between_raceways(
 ) -> Roller {
     let (sin, cos) = problem.orbit[slot].sin_cos();
     let g = &model.geometry;
-    let own = model.inertia.roller
-        * (centrifugal(model, problem.speed) + cos * model.gravity[0] + sin * model.gravity[1]);
+    let own =
+        model.inertia.roller * (centrifugal(model, problem.speed) + cos * model.gravity[0] + sin * model.gravity[1]);
     let [[inner, inner_slope], [outer, outer_slope]] = *met;
     let (inner, outer) = (inner - g.clearance, outer + g.outer_gap);
     let contacts = |r: f64, beta: f64| {
-        let at = |deformation, tilt| Approach {
-            deformation,
-            tilt,
-            ..Approach::default()
-        };
+        let at = |deformation, tilt| Approach { deformation, tilt, ..Approach::default() };
         let [cover_in, cover_out] = covers;
         [
-            slices.carry(
-                &model.inner_contact,
-                &at(inner - r, inner_slope - beta),
-                cover_in.as_ref(),
-            ),
-            slices.carry(
-                &model.outer_contact,
-                &at(r - outer, beta - outer_slope),
-                cover_out.as_ref(),
-            ),
+            slices.carry(&model.inner_contact, &at(inner - r, inner_slope - beta), cover_in.as_ref()),
+            slices.carry(&model.outer_contact, &at(r - outer, beta - outer_slope), cover_out.as_ref()),
         ]
     };
     // Lengths: beta times half the roller's length.
@@ -221,19 +189,13 @@ fn between_raceways(
         State {
             potential: i.energy + o.energy - own * x[0],
             gradient: [o.force - i.force - own, (o.moment - i.moment) / half],
-            hessian: [
-                [sum[0], sum[1] / half],
-                [sum[1] / half, sum[2] / (half * half)],
-            ],
+            hessian: [[sum[0], sum[1] / half], [sum[1] / half, sum[2] / (half * half)]],
         }
     };
     let guess = first_guess(model, own, [inner, outer], [inner_slope, outer_slope]);
     // A tilted roller may touch at one end alone.
     let nearest = inner - outer + half * (inner_slope - outer_slope).abs();
-    let scale = own
-        .abs()
-        .max(model.series_contact.healthy(nearest.max(0.0)))
-        .max(LIGHT * load);
+    let scale = own.abs().max(model.series_contact.healthy(nearest.max(0.0))).max(LIGHT * load);
     let found = minimise(guess, &[true, true], (scale, softest(model)), evaluate);
     let failed = found.as_ref().err().cloned();
     let x = found.map_or(guess, |found| found.x);
@@ -249,20 +211,12 @@ fn between_raceways(
     }
 }
 
-/// Where the search over (r, beta times half the roller's length) begins. In a gap the roller is pressed against the raceway that its own force
-/// leads to, as far as that force alone would, lying along it; else it is in the middle.
-fn first_guess(
-    model: &Model,
-    own: f64,
-    [inner, outer]: [f64; 2],
-    [inner_slope, outer_slope]: [f64; 2],
-) -> [f64; 2] {
+/// Where the search over (r, beta times half the roller's length) begins. In a gap the roller is pressed against the
+/// raceway that its own force leads to, as far as that force alone would, lying along it; else it is in the middle.
+fn first_guess(model: &Model, own: f64, [inner, outer]: [f64; 2], [inner_slope, outer_slope]: [f64; 2]) -> [f64; 2] {
     let half = 0.5 * model.geometry.roller_length;
     if inner > outer {
-        return [
-            0.5 * (inner + outer),
-            0.5 * half * (inner_slope + outer_slope),
-        ];
+        return [0.5 * (inner + outer), 0.5 * half * (inner_slope + outer_slope)];
     }
     let deep = model.outer_contact.deflection(own.abs());
     match own >= 0.0 {
@@ -273,13 +227,13 @@ fn first_guess(
 
 /// K_in (K_in + K_out)^-1 K_out of two contacts in series, over (approach, slope); 0 where the roller is free of one.
 ///
-/// One slice alone leaves the roller free to turn about it. It is held by next to nothing there, or its stiffness would be lost to the search.
+/// One slice alone leaves the roller free to turn about it. It is held by next to nothing there, or its stiffness would
+/// be lost to the search.
 fn in_series(inner: &[f64; 3], outer: &[f64; 3], length: f64) -> [[f64; 2]; 2] {
     const NEXT_TO_NOTHING: f64 = 1e-9;
     let matrix = |k: &[f64; 3]| [[k[0], k[1]], [k[1], k[2]]];
     let sum = [0, 1, 2].map(|k| inner[k] + outer[k]);
-    let free =
-        sum[0] * sum[2] - sum[1] * sum[1] <= NEXT_TO_NOTHING * sum[0] * sum[0] * length * length;
+    let free = sum[0] * sum[2] - sum[1] * sum[1] <= NEXT_TO_NOTHING * sum[0] * sum[0] * length * length;
     let mut sum = matrix(&sum);
     if free {
         sum[1][1] += NEXT_TO_NOTHING * sum[0][0] * length * length;

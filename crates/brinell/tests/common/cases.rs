@@ -6,27 +6,20 @@ use brinell::{document, start};
 
 /// A scenario beside the tests, such as `reference/outer-rectangle` or `xval/roller-defect`.
 pub fn case(path: &str) -> Scenario {
-    let file = std::path::Path::new(env!("CARGO_MANIFEST_DIR"))
-        .join("tests")
-        .join(path)
-        .with_extension("toml");
+    let file = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("tests").join(path).with_extension("toml");
     let text = std::fs::read_to_string(&file).unwrap_or_else(|e| panic!("{}: {e}", file.display()));
-    document::read(&text, &[])
-        .unwrap_or_else(|p| panic!("{path}: {p:?}"))
-        .scenario
+    document::read(&text, &[]).unwrap_or_else(|p| panic!("{path}: {p:?}")).scenario
 }
 
-/// The NN3007 of the given trajectories: rectangle 3 x 4 mm, 20 um deep, 300 N, 1800 r/min, C_r = 10 um, load ramp 20 ms.
+/// The NN3007 of the given trajectories: rectangle 3 x 4 mm, 20 um deep, 300 N, 1800 r/min, C_r = 10 um, load ramp 20
+/// ms.
 pub fn rectangle() -> Scenario {
     case("reference/outer-rectangle")
 }
 
 /// The same without its damage.
 pub fn healthy() -> Scenario {
-    Scenario {
-        defects: Vec::new(),
-        ..rectangle()
-    }
+    Scenario { defects: Vec::new(), ..rectangle() }
 }
 
 /// The scenarios that together meet every term of the model, by name.
@@ -69,7 +62,8 @@ pub fn raceway_film() -> Scenario {
     document::read(text, &[]).unwrap().scenario
 }
 
-/// A tilting bearing, its load off the middle, its cages on the inner ring, an oblique dent on a roller whose edges push.
+/// A tilting bearing, its load off the middle, its cages on the inner ring, an oblique dent on a roller whose edges
+/// push.
 pub fn tilting_offset() -> Scenario {
     case("tilting-offset")
 }
@@ -92,8 +86,8 @@ impl Random {
     }
 }
 
-/// The start's state thrown about: rings 20 um and 0.1 m/s, rollers 10 um, pockets over their clearance, slips of 5 %, cages up to
-/// 1.2 guide clearances off centre. Every kind of contact of the model is closed in some of them.
+/// The start's state thrown about: rings 20 um and 0.1 m/s, rollers 10 um, pockets over their clearance, slips of 5 %,
+/// cages up to 1.2 guide clearances off centre. Every kind of contact of the model is closed in some of them.
 pub fn random_state(model: &Model, seed: u64) -> Vec<f64> {
     let mut random = Random::new(seed);
     let mut y = start::state(model).expect("a start that needs no balance");

@@ -1,9 +1,5 @@
 //! Helpers that several test programs share.
-#![allow(
-    dead_code,
-    unreachable_pub,
-    reason = "each test program uses its own part"
-)]
+#![allow(dead_code, unreachable_pub, reason = "each test program uses its own part")]
 
 pub mod cases;
 #[path = "../../../brinell-signal/tests/common/counting.rs"]
@@ -20,11 +16,7 @@ pub struct Rows {
 
 impl Rows {
     pub fn column(&self, name: &str) -> &[f64] {
-        let k = self
-            .names
-            .iter()
-            .position(|n| n == name)
-            .unwrap_or_else(|| panic!("no column {name}"));
+        let k = self.names.iter().position(|n| n == name).unwrap_or_else(|| panic!("no column {name}"));
         &self.data[k]
     }
 }
@@ -32,12 +24,7 @@ impl Rows {
 /// Parses a CSV of numbers with a header line.
 pub fn columns(text: &str) -> Rows {
     let mut lines = text.lines();
-    let names: Vec<String> = lines
-        .next()
-        .unwrap()
-        .split(',')
-        .map(str::to_owned)
-        .collect();
+    let names: Vec<String> = lines.next().unwrap().split(',').map(str::to_owned).collect();
     let mut data = vec![Vec::new(); names.len()];
     for line in lines {
         for (column, value) in data.iter_mut().zip(line.split(',')) {

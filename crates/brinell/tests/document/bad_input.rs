@@ -14,10 +14,7 @@ fn problem_of(problems: &[Problem], key: &str) -> Problem {
 }
 
 fn line_of(text: &str, needle: &str) -> usize {
-    1 + text
-        .lines()
-        .position(|line| line.starts_with(needle))
-        .expect("needle")
+    1 + text.lines().position(|line| line.starts_with(needle)).expect("needle")
 }
 
 #[test]
@@ -129,10 +126,7 @@ fn regress_each_bad_line_is_named_with_its_line_and_remedy() {
         assert!(shown.contains(message), "{shown}\nlacks {message}");
         assert!(shown.contains(allowed), "{shown}\nlacks {allowed}");
         let span = problem.span.expect("a line has a span");
-        assert!(
-            text.get(span).is_some_and(|part| !part.is_empty()),
-            "{shown}"
-        );
+        assert!(text.get(span).is_some_and(|part| !part.is_empty()), "{shown}");
     }
 }
 
@@ -141,19 +135,10 @@ fn regress_all_problems_come_at_once_in_the_order_of_the_file() {
     let text = "naem = 1\n[bearing]\npreset = \"NN3007\"\nrows = -1\n[cgae]\n[operation]\nload_n = [1, \"2\"]\n";
     let problems = read(text, &[]).unwrap_err();
     let lines: Vec<Option<usize>> = problems.iter().map(|problem| problem.line).collect();
-    let keys: Vec<&str> = problems
-        .iter()
-        .map(|problem| problem.key.as_str())
-        .collect();
+    let keys: Vec<&str> = problems.iter().map(|problem| problem.key.as_str()).collect();
     assert_eq!(
         keys,
-        [
-            "naem",
-            "bearing.rows",
-            "cgae",
-            "operation.speed_rpm",
-            "operation.load_n"
-        ],
+        ["naem", "bearing.rows", "cgae", "operation.speed_rpm", "operation.load_n"],
         "{}",
         report(&problems)
     );
@@ -163,10 +148,7 @@ fn regress_all_problems_come_at_once_in_the_order_of_the_file() {
 #[test]
 fn regress_missing_keys_are_all_named() {
     let problems = read("", &[]).unwrap_err();
-    let keys: Vec<&str> = problems
-        .iter()
-        .map(|problem| problem.key.as_str())
-        .collect();
+    let keys: Vec<&str> = problems.iter().map(|problem| problem.key.as_str()).collect();
     let mut expected = vec![
         "bearing.inner_raceway_diameter_mm",
         "bearing.outer_raceway_diameter_mm",
@@ -186,18 +168,9 @@ fn regress_missing_keys_are_all_named() {
 fn regress_cross_key_problems_name_every_key_and_line() {
     let problems = with(BARE, &[("bearing.roller_diameter_mm", "7")]).unwrap_err();
     let problem = problem_of(&problems, "bearing.roller_diameter_mm");
-    let also: Vec<(&str, Option<usize>)> = problem
-        .also
-        .iter()
-        .map(|(key, place)| (key.as_str(), place.as_ref().map(|place| place.line)))
-        .collect();
-    assert_eq!(
-        also,
-        [
-            ("bearing.inner_raceway_diameter_mm", Some(2)),
-            ("bearing.outer_raceway_diameter_mm", Some(3))
-        ]
-    );
+    let also: Vec<(&str, Option<usize>)> =
+        problem.also.iter().map(|(key, place)| (key.as_str(), place.as_ref().map(|place| place.line))).collect();
+    assert_eq!(also, [("bearing.inner_raceway_diameter_mm", Some(2)), ("bearing.outer_raceway_diameter_mm", Some(3))]);
     // The override is on no line: the first key of the file that takes part is named.
     assert_eq!(problem.line, Some(2));
 }
@@ -241,18 +214,11 @@ fn regress_overrides_reach_every_key_and_say_what_is_wrong() {
         "shape = { circle = { diameter_mm = 1.0 } }",
         "record = [\"outer_*\"]",
     ] {
-        assert!(
-            text.lines().any(|own| own.starts_with(line)),
-            "no {line} in\n{text}"
-        );
+        assert!(text.lines().any(|own| own.starts_with(line)), "no {line} in\n{text}");
     }
     for (path, value, message) in [
         ("operation.sped_rpm", "1", "did you mean `speed_rpm`"),
-        (
-            "operation.speed_rpm",
-            "fast",
-            "found a string (given as an override)",
-        ),
+        ("operation.speed_rpm", "fast", "found a string (given as an override)"),
         ("operation..speed_rpm", "1", "dotted path"),
         ("", "1", "dotted path"),
         ("defects.7.depth_um", "1", "1 elements, counted from 0"),
@@ -273,10 +239,7 @@ fn analytic_support_that_carries_the_load_is_warned_of() {
     let warning = problem_of(&above.warnings, "support.outer_stiffness_n_per_m");
     assert_eq!(warning.severity, Severity::Warning);
     assert!(warning.to_string().contains("< 3.000e7 N/m"), "{warning}");
-    let inner = [
-        ("operation.load_on", "inner-ring"),
-        ("support.inner_stiffness_n_per_m", "5e7"),
-    ];
+    let inner = [("operation.load_on", "inner-ring"), ("support.inner_stiffness_n_per_m", "5e7")];
     let inner = with(BARE, &inner).unwrap();
     problem_of(&inner.warnings, "support.inner_stiffness_n_per_m");
 }
@@ -289,17 +252,13 @@ fn analytic_sample_rate_is_held_against_the_defect_frequencies() {
         ("on = \"inner-raceway\"", 319.898),
         ("on = \"roller\", roller = 1", 241.326),
     ] {
-        let defect =
-            format!("{{ {on}, depth_um = 1, shape = {{ circle = {{ diameter_mm = 1 }} }} }}");
+        let defect = format!("{{ {on}, depth_um = 1, shape = {{ circle = {{ diameter_mm = 1 }} }} }}");
         let needed: f64 = frequency * 5.0 / 0.4;
         for (rate, warned) in [(needed * 0.9999, true), (needed * 1.0001, false)] {
             let text = format!("{BARE}[simulation]\nsample_rate_hz = {rate}\n");
             let loaded = with(&text, &[("defects", &format!("[{defect}]"))]);
             let loaded = loaded.unwrap_or_else(|problems| panic!("{}", report(&problems)));
-            let low = loaded
-                .warnings
-                .iter()
-                .any(|w| w.key == "simulation.sample_rate_hz");
+            let low = loaded.warnings.iter().any(|w| w.key == "simulation.sample_rate_hz");
             assert_eq!(low, warned, "{on} at {rate} Hz");
         }
     }
@@ -314,18 +273,8 @@ fn regress_overlaps_crossings_and_overhang_are_said_and_run() {
         .replace("REST", &["5"; 36].join(", "));
     let second = "{ on = \"outer-raceway\", depth_um = 5, center_deg = 1, shape = { circle = { diameter_mm = 2 } } }";
     for (key, value, at, words) in [
-        (
-            "defects.0.shape",
-            crossing.as_str(),
-            "defects.0.shape.outline.polygons_mm",
-            "counts as undamaged",
-        ),
-        (
-            "defects.0.shape",
-            map.as_str(),
-            "defects.0.shape.depth_map.depth_um",
-            "what is beyond is left out",
-        ),
+        ("defects.0.shape", crossing.as_str(), "defects.0.shape.outline.polygons_mm", "counts as undamaged"),
+        ("defects.0.shape", map.as_str(), "defects.0.shape.depth_map.depth_um", "what is beyond is left out"),
         ("defects.1", second, "defects.1", "overlaps defect 1"),
         (
             "defects.0.shape",
@@ -333,12 +282,7 @@ fn regress_overlaps_crossings_and_overhang_are_said_and_run() {
             "defects.0.shape.outline.polygons_mm",
             "crosses itself at s = 0.5 mm, z = 0.5 mm",
         ),
-        (
-            "defects.0.axial_offset_mm",
-            "2.5",
-            "defects.0.axial_offset_mm",
-            "what is beyond is left out",
-        ),
+        ("defects.0.axial_offset_mm", "2.5", "defects.0.axial_offset_mm", "what is beyond is left out"),
     ] {
         let loaded = with(OUTER, &[(key, value)]).unwrap_or_else(|p| panic!("{}", report(&p)));
         let warning = problem_of(&loaded.warnings, at);
@@ -348,29 +292,16 @@ fn regress_overlaps_crossings_and_overhang_are_said_and_run() {
     // Side by side they do not overlap.
     let apart = second.replace("center_deg = 1", "center_deg = 9");
     let loaded = with(OUTER, &[("defects.1", &apart)]).unwrap_or_else(|p| panic!("{}", report(&p)));
-    assert!(
-        loaded
-            .warnings
-            .iter()
-            .all(|w| !w.message.contains("overlaps"))
-    );
+    assert!(loaded.warnings.iter().all(|w| !w.message.contains("overlaps")));
 }
 
 #[test]
 fn regress_a_key_is_found_where_it_is() {
-    let text =
-        "a = 1\n[[defects]]\nrow = 1\n[[defects]]\nshape = { image = { file = \"x.png\" } }\n";
+    let text = "a = 1\n[[defects]]\nrow = 1\n[[defects]]\nshape = { image = { file = \"x.png\" } }\n";
     let place = brinell::document::locate(text, "defects.1.shape.image.file").unwrap();
     assert_eq!((place.line, place.column), (5, 28));
     assert_eq!(&text[place.span], "\"x.png\"");
-    for missing in [
-        "defects.2.row",
-        "defects.x",
-        "defects.0.shape.image",
-        "b",
-        "a.b",
-        "",
-    ] {
+    for missing in ["defects.2.row", "defects.x", "defects.0.shape.image", "b", "a.b", ""] {
         assert_eq!(brinell::document::locate(text, missing), None, "{missing}");
     }
     assert_eq!(brinell::document::locate("a = [", "a"), None);

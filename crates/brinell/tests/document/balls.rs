@@ -34,10 +34,7 @@ fn regress_defaults_of_balls() {
     assert_eq!(s.bearing.outer_groove_conformity, Some(0.52));
     assert_eq!(s.contact.youngs_modulus_gpa, Some(206.0));
     assert_eq!(s.contact.poisson_ratio, Some(0.3));
-    assert_eq!(
-        (s.contact.law, s.contact.roller_path),
-        (Law::Sliced, RollerPath::Envelope)
-    );
+    assert_eq!((s.contact.law, s.contact.roller_path), (Law::Sliced, RollerPath::Envelope));
     assert_eq!(s.contact.exponent, 1.5);
     assert!((s.contact.inner_stiffness / 2.53251e10 - 1.0).abs() < 1e-5);
     assert!((s.contact.outer_stiffness / 2.68371e10 - 1.0).abs() < 1e-5);
@@ -61,38 +58,13 @@ fn regress_what_balls_do_not_have_is_refused() {
         let words = "has a meaning only where bearing.element is \"roller\"";
         refused(BARE, &[(key, value)], key, words);
     }
-    refused(
-        BARE,
-        &[("simulation.model", "tilting")],
-        "simulation.model",
-        "no ends that could tilt",
-    );
+    refused(BARE, &[("simulation.model", "tilting")], "simulation.model", "no ends that could tilt");
     let no_meaning = "has a meaning only where bearing.element is \"roller\"";
-    refused(
-        BARE,
-        &[("bearing.roller_length_mm", "7.0")],
-        "bearing.roller_length_mm",
-        no_meaning,
-    );
-    refused(
-        BARE,
-        &[("contact.exponent", "1.5")],
-        "contact.exponent",
-        no_meaning,
-    );
+    refused(BARE, &[("bearing.roller_length_mm", "7.0")], "bearing.roller_length_mm", no_meaning);
+    refused(BARE, &[("contact.exponent", "1.5")], "contact.exponent", no_meaning);
     refused(BARE, &[("contact.law", "ecl")], "contact.law", "sliced");
-    refused(
-        BARE,
-        &[("bearing.inner_groove_conformity", "0.5")],
-        "bearing.inner_groove_conformity",
-        "> 0.5",
-    );
-    refused(
-        BARE,
-        &[("bearing.preset", "NU206")],
-        "bearing.element",
-        "NU206 is a roller bearing",
-    );
+    refused(BARE, &[("bearing.inner_groove_conformity", "0.5")], "bearing.inner_groove_conformity", "> 0.5");
+    refused(BARE, &[("bearing.preset", "NU206")], "bearing.element", "NU206 is a roller bearing");
     let balls = with(super::BARE, &[("bearing.outer_groove_conformity", "0.53")]).unwrap_err();
     assert!(report(&balls).contains("has a meaning only where bearing.element is \"ball\""));
     let balls = with(super::BARE, &[("contact.youngs_modulus_gpa", "210")]).unwrap_err();
@@ -104,18 +76,12 @@ fn prop_a_written_ball_bearing_checks_the_same() {
     for overrides in [
         &[][..],
         &[("simulation.model", "lumped")],
-        &[
-            ("contact.inner_stiffness", "2e10"),
-            ("contact.roller_path", "point"),
-        ],
-        &[
-            ("bearing.clearance_class", "C3"),
-            ("bearing.bore_diameter_mm", "25"),
-        ],
+        &[("contact.inner_stiffness", "2e10"), ("contact.roller_path", "point")],
+        &[("bearing.clearance_class", "C3"), ("bearing.bore_diameter_mm", "25")],
     ] {
         let loaded = with(BARE, overrides).unwrap_or_else(|p| panic!("{}", report(&p)));
-        let again: Loaded = read(&loaded.to_toml(), &[])
-            .unwrap_or_else(|p| panic!("{}\n{}", loaded.to_toml(), report(&p)));
+        let again: Loaded =
+            read(&loaded.to_toml(), &[]).unwrap_or_else(|p| panic!("{}\n{}", loaded.to_toml(), report(&p)));
         assert_eq!(again.scenario, loaded.scenario);
         assert_eq!(again.warnings, loaded.warnings);
         let assumed = |l: &Loaded| -> Vec<String> {
@@ -126,13 +92,7 @@ fn prop_a_written_ball_bearing_checks_the_same() {
         assert_eq!(again.scenario.problems(), loaded.warnings);
         Model::new(&again.scenario).unwrap();
     }
-    let class = with(
-        BARE,
-        &[
-            ("bearing.clearance_class", "C3"),
-            ("bearing.bore_diameter_mm", "25"),
-        ],
-    );
+    let class = with(BARE, &[("bearing.clearance_class", "C3"), ("bearing.bore_diameter_mm", "25")]);
     // 13 to 28 um on the diameter.
     assert_eq!(class.unwrap().scenario.bearing.radial_clearance_um, 10.25);
 }
@@ -140,13 +100,7 @@ fn prop_a_written_ball_bearing_checks_the_same() {
 #[test]
 fn prop_damage_may_be_wider_than_the_ball_but_not_than_any_groove() {
     let wide = |mm: &str| {
-        with(
-            BARE,
-            &[(
-                "defects.0.shape",
-                &format!("{{ rectangle = {{ length_mm = 1.0, width_mm = {mm} }} }}"),
-            )],
-        )
+        with(BARE, &[("defects.0.shape", &format!("{{ rectangle = {{ length_mm = 1.0, width_mm = {mm} }} }}"))])
     };
     assert!(wide("10").is_ok());
     assert!(report(&wide("16").unwrap_err()).contains("wider than any groove"));

@@ -8,9 +8,7 @@ use super::{BARE, report, with};
 
 /// A preset with lines of its own in `[bearing]`.
 fn nu206(lines: &str) -> Result<Loaded, Vec<Problem>> {
-    let text = format!(
-        "[bearing]\npreset = \"NU206\"\n{lines}\n[operation]\nspeed_rpm = 1500\nload_n = [1000, 0]\n"
-    );
+    let text = format!("[bearing]\npreset = \"NU206\"\n{lines}\n[operation]\nspeed_rpm = 1500\nload_n = [1000, 0]\n");
     read(&text, &[])
 }
 
@@ -37,10 +35,7 @@ fn lit_every_way_to_give_the_clearance_means_the_same_gap() {
         assert_eq!(clearance(&loaded), gap, "{line}");
         assert!(loaded.warnings.is_empty(), "{}", report(&loaded.warnings));
     }
-    let bare = [
-        ("bearing.bore_diameter_mm", "35"),
-        ("bearing.clearance_class", "C3"),
-    ];
+    let bare = [("bearing.bore_diameter_mm", "35"), ("bearing.clearance_class", "C3")];
     assert_eq!(clearance(&with(BARE, &bare).unwrap()), 28.75);
 }
 
@@ -56,23 +51,13 @@ fn regress_a_class_is_an_assumption_and_a_measure_is_none() {
     let diametral = nu206("diametral_clearance_um = 30").unwrap();
     assert!(!of(&diametral, KEY).assumed);
     assert!(matches!(of(&diametral, KEY).origin, Origin::Derived(_)));
-    assert_eq!(
-        of(&diametral, "bearing.diametral_clearance_um").origin,
-        Origin::File
-    );
+    assert_eq!(of(&diametral, "bearing.diametral_clearance_um").origin, Origin::File);
     // The resolved file holds one of the three, and the bore where it was given.
-    for line in [
-        "diametral_clearance_um = 30",
-        "clearance_class = \"C4\"",
-        "bore_diameter_mm = 28.5",
-    ] {
+    for line in ["diametral_clearance_um = 30", "clearance_class = \"C4\"", "bore_diameter_mm = 28.5"] {
         let loaded = nu206(line).unwrap();
         let again = read(&loaded.to_toml(), &[]).unwrap_or_else(|p| panic!("{}", report(&p)));
         assert_eq!(again.scenario, loaded.scenario, "{line}");
-        assert_eq!(
-            bore_diameter_mm(&again.scenario.bearing),
-            Some(if line.starts_with("bore") { 28.5 } else { 30.0 })
-        );
+        assert_eq!(bore_diameter_mm(&again.scenario.bearing), Some(if line.starts_with("bore") { 28.5 } else { 30.0 }));
     }
 }
 
@@ -80,12 +65,7 @@ fn regress_a_class_is_an_assumption_and_a_measure_is_none() {
 fn regress_a_clearance_that_cannot_be_is_refused_with_its_key() {
     let two = "radial_clearance_um = 5\ndiametral_clearance_um = 10";
     for (text, key, words, line) in [
-        (
-            nu206(two),
-            "bearing.diametral_clearance_um",
-            "given twice",
-            Some(4),
-        ),
+        (nu206(two), "bearing.diametral_clearance_um", "given twice", Some(4)),
         (
             nu206("clearance_class = \"C3\"\ndiametral_clearance_um = 10"),
             "bearing.clearance_class",
@@ -104,24 +84,9 @@ fn regress_a_clearance_that_cannot_be_is_refused_with_its_key() {
             "no class for this bore",
             Some(3),
         ),
-        (
-            nu206("clearance_class = \"c3\""),
-            "bearing.clearance_class",
-            "unknown word; did you mean \"C3\"",
-            Some(3),
-        ),
-        (
-            nu206("bore_diameter_mm = 0"),
-            "bearing.bore_diameter_mm",
-            "out of range",
-            Some(3),
-        ),
-        (
-            nu206("diametral_clearance_um = 2000"),
-            "bearing.diametral_clearance_um",
-            "out of proportion",
-            Some(3),
-        ),
+        (nu206("clearance_class = \"c3\""), "bearing.clearance_class", "unknown word; did you mean \"C3\"", Some(3)),
+        (nu206("bore_diameter_mm = 0"), "bearing.bore_diameter_mm", "out of range", Some(3)),
+        (nu206("diametral_clearance_um = 2000"), "bearing.diametral_clearance_um", "out of proportion", Some(3)),
     ] {
         let problems = text.expect_err(words);
         let problem = &problems[0];
@@ -136,27 +101,11 @@ fn regress_a_clearance_that_cannot_be_is_refused_with_its_key() {
 #[test]
 fn regress_a_clearance_in_the_wrong_unit_is_warned_of() {
     for (line, words, allowed) in [
-        (
-            "radial_clearance_um = 0.02",
-            Some("in mm instead of um?"),
-            ">= 0.2",
-        ),
-        (
-            "diametral_clearance_um = 0.03",
-            Some("in mm instead of um?"),
-            ">= 0.4",
-        ),
+        ("radial_clearance_um = 0.02", Some("in mm instead of um?"), ">= 0.2"),
+        ("diametral_clearance_um = 0.03", Some("in mm instead of um?"), ">= 0.4"),
         // C5 ends at 95 um on the diameter.
-        (
-            "radial_clearance_um = 48",
-            Some("its largest class, C5, ends at 95 um"),
-            "<= 47.5 um",
-        ),
-        (
-            "diametral_clearance_um = 96",
-            Some("its largest class, C5, ends at 95 um"),
-            "<= 95 um",
-        ),
+        ("radial_clearance_um = 48", Some("its largest class, C5, ends at 95 um"), "<= 47.5 um"),
+        ("diametral_clearance_um = 96", Some("its largest class, C5, ends at 95 um"), "<= 95 um"),
         ("radial_clearance_um = 0", None, ""),
         ("radial_clearance_um = -3", None, ""),
         ("radial_clearance_um = 47.5", None, ""),
@@ -164,10 +113,9 @@ fn regress_a_clearance_in_the_wrong_unit_is_warned_of() {
         let loaded = nu206(line).unwrap_or_else(|p| panic!("{line}: {}", report(&p)));
         let told = report(&loaded.warnings);
         match words {
-            Some(words) => assert!(
-                loaded.warnings.len() == 1 && told.contains(words) && told.contains(allowed),
-                "{line}: {told}"
-            ),
+            Some(words) => {
+                assert!(loaded.warnings.len() == 1 && told.contains(words) && told.contains(allowed), "{line}: {told}")
+            }
             None => assert_eq!(told, "", "{line}"),
         }
     }
@@ -181,11 +129,7 @@ fn regress_schema_and_template_know_the_ways() {
     names.sort_by_key(ToString::to_string);
     assert_eq!(names, ["C2", "C3", "C4", "C5", "CN"].map(|n| json!(n)));
     assert_eq!(bearing["diametral_clearance_um"]["x-unit"], "um");
-    for key in [
-        "bore_diameter_mm",
-        "diametral_clearance_um",
-        "clearance_class",
-    ] {
+    for key in ["bore_diameter_mm", "diametral_clearance_um", "clearance_class"] {
         assert!(template().contains(&format!("# {key}: ")), "{key}");
     }
 }

@@ -61,10 +61,7 @@ fn analytic_derived_defaults_of_a_bare_bearing() {
 #[test]
 fn regress_stiffness_is_required_where_palmgren_does_not_hold() {
     let problems = with(BARE, &[("contact.exponent", "1.5")]).unwrap_err();
-    let keys: Vec<&str> = problems
-        .iter()
-        .map(|problem| problem.key.as_str())
-        .collect();
+    let keys: Vec<&str> = problems.iter().map(|problem| problem.key.as_str()).collect();
     assert_eq!(keys, ["contact.inner_stiffness", "contact.outer_stiffness"]);
 }
 
@@ -102,11 +99,7 @@ fn regress_every_value_has_an_origin_and_guesses_are_assumed() {
         assert!(of(key).assumed, "{key}");
     }
     let overridden = with(BARE, &[("cage.mass_kg", "0.02")]).unwrap();
-    let mass = overridden
-        .provenance
-        .iter()
-        .find(|p| p.key == "cage.mass_kg")
-        .unwrap();
+    let mass = overridden.provenance.iter().find(|p| p.key == "cage.mass_kg").unwrap();
     assert_eq!((&mass.origin, mass.assumed), (&Origin::Override, false));
 }
 
@@ -117,20 +110,8 @@ fn regress_the_file_outranks_the_preset() {
     assert_eq!(loaded.scenario.bearing.preset.as_deref(), Some("NN3007"));
     assert_eq!(loaded.scenario.bearing.radial_clearance_um, 5.0);
     assert_eq!(loaded.scenario.contact.inner_stiffness, 1.828e8);
-    let stagger = loaded
-        .provenance
-        .iter()
-        .find(|p| p.key == "bearing.row_stagger_deg")
-        .unwrap();
-    assert!(
-        matches!(
-            stagger.origin,
-            Origin::Preset {
-                estimated: true,
-                ..
-            }
-        ) && stagger.assumed
-    );
+    let stagger = loaded.provenance.iter().find(|p| p.key == "bearing.row_stagger_deg").unwrap();
+    assert!(matches!(stagger.origin, Origin::Preset { estimated: true, .. }) && stagger.assumed);
 }
 
 #[test]
@@ -141,19 +122,10 @@ fn regress_every_catalogue_bearing_reads_without_a_word() {
             entry.name.to_lowercase()
         );
         let loaded = good(&text);
-        assert!(
-            loaded.warnings.is_empty(),
-            "{}: {}",
-            entry.name,
-            report(&loaded.warnings)
-        );
+        assert!(loaded.warnings.is_empty(), "{}: {}", entry.name, report(&loaded.warnings));
         for value in &entry.values {
             let used = loaded.provenance.iter().any(|p| p.key == value.key);
-            assert!(
-                used,
-                "{} has a key that no scenario has: {}",
-                entry.name, value.key
-            );
+            assert!(used, "{} has a key that no scenario has: {}", entry.name, value.key);
         }
     }
 }
@@ -168,20 +140,13 @@ fn regress_the_template_is_the_example() {
         .lines()
         .map(|line| match line.strip_prefix("# ") {
             // Explanations of shapes are indented.
-            Some(code)
-                if code.contains(" = ")
-                    && !code.starts_with(' ')
-                    && !code.starts_with("roller = ") =>
-            {
+            Some(code) if code.contains(" = ") && !code.starts_with(' ') && !code.starts_with("roller = ") => {
                 code.to_string() + "\n"
             }
             _ => line.to_string() + "\n",
         })
         .collect();
-    assert_eq!(
-        read(&live, &[]).map(|loaded| loaded.scenario),
-        Ok(Scenario::example())
-    );
+    assert_eq!(read(&live, &[]).map(|loaded| loaded.scenario), Ok(Scenario::example()));
 }
 
 #[test]

@@ -36,11 +36,7 @@ fn regress_tables_and_lists_lie_32_deep_at_most() {
     let words = "tables and lists are nested more than 32 levels deep";
     // The parser allows 80 parts of a key in each of 80 tables.
     let key = vec!["a"; 79].join(".");
-    let tables = format!(
-        "{}{key} = 1{}\n",
-        format!("{key} = {{").repeat(79),
-        "}".repeat(79)
-    );
+    let tables = format!("{}{key} = 1{}\n", format!("{key} = {{").repeat(79), "}".repeat(79));
     assert_eq!(refused(&(tables.clone() + BARE))[0].message, words);
     let lists = "[".repeat(40) + &"]".repeat(40);
     for value in [lists, format!("{{ {} }}", tables.trim())] {
@@ -54,11 +50,7 @@ fn prop_unknown_keys_are_reported_twenty_times_and_counted() {
     let keys: String = (0..3000).map(|k| format!("k{k} = 1\n")).collect();
     let on_one_line = keys.replace('\n', ", ");
     let tables: String = (0..3000).map(|k| format!("[t{k}]\n")).collect();
-    for text in [
-        keys + BARE,
-        format!("cage = {{ {on_one_line} }}\n{BARE}"),
-        BARE.to_owned() + &tables,
-    ] {
+    for text in [keys + BARE, format!("cage = {{ {on_one_line} }}\n{BARE}"), BARE.to_owned() + &tables] {
         let problems = refused(&text);
         assert_eq!(problems.len(), MOST_OF_A_KIND + 1, "{}", report(&problems));
         assert_eq!(count(&problems), 3000);
@@ -74,14 +66,8 @@ fn prop_problems_are_few_whatever_they_are() {
     for (what, text) in [
         ("broken lines", "=\n".repeat(1000) + BARE),
         ("wrong values", BARE.to_owned() + &defect.repeat(1000)),
-        (
-            "missing keys",
-            BARE.to_owned() + &"[[defects]]\n".repeat(1000),
-        ),
-        (
-            "unknown shapes",
-            BARE.to_owned() + &defect.replace("circle", "ball").repeat(1000),
-        ),
+        ("missing keys", BARE.to_owned() + &"[[defects]]\n".repeat(1000)),
+        ("unknown shapes", BARE.to_owned() + &defect.replace("circle", "ball").repeat(1000)),
     ] {
         let problems = refused(&text);
         assert!(problems.len() < 200, "{what}: {} are told", problems.len());
@@ -108,22 +94,12 @@ fn regress_a_document_holds_so_many_values_and_tables() {
     let defects = "[[defects]]\n".repeat(6000);
     let tables = "[[defects]]\n".repeat(60_000);
     for (text, words) in [
-        (
-            values + BARE,
-            "values are more than the 500000 of a document",
-        ),
-        (
-            BARE.to_owned() + &tables,
-            "tables are more than the 50000 of a document",
-        ),
+        (values + BARE, "values are more than the 500000 of a document"),
+        (BARE.to_owned() + &tables, "tables are more than the 50000 of a document"),
         (BARE.to_owned() + &defects, "there are 6000 [[defects]]"),
     ] {
         let problems = refused(&text);
-        assert!(
-            problems[0].message.ends_with(words),
-            "{}",
-            report(&problems)
-        );
+        assert!(problems[0].message.ends_with(words), "{}", report(&problems));
     }
 }
 
@@ -135,11 +111,7 @@ fn regress_an_outline_that_crosses_everywhere_is_refused() {
     let shape = format!("{{ outline = {{ points_mm = [{}] }} }}", points.join(", "));
     let problems = with(OUTER, &[("defects.0.shape", &shape)]).unwrap_err();
     let expected = format!("sides cross in more than {MOST_CROSSINGS} places");
-    assert!(
-        problems.iter().any(|p| p.message == expected),
-        "{}",
-        report(&problems)
-    );
+    assert!(problems.iter().any(|p| p.message == expected), "{}", report(&problems));
 }
 
 #[test]
@@ -174,16 +146,8 @@ fn lit_no_load_is_beyond_the_strength_of_steel() {
     let (d, rollers) = (b.roller_diameter_mm, (b.rows * b.rollers_per_row) as f64);
     let most = 440.0 * (1.0 - d / b.pitch_diameter_mm) * rollers * b.roller_length_mm * d;
     let gravity = most / b.inner_ring_mass_kg.max(b.outer_ring_mass_kg);
-    for (key, most, unit) in [
-        ("operation.load_n", most, "N"),
-        ("operation.gravity_m_per_s2", gravity, "m/s^2"),
-    ] {
-        let at = |share: f64| {
-            [(
-                key,
-                format!("[{}, {}]", 0.6 * share * most, -0.8 * share * most),
-            )]
-        };
+    for (key, most, unit) in [("operation.load_n", most, "N"), ("operation.gravity_m_per_s2", gravity, "m/s^2")] {
+        let at = |share: f64| [(key, format!("[{}, {}]", 0.6 * share * most, -0.8 * share * most))];
         let set = |share: f64| with(BARE, &at(share).each_ref().map(|(k, v)| (*k, v.as_str())));
         set(0.999).unwrap_or_else(|problems| panic!("{}", report(&problems)));
         for share in [1.001, 1e10] {
@@ -202,11 +166,8 @@ fn analytic_no_body_moves_faster_than_a_run_can_follow() {
     let roller = good(BARE).scenario.bearing.roller_mass_kg;
     // m w at w = 1e9 1/s.
     let most = roller * 1e9;
-    with(
-        BARE,
-        &[("contact.damping_ns_per_m", &(0.99 * most).to_string())],
-    )
-    .unwrap_or_else(|problems| panic!("{}", report(&problems)));
+    with(BARE, &[("contact.damping_ns_per_m", &(0.99 * most).to_string())])
+        .unwrap_or_else(|problems| panic!("{}", report(&problems)));
     for (key, value) in [
         ("contact.damping_ns_per_m", (1.01 * most).to_string()),
         ("contact.inner_stiffness", "1e30".into()),
@@ -222,14 +183,7 @@ fn analytic_no_body_moves_faster_than_a_run_can_follow() {
         let problem = &problems[0];
         assert_eq!(problem.key, key, "{}", report(&problems));
         let told = problem.to_string();
-        for words in [
-            key,
-            "= 1",
-            "faster than 1e9 1/s",
-            "allowed: ",
-            " N",
-            "mass_kg",
-        ] {
+        for words in [key, "= 1", "faster than 1e9 1/s", "allowed: ", " N", "mass_kg"] {
             let speed = words == " N" && key.starts_with("friction");
             assert!(told.contains(words) || speed, "no {words} in {told}");
         }
@@ -242,16 +196,10 @@ fn regress_keys_and_values_of_megabytes_are_reported_in_part() {
     for text in [
         format!("{long} = 1\n{BARE}"),
         BARE.replace("[bearing]", &format!("[bearing]\npreset = \"{long}\"")),
-        format!(
-            "{BARE}[provenance]\nassumed = [{{ key = \"{long}\", value = 1, reason = \"x\" }}]\n"
-        ),
+        format!("{BARE}[provenance]\nassumed = [{{ key = \"{long}\", value = 1, reason = \"x\" }}]\n"),
     ] {
         for problem in refused(&text) {
-            assert!(
-                problem.to_string().len() < 5000,
-                "{}",
-                problem.to_string().len()
-            );
+            assert!(problem.to_string().len() < 5000, "{}", problem.to_string().len());
         }
     }
 }

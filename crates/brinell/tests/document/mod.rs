@@ -34,25 +34,18 @@ fn good(text: &str) -> Loaded {
 }
 
 fn with(text: &str, overrides: &[(&str, &str)]) -> Result<Loaded, Vec<Problem>> {
-    let overrides: Vec<(String, String)> = overrides
-        .iter()
-        .map(|(key, value)| (key.to_string(), value.to_string()))
-        .collect();
+    let overrides: Vec<(String, String)> =
+        overrides.iter().map(|(key, value)| (key.to_string(), value.to_string())).collect();
     read(text, &overrides)
 }
 
 fn report(problems: &[Problem]) -> String {
-    problems
-        .iter()
-        .map(|problem| format!("{problem}\n"))
-        .collect()
+    problems.iter().map(|problem| format!("{problem}\n")).collect()
 }
 
 /// Overrides over `text` that are refused: a problem of `key` says `words`.
 fn refused(text: &str, overrides: &[(&str, &str)], key: &str, words: &str) {
     let problems = with(text, overrides).expect_err(key);
-    let found = problems
-        .iter()
-        .any(|p| p.key == key && p.to_string().contains(words));
+    let found = problems.iter().any(|p| p.key == key && p.to_string().contains(words));
     assert!(found, "{key}, {words}: {}", report(&problems));
 }

@@ -7,9 +7,7 @@ use super::{BARE, good, report, with};
 /// Key, value and reason of what is assumed.
 fn assumed(loaded: &Loaded) -> Vec<(String, String, String)> {
     let entries = loaded.provenance.iter().filter(|p| p.assumed);
-    entries
-        .map(|p| (p.key.clone(), p.value.clone(), p.reason()))
-        .collect()
+    entries.map(|p| (p.key.clone(), p.value.clone(), p.reason())).collect()
 }
 
 #[test]
@@ -52,18 +50,12 @@ fn regress_a_value_that_is_changed_or_overridden_is_its_authors() {
     assert!(mass.assumed && matches!(mass.origin, Origin::Recorded(_)));
     let line = text.lines().find(|l| l.starts_with("mass_kg = ")).unwrap();
     let edited = good(&text.replacen(line, "mass_kg = 0.02", 1));
-    assert_eq!(
-        (of(&edited).origin, of(&edited).assumed),
-        (Origin::File, false)
-    );
+    assert_eq!((of(&edited).origin, of(&edited).assumed), (Origin::File, false));
     assert!(!edited.to_toml().contains(&format!("key = \"{KEY}\"")));
     // An override is stated, even where it states the value that was assumed.
     for value in ["0.02", &mass.value] {
         let set = with(&text, &[(KEY, value)]).unwrap();
-        assert_eq!(
-            (of(&set).origin, of(&set).assumed),
-            (Origin::Override, false)
-        );
+        assert_eq!((of(&set).origin, of(&set).assumed), (Origin::Override, false));
         assert_eq!(assumed(&set).len(), assumed(&good(BARE)).len() - 1);
     }
     // A line that is taken out is assumed once more, for the reason of its default.
@@ -73,12 +65,7 @@ fn regress_a_value_that_is_changed_or_overridden_is_its_authors() {
 
 #[test]
 fn regress_entries_of_what_is_not_there_say_nothing_and_bad_ones_are_refused() {
-    let with_entries = |entries: &str| {
-        read(
-            &format!("{BARE}\n[provenance]\nassumed = [{entries}]\n"),
-            &[],
-        )
-    };
+    let with_entries = |entries: &str| read(&format!("{BARE}\n[provenance]\nassumed = [{entries}]\n"), &[]);
     // A defect that was taken out of the file.
     let gone = "{ key = \"defects.3.depth_um\", value = 1.0, reason = \"default\" }";
     assert_eq!(assumed(&with_entries(gone).unwrap()), assumed(&good(BARE)));
@@ -87,18 +74,9 @@ fn regress_entries_of_what_is_not_there_say_nothing_and_bad_ones_are_refused() {
             "{ key = \"cage.mass\", value = 1.0, reason = \"x\" }",
             "\"cage.mass\" is no key of a scenario; did you mean `mass_kg`?",
         ),
-        (
-            "{ key = \"cage.mass_kg\", reason = \"x\" }",
-            "missing: `value`",
-        ),
-        (
-            "{ key = \"cage.mass_kg\", value = 1.0, why = \"x\" }",
-            "unknown key `why`",
-        ),
-        (
-            "{ key = 3, value = 1.0, reason = \"x\" }",
-            "`key` must be a string",
-        ),
+        ("{ key = \"cage.mass_kg\", reason = \"x\" }", "missing: `value`"),
+        ("{ key = \"cage.mass_kg\", value = 1.0, why = \"x\" }", "unknown key `why`"),
+        ("{ key = 3, value = 1.0, reason = \"x\" }", "`key` must be a string"),
         ("3", "expected a table, found a whole number"),
         (
             "{ key = \"cage.mass_kg\", value = 1.0, reason = \"x\" }, { key = \"cage.mass_kg\", value = 1.0, reason = \"x\" }",
@@ -107,16 +85,9 @@ fn regress_entries_of_what_is_not_there_say_nothing_and_bad_ones_are_refused() {
     ] {
         let problems = with_entries(entries).unwrap_err();
         let text = report(&problems);
-        assert!(
-            text.contains(parts) && text.contains("provenance.assumed"),
-            "{text}"
-        );
+        assert!(text.contains(parts) && text.contains("provenance.assumed"), "{text}");
         assert!(problems.iter().all(|p| p.line.is_some()), "{text}");
     }
     let unknown = read(&format!("{BARE}\n[provenance]\nassume = []\n"), &[]).unwrap_err();
-    assert!(
-        report(&unknown).contains("did you mean `assumed`?"),
-        "{}",
-        report(&unknown)
-    );
+    assert!(report(&unknown).contains("did you mean `assumed`?"), "{}", report(&unknown));
 }

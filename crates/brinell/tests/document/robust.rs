@@ -15,11 +15,7 @@ fn exercise(text: &str, overrides: &[(String, String)]) {
             assert_eq!(again.scenario, loaded.scenario);
         }
         Err(problems) => {
-            assert!(
-                problems
-                    .iter()
-                    .any(|problem| problem.severity == Severity::Error)
-            );
+            assert!(problems.iter().any(|problem| problem.severity == Severity::Error));
             for problem in problems {
                 assert!(!problem.to_string().is_empty());
                 if let Some(span) = problem.span {
@@ -158,20 +154,11 @@ proptest! {
 fn shapes() -> impl Strategy<Value = Shape> {
     let profile = prop::collection::vec((0.0..1.0f64, 0.0..5.0f64, 0.0..100.0f64), 2..9);
     prop_oneof![
-        (1e-3..15.0f64, 0.0..5.0f64).prop_map(|(length_mm, width_mm)| Shape::Rectangle {
-            length_mm,
-            width_mm
-        }),
+        (1e-3..15.0f64, 0.0..5.0f64).prop_map(|(length_mm, width_mm)| Shape::Rectangle { length_mm, width_mm }),
         (1e-3..5.0f64).prop_map(|diameter_mm| Shape::Circle { diameter_mm }),
         (0.0..5.0f64).prop_map(|max_width_mm| Shape::Li2023Irregular { max_width_mm }),
-        (any::<u64>(), 0.1..5.0f64, 0.1..5.0f64, 0.0..1.0f64).prop_map(
-            |(seed, length_mm, width_mm, roughness)| Shape::Random {
-                seed,
-                length_mm,
-                width_mm,
-                roughness
-            }
-        ),
+        (any::<u64>(), 0.1..5.0f64, 0.1..5.0f64, 0.0..1.0f64)
+            .prop_map(|(seed, length_mm, width_mm, roughness)| Shape::Random { seed, length_mm, width_mm, roughness }),
         (0.1..2.0f64, 0.1..2.0f64, any::<bool>()).prop_map(|(a, b, several)| {
             let first = vec![[-a, -b], [a, -b], [0.5 * a, b]];
             let second = vec![[-3.0 * a, 0.0], [-2.0 * a, 0.0], [-2.0 * a, b]];
@@ -184,24 +171,14 @@ fn shapes() -> impl Strategy<Value = Shape> {
             max_width_mm: wide.then_some(b),
             area_mm2: (!wide).then_some(a * b),
         }),
-        (
-            0.01..0.5f64,
-            0.01..0.5f64,
-            prop::collection::vec(0.0..30.0f64, 6)
-        )
-            .prop_map(|(ds_mm, dz_mm, mut depth_um)| {
+        (0.01..0.5f64, 0.01..0.5f64, prop::collection::vec(0.0..30.0f64, 6)).prop_map(
+            |(ds_mm, dz_mm, mut depth_um)| {
                 depth_um[0] = 1.0;
-                let grid = DepthGrid {
-                    s0_mm: -ds_mm,
-                    z0_mm: -0.3 * dz_mm,
-                    ds_mm,
-                    dz_mm,
-                    columns: 3,
-                    rows: 2,
-                    depth_um,
-                };
+                let grid =
+                    DepthGrid { s0_mm: -ds_mm, z0_mm: -0.3 * dz_mm, ds_mm, dz_mm, columns: 3, rows: 2, depth_um };
                 Shape::DepthMap { grid }
-            }),
+            }
+        ),
         (profile, any::<bool>()).prop_map(|(points, deep)| {
             let arc = points.iter().scan(-4.0, |s, point| {
                 *s += point.0;
@@ -217,20 +194,13 @@ fn shapes() -> impl Strategy<Value = Shape> {
 }
 
 fn defects() -> impl Strategy<Value = Vec<Defect>> {
-    let surface = prop_oneof![
-        Just(Surface::OuterRaceway),
-        Just(Surface::InnerRaceway),
-        (1..=12usize).prop_map(Surface::Roller),
-    ];
+    let surface =
+        prop_oneof![Just(Surface::OuterRaceway), Just(Surface::InnerRaceway), (1..=12usize).prop_map(Surface::Roller),];
     let defect = (surface, 1..=2usize, any::<f32>(), 0.0..1e3f64, shapes());
     let defect = defect.prop_map(|(on, row, center, depth_um, shape)| Defect {
         on,
         row,
-        center_deg: if center.is_finite() {
-            f64::from(center)
-        } else {
-            -0.0
-        },
+        center_deg: if center.is_finite() { f64::from(center) } else { -0.0 },
         depth_um,
         axial_offset_mm: 0.25,
         shape,
@@ -241,11 +211,7 @@ fn defects() -> impl Strategy<Value = Vec<Defect>> {
 /// None, a few keys, or all of them.
 fn sensor(kind: usize, x: &[f64]) -> Sensor {
     let rate = 1.0 + x[13];
-    let mode = |gain: f64| PathMode {
-        frequency_hz: 0.01 * rate,
-        damping_ratio: 0.3 * x[1] / 1e9 + 1e-3,
-        gain,
-    };
+    let mode = |gain: f64| PathMode { frequency_hz: 0.01 * rate, damping_ratio: 0.3 * x[1] / 1e9 + 1e-3, gain };
     match kind {
         0 => Sensor::off(),
         1 => Sensor {
@@ -288,137 +254,107 @@ fn scenarios() -> impl Strategy<Value = Scenario> {
         }),
     ];
     // A preset of rollers has no balls, and balls do not tilt.
-    let balls =
-        |words: (usize, usize, usize, usize, usize)| words.1 == 0 && words.2 != 2 && words.4 == 1;
+    let balls = |words: (usize, usize, usize, usize, usize)| words.1 == 0 && words.2 != 2 && words.4 == 1;
     let words = (0..3usize, 0..2usize, 0..3usize, 0..3usize, 0..2usize);
     let numbers = prop::collection::vec(1e-9..1e9f64, 16);
-    let text = (
-        any::<String>(),
-        prop::collection::vec("[a-z0-9_*]{1,9}", 0..4),
-    );
-    (
-        text,
-        5.5..40.0f64,
-        12..=15usize,
-        2..=4usize,
-        numbers,
-        speed,
-        words,
-        defects(),
-    )
-        .prop_map(
-            move |((name, record), d, z, rows, x, speed_rpm, words, defects)| Scenario {
-                name,
-                bearing: Bearing {
-                    preset: (words.1 == 1).then(|| "NN3007".into()),
-                    element: if balls(words) {
-                        Element::Ball
-                    } else {
-                        Element::Roller
-                    },
-                    inner_groove_conformity: balls(words).then_some(0.5 + x[6] / 4e9 + 1e-9),
-                    outer_groove_conformity: balls(words).then_some(0.5 + x[7] / 4e9 + 1e-9),
-                    inner_raceway_diameter_mm: 6.0 * d,
-                    outer_raceway_diameter_mm: 8.0 * d,
-                    pitch_diameter_mm: 7.0 * d,
-                    roller_diameter_mm: d,
-                    roller_length_mm: if balls(words) { d } else { d * 1.1 },
-                    rollers_per_row: z,
-                    rows,
-                    row_stagger_deg: -x[0],
-                    bore_diameter_mm: None,
-                    radial_clearance_um: d * x[1] / 1e9,
-                    outer_gap_um: d * x[2] / 1e9,
-                    inner_ring_mass_kg: x[3],
-                    outer_ring_mass_kg: x[4],
-                    roller_mass_kg: x[5],
-                    profile: match (words.2, words.3) {
-                        (2, 0) => RollerProfile::Logarithmic,
-                        (2, 1) => RollerProfile::Crowned {
-                            crowned_radius_mm: 1e3 + x[0],
-                        },
-                        (2, _) => RollerProfile::Table {
-                            z_mm: vec![-x[0] - 1.0, x[1] + 1.0],
-                            drop_um: vec![0.0, 1e-12 * x[2]],
-                        },
-                        _ => RollerProfile::Straight,
-                    },
-                    width_mm: 1.6 * (if balls(words) { d } else { d * 1.1 }) * rows as f64,
-                    row_spacing_mm: match (rows, balls(words)) {
-                        (1, _) => 0.0,
-                        (_, true) => 1.5 * d,
-                        (_, false) => 1.5 * (d * 1.1),
-                    },
+    let text = (any::<String>(), prop::collection::vec("[a-z0-9_*]{1,9}", 0..4));
+    (text, 5.5..40.0f64, 12..=15usize, 2..=4usize, numbers, speed, words, defects()).prop_map(
+        move |((name, record), d, z, rows, x, speed_rpm, words, defects)| Scenario {
+            name,
+            bearing: Bearing {
+                preset: (words.1 == 1).then(|| "NN3007".into()),
+                element: if balls(words) { Element::Ball } else { Element::Roller },
+                inner_groove_conformity: balls(words).then_some(0.5 + x[6] / 4e9 + 1e-9),
+                outer_groove_conformity: balls(words).then_some(0.5 + x[7] / 4e9 + 1e-9),
+                inner_raceway_diameter_mm: 6.0 * d,
+                outer_raceway_diameter_mm: 8.0 * d,
+                pitch_diameter_mm: 7.0 * d,
+                roller_diameter_mm: d,
+                roller_length_mm: if balls(words) { d } else { d * 1.1 },
+                rollers_per_row: z,
+                rows,
+                row_stagger_deg: -x[0],
+                bore_diameter_mm: None,
+                radial_clearance_um: d * x[1] / 1e9,
+                outer_gap_um: d * x[2] / 1e9,
+                inner_ring_mass_kg: x[3],
+                outer_ring_mass_kg: x[4],
+                roller_mass_kg: x[5],
+                profile: match (words.2, words.3) {
+                    (2, 0) => RollerProfile::Logarithmic,
+                    (2, 1) => RollerProfile::Crowned { crowned_radius_mm: 1e3 + x[0] },
+                    (2, _) => {
+                        RollerProfile::Table { z_mm: vec![-x[0] - 1.0, x[1] + 1.0], drop_um: vec![0.0, 1e-12 * x[2]] }
+                    }
+                    _ => RollerProfile::Straight,
                 },
-                cage: Cage {
-                    mass_kg: x[6],
-                    inner_diameter_mm: 6.5 * d,
-                    outer_diameter_mm: 7.7 * d,
-                    pocket_clearance_mm: d / 100.0,
-                    guidance: [Guidance::OuterRing, Guidance::InnerRing, Guidance::Rollers]
-                        [words.0],
-                    guidance_film: [GuidanceFilm::Dynamic, GuidanceFilm::QuasiStatic][words.0 % 2],
-                    guide_clearance_mm: x[7],
-                    guide_width_mm: x[8],
-                    contact_stiffness_n_per_m: x[9],
-                    contact_damping_ns_per_m: x[10],
-                },
-                contact: Contact {
-                    law: if words.2 == 2 || balls(words) {
-                        Law::Sliced
-                    } else {
-                        Law::Ecl
-                    },
-                    roller_path: RollerPath::Point,
-                    slices: z,
-                    edge_reaction: EdgeReaction::None,
-                    exponent: if balls(words) { 1.5 } else { 1.0 + x[0] / 1e9 },
-                    youngs_modulus_gpa: balls(words).then_some(x[8]),
-                    poisson_ratio: balls(words).then_some(x[9] / 2e9),
-                    inner_stiffness: x[11],
-                    outer_stiffness: x[12],
-                    damping_ns_per_m: x[13],
-                },
-                friction: Friction {
-                    raceway_coefficient: x[14] / 1e9,
-                    slip_velocity_m_per_s: x[15],
-                },
-                lubricant: Lubricant {
-                    viscosity_pa_s: x[1],
-                    raceway_film: [RacewayFilm::None, RacewayFilm::Squeeze]
-                        [usize::from(x[2] > x[3] && !balls(words))],
-                    drag_coefficient: x[2],
-                    effective_density_kg_per_m3: x[3],
-                },
-                support: Support {
-                    inner_stiffness_n_per_m: x[4],
-                    inner_damping_ns_per_m: x[5],
-                    outer_stiffness_n_per_m: x[6],
-                    outer_damping_ns_per_m: x[7],
-                    inner_tilt_stiffness_nm_per_rad: x[4] * (0.5e-3 * (7.0 * d)).powi(2),
-                    inner_tilt_damping_nms_per_rad: x[5] * (0.5e-3 * (7.0 * d)).powi(2),
-                    outer_tilt_stiffness_nm_per_rad: x[6] * (0.5e-3 * (7.0 * d)).powi(2),
-                    outer_tilt_damping_nms_per_rad: x[7] * (0.5e-3 * (7.0 * d)).powi(2),
-                },
-                operation: Operation {
-                    speed_rpm,
-                    // Within ten times the least static load rating, as the weight.
-                    load_n: [-1e-4 * x[8], 1e-4 * x[9]],
-                    load_on: [LoadOn::OuterRing, LoadOn::InnerRing][words.1],
-                    load_ramp_s: x[10],
-                    gravity_m_per_s2: [-0.0, -1e-13 * x[11]],
-                    load_offset_mm: 0.0,
-                },
-                defects,
-                sensor: sensor(words.0, &x),
-                simulation: Simulation {
-                    model: [ModelKind::Full, ModelKind::Lumped, ModelKind::Tilting][words.2],
-                    duration_s: 1.0 + x[12] / 1e9,
-                    sample_rate_hz: 1.0 + x[13],
-                    start: [Start::Rolling, Start::Rest, Start::Equilibrium][words.3],
-                    accuracy: [Accuracy::Standard, Accuracy::Reference][words.4],
-                    record,
+                width_mm: 1.6 * (if balls(words) { d } else { d * 1.1 }) * rows as f64,
+                row_spacing_mm: match (rows, balls(words)) {
+                    (1, _) => 0.0,
+                    (_, true) => 1.5 * d,
+                    (_, false) => 1.5 * (d * 1.1),
                 },
             },
-        )
+            cage: Cage {
+                mass_kg: x[6],
+                inner_diameter_mm: 6.5 * d,
+                outer_diameter_mm: 7.7 * d,
+                pocket_clearance_mm: d / 100.0,
+                guidance: [Guidance::OuterRing, Guidance::InnerRing, Guidance::Rollers][words.0],
+                guidance_film: [GuidanceFilm::Dynamic, GuidanceFilm::QuasiStatic][words.0 % 2],
+                guide_clearance_mm: x[7],
+                guide_width_mm: x[8],
+                contact_stiffness_n_per_m: x[9],
+                contact_damping_ns_per_m: x[10],
+            },
+            contact: Contact {
+                law: if words.2 == 2 || balls(words) { Law::Sliced } else { Law::Ecl },
+                roller_path: RollerPath::Point,
+                slices: z,
+                edge_reaction: EdgeReaction::None,
+                exponent: if balls(words) { 1.5 } else { 1.0 + x[0] / 1e9 },
+                youngs_modulus_gpa: balls(words).then_some(x[8]),
+                poisson_ratio: balls(words).then_some(x[9] / 2e9),
+                inner_stiffness: x[11],
+                outer_stiffness: x[12],
+                damping_ns_per_m: x[13],
+            },
+            friction: Friction { raceway_coefficient: x[14] / 1e9, slip_velocity_m_per_s: x[15] },
+            lubricant: Lubricant {
+                viscosity_pa_s: x[1],
+                raceway_film: [RacewayFilm::None, RacewayFilm::Squeeze][usize::from(x[2] > x[3] && !balls(words))],
+                drag_coefficient: x[2],
+                effective_density_kg_per_m3: x[3],
+            },
+            support: Support {
+                inner_stiffness_n_per_m: x[4],
+                inner_damping_ns_per_m: x[5],
+                outer_stiffness_n_per_m: x[6],
+                outer_damping_ns_per_m: x[7],
+                inner_tilt_stiffness_nm_per_rad: x[4] * (0.5e-3 * (7.0 * d)).powi(2),
+                inner_tilt_damping_nms_per_rad: x[5] * (0.5e-3 * (7.0 * d)).powi(2),
+                outer_tilt_stiffness_nm_per_rad: x[6] * (0.5e-3 * (7.0 * d)).powi(2),
+                outer_tilt_damping_nms_per_rad: x[7] * (0.5e-3 * (7.0 * d)).powi(2),
+            },
+            operation: Operation {
+                speed_rpm,
+                // Within ten times the least static load rating, as the weight.
+                load_n: [-1e-4 * x[8], 1e-4 * x[9]],
+                load_on: [LoadOn::OuterRing, LoadOn::InnerRing][words.1],
+                load_ramp_s: x[10],
+                gravity_m_per_s2: [-0.0, -1e-13 * x[11]],
+                load_offset_mm: 0.0,
+            },
+            defects,
+            sensor: sensor(words.0, &x),
+            simulation: Simulation {
+                model: [ModelKind::Full, ModelKind::Lumped, ModelKind::Tilting][words.2],
+                duration_s: 1.0 + x[12] / 1e9,
+                sample_rate_hz: 1.0 + x[13],
+                start: [Start::Rolling, Start::Rest, Start::Equilibrium][words.3],
+                accuracy: [Accuracy::Standard, Accuracy::Reference][words.4],
+                record,
+            },
+        },
+    )
 }

@@ -25,14 +25,8 @@ fn regress_defaults_of_what_tilts() {
     let lever = 0.0245f64.powi(2);
     let support = &s.support;
     for (tilt, own) in [
-        (
-            support.inner_tilt_stiffness_nm_per_rad,
-            support.inner_stiffness_n_per_m,
-        ),
-        (
-            support.outer_tilt_damping_nms_per_rad,
-            support.outer_damping_ns_per_m,
-        ),
+        (support.inner_tilt_stiffness_nm_per_rad, support.inner_stiffness_n_per_m),
+        (support.outer_tilt_damping_nms_per_rad, support.outer_damping_ns_per_m),
     ] {
         assert!((tilt / (own * lever) - 1.0).abs() < 1e-12);
     }
@@ -46,12 +40,7 @@ fn regress_what_has_no_slices_has_no_profile_and_no_tilt() {
     let profile = ("bearing.profile", "logarithmic");
     let ecl = ("contact.law", "ecl");
     refused(BARE, &[tilts, ecl], "contact.law", "needs slices");
-    refused(
-        BARE,
-        &[tilts, ("contact.slices", "1")],
-        "contact.slices",
-        "2 to 10000",
-    );
+    refused(BARE, &[tilts, ("contact.slices", "1")], "contact.slices", "2 to 10000");
     refused(BARE, &[profile, ecl], "bearing.profile", "needs slices");
     let lumped = ("simulation.model", "lumped");
     refused(BARE, &[profile, lumped], "bearing.profile", "no profile");
@@ -77,9 +66,5 @@ fn regress_profiles_that_make_no_sense() {
 fn regress_keys_of_tilting_have_no_effect_in_the_plane() {
     let loaded = with(BARE, &[("operation.load_offset_mm", "2")]).unwrap();
     let said: Vec<String> = loaded.warnings.iter().map(ToString::to_string).collect();
-    assert!(
-        said.iter()
-            .any(|w| w.contains("load_offset_mm") && w.contains("no effect")),
-        "{said:?}"
-    );
+    assert!(said.iter().any(|w| w.contains("load_offset_mm") && w.contains("no effect")), "{said:?}");
 }

@@ -11,12 +11,7 @@ use brinell::elementary::Exponent;
 use brinell::scenario::{self, DepthGrid, Law, RollerPath, Scenario, Surface};
 use std::f64::consts::TAU;
 
-const LAW: Hertz = Hertz {
-    strips: None,
-    stiffness: 1.898e8,
-    exponent: Exponent::TenNinths,
-    damping: 200.0,
-};
+const LAW: Hertz = Hertz { strips: None, stiffness: 1.898e8, exponent: Exponent::TenNinths, damping: 200.0 };
 
 fn circle_mm(radius: f64, corners: usize) -> Vec<[f64; 2]> {
     (0..corners)
@@ -38,9 +33,7 @@ fn grid_mm(half: [f64; 2], step: f64, depth: impl Fn(f64, f64) -> f64) -> DepthG
         dz_mm: step,
         columns,
         rows,
-        depth_um: (0..rows * columns)
-            .map(|k| depth(s(k % columns), z(k / columns)))
-            .collect(),
+        depth_um: (0..rows * columns).map(|k| depth(s(k % columns), z(k / columns))).collect(),
     }
 }
 
@@ -54,33 +47,16 @@ fn defect(of: scenario::Shape, on: Surface, law: Law, path: RollerPath, slices: 
     s.contact.law = law;
     s.contact.roller_path = path;
     s.contact.slices = slices;
-    let d = scenario::Defect {
-        shape: of,
-        on,
-        ..s.defects[0].clone()
-    };
+    let d = scenario::Defect { shape: of, on, ..s.defects[0].clone() };
     Defect::new(&d, &s.bearing, &s.contact).unwrap()
 }
 
 fn at(orbit: f64) -> Angles {
-    Angles {
-        orbit,
-        spin: 0.0,
-        ring: 0.0,
-    }
+    Angles { orbit, spin: 0.0, ring: 0.0 }
 }
 
 /// The outline of `tests/reference/slices-oblique.toml`, moved as there.
 fn oblique() -> scenario::Shape {
-    let corners = [
-        [-1.7, 0.15],
-        [0.4, -0.65],
-        [1.6, 0.9],
-        [1.1, 2.75],
-        [-0.3, 1.35],
-        [-1.2, 2.4],
-    ];
-    scenario::Shape::Outline {
-        polygons_mm: vec![corners.map(|[s, z]| [s, z - 0.3]).to_vec()],
-    }
+    let corners = [[-1.7, 0.15], [0.4, -0.65], [1.6, 0.9], [1.1, 2.75], [-0.3, 1.35], [-1.2, 2.4]];
+    scenario::Shape::Outline { polygons_mm: vec![corners.map(|[s, z]| [s, z - 0.3]).to_vec()] }
 }

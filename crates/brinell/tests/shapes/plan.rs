@@ -12,14 +12,11 @@ use std::f64::consts::{PI, TAU};
 #[test]
 fn analytic_rectangle_and_circle_as_polygons() {
     let corners = vec![[-1.5, -2.0], [1.5, -2.0], [1.5, 2.0], [-1.5, 2.0]];
-    let rectangle = shape(scenario::Shape::Outline {
-        polygons_mm: vec![corners],
-    });
+    let rectangle = shape(scenario::Shape::Outline { polygons_mm: vec![corners] });
     let n = 720;
-    let circle = shape(scenario::Shape::Outline {
-        polygons_mm: vec![circle_mm(2.25, n)],
-    });
-    // A chord lies below its arc by at most the sagitta, along the radius; along z that is more where the border is steep.
+    let circle = shape(scenario::Shape::Outline { polygons_mm: vec![circle_mm(2.25, n)] });
+    // A chord lies below its arc by at most the sagitta, along the radius; along z that is more where the border is
+    // steep.
     let sagitta = 2.25e-3 * (1.0 - (PI / n as f64).cos());
     for k in -999..=999 {
         let s = 1.5e-3 * f64::from(k) / 1000.0;
@@ -40,25 +37,15 @@ fn analytic_rectangle_and_circle_as_polygons() {
 fn analytic_rectangle_and_circle_as_depth_maps() {
     for step in [0.05, 0.02] {
         let rectangle = shape(scenario::Shape::DepthMap {
-            grid: grid_mm([2.5, 2.8], step, |s, z| {
-                if s.abs() <= 1.5 && z.abs() <= 2.0 {
-                    20.0
-                } else {
-                    0.0
-                }
-            }),
+            grid: grid_mm([2.5, 2.8], step, |s, z| if s.abs() <= 1.5 && z.abs() <= 2.0 { 20.0 } else { 0.0 }),
         });
         let circle = shape(scenario::Shape::DepthMap {
-            grid: grid_mm([2.5, 2.8], step, |s, z| {
-                if s.hypot(z) <= 2.25 { 20.0 } else { 0.0 }
-            }),
+            grid: grid_mm([2.5, 2.8], step, |s, z| if s.hypot(z) <= 2.25 { 20.0 } else { 0.0 }),
         });
         for k in -94..=94 {
             let s = 1.5e-3 * f64::from(k) / 100.0;
             let off = (rectangle.damaged_length(s) - 4e-3).abs();
-            assert!(
-                off <= 1.001e-3 * step && (rectangle.own_depth(s).unwrap() - 20e-6).abs() < 1e-18
-            );
+            assert!(off <= 1.001e-3 * step && (rectangle.own_depth(s).unwrap() - 20e-6).abs() < 1e-18);
             let s = 2.25e-3 * f64::from(k) / 100.0;
             let half = (2.25e-3f64.powi(2) - s * s).sqrt();
             // One cell along z, and what the border climbs within one column.
@@ -73,22 +60,13 @@ fn analytic_rectangle_and_circle_as_depth_maps() {
 #[test]
 fn analytic_grown_reaches_its_width_or_its_area() {
     let outline = vec![vec![[-3.0, -0.5], [2.0, -1.0], [3.0, 0.25], [0.0, 1.0]]];
-    let grown = |max_width_mm, area_mm2| {
-        shape(scenario::Shape::Grown {
-            outline: outline.clone(),
-            max_width_mm,
-            area_mm2,
-        })
-    };
-    let Shape::Outline(wide) = grown(Some(3.0), None) else {
-        panic!("a grown outline is an outline")
-    };
+    let grown =
+        |max_width_mm, area_mm2| shape(scenario::Shape::Grown { outline: outline.clone(), max_width_mm, area_mm2 });
+    let Shape::Outline(wide) = grown(Some(3.0), None) else { panic!("a grown outline is an outline") };
     assert!((wide.width().largest() - 3e-3).abs() < 1e-15);
     assert!((grown(None, Some(9.0)).area() - 9e-6).abs() < 1e-18);
     // Alike in both directions.
-    let same = shape(scenario::Shape::Outline {
-        polygons_mm: outline.clone(),
-    });
+    let same = shape(scenario::Shape::Outline { polygons_mm: outline.clone() });
     let ratio = (wide.width().span().1 - wide.width().span().0) / (same.arc().1 - same.arc().0);
     assert!((wide.width().integral() / same.area() - ratio * ratio).abs() < 1e-12);
 }

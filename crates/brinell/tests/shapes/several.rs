@@ -12,53 +12,26 @@ fn analytic_deepest_of_several_acts_in_each_slice_and_spares_raised_edges() {
         s.contact.law = Law::Sliced;
         s.contact.edge_reaction = EdgeReaction::None;
         let d = scenario::Defect {
-            shape: scenario::Shape::Rectangle {
-                length_mm,
-                width_mm: 2.0,
-            },
+            shape: scenario::Shape::Rectangle { length_mm, width_mm: 2.0 },
             depth_um,
             ..s.defects[0].clone()
         };
         Defect::new(&d, &s.bearing, &s.contact).unwrap()
     };
     let (shallow, deep) = (flat(4.0, 3.0), flat(2.0, 9.0));
-    let force = |d: &[&Defect], u| {
-        damaged_contact(d.iter().copied(), &LAW, &at(u), Side::Outer, 20e-6)
-            .unwrap()
-            .elastic
-    };
+    let force =
+        |d: &[&Defect], u| damaged_contact(d.iter().copied(), &LAW, &at(u), Side::Outer, 20e-6).unwrap().elastic;
     // One defect of one depth is summed as a whole, several slice by slice: the same to round-off.
     let same = |a: f64, b: f64| (a - b).abs() < 1e-12 * b;
     assert!(same(force(&[&shallow, &deep], 0.0), force(&[&deep], 0.0)));
     assert!(same(force(&[&deep, &shallow], 0.0), force(&[&deep], 0.0)));
     let off = 1.5e-3 / deep.radius;
-    assert!(same(
-        force(&[&shallow, &deep], off),
-        force(&[&shallow], off)
-    ));
+    assert!(same(force(&[&shallow, &deep], off), force(&[&shallow], off)));
     // A ridge 5 um high under a defect that leaves its slices alone: it still carries.
-    let ridge = scenario::Shape::DepthMap {
-        grid: grid_mm([1.0, 3.0], 0.5, |_, z| if z > 1.6 { -5.0 } else { 0.0 }),
-    };
-    let ridge = defect(
-        ridge,
-        Surface::OuterRaceway,
-        Law::Sliced,
-        RollerPath::Point,
-        30,
-    );
-    let alone = damaged_contact([&ridge].into_iter(), &LAW, &at(0.0), Side::Outer, -1e-6)
-        .unwrap()
-        .elastic;
-    let with = damaged_contact(
-        [&deep, &ridge].into_iter(),
-        &LAW,
-        &at(0.0),
-        Side::Outer,
-        -1e-6,
-    )
-    .unwrap()
-    .elastic;
+    let ridge = scenario::Shape::DepthMap { grid: grid_mm([1.0, 3.0], 0.5, |_, z| if z > 1.6 { -5.0 } else { 0.0 }) };
+    let ridge = defect(ridge, Surface::OuterRaceway, Law::Sliced, RollerPath::Point, 30);
+    let alone = damaged_contact([&ridge].into_iter(), &LAW, &at(0.0), Side::Outer, -1e-6).unwrap().elastic;
+    let with = damaged_contact([&deep, &ridge].into_iter(), &LAW, &at(0.0), Side::Outer, -1e-6).unwrap().elastic;
     assert!(alone > 0.0 && same(alone, with));
 }
 
@@ -73,10 +46,7 @@ fn over(on: Surface, side: Side, u: f64) -> Angles {
 #[test]
 fn analytic_halves_that_touch_or_overlap_are_the_whole_under_the_envelope() {
     let part = |law, on, from_mm: f64, to_mm: f64| {
-        let of = scenario::Shape::Rectangle {
-            length_mm: to_mm - from_mm,
-            width_mm: 4.0,
-        };
+        let of = scenario::Shape::Rectangle { length_mm: to_mm - from_mm, width_mm: 4.0 };
         let mut d = defect(of, on, law, RollerPath::Envelope, 12);
         d.center = 0.5e-3 * (from_mm + to_mm) / d.radius;
         d
@@ -96,13 +66,11 @@ fn analytic_halves_that_touch_or_overlap_are_the_whole_under_the_envelope() {
                     let u = 1.507e-5 * f64::from(k) / whole.radius;
                     let angles = over(on, side, u);
                     for delta in [5e-6, 25e-6, 60e-6] {
-                        let force = |d: &[Defect]| {
-                            damaged_contact(d.iter(), &LAW, &angles, side, delta).map(|a| a.elastic)
-                        };
+                        let force =
+                            |d: &[Defect]| damaged_contact(d.iter(), &LAW, &angles, side, delta).map(|a| a.elastic);
                         let (one, two) = (force(std::slice::from_ref(&whole)), force(&halves));
                         let stored = |d: &[Defect]| energy(d.iter(), &LAW, &angles, side, delta);
-                        let (e_one, e_two) =
-                            (stored(std::slice::from_ref(&whole)), stored(&halves));
+                        let (e_one, e_two) = (stored(std::slice::from_ref(&whole)), stored(&halves));
                         assert_eq!(one.is_some(), two.is_some(), "{law:?} {on:?} {side:?} {k}");
                         let size = LAW.healthy(delta);
                         let (one, two) = (one.unwrap_or(size), two.unwrap_or(size));
@@ -129,46 +97,26 @@ fn analytic_under_ecl_two_defects_follow_the_envelope_of_one_profile_and_a_pit_d
     let make = |of, depth_um| {
         let mut s = Scenario::example();
         s.contact.roller_path = RollerPath::Envelope;
-        let d = scenario::Defect {
-            shape: of,
-            depth_um,
-            ..s.defects[0].clone()
-        };
+        let d = scenario::Defect { shape: of, depth_um, ..s.defects[0].clone() };
         Defect::new(&d, &s.bearing, &s.contact).unwrap()
     };
-    let rectangle = |length_mm, width_mm| scenario::Shape::Rectangle {
-        length_mm,
-        width_mm,
-    };
-    let (dent, pit) = (
-        make(rectangle(5.0, 5.0), 3.0),
-        make(rectangle(1.0, 1.0), 25.0),
-    );
+    let rectangle = |length_mm, width_mm| scenario::Shape::Rectangle { length_mm, width_mm };
+    let (dent, pit) = (make(rectangle(5.0, 5.0), 3.0), make(rectangle(1.0, 1.0), 25.0));
     let (half, radius) = (0.5e-3, 1.0 / (1.0 / 3e-3 - 1.0 / 27.5e-3));
     for k in -100..=100 {
         let s = 0.5e-3 * f64::from(k) / 100.0;
         let u = s / dent.radius;
-        let both: Vec<_> =
-            brinell::defect::floors([&dent, &pit].into_iter(), &at(u), Side::Outer).collect();
+        let both: Vec<_> = brinell::defect::floors([&dent, &pit].into_iter(), &at(u), Side::Outer).collect();
         let exact = (3e-6 + (half - s.abs()).powi(2) / (2.0 * radius)).min(25e-6);
         assert!((both[0].depth - 3e-6).abs() < 1e-15, "the dent at {s}");
-        assert!(
-            (both[1].depth - exact).abs() < 1e-15,
-            "the pit at {s}: {} {exact}",
-            both[1].depth
-        );
-        assert_eq!(
-            (both[0].damaged_length, both[1].damaged_length),
-            (5e-3, 1e-3)
-        );
+        assert!((both[1].depth - exact).abs() < 1e-15, "the pit at {s}: {} {exact}", both[1].depth);
+        assert_eq!((both[0].damaged_length, both[1].damaged_length), (5e-3, 1e-3));
     }
 }
 
 #[test]
 fn prop_under_ecl_the_envelope_of_a_raised_edge_is_never_deeper_than_its_floor() {
-    let burr = scenario::Shape::DepthMap {
-        grid: grid_mm([1.0, 1.5], 0.25, |s, z| 10.0 - 11.0 * s.hypot(z)),
-    };
+    let burr = scenario::Shape::DepthMap { grid: grid_mm([1.0, 1.5], 0.25, |s, z| 10.0 - 11.0 * s.hypot(z)) };
     let make = |path| defect(burr.clone(), Surface::OuterRaceway, Law::Ecl, path, 1);
     let (point, envelope) = (make(RollerPath::Point), make(RollerPath::Envelope));
     let mut raised = 0;

@@ -11,8 +11,7 @@ fn passage(of: &scenario::Shape, path: RollerPath, slices: usize, delta: f64) ->
         .map(|k| {
             let u = 1.4e-3 * (f64::from(k) / 20.0 - 0.975) / d.radius;
             let healthy = LAW.healthy(delta);
-            damaged_contact([&d].into_iter(), &LAW, &at(u), Side::Outer, delta)
-                .map_or(1.0, |a| a.elastic / healthy)
+            damaged_contact([&d].into_iter(), &LAW, &at(u), Side::Outer, delta).map_or(1.0, |a| a.elastic / healthy)
         })
         .collect()
 }
@@ -25,9 +24,7 @@ fn rms_of_difference(a: &[f64], b: &[f64]) -> f64 {
 /// Differences of the elastic sum with 8, 16, ... slices from very many.
 fn slice_errors(of: &scenario::Shape, path: RollerPath, delta: f64) -> Vec<f64> {
     let exact = passage(of, path, 2000, delta);
-    [8, 16, 32, 64, 128]
-        .map(|n| rms_of_difference(&passage(of, path, n, delta), &exact))
-        .to_vec()
+    [8, 16, 32, 64, 128].map(|n| rms_of_difference(&passage(of, path, n, delta), &exact)).to_vec()
 }
 
 fn order(errors: &[f64]) -> f64 {
@@ -36,8 +33,7 @@ fn order(errors: &[f64]) -> f64 {
 }
 
 #[test]
-fn analytic_damage_of_one_depth_at_a_point_knows_no_slices_and_below_its_floor_is_linear_in_its_width()
- {
+fn analytic_damage_of_one_depth_at_a_point_knows_no_slices_and_below_its_floor_is_linear_in_its_width() {
     for of in [
         scenario::Shape::Circle { diameter_mm: 2.6 },
         scenario::Shape::Li2023Irregular { max_width_mm: 4.0 },
@@ -50,13 +46,7 @@ fn analytic_damage_of_one_depth_at_a_point_knows_no_slices_and_below_its_floor_i
                 let many = passage(&of, RollerPath::Point, n, delta);
                 assert!(rms_of_difference(&one, &many) < 1e-14, "{of:?} {n}");
             }
-            let d = defect(
-                of.clone(),
-                Surface::OuterRaceway,
-                Law::Sliced,
-                RollerPath::Point,
-                30,
-            );
+            let d = defect(of.clone(), Surface::OuterRaceway, Law::Sliced, RollerPath::Point, 30);
             for (k, share) in one.iter().enumerate() {
                 let v = d.damaged_length(1.4e-3 * (k as f64 / 20.0 - 0.975)) / 6e-3;
                 let floor = LAW.healthy(delta - 20e-6) / LAW.healthy(delta);
@@ -68,40 +58,18 @@ fn analytic_damage_of_one_depth_at_a_point_knows_no_slices_and_below_its_floor_i
 
 #[test]
 fn analytic_slices_converge_at_second_order_on_slopes_and_at_first_or_better_along_the_envelope() {
-    // Within a slice depths are averaged before the law is applied. Along an envelope they rise from 0 at a slanted edge within a slice or two.
+    // Within a slice depths are averaged before the law is applied. Along an envelope they rise from 0 at a slanted
+    // edge within a slice or two.
     let dent = scenario::Shape::DepthMap {
-        grid: grid_mm([2.0, 3.0], 0.02, |s, z| {
-            8.0 * (0.3 + (0.4 * z).cos()) * (1.0 - 0.2 * s * s)
-        }),
+        grid: grid_mm([2.0, 3.0], 0.02, |s, z| 8.0 * (0.3 + (0.4 * z).cos()) * (1.0 - 0.2 * s * s)),
     };
     let circle = scenario::Shape::Circle { diameter_mm: 4.5 };
     for (name, of, path, delta, orders, most) in [
         ("dent", &dent, RollerPath::Point, 30e-6, 1.9..2.1, 1e-5),
-        (
-            "circle",
-            &circle,
-            RollerPath::Envelope,
-            35e-6,
-            1.0..2.3,
-            2e-3,
-        ),
-        (
-            "outline",
-            &oblique(),
-            RollerPath::Envelope,
-            35e-6,
-            1.0..2.3,
-            2e-3,
-        ),
+        ("circle", &circle, RollerPath::Envelope, 35e-6, 1.0..2.3, 2e-3),
+        ("outline", &oblique(), RollerPath::Envelope, 35e-6, 1.0..2.3, 2e-3),
         // Where a slice holds both what carries and what does not, the mean depth decides for all of it.
-        (
-            "circle not reached",
-            &circle,
-            RollerPath::Envelope,
-            12e-6,
-            1.0..2.0,
-            1e-2,
-        ),
+        ("circle not reached", &circle, RollerPath::Envelope, 12e-6, 1.0..2.0, 1e-2),
     ] {
         let errors = slice_errors(of, path, delta);
         println!("{name} {errors:?}, order {:.2}", order(&errors));
@@ -113,12 +81,7 @@ fn analytic_slices_converge_at_second_order_on_slopes_and_at_first_or_better_alo
 #[test]
 fn prop_ten_slices_make_no_step_and_hardly_differ_from_three_hundred() {
     // A slice that switched as a whole would be a step of a fifth: outlines have two borders.
-    let ragged = scenario::Shape::Random {
-        seed: 5,
-        length_mm: 2.4,
-        width_mm: 4.1,
-        roughness: 1.0,
-    };
+    let ragged = scenario::Shape::Random { seed: 5, length_mm: 2.4, width_mm: 4.1, roughness: 1.0 };
     for (of, most) in [
         (scenario::Shape::Circle { diameter_mm: 2.6 }, 0.01),
         (scenario::Shape::Li2023Irregular { max_width_mm: 4.0 }, 0.01),
@@ -141,11 +104,7 @@ fn prop_ten_slices_make_no_step_and_hardly_differ_from_three_hundred() {
                         .collect()
                 };
                 let (few, many) = (forces(10), forces(300));
-                let step = |x: &[f64]| {
-                    x.windows(2)
-                        .map(|w| (w[1] - w[0]).abs())
-                        .fold(0.0, f64::max)
-                };
+                let step = |x: &[f64]| x.windows(2).map(|w| (w[1] - w[0]).abs()).fold(0.0, f64::max);
                 let (step, fine, off) = (step(&few), step(&many), rms_of_difference(&few, &many));
                 println!("{of:?} {path:?} {delta}: steps {step:.1e} {fine:.1e}, apart {off:.1e}");
                 assert!(step < most && off < 0.05, "{of:?} {path:?}: {step} {off}");
@@ -180,9 +139,7 @@ fn analytic_slices_agree_with_a_fine_sum_over_z() {
                     .filter_map(|k| {
                         let (a, b) = (p[k], p[(k + 1) % p.len()]);
                         let at = (1e3 * z - a[1]) / (b[1] - a[1]);
-                        (0.0..1.0)
-                            .contains(&at)
-                            .then(|| 1e-3 * (a[0] + at * (b[0] - a[0])))
+                        (0.0..1.0).contains(&at).then(|| 1e-3 * (a[0] + at * (b[0] - a[0])))
                     })
                     .collect();
                 hits.sort_by(f64::total_cmp);
@@ -192,18 +149,11 @@ fn analytic_slices_agree_with_a_fine_sum_over_z() {
         }
     };
     // Convex, so that a line has one chord: slanted edges, off the middle of the row.
-    let slanted = scenario::Shape::Outline {
-        polygons_mm: vec![vec![[-1.4, -0.3], [0.9, -1.1], [1.5, 0.6], [-0.2, 2.2]]],
-    };
+    let slanted =
+        scenario::Shape::Outline { polygons_mm: vec![vec![[-1.4, -0.3], [0.9, -1.1], [1.5, 0.6], [-0.2, 2.2]]] };
     for of in [scenario::Shape::Circle { diameter_mm: 2.6 }, slanted] {
         let n = 9;
-        let d = defect(
-            of.clone(),
-            Surface::OuterRaceway,
-            Law::Sliced,
-            RollerPath::Envelope,
-            n,
-        );
+        let d = defect(of.clone(), Surface::OuterRaceway, Law::Sliced, RollerPath::Envelope, n);
         for k in 0..25 {
             let s = 1.4e-3 * (f64::from(k) / 12.0 - 1.0);
             for delta in [9e-6, 28e-6] {
@@ -226,24 +176,13 @@ fn analytic_slices_agree_with_a_fine_sum_over_z() {
                         sum += phi * LAW.healthy(delta - depth / count);
                     }
                 }
-                let ours = damaged_contact(
-                    [&d].into_iter(),
-                    &LAW,
-                    &at(s / d.radius),
-                    Side::Outer,
-                    delta,
-                );
-                let (elastic, length) = ours.map_or((LAW.healthy(delta), 0.0), |a| {
-                    (a.elastic, a.floor.damaged_length)
-                });
+                let ours = damaged_contact([&d].into_iter(), &LAW, &at(s / d.radius), Side::Outer, delta);
+                let (elastic, length) = ours.map_or((LAW.healthy(delta), 0.0), |a| (a.elastic, a.floor.damaged_length));
                 let off = (elastic * n as f64 - sum).abs() / (n as f64 * LAW.healthy(delta));
                 assert!(off < 2e-4, "{of:?} at {s}: {off}");
                 assert!((length - 6e-3 * covered).abs() < 4e-6, "{of:?} at {s}");
                 // L_s is the covered z, exactly, at any number of slices.
-                assert!(
-                    (length - d.damaged_length(s)).abs() < 1e-10,
-                    "{of:?} at {s}"
-                );
+                assert!((length - d.damaged_length(s)).abs() < 1e-10, "{of:?} at {s}");
             }
         }
     }

@@ -1,6 +1,7 @@
 //! brinell itself. Methods:
 //! - `solver`: the library's solver, sampled like the peers; a TOL multiplies the tolerance of `accuracy = "standard"`.
-//! - `run`: the library's whole run: oversampling, anti-alias filter, energy and momentum audits. TOL is 1, for `standard`.
+//! - `run`: the library's whole run: oversampling, anti-alias filter, energy and momentum audits. TOL is 1, for
+//!   `standard`.
 
 use brinell::accuracy;
 use brinell::model::{Model, Motion};
@@ -41,10 +42,7 @@ fn solver(job: &Job) {
             samples.push([dy[inner], dy[inner + 1], dy[outer], dy[outer + 1]]);
         }
         let work = stepper.work();
-        Work {
-            rhs: work.evaluations,
-            steps: work.steps,
-        }
+        Work { rhs: work.evaluations, steps: work.steps }
     });
 }
 
@@ -70,21 +68,11 @@ fn run(job: &Job) {
         ],
     );
     job.go(|factor, samples| {
-        assert!(
-            factor == 1.0,
-            "a whole run has the accuracy of its scenario"
-        );
+        assert!(factor == 1.0, "a whole run has the accuracy of its scenario");
         let simulation = Simulation::new(&scenario).unwrap();
-        let names: Vec<&str> = simulation
-            .channels()
-            .iter()
-            .map(|c| c.name.as_str())
-            .collect();
+        let names: Vec<&str> = simulation.channels().iter().map(|c| c.name.as_str()).collect();
         assert_eq!(names, ["inner_ax", "inner_ay", "outer_ax", "outer_ay"]);
         let work = simulation.run(&mut Rows { samples }).work.solver;
-        Work {
-            rhs: work.evaluations,
-            steps: work.steps,
-        }
+        Work { rhs: work.evaluations, steps: work.steps }
     });
 }

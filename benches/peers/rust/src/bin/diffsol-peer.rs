@@ -1,4 +1,5 @@
-//! diffsol on brinell's right-hand side, which is vectorised: what is compared is the solver. Method: `tsit45` (explicit, order 5).
+//! diffsol on brinell's right-hand side, which is vectorised: what is compared is the solver. Method: `tsit45`
+//! (explicit, order 5).
 
 use brinell::model::Model;
 use brinell::start;
@@ -16,14 +17,7 @@ fn main() {
     job.go(|tolerance, samples| one(&job, &model, &times, &levers, tolerance, samples));
 }
 
-fn one(
-    job: &Job,
-    model: &Model,
-    times: &[f64],
-    levers: &[f64],
-    tolerance: f64,
-    samples: &mut Vec<Sample>,
-) -> Work {
+fn one(job: &Job, model: &Model, times: &[f64], levers: &[f64], tolerance: f64, samples: &mut Vec<Sample>) -> Work {
     let initial = start::state(model).unwrap();
     let system = RefCell::new(Compact::new(model, &initial));
     let first = system.borrow().compact(&initial);
@@ -57,10 +51,7 @@ fn one(
         "tsit45" => follow(problem.tsit45().unwrap(), times, at),
         other => panic!("no method {other}"),
     };
-    Work {
-        rhs: evaluations.get(),
-        steps,
-    }
+    Work { rhs: evaluations.get(), steps }
 }
 
 /// Steps past each sample and reads the solver's interpolant.

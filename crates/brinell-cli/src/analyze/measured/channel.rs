@@ -6,19 +6,13 @@ use brinell::document::Loaded;
 use brinell_io::{Channel, SignalFile};
 
 /// The channel meant, by name, part of a name, or number.
-pub(super) fn resolve(
-    file: &SignalFile,
-    text: &str,
-    option: &str,
-) -> Result<(String, Channel), Failure> {
+pub(super) fn resolve(file: &SignalFile, text: &str, option: &str) -> Result<(String, Channel), Failure> {
     let channels = file.channels();
     let whole = |c: &Channel| (c.name.clone(), c.clone());
     if let Some(found) = channels.iter().find(|c| c.name == text) {
         return Ok(whole(found));
     }
-    let called: Vec<&Channel> = (channels.iter())
-        .filter(|c| c.label.as_deref() == Some(text))
-        .collect();
+    let called: Vec<&Channel> = (channels.iter()).filter(|c| c.label.as_deref() == Some(text)).collect();
     if let [only] = called[..] {
         return Ok(whole(only));
     }
@@ -32,11 +26,7 @@ pub(super) fn resolve(
                 file.path().display()
             )));
         }
-        return (number
-            .checked_sub(1)
-            .and_then(|i| channels.get(i))
-            .map(whole))
-        .ok_or_else(|| {
+        return (number.checked_sub(1).and_then(|i| channels.get(i)).map(whole)).ok_or_else(|| {
             usage(format!(
                 "{option} {text}: {} has {} channel(s); they count from 1: {}",
                 file.path().display(),
@@ -56,9 +46,7 @@ pub(super) fn resolve(
         .filter(|c| c.may_be_signal())
         .filter(|c| {
             let label = c.label.as_deref().unwrap_or_default();
-            [c.name.as_str(), label]
-                .iter()
-                .any(|name| name.to_lowercase().contains(&lower))
+            [c.name.as_str(), label].iter().any(|name| name.to_lowercase().contains(&lower))
         })
         .collect();
     match partly[..] {
@@ -131,21 +119,13 @@ pub(super) fn channel(
     }
     if let Some(run) = run {
         let load = run.scenario.operation.load_n;
-        let along = if load[1].abs() > load[0].abs() {
-            "sensor_ay"
-        } else {
-            "sensor_ax"
-        };
+        let along = if load[1].abs() > load[0].abs() { "sensor_ay" } else { "sensor_ax" };
         if let Some(found) = file.channels().iter().find(|c| c.name == along) {
-            notes.push(format!(
-                "channel {along}, along the load, as none was named"
-            ));
+            notes.push(format!("channel {along}, along the load, as none was named"));
             return Ok(one((found.name.clone(), found.clone())));
         }
     }
-    let signals: Vec<&Channel> = (file.channels().iter())
-        .filter(|c| c.may_be_signal() && !c.is_time())
-        .collect();
+    let signals: Vec<&Channel> = (file.channels().iter()).filter(|c| c.may_be_signal() && !c.is_time()).collect();
     let among = |words: String| {
         let signals = signals.iter().map(|c| (*c).clone()).collect();
         Ok(Chosen::Among(signals, words))
@@ -158,11 +138,7 @@ pub(super) fn channel(
             name = only.name
         )),
         [only] => Ok(one((only.name.clone(), only.clone()))),
-        [] => Err(usage(format!(
-            "{}: nothing here is a signal: {}",
-            file.path().display(),
-            refused(file)
-        ))),
+        [] => Err(usage(format!("{}: nothing here is a signal: {}", file.path().display(), refused(file)))),
         _ => among(format!(
             "several channels may be the signal; choose one with {option}: {}",
             listed(signals.iter().copied())

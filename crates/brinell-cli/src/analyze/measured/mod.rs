@@ -76,9 +76,7 @@ impl Measured {
                 self.unit.name
             )
         };
-        (self.scenario.as_deref().map(truth).into_iter())
-            .chain(noise.map(added))
-            .collect()
+        (self.scenario.as_deref().map(truth).into_iter()).chain(noise.map(added)).collect()
     }
 
     /// Where a run made it: what its sensor lacks of a machine's noise, in the signal's unit.
@@ -90,7 +88,8 @@ impl Measured {
 }
 
 /// The request for a missing shaft speed.
-pub(super) const ASK_SPEED: &str = "the file states no shaft speed, and defect frequencies follow from it; give --speed RPM, or --speed-channel NAME";
+pub(super) const ASK_SPEED: &str =
+    "the file states no shaft speed, and defect frequencies follow from it; give --speed RPM, or --speed-channel NAME";
 /// The request for a missing bearing.
 pub(super) const ASK_BEARING: &str = "which bearing? Give --bearing NAME, or --rollers, --pitch and --diameter, or frequencies (--bpfo, --bpfi, --bsf, --ftf)";
 
@@ -103,11 +102,7 @@ fn asking(path: &Path, asked: &[String]) -> Failure {
     let path = path.display();
     usage(match asked {
         [only] => format!("{path}: {only}"),
-        _ => format!(
-            "{path}: {} things have to be given:\n  {}",
-            asked.len(),
-            asked.join("\n  ")
-        ),
+        _ => format!("{path}: {} things have to be given:\n  {}", asked.len(), asked.join("\n  ")),
     })
 }
 
@@ -118,11 +113,8 @@ pub(crate) fn load(path: &Path, wanted: &Wanted) -> Result<Measured, Failure> {
     let scenario = scenario(&file, &path);
     let (mut notes, mut warnings) = (Vec::new(), Vec::new());
     let run = scenario.as_deref();
-    let Known {
-        name,
-        rate,
-        scaled: Scaled { unit, factor },
-    } = known(&mut file, &path, wanted, run, (&mut notes, &mut warnings))?;
+    let Known { name, rate, scaled: Scaled { unit, factor } } =
+        known(&mut file, &path, wanted, run, (&mut notes, &mut warnings))?;
     let start = start(wanted, run, &mut notes)?;
     let skip = (start * rate).round() as usize;
     let most = match wanted.duration {
@@ -136,11 +128,7 @@ pub(crate) fn load(path: &Path, wanted: &Wanted) -> Result<Measured, Failure> {
         return Err(usage(format!(
             "{}: `{name}` holds no samples {}",
             path.display(),
-            if skip > 0 {
-                format!("beyond {start} s")
-            } else {
-                "at all".into()
-            }
+            if skip > 0 { format!("beyond {start} s") } else { "at all".into() }
         )));
     }
     if long {
@@ -153,13 +141,7 @@ pub(crate) fn load(path: &Path, wanted: &Wanted) -> Result<Measured, Failure> {
     let seconds = x.len() as f64 / rate;
     let speed = speed(&mut file, wanted, run, &name, (start, seconds, rate))?;
     Ok(Measured {
-        beyond: long.then(|| Beyond {
-            file,
-            name: name.clone(),
-            skip,
-            rate,
-            factor,
-        }),
+        beyond: long.then(|| Beyond { file, name: name.clone(), skip, rate, factor }),
         path,
         channel: name,
         x,
@@ -195,11 +177,9 @@ fn known(
         Chosen::Among(channels, words) => {
             asked.push(words);
             // What any of them states is not requested yet.
-            let states =
-                |c: &Channel| usize::from(c.rate.is_some()) + usize::from(c.unit.is_some());
+            let states = |c: &Channel| usize::from(c.rate.is_some()) + usize::from(c.unit.is_some());
             let most = channels.into_iter().rev().max_by_key(states);
-            most.map(|c| (c.name.clone(), c))
-                .ok_or_else(|| asking(path, &asked))?
+            most.map(|c| (c.name.clone(), c)).ok_or_else(|| asking(path, &asked))?
         }
     };
     let rate = rate(file, &channel, wanted, run.is_some(), warnings)?;
@@ -223,30 +203,21 @@ fn known(
 /// Where the stretch begins, s: where it was wanted, or where a run's statistics begin.
 fn start(wanted: &Wanted, run: Option<&Loaded>, notes: &mut Vec<String>) -> Result<f64, Failure> {
     let positive = |option: &str, value: Option<f64>, least: f64| match value {
-        Some(v) if !(v.is_finite() && v >= least) => Err(usage(format!(
-            "{option} {v}: expected {} s",
-            if least == 0.0 {
-                "0 or more"
-            } else {
-                "more than 0"
-            }
-        ))),
+        Some(v) if !(v.is_finite() && v >= least) => {
+            Err(usage(format!("{option} {v}: expected {} s", if least == 0.0 { "0 or more" } else { "more than 0" })))
+        }
         _ => Ok(()),
     };
     positive("--start", wanted.start, 0.0)?;
     positive("--duration", wanted.duration, f64::MIN_POSITIVE)?;
-    Ok(
-        match (wanted.start, run.map(|run| run.scenario.settled_s())) {
-            (Some(start), _) => start,
-            (None, Some(settled)) => {
-                notes.push(format!(
-                    "begins at {settled:.4} s, after the run's load ramp and a turn of the shaft"
-                ));
-                settled
-            }
-            (None, None) => 0.0,
-        },
-    )
+    Ok(match (wanted.start, run.map(|run| run.scenario.settled_s())) {
+        (Some(start), _) => start,
+        (None, Some(settled)) => {
+            notes.push(format!("begins at {settled:.4} s, after the run's load ramp and a turn of the shaft"));
+            settled
+        }
+        (None, None) => 0.0,
+    })
 }
 
 /// Whatever is wrong with a file that is read is bad input.
@@ -294,8 +265,7 @@ fn scenario(file: &SignalFile, path: &Path) -> Option<Box<Loaded>> {
         // CSV has no place for a word of brinell's, and UFF has one without room.
         let words = file.metadata().pairs.iter();
         let signed = words.into_iter().any(|(_, v)| v.starts_with("brinell "));
-        let own =
-            path.file_stem()? == "signals" && (signed || file.channels().first()?.name == "t");
+        let own = path.file_stem()? == "signals" && (signed || file.channels().first()?.name == "t");
         own.then(|| std::fs::read_to_string(path.with_file_name("scenario.toml")).ok())?
     };
     let text = carried.or_else(beside)?;

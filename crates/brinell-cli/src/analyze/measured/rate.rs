@@ -9,35 +9,26 @@ use brinell_io::{Channel, NoRate, RateSource, SignalFile, rate_of_times, seconds
 /// A rate given and one stated may differ by so much, relative, before it is worth a word.
 const DIFFERS: f64 = 1e-4;
 
-/// What a column of times whose unit the file states says of the rate: hertz, or what is wrong with the times; and the column's name.
+/// What a column of times whose unit the file states says of the rate: hertz, or what is wrong with the times; and the
+/// column's name.
 fn by_times(file: &mut SignalFile) -> Option<(Result<f64, String>, String)> {
     let channels = file.channels().iter();
-    let (name, unit) = channels
-        .filter(|c| c.may_be_signal())
-        .find_map(|c| Some((c.name.clone(), c.time_unit()?)))?;
+    let (name, unit) = channels.filter(|c| c.may_be_signal()).find_map(|c| Some((c.name.clone(), c.time_unit()?)))?;
     let (times, _) = stretch(file, &name, 0, 1 << 16).ok()?;
     Some((even(&times, unit), name))
 }
 
 /// A warning, where a rate that was given differs from the file's.
-fn contradiction(
-    given: &str,
-    hz: f64,
-    stated: Option<(f64, String)>,
-    file: &mut SignalFile,
-) -> Option<String> {
+fn contradiction(given: &str, hz: f64, stated: Option<(f64, String)>, file: &mut SignalFile) -> Option<String> {
     let (other, place) = match (stated, by_times(file)) {
         (Some(stated), _) => stated,
         (None, None) => return None,
         (None, Some((Ok(other), name))) => (other, format!("the column `{name}`")),
         (None, Some((Err(why), name))) => {
-            return Some(format!(
-                "{given} Hz was taken, but the times in `{name}` give no rate: {why}"
-            ));
+            return Some(format!("{given} Hz was taken, but the times in `{name}` give no rate: {why}"));
         }
     };
-    ((other / hz - 1.0).abs() > DIFFERS)
-        .then(|| format!("{given} Hz was taken, but {place} says {other} Hz"))
+    ((other / hz - 1.0).abs() > DIFFERS).then(|| format!("{given} Hz was taken, but {place} says {other} Hz"))
 }
 
 /// The rate and where it comes from; `Err` within are the words that ask for it.
@@ -60,12 +51,7 @@ pub(super) fn rate(
         if !(given > 0.0 && given.is_finite()) {
             return Err(usage(format!("{option} {given}: expected more than 0 Hz")));
         }
-        warnings.extend(contradiction(
-            &format!("{option} {given}"),
-            given,
-            stated,
-            file,
-        ));
+        warnings.extend(contradiction(&format!("{option} {given}"), given, stated, file));
         return Ok(Ok((given, format!("sample rate {given} Hz, as given"))));
     }
     if let Some((hz, place)) = stated {
@@ -73,20 +59,15 @@ pub(super) fn rate(
     }
     let time = match wanted.time_channel {
         Some(text) => Some(resolve(file, text, "--time-channel")?.1),
-        None => file
-            .channels()
-            .iter()
-            .find(|c| c.is_time() && c.may_be_signal())
-            .cloned(),
+        None => file.channels().iter().find(|c| c.is_time() && c.may_be_signal()).cloned(),
     };
     let Some(time) = time else {
-        return Ok(Err(format!(
-            "the file states no sample rate; give {option} HZ"
-        )));
+        return Ok(Err(format!("the file states no sample rate; give {option} HZ")));
     };
     let unit = match (wanted.time_unit, time.seconds_in_unit()) {
-        (Some(text), _) => seconds_in(text)
-            .ok_or_else(|| usage(format!("--time-unit {text}: expected s, ms or us")))?,
+        (Some(text), _) => {
+            seconds_in(text).ok_or_else(|| usage(format!("--time-unit {text}: expected s, ms or us")))?
+        }
         (None, Some(unit)) => unit,
         // By brinell's own contract.
         (None, None) if own && time.name == "t" => 1.0,
@@ -94,11 +75,7 @@ pub(super) fn rate(
             return Ok(Err(format!(
                 "the file states no sample rate, and no unit for its times in `{}`; give {option} HZ{}",
                 time.name,
-                if wanted.whose.is_empty() {
-                    ", or --time-unit s"
-                } else {
-                    ""
-                }
+                if wanted.whose.is_empty() { ", or --time-unit s" } else { "" }
             )));
         }
     };

@@ -24,16 +24,12 @@ pub(crate) struct StatedSpeed {
 
 impl StatedSpeed {
     fn steady(rpm: f64, source: String) -> Self {
-        StatedSpeed {
-            rpm,
-            source,
-            course: Vec::new(),
-        }
+        StatedSpeed { rpm, source, course: Vec::new() }
     }
 }
 
-/// The speed that the file states, or a channel of speeds; `stretch_of` is where the signal's stretch begins and how long it is, s,
-/// and the signal's rate, Hz.
+/// The speed that the file states, or a channel of speeds; `stretch_of` is where the signal's stretch begins and how
+/// long it is, s, and the signal's rate, Hz.
 pub(super) fn speed(
     file: &mut SignalFile,
     wanted: &Wanted,
@@ -49,14 +45,10 @@ pub(super) fn speed(
         let most = ((seconds * own).round() as usize).clamp(1, MOST);
         let (values, _) = stretch(file, &name, skip, most)?;
         if values.is_empty() {
-            return Err(usage(format!(
-                "--speed-channel {name}: holds no values {start} s from its beginning"
-            )));
+            return Err(usage(format!("--speed-channel {name}: holds no values {start} s from its beginning")));
         }
         if let Some(bad) = values.iter().find(|v| !v.is_finite()) {
-            return Err(usage(format!(
-                "--speed-channel {name}: holds the value {bad}; expected speeds in r/min"
-            )));
+            return Err(usage(format!("--speed-channel {name}: holds the value {bad}; expected speeds in r/min")));
         }
         let mean = values.iter().sum::<f64>() / values.len() as f64;
         let covers = values.len() as f64 / own;
@@ -97,29 +89,19 @@ pub(super) fn speed(
 }
 
 /// Whether a speed follows from the file, or from a channel that was named.
-pub(super) fn states_speed(
-    file: &SignalFile,
-    wanted: &Wanted,
-    run: Option<&Loaded>,
-    signal: &str,
-) -> bool {
+pub(super) fn states_speed(file: &SignalFile, wanted: &Wanted, run: Option<&Loaded>, signal: &str) -> bool {
     wanted.speed_channel.is_some() || run.is_some() || variable(file, signal).is_some()
 }
 
 /// A single number called like a speed, as X097RPM beside X097_DE_time.
 fn variable(file: &SignalFile, signal: &str) -> Option<String> {
-    let prefix: String = signal
-        .chars()
-        .take_while(char::is_ascii_alphanumeric)
-        .collect();
+    let prefix: String = signal.chars().take_while(char::is_ascii_alphanumeric).collect();
     let named: Vec<&str> = (file.channels().iter())
         .filter(|c| c.length == Some(1) && c.unreadable.is_none())
         .map(|c| c.name.as_str())
         .filter(|n| n.to_lowercase().trim_end_matches("_").ends_with("rpm"))
         .collect();
-    let mine: Vec<&str> = (named.iter().copied())
-        .filter(|n| n.starts_with(&prefix))
-        .collect();
+    let mine: Vec<&str> = (named.iter().copied()).filter(|n| n.starts_with(&prefix)).collect();
     match (&mine[..], &named[..]) {
         ([only], _) | (_, [only]) => Some((*only).to_owned()),
         _ => None,
@@ -127,29 +109,16 @@ fn variable(file: &SignalFile, signal: &str) -> Option<String> {
 }
 
 /// A speed that varies, which has to keep its sign: `of` is what states it.
-fn followed(
-    rpm: f64,
-    course: Vec<(f64, f64)>,
-    source: &str,
-    of: &str,
-) -> Result<StatedSpeed, Failure> {
-    let (low, high) = (course.iter()).fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), p| {
-        (l.min(p.1), h.max(p.1))
-    });
+fn followed(rpm: f64, course: Vec<(f64, f64)>, source: &str, of: &str) -> Result<StatedSpeed, Failure> {
+    let (low, high) = (course.iter()).fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), p| (l.min(p.1), h.max(p.1)));
     if low <= 0.0 && high >= 0.0 {
         return Err(usage(format!(
             "{of}: the speed goes from {low:.1} to {high:.1} r/min; expected a shaft that keeps turning one way: choose a stretch with \
              --start and --duration"
         )));
     }
-    let source = format!(
-        "{source}: {low:.1} to {high:.1}, so envelopes are taken at equal angles of the shaft"
-    );
-    Ok(StatedSpeed {
-        rpm,
-        source,
-        course,
-    })
+    let source = format!("{source}: {low:.1} to {high:.1}, so envelopes are taken at equal angles of the shaft");
+    Ok(StatedSpeed { rpm, source, course })
 }
 
 /// Mean speed and its course over a stretch of a run, both exact.
@@ -160,14 +129,9 @@ fn prescribed(speed: &Speed, start: f64, seconds: f64) -> (f64, Vec<(f64, f64)>)
         Speed::Constant(_) => &[][..],
         Speed::Profile(points) => points,
     };
-    let within = knots
-        .iter()
-        .map(|k| k[0])
-        .filter(|t| (start..end).contains(t) && *t > start);
+    let within = knots.iter().map(|k| k[0]).filter(|t| (start..end).contains(t) && *t > start);
     let course = std::iter::once(start).chain(within).chain([end]);
-    let course = course
-        .map(|t| (t - start, rotation.at(t).0 * 30.0 / PI))
-        .collect();
+    let course = course.map(|t| (t - start, rotation.at(t).0 * 30.0 / PI)).collect();
     let turned = rotation.at(end).1 - rotation.at(start).1;
     (turned * 30.0 / PI / seconds, course)
 }
@@ -176,7 +140,8 @@ fn varies(course: &[(f64, f64)], mean: f64) -> bool {
     (course.iter()).any(|(_, v)| (v - mean).abs() > VARIES * mean.abs())
 }
 
-/// Means over a tenth of a second or two turns, whichever is longer; none where they stay within [`VARIES`] of the mean.
+/// Means over a tenth of a second or two turns, whichever is longer; none where they stay within [`VARIES`] of the
+/// mean.
 fn course(values: &[f64], rate: f64, mean: f64) -> Vec<(f64, f64)> {
     let seconds = f64::max(0.1, 120.0 / mean.abs().max(1.0));
     let each = ((seconds * rate).round() as usize).max(1);
@@ -186,9 +151,5 @@ fn course(values: &[f64], rate: f64, mean: f64) -> Vec<(f64, f64)> {
             (middle / rate, part.iter().sum::<f64>() / part.len() as f64)
         })
         .collect();
-    if varies(&points, mean) {
-        points
-    } else {
-        Vec::new()
-    }
+    if varies(&points, mean) { points } else { Vec::new() }
 }

@@ -23,11 +23,7 @@ pub(super) fn stretch(
         let rest = &piece[from..];
         more = rest.len() > room;
         values.extend_from_slice(&rest[..rest.len().min(room)]);
-        if more {
-            ControlFlow::Break(())
-        } else {
-            ControlFlow::Continue(())
-        }
+        if more { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
     })
     .map_err(bad)?;
     Ok((values, more))
@@ -71,15 +67,7 @@ pub(crate) struct Reading(JoinHandle<Result<Rest, IoError>>);
 impl Beyond {
     /// Begins to read, beside whatever else is done.
     pub(crate) fn start(mut self) -> Reading {
-        Reading(std::thread::spawn(move || {
-            whole(
-                &mut self.file,
-                &self.name,
-                self.skip,
-                self.rate,
-                self.factor,
-            )
-        }))
+        Reading(std::thread::spawn(move || whole(&mut self.file, &self.name, self.skip, self.rate, self.factor)))
     }
 }
 
@@ -87,27 +75,14 @@ impl Reading {
     /// Waits for the end of the file.
     pub(crate) fn finish(self) -> Result<Rest, Failure> {
         let read = self.0.join();
-        read.unwrap_or_else(|panic| std::panic::resume_unwind(panic))
-            .map_err(bad)
+        read.unwrap_or_else(|panic| std::panic::resume_unwind(panic)).map_err(bad)
     }
 }
 
 /// All samples after the first `skip`, in one pass; of those beyond the first [`MOST`], the last.
-fn whole(
-    file: &mut SignalFile,
-    name: &str,
-    skip: usize,
-    rate: f64,
-    factor: f64,
-) -> Result<Rest, IoError> {
+fn whole(file: &mut SignalFile, name: &str, skip: usize, rate: f64, factor: f64) -> Result<Rest, IoError> {
     let (mut passed, mut scaled) = (0, Vec::new());
-    let mut rest = Rest {
-        samples: 0,
-        moments: Moments::new(),
-        missing: 0,
-        last: Vec::new(),
-        last_start: 0.0,
-    };
+    let mut rest = Rest { samples: 0, moments: Moments::new(), missing: 0, last: Vec::new(), last_start: 0.0 };
     let mut last = VecDeque::new();
     file.read_pieces(name, |piece| {
         let from = skip.saturating_sub(passed).min(piece.len());
@@ -164,11 +139,7 @@ mod tests {
             let first = (n - MOST).max(skip + MOST);
             assert_eq!(rest.last_start, first as f64 / 100.0);
             assert_eq!(rest.last.len(), n - first);
-            assert!(
-                (first..n)
-                    .zip(&rest.last)
-                    .all(|(i, v)| *v == 2.0 * f64::from(value(i)))
-            );
+            assert!((first..n).zip(&rest.last).all(|(i, v)| *v == 2.0 * f64::from(value(i))));
             let sum: f64 = (skip..n).map(|i| 2.0 * f64::from(value(i))).sum();
             let mean = rest.moments.get(Indicator::Mean).unwrap();
             assert!((mean * rest.samples as f64 / sum - 1.0).abs() < 1e-12);

@@ -27,21 +27,17 @@ pub(super) fn unit(
     let whose = wanted.whose;
     let plain = match wanted.full_scale {
         Some(text) => Ok(of_full_scale(text, channel, is_wav, whose, notes)?),
-        None => of_file(name, channel, is_wav, wanted, run, notes, warnings)?
-            .map(|unit| Scaled { unit, factor: 1.0 }),
+        None => of_file(name, channel, is_wav, wanted, run, notes, warnings)?.map(|unit| Scaled { unit, factor: 1.0 }),
     };
     let (Some(text), Ok(plain)) = (wanted.sensitivity, &plain) else {
         return Ok(plain);
     };
     let option = format!("--{whose}sensitivity");
-    let sensitivity =
-        Sensitivity::given(text).map_err(|error| usage(format!("{option} {error}")))?;
+    let sensitivity = Sensitivity::given(text).map_err(|error| usage(format!("{option} {error}")))?;
     let Some(factor) = sensitivity.factor(&plain.unit) else {
         let cure = match (plain.unit.quantity, is_wav) {
             (Quantity::Other, true) => {
-                format!(
-                    "; give --{whose}full-scale, such as --{whose}full-scale 5V, in place of the unit"
-                )
+                format!("; give --{whose}full-scale, such as --{whose}full-scale 5V, in place of the unit")
             }
             (Quantity::Other, false) => format!("; is it --{whose}unit V?"),
             _ => String::new(),
@@ -52,15 +48,8 @@ pub(super) fn unit(
             plain.unit.name
         )));
     };
-    notes.push(format!(
-        "sensitivity {}, as given: the signal is in {}",
-        sensitivity.words(),
-        sensitivity.of.name
-    ));
-    Ok(Ok(Scaled {
-        unit: sensitivity.of,
-        factor: plain.factor * factor,
-    }))
+    notes.push(format!("sensitivity {}, as given: the signal is in {}", sensitivity.words(), sensitivity.of.name));
+    Ok(Ok(Scaled { unit: sensitivity.of, factor: plain.factor * factor }))
 }
 
 /// What a full scale is in a WAV's numbers: as far as its integers reach, 1 for floats.
@@ -82,13 +71,10 @@ fn of_full_scale(
     notes: &mut Vec<String>,
 ) -> Result<Scaled, Failure> {
     let option = format!("--{whose}full-scale");
-    let FullScale { value, unit } =
-        FullScale::given(text).map_err(|error| usage(format!("{option} {error}")))?;
+    let FullScale { value, unit } = FullScale::given(text).map_err(|error| usage(format!("{option} {error}")))?;
     let refuse = |why: String| Err(usage(format!("{option} {text}: {why}")));
     if !is_wav {
-        return refuse(format!(
-            "only a WAV's numbers are parts of a full scale; of another file give --{whose}unit"
-        ));
+        return refuse(format!("only a WAV's numbers are parts of a full scale; of another file give --{whose}unit"));
     }
     if let Some(stated) = &channel.unit {
         return refuse(format!("the file says that its numbers are in {stated}"));
@@ -101,10 +87,7 @@ fn of_full_scale(
         short(value / largest, 4),
         unit.name
     ));
-    Ok(Scaled {
-        unit,
-        factor: value / largest,
-    })
+    Ok(Scaled { unit, factor: value / largest })
 }
 
 /// The unit of the file's numbers as written.
@@ -121,26 +104,18 @@ fn of_file(
     let stated = channel.unit.as_deref().map(Unit::of);
     let largest = largest(channel.stored_as);
     if let Some(text) = wanted.unit {
-        let given =
-            Unit::given(text).map_err(|error| usage(format!("--{whose}unit {text}: {error}")))?;
+        let given = Unit::given(text).map_err(|error| usage(format!("--{whose}unit {text}: {error}")))?;
         if is_wav && stated.is_none() && largest > 1.0 && given.name != "counts" {
             return Err(usage(format!(
                 "--{whose}unit {text}: the numbers of this WAV are counts of an ADC ({}, full scale {largest}); what that is in {} \
                  the file does not say: give --{whose}full-scale, such as --{whose}full-scale {}, or --{whose}unit counts",
                 channel.stored_as,
                 given.name,
-                if given.quantity == Quantity::Voltage {
-                    "5V".into()
-                } else {
-                    format!("10{}", given.name)
-                },
+                if given.quantity == Quantity::Voltage { "5V".into() } else { format!("10{}", given.name) },
             )));
         }
         if let Some(other) = stated.filter(|s| s.name != given.name) {
-            warnings.push(format!(
-                "--unit {} was taken, but the file says {}",
-                given.name, other.name
-            ));
+            warnings.push(format!("--unit {} was taken, but the file says {}", given.name, other.name));
         }
         notes.push(format!("unit {}, as given", given.name));
         return Ok(Ok(given));

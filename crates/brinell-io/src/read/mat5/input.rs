@@ -33,30 +33,16 @@ pub(super) struct Tag {
 
 impl<'a> Input<'a> {
     pub(super) fn plain(contents: &'a mut Contents, bytes: u64, big_endian: bool) -> Self {
-        Self {
-            body: Body::Plain(BufReader::with_capacity(32 << 10, contents)),
-            big_endian,
-            at: 0,
-            end: bytes,
-        }
+        Self { body: Body::Plain(BufReader::with_capacity(32 << 10, contents)), big_endian, at: 0, end: bytes }
     }
 
     pub(super) fn inflate(contents: &'a mut Contents, bytes: u64, big_endian: bool) -> Self {
         let stored = BufReader::with_capacity(32 << 10, contents.take(bytes));
-        Self {
-            body: Body::Inflate(Box::new(ZlibDecoder::new(stored))),
-            big_endian,
-            at: 0,
-            end: u64::MAX,
-        }
+        Self { body: Body::Inflate(Box::new(ZlibDecoder::new(stored))), big_endian, at: 0, end: u64::MAX }
     }
 
     pub(super) fn number(&self, bytes: [u8; 4]) -> u32 {
-        if self.big_endian {
-            u32::from_be_bytes(bytes)
-        } else {
-            u32::from_le_bytes(bytes)
-        }
+        if self.big_endian { u32::from_be_bytes(bytes) } else { u32::from_le_bytes(bytes) }
     }
 
     pub(super) fn tag(&mut self) -> Result<Tag, Fault> {
@@ -69,17 +55,9 @@ impl<'a> Input<'a> {
             if count > 4 {
                 return Err(damaged("a small element of more than four bytes"));
             }
-            return Ok(Tag {
-                kind: kind & 0xffff,
-                bytes: u64::from(count),
-                small: Some(tail),
-            });
+            return Ok(Tag { kind: kind & 0xffff, bytes: u64::from(count), small: Some(tail) });
         }
-        Ok(Tag {
-            kind,
-            bytes: u64::from(self.number(tail)),
-            small: None,
-        })
+        Ok(Tag { kind, bytes: u64::from(self.number(tail)), small: None })
     }
 
     /// The data of a short element, its padding taken too.

@@ -1,8 +1,8 @@
 //! MATLAB v5, v6 and v7 files, read: arrays, structs and cells at any depth, plain or compressed.
 //!
-//! Own code: of the crates, `matfile` has no structs and `matrw` takes whole files into memory and trusts their sizes. Here a variable is walked
-//! through as a stream, once to list it and once for each read, so memory stays small whatever a header claims. Layout: MathWorks,
-//! "MAT-File Format", version 5.
+//! Own code: of the crates, `matfile` has no structs and `matrw` takes whole files into memory and trusts their sizes.
+//! Here a variable is walked through as a stream, once to list it and once for each read, so memory stays small
+//! whatever a header claims. Layout: MathWorks, "MAT-File Format", version 5.
 
 mod input;
 mod walk;
@@ -47,25 +47,15 @@ pub(super) fn list(mut contents: Contents) -> Result<Listing, Fault> {
     contents.read_exact(&mut header)?;
     let big_endian = &header[126..] == b"MI";
     let mut found = Found::default();
-    let mut mat = Mat5 {
-        contents,
-        big_endian,
-        places: Vec::new(),
-    };
+    let mut mat = Mat5 { contents, big_endian, places: Vec::new() };
     let mut at = HEADER;
     let mut variables = 0;
     while at < length {
         mat.contents.seek(SeekFrom::Start(at))?;
         let mut tag = [0; 8];
-        mat.contents
-            .read_exact(&mut tag)
-            .map_err(|_| damaged(format!("it ends within the tag at byte {at}")))?;
+        mat.contents.read_exact(&mut tag).map_err(|_| damaged(format!("it ends within the tag at byte {at}")))?;
         let number = |b: [u8; 4]| {
-            if big_endian {
-                u32::from_be_bytes(b)
-            } else {
-                u32::from_le_bytes(b)
-            }
+            if big_endian { u32::from_be_bytes(b) } else { u32::from_le_bytes(b) }
         };
         let kind = number([tag[0], tag[1], tag[2], tag[3]]);
         let bytes = u64::from(number([tag[4], tag[5], tag[6], tag[7]]));
@@ -81,33 +71,19 @@ pub(super) fn list(mut contents: Contents) -> Result<Listing, Fault> {
             return Err(damaged("it has too many variables"));
         }
         if kind == MATRIX || kind == COMPRESSED {
-            let place = Place {
-                start,
-                bytes,
-                compressed: kind == COMPRESSED,
-            };
+            let place = Place { start, bytes, compressed: kind == COMPRESSED };
             let before = found.channels.len();
             mat.walk(place, Aim::List(&mut found))?;
-            mat.places
-                .extend((0..found.channels.len() - before).map(|leaf| (place, leaf)));
+            mat.places.extend((0..found.channels.len() - before).map(|leaf| (place, leaf)));
         }
         at = start + bytes;
     }
-    let Found {
-        mut channels,
-        rates,
-        texts,
-        ..
-    } = found;
+    let Found { mut channels, rates, texts, .. } = found;
     lend_rates(&mut channels, &rates);
     lend_labels(&mut channels, &texts);
     let metadata = Metadata { pairs: texts };
     lend_units(&mut channels, &metadata);
-    Ok(Listing {
-        channels,
-        metadata,
-        source: Box::new(mat),
-    })
+    Ok(Listing { channels, metadata, source: Box::new(mat) })
 }
 
 impl Mat5 {
@@ -132,12 +108,7 @@ impl Mat5 {
                 )));
             }
         }
-        Walk {
-            input: &mut input,
-            aim,
-            leaf: 0,
-        }
-        .variable(bytes)
+        Walk { input: &mut input, aim, leaf: 0 }.variable(bytes)
     }
 }
 
@@ -150,9 +121,8 @@ impl Source for Mat5 {
 
 /// The units that brinell writes beside its channels.
 fn lend_units(channels: &mut [Channel], metadata: &Metadata) {
-    let units = metadata
-        .get(keys::UNITS_VARIABLE)
-        .and_then(|text| serde_json::from_str::<serde_json::Value>(text).ok());
+    let units =
+        metadata.get(keys::UNITS_VARIABLE).and_then(|text| serde_json::from_str::<serde_json::Value>(text).ok());
     for channel in channels {
         let unit = units.as_ref().and_then(|u| u.get(&channel.name)?.as_str());
         channel.unit = unit.filter(|u| !u.is_empty()).map(str::to_owned);

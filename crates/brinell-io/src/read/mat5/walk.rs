@@ -84,11 +84,7 @@ impl Walk<'_, '_, '_> {
             None if name.is_empty() => "unnamed".into(),
             None => String::from_utf8_lossy(&name).into_owned(),
         };
-        let head = Head {
-            complex,
-            shape,
-            end,
-        };
+        let head = Head { complex, shape, end };
         match class {
             6..=15 => self.numbers(name, &head, depth)?,
             4 => self.text(name, &head)?,
@@ -130,10 +126,7 @@ impl Walk<'_, '_, '_> {
         };
         let count = head.shape.iter().copied().fold(1, u64::saturating_mul);
         if count.checked_mul(stored.bytes() as u64) != Some(tag.bytes) {
-            return Err(damaged(format!(
-                "`{name}` claims {count} values and has {} bytes of them",
-                tag.bytes
-            )));
+            return Err(damaged(format!("`{name}` claims {count} values and has {} bytes of them", tag.bytes)));
         }
         // The data with its tag must lie within the array.
         if tag.small.is_none() && tag.bytes > head.end.saturating_sub(self.input.at) {
@@ -187,16 +180,12 @@ impl Walk<'_, '_, '_> {
         let bytes = self.input.data(tag, MAX_TEXT, "text")?;
         let text = match tag.kind {
             4 | 17 => {
-                let units = bytes.as_chunks::<2>().0.iter().map(|&b| {
-                    if big_endian {
-                        u16::from_be_bytes(b)
-                    } else {
-                        u16::from_le_bytes(b)
-                    }
-                });
-                char::decode_utf16(units)
-                    .map(|c| c.unwrap_or(char::REPLACEMENT_CHARACTER))
-                    .collect()
+                let units = bytes
+                    .as_chunks::<2>()
+                    .0
+                    .iter()
+                    .map(|&b| if big_endian { u16::from_be_bytes(b) } else { u16::from_le_bytes(b) });
+                char::decode_utf16(units).map(|c| c.unwrap_or(char::REPLACEMENT_CHARACTER)).collect()
             }
             18 => return Ok(()),
             _ => String::from_utf8_lossy(&bytes).into_owned(),
@@ -218,9 +207,7 @@ impl Walk<'_, '_, '_> {
     fn structure(&mut self, name: &str, head: &Head, depth: usize) -> Result<(), Fault> {
         let tag = self.input.tag()?;
         let width = self.input.data(tag, 8, "a length of names")?;
-        let width = width
-            .first_chunk::<4>()
-            .map_or(0, |&b| self.input.number(b));
+        let width = width.first_chunk::<4>().map_or(0, |&b| self.input.number(b));
         let width = (width as usize).clamp(1, 4096);
         let tag = self.input.tag()?;
         let fields = self.input.data(tag, MAX_NAMES, "field names")?;
@@ -236,11 +223,7 @@ impl Walk<'_, '_, '_> {
             return Ok(());
         }
         for i in 1..=count {
-            let item = if count == 1 {
-                name.to_owned()
-            } else {
-                format!("{name}[{i}]")
-            };
+            let item = if count == 1 { name.to_owned() } else { format!("{name}[{i}]") };
             for field in &fields {
                 self.member(format!("{item}.{field}"), head.end, depth)?;
             }

@@ -1,14 +1,14 @@
 //! Numbers such as `-12.3456` that most columns are made of, taken eight digits at a time.
 //!
-//! A general parser goes digit by digit, and on a column of noise the processor guesses wrong where each number ends: that took
-//! half of the time of reading one.
+//! A general parser goes digit by digit, and on a column of noise the processor guesses wrong where each number ends:
+//! that took half of the time of reading one.
 
-/// As [`decimal`], of the number at a place of a text: up to eight digits, a digit or more on either side of the point. `None` also near
-/// the text's ends. The number is the first value over the second, which is left to be done for many at once: what waits for one division
-/// after the other falls behind with finding the next number.
+/// As [`decimal`], of the number at a place of a text: up to eight digits, a digit or more on either side of the point.
+/// `None` also near the text's ends. The number is the first value over the second, which is left to be done for many
+/// at once: what waits for one division after the other falls behind with finding the next number.
 ///
-/// Sixteen bytes are compared at once, which tells where the point is and where the number ends; its digits are then put side by side, as if
-/// there were no point.
+/// Sixteen bytes are compared at once, which tells where the point is and where the number ends; its digits are then
+/// put side by side, as if there were no point.
 #[cfg(all(target_arch = "x86_64", target_feature = "sse2"))]
 #[inline]
 pub(super) fn short(text: &[u8], at: usize) -> Option<([f64; 2], usize)> {
@@ -45,8 +45,7 @@ pub(super) fn short(text: &[u8], at: usize) -> Option<([f64; 2], usize)> {
 #[target_feature(enable = "sse2")]
 fn digits_among(first: u64, second: u64) -> u32 {
     use std::arch::x86_64::{
-        _mm_cmpeq_epi8, _mm_min_epu8, _mm_movemask_epi8, _mm_set_epi64x, _mm_set1_epi8,
-        _mm_xor_si128,
+        _mm_cmpeq_epi8, _mm_min_epu8, _mm_movemask_epi8, _mm_set_epi64x, _mm_set1_epi8, _mm_xor_si128,
     };
     let bytes = _mm_set_epi64x(second.cast_signed(), first.cast_signed());
     let values = _mm_xor_si128(bytes, _mm_set1_epi8(0x30));
@@ -68,10 +67,11 @@ const TENS: [f64; 8] = [1.0, 10.0, 100.0, 1e3, 1e4, 1e5, 1e6, 1e7];
 #[cfg(all(target_arch = "x86_64", target_feature = "sse2"))]
 const SIGNED_TENS: [[f64; 8]; 2] = [TENS, [-1.0, -10.0, -100.0, -1e3, -1e4, -1e5, -1e6, -1e7]];
 
-/// The number that `text` begins with, and its length: a sign or none, one to eight digits, a point and up to seven more. `None` for all else.
+/// The number that `text` begins with, and its length: a sign or none, one to eight digits, a point and up to seven
+/// more. `None` for all else.
 ///
-/// The value is the nearest `f64`: whole numbers of up to 15 digits and powers of ten up to 22 are exact, and their quotient is rounded once
-/// (W. D. Clinger, "How to read floating point numbers accurately", PLDI 1990).
+/// The value is the nearest `f64`: whole numbers of up to 15 digits and powers of ten up to 22 are exact, and their
+/// quotient is rounded once (W. D. Clinger, "How to read floating point numbers accurately", PLDI 1990).
 #[inline]
 pub(super) fn decimal(text: &[u8]) -> Option<(f64, usize)> {
     let negative = *text.first()? == b'-';
@@ -94,8 +94,8 @@ pub(super) fn decimal(text: &[u8]) -> Option<(f64, usize)> {
     Some((f64::from_bits(size.to_bits() | sign), end))
 }
 
-/// How many of the eight bytes from `at` on are digits before one is not, and the number they make; `None` where there are no
-/// eight bytes and one more.
+/// How many of the eight bytes from `at` on are digits before one is not, and the number they make; `None` where there
+/// are no eight bytes and one more.
 #[inline]
 fn digits(text: &[u8], at: usize) -> Option<(usize, u64)> {
     let bytes = text.get(at..)?.first_chunk::<9>()?;
@@ -112,10 +112,8 @@ fn digits(text: &[u8], at: usize) -> Option<(usize, u64)> {
 /// The number that eight digits make, the first in the lowest byte.
 #[inline]
 fn eight(values: u64) -> u64 {
-    let pairs =
-        (10 * (values & 0x00ff_00ff_00ff_00ff)).wrapping_add(values >> 8) & 0x00ff_00ff_00ff_00ff;
-    let fours =
-        (100 * (pairs & 0xffff_0000_ffff)).wrapping_add(pairs >> 16) & 0x0000_ffff_0000_ffff;
+    let pairs = (10 * (values & 0x00ff_00ff_00ff_00ff)).wrapping_add(values >> 8) & 0x00ff_00ff_00ff_00ff;
+    let fours = (100 * (pairs & 0xffff_0000_ffff)).wrapping_add(pairs >> 16) & 0x0000_ffff_0000_ffff;
     10_000 * (fours & 0xffff_ffff) + (fours >> 32)
 }
 
@@ -145,11 +143,7 @@ mod tests {
             ("", None),
         ] {
             let found = decimal(text.as_bytes());
-            assert_eq!(
-                found.map(|f| f.0.to_bits()),
-                expected.map(|f: (f64, _)| f.0.to_bits()),
-                "{text}"
-            );
+            assert_eq!(found.map(|f| f.0.to_bits()), expected.map(|f: (f64, _)| f.0.to_bits()), "{text}");
             assert_eq!(found.map(|f| f.1), expected.map(|f| f.1), "{text}");
         }
     }
@@ -177,8 +171,7 @@ mod tests {
         ] {
             let padded = format!("1.25\n0.5\n{text}{}", "7".repeat(24));
             let found = short(padded.as_bytes(), 9);
-            let expected =
-                expected.filter(|_| cfg!(all(target_arch = "x86_64", target_feature = "sse2")));
+            let expected = expected.filter(|_| cfg!(all(target_arch = "x86_64", target_feature = "sse2")));
             assert_eq!(
                 found.map(|([over, under], length)| ((over / under).to_bits(), length)),
                 expected.map(|f: (f64, _)| (f.0.to_bits(), f.1)),

@@ -39,12 +39,7 @@ struct Line<'a> {
     comment: bool,
 }
 
-const ORDER: [Delimiter; 4] = [
-    Delimiter::Tab,
-    Delimiter::Semicolon,
-    Delimiter::Comma,
-    Delimiter::Blanks,
-];
+const ORDER: [Delimiter; 4] = [Delimiter::Tab, Delimiter::Semicolon, Delimiter::Comma, Delimiter::Blanks];
 /// Lines of numbers that are looked at.
 const LOOK: usize = 200;
 
@@ -59,8 +54,8 @@ pub(super) fn find(sample: &[u8], format: &TextFormat) -> Result<Layout, Fault> 
         format.decimal = format.decimal.or(lvm.decimal);
     }
     let plain: Vec<&Line> = lines[from..].iter().filter(|l| !l.comment).collect();
-    let (first, delimiter) = first_data(&plain, &format)
-        .ok_or_else(|| damaged("no line of numbers among its first lines"))?;
+    let (first, delimiter) =
+        first_data(&plain, &format).ok_or_else(|| damaged("no line of numbers among its first lines"))?;
     let data: Vec<&[u8]> = plain[first..].iter().take(LOOK).map(|l| l.text).collect();
     let above: Vec<&[u8]> = plain[..first].iter().map(|l| l.text).collect();
     let delimiter = comma_or_fraction(delimiter, &format, &above, &data)?;
@@ -77,22 +72,11 @@ pub(super) fn find(sample: &[u8], format: &TextFormat) -> Result<Layout, Fault> 
         rate_hz = lvm.rate_hz();
         dress(&mut columns, lvm);
     }
-    Ok(Layout {
-        delimiter,
-        decimal,
-        columns,
-        start: start.start as u64,
-        first_line: start.number,
-        rate_hz,
-    })
+    Ok(Layout { delimiter, decimal, columns, start: start.start as u64, first_line: start.number, rate_hz })
 }
 
 fn lines(sample: &[u8]) -> Vec<Line<'_>> {
-    let mut start = if sample.starts_with(b"\xef\xbb\xbf") {
-        3
-    } else {
-        0
-    };
+    let mut start = if sample.starts_with(b"\xef\xbb\xbf") { 3 } else { 0 };
     let mut lines = Vec::new();
     for (i, text) in sample[start..].split(|&b| b == b'\n').enumerate() {
         let length = text.len();
@@ -113,31 +97,18 @@ fn lines(sample: &[u8]) -> Vec<Line<'_>> {
 
 fn split(line: &[u8], delimiter: Delimiter) -> Vec<&[u8]> {
     match delimiter {
-        Delimiter::Blanks => line
-            .split(|&b| b == b' ' || b == b'\t')
-            .filter(|f| !f.is_empty())
-            .collect(),
-        single => line
-            .split(|&b| b == single.sign())
-            .map(<[u8]>::trim_ascii)
-            .collect(),
+        Delimiter::Blanks => line.split(|&b| b == b' ' || b == b'\t').filter(|f| !f.is_empty()).collect(),
+        single => line.split(|&b| b == single.sign()).map(<[u8]>::trim_ascii).collect(),
     }
 }
 
 /// How many fields are numbers, and how many are neither numbers nor empty.
 fn score(line: &[u8], delimiter: Delimiter, format: &TextFormat) -> (usize, usize) {
-    let decimal = if delimiter == Delimiter::Comma {
-        Some(Decimal::Point)
-    } else {
-        format.decimal
-    };
-    split(line, delimiter)
-        .iter()
-        .filter(|f| !f.is_empty())
-        .fold((0, 0), |(good, bad), f| match number(f, decimal) {
-            Some(_) => (good + 1, bad),
-            None => (good, bad + 1),
-        })
+    let decimal = if delimiter == Delimiter::Comma { Some(Decimal::Point) } else { format.decimal };
+    split(line, delimiter).iter().filter(|f| !f.is_empty()).fold((0, 0), |(good, bad), f| match number(f, decimal) {
+        Some(_) => (good + 1, bad),
+        None => (good, bad + 1),
+    })
 }
 
 fn holds(line: &[u8], delimiter: Delimiter) -> bool {
@@ -148,7 +119,8 @@ fn holds(line: &[u8], delimiter: Delimiter) -> bool {
     }
 }
 
-/// The first line of numbers and what is between them: first a line that is all numbers and not alone, then one that has some.
+/// The first line of numbers and what is between them: first a line that is all numbers and not alone, then one that
+/// has some.
 fn first_data(lines: &[&Line], format: &TextFormat) -> Option<(usize, Delimiter)> {
     let choices: Vec<Delimiter> = match format.delimiter {
         Some(delimiter) => vec![delimiter],
@@ -160,9 +132,7 @@ fn first_data(lines: &[&Line], format: &TextFormat) -> Option<(usize, Delimiter)
     };
     let fits = |line: &[u8], d| holds(line, d) || format.delimiter.is_some();
     for (i, line) in lines.iter().enumerate() {
-        let found = choices
-            .iter()
-            .find(|&&d| fits(line.text, d) && pure(line.text, d));
+        let found = choices.iter().find(|&&d| fits(line.text, d) && pure(line.text, d));
         if let Some(&d) = found {
             let count = split(line.text, d).len();
             let follows = |next: &&Line| split(next.text, d).len() == count && pure(next.text, d);
@@ -202,10 +172,7 @@ fn comma_or_fraction(
     }
     let open = |line: &&[u8]| {
         let commas = line.iter().filter(|&&b| b == b',').count();
-        commas == 1
-            && !line.contains(&b'.')
-            && !line.trim_ascii().contains(&b' ')
-            && !line.trim_ascii().ends_with(b",")
+        commas == 1 && !line.contains(&b'.') && !line.trim_ascii().contains(&b' ') && !line.trim_ascii().ends_with(b",")
     };
     if format.decimal == Some(Decimal::Point) || !data.iter().all(open) {
         return Ok(delimiter);
@@ -225,9 +192,7 @@ fn decimal(delimiter: Delimiter, format: &TextFormat, data: &[&[u8]]) -> Option<
         return Some(Decimal::Point);
     }
     let fields = || data.iter().flat_map(|line| split(line, delimiter));
-    let shows = |sign: u8, decimal| {
-        fields().any(|f| f.contains(&sign) && number(f, Some(decimal)).is_some())
-    };
+    let shows = |sign: u8, decimal| fields().any(|f| f.contains(&sign) && number(f, Some(decimal)).is_some());
     format.decimal.or_else(|| {
         if shows(b'.', Decimal::Point) {
             Some(Decimal::Point)
@@ -240,11 +205,7 @@ fn decimal(delimiter: Delimiter, format: &TextFormat, data: &[&[u8]]) -> Option<
 }
 
 /// The columns by what the lines of numbers hold, not yet named.
-fn columns(
-    delimiter: Delimiter,
-    decimal: Option<Decimal>,
-    data: &[&[u8]],
-) -> Result<Vec<Column>, Fault> {
+fn columns(delimiter: Delimiter, decimal: Option<Decimal>, data: &[&[u8]]) -> Result<Vec<Column>, Fault> {
     let Some(first) = data.first() else {
         return Err(damaged("it has no numbers"));
     };
@@ -252,9 +213,7 @@ fn columns(
     let mut columns: Vec<Column> = fields
         .iter()
         .map(|field| Column {
-            words: number(field, decimal)
-                .is_none()
-                .then(|| text(field).chars().take(40).collect()),
+            words: number(field, decimal).is_none().then(|| text(field).chars().take(40).collect()),
             absent: true,
             ..Column::default()
         })
@@ -277,13 +236,7 @@ fn text(bytes: &[u8]) -> String {
 }
 
 /// Gives the columns the names and units that are above them.
-fn name(
-    columns: &mut [Column],
-    delimiter: Delimiter,
-    above: &[&[u8]],
-    comment: Option<&[u8]>,
-    more_names: bool,
-) {
+fn name(columns: &mut [Column], delimiter: Delimiter, above: &[&[u8]], comment: Option<&[u8]>, more_names: bool) {
     let fits = |line: &[u8]| -> Option<Vec<String>> {
         let fields = split_quoted(line, delimiter);
         let enough = fields.len() == columns.len() || more_names && fields.len() > columns.len();
@@ -306,11 +259,7 @@ fn name(
         let own = bracketed(&given);
         let below = units.get(i).map(|u| bare(u)).filter(|u| !u.is_empty());
         column.unit = below.or(own);
-        column.name = if given.is_empty() {
-            format!("column{}", i + 1)
-        } else {
-            given
-        };
+        column.name = if given.is_empty() { format!("column{}", i + 1) } else { given };
     }
 }
 
@@ -340,32 +289,21 @@ fn bare(unit: &str) -> String {
 
 /// The unit in `name [unit]`, or in `name (unit)` where it is a known one.
 fn bracketed(name: &str) -> Option<String> {
-    let (_, square) = name
-        .strip_suffix(']')
-        .and_then(|n| n.rsplit_once('['))
-        .unzip();
-    let (_, round) = name
-        .strip_suffix(')')
-        .and_then(|n| n.rsplit_once('('))
-        .unzip();
-    square
-        .or(round.filter(|u| KNOWN.contains(&u.trim())))
-        .map(|u| u.trim().to_owned())
-        .filter(|u| !u.is_empty())
+    let (_, square) = name.strip_suffix(']').and_then(|n| n.rsplit_once('[')).unzip();
+    let (_, round) = name.strip_suffix(')').and_then(|n| n.rsplit_once('(')).unzip();
+    square.or(round.filter(|u| KNOWN.contains(&u.trim()))).map(|u| u.trim().to_owned()).filter(|u| !u.is_empty())
 }
 
 /// Spellings that make a row of units.
 const KNOWN: [&str; 44] = [
-    "s", "sec", "ms", "us", "µs", "m", "mm", "um", "µm", "m/s", "mm/s", "in/s", "m/s^2", "m/s2",
-    "m/s²", "m/s**2", "mm/s^2", "g", "G", "mg", "gn", "V", "mV", "A", "mA", "N", "kN", "Nm", "N m",
-    "Pa", "kPa", "MPa", "bar", "Hz", "kHz", "rpm", "1/min", "r/min", "rad", "rad/s", "deg", "°",
-    "°C", "K",
+    "s", "sec", "ms", "us", "µs", "m", "mm", "um", "µm", "m/s", "mm/s", "in/s", "m/s^2", "m/s2", "m/s²", "m/s**2",
+    "mm/s^2", "g", "G", "mg", "gn", "V", "mV", "A", "mA", "N", "kN", "Nm", "N m", "Pa", "kPa", "MPa", "bar", "Hz",
+    "kHz", "rpm", "1/min", "r/min", "rad", "rad/s", "deg", "°", "°C", "K",
 ];
 
 fn is_unit(text: &str) -> bool {
     let brackets = text.len() > 1
-        && (text.starts_with('[') && text.ends_with(']')
-            || text.starts_with('(') && text.ends_with(')'));
+        && (text.starts_with('[') && text.ends_with(']') || text.starts_with('(') && text.ends_with(')'));
     text.is_empty() || text == "-" || text == "1" || brackets || KNOWN.contains(&text)
 }
 

@@ -1,5 +1,5 @@
-//! One column of a text file, streamed: while one block of lines is parsed, on as many threads as there are cores, the next one is read.
-//! On WebAssembly, which has no threads, one is done after the other.
+//! One column of a text file, streamed: while one block of lines is parsed, on as many threads as there are cores, the
+//! next one is read. On WebAssembly, which has no threads, one is done after the other.
 
 use std::io::{self, Read};
 use std::thread::{self, Scope, ScopedJoinHandle};
@@ -29,16 +29,13 @@ pub(super) fn column(
     sink: Sink<'_>,
 ) -> Result<(), Fault> {
     let cores = thread::available_parallelism().map_or(1, usize::from);
-    let cut = Cut {
-        block: BLOCK,
-        share: SHARE,
-        threads: cores.min(BLOCK / SHARE),
-        single: cfg!(target_family = "wasm"),
-    };
+    let cut =
+        Cut { block: BLOCK, share: SHARE, threads: cores.min(BLOCK / SHARE), single: cfg!(target_family = "wasm") };
     in_blocks(reader, &Wanted::of(layout, field), sink, &cut)
 }
 
-/// How a file is cut up: bytes of a block, the fewest for a thread, and threads at most; whether none is started at all.
+/// How a file is cut up: bytes of a block, the fewest for a thread, and threads at most; whether none is started at
+/// all.
 struct Cut {
     block: usize,
     share: usize,
@@ -46,12 +43,7 @@ struct Cut {
     single: bool,
 }
 
-fn in_blocks(
-    reader: &mut (impl Read + Send),
-    wanted: &Wanted,
-    sink: Sink<'_>,
-    cut: &Cut,
-) -> Result<(), Fault> {
+fn in_blocks(reader: &mut (impl Read + Send), wanted: &Wanted, sink: Sink<'_>, cut: &Cut) -> Result<(), Fault> {
     let (mut buffer, mut next) = (vec![0; cut.block], Vec::new());
     let mut filled = fill(reader, &mut buffer, 0)?;
     let mut line = wanted.layout.first_line;
@@ -117,11 +109,7 @@ enum Job<'scope, T> {
 }
 
 impl<'scope, T: Send + 'scope> Job<'scope, T> {
-    fn start(
-        scope: &'scope Scope<'scope, '_>,
-        cut: &Cut,
-        work: impl FnOnce() -> T + Send + 'scope,
-    ) -> Self {
+    fn start(scope: &'scope Scope<'scope, '_>, cut: &Cut, work: impl FnOnce() -> T + Send + 'scope) -> Self {
         match cut.single {
             true => Self::Done(work()),
             false => Self::Thread(scope.spawn(work)),
@@ -131,9 +119,7 @@ impl<'scope, T: Send + 'scope> Job<'scope, T> {
     /// What it came to; a thread's panic goes on here.
     fn result(self) -> T {
         match self {
-            Self::Thread(thread) => thread
-                .join()
-                .unwrap_or_else(|panic| std::panic::resume_unwind(panic)),
+            Self::Thread(thread) => thread.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic)),
             Self::Done(result) => result,
         }
     }
@@ -162,15 +148,10 @@ impl<'a> Wanted<'a> {
         }
     }
 
-    /// The values of the lines in `text`, the first of which is number `line`, shared out among threads, `cut.share` bytes or more to each:
-    /// a thread has a list of its own to write to, and a result. `line` is then the number of the line after.
-    fn parse(
-        &self,
-        text: &[u8],
-        line: &mut u64,
-        cut: &Cut,
-        shares: &mut [Vec<f64>],
-    ) -> Vec<Result<(), Fault>> {
+    /// The values of the lines in `text`, the first of which is number `line`, shared out among threads, `cut.share`
+    /// bytes or more to each: a thread has a list of its own to write to, and a result. `line` is then the number of
+    /// the line after.
+    fn parse(&self, text: &[u8], line: &mut u64, cut: &Cut, shares: &mut [Vec<f64>]) -> Vec<Result<(), Fault>> {
         let length = (text.len() / shares.len()).max(cut.share);
         let mut rest = text;
         thread::scope(|scope| {
@@ -230,11 +211,7 @@ struct Quotients {
 
 impl Default for Quotients {
     fn default() -> Self {
-        Quotients {
-            over: [0.0; 64],
-            under: [1.0; 64],
-            count: 0,
-        }
+        Quotients { over: [0.0; 64], under: [1.0; 64], count: 0 }
     }
 }
 
@@ -266,7 +243,8 @@ struct Plain {
 }
 
 impl Plain {
-    /// The wanted value of the line that begins at `from`, as a quotient, and where the next one does. `None` says nothing: see [`row`].
+    /// The wanted value of the line that begins at `from`, as a quotient, and where the next one does. `None` says
+    /// nothing: see [`row`].
     #[inline]
     fn value(&self, text: &[u8], from: usize) -> Option<([f64; 2], usize)> {
         if matches!(text[from], b'#' | b'%') {
@@ -306,13 +284,7 @@ impl Plain {
     }
 }
 
-fn row(
-    bytes: &[u8],
-    layout: &Layout,
-    field: usize,
-    line: u64,
-    values: &mut Vec<f64>,
-) -> Result<(), Fault> {
+fn row(bytes: &[u8], layout: &Layout, field: usize, line: u64, values: &mut Vec<f64>) -> Result<(), Fault> {
     let bytes = bytes.strip_suffix(b"\r").unwrap_or(bytes);
     let mut wanted = None;
     let mut count = 0;
@@ -323,10 +295,7 @@ fn row(
         count += 1;
     };
     match layout.delimiter {
-        Delimiter::Blanks => bytes
-            .split(|&b| b == b' ' || b == b'\t')
-            .filter(|piece| !piece.is_empty())
-            .for_each(take),
+        Delimiter::Blanks => bytes.split(|&b| b == b' ' || b == b'\t').filter(|piece| !piece.is_empty()).for_each(take),
         single => {
             let mut start = 0;
             for end in memchr_iter(single.sign(), bytes) {
@@ -349,11 +318,7 @@ fn row(
         return Ok(());
     }
     if count != layout.columns.len() {
-        return Err(Fault::Row {
-            line,
-            expected: layout.columns.len(),
-            got: count,
-        });
+        return Err(Fault::Row { line, expected: layout.columns.len(), got: count });
     }
     let text = String::from_utf8_lossy(wanted.unwrap_or_default());
     Err(Fault::Number {
@@ -441,48 +406,22 @@ mod tests {
             (50, 10, 1, true),
             (4096, 1000, 2, true),
         ];
-        let cuts = cuts.map(|(block, share, threads, single)| Cut {
-            block,
-            share,
-            threads,
-            single,
-        });
+        let cuts = cuts.map(|(block, share, threads, single)| Cut { block, share, threads, single });
         for cut in &cuts {
-            assert_eq!(
-                read(&text, 1, cut),
-                (expected.clone(), None),
-                "{}",
-                cut.block
-            );
+            assert_eq!(read(&text, 1, cut), (expected.clone(), None), "{}", cut.block);
             // Without an end to the last line.
             let open = text.trim_end();
-            assert_eq!(
-                read(open, 1, cut),
-                (expected.clone(), None),
-                "{}",
-                cut.block
-            );
+            assert_eq!(read(open, 1, cut), (expected.clone(), None), "{}", cut.block);
         }
         let line = text.matches('\n').count() + 1;
         let more = "5,0,0\n".repeat(100);
         for (bad, fault) in [
-            (
-                "1,2\n",
-                format!("Row {{ line: {line}, expected: 3, got: 2 }}"),
-            ),
-            (
-                "1,x,2\n",
-                format!("Number {{ line: {line}, column: \"b\", text: \"x\" }}"),
-            ),
+            ("1,2\n", format!("Row {{ line: {line}, expected: 3, got: 2 }}")),
+            ("1,x,2\n", format!("Number {{ line: {line}, column: \"b\", text: \"x\" }}")),
         ] {
             let text = format!("{text}{bad}{more}{bad}");
             for cut in &cuts {
-                assert_eq!(
-                    read(&text, 1, cut).1.as_ref(),
-                    Some(&fault),
-                    "{}",
-                    cut.block
-                );
+                assert_eq!(read(&text, 1, cut).1.as_ref(), Some(&fault), "{}", cut.block);
             }
         }
     }

@@ -1,4 +1,5 @@
-//! The two headers of a LabVIEW measurement file (.lvm): National Instruments, "Specification for the LabVIEW Measurement File".
+//! The two headers of a LabVIEW measurement file (.lvm): National Instruments, "Specification for the LabVIEW
+//! Measurement File".
 
 use super::{Decimal, Delimiter};
 
@@ -25,11 +26,7 @@ impl Lvm {
         let hz = 1.0 / self.step?;
         // 1/0.0001 is 10000 but for the last digit.
         let round = hz.round();
-        let hz = if (hz / round - 1.0).abs() < 1e-12 {
-            round
-        } else {
-            hz
-        };
+        let hz = if (hz / round - 1.0).abs() < 1e-12 { round } else { hz };
         (self.seconds && hz.is_finite() && hz > 0.0).then_some(hz)
     }
 }
@@ -42,11 +39,7 @@ pub(super) fn header(lines: &[&[u8]]) -> Option<Lvm> {
     let mut lvm = Lvm::default();
     let mut ends = 0;
     let tab = |line: &[u8]| line.contains(&b'\t');
-    let sign = if lines.iter().take(4).any(|l| tab(l)) {
-        '\t'
-    } else {
-        ','
-    };
+    let sign = if lines.iter().take(4).any(|l| tab(l)) { '\t' } else { ',' };
     for (i, line) in lines.iter().enumerate() {
         if line.trim_ascii().starts_with(END) {
             ends += 1;
@@ -70,21 +63,13 @@ pub(super) fn header(lines: &[&[u8]]) -> Option<Lvm> {
                 }
             }
             // Where a comma separates, its line is `Decimal_Separator,.`.
-            "Decimal_Separator" => {
-                lvm.decimal = Some(if first == "," {
-                    Decimal::Comma
-                } else {
-                    Decimal::Point
-                })
-            }
+            "Decimal_Separator" => lvm.decimal = Some(if first == "," { Decimal::Comma } else { Decimal::Point }),
             "X_Columns" => lvm.no_x = first == "No",
             "Y_Unit_Label" => lvm.units = values.iter().map(|u| (*u).to_owned()).collect(),
             "X_Dimension" => lvm.seconds = first == "Time",
             "Delta_X" => {
-                let mut steps = values
-                    .iter()
-                    .filter(|v| !v.is_empty())
-                    .map(|v| v.replace(',', ".").parse::<f64>().ok());
+                let mut steps =
+                    values.iter().filter(|v| !v.is_empty()).map(|v| v.replace(',', ".").parse::<f64>().ok());
                 let step = steps.next().flatten();
                 lvm.step = step.filter(|_| steps.all(|s| s == step));
             }

@@ -1,7 +1,8 @@
-//! Numbers as text: comma, semicolon, tab or blanks between them, point or comma in them, with or without a line of names.
+//! Numbers as text: comma, semicolon, tab or blanks between them, point or comma in them, with or without a line of
+//! names.
 //!
-//! The layout is taken from the first lines (`layout.rs`); a column is then read in one pass, a line at a time, in a buffer of fixed size
-//! (`lines.rs`). Lines that begin with `#` or `%` are comments. An empty field is NaN.
+//! The layout is taken from the first lines (`layout.rs`); a column is then read in one pass, a line at a time, in a
+//! buffer of fixed size (`lines.rs`). Lines that begin with `#` or `%` are comments. An empty field is NaN.
 
 mod decimal;
 mod layout;
@@ -92,26 +93,15 @@ pub(super) fn list(mut contents: Contents, format: &TextFormat) -> Result<Listin
             name: column.name.clone(),
             stored_as: "text",
             unit: column.unit.clone(),
-            rate: layout.rate_hz.filter(|_| !column.is_x).map(|hz| Rate {
-                hz,
-                source: RateSource::Header("Delta_X".into()),
-            }),
-            unreadable: column
-                .words
-                .clone()
-                .map(|w| format!("holds words such as `{w}`")),
+            rate: layout
+                .rate_hz
+                .filter(|_| !column.is_x)
+                .map(|hz| Rate { hz, source: RateSource::Header("Delta_X".into()) }),
+            unreadable: column.words.clone().map(|w| format!("holds words such as `{w}`")),
             ..Channel::default()
         });
     }
-    Ok(Listing {
-        channels,
-        metadata: Metadata::default(),
-        source: Box::new(Text {
-            contents,
-            layout,
-            fields,
-        }),
-    })
+    Ok(Listing { channels, metadata: Metadata::default(), source: Box::new(Text { contents, layout, fields }) })
 }
 
 impl Source for Text {

@@ -39,12 +39,10 @@ impl Drawn {
         let class = &plan.classes[c];
         let axes = axes(plan, class, parameters);
         let own = axes.len() - common_axes(plan);
-        let combinations = axes
-            .iter()
-            .fold(1_usize, |product, axis| match &axis.distribution {
-                Distribution::Grid { values } => product.saturating_mul(values.len()),
-                _ => product,
-            });
+        let combinations = axes.iter().fold(1_usize, |product, axis| match &axis.distribution {
+            Distribution::Grid { values } => product.saturating_mul(values.len()),
+            _ => product,
+        });
         if combinations > open && open > 0 {
             problems.push(too_few_runs(plan, class, open, combinations));
         }
@@ -53,13 +51,7 @@ impl Drawn {
         }
         let sequence = sequence(plan, c as u64, own, open);
 
-        Self {
-            runs,
-            open,
-            axes,
-            sequence,
-            combinations,
-        }
+        Self { runs, open, axes, sequence, combinations }
     }
 }
 
@@ -83,52 +75,32 @@ fn axes(plan: &Plan, class: &Class, parameters: &mut Vec<Parameter>) -> Vec<Axis
 }
 
 /// The parameter of that key, made where there is none yet.
-fn parameter(
-    all: &mut Vec<Parameter>,
-    key: &str,
-    distribution: &Distribution,
-    common: bool,
-) -> usize {
+fn parameter(all: &mut Vec<Parameter>, key: &str, distribution: &Distribution, common: bool) -> usize {
     let numeric = distribution.is_numeric();
     if let Some(k) = all.iter().position(|p| p.key == key) {
         all[k].numeric &= numeric;
         return k;
     }
-    all.push(Parameter {
-        key: key.into(),
-        numeric,
-        common,
-    });
+    all.push(Parameter { key: key.into(), numeric, common });
     all.len() - 1
 }
 
 fn too_few_runs(plan: &Plan, class: &Class, runs: usize, combinations: usize) -> Problem {
-    let apart = if plan.holds_out() {
-        " whose labels are not held out"
-    } else {
-        ""
-    };
+    let apart = if plan.holds_out() { " whose labels are not held out" } else { "" };
     let message = format!(
         "class {:?} has {runs} of the plan's {} runs{apart}, and its grids have {combinations} combinations",
         class.name, plan.runs
     );
-    Problem::error("runs", message)
-        .value(plan.runs.to_string())
-        .allowed(format!(
-            "a run for each combination: about {} runs, or shorter grids",
-            combinations.saturating_mul(plan.runs).div_ceil(runs.max(1))
-        ))
+    Problem::error("runs", message).value(plan.runs.to_string()).allowed(format!(
+        "a run for each combination: about {} runs, or shorter grids",
+        combinations.saturating_mul(plan.runs).div_ceil(runs.max(1))
+    ))
 }
 
 fn too_many_keys(class: &Class, keys: usize) -> Problem {
     let message = format!("class {:?} draws {keys} keys", class.name);
-    let allowed = format!(
-        "up to {} keys in a Sobol sequence; \"latin-hypercube\" has no limit",
-        Sobol::MOST
-    );
-    Problem::error("design", message)
-        .value("\"sobol\"")
-        .allowed(allowed)
+    let allowed = format!("up to {} keys in a Sobol sequence; \"latin-hypercube\" has no limit", Sobol::MOST);
+    Problem::error("design", message).value("\"sobol\"").allowed(allowed)
 }
 
 /// Keys that all classes draw.

@@ -12,12 +12,7 @@ const MOST_VARIED: usize = 2000;
 
 /// The problems of a plan whose keys are sound one by one.
 pub(super) fn problems(plan: &Plan, text: &str, finder: &Finder) -> Vec<Problem> {
-    let mut checker = Checker {
-        plan,
-        text,
-        finder,
-        all: Problems::of(text),
-    };
+    let mut checker = Checker { plan, text, finder, all: Problems::of(text) };
     if checker.few_enough_keys() {
         checker.check();
     }
@@ -60,20 +55,14 @@ impl Checker<'_> {
     fn check(&mut self) {
         let plan = self.plan;
         if !matches!(plan.vary, Template::Table(_)) {
-            self.add(
-                "vary",
-                "",
-                "expected a section [vary]".into(),
-                "keys of a scenario",
-            );
+            self.add("vary", "", "expected a section [vary]".into(), "keys of a scenario");
         }
         if plan.holds_out() && Secret::of(&plan.secret).is_none() {
             // The value is not repeated: terminals keep what they show.
             self.add(
                 "secret",
                 "",
-                "held_out needs a secret that cannot be guessed; whoever has it has the labels"
-                    .into(),
+                "held_out needs a secret that cannot be guessed; whoever has it has the labels".into(),
                 "32 or more hexadecimal digits drawn at random, such as `openssl rand -hex 16` prints",
             );
         }
@@ -81,12 +70,7 @@ impl Checker<'_> {
             self.split(split);
         }
         if plan.signals.is_empty() {
-            self.add(
-                "signals",
-                "[]",
-                "a data set without signals".into(),
-                "channels, such as \"sensor_ax\"",
-            );
+            self.add("signals", "[]", "a data set without signals".into(), "channels, such as \"sensor_ax\"");
         }
         self.classes();
         self.settings();
@@ -139,11 +123,7 @@ impl Checker<'_> {
         let mut names = HashSet::new();
         for (k, class) in classes.iter().enumerate() {
             if class.name.is_empty() || !names.insert(class.name.as_str()) {
-                let why = if class.name.is_empty() {
-                    "a class needs a name"
-                } else {
-                    "the name comes twice"
-                };
+                let why = if class.name.is_empty() { "a class needs a name" } else { "the name comes twice" };
                 self.add(
                     &format!("classes.{k}.name"),
                     &format!("{:?}", class.name),
@@ -154,12 +134,7 @@ impl Checker<'_> {
             self.class(k, class);
         }
         if !classes.is_empty() && classes.iter().all(|class| class.share == 0.0) {
-            self.add(
-                "classes",
-                "",
-                "every class has a share of 0".into(),
-                "a class with a share above 0",
-            );
+            self.add("classes", "", "every class has a share of 0".into(), "a class with a share above 0");
         }
     }
 
@@ -167,42 +142,19 @@ impl Checker<'_> {
     fn class(&mut self, k: usize, class: &Class) {
         let at = |name: &str| format!("classes.{k}.{name}");
         if !matches!(class.vary, Template::Table(_)) {
-            self.add(
-                &at("vary"),
-                "",
-                "expected a section".into(),
-                "keys of a scenario",
-            );
+            self.add(&at("vary"), "", "expected a section".into(), "keys of a scenario");
         }
-        if matches!(
-            &class.defects,
-            Some(Template::Fixed(_) | Template::Drawn(_) | Template::Table(_))
-        ) {
-            self.add(
-                &at("defects"),
-                "",
-                "expected [[classes.defects]] entries, or []".into(),
-                "a list of defects",
-            );
+        if matches!(&class.defects, Some(Template::Fixed(_) | Template::Drawn(_) | Template::Table(_))) {
+            self.add(&at("defects"), "", "expected [[classes.defects]] entries, or []".into(), "a list of defects");
         }
         let common = &self.plan.vary;
         if class.defects.is_some() && (common.sets("defects") || class.vary.sets("defects")) {
             let why = "this class has defects of its own, which `vary` would change as well";
-            self.add(
-                &at("defects"),
-                "",
-                why.into(),
-                "defects in the class, or defects in vary",
-            );
+            self.add(&at("defects"), "", why.into(), "defects in the class, or defects in vary");
         }
         for (path, _) in common.settings() {
             if class.vary.sets(&path) {
-                self.add(
-                    &at(&format!("vary.{path}")),
-                    "",
-                    "set in [vary] too; a key varies in one place".into(),
-                    "",
-                );
+                self.add(&at(&format!("vary.{path}")), "", "set in [vary] too; a key varies in one place".into(), "");
             }
         }
     }

@@ -26,11 +26,7 @@ const CAGE: [&str; 5] = [
     "cage.guide_width_mm",
 ];
 const OF_ROLLERS: [&str; 1] = ["bearing.roller_length_mm"];
-const OF_BALLS: [&str; 3] = [
-    "bearing.element",
-    "bearing.inner_groove_conformity",
-    "bearing.outer_groove_conformity",
-];
+const OF_BALLS: [&str; 3] = ["bearing.element", "bearing.inner_groove_conformity", "bearing.outer_groove_conformity"];
 const OPTIONAL: [&str; 8] = [
     "bearing.profile",
     "lubricant.raceway_film",
@@ -43,12 +39,7 @@ const OPTIONAL: [&str; 8] = [
 ];
 
 fn number(entry: &Entry, key: &str) -> f64 {
-    match entry
-        .values
-        .iter()
-        .find(|value| value.key == key)
-        .map(|value| &value.value)
-    {
+    match entry.values.iter().find(|value| value.key == key).map(|value| &value.value) {
         Some(Datum::Number(number)) => *number,
         Some(Datum::Integer(count)) => *count as f64,
         other => panic!("{}: {key} is {other:?}", entry.name),
@@ -76,11 +67,7 @@ fn prop_every_entry_is_complete_and_has_no_other_keys() {
     assert!(all().len() >= 40);
     assert_eq!(all()[0].name, "NN3007");
     for entry in all() {
-        assert!(
-            !entry.title.trim().is_empty() && !entry.title.contains('\n'),
-            "{}",
-            entry.name
-        );
+        assert!(!entry.title.trim().is_empty() && !entry.title.contains('\n'), "{}", entry.name);
         let own = match entry.has_balls() {
             true => &OF_BALLS[..],
             false => &OF_ROLLERS[..],
@@ -91,53 +78,29 @@ fn prop_every_entry_is_complete_and_has_no_other_keys() {
         }
         for value in &entry.values {
             let key = value.key.as_str();
-            assert!(
-                [&BEARING[..], own, &CAGE, &OPTIONAL]
-                    .concat()
-                    .contains(&key),
-                "{}: {key}",
-                entry.name
-            );
+            assert!([&BEARING[..], own, &CAGE, &OPTIONAL].concat().contains(&key), "{}: {key}", entry.name);
             let fits = match &value.value {
-                Datum::Number(number) => {
-                    number.is_finite() && !COUNTS.contains(&key) && key != "cage.guidance"
-                }
+                Datum::Number(number) => number.is_finite() && !COUNTS.contains(&key) && key != "cage.guidance",
                 Datum::Integer(count) => *count > 0 && COUNTS.contains(&key),
                 Datum::Text(choice) => match key {
                     "bearing.element" => choice == "ball",
                     "bearing.profile" => choice == "logarithmic",
                     "lubricant.raceway_film" => choice == "squeeze",
-                    "cage.guidance" => {
-                        ["outer-ring", "inner-ring", "rollers"].contains(&choice.as_str())
-                    }
+                    "cage.guidance" => ["outer-ring", "inner-ring", "rollers"].contains(&choice.as_str()),
                     _ => false,
                 },
             };
             assert!(fits, "{}: {key} = {:?}", entry.name, value.value);
         }
-        assert!(
-            entry.fact(BORE).is_some_and(|bore| bore > 0.0),
-            "{}",
-            entry.name
-        );
+        assert!(entry.fact(BORE).is_some_and(|bore| bore > 0.0), "{}", entry.name);
         for fact in &entry.facts {
-            assert!(
-                FACTS.contains(&fact.key.as_str()),
-                "{}: {}",
-                entry.name,
-                fact.key
-            );
+            assert!(FACTS.contains(&fact.key.as_str()), "{}: {}", entry.name, fact.key);
         }
         let all = entry.values.iter().chain(&entry.facts);
         let mut keys: Vec<_> = all.map(|value| &value.key).collect();
         keys.sort();
         keys.dedup();
-        assert_eq!(
-            keys.len(),
-            entry.values.len() + entry.facts.len(),
-            "{}",
-            entry.name
-        );
+        assert_eq!(keys.len(), entry.values.len() + entry.facts.len(), "{}", entry.name);
     }
 }
 
@@ -145,20 +108,9 @@ fn prop_every_entry_is_complete_and_has_no_other_keys() {
 fn prop_every_value_says_where_it_comes_from() {
     for entry in all() {
         for value in entry.values.iter().chain(&entry.facts) {
-            assert!(
-                value.source.trim().len() > 10,
-                "{}: {} = {:?}",
-                entry.name,
-                value.key,
-                value.source
-            );
+            assert!(value.source.trim().len() > 10, "{}: {} = {:?}", entry.name, value.key, value.source);
             let says = value.source.to_lowercase().contains("estimated");
-            assert!(
-                !says || value.estimated,
-                "{}: {} is an estimate not marked as one",
-                entry.name,
-                value.key
-            );
+            assert!(!says || value.estimated, "{}: {} is an estimate not marked as one", entry.name, value.key);
         }
     }
 }
@@ -168,80 +120,40 @@ fn prop_every_entry_fits_together() {
     // Nominal diameters to 0.01 mm: the clearance is a key of its own.
     for entry in all() {
         let name = &entry.name;
-        let (inner, outer) = (
-            bearing(entry, "inner_raceway_diameter_mm"),
-            bearing(entry, "outer_raceway_diameter_mm"),
-        );
-        let (pitch, roller) = (
-            bearing(entry, "pitch_diameter_mm"),
-            bearing(entry, "roller_diameter_mm"),
-        );
-        assert!(
-            (inner + roller - pitch).abs() <= 0.01,
-            "{name}: inner raceway"
-        );
-        assert!(
-            (outer - roller - pitch).abs() <= 0.01,
-            "{name}: outer raceway"
-        );
+        let (inner, outer) = (bearing(entry, "inner_raceway_diameter_mm"), bearing(entry, "outer_raceway_diameter_mm"));
+        let (pitch, roller) = (bearing(entry, "pitch_diameter_mm"), bearing(entry, "roller_diameter_mm"));
+        assert!((inner + roller - pitch).abs() <= 0.01, "{name}: inner raceway");
+        assert!((outer - roller - pitch).abs() <= 0.01, "{name}: outer raceway");
 
         let rollers = bearing(entry, "rollers_per_row");
         let chord = pitch * (std::f64::consts::PI / rollers).sin();
-        assert!(
-            chord > roller + 2.0 * number(entry, "cage.pocket_clearance_mm"),
-            "{name}: rollers overlap"
-        );
+        assert!(chord > roller + 2.0 * number(entry, "cage.pocket_clearance_mm"), "{name}: rollers overlap");
 
-        let (cage_inner, cage_outer) = (
-            number(entry, "cage.inner_diameter_mm"),
-            number(entry, "cage.outer_diameter_mm"),
-        );
-        assert!(
-            inner < cage_inner && cage_inner < pitch && pitch < cage_outer && cage_outer < outer,
-            "{name}: cage"
-        );
+        let (cage_inner, cage_outer) =
+            (number(entry, "cage.inner_diameter_mm"), number(entry, "cage.outer_diameter_mm"));
+        assert!(inner < cage_inner && cage_inner < pitch && pitch < cage_outer && cage_outer < outer, "{name}: cage");
 
-        for key in [
-            "inner_ring_mass_kg",
-            "outer_ring_mass_kg",
-            "roller_mass_kg",
-            "radial_clearance_um",
-        ] {
+        for key in ["inner_ring_mass_kg", "outer_ring_mass_kg", "roller_mass_kg", "radial_clearance_um"] {
             assert!(bearing(entry, key) > 0.0, "{name}: {key}");
         }
-        assert!(
-            (0.0..360.0 / rollers).contains(&bearing(entry, "row_stagger_deg")),
-            "{name}: stagger"
-        );
+        assert!((0.0..360.0 / rollers).contains(&bearing(entry, "row_stagger_deg")), "{name}: stagger");
 
-        // A steel roller of the effective length, and up to 20 % more where chamfers and crown do not bear; a steel ball.
+        // A steel roller of the effective length, and up to 20 % more where chamfers and crown do not bear; a steel
+        // ball.
         let (length, most) = match entry.has_balls() {
             true => (roller / 1.5, 1.03),
             false => (bearing(entry, "roller_length_mm"), 1.2),
         };
         let bearing_part = 7850e-9 * TAU / 8.0 * roller * roller * length;
         let ratio = bearing(entry, "roller_mass_kg") / bearing_part;
-        assert!(
-            (0.97..most).contains(&ratio),
-            "{name}: roller mass is {ratio} of its volume"
-        );
+        assert!((0.97..most).contains(&ratio), "{name}: roller mass is {ratio} of its volume");
     }
 }
 
 #[test]
 fn prop_names_are_found_whatever_their_spelling() {
-    for spelling in [
-        "NN3007",
-        "nn3007",
-        "NN 3007",
-        " nn-30 07",
-        "SKF NN 3007 KTN/SP",
-    ] {
-        assert_eq!(
-            find(spelling).map(|entry| entry.name.as_str()),
-            Some("NN3007"),
-            "{spelling:?}"
-        );
+    for spelling in ["NN3007", "nn3007", "NN 3007", " nn-30 07", "SKF NN 3007 KTN/SP"] {
+        assert_eq!(find(spelling).map(|entry| entry.name.as_str()), Some("NN3007"), "{spelling:?}");
     }
     for (spelling, name) in [
         ("NU 206 ECP", "NU206"),
@@ -267,8 +179,7 @@ fn prop_bad_text_is_named() {
     let fault = |text| parse(text).unwrap_err();
     assert!(fault("X = 1").contains("X is not a table"));
     assert!(fault("[X]").contains("X has no title"));
-    let extra =
-        "[X]\ntitle = 't'\n'a.b' = { value = 1.0, source = 's', estimated = false, unit = 'm' }";
+    let extra = "[X]\ntitle = 't'\n'a.b' = { value = 1.0, source = 's', estimated = false, unit = 'm' }";
     assert!(fault(extra).contains("X: a.b is not"));
 }
 
@@ -302,18 +213,12 @@ fn lit_nn3007_is_the_paper() {
     ] {
         assert_eq!(number(entry, key), printed, "{key}");
         let value = entry.values.iter().find(|value| value.key == key).unwrap();
-        assert!(
-            !value.estimated && value.source.starts_with("Li et al."),
-            "{key}"
-        );
+        assert!(!value.estimated && value.source.starts_with("Li et al."), "{key}");
     }
     // What the paper does not give: half a roller pitch, and the stiffness of the cage's contacts.
     assert_eq!(number(entry, "cage.contact_stiffness_n_per_m"), 1e7);
     assert_eq!(bearing(entry, "row_stagger_deg"), 180.0 / 19.0);
-    assert_eq!(
-        entry.values.iter().filter(|value| value.estimated).count(),
-        2
-    );
+    assert_eq!(entry.values.iter().filter(|value| value.estimated).count(), 2);
     assert_eq!(entry.values.len(), 25);
 }
 
@@ -331,31 +236,23 @@ fn lit_nu205_frequencies_of_hou() {
     // Hou et al. at 20 Hz. Their pitch is the mean of bore and outside diameter, 1.3 % off: hence 0.4 %.
     let k = per_turn("NU205");
     for (value, printed) in [(k.bpfo, 104.65 / 20.0), (k.bpfi, 155.35 / 20.0)] {
-        assert!(
-            (value / printed - 1.0).abs() < 0.004,
-            "{value} is not {printed}"
-        );
+        assert!((value / printed - 1.0).abs() < 0.004, "{value} is not {printed}");
     }
 }
 
 #[test]
 fn lit_estimated_masses_add_up_to_the_bearing() {
-    // SKF General catalogue: two digits, and our rings have no chamfers: 6 %. Number and length of the rollers enter, raceways and ribs.
+    // SKF General catalogue: two digits, and our rings have no chamfers: 6 %. Number and length of the rollers enter,
+    // raceways and ribs.
     let mut count = 0;
     for entry in all().iter().filter(|entry| !entry.has_balls()) {
         let Some(printed) = entry.fact(MASS) else {
             continue;
         };
         count += 1;
-        let row = bearing(entry, "rollers_per_row") * bearing(entry, "roller_mass_kg")
-            + number(entry, "cage.mass_kg");
-        let total =
-            bearing(entry, "inner_ring_mass_kg") + bearing(entry, "outer_ring_mass_kg") + row;
-        assert!(
-            (total / printed - 1.0).abs() < 0.06,
-            "{}: {total} kg against {printed} kg",
-            entry.name
-        );
+        let row = bearing(entry, "rollers_per_row") * bearing(entry, "roller_mass_kg") + number(entry, "cage.mass_kg");
+        let total = bearing(entry, "inner_ring_mass_kg") + bearing(entry, "outer_ring_mass_kg") + row;
+        assert!((total / printed - 1.0).abs() < 0.06, "{}: {total} kg against {printed} kg", entry.name);
     }
     assert!(count > 25, "{count} with a printed mass");
 }
@@ -367,18 +264,10 @@ fn lit_effective_lengths_follow_from_the_static_rating() {
         let Some(rating) = entry.fact(STATIC_RATING) else {
             continue;
         };
-        let (roller, pitch) = (
-            bearing(entry, "roller_diameter_mm"),
-            bearing(entry, "pitch_diameter_mm"),
-        );
-        let length =
-            rating / (44.0 * (1.0 - roller / pitch) * bearing(entry, "rollers_per_row") * roller);
+        let (roller, pitch) = (bearing(entry, "roller_diameter_mm"), bearing(entry, "pitch_diameter_mm"));
+        let length = rating / (44.0 * (1.0 - roller / pitch) * bearing(entry, "rollers_per_row") * roller);
         let given = bearing(entry, "roller_length_mm");
-        assert!(
-            (given - length).abs() <= 0.051,
-            "{}: {given} mm against {length} mm",
-            entry.name
-        );
+        assert!((given - length).abs() <= 0.051, "{}: {given} mm against {length} mm", entry.name);
     }
 }
 
@@ -397,7 +286,8 @@ fn lit_numbers_of_rollers_follow_the_rule_that_the_known_ones_do() {
 
 #[test]
 fn lit_catalogue_sizes_are_those_of_the_designations() {
-    // ISO 15: the last two digits times five is the bore from 04 on; diameter series 0, 2 and 3 of bore 04 to 10 by their outside diameters.
+    // ISO 15: the last two digits times five is the bore from 04 on; diameter series 0, 2 and 3 of bore 04 to 10 by
+    // their outside diameters.
     let outside = |series: char, code: usize| match series {
         '0' => [42.0, 47.0, 55.0, 62.0, 68.0, 75.0, 80.0][code - 4],
         '2' => [47.0, 52.0, 62.0, 72.0, 80.0, 85.0, 90.0][code - 4],
@@ -406,10 +296,8 @@ fn lit_catalogue_sizes_are_those_of_the_designations() {
     let mut count = 0;
     for entry in all() {
         let digits: String = entry.name.chars().filter(char::is_ascii_digit).collect();
-        let (Some(given), Ok(code)) = (
-            entry.fact(OUTSIDE),
-            digits[digits.len().saturating_sub(2)..].parse::<usize>(),
-        ) else {
+        let (Some(given), Ok(code)) = (entry.fact(OUTSIDE), digits[digits.len().saturating_sub(2)..].parse::<usize>())
+        else {
             continue;
         };
         if code < 4 {
@@ -437,19 +325,13 @@ fn lit_balls_follow_from_the_static_rating() {
         let Some(rating) = entry.fact(STATIC_RATING) else {
             continue;
         };
-        let text = format!(
-            "[bearing]\npreset = \"{}\"\n[operation]\nspeed_rpm = 1500\nload_n = [100, 0]\n",
-            entry.name
-        );
+        let text =
+            format!("[bearing]\npreset = \"{}\"\n[operation]\nspeed_rpm = 1500\nload_n = [100, 0]\n", entry.name);
         let loaded = crate::document::read(&text, &[]).unwrap_or_else(|p| panic!("{p:?}"));
         let mut bearing = loaded.scenario.bearing;
         bearing.preset = None;
         let iso = crate::bearing::rating::static_rating(&bearing).load;
-        assert!(
-            (iso / rating - 1.0).abs() < 0.021,
-            "{}: {iso} N",
-            entry.name
-        );
+        assert!((iso / rating - 1.0).abs() < 0.021, "{}: {iso} N", entry.name);
     }
 }
 

@@ -4,8 +4,7 @@ const STEEL: f64 = 206e9 / (1.0 - 0.09);
 
 /// The 6205 of section 17: 7.94 mm balls on 39.04 mm, conformity 0.52.
 fn of_6205() -> [Ellipse; 2] {
-    [31.1e-3, -46.98e-3]
-        .map(|raceway| Ellipse::new(Curvature::new(7.94e-3, raceway, 0.52), STEEL).unwrap())
+    [31.1e-3, -46.98e-3].map(|raceway| Ellipse::new(Curvature::new(7.94e-3, raceway, 0.52), STEEL).unwrap())
 }
 
 fn radii(along: f64, across: f64) -> Ellipse {
@@ -14,7 +13,8 @@ fn radii(along: f64, across: f64) -> Ellipse {
 
 #[test]
 fn lit_curvatures_of_harris_209() {
-    // Harris, Rolling Bearing Analysis, examples on the 209: 12.7 mm balls, raceways of 52.291 and 77.706 mm, both grooves 0.52.
+    // Harris, Rolling Bearing Analysis, examples on the 209: 12.7 mm balls, raceways of 52.291 and 77.706 mm, both
+    // grooves 0.52.
     for (raceway, sum, difference) in [(52.291e-3, 0.2018, 0.9400), (-77.706e-3, 0.1378, 0.9121)] {
         let of = Curvature::new(12.7e-3, raceway, 0.52);
         assert!((1e-3 / of.radius() - sum).abs() < 1e-4, "{}", of.radius());
@@ -73,10 +73,7 @@ fn prop_axes_change_places_with_the_radii() {
         assert!((a.kappa * b.kappa - 1.0).abs() < 1e-9, "{ratio}");
         assert!((a.stiffness / b.stiffness - 1.0).abs() < 1e-9, "{ratio}");
         // Hamrock and Brewe's approximation: within 5 %.
-        assert!(
-            (a.kappa / ratio.powf(2.0 / PI) - 1.0).abs() < 0.05,
-            "{ratio}"
-        );
+        assert!((a.kappa / ratio.powf(2.0 / PI) - 1.0).abs() < 0.05, "{ratio}");
     }
 }
 

@@ -24,7 +24,8 @@ const CLEARANCE: &str = "bearing.radial_clearance_um";
 const DIAMETRAL: &str = "bearing.diametral_clearance_um";
 const CLASS: &str = "bearing.clearance_class";
 const BORE: &str = "bearing.bore_diameter_mm";
-/// One-sided clearance (um) below which a value other than 0 is taken for mm: less than a raceway's own roundness error.
+/// One-sided clearance (um) below which a value other than 0 is taken for mm: less than a raceway's own roundness
+/// error.
 const SMALLEST_CLEARANCE: f64 = 0.2;
 const CAGE_INNER: &str = "cage.inner_diameter_mm";
 const CAGE_OUTER: &str = "cage.outer_diameter_mm";
@@ -56,7 +57,8 @@ impl Checker<'_> {
         }
     }
 
-    /// Whether the rollers fit between the raceways. `false` where the outer is not the larger one, and nothing else can be said.
+    /// Whether the rollers fit between the raceways. `false` where the outer is not the larger one, and nothing else
+    /// can be said.
     fn raceways(&mut self, clearance_mm: f64) -> bool {
         let b = &self.s.bearing;
         let (inner, outer) = (b.inner_raceway_diameter_mm, b.outer_raceway_diameter_mm);
@@ -66,10 +68,7 @@ impl Checker<'_> {
         if outer <= inner {
             self.error(
                 OUTER,
-                format!(
-                    "the outer raceway must be larger than the inner one, {} mm",
-                    short(inner)
-                ),
+                format!("the outer raceway must be larger than the inner one, {} mm", short(inner)),
                 format!("> {}", short(inner)),
                 &[INNER],
             );
@@ -144,19 +143,13 @@ impl Checker<'_> {
 
     /// The key that gives the clearance, and how many times the one-sided clearance its value is.
     fn clearance_key(&self) -> (&'static str, f64) {
-        if self.finder.is_given(DIAMETRAL) {
-            (DIAMETRAL, 2.0)
-        } else {
-            (CLEARANCE, 1.0)
-        }
+        if self.finder.is_given(DIAMETRAL) { (DIAMETRAL, 2.0) } else { (CLEARANCE, 1.0) }
     }
 
     /// Whether the clearance is given in one way, and a class with its bore.
     fn ways_to_clearance(&mut self) {
-        let ways: Vec<&str> = [CLEARANCE, DIAMETRAL, CLASS]
-            .into_iter()
-            .filter(|key| self.finder.is_given(key))
-            .collect();
+        let ways: Vec<&str> =
+            [CLEARANCE, DIAMETRAL, CLASS].into_iter().filter(|key| self.finder.is_given(key)).collect();
         if let [others @ .., last] = &ways[..]
             && !others.is_empty()
         {
@@ -173,10 +166,7 @@ impl Checker<'_> {
         let known = bore.is_some_and(|bore| ClearanceClass::CN.limits(of, bore).is_some());
         if ways == [CLASS] && !known {
             let (key, message) = match bore {
-                None => (
-                    CLASS,
-                    "a class needs the bore: give bearing.bore_diameter_mm, or a preset",
-                ),
+                None => (CLASS, "a class needs the bore: give bearing.bore_diameter_mm, or a preset"),
                 Some(_) => (BORE, "ISO 5753-1 has no class for this bore"),
             };
             let allowed = format!("a bore of up to {} mm", largest_bore_mm(of));
@@ -224,10 +214,7 @@ impl Checker<'_> {
         if c.inner_diameter_mm >= c.outer_diameter_mm {
             self.error(
                 CAGE_INNER,
-                format!(
-                    "the cage's inner diameter must be less than its outer one, {} mm",
-                    short(c.outer_diameter_mm)
-                ),
+                format!("the cage's inner diameter must be less than its outer one, {} mm", short(c.outer_diameter_mm)),
                 format!("< {}", short(c.outer_diameter_mm)),
                 &[CAGE_OUTER],
             );

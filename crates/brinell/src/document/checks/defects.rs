@@ -56,13 +56,10 @@ impl Checker<'_> {
         let (key, width) = match &defect.shape {
             Shape::Rectangle { width_mm, .. } => ("rectangle.width_mm", *width_mm),
             Shape::Circle { diameter_mm } => ("circle.diameter_mm", *diameter_mm),
-            Shape::Profile { width_mm, .. } => (
-                "profile.width_mm",
-                width_mm.iter().fold(0.0, |widest: f64, w| widest.max(*w)),
-            ),
-            Shape::Li2023Irregular { max_width_mm } => {
-                ("li2023_irregular.max_width_mm", *max_width_mm)
+            Shape::Profile { width_mm, .. } => {
+                ("profile.width_mm", width_mm.iter().fold(0.0, |widest: f64, w| widest.max(*w)))
             }
+            Shape::Li2023Irregular { max_width_mm } => ("li2023_irregular.max_width_mm", *max_width_mm),
             Shape::Random { width_mm, .. } => ("random.width_mm", *width_mm),
             Shape::Outline { .. } | Shape::DepthMap { .. } | Shape::Grown { .. } => return,
             // Their extent is known once their file is read.
@@ -76,77 +73,47 @@ impl Checker<'_> {
             };
             self.error(
                 &format!("defects.{i}.shape.{key}"),
-                format!(
-                    "{} mm is wider than {than} {} mm",
-                    short(width),
-                    short(length)
-                ),
+                format!("{} mm is wider than {than} {} mm", short(width), short(length)),
                 format!("<= {}", short(length)),
                 &[also],
             );
         } else if defect.axial_offset_mm != 0.0 {
             let half = 0.5e-3 * width;
-            self.on_raceway(
-                i,
-                defect,
-                &format!("defects.{i}.shape.{key}"),
-                (-half, half),
-            );
+            self.on_raceway(i, defect, &format!("defects.{i}.shape.{key}"), (-half, half));
         }
     }
 
     fn profile(&mut self, i: usize, defect: &Defect) {
-        let Shape::Profile {
-            arc_mm,
-            width_mm,
-            depth_um,
-        } = &defect.shape
-        else {
+        let Shape::Profile { arc_mm, width_mm, depth_um } = &defect.shape else {
             return;
         };
         let path = |name: &str| format!("defects.{i}.shape.profile.{name}");
         // An empty list that the file does not hold was reported as missing or unreadable.
-        let readable = |name: &str, list: &[f64]| {
-            !list.is_empty() || self.finder.value(&path(name)).as_deref() == Some("[]")
-        };
+        let readable =
+            |name: &str, list: &[f64]| !list.is_empty() || self.finder.value(&path(name)).as_deref() == Some("[]");
         if !readable("arc_mm", arc_mm) || !readable("width_mm", width_mm) {
             return;
         }
         let count = arc_mm.len();
         let depths = depth_um.as_ref().filter(|list| readable("depth_um", list));
-        let lists = [
-            ("width_mm", Some(width_mm.len())),
-            ("depth_um", depths.map(Vec::len)),
-        ];
+        let lists = [("width_mm", Some(width_mm.len())), ("depth_um", depths.map(Vec::len))];
         for (name, length) in lists {
             if length.is_some_and(|length| length != count) {
                 self.error(
                     &path(name),
-                    format!(
-                        "{} values for the {count} points of arc_mm",
-                        length.unwrap_or(0)
-                    ),
+                    format!("{} values for the {count} points of arc_mm", length.unwrap_or(0)),
                     format!("a list of {count}"),
                     &[&path("arc_mm")],
                 );
             }
         }
         if count < 2 {
-            self.error(
-                &path("arc_mm"),
-                "a profile has at least two points".into(),
-                "a list of 2 or more".into(),
-                &[],
-            );
+            self.error(&path("arc_mm"), "a profile has at least two points".into(), "a list of 2 or more".into(), &[]);
         }
         if let Some(pair) = arc_mm.windows(2).find(|pair| pair[1] < pair[0]) {
             self.error(
                 &path("arc_mm"),
-                format!(
-                    "the arc must not go back; {} mm follows {} mm",
-                    short(pair[1]),
-                    short(pair[0])
-                ),
+                format!("the arc must not go back; {} mm follows {} mm", short(pair[1]), short(pair[0])),
                 "each value at least the one before".into(),
                 &[],
             );
@@ -156,16 +123,12 @@ impl Checker<'_> {
     fn arc(&mut self, i: usize, defect: &Defect) {
         let b = &self.s.bearing;
         let (surface, diameter_key, diameter) = match defect.on {
-            Surface::OuterRaceway => (
-                "outer raceway",
-                "bearing.outer_raceway_diameter_mm",
-                b.outer_raceway_diameter_mm,
-            ),
-            Surface::InnerRaceway => (
-                "inner raceway",
-                "bearing.inner_raceway_diameter_mm",
-                b.inner_raceway_diameter_mm,
-            ),
+            Surface::OuterRaceway => {
+                ("outer raceway", "bearing.outer_raceway_diameter_mm", b.outer_raceway_diameter_mm)
+            }
+            Surface::InnerRaceway => {
+                ("inner raceway", "bearing.inner_raceway_diameter_mm", b.inner_raceway_diameter_mm)
+            }
             Surface::Roller(_) => ("roller", "bearing.roller_diameter_mm", b.roller_diameter_mm),
         };
         let half_circle = 0.5 * PI * diameter;
@@ -187,11 +150,7 @@ impl Checker<'_> {
         };
         // A shape without a key of its own for its length is found by its table.
         let table = format!("defects.{i}.shape");
-        let also: &[&str] = if key.contains('.') {
-            &[diameter_key]
-        } else {
-            &[&table, diameter_key]
-        };
+        let also: &[&str] = if key.contains('.') { &[diameter_key] } else { &[&table, diameter_key] };
         if reach > half_circle {
             let allowed = match &defect.shape {
                 Shape::Profile { .. } => format!("-{0} to {0}", short(limit)),
@@ -205,10 +164,7 @@ impl Checker<'_> {
             };
             self.error(
                 &format!("defects.{i}.shape.{key}"),
-                format!(
-                    "the defect goes past a full circle of the {surface}, {} mm around",
-                    short(2.0 * half_circle)
-                ),
+                format!("the defect goes past a full circle of the {surface}, {} mm around", short(2.0 * half_circle)),
                 allowed,
                 also,
             );

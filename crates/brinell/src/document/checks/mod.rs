@@ -29,16 +29,8 @@ pub struct Finder<'a> {
 
 impl<'a> Finder<'a> {
     /// Of the keys that a reader found.
-    pub fn new(
-        text: &'a str,
-        found: &'a HashMap<String, &'a Node>,
-        provenance: &'a [Provenance],
-    ) -> Finder<'a> {
-        Finder {
-            text,
-            found,
-            provenance: super::load::by_key(provenance),
-        }
+    pub fn new(text: &'a str, found: &'a HashMap<String, &'a Node>, provenance: &'a [Provenance]) -> Finder<'a> {
+        Finder { text, found, provenance: super::load::by_key(provenance) }
     }
 
     /// Where the file gives a key.
@@ -62,10 +54,7 @@ impl<'a> Finder<'a> {
         let unit = unit_of(problem.key.rsplit('.').next().unwrap_or_default());
         problem = problem.unit(unit);
         problem.value = self.value(&problem.key);
-        problem.also = also
-            .iter()
-            .map(|key| (key.to_string(), self.place(key)))
-            .collect();
+        problem.also = also.iter().map(|key| (key.to_string(), self.place(key))).collect();
         // A key that the file leaves out is at fault through the ones it gives.
         let place = self.place(&problem.key);
         let place = place.or_else(|| also.iter().find_map(|key| self.place(key)));
@@ -73,9 +62,7 @@ impl<'a> Finder<'a> {
     }
 
     fn is_preset(&self, key: &str) -> bool {
-        self.provenance
-            .get(key)
-            .is_some_and(|entry| matches!(entry.origin, Origin::Preset { .. }))
+        self.provenance.get(key).is_some_and(|entry| matches!(entry.origin, Origin::Preset { .. }))
     }
 }
 
@@ -87,14 +74,7 @@ struct Checker<'a> {
 }
 
 impl Checker<'_> {
-    fn add(
-        &mut self,
-        severity: Severity,
-        key: &str,
-        message: String,
-        allowed: String,
-        also: &[&str],
-    ) {
+    fn add(&mut self, severity: Severity, key: &str, message: String, allowed: String, also: &[&str]) {
         let kind = numberless(key) + &numberless(&message);
         let finder = self.finder;
         self.problems.add_of(severity, kind, || {
@@ -113,16 +93,8 @@ impl Checker<'_> {
 }
 
 /// Adds what is wrong to the problems of the reader.
-pub(crate) fn check<'a>(
-    scenario: &'a Scenario,
-    finder: &'a Finder<'a>,
-    problems: Problems<'a>,
-) -> Problems<'a> {
-    let mut checker = Checker {
-        s: scenario,
-        finder,
-        problems,
-    };
+pub(crate) fn check<'a>(scenario: &'a Scenario, finder: &'a Finder<'a>, problems: Problems<'a>) -> Problems<'a> {
+    let mut checker = Checker { s: scenario, finder, problems };
     checker.bearing();
     checker.cage();
     checker.contact();
@@ -148,9 +120,5 @@ fn short(x: f64) -> String {
     }
     let decimals = (3 - x.abs().log10().floor() as i32).clamp(0, 12) as usize;
     let text = format!("{x:.decimals$}");
-    if text.contains('.') {
-        text.trim_end_matches('0').trim_end_matches('.').to_string()
-    } else {
-        text
-    }
+    if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').to_string() } else { text }
 }

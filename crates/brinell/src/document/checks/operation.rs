@@ -16,15 +16,17 @@ const HARMONICS: f64 = 5.0;
 /// Share of the sample rate that the anti-alias filter passes (model.md, section 11).
 const PASSBAND: f64 = 0.4;
 
-/// Speed factor beyond which no bearing turns, mm r/min: |speed| times pitch diameter. Main-shaft bearings of aircraft engines were tested at
-/// 3e6 (Bamberger, Zaretsky, Signer: Endurance and failure characteristics of main-shaft jet engine bearings at 3 x 10^6 DN, Journal of
-/// Lubrication Technology 98, 1976, 580-585); this leaves three times as much.
+/// Speed factor beyond which no bearing turns, mm r/min: |speed| times pitch diameter. Main-shaft bearings of aircraft
+/// engines were tested at 3e6 (Bamberger, Zaretsky, Signer: Endurance and failure characteristics of main-shaft jet
+/// engine bearings at 3 x 10^6 DN, Journal of Lubrication Technology 98, 1976, 580-585); this leaves three times as
+/// much.
 const MOST_SPEED_FACTOR: f64 = 1e7;
 
-/// Multiple of the static load rating that no bearing carries. The rating represents 4 GPa at the heaviest roller (ISO 76), and a line contact's
-/// pressure grows with the square root of the load, so this is 12.6 GPa, and 9.9 GPa on average over the contact: more than the hardness of
-/// bearing steel, some 8 GPa (60 HRC), which is the average pressure that it flows under. From about 30 times the rating on, a roller is squeezed
-/// so hard that a run hardly moves.
+/// Multiple of the static load rating that no bearing carries. The rating represents 4 GPa at the heaviest roller (ISO
+/// 76), and a line contact's pressure grows with the square root of the load, so this is 12.6 GPa, and 9.9 GPa on
+/// average over the contact: more than the hardness of bearing steel, some 8 GPa (60 HRC), which is the average
+/// pressure that it flows under. From about 30 times the rating on, a roller is squeezed so hard that a run hardly
+/// moves.
 const MOST_RATINGS: f64 = 10.0;
 
 const SPEED: &str = "operation.speed_rpm";
@@ -38,12 +40,7 @@ impl Checker<'_> {
         match &self.s.operation.speed_rpm {
             Speed::Constant(speed) => {
                 if *speed == 0.0 {
-                    self.error(
-                        SPEED,
-                        "the inner ring must turn".into(),
-                        "not 0".into(),
-                        &[],
-                    );
+                    self.error(SPEED, "the inner ring must turn".into(), "not 0".into(), &[]);
                 }
             }
             Speed::Profile(points) => {
@@ -65,12 +62,7 @@ impl Checker<'_> {
                     } else {
                         "the speed is 0 throughout: the inner ring must turn"
                     };
-                    self.error(
-                        SPEED,
-                        message.into(),
-                        "at least one point with a speed other than 0".into(),
-                        &[],
-                    );
+                    self.error(SPEED, message.into(), "at least one point with a speed other than 0".into(), &[]);
                 }
             }
         }
@@ -115,13 +107,7 @@ impl Checker<'_> {
         let rings = ["bearing.inner_ring_mass_kg", "bearing.outer_ring_mass_kg"];
         for (key, what, force, allowed, also) in [
             (LOAD, "the load", load, most, &[][..]),
-            (
-                GRAVITY,
-                "the heavier ring's weight",
-                heavier * gravity,
-                most / heavier,
-                &rings,
-            ),
+            (GRAVITY, "the heavier ring's weight", heavier * gravity, most / heavier, &rings),
         ] {
             if most > 0.0 && force > most {
                 let message = format!(
@@ -130,12 +116,7 @@ impl Checker<'_> {
                     short(force / rating),
                     short(rating)
                 );
-                self.error(
-                    key,
-                    message,
-                    format!("a resultant of at most {}", short(allowed)),
-                    also,
-                );
+                self.error(key, message, format!("a resultant of at most {}", short(allowed)), also);
             }
         }
     }
@@ -145,17 +126,9 @@ impl Checker<'_> {
         let s = self.s;
         let load = s.operation.load_n[0].hypot(s.operation.load_n[1]);
         let masses = [s.bearing.inner_ring_mass_kg, s.bearing.outer_ring_mass_kg];
-        let full = Load {
-            full: s.operation.load_n,
-            on: s.operation.load_on,
-            ramp: 0.0,
-        };
+        let full = Load { full: s.operation.load_n, on: s.operation.load_on, ramp: 0.0 };
         let carried = full.with_weight(masses, s.operation.gravity_m_per_s2);
-        let weight = if s.operation.gravity_m_per_s2 == [0.0; 2] {
-            ""
-        } else {
-            ", the ring's weight included"
-        };
+        let weight = if s.operation.gravity_m_per_s2 == [0.0; 2] { "" } else { ", the ring's weight included" };
         let (loaded, held, stiffness, other) = match s.operation.load_on {
             LoadOn::OuterRing => (
                 "support.outer_stiffness_n_per_m",
@@ -197,18 +170,10 @@ impl Checker<'_> {
     }
 
     pub(super) fn simulation(&mut self) {
-        let (duration, rate) = (
-            self.s.simulation.duration_s,
-            self.s.simulation.sample_rate_hz,
-        );
+        let (duration, rate) = (self.s.simulation.duration_s, self.s.simulation.sample_rate_hz);
         let samples = duration * rate;
         if samples < 1.0 {
-            self.error(
-                DURATION,
-                "shorter than one sample".into(),
-                format!(">= {}", short(1.0 / rate)),
-                &[RATE],
-            );
+            self.error(DURATION, "shorter than one sample".into(), format!(">= {}", short(1.0 / rate)), &[RATE]);
         } else if samples > MOST_SAMPLES {
             self.error(
                 DURATION,
@@ -217,12 +182,7 @@ impl Checker<'_> {
                 &[RATE],
             );
         } else if samples > MANY_SAMPLES {
-            self.warn(
-                DURATION,
-                format!("{samples:.1e} samples of every channel"),
-                String::new(),
-                &[RATE],
-            );
+            self.warn(DURATION, format!("{samples:.1e} samples of every channel"), String::new(), &[RATE]);
         }
         self.sample_rate();
         self.record();
@@ -232,9 +192,7 @@ impl Checker<'_> {
         let b = &self.s.bearing;
         let fastest = match &self.s.operation.speed_rpm {
             Speed::Constant(speed) => speed.abs(),
-            Speed::Profile(points) => points
-                .iter()
-                .fold(0.0, |m: f64, point| m.max(point[1].abs())),
+            Speed::Profile(points) => points.iter().fold(0.0, |m: f64, point| m.max(point[1].abs())),
         };
         let kinematics = Kinematics::pure_rolling(&Geometry::of(b), fastest * PI / 30.0);
         let highest = self
@@ -267,10 +225,7 @@ impl Checker<'_> {
         if let Some(name) = self.s.simulation.record.iter().find(bad) {
             self.error(
                 RECORD,
-                format!(
-                    "no channel can match {}",
-                    crate::document::source::quote(name)
-                ),
+                format!("no channel can match {}", crate::document::source::quote(name)),
                 "names of letters, digits, _ and *".into(),
                 &[],
             );

@@ -2,8 +2,9 @@
 
 use super::{Checker, short};
 
-/// Fastest motion of a body on one spring or damper, 1/s. The solver's steps stay below some 2 over it, so a simulated second beyond takes about
-/// 1e9 steps, hours to days. A roller of 1 g on steel stays below 1e6 1/s; this leaves a factor of a million in stiffness.
+/// Fastest motion of a body on one spring or damper, 1/s. The solver's steps stay below some 2 over it, so a simulated
+/// second beyond takes about 1e9 steps, hours to days. A roller of 1 g on steel stays below 1e6 1/s; this leaves a
+/// factor of a million in stiffness.
 const FASTEST: f64 = 1e9;
 /// Force on a contact that is pressed by next to nothing, N.
 const LEAST_FORCE: f64 = 1.0;
@@ -25,45 +26,24 @@ impl Checker<'_> {
         let force = (4.08 * load / (b.rows * b.rollers_per_row) as f64).max(LEAST_FORCE);
         let n = contact.exponent;
         // The tangent n Q (K / Q)^(1/n) is at most m w^2.
-        for (key, value) in [
-            ("contact.inner_stiffness", contact.inner_stiffness),
-            ("contact.outer_stiffness", contact.outer_stiffness),
-        ] {
+        for (key, value) in
+            [("contact.inner_stiffness", contact.inner_stiffness), ("contact.outer_stiffness", contact.outer_stiffness)]
+        {
             let most = force * (roller.0 * FASTEST.powi(2) / (n * force)).powf(n);
             self.at_most(key, value, most, " N/m^n", roller.1);
         }
         // Pockets are met now and then, and their stiffness ends a run at once rather than slowing it down.
         for (key, value, body) in [
-            (
-                "support.inner_stiffness_n_per_m",
-                support.inner_stiffness_n_per_m,
-                inner_ring,
-            ),
-            (
-                "support.outer_stiffness_n_per_m",
-                support.outer_stiffness_n_per_m,
-                outer_ring,
-            ),
+            ("support.inner_stiffness_n_per_m", support.inner_stiffness_n_per_m, inner_ring),
+            ("support.outer_stiffness_n_per_m", support.outer_stiffness_n_per_m, outer_ring),
         ] {
             self.at_most(key, value, body.0 * FASTEST.powi(2), "", body.1);
         }
         for (key, value, body) in [
             ("contact.damping_ns_per_m", contact.damping_ns_per_m, roller),
-            (
-                "cage.contact_damping_ns_per_m",
-                cage.contact_damping_ns_per_m,
-                lighter,
-            ),
-            (
-                "support.inner_damping_ns_per_m",
-                support.inner_damping_ns_per_m,
-                inner_ring,
-            ),
-            (
-                "support.outer_damping_ns_per_m",
-                support.outer_damping_ns_per_m,
-                outer_ring,
-            ),
+            ("cage.contact_damping_ns_per_m", cage.contact_damping_ns_per_m, lighter),
+            ("support.inner_damping_ns_per_m", support.inner_damping_ns_per_m, inner_ring),
+            ("support.outer_damping_ns_per_m", support.outer_damping_ns_per_m, outer_ring),
         ] {
             self.at_most(key, value, body.0 * FASTEST, "", body.1);
         }
@@ -82,12 +62,7 @@ impl Checker<'_> {
 
     fn at_most(&mut self, key: &str, value: f64, most: f64, unit: &str, mass: &str) {
         if most > 0.0 && value > most {
-            self.error(
-                key,
-                too_fast(mass),
-                format!("<= {}{unit}", short(most)),
-                &[mass],
-            );
+            self.error(key, too_fast(mass), format!("<= {}{unit}", short(most)), &[mass]);
         }
     }
 }

@@ -5,7 +5,8 @@ use crate::signal::decimate::FACTOR;
 
 /// Shortest of the noise's corners, as a share of the sample rate.
 const LOWEST_CORNER: f64 = 1e-9;
-/// Slowest of the chain's modes, as a share of the sample rate: a second-order section at eight times that rate has six digits left there.
+/// Slowest of the chain's modes, as a share of the sample rate: a second-order section at eight times that rate has six
+/// digits left there.
 const SLOWEST_MODE: f64 = 1e-5;
 
 impl Checker<'_> {
@@ -26,8 +27,7 @@ impl Checker<'_> {
             self.error(
                 "sensor.noise_snr_db",
                 "the noise's level is given twice".into(),
-                "either noise_rms_m_per_s2 or noise_snr_db with noise_reference_rms_m_per_s2"
-                    .into(),
+                "either noise_rms_m_per_s2 or noise_snr_db with noise_reference_rms_m_per_s2".into(),
                 &["sensor.noise_rms_m_per_s2"],
             );
         }
@@ -50,17 +50,11 @@ impl Checker<'_> {
         let rate = self.s.simulation.sample_rate_hz;
         let top = 0.5 * FACTOR as f64 * rate;
         let mut modes = vec![
-            (
-                "sensor.mounting_resonance_hz".to_owned(),
-                s.mounting_resonance_hz,
-            ),
+            ("sensor.mounting_resonance_hz".to_owned(), s.mounting_resonance_hz),
             ("sensor.high_cut_hz".to_owned(), s.high_cut_hz),
         ];
         for (k, mode) in s.path.iter().enumerate() {
-            modes.push((
-                format!("sensor.path.{k}.frequency_hz"),
-                Some(mode.frequency_hz),
-            ));
+            modes.push((format!("sensor.path.{k}.frequency_hz"), Some(mode.frequency_hz)));
         }
         for (key, frequency) in modes {
             let Some(f) = frequency else { continue };
@@ -97,11 +91,7 @@ impl Checker<'_> {
             self.error(
                 "sensor.noise_corner_hz",
                 "out of reach of the sample rate".into(),
-                format!(
-                    ">= {} and < {}",
-                    short(LOWEST_CORNER * rate),
-                    short(0.5 * rate)
-                ),
+                format!(">= {} and < {}", short(LOWEST_CORNER * rate), short(0.5 * rate)),
                 &[RATE],
             );
         }
@@ -113,25 +103,14 @@ impl Checker<'_> {
         const VOLTS: &str = "sensor.converter_range_mv";
         let s = &self.s.sensor;
         let either = || "converter_bits with converter_range_m_per_s2 or converter_range_mv".into();
-        let (range, volts) = (
-            s.converter_range_m_per_s2.is_some(),
-            s.converter_range_mv.is_some(),
-        );
+        let (range, volts) = (s.converter_range_m_per_s2.is_some(), s.converter_range_mv.is_some());
         // 0 represents bits that could not be read.
         match s.converter_bits {
             Some(0) => {}
-            Some(_) if !range && !volts => self.error(
-                BITS,
-                "an ADC's steps follow from its range, which is not given".into(),
-                either(),
-                &[],
-            ),
-            Some(_) if range && volts => self.error(
-                VOLTS,
-                "the ADC's range is given twice".into(),
-                either(),
-                &[RANGE],
-            ),
+            Some(_) if !range && !volts => {
+                self.error(BITS, "an ADC's steps follow from its range, which is not given".into(), either(), &[])
+            }
+            Some(_) if range && volts => self.error(VOLTS, "the ADC's range is given twice".into(), either(), &[RANGE]),
             None if range => self.error(RANGE, "a range without an ADC".into(), either(), &[]),
             None if volts => self.error(VOLTS, "a range without an ADC".into(), either(), &[]),
             _ => {}

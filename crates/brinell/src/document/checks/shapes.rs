@@ -21,13 +21,9 @@ impl Checker<'_> {
         format!("defects.{i}.shape.{shape}.{name}")
     }
 
-    /// The key that holds an outline's polygons; `None` where what it holds could not be read or is ambiguous, which is then reported.
-    fn polygons_key(
-        &mut self,
-        i: usize,
-        shape: &str,
-        polygons: &[Vec<[f64; 2]>],
-    ) -> Option<String> {
+    /// The key that holds an outline's polygons; `None` where what it holds could not be read or is ambiguous, which is
+    /// then reported.
+    fn polygons_key(&mut self, i: usize, shape: &str, polygons: &[Vec<[f64; 2]>]) -> Option<String> {
         let keys = ["points_mm", "polygons_mm"].map(|name| self.shape_key(i, shape, name));
         let given = keys.clone().map(|key| self.finder.value(&key));
         match given {
@@ -59,20 +55,12 @@ impl Checker<'_> {
         }
     }
 
-    pub(super) fn outline(
-        &mut self,
-        i: usize,
-        defect: &Defect,
-        shape: &str,
-        polygons: &[Vec<[f64; 2]>],
-    ) {
+    pub(super) fn outline(&mut self, i: usize, defect: &Defect, shape: &str, polygons: &[Vec<[f64; 2]>]) {
         let Some(key) = self.polygons_key(i, shape, polygons) else {
             return;
         };
-        let metres: Vec<Vec<[f64; 2]>> = polygons
-            .iter()
-            .map(|p| p.iter().map(|x| x.map(|x| 1e-3 * x)).collect())
-            .collect();
+        let metres: Vec<Vec<[f64; 2]>> =
+            polygons.iter().map(|p| p.iter().map(|x| x.map(|x| 1e-3 * x)).collect()).collect();
         let which = |polygon: usize| match polygons.len() {
             1 => "the outline".to_string(),
             _ => format!("polygon {}", polygon + 1),
@@ -81,26 +69,17 @@ impl Checker<'_> {
             let (message, allowed) = match fault {
                 Fault::Nothing => ("there is no polygon".into(), "one polygon or more"),
                 Fault::Open { polygon } => (
-                    format!(
-                        "{} has fewer than three different corners and encloses nothing",
-                        which(polygon)
-                    ),
+                    format!("{} has fewer than three different corners and encloses nothing", which(polygon)),
                     "three corners or more; the last is joined to the first",
                 ),
-                Fault::NotFinite { polygon } => (
-                    format!("{} has a coordinate that is not a number", which(polygon)),
-                    "finite numbers",
-                ),
+                Fault::NotFinite { polygon } => {
+                    (format!("{} has a coordinate that is not a number", which(polygon)), "finite numbers")
+                }
                 Fault::Flat { polygon } => (
-                    format!(
-                        "{} has no area: its corners are on one line",
-                        which(polygon)
-                    ),
+                    format!("{} has no area: its corners are on one line", which(polygon)),
                     "a polygon that encloses something",
                 ),
-                Fault::Tangled(tangle) => {
-                    (tangle.to_string(), "sides that do not cross; fewer corners")
-                }
+                Fault::Tangled(tangle) => (tangle.to_string(), "sides that do not cross; fewer corners"),
                 Fault::CrossesItself { polygon, at: p } => {
                     let message = format!(
                         "{} crosses itself at {}: what its sides enclose twice counts as undamaged (even-odd rule)",
@@ -111,22 +90,14 @@ impl Checker<'_> {
                     self.warn(&key, message, allowed.into(), &[]);
                     continue;
                 }
-                Fault::Cross {
-                    polygons: [a, b],
-                    at: p,
-                } => {
+                Fault::Cross { polygons: [a, b], at: p } => {
                     let message = format!(
                         "polygons {} and {} cross at {}: where they overlap the surface counts as undamaged, as in a hole",
                         a + 1,
                         b + 1,
                         at(p)
                     );
-                    self.warn(
-                        &key,
-                        message,
-                        "polygons apart or one within another".into(),
-                        &[],
-                    );
+                    self.warn(&key, message, "polygons apart or one within another".into(), &[]);
                     continue;
                 }
             };
@@ -140,13 +111,7 @@ impl Checker<'_> {
     }
 
     /// Damage beyond the roller's ends, given its smallest and largest z in m before it is moved.
-    pub(super) fn on_raceway(
-        &mut self,
-        i: usize,
-        defect: &Defect,
-        key: &str,
-        (low, high): (f64, f64),
-    ) {
+    pub(super) fn on_raceway(&mut self, i: usize, defect: &Defect, key: &str, (low, high): (f64, f64)) {
         let half = 0.5 * self.s.bearing.axial_reach_mm();
         let offset = defect.axial_offset_mm;
         let (low, high) = (1e3 * low + offset, 1e3 * high + offset);
@@ -184,24 +149,15 @@ impl Checker<'_> {
     }
 
     pub(super) fn grown(&mut self, i: usize, defect: &Defect) {
-        let Shape::Grown {
-            outline,
-            max_width_mm,
-            area_mm2,
-        } = &defect.shape
-        else {
+        let Shape::Grown { outline, max_width_mm, area_mm2 } = &defect.shape else {
             return;
         };
         self.outline(i, defect, "grown", outline);
-        let [width, area] =
-            ["max_width_mm", "area_mm2"].map(|name| self.shape_key(i, "grown", name));
+        let [width, area] = ["max_width_mm", "area_mm2"].map(|name| self.shape_key(i, "grown", name));
         match (max_width_mm, area_mm2) {
-            (Some(_), Some(_)) => self.error(
-                &width,
-                "give max_width_mm or area_mm2, not both".into(),
-                "one of them".into(),
-                &[&area],
-            ),
+            (Some(_), Some(_)) => {
+                self.error(&width, "give max_width_mm or area_mm2, not both".into(), "one of them".into(), &[&area])
+            }
             (None, None) => self.error(
                 &width,
                 "missing: the width to grow to, or area_mm2".into(),
@@ -211,9 +167,7 @@ impl Checker<'_> {
             _ => {
                 let key = if max_width_mm.is_some() { width } else { area };
                 let depth = 1e-6 * defect.depth_um;
-                if let Some(defect::Shape::Outline(grown)) =
-                    defect::Shape::new(&defect.shape, depth)
-                {
+                if let Some(defect::Shape::Outline(grown)) = defect::Shape::new(&defect.shape, depth) {
                     self.on_raceway(i, defect, &key, grown.heights());
                 }
             }
@@ -272,11 +226,7 @@ impl Checker<'_> {
         if let Some(hole) = grid.depth_um.iter().position(|h| !h.is_finite()) {
             self.error(
                 key,
-                format!(
-                    "no depth in row {}, column {}",
-                    hole / columns + 1,
-                    hole % columns + 1
-                ),
+                format!("no depth in row {}, column {}", hole / columns + 1, hole % columns + 1),
                 "a finite number at every node; 0 where nothing is damaged".into(),
                 &[],
             );
@@ -296,8 +246,7 @@ impl Checker<'_> {
 
     /// What rises above the raceway, where it would not act.
     fn raised_edges(&mut self, key: &str, map: &defect::Grid) {
-        if map.extremes().1 < 0.0
-            && (self.s.contact.law != Law::Sliced || self.s.simulation.model == ModelKind::Lumped)
+        if map.extremes().1 < 0.0 && (self.s.contact.law != Law::Sliced || self.s.simulation.model == ModelKind::Lumped)
         {
             self.error(
                 key,
@@ -311,13 +260,7 @@ impl Checker<'_> {
         }
     }
 
-    fn depth_map_on_raceway(
-        &mut self,
-        i: usize,
-        defect: &Defect,
-        (key, grid): (&str, &DepthGrid),
-        map: &defect::Grid,
-    ) {
+    fn depth_map_on_raceway(&mut self, i: usize, defect: &Defect, (key, grid): (&str, &DepthGrid), map: &defect::Grid) {
         let half = 0.5 * self.s.bearing.axial_reach_mm();
         let (low, high) = map.heights();
         let offset = defect.axial_offset_mm;
@@ -344,27 +287,15 @@ impl Checker<'_> {
     pub(super) fn depth_scale(&mut self, i: usize, defect: &Defect) {
         let most = 1e3 * self.s.bearing.roller_diameter_mm;
         let (key, depths) = match &defect.shape {
-            Shape::DepthMap { grid } => (
-                self.shape_key(i, "depth_map", "depth_um"),
-                &grid.depth_um[..],
-            ),
-            Shape::Profile {
-                depth_um: Some(depths),
-                ..
-            } => (self.shape_key(i, "profile", "depth_um"), &depths[..]),
-            _ => (
-                format!("defects.{i}.depth_um"),
-                std::slice::from_ref(&defect.depth_um),
-            ),
+            Shape::DepthMap { grid } => (self.shape_key(i, "depth_map", "depth_um"), &grid.depth_um[..]),
+            Shape::Profile { depth_um: Some(depths), .. } => (self.shape_key(i, "profile", "depth_um"), &depths[..]),
+            _ => (format!("defects.{i}.depth_um"), std::slice::from_ref(&defect.depth_um)),
         };
         let deepest = depths.iter().fold(0.0, |m: f64, h| m.max(h.abs()));
         if deepest > most {
             self.error(
                 &key,
-                format!(
-                    "{} um is more than the roller's diameter; lengths in nm instead of um?",
-                    short(deepest)
-                ),
+                format!("{} um is more than the roller's diameter; lengths in nm instead of um?", short(deepest)),
                 format!("<= {} um", short(most)),
                 &["bearing.roller_diameter_mm"],
             );
@@ -405,12 +336,8 @@ impl Checker<'_> {
                 let arc = defect::Shape::new(&d.shape, depth).map_or((0.0, 0.0), |x| x.arc());
                 let radius = 0.5e-3
                     * match d.on {
-                        crate::scenario::Surface::OuterRaceway => {
-                            s.bearing.outer_raceway_diameter_mm
-                        }
-                        crate::scenario::Surface::InnerRaceway => {
-                            s.bearing.inner_raceway_diameter_mm
-                        }
+                        crate::scenario::Surface::OuterRaceway => s.bearing.outer_raceway_diameter_mm,
+                        crate::scenario::Surface::InnerRaceway => s.bearing.inner_raceway_diameter_mm,
                         crate::scenario::Surface::Roller(_) => s.bearing.roller_diameter_mm,
                     };
                 (d.center_deg.to_radians(), arc.0 / radius, arc.1 / radius)
@@ -422,9 +349,7 @@ impl Checker<'_> {
         };
         let path = match s.contact.roller_path {
             RollerPath::Point => "",
-            RollerPath::Envelope => {
-                "; the path is the envelope of both together, the deeper point of each"
-            }
+            RollerPath::Envelope => "; the path is the envelope of both together, the deeper point of each",
         };
         for (i, a) in s.defects.iter().enumerate() {
             for (j, b) in s.defects[..i].iter().enumerate() {
@@ -439,10 +364,7 @@ impl Checker<'_> {
                 let finder = self.finder;
                 self.problems.add_of(Severity::Warning, "overlaps", || {
                     let (key, other) = (format!("defects.{i}"), format!("defects.{j}"));
-                    let message = format!(
-                        "overlaps defect {} along the rolling direction; {rule}{path}",
-                        j + 1
-                    );
+                    let message = format!("overlaps defect {} along the rolling direction; {rule}{path}", j + 1);
                     let problem = Problem::new(Severity::Warning, key, message);
                     (finder.complete(problem, &[&other]), None)
                 });
@@ -453,9 +375,5 @@ impl Checker<'_> {
 
 /// A guess at what is wrong with an extent that is many times the roller.
 fn hint_of_scale(extent: f64, roller: f64) -> &'static str {
-    if extent > 100.0 * roller {
-        "; lengths in um instead of mm?"
-    } else {
-        ""
-    }
+    if extent > 100.0 * roller { "; lengths in um instead of mm?" } else { "" }
 }

@@ -15,22 +15,15 @@ impl Keys for Reader<'_> {
         let (path, entry) = self.name(&spec);
         let read = match entry {
             Some(entry) => self.read(&path, &spec, &entry.node),
-            None if matches!(fallback, Fallback::Instead { .. }) => {
-                self.fall_back(path, &spec, fallback)
-            }
-            None => self
-                .catalogued(&path, &spec)
-                .or_else(|| self.fall_back(path, &spec, fallback)),
+            None if matches!(fallback, Fallback::Instead { .. }) => self.fall_back(path, &spec, fallback),
+            None => self.catalogued(&path, &spec).or_else(|| self.fall_back(path, &spec, fallback)),
         };
         *value = read.unwrap_or_else(T::blank);
     }
 
     fn optional<T: Leaf>(&mut self, spec: Spec, value: &mut Option<T>) {
         let (path, entry) = self.name(&spec);
-        *value = entry.map(|entry| {
-            self.read(&path, &spec, &entry.node)
-                .unwrap_or_else(T::blank)
-        });
+        *value = entry.map(|entry| self.read(&path, &spec, &entry.node).unwrap_or_else(T::blank));
     }
 
     fn only_where<T: Leaf>(&mut self, spec: Spec, wanted: bool, case: &'static str, value: &mut T) {
@@ -38,13 +31,11 @@ impl Keys for Reader<'_> {
         *value = T::blank();
         match entry {
             Some(entry) if wanted => {
-                *value = self
-                    .read(&path, &spec, &entry.node)
-                    .unwrap_or_else(T::blank);
+                *value = self.read(&path, &spec, &entry.node).unwrap_or_else(T::blank);
             }
             Some(entry) => {
-                let problem = Problem::error(path, format!("has a meaning only where {case}"))
-                    .value(entry.node.brief());
+                let problem =
+                    Problem::error(path, format!("has a meaning only where {case}")).value(entry.node.brief());
                 self.problems.add(problem, entry.node.span.clone());
             }
             None if wanted => {
@@ -120,9 +111,8 @@ impl Keys for Reader<'_> {
         }
         self.preset_unknown = true;
         let names = || catalogue::all().iter().map(|entry| entry.name.as_str());
-        let hint = catalogue::nearest_name(name)
-            .map(|known| format!("; did you mean {}?", quote(known)))
-            .unwrap_or_default();
+        let hint =
+            catalogue::nearest_name(name).map(|known| format!("; did you mean {}?", quote(known))).unwrap_or_default();
         let path = join(&self.frame().path, spec.name);
         let span = self.found.get(&path).and_then(|node| node.span.clone());
         let problem = Problem::error(path, format!("not in the catalogue{hint}"))
@@ -149,13 +139,7 @@ impl Keys for Reader<'_> {
         self.leave();
     }
 
-    fn tables<T>(
-        &mut self,
-        spec: Spec,
-        items: &mut Vec<T>,
-        blank: fn() -> T,
-        mut keys: impl FnMut(&mut Self, &mut T),
-    ) {
+    fn tables<T>(&mut self, spec: Spec, items: &mut Vec<T>, blank: fn() -> T, mut keys: impl FnMut(&mut Self, &mut T)) {
         let (path, entry) = self.name(&spec);
         items.clear();
         let Some(entry) = entry else {
@@ -167,14 +151,12 @@ impl Keys for Reader<'_> {
             Problem::error(path.clone(), message).value(node.brief())
         };
         let Value::Array(nodes) = &entry.node.value else {
-            self.problems
-                .add(wrong(&entry.node), entry.node.span.clone());
+            self.problems.add(wrong(&entry.node), entry.node.span.clone());
             return;
         };
         if nodes.len() > MOST_TABLES {
             let message = format!("there are {} [[{path}]]", nodes.len());
-            let problem = Problem::error(path.clone(), message)
-                .allowed(format!("at most {MOST_TABLES} of them"));
+            let problem = Problem::error(path.clone(), message).allowed(format!("at most {MOST_TABLES} of them"));
             self.problems.add(problem, entry.node.span.clone());
             return;
         }
@@ -207,16 +189,11 @@ impl Keys for Reader<'_> {
             return;
         };
         let wrong = |message: String| {
-            Problem::error(path.clone(), message)
-                .value(entry.node.brief())
-                .allowed(format!("exactly one of {list}"))
+            Problem::error(path.clone(), message).value(entry.node.brief()).allowed(format!("exactly one of {list}"))
         };
         let Value::Table(table) = &entry.node.value else {
-            let message = format!(
-                "expected a table such as {{ {} = {{ ... }} }}, found {}",
-                known[0],
-                entry.node.kind()
-            );
+            let message =
+                format!("expected a table such as {{ {} = {{ ... }} }}, found {}", known[0], entry.node.kind());
             self.problems.add(wrong(message), entry.node.span.clone());
             return;
         };
@@ -227,17 +204,16 @@ impl Keys for Reader<'_> {
         for (name, inner) in table {
             let inner_path = join(&path, name);
             let Some(variant) = variants.iter().find(|variant| variant.name == name) else {
-                self.problems
-                    .add_of(Severity::Error, format!("unknown {}", spec.name), || {
-                        let hint = nearest(name, known.iter().copied())
-                            .map(|known| format!("; did you mean `{known}`?"))
-                            .unwrap_or_default();
-                        let message = format!("unknown {}{hint}", spec.name);
-                        let problem = Problem::error(brief_path(&inner_path), message)
-                            .value(inner.node.brief())
-                            .allowed(list.clone());
-                        (problem, inner.key_span.clone())
-                    });
+                self.problems.add_of(Severity::Error, format!("unknown {}", spec.name), || {
+                    let hint = nearest(name, known.iter().copied())
+                        .map(|known| format!("; did you mean `{known}`?"))
+                        .unwrap_or_default();
+                    let message = format!("unknown {}{hint}", spec.name);
+                    let problem = Problem::error(brief_path(&inner_path), message)
+                        .value(inner.node.brief())
+                        .allowed(list.clone());
+                    (problem, inner.key_span.clone())
+                });
                 continue;
             };
             if !matches!(inner.node.value, Value::Table(_)) {

@@ -5,11 +5,13 @@ use crate::cage::GuideForce;
 use crate::defect::{Angles, SIDES, Side, edge_gradient, edge_gradient_of_slices};
 use crate::model::{Model, Power, Tilt, Workspace};
 
-/// The push of damage's slopes, `edge_reaction = "conservative"` (section 3): the generalised forces -dE/dtheta on the orbit and -dE/dphi on the
-/// spin of each roller. At an inner defect the drive holds the ring against -dE/dW and so puts in dE/dW w_i.
+/// The push of damage's slopes, `edge_reaction = "conservative"` (section 3): the generalised forces -dE/dtheta on the
+/// orbit and -dE/dphi on the spin of each roller. At an inner defect the drive holds the ring against -dE/dW and so
+/// puts in dE/dW w_i.
 ///
-/// -dE/dtheta is a moment about the bearing's centre; over the roller's arm it is a force along e_t. The local angles know nothing of the
-/// rings' displacements, so that force has no reaction on them: the momentum audit books it as external.
+/// -dE/dtheta is a moment about the bearing's centre; over the roller's arm it is a force along e_t. The local angles
+/// know nothing of the rings' displacements, so that force has no reaction on them: the momentum audit books it as
+/// external.
 pub(super) fn edge_reaction(
     model: &Model,
     q: &[f64],
@@ -27,11 +29,7 @@ pub(super) fn edge_reaction(
             if !contacts.on_damage[slot] || contacts.elastic[slot] <= 0.0 {
                 continue;
             }
-            let angles = Angles {
-                orbit: q[l.theta() + slot],
-                spin: q[l.phi() + slot],
-                ring: turn.angle,
-            };
+            let angles = Angles { orbit: q[l.theta() + slot], spin: q[l.phi() + slot], ring: turn.angle };
             let arm = model.geometry.pitch_radius + q[l.r() + slot];
             let delta = contacts.deformation[slot];
             let defects = model.defects_of(slot, side);
@@ -40,9 +38,7 @@ pub(super) fn edge_reaction(
                 None => edge_gradient(defects, law, &angles, side, delta),
                 Some(slices) => {
                     let at = contacts.approach(slot);
-                    edge_gradient_of_slices(defects, &angles, side, cover, |cover| {
-                        slices.carry(law, &at, cover).energy
-                    })
+                    edge_gradient_of_slices(defects, &angles, side, cover, |cover| slices.carry(law, &at, cover).energy)
                 }
             };
             ws.edge_force[slot] -= e.orbit / arm;
@@ -53,8 +49,8 @@ pub(super) fn edge_reaction(
     }
 }
 
-/// What guides each cage (section 6), into the workspace. Long chains of operations that wait for one another and for no roller: a processor
-/// that is given them first works on the rollers meanwhile.
+/// What guides each cage (section 6), into the workspace. Long chains of operations that wait for one another and for
+/// no roller: a processor that is given them first works on the rollers meanwhile.
 #[inline(always)]
 pub(super) fn guidance(model: &Model, (q, v): (&[f64], &[f64]), w: f64, ws: &mut Workspace) {
     let l = &model.layout;
@@ -74,13 +70,7 @@ pub(super) fn guidance(model: &Model, (q, v): (&[f64], &[f64]), w: f64, ws: &mut
 
 /// The cages' own motion (Eq. 41).
 #[inline(always)]
-pub(super) fn cages(
-    model: &Model,
-    v: &[f64],
-    a: &mut [f64],
-    guidance: &[GuideForce],
-    sums: &mut Sums,
-) {
+pub(super) fn cages(model: &Model, v: &[f64], a: &mut [f64], guidance: &[GuideForce], sums: &mut Sums) {
     let l = &model.layout;
     let m = &model.inertia;
     let side = model.land_on();
@@ -112,31 +102,13 @@ pub(super) fn cages(
 
 /// Rings: Eqs. (28) and (35).
 #[inline(always)]
-pub(super) fn rings(
-    model: &Model,
-    t: f64,
-    (q, v): (&[f64], &[f64]),
-    a: &mut [f64],
-    sums: &mut Sums,
-) {
+pub(super) fn rings(model: &Model, t: f64, (q, v): (&[f64], &[f64]), a: &mut [f64], sums: &mut Sums) {
     let l = &model.layout;
     let m = &model.inertia;
     let (load_in, load_out) = model.load.on_rings(model.load.share(t));
     let rings = [
-        (
-            l.inner(),
-            m.inner_ring,
-            model.inner_support,
-            sums.on_inner,
-            load_in,
-        ),
-        (
-            l.outer(),
-            m.outer_ring,
-            model.outer_support,
-            sums.on_outer,
-            load_out,
-        ),
+        (l.inner(), m.inner_ring, model.inner_support, sums.on_inner, load_in),
+        (l.outer(), m.outer_ring, model.outer_support, sums.on_outer, load_out),
     ];
     for (at, mass, support, reaction, load) in rings {
         for k in 0..2 {
@@ -161,10 +133,7 @@ pub(super) fn tilting_rings(
 ) {
     let l = &model.layout;
     let (load_in, load_out) = model.load.on_rings(model.load.share(t));
-    let rings = [
-        (l.inner_tilt(), &tilt.inner, load_in),
-        (l.outer_tilt(), &tilt.outer, load_out),
-    ];
+    let rings = [(l.inner_tilt(), &tilt.inner, load_in), (l.outer_tilt(), &tilt.outer, load_out)];
     for ((at, ring, load), moment) in rings.into_iter().zip(sums.moments) {
         let spin = ring.polar_inertia * speed;
         // J ddtau_x = N_x - H dtau_y, J ddtau_y = N_y + H dtau_x.

@@ -1,5 +1,5 @@
-//! Contacts of rollers with raceways: how each moves, what may be on damage, elementary functions, damage, and what those that are closed
-//! carry.
+//! Contacts of rollers with raceways: how each moves, what may be on damage, elementary functions, damage, and what
+//! those that are closed carry.
 
 use super::rollers::{Plane, column, columns, pair, polar};
 use crate::contact::film::SqueezeFilm;
@@ -19,22 +19,13 @@ pub(super) fn candidates<L: Lanes>(model: &Model, ws: &mut Workspace) {
         if broad_phase.slots.is_empty() {
             continue;
         }
-        broad_phase.lanes::<L>(
-            (sin, cos),
-            &ws.directions[k],
-            &mut ws.candidates[k][..count],
-        );
+        broad_phase.lanes::<L>((sin, cos), &ws.directions[k], &mut ws.candidates[k][..count]);
     }
 }
 
 /// How each contact moves: deformation, its rate and slip.
 #[inline(always)]
-pub(super) fn motion<L: Lanes, const TILT: bool>(
-    model: &Model,
-    (q, v): (&[f64], &[f64]),
-    w: f64,
-    ws: &mut Workspace,
-) {
+pub(super) fn motion<L: Lanes, const TILT: bool>(model: &Model, (q, v): (&[f64], &[f64]), w: f64, ws: &mut Workspace) {
     let l = &model.layout;
     let g = &model.geometry;
     let count = l.slots / L::COUNT;
@@ -47,19 +38,10 @@ pub(super) fn motion<L: Lanes, const TILT: bool>(
     let surface = L::splat(w * g.inner_radius);
     let gap_in = column::<L>(&model.gaps[0], 0, count);
     let gap_out = column::<L>(&model.gaps[1], 0, count);
-    let Workspace {
-        sin,
-        cos,
-        contacts: [inner, outer],
-        ..
-    } = ws;
+    let Workspace { sin, cos, contacts: [inner, outer], .. } = ws;
     let sin = column::<L>(sin, 0, count);
     let cos = column::<L>(cos, 0, count);
-    let tilting = if TILT {
-        Some(Tilting::<L>::new(model, (q, v), count))
-    } else {
-        None
-    };
+    let tilting = if TILT { Some(Tilting::<L>::new(model, (q, v), count)) } else { None };
     let [delta_in, rate_in, slip_in, tilt_in, turn_in] = motion_of::<L>(inner, count);
     let [delta_out, rate_out, slip_out, tilt_out, turn_out] = motion_of::<L>(outer, count);
     for group in 0..count {
@@ -78,19 +60,13 @@ pub(super) fn motion<L: Lanes, const TILT: bool>(
             let (tau_r, tau_t) = polar(axes, &tilting.inner);
             let (dtau_r, dtau_t) = polar(axes, &tilting.inner_rate);
             (xi_r, xi_t) = (lever.times_plus(tau_r, xi_r), lever.times_plus(tau_t, xi_t));
-            (vi_r, vi_t) = (
-                lever.times_plus(dtau_r, vi_r),
-                lever.times_plus(dtau_t, vi_t),
-            );
+            (vi_r, vi_t) = (lever.times_plus(dtau_r, vi_r), lever.times_plus(dtau_t, vi_t));
             tilt_in[group] = (tau_r - beta).array();
             turn_in[group] = (dtheta.times_plus(tau_t, dtau_r) - dbeta).array();
             let (tau_r, tau_t) = polar(axes, &tilting.outer);
             let (dtau_r, dtau_t) = polar(axes, &tilting.outer_rate);
             (xo_r, xo_t) = (lever.times_plus(tau_r, xo_r), lever.times_plus(tau_t, xo_t));
-            (vo_r, vo_t) = (
-                lever.times_plus(dtau_r, vo_r),
-                lever.times_plus(dtau_t, vo_t),
-            );
+            (vo_r, vo_t) = (lever.times_plus(dtau_r, vo_r), lever.times_plus(dtau_t, vo_t));
             tilt_out[group] = (beta - tau_r).array();
             turn_out[group] = dtheta.minus_times(tau_t, dbeta - dtau_r).array();
         }
@@ -105,7 +81,8 @@ pub(super) fn motion<L: Lanes, const TILT: bool>(
     }
 }
 
-/// Elastic deformation, its rate and slip, and, where rollers tilt, how the former two change along the roller, to write to.
+/// Elastic deformation, its rate and slip, and, where rollers tilt, how the former two change along the roller, to
+/// write to.
 #[inline(always)]
 fn motion_of<L: Lanes>(contacts: &mut Contacts, count: usize) -> [&mut [L::Group]; 5] {
     [
@@ -145,8 +122,8 @@ impl<'a, L: Lanes> Tilting<'a, L> {
     }
 }
 
-/// What each contact asks of elementary functions: the elastic force of a healthy raceway (section 2), and tanh of the slip in place of the
-/// friction.
+/// What each contact asks of elementary functions: the elastic force of a healthy raceway (section 2), and tanh of the
+/// slip in place of the friction.
 #[inline(always)]
 pub(super) fn functions<L: Lanes>(model: &Model, ws: &mut Workspace) {
     let count = model.layout.slots / L::COUNT;
@@ -181,8 +158,8 @@ pub(super) fn functions<L: Lanes>(model: &Model, ws: &mut Workspace) {
     }
 }
 
-/// Forces of contacts slice by slice, healthy and on damage, and tanh of the slip in place of the friction: sections 15 and 16. Where nothing
-/// tilts the elastic forces alone, since the damper is the whole contact's there.
+/// Forces of contacts slice by slice, healthy and on damage, and tanh of the slip in place of the friction: sections 15
+/// and 16. Where nothing tilts the elastic forces alone, since the damper is the whole contact's there.
 #[inline(always)]
 pub(super) fn slices<L: Lanes, const TILT: bool>(
     model: &Model,
@@ -205,13 +182,8 @@ pub(super) fn slices<L: Lanes, const TILT: bool>(
                 let at = contacts.approach(slot);
                 let mut covered = false;
                 if (ws.candidates[k][group] >> lane) & 1 == 1 {
-                    let angles = Angles {
-                        orbit: q[l.theta() + slot],
-                        spin: q[l.phi() + slot],
-                        ring: ring_angle,
-                    };
-                    covered =
-                        cover_slices(model.defects_of(slot, side), &angles, side, &mut ws.cover);
+                    let angles = Angles { orbit: q[l.theta() + slot], spin: q[l.phi() + slot], ring: ring_angle };
+                    covered = cover_slices(model.defects_of(slot, side), &angles, side, &mut ws.cover);
                 }
                 contacts.on_damage[slot] = covered;
                 let pressed = if covered {
@@ -220,11 +192,7 @@ pub(super) fn slices<L: Lanes, const TILT: bool>(
                     Pressed::default()
                 } else if !TILT {
                     let [elastic, touching] = slices.press_evenly::<L>(law, at.deformation);
-                    Pressed {
-                        elastic,
-                        touching,
-                        ..Pressed::default()
-                    }
+                    Pressed { elastic, touching, ..Pressed::default() }
                 } else {
                     slices.press::<L>(law, &at, None)
                 };
@@ -279,11 +247,7 @@ fn on_damage(
     while candidates != 0 {
         let slot = first + candidates.trailing_zeros() as usize;
         candidates &= candidates - 1;
-        let angles = Angles {
-            orbit: q[l.theta() + slot],
-            spin: q[l.phi() + slot],
-            ring: ring_angle,
-        };
+        let angles = Angles { orbit: q[l.theta() + slot], spin: q[l.phi() + slot], ring: ring_angle };
         let damaged = damaged_contact_given(
             model.defects_of(slot, side),
             model.contact(side),
@@ -310,11 +274,7 @@ pub(super) struct Closed<L> {
 
 /// Normal forces (section 2) and friction (section 4) of one side.
 #[inline(always)]
-pub(super) fn closed<L: Lanes, const TILT: bool>(
-    model: &Model,
-    side: Side,
-    ws: &mut Workspace,
-) -> Closed<L> {
+pub(super) fn closed<L: Lanes, const TILT: bool>(model: &Model, side: Side, ws: &mut Workspace) -> Closed<L> {
     let count = model.layout.slots / L::COUNT;
     let contacts = &mut ws.contacts[side as usize];
     let maybe_closed = &ws.maybe_closed[side as usize][..count];
@@ -327,17 +287,14 @@ pub(super) fn closed<L: Lanes, const TILT: bool>(
     // A copy: what is written to does not lie in it, so its numbers stay in registers.
     let law = *model.contact(side);
     let mu = L::splat(model.friction.coefficient);
-    let mut sums = Closed {
-        contact: L::zero(),
-        friction: L::zero(),
-        max_elastic: L::zero(),
-    };
+    let mut sums = Closed { contact: L::zero(), friction: L::zero(), max_elastic: L::zero() };
     for group in 0..count {
         let (mut normal, mut tangential) = (L::zero(), L::zero());
         if maybe_closed[group] {
             let elastic = L::new(elastic[group]);
             let rate = L::new(rate[group]);
-            // A contact that parts faster than its damper lets it push carries no force, but still loses its elastic energy.
+            // A contact that parts faster than its damper lets it push carries no force, but still loses its elastic
+            // energy.
             if TILT {
                 normal = L::new(force[group]);
                 sums.contact += L::new(L::groups(&contacts.loss)[group]);
@@ -360,15 +317,10 @@ pub(super) fn closed<L: Lanes, const TILT: bool>(
     sums
 }
 
-/// What the films of open contacts carry, and what they take, W. On damage there is none: the oil has where to go. The gap is the one at the
-/// roller's middle.
+/// What the films of open contacts carry, and what they take, W. On damage there is none: the oil has where to go. The
+/// gap is the one at the roller's middle.
 #[inline(always)]
-fn squeezed<L: Lanes>(
-    film: &SqueezeFilm,
-    damping: f64,
-    candidates: &[u8],
-    contacts: &mut Contacts,
-) -> L {
+fn squeezed<L: Lanes>(film: &SqueezeFilm, damping: f64, candidates: &[u8], contacts: &mut Contacts) -> L {
     let mut taken = L::zero();
     for group in 0..contacts.film.len() / L::COUNT {
         let gap = (-L::new(L::groups(&contacts.deformation)[group])).positive_part();

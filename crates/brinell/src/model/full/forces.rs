@@ -54,11 +54,7 @@ pub(super) fn forces<L: Lanes, const TILT: bool>(
 
     let mut on_inner = [L::zero(); 2];
     let mut on_outer = [L::zero(); 2];
-    let mut turning = if TILT {
-        Some(Turning::<L>::new(model, q))
-    } else {
-        None
-    };
+    let mut turning = if TILT { Some(Turning::<L>::new(model, q)) } else { None };
     let (mut drive, mut drags, mut lever) = (L::zero(), L::zero(), pockets.lever);
     for group in 0..count {
         let r = L::new(q_r[group]);
@@ -108,10 +104,7 @@ pub(super) fn forces<L: Lanes, const TILT: bool>(
             turning.take(group, axes, forces, moments);
             out_beta[group] = ((moments[0] - moments[1]) * turning.per_inertia).array();
             let z = L::new(turning.levers[group]);
-            let (tau_i, tau_o) = (
-                along_t(axes, &turning.tau[0]),
-                along_t(axes, &turning.tau[1]),
-            );
+            let (tau_i, tau_o) = (along_t(axes, &turning.tau[0]), along_t(axes, &turning.tau[1]));
             (xi_t, xo_t) = (z.times_plus(tau_i, xi_t), z.times_plus(tau_o, xo_t));
             lever = dtheta.times_plus(moments[0] * tau_i - moments[1] * tau_o, lever);
         }
@@ -121,9 +114,7 @@ pub(super) fn forces<L: Lanes, const TILT: bool>(
     Sums {
         on_inner: on_inner.map(L::sum),
         on_outer: on_outer.map(L::sum),
-        moments: turning.map_or([[0.0; 2]; 2], |turning| {
-            turning.moments.map(|m| m.map(L::sum))
-        }),
+        moments: turning.map_or([[0.0; 2]; 2], |turning| turning.moments.map(|m| m.map(L::sum))),
         power: Power {
             contact: (inner.contact + outer.contact).sum(),
             friction: (inner.friction + outer.friction).sum(),

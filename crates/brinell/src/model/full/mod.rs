@@ -1,7 +1,7 @@
 //! The equations of motion of every part, section 8 of the model: Eqs. (28), (35), (41), (51).
 //!
-//! Levers are those of the centred bearing, as in the paper; the energy that this leaves over is booked as [`Power::lever`]. All
-//! is written once, over lanes: as many rollers at a time as the kernel has, or one.
+//! Levers are those of the centred bearing, as in the paper; the energy that this leaves over is booked as
+//! [`Power::lever`]. All is written once, over lanes: as many rollers at a time as the kernel has, or one.
 
 mod bodies;
 mod contacts;
@@ -60,13 +60,7 @@ struct Sums {
 
 /// Accelerations at (t, y).
 #[inline(always)]
-pub(super) fn equations<L: Lanes>(
-    model: &Model,
-    t: f64,
-    y: &[f64],
-    a: &mut [f64],
-    ws: &mut Workspace,
-) {
+pub(super) fn equations<L: Lanes>(model: &Model, t: f64, y: &[f64], a: &mut [f64], ws: &mut Workspace) {
     let dof = model.layout.dof();
     let (q, v) = y.split_at(dof);
     let (speed, angle) = model.rotation.at(t);

@@ -29,12 +29,7 @@ impl<L: Lanes> Cages<L> {
             }
         }
         let [x, y, theta, dx, dy, dtheta] = all;
-        Self {
-            x: [x, y],
-            theta,
-            v: [dx, dy],
-            dtheta,
-        }
+        Self { x: [x, y], theta, v: [dx, dy], dtheta }
     }
 }
 
@@ -48,13 +43,7 @@ pub(super) struct Pockets<L> {
 
 /// Pockets, section 5: their forces on the rollers, and the reactions on the cages, into `a`.
 #[inline(always)]
-pub(super) fn pockets<L: Lanes>(
-    model: &Model,
-    q: &[f64],
-    v: &[f64],
-    a: &mut [f64],
-    ws: &mut Workspace,
-) -> Pockets<L> {
+pub(super) fn pockets<L: Lanes>(model: &Model, q: &[f64], v: &[f64], a: &mut [f64], ws: &mut Workspace) -> Pockets<L> {
     let l = &model.layout;
     let g = &model.geometry;
     let count = l.slots / L::COUNT;
@@ -62,13 +51,7 @@ pub(super) fn pockets<L: Lanes>(
     let [v_r, v_theta, v_phi] = columns::<L>(v, count);
     let pocket_angle = column::<L>(&model.pocket_angle, 0, count);
     let pocket_gap = column::<L>(&model.pocket_gap, 0, count);
-    let Workspace {
-        sin,
-        cos,
-        pocket_force,
-        pocket_friction,
-        ..
-    } = ws;
+    let Workspace { sin, cos, pocket_force, pocket_friction, .. } = ws;
     let sin = column::<L>(sin, 0, count);
     let cos = column::<L>(cos, 0, count);
     let pocket_force = &mut L::groups_mut(pocket_force)[..count];
@@ -77,11 +60,7 @@ pub(super) fn pockets<L: Lanes>(
     let radius = L::splat(g.roller_radius);
     let one = L::splat(1.0);
     let pocket = model.pocket;
-    let mut sums = Pockets {
-        pocket: L::zero(),
-        friction: L::zero(),
-        lever: L::zero(),
-    };
+    let mut sums = Pockets { pocket: L::zero(), friction: L::zero(), lever: L::zero() };
     let period = l.row_period() / L::COUNT;
     for phase in 0..period {
         let cage = Cages::<L>::spread(model, q, v, phase);
@@ -96,11 +75,7 @@ pub(super) fn pockets<L: Lanes>(
             let (mut push, mut rub) = (L::zero(), L::zero());
             if depth.any_positive() {
                 let (sin, cos) = axes;
-                let (dr, dtheta, dphi) = (
-                    L::new(v_r[group]),
-                    L::new(v_theta[group]),
-                    L::new(v_phi[group]),
-                );
+                let (dr, dtheta, dphi) = (L::new(v_r[group]), L::new(v_theta[group]), L::new(v_phi[group]));
                 let (xc_r, _) = polar(axes, &cage.x);
                 let (vc_r, vc_t) = polar(axes, &cage.v);
                 let ds = dtheta.minus_times(xc_r, pitch.times_plus(cage.dtheta - dtheta, vc_t));

@@ -1,5 +1,5 @@
-//! The rollers, a group of lanes at a time, in passes: how each contact moves and what may be on damage; the elementary functions;
-//! damage; and forces, pockets and what the bodies feel. Padded slots never close a contact and never move.
+//! The rollers, a group of lanes at a time, in passes: how each contact moves and what may be on damage; the elementary
+//! functions; damage; and forces, pockets and what the bodies feel. Padded slots never close a contact and never move.
 
 use super::{Sums, Turn, contacts, forces};
 use crate::lanes::Lanes;
@@ -17,8 +17,8 @@ pub(super) fn rollers<L: Lanes, const TILT: bool>(
     for (broad_phase, directions) in model.broad_phase.iter().zip(&mut ws.directions) {
         broad_phase.turn(turn.angle, directions);
     }
-    // A pass for each function that is a long chain of operations which wait for one another: with little in between, the processor
-    // works on several groups at once.
+    // A pass for each function that is a long chain of operations which wait for one another: with little in between,
+    // the processor works on several groups at once.
     directions::<L::Pair>(model, q, ws);
     contacts::motion::<L, TILT>(model, (q, v), turn.speed, ws);
     contacts::candidates::<L::Pair>(model, ws);
@@ -40,19 +40,12 @@ pub(super) fn column<L: Lanes>(from: &[f64], k: usize, count: usize) -> &[L::Gro
 /// r, theta and phi.
 #[inline(always)]
 pub(super) fn columns<L: Lanes>(from: &[f64], count: usize) -> [&[L::Group]; 3] {
-    [
-        column::<L>(from, 0, count),
-        column::<L>(from, 1, count),
-        column::<L>(from, 2, count),
-    ]
+    [column::<L>(from, 0, count), column::<L>(from, 1, count), column::<L>(from, 2, count)]
 }
 
 /// Three columns to write to, and what follows them.
 #[inline(always)]
-pub(super) fn columns_mut<L: Lanes>(
-    from: &mut [f64],
-    count: usize,
-) -> ([&mut [L::Group]; 3], &mut [L::Group]) {
+pub(super) fn columns_mut<L: Lanes>(from: &mut [f64], count: usize) -> ([&mut [L::Group]; 3], &mut [L::Group]) {
     let (first, rest) = L::groups_mut(from).split_at_mut(count);
     let (second, rest) = rest.split_at_mut(count);
     let (third, rest) = rest.split_at_mut(count);
@@ -70,10 +63,7 @@ pub(super) fn pair<L: Lanes>(from: &[f64]) -> Plane<L> {
 /// u along e_r and along e_t.
 #[inline(always)]
 pub(super) fn polar<L: Lanes>((sin, cos): (L, L), u: &Plane<L>) -> (L, L) {
-    (
-        cos.times_plus(u[0], sin * u[1]),
-        sin.minus_times(u[0], cos * u[1]),
-    )
+    (cos.times_plus(u[0], sin * u[1]), sin.minus_times(u[0], cos * u[1]))
 }
 
 /// u along e_t.
