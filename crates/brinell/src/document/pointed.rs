@@ -5,13 +5,13 @@ use super::problem::{Problem, Severity};
 /// The problems of a text called `name`, each followed by the line that it is about, the place marked beneath; last how
 /// many errors there are, where there are several. No line break at the end.
 pub fn pointed_out(name: &str, text: &str, problems: &[Problem]) -> String {
-    let mut told = Vec::new();
+    let mut rendered = Vec::new();
     let lines: Vec<&str> = match problems.iter().any(|p| p.line.is_some()) {
         true => text.lines().collect(),
         false => Vec::new(),
     };
     for problem in problems {
-        told.push(problem.to_string());
+        rendered.push(problem.to_string());
         let (Some(line), Some(column)) = (problem.line, problem.column) else {
             continue;
         };
@@ -27,17 +27,17 @@ pub fn pointed_out(name: &str, text: &str, problems: &[Problem]) -> String {
         let shown: String = source.chars().skip(from).take(100).collect();
         let number = line.to_string();
         let gutter = " ".repeat(number.len());
-        told.push(format!("  {gutter}--> {name}:{line}:{column}"));
-        told.push(format!("  {number} | {shown}"));
+        rendered.push(format!("  {gutter}--> {name}:{line}:{column}"));
+        rendered.push(format!("  {number} | {shown}"));
         let marks = "^".repeat(length.min(100usize.saturating_sub(column - 1 - from).max(1)));
         let before = " ".repeat(column - 1 - from);
-        told.push(format!("  {gutter} | {before}{marks}"));
+        rendered.push(format!("  {gutter} | {before}{marks}"));
     }
     let errors: usize = problems.iter().filter(|p| p.severity == Severity::Error).map(|p| p.count).sum();
     if errors > 1 {
-        told.push(format!("{errors} errors in {name}"));
+        rendered.push(format!("{errors} errors in {name}"));
     }
-    told.join("\n")
+    rendered.join("\n")
 }
 
 /// The errors among problems on one line, as tables have them: without the word itself.

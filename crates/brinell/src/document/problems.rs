@@ -119,13 +119,13 @@ mod tests {
         }
         assert_eq!((made, problems.count()), (MOST_OF_A_KIND, 2000));
         problems.add(Problem::error("b", "wrong"), None);
-        let told = problems.finish();
-        let words: Vec<String> = told.iter().map(ToString::to_string).collect();
+        let reported = problems.finish();
+        let words: Vec<String> = reported.iter().map(ToString::to_string).collect();
         assert_eq!(words[0], "error: b: wrong");
         assert_eq!(words[1], "warning, line 1: k0: odd; very");
         assert_eq!(words[21], "warning: and 1980 more like k19: odd");
-        assert_eq!(told.iter().map(|p| p.count).sum::<usize>(), 2001);
-        assert_eq!(told.len(), 22);
+        assert_eq!(reported.iter().map(|p| p.count).sum::<usize>(), 2001);
+        assert_eq!(reported.len(), 22);
     }
 
     #[test]
@@ -136,8 +136,8 @@ mod tests {
                 problems.add(Problem::error(format!("{a}{b}x"), "wrong"), None);
             }
         }
-        let told = problems.finish();
-        assert!(told.len() <= MOST_KINDS + MOST_OF_A_KIND + 1);
-        assert_eq!(told.iter().map(|p| p.count).sum::<usize>(), 26 * 26);
+        let reported = problems.finish();
+        assert!(reported.len() <= MOST_KINDS + MOST_OF_A_KIND + 1);
+        assert_eq!(reported.iter().map(|p| p.count).sum::<usize>(), 26 * 26);
     }
 }

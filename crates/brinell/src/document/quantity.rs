@@ -274,8 +274,8 @@ mod tests {
             ("1 mm^", "mm", "unknown unit"),
             ("1 mm^100", "mm", "unknown unit"),
         ] {
-            let told = read(text, unit).unwrap_err();
-            assert!(told.contains(words), "{text}: {told}");
+            let message = read(text, unit).unwrap_err();
+            assert!(message.contains(words), "{text}: {message}");
         }
         for unit in ["", "N/m^n", "px", "%", "dB"] {
             assert!(!is_convertible(unit), "{unit}");

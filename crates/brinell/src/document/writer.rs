@@ -27,12 +27,12 @@ pub(crate) struct Writer<'a> {
     /// Keys of the inline table being written.
     inline: Option<Vec<String>>,
     /// Explanations of an inline table's keys, and reasons of its assumed values.
-    asides: Vec<String>,
+    comments: Vec<String>,
 }
 
 impl<'a> Writer<'a> {
     pub(crate) fn new(style: Style<'a>) -> Writer<'a> {
-        Writer { style, out: String::new(), lines: Vec::new(), path: Vec::new(), inline: None, asides: Vec::new() }
+        Writer { style, out: String::new(), lines: Vec::new(), path: Vec::new(), inline: None, comments: Vec::new() }
     }
 
     pub(crate) fn finish(mut self) -> String {
@@ -88,7 +88,7 @@ impl<'a> Writer<'a> {
         if let Some(inline) = &mut self.inline {
             inline.push(code);
             if !remark.is_empty() {
-                self.asides.push(format!("{}: {remark}", spec.name));
+                self.comments.push(format!("{}: {remark}", spec.name));
             }
             return;
         }
@@ -97,9 +97,9 @@ impl<'a> Writer<'a> {
     }
 
     /// Explains a key that has no value: beside the inline table that would hold it, or on a line of its own.
-    fn aside(&mut self, text: String) {
+    fn comment(&mut self, text: String) {
         if self.inline.is_some() {
-            self.asides.push(text);
+            self.comments.push(text);
         } else {
             let line = Line { code: String::new(), comment: text };
             self.lines.push(line);
@@ -165,7 +165,7 @@ impl Keys for Writer<'_> {
         if let Some(value) = value {
             self.add(&spec, T::range, &value.write(), true);
         } else if self.is_template() {
-            self.aside(format!("{}: {}", spec.name, explain(&spec, T::range)));
+            self.comment(format!("{}: {}", spec.name, explain(&spec, T::range)));
         }
     }
 
@@ -173,7 +173,7 @@ impl Keys for Writer<'_> {
         if wanted {
             self.add(&spec, T::range, &value.write(), true);
         } else if self.is_template() && (self.inline.is_some() || !value.fits(&spec)) {
-            self.aside(format!("{}: {}; only where {case}", spec.name, explain(&spec, T::range)));
+            self.comment(format!("{}: {}; only where {case}", spec.name, explain(&spec, T::range)));
         } else if self.is_template() {
             self.add(&spec, T::range, &value.write(), false);
             if let Some(line) = self.lines.last_mut() {
@@ -192,7 +192,7 @@ impl Keys for Writer<'_> {
         if wanted {
             self.key(spec, fallback, value);
         } else if self.is_template() {
-            self.aside(format!("{}: {}; only where {case}", spec.name, explain(&spec, T::range)));
+            self.comment(format!("{}: {}; only where {case}", spec.name, explain(&spec, T::range)));
         }
     }
 
@@ -222,7 +222,7 @@ impl Keys for Writer<'_> {
 
     fn tables<T>(&mut self, spec: Spec, items: &mut Vec<T>, _: fn() -> T, mut keys: impl FnMut(&mut Self, &mut T)) {
         if items.is_empty() && self.is_template() && !self.path.is_empty() {
-            self.aside(format!("[[{}]]: {}", self.path_of(spec.name), spec.doc));
+            self.comment(format!("[[{}]]: {}", self.path_of(spec.name), spec.doc));
         }
         for (i, item) in items.iter_mut().enumerate() {
             self.header(format!("[[{}]]", self.path_of(spec.name)), spec.doc);
@@ -245,7 +245,7 @@ impl Keys for Writer<'_> {
         let mut walk = |writer: &mut Self, name: &str, value: &mut T| {
             writer.path.push(name.to_string());
             writer.inline = Some(Vec::new());
-            writer.asides.clear();
+            writer.comments.clear();
             keys(writer, value);
             writer.path.pop();
             writer.inline.take().unwrap_or_default().join(", ")
@@ -258,15 +258,15 @@ impl Keys for Writer<'_> {
             for variant in variants {
                 walk(self, variant.name, &mut (variant.blank)());
                 say(self, format!("  {}: {}", variant.name, variant.doc));
-                for aside in std::mem::take(&mut self.asides) {
-                    say(self, format!("    {aside}"));
+                for comment in std::mem::take(&mut self.comments) {
+                    say(self, format!("    {comment}"));
                 }
             }
         }
         let inner = walk(self, chosen, value);
         self.path.pop();
         let comment = match self.style {
-            Style::Resolved(_) => std::mem::take(&mut self.asides).join("; "),
+            Style::Resolved(_) => std::mem::take(&mut self.comments).join("; "),
             Style::Template(_) => String::new(),
         };
         self.lines.push(Line { code: format!("{} = {{ {chosen} = {{ {inner} }} }}", spec.name), comment });
