@@ -1,7 +1,7 @@
 //! What can go wrong, and how it is reported.
 
 use crate::say::complain;
-use brinell::document::{Problem, pointed_out};
+use brinell::document::{Problem, render_diagnostics};
 use brinell::model::ModelError;
 use brinell_io::IoError;
 use std::path::PathBuf;
@@ -109,6 +109,6 @@ impl From<IoError> for Failure {
 /// Each problem with the line that it is about.
 pub(crate) fn print_problems(name: &str, text: &str, problems: &[Problem]) {
     if !problems.is_empty() {
-        complain!("{}", pointed_out(name, text, problems));
+        complain!("{}", render_diagnostics(name, text, problems));
     }
 }

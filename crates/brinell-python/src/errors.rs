@@ -2,7 +2,7 @@
 
 use crate::convert::json_to_python;
 use brinell::Error as Failure;
-use brinell::document::{Problem, Severity, pointed_out};
+use brinell::document::{Problem, Severity, render_diagnostics};
 use pyo3::exceptions::{PyMemoryError, PyOSError, PyRuntimeError, PyValueError};
 use pyo3::prelude::*;
 use serde_json::json;
@@ -37,7 +37,7 @@ pub(crate) fn unreadable(path: &Path, error: &std::io::Error) -> PyErr {
 /// What is wrong with a scenario; `seen` is the name and text of a file that its author can look at.
 pub(crate) fn scenario_error(py: Python, problems: Vec<Problem>, seen: Option<(&str, &str)>) -> PyErr {
     let words = match seen {
-        Some((name, text)) => pointed_out(name, text, &problems),
+        Some((name, text)) => render_diagnostics(name, text, &problems),
         None => {
             let texts: Vec<String> = problems.iter().map(ToString::to_string).collect();
             texts.join("\n")

@@ -129,6 +129,7 @@ pub mod contact;
 #[doc(hidden)]
 pub mod defect;
 pub mod derived;
+mod did_you_mean;
 pub mod document;
 #[doc(hidden)]
 pub mod elementary;
@@ -141,7 +142,6 @@ pub mod lamina;
 pub mod lanes;
 #[doc(hidden)]
 pub mod model;
-mod nearest;
 pub mod observe;
 #[doc(hidden)]
 pub mod operation;

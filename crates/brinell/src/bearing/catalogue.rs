@@ -5,7 +5,7 @@
 
 use super::designation::{plain, readings, with_zeros};
 use super::kinematics::Geometry;
-use crate::nearest::nearest;
+use crate::did_you_mean::did_you_mean;
 use std::sync::LazyLock;
 
 /// One bearing.
@@ -139,7 +139,7 @@ pub fn nearest_name(name: &str) -> Option<&'static str> {
     }
     let base = readings(name).into_iter().next().map(|(base, _)| base);
     let base = base.unwrap_or_else(|| plain(name));
-    nearest(&base, all().iter().map(|entry| entry.name.as_str()))
+    did_you_mean(&base, all().iter().map(|entry| entry.name.as_str()))
 }
 
 fn parse(text: &str) -> Result<Vec<Entry>, String> {

@@ -5,7 +5,7 @@ use super::catalogue::{self, Entry};
 use super::designation::with_zeros;
 use super::kinematics::{Geometry, Kinematics, frequency_table};
 use crate::analysis::{DefectOrders, NAMED, NamedBearing};
-use crate::nearest::nearest;
+use crate::did_you_mean::did_you_mean;
 use std::f64::consts::TAU;
 
 /// Of a bearing of the catalogue or a scenario.
@@ -46,7 +46,7 @@ impl KnownBearing {
         let zeros = with_zeros(name).and_then(|name| Self::find(&name));
         let meant = (zeros.map(Self::name))
             .or_else(|| catalogue::nearest_name(name))
-            .or_else(|| nearest(name, names.iter().copied()));
+            .or_else(|| did_you_mean(name, names.iter().copied()));
         let hint = meant.map_or(String::new(), |name| format!("; did you mean {name}?"));
         let joint = if hint.is_empty() { "; there" } else { " There" };
         format!("no bearing {name:?}{hint}{joint} are {}", names.join(", "))

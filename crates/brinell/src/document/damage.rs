@@ -1,10 +1,10 @@
 //! Every key of a `[[defects]]` entry and of its shape.
 
+use super::enum_strings::SurfaceWord;
 use super::keys::Fallback::{Needed, Required};
 use super::keys::{Keys, Spec, Variant, assumed, derived, key, stated};
 use super::sections::PAPER;
-use super::words::SurfaceWord;
-use super::{blank, damage_files};
+use super::{damage_files, unset};
 use crate::scenario::*;
 
 /// The shapes of a defect.
@@ -12,61 +12,61 @@ const SHAPES: &[Variant<Shape>] = &[
     Variant {
         name: "rectangle",
         doc: "as wide all along",
-        blank: blank::rectangle,
+        blank: unset::rectangle,
         is: |shape| matches!(shape, Shape::Rectangle { .. }),
     },
     Variant {
         name: "circle",
         doc: "a round pit",
-        blank: blank::circle,
+        blank: unset::circle,
         is: |shape| matches!(shape, Shape::Circle { .. }),
     },
     Variant {
         name: "profile",
         doc: "points joined by lines; where arc_mm repeats, it jumps",
-        blank: blank::profile,
+        blank: unset::profile,
         is: |shape| matches!(shape, Shape::Profile { .. }),
     },
     Variant {
         name: "li2023_irregular",
         doc: "the paper's irregular spall, 7 mm long",
-        blank: blank::irregular,
+        blank: unset::irregular,
         is: |shape| matches!(shape, Shape::Li2023Irregular { .. }),
     },
     Variant {
         name: "outline",
         doc: "polygons seen from above; a polygon within another is a hole",
-        blank: blank::outline,
+        blank: unset::outline,
         is: |shape| matches!(shape, Shape::Outline { .. }),
     },
     Variant {
         name: "depth_map",
         doc: "depths on a grid, bilinear between its nodes: in a file, or written out",
-        blank: blank::depth_map,
+        blank: unset::depth_map,
         is: |shape| matches!(shape, Shape::DepthMap { .. } | Shape::Scan(_)),
     },
     Variant {
         name: "grown",
         doc: "an outline scaled alike in both directions to a width or an area",
-        blank: blank::grown,
+        blank: unset::grown,
         is: |shape| matches!(shape, Shape::Grown { .. }),
     },
     Variant {
         name: "random",
         doc: "a ragged spall drawn from a seed, its mean depth the defect's",
-        blank: blank::random,
+        blank: unset::random,
         is: |shape| matches!(shape, Shape::Random { .. }),
     },
     Variant {
         name: "image",
         doc: "a photo or a mask, PNG or JPEG",
-        blank: blank::image,
+        blank: unset::image,
         is: |shape| matches!(shape, Shape::Image(_)),
     },
     Variant {
         name: "svg",
         doc: "a drawing from a vector editor",
-        blank: blank::svg,
+        blank: unset::svg,
         is: |shape| matches!(shape, Shape::Svg(_)),
     },
 ];
@@ -186,8 +186,8 @@ const MOST_NODES: f64 = 20_000.0;
 
 fn depth_map<K: Keys>(k: &mut K, shape: &mut Shape) {
     let (mut file, mut g, mut scan) = match shape {
-        Shape::DepthMap { grid } => (None, grid.clone(), blank::scan()),
-        Shape::Scan(scan) => (Some(scan.file.clone()), blank::grid(), scan.clone()),
+        Shape::DepthMap { grid } => (None, grid.clone(), unset::scan()),
+        Shape::Scan(scan) => (Some(scan.file.clone()), unset::grid(), scan.clone()),
         _ => return,
     };
     k.optional(

@@ -398,7 +398,7 @@ impl<T: Choice> Leaf for T {
             let words = T::WORDS.iter().map(|(word, ..)| *word);
             let hint = match T::RENAMED {
                 Some((old, new)) if old == text => format!("; it is called {} now", quote(new)),
-                _ => crate::nearest::nearest(text, words)
+                _ => crate::did_you_mean::did_you_mean(text, words)
                     .map(|word| format!("; did you mean {}?", quote(word)))
                     .unwrap_or_default(),
             };

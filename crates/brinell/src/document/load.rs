@@ -7,7 +7,7 @@ use super::problem::{Place, Problem, Severity};
 use super::provenance::{Origin, Provenance};
 use super::reader::Reader;
 use super::writer::{Style, Writer};
-use super::{blank, recorded, sections, source};
+use super::{recorded, sections, source, unset};
 use crate::scenario::{Scenario, Shape};
 
 /// A scenario that can run, and where its values come from.
@@ -28,7 +28,7 @@ pub struct Loaded {
 /// Every problem of the text at once, warnings after errors.
 pub fn read(text: &str, overrides: &[(String, String)]) -> Result<Loaded, Vec<Problem>> {
     let root = source::parse(text, overrides)?;
-    let mut scenario = blank::scenario();
+    let mut scenario = unset::scenario();
     let mut reader = Reader::new(text, &root);
     reader.read_recorded();
     sections::scenario(&mut reader, &mut scenario);

@@ -4,15 +4,15 @@
 //! what no single key can say: geometry that does not fit, a defect wider than its roller.
 
 mod bearing_keys;
-mod blank;
 mod checks;
 mod damage;
 mod damage_files;
+mod diagnostics;
+mod enum_strings;
 mod example;
 mod keys;
 mod leaf;
 mod load;
-mod pointed;
 mod problem;
 mod problems;
 mod profile_leaf;
@@ -27,16 +27,16 @@ mod sensor;
 mod shape_leaf;
 mod source;
 mod speed_leaf;
-mod words;
+mod unset;
 mod writer;
 
+pub use diagnostics::render_diagnostics;
+#[doc(hidden)]
+pub use diagnostics::{on_one_line, one_line};
 pub use example::{explained, template};
 #[doc(hidden)]
 pub use keys::unit_of_key;
 pub use load::{Loaded, read, read_bytes};
-pub use pointed::pointed_out;
-#[doc(hidden)]
-pub use pointed::{on_one_line, one_line};
 pub use problem::{Place, Problem, Severity};
 #[doc(hidden)]
 pub use problems::{MOST_OF_A_KIND, Problems, numberless};

@@ -15,7 +15,7 @@ use super::schema::known_keys;
 use super::source::{Entry, Node, Table, Value, brief_path, override_value};
 use crate::bearing::catalogue;
 use crate::bearing::clearance::ClearanceClass;
-use crate::nearest::nearest;
+use crate::did_you_mean::did_you_mean;
 
 /// Tables of one list, such as `[[defects]]`, at most.
 const MOST_TABLES: usize = 5000;
@@ -329,9 +329,9 @@ fn unknown(vocabulary: &[(String, String)], frame: &Frame<'_>, name: &str, entry
     };
     let hint = if vocabulary.iter().any(|(_, known)| known == name) {
         format!("; it belongs in {}", elsewhere(name))
-    } else if let Some(known) = nearest(name, frame.named.iter().copied()) {
+    } else if let Some(known) = did_you_mean(name, frame.named.iter().copied()) {
         format!("; did you mean `{known}`?")
-    } else if let Some(known) = nearest(name, vocabulary.iter().map(|(_, k)| k.as_str())) {
+    } else if let Some(known) = did_you_mean(name, vocabulary.iter().map(|(_, k)| k.as_str())) {
         format!("; did you mean `{known}` in {}?", elsewhere(known))
     } else {
         String::new()

@@ -16,7 +16,7 @@ use super::leaf::{Leaf, Misfit, elements, wrong_type};
 use super::provenance::Provenance;
 use super::schema::known_keys;
 use super::source::{Node, Value, quote};
-use crate::nearest::nearest;
+use crate::did_you_mean::did_you_mean;
 
 /// Name of the section.
 pub(crate) const SECTION: &str = "provenance";
@@ -110,7 +110,7 @@ fn exists(key: &str) -> Result<(), Misfit> {
     if known_keys().iter().any(|(s, n)| *s == section && n == name) {
         return Ok(());
     }
-    let near = nearest(name, known_keys().iter().map(|(_, name)| name.as_str()));
+    let near = did_you_mean(name, known_keys().iter().map(|(_, name)| name.as_str()));
     let hint = near.map(|known| format!("; did you mean `{known}`?"));
     Err(Misfit::new(format!("{} is no key of a scenario{}", quote(key), hint.unwrap_or_default()), ""))
 }

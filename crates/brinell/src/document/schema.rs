@@ -6,7 +6,7 @@ use serde_json::{Map, Value as Json, json};
 
 use super::keys::{Fallback, Keys, Spec, Variant};
 use super::leaf::Leaf;
-use super::{blank, recorded, sections};
+use super::{recorded, sections, unset};
 
 /// Keys of a table, as far as the walk has come.
 #[derive(Default)]
@@ -217,7 +217,7 @@ pub fn schema_of(title: &str, doc: &str, list: impl FnOnce(&mut Schema)) -> Json
 pub fn json_schema() -> Json {
     let doc = "one run of brinell, completely described";
     schema_of("brinell scenario", doc, |walk| {
-        sections::scenario(walk, &mut blank::scenario());
+        sections::scenario(walk, &mut unset::scenario());
         recorded::provenance(walk, &mut None);
     })
 }

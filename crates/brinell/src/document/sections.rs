@@ -4,11 +4,11 @@
 use std::f64::consts::PI;
 
 use super::bearing_keys::{bearing, tilt_key};
-use super::blank;
 use super::damage::defect;
 use super::keys::Fallback::{self, Needed, Required};
 use super::keys::{Keys, assumed, derived, key, stated};
 use super::sensor::sensor;
+use super::unset;
 use crate::contact::ball;
 use crate::scenario::*;
 
@@ -47,7 +47,7 @@ pub(crate) fn scenario<K: Keys>(k: &mut K, s: &mut Scenario) {
         support(k, (model, &s.bearing, s.operation.load_on), &mut s.support)
     });
     let load = s.operation.load_n;
-    k.tables(key("defects", "damage: none, one or many"), &mut s.defects, blank::defect, |k, d| defect(k, load, d));
+    k.tables(key("defects", "damage: none, one or many"), &mut s.defects, unset::defect, |k, d| defect(k, load, d));
     k.section(key("sensor", "from the outer ring to the record: nothing, unless a key says so"), |k| {
         sensor(k, &mut s.sensor)
     });

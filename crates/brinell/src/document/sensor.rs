@@ -1,7 +1,7 @@
 //! The keys of `[sensor]`. All are optional: what is not given is not there.
 
-use super::blank;
 use super::keys::{Keys, assumed, key, stated};
+use super::unset;
 use crate::scenario::{NoiseColour, PathMode, Sensor};
 
 /// Largest share of critical damping; a mode beyond is no resonance, and its equations here need one below 1.
@@ -36,7 +36,7 @@ pub(super) fn sensor<K: Keys>(k: &mut K, s: &mut Sensor) {
     k.optional(key("converter_bits", "whole steps: 2^bits of them").from(2.0).to(32.0), &mut s.converter_bits);
     k.optional(key("converter_range_m_per_s2", "its ends, plus and minus").above(0.0), &mut s.converter_range_m_per_s2);
     k.optional(key("converter_range_mv", "the same as a voltage").above(0.0), &mut s.converter_range_mv);
-    k.tables(key("path", "modes of the structure between ring and sensor"), &mut s.path, blank::path_mode, path_mode);
+    k.tables(key("path", "modes of the structure between ring and sensor"), &mut s.path, unset::path_mode, path_mode);
     // A key without a meaning holds nothing, so that a scenario equals the one it reads back to.
     let silent = s.noise_rms_m_per_s2.is_none() && s.noise_snr_db.is_none();
     if !mounted {

@@ -11,7 +11,7 @@ use super::fields::{
     SLIP, WORK, exact, indicator, record,
 };
 use super::impacts::impacts;
-use crate::nearest::nearest;
+use crate::did_you_mean::did_you_mean;
 use crate::observe::{Findings, Kind};
 use crate::scenario::{Scenario, Speed};
 use crate::signal::spectrum::{Peak, peak_near};
@@ -232,7 +232,7 @@ pub fn check_name(name: &str, names: &[String]) -> Result<(), UnknownName> {
     if such_as.is_empty() {
         such_as = ["sensor_ax.rms", "envelope.bpfo", "row1.cage_slip"].map(str::to_owned).into();
     }
-    let near = nearest(name, names.iter().map(String::as_str));
+    let near = did_you_mean(name, names.iter().map(String::as_str));
     Err(UnknownName { name: name.to_owned(), near: near.map(str::to_owned), such_as })
 }
 

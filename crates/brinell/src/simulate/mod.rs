@@ -7,7 +7,7 @@
 
 mod anti_alias;
 mod failure;
-mod going;
+mod run_loop;
 mod signals;
 mod switches;
 
@@ -22,7 +22,7 @@ use std::ops::{ControlFlow, Deref};
 
 #[doc(hidden)]
 pub use anti_alias::Decimator;
-pub use going::{CannotGoOn, Run};
+pub use run_loop::{CannotGoOn, Run};
 pub use signals::Signals;
 
 /// Receives a run as it goes.

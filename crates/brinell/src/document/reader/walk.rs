@@ -8,7 +8,7 @@ use super::{MOST_TABLES, Reader, join};
 use crate::bearing::catalogue;
 use crate::bearing::clearance::ClearanceClass;
 use crate::bearing::clearance_of;
-use crate::nearest::nearest;
+use crate::did_you_mean::did_you_mean;
 
 impl Keys for Reader<'_> {
     fn key<T: Leaf>(&mut self, spec: Spec, fallback: Fallback<T>, value: &mut T) {
@@ -205,7 +205,7 @@ impl Keys for Reader<'_> {
             let inner_path = join(&path, name);
             let Some(variant) = variants.iter().find(|variant| variant.name == name) else {
                 self.problems.add_of(Severity::Error, format!("unknown {}", spec.name), || {
-                    let hint = nearest(name, known.iter().copied())
+                    let hint = did_you_mean(name, known.iter().copied())
                         .map(|known| format!("; did you mean `{known}`?"))
                         .unwrap_or_default();
                     let message = format!("unknown {}{hint}", spec.name);

@@ -4,7 +4,7 @@ use super::problem::{Problem, Severity};
 
 /// The problems of a text called `name`, each followed by the line that it is about, the place marked beneath; last how
 /// many errors there are, where there are several. No line break at the end.
-pub fn pointed_out(name: &str, text: &str, problems: &[Problem]) -> String {
+pub fn render_diagnostics(name: &str, text: &str, problems: &[Problem]) -> String {
     let mut rendered = Vec::new();
     let lines: Vec<&str> = match problems.iter().any(|p| p.line.is_some()) {
         true => text.lines().collect(),

@@ -1,7 +1,7 @@
 //! The known word that a misspelt one most likely meant.
 
 /// The nearest of `known` to `word`, if any is near.
-pub(crate) fn nearest<'a>(word: &str, known: impl Iterator<Item = &'a str>) -> Option<&'a str> {
+pub(crate) fn did_you_mean<'a>(word: &str, known: impl Iterator<Item = &'a str>) -> Option<&'a str> {
     // Edit distance is quadratic: a word that long was never a misspelt key.
     const LONGEST: usize = 80;
     if word.len() > LONGEST {
