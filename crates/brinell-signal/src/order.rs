@@ -13,8 +13,6 @@ use std::f64::consts::PI;
 
 use super::decimate::bessel_i0;
 use super::error::{SignalError, check, require};
-use super::psd::{Segments, psd};
-use super::spectrum::Spectrum;
 
 /// The shaft's angle over time: cubic between instants, from tacho pulses, from points of speed, or steady.
 #[derive(Debug, Clone, PartialEq)]
@@ -163,23 +161,6 @@ const LOWEST_EDGE: f64 = 0.01;
 /// Values made at most for each sample of the signal.
 const MOST_PER_SAMPLE: f64 = 64.0;
 
-/// Spectrum over orders (events a revolution) of `x`, sampled at `fs` Hz from t = 0: resampled at
-/// `samples_per_revolution`, which reaches to half as many orders, then [`psd`] in segments of so many resampled
-/// values. In the result "Hz" reads orders: `frequency_step` is in orders, and `density` in unit^2 per order.
-///
-/// # Errors
-/// As [`resample`] and [`psd`].
-pub fn order_spectrum(
-    x: &[f64],
-    fs: f64,
-    rotation: &Rotation,
-    samples_per_revolution: usize,
-    segments: &Segments,
-) -> Result<Spectrum, SignalError> {
-    let angular = resample(x, fs, rotation, samples_per_revolution)?;
-    psd(&angular.values, angular.samples_per_revolution, segments)
-}
-
 /// `x`, sampled at `fs` Hz from t = 0, at `samples_per_revolution` equal angles a revolution.
 ///
 /// The first and last values are those for which the whole kernel lies within the signal: 27 sample intervals (of the
@@ -318,6 +299,7 @@ impl Kernel {
 mod tests {
     use std::f64::consts::TAU;
 
+    use super::super::psd::{Segments, psd};
     use super::super::spectrum::peak_near;
     use super::super::test_signals::cosine;
     use super::*;
@@ -338,7 +320,7 @@ mod tests {
             .collect();
         let angular = resample(&x, FS, &rotation, 256).unwrap();
         let segments = Segments::of(angular.values.len());
-        let s = order_spectrum(&x, FS, &rotation, 256, &segments).unwrap();
+        let s = psd(&angular.values, angular.samples_per_revolution, &segments).unwrap();
         for (order, amplitude) in [(7.3, 1.0), (31.0, 0.2)] {
             let peak = peak_near(&s, order, 0.3).unwrap();
             assert!((peak.frequency - order).abs() < 1e-3, "{peak:?}");
