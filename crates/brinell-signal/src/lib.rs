@@ -63,7 +63,6 @@ pub mod fft;
 pub mod frequency;
 pub mod indicators;
 pub mod integrate;
-mod interleaved;
 pub mod kurtogram;
 pub(crate) mod lengths;
 pub mod lines;
