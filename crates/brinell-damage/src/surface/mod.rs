@@ -49,7 +49,7 @@ fn map(columns: usize, spacing_mm: [f64; 2], metres: Vec<f64>) -> Raw {
         height: metres.len() / columns.max(1),
         values: metres,
         spacing_mm: Some(spacing_mm),
-        unit: Some(crate::Unit::M),
+        unit_um: Some(1e6),
         ..Raw::default()
     }
 }
