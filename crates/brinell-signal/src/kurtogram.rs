@@ -58,11 +58,6 @@ pub struct KurtogramBand {
 }
 
 impl KurtogramBand {
-    /// Middle of the band, Hz.
-    pub fn center(&self) -> f64 {
-        0.5 * (self.band.low + self.band.high)
-    }
-
     /// Width of the band, Hz.
     pub fn bandwidth(&self) -> f64 {
         self.band.high - self.band.low

@@ -14,7 +14,7 @@ use std::f64::consts::PI;
 use super::decimate::bessel_i0;
 use super::error::{SignalError, check, require};
 
-/// The shaft's angle over time: cubic between instants, from tacho pulses, from points of speed, or steady.
+/// The shaft's angle over time: cubic between instants, from tacho pulses or from points of speed.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Rotation {
     /// Time (s), angle (revolutions), speed (revolutions a second).
@@ -22,15 +22,6 @@ pub struct Rotation {
 }
 
 impl Rotation {
-    /// At a steady speed, Hz, from angle 0 at t = 0.
-    ///
-    /// # Errors
-    /// [`SignalError::OutOfRange`] where the speed is not positive.
-    pub fn steady(speed: f64) -> Result<Self, SignalError> {
-        require(speed > 0.0 && speed.is_finite(), "speed (Hz)", speed, "above 0")?;
-        Ok(Rotation { knots: vec![[0.0, 0.0, speed]] })
-    }
-
     /// From points (time in s, speed in Hz), linear between, constant before the first and after the last; angle 0 at
     /// the first point. The angle between points is exact.
     ///
@@ -306,6 +297,10 @@ mod tests {
 
     const FS: f64 = 10_000.0;
 
+    fn steady(speed: f64) -> Rotation {
+        Rotation::from_speeds(&[(0.0, speed)]).unwrap()
+    }
+
     #[test]
     fn analytic_run_up_becomes_lines() {
         // 20 to 40 Hz over 4 s; orders 7.3 (amplitude 1) and 31 (amplitude 0.2).
@@ -337,7 +332,7 @@ mod tests {
     #[test]
     fn analytic_what_a_slow_shaft_cannot_hold_does_not_fold() {
         // 64 samples a revolution at 20 Hz: 1280 a second. 1000 Hz is order 50, above 32.
-        let rotation = Rotation::steady(20.0).unwrap();
+        let rotation = steady(20.0);
         let angular = resample(&cosine(20_000, FS, 1000.0, 1.0, 0.1), FS, &rotation, 64).unwrap();
         assert!(angular.values.iter().all(|v| v.abs() < 2e-4));
         let x = cosine(20_000, FS, 500.0, 1.0, 0.1);
@@ -375,14 +370,13 @@ mod tests {
         assert!(angular.values.len() > 900);
         let still = Rotation::from_speeds(&[(0.0, 0.0)]).unwrap();
         assert!(resample(&x, FS, &still, 128).is_err());
-        assert!(Rotation::steady(0.0).is_err());
         assert!(Rotation::from_speeds(&[]).is_err());
         assert!(Rotation::from_speeds(&[(0.0, 1.0), (0.0, 2.0)]).is_err());
         assert!(Rotation::from_speeds(&[(0.0, -1.0)]).is_err());
         assert!(Rotation::from_angles(&[(0.0, 1.0)]).is_err());
         assert!(Rotation::from_angles(&[(0.0, 1.0), (1.0, 0.0)]).is_err());
-        assert!(resample(&x[..20], FS, &Rotation::steady(20.0).unwrap(), 64).is_err());
-        assert!(resample(&x, FS, &Rotation::steady(20.0).unwrap(), 2).is_err());
-        assert!(resample(&x, FS, &Rotation::steady(1e12).unwrap(), 64).is_err());
+        assert!(resample(&x[..20], FS, &steady(20.0), 64).is_err());
+        assert!(resample(&x, FS, &steady(20.0), 2).is_err());
+        assert!(resample(&x, FS, &steady(1e12), 64).is_err());
     }
 }
