@@ -32,6 +32,7 @@
 
 #![cfg_attr(not(test), deny(clippy::print_stdout, clippy::print_stderr))]
 
+mod bytes;
 mod contour;
 mod depth;
 mod depth_cloud;

@@ -1,7 +1,6 @@
 //! Surfaces as instruments save them, with their spacing: ISO 25178-71 (`.sdf`), ISO 5436-2 (`.x3p`), MountainsMap
 //! (`.sur`).
 
-mod bytes;
 mod sdf;
 mod sur;
 #[cfg(feature = "x3p")]
