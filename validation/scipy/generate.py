@@ -73,27 +73,6 @@ def envelopes(x):
     return {"low": low, "high": high, "envelope": numbers(np.abs(signal.hilbert(fft.irfft(spectrum, len(x)))))}
 
 
-def filters(x):
-    cases = []
-    for order, kind, edges in ((4, "lowpass", [150.0]), (3, "lowpass", [40.0]), (5, "highpass", [300.0]),
-                               (2, "bandpass", [100.0, 400.0]), (3, "bandpass", [450.0, 550.0])):
-        sos = signal.butter(order, edges if len(edges) > 1 else edges[0], kind, fs=FS, output="sos")
-        at = np.array([1.0, 50.0, 150.0, 420.0, 900.0])
-        gain = np.abs(signal.freqz_sos(sos, at, fs=FS)[1])
-        cases.append({"order": order, "kind": kind, "edges": edges, "frequencies": numbers(at), "gain": numbers(gain),
-                      "once": numbers(signal.sosfilt(sos, x)[:200]), "zero_phase": numbers(signal.sosfiltfilt(sos, x))})
-    fir = []
-    for taps, kind, edges, window in ((41, "lowpass", [150.0], "hamming"), (51, "highpass", [300.0], "hann"),
-                                      (61, "bandpass", [200.0, 500.0], "blackmanharris")):
-        h = signal.firwin(taps, edges if len(edges) > 1 else edges[0], window=window, pass_zero=kind, fs=FS)
-        half = taps // 2
-        before, after = 2 * x[0] - x[half:0:-1], 2 * x[-1] - x[-2:-half - 2:-1]
-        y = np.convolve(np.concatenate([before, x, after]), h, mode="valid")
-        fir.append({"taps": taps, "kind": kind, "edges": edges, "window": window.replace("blackmanh", "blackman-h"),
-                    "h": numbers(h), "y": numbers(y[::4])})
-    return {"butterworth": cases, "fir": fir}
-
-
 def decimation(x):
     """As decimate.rs states it: Kaiser's low-pass from 0.4 to 0.5 of the new rate, designed for 80.5 dB."""
     factor = 3
@@ -159,7 +138,7 @@ def main():
     x, long = test_signal(600, 1), test_signal(4000, 2)
     made_by = f"SciPy {scipy.__version__}, NumPy {np.__version__}, Python {sys.version.split()[0]}"
     files = {"inputs": {"fs": FS, "x": numbers(x), "long": numbers(long)}, "windows": windows(),
-             "distributions": distributions(), "spectra": spectra(x), "envelope": envelopes(x), "filters": filters(x),
+             "distributions": distributions(), "spectra": spectra(x), "envelope": envelopes(x),
              "decimation": decimation(x), "velocity": velocities(x), "indicators": indicators(x),
              "kurtogram": kurtosis_of_bands(long, 4), "order": orders(x)}
     for name, content in files.items():

@@ -4,14 +4,15 @@
 //! there); the zero; filling; the threshold; specks; the origin. Memory: three copies of the grid at most.
 
 use crate::depth_doubts::{raised, tilt};
-use crate::depth_options::{DepthMapOptions, Fill, FirstRow, Unit, Zero, check};
-use crate::error::DamageError;
+use crate::direction::{along_rows, turn_grid};
+use crate::error::{DamageError, check_range};
 use crate::form_fit::remove;
 use crate::geometry::DepthGrid;
 use crate::holes::{drop_specks, fill};
 use crate::kind::{FileKind, describe};
 use crate::numbers::quantile;
 use crate::{depth_csv, depth_npy, surface};
+use brinell::scenario::{FirstRow, ScanFile, ScanFill, ScanUnit, ScanZero};
 
 /// The largest grid that is read: 4096 x 4096.
 pub(crate) const MAX_POINTS: usize = 1 << 24;
@@ -33,8 +34,8 @@ pub(crate) struct Raw {
     pub(crate) notes: Vec<String>,
     /// Distance of columns and of rows, where the file says it.
     pub(crate) spacing_mm: Option<[f64; 2]>,
-    /// Of the numbers, where the file says it.
-    pub(crate) unit: Option<Unit>,
+    /// What one of the numbers is, where the file says it.
+    pub(crate) unit_um: Option<f64>,
 }
 
 impl Raw {
@@ -67,11 +68,7 @@ impl Scan {
 
 /// Reads a depth map of up to 2^24 points. `format`: what the file's name or the user says it is; the content must
 /// agree. `None`: as the content shows.
-pub fn read_depth_map(
-    bytes: &[u8],
-    format: Option<FileKind>,
-    options: &DepthMapOptions,
-) -> Result<DepthGrid, DamageError> {
+pub fn read_depth_map(bytes: &[u8], format: Option<FileKind>, options: &ScanFile) -> Result<DepthGrid, DamageError> {
     check(options)?;
     let found = FileKind::of_content(bytes);
     let kind = match format {
@@ -92,14 +89,14 @@ pub fn read_depth_map(
     let missing = check_missing(&raw, options)?;
     let mut scan = turned(raw, spacing_mm, options);
     let hint = tilt(&scan, options);
-    let form = remove(&mut scan, options.remove_form, options.threshold_um)?;
+    let form = remove(&mut scan, options)?;
     if let Some(form) = form.filter(|form| form.excluded > form.used) {
         warnings.push(format!(
             "the form was fitted to {} points only, as {} are far from it; look at the result before using it",
             form.used, form.excluded
         ));
     }
-    set_zero(&mut scan, options.zero);
+    set_zero(&mut scan, options);
     if missing > 0 {
         let (count, layers) = fill(&mut scan);
         warnings.push(format!(
@@ -129,8 +126,33 @@ pub fn read_depth_map(
     Ok(grid)
 }
 
+/// Every number within its range.
+fn check(options: &ScanFile) -> Result<(), DamageError> {
+    const SPACING: &str = "a number of mm above 0, at most 10";
+    for (name, spacing) in [("ds_mm", options.ds_mm), ("dz_mm", options.dz_mm)] {
+        if let Some(spacing) = spacing {
+            check_range(name, spacing, 0.0, 10.0, SPACING)?;
+        }
+    }
+    let least = -f64::MIN_POSITIVE;
+    check_range("threshold_um", options.threshold_um, least, MAX_DEPTH_UM, "0 to 5000 um")?;
+    check_range("speck_mm2", options.speck_mm2, least, 1e6, "an area of 0 mm^2 or more")?;
+    if options.unit == ScanUnit::Counts {
+        let nm = options.nm_per_count.unwrap_or(f64::NAN);
+        check_range("nm_per_count", nm, 0.0, 1e6, "a number of nm above 0, at most 1e6")?;
+    }
+    if options.zero == ScanZero::Percentile {
+        let percent = options.zero_percentile.unwrap_or(f64::NAN);
+        check_range("zero_percentile", percent, least, 100.0, "a percentile from 0 to 100")?;
+    }
+    if let Some(radius) = options.radius_mm {
+        check_range("radius_mm", radius, 0.0, 1e5, "a number of mm above 0, at most 100000")?;
+    }
+    Ok(())
+}
+
 /// The map as its file has it.
-fn raw(bytes: &[u8], kind: Option<FileKind>, options: &DepthMapOptions) -> Result<Raw, DamageError> {
+fn raw(bytes: &[u8], kind: Option<FileKind>, options: &ScanFile) -> Result<Raw, DamageError> {
     Ok(match kind {
         Some(FileKind::Csv) => depth_csv::read(bytes, stated(options))?,
         Some(FileKind::Sdf) => surface::read_sdf(bytes)?,
@@ -159,18 +181,18 @@ fn raw(bytes: &[u8], kind: Option<FileKind>, options: &DepthMapOptions) -> Resul
 }
 
 /// What is stated of the distances of columns and of rows.
-fn stated(options: &DepthMapOptions) -> [Option<f64>; 2] {
-    match options.rolling_direction.along_rows() {
+fn stated(options: &ScanFile) -> [Option<f64>; 2] {
+    match along_rows(options.rolling_direction) {
         true => [options.ds_mm, options.dz_mm],
         false => [options.dz_mm, options.ds_mm],
     }
 }
 
 /// Distances along s and z, mm: as the file says, or as stated.
-fn spacing(raw: &Raw, options: &DepthMapOptions) -> Result<[f64; 2], DamageError> {
+fn spacing(raw: &Raw, options: &ScanFile) -> Result<[f64; 2], DamageError> {
     /// How far what is stated may be from what the file says.
     const SAME: f64 = 0.01;
-    let own = raw.spacing_mm.map(|[x, y]| match options.rolling_direction.along_rows() {
+    let own = raw.spacing_mm.map(|[x, y]| match along_rows(options.rolling_direction) {
         true => [x, y],
         false => [y, x],
     });
@@ -192,13 +214,13 @@ fn spacing(raw: &Raw, options: &DepthMapOptions) -> Result<[f64; 2], DamageError
 }
 
 /// To depths in um, positive into the material; NaN where missing.
-fn to_depth(raw: &mut Raw, options: &DepthMapOptions) -> Result<(), DamageError> {
-    let um = match raw.unit.unwrap_or(options.unit) {
-        Unit::Um => 1.0,
-        Unit::Mm => 1e3,
-        Unit::M => 1e6,
-        Unit::NmPerCount(nm) => 1e-3 * nm,
-    };
+fn to_depth(raw: &mut Raw, options: &ScanFile) -> Result<(), DamageError> {
+    let um = raw.unit_um.unwrap_or(match options.unit {
+        ScanUnit::Um => 1.0,
+        ScanUnit::Mm => 1e3,
+        ScanUnit::M => 1e6,
+        ScanUnit::Counts => 1e-3 * options.nm_per_count.unwrap_or(f64::NAN),
+    });
     let factor = if options.height_positive_up { -um } else { um };
     for value in &mut raw.values {
         if !value.is_finite() || options.missing == Some(*value) {
@@ -223,7 +245,7 @@ fn absurd(um: f64, limit: f64) -> DamageError {
 }
 
 /// How many points are missing, if that can be helped.
-fn check_missing(raw: &Raw, options: &DepthMapOptions) -> Result<usize, DamageError> {
+fn check_missing(raw: &Raw, options: &ScanFile) -> Result<usize, DamageError> {
     let missing = |v: &f64| v.is_nan();
     let Some(first) = raw.values.iter().position(missing) else {
         return Ok(0);
@@ -231,7 +253,7 @@ fn check_missing(raw: &Raw, options: &DepthMapOptions) -> Result<usize, DamageEr
     let count = raw.values.iter().filter(|v| missing(v)).count();
     let way_out = if 2 * count > raw.values.len() {
         "that is more than half; check `missing`, or scan again"
-    } else if options.fill == Fill::None {
+    } else if options.fill == ScanFill::None {
         "fill them from their neighbours with `fill`"
     } else {
         return Ok(count);
@@ -245,7 +267,7 @@ fn check_missing(raw: &Raw, options: &DepthMapOptions) -> Result<usize, DamageEr
     })
 }
 
-fn turned(mut raw: Raw, [ds_mm, dz_mm]: [f64; 2], options: &DepthMapOptions) -> Scan {
+fn turned(mut raw: Raw, [ds_mm, dz_mm]: [f64; 2], options: &ScanFile) -> Scan {
     if options.first_row == FirstRow::Bottom {
         let (width, height) = (raw.width, raw.height);
         for row in 0..height / 2 {
@@ -254,17 +276,20 @@ fn turned(mut raw: Raw, [ds_mm, dz_mm]: [f64; 2], options: &DepthMapOptions) -> 
         }
     }
     let direction = options.rolling_direction;
-    let (columns, rows) = if direction.along_rows() { (raw.width, raw.height) } else { (raw.height, raw.width) };
-    Scan { columns, rows, ds_mm, dz_mm, depth_um: direction.turn_grid(raw.width, raw.height, &raw.values) }
+    let (columns, rows) = if along_rows(direction) { (raw.width, raw.height) } else { (raw.height, raw.width) };
+    Scan { columns, rows, ds_mm, dz_mm, depth_um: turn_grid(direction, raw.width, raw.height, &raw.values) }
 }
 
-fn set_zero(scan: &mut Scan, zero: Zero) {
+fn set_zero(scan: &mut Scan, options: &ScanFile) {
     let (columns, rows) = (scan.columns, scan.rows);
     let there = |d: &f64| !d.is_nan();
-    let level = match zero {
-        Zero::AsIs => return,
-        Zero::Percentile(p) => quantile(scan.depth_um.iter().copied().filter(there), 0.01 * p),
-        Zero::RimMedian => {
+    let level = match options.zero {
+        ScanZero::AsIs => return,
+        ScanZero::Percentile => {
+            let share = 0.01 * options.zero_percentile.unwrap_or(f64::NAN);
+            quantile(scan.depth_um.iter().copied().filter(there), share)
+        }
+        ScanZero::RimMedian => {
             let band = |n: usize| ((RIM * n as f64) as usize).max(1);
             let (across, along) = (band(columns), band(rows));
             let rim = (0..scan.depth_um.len()).filter(|i| {
@@ -277,7 +302,7 @@ fn set_zero(scan: &mut Scan, zero: Zero) {
     scan.depth_um.iter_mut().for_each(|d| *d -= level);
 }
 
-fn finish_depths(scan: &mut Scan, options: &DepthMapOptions, warnings: &mut Vec<String>) -> Result<(), DamageError> {
+fn finish_depths(scan: &mut Scan, options: &ScanFile, warnings: &mut Vec<String>) -> Result<(), DamageError> {
     for depth in &mut scan.depth_um {
         if depth.abs() < options.threshold_um {
             *depth = 0.0;

@@ -2,7 +2,6 @@
 //! and column.
 
 use crate::depth::{MAX_POINTS, Raw};
-use crate::depth_options::Unit;
 use crate::error::DamageError;
 
 /// Points under which three columns are taken for a narrow grid.
@@ -50,7 +49,7 @@ pub(crate) fn gridded(raw: Raw, names: &[String], stated_mm: [Option<f64>; 2]) -
         height: y.count,
         values: vec![f64::NAN; x.count * y.count],
         spacing_mm: Some(spacing_mm),
-        unit: unit(2).map(|mm| Unit::NmPerCount(1e6 * mm)),
+        unit_um: unit(2).map(|mm| 1e3 * mm),
         warnings: Vec::new(),
         notes: raw.notes,
     };

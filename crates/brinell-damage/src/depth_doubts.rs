@@ -1,8 +1,7 @@
 //! Words on scans that are read in a way that was hardly meant: depths as heights, a tilted part as damage.
 
 use crate::depth::Scan;
-use crate::depth_options::DepthMapOptions;
-use crate::form::Form;
+use brinell::scenario::{ScanFile, ScanForm};
 
 /// Share of the deviation that is raised, above which heights and depths are taken for mixed up.
 const MOSTLY_RAISED: f64 = 0.8;
@@ -12,7 +11,7 @@ const TILTED: f64 = 0.9;
 const LEAST_RISE: f64 = 3.0;
 
 /// Where nearly all that deviates is raised.
-pub(crate) fn raised(scan: &Scan, options: &DepthMapOptions) -> Option<String> {
+pub(crate) fn raised(scan: &Scan, options: &ScanFile) -> Option<String> {
     let (mut up, mut all) = (0.0, 0.0);
     for depth in &scan.depth_um {
         up += (-depth).max(0.0);
@@ -31,8 +30,8 @@ pub(crate) fn raised(scan: &Scan, options: &DepthMapOptions) -> Option<String> {
 }
 
 /// Where the rim lies on a tilted plane that nobody asked to take off.
-pub(crate) fn tilt(scan: &Scan, options: &DepthMapOptions) -> Option<String> {
-    if options.remove_form != Form::None || scan.columns < 3 || scan.rows < 3 {
+pub(crate) fn tilt(scan: &Scan, options: &ScanFile) -> Option<String> {
+    if options.remove_form != ScanForm::None || scan.columns < 3 || scan.rows < 3 {
         return None;
     }
     // Sums over the rim about the middle; its sides are symmetrical about both axes.

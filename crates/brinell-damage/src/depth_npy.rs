@@ -1,6 +1,7 @@
 //! NumPy's NPY, versions 1 to 3: two-dimensional arrays of floats or integers, in C or Fortran order.
 //! Format: <https://numpy.org/doc/stable/reference/generated/numpy.lib.format.html>
 
+use crate::bytes::{Kind, Number};
 use crate::depth::{MAX_POINTS, Raw};
 use crate::error::{DamageError, excerpt};
 use crate::kind::FileKind;
@@ -26,7 +27,7 @@ pub(crate) fn read(bytes: &[u8]) -> Result<Raw, DamageError> {
     let end = start + length;
     let header = bytes.get(start..end).ok_or_else(short)?;
     let header = std::str::from_utf8(header).map_err(|_| broken("its header", "not UTF-8"))?;
-    let kind = Number::of(quoted(entry(header, "descr")?))?;
+    let (kind, big) = number(quoted(entry(header, "descr")?))?;
     let fortran = match entry(header, "fortran_order")? {
         value if value.starts_with("True") => true,
         value if value.starts_with("False") => false,
@@ -45,7 +46,13 @@ pub(crate) fn read(bytes: &[u8]) -> Result<Raw, DamageError> {
     let mut values = vec![0.0; points];
     for (i, item) in data.chunks_exact(kind.size).enumerate() {
         let at = if fortran { i % rows * columns + i / rows } else { i };
-        values[at] = kind.value(item);
+        let mut bytes = [0; 8];
+        let bytes = &mut bytes[..kind.size];
+        bytes.copy_from_slice(item);
+        if big {
+            bytes.reverse();
+        }
+        values[at] = kind.value(bytes);
     }
     Ok(Raw { width: columns, height: rows, values, ..Raw::default() })
 }
@@ -86,52 +93,24 @@ fn shape(text: &str) -> Result<[usize; 2], DamageError> {
     }
 }
 
-struct Number {
-    class: char,
-    size: usize,
-    big: bool,
-}
-
-impl Number {
-    fn of(descr: &str) -> Result<Self, DamageError> {
-        let unsupported = || DamageError::Unsupported {
-            at: "descr".to_owned(),
-            what: format!("`{}`", excerpt(descr)),
-            way_out: "save the array as float64",
-        };
-        let mut letters = descr.chars();
-        let order = letters.next().ok_or_else(unsupported)?;
-        let class = letters.next().ok_or_else(unsupported)?;
-        let size = match (class, letters.as_str()) {
-            ('f', "4") => 4,
-            ('f', "8") => 8,
-            ('i' | 'u', "1") => 1,
-            ('i' | 'u', "2") => 2,
-            ('i' | 'u', "4") => 4,
-            ('i' | 'u', "8") => 8,
-            _ => return Err(unsupported()),
-        };
-        let big = match order {
-            '>' => true,
-            '<' | '=' | '|' => false,
-            _ => return Err(unsupported()),
-        };
-        Ok(Self { class, size, big })
-    }
-
-    fn value(&self, item: &[u8]) -> f64 {
-        let mut bits = [0; 8];
-        for (slot, i) in bits.iter_mut().zip(0..self.size) {
-            *slot = item[if self.big { self.size - 1 - i } else { i }];
-        }
-        let bits = u64::from_le_bytes(bits);
-        let unused = 64 - 8 * self.size as u32;
-        match (self.class, self.size) {
-            ('f', 4) => f64::from(f32::from_bits(bits as u32)),
-            ('f', _) => f64::from_bits(bits),
-            // Shifted up and back, the sign comes along.
-            ('i', _) => ((bits << unused) as i64 >> unused) as f64,
-            _ => bits as f64,
-        }
-    }
+/// What NumPy calls the type of an array's numbers, and whether they have their highest byte first.
+fn number(descr: &str) -> Result<(Number, bool), DamageError> {
+    let mut letters = descr.chars();
+    let big = match letters.next() {
+        Some('>') => Some(true),
+        Some('<' | '=' | '|') => Some(false),
+        _ => None,
+    };
+    let kind = match letters.next() {
+        Some('f') => Some(Kind::Float),
+        Some('i') => Some(Kind::Signed),
+        Some('u') => Some(Kind::Unsigned),
+        _ => None,
+    };
+    let number = letters.as_str().parse().ok().zip(kind).and_then(|(size, kind)| Number::new(kind, size));
+    number.zip(big).ok_or_else(|| DamageError::Unsupported {
+        at: "descr".to_owned(),
+        what: format!("`{}`", excerpt(descr)),
+        way_out: "save the array as float64",
+    })
 }

@@ -1,19 +1,4 @@
-//! The raceway's own form under a scan: what it can be, and what was found.
-
-/// The form to take off a depth map, fitted by least squares to the undamaged points.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub enum Form {
-    /// Leaves the scan as it is.
-    #[default]
-    None,
-    /// A plane: the tilt of the part under the instrument.
-    Plane,
-    /// A cylinder along the axis, tilted, and turned a little in the plane of the scan: the raceway.
-    Cylinder {
-        /// The raceway's radius where it is known; whether it is hollow or bulging is found out.
-        radius_mm: Option<f64>,
-    },
-}
+//! The raceway's own form under a scan, as it was found.
 
 /// What a fit found. The form is subtracted along the depth, not along its normal.
 #[derive(Debug, Clone, Copy, PartialEq)]

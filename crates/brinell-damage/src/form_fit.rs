@@ -13,8 +13,9 @@
 
 use crate::depth::Scan;
 use crate::error::DamageError;
-use crate::form::{Form, FormReport};
+use crate::form::FormReport;
 use crate::numbers::{median, solved};
+use brinell::scenario::{ScanFile, ScanForm};
 
 /// More points than this add time, not accuracy.
 const MAX_SAMPLES: usize = 100_000;
@@ -57,23 +58,24 @@ fn height(q: &Parameters, s: f64, z: f64) -> Option<f64> {
     Some(q[C] + q[B] * z + circle(q[P], q[K], s - q[M] * z)?[0])
 }
 
-/// Takes `form` off the scan's depths. `threshold_um`: what lies closer to the surface always belongs to it.
-pub(crate) fn remove(scan: &mut Scan, form: Form, threshold_um: f64) -> Result<Option<FormReport>, DamageError> {
+/// Takes the form that is asked for off the scan's depths. What lies closer to the surface than the threshold always
+/// belongs to it.
+pub(crate) fn remove(scan: &mut Scan, options: &ScanFile) -> Result<Option<FormReport>, DamageError> {
     let samples = samples(scan);
     let fit = |name, free: &[usize], k| {
         Fit {
             samples: &samples,
             free,
             weights: vec![1.0; samples.len()],
-            floor: (1e-3 * threshold_um).max(ROUND_OFF_MM),
+            floor: (1e-3 * options.threshold_um).max(ROUND_OFF_MM),
         }
         .run(name, k)
     };
-    let (best, found) = match form {
-        Form::None => return Ok(None),
-        Form::Plane => fit("plane", &[C, B, P], 0.0)?,
-        Form::Cylinder { radius_mm: None } => fit("cylinder", &[C, B, P, M, K], 0.0)?,
-        Form::Cylinder { radius_mm: Some(radius) } => {
+    let (best, found) = match (options.remove_form, options.radius_mm) {
+        (ScanForm::None, _) => return Ok(None),
+        (ScanForm::Plane, _) => fit("plane", &[C, B, P], 0.0)?,
+        (ScanForm::Cylinder, None) => fit("cylinder", &[C, B, P, M, K], 0.0)?,
+        (ScanForm::Cylinder, Some(radius)) => {
             let free = [C, B, P, M];
             match (fit("cylinder", &free, 1.0 / radius), fit("cylinder", &free, -1.0 / radius)) {
                 (Ok(hollow), Ok(bulging)) if bulging.1.typical < hollow.1.typical => bulging,
@@ -94,7 +96,7 @@ pub(crate) fn remove(scan: &mut Scan, form: Form, threshold_um: f64) -> Result<O
     Ok(Some(FormReport {
         slope_s_um_per_mm: 1e3 * slope,
         slope_z_um_per_mm: 1e3 * (best[B] - best[M] * slope),
-        radius_mm: (form != Form::Plane).then(|| 1.0 / best[K]),
+        radius_mm: (options.remove_form != ScanForm::Plane).then(|| 1.0 / best[K]),
         axis_turn_deg: best[M].atan().to_degrees(),
         residual_rms_um: 1e3 * found.rms,
         used: found.used,

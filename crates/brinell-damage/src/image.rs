@@ -2,7 +2,7 @@
 
 use crate::blur::gaussian;
 use crate::contour::{Field, Outlines};
-use crate::direction::Direction;
+use crate::direction::turn;
 use crate::error::{DamageError, check_range};
 use crate::geometry::Polygons;
 use crate::pieces::{Piece, pieces};
@@ -10,81 +10,35 @@ use crate::pixels::{Channel, Pixels, decode};
 use crate::region;
 use crate::segment::{Pieces, Wanted, find};
 use crate::threshold::otsu;
+use brinell::scenario::{ImageEdges, ImageFile, ImagePieces};
 
 /// The full scale of a pixel.
 const FULL: f64 = 65535.0;
 /// Below this share of variance between the two groups, the level found is hardly a boundary.
 const CLEAR_SEPARATION: f64 = 0.6;
 
-/// How an outline runs between the pixels.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Smooth {
-    /// Along pixel edges: for masks drawn pixel by pixel. Damaged pixels that only touch at a corner are apart.
-    PixelEdges,
-    /// Between pixel centres, where the brightness crosses the threshold (marching squares), after a Gaussian blur
-    /// of this standard deviation in pixels (0 to 20): for photos and soft-edged masks. A corner loses up to 1/8 pixel.
-    SubPixel {
-        /// Standard deviation of the blur, pixels; 0 for none.
-        blur_px: f64,
-    },
+/// Whether the level is known without looking at the picture.
+fn has_level(options: &ImageFile) -> bool {
+    options.threshold.is_some() || options.use_alpha
 }
 
-/// How to read an image.
-#[derive(Debug, Clone, PartialEq)]
-pub struct ImageOptions {
-    /// The side of a pixel, mm.
-    pub mm_per_pixel: f64,
-    /// Between 0 and 1: darker than this is damage (with `use_alpha`: more opaque than this). `None`: 0.5 for alpha;
-    /// along pixel edges the level that divides the picture's brightness best (Otsu); else the light is evened out
-    /// where it is uneven, and the border of the damage is where half of its contrast is left. What was found is said
-    /// in the notes.
-    pub threshold: Option<f64>,
-    /// The mask is the alpha channel: what is drawn is damage, whatever its colour.
-    pub use_alpha: bool,
-    /// Lighter (with `use_alpha`: more transparent) is damage.
-    pub invert: bool,
-    /// Where the roller passes to, in the picture as a viewer shows it (after its EXIF orientation).
-    pub rolling_direction: Direction,
-    /// Puts the damage's bounding box at the origin; else the image's centre is the origin.
-    pub center: bool,
-    /// How outlines run between pixels.
-    pub smooth: Smooth,
-    /// Spots that enclose less than this are dropped, and holes smaller than this filled, mm^2.
-    pub speck_mm2: f64,
-    /// What of the picture is read: left, top, width and height in pixels. `None`: all.
-    pub region_px: Option<[f64; 4]>,
-    /// Which pieces are damage. `None`: the largest of a photo; of a mask (alpha, or along pixel edges) or with a
-    /// stated threshold all.
-    pub pieces: Option<Pieces>,
-}
-
-impl ImageOptions {
-    /// Whether the level is known without looking at the picture.
-    fn has_level(&self) -> bool {
-        self.threshold.is_some() || self.use_alpha
-    }
-
-    fn pieces(&self) -> Pieces {
-        let mask = self.has_level() || self.smooth == Smooth::PixelEdges;
-        self.pieces.unwrap_or(if mask { Pieces::All } else { Pieces::Largest })
+/// Which pieces are damage: where nobody says, the largest of a photo; of a mask (alpha, or along pixel edges) or with
+/// a stated threshold all.
+fn wanted_pieces(options: &ImageFile) -> Pieces {
+    let mask = has_level(options) || options.edges == ImageEdges::PixelEdges;
+    match (options.at_px, options.pieces) {
+        (Some(at), _) => Pieces::At(at),
+        (None, Some(ImagePieces::All)) => Pieces::All,
+        (None, None) if mask => Pieces::All,
+        _ => Pieces::Largest,
     }
 }
 
-impl Default for ImageOptions {
-    /// A photo at 0.01 mm per pixel; blur of 1.5 pixels, specks below 0.02 mm^2.
-    fn default() -> Self {
-        Self {
-            mm_per_pixel: 0.01,
-            threshold: None,
-            use_alpha: false,
-            invert: false,
-            rolling_direction: Direction::Right,
-            center: true,
-            smooth: Smooth::SubPixel { blur_px: 1.5 },
-            speck_mm2: 0.02,
-            region_px: None,
-            pieces: None,
-        }
+/// Standard deviation of the blur before, pixels; 0 along pixel edges.
+fn blur(options: &ImageFile) -> f64 {
+    match options.edges {
+        ImageEdges::SubPixel => options.blur_px.unwrap_or(0.0),
+        ImageEdges::PixelEdges => 0.0,
     }
 }
 
@@ -103,7 +57,7 @@ pub struct Traced {
 ///
 /// # Errors
 /// What is no such image; options outside their range; no damage, or nothing but damage.
-pub fn read_image(bytes: &[u8], options: &ImageOptions) -> Result<Polygons, DamageError> {
+pub fn read_image(bytes: &[u8], options: &ImageFile) -> Result<Polygons, DamageError> {
     trace_image(bytes, options).map(|traced| traced.polygons)
 }
 
@@ -111,7 +65,7 @@ pub fn read_image(bytes: &[u8], options: &ImageOptions) -> Result<Polygons, Dama
 ///
 /// # Errors
 /// As [`read_image`].
-pub fn trace_image(bytes: &[u8], options: &ImageOptions) -> Result<Traced, DamageError> {
+pub fn trace_image(bytes: &[u8], options: &ImageFile) -> Result<Traced, DamageError> {
     check(options)?;
     let channel = if options.use_alpha {
         Channel::Alpha
@@ -121,8 +75,8 @@ pub fn trace_image(bytes: &[u8], options: &ImageOptions) -> Result<Traced, Damag
     let whole = decode(bytes, channel)?;
     let size_px = [whole.width, whole.height];
     let (mut pixels, corner) = region::cut(whole, options.region_px)?;
-    if let Smooth::SubPixel { blur_px } = options.smooth {
-        gaussian(&mut pixels, blur_px);
+    if options.edges == ImageEdges::SubPixel {
+        gaussian(&mut pixels, blur(options));
     }
     let mut said = Said::default();
     let (pixels, level) = told_apart(pixels, corner, options, &mut said)?;
@@ -132,7 +86,7 @@ pub fn trace_image(bytes: &[u8], options: &ImageOptions) -> Result<Traced, Damag
         values: &pixels.values,
         level,
         rim: 0.5,
-        sub_pixel: options.smooth != Smooth::PixelEdges,
+        sub_pixel: options.edges != ImageEdges::PixelEdges,
     };
     let pixel_mm2 = options.mm_per_pixel * options.mm_per_pixel;
     let outlines = field.outlines(options.speck_mm2 / pixel_mm2)?;
@@ -182,12 +136,12 @@ struct Said {
 }
 
 /// From pixels to mm about the picture's middle.
-fn in_mm(rings: &[Vec<[f64; 2]>], size_px: [usize; 2], options: &ImageOptions) -> Vec<Vec<[f64; 2]>> {
+fn in_mm(rings: &[Vec<[f64; 2]>], size_px: [usize; 2], options: &ImageFile) -> Vec<Vec<[f64; 2]>> {
     let half = size_px.map(|n| 0.5 * n as f64);
     let place = |p: &[f64; 2]| {
         let x = (p[0] - half[0]) * options.mm_per_pixel;
         let y = (p[1] - half[1]) * options.mm_per_pixel;
-        options.rolling_direction.turn(x, y)
+        turn(options.rolling_direction, x, y)
     };
     // The outlines run clockwise on the screen.
     rings.iter().map(|ring| ring.iter().rev().map(place).collect()).collect()
@@ -197,22 +151,19 @@ fn in_mm(rings: &[Vec<[f64; 2]>], size_px: [usize; 2], options: &ImageOptions) -
 fn told_apart(
     mut pixels: Pixels,
     corner: [usize; 2],
-    options: &ImageOptions,
+    options: &ImageFile,
     said: &mut Said,
 ) -> Result<(Pixels, f64), DamageError> {
     let wanted = Wanted {
         bright: options.invert,
-        pieces: match options.pieces() {
+        pieces: match wanted_pieces(options) {
             Pieces::At([x, y]) => Pieces::At([x - corner[0] as f64, y - corner[1] as f64]),
             other => other,
         },
         smallest: options.speck_mm2 / options.mm_per_pixel.powi(2),
-        blur_px: match options.smooth {
-            Smooth::SubPixel { blur_px } => blur_px,
-            Smooth::PixelEdges => 0.0,
-        },
+        blur_px: blur(options),
     };
-    if !options.has_level() && options.smooth != Smooth::PixelEdges {
+    if !has_level(options) && options.edges != ImageEdges::PixelEdges {
         let all_mm2 = pixels.values.len() as f64 * options.mm_per_pixel.powi(2);
         if all_mm2 < options.speck_mm2 {
             return Err(DamageError::NothingDamaged {
@@ -266,7 +217,7 @@ fn told_apart(
 }
 
 /// Takes the piece that is wanted out of all of them.
-fn take(all: &mut Vec<Piece>, wanted: Pieces, options: &ImageOptions) -> Result<(), DamageError> {
+fn take(all: &mut Vec<Piece>, wanted: Pieces, options: &ImageFile) -> Result<(), DamageError> {
     let place = match wanted {
         Pieces::At(at) => {
             let at = at.map(|v| v.max(0.0) as usize);
@@ -275,7 +226,7 @@ fn take(all: &mut Vec<Piece>, wanted: Pieces, options: &ImageOptions) -> Result<
         _ => (!all.is_empty()).then_some(0),
     };
     let place = place.ok_or_else(|| DamageError::NoSpall {
-        why: match options.pieces() {
+        why: match wanted_pieces(options) {
             Pieces::At([x, y]) => {
                 format!("no damage lies at `at_px` = [{x}, {y}]; check it, or `threshold`")
             }
@@ -287,7 +238,7 @@ fn take(all: &mut Vec<Piece>, wanted: Pieces, options: &ImageOptions) -> Result<
 }
 
 /// Takes pieces that are not wanted out of the picture.
-fn leave_out(pixels: &mut Pixels, others: &[Piece], options: &ImageOptions, said: &mut Said) {
+fn leave_out(pixels: &mut Pixels, others: &[Piece], options: &ImageFile, said: &mut Said) {
     for run in others.iter().flat_map(|piece| &piece.runs) {
         let start = run.row * pixels.width;
         pixels.values[start + run.from..start + run.to].fill(0);
@@ -314,7 +265,7 @@ fn without(pixels: &mut Pixels, level: f64, smallest: f64) -> Result<(), DamageE
     Ok(())
 }
 
-fn too_small(outlines: &Outlines, options: &ImageOptions) -> DamageError {
+fn too_small(outlines: &Outlines, options: &ImageFile) -> DamageError {
     DamageError::NothingDamaged {
         why: format!(
             "the largest of {} encloses {:.3e} mm^2, less than `speck_mm2` = {}; check `mm_per_pixel` = {}",
@@ -327,7 +278,7 @@ fn too_small(outlines: &Outlines, options: &ImageOptions) -> DamageError {
 }
 
 /// That no piece is a class of its own, with what would help.
-fn no_spall(pixels: &Pixels, wanted: Wanted, options: &ImageOptions) -> DamageError {
+fn no_spall(pixels: &Pixels, wanted: Wanted, options: &ImageFile) -> DamageError {
     let (first, last) = pixels.values.iter().fold((u16::MAX, 0), |(a, b), &v| (a.min(v), b.max(v)));
     if first == last {
         return DamageError::NothingDamaged {
@@ -335,7 +286,7 @@ fn no_spall(pixels: &Pixels, wanted: Wanted, options: &ImageOptions) -> DamageEr
         };
     }
     let word = if wanted.bright { "lighter" } else { "darker" };
-    let mut why = match options.pieces() {
+    let mut why = match wanted_pieces(options) {
         Pieces::At([x, y]) => {
             format!("nothing at `at_px` = [{x}, {y}] is {word} than the surface around it")
         }
@@ -358,21 +309,18 @@ fn no_spall(pixels: &Pixels, wanted: Wanted, options: &ImageOptions) -> DamageEr
     DamageError::NoSpall { why }
 }
 
-fn check(options: &ImageOptions) -> Result<(), DamageError> {
+fn check(options: &ImageFile) -> Result<(), DamageError> {
     check_range("mm_per_pixel", options.mm_per_pixel, 0.0, 10.0, "a number of mm above 0, at most 10")?;
     if let Some(threshold) = options.threshold {
         check_range("threshold", threshold, 0.0, 1.0 - f64::EPSILON, "a number above 0 and below 1")?;
     }
     let speck = options.speck_mm2;
     check_range("speck_mm2", speck, -f64::MIN_POSITIVE, 1e6, "an area of 0 mm^2 or more")?;
-    if let Smooth::SubPixel { blur_px } = options.smooth {
-        check_range("blur_px", blur_px, -f64::MIN_POSITIVE, 20.0, "0 to 20 pixels")?;
-    }
-    Ok(())
+    check_range("blur_px", blur(options), -f64::MIN_POSITIVE, 20.0, "0 to 20 pixels")
 }
 
 /// The level above which a pixel is damage: as stated, that of alpha, or Otsu's.
-fn level(pixels: &Pixels, options: &ImageOptions, flip: bool, said: &mut Said) -> Result<f64, DamageError> {
+fn level(pixels: &Pixels, options: &ImageFile, flip: bool, said: &mut Said) -> Result<f64, DamageError> {
     let given = options.threshold.or(options.use_alpha.then_some(0.5));
     let facing = |level: f64| if flip { 1.0 - level } else { level };
     if let Some(threshold) = given {

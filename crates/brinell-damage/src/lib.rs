@@ -10,19 +10,21 @@
 //!
 //! Frame. `s` runs along the rolling direction, `z` along the axis, both in mm, right-handed as seen by someone
 //! who looks at the damaged surface from the roller's side: with the rolling direction to the right, `z` points up.
-//! Files whose rows run downwards are turned, never mirrored ([`Direction`]). The origin is the centre of the
+//! Files whose rows run downwards are turned, never mirrored. The origin is the centre of the
 //! damage's bounding box with `center`, else the centre of the page, image or grid.
 //!
-//! Every reader takes bytes and gives a [`DamageError`] for what it cannot use; no bytes make it panic, and none make
+//! Every reader takes bytes and what a scenario says of the file ([`SvgFile`](brinell::scenario::SvgFile),
+//! [`ImageFile`](brinell::scenario::ImageFile), [`ScanFile`](brinell::scenario::ScanFile)), and gives a [`DamageError`] for what it cannot use; no bytes make it panic, and none make
 //! it take more than about 1 GB. What it decided by itself is said in `warnings`.
 //!
 //! ```
 //! # #[cfg(feature = "svg")] {
-//! use brinell_damage::{SvgOptions, read_svg};
+//! use brinell::scenario::SvgFile;
+//! use brinell_damage::read_svg;
 //!
 //! let drawing = br#"<svg xmlns="http://www.w3.org/2000/svg" width="6mm" height="6mm" viewBox="0 0 6 6">
 //!     <rect x="1" y="2" width="3" height="2"/></svg>"#;
-//! let damage = read_svg(drawing, &SvgOptions::default())?;
+//! let damage = read_svg(drawing, &SvgFile::default())?;
 //! assert!((damage.area_mm2() - 6.0).abs() < 1e-6);
 //! # }
 //! # Ok::<(), brinell_damage::DamageError>(())
@@ -30,20 +32,19 @@
 
 #![cfg_attr(not(test), deny(clippy::print_stdout, clippy::print_stderr))]
 
+mod bytes;
 mod contour;
 mod depth;
 mod depth_cloud;
 mod depth_csv;
 mod depth_doubts;
 mod depth_npy;
-mod depth_options;
 mod direction;
 mod error;
 mod form;
 mod form_fit;
 mod geometry;
 mod holes;
-mod keys;
 mod kind;
 mod loaded;
 mod numbers;
@@ -86,10 +87,8 @@ mod svg_style;
 mod svg_union;
 
 pub use depth::read_depth_map;
-pub use depth_options::{DepthMapOptions, Fill, FirstRow, Unit, Zero};
-pub use direction::Direction;
 pub use error::DamageError;
-pub use form::{Form, FormReport};
+pub use form::FormReport;
 pub use geometry::{DepthGrid, Polygons};
 pub use kind::FileKind;
 pub use loaded::resolve_loaded;
@@ -98,12 +97,10 @@ pub use resolve::MOST_TEXT;
 pub use resolve::{ReadShape, Unresolved, resolve, shape_of_bytes};
 
 #[cfg(feature = "image")]
-pub use image::{ImageOptions, Smooth, Traced, read_image, trace_image};
+pub use image::{Traced, read_image, trace_image};
 #[cfg(feature = "image")]
 pub use photo::{Photo, photo, photos};
-#[cfg(feature = "image")]
-pub use segment::Pieces;
 #[cfg(feature = "svg")]
 pub use stroke::{Stroke, brush, scratch};
 #[cfg(feature = "svg")]
-pub use svg::{SvgOptions, read_svg};
+pub use svg::read_svg;

@@ -2,11 +2,10 @@
 
 use std::path::Path;
 
-use brinell::scenario::{Scenario, Shape};
+use brinell::scenario::{ImageFile, Scenario, Shape};
 
 use crate::error::DamageError;
-use crate::image::{ImageOptions, trace_image};
-use crate::keys::image_options;
+use crate::image::trace_image;
 use crate::pixels::{Channel, Pixels, decode};
 use crate::resolve::bytes_of;
 
@@ -34,7 +33,7 @@ pub struct Photo {
 ///
 /// # Errors
 /// As [`crate::read_image`].
-pub fn photo(bytes: &[u8], options: &ImageOptions) -> Result<Photo, DamageError> {
+pub fn photo(bytes: &[u8], options: &ImageFile) -> Result<Photo, DamageError> {
     let traced = trace_image(bytes, options)?;
     let channel = match options.use_alpha {
         true => Channel::Alpha,
@@ -82,7 +81,7 @@ pub fn photos(scenario: &Scenario, folder: &Path) -> Vec<Option<Photo>> {
             return None;
         };
         let bytes = bytes_of(shape, folder).ok()?;
-        let photo = photo(&bytes, &image_options(image)).ok()?;
+        let photo = photo(&bytes, image).ok()?;
         Some(Photo { file: image.file.clone(), ..photo })
     };
     scenario.defects.iter().map(|d| of(&d.shape)).collect()

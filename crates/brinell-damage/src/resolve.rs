@@ -7,8 +7,7 @@ use std::path::Path;
 use brinell::document::{Problem, Severity};
 use brinell::scenario::{self, ScanFile, Scenario, Shape, SvgFile};
 
-use crate::keys::{read_drawing, read_outline, scan_options};
-use crate::{DepthGrid, FileKind, read_depth_map};
+use crate::{DamageError, DepthGrid, FileKind, Polygons, read_depth_map};
 
 /// Bytes of a file of damage.
 const LARGEST: u64 = 256 << 20;
@@ -238,11 +237,17 @@ pub fn shape_of_bytes(shape: &Shape, bytes: &[u8]) -> Result<ReadShape, String> 
         return Err("the file is empty".into());
     }
     let kind = FileKind::check(file, bytes).map_err(|e| e.to_string())?;
-    let read = match shape {
-        Shape::Image(image) => read_outline(bytes, image),
-        Shape::Svg(drawing) => read_drawing(bytes, drawing),
+    let read: Result<Polygons, DamageError> = match shape {
+        #[cfg(feature = "image")]
+        Shape::Image(image) => crate::read_image(bytes, image),
+        #[cfg(not(feature = "image"))]
+        Shape::Image(_) => Err(DamageError::LeftOut { kind: FileKind::Png, feature: "image" }),
+        #[cfg(feature = "svg")]
+        Shape::Svg(drawing) => crate::read_svg(bytes, drawing),
+        #[cfg(not(feature = "svg"))]
+        Shape::Svg(_) => Err(DamageError::LeftOut { kind: FileKind::Svg, feature: "svg" }),
         Shape::Scan(scan) => {
-            let grid = read_depth_map(bytes, Some(kind), &scan_options(scan)).map_err(|e| e.to_string())?;
+            let grid = read_depth_map(bytes, Some(kind), scan).map_err(|e| e.to_string())?;
             // What may be wrong explains what cannot be used.
             let with_hints = |error: String| [&[error], &grid.warnings[..]].concat().join("; ");
             let doubt = doubt(&grid).map_err(with_hints)?;

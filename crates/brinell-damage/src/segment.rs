@@ -46,7 +46,7 @@ const STARTS: [f64; 6] = [0.0, 0.04, 0.08, 0.16, 0.3, 0.5];
 
 /// Which of the pieces are damage.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Pieces {
+pub(crate) enum Pieces {
     /// The largest that is a class of its own.
     Largest,
     /// All.

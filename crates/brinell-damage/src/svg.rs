@@ -3,6 +3,7 @@
 //! A stroke's width is not part of the outline. Clips, masks, text and embedded images are left out, with a warning.
 
 use brinell::defect::check_crossings;
+use brinell::scenario::SvgFile;
 use i_overlay::core::fill_rule::FillRule;
 use kurbo::{Affine, BezPath, PathEl, Point};
 use roxmltree::{Document, Node, NodeId};
@@ -26,28 +27,8 @@ const MAX_ELEMENTS: usize = 200_000;
 /// Bytes of the file.
 pub(crate) const MAX_BYTES: usize = 4 << 20;
 
-/// How to read a drawing.
-#[derive(Debug, Clone, PartialEq)]
-pub struct SvgOptions {
-    /// The id of a path, shape or group; `None`: the whole drawing.
-    pub path_id: Option<String>,
-    /// Millimetres per user unit; `None`: from the drawing's own width, height and viewBox, in physical units.
-    pub mm_per_unit: Option<f64>,
-    /// How far polygons may stray from curves, and the widest gap that an unfilled line may have, mm.
-    pub tolerance_mm: f64,
-    /// Puts the damage's bounding box at the origin; else the page's centre is the origin.
-    pub center: bool,
-}
-
-impl Default for SvgOptions {
-    /// The whole drawing at its own scale, within a micrometre, centred.
-    fn default() -> Self {
-        Self { path_id: None, mm_per_unit: None, tolerance_mm: 0.001, center: true }
-    }
-}
-
 /// Reads the shapes of an SVG drawing as polygons: `s` to the right, `z` up.
-pub fn read_svg(bytes: &[u8], options: &SvgOptions) -> Result<Polygons, DamageError> {
+pub fn read_svg(bytes: &[u8], options: &SvgFile) -> Result<Polygons, DamageError> {
     check_range("tolerance_mm", options.tolerance_mm, 9.9e-6, 1.0, "1e-5 to 1 mm")?;
     if let Some(scale) = options.mm_per_unit {
         check_range("mm_per_unit", scale, 0.0, 1e4, "a number of mm above 0, at most 10000")?;
@@ -131,7 +112,7 @@ fn nested(node: Node<'_, '_>) -> DamageError {
 
 struct Reader<'a> {
     sheets: Sheets<'a>,
-    options: &'a SvgOptions,
+    options: &'a SvgFile,
     /// The element that `path_id` names.
     wanted: Option<NodeId>,
     /// Each shape's rings, its fill rule applied.

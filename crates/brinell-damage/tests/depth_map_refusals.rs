@@ -2,11 +2,12 @@
 
 use crate::common::{npy, npy_f8, peak_mb};
 use crate::depth_maps::{csv, place, raceway, read, refuse, spall};
-use brinell_damage::{DamageError, DepthMapOptions, FileKind, Form, Unit, Zero, read_depth_map};
+use brinell::scenario::{ScanFile, ScanForm, ScanUnit, ScanZero};
+use brinell_damage::{DamageError, FileKind, read_depth_map};
 
 #[test]
 fn prop_unusable_maps_are_refused_in_words() {
-    let default = DepthMapOptions::default();
+    let default = ScanFile::default();
     let pit = |row: usize, column: usize| if row == 2 && column == 2 { -9.0 } else { 0.0 };
     let map = npy_f8(5, 5, pit);
     for (bytes, words) in [
@@ -22,21 +23,23 @@ fn prop_unusable_maps_are_refused_in_words() {
         (npy("<f8", false, [90_000, 90_000], &[]), "the number of points is 90000 x 90000"),
         (csv(4, 4, |r, c| if r > 0 { String::new() } else { format!("{c}") }), "12 of 16 points are missing"),
     ] {
-        let said = refuse(&bytes, &DepthMapOptions { threshold_um: 50.0, ..default.clone() });
+        let said = refuse(&bytes, &ScanFile { threshold_um: 50.0, ..default.clone() });
         assert!(said.starts_with(words), "{said}");
     }
     let rough = npy_f8(5, 5, |r, c| (r * 7 + c * 3) as f64 + 0.5);
-    let as_is = DepthMapOptions { zero: Zero::AsIs, threshold_um: 0.1, ..default.clone() };
+    let as_is = ScanFile { zero: ScanZero::AsIs, threshold_um: 0.1, ..default.clone() };
     assert!(refuse(&rough, &as_is).starts_with("all of it would be damage"));
-    let tiny = DepthMapOptions { remove_form: Form::Plane, ..default.clone() };
+    let tiny = ScanFile { remove_form: ScanForm::Plane, ..default.clone() };
     assert!(refuse(&npy_f8(3, 3, pit), &tiny).contains("at least 16 are needed"));
-    let short =
-        DepthMapOptions { remove_form: Form::Cylinder { radius_mm: Some(0.5) }, ds_mm: Some(1.0), ..default.clone() };
+    let short = ScanFile { remove_form: ScanForm::Cylinder, radius_mm: Some(0.5), ds_mm: Some(1.0), ..default.clone() };
     assert!(refuse(&map, &short).starts_with("the cylinder cannot be fitted: the scan is longer"));
     for (options, words) in [
-        (DepthMapOptions { ds_mm: Some(f64::NAN), ..default.clone() }, "`ds_mm` is NaN"),
-        (DepthMapOptions { zero: Zero::Percentile(101.0), ..default.clone() }, "`zero` is 101"),
-        (DepthMapOptions { unit: Unit::NmPerCount(0.0), ..default.clone() }, "`unit` is 0"),
+        (ScanFile { ds_mm: Some(f64::NAN), ..default.clone() }, "`ds_mm` is NaN"),
+        (
+            ScanFile { zero: ScanZero::Percentile, zero_percentile: Some(101.0), ..default.clone() },
+            "`zero_percentile` is 101",
+        ),
+        (ScanFile { unit: ScanUnit::Counts, nm_per_count: Some(0.0), ..default.clone() }, "`nm_per_count` is 0"),
     ] {
         assert!(refuse(&map, &options).starts_with(words));
     }
@@ -52,10 +55,10 @@ fn prop_the_largest_map_stays_within_a_gigabyte() {
         let (s, z) = place(4096, 4096, step, row, column);
         raceway(27.5, 0.02, s, z) - spall(s, z)
     });
-    let options = DepthMapOptions {
+    let options = ScanFile {
         ds_mm: Some(step),
         dz_mm: Some(step),
-        remove_form: Form::Cylinder { radius_mm: None },
+        remove_form: ScanForm::Cylinder,
         speck_mm2: 0.01,
         ..Default::default()
     };

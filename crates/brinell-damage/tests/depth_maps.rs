@@ -3,20 +3,19 @@
 use std::f64::consts::PI;
 
 use crate::common::{Noise, npy, npy_f8};
-use brinell_damage::{
-    DepthGrid, DepthMapOptions, Direction, FileKind, Fill, FirstRow, Form, Unit, Zero, read_depth_map,
-};
+use brinell::scenario::{FirstRow, RollingDirection, ScanFile, ScanFill, ScanForm, ScanUnit, ScanZero};
+use brinell_damage::{DepthGrid, FileKind, read_depth_map};
 
 /// Points 0.01 mm apart where a test does not care.
-fn spaced(options: &DepthMapOptions) -> DepthMapOptions {
-    DepthMapOptions { ds_mm: options.ds_mm.or(Some(0.01)), dz_mm: options.dz_mm.or(Some(0.01)), ..options.clone() }
+fn spaced(options: &ScanFile) -> ScanFile {
+    ScanFile { ds_mm: options.ds_mm.or(Some(0.01)), dz_mm: options.dz_mm.or(Some(0.01)), ..options.clone() }
 }
 
-pub(crate) fn read(bytes: &[u8], options: &DepthMapOptions) -> DepthGrid {
+pub(crate) fn read(bytes: &[u8], options: &ScanFile) -> DepthGrid {
     read_depth_map(bytes, None, &spaced(options)).unwrap()
 }
 
-pub(crate) fn refuse(bytes: &[u8], options: &DepthMapOptions) -> String {
+pub(crate) fn refuse(bytes: &[u8], options: &ScanFile) -> String {
     read_depth_map(bytes, None, &spaced(options)).unwrap_err().to_string()
 }
 
@@ -39,7 +38,7 @@ fn analytic_circle_and_rectangle_have_their_area_and_widths_within_the_spacing()
             if inside(s, z) { -20.0 } else { 0.0 }
         })
     };
-    let options = DepthMapOptions { ds_mm: Some(step), dz_mm: Some(step), ..Default::default() };
+    let options = ScanFile { ds_mm: Some(step), dz_mm: Some(step), ..Default::default() };
     let rectangle = read(&map(&|s, z| s.abs() < 1.5 && z.abs() < 2.0), &options);
     assert!((rectangle.area_mm2() - 12.0).abs() < 1e-9);
     let disc = read(&map(&|s, z| s.hypot(z) < 2.0), &options);
@@ -69,17 +68,17 @@ fn analytic_an_l_is_turned_and_never_mirrored() {
             FirstRow::Bottom => -letter(11 - row, column),
         });
         for (direction, top, foot, empty) in [
-            (Direction::Right, [-1.5, 3.0], [2.0, -3.0], [2.0, 3.0]),
-            (Direction::Up, [3.0, 1.5], [-3.0, -2.0], [3.0, -2.0]),
-            (Direction::Left, [1.5, -3.0], [-2.0, 3.0], [-2.0, -3.0]),
-            (Direction::Down, [-3.0, -1.5], [3.0, 2.0], [-3.0, 2.0]),
+            (RollingDirection::Right, [-1.5, 3.0], [2.0, -3.0], [2.0, 3.0]),
+            (RollingDirection::Up, [3.0, 1.5], [-3.0, -2.0], [3.0, -2.0]),
+            (RollingDirection::Left, [1.5, -3.0], [-2.0, 3.0], [-2.0, -3.0]),
+            (RollingDirection::Down, [-3.0, -1.5], [3.0, 2.0], [-3.0, 2.0]),
         ] {
-            let options = DepthMapOptions {
+            let options = ScanFile {
                 ds_mm: Some(1.0),
                 dz_mm: Some(1.0),
                 rolling_direction: direction,
                 first_row,
-                zero: Zero::AsIs,
+                zero: ScanZero::AsIs,
                 ..Default::default()
             };
             let grid = read(&map, &options);
@@ -88,7 +87,7 @@ fn analytic_an_l_is_turned_and_never_mirrored() {
             assert!(depth(top) >= 12.0 && depth(top) <= 13.0, "{direction:?} {first_row:?}");
             assert_eq!(depth(foot), 16.0, "{direction:?} {first_row:?}");
             assert_eq!(depth(empty), 0.0, "{direction:?} {first_row:?}");
-            let there = read(&map, &DepthMapOptions { center: false, ..options });
+            let there = read(&map, &ScanFile { center: false, ..options });
             assert_eq!(there.s0_mm, -0.5 * (there.columns - 1) as f64);
             assert_eq!(there.depth_um, grid.depth_um);
         }
@@ -110,25 +109,26 @@ pub(crate) fn spall(s: f64, z: f64) -> f64 {
 #[test]
 fn analytic_tilt_and_curvature_are_removed_exactly() {
     let (rows, columns, step) = (60, 90, 0.06);
-    for (form, radius, turn) in [
-        (Form::Plane, 1e12, 0.0),
-        (Form::Cylinder { radius_mm: None }, 27.5, 0.0),
-        (Form::Cylinder { radius_mm: None }, 27.5, 0.05),
-        (Form::Cylinder { radius_mm: None }, -21.5, -0.03),
-        (Form::Cylinder { radius_mm: None }, -3.5, 0.02),
-        (Form::Cylinder { radius_mm: Some(27.5) }, 27.5, 0.05),
-        (Form::Cylinder { radius_mm: Some(21.5) }, -21.5, 0.02),
+    for (form, known, radius, turn) in [
+        (ScanForm::Plane, None, 1e12, 0.0),
+        (ScanForm::Cylinder, None, 27.5, 0.0),
+        (ScanForm::Cylinder, None, 27.5, 0.05),
+        (ScanForm::Cylinder, None, -21.5, -0.03),
+        (ScanForm::Cylinder, None, -3.5, 0.02),
+        (ScanForm::Cylinder, Some(27.5), 27.5, 0.05),
+        (ScanForm::Cylinder, Some(21.5), -21.5, 0.02),
     ] {
         let map = npy_f8(rows, columns, |row, column| {
             let (s, z) = place(rows, columns, step, row, column);
-            let tilt = if form == Form::Plane { 7.0 * s } else { 0.0 };
-            let form = if form == Form::Plane { 4.0 * z } else { raceway(radius, turn, s, z) };
+            let tilt = if form == ScanForm::Plane { 7.0 * s } else { 0.0 };
+            let form = if form == ScanForm::Plane { 4.0 * z } else { raceway(radius, turn, s, z) };
             form + tilt - spall(s, z)
         });
-        let options = DepthMapOptions {
+        let options = ScanFile {
             ds_mm: Some(step),
             dz_mm: Some(step),
             remove_form: form,
+            radius_mm: known,
             center: false,
             ..Default::default()
         };
@@ -143,7 +143,7 @@ fn analytic_tilt_and_curvature_are_removed_exactly() {
             }
         }
         assert!(found.residual_rms_um < 1e-6);
-        if form == Form::Plane {
+        if form == ScanForm::Plane {
             assert!((found.slope_s_um_per_mm - 7.0).abs() < 1e-6 && (found.slope_z_um_per_mm - 4.0).abs() < 1e-6);
         } else {
             assert!((found.radius_mm.unwrap() / radius - 1.0).abs() < 1e-6);
@@ -164,11 +164,11 @@ fn analytic_noise_and_a_large_spall_hardly_move_the_form() {
             let (s, z) = place(rows, columns, step, row, column);
             raceway(27.5, 0.02, s, z) + grain[row * columns + column] - if inside(s, z) { 25.0 } else { 0.0 }
         });
-        let options = DepthMapOptions {
+        let options = ScanFile {
             ds_mm: Some(step),
             dz_mm: Some(step),
-            remove_form: Form::Cylinder { radius_mm: None },
-            zero: Zero::AsIs,
+            remove_form: ScanForm::Cylinder,
+            zero: ScanZero::AsIs,
             threshold_um: 2.0,
             ..Default::default()
         };
@@ -186,11 +186,11 @@ fn analytic_noise_and_a_large_spall_hardly_move_the_form() {
 #[test]
 fn analytic_the_drawn_scan_gives_its_raceway_and_its_spall() {
     let scan = include_bytes!("../../../examples/scan.csv");
-    let options = DepthMapOptions {
+    let options = ScanFile {
         ds_mm: Some(0.06),
         dz_mm: Some(0.06),
-        remove_form: Form::Cylinder { radius_mm: None },
-        fill: Fill::Neighbours,
+        remove_form: ScanForm::Cylinder,
+        fill: ScanFill::Neighbours,
         threshold_um: 1.0,
         speck_mm2: 0.05,
         ..Default::default()
@@ -206,7 +206,7 @@ fn analytic_the_drawn_scan_gives_its_raceway_and_its_spall() {
     deep.sort_by(f64::total_cmp);
     assert!((deep[deep.len() / 2] - 25.0).abs() < 0.5);
     assert!(grid.warnings.iter().any(|w| w.contains("points were missing and are filled")));
-    assert!(read_depth_map(scan, None, &DepthMapOptions { fill: Fill::None, ..options }).is_err());
+    assert!(read_depth_map(scan, None, &ScanFile { fill: ScanFill::None, ..options }).is_err());
 }
 
 #[test]
@@ -217,10 +217,10 @@ fn analytic_missing_points_of_a_slope_are_filled_on_it() {
         (12, 14) => "NaN".to_owned(),
         _ => format!("{}", 2.0 * row as f64 + column as f64),
     });
-    let options = DepthMapOptions {
+    let options = ScanFile {
         missing: Some(-9999.0),
-        fill: Fill::Neighbours,
-        zero: Zero::AsIs,
+        fill: ScanFill::Neighbours,
+        zero: ScanZero::AsIs,
         height_positive_up: false,
         first_row: FirstRow::Bottom,
         threshold_um: 2.5,
@@ -237,7 +237,7 @@ fn analytic_missing_points_of_a_slope_are_filled_on_it() {
     // A slope that nobody takes off.
     assert!(grid.warnings[1].contains("as a tilted part does"));
     assert_eq!(
-        refuse(&map, &DepthMapOptions { fill: Fill::None, ..options }),
+        refuse(&map, &ScanFile { fill: ScanFill::None, ..options }),
         "13 of 400 points are missing (the first in row 1, column 1); fill them from their neighbours with `fill`"
     );
 }
@@ -292,7 +292,7 @@ fn xval_every_way_of_writing_a_map_gives_the_same_grid() {
         text("  ", ',', "\n"),
         with_names,
     ];
-    let options = DepthMapOptions { height_positive_up: false, ..Default::default() };
+    let options = ScanFile { height_positive_up: false, ..Default::default() };
     let expected = read(&files[0], &options);
     assert_eq!(expected.at(3, 5), f64::from(depth(2, 3)));
     for (i, file) in files.iter().enumerate() {
@@ -300,15 +300,15 @@ fn xval_every_way_of_writing_a_map_gives_the_same_grid() {
     }
     // Negative integers, and units.
     let negative = npy("<i2", false, shape, &items(2, false, false, &|v| (-v) as u64));
-    let heights = DepthMapOptions { unit: Unit::NmPerCount(1000.0), ..Default::default() };
+    let heights = ScanFile { unit: ScanUnit::Counts, nm_per_count: Some(1000.0), ..Default::default() };
     assert_eq!(read(&negative, &heights).depth_um, expected.depth_um);
-    let mm = DepthMapOptions { unit: Unit::Mm, threshold_um: 0.0, ..options.clone() };
+    let mm = ScanFile { unit: ScanUnit::Mm, threshold_um: 0.0, ..options.clone() };
     assert!(refuse(&files[0], &mm).starts_with("the depth of a point is 2.400e4 um, more than the 5e3 um"));
     #[cfg(feature = "image")]
     {
         let wide = items(2, true, false, &|v| (30_000 - 10 * v) as u64);
         let png = crate::common::png(columns, rows, png::ColorType::Grayscale, png::BitDepth::Sixteen, &wide);
-        let counts = DepthMapOptions { unit: Unit::NmPerCount(100.0), ..Default::default() };
+        let counts = ScanFile { unit: ScanUnit::Counts, nm_per_count: Some(100.0), ..Default::default() };
         let grid = read(&png, &counts);
         for (a, b) in grid.depth_um.iter().zip(&expected.depth_um) {
             assert!((a - b).abs() < 1e-9);

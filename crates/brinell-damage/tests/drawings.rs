@@ -4,17 +4,18 @@
 use std::f64::consts::PI;
 
 use crate::common::{Noise, holds, width_at};
-use brinell_damage::{DamageError, Polygons, SvgOptions, read_svg};
+use brinell::scenario::SvgFile;
+use brinell_damage::{DamageError, Polygons, read_svg};
 
 fn page(inside: &str) -> String {
     format!(r#"<svg xmlns="http://www.w3.org/2000/svg" width="20mm" height="10mm" viewBox="0 0 20 10">{inside}</svg>"#)
 }
 
 fn read(inside: &str) -> Polygons {
-    read_svg(page(inside).as_bytes(), &SvgOptions::default()).unwrap()
+    read_svg(page(inside).as_bytes(), &SvgFile::default()).unwrap()
 }
 
-fn refuse(text: &str, options: &SvgOptions) -> DamageError {
+fn refuse(text: &str, options: &SvgFile) -> DamageError {
     read_svg(text.as_bytes(), options).unwrap_err()
 }
 
@@ -42,7 +43,7 @@ fn analytic_circle_in_five_ways_has_its_area_and_chords_within_the_tolerance() {
         (format!(r#"<path d="{four_cubics}"/>"#), arc),
     ] {
         for tolerance_mm in [1e-2, 1e-3, 1e-4] {
-            let options = SvgOptions { tolerance_mm, ..Default::default() };
+            let options = SvgFile { tolerance_mm, ..Default::default() };
             let damage = read_svg(page(&shape).as_bytes(), &options).unwrap();
             let off = tolerance_mm + 2.0 * shape_error;
             let area_error = (damage.area_mm2() - 4.0 * PI).abs();
@@ -99,7 +100,7 @@ fn analytic_an_l_stays_an_l() {
 
 #[test]
 fn analytic_without_center_the_page_centre_is_the_origin() {
-    let options = SvgOptions { center: false, ..Default::default() };
+    let options = SvgFile { center: false, ..Default::default() };
     let damage = read_svg(page(r#"<rect x="12" y="1" width="2" height="1"/>"#).as_bytes(), &options).unwrap();
     let [low, high] = damage.bounds_mm().unwrap();
     for (got, expected) in low.into_iter().chain(high).zip([2.0, 3.0, 4.0, 4.0]) {
@@ -111,11 +112,11 @@ fn analytic_without_center_the_page_centre_is_the_origin() {
 fn analytic_scale_from_the_page_or_from_the_option() {
     let drawing =
         |head: &str| format!(r#"<svg xmlns="http://www.w3.org/2000/svg" {head}><rect width="10" height="5"/></svg>"#);
-    let by_hand = SvgOptions { mm_per_unit: Some(0.5), ..Default::default() };
+    let by_hand = SvgFile { mm_per_unit: Some(0.5), ..Default::default() };
     for (head, options, area) in [
-        (r#"width="40mm" height="20mm" viewBox="0 0 20 10""#, SvgOptions::default(), 200.0),
-        (r#"width="1in" height="1in" viewBox="0 0 254 254""#, SvgOptions::default(), 0.5),
-        (r#"width="10cm" height="5cm""#, SvgOptions::default(), 50.0 * (25.4_f64 / 96.0).powi(2)),
+        (r#"width="40mm" height="20mm" viewBox="0 0 20 10""#, SvgFile::default(), 200.0),
+        (r#"width="1in" height="1in" viewBox="0 0 254 254""#, SvgFile::default(), 0.5),
+        (r#"width="10cm" height="5cm""#, SvgFile::default(), 50.0 * (25.4_f64 / 96.0).powi(2)),
         (r#"width="800px" height="600px""#, by_hand.clone(), 12.5),
         ("", by_hand, 12.5),
     ] {
@@ -123,7 +124,7 @@ fn analytic_scale_from_the_page_or_from_the_option() {
         assert!((damage.area_mm2() / area - 1.0).abs() < 1e-8, "{head}");
     }
     for head in [r#"width="800" height="600""#, "", r#"width="10mm" height="10mm" viewBox="0 0 20 10""#] {
-        let error = refuse(&drawing(head), &SvgOptions::default());
+        let error = refuse(&drawing(head), &SvgFile::default());
         assert!(matches!(error, DamageError::NoScale { .. }), "{error}");
         assert!(error.to_string().contains("`mm_per_unit`"));
     }
@@ -151,7 +152,7 @@ fn regress_a_drawing_as_inkscape_saves_it() {
 </svg>"##;
     // The integral of y dx under the cubic (0, 0) (0, 2) (4, 2) (4, 0).
     let arch = 4.8;
-    let options = |id: Option<&str>| SvgOptions { path_id: id.map(str::to_owned), ..Default::default() };
+    let options = |id: Option<&str>| SvgFile { path_id: id.map(str::to_owned), ..Default::default() };
     let all = read_svg(text.as_bytes(), &options(None)).unwrap();
     assert!((all.area_mm2() - (12.0 + arch + 2.0)).abs() < 0.01, "{}", all.area_mm2());
     assert_eq!(all.warnings, ["line 16, `text` #text1: left out; only closed shapes are damage"]);
@@ -178,15 +179,15 @@ fn regress_a_drawing_as_illustrator_saves_it() {
 <rect class="st0" width="283.46" height="283.46"/>
 <path class="st1" d="M10,10h28.346v28.346H10V10z"/>
 </svg>"#;
-    let points = SvgOptions { mm_per_unit: Some(25.4 / 72.0), ..Default::default() };
+    let points = SvgFile { mm_per_unit: Some(25.4 / 72.0), ..Default::default() };
     let damage = read_svg(text.as_bytes(), &points).unwrap();
     assert!((damage.area_mm2() - 100.0).abs() < 0.01, "{}", damage.area_mm2());
-    assert!(matches!(refuse(text, &SvgOptions::default()), DamageError::NoScale { .. }));
+    assert!(matches!(refuse(text, &SvgFile::default()), DamageError::NoScale { .. }));
 }
 
 #[test]
 fn prop_unusable_drawings_are_refused_in_words() {
-    let default = SvgOptions::default();
+    let default = SvgFile::default();
     for (inside, words) in [
         (
             r#"<path fill="none" stroke="red" d="M0 0H4V4"/>"#,
@@ -208,7 +209,7 @@ fn prop_unusable_drawings_are_refused_in_words() {
     }
     let png = read_svg(b"\x89PNG\r\n\x1a\n", &default).unwrap_err();
     assert_eq!(png.to_string(), "PNG cannot be read as a drawing; save it as plain SVG");
-    let coarse = SvgOptions { tolerance_mm: f64::NAN, ..default };
+    let coarse = SvgFile { tolerance_mm: f64::NAN, ..default };
     assert_eq!(refuse(&page(""), &coarse).to_string(), "`tolerance_mm` is NaN; it must be 1e-5 to 1 mm");
 }
 
@@ -219,7 +220,7 @@ fn prop_a_drawing_that_doubles_itself_is_refused_quickly() {
         text.push_str(&format!(r##"<g id="g{i}"><use href="#g{0}"/><use href="#g{0}"/></g>"##, i - 1));
     }
     let begin = std::time::Instant::now();
-    let error = refuse(&page(&text), &SvgOptions::default());
+    let error = refuse(&page(&text), &SvgFile::default());
     assert!(matches!(error, DamageError::TooLarge { .. }), "{error}");
     assert!(begin.elapsed().as_secs() < 20);
 }
@@ -237,7 +238,7 @@ fn regress_lines_that_cross_everywhere_are_refused() {
     };
     let bars: String = (0..100).map(bar).collect();
     for (drawing, at) in [(path, "line 1, `path`"), (bars, "its shapes together")] {
-        let error = refuse(&page(&drawing), &SvgOptions::default());
+        let error = refuse(&page(&drawing), &SvgFile::default());
         assert!(matches!(error, DamageError::Tangled { .. }), "{error}");
         let expected = format!("{at}: sides cross in more than 10000 places; save");
         assert!(error.to_string().starts_with(&expected), "{error}");
@@ -247,6 +248,6 @@ fn regress_lines_that_cross_everywhere_are_refused() {
 #[test]
 fn regress_a_drawing_has_4_mib_at_most() {
     let long = page(&format!("<!--{}-->", "x".repeat(4 << 20)));
-    let error = refuse(&long, &SvgOptions::default()).to_string();
+    let error = refuse(&long, &SvgFile::default()).to_string();
     assert!(error.contains("more than the 4 MiB that are read"), "{error}");
 }

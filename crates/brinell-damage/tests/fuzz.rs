@@ -12,6 +12,10 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
+use brinell::scenario::{
+    FirstRow, ImageEdges, ImageFile, ImagePieces, RollingDirection, ScanFile, ScanFill, ScanForm, ScanUnit, ScanZero,
+    SvgFile,
+};
 use brinell_damage::*;
 use common::photos::photo;
 use common::surfaces::{cloud, sdf_binary, sdf_text, sur, x3p};
@@ -184,46 +188,47 @@ fn number(noise: &mut Noise, usual: f64) -> f64 {
 }
 
 fn read_all(noise: &mut Noise, bytes: &[u8]) -> usize {
-    let directions = [Direction::Right, Direction::Up, Direction::Left, Direction::Down];
-    let svg = SvgOptions {
+    let directions = [RollingDirection::Right, RollingDirection::Up, RollingDirection::Left, RollingDirection::Down];
+    let svg = SvgFile {
         path_id: (noise.below(4) == 0).then(|| ["a", "b", "p"][noise.below(3)].to_owned()),
         mm_per_unit: (noise.below(3) == 0).then(|| number(noise, 0.3)),
         tolerance_mm: number(noise, 0.01),
         center: noise.below(2) == 0,
+        ..SvgFile::default()
     };
-    let image = ImageOptions {
+    let image = ImageFile {
         mm_per_pixel: number(noise, 0.1),
         threshold: (noise.below(3) == 0).then(|| number(noise, 0.5)),
         use_alpha: noise.below(4) == 0,
         invert: noise.below(3) == 0,
         rolling_direction: directions[noise.below(4)],
         center: noise.below(2) == 0,
-        smooth: [Smooth::PixelEdges, Smooth::SubPixel { blur_px: number(noise, 1.0) }][noise.below(2)],
+        edges: [ImageEdges::PixelEdges, ImageEdges::SubPixel][noise.below(2)],
+        blur_px: Some(number(noise, 1.0)),
         speck_mm2: number(noise, 0.01),
         region_px: (noise.below(4) == 0).then(|| [0.0, number(noise, 2.0), number(noise, 10.0), 9.0]),
-        pieces: [None, Some(Pieces::Largest), Some(Pieces::All), Some(Pieces::At([number(noise, 9.0), 8.0]))]
-            [noise.below(4)],
+        pieces: [None, Some(ImagePieces::Largest), Some(ImagePieces::All)][noise.below(3)],
+        at_px: (noise.below(4) == 0).then(|| [number(noise, 9.0), 8.0]),
+        ..ImageFile::default()
     };
-    let radius = number(noise, 20.0);
-    let depth = DepthMapOptions {
+    let depth = ScanFile {
         ds_mm: (noise.below(2) == 0).then(|| number(noise, 0.1)),
         dz_mm: Some(number(noise, 0.1)).filter(|_| noise.below(2) == 0),
-        unit: [Unit::Um, Unit::Mm, Unit::M, Unit::NmPerCount(number(noise, 10.0))][noise.below(4)],
+        unit: [ScanUnit::Um, ScanUnit::Mm, ScanUnit::M, ScanUnit::Counts][noise.below(4)],
+        nm_per_count: Some(number(noise, 10.0)),
         height_positive_up: noise.below(2) == 0,
         missing: (noise.below(3) == 0).then(|| number(noise, 0.0)),
-        fill: [Fill::None, Fill::Neighbours][noise.below(3).min(1)],
-        remove_form: [
-            Form::None,
-            Form::Plane,
-            Form::Cylinder { radius_mm: None },
-            Form::Cylinder { radius_mm: Some(radius) },
-        ][noise.below(4)],
-        zero: [Zero::AsIs, Zero::RimMedian, Zero::Percentile(number(noise, 50.0))][noise.below(3)],
+        fill: [ScanFill::None, ScanFill::Neighbours][noise.below(3).min(1)],
+        remove_form: [ScanForm::None, ScanForm::Plane, ScanForm::Cylinder][noise.below(3)],
+        radius_mm: (noise.below(2) == 0).then(|| number(noise, 20.0)),
+        zero: [ScanZero::AsIs, ScanZero::RimMedian, ScanZero::Percentile][noise.below(3)],
+        zero_percentile: Some(number(noise, 50.0)),
         first_row: [FirstRow::Top, FirstRow::Bottom][noise.below(2)],
         rolling_direction: directions[noise.below(4)],
         threshold_um: number(noise, 1.0),
         speck_mm2: number(noise, 0.001),
         center: noise.below(2) == 0,
+        ..ScanFile::default()
     };
     let sound = |polygons: Polygons| {
         assert!(!polygons.polygons_mm.is_empty());

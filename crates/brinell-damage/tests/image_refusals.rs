@@ -4,15 +4,16 @@
 use std::time::Instant;
 
 use crate::common::{grey_bytes, grey_png, peak_mb};
-use crate::images::{EDGES, SHARP, options};
-use brinell_damage::{FileKind, ImageOptions, Smooth, read_image};
+use crate::images::{BLURRED, EDGES, SHARP, options};
+use brinell::scenario::{ImageEdges, ImageFile};
+use brinell_damage::{FileKind, read_image};
 
 #[test]
 fn prop_unusable_images_are_refused_in_words() {
     let default = options(EDGES);
-    let refuse = |bytes: &[u8], options: &ImageOptions| read_image(bytes, options).unwrap_err().to_string();
+    let refuse = |bytes: &[u8], options: &ImageFile| read_image(bytes, options).unwrap_err().to_string();
     let flat = grey_png(20, 20, |_, _| 0.5);
-    let at = |threshold| ImageOptions { threshold: Some(threshold), ..default.clone() };
+    let at = |threshold| ImageFile { threshold: Some(threshold), ..default.clone() };
     assert!(refuse(&flat, &default).contains("one brightness only"));
     assert!(refuse(&flat, &at(0.4)).starts_with("there is no damage in it"));
     assert!(refuse(&flat, &at(0.6)).starts_with("all of it would be damage"));
@@ -21,10 +22,10 @@ fn prop_unusable_images_are_refused_in_words() {
     for (options, words) in [
         (at(1.0), "`threshold` is 1; it must be a number above 0 and below 1"),
         (at(f64::NAN), "`threshold` is NaN"),
-        (ImageOptions { mm_per_pixel: 0.0, ..default.clone() }, "`mm_per_pixel` is 0"),
-        (ImageOptions { mm_per_pixel: 1e9, ..default.clone() }, "`mm_per_pixel` is 1000000000"),
-        (ImageOptions { smooth: Smooth::SubPixel { blur_px: -1.0 }, ..default.clone() }, "`blur_px` is -1"),
-        (ImageOptions { speck_mm2: f64::INFINITY, ..default.clone() }, "`speck_mm2` is inf"),
+        (ImageFile { mm_per_pixel: 0.0, ..default.clone() }, "`mm_per_pixel` is 0"),
+        (ImageFile { mm_per_pixel: 1e9, ..default.clone() }, "`mm_per_pixel` is 1000000000"),
+        (options((ImageEdges::SubPixel, -1.0)), "`blur_px` is -1"),
+        (ImageFile { speck_mm2: f64::INFINITY, ..default.clone() }, "`speck_mm2` is inf"),
     ] {
         let said = refuse(&dot, &options);
         assert!(said.starts_with(words), "{said}");
@@ -39,7 +40,7 @@ fn prop_unusable_images_are_refused_in_words() {
     let mut jpeg = Vec::new();
     let grey = grey_bytes(64, 64, |x, y| ((x * y) % 97) as f64 / 97.0);
     jpeg_encoder::Encoder::new(&mut jpeg, 90).encode(&grey, 64, 64, jpeg_encoder::ColorType::Luma).unwrap();
-    read_image(&jpeg, &ImageOptions { speck_mm2: 0.0, ..default.clone() }).unwrap();
+    read_image(&jpeg, &ImageFile { speck_mm2: 0.0, ..default.clone() }).unwrap();
     let noisy = grey_png(64, 64, |x, y| ((x * y) % 97) as f64 / 97.0);
     for (file, kind) in [(&jpeg, "JPEG"), (&noisy, "PNG")] {
         let said = refuse(&file[..file.len() / 2], &default);
@@ -104,9 +105,9 @@ fn prop_the_largest_images_stay_within_a_gigabyte() {
     drop(tile);
     println!("before reading: {:.0} MB", peak_mb());
     for (name, image) in [("disc", photo), ("texture", texture), ("half a disc, progressive JPEG", jpeg)] {
-        for smooth in [EDGES, SHARP, Smooth::SubPixel { blur_px: 1.5 }] {
+        for smooth in [EDGES, SHARP, BLURRED] {
             let begin = Instant::now();
-            let options = ImageOptions { speck_mm2: 0.0, ..options(smooth) };
+            let options = ImageFile { speck_mm2: 0.0, ..options(smooth) };
             let result = read_image(&image, &options).map(|d| d.polygons_mm.len());
             println!("{name}, {smooth:?}: {:?}, peak {:.0} MB, {result:?}", begin.elapsed(), peak_mb());
         }

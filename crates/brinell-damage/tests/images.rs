@@ -4,18 +4,23 @@
 use std::f64::consts::PI;
 
 use crate::common::{Noise, cover, grey_bytes, grey_png, holds, png, width_at};
-use brinell_damage::{DamageError, Direction, ImageOptions, Smooth, read_image};
+use brinell::scenario::{ImageEdges, ImageFile, RollingDirection};
+use brinell_damage::{DamageError, read_image};
 use png::{BitDepth, ColorType};
 use proptest::prelude::*;
 
 const PIXEL: f64 = 0.02;
 
-pub(crate) fn options(smooth: Smooth) -> ImageOptions {
-    ImageOptions { mm_per_pixel: PIXEL, smooth, ..Default::default() }
+/// How an outline runs, and the blur before, pixels.
+type Edges = (ImageEdges, f64);
+
+pub(crate) fn options((edges, blur_px): Edges) -> ImageFile {
+    ImageFile { mm_per_pixel: PIXEL, edges, blur_px: Some(blur_px), ..Default::default() }
 }
 
-pub(crate) const EDGES: Smooth = Smooth::PixelEdges;
-pub(crate) const SHARP: Smooth = Smooth::SubPixel { blur_px: 0.0 };
+pub(crate) const EDGES: Edges = (ImageEdges::PixelEdges, 0.0);
+pub(crate) const SHARP: Edges = (ImageEdges::SubPixel, 0.0);
+pub(crate) const BLURRED: Edges = (ImageEdges::SubPixel, 1.5);
 
 #[test]
 fn analytic_rectangle_on_pixel_edges_is_exact() {
@@ -43,7 +48,7 @@ fn analytic_circle_has_its_area_and_chords_within_the_resolution() {
         ("hard mask, edges", &hard, EDGES, 5e-3, 1.0),
         ("hard mask, sub-pixel", &hard, SHARP, 5e-3, 0.75),
         ("soft mask, sub-pixel", &soft, SHARP, 5e-4, 0.1),
-        ("soft mask, blurred", &soft, Smooth::SubPixel { blur_px: 1.5 }, 1e-3, 0.15),
+        ("soft mask, blurred", &soft, BLURRED, 1e-3, 0.15),
     ] {
         let damage = read_image(image, &options(smooth)).unwrap();
         let error = damage.area_mm2() / true_area - 1.0;
@@ -66,26 +71,25 @@ fn letter(x: usize, y: usize) -> bool {
 fn analytic_an_l_is_turned_and_never_mirrored() {
     let image = grey_png(10, 12, |x, y| if letter(x, y) { 0.0 } else { 1.0 });
     for (direction, top, foot, empty) in [
-        (Direction::Right, [-1.5, 3.0], [2.0, -3.0], [2.0, 3.0]),
-        (Direction::Up, [3.0, 1.5], [-3.0, -2.0], [3.0, -2.0]),
-        (Direction::Left, [1.5, -3.0], [-2.0, 3.0], [-2.0, -3.0]),
-        (Direction::Down, [-3.0, -1.5], [3.0, 2.0], [-3.0, 2.0]),
+        (RollingDirection::Right, [-1.5, 3.0], [2.0, -3.0], [2.0, 3.0]),
+        (RollingDirection::Up, [3.0, 1.5], [-3.0, -2.0], [3.0, -2.0]),
+        (RollingDirection::Left, [1.5, -3.0], [-2.0, 3.0], [-2.0, -3.0]),
+        (RollingDirection::Down, [-3.0, -1.5], [3.0, 2.0], [-3.0, 2.0]),
     ] {
-        let options =
-            ImageOptions { mm_per_pixel: 1.0, rolling_direction: direction, speck_mm2: 0.0, ..options(EDGES) };
+        let options = ImageFile { mm_per_pixel: 1.0, rolling_direction: direction, speck_mm2: 0.0, ..options(EDGES) };
         let damage = read_image(&image, &options).unwrap();
         assert!((damage.area_mm2() - 22.0).abs() < 1e-9, "outer rings counter-clockwise");
         assert!(holds(&damage.polygons_mm, top), "{direction:?}");
         assert!(holds(&damage.polygons_mm, foot), "{direction:?}");
         assert!(!holds(&damage.polygons_mm, empty), "{direction:?}");
         // Without centring, pixel (3, 2) of the long stroke is 1.5 left of and 3.5 above the image's centre.
-        let there = ImageOptions { center: false, ..options };
+        let there = ImageFile { center: false, ..options };
         let damage = read_image(&image, &there).unwrap();
         let point = match direction {
-            Direction::Right => [-1.5, 3.5],
-            Direction::Up => [3.5, 1.5],
-            Direction::Left => [1.5, -3.5],
-            Direction::Down => [-3.5, -1.5],
+            RollingDirection::Right => [-1.5, 3.5],
+            RollingDirection::Up => [3.5, 1.5],
+            RollingDirection::Left => [1.5, -3.5],
+            RollingDirection::Down => [-3.5, -1.5],
         };
         assert!(holds(&damage.polygons_mm, point), "{direction:?}");
     }
@@ -102,7 +106,7 @@ proptest! {
         let count = (0..width * height).filter(|i| damaged(i % width, i / width)).count();
         let image = grey_png(width, height, |x, y| 1.0 - 0.2 * f64::from(values[y * width + x]));
         for smooth in [EDGES, SHARP] {
-            let options = ImageOptions {
+            let options = ImageFile {
                 mm_per_pixel: 1.0,
                 threshold: Some(1.1 - 0.2 * f64::from(level)),
                 center: false,
@@ -159,12 +163,12 @@ fn analytic_a_mask_drawn_in_the_alpha_channel() {
     let rgba: Vec<u8> = (0..50 * 30).flat_map(|i| [200, 30, 30, if drawn(i % 50, i / 50) { 255 } else { 0 }]).collect();
     let image = png(50, 30, ColorType::Rgba, BitDepth::Eight, &rgba);
     for (use_alpha, invert, area) in [(true, false, 600.0), (true, true, 900.0), (false, false, 600.0)] {
-        let options = ImageOptions { mm_per_pixel: 1.0, use_alpha, invert, ..options(EDGES) };
+        let options = ImageFile { mm_per_pixel: 1.0, use_alpha, invert, ..options(EDGES) };
         let damage = read_image(&image, &options).unwrap();
         assert!((damage.area_mm2() - area).abs() < 1e-9, "{use_alpha} {invert}");
     }
     let grey = grey_png(4, 4, |_, _| 0.5);
-    let with_alpha = ImageOptions { use_alpha: true, ..options(EDGES) };
+    let with_alpha = ImageFile { use_alpha: true, ..options(EDGES) };
     assert!(read_image(&grey, &with_alpha).unwrap_err().to_string().contains("without an alpha channel"));
 }
 
@@ -183,7 +187,7 @@ fn xval_every_kind_of_png_gives_the_same_outline() {
         png(16, 16, ColorType::Rgb, BitDepth::Eight, &expand(|v| vec![v, v, v])),
         png(16, 16, ColorType::Rgba, BitDepth::Sixteen, &expand(|v| vec![v, 0, v, 0, v, 0, 255, 255])),
     ];
-    let options = ImageOptions { speck_mm2: 0.0, ..options(EDGES) };
+    let options = ImageFile { speck_mm2: 0.0, ..options(EDGES) };
     let read = |image: &[u8]| read_image(image, &options).unwrap().polygons_mm;
     for image in &images[1..] {
         assert_eq!(read(image), read(&images[0]));
@@ -207,7 +211,7 @@ fn prop_jpeg_quality_moves_the_outline_by_little() {
             let mut encoder = jpeg_encoder::Encoder::new(&mut jpeg, quality);
             encoder.set_progressive(progressive);
             encoder.encode(&grey, 200, 200, jpeg_encoder::ColorType::Luma).unwrap();
-            let damage = read_image(&jpeg, &options(Smooth::SubPixel { blur_px: 1.5 })).unwrap();
+            let damage = read_image(&jpeg, &options(BLURRED)).unwrap();
             let error = (damage.area_mm2() / true_area - 1.0).abs();
             println!("quality {quality}, progressive {progressive}: area off by {error:.1e}");
             assert!(error < bound, "quality {quality}: {error:e}");
@@ -219,7 +223,7 @@ fn prop_jpeg_quality_moves_the_outline_by_little() {
 #[test]
 fn analytic_the_drawn_photo_has_its_length_and_width() {
     let photo = include_bytes!("../../../examples/photo-spall.png");
-    let options = ImageOptions { mm_per_pixel: PIXEL, ..Default::default() };
+    let options = ImageFile { mm_per_pixel: PIXEL, ..Default::default() };
     let damage = read_image(photo, &options).unwrap();
     let [low, high] = damage.bounds_mm().unwrap();
     println!("{:?} area {} {:?}", [low, high], damage.area_mm2(), damage.warnings);

@@ -2,7 +2,8 @@
 #![cfg(feature = "image")]
 
 use crate::common::photos::{Photo, photo};
-use brinell_damage::{DamageError, ImageOptions, Pieces, read_image};
+use brinell::scenario::{ImageFile, ImagePieces};
+use brinell_damage::{DamageError, read_image};
 
 /// Photos of a set with a spall, and all of them.
 const SPALLED: usize = 50;
@@ -10,8 +11,8 @@ const ALL: usize = 60;
 /// Error of an area that is right.
 const TOLERANCE: f64 = 0.05;
 
-fn options(photo: &Photo) -> ImageOptions {
-    ImageOptions { mm_per_pixel: photo.mm_per_pixel, ..Default::default() }
+fn options(photo: &Photo) -> ImageFile {
+    ImageFile { mm_per_pixel: photo.mm_per_pixel, ..Default::default() }
 }
 
 /// The area that was read, 0 where the answer is that there is no spall.
@@ -61,7 +62,7 @@ fn analytic_areas_of_spalls_in_sixty_photos_that_the_reader_was_not_written_with
 #[test]
 fn analytic_a_light_spall_is_reported_and_read_with_invert() {
     let photo = photo(1, 0);
-    let decoded = |invert: bool| ImageOptions { invert, ..options(&photo) };
+    let decoded = |invert: bool| ImageFile { invert, ..options(&photo) };
     // The photo's negative.
     let negative = crate::common::negative_png(&photo.bytes);
     let said = read_image(&negative, &decoded(false)).unwrap_err().to_string();
@@ -78,17 +79,17 @@ fn prop_a_region_and_a_point_choose_the_piece() {
         let dark = disc(x, y, [80.0, 100.0], 30.0) || disc(x, y, [220.0, 100.0], 20.0);
         (0.4 + 0.4 * x as f64 / 300.0) * if dark { 0.5 } else { 1.0 }
     });
-    let area = |options: ImageOptions| read_image(&image, &options).unwrap().area_mm2();
-    let plain = ImageOptions { mm_per_pixel: 0.02, ..Default::default() };
+    let area = |options: ImageFile| read_image(&image, &options).unwrap().area_mm2();
+    let plain = ImageFile { mm_per_pixel: 0.02, ..Default::default() };
     let disc_mm2 = |r: f64| std::f64::consts::PI * (0.02 * r) * (0.02 * r);
     let near = |found: f64, wanted: f64| assert!((found / wanted - 1.0).abs() < 0.02, "{found} {wanted}");
     near(area(plain.clone()), disc_mm2(30.0));
-    near(area(ImageOptions { pieces: Some(Pieces::At([220.0, 95.0])), ..plain.clone() }), disc_mm2(20.0));
-    near(area(ImageOptions { pieces: Some(Pieces::All), ..plain.clone() }), disc_mm2(30.0) + disc_mm2(20.0));
+    near(area(ImageFile { at_px: Some([220.0, 95.0]), ..plain.clone() }), disc_mm2(20.0));
+    near(area(ImageFile { pieces: Some(ImagePieces::All), ..plain.clone() }), disc_mm2(30.0) + disc_mm2(20.0));
     let region = Some([150.0, 20.0, 150.0, 160.0]);
-    near(area(ImageOptions { region_px: region, ..plain.clone() }), disc_mm2(20.0));
-    let outside = ImageOptions { region_px: Some([150.0, 20.0, 151.0, 160.0]), ..plain.clone() };
+    near(area(ImageFile { region_px: region, ..plain.clone() }), disc_mm2(20.0));
+    let outside = ImageFile { region_px: Some([150.0, 20.0, 151.0, 160.0]), ..plain.clone() };
     assert!(read_image(&image, &outside).unwrap_err().to_string().contains("`region_px` is [150, 20, 151, 160]"));
-    let nowhere = ImageOptions { pieces: Some(Pieces::At([150.0, 20.0])), ..plain };
+    let nowhere = ImageFile { at_px: Some([150.0, 20.0]), ..plain };
     assert!(read_image(&image, &nowhere).unwrap_err().to_string().contains("at_px"));
 }

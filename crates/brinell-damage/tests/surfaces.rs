@@ -2,7 +2,8 @@
 
 use crate::common::npy_f8;
 use crate::common::surfaces::{cloud, sdf_binary, sdf_text, sur, x3p, zip};
-use brinell_damage::{DepthGrid, DepthMapOptions, FileKind, Fill, read_depth_map};
+use brinell::scenario::{ScanFile, ScanFill};
+use brinell_damage::{DepthGrid, FileKind, read_depth_map};
 
 const COLUMNS: usize = 31;
 const ROWS: usize = 21;
@@ -19,11 +20,11 @@ fn heights(column: usize, row: usize) -> f64 {
     }
 }
 
-fn options(spacing_mm: Option<f64>) -> DepthMapOptions {
-    DepthMapOptions { ds_mm: spacing_mm, dz_mm: spacing_mm, fill: Fill::Neighbours, ..Default::default() }
+fn options(spacing_mm: Option<f64>) -> ScanFile {
+    ScanFile { ds_mm: spacing_mm, dz_mm: spacing_mm, fill: ScanFill::Neighbours, ..Default::default() }
 }
 
-fn words(bytes: &[u8], options: &DepthMapOptions) -> String {
+fn words(bytes: &[u8], options: &ScanFile) -> String {
     read_depth_map(bytes, None, options).unwrap_err().to_string()
 }
 

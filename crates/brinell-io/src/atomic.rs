@@ -105,6 +105,15 @@ impl PartialFile {
         if self.failed { Err(IoError::AlreadyFailed { path: self.path.clone() }) } else { Ok(()) }
     }
 
+    /// The same, and where a row has not so many values.
+    pub(crate) fn check_row(&self, columns: usize, row: &[f64]) -> Result<(), IoError> {
+        self.check()?;
+        if row.len() == columns {
+            return Ok(());
+        }
+        Err(IoError::RowLength { path: self.path.clone(), expected: columns, got: row.len() })
+    }
+
     /// Forces the contents to the disk, where they are on one.
     pub(crate) fn complete(self) -> Result<Complete, IoError> {
         self.check()?;

@@ -103,34 +103,12 @@ pub enum IoError {
     #[error("unknown signal format `{0}`; known are csv, parquet, mat, npz, uff58 and wav")]
     UnknownFormat(String),
     /// A format that this build does not have.
-    #[error("{}: this build has no {format}; build with the feature `{feature}` or choose csv", path.display())]
+    #[error("{}: this build has no {format}; build with the feature `{format}` or choose csv", path.display())]
     FormatLeftOut {
         /// The file to be written.
         path: PathBuf,
-        /// The format's name.
+        /// The format's name, and that of the cargo feature that brings it.
         format: &'static str,
-        /// The cargo feature that brings it.
-        feature: &'static str,
-    },
-    /// A CSV file without the line of channel names.
-    #[error("{}: line 1 must name the columns, such as `t,outer_ax`; {why}", path.display())]
-    CsvHeader {
-        /// The file.
-        path: PathBuf,
-        /// What is there instead.
-        why: &'static str,
-    },
-    /// A CSV line with more or fewer values than the header has names.
-    #[error("{}: line {line} has {got} values where the header names {expected} columns", path.display())]
-    CsvRow {
-        /// The file.
-        path: PathBuf,
-        /// The line, from 1.
-        line: u64,
-        /// Columns of the header.
-        expected: usize,
-        /// Values of the line.
-        got: usize,
     },
     /// A CSV value that is no number.
     #[error("{}: line {line}, column `{column}`: `{text}` is not a number", path.display())]

@@ -42,7 +42,6 @@
 #![cfg_attr(not(test), deny(clippy::print_stdout, clippy::print_stderr))]
 
 mod atomic;
-mod csv;
 mod error;
 mod journal;
 mod read;
@@ -55,16 +54,11 @@ mod write;
 
 #[doc(hidden)]
 pub use atomic::{Complete, atomic_copy, atomic_prepare, atomic_write, lock};
-#[doc(hidden)]
-pub use csv::{CsvWriter, read_csv, read_csv_from};
 pub use error::IoError;
 #[doc(hidden)]
 pub use journal::Journal;
 #[doc(hidden)]
 pub use read::MAX_VALUES;
-#[cfg(feature = "parquet")]
-#[doc(hidden)]
-pub use read::parquet::read_parquet;
 #[cfg(feature = "parquet")]
 #[doc(hidden)]
 pub use read::records::read_records;
@@ -77,13 +71,13 @@ pub use read::{
 pub use records::{Cell, Kind, RecordColumn, read_row_file, sha256_of, write_row_file};
 #[doc(hidden)]
 pub use signals::keys;
-pub use signals::{Column, Format, MemoryWriter, Metadata, Outcome, SignalWriter, Signals};
+pub use signals::{Column, Format, MemoryWriter, Metadata, Outcome, SignalWriter};
 #[doc(hidden)]
 pub use table::{Cells, Table};
 #[doc(hidden)]
 pub use text::{LARGEST_TEXT, read_text};
 #[doc(hidden)]
-pub use write::mat::MatWriter;
+pub use write::csv::CsvWriter;
 #[cfg(feature = "parquet-write")]
 #[doc(hidden)]
 pub use write::parquet::ParquetWriter;

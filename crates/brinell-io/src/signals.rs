@@ -6,9 +6,11 @@ use std::path::{Path, PathBuf};
 use std::str::FromStr;
 
 use crate::atomic::Destination;
+use crate::write::csv::CsvWriter;
+use crate::write::mat::MatWriter;
 use crate::write::uff::UffWriter;
 use crate::write::wav::WavWriter;
-use crate::{Complete, CsvWriter, IoError, MatWriter};
+use crate::{Complete, IoError};
 
 /// Keys of the metadata that a Parquet file carries.
 pub mod keys {
@@ -240,27 +242,14 @@ impl Format {
             Self::Csv => Box::new(CsvWriter::at(destination, columns)?),
             #[cfg(feature = "parquet-write")]
             Self::Parquet => Box::new(crate::ParquetWriter::at(destination, columns, metadata)?),
-            Self::Mat => Box::new(MatWriter::at(destination, columns, metadata, false)?),
+            Self::Mat => Box::new(MatWriter::at(destination, columns, metadata)?),
             #[cfg(feature = "npz")]
             Self::Npz => Box::new(crate::write::npz::NpzWriter::at(destination, columns, metadata)?),
             Self::Uff58 => Box::new(UffWriter::at(destination, columns, metadata)?),
             Self::Wav => Box::new(WavWriter::at(destination, columns, metadata)?),
-            #[cfg(not(feature = "parquet-write"))]
-            Self::Parquet => {
-                return Err(IoError::FormatLeftOut {
-                    path: destination.path().to_owned(),
-                    format: self.name(),
-                    feature: "parquet",
-                });
-            }
-            #[cfg(not(feature = "npz"))]
-            Self::Npz => {
-                return Err(IoError::FormatLeftOut {
-                    path: destination.path().to_owned(),
-                    format: self.name(),
-                    feature: "npz",
-                });
-            }
+            // Features are called like the formats that they bring.
+            #[cfg(not(all(feature = "parquet-write", feature = "npz")))]
+            _ => return Err(IoError::FormatLeftOut { path: destination.path().to_owned(), format: self.name() }),
         })
     }
 }
@@ -270,30 +259,6 @@ impl FromStr for Format {
 
     fn from_str(name: &str) -> Result<Self, IoError> {
         Self::ALL.into_iter().find(|f| f.name() == name).ok_or_else(|| IoError::UnknownFormat(name.to_owned()))
-    }
-}
-
-/// A table read back whole from a file.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct Signals {
-    /// The columns; unit and description are empty where the file has none.
-    pub columns: Vec<Column>,
-    /// The values of each column, all of one length.
-    pub data: Vec<Vec<f64>>,
-    /// The file's own metadata; none in CSV.
-    pub metadata: Metadata,
-}
-
-impl Signals {
-    /// The values of the first column of this name.
-    pub fn column(&self, name: &str) -> Option<&[f64]> {
-        let i = self.columns.iter().position(|c| c.name == name)?;
-        self.data.get(i).map(Vec::as_slice)
-    }
-
-    /// The number of rows.
-    pub fn rows(&self) -> usize {
-        self.data.first().map_or(0, Vec::len)
     }
 }
 
@@ -332,13 +297,4 @@ pub(crate) fn units_json(columns: &[Column]) -> String {
 pub(crate) fn without_time(columns: &[Column]) -> Vec<usize> {
     let is_time = |c: &Column| c.name == "t" && c.unit == "s";
     (0..columns.len()).filter(|&i| !is_time(&columns[i])).collect()
-}
-
-/// Checks a row against the number of columns.
-pub(crate) fn check_row(path: &Path, columns: usize, row: &[f64]) -> Result<(), IoError> {
-    if row.len() == columns {
-        Ok(())
-    } else {
-        Err(IoError::RowLength { path: path.to_owned(), expected: columns, got: row.len() })
-    }
 }

@@ -3,8 +3,8 @@
 
 use std::path::{Path, PathBuf};
 
-use crate::common::{any_table, columns, names_in, numbered, write};
-use brinell_io::{IoError, Metadata, Outcome, ParquetWriter, SignalWriter, keys, read_parquet};
+use crate::common::{columns, names_in, numbered, write};
+use brinell_io::{IoError, Metadata, Outcome, ParquetWriter, SignalFile, SignalWriter, keys, open};
 use parquet::basic::Compression;
 use parquet::data_type::{DoubleType, FloatType, Int64Type};
 use parquet::file::properties::WriterProperties;
@@ -22,20 +22,11 @@ fn write_all(folder: &Path, rows: &[Vec<f64>], outcome: Outcome) -> PathBuf {
     writer.finish(outcome).unwrap()
 }
 
-proptest! {
-    #[test]
-    fn prop_parquet_gives_back_every_bit(rows in any_table()) {
-        let folder = tempfile::tempdir().unwrap();
-        let signals = read_parquet(write_all(folder.path(), &rows, Outcome::Complete)).unwrap();
-        prop_assert_eq!(signals.rows(), rows.len());
-        for (i, row) in rows.iter().enumerate() {
-            for (value, column) in row.iter().zip(&signals.data) {
-                prop_assert_eq!(value.to_bits(), column[i].to_bits());
-            }
-        }
-        prop_assert_eq!(names_in(folder.path()), ["signals.parquet"]);
-    }
+fn units(file: &SignalFile) -> Vec<(&str, Option<&str>)> {
+    file.channels().iter().map(|c| (c.name.as_str(), c.unit.as_deref())).collect()
+}
 
+proptest! {
     #[test]
     fn prop_reading_a_damaged_parquet_never_panics(cut in 0.0..1.0f64, flips in prop::collection::vec((0.0..1.0f64, any::<u8>()), 0..6)) {
         let folder = tempfile::tempdir().unwrap();
@@ -50,7 +41,10 @@ proptest! {
             bytes.truncate((cut * bytes.len() as f64) as usize);
         }
         std::fs::write(&path, bytes).unwrap();
-        let _ = read_parquet(&path);
+        if let Ok(mut file) = open(&path) {
+            let names: Vec<String> = file.channels().iter().map(|c| c.name.clone()).collect();
+            names.iter().for_each(|name| drop(file.read(name)));
+        }
     }
 }
 
@@ -58,11 +52,10 @@ proptest! {
 fn regress_parquet_carries_units_scenario_version_and_outcome() {
     let folder = tempfile::tempdir().unwrap();
     let rows = [vec![0.0, 1.0]];
-    let signals =
-        read_parquet(write_all(folder.path(), &rows, Outcome::Partial("interrupted at 0.1 s".into()))).unwrap();
-    assert_eq!(signals.columns, columns());
-    assert_eq!(signals.column("outer_ax"), Some(&[1.0][..]));
-    let get = |key| signals.metadata.get(key).unwrap();
+    let mut file = open(write_all(folder.path(), &rows, Outcome::Partial("interrupted at 0.1 s".into()))).unwrap();
+    assert_eq!(units(&file), [("t", Some("s")), ("outer_ax", Some("m/s^2"))]);
+    assert_eq!(file.read("outer_ax").unwrap(), [1.0]);
+    let get = |key| file.metadata().get(key).unwrap();
     assert_eq!(get(keys::SCENARIO), "name = \"Prüfstand\"\n");
     assert_eq!(get(keys::VERSION), "0.1.0");
     assert_eq!(get(keys::OUTCOME), "partial: interrupted at 0.1 s");
@@ -71,8 +64,9 @@ fn regress_parquet_carries_units_scenario_version_and_outcome() {
     let units = json!({ "t": "s", "outer_ax": "m/s^2" });
     assert_eq!(read(keys::UNITS), units);
     assert_eq!(read(keys::PANDAS_ATTRS), json!({ "units": units }));
-    let signals = read_parquet(write_all(folder.path(), &rows, Outcome::Complete)).unwrap();
-    assert_eq!(signals.metadata.get(keys::OUTCOME), Some("complete"));
+    assert_eq!(read(keys::DESCRIPTIONS), json!({ "t": "time", "outer_ax": "outer ring \"along\" x" }));
+    let file = open(write_all(folder.path(), &rows, Outcome::Complete)).unwrap();
+    assert_eq!(file.metadata().get(keys::OUTCOME), Some("complete"));
 }
 
 #[test]
@@ -80,8 +74,9 @@ fn regress_a_table_without_rows_is_a_whole_file() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("a.parquet");
     let writer = Box::new(ParquetWriter::create(&path, &columns(), &Metadata::default()).unwrap());
-    let signals = read_parquet(writer.finish(Outcome::Complete).unwrap()).unwrap();
-    assert_eq!((signals.rows(), signals.columns), (0, columns()));
+    let mut file = open(writer.finish(Outcome::Complete).unwrap()).unwrap();
+    assert_eq!(units(&file), [("t", Some("s")), ("outer_ax", Some("m/s^2"))]);
+    assert!(file.read("t").unwrap().is_empty());
 }
 
 /// The memory for rows is that of one row group; this many columns and rows make several, the last one short.
@@ -101,9 +96,10 @@ fn prop_row_groups_stay_within_their_memory() {
             assert_eq!(chunks.clone().map(|c| c.compressed_size()).sum::<i64>(), group.compressed_size());
             assert_eq!(chunks.map(|c| c.uncompressed_size()).sum::<i64>(), group.total_byte_size());
         }
-        let signals = read_parquet(&path).unwrap();
-        for column in &signals.data {
-            assert!(column.iter().zip(&table).all(|(value, row)| *value == row[0]));
+        let mut file = open(&path).unwrap();
+        for column in [0, columns / 2, columns - 1] {
+            let column = file.read(&format!("channel_{column}")).unwrap();
+            assert!(column.len() == table.len() && column.iter().zip(&table).all(|(value, row)| *value == row[0]));
         }
     }
 }
@@ -115,9 +111,8 @@ fn regress_reserved_metadata_and_foreign_files_are_refused() {
     let metadata = Metadata::default().with(keys::UNITS, "{}");
     assert!(matches!(ParquetWriter::create(&path, &columns(), &metadata), Err(IoError::ReservedKey { .. })));
     assert!(names_in(folder.path()).is_empty());
-    assert!(matches!(read_parquet(&path), Err(IoError::Read { .. })));
     std::fs::write(&path, "t,x\n0,1\n").unwrap();
-    assert!(matches!(read_parquet(&path), Err(IoError::Parquet { .. })));
+    assert!(matches!(open(&path), Err(IoError::Mislabelled { .. })));
 }
 
 /// As pandas writes it: Snappy, dictionaries, columns that may be empty, whole numbers.
@@ -142,9 +137,9 @@ fn regress_parquet_of_others_is_read() {
     group.close().unwrap();
     writer.close().unwrap();
 
-    let signals = read_parquet(&path).unwrap();
-    let a = signals.column("a").unwrap();
+    let mut file = open(&path).unwrap();
+    let a = file.read("a").unwrap();
     assert!(a[0] == 1.5 && a[1].is_nan() && a[2] == 2.5);
-    assert_eq!(signals.column("n").unwrap(), [7.0, 7.0, -8.0]);
-    assert_eq!(signals.column("f").unwrap(), [0.25, 0.5, 4.0]);
+    assert_eq!(file.read("n").unwrap(), [7.0, 7.0, -8.0]);
+    assert_eq!(file.read("f").unwrap(), [0.25, 0.5, 4.0]);
 }

@@ -4,7 +4,7 @@
 use std::path::Path;
 
 use crate::common::{any_table, columns, names_in, numbered, sampled, write};
-use brinell_io::{Column, Format, IoError, MatWriter, Metadata, Outcome, RateSource, SignalWriter, keys, open};
+use brinell_io::{Column, Format, IoError, Metadata, Outcome, RateSource, keys, open};
 use proptest::prelude::*;
 use proptest::test_runner::{Config, RngAlgorithm, TestRng, TestRunner};
 
@@ -81,23 +81,6 @@ fn prop_csv_gives_back_every_number_by_the_common_reader() {
                 assert!(value.to_bits() == row[i].to_bits() || value.is_nan() && row[i].is_nan());
             }
         }
-    });
-}
-
-#[test]
-fn prop_compressed_mat_gives_back_every_bit() {
-    with_tables(|rows| {
-        let folder = tempfile::tempdir().unwrap();
-        let path = folder.path().join("a.mat");
-        let columns = numbered(rows[0].len());
-        let mut writer = Box::new(MatWriter::create(&path, &columns, &sampled(), true).unwrap());
-        write(&mut *writer, &rows).unwrap();
-        writer.finish(Outcome::Complete).unwrap();
-        let mut file = open(&path).unwrap();
-        for (i, column) in columns.iter().enumerate() {
-            same(&file.read(&column.name).unwrap(), &rows, i);
-        }
-        assert_eq!(file.read("fs").unwrap(), [25600.0]);
     });
 }
 

@@ -7,8 +7,6 @@
 use std::f64::consts::PI;
 
 use super::error::{SignalError, check, require};
-use super::filter::extend_oddly;
-use super::fir::strided;
 
 /// Input samples for each output sample of a simulation.
 pub const FACTOR: usize = 8;
@@ -23,7 +21,7 @@ pub const ATTENUATION_DB: f64 = 80.0;
 ///
 /// All terms are positive, so the sum is accurate to round-off; meant for |x| below about 30 (a Kaiser window for
 /// 100 dB needs 10), beyond which it only takes longer.
-pub fn bessel_i0(x: f64) -> f64 {
+pub(super) fn bessel_i0(x: f64) -> f64 {
     let quarter_square = 0.25 * x * x;
     let mut term = 1.0;
     let mut sum = 1.0;
@@ -89,6 +87,33 @@ pub fn decimate(x: &[f64], factor: usize) -> Result<Vec<f64>, SignalError> {
     let taps = kaiser_lowpass(PASSBAND / rate, STOPBAND / rate, ATTENUATION_DB);
     check(x, 1.0, taps.len(), "decimation by this factor")?;
     Ok(strided(&extend_oddly(x, taps.len() / 2), &taps, factor))
+}
+
+/// `x` with `extension` samples more at each end, turned about the end points: 2 x_0 - x_k. Needs extension < length.
+fn extend_oddly(x: &[f64], extension: usize) -> Vec<f64> {
+    let (first, last) = (x[0], x[x.len() - 1]);
+    let before = x[1..=extension].iter().rev().map(|v| 2.0 * first - v);
+    let after = (x[x.len() - 1 - extension..x.len() - 1].iter().rev()).map(|v| 2.0 * last - v);
+    before.chain(x.iter().copied()).chain(after).collect()
+}
+
+/// Inner products of symmetric `taps` with every `step`-th window of `x`.
+fn strided(x: &[f64], taps: &[f64], step: usize) -> Vec<f64> {
+    const LANES: usize = 8;
+    x.windows(taps.len())
+        .step_by(step)
+        .map(|window| {
+            let mut sums = [0.0; LANES];
+            let (w, t) = (window.chunks_exact(LANES), taps.chunks_exact(LANES));
+            let rest: f64 = (w.remainder().iter().zip(t.remainder())).map(|(x, h)| x * h).sum();
+            for (x, h) in w.zip(t) {
+                for lane in 0..LANES {
+                    sums[lane] += x[lane] * h[lane];
+                }
+            }
+            sums.iter().sum::<f64>() + rest
+        })
+        .collect()
 }
 
 #[cfg(test)]

@@ -30,6 +30,7 @@ use realfft::num_complex::Complex;
 
 use self::padded::PADDING;
 pub(super) use self::padded::Padded;
+use super::distribution::chi_square_tail;
 use super::envelope::Band;
 use super::indicators::Moments;
 use super::spectrum::FEWEST_SAMPLES;
@@ -102,12 +103,6 @@ pub struct LineFrequency {
     pub span: f64,
     /// Distance at which two trains of impacts would show two fundamentals, Hz: two bins of the segment.
     pub resolution: f64,
-    /// Harmonics used.
-    pub harmonics: usize,
-    /// Chance that noise alone shows such a comb in the range searched, the largest over the segments used.
-    pub false_alarm: f64,
-    /// Segments in which the line was found.
-    pub segments: usize,
 }
 
 /// The repetition frequency in the envelope of a whole signal sampled at `fs` Hz, taken as one segment. The `band`, Hz,
@@ -133,7 +128,6 @@ pub fn line_frequency(x: &[f64], fs: f64, band: Band, search: &LineSearch) -> Op
 pub(super) struct LineAverage {
     frequencies: Moments,
     sum_of_variances: f64,
-    worst_false_alarm: f64,
     latest: Option<LineFrequency>,
 }
 
@@ -142,7 +136,6 @@ impl LineAverage {
         let Some(found) = found else { return };
         self.frequencies.push(found.frequency);
         self.sum_of_variances += found.uncertainty * found.uncertainty;
-        self.worst_false_alarm = self.worst_false_alarm.max(found.false_alarm);
         self.latest = Some(found);
     }
 
@@ -164,8 +157,6 @@ impl LineAverage {
             uncertainty,
             noise,
             span: latest.span * HANN_SQUARE * n * n / (n * HANN_SQUARE + 2.0 * (n - 1.0) * HANN_OVERLAP),
-            false_alarm: self.worst_false_alarm,
-            segments: count as usize,
             ..latest
         })
     }
@@ -267,8 +258,8 @@ impl Comb {
         let frequency = start + step * (top as f64 + offset);
 
         let trials = 1.0 + PLACES_PER_BIN * 2.0 * half_range * harmonics / bin;
-        let false_alarm = (trials * gamma_tail(self.noise.len(), highest)).min(1.0);
-        if false_alarm > FALSE_ALARM_LIMIT {
+        // Of noise, each harmonic's power over its mean is exponentially distributed.
+        if trials * chi_square_tail(2.0 * highest, 2.0 * harmonics) > FALSE_ALARM_LIMIT {
             return None;
         }
         let uncertainty = self.uncertainty(e, frequency);
@@ -278,9 +269,6 @@ impl Comb {
             noise: uncertainty,
             span: self.length as f64 / self.fs / HANN_SQUARE,
             resolution: self.resolution(),
-            harmonics: self.noise.len(),
-            false_alarm,
-            segments: 1,
         })
     }
 
@@ -343,17 +331,6 @@ impl Comb {
 fn median(values: &mut [f64]) -> f64 {
     let middle = values.len() / 2;
     *values.select_nth_unstable_by(middle, f64::total_cmp).1
-}
-
-/// P(sum of `count` unit exponential variables > s).
-fn gamma_tail(count: usize, s: f64) -> f64 {
-    let mut term = (-s).exp();
-    let mut sum = 0.0;
-    for k in 0..count {
-        sum += term;
-        term *= s / (k + 1) as f64;
-    }
-    sum
 }
 
 #[cfg(test)]

@@ -11,7 +11,7 @@ use rustfft::FftPlanner;
 
 use super::envelope::{Band, bins};
 use super::error::{SignalError, check, require};
-use super::interleaved::{Interleaved, Room};
+use super::fft;
 use super::psd::Detrend;
 
 /// Velocity from acceleration `a` (unit/s^2 gives unit/s) sampled at `fs` Hz, of what lies within a band: the transform
@@ -80,32 +80,21 @@ pub(super) fn velocities(
             "above 0, below the upper edge and half the sampling rate",
         )?;
     }
-    let mut planner = FftPlanner::new();
-    let mut room = Room::default();
     let mut v = a.to_vec();
     Detrend::Linear.apply(&mut v);
-    let spectrum = Interleaved::planned(a.len(), &mut planner).forward(&v, &mut room);
+    let spectrum = fft::bins(&mut v);
     // Twice the positive frequencies are the whole; half the sampling rate has no quadrature, and so no integral.
-    let scale = match from {
-        Motion::Acceleration => 2.0 / (TAU * fs),
-        Motion::Velocity => 2.0 / a.len() as f64,
+    let integral = |k: usize, bin: Complex<f64>| match from {
+        Motion::Acceleration => Complex::new(bin.im, -bin.re) * (2.0 / (TAU * fs) / k as f64),
+        Motion::Velocity => bin * (2.0 / a.len() as f64),
     };
+    let (mut planner, mut values) = (FftPlanner::new(), Vec::new());
     for (place, band) in bands.iter().enumerate() {
-        let integral = |first: usize, bins: &[Complex<f64>], shaped: &mut [Complex<f64>]| {
-            for (i, (shaped, bin)) in shaped.iter_mut().zip(bins).enumerate() {
-                *shaped = match from {
-                    Motion::Acceleration => Complex::new(bin.im, -bin.re) * (scale / (first + i) as f64),
-                    Motion::Velocity => bin * scale,
-                };
-            }
-        };
         let inside = bins(fs, a.len(), *band);
-        let plan = Interleaved::planned(count(inside.end), &mut planner);
-        v.resize(count(inside.end), 0.0);
-        plan.backward(&spectrum, inside, &mut room, integral, |place, values| {
-            let places = v[place.first..].iter_mut().step_by(place.step);
-            (places.zip(values)).for_each(|(v, value)| *v = value.re);
-        });
+        let plan = planner.plan_fft_inverse(count(inside.end));
+        fft::backward(&*plan, &spectrum, inside, &mut values, integral);
+        v.clear();
+        v.extend(values.iter().map(|value| value.re));
         each(place, &v);
     }
     Ok(())

@@ -14,12 +14,12 @@
 //! highest band see their own mirror image: Gaussian noise then shows a kurtosis of 0.2 there, here below 0.01. Only
 //! outputs that see the signal under every tap are used, so there is no transient to leave out.
 
+use std::f64::consts::{PI, TAU};
+
 use realfft::num_complex::Complex;
 
 use super::envelope::Band;
 use super::error::{SignalError, check};
-use super::filter::Passband;
-use super::fir::fir;
 use super::indicators::{Indicator, Moments};
 use super::window::Window;
 
@@ -58,11 +58,6 @@ pub struct KurtogramBand {
 }
 
 impl KurtogramBand {
-    /// Middle of the band, Hz.
-    pub fn center(&self) -> f64 {
-        0.5 * (self.band.low + self.band.high)
-    }
-
     /// Width of the band, Hz.
     pub fn bandwidth(&self) -> f64 {
         self.band.high - self.band.low
@@ -116,8 +111,8 @@ pub fn kurtogram(x: &[f64], fs: f64, depth: usize) -> Result<Kurtogram, SignalEr
     let constant = SignalError::Constant { what: "its kurtosis" };
     let whole = moments.get(Indicator::Kurtosis).ok_or(constant)? - 3.0;
     let filters = Filters {
-        half: Branches::of(HALF_TAPS, HALF_EDGE, 2, 1.0 / 8.0)?,
-        third: Branches::of(THIRD_TAPS, THIRD_EDGE, 3, 1.0 / 6.0)?,
+        half: Branches::of(HALF_TAPS, HALF_EDGE, 2, 1.0 / 8.0),
+        third: Branches::of(THIRD_TAPS, THIRD_EDGE, 3, 1.0 / 6.0),
     };
     // Samples of a node after so many halvings: the tree shortens every node alike. Thirds two levels up hold more.
     let mut lengths = vec![x.len()];
@@ -202,17 +197,17 @@ struct Row {
 
 impl Branches {
     /// Of a low-pass of so many taps, up to `edge` and moved by `turn`, both in cycles a sample.
-    fn of(taps: usize, edge: f64, factor: usize, turn: f64) -> Result<Self, SignalError> {
-        let h = fir(taps, Passband::Below(edge), Window::Hamming, 1.0)?;
+    fn of(taps: usize, edge: f64, factor: usize, turn: f64) -> Self {
+        let h = low_pass(taps, edge);
         let half = taps / 2;
         let row = |offset: usize| {
-            let (sin, cos) = (std::f64::consts::TAU * turn * offset as f64).sin_cos();
+            let (sin, cos) = (TAU * turn * offset as f64).sin_cos();
             let plain = h[half + offset];
             Row { offset, plain, cosine: plain * cos, sine: plain * sin }
         };
         // A low-pass has its zeros at multiples of half a period of its edge.
         let zero = |offset: usize| 2.0 * edge * offset as f64 % 1.0 == 0.0;
-        Ok(Branches { middle: h[half], half, factor, rows: (1..=half).filter(|o| !zero(*o)).map(row).collect() })
+        Branches { middle: h[half], half, factor, rows: (1..=half).filter(|o| !zero(*o)).map(row).collect() }
     }
 
     /// Of every output: what passes the prototype below, where it is (with `MIDDLE`; else nothing of use), and above,
@@ -239,6 +234,19 @@ impl Branches {
             each(m, [below, Complex::new(c[0], c[1]), above]);
         }
     }
+}
+
+/// The ideal low-pass's impulse response, cut off by Hamming's window and of unit gain at zero frequency; an odd number
+/// of taps, `edge` in cycles a sample. A. V. Oppenheim and R. W. Schafer, "Discrete-time signal processing", 3rd ed.
+/// (2010), section 7.5.
+fn low_pass(taps: usize, edge: f64) -> Vec<f64> {
+    let half = (taps / 2) as f64;
+    let ideal = |m: f64| if m == 0.0 { 2.0 * edge } else { (2.0 * PI * edge * m).sin() / (PI * m) };
+    let window = Window::Hamming.symmetric(taps).into_iter().enumerate();
+    let mut h: Vec<f64> = window.map(|(i, w)| w * ideal(i as f64 - half)).collect();
+    let gain = h.iter().sum::<f64>();
+    h.iter_mut().for_each(|h| *h /= gain);
+    h
 }
 
 struct Tree {

@@ -41,9 +41,8 @@
 //!
 //! Of a signal held as a slice, with its sample rate in Hz: [`window`], [`mod@psd`] (Welch with any window),
 //! [`mod@spectrogram`], [`mod@kurtogram`] (which band to demodulate), [`order`] (varying speed), [`mod@decimate`],
-//! [`filter`] and [`mod@fir`] (zero phase), [`integrate`] (acceleration to velocity), [`mod@velocity_bands`], [`lines`]
-//! (harmonics over the local noise), [`double_impulse`] (entry and exit of a defect, and the length that they imply),
-//! and [`distribution`] (what powers of noise follow). They return [`SignalError`] for input that they cannot use, and
+//! [`integrate`] (acceleration to velocity), [`mod@velocity_bands`], [`lines`] (harmonics over the local noise), and
+//! [`distribution`] (what powers of noise follow). They return [`SignalError`] for input that they cannot use, and
 //! do not panic.
 //!
 //! All values are SI: time in s, frequency in Hz, and a signal in its own unit (m/s^2 for an acceleration), here
@@ -57,17 +56,13 @@ pub mod analysis;
 pub mod blocks;
 pub mod decimate;
 pub mod distribution;
-pub mod double_impulse;
 pub mod envelope;
 mod error;
 #[doc(hidden)]
 pub mod fft;
-pub mod filter;
-pub mod fir;
 pub mod frequency;
 pub mod indicators;
 pub mod integrate;
-mod interleaved;
 pub mod kurtogram;
 pub(crate) mod lengths;
 pub mod lines;
@@ -90,22 +85,19 @@ pub(crate) mod test_signals;
 
 pub use blocks::{Blocks, Estimate, Interval, RECORD_PEAK, RECORD_PEAK_TO_PEAK};
 pub use decimate::{decimate, kaiser_lowpass};
-pub use double_impulse::{DefectLength, Events, Separation, SeparationSearch, consensus, defect_length, separations};
 pub use envelope::{Band, EnvelopeSpectrum, envelope, envelope_spectrum};
 pub use error::SignalError;
-pub use filter::{Butterworth, Passband, Section};
-pub use fir::{convolve, fir};
 pub use frequency::{LineFrequency, LineSearch, line_frequency};
 pub use indicators::{Indicator, Moments};
 pub use integrate::{band_pass, velocity};
 pub use kurtogram::{Kurtogram, KurtogramBand, kurtogram};
 pub use lines::{Line, LineSet, harmonics};
-pub use order::{Angular, Rotation, order_spectrum, resample};
-pub use psd::{Detrend, Segments, density_interval, psd};
+pub use order::{Angular, Rotation, resample};
+pub use psd::{Detrend, Segments, psd};
 pub use scatter::{Scatter, scatter, student_t_quantile};
 pub use series::{Averages, MOST_BLOCKS};
 pub use spectrogram::{Spectrogram, spectrogram};
-pub use spectrum::{Peak, Spectrum, amplitude_spectrum, peak_near};
+pub use spectrum::{Peak, Spectrum, peak_near};
 pub use stream::{Spectra, StreamSpectra};
 pub use transformed::{Thinned, Transformed};
 pub use velocity_bands::{VelocityBands, velocity_bands, velocity_rms};

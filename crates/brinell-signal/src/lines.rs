@@ -49,11 +49,6 @@ impl LineSet {
     pub fn standing(&self, level: f64) -> impl Iterator<Item = &Line> {
         self.lines.iter().filter(move |l| l.false_alarm <= level)
     }
-
-    /// Root of the sum of the squared amplitudes over sqrt 2: RMS of all the lines together, noise included.
-    pub fn rms(&self) -> f64 {
-        (self.lines.iter().map(|l| l.amplitude * l.amplitude).sum::<f64>() / 2.0).sqrt()
-    }
 }
 
 /// Harmonics 1 to `count` of `frequency`, known to within +- `tolerance` (both Hz), in a spectrum.
@@ -220,8 +215,6 @@ mod tests {
             assert!((line.snr_db - db).abs() < 2.0, "{line:?} {db}");
         }
         assert!(set.lines[3].false_alarm > 1e-3 && set.lines[3].snr_db < 7.0);
-        let rms = set.rms() / (0.5 * (1.0 + 0.25 + 0.0625f64)).sqrt();
-        assert!((rms - 1.0).abs() < 0.05);
     }
 
     #[test]

@@ -13,10 +13,8 @@ use std::f64::consts::PI;
 
 use super::decimate::bessel_i0;
 use super::error::{SignalError, check, require};
-use super::psd::{Segments, psd};
-use super::spectrum::Spectrum;
 
-/// The shaft's angle over time: cubic between instants, from tacho pulses, from points of speed, or steady.
+/// The shaft's angle over time: cubic between instants, from tacho pulses or from points of speed.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Rotation {
     /// Time (s), angle (revolutions), speed (revolutions a second).
@@ -24,15 +22,6 @@ pub struct Rotation {
 }
 
 impl Rotation {
-    /// At a steady speed, Hz, from angle 0 at t = 0.
-    ///
-    /// # Errors
-    /// [`SignalError::OutOfRange`] where the speed is not positive.
-    pub fn steady(speed: f64) -> Result<Self, SignalError> {
-        require(speed > 0.0 && speed.is_finite(), "speed (Hz)", speed, "above 0")?;
-        Ok(Rotation { knots: vec![[0.0, 0.0, speed]] })
-    }
-
     /// From points (time in s, speed in Hz), linear between, constant before the first and after the last; angle 0 at
     /// the first point. The angle between points is exact.
     ///
@@ -162,23 +151,6 @@ const LOWEST_EDGE: f64 = 0.01;
 
 /// Values made at most for each sample of the signal.
 const MOST_PER_SAMPLE: f64 = 64.0;
-
-/// Spectrum over orders (events a revolution) of `x`, sampled at `fs` Hz from t = 0: resampled at
-/// `samples_per_revolution`, which reaches to half as many orders, then [`psd`] in segments of so many resampled
-/// values. In the result "Hz" reads orders: `frequency_step` is in orders, and `density` in unit^2 per order.
-///
-/// # Errors
-/// As [`resample`] and [`psd`].
-pub fn order_spectrum(
-    x: &[f64],
-    fs: f64,
-    rotation: &Rotation,
-    samples_per_revolution: usize,
-    segments: &Segments,
-) -> Result<Spectrum, SignalError> {
-    let angular = resample(x, fs, rotation, samples_per_revolution)?;
-    psd(&angular.values, angular.samples_per_revolution, segments)
-}
 
 /// `x`, sampled at `fs` Hz from t = 0, at `samples_per_revolution` equal angles a revolution.
 ///
@@ -318,11 +290,16 @@ impl Kernel {
 mod tests {
     use std::f64::consts::TAU;
 
+    use super::super::psd::{Segments, psd};
     use super::super::spectrum::peak_near;
     use super::super::test_signals::cosine;
     use super::*;
 
     const FS: f64 = 10_000.0;
+
+    fn steady(speed: f64) -> Rotation {
+        Rotation::from_speeds(&[(0.0, speed)]).unwrap()
+    }
 
     #[test]
     fn analytic_run_up_becomes_lines() {
@@ -338,7 +315,7 @@ mod tests {
             .collect();
         let angular = resample(&x, FS, &rotation, 256).unwrap();
         let segments = Segments::of(angular.values.len());
-        let s = order_spectrum(&x, FS, &rotation, 256, &segments).unwrap();
+        let s = psd(&angular.values, angular.samples_per_revolution, &segments).unwrap();
         for (order, amplitude) in [(7.3, 1.0), (31.0, 0.2)] {
             let peak = peak_near(&s, order, 0.3).unwrap();
             assert!((peak.frequency - order).abs() < 1e-3, "{peak:?}");
@@ -355,7 +332,7 @@ mod tests {
     #[test]
     fn analytic_what_a_slow_shaft_cannot_hold_does_not_fold() {
         // 64 samples a revolution at 20 Hz: 1280 a second. 1000 Hz is order 50, above 32.
-        let rotation = Rotation::steady(20.0).unwrap();
+        let rotation = steady(20.0);
         let angular = resample(&cosine(20_000, FS, 1000.0, 1.0, 0.1), FS, &rotation, 64).unwrap();
         assert!(angular.values.iter().all(|v| v.abs() < 2e-4));
         let x = cosine(20_000, FS, 500.0, 1.0, 0.1);
@@ -393,14 +370,13 @@ mod tests {
         assert!(angular.values.len() > 900);
         let still = Rotation::from_speeds(&[(0.0, 0.0)]).unwrap();
         assert!(resample(&x, FS, &still, 128).is_err());
-        assert!(Rotation::steady(0.0).is_err());
         assert!(Rotation::from_speeds(&[]).is_err());
         assert!(Rotation::from_speeds(&[(0.0, 1.0), (0.0, 2.0)]).is_err());
         assert!(Rotation::from_speeds(&[(0.0, -1.0)]).is_err());
         assert!(Rotation::from_angles(&[(0.0, 1.0)]).is_err());
         assert!(Rotation::from_angles(&[(0.0, 1.0), (1.0, 0.0)]).is_err());
-        assert!(resample(&x[..20], FS, &Rotation::steady(20.0).unwrap(), 64).is_err());
-        assert!(resample(&x, FS, &Rotation::steady(20.0).unwrap(), 2).is_err());
-        assert!(resample(&x, FS, &Rotation::steady(1e12).unwrap(), 64).is_err());
+        assert!(resample(&x[..20], FS, &steady(20.0), 64).is_err());
+        assert!(resample(&x, FS, &steady(20.0), 2).is_err());
+        assert!(resample(&x, FS, &steady(1e12), 64).is_err());
     }
 }

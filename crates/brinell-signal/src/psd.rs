@@ -4,7 +4,6 @@
 //! unit^2/Hz, both one-sided. [`StreamSpectra`](super::StreamSpectra) has the same for a stream, with Hann's window and
 //! half overlap.
 
-use super::distribution::chi_square_quantile;
 use super::error::{SignalError, check, require};
 use super::spectrum::{FEWEST_SAMPLES, PowerAverage, SegmentTransform, Spectrum};
 use super::window::Window;
@@ -89,20 +88,9 @@ pub fn psd(x: &[f64], fs: f64, segments: &Segments) -> Result<Spectrum, SignalEr
     Ok(average.finish(fs, &transform.window, step))
 }
 
-/// Factors by which a bin's density is to be multiplied for the ends of its confidence interval, from chi-square with
-/// the spectrum's degrees of freedom; for `probability` 0.95 and one segment (0.27, 39.5). Holds for Gaussian noise
-/// whose density hardly changes over a bin. `None` where `probability` is not within 0 and 1.
-pub fn density_interval(spectrum: &Spectrum, probability: f64) -> Option<(f64, f64)> {
-    if !(probability > 0.0 && probability < 1.0) {
-        return None;
-    }
-    let freedom = spectrum.degrees_of_freedom;
-    let factor = |p: f64| freedom / chi_square_quantile(p, freedom);
-    Some((factor(0.5 * (1.0 + probability)), factor(0.5 * (1.0 - probability))))
-}
-
 #[cfg(test)]
 mod tests {
+    use super::super::distribution::chi_square_quantile;
     use super::super::test_signals::{Noise, cosine};
     use super::*;
 
@@ -118,7 +106,6 @@ mod tests {
         for window in Window::ALL {
             let s = psd(&x, FS, &segments(window)).unwrap();
             assert!((s.amplitude[50] - 3.0).abs() < 1e-10, "{window:?}");
-            assert!((s.noise_bandwidth - window.noise_bandwidth() * 4.0).abs() < 1e-10);
             assert!((s.band_rms(150.0, 250.0) - 3.0 / 2f64.sqrt()).abs() < 1e-10);
         }
         // A flat top shows it between bins too.
@@ -137,24 +124,13 @@ mod tests {
             let inner = &s.density[5..250];
             let mean = inner.iter().sum::<f64>() / inner.len() as f64;
             assert!((mean / level - 1.0).abs() < 0.01, "{window:?}");
-            let (low, high) = density_interval(&s, 0.95).unwrap();
+            let freedom = s.degrees_of_freedom;
+            let [high, low] = [0.025, 0.975].map(|p| freedom / chi_square_quantile(p, freedom));
             let inside = inner.iter().filter(|d| (low * **d..=high * **d).contains(&level));
             let share = inside.count() as f64 / inner.len() as f64;
             // 245 correlated bins: a standard error of some 0.02.
             assert!((share - 0.95).abs() < 0.06, "{window:?} {share}");
         }
-    }
-
-    #[test]
-    fn analytic_one_segment_interval() {
-        let x = Noise::new(6).normals(100);
-        let s = psd(&x, FS, &Segments::of(100)).unwrap();
-        assert_eq!(s.degrees_of_freedom, 2.0);
-        // 2 / chi-square: -1 / ln(1 - p).
-        let (low, high) = density_interval(&s, 0.95).unwrap();
-        assert!((low + 1.0 / 0.025f64.ln()).abs() < 1e-10);
-        assert!((high + 1.0 / 0.975f64.ln()).abs() < 1e-8);
-        assert_eq!(density_interval(&s, 1.0), None);
     }
 
     #[test]
@@ -169,6 +145,7 @@ mod tests {
         let sum = s.density.iter().sum::<f64>() * s.frequency_step;
         assert!((sum / mean_square - 1.0).abs() < 1e-12);
         assert!(s.amplitude[0] < 1e-12);
+        assert_eq!(s.degrees_of_freedom, 2.0);
     }
 
     #[test]

@@ -2,6 +2,7 @@
 
 use super::error::SignalError;
 use super::psd::Segments;
+use super::spectrum::SegmentTransform;
 
 /// A spectrogram. Frame i lies about time `first_time + i time_step`, bin k about frequency `k frequency_step`.
 #[derive(Debug, Clone, PartialEq)]
@@ -43,20 +44,15 @@ impl Spectrogram {
 /// As [`psd`](super::psd()).
 pub fn spectrogram(x: &[f64], fs: f64, segments: &Segments) -> Result<Spectrogram, SignalError> {
     let (length, step) = segments.plan(x, fs)?;
-    let window = segments.window.periodic(length);
-    let sum: f64 = window.iter().sum();
-    let energy: f64 = window.iter().map(|w| w * w).sum();
-    let fft = crate::fft::forward(length);
-    let (mut input, mut output) = (fft.make_input_vec(), fft.make_output_vec());
-    let mut scratch = fft.make_scratch_vec();
-    let bins = output.len();
+    let mut transform = SegmentTransform::new(segments.window.periodic(length));
+    let sum: f64 = transform.window.iter().sum();
+    let energy: f64 = transform.window.iter().map(|w| w * w).sum();
+    let bins = transform.output.len();
     let mut density = Vec::with_capacity(bins * ((x.len() - length) / step + 1));
     for segment in x.windows(length).step_by(step) {
-        input.copy_from_slice(segment);
-        segments.detrend.apply(&mut input);
-        input.iter_mut().zip(&window).for_each(|(x, w)| *x *= w);
-        fft.process_with_scratch(&mut input, &mut output, &mut scratch).expect("buffers were made by the plan");
-        density.extend(output.iter().enumerate().map(|(k, value)| {
+        transform.input.copy_from_slice(segment);
+        segments.detrend.apply(&mut transform.input);
+        density.extend(transform.windowed_input().iter().enumerate().map(|(k, value)| {
             let sides = if k == 0 || 2 * k == length { 1.0 } else { 2.0 };
             sides * value.norm_sqr() / (fs * energy)
         }));

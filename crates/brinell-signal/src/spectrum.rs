@@ -96,19 +96,6 @@ fn interpolate(magnitudes: [f64; 3]) -> (f64, f64) {
     (offset, height.powf(1.0 / PEAK_EXPONENT))
 }
 
-/// Amplitude spectrum and density of a whole signal as one Hann-windowed segment, sampled at `fs` Hz; `None` with fewer
-/// than [`FEWEST_SAMPLES`] samples. Holds the signal's transform in memory; for a run use
-/// [`StreamSpectra`](super::StreamSpectra).
-pub fn amplitude_spectrum(x: &[f64], fs: f64) -> Option<Spectrum> {
-    if x.len() < FEWEST_SAMPLES {
-        return None;
-    }
-    let mut transform = SegmentTransform::new(hann(x.len()));
-    let mut average = PowerAverage::new(x.len());
-    average.add(transform.windowed(x));
-    Some(average.finish(fs, &transform.window, x.len()))
-}
-
 /// The transform of segments of one length.
 pub(super) struct SegmentTransform {
     pub(super) window: Vec<f64>,
@@ -222,11 +209,16 @@ pub(super) fn hann(length: usize) -> Vec<f64> {
 
 #[cfg(test)]
 mod tests {
+    use super::super::psd::{Segments, psd};
     use super::super::test_signals::{Noise, cosine, integer_sequence};
     use super::super::{Band, StreamSpectra};
     use super::*;
 
     const FS: f64 = 25_600.0;
+
+    fn whole(x: &[f64], fs: f64) -> Spectrum {
+        psd(x, fs, &Segments::of(x.len())).unwrap()
+    }
 
     fn welch(x: &[f64], length: usize) -> Spectrum {
         let spectra = StreamSpectra::of(x, FS, length, Band::above(0.0), &[]);
@@ -250,7 +242,7 @@ mod tests {
     #[test]
     fn analytic_mean_and_nyquist_are_not_doubled() {
         let x: Vec<f64> = (0..256).map(|i| if i % 2 == 0 { 5.0 } else { 1.0 }).collect();
-        let spectrum = amplitude_spectrum(&x, FS).unwrap();
+        let spectrum = whole(&x, FS);
         assert!((spectrum.amplitude[0] - 3.0).abs() < 1e-13);
         assert!((spectrum.amplitude[128] - 2.0).abs() < 1e-13);
         assert_eq!(spectrum.amplitude.len(), 129);
@@ -262,7 +254,7 @@ mod tests {
         for i in -10..=10 {
             let bin = 100.0 + 0.05 * f64::from(i);
             let x = cosine(4096, 4096.0, bin, 2.0, 0.3);
-            let peak = peak_near(&amplitude_spectrum(&x, 4096.0).unwrap(), 99.0, 3.0).unwrap();
+            let peak = peak_near(&whole(&x, 4096.0), 99.0, 3.0).unwrap();
             worst_frequency = worst_frequency.max((peak.frequency - bin).abs());
             worst_amplitude = worst_amplitude.max((peak.amplitude / 2.0 - 1.0).abs());
         }
@@ -272,7 +264,7 @@ mod tests {
     #[test]
     fn prop_skirt_is_not_a_line() {
         let x = cosine(4096, 4096.0, 100.3, 1.0, 0.0);
-        let spectrum = amplitude_spectrum(&x, 4096.0).unwrap();
+        let spectrum = whole(&x, 4096.0);
         assert_eq!(peak_near(&spectrum, 105.0, 3.0), None);
         assert!(peak_near(&spectrum, 105.0, 5.0).is_some());
         assert_eq!(peak_near(&spectrum, 1e6, 5.0), None);
@@ -323,7 +315,7 @@ mod tests {
             let w = hann(n);
             let weighted: f64 = x.iter().zip(&w).map(|(x, w)| (x * w).powi(2)).sum();
             let mean_square = weighted / w.iter().map(|w| w * w).sum::<f64>();
-            let spectrum = amplitude_spectrum(&x, FS).unwrap();
+            let spectrum = whole(&x, FS);
             let sum = spectrum.density.iter().sum::<f64>() * spectrum.frequency_step;
             assert!((sum / mean_square - 1.0).abs() < 1e-12, "{n}: {sum} {mean_square}");
             assert!((spectrum.band_rms(0.0, FS).powi(2) / sum - 1.0).abs() < 1e-12);
@@ -333,8 +325,8 @@ mod tests {
     #[test]
     fn prop_short_run_is_one_segment_of_its_own_length() {
         let x = Noise::new(13).normals(1000);
-        assert_eq!(Some(welch(&x, 1024)), amplitude_spectrum(&x, FS));
-        assert_eq!(welch(&x, 1000), amplitude_spectrum(&x, FS).unwrap());
+        assert_eq!(welch(&x, 1024), whole(&x, FS));
+        assert_eq!(welch(&x, 1000), whole(&x, FS));
         // An incomplete last segment changes nothing.
         assert_eq!(welch(&x[..999], 400), welch(&x[..800], 400));
         assert_ne!(welch(&x, 400), welch(&x[..800], 400));

@@ -12,14 +12,14 @@
 //! k^2 - 1), the series of |cos|). The envelope of a band as wide as the spectrum is taken at every sample, as
 //! everybody takes it.
 
-use std::sync::{Mutex, MutexGuard, PoisonError};
+use std::sync::{Mutex, PoisonError};
 
 use realfft::num_complex::Complex;
 use rustfft::FftPlanner;
 
 use super::envelope::{Band, bins, moduli};
 use super::error::{SignalError, check};
-use super::interleaved::{Interleaved, Room};
+use super::fft;
 use super::lengths::fast_from;
 use super::spectrum::FEWEST_SAMPLES;
 use crate::random::Random;
@@ -43,20 +43,12 @@ pub struct Transformed {
     fs: f64,
     bins: Vec<Complex<f64>>,
     length: usize,
-    /// What transforms of one length share, and workshops that nobody is in.
-    kept: Mutex<(FftPlanner<f64>, Vec<Workshop>)>,
-}
-
-/// What one thread needs to take an envelope.
-#[derive(Default)]
-struct Workshop {
-    room: Room,
-    /// Sums over each stretch, and with weights that rise over it.
-    sums: Vec<[f64; 2]>,
+    /// Keeps what transforms of one length share.
+    planner: Mutex<FftPlanner<f64>>,
 }
 
 impl Transformed {
-    /// Of `x`, sampled at `fs` Hz. Takes as much memory as `x`, and while it is made twice as much.
+    /// Of `x`, sampled at `fs` Hz. Takes as much memory as `x`, and several times as much while it is made.
     ///
     /// # Errors
     /// [`SignalError`] with fewer than [`FEWEST_SAMPLES`] samples or samples that are not finite.
@@ -66,11 +58,8 @@ impl Transformed {
     }
 
     pub(super) fn unchecked(x: &[f64], fs: f64) -> Self {
-        let mut planner = FftPlanner::new();
-        let plan = Interleaved::planned(x.len(), &mut planner);
-        let mut workshop = Workshop::default();
-        let bins = plan.forward(x, &mut workshop.room);
-        Transformed { fs, bins, length: x.len(), kept: Mutex::new((planner, vec![workshop])) }
+        let bins = fft::bins(&mut x.to_vec());
+        Transformed { fs, bins, length: x.len(), planner: Mutex::new(FftPlanner::new()) }
     }
 
     /// The same with white noise of `relative` times the signal's RMS, and of the RMS `noise` in the signal's unit, by
@@ -110,33 +99,23 @@ impl Transformed {
         let band = bins(self.fs, self.samples(), band);
         let ample = (AMPLE * band.len() as f64 / count as f64).ceil() as usize;
         let every = fast_from(ample.min(self.samples().div_ceil(count)));
-        let (plan, mut workshop) = {
-            let (planner, workshops) = &mut *self.kept();
-            let plan = Interleaved::planned(count * every, planner);
-            (plan, workshops.pop().unwrap_or_default())
+        let plan = {
+            let mut planner = self.planner.lock().unwrap_or_else(PoisonError::into_inner);
+            planner.plan_fft_inverse(count * every)
         };
-        let Workshop { room, sums } = &mut workshop;
-        // Not a new list: its pages would be mapped as they are first added to, which takes longer than the sums.
-        sums.clear();
-        sums.resize(count, [0.0; 2]);
+        let mut taken = Vec::new();
+        fft::backward(&*plan, &self.bins, band, &mut taken, |_, bin| bin);
         let rises = 1.0 / every as f64;
-        let mut here = Vec::new();
-        let shape = |_, bins: &[Complex<f64>], shaped: &mut [Complex<f64>]| shaped.copy_from_slice(bins);
-        plan.backward(&self.bins, band, room, shape, |place, values| {
-            here.resize(values.len(), 0.0);
-            moduli(values, &mut here);
-            let (mut group, mut at) = (place.first / every, place.first % every);
-            let (groups_on, at_on) = (place.step / every, place.step % every);
-            for modulus in &here {
-                let [all, rising] = &mut sums[group];
-                *all += *modulus;
-                *rising += (at as f64 + 0.5) * rises * *modulus;
-                (group, at) = (group + groups_on, at + at_on);
-                if at >= every {
-                    (group, at) = (group + 1, at - every);
-                }
-            }
-        });
+        // Sums over each stretch, and with weights that rise over it.
+        let mut here = vec![0.0; every];
+        let sums: Vec<[f64; 2]> = taken
+            .chunks_exact(every)
+            .map(|stretch| {
+                moduli(stretch, &mut here);
+                let rising = here.iter().enumerate().map(|(at, modulus)| (at as f64 + 0.5) * rises * modulus);
+                [here.iter().sum(), rising.sum()]
+            })
+            .collect();
         // The analytic signal has the band's positive frequencies twice and nothing else.
         let each = 2.0 / self.samples() as f64 * rises;
         let whole: f64 = sums.iter().map(|[all, _]| all).sum();
@@ -148,12 +127,7 @@ impl Transformed {
             .chain(sums.last().map(|[all, _]| *all))
             .collect();
         values.iter_mut().for_each(|v| *v *= each);
-        self.kept().1.push(workshop);
         Thinned { mean: each * whole / count as f64, values }
-    }
-
-    fn kept(&self) -> MutexGuard<'_, (FftPlanner<f64>, Vec<Workshop>)> {
-        self.kept.lock().unwrap_or_else(PoisonError::into_inner)
     }
 }
 

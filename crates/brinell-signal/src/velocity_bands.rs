@@ -5,9 +5,7 @@
 //!
 //! Differences to a measurement by the standard: it is of the resting ring under the standard's axial or radial load
 //! and its pick-up, none of which is this function's business; its band-pass filters have slopes within a prescribed
-//! mask, here the edges are sharp. [`scaled`] moves the bands in proportion to the speed, which keeps each at the same
-//! orders of rotation; whether the standard asks for that at speeds of its own choosing was not checked against its
-//! text.
+//! mask, here the edges are sharp.
 
 use super::blocks::{Blocks, Estimate};
 use super::envelope::Band;
@@ -17,20 +15,9 @@ use super::integrate::{Motion, velocities};
 use super::lengths::fast_from;
 use super::spectrum::FEWEST_SAMPLES;
 
-/// The speed that [`NOMINAL`] belongs to, Hz: 1800 r/min.
-pub const NOMINAL_SPEED: f64 = 30.0;
-
 /// Low, medium and high band at 1800 r/min, Hz.
 pub const NOMINAL: [Band; 3] =
     [Band { low: 50.0, high: 300.0 }, Band { low: 300.0, high: 1800.0 }, Band { low: 1800.0, high: 10_000.0 }];
-
-/// [`NOMINAL`] in proportion to the speed `shaft` (Hz).
-pub fn scaled(shaft: f64) -> [Band; 3] {
-    NOMINAL.map(|band| {
-        let factor = shaft / NOMINAL_SPEED;
-        Band::between(factor * band.low, factor * band.high)
-    })
-}
 
 /// RMS velocity in a band.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -47,7 +34,7 @@ pub struct BandVelocity {
 pub type VelocityBands = [Option<BandVelocity>; 3];
 
 /// RMS velocity in `bands` of an acceleration `a` sampled at `fs` Hz, with 95 % intervals from blocks of `block` s
-/// (whole revolutions, best). Bands are [`NOMINAL`] or [`scaled`].
+/// (whole revolutions, best).
 ///
 /// # Errors
 /// [`SignalError`] with fewer than 8 samples, samples that are not finite, a band that is empty or begins at 0, or a
@@ -134,7 +121,6 @@ mod tests {
         assert!(velocity_bands(&a, 3000.0, &NOMINAL, 0.1).unwrap()[2].is_none());
         assert!(velocity_bands(&a, 3000.0, &NOMINAL, 0.0).is_err());
         assert!(velocity_bands(&[], 3000.0, &NOMINAL, 0.1).is_err());
-        assert_eq!(scaled(15.0)[1], Band::between(150.0, 900.0));
     }
 
     /// RMS velocity A / (2 pi f sqrt 2) of a sine of acceleration A, at frequencies whose periods do not fit the

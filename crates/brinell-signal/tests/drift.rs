@@ -122,7 +122,7 @@ fn prop_followed_the_damage_is_named() {
                 assert_eq!(drift.by == "shaft", lines);
                 assert_eq!(first(&a), Some(component), "{ramp}: {}", a.verdict());
                 let mut without = Options::new(SHAFT, a.options.orders);
-                without.rotation = Some(Rotation::steady(SHAFT).unwrap());
+                without.rotation = Some(Rotation::from_speeds(&[(0.0, SHAFT)]).unwrap());
                 let without = analyze(&x, FS, &without).unwrap();
                 lost += usize::from(first(&without) != Some(component));
                 count += 1;

@@ -24,8 +24,8 @@ fn prop_a_row_is_the_run_that_its_scenario_gives() {
     let row = &all[3];
     fs::write(folder.path().join("again.toml"), text(row, "scenario").unwrap()).unwrap();
     brinell(folder.path(), &["run", "again.toml", "-o", "again", "--no-report", "-q"]).exits(0);
-    let again = brinell_io::read_parquet(folder.path().join("again/signals.parquet")).unwrap();
-    let whole = again.column("sensor_ax").unwrap();
+    let mut again = brinell_io::open(folder.path().join("again/signals.parquet")).unwrap();
+    let whole = again.read("sensor_ax").unwrap();
     // All but the sample at the run's end: 0.02 s at 25.6 kHz are 512.
     assert_eq!(whole.len(), 513);
     let expected: Vec<f64> = whole[..512].iter().map(|x| f64::from(*x as f32)).collect();

@@ -1,7 +1,6 @@
 //! Surfaces as instruments save them, with their spacing: ISO 25178-71 (`.sdf`), ISO 5436-2 (`.x3p`), MountainsMap
 //! (`.sur`).
 
-mod bytes;
 mod sdf;
 mod sur;
 #[cfg(feature = "x3p")]
@@ -49,7 +48,7 @@ fn map(columns: usize, spacing_mm: [f64; 2], metres: Vec<f64>) -> Raw {
         height: metres.len() / columns.max(1),
         values: metres,
         spacing_mm: Some(spacing_mm),
-        unit: Some(crate::Unit::M),
+        unit_um: Some(1e6),
         ..Raw::default()
     }
 }

@@ -1,8 +1,8 @@
 //! ISO 25178-71: a header of 13 entries, in text or in 81 bytes, then the heights profile by profile. The same layout
 //! as BCR-STM, from which the standard took it: versions `aISO-1.0`, `bISO-1.0`, `aBCR-1.0`, `bBCR-1.0`.
 
-use super::bytes::{Number, f64, u16};
 use super::{broken, map, points, spacing, unsupported};
+use crate::bytes::{Number, f64, u16};
 use crate::depth::Raw;
 use crate::error::{DamageError, excerpt};
 use crate::kind::FileKind;
@@ -77,15 +77,15 @@ fn binary(bytes: &[u8]) -> Result<Raw, DamageError> {
     let count = points(header.columns, header.rows)?;
     let data = bytes.get(BINARY_HEADER..).ok_or_else(short)?;
     // A trailer may follow.
-    let data = data.get(..count * number.size()).ok_or_else(|| {
-        let why = format!("{} bytes where {count} points need {}", data.len(), count * number.size());
+    let data = data.get(..count * number.size).ok_or_else(|| {
+        let why = format!("{} bytes where {count} points need {}", data.len(), count * number.size);
         broken(KIND, "its data", why)
     })?;
     let value = |item: &[u8]| {
         let value = number.value(item);
         if is_missing(number, value) { f64::NAN } else { value }
     };
-    finished(&header, data.chunks_exact(number.size()).map(value).collect())
+    finished(&header, data.chunks_exact(number.size).map(value).collect())
 }
 
 fn text(bytes: &[u8]) -> Result<Raw, DamageError> {

@@ -1,7 +1,7 @@
 //! MountainsMap's surface: a header of 512 bytes, a comment, then whole numbers line by line, plain or in zlib streams.
 
-use super::bytes::{Number, f32, i16, i32, u16, u32};
 use super::{broken, map, points, spacing, unsupported};
+use crate::bytes::{Number, f32, i16, i32, u16, u32};
 use crate::depth::Raw;
 use crate::error::{DamageError, excerpt};
 use crate::kind::FileKind;
@@ -24,7 +24,7 @@ pub(crate) fn read(bytes: &[u8]) -> Result<Raw, DamageError> {
     let count = points(columns, rows)?;
     let skipped = [334, 336].map(|place| usize::from(u16(bytes, place).unwrap_or(0)));
     let data = bytes.get(HEADER + skipped[0] + skipped[1]..).ok_or_else(short)?;
-    let wanted = count * number.size();
+    let wanted = count * number.size;
     let data = match bytes.starts_with(b"DSCOMPRESSED") {
         true => unpacked(data, wanted)?,
         false => Cow::Borrowed(data),
@@ -50,7 +50,7 @@ pub(crate) fn read(bytes: &[u8]) -> Result<Raw, DamageError> {
         spacing(KIND, "its spacing along x", scale(120, 180)?)?,
         spacing(KIND, "its spacing along y", scale(124, 196)?)?,
     ];
-    Ok(map(columns, between, data.chunks_exact(number.size()).map(value).collect()))
+    Ok(map(columns, between, data.chunks_exact(number.size).map(value).collect()))
 }
 
 /// What its points are written as, where it is a surface that can be read.

@@ -1,8 +1,8 @@
 //! ISO 5436-2: a zip archive with `main.xml` and, beside it or within it, the heights. Lengths in m.
 
-use super::bytes::Number;
 use super::zip::Archive;
 use super::{broken, map, points, spacing, unsupported};
+use crate::bytes::Number;
 use crate::depth::Raw;
 use crate::error::{DamageError, excerpt};
 use crate::kind::FileKind;
@@ -90,13 +90,13 @@ fn linked(
     number: Number,
     count: usize,
 ) -> Result<Vec<f64>, DamageError> {
-    let wanted = count * number.size();
+    let wanted = count * number.size;
     let data = archive.file(link, wanted)?;
     if data.len() != wanted {
         let why = format!("{} bytes where {count} points need {wanted}", data.len());
         return Err(broken(KIND, link, why));
     }
-    let mut values: Vec<f64> = data.chunks_exact(number.size()).map(|item| number.value(item)).collect();
+    let mut values: Vec<f64> = data.chunks_exact(number.size).map(|item| number.value(item)).collect();
     if let Some(link) = text_of(root, "ValidPointsLink") {
         let valid = archive.file(&link, count.div_ceil(8) + 8)?;
         if valid.len() < count.div_ceil(8) {

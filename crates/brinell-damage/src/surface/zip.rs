@@ -2,7 +2,7 @@
 //! unpacked.
 
 use super::broken;
-use super::bytes::{u16, u32};
+use crate::bytes::{u16, u32};
 use crate::error::DamageError;
 use crate::kind::FileKind;
 

@@ -1,6 +1,9 @@
 //! What a file says of its channels.
 
 use super::numbers::Number;
+use crate::Metadata;
+use serde_json::Value;
+use std::collections::HashMap;
 
 /// A sample rate that a file states.
 #[derive(Clone, Debug, PartialEq)]
@@ -115,10 +118,19 @@ pub(crate) fn lend_rates(channels: &mut [Channel], rates: &[(String, f64)]) {
     }
 }
 
+/// Gives the channels the units that brinell writes beside them, a JSON object under `key`.
+pub(crate) fn lend_units(channels: &mut [Channel], metadata: &Metadata, key: &str) {
+    let units: Option<Value> = metadata.get(key).and_then(|text| serde_json::from_str(text).ok());
+    for channel in channels {
+        let unit = units.as_ref().and_then(|units| units.get(&channel.name)?.as_str());
+        channel.unit = unit.filter(|unit| !unit.is_empty()).map(str::to_owned);
+    }
+}
+
 /// Gives every signal the name that lies beside it as a text called `Name`, where it is the only signal there. `texts`
 /// holds paths and texts.
 pub(crate) fn lend_labels(channels: &mut [Channel], texts: &[(String, String)]) {
-    let labels: std::collections::HashMap<&str, &str> = texts
+    let labels: HashMap<&str, &str> = texts
         .iter()
         .filter_map(|(path, text)| {
             let (folder, last) = path.rsplit_once('.')?;
@@ -127,7 +139,7 @@ pub(crate) fn lend_labels(channels: &mut [Channel], texts: &[(String, String)]) 
         })
         .collect();
     let folder = |c: &Channel| c.name.rsplit_once('.').map(|(folder, _)| folder.to_owned());
-    let mut signals = std::collections::HashMap::<String, usize>::new();
+    let mut signals = HashMap::<String, usize>::new();
     for channel in channels.iter().filter(|c| c.may_be_signal()) {
         *signals.entry(folder(channel).unwrap_or_default()).or_default() += 1;
     }
@@ -142,7 +154,7 @@ pub(crate) fn lend_labels(channels: &mut [Channel], texts: &[(String, String)]) 
 
 /// Makes names unique: the second `a` becomes `a#2`.
 pub(crate) fn tell_apart(channels: &mut [Channel]) {
-    let mut seen = std::collections::HashMap::<String, usize>::new();
+    let mut seen = HashMap::<String, usize>::new();
     for channel in channels {
         let count = seen.entry(channel.name.clone()).or_default();
         *count += 1;

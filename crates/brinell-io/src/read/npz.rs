@@ -8,7 +8,7 @@ use std::io::{BufReader, Read};
 use zip::ZipArchive;
 use zip::result::ZipError;
 
-use super::channel::{Channel, lend_rates, names_a_rate};
+use super::channel::{Channel, lend_rates, lend_units, names_a_rate};
 use super::contents::Contents;
 use super::fault::{Fault, damaged};
 use super::npy::{Array, header};
@@ -76,7 +76,7 @@ pub(super) fn list(contents: Contents) -> Result<Listing, Fault> {
         entries.push(index);
     }
     lend_rates(&mut channels, &rates);
-    lend_units(&mut channels, &metadata);
+    lend_units(&mut channels, &metadata, keys::UNITS_VARIABLE);
     Ok(Listing { channels, metadata, source: Box::new(Npz { archive, entries }) })
 }
 
@@ -108,20 +108,6 @@ fn text(array: &Array, reader: &mut impl Read) -> Result<Option<String>, Fault> 
         return Ok(None);
     };
     Ok(Some(text.trim_end_matches('\0').to_owned()))
-}
-
-/// The units that brinell writes beside its channels.
-pub(super) fn lend_units(channels: &mut [Channel], metadata: &Metadata) {
-    let Some(units) = metadata.get(keys::UNITS_VARIABLE) else {
-        return;
-    };
-    let Ok(units) = serde_json::from_str::<serde_json::Value>(units) else {
-        return;
-    };
-    for channel in channels {
-        let unit = units.get(&channel.name).and_then(|u| u.as_str());
-        channel.unit = unit.filter(|u| !u.is_empty()).map(str::to_owned);
-    }
 }
 
 impl Source for Npz {

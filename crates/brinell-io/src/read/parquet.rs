@@ -1,10 +1,7 @@
 //! Parquet, read: flat columns of numbers, from brinell or anyone else (plain, Snappy, Zstandard, gzip or LZ4). Nested
 //! columns are listed and not read.
 
-use std::fs::File;
 use std::io::{self, BufReader, Read, Seek, SeekFrom};
-use std::panic::{AssertUnwindSafe, catch_unwind};
-use std::path::Path;
 
 use parquet::basic::{Compression, ConvertedType, LogicalType, Type};
 use parquet::column::reader::{ColumnReader, ColumnReaderImpl};
@@ -12,49 +9,17 @@ use parquet::data_type::DataType;
 use parquet::errors::ParquetError;
 use parquet::file::metadata::{ColumnChunkMetaData, ParquetMetaData};
 use parquet::file::reader::{ChunkReader, FileReader, Length, SerializedFileReader};
-use parquet::schema::types::ColumnDescriptor;
-use serde_json::{Map, Value};
+use parquet::schema::types::{ColumnDescPtr, ColumnDescriptor};
 
-use super::channel::{Channel, Rate, RateSource};
+use super::channel::{Channel, Rate, RateSource, lend_units};
 use super::contents::Contents;
 use super::fault::{Fault, damaged, unsupported};
 use super::numbers::{Number, Sink, give, half};
 use super::{Listing, Source};
-use crate::{Column, IoError, Metadata, Signals, keys};
+use crate::{Metadata, keys};
 
 /// Values requested at a time.
 const BATCH: usize = 64 << 10;
-
-/// Reads a whole Parquet file of numeric columns. A missing value becomes not-a-number.
-pub fn read_parquet(path: impl AsRef<Path>) -> Result<Signals, IoError> {
-    let path = path.as_ref();
-    let contents = File::open(path).and_then(Contents::of_file);
-    let contents = contents.map_err(|e| IoError::reading(path, e))?;
-    // The crate asserts some of what a damaged file can break; what `check_chunks` does not foresee ends here.
-    let damaged = |_| Err(ParquetError::General("the file is damaged".to_owned()));
-    let result = catch_unwind(AssertUnwindSafe(|| read(contents))).unwrap_or_else(damaged);
-    result.map_err(|e| IoError::Parquet { path: path.to_owned(), why: e.to_string() })
-}
-
-fn read(contents: Contents) -> Result<Signals, ParquetError> {
-    let (reader, columns, metadata) = head(contents)?;
-    for (i, column) in columns.iter().enumerate() {
-        if let Some(why) = unreadable(reader.metadata(), i) {
-            return Err(ParquetError::NYI(format!("`{}` {why}", column.name)));
-        }
-    }
-    let mut data = vec![Vec::new(); columns.len()];
-    for (i, (values, column)) in data.iter_mut().zip(&columns).enumerate() {
-        column_pieces(&reader, i, &column.name, &mut |piece| {
-            values.extend_from_slice(piece);
-            Ok(())
-        })?;
-    }
-    if let Some(odd) = data.iter().position(|values| values.len() != data[0].len()) {
-        return Err(ParquetError::General(format!("column `{}` has another length", columns[odd].name)));
-    }
-    Ok(Signals { columns, data, metadata })
-}
 
 /// A file that ends: the crate takes the length of a read from the file's own claims and waits at the end for bytes to
 /// come.
@@ -99,32 +64,13 @@ impl ChunkReader for Bounded {
     }
 }
 
-type Head = (SerializedFileReader<Bounded>, Vec<Column>, Metadata);
-
-/// The columns and the metadata; an error where a column reaches outside the file.
-fn head(contents: Contents) -> Result<Head, ParquetError> {
-    let file_bytes = contents.length();
-    let reader = SerializedFileReader::new(Bounded(contents))?;
-    check_chunks(reader.metadata(), file_bytes)?;
-    let file_metadata = reader.metadata().file_metadata();
-    let pairs = file_metadata.key_value_metadata().into_iter().flatten();
-    let metadata = Metadata { pairs: pairs.map(|kv| (kv.key.clone(), kv.value.clone().unwrap_or_default())).collect() };
-    let object = |key| -> Map<String, Value> {
-        metadata.get(key).and_then(|text| serde_json::from_str(text).ok()).unwrap_or_default()
-    };
-    let (units, descriptions) = (object(keys::UNITS), object(keys::DESCRIPTIONS));
-    let mut columns = Vec::new();
-    for column in file_metadata.schema_descr().columns() {
-        // A plain list is named after its column, what lies deeper by its path.
-        let name = &match column.path().parts() {
-            [name, list, _] if list == "list" => name.clone(),
-            [name] => name.clone(),
-            _ => column.path().string(),
-        };
-        let text = |of: &Map<String, Value>| of.get(name).and_then(Value::as_str).unwrap_or_default().to_owned();
-        columns.push(Column { unit: text(&units), description: text(&descriptions), name: name.clone() });
+/// A plain list is named after its column, what lies deeper by its path.
+fn name_of(column: &ColumnDescriptor) -> String {
+    match column.path().parts() {
+        [name, list, _] if list == "list" => name.clone(),
+        [name] => name.clone(),
+        _ => column.path().string(),
     }
-    Ok((reader, columns, metadata))
 }
 
 /// Why a column is not read, to follow its name; `None` where it is.
@@ -207,12 +153,7 @@ fn integer(bytes: &[u8]) -> i128 {
 type Take<'a> = &'a mut dyn FnMut(&[f64]) -> Result<(), ParquetError>;
 
 /// Hands on the values of one column, a batch at a time.
-fn column_pieces(
-    reader: &SerializedFileReader<Bounded>,
-    index: usize,
-    name: &str,
-    take: Take<'_>,
-) -> Result<(), ParquetError> {
+fn column_pieces(reader: &SerializedFileReader<Bounded>, index: usize, take: Take<'_>) -> Result<(), ParquetError> {
     let column = reader.metadata().file_metadata().schema_descr().column(index);
     let unit = decimals(&column).map_or(1.0, |places| 10_f64.powi(places));
     let is_unsigned = is_unsigned(&column);
@@ -237,7 +178,7 @@ fn column_pieces(
                 _ => f64::NAN,
             })?,
             _ => {
-                return Err(ParquetError::NYI(format!("`{name}` does not hold numbers")));
+                return Err(ParquetError::NYI(format!("`{}` does not hold numbers", name_of(&column))));
             }
         }
     }
@@ -285,10 +226,7 @@ fn pieces<T: DataType>(
     }
 }
 
-struct Table {
-    reader: SerializedFileReader<Bounded>,
-    names: Vec<String>,
-}
+struct Table(SerializedFileReader<Bounded>);
 
 impl From<ParquetError> for Fault {
     fn from(error: ParquetError) -> Self {
@@ -299,35 +237,34 @@ impl From<ParquetError> for Fault {
     }
 }
 
+/// An error where a column reaches outside the file.
 pub(super) fn list(contents: Contents) -> Result<Listing, Fault> {
-    let (reader, columns, metadata) = head(contents)?;
+    let file_bytes = contents.length();
+    let reader = SerializedFileReader::new(Bounded(contents))?;
     let about = reader.metadata();
+    check_chunks(about, file_bytes)?;
+    let pairs = about.file_metadata().key_value_metadata().into_iter().flatten();
+    let metadata = Metadata { pairs: pairs.map(|kv| (kv.key.clone(), kv.value.clone().unwrap_or_default())).collect() };
     let rows: i64 = about.row_groups().iter().map(|g| g.num_rows().max(0)).sum();
-    let hz = metadata.get(keys::SAMPLE_RATE_HZ).and_then(|t| t.parse().ok());
-    let rate = hz
-        .filter(|hz: &f64| hz.is_finite() && *hz > 0.0)
-        .map(|hz| Rate { hz, source: RateSource::Header(keys::SAMPLE_RATE_HZ.into()) });
-    let schema = about.file_metadata().schema_descr();
-    let channel = |(i, column): (usize, &Column)| {
-        let (number, name) = stored(&schema.column(i)).unwrap_or((Number::F64, "other"));
-        let mut channel = Channel::array(&column.name, vec![rows as u64], number);
+    let rate = metadata.sample_rate().map(|hz| Rate { hz, source: RateSource::Header(keys::SAMPLE_RATE_HZ.into()) });
+    let channel = |(i, column): (usize, &ColumnDescPtr)| {
+        let (number, name) = stored(column).unwrap_or((Number::F64, "other"));
+        let mut channel = Channel::array(name_of(column), vec![rows as u64], number);
         channel.stored_as = name;
         channel.unreadable = unreadable(about, i);
-        channel.unit = Some(column.unit.clone()).filter(|unit| !unit.is_empty());
         channel.rate.clone_from(&rate);
         channel
     };
-    Ok(Listing {
-        channels: columns.iter().enumerate().map(channel).collect(),
-        metadata,
-        source: Box::new(Table { reader, names: columns.into_iter().map(|c| c.name).collect() }),
-    })
+    let columns = about.file_metadata().schema_descr().columns().iter();
+    let mut channels: Vec<Channel> = columns.enumerate().map(channel).collect();
+    lend_units(&mut channels, &metadata, keys::UNITS);
+    Ok(Listing { channels, metadata, source: Box::new(Table(reader)) })
 }
 
 impl Source for Table {
     fn stream(&mut self, index: usize, sink: Sink<'_>) -> Result<(), Fault> {
         let mut stopped = false;
-        let result = column_pieces(&self.reader, index, &self.names[index], &mut |piece| {
+        let result = column_pieces(&self.0, index, &mut |piece| {
             give(sink, piece).map_err(|_| {
                 stopped = true;
                 ParquetError::EOF("stopped".into())

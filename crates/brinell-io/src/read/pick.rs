@@ -38,6 +38,8 @@ pub(crate) struct Stride {
     pub(crate) count: u64,
 }
 
+const ALL: Stride = Stride { first: 0, step: 1, count: u64::MAX };
+
 /// The stride of a pick; `Err` says what is wrong.
 pub(crate) fn stride(channel: &Channel, pick: Pick) -> Result<Stride, String> {
     let name = &channel.name;
@@ -51,18 +53,16 @@ pub(crate) fn stride(channel: &Channel, pick: Pick) -> Result<Stride, String> {
             };
             return Err(format!("`{name}` is {}; {way_out}", sizes.join(" x ")));
         }
-        return Ok(Stride { first: 0, step: 1, count: u64::MAX });
+        return Ok(ALL);
     }
     let plane = channel.plane();
     let &[rows, columns] = &plane[..] else {
         return Err(format!("`{name}` is no matrix; leave out the index"));
     };
     let (at, of, count, what) = match pick {
+        Pick::Row(at) => (at, rows, columns, "row"),
         Pick::Column(at) => (at, columns, rows, "column"),
-        _ => match pick {
-            Pick::Row(at) => (at, rows, columns, "row"),
-            _ => (0, 1, 0, ""),
-        },
+        Pick::All => return Ok(ALL),
     };
     if at >= of {
         return Err(format!("`{name}` has no {what} {}; it has {of}", at + 1));
@@ -85,7 +85,7 @@ pub(crate) fn through<'a>(
     let mut picked = Vec::new();
     move |values: &[f64]| {
         let end = passed + values.len() as u64;
-        let flow = if stride.step == 1 && stride.first == 0 && stride.count == u64::MAX {
+        let flow = if stride == ALL {
             sink(values)
         } else {
             picked.clear();

@@ -81,26 +81,16 @@ fn list_of(elements: &[Field]) -> Option<Cell> {
         elements.iter().map(of).collect()
     }
     match elements.first() {
-        Some(Field::Float(_)) => all(elements, |e| match e {
-            Field::Float(x) => Some(*x),
-            _ => None,
-        })
-        .map(Cell::Signal),
-        Some(Field::Long(_)) => all(elements, |e| match e {
-            Field::Long(x) => Some(*x),
-            _ => None,
-        })
-        .map(Cell::Wholes),
-        Some(Field::Str(_)) => all(elements, |e| match e {
-            Field::Str(text) => Some(text.clone()),
-            _ => None,
-        })
-        .map(Cell::WordsList),
-        _ => all(elements, |e| match e {
-            Field::Double(x) => Some(*x),
-            _ => None,
-        })
-        .map(Cell::Numbers),
+        Some(Field::Float(_)) => {
+            all(elements, |e| if let Field::Float(x) = e { Some(*x) } else { None }).map(Cell::Signal)
+        }
+        Some(Field::Long(_)) => {
+            all(elements, |e| if let Field::Long(x) = e { Some(*x) } else { None }).map(Cell::Wholes)
+        }
+        Some(Field::Str(_)) => {
+            all(elements, |e| if let Field::Str(text) = e { Some(text.clone()) } else { None }).map(Cell::WordsList)
+        }
+        _ => all(elements, |e| if let Field::Double(x) = e { Some(*x) } else { None }).map(Cell::Numbers),
     }
 }
 

@@ -1,19 +1,11 @@
 //! MATLAB v5, written: a column vector of doubles per channel, the sample rate as `fs`, and texts.
 //!
-//! Plain files are what MATLAB calls v6, compressed ones v7. Vibration compresses little and slowly, so
-//! [`crate::Format::Mat`] is plain. Texts: `brinell_units` (a JSON object), `brinell_outcome`, and each pair of the
+//! Plain, what MATLAB calls v6: vibration compresses little and slowly. Texts: `brinell_units` (a JSON object), `brinell_outcome`, and each pair of the
 //! metadata with `_` for the dots of its key.
 
-use std::io::Write;
-use std::path::Path;
-
-use flate2::Compression;
-use flate2::write::ZlibEncoder;
-
-use super::spool::Spool;
-use crate::atomic::{Complete, Destination, PartialFile};
-use crate::signals::{check_columns, check_row, units_json};
-use crate::{Column, IoError, Metadata, Outcome, SignalWriter, keys};
+use super::spool::{Limit, Variables};
+use crate::atomic::{Complete, Destination};
+use crate::{Column, IoError, Metadata, Outcome, SignalWriter};
 
 const MI_INT8: u32 = 1;
 const MI_UINT16: u32 = 4;
@@ -21,7 +13,6 @@ const MI_INT32: u32 = 5;
 const MI_UINT32: u32 = 6;
 const MI_DOUBLE: u32 = 9;
 const MI_MATRIX: u32 = 14;
-const MI_COMPRESSED: u32 = 15;
 const CLASS_CHAR: u32 = 4;
 const CLASS_DOUBLE: u32 = 6;
 /// MATLAB reads variables of less than 2 GiB from such a file.
@@ -30,52 +21,16 @@ const MAX_ROWS: u64 = ((1 << 31) - 1024) / 8;
 const LONGEST_NAME: usize = 63;
 
 /// Writes a table as a MATLAB v5 file.
-pub struct MatWriter {
-    file: PartialFile,
-    columns: Vec<Column>,
-    metadata: Metadata,
-    spool: Spool,
-    compress: bool,
-}
+pub(crate) struct MatWriter(Variables);
 
 impl MatWriter {
-    /// Starts the file. Names must be MATLAB's: a letter, then letters, digits and `_`, 63 at most; `fs` and
-    /// `brinell_...` are taken.
-    pub fn create(
-        path: impl AsRef<Path>,
-        columns: &[Column],
-        metadata: &Metadata,
-        compress: bool,
-    ) -> Result<Self, IoError> {
-        Self::at(Destination::Disk(path.as_ref()), columns, metadata, compress)
-    }
-
-    /// The same on the disk or in memory.
-    pub(crate) fn at(
-        destination: Destination<'_>,
-        columns: &[Column],
-        metadata: &Metadata,
-        compress: bool,
-    ) -> Result<Self, IoError> {
-        let path = destination.path();
-        check_columns(path, columns)?;
-        for Column { name, .. } in columns {
-            let why = if !is_matlab_name(name) {
-                "MATLAB takes a letter, then letters, digits and `_`, 63 at most"
-            } else if name == "fs" || name.starts_with("brinell_") {
-                "the file has a variable of its own with it"
-            } else {
-                continue;
-            };
-            return Err(IoError::ColumnName { path: path.to_owned(), name: name.clone(), why });
-        }
-        Ok(Self {
-            file: PartialFile::at(destination)?,
-            columns: columns.to_vec(),
-            metadata: metadata.clone(),
-            spool: Spool::create(destination, columns.len())?,
-            compress,
-        })
+    /// Starts the file. Names must be MATLAB's: a letter, then letters, digits and `_`, 63 at most.
+    pub(crate) fn at(destination: Destination<'_>, columns: &[Column], metadata: &Metadata) -> Result<Self, IoError> {
+        let limit = Limit { rows: MAX_ROWS, format: "MATLAB v5", of: "a variable" };
+        let why_not = |name: &str| {
+            (!is_matlab_name(name)).then_some("MATLAB takes a letter, then letters, digits and `_`, 63 at most")
+        };
+        Ok(Self(Variables::at(destination, columns, metadata, Some(limit), why_not)?))
     }
 
     fn write(&mut self, outcome: &Outcome) -> Result<(), IoError> {
@@ -83,32 +38,26 @@ impl MatWriter {
         header.resize(124, b' ');
         header.extend_from_slice(&0x0100u16.to_le_bytes());
         header.extend_from_slice(b"IM");
-        self.file.append(&header)?;
-        let rows = self.spool.rows();
-        for index in 0..self.columns.len() {
-            let head = head(&self.columns[index].name, CLASS_DOUBLE, [rows, 1], MI_DOUBLE, 8 * rows);
-            let spool = &mut self.spool;
-            variable(&mut self.file, self.compress, &head, |take| spool.column(index, take))?;
+        let name = |key: &str| Some(key.replace('.', "_")).filter(|name| is_matlab_name(name));
+        let texts = self.0.texts(outcome, name);
+        let Variables { file, columns, metadata, spool } = &mut self.0;
+        file.append(&header)?;
+        let rows = spool.rows();
+        for (index, column) in columns.iter().enumerate() {
+            // Eight bytes each: no padding.
+            file.append(&head(&column.name, CLASS_DOUBLE, [rows, 1], MI_DOUBLE, 8 * rows))?;
+            spool.column(index, |bytes| file.append(bytes))?;
         }
-        if let Some(hz) = self.metadata.sample_rate() {
-            let head = head("fs", CLASS_DOUBLE, [1, 1], MI_DOUBLE, 8);
-            variable(&mut self.file, self.compress, &head, |take| take(&hz.to_le_bytes()))?;
-        }
-        let mut texts = vec![
-            (keys::UNITS_VARIABLE.to_owned(), units_json(&self.columns)),
-            ("brinell_outcome".to_owned(), outcome.to_string()),
-        ];
-        for (key, value) in &self.metadata.pairs {
-            let name = key.replace('.', "_");
-            if is_matlab_name(&name) && name != "fs" && texts.iter().all(|(n, _)| *n != name) {
-                texts.push((name, value.clone()));
-            }
+        if let Some(hz) = metadata.sample_rate() {
+            file.append(&head("fs", CLASS_DOUBLE, [1, 1], MI_DOUBLE, 8))?;
+            file.append(&hz.to_le_bytes())?;
         }
         for (name, text) in texts {
-            let units: Vec<u8> = text.encode_utf16().flat_map(u16::to_le_bytes).collect();
+            let mut units: Vec<u8> = text.encode_utf16().flat_map(u16::to_le_bytes).collect();
             let count = units.len() as u64 / 2;
-            let head = head(&name, CLASS_CHAR, [1, count], MI_UINT16, 2 * count);
-            variable(&mut self.file, self.compress, &head, |take| take(&units))?;
+            file.append(&head(&name, CLASS_CHAR, [1, count], MI_UINT16, 2 * count))?;
+            units.resize(units.len().next_multiple_of(8), 0);
+            file.append(&units)?;
         }
         Ok(())
     }
@@ -139,61 +88,14 @@ fn head(name: &str, class: u32, shape: [u64; 2], kind: u32, bytes: u64) -> Vec<u
     head
 }
 
-type Take<'a> = &'a mut dyn FnMut(&[u8]) -> Result<(), IoError>;
-
-/// Writes one variable whose values `give` hands over.
-fn variable(
-    file: &mut PartialFile,
-    compress: bool,
-    head: &[u8],
-    give: impl FnOnce(Take<'_>) -> Result<(), IoError>,
-) -> Result<(), IoError> {
-    let mut bytes = 0;
-    let padding = |bytes: usize| vec![0; bytes.next_multiple_of(8) - bytes];
-    if !compress {
-        file.append(head)?;
-        give(&mut |values| {
-            bytes += values.len();
-            file.append(values)
-        })?;
-        return file.append(&padding(bytes));
-    }
-    let path = file.path().to_owned();
-    let failed = |e| IoError::writing(&path, e);
-    file.append(&MI_COMPRESSED.to_le_bytes())?;
-    file.append(&[0; 4])?;
-    let mut encoder = ZlibEncoder::new(&mut *file, Compression::fast());
-    encoder.write_all(head).map_err(failed)?;
-    give(&mut |values| {
-        bytes += values.len();
-        encoder.write_all(values).map_err(failed)
-    })?;
-    encoder.write_all(&padding(bytes)).map_err(failed)?;
-    encoder.try_finish().map_err(failed)?;
-    let packed = encoder.total_out();
-    drop(encoder);
-    // Incompressible numbers grow by less than a thousandth: inside 32 bits too.
-    let at = std::io::Seek::stream_position(file).map_err(failed)? - packed - 4;
-    file.patch(at, &(packed as u32).to_le_bytes())
-}
-
 impl SignalWriter for MatWriter {
     fn write_row(&mut self, row: &[f64]) -> Result<(), IoError> {
-        self.file.check()?;
-        check_row(self.file.path(), self.columns.len(), row)?;
-        if self.spool.rows() >= MAX_ROWS {
-            return Err(IoError::NotWritable {
-                path: self.file.path().to_owned(),
-                format: "MATLAB v5",
-                why: format!("a variable holds at most {MAX_ROWS} values; choose parquet or npz"),
-            });
-        }
-        self.spool.push(row.iter().copied())
+        self.0.push(row)
     }
 
     fn complete(mut self: Box<Self>, outcome: Outcome) -> Result<Complete, IoError> {
-        self.file.check()?;
+        self.0.file.check()?;
         self.write(&outcome)?;
-        self.file.complete()
+        self.0.file.complete()
     }
 }

@@ -1,5 +1,6 @@
-//! Writers of signals, one file per format; CSV is beside its own reader, in `csv.rs`.
+//! Writers of signals, one file per format.
 
+pub(crate) mod csv;
 pub(crate) mod mat;
 #[cfg(feature = "npz")]
 pub(crate) mod npz;

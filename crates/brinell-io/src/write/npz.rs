@@ -8,42 +8,20 @@ use std::io::Write;
 use zip::write::SimpleFileOptions;
 use zip::{CompressionMethod, ZipWriter};
 
-use super::spool::Spool;
-use crate::atomic::{Complete, Destination, PartialFile};
-use crate::signals::{check_columns, check_row, units_json};
-use crate::{Column, IoError, Metadata, Outcome, SignalWriter, keys};
+use super::spool::Variables;
+use crate::atomic::{Complete, Destination};
+use crate::{Column, IoError, Metadata, Outcome, SignalWriter};
 
 /// Writes a table as an npz file.
-pub(crate) struct NpzWriter {
-    file: PartialFile,
-    columns: Vec<Column>,
-    metadata: Metadata,
-    spool: Spool,
-}
+pub(crate) struct NpzWriter(Variables);
+
+/// What would be a path within the archive.
+const OF_PATHS: [char; 3] = ['/', '\\', ':'];
 
 impl NpzWriter {
-    /// Starts the file. The names `fs` and `brinell_...` are taken.
     pub(crate) fn at(destination: Destination<'_>, columns: &[Column], metadata: &Metadata) -> Result<Self, IoError> {
-        let path = destination.path();
-        check_columns(path, columns)?;
-        let why = |name: &str| {
-            if name == "fs" || name.starts_with("brinell_") {
-                Some("the file has an array of its own with it")
-            } else if name.contains(['/', '\\', ':']) {
-                Some("it would be a path within the archive")
-            } else {
-                None
-            }
-        };
-        if let Some((name, why)) = columns.iter().find_map(|c| Some((&c.name, why(&c.name)?))) {
-            return Err(IoError::ColumnName { path: path.to_owned(), name: name.clone(), why });
-        }
-        Ok(Self {
-            file: PartialFile::at(destination)?,
-            columns: columns.to_vec(),
-            metadata: metadata.clone(),
-            spool: Spool::create(destination, columns.len())?,
-        })
+        let why_not = |name: &str| name.contains(OF_PATHS).then_some("it would be a path within the archive");
+        Ok(Self(Variables::at(destination, columns, metadata, None, why_not)?))
     }
 }
 
@@ -62,20 +40,19 @@ fn header(kind: &str, shape: &str) -> Vec<u8> {
 
 impl SignalWriter for NpzWriter {
     fn write_row(&mut self, row: &[f64]) -> Result<(), IoError> {
-        self.file.check()?;
-        check_row(self.file.path(), self.columns.len(), row)?;
-        self.spool.push(row.iter().copied())
+        self.0.push(row)
     }
 
     fn complete(self: Box<Self>, outcome: Outcome) -> Result<Complete, IoError> {
-        self.file.check()?;
-        let mut spool = self.spool;
-        let path = self.file.path().to_owned();
+        self.0.file.check()?;
+        let texts = self.0.texts(&outcome, |key| Some(key.replace('.', "_").replace(OF_PATHS, "_")));
+        let Variables { file, columns, metadata, mut spool } = self.0;
+        let path = file.path().to_owned();
         let failed = |e: std::io::Error| IoError::writing(&path, e);
-        let mut archive = ZipWriter::new(self.file);
+        let mut archive = ZipWriter::new(file);
         let options = SimpleFileOptions::default().compression_method(CompressionMethod::Stored).large_file(true);
         let rows = spool.rows();
-        for (index, column) in self.columns.iter().enumerate() {
+        for (index, column) in columns.iter().enumerate() {
             let name = format!("{}.npy", column.name);
             archive.start_file(name, options).map_err(|e| failed(e.into()))?;
             let header = header("<f8", &format!("({rows},)"));
@@ -83,21 +60,10 @@ impl SignalWriter for NpzWriter {
             spool.column(index, |bytes| archive.write_all(bytes).map_err(failed))?;
         }
         let mut others = Vec::new();
-        if let Some(hz) = self.metadata.sample_rate() {
+        if let Some(hz) = metadata.sample_rate() {
             let mut bytes = header("<f8", "()");
             bytes.extend_from_slice(&hz.to_le_bytes());
             others.push(("fs".to_owned(), bytes));
-        }
-        let mut texts = vec![
-            (keys::UNITS_VARIABLE.to_owned(), units_json(&self.columns)),
-            ("brinell_outcome".to_owned(), outcome.to_string()),
-        ];
-        for (key, value) in &self.metadata.pairs {
-            let name = key.replace(['.', '/', '\\', ':'], "_");
-            let taken = |n: &String| *n == name;
-            if !self.columns.iter().any(|c| taken(&c.name)) && !texts.iter().any(|t| taken(&t.0)) {
-                texts.push((name, value.clone()));
-            }
         }
         for (name, text) in texts {
             let count = text.chars().count();

@@ -17,7 +17,7 @@ use serde_json::{Map, Value, json};
 use zstd::bulk::Compressor;
 
 use crate::atomic::{Complete, Destination, PartialFile};
-use crate::signals::{check_columns, check_row};
+use crate::signals::check_columns;
 use crate::{Column, IoError, Metadata, Outcome, SignalWriter, keys};
 
 /// Memory for the rows of one row group.
@@ -229,8 +229,7 @@ impl ParquetWriter {
 
 impl SignalWriter for ParquetWriter {
     fn write_row(&mut self, row: &[f64]) -> Result<(), IoError> {
-        self.file.check()?;
-        check_row(self.file.path(), self.columns.len(), row)?;
+        self.file.check_row(self.columns.len(), row)?;
         for (column, &value) in self.values.chunks_exact_mut(self.group_rows).zip(row) {
             column[self.pending] = value;
         }

@@ -3,13 +3,13 @@
 //! Layout: University of Cincinnati, SDRL, "Universal File Datasets Summary", 58 and 58b. The abscissa's step has seven
 //! digits, as many as its place in the file holds.
 
-use super::spool::Spool;
+use super::spool::{Limit, Spool};
 use crate::atomic::{Complete, Destination, PartialFile};
-use crate::signals::{check_columns, check_row, without_time};
+use crate::signals::{check_columns, without_time};
 use crate::{Column, IoError, Metadata, Outcome, SignalWriter};
 
 /// Values of one function: the field for its bytes has twelve digits, the one for their number ten.
-const MAX_ROWS: u64 = 9_999_999_999;
+const LIMIT: Limit = Limit { rows: 9_999_999_999, format: "UFF 58", of: "a function" };
 
 /// Writes a table as UFF 58b.
 pub(crate) struct UffWriter {
@@ -40,7 +40,7 @@ impl UffWriter {
             time: (0..columns.len()).find(|i| !kept.contains(i)),
             start_s: None,
             rate_hz,
-            spool: Spool::create(destination, kept.len())?,
+            spool: Spool::create(destination, kept.len(), Some(LIMIT))?,
             columns: columns.to_vec(),
             kept,
         })
@@ -120,15 +120,7 @@ fn real(value: f64) -> String {
 
 impl SignalWriter for UffWriter {
     fn write_row(&mut self, row: &[f64]) -> Result<(), IoError> {
-        self.file.check()?;
-        check_row(self.file.path(), self.columns.len(), row)?;
-        if self.spool.rows() >= MAX_ROWS {
-            return Err(IoError::NotWritable {
-                path: self.file.path().to_owned(),
-                format: "UFF 58",
-                why: format!("a function holds at most {MAX_ROWS} values; choose parquet or npz"),
-            });
-        }
+        self.file.check_row(self.columns.len(), row)?;
         if self.start_s.is_none() {
             self.start_s = self.time.map(|i| row[i]);
         }

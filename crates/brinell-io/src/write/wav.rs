@@ -8,7 +8,7 @@
 use serde_json::{Map, Value, json};
 
 use crate::atomic::{Complete, Destination, PartialFile};
-use crate::signals::{check_columns, check_row, without_time};
+use crate::signals::{check_columns, without_time};
 use crate::{Column, IoError, Metadata, Outcome, SignalWriter, keys};
 
 const BUFFER_BYTES: usize = 256 << 10;
@@ -94,8 +94,7 @@ fn chunk(name: &[u8; 4], body: &[u8]) -> Vec<u8> {
 
 impl SignalWriter for WavWriter {
     fn write_row(&mut self, row: &[f64]) -> Result<(), IoError> {
-        self.file.check()?;
-        check_row(self.file.path(), self.columns.len(), row)?;
+        self.file.check_row(self.columns.len(), row)?;
         for &i in &self.kept {
             self.buffer.extend_from_slice(&(row[i] as f32).to_le_bytes());
         }

@@ -186,7 +186,7 @@ const MOST_NODES: f64 = 20_000.0;
 
 fn depth_map<K: Keys>(k: &mut K, shape: &mut Shape) {
     let (mut file, mut g, mut scan) = match shape {
-        Shape::DepthMap { grid } => (None, grid.clone(), unset::scan()),
+        Shape::DepthMap { grid } => (None, grid.clone(), ScanFile::default()),
         Shape::Scan(scan) => (Some(scan.file.clone()), unset::grid(), scan.clone()),
         _ => return,
     };

@@ -145,46 +145,9 @@ pub(crate) fn random() -> Shape {
 }
 
 pub(crate) fn image() -> Shape {
-    Shape::Image(ImageFile {
-        file: String::new(),
-        mm_per_pixel: NONE,
-        threshold: None,
-        use_alpha: false,
-        invert: false,
-        rolling_direction: Leaf::blank(),
-        center: true,
-        edges: Leaf::blank(),
-        blur_px: None,
-        speck_mm2: NONE,
-        region_px: None,
-        pieces: None,
-        at_px: None,
-        scale_bar: None,
-    })
+    Shape::Image(ImageFile::default())
 }
 
 pub(crate) fn svg() -> Shape {
-    Shape::Svg(SvgFile { file: String::new(), path_id: None, mm_per_unit: None, tolerance_mm: NONE, center: true })
-}
-
-pub(crate) fn scan() -> ScanFile {
-    ScanFile {
-        file: String::new(),
-        ds_mm: None,
-        dz_mm: None,
-        unit: Leaf::blank(),
-        nm_per_count: None,
-        height_positive_up: true,
-        missing: None,
-        fill: Leaf::blank(),
-        remove_form: Leaf::blank(),
-        radius_mm: None,
-        zero: Leaf::blank(),
-        zero_percentile: None,
-        first_row: Leaf::blank(),
-        rolling_direction: Leaf::blank(),
-        threshold_um: NONE,
-        speck_mm2: NONE,
-        center: true,
-    }
+    Shape::Svg(SvgFile::default())
 }

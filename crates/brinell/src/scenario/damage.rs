@@ -147,6 +147,28 @@ pub struct ImageFile {
     pub scale_bar: Option<ScaleBar>,
 }
 
+impl Default for ImageFile {
+    /// A photo at 0.01 mm per pixel; blur of 1.5 pixels, specks below 0.02 mm^2.
+    fn default() -> Self {
+        Self {
+            file: String::new(),
+            mm_per_pixel: 0.01,
+            threshold: None,
+            use_alpha: false,
+            invert: false,
+            rolling_direction: RollingDirection::Right,
+            center: true,
+            edges: ImageEdges::SubPixel,
+            blur_px: Some(1.5),
+            speck_mm2: 0.02,
+            region_px: None,
+            pieces: None,
+            at_px: None,
+            scale_bar: None,
+        }
+    }
+}
+
 /// A length that is known in a picture.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ScaleBar {
@@ -178,6 +200,13 @@ pub struct SvgFile {
     pub tolerance_mm: f64,
     /// Puts the damage's bounding box at the defect's centre; else the page's middle.
     pub center: bool,
+}
+
+impl Default for SvgFile {
+    /// The whole drawing at its own scale, within a micrometre, centred.
+    fn default() -> Self {
+        Self { file: String::new(), path_id: None, mm_per_unit: None, tolerance_mm: 0.001, center: true }
+    }
 }
 
 /// What the numbers of a scan count.
@@ -270,6 +299,31 @@ pub struct ScanFile {
     pub speck_mm2: f64,
     /// Puts the damage's bounding box at the defect's centre; else the scan's middle.
     pub center: bool,
+}
+
+impl Default for ScanFile {
+    /// Heights in um, spacing as the file says, nothing taken off but the rim's level, all beyond 1 um damage.
+    fn default() -> Self {
+        Self {
+            file: String::new(),
+            ds_mm: None,
+            dz_mm: None,
+            unit: ScanUnit::Um,
+            nm_per_count: None,
+            height_positive_up: true,
+            missing: None,
+            fill: ScanFill::None,
+            remove_form: ScanForm::None,
+            radius_mm: None,
+            zero: ScanZero::RimMedian,
+            zero_percentile: None,
+            first_row: FirstRow::Top,
+            rolling_direction: RollingDirection::Right,
+            threshold_um: 1.0,
+            speck_mm2: 0.0,
+            center: true,
+        }
+    }
 }
 
 /// Depths at the nodes of a rectangular grid, bilinear between them, 0 beyond its border.

@@ -11,7 +11,12 @@ use std::f64::consts::TAU;
 
 use realfft::num_complex::Complex;
 
-use crate::signal::Section;
+/// One second-order section, `(b0 + b1 z^-1 + b2 z^-2) / (1 + a1 z^-1 + a2 z^-2)`; of first order where b2 = a2 = 0.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Section {
+    b: [f64; 3],
+    a: [f64; 2],
+}
 
 /// What a mode passes on, N(s).
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -108,6 +113,16 @@ impl Running {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    impl Section {
+        /// Its response at z = e^(i `angle`), the angle in radians a sample.
+        fn response(&self, angle: f64) -> Complex<f64> {
+            let z = Complex::from_polar(1.0, -angle);
+            let [b0, b1, b2] = self.b;
+            let [a1, a2] = self.a;
+            (b0 + z * (b1 + z * b2)) / (1.0 + z * (a1 + z * a2))
+        }
+    }
 
     /// Output rate 1, fast rate 8, so frequencies are in units of the output rate.
     const RATE: f64 = 8.0;

@@ -9,7 +9,7 @@ mod walk;
 
 use std::io::{Read, Seek, SeekFrom};
 
-use super::channel::{Channel, lend_labels, lend_rates};
+use super::channel::{lend_labels, lend_rates, lend_units};
 use super::contents::Contents;
 use super::fault::{Fault, damaged};
 use super::numbers::Sink;
@@ -82,7 +82,7 @@ pub(super) fn list(mut contents: Contents) -> Result<Listing, Fault> {
     lend_rates(&mut channels, &rates);
     lend_labels(&mut channels, &texts);
     let metadata = Metadata { pairs: texts };
-    lend_units(&mut channels, &metadata);
+    lend_units(&mut channels, &metadata, keys::UNITS_VARIABLE);
     Ok(Listing { channels, metadata, source: Box::new(mat) })
 }
 
@@ -116,15 +116,5 @@ impl Source for Mat5 {
     fn stream(&mut self, index: usize, sink: Sink<'_>) -> Result<(), Fault> {
         let (place, leaf) = self.places[index];
         self.walk(place, Aim::Read { leaf, sink })
-    }
-}
-
-/// The units that brinell writes beside its channels.
-fn lend_units(channels: &mut [Channel], metadata: &Metadata) {
-    let units =
-        metadata.get(keys::UNITS_VARIABLE).and_then(|text| serde_json::from_str::<serde_json::Value>(text).ok());
-    for channel in channels {
-        let unit = units.as_ref().and_then(|u| u.get(&channel.name)?.as_str());
-        channel.unit = unit.filter(|u| !u.is_empty()).map(str::to_owned);
     }
 }
