@@ -62,11 +62,8 @@ pub(crate) fn kurtogram(view: &Kurtogram, layout: Layout) -> Picture {
         x_label: "Frequency".into(),
         x_unit: "Hz".into(),
         y_label: "Level".into(),
-        y_unit: String::new(),
-        lanes: vec![],
-        left: 0.0,
         right: SCALE_MARGIN * size.font,
-        x_axis: true,
+        ..Spec::default()
     });
     let values = top.map(|top| view.rows(top)).unwrap_or_default();
     let (Some(top), Some((_, highest))) = (top, range(values.iter().copied())) else {

@@ -85,7 +85,7 @@ pub use plots::{detail_window, headline, overview};
 pub use run::defect_markers;
 pub use sensor::SensorView;
 #[doc(hidden)]
-pub use sheet::{SheetDamage, SheetGroup, SheetReport, SheetTile, sheet_html};
+pub use sheet::sheet_html;
 #[doc(hidden)]
 pub use side_by_side::{
     Along, OverlaidCurve, Overlay, Part, Piece, SideBySide, Vertical, overlay, side_by_side_html, side_by_side_pictures,

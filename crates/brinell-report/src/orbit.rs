@@ -96,8 +96,6 @@ fn orbit_chart(
     (cell, size): (f64, Size),
 ) -> (Chart, f64) {
     let mut spec = Spec {
-        name: String::new(),
-        title: String::new(),
         size: Size { width: cell, ..size },
         x: Domain::exact(-reach, reach),
         y: Domain::exact(-reach, reach),
@@ -105,10 +103,7 @@ fn orbit_chart(
         x_unit: "µm".into(),
         y_label: "Y".into(),
         y_unit: "µm".into(),
-        lanes: vec![],
-        left: 0.0,
-        right: 0.0,
-        x_axis: true,
+        ..Spec::default()
     };
     // What numbers and labels leave of the width is the side of the square.
     spec.size.height = cell;

@@ -44,10 +44,7 @@ pub(crate) fn sensor_response(view: &SensorView, layout: Layout) -> Picture {
         x_unit: "kHz".into(),
         y_label: "Gain".into(),
         y_unit: "dB".into(),
-        lanes: vec![],
-        left: 0.0,
-        right: 0.0,
-        x_axis: true,
+        ..Spec::default()
     });
     chart.points(&[lo, hi], &[0.0, 0.0], Paint::line(ink::FAINT, 1.0).dashed(&[4.0, 4.0]));
     chart.points(&khz, &gain, Paint::line(ink::BLUE, 1.6));

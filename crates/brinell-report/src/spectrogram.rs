@@ -87,10 +87,8 @@ pub fn spectrogram(view: &Spectrogram, layout: Layout) -> Picture {
         x_unit: unit.into(),
         y_label: "Frequency".into(),
         y_unit: "Hz".into(),
-        lanes: vec![],
-        left: 0.0,
         right: SCALE_MARGIN * size.font,
-        x_axis: true,
+        ..Spec::default()
     });
     let (columns, levels) = view.levels(if layout.roomy() { 400 } else { 200 });
     let Some((_, highest)) = range(levels.iter().copied()) else {

@@ -65,10 +65,7 @@ fn waveform_spec(
         x_unit: x_unit.into(),
         y_label: first.label,
         y_unit: first.unit,
-        lanes: vec![],
-        left: 0.0,
-        right: 0.0,
-        x_axis: true,
+        ..Spec::default()
     }
 }
 

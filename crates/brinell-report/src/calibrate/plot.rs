@@ -36,11 +36,7 @@ fn spec(name: String, title: String, layout: Layout, x: Domain, y: Domain, x_lab
         x_label: x_label.0.into(),
         x_unit: x_label.1.into(),
         y_label: "Chi-square".into(),
-        y_unit: String::new(),
-        lanes: vec![],
-        left: 0.0,
-        right: 0.0,
-        x_axis: true,
+        ..Spec::default()
     }
 }
 

@@ -40,6 +40,26 @@ pub(crate) struct Spec {
     pub(crate) x_axis: bool,
 }
 
+impl Default for Spec {
+    fn default() -> Self {
+        Self {
+            name: String::new(),
+            title: String::new(),
+            size: Size { width: 0.0, height: 0.0, font: 0.0 },
+            x: Domain::exact(0.0, 1.0),
+            y: Domain::exact(0.0, 1.0),
+            x_label: String::new(),
+            x_unit: String::new(),
+            y_label: String::new(),
+            y_unit: String::new(),
+            lanes: Vec::new(),
+            left: 0.0,
+            right: 0.0,
+            x_axis: true,
+        }
+    }
+}
+
 /// A plot being drawn.
 pub(crate) struct Chart {
     pub(crate) picture: Picture,

@@ -96,10 +96,8 @@ impl<'a> Plan<'a> {
             x_unit: "mm".into(),
             y_label: "Across".into(),
             y_unit: "mm".into(),
-            lanes: vec![],
             left,
-            right: 0.0,
-            x_axis: true,
+            ..Spec::default()
         };
         let around = 8.0 + 3.4 * font;
         let draft = spec(TALLEST + around, 0.0, wanted);

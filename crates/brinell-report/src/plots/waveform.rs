@@ -68,10 +68,7 @@ pub fn overview(report: &Report, layout: Layout) -> Picture {
         x_unit: unit.into(),
         y_label: "Acceleration".into(),
         y_unit: series.unit.clone(),
-        lanes: vec![],
-        left: 0.0,
-        right: 0.0,
-        x_axis: true,
+        ..Spec::default()
     });
     if range(bins.min.iter().copied()).is_none() {
         chart.say("No samples");
@@ -183,8 +180,6 @@ pub(super) fn waveform_spec(report: &Report, size: Size) -> Spec {
         y_label: series.label.clone(),
         y_unit: series.unit.clone(),
         lanes: event_lanes(report, scale),
-        left: 0.0,
-        right: 0.0,
-        x_axis: true,
+        ..Spec::default()
     }
 }

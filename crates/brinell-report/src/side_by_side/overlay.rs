@@ -150,9 +150,7 @@ fn plot(overlay: &Overlay, names: &[String], layout: Layout, height: f64, common
         y_label: overlay.y_label.clone(),
         y_unit: overlay.y_unit.clone(),
         lanes,
-        left: 0.0,
-        right: 0.0,
-        x_axis: true,
+        ..Spec::default()
     };
     let (name, title, size) = (spec.name.clone(), spec.title.clone(), spec.size);
     let mut chart = Chart::new(spec);

@@ -55,14 +55,11 @@ pub(crate) fn heat_map(map: &HeatMap, layout: Layout) -> Option<Picture> {
         size,
         x: Domain::exact(0.0, columns as f64),
         y: Domain::exact(0.0, rows as f64),
-        x_label: String::new(),
-        x_unit: String::new(),
         y_label: map.y_label.clone(),
-        y_unit: String::new(),
-        lanes: vec![],
         left,
         right: SCALE_MARGIN * size.font,
         x_axis: false,
+        ..Spec::default()
     });
     // Between the values of a grid there is nothing to divide.
     for axis in ["ticks-x", "ticks-y"] {

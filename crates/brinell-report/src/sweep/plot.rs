@@ -118,10 +118,8 @@ fn spec(plot: &IndicatorPlot, size: Size) -> Spec {
         x_unit: plot.x_unit.clone(),
         y_label: plot.label.clone(),
         y_unit: plot.unit.clone(),
-        lanes: vec![],
-        left: 0.0,
-        right: 0.0,
         x_axis: !named,
+        ..Spec::default()
     }
 }
 

@@ -186,12 +186,10 @@ pub(crate) fn filled(text: &str, values: &[f64], dt: f64, frequency: f64) -> Rep
             title: text.into(),
             angle_deg: values.to_vec(),
             length_mm: values.to_vec(),
-            other_length_mm: Some(values.iter().rev().copied().collect()),
             stiffness: values.iter().skip(1).copied().collect(),
             stiffness_unit: text.into(),
             force_n: vec![],
             contact: text.into(),
-            other_contact: text.into(),
         }],
         along: damage_view(text, values).along,
         load_distribution: vec![RowLoad {
@@ -273,7 +271,6 @@ pub(crate) fn ordinary() -> Report {
     report.passes[0] = Pass {
         title: "Row 1, roller 7".into(),
         length_mm: angle_deg.iter().map(|a| if a.abs() < 3.1 { 2.0 } else { 6.0 }).collect(),
-        other_length_mm: None,
         stiffness: vec![1.9e8; 500],
         stiffness_unit: "N/m^(10/9)".into(),
         force_n: vec![40.0; 500],

@@ -17,7 +17,7 @@ const TURNS: f64 = 2.0;
 const STRETCH_S: f64 = 0.1;
 
 /// A data set's runs to look at.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, Default, PartialEq)]
 pub struct Sheet {
     /// Name of the data set.
     pub name: String,
@@ -32,7 +32,7 @@ pub struct Sheet {
 }
 
 /// Runs of one class.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, Default, PartialEq)]
 pub struct SheetClass {
     /// Its name.
     pub name: String,
@@ -45,7 +45,7 @@ pub struct SheetClass {
 }
 
 /// One run.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, Default, PartialEq)]
 pub struct SheetRun {
     /// Its number.
     pub run: i64,
@@ -76,7 +76,7 @@ pub struct SheetRun {
 }
 
 /// Damage of a run, as its labels have it.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, Default, PartialEq)]
 pub struct SheetDefect {
     /// outer-raceway, inner-raceway or roller.
     pub on: String,
