@@ -19,7 +19,7 @@ use brinell::observe::{DefectLine, Findings, Kind};
 use brinell::plausibility::{self, Beforehand};
 use brinell::result::{RunResult, fields, finish};
 use brinell::signal::Indicator;
-use brinell::simulate::{End, Simulation};
+use brinell::simulate::{End, Observer, Simulation};
 use brinell::summary::{self, Parts};
 use brinell_damage::Photo;
 use brinell_io::{Column, Format, Metadata, SignalWriter, atomic_prepare, keys};
@@ -148,7 +148,7 @@ fn execute(
 ) -> Result<Done, Failure> {
     let end = loaded.scenario.simulation.duration_s;
     let layout = args.print.layout(&args.plots)?;
-    let loads = line_loads::asked(args, &simulation, end)?;
+    let mut loads = line_loads::asked(args, &simulation, end)?;
     make_folder(folder)?;
     // These lock their files: another run into the same folder ends here, before anything is removed.
     let writers = writers(args, loaded, &simulation, folder)?;
@@ -156,11 +156,10 @@ fn execute(
     let mut ready = vec![atomic_prepare(folder.join(SCENARIO), loaded.to_toml())?];
 
     let mut shown = Shown::new(progress, stop);
-    let mut recorder = Recorder::new(&simulation, writers, &mut shown);
-    let mut reading = line_loads::Reading { inner: &mut recorder, loads };
+    let beside = loads.as_mut().map(|loads| loads as &mut dyn Observer);
+    let mut recorder = Recorder::new(&simulation, writers, &mut shown).beside(beside);
     let (finished, healthy) =
-        healthy::beside(args, &loaded.scenario, stop, || finish(loaded.scenario.clone(), simulation, &mut reading));
-    let loads = reading.loads;
+        healthy::beside(args, &loaded.scenario, stop, || finish(loaded.scenario.clone(), simulation, &mut recorder));
     let recording = recorder.close(&finished.outcome.end, true);
     let elapsed = shown.elapsed();
     drop(shown);

@@ -3,10 +3,9 @@
 use super::{Ledger, Recorder, RunnerError};
 use crate::campaign::{Row, fingerprint};
 use crate::listener::Listener;
-use brinell::channel::Frame;
 use brinell::result::{Quantity, RunResult, finish};
 use brinell::scenario::Scenario;
-use brinell::simulate::{End, Observer, Simulation, SolverWork};
+use brinell::simulate::{End, Observer, Simulation};
 use brinell_io::SignalWriter;
 use std::num::NonZeroUsize;
 use std::ops::ControlFlow;
@@ -152,15 +151,11 @@ fn one<W: Work>(
     let writers = work.signals(task, &simulation)?;
     let mut hearer = listener.begin(k, task.duration_s);
     let writers = writers.into_iter().collect();
-    let mut recorder = Recorder::new(&simulation, writers, hearer.as_mut()).capturing(work.captured_channel());
     let mut beside = work.beside(task, &simulation);
-    let finished = match &mut beside {
-        Some(other) => {
-            let mut both = Both(&mut recorder, other.as_mut());
-            finish(scenario, simulation, &mut both)
-        }
-        None => finish(scenario, simulation, &mut recorder),
-    };
+    let mut recorder = Recorder::new(&simulation, writers, hearer.as_mut())
+        .capturing(work.captured_channel())
+        .beside(beside.as_deref_mut().map(|other| other as &mut dyn Observer));
+    let finished = finish(scenario, simulation, &mut recorder);
     let recording = recorder.close(&finished.outcome.end, false);
     let recording = recording.map_err(RunnerError::from)?;
     for file in recording.files {
@@ -181,28 +176,4 @@ fn one<W: Work>(
         }
     };
     Ok(Some(row(numbers)))
-}
-
-/// Two observers of one run; the first alone gets the time.
-struct Both<'a>(&'a mut dyn Observer, &'a mut dyn Observer);
-
-impl Observer for Both<'_> {
-    fn step(&mut self, frame: &Frame) {
-        self.0.step(frame);
-        self.1.step(frame);
-    }
-
-    fn sample(&mut self, index: u64, frame: &Frame) {
-        self.0.sample(index, frame);
-        self.1.sample(index, frame);
-    }
-
-    fn row(&mut self, index: u64, row: &[f64], filtered: &[f64]) -> ControlFlow<()> {
-        self.1.row(index, row, filtered)?;
-        self.0.row(index, row, filtered)
-    }
-
-    fn progress(&mut self, t: f64, work: &SolverWork) -> ControlFlow<()> {
-        self.0.progress(t, work)
-    }
 }
