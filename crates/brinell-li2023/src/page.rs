@@ -127,7 +127,7 @@ fn runs(request: &Request) -> Table {
     let rows = request.points.iter().map(|point| {
         let own = point.case.settings.iter();
         let settings: Vec<String> = own.map(|(k, v)| format!("{k} = {v}")).collect();
-        vec![point.case.id.into(), point.case.label.into(), settings.join("; "), format!("{}", point.duration_s)]
+        vec![point.case.id.into(), point.case.label.into(), settings.join("; "), format!("{}", point.task.duration_s)]
     });
     Table {
         title: "Runs".into(),

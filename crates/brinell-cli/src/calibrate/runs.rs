@@ -31,7 +31,7 @@ impl FromPoints<'_> {
         let settings = self.settings(place);
         let loaded = self.source.load(&settings, true);
         let scenario = loaded.map_err(|failure| crate::sweep::reason(&failure))?.scenario;
-        Ok(Task { fingerprint: self.fingerprint(&scenario), duration_s: scenario.simulation.duration_s, settings })
+        Ok(Task { fingerprint: self.fingerprint(&scenario), ..Task::new(settings, &scenario) })
     }
 }
 

@@ -18,14 +18,13 @@ use brinell::result::{check_name, fields, names};
 use brinell::simulate::Simulation;
 use brinell_io::{Metadata, atomic_write, keys};
 use brinell_study::campaign::{Row, fingerprint};
-use brinell_study::runner::{JOURNAL, Kept, Task, estimate};
+use brinell_study::runner::{JOURNAL, Kept, Task, estimate, to_run};
 
 use page::usual;
 pub(crate) use page::{plural, told, words};
 pub(crate) use points::reason;
 use points::{FromSource, Points};
 use serde_json::{Value, json};
-use std::collections::HashSet;
 use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
@@ -131,16 +130,15 @@ fn plan(
     threads: impl Fn(usize) -> NonZeroUsize,
     told: bool,
 ) -> Vec<Task> {
-    let finished = |task: &&Task| {
+    let finished = |task: &Task| {
         let signals = work.path(&task.fingerprint);
         let row = kept.row(&task.fingerprint);
         row.is_some_and(|row| row.result.is_err() || signals.is_none_or(|path| path.exists()))
     };
     let good = || points.tasks.iter().flatten();
-    let mut seen = HashSet::new();
-    let tasks: Vec<Task> = good().filter(|task| !finished(task) && seen.insert(&task.fingerprint)).cloned().collect();
+    let tasks = to_run(good(), finished);
     if told {
-        let before = good().filter(finished).count();
+        let before = good().filter(|task| finished(task)).count();
         tell_plan(points, &tasks, before, work, threads(tasks.len()));
         let outdated = |task: &&Task| kept.is_outdated(&task.fingerprint);
         let outdated = good().filter(outdated).count();

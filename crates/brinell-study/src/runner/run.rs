@@ -7,12 +7,13 @@ use brinell::result::{Quantity, RunResult, finish};
 use brinell::scenario::Scenario;
 use brinell::simulate::{End, Observer, Simulation};
 use brinell_io::SignalWriter;
+use std::collections::HashSet;
 use std::num::NonZeroUsize;
 use std::ops::ControlFlow;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 /// A point to be run.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Task {
     /// Key and value of what it sets.
     pub settings: Vec<(String, String)>,
@@ -20,6 +21,20 @@ pub struct Task {
     pub fingerprint: String,
     /// Simulated time, s.
     pub duration_s: f64,
+}
+
+impl Task {
+    /// The scenario that settings made.
+    pub fn new(settings: Vec<(String, String)>, scenario: &Scenario) -> Self {
+        Self { fingerprint: fingerprint(scenario), duration_s: scenario.simulation.duration_s, settings }
+    }
+}
+
+/// What is to be run of `tasks`: those that are not done, once where settings mean the same.
+pub fn to_run<'a>(tasks: impl IntoIterator<Item = &'a Task>, is_done: impl Fn(&Task) -> bool) -> Vec<Task> {
+    let mut seen = HashSet::new();
+    let open = tasks.into_iter().filter(|task| !is_done(task) && seen.insert(&task.fingerprint));
+    open.cloned().collect()
 }
 
 /// Observes a run beside its findings.
