@@ -111,15 +111,6 @@ fn curve_file(table: &CurveTable) -> String {
     format!("{}.csv", table.name)
 }
 
-/// What [`ready_pictures`] will write.
-pub(crate) fn picture_files(pictures: &[Picture], formats: &[PlotFormat], folder: &Path) -> Vec<PathBuf> {
-    let file = |picture: &Picture, format: &PlotFormat| folder.join(PLOTS).join(file_name(picture, *format));
-    let of = |picture| formats.iter().map(move |format| file(picture, format));
-    let curves = tables(pictures, formats);
-    let curves = curves.iter().map(|table| folder.join(CURVES).join(curve_file(table)));
-    pictures.iter().flat_map(of).chain(curves).collect()
-}
-
 /// Pictures as files of `folder`/plots and their curves as files of `folder`/curves, up to the files' names.
 pub(crate) fn ready_pictures(
     pictures: &[Picture],

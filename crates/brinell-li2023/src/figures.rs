@@ -99,12 +99,8 @@ pub(crate) fn chapter(
     if !starts.is_empty() {
         pieces.push(StudyPiece::Table(start_table(&starts, numbers)));
     }
-    Chapter {
-        id: format!("fig{first:02}"),
-        short: figures(experiment),
-        title: format!("{}: {}", figures(experiment), experiment.title),
-        pieces,
-    }
+    let short = figures(experiment);
+    Chapter::new(&format!("fig{first:02}"), &short, &format!("{short}: {}", experiment.title), pieces)
 }
 
 /// Waveforms from t = 0.

@@ -92,20 +92,15 @@ impl OtherVerdicts {
             let words = verdicts.iter().map(|v| v.words().to_owned());
             std::iter::once((*sentence).to_owned()).chain(words).collect()
         });
-        Chapter {
-            id: "models".into(),
-            short: "Tilting".into(),
-            title: "With rollers and rings that tilt".into(),
-            pieces: vec![
-                StudyPiece::Words(self.found()),
-                StudyPiece::Table(Table {
-                    title: "Verdicts side by side".into(),
-                    columns: columns.map(str::to_owned).collect(),
-                    rows: rows.collect(),
-                    note: "The same cases, all else alike. What tilts has slices, so slices in the plane are between both.".into(),
-                }),
-            ],
-        }
+        let table = Table {
+            title: "Verdicts side by side".into(),
+            columns: columns.map(str::to_owned).collect(),
+            rows: rows.collect(),
+            note: "The same cases, all else alike. What tilts has slices, so slices in the plane are between both."
+                .into(),
+        };
+        let pieces = vec![StudyPiece::Words(self.found()), StudyPiece::Table(table)];
+        Chapter::new("models", "Tilting", "With rollers and rings that tilt", pieces)
     }
 
     /// models.csv.

@@ -66,7 +66,7 @@ pub(crate) fn run(
             progress(py, done)
         })
     };
-    attended(py, &watch, runs, tell)?.map_err(|error| refused(folder, error))?;
+    attended(py, &watch, runs, tell)?.map(drop).map_err(|error| refused(folder, error))?;
     let result = |point: Result<Task, String>| {
         let row = ledger.kept.row(&point?.fingerprint).ok_or("not run")?;
         row.result.clone().map_err(|reason| one_line(&reason))

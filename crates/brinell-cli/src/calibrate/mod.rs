@@ -14,7 +14,7 @@ use crate::files::{Source, stem};
 use crate::progress::Joint;
 use crate::results::{Place, Results};
 use crate::run::{make_folder, stop_flag};
-use crate::say::{complain, document, say, short};
+use crate::say::{self, complain, say, short};
 use crate::sweep::{duration, plural};
 pub(crate) use args::CalibrateArgs;
 use brinell::document::Loaded;
@@ -112,7 +112,7 @@ pub(crate) fn calibrate(args: &CalibrateArgs) -> Result<ExitCode, Failure> {
     let outcome = Outcome::new(&plan, &runs, found)?;
     let written = outcome.write(&folder)?;
     if args.json {
-        document(&serde_json::to_string_pretty(&outcome.json()).unwrap_or_default());
+        say::json(&outcome.json());
     }
     if !args.quiet {
         tell(&runs, &outcome, &written, begin);

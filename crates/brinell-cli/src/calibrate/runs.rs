@@ -93,8 +93,7 @@ impl Runs<'_> {
             }
         }
         self.done += tasks.len();
-        let went =
-            campaign::run_within(&tasks, &self.points, &mut self.ledger, self.threads, &mut self.joint, self.stop);
+        let went = campaign::run_within(&tasks, &self.points, &mut self.ledger, self.threads, &self.joint, self.stop);
         match went {
             Ok(flow) if flow.is_continue() => {}
             Ok(_) => return Err(Unfit::Interrupted),

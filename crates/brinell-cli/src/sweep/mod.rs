@@ -11,7 +11,7 @@ use crate::figures::ready_pictures;
 use crate::files::stem;
 use crate::results::{Place, Results};
 use crate::run::{make_folder, stop_flag};
-use crate::say::{complain, document, say, short};
+use crate::say::{self, complain, pretty, say, short};
 pub(crate) use args::SweepArgs;
 use brinell::document::read;
 use brinell::result::{check_name, fields, names};
@@ -273,7 +273,7 @@ fn write(
     if args.json {
         let mut told = json.clone();
         told["rows"] = table::rows(&table).into();
-        document(&serde_json::to_string_pretty(&told).unwrap_or_default());
+        say::json(&told);
     }
     let mut put = |name: &str, text: String| -> Result<(), Failure> {
         let path = folder.join(name);
@@ -281,7 +281,7 @@ fn write(
         written.push(path);
         Ok(())
     };
-    let text = serde_json::to_string_pretty(&json).unwrap_or_default() + "\n";
+    let text = pretty(&json);
     put("sweep.json", text)?;
     let report = page::report(points, states, plots);
     put("sweep.html", brinell_report::sweep_html(&report))?;

@@ -5,7 +5,7 @@ use super::table::{State, number};
 use crate::say::{bracketed, short};
 use brinell::result::Quantity;
 use brinell::scenario::Scenario;
-use brinell_report::{Fact, HeatMap, IndicatorLine, IndicatorPlot, IndicatorPoint, SweepReport, Table, Value};
+use brinell_report::{Fact, HeatMap, IndicatorLine, IndicatorPlot, IndicatorPoint, SweepReport, Table};
 use brinell_study::campaign::{Axis, Row};
 use std::collections::HashMap;
 
@@ -37,7 +37,7 @@ pub(super) fn report(points: &Points, states: &[State], plots: &[String]) -> Swe
     let count = |word: &str| states.iter().filter(|s| s.word() == word).count();
     let (failed, missing) = (count("failed"), count("not run"));
     let axes: Vec<String> = points.plan.axes().iter().map(|axis| axis.keys().join(" with ")).collect();
-    let fact = |label: &str, n: usize, note: &str| Fact::new(label, Value::Text(n.to_string()), "", note);
+    let fact = |label: &str, n: usize, note: &str| Fact::new(label, n.to_string(), "", note);
     let mut facts = vec![fact("Points", states.len(), &axes.join(" × "))];
     facts.push(fact("Complete", count("complete"), ""));
     if failed > 0 {
@@ -49,7 +49,7 @@ pub(super) fn report(points: &Points, states: &[State], plots: &[String]) -> Swe
     let (axis, _) = x_axis(points);
     let lines = states.len() / points.plan.axes()[axis].settings().len();
     if lines > LINES * PICTURES {
-        let text = Value::Text(format!("{} of {lines}", LINES * PICTURES));
+        let text = format!("{} of {lines}", LINES * PICTURES);
         facts.push(Fact::new("Lines drawn", text, "", "all are in sweep.csv"));
     }
     let name = |k: usize| {
