@@ -11,7 +11,7 @@ use crate::inputs::Inputs;
 use crate::say::pretty;
 use brinell::document::{Loaded, read};
 use brinell::scenario::Scenario;
-use brinell_io::{Complete, Format, atomic_prepare, read_text};
+use brinell_io::{Complete, Format, atomic_prepare, atomic_write, read_text};
 use brinell_study::runner::JOURNAL;
 use serde_json::Value;
 use std::collections::BTreeSet;
@@ -452,4 +452,12 @@ fn names_below(folder: &Path, written: &[PathBuf]) -> Vec<String> {
         Some(parts?.join("/"))
     };
     written.iter().filter_map(name).collect()
+}
+
+/// Writes a file of a folder and adds it to what was written.
+pub(crate) fn put(folder: &Path, name: &str, text: &str, written: &mut Vec<PathBuf>) -> Result<(), Failure> {
+    let path = folder.join(name);
+    atomic_write(&path, text.as_bytes())?;
+    written.push(path);
+    Ok(())
 }

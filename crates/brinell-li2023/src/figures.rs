@@ -310,7 +310,7 @@ pub(crate) fn with_interval(value: Option<f64>, interval: Option<(f64, f64)>) ->
     }
 }
 
-fn cell(number: Option<Number>) -> String {
+pub(crate) fn cell(number: Option<Number>) -> String {
     let interval = number.and_then(|n| n.interval).map(|i| (i.low, i.high));
     with_interval(number.map(|n| n.value), interval)
 }

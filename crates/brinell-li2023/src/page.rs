@@ -6,7 +6,7 @@ use crate::reproduction::{Reproduction, Request};
 use crate::{BASE, Basis};
 use crate::{believe, figures};
 use brinell::scenario::Scenario;
-use brinell_report::{Chapter, DamageView, Fact, Study, StudyPiece, Table};
+use brinell_report::{Chapter, DamageView, Fact, Study, StudyPiece, Table, capital};
 
 /// How verdicts come about, in words.
 const RULES: [&str; 6] = [
@@ -103,12 +103,6 @@ fn facts(reproduction: &Reproduction) -> Vec<Fact> {
         ),
     );
     facts
-}
-
-fn capital(text: &str) -> String {
-    let mut letters = text.chars();
-    let first = letters.next().map(|c| c.to_uppercase().to_string());
-    first.unwrap_or_default() + letters.as_str()
 }
 
 fn runs(request: &Request) -> Table {

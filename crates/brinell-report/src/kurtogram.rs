@@ -54,16 +54,14 @@ pub(crate) fn kurtogram(view: &Kurtogram, layout: Layout) -> Picture {
     let rows = view.levels.len().max(1) as f64;
     let top = view.top();
     let mut chart = Chart::new(Spec {
-        name: "kurtogram".into(),
-        title: "Kurtogram".into(),
-        size,
-        x: Domain::exact(0.0, top.unwrap_or(1.0)),
-        y: Domain::exact(0.0, rows),
-        x_label: "Frequency".into(),
-        x_unit: "Hz".into(),
-        y_label: "Level".into(),
         right: SCALE_MARGIN * size.font,
-        ..Spec::default()
+        ..Spec::new(
+            "kurtogram",
+            "Kurtogram",
+            size,
+            (Domain::exact(0.0, top.unwrap_or(1.0)), "Frequency", "Hz"),
+            (Domain::exact(0.0, rows), "Level", ""),
+        )
     });
     let values = top.map(|top| view.rows(top)).unwrap_or_default();
     let (Some(top), Some((_, highest))) = (top, range(values.iter().copied())) else {

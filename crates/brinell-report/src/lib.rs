@@ -72,7 +72,7 @@ pub use load::{bin_centres, load_distribution};
 pub use motion::bearing_motion;
 pub use motion::{DamagedSurface, Motion, MotionDamage, MotionRow};
 #[doc(hidden)]
-pub use number::short;
+pub use number::{capital, short};
 #[doc(hidden)]
 pub use orbit::cage_orbit;
 pub use orbit::{CageOrbit, CageOrbits};

@@ -207,16 +207,13 @@ fn lanes(run: &SheetRun, top: f64) -> Vec<Lane> {
 }
 
 fn spec(what: &str, run: &SheetRun, x: Domain, x_label: &str, x_unit: &str) -> Spec {
-    Spec {
-        name: format!("run{}-{what}", run.run),
-        title: format!("Run {}: {what}", run.run),
-        size: SIZE,
-        x,
-        y: Domain::exact(0.0, 1.0),
-        x_label: x_label.into(),
-        x_unit: x_unit.into(),
-        ..Spec::default()
-    }
+    Spec::new(
+        format!("run{}-{what}", run.run),
+        format!("Run {}: {what}", run.run),
+        SIZE,
+        (x, x_label, x_unit),
+        (Domain::exact(0.0, 1.0), "", ""),
+    )
 }
 
 #[cfg(test)]

@@ -1,8 +1,9 @@
 //! What a calibration found, as numbers and files.
 
+use super::Plan;
 use super::runs::{Runs, own_uncertainty};
-use super::{Plan, put};
 use crate::failure::Failure;
+use crate::results::put;
 use crate::say::pretty;
 use brinell::document::Loaded;
 use brinell::signal::distribution::chi_square_tail;

@@ -4,17 +4,11 @@ use super::sides::Side;
 use brinell::channel::STIFFNESS_UNIT;
 use brinell::observe::passes::{PassPoint, place};
 use brinell::result::{Impacts, RunResult, impacts};
-use brinell_report::{Along, OverlaidCurve, Overlay, Piece, Vertical};
+use brinell_report::{Along, OverlaidCurve, Overlay, Piece, Vertical, capital};
 
 /// Name of the acceleration that a run's curves show.
 fn acceleration(run: &RunResult) -> String {
     format!("acceleration sensor_a{}", if run.findings.axis == 0 { "x" } else { "y" })
-}
-
-fn capital(text: &str) -> String {
-    let mut letters = text.chars();
-    let first: String = letters.next().into_iter().flat_map(char::to_uppercase).collect();
-    first + letters.as_str()
 }
 
 /// A stretch of the waveforms, five ball-pass periods long, from where all are analysed.

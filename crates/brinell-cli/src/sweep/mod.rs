@@ -9,14 +9,14 @@ use crate::campaign;
 use crate::failure::Failure;
 use crate::figures::ready_pictures;
 use crate::files::stem;
-use crate::results::{Place, Results};
+use crate::results::{Place, Results, put};
 use crate::run::{make_folder, stop_flag};
 use crate::say::{self, complain, pretty, say, short};
 pub(crate) use args::SweepArgs;
 use brinell::document::read;
 use brinell::result::{check_name, fields, names};
 use brinell::simulate::Simulation;
-use brinell_io::{Metadata, atomic_write, keys};
+use brinell_io::{Metadata, keys};
 use brinell_study::campaign::{Row, fingerprint};
 use brinell_study::runner::{JOURNAL, Kept, Task, estimate, to_run};
 
@@ -275,16 +275,9 @@ fn write(
         told["rows"] = table::rows(&table).into();
         say::json(&told);
     }
-    let mut put = |name: &str, text: String| -> Result<(), Failure> {
-        let path = folder.join(name);
-        atomic_write(&path, text.as_bytes())?;
-        written.push(path);
-        Ok(())
-    };
-    let text = pretty(&json);
-    put("sweep.json", text)?;
+    put(folder, "sweep.json", &pretty(&json), &mut written)?;
     let report = page::report(points, states, plots);
-    put("sweep.html", brinell_report::sweep_html(&report))?;
+    put(folder, "sweep.html", &brinell_report::sweep_html(&report), &mut written)?;
     if !args.plots.is_empty() {
         let layout = args.print.layout(&args.plots)?;
         let pictures = brinell_report::sweep_pictures(&report, layout);

@@ -42,15 +42,14 @@ fn specs(pass: &Pass, layout: Layout) -> [Spec; 3] {
     let part = part(layout);
     let (lo, hi) = range(pass.angle_deg.iter().copied()).unwrap_or((-1.0, 1.0));
     let panel = |y_label: &str, unit: &str, y: Domain, last: bool| Spec {
-        size: Size { height: part + if last { 3.4 * size.font } else { 0.0 }, ..size },
-        x: Domain::exact(lo, hi),
-        y,
-        x_label: "Angle from the defect’s centre".into(),
-        x_unit: "°".into(),
-        y_label: y_label.into(),
-        y_unit: unit.into(),
         x_axis: last,
-        ..Spec::default()
+        ..Spec::new(
+            "",
+            "",
+            Size { height: part + if last { 3.4 * size.font } else { 0.0 }, ..size },
+            (Domain::exact(lo, hi), "Angle from the defect’s centre", "°"),
+            (y, y_label, unit),
+        )
     };
     let mut specs = [
         panel("Contact length", "mm", Domain::from_zero(pass.length_mm.iter().copied()), false),

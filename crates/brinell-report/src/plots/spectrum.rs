@@ -105,19 +105,10 @@ pub(crate) fn spectrum_spec(
     y: Domain,
     lanes: Vec<Lane>,
 ) -> Spec {
-    Spec {
-        name: name.into(),
-        title: format!("{title}: {}", spectrum.label),
-        size,
-        x: Domain::exact(0.0, if top > 0.0 { top } else { 1.0 }),
-        y,
-        x_label: "Frequency".into(),
-        x_unit: "Hz".into(),
-        y_label: if spectrum.label.is_empty() { "Amplitude".into() } else { spectrum.label.clone() },
-        y_unit: spectrum.unit.clone(),
-        lanes,
-        ..Spec::default()
-    }
+    let label = if spectrum.label.is_empty() { "Amplitude" } else { &spectrum.label };
+    let x = Domain::exact(0.0, if top > 0.0 { top } else { 1.0 });
+    let title = format!("{title}: {}", spectrum.label);
+    Spec { lanes, ..Spec::new(name, title, size, (x, "Frequency", "Hz"), (y, label, &spectrum.unit)) }
 }
 
 fn draw_spectrum(chart: &mut Chart, spectrum: &Spectrum, healthy: &[f64]) {

@@ -58,18 +58,13 @@ pub fn overview(report: &Report, layout: Layout) -> Picture {
     let end = t0 + dt * count as f64;
     let (unit, scale) = time_unit(end - t0);
     let (y, cut) = settled_domain(&bins.min[..count], &bins.max[..count]);
-    let mut chart = Chart::new(Spec {
-        name: "overview".into(),
-        title: format!("Whole run: {}", series.label),
-        size: layout.size(if layout.roomy() { 190.0 } else { 170.0 }),
-        x: Domain::exact(t0 * scale, end * scale),
-        y,
-        x_label: "Time".into(),
-        x_unit: unit.into(),
-        y_label: "Acceleration".into(),
-        y_unit: series.unit.clone(),
-        ..Spec::default()
-    });
+    let mut chart = Chart::new(Spec::new(
+        "overview",
+        format!("Whole run: {}", series.label),
+        layout.size(if layout.roomy() { 190.0 } else { 170.0 }),
+        (Domain::exact(t0 * scale, end * scale), "Time", unit),
+        (y, "Acceleration", &series.unit),
+    ));
     if range(bins.min.iter().copied()).is_none() {
         chart.say("No samples");
     } else {
@@ -170,16 +165,13 @@ pub(super) fn waveform_spec(report: &Report, size: Size) -> Spec {
     let (lo, hi) = detail_window(report);
     let (unit, scale) = waveform_unit(report);
     Spec {
-        name: "waveform".into(),
-        title: format!("Waveform: {}", series.label),
-        size,
-        x: Domain::exact(lo * scale, hi * scale),
-        y: waveform_domain(report),
-        x_label: "Time".into(),
-        x_unit: unit.into(),
-        y_label: series.label.clone(),
-        y_unit: series.unit.clone(),
         lanes: event_lanes(report, scale),
-        ..Spec::default()
+        ..Spec::new(
+            "waveform",
+            format!("Waveform: {}", series.label),
+            size,
+            (Domain::exact(lo * scale, hi * scale), "Time", unit),
+            (waveform_domain(report), &series.label, &series.unit),
+        )
     }
 }
