@@ -193,22 +193,13 @@ pub struct MinMax {
     pub max: Vec<f64>,
 }
 
-/// What an [`Event`] marks.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum EventKind {
-    /// Defect entry.
-    Enter,
-    /// A roller leaves it.
-    Leave,
-}
-
 /// An instant to mark on the waveform.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Event {
     /// When.
     pub t_s: f64,
-    /// What happens.
-    pub kind: EventKind,
+    /// Whether a roller enters a defect; it leaves one otherwise.
+    pub enters: bool,
     /// Which roller, briefly: "1·07" for row 1, roller 7.
     pub label: String,
 }

@@ -4,7 +4,7 @@ use super::level::{fact, notes, rows, scaled};
 use super::words::{called, ratio, shaft_lines};
 use super::{AnalysisReport, Badge};
 use crate::data::{Fact, Marker, Series};
-use crate::kurtogram::{Kurtogram, KurtogramLevel};
+use crate::kurtogram::Kurtogram;
 use crate::number::{capital, short};
 use crate::tables::Table;
 use brinell::analysis::{
@@ -142,9 +142,7 @@ fn curves(page: &mut AnalysisReport, of: &Findings) {
 fn kurtogram(a: &Analysis, map: &brinell::signal::Kurtogram) -> Kurtogram {
     let bands: Vec<String> = (map.levels.iter()).map(|l| l.kurtosis.len().to_string()).collect();
     Kurtogram {
-        levels: (map.levels.iter())
-            .map(|l| KurtogramLevel { bandwidth_hz: l.bandwidth, kurtosis: l.kurtosis.clone() })
-            .collect(),
+        levels: map.levels.clone(),
         chosen_hz: a.kurtogram.map(|k| (k.band.low, k.band.high)),
         note: format!(
             "Kurtosis of the envelope, 0 for noise; from below, {} bands up to half the sample rate. Outlined: the largest among bands \

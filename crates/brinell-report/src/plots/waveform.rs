@@ -3,7 +3,7 @@
 use super::layout::{CURVE, HEALTHY, HEALTHY_WORDS, Layout, known, spacing, start, time_unit};
 use super::markers::telling;
 use crate::chart::{Chart, Domain, Lane, Mark, Size, Spec, range};
-use crate::data::{EventKind, MinMax, Report, Series};
+use crate::data::{MinMax, Report, Series};
 use crate::number::significant;
 use crate::picture::{Paint, Picture, ink};
 
@@ -88,7 +88,7 @@ pub fn overview(report: &Report, layout: Layout) -> Picture {
 }
 
 pub(crate) fn event_lanes(report: &Report, scale: f64) -> Vec<Lane> {
-    let lane = |kind: EventKind, label: &str, color, dash: &'static [f64]| Lane {
+    let lane = |enters: bool, label: &str, color, dash: &'static [f64]| Lane {
         label: label.into(),
         value: String::new(),
         color,
@@ -99,7 +99,7 @@ pub(crate) fn event_lanes(report: &Report, scale: f64) -> Vec<Lane> {
                 .waveform
                 .events
                 .iter()
-                .filter(|event| event.kind == kind && event.t_s.is_finite())
+                .filter(|event| event.enters == enters && event.t_s.is_finite())
                 .map(|event| Mark {
                     x: event.t_s * scale,
                     name: format!("Rolling element {} {label}", event.label),
@@ -110,7 +110,7 @@ pub(crate) fn event_lanes(report: &Report, scale: f64) -> Vec<Lane> {
             marks
         },
     };
-    [lane(EventKind::Enter, "enters", ink::VERMILLION, &[]), lane(EventKind::Leave, "leaves", ink::GREEN, &[5.0, 3.0])]
+    [lane(true, "enters", ink::VERMILLION, &[]), lane(false, "leaves", ink::GREEN, &[5.0, 3.0])]
         .into_iter()
         .filter(|lane| !lane.marks.is_empty())
         .collect()
