@@ -144,7 +144,7 @@ pub(crate) struct RunArgs {
     #[arg(long)]
     pub(crate) json: bool,
     /// Print nothing but errors
-    #[arg(short, long)]
+    #[arg(short, long, default_value_if("json", "true", "true"))]
     pub(crate) quiet: bool,
 }
 

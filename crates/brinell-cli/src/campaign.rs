@@ -34,8 +34,8 @@ pub(crate) fn run(
     stop: &AtomicBool,
 ) -> Result<ControlFlow<()>, Failure> {
     let total = tasks.iter().map(|task| task.duration_s).sum();
-    let mut joint = Joint::new(tasks.len(), total, quiet);
-    run_within(tasks, work, ledger, threads, &mut joint, stop)
+    let joint = Joint::new(tasks.len(), total, quiet);
+    run_within(tasks, work, ledger, threads, &joint, stop)
 }
 
 /// [`run()`] as a part of the work that `joint` shows.
@@ -44,11 +44,10 @@ pub(crate) fn run_within(
     work: &impl Work<Error = Failure>,
     ledger: &mut Ledger,
     threads: NonZeroUsize,
-    joint: &mut Joint,
+    joint: &Joint,
     stop: &AtomicBool,
 ) -> Result<ControlFlow<()>, Failure> {
-    let terminal = Terminal { joint: Mutex::new(joint), stop };
-    runner::run(tasks, work, ledger, threads, &terminal)
+    runner::run(tasks, work, ledger, threads, &Terminal::new(joint, stop, 0.0))
 }
 
 impl From<RunnerError> for Failure {
@@ -60,21 +59,40 @@ impl From<RunnerError> for Failure {
     }
 }
 
-/// Shows runs on one bar, and listens for Ctrl-C.
-struct Terminal<'a> {
-    joint: Mutex<&'a mut Joint>,
+/// Shows runs on one bar, listens for Ctrl-C, and keeps why runs failed.
+pub(crate) struct Terminal<'a> {
+    joint: &'a Joint,
     stop: &'a AtomicBool,
+    /// Simulated time of a run that was there before, s.
+    each_s: f64,
+    failures: Mutex<Vec<(usize, String)>>,
+}
+
+impl<'a> Terminal<'a> {
+    pub(crate) fn new(joint: &'a Joint, stop: &'a AtomicBool, each_s: f64) -> Self {
+        Self { joint, stop, each_s, failures: Mutex::default() }
+    }
+
+    /// Which runs failed, and why.
+    pub(crate) fn failures(self) -> Vec<(usize, String)> {
+        self.failures.into_inner().unwrap_or_else(PoisonError::into_inner)
+    }
 }
 
 impl Listener for Terminal<'_> {
     fn begin(&self, _: usize, duration_s: f64) -> Box<dyn RunListener + '_> {
-        let joint = self.joint.lock().unwrap_or_else(PoisonError::into_inner);
-        let progress = Joint::part(&joint.bar(), duration_s);
-        Box::new(Shown::new(progress, self.stop))
+        Box::new(Shown::new(Joint::part(&self.joint.bar(), duration_s), self.stop))
     }
 
-    fn ended(&self, _: usize, _: Option<&str>) {
-        let mut joint = self.joint.lock().unwrap_or_else(PoisonError::into_inner);
-        joint.ended(&[], Path::new(""));
+    fn before(&self, runs: usize) {
+        (0..runs).for_each(|_| self.joint.done_before(self.each_s));
+    }
+
+    fn ended(&self, run: usize, failed: Option<&str>) {
+        if let Some(reason) = failed {
+            let mut all = self.failures.lock().unwrap_or_else(PoisonError::into_inner);
+            all.push((run, reason.to_owned()));
+        }
+        self.joint.ended(&[], Path::new(""));
     }
 }

@@ -5,7 +5,7 @@ mod lamina;
 use crate::args::CheckArgs;
 use crate::failure::{Failure, print_problems};
 use crate::files;
-use crate::say::{document, one_line, plain_number, say, short, significant};
+use crate::say::{self, one_line, plain_number, say, short, significant};
 use brinell::bearing::clearance::{bore_diameter_mm, classes_of};
 use brinell::bearing::rating::static_rating;
 use brinell::channel;
@@ -26,8 +26,7 @@ pub(crate) fn check(args: &CheckArgs) -> Result<ExitCode, Failure> {
     let model = Model::new(s)?;
     let d = Derived::new(&model, s.simulation.accuracy);
     if args.json {
-        let text = serde_json::to_string_pretty(&brinell::derived::to_json(s, &model, &d));
-        document(&text.unwrap_or_default());
+        say::json(&brinell::derived::to_json(s, &model, &d));
         return Ok(ExitCode::SUCCESS);
     }
     let warnings = plausibility::before(s, &model, &d.statics);

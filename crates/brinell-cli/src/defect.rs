@@ -5,7 +5,7 @@ mod preview;
 use crate::args::{ConvertArgs, DefectCommand, FitArgs, RandomArgs, ScenarioArgs, SimpleShape, SimplifyArgs, Written};
 use crate::failure::Failure;
 use crate::files::Source;
-use crate::say::{complain, document, one_line, say, short, twelve_digits};
+use crate::say::{self, complain, document, one_line, say, short, twelve_digits};
 use brinell::defect::Shape;
 use brinell::defect::fit::{Fit, FitSettings, Segment};
 use brinell::defect::simplify::{Extent, Simple, simplify};
@@ -225,7 +225,7 @@ fn fit(args: &FitArgs) -> Result<(), Failure> {
         return Ok(());
     }
     if args.json {
-        document(&serde_json::to_string_pretty(&fit_json(&fit, args)).unwrap_or_default());
+        say::json(&fit_json(&fit, args));
         return Ok(());
     }
     say!("{head}");

@@ -4,7 +4,7 @@ use crate::args::ScenarioArgs;
 use crate::failure::Failure;
 use crate::files;
 use crate::results::SCENARIO;
-use crate::say::{document, one_line, say};
+use crate::say::{self, one_line, say};
 use brinell::document::{Loaded, Origin, Provenance};
 use clap::Args;
 use serde_json::{Value, json};
@@ -38,7 +38,7 @@ pub(crate) fn diff(args: &DiffArgs) -> Result<ExitCode, Failure> {
             "b": args.b.display().to_string(),
             "differences": all,
         });
-        document(&serde_json::to_string_pretty(&json).unwrap_or_default());
+        say::json(&json);
         return Ok(ExitCode::SUCCESS);
     }
     if differences.is_empty() {

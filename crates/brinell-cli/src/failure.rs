@@ -76,14 +76,8 @@ impl Failure {
         let of = if of.is_empty() { String::new() } else { format!("{of}: ") };
         match self {
             Self::Scenario { name, text, problems } => print_problems(name, text, problems),
-            Self::Usage(message) | Self::NotOpened(message) => {
-                complain!("error: {of}{message}");
-            }
-            Self::Read(path, error) => complain!("error: cannot read {}: {error}", path.display()),
-            Self::Write(error) => complain!("error: {of}{error}"),
-            Self::Picture(error) => complain!("error: {of}{error}"),
-            Self::Run(error) => complain!("error: {of}{error}"),
-            Self::Unsaid(_) => complain!("error: {}", self.words()),
+            Self::Read(..) | Self::Unsaid(_) => complain!("error: {}", self.words()),
+            other => complain!("error: {of}{}", other.words()),
         }
     }
 }

@@ -106,36 +106,18 @@ fn allow_open_files() {
 
 fn run_command(command: Command) -> Result<ExitCode, Failure> {
     match command {
-        Command::Run(mut args) => {
-            args.quiet |= args.json;
-            run::run(&args)
-        }
+        Command::Run(args) => run::run(&args),
         Command::Check(args) => check::check(&args),
         Command::Init(args) => init::init(&args),
         Command::Bearing { command } => look_up::bearing(&command),
         Command::Frequencies(args) => look_up::frequencies(&args),
         Command::Defect { command } => defect::defect(&command),
         Command::Analyze(args) => analyze::analyze(&args),
-        Command::Sweep(mut args) => {
-            args.quiet |= args.json;
-            sweep::sweep(&args)
-        }
-        Command::Calibrate(mut args) => {
-            args.quiet |= args.json;
-            calibrate::calibrate(&args)
-        }
-        Command::Compare(mut args) => {
-            args.quiet |= args.json;
-            compare::side_by_side(&args)
-        }
-        Command::Reproduce(mut args) => {
-            args.quiet |= args.json;
-            reproduce::reproduce(&args)
-        }
-        Command::Dataset(mut args) => {
-            args.quiet |= args.json;
-            dataset::dataset(&args)
-        }
+        Command::Sweep(args) => sweep::sweep(&args),
+        Command::Calibrate(args) => calibrate::calibrate(&args),
+        Command::Compare(args) => compare::side_by_side(&args),
+        Command::Reproduce(args) => reproduce::reproduce(&args),
+        Command::Dataset(args) => dataset::dataset(&args),
         Command::Studio(args) => studio::studio(&args),
         Command::Schema(args) => look_up::schema(&args),
         Command::Diff(args) => diff::diff(&args),

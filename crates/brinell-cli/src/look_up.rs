@@ -3,7 +3,7 @@
 use crate::args::{BearingCommand, FrequenciesArgs, ScenarioArgs, SchemaArgs};
 use crate::failure::Failure;
 use crate::files;
-use crate::say::{document, plain_number, say};
+use crate::say::{self, document, plain_number, say};
 use brinell::analysis::NamedBearing;
 use brinell::bearing::catalogue::{self, BORE, DYNAMIC_RATING, Datum, Entry, FACTS, STATIC_RATING};
 use brinell::bearing::clearance::ClearanceClass;
@@ -19,20 +19,20 @@ pub(crate) fn schema(args: &SchemaArgs) -> Result<ExitCode, Failure> {
         true => brinell_study::design::plan_schema(),
         false => brinell::document::json_schema(),
     };
-    document(&serde_json::to_string_pretty(&schema).unwrap_or_default());
+    say::json(&schema);
     Ok(ExitCode::SUCCESS)
 }
 
 pub(crate) fn bearing(command: &BearingCommand) -> Result<ExitCode, Failure> {
     match command {
         BearingCommand::List { json: true } => {
-            let all: Vec<Value> = KnownBearing::all().map(listed).collect();
-            document(&serde_json::to_string_pretty(&all).unwrap_or_default());
+            let all: Value = KnownBearing::all().map(listed).collect();
+            say::json(&all);
         }
         BearingCommand::List { json: false } => list(),
         BearingCommand::Show { name, json: true } => {
             let json = shown(find(name)?, clearance_of(name));
-            document(&serde_json::to_string_pretty(&json).unwrap_or_default());
+            say::json(&json);
         }
         BearingCommand::Show { name, json: false } => {
             let known = find(name)?;

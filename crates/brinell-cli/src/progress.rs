@@ -8,7 +8,7 @@ use std::io::IsTerminal;
 use std::ops::ControlFlow;
 use std::path::Path;
 use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicU64, AtomicUsize, Ordering};
 use std::time::{Duration, Instant};
 
 /// Steps between looks at the clock.
@@ -97,7 +97,7 @@ impl Drop for Shown<'_> {
 pub(crate) struct Joint {
     bar: ProgressBar,
     runs: usize,
-    ended: usize,
+    ended: AtomicUsize,
     /// Done before, which tells nothing of the pace, us.
     before: Arc<AtomicU64>,
 }
@@ -106,7 +106,7 @@ impl Joint {
     /// For `runs` runs of `duration` seconds together.
     pub(crate) fn new(runs: usize, duration: f64, quiet: bool) -> Self {
         let before = Arc::default();
-        let joint = Self { bar: bar(duration, quiet, Arc::clone(&before)), runs, ended: 0, before };
+        let joint = Self { bar: bar(duration, quiet, Arc::clone(&before)), runs, ended: AtomicUsize::new(0), before };
         joint.tell();
         joint
     }
@@ -128,16 +128,16 @@ impl Joint {
     }
 
     /// A run of `duration` seconds was done before.
-    pub(crate) fn done_before(&mut self, duration: f64) {
-        self.ended += 1;
+    pub(crate) fn done_before(&self, duration: f64) {
+        self.ended.fetch_add(1, Ordering::Relaxed);
         self.before.fetch_add(micros(duration), Ordering::Relaxed);
         self.bar.inc(micros(duration));
         self.tell();
     }
 
     /// The run into `folder` has ended; `lines` go to standard output above the bar.
-    pub(crate) fn ended(&mut self, lines: &[String], folder: &Path) {
-        self.ended += 1;
+    pub(crate) fn ended(&self, lines: &[String], folder: &Path) {
+        self.ended.fetch_add(1, Ordering::Relaxed);
         self.broken_off(lines, folder);
     }
 
@@ -152,7 +152,7 @@ impl Joint {
     }
 
     fn tell(&self) {
-        self.bar.set_message(format!("{} of {} runs done", self.ended, self.runs));
+        self.bar.set_message(format!("{} of {} runs done", self.ended.load(Ordering::Relaxed), self.runs));
     }
 }
 

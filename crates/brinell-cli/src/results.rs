@@ -8,9 +8,10 @@
 
 use crate::failure::Failure;
 use crate::inputs::Inputs;
+use crate::say::pretty;
 use brinell::document::{Loaded, read};
 use brinell::scenario::Scenario;
-use brinell_io::{Complete, Format, read_text};
+use brinell_io::{Complete, Format, atomic_prepare, atomic_write, read_text};
 use brinell_study::runner::JOURNAL;
 use serde_json::Value;
 use std::collections::BTreeSet;
@@ -374,9 +375,26 @@ pub(crate) struct Earlier {
 }
 
 impl Earlier {
+    /// Publishes results, and `listing` as the file of that name, which lists all of them, itself after the first
+    /// `before`. Gives what was written, and the listing.
+    pub(crate) fn publish(
+        &self,
+        mut ready: Vec<Complete>,
+        (name, before): (&str, usize),
+        mut listing: Value,
+    ) -> Result<(Vec<PathBuf>, String), Failure> {
+        let own = self.folder.join(name);
+        let mut files: Vec<PathBuf> = ready.iter().map(|file| file.path().to_owned()).collect();
+        files.insert(before, own.clone());
+        listing["files"] = names_below(&self.folder, &files).into();
+        let text = pretty(&listing);
+        ready.insert(0, atomic_prepare(own, &text)?);
+        Ok((self.give_way(ready)?, text))
+    }
+
     /// Gives the new files their names and removes what they did not take the place of. The file that tells of the new
     /// ones comes first: what replaces these knows of them even where this is cut short between two names.
-    pub(crate) fn give_way(&self, ready: Vec<Complete>) -> Result<Vec<PathBuf>, Failure> {
+    fn give_way(&self, ready: Vec<Complete>) -> Result<Vec<PathBuf>, Failure> {
         let published = ready.into_iter().map(Complete::publish);
         let written: Vec<PathBuf> = published.collect::<Result<_, _>>()?;
         self.remove_but(&names_below(&self.folder, &written))?;
@@ -427,11 +445,19 @@ fn scenario_in(folder: &Path) -> Option<(String, Loaded)> {
 }
 
 /// Names below `folder` of what was written into it, as the file that tells of them lists them.
-pub(crate) fn names_below(folder: &Path, written: &[PathBuf]) -> Vec<String> {
+fn names_below(folder: &Path, written: &[PathBuf]) -> Vec<String> {
     let name = |path: &PathBuf| {
         let parts = path.strip_prefix(folder).ok()?.iter();
         let parts: Option<Vec<&str>> = parts.map(|part| part.to_str()).collect();
         Some(parts?.join("/"))
     };
     written.iter().filter_map(name).collect()
+}
+
+/// Writes a file of a folder and adds it to what was written.
+pub(crate) fn put(folder: &Path, name: &str, text: &str, written: &mut Vec<PathBuf>) -> Result<(), Failure> {
+    let path = folder.join(name);
+    atomic_write(&path, text.as_bytes())?;
+    written.push(path);
+    Ok(())
 }

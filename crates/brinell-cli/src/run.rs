@@ -7,19 +7,19 @@ mod spectra;
 
 use crate::args::{RunArgs, ScenarioArgs, SignalFormat};
 use crate::failure::{Failure, INTERRUPTED, print_problems};
-use crate::figures::{picture_files, ready_pictures};
+use crate::figures::ready_pictures;
 use crate::files;
 use crate::files::Source;
 use crate::inputs::Inputs;
 use crate::progress::{Progress, Shown};
-use crate::results::{Earlier, Place, REPORT, Results, SCENARIO, SUMMARY, is_of, is_written, names_below};
+use crate::results::{Earlier, Place, REPORT, Results, SCENARIO, SUMMARY, is_of, is_written};
 use crate::say::{complain, document, one_line, say, short};
 use brinell::document::Loaded;
 use brinell::observe::{DefectLine, Findings, Kind};
 use brinell::plausibility::{self, Beforehand};
 use brinell::result::{RunResult, fields, finish};
 use brinell::signal::Indicator;
-use brinell::simulate::{End, Simulation};
+use brinell::simulate::{End, Observer, Simulation};
 use brinell::summary::{self, Parts};
 use brinell_damage::Photo;
 use brinell_io::{Column, Format, Metadata, SignalWriter, atomic_prepare, keys};
@@ -41,17 +41,13 @@ pub(crate) fn run(args: &RunArgs) -> Result<ExitCode, Failure> {
         return Err(Failure::Usage(format!("{alone} of one scenario; here are {}", args.scenarios.len())));
     };
     let mut inputs = Inputs::default();
-    let Ready { loaded, simulation, beforehand, photos } = ready(args, path, &mut inputs)?;
-    if !args.quiet {
-        files::warn_idle(simulation.idle_patterns());
-    }
-    let named = || Path::new("out").join(safe_name(&loaded.scenario.name));
+    let ready = ready(args, path, &mut inputs)?;
+    let named = || Path::new("out").join(safe_name(&ready.loaded.scenario.name));
     let folder = args.output.clone().unwrap_or_else(named);
-    let earlier = earlier(args, &loaded, &folder, &inputs)?;
-    let progress = Progress::new(loaded.scenario.simulation.duration_s, args.quiet);
+    let task = Task { earlier: earlier(args, &ready.loaded, &folder, &inputs)?, ready, folder };
+    let progress = Progress::new(task.duration_s(), args.quiet);
     let stop = stop_flag()?;
-    let task = (&loaded, folder.as_path(), &earlier);
-    let done = execute(args, task, (simulation, &beforehand, &photos), progress, &stop)?;
+    let done = execute(args, &task, progress, &stop)?;
     if args.json {
         document(done.summary.trim_end());
     }
@@ -61,7 +57,7 @@ pub(crate) fn run(args: &RunArgs) -> Result<ExitCode, Failure> {
         }
     }
     if args.open
-        && let Err(words) = crate::open::show(&folder.join(REPORT))
+        && let Err(words) = crate::open::show(&task.folder.join(REPORT))
     {
         complain!("warning: {words}");
     }
@@ -72,34 +68,52 @@ pub(crate) fn run(args: &RunArgs) -> Result<ExitCode, Failure> {
     }
 }
 
-/// A scenario, read, checked and made a simulation of.
+/// A scenario that was read and tried, with what is known of it before it runs.
 struct Ready {
     loaded: Loaded,
-    simulation: Simulation,
     beforehand: Beforehand,
-    /// Of its defects, for the report.
+    /// The photos that its defects' outlines were read from.
     photos: Vec<Option<Photo>>,
 }
 
-/// What a scenario was read from goes to `inputs`.
+/// What one run will be. The model is made anew by the thread that runs it, so that memory goes with the runs in
+/// progress.
+struct Task {
+    ready: Ready,
+    folder: PathBuf,
+    earlier: Earlier,
+}
+
+impl Task {
+    fn duration_s(&self) -> f64 {
+        self.ready.loaded.scenario.simulation.duration_s
+    }
+}
+
+/// Reads and tries a scenario, and says what is worth knowing before it runs, of several by the file's name. What it was
+/// read from goes to `inputs`.
 fn ready(args: &RunArgs, path: &Path, inputs: &mut Inputs) -> Result<Ready, Failure> {
     let source = Source::open(&ScenarioArgs { scenario: path.to_owned(), set: args.set.clone() })?;
     let loaded = source.load(&[], args.quiet)?;
     inputs.add_all(&source.inputs());
     let simulation = Simulation::new(&loaded.scenario).map_err(Failure::Run)?;
     let beforehand = Beforehand::of(&loaded.scenario, simulation.model());
-    if !args.quiet {
-        let warnings = &beforehand.warnings;
-        if args.scenarios.len() > 1 && !warnings.is_empty() {
+    let name = |is_said: bool| {
+        if args.scenarios.len() > 1 && is_said {
             complain!("{}:", path.display());
         }
-        print_problems("", "", warnings);
+    };
+    if !args.quiet {
+        name(!beforehand.warnings.is_empty());
+        print_problems("", "", &beforehand.warnings);
+        name(!simulation.idle_patterns().is_empty());
+        files::warn_idle(simulation.idle_patterns());
     }
     let photos = match args.no_report && args.plots.is_empty() {
         true => Vec::new(),
         false => source.photos(),
     };
-    Ok(Ready { photos, loaded, simulation, beforehand })
+    Ok(Ready { photos, loaded, beforehand })
 }
 
 /// A run that is over, its files written.
@@ -139,16 +153,11 @@ fn earlier(args: &RunArgs, loaded: &Loaded, folder: &Path, inputs: &Inputs) -> R
 }
 
 /// Runs, and writes everything that was requested into the folder, in place of the earlier results.
-fn execute(
-    args: &RunArgs,
-    (loaded, folder, earlier): (&Loaded, &Path, &Earlier),
-    (simulation, beforehand, photos): (Simulation, &Beforehand, &[Option<Photo>]),
-    progress: Progress,
-    stop: &AtomicBool,
-) -> Result<Done, Failure> {
-    let end = loaded.scenario.simulation.duration_s;
+fn execute(args: &RunArgs, task: &Task, progress: Progress, stop: &AtomicBool) -> Result<Done, Failure> {
+    let Task { ready: Ready { loaded, beforehand, photos }, folder, earlier } = task;
+    let simulation = Simulation::new(&loaded.scenario).map_err(Failure::Run)?;
     let layout = args.print.layout(&args.plots)?;
-    let loads = line_loads::asked(args, &simulation, end)?;
+    let mut loads = line_loads::asked(args, &simulation, task.duration_s())?;
     make_folder(folder)?;
     // These lock their files: another run into the same folder ends here, before anything is removed.
     let writers = writers(args, loaded, &simulation, folder)?;
@@ -156,11 +165,10 @@ fn execute(
     let mut ready = vec![atomic_prepare(folder.join(SCENARIO), loaded.to_toml())?];
 
     let mut shown = Shown::new(progress, stop);
-    let mut recorder = Recorder::new(&simulation, writers, &mut shown);
-    let mut reading = line_loads::Reading { inner: &mut recorder, loads };
+    let beside = loads.as_mut().map(|loads| loads as &mut dyn Observer);
+    let mut recorder = Recorder::new(&simulation, writers, &mut shown).beside(beside);
     let (finished, healthy) =
-        healthy::beside(args, &loaded.scenario, stop, || finish(loaded.scenario.clone(), simulation, &mut reading));
-    let loads = reading.loads;
+        healthy::beside(args, &loaded.scenario, stop, || finish(loaded.scenario.clone(), simulation, &mut recorder));
     let recording = recorder.close(&finished.outcome.end, true);
     let elapsed = shown.elapsed();
     drop(shown);
@@ -182,28 +190,19 @@ fn execute(
         beforehand,
         healthy: healthy.as_ref(),
     };
-    let report = (!args.no_report || !args.plots.is_empty()).then(|| report(&parts, photos));
-    let pictures = match &report {
-        Some(report) if !args.plots.is_empty() => brinell_report::pictures(report, layout),
-        _ => Vec::new(),
-    };
-    let mut files: Vec<PathBuf> = ready.iter().map(|file| file.path().to_owned()).collect();
-    files.push(folder.join(SUMMARY));
-    if !args.no_report {
-        files.push(folder.join(REPORT));
+    let before = ready.len();
+    if !args.no_report || !args.plots.is_empty() {
+        let report = report(&parts, photos);
+        if !args.no_report {
+            ready.push(atomic_prepare(folder.join(REPORT), brinell_report::html(&report))?);
+        }
+        if !args.plots.is_empty() {
+            let pictures = brinell_report::pictures(&report, layout);
+            ready.extend(ready_pictures(&pictures, &args.plots, folder)?);
+        }
     }
-    files.extend(picture_files(&pictures, &args.plots, folder));
-    let mut summary = summary::to_json(&parts);
-    summary["files"] = names_below(folder, &files).into();
-    let text = serde_json::to_string_pretty(&summary).unwrap_or_default() + "\n";
-    ready.insert(0, atomic_prepare(folder.join(SUMMARY), &text)?);
-    if let Some(report) = report.filter(|_| !args.no_report) {
-        let page = brinell_report::html(&report);
-        ready.push(atomic_prepare(folder.join(REPORT), page)?);
-    }
-    ready.extend(ready_pictures(&pictures, &args.plots, folder)?);
-    let written = earlier.give_way(ready)?;
-    Ok(Done { told: tell(&parts, elapsed, &written), end: outcome.end, interrupted, summary: text })
+    let (written, summary) = earlier.publish(ready, (SUMMARY, before), summary::to_json(&parts))?;
+    Ok(Done { told: tell(&parts, elapsed, &written), end: outcome.end, interrupted, summary })
 }
 
 fn report(parts: &Parts, photos: &[Option<Photo>]) -> Report {

@@ -4,6 +4,7 @@
 use crate::failure::Failure;
 use anstyle::AnsiColor;
 pub(crate) use brinell_report::short;
+use serde_json::Value;
 use std::borrow::Cow;
 use std::fmt::Arguments;
 use std::io::{ErrorKind, Result, Write};
@@ -43,6 +44,16 @@ pub(crate) fn line(text: Arguments) {
 /// escape.
 pub(crate) fn document(text: &str) {
     put(&printable(text, |c| format!("\\u{:04x}", u32::from(c))));
+}
+
+/// Writes JSON to standard output.
+pub(crate) fn json(value: &Value) {
+    document(pretty(value).trim_end());
+}
+
+/// JSON as files hold it.
+pub(crate) fn pretty(value: &Value) -> String {
+    serde_json::to_string_pretty(value).unwrap_or_default() + "\n"
 }
 
 fn put(text: &str) {

@@ -1,6 +1,6 @@
 //! "What to believe": a few sentences to quote, their numbers and verdicts taken from what was computed.
 
-use crate::figures::with_interval;
+use crate::figures::cell;
 use crate::reproduction::Reproduction;
 use crate::{Numbers, RMS, Verdict};
 use brinell_report::StudyPiece;
@@ -53,9 +53,7 @@ impl Facts<'_> {
 
     /// "2.00 [1.98, 2.02]".
     fn value(&self, case: &str, name: &str) -> Option<String> {
-        let number = self.numbers().get(case, name)?;
-        let interval = number.interval.map(|i| (i.low, i.high));
-        Some(with_interval(Some(number.value), interval))
+        Some(cell(Some(self.numbers().get(case, name)?)))
     }
 
     fn plain(&self, case: &str, name: &str) -> Option<f64> {

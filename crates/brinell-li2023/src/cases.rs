@@ -27,9 +27,7 @@ pub struct Case {
 impl Case {
     /// Everything that it sets over [`BASE`], `more` below its own, its irregular defect in a reading of Eq. (27).
     pub fn over(&self, more: &[(String, String)], outline: Outline) -> Vec<(String, String)> {
-        let own = |(key, value): &(&str, &str)| ((*key).to_owned(), (*value).to_owned());
-        let mut settings: Vec<(String, String)> = more.to_vec();
-        settings.extend(self.settings.iter().map(own));
+        let mut settings = [more, &owned(&self.settings)].concat();
         if let Some(shape) = self.irregular_width_mm.and_then(|mm| outline.shape(mm)) {
             settings.retain(|(key, _)| key != SHAPE);
             settings.push((SHAPE.to_owned(), shape));
@@ -80,6 +78,12 @@ impl Length {
             Self::Seconds(seconds) => format!("{seconds} s"),
         }
     }
+}
+
+/// Settings as the reader of scenarios takes them.
+pub(crate) fn owned(settings: &[(&str, &str)]) -> Vec<(String, String)> {
+    let own = |(key, value): &(&str, &str)| ((*key).to_owned(), (*value).to_owned());
+    settings.iter().map(own).collect()
 }
 
 const SHAPE: &str = "defects.0.shape";
@@ -142,7 +146,7 @@ mod tests {
     #[test]
     fn prop_every_case_is_a_sound_scenario_without_warnings() {
         for case in CASES.iter().chain(STARTS.iter()) {
-            let settings: Vec<_> = case.settings.iter().map(|(k, v)| ((*k).to_owned(), (*v).to_owned())).collect();
+            let settings = owned(&case.settings);
             let loaded = document::read(BASE, &settings).unwrap_or_else(|e| panic!("{}: {e:?}", case.id));
             assert_eq!(loaded.scenario.operation.speed_rpm, brinell::scenario::Speed::Constant(case.rpm));
             let width = match loaded.scenario.defects[0].shape {

@@ -21,7 +21,10 @@ pub struct CurveFiles {
 impl CurveFiles {
     /// Of a request whose results go to `folder`.
     pub fn new(folder: &Path, request: &Request) -> Self {
-        Self { folder: folder.join("curves"), keep: request.with_curves().map(|p| p.fingerprint.clone()).collect() }
+        Self {
+            folder: folder.join("curves"),
+            keep: request.with_curves().map(|p| p.task.fingerprint.clone()).collect(),
+        }
     }
 
     fn path(&self, fingerprint: &str) -> PathBuf {

@@ -22,7 +22,7 @@ pub(crate) enum CurveKind {
     Spin,
 }
 
-const ACCELERATION: [&str; 2] = ["Outer ring acceleration, x", "m/s^2"];
+const ACCELERATION: (&str, &str) = ("Outer ring acceleration, x", "m/s^2");
 
 impl CurveKind {
     pub(crate) fn title(self) -> &'static str {
@@ -60,42 +60,38 @@ impl CurveKind {
         if matches!(self, Self::Waveform | Self::Start) {
             curves.sort_by(|a, b| b.0.total_cmp(&a.0));
         }
-        let ([x_label, x_unit], [y_label, y_unit]) = self.labels();
+        let [x, y] = self.labels();
+        let curves = curves.into_iter().map(|c| c.1).collect();
         Some(Overlay {
-            name: name.to_owned(),
             title: title.to_owned(),
-            x_label: x_label.into(),
-            x_unit: x_unit.into(),
             x_range: self.range(first),
-            y_label: y_label.into(),
-            y_unit: y_unit.into(),
             vertical: match self {
                 Self::Length | Self::Stiffness | Self::Spectrum | Self::Envelope | Self::Load | Self::Pocket => {
                     Vertical::FromZero
                 }
                 _ => Vertical::Around,
             },
-            curves: curves.into_iter().map(|c| c.1).collect(),
             markers: if matches!(self, Self::Spectrum | Self::Envelope) { vec![bpfo()] } else { vec![] },
             note: self.note().into(),
+            ..Overlay::new(name, x, y, curves)
         })
     }
 
     /// Of the x axis and of the y axis: quantity and unit.
-    fn labels(self) -> ([&'static str; 2], [&'static str; 2]) {
-        const ANGLE: [&str; 2] = ["Angle from the defect’s centre", "°"];
-        const AROUND: [&str; 2] = ["Angle around the bearing from the middle of the load zone", "°"];
+    fn labels(self) -> [(&'static str, &'static str); 2] {
+        const ANGLE: (&str, &str) = ("Angle from the defect’s centre", "°");
+        const AROUND: (&str, &str) = ("Angle around the bearing from the middle of the load zone", "°");
         match self {
-            Self::Length => (ANGLE, ["Effective contact length", "mm"]),
-            Self::Stiffness => (ANGLE, ["Contact stiffness", "N/m^(10/9)"]),
-            Self::Spectrum => (["Frequency", "Hz"], ["Amplitude", "m/s^2"]),
-            Self::Envelope => (["Frequency", "Hz"], ["Envelope amplitude", "m/s^2"]),
-            Self::Waveform | Self::Impact | Self::Start => (["Time", "ms"], ACCELERATION),
-            Self::Entry => (["Time from the entry", "ms"], ACCELERATION),
-            Self::Exit => (["Time from the exit", "ms"], ACCELERATION),
-            Self::Load => (AROUND, ["Force", "N"]),
-            Self::Pocket => (AROUND, ["Force", "N"]),
-            Self::Spin => (AROUND, ["Spin over pure rolling", ""]),
+            Self::Length => [ANGLE, ("Effective contact length", "mm")],
+            Self::Stiffness => [ANGLE, ("Contact stiffness", "N/m^(10/9)")],
+            Self::Spectrum => [("Frequency", "Hz"), ("Amplitude", "m/s^2")],
+            Self::Envelope => [("Frequency", "Hz"), ("Envelope amplitude", "m/s^2")],
+            Self::Waveform | Self::Impact | Self::Start => [("Time", "ms"), ACCELERATION],
+            Self::Entry => [("Time from the entry", "ms"), ACCELERATION],
+            Self::Exit => [("Time from the exit", "ms"), ACCELERATION],
+            Self::Load => [AROUND, ("Force", "N")],
+            Self::Pocket => [AROUND, ("Force", "N")],
+            Self::Spin => [AROUND, ("Spin over pure rolling", "")],
         }
     }
 

@@ -3,8 +3,9 @@
 use crate::curve_kind::CurveKind;
 use crate::curves::Curves;
 use crate::points::scenario;
-use crate::{Case, Experiment, Number, Numbers, Outline, RMS, STARTS, case};
+use crate::{Case, Experiment, Numbers, Outline, RMS, STARTS, case};
 use brinell::scenario::Scenario;
+use brinell::signal::Estimate;
 use brinell_report::short;
 use brinell_report::{Chapter, DamageView, IndicatorLine, IndicatorPlot, IndicatorPoint, Stack, StudyPiece, Table};
 
@@ -99,12 +100,8 @@ pub(crate) fn chapter(
     if !starts.is_empty() {
         pieces.push(StudyPiece::Table(start_table(&starts, numbers)));
     }
-    Chapter {
-        id: format!("fig{first:02}"),
-        short: figures(experiment),
-        title: format!("{}: {}", figures(experiment), experiment.title),
-        pieces,
-    }
+    let short = figures(experiment);
+    Chapter::new(&format!("fig{first:02}"), &short, &format!("{short}: {}", experiment.title), pieces)
 }
 
 /// Waveforms from t = 0.
@@ -314,7 +311,7 @@ pub(crate) fn with_interval(value: Option<f64>, interval: Option<(f64, f64)>) ->
     }
 }
 
-fn cell(number: Option<Number>) -> String {
+pub(crate) fn cell(number: Option<Estimate>) -> String {
     let interval = number.and_then(|n| n.interval).map(|i| (i.low, i.high));
     with_interval(number.map(|n| n.value), interval)
 }

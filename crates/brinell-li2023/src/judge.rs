@@ -1,8 +1,9 @@
 //! How a claim is decided from numbers.
 
 use crate::claim::{Check, Claim, Statement};
-use crate::numbers::{Number, Numbers};
+use crate::numbers::Numbers;
 use crate::verdict::{Trend, Verdict, between, follows, greater, over};
+use brinell::signal::Estimate;
 
 /// A number of ours behind a verdict.
 #[derive(Debug, Clone, PartialEq)]
@@ -74,7 +75,7 @@ fn unit(name: &str) -> &'static str {
     }
 }
 
-fn found(case: &str, name: &str, number: Option<Number>) -> Found {
+fn found(case: &str, name: &str, number: Option<Estimate>) -> Found {
     Found {
         what: format!("{case}: {name}"),
         value: number.map(|n| n.value),
@@ -143,7 +144,7 @@ fn decide(check: &Check, numbers: &Numbers) -> (Verdict, Vec<Found>) {
 fn apart(cases: &[&'static str], name: &'static str, least: f64, numbers: &Numbers) -> (Verdict, Vec<Found>) {
     match ends(cases, name, numbers) {
         Ok((most, smallest)) => {
-            let half = |n: Number| n.interval.map_or(0.0, |i| 0.5 * (i.high - i.low));
+            let half = |n: Estimate| n.interval.map_or(0.0, |i| 0.5 * (i.high - i.low));
             let apart = most.1.value - smallest.1.value;
             // Ends of independent intervals.
             let error = half(most.1).hypot(half(smallest.1));
@@ -163,7 +164,7 @@ fn apart(cases: &[&'static str], name: &'static str, least: f64, numbers: &Numbe
 /// Whether the cases follow the trend, step by step.
 fn followed(trend: Trend, cases: &[&'static str], name: &'static str, numbers: &Numbers) -> (Verdict, Vec<Found>) {
     let values: Vec<_> = cases.iter().map(|case| numbers.get(case, name)).collect();
-    let step = |pair: &[Option<Number>]| over(pair[1]?, pair[0]?);
+    let step = |pair: &[Option<Estimate>]| over(pair[1]?, pair[0]?);
     let steps: Vec<_> = values.windows(2).map(step).collect();
     let all = cases.iter().zip(&values);
     let all = all.map(|(case, number)| found(case, name, *number)).collect();
@@ -181,7 +182,7 @@ fn quotient_words(of: (&str, &str), to: (&str, &str)) -> String {
     }
 }
 
-type At = (&'static str, Number);
+type At = (&'static str, Estimate);
 
 /// The cases with a number's largest and smallest value; what is missing where one has none.
 fn ends(cases: &[&'static str], name: &str, numbers: &Numbers) -> Result<(At, At), Found> {
@@ -207,8 +208,8 @@ mod tests {
     use crate::{case, claims};
     use brinell::signal::Interval;
 
-    fn scattered(center: f64) -> Number {
-        Number { value: center, interval: Some(Interval { low: 0.98 * center, high: 1.02 * center, freedom: 29 }) }
+    fn scattered(center: f64) -> Estimate {
+        Estimate { value: center, interval: Some(Interval { low: 0.98 * center, high: 1.02 * center, freedom: 29 }) }
     }
 
     fn of(check: &Check, values: &[(&str, f64)]) -> Verdict {

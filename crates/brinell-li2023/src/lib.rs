@@ -45,7 +45,7 @@ pub use runs::{Runs, Stage};
 pub(crate) use cases::{CASES, Case, EXPERIMENTS, Experiment, STARTS, case, length_of};
 pub(crate) use claim::{Basis, Claim, claims};
 pub(crate) use judge::{Found, Judged, judge};
-pub(crate) use numbers::{Number, Numbers, entry_drop};
+pub(crate) use numbers::{Numbers, entry_drop};
 pub(crate) use outline::Outline;
 pub(crate) use ranges::{RANGES, READ_AS, RECORDS, Values};
 pub(crate) use reading::{Reading, Record};

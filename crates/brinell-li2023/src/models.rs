@@ -1,5 +1,6 @@
 //! Whether the paper's claims change with the model: the same cases in slices and with tilting, verdicts side by side.
 
+use crate::cases::owned;
 use crate::outcome::Outcome;
 use crate::points::numbers;
 use crate::{Case, Error, Length, Numbers, Outline, Point, Runs, Verdict, judge};
@@ -42,8 +43,7 @@ impl OtherRuns {
     /// Where a case is no scenario of a model.
     pub(crate) fn new(cases: &[&'static Case], length: Length) -> Result<Self, Error> {
         let set = |model: OtherModel| {
-            let own = model.settings.iter();
-            let more: Vec<_> = own.map(|(k, v)| ((*k).into(), (*v).into())).collect();
+            let more = owned(model.settings);
             let points = cases.iter().map(|case| Point::new(case, &more, Outline::Joined, length));
             Ok((model, points.collect::<Result<_, Error>>()?))
         };
@@ -92,20 +92,15 @@ impl OtherVerdicts {
             let words = verdicts.iter().map(|v| v.words().to_owned());
             std::iter::once((*sentence).to_owned()).chain(words).collect()
         });
-        Chapter {
-            id: "models".into(),
-            short: "Tilting".into(),
-            title: "With rollers and rings that tilt".into(),
-            pieces: vec![
-                StudyPiece::Words(self.found()),
-                StudyPiece::Table(Table {
-                    title: "Verdicts side by side".into(),
-                    columns: columns.map(str::to_owned).collect(),
-                    rows: rows.collect(),
-                    note: "The same cases, all else alike. What tilts has slices, so slices in the plane are between both.".into(),
-                }),
-            ],
-        }
+        let table = Table {
+            title: "Verdicts side by side".into(),
+            columns: columns.map(str::to_owned).collect(),
+            rows: rows.collect(),
+            note: "The same cases, all else alike. What tilts has slices, so slices in the plane are between both."
+                .into(),
+        };
+        let pieces = vec![StudyPiece::Words(self.found()), StudyPiece::Table(table)];
+        Chapter::new("models", "Tilting", "With rollers and rings that tilt", pieces)
     }
 
     /// models.csv.

@@ -10,51 +10,39 @@ use std::collections::BTreeMap;
 /// Of a number that scatters, in a run too short to say how much: it decides nothing.
 const UNKNOWN: Interval = Interval { low: f64::NEG_INFINITY, high: f64::INFINITY, freedom: 1 };
 
-/// One number with what is known of its scatter.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Number {
-    /// The value.
-    pub value: f64,
-    /// Its 95 % interval.
-    pub interval: Option<Interval>,
-}
-
-impl Number {
-    /// A number that does not scatter.
-    #[cfg(test)]
-    pub(crate) fn exact(value: f64) -> Self {
-        Self { value, interval: None }
-    }
+/// Without an interval.
+#[cfg(test)]
+pub(crate) fn exact(value: f64) -> Estimate {
+    Estimate { value, interval: None }
 }
 
 /// Numbers by case and name: `("irregular", "outer_ax.rms")`.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub(crate) struct Numbers {
-    all: BTreeMap<(String, String), Number>,
+    all: BTreeMap<(String, String), Estimate>,
 }
 
 impl Numbers {
     /// Adds one.
-    pub(crate) fn insert(&mut self, case: &str, name: &str, number: Number) {
+    pub(crate) fn insert(&mut self, case: &str, name: &str, number: Estimate) {
         self.all.insert((case.to_owned(), name.to_owned()), number);
     }
 
     /// Adds everything of a finished run.
     pub(crate) fn add(&mut self, case: &str, row: &Row) {
         for quantity in row.result.as_deref().unwrap_or(&[]) {
-            let Some(Estimate { value, interval }) = quantity.estimate() else {
+            let Some(mut number) = quantity.estimate() else {
                 continue;
             };
-            let interval = match quantity.spread {
-                Spread::Unknown => Some(UNKNOWN),
-                _ => interval,
-            };
-            self.insert(case, &quantity.name, Number { value, interval });
+            if quantity.spread == Spread::Unknown {
+                number.interval = Some(UNKNOWN);
+            }
+            self.insert(case, &quantity.name, number);
         }
     }
 
     /// A number, where the case has it.
-    pub(crate) fn get(&self, case: &str, name: &str) -> Option<Number> {
+    pub(crate) fn get(&self, case: &str, name: &str) -> Option<Estimate> {
         self.all.get(&(case.to_owned(), name.to_owned())).copied()
     }
 
@@ -157,11 +145,11 @@ mod tests {
         assert_eq!(numbers.get("b", "outer_ax.rms"), None);
         // Too short a run decides nothing, whatever it is compared with.
         let short = numbers.get("a", "short").unwrap();
-        for other in [short, rms, Number::exact(1.0)] {
+        for other in [short, rms, exact(1.0)] {
             assert_eq!(greater(over(short, other)), Verdict::Undecided);
             assert_eq!(greater(over(other, short)), Verdict::Undecided);
         }
-        assert_eq!(numbers.get("a", "turns"), Some(Number::exact(12.0)));
+        assert_eq!(numbers.get("a", "turns"), Some(exact(12.0)));
         let usual = Reading::USUAL;
         let read = |reading: Reading, name: &str| numbers.read(reading).get("a", name).map(|n| n.value);
         assert_eq!(read(usual, "outer_ax.rms"), Some(3.3));

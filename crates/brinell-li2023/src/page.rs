@@ -6,7 +6,7 @@ use crate::reproduction::{Reproduction, Request};
 use crate::{BASE, Basis};
 use crate::{believe, figures};
 use brinell::scenario::Scenario;
-use brinell_report::{Chapter, DamageView, Fact, Study, StudyPiece, Table, Value};
+use brinell_report::{Chapter, DamageView, Fact, Study, StudyPiece, Table, capital};
 
 /// How verdicts come about, in words.
 const RULES: [&str; 6] = [
@@ -35,18 +35,11 @@ pub(crate) fn study(
     plan: impl Fn(&Scenario) -> Option<DamageView>,
 ) -> Study {
     let request = &reproduction.request;
-    let mut chapters = vec![Chapter {
-        id: "believe".into(),
-        short: "What to believe".into(),
-        title: "What to believe".into(),
-        pieces: believe::pieces(reproduction),
-    }];
-    chapters.push(Chapter {
-        id: "claims".into(),
-        short: "Claims".into(),
-        title: "The paper’s claims".into(),
-        pieces: vec![StudyPiece::Claims(reproduction.outcomes.iter().map(card).collect())],
-    });
+    let cards = reproduction.outcomes.iter().map(card).collect();
+    let mut chapters = vec![
+        Chapter::new("believe", "What to believe", "What to believe", believe::pieces(reproduction)),
+        Chapter::new("claims", "Claims", "The paper’s claims", vec![StudyPiece::Claims(cards)]),
+    ];
     let experiments = request.experiments.iter();
     chapters.extend(experiments.map(|e| figures::chapter(e, &reproduction.numbers, &curves, &plan)));
     if let Some(sensitivity) = &reproduction.sensitivity {
@@ -56,12 +49,7 @@ pub(crate) fn study(
     let mut rules: Vec<StudyPiece> = RULES.map(|w| StudyPiece::Words(w.into())).to_vec();
     rules.push(StudyPiece::Table(runs(request)));
     rules.push(StudyPiece::Table(scenario()));
-    chapters.push(Chapter {
-        id: "rules".into(),
-        short: "Rules".into(),
-        title: "How verdicts come about".into(),
-        pieces: rules,
-    });
+    chapters.push(Chapter::new("rules", "Rules", "How verdicts come about", rules));
     let mut warnings = Vec::new();
     if reproduction.interrupted {
         warnings.push("Interrupted: some runs are missing. The same command resumes.".into());
@@ -93,12 +81,12 @@ fn facts(reproduction: &Reproduction) -> Vec<Fact> {
         .iter()
         .map(|(verdict, n)| {
             let note = if *n == 1 { "claim" } else { "claims" };
-            Fact::new(capital(verdict.words()), Value::Text(n.to_string()), "", note)
+            Fact::new(capital(verdict.words()), n.to_string(), "", note)
         })
         .collect();
     if reproduction.sensitivity.is_some() {
         let n = reproduction.outcomes.iter().filter(|outcome| !outcome.flips.is_empty()).count();
-        facts.push(Fact::new("Depend on an assumption", Value::Text(n.to_string()), "", "of the above"));
+        facts.push(Fact::new("Depend on an assumption", n.to_string(), "", "of the above"));
     }
     let [dynamics, shapes, kinematics] =
         [Basis::Dynamics, Basis::Shapes, Basis::Kinematics].map(|b| outcome::held(&reproduction.outcomes, b));
@@ -106,7 +94,7 @@ fn facts(reproduction: &Reproduction) -> Vec<Fact> {
         0,
         Fact::new(
             "Dynamic findings that hold",
-            Value::Text(format!("{} of {}", dynamics.0, dynamics.1)),
+            format!("{} of {}", dynamics.0, dynamics.1),
             "",
             format!(
                 "{} of {} more follow from the shapes that go in, {} of {} from kinematics and slip",
@@ -117,17 +105,11 @@ fn facts(reproduction: &Reproduction) -> Vec<Fact> {
     facts
 }
 
-fn capital(text: &str) -> String {
-    let mut letters = text.chars();
-    let first = letters.next().map(|c| c.to_uppercase().to_string());
-    first.unwrap_or_default() + letters.as_str()
-}
-
 fn runs(request: &Request) -> Table {
     let rows = request.points.iter().map(|point| {
         let own = point.case.settings.iter();
         let settings: Vec<String> = own.map(|(k, v)| format!("{k} = {v}")).collect();
-        vec![point.case.id.into(), point.case.label.into(), settings.join("; "), format!("{}", point.duration_s)]
+        vec![point.case.id.into(), point.case.label.into(), settings.join("; "), format!("{}", point.task.duration_s)]
     });
     Table {
         title: "Runs".into(),

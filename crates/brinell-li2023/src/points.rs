@@ -3,19 +3,15 @@
 use crate::{BASE, Case, Error, Length, Numbers, Outline, Runs, length_of};
 use brinell::document;
 use brinell::scenario::Scenario;
-use brinell_study::campaign::fingerprint;
+use brinell_study::runner::Task;
 
 /// A case under assumptions, ready to run.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Point {
     /// The case.
     pub case: &'static Case,
-    /// Key and value of everything that is set over [`BASE`].
-    pub settings: Vec<(String, String)>,
-    /// Of its scenario: what its run is filed under.
-    pub fingerprint: String,
-    /// Simulated time, s.
-    pub duration_s: f64,
+    /// Its run; settings are everything that is set over [`BASE`].
+    pub task: Task,
 }
 
 impl Point {
@@ -30,7 +26,8 @@ impl Point {
         let mut settings = case.over(more, outline);
         let duration = length_of(case, length).duration_s(case.rpm);
         settings.push(("simulation.duration_s".into(), format!("{duration:?}")));
-        Ok(Self { case, fingerprint: fingerprint(&scenario(&settings)?), duration_s: duration, settings })
+        let scenario = scenario(&settings)?;
+        Ok(Self { case, task: Task::new(settings, &scenario) })
     }
 }
 
@@ -47,7 +44,7 @@ pub fn scenario(settings: &[(String, String)]) -> Result<Scenario, Error> {
 pub(crate) fn numbers<'a>(points: impl IntoIterator<Item = &'a Point>, runs: &impl Runs) -> Numbers {
     let mut numbers = Numbers::default();
     for point in points {
-        if let Some(row) = runs.row(&point.fingerprint) {
+        if let Some(row) = runs.row(&point.task.fingerprint) {
             numbers.add(point.case.id, row);
         }
     }

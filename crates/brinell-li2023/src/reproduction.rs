@@ -128,7 +128,7 @@ impl Reproduction {
             wanted.then_some(Outcome { claim, judged, flips })
         });
         let failures = request.points.iter().filter_map(|point| {
-            let row = runs.row(&point.fingerprint)?;
+            let row = runs.row(&point.task.fingerprint)?;
             let reason = row.result.as_ref().err()?;
             Some((point.case.label.to_owned(), reason.clone()))
         });
@@ -159,7 +159,7 @@ impl Reproduction {
     pub fn study(&self, files: &CurveFiles, plan: impl Fn(&Scenario) -> Option<DamageView>) -> Study {
         let curves = |id: &str| {
             let point = self.request.points.iter().find(|p| p.case.id == id)?;
-            files.curves(&point.fingerprint)
+            files.curves(&point.task.fingerprint)
         };
         page::study(self, curves, plan)
     }

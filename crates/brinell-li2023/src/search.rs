@@ -147,8 +147,10 @@ pub(crate) fn distance(numbers: &Numbers) -> Option<Distance> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::cases::owned;
+    use crate::numbers::exact;
     use crate::reading::WINDOWS_MS;
-    use crate::{BASE, CASES, Number, VARIANTS};
+    use crate::{BASE, CASES, VARIANTS};
     use std::collections::BTreeSet;
 
     #[test]
@@ -191,8 +193,7 @@ mod tests {
     #[test]
     fn prop_variants_are_sound_scenarios() {
         for variant in VARIANTS {
-            let own = |(k, v): &(&str, &str)| ((*k).to_owned(), (*v).to_owned());
-            let settings: Vec<_> = variant.settings.iter().map(own).collect();
+            let settings = owned(variant.settings);
             for case in CASES.iter() {
                 brinell::document::read(BASE, &case.over(&settings, variant.outline))
                     .unwrap_or_else(|e| panic!("{}, {}: {e:?}", variant.id, case.id));
@@ -208,9 +209,9 @@ mod tests {
         let mut numbers = Numbers::default();
         assert_eq!(distance(&numbers), None);
         for (case, paper) in SEARCHED.iter().zip(RMS) {
-            numbers.insert(case, "outer_ax.rms", Number::exact(paper * 0.1_f64.exp()));
+            numbers.insert(case, "outer_ax.rms", exact(paper * 0.1_f64.exp()));
         }
-        numbers.insert("irregular", "defect1.frequency", Number::exact(250.4));
+        numbers.insert("irregular", "defect1.frequency", exact(250.4));
         let far = distance(&numbers).unwrap();
         assert!((far.rms - 0.1).abs() < 1e-12);
         assert!((far.frequency.unwrap() - 1.0).abs() < 1e-12);

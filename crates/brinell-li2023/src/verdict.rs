@@ -9,7 +9,6 @@
 //!
 //! Each interval is at 95 % by itself: of twenty true equalities one is expected to look decided.
 
-use crate::numbers::Number;
 use brinell::signal::Estimate;
 use brinell::signal::ratio::{Ratio, ratio};
 use serde::Deserialize;
@@ -68,16 +67,13 @@ impl Verdict {
 }
 
 /// The ratio of two numbers; `None` where one is not positive.
-pub(crate) fn over(of: Number, to: Number) -> Option<Ratio> {
-    let scaled = |number: Number, by: f64| {
+pub(crate) fn over(of: Estimate, to: Estimate) -> Option<Ratio> {
+    let scaled = |number: Estimate, by: f64| {
         let (low, high) = number.interval.map(|i| (i.low * by, i.high * by))?;
         Some((low.min(high), low.max(high)))
     };
     match (&of.interval, &to.interval) {
-        (Some(_), Some(_)) => {
-            let estimate = |Number { value, interval }| Estimate { value, interval };
-            ratio(&estimate(of), &estimate(to))
-        }
+        (Some(_), Some(_)) => ratio(&of, &to),
         _ if !(of.value > 0.0 && to.value > 0.0) => None,
         (Some(_), None) => Some(Ratio { value: of.value / to.value, interval: scaled(of, 1.0 / to.value) }),
         (None, Some(b)) => Some(Ratio {
@@ -169,10 +165,11 @@ pub(crate) fn follows(trend: Trend, steps: &[Option<Ratio>]) -> Verdict {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::numbers::exact;
     use brinell::signal::Interval;
 
-    fn number(value: f64, half: f64) -> Number {
-        Number { value, interval: Some(Interval { low: value - half, high: value + half, freedom: 19 }) }
+    fn number(value: f64, half: f64) -> Estimate {
+        Estimate { value, interval: Some(Interval { low: value - half, high: value + half, freedom: 19 }) }
     }
 
     /// A step up, down, or open.
@@ -199,10 +196,10 @@ mod tests {
         assert_eq!(of(number(4.0, 0.5), number(4.1, 0.5)), Verdict::Undecided);
         assert_eq!(of(number(4.0, 3.9), number(1.0, 0.1)), Verdict::Undecided);
         assert_eq!(of(number(0.0, 0.1), number(1.0, 0.1)), Verdict::Missing);
-        assert_eq!(of(Number::exact(2.0), Number::exact(1.0)), Verdict::Holds);
-        assert_eq!(of(Number::exact(1.0), Number::exact(1.0)), Verdict::Fails);
-        assert_eq!(of(Number::exact(1.0), number(2.0, 0.1)), Verdict::Fails);
-        assert_eq!(of(number(2.0, 0.1), Number::exact(1.0)), Verdict::Holds);
+        assert_eq!(of(exact(2.0), exact(1.0)), Verdict::Holds);
+        assert_eq!(of(exact(1.0), exact(1.0)), Verdict::Fails);
+        assert_eq!(of(exact(1.0), number(2.0, 0.1)), Verdict::Fails);
+        assert_eq!(of(number(2.0, 0.1), exact(1.0)), Verdict::Holds);
         assert_eq!(greater(None), Verdict::Missing);
     }
 

@@ -6,18 +6,18 @@ use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
 use pyo3::types::{PyBool, PyDict, PyFloat, PyInt, PyList, PyString};
 use serde_json::Value;
+use std::borrow::Cow;
 use std::fmt::Write;
 
 /// An array of numbers, taken without a copy where it is contiguous and double.
 pub(crate) type Samples<'py> = PyArrayLike1<'py, f64, AllowTypeChange>;
 
 /// The numbers of an array: its own memory, or a copy where that has gaps.
-pub(crate) fn slice<'a>(x: &'a Samples<'_>, copy: &'a mut Vec<f64>) -> &'a [f64] {
-    if let Ok(slice) = x.as_slice() {
-        return slice;
+pub(crate) fn slice<'a>(x: &'a Samples<'_>) -> Cow<'a, [f64]> {
+    match x.as_slice() {
+        Ok(slice) => slice.into(),
+        Err(_) => x.as_array().iter().copied().collect(),
     }
-    copy.extend(x.as_array().iter());
-    copy
 }
 
 /// An array that owns these numbers: the memory is handed over, not copied.

@@ -1,20 +1,14 @@
 //! Data sets: a plan to files, alone or a share at a time.
 
 use crate::errors::{ReadError, bad_value, scenario_error, unreadable};
-use crate::run::threads;
+use crate::run::{PATIENCE, Watch, attended, threads};
 use brinell_study::dataset::{self, DatasetError, Shard};
-use brinell_study::listener::{Listener, RunListener};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
-use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{RecvTimeoutError, channel};
-use std::time::Duration;
-
-/// How often the folder's progress is reported, and how long Ctrl-C may wait.
-const BEAT: Duration = Duration::from_millis(50);
 
 fn failed(py: Python, error: DatasetError) -> PyErr {
     match error {
@@ -28,35 +22,6 @@ fn failed(py: Python, error: DatasetError) -> PyErr {
 /// A plan with its base scenario, and what its author should know.
 #[pyclass(frozen, module = "brinell._brinell", name = "Campaign")]
 pub(crate) struct Campaign(dataset::Campaign, Vec<String>);
-
-/// What the threads of a data set and the thread that waits for them share.
-#[derive(Default)]
-struct Watch {
-    stop: AtomicBool,
-    over: AtomicUsize,
-}
-
-impl Listener for Watch {
-    fn begin(&self, _: usize, _: f64) -> Box<dyn RunListener + '_> {
-        Box::new(Stop(&self.stop))
-    }
-
-    fn before(&self, runs: usize) {
-        self.over.fetch_add(runs, Ordering::Relaxed);
-    }
-
-    fn ended(&self, _: usize, _: Option<&str>) {
-        self.over.fetch_add(1, Ordering::Relaxed);
-    }
-}
-
-struct Stop<'a>(&'a AtomicBool);
-
-impl RunListener for Stop<'_> {
-    fn at(&mut self, _: f64) -> ControlFlow<()> {
-        brinell::many::go_on(self.0)
-    }
-}
 
 #[pymethods]
 impl Campaign {
@@ -83,7 +48,7 @@ impl Campaign {
         });
         let waited = py.detach(move || {
             loop {
-                match over.recv_timeout(BEAT) {
+                match over.recv_timeout(PATIENCE) {
                     Ok(opened) => return Ok(opened),
                     Err(RecvTimeoutError::Timeout) => {}
                     Err(RecvTimeoutError::Disconnected) => {
@@ -192,43 +157,12 @@ impl Campaign {
         let runs: usize = parts.map(|part| self.0.runs_of(part).len()).sum();
         let threads = threads(jobs, runs)?;
         let watch = Watch::default();
-        let (went, heard) = py.detach(|| {
-            std::thread::scope(|scope| {
-                let (ended, over) = channel();
-                let watch = &watch;
-                scope.spawn(move || {
-                    let went = dataset::run(&self.0, &folder, shard, threads, watch);
-                    // The thread that waits is there as long as this one.
-                    let _ = ended.send(went);
-                });
-                let (mut heard, mut told): (PyResult<()>, usize) = (Ok(()), 0);
-                loop {
-                    let went = over.recv_timeout(BEAT);
-                    let now = watch.over.load(Ordering::Relaxed);
-                    if heard.is_ok() {
-                        heard = Python::attach(|py| {
-                            py.check_signals()?;
-                            if let (Some(progress), true) = (&progress, now > told) {
-                                progress.call1(py, (now, runs))?;
-                            }
-                            Ok(())
-                        });
-                        watch.stop.store(heard.is_err(), Ordering::Relaxed);
-                    }
-                    told = now;
-                    match went {
-                        Ok(went) => return (Some(went), heard),
-                        Err(RecvTimeoutError::Timeout) => {}
-                        Err(RecvTimeoutError::Disconnected) => return (None, heard),
-                    }
-                }
-            })
-        });
-        heard?;
-        let went = match went {
-            Some(went) => went.map_err(|error| failed(py, error))?,
-            None => return Err(bad_value("the runs ended without a word")),
+        let make = || dataset::run(&self.0, &folder, shard, threads, &watch);
+        let tell = |py: Python<'_>, over: usize| match &progress {
+            Some(progress) => progress.call1(py, (over, runs)).map(drop),
+            None => Ok(()),
         };
+        let went = attended(py, &watch, make, tell)?.map_err(|error| failed(py, error))?;
         let dict = PyDict::new(py);
         dict.set_item("runs", went.runs)?;
         dict.set_item("done", went.done)?;

@@ -10,13 +10,14 @@ use brinell::result::{self, RunResult};
 use brinell::simulate::{End, Observer, Signals, Simulation, SolverWork};
 use brinell::summary::{self, Parts};
 use brinell_report::{Report, html};
+use brinell_study::listener::{Listener, RunListener};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
 use serde_json::json;
 use std::num::NonZeroUsize;
 use std::ops::ControlFlow;
-use std::sync::atomic::{AtomicBool, Ordering};
-use std::sync::mpsc::{RecvTimeoutError, sync_channel};
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+use std::sync::mpsc::{RecvTimeoutError, channel, sync_channel};
 use std::time::{Duration, Instant};
 
 /// How long Python may have to wait for an answer to Ctrl-C.
@@ -165,6 +166,67 @@ pub(crate) fn over_threads<T: Send>(
                 });
                 stop.store(outcome.is_err(), Ordering::Relaxed);
             }
+        })
+    })
+}
+
+/// What the threads of a study and the thread that waits for them share.
+#[derive(Default)]
+pub(crate) struct Watch {
+    pub(crate) stop: AtomicBool,
+    over: AtomicUsize,
+}
+
+impl Listener for Watch {
+    fn begin(&self, _: usize, _: f64) -> Box<dyn RunListener + '_> {
+        Box::new(&self.stop)
+    }
+
+    fn before(&self, runs: usize) {
+        self.over.fetch_add(runs, Ordering::Relaxed);
+    }
+
+    fn ended(&self, _: usize, _: Option<&str>) {
+        self.over.fetch_add(1, Ordering::Relaxed);
+    }
+}
+
+/// Does `job` on a thread of its own and waits for it, without Python's lock. Signals are noticed meanwhile, and `tell`
+/// gets how many runs are over, whenever more are. An error of `tell`, or a signal's, sets the flag, and is given when
+/// the job has ended.
+pub(crate) fn attended<T: Send>(
+    py: Python<'_>,
+    watch: &Watch,
+    job: impl FnOnce() -> T + Send,
+    mut tell: impl FnMut(Python<'_>, usize) -> PyResult<()> + Send,
+) -> PyResult<T> {
+    py.detach(|| {
+        std::thread::scope(|scope| {
+            let (ended, waiting) = channel();
+            let job = scope.spawn(move || {
+                let result = job();
+                // The thread that waits is there as long as this one.
+                let _ = ended.send(());
+                result
+            });
+            let (mut outcome, mut told) = (Ok(()), 0);
+            loop {
+                let is_over = waiting.recv_timeout(PATIENCE) != Err(RecvTimeoutError::Timeout);
+                let now = watch.over.load(Ordering::Relaxed);
+                if outcome.is_ok() {
+                    outcome = Python::attach(|py| {
+                        py.check_signals()?;
+                        if now > told { tell(py, now) } else { Ok(()) }
+                    });
+                    watch.stop.store(outcome.is_err(), Ordering::Relaxed);
+                }
+                told = now;
+                if is_over {
+                    break;
+                }
+            }
+            let result = job.join().map_err(|_| bad_value("the runs ended without a word"));
+            outcome.and(result)
         })
     })
 }

@@ -74,8 +74,7 @@ pub(crate) fn psd<'py>(
     window: &str,
     detrend: &str,
 ) -> PyResult<Bound<'py, PyDict>> {
-    let mut copy = Vec::new();
-    let x = slice(&x, &mut copy);
+    let x = &*slice(&x);
     let segments = segments(x.len(), length, overlap, window, detrend)?;
     let spectrum = py.detach(|| signal::psd(x, rate_hz, &segments));
     spectrum_dict(py, spectrum.map_err(failed)?)
@@ -92,8 +91,7 @@ pub(crate) fn envelope_spectrum<'py>(
     overlap: f64,
     window: &str,
 ) -> PyResult<Bound<'py, PyDict>> {
-    let mut copy = Vec::new();
-    let x = slice(&x, &mut copy);
+    let x = &*slice(&x);
     let segments = segments(x.len(), length, overlap, window, "mean")?;
     let envelope = py.detach(|| signal::envelope_spectrum(x, rate_hz, band(band_hz), &segments)).map_err(failed)?;
     let dict = spectrum_dict(py, envelope.spectrum)?;
@@ -109,8 +107,7 @@ pub(crate) fn envelope<'py>(
     rate_hz: f64,
     band_hz: Option<(f64, f64)>,
 ) -> PyResult<Bound<'py, PyAny>> {
-    let mut copy = Vec::new();
-    let x = slice(&x, &mut copy);
+    let x = &*slice(&x);
     let band = band(band_hz);
     // The spectrum says what is wrong with the input; the envelope by itself would panic.
     let values = py.detach(|| {
@@ -130,8 +127,7 @@ pub(crate) fn spectrogram<'py>(
     overlap: f64,
     window: &str,
 ) -> PyResult<(f64, f64, f64, Bound<'py, PyAny>)> {
-    let mut copy = Vec::new();
-    let x = slice(&x, &mut copy);
+    let x = &*slice(&x);
     let segments = segments(x.len(), Some(length), overlap, window, "none")?;
     let s = py.detach(|| signal::spectrogram(x, rate_hz, &segments)).map_err(failed)?;
     let shape = [s.frames(), s.bins];
@@ -149,8 +145,7 @@ pub(crate) fn kurtogram<'py>(
     depth: usize,
     narrowest_hz: f64,
 ) -> PyResult<Bound<'py, PyDict>> {
-    let mut copy = Vec::new();
-    let x = slice(&x, &mut copy);
+    let x = &*slice(&x);
     let map = py.detach(|| signal::kurtogram(x, rate_hz, depth)).map_err(failed)?;
     let dict = PyDict::new(py);
     let column = |of: fn(&signal::KurtogramBand) -> f64| array(py, map.bands().map(|b| of(&b)).collect());
@@ -173,8 +168,7 @@ pub(crate) fn indicators<'py>(
     unit: &str,
     block_s: f64,
 ) -> PyResult<Bound<'py, PyAny>> {
-    let mut copy = Vec::new();
-    let x = slice(&x, &mut copy);
+    let x = &*slice(&x);
     if !(rate_hz > 0.0 && rate_hz.is_finite() && block_s > 0.0 && block_s.is_finite()) {
         return Err(failed(format!("rate_hz = {rate_hz}, block_s = {block_s}: expected numbers above 0")));
     }
@@ -322,8 +316,8 @@ pub(crate) fn analyze<'py>(
     sensitivity: Option<&str>,
     supply_hz: Option<f64>,
 ) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyDict>, Findings)> {
-    let (mut copy, array) = (Vec::new(), x.as_unbound().clone_ref(py));
-    let (mut x, mut unit) = (slice(&x, &mut copy), Unit::of(unit));
+    let (given, array) = (slice(&x), x.as_unbound().clone_ref(py));
+    let (mut x, mut unit) = (&*given, Unit::of(unit));
     let mut factor = 1.0;
     let mut notes = vec![format!("{rate_hz} Hz and {}, as given", unit.name)];
     let class = machine_class.map(class).transpose()?;

@@ -193,22 +193,13 @@ pub struct MinMax {
     pub max: Vec<f64>,
 }
 
-/// What an [`Event`] marks.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum EventKind {
-    /// Defect entry.
-    Enter,
-    /// A roller leaves it.
-    Leave,
-}
-
 /// An instant to mark on the waveform.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Event {
     /// When.
     pub t_s: f64,
-    /// What happens.
-    pub kind: EventKind,
+    /// Whether a roller enters a defect; it leaves one otherwise.
+    pub enters: bool,
     /// Which roller, briefly: "1·07" for row 1, roller 7.
     pub label: String,
 }
@@ -263,18 +254,14 @@ pub struct Pass {
     pub angle_deg: Vec<f64>,
     /// Effective contact length at the damaged contact.
     pub length_mm: Vec<f64>,
-    /// The same at the other contact, where it matters.
-    pub other_length_mm: Option<Vec<f64>>,
     /// Contact stiffness.
     pub stiffness: Vec<f64>,
     /// Its unit: "N/m^(10/9)".
     pub stiffness_unit: String,
     /// Contact force.
     pub force_n: Vec<f64>,
-    /// What `length_mm`, `stiffness` and `force_n` belong to: "outer contact".
+    /// Which contact that is: "outer contact".
     pub contact: String,
-    /// What `other_length_mm` belongs to: "inner contact".
-    pub other_contact: String,
 }
 
 /// Contact force of one row's rollers around the bearing.

@@ -3,21 +3,13 @@
 use crate::chart::{Chart, Domain, SCALE_MARGIN, Shades, Spec, range};
 use crate::picture::{Paint, Picture, Rect, ink};
 use crate::plots::Layout;
-
-/// Bands of one width, side by side from zero frequency.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct KurtogramLevel {
-    /// Width of each, Hz.
-    pub bandwidth_hz: f64,
-    /// Kurtosis of each; not finite where there is none.
-    pub kurtosis: Vec<f64>,
-}
+use brinell::signal::kurtogram::Level;
 
 /// The whole map.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Kurtogram {
     /// From the whole band to the narrowest ones.
-    pub levels: Vec<KurtogramLevel>,
+    pub levels: Vec<Level>,
     /// The band that was chosen, Hz.
     pub chosen_hz: Option<(f64, f64)>,
     /// In words; may be empty.
@@ -30,17 +22,17 @@ const MOST_COLUMNS: usize = 192;
 impl Kurtogram {
     /// Upper end of the bands, Hz; `None` without one.
     fn top(&self) -> Option<f64> {
-        let width = |l: &KurtogramLevel| l.bandwidth_hz * l.kurtosis.len() as f64;
+        let width = |l: &Level| l.bandwidth * l.kurtosis.len() as f64;
         let top = self.levels.iter().map(width).fold(0.0, f64::max);
         (top > 0.0 && top.is_finite()).then_some(top)
     }
 
     /// Kurtosis at evenly spaced frequencies, the narrowest bands' row first.
     fn rows(&self, top: f64) -> Vec<f64> {
-        let row = |l: &KurtogramLevel| {
+        let row = |l: &Level| {
             let at = |c: usize| {
                 let frequency = (c as f64 + 0.5) / MOST_COLUMNS as f64 * top;
-                let index = (frequency / l.bandwidth_hz).max(0.0) as usize;
+                let index = (frequency / l.bandwidth).max(0.0) as usize;
                 l.kurtosis.get(index).copied().unwrap_or(f64::NAN)
             };
             (0..MOST_COLUMNS).map(at).collect::<Vec<_>>()
@@ -54,19 +46,14 @@ pub(crate) fn kurtogram(view: &Kurtogram, layout: Layout) -> Picture {
     let rows = view.levels.len().max(1) as f64;
     let top = view.top();
     let mut chart = Chart::new(Spec {
-        name: "kurtogram".into(),
-        title: "Kurtogram".into(),
-        size,
-        x: Domain::exact(0.0, top.unwrap_or(1.0)),
-        y: Domain::exact(0.0, rows),
-        x_label: "Frequency".into(),
-        x_unit: "Hz".into(),
-        y_label: "Level".into(),
-        y_unit: String::new(),
-        lanes: vec![],
-        left: 0.0,
         right: SCALE_MARGIN * size.font,
-        x_axis: true,
+        ..Spec::new(
+            "kurtogram",
+            "Kurtogram",
+            size,
+            (Domain::exact(0.0, top.unwrap_or(1.0)), "Frequency", "Hz"),
+            (Domain::exact(0.0, rows), "Level", ""),
+        )
     });
     let values = top.map(|top| view.rows(top)).unwrap_or_default();
     let (Some(top), Some((_, highest))) = (top, range(values.iter().copied())) else {
@@ -76,9 +63,9 @@ pub(crate) fn kurtogram(view: &Kurtogram, layout: Layout) -> Picture {
     let highest = if highest > 0.0 { highest } else { 1.0 };
     chart.shades(&Shades { columns: MOST_COLUMNS, values: &values, range: (0.0, highest), ticks: 5, head: "kurtosis" });
     let frame = chart.frame;
-    let narrow = |l: &&KurtogramLevel| {
+    let narrow = |l: &&Level| {
         let (low, high) = view.chosen_hz.unwrap_or((0.0, 0.0));
-        ((high - low) / l.bandwidth_hz - 1.0).abs() < 1e-6
+        ((high - low) / l.bandwidth - 1.0).abs() < 1e-6
     };
     if let Some((low, high)) = view.chosen_hz
         && let Some(level) = view.levels.iter().position(|l| narrow(&l))
@@ -97,7 +84,8 @@ mod tests {
     use super::*;
 
     fn map() -> Kurtogram {
-        let level = |bandwidth_hz: f64, kurtosis: &[f64]| KurtogramLevel { bandwidth_hz, kurtosis: kurtosis.to_vec() };
+        let level =
+            |bandwidth: f64, kurtosis: &[f64]| Level { bandwidth, kurtosis: kurtosis.to_vec(), noise_scatter: 0.0 };
         Kurtogram {
             levels: vec![level(3000.0, &[0.1]), level(1500.0, &[0.2, 0.3]), level(1000.0, &[1.0, 2.0, 3.0])],
             chosen_hz: Some((1000.0, 2000.0)),

@@ -60,19 +60,19 @@ pub use damage::{AlongRoller, DamageCurve, DamagePanel, DamageView, DepthPatch};
 #[doc(hidden)]
 pub use damage::{damage_passage, damage_photo, damage_plan, damage_section, load_along};
 pub use data::{
-    Assumption, Estimate, Event, EventKind, Fact, Healthy, IndicatorRow, IndicatorTable, Marker, MinMax, Pass, Report,
-    RowLoad, Series, Spectrum, Value, Waveform,
+    Assumption, Estimate, Event, Fact, Healthy, IndicatorRow, IndicatorTable, Marker, MinMax, Pass, Report, RowLoad,
+    Series, Spectrum, Value, Waveform,
 };
 #[doc(hidden)]
 pub use defects::{Damage, Measures, damage_of};
 #[doc(hidden)]
-pub use kurtogram::{Kurtogram, KurtogramLevel};
+pub use kurtogram::Kurtogram;
 #[doc(hidden)]
 pub use load::{bin_centres, load_distribution};
 pub use motion::bearing_motion;
-pub use motion::{DamagedSurface, Motion, MotionDamage, MotionRow};
+pub use motion::{Motion, MotionDamage, MotionRow};
 #[doc(hidden)]
-pub use number::short;
+pub use number::{capital, short};
 #[doc(hidden)]
 pub use orbit::cage_orbit;
 pub use orbit::{CageOrbit, CageOrbits};
@@ -85,7 +85,7 @@ pub use plots::{detail_window, headline, overview};
 pub use run::defect_markers;
 pub use sensor::SensorView;
 #[doc(hidden)]
-pub use sheet::{SheetDamage, SheetGroup, SheetReport, SheetTile, sheet_html};
+pub use sheet::sheet_html;
 #[doc(hidden)]
 pub use side_by_side::{
     Along, OverlaidCurve, Overlay, Part, Piece, SideBySide, Vertical, overlay, side_by_side_html, side_by_side_pictures,

@@ -13,6 +13,7 @@ use crate::frame::{figure, none};
 use crate::number::significant;
 use crate::picture::{Anchor, Paint, Picture, Shape, Text, escape, ink};
 use crate::plots::{Layout, legend};
+use brinell::scenario::Surface;
 use row::DrawnRow;
 
 /// Evenly spaced instants of a bearing. Lengths in mm, angles in rad counter-clockwise from +X, forces in N.
@@ -59,24 +60,13 @@ pub struct MotionRow {
     pub outer_n: Vec<f32>,
 }
 
-/// What is damaged.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum DamagedSurface {
-    /// At rest.
-    Outer,
-    /// Turns with the inner ring.
-    Inner,
-    /// Turns with this roller, from 0.
-    Roller(usize),
-}
-
 /// Damage from an angle of its surface to another.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MotionDamage {
     /// From 0.
     pub row: usize,
     /// Of what.
-    pub surface: DamagedSurface,
+    pub surface: Surface,
     /// Its ends.
     pub angle: [f64; 2],
 }
@@ -216,9 +206,9 @@ fn data(page: &mut String, motion: &Motion, frames: usize) {
     );
     for (index, damage) in motion.damage.iter().enumerate() {
         let (kind, roller) = match damage.surface {
-            DamagedSurface::Outer => ("outer", 0),
-            DamagedSurface::Inner => ("inner", 0),
-            DamagedSurface::Roller(k) => ("roller", k),
+            Surface::OuterRaceway => ("outer", 0),
+            Surface::InnerRaceway => ("inner", 0),
+            Surface::Roller(k) => ("roller", k),
         };
         let [from, to] = damage.angle.map(|a| if a.is_finite() { a.clamp(-TAU, TAU) } else { 0.0 });
         let _ = write!(page, "{}[{},\"{kind}\",{from},{to},{roller}]", if index == 0 { "" } else { "," }, damage.row);

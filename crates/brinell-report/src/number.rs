@@ -19,6 +19,13 @@ pub fn short(x: f64, digits: usize) -> String {
     }
 }
 
+/// A text that begins with a capital.
+pub fn capital(text: &str) -> String {
+    let mut letters = text.chars();
+    let first: String = letters.next().into_iter().flat_map(char::to_uppercase).collect();
+    first + letters.as_str()
+}
+
 /// A number with about `digits` significant digits: "1 800", "0.0123", "1.9×10⁸"; "not available" for NaN.
 pub(crate) fn significant(value: f64, digits: usize) -> String {
     if value.is_nan() {

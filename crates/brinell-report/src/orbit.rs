@@ -95,21 +95,13 @@ fn orbit_chart(
     (reach, seen): (f64, Option<f64>),
     (cell, size): (f64, Size),
 ) -> (Chart, f64) {
-    let mut spec = Spec {
-        name: String::new(),
-        title: String::new(),
-        size: Size { width: cell, ..size },
-        x: Domain::exact(-reach, reach),
-        y: Domain::exact(-reach, reach),
-        x_label: "X".into(),
-        x_unit: "µm".into(),
-        y_label: "Y".into(),
-        y_unit: "µm".into(),
-        lanes: vec![],
-        left: 0.0,
-        right: 0.0,
-        x_axis: true,
-    };
+    let mut spec = Spec::new(
+        "",
+        "",
+        Size { width: cell, ..size },
+        (Domain::exact(-reach, reach), "X", "µm"),
+        (Domain::exact(-reach, reach), "Y", "µm"),
+    );
     // What numbers and labels leave of the width is the side of the square.
     spec.size.height = cell;
     let side = cell - left_margin(&spec) - right_margin(&spec);

@@ -7,10 +7,10 @@ use crate::data::{Report, Spectrum};
 use crate::embedded::{Chart, Curve, Places};
 use crate::frame::{THINNED, alert, close, code, figure, lead, none, open, plain, section};
 use crate::load::load_distribution;
-use crate::number::significant;
+use crate::number::{capital, significant};
 use crate::picture::{Picture, escape};
 use crate::plots::{self, Layout};
-use crate::tables::{assumptions, fact_table, facts, indicators};
+use crate::tables::{assumptions, close_table, fact_table, facts, indicators, open_table};
 
 /// Passes drawn; a page with more is no longer read.
 const PASSES: usize = 12;
@@ -104,42 +104,35 @@ fn waveform(page: &mut String, report: &Report) {
     };
     let overview_scale = plots::time_unit(overview_hi - overview_lo).1;
     let places = Places::Even(series.t0_s * scale, series.dt_s * scale);
-    let curves = beside(places, &series.values, &report.healthy.waveform);
-    Chart {
+    let lanes = plots::event_lanes(report, scale);
+    let chart = Chart {
         name: "waveform",
-        curves: &curves,
-        drawn: drawn(&curves),
         domain: plots::waveform_domain(report),
         x: ("Time", unit),
         y: ("Acceleration", &series.unit),
-        lanes: &plots::event_lanes(report, scale),
+        lanes: &lanes,
         overview_scale: scale / overview_scale,
         ..Chart::default()
-    }
-    .write(page);
+    };
+    embed(page, places, &series.values, &report.healthy.waveform, chart);
 }
 
-/// The run's curve and, where it was run, the healthy bearing's.
-fn beside<'a>(places: Places<'a>, values: &'a [f64], healthy: &'a [f64]) -> Vec<Curve<'a>> {
+/// What the page's script draws: the run's curve and, where it was run, the healthy bearing's behind it.
+fn embed(page: &mut String, places: Places, values: &[f64], healthy: &[f64], chart: Chart) {
     let curve = |name, values| Curve { name, places, values };
     match healthy {
-        [] => vec![curve("", values)],
-        healthy => vec![curve("damaged", values), curve("healthy", healthy)],
+        [] => Chart { curves: &[curve("", values)], ..chart }.write(page),
+        healthy => {
+            let curves = [curve("damaged", values), curve("healthy", healthy)];
+            Chart { curves: &curves, drawn: &[1, 0], ..chart }.write(page);
+        }
     }
 }
 
-/// Of these the healthy bearing's is drawn first, behind the other.
-fn drawn(curves: &[Curve]) -> &'static [usize] {
-    match curves.len() {
-        2 => &[1, 0],
-        _ => &[],
-    }
-}
-
-/// A spectrum's lines, from 0 Hz on.
-fn lines_of<'a>(spectrum: &'a Spectrum, healthy: &'a [f64]) -> Vec<Curve<'a>> {
-    let places = Places::Even(0.0, spectrum.df_hz);
-    beside(places, &spectrum.amplitude, healthy)
+/// [`embed`] of a spectrum's lines, from 0 Hz on.
+fn embed_lines(page: &mut String, spectrum: &Spectrum, healthy: &[f64], chart: Chart) {
+    let chart = Chart { peak: true, y: (&spectrum.label, &spectrum.unit), ..chart };
+    embed(page, Places::Even(0.0, spectrum.df_hz), &spectrum.amplitude, healthy, chart);
 }
 
 fn spectrum(page: &mut String, report: &Report) {
@@ -148,20 +141,16 @@ fn spectrum(page: &mut String, report: &Report) {
         return none(page, "No spectrum was made.");
     }
     figure(page, "spectrum", |layout| plots::spectrum(report, layout), &escape(&spectrum.note));
-    let curves = lines_of(spectrum, &report.healthy.spectrum);
-    Chart {
+    let lanes = plots::marker_lanes(&report.markers);
+    let chart = Chart {
         name: "spectrum",
-        curves: &curves,
-        drawn: drawn(&curves),
         domain: plots::spectrum_domain(report),
-        peak: true,
         x: ("Frequency", "Hz"),
-        y: (&spectrum.label, &spectrum.unit),
         velocity: true,
-        toggles: &plots::marker_lanes(&report.markers),
+        toggles: &lanes,
         ..Chart::default()
-    }
-    .write(page);
+    };
+    embed_lines(page, spectrum, &report.healthy.spectrum, chart);
 }
 
 fn envelope(page: &mut String, report: &Report) {
@@ -181,27 +170,19 @@ fn envelope(page: &mut String, report: &Report) {
     }
     figure(page, "envelope", |layout| plots::envelope_spectrum(report, layout), &caption);
     let lanes = plots::marker_lanes(&report.markers);
-    let curves = lines_of(spectrum, &report.healthy.envelope_spectrum);
-    Chart {
+    let chart = Chart {
         name: "envelope",
-        curves: &curves,
-        drawn: drawn(&curves),
         domain: plots::envelope_domain(report),
-        peak: true,
         x: ("Frequency", "Hz"),
-        y: (&spectrum.label, &spectrum.unit),
         lanes: &lanes,
         toggles: &lanes,
         ..Chart::default()
-    }
-    .write(page);
+    };
+    embed_lines(page, spectrum, &report.healthy.envelope_spectrum, chart);
     if report.markers.is_empty() {
         return;
     }
-    page.push_str(
-        "<div class=\"scroll\"><table><thead><tr><th>Name</th><th class=\"number\">Frequency</th><th>Unit</th><th>Excitation</th>\
-         <th>Defect present</th></tr></thead><tbody>\n",
-    );
+    open_table(page, false, &["Name", "#Frequency", "Unit", "Excitation", "Defect present"]);
     for marker in &report.markers {
         let _ = writeln!(
             page,
@@ -212,27 +193,22 @@ fn envelope(page: &mut String, report: &Report) {
             if marker.present { "<span class=\"tag assumed\">yes</span>" } else { "no" },
         );
     }
-    page.push_str("</tbody></table></div>\n");
+    close_table(page);
 }
 
 fn orders(page: &mut String, report: &Report) {
     let spectrum = &report.envelope_orders;
     figure(page, "orders", |layout| plots::order_spectrum(report, layout), &escape(&spectrum.note));
     let lanes = plots::order_lanes(&report.order_markers);
-    let curves = lines_of(spectrum, &report.healthy.envelope_orders);
-    Chart {
+    let chart = Chart {
         name: "orders",
-        curves: &curves,
-        drawn: drawn(&curves),
         domain: plots::order_domain(report),
-        peak: true,
         x: ("Order", ""),
-        y: (&spectrum.label, &spectrum.unit),
         lanes: &lanes,
         toggles: &lanes,
         ..Chart::default()
-    }
-    .write(page);
+    };
+    embed_lines(page, spectrum, &report.healthy.envelope_orders, chart);
 }
 
 fn damage(page: &mut String, report: &Report) {
@@ -300,10 +276,8 @@ fn damage(page: &mut String, report: &Report) {
 
 /// A note as a sentence of the page.
 fn sentence(note: &str) -> String {
-    let mut letters = note.chars();
-    let first: String = letters.next().map(|c| c.to_uppercase().collect()).unwrap_or_default();
     let end = if note.is_empty() || note.ends_with('.') { "" } else { "." };
-    escape(&format!("{first}{}{end}", letters.as_str()))
+    escape(&format!("{}{end}", capital(note)))
 }
 
 fn passes(page: &mut String, report: &Report) {

@@ -34,21 +34,13 @@ pub(crate) fn sensor_response(view: &SensorView, layout: Layout) -> Picture {
     let highest = range(view.gain_db.iter().copied()).map_or(0.0, |r| r.1);
     let gain: Vec<f64> = view.gain_db.iter().map(|g| g.max(highest - DEEPEST_DB)).collect();
     let (lo, hi) = range(khz.iter().copied()).unwrap_or((0.0, 1.0));
-    let mut chart = Chart::new(Spec {
-        name: "sensor-response".into(),
-        title: "Response of the measurement chain".into(),
-        size: layout.size(230.0),
-        x: Domain::exact(lo, hi),
-        y: Domain::around(gain.iter().copied().chain([-1.0, 1.0])),
-        x_label: "Frequency".into(),
-        x_unit: "kHz".into(),
-        y_label: "Gain".into(),
-        y_unit: "dB".into(),
-        lanes: vec![],
-        left: 0.0,
-        right: 0.0,
-        x_axis: true,
-    });
+    let mut chart = Chart::new(Spec::new(
+        "sensor-response",
+        "Response of the measurement chain",
+        layout.size(230.0),
+        (Domain::exact(lo, hi), "Frequency", "kHz"),
+        (Domain::around(gain.iter().copied().chain([-1.0, 1.0])), "Gain", "dB"),
+    ));
     chart.points(&[lo, hi], &[0.0, 0.0], Paint::line(ink::FAINT, 1.0).dashed(&[4.0, 4.0]));
     chart.points(&khz, &gain, Paint::line(ink::BLUE, 1.6));
     chart.finish()

@@ -4,146 +4,74 @@
 use std::fmt::Write as _;
 
 use crate::chart::{Chart, Domain, Lane, Mark, Size, Spec, range};
-use crate::data::{Series, Spectrum};
 use crate::embedded::{self, Curve, Places};
 use crate::frame::{close, none, open, section, unit_html};
 use crate::number::significant;
 use crate::picture::{Paint, Picture, escape, ink};
 use crate::plots::time_unit;
-
-/// Everything that a contact sheet shows.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct SheetReport {
-    /// Name of the data set.
-    pub title: String,
-    /// The version of the program that made it.
-    pub version: String,
-    /// The signal's column.
-    pub signal: String,
-    /// Its unit.
-    pub unit: String,
-    /// Classes in the order of their labels.
-    pub groups: Vec<SheetGroup>,
-}
-
-/// Runs of one class.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct SheetGroup {
-    /// Name of the class.
-    pub name: String,
-    /// Its number.
-    pub label: usize,
-    /// Runs of it that could be shown.
-    pub runs: usize,
-    /// Those shown.
-    pub tiles: Vec<SheetTile>,
-}
-
-/// One run.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct SheetTile {
-    /// Its number.
-    pub run: i64,
-    /// What it is for: train, validation, test or open.
-    pub split: String,
-    /// Speed of the shaft, r/min; `None` where it varies.
-    pub speed_rpm: Option<f64>,
-    /// Load [x, y], N.
-    pub load_n: Vec<f64>,
-    /// Its damage.
-    pub damage: Vec<SheetDamage>,
-    /// RMS of the signal, in its unit.
-    pub rms: f64,
-    /// A stretch of the signal.
-    pub stretch: Series,
-    /// Band of the envelope, Hz.
-    pub band_hz: (f64, f64),
-    /// Spectrum of the envelope.
-    pub envelope: Spectrum,
-    /// Frequency up to which the spectrum is shown, Hz.
-    pub top_hz: f64,
-}
-
-/// Damage of a run.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct SheetDamage {
-    /// outer-raceway, inner-raceway or roller.
-    pub on: String,
-    /// Place, degrees counter-clockwise from +x.
-    pub center_deg: f64,
-    /// Extent along the rolling direction, mm.
-    pub length_mm: f64,
-    /// Along the axis, mm.
-    pub width_mm: f64,
-    /// Largest depth, um.
-    pub depth_um: f64,
-    /// Its ball-pass frequency, Hz; `None` where the speed varies.
-    pub frequency_hz: Option<f64>,
-}
+use brinell_study::dataset::{Sheet, SheetRun};
 
 /// Two of these are beside each other on a desktop, one under the other on a phone.
 const SIZE: Size = Size { width: 460.0, height: 190.0, font: 13.0 };
 const CURVE: Paint = Paint::line(ink::BLUE, 1.0);
 
 /// The self-contained page.
-pub fn sheet_html(report: &SheetReport) -> String {
-    let runs: usize = report.groups.iter().map(|group| group.tiles.len()).sum();
-    let subtitle = format!("{runs} of its runs: {}", report.signal);
-    let version = ("Simulated", report.version.as_str());
-    let mut page = open(&report.title, &subtitle, version, []);
+pub fn sheet_html(sheet: &Sheet) -> String {
+    let runs: usize = sheet.classes.iter().map(|class| class.shown.len()).sum();
+    let subtitle = format!("{runs} of its runs: {}", sheet.signal);
+    let version = ("Simulated", sheet.version.as_str());
+    let mut page = open(&sheet.name, &subtitle, version, []);
     page.push_str("<main>\n");
     none(
         &mut page,
         "Left the end of the signal, right the spectrum of its envelope in a band; every picture has a scale of its own. Marks: the frequency of the run's damage in pure rolling, and its multiples. \
          Runs that failed, and runs whose labels are held out, are not shown.",
     );
-    for group in &report.groups {
-        let title = format!("{} · label {}", group.name, group.label);
-        section(&mut page, &format!("class{}", group.label), &title, |page| {
-            none(page, &format!("{} of {} runs.", group.tiles.len(), group.runs));
-            for tile in &group.tiles {
-                put(page, report, tile);
+    for class in &sheet.classes {
+        let title = format!("{} · label {}", class.name, class.label);
+        section(&mut page, &format!("class{}", class.label), &title, |page| {
+            none(page, &format!("{} of {} runs.", class.shown.len(), class.runs));
+            for run in &class.shown {
+                put(page, sheet, run);
             }
         });
     }
     close(page, "", &[])
 }
 
-fn put(page: &mut String, report: &SheetReport, tile: &SheetTile) {
-    let _ = writeln!(page, "<div class=\"tile\">\n<p>{}</p>", words(report, tile));
-    let (waves, lines) = (waveform(report, tile), envelope(report, tile));
+fn put(page: &mut String, sheet: &Sheet, run: &SheetRun) {
+    let _ = writeln!(page, "<div class=\"tile\">\n<p>{}</p>", words(sheet, run));
+    let (waves, lines) = (waveform(sheet, run), envelope(sheet, run));
     for (id, picture) in [("w", waves), ("e", lines)] {
-        let drawn = picture.inline(&format!("run{}-{id}", tile.run), "");
+        let drawn = picture.inline(&format!("run{}-{id}", run.run), "");
         let _ = writeln!(page, "<figure>{drawn}</figure>");
     }
     page.push_str("</div>\n");
-    let series = &tile.stretch;
-    let (unit, scale) = time_unit(series.dt_s * series.values.len().saturating_sub(1) as f64);
-    let places = Places::Even(series.t0_s * scale, series.dt_s * scale);
+    let (unit, scale) = time_unit(run.dt_s * run.stretch.len().saturating_sub(1) as f64);
+    let places = Places::Even(run.from_s * scale, run.dt_s * scale);
     embed(
         page,
-        tile,
+        run,
         "waveform",
-        (places, &series.values),
+        (places, &run.stretch),
         embedded::Chart {
             x: ("Time", unit),
-            y: (&report.signal, &report.unit),
-            domain: Domain::around(series.values.iter().copied()),
+            y: (&sheet.signal, &sheet.unit),
+            domain: Domain::around(run.stretch.iter().copied()),
             ..embedded::Chart::default()
         },
     );
-    let spectrum = &tile.envelope;
-    let lanes = lanes(tile, top(tile).unwrap_or(1.0));
-    let places = Places::Even(0.0, spectrum.df_hz);
+    let lanes = lanes(run, top(run).unwrap_or(1.0));
+    let places = Places::Even(0.0, run.df_hz);
     embed(
         page,
-        tile,
+        run,
         "envelope",
-        (places, &spectrum.amplitude),
+        (places, &run.envelope),
         embedded::Chart {
             x: ("Frequency", "Hz"),
-            y: ("Envelope", &report.unit),
-            domain: envelope_domain(tile),
+            y: ("Envelope", &sheet.unit),
+            domain: envelope_domain(run),
             peak: true,
             lanes: &lanes,
             ..embedded::Chart::default()
@@ -151,13 +79,13 @@ fn put(page: &mut String, report: &SheetReport, tile: &SheetTile) {
     );
 }
 
-/// Values that a tile keeps for zooming.
+/// Values that a run keeps for zooming.
 const KEPT: usize = 4096;
 
-/// Writes what the page's script needs of one picture of a tile.
-fn embed(page: &mut String, tile: &SheetTile, what: &str, (places, values): (Places, &[f64]), chart: embedded::Chart) {
+/// Writes what the page's script needs of one picture of a run.
+fn embed(page: &mut String, run: &SheetRun, what: &str, (places, values): (Places, &[f64]), chart: embedded::Chart) {
     embedded::Chart {
-        name: &format!("run{}-{what}", tile.run),
+        name: &format!("run{}-{what}", run.run),
         curves: &[Curve { name: "", places, values }],
         most: KEPT,
         small: true,
@@ -167,18 +95,18 @@ fn embed(page: &mut String, tile: &SheetTile, what: &str, (places, values): (Pla
 }
 
 /// The labels of a run.
-fn words(report: &SheetReport, tile: &SheetTile) -> String {
-    let mut words = vec![format!("<strong>run {}</strong>", tile.run)];
-    if tile.split != "open" {
-        words.push(escape(&tile.split));
+fn words(sheet: &Sheet, run: &SheetRun) -> String {
+    let mut words = vec![format!("<strong>run {}</strong>", run.run)];
+    if run.split != "open" {
+        words.push(escape(&run.split));
     }
-    words.push(match tile.speed_rpm {
+    words.push(match run.speed_rpm {
         Some(rpm) => format!("{} r/min", significant(rpm, 4)),
         None => "speed varies".into(),
     });
-    let load: f64 = tile.load_n.iter().map(|x| x * x).sum::<f64>().sqrt();
+    let load: f64 = run.load_n.iter().map(|x| x * x).sum::<f64>().sqrt();
     words.push(format!("{} N", significant(load, 3)));
-    for damage in &tile.damage {
+    for damage in &run.defects {
         words.push(format!(
             "{} at {}°, {} mm × {} mm, {} µm deep",
             escape(&damage.on),
@@ -188,78 +116,76 @@ fn words(report: &SheetReport, tile: &SheetTile) -> String {
             significant(damage.depth_um, 2)
         ));
     }
-    words.push(format!("RMS {} {}", significant(tile.rms, 3), unit_html(&report.unit)));
-    let (low, high) = tile.band_hz;
+    words.push(format!("RMS {} {}", significant(run.rms, 3), unit_html(&sheet.unit)));
+    let (low, high) = run.band_hz;
     words.push(format!("envelope {} to {} kHz", significant(1e-3 * low, 2), significant(1e-3 * high, 2)));
     words.join(" · ")
 }
 
-fn waveform(report: &SheetReport, tile: &SheetTile) -> Picture {
-    let series = &tile.stretch;
-    let span = series.dt_s * series.values.len().saturating_sub(1) as f64;
+fn waveform(sheet: &Sheet, run: &SheetRun) -> Picture {
+    let span = run.dt_s * run.stretch.len().saturating_sub(1) as f64;
     let (unit, scale) = time_unit(span);
     let is_known = span.is_finite() && span > 0.0;
     let (from, to) = match is_known {
-        true => (series.t0_s * scale, (series.t0_s + span) * scale),
+        true => (run.from_s * scale, (run.from_s + span) * scale),
         false => (0.0, 1.0),
     };
     let mut chart = Chart::new(Spec {
-        y: Domain::around(series.values.iter().copied()),
+        y: Domain::around(run.stretch.iter().copied()),
         y_label: String::new(),
-        y_unit: report.unit.clone(),
-        ..spec("waveform", tile, Domain::exact(from, to), "Time", unit)
+        y_unit: sheet.unit.clone(),
+        ..spec("waveform", run, Domain::exact(from, to), "Time", unit)
     });
-    if is_known && range(series.values.iter().copied()).is_some() {
-        let step = series.dt_s * scale;
-        chart.curve(from, step, &series.values, false, CURVE);
+    if is_known && range(run.stretch.iter().copied()).is_some() {
+        let step = run.dt_s * scale;
+        chart.curve(from, step, &run.stretch, false, CURVE);
     } else {
         chart.say("No samples");
     }
-    chart.interactive(&format!("run{}-waveform", tile.run));
+    chart.interactive(&format!("run{}-waveform", run.run));
     chart.finish()
 }
 
 /// The frequency up to which the envelope's spectrum is shown; `None` without a spectrum.
-fn top(tile: &SheetTile) -> Option<f64> {
-    let lines = tile.envelope.amplitude.len().saturating_sub(1);
-    let end = tile.envelope.df_hz * lines as f64;
-    let asked = match tile.top_hz > 0.0 {
-        true => tile.top_hz.min(end),
+fn top(run: &SheetRun) -> Option<f64> {
+    let lines = run.envelope.len().saturating_sub(1);
+    let end = run.df_hz * lines as f64;
+    let asked = match run.top_hz > 0.0 {
+        true => run.top_hz.min(end),
         false => end,
     };
     (end.is_finite() && end > 0.0).then_some(asked)
 }
 
-fn envelope_domain(tile: &SheetTile) -> Domain {
-    let (spectrum, top) = (&tile.envelope, top(tile).unwrap_or(1.0));
-    let shown = spectrum.amplitude.iter().copied().enumerate().skip(1);
-    let shown = shown.take_while(|(k, _)| *k as f64 * spectrum.df_hz <= top);
+fn envelope_domain(run: &SheetRun) -> Domain {
+    let top = top(run).unwrap_or(1.0);
+    let shown = run.envelope.iter().copied().enumerate().skip(1);
+    let shown = shown.take_while(|(k, _)| *k as f64 * run.df_hz <= top);
     Domain::from_zero(shown.map(|(_, level)| level))
 }
 
-fn envelope(report: &SheetReport, tile: &SheetTile) -> Picture {
-    let spectrum = &tile.envelope;
-    let known = top(tile);
+fn envelope(sheet: &Sheet, run: &SheetRun) -> Picture {
+    let known = top(run);
     let top = known.unwrap_or(1.0);
     let mut chart = Chart::new(Spec {
-        y: envelope_domain(tile),
-        y_unit: report.unit.clone(),
-        lanes: lanes(tile, top),
-        ..spec("envelope", tile, Domain::exact(0.0, top), "Frequency", "Hz")
+        y: envelope_domain(run),
+        y_unit: sheet.unit.clone(),
+        lanes: lanes(run, top),
+        ..spec("envelope", run, Domain::exact(0.0, top), "Frequency", "Hz")
     });
     if known.is_some() {
-        chart.curve(0.0, spectrum.df_hz, &spectrum.amplitude, true, CURVE);
+        chart.curve(0.0, run.df_hz, &run.envelope, true, CURVE);
     } else {
         chart.say("No spectrum");
     }
-    chart.interactive(&format!("run{}-envelope", tile.run));
+    chart.interactive(&format!("run{}-envelope", run.run));
     chart.finish()
 }
 
 /// Where damage repeats; a lane for each frequency.
-fn lanes(tile: &SheetTile, top: f64) -> Vec<Lane> {
+fn lanes(run: &SheetRun, top: f64) -> Vec<Lane> {
     let mut found: Vec<(f64, &str)> = Vec::new();
-    for damage in &tile.damage {
+    for damage in &run.defects {
         if let Some(hz) = damage.frequency_hz.filter(|hz| *hz > 0.0)
             && found.iter().all(|(other, _)| *other != hz)
         {
@@ -280,58 +206,53 @@ fn lanes(tile: &SheetTile, top: f64) -> Vec<Lane> {
     found.into_iter().zip(colors).map(lane).collect()
 }
 
-fn spec(what: &str, tile: &SheetTile, x: Domain, x_label: &str, x_unit: &str) -> Spec {
-    Spec {
-        name: format!("run{}-{what}", tile.run),
-        title: format!("Run {}: {what}", tile.run),
-        size: SIZE,
-        x,
-        y: Domain::exact(0.0, 1.0),
-        x_label: x_label.into(),
-        x_unit: x_unit.into(),
-        y_label: String::new(),
-        y_unit: String::new(),
-        lanes: vec![],
-        left: 0.0,
-        right: 0.0,
-        x_axis: true,
-    }
+fn spec(what: &str, run: &SheetRun, x: Domain, x_label: &str, x_unit: &str) -> Spec {
+    Spec::new(
+        format!("run{}-{what}", run.run),
+        format!("Run {}: {what}", run.run),
+        SIZE,
+        (x, x_label, x_unit),
+        (Domain::exact(0.0, 1.0), "", ""),
+    )
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use brinell_study::dataset::{SheetClass, SheetDefect};
 
-    fn tile() -> SheetTile {
+    fn tile() -> SheetRun {
         let envelope: Vec<f64> = (0..200).map(|k| f64::from(u8::from(k % 20 == 0))).collect();
-        SheetTile {
+        SheetRun {
             run: 7,
             split: "test".into(),
             speed_rpm: Some(1750.0),
             load_n: vec![3.0, -4.0],
-            damage: vec![SheetDamage {
+            defects: vec![SheetDefect {
                 on: "outer-<raceway>".into(),
                 frequency_hz: Some(100.0),
-                ..SheetDamage::default()
+                ..SheetDefect::default()
             }],
-            stretch: Series { dt_s: 1e-4, values: vec![0.0, 1.0, -1.0], ..Series::default() },
-            envelope: Spectrum { df_hz: 5.0, amplitude: envelope, ..Spectrum::default() },
+            dt_s: 1e-4,
+            stretch: vec![0.0, 1.0, -1.0],
+            df_hz: 5.0,
+            envelope,
             top_hz: 450.0,
-            ..SheetTile::default()
+            ..SheetRun::default()
         }
     }
 
     #[test]
     fn prop_every_run_is_on_the_page_with_its_labels_and_nothing_is_markup() {
-        let report = SheetReport {
-            title: "a <b>".into(),
-            groups: vec![SheetGroup {
+        let report = Sheet {
+            name: "a <b>".into(),
+            classes: vec![SheetClass {
                 name: "outer".into(),
                 label: 1,
                 runs: 12,
-                tiles: vec![tile(), SheetTile::default()],
+                shown: vec![tile(), SheetRun::default()],
             }],
-            ..SheetReport::default()
+            ..Sheet::default()
         };
         let page = sheet_html(&report);
         for part in [

@@ -111,19 +111,14 @@ fn specs(layout: Layout, (x_label, x_unit): (&str, &str), panels: &[(&str, Vec<C
         .map(|(index, (label, curves))| {
             let x_axis = index + 1 == count;
             Spec {
-                name: String::new(),
-                title: String::new(),
-                size: Size { height: part + if x_axis { 3.4 * size.font } else { 0.0 }, ..size },
-                x: Domain::exact(lo, hi),
-                y: Domain::around(curves.iter().flat_map(|c| &c.1).copied()),
-                x_label: x_label.into(),
-                x_unit: x_unit.into(),
-                y_label: (*label).into(),
-                y_unit: "%".into(),
-                lanes: vec![],
-                left: 0.0,
-                right: 0.0,
                 x_axis,
+                ..Spec::new(
+                    "",
+                    "",
+                    Size { height: part + if x_axis { 3.4 * size.font } else { 0.0 }, ..size },
+                    (Domain::exact(lo, hi), x_label, x_unit),
+                    (Domain::around(curves.iter().flat_map(|c| &c.1).copied()), (*label), "%"),
+                )
             }
         })
         .collect();

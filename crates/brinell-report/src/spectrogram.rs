@@ -78,19 +78,14 @@ pub fn spectrogram(view: &Spectrogram, layout: Layout) -> Picture {
     // A bin's shade covers half a bin to each side of it.
     let top = if frames > 0 { view.df_hz * (view.bins as f64 - 0.5) } else { 1.0 };
     let mut chart = Chart::new(Spec {
-        name: "spectrogram".into(),
-        title: format!("Spectrogram: {}", view.label),
-        size,
-        x: Domain::exact(first * scale, last * scale),
-        y: Domain::exact(-0.5 * view.df_hz * f64::from(u8::from(frames > 0)), top),
-        x_label: "Time".into(),
-        x_unit: unit.into(),
-        y_label: "Frequency".into(),
-        y_unit: "Hz".into(),
-        lanes: vec![],
-        left: 0.0,
         right: SCALE_MARGIN * size.font,
-        x_axis: true,
+        ..Spec::new(
+            "spectrogram",
+            format!("Spectrogram: {}", view.label),
+            size,
+            (Domain::exact(first * scale, last * scale), "Time", unit),
+            (Domain::exact(-0.5 * view.df_hz * f64::from(u8::from(frames > 0)), top), "Frequency", "Hz"),
+        )
     });
     let (columns, levels) = view.levels(if layout.roomy() { 400 } else { 200 });
     let Some((_, highest)) = range(levels.iter().copied()) else {

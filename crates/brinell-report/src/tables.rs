@@ -20,6 +20,22 @@ pub struct Table {
     pub note: String,
 }
 
+/// A table up to its rows; heads as [`Table::columns`]. `stack` has narrow pages set the cells of a row one below the
+/// other.
+pub(crate) fn open_table(page: &mut String, stack: bool, heads: &[impl AsRef<str>]) {
+    let class = if stack { " class=\"stack\"" } else { "" };
+    let _ = write!(page, "<div class=\"scroll\"><table{class}><thead><tr>");
+    for head in heads.iter().map(AsRef::as_ref) {
+        let class = if head.starts_with('#') { " class=\"number\"" } else { "" };
+        let _ = write!(page, "<th{class}>{}</th>", escape(head.trim_start_matches('#')));
+    }
+    page.push_str("</tr></thead><tbody>\n");
+}
+
+pub(crate) fn close_table(page: &mut String) {
+    page.push_str("</tbody></table></div>\n");
+}
+
 pub(crate) fn facts(page: &mut String, facts: &[Fact]) {
     if facts.is_empty() {
         return;
@@ -61,10 +77,7 @@ pub(crate) fn fact_table(page: &mut String, facts: &[Fact], absent: &str) {
     if facts.is_empty() {
         return none(page, absent);
     }
-    page.push_str(
-        "<div class=\"scroll\"><table class=\"stack\"><thead><tr><th>Quantity</th><th class=\"number\">Value</th><th>Unit</th>\
-         <th>Note</th></tr></thead><tbody>\n",
-    );
+    open_table(page, true, &["Quantity", "#Value", "Unit", "Note"]);
     for fact in facts {
         let _ = write!(page, "<tr><th scope=\"row\">{}</th>", escape(&fact.label));
         value_cells(page, &fact.value, &fact.unit);
@@ -74,7 +87,7 @@ pub(crate) fn fact_table(page: &mut String, facts: &[Fact], absent: &str) {
         }
         page.push_str("</td></tr>\n");
     }
-    page.push_str("</tbody></table></div>\n");
+    close_table(page);
 }
 
 fn value_cells(page: &mut String, value: &Value, unit: &str) {
@@ -94,11 +107,9 @@ pub(crate) fn indicators(page: &mut String, report: &Report) {
     if table.rows.is_empty() {
         return none(page, "No indicators were computed.");
     }
-    page.push_str("<div class=\"scroll\"><table><thead><tr><th>Channel</th><th>Signal</th>");
-    for column in &table.columns {
-        let _ = write!(page, "<th class=\"number\">{}</th>", escape(column));
-    }
-    page.push_str("</tr></thead><tbody>\n");
+    let columns = table.columns.iter().map(|column| format!("#{column}"));
+    let heads: Vec<String> = ["Channel", "Signal"].map(String::from).into_iter().chain(columns).collect();
+    open_table(page, false, &heads);
     for row in &table.rows {
         let _ = write!(
             page,
@@ -113,7 +124,7 @@ pub(crate) fn indicators(page: &mut String, report: &Report) {
         }
         page.push_str("</tr>\n");
     }
-    page.push_str("</tbody></table></div>\n");
+    close_table(page);
     if !table.note.is_empty() {
         none(page, &escape(&table.note));
     }
@@ -155,10 +166,7 @@ pub(crate) fn assumptions(page: &mut String, report: &Report) {
 }
 
 fn values<'a>(page: &mut String, all: impl Iterator<Item = &'a Assumption>) {
-    page.push_str(
-        "<div class=\"scroll\"><table class=\"stack\"><thead><tr><th>Key</th><th class=\"number\">Value</th><th>Unit</th>\
-         <th>Source or reason</th></tr></thead><tbody>\n",
-    );
+    open_table(page, true, &["Key", "#Value", "Unit", "Source or reason"]);
     for assumption in all {
         let _ = write!(page, "<tr><th scope=\"row\"><code>{}</code></th>", escape(&assumption.key));
         value_cells(page, &assumption.value, &assumption.unit);
@@ -168,17 +176,14 @@ fn values<'a>(page: &mut String, all: impl Iterator<Item = &'a Assumption>) {
         };
         let _ = writeln!(page, "<td class=\"note\">{tag}{}</td></tr>", escape(&assumption.source));
     }
-    page.push_str("</tbody></table></div>\n");
+    close_table(page);
 }
 
 pub(crate) fn table(page: &mut String, table: &Table) {
-    let _ = write!(page, "<section>\n<h2>{}</h2>\n<div class=\"scroll\"><table><thead><tr>", escape(&table.title));
+    let _ = writeln!(page, "<section>\n<h2>{}</h2>", escape(&table.title));
+    open_table(page, false, &table.columns);
     let number = |i: usize| table.columns.get(i).is_some_and(|c| c.starts_with('#'));
     let class = |i: usize| if number(i) { " class=\"number\"" } else { "" };
-    for (i, column) in table.columns.iter().enumerate() {
-        let _ = write!(page, "<th{}>{}</th>", class(i), escape(column.trim_start_matches('#')));
-    }
-    page.push_str("</tr></thead><tbody>\n");
     for row in &table.rows {
         page.push_str("<tr>");
         for (i, cell) in row.iter().enumerate() {
@@ -190,7 +195,7 @@ pub(crate) fn table(page: &mut String, table: &Table) {
         }
         page.push_str("</tr>\n");
     }
-    page.push_str("</tbody></table></div>\n");
+    close_table(page);
     if !table.note.is_empty() {
         let _ = writeln!(page, "<p class=\"none\">{}</p>", escape(&table.note));
     }
@@ -203,10 +208,7 @@ pub(crate) fn failures(page: &mut String, title: &str, each: &str, all: &[(Strin
         return;
     }
     section(page, "failures", title, |page| {
-        let _ = writeln!(
-            page,
-            "<div class=\"scroll\"><table class=\"stack\"><thead><tr><th>{each}</th><th>Why</th></tr></thead><tbody>"
-        );
+        open_table(page, true, &[each, "Why"]);
         for (name, reason) in all {
             let _ = writeln!(
                 page,
@@ -215,6 +217,6 @@ pub(crate) fn failures(page: &mut String, title: &str, each: &str, all: &[(Strin
                 escape(reason)
             );
         }
-        page.push_str("</tbody></table></div>\n");
+        close_table(page);
     });
 }

@@ -1,8 +1,8 @@
 //! The page of an analysis: what must be on it, and that nothing odd breaks it.
 
+use brinell::signal::kurtogram::Level;
 use brinell_report::{
-    AnalysisReport, Badge, Fact, Kurtogram, KurtogramLevel, Layout, Marker, Series, Spectrum, Table, analysis_html,
-    analysis_pictures,
+    AnalysisReport, Badge, Fact, Kurtogram, Layout, Marker, Series, Spectrum, Table, analysis_html, analysis_pictures,
 };
 use proptest::prelude::*;
 
@@ -44,7 +44,10 @@ fn report(text: &str, values: &[f64]) -> AnalysisReport {
         }],
         band_hz: Some((at(7), at(8))),
         kurtogram: Some(Kurtogram {
-            levels: values.chunks(2).map(|v| KurtogramLevel { bandwidth_hz: at(0), kurtosis: v.to_vec() }).collect(),
+            levels: values
+                .chunks(2)
+                .map(|v| Level { bandwidth: at(0), kurtosis: v.to_vec(), noise_scatter: 0.0 })
+                .collect(),
             chosen_hz: Some((at(7), at(8))),
             note: text.into(),
         }),
@@ -60,7 +63,7 @@ fn report(text: &str, values: &[f64]) -> AnalysisReport {
 /// Eight samples, a spectrum with one line, and a kurtogram of 1, 2 and 4 bands.
 fn plain() -> AnalysisReport {
     let mut r = report("plain", &[0.5, 1.0, 2.0, 0.0, 1.0, 1.5, 1.0, 1.0, 2.0]);
-    let level = |bandwidth_hz: f64, kurtosis: &[f64]| KurtogramLevel { bandwidth_hz, kurtosis: kurtosis.to_vec() };
+    let level = |bandwidth: f64, kurtosis: &[f64]| Level { bandwidth, kurtosis: kurtosis.to_vec(), noise_scatter: 0.0 };
     r.kurtogram = Some(Kurtogram {
         levels: vec![level(4000.0, &[0.1]), level(2000.0, &[0.0, 0.4]), level(1000.0, &[0.0, 0.0, 3.5, 0.2])],
         chosen_hz: Some((2000.0, 3000.0)),

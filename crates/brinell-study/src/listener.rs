@@ -1,6 +1,7 @@
 //! Who is informed of the runs of a study.
 
 use std::ops::ControlFlow;
+use std::sync::atomic::AtomicBool;
 
 /// Hears of runs as they begin and end, from the threads that do them.
 pub trait Listener: Sync {
@@ -20,6 +21,13 @@ pub trait Listener: Sync {
 pub trait RunListener {
     /// The simulated time reached, s. Breaking stops this run, and no other begins.
     fn at(&mut self, t: f64) -> ControlFlow<()>;
+}
+
+/// Breaks the run off once the flag is set.
+impl RunListener for &AtomicBool {
+    fn at(&mut self, _: f64) -> ControlFlow<()> {
+        brinell::many::go_on(self)
+    }
 }
 
 /// Hears nothing, and lets everything run to its end.

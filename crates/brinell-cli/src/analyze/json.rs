@@ -56,7 +56,3 @@ pub(super) fn whole_indicators(rest: &Rest) -> impl Iterator<Item = (&'static st
         Some((name, rest.moments.get(i)?))
     })
 }
-
-pub(super) fn pretty(json: &Value) -> String {
-    serde_json::to_string_pretty(json).unwrap_or_default() + "\n"
-}

@@ -14,10 +14,10 @@ pub(crate) use args::AnalyzeArgs;
 
 use crate::args::PlotFormat;
 use crate::failure::Failure;
-use crate::figures::{picture_files, ready_pictures};
+use crate::figures::ready_pictures;
 use crate::inputs::Inputs;
-use crate::results::{ANALYSIS, Earlier, Place, REPORT, Results, SCENARIO, names_below};
-use crate::say::{complain, document};
+use crate::results::{ANALYSIS, Earlier, Place, REPORT, Results, SCENARIO};
+use crate::say::{self, complain, pretty};
 use brinell::analysis::{
     Analysis, Comparison, Component, Levels, Options, Quantity, SUPPLY_HZ, Side, analyze as analysis_of, compare,
     velocity,
@@ -27,7 +27,7 @@ use brinell::signal::{Band, Indicator, Rotation, VelocityBands};
 use brinell_io::{atomic_prepare, atomic_write};
 use brinell_report::Picture;
 use files::{Files, files};
-use json::{as_json, pretty, whole_indicators};
+use json::{as_json, whole_indicators};
 use measured::{ASK_SPEED, Beyond, Measured, Reading, Rest, Wanted};
 use serde_json::Value;
 use std::path::{Path, PathBuf};
@@ -380,20 +380,15 @@ fn put_pages(
     earlier: &Earlier,
 ) -> Result<Vec<PathBuf>, Failure> {
     crate::run::make_folder(folder)?;
-    let mut files: Vec<PathBuf> = [ANALYSIS, REPORT].map(|name| folder.join(name)).into();
-    files.extend(picture_files(pictures, formats, folder));
-    let mut listing = json.clone();
-    listing["files"] = names_below(folder, &files).into();
-    let mut ready =
-        vec![atomic_prepare(folder.join(ANALYSIS), pretty(&listing))?, atomic_prepare(folder.join(REPORT), page)?];
+    let mut ready = vec![atomic_prepare(folder.join(REPORT), page)?];
     ready.extend(ready_pictures(pictures, formats, folder)?);
-    earlier.give_way(ready)
+    Ok(earlier.publish(ready, (ANALYSIS, 0), json.clone())?.0)
 }
 
 /// The JSON where `--json` wants it.
 fn put_json(args: &AnalyzeArgs, json: &Value, written: &mut Vec<PathBuf>) -> Result<(), Failure> {
     match args.json.as_deref() {
-        Some(path) if path == Path::new("-") => document(pretty(json).trim_end()),
+        Some(path) if path == Path::new("-") => say::json(json),
         Some(path) => {
             atomic_write(path, pretty(json).as_bytes())?;
             written.push(path.to_owned());

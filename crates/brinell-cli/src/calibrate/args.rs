@@ -96,6 +96,6 @@ pub(crate) struct CalibrateArgs {
     #[arg(long)]
     pub(crate) json: bool,
     /// Print nothing but errors
-    #[arg(short, long)]
+    #[arg(short, long, default_value_if("json", "true", "true"))]
     pub(crate) quiet: bool,
 }

@@ -14,7 +14,7 @@ use crate::files::{Source, stem};
 use crate::progress::Joint;
 use crate::results::{Place, Results};
 use crate::run::{make_folder, stop_flag};
-use crate::say::{complain, document, say, short};
+use crate::say::{self, complain, say, short};
 use crate::sweep::{duration, plural};
 pub(crate) use args::CalibrateArgs;
 use brinell::document::Loaded;
@@ -22,7 +22,7 @@ use brinell::result::{check_name, names};
 use brinell::simulate::Simulation;
 use brinell_study::calibrate::search::latin_hypercube;
 use brinell_study::calibrate::{
-    CalibrateError, Key, Settings, Target, Unfit, check_keys, check_targets, fit, least_budget,
+    CalibrateError, Key, Settings, Target, Unfit, check_keys, check_targets, fit, least_budget, start_size,
 };
 use brinell_study::campaign::fingerprint;
 use brinell_study::runner::{JOURNAL, Ledger, Task, estimate};
@@ -112,7 +112,7 @@ pub(crate) fn calibrate(args: &CalibrateArgs) -> Result<ExitCode, Failure> {
     let outcome = Outcome::new(&plan, &runs, found)?;
     let written = outcome.write(&folder)?;
     if args.json {
-        document(&serde_json::to_string_pretty(&outcome.json()).unwrap_or_default());
+        say::json(&outcome.json());
     }
     if !args.quiet {
         tell(&runs, &outcome, &written, begin);
@@ -259,7 +259,7 @@ fn tell_reasons(runs: &Runs, plan: &Plan) {
     let size = plan.settings.budget;
     let mut told: Vec<String> = Vec::new();
     // The start lies in the journal or was never a scenario; its points follow from the seed.
-    for place in latin_hypercube(plan.settings.seed, plan.keys.len(), start(size, plan.keys.len())) {
+    for place in latin_hypercube(plan.settings.seed, plan.keys.len(), start_size(plan.keys.len(), size)) {
         if let Err(reason) = runs.row(&place)
             && !told.contains(&reason)
             && told.len() < SHOWN
@@ -268,16 +268,4 @@ fn tell_reasons(runs: &Runs, plan: &Plan) {
             told.push(reason);
         }
     }
-}
-
-fn start(budget: usize, keys: usize) -> usize {
-    brinell_study::calibrate::start_size(keys, budget)
-}
-
-/// The files of a calibration.
-fn put(folder: &Path, name: &str, text: &str, written: &mut Vec<PathBuf>) -> Result<(), Failure> {
-    let path = folder.join(name);
-    brinell_io::atomic_write(&path, text.as_bytes())?;
-    written.push(path);
-    Ok(())
 }

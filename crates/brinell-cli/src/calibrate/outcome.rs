@@ -1,8 +1,10 @@
 //! What a calibration found, as numbers and files.
 
+use super::Plan;
 use super::runs::{Runs, own_uncertainty};
-use super::{Plan, put};
 use crate::failure::Failure;
+use crate::results::put;
+use crate::say::pretty;
 use brinell::document::Loaded;
 use brinell::signal::distribution::chi_square_tail;
 use brinell_io::{Cells, Column, Table};
@@ -122,7 +124,7 @@ impl<'a> Outcome<'a> {
     /// Everything that the calibration leaves; the same runs give the same bytes.
     pub(super) fn write(&self, folder: &Path) -> Result<Vec<PathBuf>, Failure> {
         let mut written = vec![self.table().write_csv(folder.join("calibrate.csv"))?];
-        let json = serde_json::to_string_pretty(&self.json()).unwrap_or_default() + "\n";
+        let json = pretty(&self.json());
         put(folder, "calibrate.json", &json, &mut written)?;
         put(folder, "best.toml", &self.best.to_toml(), &mut written)?;
         let page = brinell_report::calibration_html(&self.report());

@@ -3,7 +3,7 @@
 use super::outcome::Outcome;
 use crate::say::short;
 use crate::sweep::plural;
-use brinell_report::{CalibrationReport, Fact, FittedKey, Table, Tried, Value};
+use brinell_report::{CalibrationReport, Fact, FittedKey, Table, Tried};
 use brinell_study::calibrate::search::STEP;
 
 impl Outcome<'_> {
@@ -20,25 +20,19 @@ impl Outcome<'_> {
             .collect();
         let determined = self.found.iter().filter(|f| f.is_determined()).count();
         let names: Vec<&str> = self.found.iter().map(|f| f.name.as_str()).collect();
-        let text = |t: String| Value::Text(t);
         let p_value = self.p_value().map_or("no degree of freedom".to_owned(), |p| format!("p-value {}", short(p, 2)));
         let mut facts = vec![
             Fact::new(
                 "Chi-square",
-                text(short(self.chi_square(), 3)),
+                short(self.chi_square(), 3),
                 "",
                 format!("{}; {p_value}", plural(self.compared.len(), "target")),
             ),
-            Fact::new(
-                "Keys determined",
-                text(format!("{determined} of {}", self.found.len())),
-                "",
-                "by their 95 % interval",
-            ),
-            Fact::new("Runs", text(all.len().to_string()), "", format!("the best is run {}", self.fit.best + 1)),
+            Fact::new("Keys determined", format!("{determined} of {}", self.found.len()), "", "by their 95 % interval"),
+            Fact::new("Runs", all.len().to_string(), "", format!("the best is run {}", self.fit.best + 1)),
         ];
         if !failed.is_empty() {
-            facts.push(Fact::new("Failed", text(failed.len().to_string()), "", "reasons below"));
+            facts.push(Fact::new("Failed", failed.len().to_string(), "", "reasons below"));
         }
         CalibrationReport {
             title: format!("Calibration of {}", self.best.scenario.name),
@@ -48,7 +42,7 @@ impl Outcome<'_> {
             verdict: self.verdict(),
             facts,
             keys: self.keys(),
-            found: (self.found.iter()).map(|f| Fact::new(&f.name, text(short(f.value, 5)), f.unit, f.told())).collect(),
+            found: (self.found.iter()).map(|f| Fact::new(&f.name, short(f.value, 5), f.unit, f.told())).collect(),
             undetermined: self.undetermined(),
             targets: self.targets(),
             correlation: self.correlation(),

@@ -31,7 +31,7 @@ impl FromPoints<'_> {
         let settings = self.settings(place);
         let loaded = self.source.load(&settings, true);
         let scenario = loaded.map_err(|failure| crate::sweep::reason(&failure))?.scenario;
-        Ok(Task { fingerprint: self.fingerprint(&scenario), duration_s: scenario.simulation.duration_s, settings })
+        Ok(Task { fingerprint: self.fingerprint(&scenario), ..Task::new(settings, &scenario) })
     }
 }
 
@@ -93,8 +93,7 @@ impl Runs<'_> {
             }
         }
         self.done += tasks.len();
-        let went =
-            campaign::run_within(&tasks, &self.points, &mut self.ledger, self.threads, &mut self.joint, self.stop);
+        let went = campaign::run_within(&tasks, &self.points, &mut self.ledger, self.threads, &self.joint, self.stop);
         match went {
             Ok(flow) if flow.is_continue() => {}
             Ok(_) => return Err(Unfit::Interrupted),

@@ -50,6 +50,6 @@ pub(crate) struct CompareArgs {
     #[arg(long)]
     pub(crate) json: bool,
     /// Print nothing but errors
-    #[arg(short, long)]
+    #[arg(short, long, default_value_if("json", "true", "true"))]
     pub(crate) quiet: bool,
 }

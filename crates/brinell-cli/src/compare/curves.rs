@@ -4,17 +4,11 @@ use super::sides::Side;
 use brinell::channel::STIFFNESS_UNIT;
 use brinell::observe::passes::{PassPoint, place};
 use brinell::result::{Impacts, RunResult, impacts};
-use brinell_report::{Along, OverlaidCurve, Overlay, Piece, Vertical};
+use brinell_report::{Along, OverlaidCurve, Overlay, Piece, Vertical, capital};
 
 /// Name of the acceleration that a run's curves show.
 fn acceleration(run: &RunResult) -> String {
     format!("acceleration sensor_a{}", if run.findings.axis == 0 { "x" } else { "y" })
-}
-
-fn capital(text: &str) -> String {
-    let mut letters = text.chars();
-    let first: String = letters.next().into_iter().flat_map(char::to_uppercase).collect();
-    first + letters.as_str()
 }
 
 /// A stretch of the waveforms, five ball-pass periods long, from where all are analysed.
@@ -39,18 +33,13 @@ pub(super) fn waveform(runs: &[&RunResult]) -> Overlay {
         let along = Along::Even { first: 1e3 * first, step };
         OverlaidCurve { of, along, values }
     });
+    let y_label = capital(&acceleration(runs[0]));
     Overlay {
-        name: "waveform".into(),
-        x_label: "Time".into(),
-        x_unit: "ms".into(),
         x_range: Some((1e3 * from, 1e3 * (from + width))),
-        y_label: capital(&acceleration(runs[0])),
-        y_unit: "m/s^2".into(),
-        curves: curves.collect(),
         note: "The first impacts of the analysed time. Impacts amplify small differences: later the runs drift apart even where their \
                statistics agree."
             .into(),
-        ..Overlay::default()
+        ..Overlay::new("waveform", ("Time", "ms"), (&y_label, "m/s^2"), curves.collect())
     }
 }
 
@@ -63,16 +52,11 @@ pub(super) fn spectrum(runs: &[&RunResult]) -> Piece {
     if curves.is_empty() {
         return Piece::Words("The runs are too short for a spectrum.".into());
     }
+    let y_label = format!("Amplitude of {}", acceleration(runs[0]));
     Piece::Overlay(Overlay {
-        name: "spectrum".into(),
-        x_label: "Frequency".into(),
-        x_unit: "Hz".into(),
-        y_label: format!("Amplitude of {}", acceleration(runs[0])),
-        y_unit: "m/s^2".into(),
         vertical: Vertical::Decades,
-        curves,
         note: "Peak amplitude, Hann window, whole analysed time.".into(),
-        ..Overlay::default()
+        ..Overlay::new("spectrum", ("Frequency", "Hz"), (&y_label, "m/s^2"), curves)
     })
 }
 
@@ -99,14 +83,8 @@ pub(super) fn envelope(sides: &[Side], runs: &[&RunResult]) -> Piece {
     let top = markers.iter().filter(|m| m.present).map(|m| m.frequency_hz);
     let top = top.fold(0.0, f64::max);
     Piece::Overlay(Overlay {
-        name: "envelope-spectrum".into(),
-        x_label: "Frequency".into(),
-        x_unit: "Hz".into(),
         x_range: (top > 0.0).then_some((0.0, 5.5 * top)),
-        y_label: "Envelope amplitude".into(),
-        y_unit: "m/s^2".into(),
         vertical: Vertical::FromZero,
-        curves,
         note: format!(
             "Envelope of {} between {:.1} and {:.1} kHz. Marked: the defect frequencies of {} in pure rolling.",
             acceleration(runs[0]),
@@ -115,7 +93,7 @@ pub(super) fn envelope(sides: &[Side], runs: &[&RunResult]) -> Piece {
             sides[0].label
         ),
         markers,
-        ..Overlay::default()
+        ..Overlay::new("envelope-spectrum", ("Frequency", "Hz"), ("Envelope amplitude", "m/s^2"), curves)
     })
 }
 
@@ -149,15 +127,11 @@ pub(super) fn over_defect(runs: &[&RunResult], defect: usize) -> Vec<Piece> {
             let degrees = points.iter().map(|p| p.angle.to_degrees());
             Some(OverlaidCurve { of, along: Along::At(degrees.collect()), values: points.iter().map(value).collect() })
         });
+        let x = ("Angle from the defect’s centre", "°");
+        let name = format!("defect{}-{name}", defect + 1);
         Piece::Overlay(Overlay {
-            name: format!("defect{}-{name}", defect + 1),
-            x_label: "Angle from the defect’s centre".into(),
-            x_unit: "°".into(),
-            y_label: label.into(),
-            y_unit: unit.into(),
             vertical: Vertical::FromZero,
-            curves: curves.collect(),
-            ..Overlay::default()
+            ..Overlay::new(name, x, (label, unit), curves.collect())
         })
     };
     let mut pieces: Vec<Piece> = quantities.into_iter().map(overlay).collect();
@@ -188,18 +162,14 @@ pub(super) fn entry_and_exit(runs: &[&RunResult], defect: usize) -> Vec<Piece> {
             pieces.push(Piece::Words(words));
             continue;
         }
+        let labels = [format!("Time from the {word}"), format!("Mean {}", acceleration(runs[0]))];
+        let name = format!("defect{}-{word}", defect + 1);
         pieces.push(Piece::Overlay(Overlay {
-            name: format!("defect{}-{word}", defect + 1),
-            x_label: format!("Time from the {word}"),
-            x_unit: "ms".into(),
-            y_label: format!("Mean {}", acceleration(runs[0])),
-            y_unit: "m/s^2".into(),
-            curves,
             note: format!(
                 "Sensor acceleration averaged over {} instants of {word}: what they have in common.",
                 counts.join(" and ")
             ),
-            ..Overlay::default()
+            ..Overlay::new(name, (&labels[0], "ms"), (&labels[1], "m/s^2"), curves)
         }));
     }
     pieces

@@ -7,11 +7,11 @@ mod sides;
 mod table;
 
 use crate::failure::Failure;
-use crate::figures::{picture_files, ready_pictures};
+use crate::figures::ready_pictures;
 use crate::files::{self, stem};
 use crate::inputs::Inputs;
 use crate::progress::Joint;
-use crate::results::{COMPARISON, Earlier, Place, Results, names_below};
+use crate::results::{COMPARISON, Earlier, Place, Results};
 use crate::run::{make_folder, safe_name, stop_flag};
 use crate::say::{complain, document, say, short};
 pub(crate) use args::CompareArgs;
@@ -66,21 +66,13 @@ pub(crate) fn side_by_side(args: &CompareArgs) -> Result<ExitCode, Failure> {
     ready.push(table.prepare_csv(folder.join(CSV))?);
     let metadata = Metadata::default().with(keys::VERSION, brinell::VERSION);
     ready.push(table.prepare_parquet(folder.join(PARQUET), &metadata)?);
-    let pictures = match &args.plots[..] {
-        [] => Vec::new(),
-        _ => brinell_report::side_by_side_pictures(&report, layout),
-    };
-    let mut files: Vec<PathBuf> = ready.iter().map(|file| file.path().to_owned()).collect();
-    files.extend([COMPARISON, PAGE].map(|name| folder.join(name)));
-    files.extend(picture_files(&pictures, &args.plots, &folder));
-    let mut json = table::json(&sides, &compared);
-    json["files"] = names_below(&folder, &files).into();
-    let json = serde_json::to_string_pretty(&json).unwrap_or_default() + "\n";
-    ready.insert(0, atomic_prepare(folder.join(COMPARISON), &json)?);
-    let page = brinell_report::side_by_side_html(&report);
-    ready.push(atomic_prepare(folder.join(PAGE), page)?);
-    ready.extend(ready_pictures(&pictures, &args.plots, &folder)?);
-    let written = earlier.give_way(ready)?;
+    let before = ready.len();
+    ready.push(atomic_prepare(folder.join(PAGE), brinell_report::side_by_side_html(&report))?);
+    if !args.plots.is_empty() {
+        let pictures = brinell_report::side_by_side_pictures(&report, layout);
+        ready.extend(ready_pictures(&pictures, &args.plots, &folder)?);
+    }
+    let (written, json) = earlier.publish(ready, (COMPARISON, before), table::json(&sides, &compared))?;
     if args.json {
         document(json.trim_end());
     }

@@ -7,7 +7,7 @@ use crate::sweep::{told, words};
 use brinell::observe::passes::place;
 use brinell::result::{Quantity, RunResult};
 use brinell::signal::ratio::Ratio;
-use brinell_report::{Fact, Part, Piece, SideBySide, Table, Value};
+use brinell_report::{Fact, Part, Piece, SideBySide, Table};
 use brinell_study::campaign::Compared;
 
 /// Longest value in the table of what differs.
@@ -95,7 +95,7 @@ fn facts(names: &[String], compared: &[Compared]) -> Vec<Fact> {
         for more in rest {
             note = format!("{note}; {more}");
         }
-        facts.push(Fact::new(words(name), Value::Text(format!("{value} ×")), "", note));
+        facts.push(Fact::new(words(name), format!("{value} ×"), "", note));
     }
     facts
 }

@@ -70,7 +70,7 @@ pub(crate) struct DatasetArgs {
     #[arg(long)]
     pub(crate) json: bool,
     /// Print nothing but errors
-    #[arg(short, long)]
+    #[arg(short, long, default_value_if("json", "true", "true"))]
     pub(crate) quiet: bool,
 }
 

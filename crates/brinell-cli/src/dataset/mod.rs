@@ -4,22 +4,20 @@ mod args;
 mod plan;
 mod sheet;
 
+use crate::campaign::Terminal;
 use crate::failure::Failure;
 use crate::inputs::Inputs;
-use crate::progress::{Joint, Shown};
+use crate::progress::Joint;
 use crate::results::{Place, Results};
 use crate::run::{safe_name, stop_flag};
-use crate::say::{complain, document, say};
+use crate::say::{self, complain, say};
 use crate::sweep::plural;
 pub(crate) use args::DatasetArgs;
 use args::{DatasetCommand, MergeArgs, VerifyArgs};
 use brinell_study::dataset::{Campaign, DatasetError, ShardSummary, merge, run, verify};
-use brinell_study::listener::{Listener, RunListener};
 use serde_json::{Value, json};
 use std::path::Path;
 use std::process::ExitCode;
-use std::sync::Mutex;
-use std::sync::PoisonError;
 use std::sync::atomic::AtomicBool;
 use std::time::Instant;
 
@@ -69,7 +67,7 @@ fn make(args: &DatasetArgs, path: &Path) -> Result<ExitCode, Failure> {
         plan::tell(&campaign, &survey, runs, threads, args);
         campaign.sound(&survey)?;
         if args.dry_run && args.json {
-            print(&plan::json(&campaign, &survey, runs, threads));
+            say::json(&plan::json(&campaign, &survey, runs, threads));
         }
     }
     if args.dry_run {
@@ -77,21 +75,16 @@ fn make(args: &DatasetArgs, path: &Path) -> Result<ExitCode, Failure> {
     }
     let stop = stop_flag()?;
     let duration = campaign.scenario(0).map_or(1.0, |(l, _)| l.scenario.simulation.duration_s);
-    let terminal = Terminal {
-        stop: &stop,
-        duration,
-        joint: Mutex::new(Joint::new(runs, duration * runs as f64, args.quiet)),
-        failures: Mutex::new(Vec::new()),
-    };
+    let joint = Joint::new(runs, duration * runs as f64, args.quiet);
+    let terminal = Terminal::new(&joint, &stop, duration);
     let went = run(&campaign, &folder, args.shard, threads, &terminal);
-    let Terminal { joint, failures, .. } = terminal;
+    let failures = terminal.failures();
     drop(joint);
-    let failures = failures.into_inner().unwrap_or_else(PoisonError::into_inner);
     tell_failures(&failures);
     let went = went?;
     let left = went.runs - went.done - went.before;
     if args.json {
-        print(&summary(&went, left, &folder, &failures));
+        say::json(&summary(&went, left, &folder, &failures));
     }
     if !args.quiet {
         tell(&went, left, &folder, begin.elapsed().as_secs_f64());
@@ -110,10 +103,6 @@ fn tell_failures(failures: &[(usize, String)]) {
     if failures.len() > SHOWN {
         complain!("and {} more: see the column `reason`", failures.len() - SHOWN);
     }
-}
-
-fn print(json: &Value) {
-    document(&serde_json::to_string_pretty(json).unwrap_or_default());
 }
 
 /// What [`tell`] and [`tell_failures`] say, as JSON.
@@ -158,7 +147,7 @@ fn join(args: &MergeArgs) -> Result<ExitCode, Failure> {
     alone(&args.output, &Inputs::default())?;
     let merged = merge(&args.folders, &args.output)?;
     if args.json {
-        print(&json!({
+        say::json(&json!({
             "folder": args.output.display().to_string(),
             "files": { "brought": merged.brought, "before": merged.before, "missing": merged.missing },
         }));
@@ -175,7 +164,7 @@ fn join(args: &MergeArgs) -> Result<ExitCode, Failure> {
 fn check(args: &VerifyArgs) -> Result<ExitCode, Failure> {
     let found = verify(&args.folder)?;
     if args.json {
-        print(&json!({
+        say::json(&json!({
             "folder": args.folder.display().to_string(),
             "files": { "sound": found.files, "of": found.of },
             "runs": { "complete": found.rows - found.failed, "failed": found.failed },
@@ -204,34 +193,4 @@ fn check(args: &VerifyArgs) -> Result<ExitCode, Failure> {
         true => ExitCode::SUCCESS,
         false => ExitCode::from(NOT_WHOLE),
     })
-}
-
-/// Shows runs on one bar, and listens for Ctrl-C.
-struct Terminal<'a> {
-    stop: &'a AtomicBool,
-    /// Of a run, s.
-    duration: f64,
-    joint: Mutex<Joint>,
-    failures: Mutex<Vec<(usize, String)>>,
-}
-
-impl Listener for Terminal<'_> {
-    fn begin(&self, _: usize, duration_s: f64) -> Box<dyn RunListener + '_> {
-        let joint = self.joint.lock().unwrap_or_else(PoisonError::into_inner);
-        Box::new(Shown::new(Joint::part(&joint.bar(), duration_s), self.stop))
-    }
-
-    fn before(&self, runs: usize) {
-        let mut joint = self.joint.lock().unwrap_or_else(PoisonError::into_inner);
-        (0..runs).for_each(|_| joint.done_before(self.duration));
-    }
-
-    fn ended(&self, run: usize, failed: Option<&str>) {
-        if let Some(reason) = failed {
-            let mut all = self.failures.lock().unwrap_or_else(PoisonError::into_inner);
-            all.push((run, reason.to_owned()));
-        }
-        let mut joint = self.joint.lock().unwrap_or_else(PoisonError::into_inner);
-        joint.ended(&[], Path::new(""));
-    }
 }

@@ -5,14 +5,14 @@ use crate::args::PreviewArgs;
 use crate::failure::Failure;
 use crate::figures::drawn;
 use crate::files::Source;
-use crate::results::{PREVIEW, Place, Results, names_below};
+use crate::results::{PREVIEW, Place, Results};
 use crate::run::{make_folder, safe_name};
 use crate::say::{document, say, short};
 use brinell::scenario::Scenario;
 use brinell_io::{Complete, atomic_prepare};
 use brinell_report::{Damage, DamagePanel, Layout, Picture, damage_of};
 use serde_json::json;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 /// The pictures, curves and numbers of each defect, and `preview.json` with all of them.
 pub(super) fn preview(args: &PreviewArgs) -> Result<(), Failure> {
@@ -42,14 +42,9 @@ pub(super) fn preview(args: &PreviewArgs) -> Result<(), Failure> {
         tables(*index, damage, &folder, &mut ready)?;
         entries.push(entry(*index, damage));
     }
-    let path = folder.join(PREVIEW);
-    let mut files: Vec<PathBuf> = ready.iter().map(|file| file.path().to_owned()).collect();
-    files.push(path.clone());
-    let files = names_below(&folder, &files);
-    let json = json!({ "scenario": s.name, "version": brinell::VERSION, "files": files, "defects": entries });
-    let text = serde_json::to_string_pretty(&json).unwrap_or_default() + "\n";
-    ready.insert(0, atomic_prepare(path, &text)?);
-    let written = earlier.give_way(ready)?;
+    let json = json!({ "scenario": s.name, "version": brinell::VERSION, "files": null, "defects": entries });
+    let before = ready.len();
+    let (written, text) = earlier.publish(ready, (PREVIEW, before), json)?;
     if args.json {
         document(text.trim_end());
         return Ok(());

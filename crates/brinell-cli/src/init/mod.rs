@@ -1,7 +1,7 @@
 //! `brinell init`: a scenario to start from, small or with every key, and the files that it names.
 
 use crate::failure::Failure;
-use crate::say::{document, say};
+use crate::say::{document, pretty, say};
 use brinell::bearing::catalogue::{self, Entry, STATIC_RATING};
 use brinell::bearing::{KnownBearing, clearance_of};
 use brinell::document::toml_quote;
@@ -107,8 +107,7 @@ pub(crate) fn init(args: &InitArgs) -> Result<ExitCode, Failure> {
         return Ok(ExitCode::SUCCESS);
     };
     let beside = |name: &str| file.with_file_name(name);
-    let schema = serde_json::to_string_pretty(&brinell::document::json_schema());
-    files.push((beside(SCHEMA), (schema.unwrap_or_default() + "\n").into()));
+    files.push((beside(SCHEMA), pretty(&brinell::document::json_schema()).into()));
     for name in template.examples() {
         let bytes = brinell_studio::example_file(name).expect("templates name the studio's files");
         files.push((beside(name), bytes.to_vec()));

@@ -19,9 +19,8 @@ use brinell_li2023::{
     BASE, CaseObserver, CurveFiles, Error, Length, Point, Reproduction, Request, Runs, Stage, scenario, write_page,
 };
 use brinell_study::campaign::Row;
-use brinell_study::runner::{Beside, Ledger, Task, Work};
+use brinell_study::runner::{Beside, Ledger, Task, Work, to_run};
 use serde_json::{Value, json};
-use std::num::NonZeroUsize;
 use std::ops::ControlFlow;
 use std::path::PathBuf;
 use std::process::ExitCode;
@@ -99,26 +98,11 @@ struct Runner<'a> {
 impl Runner<'_> {
     /// What is not done, each once.
     fn open(&self, points: &[&Point]) -> Vec<Task> {
-        let mut open_tasks: Vec<Task> = Vec::new();
-        for point in points {
-            let print = &point.fingerprint;
-            let known = open_tasks.iter().any(|t| t.fingerprint == *print);
-            let row = self.ledger.kept.row(print);
-            let is_done = row.is_some_and(|row| row.result.is_err() || self.curves.is_complete(print));
-            if !known && !is_done {
-                open_tasks.push(Task {
-                    settings: point.settings.clone(),
-                    fingerprint: print.clone(),
-                    duration_s: point.duration_s,
-                });
-            }
-        }
-        open_tasks
-    }
-
-    fn threads(&self, tasks: &[Task]) -> NonZeroUsize {
-        let usual = || brinell::many::threads(tasks.len());
-        self.args.jobs.unwrap_or_else(usual)
+        let is_done = |task: &Task| {
+            let row = self.ledger.kept.row(&task.fingerprint);
+            row.is_some_and(|row| row.result.is_err() || self.curves.is_complete(&task.fingerprint))
+        };
+        to_run(points.iter().map(|point| &point.task), is_done)
     }
 }
 
@@ -134,7 +118,7 @@ impl Runs for Runner<'_> {
         if open_tasks.is_empty() {
             return Ok(ControlFlow::Continue(()));
         }
-        let threads = self.threads(&open_tasks);
+        let threads = self.args.jobs.unwrap_or(brinell::many::threads(open_tasks.len()));
         // A search has too many batches for a line each.
         if stage != Stage::Search && !self.args.quiet {
             let simulated: f64 = open_tasks.iter().map(|task| task.duration_s).sum();

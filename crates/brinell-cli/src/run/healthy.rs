@@ -1,11 +1,11 @@
 //! The same scenario without its damage, run beside it: what the page draws in grey.
 
 use crate::args::RunArgs;
+use brinell::many::go_on;
 use brinell::observe::Findings;
 use brinell::result::{RunResult, simulate_with};
 use brinell::scenario::Scenario;
-use brinell::simulate::{End, Observer, SolverWork};
-use std::ops::ControlFlow;
+use brinell::simulate::{End, Progress};
 use std::sync::atomic::AtomicBool;
 
 /// Runs `damaged`, and the healthy bearing on another thread, where there is damage and somewhere to show it. It is
@@ -25,19 +25,10 @@ pub(super) fn beside(
     // Nothing but what the sensor reads is kept of it.
     healthy.simulation.record.clear();
     std::thread::scope(|scope| {
-        let healthy = scope.spawn(|| simulate_with(&healthy, &mut Stop(stop)).ok());
+        let healthy = scope.spawn(|| simulate_with(&healthy, &mut Progress(|_| go_on(stop))).ok());
         let damaged = damaged();
         let healthy = healthy.join().ok().flatten();
         let whole = damaged.outcome.end == End::Complete;
         (damaged, healthy.filter(|_| whole).map(|run| run.findings))
     })
-}
-
-/// Ctrl-C.
-struct Stop<'a>(&'a AtomicBool);
-
-impl Observer for Stop<'_> {
-    fn progress(&mut self, _: f64, _: &SolverWork) -> ControlFlow<()> {
-        brinell::many::go_on(self.0)
-    }
 }

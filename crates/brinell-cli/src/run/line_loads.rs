@@ -5,16 +5,15 @@ use crate::failure::Failure;
 use brinell::channel::Frame;
 use brinell::defect::Side;
 use brinell::observe::line_load::{LineLoadRow, LineLoads};
-use brinell::simulate::{Observer, Simulation, SolverWork};
+use brinell::simulate::{Observer, Simulation};
 use brinell_io::{Cells, Column, Complete, Table};
-use std::ops::ControlFlow;
 use std::path::Path;
 
 /// File in the folder of a run.
 pub(super) const FILE: &str = "line_loads.csv";
 
 /// What the instants requested are read with; `None` where none are.
-pub(super) fn asked(args: &RunArgs, simulation: &Simulation, end: f64) -> Result<Option<LineLoads>, Failure> {
+pub(super) fn asked(args: &RunArgs, simulation: &Simulation, end: f64) -> Result<Option<Reading>, Failure> {
     let instants = &args.line_loads;
     if instants.is_empty() {
         return Ok(None);
@@ -28,39 +27,21 @@ pub(super) fn asked(args: &RunArgs, simulation: &Simulation, end: f64) -> Result
              bearing.profile other than \"straight\""
                 .into(),
         )),
-        some => Ok(some),
+        some => Ok(some.map(Reading)),
     }
 }
 
-/// An observer that reads line loads besides.
-pub(super) struct Reading<'a, O> {
-    pub(super) inner: &'a mut O,
-    pub(super) loads: Option<LineLoads>,
-}
+/// Reads the load at the samples of a run.
+pub(super) struct Reading(pub(super) LineLoads);
 
-impl<O: Observer> Observer for Reading<'_, O> {
-    fn step(&mut self, frame: &Frame) {
-        self.inner.step(frame);
-    }
-
+impl Observer for Reading {
     fn sample(&mut self, index: u64, frame: &Frame) {
-        self.inner.sample(index, frame);
-        if let Some(loads) = &mut self.loads {
-            loads.take(index, frame);
-        }
-    }
-
-    fn row(&mut self, index: u64, row: &[f64], filtered: &[f64]) -> ControlFlow<()> {
-        self.inner.row(index, row, filtered)
-    }
-
-    fn progress(&mut self, t: f64, work: &SolverWork) -> ControlFlow<()> {
-        self.inner.progress(t, work)
+        self.0.take(index, frame);
     }
 }
 
 /// The table as a file of `folder`, up to its name.
-pub(super) fn ready(loads: &LineLoads, folder: &Path) -> Result<Complete, Failure> {
+pub(super) fn ready(Reading(loads): &Reading, folder: &Path) -> Result<Complete, Failure> {
     let rows = &loads.rows;
     let numbers = |of: &dyn Fn(&LineLoadRow) -> f64| Cells::Numbers(rows.iter().map(|row| Some(of(row))).collect());
     let side = |row: &LineLoadRow| match row.side {

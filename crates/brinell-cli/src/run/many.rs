@@ -1,33 +1,19 @@
 //! `brinell run` of several scenarios: all checked first, then side by side, one to a thread.
 
-use super::{Done, Ready, earlier, execute, make_folder, ready, safe_name, stop_flag};
+use super::{Task, earlier, execute, make_folder, ready, safe_name, stop_flag};
 use crate::args::RunArgs;
 use crate::failure::{Failure, INTERRUPTED};
 use crate::files;
 use crate::inputs::Inputs;
 use crate::progress::Joint;
-use crate::results::Earlier;
 use crate::say::{complain, say};
-use brinell::document::Loaded;
-use brinell::plausibility::Beforehand;
-use brinell::simulate::{End, Simulation};
+use brinell::simulate::End;
 use std::collections::HashMap;
 use std::ffi::OsString;
 use std::path::{Component, Path, PathBuf};
 use std::process::ExitCode;
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::atomic::Ordering;
 use std::time::Instant;
-
-/// What one run will be. The model is made anew by the thread that runs it, so that memory goes with the runs in
-/// progress.
-struct Task {
-    path: PathBuf,
-    loaded: Loaded,
-    folder: PathBuf,
-    earlier: Earlier,
-    beforehand: Beforehand,
-    photos: Vec<Option<brinell_damage::Photo>>,
-}
 
 pub(super) fn run(args: &RunArgs) -> Result<ExitCode, Failure> {
     let begin = Instant::now();
@@ -42,9 +28,9 @@ pub(super) fn run(args: &RunArgs) -> Result<ExitCode, Failure> {
     }
     let stop = stop_flag()?;
     let threads = args.jobs.unwrap_or(brinell::many::threads(tasks.len()));
-    let durations = tasks.iter().map(|t| t.loaded.scenario.simulation.duration_s);
+    let durations = tasks.iter().map(Task::duration_s);
     let total = durations.sum();
-    let mut joint = Joint::new(tasks.len(), total, args.quiet);
+    let joint = Joint::new(tasks.len(), total, args.quiet);
     let bar = joint.bar();
     let (mut left_out, mut interrupted) = (Vec::new(), false);
     let mut failures: Vec<(usize, Failure)> = Vec::new();
@@ -53,8 +39,8 @@ pub(super) fn run(args: &RunArgs) -> Result<ExitCode, Failure> {
         threads,
         |k| {
             let task = &tasks[k];
-            let progress = Joint::part(&bar, task.loaded.scenario.simulation.duration_s);
-            (!stop.load(Ordering::Relaxed)).then(|| one(args, task, progress, &stop))
+            let progress = Joint::part(&bar, task.duration_s());
+            (!stop.load(Ordering::Relaxed)).then(|| execute(args, task, progress, &stop))
         },
         |k, result| match result {
             None => left_out.push(k),
@@ -90,11 +76,11 @@ pub(super) fn run(args: &RunArgs) -> Result<ExitCode, Failure> {
     }
     left_out.sort_unstable();
     for k in &left_out {
-        complain!("not started: {}", tasks[*k].path.display());
+        complain!("not started: {}", args.scenarios[*k].display());
     }
     failures.sort_by_key(|(k, _)| *k);
     for (k, failure) in &failures {
-        failure.print_of(&tasks[*k].path.display().to_string());
+        failure.print_of(&args.scenarios[*k].display().to_string());
     }
     if !failures.is_empty() {
         complain!("{} of {} runs failed", failures.len(), tasks.len());
@@ -106,12 +92,6 @@ pub(super) fn run(args: &RunArgs) -> Result<ExitCode, Failure> {
     } else {
         ExitCode::from(1)
     })
-}
-
-fn one(args: &RunArgs, task: &Task, progress: crate::progress::Progress, stop: &AtomicBool) -> Result<Done, Failure> {
-    let simulation = Simulation::new(&task.loaded.scenario).map_err(Failure::Run)?;
-    let replaced = (&task.loaded, &*task.folder, &task.earlier);
-    execute(args, replaced, (simulation, &task.beforehand, &task.photos), progress, stop)
 }
 
 /// The name of a scenario's file without ending, as a folder's: where it is none (`...toml` would leave `..`), made
@@ -153,25 +133,15 @@ fn folders(scenarios: &[PathBuf], root: &Path) -> Result<Vec<PathBuf>, Failure> 
 fn checked(args: &RunArgs, folders: Vec<PathBuf>) -> Option<Vec<Task>> {
     // No run may write over what any of them reads.
     let mut inputs = Inputs::default();
-    let mut read = |path: &PathBuf| {
-        let Ready { loaded, simulation, beforehand, photos } = ready(args, path, &mut inputs)?;
-        if !args.quiet && !simulation.idle_patterns().is_empty() {
-            complain!("{}:", path.display());
-            files::warn_idle(simulation.idle_patterns());
-        }
-        Ok((loaded, beforehand, photos))
-    };
-    let all: Vec<Result<_, Failure>> = args.scenarios.iter().map(&mut read).collect();
+    let all: Vec<_> = args.scenarios.iter().map(|path| ready(args, path, &mut inputs)).collect();
     let mut tasks = Vec::new();
-    for ((path, folder), loaded) in args.scenarios.iter().zip(folders).zip(all) {
-        let found = loaded.and_then(|(loaded, beforehand, photos)| {
-            let earlier = earlier(args, &loaded, &folder, &inputs)?;
-            Ok((loaded, earlier, beforehand, photos))
+    for ((path, folder), ready) in args.scenarios.iter().zip(folders).zip(all) {
+        let task = ready.and_then(|ready| {
+            let earlier = earlier(args, &ready.loaded, &folder, &inputs)?;
+            Ok(Task { ready, folder, earlier })
         });
-        match found {
-            Ok((loaded, earlier, beforehand, photos)) => {
-                tasks.push(Task { path: path.clone(), loaded, folder, earlier, beforehand, photos })
-            }
+        match task {
+            Ok(task) => tasks.push(task),
             Err(failure) => failure.print_of(&path.display().to_string()),
         }
     }

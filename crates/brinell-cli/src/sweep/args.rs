@@ -65,6 +65,6 @@ pub(crate) struct SweepArgs {
     #[arg(long, conflicts_with = "dry_run")]
     pub(crate) json: bool,
     /// Print nothing but errors
-    #[arg(short, long)]
+    #[arg(short, long, default_value_if("json", "true", "true"))]
     pub(crate) quiet: bool,
 }

@@ -9,23 +9,22 @@ use crate::campaign;
 use crate::failure::Failure;
 use crate::figures::ready_pictures;
 use crate::files::stem;
-use crate::results::{Place, Results};
+use crate::results::{Place, Results, put};
 use crate::run::{make_folder, stop_flag};
-use crate::say::{complain, document, say, short};
+use crate::say::{self, complain, pretty, say, short};
 pub(crate) use args::SweepArgs;
 use brinell::document::read;
 use brinell::result::{check_name, fields, names};
 use brinell::simulate::Simulation;
-use brinell_io::{Metadata, atomic_write, keys};
+use brinell_io::{Metadata, keys};
 use brinell_study::campaign::{Row, fingerprint};
-use brinell_study::runner::{JOURNAL, Kept, Task, estimate};
+use brinell_study::runner::{JOURNAL, Kept, Task, estimate, to_run};
 
 use page::usual;
 pub(crate) use page::{plural, told, words};
 pub(crate) use points::reason;
 use points::{FromSource, Points};
 use serde_json::{Value, json};
-use std::collections::HashSet;
 use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
@@ -131,16 +130,15 @@ fn plan(
     threads: impl Fn(usize) -> NonZeroUsize,
     told: bool,
 ) -> Vec<Task> {
-    let finished = |task: &&Task| {
+    let finished = |task: &Task| {
         let signals = work.path(&task.fingerprint);
         let row = kept.row(&task.fingerprint);
         row.is_some_and(|row| row.result.is_err() || signals.is_none_or(|path| path.exists()))
     };
     let good = || points.tasks.iter().flatten();
-    let mut seen = HashSet::new();
-    let tasks: Vec<Task> = good().filter(|task| !finished(task) && seen.insert(&task.fingerprint)).cloned().collect();
+    let tasks = to_run(good(), finished);
     if told {
-        let before = good().filter(finished).count();
+        let before = good().filter(|task| finished(task)).count();
         tell_plan(points, &tasks, before, work, threads(tasks.len()));
         let outdated = |task: &&Task| kept.is_outdated(&task.fingerprint);
         let outdated = good().filter(outdated).count();
@@ -275,18 +273,11 @@ fn write(
     if args.json {
         let mut told = json.clone();
         told["rows"] = table::rows(&table).into();
-        document(&serde_json::to_string_pretty(&told).unwrap_or_default());
+        say::json(&told);
     }
-    let mut put = |name: &str, text: String| -> Result<(), Failure> {
-        let path = folder.join(name);
-        atomic_write(&path, text.as_bytes())?;
-        written.push(path);
-        Ok(())
-    };
-    let text = serde_json::to_string_pretty(&json).unwrap_or_default() + "\n";
-    put("sweep.json", text)?;
+    put(folder, "sweep.json", &pretty(&json), &mut written)?;
     let report = page::report(points, states, plots);
-    put("sweep.html", brinell_report::sweep_html(&report))?;
+    put(folder, "sweep.html", &brinell_report::sweep_html(&report), &mut written)?;
     if !args.plots.is_empty() {
         let layout = args.print.layout(&args.plots)?;
         let pictures = brinell_report::sweep_pictures(&report, layout);

@@ -5,7 +5,7 @@ use super::table::{State, number};
 use crate::say::{bracketed, short};
 use brinell::result::Quantity;
 use brinell::scenario::Scenario;
-use brinell_report::{Fact, HeatMap, IndicatorLine, IndicatorPlot, IndicatorPoint, SweepReport, Table, Value};
+use brinell_report::{Fact, HeatMap, IndicatorLine, IndicatorPlot, IndicatorPoint, SweepReport, Table, capital};
 use brinell_study::campaign::{Axis, Row};
 use std::collections::HashMap;
 
@@ -37,7 +37,7 @@ pub(super) fn report(points: &Points, states: &[State], plots: &[String]) -> Swe
     let count = |word: &str| states.iter().filter(|s| s.word() == word).count();
     let (failed, missing) = (count("failed"), count("not run"));
     let axes: Vec<String> = points.plan.axes().iter().map(|axis| axis.keys().join(" with ")).collect();
-    let fact = |label: &str, n: usize, note: &str| Fact::new(label, Value::Text(n.to_string()), "", note);
+    let fact = |label: &str, n: usize, note: &str| Fact::new(label, n.to_string(), "", note);
     let mut facts = vec![fact("Points", states.len(), &axes.join(" × "))];
     facts.push(fact("Complete", count("complete"), ""));
     if failed > 0 {
@@ -49,7 +49,7 @@ pub(super) fn report(points: &Points, states: &[State], plots: &[String]) -> Swe
     let (axis, _) = x_axis(points);
     let lines = states.len() / points.plan.axes()[axis].settings().len();
     if lines > LINES * PICTURES {
-        let text = Value::Text(format!("{} of {lines}", LINES * PICTURES));
+        let text = format!("{} of {lines}", LINES * PICTURES);
         facts.push(Fact::new("Lines drawn", text, "", "all are in sweep.csv"));
     }
     let name = |k: usize| {
@@ -200,10 +200,7 @@ fn label(points: &Points, others: &[usize], rest: &[usize]) -> String {
 
 fn point(x: f64, quantity: Option<&Quantity>) -> IndicatorPoint {
     let value = quantity.and_then(|q| q.value).unwrap_or(f64::NAN);
-    match quantity.and_then(Quantity::interval) {
-        Some((low, high)) => IndicatorPoint { x, value, interval: Some((low, high)) },
-        None => IndicatorPoint { x, value, interval: None },
-    }
+    IndicatorPoint { x, value, interval: quantity.and_then(Quantity::interval) }
 }
 
 /// "RMS of sensor_ax" for `sensor_ax.rms`.
@@ -213,11 +210,7 @@ pub(crate) fn words(name: &str) -> String {
     };
     let what = match what {
         "rms" => "RMS".to_owned(),
-        other => {
-            let mut letters = other.chars();
-            let first = letters.next().map(|c| c.to_uppercase().to_string());
-            format!("{}{}", first.unwrap_or_default(), letters.as_str()).replace('_', " ")
-        }
+        other => capital(other).replace('_', " "),
     };
     match of {
         "envelope" => format!("Envelope spectrum at {}", what.to_uppercase()),

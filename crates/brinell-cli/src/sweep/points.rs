@@ -9,7 +9,7 @@ use brinell::document::{Problem, numberless, on_one_line, one_line};
 use brinell::scenario::Scenario;
 use brinell::simulate::Simulation;
 use brinell_io::{ParquetWriter, SignalWriter};
-use brinell_study::campaign::{Axis, Plan, fingerprint};
+use brinell_study::campaign::{Axis, Plan};
 use brinell_study::runner::{Task, Work};
 use serde_json::Value;
 use std::collections::BTreeMap;
@@ -120,11 +120,7 @@ fn check(source: &Source, settings: Vec<(String, String)>) -> Result<Checked, Fa
     Ok(Checked {
         units: settings.iter().filter_map(unit).collect(),
         warnings: loaded.warnings,
-        task: Task {
-            fingerprint: fingerprint(&loaded.scenario),
-            duration_s: loaded.scenario.simulation.duration_s,
-            settings,
-        },
+        task: Task::new(settings, &loaded.scenario),
     })
 }
 

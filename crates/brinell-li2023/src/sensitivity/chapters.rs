@@ -43,30 +43,21 @@ impl Sensitivity {
 
     /// The page's chapters.
     pub(crate) fn chapters(&self) -> Vec<Chapter> {
-        vec![
-            Chapter {
-                id: "sensitivity".into(),
-                short: "Sensitivity".into(),
-                title: "What the claims depend on".into(),
-                pieces: vec![
-                    StudyPiece::Words(format!(
-                        "Each unstated assumption made otherwise, one at a time, in every case; {} a run, so that more is undecided \
+        let pieces = vec![
+            StudyPiece::Words(format!(
+                "Each unstated assumption made otherwise, one at a time, in every case; {} a run, so that more is undecided \
                          than in the claims table. A claim depends on an assumption where its verdict turns: what held no longer does, or \
                          holds in part alone, or the other way round. Undecided turns nothing. Where RMS and peak to peak are of a \
                          record from t = 0 there is one start a run and no interval: such verdicts compare single values.",
-                        self.length.words()
-                    )),
-                    StudyPiece::Table(self.three_rms()),
-                    StudyPiece::Table(self.legend()),
-                    StudyPiece::Table(self.matrix()),
-                ],
-            },
-            Chapter {
-                id: "search".into(),
-                short: "Search".into(),
-                title: "Is there one set of assumptions?".into(),
-                pieces: self.search(),
-            },
+                self.length.words()
+            )),
+            StudyPiece::Table(self.three_rms()),
+            StudyPiece::Table(self.legend()),
+            StudyPiece::Table(self.matrix()),
+        ];
+        vec![
+            Chapter::new("sensitivity", "Sensitivity", "What the claims depend on", pieces),
+            Chapter::new("search", "Search", "Is there one set of assumptions?", self.search()),
         ]
     }
 

@@ -3,6 +3,7 @@
 mod chapters;
 mod tables;
 
+use crate::cases::owned;
 use crate::points::numbers;
 use crate::{
     CASES, Claim, Distance, Draw, Error, Judged, Length, Numbers, Point, RECORDS, Reading, Record, Runs, SEARCHED,
@@ -56,7 +57,7 @@ struct Tried {
 struct Nearest {
     record: Record,
     sets: usize,
-    /// Number of the set that is nearest to the paper's RMS values.
+    /// Estimate of the set that is nearest to the paper's RMS values.
     best: Option<(usize, Distance)>,
 }
 
@@ -254,11 +255,6 @@ struct Finalist {
 
 fn read((draw, points): &Drawn, runs: &impl Runs) -> Numbers {
     numbers(points, runs).read(draw.reading)
-}
-
-fn owned(settings: &[(&str, &str)]) -> Vec<(String, String)> {
-    let own = |(key, value): &(&str, &str)| ((*key).to_owned(), (*value).to_owned());
-    settings.iter().map(own).collect()
 }
 
 /// Share of the statements about the searched cases that do not hold, plus the distance from the paper's RMS values.

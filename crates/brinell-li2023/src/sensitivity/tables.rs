@@ -1,8 +1,8 @@
 //! Tables of the sensitivity: the three RMS values under every assumption, and what the nearest sets assume.
 
 use super::{Candidate, Nearest, Sensitivity, Tried};
-use crate::figures::with_interval;
-use crate::{Number, RANGES, RMS, Reading, Record, SEARCHED, distance};
+use crate::figures::cell;
+use crate::{RANGES, RMS, Reading, Record, SEARCHED, distance};
 use brinell_report::Table;
 use brinell_report::short;
 
@@ -117,12 +117,8 @@ fn row(k: usize, tried: &Tried) -> Vec<String> {
         let plain = tried.numbers.read(reading);
         let filtered = tried.numbers.read(reading.behind_filter());
         for case in SEARCHED {
-            let of = |n: Option<Number>| {
-                let interval = n.and_then(|n| n.interval).map(|i| (i.low, i.high));
-                with_interval(n.map(|n| n.value), interval)
-            };
             let behind = filtered.get(case, "outer_ax.rms").map(|n| short(n.value, 4));
-            row.push(format!("{} / {}", of(plain.get(case, "outer_ax.rms")), behind.unwrap_or("–".into())));
+            row.push(format!("{} / {}", cell(plain.get(case, "outer_ax.rms")), behind.unwrap_or("–".into())));
         }
         let all = [distance(&plain), distance(&filtered)];
         let least = all.into_iter().flatten().map(|d| d.rms).min_by(f64::total_cmp);

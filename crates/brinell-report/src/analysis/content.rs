@@ -4,8 +4,8 @@ use super::level::{fact, notes, rows, scaled};
 use super::words::{called, ratio, shaft_lines};
 use super::{AnalysisReport, Badge};
 use crate::data::{Fact, Marker, Series};
-use crate::kurtogram::{Kurtogram, KurtogramLevel};
-use crate::number::short;
+use crate::kurtogram::Kurtogram;
+use crate::number::{capital, short};
 use crate::tables::Table;
 use brinell::analysis::{
     Analysis, COLUMNS, Comparison, Family, HARMONICS, Levels, Standing, Unit, Verdict, shown_spectrum,
@@ -142,9 +142,7 @@ fn curves(page: &mut AnalysisReport, of: &Findings) {
 fn kurtogram(a: &Analysis, map: &brinell::signal::Kurtogram) -> Kurtogram {
     let bands: Vec<String> = (map.levels.iter()).map(|l| l.kurtosis.len().to_string()).collect();
     Kurtogram {
-        levels: (map.levels.iter())
-            .map(|l| KurtogramLevel { bandwidth_hz: l.bandwidth, kurtosis: l.kurtosis.clone() })
-            .collect(),
+        levels: map.levels.clone(),
         chosen_hz: a.kurtogram.map(|k| (k.band.low, k.band.high)),
         note: format!(
             "Kurtosis of the envelope, 0 for noise; from below, {} bands up to half the sample rate. Outlined: the largest among bands \
@@ -180,22 +178,22 @@ fn facts(of: &Findings) -> Vec<Fact> {
     for i in [Indicator::Rms, Indicator::Peak, Indicator::Kurtosis] {
         if let Some(e) = a.indicator(i) {
             let unit = i.unit(&of.unit.name);
-            let label = i.name().replace('_', " ");
             let note = match i {
                 Indicator::Peak => "mean over revolutions",
                 _ => "",
             };
-            facts.push(Fact::new(capital(&label), e.value, unit, note));
+            facts.push(Fact::new(named(i), e.value, unit, note));
         }
     }
     facts.extend(fact(of.levels));
     facts
 }
 
-fn capital(text: &str) -> String {
-    match text {
-        "rms" => "RMS".into(),
-        _ => text[..1].to_uppercase() + &text[1..],
+/// An indicator's name at the head of its row.
+fn named(indicator: Indicator) -> String {
+    match indicator {
+        Indicator::Rms => "RMS".into(),
+        other => capital(&other.name().replace('_', " ")),
     }
 }
 
@@ -243,7 +241,7 @@ fn indicators(of: &Findings) -> Table {
     let mut shown: Vec<Vec<String>> = (of.signal.analysis.indicators.iter())
         .map(|(i, e)| {
             let unit = i.unit(unit).to_owned();
-            vec![capital(&i.name().replace('_', " ")), short(e.value, 4), with_interval(e), unit]
+            vec![named(*i), short(e.value, 4), with_interval(e), unit]
         })
         .collect();
     for (name, e, unit) in rows(of.levels, unit) {
@@ -279,7 +277,7 @@ fn differences(of: &Findings, other: &Analyzed, c: &Comparison) -> Vec<Table> {
                 None => "",
             };
             vec![
-                capital(&d.indicator.name().replace('_', " ")),
+                named(d.indicator),
                 short(d.first, 4),
                 short(d.second, 4),
                 unit,

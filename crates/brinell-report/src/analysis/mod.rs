@@ -7,13 +7,13 @@ mod words;
 
 use std::fmt::Write as _;
 
-use crate::chart::{Chart, Domain, Lane, Spec, range};
+use crate::chart::{Chart, Domain, Spec, range};
 use crate::data::{Fact, Marker, Series, Spectrum};
 use crate::embedded::{self, Curve, Places};
 use crate::frame::{THINNED, close as finish, figure, open, plain, section};
 use crate::kurtogram::{Kurtogram, kurtogram};
 use crate::picture::{Paint, Picture, escape, ink};
-use crate::plots::{Layout, legend, marker_lanes};
+use crate::plots::{Layout, legend, marker_lanes, spectrum_spec};
 use crate::tables::{Table, facts, table};
 pub use content::{Analyzed, Findings};
 pub use level::{ZONES, level_lines, scaled};
@@ -146,32 +146,6 @@ fn embed(page: &mut String, names: &[String], curves: &[(f64, f64, &[f64])], cha
     embedded::Chart { curves: &curves, drawn: &drawn, ..chart }.write(page);
 }
 
-fn spectrum_spec(
-    name: &str,
-    first: &Spectrum,
-    layout: Layout,
-    height: f64,
-    top: f64,
-    y: Domain,
-    lanes: Vec<Lane>,
-) -> Spec {
-    Spec {
-        name: name.into(),
-        title: format!("{name}: {}", first.label),
-        size: layout.size(height),
-        x: Domain::exact(0.0, top),
-        y,
-        x_label: "Frequency".into(),
-        x_unit: "Hz".into(),
-        y_label: first.label.clone(),
-        y_unit: first.unit.clone(),
-        lanes,
-        left: 0.0,
-        right: 0.0,
-        x_axis: true,
-    }
-}
-
 fn end(spectra: &[Spectrum]) -> f64 {
     (spectra.iter()).map(|s| s.df_hz * s.amplitude.len().saturating_sub(1) as f64).fold(0.0, f64::max)
 }
@@ -193,7 +167,7 @@ fn spectrum(report: &AnalysisReport, layout: Layout) -> Picture {
     let first = report.spectra.first().cloned().unwrap_or_default();
     let height = if layout.roomy() { 320.0 } else { 280.0 };
     let (y, top) = (spectrum_domain(report), end(&report.spectra));
-    let spec = spectrum_spec("spectrum", &first, layout, height, top, y, vec![]);
+    let spec = spectrum_spec(("spectrum", "spectrum"), &first, layout.size(height), top, y, vec![]);
     let curves = curves(&report.spectra);
     draw(report, layout, spec, "spectrum", &curves, true, report.band_hz)
 }
@@ -207,7 +181,8 @@ fn envelope(report: &AnalysisReport, layout: Layout) -> Picture {
     let height = if layout.roomy() { 400.0 } else { 360.0 };
     let lanes = marker_lanes(&report.markers);
     let (y, top) = (envelope_domain(report), end(&report.envelopes));
-    let spec = spectrum_spec("envelope-spectrum", &first, layout, height, top, y, lanes);
+    let names = ("envelope-spectrum", "envelope-spectrum");
+    let spec = spectrum_spec(names, &first, layout.size(height), top, y, lanes);
     draw(report, layout, spec, "envelope", &curves(&report.envelopes), true, None)
 }
 

@@ -55,21 +55,13 @@ fn waveform_spec(
     y: Domain,
 ) -> Spec {
     let first = report.waveforms.first().cloned().unwrap_or_default();
-    Spec {
-        name: name.into(),
-        title: format!("Waveform: {}", first.label),
-        size: layout.size(height),
-        x,
-        y,
-        x_label: "Time".into(),
-        x_unit: x_unit.into(),
-        y_label: first.label,
-        y_unit: first.unit,
-        lanes: vec![],
-        left: 0.0,
-        right: 0.0,
-        x_axis: true,
-    }
+    Spec::new(
+        name,
+        format!("Waveform: {}", first.label),
+        layout.size(height),
+        (x, "Time", x_unit),
+        (y, &first.label, &first.unit),
+    )
 }
 
 pub(super) fn whole(report: &AnalysisReport, layout: Layout) -> Picture {

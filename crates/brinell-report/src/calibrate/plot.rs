@@ -27,21 +27,7 @@ fn misfits(report: &CalibrationReport) -> (Domain, f64) {
 
 fn spec(name: String, title: String, layout: Layout, x: Domain, y: Domain, x_label: (&str, &str)) -> Spec {
     let height = if layout.roomy() { 300.0 } else { 260.0 };
-    Spec {
-        name,
-        title,
-        size: layout.size(height),
-        x,
-        y,
-        x_label: x_label.0.into(),
-        x_unit: x_label.1.into(),
-        y_label: "Chi-square".into(),
-        y_unit: String::new(),
-        lanes: vec![],
-        left: 0.0,
-        right: 0.0,
-        x_axis: true,
-    }
+    Spec::new(name, title, layout.size(height), (x, x_label.0, x_label.1), (y, "Chi-square", ""))
 }
 
 fn dot(chart: &mut Chart, x: f64, y: f64, filled: bool) {

@@ -40,6 +40,33 @@ pub(crate) struct Spec {
     pub(crate) x_axis: bool,
 }
 
+impl Spec {
+    /// Axes of these parts of quantities, with labels and units; nothing else.
+    pub(crate) fn new(
+        name: impl Into<String>,
+        title: impl Into<String>,
+        size: Size,
+        (x, x_label, x_unit): (Domain, &str, &str),
+        (y, y_label, y_unit): (Domain, &str, &str),
+    ) -> Self {
+        Self {
+            name: name.into(),
+            title: title.into(),
+            size,
+            x,
+            y,
+            x_label: x_label.into(),
+            x_unit: x_unit.into(),
+            y_label: y_label.into(),
+            y_unit: y_unit.into(),
+            lanes: Vec::new(),
+            left: 0.0,
+            right: 0.0,
+            x_axis: true,
+        }
+    }
+}
+
 /// A plot being drawn.
 pub(crate) struct Chart {
     pub(crate) picture: Picture,
@@ -147,9 +174,7 @@ impl Chart {
     fn axis_labels(&mut self, x_power: i32, y_power: i32) {
         let (font, frame) = (self.spec.size.font, self.frame);
         if self.spec.x_axis {
-            let label = axis_label(&self.spec.x_label, &self.spec.x_unit, x_power);
-            let middle = 0.5 * (frame.left + frame.right);
-            self.picture.text(Text::with_unit(middle, frame.bottom + 3.0 * font, font, Anchor::Middle, &label));
+            self.label_x(&axis_label(&self.spec.x_label, &self.spec.x_unit, x_power));
         }
         let label = axis_label(&self.spec.y_label, &self.spec.y_unit, y_power);
         let middle = 0.5 * (frame.top + frame.bottom);
@@ -165,6 +190,33 @@ impl Chart {
             line(1.05 * font, &label);
         }
         self.picture.shapes.push(Shape::Close);
+    }
+
+    /// Names in place of numbers under the x axis, the first of them at `first`, with so many px between two.
+    pub(crate) fn name_x(&mut self, names: &[String], first: f64, gap: f64) {
+        let (font, frame) = (self.spec.size.font, self.frame);
+        let room = frame.width() / names.len() as f64 - gap;
+        for (k, name) in names.iter().enumerate() {
+            let name = font::fitted(name, font, false, room);
+            let (x, y) = (self.x.at(k as f64 + first), frame.bottom + 1.4 * font);
+            self.picture.text(Text::new(x, y, font, Anchor::Middle, &name));
+        }
+    }
+
+    /// What the names are of.
+    pub(crate) fn label_x(&mut self, label: &str) {
+        let (font, frame) = (self.spec.size.font, self.frame);
+        let middle = 0.5 * (frame.left + frame.right);
+        self.picture.text(Text::with_unit(middle, frame.bottom + 3.0 * font, font, Anchor::Middle, label));
+    }
+
+    /// Takes the lines and numbers of an axis out: between names there is nothing to divide.
+    pub(crate) fn clear(&mut self, ticks: &str) {
+        let shapes = &mut self.picture.shapes;
+        if let Some(open) = shapes.iter().position(|s| matches!(s, Shape::Open(name) if *name == ticks)) {
+            let length = shapes[open..].iter().take_while(|s| !matches!(s, Shape::Close)).count();
+            shapes.drain(open + 1..open + length);
+        }
     }
 
     /// Frame and lanes, over the curves.

@@ -70,19 +70,18 @@ fn stack(
             let last = k + 1 == panels.len();
             let values = panel.curves.iter().flat_map(|c| c.values.iter().copied());
             Spec {
-                name: String::new(),
-                title: String::new(),
-                size: Size { height: part + if last { 3.4 * size.font } else { 0.0 }, ..size },
-                x: Domain::exact(lo, hi),
-                y: if panel.from_zero { Domain::from_zero(values) } else { Domain::around(values) },
-                x_label: x_label.into(),
-                x_unit: x_unit.into(),
-                y_label: panel.label.clone(),
-                y_unit: panel.unit.clone(),
-                lanes: vec![],
-                left: 0.0,
-                right: 0.0,
                 x_axis: last,
+                ..Spec::new(
+                    "",
+                    "",
+                    Size { height: part + if last { 3.4 * size.font } else { 0.0 }, ..size },
+                    (Domain::exact(lo, hi), x_label, x_unit),
+                    (
+                        if panel.from_zero { Domain::from_zero(values) } else { Domain::around(values) },
+                        &panel.label,
+                        &panel.unit,
+                    ),
+                )
             }
         })
         .collect();

@@ -84,22 +84,17 @@ impl<'a> Plan<'a> {
         let middle = half_turn.map_or(0.5 * (first + last), |_| 0.0);
         // From the room between the margins follows the scale, from the scale the height.
         let spec = |height: f64, left: f64, half: f64| Spec {
-            name: format!("damage-{}", index + 1),
-            title: match view.plan_title.is_empty() {
-                true => view.title.clone(),
-                false => view.plan_title.clone(),
-            },
-            size: Size { width, height, font },
-            x: Domain::exact(middle - half, middle + half),
-            y: Domain::exact(-0.5 * tall, 0.5 * tall),
-            x_label: along(view, half_turn.is_some()),
-            x_unit: "mm".into(),
-            y_label: "Across".into(),
-            y_unit: "mm".into(),
-            lanes: vec![],
             left,
-            right: 0.0,
-            x_axis: true,
+            ..Spec::new(
+                format!("damage-{}", index + 1),
+                match view.plan_title.is_empty() {
+                    true => view.title.clone(),
+                    false => view.plan_title.clone(),
+                },
+                Size { width, height, font },
+                (Domain::exact(middle - half, middle + half), &along(view, half_turn.is_some()), "mm"),
+                (Domain::exact(-0.5 * tall, 0.5 * tall), "Across", "mm"),
+            )
         };
         let around = 8.0 + 3.4 * font;
         let draft = spec(TALLEST + around, 0.0, wanted);

@@ -1,7 +1,7 @@
 //! A defect's numbers, and what to say of them.
 
+use crate::Fact;
 use crate::number::short;
-use crate::{Fact, Value};
 use brinell::defect::{Defect, Shape};
 use brinell::scenario::Bearing;
 
@@ -59,7 +59,7 @@ pub(super) fn deepest(defect: &Defect) -> (f64, f64) {
 
 pub(super) fn facts(m: &Measures, bearing: &Bearing) -> Vec<Fact> {
     let fact = |label: &str, value: f64, digits: usize, unit: &str, note: String| {
-        Fact::new(label, Value::Text(short(value, digits)), unit, note)
+        Fact::new(label, short(value, digits), unit, note)
     };
     let none = String::new;
     let floor = if m.deepest_um > m.approach_um {

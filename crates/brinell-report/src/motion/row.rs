@@ -1,7 +1,8 @@
 //! One row of the bearing in motion, drawn.
 
-use super::{COLORS, DamagedSurface, Motion, MotionRow, RING, finite};
+use super::{COLORS, Motion, MotionRow, RING, finite};
 use crate::picture::{Paint, Shape, ink};
+use brinell::scenario::Surface;
 use std::f64::consts::{PI, TAU};
 
 /// One row at one instant.
@@ -107,9 +108,9 @@ impl DrawnRow<'_> {
             });
             let along = (0..=8).map(|k| ends[0] + f64::from(k) / 8.0 * (ends[1] - ends[0]));
             let line = match damage.surface {
-                DamagedSurface::Outer => along.map(|a| self.at(motion.outer_radius_mm, a)).collect(),
-                DamagedSurface::Inner => along.map(|a| self.at(motion.inner_radius_mm, a + self.ring())).collect(),
-                DamagedSurface::Roller(k) => {
+                Surface::OuterRaceway => along.map(|a| self.at(motion.outer_radius_mm, a)).collect(),
+                Surface::InnerRaceway => along.map(|a| self.at(motion.inner_radius_mm, a + self.ring())).collect(),
+                Surface::Roller(k) => {
                     let (Some(orbit), Some(spin)) = (orbit.get(k), spin.get(k)) else {
                         continue;
                     };

@@ -23,7 +23,7 @@ pub(crate) use layout::{legend, time_unit};
 pub(crate) use markers::{marker_lanes, order_lanes};
 pub(crate) use pass::pass;
 pub(crate) use spectrum::{
-    envelope_domain, envelope_spectrum, order_domain, order_spectrum, spectrum, spectrum_domain,
+    envelope_domain, envelope_spectrum, order_domain, order_spectrum, spectrum, spectrum_domain, spectrum_spec,
 };
 pub(crate) use waveform::waveform;
 pub use waveform::{detail_window, overview};

@@ -23,9 +23,8 @@ pub(crate) fn spectrum(report: &Report, layout: Layout) -> Picture {
     let size = layout.size(if layout.roomy() { 320.0 } else { 270.0 });
     let spectrum = &report.spectrum;
     let end = spacing(spectrum.df_hz) * spectrum.amplitude.len().saturating_sub(1) as f64;
-    let title = format!("Spectrum: {}", spectrum.label);
     let y = spectrum_domain(report);
-    let mut chart = Chart::new(spectrum_spec("spectrum", title, spectrum, size, end, y, vec![]));
+    let mut chart = Chart::new(spectrum_spec(("spectrum", "Spectrum"), spectrum, size, end, y, vec![]));
     draw_spectrum(&mut chart, spectrum, &report.healthy.spectrum);
     chart.interactive("spectrum");
     chart.finish()
@@ -62,8 +61,7 @@ pub(crate) fn order_spectrum(report: &Report, layout: Layout) -> Picture {
         x_label: "Order of the shaft".into(),
         x_unit: String::new(),
         ..spectrum_spec(
-            "envelope-orders",
-            format!("Envelope orders: {}", spectrum.label),
+            ("envelope-orders", "Envelope orders"),
             spectrum,
             size,
             top(spectrum, &report.order_markers),
@@ -87,8 +85,8 @@ fn lines_domain(spectrum: &Spectrum, healthy: &[f64], top: f64) -> Domain {
 pub(super) fn envelope_spec(report: &Report, size: Size) -> Spec {
     let spectrum = &report.envelope_spectrum;
     let (top, y) = (envelope_top(report), envelope_domain(report));
-    let title = format!("Envelope spectrum: {}", spectrum.label);
-    spectrum_spec("envelope-spectrum", title, spectrum, size, top, y, marker_lanes(&report.markers))
+    let names = ("envelope-spectrum", "Envelope spectrum");
+    spectrum_spec(names, spectrum, size, top, y, marker_lanes(&report.markers))
 }
 
 pub(super) fn draw_envelope(report: &Report, spec: Spec) -> Picture {
@@ -99,30 +97,18 @@ pub(super) fn draw_envelope(report: &Report, spec: Spec) -> Picture {
     chart.finish()
 }
 
-fn spectrum_spec(
-    name: &str,
-    title: String,
+pub(crate) fn spectrum_spec(
+    (name, title): (&str, &str),
     spectrum: &Spectrum,
     size: Size,
     top: f64,
     y: Domain,
     lanes: Vec<Lane>,
 ) -> Spec {
-    Spec {
-        name: name.into(),
-        title,
-        size,
-        x: Domain::exact(0.0, if top > 0.0 { top } else { 1.0 }),
-        y,
-        x_label: "Frequency".into(),
-        x_unit: "Hz".into(),
-        y_label: if spectrum.label.is_empty() { "Amplitude".into() } else { spectrum.label.clone() },
-        y_unit: spectrum.unit.clone(),
-        lanes,
-        left: 0.0,
-        right: 0.0,
-        x_axis: true,
-    }
+    let label = if spectrum.label.is_empty() { "Amplitude" } else { &spectrum.label };
+    let x = Domain::exact(0.0, if top > 0.0 { top } else { 1.0 });
+    let title = format!("{title}: {}", spectrum.label);
+    Spec { lanes, ..Spec::new(name, title, size, (x, "Frequency", "Hz"), (y, label, &spectrum.unit)) }
 }
 
 fn draw_spectrum(chart: &mut Chart, spectrum: &Spectrum, healthy: &[f64]) {

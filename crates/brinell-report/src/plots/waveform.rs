@@ -3,7 +3,7 @@
 use super::layout::{CURVE, HEALTHY, HEALTHY_WORDS, Layout, known, spacing, start, time_unit};
 use super::markers::telling;
 use crate::chart::{Chart, Domain, Lane, Mark, Size, Spec, range};
-use crate::data::{EventKind, MinMax, Report, Series};
+use crate::data::{MinMax, Report, Series};
 use crate::number::significant;
 use crate::picture::{Paint, Picture, ink};
 
@@ -58,21 +58,13 @@ pub fn overview(report: &Report, layout: Layout) -> Picture {
     let end = t0 + dt * count as f64;
     let (unit, scale) = time_unit(end - t0);
     let (y, cut) = settled_domain(&bins.min[..count], &bins.max[..count]);
-    let mut chart = Chart::new(Spec {
-        name: "overview".into(),
-        title: format!("Whole run: {}", series.label),
-        size: layout.size(if layout.roomy() { 190.0 } else { 170.0 }),
-        x: Domain::exact(t0 * scale, end * scale),
-        y,
-        x_label: "Time".into(),
-        x_unit: unit.into(),
-        y_label: "Acceleration".into(),
-        y_unit: series.unit.clone(),
-        lanes: vec![],
-        left: 0.0,
-        right: 0.0,
-        x_axis: true,
-    });
+    let mut chart = Chart::new(Spec::new(
+        "overview",
+        format!("Whole run: {}", series.label),
+        layout.size(if layout.roomy() { 190.0 } else { 170.0 }),
+        (Domain::exact(t0 * scale, end * scale), "Time", unit),
+        (y, "Acceleration", &series.unit),
+    ));
     if range(bins.min.iter().copied()).is_none() {
         chart.say("No samples");
     } else {
@@ -96,7 +88,7 @@ pub fn overview(report: &Report, layout: Layout) -> Picture {
 }
 
 pub(crate) fn event_lanes(report: &Report, scale: f64) -> Vec<Lane> {
-    let lane = |kind: EventKind, label: &str, color, dash: &'static [f64]| Lane {
+    let lane = |enters: bool, label: &str, color, dash: &'static [f64]| Lane {
         label: label.into(),
         value: String::new(),
         color,
@@ -107,7 +99,7 @@ pub(crate) fn event_lanes(report: &Report, scale: f64) -> Vec<Lane> {
                 .waveform
                 .events
                 .iter()
-                .filter(|event| event.kind == kind && event.t_s.is_finite())
+                .filter(|event| event.enters == enters && event.t_s.is_finite())
                 .map(|event| Mark {
                     x: event.t_s * scale,
                     name: format!("Rolling element {} {label}", event.label),
@@ -118,7 +110,7 @@ pub(crate) fn event_lanes(report: &Report, scale: f64) -> Vec<Lane> {
             marks
         },
     };
-    [lane(EventKind::Enter, "enters", ink::VERMILLION, &[]), lane(EventKind::Leave, "leaves", ink::GREEN, &[5.0, 3.0])]
+    [lane(true, "enters", ink::VERMILLION, &[]), lane(false, "leaves", ink::GREEN, &[5.0, 3.0])]
         .into_iter()
         .filter(|lane| !lane.marks.is_empty())
         .collect()
@@ -173,18 +165,13 @@ pub(super) fn waveform_spec(report: &Report, size: Size) -> Spec {
     let (lo, hi) = detail_window(report);
     let (unit, scale) = waveform_unit(report);
     Spec {
-        name: "waveform".into(),
-        title: format!("Waveform: {}", series.label),
-        size,
-        x: Domain::exact(lo * scale, hi * scale),
-        y: waveform_domain(report),
-        x_label: "Time".into(),
-        x_unit: unit.into(),
-        y_label: series.label.clone(),
-        y_unit: series.unit.clone(),
         lanes: event_lanes(report, scale),
-        left: 0.0,
-        right: 0.0,
-        x_axis: true,
+        ..Spec::new(
+            "waveform",
+            format!("Waveform: {}", series.label),
+            size,
+            (Domain::exact(lo * scale, hi * scale), "Time", unit),
+            (waveform_domain(report), &series.label, &series.unit),
+        )
     }
 }

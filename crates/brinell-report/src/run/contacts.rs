@@ -33,7 +33,6 @@ pub(super) fn pass(parts: &Parts, pass: &Pass) -> crate::Pass {
         ),
         angle_deg: points.iter().map(|p| p.angle.to_degrees()).collect(),
         length_mm: points.iter().map(|p| 1e3 * p.length).collect(),
-        other_length_mm: None,
         stiffness: points.iter().map(|p| p.stiffness).collect(),
         stiffness_unit: if (parts.loaded.scenario.contact.exponent - 10.0 / 9.0).abs() < 1e-9 {
             "N/m^(10/9)".into()
@@ -42,7 +41,6 @@ pub(super) fn pass(parts: &Parts, pass: &Pass) -> crate::Pass {
         },
         force_n: points.iter().map(|p| p.force).collect(),
         contact: contact.into(),
-        other_contact: String::new(),
     }
 }
 

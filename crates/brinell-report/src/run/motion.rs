@@ -1,14 +1,10 @@
 //! Of the report's data, what moves: spectrogram, cage orbits, slip, and the bearing's frames.
 
 use crate::number::short;
-use crate::{
-    AxialRow, AxialSection, CageOrbit, CageOrbits, DamagedSurface, Motion, MotionDamage, MotionRow, SlipRow,
-    Spectrogram,
-};
+use crate::{AxialRow, AxialSection, CageOrbit, CageOrbits, Motion, MotionDamage, MotionRow, SlipRow, Spectrogram};
 use brinell::defect::Side;
 use brinell::observe::load_zone::BINS;
 use brinell::observe::orbit::TURNS;
-use brinell::scenario::Surface;
 use brinell::summary::Parts;
 use std::f64::consts::TAU;
 
@@ -112,11 +108,7 @@ pub(super) fn motion(parts: &Parts) -> Motion {
         let (first, last) = defect.shape.arc();
         MotionDamage {
             row: defect.row,
-            surface: match defect.surface {
-                Surface::OuterRaceway => DamagedSurface::Outer,
-                Surface::InnerRaceway => DamagedSurface::Inner,
-                Surface::Roller(k) => DamagedSurface::Roller(k),
-            },
+            surface: defect.surface,
             angle: [first, last].map(|s| defect.center + s / defect.radius),
         }
     });

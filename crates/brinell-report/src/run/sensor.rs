@@ -1,7 +1,7 @@
 //! Of the report's data, the measurement chain.
 
 use crate::number::short;
-use crate::{Fact, SensorView, Value};
+use crate::{Fact, SensorView};
 use brinell::summary::Parts;
 
 /// Frequencies of the response, up to half the sample rate; not 0, which a band with a lower end does not pass at all.
@@ -26,7 +26,7 @@ fn facts(parts: &Parts) -> Vec<Fact> {
         return Vec::new();
     };
     let mut facts = Vec::new();
-    let text = |x: f64| Value::Text(short(x, 3));
+    let text = |x: f64| short(x, 3);
     if let Some(rms) = chain.noise_rms() {
         let note = "standard deviation, on every channel its own";
         facts.push(Fact::new("Noise", text(rms), "m/s^2", note));
@@ -47,7 +47,7 @@ fn facts(parts: &Parts) -> Vec<Fact> {
         if record.clipped > 0 {
             facts.push(Fact::new(
                 format!("{}, clipped", channel.name),
-                Value::Text(record.clipped.to_string()),
+                record.clipped.to_string(),
                 "samples",
                 format!("of {}", parts.outcome.rows),
             ));

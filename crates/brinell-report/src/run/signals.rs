@@ -2,7 +2,7 @@
 
 use super::{axis, sensor_label};
 use crate::number::short;
-use crate::{Estimate, Event, EventKind, IndicatorRow, IndicatorTable, Marker, MinMax, Series, Spectrum, Waveform};
+use crate::{Estimate, Event, IndicatorRow, IndicatorTable, Marker, MinMax, Series, Spectrum, Waveform};
 use brinell::bearing::Kinematics;
 use brinell::model::Model;
 use brinell::observe::{ChannelStatistics, Kind};
@@ -44,7 +44,7 @@ pub(super) fn waveform(parts: &Parts) -> Waveform {
             .filter(|e| e.t >= t0)
             .map(|e| Event {
                 t_s: e.t,
-                kind: if e.enters { EventKind::Enter } else { EventKind::Leave },
+                enters: e.enters,
                 label: format!("{}·{:02}", l.row(e.slot) + 1, l.roller(e.slot) + 1),
             })
             .collect(),

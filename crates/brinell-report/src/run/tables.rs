@@ -31,7 +31,7 @@ pub(super) fn facts(parts: &Parts) -> Vec<Fact> {
             let note = e.interval.map_or("anti-aliased".to_owned(), |i| {
                 format!("anti-aliased; 95 %: {} to {}", short(i.low, 3), short(i.high, 3))
             });
-            facts.push(Fact::new(label, crate::Value::Text(short(e.value, 3)), unit, note));
+            facts.push(Fact::new(label, short(e.value, 3), unit, note));
         }
     }
     facts.extend(healthy_fact(parts));
@@ -39,7 +39,7 @@ pub(super) fn facts(parts: &Parts) -> Vec<Fact> {
     if let Ok(zone) = &parts.beforehand.statics {
         facts.push(Fact::new(
             "Heaviest contact, static",
-            crate::Value::Text(short(zone.largest, 3)),
+            short(zone.largest, 3),
             "N",
             format!("load zone {:.0}° wide", zone.extent.to_degrees()),
         ));
@@ -59,7 +59,7 @@ fn healthy_fact(parts: &Parts) -> Option<Fact> {
     });
     Some(Fact::new(
         "RMS of the healthy bearing",
-        crate::Value::Text(short(rms.value, 3)),
+        short(rms.value, 3),
         "m/s^2",
         format!("the same scenario without its damage{times}"),
     ))
@@ -79,12 +79,12 @@ fn line_fact(parts: &Parts, line: &DefectLine) -> Fact {
         None => format!("{}; pure rolling {:.2} Hz", place(defect), line.nominal),
     };
     let unit = line.found.map_or("", |_| "Hz");
-    Fact::new(line.name, crate::Value::Text(value), unit, note)
+    Fact::new(line.name, value, unit, note)
 }
 
 pub(super) fn slip(parts: &Parts) -> Vec<Fact> {
     let mut facts = Vec::new();
-    let percent = |x: f64| crate::Value::Text(short(100.0 * x, 3));
+    let percent = |x: f64| short(100.0 * x, 3);
     for (row, slip) in parts.findings.slip.rows.iter().enumerate() {
         let entries = [
             ("cage", fields::CAGE_SLIP, "behind its pure-rolling speed"),
@@ -120,11 +120,10 @@ const ENERGY_LIMIT: f64 = 1e-2;
 pub(super) fn audits(parts: &Parts) -> Vec<Fact> {
     let e = &parts.outcome.energy;
     let f = &e.flows;
-    let mj =
-        |label: &str, joule: f64, note: &str| Fact::new(label, crate::Value::Text(short(1e3 * joule, 4)), "mJ", note);
+    let mj = |label: &str, joule: f64, note: &str| Fact::new(label, short(1e3 * joule, 4), "mJ", note);
     let mut facts = Vec::new();
     if let Some(x) = (fields::MOMENTUM_IMBALANCE.of)(parts.outcome) {
-        let value = crate::Value::Text(short(x, 2));
+        let value = short(x, 2);
         let note = "largest force without a reaction, relative to all forces; round-off is about 1e-15";
         facts.push(Fact::new("Momentum imbalance", value, "", note).judged(x < MOMENTUM_LIMIT));
     }
@@ -156,7 +155,7 @@ pub(super) fn audits(parts: &Parts) -> Vec<Fact> {
 pub(super) fn solver_work(parts: &Parts) -> Vec<Fact> {
     let count = |label: &str, field: Field<fn(&Outcome) -> u64>, note: &str| {
         let n = (field.of)(parts.outcome).to_string();
-        Fact::new(label, crate::Value::Text(n), "", note)
+        Fact::new(label, n, "", note)
     };
     let accuracy = parts.loaded.scenario.simulation.accuracy.word();
     vec![
@@ -182,7 +181,7 @@ pub(super) fn assumptions(parts: &Parts) -> Vec<Assumption> {
         .iter()
         .map(|p| Assumption {
             key: p.key.clone(),
-            value: crate::Value::Text(p.value.clone()),
+            value: p.value.clone().into(),
             unit: p.unit.to_owned(),
             source: p.reason(),
             estimated: p.assumed,

@@ -76,6 +76,26 @@ pub struct Overlay {
     pub note: String,
 }
 
+impl Overlay {
+    /// Of these curves; labels with their units.
+    pub fn new(
+        name: impl Into<String>,
+        (x_label, x_unit): (&str, &str),
+        (y_label, y_unit): (&str, &str),
+        curves: Vec<OverlaidCurve>,
+    ) -> Self {
+        Self {
+            name: name.into(),
+            x_label: x_label.into(),
+            x_unit: x_unit.into(),
+            y_label: y_label.into(),
+            y_unit: y_unit.into(),
+            curves,
+            ..Self::default()
+        }
+    }
+}
+
 /// A piece of a section.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Piece {

@@ -139,22 +139,10 @@ pub(crate) fn stacked(
 fn plot(overlay: &Overlay, names: &[String], layout: Layout, height: f64, common: Option<&[f64]>) -> Picture {
     let (x, y) = domains(overlay, common);
     let lanes = marker_lanes(&overlay.markers);
-    let spec = Spec {
-        name: overlay.name.clone(),
-        title: format!("{} over {}", overlay.y_label, overlay.x_label),
-        size: layout.size(height + 16.0 * lanes.len() as f64),
-        x,
-        y,
-        x_label: overlay.x_label.clone(),
-        x_unit: overlay.x_unit.clone(),
-        y_label: overlay.y_label.clone(),
-        y_unit: overlay.y_unit.clone(),
-        lanes,
-        left: 0.0,
-        right: 0.0,
-        x_axis: true,
-    };
-    let (name, title, size) = (spec.name.clone(), spec.title.clone(), spec.size);
+    let size = layout.size(height + 16.0 * lanes.len() as f64);
+    let (name, title) = (&overlay.name, format!("{} over {}", overlay.y_label, overlay.x_label));
+    let (x_label, y_label) = ((x, &*overlay.x_label, &*overlay.x_unit), (y, &*overlay.y_label, &*overlay.y_unit));
+    let spec = Spec { lanes, ..Spec::new(name, &title, size, x_label, y_label) };
     let mut chart = Chart::new(spec);
     let values = overlay.curves.iter().flat_map(|c| shown(c, (x.lo, x.hi)));
     if range(values).is_none() {
@@ -178,13 +166,13 @@ fn plot(overlay: &Overlay, names: &[String], layout: Layout, height: f64, common
         .map(|(k, name)| (name.as_str(), paint(k)))
         .collect();
     let width = layout.size(0.0).width;
-    let mut picture = Picture::new(&name, &title, width, size.height);
+    let mut picture = Picture::new(name, &title, width, size.height);
     let top = match entries.len() {
         0 => 0.0,
         _ => legend(&mut picture, &entries, 12.0, width - 12.0, 2.0, size.font),
     };
     picture.height = top + size.height;
-    chart.interactive_at(&name, top);
+    chart.interactive_at(name, top);
     let drawn = chart.finish();
     picture.attributes.clone_from(&drawn.attributes);
     picture.place(drawn, 0.0, top);

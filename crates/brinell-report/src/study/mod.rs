@@ -122,6 +122,13 @@ pub struct Chapter {
     pub pieces: Vec<StudyPiece>,
 }
 
+impl Chapter {
+    /// With its pieces.
+    pub fn new(id: &str, short: &str, title: &str, pieces: Vec<StudyPiece>) -> Self {
+        Self { id: id.into(), short: short.into(), title: title.into(), pieces }
+    }
+}
+
 /// Everything that the page shows.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Study {
@@ -268,11 +275,11 @@ mod tests {
         };
         let study = Study {
             title: "T".into(),
-            chapters: vec![Chapter {
-                id: "one".into(),
-                short: "One".into(),
-                title: "Chapter one".into(),
-                pieces: vec![
+            chapters: vec![Chapter::new(
+                "one",
+                "One",
+                "Chapter one",
+                vec![
                     StudyPiece::Words("some words".into()),
                     StudyPiece::Curves(Overlay::default(), vec![]),
                     StudyPiece::Trend(IndicatorPlot::default()),
@@ -285,7 +292,7 @@ mod tests {
                     StudyPiece::Claims(vec![card]),
                     StudyPiece::Claims(vec![]),
                 ],
-            }],
+            )],
             ..Study::default()
         };
         let page = study_html(&study);

@@ -4,7 +4,7 @@
 use crate::chart::{Chart, Domain, SCALE_MARGIN, Shades, Spec, range};
 use crate::font;
 use crate::number::significant;
-use crate::picture::{Anchor, Picture, Shape, Text, ink};
+use crate::picture::{Anchor, Picture, Text, ink};
 use crate::plots::Layout;
 
 /// An indicator on a grid of two keys.
@@ -50,24 +50,19 @@ pub(crate) fn heat_map(map: &HeatMap, layout: Layout) -> Option<Picture> {
     let widest = names.map(|name| font::width(name, size.font, false));
     let left = widest.fold(0.0, f64::max).min(0.25 * size.width) + 2.6 * size.font;
     let mut chart = Chart::new(Spec {
-        name: map.name.clone(),
-        title: format!("{} over {} and {}", map.label, map.x_label, map.y_label),
-        size,
-        x: Domain::exact(0.0, columns as f64),
-        y: Domain::exact(0.0, rows as f64),
-        x_label: String::new(),
-        x_unit: String::new(),
-        y_label: map.y_label.clone(),
-        y_unit: String::new(),
-        lanes: vec![],
         left,
         right: SCALE_MARGIN * size.font,
         x_axis: false,
+        ..Spec::new(
+            map.name.clone(),
+            format!("{} over {} and {}", map.label, map.x_label, map.y_label),
+            size,
+            (Domain::exact(0.0, columns as f64), "", ""),
+            (Domain::exact(0.0, rows as f64), &map.y_label, ""),
+        )
     });
-    // Between the values of a grid there is nothing to divide.
-    for axis in ["ticks-x", "ticks-y"] {
-        clear(&mut chart.picture, axis);
-    }
+    chart.clear("ticks-x");
+    chart.clear("ticks-y");
     let top_down: Vec<f64> = map.values.chunks(columns).rev().flatten().copied().collect();
     chart.shades(&Shades { columns, values: &top_down, range: (low, high), ticks: 5, head: "" });
     name(&mut chart, map, size.font);
@@ -77,34 +72,16 @@ pub(crate) fn heat_map(map: &HeatMap, layout: Layout) -> Option<Picture> {
     Some(picture)
 }
 
-/// Takes out what a group of shapes holds.
-fn clear(picture: &mut Picture, class: &str) {
-    let shapes = &mut picture.shapes;
-    let open = |s: &Shape| matches!(s, Shape::Open(name) if *name == class);
-    if let Some(open) = shapes.iter().position(open) {
-        let rest = shapes[open..].iter();
-        let length = rest.take_while(|s| !matches!(s, Shape::Close)).count();
-        shapes.drain(open + 1..open + length);
-    }
-}
-
 /// Values of both keys beside the cells, the keys under and left of them.
 fn name(chart: &mut Chart, map: &HeatMap, size: f64) {
     let frame = chart.frame;
-    let room = frame.width() / map.x_names.len() as f64 - 4.0;
-    for (k, words) in map.x_names.iter().enumerate() {
-        let words = font::fitted(words, size, false, room);
-        let (x, y) = (chart.x.at(k as f64 + 0.5), frame.bottom + 1.4 * size);
-        chart.picture.text(Text::new(x, y, size, Anchor::Middle, &words));
-    }
+    chart.name_x(&map.x_names, 0.5, 4.0);
     for (k, words) in map.y_names.iter().enumerate() {
         let words = font::fitted(words, size, false, frame.left - 2.0 * size);
         let (x, y) = (frame.left - 6.0, chart.y.at(k as f64 + 0.5) + 0.36 * size);
         chart.picture.text(Text::new(x, y, size, Anchor::End, &words));
     }
-    let middle = 0.5 * (frame.left + frame.right);
-    let y = frame.bottom + 3.0 * size;
-    chart.picture.text(Text::with_unit(middle, y, size, Anchor::Middle, &map.x_label));
+    chart.label_x(&map.x_label);
 }
 
 /// The value of each cell, where all of them fit.

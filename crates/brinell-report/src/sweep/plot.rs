@@ -3,7 +3,6 @@
 use super::{IndicatorLine, IndicatorPlot, IndicatorPoint};
 use crate::chart::{Chart, Domain, Size, Spec, range};
 use crate::embedded::{self, Curve, Places};
-use crate::font;
 use crate::picture::{Anchor, Paint, Picture, Shape, Text, ink};
 use crate::plots::{Layout, legend};
 
@@ -32,7 +31,9 @@ pub(crate) fn indicator_plot(plot: &IndicatorPlot, layout: Layout) -> Picture {
     let (name, title) = (spec.name.clone(), spec.title.clone());
     let mut chart = Chart::new(spec);
     if named {
-        name_x(&mut chart, plot, size.font);
+        chart.clear("ticks-x");
+        chart.name_x(&plot.x_names, 0.0, 6.0);
+        chart.label_x(&plot.x_label);
     }
     let mut points = plot.lines.iter().flat_map(|line| &line.points);
     if points.all(|p| !p.value.is_finite()) {
@@ -109,19 +110,14 @@ fn spec(plot: &IndicatorPlot, size: Size) -> Spec {
         Domain::around(points().map(|p| p.x))
     };
     Spec {
-        name: plot.name.clone(),
-        title: format!("{} over {}", plot.label, plot.x_label),
-        size,
-        x,
-        y: y_domain(heights),
-        x_label: plot.x_label.clone(),
-        x_unit: plot.x_unit.clone(),
-        y_label: plot.label.clone(),
-        y_unit: plot.unit.clone(),
-        lanes: vec![],
-        left: 0.0,
-        right: 0.0,
         x_axis: !named,
+        ..Spec::new(
+            plot.name.clone(),
+            format!("{} over {}", plot.label, plot.x_label),
+            size,
+            (x, &plot.x_label, &plot.x_unit),
+            (y_domain(heights), &plot.label, &plot.unit),
+        )
     }
 }
 
@@ -132,27 +128,6 @@ fn y_domain(values: impl Iterator<Item = f64>) -> Domain {
         Some((lo, hi)) => Domain::around([lo, hi]),
         None => Domain::from_zero([]),
     }
-}
-
-/// Names instead of numbers under the x axis.
-fn name_x(chart: &mut Chart, plot: &IndicatorPlot, size: f64) {
-    // Between names there is nothing to divide: the lines of a numeric axis go.
-    let shapes = &mut chart.picture.shapes;
-    if let Some(open) = shapes.iter().position(|s| matches!(s, Shape::Open("ticks-x"))) {
-        let length = shapes[open..].iter().position(|s| matches!(s, Shape::Close)).unwrap_or(0);
-        shapes.drain(open + 1..open + length);
-    }
-    let room = chart.frame.width() / plot.x_names.len() as f64 - 6.0;
-    for (k, name) in plot.x_names.iter().enumerate() {
-        let name = font::fitted(name, size, false, room);
-        let y = chart.frame.bottom + 1.4 * size;
-        let text = Text::new(chart.x.at(k as f64), y, size, Anchor::Middle, &name);
-        chart.picture.text(text);
-    }
-    let middle = 0.5 * (chart.frame.left + chart.frame.right);
-    let y = chart.frame.bottom + 3.0 * size;
-    let label = Text::with_unit(middle, y, size, Anchor::Middle, &plot.x_label);
-    chart.picture.text(label);
 }
 
 fn draw(chart: &mut Chart, line: &IndicatorLine, paint: Paint, beside: f64, joined: bool) {

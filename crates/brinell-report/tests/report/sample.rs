@@ -1,10 +1,10 @@
 //! Reports to draw: everything filled from given strings and numbers, and an ordinary run.
 
+use brinell::scenario::Surface;
 use brinell_report::{
     AlongRoller, Assumption, AxialRow, AxialSection, CageOrbit, CageOrbits, DamageCurve, DamagePanel, DamageView,
-    DamagedSurface, DepthPatch, Estimate, Event, EventKind, Fact, Healthy, IndicatorRow, IndicatorTable, Marker,
-    MinMax, Motion, MotionDamage, MotionRow, Pass, Report, RowLoad, SensorView, Series, SlipRow, Spectrogram, Spectrum,
-    Waveform, bin_centres,
+    DepthPatch, Estimate, Event, Fact, Healthy, IndicatorRow, IndicatorTable, Marker, MinMax, Motion, MotionDamage,
+    MotionRow, Pass, Report, RowLoad, SensorView, Series, SlipRow, Spectrogram, Spectrum, Waveform, bin_centres,
 };
 
 /// Damage in which every list is filled; one with depths and one of a polygon come from the sign of the first value.
@@ -118,7 +118,7 @@ fn motion(text: &str, values: &[f64], dt: f64) -> Motion {
         roller_radius_mm: 3.0,
         ring: some,
         rows: vec![row; 2],
-        damage: [DamagedSurface::Outer, DamagedSurface::Inner, DamagedSurface::Roller(1)]
+        damage: [Surface::OuterRaceway, Surface::InnerRaceway, Surface::Roller(1)]
             .map(|surface| MotionDamage {
                 row: 0,
                 surface,
@@ -166,8 +166,8 @@ pub(crate) fn filled(text: &str, values: &[f64], dt: f64, frequency: f64) -> Rep
                 max: values.iter().skip(1).copied().collect(),
             }),
             events: vec![
-                Event { t_s: at(3), kind: EventKind::Enter, label: text.into() },
-                Event { t_s: at(4), kind: EventKind::Leave, label: text.into() },
+                Event { t_s: at(3), enters: true, label: text.into() },
+                Event { t_s: at(4), enters: false, label: text.into() },
             ],
         },
         spectrum: spectrum(),
@@ -186,12 +186,10 @@ pub(crate) fn filled(text: &str, values: &[f64], dt: f64, frequency: f64) -> Rep
             title: text.into(),
             angle_deg: values.to_vec(),
             length_mm: values.to_vec(),
-            other_length_mm: Some(values.iter().rev().copied().collect()),
             stiffness: values.iter().skip(1).copied().collect(),
             stiffness_unit: text.into(),
             force_n: vec![],
             contact: text.into(),
-            other_contact: text.into(),
         }],
         along: damage_view(text, values).along,
         load_distribution: vec![RowLoad {
@@ -273,7 +271,6 @@ pub(crate) fn ordinary() -> Report {
     report.passes[0] = Pass {
         title: "Row 1, roller 7".into(),
         length_mm: angle_deg.iter().map(|a| if a.abs() < 3.1 { 2.0 } else { 6.0 }).collect(),
-        other_length_mm: None,
         stiffness: vec![1.9e8; 500],
         stiffness_unit: "N/m^(10/9)".into(),
         force_n: vec![40.0; 500],

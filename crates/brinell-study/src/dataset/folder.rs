@@ -82,8 +82,7 @@ impl Folder {
                 return self.same(&mine, &theirs);
             }
             self.parts_are(campaign)?;
-            let text = serde_json::to_string_pretty(&mine).unwrap_or_default() + "\n";
-            match atomic_write(self.campaign(), text) {
+            match atomic_write(self.campaign(), sidecar::written(&mine)) {
                 Err(IoError::Busy { .. }) => std::thread::sleep(Duration::from_millis(50)),
                 Err(error) => return Err(error.into()),
                 Ok(()) => {}
@@ -94,6 +93,23 @@ impl Folder {
             self.root.display(),
             self.campaign().display()
         )))
+    }
+
+    /// `dataset.json`; null where it cannot be read, as before the data set is finished.
+    pub(crate) fn described(&self) -> Result<Value, DatasetError> {
+        let path = self.sidecar();
+        std::fs::read(&path).map_or(Ok(Value::Null), |bytes| {
+            serde_json::from_slice(&bytes)
+                .map_err(|error| DatasetError::Refused(format!("{}: {error}", path.display())))
+        })
+    }
+
+    /// That nothing here tells of a data set.
+    pub(crate) fn no_data_set(&self) -> DatasetError {
+        DatasetError::Refused(format!(
+            "{}: no data set is here (neither dataset.json nor work/campaign.json)",
+            self.root.display()
+        ))
     }
 
     /// What the folder says of its campaign; `None` where it has none yet.

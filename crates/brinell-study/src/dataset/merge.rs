@@ -66,8 +66,7 @@ pub fn merge(from: &[PathBuf], into: &Path) -> Result<Merged, DatasetError> {
         make(&into.join(name))?;
     }
     if target.about()?.is_none() {
-        let text = serde_json::to_string_pretty(&about).unwrap_or_default() + "\n";
-        atomic_write(target.campaign(), text)?;
+        atomic_write(target.campaign(), sidecar::written(&about))?;
     }
     let mut merged = Merged::default();
     for part in 0..about["files"].as_u64().unwrap_or(0) as usize {

@@ -17,7 +17,7 @@ const TURNS: f64 = 2.0;
 const STRETCH_S: f64 = 0.1;
 
 /// A data set's runs to look at.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, Default, PartialEq)]
 pub struct Sheet {
     /// Name of the data set.
     pub name: String,
@@ -32,7 +32,7 @@ pub struct Sheet {
 }
 
 /// Runs of one class.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, Default, PartialEq)]
 pub struct SheetClass {
     /// Its name.
     pub name: String,
@@ -45,7 +45,7 @@ pub struct SheetClass {
 }
 
 /// One run.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, Default, PartialEq)]
 pub struct SheetRun {
     /// Its number.
     pub run: i64,
@@ -76,7 +76,7 @@ pub struct SheetRun {
 }
 
 /// Damage of a run, as its labels have it.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, Default, PartialEq)]
 pub struct SheetDefect {
     /// outer-raceway, inner-raceway or roller.
     pub on: String,
@@ -106,7 +106,10 @@ struct Place {
 /// Where there is no data set, or it cannot be read.
 pub fn sheet(folder: impl AsRef<Path>, each: usize) -> Result<Sheet, DatasetError> {
     let folder = Folder::new(folder.as_ref());
-    let about = described(&folder)?;
+    let about = match folder.described()? {
+        Value::Null => folder.about()?.ok_or_else(|| folder.no_data_set())?,
+        about => about,
+    };
     let text = |value: &Value| value.as_str().unwrap_or("").to_owned();
     let list = |key: &str| about[key].as_array().into_iter().flatten();
     let Some(signal) = list("columns").find(|c| c["type"] == "list<float>") else {
@@ -150,21 +153,6 @@ pub fn sheet(folder: impl AsRef<Path>, each: usize) -> Result<Sheet, DatasetErro
         unit: text(&signal["unit"]),
         classes,
     })
-}
-
-/// `dataset.json`, or what is known before all files are there.
-fn described(folder: &Folder) -> Result<Value, DatasetError> {
-    let path = folder.sidecar();
-    match std::fs::read(&path) {
-        Ok(bytes) => serde_json::from_slice(&bytes)
-            .map_err(|error| DatasetError::Refused(format!("{}: {error}", path.display()))),
-        Err(_) => folder.about()?.ok_or_else(|| {
-            DatasetError::Refused(format!(
-                "{}: no data set is here (neither dataset.json nor work/campaign.json)",
-                folder.root.display()
-            ))
-        }),
-    }
 }
 
 fn places(parts: &[PathBuf]) -> Result<Vec<Place>, DatasetError> {

@@ -32,20 +32,11 @@ pub struct Verified {
 /// Where there is no data set, or it cannot be read at all.
 pub fn verify(path: impl AsRef<Path>) -> Result<Verified, DatasetError> {
     let folder = Folder::new(path.as_ref());
-    let sidecar = match std::fs::read(folder.sidecar()) {
-        Ok(bytes) => serde_json::from_slice::<Value>(&bytes)
-            .map_err(|error| DatasetError::Refused(format!("{}: {error}", folder.sidecar().display())))?,
-        Err(_) => Value::Null,
-    };
+    let sidecar = folder.described()?;
     let about = match folder.about()? {
         Some(about) => about,
         None if sidecar.is_object() => sidecar.clone(),
-        None => {
-            return Err(DatasetError::Refused(format!(
-                "{}: no data set is here (neither dataset.json nor work/campaign.json)",
-                folder.root.display()
-            )));
-        }
+        None => return Err(folder.no_data_set()),
     };
     let mut found = Verified {
         of: match sidecar["files"].as_array() {

@@ -4,7 +4,7 @@
 use super::{Task, Work};
 use brinell::result::finish;
 use brinell::scenario::Scenario;
-use brinell::simulate::{Observer, Simulation, SolverWork};
+use brinell::simulate::{Progress, Simulation};
 use std::num::NonZeroUsize;
 use std::ops::ControlFlow;
 use std::time::{Duration, Instant};
@@ -33,24 +33,13 @@ pub fn mean_pace(count: usize, scenario: impl Fn(usize) -> Option<Scenario>) -> 
 /// Wall time of a simulated second, s; `None` where the scenario does not run.
 fn pace(scenario: Scenario) -> Option<f64> {
     let simulation = Simulation::new(&scenario).ok()?;
-    let mut trial = Trial { begin: Instant::now(), reached: 0.0 };
-    let duration = scenario.simulation.duration_s;
+    let (begin, duration) = (Instant::now(), scenario.simulation.duration_s);
+    let mut reached = 0.0;
+    let mut trial = Progress(|t| {
+        reached = t;
+        if begin.elapsed() > MOMENT { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+    });
     finish(scenario, simulation, &mut trial);
-    let reached = trial.reached.min(duration);
-    (reached > 0.0).then(|| trial.begin.elapsed().as_secs_f64() / reached)
-}
-
-struct Trial {
-    begin: Instant,
-    reached: f64,
-}
-
-impl Observer for Trial {
-    fn progress(&mut self, t: f64, _: &SolverWork) -> ControlFlow<()> {
-        self.reached = t;
-        if self.begin.elapsed() > MOMENT {
-            return ControlFlow::Break(());
-        }
-        ControlFlow::Continue(())
-    }
+    let reached = f64::min(reached, duration);
+    (reached > 0.0).then(|| begin.elapsed().as_secs_f64() / reached)
 }

@@ -15,7 +15,7 @@ pub use ledger::JOURNAL;
 pub use ledger::{Kept, Ledger};
 #[doc(hidden)]
 pub use recorder::{Recorder, Recording};
-pub use run::{Beside, Task, Work, run};
+pub use run::{Beside, Task, Work, run, to_run};
 
 use brinell_io::IoError;
 use serde_json::Value;

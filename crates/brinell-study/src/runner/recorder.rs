@@ -2,6 +2,7 @@
 //! time to its listener.
 
 use crate::listener::RunListener;
+use brinell::channel::Frame;
 use brinell::simulate::{End, Observer, Simulation, SolverWork};
 use brinell_io::{Complete, IoError, Outcome, SignalWriter};
 use std::ops::ControlFlow;
@@ -15,6 +16,7 @@ pub struct Recorder<'a> {
     captured_channel: Option<usize>,
     captured: Vec<f64>,
     listener: &'a mut dyn RunListener,
+    beside: Option<&'a mut dyn Observer>,
 }
 
 impl<'a> Recorder<'a> {
@@ -32,7 +34,14 @@ impl<'a> Recorder<'a> {
             captured_channel: None,
             captured: Vec::new(),
             listener,
+            beside: None,
         }
+    }
+
+    /// Another observer of the same run. The time goes to the listener alone.
+    pub fn beside(mut self, other: Option<&'a mut dyn Observer>) -> Self {
+        self.beside = other;
+        self
     }
 
     /// Keeps that one of [`Simulation::filtered`] whole, in memory.
@@ -74,7 +83,22 @@ pub struct Recording {
 }
 
 impl Observer for Recorder<'_> {
+    fn step(&mut self, frame: &Frame) {
+        if let Some(beside) = &mut self.beside {
+            beside.step(frame);
+        }
+    }
+
+    fn sample(&mut self, index: u64, frame: &Frame) {
+        if let Some(beside) = &mut self.beside {
+            beside.sample(index, frame);
+        }
+    }
+
     fn row(&mut self, index: u64, row: &[f64], filtered: &[f64]) -> ControlFlow<()> {
+        if let Some(beside) = &mut self.beside {
+            beside.row(index, row, filtered)?;
+        }
         if let Some(x) = self.captured_channel.and_then(|k| filtered.get(k)) {
             self.captured.push(*x);
         }

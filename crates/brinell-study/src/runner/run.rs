@@ -3,17 +3,17 @@
 use super::{Ledger, Recorder, RunnerError};
 use crate::campaign::{Row, fingerprint};
 use crate::listener::Listener;
-use brinell::channel::Frame;
 use brinell::result::{Quantity, RunResult, finish};
 use brinell::scenario::Scenario;
-use brinell::simulate::{End, Observer, Simulation, SolverWork};
+use brinell::simulate::{End, Observer, Simulation};
 use brinell_io::SignalWriter;
+use std::collections::HashSet;
 use std::num::NonZeroUsize;
 use std::ops::ControlFlow;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 /// A point to be run.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Task {
     /// Key and value of what it sets.
     pub settings: Vec<(String, String)>,
@@ -21,6 +21,20 @@ pub struct Task {
     pub fingerprint: String,
     /// Simulated time, s.
     pub duration_s: f64,
+}
+
+impl Task {
+    /// The scenario that settings made.
+    pub fn new(settings: Vec<(String, String)>, scenario: &Scenario) -> Self {
+        Self { fingerprint: fingerprint(scenario), duration_s: scenario.simulation.duration_s, settings }
+    }
+}
+
+/// What is to be run of `tasks`: those that are not done, once where settings mean the same.
+pub fn to_run<'a>(tasks: impl IntoIterator<Item = &'a Task>, is_done: impl Fn(&Task) -> bool) -> Vec<Task> {
+    let mut seen = HashSet::new();
+    let open = tasks.into_iter().filter(|task| !is_done(task) && seen.insert(&task.fingerprint));
+    open.cloned().collect()
 }
 
 /// Observes a run beside its findings.
@@ -152,15 +166,11 @@ fn one<W: Work>(
     let writers = work.signals(task, &simulation)?;
     let mut hearer = listener.begin(k, task.duration_s);
     let writers = writers.into_iter().collect();
-    let mut recorder = Recorder::new(&simulation, writers, hearer.as_mut()).capturing(work.captured_channel());
     let mut beside = work.beside(task, &simulation);
-    let finished = match &mut beside {
-        Some(other) => {
-            let mut both = Both(&mut recorder, other.as_mut());
-            finish(scenario, simulation, &mut both)
-        }
-        None => finish(scenario, simulation, &mut recorder),
-    };
+    let mut recorder = Recorder::new(&simulation, writers, hearer.as_mut())
+        .capturing(work.captured_channel())
+        .beside(beside.as_deref_mut().map(|other| other as &mut dyn Observer));
+    let finished = finish(scenario, simulation, &mut recorder);
     let recording = recorder.close(&finished.outcome.end, false);
     let recording = recording.map_err(RunnerError::from)?;
     for file in recording.files {
@@ -181,28 +191,4 @@ fn one<W: Work>(
         }
     };
     Ok(Some(row(numbers)))
-}
-
-/// Two observers of one run; the first alone gets the time.
-struct Both<'a>(&'a mut dyn Observer, &'a mut dyn Observer);
-
-impl Observer for Both<'_> {
-    fn step(&mut self, frame: &Frame) {
-        self.0.step(frame);
-        self.1.step(frame);
-    }
-
-    fn sample(&mut self, index: u64, frame: &Frame) {
-        self.0.sample(index, frame);
-        self.1.sample(index, frame);
-    }
-
-    fn row(&mut self, index: u64, row: &[f64], filtered: &[f64]) -> ControlFlow<()> {
-        self.1.row(index, row, filtered)?;
-        self.0.row(index, row, filtered)
-    }
-
-    fn progress(&mut self, t: f64, work: &SolverWork) -> ControlFlow<()> {
-        self.0.progress(t, work)
-    }
 }
