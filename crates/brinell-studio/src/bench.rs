@@ -26,7 +26,7 @@ pub(crate) struct Bench {
     /// Its text.
     pub(crate) text: String,
     run: Run<Arc<Simulation>>,
-    pub(crate) heard: Heard,
+    pub(crate) recording: Recording,
     /// How a run from t = 0 ended.
     pub(crate) finished: Option<(Outcome, Findings)>,
     /// Whether it is no run from t = 0 with its scenario.
@@ -35,7 +35,7 @@ pub(crate) struct Bench {
 }
 
 /// What is kept of the samples since the bearing was opened.
-pub(crate) struct Heard {
+pub(crate) struct Recording {
     pub(crate) simulation: Arc<Simulation>,
     /// 0 or 1: the axis of the sensor that is listened to, the one nearer the load.
     pub(crate) axis: usize,
@@ -55,13 +55,13 @@ pub(crate) struct Heard {
     pub(crate) signals: Option<Signals>,
 }
 
-impl std::fmt::Debug for Heard {
+impl std::fmt::Debug for Recording {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.debug_struct("Heard").field("count", &self.count).finish_non_exhaustive()
+        f.debug_struct("Recording").field("count", &self.count).finish_non_exhaustive()
     }
 }
 
-impl Heard {
+impl Recording {
     /// From a row on, at a shaft speed in Hz.
     fn new(simulation: Arc<Simulation>, row: u64, shaft: Option<f64>) -> Self {
         let load = simulation.model().load.full;
@@ -97,7 +97,7 @@ impl Heard {
     }
 }
 
-impl Observer for Heard {
+impl Observer for Recording {
     fn step(&mut self, frame: &Frame) {
         if let Some(watch) = &mut self.watch {
             watch.step(frame);
@@ -137,12 +137,12 @@ impl Bench {
     pub(crate) fn start(loaded: Loaded, text: String) -> Answer<Self> {
         let simulation = Arc::new(Simulation::new(&loaded.scenario)?);
         let shaft = shaft_of(&loaded);
-        let mut heard = Heard::new(Arc::clone(&simulation), 0, shaft);
-        heard.watch = Some(Watch::new(&loaded.scenario, &simulation));
-        heard.signals = Some(Signals::new(&simulation)?);
+        let mut recording = Recording::new(Arc::clone(&simulation), 0, shaft);
+        recording.watch = Some(Watch::new(&loaded.scenario, &simulation));
+        recording.signals = Some(Signals::new(&simulation)?);
         Ok(Self {
             run: Simulation::start_in(simulation),
-            heard,
+            recording,
             course: Course::of(&loaded.scenario.operation.speed_rpm),
             loaded,
             text,
@@ -169,7 +169,7 @@ impl Bench {
         if self.run.go_on_in(Arc::clone(&simulation)).is_err() {
             return Ok(false);
         }
-        self.heard = Heard::new(simulation, self.run.rows(), shaft_of(loaded));
+        self.recording = Recording::new(simulation, self.run.rows(), shaft_of(loaded));
         self.course = Some(course);
         self.loaded = loaded.clone();
         text.clone_into(&mut self.text);
@@ -178,24 +178,24 @@ impl Bench {
         Ok(true)
     }
 
-    /// Advances by samples; gives those that came, fewer where the run ended.
+    /// Advances by samples; gives those that are new, fewer where the run ended.
     pub(crate) fn advance(&mut self, rows: u64) -> Answer<Vec<f64>> {
         if self.finished.is_some() {
             return Ok(Vec::new());
         }
-        let before = self.heard.count;
-        match self.run.advance(rows, &mut self.heard) {
+        let before = self.recording.count;
+        match self.run.advance(rows, &mut self.recording) {
             None => {}
             Some(End::Failed(error)) => return Err(error.into()),
             Some(end) => {
                 let outcome = self.run.outcome(end);
-                let simulation = &self.heard.simulation;
-                let findings = self.heard.watch.take().map(|w| w.finish(simulation));
+                let simulation = &self.recording.simulation;
+                let findings = self.recording.watch.take().map(|w| w.finish(simulation));
                 self.finished = findings.map(|findings| (outcome, findings));
             }
         }
-        let came = (self.heard.count - before) as usize;
-        Ok(self.heard.latest(came.min(KEPT)))
+        let new = (self.recording.count - before) as usize;
+        Ok(self.recording.latest(new.min(KEPT)))
     }
 
     /// Time reached, s.
@@ -205,7 +205,7 @@ impl Bench {
 
     /// The simulation that it goes on in.
     pub(crate) fn simulation(&self) -> &Simulation {
-        &self.heard.simulation
+        &self.recording.simulation
     }
 
     /// Shaft speed that was requested last, Hz; `None` where it varies.

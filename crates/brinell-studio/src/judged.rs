@@ -125,8 +125,8 @@ fn positive(request: &Value, key: &str) -> Option<f64> {
 
 /// What is known of a signal beside its samples: as requested, else of the run that made it.
 fn options(request: &Value, run: Option<&Scenario>, unit: &Unit) -> Answer<Options> {
-    let asked = positive(request, "rpm");
-    let turned = asked.or(run.and_then(rpm));
+    let requested = positive(request, "rpm");
+    let turned = requested.or(run.and_then(rpm));
     let turned = turned.ok_or_else(|| Trouble::of("the speed of the shaft is missing, r/min"))?;
     let named = request["bearing"].as_str();
     let own = run.filter(|run| named.is_none() || named == run.bearing.preset.as_deref());
@@ -229,7 +229,7 @@ pub(crate) fn moments_json(moments: &Moments) -> Value {
 
 /// `save`: the recorded channels of a run from t = 0 that is over, as the command writes them.
 pub(crate) fn save(request: &Value, bench: &Bench, arrays: &mut Arrays) -> Answer<Value> {
-    let (Some(signals), Some(_)) = (&bench.heard.signals, &bench.finished) else {
+    let (Some(signals), Some(_)) = (&bench.recording.signals, &bench.finished) else {
         return Err(Trouble::of("only a run from t = 0 that is over is saved"));
     };
     let (format, kind) = match request["format"].as_str() {

@@ -130,8 +130,8 @@ pub(crate) fn outlined(request: &Value, arrays: &Arrays) -> Answer<Value> {
     };
     let mut options = request.get("options").cloned().unwrap_or_else(|| json!({}));
     options["file"] = json!(name);
-    let asked = read(&json!({ key: options }))?;
-    let read = shape_of_bytes(&asked, bytes).map_err(Trouble::of)?;
+    let scenario = read(&json!({ key: options }))?;
+    let read = shape_of_bytes(&scenario, bytes).map_err(Trouble::of)?;
     let (shape, notes) = (read.shape, [read.warnings, read.notes].concat());
     let made = brinell::defect::Shape::new(&shape, 0.0);
     let extent = made.map(|made| Extent::of(&made, 1e-5));

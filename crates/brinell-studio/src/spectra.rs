@@ -21,17 +21,17 @@ const FALSE_ALARM: f64 = 1e-3;
 
 /// RMS, peak, crest factor and kurtosis since the bearing was opened.
 pub(crate) fn moments(bench: &Bench) -> Value {
-    judged::moments_json(&bench.heard.moments)
+    judged::moments_json(&bench.recording.moments)
 }
 
 /// Of the latest 2^k samples, `longest` at most.
 pub(crate) fn spectra(bench: &Bench, longest: usize, arrays: &mut Arrays) -> Value {
-    let most = longest.min(bench.heard.samples.len());
+    let most = longest.min(bench.recording.samples.len());
     if most < FEWEST {
         return json!({ "samples": 0, "settling": true });
     }
     let length = 1 << most.ilog2();
-    let x = bench.heard.latest(length);
+    let x = bench.recording.latest(length);
     let fs = bench.simulation().sample_rate();
     let model = bench.simulation().model();
     let band = envelope_band(model, fs);
@@ -62,7 +62,7 @@ pub(crate) fn spectra(bench: &Bench, longest: usize, arrays: &mut Arrays) -> Val
         .collect();
     json!({
         "samples": length,
-        "settling": bench.heard.moments.count() == 0,
+        "settling": bench.recording.moments.count() == 0,
         "spectrum": { "df": spectrum.frequency_step, "values": arrays.rounded(&spectrum.amplitude) },
         "envelope": {
             "df": envelope.spectrum.frequency_step,
@@ -104,7 +104,7 @@ pub(crate) fn verdict(bench: &Bench) -> Answer<Value> {
         return Err(Trouble::of("a verdict asks for a constant speed"));
     };
     let scenario = &bench.loaded.scenario;
-    let x = bench.heard.settled();
+    let x = bench.recording.settled();
     let mut options = Options::new(shaft, orders_of(&Geometry::of(&scenario.bearing)));
     options.exact = true;
     let sensor = &scenario.sensor;
@@ -122,7 +122,7 @@ const FADE: f64 = 0.05;
 pub(crate) fn sound(bench: &Bench, arrays: &mut Arrays) -> Answer<Value> {
     let fs = bench.simulation().sample_rate();
     let turn = bench.shaft().filter(|f| *f > 0.0).map_or(fs, |f| fs / f);
-    let held = bench.heard.samples.len() as f64 / (1.0 + FADE);
+    let held = bench.recording.samples.len() as f64 / (1.0 + FADE);
     let wanted = (LOOP_S * fs / turn).ceil().max(1.0);
     let turns = wanted.min((held / turn).floor());
     if turns < 1.0 {
@@ -130,7 +130,7 @@ pub(crate) fn sound(bench: &Bench, arrays: &mut Arrays) -> Answer<Value> {
     }
     let length = (turns * turn).round() as usize;
     let fade = (FADE * length as f64) as usize;
-    let x = bench.heard.latest(length + fade);
+    let x = bench.recording.latest(length + fade);
     let (before, body) = x.split_at(x.len() - length);
     let mut body = body.to_vec();
     // What came just before the loop leads into its beginning, so its end must be that.

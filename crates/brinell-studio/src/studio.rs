@@ -134,7 +134,7 @@ impl Studio {
     fn advance(&mut self, request: &Value, arrays: &mut Arrays) -> Answer<Value> {
         let rows = request["rows"].as_u64().unwrap_or(256).clamp(1, MOST_ROWS);
         let bench = self.bench(request)?;
-        let first = bench.heard.count;
+        let first = bench.recording.count;
         let x = bench.advance(rows)?;
         let mut answer = json!({
             "t": bench.t(),
@@ -145,7 +145,7 @@ impl Studio {
             "moments": spectra::moments(bench),
         });
         if request["frames"] == json!(true) {
-            answer["frames"] = bench.heard.frames.fresh(arrays);
+            answer["frames"] = bench.recording.frames.fresh(arrays);
         }
         Ok(answer)
     }
@@ -181,8 +181,8 @@ fn opened(bench: &Bench) -> Value {
         "assumed": assumed.collect::<Vec<_>>(),
         "rate_hz": simulation.sample_rate(),
         "samples": simulation.samples(),
-        "settled_s": bench.heard.settled_s(),
-        "axis": (["sensor_ax", "sensor_ay"][bench.heard.axis]),
+        "settled_s": bench.recording.settled_s(),
+        "axis": (["sensor_ax", "sensor_ay"][bench.recording.axis]),
         "unit": "m/s^2",
         "rpm": bench.shaft().map(|f| 60.0 * f),
         "constant_speed": bench.shaft().is_some(),
@@ -212,8 +212,8 @@ fn geometry(scenario: &Scenario) -> Value {
 /// The numbers of a run from t = 0 that is over; before, and of a live one, those of the samples since the last edit.
 fn indicators(bench: &Bench) -> Value {
     let Some((outcome, findings)) = &bench.finished else {
-        let heard = spectra::moments(bench);
-        let one = |name: &str, key: &str, unit: &str| json!({ "name": name, "unit": unit, "value": heard[key], "low": null, "high": null });
+        let recording = spectra::moments(bench);
+        let one = |name: &str, key: &str, unit: &str| json!({ "name": name, "unit": unit, "value": recording[key], "low": null, "high": null });
         return json!({ "settled": false, "quantities": [
             one("RMS", "rms", "m/s^2"), one("Peak", "peak", "m/s^2"),
             one("Crest factor", "crest", "1"), one("Kurtosis", "kurtosis", "1"),

@@ -9,9 +9,9 @@ pub(super) struct Door {
     token: String,
 }
 
-/// What a request comes to.
+/// Where a request leads.
 #[derive(Debug, PartialEq, Eq)]
-pub(super) enum Asked<'a> {
+pub(super) enum Route<'a> {
     /// A file of the page; none of them is a secret.
     Page(&'a str),
     /// A message for the engine.
@@ -33,24 +33,24 @@ impl Door {
     /// The host must be this machine by name or number, so that no page can reach it by a name of its own (DNS
     /// rebinding); where a browser says which page asks, it must be this one; and the engine answers those alone who
     /// have the token.
-    pub(super) fn asked<'a>(&self, method: &str, url: &'a str, host: Option<&str>, origin: Option<&str>) -> Asked<'a> {
+    pub(super) fn route<'a>(&self, method: &str, url: &'a str, host: Option<&str>, origin: Option<&str>) -> Route<'a> {
         let own = ["127.0.0.1", "localhost"].map(|name| format!("{name}:{}", self.port));
         if !host.is_some_and(|host| own.iter().any(|own| own == host)) {
-            return Asked::Refused(FORBIDDEN, "this server answers to 127.0.0.1 alone");
+            return Route::Refused(FORBIDDEN, "this server answers to 127.0.0.1 alone");
         }
         let from_here = |origin: &str| own.iter().any(|own| format!("http://{own}") == origin);
         if !origin.is_none_or(from_here) {
-            return Asked::Refused(FORBIDDEN, "another page asks");
+            return Route::Refused(FORBIDDEN, "another page asks");
         }
         let (path, query) = url.split_once('?').unwrap_or((url, ""));
         let mut pairs = query.split('&');
         let token = pairs.find_map(|pair| pair.strip_prefix("token="));
         match (method, path) {
-            ("GET", "/") => Asked::Page("index.html"),
-            ("GET", path) => Asked::Page(path.trim_start_matches('/')),
-            ("POST", "/ask") if token.is_some_and(|t| same(t, &self.token)) => Asked::Engine,
-            ("POST", "/ask") => Asked::Refused(FORBIDDEN, "the address lacks its token"),
-            _ => Asked::Refused("405 Method Not Allowed", "only GET of the page and POST of /ask"),
+            ("GET", "/") => Route::Page("index.html"),
+            ("GET", path) => Route::Page(path.trim_start_matches('/')),
+            ("POST", "/ask") if token.is_some_and(|t| same(t, &self.token)) => Route::Engine,
+            ("POST", "/ask") => Route::Refused(FORBIDDEN, "the address lacks its token"),
+            _ => Route::Refused("405 Method Not Allowed", "only GET of the page and POST of /ask"),
         }
     }
 }
@@ -69,10 +69,10 @@ mod tests {
     fn prop_only_this_machines_page_with_the_token_reaches_the_engine() {
         let door = Door::new(4000, "5ec3e7".into());
         let here = Some("127.0.0.1:4000");
-        let ask = |url, host, origin| door.asked("POST", url, host, origin);
+        let ask = |url, host, origin| door.route("POST", url, host, origin);
         let good = "/ask?token=5ec3e7";
-        assert_eq!(ask(good, here, None), Asked::Engine);
-        assert_eq!(ask(good, Some("localhost:4000"), Some("http://localhost:4000")), Asked::Engine);
+        assert_eq!(ask(good, here, None), Route::Engine);
+        assert_eq!(ask(good, Some("localhost:4000"), Some("http://localhost:4000")), Route::Engine);
         for (url, host, origin) in [
             ("/ask", here, None),
             ("/ask?token=", here, None),
@@ -87,10 +87,10 @@ mod tests {
             (good, here, Some("https://127.0.0.1:4000")),
             (good, here, Some("null")),
         ] {
-            assert!(matches!(ask(url, host, origin), Asked::Refused(FORBIDDEN, _)), "{url}");
+            assert!(matches!(ask(url, host, origin), Route::Refused(FORBIDDEN, _)), "{url}");
         }
-        assert_eq!(door.asked("GET", "/?token=x", here, None), Asked::Page("index.html"));
-        assert_eq!(door.asked("GET", "/src/main.js", here, None), Asked::Page("src/main.js"));
-        assert!(matches!(door.asked("PUT", good, here, None), Asked::Refused("405 Method Not Allowed", _)));
+        assert_eq!(door.route("GET", "/?token=x", here, None), Route::Page("index.html"));
+        assert_eq!(door.route("GET", "/src/main.js", here, None), Route::Page("src/main.js"));
+        assert!(matches!(door.route("PUT", good, here, None), Route::Refused("405 Method Not Allowed", _)));
     }
 }

@@ -4,7 +4,7 @@ mod answer;
 mod http;
 
 use crate::failure::Failure;
-use answer::{Asked, Door};
+use answer::{Door, Route};
 use brinell_studio::{PAGE, SharedStudio};
 use clap::Args;
 use http::{Reply, Request};
@@ -92,13 +92,13 @@ fn serve(shared: &Shared, stream: TcpStream) -> std::io::Result<()> {
     let host = request.host.take();
     let origin = request.origin.take();
     let (method, url) = (request.method.clone(), request.url.clone());
-    let asked = shared.door.asked(&method, &url, host.as_deref(), origin.as_deref());
-    let reply = match asked {
-        Asked::Page(name) => match PAGE.iter().find(|(n, ..)| *n == name) {
+    let route = shared.door.route(&method, &url, host.as_deref(), origin.as_deref());
+    let reply = match route {
+        Route::Page(name) => match PAGE.iter().find(|(n, ..)| *n == name) {
             Some((_, kind, bytes)) => Reply::of(request.stream, kind, bytes.to_vec()),
             None => Reply::refusal(request.stream, "404 Not Found", "there is no such file"),
         },
-        Asked::Engine => {
+        Route::Engine => {
             let (stream, body) = match request.body()? {
                 Ok(body) => body,
                 Err(reply) => return reply.send(),
@@ -106,7 +106,7 @@ fn serve(shared: &Shared, stream: TcpStream) -> std::io::Result<()> {
             let answer = shared.engine.ask(&body);
             Reply::of(stream, "application/octet-stream", answer)
         }
-        Asked::Refused(status, words) => Reply::refusal(request.stream, status, words),
+        Route::Refused(status, words) => Reply::refusal(request.stream, status, words),
     };
     reply.send()
 }
