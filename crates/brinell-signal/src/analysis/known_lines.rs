@@ -53,8 +53,8 @@ pub(super) struct ShaftLines {
     pub(super) orders: Vec<usize>,
 }
 
-/// Shaft speed by its own harmonics in the spectrum, within the tolerance or, where none stand there, [`beyond`]; `None`
-/// where they do not.
+/// Shaft speed by its own harmonics in the spectrum, within the tolerance or, where none stand there, [`beyond`];
+/// `None` where they do not.
 ///
 /// Another shaft's lines there look the same: nothing in the signal tells the two apart.
 pub(super) fn shaft(x: &[f64], fs: f64, options: &Options) -> Result<Option<ShaftLines>, AnalysisError> {
@@ -64,8 +64,8 @@ pub(super) fn shaft(x: &[f64], fs: f64, options: &Options) -> Result<Option<Shaf
     }
 }
 
-/// The highest comb, where it lies beyond the tolerance and far more stands of it than of any within: the speed given is
-/// then wrong.
+/// The highest comb, where it lies beyond the tolerance and far more stands of it than of any within: the speed given
+/// is then wrong.
 fn beyond(x: &[f64], fs: f64, options: &Options) -> Result<Option<ShaftLines>, AnalysisError> {
     let shaft = options.shaft;
     let length = fast_up_to(((REVOLUTIONS * fs / shaft) as usize).min(x.len()));
