@@ -58,7 +58,15 @@ variant(
     ("together.rs", "|to: f64, from: f64| to >= standing && to < from;", "|_: f64, _: f64| false;"),
 )
 variant("shaft's comb not placed anew", ("together.rs", "let of_shaft = (shaft.tolerance > 0.0)", "let of_shaft = false"))
-variant("speed as given", ("known_lines.rs", "best.filter(|f| own(*f))", "best.filter(|_| false)"))
+variant(
+    "speed as given",
+    ("known_lines.rs", "best.filter(|f| own(*f))", "best.filter(|_| false)"),
+    ("known_lines.rs", "None if !options.exact => beyond(x, fs, options),", "None if false => beyond(x, fs, options),"),
+)
+variant(
+    "no speed beyond the tolerance",
+    ("known_lines.rs", "None if !options.exact => beyond(x, fs, options),", "None if false => beyond(x, fs, options),"),
+)
 variant("an element needs no sidebands", ("family.rs", "            && !self.lacks_sidebands()\n", ""))
 variant("an element needs no lead", ("verdict.rs", "const LEAD: f64 = 2.0;", "const LEAD: f64 = 0.0;"))
 variant("an element may run ahead", ("family.rs", "Component::Element => (tolerance, AHEAD.min(tolerance)),", "Component::Element => (tolerance, tolerance),"))
@@ -75,6 +83,7 @@ for turns in (60, 30):
         ("together.rs", "const REVOLUTIONS: f64 = 120.0;", f"const REVOLUTIONS: f64 = {turns}.0;"),
     )
 constant("score limit", "family.rs", "SCORE", "14.5", (12.0, 13.0, 16.0))
+constant("bins hidden beside a line", "together.rs", "ASIDE", "2.0", (3.0,))
 constant("deep from", "family.rs", "DEEP", "0.25", (0.2, 0.3))
 constant("faint below", "family.rs", "FAINT", "0.14", (0.1, 0.18))
 WITHOUT_EFFECT = [

@@ -22,8 +22,8 @@ const BANDS: f64 = 12.0;
 pub(super) const REVOLUTIONS: f64 = 120.0;
 /// The envelope is sampled so many times as often as its highest line sought.
 const ENVELOPE_RATE: f64 = 8.0;
-/// Bins to either side of a line of shaft or mains that count for nobody.
-const ASIDE: f64 = 3.0;
+/// Bins to either side of a line of shaft or mains that count for nobody: half the main lobe of Hann's window.
+const ASIDE: f64 = 2.0;
 /// Width of the running median, in shaft's frequencies and in bins at least.
 pub(super) const FLOOR: (f64, f64) = (3.0, 41.0);
 /// Noise shows this much at a place once in 700 (three standard deviations).
