@@ -43,8 +43,7 @@ pub(super) fn preview(args: &PreviewArgs) -> Result<(), Failure> {
         entries.push(entry(*index, damage));
     }
     let json = json!({ "scenario": s.name, "version": brinell::VERSION, "files": null, "defects": entries });
-    let before = ready.len();
-    let (written, text) = earlier.publish(ready, (PREVIEW, before), json)?;
+    let (written, text) = earlier.publish(ready, (PREVIEW, json), None, (&[], &[]))?;
     if args.json {
         document(text.trim_end());
         return Ok(());
