@@ -12,7 +12,7 @@ use crate::inputs::Inputs;
 use crate::progress::Joint;
 use crate::results::{COMPARISON, Earlier, Place, Results};
 use crate::run::{make_folder, safe_name, stop_flag};
-use crate::say::{complain, document, say, short};
+use crate::say::{self, complain, document, say, short};
 pub(crate) use args::CompareArgs;
 use brinell::simulate::Simulation;
 use brinell::{Error, RunResult};
@@ -80,9 +80,7 @@ pub(crate) fn side_by_side(args: &CompareArgs) -> Result<ExitCode, Failure> {
             complain!("warning: {warning}");
         }
         tell(&sides, &compared);
-        for path in &written {
-            say!("  wrote {}", path.display());
-        }
+        say::wrote(&written);
     }
     Ok(ExitCode::SUCCESS)
 }

@@ -7,7 +7,7 @@ use crate::figures::drawn;
 use crate::files::Source;
 use crate::results::{PREVIEW, Place, Results};
 use crate::run::{make_folder, safe_name};
-use crate::say::{document, say, short};
+use crate::say::{self, document, say, short};
 use brinell::scenario::Scenario;
 use brinell_io::{Complete, atomic_prepare};
 use brinell_report::{Damage, DamagePanel, Layout, Picture, damage_of};
@@ -48,9 +48,7 @@ pub(super) fn preview(args: &PreviewArgs) -> Result<(), Failure> {
         document(text.trim_end());
         return Ok(());
     }
-    for path in written {
-        say!("  wrote {}", path.display());
-    }
+    say::wrote(written);
     Ok(())
 }
 
