@@ -56,17 +56,30 @@ impl FromStr for Width {
     }
 }
 
+fn file_name(picture: &Picture, format: PlotFormat) -> String {
+    let ending = match format {
+        PlotFormat::Svg => "svg",
+        PlotFormat::Png => "png",
+        PlotFormat::Pdf => "pdf",
+    };
+    format!("{}.{ending}", picture.name)
+}
+
+fn bytes(picture: &Picture, format: PlotFormat) -> Result<Vec<u8>, Failure> {
+    match format {
+        PlotFormat::Svg => Ok(picture.svg().into_bytes()),
+        PlotFormat::Png => picture.png_file().map_err(Failure::Picture),
+        PlotFormat::Pdf => Ok(picture.pdf()),
+    }
+}
+
 /// Pictures as files of a folder, up to their names.
 pub(crate) fn drawn(pictures: &[Picture], formats: &[PlotFormat], folder: &Path) -> Result<Vec<Complete>, Failure> {
     let mut ready = Vec::new();
     for picture in pictures {
         for format in formats {
-            let (ending, bytes) = match format {
-                PlotFormat::Svg => ("svg", picture.svg().into_bytes()),
-                PlotFormat::Png => ("png", picture.png_file().map_err(Failure::Picture)?),
-                PlotFormat::Pdf => ("pdf", picture.pdf()),
-            };
-            ready.push(atomic_prepare(folder.join(format!("{}.{ending}", picture.name)), bytes)?);
+            let path = folder.join(file_name(picture, *format));
+            ready.push(atomic_prepare(path, bytes(picture, *format)?)?);
         }
     }
     Ok(ready)
@@ -87,6 +100,26 @@ pub(crate) fn write_plots(
     Ok(())
 }
 
+fn tables(pictures: &[Picture], formats: &[PlotFormat]) -> Vec<CurveTable> {
+    match formats.is_empty() {
+        true => Vec::new(),
+        false => pictures.iter().flat_map(Picture::tables).collect(),
+    }
+}
+
+fn curve_file(table: &CurveTable) -> String {
+    format!("{}.csv", table.name)
+}
+
+/// What [`ready_pictures`] will write.
+pub(crate) fn picture_files(pictures: &[Picture], formats: &[PlotFormat], folder: &Path) -> Vec<PathBuf> {
+    let file = |picture: &Picture, format: &PlotFormat| folder.join(PLOTS).join(file_name(picture, *format));
+    let of = |picture| formats.iter().map(move |format| file(picture, format));
+    let curves = tables(pictures, formats);
+    let curves = curves.iter().map(|table| folder.join(CURVES).join(curve_file(table)));
+    pictures.iter().flat_map(of).chain(curves).collect()
+}
+
 /// Pictures as files of `folder`/plots and their curves as files of `folder`/curves, up to the files' names.
 pub(crate) fn ready_pictures(
     pictures: &[Picture],
@@ -99,12 +132,12 @@ pub(crate) fn ready_pictures(
     let plots = folder.join(PLOTS);
     make_folder(&plots)?;
     let mut ready = drawn(pictures, formats, &plots)?;
-    let tables: Vec<CurveTable> = pictures.iter().flat_map(Picture::tables).collect();
+    let tables = tables(pictures, formats);
     if !tables.is_empty() {
         make_folder(&folder.join(CURVES))?;
     }
     for numbers in tables {
-        let path = folder.join(CURVES).join(format!("{}.csv", numbers.name));
+        let path = folder.join(CURVES).join(curve_file(&numbers));
         let mut table = Table::default();
         for (name, unit, values) in numbers.columns {
             let cells = values.into_iter().map(|v| v.is_finite().then_some(v));

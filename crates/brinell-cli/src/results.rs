@@ -6,12 +6,15 @@
 //! what the earlier one listed, after its own files are complete, and nothing else is ever removed. Finished runs that
 //! a command resumes from are never removed.
 
+use crate::args::PlotFormat;
 use crate::failure::Failure;
+use crate::figures::{picture_files, ready_pictures};
 use crate::inputs::Inputs;
 use crate::say::pretty;
 use brinell::document::{Loaded, read};
 use brinell::scenario::Scenario;
 use brinell_io::{Complete, Format, atomic_prepare, atomic_write, read_text};
+use brinell_report::Picture;
 use brinell_study::runner::JOURNAL;
 use serde_json::Value;
 use std::collections::BTreeSet;
@@ -375,20 +378,27 @@ pub(crate) struct Earlier {
 }
 
 impl Earlier {
-    /// Publishes results, and `listing` as the file of that name, which lists all of them, itself after the first
-    /// `before`. Gives what was written, and the listing.
+    /// Publishes results, `listing` as the file of that name, which lists all of them, and a page and pictures after
+    /// it. Gives what was written, and the listing.
     pub(crate) fn publish(
         &self,
         mut ready: Vec<Complete>,
-        (name, before): (&str, usize),
-        mut listing: Value,
+        (name, mut listing): (&str, Value),
+        page: Option<(&str, &str)>,
+        (pictures, formats): (&[Picture], &[PlotFormat]),
     ) -> Result<(Vec<PathBuf>, String), Failure> {
-        let own = self.folder.join(name);
+        let (folder, own) = (&self.folder, self.folder.join(name));
         let mut files: Vec<PathBuf> = ready.iter().map(|file| file.path().to_owned()).collect();
-        files.insert(before, own.clone());
-        listing["files"] = names_below(&self.folder, &files).into();
+        files.push(own.clone());
+        files.extend(page.map(|(name, _)| folder.join(name)));
+        files.extend(picture_files(pictures, formats, folder));
+        listing["files"] = names_below(folder, &files).into();
         let text = pretty(&listing);
         ready.insert(0, atomic_prepare(own, &text)?);
+        if let Some((name, page)) = page {
+            ready.push(atomic_prepare(folder.join(name), page)?);
+        }
+        ready.extend(ready_pictures(pictures, formats, folder)?);
         Ok((self.give_way(ready)?, text))
     }
 

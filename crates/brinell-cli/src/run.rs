@@ -7,7 +7,6 @@ mod spectra;
 
 use crate::args::{RunArgs, ScenarioArgs, SignalFormat};
 use crate::failure::{Failure, INTERRUPTED, print_problems};
-use crate::figures::ready_pictures;
 use crate::files;
 use crate::files::Source;
 use crate::inputs::Inputs;
@@ -190,18 +189,15 @@ fn execute(args: &RunArgs, task: &Task, progress: Progress, stop: &AtomicBool) -
         beforehand,
         healthy: healthy.as_ref(),
     };
-    let before = ready.len();
-    if !args.no_report || !args.plots.is_empty() {
-        let report = report(&parts, photos);
-        if !args.no_report {
-            ready.push(atomic_prepare(folder.join(REPORT), brinell_report::html(&report))?);
-        }
-        if !args.plots.is_empty() {
-            let pictures = brinell_report::pictures(&report, layout);
-            ready.extend(ready_pictures(&pictures, &args.plots, folder)?);
-        }
-    }
-    let (written, summary) = earlier.publish(ready, (SUMMARY, before), summary::to_json(&parts))?;
+    let report = (!args.no_report || !args.plots.is_empty()).then(|| report(&parts, photos));
+    let pictures = match &report {
+        Some(report) if !args.plots.is_empty() => brinell_report::pictures(report, layout),
+        _ => Vec::new(),
+    };
+    let page = report.filter(|_| !args.no_report).map(|report| brinell_report::html(&report));
+    let page = page.as_deref().map(|page| (REPORT, page));
+    let json = (SUMMARY, summary::to_json(&parts));
+    let (written, summary) = earlier.publish(ready, json, page, (&pictures, &args.plots))?;
     Ok(Done { told: tell(&parts, elapsed, &written), end: outcome.end, interrupted, summary })
 }
 

@@ -8,6 +8,7 @@ use serde_json::Value;
 use std::borrow::Cow;
 use std::fmt::Arguments;
 use std::io::{ErrorKind, Result, Write};
+use std::path::Path;
 use std::sync::OnceLock;
 use std::sync::atomic::{AtomicBool, Ordering};
 
@@ -49,6 +50,18 @@ pub(crate) fn document(text: &str) {
 /// Writes JSON to standard output.
 pub(crate) fn json(value: &Value) {
     document(pretty(value).trim_end());
+}
+
+/// A unit as people read it: a plain number has none.
+pub(crate) fn shown_unit(unit: &str) -> &str {
+    if unit == "1" { "" } else { unit }
+}
+
+/// Which files were written, a line each.
+pub(crate) fn wrote(files: impl IntoIterator<Item = impl AsRef<Path>>) {
+    for path in files {
+        line(format_args!("  wrote {}", path.as_ref().display()));
+    }
 }
 
 /// JSON as files hold it.

@@ -336,14 +336,12 @@ fn table(cases: &[&Case], numbers: &Numbers) -> Table {
         row.extend(COLUMNS.iter().map(|(_, name)| cell(numbers.get(case.id, name))));
         row
     };
-    Table {
-        title: "Numbers".into(),
+    Table::new(
+        "Numbers",
         columns,
-        rows: cases.iter().map(row).collect(),
-        note:
-            "Accelerations in m/s². Averages over whole turns with 95 % intervals; peaks: means over entries or exits."
-                .into(),
-    }
+        cases.iter().map(row),
+        "Accelerations in m/s². Averages over whole turns with 95 % intervals; peaks: means over entries or exits.",
+    )
 }
 
 /// Cases from t = 0 on.
@@ -360,13 +358,12 @@ fn start_table(cases: &[&Case], numbers: &Numbers) -> Table {
         [case.label.to_owned()].into_iter().chain(cells).collect()
     };
     let heads = columns.iter().map(|(head, _)| format!("#{head}"));
-    Table {
-        title: "With the start-up: RMS of the outer ring, x (m/s²)".into(),
-        columns: ["Case".to_owned()].into_iter().chain(heads).collect(),
-        rows: cases.iter().map(row).collect(),
-        note: "The paper prints 30.414 (full model, irregular), 32.06 (full model, simplified) and 29.01 (reference model, simplified). The first \
-               five: printed stiffness with n = 1 and a load ramp of 8 ms, chosen knowing these figures. The others: nothing changed but that \
-               the load is on at once. One start a record: no intervals."
-            .into(),
-    }
+    Table::new(
+        "With the start-up: RMS of the outer ring, x (m/s²)",
+        ["Case".to_owned()].into_iter().chain(heads),
+        cases.iter().map(row),
+        "The paper prints 30.414 (full model, irregular), 32.06 (full model, simplified) and 29.01 (reference model, simplified). The first \
+         five: printed stiffness with n = 1 and a load ramp of 8 ms, chosen knowing these figures. The others: nothing changed but that \
+         the load is on at once. One start a record: no intervals.",
+    )
 }

@@ -92,13 +92,12 @@ impl OtherVerdicts {
             let words = verdicts.iter().map(|v| v.words().to_owned());
             std::iter::once((*sentence).to_owned()).chain(words).collect()
         });
-        let table = Table {
-            title: "Verdicts side by side".into(),
-            columns: columns.map(str::to_owned).collect(),
-            rows: rows.collect(),
-            note: "The same cases, all else alike. What tilts has slices, so slices in the plane are between both."
-                .into(),
-        };
+        let table = Table::new(
+            "Verdicts side by side",
+            columns,
+            rows,
+            "The same cases, all else alike. What tilts has slices, so slices in the plane are between both.",
+        );
         let pieces = vec![StudyPiece::Words(self.found()), StudyPiece::Table(table)];
         Chapter::new("models", "Tilting", "With rollers and rings that tilt", pieces)
     }

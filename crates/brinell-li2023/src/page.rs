@@ -111,20 +111,10 @@ fn runs(request: &Request) -> Table {
         let settings: Vec<String> = own.map(|(k, v)| format!("{k} = {v}")).collect();
         vec![point.case.id.into(), point.case.label.into(), settings.join("; "), format!("{}", point.task.duration_s)]
     });
-    Table {
-        title: "Runs".into(),
-        columns: ["Case", "What", "Settings over the base scenario", "#Duration (s)"].map(str::to_owned).to_vec(),
-        rows: rows.collect(),
-        note: String::new(),
-    }
+    Table::new("Runs", ["Case", "What", "Settings over the base scenario", "#Duration (s)"], rows, "")
 }
 
 fn scenario() -> Table {
     let lines = BASE.lines().filter(|l| !l.trim().is_empty());
-    Table {
-        title: "Base scenario".into(),
-        columns: vec!["TOML".into()],
-        rows: lines.map(|line| vec![line.to_owned()]).collect(),
-        note: String::new(),
-    }
+    Table::new("Base scenario", ["TOML"], lines.map(|line| vec![line.to_owned()]), "")
 }

@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use crate::motion::{finite, packed};
+use crate::motion::{finite, packed, round_below};
 use crate::number::significant;
 use crate::picture::{Anchor, Paint, Picture, Shape, Text, ink};
 use crate::plots::{Layout, legend};
@@ -78,8 +78,7 @@ impl AxialSection {
         let mut rollers = 0.0_f64;
         for row in &self.rows {
             for (frame, tilt) in row.tilt.iter().enumerate() {
-                let loads = &row.inner[frame * self.strips..(frame + 1) * self.strips];
-                if loads.iter().any(|q| *q > 0.0) {
+                if self.carries(row, frame) {
                     rollers = rollers.max(finite(*tilt).abs());
                 }
             }
@@ -87,14 +86,14 @@ impl AxialSection {
         [rings, rollers]
     }
 
+    fn carries(&self, row: &AxialRow, frame: usize) -> bool {
+        row.inner[frame * self.strips..(frame + 1) * self.strips].iter().any(|q| *q > 0.0)
+    }
+
     /// The frame in which a loaded roller tilts most: for a picture that does not move.
     pub(crate) fn telling_frame(&self) -> usize {
         let most = |frame: usize| {
-            let loaded = |row: &&AxialRow| {
-                let loads = &row.inner[frame * self.strips..(frame + 1) * self.strips];
-                loads.iter().any(|q| *q > 0.0)
-            };
-            let tilts = self.rows.iter().filter(loaded);
+            let tilts = self.rows.iter().filter(|row| self.carries(row, frame));
             tilts.fold(0.0_f64, |m, row| m.max(finite(row.tilt[frame]).abs()))
         };
         (0..self.frames()).max_by(|a, b| most(*a).total_cmp(&most(*b))).unwrap_or(0)
@@ -107,10 +106,7 @@ impl AxialSection {
         if largest <= 0.0 {
             return 1.0;
         }
-        let wanted = DRAWN / largest;
-        let decade = 10f64.powf(wanted.log10().floor());
-        let steps = [5.0, 2.0, 1.0].map(|m| m * decade);
-        steps.into_iter().find(|f| *f <= wanted).unwrap_or(decade)
+        round_below(DRAWN / largest)
     }
 
     /// The words under the picture.

@@ -107,8 +107,8 @@ pub(crate) fn finite(value: f32) -> f64 {
     if value.is_finite() { f64::from(value) } else { 0.0 }
 }
 
-/// A force to label the scale with: 1, 2 or 5 times a power of ten, at least a third of the largest.
-fn round_force(largest: f64) -> f64 {
+/// 1, 2 or 5 times a power of ten: the largest such number up to this one.
+pub(crate) fn round_below(largest: f64) -> f64 {
     let decade = 10f64.powf(largest.log10().floor());
     [5.0, 2.0, 1.0].map(|m| m * decade).into_iter().find(|f| *f <= largest).unwrap_or(decade)
 }
@@ -170,7 +170,7 @@ pub fn bearing_motion(motion: &Motion, frame: usize, layout: Layout) -> Picture 
 }
 
 fn draw_ruler(picture: &mut Picture, largest: f64, per_newton: f64, y: f64, font: f64) {
-    let round = round_force(largest);
+    let round = round_below(largest);
     let end = 12.0 + round * per_newton;
     picture.path(&[(12.0, y), (end, y)], Paint::line(ink::BLACK, 2.2));
     let words = format!("{} N; the largest force here is {} N", significant(round, 2), significant(largest, 3));

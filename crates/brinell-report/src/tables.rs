@@ -20,6 +20,19 @@ pub struct Table {
     pub note: String,
 }
 
+impl Table {
+    /// A table of its parts.
+    pub fn new(
+        title: impl Into<String>,
+        columns: impl IntoIterator<Item = impl Into<String>>,
+        rows: impl IntoIterator<Item = Vec<String>>,
+        note: impl Into<String>,
+    ) -> Self {
+        let columns = columns.into_iter().map(Into::into).collect();
+        Self { title: title.into(), columns, rows: rows.into_iter().collect(), note: note.into() }
+    }
+}
+
 /// A table up to its rows; heads as [`Table::columns`]. `stack` has narrow pages set the cells of a row one below the
 /// other.
 pub(crate) fn open_table(page: &mut String, stack: bool, heads: &[impl AsRef<str>]) {

@@ -124,12 +124,10 @@ pub(super) fn table(results: &[Result_]) -> Table {
         let [frequency, score] = found.unwrap_or(["–", "–"].map(str::to_owned));
         vec![result.name.clone(), brinell_report::called(&result.analysis), frequency, score, result.told()]
     };
-    Table {
-        title: "Bearings".into(),
-        columns: ["Bearing", "Damage", "Frequency", "#Score", "Verdict"]
-            .map(str::to_owned)
-            .to_vec(),
-        rows: results.iter().map(row).collect(),
-        note: "Each bearing is judged by itself, and one sensor records all. The pictures are of the one that leads, or of the first.".into(),
-    }
+    Table::new(
+        "Bearings",
+        ["Bearing", "Damage", "Frequency", "#Score", "Verdict"],
+        results.iter().map(row),
+        "Each bearing is judged by itself, and one sensor records all. The pictures are of the one that leads, or of the first.",
+    )
 }

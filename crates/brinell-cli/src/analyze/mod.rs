@@ -14,7 +14,6 @@ pub(crate) use args::AnalyzeArgs;
 
 use crate::args::PlotFormat;
 use crate::failure::Failure;
-use crate::figures::ready_pictures;
 use crate::inputs::Inputs;
 use crate::results::{ANALYSIS, Earlier, Place, REPORT, Results, SCENARIO};
 use crate::say::{self, complain, pretty};
@@ -24,7 +23,7 @@ use brinell::analysis::{
 };
 use brinell::scenario::Surface;
 use brinell::signal::{Band, Indicator, Rotation, VelocityBands};
-use brinell_io::{atomic_prepare, atomic_write};
+use brinell_io::atomic_write;
 use brinell_report::Picture;
 use files::{Files, files};
 use json::{as_json, whole_indicators};
@@ -380,9 +379,8 @@ fn put_pages(
     earlier: &Earlier,
 ) -> Result<Vec<PathBuf>, Failure> {
     crate::run::make_folder(folder)?;
-    let mut ready = vec![atomic_prepare(folder.join(REPORT), page)?];
-    ready.extend(ready_pictures(pictures, formats, folder)?);
-    Ok(earlier.publish(ready, (ANALYSIS, 0), json.clone())?.0)
+    let page = Some((REPORT, page));
+    Ok(earlier.publish(Vec::new(), (ANALYSIS, json.clone()), page, (pictures, formats))?.0)
 }
 
 /// The JSON where `--json` wants it.

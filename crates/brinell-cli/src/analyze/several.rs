@@ -4,7 +4,7 @@ use super::args::AnalyzeArgs;
 use super::{Result_, as_json, earlier, ends, load, put_pages, results};
 use crate::failure::Failure;
 use crate::results::Earlier;
-use crate::say::{complain, one_line, say, short};
+use crate::say::{self, complain, one_line, say, short};
 use brinell::analysis::{MachineClass, Unit};
 use brinell::signal::{Estimate, Indicator};
 use brinell_report::{
@@ -102,9 +102,7 @@ pub(super) fn analyze(args: &AnalyzeArgs, files: &[PathBuf]) -> Result<ExitCode,
         complain!("error: {failed} of {} files could not be analysed", rows.len());
     }
     if !quiet {
-        for path in written {
-            say!("  wrote {}", path.display());
-        }
+        say::wrote(written);
     }
     Ok(ExitCode::from(u8::from(failed > 0)))
 }
@@ -232,23 +230,19 @@ fn report(rows: &[Row]) -> TrendReport {
     let failures = rows.iter().filter_map(|r| Some((r.name.clone(), r.found.as_ref().err()?.clone())));
     let failures: Vec<(String, String)> = failures.collect();
     let damaged = found().filter(|f| f.damage).count();
-    let table = Table {
-        title: "Files".into(),
-        columns: ["#No.", "File", "#Length, s", "Damage", "#RMS", "#Peak", "#Kurtosis", "#RMS velocity, mm/s", "Zone"]
-            .map(str::to_owned)
-            .to_vec(),
-        rows: (rows.iter().enumerate())
-            .map(|(i, row)| {
-                let mut cells = vec![(i + 1).to_string(), row.name.clone()];
-                match &row.found {
-                    Ok(found) => cells.extend(found.cells()),
-                    Err(_) => cells.extend(["–", "no result", "–", "–", "–", "–", "–"].map(str::to_owned)),
-                }
-                cells
-            })
-            .collect(),
-        note: note(rows),
-    };
+    let table = Table::new(
+        "Files",
+        ["#No.", "File", "#Length, s", "Damage", "#RMS", "#Peak", "#Kurtosis", "#RMS velocity, mm/s", "Zone"],
+        (rows.iter().enumerate()).map(|(i, row)| {
+            let mut cells = vec![(i + 1).to_string(), row.name.clone()];
+            match &row.found {
+                Ok(found) => cells.extend(found.cells()),
+                Err(_) => cells.extend(["–", "no result", "–", "–", "–", "–", "–"].map(str::to_owned)),
+            }
+            cells
+        }),
+        note(rows),
+    );
     TrendReport {
         title: "Several signals".into(),
         subtitle: format!("{} files, damage called in {damaged}, no result from {}", rows.len(), failures.len()),

@@ -1,7 +1,7 @@
 //! What is printed of an analysis.
 
 use super::{Against, HEADLINES, Result_, whole_indicators};
-use crate::say::{say, short};
+use crate::say::{self, say, short};
 use brinell::analysis::{Analysis, COLUMNS};
 use brinell::signal::Indicator;
 use brinell_report::{level_lines, ratio, shaft_lines};
@@ -57,9 +57,7 @@ pub(super) fn tell(results: &[Result_], result: &Result_, written: &[PathBuf]) {
     if let Some(other) = &result.against {
         against(other, &m.unit.name);
     }
-    for path in written {
-        say!("  wrote {}", path.display());
-    }
+    say::wrote(written);
 }
 
 /// The indicators that are headlines, in one line.

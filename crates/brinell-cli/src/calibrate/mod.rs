@@ -28,7 +28,7 @@ use brinell_study::campaign::fingerprint;
 use brinell_study::runner::{JOURNAL, Ledger, Task, estimate};
 use measured::Pattern;
 use outcome::Outcome;
-use runs::{FromPoints, Runs};
+use runs::{FromPoints, Runs, settings};
 use serde_json::{Value, json};
 use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
@@ -123,9 +123,7 @@ pub(crate) fn calibrate(args: &CalibrateArgs) -> Result<ExitCode, Failure> {
 fn tell(runs: &Runs, outcome: &Outcome, written: &[PathBuf], begin: Instant) {
     say!("{} in {:.2} s, {} from the journal", plural(runs.done, "run"), begin.elapsed().as_secs_f64(), runs.before);
     outcome.tell();
-    for path in written {
-        say!("  wrote {}", path.display());
-    }
+    say::wrote(written);
 }
 
 fn usage(error: &CalibrateError, option: &str) -> Failure {
@@ -142,24 +140,17 @@ impl Plan {
             .map(|text| Target::read(text).map_err(|e| usage(&e, "--target")))
             .collect::<Result<_, _>>()?;
         let source = Source::open(&ScenarioArgs { scenario: args.scenario.clone(), set: args.set.clone() })?;
-        let settings = |places: &[f64]| -> Vec<(String, String)> {
-            let pairs = keys.iter().zip(places);
-            pairs.map(|(k, unit)| (k.name.clone(), k.text(*unit))).collect()
-        };
         let centre = vec![0.5; keys.len()];
         for k in 0..keys.len() {
             for end in [0.0, 1.0] {
                 let mut places = centre.clone();
                 places[k] = end;
-                source.load(&settings(&places), true)?;
+                source.load(&settings(&keys, &places), true)?;
             }
         }
-        let middle = source.load(&settings(&centre), false)?;
-        let units = keys.iter().map(|key| {
-            let entry = middle.provenance_of(&key.name);
-            entry.map_or("", |p| p.unit)
-        });
-        let units = units.collect();
+        let middle = source.load(&settings(&keys, &centre), false)?;
+        let unit = |key: &Key| middle.provenance_of(&key.name).map_or("", |p| p.unit);
+        let units = keys.iter().map(unit).collect();
         let simulation = Simulation::new(&middle.scenario).map_err(Failure::Run)?;
         let names = names(&middle.scenario, &simulation);
         for target in &targets {

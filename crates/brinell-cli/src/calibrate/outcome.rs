@@ -1,10 +1,10 @@
 //! What a calibration found, as numbers and files.
 
 use super::Plan;
-use super::runs::{Runs, own_uncertainty};
+use super::runs::{Runs, own_uncertainty, settings};
 use crate::failure::Failure;
 use crate::results::put;
-use crate::say::pretty;
+use crate::say::{pretty, shown_unit};
 use brinell::document::Loaded;
 use brinell::signal::distribution::chi_square_tail;
 use brinell_io::{Cells, Column, Table};
@@ -86,10 +86,7 @@ impl<'a> Outcome<'a> {
             let quantity = row.and_then(|row| row.quantity(&target.name));
             Compared {
                 name: target.name.clone(),
-                unit: quantity.map_or(String::new(), |q| match &q.unit[..] {
-                    "1" => String::new(),
-                    unit => unit.to_owned(),
-                }),
+                unit: quantity.map_or("", |q| shown_unit(&q.unit)).to_owned(),
                 target: target.value,
                 uncertainty: target.uncertainty,
                 value: quantity.and_then(|q| q.value),
@@ -98,7 +95,7 @@ impl<'a> Outcome<'a> {
             }
         });
         let compared = compared.collect();
-        let best = plan.source.load(&runs.points.settings(place), true)?;
+        let best = plan.source.load(&settings(runs.points.keys, place), true)?;
         Ok(Self { plan, runs, found, compared, best, fit })
     }
 

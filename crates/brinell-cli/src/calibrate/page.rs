@@ -1,6 +1,7 @@
 //! A calibration as its page shows it.
 
 use super::outcome::Outcome;
+use super::runs::settings;
 use crate::say::short;
 use crate::sweep::plural;
 use brinell_report::{CalibrationReport, Fact, FittedKey, Table, Tried};
@@ -12,7 +13,7 @@ impl Outcome<'_> {
         let failed: Vec<(String, String)> = (all.iter().enumerate())
             .filter(|(_, e)| e.answers.is_none())
             .map(|(k, e)| {
-                let settings = self.runs.points.settings(&e.place);
+                let settings = settings(self.runs.points.keys, &e.place);
                 let texts: Vec<String> = settings.iter().map(|(k, v)| format!("{k} = {v}")).collect();
                 let reason = self.runs.row(&e.place).err().unwrap_or_default();
                 (format!("{}: {}", k + 1, texts.join(", ")), reason)
@@ -89,14 +90,13 @@ impl Outcome<'_> {
                 format!("{:+.1}", c.residual),
             ]
         };
-        Table {
-            title: "Targets and the best run".into(),
-            columns: ["Target", "Unit", "#Wanted", "#Best run", "#Residual"].map(String::from).to_vec(),
-            rows: self.compared.iter().map(row).collect(),
-            note: "Uncertainties are standard ones (one sigma). A residual is the difference over the target's uncertainty and the runs' own together, \
-                   the latter being the median over the best few runs, the same for all, so that no run is preferred for being uncertain."
-                .into(),
-        }
+        Table::new(
+            "Targets and the best run",
+            ["Target", "Unit", "#Wanted", "#Best run", "#Residual"],
+            self.compared.iter().map(row),
+            "Uncertainties are standard ones (one sigma). A residual is the difference over the target's uncertainty and the runs' own together, \
+             the latter being the median over the best few runs, the same for all, so that no run is preferred for being uncertain.",
+        )
     }
 
     fn correlation(&self) -> Table {
@@ -108,12 +108,12 @@ impl Outcome<'_> {
             row.extend((0..self.found.len()).map(|b| format!("{:.2}", identified.correlation[(a, b)])));
             row
         };
-        Table {
-            title: "Correlation of the estimates".into(),
+        Table::new(
+            "Correlation of the estimates",
             columns,
-            rows: (0..self.found.len()).map(row).collect(),
-            note: "Near 1 or -1 only a combination of the two is determined.".into(),
-        }
+            (0..self.found.len()).map(row),
+            "Near 1 or -1 only a combination of the two is determined.",
+        )
     }
 
     fn directions(&self) -> Table {
@@ -129,14 +129,13 @@ impl Outcome<'_> {
             row.push(if d.is_determined() { "yes" } else { "no" }.into());
             row
         });
-        Table {
-            title: "Directions, from the best to the least determined".into(),
+        Table::new(
+            "Directions, from the best to the least determined",
             columns,
-            rows: rows.collect(),
-            note: "Each key counts in shares of its range. The singular value is how many standard uncertainties the targets change by over one \
-                   range along the direction; noise is what the runs' own uncertainty alone would show."
-                .into(),
-        }
+            rows,
+            "Each key counts in shares of its range. The singular value is how many standard uncertainties the targets change by over one \
+             range along the direction; noise is what the runs' own uncertainty alone would show.",
+        )
     }
 
     fn method(&self) -> Vec<String> {

@@ -20,15 +20,15 @@ pub(super) struct FromPoints<'a> {
     pub(super) pattern: Option<&'a Pattern>,
 }
 
-impl FromPoints<'_> {
-    pub(super) fn settings(&self, place: &[f64]) -> Vec<(String, String)> {
-        let pairs = self.keys.iter().zip(place);
-        pairs.map(|(key, unit)| (key.name.clone(), key.text(*unit))).collect()
-    }
+/// What a point of the unit cube gives the keys.
+pub(super) fn settings(keys: &[Key], place: &[f64]) -> Vec<(String, String)> {
+    keys.iter().zip(place).map(|(key, unit)| (key.name.clone(), key.text(*unit))).collect()
+}
 
+impl FromPoints<'_> {
     /// What is to be run at a point, or why its scenario is bad.
     pub(super) fn task(&self, place: &[f64]) -> Result<Task, String> {
-        let settings = self.settings(place);
+        let settings = settings(self.keys, place);
         let loaded = self.source.load(&settings, true);
         let scenario = loaded.map_err(|failure| crate::sweep::reason(&failure))?.scenario;
         Ok(Task { fingerprint: self.fingerprint(&scenario), ..Task::new(settings, &scenario) })

@@ -7,13 +7,12 @@ mod sides;
 mod table;
 
 use crate::failure::Failure;
-use crate::figures::ready_pictures;
 use crate::files::{self, stem};
 use crate::inputs::Inputs;
 use crate::progress::Joint;
 use crate::results::{COMPARISON, Earlier, Place, Results};
 use crate::run::{make_folder, safe_name, stop_flag};
-use crate::say::{complain, document, say, short};
+use crate::say::{self, complain, document, say, short};
 pub(crate) use args::CompareArgs;
 use brinell::simulate::Simulation;
 use brinell::{Error, RunResult};
@@ -66,13 +65,13 @@ pub(crate) fn side_by_side(args: &CompareArgs) -> Result<ExitCode, Failure> {
     ready.push(table.prepare_csv(folder.join(CSV))?);
     let metadata = Metadata::default().with(keys::VERSION, brinell::VERSION);
     ready.push(table.prepare_parquet(folder.join(PARQUET), &metadata)?);
-    let before = ready.len();
-    ready.push(atomic_prepare(folder.join(PAGE), brinell_report::side_by_side_html(&report))?);
-    if !args.plots.is_empty() {
-        let pictures = brinell_report::side_by_side_pictures(&report, layout);
-        ready.extend(ready_pictures(&pictures, &args.plots, &folder)?);
-    }
-    let (written, json) = earlier.publish(ready, (COMPARISON, before), table::json(&sides, &compared))?;
+    let pictures = match &args.plots[..] {
+        [] => Vec::new(),
+        _ => brinell_report::side_by_side_pictures(&report, layout),
+    };
+    let json = (COMPARISON, table::json(&sides, &compared));
+    let page = brinell_report::side_by_side_html(&report);
+    let (written, json) = earlier.publish(ready, json, Some((PAGE, &page)), (&pictures, &args.plots))?;
     if args.json {
         document(json.trim_end());
     }
@@ -81,9 +80,7 @@ pub(crate) fn side_by_side(args: &CompareArgs) -> Result<ExitCode, Failure> {
             complain!("warning: {warning}");
         }
         tell(&sides, &compared);
-        for path in &written {
-            say!("  wrote {}", path.display());
-        }
+        say::wrote(&written);
     }
     Ok(ExitCode::SUCCESS)
 }

@@ -2,7 +2,7 @@
 
 use super::curves::{called, entry_and_exit, envelope, over_defect, spectrum, waveform};
 use super::sides::Side;
-use crate::say::{bracketed, short};
+use crate::say::{bracketed, short, shown_unit};
 use crate::sweep::{told, words};
 use brinell::observe::passes::place;
 use brinell::result::{Quantity, RunResult};
@@ -186,7 +186,7 @@ fn differing(sides: &[Side]) -> Table {
     };
     let mut columns = vec!["Key".to_owned()];
     columns.extend(sides.iter().map(|side| side.label.clone()));
-    Table { title: "What differs".into(), columns, rows, note: note.into() }
+    Table::new("What differs", columns, rows, note)
 }
 
 /// A value as it is shown: numbers without the round-off of a change of unit, long texts cut.
@@ -204,10 +204,7 @@ fn cut(text: &str) -> String {
 
 /// A unit as a table's cell shows it.
 fn unit(unit: &str) -> String {
-    match unit {
-        "1" => String::new(),
-        unit => unit.replace("^2", "²"),
-    }
+    shown_unit(unit).replace("^2", "²")
 }
 
 /// Values of each run, and ratios to the baseline's.
@@ -223,14 +220,13 @@ fn numbers(title: &str, names: &[String], rows: &[&Compared]) -> Table {
         row.extend(c.ratios.iter().skip(1).map(ratio));
         row
     });
-    Table {
-        title: title.into(),
+    Table::new(
+        title,
         columns,
-        rows: rows.collect(),
-        note: "Averages over whole revolutions (of impacts: over instants), in brackets 95 % intervals; peaks are those of a revolution. \
-               Ratios are of the values beside them; their intervals suppose runs that scatter independently."
-            .into(),
-    }
+        rows,
+        "Averages over whole revolutions (of impacts: over instants), in brackets 95 % intervals; peaks are those of a revolution. \
+         Ratios are of the values beside them; their intervals suppose runs that scatter independently.",
+    )
 }
 
 fn with_interval(ratio: Ratio) -> String {

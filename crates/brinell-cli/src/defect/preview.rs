@@ -7,7 +7,7 @@ use crate::figures::drawn;
 use crate::files::Source;
 use crate::results::{PREVIEW, Place, Results};
 use crate::run::{make_folder, safe_name};
-use crate::say::{document, say, short};
+use crate::say::{self, document, say, short};
 use brinell::scenario::Scenario;
 use brinell_io::{Complete, atomic_prepare};
 use brinell_report::{Damage, DamagePanel, Layout, Picture, damage_of};
@@ -43,15 +43,12 @@ pub(super) fn preview(args: &PreviewArgs) -> Result<(), Failure> {
         entries.push(entry(*index, damage));
     }
     let json = json!({ "scenario": s.name, "version": brinell::VERSION, "files": null, "defects": entries });
-    let before = ready.len();
-    let (written, text) = earlier.publish(ready, (PREVIEW, before), json)?;
+    let (written, text) = earlier.publish(ready, (PREVIEW, json), None, (&[], &[]))?;
     if args.json {
         document(text.trim_end());
         return Ok(());
     }
-    for path in written {
-        say!("  wrote {}", path.display());
-    }
+    say::wrote(written);
     Ok(())
 }
 

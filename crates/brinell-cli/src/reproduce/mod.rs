@@ -8,7 +8,7 @@ use crate::figures::write_plots;
 use crate::inputs::Inputs;
 use crate::results::{Place, Results};
 use crate::run::{make_folder, stop_flag};
-use crate::say::{complain, document, say, short};
+use crate::say::{self, complain, document, say, short};
 use crate::sweep::plural;
 use args::OtherModel;
 pub(crate) use args::ReproduceArgs;
@@ -198,9 +198,7 @@ fn tell(reproduction: &Reproduction, written: &[PathBuf], done: usize, begin: In
     let (pictures, files): (Vec<_>, Vec<_>) = written
         .iter()
         .partition(|p| p.extension().is_some_and(|e| ["svg", "png", "pdf"].iter().any(|known| e == *known)));
-    for path in files {
-        say!("  wrote {}", path.display());
-    }
+    say::wrote(files);
     if !pictures.is_empty() {
         say!("  and {}", plural(pictures.len(), "picture"));
     }

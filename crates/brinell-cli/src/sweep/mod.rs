@@ -70,9 +70,7 @@ pub(crate) fn sweep(args: &SweepArgs) -> Result<ExitCode, Failure> {
             count("complete"),
             plural(states.len(), "point")
         );
-        for path in &written {
-            say!("  wrote {}", path.display());
-        }
+        say::wrote(&written);
     }
     tell_failures(&points, &states);
     if !args.quiet {

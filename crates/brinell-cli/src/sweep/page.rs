@@ -2,7 +2,7 @@
 
 use super::points::Points;
 use super::table::{State, number};
-use crate::say::{bracketed, short};
+use crate::say::{bracketed, short, shown_unit};
 use brinell::result::Quantity;
 use brinell::scenario::Scenario;
 use brinell_report::{Fact, HeatMap, IndicatorLine, IndicatorPlot, IndicatorPoint, SweepReport, Table, capital};
@@ -102,7 +102,7 @@ fn pictures(points: &Points, states: &[State], name: &str) -> Vec<IndicatorPlot>
     let others: Vec<usize> = (0..points.plan.axes().len()).filter(|a| *a != axis).collect();
     let mut lines: Vec<IndicatorLine> = Vec::new();
     let mut line_of: HashMap<Vec<usize>, usize> = HashMap::new();
-    let mut unit = String::new();
+    let mut unit = "";
     for (k, state) in states.iter().enumerate() {
         let place = points.plan.place(k);
         let rest: Vec<usize> = others.iter().map(|a| place[*a]).collect();
@@ -111,7 +111,7 @@ fn pictures(points: &Points, states: &[State], name: &str) -> Vec<IndicatorPlot>
             _ => None,
         };
         if let Some(q) = quantity {
-            unit = if q.unit == "1" { String::new() } else { q.unit.clone() };
+            unit = shown_unit(&q.unit);
         }
         let x = numeric.as_ref().map_or(place[axis] as f64, |numbers| numbers[place[axis]]);
         let point = point(x, quantity);
@@ -134,7 +134,7 @@ fn pictures(points: &Points, states: &[State], name: &str) -> Vec<IndicatorPlot>
                 part => format!("{name}-{}", part + 1),
             },
             label: words(name),
-            unit: unit.clone(),
+            unit: unit.to_owned(),
             x_label: x_key.clone(),
             x_unit: points.units.get(x_key).copied().unwrap_or("").into(),
             x_names: match numeric {
@@ -169,7 +169,7 @@ fn map(points: &Points, states: &[State], name: &str) -> Option<HeatMap> {
         };
         let place = points.plan.place(k);
         values[place[1 - x] * along.settings().len() + place[x]] = quantity.value.unwrap_or(f64::NAN);
-        unit = if quantity.unit == "1" { "" } else { &quantity.unit };
+        unit = shown_unit(&quantity.unit);
     }
     let key = |axis: &Axis| {
         let keys = axis.keys().iter().map(|key| match points.units.get(key) {
@@ -227,11 +227,11 @@ fn table(points: &Points, states: &[State], plots: &[String]) -> Table {
     let unit = |name: &String| {
         let rows = states.iter().filter_map(complete);
         let unit = rows.filter_map(|row| row.quantity(name)).next();
-        unit.map_or("", |q| q.unit.as_str())
+        unit.map_or("", |q| shown_unit(&q.unit))
     };
     for name in plots {
         let unit = match unit(name) {
-            "" | "1" => String::new(),
+            "" => String::new(),
             unit => format!(" ({unit})"),
         };
         columns.push(format!("#{name}{unit}"));
@@ -253,7 +253,7 @@ fn table(points: &Points, states: &[State], plots: &[String]) -> Table {
         more => format!("{more} more points are in sweep.csv. "),
     };
     let note = "Averages over whole revolutions, in brackets their 95 % intervals; peaks are those of a revolution.";
-    Table { title: "Points".into(), columns, rows: rows.collect(), note: more + note }
+    Table::new("Points", columns, rows, more + note)
 }
 
 fn complete<'a>(state: &State<'a>) -> Option<&'a Row> {

@@ -71,12 +71,7 @@ impl Sensitivity {
                 held.count().to_string(),
             ]
         });
-        Table {
-            title: "Assumptions".into(),
-            columns: ["#No.", "About", "Assumed (instead of)", "#Claims that hold"].map(str::to_owned).to_vec(),
-            rows: rows.collect(),
-            note: String::new(),
-        }
+        Table::new("Assumptions", ["#No.", "About", "Assumed (instead of)", "#Claims that hold"], rows, "")
     }
 
     fn matrix(&self) -> Table {
@@ -87,12 +82,12 @@ impl Sensitivity {
             let marks = self.variants.iter().map(|tried| mark(tried.judged[k].plain));
             [claim.id.to_owned()].into_iter().chain(marks.map(str::to_owned)).collect()
         });
-        Table {
-            title: "Verdicts under each".into(),
+        Table::new(
+            "Verdicts under each",
             columns,
-            rows: rows.collect(),
-            note: "Numbers as above. + holds, − does not hold, ± holds in part, ? undecided, · not computed.".into(),
-        }
+            rows,
+            "Numbers as above. + holds, − does not hold, ± holds in part, ? undecided, · not computed.",
+        )
     }
 
     fn search(&self) -> Vec<StudyPiece> {
@@ -183,10 +178,5 @@ fn ranges() -> Table {
         ("Filter", vec!["none".into(), "anti-alias".into()], "likewise"),
     ];
     rows.extend(others.map(|(key, all, why)| vec![key.into(), all.join(" | "), why.into()]));
-    Table {
-        title: "Ranges of the search".into(),
-        columns: ["Key", "Range", "Why"].map(str::to_owned).to_vec(),
-        rows,
-        note: "Ranges are drawn from evenly in the logarithm.".into(),
-    }
+    Table::new("Ranges of the search", ["Key", "Range", "Why"], rows, "Ranges are drawn from evenly in the logarithm.")
 }

@@ -24,18 +24,18 @@ impl Sensitivity {
         rows[0].extend(paper().into_iter().chain(paper()));
         rows[0].push("0".into());
         rows.extend(self.variants.iter().enumerate().map(|(k, tried)| row(k, tried)));
-        Table {
-            title: "The three RMS values under each assumption".into(),
+        Table::new(
+            "The three RMS values under each assumption",
             columns,
             rows,
-            note: format!(
+            format!(
                 "RMS of the outer ring’s x acceleration, m/s²: full model with the irregular and with the simplified defect, reference model with \
                  the simplified one. Instantaneous, with its 95 % interval where there is one, / behind the anti-alias filter. From t = 0: over \
                  {} s, or what the assumption names; one start a record, so no interval. Nearest: the smallest root mean square of ln(ours/paper’s) \
                  among the four readings; 0.05 is 5 %.",
                 1e-3 * f64::from(SHOWN_MS)
             ),
-        }
+        )
     }
 
     /// What the best sets are.
@@ -67,14 +67,12 @@ impl Sensitivity {
                 row(key, "", &of);
             }
         }
-        Table {
-            title: "The nearest sets".into(),
+        Table::new(
+            "The nearest sets",
             columns,
             rows,
-            note:
-                "Distance: root mean square of ln(ours/paper's); 0.05 is 5 %. In all cases, longer than in the search."
-                    .into(),
-        }
+            "Distance: root mean square of ln(ours/paper's); 0.05 is 5 %. In all cases, longer than in the search.",
+        )
     }
 
     /// How near the sets came, by the stretch of the record.
@@ -93,13 +91,12 @@ impl Sensitivity {
             ]
         };
         let columns = ["RMS over", "#Sets", "#Nearest set", "#Distance", "#irregular", "#simplified", "#reference"];
-        Table {
-            title: "How near the sets came, by the stretch of the record".into(),
-            columns: columns.map(str::to_owned).to_vec(),
-            rows: self.nearest.iter().map(row).collect(),
-            note: "The paper: 30.414, 32.06, 29.01 m/s². By the distance of the three RMS alone, whatever else holds."
-                .into(),
-        }
+        Table::new(
+            "How near the sets came, by the stretch of the record",
+            columns,
+            self.nearest.iter().map(row),
+            "The paper: 30.414, 32.06, 29.01 m/s². By the distance of the three RMS alone, whatever else holds.",
+        )
     }
 }
 

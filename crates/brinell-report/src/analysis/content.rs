@@ -216,17 +216,17 @@ fn markers(a: &Analysis) -> Vec<Marker> {
 }
 
 fn families(a: &Analysis) -> Table {
-    Table {
-        title: "Defect frequencies".into(),
-        columns: COLUMNS.map(str::to_owned).to_vec(),
-        rows: a.rows().into_iter().map(Vec::from).collect(),
-        note: format!(
+    Table::new(
+        "Defect frequencies",
+        COLUMNS,
+        a.rows().into_iter().map(Vec::from),
+        format!(
             "Each within {} % of pure rolling, in the envelope spectra of {} bands averaged over their noise floors; a harmonic is present from 3 dB on; one that a line of shaft or mains hides is not counted. \
              Modulation: depth to which lines and sidebands modulate the envelope, over all bands.",
             100.0 * a.options.tolerance,
             a.bands,
         ),
-    }
+    )
 }
 
 fn with_interval(e: &Estimate) -> String {
@@ -256,61 +256,56 @@ fn indicators(of: &Findings) -> Table {
             "mm/s".into(),
         ]);
     }
-    Table {
-        title: "Indicators".into(),
-        columns: ["Indicator", "#Value", "#95 % interval", "Unit"].map(str::to_owned).to_vec(),
-        rows: shown,
-        note: "Of the signal less its mean: averages over whole revolutions; peaks are those of a revolution. The envelope is the amplitude of what lies in the band shown. \
-               Bands of velocity from 50 Hz up are those of ISO 15242 at 1800 r/min, with sharp edges."
-            .into(),
-    }
+    Table::new(
+        "Indicators",
+        ["Indicator", "#Value", "#95 % interval", "Unit"],
+        shown,
+        "Of the signal less its mean: averages over whole revolutions; peaks are those of a revolution. The envelope is the amplitude of what lies in the band shown. \
+         Bands of velocity from 50 Hz up are those of ISO 15242 at 1800 r/min, with sharp edges.",
+    )
 }
 
 fn differences(of: &Findings, other: &Analyzed, c: &Comparison) -> Vec<Table> {
     let unit = &of.unit.name;
-    let indicators = (c.indicators.iter())
-        .map(|d| {
-            let unit = d.indicator.unit(unit).to_owned();
-            let apart = match d.apart {
-                Some(true) => "intervals apart",
-                Some(false) => "intervals overlap",
-                None => "",
-            };
-            vec![
-                named(d.indicator),
-                short(d.first, 4),
-                short(d.second, 4),
-                unit,
-                ratio(d).unwrap_or("–".into()),
-                apart.into(),
-            ]
-        })
-        .collect();
-    let lines = (c.lines.iter())
-        .map(|l| {
-            let pair = |v: [f64; 2], digits: usize| v.map(|v| format!("{v:.digits$}"));
-            let (f, m, s) = (pair(l.frequency, 2), pair(l.modulation.map(|v| 100.0 * v), 1), pair(l.snr_db, 0));
-            let [fa, fb] = f;
-            let [ma, mb] = m;
-            let [sa, sb] = s;
-            vec![format!("{} × {}", l.order, l.name), fa, fb, ma, mb, sa, sb]
-        })
-        .collect();
+    let indicators = (c.indicators.iter()).map(|d| {
+        let unit = d.indicator.unit(unit).to_owned();
+        let apart = match d.apart {
+            Some(true) => "intervals apart",
+            Some(false) => "intervals overlap",
+            None => "",
+        };
+        vec![
+            named(d.indicator),
+            short(d.first, 4),
+            short(d.second, 4),
+            unit,
+            ratio(d).unwrap_or("–".into()),
+            apart.into(),
+        ]
+    });
+    let lines = (c.lines.iter()).map(|l| {
+        let pair = |v: [f64; 2], digits: usize| v.map(|v| format!("{v:.digits$}"));
+        let (f, m, s) = (pair(l.frequency, 2), pair(l.modulation.map(|v| 100.0 * v), 1), pair(l.snr_db, 0));
+        let [fa, fb] = f;
+        let [ma, mb] = m;
+        let [sa, sb] = s;
+        vec![format!("{} × {}", l.order, l.name), fa, fb, ma, mb, sa, sb]
+    });
     vec![
-        Table {
-            title: "Differences".into(),
-            columns: ["Indicator", "#This", "#Other", "Unit", "#This over the other", ""].map(str::to_owned).to_vec(),
-            rows: indicators,
-            note: format!(
+        Table::new(
+            "Differences",
+            ["Indicator", "#This", "#Other", "Unit", "#This over the other", ""],
+            indicators,
+            format!(
                 "Third octaves from 10 Hz up: this one lies {:+.1} dB from the other on average, {:.1} dB RMS. Verdict on the other: {}",
                 0.0 - c.level_db.0,
                 c.level_db.1,
                 other.analysis.verdict()
             ),
-        },
-        Table {
-            title: "Lines of the envelope spectra".into(),
-            columns: [
+        ),
+        Table::new(
+            "Lines of the envelope spectra",
+            [
                 "Line",
                 "#This, Hz",
                 "#Other, Hz",
@@ -318,11 +313,9 @@ fn differences(of: &Findings, other: &Analyzed, c: &Comparison) -> Vec<Table> {
                 "#Other, %",
                 "#This, dB over noise",
                 "#Other, dB",
-            ]
-            .map(str::to_owned)
-            .to_vec(),
-            rows: lines,
-            note: "Amplitudes over the mean of the envelope in one band; free of the sensor's scale.".into(),
-        },
+            ],
+            lines,
+            "Amplitudes over the mean of the envelope in one band; free of the sensor's scale.",
+        ),
     ]
 }
