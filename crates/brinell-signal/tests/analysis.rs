@@ -4,7 +4,7 @@ use crate::cases::{CASES, first};
 use std::f64::consts::TAU;
 
 use brinell_signal::analysis::{
-    Analysis, AnalysisError, Component, NamedBearing, Options, Side, Standing, Verdict, analyze, compare,
+    Analysis, AnalysisError, Component, Finding, NamedBearing, Options, Side, Verdict, analyze, compare,
 };
 use brinell_signal::random::Random;
 
@@ -216,7 +216,7 @@ fn regress_one_line_is_reported_and_not_called_damage() {
     let analysis = look(&x, fs);
     assert_eq!(first(&analysis), None, "{}", analysis.verdict());
     let outer = analysis.families.iter().find(|f| f.name == "BPFO").unwrap();
-    assert!(outer.harmonics[0].stands && outer.standing_harmonics() < 3);
+    assert!(outer.harmonics[0].detected && outer.detected_harmonics() < 3);
     assert_eq!(analysis.conclusion(), Verdict::CannotTell);
     let words = analysis.verdict();
     assert!(words.contains("fewer harmonics than damage has"), "{words}");
@@ -246,7 +246,7 @@ fn prop_a_wrong_speed_is_pointed_to_and_blamed_on_nobody() {
     }
 }
 
-/// Something that strikes half or a third as often as a race would be passed has lines at the race's frequency as well.
+/// Something that impacts half or a third as often as a race would be passed has lines at the race's frequency as well.
 #[test]
 fn prop_a_slower_comb_is_distinguished_from_damage_at_its_multiple() {
     let fs = 12_000.0;
@@ -307,13 +307,13 @@ fn prop_a_healthy_record_shows_what_has_grown() {
         (healthy(before_fs, 4.0, 1), damaged(fs, 4.0, 2, &at(-11.0)), damaged(fs, 4.0, 3, &at(-3.0)));
     assert_eq!(look(&weak, fs).conclusion(), Verdict::NothingFound);
     let (verdict, outer) = beside(&weak, &sound);
-    assert_eq!((verdict, outer.standing), (Verdict::CannotTell, Standing::Grown));
+    assert_eq!((verdict, outer.finding), (Verdict::CannotTell, Finding::Grown));
     assert!(outer.growth.unwrap() > 2.0);
     let (verdict, outer) = beside(&plain, &sound);
-    assert_eq!((verdict, outer.standing), (Verdict::Damage, Standing::Damage));
+    assert_eq!((verdict, outer.finding), (Verdict::Damage, Finding::Damage));
     let before = damaged(before_fs, 4.0, 4, &at(0.0));
     let (verdict, outer) = beside(&plain, &before);
-    assert_eq!(outer.standing, Standing::AsBefore);
+    assert_eq!(outer.finding, Finding::AsBefore);
     assert_ne!(verdict, Verdict::Damage);
     // As deep, and four times as high.
     let louder: Vec<f64> = plain.iter().map(|v| 4.0 * v).collect();

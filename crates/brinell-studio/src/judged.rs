@@ -206,7 +206,7 @@ fn lines(analysis: &Analysis) -> Value {
                 "hz": f.frequency,
                 "nominal_hz": f.expected,
                 "found": true,
-                "harmonics": f.standing_harmonics(),
+                "harmonics": f.detected_harmonics(),
                 "over_noise_db": f.highest_db(),
                 "defect": null,
             })

@@ -44,7 +44,7 @@ fn beside(results: &[Result_], k: usize, lead: Option<usize>) -> Option<String> 
         let (hz, tolerance) = (found.frequency, this.analysis.options.tolerance);
         for other in (results.iter().enumerate()).filter(|(j, _)| *j != k) {
             let a = &other.1.analysis;
-            let near = (a.options.orders.strikes())
+            let near = (a.options.orders.defect_frequencies())
                 .map(|(_, name, order)| (name, order * a.shaft))
                 .find(|(_, at)| (hz / at - 1.0).abs() <= tolerance);
             parts.extend(near.map(|(name, at)| {

@@ -8,7 +8,7 @@ use crate::kurtogram::Kurtogram;
 use crate::number::{capital, short};
 use crate::tables::Table;
 use brinell::analysis::{
-    Analysis, COLUMNS, Comparison, Family, HARMONICS, Levels, Standing, Unit, Verdict, shown_spectrum,
+    Analysis, COLUMNS, Comparison, Family, Finding, HARMONICS, Levels, Unit, Verdict, shown_spectrum,
 };
 use brinell::signal::{Estimate, Indicator, Spectrum, VelocityBands};
 
@@ -203,7 +203,7 @@ fn markers(a: &Analysis) -> Vec<Marker> {
         meaning: f.component.words().into(),
         frequency_hz: f.frequency,
         harmonics: f.harmonics.len(),
-        present: f.standing == Standing::Damage,
+        present: f.finding == Finding::Damage,
     };
     let elsewhere = a.elsewhere.map(|e| Marker {
         label: "other".into(),

@@ -17,7 +17,7 @@ const HARMONICS_IN_BAND: f64 = 2.0;
 pub enum BandChoice {
     /// The user's.
     Given,
-    /// The one in which the lines of what is called damage stand highest.
+    /// The one in which the lines of what is called damage are highest.
     Clearest,
     /// Everything above three times the highest defect frequency.
     Broad,

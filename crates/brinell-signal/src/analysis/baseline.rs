@@ -1,6 +1,6 @@
 //! A record beside one of the same machine when it was healthy: what has grown since, and what was there before.
 
-use super::family::{Family, Standing};
+use super::family::{Family, Finding};
 use super::{Analysis, AnalysisError, Options, Side, analyze, bands};
 use crate::{Band, Indicator};
 
@@ -12,8 +12,8 @@ const BEFORE: f64 = 0.5;
 
 impl Analysis {
     /// Judges again what was found in `x`, in view of a record of the `healthy` machine in the same unit: damage whose
-    /// lines modulate half as deep there, and are half as high, is none ([`Standing::AsBefore`]); lines that have at
-    /// least doubled their modulation have grown ([`Standing::Grown`]).
+    /// lines modulate half as deep there, and are half as high, is none ([`Finding::AsBefore`]); lines that have at
+    /// least doubled their modulation have grown ([`Finding::Grown`]).
     ///
     /// Families are compared in the range that both sample rates hold. How high their lines are goes by modulation
     /// times the signal's RMS. A level that has merely risen says nothing of the part: load, speed and other parts
@@ -35,9 +35,9 @@ impl Analysis {
             };
             let ratio = own.modulation / healthy.modulation.max(f64::MIN_POSITIVE);
             family.growth = Some(ratio);
-            family.standing = match family.standing {
-                Standing::Damage if healthy.is_damage() && BEFORE * louder * ratio < 1.0 => Standing::AsBefore,
-                Standing::Faint | Standing::Open if family.is_whole() && ratio >= GROWN => Standing::Grown,
+            family.finding = match family.finding {
+                Finding::Damage if healthy.is_damage() && BEFORE * louder * ratio < 1.0 => Finding::AsBefore,
+                Finding::Faint | Finding::Open if family.is_whole() && ratio >= GROWN => Finding::Grown,
                 other => other,
             };
         }

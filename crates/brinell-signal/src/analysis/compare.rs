@@ -133,13 +133,13 @@ fn indicators(sides: &[Side; 2]) -> Vec<Difference> {
 fn lines(sides: &[Side; 2], envelopes: &[Spectrum; 2], means: &[f64; 2]) -> Result<Vec<LineDifference>, AnalysisError> {
     let mut all = Vec::new();
     let options = &sides[0].analysis.options;
-    for (_, name, order) in options.orders.strikes().filter(|s| s.1 != "BSF") {
+    for (_, name, order) in options.orders.defect_frequencies().filter(|s| s.1 != "BSF") {
         let mut sets = Vec::new();
         for (side, spectrum) in sides.iter().zip(envelopes) {
             let analysis = side.analysis;
-            // Where its comb stands highest, or where pure rolling has it.
+            // Where its comb is highest, or where pure rolling has it.
             let found = analysis.families.iter().find(|f| f.name == name);
-            let place = (found.filter(|f| f.standing_harmonics() > 0)).map_or(order * analysis.shaft, |f| f.frequency);
+            let place = (found.filter(|f| f.detected_harmonics() > 0)).map_or(order * analysis.shaft, |f| f.frequency);
             sets.push(harmonics(spectrum, place, 0.005 * place, HARMONICS)?);
         }
         for (a, b) in sets[0].lines.iter().zip(&sets[1].lines) {

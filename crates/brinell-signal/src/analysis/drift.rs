@@ -2,7 +2,7 @@
 //!
 //! The record is cut into stretches of [`TURNS`] revolutions. In the spectrum of each, every speed near the one given
 //! has a merit: power over the noise floor, summed over the harmonics of one comb - the shaft's in the signal or, where
-//! its lines do not stand, a defect frequency's in the envelopes. The course of highest merit, changes of speed weighed
+//! its lines are not detected, a defect frequency's in the envelopes. The course of highest merit, changes of speed weighed
 //! against it, is found by dynamic programming (A. J. Viterbi, IEEE Trans. Inf. Theory 13 (1967) 260-269); several
 //! orders that tell one speed are the idea of Q. Leclère, H. André and J. Antoni, "A multi-order probabilistic approach
 //! for instantaneous angular speed tracking", Mech. Syst. Signal Process. 81 (2016) 375-386.
@@ -136,7 +136,7 @@ pub(super) fn by_shaft(x: &[f64], fs: f64, options: &Options) -> Option<Drift> {
 pub(super) fn by_families(envelopes: &Envelopes, options: &Options) -> Option<Drift> {
     let values: Vec<&[f64]> = envelopes.each.iter().map(|e| &e.1.values[..]).collect();
     let stretches = Stretches::of(&values, envelopes.rate, options)?;
-    let drifts = (options.orders.strikes()).filter_map(|(_, name, order)| {
+    let drifts = (options.orders.defect_frequencies()).filter_map(|(_, name, order)| {
         let orders: Vec<f64> = (1..=HARMONICS).map(|h| h as f64 * order).collect();
         stretches.drift(&orders, name, false)
     });

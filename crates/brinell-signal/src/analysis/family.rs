@@ -6,8 +6,8 @@
 //! - a modulation, the depth to which its lines and their sidebands modulate the envelopes: what a longer record does
 //!   not change. A sideband counts up to its carrier.
 //!
-//! In measured records of sound bearings families stand too, some of them high, and none of them modulates; of those
-//! that do, none stands high. So damage takes both ([`Family::is_damage`]). The limits were set on 72 public records of
+//! In measured records of sound bearings families are present too, some of them high, and none of them modulates; of those
+//! that do, none is high. So damage takes both ([`Family::is_damage`]). The limits were set on 72 public records of
 //! three rigs (docs/src/results/analyze.md): of 31 of sound bearings none scores more than 10.7 or, at a score beyond
 //! noise, modulates by more than 20 %.
 
@@ -16,17 +16,17 @@ use super::frequencies::Component;
 use super::together::{HARMONICS, Place, Together};
 
 /// Score from which a family that modulates by [`FAINT`] is damage. In a record of fewer than
-/// [`REVOLUTIONS`](super::together::REVOLUTIONS) true lines stand less high over the noise, and chance lines hardly
+/// [`REVOLUTIONS`](super::together::REVOLUTIONS) true lines are less high over the noise, and chance lines hardly
 /// less: the limit does not fall with them.
 pub(super) const SCORE: f64 = 14.5;
 /// Score below which lines are not told from noise, however long the record: bands that one impact excites are not
 /// independent.
 const LEAST_SCORE: f64 = 5.0;
-/// Modulation below which lines are no damage, however high they stand: a sound machine's stand too.
+/// Modulation below which lines are no damage, however high they are: a sound machine has them too.
 pub(super) const FAINT: f64 = 0.14;
-/// Modulation from which a family is damage that merely stands out of the noise.
+/// Modulation from which a family is damage that is merely clear of the noise.
 pub(super) const DEEP: f64 = 0.25;
-/// Lines that have to stand, and how many of them have to be harmonics. A harmonic that shaft or mains hide is given
+/// Lines that have to be detected, and how many of them have to be harmonics. A harmonic that shaft or mains hide is given
 /// the benefit of the doubt; a pair of sidebands counts as one.
 const FEWEST: (usize, usize) = (3, 2);
 /// Score beyond the limit from which evidence is very clear, where it is deep too.
@@ -52,8 +52,8 @@ pub struct Harmonic {
     /// Power over the noise floor about it, averaged over the bands, dB; `None` where a line of shaft or mains hides
     /// it.
     pub snr_db: Option<f64>,
-    /// Whether it stands out of the noise, by 3 dB at least.
-    pub stands: bool,
+    /// Whether it is detected: over the noise by 3 dB at least.
+    pub detected: bool,
 }
 
 /// The sidebands of a family's harmonics.
@@ -61,22 +61,22 @@ pub struct Harmonic {
 pub struct Sidebands {
     /// Distance between them, Hz.
     pub spacing: f64,
-    /// How many stand.
-    pub standing: usize,
+    /// How many are detected.
+    pub detected: usize,
     /// Of how many that were looked at.
     pub of: usize,
 }
 
 /// What is said of a family.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Standing {
+pub enum Finding {
     /// High and deep enough for damage.
     Damage,
     /// The same, but its lines are accounted for by the damage of this name.
     Shared(&'static str),
-    /// Its lines modulate the envelope as damage does, and do not stand out of the noise far enough to be sure.
+    /// Its lines modulate the envelope as damage does, and are not clear of the noise by enough to be sure.
     Open,
-    /// Its lines stand, faintly, as they do in sound machines.
+    /// Its lines are present, faintly, as in sound machines.
     Faint,
     /// The same, or open, and at least twice as deep as in a record of the healthy machine.
     Grown,
@@ -86,17 +86,17 @@ pub enum Standing {
     Silent,
 }
 
-impl Standing {
+impl Finding {
     /// In files: `damage`, `shared`, `cannot_tell`, `faint`, `grown`, `as_before`, `nothing`.
     pub fn key(self) -> &'static str {
         match self {
-            Standing::Damage => "damage",
-            Standing::Shared(_) => "shared",
-            Standing::Open => "cannot_tell",
-            Standing::Faint => "faint",
-            Standing::Grown => "grown",
-            Standing::AsBefore => "as_before",
-            Standing::Silent => "nothing",
+            Finding::Damage => "damage",
+            Finding::Shared(_) => "shared",
+            Finding::Open => "cannot_tell",
+            Finding::Faint => "faint",
+            Finding::Grown => "grown",
+            Finding::AsBefore => "as_before",
+            Finding::Silent => "nothing",
         }
     }
 }
@@ -104,13 +104,13 @@ impl Standing {
 /// A defect frequency with its harmonics in all bands together.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Family {
-    /// What is struck.
+    /// Which part.
     pub component: Component,
     /// `BPFO`, `BPFI`, `2 BSF` or `FTF`.
     pub name: &'static str,
     /// Where pure rolling has it, Hz.
     pub expected: f64,
-    /// Where its lines stand highest, Hz.
+    /// Where its lines are highest, Hz.
     pub frequency: f64,
     /// Sum of ln(power over floor) over the harmonics, none counting more than those below it.
     pub score: f64,
@@ -126,12 +126,12 @@ pub struct Family {
     pub harmonics: Vec<Harmonic>,
     /// Its sidebands; `None` where its source does not turn through the load.
     pub sidebands: Option<Sidebands>,
-    /// Whether it lies at the end of what was searched and its lines stand higher beyond: they are somebody else's.
+    /// Whether it lies at the end of what was searched and its lines are higher beyond: they are somebody else's.
     pub is_skirt: bool,
     /// Modulation over that of a record of the healthy machine, where there is one.
     pub growth: Option<f64>,
     /// What is said of it.
-    pub standing: Standing,
+    pub finding: Finding,
 }
 
 impl Family {
@@ -140,9 +140,9 @@ impl Family {
         self.frequency / self.expected - 1.0
     }
 
-    /// How many harmonics stand.
-    pub fn standing_harmonics(&self) -> usize {
-        self.harmonics.iter().filter(|h| h.stands).count()
+    /// How many harmonics are detected.
+    pub fn detected_harmonics(&self) -> usize {
+        self.harmonics.iter().filter(|h| h.detected).count()
     }
 
     /// How many harmonics a line of shaft or mains hides.
@@ -150,9 +150,9 @@ impl Family {
         (self.harmonics.iter()).filter(|h| h.snr_db.is_none()).count()
     }
 
-    /// How many sidebands stand.
-    pub fn standing_sidebands(&self) -> usize {
-        self.sidebands.map_or(0, |s| s.standing)
+    /// How many sidebands are detected.
+    pub fn detected_sidebands(&self) -> usize {
+        self.sidebands.map_or(0, |s| s.detected)
     }
 
     /// The highest harmonic, dB over the floor.
@@ -168,20 +168,20 @@ impl Family {
         (high || deep) && self.is_whole()
     }
 
-    /// Whether enough of its lines stand, and where they belong.
+    /// Whether enough of its lines are detected, and where they belong.
     pub(super) fn is_whole(&self) -> bool {
-        let standing = self.standing_harmonics();
+        let detected = self.detected_harmonics();
         let hidden = self.hidden_harmonics();
         !self.is_skirt
             && !self.lacks_sidebands()
-            && standing + hidden + self.standing_sidebands() / 2 >= FEWEST.0
-            && standing >= FEWEST.1
+            && detected + hidden + self.detected_sidebands() / 2 >= FEWEST.0
+            && detected >= FEWEST.1
     }
 
     /// An element passes through the load once for each turn of the cage: lines at its rate without sidebands are
     /// somebody else's, of slip in BPFO most often.
     pub(super) fn lacks_sidebands(&self) -> bool {
-        self.component == Component::Element && self.standing_sidebands() < self.standing_harmonics()
+        self.component == Component::Element && self.detected_sidebands() < self.detected_harmonics()
     }
 
     /// Whether its evidence is both high and deep.
@@ -190,17 +190,17 @@ impl Family {
     }
 
     /// What is said of it where nothing else is.
-    fn alone(&self) -> Standing {
+    fn alone(&self) -> Finding {
         if self.is_damage() {
-            Standing::Damage
+            Finding::Damage
         } else if self.is_skirt {
-            Standing::Silent
+            Finding::Silent
         } else if self.modulation >= DEEP && self.score >= 0.5 * self.noise {
-            Standing::Open
-        } else if self.score >= self.noise && self.standing_harmonics() >= 1 {
-            Standing::Faint
+            Finding::Open
+        } else if self.score >= self.noise && self.detected_harmonics() >= 1 {
+            Finding::Faint
         } else {
-            Standing::Silent
+            Finding::Silent
         }
     }
 }
@@ -212,56 +212,55 @@ pub(super) fn cage(shaft: f64, options: &Options) -> f64 {
 
 /// Each family at the slip at which its score is highest, up to the tolerance from pure rolling.
 pub(super) fn read(together: &Together, shaft: f64, options: &Options) -> Vec<Family> {
-    // Damage on an element strikes twice a turn; a ball that turns about another axis, once, at lines that 2 BSF has as
+    // Damage on an element meets both races, twice a turn; on a ball that turns about another axis, one, at lines that 2 BSF has as
     // well.
-    let strikes = (options.orders.strikes()).filter(|(_, name, _)| *name != "BSF");
+    let all = (options.orders.defect_frequencies()).filter(|(_, name, _)| *name != "BSF");
     let noise = (HARMONICS as f64 * together.noise.ln()).max(LEAST_SCORE);
     let limit = SCORE.max(noise);
-    strikes
-        .map(|(component, name, order)| {
-            let expected = order * shaft;
-            let (behind, ahead) = reach(component, options.tolerance, options.exact);
-            let step = 0.25 * together.step() / (HARMONICS as f64 * expected);
-            let steps = ((ahead + behind) / step) as usize;
-            let places = (0..=steps).map(|k| expected * (1.0 - behind + k as f64 * step));
-            let scored = places.map(|f| (f, score(together, f)));
-            let (frequency, score) = scored.max_by(|a, b| a.1.total_cmp(&b.1)).unwrap_or((expected, 0.0));
-            let spacing = match component {
-                Component::InnerRace => Some(shaft),
-                Component::Element => Some(cage(shaft, options)),
-                Component::OuterRace | Component::Cage => None,
-            };
-            let lines = lines(together, frequency, spacing);
-            // On the skirt of what stands farther off.
-            let outwards = 4.0 * step * expected * (frequency - expected).signum();
-            let next = frequency + outwards;
-            let outside = next < expected * (1.0 - behind) || next > expected * (1.0 + ahead);
-            let mut family = Family {
-                component,
-                name,
-                expected,
-                frequency,
-                score,
-                limit,
-                noise,
-                faint: match component {
-                    Component::Cage => f64::INFINITY,
-                    // Rollers that enter the load strike the race of a healthy bearing too, and little drowns them in a
-                    // simulation.
-                    Component::OuterRace if options.silent.is_some() || options.exact => DEEP,
-                    _ => FAINT,
-                },
-                modulation: lines.modulation,
-                harmonics: lines.harmonics,
-                sidebands: lines.sidebands,
-                is_skirt: outside && self::score(together, next) > score,
-                growth: None,
-                standing: Standing::Silent,
-            };
-            family.standing = family.alone();
-            family
-        })
-        .collect()
+    all.map(|(component, name, order)| {
+        let expected = order * shaft;
+        let (behind, ahead) = reach(component, options.tolerance, options.exact);
+        let step = 0.25 * together.step() / (HARMONICS as f64 * expected);
+        let steps = ((ahead + behind) / step) as usize;
+        let places = (0..=steps).map(|k| expected * (1.0 - behind + k as f64 * step));
+        let scored = places.map(|f| (f, score(together, f)));
+        let (frequency, score) = scored.max_by(|a, b| a.1.total_cmp(&b.1)).unwrap_or((expected, 0.0));
+        let spacing = match component {
+            Component::InnerRace => Some(shaft),
+            Component::Element => Some(cage(shaft, options)),
+            Component::OuterRace | Component::Cage => None,
+        };
+        let lines = lines(together, frequency, spacing);
+        // On the skirt of a line farther off.
+        let outwards = 4.0 * step * expected * (frequency - expected).signum();
+        let next = frequency + outwards;
+        let outside = next < expected * (1.0 - behind) || next > expected * (1.0 + ahead);
+        let mut family = Family {
+            component,
+            name,
+            expected,
+            frequency,
+            score,
+            limit,
+            noise,
+            faint: match component {
+                Component::Cage => f64::INFINITY,
+                // Rollers that enter the load strike the race of a healthy bearing too, and little drowns them in a
+                // simulation.
+                Component::OuterRace if options.silent.is_some() || options.exact => DEEP,
+                _ => FAINT,
+            },
+            modulation: lines.modulation,
+            harmonics: lines.harmonics,
+            sidebands: lines.sidebands,
+            is_skirt: outside && self::score(together, next) > score,
+            growth: None,
+            finding: Finding::Silent,
+        };
+        family.finding = family.alone();
+        family
+    })
+    .collect()
 }
 
 /// How far below and above pure rolling a rate may lie, relative. Where speed and bearing are exact, what goes farther
@@ -289,7 +288,7 @@ pub(super) fn score(together: &Together, frequency: f64) -> f64 {
     sum
 }
 
-/// What stands on the comb of a frequency.
+/// The lines on the comb of a frequency.
 pub(super) struct Lines {
     harmonics: Vec<Harmonic>,
     sidebands: Option<Sidebands>,
@@ -299,8 +298,8 @@ pub(super) struct Lines {
 
 /// The comb of a frequency, with sidebands at a distance of `spacing` Hz where it has any.
 pub(super) fn lines(together: &Together, frequency: f64, spacing: Option<f64>) -> Lines {
-    let stands = |place: Place| place.ratio.is_some_and(|r| r >= together.standing());
-    let mut sidebands = spacing.map(|spacing| Sidebands { spacing, standing: 0, of: 0 });
+    let detected = |place: Place| place.ratio.is_some_and(|r| r >= together.detection_level());
+    let mut sidebands = spacing.map(|spacing| Sidebands { spacing, detected: 0, of: 0 });
     let mut depth = 0.0;
     let mut harmonics = Vec::with_capacity(HARMONICS);
     for order in 1..=HARMONICS {
@@ -311,7 +310,7 @@ pub(super) fn lines(together: &Together, frequency: f64, spacing: Option<f64>) -
             order,
             frequency: at,
             snr_db: carrier.ratio.map(|r| 10.0 * r.log10()),
-            stands: stands(carrier),
+            detected: detected(carrier),
         });
         let Some(sidebands) = &mut sidebands else {
             continue;
@@ -319,7 +318,7 @@ pub(super) fn lines(together: &Together, frequency: f64, spacing: Option<f64>) -
         for side in (-SIDEBANDS..=SIDEBANDS).filter(|s| *s != 0) {
             let line = together.at(at + f64::from(side) * sidebands.spacing);
             sidebands.of += 1;
-            sidebands.standing += usize::from(stands(line));
+            sidebands.detected += usize::from(detected(line));
             depth += line.depth.min(carrier.depth);
         }
     }

@@ -73,16 +73,16 @@ impl DefectOrders {
 
     /// Whether there is nothing to look for.
     pub fn is_empty(&self) -> bool {
-        self.strikes().next().is_none()
+        self.defect_frequencies().next().is_none()
     }
 
     /// The highest of them; 0 where there is none.
     pub(super) fn highest(&self) -> f64 {
-        self.strikes().fold(0.0, |highest, s| s.2.max(highest))
+        self.defect_frequencies().fold(0.0, |highest, s| s.2.max(highest))
     }
 
     /// What to look for: component, name, order of its impacts.
-    pub fn strikes(&self) -> impl Iterator<Item = (Component, &'static str, f64)> + use<> {
+    pub fn defect_frequencies(&self) -> impl Iterator<Item = (Component, &'static str, f64)> + use<> {
         [
             (Component::OuterRace, "BPFO", self.bpfo),
             (Component::InnerRace, "BPFI", self.bpfi),

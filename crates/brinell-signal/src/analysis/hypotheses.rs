@@ -2,7 +2,7 @@
 //! that drifts, and the lower parts of the range.
 
 use super::drift::{self, Drift};
-use super::family::{Family, Standing};
+use super::family::{Family, Finding};
 use super::known_lines::ShaftLines;
 use super::together::{Envelopes, Shaft};
 use super::verdict::Record;
@@ -13,7 +13,7 @@ use crate::{Band, Transformed};
 const SHAFT_KNOWN: f64 = 0.002;
 
 /// What the samples tell of the speed.
-pub(super) struct Told {
+pub(super) struct SpeedEvidence {
     /// By lines at the shaft's harmonics.
     pub(super) lines: Option<ShaftLines>,
     /// By the shaft's lines over time.
@@ -35,20 +35,24 @@ pub(super) struct Best {
 }
 
 /// Tries them.
-pub(super) fn best(transformed: &Transformed, told: Told, options: &Options) -> Result<Best, AnalysisError> {
+pub(super) fn best(
+    transformed: &Transformed,
+    evidence: SpeedEvidence,
+    options: &Options,
+) -> Result<Best, AnalysisError> {
     let range = bands::range(transformed.sample_rate(), options)?;
-    let (shaft, shaft_lines) = match told.lines {
+    let (shaft, shaft_lines) = match evidence.lines {
         Some(found) => (found.speed, found.orders),
         None => (options.shaft, Vec::new()),
     };
     let tolerance = match shaft_lines.is_empty() || options.exact {
         true => 0.0,
-        false => told.bin.max(SHAFT_KNOWN * shaft),
+        false => evidence.bin.max(SHAFT_KNOWN * shaft),
     };
     let known = Shaft { hz: shaft, tolerance };
     let envelopes = Envelopes::of(transformed, range, shaft, options)?;
-    let drift = match told.drift {
-        None if shaft_lines.is_empty() && told.may_drift => drift::by_families(&envelopes, options),
+    let drift = match evidence.drift {
+        None if shaft_lines.is_empty() && evidence.may_drift => drift::by_families(&envelopes, options),
         drift => drift,
     };
     let mut best = Best { record: Record::of(&envelopes, known, options)?, envelopes, shaft_lines, drift };
@@ -68,7 +72,7 @@ impl Best {
     fn try_as_given(&mut self, options: &Options) -> Result<(), AnalysisError> {
         let given = Shaft { hz: options.shaft, tolerance: 0.0 };
         let as_given = Record::of(&self.envelopes, given, options)?;
-        let clear = |f: &Family| f.standing == Standing::Damage && f.is_very_clear();
+        let clear = |f: &Family| f.finding == Finding::Damage && f.is_very_clear();
         if as_given.families.iter().any(clear) {
             self.shaft_lines.clear();
             self.record = as_given;

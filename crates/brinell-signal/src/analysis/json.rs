@@ -1,6 +1,6 @@
 //! An analysis as JSON. Frequencies in Hz; amplitudes in the unit named.
 
-use super::{Analysis, Comparison, Family, Standing, Unit};
+use super::{Analysis, Comparison, Family, Finding, Unit};
 use crate::VelocityBands;
 use serde_json::{Map, Value, json};
 
@@ -95,8 +95,8 @@ fn family(analysis: &Analysis, f: &Family) -> Value {
     json!({
         "component": f.component.key(),
         "name": f.name,
-        "says": f.standing.key(),
-        "shared_with": match f.standing { Standing::Shared(with) => Some(with), _ => None },
+        "says": f.finding.key(),
+        "shared_with": match f.finding { Finding::Shared(with) => Some(with), _ => None },
         "may_be_passing": analysis.may_be_passing(f),
         "expected_hz": f.expected,
         "found_hz": f.frequency,
@@ -108,10 +108,10 @@ fn family(analysis: &Analysis, f: &Family) -> Value {
         "modulation": f.modulation,
         "over_healthy": f.growth,
         "harmonics": f.harmonics.iter().map(|h| json!({
-            "order": h.order, "frequency_hz": h.frequency, "snr_db": h.snr_db, "stands": h.stands,
+            "order": h.order, "frequency_hz": h.frequency, "snr_db": h.snr_db, "detected": h.detected,
         })).collect::<Vec<_>>(),
         "sidebands": f.sidebands.map(|s| json!({
-            "spacing_hz": s.spacing, "standing": s.standing, "of": s.of,
+            "spacing_hz": s.spacing, "detected": s.detected, "of": s.of,
         })),
     })
 }

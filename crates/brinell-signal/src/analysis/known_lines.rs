@@ -30,7 +30,7 @@ impl Mains {
 
 /// Chance under noise at which a line of the shaft counts as found.
 const SHAFT_LEVEL: f64 = 1e-4;
-/// Bins by which a line that stands may miss a multiple of the speed: its peak is told to a fraction of a bin. With a
+/// Bins by which a detected line may miss a multiple of the speed: its peak is told to a fraction of a bin. With a
 /// whole bin, any line within the tolerance would agree with any other.
 const AGREE: f64 = 0.5;
 /// Harmonics of a comb beyond the tolerance.
@@ -53,7 +53,7 @@ pub(super) struct ShaftLines {
     pub(super) orders: Vec<usize>,
 }
 
-/// Shaft speed by its own harmonics in the spectrum, within the tolerance or, where none stand there, [`beyond`];
+/// Shaft speed by its own harmonics in the spectrum, within the tolerance or, where none are detected there, [`beyond`];
 /// `None` where they do not.
 ///
 /// Another shaft's lines there look the same: nothing in the signal tells the two apart.
@@ -64,7 +64,7 @@ pub(super) fn shaft(x: &[f64], fs: f64, options: &Options) -> Result<Option<Shaf
     }
 }
 
-/// The highest comb, where it lies beyond the tolerance and far more stands of it than of any within: the speed given
+/// The highest comb, where it lies beyond the tolerance and far more of it is detected than of any within: the speed given
 /// is then wrong.
 fn beyond(x: &[f64], fs: f64, options: &Options) -> Result<Option<ShaftLines>, AnalysisError> {
     let shaft = options.shaft;
@@ -78,7 +78,7 @@ fn beyond(x: &[f64], fs: f64, options: &Options) -> Result<Option<ShaftLines>, A
     let power: Vec<f64> = spectrum.amplitude.iter().map(|a| a * a).collect();
     let floor = running_median(&power, (FLOOR.0 * shaft / step).max(FLOOR.1) as usize);
     let quantile = |p: f64| chi_square_quantile(p, spectrum.degrees_of_freedom) / spectrum.degrees_of_freedom;
-    let (median, stands) = (quantile(0.5), quantile(1.0 - SHAFT_LEVEL).ln());
+    let (median, detected) = (quantile(0.5), quantile(1.0 - SHAFT_LEVEL).ln());
     let others = |f: f64| {
         let off = |f0: f64| (f - (f / f0).round() * f0).abs() < 2.0 * step;
         near_mains(f, 2.0 * step) || options.supply.is_some_and(off)
@@ -98,7 +98,7 @@ fn beyond(x: &[f64], fs: f64, options: &Options) -> Result<Option<ShaftLines>, A
         scored.max_by(|a, b| a.1.total_cmp(&b.1)).unwrap_or((shaft, 0.0))
     };
     let (speed, most) = highest(FARTHEST);
-    let orders: Vec<usize> = (1..=OF_COMB).filter(|h| at(*h as f64 * speed) >= stands).collect();
+    let orders: Vec<usize> = (1..=OF_COMB).filter(|h| at(*h as f64 * speed) >= detected).collect();
     let clear = most >= highest(options.tolerance).1 + LINE;
     Ok((clear && orders.len() >= FEWEST && orders[0] <= 2).then_some(ShaftLines { speed, orders }))
 }
@@ -157,7 +157,7 @@ mod tests {
     const FS: f64 = 6000.0;
 
     /// Four seconds of noise, with sines at the frequencies.
-    fn told(given: f64, sines: &[f64]) -> Option<f64> {
+    fn speed(given: f64, sines: &[f64]) -> Option<f64> {
         let mut x = Noise::new(3).normals(24_000);
         for f in sines {
             for (i, v) in x.iter_mut().enumerate() {
@@ -173,13 +173,13 @@ mod tests {
         let comb = |f: f64| [1.0, 2.0, 3.0, 5.0, 6.0].map(|h| h * f);
         // At 1.03 lines at the edge of the tolerance agree already, in the spectrum of forty turns.
         for off in [0.9, 0.95, 1.05, 1.1] {
-            let speed = told(31.3 * off, &comb(31.3)).unwrap();
+            let speed = speed(31.3 * off, &comb(31.3)).unwrap();
             // A fifth of a quarter Hz at the tenth harmonic is the grid; noise moves it by a bin at the sixth.
             assert!((speed - 31.3).abs() < 0.25 / 6.0, "{off} {speed}");
         }
         // Lines of the mains are no comb of the shaft's, nor are three lines, nor noise.
-        assert_eq!(told(47.5, &[50.0, 100.0, 150.0, 200.0, 250.0]), None);
-        assert_eq!(told(29.8, &[31.3, 62.6, 93.9]), None);
-        assert_eq!(told(29.8, &[]), None);
+        assert_eq!(speed(47.5, &[50.0, 100.0, 150.0, 200.0, 250.0]), None);
+        assert_eq!(speed(29.8, &[31.3, 62.6, 93.9]), None);
+        assert_eq!(speed(29.8, &[]), None);
     }
 }

@@ -4,7 +4,7 @@
 //! Signal Process. 25 (2011) 485-520: the mean is removed, the range above three times the highest defect frequency is
 //! demodulated in one to two dozen bands, and their envelope spectra are averaged over their noise floors. In the
 //! average each defect frequency is sought with its harmonics and sidebands, all of one slip: a [`Family`]. Line
-//! present, source identified and damage likely are three statements; [`Standing`] says which holds. Lines of the
+//! present, source identified and damage likely are three statements; [`Finding`] says which holds. Lines of the
 //! shaft's harmonics and of 50 and 60 Hz mains are set aside.
 //!
 //! Nothing here knows files. Times are s, frequencies Hz, amplitudes the signal's unit.
@@ -48,7 +48,7 @@ pub use bands::BandChoice;
 pub use compare::{Comparison, Difference, LineDifference, Side, compare};
 pub use drift::Drift;
 pub use error::{AnalysisError, FEWEST_REVOLUTIONS};
-pub use family::{Family, Harmonic, Sidebands, Standing};
+pub use family::{Family, Finding, Harmonic, Sidebands};
 pub use frequencies::{Component, DefectOrders, NAMED, NamedBearing};
 pub use json::to_json;
 pub use known_lines::Mains;
@@ -67,7 +67,7 @@ use crate::{
     Band, Blocks, Estimate, Indicator, Kurtogram, KurtogramBand, Rotation, Segments, Spectrum, Transformed,
     VelocityBands, kurtogram, psd,
 };
-use hypotheses::{Best, Told};
+use hypotheses::{Best, SpeedEvidence};
 use std::ops::RangeInclusive;
 use together::Envelopes;
 use verdict::Record;
@@ -200,7 +200,7 @@ pub struct Analysis {
 impl Analysis {
     /// Families that are damage, the one that leads before others.
     pub fn causes(&self) -> impl Iterator<Item = &Family> {
-        (self.families.iter()).filter(|f| f.standing == Standing::Damage)
+        (self.families.iter()).filter(|f| f.finding == Finding::Damage)
     }
 
     /// One of the indicators.
@@ -212,7 +212,7 @@ impl Analysis {
     /// What it amounts to.
     pub fn conclusion(&self) -> Verdict {
         let open =
-            (self.families.iter()).any(|f| matches!(f.standing, Standing::Open | Standing::Grown | Standing::AsBefore));
+            (self.families.iter()).any(|f| matches!(f.finding, Finding::Open | Finding::Grown | Finding::AsBefore));
         if self.causes().next().is_some() {
             Verdict::Damage
         } else if open || self.elsewhere.is_some() {
@@ -265,10 +265,10 @@ pub fn analyze(x: &[f64], fs: f64, options: &Options) -> Result<Analysis, Analys
     let flaws = soundness::flaws(&x, fs, options.shaft);
     // What is missing has no speed.
     let whole = !(flaws.iter()).any(|f| matches!(f, Flaw::Held { .. }));
-    let Heard { indicators, map, told, transformed } = hear(&x, fs, options, whole)?;
+    let Prepared { indicators, map, evidence, transformed } = prepare(&x, fs, options, whole)?;
     let samples = x.len();
     drop(x);
-    let Best { record, envelopes, shaft_lines, drift } = hypotheses::best(&transformed, told, options)?;
+    let Best { record, envelopes, shaft_lines, drift } = hypotheses::best(&transformed, evidence, options)?;
     let view = view(&record, &envelopes, &transformed)?;
     Ok(Analysis {
         sample_rate: fs,
@@ -291,15 +291,15 @@ pub fn analyze(x: &[f64], fs: f64, options: &Options) -> Result<Analysis, Analys
 }
 
 /// What is taken from the samples themselves.
-struct Heard {
+struct Prepared {
     indicators: Vec<(Indicator, Estimate)>,
     map: Option<Kurtogram>,
-    told: Told,
+    evidence: SpeedEvidence,
     transformed: Transformed,
 }
 
 /// All that asks for nothing but the samples, side by side; the speed's drift is sought where the record is `whole`.
-fn hear(x: &[f64], fs: f64, options: &Options, whole: bool) -> Result<Heard, AnalysisError> {
+fn prepare(x: &[f64], fs: f64, options: &Options, whole: bool) -> Result<Prepared, AnalysisError> {
     let may_drift = whole && options.rotation.is_none() && !options.exact;
     let map = || match options.band {
         Some(_) => Ok(None),
@@ -316,10 +316,10 @@ fn hear(x: &[f64], fs: f64, options: &Options, whole: bool) -> Result<Heard, Ana
     let transformed = || Transformed::of(&x[..fast_up_to(x.len())], fs);
     let (indicators, (map, (lines, (drift, transformed)))) =
         join(|| indicators(x, fs / options.shaft), || join(map, || join(lines, || join(drift, transformed))));
-    Ok(Heard {
+    Ok(Prepared {
         indicators,
         map: map?,
-        told: Told {
+        evidence: SpeedEvidence {
             lines: lines?,
             drift,
             may_drift,
@@ -330,7 +330,7 @@ fn hear(x: &[f64], fs: f64, options: &Options, whole: bool) -> Result<Heard, Ana
     })
 }
 
-/// The envelope spectrum to show: of the band in which the family that leads stands highest; of the whole range where
+/// The envelope spectrum to show: of the band in which the family that leads is highest; of the whole range where
 /// none leads.
 fn view(record: &Record, envelopes: &Envelopes, transformed: &Transformed) -> Result<View, AnalysisError> {
     let (shaft, options) = (record.shaft, &record.options);
@@ -412,11 +412,11 @@ fn check(x: &[f64], fs: f64, options: &Options) -> Result<(), AnalysisError> {
     if let Some(hz) = options.supply.filter(|hz| !SUPPLY_HZ.contains(hz)) {
         return Err(out_of_range("supply (Hz)", hz, "1 to 1000"));
     }
-    let strikes = || options.orders.strikes();
-    for (_, name, order) in strikes() {
+    let all = || options.orders.defect_frequencies();
+    for (_, name, order) in all() {
         positive(name, order)?;
     }
-    let Some((_, name, highest)) = strikes().max_by(|a, b| a.2.total_cmp(&b.2)) else {
+    let Some((_, name, highest)) = all().max_by(|a, b| a.2.total_cmp(&b.2)) else {
         return Err(AnalysisError::NoFrequencies);
     };
     let frequency = highest * options.shaft;

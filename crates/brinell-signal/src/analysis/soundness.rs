@@ -114,12 +114,12 @@ mod tests {
         assert_eq!(flaws(&off, FS, SHAFT), [held]);
         // 4.55 % of normal numbers lie beyond two standard deviations.
         let clipped: Vec<f64> = noise().iter().map(|v| v.clamp(-2.0, 2.0)).collect();
-        let told = flaws(&clipped, FS, SHAFT);
-        assert!(matches!(told[..], [Flaw::AtLimits { share }] if (share - 0.0455).abs() < 0.006));
+        let found = flaws(&clipped, FS, SHAFT);
+        assert!(matches!(found[..], [Flaw::AtLimits { share }] if (share - 0.0455).abs() < 0.006));
         // An energy of 40 000 beside 20 000.
         let mut struck = noise();
         struck[8_100] = 200.0;
-        let told = flaws(&struck, FS, SHAFT);
-        assert!(matches!(told[..], [Flaw::OneEvent { at, share }] if at == 0.8 && (share - 2.0 / 3.0).abs() < 0.02));
+        let found = flaws(&struck, FS, SHAFT);
+        assert!(matches!(found[..], [Flaw::OneEvent { at, share }] if at == 0.8 && (share - 2.0 / 3.0).abs() < 0.02));
     }
 }

@@ -1,4 +1,4 @@
-//! The envelope spectra of many bands, averaged: what stands in all of them together.
+//! The envelope spectra of many bands, averaged: the lines that all of them have.
 //!
 //! The range above three times the highest defect frequency is tiled by bands of equal width, each half over the next.
 //! Power in the envelope spectrum of each is divided by the noise floor about it (a running median) and averaged over
@@ -28,9 +28,9 @@ const ASIDE: f64 = 2.0;
 pub(super) const FLOOR: (f64, f64) = (3.0, 41.0);
 /// Noise shows this much at a place once in 700 (three standard deviations).
 const NOISE: f64 = 1.0 - 1.35e-3;
-/// Power over floor from which a line stands, however many bands are averaged: 3 dB.
+/// Power over floor from which a line is detected, however many bands are averaged: 3 dB.
 const STANDS: f64 = 2.0;
-/// Lines of the mains that have to stand before they are set aside.
+/// Lines of the mains that have to be detected before they are set aside.
 const OF_MAINS: usize = 3;
 /// How well an inverter's frequency is known, relative.
 const SUPPLY_KNOWN: f64 = 0.005;
@@ -104,13 +104,13 @@ impl Together {
         Ok(together)
     }
 
-    /// Lines of the shaft, which stand in every machine, and of the mains where they stand.
+    /// Lines of the shaft, which every machine has, and of the mains where they are detected.
     fn hide_known(&mut self, shaft: Shaft, options: &Options) {
         let mains = Mains::ALL.map(|m| m.frequency());
         let this = &*self;
         let lines = |f: f64, n: usize| (1..=n).map(move |k| this.at(k as f64 * f).ratio.unwrap_or(1.0));
-        let stand = |f: &f64| lines(*f, OF_MAINS).all(|ratio| ratio >= this.standing());
-        // Of the places at which lines may be, the one at which they stand highest.
+        let stand = |f: &f64| lines(*f, OF_MAINS).all(|ratio| ratio >= this.detection_level());
+        // Of the places at which lines may be, the one at which they are highest.
         let height = |f: f64| -> f64 { lines(f, OF_SHAFT).map(f64::ln).sum() };
         let highest = |f: f64, tolerance: f64| {
             let step = 0.25 * self.step / OF_SHAFT as f64;
@@ -134,8 +134,8 @@ impl Together {
         }
     }
 
-    /// Power over floor from which a line stands.
-    pub(super) fn standing(&self) -> f64 {
+    /// Power over floor from which a line is detected.
+    pub(super) fn detection_level(&self) -> f64 {
         self.noise.max(STANDS)
     }
 
@@ -149,14 +149,14 @@ impl Together {
         self.ratio.len() as f64 * self.step
     }
 
-    /// Nothing is seen there from now on, nor on the skirts of what stands there: as far as they fall.
+    /// Nothing is seen there from now on, nor on the skirts of what is there: as far as they fall.
     pub(super) fn hide(&mut self, frequency: f64) {
         let at = frequency / self.step;
         let last = self.ratio.len().saturating_sub(1);
         let mut low = ((at - ASIDE).ceil().max(0.0) as usize).min(last);
         let mut high = ((at + ASIDE).floor() as usize).min(last);
-        let standing = self.standing();
-        let falls = |to: f64, from: f64| to >= standing && to < from;
+        let level = self.detection_level();
+        let falls = |to: f64, from: f64| to >= level && to < from;
         while low > 0 && falls(self.ratio[low - 1], self.ratio[low]) {
             low -= 1;
         }
@@ -189,7 +189,7 @@ impl Together {
         self.each.len()
     }
 
-    /// The band in which a family's lines stand highest, by index.
+    /// The band in which a family's lines are highest, by index.
     pub(super) fn clearest(&self, family: &Family) -> usize {
         let seen = |h: &&Harmonic| h.snr_db.is_some();
         let height = |ratio: &[f64]| -> f64 {

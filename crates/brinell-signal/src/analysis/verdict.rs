@@ -1,6 +1,6 @@
 //! From families to a verdict: which of them is damage, and which merely shares another's lines.
 
-use super::family::{DEEP, FAINT, Family, SCORE, Standing, cage, lines, read, score};
+use super::family::{DEEP, FAINT, Family, Finding, SCORE, cage, lines, read, score};
 use super::frequencies::Component;
 use super::together::{Envelopes, HARMONICS, Shaft, Together};
 use super::{AnalysisError, Options};
@@ -95,30 +95,30 @@ impl Record {
 
     /// The family that leads, where one is damage.
     pub(super) fn lead(&self) -> Option<&Family> {
-        (self.families.iter()).find(|f| f.standing == Standing::Damage)
+        (self.families.iter()).find(|f| f.finding == Finding::Damage)
     }
 
     /// Score of the family that leads or, where none is damage, of the highest: the first is more.
     pub(super) fn evidence(&self) -> (bool, f64) {
         let damage = self.is_damage();
-        let these = (self.families.iter()).filter(|f| !damage || f.standing == Standing::Damage);
+        let these = (self.families.iter()).filter(|f| !damage || f.finding == Finding::Damage);
         let highest = these.map(|f| f.score).reduce(f64::max);
         (damage, highest.unwrap_or(0.0))
     }
 
     fn judge(&mut self) -> (Vec<Family>, Option<Elsewhere>) {
         let mut all = read(&self.together, self.shaft, &self.options);
-        for family in all.iter_mut().filter(|f| f.standing == Standing::Damage) {
+        for family in all.iter_mut().filter(|f| f.finding == Finding::Damage) {
             if self.is_short_for(family.component) {
-                family.standing = Standing::Open;
+                family.finding = Finding::Open;
             }
         }
         one_slip(&mut all, self.shaft, self.options.tolerance);
         let lead = leading(&all);
         let elsewhere = self.elsewhere(lead.map(|k| &all[k]));
         let Some(lead) = lead.filter(|_| elsewhere.is_none()) else {
-            for family in all.iter_mut().filter(|f| f.standing == Standing::Damage) {
-                family.standing = Standing::Open;
+            for family in all.iter_mut().filter(|f| f.finding == Finding::Damage) {
+                family.finding = Finding::Open;
             }
             all.sort_by(|a, b| b.score.total_cmp(&a.score));
             return (all, elsewhere);
@@ -131,22 +131,22 @@ impl Record {
         for family in &mut all {
             let own = left.iter().find(|f| f.name == family.name);
             let stays = own.is_some_and(Family::is_damage) && apart(family);
-            let gone = own.is_none_or(|f| f.standing_harmonics() == 0);
-            let shared = match family.standing {
-                Standing::Damage | Standing::Open => family.component == Component::Cage || !stays,
-                _ => gone && family.standing_harmonics() > 0,
+            let gone = own.is_none_or(|f| f.detected_harmonics() == 0);
+            let shared = match family.finding {
+                Finding::Damage | Finding::Open => family.component == Component::Cage || !stays,
+                _ => gone && family.detected_harmonics() > 0,
             };
             if shared {
-                family.standing = Standing::Shared(lead.name);
+                family.finding = Finding::Shared(lead.name);
             }
         }
-        let rank = |f: &Family| match f.standing {
-            Standing::Damage => 0,
+        let rank = |f: &Family| match f.finding {
+            Finding::Damage => 0,
             _ => 1,
         };
         all.sort_by(|a, b| rank(a).cmp(&rank(b)).then(b.score.total_cmp(&a.score)));
         all.insert(0, lead);
-        // What strikes once a turn of the cage is one element on its way through the load, more often than the cage.
+        // What causes an impact once a turn of the cage is one element on its way through the load, more often than the cage.
         if all[0].component == Component::Cage && self.options.orders.bsf.is_some() {
             all[0].component = Component::Element;
         }
@@ -200,8 +200,8 @@ impl Record {
         Some(Elsewhere { frequency, score: score(together, frequency), modulation, nearest: self.nearest(frequency) })
     }
 
-    /// The comb of which a race's lines are every second, third... and which scores hardly less: nothing that strikes a
-    /// race at equal distances leaves the lines between so high. (Where elements differ the cage's lines stand there
+    /// The comb of which a race's lines are every second, third... and which scores hardly less: nothing that excites a
+    /// race at equal distances leaves the lines between so high. (Where elements differ the cage's lines are there
     /// too: in measured records at most three quarters as high in score.)
     fn slower(&self, lead: &Family) -> Option<Elsewhere> {
         let races = [Component::OuterRace, Component::InnerRace];
@@ -222,7 +222,7 @@ impl Record {
     }
 
     fn nearest(&self, frequency: f64) -> Option<Nearest> {
-        let raceways = (self.options.orders.strikes())
+        let raceways = (self.options.orders.defect_frequencies())
             .filter(|(component, name, _)| *component != Component::Cage && *name != "BSF");
         raceways
             .map(|(component, name, order)| Nearest {
@@ -243,9 +243,9 @@ impl Record {
             let at = order * self.shaft;
             (frequency - at).abs() <= self.options.tolerance * at + self.together.step()
         };
-        let mut strikes = self.options.orders.strikes();
+        let mut all = self.options.orders.defect_frequencies();
         let cage = cage(self.shaft, &self.options);
-        strikes.any(|(_, _, order)| own(order))
+        all.any(|(_, _, order)| own(order))
             || lead.is_some_and(|lead| {
                 let f = lead.frequency;
                 (2..=HARMONICS).any(|m| {
@@ -286,18 +286,18 @@ impl Record {
 /// damaged element where 2 BSF lies a few per cent below BPFO.
 fn one_slip(all: &mut [Family], shaft: f64, tolerance: f64) {
     let cage =
-        (all.iter()).find(|f| f.component == Component::Cage && f.score > f.limit && f.standing_harmonics() >= 3);
+        (all.iter()).find(|f| f.component == Component::Cage && f.score > f.limit && f.detected_harmonics() >= 3);
     let Some((name, slip, turns)) = cage.map(|f| (f.name, f.shift(), f.expected)) else {
         return;
     };
-    for race in all.iter_mut().filter(|f| f.standing == Standing::Damage) {
+    for race in all.iter_mut().filter(|f| f.finding == Finding::Damage) {
         let due = match race.component {
             Component::OuterRace => slip,
             Component::InnerRace => -slip * turns / (shaft - turns),
             Component::Element | Component::Cage => continue,
         };
         if (race.shift() - due).abs() > tolerance {
-            race.standing = Standing::Shared(name);
+            race.finding = Finding::Shared(name);
         }
     }
 }
@@ -305,7 +305,7 @@ fn one_slip(all: &mut [Family], shaft: f64, tolerance: f64) {
 /// The family that leads: the highest score; an element's or the cage's only with a lead over the races'.
 fn leading(all: &[Family]) -> Option<usize> {
     let highest = |of: &dyn Fn(Component) -> bool| {
-        let these = (all.iter().enumerate()).filter(|(_, f)| f.standing == Standing::Damage && of(f.component));
+        let these = (all.iter().enumerate()).filter(|(_, f)| f.finding == Finding::Damage && of(f.component));
         these.max_by(|a, b| a.1.score.total_cmp(&b.1.score))
     };
     let race = highest(&|c| matches!(c, Component::OuterRace | Component::InnerRace));

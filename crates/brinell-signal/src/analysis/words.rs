@@ -1,6 +1,6 @@
 //! Families in words.
 
-use super::family::{Family, Standing};
+use super::family::{Family, Finding};
 use super::{Analysis, Elsewhere, Verdict};
 
 /// What a row of [`Analysis::rows`] holds; a column of numbers begins with `#`.
@@ -21,11 +21,11 @@ pub(super) fn verdict(analysis: &Analysis) -> String {
         Verdict::CannotTell => cannot_tell(analysis, &mut text),
         Verdict::NothingFound => text.push("No damage found.".into()),
     }
-    let those = |standing| -> Vec<&str> {
-        let families = analysis.families.iter().filter(|f| f.standing == standing);
+    let those = |finding| -> Vec<&str> {
+        let families = analysis.families.iter().filter(|f| f.finding == finding);
         families.map(|f| f.name).collect()
     };
-    let (faint, before) = (those(Standing::Faint), those(Standing::AsBefore));
+    let (faint, before) = (those(Finding::Faint), those(Finding::AsBefore));
     if !before.is_empty() {
         text.push(format!(
             "Cannot tell: lines of {} would be damage, and the record given as healthy has them as well. Was the machine healthy then? An older record would decide.",
@@ -44,8 +44,12 @@ pub(super) fn verdict(analysis: &Analysis) -> String {
 fn damage(analysis: &Analysis, text: &mut Vec<String>) {
     for (i, family) in analysis.causes().enumerate() {
         let beside = if i > 0 { "Also " } else { "" };
-        let headline =
-            format!("{beside}{} damage, {}: {}.", family.component.words(), analysis.clarity(family), told(family));
+        let headline = format!(
+            "{beside}{} damage, {}: {}.",
+            family.component.words(),
+            analysis.clarity(family),
+            evidence_of(family)
+        );
         text.push(capital(&headline));
         if family.name == "FTF" {
             text.push("One element causes an impact once a turn of the cage, in the load zone; damage of the cage shows the same.".into());
@@ -58,28 +62,32 @@ fn damage(analysis: &Analysis, text: &mut Vec<String>) {
 }
 
 fn cannot_tell(analysis: &Analysis, text: &mut Vec<String>) {
-    let grown = (analysis.families.iter()).filter(|f| f.standing == Standing::Grown);
+    let grown = (analysis.families.iter()).filter(|f| f.finding == Finding::Grown);
     for family in grown {
         text.push(format!(
             "Cannot tell which part: the lines of the {} have grown, {:.1} times as deep as when the machine was healthy: {}.",
             family.component.words(),
             family.growth.unwrap_or(1.0),
-            told(family),
+            evidence_of(family),
         ));
     }
     if let Some(elsewhere) = &analysis.elsewhere {
         text.push(other_lines(analysis, elsewhere));
     }
-    let open = (analysis.families.iter()).filter(|f| f.standing == Standing::Open);
+    let open = (analysis.families.iter()).filter(|f| f.finding == Finding::Open);
     for family in open {
         if analysis.elsewhere.is_some() && family.is_damage() {
-            text.push(format!("Without them it would be {} damage: {}.", family.component.words(), told(family)));
+            text.push(format!(
+                "Without them it would be {} damage: {}.",
+                family.component.words(),
+                evidence_of(family)
+            ));
             continue;
         }
         text.push(format!(
             "Cannot tell whether the {} is damaged: {}, with {}. A longer record, another sensor or a record of the healthy machine would decide.",
             family.component.words(),
-            told(family),
+            evidence_of(family),
             if family.is_damage() {
                 "lines at distances of the cage's frequency, which so short a record does not separate from others"
             } else if family.score < family.noise {
@@ -129,10 +137,10 @@ fn other_lines(analysis: &Analysis, elsewhere: &Elsewhere) -> String {
     )
 }
 
-fn told(family: &Family) -> String {
+fn evidence_of(family: &Family) -> String {
     let sidebands = match family.sidebands {
-        Some(s) if s.standing >= 2 => {
-            format!(", with {} sidebands {:.2} Hz apart", s.standing, s.spacing)
+        Some(s) if s.detected >= 2 => {
+            format!(", with {} sidebands {:.2} Hz apart", s.detected, s.spacing)
         }
         _ => String::new(),
     };
@@ -148,8 +156,8 @@ fn told(family: &Family) -> String {
 }
 
 fn harmonics(family: &Family) -> String {
-    let standing = family.harmonics.iter().filter(|h| h.stands);
-    let orders: Vec<String> = standing.map(|h| h.order.to_string()).collect();
+    let detected = family.harmonics.iter().filter(|h| h.detected);
+    let orders: Vec<String> = detected.map(|h| h.order.to_string()).collect();
     match orders.as_slice() {
         [] => "no harmonic".into(),
         [one] => format!("harmonic {one}"),
@@ -160,14 +168,14 @@ fn harmonics(family: &Family) -> String {
 /// A row for each family.
 pub(super) fn rows(analysis: &Analysis) -> Vec<[String; COLUMNS.len()]> {
     let row = |f: &Family| {
-        let says = match f.standing {
-            Standing::Damage => format!("damage, {}", analysis.clarity(f)),
-            Standing::Shared(with) => format!("shares the lines of {with}"),
-            Standing::Open => "cannot tell".into(),
-            Standing::Faint => "present, below the limit".into(),
-            Standing::Grown => "grown since healthy".into(),
-            Standing::AsBefore => "as in the healthy record".into(),
-            Standing::Silent => "nothing".into(),
+        let says = match f.finding {
+            Finding::Damage => format!("damage, {}", analysis.clarity(f)),
+            Finding::Shared(with) => format!("shares the lines of {with}"),
+            Finding::Open => "cannot tell".into(),
+            Finding::Faint => "present, below the limit".into(),
+            Finding::Grown => "grown since healthy".into(),
+            Finding::AsBefore => "as in the healthy record".into(),
+            Finding::Silent => "nothing".into(),
         };
         [
             f.component.words().into(),
@@ -175,8 +183,8 @@ pub(super) fn rows(analysis: &Analysis) -> Vec<[String; COLUMNS.len()]> {
             format!("{:.2}", f.frequency),
             format!("{:+.2}", 100.0 * f.shift()),
             match f.hidden_harmonics() {
-                0 => format!("{} of {}", f.standing_harmonics(), f.harmonics.len()),
-                n => format!("{} of {}, {n} hidden", f.standing_harmonics(), f.harmonics.len() - n),
+                0 => format!("{} of {}", f.detected_harmonics(), f.harmonics.len()),
+                n => format!("{} of {}, {n} hidden", f.detected_harmonics(), f.harmonics.len() - n),
             },
             format!("{:.0}", f.highest_db()),
             format!("{:.0}", 100.0 * f.modulation),
