@@ -37,10 +37,10 @@ impl Progress {
             return;
         }
         self.skipped = 0;
-        if let Some(told) = &mut self.shared {
-            let now = micros(t.min(self.duration)).max(*told);
-            self.bar.inc(now - *told);
-            *told = now;
+        if let Some(shown) = &mut self.shared {
+            let now = micros(t.min(self.duration)).max(*shown);
+            self.bar.inc(now - *shown);
+            *shown = now;
             return;
         }
         self.bar.set_position(micros(t));
@@ -57,7 +57,7 @@ impl Progress {
     fn finish(&self, broken_off: bool) {
         match self.shared {
             Some(_) if broken_off => {}
-            Some(told) => self.bar.inc(micros(self.duration).saturating_sub(told)),
+            Some(shown) => self.bar.inc(micros(self.duration).saturating_sub(shown)),
             None => self.bar.finish_and_clear(),
         }
     }

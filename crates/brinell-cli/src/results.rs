@@ -166,13 +166,13 @@ impl Results {
     }
 
     /// The list of its results in a folder; [`Value::Null`] where nothing does.
-    fn told(self, folder: &Path) -> Value {
+    fn previous(self, folder: &Path) -> Value {
         let text = File::open(folder.join(self.tells())).and_then(read_text);
-        let told = serde_json::from_slice::<Value>(&text.unwrap_or_default());
-        let told = told.unwrap_or_default();
+        let previous = serde_json::from_slice::<Value>(&text.unwrap_or_default());
+        let previous = previous.unwrap_or_default();
         let version = if self == Self::Preview { "version" } else { "brinell" };
-        match told[version].is_string() {
-            true => told,
+        match previous[version].is_string() {
+            true => previous,
             false => Value::Null,
         }
     }
@@ -183,7 +183,7 @@ impl Results {
             Some(campaign) => journal_of(folder).is_some_and(|kind| kind == campaign),
             None => self == Self::DataSet && folder.join("work/campaign.json").exists(),
         };
-        begun || !self.told(folder).is_null()
+        begun || !self.previous(folder).is_null()
     }
 
     /// Names of the files in a folder that it could have left.
@@ -207,13 +207,13 @@ impl Results {
 
     /// Files below `folder` that its own results list, as far as they can be its.
     fn listed(self, folder: &Path) -> Vec<String> {
-        let told = self.told(folder);
-        match told["files"].as_array() {
+        let previous = self.previous(folder);
+        match previous["files"].as_array() {
             Some(files) => {
                 let files = files.iter().filter_map(Value::as_str);
                 files.filter(|name| self.leaves(name)).map(str::to_owned).collect()
             }
-            None if told.is_null() => Vec::new(),
+            None if previous.is_null() => Vec::new(),
             // Written before results listed files.
             None => self.direct(folder),
         }
@@ -324,7 +324,7 @@ impl Place<'_> {
         let is_unlisted = |name: &&String| *name != SCENARIO && !files.contains(name);
         let unlisted: Vec<&str> = there.iter().filter(is_unlisted).map(String::as_str).collect();
         let replaced = files.iter().any(|name| there.contains(name)) || there.contains(&SCENARIO.into());
-        if replaced && !overwrite && !same(&kind.told(folder)) {
+        if replaced && !overwrite && !same(&kind.previous(folder)) {
             return Err(Failure::Usage(format!(
                 "{at} holds results of another {} ({}); choose another folder with -o, or replace them with --overwrite",
                 kind.subject(),
@@ -357,7 +357,7 @@ impl Place<'_> {
         // A journal is judged by who opens it.
         let both_keep_one = move |other: &Results| kind.campaign().and(other.campaign()).is_some();
         others.filter(move |other| match both_keep_one(other) {
-            true => !other.told(folder).is_null(),
+            true => !other.previous(folder).is_null(),
             false => other.is_in(folder),
         })
     }

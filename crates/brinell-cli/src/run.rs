@@ -51,7 +51,7 @@ pub(crate) fn run(args: &RunArgs) -> Result<ExitCode, Failure> {
         document(done.summary.trim_end());
     }
     if !args.quiet {
-        for line in &done.told {
+        for line in &done.printed {
             say!("{line}");
         }
     }
@@ -121,7 +121,7 @@ struct Done {
     /// By Ctrl-C.
     interrupted: bool,
     /// A few lines on what came out; what matters most first.
-    told: Vec<String>,
+    printed: Vec<String>,
     /// The text of summary.json.
     summary: String,
 }
@@ -156,7 +156,7 @@ fn execute(args: &RunArgs, task: &Task, progress: Progress, stop: &AtomicBool) -
     let Task { ready: Ready { loaded, beforehand, photos }, folder, earlier } = task;
     let simulation = Simulation::new(&loaded.scenario).map_err(Failure::Run)?;
     let layout = args.print.layout(&args.plots)?;
-    let mut loads = line_loads::asked(args, &simulation, task.duration_s())?;
+    let mut loads = line_loads::requested(args, &simulation, task.duration_s())?;
     make_folder(folder)?;
     // These lock their files: another run into the same folder ends here, before anything is removed.
     let writers = writers(args, loaded, &simulation, folder)?;
@@ -198,7 +198,7 @@ fn execute(args: &RunArgs, task: &Task, progress: Progress, stop: &AtomicBool) -
     let page = page.as_deref().map(|page| (REPORT, page));
     let json = (SUMMARY, summary::to_json(&parts));
     let (written, summary) = earlier.publish(ready, json, page, (&pictures, &args.plots))?;
-    Ok(Done { told: tell(&parts, elapsed, &written), end: outcome.end, interrupted, summary })
+    Ok(Done { printed: tell(&parts, elapsed, &written), end: outcome.end, interrupted, summary })
 }
 
 fn report(parts: &Parts, photos: &[Option<Photo>]) -> Report {
@@ -289,15 +289,15 @@ pub(crate) fn stop_flag() -> Result<Arc<AtomicBool>, Failure> {
 
 /// A few lines on what came out.
 fn tell(parts: &Parts, elapsed: f64, written: &[PathBuf]) -> Vec<String> {
-    let mut told = Vec::new();
+    let mut printed = Vec::new();
     let Parts { outcome, findings, loaded, .. } = *parts;
     let reached = outcome.reached;
     match &outcome.end {
         End::Complete => {}
-        End::Stopped => told.push(format!("Interrupted: the results are partial, up to t = {reached:.4} s.")),
-        End::Failed(_) => told.push(format!("Failed: the results are partial, up to t = {reached:.4} s.")),
+        End::Stopped => printed.push(format!("Interrupted: the results are partial, up to t = {reached:.4} s.")),
+        End::Failed(_) => printed.push(format!("Failed: the results are partial, up to t = {reached:.4} s.")),
     }
-    told.push(format!(
+    printed.push(format!(
         "{}: {} s simulated in {elapsed:.2} s ({:.2} x real time), {} steps, {} right-hand sides",
         one_line(&loaded.scenario.name),
         short(reached, 4),
@@ -305,28 +305,28 @@ fn tell(parts: &Parts, elapsed: f64, written: &[PathBuf]) -> Vec<String> {
         (fields::STEPS.of)(outcome),
         (fields::RIGHT_HAND_SIDES.of)(outcome),
     ));
-    told.extend(sensor_lines(findings));
-    told.extend(healthy_line(parts));
+    printed.extend(sensor_lines(findings));
+    printed.extend(healthy_line(parts));
     let heed = summary::clipped(parts).into_iter().chain(summary::unsettled(findings));
-    told.extend(heed.map(|words| format!("  {words}")));
-    told.extend(findings.lines.iter().map(defect_line));
+    printed.extend(heed.map(|words| format!("  {words}")));
+    printed.extend(findings.lines.iter().map(defect_line));
     let part = (fields::RELATIVE_RESIDUAL.of)(outcome);
-    told.push(format!(
+    printed.push(format!(
         "  energy audit closes to {} of the turnover, momentum to {}",
         part.map_or("-".into(), |x| short(x.abs(), 1)),
         (fields::MOMENTUM_IMBALANCE.of)(outcome).map_or("(rigid mount)".into(), |x| short(x, 1)),
     ));
     let after = plausibility::after(&loaded.scenario, &outcome.energy);
-    told.extend(after.into_iter().map(|words| format!("warning: {words}")));
+    printed.extend(after.into_iter().map(|words| format!("warning: {words}")));
     for path in written {
-        told.push(format!("  wrote {}", path.display()));
+        printed.push(format!("  wrote {}", path.display()));
     }
-    told
+    printed
 }
 
 /// What the sensor read, a line for each of its channels.
 fn sensor_lines(findings: &Findings) -> Vec<String> {
-    let mut told = Vec::new();
+    let mut printed = Vec::new();
     for channel in &findings.channels {
         if channel.kind != Kind::AntiAliased || !channel.name.starts_with("sensor_") {
             continue;
@@ -337,7 +337,7 @@ fn sensor_lines(findings: &Findings) -> Vec<String> {
         let interval =
             rms.interval.map_or(String::new(), |i| format!(" (95 %: {} to {})", short(i.low, 3), short(i.high, 3)));
         let other = |i: Indicator| channel.blocks.estimate(i).map_or("-".into(), |e| short(e.value, 3));
-        told.push(format!(
+        printed.push(format!(
             "  {}: RMS {}{interval} {}, peak to peak {} a revolution, kurtosis {}",
             channel.name,
             short(rms.value, 3),
@@ -346,7 +346,7 @@ fn sensor_lines(findings: &Findings) -> Vec<String> {
             other(Indicator::Kurtosis),
         ));
     }
-    told
+    printed
 }
 
 /// The level beside the healthy bearing's.

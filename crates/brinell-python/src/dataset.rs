@@ -162,13 +162,13 @@ impl Campaign {
             Some(progress) => progress.call1(py, (over, runs)).map(drop),
             None => Ok(()),
         };
-        let went = attended(py, &watch, make, tell)?.map_err(|error| failed(py, error))?;
+        let summary = attended(py, &watch, make, tell)?.map_err(|error| failed(py, error))?;
         let dict = PyDict::new(py);
-        dict.set_item("runs", went.runs)?;
-        dict.set_item("done", went.done)?;
-        dict.set_item("before", went.before)?;
-        dict.set_item("failed", went.failed)?;
-        dict.set_item("whole", went.whole)?;
+        dict.set_item("runs", summary.runs)?;
+        dict.set_item("done", summary.done)?;
+        dict.set_item("before", summary.before)?;
+        dict.set_item("failed", summary.failed)?;
+        dict.set_item("whole", summary.whole)?;
         Ok(dict)
     }
 }

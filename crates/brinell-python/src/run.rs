@@ -94,14 +94,14 @@ pub(crate) fn simulate(py: Python<'_>, scenario: &Bound<'_, Scenario>, progress:
                 return ControlFlow::Continue(());
             }
             last = Instant::now();
-            let asked = Python::attach(|py| {
+            let checked = Python::attach(|py| {
                 py.check_signals()?;
                 if let Some(progress) = &progress {
                     progress.call1(py, (t,))?;
                 }
                 Ok(())
             });
-            match asked {
+            match checked {
                 Ok(()) => ControlFlow::Continue(()),
                 Err(error) => {
                     raised = Some(error);
@@ -209,18 +209,18 @@ pub(crate) fn attended<T: Send>(
                 let _ = ended.send(());
                 result
             });
-            let (mut outcome, mut told) = (Ok(()), 0);
+            let (mut outcome, mut shown) = (Ok(()), 0);
             loop {
                 let is_over = waiting.recv_timeout(PATIENCE) != Err(RecvTimeoutError::Timeout);
                 let now = watch.over.load(Ordering::Relaxed);
                 if outcome.is_ok() {
                     outcome = Python::attach(|py| {
                         py.check_signals()?;
-                        if now > told { tell(py, now) } else { Ok(()) }
+                        if now > shown { tell(py, now) } else { Ok(()) }
                     });
                     watch.stop.store(outcome.is_err(), Ordering::Relaxed);
                 }
-                told = now;
+                shown = now;
                 if is_over {
                     break;
                 }

@@ -42,13 +42,13 @@ pub(crate) fn sweep<'py>(
     });
     let plan = Plan::new(axes.collect::<PyResult<_>>()?).map_err(bad_value)?;
     let total = plan.points();
-    let told = |py: Python<'_>, done: usize| match &progress {
+    let show = |py: Python<'_>, done: usize| match &progress {
         Some(progress) => progress.call1(py, (done, total)).map(drop),
         None => Ok(()),
     };
     let results = match folder {
-        Some(folder) => kept::run(py, (&plan, &scenario.source), &folder, jobs, told)?,
-        None => in_memory(py, (&plan, &scenario.source), jobs, told)?,
+        Some(folder) => kept::run(py, (&plan, &scenario.source), &folder, jobs, show)?,
+        None => in_memory(py, (&plan, &scenario.source), jobs, show)?,
     };
     let runs: Vec<&[Quantity]> = results.iter().map(|r| r.as_deref().unwrap_or_default()).collect();
     let list = PyList::empty(py);

@@ -97,7 +97,7 @@ pub(super) fn to_json(results: &[Result_], of: impl Fn(&Result_) -> Value) -> Va
     let bearings: Vec<Value> = results.iter().map(one).collect();
     // That of the bearing that leads, or of the first; its text speaks of all.
     let mut verdict = bearings[lead.unwrap_or(0)]["verdict"].clone();
-    let texts = results.iter().map(|r| format!("{}: {}", r.name, r.told()));
+    let texts = results.iter().map(|r| format!("{}: {}", r.name, r.verdict_text()));
     verdict["text"] = texts.collect::<Vec<_>>().join("\n").into();
     json!({
         "brinell": brinell::VERSION,
@@ -122,7 +122,7 @@ pub(super) fn table(results: &[Result_]) -> Table {
             [format!("{} at {hz:.2} Hz", f.name), format!("{:.1}", f.score)]
         });
         let [frequency, score] = found.unwrap_or(["–", "–"].map(str::to_owned));
-        vec![result.name.clone(), brinell_report::called(&result.analysis), frequency, score, result.told()]
+        vec![result.name.clone(), brinell_report::called(&result.analysis), frequency, score, result.verdict_text()]
     };
     Table::new(
         "Bearings",

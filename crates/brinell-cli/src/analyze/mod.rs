@@ -58,7 +58,7 @@ struct Result_ {
 
 impl Result_ {
     /// The verdict, and what is to be said beside it.
-    fn told(&self) -> String {
+    fn verdict_text(&self) -> String {
         let beside = (self.beside.iter().cloned()).chain(self.contradicted()).map(|words| format!(" {words}"));
         self.analysis.verdict() + &beside.collect::<String>()
     }
@@ -121,7 +121,7 @@ pub(crate) fn analyze(args: &AnalyzeArgs) -> Result<ExitCode, Failure> {
 fn one(args: &AnalyzeArgs, path: &Path) -> Result<ExitCode, Failure> {
     let measured = load(args, path)?;
     let name = measured.path.display().to_string();
-    let same = |told: &Value| told.is_null() || told["file"]["path"] == name.as_str();
+    let same = |previous: &Value| previous.is_null() || previous["file"]["path"] == name.as_str();
     let earlier = earlier(args, &[path.to_owned(), measured.path.clone()], same)?;
     let results = results(args, path, measured)?;
     let json = ends::whole(&results);

@@ -17,7 +17,7 @@ pub(super) fn report(result: &Result_) -> AnalysisReport {
     AnalysisReport::of_findings(&Findings {
         signal: signal(m, &name(m), &result.analysis),
         unit: &m.unit,
-        verdict: &result.told(),
+        verdict: &result.verdict_text(),
         notes: &notes,
         warnings: &m.warnings,
         speed: &result.speed,

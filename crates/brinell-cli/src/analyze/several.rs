@@ -50,8 +50,8 @@ pub(super) fn analyze(args: &AnalyzeArgs, files: &[PathBuf]) -> Result<ExitCode,
         return Err(Failure::Usage("--against: expected one file to lay another over, and there are several".into()));
     }
     let paths: Vec<String> = files.iter().map(|f| f.display().to_string()).collect();
-    let of_same = |told: &Value| {
-        let records = told["records"].as_array();
+    let of_same = |previous: &Value| {
+        let records = previous["records"].as_array();
         records.is_some_and(|all| {
             let of = all.iter().map(|r| r["file"]["path"].as_str());
             of.eq(paths.iter().map(|p| Some(p.as_str())))

@@ -39,7 +39,7 @@ pub(super) fn tell(results: &[Result_], result: &Result_, written: &[PathBuf]) {
             1 => String::new(),
             n => format!("Bearing {} of {n}, {}: ", k + 1, one.name),
         };
-        say!("\n{of}{}\n", one.told());
+        say!("\n{of}{}\n", one.verdict_text());
         families(&one.analysis);
         if let (Some(rest), Some(last)) = (&one.rest, &one.last) {
             say!("\nThe last {} samples, from {:.1} s on: {}", last.samples, rest.last_start, last.verdict());

@@ -248,15 +248,15 @@ fn other_calibration(folder: &Path, other: &Value) -> String {
 fn tell_reasons(runs: &Runs, plan: &Plan) {
     const SHOWN: usize = 3;
     let size = plan.settings.budget;
-    let mut told: Vec<String> = Vec::new();
+    let mut reasons: Vec<String> = Vec::new();
     // The start lies in the journal or was never a scenario; its points follow from the seed.
     for place in latin_hypercube(plan.settings.seed, plan.keys.len(), start_size(plan.keys.len(), size)) {
         if let Err(reason) = runs.row(&place)
-            && !told.contains(&reason)
-            && told.len() < SHOWN
+            && !reasons.contains(&reason)
+            && reasons.len() < SHOWN
         {
             complain!("  a run failed: {reason}");
-            told.push(reason);
+            reasons.push(reason);
         }
     }
 }

@@ -43,7 +43,9 @@ impl Outcome<'_> {
             verdict: self.verdict(),
             facts,
             keys: self.keys(),
-            found: (self.found.iter()).map(|f| Fact::new(&f.name, short(f.value, 5), f.unit, f.told())).collect(),
+            found: (self.found.iter())
+                .map(|f| Fact::new(&f.name, short(f.value, 5), f.unit, f.interval_text()))
+                .collect(),
             undetermined: self.undetermined(),
             targets: self.targets(),
             correlation: self.correlation(),

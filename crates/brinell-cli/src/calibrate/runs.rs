@@ -93,8 +93,9 @@ impl Runs<'_> {
             }
         }
         self.done += tasks.len();
-        let went = campaign::run_within(&tasks, &self.points, &mut self.ledger, self.threads, &self.joint, self.stop);
-        match went {
+        let outcome =
+            campaign::run_within(&tasks, &self.points, &mut self.ledger, self.threads, &self.joint, self.stop);
+        match outcome {
             Ok(flow) if flow.is_continue() => {}
             Ok(_) => return Err(Unfit::Interrupted),
             Err(failure) => {

@@ -146,7 +146,7 @@ impl Outcome<'_> {
 
     pub(super) fn tell(&self) {
         for found in &self.found {
-            say!("  {} = {} {}  {}", found.name, short(found.value, 5), found.unit, found.told());
+            say!("  {} = {} {}  {}", found.name, short(found.value, 5), found.unit, found.interval_text());
         }
         for sentence in self.verdict().iter().chain(&self.undetermined()) {
             say!("  {sentence}");
@@ -156,7 +156,7 @@ impl Outcome<'_> {
 
 impl Found {
     /// The interval in words.
-    pub(super) fn told(&self) -> String {
+    pub(super) fn interval_text(&self) -> String {
         match self.interval {
             Some((low, high)) => {
                 let bound = |cut: bool| if cut { " (bound)" } else { "" };

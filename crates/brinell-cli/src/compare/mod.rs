@@ -96,7 +96,7 @@ fn scenario_files(sides: &[Side], folder: &Path) -> Vec<PathBuf> {
 fn earlier(args: &CompareArgs, sides: &[Side], folder: &Path, inputs: &Inputs) -> Result<Earlier, Failure> {
     let place = Place { kind: Results::Comparison, folder, inputs };
     let writes = [COMPARISON, PAGE, CSV, PARQUET].map(str::to_owned);
-    let same = |told: &Value| told.is_null() || told["scenarios"] == Value::Object(table::scenarios(sides));
+    let same = |previous: &Value| previous.is_null() || previous["scenarios"] == Value::Object(table::scenarios(sides));
     place.earlier(args.overwrite, &writes, same)
 }
 

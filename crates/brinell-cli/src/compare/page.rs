@@ -3,7 +3,7 @@
 use super::curves::{called, entry_and_exit, envelope, over_defect, spectrum, waveform};
 use super::sides::Side;
 use crate::say::{bracketed, short, shown_unit};
-use crate::sweep::{told, words};
+use crate::sweep::{value_text, words};
 use brinell::observe::passes::place;
 use brinell::result::{Quantity, RunResult};
 use brinell::signal::ratio::Ratio;
@@ -214,8 +214,8 @@ fn numbers(title: &str, names: &[String], rows: &[&Compared]) -> Table {
     columns.extend(names.iter().skip(1).map(|name| format!("#{name} / {}", names[0])));
     let rows = rows.iter().map(|c| {
         let mut row = vec![c.name.clone(), unit(&c.unit)];
-        let told = |q: &Option<Quantity>| q.as_ref().map_or("–".into(), told);
-        row.extend(c.of.iter().map(told));
+        let value = |q: &Option<Quantity>| q.as_ref().map_or("–".into(), value_text);
+        row.extend(c.of.iter().map(value));
         let ratio = |r: &Option<Ratio>| r.map_or("–".into(), with_interval);
         row.extend(c.ratios.iter().skip(1).map(ratio));
         row

@@ -77,19 +77,19 @@ fn make(args: &DatasetArgs, path: &Path) -> Result<ExitCode, Failure> {
     let duration = campaign.scenario(0).map_or(1.0, |(l, _)| l.scenario.simulation.duration_s);
     let joint = Joint::new(runs, duration * runs as f64, args.quiet);
     let terminal = Terminal::new(&joint, &stop, duration);
-    let went = run(&campaign, &folder, args.shard, threads, &terminal);
+    let shard = run(&campaign, &folder, args.shard, threads, &terminal);
     let failures = terminal.failures();
     drop(joint);
     tell_failures(&failures);
-    let went = went?;
-    let left = went.runs - went.done - went.before;
+    let shard = shard?;
+    let left = shard.runs - shard.done - shard.before;
     if args.json {
-        say::json(&summary(&went, left, &folder, &failures));
+        say::json(&summary(&shard, left, &folder, &failures));
     }
     if !args.quiet {
-        tell(&went, left, &folder, begin.elapsed().as_secs_f64());
+        tell(&shard, left, &folder, begin.elapsed().as_secs_f64());
     }
-    if went.interrupted {
+    if shard.interrupted {
         complain!("interrupted: {left} to go; the same command resumes where this one stopped");
         return Ok(ExitCode::from(NOT_WHOLE));
     }
@@ -106,31 +106,31 @@ fn tell_failures(failures: &[(usize, String)]) {
 }
 
 /// What [`tell`] and [`tell_failures`] say, as JSON.
-fn summary(went: &ShardSummary, left: usize, folder: &Path, failures: &[(usize, String)]) -> Value {
+fn summary(shard: &ShardSummary, left: usize, folder: &Path, failures: &[(usize, String)]) -> Value {
     let failures: Vec<Value> = failures.iter().map(|(run, reason)| json!({ "run": run, "reason": reason })).collect();
     json!({
         "folder": folder.display().to_string(),
-        "complete": went.whole,
-        "shard": { "runs": went.runs, "done": went.done, "before": went.before, "to_go": left },
-        "interrupted": went.interrupted,
+        "complete": shard.whole,
+        "shard": { "runs": shard.runs, "done": shard.done, "before": shard.before, "to_go": left },
+        "interrupted": shard.interrupted,
         "failures": failures,
     })
 }
 
 /// How many runs are there, and whether the data set is complete.
-fn tell(went: &ShardSummary, left: usize, folder: &Path, seconds: f64) {
-    let before = match went.before {
+fn tell(shard: &ShardSummary, left: usize, folder: &Path, seconds: f64) {
+    let before = match shard.before {
         0 => String::new(),
         n => format!(", {n} there before"),
     };
     say!(
         "{} in {:.2} s{before}; {} of {} of this shard are there",
-        plural(went.done, "run"),
+        plural(shard.done, "run"),
         seconds,
-        went.runs - left,
-        went.runs
+        shard.runs - left,
+        shard.runs
     );
-    if went.whole {
+    if shard.whole {
         say!("  complete: {}", folder.join("dataset.json").display());
     } else if left == 0 {
         say!("  other shards are to come; `brinell dataset merge` joins folders, where they ran apart");

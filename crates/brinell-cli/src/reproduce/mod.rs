@@ -131,10 +131,10 @@ impl Runs for Runner<'_> {
         }
         let work = CaseWork(self.curves);
         let quiet = self.args.quiet;
-        let went = campaign::run(&open_tasks, &work, &mut self.ledger, threads, quiet, self.stop)?;
+        let outcome = campaign::run(&open_tasks, &work, &mut self.ledger, threads, quiet, self.stop)?;
         let rows = |task: &&Task| self.ledger.kept.row(&task.fingerprint).is_some();
         self.done += open_tasks.iter().filter(rows).count();
-        Ok(went)
+        Ok(outcome)
     }
 
     fn search_begins(&mut self, sets: usize) {

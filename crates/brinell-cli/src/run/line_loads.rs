@@ -13,7 +13,7 @@ use std::path::Path;
 pub(super) const FILE: &str = "line_loads.csv";
 
 /// What the instants requested are read with; `None` where none are.
-pub(super) fn asked(args: &RunArgs, simulation: &Simulation, end: f64) -> Result<Option<Reading>, Failure> {
+pub(super) fn requested(args: &RunArgs, simulation: &Simulation, end: f64) -> Result<Option<Reading>, Failure> {
     let instants = &args.line_loads;
     if instants.is_empty() {
         return Ok(None);

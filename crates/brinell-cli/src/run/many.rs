@@ -46,7 +46,7 @@ pub(super) fn run(args: &RunArgs) -> Result<ExitCode, Failure> {
             None => left_out.push(k),
             Some(Ok(done)) => {
                 // The indented rest is for a run on its own.
-                let mut lines = done.told.clone();
+                let mut lines = done.printed.clone();
                 lines.retain(|line| !args.quiet && !line.starts_with(' '));
                 if done.interrupted {
                     joint.broken_off(&lines, &tasks[k].folder);

@@ -21,7 +21,7 @@ use brinell_study::campaign::{Row, fingerprint};
 use brinell_study::runner::{JOURNAL, Kept, Task, estimate, to_run};
 
 use page::usual;
-pub(crate) use page::{plural, told, words};
+pub(crate) use page::{plural, value_text, words};
 pub(crate) use points::reason;
 use points::{FromSource, Points};
 use serde_json::{Value, json};
@@ -56,7 +56,7 @@ pub(crate) fn sweep(args: &SweepArgs) -> Result<ExitCode, Failure> {
     let tasks = plan(&points, &ledger.kept, &work, threads, !args.quiet);
     let threads = threads(tasks.len());
     let stop = stop_flag()?;
-    let went = campaign::run(&tasks, &work, &mut ledger, threads, args.quiet, &stop)?;
+    let outcome = campaign::run(&tasks, &work, &mut ledger, threads, args.quiet, &stop)?;
 
     let states = states(&points, |fingerprint| ledger.kept.row(fingerprint));
     let written = write(args, &points, &states, &plots, &folder)?;
@@ -76,13 +76,13 @@ pub(crate) fn sweep(args: &SweepArgs) -> Result<ExitCode, Failure> {
     if !args.quiet {
         tell_unsettled(&states);
     }
-    if went.is_break() {
+    if outcome.is_break() {
         complain!(
             "interrupted: {} kept, {missing} to go; the same command resumes where this one stopped",
             plural(states.len() - missing, "finished point")
         );
     }
-    Ok(if failed > 0 || went.is_break() { ExitCode::from(NOT_WHOLE) } else { ExitCode::SUCCESS })
+    Ok(if failed > 0 || outcome.is_break() { ExitCode::from(NOT_WHOLE) } else { ExitCode::SUCCESS })
 }
 
 /// How many points' averages hold part of the start.
@@ -120,13 +120,13 @@ fn spare_signals(points: &Points, work: &FromSource) -> Result<(), Failure> {
 }
 
 /// The runs that are to be made: those of sound points that are not finished, once where settings mean the same. Told,
-/// where `told`.
+/// where `printed`.
 fn plan(
     points: &Points,
     kept: &Kept,
     work: &FromSource,
     threads: impl Fn(usize) -> NonZeroUsize,
-    told: bool,
+    printed: bool,
 ) -> Vec<Task> {
     let finished = |task: &Task| {
         let signals = work.path(&task.fingerprint);
@@ -135,7 +135,7 @@ fn plan(
     };
     let good = || points.tasks.iter().flatten();
     let tasks = to_run(good(), finished);
-    if told {
+    if printed {
         let before = good().filter(|task| finished(task)).count();
         tell_plan(points, &tasks, before, work, threads(tasks.len()));
         let outdated = |task: &&Task| kept.is_outdated(&task.fingerprint);
@@ -269,9 +269,9 @@ fn write(
         "base": { "toml": points.source.text(), "set": overrides },
     });
     if args.json {
-        let mut told = json.clone();
-        told["rows"] = table::rows(&table).into();
-        say::json(&told);
+        let mut shown = json.clone();
+        shown["rows"] = table::rows(&table).into();
+        say::json(&shown);
     }
     put(folder, "sweep.json", &pretty(&json), &mut written)?;
     let report = page::report(points, states, plots);

@@ -243,7 +243,7 @@ fn table(points: &Points, states: &[State], plots: &[String]) -> Table {
         row.push(state.word().into());
         let cell = |name: &String| {
             let quantity = complete(state).and_then(|row| row.quantity(name));
-            quantity.map_or("–".to_owned(), told)
+            quantity.map_or("–".to_owned(), value_text)
         };
         row.extend(plots.iter().map(cell));
         row
@@ -264,7 +264,7 @@ fn complete<'a>(state: &State<'a>) -> Option<&'a Row> {
 }
 
 /// A number with its interval, as a cell of a page's table.
-pub(crate) fn told(quantity: &Quantity) -> String {
+pub(crate) fn value_text(quantity: &Quantity) -> String {
     let value = quantity.value.map_or("–".to_owned(), |x| short(x, 4));
     bracketed(value, quantity.interval())
 }

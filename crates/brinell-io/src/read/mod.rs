@@ -151,7 +151,7 @@ fn listed(path: &Path, kind: FileKind, contents: Contents, text: &TextFormat) ->
         #[cfg(not(all(feature = "parquet", feature = "hdf5", feature = "npz")))]
         _ => Err(fault::unsupported("this build leaves the format out; build brinell-io with its default features")),
     };
-    let mut listing = guarded(list).map_err(|fault| told(path, kind, fault))?;
+    let mut listing = guarded(list).map_err(|fault| located(path, kind, fault))?;
     channel::tell_apart(&mut listing.channels);
     Ok(SignalFile {
         path: path.to_owned(),
@@ -248,7 +248,7 @@ impl SignalFile {
         let source = &mut self.source;
         match guarded(|| source.stream(index, &mut through)) {
             Ok(()) | Err(Fault::Stopped) => Ok(()),
-            Err(fault) => Err(told(&self.path, self.kind, fault)),
+            Err(fault) => Err(located(&self.path, self.kind, fault)),
         }
     }
 }
@@ -274,7 +274,7 @@ fn guarded<T>(work: impl FnOnce() -> Result<T, Fault>) -> Result<T, Fault> {
     catch_unwind(AssertUnwindSafe(work)).unwrap_or_else(|_| Err(fault::damaged("a reader gave up on it")))
 }
 
-fn told(path: &Path, kind: FileKind, fault: Fault) -> IoError {
+fn located(path: &Path, kind: FileKind, fault: Fault) -> IoError {
     let path = path.to_owned();
     match fault {
         Fault::Io(source) => IoError::Read { path, source },

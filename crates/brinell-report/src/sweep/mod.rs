@@ -151,7 +151,7 @@ fn extremes(plots: &[IndicatorPlot]) -> String {
     if all.len() < 2 {
         return String::new();
     }
-    let told = |(value, x, line): &(f64, f64, String)| {
+    let described = |(value, x, line): &(f64, f64, String)| {
         let at = match plot.x_names.get(*x as usize) {
             Some(name) => name.clone(),
             None => significant(*x, 4),
@@ -163,7 +163,7 @@ fn extremes(plots: &[IndicatorPlot]) -> String {
         let unit = plot.unit.replace("^2", "²");
         format!("{} {unit} ({} = {at}{beside})", significant(*value, 3), plot.x_label)
     };
-    format!("{}: from {} to {}.", plot.label, told(least), told(most))
+    format!("{}: from {} to {}.", plot.label, described(least), described(most))
 }
 
 /// What the marks mean, of those that are there.

@@ -256,23 +256,23 @@ impl Sources {
     fn first_runs(&self, meaning: &mut Vec<String>) -> FirstRuns {
         let draws = &self.draws;
         let varies = |p: &crate::design::Parameter| p.key.starts_with("bearing.");
-        let asked = match draws.parameters().iter().any(varies) {
+        let examined = match draws.parameters().iter().any(varies) {
             true => ASKED.min(draws.runs()),
             false => 1,
         };
         // The first run of each class as well: its files of damage are part of what the campaign is.
-        let mut runs: Vec<usize> = (0..asked).collect();
+        let mut runs: Vec<usize> = (0..examined).collect();
         for class in 0..draws.plan().classes.len() {
             let first = (0..draws.runs()).find(|run| draws.class(*run) == class);
-            runs.extend(first.filter(|run| *run >= asked));
+            runs.extend(first.filter(|run| *run >= examined));
         }
         let mut found = FirstRuns::default();
         let (mut known, mut seen) = (HashSet::new(), HashSet::new());
         // Where none of these makes a scenario, some later one may.
-        let further = asked..ASKED.min(draws.runs());
-        let asked = runs.len();
+        let further = examined..ASKED.min(draws.runs());
+        let examined = runs.len();
         for (k, run) in runs.into_iter().chain(further).enumerate() {
-            if k >= asked && found.first.is_some() {
+            if k >= examined && found.first.is_some() {
                 break;
             }
             let loaded = match self.scenario(run) {

@@ -195,8 +195,9 @@ impl Folder {
         if !path.exists() {
             return Ok(None);
         }
-        let told: Option<Value> = std::fs::read(self.facts(part)).ok().and_then(|b| serde_json::from_slice(&b).ok());
-        if let Some(facts) = told {
+        let recorded: Option<Value> =
+            std::fs::read(self.facts(part)).ok().and_then(|b| serde_json::from_slice(&b).ok());
+        if let Some(facts) = recorded {
             self.are_lengths(part, &facts)?;
             return Ok(Some(facts));
         }
@@ -214,18 +215,18 @@ impl Folder {
         let labels = facts["held_out"].is_object();
         let runs = (self.part(part), &facts["runs"]);
         let labels = labels.then(|| (self.held_out(part), &facts["held_out"]));
-        for (path, told) in std::iter::once(runs).chain(labels) {
+        for (path, recorded) in std::iter::once(runs).chain(labels) {
             // Labels may have been taken elsewhere.
             let Ok(found) = std::fs::metadata(&path) else {
                 continue;
             };
-            if Some(found.len()) != told["bytes"].as_u64() {
+            if Some(found.len()) != recorded["bytes"].as_u64() {
                 return Err(DatasetError::Refused(format!(
                     "{}: {} bytes, and {} says {}: one of them is damaged; remove both, and the same command makes them again",
                     path.display(),
                     found.len(),
                     self.facts(part).display(),
-                    told["bytes"]
+                    recorded["bytes"]
                 )));
             }
         }

@@ -14,8 +14,8 @@ pub(crate) fn refused(draws: &Draws, plan: &Document, survey: &Survey) -> Result
     if survey.is_sound(out_of_range) {
         return Ok(());
     }
-    let asked = out_of_range == OutOfRange::Redraw;
-    let told = |miss: &Misses| -> Problem {
+    let redraws = out_of_range == OutOfRange::Redraw;
+    let described = |miss: &Misses| -> Problem {
         let mut problem = miss.problem.clone();
         problem.message += &format!(
             " (in {} of {} run{}, such as run {}{})",
@@ -23,17 +23,17 @@ pub(crate) fn refused(draws: &Draws, plan: &Document, survey: &Survey) -> Result
             survey.runs,
             if survey.runs == 1 { "" } else { "s" },
             miss.run,
-            if asked { ", and 1000 further draws did not fit either" } else { "" }
+            if redraws { ", and 1000 further draws did not fit either" } else { "" }
         );
         // A key that the plan sets is found there; what the base gives has its line there already.
         let place = place_in_plan(draws, &plan.text, miss.run, &problem);
         (problem.line, problem.column, problem.span) = (None, None, None);
         problem.placed(place)
     };
-    let mut problems: Vec<Problem> = survey.errors.iter().map(told).collect();
+    let mut problems: Vec<Problem> = survey.errors.iter().map(described).collect();
     // Some of a distribution may fit; of a value that is in the plan nothing does.
     let some = survey.errors.iter().any(|miss| miss.count < survey.runs);
-    if let (false, true, Some(last)) = (asked, some, problems.last_mut()) {
+    if let (false, true, Some(last)) = (redraws, some, problems.last_mut()) {
         last.message += "; give narrower distributions, or `out_of_range = \"redraw\"` (draw such runs again) or \"fail\" (keep them as failed rows)";
     }
     Err(plan.problems(problems))

@@ -104,14 +104,14 @@ pub fn run(
 ) -> Result<ShardSummary, DatasetError> {
     let folder = Folder::new(folder.as_ref());
     folder.claim(campaign)?;
-    let mut went = ShardSummary::default();
+    let mut summary = ShardSummary::default();
     let mut jobs = Vec::new();
     let parts: Vec<usize> = (0..campaign.parts()).filter(|part| shard.has(*part)).collect();
     for part in &parts {
         let runs = campaign.runs_of(*part);
-        went.runs += runs.len();
+        summary.runs += runs.len();
         if folder.finished(*part)?.is_some() {
-            went.before += runs.len();
+            summary.before += runs.len();
             listener.before(runs.len());
             clear(&folder, *part);
         } else {
@@ -126,9 +126,9 @@ pub fn run(
         threads,
         |k| work.one(jobs[k].0, jobs[k].1),
         |_, ended| match ended {
-            Ok(Ended::Done) => went.done += 1,
-            Ok(Ended::Before) => went.before += 1,
-            Ok(Ended::Stopped) => went.interrupted = true,
+            Ok(Ended::Done) => summary.done += 1,
+            Ok(Ended::Before) => summary.before += 1,
+            Ok(Ended::Stopped) => summary.interrupted = true,
             Err(error) => {
                 failure.get_or_insert(error);
             }
@@ -139,11 +139,11 @@ pub fn run(
     }
     for part in parts {
         if let Some(facts) = folder.finished(part)? {
-            went.failed += facts["runs"]["failed"].as_u64().unwrap_or(0);
+            summary.failed += facts["runs"]["failed"].as_u64().unwrap_or(0);
         }
     }
-    went.whole = sidecar::write(&folder)?;
-    Ok(went)
+    summary.whole = sidecar::write(&folder)?;
+    Ok(summary)
 }
 
 impl Work<'_> {

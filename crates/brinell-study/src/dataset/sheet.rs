@@ -253,14 +253,14 @@ fn run_of(cells: Vec<Cell>) -> (usize, SheetRun) {
         top_hz: 4.5 * highest,
     };
     if let Cell::Signal(signal) = &cells[16] {
-        run.hear(signal, highest);
+        run.take(signal, highest);
     }
     (whole(0).max(0) as usize, run)
 }
 
 impl SheetRun {
     /// What is shown of the signal; `highest` is the highest defect frequency, Hz.
-    fn hear(&mut self, signal: &[f32], highest: f64) {
+    fn take(&mut self, signal: &[f32], highest: f64) {
         let x: Vec<f64> = signal.iter().map(|x| f64::from(*x)).collect();
         let rate = 1.0 / self.dt_s;
         let turn = self.speed_rpm.map(|rpm| TURNS * 60.0 / rpm.abs());

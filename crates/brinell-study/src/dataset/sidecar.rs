@@ -120,8 +120,8 @@ pub(crate) fn files_of(about: &Value) -> Vec<(String, u64)> {
 fn key(p: &Provenance, varies: bool) -> Value {
     let value = if varies { Value::Null } else { p.value.as_str().into() };
     let mut entry = json!({ "key": p.key, "value": value, "unit": p.unit });
-    let told = matches!(p.origin, Origin::File | Origin::Override);
-    if !told {
+    let stated = matches!(p.origin, Origin::File | Origin::Override);
+    if !stated {
         entry["why"] = p.reason().into();
     }
     if p.assumed {
@@ -204,8 +204,8 @@ fn signed(mut about: Value) -> Value {
 /// Whether a description is as it was written; `None` where it does not say.
 pub(crate) fn is_whole(about: &Value) -> Option<bool> {
     let mut rest = about.clone();
-    let told = rest.as_object_mut()?.shift_remove(CHECKSUM)?;
-    Some(told["sha256"].as_str() == Some(digest(&written(&rest)).as_str()))
+    let stated = rest.as_object_mut()?.shift_remove(CHECKSUM)?;
+    Some(stated["sha256"].as_str() == Some(digest(&written(&rest)).as_str()))
 }
 
 pub(crate) fn written(value: &Value) -> String {

@@ -122,10 +122,10 @@ impl Set<'_> {
         say(facts.columns != columns, "other columns than the data set's");
         let count = format!("{} rows instead of {rows}", facts.rows);
         say(facts.rows != rows, &count);
-        if let Some(told) = self.told(part) {
-            let changed = Some(sha256_of(&path)?.as_str()) != told["sha256"].as_str();
+        if let Some(recorded) = self.recorded(part) {
+            let changed = Some(sha256_of(&path)?.as_str()) != recorded["sha256"].as_str();
             say(changed, "its checksum is another than when it was written");
-            found.failed += told["failed"].as_u64().unwrap_or(0);
+            found.failed += recorded["failed"].as_u64().unwrap_or(0);
         }
         found.rows += facts.rows;
         found.files += usize::from(found.problems.len() == before);
@@ -133,7 +133,7 @@ impl Set<'_> {
     }
 
     /// What is written down of a file.
-    fn told(&self, part: usize) -> Option<Value> {
+    fn recorded(&self, part: usize) -> Option<Value> {
         if let Some(files) = self.sidecar["files"].as_array() {
             return files.get(part).cloned();
         }
@@ -159,11 +159,11 @@ impl Set<'_> {
     fn card(&self, found: &mut Verified) -> Result<(), DatasetError> {
         let card = &self.sidecar[CARD];
         let path = card["path"].as_str().filter(|path| *path == CROISSANT);
-        if let (Some(path), Some(told)) = (path, card["sha256"].as_str()) {
+        if let (Some(path), Some(recorded)) = (path, card["sha256"].as_str()) {
             if !self.folder.root.join(path).exists() {
                 found.absent.push(format!("{path} is not here"));
             } else {
-                self.unchanged(path, Some(told), found)?;
+                self.unchanged(path, Some(recorded), found)?;
             }
         }
         Ok(())
@@ -205,8 +205,8 @@ impl Set<'_> {
         Ok(())
     }
 
-    fn unchanged(&self, path: &str, told: Option<&str>, found: &mut Verified) -> Result<(), DatasetError> {
-        if Some(sha256_of(self.folder.root.join(path))?.as_str()) != told {
+    fn unchanged(&self, path: &str, recorded: Option<&str>, found: &mut Verified) -> Result<(), DatasetError> {
+        if Some(sha256_of(self.folder.root.join(path))?.as_str()) != recorded {
             found.problems.push(format!("{path}: its checksum is another than when it was written"));
         }
         Ok(())

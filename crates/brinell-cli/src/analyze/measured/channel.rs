@@ -84,8 +84,8 @@ fn refused(file: &SignalFile) -> String {
         _ => "holds times".into(),
     };
     let channels = file.channels().iter();
-    let told = channels.map(|c| format!("`{}` {}", c.name, why(c)));
-    shortened(told.collect())
+    let described = channels.map(|c| format!("`{}` {}", c.name, why(c)));
+    shortened(described.collect())
 }
 
 fn shortened(names: Vec<String>) -> String {

@@ -23,7 +23,7 @@ use unit::{Scaled, unit};
 /// Most samples analysed by default: 82 s at 51.2 kHz. Bounds memory, whatever the file.
 pub(crate) const MOST: usize = 1 << 22;
 
-/// What was asked of a file.
+/// What was requested of a file.
 #[derive(Debug, Default)]
 pub(crate) struct Wanted<'a> {
     pub(crate) channel: Option<&'a str>,
@@ -98,11 +98,11 @@ fn usage(message: String) -> Failure {
 }
 
 /// All that has to be given, at once.
-fn asking(path: &Path, asked: &[String]) -> Failure {
+fn not_stated(path: &Path, missing: &[String]) -> Failure {
     let path = path.display();
-    usage(match asked {
+    usage(match missing {
         [only] => format!("{path}: {only}"),
-        _ => format!("{path}: {} things have to be given:\n  {}", asked.len(), asked.join("\n  ")),
+        _ => format!("{path}: {} things have to be given:\n  {}", missing.len(), missing.join("\n  ")),
     })
 }
 
@@ -171,32 +171,32 @@ fn known(
     run: Option<&Loaded>,
     (notes, warnings): (&mut Vec<String>, &mut Vec<String>),
 ) -> Result<Known, Failure> {
-    let mut asked = Vec::new();
+    let mut missing = Vec::new();
     let (name, channel) = match channel(file, wanted, run, notes)? {
         Chosen::One(name, channel) => (name, channel),
         Chosen::Among(channels, words) => {
-            asked.push(words);
+            missing.push(words);
             // What any of them states is not requested yet.
             let states = |c: &Channel| usize::from(c.rate.is_some()) + usize::from(c.unit.is_some());
             let most = channels.into_iter().rev().max_by_key(states);
-            most.map(|c| (c.name.clone(), c)).ok_or_else(|| asking(path, &asked))?
+            most.map(|c| (c.name.clone(), c)).ok_or_else(|| not_stated(path, &missing))?
         }
     };
     let rate = rate(file, &channel, wanted, run.is_some(), warnings)?;
     notes.extend(rate.as_ref().ok().map(|(_, note)| note.clone()));
     let is_wav = file.kind() == FileKind::Wav;
     let unit = unit(&name, &channel, is_wav, wanted, run, notes, warnings)?;
-    asked.extend(rate.as_ref().err().cloned());
-    asked.extend(unit.as_ref().err().cloned());
+    missing.extend(rate.as_ref().err().cloned());
+    missing.extend(unit.as_ref().err().cloned());
     if wanted.ask_speed && !states_speed(file, wanted, run, &name) {
-        asked.push(ASK_SPEED.into());
+        missing.push(ASK_SPEED.into());
     }
     if wanted.ask_bearing && run.is_none() {
-        asked.push(ASK_BEARING.into());
+        missing.push(ASK_BEARING.into());
     }
-    match (rate, unit, &asked[..]) {
+    match (rate, unit, &missing[..]) {
         (Ok((rate, _)), Ok(scaled), []) => Ok(Known { name, rate, scaled }),
-        _ => Err(asking(path, &asked)),
+        _ => Err(not_stated(path, &missing)),
     }
 }
 

@@ -166,12 +166,12 @@ impl<'a> Wanted<'a> {
                 jobs.push(Job::start(scope, cut, move || self.lines(mine, values)));
             }
             let found = jobs.into_iter().map(Job::result);
-            let told = found.map(|(lines, result)| {
+            let results = found.map(|(lines, result)| {
                 let first = *line;
                 *line += lines;
                 result.map_err(|fault| fault.after(first))
             });
-            told.collect()
+            results.collect()
         })
     }
 
