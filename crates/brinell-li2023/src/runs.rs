@@ -21,7 +21,7 @@ pub trait Runs {
     /// Why a run could not be made or kept. A run that fails is a row like another.
     type Error: From<Error>;
 
-    /// What is known of a finished run, by [`Point::fingerprint`].
+    /// What is known of a finished run, by the fingerprint of its point's task.
     fn row(&self, fingerprint: &str) -> Option<&Row>;
 
     /// Makes those of the runs that are not finished, each once; `Break` where that was interrupted.

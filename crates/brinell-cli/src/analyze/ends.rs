@@ -72,7 +72,7 @@ fn beside(results: &[Result_], k: usize, lead: Option<usize>) -> Option<String> 
                         "These lines are {name}'s, whose {} is called damage: one sensor records both.",
                         first.name
                     ),
-                    false => format!("Or these lines are {name}'s, which is called damaged: one sensor records both."),
+                    false => format!("They may be {name}'s, which is called damaged: one sensor records both."),
                 })
             }
             (None, None) => None,

@@ -35,7 +35,7 @@ fn own_lines(a: &Analysis) -> String {
     let orders: Vec<String> = a.shaft_lines.iter().map(usize::to_string).collect();
     let off = a.shaft / a.options.shaft - 1.0;
     let doubt = if off.abs() > SHAFT_DOUBT {
-        ", if they are this shaft's: another's, as fast to within the tolerance, would show the same"
+        ", which is used instead; lines of another shaft near that speed look the same"
     } else {
         ""
     };

@@ -24,7 +24,9 @@ impl Analysis {
     pub fn beside_healthy(&mut self, x: &[f64], healthy: Side) -> Result<(), AnalysisError> {
         let top = 0.5 * self.sample_rate.min(healthy.analysis.sample_rate);
         let rms = |a: &Analysis| a.indicator(Indicator::Rms).map_or(1.0, |e| e.value);
-        let louder = (rms(self) / rms(healthy.analysis)).max(1.0);
+        let growth = rms(self) / rms(healthy.analysis);
+        self.level_growth = Some(growth);
+        let louder = growth.max(1.0);
         let own = families_up_to(top, Side { x, analysis: self })?;
         let healthy = families_up_to(top, healthy)?;
         let of = |families: &[Family], name| families.iter().find(|f| f.name == name).cloned();

@@ -195,6 +195,8 @@ pub struct Analysis {
     pub families: Vec<Family>,
     /// Where no damage is called: a comb deeper than any of the bearing's, where the bearing has no frequency.
     pub elsewhere: Option<Elsewhere>,
+    /// RMS over that of a record of the healthy machine, where there is one.
+    pub level_growth: Option<f64>,
 }
 
 impl Analysis {
@@ -286,6 +288,7 @@ pub fn analyze(x: &[f64], fs: f64, options: &Options) -> Result<Analysis, Analys
         bands: record.together.bands(),
         families: record.families,
         elsewhere: record.elsewhere,
+        level_growth: None,
         options: record.options,
     })
 }
