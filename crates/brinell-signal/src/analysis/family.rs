@@ -277,10 +277,15 @@ fn reach(component: Component, tolerance: f64, exact: bool) -> (f64, f64) {
 
 /// Of the comb of a frequency.
 pub(super) fn score(together: &Together, frequency: f64) -> f64 {
+    score_by(frequency, |f| together.at(f).ratio)
+}
+
+/// The same by the power over floor at each line; `None` where nothing is seen.
+pub(super) fn score_by(frequency: f64, ratio: impl Fn(f64) -> Option<f64>) -> f64 {
     let (mut least, mut sum) = (f64::INFINITY, 0.0);
     for k in 1..=HARMONICS {
         // What is hidden neither counts nor limits.
-        if let Some(ratio) = together.at(k as f64 * frequency).ratio {
+        if let Some(ratio) = ratio(k as f64 * frequency) {
             least = least.min(ratio.max(f64::MIN_POSITIVE).ln());
             sum += least;
         }

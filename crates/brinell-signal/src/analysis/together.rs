@@ -49,6 +49,8 @@ pub(super) struct Together {
     step: f64,
     /// Over the floor.
     ratio: Vec<f64>,
+    /// The same before lines of shaft and mains were hidden.
+    unhidden: Vec<f64>,
     /// Above the floor, over the envelope's mean squared.
     depth: Vec<f64>,
     /// Where lines of shaft or mains lie, or of what was taken out: nothing is seen there.
@@ -79,6 +81,7 @@ impl Together {
         let mut together = Together {
             step,
             ratio: vec![0.0; bins],
+            unhidden: Vec::new(),
             depth: vec![0.0; bins],
             hidden: vec![false; bins],
             each: Vec::new(),
@@ -100,6 +103,7 @@ impl Together {
             }
             together.each.push(power);
         }
+        together.unhidden.clone_from(&together.ratio);
         together.hide_known(shaft, options);
         Ok(together)
     }
@@ -176,6 +180,11 @@ impl Together {
             (Some(ratio), Some(depth)) if !hidden => Place { ratio: Some(ratio), depth },
             _ => Place { ratio: None, depth: 0.0 },
         }
+    }
+
+    /// Power over floor at a frequency, whatever is hidden there.
+    pub(super) fn unhidden(&self, frequency: f64) -> Option<f64> {
+        peak(&self.unhidden, self.bin(frequency))
     }
 
     /// Bins over which a line of order 10 smears where the speed (Hz) takes these values.

@@ -1,6 +1,6 @@
 //! From families to a verdict: which of them is damage, and which merely shares another's lines.
 
-use super::family::{DEEP, FAINT, Family, Finding, SCORE, cage, lines, read, score};
+use super::family::{DEEP, FAINT, Family, Finding, SCORE, cage, lines, read, score, score_by};
 use super::frequencies::Component;
 use super::together::{Envelopes, HARMONICS, Shaft, Together};
 use super::{AnalysisError, Options};
@@ -65,6 +65,8 @@ pub(super) struct Record {
     revolutions: f64,
     /// Shaft speed, Hz.
     pub(super) shaft: f64,
+    /// Whether lines of the shaft told it.
+    by_lines: bool,
     pub(super) options: Options,
     /// Those that are damage first, the one that leads before the others.
     pub(super) families: Vec<Family>,
@@ -80,6 +82,7 @@ impl Record {
             together: Together::of(envelopes, known, options)?,
             revolutions: seconds * known.hz,
             shaft: known.hz,
+            by_lines: known.tolerance > 0.0,
             options: options.clone(),
             families: Vec::new(),
             elsewhere: None,
@@ -203,6 +206,9 @@ impl Record {
     /// The comb of which a race's lines are every second, third... and which scores hardly less: nothing that excites a
     /// race at equal distances leaves the lines between so high. (Where elements differ the cage's lines are there
     /// too: in measured records at most three quarters as high in score.)
+    ///
+    /// The shaft itself impacts at every fifth of BPFI where that is near five times its speed: where no lines told the
+    /// speed, its own lines may be anywhere within the tolerance, and those that are hidden about the speed given count.
     fn slower(&self, lead: &Family) -> Option<Elsewhere> {
         let races = [Component::OuterRace, Component::InnerRace];
         if !races.contains(&lead.component) {
@@ -211,7 +217,10 @@ impl Record {
         let together = &self.together;
         (2..=SLOWER)
             .map(|m| lead.frequency / m as f64)
-            .map(|f| (f, score(together, f)))
+            .map(|f| match !self.by_lines && (f / self.shaft - 1.0).abs() <= self.options.tolerance {
+                true => (f, score_by(f, |f| together.unhidden(f))),
+                false => (f, score(together, f)),
+            })
             .rfind(|(_, score)| *score >= lead.score - HARDLY)
             .map(|(frequency, score)| Elsewhere {
                 frequency,

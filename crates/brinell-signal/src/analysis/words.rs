@@ -150,6 +150,15 @@ fn other_lines(analysis: &Analysis, elsewhere: &Elsewhere) -> String {
         )
     });
     // The shaft's own lines tell its speed.
+    let order = elsewhere.frequency / analysis.shaft;
+    if (order - 1.0).abs() <= analysis.options.tolerance {
+        return format!(
+            "Cannot tell: the strongest comb of lines lies at {:.2} Hz, once a turn of the shaft if that is its speed, {:.1} r/min, and a frequency of the bearing is a multiple of it. \
+             Looseness, rub or a coupling has such lines. A tachometer would tell.",
+            elsewhere.frequency,
+            60.0 * elsewhere.frequency,
+        );
+    }
     let off = (analysis.shaft / analysis.options.shaft - 1.0).abs();
     let doubt = match analysis.shaft_lines.is_empty() || off > analysis.options.tolerance {
         true => "Are speed and bearing right?",
