@@ -29,6 +29,8 @@ pub(super) const DEEP: f64 = 0.25;
 /// Lines that have to be detected, and how many of them have to be harmonics. A harmonic that shaft or mains hide is given
 /// the benefit of the doubt; a pair of sidebands counts as one.
 const FEWEST: (usize, usize) = (3, 2);
+/// Of so many first harmonics one is detected: where lines of the shaft hide them, higher ones may be another family's.
+const FIRST: usize = 2;
 /// Score beyond the limit from which evidence is very clear, where it is deep too.
 const VERY_CLEAR: f64 = 6.0;
 /// Sidebands to either side of a harmonic that are looked at.
@@ -176,6 +178,7 @@ impl Family {
             && !self.lacks_sidebands()
             && detected + hidden + self.detected_sidebands() / 2 >= FEWEST.0
             && detected >= FEWEST.1
+            && self.harmonics[..FIRST].iter().any(|h| h.detected)
     }
 
     /// An element passes through the load once for each turn of the cage: lines at its rate without sidebands are

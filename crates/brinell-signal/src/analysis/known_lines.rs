@@ -87,7 +87,13 @@ fn beyond(x: &[f64], fs: f64, options: &Options) -> Result<Option<ShaftLines>, A
         true => 0.0,
         false => (median * power / floor.max(f64::MIN_POSITIVE)).max(1.0).ln(),
     };
-    let heights: Vec<f64> = power.iter().zip(floor).enumerate().map(height).collect();
+    // Skirts, of the mains' lines above all, are no lines: a peak and its two neighbours are.
+    let near_peak = |bin: usize| {
+        (bin.saturating_sub(1)..=bin + 1)
+            .any(|b| b > 0 && b + 1 < power.len() && power[b] >= power[b - 1].max(power[b + 1]))
+    };
+    let heights: Vec<f64> =
+        (power.iter().zip(floor).enumerate()).map(|bin| if near_peak(bin.0) { height(bin) } else { 0.0 }).collect();
     let at = |f: f64| heights.get((f / step).round() as usize).copied().unwrap_or(0.0);
     let score = |f: f64| (1..=OF_COMB).map(|h| at(h as f64 * f).min(LINE)).sum::<f64>();
     // A fifth of a bin at the highest order.
@@ -100,7 +106,12 @@ fn beyond(x: &[f64], fs: f64, options: &Options) -> Result<Option<ShaftLines>, A
     let (speed, most) = highest(FARTHEST);
     let orders: Vec<usize> = (1..=OF_COMB).filter(|h| at(*h as f64 * speed) >= detected).collect();
     let clear = most >= highest(options.tolerance).1 + LINE;
-    Ok((clear && orders.len() >= FEWEST && orders[0] <= 2).then_some(ShaftLines { speed, orders }))
+    // A comb of every second or third of its multiples, or of few, is another's.
+    let is_whole = orders.len() >= FEWEST
+        && orders[0] <= 2
+        && 2 * orders.len() >= orders[orders.len() - 1]
+        && orders.iter().fold(0, |d, h| divisor(d, *h as i32)) == 1;
+    Ok((clear && is_whole).then_some(ShaftLines { speed, orders }))
 }
 
 fn within(x: &[f64], fs: f64, options: &Options) -> Result<Option<ShaftLines>, AnalysisError> {

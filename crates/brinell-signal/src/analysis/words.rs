@@ -26,6 +26,7 @@ pub(super) fn verdict(analysis: &Analysis) -> String {
         Verdict::CannotTell => cannot_tell(analysis, &mut text),
         Verdict::NothingFound => text.push("No damage found.".into()),
     }
+    text.extend(speed(analysis));
     let those = |finding| -> Vec<&str> {
         let families = analysis.families.iter().filter(|f| f.finding == finding);
         families.map(|f| f.name).collect()
@@ -46,6 +47,13 @@ pub(super) fn verdict(analysis: &Analysis) -> String {
     }
     text.extend(short(analysis));
     text.join(" ")
+}
+
+/// The speed that the verdict rests on, where it is not the one given.
+fn speed(analysis: &Analysis) -> Option<String> {
+    let (used, given) = (60.0 * analysis.shaft, 60.0 * analysis.options.shaft);
+    let is_other = analysis.options.rotation.is_none() && (used / given - 1.0).abs() > analysis.options.tolerance;
+    is_other.then(|| format!("This is at {used:.0} r/min, by the shaft's lines, not at the {given:.0} given."))
 }
 
 /// How the level has changed since the machine was healthy, where it has doubled or halved.
