@@ -36,8 +36,8 @@
 //! ```
 //!
 //! Without a file system, as in a browser, [`open_bytes`] reads and [`Format::in_memory`] writes: the same readers and
-//! writers, the same bytes. For `wasm32-unknown-unknown` leave out the features `parquet` and `parquet-write`, which
-//! need a C compiler.
+//! writers, the same bytes. For `wasm32-unknown-unknown` leave out the feature `parquet`, which needs a
+//! C compiler.
 
 #![cfg_attr(not(test), deny(clippy::print_stdout, clippy::print_stderr))]
 
@@ -78,7 +78,7 @@ pub use table::{Cells, Table};
 pub use text::{LARGEST_TEXT, read_text};
 #[doc(hidden)]
 pub use write::csv::CsvWriter;
-#[cfg(feature = "parquet-write")]
+#[cfg(feature = "parquet")]
 #[doc(hidden)]
 pub use write::parquet::ParquetWriter;
 #[cfg(feature = "parquet")]

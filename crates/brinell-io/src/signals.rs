@@ -34,7 +34,7 @@ pub mod keys {
     /// The text variable of MAT and NPZ files with the unit of each channel, a JSON object. Filled in by the writer.
     pub const UNITS_VARIABLE: &str = "brinell_units";
 
-    #[cfg(feature = "parquet-write")]
+    #[cfg(feature = "parquet")]
     pub(crate) const RESERVED: [&str; 4] = [UNITS, DESCRIPTIONS, OUTCOME, PANDAS_ATTRS];
 }
 
@@ -240,7 +240,7 @@ impl Format {
     ) -> Result<Box<dyn SignalWriter>, IoError> {
         Ok(match self {
             Self::Csv => Box::new(CsvWriter::at(destination, columns)?),
-            #[cfg(feature = "parquet-write")]
+            #[cfg(feature = "parquet")]
             Self::Parquet => Box::new(crate::ParquetWriter::at(destination, columns, metadata)?),
             Self::Mat => Box::new(MatWriter::at(destination, columns, metadata)?),
             #[cfg(feature = "npz")]
@@ -248,7 +248,7 @@ impl Format {
             Self::Uff58 => Box::new(UffWriter::at(destination, columns, metadata)?),
             Self::Wav => Box::new(WavWriter::at(destination, columns, metadata)?),
             // Features are called like the formats that they bring.
-            #[cfg(not(all(feature = "parquet-write", feature = "npz")))]
+            #[cfg(not(all(feature = "parquet", feature = "npz")))]
             _ => return Err(IoError::FormatLeftOut { path: destination.path().to_owned(), format: self.name() }),
         })
     }

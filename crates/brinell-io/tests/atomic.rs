@@ -6,7 +6,7 @@ use proptest::prelude::*;
 
 fn formats() -> Vec<Format> {
     let left_out = |format: &Format| match format {
-        Format::Parquet => !cfg!(feature = "parquet-write"),
+        Format::Parquet => !cfg!(feature = "parquet"),
         Format::Npz => !cfg!(feature = "npz"),
         _ => false,
     };

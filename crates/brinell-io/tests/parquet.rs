@@ -1,4 +1,4 @@
-//! Parquet, written by brinell and read by the `parquet` crate: an independent reader, so these are `xval_` too.
+//! Parquet, written and read back; tests/python/check_parquet.py reads it with other programs.
 #![cfg(feature = "parquet")]
 
 use std::path::{Path, PathBuf};

@@ -4,7 +4,7 @@ pub(crate) mod csv;
 pub(crate) mod mat;
 #[cfg(feature = "npz")]
 pub(crate) mod npz;
-#[cfg(feature = "parquet-write")]
+#[cfg(feature = "parquet")]
 pub(crate) mod parquet;
 #[cfg(feature = "parquet")]
 pub(crate) mod records;

@@ -4,11 +4,12 @@
 //! read arrays. Numbers are plain under Zstandard (fastparquet cannot read byte-stream-split ones, which would save a
 //! tenth), words have dictionaries. The same rows in the same groups give the same bytes.
 
+use super::parquet::{failed, zstd};
 use crate::atomic::{Complete, PartialFile};
 use crate::records::{Cell, Kind, RecordColumn, hexadecimal};
 use crate::signals::{check_columns, units_json};
 use crate::{IoError, Metadata, keys};
-use parquet::basic::{Compression, Encoding, LogicalType, Repetition, Type as Physical, ZstdLevel};
+use parquet::basic::{Encoding, LogicalType, Repetition, Type as Physical};
 use parquet::column::writer::ColumnWriterImpl;
 use parquet::data_type::{BoolType, ByteArray, ByteArrayType, DataType, DoubleType, FloatType, Int64Type};
 use parquet::errors::{ParquetError, Result};
@@ -20,9 +21,6 @@ use sha2::{Digest, Sha256};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
-
-/// The low bytes of a signal are noise at any level.
-const ZSTD_LEVEL: i32 = 1;
 
 /// A file under construction that knows its checksum.
 struct Summed {
@@ -195,16 +193,6 @@ fn put<'a, T: DataType>(
     Ok(())
 }
 
-fn failed(path: &Path, error: ParquetError) -> IoError {
-    match error {
-        ParquetError::External(inner) => match inner.downcast::<io::Error>() {
-            Ok(error) => IoError::writing(path, *error),
-            Err(other) => IoError::writing(path, io::Error::other(other.to_string())),
-        },
-        other => IoError::NotWritable { path: path.to_owned(), format: "Parquet", why: other.to_string() },
-    }
-}
-
 fn is_list(kind: Kind) -> bool {
     matches!(kind, Kind::Signal | Kind::Wholes | Kind::Numbers | Kind::WordsList)
 }
@@ -246,7 +234,7 @@ fn schema(columns: &[RecordColumn]) -> Result<TypePtr> {
 
 fn properties(columns: &[RecordColumn], pairs: Vec<KeyValue>) -> Result<WriterProperties> {
     let mut builder = WriterProperties::builder()
-        .set_compression(Compression::ZSTD(ZstdLevel::try_new(ZSTD_LEVEL)?))
+        .set_compression(zstd()?)
         .set_statistics_enabled(EnabledStatistics::Chunk)
         .set_key_value_metadata(Some(pairs));
     for column in columns {
