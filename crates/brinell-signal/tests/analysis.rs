@@ -246,6 +246,33 @@ fn prop_a_wrong_speed_is_pointed_to_and_blamed_on_nobody() {
     }
 }
 
+/// A second shaft 8 % faster, where this one has no lines of its own: nothing says whether the speed given is wrong.
+/// Damage at that speed is then neither called nor passed over.
+#[test]
+fn prop_damage_at_the_speed_given_is_said_beside_another_shafts_lines() {
+    let fs = 12_000.0;
+    let orders = NamedBearing::find("6205-2RS").unwrap().orders();
+    let damage = Damage { order: 3.5848, modulation: 0.0, jitter: 0.01, snr_db: 3.0 };
+    for seed in 0..4 {
+        let mut noise = Random::new(seed);
+        let impacts =
+            damaged(fs, 4.0, seed, &damage).into_iter().zip(healthy(fs, 4.0, seed)).map(|(all, rest)| all - rest);
+        let x: Vec<f64> = (impacts.enumerate())
+            .map(|(i, v)| {
+                let turns = 1.08 * SHAFT * i as f64 / fs;
+                let comb: f64 = (1..=8).map(|k| 0.1 * (TAU * f64::from(k) * turns).sin()).sum();
+                v + comb + 0.1 * noise.normal()
+            })
+            .collect();
+        let a = analyze(&x, fs, &Options::new(SHAFT, orders)).unwrap();
+        assert!((a.shaft / (1.08 * SHAFT) - 1.0).abs() < 1e-3, "{seed} {}", a.shaft);
+        assert_eq!(a.conclusion(), Verdict::CannotTell);
+        let at_given = a.at_given.as_ref().expect("damage at the speed given");
+        assert_eq!(at_given.component, Component::OuterRace, "{}", a.verdict());
+        assert!(a.verdict().contains("A tachometer would tell."), "{}", a.verdict());
+    }
+}
+
 /// Something that impacts half or a third as often as a race would be passed has lines at the race's frequency as well.
 #[test]
 fn prop_a_slower_comb_is_distinguished_from_damage_at_its_multiple() {

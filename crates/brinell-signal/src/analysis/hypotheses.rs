@@ -32,6 +32,8 @@ pub(super) struct Best {
     /// Harmonics of the shaft whose lines told the speed.
     pub(super) shaft_lines: Vec<usize>,
     pub(super) drift: Option<Drift>,
+    /// What would be damage at the speed given, where the shaft's lines tell one beyond the tolerance.
+    pub(super) at_given: Option<Family>,
 }
 
 /// Tries them.
@@ -55,7 +57,8 @@ pub(super) fn best(
         None if shaft_lines.is_empty() && evidence.may_drift => drift::by_families(&envelopes, options),
         drift => drift,
     };
-    let mut best = Best { record: Record::of(&envelopes, known, options)?, envelopes, shaft_lines, drift };
+    let mut best =
+        Best { record: Record::of(&envelopes, known, options)?, envelopes, shaft_lines, drift, at_given: None };
     if !best.shaft_lines.is_empty() && !options.exact && !best.record.is_damage() {
         best.try_as_given(options)?;
     }
@@ -68,10 +71,15 @@ pub(super) fn best(
 
 impl Best {
     /// Lines that agree by chance, or another shaft's, may have told a wrong speed. At a speed that is off, lines of
-    /// the shaft are not hidden: only what is very clear counts.
+    /// the shaft are not hidden: only what is very clear counts. Where they lie beyond the tolerance, either the speed
+    /// given is wrong or the lines are another shaft's: what would be damage is said.
     fn try_as_given(&mut self, options: &Options) -> Result<(), AnalysisError> {
         let given = Shaft { hz: options.shaft, tolerance: 0.0 };
         let as_given = Record::of(&self.envelopes, given, options)?;
+        if (self.record.shaft / options.shaft - 1.0).abs() > options.tolerance {
+            self.at_given = as_given.lead().cloned();
+            return Ok(());
+        }
         let clear = |f: &Family| f.finding == Finding::Damage && f.is_very_clear();
         if as_given.families.iter().any(clear) {
             self.shaft_lines.clear();

@@ -20,6 +20,7 @@ pub fn to_json(
             "clarity": analysis.causes().next().map(|f| analysis.clarity(f)),
         },
         "families": analysis.families.iter().map(|f| family(analysis, f)).collect::<Vec<_>>(),
+        "at_given": analysis.at_given.as_ref().map(|f| family(analysis, f)),
         "elsewhere": analysis.elsewhere.map(|e| json!({
             "frequency_hz": e.frequency, "order": e.frequency / analysis.shaft, "score": e.score, "modulation": e.modulation,
             "nearest": e.nearest.map(|n| json!({ "component": n.component.key(), "name": n.name, "shift": n.shift, "shaft_hz_if_its": n.shaft })),

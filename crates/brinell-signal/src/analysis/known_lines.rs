@@ -69,11 +69,11 @@ pub(super) fn shaft(x: &[f64], fs: f64, options: &Options) -> Result<Option<Shaf
 fn beyond(x: &[f64], fs: f64, options: &Options) -> Result<Option<ShaftLines>, AnalysisError> {
     let shaft = options.shaft;
     let length = fast_up_to(((REVOLUTIONS * fs / shaft) as usize).min(x.len()));
-    let mut spectrum = psd(x, fs, &Segments::of(length))?;
-    let step = spectrum.frequency_step;
-    if options.tolerance * shaft < TELLING * step {
+    if options.tolerance * shaft < TELLING * fs / length as f64 {
         return Ok(None);
     }
+    let mut spectrum = psd(x, fs, &Segments::of(length))?;
+    let step = spectrum.frequency_step;
     spectrum.amplitude.truncate(((OF_COMB + 1) as f64 * (1.0 + FARTHEST) * shaft / step) as usize);
     let power: Vec<f64> = spectrum.amplitude.iter().map(|a| a * a).collect();
     let floor = running_median(&power, (FLOOR.0 * shaft / step).max(FLOOR.1) as usize);
@@ -106,12 +106,15 @@ fn beyond(x: &[f64], fs: f64, options: &Options) -> Result<Option<ShaftLines>, A
     let (speed, most) = highest(FARTHEST);
     let orders: Vec<usize> = (1..=OF_COMB).filter(|h| at(*h as f64 * speed) >= detected).collect();
     let clear = most >= highest(options.tolerance).1 + LINE;
-    // A comb of every second or third of its multiples, or of few, is another's.
-    let is_whole = orders.len() >= FEWEST
-        && orders[0] <= 2
-        && 2 * orders.len() >= orders[orders.len() - 1]
-        && orders.iter().fold(0, |d, h| divisor(d, *h as i32)) == 1;
-    Ok((clear && is_whole).then_some(ShaftLines { speed, orders }))
+    // A comb without its fundamental, or of few of its multiples, is another's.
+    let is_whole = orders.len() >= FEWEST && orders[0] == 1 && 2 * orders.len() >= orders[orders.len() - 1];
+    if !(clear && is_whole) {
+        return Ok(None);
+    }
+    // To a fraction of a bin by the peaks themselves, where they agree.
+    let near = Options { shaft: speed, tolerance: 0.25 * step / speed, ..options.clone() };
+    let refined = within(x, fs, &near)?;
+    Ok(Some(ShaftLines { speed: refined.map_or(speed, |r| r.speed), orders }))
 }
 
 fn within(x: &[f64], fs: f64, options: &Options) -> Result<Option<ShaftLines>, AnalysisError> {

@@ -195,6 +195,9 @@ pub struct Analysis {
     pub families: Vec<Family>,
     /// Where no damage is called: a comb deeper than any of the bearing's, where the bearing has no frequency.
     pub elsewhere: Option<Elsewhere>,
+    /// What would be damage at the speed given, where no damage is called at the speed by the shaft's lines, and that
+    /// lies farther off than the tolerance: the speed given is wrong, or the lines are another shaft's.
+    pub at_given: Option<Family>,
     /// RMS over that of a record of the healthy machine, where there is one.
     pub level_growth: Option<f64>,
 }
@@ -217,7 +220,7 @@ impl Analysis {
             (self.families.iter()).any(|f| matches!(f.finding, Finding::Open | Finding::Grown | Finding::AsBefore));
         if self.causes().next().is_some() {
             Verdict::Damage
-        } else if open || self.elsewhere.is_some() {
+        } else if open || self.elsewhere.is_some() || self.at_given.is_some() {
             Verdict::CannotTell
         } else {
             Verdict::NothingFound
@@ -270,8 +273,9 @@ pub fn analyze(x: &[f64], fs: f64, options: &Options) -> Result<Analysis, Analys
     let Prepared { indicators, map, evidence, transformed } = prepare(&x, fs, options, whole)?;
     let samples = x.len();
     drop(x);
-    let Best { record, envelopes, shaft_lines, drift } = hypotheses::best(&transformed, evidence, options)?;
+    let Best { record, envelopes, shaft_lines, drift, at_given } = hypotheses::best(&transformed, evidence, options)?;
     let view = view(&record, &envelopes, &transformed)?;
+    let damaged = record.is_damage();
     Ok(Analysis {
         sample_rate: fs,
         samples,
@@ -287,6 +291,7 @@ pub fn analyze(x: &[f64], fs: f64, options: &Options) -> Result<Analysis, Analys
         view,
         bands: record.together.bands(),
         families: record.families,
+        at_given: at_given.filter(|_| !damaged),
         elsewhere: record.elsewhere,
         level_growth: None,
         options: record.options,

@@ -52,7 +52,9 @@ pub(super) fn verdict(analysis: &Analysis) -> String {
 /// The speed that the verdict rests on, where it is not the one given.
 fn speed(analysis: &Analysis) -> Option<String> {
     let (used, given) = (60.0 * analysis.shaft, 60.0 * analysis.options.shaft);
-    let is_other = analysis.options.rotation.is_none() && (used / given - 1.0).abs() > analysis.options.tolerance;
+    let is_other = analysis.at_given.is_none()
+        && analysis.options.rotation.is_none()
+        && (used / given - 1.0).abs() > analysis.options.tolerance;
     is_other.then(|| format!("This is at {used:.0} r/min, by the shaft's lines, not at the {given:.0} given."))
 }
 
@@ -106,6 +108,16 @@ fn cannot_tell(analysis: &Analysis, text: &mut Vec<String>) {
             family.growth.unwrap_or(1.0),
             evidence_of(family),
         ));
+    }
+    if let Some(family) = &analysis.at_given {
+        let (lines, given) = (60.0 * analysis.shaft, 60.0 * analysis.options.shaft);
+        text.push(format!(
+            "Cannot tell: at the {given:.0} r/min given this would be {} damage ({}), but lines of a shaft lie at {lines:.0} r/min, and at that speed it is none. \
+             Is the speed right, or does a second shaft turn so fast? A tachometer would tell.",
+            family.component.words(),
+            evidence_of(family),
+        ));
+        return;
     }
     if let Some(elsewhere) = &analysis.elsewhere {
         text.push(other_lines(analysis, elsewhere));
