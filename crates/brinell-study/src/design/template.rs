@@ -1,7 +1,7 @@
 //! A piece of a scenario file in which any value may be a distribution.
 
 use super::distribution::{Distribution, Value};
-use brinell::document::reading::{Leaf, Misfit, Node, Spec, Toml, key_text};
+use brinell::document::reading::{Misfit, Node, Spec, Toml, ValueType, key_text};
 use serde_json::{Value as Json, json};
 use std::collections::BTreeMap;
 
@@ -121,7 +121,7 @@ fn join(path: &str, name: &str) -> String {
     if path.is_empty() { name.to_owned() } else { format!("{path}.{name}") }
 }
 
-impl Leaf for Template {
+impl ValueType for Template {
     fn blank() -> Self {
         Self::empty()
     }

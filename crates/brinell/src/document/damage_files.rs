@@ -2,7 +2,7 @@
 
 use super::keys::Fallback::Required;
 use super::keys::{Fallback, Keys, Spec, assumed, key, stated};
-use super::leaf::Leaf;
+use super::value_type::ValueType;
 use crate::scenario::*;
 
 pub(super) const FILE: Spec = key("file", "path, from the scenario's folder");
@@ -11,7 +11,7 @@ const FILED: &str = "there is a `file`";
 
 /// A key that every file of damage has: of a scan only where there is one (`filed`), of an image or a drawing always
 /// (`None`).
-fn shared<K: Keys, T: Leaf>(k: &mut K, filed: Option<bool>, spec: Spec, fallback: Fallback<T>, value: &mut T) {
+fn shared<K: Keys, T: ValueType>(k: &mut K, filed: Option<bool>, spec: Spec, fallback: Fallback<T>, value: &mut T) {
     match filed {
         None => k.key(spec, fallback, value),
         Some(wanted) => k.key_where(spec, (wanted, FILED), fallback, value),

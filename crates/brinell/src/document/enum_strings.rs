@@ -1,6 +1,6 @@
 //! The words that keys with a closed choice accept.
 
-use super::leaf::Choice;
+use super::value_type::Choice;
 use crate::bearing::clearance::ClearanceClass;
 use crate::scenario::*;
 

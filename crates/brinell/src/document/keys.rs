@@ -6,7 +6,7 @@
 
 use std::fmt;
 
-use super::leaf::Leaf;
+use super::value_type::ValueType;
 use crate::bearing::clearance::ClearanceClass;
 
 /// Name, meaning, unit and range of one key.
@@ -237,20 +237,26 @@ pub(crate) fn variant_of<T>(variants: &'static [Variant<T>], value: &T) -> &'sta
 /// A walk over the keys of a scenario.
 pub trait Keys: Sized {
     /// A key with one value.
-    fn key<T: Leaf>(&mut self, spec: Spec, fallback: Fallback<T>, value: &mut T);
+    fn key<T: ValueType>(&mut self, spec: Spec, fallback: Fallback<T>, value: &mut T);
 
     /// A key that may be absent, which then means something of its own.
-    fn optional<T: Leaf>(&mut self, spec: Spec, value: &mut Option<T>);
+    fn optional<T: ValueType>(&mut self, spec: Spec, value: &mut Option<T>);
 
     /// A key that is required where `wanted`, and has no meaning elsewhere; `case` says where.
-    fn only_where<T: Leaf>(&mut self, spec: Spec, wanted: bool, case: &'static str, value: &mut T);
+    fn only_where<T: ValueType>(&mut self, spec: Spec, wanted: bool, case: &'static str, value: &mut T);
 
     /// A key with a default where `wanted`, and without a meaning elsewhere; the words say where.
-    fn key_where<T: Leaf>(&mut self, spec: Spec, wanted: (bool, &'static str), fallback: Fallback<T>, value: &mut T);
+    fn key_where<T: ValueType>(
+        &mut self,
+        spec: Spec,
+        wanted: (bool, &'static str),
+        fallback: Fallback<T>,
+        value: &mut T,
+    );
 
     /// A key of one case, with a default; elsewhere it has no effect, which is said of a file that gives it. The words
     /// say where it has one.
-    fn key_acting_where<T: Leaf>(
+    fn key_acting_where<T: ValueType>(
         &mut self,
         spec: Spec,
         wanted: (bool, &'static str),
@@ -260,7 +266,7 @@ pub trait Keys: Sized {
 
     /// The value of a key of a later section, before the walk is there: `None` where it is known already or the file
     /// does not give it.
-    fn foretold<T: Leaf>(&mut self, _section: &str, _name: &'static str) -> Option<T> {
+    fn foretold<T: ValueType>(&mut self, _section: &str, _name: &'static str) -> Option<T> {
         None
     }
 

@@ -11,23 +11,23 @@ mod diagnostics;
 mod enum_strings;
 mod example;
 mod keys;
-mod leaf;
 mod load;
 mod problem;
 mod problems;
-mod profile_leaf;
+mod profile_value;
 mod provenance;
 mod quantity;
 mod reader;
 mod recorded;
-mod scale_leaf;
+mod scale_value;
 mod schema;
 mod sections;
 mod sensor;
-mod shape_leaf;
+mod shape_value;
 mod source;
-mod speed_leaf;
+mod speed_value;
 mod unset;
+mod value_type;
 mod writer;
 
 pub use diagnostics::render_diagnostics;
@@ -50,8 +50,8 @@ pub use source::{canonical, float as toml_float, locate, quote as toml_quote};
 pub mod reading {
     pub use super::checks::Finder;
     pub use super::keys::{Fallback, Keys, Range, Spec, Variant, key, stated};
-    pub use super::leaf::{Choice, Leaf, Misfit};
     pub use super::reader::Reader;
     pub use super::schema::{Schema, schema_of};
     pub use super::source::{Entry, Node, Table, Value as Toml, brief_path, key_text, parse, path_parts, quote};
+    pub use super::value_type::{Choice, Misfit, ValueType};
 }

@@ -6,13 +6,13 @@ use std::collections::HashMap;
 use std::ops::Range;
 
 use super::keys::{Fallback, Spec, unit_of_key};
-use super::leaf::{Leaf, Misfit, Words};
 use super::problem::{Problem, Severity};
 use super::problems::Problems;
 use super::provenance::{Origin, Provenance};
 use super::recorded::{self, Assumed};
 use super::schema::known_keys;
 use super::source::{Entry, Node, Table, Value, brief_path, override_value};
+use super::value_type::{Misfit, ValueType, Words};
 use crate::bearing::catalogue;
 use crate::bearing::clearance::ClearanceClass;
 use crate::did_you_mean::did_you_mean;
@@ -172,7 +172,7 @@ impl<'a> Reader<'a> {
     }
 
     /// Reads a key that the file gives.
-    fn read<T: Leaf>(&mut self, path: &str, spec: &Spec, node: &Node) -> Option<T> {
+    fn read<T: ValueType>(&mut self, path: &str, spec: &Spec, node: &Node) -> Option<T> {
         match T::read(node, spec) {
             Ok(value) => {
                 let again = |node: &Node| T::read(node, spec).ok().map(|was| was.write());
@@ -204,7 +204,7 @@ impl<'a> Reader<'a> {
     }
 
     /// Reads a key from the catalogue bearing.
-    fn catalogued<T: Leaf>(&mut self, path: &str, spec: &Spec) -> Option<T> {
+    fn catalogued<T: ValueType>(&mut self, path: &str, spec: &Spec) -> Option<T> {
         let datum = self.datum(path)?;
         match T::read(&Node::from_datum(&datum.value), spec) {
             Ok(value) => {
@@ -254,7 +254,7 @@ impl<'a> Reader<'a> {
         self.provenance.extend(kept.collect::<Vec<_>>());
     }
 
-    fn fall_back<T: Leaf>(&mut self, path: String, spec: &Spec, fallback: Fallback<T>) -> Option<T> {
+    fn fall_back<T: ValueType>(&mut self, path: String, spec: &Spec, fallback: Fallback<T>) -> Option<T> {
         let mut kept = None;
         let seen = fallback.map(|value| {
             let seen = Seen { written: value.write(), fits: value.fits(spec), defined: value.is_defined() };

@@ -12,10 +12,10 @@ use std::collections::{HashMap, HashSet};
 use serde_json::{Value as Json, json};
 
 use super::keys::{Keys, Spec, key};
-use super::leaf::{Leaf, Misfit, elements, wrong_type};
 use super::provenance::Provenance;
 use super::schema::known_keys;
 use super::source::{Node, Value, quote};
+use super::value_type::{Misfit, ValueType, elements, wrong_type};
 use crate::did_you_mean::did_you_mean;
 
 /// Name of the section.
@@ -115,7 +115,7 @@ fn exists(key: &str) -> Result<(), Misfit> {
     Err(Misfit::new(format!("{} is no key of a scenario{}", quote(key), hint.unwrap_or_default()), ""))
 }
 
-impl Leaf for Vec<Assumed> {
+impl ValueType for Vec<Assumed> {
     fn blank() -> Self {
         Vec::new()
     }

@@ -5,7 +5,7 @@ use std::sync::LazyLock;
 use serde_json::{Map, Value as Json, json};
 
 use super::keys::{Fallback, Keys, Spec, Variant};
-use super::leaf::Leaf;
+use super::value_type::ValueType;
 use super::{recorded, sections, unset};
 
 /// Keys of a table, as far as the walk has come.
@@ -106,7 +106,7 @@ fn describe(spec: &Spec) -> String {
 }
 
 impl Keys for Schema {
-    fn key<T: Leaf>(&mut self, spec: Spec, fallback: Fallback<T>, _: &mut T) {
+    fn key<T: ValueType>(&mut self, spec: Spec, fallback: Fallback<T>, _: &mut T) {
         // What is written as TOML here is also JSON: numbers, plain strings and lists of them.
         let written = match &fallback {
             Fallback::Fixed { value, .. } => value.write(),
@@ -115,16 +115,16 @@ impl Keys for Schema {
         self.describe(&spec, T::schema(&spec), fallback.map(|_| written.as_str()));
     }
 
-    fn optional<T: Leaf>(&mut self, spec: Spec, _: &mut Option<T>) {
+    fn optional<T: ValueType>(&mut self, spec: Spec, _: &mut Option<T>) {
         self.put(&spec, T::schema(&spec), describe(&spec));
     }
 
-    fn only_where<T: Leaf>(&mut self, spec: Spec, _: bool, case: &'static str, _: &mut T) {
+    fn only_where<T: ValueType>(&mut self, spec: Spec, _: bool, case: &'static str, _: &mut T) {
         let doc = format!("{}; required where {case}, and only there", describe(&spec));
         self.put(&spec, T::schema(&spec), doc);
     }
 
-    fn key_where<T: Leaf>(
+    fn key_where<T: ValueType>(
         &mut self,
         spec: Spec,
         (_, case): (bool, &'static str),
@@ -145,7 +145,7 @@ impl Keys for Schema {
         self.say_more(spec.name, &format!("; {word} {case}, and only there"));
     }
 
-    fn key_acting_where<T: Leaf>(
+    fn key_acting_where<T: ValueType>(
         &mut self,
         spec: Spec,
         (_, case): (bool, &'static str),

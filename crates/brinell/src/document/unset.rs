@@ -1,6 +1,6 @@
 //! A scenario without values: where a walk over the keys starts from.
 
-use super::leaf::Leaf;
+use super::value_type::ValueType;
 use crate::scenario::*;
 
 const NONE: f64 = f64::NAN;
@@ -10,7 +10,7 @@ pub(crate) fn scenario() -> Scenario {
         name: String::new(),
         bearing: Bearing {
             preset: None,
-            element: Leaf::blank(),
+            element: ValueType::blank(),
             inner_raceway_diameter_mm: NONE,
             outer_raceway_diameter_mm: NONE,
             pitch_diameter_mm: NONE,
@@ -27,7 +27,7 @@ pub(crate) fn scenario() -> Scenario {
             inner_ring_mass_kg: NONE,
             outer_ring_mass_kg: NONE,
             roller_mass_kg: NONE,
-            profile: Leaf::blank(),
+            profile: ValueType::blank(),
             width_mm: NONE,
             row_spacing_mm: NONE,
         },
@@ -36,18 +36,18 @@ pub(crate) fn scenario() -> Scenario {
             inner_diameter_mm: NONE,
             outer_diameter_mm: NONE,
             pocket_clearance_mm: NONE,
-            guidance: Leaf::blank(),
-            guidance_film: Leaf::blank(),
+            guidance: ValueType::blank(),
+            guidance_film: ValueType::blank(),
             guide_clearance_mm: NONE,
             guide_width_mm: NONE,
             contact_stiffness_n_per_m: NONE,
             contact_damping_ns_per_m: NONE,
         },
         contact: Contact {
-            law: Leaf::blank(),
-            roller_path: Leaf::blank(),
+            law: ValueType::blank(),
+            roller_path: ValueType::blank(),
             slices: 0,
-            edge_reaction: Leaf::blank(),
+            edge_reaction: ValueType::blank(),
             exponent: NONE,
             youngs_modulus_gpa: None,
             poisson_ratio: None,
@@ -58,7 +58,7 @@ pub(crate) fn scenario() -> Scenario {
         friction: Friction { raceway_coefficient: NONE, slip_velocity_m_per_s: NONE },
         lubricant: Lubricant {
             viscosity_pa_s: NONE,
-            raceway_film: Leaf::blank(),
+            raceway_film: ValueType::blank(),
             drag_coefficient: NONE,
             effective_density_kg_per_m3: NONE,
         },
@@ -73,9 +73,9 @@ pub(crate) fn scenario() -> Scenario {
             outer_tilt_damping_nms_per_rad: NONE,
         },
         operation: Operation {
-            speed_rpm: Leaf::blank(),
+            speed_rpm: ValueType::blank(),
             load_n: [NONE; 2],
-            load_on: Leaf::blank(),
+            load_on: ValueType::blank(),
             load_ramp_s: NONE,
             gravity_m_per_s2: [NONE; 2],
             load_offset_mm: NONE,
@@ -83,11 +83,11 @@ pub(crate) fn scenario() -> Scenario {
         defects: Vec::new(),
         sensor: Sensor::off(),
         simulation: Simulation {
-            model: Leaf::blank(),
+            model: ValueType::blank(),
             duration_s: NONE,
             sample_rate_hz: NONE,
-            start: Leaf::blank(),
-            accuracy: Leaf::blank(),
+            start: ValueType::blank(),
+            accuracy: ValueType::blank(),
             record: Vec::new(),
         },
     }

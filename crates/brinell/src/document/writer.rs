@@ -3,8 +3,8 @@
 use std::collections::HashMap;
 
 use super::keys::{Fallback, Keys, Spec, Variant, variant_of};
-use super::leaf::{Leaf, Words};
 use super::provenance::{Origin, Provenance};
+use super::value_type::{ValueType, Words};
 
 /// What the comments say, and which keys are live.
 pub(crate) enum Style<'a> {
@@ -153,7 +153,7 @@ fn explain(spec: &Spec, range: Words) -> String {
 }
 
 impl Keys for Writer<'_> {
-    fn key<T: Leaf>(&mut self, spec: Spec, _: Fallback<T>, value: &mut T) {
+    fn key<T: ValueType>(&mut self, spec: Spec, _: Fallback<T>, value: &mut T) {
         let given = self
             .provenance(spec.name)
             .is_some_and(|provenance| matches!(provenance.origin, Origin::File | Origin::Override));
@@ -161,7 +161,7 @@ impl Keys for Writer<'_> {
         self.add(&spec, T::range, &value.write(), live);
     }
 
-    fn optional<T: Leaf>(&mut self, spec: Spec, value: &mut Option<T>) {
+    fn optional<T: ValueType>(&mut self, spec: Spec, value: &mut Option<T>) {
         if let Some(value) = value {
             self.add(&spec, T::range, &value.write(), true);
         } else if self.is_template() {
@@ -169,7 +169,7 @@ impl Keys for Writer<'_> {
         }
     }
 
-    fn only_where<T: Leaf>(&mut self, spec: Spec, wanted: bool, case: &'static str, value: &mut T) {
+    fn only_where<T: ValueType>(&mut self, spec: Spec, wanted: bool, case: &'static str, value: &mut T) {
         if wanted {
             self.add(&spec, T::range, &value.write(), true);
         } else if self.is_template() && (self.inline.is_some() || !value.fits(&spec)) {
@@ -182,7 +182,7 @@ impl Keys for Writer<'_> {
         }
     }
 
-    fn key_where<T: Leaf>(
+    fn key_where<T: ValueType>(
         &mut self,
         spec: Spec,
         (wanted, case): (bool, &'static str),
@@ -196,7 +196,7 @@ impl Keys for Writer<'_> {
         }
     }
 
-    fn key_acting_where<T: Leaf>(
+    fn key_acting_where<T: ValueType>(
         &mut self,
         spec: Spec,
         wanted: (bool, &'static str),

@@ -1,9 +1,9 @@
 //! The walk over the list of keys, as it reads a file.
 
 use super::super::keys::{Fallback, Keys, Spec, Variant, key};
-use super::super::leaf::Leaf;
 use super::super::problem::{Problem, Severity};
 use super::super::source::{Node, Value, brief_path, quote};
+use super::super::value_type::ValueType;
 use super::{MOST_TABLES, Reader, join};
 use crate::bearing::catalogue;
 use crate::bearing::clearance::ClearanceClass;
@@ -11,7 +11,7 @@ use crate::bearing::clearance_of;
 use crate::did_you_mean::did_you_mean;
 
 impl Keys for Reader<'_> {
-    fn key<T: Leaf>(&mut self, spec: Spec, fallback: Fallback<T>, value: &mut T) {
+    fn key<T: ValueType>(&mut self, spec: Spec, fallback: Fallback<T>, value: &mut T) {
         let (path, entry) = self.name(&spec);
         let read = match entry {
             Some(entry) => self.read(&path, &spec, &entry.node),
@@ -21,12 +21,12 @@ impl Keys for Reader<'_> {
         *value = read.unwrap_or_else(T::blank);
     }
 
-    fn optional<T: Leaf>(&mut self, spec: Spec, value: &mut Option<T>) {
+    fn optional<T: ValueType>(&mut self, spec: Spec, value: &mut Option<T>) {
         let (path, entry) = self.name(&spec);
         *value = entry.map(|entry| self.read(&path, &spec, &entry.node).unwrap_or_else(T::blank));
     }
 
-    fn only_where<T: Leaf>(&mut self, spec: Spec, wanted: bool, case: &'static str, value: &mut T) {
+    fn only_where<T: ValueType>(&mut self, spec: Spec, wanted: bool, case: &'static str, value: &mut T) {
         let (path, entry) = self.name(&spec);
         *value = T::blank();
         match entry {
@@ -46,7 +46,7 @@ impl Keys for Reader<'_> {
         }
     }
 
-    fn key_where<T: Leaf>(
+    fn key_where<T: ValueType>(
         &mut self,
         spec: Spec,
         (wanted, case): (bool, &'static str),
@@ -60,7 +60,7 @@ impl Keys for Reader<'_> {
         }
     }
 
-    fn key_acting_where<T: Leaf>(
+    fn key_acting_where<T: ValueType>(
         &mut self,
         spec: Spec,
         (wanted, case): (bool, &'static str),
@@ -85,7 +85,7 @@ impl Keys for Reader<'_> {
         }
     }
 
-    fn foretold<T: Leaf>(&mut self, section: &str, name: &'static str) -> Option<T> {
+    fn foretold<T: ValueType>(&mut self, section: &str, name: &'static str) -> Option<T> {
         let section = self.frames.first()?.table?.get(section)?;
         let Value::Table(table) = &section.node.value else {
             return None;

@@ -3,15 +3,15 @@
 use serde_json::{Value as Json, json};
 
 use super::keys::{Spec, key};
-use super::leaf::{Leaf, Misfit, wrong_type};
 use super::source::{Node, Value};
+use super::value_type::{Misfit, ValueType, wrong_type};
 use crate::scenario::ScaleBar;
 
 const PX: Spec = key("px", "its length in the picture").above(0.0).to(1e5).unit("px");
 const MM: Spec = key("mm", "its length").above(0.0).to(1e4).unit("mm");
 const ALLOWED: &str = "{ px = 412, mm = 5 }";
 
-impl Leaf for ScaleBar {
+impl ValueType for ScaleBar {
     fn blank() -> Self {
         Self { px: f64::NAN, mm: f64::NAN }
     }

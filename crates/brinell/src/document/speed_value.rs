@@ -3,15 +3,15 @@
 use serde_json::{Value as Json, json};
 
 use super::keys::{Spec, key};
-use super::leaf::{Leaf, Misfit, write_each, wrong_type};
 use super::quantity;
 use super::source::{Node, Value};
+use super::value_type::{Misfit, ValueType, write_each, wrong_type};
 use crate::scenario::Speed;
 
 /// The first number of a point.
 const TIME: Spec = key("t_s", "time");
 
-impl Leaf for Speed {
+impl ValueType for Speed {
     fn blank() -> Speed {
         Speed::Constant(f64::NAN)
     }

@@ -3,8 +3,8 @@
 use serde_json::{Value as Json, json};
 
 use super::keys::{Spec, key};
-use super::leaf::{Leaf, Misfit, wrong_type};
 use super::source::{Node, Value, quote};
+use super::value_type::{Misfit, ValueType, wrong_type};
 use crate::scenario::RollerProfile;
 
 const RADIUS: Spec = key("crowned_radius_mm", "R_c").above(0.0);
@@ -12,7 +12,7 @@ const Z: Spec = key("z_mm", "z, rising");
 const DROP: Spec = key("drop_um", "p at each z").from(0.0);
 const ALLOWED: &str = "\"straight\", \"logarithmic\", { crowned_radius_mm = R }, { z_mm = [..], drop_um = [..] }";
 
-impl Leaf for RollerProfile {
+impl ValueType for RollerProfile {
     fn blank() -> Self {
         Self::Straight
     }
@@ -81,7 +81,7 @@ impl Leaf for RollerProfile {
     }
 }
 
-fn read_under<T: Leaf>(node: &Node, spec: &Spec) -> Result<T, Misfit> {
+fn read_under<T: ValueType>(node: &Node, spec: &Spec) -> Result<T, Misfit> {
     T::read(node, spec).map_err(|misfit| misfit.in_element(node).under(spec.name))
 }
 

@@ -3,10 +3,10 @@
 use serde_json::{Value as Json, json};
 
 use super::keys::Spec;
-use super::leaf::{Leaf, Misfit, elements, in_unit, read_each, write_each, wrong_type};
 use super::source::{Node, Value};
+use super::value_type::{Misfit, ValueType, elements, in_unit, read_each, write_each, wrong_type};
 
-impl Leaf for u64 {
+impl ValueType for u64 {
     fn blank() -> u64 {
         0
     }
@@ -36,7 +36,7 @@ impl Leaf for u64 {
 /// A list of points, and a list of such lists: polygons.
 macro_rules! list_of {
     ($item:ty, $what:literal, $least:literal) => {
-        impl Leaf for Vec<$item> {
+        impl ValueType for Vec<$item> {
             fn blank() -> Vec<$item> {
                 Vec::new()
             }

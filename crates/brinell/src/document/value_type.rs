@@ -42,7 +42,7 @@ impl Misfit {
 }
 
 /// The value of one key.
-pub trait Leaf: Sized + Clone {
+pub trait ValueType: Sized + Clone {
     /// Stands in for a value that could not be read; no check objects to it.
     fn blank() -> Self;
     /// What the key expects, with its article.
@@ -71,11 +71,11 @@ pub trait Leaf: Sized + Clone {
     }
 }
 
-/// What a kind of value says of a key, such as [`Leaf::range`]: as a value, so that what uses it is compiled once and
+/// What a kind of value says of a key, such as [`ValueType::range`]: as a value, so that what uses it is compiled once and
 /// not for each kind.
 pub(super) type Words = fn(&Spec) -> String;
 
-pub(super) fn wrong_type<T: Leaf>(node: &Node, spec: &Spec) -> Misfit {
+pub(super) fn wrong_type<T: ValueType>(node: &Node, spec: &Spec) -> Misfit {
     let message = format!("expected {}, found {}", T::expected(spec), node.kind());
     Misfit::new(message, T::range(spec))
 }
@@ -116,7 +116,7 @@ fn out_of_range(x: f64, spec: &Spec) -> Misfit {
     if x.is_finite() { Misfit::new("out of range", allowed) } else { Misfit::new("not a finite number", allowed) }
 }
 
-impl Leaf for f64 {
+impl ValueType for f64 {
     fn blank() -> f64 {
         f64::NAN
     }
@@ -167,7 +167,7 @@ impl Leaf for f64 {
     }
 }
 
-impl Leaf for usize {
+impl ValueType for usize {
     fn blank() -> usize {
         0
     }
@@ -204,7 +204,7 @@ impl Leaf for usize {
     }
 }
 
-impl Leaf for bool {
+impl ValueType for bool {
     fn blank() -> bool {
         false
     }
@@ -233,7 +233,7 @@ impl Leaf for bool {
     }
 }
 
-impl Leaf for String {
+impl ValueType for String {
     fn blank() -> String {
         String::new()
     }
@@ -258,23 +258,23 @@ impl Leaf for String {
     }
 }
 
-pub(super) fn elements<'a, T: Leaf>(node: &'a Node, spec: &Spec) -> Result<&'a [Node], Misfit> {
+pub(super) fn elements<'a, T: ValueType>(node: &'a Node, spec: &Spec) -> Result<&'a [Node], Misfit> {
     match &node.value {
         Value::Array(items) => Ok(items),
         _ => Err(wrong_type::<T>(node, spec)),
     }
 }
 
-pub(super) fn read_each<T: Leaf>(items: &[Node], spec: &Spec) -> Result<Vec<T>, Misfit> {
+pub(super) fn read_each<T: ValueType>(items: &[Node], spec: &Spec) -> Result<Vec<T>, Misfit> {
     items.iter().map(|item| T::read(item, spec).map_err(|misfit| misfit.in_element(item))).collect()
 }
 
-pub(super) fn write_each<T: Leaf>(items: &[T]) -> String {
-    let texts: Vec<String> = items.iter().map(Leaf::write).collect();
+pub(super) fn write_each<T: ValueType>(items: &[T]) -> String {
+    let texts: Vec<String> = items.iter().map(ValueType::write).collect();
     format!("[{}]", texts.join(", "))
 }
 
-impl Leaf for Vec<f64> {
+impl ValueType for Vec<f64> {
     fn blank() -> Vec<f64> {
         Vec::new()
     }
@@ -300,7 +300,7 @@ impl Leaf for Vec<f64> {
     }
 }
 
-impl<const N: usize> Leaf for [f64; N] {
+impl<const N: usize> ValueType for [f64; N] {
     fn blank() -> Self {
         [f64::NAN; N]
     }
@@ -335,7 +335,7 @@ impl<const N: usize> Leaf for [f64; N] {
     }
 }
 
-impl Leaf for Vec<String> {
+impl ValueType for Vec<String> {
     fn blank() -> Vec<String> {
         Vec::new()
     }
@@ -376,7 +376,7 @@ fn word_list<T: Choice>() -> String {
     words.join(", ")
 }
 
-impl<T: Choice> Leaf for T {
+impl<T: Choice> ValueType for T {
     fn blank() -> T {
         T::WORDS[0].1
     }
