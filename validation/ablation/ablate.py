@@ -1,9 +1,10 @@
 """What each part of the verdict of `brinell analyze` adds, counted on measured records.
 
-    python3 validation/ablation/ablate.py SCORE.PY [--target FOLDER] [WORDS OF A VARIANT ...]
+    python3 validation/ablation/ablate.py SCORE.PY [--harder] [--target FOLDER] [WORDS OF A VARIANT ...]
 
 Copies the tracked files to a temporary folder, takes one part out of crates/brinell-signal/src/analysis/ for each variant, builds the command there and
-runs SCORE.PY on it. Prints a row of a Markdown table a variant. Standard library only; see README.md.
+runs SCORE.PY on it; with --harder ../robustness/robustness.py too, on the records beside SCORE.PY. Prints a row of a Markdown table a variant.
+Standard library only, but for --harder; see README.md.
 """
 
 import argparse
@@ -55,7 +56,7 @@ variant("one broad band", ("together.rs", "let width = top.max(whole / BANDS).mi
 variant("shaft and mains not hidden", ("together.rs", "together.hide_known(shaft, options);", ""))
 variant(
     "only three bins hidden, skirts not followed",
-    ("together.rs", "|to: f64, from: f64| to >= standing && to < from;", "|_: f64, _: f64| false;"),
+    ("together.rs", "|to: f64, from: f64| to >= level && to < from;", "|_: f64, _: f64| false;"),
 )
 variant("shaft's comb not placed anew", ("together.rs", "let of_shaft = (shaft.tolerance > 0.0)", "let of_shaft = false"))
 variant(
@@ -82,6 +83,10 @@ for turns in (60, 30):
         f"segments of {turns} revolutions",
         ("together.rs", "const REVOLUTIONS: f64 = 120.0;", f"const REVOLUTIONS: f64 = {turns}.0;"),
     )
+variant("a family needs neither first nor second harmonic", ("family.rs", "const FIRST: usize = 2;", "const FIRST: usize = 5;"))
+variant("damage at the speed given not said", ("hypotheses.rs", "self.at_given = as_given.lead().cloned();", ""))
+variant("a slower comb not sought", ("verdict.rs", "if let Some(slower) = lead.and_then(|lead| self.slower(lead)) {", "if let Some(slower) = lead.and_then(|lead| self.slower(lead)).filter(|_| false) {"))
+variant("another slip is no reason", ("verdict.rs", "        one_slip(&mut all, self.shaft, self.options.tolerance);\n", ""))
 constant("score limit", "family.rs", "SCORE", "14.5", (12.0, 13.0, 16.0))
 constant("bins hidden beside a line", "together.rs", "ASIDE", "2.0", (3.0,))
 constant("deep from", "family.rs", "DEEP", "0.25", (0.2, 0.3))
@@ -126,10 +131,12 @@ def copy(folder):
 
 
 def build(folder, target):
-    """The command. Results do not depend on how it is cut for the compiler; small pieces are built anew faster."""
+    """The command. Results do not depend on how it is cut for the compiler or, but for rounding, on how far what does not analyse is optimised."""
     env = os.environ | {"CARGO_TARGET_DIR": str(target), "CARGO_INCREMENTAL": "1"}
-    pieces = "profile.release.package.brinell-signal.codegen-units=256"
-    command = ["cargo", "build", "--release", "--locked", "--quiet", "-p", "brinell-cli", "--config", pieces]
+    command = ["cargo", "build", "--release", "--locked", "--quiet", "-p", "brinell-cli"]
+    for crate, level in {"brinell-signal": 3, "brinell": 0, "brinell-report": 0, "brinell-damage": 0, "brinell-study": 0}.items():
+        for setting in ("codegen-units=256", f"opt-level={level}"):
+            command += ["--config", f"profile.release.package.{crate}.{setting}"]
     done = subprocess.run(command, cwd=folder, env=env, capture_output=True, text=True)
     # Otherwise it warns of what a variant leaves unused.
     if done.returncode != 0:
@@ -157,9 +164,28 @@ def cells(groups):
     return [found("fault"), alarms("healthy"), alarms("other-end"), found("uestc"), alarms("uestc-healthy")]
 
 
+HARDER = {"cut": "cut to 0.6 to 3 s", "speed given": "speed 1 to 10 % off", "sampled": "sampled 2 to 8 times as fast", "asked": "other bearings"}
+
+
+def harder(records, binary):
+    """Sums over the rows of robustness.py: right / wrong / not called; called of sound ones."""
+    script = ROOT / "validation/robustness/robustness.py"
+    done = subprocess.run([sys.executable, script, records, binary, "cut,speed,rate,bearing"], check=True, capture_output=True, text=True)
+    sums = {start: [0] * 4 for start in HARDER}
+    for line in done.stdout.splitlines()[2:]:
+        way, damaged, sound, _ = (cell.strip() for cell in line.strip("|\n ").split("|"))
+        counts = [int(n) for n in damaged.split(" / ")] if "/" in damaged else [0, 0, 0]
+        counts.append(int(sound.split(" of ")[0]) if "of" in sound else 0)
+        start = next(start for start in HARDER if way.startswith(start))
+        sums[start] = [a + b for a, b in zip(sums[start], counts)]
+    cell = lambda start, n: str(n[3]) if start == "asked" else f"{n[0]} / {n[1]} / {n[2]}; {n[3]}"
+    return [cell(start, n) for start, n in sums.items()]
+
+
 def main():
     parser = argparse.ArgumentParser(description="What each part of the verdict adds, counted on measured records.")
     parser.add_argument("score", type=Path, help="score.py beside its records")
+    parser.add_argument("--harder", action="store_true", help="also count the records made harder, by robustness.py")
     parser.add_argument("--target", type=Path, help="folder for what is built, kept [default: a temporary one]")
     parser.add_argument("words", nargs="*", help="only the variants that have one of these in their name")
     args = parser.parse_intermixed_args()
@@ -172,8 +198,10 @@ def main():
             restore(apply(changes, folder))
         built = set()
         target = (args.target or Path(temporary) / "target").resolve()
-        print("| | right / second / wrong / missed | healthy called | other end called | speed off | its healthy called |")
-        print("| --- | --- | --- | --- | --- | --- |", flush=True)
+        heads = ["", "right / second / wrong / missed", "healthy called", "other end called", "speed off", "its healthy called"]
+        heads += [f"{words}: right / wrong / not called; sound called" for words in HARDER.values()] if args.harder else []
+        print("| " + " | ".join(heads) + " |")
+        print("| " + " | ".join("---" for _ in heads) + " |", flush=True)
         for words, changes in chosen:
             before = apply(changes, folder)
             binary = build(folder, target)
@@ -182,6 +210,7 @@ def main():
                 raise SystemExit(f"{words}: the same program as an earlier variant")
             built.add(digest)
             row = cells(score(args.score, binary))
+            row += harder(args.score.parent, binary) if args.harder else []
             print("| " + " | ".join([words, *row]) + " |", flush=True)
             restore(before)
 
