@@ -6,7 +6,6 @@ use std::thread::{self, Scope, ScopedJoinHandle};
 
 use memchr::{memchr, memchr_iter, memchr2, memrchr};
 
-use super::decimal::{decimal, short};
 use super::layout::Layout;
 use super::{Decimal, Delimiter};
 use crate::read::fault::{Fault, damaged};
@@ -178,15 +177,13 @@ impl<'a> Wanted<'a> {
     /// How many lines there are up to the end, or to the fault; of a fault the line is counted from there, from 0.
     fn lines(&self, text: &[u8], values: &mut Vec<f64>) -> (u64, Result<(), Fault>) {
         let (mut at, mut line) = (0, 0);
-        let mut quotients = Quotients::default();
         while at < text.len() {
             match self.plain.as_ref().and_then(|plain| plain.value(text, at)) {
-                Some((quotient, end)) => {
-                    quotients.push(quotient, values);
+                Some((value, end)) => {
+                    values.push(value);
                     at = end;
                 }
                 None => {
-                    quotients.divide(values);
                     let rest = &text[at..];
                     let end = memchr(b'\n', rest).unwrap_or(rest.len());
                     if let Err(fault) = row(&rest[..end], self.layout, self.field, line, values) {
@@ -197,40 +194,7 @@ impl<'a> Wanted<'a> {
             }
             line += 1;
         }
-        quotients.divide(values);
         (line, Ok(()))
-    }
-}
-
-/// Numbers before their divisions.
-struct Quotients {
-    over: [f64; 64],
-    under: [f64; 64],
-    count: usize,
-}
-
-impl Default for Quotients {
-    fn default() -> Self {
-        Quotients { over: [0.0; 64], under: [1.0; 64], count: 0 }
-    }
-}
-
-impl Quotients {
-    #[inline]
-    fn push(&mut self, [over, under]: [f64; 2], values: &mut Vec<f64>) {
-        self.over[self.count] = over;
-        self.under[self.count] = under;
-        self.count += 1;
-        if self.count == self.over.len() {
-            self.divide(values);
-        }
-    }
-
-    /// To the end of `values`, all there are.
-    fn divide(&mut self, values: &mut Vec<f64>) {
-        let (over, under) = (&self.over[..self.count], &self.under[..self.count]);
-        values.extend(over.iter().zip(under).map(|(over, under)| over / under));
-        self.count = 0;
     }
 }
 
@@ -243,10 +207,10 @@ struct Plain {
 }
 
 impl Plain {
-    /// The wanted value of the line that begins at `from`, as a quotient, and where the next one does. `None` says
+    /// The wanted value of the line that begins at `from`, and where the next one does. `None` says
     /// nothing: see [`row`].
     #[inline]
-    fn value(&self, text: &[u8], from: usize) -> Option<([f64; 2], usize)> {
+    fn value(&self, text: &[u8], from: usize) -> Option<(f64, usize)> {
         if matches!(text[from], b'#' | b'%') {
             return None;
         }
@@ -254,11 +218,7 @@ impl Plain {
         for _ in 0..self.before {
             at = self.beyond_delimiter(text, at)?;
         }
-        let (value, length) = short(text, at).or_else(|| {
-            let number = &text[at..];
-            let found = decimal(number).or_else(|| fast_float2::parse_partial(number).ok());
-            found.map(|(value, length)| ([value, 1.0], length))
-        })?;
+        let (value, length) = fast_float2::parse_partial(&text[at..]).ok()?;
         at += length;
         if self.after > 0 {
             if *text.get(at)? != self.delimiter {

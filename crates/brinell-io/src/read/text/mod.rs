@@ -4,7 +4,6 @@
 //! The layout is taken from the first lines (`layout.rs`); a column is then read in one pass, a line at a time, in a
 //! buffer of fixed size (`lines.rs`). Lines that begin with `#` or `%` are comments. An empty field is NaN.
 
-mod decimal;
 mod layout;
 mod lines;
 mod lvm;
