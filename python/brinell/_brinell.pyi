@@ -184,6 +184,7 @@ def analyze(
     tolerance: float,
     band_hz: _Band,
     simulated: bool,
+    run: tuple[str, float] | None,
     machine_class: str | None,
     sensitivity: str | None,
     supply_hz: float | None,

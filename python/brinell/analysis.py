@@ -93,6 +93,7 @@ def analyze(
     machine_class: _MachineClass | None = None,
     sensitivity: str | None = None,
     supply_hz: float | None = None,
+    _run: tuple[str, float] | None = None,
 ) -> Analysis:
     """Which component of a bearing is damaged, by a vibration signal, or that nothing shows it.
 
@@ -143,7 +144,7 @@ def analyze(
     samples = np.asarray(x, dtype=float)
     orders = [bpfo, bpfi, bsf, ftf]
     report, found, findings = _brinell.analyze(
-        samples, rate_hz, unit, speed_rpm, name, scenario, orders, tolerance, band_hz, simulated, machine_class, sensitivity, supply_hz
+        samples, rate_hz, unit, speed_rpm, name, scenario, orders, tolerance, band_hz, simulated, _run, machine_class, sensitivity, supply_hz
     )
     verdict, unit = report["verdict"], report["signal"]["unit"]
     return Analysis(

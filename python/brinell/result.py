@@ -152,6 +152,8 @@ class Result:
     def analyze(self, channel: str | None = None, **options: Any) -> Analysis:
         """Which defect frequencies are detected in this run, its start (``analysed_from_s``) left out.
 
+        Where they are the outer race's, the scenario is run again without its damage: what rollers that enter the load show there too is no damage.
+
         Parameters
         ----------
         channel : str, optional
@@ -175,6 +177,8 @@ class Result:
             options["speed_rpm"] = speed
         first = round(self.summary["simulated"]["analysed_from_s"] * self.rate_hz)
         settings: dict[str, Any] = {"rate_hz": self.rate_hz, "unit": self.units[channel], "bearing": self.scenario, "simulated": True}
+        if not options.keys() & {"bearing", "sensitivity", "simulated"}:
+            settings["_run"] = (channel, first / self.rate_hz)
         return analyze(self[channel][first:], **(settings | options))
 
     def to_pandas(self) -> pandas.DataFrame:

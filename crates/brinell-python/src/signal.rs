@@ -7,6 +7,7 @@ use brinell::analysis::{
 };
 use brinell::bearing::kinematics::Geometry;
 use brinell::bearing::{KnownBearing, orders_of};
+use brinell::result::{Stretch, beside_healthy};
 use brinell::signal::{self, Band, Blocks, Detrend, Indicator, Segments, Spectrum, VelocityBands, Window};
 use brinell_report::{AnalysisReport, Analyzed, analysis_html};
 use numpy::{PyArray1, PyArrayMethods};
@@ -312,6 +313,7 @@ pub(crate) fn analyze<'py>(
     tolerance: f64,
     band_hz: Option<(f64, f64)>,
     simulated: bool,
+    run: Option<(&str, f64)>,
     machine_class: Option<&str>,
     sensitivity: Option<&str>,
     supply_hz: Option<f64>,
@@ -344,7 +346,11 @@ pub(crate) fn analyze<'py>(
     }
     options.band = band_hz.map(|(low, high)| Band::between(low, high));
     let (analysis, bands) = py.detach(|| {
-        let analysis = brinell::analysis::analyze(x, rate_hz, &options).map(|analysis| {
+        let analysis = brinell::analysis::analyze(x, rate_hz, &options).map(|mut analysis| {
+            if let (Some(scenario), Some((channel, from_s))) = (scenario, run) {
+                let stretch = Stretch { channel, from_s, to_si: unit.to_si };
+                beside_healthy(&mut analysis, &scenario.loaded.scenario, stretch);
+            }
             let levels = Levels::of(x, &unit, &analysis, class);
             (analysis, levels)
         });

@@ -96,7 +96,10 @@ pub(crate) fn judge(request: &Value, given: &Arrays, arrays: &mut Arrays) -> Ans
     };
     let x = after(&x, from_s, rate)?;
     let failed = |e: brinell::analysis::AnalysisError| Trouble::of(e.to_string());
-    let analysis = analyze(x, rate, &options).map_err(failed)?;
+    let mut analysis = analyze(x, rate, &options).map_err(failed)?;
+    if options.exact && run.as_ref().is_some_and(|run| run.defects.is_empty()) {
+        analysis.beside_healthy_run(None);
+    }
     let spectrum = shown_spectrum(x, rate).map_err(failed)?;
     let envelope = &analysis.view.spectrum;
     let mut answer = verdict(&analysis);

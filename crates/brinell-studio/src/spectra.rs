@@ -109,7 +109,12 @@ pub(crate) fn verdict(bench: &Bench) -> Answer<Value> {
     options.exact = true;
     let sensor = &scenario.sensor;
     options.silent = Unit::of("m/s^2").missing_noise(sensor.noise_rms().unwrap_or(0.0));
-    let analysis = analyze(&x, bench.simulation().sample_rate(), &options).map_err(|e| Trouble::of(e.to_string()))?;
+    let mut analysis =
+        analyze(&x, bench.simulation().sample_rate(), &options).map_err(|e| Trouble::of(e.to_string()))?;
+    // Rollers that enter the load are no damage.
+    if scenario.defects.is_empty() {
+        analysis.beside_healthy_run(None);
+    }
     Ok(judged::verdict(&analysis))
 }
 

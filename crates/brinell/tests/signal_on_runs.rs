@@ -2,11 +2,12 @@
 
 use std::ops::ControlFlow;
 
-use brinell::analysis::{Component, MACHINE_NOISE, Options, analyze};
+use brinell::analysis::{Component, MACHINE_NOISE, Options, Verdict, analyze};
 use brinell::bearing::kinematics::Geometry;
 use brinell::bearing::orders_of;
 use brinell::document;
 use brinell::random::Random;
+use brinell::result::{Stretch, beside_healthy};
 use brinell::scenario::{Scenario, Shape, Speed, Surface};
 use brinell::signal::Rotation;
 use brinell::simulate::{End, Observer, Simulation};
@@ -201,6 +202,33 @@ fn regress_verdicts_on_the_examples() {
     }
     assert!(wrong.len() <= 1, "{}", wrong.join("\n"));
     assert!(right >= 19, "{right} of 21");
+}
+
+/// Rollers of a healthy NU206 with clearance C4 strike the outer race at 3600 r/min as damage would: beside the same run
+/// without its damage that is none, and the template's damage stays one.
+#[test]
+fn regress_passing_rollers_are_no_damage() {
+    for (damaged, expected) in [(false, None), (true, Some(Component::OuterRace))] {
+        let defect = "[[defects]]\non = \"outer-raceway\"\ncenter_deg = 0.0\ndepth_um = 20.0\nshape = { rectangle = { length_mm = 2.7, width_mm = 4.4 } }\n";
+        let text = format!(
+            "bearing = {{ preset = \"NU206/C4\" }}\noperation = {{ speed_rpm = 3600.0, load_n = [700.0, 0.0] }}\n\
+             simulation = {{ duration_s = 1.0, sample_rate_hz = 25600.0 }}\n{}",
+            if damaged { defect } else { "" }
+        );
+        let s = document::read(&text, &[]).unwrap().scenario;
+        let (_, signals) = brinell::record(&s).unwrap();
+        let stretch = Stretch { channel: "sensor_ax", from_s: 0.1, to_si: 1.0 };
+        let x = &signals.get("sensor_ax").unwrap()[2560..];
+        let orders = orders_of(&Geometry::of(&s.bearing));
+        let options = Options { silent: Some(MACHINE_NOISE), exact: true, ..Options::new(60.0, orders) };
+        let mut analysis = analyze(x, 25_600.0, &options).unwrap();
+        assert!(analysis.causes().any(|f| f.component == Component::OuterRace), "nothing to judge again");
+        beside_healthy(&mut analysis, &s, stretch);
+        assert_eq!(analysis.causes().next().map(|f| f.component), expected, "{}", analysis.verdict());
+        if !damaged {
+            assert_eq!(analysis.conclusion(), Verdict::NothingFound);
+        }
+    }
 }
 
 /// From standstill to 1800 r/min in 0.4 s the cage lags by 4 %: followed on the shaft's known speed, the damage is

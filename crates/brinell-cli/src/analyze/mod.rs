@@ -21,6 +21,7 @@ use brinell::analysis::{
     Analysis, Comparison, Component, Levels, Options, Quantity, SUPPLY_HZ, Side, analyze as analysis_of, compare,
     velocity,
 };
+use brinell::result::{Stretch, beside_healthy};
 use brinell::scenario::Surface;
 use brinell::signal::{Band, Indicator, Rotation, VelocityBands};
 use brinell_io::atomic_write;
@@ -215,6 +216,14 @@ fn examine(args: &AnalyzeArgs, mut measured: Measured, name: Option<&str>) -> Re
         Some(rest) => Some(look_at_last(&measured.path, &measured.channel, rest, measured.rate, &options)?),
         None => None,
     };
+    // Of a run, what passing rollers show is no damage of the outer race.
+    if let Some(run) = measured.scenario.as_deref().filter(|_| options.exact && !args.healthy) {
+        let stretch = Stretch { channel: &measured.channel, from_s: measured.start, to_si: measured.unit.to_si };
+        beside_healthy(&mut analysis, &run.scenario, stretch);
+        if analysis.passing_known {
+            measured.notes.push("the outer race is judged beside the same run without its damage".into());
+        }
+    }
     let against = match &args.against {
         Some(path) => Some(lay_over(path, args, &measured, &mut analysis)?),
         None => None,

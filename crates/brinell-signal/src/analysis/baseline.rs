@@ -1,7 +1,7 @@
 //! A record beside one of the same machine when it was healthy: what has grown since, and what was there before.
 
 use super::family::{Family, Finding};
-use super::{Analysis, AnalysisError, Options, Side, analyze, bands};
+use super::{Analysis, AnalysisError, Component, Options, Side, analyze, bands};
 use crate::{Band, Indicator};
 
 /// Growth of the modulation from which lines that are no damage by themselves are told.
@@ -38,13 +38,39 @@ impl Analysis {
             let ratio = own.modulation / healthy.modulation.max(f64::MIN_POSITIVE);
             family.growth = Some(ratio);
             family.finding = match family.finding {
-                Finding::Damage if healthy.is_damage() && BEFORE * louder * ratio < 1.0 => Finding::AsBefore,
+                Finding::Damage if healthy.is_damage() && !is_more(louder * ratio) => Finding::AsBefore,
                 Finding::Faint | Finding::Open if family.is_whole() && ratio >= GROWN => Finding::Grown,
                 other => other,
             };
         }
         Ok(())
     }
+
+    /// Judges the outer race of a simulated bearing again, in view of the same bearing without its damage in the same
+    /// unit at the same rate, `None` where nothing is damaged: rollers that enter the load strike the race at rest as
+    /// often as its damage is struck (varying compliance). What is not twice as high as theirs is no damage.
+    pub fn beside_healthy_run(&mut self, healthy: Option<&Analysis>) {
+        let rms = |a: &Analysis| a.indicator(Indicator::Rms).map_or(1.0, |e| e.value);
+        let louder = healthy.map_or(1.0, |h| (rms(self) / rms(h)).max(1.0));
+        for family in
+            self.families.iter_mut().filter(|f| f.component == Component::OuterRace && f.finding == Finding::Damage)
+        {
+            let passing = match healthy {
+                None => Some(family.modulation),
+                Some(h) => h.families.iter().find(|f| f.name == family.name && f.is_damage()).map(|f| f.modulation),
+            };
+            family.growth = passing.map(|p| family.modulation / p.max(f64::MIN_POSITIVE));
+            if family.growth.is_some_and(|ratio| !is_more(louder * ratio)) {
+                family.finding = Finding::AsBefore;
+            }
+        }
+        self.passing_known = true;
+    }
+}
+
+/// Whether lines that are so many times as high as the healthy bearing's say something.
+fn is_more(ratio: f64) -> bool {
+    BEFORE * ratio >= 1.0
 }
 
 /// Families in the range up to `top` (Hz): what was found, where the signal holds no more.

@@ -198,6 +198,8 @@ pub struct Analysis {
     /// What would be damage at the speed given, where no damage is called at the speed by the shaft's lines, and that
     /// lies farther off than the tolerance: the speed given is wrong, or the lines are another shaft's.
     pub at_given: Option<Family>,
+    /// Whether the outer race was judged beside the same run without damage ([`Analysis::beside_healthy_run`]).
+    pub passing_known: bool,
     /// RMS over that of a record of the healthy machine, where there is one.
     pub level_growth: Option<f64>,
 }
@@ -216,8 +218,11 @@ impl Analysis {
 
     /// What it amounts to.
     pub fn conclusion(&self) -> Verdict {
-        let open =
-            (self.families.iter()).any(|f| matches!(f.finding, Finding::Open | Finding::Grown | Finding::AsBefore));
+        let open = (self.families.iter()).any(|f| match f.finding {
+            Finding::Open | Finding::Grown => true,
+            Finding::AsBefore => !self.passing_known,
+            _ => false,
+        });
         if self.causes().next().is_some() {
             Verdict::Damage
         } else if open || self.elsewhere.is_some() || self.at_given.is_some() {
@@ -239,7 +244,7 @@ impl Analysis {
     /// Whether the rollers of a healthy bearing may show as much, where nothing drowns them ([`Options::silent`]).
     pub fn may_be_passing(&self, family: &Family) -> bool {
         let outer = family.component == Component::OuterRace;
-        self.options.silent.is_some() && outer && family.modulation < PASSING
+        self.options.silent.is_some() && !self.passing_known && outer && family.modulation < PASSING
     }
 
     /// The verdict in plain words: the headline first.
@@ -293,6 +298,7 @@ pub fn analyze(x: &[f64], fs: f64, options: &Options) -> Result<Analysis, Analys
         families: record.families,
         at_given: at_given.filter(|_| !damaged),
         elsewhere: record.elsewhere,
+        passing_known: false,
         level_growth: None,
         options: record.options,
     })

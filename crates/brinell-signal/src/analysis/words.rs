@@ -32,7 +32,12 @@ pub(super) fn verdict(analysis: &Analysis) -> String {
         families.map(|f| f.name).collect()
     };
     let (faint, before) = (those(Finding::Faint), those(Finding::AsBefore));
-    if !before.is_empty() {
+    if !before.is_empty() && analysis.passing_known {
+        text.push(format!(
+            "Lines of {} are those of rollers that enter the load: without damage the same bearing, simulated, has them half as high or higher.",
+            listed(&before)
+        ));
+    } else if !before.is_empty() {
         text.push(format!(
             "Cannot tell: lines of {} would be damage, and the record given as healthy has them as well. Was the machine healthy then? An older record would decide.",
             listed(&before)

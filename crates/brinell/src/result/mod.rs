@@ -2,10 +2,13 @@
 //! named numbers with intervals, as the list in [`fields`] says. Knows no files.
 
 pub mod fields;
+mod healthy;
 mod impacts;
 mod quantities;
 mod run;
 
+#[doc(hidden)]
+pub use healthy::{Stretch, beside_healthy};
 #[doc(hidden)]
 pub use impacts::{Impacts, impacts};
 pub use quantities::{Quantity, Spread};
