@@ -231,6 +231,25 @@ fn regress_passing_rollers_are_no_damage() {
     }
 }
 
+/// Its impacts on both races, turned by the cage, have lines at all frequencies of the bearing; one part is damaged.
+#[test]
+fn regress_a_damaged_roller_is_named_alone() {
+    let text = "bearing = { preset = \"NU206\" }\noperation = { speed_rpm = 3000.0, load_n = [700.0, 0.0] }\n\
+                simulation = { duration_s = 2.0, sample_rate_hz = 25600.0 }\n\
+                [[defects]]\non = \"roller\"\nroller = 1\ncenter_deg = 90.0\ndepth_um = 20.0\n\
+                shape = { rectangle = { length_mm = 1.0, width_mm = 4.4 } }\n";
+    let s = document::read(text, &[]).unwrap().scenario;
+    let (_, signals) = brinell::record(&s).unwrap();
+    let orders = orders_of(&Geometry::of(&s.bearing));
+    for channel in ["sensor_ax", "sensor_ay"] {
+        let x = &signals.get(channel).unwrap()[2560..];
+        let options = Options { silent: Some(MACHINE_NOISE), exact: true, ..Options::new(50.0, orders) };
+        let analysis = analyze(x, 25_600.0, &options).unwrap();
+        let causes: Vec<_> = analysis.causes().map(|f| f.name).collect();
+        assert_eq!(causes, ["2 BSF"], "{channel}: {}", analysis.verdict());
+    }
+}
+
 /// From standstill to 1800 r/min in 0.4 s the cage lags by 4 %: followed on the shaft's known speed, the damage is
 /// named.
 #[test]

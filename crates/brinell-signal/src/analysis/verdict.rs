@@ -131,9 +131,11 @@ impl Record {
         let left = read(&self.together, self.shaft, &self.options);
         // Frequencies that slip may bring together are not told apart.
         let apart = |f: &Family| (f.expected / lead.expected - 1.0).abs() > 2.0 * self.options.tolerance;
+        // An element strikes both races and carries the cage along: sums of its rates reach all lines of the bearing.
+        let turns = is_turning(lead.component);
         for family in &mut all {
             let own = left.iter().find(|f| f.name == family.name);
-            let stays = own.is_some_and(Family::is_damage) && apart(family);
+            let stays = own.is_some_and(Family::is_damage) && apart(family) && !turns;
             let gone = own.is_none_or(|f| f.detected_harmonics() == 0);
             let shared = match family.finding {
                 Finding::Damage | Finding::Open => family.component == Component::Cage || !stays,
@@ -311,14 +313,19 @@ fn one_slip(all: &mut [Family], shaft: f64, tolerance: f64) {
     }
 }
 
+fn is_turning(component: Component) -> bool {
+    matches!(component, Component::Element | Component::Cage)
+}
+
 /// The family that leads: the highest score; an element's or the cage's only with a lead over the races'.
 fn leading(all: &[Family]) -> Option<usize> {
     let highest = |of: &dyn Fn(Component) -> bool| {
         let these = (all.iter().enumerate()).filter(|(_, f)| f.finding == Finding::Damage && of(f.component));
         these.max_by(|a, b| a.1.score.total_cmp(&b.1.score))
     };
-    let race = highest(&|c| matches!(c, Component::OuterRace | Component::InnerRace));
-    let turning = highest(&|c| matches!(c, Component::Element | Component::Cage));
+    let race = highest(&|c| !is_turning(c));
+    // A damaged element shows at the cage's frequency too; at its own nothing else does.
+    let turning = highest(&|c| c == Component::Element).or_else(|| highest(&|c| c == Component::Cage));
     match (race, turning) {
         (Some(race), Some(turning)) if turning.1.score > race.1.score + LEAD => Some(turning.0),
         (Some(race), _) => Some(race.0),
