@@ -51,6 +51,7 @@ pub mod reading {
     pub use super::checks::Finder;
     pub use super::keys::{Fallback, Keys, Range, Spec, Variant, key, stated};
     pub use super::leaf::{Choice, Leaf, Misfit};
+    pub use super::quantity::read as quantity;
     pub use super::reader::Reader;
     pub use super::schema::{Schema, schema_of};
     pub use super::source::{Entry, Node, Table, Value as Toml, brief_path, key_text, parse, path_parts, quote};
