@@ -405,3 +405,14 @@ pub(crate) struct RandomArgs {
     #[arg(long, value_name = "UM", default_value_t = 20.0, allow_negative_numbers = true)]
     pub(crate) depth_um: f64,
 }
+
+/// Reads a number in `unit`, or one with a unit of its own: `12kHz`. `expected` is said of any other text.
+pub(crate) fn quantity(
+    unit: &'static str,
+    expected: &'static str,
+) -> impl Fn(&str) -> Result<f64, String> + Clone + Send + Sync {
+    move |text| {
+        let plain = text.trim().parse().ok();
+        plain.or_else(|| brinell::document::reading::quantity(text, unit).ok()).ok_or(format!("expected {expected}"))
+    }
+}

@@ -32,8 +32,8 @@ fn regress_each_bearing_is_judged_by_itself() {
     // The sound one is named first.
     let both = ["--bearing", "6203-2RS", "--bearing", "6205-2RS", "-o", "look"];
     brinell(folder.path(), &[&SIGNAL[..], &both].concat()).exits(0).says(&[
-        "Bearing 1 of 2, 6203-2RS: Cannot tell: the strongest comb of lines lies at 107.",
-        "These lines are 6205-2RS's, whose BPFO is called damage",
+        "Bearing 1 of 2, 6203-2RS: The lines at 107.",
+        "Hz are 6205-2RS's, whose BPFO is called damage: one sensor records both. Cannot tell: the strongest comb of lines lies at 107.",
         "Bearing 2 of 2, 6205-2RS: Outer race damage, very clear: BPFO at 107.",
     ]);
     let found = json(&folder.path().join("look/analysis.json"));
@@ -43,7 +43,7 @@ fn regress_each_bearing_is_judged_by_itself() {
     assert_eq!(found["verdict"]["damage"][0], "outer_race");
     assert_eq!(found["bearings"][1]["verdict"]["damage"][0], "outer_race");
     let page = fs::read_to_string(folder.path().join("look/report.html")).unwrap();
-    for part in ["<h2>Bearings</h2>", "6205-2RS: Outer race damage", "6203-2RS"] {
+    for part in ["<h2>Bearings</h2>", "6205-2RS: Outer race damage", "cannot tell, lines of 6205-2RS"] {
         assert!(page.contains(part), "{part}");
     }
     // One of them alone has the same verdict.
@@ -80,14 +80,28 @@ fn regress_several_bearings_of_several_files_and_what_goes_with_one_only() {
     let both = ["y.csv", "--bearing", "6203-2RS", "--bearing", "6205-2RS"];
     let told = brinell(folder.path(), &[&SIGNAL[..], &both, &["-o", "look"]].concat()).exits(0);
     assert_eq!(told.out.matches("6205-2RS outer race").count(), 2, "{}", told.out);
+    assert_eq!(told.out.matches("6203-2RS cannot tell, lines of 6205-2RS").count(), 2, "{}", told.out);
     let page = fs::read_to_string(folder.path().join("look/report.html")).unwrap();
     assert!(page.contains("6203-2RS BPFI") && page.contains("6205-2RS BPFO"));
-    for more in [&["--bpfo", "3.5x"][..], &["--against", "y.csv"]] {
-        let two = [&SIGNAL[..], &both[1..], more].concat();
-        brinell(folder.path(), &two).exits(2).complains(&["--bearing: expected one bearing with --bpfo"]);
-    }
+    let two = [&SIGNAL[..], &both[1..], &["--bpfo", "3.5x"]].concat();
+    brinell(folder.path(), &two).exits(2).complains(&["--bearing: expected one bearing with --bpfo"]);
+    let beside = ["--against", "y.csv", "--against-rate", "12kHz", "--against-unit", "g", "--json", "two.json"];
+    let two = [&SIGNAL[..], &both[1..], &beside].concat();
+    brinell(folder.path(), &two).exits(0).says(&["against y.csv"]);
+    let found = json(&folder.path().join("two.json"));
+    assert!(found["bearings"].as_array().unwrap().iter().all(|b| b["against"]["path"] == "y.csv"));
     let unknown = ["--bearing", "6205-2RS", "--bearing", "9999"];
     brinell(folder.path(), &[&SIGNAL[..], &unknown].concat())
         .exits(2)
         .complains(&["--bearing 9999: no bearing \"9999\"; there are NN3007"]);
+    for (name, kind) in [
+        ("7205", "an angular contact ball bearing"),
+        ("22205", "a spherical roller bearing"),
+        ("30205", "a tapered roller bearing"),
+        ("51105", "a thrust ball bearing, whose races are passed Z / 2 times a turn each"),
+    ] {
+        let told = brinell(folder.path(), &[&SIGNAL[..], &["--bearing", name]].concat()).exits(2);
+        let words = format!("none of those known by name is {kind}. For another give --rollers");
+        assert!(told.err.contains(&words) && !told.err.contains("did you mean"), "{}", told.err);
+    }
 }

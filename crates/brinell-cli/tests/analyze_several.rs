@@ -104,9 +104,6 @@ fn regress_what_no_file_can_do_without_is_requested_once() {
     brinell(folder.path(), &["analyze", "records"])
         .exits(2)
         .complains(&["none of the 3 files could be analysed; the first, r1.csv: 4 things have to be given"]);
-    brinell(folder.path(), &call(&["records"], &["--against", "records/r1.csv"]))
-        .exits(2)
-        .complains(&["--against: expected one file to lay another over"]);
     fs::create_dir(folder.path().join("none")).unwrap();
     brinell(folder.path(), &call(&["none"], &[]))
         .exits(2)
@@ -114,4 +111,25 @@ fn regress_what_no_file_can_do_without_is_requested_once() {
     brinell(folder.path(), &call(&["records"], &["--json", "records/r10.csv"]))
         .exits(2)
         .complains(&["is an input of this command"]);
+}
+
+/// Each beside the same record: its level in brackets and on the trend, and lines that it had already.
+#[test]
+fn regress_several_files_beside_one_healthy_record() {
+    let folder = records();
+    let other = ["--against", "records/r1.csv", "--against-rate", "12000", "--against-unit", "g", "--healthy"];
+    let more = ["-o", "look", "--machine-class", "2-rigid"];
+    let named = ["records/r1.csv", "records/r10.csv"];
+    let done = brinell(folder.path(), &call(&named, &[&other[..], &more].concat())).exits(0);
+    let rows: Vec<&str> = done.out.lines().filter(|l| l.starts_with('r')).collect();
+    assert!(rows[0].contains(" g (x 1.00) ") && rows[1].contains(" g (x 1."), "{}", done.out);
+    let found = json(&folder.path().join("look/analysis.json"));
+    assert_eq!(found["records"][1]["against"]["path"], "records/r1.csv");
+    let drawn = |name: &str| fs::read_to_string(folder.path().join("look/plots").join(name)).unwrap();
+    assert!(drawn("trend-rms.svg").contains(">the other<"));
+    assert!(drawn("trend-score.svg").contains(">high 14.5<"));
+    let velocity = drawn("trend-velocity.svg");
+    assert!(velocity.contains(">A/B 1.4<") && velocity.contains(">C/D 4.5<"));
+    let page = fs::read_to_string(folder.path().join("look/report.html")).unwrap();
+    assert!(page.contains("In brackets: the RMS over that of records/r1.csv"));
 }

@@ -175,3 +175,24 @@ fn analytic_velocity_and_zone_of_a_tone() {
     call(&["--unit", "g", "--duration", "0.9"]).exits(0).says(&["not known, as 0.900 s are too short for 10 Hz"]);
     call(&["--unit", "g", "--machine-class", "3"]).exits(2).complains(&["1-rigid, 1-flexible, 2-rigid, 2-flexible"]);
 }
+
+#[test]
+fn prop_rate_and_speed_take_a_unit() {
+    let folder = tempdir().unwrap();
+    column(&folder.path().join("x.csv"), &tone(2.0));
+    let call = |rate: &str, speed: &str| {
+        let args = ["analyze", "x.csv", "--unit", "g", "--bearing", "6205", "--rate", rate, "--speed", speed];
+        brinell(folder.path(), &[&args[..], &["--json", "-"]].concat())
+    };
+    let plain = call("12000", "1800").exits(0).out;
+    for (rate, speed) in [("12kHz", "30Hz"), ("12 kHz", "30 Hz"), ("1.2e4", "1800rpm"), (" 12000 ", "1800 r/min")] {
+        assert_eq!(call(rate, speed).exits(0).out, plain, "{rate} {speed}");
+    }
+    for bad in ["12kx", "12k", "kHz", "12 s", "1,2kHz", ""] {
+        call(bad, "1800").exits(2).complains(&[&format!(
+            "invalid value '{bad}' for '--rate <HZ>': expected more than 0 Hz, as 12000 or 12kHz"
+        )]);
+    }
+    call("0 kHz", "1800").exits(2).complains(&["--rate 0: expected more than 0 Hz"]);
+    call("12000", "30 kg").exits(2).complains(&["'--speed <RPM>': expected a speed in r/min other than 0"]);
+}

@@ -1,8 +1,8 @@
 //! The kurtogram: how impulsive each band is, rows of ever narrower bands; darker where more.
 
-use crate::chart::{Chart, Domain, SCALE_MARGIN, Shades, Spec, range};
-use crate::picture::{Paint, Picture, Rect, ink};
-use crate::plots::Layout;
+use crate::chart::{Chart, Domain, SCALE_MARGIN, Shades, Size, Spec, range};
+use crate::picture::{Anchor, Paint, Picture, Rect, Shape, Text, ink};
+use crate::plots::{Layout, legend};
 use brinell::signal::kurtogram::Level;
 
 /// The whole map.
@@ -10,14 +10,25 @@ use brinell::signal::kurtogram::Level;
 pub struct Kurtogram {
     /// From the whole band to the narrowest ones.
     pub levels: Vec<Level>,
-    /// The band that was chosen, Hz.
+    /// The most impulsive band, Hz.
     pub chosen_hz: Option<(f64, f64)>,
+    /// The band that was demodulated, Hz.
+    pub demodulated_hz: Option<(f64, f64)>,
     /// In words; may be empty.
     pub note: String,
 }
 
 /// Columns of the image at most: rows of 1 to 64 bands and their thirds divide it.
 const MOST_COLUMNS: usize = 192;
+
+/// Of noise.
+const NOISE: f64 = 3.0;
+
+/// Kurtosis of the real signal in one of so many bands, from [`Level::kurtosis`]: of a narrow band's complex envelope c
+/// it is 3/2 mean |c|^4 / (mean |c|^2)^2, and the undivided one has its own less 3.
+fn in_band(kurtosis: f64, bands: usize) -> f64 {
+    NOISE + if bands > 1 { 1.5 * kurtosis } else { kurtosis }
+}
 
 impl Kurtogram {
     /// Upper end of the bands, Hz; `None` without one.
@@ -27,13 +38,13 @@ impl Kurtogram {
         (top > 0.0 && top.is_finite()).then_some(top)
     }
 
-    /// Kurtosis at evenly spaced frequencies, the narrowest bands' row first.
+    /// Kurtosis of the signal in each band, 3 for noise, at evenly spaced frequencies; the narrowest bands' row first.
     fn rows(&self, top: f64) -> Vec<f64> {
         let row = |l: &Level| {
             let at = |c: usize| {
                 let frequency = (c as f64 + 0.5) / MOST_COLUMNS as f64 * top;
                 let index = (frequency / l.bandwidth).max(0.0) as usize;
-                l.kurtosis.get(index).copied().unwrap_or(f64::NAN)
+                l.kurtosis.get(index).map_or(f64::NAN, |k| in_band(*k, l.kurtosis.len()))
             };
             (0..MOST_COLUMNS).map(at).collect::<Vec<_>>()
         };
@@ -43,6 +54,22 @@ impl Kurtogram {
 
 pub(crate) fn kurtogram(view: &Kurtogram, layout: Layout) -> Picture {
     let size = layout.size(if layout.roomy() { 260.0 } else { 240.0 });
+    let mut picture = Picture::new("kurtogram", "Kurtogram", size.width, 0.0);
+    let impulsive = ("Most impulsive band", Paint::line(ink::VERMILLION, 2.0));
+    let demodulated = ("Band demodulated", Paint::line(ink::ORANGE, 2.0).dashed(&[6.0, 4.0]));
+    let entries = [view.chosen_hz.map(|_| impulsive), view.demodulated_hz.map(|_| demodulated)];
+    let entries: Vec<_> = entries.into_iter().flatten().collect();
+    let beside = size.width - SCALE_MARGIN * size.font;
+    let top = legend(&mut picture, &entries, 12.0, beside, 2.0, size.font);
+    // Over the head of the scale, which has room for half of the words.
+    picture.text(Text::new(beside + 0.9 * size.font, top + 2.0, size.font, Anchor::Start, "kurtosis,"));
+    let [impulsive, demodulated] = [impulsive, demodulated].map(|entry| entry.1);
+    picture.place(map(view, size, impulsive, demodulated), 0.0, top);
+    picture.height = top + size.height;
+    picture
+}
+
+fn map(view: &Kurtogram, size: Size, impulsive: Paint, demodulated: Paint) -> Picture {
     let rows = view.levels.len().max(1) as f64;
     let top = view.top();
     let mut chart = Chart::new(Spec {
@@ -52,7 +79,7 @@ pub(crate) fn kurtogram(view: &Kurtogram, layout: Layout) -> Picture {
             "Kurtogram",
             size,
             (Domain::exact(0.0, top.unwrap_or(1.0)), "Frequency", "Hz"),
-            (Domain::exact(0.0, rows), "Level", ""),
+            (Domain::exact(0.0, rows), "Level, upwards narrower bands", ""),
         )
     });
     let values = top.map(|top| view.rows(top)).unwrap_or_default();
@@ -60,9 +87,17 @@ pub(crate) fn kurtogram(view: &Kurtogram, layout: Layout) -> Picture {
         chart.say("No kurtogram");
         return chart.finish();
     };
-    let highest = if highest > 0.0 { highest } else { 1.0 };
-    chart.shades(&Shades { columns: MOST_COLUMNS, values: &values, range: (0.0, highest), ticks: 5, head: "kurtosis" });
+    let highest = highest.max(NOISE + 1.0);
+    let shades =
+        Shades { columns: MOST_COLUMNS, values: &values, range: (NOISE, highest), ticks: 5, head: "3 for noise" };
+    chart.shades(&shades);
     let frame = chart.frame;
+    let x = |f: f64| frame.left + f / top * (frame.right - frame.left);
+    if let Some((low, high)) = view.demodulated_hz.filter(|(low, high)| low.is_finite() && high.is_finite()) {
+        let edge = |f: f64| vec![(x(f.clamp(0.0, top)), frame.top), (x(f.clamp(0.0, top)), frame.bottom)];
+        let lines = vec![edge(low), edge(high)];
+        chart.picture.shapes.push(Shape::Path { lines, close: false, paint: demodulated, clip: None });
+    }
     let narrow = |l: &&Level| {
         let (low, high) = view.chosen_hz.unwrap_or((0.0, 0.0));
         ((high - low) / l.bandwidth - 1.0).abs() < 1e-6
@@ -71,10 +106,9 @@ pub(crate) fn kurtogram(view: &Kurtogram, layout: Layout) -> Picture {
         && let Some(level) = view.levels.iter().position(|l| narrow(&l))
         && high <= top * (1.0 + 1e-9)
     {
-        let x = |f: f64| frame.left + f / top * (frame.right - frame.left);
         let y = |row: f64| frame.bottom - row / rows * frame.height();
         let around = Rect { left: x(low), right: x(high), top: y(level as f64 + 1.0), bottom: y(level as f64) };
-        chart.picture.rect(around, Paint::line(ink::VERMILLION, 2.0));
+        chart.picture.rect(around, impulsive);
     }
     chart.finish()
 }
@@ -89,6 +123,7 @@ mod tests {
         Kurtogram {
             levels: vec![level(3000.0, &[0.1]), level(1500.0, &[0.2, 0.3]), level(1000.0, &[1.0, 2.0, 3.0])],
             chosen_hz: Some((1000.0, 2000.0)),
+            demodulated_hz: Some((500.0, 3000.0)),
             note: String::new(),
         }
     }
@@ -100,10 +135,16 @@ mod tests {
         let rows = map.rows(3000.0);
         assert_eq!(rows.len(), 3 * MOST_COLUMNS);
         let third = MOST_COLUMNS / 3;
-        assert_eq!([rows[0], rows[third], rows[3 * third - 1]], [1.0, 2.0, 3.0]);
+        assert_eq!([rows[0], rows[third], rows[3 * third - 1]], [4.5, 6.0, 7.5]);
         let second = &rows[MOST_COLUMNS..2 * MOST_COLUMNS];
-        assert_eq!([second[MOST_COLUMNS / 2 - 1], second[MOST_COLUMNS / 2]], [0.2, 0.3]);
-        assert!(rows[2 * MOST_COLUMNS..].iter().all(|k| *k == 0.1));
+        assert_eq!([second[MOST_COLUMNS / 2 - 1], second[MOST_COLUMNS / 2]], [in_band(0.2, 2), in_band(0.3, 2)]);
+        assert!(rows[2 * MOST_COLUMNS..].iter().all(|k| *k == 3.1));
+    }
+
+    /// A sine has 3/2, whatever its envelope is called.
+    #[test]
+    fn analytic_kurtosis_is_that_of_the_signal_in_the_band() {
+        assert_eq!([in_band(0.0, 8), in_band(-1.0, 8), in_band(0.0, 1), in_band(-1.5, 1)], [3.0, 1.5, 3.0, 1.5]);
     }
 
     #[test]
@@ -111,6 +152,7 @@ mod tests {
         let with = kurtogram(&map(), Layout::Wide).svg();
         let none = Kurtogram { chosen_hz: None, ..map() };
         assert!(with.len() > kurtogram(&none, Layout::Wide).svg().len());
+        assert!(with.contains("Most impulsive band") && with.contains("Band demodulated"));
     }
 
     #[test]

@@ -40,7 +40,8 @@ pub fn trend_html(report: &TrendReport) -> String {
     section(&mut page, "trend", "Trend", |page| {
         none(
             page,
-            "In the order of the table; numbers on the axis are those of its first column. Bars: 95 % intervals; rings: values without one; crosses on the axis: no value.",
+            "In the order of the table; numbers on the axis are those of its first column. Bars: 95 % intervals; rings: values without one; crosses on the axis: no value; \
+             dashed: boundaries of the zones, the scores from which a family is beyond noise or high, the record that each is compared with.",
         );
         for (index, plot) in report.plots.iter().enumerate() {
             let _ = writeln!(page, "<h3>{}</h3>", escape(&plot.label));

@@ -49,6 +49,7 @@ fn report(text: &str, values: &[f64]) -> AnalysisReport {
                 .map(|v| Level { bandwidth: at(0), kurtosis: v.to_vec(), noise_scatter: 0.0 })
                 .collect(),
             chosen_hz: Some((at(7), at(8))),
+            demodulated_hz: Some((at(7), at(8))),
             note: text.into(),
         }),
         tables: vec![Table {
@@ -67,6 +68,7 @@ fn plain() -> AnalysisReport {
     r.kurtogram = Some(Kurtogram {
         levels: vec![level(4000.0, &[0.1]), level(2000.0, &[0.0, 0.4]), level(1000.0, &[0.0, 0.0, 3.5, 0.2])],
         chosen_hz: Some((2000.0, 3000.0)),
+        demodulated_hz: Some((1000.0, 4000.0)),
         note: String::new(),
     });
     r

@@ -308,6 +308,30 @@ fn prop_impacts_once_a_turn_are_no_damage() {
     }
 }
 
+/// Three impacts a turn, as of a coupling's jaws, lie within the tolerance of a 6203's BPFO: where nothing tells the
+/// shaft's speed the verdict says so, and not where the speed told is another multiple's.
+#[test]
+fn regress_impacts_at_a_multiple_of_the_speed_are_said_to_look_the_same() {
+    let fs = 12_000.0;
+    let jaws = Damage { order: 3.0, modulation: 0.0, jitter: 0.0, snr_db: 0.0 };
+    let impacts = damaged(fs, 4.0, 1, &jaws).into_iter().zip(healthy(fs, 4.0, 1)).map(|(all, rest)| all - rest);
+    let mut noise = Random::new(1);
+    let x: Vec<f64> = impacts.map(|v| v + 0.1 * noise.normal()).collect();
+    let of = |x: &[f64], name: &str, shaft: f64| {
+        let options = Options::new(shaft, NamedBearing::find(name).unwrap().orders());
+        analyze(x, fs, &options).unwrap()
+    };
+    let told = of(&x, "6203-2RS", 0.99 * SHAFT);
+    let verdict = told.verdict();
+    assert_eq!(first(&told), Some(Component::OuterRace), "{verdict}");
+    let words = "Impacts 3 times a turn of the shaft (blades, jaws of a coupling) look the same if it turns at";
+    assert_eq!(verdict.matches(words).count(), 1, "{verdict}");
+    // A 6205's BPFO is no multiple.
+    let outer = Damage { order: 3.5848, ..jaws };
+    let told = of(&damaged(fs, 4.0, 1, &outer), "6205-2RS", SHAFT).verdict();
+    assert!(told.contains("Outer race damage") && !told.contains("times a turn of the shaft"), "{told}");
+}
+
 /// An inverter's lines near BPFO are nobody's where its frequency is given.
 #[test]
 fn prop_lines_of_the_supply_are_excluded() {

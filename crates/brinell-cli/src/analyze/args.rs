@@ -1,6 +1,6 @@
 //! The options of `brinell analyze`.
 
-use crate::args::PlotFormat;
+use crate::args::{PlotFormat, quantity};
 use crate::figures::Print;
 use brinell::analysis::MachineClass;
 use clap::Args;
@@ -31,7 +31,12 @@ pub(crate) struct AnalyzeArgs {
     #[arg(long, value_name = "NAME|N")]
     pub(crate) channel: Option<String>,
     /// Sample rate
-    #[arg(long, value_name = "HZ", allow_negative_numbers = true)]
+    #[arg(
+        long,
+        value_parser = quantity("Hz", "more than 0 Hz, as 12000 or 12kHz"),
+        value_name = "HZ",
+        allow_negative_numbers = true
+    )]
     pub(crate) rate: Option<f64>,
     /// Column of times to take the rate from [default: one called t, time or the like]
     #[arg(long, value_name = "NAME|N", conflicts_with = "rate")]
@@ -49,7 +54,12 @@ pub(crate) struct AnalyzeArgs {
     #[arg(long, value_name = "VALUE", conflicts_with = "unit", allow_negative_numbers = true)]
     pub(crate) full_scale: Option<String>,
     /// Shaft speed (the inner ring turns, the outer rests)
-    #[arg(long, value_name = "RPM", allow_negative_numbers = true)]
+    #[arg(
+        long,
+        value_parser = quantity("r/min", "a speed in r/min other than 0, as 1500 or 25Hz"),
+        value_name = "RPM",
+        allow_negative_numbers = true
+    )]
     pub(crate) speed: Option<f64>,
     /// Channel that holds the shaft speed in r/min; where it strays by more than 0.5 % it is followed (order tracking),
     /// else its mean counts
@@ -62,13 +72,32 @@ pub(crate) struct AnalyzeArgs {
     #[arg(long, value_name = "Z", conflicts_with = "bearing")]
     pub(crate) rollers: Option<usize>,
     /// Pitch diameter
-    #[arg(long, value_name = "MM", conflicts_with = "bearing", allow_negative_numbers = true)]
+    #[arg(
+        long,
+        value_parser = quantity("mm", "more than 0 mm, as 39 or 1.5in"),
+        value_name = "MM",
+        conflicts_with = "bearing",
+        allow_negative_numbers = true
+    )]
     pub(crate) pitch: Option<f64>,
     /// Diameter of a rolling element
-    #[arg(long, alias = "roller", value_name = "MM", conflicts_with = "bearing", allow_negative_numbers = true)]
+    #[arg(
+        long,
+        alias = "roller",
+        value_parser = quantity("mm", "more than 0 mm, as 7.9 or 0.3in"),
+        value_name = "MM",
+        conflicts_with = "bearing",
+        allow_negative_numbers = true
+    )]
     pub(crate) diameter: Option<f64>,
     /// Contact angle
-    #[arg(long, value_name = "DEG", conflicts_with = "bearing", allow_negative_numbers = true)]
+    #[arg(
+        long,
+        value_parser = quantity("deg", "0 to below 90 degrees, as 15 or 15deg"),
+        value_name = "DEG",
+        conflicts_with = "bearing",
+        allow_negative_numbers = true
+    )]
     pub(crate) contact_angle: Option<f64>,
     /// Ball-pass frequency of the outer race in Hz; with x, as 3.585x, a multiple of the shaft's. Likewise the next
     /// three
@@ -90,17 +119,38 @@ pub(crate) struct AnalyzeArgs {
     #[arg(long, value_name = "PERCENT", default_value_t = 2.0, allow_negative_numbers = true)]
     pub(crate) tolerance: f64,
     /// Range to demodulate [default: everything above three times the highest defect frequency]
-    #[arg(long, num_args = 2, value_names = ["LOW", "HIGH"], allow_negative_numbers = true)]
+    #[arg(
+        long,
+        num_args = 2,
+        value_parser = quantity("Hz", "two frequencies in Hz, as 2000 or 2kHz"),
+        value_names = ["LOW", "HIGH"],
+        allow_negative_numbers = true
+    )]
     pub(crate) band: Option<Vec<f64>>,
     /// Frequency of the motor's supply where an inverter makes it, known to 0.5 %: lines at its multiples are excluded
     /// [default: those of 50 and 60 Hz where three are significant]
-    #[arg(long, value_name = "HZ", allow_negative_numbers = true)]
+    #[arg(
+        long,
+        value_parser = quantity("Hz", "1 to 1000 Hz, as 47.5 or 47.5Hz"),
+        value_name = "HZ",
+        allow_negative_numbers = true
+    )]
     pub(crate) supply: Option<f64>,
     /// Skip so much of the signal's beginning
-    #[arg(long, value_name = "S", allow_negative_numbers = true)]
+    #[arg(
+        long,
+        value_parser = quantity("s", "0 s or more, as 0.5 or 500ms"),
+        value_name = "S",
+        allow_negative_numbers = true
+    )]
     pub(crate) start: Option<f64>,
     /// Analyse so much from there [default: what is there; of a long signal the first and the last 4194304 samples]
-    #[arg(long, value_name = "S", allow_negative_numbers = true)]
+    #[arg(
+        long,
+        value_parser = quantity("s", "more than 0 s, as 2 or 500ms"),
+        value_name = "S",
+        allow_negative_numbers = true
+    )]
     pub(crate) duration: Option<f64>,
     /// Compare it with this: another file of signals, or the folder of a run
     #[arg(long, value_name = "FILE|FOLDER")]
@@ -113,7 +163,13 @@ pub(crate) struct AnalyzeArgs {
     #[arg(long, value_name = "NAME|N", requires = "against")]
     pub(crate) against_channel: Option<String>,
     /// Sample rate of the other, where its file does not state it
-    #[arg(long, value_name = "HZ", requires = "against", allow_negative_numbers = true)]
+    #[arg(
+        long,
+        value_parser = quantity("Hz", "more than 0 Hz, as 12000 or 12kHz"),
+        value_name = "HZ",
+        requires = "against",
+        allow_negative_numbers = true
+    )]
     pub(crate) against_rate: Option<f64>,
     /// Unit of the other, where its file does not state it
     #[arg(long, value_name = "UNIT", requires = "against")]

@@ -31,10 +31,19 @@ pub(super) fn lead(results: &[Result_]) -> Option<usize> {
 pub(super) fn set_beside(results: &mut [Result_]) {
     let lead = lead(results);
     let all = 0..results.len();
-    let beside: Vec<Option<String>> = all.map(|k| beside(results, k, lead)).collect();
-    for (result, beside) in results.iter_mut().zip(beside) {
-        result.beside = beside;
+    let said: Vec<_> = all.map(|k| (beside(results, k, lead), lines_of(results, k, lead))).collect();
+    for (result, (beside, lines_of)) in results.iter_mut().zip(said) {
+        (result.beside, result.lines_of) = (beside, lines_of);
     }
+}
+
+/// The bearing that leads, where a comb at none of this one's frequencies may be its damage; with a question mark where
+/// it is at another frequency than that.
+fn lines_of(results: &[Result_], k: usize, lead: Option<usize>) -> Option<String> {
+    let (this, lead) = (&results[k].analysis, &results[lead.filter(|l| *l != k)?]);
+    let off = this.elsewhere?.frequency / call(lead)?.frequency - 1.0;
+    let doubt = if off.abs() <= this.options.tolerance { "" } else { "?" };
+    this.causes().next().is_none().then(|| format!("{}{doubt}", lead.name))
 }
 
 fn beside(results: &[Result_], k: usize, lead: Option<usize>) -> Option<String> {
@@ -65,15 +74,13 @@ fn beside(results: &[Result_], k: usize, lead: Option<usize>) -> Option<String> 
                 first.name, first.score, own.name, own.score
             )),
             (None, Some(lines)) => {
-                let tolerance = this.analysis.options.tolerance;
-                let theirs = (lines.frequency / first.frequency - 1.0).abs() <= tolerance;
-                Some(match theirs {
-                    true => format!(
-                        "These lines are {name}'s, whose {} is called damage: one sensor records both.",
-                        first.name
-                    ),
-                    false => format!("They may be {name}'s, which is called damaged: one sensor records both."),
-                })
+                let hz = lines.frequency;
+                let is_theirs = (hz / first.frequency - 1.0).abs() <= this.analysis.options.tolerance;
+                let are = if is_theirs { "are" } else { "may be" };
+                Some(format!(
+                    "The lines at {hz:.2} Hz {are} {name}'s, whose {} is called damage: one sensor records both.",
+                    first.name
+                ))
             }
             (None, None) => None,
         });
@@ -122,7 +129,7 @@ pub(super) fn table(results: &[Result_]) -> Table {
             [format!("{} at {hz:.2} Hz", f.name), format!("{:.1}", f.score)]
         });
         let [frequency, score] = found.unwrap_or(["–", "–"].map(str::to_owned));
-        vec![result.name.clone(), brinell_report::called(&result.analysis), frequency, score, result.verdict_text()]
+        vec![result.name.clone(), result.called(), frequency, score, result.verdict_text()]
     };
     Table::new(
         "Bearings",

@@ -67,32 +67,42 @@ fn inside(folder: &Path) -> Result<Vec<PathBuf>, Failure> {
     Ok(found)
 }
 
-/// Order of names as people have it: numbers within them by their values, so that 2 comes before 10; capitals and small
-/// letters side by side.
+/// Order of names as people have it: numbers within them by their values, so that 2 comes before 10 and 0.25 before
+/// 0.5; capitals and small letters side by side.
 fn by_name(a: &str, b: &str) -> Ordering {
-    let (mut left, mut right) = (a, b);
-    while let (Some(l), Some(r)) = (left.chars().next(), right.chars().next()) {
-        let order = if l.is_ascii_digit() && r.is_ascii_digit() {
-            let (x, y) = (digits(&mut left), digits(&mut right));
-            // Of numbers without zeros in front, the longer is the larger.
-            x.len().cmp(&y.len()).then(x.cmp(y))
-        } else {
-            (left, right) = (&left[l.len_utf8()..], &right[r.len_utf8()..]);
-            l.to_lowercase().cmp(r.to_lowercase())
-        };
-        if order != Ordering::Equal {
-            return order;
-        }
-    }
-    (left.len().cmp(&right.len())).then_with(|| a.cmp(b))
+    parts(a).cmp(&parts(b)).then_with(|| a.cmp(b))
 }
 
-/// Takes the digits in front, and gives them without the zeros in front.
-fn digits<'a>(text: &mut &'a str) -> &'a str {
-    let end = text.find(|c: char| !c.is_ascii_digit()).unwrap_or(text.len());
-    let (number, rest) = text.split_at(end);
-    *text = rest;
-    number.trim_start_matches('0')
+/// Letters, and numbers as a digit with what orders them: how many digits lie before the point, these, and those behind
+/// it.
+fn parts(name: &str) -> Vec<(char, usize, &str, &str)> {
+    let mut parts = Vec::new();
+    let mut rest = name;
+    while let Some(c) = rest.chars().next() {
+        if !c.is_ascii_digit() {
+            parts.extend(c.to_lowercase().map(|c| (c, 0, "", "")));
+            rest = &rest[c.len_utf8()..];
+            continue;
+        }
+        let follows_point = name[..name.len() - rest.len()].ends_with('.');
+        let (number, behind) = digits(rest);
+        let (fraction, end) = behind.strip_prefix('.').map_or(("", behind), digits);
+        // Of a date, 2004.02.12, each number is one of its own.
+        let is_date = |end: &str| end.strip_prefix('.').is_some_and(|e| e.starts_with(|c: char| c.is_ascii_digit()));
+        let (fraction, end) = match fraction.is_empty() || follows_point || is_date(end) {
+            true => ("", behind),
+            false => (fraction, end),
+        };
+        rest = end;
+        let number = number.trim_start_matches('0');
+        parts.push(('0', number.len(), number, fraction.trim_end_matches('0')));
+    }
+    parts
+}
+
+/// The digits in front, and what follows.
+fn digits(text: &str) -> (&str, &str) {
+    text.split_at(text.find(|c: char| !c.is_ascii_digit()).unwrap_or(text.len()))
 }
 
 #[cfg(test)]
@@ -107,6 +117,9 @@ mod tests {
                 assert_eq!(by_name(a, b), i.cmp(&j), "{a} {b}");
             }
         }
+        let decimal = ["0.07 in.csv", "0.25.csv", "0.5.csv", "0.50b.csv", "1.csv", "2.csv", "10.csv"];
+        assert!(decimal.is_sorted_by(|a, b| by_name(a, b).is_lt()));
+        assert!(by_name("2004.2.9", "2004.2.12").is_lt() && by_name("2004.2.12.csv", "2004.10.1.csv").is_lt());
         assert_eq!(by_name("a01", "a1").reverse(), by_name("a1", "a01"));
         assert_ne!(by_name("a01", "a1"), Ordering::Equal);
     }

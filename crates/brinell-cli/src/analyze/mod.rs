@@ -50,6 +50,8 @@ struct Result_ {
     bearing: String,
     /// What is to be said in view of the machine's other bearings.
     beside: Option<String>,
+    /// The other bearing whose lines these are, where they are no frequency of this one.
+    lines_of: Option<String>,
     /// The end of a long signal.
     last: Option<Analysis>,
     velocity: Option<VelocityBands>,
@@ -60,8 +62,18 @@ struct Result_ {
 impl Result_ {
     /// The verdict, and what is to be said beside it.
     fn verdict_text(&self) -> String {
-        let beside = (self.beside.iter().cloned()).chain(self.contradicted()).map(|words| format!(" {words}"));
-        self.analysis.verdict() + &beside.collect::<String>()
+        let mut said = vec![self.analysis.verdict()];
+        // What answers the question comes first.
+        let at = if self.lines_of.is_some() { 0 } else { 1 };
+        said.splice(at..at, self.beside.clone());
+        said.extend(self.contradicted());
+        said.join(" ")
+    }
+
+    /// The damaged parts in a word or two each, or what is said instead.
+    fn called(&self) -> String {
+        let whose = self.lines_of.as_ref().map(|name| format!(", lines of {name}"));
+        brinell_report::called(&self.analysis) + &whose.unwrap_or_default()
     }
 
     /// That parts are named which the run that made the signal had no damage on: the verdict itself knows nothing of
@@ -105,10 +117,9 @@ pub(crate) fn analyze(args: &AnalyzeArgs) -> Result<ExitCode, Failure> {
     }
     if args.bearing.len() > 1 {
         let beside = [&args.bpfo, &args.bpfi, &args.bsf, &args.ftf];
-        if args.against.is_some() || beside.iter().any(|option| option.is_some()) {
+        if beside.iter().any(|option| option.is_some()) {
             return Err(Failure::Usage(
-                "--bearing: expected one bearing with --bpfo, --bpfi, --bsf, --ftf or --against, and there are several"
-                    .into(),
+                "--bearing: expected one bearing with --bpfo, --bpfi, --bsf or --ftf, and there are several".into(),
             ));
         }
     }
@@ -237,6 +248,7 @@ fn examine(args: &AnalyzeArgs, mut measured: Measured, name: Option<&str>) -> Re
         name: name.unwrap_or_default().to_owned(),
         bearing,
         beside: None,
+        lines_of: None,
         last,
         velocity,
         levels,

@@ -8,7 +8,7 @@ use crate::say::{self, complain, one_line, say, short};
 use brinell::analysis::{MachineClass, Unit};
 use brinell::signal::{Estimate, Indicator};
 use brinell_report::{
-    IndicatorLine, IndicatorPlot, IndicatorPoint, Table, TrendReport, ZONES, called, scaled, trend_html, trend_pictures,
+    IndicatorLine, IndicatorPlot, IndicatorPoint, Table, TrendReport, ZONES, scaled, trend_html, trend_pictures,
 };
 use serde_json::{Value, json};
 use std::path::{Path, PathBuf};
@@ -36,6 +36,11 @@ struct Found {
     /// Where speed and bearings come from.
     said: String,
     class: Option<MachineClass>,
+    /// Scores from which a family is high, and beyond noise.
+    high: f64,
+    noise: f64,
+    /// What it is compared with: name, RMS, kurtosis.
+    other: Option<(String, f64, f64)>,
     json: Value,
 }
 
@@ -46,9 +51,6 @@ const COLUMNS: [(&str, usize); 7] =
 const WIDEST: usize = 48;
 
 pub(super) fn analyze(args: &AnalyzeArgs, files: &[PathBuf]) -> Result<ExitCode, Failure> {
-    if args.against.is_some() {
-        return Err(Failure::Usage("--against: expected one file to lay another over, and there are several".into()));
-    }
     let paths: Vec<String> = files.iter().map(|f| f.display().to_string()).collect();
     let of_same = |previous: &Value| {
         let records = previous["records"].as_array();
@@ -63,7 +65,13 @@ pub(super) fn analyze(args: &AnalyzeArgs, files: &[PathBuf]) -> Result<ExitCode,
     let width = names.iter().map(|n| n.chars().count()).max().unwrap_or(0);
     let width = width.clamp(4, WIDEST);
     let mut columns = COLUMNS;
-    columns[1].1 *= args.bearing.len().max(1);
+    // Of several each has its name, and may have another's.
+    if args.bearing.len() > 1 {
+        columns[1].1 = 40 * args.bearing.len();
+    }
+    if args.against.is_some() {
+        columns[2].1 += 10;
+    }
     if !quiet {
         let heads = columns.map(|(head, width)| format!("{head:>width$}"));
         say!("{:<width$} {}", "file", heads.join(" "));
@@ -145,7 +153,7 @@ impl Found {
         let verdicts = results.iter().enumerate().map(|(k, r)| {
             let calls = r.analysis.causes().next().is_some();
             let doubt = if calls && lead != Some(k) { "?" } else { "" };
-            format!("{}{}{doubt}", prefix(r), called(&r.analysis))
+            format!("{}{}{doubt}", prefix(r), r.called())
         });
         let scores = results.iter().flat_map(|r| {
             let families = r.analysis.families.iter();
@@ -171,6 +179,12 @@ impl Found {
             zone: result.levels.letter(),
             said: format!("{}; bearing: {}", result.speed, said_of_bearings(results)),
             class: result.levels.class,
+            high: a.families.iter().map(|f| f.limit).fold(0.0, f64::max),
+            noise: a.families.iter().map(|f| f.noise).fold(0.0, f64::max),
+            other: result.against.as_ref().map(|other| {
+                let value = |i| other.analysis.indicator(i).map_or(f64::NAN, |e| e.value);
+                (other.measured.path.display().to_string(), value(Indicator::Rms), value(Indicator::Kurtosis))
+            }),
             scores: scores.collect(),
             json,
         }
@@ -183,10 +197,14 @@ impl Found {
             Some(e) => format!("{} {unit}", short(e.value, 4)),
             None => "-".into(),
         };
+        let mut rms = number(&self.rms, &self.unit.name);
+        if let (Some((_, other, _)), Some(own)) = (&self.other, &self.rms) {
+            rms += &format!(" (x {})", short(own.value / other, 3));
+        }
         [
             format!("{:.3}", self.seconds),
             self.verdict.clone(),
-            number(&self.rms, &self.unit.name),
+            rms,
             number(&self.peak, &self.unit.name),
             number(&self.kurtosis, ""),
             number(&self.velocity, ""),
@@ -258,6 +276,9 @@ fn note(rows: &[Row]) -> String {
     let mut note = "RMS velocity: 10 to 1000 Hz.".to_owned();
     if let Some(first) = rows.iter().find_map(|r| r.found.as_ref().ok()) {
         note += &format!(" Of the first: {}.", first.said);
+        if let Some((other, ..)) = &first.other {
+            note += &format!(" In brackets: the RMS over that of {other}.");
+        }
         if let Some(class) = first.class {
             note += &format!(" Class {} of {}.", class.name(), ZONES);
         }
@@ -299,6 +320,10 @@ fn plots(rows: &[Row]) -> Vec<IndicatorPlot> {
         lines,
         ..IndicatorPlot::default()
     };
+    let other = |of: fn(&(String, f64, f64)) -> f64| -> Vec<(f64, String)> {
+        let other = found().find_map(|f| f.other.as_ref()).map(|o| (of(o), "the other".to_owned()));
+        other.filter(|o| o.0.is_finite()).into_iter().collect()
+    };
     let mut plots = Vec::new();
     if let Some(first) = found().next() {
         // In the first one's unit, where that can be.
@@ -308,12 +333,16 @@ fn plots(rows: &[Row]) -> Vec<IndicatorPlot> {
             let same = f.unit.name == unit.name || f.unit.quantity == unit.quantity;
             f.rms.filter(|_| same).map(|e| scaled(&e, factor))
         });
-        plots.push(plot("rms", "RMS", &unit.name, vec![rms]));
+        plots.push(IndicatorPlot { limits: other(|o| o.1), ..plot("rms", "RMS", &unit.name, vec![rms]) });
     }
-    plots.push(plot("kurtosis", "Kurtosis", "", vec![line(rows, "Kurtosis", |f| f.kurtosis)]));
+    let kurtosis = vec![line(rows, "Kurtosis", |f| f.kurtosis)];
+    plots.push(IndicatorPlot { limits: other(|o| o.2), ..plot("kurtosis", "Kurtosis", "", kurtosis) });
     if found().any(|f| f.velocity.is_some()) {
         let lines = vec![line(rows, "RMS velocity", |f| f.velocity)];
-        plots.push(plot("velocity", "RMS velocity, 10 to 1000 Hz", "mm/s", lines));
+        let class = found().find_map(|f| f.zone.and(f.class));
+        let limits = class.iter().flat_map(|class| class.boundaries().into_iter().zip(["A/B", "B/C", "C/D"]));
+        let limits = limits.map(|(limit, zones)| (limit, format!("{zones} {limit}"))).collect();
+        plots.push(IndicatorPlot { limits, ..plot("velocity", "RMS velocity, 10 to 1000 Hz", "mm/s", lines) });
     }
     let mut families: Vec<&str> = Vec::new();
     for (name, _) in found().flat_map(|f| &f.scores) {
@@ -327,6 +356,9 @@ fn plots(rows: &[Row]) -> Vec<IndicatorPlot> {
             Some(Estimate { value: score, interval: None })
         })
     });
-    plots.push(plot("score", "Score of a family", "", lines.collect()));
+    let most = |of: fn(&Found) -> f64| found().map(of).fold(0.0, f64::max);
+    let limits = [(most(|f| f.noise), "noise"), (most(|f| f.high), "high")];
+    let limits = limits.map(|(limit, words)| (limit, format!("{words} {limit:.1}"))).to_vec();
+    plots.push(IndicatorPlot { limits, ..plot("score", "Score of a family", "", lines.collect()) });
     plots
 }

@@ -1,5 +1,6 @@
 //! The command line of `brinell calibrate`.
 
+use crate::args::quantity;
 use clap::Args;
 use std::num::NonZeroUsize;
 use std::path::PathBuf;
@@ -51,7 +52,14 @@ pub(crate) struct CalibrateArgs {
     #[arg(long, value_name = "NAME|N", requires = "measured")]
     pub(crate) channel: Option<String>,
     /// Its sample rate
-    #[arg(long, alias = "sample-rate", value_name = "HZ", requires = "measured", allow_negative_numbers = true)]
+    #[arg(
+        long,
+        alias = "sample-rate",
+        value_parser = quantity("Hz", "more than 0 Hz, as 12000 or 12kHz"),
+        value_name = "HZ",
+        requires = "measured",
+        allow_negative_numbers = true
+    )]
     pub(crate) rate: Option<f64>,
     /// Column of times to take the rate from [default: one called t, time or the like]
     #[arg(long, value_name = "NAME|N", requires = "measured", conflicts_with = "rate")]

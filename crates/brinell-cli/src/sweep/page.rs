@@ -144,6 +144,7 @@ fn pictures(points: &Points, states: &[State], name: &str) -> Vec<IndicatorPlot>
             ordered: false,
             legend: legend.join(", "),
             lines: lines.to_vec(),
+            limits: Vec::new(),
         })
         .collect()
 }

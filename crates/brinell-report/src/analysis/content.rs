@@ -144,10 +144,12 @@ fn kurtogram(a: &Analysis, map: &brinell::signal::Kurtogram) -> Kurtogram {
     Kurtogram {
         levels: map.levels.clone(),
         chosen_hz: a.kurtogram.map(|k| (k.band.low, k.band.high)),
+        demodulated_hz: Some((a.view.band.low, a.view.band.high)),
         note: format!(
-            "Kurtosis of the envelope, 0 for noise; from below, {} bands up to half the sample rate. Outlined: the largest among bands \
-             wide enough for the defect frequencies.",
-            bands.join(", ")
+            "Kurtosis of the signal in each band, 3 for noise; from below, {} bands up to half the sample rate. Outlined: the most impulsive \
+             among bands wide enough for the defect frequencies; no verdict rests on it. Dashed: the band demodulated below ({}).",
+            bands.join(", "),
+            a.view.choice.words(),
         ),
     }
 }

@@ -1,7 +1,7 @@
 //! Words of an analysis that its page and the terminal share.
 
 use crate::number::short;
-use brinell::analysis::{Analysis, Difference, Family, Verdict};
+use brinell::analysis::{Analysis, Difference, Family, Finding, Verdict};
 use brinell::signal::Indicator;
 
 /// Lines this far, relative, from the speed given may be another shaft's: a tachometer is better than that.
@@ -53,7 +53,10 @@ pub fn called(a: &Analysis) -> String {
     let parts: Vec<String> = a.causes().map(part).collect();
     match a.conclusion() {
         Verdict::Damage => parts.join("; "),
-        Verdict::CannotTell => "cannot tell".into(),
+        Verdict::CannotTell => {
+            let grown = a.families.iter().filter(|f| f.finding == Finding::Grown);
+            "cannot tell".to_owned() + &grown.map(|f| format!(", {} has grown", f.name)).collect::<String>()
+        }
         Verdict::NothingFound => "no damage found".into(),
     }
 }

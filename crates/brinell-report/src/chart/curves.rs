@@ -1,6 +1,5 @@
 //! What is drawn on a plot: curves, bands, a shaded stretch, words.
 
-use super::axis::halves;
 use super::{Chart, Domain};
 use crate::picture::{Anchor, Axis, Curve, Paint, Rect, Shape, Text, ink};
 use crate::thin::{straightened, thinned};
@@ -143,27 +142,6 @@ impl Chart {
             self.picture.rect(rect, Paint::line(ink::ORANGE, 1.5).filled(ink::ORANGE, 0.25));
             self.picture.shapes.push(Shape::Close);
         }
-    }
-
-    /// Words over the curves, at the top left.
-    pub(crate) fn remark(&mut self, words: &str) {
-        let font = self.spec.size.font - 1.0;
-        let (x, y) = (self.frame.left + 6.0, self.frame.top + 1.4 * font);
-        let text = |y: f64, words: &str| Text::with_unit(x, y, font, Anchor::Start, words);
-        let mut lines = vec![text(y, words)];
-        if lines[0].width() > self.frame.width() - 12.0 {
-            let (first, second) = halves(words);
-            lines = vec![text(y, &first), text(y + 1.3 * font, &second)];
-        }
-        let widest = lines.iter().map(Text::width).fold(0.0, f64::max);
-        let back = Rect {
-            left: self.frame.left + 1.0,
-            right: (x + widest + 5.0).min(self.frame.right),
-            top: self.frame.top + 1.0,
-            bottom: y + (0.5 + 1.3 * (lines.len() - 1) as f64) * font,
-        };
-        self.picture.rect(back, Paint::fill("#ffffff", 0.85));
-        lines.into_iter().for_each(|line| self.picture.text(line));
     }
 
     /// Words where a curve should be.

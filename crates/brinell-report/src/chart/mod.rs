@@ -38,6 +38,8 @@ pub(crate) struct Spec {
     pub(crate) right: f64,
     /// Whether the x axis carries numbers and a label.
     pub(crate) x_axis: bool,
+    /// Words between lanes and curves; may be empty.
+    pub(crate) remark: String,
 }
 
 impl Spec {
@@ -63,6 +65,7 @@ impl Spec {
             left: 0.0,
             right: 0.0,
             x_axis: true,
+            remark: String::new(),
         }
     }
 }
@@ -95,9 +98,31 @@ pub(crate) fn right_margin(spec: &Spec) -> f64 {
     if ends > 0.0 { ends + 12.0 } else { 1.2 * font }
 }
 
+/// From the picture's upper edge to the frame's: lanes, and the lines of a remark.
+fn above(spec: &Spec) -> f64 {
+    8.0 + LANE_HEIGHT * spec.lanes.len() as f64 + 1.3 * remark_font(spec) * remark(spec).len() as f64
+}
+
+fn remark_font(spec: &Spec) -> f64 {
+    spec.size.font - 1.0
+}
+
+/// The remark in lines that fit.
+fn remark(spec: &Spec) -> Vec<String> {
+    if spec.remark.is_empty() {
+        return Vec::new();
+    }
+    let font = remark_font(spec);
+    if Text::with_unit(0.0, 0.0, font, Anchor::Start, &spec.remark).width() <= 0.8 * spec.size.width {
+        return vec![spec.remark.clone()];
+    }
+    let (first, second) = halves(&spec.remark);
+    vec![first, second]
+}
+
 fn plot_height(spec: &Spec) -> f64 {
     let below = if spec.x_axis { 3.4 * spec.size.font } else { 8.0 };
-    (spec.size.height - 8.0 - LANE_HEIGHT * spec.lanes.len() as f64 - below).max(20.0)
+    (spec.size.height - above(spec) - below).max(20.0)
 }
 
 fn y_target(spec: &Spec) -> usize {
@@ -114,7 +139,7 @@ impl Chart {
         let Size { width, height, .. } = spec.size;
         let left = left_margin(&spec).max(spec.left);
         let right = right_margin(&spec).max(spec.right);
-        let top = 8.0 + LANE_HEIGHT * spec.lanes.len() as f64;
+        let top = above(&spec);
         let frame = Rect { left, top, right: (width - right).max(left + 20.0), bottom: top + plot_height(&spec) };
         let x = Scale { domain: spec.x, from: frame.left, to: frame.right };
         let y = Scale { domain: spec.y, from: frame.bottom, to: frame.top };
@@ -126,6 +151,11 @@ impl Chart {
             spec,
             curve: String::new(),
         };
+        let font = remark_font(&chart.spec);
+        for (line, words) in remark(&chart.spec).iter().rev().enumerate() {
+            let y = top - (0.4 + 1.3 * line as f64) * font;
+            chart.picture.text(Text::with_unit(frame.left, y, font, Anchor::Start, words));
+        }
         let y_power = chart.ticks_y();
         let x_power = chart.ticks_x();
         chart.axis_labels(x_power, y_power);
@@ -196,10 +226,9 @@ impl Chart {
     pub(crate) fn name_x(&mut self, names: &[String], first: f64, gap: f64) {
         let (font, frame) = (self.spec.size.font, self.frame);
         let room = frame.width() / names.len() as f64 - gap;
-        for (k, name) in names.iter().enumerate() {
-            let name = font::fitted(name, font, false, room);
+        for (k, name) in shown(names, |name| font::fitted(name, font, false, room)).iter().enumerate() {
             let (x, y) = (self.x.at(k as f64 + first), frame.bottom + 1.4 * font);
-            self.picture.text(Text::new(x, y, font, Anchor::Middle, &name));
+            self.picture.text(Text::new(x, y, font, Anchor::Middle, name));
         }
     }
 
@@ -248,5 +277,82 @@ impl Chart {
             self.spec.size.font,
             coordinate(top)
         );
+    }
+}
+
+/// Names as there is room for them: whole, or without what all share at their ends, or, where they would look alike
+/// then, numbers from 1. `fitted` cuts one.
+fn shown(names: &[String], fitted: impl Fn(&str) -> String) -> Vec<String> {
+    let cut = |names: &[String]| names.iter().map(|name| fitted(name)).collect::<Vec<_>>();
+    let whole = cut(names);
+    if names.len() < 2 || whole == names {
+        return whole;
+    }
+    let shorter = cut(&telling_parts(names));
+    let distinct = |names: &[String]| names.iter().collect::<std::collections::BTreeSet<_>>().len();
+    match distinct(&shorter) == distinct(names) {
+        true => shorter,
+        false => (1..=names.len()).map(|k| k.to_string()).collect(),
+    }
+}
+
+/// Names without the words that all of them begin and end with.
+fn telling_parts(names: &[String]) -> Vec<String> {
+    let same = |letters: Vec<Vec<char>>| {
+        let shared = (0..).take_while(|k| letters.iter().all(|l| l.get(*k).is_some_and(|c| *c == letters[0][*k])));
+        // Up to the end of a word.
+        let ends = shared.filter(|k| !letters[0][*k].is_alphanumeric());
+        ends.last().map_or(0, |k| k + 1)
+    };
+    let first = same(names.iter().map(|name| name.chars().collect()).collect());
+    let last = same(
+        names.iter().map(|name| name.chars().skip(first).collect::<Vec<_>>().into_iter().rev().collect()).collect(),
+    );
+    let dots = |cut: usize| if cut > 0 { "…" } else { "" };
+    let part = |name: &String| {
+        let kept = name.chars().count() - first - last;
+        format!("{}{}{}", dots(first), name.chars().skip(first).take(kept).collect::<String>(), dots(last))
+    };
+    names.iter().map(part).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn prop_a_remark_lies_outside_the_frame() {
+        let size = Size { width: 360.0, height: 300.0, font: 11.0 };
+        let axis = Domain::exact(0.0, 1.0);
+        for words in
+            ["short", "far more words than have room on one line of so narrow a picture, so that they take two"]
+        {
+            let plain = Spec::new("a", "b", size, (axis, "x", ""), (axis, "y", ""));
+            let chart = Chart::new(Spec { remark: words.into(), ..plain.clone() });
+            let part = |text: &str| text.len() > 3 && words.contains(text.trim());
+            let said = |s: &&Shape| matches!(s, Shape::Text(t) if t.runs.iter().any(|r| part(&r.text)));
+            let lines: Vec<&Shape> = chart.picture.shapes.iter().filter(said).collect();
+            assert_eq!(lines.len(), if words == "short" { 1 } else { 2 });
+            for line in lines {
+                assert!(matches!(line, Shape::Text(t) if t.y < chart.frame.top && t.y > 8.0));
+            }
+            assert!(chart.frame.top > Chart::new(plain).frame.top);
+        }
+    }
+
+    #[test]
+    fn prop_names_on_an_axis_are_told_apart() {
+        let names = |all: &[&str]| all.iter().map(|n| (*n).to_owned()).collect::<Vec<String>>();
+        let room = |most: usize| move |name: &str| name.chars().take(most).collect::<String>();
+        let files = names(&["rig_1730_or_12_de.npz", "rig_1730_or_3_de.npz", "rig_1730_b_de.npz"]);
+        assert_eq!(shown(&files, room(30)), files);
+        assert_eq!(shown(&files, room(9)), ["…or_12…", "…or_3…", "…b…"]);
+        assert_eq!(shown(&files, room(3)), ["1", "2", "3"]);
+        let nested = names(&["x_a.csv", "x_b_a.csv"]);
+        assert_eq!(shown(&nested, room(5)), ["…a…", "…b_a…"]);
+        // What is called the same cannot be told apart.
+        let same = names(&["rig a", "rig a"]);
+        assert_eq!(shown(&same, room(3)).len(), 2);
+        assert_eq!(shown(&names(&["alone.csv"]), room(5)), ["alone"]);
     }
 }

@@ -60,8 +60,11 @@ pub(super) const CURVE: Paint = Paint { stroke: ink::BLUE, width: 1.2, dash: &[]
 
 /// Of the healthy bearing behind it.
 pub(super) const HEALTHY: Paint = Paint { stroke: ink::FRAME, ..CURVE };
-/// What it is.
-pub(super) const HEALTHY_WORDS: &str = "Grey: the same bearing without the damage";
+
+/// What its curve is, where there is one.
+pub(super) fn healthy_words(healthy: &[f64]) -> String {
+    if healthy.is_empty() { String::new() } else { "Grey: the same bearing without the damage".into() }
+}
 
 /// Seconds or milliseconds, whichever reads better over `span`.
 pub(crate) fn time_unit(span: f64) -> (&'static str, f64) {

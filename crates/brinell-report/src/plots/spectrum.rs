@@ -1,6 +1,6 @@
 //! Amplitude spectrum and envelope spectrum.
 
-use super::layout::{CURVE, HEALTHY, HEALTHY_WORDS, Layout, known, spacing};
+use super::layout::{CURVE, HEALTHY, Layout, healthy_words, known, spacing};
 use super::markers::{marker_lanes, order_lanes, telling};
 use crate::chart::{Chart, Domain, Lane, Size, Spec, range};
 use crate::data::{Marker, Report, Spectrum};
@@ -24,7 +24,8 @@ pub(crate) fn spectrum(report: &Report, layout: Layout) -> Picture {
     let spectrum = &report.spectrum;
     let end = spacing(spectrum.df_hz) * spectrum.amplitude.len().saturating_sub(1) as f64;
     let y = spectrum_domain(report);
-    let mut chart = Chart::new(spectrum_spec(("spectrum", "Spectrum"), spectrum, size, end, y, vec![]));
+    let spec = spectrum_spec(("spectrum", "Spectrum"), spectrum, size, end, y, vec![]);
+    let mut chart = Chart::new(Spec { remark: healthy_words(&report.healthy.spectrum), ..spec });
     draw_spectrum(&mut chart, spectrum, &report.healthy.spectrum);
     chart.interactive("spectrum");
     chart.finish()
@@ -60,6 +61,7 @@ pub(crate) fn order_spectrum(report: &Report, layout: Layout) -> Picture {
     let spec = Spec {
         x_label: "Order of the shaft".into(),
         x_unit: String::new(),
+        remark: healthy_words(&report.healthy.envelope_orders),
         ..spectrum_spec(
             ("envelope-orders", "Envelope orders"),
             spectrum,
@@ -86,7 +88,8 @@ pub(super) fn envelope_spec(report: &Report, size: Size) -> Spec {
     let spectrum = &report.envelope_spectrum;
     let (top, y) = (envelope_top(report), envelope_domain(report));
     let names = ("envelope-spectrum", "Envelope spectrum");
-    spectrum_spec(names, spectrum, size, top, y, marker_lanes(&report.markers))
+    let spec = spectrum_spec(names, spectrum, size, top, y, marker_lanes(&report.markers));
+    Spec { remark: healthy_words(&report.healthy.envelope_spectrum), ..spec }
 }
 
 pub(super) fn draw_envelope(report: &Report, spec: Spec) -> Picture {
@@ -124,8 +127,5 @@ fn draw_spectrum(chart: &mut Chart, spectrum: &Spectrum, healthy: &[f64]) {
             chart.of("damaged");
         }
         chart.curve(0.0, step, &spectrum.amplitude, true, CURVE);
-        if !healthy.is_empty() {
-            chart.remark(HEALTHY_WORDS);
-        }
     }
 }

@@ -1,6 +1,6 @@
 //! The sensor signal: the whole run, and the stretch close up with what rollers do in it.
 
-use super::layout::{CURVE, HEALTHY, HEALTHY_WORDS, Layout, known, spacing, start, time_unit};
+use super::layout::{CURVE, HEALTHY, Layout, healthy_words, known, spacing, start, time_unit};
 use super::markers::telling;
 use crate::chart::{Chart, Domain, Lane, Mark, Size, Spec, range};
 use crate::data::{MinMax, Report, Series};
@@ -36,9 +36,7 @@ fn settled_domain(min: &[f64], max: &[f64]) -> (Domain, Option<(f64, f64)>) {
     let later = range(min[first..].iter().chain(&max[first..]).copied());
     match (range(whole()), later) {
         (Some((lo, hi)), Some((low, high))) if high > low && hi - lo > OUTSHINES * (high - low) => {
-            // Room at the top for the words that say so.
-            let shown = [low, high + 0.2 * (high - low)];
-            (Domain::around(shown), Some((lo, hi)))
+            (Domain::around([low, high]), Some((lo, hi)))
         }
         _ => (Domain::around(whole()), None),
     }
@@ -58,13 +56,18 @@ pub fn overview(report: &Report, layout: Layout) -> Picture {
     let end = t0 + dt * count as f64;
     let (unit, scale) = time_unit(end - t0);
     let (y, cut) = settled_domain(&bins.min[..count], &bins.max[..count]);
-    let mut chart = Chart::new(Spec::new(
+    let remark = cut.map_or(String::new(), |(lo, hi)| {
+        let [lo, hi] = [lo, hi].map(|v| significant(v, 3));
+        format!("Cut off: the start reaches from {lo} to {hi} {}", series.unit)
+    });
+    let spec = Spec::new(
         "overview",
         format!("Whole run: {}", series.label),
         layout.size(if layout.roomy() { 190.0 } else { 170.0 }),
         (Domain::exact(t0 * scale, end * scale), "Time", unit),
         (y, "Acceleration", &series.unit),
-    ));
+    );
+    let mut chart = Chart::new(Spec { remark, ..spec });
     if range(bins.min.iter().copied()).is_none() {
         chart.say("No samples");
     } else {
@@ -73,15 +76,6 @@ pub fn overview(report: &Report, layout: Layout) -> Picture {
         chart.band(t0 * scale, dt * scale, low, high, paint);
         let (lo, hi) = detail_window(report);
         chart.highlight(lo * scale, hi * scale);
-        if let Some((lo, hi)) = cut {
-            let words = format!(
-                "Cut off: the start reaches from {} to {} {}",
-                significant(lo, 3),
-                significant(hi, 3),
-                series.unit
-            );
-            chart.remark(&words);
-        }
     }
     chart.interactive("overview");
     chart.finish()
@@ -139,9 +133,6 @@ pub(super) fn draw_waveform(report: &Report, spec: Spec) -> Picture {
             chart.of("damaged");
         }
         chart.curve(first, step, &series.values, false, CURVE);
-        if !healthy.is_empty() {
-            chart.remark(HEALTHY_WORDS);
-        }
     }
     chart.interactive("waveform");
     chart.finish()
@@ -166,6 +157,7 @@ pub(super) fn waveform_spec(report: &Report, size: Size) -> Spec {
     let (unit, scale) = waveform_unit(report);
     Spec {
         lanes: event_lanes(report, scale),
+        remark: healthy_words(&report.healthy.waveform),
         ..Spec::new(
             "waveform",
             format!("Waveform: {}", series.label),

@@ -56,6 +56,19 @@ pub struct IndicatorPlot {
     pub legend: String,
     /// The lines.
     pub lines: Vec<IndicatorLine>,
+    /// Values that the lines are compared with, each with a few words; dashed. Of those above all values only the
+    /// lowest is shown.
+    pub limits: Vec<(f64, String)>,
+}
+
+impl IndicatorPlot {
+    /// The limits that are shown.
+    fn shown_limits(&self) -> impl Iterator<Item = &(f64, String)> {
+        let values = self.lines.iter().flat_map(|line| &line.points).map(|p| p.value);
+        let highest = values.fold(f64::NEG_INFINITY, f64::max);
+        let above = self.limits.iter().map(|l| l.0).filter(|l| *l > highest).fold(f64::INFINITY, f64::min);
+        self.limits.iter().filter(move |l| l.0 <= above)
+    }
 }
 
 /// Everything that the page of a sweep shows.

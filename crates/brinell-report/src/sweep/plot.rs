@@ -3,6 +3,7 @@
 use super::{IndicatorLine, IndicatorPlot, IndicatorPoint};
 use crate::chart::{Chart, Domain, Size, Spec, range};
 use crate::embedded::{self, Curve, Places};
+use crate::font;
 use crate::picture::{Anchor, Paint, Picture, Shape, Text, ink};
 use crate::plots::{Layout, legend};
 
@@ -38,6 +39,12 @@ pub(crate) fn indicator_plot(plot: &IndicatorPlot, layout: Layout) -> Picture {
     let mut points = plot.lines.iter().flat_map(|line| &line.points);
     if points.all(|p| !p.value.is_finite()) {
         chart.say("No point has a value");
+    }
+    for (value, words) in plot.shown_limits() {
+        let (frame, y) = (chart.frame, chart.y.at(*value));
+        chart.picture.path(&[(frame.left, y), (frame.right, y)], Paint::line(ink::FAINT, 1.2).dashed(&[6.0, 4.0]));
+        let words = Text::new(frame.right + 6.0, y + 0.36 * size.font, size.font, Anchor::Start, words);
+        chart.picture.text(words.color(ink::FAINT));
     }
     let count = plot.lines.len();
     let step = BESIDE.min(BESIDE_ALL / count.max(1) as f64);
@@ -104,6 +111,8 @@ fn spec(plot: &IndicatorPlot, size: Size) -> Spec {
         let (low, high) = p.interval.unwrap_or((p.value, p.value));
         [p.value, low, high]
     });
+    let heights = heights.chain(plot.shown_limits().map(|l| l.0));
+    let beside = plot.shown_limits().map(|(_, words)| font::width(words, size.font, false)).fold(0.0, f64::max);
     let x = if named {
         Domain::exact(-0.5, plot.x_names.len() as f64 - 0.5)
     } else {
@@ -111,6 +120,7 @@ fn spec(plot: &IndicatorPlot, size: Size) -> Spec {
     };
     Spec {
         x_axis: !named,
+        right: if beside > 0.0 { beside + 12.0 } else { 0.0 },
         ..Spec::new(
             plot.name.clone(),
             format!("{} over {}", plot.label, plot.x_label),

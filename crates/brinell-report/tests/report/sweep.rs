@@ -20,6 +20,7 @@ fn plot(points: Vec<IndicatorPoint>, names: &[&str]) -> IndicatorPlot {
         legend: String::new(),
         ordered: false,
         lines: vec![IndicatorLine { label: "full".into(), points }],
+        limits: Vec::new(),
     }
 }
 

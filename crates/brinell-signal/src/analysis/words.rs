@@ -101,7 +101,26 @@ fn damage(analysis: &Analysis, text: &mut Vec<String>) {
             text.push(PASSING.into());
         }
         text.extend(inverter(analysis, family));
+        if i == 0 {
+            text.extend(multiple(analysis, family));
+        }
     }
+}
+
+/// That a race's lines may be those of impacts at a multiple of the shaft's frequency, whose own lines tell nothing.
+fn multiple(analysis: &Analysis, family: &Family) -> Option<String> {
+    let options = &analysis.options;
+    let order = family.frequency / options.shaft;
+    let times = order.round();
+    let off = order / times - 1.0;
+    let is_race = family.name.starts_with("BPF");
+    let told = !analysis.shaft_lines.is_empty() || options.rotation.is_some() || options.exact;
+    (is_race && !told && off.abs() <= options.tolerance).then(|| {
+        format!(
+            "Impacts {times:.0} times a turn of the shaft (blades, jaws of a coupling) look the same if it turns at {:.1} r/min: a tachometer would tell.",
+            60.0 * family.frequency / times
+        )
+    })
 }
 
 fn cannot_tell(analysis: &Analysis, text: &mut Vec<String>) {

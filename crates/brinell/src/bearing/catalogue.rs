@@ -3,7 +3,7 @@
 //! The numbers live in `catalogue.toml`, one table a bearing, keyed by scenario path. Values keep the scenario
 //! file's units, which the keys name.
 
-use super::designation::{plain, readings, with_zeros};
+use super::designation::{of_one_kind, plain, readings, with_zeros};
 use super::kinematics::Geometry;
 use crate::did_you_mean::did_you_mean;
 use std::sync::LazyLock;
@@ -139,7 +139,7 @@ pub fn nearest_name(name: &str) -> Option<&'static str> {
     }
     let base = readings(name).into_iter().next().map(|(base, _)| base);
     let base = base.unwrap_or_else(|| plain(name));
-    did_you_mean(&base, all().iter().map(|entry| entry.name.as_str()))
+    did_you_mean(&base, all().iter().map(|entry| entry.name.as_str()).filter(|known| of_one_kind(name, known)))
 }
 
 fn parse(text: &str) -> Result<Vec<Entry>, String> {

@@ -74,6 +74,34 @@ pub(super) fn with_zeros(name: &str) -> Option<String> {
     rest.contains(['O', 'o']).then(|| format!("{series}{}", rest.replace(['O', 'o'], "0")))
 }
 
+/// The type of bearing that a designation's series means, by ISO and DIN's systems; `None` where it is none of these.
+pub(super) fn kind(name: &str) -> Option<&'static str> {
+    let (base, _) = readings(name).into_iter().next()?;
+    let (letters, size) = base.split_at(base.find(|c: char| c.is_ascii_digit())?);
+    let two = size.get(..2)?;
+    Some(match (letters, size.len(), two) {
+        ("NA" | "RNA" | "NK" | "NKI" | "HK" | "BK", ..) => "needle roller bearing",
+        ("UC" | "UER" | "UEL" | "YAR" | "YEL", ..) => "insert ball bearing",
+        ("QJ", ..) => "four-point contact ball bearing",
+        (letters, ..) if letters.starts_with('N') => "cylindrical roller bearing",
+        ("", 4, "32" | "33" | "52" | "53") => "double row angular contact ball bearing",
+        ("", 4, "10" | "11" | "12" | "13" | "22" | "23") => "self-aligning ball bearing",
+        ("", 4 | 5, _) if size.starts_with('7') => "angular contact ball bearing",
+        ("", 4 | 5, _) if size.starts_with('6') || (two == "16" && size.len() == 5) => "deep groove ball bearing",
+        ("", 5, "21" | "22" | "23" | "24") => "spherical roller bearing",
+        ("", 5, "29") => "spherical roller thrust bearing",
+        ("", 5, "30" | "31" | "32" | "33") => "tapered roller bearing",
+        ("", 5, "51" | "52" | "53" | "54") => "thrust ball bearing",
+        ("", 5, "81" | "87" | "89") => "cylindrical roller thrust bearing",
+        _ => return None,
+    })
+}
+
+/// Whether two names may be meant for each other: not where their types are known, and different.
+pub(super) fn of_one_kind(name: &str, other: &str) -> bool {
+    kind(name).is_none_or(|known| kind(other) == Some(known))
+}
+
 /// The class of radial clearance that a name's suffixes give: `C3` of `6205-2RSH/C3`.
 pub fn clearance_of(name: &str) -> Option<ClearanceClass> {
     let (_, suffix) = readings(name).into_iter().next()?;
@@ -115,6 +143,30 @@ mod tests {
         assert_eq!(readings("NUP 206 ECP")[0].0, "NUP206");
         for name in ["", "-", " 2", "\u{b5}2\u{1f600}", "SKF", "2RS"] {
             let _ = readings(name);
+        }
+    }
+
+    #[test]
+    fn lit_series_have_their_types() {
+        // Designations of SKF's and Schaeffler's catalogues.
+        for (names, known) in [
+            (&["7205", "SKF 7205 BECBP", "71905"][..], Some("angular contact ball bearing")),
+            (&["3205 A"], Some("double row angular contact ball bearing")),
+            (&["1205", "2205 E-2RS1TN9"], Some("self-aligning ball bearing")),
+            (&["22205 E", "FAG 23024-E1A-M"], Some("spherical roller bearing")),
+            (&["30205", "32005 X", "33205"], Some("tapered roller bearing")),
+            (&["51105"], Some("thrust ball bearing")),
+            (&["81105 TN"], Some("cylindrical roller thrust bearing")),
+            (&["29412 E"], Some("spherical roller thrust bearing")),
+            (&["6205-2RS", "16005", "61905"], Some("deep groove ball bearing")),
+            (&["NUP 206 ECP", "NN3007", "N 205"], Some("cylindrical roller bearing")),
+            (&["NA4905"], Some("needle roller bearing")),
+            (&["UC205", "UER204"], Some("insert ball bearing")),
+            (&["NICE", "ZA-2115", "9999", "", "7"], None),
+        ] {
+            for name in names {
+                assert_eq!(kind(name), known, "{name}");
+            }
         }
     }
 

@@ -2,7 +2,7 @@
 //! shaft.
 
 use super::catalogue::{self, Entry};
-use super::designation::with_zeros;
+use super::designation::{kind, of_one_kind, with_zeros};
 use super::kinematics::{Geometry, Kinematics, frequency_table};
 use crate::analysis::{DefectOrders, NAMED, NamedBearing};
 use crate::did_you_mean::did_you_mean;
@@ -40,13 +40,20 @@ impl KnownBearing {
     }
 
     /// Why there is no bearing of this name: the name that was meant, where that can be guessed, and the names that
-    /// there are.
+    /// there are; or that none is of its type.
     pub fn unknown(name: &str) -> String {
         let names: Vec<&str> = Self::all().map(Self::name).collect();
+        let alike = || names.iter().copied().filter(|known| of_one_kind(name, known));
+        if let Some(kind) = kind(name)
+            && alike().next().is_none()
+        {
+            let article = if kind.starts_with('a') { "an" } else { "a" };
+            let thrust = if kind.contains("thrust") { ", whose races are passed Z / 2 times a turn each" } else { "" };
+            return format!("no bearing {name:?}: none of those known by name is {article} {kind}{thrust}");
+        }
         let zeros = with_zeros(name).and_then(|name| Self::find(&name));
-        let meant = (zeros.map(Self::name))
-            .or_else(|| catalogue::nearest_name(name))
-            .or_else(|| did_you_mean(name, names.iter().copied()));
+        let meant =
+            (zeros.map(Self::name)).or_else(|| catalogue::nearest_name(name)).or_else(|| did_you_mean(name, alike()));
         let hint = meant.map_or(String::new(), |name| format!("; did you mean {name}?"));
         let joint = if hint.is_empty() { "; there" } else { " There" };
         format!("no bearing {name:?}{hint}{joint} are {}", names.join(", "))

@@ -50,6 +50,7 @@ pub use source::{canonical, float as toml_float, locate, quote as toml_quote};
 pub mod reading {
     pub use super::checks::Finder;
     pub use super::keys::{Fallback, Keys, Range, Spec, Variant, key, stated};
+    pub use super::quantity::read as quantity;
     pub use super::reader::Reader;
     pub use super::schema::{Schema, schema_of};
     pub use super::source::{Entry, Node, Table, Value as Toml, brief_path, key_text, parse, path_parts, quote};

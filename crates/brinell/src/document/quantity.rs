@@ -104,7 +104,7 @@ pub(super) fn begins(text: &str) -> bool {
 ///
 /// # Errors
 /// In words, what is wrong with it.
-pub(super) fn read(text: &str, wanted: &str) -> Result<f64, String> {
+pub fn read(text: &str, wanted: &str) -> Result<f64, String> {
     let text = text.trim();
     let (number, unit) = text.split_at(end_of_number(text));
     let no_number = |_| "a string in the place of a number must begin with one".to_owned();
