@@ -289,6 +289,23 @@ fn regress_pictures_in_the_formats_requested() {
     }
 }
 
+/// Another file's contents are not replaced without a word; an earlier analysis is.
+#[test]
+fn regress_json_replaces_nothing_but_an_analysis() {
+    let folder = tempdir().unwrap();
+    column(&folder.path().join("now.csv"), &signal(2.0, 6.0, 0.0));
+    for (name, text) in [("other.csv", "1\n2\n"), ("summary.json", "{\"brinell\": \"0.1.0\", \"indicators\": {}}")] {
+        let path = folder.path().join(name);
+        std::fs::write(&path, text).unwrap();
+        let refused = brinell(folder.path(), &with("now.csv", &["--json", name]));
+        refused.exits(2).complains(&["no analysis of brinell's is there"]);
+        assert_eq!(std::fs::read_to_string(path).unwrap(), text);
+    }
+    for _ in 0..2 {
+        brinell(folder.path(), &with("now.csv", &["--json", "a.json"])).exits(0);
+    }
+}
+
 #[test]
 fn regress_a_healthy_record_changes_the_verdict() {
     let folder = tempdir().unwrap();

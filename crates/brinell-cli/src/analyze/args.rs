@@ -196,7 +196,7 @@ pub(crate) struct AnalyzeArgs {
     #[arg(long, requires = "output")]
     pub(crate) overwrite: bool,
     /// Formats of the pictures in FOLDER/plots; their curves go to FOLDER/curves as CSV
-    #[arg(long, value_delimiter = ',', default_value = "svg", value_name = "FORMAT")]
+    #[arg(long, value_delimiter = ',', default_value = "svg", value_name = "FORMAT", requires = "output")]
     pub(crate) plots: Vec<PlotFormat>,
     #[command(flatten)]
     pub(crate) print: Print,

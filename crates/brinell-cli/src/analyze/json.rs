@@ -11,6 +11,7 @@ pub(super) fn as_json(result: &Result_) -> Value {
     let comparison = result.against.as_ref().map(|a| &a.comparison);
     let mut value = to_json(&result.analysis, &m.unit, result.velocity.as_ref(), comparison);
     value["brinell"] = brinell::VERSION.into();
+    value["verdict"]["text"] = result.verdict_text().into();
     value["severity"] = result.levels.to_json(&m.unit);
     value["file"] = json!({
         "path": m.path.display().to_string(),

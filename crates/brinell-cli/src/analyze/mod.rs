@@ -267,7 +267,10 @@ fn earlier(args: &AnalyzeArgs, read: &[PathBuf], same: impl FnOnce(&Value) -> bo
         inputs.add(&path.with_file_name(SCENARIO));
     }
     match args.json.as_deref() {
-        Some(path) if path != Path::new("-") => inputs.spare(path)?,
+        Some(path) if path != Path::new("-") => {
+            inputs.spare(path)?;
+            spare_others(path)?;
+        }
         _ => {}
     }
     let Some(folder) = &args.output else {
@@ -275,6 +278,23 @@ fn earlier(args: &AnalyzeArgs, read: &[PathBuf], same: impl FnOnce(&Value) -> bo
     };
     let place = Place { kind: Results::Analysis, folder, inputs: &inputs };
     place.earlier(args.overwrite, &[ANALYSIS.into(), REPORT.into()], same)
+}
+
+/// That `--json` replaces nothing but an earlier analysis.
+fn spare_others(path: &Path) -> Result<(), Failure> {
+    const LARGEST: u64 = 1 << 28;
+    let Some(there) = path.metadata().ok().filter(|m| m.is_file() && m.len() > 0) else {
+        return Ok(());
+    };
+    let text = if there.len() <= LARGEST { std::fs::read(path).unwrap_or_default() } else { Vec::new() };
+    let json: Value = serde_json::from_slice(&text).unwrap_or_default();
+    if json["brinell"].is_string() && ["verdict", "bearings", "records"].iter().any(|key| json.get(key).is_some()) {
+        return Ok(());
+    }
+    Err(Failure::Usage(format!(
+        "--json {}: a file that is no analysis of brinell's is there; nothing was written. Choose another path, or remove it",
+        path.display()
+    )))
 }
 
 fn speed(args: &AnalyzeArgs, measured: &Measured) -> Result<(f64, String), Failure> {

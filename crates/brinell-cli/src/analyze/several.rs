@@ -33,6 +33,8 @@ struct Found {
     zone: Option<&'static str>,
     /// Scores of the families, by name.
     scores: Vec<(String, f64)>,
+    /// The speed used in place of the one given.
+    speed_used: Option<String>,
     /// Where speed and bearings come from.
     said: String,
     class: Option<MachineClass>,
@@ -110,6 +112,9 @@ pub(super) fn analyze(args: &AnalyzeArgs, files: &[PathBuf]) -> Result<ExitCode,
         complain!("error: {failed} of {} files could not be analysed", rows.len());
     }
     if !quiet {
+        for (name, speed) in speeds_used(&rows) {
+            say!("  {}: {speed}", one_line(name));
+        }
         say::wrote(written);
     }
     Ok(ExitCode::from(u8::from(failed > 0)))
@@ -177,6 +182,7 @@ impl Found {
             kurtosis: a.indicator(Indicator::Kurtosis),
             velocity: result.levels.velocity.as_ref().ok().map(|v| scaled(v, 1e3)),
             zone: result.levels.letter(),
+            speed_used: a.speed_used(),
             said: format!("{}; bearing: {}", result.speed, said_of_bearings(results)),
             class: result.levels.class,
             high: a.families.iter().map(|f| f.limit).fold(0.0, f64::max),
@@ -271,6 +277,11 @@ fn report(rows: &[Row]) -> TrendReport {
     }
 }
 
+/// Files whose verdict rests on another speed than the one given.
+fn speeds_used(rows: &[Row]) -> impl Iterator<Item = (&str, &str)> {
+    rows.iter().filter_map(|r| Some((r.name.as_str(), r.found.as_ref().ok()?.speed_used.as_deref()?)))
+}
+
 /// What holds for all rows.
 fn note(rows: &[Row]) -> String {
     let mut note = "RMS velocity: 10 to 1000 Hz.".to_owned();
@@ -278,6 +289,9 @@ fn note(rows: &[Row]) -> String {
         note += &format!(" Of the first: {}.", first.said);
         if let Some((other, ..)) = &first.other {
             note += &format!(" In brackets: the RMS over that of {other}.");
+        }
+        for (name, speed) in speeds_used(rows) {
+            note += &format!(" {name}: {speed}");
         }
         if let Some(class) = first.class {
             note += &format!(" Class {} of {}.", class.name(), ZONES);

@@ -65,6 +65,21 @@ impl Analysis {
             }
         }
         self.passing_known = true;
+        let is_passing = |f: &Family| f.component == Component::OuterRace && f.finding == Finding::AsBefore;
+        if let (Some(healthy), Some(passing)) = (healthy, self.families.iter().find(|f| is_passing(f)).map(|f| f.name))
+        {
+            // Damage that merely seemed to share the lines of passing rollers.
+            let own = |f: &&mut Family| {
+                f.finding == Finding::Shared(passing)
+                    && f.is_damage()
+                    && !healthy.families.iter().any(|h| h.name == f.name && h.is_damage())
+            };
+            let highest = self.families.iter_mut().filter(own).max_by(|a, b| a.score.total_cmp(&b.score));
+            if let Some(family) = highest {
+                family.finding = Finding::Damage;
+            }
+            self.families.sort_by_key(|f| f.finding != Finding::Damage);
+        }
     }
 }
 

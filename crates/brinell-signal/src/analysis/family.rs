@@ -222,7 +222,7 @@ pub(super) fn read(together: &Together, shaft: f64, options: &Options) -> Vec<Fa
     let limit = SCORE.max(noise);
     all.map(|(component, name, order)| {
         let expected = order * shaft;
-        let (behind, ahead) = reach(component, options.tolerance, options.exact);
+        let (behind, ahead) = reach(component, options);
         let step = 0.25 * together.step() / (HARMONICS as f64 * expected);
         let steps = ((ahead + behind) / step) as usize;
         let places = (0..=steps).map(|k| expected * (1.0 - behind + k as f64 * step));
@@ -268,12 +268,16 @@ pub(super) fn read(together: &Together, shaft: f64, options: &Options) -> Vec<Fa
 
 /// How far below and above pure rolling a rate may lie, relative. Where speed and bearing are exact, what goes farther
 /// is slip: a cage that lags takes BPFO with it, and raises BPFI.
-fn reach(component: Component, tolerance: f64, exact: bool) -> (f64, f64) {
-    let slips = if exact { SLIPS * tolerance } else { tolerance };
+fn reach(component: Component, options: &Options) -> (f64, f64) {
+    let tolerance = options.tolerance;
+    let slips = if options.exact { SLIPS * tolerance } else { tolerance };
+    // What the same slip of the cage makes of BPFI.
+    let turns = options.orders.ftf.unwrap_or(USUAL_FTF);
+    let raised = (slips * turns / (1.0 - turns)).max(tolerance);
     match component {
         Component::OuterRace => (slips, tolerance),
         Component::Cage => (slips, AHEAD.min(tolerance)),
-        Component::InnerRace => (tolerance, slips),
+        Component::InnerRace => (tolerance, raised),
         Component::Element => (tolerance, AHEAD.min(tolerance)),
     }
 }

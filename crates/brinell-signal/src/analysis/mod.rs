@@ -234,7 +234,7 @@ impl Analysis {
 
     /// `very clear`, `clear` or `weak`: how much the evidence of a family that is damage says.
     pub fn clarity(&self, family: &Family) -> &'static str {
-        match (self.may_be_passing(family), family.is_very_clear()) {
+        match (self.may_be_passing(family), family.is_very_clear() && self.speed_used().is_none()) {
             (true, _) => "weak",
             (_, true) => "very clear",
             _ => "clear",
@@ -250,6 +250,11 @@ impl Analysis {
     /// The verdict in plain words: the headline first.
     pub fn verdict(&self) -> String {
         words::verdict(self)
+    }
+
+    /// The speed that the verdict rests on, where it is not the one given: a sentence.
+    pub fn speed_used(&self) -> Option<String> {
+        words::speed(self)
     }
 
     /// A row for each family, in the order of [`COLUMNS`].

@@ -7,6 +7,8 @@ use super::{AnalysisError, Options};
 
 /// Lead in score that an element needs over the races: its sidebands at the cage's frequency reach most lines.
 const LEAD: f64 = 2.0;
+/// How far BPFO + BPFI of two damaged races may lie from so many times the shaft's speed as there are elements, relative.
+const ONE_SLIP: f64 = 0.005;
 /// Multiples of the shaft's or the cage's frequency about the first's harmonics that are taken out before a second one
 /// is sought.
 const SIDES: i32 = 3;
@@ -117,6 +119,7 @@ impl Record {
             }
         }
         one_slip(&mut all, self.shaft, self.options.tolerance);
+        self.within_first(&mut all);
         let lead = leading(&all);
         let elsewhere = self.elsewhere(lead.map(|k| &all[k]));
         let Some(lead) = lead.filter(|_| elsewhere.is_none()) else {
@@ -131,11 +134,9 @@ impl Record {
         let left = read(&self.together, self.shaft, &self.options);
         // Frequencies that slip may bring together are not told apart.
         let apart = |f: &Family| (f.expected / lead.expected - 1.0).abs() > 2.0 * self.options.tolerance;
-        // An element strikes both races and carries the cage along: sums of its rates reach all lines of the bearing.
-        let turns = is_turning(lead.component);
         for family in &mut all {
             let own = left.iter().find(|f| f.name == family.name);
-            let stays = own.is_some_and(Family::is_damage) && apart(family) && !turns;
+            let stays = self.is_beside(&lead, family) && own.is_some_and(Family::is_damage) && apart(family);
             let gone = own.is_none_or(|f| f.detected_harmonics() == 0);
             let shared = match family.finding {
                 Finding::Damage | Finding::Open => family.component == Component::Cage || !stays,
@@ -156,6 +157,34 @@ impl Record {
             all[0].component = Component::Element;
         }
         (all, None)
+    }
+
+    /// Whether a family may be a second damage: the other race's where a race leads, at the same slip. All turn by that:
+    /// BPFO + BPFI = Z f_shaft. An element strikes both races and carries the cage along, so that sums of its rates
+    /// reach all lines of the bearing; in measured records it is not found beside a race.
+    fn is_beside(&self, lead: &Family, family: &Family) -> bool {
+        // At a speed farther off than the tolerance one part is as much as can be said.
+        if (self.shaft / self.options.shaft - 1.0).abs() > self.options.tolerance && self.options.rotation.is_none() {
+            return false;
+        }
+        let most = if self.by_lines || self.options.exact { ONE_SLIP } else { self.options.tolerance };
+        let sum = (lead.frequency + family.frequency) / (lead.expected + family.expected);
+        ![lead, family].iter().any(|f| is_turning(f.component)) && (sum - 1.0).abs() <= most
+    }
+
+    /// Slip beyond the tolerance, as a simulation may have, explains a race's comb only where nothing within it is damage:
+    /// BPFI less twice the shaft's frequency is a few per cent below BPFO.
+    fn within_first(&self, all: &mut [Family]) {
+        let is_near = |f: &Family| f.shift().abs() <= self.options.tolerance;
+        let near = all.iter().filter(|f| f.finding == Finding::Damage && f.component != Component::Cage && is_near(f));
+        let Some(name) = near.max_by(|a, b| a.score.total_cmp(&b.score)).map(|f| f.name) else {
+            return;
+        };
+        for far in
+            all.iter_mut().filter(|f| f.finding == Finding::Damage && f.component != Component::Cage && !is_near(f))
+        {
+            far.finding = Finding::Shared(name);
+        }
     }
 
     /// Whether the record holds so few turns of the cage that a rolling element's sidebands, or the cage's lines, are
@@ -296,8 +325,9 @@ impl Record {
 /// race's comb farther than the tolerance from where a cage that is clear of the noise puts it is somebody else's: of a
 /// damaged element where 2 BSF lies a few per cent below BPFO.
 fn one_slip(all: &mut [Family], shaft: f64, tolerance: f64) {
-    let cage =
-        (all.iter()).find(|f| f.component == Component::Cage && f.score > f.limit && f.detected_harmonics() >= 3);
+    let cage = all.iter().find(|f| {
+        f.component == Component::Cage && f.score > f.limit && f.modulation >= FAINT && f.detected_harmonics() >= 3
+    });
     let Some((name, slip, turns)) = cage.map(|f| (f.name, f.shift(), f.expected)) else {
         return;
     };

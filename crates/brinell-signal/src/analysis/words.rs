@@ -26,7 +26,8 @@ pub(super) fn verdict(analysis: &Analysis) -> String {
         Verdict::CannotTell => cannot_tell(analysis, &mut text),
         Verdict::NothingFound => text.push("No damage found.".into()),
     }
-    text.extend(speed(analysis));
+    text.extend(analysis.speed_used());
+    text.extend(half_speed(analysis));
     let those = |finding| -> Vec<&str> {
         let families = analysis.families.iter().filter(|f| f.finding == finding);
         families.map(|f| f.name).collect()
@@ -54,8 +55,15 @@ pub(super) fn verdict(analysis: &Analysis) -> String {
     text.join(" ")
 }
 
+/// Whether lines of the shaft at even multiples alone let its speed be twice as high.
+fn half_speed(analysis: &Analysis) -> Option<String> {
+    let is_even = !analysis.shaft_lines.is_empty() && analysis.shaft_lines.iter().all(|order| order % 2 == 0);
+    (is_even && analysis.causes().next().is_some())
+        .then(|| "The shaft's lines lie at even multiples of this speed only: is it twice as high?".into())
+}
+
 /// The speed that the verdict rests on, where it is not the one given.
-fn speed(analysis: &Analysis) -> Option<String> {
+pub(super) fn speed(analysis: &Analysis) -> Option<String> {
     let (used, given) = (60.0 * analysis.shaft, 60.0 * analysis.options.shaft);
     let is_other = analysis.at_given.is_none()
         && analysis.options.rotation.is_none()
