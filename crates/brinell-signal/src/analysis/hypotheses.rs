@@ -76,7 +76,7 @@ impl Best {
     fn try_as_given(&mut self, options: &Options) -> Result<(), AnalysisError> {
         let given = Shaft { hz: options.shaft, tolerance: 0.0 };
         let as_given = Record::of(&self.envelopes, given, options)?;
-        if (self.record.shaft / options.shaft - 1.0).abs() > options.tolerance {
+        if options.is_other_speed(self.record.shaft) {
             self.at_given = as_given.lead().cloned();
             return Ok(());
         }

@@ -103,6 +103,11 @@ impl Options {
     pub fn new(shaft: f64, orders: DefectOrders) -> Self {
         Options { shaft, orders, tolerance: 0.02, band: None, supply: None, rotation: None, silent: None, exact: false }
     }
+
+    /// Whether a speed (Hz) lies farther from the one given than the tolerance.
+    fn is_other_speed(&self, shaft: f64) -> bool {
+        (shaft / self.shaft - 1.0).abs() > self.tolerance
+    }
 }
 
 /// Allowed values of [`Options::supply`], Hz.

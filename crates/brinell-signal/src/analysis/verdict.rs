@@ -164,7 +164,7 @@ impl Record {
     /// reach all lines of the bearing; in measured records it is not found beside a race.
     fn is_beside(&self, lead: &Family, family: &Family) -> bool {
         // At a speed farther off than the tolerance one part is as much as can be said.
-        if (self.shaft / self.options.shaft - 1.0).abs() > self.options.tolerance && self.options.rotation.is_none() {
+        if self.options.is_other_speed(self.shaft) && self.options.rotation.is_none() {
             return false;
         }
         let most = if self.by_lines || self.options.exact { ONE_SLIP } else { self.options.tolerance };

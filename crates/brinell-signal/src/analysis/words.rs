@@ -67,7 +67,7 @@ pub(super) fn speed(analysis: &Analysis) -> Option<String> {
     let (used, given) = (60.0 * analysis.shaft, 60.0 * analysis.options.shaft);
     let is_other = analysis.at_given.is_none()
         && analysis.options.rotation.is_none()
-        && (used / given - 1.0).abs() > analysis.options.tolerance;
+        && analysis.options.is_other_speed(analysis.shaft);
     is_other.then(|| format!("This is at {used:.0} r/min, by the shaft's lines, not at the {given:.0} given."))
 }
 
@@ -211,8 +211,7 @@ fn other_lines(analysis: &Analysis, elsewhere: &Elsewhere) -> String {
             60.0 * elsewhere.frequency,
         );
     }
-    let off = (analysis.shaft / analysis.options.shaft - 1.0).abs();
-    let doubt = match analysis.shaft_lines.is_empty() || off > analysis.options.tolerance {
+    let doubt = match analysis.shaft_lines.is_empty() || analysis.options.is_other_speed(analysis.shaft) {
         true => "Are speed and bearing right?",
         false => "Is it this bearing? The shaft's own lines agree with the speed.",
     };
