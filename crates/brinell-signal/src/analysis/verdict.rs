@@ -176,13 +176,12 @@ impl Record {
     /// BPFI less twice the shaft's frequency is a few per cent below BPFO.
     fn within_first(&self, all: &mut [Family]) {
         let is_near = |f: &Family| f.shift().abs() <= self.options.tolerance;
-        let near = all.iter().filter(|f| f.finding == Finding::Damage && f.component != Component::Cage && is_near(f));
+        let called = |f: &Family| f.finding == Finding::Damage && f.component != Component::Cage;
+        let near = all.iter().filter(|f| called(f) && is_near(f));
         let Some(name) = near.max_by(|a, b| a.score.total_cmp(&b.score)).map(|f| f.name) else {
             return;
         };
-        for far in
-            all.iter_mut().filter(|f| f.finding == Finding::Damage && f.component != Component::Cage && !is_near(f))
-        {
+        for far in all.iter_mut().filter(|f| called(f) && !is_near(f)) {
             far.finding = Finding::Shared(name);
         }
     }
