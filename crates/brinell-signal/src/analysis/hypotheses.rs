@@ -9,7 +9,8 @@ use super::verdict::Record;
 use super::{AnalysisError, Options, bands};
 use crate::{Band, Transformed};
 
-/// How well the shaft's own lines tell its speed, relative.
+/// How well the shaft's own lines tell its speed, relative: no less in a short record, where a comb placed within a bin
+/// would slide onto lines of damage at its higher orders.
 const SHAFT_KNOWN: f64 = 0.002;
 
 /// What the samples tell of the speed.
@@ -20,8 +21,6 @@ pub(super) struct SpeedEvidence {
     pub(super) drift: Option<Drift>,
     /// Whether it may drift: it is not followed, and nothing is missing.
     pub(super) may_drift: bool,
-    /// Half a bin of the finest spectrum, Hz.
-    pub(super) bin: f64,
 }
 
 /// The hypothesis that shows damage, or the first.
@@ -49,7 +48,7 @@ pub(super) fn best(
     };
     let tolerance = match shaft_lines.is_empty() || options.exact {
         true => 0.0,
-        false => evidence.bin.max(SHAFT_KNOWN * shaft),
+        false => SHAFT_KNOWN * shaft,
     };
     let known = Shaft { hz: shaft, tolerance };
     let envelopes = Envelopes::of(transformed, range, shaft, options)?;

@@ -343,13 +343,7 @@ fn prepare(x: &[f64], fs: f64, options: &Options, whole: bool) -> Result<Prepare
     Ok(Prepared {
         indicators,
         map: map?,
-        evidence: SpeedEvidence {
-            lines: lines?,
-            drift,
-            may_drift,
-            // Half a bin of the finest spectrum.
-            bin: 0.5 * fs / x.len() as f64,
-        },
+        evidence: SpeedEvidence { lines: lines?, drift, may_drift },
         transformed: transformed?.dithered(DITHER, noise),
     })
 }
