@@ -1,6 +1,6 @@
 //! `diff`: two scenarios key by key, defaults included.
 
-use crate::common::{SHORT, brinell, typed};
+use crate::common::{SHORT, brinell, parsed, typed};
 use std::fs;
 use tempfile::tempdir;
 
@@ -20,8 +20,7 @@ fn prop_what_differs_is_reported_with_units_and_defaults() {
     let viscosity = lines.iter().find(|l| l[0] == "lubricant.viscosity_pa_s");
     assert_eq!(viscosity.unwrap()[1..], ["0.01", "(default)", "0.02", "Pa", "s"]);
     assert_eq!(lines.len(), 3, "{told}");
-    let json = brinell(here, &["diff", "a.toml", "b.toml", "--json"]).exits(0).out;
-    let json: serde_json::Value = serde_json::from_str(&json).unwrap();
+    let json = parsed(&brinell(here, &["diff", "a.toml", "b.toml", "--json"]).exits(0).out);
     let all = json["differences"].as_array().unwrap();
     assert_eq!(all.len(), 2);
     let speed = all.iter().find(|d| d["key"] == "operation.speed_rpm").unwrap();

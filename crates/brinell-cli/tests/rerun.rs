@@ -120,21 +120,6 @@ fn regress_files_that_no_summary_lists_are_neither_removed_nor_taken_for_results
 }
 
 #[test]
-fn regress_a_run_beside_its_own_scenario_keeps_it() {
-    let folder = tempdir().unwrap();
-    let here = folder.path();
-    fs::write(here.join("scenario.toml"), SHORT).unwrap();
-    let args = ["run", "scenario.toml", "-o", ".", "--quiet", "--no-report"];
-    brinell(here, &args).exits(2).complains(&["scenario.toml would be written, and is an input"]);
-    assert_eq!(files(here), ["scenario.toml"]);
-    // Nor is another scenario beside it written over.
-    fs::write(here.join("b.toml"), SHORT.replace("20.0", "5.0")).unwrap();
-    let kept = text(here, "scenario.toml");
-    brinell(here, &["run", "b.toml", "-o", ".", "--quiet"]).exits(2).complains(&["scenario.toml", "--overwrite"]);
-    assert_eq!(text(here, "scenario.toml"), kept);
-}
-
-#[test]
 fn regress_a_scenario_that_somebody_wrote_or_changed_is_not_replaced_unasked() {
     let folder = folder();
     let here = folder.path();
