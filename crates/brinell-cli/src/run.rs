@@ -168,11 +168,10 @@ fn execute(args: &RunArgs, task: &Task, progress: Progress, stop: &AtomicBool) -
     let mut recorder = Recorder::new(&simulation, writers, &mut shown).beside(beside);
     let (finished, healthy) =
         healthy::beside(args, &loaded.scenario, stop, || finish(loaded.scenario.clone(), simulation, &mut recorder));
-    let recording = recorder.close(&finished.outcome.end, true);
+    let files = recorder.close(&finished.outcome.end, true);
     let elapsed = shown.elapsed();
     drop(shown);
-    let recording = recording?;
-    ready.extend(recording.files);
+    ready.extend(files?);
     if let Some(loads) = &loads {
         ready.push(line_loads::ready(loads, folder)?);
     }

@@ -154,7 +154,7 @@ impl Work for CaseWork<'_> {
         Ok(scenario(&task.settings)?)
     }
 
-    fn beside(&self, task: &Task, simulation: &Simulation) -> Option<Box<dyn Beside<Failure>>> {
+    fn beside(&self, task: &Task, simulation: &Simulation) -> Option<Box<dyn Beside<Failure> + '_>> {
         Some(Box::new(self.0.observer(&task.fingerprint, simulation)))
     }
 }
