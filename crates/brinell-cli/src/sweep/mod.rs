@@ -31,9 +31,6 @@ use std::process::ExitCode;
 use std::time::Instant;
 use table::{State, states};
 
-/// Exit code where a point failed, or Ctrl-C stopped the sweep.
-const NOT_WHOLE: u8 = 1;
-
 pub(crate) fn sweep(args: &SweepArgs) -> Result<ExitCode, Failure> {
     let begin = Instant::now();
     let threads = |jobs| args.jobs.unwrap_or(brinell::many::threads(jobs));
@@ -82,7 +79,7 @@ pub(crate) fn sweep(args: &SweepArgs) -> Result<ExitCode, Failure> {
             plural(states.len() - missing, "finished point")
         );
     }
-    Ok(if failed > 0 || outcome.is_break() { ExitCode::from(NOT_WHOLE) } else { ExitCode::SUCCESS })
+    Ok(if failed > 0 || outcome.is_break() { ExitCode::FAILURE } else { ExitCode::SUCCESS })
 }
 
 /// How many points' averages hold part of the start.
