@@ -1,6 +1,6 @@
 //! `brinell analyze`: what it says of signals whose damage is known, and of files that are no signal.
 
-use crate::common::{FS, GIVEN, brinell, column, json, normal, typed};
+use crate::common::{FS, GIVEN, brinell, column, folder_with, json, normal, typed};
 use ::brinell::random::Random;
 use std::f64::consts::TAU;
 use std::fmt::Write as _;
@@ -188,8 +188,7 @@ fn regress_what_the_file_does_not_say_is_requested() {
 
 #[test]
 fn regress_which_of_two_channels_is_asked_with_all_the_rest() {
-    let folder = tempdir().unwrap();
-    fs::write(folder.path().join("two.csv"), "a,b\n1,2\n2,3\n").unwrap();
+    let folder = folder_with("two.csv", "a,b\n1,2\n2,3\n");
     brinell(folder.path(), &["analyze", "two.csv", "--rate", "12000"]).exits(2).complains(&[
         "two.csv: 4 things have to be given:",
         "choose one with --channel: a, b",

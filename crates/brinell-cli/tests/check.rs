@@ -2,7 +2,6 @@
 
 use crate::common::{Call, SHORT, brinell, folder_with, parsed, typed};
 use std::fs;
-use tempfile::tempdir;
 
 /// `check` of SHORT, long enough to settle, with settings.
 fn check(settings: &[&str]) -> Call {
@@ -109,8 +108,7 @@ fn regress_check_prints_numbers_that_can_be_read() {
 #[test]
 fn regress_check_and_run_warn_alike() {
     check(&["defects.0.center_deg=180"]).exits(0).complains(&["warning", "outside the load zone"]);
-    let folder = tempdir().unwrap();
-    fs::write(folder.path().join("s.toml"), SHORT).unwrap();
+    let folder = folder_with("s.toml", SHORT);
     let args = typed("run s.toml -o o --signals none --set defects.0.center_deg=180");
     brinell(folder.path(), &args).exits(0).complains(&["outside the load zone", "too short to settle"]);
     let summary = fs::read_to_string(folder.path().join("o/summary.json")).unwrap();

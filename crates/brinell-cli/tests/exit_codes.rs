@@ -1,6 +1,6 @@
 //! Exit codes and what is said with them: 0 done, 1 the run failed, 2 bad input, 130 interrupted.
 
-use crate::common::{Call, SHORT, brinell, brinell_reading, csv, files, json};
+use crate::common::{Call, SHORT, brinell, brinell_reading, csv, files, folder_with, json};
 use std::fs;
 use tempfile::tempdir;
 
@@ -90,8 +90,7 @@ fn regress_what_is_no_scenario_is_refused() {
 
 #[test]
 fn regress_overrides_are_checked_like_the_file() {
-    let folder = tempdir().unwrap();
-    fs::write(folder.path().join("s.toml"), SHORT).unwrap();
+    let folder = folder_with("s.toml", SHORT);
     let set = |value: &str| brinell(folder.path(), &["check", "s.toml", "--set", value]);
     set("operation.speed_rpm=3000").exits(0).says(&["at 3000 r/min"]);
     set("defects.0.on=inner-raceway").exits(0);
@@ -102,9 +101,8 @@ fn regress_overrides_are_checked_like_the_file() {
 
 #[test]
 fn regress_an_unwritable_place_is_bad_input() {
-    let folder = tempdir().unwrap();
+    let folder = folder_with("s.toml", SHORT);
     let here = folder.path();
-    fs::write(here.join("s.toml"), SHORT).unwrap();
     fs::write(here.join("file"), "").unwrap();
     fs::create_dir_all(here.join("o/signals.csv")).unwrap();
     brinell(here, &["run", "s.toml", "-o", "file"]).exits(2).complains(&["cannot make the folder file"]);
@@ -139,9 +137,8 @@ fn regress_bad_arguments_exit_2() {
 /// Pockets of 1e28 N/m pass every check; no step is short enough for the first roller that touches one.
 #[test]
 fn regress_a_failed_run_exits_1_says_where_and_keeps_what_it_has() {
-    let folder = tempdir().unwrap();
+    let folder = folder_with("s.toml", &SHORT.replace("NU206", "NN3007"));
     let here = folder.path();
-    fs::write(here.join("s.toml"), SHORT.replace("NU206", "NN3007")).unwrap();
     let stiff = "cage.contact_stiffness_n_per_m=1e28";
     let args = ["run", "s.toml", "-o", "o", "--signals", "csv,parquet"];
     let damping = "cage.contact_damping_ns_per_m=20";
@@ -185,9 +182,8 @@ mod interrupted {
 
     /// Starts a run of many minutes, interrupts it once `signals.csv.partial` holds `bytes`, and waits for its end.
     fn interrupt(extra: &[&str], bytes: u64) -> (tempfile::TempDir, Call) {
-        let folder = tempdir().unwrap();
+        let folder = folder_with("s.toml", SHORT);
         let here = folder.path();
-        fs::write(here.join("s.toml"), SHORT).unwrap();
         let args = ["run", "s.toml", "-o", "o", "--signals", "csv,parquet", "--set", "simulation.duration_s=300"];
         let child =
             command(here, &[&args[..], extra].concat()).stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();

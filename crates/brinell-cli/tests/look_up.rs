@@ -1,4 +1,4 @@
-//! The commands that look things up: `frequencies`, `bearing`, `schema`, and every `--help`.
+//! The commands that look things up: `frequencies`, `bearing`, `schema`.
 
 use crate::common::{SHORT, brinell, brinell_reading, folder_with, parsed, typed};
 use tempfile::tempdir;
@@ -139,34 +139,4 @@ fn regress_the_schema_is_a_json_schema() {
     {
         assert!(sections.contains_key(section), "{section}");
     }
-}
-
-#[test]
-fn regress_help_mentions_every_option() {
-    for (command, options) in [
-        (&[][..], &["run", "check", "init", "bearing", "frequencies", "schema", "--version", "Exit codes"][..]),
-        (
-            &["run"],
-            &["SCENARIO", "--set", "--output", "--signals", "--plots", "--no-report", "--quiet", "parquet", "Ctrl-C"],
-        ),
-        (&["check"], &["SCENARIO", "--set", "--assumptions"]),
-        (&["init"], &["FILE", "--template", "--bearing", "--full", "--force"]),
-        (&["diff"], &["A", "B", "--json"]),
-        (&["open"], &["FOLDER_OR_PAGE"]),
-        (&["completions"], &["bash", "zsh", "fish", "powershell"]),
-        (&["man"], &["DIR"]),
-        (&["bearing"], &["list", "show"]),
-        (&["bearing", "list"], &["catalogue"]),
-        (&["bearing", "show"], &["NAME"]),
-        (&["frequencies"], &["BEARING", "--speed", "--pitch", "--diameter", "--rollers", "--json", "Examples:"]),
-        (&["schema"], &["JSON Schema"]),
-    ] {
-        for flag in ["--help", "-h"] {
-            let call = call(&[command, &[flag]].concat()).exits(0).keeps_quiet().says(options);
-            let widest = call.out.lines().map(|line| line.chars().count()).max();
-            // clap wraps at 100 columns where there is no terminal.
-            assert!(widest <= Some(100), "{}", call.out);
-        }
-    }
-    call(&["--version"]).exits(0).says(&["brinell ", env!("CARGO_PKG_VERSION")]);
 }

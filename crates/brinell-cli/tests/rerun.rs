@@ -1,14 +1,13 @@
 //! A run into a folder that holds results already; what a run keeps of its scenario's assumptions; the kernel.
 
-use crate::common::{SHORT, brinell, command, files, json, typed};
+use crate::common::{SHORT, brinell, command, files, folder_with, json, typed};
 use std::fs;
 use std::path::Path;
-use tempfile::{TempDir, tempdir};
+use tempfile::TempDir;
 
 /// SHORT as `a.toml`, and another scenario as `b.toml`.
 fn folder() -> TempDir {
-    let folder = tempdir().unwrap();
-    fs::write(folder.path().join("a.toml"), SHORT).unwrap();
+    let folder = folder_with("a.toml", SHORT);
     let other = SHORT.replace("depth_um = 20.0", "depth_um = 5.0");
     fs::write(folder.path().join("b.toml"), other).unwrap();
     folder
