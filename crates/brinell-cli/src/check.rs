@@ -21,7 +21,7 @@ use std::f64::consts::TAU;
 use std::process::ExitCode;
 
 pub(crate) fn check(args: &CheckArgs) -> Result<ExitCode, Failure> {
-    let loaded = files::scenario(&args.scenario, false)?;
+    let loaded = files::scenario(&args.scenario.scenario, &args.scenario.set, false)?;
     let s = &loaded.scenario;
     let model = Model::new(s)?;
     let d = Derived::new(&model, s.simulation.accuracy);

@@ -48,7 +48,7 @@ fn shape(defect: &scenario::Defect) -> Result<Shape, Failure> {
 
 /// The scenario of a command that prints an entry.
 fn to_print_of(args: &ScenarioArgs) -> Result<Loaded, Failure> {
-    let source = Source::open(args)?;
+    let source = Source::open(&args.scenario, &args.set)?;
     let loaded = source.load(&[], false)?;
     source.inputs().spare_standard_output()?;
     Ok(loaded)

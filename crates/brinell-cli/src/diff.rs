@@ -1,6 +1,5 @@
 //! `brinell diff`: what differs between two scenarios, key by key, defaults included.
 
-use crate::args::ScenarioArgs;
 use crate::failure::Failure;
 use crate::files;
 use crate::results::SCENARIO;
@@ -54,8 +53,7 @@ fn read(path: &Path) -> Result<Loaded, Failure> {
         true => path.join(SCENARIO),
         false => path.to_owned(),
     };
-    let set = Vec::new();
-    files::scenario(&ScenarioArgs { scenario, set }, true)
+    files::scenario(&scenario, &[], true)
 }
 
 /// A key that has not the same value in both; `None` where one has no such key.

@@ -1,6 +1,5 @@
 //! Scenario files in.
 
-use crate::args::ScenarioArgs;
 use crate::failure::{Failure, print_problems};
 use crate::inputs::Inputs;
 use crate::say::{complain, one_line};
@@ -12,8 +11,8 @@ use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
 
 /// Reads and validates a scenario; its warnings go to standard error unless `quiet`.
-pub(crate) fn scenario(args: &ScenarioArgs, quiet: bool) -> Result<Loaded, Failure> {
-    Source::open(args)?.load(&[], quiet)
+pub(crate) fn scenario(path: &Path, set: &[String], quiet: bool) -> Result<Loaded, Failure> {
+    Source::open(path, set)?.load(&[], quiet)
 }
 
 /// A scenario's text and the overrides of the command line, to be read as often as there are variants of it.
@@ -27,19 +26,22 @@ pub(crate) struct Source {
 }
 
 impl Source {
-    /// Reads the file.
-    pub(crate) fn open(args: &ScenarioArgs) -> Result<Self, Failure> {
-        let overrides = args.set.iter().map(|text| setting("--set ", text));
-        let overrides = overrides.collect::<Result<_, _>>()?;
-        let name =
-            if is_stdin(&args.scenario) { "standard input".to_owned() } else { args.scenario.display().to_string() };
-        let bytes = bytes(&args.scenario)?;
+    /// Reads the file; `set` are the overrides.
+    pub(crate) fn open(path: &Path, set: &[String]) -> Result<Self, Failure> {
+        let overrides = set.iter().map(|text| setting("--set ", text)).collect::<Result<_, _>>()?;
+        let bytes = bytes(path)?;
         let mut inputs = Inputs::default();
-        match is_stdin(&args.scenario) {
-            true => inputs.add_standard_input(),
-            false => inputs.add(&args.scenario),
-        }
-        Ok(Self { bytes, inputs: Mutex::new(inputs), path: args.scenario.clone(), name, overrides })
+        let name = match is_stdin(path) {
+            true => {
+                inputs.add_standard_input();
+                "standard input".to_owned()
+            }
+            false => {
+                inputs.add(path);
+                path.display().to_string()
+            }
+        };
+        Ok(Self { bytes, inputs: Mutex::new(inputs), path: path.to_owned(), name, overrides })
     }
 
     /// The file as written.

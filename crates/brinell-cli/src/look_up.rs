@@ -1,6 +1,6 @@
 //! The commands that look things up: `bearing`, `frequencies`, `schema`.
 
-use crate::args::{BearingCommand, FrequenciesArgs, ScenarioArgs, SchemaArgs};
+use crate::args::{BearingCommand, FrequenciesArgs, SchemaArgs};
 use crate::failure::Failure;
 use crate::files;
 use crate::say::{self, document, plain_number, say};
@@ -247,7 +247,7 @@ fn which(args: &FrequenciesArgs) -> Result<(Which, Option<f64>), Failure> {
     let path = PathBuf::from(bearing);
     let written_as_a_file = files::is_stdin(&path) || path.components().count() > 1 || bearing.ends_with(".toml");
     if KnownBearing::find(bearing).is_none() && (path.exists() || written_as_a_file) {
-        let loaded = files::scenario(&ScenarioArgs { scenario: path, set: Vec::new() }, true)?;
+        let loaded = files::scenario(&path, &[], true)?;
         let speed = match &loaded.scenario.operation.speed_rpm {
             Speed::Constant(rpm) => Some(*rpm),
             Speed::Profile(_) => None,

@@ -5,7 +5,7 @@ mod line_loads;
 mod many;
 mod spectra;
 
-use crate::args::{RunArgs, ScenarioArgs, SignalFormat};
+use crate::args::{RunArgs, SignalFormat};
 use crate::failure::{Failure, INTERRUPTED, print_problems};
 use crate::files;
 use crate::files::Source;
@@ -92,7 +92,7 @@ impl Task {
 /// Reads and tries a scenario, and says what is worth knowing before it runs, of several by the file's name. What it was
 /// read from goes to `inputs`.
 fn ready(args: &RunArgs, path: &Path, inputs: &mut Inputs) -> Result<Ready, Failure> {
-    let source = Source::open(&ScenarioArgs { scenario: path.to_owned(), set: args.set.clone() })?;
+    let source = Source::open(path, &args.set)?;
     let loaded = source.load(&[], args.quiet)?;
     inputs.add_all(&source.inputs());
     let simulation = Simulation::new(&loaded.scenario).map_err(Failure::Run)?;
@@ -168,11 +168,10 @@ fn execute(args: &RunArgs, task: &Task, progress: Progress, stop: &AtomicBool) -
     let mut recorder = Recorder::new(&simulation, writers, &mut shown).beside(beside);
     let (finished, healthy) =
         healthy::beside(args, &loaded.scenario, stop, || finish(loaded.scenario.clone(), simulation, &mut recorder));
-    let recording = recorder.close(&finished.outcome.end, true);
+    let files = recorder.close(&finished.outcome.end, true);
     let elapsed = shown.elapsed();
     drop(shown);
-    let recording = recording?;
-    ready.extend(recording.files);
+    ready.extend(files?);
     if let Some(loads) = &loads {
         ready.push(line_loads::ready(loads, folder)?);
     }

@@ -1,18 +1,11 @@
 //! `brinell analyze`: what it says of signals whose damage is known, and of files that are no signal.
 
-use crate::common::{GIVEN, brinell, json, typed};
+use crate::common::{FS, GIVEN, brinell, column, folder_with, json, normal, typed};
 use ::brinell::random::Random;
 use std::f64::consts::TAU;
 use std::fmt::Write as _;
 use std::fs;
-use std::path::Path;
 use tempfile::tempdir;
-
-const FS: f64 = 12_000.0;
-/// Twelve uniform numbers, summed: something like a normal variable.
-fn normal(random: &mut Random) -> f64 {
-    (0..12).map(|_| random.part()).sum::<f64>() - 6.0
-}
 
 /// Shaft speed, Hz, at a time: steady, or 20 % faster after the signal's `seconds`.
 fn shaft(t: f64, seconds: f64, sweep: f64) -> f64 {
@@ -34,14 +27,6 @@ fn signal(seconds: f64, height: f64, sweep: f64) -> Vec<f64> {
         at += (1.0 + 0.005 * normal(&mut noise)) / (3.5848 * shaft(at, seconds, sweep));
     }
     x
-}
-
-fn column(path: &Path, values: &[f64]) {
-    let mut text = String::new();
-    values.iter().for_each(|v| {
-        let _ = writeln!(text, "{v:.5}");
-    });
-    fs::write(path, text).unwrap();
 }
 
 fn with<'a>(file: &'a str, more: &[&'a str]) -> Vec<&'a str> {
@@ -203,8 +188,7 @@ fn regress_what_the_file_does_not_say_is_requested() {
 
 #[test]
 fn regress_which_of_two_channels_is_asked_with_all_the_rest() {
-    let folder = tempdir().unwrap();
-    fs::write(folder.path().join("two.csv"), "a,b\n1,2\n2,3\n").unwrap();
+    let folder = folder_with("two.csv", "a,b\n1,2\n2,3\n");
     brinell(folder.path(), &["analyze", "two.csv", "--rate", "12000"]).exits(2).complains(&[
         "two.csv: 4 things have to be given:",
         "choose one with --channel: a, b",

@@ -1,26 +1,13 @@
 //! `brinell analyze` of several bearings of one machine.
 
-use crate::common::{brinell, json};
-use ::brinell::random::Random;
-use std::f64::consts::TAU;
-use std::fmt::Write as _;
+use crate::common::{brinell, column, impacts, json};
 use std::fs;
 use tempfile::{TempDir, tempdir};
-
-const FS: f64 = 12_000.0;
 
 /// Impacts on the outer race of a 6205 at 1800 r/min, in noise, as `x.csv`.
 fn outer() -> TempDir {
     let folder = tempdir().unwrap();
-    let mut noise = Random::new(7);
-    let mut text = String::new();
-    for i in 0..24_000 {
-        let since = (f64::from(i) / FS) % (1.0 / (3.5848 * 30.0));
-        let strike = 6.0 * (-since / 8e-4).exp() * (TAU * 3000.0 * since).sin();
-        let normal: f64 = (0..12).map(|_| noise.part()).sum::<f64>() - 6.0;
-        let _ = writeln!(text, "{:.4}", strike + normal);
-    }
-    fs::write(folder.path().join("x.csv"), text).unwrap();
+    column(&folder.path().join("x.csv"), &impacts(6.0));
     folder
 }
 

@@ -1,37 +1,17 @@
 //! `brinell analyze` of several files, or of a folder of them.
 
-use crate::common::{GIVEN, brinell, files, json};
-use ::brinell::random::Random;
-use std::f64::consts::TAU;
-use std::fmt::Write as _;
+use crate::common::{GIVEN, brinell, column, files, impacts, json, parsed};
 use std::fs;
-use std::path::Path;
 use tempfile::{TempDir, tempdir};
-
-const FS: f64 = 12_000.0;
-
-/// Impacts at 3.5848 a turn of a shaft at 30 Hz, of a height over unit noise.
-fn signal(path: &Path, height: f64) {
-    let mut noise = Random::new(7);
-    let mut text = String::new();
-    for i in 0..24_000 {
-        let t = f64::from(i) / FS;
-        let since = t % (1.0 / (3.5848 * 30.0));
-        let strike = height * (-since / 8e-4).exp() * (TAU * 3000.0 * since).sin();
-        let normal: f64 = (0..12).map(|_| noise.part()).sum::<f64>() - 6.0;
-        let _ = writeln!(text, "{:.4}", strike + normal);
-    }
-    fs::write(path, text).unwrap();
-}
 
 /// `records/` with r1 (noise), r2 (empty), r10 (damage), and what is no signal.
 fn records() -> TempDir {
     let folder = tempdir().unwrap();
     let at = |name: &str| folder.path().join("records").join(name);
     fs::create_dir(folder.path().join("records")).unwrap();
-    signal(&at("r1.csv"), 0.0);
+    column(&at("r1.csv"), &impacts(0.0));
     fs::write(at("r2.csv"), "").unwrap();
-    signal(&at("r10.csv"), 6.0);
+    column(&at("r10.csv"), &impacts(6.0));
     fs::write(at("notes.txt"), "not a signal").unwrap();
     fs::write(at(".r3.csv"), "").unwrap();
     folder
@@ -88,13 +68,13 @@ fn regress_several_files_keep_their_order() {
     let folder = records();
     let named = ["records/r10.csv", "records/r1.csv"];
     let done = brinell(folder.path(), &call(&named, &["--json", "-"])).exits(0);
-    let all: serde_json::Value = serde_json::from_str(&done.out).unwrap();
+    let all = parsed(&done.out);
     for (record, path) in all["records"].as_array().unwrap().iter().zip(named) {
         assert_eq!(record["file"]["path"], path);
     }
     // One alone is what it always was.
     let one = brinell(folder.path(), &call(&named[..1], &["--json", "-"])).exits(0);
-    let one: serde_json::Value = serde_json::from_str(&one.out).unwrap();
+    let one = parsed(&one.out);
     assert_eq!(one["verdict"], all["records"][0]["verdict"]);
 }
 

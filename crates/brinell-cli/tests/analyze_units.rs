@@ -1,14 +1,12 @@
 //! `brinell analyze`: units, sensitivities and full scales; severity.
 
-use crate::common::{brinell, json};
+use crate::common::{FS, brinell, column, json};
 use ::brinell::random::Random;
 use std::f64::consts::TAU;
-use std::fmt::Write as _;
 use std::fs;
 use std::path::Path;
 use tempfile::tempdir;
 
-const FS: f64 = 12_000.0;
 /// What says the shaft's speed and the bearing.
 const MACHINE: [&str; 4] = ["--speed", "1800", "--bearing", "6205"];
 
@@ -41,14 +39,6 @@ fn wav(path: &Path, values: &[f64], whole: bool) {
     bytes.extend((data.len() as u32).to_le_bytes());
     bytes.extend(data);
     fs::write(path, bytes).unwrap();
-}
-
-fn column(path: &Path, values: &[f64]) {
-    let mut text = String::new();
-    values.iter().for_each(|v| {
-        let _ = writeln!(text, "{v:.6}");
-    });
-    fs::write(path, text).unwrap();
 }
 
 /// RMS and unit of what a call finds.

@@ -16,11 +16,7 @@ fn call<'a>(more: &[&'a str]) -> Vec<&'a str> {
 }
 
 /// Numbers of a run of the base with a setting, from a sweep of one point.
-fn truth(folder: &Path, setting: &str) -> Value {
-    truth_with(folder, setting, &[])
-}
-
-fn truth_with(folder: &Path, setting: &str, more: &[&str]) -> Value {
+fn truth(folder: &Path, setting: &str, more: &[&str]) -> Value {
     let args = ["sweep", "base.toml", "--vary", setting, "-o", "truth", "-q"];
     let args = [&args, more].concat();
     brinell(folder, &args).exits(0).keeps_quiet();
@@ -29,30 +25,19 @@ fn truth_with(folder: &Path, setting: &str, more: &[&str]) -> Value {
     serde_json::from_str::<Value>(row).unwrap()["values"].clone()
 }
 
-fn value(truth: &Value, name: &str) -> f64 {
-    truth[name][1].as_f64().unwrap()
+/// A target that the truth has, as an option.
+fn target(truth: &Value, name: &str, uncertainty: &str) -> String {
+    format!("--target {name}={:?}~{uncertainty}", truth[name][1].as_f64().unwrap())
 }
 
 #[test]
 fn prop_a_known_speed_comes_back() {
     let folder = folder();
-    let truth = truth(folder.path(), "operation.speed_rpm=2950");
-    let target = |name: &str, share: &str| format!("{name}={:?}~{share}", value(&truth, name));
-    let frequency = target("defect1.pure_rolling_frequency", "0.1%");
-    let rms = target("sensor_ax.rms", "5%");
-    let args = [
-        "--fit",
-        "operation.speed_rpm=2500:3500",
-        "--target",
-        &frequency,
-        "--target",
-        &rms,
-        "--budget",
-        "20",
-        "-o",
-        "cal",
-    ];
-    brinell(folder.path(), &call(&args))
+    let truth = truth(folder.path(), "operation.speed_rpm=2950", &[]);
+    let frequency = target(&truth, "defect1.pure_rolling_frequency", "0.1%");
+    let rms = target(&truth, "sensor_ax.rms", "5%");
+    let args = format!("--fit operation.speed_rpm=2500:3500 {frequency} {rms} --budget 20 -o cal");
+    brinell(folder.path(), &call(&typed(&args)))
         .exits(0)
         .says(&["1 key to 2 targets", "up to 20 runs", "wrote cal/best.toml"])
         .keeps_quiet();
@@ -72,28 +57,13 @@ fn prop_a_known_speed_comes_back() {
 fn prop_two_known_keys_come_back_within_their_intervals() {
     let folder = folder();
     // Of a run with both keys off the middle of their ranges.
-    let truth = truth_with(folder.path(), "operation.speed_rpm=2950", &["--set", "operation.load_n=[410.0,0.0]"]);
-    let target = |name: &str, share: &str| format!("{name}={:?}~{share}", value(&truth, name));
-    let frequency = target("defect1.pure_rolling_frequency", "0.1%");
-    let force = target("row1.largest_outer_force", "2%");
-    let rms = target("sensor_ax.rms", "5%");
-    let args = [
-        "--fit",
-        "operation.speed_rpm=2500:3500",
-        "--fit",
-        "operation.load_n.0=200:800",
-        "--target",
-        &frequency,
-        "--target",
-        &force,
-        "--target",
-        &rms,
-        "--budget",
-        "40",
-        "-o",
-        "cal",
-    ];
-    brinell(folder.path(), &call(&args)).exits(0).says(&[
+    let truth = truth(folder.path(), "operation.speed_rpm=2950", &["--set", "operation.load_n=[410.0,0.0]"]);
+    let frequency = target(&truth, "defect1.pure_rolling_frequency", "0.1%");
+    let force = target(&truth, "row1.largest_outer_force", "2%");
+    let rms = target(&truth, "sensor_ax.rms", "5%");
+    let fit = "--fit operation.speed_rpm=2500:3500 --fit operation.load_n.0=200:800";
+    let args = format!("{fit} {frequency} {force} {rms} --budget 40 -o cal");
+    brinell(folder.path(), &call(&typed(&args))).exits(0).says(&[
         "2 keys to 3 targets",
         "operation.load_n.0 from 200.0 to 800.0 N",
         "The targets are met",
@@ -110,26 +80,11 @@ fn prop_two_known_keys_come_back_within_their_intervals() {
 #[test]
 fn prop_neither_threads_nor_interruptions_change_a_byte() {
     let folder = folder();
-    let truth = truth(folder.path(), "operation.speed_rpm=2900");
-    let target = format!("defect1.pure_rolling_frequency={:?}~0.2", value(&truth, "defect1.pure_rolling_frequency"));
-    let args = |out: &'static str, jobs: &'static str| {
-        call(&[
-            "--fit",
-            "operation.speed_rpm=2500:3500",
-            "--target",
-            &target,
-            "--target",
-            "sensor_ax.rms=30~10%",
-            "--budget",
-            "14",
-            "--set",
-            "simulation.duration_s=0.06",
-            "-o",
-            out,
-            "-j",
-            jobs,
-        ])
-    };
+    let truth = truth(folder.path(), "operation.speed_rpm=2900", &[]);
+    let frequency = target(&truth, "defect1.pure_rolling_frequency", "0.2");
+    let rest = "--target sensor_ax.rms=30~10% --budget 14 --set simulation.duration_s=0.06";
+    let given = format!("--fit operation.speed_rpm=2500:3500 {frequency} {rest}");
+    let args = |out: &'static str, jobs: &'static str| call(&[&typed(&given)[..], &["-o", out, "-j", jobs]].concat());
     let run = |out, jobs| brinell(folder.path(), &args(out, jobs)).exits(0);
     run("one", "1");
     run("three", "3");
@@ -224,10 +179,6 @@ fn regress_bad_input_is_reported_with_key_value_and_range() {
         &["--fit: operation.speed_rpm = 3100:2900: the bounds are reversed; 2900.0:3100.0 is meant"],
     );
     refuse(
-        &["--fit", "bearing.radial_clearance_um=a:20", "--target", "sensor_ax.rms=30~1"],
-        &["the lower bound, `a`, is not a number"],
-    );
-    refuse(
         &["--fit", "bearing.roller_diameter_mm=-3:8", "--target", "sensor_ax.rms=30~1"],
         &["bearing.roller_diameter_mm", "-3", "mm"],
     );
@@ -240,7 +191,6 @@ fn regress_bad_input_is_reported_with_key_value_and_range() {
         &with(&["--target", "sensor_ax.rms=30"]),
         &["--target: sensor_ax.rms = 30: no standard uncertainty is given"],
     );
-    refuse(&with(&["--target", "sensor_ax.rms=30~0"]), &["the standard uncertainty is not above 0"]);
     refuse(
         &with(&["--target", "sensor_ax.rms=30~1", "--budget", "3"]),
         &["--budget 3: expected 6 runs or more for 1 key"],

@@ -17,42 +17,20 @@ fn folder() -> TempDir {
 #[test]
 fn regress_files_and_variants_come_side_by_side() {
     let folder = folder();
-    brinell(
-        folder.path(),
-        &[
-            "compare",
-            "actual.toml",
-            "simple.toml",
-            "--variant",
-            "lumped:simulation.model=lumped; defects.0.depth_um=10",
-            "-o",
-            "out",
-            "--plots",
-            "svg",
-        ],
-    )
-    .exits(0)
-    .says(&[
-        "simple over actual (the baseline), ratios:",
-        "lumped over actual (the baseline), ratios:",
-        "sensor_ax.rms: ",
-        "(95 %: ",
-    ])
-    .keeps_quiet();
+    let variant = "lumped:simulation.model=lumped;defects.0.depth_um=10";
+    let args = format!("compare actual.toml simple.toml -o out --plots svg --variant {variant}");
+    brinell(folder.path(), &typed(&args))
+        .exits(0)
+        .says(&["simple over actual (the baseline), ratios:", "lumped over actual (the baseline), ratios:"])
+        .says(&["sensor_ax.rms: ", "(95 %: "])
+        .keeps_quiet();
     let out = folder.path().join("out");
     let names = files(&out);
-    for name in [
-        "compare.csv",
-        "compare.html",
-        "compare.json",
-        "compare.parquet",
-        "scenarios/1-actual.toml",
-        "scenarios/3-lumped.toml",
-    ] {
-        assert!(names.contains(&name.to_owned()), "{names:?}");
-    }
-    for name in ["waveform", "spectrum", "defect1-length", "defect1-entry"] {
-        assert!(names.contains(&format!("plots/{name}.svg")), "{names:?}");
+    let results =
+        "compare.csv compare.html compare.json compare.parquet scenarios/1-actual.toml scenarios/3-lumped.toml";
+    let plots = "plots/waveform.svg plots/spectrum.svg plots/defect1-length.svg plots/defect1-entry.svg";
+    for name in [typed(results), typed(plots)].concat() {
+        assert!(names.iter().any(|there| there == name), "no {name} in {names:?}");
     }
     let json = json(&out.join("compare.json"));
     assert_eq!(json["baseline"], "actual");

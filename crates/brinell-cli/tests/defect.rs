@@ -1,23 +1,17 @@
 //! `brinell defect`: what it prints reads back, what it measures is right, what is wrong is reported.
 
-use std::path::{Path, PathBuf};
-use std::process::{Command, Output};
+use crate::common::{brinell, example, json};
+use std::path::Path;
 
 const HEAD: &str = "name = \"t\"\n[bearing]\npreset = \"NN3007\"\n[operation]\nspeed_rpm = 1800.0\n\
     load_n = [300.0, 0.0]\nload_on = \"outer-ring\"\n[simulation]\nduration_s = 0.1\n";
 const SQUARE_WITH_A_HOLE: &str = "[[defects]]\non = \"outer-raceway\"\ndepth_um = 8.0\n\
     shape = { outline = { polygons_mm = [[[-2, -2], [2, -2], [2, 2], [-2, 2]], [[-1, -1], [1, -1], [1, 1], [-1, 1]]] } }\n";
 
-fn brinell(args: &[&str]) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_brinell")).args(args).output().unwrap()
-}
-
-/// Standard output of a command that must succeed.
+/// What a command that must succeed prints.
+#[track_caller]
 fn out(args: &[&str]) -> String {
-    let output = brinell(args);
-    let error = String::from_utf8_lossy(&output.stderr);
-    assert!(output.status.success(), "{args:?}: {error}");
-    String::from_utf8(output.stdout).unwrap()
+    brinell(Path::new("."), args).exits(0).out
 }
 
 fn scenario(folder: &Path, name: &str, defects: &str) -> String {
@@ -26,18 +20,17 @@ fn scenario(folder: &Path, name: &str, defects: &str) -> String {
     path.display().to_string()
 }
 
-fn example(name: &str) -> String {
-    let root = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../../examples");
-    root.join(name).display().to_string()
-}
-
 /// preview.json of a scenario.
 fn preview(folder: &Path, scenario: &str) -> serde_json::Value {
-    let to = folder.join("preview");
-    let to = to.to_str().unwrap();
-    out(&["defect", "preview", scenario, "-o", to, "--formats", "svg"]);
-    let text = std::fs::read_to_string(Path::new(to).join("preview.json")).unwrap();
-    serde_json::from_str(&text).unwrap()
+    let args = ["defect", "preview", scenario, "-o", "preview", "--formats", "svg"];
+    brinell(folder, &args).exits(0);
+    json(&folder.join("preview/preview.json"))
+}
+
+/// A curve of a preview's passage.
+fn curve(preview: &serde_json::Value, name: &str) -> Vec<f64> {
+    let values = preview["defects"][0]["passage"][name].as_array();
+    values.unwrap_or_else(|| panic!("no {name}")).iter().map(|x| x.as_f64().unwrap()).collect()
 }
 
 fn number(json: &serde_json::Value, key: &str) -> f64 {
@@ -54,11 +47,7 @@ fn analytic_preview_measures_closed_forms() {
     let hole = preview(folder.path(), &hole);
     assert!((number(&hole, "area_mm2") - 12.0).abs() < 1e-3);
     assert!((number(&hole, "widest_mm") - 4.0).abs() < 1e-9);
-    let passage = &hole["defects"][0]["passage"];
-    let curve = |name: &str| -> Vec<f64> {
-        let values = passage[name].as_array().unwrap();
-        values.iter().map(|x| x.as_f64().unwrap()).collect()
-    };
+    let curve = |name| curve(&hole, name);
     let (damaged, left) = (curve("length_damaged_l_s_mm"), curve("length_in_contact_l_e_mm"));
     assert!(damaged.iter().zip(&left).all(|(a, b)| (a + b - 6.0).abs() < 1e-12));
     assert!(damaged.iter().all(|x| [0.0, 2.0, 4.0].iter().any(|y| (x - y).abs() < 1e-9)));
@@ -80,11 +69,7 @@ fn analytic_preview_measures_closed_forms() {
 fn analytic_a_rollers_preview_holds_both_contacts() {
     let folder = tempfile::tempdir().unwrap();
     let json = preview(folder.path(), &example("roller.toml"));
-    let passage = &json["defects"][0]["passage"];
-    let curve = |name: &str| -> Vec<f64> {
-        let values = passage[name].as_array().unwrap_or_else(|| panic!("{name}"));
-        values.iter().map(|x| x.as_f64().unwrap()).collect()
-    };
+    let curve = |name: &str| curve(&json, name);
     // 1 mm of a roller of 3 mm radius; the envelope's parabola has the contact's relative radius.
     let angle = curve("angle_deg");
     for (side, curvature) in [("outer", 1.0 / 3.0 - 1.0 / 27.5), ("inner", 1.0 / 3.0 + 1.0 / 21.5)] {
@@ -176,11 +161,6 @@ fn regress_bad_input_ends_with_two_and_says_what_is_allowed() {
         (&["random", "--seed", "1", "--length-mm", "nan", "--width-mm", "1"], "--length-mm NaN"),
         (&["random", "--seed", "1", "--length-mm", "1", "--width-mm", "1", "--roughness", "2"], "--roughness 2"),
     ] {
-        let mut all = vec!["defect"];
-        all.extend(args);
-        let output = brinell(&all);
-        let error = String::from_utf8_lossy(&output.stderr);
-        assert_eq!(output.status.code(), Some(2), "{args:?}: {error}");
-        assert!(error.contains(words), "{args:?}: {error}");
+        brinell(Path::new("."), &[&["defect"], args].concat()).exits(2).complains(&[words]);
     }
 }

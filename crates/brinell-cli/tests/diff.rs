@@ -1,14 +1,12 @@
 //! `diff`: two scenarios key by key, defaults included.
 
-use crate::common::{SHORT, brinell, typed};
+use crate::common::{SHORT, brinell, folder_with, parsed, typed};
 use std::fs;
-use tempfile::tempdir;
 
 #[test]
 fn prop_what_differs_is_reported_with_units_and_defaults() {
-    let folder = tempdir().unwrap();
+    let folder = folder_with("a.toml", SHORT);
     let here = folder.path();
-    fs::write(here.join("a.toml"), SHORT).unwrap();
     let b = SHORT
         .replace("speed_rpm = 1500.0", "speed_rpm = \"50 Hz\"")
         .replace("[operation]", "[lubricant]\nviscosity_pa_s = 0.02\n[operation]");
@@ -20,8 +18,7 @@ fn prop_what_differs_is_reported_with_units_and_defaults() {
     let viscosity = lines.iter().find(|l| l[0] == "lubricant.viscosity_pa_s");
     assert_eq!(viscosity.unwrap()[1..], ["0.01", "(default)", "0.02", "Pa", "s"]);
     assert_eq!(lines.len(), 3, "{told}");
-    let json = brinell(here, &["diff", "a.toml", "b.toml", "--json"]).exits(0).out;
-    let json: serde_json::Value = serde_json::from_str(&json).unwrap();
+    let json = parsed(&brinell(here, &["diff", "a.toml", "b.toml", "--json"]).exits(0).out);
     let all = json["differences"].as_array().unwrap();
     assert_eq!(all.len(), 2);
     let speed = all.iter().find(|d| d["key"] == "operation.speed_rpm").unwrap();
@@ -31,9 +28,8 @@ fn prop_what_differs_is_reported_with_units_and_defaults() {
 
 #[test]
 fn prop_a_written_scenario_is_the_same_run_and_so_is_its_folder() {
-    let folder = tempdir().unwrap();
+    let folder = folder_with("a.toml", SHORT);
     let here = folder.path();
-    fs::write(here.join("a.toml"), SHORT).unwrap();
     brinell(here, &typed("run a.toml -o o -q --no-report --signals none")).exits(0);
     brinell(here, &["diff", "a.toml", "o"]).exits(0).says(&["no difference: the same run"]);
     // One more defect: its keys are in one alone.

@@ -96,6 +96,17 @@ fn prop_full_templates_are_the_same_scenario() {
 fn prop_init_overwrites_nothing_of_the_users() {
     let folder = tempdir().unwrap();
     let here = folder.path();
+    brinell(here, &["init", "s.toml"]).exits(0).keeps_quiet().says(&["wrote s.toml", "brinell run s.toml"]);
+    let written = fs::read_to_string(here.join("s.toml")).unwrap();
+    // A file's name is its scenario's.
+    assert_eq!(brinell(here, &["init"]).exits(0).out, written.replace("name = \"s\"", "name = \"outer-spall\""));
+    fs::write(here.join("s.toml"), "mine").unwrap();
+    brinell(here, &["init", "s.toml"]).exits(2).complains(&["s.toml exists; --force overwrites it"]);
+    assert_eq!(fs::read(here.join("s.toml")).unwrap(), b"mine");
+    brinell(here, &["init", "s.toml", "--force"]).exits(0);
+    assert_eq!(fs::read_to_string(here.join("s.toml")).unwrap(), written);
+    fs::remove_file(here.join("s.toml")).unwrap();
+    fs::remove_file(here.join("brinell-schema.json")).unwrap();
     let photo = ["init", "s.toml", "--template", "photo"];
     fs::write(here.join("photo-spall.png"), "mine").unwrap();
     brinell(here, &photo).exits(2).complains(&["photo-spall.png exists; --force overwrites it"]);

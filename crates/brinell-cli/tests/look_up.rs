@@ -1,8 +1,6 @@
-//! The commands that look things up: `frequencies`, `bearing`, `schema`, `init`, and every `--help`.
+//! The commands that look things up: `frequencies`, `bearing`, `schema`.
 
-use crate::common::{SHORT, brinell, brinell_reading, typed};
-use serde_json::Value;
-use std::fs;
+use crate::common::{SHORT, brinell, brinell_reading, folder_with, parsed, typed};
 use tempfile::tempdir;
 
 /// model.md, section 13: NN3007 at 1800 r/min, Hz.
@@ -10,10 +8,6 @@ const SECTION_13: [(&str, f64); 4] = [("bpfo", 250.102), ("bpfi", 319.898), ("ft
 
 fn call(args: &[&str]) -> crate::common::Call {
     brinell(tempdir().unwrap().path(), args)
-}
-
-fn parsed(text: &str) -> Value {
-    serde_json::from_str(text).expect("it is JSON")
 }
 
 #[test]
@@ -57,8 +51,7 @@ fn prop_frequencies_are_orders_without_a_speed_and_know_no_sense_of_rotation() {
 
 #[test]
 fn regress_frequencies_of_a_scenario_use_its_speed() {
-    let folder = tempdir().unwrap();
-    fs::write(folder.path().join("s"), SHORT).unwrap();
+    let folder = folder_with("s", SHORT);
     let read = brinell(folder.path(), &["frequencies", "s"]).exits(0).says(&["Pure rolling at 1500 r/min"]);
     let piped = brinell_reading(folder.path(), &["frequencies", "-"], SHORT.as_bytes()).exits(0);
     assert_eq!(read.out, piped.out);
@@ -146,51 +139,4 @@ fn regress_the_schema_is_a_json_schema() {
     {
         assert!(sections.contains_key(section), "{section}");
     }
-}
-
-#[test]
-fn regress_init_writes_a_scenario_that_passes_and_overwrites_nothing() {
-    let folder = tempdir().unwrap();
-    let here = folder.path();
-    brinell(here, &["init", "s.toml"]).exits(0).keeps_quiet().says(&["wrote s.toml", "brinell run s.toml"]);
-    let written = fs::read_to_string(here.join("s.toml")).unwrap();
-    // A file's name is its scenario's.
-    let named = written.replace("name = \"s\"", "name = \"outer-spall\"");
-    assert_eq!(brinell(here, &["init"]).exits(0).out, named);
-    brinell(here, &["check", "s.toml"]).exits(0).keeps_quiet();
-    fs::write(here.join("s.toml"), "mine").unwrap();
-    brinell(here, &["init", "s.toml"]).exits(2).complains(&["s.toml exists; --force overwrites it"]);
-    assert_eq!(fs::read(here.join("s.toml")).unwrap(), b"mine");
-    brinell(here, &["init", "s.toml", "--force"]).exits(0);
-    assert_eq!(fs::read_to_string(here.join("s.toml")).unwrap(), written);
-}
-
-#[test]
-fn regress_help_mentions_every_option() {
-    for (command, options) in [
-        (&[][..], &["run", "check", "init", "bearing", "frequencies", "schema", "--version", "Exit codes"][..]),
-        (
-            &["run"],
-            &["SCENARIO", "--set", "--output", "--signals", "--plots", "--no-report", "--quiet", "parquet", "Ctrl-C"],
-        ),
-        (&["check"], &["SCENARIO", "--set", "--assumptions"]),
-        (&["init"], &["FILE", "--template", "--bearing", "--full", "--force"]),
-        (&["diff"], &["A", "B", "--json"]),
-        (&["open"], &["FOLDER_OR_PAGE"]),
-        (&["completions"], &["bash", "zsh", "fish", "powershell"]),
-        (&["man"], &["DIR"]),
-        (&["bearing"], &["list", "show"]),
-        (&["bearing", "list"], &["catalogue"]),
-        (&["bearing", "show"], &["NAME"]),
-        (&["frequencies"], &["BEARING", "--speed", "--pitch", "--diameter", "--rollers", "--json", "Examples:"]),
-        (&["schema"], &["JSON Schema"]),
-    ] {
-        for flag in ["--help", "-h"] {
-            let call = call(&[command, &[flag]].concat()).exits(0).keeps_quiet().says(options);
-            let widest = call.out.lines().map(|line| line.chars().count()).max();
-            // clap wraps at 100 columns where there is no terminal.
-            assert!(widest <= Some(100), "{}", call.out);
-        }
-    }
-    call(&["--version"]).exits(0).says(&["brinell ", env!("CARGO_PKG_VERSION")]);
 }

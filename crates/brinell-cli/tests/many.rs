@@ -80,13 +80,6 @@ fn regress_one_that_fails_stops_no_other() {
     }
 }
 
-#[test]
-fn regress_jobs_is_at_least_one() {
-    let folder = tempdir().unwrap();
-    scenario(folder.path(), "a.toml", "5.0");
-    brinell(folder.path(), &["run", "a.toml", "--jobs", "0"]).exits(2).complains(&["--jobs"]);
-}
-
 /// `..` is what is left of `...toml` without its ending, and `.` of `..toml`.
 #[test]
 fn prop_no_name_of_a_file_leads_out_of_the_folder() {

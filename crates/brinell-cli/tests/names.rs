@@ -1,13 +1,9 @@
 //! Names of bearings, quantities with units and JSON, over the commands that take them.
 
-use crate::common::{SHORT, brinell, json, with_blocks};
+use crate::common::{SHORT, brinell, json, parsed, with_blocks};
 use serde_json::Value;
 use std::fs;
 use tempfile::tempdir;
-
-fn parsed(text: &str) -> Value {
-    serde_json::from_str(text).expect("it is JSON")
-}
 
 #[test]
 fn prop_every_command_finds_bearings_however_they_are_written() {
@@ -90,42 +86,6 @@ fn lit_bearing_show_gives_the_clearance_of_the_class_in_the_name() {
     let plain = show(&["6205"]);
     assert!(!plain.contains("in the name") && !plain.contains("this bearing"), "{plain}");
     assert!(parsed(&show(&["6205", "--json"]))["clearance_class"].is_null());
-}
-
-#[test]
-fn prop_a_letter_o_in_a_size_is_taken_for_the_digit() {
-    let folder = tempdir().unwrap();
-    let here = folder.path();
-    let scenario = |preset| format!("[bearing]\npreset = \"{preset}\"\n[operation]\nspeed_rpm = 1\nload_n = [1, 0]\n");
-    for (name, meant) in [("62O5", "6205"), ("nu 2o6 ECP", "NU206"), ("NN3OO7", "NN3007")] {
-        let hint = format!("did you mean {meant}?");
-        brinell(here, &["bearing", "show", name]).exits(2).complains(&[&hint]);
-        fs::write(here.join("s.toml"), scenario(name)).unwrap();
-        let hint = format!("did you mean \"{meant}\"?");
-        brinell(here, &["check", "s.toml"]).exits(2).complains(&[&hint]);
-    }
-}
-
-#[test]
-fn prop_quantities_with_units_are_the_numbers() {
-    let folder = tempdir().unwrap();
-    let here = folder.path();
-    fs::write(here.join("s.toml"), SHORT).unwrap();
-    let units = SHORT
-        .replace("1500.0", "\"25 Hz\"")
-        .replace("[300.0, 0.0]", "[\"0.3 kN\", 0]")
-        .replace("depth_um = 20.0", "depth_um = \"0.02 mm\"");
-    fs::write(here.join("u.toml"), units).unwrap();
-    let check = |args: &[&str]| brinell(here, &[&["check"], args].concat()).exits(0).out;
-    let plain = check(&["s.toml"]);
-    assert_eq!(check(&["u.toml"]), plain);
-    let set = ["s.toml", "--set", "operation.speed_rpm=25 Hz", "--set", "operation.load_n=[\"300 N\", \"0 N\"]"];
-    assert_eq!(check(&set), plain);
-    brinell(here, &["check", "s.toml", "--set", "operation.speed_rpm=2 kN"]).exits(2).complains(&[
-        "operation.speed_rpm",
-        "does not convert to r/min",
-        "rpm, Hz",
-    ]);
 }
 
 #[test]

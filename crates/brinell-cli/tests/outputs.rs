@@ -1,47 +1,21 @@
 //! What `brinell run` leaves in its folder and says on the terminal.
 
-use crate::common::{SHORT, brinell, brinell_reading, command, csv, files, json, typed};
+use crate::common::{SHORT, brinell, brinell_reading, command, csv, files, folder_with, json, typed};
 use std::fs;
 use std::path::Path;
 use std::process::Stdio;
-use tempfile::{TempDir, tempdir};
+use tempfile::tempdir;
 
 /// Samples of SHORT: floor(0.02 s * 25600 Hz) + 1.
 const ROWS: usize = 513;
 
-fn folder_with(scenario: &str) -> TempDir {
-    let folder = tempdir().unwrap();
-    fs::write(folder.path().join("s.toml"), scenario).unwrap();
-    folder
-}
-
 /// The default channels of a single-row bearing (design.md).
-const CHANNELS: [&str; 20] = [
-    "t",
-    "inner_x",
-    "inner_y",
-    "inner_vx",
-    "inner_vy",
-    "inner_ax",
-    "inner_ay",
-    "outer_x",
-    "outer_y",
-    "outer_vx",
-    "outer_vy",
-    "outer_ax",
-    "outer_ay",
-    "cage1_x",
-    "cage1_y",
-    "cage1_ax",
-    "cage1_ay",
-    "cage1_speed",
-    "sensor_ax",
-    "sensor_ay",
-];
+const CHANNELS: &str = "t inner_x inner_y inner_vx inner_vy inner_ax inner_ay outer_x outer_y outer_vx outer_vy outer_ax \
+                        outer_ay cage1_x cage1_y cage1_ax cage1_ay cage1_speed sensor_ax sensor_ay";
 
 #[test]
 fn regress_csv_has_the_documented_channels_and_number_of_rows() {
-    let folder = folder_with(SHORT);
+    let folder = folder_with("s.toml", SHORT);
     let args = ["run", "s.toml", "-o", "o", "--signals", "csv"];
     let call = brinell(folder.path(), &args).exits(0).warns_of_the_short_run_alone();
     let output = folder.path().join("o");
@@ -50,7 +24,7 @@ fn regress_csv_has_the_documented_channels_and_number_of_rows() {
         assert!(call.out.contains(&format!("  wrote o/{name}\n")), "{}", call.out);
     }
     let (names, rows) = csv(&output.join("signals.csv"));
-    assert_eq!(names, CHANNELS);
+    assert_eq!(names, typed(CHANNELS));
     assert_eq!(rows.len(), ROWS);
     for (i, row) in rows.iter().enumerate() {
         assert_eq!(row[0], i as f64 / 25600.0);
@@ -61,7 +35,7 @@ fn regress_csv_has_the_documented_channels_and_number_of_rows() {
 #[test]
 fn prop_a_duration_between_samples_is_rounded_down() {
     for (duration, rate, rows) in [("0.001", "25600.0", 26), ("0.0012", "10000.0", 13)] {
-        let folder = folder_with(&SHORT.replace("0.02", duration).replace("25600.0", rate));
+        let folder = folder_with("s.toml", &SHORT.replace("0.02", duration).replace("25600.0", rate));
         let args = typed("run s.toml -o o --signals csv --no-report");
         brinell(folder.path(), &args).exits(0);
         assert_eq!(csv(&folder.path().join("o/signals.csv")).1.len(), rows);
@@ -70,7 +44,7 @@ fn prop_a_duration_between_samples_is_rounded_down() {
 
 #[test]
 fn prop_the_same_scenario_gives_the_same_bytes_and_its_written_form_the_same_signals() {
-    let folder = folder_with(SHORT);
+    let folder = folder_with("s.toml", SHORT);
     let here = folder.path();
     let run = |scenario: &str, output: &str| {
         let args = ["run", scenario, "-o", output, "--signals", "csv,parquet", "--plots", "svg,png"];
@@ -105,7 +79,7 @@ fn prop_the_same_scenario_gives_the_same_bytes_and_its_written_form_the_same_sig
 #[test]
 fn regress_summary_has_the_documented_members() {
     // Long enough for indicators from blocks of revolutions.
-    let folder = folder_with(&SHORT.replace("0.02", "0.3"));
+    let folder = folder_with("s.toml", &SHORT.replace("0.02", "0.3"));
     let here = folder.path();
     let args = typed("run s.toml -o o --signals none --no-report");
     let call = brinell(here, &args).exits(0).keeps_quiet();
@@ -126,7 +100,7 @@ fn regress_summary_has_the_documented_members() {
     let bpfo = s["defect_frequencies"]["hz"]["bpfo"].as_f64().unwrap();
     assert!((bpfo - 131.05).abs() < 0.01, "{bpfo}");
     assert_eq!(s["defects"][0]["frequency"]["name"], "BPFO");
-    for channel in &CHANNELS[1..] {
+    for channel in &typed(CHANNELS)[1..] {
         let channel = &s["indicators"]["channels"][*channel];
         assert!(channel["unit"].is_string(), "{channel}");
     }
@@ -171,7 +145,7 @@ fn regress_summary_has_the_documented_members() {
 fn regress_report_stands_alone() {
     // A name that would break out of any element or attribute.
     let name = r#"name = "a\"b'</title><script>x</script>&amp;""#;
-    let folder = folder_with(&SHORT.replace(r#"name = "short""#, name));
+    let folder = folder_with("s.toml", &SHORT.replace(r#"name = "short""#, name));
     let args = ["run", "s.toml", "-o", "o", "--signals", "none"];
     brinell(folder.path(), &args).exits(0);
     let html = fs::read_to_string(folder.path().join("o/report.html")).unwrap();
@@ -198,7 +172,7 @@ fn regress_report_stands_alone() {
 
 #[test]
 fn regress_pictures_for_print_come_with_their_numbers() {
-    let folder = folder_with(SHORT);
+    let folder = folder_with("s.toml", SHORT);
     let here = folder.path();
     let args = ["run", "s.toml", "-q", "--no-report", "-o", "o", "--plots", "pdf,svg", "--width", "9cm"];
     brinell(here, &args).exits(0).keeps_quiet();
@@ -218,7 +192,7 @@ fn regress_pictures_for_print_come_with_their_numbers() {
 
 #[test]
 fn regress_signal_formats_are_what_was_requested() {
-    let folder = folder_with(&SHORT.replace("0.02", "0.002"));
+    let folder = folder_with("s.toml", &SHORT.replace("0.02", "0.002"));
     let here = folder.path();
     for (formats, expected) in [
         (&[][..], &["signals.parquet"][..]),
@@ -254,28 +228,14 @@ fn regress_quiet_is_silent_and_the_default_folder_bears_the_name() {
 
 /// Names of the recorded columns, and what was said on standard error.
 fn columns(here: &Path, record: &str) -> (Vec<String>, String) {
-    let set = format!("simulation.record={record}");
-    let args = [
-        "run",
-        "s.toml",
-        "-o",
-        "o",
-        "--no-report",
-        "--overwrite",
-        "--signals",
-        "csv",
-        "--set",
-        &set,
-        "--set",
-        "simulation.duration_s=0.001",
-    ];
-    let call = brinell(here, &args).exits(0);
+    let args = typed("run s.toml -o o --no-report --overwrite --signals csv --set simulation.duration_s=0.001 --set");
+    let call = brinell(here, &[&args[..], &[&format!("simulation.record={record}")]].concat()).exits(0);
     (csv(&here.join("o/signals.csv")).0, call.err)
 }
 
 #[test]
 fn regress_record_picks_channels_by_wildcards() {
-    let folder = folder_with(SHORT);
+    let folder = folder_with("s.toml", SHORT);
     let here = folder.path();
     let (names, err) = columns(here, r#"["outer_a*", "contact3_*", "roller1_03_*"]"#);
     assert!(names.starts_with(&["t", "outer_ax", "outer_ay"].map(String::from)), "{names:?}");
@@ -306,7 +266,7 @@ fn regress_record_picks_channels_by_wildcards() {
 /// Rust ignores SIGPIPE: a closed pipe is an error of the write, and `println!` panics at it.
 #[test]
 fn regress_a_closed_pipe_is_no_failure() {
-    let folder = folder_with(&SHORT.replace("speed_rpm", "sped_rpm"));
+    let folder = folder_with("s.toml", &SHORT.replace("speed_rpm", "sped_rpm"));
     for (args, code) in
         [(&["schema"][..], 0), (&["bearing", "list"], 0), (&["check", "s.toml", "--set", "operation.speed_rpm=9"], 2)]
     {

@@ -1,20 +1,13 @@
 //! The reproduction: what it writes, that neither threads nor a cut journal change a byte, and what it refuses.
 
-use crate::common::{brinell, files, json, typed};
+use crate::common::{brinell, files, json, results, typed};
 use std::fs;
-use std::path::Path;
 use tempfile::tempdir;
 
 const ONE: [&str; 6] = ["reproduce", "--figure", "9", "--turns", "3", "--quiet"];
 
 fn with<'a>(more: &[&'a str]) -> Vec<&'a str> {
     ONE.iter().chain(more).copied().collect()
-}
-
-/// Every file but the journal, whose lines come in the order of completion.
-fn results(folder: &Path) -> Vec<(String, Vec<u8>)> {
-    let names = files(folder).into_iter().filter(|n| n != "journal.jsonl");
-    names.map(|name| (name.clone(), fs::read(folder.join(name)).unwrap())).collect()
 }
 
 #[test]

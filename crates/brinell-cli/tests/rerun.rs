@@ -1,14 +1,13 @@
 //! A run into a folder that holds results already; what a run keeps of its scenario's assumptions; the kernel.
 
-use crate::common::{SHORT, brinell, command, files, json, typed};
+use crate::common::{SHORT, brinell, command, files, folder_with, json, typed};
 use std::fs;
 use std::path::Path;
-use tempfile::{TempDir, tempdir};
+use tempfile::TempDir;
 
 /// SHORT as `a.toml`, and another scenario as `b.toml`.
 fn folder() -> TempDir {
-    let folder = tempdir().unwrap();
-    fs::write(folder.path().join("a.toml"), SHORT).unwrap();
+    let folder = folder_with("a.toml", SHORT);
     let other = SHORT.replace("depth_um = 20.0", "depth_um = 5.0");
     fs::write(folder.path().join("b.toml"), other).unwrap();
     folder
@@ -117,21 +116,6 @@ fn regress_files_that_no_summary_lists_are_neither_removed_nor_taken_for_results
     fs::write(here.join("o/summary.json"), summary.to_string()).unwrap();
     brinell(here, &run("a.toml", &["--signals", "none"])).exits(0);
     assert_eq!(files(&here.join("o")), ["scenario.toml", "summary.json", "thesis.txt"]);
-}
-
-#[test]
-fn regress_a_run_beside_its_own_scenario_keeps_it() {
-    let folder = tempdir().unwrap();
-    let here = folder.path();
-    fs::write(here.join("scenario.toml"), SHORT).unwrap();
-    let args = ["run", "scenario.toml", "-o", ".", "--quiet", "--no-report"];
-    brinell(here, &args).exits(2).complains(&["scenario.toml would be written, and is an input"]);
-    assert_eq!(files(here), ["scenario.toml"]);
-    // Nor is another scenario beside it written over.
-    fs::write(here.join("b.toml"), SHORT.replace("20.0", "5.0")).unwrap();
-    let kept = text(here, "scenario.toml");
-    brinell(here, &["run", "b.toml", "-o", ".", "--quiet"]).exits(2).complains(&["scenario.toml", "--overwrite"]);
-    assert_eq!(text(here, "scenario.toml"), kept);
 }
 
 #[test]

@@ -1,6 +1,6 @@
-//! What joins the command to a system: `completions`, `man`, `--version`, `open`.
+//! What joins the command to a system: `--help`, `completions`, `man`, `--version`, `open`.
 
-use crate::common::{SHORT, brinell, command, files};
+use crate::common::{SHORT, brinell, command, files, folder_with};
 use std::fs;
 use std::path::Path;
 use tempfile::tempdir;
@@ -17,6 +17,20 @@ fn subcommands() -> Vec<String> {
         .collect();
     assert!(names.len() > 10, "{names:?}");
     names
+}
+
+/// clap wraps at 100 columns where there is no terminal.
+#[test]
+fn prop_help_is_there_for_every_command_and_wrapped() {
+    for name in subcommands().iter().map(String::as_str) {
+        for flag in ["--help", "-h"] {
+            let call = brinell(Path::new("."), &[name, flag]).exits(0).keeps_quiet().says(&["Usage: brinell"]);
+            let widest = call.out.lines().map(|line| line.chars().count()).max();
+            assert!(widest <= Some(100), "{}", call.out);
+        }
+    }
+    let whole = brinell(Path::new("."), &["--help"]).exits(0).keeps_quiet();
+    whole.says(&["First steps:", "Exit codes: 0 done, 1 the run failed"]);
 }
 
 #[test]
@@ -81,9 +95,8 @@ fn opener(folder: &Path) -> std::path::PathBuf {
 #[cfg(target_os = "linux")]
 #[test]
 fn prop_pages_are_handed_to_the_systems_opener() {
-    let folder = tempdir().unwrap();
+    let folder = folder_with("s.toml", SHORT);
     let here = folder.path();
-    fs::write(here.join("s.toml"), SHORT).unwrap();
     let bin = opener(here);
     let call = |args: &[&str], path: &Path| -> crate::common::Call {
         command(here, args).env("PATH", path).output().unwrap().into()
@@ -118,9 +131,8 @@ fn prop_pages_are_handed_to_the_systems_opener() {
 
 #[test]
 fn regress_what_is_no_page_is_not_opened() {
-    let folder = tempdir().unwrap();
+    let folder = folder_with("s.toml", SHORT);
     let here = folder.path();
-    fs::write(here.join("s.toml"), SHORT).unwrap();
     for (args, words) in [
         (&["open", "none"][..], "cannot read none"),
         (&["open", "."], ". holds no page of results: none of"),

@@ -123,16 +123,7 @@ fn prop_csv_and_parquet_hold_the_same_table() {
 #[test]
 fn regress_a_bad_point_is_a_row_and_the_others_run() {
     let folder = folder();
-    let args = [
-        "sweep",
-        "base.toml",
-        "--vary",
-        "defects.0.depth_um=10,-1,20",
-        "--set",
-        "simulation.model=lumped",
-        "-o",
-        "out",
-    ];
+    let args = typed("sweep base.toml --vary defects.0.depth_um=10,-1,20 --set simulation.model=lumped -o out");
     brinell(folder.path(), &args)
         .exits(1)
         .says(&["3 points", "1 point with a bad scenario", "2 of 3 points complete"])
@@ -159,13 +150,11 @@ fn regress_what_no_point_can_run_with_is_bad_input() {
     call(&["--vary", "operation.speed_rpm=1000:500:100"]).complains(&[
         "--vary: operation.speed_rpm = 1000:500:100: the range's step leads away from its end; a step of -100 would reach it",
     ]);
-    call(&["--vary", "a.b=1", "--vary", "a.b=2"]).complains(&["the sweep: a.b varies twice"]);
     let depths = ["--vary", "defects.0.depth_um=10,20", "--set"];
     call(&[&depths[..], &["defects.0.depth_um=5"]].concat())
         .complains(&["--set defects.0.depth_um=5: every point gives defects.0.depth_um another value"]);
     call(&["--vary", "operation={speed_rpm=900},{speed_rpm=950}", "--set", "operation.speed_rpm=1000"])
         .complains(&["--set operation.speed_rpm=1000: every point gives operation another value"]);
-    call(&["--together", "a=1,2; b=1"]).complains(&["--together: a and b have 2 and 1 values"]);
     call(&["--vary", "bearing.radial_clearance_um=5,10", "--plot", "sensor_ax.rsm"])
         .complains(&["--plot sensor_ax.rsm: no such number"]);
     assert!(!folder.path().join("out").exists());
@@ -210,16 +199,7 @@ fn regress_another_sweep_is_refused_unless_extended() {
 #[test]
 fn regress_points_of_another_version_are_run_again() {
     let folder = folder();
-    let args = [
-        "sweep",
-        "base.toml",
-        "--vary",
-        "operation.speed_rpm=2900,3000",
-        "--set",
-        "simulation.model=lumped",
-        "-o",
-        "out",
-    ];
+    let args = typed("sweep base.toml --vary operation.speed_rpm=2900,3000 --set simulation.model=lumped -o out");
     brinell(folder.path(), &args).exits(0);
     let journal = folder.path().join("out/journal.jsonl");
     let text = fs::read_to_string(&journal).unwrap();

@@ -1,20 +1,13 @@
 //! What reaches the terminal: all of it or an exit of 1, and nothing that steers it.
 
-use crate::common::{Call, SHORT, brinell, command};
+use crate::common::{Call, SHORT, brinell, command, folder_with, limited, typed};
 use std::fs;
 use std::path::Path;
-use tempfile::{TempDir, tempdir};
-
-fn folder_with(scenario: &str) -> TempDir {
-    let folder = tempdir().unwrap();
-    fs::write(folder.path().join("s.toml"), scenario).unwrap();
-    folder
-}
 
 #[cfg(target_os = "linux")]
 #[test]
 fn prop_a_standard_output_that_takes_nothing_is_exit_1_everywhere() {
-    let folder = folder_with(SHORT);
+    let folder = folder_with("s.toml", SHORT);
     let here = folder.path();
     let plan = "base = \"s.toml\"\nruns = 2\nseed = 1\nlicence = \"CC0-1.0\"\n[[classes]]\nname = \"c\"\n";
     fs::write(here.join("plan.toml"), plan).unwrap();
@@ -73,7 +66,7 @@ fn harmless(call: &Call, shown: &str) {
 #[test]
 fn prop_names_from_files_do_not_steer_the_terminal() {
     let name = r#"name = "\u001b]52;c;cHduZWQ=\u0007\u009b\n2J""#;
-    let folder = folder_with(&SHORT.replace(r#"name = "short""#, name));
+    let folder = folder_with("s.toml", &SHORT.replace(r#"name = "short""#, name));
     let here: &Path = folder.path();
     let shown = r"\u{1b}]52;c;cHduZWQ=\u{7}\u{9b}\u{a}2J";
     harmless(&brinell(here, &["check", "s.toml"]).exits(0), shown);
@@ -101,14 +94,9 @@ fn prop_names_from_files_do_not_steer_the_terminal() {
 #[cfg(target_os = "linux")]
 #[test]
 fn prop_a_file_beyond_the_limit_on_files_is_an_error_and_leaves_nothing() {
-    let folder = folder_with(SHORT);
-    let limited = "ulimit -f 32; exec \"$0\" run s.toml -o o -q --no-report --signals csv";
-    let call = std::process::Command::new("sh")
-        .args(["-c", limited, env!("CARGO_BIN_EXE_brinell")])
-        .current_dir(folder.path())
-        .output()
-        .unwrap();
-    Call::from(call).exits(1).complains(&["signals.csv"]);
+    let folder = folder_with("s.toml", SHORT);
+    let run = "run s.toml -o o -q --no-report --signals csv";
+    limited(folder.path(), 32, run).exits(1).complains(&["signals.csv"]);
     let there = crate::common::files(&folder.path().join("o"));
     let left = |name: &String| name.contains(".partial") || name.starts_with("signals");
     assert!(!there.iter().any(left), "{there:?}");
@@ -117,7 +105,7 @@ fn prop_a_file_beyond_the_limit_on_files_is_an_error_and_leaves_nothing() {
 #[cfg(target_os = "linux")]
 #[test]
 fn prop_a_closed_standard_output_is_exit_1_where_something_was_to_be_said() {
-    let folder = folder_with(SHORT);
+    let folder = folder_with("s.toml", SHORT);
     let run = "run s.toml -o o -q --no-report";
     for (args, output, code) in [
         ("check s.toml", ">&-", 1),
@@ -142,19 +130,14 @@ fn prop_a_closed_standard_output_is_exit_1_where_something_was_to_be_said() {
 #[cfg(target_os = "linux")]
 #[test]
 fn regress_a_run_that_cannot_be_written_keeps_the_results_before_it() {
-    let folder = folder_with(SHORT);
+    let folder = folder_with("s.toml", SHORT);
     let first = ["run", "s.toml", "-o", "o", "-q", "--signals", "csv"];
     brinell(folder.path(), &first).exits(0);
     let before = crate::common::results(&folder.path().join("o"));
     // Signals too long; then signals that fit, and a report that does not.
     for (blocks, signals, lacks) in [(32, "csv", "signals.csv"), (100, "none", "report.html")] {
-        let limited = format!("ulimit -f {blocks}; exec \"$0\" run s.toml -o o -q --signals {signals}");
-        let call = std::process::Command::new("sh")
-            .args(["-c", &limited, env!("CARGO_BIN_EXE_brinell")])
-            .current_dir(folder.path())
-            .output()
-            .unwrap();
-        Call::from(call).exits(1).complains(&[lacks]);
+        let run = format!("run s.toml -o o -q --signals {signals}");
+        limited(folder.path(), blocks, &run).exits(1).complains(&[lacks]);
         assert!(crate::common::results(&folder.path().join("o")) == before);
     }
     // With room for them the new results come, and what they have not goes.
@@ -166,7 +149,7 @@ fn regress_a_run_that_cannot_be_written_keeps_the_results_before_it() {
 #[cfg(target_os = "linux")]
 #[test]
 fn regress_results_that_cannot_be_written_leave_those_before_them() {
-    let folder = folder_with(SHORT);
+    let folder = folder_with("s.toml", SHORT);
     let here = folder.path();
     let other = SHORT.replace("depth_um = 20.0", "depth_um = 5.0");
     fs::write(here.join("b.toml"), other).unwrap();
@@ -176,12 +159,12 @@ fn regress_results_that_cannot_be_written_leave_those_before_them() {
     fs::write(here.join("r.toml"), longer).unwrap();
     brinell(here, &["run", "r.toml", "-o", "r", "-q", "--no-report"]).exits(0);
     // Fewer files the second time; the first of them fit, the last does not.
-    for (args, lacks) in [
+    for (line, lacks) in [
         ("analyze r -o a -q", "report.html"),
         ("compare s.toml b.toml -o c -q", "compare.json"),
         ("defect preview s.toml -o p --formats svg", "damage-1-passage.csv"),
     ] {
-        let args: Vec<&str> = args.split(' ').collect();
+        let args = typed(line);
         let output = here.join(args[args.iter().position(|a| *a == "-o").unwrap() + 1]);
         let first = match args[0] {
             "defect" => [&args[..args.len() - 2], &["--formats", "svg,png"]].concat(),
@@ -189,13 +172,7 @@ fn regress_results_that_cannot_be_written_leave_those_before_them() {
         };
         brinell(here, &first).exits(0);
         let before = crate::common::results(&output);
-        let limited = format!("ulimit -f 60; exec \"$0\" {}", args.join(" "));
-        let call = std::process::Command::new("sh")
-            .args(["-c", &limited, env!("CARGO_BIN_EXE_brinell")])
-            .current_dir(here)
-            .output()
-            .unwrap();
-        Call::from(call).exits(1).complains(&[lacks]);
+        limited(here, 60, line).exits(1).complains(&[lacks]);
         assert!(crate::common::results(&output) == before, "{args:?}");
         brinell(here, &args).exits(0);
         let after = crate::common::files(&output);

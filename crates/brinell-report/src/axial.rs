@@ -2,6 +2,7 @@
 
 use std::fmt::Write;
 
+use crate::embedded::list;
 use crate::motion::{finite, packed, round_below};
 use crate::number::significant;
 use crate::picture::{Anchor, Paint, Picture, Shape, Text, ink};
@@ -196,31 +197,22 @@ pub(crate) fn data(page: &mut String, section: &AxialSection, frames: usize) {
     let heaviest = section.heaviest().max(1e-12);
     let slope = |s: &f32| ((finite(*s) / steepest * 32767.0).round() as i16) as u16;
     let load = |q: &f32| ((finite(*q) / heaviest).clamp(0.0, 1.0) * 65535.0).round() as u16;
+    let row = |row: &AxialRow| {
+        let loads = frames * section.strips;
+        let outer_and_inner = row.outer[..loads].iter().chain(&row.inner[..loads]);
+        let numbers = row.tilt[..frames].iter().map(slope).chain(outer_and_inner.map(load));
+        format!("{{\"middle\":{},\"values\":\"{}\"}}", row.middle_mm, packed(numbers))
+    };
     let _ = write!(
         page,
-        ",\"section\":{{\"half\":{},\"length\":{},\"raceway\":{},\"wall\":{WALL},\"strips\":{},\"steepest\":{steepest:e},\"heaviest\":{heaviest:e},\"rings\":\"{}\",\"rows\":[",
+        ",\"section\":{{\"half\":{},\"length\":{},\"raceway\":{},\"wall\":{WALL},\"strips\":{},\"steepest\":{steepest:e},\"heaviest\":{heaviest:e},\"rings\":\"{}\",\"rows\":{}}}",
         0.5 * section.width_mm,
         section.roller_length_mm,
         0.5 * section.roller_diameter_mm,
         section.strips,
         packed(section.rings[..frames].iter().flatten().map(slope)),
+        list(section.rows.iter().map(row)),
     );
-    for (index, row) in section.rows.iter().enumerate() {
-        let loads = frames * section.strips;
-        let numbers = row.tilt[..frames]
-            .iter()
-            .map(slope)
-            .chain(row.outer[..loads].iter().map(load))
-            .chain(row.inner[..loads].iter().map(load));
-        let _ = write!(
-            page,
-            "{}{{\"middle\":{},\"values\":\"{}\"}}",
-            if index == 0 { "" } else { "," },
-            row.middle_mm,
-            packed(numbers)
-        );
-    }
-    page.push_str("]}");
 }
 
 fn closed(line: Vec<(f64, f64)>, paint: Paint) -> Shape {

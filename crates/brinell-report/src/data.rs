@@ -99,6 +99,16 @@ pub enum Value {
     Text(String),
 }
 
+impl Value {
+    /// As it is read, a number with so many significant digits.
+    pub(crate) fn words(&self, digits: usize) -> String {
+        match self {
+            Self::Number(number) => significant(*number, digits),
+            Self::Text(text) => text.clone(),
+        }
+    }
+}
+
 impl From<f64> for Value {
     fn from(value: f64) -> Self {
         Self::Number(value)
@@ -135,10 +145,7 @@ pub struct Fact {
 impl Fact {
     /// It in a sentence, with the first part of its note.
     pub(crate) fn words(&self) -> String {
-        let value = match &self.value {
-            Value::Number(number) => significant(*number, 4),
-            Value::Text(text) => text.clone(),
-        };
+        let value = self.value.words(4);
         let note = self.note.split(';').next().unwrap_or_default();
         let parts = [value.as_str(), &self.unit, note];
         let parts: Vec<&str> = parts.into_iter().filter(|part| !part.is_empty()).collect();

@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use crate::chart::{Domain, LANE_HEIGHT, Lane};
+use crate::chart::{Domain, LANE_HEIGHT, Lane, Mark};
 use crate::number::{linear_ticks, runs, tick_labels};
 use crate::picture::escape;
 
@@ -107,12 +107,11 @@ impl Chart<'_> {
             drawn => drawn.to_vec(),
         };
         let band = self.band.map_or("null".into(), |b| format!("[{},{}]", b.0, b.1));
-        let x_names: Vec<String> = self.x_names.iter().map(|name| json(name)).collect();
         let _ = write!(
             page,
             "<script type=\"application/json\" data-chart=\"{}\">{{\"peak\":{},\"log\":{},\"y\":[{},{}],\"yScale\":{},\"xLabel\":{},\
              \"xUnit\":{},\"yLabel\":{},\"units\":{},\"laneHeight\":{LANE_HEIGHT},\"overviewScale\":{},\"drawn\":{drawn:?},\"band\":{band},\
-             \"still\":{},\"small\":{},\"xLog\":{},\"xNames\":[{}],\"lanes\":",
+             \"still\":{},\"small\":{},\"xLog\":{},\"xNames\":{},\"lanes\":",
             escape(self.name),
             self.peak,
             self.domain.log,
@@ -127,10 +126,10 @@ impl Chart<'_> {
             self.still,
             self.small,
             self.x_log,
-            x_names.join(","),
+            list(self.x_names.iter().map(|name| json(name))),
         );
         self.marks(page);
-        let _ = writeln!(page, ",\"curves\":[{}]}}</script>", curves.join(","));
+        let _ = writeln!(page, ",\"curves\":{}}}</script>", list(curves.into_iter()));
     }
 
     /// Units to choose from: name, factor, and whether it is the velocity's.
@@ -165,36 +164,20 @@ impl Chart<'_> {
     }
 
     fn marks(&self, page: &mut String) {
-        page.push('[');
-        for (index, lane) in self.lanes.iter().enumerate() {
-            page.push_str(if index == 0 { "[" } else { ",[" });
-            for (index, mark) in lane.marks.iter().take(5000).enumerate() {
-                let comma = if index == 0 { "" } else { "," };
-                let _ = write!(
-                    page,
-                    "{comma}[{},{},{}]",
-                    (mark.x * 1e4).round() / 1e4,
-                    json(&mark.name),
-                    json(&mark.label)
-                );
-            }
-            page.push(']');
-        }
-        page.push_str("],\"toggles\":[");
-        let frequency = |lane: &Lane| lane.marks.first().map(|mark| mark.x);
-        for (index, lane) in self.toggles.iter().enumerate() {
-            let _ = write!(
-                page,
-                "{}[{},{},\"{}\",{}]",
-                if index == 0 { "" } else { "," },
-                json(&lane.label),
-                frequency(lane).unwrap_or(1.0),
-                lane.color,
-                lane.through
-            );
-        }
-        page.push(']');
+        let mark = |m: &Mark| format!("[{},{},{}]", (m.x * 1e4).round() / 1e4, json(&m.name), json(&m.label));
+        let lane = |lane: &Lane| list(lane.marks.iter().take(5000).map(mark));
+        let toggle = |lane: &Lane| {
+            let frequency = lane.marks.first().map_or(1.0, |mark| mark.x);
+            format!("[{},{frequency},\"{}\",{}]", json(&lane.label), lane.color, lane.through)
+        };
+        let (lanes, toggles) = (list(self.lanes.iter().map(lane)), list(self.toggles.iter().map(toggle)));
+        let _ = write!(page, "{lanes},\"toggles\":{toggles}");
     }
+}
+
+/// A JSON array of what is JSON.
+pub(crate) fn list(parts: impl Iterator<Item = String>) -> String {
+    format!("[{}]", parts.collect::<Vec<_>>().join(","))
 }
 
 /// Whether places go from left to right, all of them numbers.

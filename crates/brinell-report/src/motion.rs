@@ -7,7 +7,7 @@ use std::fmt::Write as _;
 
 use crate::axial::{self, AxialSection, axial_section};
 use crate::data::Report;
-use crate::embedded::base64;
+use crate::embedded::{base64, list};
 use crate::font;
 use crate::frame::{figure, none};
 use crate::number::significant;
@@ -191,10 +191,31 @@ pub(crate) fn packed(numbers: impl Iterator<Item = u16>) -> String {
 /// The frames, for the page's script: 16 bits a number, angles in turns and forces as shares of the largest.
 fn data(page: &mut String, motion: &Motion, frames: usize) {
     let largest = motion.largest();
+    let damage = |damage: &MotionDamage| {
+        let (kind, roller) = match damage.surface {
+            Surface::OuterRaceway => ("outer", 0),
+            Surface::InnerRaceway => ("inner", 0),
+            Surface::Roller(k) => ("roller", k),
+        };
+        let [from, to] = damage.angle.map(|a| if a.is_finite() { a.clamp(-TAU, TAU) } else { 0.0 });
+        format!("[{},\"{kind}\",{from},{to},{roller}]", damage.row)
+    };
+    let share =
+        |f: &f32| if largest > 0.0 { ((finite(*f) / largest).clamp(0.0, 1.0) * 65535.0).round() as u16 } else { 0 };
+    let row = |row: &MotionRow| {
+        let of_rollers = frames * row.pockets.len();
+        let pockets = list(row.pockets.iter().map(|p| format!("{:.5}", finite(*p))));
+        let forces = row.inner_n[..of_rollers].iter().chain(&row.outer_n[..of_rollers]);
+        let numbers = turns(&row.orbit[..of_rollers])
+            .chain(turns(&row.spin[..of_rollers]))
+            .chain(forces.map(share))
+            .chain(turns(&row.cage[..frames]));
+        format!("{{\"pockets\":{pockets},\"values\":\"{}\"}}", packed(numbers))
+    };
     let _ = write!(
         page,
         "<script type=\"application/json\" data-frames=\"{frames}\">{{\"t0\":{},\"dt\":{},\"largest\":{largest},\"inner\":{},\"outer\":{},\
-         \"pitch\":{},\"roller\":{},\"thick\":{},\"values\":\"{}\",\"damage\":[",
+         \"pitch\":{},\"roller\":{},\"thick\":{},\"values\":\"{}\",\"damage\":{},\"rows\":{}",
         motion.t0_s,
         motion.dt_s,
         motion.inner_radius_mm,
@@ -203,37 +224,9 @@ fn data(page: &mut String, motion: &Motion, frames: usize) {
         motion.roller_radius_mm,
         RING * motion.outer_radius_mm,
         packed(turns(&motion.ring[..frames])),
+        list(motion.damage.iter().map(damage)),
+        list(motion.rows.iter().map(row)),
     );
-    for (index, damage) in motion.damage.iter().enumerate() {
-        let (kind, roller) = match damage.surface {
-            Surface::OuterRaceway => ("outer", 0),
-            Surface::InnerRaceway => ("inner", 0),
-            Surface::Roller(k) => ("roller", k),
-        };
-        let [from, to] = damage.angle.map(|a| if a.is_finite() { a.clamp(-TAU, TAU) } else { 0.0 });
-        let _ = write!(page, "{}[{},\"{kind}\",{from},{to},{roller}]", if index == 0 { "" } else { "," }, damage.row);
-    }
-    page.push_str("],\"rows\":[");
-    for (index, row) in motion.rows.iter().enumerate() {
-        let n = row.pockets.len();
-        let share = |f: &f32| {
-            if largest > 0.0 { ((finite(*f) / largest).clamp(0.0, 1.0) * 65535.0).round() as u16 } else { 0 }
-        };
-        let pockets: Vec<String> = row.pockets.iter().map(|p| format!("{:.5}", finite(*p))).collect();
-        let numbers = turns(&row.orbit[..frames * n])
-            .chain(turns(&row.spin[..frames * n]))
-            .chain(row.inner_n[..frames * n].iter().map(share))
-            .chain(row.outer_n[..frames * n].iter().map(share))
-            .chain(turns(&row.cage[..frames]));
-        let _ = write!(
-            page,
-            "{}{{\"pockets\":[{}],\"values\":\"{}\"}}",
-            if index == 0 { "" } else { "," },
-            pockets.join(","),
-            packed(numbers)
-        );
-    }
-    page.push(']');
     if let Some(section) = motion.section.as_ref().filter(|s| s.frames() >= frames) {
         axial::data(page, section, frames);
     }

@@ -25,23 +25,25 @@ pub fn html(report: &Report) -> String {
         report.partial.as_deref().map(|why| ("This run is partial.", why)),
     );
     let mut sections: Vec<Section> = vec![
-        ("waveform", "Waveform", waveform),
-        ("spectrum", "Spectrum", spectrum),
-        ("envelope", "Envelope spectrum", envelope),
-        ("orders", "Envelope orders", orders),
-        ("spectrogram", "Spectrogram", crate::spectrogram::section),
-        ("sensor", "Sensor", crate::sensor::section),
-        ("damage", "Damage", damage),
-        ("passes", "Passing the defect", passes),
-        ("load", "Load distribution", load),
-        ("motion", "The bearing in motion", crate::motion::section),
-        ("orbit", "Cage orbit", crate::orbit::section),
-        ("indicators", "Indicators", indicators),
-        ("slip", "Slip", crate::slip::section),
-        ("assumptions", "Assumptions", assumptions),
-        ("audits", "Appendix: audits", audits),
-        ("work", "Appendix: solver work", work),
-        ("scenario", "Appendix: scenario", scenario),
+        ("waveform", "Waveform", "Waveform", waveform),
+        ("spectrum", "Spectrum", "Spectrum", spectrum),
+        ("envelope", "Envelope", "Envelope spectrum", envelope),
+        ("orders", "Orders", "Envelope orders", orders),
+        ("spectrogram", "Spectrogram", "Spectrogram", crate::spectrogram::section),
+        ("sensor", "Sensor", "Sensor", crate::sensor::section),
+        ("damage", "Damage", "Damage", damage),
+        ("passes", "Passes", "Passing the defect", passes),
+        ("load", "Load", "Load distribution", load),
+        ("motion", "Motion", "The bearing in motion", crate::motion::section),
+        ("orbit", "Orbit", "Cage orbit", crate::orbit::section),
+        ("indicators", "Indicators", "Indicators", indicators),
+        ("slip", "Slip", "Slip", crate::slip::section),
+        ("assumptions", "Assumptions", "Assumptions", assumptions),
+        ("audits", "Audits", "Appendix: audits", |page, r| fact_table(page, &r.audits, "No audit was made.")),
+        ("work", "Solver", "Appendix: solver work", |page, r| {
+            fact_table(page, &r.solver_work, "The solver’s work was not counted.");
+        }),
+        ("scenario", "Scenario", "Appendix: scenario", scenario),
     ];
     if report.envelope_orders.amplitude.is_empty() {
         sections.retain(|(id, ..)| *id != "orders");
@@ -50,19 +52,7 @@ pub fn html(report: &Report) -> String {
         sections.retain(|(id, ..)| *id != "sensor");
     }
     page.push_str("<nav aria-label=\"Contents\"><ul>");
-    for (id, name, _) in &sections {
-        let short = match *id {
-            "envelope" => "Envelope",
-            "passes" => "Passes",
-            "load" => "Load",
-            "motion" => "Motion",
-            "orbit" => "Orbit",
-            "work" => "Solver",
-            "orders" => "Orders",
-            "audits" => "Audits",
-            "scenario" => "Scenario",
-            _ => name,
-        };
+    for (id, short, ..) in &sections {
         let _ = write!(page, "<li><a href=\"#{id}\">{short}</a></li>");
     }
     page.push_str("</ul></nav>\n<main>\n");
@@ -71,14 +61,14 @@ pub fn html(report: &Report) -> String {
         alert(&mut page, strong, words);
     }
     facts(&mut page, &report.facts);
-    for (id, name, write) in sections {
+    for (id, _, name, write) in sections {
         section(&mut page, id, name, |page| write(page, report));
     }
     close(page, THINNED, &[include_str!("script/motion.js")])
 }
 
-/// Anchor, heading, and what is under it.
-type Section = (&'static str, &'static str, fn(&mut String, &Report));
+/// Anchor, name in the list of contents, heading, and what is under it.
+type Section = (&'static str, &'static str, &'static str, fn(&mut String, &Report));
 
 fn waveform(page: &mut String, report: &Report) {
     let series = &report.waveform.series;
@@ -311,14 +301,6 @@ fn load(page: &mut String, report: &Report) {
     if let Some(along) = &report.along {
         figure(page, "along", |layout| load_along(along, "along", layout), &sentence(&along.note));
     }
-}
-
-fn audits(page: &mut String, report: &Report) {
-    fact_table(page, &report.audits, "No audit was made.");
-}
-
-fn work(page: &mut String, report: &Report) {
-    fact_table(page, &report.solver_work, "The solver’s work was not counted.");
 }
 
 fn scenario(page: &mut String, report: &Report) {

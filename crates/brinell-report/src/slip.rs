@@ -1,6 +1,6 @@
 //! Slip against pure rolling, over time and over the place in the bearing.
 
-use crate::chart::{Chart, Domain, Size, Spec, left_margin, range};
+use crate::chart::{self, Chart, Domain, range};
 use crate::data::Report;
 use crate::frame::figure;
 use crate::picture::{Paint, Picture, ink};
@@ -98,35 +98,6 @@ fn means(xs: &[f64], ys: &[f64]) -> Curve {
     xs.chunks(group).zip(ys.chunks(group)).map(|(x, y)| (mean(x), mean(y))).unzip()
 }
 
-/// What each panel needs: one x axis, below the last, and one left edge.
-fn specs(layout: Layout, (x_label, x_unit): (&str, &str), panels: &[(&str, Vec<Curve>)]) -> Vec<Spec> {
-    let size = layout.size(0.0);
-    let part = if layout.roomy() { 140.0 } else { 130.0 };
-    let xs = panels.iter().flat_map(|p| &p.1).flat_map(|c| &c.0);
-    let (lo, hi) = range(xs.copied()).unwrap_or((0.0, 1.0));
-    let count = panels.len();
-    let mut specs: Vec<Spec> = panels
-        .iter()
-        .enumerate()
-        .map(|(index, (label, curves))| {
-            let x_axis = index + 1 == count;
-            Spec {
-                x_axis,
-                ..Spec::new(
-                    "",
-                    "",
-                    Size { height: part + if x_axis { 3.4 * size.font } else { 0.0 }, ..size },
-                    (Domain::exact(lo, hi), x_label, x_unit),
-                    (Domain::around(curves.iter().flat_map(|c| &c.1).copied()), (*label), "%"),
-                )
-            }
-        })
-        .collect();
-    let left = specs.iter().map(left_margin).fold(0.0, f64::max);
-    specs.iter_mut().for_each(|spec| spec.left = left);
-    specs
-}
-
 /// Panels over one another on one x axis, a curve a row in each.
 fn panels(
     (name, title): (&str, &str),
@@ -136,7 +107,14 @@ fn panels(
     panels: &[(&str, Vec<Curve>)],
 ) -> Picture {
     let size = layout.size(0.0);
-    let specs = specs(layout, axis, panels);
+    let part = if layout.roomy() { 140.0 } else { 130.0 };
+    let xs = panels.iter().flat_map(|p| &p.1).flat_map(|c| &c.0);
+    let (lo, hi) = range(xs.copied()).unwrap_or((0.0, 1.0));
+    let ys = panels.iter().map(|(label, curves)| {
+        let values = curves.iter().flat_map(|c| &c.1).copied();
+        (Domain::around(values), (*label).to_owned(), "%".to_owned())
+    });
+    let specs = chart::panels(size, part, (Domain::exact(lo, hi), axis.0, axis.1), ys);
     let left = specs.first().map_or(0.0, |spec| spec.left);
     let mut picture = Picture::new(name, title, size.width, 0.0);
     let any_close = panels.iter().any(|(_, curves)| crowded(curves, size.width - left));

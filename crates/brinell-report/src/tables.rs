@@ -55,11 +55,11 @@ pub(crate) fn facts(page: &mut String, facts: &[Fact]) {
     }
     page.push_str("<dl class=\"facts\">\n");
     for fact in facts {
-        let (class, value) = match &fact.value {
-            Value::Number(number) if number.is_finite() => ("value", significant(*number, 4)),
-            Value::Number(number) => ("value words", significant(*number, 4)),
-            Value::Text(text) => ("value words", escape(text)),
+        let class = match &fact.value {
+            Value::Number(number) if number.is_finite() => "value",
+            _ => "value words",
         };
+        let value = escape(&fact.value.words(4));
         let _ = write!(page, "<div><dt>{}</dt><dd class=\"{class}\">{value}", escape(&fact.label));
         if !fact.unit.is_empty() {
             let gap = if fact.unit == "°" { "" } else { " " };
@@ -104,15 +104,8 @@ pub(crate) fn fact_table(page: &mut String, facts: &[Fact], absent: &str) {
 }
 
 fn value_cells(page: &mut String, value: &Value, unit: &str) {
-    match value {
-        Value::Number(number) => {
-            let _ = write!(page, "<td class=\"number\">{}</td>", significant(*number, 6));
-        }
-        Value::Text(text) => {
-            let _ = write!(page, "<td class=\"number\">{}</td>", escape(text));
-        }
-    }
-    let _ = write!(page, " <td class=\"unit\">{}</td>", unit_html(unit));
+    let (value, unit) = (escape(&value.words(6)), unit_html(unit));
+    let _ = write!(page, "<td class=\"number\">{value}</td> <td class=\"unit\">{unit}</td>");
 }
 
 pub(crate) fn indicators(page: &mut String, report: &Report) {

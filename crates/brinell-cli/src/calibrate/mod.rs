@@ -7,7 +7,6 @@ mod page;
 mod runs;
 mod words;
 
-use crate::args::ScenarioArgs;
 use crate::campaign;
 use crate::failure::Failure;
 use crate::files::{Source, stem};
@@ -35,8 +34,6 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::time::Instant;
 
-/// Exit code where Ctrl-C stopped it, or no run came to its end.
-const NOT_WHOLE: u8 = 1;
 /// Runs for each key where no budget is given.
 const RUNS_PER_KEY: usize = 30;
 
@@ -101,12 +98,12 @@ pub(crate) fn calibrate(args: &CalibrateArgs) -> Result<ExitCode, Failure> {
                 "interrupted: finished runs are kept in {}; the same command resumes where this one stopped",
                 folder.join(JOURNAL).display()
             );
-            return Ok(ExitCode::from(NOT_WHOLE));
+            return Ok(ExitCode::FAILURE);
         }
         Err(error) => {
             complain!("error: {error}");
             tell_reasons(&runs, &plan);
-            return Ok(ExitCode::from(NOT_WHOLE));
+            return Ok(ExitCode::FAILURE);
         }
     };
     let outcome = Outcome::new(&plan, &runs, found)?;
@@ -139,7 +136,7 @@ impl Plan {
         let mut targets: Vec<Target> = (args.target.iter())
             .map(|text| Target::read(text).map_err(|e| usage(&e, "--target")))
             .collect::<Result<_, _>>()?;
-        let source = Source::open(&ScenarioArgs { scenario: args.scenario.clone(), set: args.set.clone() })?;
+        let source = Source::open(&args.scenario, &args.set)?;
         let centre = vec![0.5; keys.len()];
         for k in 0..keys.len() {
             for end in [0.0, 1.0] {

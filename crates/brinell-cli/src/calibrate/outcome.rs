@@ -8,6 +8,7 @@ use crate::say::{pretty, shown_unit};
 use brinell::document::Loaded;
 use brinell::signal::distribution::chi_square_tail;
 use brinell_io::{Cells, Column, Table};
+use brinell_report::FittedKey;
 use brinell_study::calibrate::identify::MOST;
 use brinell_study::calibrate::{Fit, MISSING};
 use serde_json::{Map, Value, json};
@@ -18,21 +19,16 @@ const SIGNIFICANCE: f64 = 0.05;
 
 /// A key's value.
 pub(super) struct Found {
-    pub(super) name: String,
-    pub(super) unit: &'static str,
-    pub(super) value: f64,
+    pub(super) key: FittedKey,
     /// In the unit interval.
     pub(super) place: f64,
     /// Half the 95 % interval, in ranges.
     pub(super) half_width: f64,
-    pub(super) bounds: (f64, f64),
-    /// Within the bounds; `None` where the data do not determine the key.
-    pub(super) interval: Option<(f64, f64)>,
 }
 
 impl Found {
     pub(super) fn is_determined(&self) -> bool {
-        self.interval.is_some()
+        self.key.interval.is_some()
     }
 
     /// Whether the interval runs beyond the lower and the upper bound, where it ends for want of runs and not because
@@ -69,16 +65,16 @@ impl<'a> Outcome<'a> {
         let place = &fit.evaluations[fit.best].place;
         let found = plan.keys.iter().enumerate().map(|(k, key)| {
             let half_width = fit.identified.half_widths[k];
-            Found {
+            let fitted = FittedKey {
                 name: key.name.clone(),
-                unit: plan.units[k],
-                value: key.value(place[k]),
-                place: place[k],
-                half_width,
+                unit: plan.units[k].into(),
                 bounds: (key.low, key.high),
+                log: key.log,
+                best: key.value(place[k]),
                 interval: (2.0 * half_width < MOST)
                     .then(|| (key.value(place[k] - half_width), key.value(place[k] + half_width))),
-            }
+            };
+            Found { key: fitted, place: place[k], half_width }
         });
         let found = found.collect();
         let row = runs.row(place).ok();
@@ -173,11 +169,12 @@ impl<'a> Outcome<'a> {
     pub(super) fn json(&self) -> Value {
         let finite = |x: f64| if x.is_finite() { json!(x) } else { Value::Null };
         let identified = &self.fit.identified;
-        let keys = self.found.iter().zip(&self.plan.keys).enumerate().map(|(k, (f, key))| {
+        let keys = self.found.iter().enumerate().map(|(k, f)| {
+            let (key, (low, high)) = (&f.key, f.key.bounds);
             json!({
-                "key": f.name, "unit": f.unit, "value": f.value, "low": key.low, "high": key.high, "log": key.log,
+                "key": key.name, "unit": key.unit, "value": key.best, "low": low, "high": high, "log": key.log,
                 "determined": f.is_determined(),
-                "interval_95": f.interval.map(|(low, high)| json!([low, high])),
+                "interval_95": key.interval.map(|(low, high)| json!([low, high])),
                 "standard_uncertainty_in_ranges": finite(identified.deviations[k]),
                 "difference_over_ranges": 2.0 * self.fit.steps[k],
             })
@@ -199,7 +196,7 @@ impl<'a> Outcome<'a> {
         let directions: Vec<Value> = (identified.directions.iter())
             .map(|d| {
                 let parts: Map<String, Value> =
-                    (self.found.iter().zip(&d.vector)).map(|(f, v)| (f.name.clone(), json!(v))).collect();
+                    (self.found.iter().zip(&d.vector)).map(|(f, v)| (f.key.name.clone(), json!(v))).collect();
                 json!({
                     "of_ranges": parts, "singular_value": d.singular_value, "noise": d.noise,
                     "half_interval_95_in_ranges": finite(d.half_width), "determined": d.is_determined(),

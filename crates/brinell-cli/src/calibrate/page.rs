@@ -4,7 +4,7 @@ use super::outcome::Outcome;
 use super::runs::settings;
 use crate::say::short;
 use crate::sweep::plural;
-use brinell_report::{CalibrationReport, Fact, FittedKey, Table, Tried};
+use brinell_report::{CalibrationReport, Fact, Table, Tried};
 use brinell_study::calibrate::search::STEP;
 
 impl Outcome<'_> {
@@ -20,7 +20,7 @@ impl Outcome<'_> {
             })
             .collect();
         let determined = self.found.iter().filter(|f| f.is_determined()).count();
-        let names: Vec<&str> = self.found.iter().map(|f| f.name.as_str()).collect();
+        let names: Vec<&str> = self.found.iter().map(|f| f.key.name.as_str()).collect();
         let p_value = self.p_value().map_or("no degree of freedom".to_owned(), |p| format!("p-value {}", short(p, 2)));
         let mut facts = vec![
             Fact::new(
@@ -42,9 +42,9 @@ impl Outcome<'_> {
             met: self.is_met(),
             verdict: self.verdict(),
             facts,
-            keys: self.keys(),
+            keys: self.found.iter().map(|f| f.key.clone()).collect(),
             found: (self.found.iter())
-                .map(|f| Fact::new(&f.name, short(f.value, 5), f.unit, f.interval_text()))
+                .map(|f| Fact::new(&f.key.name, short(f.key.best, 5), &f.key.unit, f.interval_text()))
                 .collect(),
             undetermined: self.undetermined(),
             targets: self.targets(),
@@ -55,18 +55,6 @@ impl Outcome<'_> {
             method: self.method(),
             scenario_toml: self.best.to_toml(),
         }
-    }
-
-    fn keys(&self) -> Vec<FittedKey> {
-        let one = |(f, key): (&super::outcome::Found, &brinell_study::calibrate::Key)| FittedKey {
-            name: f.name.clone(),
-            unit: f.unit.into(),
-            bounds: f.bounds,
-            log: key.log,
-            best: f.value,
-            interval: f.interval,
-        };
-        self.found.iter().zip(&self.plan.keys).map(one).collect()
     }
 
     fn tried(&self) -> Vec<Tried> {
@@ -104,9 +92,9 @@ impl Outcome<'_> {
     fn correlation(&self) -> Table {
         let identified = &self.fit.identified;
         let mut columns = vec!["Key".to_owned()];
-        columns.extend(self.found.iter().map(|f| format!("#{}", f.name)));
+        columns.extend(self.found.iter().map(|f| format!("#{}", f.key.name)));
         let row = |a: usize| {
-            let mut row = vec![self.found[a].name.clone()];
+            let mut row = vec![self.found[a].key.name.clone()];
             row.extend((0..self.found.len()).map(|b| format!("{:.2}", identified.correlation[(a, b)])));
             row
         };
@@ -120,7 +108,7 @@ impl Outcome<'_> {
 
     fn directions(&self) -> Table {
         let mut columns = vec!["Direction".to_owned()];
-        columns.extend(self.found.iter().map(|f| format!("#{}", f.name)));
+        columns.extend(self.found.iter().map(|f| format!("#{}", f.key.name)));
         columns.extend(["#Singular value", "#Noise", "#Half 95 % interval", "Determined"].map(String::from));
         let rows = self.fit.identified.directions.iter().enumerate().map(|(k, d)| {
             let mut row = vec![(k + 1).to_string()];
@@ -142,7 +130,7 @@ impl Outcome<'_> {
 
     fn method(&self) -> Vec<String> {
         let steps: Vec<String> = (self.found.iter().zip(&self.fit.steps))
-            .map(|(f, s)| format!("{} {} %", f.name, short(200.0 * s, 2)))
+            .map(|(f, s)| format!("{} {} %", f.key.name, short(200.0 * s, 2)))
             .collect();
         let mut all = vec![
             format!(

@@ -7,10 +7,12 @@ use crate::files::Source;
 use crate::progress::Joint;
 use brinell::result::{Quantity, RunResult};
 use brinell::scenario::Scenario;
+use brinell::simulate::{Observer, Simulation};
 use brinell_study::calibrate::{Answer, Key, Target, Unfit};
 use brinell_study::campaign::{Row, digest, fingerprint};
-use brinell_study::runner::{Ledger, Task, Work};
+use brinell_study::runner::{Beside, Ledger, Task, Work};
 use std::num::NonZeroUsize;
+use std::ops::ControlFlow;
 use std::sync::atomic::AtomicBool;
 
 /// Scenarios from points.
@@ -54,13 +56,29 @@ impl Work for FromPoints<'_> {
         }
     }
 
-    fn captured_channel(&self) -> Option<usize> {
-        self.pattern.map(|pattern| pattern.axis)
+    fn beside(&self, _: &Task, _: &Simulation) -> Option<Box<dyn Beside<Failure> + '_>> {
+        Some(Box::new(Sensor { pattern: self.pattern?, signal: Vec::new() }))
     }
+}
 
-    fn finished(&self, _: &Task, _: &RunResult, captured: &[f64]) -> Result<Vec<Quantity>, Failure> {
-        let own = |pattern: &Pattern| pattern.quantities(captured);
-        Ok(self.pattern.map_or(Vec::new(), own))
+/// Keeps what a run's sensor reads.
+struct Sensor<'a> {
+    pattern: &'a Pattern,
+    signal: Vec<f64>,
+}
+
+impl Observer for Sensor<'_> {
+    fn row(&mut self, _: u64, _: &[f64], filtered: &[f64]) -> ControlFlow<()> {
+        self.signal.extend(filtered.get(self.pattern.axis));
+        ControlFlow::Continue(())
+    }
+}
+
+impl Beside<Failure> for Sensor<'_> {
+    /// The levels from when the run had settled.
+    fn finished(self: Box<Self>, finished: &RunResult) -> Result<Vec<Quantity>, Failure> {
+        let settled = finished.findings.from * finished.simulation.sample_rate();
+        Ok(self.pattern.quantities(self.signal.get(settled.ceil() as usize..).unwrap_or(&[])))
     }
 }
 

@@ -55,7 +55,7 @@ impl Outcome<'_> {
                 p if p > 1.0 - 1e-3 => "upper",
                 _ => continue,
             };
-            all.push(format!("{}: the best value is on its {side} bound; a better one may be beyond.", found.name));
+            all.push(format!("{}: the best value is on its {side} bound; a better one may be beyond.", found.key.name));
         }
         all
     }
@@ -69,34 +69,34 @@ impl Outcome<'_> {
             all.push(if width.is_finite() {
                 format!(
                     "{}: not determined; its 95 % interval is {} times as wide as its range.",
-                    found.name,
+                    found.key.name,
                     short(width, 2)
                 )
             } else if noise {
                 format!(
                     "{}: not determined; its effect is not significant against the runs' own uncertainty.",
-                    found.name
+                    found.key.name
                 )
             } else {
-                format!("{}: not determined; the data say nothing of it.", found.name)
+                format!("{}: not determined; the data say nothing of it.", found.key.name)
             });
         }
         for found in &self.found {
-            let (low, high) = found.bounds;
+            let (low, high) = found.key.bounds;
             all.extend(match found.is_cut() {
                 [true, false] => Some(format!(
                     "{}: its 95 % interval runs beyond the lower bound, {}: only its upper end is determined; widen the bounds.",
-                    found.name,
+                    found.key.name,
                     short(low, 4)
                 )),
                 [false, true] => Some(format!(
                     "{}: its 95 % interval runs beyond the upper bound, {}: only its lower end is determined; widen the bounds.",
-                    found.name,
+                    found.key.name,
                     short(high, 4)
                 )),
                 [true, true] => Some(format!(
                     "{}: its 95 % interval runs beyond both bounds: not determined between them.",
-                    found.name
+                    found.key.name
                 )),
                 [false, false] => None,
             });
@@ -146,7 +146,7 @@ impl Outcome<'_> {
 
     pub(super) fn tell(&self) {
         for found in &self.found {
-            say!("  {} = {} {}  {}", found.name, short(found.value, 5), found.unit, found.interval_text());
+            say!("  {} = {} {}  {}", found.key.name, short(found.key.best, 5), found.key.unit, found.interval_text());
         }
         for sentence in self.verdict().iter().chain(&self.undetermined()) {
             say!("  {sentence}");
@@ -157,13 +157,15 @@ impl Outcome<'_> {
 impl Found {
     /// The interval in words.
     pub(super) fn interval_text(&self) -> String {
-        match self.interval {
+        match self.key.interval {
             Some((low, high)) => {
                 let bound = |cut: bool| if cut { " (bound)" } else { "" };
                 let [below, above] = self.is_cut().map(bound);
                 format!("95 %: {}{below} to {}{above}", short(low, 4), short(high, 4))
             }
-            None => format!("not determined between {} and {}", short(self.bounds.0, 4), short(self.bounds.1, 4)),
+            None => {
+                format!("not determined between {} and {}", short(self.key.bounds.0, 4), short(self.key.bounds.1, 4))
+            }
         }
     }
 }

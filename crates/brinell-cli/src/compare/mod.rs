@@ -29,8 +29,6 @@ const PARQUET: &str = "compare.parquet";
 const PAGE: &str = "compare.html";
 /// Folder of the scenarios.
 const SCENARIOS: &str = "scenarios";
-/// Exit code where a run failed or was broken off.
-const NOT_DONE: u8 = 1;
 
 pub(crate) fn side_by_side(args: &CompareArgs) -> Result<ExitCode, Failure> {
     let layout = args.print.layout(&args.plots)?;
@@ -56,7 +54,7 @@ pub(crate) fn side_by_side(args: &CompareArgs) -> Result<ExitCode, Failure> {
         // Results of nothing.
         drop(ready);
         let _ = std::fs::remove_dir(folder.join(SCENARIOS));
-        return Ok(ExitCode::from(NOT_DONE));
+        return Ok(ExitCode::FAILURE);
     };
     let all: Vec<&RunResult> = runs.iter().collect();
     let compared = compare(&all);

@@ -1,7 +1,6 @@
 //! What is compared: scenario files, and variants of the baseline: the first one.
 
 use super::{CompareArgs, table};
-use crate::args::ScenarioArgs;
 use crate::failure::Failure;
 use crate::files::{Source, setting, stem};
 use crate::inputs::Inputs;
@@ -26,11 +25,10 @@ pub(super) fn read(args: &CompareArgs, inputs: &mut Inputs) -> Result<Vec<Side>,
             "{count} to compare\n  allowed: 2 to {MOST} scenarios and variants; give a second scenario, or --variant NAME:KEY=VALUE"
         )));
     }
-    let open = |path: &Path| Source::open(&ScenarioArgs { scenario: path.to_owned(), set: args.set.clone() });
     let mut sides = Vec::new();
     let mut first = None;
     for path in &args.scenarios {
-        let source = open(path)?;
+        let source = Source::open(path, &args.set)?;
         sides.push(Side { label: label(path)?, loaded: source.load(&[], args.quiet)? });
         inputs.add_all(&source.inputs());
         first.get_or_insert(source);

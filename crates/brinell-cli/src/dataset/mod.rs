@@ -21,8 +21,6 @@ use std::process::ExitCode;
 use std::sync::atomic::AtomicBool;
 use std::time::Instant;
 
-/// Exit code where something is missing or wrong in what is there, or Ctrl-C stopped the work.
-const NOT_WHOLE: u8 = 1;
 /// Failed runs that are printed.
 const SHOWN: usize = 10;
 
@@ -91,7 +89,7 @@ fn make(args: &DatasetArgs, path: &Path) -> Result<ExitCode, Failure> {
     }
     if shard.interrupted {
         complain!("interrupted: {left} to go; the same command resumes where this one stopped");
-        return Ok(ExitCode::from(NOT_WHOLE));
+        return Ok(ExitCode::FAILURE);
     }
     Ok(ExitCode::SUCCESS)
 }
@@ -158,7 +156,7 @@ fn join(args: &MergeArgs) -> Result<ExitCode, Failure> {
         return Ok(ExitCode::SUCCESS);
     };
     complain!("{lack}");
-    Ok(ExitCode::from(NOT_WHOLE))
+    Ok(ExitCode::FAILURE)
 }
 
 fn check(args: &VerifyArgs) -> Result<ExitCode, Failure> {
@@ -191,6 +189,6 @@ fn check(args: &VerifyArgs) -> Result<ExitCode, Failure> {
     }
     Ok(match found.problems.is_empty() {
         true => ExitCode::SUCCESS,
-        false => ExitCode::from(NOT_WHOLE),
+        false => ExitCode::FAILURE,
     })
 }

@@ -16,7 +16,7 @@ use std::path::Path;
 
 /// The pictures, curves and numbers of each defect, and `preview.json` with all of them.
 pub(super) fn preview(args: &PreviewArgs) -> Result<(), Failure> {
-    let source = Source::open(&args.scenario)?;
+    let source = Source::open(&args.scenario.scenario, &args.scenario.set)?;
     let loaded = source.load(&[], false)?;
     let s = &loaded.scenario;
     let layout = args.print.layout(&args.formats)?;

@@ -27,9 +27,6 @@ use std::process::ExitCode;
 use std::sync::atomic::AtomicBool;
 use std::time::Instant;
 
-/// Exit code where a run failed, or Ctrl-C stopped them.
-const INCOMPLETE: u8 = 1;
-
 pub(crate) fn reproduce(args: &ReproduceArgs) -> Result<ExitCode, Failure> {
     let begin = Instant::now();
     let usual = if args.quick { Length::QUICK } else { Length::FULL };
@@ -68,7 +65,7 @@ pub(crate) fn reproduce(args: &ReproduceArgs) -> Result<ExitCode, Failure> {
         complain!("interrupted: what is finished is kept; the same command resumes where this one stopped");
     }
     Ok(if reproduction.interrupted || !reproduction.failures.is_empty() {
-        ExitCode::from(INCOMPLETE)
+        ExitCode::FAILURE
     } else {
         ExitCode::SUCCESS
     })
@@ -154,7 +151,7 @@ impl Work for CaseWork<'_> {
         Ok(scenario(&task.settings)?)
     }
 
-    fn beside(&self, task: &Task, simulation: &Simulation) -> Option<Box<dyn Beside<Failure>>> {
+    fn beside(&self, task: &Task, simulation: &Simulation) -> Option<Box<dyn Beside<Failure> + '_>> {
         Some(Box::new(self.0.observer(&task.fingerprint, simulation)))
     }
 }

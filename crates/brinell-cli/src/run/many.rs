@@ -90,7 +90,7 @@ pub(super) fn run(args: &RunArgs) -> Result<ExitCode, Failure> {
     } else if failures.is_empty() {
         ExitCode::SUCCESS
     } else {
-        ExitCode::from(1)
+        ExitCode::FAILURE
     })
 }
 

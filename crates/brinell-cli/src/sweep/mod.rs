@@ -17,7 +17,7 @@ use brinell::document::read;
 use brinell::result::{check_name, fields, names};
 use brinell::simulate::Simulation;
 use brinell_io::{Metadata, keys};
-use brinell_study::campaign::{Row, fingerprint};
+use brinell_study::campaign::fingerprint;
 use brinell_study::runner::{JOURNAL, Kept, Task, estimate, to_run};
 
 use page::usual;
@@ -29,10 +29,7 @@ use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::time::Instant;
-use table::{State, states};
-
-/// Exit code where a point failed, or Ctrl-C stopped the sweep.
-const NOT_WHOLE: u8 = 1;
+use table::{State, count, states};
 
 pub(crate) fn sweep(args: &SweepArgs) -> Result<ExitCode, Failure> {
     let begin = Instant::now();
@@ -60,14 +57,13 @@ pub(crate) fn sweep(args: &SweepArgs) -> Result<ExitCode, Failure> {
 
     let states = states(&points, |fingerprint| ledger.kept.row(fingerprint));
     let written = write(args, &points, &states, &plots, &folder)?;
-    let count = |word: &str| states.iter().filter(|s| s.word() == word).count();
-    let (failed, missing) = (count("failed"), count("not run"));
+    let [complete, failed, missing] = ["complete", "failed", "not run"].map(|word| count(&states, word));
     if !args.quiet {
         say!(
             "{} in {:.2} s; {} of {} complete",
             plural(tasks.len() - missing.min(tasks.len()), "run"),
             begin.elapsed().as_secs_f64(),
-            count("complete"),
+            complete,
             plural(states.len(), "point")
         );
         say::wrote(&written);
@@ -82,14 +78,14 @@ pub(crate) fn sweep(args: &SweepArgs) -> Result<ExitCode, Failure> {
             plural(states.len() - missing, "finished point")
         );
     }
-    Ok(if failed > 0 || outcome.is_break() { ExitCode::from(NOT_WHOLE) } else { ExitCode::SUCCESS })
+    Ok(if failed > 0 || outcome.is_break() { ExitCode::FAILURE } else { ExitCode::SUCCESS })
 }
 
 /// How many points' averages hold part of the start.
 fn tell_unsettled(states: &[State]) {
     let name = fields::NOT_SETTLED.name;
-    let of = |row: &Row| row.quantity(name)?.value;
-    let count = (states.iter()).filter(|s| matches!(s, State::Complete(row) if of(row) == Some(1.0))).count();
+    let of = |state: &State| state.row()?.quantity(name)?.value;
+    let count = states.iter().filter(|state| of(state) == Some(1.0)).count();
     if count > 0 {
         complain!(
             "warning: not settled: in {} averages hold part of the start (column `{name}`); simulate longer",
@@ -225,10 +221,7 @@ fn other_sweep(folder: &Path, other: &Value) -> String {
 
 fn tell_failures(points: &Points, states: &[State]) {
     const SHOWN: usize = 10;
-    let failed = states.iter().enumerate().filter_map(|(k, s)| match s {
-        State::Failed(reason) => Some((k, reason)),
-        _ => None,
-    });
+    let failed = states.iter().enumerate().filter_map(|(k, s)| Some((k, s.failure()?)));
     let failed: Vec<_> = failed.collect();
     for (k, reason) in failed.iter().take(SHOWN) {
         let settings = points.plan.settings(*k);
@@ -255,7 +248,7 @@ fn write(
     let metadata = Metadata::default().with(keys::VERSION, brinell::VERSION).with(keys::SCENARIO, points.source.text());
     let mut written =
         vec![table.write_csv(folder.join("sweep.csv"))?, table.write_parquet(folder.join("sweep.parquet"), &metadata)?];
-    let count = |word: &str| states.iter().filter(|s| s.word() == word).count();
+    let count = |word: &str| count(states, word);
     let columns: serde_json::Map<String, Value> =
         table.columns.iter().map(|c| (c.name.clone(), c.unit.as_str().into())).collect();
     let overrides: serde_json::Map<String, Value> =

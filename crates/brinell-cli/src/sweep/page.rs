@@ -1,12 +1,12 @@
 //! A sweep as its page shows it: which key lies on the x axis, which points make a line.
 
 use super::points::Points;
-use super::table::{State, number};
+use super::table::{State, count, number};
 use crate::say::{bracketed, short, shown_unit};
 use brinell::result::Quantity;
 use brinell::scenario::Scenario;
 use brinell_report::{Fact, HeatMap, IndicatorLine, IndicatorPlot, IndicatorPoint, SweepReport, Table, capital};
-use brinell_study::campaign::{Axis, Row};
+use brinell_study::campaign::Axis;
 use std::collections::HashMap;
 
 /// Points and failures that the page lists; beyond that, the table is the place.
@@ -34,12 +34,11 @@ pub(super) fn usual(scenario: &Scenario, names: &[String]) -> Vec<String> {
 }
 
 pub(super) fn report(points: &Points, states: &[State], plots: &[String]) -> SweepReport {
-    let count = |word: &str| states.iter().filter(|s| s.word() == word).count();
-    let (failed, missing) = (count("failed"), count("not run"));
+    let [complete, failed, missing] = ["complete", "failed", "not run"].map(|word| count(states, word));
     let axes: Vec<String> = points.plan.axes().iter().map(|axis| axis.keys().join(" with ")).collect();
     let fact = |label: &str, n: usize, note: &str| Fact::new(label, n.to_string(), "", note);
     let mut facts = vec![fact("Points", states.len(), &axes.join(" × "))];
-    facts.push(fact("Complete", count("complete"), ""));
+    facts.push(fact("Complete", complete, ""));
     if failed > 0 {
         facts.push(fact("Failed", failed, "reasons below"));
     }
@@ -57,10 +56,8 @@ pub(super) fn report(points: &Points, states: &[State], plots: &[String]) -> Swe
         let texts: Vec<String> = settings.iter().map(|(k, v)| format!("{k} = {v}")).collect();
         format!("{}: {}", k + 1, texts.join(", "))
     };
-    let failures = states.iter().enumerate().filter_map(|(k, s)| match s {
-        State::Failed(reason) => Some((name(k), (*reason).to_owned())),
-        _ => None,
-    });
+    let failures = states.iter().enumerate();
+    let failures = failures.filter_map(|(k, s)| Some((name(k), s.failure()?.to_owned())));
     SweepReport {
         title: format!("Sweep of {}", points.example.name),
         subtitle: format!("{} over {}", plural(states.len(), "point"), axes.join(" × ")),
@@ -106,10 +103,7 @@ fn pictures(points: &Points, states: &[State], name: &str) -> Vec<IndicatorPlot>
     for (k, state) in states.iter().enumerate() {
         let place = points.plan.place(k);
         let rest: Vec<usize> = others.iter().map(|a| place[*a]).collect();
-        let quantity = match state {
-            State::Complete(row) => row.quantity(name),
-            _ => None,
-        };
+        let quantity = state.row().and_then(|row| row.quantity(name));
         if let Some(q) = quantity {
             unit = shown_unit(&q.unit);
         }
@@ -164,8 +158,8 @@ fn map(points: &Points, states: &[State], name: &str) -> Option<HeatMap> {
     };
     let mut values = vec![f64::NAN; states.len()];
     let mut unit = "";
-    for (k, row) in states.iter().enumerate() {
-        let Some(quantity) = complete(row).and_then(|row| row.quantity(name)) else {
+    for (k, state) in states.iter().enumerate() {
+        let Some(quantity) = state.row().and_then(|row| row.quantity(name)) else {
             continue;
         };
         let place = points.plan.place(k);
@@ -226,7 +220,7 @@ fn table(points: &Points, states: &[State], plots: &[String]) -> Table {
     columns.extend(points.plan.keys().map(|key| format!("#{key}")));
     columns.push("Status".into());
     let unit = |name: &String| {
-        let rows = states.iter().filter_map(complete);
+        let rows = states.iter().filter_map(State::row);
         let unit = rows.filter_map(|row| row.quantity(name)).next();
         unit.map_or("", |q| shown_unit(&q.unit))
     };
@@ -243,7 +237,7 @@ fn table(points: &Points, states: &[State], plots: &[String]) -> Table {
         row.extend(points.plan.settings(k).into_iter().map(|(_, value)| value));
         row.push(state.word().into());
         let cell = |name: &String| {
-            let quantity = complete(state).and_then(|row| row.quantity(name));
+            let quantity = state.row().and_then(|row| row.quantity(name));
             quantity.map_or("–".to_owned(), value_text)
         };
         row.extend(plots.iter().map(cell));
@@ -255,13 +249,6 @@ fn table(points: &Points, states: &[State], plots: &[String]) -> Table {
     };
     let note = "Averages over whole revolutions, in brackets their 95 % intervals; peaks are those of a revolution.";
     Table::new("Points", columns, rows, more + note)
-}
-
-fn complete<'a>(state: &State<'a>) -> Option<&'a Row> {
-    match state {
-        State::Complete(row) => Some(row),
-        _ => None,
-    }
 }
 
 /// A number with its interval, as a cell of a page's table.

@@ -1,7 +1,6 @@
 //! The points of a sweep, each read and checked before any runs.
 
 use super::SweepArgs;
-use crate::args::ScenarioArgs;
 use crate::failure::Failure;
 use crate::files::Source;
 use crate::run::{make_folder, signal_columns, signal_metadata};
@@ -55,7 +54,7 @@ impl Points {
     /// Reads every point. A point that is bad is a row of the table; where all are, the input is.
     pub(super) fn read(args: &SweepArgs, threads: NonZeroUsize) -> Result<Self, Failure> {
         let plan = plan(args)?;
-        let source = Source::open(&ScenarioArgs { scenario: args.scenario.clone(), set: args.set.clone() })?;
+        let source = Source::open(&args.scenario, &args.set)?;
         for (key, value) in source.overrides() {
             let hides =
                 |varied: &&str| key.strip_prefix(varied).is_some_and(|rest| rest.is_empty() || rest.starts_with('.'));

@@ -14,7 +14,7 @@ pub(super) enum State<'a> {
     NotRun,
 }
 
-impl State<'_> {
+impl<'a> State<'a> {
     pub(super) fn word(&self) -> &'static str {
         match self {
             Self::Complete(_) => "complete",
@@ -22,6 +22,27 @@ impl State<'_> {
             Self::NotRun => "not run",
         }
     }
+
+    /// The row of a point that is complete.
+    pub(super) fn row(&self) -> Option<&'a Row> {
+        match *self {
+            Self::Complete(row) => Some(row),
+            _ => None,
+        }
+    }
+
+    /// Why a point failed.
+    pub(super) fn failure(&self) -> Option<&str> {
+        match self {
+            Self::Failed(reason) => Some(reason),
+            _ => None,
+        }
+    }
+}
+
+/// How many points are in a state, by its word.
+pub(super) fn count(states: &[State], word: &str) -> usize {
+    states.iter().filter(|state| state.word() == word).count()
 }
 
 /// The state of every point.
@@ -53,16 +74,10 @@ pub(super) fn table(points: &Points, states: &[State], signals: bool) -> Table {
     let words = |of: &dyn Fn(&State) -> Option<String>| Cells::Words(states.iter().map(of).collect());
     let status = words(&|s| Some(s.word().to_owned()));
     table.push(Column::new("status", "", "complete, failed or not run"), status);
-    let reason = words(&|s| match s {
-        State::Failed(reason) => Some((*reason).to_owned()),
-        _ => None,
-    });
+    let reason = words(&|s| s.failure().map(str::to_owned));
     table.push(Column::new("reason", "", "why it failed"), reason);
     if signals {
-        let file = words(&|s| match s {
-            State::Complete(row) => Some(format!("signals/{}", signal_file(&row.scenario))),
-            _ => None,
-        });
+        let file = words(&|s| Some(format!("signals/{}", signal_file(&s.row()?.scenario))));
         table.push(Column::new("signals", "", "file of its channels"), file);
     }
     numbers(states, &mut table);
@@ -104,17 +119,11 @@ pub(super) fn number(value: &str) -> Option<f64> {
 
 /// A column for each number of any point, and for the ends of its interval.
 fn numbers(states: &[State], table: &mut Table) {
-    let runs: Vec<&[Quantity]> = states.iter().map(of).collect();
+    let runs: Vec<&[Quantity]> =
+        states.iter().map(|s| s.row().and_then(|row| row.result.as_deref().ok()).unwrap_or_default()).collect();
     for column in columns(&runs) {
         let about = if column.end { "end of its 95 % interval" } else { "" };
         let head = Column::new(column.name, &column.unit, about);
         table.push(head, Cells::Numbers(column.values));
-    }
-}
-
-fn of<'a>(state: &State<'a>) -> &'a [Quantity] {
-    match state {
-        State::Complete(row) => row.result.as_deref().unwrap_or(&[]),
-        State::Failed(_) | State::NotRun => &[],
     }
 }

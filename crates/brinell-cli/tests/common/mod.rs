@@ -1,5 +1,7 @@
 //! What the tests of the command share: calling it, and scenarios that run in a moment.
 
+use brinell::random::Random;
+use std::f64::consts::TAU;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};
@@ -137,13 +139,33 @@ pub(crate) fn files(folder: &Path) -> Vec<String> {
     names
 }
 
-/// SHORT, four turns of the shaft long, so that there are blocks for intervals, as `name` in a folder of its own.
-pub(crate) fn with_blocks(name: &str) -> TempDir {
+/// A folder with one file.
+pub(crate) fn folder_with(name: &str, text: &str) -> TempDir {
     let folder = tempfile::tempdir().expect("a folder");
-    let text =
-        SHORT.replace("speed_rpm = 1500.0", "speed_rpm = 3000.0").replace("duration_s = 0.02", "duration_s = 0.18");
     std::fs::write(folder.path().join(name), text).expect("it is written");
     folder
+}
+
+/// SHORT, four turns of the shaft long, so that there are blocks for intervals, as `name` in a folder of its own.
+pub(crate) fn with_blocks(name: &str) -> TempDir {
+    let text =
+        SHORT.replace("speed_rpm = 1500.0", "speed_rpm = 3000.0").replace("duration_s = 0.02", "duration_s = 0.18");
+    folder_with(name, &text)
+}
+
+/// A file of the examples.
+pub(crate) fn example(name: &str) -> String {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../examples");
+    root.join(name).display().to_string()
+}
+
+/// The command where no file may grow beyond so many blocks of 512 bytes.
+#[cfg(target_os = "linux")]
+pub(crate) fn limited(folder: &Path, blocks: usize, args: &str) -> Call {
+    let limited = format!("ulimit -f {blocks}; exec \"$0\" {args}");
+    let mut sh = Command::new("sh");
+    sh.args(["-c", &limited, env!("CARGO_BIN_EXE_brinell")]).current_dir(folder);
+    sh.output().expect("sh starts").into()
 }
 
 /// Whole lines of a journal; 0 where there is none yet.
@@ -200,8 +222,35 @@ pub(crate) fn csv(path: &Path) -> (Vec<String>, Vec<Vec<f64>>) {
 }
 
 pub(crate) fn json(path: &Path) -> serde_json::Value {
-    let text = std::fs::read_to_string(path).expect("the file is there");
-    serde_json::from_str(&text).expect("it is JSON")
+    parsed(&std::fs::read_to_string(path).expect("the file is there"))
+}
+
+pub(crate) fn parsed(text: &str) -> serde_json::Value {
+    serde_json::from_str(text).expect("it is JSON")
+}
+
+/// Sample rate of the signals that tests analyse, Hz.
+pub(crate) const FS: f64 = 12_000.0;
+
+/// Twelve uniform numbers, summed: something like a normal variable.
+pub(crate) fn normal(random: &mut Random) -> f64 {
+    (0..12).map(|_| random.part()).sum::<f64>() - 6.0
+}
+
+/// Two seconds of impacts on the outer race of a 6205 at 1800 r/min, of a height over unit noise.
+pub(crate) fn impacts(height: f64) -> Vec<f64> {
+    let mut noise = Random::new(7);
+    let at = |i: u32| {
+        let since = (f64::from(i) / FS) % (1.0 / (3.5848 * 30.0));
+        height * (-since / 8e-4).exp() * (TAU * 3000.0 * since).sin()
+    };
+    (0..24_000).map(|i| at(i) + normal(&mut noise)).collect()
+}
+
+/// A file of one column without a name.
+pub(crate) fn column(path: &Path, values: &[f64]) {
+    let lines: Vec<String> = values.iter().map(|v| format!("{v:.5}\n")).collect();
+    std::fs::write(path, lines.concat()).expect("it is written");
 }
 
 /// What `analyze` needs beside the file: `6205` at 1800 r/min has BPFO 107.5 Hz.

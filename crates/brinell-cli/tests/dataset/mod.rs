@@ -5,7 +5,7 @@ mod bytes;
 mod refusals;
 mod rows;
 
-use crate::common::{Call, SHORT, brinell, command, files, json};
+use crate::common::{Call, SHORT, brinell, command, files, json, parsed, results, same};
 use parquet::file::reader::{FileReader, SerializedFileReader};
 use parquet::record::{Field, Row};
 use std::fs;
@@ -45,21 +45,6 @@ fn folder_with(plan: &str) -> TempDir {
 
 fn make(folder: &Path, more: &[&str]) -> Call {
     brinell(folder, &[&["dataset", "plan.toml"], more].concat())
-}
-
-fn contents(folder: &Path) -> Vec<(String, Vec<u8>)> {
-    let names = files(folder).into_iter();
-    names.map(|name| (name.clone(), fs::read(folder.join(name)).unwrap())).collect()
-}
-
-#[track_caller]
-fn same(a: &Path, b: &Path) {
-    let (a, b) = (contents(a), contents(b));
-    let names = |all: &[(String, Vec<u8>)]| all.iter().map(|f| f.0.clone()).collect::<Vec<_>>();
-    assert_eq!(names(&a), names(&b));
-    for ((name, a), (_, b)) in a.iter().zip(&b) {
-        assert!(a == b, "{name} differs");
-    }
 }
 
 fn rows(path: &Path) -> Vec<Row> {

@@ -1,6 +1,6 @@
 //! What a row says of its run, and where held-out labels lie.
 
-use super::{PLAN, SECRET, brinell, cell, files, folder_with, json, list, make, rows, text};
+use super::{PLAN, SECRET, brinell, cell, files, folder_with, json, list, make, parsed, rows, text};
 use parquet::record::{Field, Row};
 use std::fs;
 
@@ -196,10 +196,7 @@ fn prop_held_out_labels_lie_apart() {
 fn prop_what_a_data_set_is_and_what_was_made_are_reported_as_json() {
     let folder = folder_with(PLAN);
     let here = folder.path();
-    let told = |args: &[&str]| -> serde_json::Value {
-        let call = brinell(here, args).exits(0);
-        serde_json::from_str(&call.out).expect("it is JSON")
-    };
+    let told = |args: &[&str]| parsed(&brinell(here, args).exits(0).out);
     let plan = told(&["dataset", "plan.toml", "--dry-run", "--json"]);
     assert_eq!((&plan["runs"], &plan["files"]), (&7.into(), &3.into()));
     assert_eq!(plan["classes"][0], serde_json::json!({ "label": 0, "name": "healthy", "runs": 4 }));

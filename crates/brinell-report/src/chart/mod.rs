@@ -70,6 +70,28 @@ impl Spec {
     }
 }
 
+/// Plots one above another, `height` each, on one x axis, below the last of them, and with one left edge; an x axis and
+/// the y axes are given as to [`Spec::new`].
+pub(crate) fn panels(
+    size: Size,
+    height: f64,
+    x: (Domain, &str, &str),
+    ys: impl ExactSizeIterator<Item = (Domain, String, String)>,
+) -> Vec<Spec> {
+    let last = ys.len().saturating_sub(1);
+    let mut specs: Vec<Spec> = ys
+        .enumerate()
+        .map(|(k, (y, label, unit))| {
+            let x_axis = k == last;
+            let height = height + if x_axis { 3.4 * size.font } else { 0.0 };
+            Spec { x_axis, ..Spec::new("", "", Size { height, ..size }, x, (y, &label, &unit)) }
+        })
+        .collect();
+    let left = specs.iter().map(left_margin).fold(0.0, f64::max);
+    specs.iter_mut().for_each(|spec| spec.left = left);
+    specs
+}
+
 /// A plot being drawn.
 pub(crate) struct Chart {
     pub(crate) picture: Picture,

@@ -1,7 +1,7 @@
 //! Curves of damage: the contact conditions during roller passage, and the ring's section under it.
 
 use super::{AlongRoller, DamagePanel, DamageView, heading};
-use crate::chart::{Chart, Domain, Size, Spec, left_margin, range};
+use crate::chart::{self, Chart, Domain, range};
 use crate::picture::{Paint, Picture, ink};
 use crate::plots::{Layout, legend};
 
@@ -63,30 +63,13 @@ fn stack(
     let size = layout.size(0.0);
     let part = if layout.roomy() { 118.0 } else { 112.0 };
     let (lo, hi) = range(xs.iter().copied()).unwrap_or((-1.0, 1.0));
-    let mut specs: Vec<Spec> = panels
-        .iter()
-        .enumerate()
-        .map(|(k, panel)| {
-            let last = k + 1 == panels.len();
-            let values = panel.curves.iter().flat_map(|c| c.values.iter().copied());
-            Spec {
-                x_axis: last,
-                ..Spec::new(
-                    "",
-                    "",
-                    Size { height: part + if last { 3.4 * size.font } else { 0.0 }, ..size },
-                    (Domain::exact(lo, hi), x_label, x_unit),
-                    (
-                        if panel.from_zero { Domain::from_zero(values) } else { Domain::around(values) },
-                        &panel.label,
-                        &panel.unit,
-                    ),
-                )
-            }
-        })
-        .collect();
-    let left = specs.iter().map(left_margin).fold(0.0, f64::max);
-    specs.iter_mut().for_each(|spec| spec.left = left);
+    let ys = panels.iter().map(|panel| {
+        let values = panel.curves.iter().flat_map(|c| c.values.iter().copied());
+        let domain = if panel.from_zero { Domain::from_zero(values) } else { Domain::around(values) };
+        (domain, panel.label.clone(), panel.unit.clone())
+    });
+    let specs = chart::panels(size, part, (Domain::exact(lo, hi), x_label, x_unit), ys);
+    let left = specs.first().map_or(0.0, |spec| spec.left);
     let title = if shown.is_empty() { title } else { shown };
     let mut picture = Picture::new(name, title, size.width, 0.0);
     let mut top = heading(&mut picture, shown, left, size.width, size.font);

@@ -1,6 +1,6 @@
 //! Amplitude spectrum and envelope spectrum.
 
-use super::layout::{CURVE, HEALTHY, Layout, healthy_words, known, spacing};
+use super::layout::{Layout, healthy_words, known, over_healthy, spacing};
 use super::markers::{marker_lanes, order_lanes, telling};
 use crate::chart::{Chart, Domain, Lane, Size, Spec, range};
 use crate::data::{Marker, Report, Spectrum};
@@ -25,10 +25,7 @@ pub(crate) fn spectrum(report: &Report, layout: Layout) -> Picture {
     let end = spacing(spectrum.df_hz) * spectrum.amplitude.len().saturating_sub(1) as f64;
     let y = spectrum_domain(report);
     let spec = spectrum_spec(("spectrum", "Spectrum"), spectrum, size, end, y, vec![]);
-    let mut chart = Chart::new(Spec { remark: healthy_words(&report.healthy.spectrum), ..spec });
-    draw_spectrum(&mut chart, spectrum, &report.healthy.spectrum);
-    chart.interactive("spectrum");
-    chart.finish()
+    drawn(spec, spectrum, &report.healthy.spectrum, "spectrum")
 }
 
 pub(crate) fn spectrum_domain(report: &Report) -> Domain {
@@ -61,7 +58,6 @@ pub(crate) fn order_spectrum(report: &Report, layout: Layout) -> Picture {
     let spec = Spec {
         x_label: "Order of the shaft".into(),
         x_unit: String::new(),
-        remark: healthy_words(&report.healthy.envelope_orders),
         ..spectrum_spec(
             ("envelope-orders", "Envelope orders"),
             spectrum,
@@ -71,10 +67,7 @@ pub(crate) fn order_spectrum(report: &Report, layout: Layout) -> Picture {
             order_lanes(&report.order_markers),
         )
     };
-    let mut chart = Chart::new(spec);
-    draw_spectrum(&mut chart, spectrum, &report.healthy.envelope_orders);
-    chart.interactive("orders");
-    chart.finish()
+    drawn(spec, spectrum, &report.healthy.envelope_orders, "orders")
 }
 
 fn lines_domain(spectrum: &Spectrum, healthy: &[f64], top: f64) -> Domain {
@@ -93,11 +86,7 @@ pub(super) fn envelope_spec(report: &Report, size: Size) -> Spec {
 }
 
 pub(super) fn draw_envelope(report: &Report, spec: Spec) -> Picture {
-    let mut chart = Chart::new(spec);
-    let healthy = &report.healthy.envelope_spectrum;
-    draw_spectrum(&mut chart, &report.envelope_spectrum, healthy);
-    chart.interactive("envelope");
-    chart.finish()
+    drawn(spec, &report.envelope_spectrum, &report.healthy.envelope_spectrum, "envelope")
 }
 
 pub(crate) fn spectrum_spec(
@@ -114,18 +103,16 @@ pub(crate) fn spectrum_spec(
     Spec { lanes, ..Spec::new(name, title, size, (x, "Frequency", "Hz"), (y, label, &spectrum.unit)) }
 }
 
-fn draw_spectrum(chart: &mut Chart, spectrum: &Spectrum, healthy: &[f64]) {
+/// A spectrum's lines on their axes; the page's script knows the plot by its name.
+fn drawn(spec: Spec, spectrum: &Spectrum, healthy: &[f64], name: &str) -> Picture {
+    let mut chart = Chart::new(Spec { remark: healthy_words(healthy), ..spec });
     if range(spectrum.amplitude.iter().copied()).is_none() {
         chart.say("No spectrum");
     } else if !known(spectrum.df_hz) {
         chart.say("The line spacing is not known");
     } else {
-        let step = spacing(spectrum.df_hz);
-        if !healthy.is_empty() {
-            chart.of("healthy");
-            chart.curve(0.0, step, healthy, true, HEALTHY);
-            chart.of("damaged");
-        }
-        chart.curve(0.0, step, &spectrum.amplitude, true, CURVE);
+        over_healthy(&mut chart, (0.0, spacing(spectrum.df_hz)), &spectrum.amplitude, healthy, true);
     }
+    chart.interactive(name);
+    chart.finish()
 }

@@ -1,6 +1,6 @@
 //! The sensor signal: the whole run, and the stretch close up with what rollers do in it.
 
-use super::layout::{CURVE, HEALTHY, Layout, healthy_words, known, spacing, start, time_unit};
+use super::layout::{Layout, healthy_words, known, over_healthy, spacing, start, time_unit};
 use super::markers::telling;
 use crate::chart::{Chart, Domain, Lane, Mark, Size, Spec, range};
 use crate::data::{MinMax, Report, Series};
@@ -125,14 +125,8 @@ pub(super) fn draw_waveform(report: &Report, spec: Spec) -> Picture {
     } else if !known(series.dt_s) && series.values.len() > 1 {
         chart.say("The sample interval is not known");
     } else {
-        let healthy = &report.healthy.waveform;
-        let (first, step) = (start(series.t0_s) * scale, spacing(series.dt_s) * scale);
-        if !healthy.is_empty() {
-            chart.of("healthy");
-            chart.curve(first, step, healthy, false, HEALTHY);
-            chart.of("damaged");
-        }
-        chart.curve(first, step, &series.values, false, CURVE);
+        let places = (start(series.t0_s) * scale, spacing(series.dt_s) * scale);
+        over_healthy(&mut chart, places, &series.values, &report.healthy.waveform, false);
     }
     chart.interactive("waveform");
     chart.finish()

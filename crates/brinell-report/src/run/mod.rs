@@ -24,55 +24,51 @@ impl Report {
     /// What the page of a run shows: `report.html` of `brinell run`. Damage that makes no model is not drawn, and the
     /// page says why.
     pub fn of_run(parts: &Parts) -> Self {
-        report(parts)
-    }
-}
-
-fn report(parts: &Parts) -> Report {
-    let scenario = &parts.loaded.scenario;
-    let (damage, undrawn_damage) = match crate::defects::damage_of(scenario, None) {
-        Ok(all) => (all, None),
-        Err(error) => (Vec::new(), Some(error.to_string())),
-    };
-    let (envelope_orders, order_markers) = orders::orders(parts, parts.findings);
-    Report {
-        title: scenario.name.clone(),
-        subtitle: subtitle(scenario),
-        lead: lead::lead(parts, &damage),
-        version: brinell::VERSION.to_owned(),
-        partial: match &parts.outcome.end {
-            End::Complete => None,
-            End::Stopped => Some("the run was stopped before its duration".into()),
-            End::Failed(error) => Some(error.to_string()),
-        },
-        warnings: brinell::summary::warnings(parts),
-        facts: facts(parts),
-        healthy: healthy::healthy(parts, &envelope_orders),
-        waveform: waveform(parts),
-        spectrum: spectrum(parts),
-        spectrogram: spectrogram(parts, sensor_label(parts)),
-        envelope_spectrum: envelope_spectrum(parts),
-        envelope_orders,
-        order_markers,
-        markers: defect_markers(scenario, parts.simulation.model()),
-        damage: damage.into_iter().map(|d| d.view).collect(),
-        undrawn_damage,
-        passes: parts.findings.passes.best().iter().map(|p| pass(parts, p)).collect(),
-        load_distribution: load_distribution(parts),
-        along: match scenario.defects.is_empty() {
-            true => crate::defects::along_healthy_roller(scenario),
-            false => None,
-        },
-        indicators: indicators(parts),
-        slip: slip(parts),
-        slip_rows: slip_rows(parts),
-        cage_orbits: cage_orbits(parts),
-        sensor: sensor::view(parts),
-        motion: motion(parts),
-        audits: audits(parts),
-        solver_work: solver_work(parts),
-        assumptions: assumptions(parts),
-        scenario_toml: parts.loaded.to_toml(),
+        let scenario = &parts.loaded.scenario;
+        let (damage, undrawn_damage) = match crate::defects::damage_of(scenario, None) {
+            Ok(all) => (all, None),
+            Err(error) => (Vec::new(), Some(error.to_string())),
+        };
+        let (envelope_orders, order_markers) = orders::orders(parts, parts.findings);
+        Self {
+            title: scenario.name.clone(),
+            subtitle: subtitle(scenario),
+            lead: lead::lead(parts, &damage),
+            version: brinell::VERSION.to_owned(),
+            partial: match &parts.outcome.end {
+                End::Complete => None,
+                End::Stopped => Some("the run was stopped before its duration".into()),
+                End::Failed(error) => Some(error.to_string()),
+            },
+            warnings: brinell::summary::warnings(parts),
+            facts: facts(parts),
+            healthy: healthy::healthy(parts, &envelope_orders),
+            waveform: waveform(parts),
+            spectrum: spectrum(parts),
+            spectrogram: spectrogram(parts, sensor_label(parts)),
+            envelope_spectrum: envelope_spectrum(parts),
+            envelope_orders,
+            order_markers,
+            markers: defect_markers(scenario, parts.simulation.model()),
+            damage: damage.into_iter().map(|d| d.view).collect(),
+            undrawn_damage,
+            passes: parts.findings.passes.best().iter().map(|p| pass(parts, p)).collect(),
+            load_distribution: load_distribution(parts),
+            along: match scenario.defects.is_empty() {
+                true => crate::defects::along_healthy_roller(scenario),
+                false => None,
+            },
+            indicators: indicators(parts),
+            slip: slip(parts),
+            slip_rows: slip_rows(parts),
+            cage_orbits: cage_orbits(parts),
+            sensor: sensor::view(parts),
+            motion: motion(parts),
+            audits: audits(parts),
+            solver_work: solver_work(parts),
+            assumptions: assumptions(parts),
+            scenario_toml: parts.loaded.to_toml(),
+        }
     }
 }
 

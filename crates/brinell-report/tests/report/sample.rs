@@ -134,6 +134,8 @@ pub(crate) fn filled(text: &str, values: &[f64], dt: f64, frequency: f64) -> Rep
     let fact = || Fact::new(text, at(0), text, text).judged(at(1) > 0.0);
     let spectrum =
         || Spectrum { label: text.into(), df_hz: dt, amplitude: values.to_vec(), unit: text.into(), note: text.into() };
+    let marker =
+        |present| Marker { label: text.into(), meaning: text.into(), frequency_hz: frequency, harmonics: 5, present };
     Report {
         lead: text.into(),
         healthy: Healthy {
@@ -143,13 +145,7 @@ pub(crate) fn filled(text: &str, values: &[f64], dt: f64, frequency: f64) -> Rep
             envelope_orders: values.to_vec(),
         },
         envelope_orders: spectrum(),
-        order_markers: vec![Marker {
-            label: text.into(),
-            meaning: text.into(),
-            frequency_hz: frequency,
-            harmonics: 5,
-            present: true,
-        }],
+        order_markers: vec![marker(true)],
         title: text.into(),
         subtitle: text.into(),
         version: text.into(),
@@ -172,15 +168,7 @@ pub(crate) fn filled(text: &str, values: &[f64], dt: f64, frequency: f64) -> Rep
         },
         spectrum: spectrum(),
         envelope_spectrum: spectrum(),
-        markers: [true, false]
-            .map(|present| Marker {
-                label: text.into(),
-                meaning: text.into(),
-                frequency_hz: frequency,
-                harmonics: 5,
-                present,
-            })
-            .to_vec(),
+        markers: vec![marker(true), marker(false)],
         damage: vec![damage_view(text, values)],
         passes: vec![Pass {
             title: text.into(),

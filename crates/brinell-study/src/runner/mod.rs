@@ -14,7 +14,7 @@ pub use cost::{estimate, mean_pace};
 pub use ledger::JOURNAL;
 pub use ledger::{Kept, Ledger};
 #[doc(hidden)]
-pub use recorder::{Recorder, Recording};
+pub use recorder::Recorder;
 pub use run::{Beside, Task, Work, run, to_run};
 
 use brinell_io::IoError;

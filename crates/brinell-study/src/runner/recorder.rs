@@ -1,5 +1,4 @@
-//! The observer of a recorded run: writes rows to files, captures one filtered signal where requested, and reports the
-//! time to its listener.
+//! The observer of a recorded run: writes rows to files, and reports the time to its listener.
 
 use crate::listener::RunListener;
 use brinell::channel::Frame;
@@ -13,8 +12,6 @@ pub struct Recorder<'a> {
     sample_rate: f64,
     writers: Vec<Box<dyn SignalWriter>>,
     failed: Option<IoError>,
-    captured_channel: Option<usize>,
-    captured: Vec<f64>,
     listener: &'a mut dyn RunListener,
     beside: Option<&'a mut dyn Observer>,
 }
@@ -31,8 +28,6 @@ impl<'a> Recorder<'a> {
             sample_rate: simulation.sample_rate(),
             writers,
             failed: None,
-            captured_channel: None,
-            captured: Vec::new(),
             listener,
             beside: None,
         }
@@ -44,18 +39,12 @@ impl<'a> Recorder<'a> {
         self
     }
 
-    /// Keeps that one of [`Simulation::filtered`] whole, in memory.
-    pub fn capturing(mut self, which: Option<usize>) -> Self {
-        self.captured_channel = which;
-        self
-    }
-
-    /// Ends the files as the run ended, up to their names. Gives them and the captured signal. A run that was broken
-    /// off leaves whole files of the part that was run, which say so, or none: `keep_stopped` decides.
+    /// Ends the files as the run ended, up to their names. A run that was broken off leaves whole files of the part
+    /// that was run, which say so, or none: `keep_stopped` decides.
     ///
     /// # Errors
     /// Where a file could not be written.
-    pub fn close(self, end: &End, keep_stopped: bool) -> Result<Recording, IoError> {
+    pub fn close(self, end: &End, keep_stopped: bool) -> Result<Vec<Complete>, IoError> {
         if let Some(error) = self.failed {
             return Err(error);
         }
@@ -70,16 +59,8 @@ impl<'a> Recorder<'a> {
                 files.push(writer.complete(outcome.clone())?);
             }
         }
-        Ok(Recording { files, signal: self.captured })
+        Ok(files)
     }
-}
-
-/// What a run leaves beside its findings.
-pub struct Recording {
-    /// Files of signals, to be published.
-    pub files: Vec<Complete>,
-    /// The captured signal, from t = 0.
-    pub signal: Vec<f64>,
 }
 
 impl Observer for Recorder<'_> {
@@ -98,9 +79,6 @@ impl Observer for Recorder<'_> {
     fn row(&mut self, index: u64, row: &[f64], filtered: &[f64]) -> ControlFlow<()> {
         if let Some(beside) = &mut self.beside {
             beside.row(index, row, filtered)?;
-        }
-        if let Some(x) = self.captured_channel.and_then(|k| filtered.get(k)) {
-            self.captured.push(*x);
         }
         if self.writers.is_empty() {
             return ControlFlow::Continue(());

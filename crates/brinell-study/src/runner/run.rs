@@ -70,23 +70,9 @@ pub trait Work: Sync {
         Ok(None)
     }
 
-    /// Which of [`Simulation::filtered`] it captures whole, if any.
-    fn captured_channel(&self) -> Option<usize> {
-        None
-    }
-
     /// What else observes the task's run, if anything.
-    fn beside(&self, _: &Task, _: &Simulation) -> Option<Box<dyn Beside<Self::Error>>> {
+    fn beside(&self, _: &Task, _: &Simulation) -> Option<Box<dyn Beside<Self::Error> + '_>> {
         None
-    }
-
-    /// Keeps of a run that came to its end what its row does not hold, and gives numbers of its own for the row.
-    /// `captured` is the captured signal, from when the run had settled.
-    ///
-    /// # Errors
-    /// Where that cannot be kept.
-    fn finished(&self, _: &Task, _: &RunResult, _captured: &[f64]) -> Result<Vec<Quantity>, Self::Error> {
-        Ok(Vec::new())
     }
 }
 
@@ -168,12 +154,10 @@ fn one<W: Work>(
     let writers = writers.into_iter().collect();
     let mut beside = work.beside(task, &simulation);
     let mut recorder = Recorder::new(&simulation, writers, hearer.as_mut())
-        .capturing(work.captured_channel())
         .beside(beside.as_deref_mut().map(|other| other as &mut dyn Observer));
     let finished = finish(scenario, simulation, &mut recorder);
-    let recording = recorder.close(&finished.outcome.end, false);
-    let recording = recording.map_err(RunnerError::from)?;
-    for file in recording.files {
+    let files = recorder.close(&finished.outcome.end, false);
+    for file in files.map_err(RunnerError::from)? {
         file.publish().map_err(RunnerError::from)?;
     }
     let numbers = match &finished.outcome.end {
@@ -183,11 +167,8 @@ fn one<W: Work>(
         }
         End::Failed(error) => Err(error.to_string()),
         End::Complete => {
-            let settled = finished.findings.from * finished.simulation.sample_rate();
-            let settled = recording.signal.get(settled.ceil() as usize..).unwrap_or(&[]);
-            let more = work.finished(task, &finished, settled)?;
             let besides = beside.map_or(Ok(Vec::new()), |b| b.finished(&finished))?;
-            Ok([finished.quantities(), more, besides].concat())
+            Ok([finished.quantities(), besides].concat())
         }
     };
     Ok(Some(row(numbers)))
