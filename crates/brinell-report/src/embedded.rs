@@ -168,11 +168,13 @@ impl Chart<'_> {
         page.push('[');
         for (index, lane) in self.lanes.iter().enumerate() {
             page.push_str(if index == 0 { "[" } else { ",[" });
-            for (index, mark) in lane.marks.iter().take(5000).enumerate() {
+            let kinds = [(&lane.marks, ""), (&lane.minor, ",1")];
+            let marks = kinds.into_iter().flat_map(|(marks, minor)| marks.iter().take(5000).map(move |m| (m, minor)));
+            for (index, (mark, minor)) in marks.enumerate() {
                 let comma = if index == 0 { "" } else { "," };
                 let _ = write!(
                     page,
-                    "{comma}[{},{},{}]",
+                    "{comma}[{},{},{}{minor}]",
                     (mark.x * 1e4).round() / 1e4,
                     json(&mark.name),
                     json(&mark.label)

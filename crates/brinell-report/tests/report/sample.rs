@@ -149,6 +149,7 @@ pub(crate) fn filled(text: &str, values: &[f64], dt: f64, frequency: f64) -> Rep
             frequency_hz: frequency,
             harmonics: 5,
             present: true,
+            sidebands: vec![],
         }],
         title: text.into(),
         subtitle: text.into(),
@@ -179,6 +180,7 @@ pub(crate) fn filled(text: &str, values: &[f64], dt: f64, frequency: f64) -> Rep
                 frequency_hz: frequency,
                 harmonics: 5,
                 present,
+                sidebands: vec![],
             })
             .to_vec(),
         damage: vec![damage_view(text, values)],
