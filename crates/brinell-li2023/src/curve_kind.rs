@@ -181,6 +181,7 @@ fn bpfo() -> Marker {
         frequency_hz: 250.102,
         harmonics: 5,
         present: true,
+        sidebands: Vec::new(),
     }
 }
 

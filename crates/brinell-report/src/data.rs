@@ -250,6 +250,8 @@ pub struct Marker {
     pub harmonics: usize,
     /// Whether the scenario holds damage with impacts at this frequency.
     pub present: bool,
+    /// Sidebands to mark: where each lies, and what it is.
+    pub sidebands: Vec<(f64, String)>,
 }
 
 /// One roller on its way over a defect; vectors are as long as `angle_deg`, or empty.

@@ -164,8 +164,13 @@ impl Chart<'_> {
     }
 
     fn marks(&self, page: &mut String) {
-        let mark = |m: &Mark| format!("[{},{},{}]", (m.x * 1e4).round() / 1e4, json(&m.name), json(&m.label));
-        let lane = |lane: &Lane| list(lane.marks.iter().take(5000).map(mark));
+        let mark = |m: &Mark, minor: &str| {
+            format!("[{},{},{}{minor}]", (m.x * 1e4).round() / 1e4, json(&m.name), json(&m.label))
+        };
+        let lane = |lane: &Lane| {
+            let kinds = [(&lane.marks, ""), (&lane.minor, ",1")];
+            list(kinds.into_iter().flat_map(|(marks, minor)| marks.iter().take(5000).map(move |m| mark(m, minor))))
+        };
         let toggle = |lane: &Lane| {
             let frequency = lane.marks.first().map_or(1.0, |mark| mark.x);
             format!("[{},{frequency},\"{}\",{}]", json(&lane.label), lane.color, lane.through)

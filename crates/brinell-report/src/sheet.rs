@@ -202,6 +202,7 @@ fn lanes(run: &SheetRun, top: f64) -> Vec<Lane> {
         marks: (1..=(top / hz) as usize)
             .map(|k| Mark { x: k as f64 * hz, name: format!("{k} x {} Hz", significant(hz, 4)), label: format!("{k}") })
             .collect(),
+        minor: Vec::new(),
     };
     found.into_iter().zip(colors).map(lane).collect()
 }

@@ -41,6 +41,7 @@ fn report(text: &str, values: &[f64]) -> AnalysisReport {
             frequency_hz: at(5),
             harmonics: 5,
             present: at(6) > 0.0,
+            sidebands: vec![(at(4), text.into())],
         }],
         band_hz: Some((at(7), at(8))),
         kurtogram: Some(Kurtogram {
@@ -136,6 +137,31 @@ fn analytic_a_second_signal_has_its_own_curve_and_name() {
     r.waveforms.truncate(1);
     r.waveforms.push(loud);
     assert!(analysis_html(&r).contains("\"drawn\":[1, 0]"));
+}
+
+#[test]
+fn analytic_sidebands_of_damage_are_marked_where_they_lie() {
+    let mut r = plain();
+    // Lines up to 4 Hz: the harmonic lies at a half, the sideband at three quarters of the frame.
+    r.markers[0].frequency_hz = 2.0;
+    r.markers[0].sidebands = vec![(3.0, "1 × BPFI + 1 × shaft".into())];
+    let marks = |r: &AnalysisReport| {
+        let svg = analysis_pictures(r, Layout::Wide).pop().expect("the envelope's").svg();
+        let lane = svg.split("class=\"lane\"").nth(1).expect("a lane").to_owned();
+        let lane = lane.split("</g>").next().expect("its end");
+        let starts = lane.split(" d=\"M").skip(1);
+        starts.map(|d| d.split(' ').next().and_then(|x| x.parse().ok()).expect("a place")).collect::<Vec<f64>>()
+    };
+    let with = marks(&r);
+    assert!(analysis_html(&r).contains("[3,\"1 × BPFI + 1 × shaft\",\"\",1]"));
+    r.markers[0].sidebands.clear();
+    let without = marks(&r);
+    assert_eq!(with[..with.len() - 1], without[..]);
+    let (harmonic, sideband) = (with[0], with[with.len() - 1]);
+    let frame = analysis_html(&r);
+    let frame = frame.split("data-plot=\"envelope\" data-frame=\"").nth(1).expect("a frame");
+    let left: f64 = frame.split(' ').next().and_then(|x| x.parse().ok()).expect("its left");
+    assert!((sideband - left - 1.5 * (harmonic - left)).abs() < 0.1, "{left} {harmonic} {sideband}");
 }
 
 /// A drawing without the pixels of its images: base64 has every word of three letters now and then.

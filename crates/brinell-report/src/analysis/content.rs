@@ -8,7 +8,7 @@ use crate::kurtogram::Kurtogram;
 use crate::number::{capital, short};
 use crate::tables::Table;
 use brinell::analysis::{
-    Analysis, COLUMNS, Comparison, Family, Finding, HARMONICS, Levels, Unit, Verdict, shown_spectrum,
+    Analysis, COLUMNS, Comparison, Component, Family, Finding, HARMONICS, Levels, Unit, Verdict, shown_spectrum,
 };
 use brinell::signal::{Estimate, Indicator, Spectrum, VelocityBands};
 
@@ -115,7 +115,7 @@ fn curves(page: &mut AnalysisReport, of: &Findings) {
         |s: &Spectrum| format!("Hann window, lines {} Hz apart, averages: {}.", short(s.frequency_step, 3), s.segments);
     let (low, high) = (a.view.band.low, a.view.band.high);
     let shaded = format!(" Shaded: the band demodulated below, {low:.0} to {high:.0} Hz ({}).", a.view.choice.words());
-    let lanes = " Above the plot lie the defect frequencies and their harmonics, where their lines are highest; those of damage, and a comb at none of them on which the verdict rests, run through it as dashed lines.";
+    let lanes = " Above the plot lie the defect frequencies and their harmonics, where their lines are highest; those of damage, and a comb at none of them on which the verdict rests, run through it as dashed lines; short thin marks are the sidebands that were detected.";
     page.waveforms.push(series(m));
     page.band_hz = Some((low, high));
     let (label, of_envelope) = (format!("{quantity} amplitude"), "Envelope amplitude".to_owned());
@@ -199,6 +199,18 @@ fn named(indicator: Indicator) -> String {
     }
 }
 
+/// Where the sidebands lie that are detected, and what they are.
+fn sidebands(f: &Family) -> Vec<(f64, String)> {
+    let of = if f.component == Component::Element { "FTF" } else { "shaft" };
+    let found = f.sidebands.iter().flat_map(|s| s.detected.iter().map(|at| (s.spacing, *at)));
+    let line = |(spacing, (order, side)): (f64, (usize, i32))| {
+        let sign = if side < 0 { "−" } else { "+" };
+        let name = format!("{order} × {} {sign} {} × {of}", f.name, side.abs());
+        (order as f64 * f.frequency + f64::from(side) * spacing, name)
+    };
+    found.map(line).collect()
+}
+
 fn markers(a: &Analysis) -> Vec<Marker> {
     let marker = |f: &Family| Marker {
         label: f.name.into(),
@@ -206,6 +218,7 @@ fn markers(a: &Analysis) -> Vec<Marker> {
         frequency_hz: f.frequency,
         harmonics: f.harmonics.len(),
         present: f.finding == Finding::Damage,
+        sidebands: if f.finding == Finding::Damage { sidebands(f) } else { Vec::new() },
     };
     let elsewhere = a.elsewhere.map(|e| Marker {
         label: "other".into(),
@@ -213,6 +226,7 @@ fn markers(a: &Analysis) -> Vec<Marker> {
         frequency_hz: e.frequency,
         harmonics: HARMONICS,
         present: true,
+        sidebands: Vec::new(),
     });
     a.families.iter().map(marker).chain(elsewhere).collect()
 }

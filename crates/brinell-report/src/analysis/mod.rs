@@ -71,8 +71,9 @@ pub struct AnalysisReport {
     pub tables: Vec<Table>,
 }
 
+/// Of the signal and of what it is laid over: grey, as colours are those of the marks.
 fn paints() -> [Paint; 2] {
-    [Paint::line(ink::BLUE, 1.1), Paint::line(ink::VERMILLION, 1.1)]
+    [Paint::line(ink::BLUE, 1.1), Paint::line(ink::FAINT, 1.1)]
 }
 
 /// The order in which curves are drawn: what reaches farther lies below, and hides nothing.

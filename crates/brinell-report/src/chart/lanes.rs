@@ -25,6 +25,8 @@ pub(crate) struct Lane {
     /// Whether the marks run down through the plot.
     pub(crate) through: bool,
     pub(crate) marks: Vec<Mark>,
+    /// Marks of less weight: half as high, thin, without words.
+    pub(crate) minor: Vec<Mark>,
 }
 
 pub(crate) const LANE_HEIGHT: f64 = 17.0;
@@ -45,9 +47,9 @@ impl Chart {
         self.picture.path(&[(frame.left, ruler), (frame.right, ruler)], Paint::line(ink::GRID, 1.0));
 
         let seen = || lane.marks.iter().filter(|mark| mark.x >= lo && mark.x <= hi);
-        let across = |top: f64, bottom: f64| -> Vec<Vec<(f64, f64)>> {
+        let across = |marks: &[Mark], top: f64, bottom: f64| -> Vec<Vec<(f64, f64)>> {
             let mut lines: Vec<Vec<(f64, f64)>> = vec![];
-            for mark in seen() {
+            for mark in marks.iter().filter(|mark| mark.x >= lo && mark.x <= hi) {
                 let x = self.x.at(mark.x);
                 // Two marks in a pixel look like one.
                 if lines.last().is_none_or(|line| (line[0].0 - x).abs() >= 0.5) {
@@ -59,17 +61,25 @@ impl Chart {
         self.picture.shapes.push(Shape::Open("lane"));
         let fade = if lane.through { 1.0 } else { 0.6 };
         self.picture.shapes.push(Shape::Path {
-            lines: across(ruler - 5.5, ruler + 5.5),
+            lines: across(&lane.marks, ruler - 5.5, ruler + 5.5),
             close: false,
             paint: Paint::line(lane.color, 2.0).faded(fade),
             clip: None,
         });
         if lane.through {
             self.picture.shapes.push(Shape::Path {
-                lines: across(frame.top, frame.bottom),
+                lines: across(&lane.marks, frame.top, frame.bottom),
                 close: false,
                 paint: Paint::line(lane.color, 1.0).dashed(lane.dash).faded(0.75),
                 clip: Some(frame),
+            });
+        }
+        if !lane.minor.is_empty() {
+            self.picture.shapes.push(Shape::Path {
+                lines: across(&lane.minor, ruler, ruler + 5.5),
+                close: false,
+                paint: Paint::line(lane.color, 1.0).faded(fade),
+                clip: None,
             });
         }
         let mut free = f64::NEG_INFINITY;

@@ -117,7 +117,12 @@ pub(crate) fn left_margin(spec: &Spec) -> f64 {
 pub(crate) fn right_margin(spec: &Spec) -> f64 {
     let font = spec.size.font;
     let ends = spec.lanes.iter().map(|l| font::width(&l.value, font, false)).fold(0.0, f64::max);
-    if ends > 0.0 { ends + 12.0 } else { 1.2 * font }
+    if ends > 0.0 {
+        return ends + 12.0;
+    }
+    // A number at the very end reaches half beyond it.
+    let (_, numbers, _) = ticks(spec.x, 10);
+    numbers.last().map_or(0.0, |last| 0.5 * font::width(last, font, false) + 2.0).max(1.2 * font)
 }
 
 /// From the picture's upper edge to the frame's: lanes, and the lines of a remark.
@@ -359,6 +364,21 @@ mod tests {
                 assert!(matches!(line, Shape::Text(t) if t.y < chart.frame.top && t.y > 8.0));
             }
             assert!(chart.frame.top > Chart::new(plain).frame.top);
+        }
+    }
+
+    #[test]
+    fn prop_numbers_on_an_axis_lie_within_the_picture() {
+        for (width, top) in [(960.0, 12_500.0), (960.0, 20_000.0), (360.0, 1e6), (360.0, 6_000.0)] {
+            let size = Size { width, height: 300.0, font: 12.5 };
+            let spec =
+                Spec::new("a", "b", size, (Domain::exact(0.0, top), "x", ""), (Domain::exact(0.0, 1.0), "y", ""));
+            for shape in Chart::new(spec).picture.shapes {
+                if let Shape::Text(text) = shape {
+                    let end = text.x + text.start() + text.width();
+                    assert!(text.upright || end <= width, "{top}: {end} of {width}");
+                }
+            }
         }
     }
 

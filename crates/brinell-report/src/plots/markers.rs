@@ -33,6 +33,9 @@ pub(crate) fn marker_lanes(markers: &[Marker]) -> Vec<Lane> {
                     label: if n == 1 { String::new() } else { format!("×{n}") },
                 })
                 .collect(),
+            minor: (marker.sidebands.iter())
+                .map(|(x, name)| Mark { x: *x, name: name.clone(), label: String::new() })
+                .collect(),
         })
         .collect()
 }

@@ -103,6 +103,7 @@ pub(crate) fn event_lanes(report: &Report, scale: f64) -> Vec<Lane> {
             marks.sort_by(|a, b| a.x.total_cmp(&b.x));
             marks
         },
+        minor: Vec::new(),
     };
     [lane(true, "enters", ink::VERMILLION, &[]), lane(false, "leaves", ink::GREEN, &[5.0, 3.0])]
         .into_iter()

@@ -114,6 +114,7 @@ pub(super) fn markers_at(scenario: &Scenario, model: &Model, speed: f64) -> Vec<
             frequency_hz,
             harmonics: HARMONICS,
             present: damaged.contains(&name),
+            sidebands: Vec::new(),
         })
         .collect()
 }

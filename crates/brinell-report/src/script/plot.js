@@ -244,12 +244,15 @@ function redraw(plot, view) {
   if (still) return;
 
   svg.querySelectorAll(".lane").forEach((lane, index) => {
-    const marks = (chart.lanes[index] || []).filter((m) => m[0] >= view[0] && m[0] <= view[1]);
+    const seen = (chart.lanes[index] || []).filter((m) => m[0] >= view[0] && m[0] <= view[1]);
+    const marks = seen.filter((m) => !m[3]);
     const base = plot.top + 5 + plot.lane * (index + 1), ruler = base - plot.lane / 2;
-    const [tick, line] = lane.querySelectorAll("path");
-    const span = (y1, y2) => marks.map((m) => `M${X(m[0]).toFixed(1)} ${y1}L${X(m[0]).toFixed(1)} ${y2}`).join("");
-    tick.setAttribute("d", span(ruler - 5.5, ruler + 5.5));
-    if (line) line.setAttribute("d", marks.length * 3 < r - l ? span(t, b) : "");
+    const [tick, line, minor] = lane.querySelectorAll("path");
+    const span = (y1, y2, marks) => marks.map((m) => `M${X(m[0]).toFixed(1)} ${y1}L${X(m[0]).toFixed(1)} ${y2}`).join("");
+    tick.setAttribute("d", span(ruler - 5.5, ruler + 5.5, marks));
+    if (line) line.setAttribute("d", marks.length * 3 < r - l ? span(t, b, marks) : "");
+    // Only lanes that run through the plot have such marks.
+    if (minor) minor.setAttribute("d", span(ruler, ruler + 5.5, seen.filter((m) => m[3])));
     lane.querySelectorAll("text").forEach((node) => node.remove());
     const sample = plot.laneText;
     if (!sample) return;

@@ -47,7 +47,7 @@ function near(plot, place) {
   const { chart } = plot, limit = 5 * pixel(plot);
   const named = chart.toggles.flatMap(([label, f], k) => {
     const n = Math.round(place / f);
-    return chart.picked.has(k) && !(chart.lanes.length && n <= chart.lanes[k].length) && n > 0 && Math.abs(n * f - place) <= limit ? [n === 1 ? label : `${n} × ${label}`] : [];
+    return chart.picked.has(k) && !(chart.lanes.length && n <= chart.lanes[k].filter((m) => !m[3]).length) && n > 0 && Math.abs(n * f - place) <= limit ? [n === 1 ? label : `${n} × ${label}`] : [];
   });
   const all = [...chart.lanes.flat().filter((m) => Math.abs(m[0] - place) <= limit).map((m) => m[1]), ...named].slice(0, 2);
   return all.length ? ` · near ${all.join(", ")}` : "";

@@ -1,7 +1,7 @@
 //! Curves of several runs in one plot, under a legend.
 
 use super::{Along, OverlaidCurve, Overlay, Vertical};
-use crate::chart::{Chart, Domain, Spec, range};
+use crate::chart::{Chart, Domain, Lane, Spec, range};
 use crate::embedded::{self, Curve, Places};
 use crate::font;
 use crate::picture::{Anchor, Paint, Picture, Text, ink};
@@ -64,7 +64,7 @@ pub(crate) fn embed(page: &mut String, overlay: &Overlay, names: &[String]) {
             values: &curve.values,
         })
         .collect();
-    let lanes = marker_lanes(&overlay.markers);
+    let lanes = lanes(overlay);
     embedded::Chart {
         name: &overlay.name,
         curves: &curves,
@@ -79,6 +79,12 @@ pub(crate) fn embed(page: &mut String, overlay: &Overlay, names: &[String]) {
         ..embedded::Chart::default()
     }
     .write(page);
+}
+
+/// Marks of defect frequencies, in grey: colours are those of the runs.
+fn lanes(overlay: &Overlay) -> Vec<Lane> {
+    let lanes = marker_lanes(&overlay.markers).into_iter();
+    lanes.map(|lane| Lane { color: ink::FAINT, ..lane }).collect()
 }
 
 /// Both axes; the upright one holds `common` too.
@@ -138,7 +144,7 @@ pub(crate) fn stacked(
 /// A plot of some height under its legend; its y axis holds `common` too.
 fn plot(overlay: &Overlay, names: &[String], layout: Layout, height: f64, common: Option<&[f64]>) -> Picture {
     let (x, y) = domains(overlay, common);
-    let lanes = marker_lanes(&overlay.markers);
+    let lanes = lanes(overlay);
     let size = layout.size(height + 16.0 * lanes.len() as f64);
     let (name, title) = (&overlay.name, format!("{} over {}", overlay.y_label, overlay.x_label));
     let (x_label, y_label) = ((x, &*overlay.x_label, &*overlay.x_unit), (y, &*overlay.y_label, &*overlay.y_unit));

@@ -59,12 +59,12 @@ pub struct Harmonic {
 }
 
 /// The sidebands of a family's harmonics.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Sidebands {
     /// Distance between them, Hz.
     pub spacing: f64,
-    /// How many are detected.
-    pub detected: usize,
+    /// Those that are detected: of which harmonic, and how many distances above it.
+    pub detected: Vec<(usize, i32)>,
     /// Of how many that were looked at.
     pub of: usize,
 }
@@ -154,7 +154,7 @@ impl Family {
 
     /// How many sidebands are detected.
     pub fn detected_sidebands(&self) -> usize {
-        self.sidebands.map_or(0, |s| s.detected)
+        self.sidebands.as_ref().map_or(0, |s| s.detected.len())
     }
 
     /// The highest harmonic, dB over the floor.
@@ -311,7 +311,7 @@ pub(super) struct Lines {
 /// The comb of a frequency, with sidebands at a distance of `spacing` Hz where it has any.
 pub(super) fn lines(together: &Together, frequency: f64, spacing: Option<f64>) -> Lines {
     let detected = |place: Place| place.ratio.is_some_and(|r| r >= together.detection_level());
-    let mut sidebands = spacing.map(|spacing| Sidebands { spacing, detected: 0, of: 0 });
+    let mut sidebands = spacing.map(|spacing| Sidebands { spacing, detected: Vec::new(), of: 0 });
     let mut depth = 0.0;
     let mut harmonics = Vec::with_capacity(HARMONICS);
     for order in 1..=HARMONICS {
@@ -330,7 +330,9 @@ pub(super) fn lines(together: &Together, frequency: f64, spacing: Option<f64>) -
         for side in (-SIDEBANDS..=SIDEBANDS).filter(|s| *s != 0) {
             let line = together.at(at + f64::from(side) * sidebands.spacing);
             sidebands.of += 1;
-            sidebands.detected += usize::from(detected(line));
+            if detected(line) {
+                sidebands.detected.push((order, side));
+            }
             depth += line.depth.min(carrier.depth);
         }
     }

@@ -111,8 +111,8 @@ fn family(analysis: &Analysis, f: &Family) -> Value {
         "harmonics": f.harmonics.iter().map(|h| json!({
             "order": h.order, "frequency_hz": h.frequency, "snr_db": h.snr_db, "detected": h.detected,
         })).collect::<Vec<_>>(),
-        "sidebands": f.sidebands.map(|s| json!({
-            "spacing_hz": s.spacing, "detected": s.detected, "of": s.of,
+        "sidebands": f.sidebands.as_ref().map(|s| json!({
+            "spacing_hz": s.spacing, "detected": s.detected.len(), "of": s.of,
         })),
     })
 }

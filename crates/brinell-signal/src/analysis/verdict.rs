@@ -220,7 +220,7 @@ impl Record {
             None => FAINT,
         };
         // Measured alike: with sidebands where the leading family has any.
-        let spacing = lead.and_then(|l| l.sidebands).map(|s| s.spacing);
+        let spacing = lead.and_then(|l| l.sidebands.as_ref()).map(|s| s.spacing);
         let depth = |f: f64| lines(together, f, spacing).modulation;
         let step = 0.25 * together.step() / HARMONICS as f64;
         let top = together.top() / (FEWEST_HARMONICS + 0.5);

@@ -225,9 +225,9 @@ fn other_lines(analysis: &Analysis, elsewhere: &Elsewhere) -> String {
 }
 
 fn evidence_of(family: &Family) -> String {
-    let sidebands = match family.sidebands {
-        Some(s) if s.detected >= 2 => {
-            format!(", with {} sidebands {:.2} Hz apart", s.detected, s.spacing)
+    let sidebands = match &family.sidebands {
+        Some(s) if s.detected.len() >= 2 => {
+            format!(", with {} sidebands {:.2} Hz apart", s.detected.len(), s.spacing)
         }
         _ => String::new(),
     };
