@@ -45,7 +45,13 @@ fn regress_a_wrong_value_is_named_with_range_unit_and_line() {
         (
             "NU206",
             "NU211",
-            &["line 4", "bearing.preset = \"NU211\": not in the catalogue", "did you mean \"NU210\"?", "NN3007"],
+            &[
+                "line 4",
+                "bearing.preset = \"NU211\": not in the catalogue",
+                "did you mean \"NU210\"?",
+                "NU210, ",
+                "`brinell bearing list` shows all",
+            ],
         ),
     ] {
         check_with(from, to).exits(2).complains(parts);
