@@ -80,7 +80,7 @@ fn regress_several_bearings_of_several_files_and_what_goes_with_one_only() {
     let unknown = ["--bearing", "6205-2RS", "--bearing", "9999"];
     brinell(folder.path(), &[&SIGNAL[..], &unknown].concat())
         .exits(2)
-        .complains(&["--bearing 9999: no bearing \"9999\"; there are NN3007"]);
+        .complains(&["--bearing 9999: no bearing \"9999\"; there are "]);
     for (name, kind) in [
         ("7205", "an angular contact ball bearing"),
         ("22205", "a spherical roller bearing"),

@@ -61,7 +61,15 @@ fn regress_frequencies_of_a_scenario_use_its_speed() {
 fn regress_frequencies_refuse_what_makes_no_bearing() {
     for (args, parts) in [
         (&[][..], &["brinell bearing list", "--pitch"][..]),
-        (&["NN3008"], &["no bearing \"NN3008\"", "did you mean NN3007?", "There are NN3007", "NU206", "ZA-2115"]),
+        (
+            &["NN3008"],
+            &[
+                "no bearing \"NN3008\"",
+                "did you mean NN3007?",
+                "There are NN3007, ",
+                "`brinell bearing list` shows all",
+            ],
+        ),
         (&["missing.toml"], &["cannot read missing.toml"]),
         (&["NN3007", "--speed", "0"], &["--speed 0", "r/min"]),
         (&["NN3007", "--speed", "nan"], &["--speed NaN", "r/min"]),

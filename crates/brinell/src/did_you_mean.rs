@@ -1,5 +1,15 @@
 //! The known word that a misspelt one most likely meant.
 
+/// The few of `known` bearings that are nearest to `word`, and how to see all.
+pub(crate) fn nearest_few<'a>(word: &str, known: impl Iterator<Item = &'a str>) -> String {
+    const FEW: usize = 5;
+    let mut known: Vec<&str> = known.collect();
+    let word: String = word.chars().take(40).collect::<String>().to_uppercase();
+    known.sort_by_key(|candidate| strsim::damerau_levenshtein(&word, candidate));
+    let few = known[..known.len().min(FEW)].join(", ");
+    format!("{few} and others: `brinell bearing list` shows all")
+}
+
 /// The nearest of `known` to `word`, if any is near.
 pub(crate) fn did_you_mean<'a>(word: &str, known: impl Iterator<Item = &'a str>) -> Option<&'a str> {
     // Edit distance is quadratic: a word that long was never a misspelt key.

@@ -5,7 +5,7 @@ use super::catalogue::{self, Entry};
 use super::designation::{kind, of_one_kind, with_zeros};
 use super::kinematics::{Geometry, Kinematics, frequency_table};
 use crate::analysis::{DefectOrders, NAMED, NamedBearing};
-use crate::did_you_mean::did_you_mean;
+use crate::did_you_mean::{did_you_mean, nearest_few};
 use std::f64::consts::TAU;
 
 /// Of a bearing of the catalogue or a scenario.
@@ -56,7 +56,7 @@ impl KnownBearing {
             (zeros.map(Self::name)).or_else(|| catalogue::nearest_name(name)).or_else(|| did_you_mean(name, alike()));
         let hint = meant.map_or(String::new(), |name| format!("; did you mean {name}?"));
         let joint = if hint.is_empty() { "; there" } else { " There" };
-        format!("no bearing {name:?}{hint}{joint} are {}", names.join(", "))
+        format!("no bearing {name:?}{hint}{joint} are {}", nearest_few(name, names.iter().copied()))
     }
 
     /// Its name.

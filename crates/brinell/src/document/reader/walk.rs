@@ -8,7 +8,7 @@ use super::{MOST_TABLES, Reader, join};
 use crate::bearing::catalogue;
 use crate::bearing::clearance::ClearanceClass;
 use crate::bearing::clearance_of;
-use crate::did_you_mean::did_you_mean;
+use crate::did_you_mean::{did_you_mean, nearest_few};
 
 impl Keys for Reader<'_> {
     fn key<T: ValueType>(&mut self, spec: Spec, fallback: Fallback<T>, value: &mut T) {
@@ -110,14 +110,14 @@ impl Keys for Reader<'_> {
             return;
         }
         self.preset_unknown = true;
-        let names = || catalogue::all().iter().map(|entry| entry.name.as_str());
+        let names = catalogue::all().iter().map(|entry| entry.name.as_str());
         let hint =
             catalogue::nearest_name(name).map(|known| format!("; did you mean {}?", quote(known))).unwrap_or_default();
         let path = join(&self.frame().path, spec.name);
         let span = self.found.get(&path).and_then(|node| node.span.clone());
         let problem = Problem::error(path, format!("not in the catalogue{hint}"))
             .value(quote(name))
-            .allowed(names().collect::<Vec<_>>().join(", "));
+            .allowed(nearest_few(name, names));
         self.problems.add(problem, span);
     }
 
