@@ -124,20 +124,31 @@ fn regress_what_the_other_file_does_not_say_has_options_of_its_own() {
     for name in ["x.csv", "y.csv"] {
         column(&folder.path().join(name), &signal(1.0, 0.0, 0.0));
     }
-    let over = |more: &[&str]| {
-        let against = [&["--against", "y.csv"][..], more].concat();
+    fs::copy(folder.path().join("y.csv"), folder.path().join("y.txt")).unwrap();
+    let over = |other: &str, more: &[&str]| {
+        let against = [&["--against", other][..], more].concat();
         brinell(folder.path(), &with("x.csv", &against))
     };
-    over(&[]).exits(2).complains(&[
-        "y.csv: 2 things have to be given:",
+    over("y.txt", &[]).exits(2).complains(&[
+        "y.txt: 2 things have to be given:",
         "the file states no sample rate; give --against-rate HZ",
         "give --against-unit, such as --against-unit g",
     ]);
-    over(&["--against-rate", "12000"]).exits(2).complains(&["y.csv: the file states no unit", "--against-unit m/s^2"]);
-    over(&["--against-rate", "12000", "--against-unit", "furlong"])
+    // Of the same format they are the first signal's, and that is said.
+    over("y.csv", &[]).exits(0).says(&[
+        "sample rate 12000 Hz, as the first signal's; else give --against-rate HZ",
+        "unit g, as the first signal's; else give --against-unit",
+    ]);
+    over("y.csv", &["--against-rate", "6000"]).exits(0).says(&["sample rate 6000 Hz, as given"]);
+    // After a sensitivity the first signal's unit is none of the file's.
+    let volts = ["--rate", "12000", "--unit", "V", "--sensitivity", "100mV/g", "--speed", "1800", "--bearing", "6205"];
+    brinell(folder.path(), &[&["analyze", "x.csv", "--against", "y.csv"][..], &volts].concat())
+        .exits(2)
+        .complains(&["y.csv: 2 things have to be given:"]);
+    over("y.csv", &["--against-rate", "12000", "--against-unit", "furlong"])
         .exits(2)
         .complains(&["--against-unit furlong: no unit is called `furlong`"]);
-    over(&["--against-rate", "12000", "--against-unit", "g"]).exits(0).says(&["this over the other"]);
+    over("y.csv", &["--against-rate", "12000", "--against-unit", "g"]).exits(0).says(&["this over the other"]);
     brinell(folder.path(), &with("x.csv", &["--band", "1000", "1010"]))
         .exits(2)
         .complains(&["is 10.0 Hz wide", "Hz or more, for two harmonics"]);

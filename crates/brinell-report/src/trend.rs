@@ -19,6 +19,8 @@ pub struct TrendReport {
     pub version: String,
     /// A row for each signal.
     pub table: Table,
+    /// What is said of each.
+    pub verdicts: Table,
     /// Numbers over the signals in their order.
     pub plots: Vec<IndicatorPlot>,
     /// Signal and reason of those without a result.
@@ -36,12 +38,16 @@ pub fn trend_html(report: &TrendReport) -> String {
     let mut page = open(&report.title, &report.subtitle, ("Analysed", &report.version), []);
     page.push_str("<main>\n");
     table(&mut page, &report.table);
+    if !report.verdicts.rows.is_empty() {
+        table(&mut page, &report.verdicts);
+    }
     failures(&mut page, "Files without a result", "File", &report.failures);
     section(&mut page, "trend", "Trend", |page| {
         none(
             page,
             "In the order of the table; numbers on the axis are those of its first column. Bars: 95 % intervals; rings: values without one; crosses on the axis: no value; \
-             dashed: boundaries of the zones, the scores from which a family is beyond noise or high, the record that each is compared with.",
+             dashed: boundaries of the zones, the scores from which a family is beyond noise or high, the record that each is compared with. The score says only how far a family's harmonics rise over the noise; the verdict also takes how deep they \
+             modulate the envelope, and leaves out lines that another part's damage accounts for: a high score alone is no damage.",
         );
         for (index, plot) in report.plots.iter().enumerate() {
             let _ = writeln!(page, "<h3>{}</h3>", escape(&plot.label));
@@ -66,6 +72,7 @@ mod tests {
                 rows: vec![vec!["a<b.csv".into()]],
                 ..Table::default()
             },
+            verdicts: Table { rows: vec![vec!["all > well".into()]], ..Table::default() },
             plots: vec![IndicatorPlot {
                 name: "trend-rms".into(),
                 label: "RMS & more".into(),
@@ -75,7 +82,7 @@ mod tests {
             ..TrendReport::default()
         };
         let page = trend_html(&report);
-        for part in ["a&lt;b.csv", "RMS &amp; more", "empty &lt;", "Files without a result"] {
+        for part in ["a&lt;b.csv", "RMS &amp; more", "empty &lt;", "all &gt; well", "Files without a result"] {
             assert!(page.contains(part), "{part}");
         }
         assert_eq!(trend_pictures(&report, Layout::Wide)[0].name, "trend-rms");

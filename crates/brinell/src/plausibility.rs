@@ -394,7 +394,7 @@ fn parametric(scenario: &Scenario, energy: &EnergyAudit) -> Option<String> {
     };
     let remedy = match scenario.simulation.model {
         ModelKind::Full | ModelKind::Tilting => {
-            "Energy is conserved with contact.law = \"sliced\", contact.roller_path = \"envelope\" and contact.edge_reaction = \"conservative\""
+            "Where levels matter set contact.law = \"sliced\", contact.roller_path = \"envelope\" and contact.edge_reaction = \"conservative\", which conserve energy"
         }
         ModelKind::Lumped => {
             "Energy is conserved in simulation.model = \"full\" alone, with contact.law = \"sliced\", contact.roller_path = \"envelope\" and \
@@ -403,7 +403,7 @@ fn parametric(scenario: &Scenario, energy: &EnergyAudit) -> Option<String> {
     };
     Some(format!(
         "parametric work: the changing stiffness of damaged contacts {done} the bearing, {}, {share}; no body {by}, so amplitudes depend \
-         on the contact law. {remedy}",
+         on the contact law; defect frequencies do not. {remedy}",
         joule(work.abs())
     ))
 }

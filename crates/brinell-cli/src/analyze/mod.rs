@@ -193,6 +193,7 @@ fn load(args: &AnalyzeArgs, path: &Path) -> Result<Measured, Failure> {
             start: args.start,
             duration: args.duration,
             whose: "",
+            like: None,
             ask_speed: args.speed.is_none(),
             ask_bearing: !args.names_a_bearing(),
         },
@@ -372,6 +373,7 @@ fn lay_over(path: &Path, args: &AnalyzeArgs, measured: &Measured, analysis: &mut
         sensitivity: args.against_sensitivity.as_deref(),
         full_scale: args.against_full_scale.as_deref(),
         whose: "against-",
+        like: Some(measured).filter(|m| args.sensitivity.is_none() && is_alike(&m.path, path)),
         ..Wanted::default()
     };
     let mut other = measured::load(path, &wanted)?;
@@ -408,6 +410,12 @@ fn lay_over(path: &Path, args: &AnalyzeArgs, measured: &Measured, analysis: &mut
     }
     let comparison = compare(Side { x: &measured.x, analysis }, other_side).map_err(refused)?;
     Ok(Against { measured: other, analysis: found, comparison })
+}
+
+/// Whether two files are of one format whose numbers mean the same in both: a WAV's may be parts of other full scales.
+fn is_alike(one: &Path, other: &Path) -> bool {
+    let format = |path: &Path| path.extension().map(|e| e.to_ascii_lowercase()).filter(|e| e != "wav");
+    format(one).is_some() && format(one) == format(other)
 }
 
 /// A page with its pictures, and the JSON that describes them, into a folder.

@@ -12,6 +12,9 @@ pub(super) fn report(result: &Result_) -> AnalysisReport {
     // In whole, which the title may have shortened.
     let mut notes = vec![format!("{}, channel {}", m.path.display(), m.channel)];
     notes.extend(m.notes.iter().cloned());
+    if let Some(other) = &result.against {
+        notes.extend(other.measured.notes.iter().map(|note| format!("of {}: {note}", other.measured.path.display())));
+    }
     let other_name = result.against.as_ref().map(|other| name(&other.measured));
     let against = result.against.as_ref().zip(other_name.as_deref());
     AnalysisReport::of_findings(&Findings {

@@ -23,6 +23,8 @@ struct Row {
 struct Found {
     seconds: f64,
     verdict: String,
+    /// The same in whole, of the bearing that leads.
+    sentence: String,
     damage: bool,
     unit: Unit,
     rms: Option<Estimate>,
@@ -175,6 +177,10 @@ impl Found {
         Found {
             seconds: a.duration(),
             verdict: verdicts.collect::<Vec<_>>().join("; "),
+            sentence: match results {
+                [_] => result.verdict_text(),
+                _ => format!("{}: {}", result.name, result.verdict_text()),
+            },
             damage: lead.is_some(),
             unit: m.unit.clone(),
             rms: a.indicator(Indicator::Rms),
@@ -267,11 +273,14 @@ fn report(rows: &[Row]) -> TrendReport {
         }),
         note(rows),
     );
+    let verdicts =
+        rows.iter().filter_map(|row| Some(vec![row.name.clone(), row.found.as_ref().ok()?.sentence.clone()]));
     TrendReport {
         title: "Several signals".into(),
         subtitle: format!("{} files, damage called in {damaged}, no result from {}", rows.len(), failures.len()),
         version: brinell::VERSION.into(),
         table,
+        verdicts: Table::new("Verdicts", ["File", "Verdict"], verdicts, ""),
         plots: plots(rows),
         failures,
     }

@@ -85,6 +85,9 @@ fn against(other: &Against, unit: &str) {
         other.measured.channel,
         other.analysis.verdict()
     );
+    for note in &other.measured.notes {
+        say!("    {note}");
+    }
     let (mean, rms) = other.comparison.level_db;
     say!("  third octaves: this one is {:+.1} dB from the other on average, {rms:.1} dB RMS", 0.0 - mean);
     say!("    {:<16} {:>12} {:>12}  this over the other", "", "this", "the other");

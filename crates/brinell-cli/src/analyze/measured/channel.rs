@@ -125,6 +125,10 @@ pub(super) fn channel(
             return Ok(one((found.name.clone(), found.clone())));
         }
     }
+    if let Some(found) = wanted.like.and_then(|like| file.channels().iter().find(|c| c.name == like.channel)) {
+        notes.push(format!("channel {}, as the first signal's; else give {option}", found.name));
+        return Ok(one((found.name.clone(), found.clone())));
+    }
     let signals: Vec<&Channel> = (file.channels().iter()).filter(|c| c.may_be_signal() && !c.is_time()).collect();
     let among = |words: String| {
         let signals = signals.iter().map(|c| (*c).clone()).collect();

@@ -24,7 +24,7 @@ use unit::{Scaled, unit};
 pub(crate) const MOST: usize = 1 << 22;
 
 /// What was requested of a file.
-#[derive(Debug, Default)]
+#[derive(Default)]
 pub(crate) struct Wanted<'a> {
     pub(crate) channel: Option<&'a str>,
     pub(crate) rate: Option<f64>,
@@ -38,6 +38,8 @@ pub(crate) struct Wanted<'a> {
     pub(crate) duration: Option<f64>,
     /// What the options of this file begin with: `against-` in `--against-rate`, or nothing.
     pub(crate) whose: &'static str,
+    /// What a file of the same format is taken to be like where neither it nor an option says.
+    pub(crate) like: Option<&'a Measured>,
     /// Whether a shaft speed is requested where the file states none.
     pub(crate) ask_speed: bool,
     /// Likewise the bearing.

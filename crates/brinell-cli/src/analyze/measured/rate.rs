@@ -62,6 +62,9 @@ pub(super) fn rate(
         None => file.channels().iter().find(|c| c.is_time() && c.may_be_signal()).cloned(),
     };
     let Some(time) = time else {
+        if let Some(hz) = wanted.like.map(|like| like.rate) {
+            return Ok(Ok((hz, format!("sample rate {hz} Hz, as the first signal's; else give {option} HZ"))));
+        }
         return Ok(Err(format!("the file states no sample rate; give {option} HZ")));
     };
     let unit = match (wanted.time_unit, time.seconds_in_unit()) {

@@ -128,6 +128,10 @@ fn of_file(
         notes.push(format!("unit {unit}, as brinell's own channels have it"));
         return Ok(Ok(Unit::of(unit)));
     }
+    if let Some(unit) = wanted.like.map(|like| like.unit.clone()).filter(|_| wanted.sensitivity.is_none()) {
+        notes.push(format!("unit {}, as the first signal's; else give --{whose}unit", unit.name));
+        return Ok(Ok(unit));
+    }
     Ok(Err(if is_wav {
         format!(
             "a WAV states no unit; give --{whose}full-scale, such as --{whose}full-scale 10g, or --{whose}full-scale 5V with \
