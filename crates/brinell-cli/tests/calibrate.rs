@@ -1,7 +1,7 @@
 //! Calibrations: known keys come back from brinell's own runs, nothing depends on threads or interruptions, and what is
 //! wrong is said.
 
-use crate::common::{brinell, files, interrupted, json, lines, same, typed, with_blocks};
+use crate::common::{brinell, cut_journal, files, interrupted, json, lines, same, typed, with_blocks};
 use serde_json::Value;
 use std::fs;
 use std::path::Path;
@@ -91,10 +91,7 @@ fn prop_neither_threads_nor_interruptions_change_a_byte() {
     let out = |name: &str| folder.path().join(name);
     same(&out("one"), &out("three"));
     // The header and four runs are whole, the fifth was being written.
-    let journal = fs::read(out("three").join("journal.jsonl")).unwrap();
-    let ends: Vec<usize> = (0..journal.len()).filter(|k| journal[*k] == b'\n').collect();
-    fs::create_dir(out("cut")).unwrap();
-    fs::write(out("cut").join("journal.jsonl"), &journal[..ends[4] + 100]).unwrap();
+    cut_journal(&out("three"), 5, &out("cut"));
     run("cut", "2").says(&["4 runs in the journal"]);
     same(&out("one"), &out("cut"));
     run("cut", "2").says(&["0 runs in"]);
@@ -170,19 +167,15 @@ fn regress_bad_input_is_reported_with_key_value_and_range() {
     refuse(&[], &["--fit"]);
     refuse(&good, &["there is nothing to fit to: give --target NAME=VALUE~UNCERTAINTY, or --measured FILE"]);
     let with = |more: &[&'static str]| [&good[..], more].concat();
-    refuse(
-        &["--fit", "operation.speed_rmp=1:2", "--target", "sensor_ax.rms=30~1"],
-        &["operation.speed_rmp", "speed_rpm"],
-    );
-    refuse(
-        &["--fit", "operation.speed_rpm=3100:2900", "--target", "sensor_ax.rms=30~1"],
-        &["--fit: operation.speed_rpm = 3100:2900: the bounds are reversed; 2900.0:3100.0 is meant"],
-    );
-    refuse(
-        &["--fit", "bearing.roller_diameter_mm=-3:8", "--target", "sensor_ax.rms=30~1"],
-        &["bearing.roller_diameter_mm", "-3", "mm"],
-    );
-    refuse(&["--fit", "name=1:2", "--target", "sensor_ax.rms=30~1"], &["name"]);
+    let reversed = "--fit: operation.speed_rpm = 3100:2900: the bounds are reversed; 2900.0:3100.0 is meant";
+    for (fit, parts) in [
+        ("operation.speed_rmp=1:2", &["operation.speed_rmp", "speed_rpm"][..]),
+        ("operation.speed_rpm=3100:2900", &[reversed]),
+        ("bearing.roller_diameter_mm=-3:8", &["bearing.roller_diameter_mm", "-3", "mm"]),
+        ("name=1:2", &["name"]),
+    ] {
+        refuse(&["--fit", fit, "--target", "sensor_ax.rms=30~1"], parts);
+    }
     refuse(
         &with(&["--target", "sensor_ax.rmss=30~1"]),
         &["--target sensor_ax.rmss: no such number of a run", "allowed: the columns of `brinell sweep`, such as"],

@@ -1,7 +1,7 @@
 //! Sweeps: the plan, what a killed one costs, that neither threads nor interruptions change a byte, and what happens to
 //! bad points.
 
-use crate::common::{brinell, files, interrupted, json, lines, results, same, typed, with_blocks};
+use crate::common::{brinell, cut_journal, files, interrupted, json, lines, results, same, typed, with_blocks};
 use brinell_io::{Cells, Table};
 use std::fs;
 use std::path::Path;
@@ -62,11 +62,8 @@ fn prop_neither_threads_nor_a_cut_journal_change_a_byte() {
     );
 
     // The header and two points are whole, the third was being written.
-    let journal = fs::read(out("two").join("journal.jsonl")).unwrap();
-    let ends: Vec<usize> = (0..journal.len()).filter(|k| journal[*k] == b'\n').collect();
-    assert_eq!(ends.len(), 5);
-    fs::create_dir(out("cut")).unwrap();
-    fs::write(out("cut").join("journal.jsonl"), &journal[..ends[2] + 100]).unwrap();
+    assert_eq!(lines(&out("two").join("journal.jsonl")), 5);
+    cut_journal(&out("two"), 3, &out("cut"));
     brinell(folder.path(), &with(&["-o", "cut"]))
         .exits(0)
         .says(&["2 points finished before", "2 runs to do", "4 of 4 points complete"])

@@ -7,7 +7,9 @@ use crate::{Case, Experiment, Numbers, Outline, RMS, STARTS, case};
 use brinell::scenario::Scenario;
 use brinell::signal::Estimate;
 use brinell_report::short;
-use brinell_report::{Chapter, DamageView, IndicatorLine, IndicatorPlot, IndicatorPoint, Stack, StudyPiece, Table};
+use brinell_report::{
+    Chapter, DamageView, IndicatorLine, IndicatorPlot, IndicatorPoint, Overlay, Stack, StudyPiece, Table,
+};
 
 /// Channels of a plot, and what is plotted: one picture.
 struct Shown {
@@ -214,37 +216,27 @@ impl Drawn {
     /// Plots one below the other, each of some cases.
     fn stack(&mut self, name: &str, kind: CurveKind, panels: &[(String, Vec<usize>)], alike: bool, more: &str) {
         let plots = panels.iter().filter_map(|(title, places)| kind.overlay(name, title, &self.some(places)));
-        let plots: Vec<_> = plots.collect();
-        if plots.is_empty() {
+        let plots = plots.collect();
+        self.below(name, kind.title().into(), kind, plots, alike, more);
+    }
+
+    /// These plots one below the other, under the note of `kind`.
+    fn below(&mut self, name: &str, title: String, kind: CurveKind, panels: Vec<Overlay>, alike: bool, more: &str) {
+        if panels.is_empty() {
             return self.missing(kind);
         }
-        let note = format!("{} {more}", kind.note());
-        self.pieces.push(StudyPiece::Stack(Stack {
-            name: name.into(),
-            title: kind.title().into(),
-            panels: plots,
-            names: self.names.clone(),
-            alike,
-            note: note.trim().into(),
-        }));
+        let note = format!("{} {more}", kind.note()).trim().into();
+        let names = self.names.clone();
+        self.pieces.push(StudyPiece::Stack(Stack { name: name.into(), title, panels, names, alike, note }));
     }
 
     /// Load, cage forces and spin around the bearing, of the first case.
     fn around(&mut self, name: &str) {
         let kinds = [CurveKind::Load, CurveKind::Pocket, CurveKind::Spin];
         let plots = kinds.iter().filter_map(|kind| kind.overlay(name, kind.title(), &self.some(&[0])));
-        let plots: Vec<_> = plots.collect();
-        if plots.is_empty() {
-            return self.missing(CurveKind::Pocket);
-        }
-        self.pieces.push(StudyPiece::Stack(Stack {
-            name: name.into(),
-            title: format!("Around the bearing (section 3): {}", self.names[0]),
-            panels: plots,
-            names: self.names.clone(),
-            alike: false,
-            note: format!("{} Rollers go from left to right.", CurveKind::Pocket.note()),
-        }));
+        let plots = plots.collect();
+        let title = format!("Around the bearing (section 3): {}", self.names[0]);
+        self.below(name, title, CurveKind::Pocket, plots, false, "Rollers go from left to right.");
     }
 
     /// A case's defect from above, another's around it.

@@ -95,9 +95,11 @@ fn quotient(what: String, ratio: Option<brinell::signal::ratio::Ratio>) -> Found
 }
 
 fn decide(check: &Check, numbers: &Numbers) -> (Verdict, Vec<Found>) {
+    let number = |(case, name): (&str, &str)| numbers.get(case, name);
+    let ratio_of = |of, to| over(number(of)?, number(to)?);
     match *check {
         Check::Near { case, name, paper, share } => {
-            let number = numbers.get(case, name);
+            let number = number((case, name));
             let verdict = number.map_or(Verdict::Missing, |n| {
                 let ends = n.interval.map_or((n.value, n.value), |i| (i.low, i.high));
                 between(Some(ends), paper * (1.0 - share), paper * (1.0 + share))
@@ -105,20 +107,17 @@ fn decide(check: &Check, numbers: &Numbers) -> (Verdict, Vec<Found>) {
             (verdict, vec![found(case, name, number)])
         }
         Check::Greater { of, than } => {
-            let (a, b) = (numbers.get(of.0, of.1), numbers.get(than.0, than.1));
-            let ratio = a.zip(b).and_then(|(a, b)| over(a, b));
-            let all = vec![found(of.0, of.1, a), found(than.0, than.1, b), quotient("ratio".into(), ratio)];
-            (greater(ratio), all)
+            let ratio = ratio_of(of, than);
+            let [a, b] = [of, than].map(|of| found(of.0, of.1, number(of)));
+            (greater(ratio), vec![a, b, quotient("ratio".into(), ratio)])
         }
         Check::Ratio { of, to, low, high } => {
-            let (a, b) = (numbers.get(of.0, of.1), numbers.get(to.0, to.1));
-            let ratio = a.zip(b).and_then(|(a, b)| over(a, b));
+            let ratio = ratio_of(of, to);
             let verdict = ratio.map_or(Verdict::Missing, |r| between(r.interval, low, high));
             (verdict, vec![quotient(quotient_words(of, to), ratio)])
         }
         Check::Differs { of, from, times } => {
-            let (a, b) = (numbers.get(of.0, of.1), numbers.get(from.0, from.1));
-            let ratio = a.zip(b).and_then(|(a, b)| over(a, b));
+            let ratio = ratio_of(of, from);
             let verdict = ratio.map_or(Verdict::Missing, |r| match r.interval {
                 Some((low, high)) if low >= times || high <= 1.0 / times => Verdict::Holds,
                 Some((low, high)) if low > 1.0 / times && high < times => Verdict::Fails,

@@ -25,11 +25,8 @@ impl Outcome<'_> {
             _ => "no degree of freedom left".into(),
         };
         let base = format!("chi-square {} over {}, {freedom}{p_value}", short(chi, 3), plural(targets, "target"));
-        if self.is_met() {
-            all.push(format!("The targets are met within their uncertainties: {base}."));
-        } else {
-            all.push(format!("The targets are not met within the bounds: {base}."));
-        }
+        let met = if self.is_met() { "met within their uncertainties" } else { "not met within the bounds" };
+        all.push(format!("The targets are {met}: {base}."));
         let mut worst: Vec<_> = self.compared.iter().filter(|c| c.residual.abs() > LARGE).collect();
         worst.sort_by(|a, b| b.residual.abs().total_cmp(&a.residual.abs()));
         for c in worst.iter().take(6) {
@@ -66,40 +63,25 @@ impl Outcome<'_> {
         let noise = self.fit.identified.directions.iter().any(|d| d.noise > 0.0);
         for found in self.found.iter().filter(|f| !f.is_determined()) {
             let width = 2.0 * found.half_width;
-            all.push(if width.is_finite() {
-                format!(
-                    "{}: not determined; its 95 % interval is {} times as wide as its range.",
-                    found.key.name,
-                    short(width, 2)
-                )
-            } else if noise {
-                format!(
-                    "{}: not determined; its effect is not significant against the runs' own uncertainty.",
-                    found.key.name
-                )
-            } else {
-                format!("{}: not determined; the data say nothing of it.", found.key.name)
-            });
+            let why = match width.is_finite() {
+                true => format!("its 95 % interval is {} times as wide as its range", short(width, 2)),
+                false if noise => "its effect is not significant against the runs' own uncertainty".into(),
+                false => "the data say nothing of it".into(),
+            };
+            all.push(format!("{}: not determined; {why}.", found.key.name));
         }
         for found in &self.found {
             let (low, high) = found.key.bounds;
-            all.extend(match found.is_cut() {
-                [true, false] => Some(format!(
-                    "{}: its 95 % interval runs beyond the lower bound, {}: only its upper end is determined; widen the bounds.",
-                    found.key.name,
-                    short(low, 4)
-                )),
-                [false, true] => Some(format!(
-                    "{}: its 95 % interval runs beyond the upper bound, {}: only its lower end is determined; widen the bounds.",
-                    found.key.name,
-                    short(high, 4)
-                )),
-                [true, true] => Some(format!(
-                    "{}: its 95 % interval runs beyond both bounds: not determined between them.",
-                    found.key.name
-                )),
-                [false, false] => None,
-            });
+            let only = |end: &str, beyond: &str, bound: f64| {
+                format!("the {beyond} bound, {}: only its {end} end is determined; widen the bounds", short(bound, 4))
+            };
+            let beyond = match found.is_cut() {
+                [true, false] => only("upper", "lower", low),
+                [false, true] => only("lower", "upper", high),
+                [true, true] => "both bounds: not determined between them".into(),
+                [false, false] => continue,
+            };
+            all.push(format!("{}: its 95 % interval runs beyond {beyond}.", found.key.name));
         }
         for direction in &self.fit.identified.directions {
             if !direction.is_determined() {

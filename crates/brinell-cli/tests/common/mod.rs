@@ -173,6 +173,14 @@ pub(crate) fn lines(journal: &Path) -> usize {
     std::fs::read_to_string(journal).map_or(0, |text| text.lines().count())
 }
 
+/// The journal of one folder's results in another, new one, as if killed while it wrote the line after these.
+pub(crate) fn cut_journal(from: &Path, whole_lines: usize, to: &Path) {
+    let journal = std::fs::read(from.join("journal.jsonl")).unwrap();
+    let whole: usize = journal.split_inclusive(|b| *b == b'\n').take(whole_lines).map(<[u8]>::len).sum();
+    std::fs::create_dir(to).unwrap();
+    std::fs::write(to.join("journal.jsonl"), &journal[..whole + 100]).unwrap();
+}
+
 /// A call that gets Ctrl-C once its journal has so many lines.
 pub(crate) fn interrupted(folder: &Path, args: &[&str], journal: &Path, at: usize) -> Call {
     let child = command(folder, args).stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().expect("brinell starts");
