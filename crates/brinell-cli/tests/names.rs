@@ -1,6 +1,6 @@
 //! Names of bearings, quantities with units and JSON, over the commands that take them.
 
-use crate::common::{SHORT, brinell, json, parsed, with_blocks};
+use crate::common::{SHORT, brinell, folder_with, json, parsed, with_blocks};
 use serde_json::Value;
 use std::fs;
 use tempfile::tempdir;
@@ -170,4 +170,16 @@ fn prop_bearings_as_json_have_every_number_with_its_source() {
     assert_eq!(shown["diametral_clearance_um"]["C3"], serde_json::json!([35.0, 60.0]));
     let counted = &shown["numbers"]["bearing.rollers_per_row"];
     assert_eq!(counted["estimated"], true, "{counted}");
+}
+
+#[test]
+fn prop_a_letter_o_in_a_size_is_taken_for_the_digit() {
+    for (name, meant) in [("62O5", "6205"), ("nu 2o6 ECP", "NU206"), ("NN3OO7", "NN3007")] {
+        let folder = folder_with("s.toml", &SHORT.replace("NU206", name));
+        let here = folder.path();
+        let hint = format!("did you mean {meant}?");
+        brinell(here, &["bearing", "show", name]).exits(2).complains(&[&hint]);
+        let hint = format!("not in the catalogue; did you mean \"{meant}\"?");
+        brinell(here, &["check", "s.toml"]).exits(2).complains(&["line 4", &hint, "`brinell bearing list` shows all"]);
+    }
 }
