@@ -5,7 +5,7 @@ pub(crate) fn nearest_few<'a>(word: &str, known: impl Iterator<Item = &'a str>) 
     const FEW: usize = 5;
     let mut known: Vec<&str> = known.collect();
     let word: String = word.chars().take(40).collect::<String>().to_uppercase();
-    known.sort_by_key(|candidate| strsim::damerau_levenshtein(&word, candidate));
+    known.sort_by_cached_key(|candidate| strsim::damerau_levenshtein(&word, candidate));
     let few = known[..known.len().min(FEW)].join(", ");
     format!("{few} and others: `brinell bearing list` shows all")
 }
