@@ -1,9 +1,9 @@
 """What `brinell analyze` says of measured records that were made harder.
 
-    python3 validation/robustness/robustness.py RECORDS BRINELL [base,cut,bearing,speed,rate] [-v]
+    python3 validation/robustness/robustness.py RECORDS BRINELL [base,sensor,cut,speed,rate,bearing] [-v]
 
 RECORDS is a folder with records.csv (id, file, damaged, set, options) and NPZ files. Prints a row of a Markdown table for each way of making them
-harder: cut short, asked about other bearings, at wrong speeds, resampled with noise. -v lists every wrong call. Needs NumPy and SciPy.
+harder: by the other sensor of the file, cut short, at wrong speeds, resampled with noise, asked about other bearings. -v lists every wrong call. Needs NumPy and SciPy.
 """
 
 import collections
@@ -48,6 +48,7 @@ def records(folder):
         start = options.index("--bearing" if "--bearing" in options else "--rollers")
         yield {
             "id": row["id"], "truth": PARTS[row["damaged"]], "set": row["set"], "x": arrays[channel].astype(float).ravel(),
+            "others": [a.astype(float).ravel() for name, a in arrays.items() if name != channel and len(arrays[channel]) == len(a)],
             "rate": float(after("--rate")), "speed": float(after("--speed")), "bearing": options[start:],
         }
 
@@ -62,6 +63,8 @@ def jobs(all_records, ways):
             yield "as they are" if exact else "speed off", truth, r["id"], (x, rate, speed, bearing)
         if not exact:
             continue
+        for k, other in enumerate(r["others"] if "sensor" in ways else ()):
+            yield "by the sensor at the motor's other end", truth, f"{r['id']} {k}", (other, rate, speed, bearing)
         for seconds, count in CUTS.items() if "cut" in ways else ():
             n = int(seconds * rate)
             for k in range(min(count, len(x) // n)):
