@@ -13,7 +13,7 @@
 
 use super::Options;
 use super::frequencies::Component;
-use super::together::{HARMONICS, Place, Together};
+use super::together::{HARMONICS, Highest, Place, Together};
 
 /// Score from which a family that modulates by [`FAINT`] is damage. In a record of fewer than
 /// [`REVOLUTIONS`](super::together::REVOLUTIONS) true lines are less high over the noise, and chance lines hardly
@@ -226,8 +226,10 @@ pub(super) fn read(together: &Together, shaft: f64, options: &Options) -> Vec<Fa
         let step = 0.25 * together.step() / (HARMONICS as f64 * expected);
         let steps = ((ahead + behind) / step) as usize;
         let places = (0..=steps).map(|k| expected * (1.0 - behind + k as f64 * step));
-        let scored = places.map(|f| (f, score(together, f)));
-        let (frequency, score) = scored.max_by(|a, b| a.1.total_cmp(&b.1)).unwrap_or((expected, 0.0));
+        let highest = Highest::of(places, |f| score(together, f));
+        let highest = highest.unwrap_or(Highest { from: expected, to: expected, height: 0.0 });
+        let score = highest.height;
+        let frequency = by_lines(together, highest.middle());
         let spacing = match component {
             Component::InnerRace => Some(shaft),
             Component::Element => Some(cage(shaft, options)),
@@ -235,8 +237,10 @@ pub(super) fn read(together: &Together, shaft: f64, options: &Options) -> Vec<Fa
         };
         let lines = lines(together, frequency, spacing);
         // On the skirt of a line farther off.
-        let outwards = 4.0 * step * expected * (frequency - expected).signum();
-        let next = frequency + outwards;
+        let next = match frequency > expected {
+            true => highest.to + 4.0 * step * expected,
+            false => highest.from - 4.0 * step * expected,
+        };
         let outside = next < expected * (1.0 - behind) || next > expected * (1.0 + ahead);
         let mut family = Family {
             component,
@@ -280,6 +284,21 @@ fn reach(component: Component, options: &Options) -> (f64, f64) {
         Component::InnerRace => (tolerance, raised),
         Component::Element => (tolerance, AHEAD.min(tolerance)),
     }
+}
+
+/// The fundamental that the detected lines of a comb say: least squares, weighted by what they count for in the score;
+/// the comb's own where that is not as high.
+pub(super) fn by_lines(together: &Together, frequency: f64) -> f64 {
+    let (mut above, mut below) = (0.0, 0.0);
+    for k in (1..=HARMONICS).map(|k| k as f64) {
+        let at = k * frequency;
+        if let Some(ratio) = together.at(at).ratio.filter(|r| *r >= together.detection_level()) {
+            above += ratio.ln() * k * together.line(at);
+            below += ratio.ln() * k * k;
+        }
+    }
+    let told = above / below;
+    if below > 0.0 && score(together, told) >= score(together, frequency) { told } else { frequency }
 }
 
 /// Of the comb of a frequency.

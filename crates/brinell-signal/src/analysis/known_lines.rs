@@ -1,10 +1,10 @@
 //! Lines that are nobody's damage: the mains', and the shaft's, which tell its speed.
 
-use super::together::{FLOOR, HARMONICS, REVOLUTIONS, running_median};
+use super::together::{FLOOR, REVOLUTIONS, running_median};
 use super::{AnalysisError, Options};
 use crate::distribution::chi_square_quantile;
 use crate::lengths::fast_up_to;
-use crate::{Segments, harmonics, psd};
+use crate::{Segments, peak_near, psd};
 
 /// A mains frequency.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -28,21 +28,25 @@ impl Mains {
     }
 }
 
-/// Chance under noise at which a line of the shaft counts as found.
-const SHAFT_LEVEL: f64 = 1e-4;
-/// Bins by which a detected line may miss a multiple of the speed: its peak is told to a fraction of a bin. With a
-/// whole bin, any line within the tolerance would agree with any other.
+/// Chance under noise at which a peak counts as a line.
+const LEVEL: f64 = 1e-4;
+/// A line is higher than so many bins to either side: what is near it may be its skirt.
+const APART: usize = 3;
+/// Bins by which a line may miss a multiple of the speed: a peak is told to a fraction of a bin, and the speed of a
+/// machine is never quite constant. With a whole bin, any two lines within the tolerance would agree.
 const AGREE: f64 = 0.5;
-/// Harmonics of a comb beyond the tolerance.
+/// Harmonics of the shaft's comb.
 const OF_COMB: usize = 10;
 /// How far off it may lie, relative: where the speed given is a tenth too low, the shaft's lies a ninth above it.
 const FARTHEST: f64 = 0.12;
-/// Lines that it has at least.
-const FEWEST: usize = 4;
-/// What a line counts for at most, ln(power over floor): otherwise one that many places share would decide. The comb
-/// has so much more than any within the tolerance.
+/// Lines of a comb within the tolerance that no other replaces, at least: the speed given speaks for it.
+const FEWEST: usize = 2;
+/// The same of one beyond.
+const FEWEST_FAR: usize = 4;
+/// What a line counts for at most, ln(power over floor): otherwise one that many places share would decide. A comb beyond
+/// the tolerance has so much more than any within.
 const LINE: f64 = 4.0;
-/// Bins that the tolerance spans at the fundamental; in a shorter record combs are not told apart.
+/// Bins that the tolerance spans at the fundamental; in a shorter record combs beyond it are not told apart.
 const TELLING: f64 = 0.5;
 
 /// A shaft's speed by lines at its harmonics.
@@ -53,103 +57,126 @@ pub(super) struct ShaftLines {
     pub(super) orders: Vec<usize>,
 }
 
-/// Shaft speed by its own harmonics in the spectrum, within the tolerance or, where none are detected there, [`beyond`];
-/// `None` where they do not.
+/// Shaft speed by its own harmonics in the spectrum, within the tolerance or, where few are detected there and far more of
+/// a comb beyond it, there: the speed given is then wrong. `None` where they do not tell it.
 ///
 /// Another shaft's lines there look the same: nothing in the signal tells the two apart.
 pub(super) fn shaft(x: &[f64], fs: f64, options: &Options) -> Result<Option<ShaftLines>, AnalysisError> {
-    match within(x, fs, options)? {
-        None if !options.exact => beyond(x, fs, options),
-        found => Ok(found),
+    let lines = Lines::of(x, fs, options)?;
+    let near = lines.highest_comb(options.tolerance);
+    let could_be_wrong = !options.exact && !lines.is_whole(&near, FEWEST);
+    if could_be_wrong && options.tolerance * options.shaft >= TELLING * lines.step {
+        let far = lines.highest_comb(FARTHEST);
+        if far.score >= near.score + LINE && lines.is_whole(&far, FEWEST_FAR) {
+            return Ok(Some(lines.told_by(&far)));
+        }
+    }
+    Ok((near.score > 0.0).then(|| lines.told_by(&near)))
+}
+
+/// The lines of a spectrum that no mains make, up to the highest harmonic of the fastest shaft.
+struct Lines<'a> {
+    /// Hz, and ln(power over floor).
+    each: Vec<(f64, f64)>,
+    step: f64,
+    options: &'a Options,
+}
+
+/// Lines at multiples of one frequency.
+struct Comb {
+    speed: f64,
+    score: f64,
+    orders: Vec<usize>,
+}
+
+impl Comb {
+    /// Every second or third of the shaft's lines may be another part's, and so may its higher ones.
+    fn is_own(&self) -> bool {
+        self.orders.len() >= 2 && self.orders[0] <= 2 && self.orders.iter().fold(0, |d, h| divisor(d, *h)) == 1
     }
 }
 
-/// The highest comb, where it lies beyond the tolerance and far more of it is detected than of any within: the speed given
-/// is then wrong.
-fn beyond(x: &[f64], fs: f64, options: &Options) -> Result<Option<ShaftLines>, AnalysisError> {
-    let shaft = options.shaft;
-    let length = fast_up_to(((REVOLUTIONS * fs / shaft) as usize).min(x.len()));
-    if options.tolerance * shaft < TELLING * fs / length as f64 {
-        return Ok(None);
+impl<'a> Lines<'a> {
+    fn of(x: &[f64], fs: f64, options: &'a Options) -> Result<Self, AnalysisError> {
+        let shaft = options.shaft;
+        let length = fast_up_to(((REVOLUTIONS * fs / shaft) as usize).min(x.len()));
+        let mut spectrum = psd(x, fs, &Segments::of(length))?;
+        let step = spectrum.frequency_step;
+        spectrum.amplitude.truncate(((OF_COMB + 1) as f64 * (1.0 + FARTHEST) * shaft / step) as usize);
+        let power: Vec<f64> = spectrum.amplitude.iter().map(|a| a * a).collect();
+        let floor = running_median(&power, (FLOOR.0 * shaft / step).max(FLOOR.1) as usize);
+        let quantile = |p: f64| chi_square_quantile(p, spectrum.degrees_of_freedom) / spectrum.degrees_of_freedom;
+        let (median, level) = (quantile(0.5), quantile(1.0 - LEVEL).ln());
+        let is_peak = |bin: usize| {
+            let around = bin.saturating_sub(APART)..(bin + APART + 1).min(power.len());
+            bin + 1 < power.len() && around.clone().all(|b| power[b] <= power[bin]) && power[bin] > power[around.start]
+        };
+        let mut lines = Lines { each: Vec::new(), step, options };
+        for bin in (1..power.len()).filter(|bin| is_peak(*bin)) {
+            let height = (median * power[bin] / floor[bin].max(f64::MIN_POSITIVE)).ln();
+            let peak = peak_near(&spectrum, bin as f64 * step, 0.5 * step);
+            let frequency = peak.map_or(bin as f64 * step, |p| p.frequency);
+            if height >= level && !lines.is_hidden(frequency) {
+                lines.each.push((frequency, height));
+            }
+        }
+        Ok(lines)
     }
-    let mut spectrum = psd(x, fs, &Segments::of(length))?;
-    let step = spectrum.frequency_step;
-    spectrum.amplitude.truncate(((OF_COMB + 1) as f64 * (1.0 + FARTHEST) * shaft / step) as usize);
-    let power: Vec<f64> = spectrum.amplitude.iter().map(|a| a * a).collect();
-    let floor = running_median(&power, (FLOOR.0 * shaft / step).max(FLOOR.1) as usize);
-    let quantile = |p: f64| chi_square_quantile(p, spectrum.degrees_of_freedom) / spectrum.degrees_of_freedom;
-    let (median, detected) = (quantile(0.5), quantile(1.0 - SHAFT_LEVEL).ln());
-    let others = |f: f64| {
-        let off = |f0: f64| (f - (f / f0).round() * f0).abs() < 2.0 * step;
-        near_mains(f, 2.0 * step) || options.supply.is_some_and(off)
-    };
-    let height = |(bin, (power, floor)): (usize, (&f64, f64))| match others(bin as f64 * step) {
-        true => 0.0,
-        false => (median * power / floor.max(f64::MIN_POSITIVE)).max(1.0).ln(),
-    };
-    // Skirts, of the mains' lines above all, are no lines: a peak and its two neighbours are.
-    let near_peak = |bin: usize| {
-        (bin.saturating_sub(1)..=bin + 1)
-            .any(|b| b > 0 && b + 1 < power.len() && power[b] >= power[b - 1].max(power[b + 1]))
-    };
-    let heights: Vec<f64> =
-        (power.iter().zip(floor).enumerate()).map(|bin| if near_peak(bin.0) { height(bin) } else { 0.0 }).collect();
-    let at = |f: f64| heights.get((f / step).round() as usize).copied().unwrap_or(0.0);
-    let score = |f: f64| (1..=OF_COMB).map(|h| at(h as f64 * f).min(LINE)).sum::<f64>();
-    // A fifth of a bin at the highest order.
-    let fine = 0.2 * step / OF_COMB as f64;
-    let highest = |reach: f64| {
-        let steps = (reach * shaft / fine) as i32;
-        let scored = (-steps..=steps).map(|k| shaft + f64::from(k) * fine).map(|f| (f, score(f)));
-        scored.max_by(|a, b| a.1.total_cmp(&b.1)).unwrap_or((shaft, 0.0))
-    };
-    let (speed, most) = highest(FARTHEST);
-    let orders: Vec<usize> = (1..=OF_COMB).filter(|h| at(*h as f64 * speed) >= detected).collect();
-    let clear = most >= highest(options.tolerance).1 + LINE;
-    // A comb without its fundamental, or of few of its multiples, is another's.
-    let is_whole = orders.len() >= FEWEST && orders[0] == 1 && 2 * orders.len() >= orders[orders.len() - 1];
-    if !(clear && is_whole) {
-        return Ok(None);
-    }
-    // To a fraction of a bin by the peaks themselves, where they agree.
-    let near = Options { shaft: speed, tolerance: 0.25 * step / speed, ..options.clone() };
-    let refined = within(x, fs, &near)?;
-    Ok(Some(ShaftLines { speed: refined.map_or(speed, |r| r.speed), orders }))
-}
 
-fn within(x: &[f64], fs: f64, options: &Options) -> Result<Option<ShaftLines>, AnalysisError> {
-    // Bins a fortieth of the shaft's frequency apart: 2 % are then a bin or so at the first harmonics.
-    let length = (40.0 * fs / options.shaft).max(256.0) as usize;
-    let length = fast_up_to(length.min(x.len()));
-    let spectrum = psd(x, fs, &Segments::of(length))?;
-    let step = spectrum.frequency_step;
-    let reach = options.tolerance * options.shaft;
-    let lines = harmonics(&spectrum, options.shaft, reach, HARMONICS)?;
-    // On the skirt of a line farther off the spectrum rises to the end of what was searched, and beyond.
-    let is_top = |f: f64| {
-        let bin = (f / step).round() as usize;
-        let around = spectrum.amplitude.get(bin.saturating_sub(2)..bin + 3);
-        around.is_some_and(|a| a[1..4].iter().any(|v| *v >= a[0].max(a[4])))
-    };
-    // What the mains could have made says nothing of the shaft.
-    let mine: Vec<(f64, f64)> = (lines.standing(SHAFT_LEVEL))
-        .filter(|l| !near_mains(l.frequency, 2.0 * step) && is_top(l.frequency))
-        .map(|l| (f64::from(l.order), l.frequency))
-        .collect();
-    // The speed that most lines agree on, then least squares of those.
-    let agree = |f: f64| mine.iter().filter(move |(h, at)| (h * f - at).abs() <= AGREE * step);
-    let best = (mine.iter().map(|(h, at)| at / h)).rev().max_by_key(|f| agree(*f).count());
-    // Every third of the shaft's may be an outer race's.
-    let own = |f: f64| {
-        let orders = || agree(f).map(|(h, _)| *h as i32);
-        let common = orders().fold(0, divisor);
-        orders().count() >= 2 && orders().any(|o| o <= 2) && common <= 2
-    };
-    let Some(best) = best.filter(|f| own(*f)) else {
-        return Ok(None);
-    };
-    let (above, below) = agree(best).fold((0.0, 0.0), |(a, b), (h, at)| (a + h * at, b + h * h));
-    Ok(Some(ShaftLines { speed: above / below, orders: agree(best).map(|(h, _)| *h as usize).collect() }))
+    /// Whether the mains or the supply could have made a line there.
+    fn is_hidden(&self, f: f64) -> bool {
+        let width = 2.0 * self.step;
+        near_mains(f, width) || self.options.supply.is_some_and(|f0| (f - (f / f0).round() * f0).abs() < width)
+    }
+
+    /// The highest line that agrees with a frequency.
+    fn at(&self, f: f64) -> Option<&(f64, f64)> {
+        let agree = self.each.iter().filter(|(at, _)| (at - f).abs() <= AGREE * self.step);
+        agree.max_by(|a, b| a.1.total_cmp(&b.1))
+    }
+
+    fn comb(&self, speed: f64) -> Comb {
+        let mut comb = Comb { speed, score: 0.0, orders: Vec::new() };
+        for order in 1..=OF_COMB {
+            if let Some((_, height)) = self.at(order as f64 * speed) {
+                comb.score += height.min(LINE);
+                comb.orders.push(order);
+            }
+        }
+        comb
+    }
+
+    /// Of those that two lines or more say, within `reach` of the speed given, relative; without a score where there is none.
+    fn highest_comb(&self, reach: f64) -> Comb {
+        let shaft = self.options.shaft;
+        let said = |order: usize| self.each.iter().map(move |(at, _)| at / order as f64);
+        let speeds = (1..=OF_COMB).rev().flat_map(said).filter(|f| (f / shaft - 1.0).abs() <= reach);
+        let own = speeds.map(|f| self.comb(f)).filter(Comb::is_own);
+        let highest = own.max_by(|a, b| a.score.total_cmp(&b.score));
+        highest.unwrap_or(Comb { speed: shaft, score: 0.0, orders: Vec::new() })
+    }
+
+    /// A comb without its fundamental, or of few of its multiples, is another's.
+    fn is_whole(&self, comb: &Comb, fewest: usize) -> bool {
+        let Some(last) = comb.orders.last() else {
+            return false;
+        };
+        let could_be = (1..=*last).filter(|h| !self.is_hidden(*h as f64 * comb.speed)).count();
+        comb.orders.len() >= fewest && comb.orders[0] == 1 && 2 * comb.orders.len() >= could_be
+    }
+
+    /// Least squares of a comb's lines.
+    fn told_by(&self, comb: &Comb) -> ShaftLines {
+        let (mut above, mut below) = (0.0, 0.0);
+        for order in &comb.orders {
+            let h = *order as f64;
+            if let Some((at, _)) = self.at(h * comb.speed) {
+                above += h * at;
+                below += h * h;
+            }
+        }
+        ShaftLines { speed: above / below, orders: comb.orders.clone() }
+    }
 }
 
 /// Whether a harmonic of the mains lies within `width` (Hz) of a frequency.
@@ -158,7 +185,7 @@ pub(super) fn near_mains(f: f64, width: f64) -> bool {
     Mains::ALL.iter().any(|m| off(m.frequency()) < width)
 }
 
-fn divisor(a: i32, b: i32) -> i32 {
+fn divisor(a: usize, b: usize) -> usize {
     if b == 0 { a } else { divisor(b, a % b) }
 }
 

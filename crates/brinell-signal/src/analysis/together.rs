@@ -119,8 +119,7 @@ impl Together {
         let highest = |f: f64, tolerance: f64| {
             let step = 0.25 * self.step / OF_SHAFT as f64;
             let steps = (tolerance / step) as i32;
-            let places = (-steps..=steps).map(|k| f + f64::from(k) * step);
-            places.max_by(|a, b| height(*a).total_cmp(&height(*b)))
+            Highest::of((-steps..=steps).map(|k| f + f64::from(k) * step), height).map(|h| h.middle())
         };
         let of_shaft = (shaft.tolerance > 0.0).then(|| highest(shaft.hz, shaft.tolerance));
         let of_supply = options.supply.map(|hz| highest(hz, SUPPLY_KNOWN * hz));
@@ -182,6 +181,18 @@ impl Together {
         }
     }
 
+    /// The line at a frequency, of the three bins there, to a fraction of a bin: Hz.
+    pub(super) fn line(&self, frequency: f64) -> f64 {
+        let bin = self.bin(frequency);
+        let power = |b: usize| self.ratio.get(b).map_or(f64::MIN_POSITIVE, |r| r.max(f64::MIN_POSITIVE));
+        let top = (bin.saturating_sub(1)..bin + 2).max_by(|a, b| power(*a).total_cmp(&power(*b))).unwrap_or(bin);
+        // A parabola through logarithms: within 0.016 bin with Hann's window.
+        let [left, middle, right] = [top.saturating_sub(1), top, top + 1].map(|b| power(b).ln());
+        let offset = 0.5 * (left - right) / (left - 2.0 * middle + right);
+        let is_peak = middle >= left && middle >= right && offset.is_finite();
+        (top as f64 + if is_peak { offset } else { 0.0 }) * self.step
+    }
+
     /// Power over floor at a frequency, whatever is hidden there.
     pub(super) fn unhidden(&self, frequency: f64) -> Option<f64> {
         peak(&self.unhidden, self.bin(frequency))
@@ -212,6 +223,33 @@ impl Together {
 
     fn bin(&self, frequency: f64) -> usize {
         (frequency / self.step).round() as usize
+    }
+}
+
+/// Where a height is largest: a stretch, as places a fraction of a bin apart share their lines.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Highest {
+    pub(super) from: f64,
+    pub(super) to: f64,
+    pub(super) height: f64,
+}
+
+impl Highest {
+    /// Of places in order; the first stretch where there are more.
+    pub(super) fn of(places: impl Iterator<Item = f64>, height: impl Fn(f64) -> f64) -> Option<Self> {
+        let (mut best, mut goes_on): (Option<Highest>, bool) = (None, false);
+        for (place, height) in places.map(|f| (f, height(f))) {
+            match &mut best {
+                Some(best) if goes_on && height == best.height => best.to = place,
+                Some(best) if height <= best.height => goes_on = false,
+                _ => (best, goes_on) = (Some(Highest { from: place, to: place, height }), true),
+            }
+        }
+        best
+    }
+
+    pub(super) fn middle(&self) -> f64 {
+        0.5 * (self.from + self.to)
     }
 }
 

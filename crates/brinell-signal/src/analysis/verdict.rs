@@ -1,8 +1,8 @@
 //! From families to a verdict: which of them is damage, and which merely shares another's lines.
 
-use super::family::{DEEP, FAINT, Family, Finding, SCORE, cage, lines, read, score, score_by};
+use super::family::{DEEP, FAINT, Family, Finding, SCORE, by_lines, cage, lines, read, score, score_by};
 use super::frequencies::Component;
-use super::together::{Envelopes, HARMONICS, Shaft, Together};
+use super::together::{Envelopes, HARMONICS, Highest, Shaft, Together};
 use super::{AnalysisError, Options};
 
 /// Lead in score that an element needs over the races: its sidebands at the cage's frequency reach most lines.
@@ -225,11 +225,9 @@ impl Record {
         let step = 0.25 * together.step() / HARMONICS as f64;
         let top = together.top() / (FEWEST_HARMONICS + 0.5);
         let places = (0..).map(|k| LOWEST * self.shaft + f64::from(k) * step).take_while(|f| *f < top);
-        let (frequency, modulation) = places
-            .filter(|f| score(together, *f) >= least && !self.is_explained(*f, lead))
-            .map(|f| (f, depth(f)))
-            .filter(|(_, depth)| *depth > shallow)
-            .max_by(|a, b| a.1.total_cmp(&b.1))?;
+        let places = places.filter(|f| score(together, *f) >= least && !self.is_explained(*f, lead));
+        let highest = Highest::of(places, depth).filter(|h| h.height > shallow)?;
+        let (frequency, modulation) = (by_lines(together, highest.middle()), highest.height);
         Some(Elsewhere { frequency, score: score(together, frequency), modulation, nearest: self.nearest(frequency) })
     }
 
