@@ -21,8 +21,9 @@ use brinell::signal::Indicator;
 use brinell::simulate::{End, Observer, Simulation};
 use brinell::summary::{self, Parts};
 use brinell_damage::Photo;
-use brinell_io::{Column, Format, Metadata, SignalWriter, atomic_prepare, keys};
+use brinell_io::{Format, SignalWriter, atomic_prepare};
 use brinell_report::Report;
+use brinell_studio::signal_table;
 use brinell_study::runner::Recorder;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
@@ -226,8 +227,7 @@ fn writers(
     simulation: &Simulation,
     folder: &Path,
 ) -> Result<Vec<Box<dyn SignalWriter>>, Failure> {
-    let columns = signal_columns(simulation);
-    let metadata = signal_metadata(loaded.to_toml(), simulation);
+    let (columns, metadata) = signal_table(loaded.to_toml(), simulation);
     let make = |format: Format| format.create(folder, &columns, &metadata).map_err(Failure::from);
     formats(args).into_iter().map(make).collect()
 }
@@ -250,22 +250,6 @@ fn formats(args: &RunArgs) -> Vec<Format> {
         }
     }
     formats
-}
-
-/// Time and the recorded channels.
-pub(crate) fn signal_columns(simulation: &Simulation) -> Vec<Column> {
-    let channels = simulation.channels().iter();
-    std::iter::once(Column::new("t", "s", "time"))
-        .chain(channels.map(|c| Column::new(&c.name, c.unit, &c.description)))
-        .collect()
-}
-
-/// What a file of signals says of itself.
-pub(crate) fn signal_metadata(scenario_toml: String, simulation: &Simulation) -> Metadata {
-    Metadata::default()
-        .with(keys::SCENARIO, scenario_toml)
-        .with(keys::VERSION, brinell::VERSION)
-        .with(keys::SAMPLE_RATE_HZ, simulation.sample_rate().to_string())
 }
 
 pub(crate) fn make_folder(folder: &Path) -> Result<(), Failure> {

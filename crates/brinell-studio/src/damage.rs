@@ -4,7 +4,7 @@ use crate::bench::Bench;
 use crate::message::Arrays;
 use crate::report::{Answer, Trouble};
 use brinell::defect::simplify::Extent;
-use brinell::defect::{Defect, Side, damaged_contact};
+use brinell::defect::{Defect, Defects, Side, damaged_contact};
 use brinell::model::Model;
 use brinell::scenario::{self, Surface};
 use brinell::slices::Cover;
@@ -98,7 +98,7 @@ pub(crate) fn passage(bench: &Bench, number: usize, arrays: &mut Arrays) -> Answ
         None => defect.damaged_length(s),
         Some(_) => {
             let met = defect.met_at(side, s / defect.radius);
-            damaged_contact(std::iter::once(defect), law, &met, side, approach).map_or(0.0, |d| d.floor.damaged_length)
+            damaged_contact(Defects::one(defect, side), law, &met, approach).map_or(0.0, |d| d.floor.damaged_length)
         }
     };
     let lengths: Vec<f64> = (places.iter()).map(|s| 1e3 * (whole - lost(*s)).max(0.0)).collect();

@@ -8,6 +8,7 @@ use brinell::bearing::kinematics::Geometry;
 use brinell::bearing::{KnownBearing, orders_of};
 use brinell::scenario::{Scenario, Speed};
 use brinell::signal::{Estimate, Indicator, Moments};
+use brinell::simulate::Simulation;
 use brinell_io::{Column, Format, Metadata, Outcome, keys};
 use brinell_io::{SignalFile, open_bytes, rate_of_times};
 use serde_json::{Value, json};
@@ -230,6 +231,19 @@ pub(crate) fn moments_json(moments: &Moments) -> Value {
     })
 }
 
+/// The columns of a run's file of signals, time and the recorded channels, and what the file says of itself.
+pub fn signal_table(scenario_toml: String, simulation: &Simulation) -> (Vec<Column>, Metadata) {
+    let channels = simulation.channels().iter();
+    let columns = std::iter::once(Column::new("t", "s", "time"))
+        .chain(channels.map(|c| Column::new(&c.name, c.unit, &c.description)))
+        .collect();
+    let metadata = Metadata::default()
+        .with(keys::SCENARIO, scenario_toml)
+        .with(keys::VERSION, brinell::VERSION)
+        .with(keys::SAMPLE_RATE_HZ, simulation.sample_rate().to_string());
+    (columns, metadata)
+}
+
 /// `save`: the recorded channels of a run from t = 0 that is over, as the command writes them.
 pub(crate) fn save(request: &Value, bench: &Bench, arrays: &mut Arrays) -> Answer<Value> {
     let (Some(signals), Some(_)) = (&bench.recording.signals, &bench.finished) else {
@@ -243,15 +257,7 @@ pub(crate) fn save(request: &Value, bench: &Bench, arrays: &mut Arrays) -> Answe
             return Err(Trouble::of("\"format\" must be \"csv\", \"wav\" or \"npz\""));
         }
     };
-    let simulation = bench.simulation();
-    let time = Column::new("t", "s", "time");
-    let channels = simulation.channels().iter();
-    let channels = channels.map(|c| Column::new(&c.name, c.unit, &c.description));
-    let columns: Vec<Column> = std::iter::once(time).chain(channels).collect();
-    let metadata = Metadata::default()
-        .with(keys::SCENARIO, bench.loaded.to_toml())
-        .with(keys::VERSION, brinell::VERSION)
-        .with(keys::SAMPLE_RATE_HZ, simulation.sample_rate().to_string());
+    let (columns, metadata) = signal_table(bench.loaded.to_toml(), bench.simulation());
     let failed = |e: brinell_io::IoError| Trouble::of(e.to_string());
     let mut writer = format.in_memory(&columns, &metadata).map_err(failed)?;
     let all: Vec<&[f64]> = signals.names().iter().filter_map(|n| signals.get(n)).collect();

@@ -21,6 +21,8 @@ mod studio;
 mod text;
 
 pub use about::example_file;
+#[doc(hidden)]
+pub use judged::signal_table;
 pub use message::{Arrays, Message};
 pub use page::PAGE;
 pub use studio::{SharedStudio, Studio};

@@ -292,7 +292,7 @@ fn line(
     let at = approach(model, balance, orbit, (slot, side));
     let angles = Angles { orbit, spin: problem.spin[slot], ring: problem.ring_angle };
     let mut cover = Cover::new(slices.count);
-    cover_slices(model.defects_of(slot, side), &angles, side, &mut cover);
+    cover_slices(model.defects_of(slot, side), &angles, &mut cover);
     let law = model.contact(side);
     let width = model.geometry.roller_length / slices.count as f64;
     let mut contact = ContactLine {

@@ -213,7 +213,7 @@ fn in_series(model: &Model, problem: &Problem, slot: usize, x: &Offsets) -> Roll
 fn covers(model: &Model, slices: &Slices, slot: usize, angles: &Angles) -> [Option<Cover>; 2] {
     SIDES.map(|side| {
         let mut cover = Cover::new(slices.count);
-        cover_slices(model.defects_of(slot, side), angles, side, &mut cover).then_some(cover)
+        cover_slices(model.defects_of(slot, side), angles, &mut cover).then_some(cover)
     })
 }
 
@@ -273,8 +273,8 @@ impl Between<'_> {
         }
         let law = model.contact(side);
         let defects = model.defects_of(self.slot, side);
-        match damaged_contact(defects.clone(), law, angles, side, delta) {
-            Some(damaged) => (damaged.elastic, tangent(defects, law, angles, side, delta)),
+        match damaged_contact(defects, law, angles, delta) {
+            Some(damaged) => (damaged.elastic, tangent(defects, law, angles, delta)),
             None if delta > 0.0 => {
                 let force = law.healthy(delta);
                 (force, law.exponent.value() * force / delta)
@@ -349,7 +349,7 @@ impl Between<'_> {
             if let Some(slices) = &model.slices {
                 return self.sliced(slices, side, delta).energy;
             }
-            energy(model.defects_of(self.slot, side), model.contact(side), &self.angles, side, delta)
+            energy(model.defects_of(self.slot, side), model.contact(side), &self.angles, delta)
         };
         stored(Side::Inner, self.inner_at - r) + stored(Side::Outer, r - self.outer_at) - self.own * r
     }

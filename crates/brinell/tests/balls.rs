@@ -3,7 +3,9 @@
 use crate::common::cases::case;
 use brinell::contact::Hertz;
 use brinell::contact::ball::Strips;
-use brinell::defect::{Angles, Defect, SIDES, Side, damaged_contact, depth_at_bottom, edge_gradient, energy, tangent};
+use brinell::defect::{
+    Angles, Defect, Defects, SIDES, Side, damaged_contact, depth_at_bottom, edge_gradient, energy, tangent,
+};
 use brinell::document::read;
 use brinell::elementary::Exponent;
 use brinell::model::Model;
@@ -52,7 +54,7 @@ fn at(s: f64) -> Angles {
 
 fn elastic(defects: &[Defect], s: f64, delta: f64) -> f64 {
     let law = law();
-    damaged_contact(defects.iter(), &law, &at(s), Side::Outer, delta).map_or(law.healthy(delta), |d| d.elastic)
+    damaged_contact(Defects::all(defects, Side::Outer), &law, &at(s), delta).map_or(law.healthy(delta), |d| d.elastic)
 }
 
 fn rectangle(length_mm: f64, width_mm: f64) -> scenario::Shape {
@@ -246,12 +248,12 @@ fn analytic_energy_is_the_integral_of_the_force_and_the_tangent_its_slope() {
             for s in [-0.31e-3, 0.05e-3, 0.44e-3] {
                 let dx = top / f64::from(CELLS);
                 let work: f64 = (0..CELLS).map(|k| elastic(&all, s, (f64::from(k) + 0.5) * dx) * dx).sum();
-                let ours = energy(all.iter(), &law(), &at(s), Side::Outer, top);
+                let ours = energy(Defects::all(&all, Side::Outer), &law(), &at(s), top);
                 let size = law().energy(top);
                 assert!((ours - work).abs() < 1e-6 * size, "{ours} against {work}");
                 let step = 1e-9;
                 let slope = (elastic(&all, s, top + step) - elastic(&all, s, top - step)) / (2.0 * step);
-                let ours = tangent(all.iter(), &law(), &at(s), Side::Outer, top);
+                let ours = tangent(Defects::all(&all, Side::Outer), &law(), &at(s), top);
                 let size = law().tangent(top, None);
                 assert!((ours - slope).abs() < 1e-3 * size, "{ours} against {slope}");
             }
@@ -264,11 +266,11 @@ fn analytic_edge_gradient_is_the_slope_of_the_energy() {
     let delta = 9e-6;
     for kind in kinds() {
         let all = defects(&kind, RollerPath::Envelope, 8);
-        let of = |s: f64| energy(all.iter(), &law(), &at(s), Side::Outer, delta);
+        let of = |s: f64| energy(Defects::all(&all, Side::Outer), &law(), &at(s), delta);
         for s in [-0.37e-3, 0.062e-3, 0.43e-3] {
             let step = 2e-8;
             let slope = (of(s + step) - of(s - step)) / (2.0 * step) * RACEWAY;
-            let ours = edge_gradient(all.iter(), &law(), &at(s), Side::Outer, delta).orbit;
+            let ours = edge_gradient(Defects::all(&all, Side::Outer), &law(), &at(s), delta).orbit;
             let size = law().energy(delta) / 1e-3 * RACEWAY;
             assert!((ours - slope).abs() < 2e-4 * size, "{ours} against {slope}");
         }
@@ -329,12 +331,12 @@ fn analytic_depth_at_the_bottom_by_the_path() {
     let reached = 0.2e-3 * 0.2e-3 / (2.0 * ALONG);
     for (path, expected) in [(RollerPath::Point, 80e-6), (RollerPath::Envelope, reached)] {
         let all = defects(&[(rectangle(1.0, 0.9), 0.0, 80.0)], path, 5);
-        let depth = depth_at_bottom(all.iter(), &at(0.3e-3), Side::Outer).unwrap();
+        let depth = depth_at_bottom(Defects::all(&all, Side::Outer), &at(0.3e-3)).unwrap();
         assert!((depth / expected - 1.0).abs() < 1e-9, "{depth}");
         // Beside the bottom the lumped model knows of none; off the arc none is met.
         let beside = defects(&[(rectangle(1.0, 0.9), 0.5, 80.0)], path, 5);
-        assert_eq!(depth_at_bottom(beside.iter(), &at(0.3e-3), Side::Outer), Some(0.0));
-        assert_eq!(depth_at_bottom(all.iter(), &at(0.6e-3), Side::Outer), None);
+        assert_eq!(depth_at_bottom(Defects::all(&beside, Side::Outer), &at(0.3e-3)), Some(0.0));
+        assert_eq!(depth_at_bottom(Defects::all(&all, Side::Outer), &at(0.6e-3)), None);
     }
 }
 
@@ -348,11 +350,11 @@ fn prop_a_ball_with_damage_meets_both_raceways() {
     for (side, spin) in [(Side::Outer, 0.0), (Side::Inner, PI)] {
         let angles = Angles { orbit: 0.0, spin, ring: 0.0 };
         let law = model.contact(side);
-        let damaged = damaged_contact(all.iter(), law, &angles, side, 1e-5).unwrap();
+        let damaged = damaged_contact(Defects::all(&all, side), law, &angles, 1e-5).unwrap();
         assert!(damaged.elastic < 0.9 * law.healthy(1e-5));
         let other = SIDES.into_iter().find(|x| *x != side).unwrap();
         let law = model.contact(other);
-        assert!(damaged_contact(all.iter(), law, &angles, other, 1e-5).is_none());
+        assert!(damaged_contact(Defects::all(&all, other), law, &angles, 1e-5).is_none());
     }
 }
 
@@ -368,7 +370,7 @@ proptest! {
         let hertz = law().healthy(delta);
         prop_assert!(force >= 0.0 && force <= hertz * (1.0 + 1e-12));
         prop_assert!(elastic(&all, s, 1.01 * delta) >= force * (1.0 - 1e-12));
-        let damaged = damaged_contact(all.iter(), &law(), &at(s), Side::Outer, delta);
+        let damaged = damaged_contact(Defects::all(&all, Side::Outer), &law(), &at(s), delta);
         if let Some(damaged) = damaged {
             let axis = 2.0 * (2.0 * ACROSS * delta).sqrt();
             prop_assert!((-1e-15..=axis + 1e-15).contains(&damaged.floor.damaged_length));

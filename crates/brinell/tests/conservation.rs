@@ -129,12 +129,12 @@ fn parametric_rate(model: &Model, t: f64, y: &[f64], motion: &Motion, h: f64) ->
                 if let Some(slices) = &model.slices {
                     let mut cover = Cover::new(slices.count);
                     let defects = model.defects_of(slot, side);
-                    let covered = cover_slices(defects, &angles(dt), side, &mut cover);
+                    let covered = cover_slices(defects, &angles(dt), &mut cover);
                     let at = Approach { deformation: delta, tilt: contacts.approach(slot).tilt, ..Approach::default() };
                     let law = model.contact(side);
                     return slices.carry(law, &at, covered.then_some(&cover)).energy;
                 }
-                energy(model.defects_of(slot, side), model.contact(side), &angles(dt), side, delta)
+                energy(model.defects_of(slot, side), model.contact(side), &angles(dt), delta)
             };
             rate += (held(h) - held(-h)) / (2.0 * h);
         }

@@ -3,11 +3,12 @@
 use super::SweepArgs;
 use crate::failure::Failure;
 use crate::files::Source;
-use crate::run::{make_folder, signal_columns, signal_metadata};
+use crate::run::make_folder;
 use brinell::document::{Problem, numberless, on_one_line, one_line};
 use brinell::scenario::Scenario;
 use brinell::simulate::Simulation;
 use brinell_io::{ParquetWriter, SignalWriter};
+use brinell_studio::signal_table;
 use brinell_study::campaign::{Axis, Plan};
 use brinell_study::runner::{Task, Work};
 use serde_json::Value;
@@ -176,9 +177,8 @@ impl Work for FromSource<'_> {
             return Ok(None);
         };
         make_folder(folder)?;
-        let columns = signal_columns(simulation);
         let text = self.source.load(&task.settings, true)?.to_toml();
-        let metadata = signal_metadata(text, simulation);
+        let (columns, metadata) = signal_table(text, simulation);
         let writer = ParquetWriter::create(path, &columns, &metadata)?;
         Ok(Some(Box::new(writer)))
     }

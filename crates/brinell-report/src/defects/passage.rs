@@ -2,7 +2,7 @@
 
 use super::curves::curve;
 use crate::{DamageCurve, DamagePanel};
-use brinell::defect::{Defect, Shape, Side, cover_slices, damaged_contact};
+use brinell::defect::{Defect, Defects, Shape, Side, cover_slices, damaged_contact};
 use brinell::model::Model;
 use brinell::scenario::{self, Contact, EdgeReaction, Law, RollerPath, Scenario};
 use brinell::slices::Cover;
@@ -76,10 +76,9 @@ impl Passage<'_> {
     fn left_of_a_ball(&self, angles: &[f64], side: Side, delta: f64) -> Option<Vec<f64>> {
         let law = self.model.contact(side);
         let axis = law.strips?.pressed(delta).length([f64::MIN, f64::MAX]);
-        let one = || std::iter::once(self.defect);
+        let one = Defects::one(self.defect, side);
         let lost = |u: &f64| {
-            damaged_contact(one(), law, &self.defect.met_at(side, *u), side, delta)
-                .map_or(0.0, |d| d.floor.damaged_length)
+            damaged_contact(one, law, &self.defect.met_at(side, *u), delta).map_or(0.0, |d| d.floor.damaged_length)
         };
         Some(angles.iter().map(|u| 1e3 * (axis - lost(u))).collect())
     }
@@ -98,8 +97,7 @@ impl Passage<'_> {
 
     /// What damage covers of the slices at an angle; whether it covers anything.
     fn cover(&self, defect: &Defect, side: Side, u: f64, cover: &mut Cover) -> bool {
-        let one = std::iter::once(defect);
-        cover_slices(one, &defect.met_at(side, u), side, cover)
+        cover_slices(Defects::one(defect, side), &defect.met_at(side, u), cover)
     }
 
     fn depths(&self, angles: &[f64]) -> DamagePanel {

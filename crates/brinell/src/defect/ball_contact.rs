@@ -5,7 +5,7 @@
 //! delta. No term is negative: an ellipse wholly within a pit carries exactly nothing.
 
 use super::DamagedContact;
-use super::damaged_contact::{Cut, joint};
+use super::damaged_contact::{Cuts, joint};
 use super::depth_profile::{Cover, Extent, slice_borders};
 use super::joint::rest;
 use super::track::{Track, settled};
@@ -70,14 +70,8 @@ impl Across {
 
 /// Hands every part of the ellipse to `add`, with its weight and what presses it. `None` where no damage is met.
 #[inline]
-fn parts<'a>(
-    mut cuts: impl Iterator<Item = Cut<'a>> + Clone,
-    strips: &Strips,
-    delta: f64,
-    mut add: impl FnMut(f64, &Pressed, [f64; 2]),
-) -> Option<()> {
-    let all = cuts.clone();
-    let first = cuts.next()?;
+fn parts(cuts: Cuts, strips: &Strips, delta: f64, mut add: impl FnMut(f64, &Pressed, [f64; 2])) -> Option<()> {
+    let (first, several) = cuts.first()?;
     let whole = strips.pressed(delta);
     // Where the undamaged part begins that is not added yet.
     let mut from = f64::NEG_INFINITY;
@@ -90,9 +84,9 @@ fn parts<'a>(
         add(side * phi, &strips.pressed(delta - h), z);
         *from = z[1];
     };
-    if cuts.next().is_some() {
+    if several {
         let size = (first.profile.slices, first.profile.extent);
-        joint(all, size, |k, phi, h| {
+        joint(cuts, size, |k, phi, h| {
             let z = slice_borders(k, size.0, size.1);
             slice(1.0, &mut from, z, phi, h);
         });
@@ -120,11 +114,7 @@ fn parts<'a>(
 /// What acts where the contact is on damage; `None` off all of it. Its length is what is not carried of the ellipse's
 /// axis across.
 #[inline]
-pub(super) fn damaged<'a>(
-    cuts: impl Iterator<Item = Cut<'a>> + Clone,
-    strips: &Strips,
-    delta: f64,
-) -> Option<DamagedContact> {
+pub(super) fn damaged(cuts: Cuts, strips: &Strips, delta: f64) -> Option<DamagedContact> {
     let (mut area, mut carried) = (0.0, 0.0);
     parts(cuts, strips, delta, |weight, pressed, z| {
         area += weight * pressed.area(z);
@@ -142,7 +132,7 @@ pub(super) fn damaged<'a>(
 }
 
 /// d(elastic)/d(delta) on damage, N/m; `None` off all of it.
-pub(super) fn tangent<'a>(cuts: impl Iterator<Item = Cut<'a>> + Clone, strips: &Strips, delta: f64) -> Option<f64> {
+pub(super) fn tangent(cuts: Cuts, strips: &Strips, delta: f64) -> Option<f64> {
     let mut carried = 0.0;
     parts(cuts, strips, delta, |weight, pressed, z| {
         carried += weight * pressed.length(z);
@@ -151,7 +141,7 @@ pub(super) fn tangent<'a>(cuts: impl Iterator<Item = Cut<'a>> + Clone, strips: &
 }
 
 /// Elastic energy on damage, J; `None` off all of it.
-pub(super) fn energy<'a>(cuts: impl Iterator<Item = Cut<'a>> + Clone, strips: &Strips, delta: f64) -> Option<f64> {
+pub(super) fn energy(cuts: Cuts, strips: &Strips, delta: f64) -> Option<f64> {
     let mut sum = 0.0;
     parts(cuts, strips, delta, |weight, pressed, z| {
         sum += weight * pressed.half_squares(z);
@@ -180,12 +170,12 @@ pub(super) fn edge_slope(across: &Across, s: f64, strips: &Strips, delta: f64) -
 
 /// Depth of the damage under the groove's bottom, z = 0, by the ball's path, m: all that the lumped model knows of it.
 /// `None` where no damage is met.
-pub(super) fn depth_at_bottom<'a>(cuts: impl Iterator<Item = Cut<'a>> + Clone) -> Option<f64> {
-    let first = cuts.clone().next()?;
+pub(super) fn depth_at_bottom(cuts: Cuts) -> Option<f64> {
+    let (first, _) = cuts.first()?;
     Some(match &first.profile.surface {
-        None => cuts.filter_map(|cut| cut.under(0.0)).fold(0.0, f64::max),
+        None => cuts.iter().filter_map(|cut| cut.under(0.0)).fold(0.0, f64::max),
         Some(surface) => {
-            let strips = cuts.filter_map(|cut| cut.strip(0.0));
+            let strips = cuts.iter().filter_map(|cut| cut.strip(0.0));
             rest(strips, surface.extremes.0, surface.radius).max(0.0)
         }
     })

@@ -10,7 +10,7 @@ use super::depth_profile::{Cover, DepthProfile, Extent, slice_borders};
 use super::joint::{Depths, Strip, rest};
 use super::map_slices::GAUSS;
 use super::track::settled;
-use super::{Angles, Defect, Shape, Side};
+use super::{Angles, Defect, Defects, Shape};
 use crate::contact::{ContactReduction, Hertz};
 use crate::scenario::{Law, Surface};
 use crate::slices::{self, borders};
@@ -88,54 +88,80 @@ impl<'a> Cut<'a> {
 
 /// The defects that bear on a contact: none where it is on no damage; along an envelope also those beside it that a
 /// roller, resting on the deepest floor under it, would reach.
-#[inline]
-pub(super) fn cuts<'a>(
-    defects: impl Iterator<Item = &'a Defect> + Clone,
-    angles: &Angles,
-    side: Side,
-) -> impl Iterator<Item = Cut<'a>> + Clone {
-    let angles = *angles;
-    let all = defects.filter_map(move |defect| {
-        let profile = defect.depth_profile(side)?;
-        let s = defect.local_angle(&angles, side) * defect.radius;
-        Some(Cut { defect, profile, s })
-    });
-    let deepest = all
-        .clone()
-        .filter(|cut| cut.away() == 0.0)
-        .map(|cut| cut.profile.surface.as_ref().map_or(0.0, |x| x.extremes.1))
-        .reduce(f64::max);
-    all.filter(move |cut| {
-        let away = cut.away();
-        deepest.is_some_and(|deepest| match &cut.profile.surface {
-            None => away == 0.0,
-            Some(x) => away * away <= 2.0 * x.radius * (deepest - x.extremes.0),
+#[derive(Clone, Copy)]
+pub(super) struct Cuts<'a> {
+    defects: Defects<'a>,
+    angles: Angles,
+    /// The deepest floor under the line of contact, m; `None` where that is on no damage.
+    deepest: Option<f64>,
+    /// How far the defects on the raceway, and those on the roller, are moved along the arc, m.
+    moved: [f64; 2],
+}
+
+impl<'a> Cuts<'a> {
+    #[inline]
+    pub(super) fn new(defects: Defects<'a>, angles: &Angles) -> Self {
+        let all = Self { defects, angles: *angles, deepest: None, moved: [0.0; 2] };
+        let met = all.all().filter(|cut| cut.away() == 0.0);
+        let floors = met.map(|cut| cut.profile.surface.as_ref().map_or(0.0, |x| x.extremes.1));
+        Self { deepest: floors.reduce(f64::max), ..all }
+    }
+
+    /// The same defects, those on the raceway or those on the roller moved along the arc, m.
+    pub(super) fn moved(self, on_roller: bool, by: f64) -> Self {
+        let mut moved = [0.0; 2];
+        moved[usize::from(on_roller)] = by;
+        Self { moved, ..self }
+    }
+
+    /// Every defect of the contact, bearing on it or not.
+    #[inline]
+    fn all(self) -> impl Iterator<Item = Cut<'a>> + Clone {
+        self.defects.iter().filter_map(move |defect| {
+            let profile = defect.depth_profile(self.defects.side)?;
+            let s = defect.local_angle(&self.angles, self.defects.side) * defect.radius;
+            Some(Cut { defect, profile, s })
         })
-    })
+    }
+
+    #[inline]
+    pub(super) fn iter(self) -> impl Iterator<Item = Cut<'a>> + Clone {
+        let bears = move |cut: &Cut| {
+            let away = cut.away();
+            self.deepest.is_some_and(|deepest| match &cut.profile.surface {
+                None => away == 0.0,
+                Some(x) => away * away <= 2.0 * x.radius * (deepest - x.extremes.0),
+            })
+        };
+        self.all().filter(bears).map(move |cut| Cut { s: cut.s + self.moved[usize::from(cut.is_on_roller())], ..cut })
+    }
+
+    /// The first, and whether there are more.
+    #[inline]
+    pub(super) fn first(self) -> Option<(Cut<'a>, bool)> {
+        let mut cuts = self.iter();
+        Some((cuts.next()?, cuts.next().is_some()))
+    }
 }
 
 /// The highest raised edge (m, 0 or less) and R_eq of several defects along an envelope; `None` at a point.
-fn rolling<'a>(cuts: impl Iterator<Item = Cut<'a>> + Clone) -> Option<(f64, f64)> {
-    let radius = cuts.clone().next()?.profile.surface.as_ref()?.radius;
-    let surfaces = cuts.filter_map(|cut| cut.profile.surface.as_ref());
+fn rolling(cuts: Cuts) -> Option<(f64, f64)> {
+    let radius = cuts.iter().next()?.profile.surface.as_ref()?.radius;
+    let surfaces = cuts.iter().filter_map(|cut| cut.profile.surface.as_ref());
     Some((surfaces.map(|x| x.extremes.0).fold(0.0, f64::min), radius))
 }
 
 /// Borders, phi_k and h_k of the slices under several defects, for `add`: what any of them covers, the deepest at each
 /// point.
-pub(super) fn joint<'a>(
-    cuts: impl Iterator<Item = Cut<'a>> + Clone,
-    (slices, extent): (usize, Extent),
-    mut add: impl FnMut(usize, f64, f64),
-) {
-    let rolling = rolling(cuts.clone());
-    let deepest = |z: f64| cuts.clone().filter_map(|cut| cut.under(z)).reduce(f64::max);
+pub(super) fn joint(cuts: Cuts, (slices, extent): (usize, Extent), mut add: impl FnMut(usize, f64, f64)) {
+    let rolling = rolling(cuts);
+    let deepest = |z: f64| cuts.iter().filter_map(|cut| cut.under(z)).reduce(f64::max);
     for k in 0..slices {
         let [low, high] = slice_borders(k, slices, extent);
         let (mut covered, mut section) = (0.0, 0.0);
         let mut z = low;
         while z < high {
-            let next = cuts.clone().map(|cut| cut.next(z)).fold(high, f64::min);
+            let next = cuts.iter().map(|cut| cut.next(z)).fold(high, f64::min);
             let to = if next > z { next } else { high };
             let (from, wide) = (z, to - z);
             z = to;
@@ -157,7 +183,7 @@ pub(super) fn joint<'a>(
                 let h = match rolling {
                     None => deepest(at),
                     Some((lowest, radius)) => {
-                        let strips = cuts.clone().filter_map(move |cut| cut.strip(at));
+                        let strips = cuts.iter().filter_map(move |cut| cut.strip(at));
                         let h = rest(strips, lowest, radius);
                         // What lifts the roller counts before the line of contact reaches it.
                         (is_covered || h < 0.0).then_some(h)
@@ -186,14 +212,8 @@ pub(super) struct Mean {
 /// Mean of f(delta - h) over what is damaged and of f(delta), which is `undamaged`, over the rest; where nothing is,
 /// that to the bit.
 #[inline]
-pub(super) fn mean<'a>(
-    mut cuts: impl Iterator<Item = Cut<'a>> + Clone,
-    undamaged: f64,
-    delta: f64,
-    f: impl Fn(f64) -> f64,
-) -> Option<Mean> {
-    let all = cuts.clone();
-    let first = cuts.next()?;
+pub(super) fn mean(cuts: Cuts, undamaged: f64, delta: f64, f: impl Fn(f64) -> f64) -> Option<Mean> {
+    let (first, several) = cuts.first()?;
     let profile = first.profile;
     let n = profile.slices as f64;
     // What is covered, slices with any depth, what is left of them, and the sum over the rest; a slice counts 1.
@@ -206,9 +226,9 @@ pub(super) fn mean<'a>(
             sum += count * phi * f(delta - h);
         }
     };
-    if cuts.next().is_some() {
+    if several {
         let size = (profile.slices, profile.extent);
-        joint(all, size, |_, phi, h| add(1.0, phi, h));
+        joint(cuts, size, |_, phi, h| add(1.0, phi, h));
     } else {
         match &profile.cover {
             Cover::Unsliced | Cover::Across(_) => {}
@@ -247,18 +267,12 @@ pub(super) fn mean<'a>(
 }
 
 /// phi_k and h_k of every slice under a contact, into `cover`; false where it is on no damage, and nothing is written.
-pub fn cover_slices<'a>(
-    defects: impl Iterator<Item = &'a Defect> + Clone,
-    angles: &Angles,
-    side: Side,
-    cover: &mut slices::Cover,
-) -> bool {
-    cover_cuts(cuts(defects, angles, side), cover)
+pub fn cover_slices(defects: Defects, angles: &Angles, cover: &mut slices::Cover) -> bool {
+    cover_cuts(Cuts::new(defects, angles), cover)
 }
 
-pub(super) fn cover_cuts<'a>(mut cuts: impl Iterator<Item = Cut<'a>> + Clone, cover: &mut slices::Cover) -> bool {
-    let all = cuts.clone();
-    let Some(first) = cuts.next() else {
+pub(super) fn cover_cuts(cuts: Cuts, cover: &mut slices::Cover) -> bool {
+    let Some((first, several)) = cuts.first() else {
         return false;
     };
     let (profile, s) = (first.profile, first.s);
@@ -268,8 +282,8 @@ pub(super) fn cover_cuts<'a>(mut cuts: impl Iterator<Item = Cut<'a>> + Clone, co
     let mut put = |k: usize, phi: f64, h: f64| {
         (cover.fraction[k], cover.depth[k]) = (phi, h);
     };
-    if cuts.next().is_some() {
-        joint(all, (count, profile.extent), put);
+    if several {
+        joint(cuts, (count, profile.extent), put);
         return true;
     }
     match &profile.cover {
@@ -305,47 +319,34 @@ pub(super) fn cover_cuts<'a>(mut cuts: impl Iterator<Item = Cut<'a>> + Clone, co
     true
 }
 
-/// Law of a model's defects; `Ecl` where there are none.
-#[inline]
-fn law_of<'a>(mut defects: impl Iterator<Item = &'a Defect>) -> Law {
-    defects.next().map_or(Law::Ecl, |d| d.rules.law)
-}
-
-/// What acts in the contact of a roller at `angles` on `side` that is pressed by `delta` (m); `None` off all damage.
-pub fn damaged_contact<'a>(
-    defects: impl Iterator<Item = &'a Defect> + Clone,
-    law: &Hertz,
-    angles: &Angles,
-    side: Side,
-    delta: f64,
-) -> Option<DamagedContact> {
-    damaged_contact_given(defects, law, angles, side, delta, law.exponent.of(delta))
+/// What acts in the contact of a roller at `angles` that is pressed by `delta` (m); `None` off all damage.
+pub fn damaged_contact(defects: Defects, law: &Hertz, angles: &Angles, delta: f64) -> Option<DamagedContact> {
+    damaged_contact_given(defects, law, angles, delta, law.exponent.of(delta))
 }
 
 /// The same where `[delta]_+^n` is known already.
 #[inline]
-pub fn damaged_contact_given<'a>(
-    defects: impl Iterator<Item = &'a Defect> + Clone,
+pub fn damaged_contact_given(
+    defects: Defects,
     law: &Hertz,
     angles: &Angles,
-    side: Side,
     delta: f64,
     power: f64,
 ) -> Option<DamagedContact> {
     if let Some(strips) = &law.strips {
-        return ball_contact::damaged(cuts(defects, angles, side), strips, delta);
+        return ball_contact::damaged(Cuts::new(defects, angles), strips, delta);
     }
-    if law_of(defects.clone()) == Law::Sliced {
-        let cuts = cuts(defects, angles, side);
+    if defects.law() == Law::Sliced {
+        let cuts = Cuts::new(defects, angles);
         let undamaged = law.stiffness * power;
-        let length = cuts.clone().next()?.defect.roller_length;
+        let length = cuts.iter().next()?.defect.roller_length;
         let mean = mean(cuts, undamaged, delta, |x| law.healthy(x))?;
         return Some(DamagedContact {
             elastic: mean.value,
             floor: ContactReduction { share: 1.0 - mean.covered, depth: 0.0, damaged_length: mean.covered * length },
         });
     }
-    floors(defects, angles, side)
+    floors(defects, angles)
         .map(|floor| DamagedContact { elastic: law.damaged_given(power, delta, &floor), floor })
         .reduce(|a, b| {
             // With no force on either (a gap, or both floors below), the shorter remaining length represents the
@@ -359,18 +360,14 @@ pub fn damaged_contact_given<'a>(
 /// Along an envelope, where several bear on the contact, the roller follows the envelope of the joint surface of their
 /// h_s; no floor is deeper for that than its own defect is there. Each keeps its own L_s, so that a narrow pit in a
 /// wide dent makes the dent no deeper.
-pub fn floors<'a>(
-    defects: impl Iterator<Item = &'a Defect> + Clone,
-    angles: &Angles,
-    side: Side,
-) -> impl Iterator<Item = ContactReduction> + Clone {
-    let several = defects.clone().nth(1).is_some();
+pub fn floors<'a>(defects: Defects<'a>, angles: &Angles) -> impl Iterator<Item = ContactReduction> + Clone + use<'a> {
+    let several = defects.iter().nth(1).is_some();
     let joint = several
         .then(|| {
-            let cuts = cuts(defects.clone(), angles, side);
-            let (lowest, radius) = rolling(cuts.clone())?;
-            cuts.clone().nth(1)?;
-            let strips = cuts.filter_map(|cut| {
+            let cuts = Cuts::new(defects, angles);
+            let (lowest, radius) = rolling(cuts)?;
+            cuts.iter().nth(1)?;
+            let strips = cuts.iter().filter_map(|cut| {
                 let lines = &cut.profile.surface.as_ref()?.floor;
                 let depths = Depths::Lines(lines, cut.profile.floor.as_ref());
                 Some(Strip { depths, s: cut.s })
@@ -379,9 +376,9 @@ pub fn floors<'a>(
         })
         .flatten();
     let angles = *angles;
-    defects.filter_map(move |d| {
-        let u = d.local_angle(&angles, side);
-        let floor = d.floor(u, side)?;
+    defects.iter().filter_map(move |d| {
+        let u = d.local_angle(&angles, defects.side);
+        let floor = d.floor(u, defects.side)?;
         Some(match &joint {
             None => floor,
             Some(rest) => ContactReduction { depth: d.depth_at(u * d.radius).min(*rest).max(0.0), ..floor },
@@ -391,64 +388,42 @@ pub fn floors<'a>(
 
 /// Mean over the slices of what the deformation of each, m, gives.
 #[inline]
-fn over_slices<'a>(
-    defects: impl Iterator<Item = &'a Defect> + Clone,
-    angles: &Angles,
-    side: Side,
-    delta: f64,
-    of: impl Fn(f64) -> f64,
-) -> f64 {
+fn over_slices(defects: Defects, angles: &Angles, delta: f64, of: impl Fn(f64) -> f64) -> f64 {
     let undamaged = of(delta);
-    mean(cuts(defects, angles, side), undamaged, delta, of).map_or(undamaged, |mean| mean.value)
+    mean(Cuts::new(defects, angles), undamaged, delta, of).map_or(undamaged, |mean| mean.value)
 }
 
 /// d(elastic)/d(delta) of a contact, on damage or not, N/m.
-pub fn tangent<'a>(
-    defects: impl Iterator<Item = &'a Defect> + Clone,
-    law: &Hertz,
-    angles: &Angles,
-    side: Side,
-    delta: f64,
-) -> f64 {
+pub fn tangent(defects: Defects, law: &Hertz, angles: &Angles, delta: f64) -> f64 {
     if let Some(strips) = &law.strips {
-        let on_damage = ball_contact::tangent(cuts(defects, angles, side), strips, delta);
+        let on_damage = ball_contact::tangent(Cuts::new(defects, angles), strips, delta);
         return on_damage.unwrap_or_else(|| law.tangent(delta, None));
     }
-    if law_of(defects.clone()) == Law::Sliced {
-        return over_slices(defects, angles, side, delta, |x| law.tangent(x, None));
+    if defects.law() == Law::Sliced {
+        return over_slices(defects, angles, delta, |x| law.tangent(x, None));
     }
-    let damaged = damaged_contact(defects, law, angles, side, delta);
+    let damaged = damaged_contact(defects, law, angles, delta);
     law.tangent(delta, damaged.map(|a| a.floor).as_ref())
 }
 
 /// Depth of the damage under a ball at the groove's bottom by its path, m; `None` where none is met.
-pub fn depth_at_bottom<'a>(
-    defects: impl Iterator<Item = &'a Defect> + Clone,
-    angles: &Angles,
-    side: Side,
-) -> Option<f64> {
-    ball_contact::depth_at_bottom(cuts(defects, angles, side))
+pub fn depth_at_bottom(defects: Defects, angles: &Angles) -> Option<f64> {
+    ball_contact::depth_at_bottom(Cuts::new(defects, angles))
 }
 
 /// Elastic energy of a contact that may be on any of `defects`, J: the integral of the elastic sum up to delta.
-pub fn energy<'a>(
-    defects: impl Iterator<Item = &'a Defect> + Clone,
-    law: &Hertz,
-    angles: &Angles,
-    side: Side,
-    delta: f64,
-) -> f64 {
+pub fn energy(defects: Defects, law: &Hertz, angles: &Angles, delta: f64) -> f64 {
     if let Some(strips) = &law.strips {
-        let on_damage = ball_contact::energy(cuts(defects, angles, side), strips, delta);
+        let on_damage = ball_contact::energy(Cuts::new(defects, angles), strips, delta);
         return on_damage.unwrap_or_else(|| law.energy(delta));
     }
-    if law_of(defects.clone()) == Law::Sliced {
-        return over_slices(defects, angles, side, delta, |x| law.energy(x));
+    if defects.law() == Law::Sliced {
+        return over_slices(defects, angles, delta, |x| law.energy(x));
     }
     if delta <= 0.0 {
         return 0.0;
     }
-    let mut floors = floors(defects, angles, side);
+    let mut floors = floors(defects, angles);
     let all = floors.clone();
     match (floors.next(), floors.next()) {
         (None, _) => law.energy(delta),

@@ -1,10 +1,10 @@
 //! What a conservative edge does: derivatives of a contact's elastic energy with the angles that carry it over damage.
 
 use super::ball_contact;
-use super::damaged_contact::{Cut, cover_cuts, cuts, mean};
+use super::damaged_contact::{Cuts, cover_cuts, mean};
 use super::depth_profile::Cover;
 use super::track::settled;
-use super::{Angles, Defect, Side};
+use super::{Angles, Defects};
 use crate::contact::Hertz;
 use crate::scenario::Surface;
 use crate::slices;
@@ -39,61 +39,31 @@ impl EdgeGradient {
 
 /// Derivatives of an energy of what is cut by central differences. Defects on the roller move over the contact apart
 /// from those on the raceway.
-fn central_differences<'a, C: Iterator<Item = Cut<'a>> + Clone>(
-    cuts: C,
-    mut energy: impl FnMut(Moved<C>) -> f64,
-) -> EdgeGradient {
+fn central_differences(cuts: Cuts, mut energy: impl FnMut(Cuts) -> f64) -> EdgeGradient {
     /// m. A thousandth of what h changes over, and a hundred times the ridges that the search over several defects
     /// leaves out.
     const STEP: f64 = 1e-7;
     let mut gradient = EdgeGradient::default();
     for on_roller in [false, true] {
-        let Some(one) = cuts.clone().find(|cut| cut.is_on_roller() == on_roller) else {
+        let Some(one) = cuts.iter().find(|cut| cut.is_on_roller() == on_roller) else {
             continue;
         };
-        let mut held = |by: f64| energy(Moved { cuts: cuts.clone(), on_roller, by });
+        let mut held = |by: f64| energy(cuts.moved(on_roller, by));
         let slope = (held(STEP) - held(-STEP)) / (2.0 * STEP);
         gradient.add(one.defect.surface, slope * one.defect.radius);
     }
     gradient
 }
 
-/// Cuts, those of one kind moved along the arc.
-#[derive(Clone)]
-struct Moved<C> {
-    cuts: C,
-    on_roller: bool,
-    /// m.
-    by: f64,
-}
-
-impl<'a, C: Iterator<Item = Cut<'a>>> Iterator for Moved<C> {
-    type Item = Cut<'a>;
-
-    fn next(&mut self) -> Option<Cut<'a>> {
-        let mut cut = self.cuts.next()?;
-        if cut.is_on_roller() == self.on_roller {
-            cut.s += self.by;
-        }
-        Some(cut)
-    }
-}
-
 /// The derivatives under `sliced` and `envelope`. Of one defect exact; of several a central difference over 0.2 um of
 /// the arc.
-pub fn edge_gradient<'a>(
-    defects: impl Iterator<Item = &'a Defect> + Clone,
-    law: &Hertz,
-    angles: &Angles,
-    side: Side,
-    delta: f64,
-) -> EdgeGradient {
+pub fn edge_gradient(defects: Defects, law: &Hertz, angles: &Angles, delta: f64) -> EdgeGradient {
     let mut gradient = EdgeGradient::default();
-    let cuts = cuts(defects, angles, side);
-    let Some(first) = cuts.clone().next() else {
+    let cuts = Cuts::new(defects, angles);
+    let Some((first, several)) = cuts.first() else {
         return gradient;
     };
-    if cuts.clone().nth(1).is_some() {
+    if several {
         if let Some(strips) = &law.strips {
             return central_differences(cuts, |moved| ball_contact::energy(moved, strips, delta).unwrap_or_default());
         }
@@ -132,14 +102,13 @@ pub fn edge_gradient<'a>(
 
 /// Derivatives of the elastic energy that `energy` gives of what damage covers: central differences over 0.2 um of the
 /// arc.
-pub fn edge_gradient_of_slices<'a>(
-    defects: impl Iterator<Item = &'a Defect> + Clone,
+pub fn edge_gradient_of_slices(
+    defects: Defects,
     angles: &Angles,
-    side: Side,
     cover: &mut slices::Cover,
     energy: impl Fn(Option<&slices::Cover>) -> f64,
 ) -> EdgeGradient {
-    central_differences(cuts(defects, angles, side), |moved| match cover_cuts(moved, cover) {
+    central_differences(Cuts::new(defects, angles), |moved| match cover_cuts(moved, cover) {
         true => energy(Some(cover)),
         false => energy(None),
     })

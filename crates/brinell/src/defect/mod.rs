@@ -37,7 +37,7 @@ pub use random::spall;
 pub use shape::Shape;
 
 use crate::contact::{ContactReduction, remaining_share};
-use crate::scenario::{self, Element, Surface};
+use crate::scenario::{self, Element, Law, Surface};
 use std::f64::consts::{PI, TAU};
 
 /// Side of a roller: the raceway that it meets there.
@@ -293,6 +293,61 @@ impl Defect {
             },
             damaged_length,
         })
+    }
+}
+
+/// Defects that may be under one side of a roller.
+#[derive(Debug, Clone, Copy)]
+pub struct Defects<'a> {
+    among: &'a [Defect],
+    which: Which,
+    side: Side,
+}
+
+#[derive(Debug, Clone, Copy)]
+enum Which {
+    All,
+    /// What meets a roller: row and roller, from 0.
+    Under(usize, usize),
+    /// What is on a surface of a row.
+    On(Surface, usize),
+}
+
+impl<'a> Defects<'a> {
+    /// All of `among`.
+    pub fn all(among: &'a [Defect], side: Side) -> Self {
+        Self { among, which: Which::All, side }
+    }
+
+    /// One alone.
+    pub fn one(defect: &'a Defect, side: Side) -> Self {
+        Self::all(std::slice::from_ref(defect), side)
+    }
+
+    /// Of `among` those that meet roller `roller` of row `row`, both from 0.
+    #[inline]
+    pub(crate) fn under(among: &'a [Defect], (row, roller): (usize, usize), side: Side) -> Self {
+        Self { among, which: Which::Under(row, roller), side }
+    }
+
+    /// Of `among` those on the surface of `one`.
+    pub(crate) fn beside(among: &'a [Defect], one: &Defect, side: Side) -> Self {
+        Self { among, which: Which::On(one.surface, one.row), side }
+    }
+
+    #[inline]
+    pub(crate) fn iter(self) -> impl Iterator<Item = &'a Defect> + Clone {
+        self.among.iter().filter(move |d| match self.which {
+            Which::All => true,
+            Which::Under(row, roller) => d.meets(row, roller, self.side),
+            Which::On(surface, row) => d.surface == surface && d.row == row,
+        })
+    }
+
+    /// Their law; `Ecl` where there are none.
+    #[inline]
+    fn law(self) -> Law {
+        self.iter().next().map_or(Law::Ecl, |d| d.rules.law)
     }
 }
 

@@ -262,7 +262,9 @@ pub trait Keys: Sized {
         wanted: (bool, &'static str),
         fallback: Fallback<T>,
         value: &mut T,
-    );
+    ) {
+        self.key_where(spec, wanted, fallback, value);
+    }
 
     /// The value of a key of a later section, before the walk is there: `None` where it is known already or the file
     /// does not give it.

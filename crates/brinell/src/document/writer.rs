@@ -196,16 +196,6 @@ impl Keys for Writer<'_> {
         }
     }
 
-    fn key_acting_where<T: ValueType>(
-        &mut self,
-        spec: Spec,
-        wanted: (bool, &'static str),
-        fallback: Fallback<T>,
-        value: &mut T,
-    ) {
-        self.key_where(spec, wanted, fallback, value);
-    }
-
     fn section(&mut self, spec: Spec, mut keys: impl FnMut(&mut Self)) {
         self.flush();
         let before = self.out.len();

@@ -1,7 +1,7 @@
 //! The load along one roller at rest over damage, beside that of the healthy bearing.
 
 use super::{ContactLine, in_slices, lines, slices_of};
-use crate::defect::{Defect, Side, cover_slices};
+use crate::defect::{Defect, Defects, Side, cover_slices};
 use crate::error::Error;
 use crate::model::Model;
 use crate::scenario::{Bearing, Scenario, Surface};
@@ -169,7 +169,7 @@ fn weakest(model: &Model, slices: &Slices, defect: &Defect, deformation: f64) ->
     let carried: Vec<f64> = (0..PLACES)
         .map(|k| {
             let met = defect.met_at(side, place(k) / defect.radius);
-            let on = cover_slices(std::iter::once(defect), &met, side, &mut cover);
+            let on = cover_slices(Defects::one(defect, side), &met, &mut cover);
             slices.carry(law, &at, on.then_some(&cover)).force
         })
         .collect();

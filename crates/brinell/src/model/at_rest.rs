@@ -1,7 +1,7 @@
 //! One contact at rest without tilt, even or along a profile: for what is said of a model before anything moves.
 
 use super::Model;
-use crate::defect::{Defect, Side, cover_slices, damaged_contact};
+use crate::defect::{Defect, Defects, Side, cover_slices, damaged_contact};
 use crate::slices::{Approach, Cover, Slices};
 
 impl Model {
@@ -27,14 +27,14 @@ impl Model {
     /// centre of `defect`, which need not be of this model; `cover` is room for what damage covers of the slices.
     pub fn force_over(&self, defect: &Defect, side: Side, u: f64, delta: f64, cover: &mut Cover) -> f64 {
         let (law, angles) = (self.contact(side), defect.met_at(side, u));
-        let one = || std::iter::once(defect);
+        let one = Defects::one(defect, side);
         match self.profiled() {
             Some(slices) => {
-                let met = cover_slices(one(), &angles, side, cover);
+                let met = cover_slices(one, &angles, cover);
                 let covered = met.then_some(&*cover);
                 slices.carry(law, &Approach::pressed(delta), covered).force
             }
-            None => damaged_contact(one(), law, &angles, side, delta).map_or(law.healthy(delta), |a| a.elastic),
+            None => damaged_contact(one, law, &angles, delta).map_or(law.healthy(delta), |a| a.elastic),
         }
     }
 

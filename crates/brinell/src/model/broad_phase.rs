@@ -175,6 +175,7 @@ mod tests {
                         let damaged = slot < l.rollers()
                             && model
                                 .defects_of(slot, side)
+                                .iter()
                                 .any(|d| d.floor(d.local_angle(&angles, side), side).is_some());
                         let bit = lanes & (1 << lane) != 0;
                         assert!(bit || !damaged, "slot {slot} at {turn} on {side:?}");

@@ -162,9 +162,9 @@ impl Energy {
 fn held(model: &Model, (slot, side): (usize, Side), at: &Approach, angles: &Angles, cover: &mut Cover) -> f64 {
     let (defects, law) = (model.defects_of(slot, side), model.contact(side));
     let Some(slices) = &model.slices else {
-        return energy(defects, law, angles, side, at.deformation);
+        return energy(defects, law, angles, at.deformation);
     };
-    let covered = cover_slices(defects, angles, side, cover);
+    let covered = cover_slices(defects, angles, cover);
     slices.carry(law, at, covered.then_some(cover)).energy
 }
 

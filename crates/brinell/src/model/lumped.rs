@@ -31,7 +31,7 @@ fn series(model: &Model, slot: usize, angles: &Angles, delta: f64) -> Series {
         return of_ball(model, slot, angles, healthy);
     }
     let damaged = SIDES.map(|side| {
-        floors(model.defects_of(slot, side), angles, side)
+        floors(model.defects_of(slot, side), angles)
             .map(|floor| (with_floors(model, &healthy, &[(side, floor)]).elastic(delta), floor))
             .reduce(|a, b| if b.0 < a.0 { b } else { a })
             .map(|(_, floor)| (side, floor))
@@ -47,7 +47,7 @@ fn series(model: &Model, slot: usize, angles: &Angles, delta: f64) -> Series {
 fn of_ball(model: &Model, slot: usize, angles: &Angles, healthy: Series) -> Series {
     let mut series = healthy;
     for side in SIDES {
-        if let Some(depth) = depth_at_bottom(model.defects_of(slot, side), angles, side) {
+        if let Some(depth) = depth_at_bottom(model.defects_of(slot, side), angles) {
             series.sunk += depth;
             series.on_damage[side as usize] = true;
         }

@@ -32,7 +32,7 @@ use crate::bearing::kinematics::{self, Kinematics};
 use crate::cage::{Guide, Pocket};
 use crate::contact::Hertz;
 use crate::contact::film::SqueezeFilm;
-use crate::defect::{Defect, Rules, Side};
+use crate::defect::{Defect, Defects, Rules, Side};
 use crate::friction::Friction;
 use crate::lanes::{Column, Lanes};
 use crate::operation::{Load, Rotation};
@@ -193,9 +193,8 @@ impl Model {
 
     /// Defects that meet the contact of `slot` on `side`.
     #[inline]
-    pub fn defects_of(&self, slot: usize, side: Side) -> impl Iterator<Item = &Defect> + Clone {
-        let (row, roller) = (self.layout.row(slot), self.layout.roller(slot));
-        self.defects.iter().filter(move |d| d.meets(row, roller, side))
+    pub fn defects_of(&self, slot: usize, side: Side) -> Defects<'_> {
+        Defects::under(&self.defects, (self.layout.row(slot), self.layout.roller(slot)), side)
     }
 
     /// Pure-rolling orbit speed at the inner ring's speed w_i, rad/s.

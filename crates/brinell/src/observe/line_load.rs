@@ -30,7 +30,7 @@ impl LineLoad {
         let angles =
             Angles { orbit: f.y[l.theta() + slot], spin: f.y[l.phi() + slot], ring: f.model.rotation.at(f.t).1 };
         let covered =
-            contacts.on_damage[slot] && cover_slices(f.model.defects_of(slot, side), &angles, side, &mut self.cover);
+            contacts.on_damage[slot] && cover_slices(f.model.defects_of(slot, side), &angles, &mut self.cover);
         let cover = covered.then_some(&self.cover);
         slices.line_load(f.model.contact(side), &at, cover, &mut self.values);
         &self.values

@@ -8,7 +8,7 @@
 //! how the floor varies.
 
 use super::{deformation, short, warning};
-use crate::defect::{Defect, SIDES, Side, cover_slices, relative_radius, wrap};
+use crate::defect::{Defect, Defects, SIDES, Side, cover_slices, relative_radius, wrap};
 use crate::document::Problem;
 use crate::model::Model;
 use crate::scenario::{self, Contact, Law, RollerPath, Scenario, Surface};
@@ -114,10 +114,7 @@ impl Edges<'_> {
         if defect.depth_profile(side).is_none() || defect.reach(radius).1 <= self.deformation {
             return 0.0;
         }
-        let together = || {
-            let alike = |d: &&Defect| d.surface == defect.surface && d.row == defect.row;
-            all.iter().filter(alike)
-        };
+        let together = Defects::beside(all, defect, side);
         let (first, last) = defect.shape.arc();
         let step = (last - first) / PLACES as f64;
         let mut cover = Cover::new(slices);
@@ -125,7 +122,7 @@ impl Edges<'_> {
         for place in 0..PLACES {
             let s = first + (place as f64 + 0.5) * step;
             let at = defect.met_at(side, s / defect.radius);
-            if cover_slices(together(), &at, side, &mut cover) {
+            if cover_slices(together, &at, &mut cover) {
                 for (edge, fraction) in edges.iter_mut().zip(cover.fraction.iter()) {
                     edge.meet(place, *fraction);
                 }

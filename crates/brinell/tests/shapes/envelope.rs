@@ -1,7 +1,7 @@
 //! Where damage lies across the roller, the envelope that a roller follows, and the reaction of edges.
 
 use super::{LAW, at, defect, grid_mm, oblique};
-use brinell::defect::{Angles, Defect, Side, damaged_contact, edge_gradient, energy, spall};
+use brinell::defect::{Angles, Defect, Defects, Side, damaged_contact, edge_gradient, energy, spall};
 use brinell::scenario::{self, Law, RollerPath, Scenario, Surface};
 use std::f64::consts::PI;
 
@@ -30,7 +30,7 @@ fn analytic_axial_offset_moves_any_shape_and_what_leaves_the_roller_does_not_cou
                     make(drawn(offset), 0.0, law, path),
                 ];
                 let force = |d: &Defect, u: f64| {
-                    damaged_contact([d].into_iter(), &LAW, &at(u), Side::Outer, 9e-6)
+                    damaged_contact(Defects::one(d, Side::Outer), &LAW, &at(u), 9e-6)
                         .map(|a| (a.elastic, a.floor.damaged_length))
                 };
                 for d in &moved {
@@ -47,7 +47,7 @@ fn analytic_axial_offset_moves_any_shape_and_what_leaves_the_roller_does_not_cou
     }
     // Mirrored damage gives the same force.
     let pair = [1.1, -1.1].map(|z| make(drawn(z), 0.0, Law::Sliced, RollerPath::Envelope));
-    let [a, b] = pair.map(|d| damaged_contact([&d].into_iter(), &LAW, &at(0.01), Side::Outer, 9e-6).unwrap());
+    let [a, b] = pair.map(|d| damaged_contact(Defects::one(&d, Side::Outer), &LAW, &at(0.01), 9e-6).unwrap());
     assert!((a.elastic / b.elastic - 1.0).abs() < 1e-12);
 }
 
@@ -115,8 +115,8 @@ fn analytic_edge_gradient_is_the_derivative_of_the_energy() {
                 };
                 let angles = Angles { orbit: if on == Surface::OuterRaceway { x } else { angles.orbit }, ..angles };
                 let delta = 14e-6;
-                let stored = |a: &Angles| energy(both.iter(), &LAW, a, side, delta);
-                let e = edge_gradient(both.iter(), &LAW, &angles, side, delta);
+                let stored = |a: &Angles| energy(Defects::all(both, side), &LAW, a, delta);
+                let e = edge_gradient(Defects::all(both, side), &LAW, &angles, delta);
                 // Of several defects at once it is a difference itself, and the search over them leaves out ridges of a
                 // nanometre.
                 let (step, share) = if set == 0 { (3e-6, 3e-2) } else { (1e-7, 2e-3) };

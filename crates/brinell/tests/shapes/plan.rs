@@ -1,7 +1,7 @@
 //! Outlines and depth maps against closed forms and an independent geometry library.
 
 use super::{LAW, at, circle_mm, defect, grid_mm, shape};
-use brinell::defect::{Defect, Outline, Shape, Side, damaged_contact, energy};
+use brinell::defect::{Defect, Defects, Outline, Shape, Side, damaged_contact, energy};
 use brinell::scenario::{self, Law, RollerPath, Surface};
 use i_overlay::core::fill_rule::FillRule;
 use i_overlay::float::clip::FloatClip;
@@ -161,7 +161,7 @@ proptest! {
             };
             prop_assert!((0.0..=6e-3).contains(&a.damaged_length) && a.damaged_length == b.damaged_length);
             prop_assert!(b.depth <= a.depth + 1e-15 && b.depth >= 0.0);
-            let force = |d: &Defect| damaged_contact([d].into_iter(), &LAW, &at(u), Side::Outer, 30e-6).map_or(0.0, |a| a.elastic);
+            let force = |d: &Defect| damaged_contact(Defects::one(d, Side::Outer), &LAW, &at(u), 30e-6).map_or(0.0, |a| a.elastic);
             // Along the envelope the mean over a slice of a fine map is a sum over 12 lines, at a point it is exact.
             prop_assert!(force(&cut_along) >= force(&cut) * (1.0 - 3e-2));
         }
@@ -173,8 +173,8 @@ proptest! {
         for path in [RollerPath::Point, RollerPath::Envelope] {
             let force = |law| {
                 let d = defect(full.clone(), Surface::OuterRaceway, law, path, 30);
-                let stored = energy([&d].into_iter(), &LAW, &at(u), Side::Outer, delta);
-                (damaged_contact([&d].into_iter(), &LAW, &at(u), Side::Outer, delta).map(|a| a.elastic), stored)
+                let stored = energy(Defects::one(&d, Side::Outer), &LAW, &at(u), delta);
+                (damaged_contact(Defects::one(&d, Side::Outer), &LAW, &at(u), delta).map(|a| a.elastic), stored)
             };
             let ((a, ea), (b, eb)) = (force(Law::Ecl), force(Law::Sliced));
             prop_assert_eq!(a.is_some(), b.is_some());

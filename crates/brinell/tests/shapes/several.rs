@@ -1,7 +1,7 @@
 //! Several defects at one contact.
 
 use super::{LAW, at, defect, grid_mm};
-use brinell::defect::{Angles, Defect, Side, damaged_contact, energy};
+use brinell::defect::{Angles, Defect, Defects, Side, damaged_contact, energy};
 use brinell::scenario::{self, EdgeReaction, Law, RollerPath, Scenario, Surface};
 use std::f64::consts::PI;
 
@@ -19,8 +19,11 @@ fn analytic_deepest_of_several_acts_in_each_slice_and_spares_raised_edges() {
         Defect::new(&d, &s.bearing, &s.contact).unwrap()
     };
     let (shallow, deep) = (flat(4.0, 3.0), flat(2.0, 9.0));
-    let force =
-        |d: &[&Defect], u| damaged_contact(d.iter().copied(), &LAW, &at(u), Side::Outer, 20e-6).unwrap().elastic;
+    let on = |d: &[&Defect], u, delta| {
+        let all: Vec<Defect> = d.iter().copied().cloned().collect();
+        damaged_contact(Defects::all(&all, Side::Outer), &LAW, &at(u), delta).unwrap().elastic
+    };
+    let force = |d: &[&Defect], u| on(d, u, 20e-6);
     // One defect of one depth is summed as a whole, several slice by slice: the same to round-off.
     let same = |a: f64, b: f64| (a - b).abs() < 1e-12 * b;
     assert!(same(force(&[&shallow, &deep], 0.0), force(&[&deep], 0.0)));
@@ -30,8 +33,8 @@ fn analytic_deepest_of_several_acts_in_each_slice_and_spares_raised_edges() {
     // A ridge 5 um high under a defect that leaves its slices alone: it still carries.
     let ridge = scenario::Shape::DepthMap { grid: grid_mm([1.0, 3.0], 0.5, |_, z| if z > 1.6 { -5.0 } else { 0.0 }) };
     let ridge = defect(ridge, Surface::OuterRaceway, Law::Sliced, RollerPath::Point, 30);
-    let alone = damaged_contact([&ridge].into_iter(), &LAW, &at(0.0), Side::Outer, -1e-6).unwrap().elastic;
-    let with = damaged_contact([&deep, &ridge].into_iter(), &LAW, &at(0.0), Side::Outer, -1e-6).unwrap().elastic;
+    let alone = on(&[&ridge], 0.0, -1e-6);
+    let with = on(&[&deep, &ridge], 0.0, -1e-6);
     assert!(alone > 0.0 && same(alone, with));
 }
 
@@ -66,10 +69,11 @@ fn analytic_halves_that_touch_or_overlap_are_the_whole_under_the_envelope() {
                     let u = 1.507e-5 * f64::from(k) / whole.radius;
                     let angles = over(on, side, u);
                     for delta in [5e-6, 25e-6, 60e-6] {
-                        let force =
-                            |d: &[Defect]| damaged_contact(d.iter(), &LAW, &angles, side, delta).map(|a| a.elastic);
+                        let force = |d: &[Defect]| {
+                            damaged_contact(Defects::all(d, side), &LAW, &angles, delta).map(|a| a.elastic)
+                        };
                         let (one, two) = (force(std::slice::from_ref(&whole)), force(&halves));
-                        let stored = |d: &[Defect]| energy(d.iter(), &LAW, &angles, side, delta);
+                        let stored = |d: &[Defect]| energy(Defects::all(d, side), &LAW, &angles, delta);
                         let (e_one, e_two) = (stored(std::slice::from_ref(&whole)), stored(&halves));
                         assert_eq!(one.is_some(), two.is_some(), "{law:?} {on:?} {side:?} {k}");
                         let size = LAW.healthy(delta);
@@ -101,12 +105,12 @@ fn analytic_under_ecl_two_defects_follow_the_envelope_of_one_profile_and_a_pit_d
         Defect::new(&d, &s.bearing, &s.contact).unwrap()
     };
     let rectangle = |length_mm, width_mm| scenario::Shape::Rectangle { length_mm, width_mm };
-    let (dent, pit) = (make(rectangle(5.0, 5.0), 3.0), make(rectangle(1.0, 1.0), 25.0));
+    let defects = [make(rectangle(5.0, 5.0), 3.0), make(rectangle(1.0, 1.0), 25.0)];
     let (half, radius) = (0.5e-3, 1.0 / (1.0 / 3e-3 - 1.0 / 27.5e-3));
     for k in -100..=100 {
         let s = 0.5e-3 * f64::from(k) / 100.0;
-        let u = s / dent.radius;
-        let both: Vec<_> = brinell::defect::floors([&dent, &pit].into_iter(), &at(u), Side::Outer).collect();
+        let u = s / defects[0].radius;
+        let both: Vec<_> = brinell::defect::floors(Defects::all(&defects, Side::Outer), &at(u)).collect();
         let exact = (3e-6 + (half - s.abs()).powi(2) / (2.0 * radius)).min(25e-6);
         assert!((both[0].depth - 3e-6).abs() < 1e-15, "the dent at {s}");
         assert!((both[1].depth - exact).abs() < 1e-15, "the pit at {s}: {} {exact}", both[1].depth);

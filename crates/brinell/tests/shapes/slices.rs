@@ -1,7 +1,7 @@
 //! The law `sliced`: how it converges and what it agrees with.
 
 use super::{LAW, at, defect, grid_mm, oblique};
-use brinell::defect::{Side, damaged_contact};
+use brinell::defect::{Defects, Side, damaged_contact};
 use brinell::scenario::{self, Law, RollerPath, Surface};
 
 /// Elastic sums over a passage of 2.8 mm, over the healthy contact's.
@@ -11,7 +11,7 @@ fn passage(of: &scenario::Shape, path: RollerPath, slices: usize, delta: f64) ->
         .map(|k| {
             let u = 1.4e-3 * (f64::from(k) / 20.0 - 0.975) / d.radius;
             let healthy = LAW.healthy(delta);
-            damaged_contact([&d].into_iter(), &LAW, &at(u), Side::Outer, delta).map_or(1.0, |a| a.elastic / healthy)
+            damaged_contact(Defects::one(&d, Side::Outer), &LAW, &at(u), delta).map_or(1.0, |a| a.elastic / healthy)
         })
         .collect()
 }
@@ -98,7 +98,7 @@ fn prop_ten_slices_make_no_step_and_hardly_differ_from_three_hundred() {
                     (-100..=20_100)
                         .map(|k| {
                             let u = (first + (last - first) * f64::from(k) / 2e4) / d.radius;
-                            damaged_contact([&d].into_iter(), &LAW, &at(u), Side::Outer, delta)
+                            damaged_contact(Defects::one(&d, Side::Outer), &LAW, &at(u), delta)
                                 .map_or(1.0, |a| a.elastic / healthy)
                         })
                         .collect()
@@ -176,7 +176,7 @@ fn analytic_slices_agree_with_a_fine_sum_over_z() {
                         sum += phi * LAW.healthy(delta - depth / count);
                     }
                 }
-                let ours = damaged_contact([&d].into_iter(), &LAW, &at(s / d.radius), Side::Outer, delta);
+                let ours = damaged_contact(Defects::one(&d, Side::Outer), &LAW, &at(s / d.radius), delta);
                 let (elastic, length) = ours.map_or((LAW.healthy(delta), 0.0), |a| (a.elastic, a.floor.damaged_length));
                 let off = (elastic * n as f64 - sum).abs() / (n as f64 * LAW.healthy(delta));
                 assert!(off < 2e-4, "{of:?} at {s}: {off}");

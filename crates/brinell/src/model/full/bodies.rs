@@ -35,10 +35,10 @@ pub(super) fn edge_reaction(
             let defects = model.defects_of(slot, side);
             let law = model.contact(side);
             let e = match &model.slices {
-                None => edge_gradient(defects, law, &angles, side, delta),
+                None => edge_gradient(defects, law, &angles, delta),
                 Some(slices) => {
                     let at = contacts.approach(slot);
-                    edge_gradient_of_slices(defects, &angles, side, cover, |cover| slices.carry(law, &at, cover).energy)
+                    edge_gradient_of_slices(defects, &angles, cover, |cover| slices.carry(law, &at, cover).energy)
                 }
             };
             ws.edge_force[slot] -= e.orbit / arm;

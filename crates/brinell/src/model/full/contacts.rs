@@ -183,7 +183,7 @@ pub(super) fn slices<L: Lanes, const TILT: bool>(
                 let mut covered = false;
                 if (ws.candidates[k][group] >> lane) & 1 == 1 {
                     let angles = Angles { orbit: q[l.theta() + slot], spin: q[l.phi() + slot], ring: ring_angle };
-                    covered = cover_slices(model.defects_of(slot, side), &angles, side, &mut ws.cover);
+                    covered = cover_slices(model.defects_of(slot, side), &angles, &mut ws.cover);
                 }
                 contacts.on_damage[slot] = covered;
                 let pressed = if covered {
@@ -252,7 +252,6 @@ fn on_damage(
             model.defects_of(slot, side),
             model.contact(side),
             &angles,
-            side,
             contacts.deformation[slot],
             contacts.power[slot],
         );
