@@ -229,7 +229,8 @@ pub(super) fn read(together: &Together, shaft: f64, options: &Options) -> Vec<Fa
         let highest = Highest::of(places, |f| score(together, f));
         let highest = highest.unwrap_or(Highest { from: expected, to: expected, height: 0.0 });
         let score = highest.height;
-        let frequency = by_lines(together, highest.middle());
+        let (low, high) = (expected * (1.0 - behind), expected * (1.0 + ahead));
+        let frequency = by_lines(together, highest.middle()).clamp(low, high);
         let spacing = match component {
             Component::InnerRace => Some(shaft),
             Component::Element => Some(cage(shaft, options)),
@@ -241,7 +242,7 @@ pub(super) fn read(together: &Together, shaft: f64, options: &Options) -> Vec<Fa
             true => highest.to + 4.0 * step * expected,
             false => highest.from - 4.0 * step * expected,
         };
-        let outside = next < expected * (1.0 - behind) || next > expected * (1.0 + ahead);
+        let outside = next < low || next > high;
         let mut family = Family {
             component,
             name,

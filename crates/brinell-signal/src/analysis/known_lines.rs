@@ -43,6 +43,8 @@ const FARTHEST: f64 = 0.12;
 const FEWEST: usize = 2;
 /// The same of one beyond.
 const FEWEST_FAR: usize = 4;
+/// Chance at most that lines of other sources, as many as there are, agree so well with any speed tried.
+const CHANCE: f64 = 0.1;
 /// What a line counts for at most, ln(power over floor): otherwise one that many places share would decide. A comb beyond
 /// the tolerance has so much more than any within.
 const LINE: f64 = 4.0;
@@ -67,7 +69,7 @@ pub(super) fn shaft(x: &[f64], fs: f64, options: &Options) -> Result<Option<Shaf
     let could_be_wrong = !options.exact && !lines.is_whole(&near, FEWEST);
     if could_be_wrong && options.tolerance * options.shaft >= TELLING * lines.step {
         let far = lines.highest_comb(FARTHEST);
-        if far.score >= near.score + LINE && lines.is_whole(&far, FEWEST_FAR) {
+        if far.score >= near.score + LINE && lines.is_whole(&far, FEWEST_FAR) && lines.chance(&far) <= CHANCE {
             return Ok(Some(lines.told_by(&far)));
         }
     }
@@ -79,6 +81,8 @@ struct Lines<'a> {
     /// Hz, and ln(power over floor).
     each: Vec<(f64, f64)>,
     step: f64,
+    /// The highest frequency, Hz.
+    top: f64,
     options: &'a Options,
 }
 
@@ -111,7 +115,7 @@ impl<'a> Lines<'a> {
             let around = bin.saturating_sub(APART)..(bin + APART + 1).min(power.len());
             bin + 1 < power.len() && around.clone().all(|b| power[b] <= power[bin]) && power[bin] > power[around.start]
         };
-        let mut lines = Lines { each: Vec::new(), step, options };
+        let mut lines = Lines { each: Vec::new(), step, top: power.len() as f64 * step, options };
         for bin in (1..power.len()).filter(|bin| is_peak(*bin)) {
             let height = (median * power[bin] / floor[bin].max(f64::MIN_POSITIVE)).ln();
             let peak = peak_near(&spectrum, bin as f64 * step, 0.5 * step);
@@ -146,12 +150,33 @@ impl<'a> Lines<'a> {
         comb
     }
 
+    /// Speeds that a line says, within `reach` of the one given, relative.
+    fn speeds(&self, reach: f64) -> impl Iterator<Item = f64> {
+        let said = |order: usize| self.each.iter().map(move |(at, _)| at / order as f64);
+        let is_near = move |f: &f64| (f / self.options.shaft - 1.0).abs() <= reach;
+        (1..=OF_COMB).rev().flat_map(said).filter(is_near)
+    }
+
+    /// Chance that lines anywhere make a comb of so many, of which one said the speed: a binomial tail for each speed
+    /// tried.
+    fn chance(&self, comb: &Comb) -> f64 {
+        let one = (2.0 * AGREE * self.step * self.each.len() as f64 / self.top).min(1.0);
+        let others = (1..=OF_COMB).filter(|h| !self.is_hidden(*h as f64 * comb.speed)).count().saturating_sub(1);
+        let mut ways = 1.0;
+        let mut tail = 0.0;
+        for k in 0..=others {
+            if k + 1 >= comb.orders.len() {
+                tail += ways * one.powi(k as i32) * (1.0 - one).powi((others - k) as i32);
+            }
+            ways *= (others - k) as f64 / (k + 1) as f64;
+        }
+        tail * self.speeds(FARTHEST).count() as f64
+    }
+
     /// Of those that two lines or more say, within `reach` of the speed given, relative; without a score where there is none.
     fn highest_comb(&self, reach: f64) -> Comb {
         let shaft = self.options.shaft;
-        let said = |order: usize| self.each.iter().map(move |(at, _)| at / order as f64);
-        let speeds = (1..=OF_COMB).rev().flat_map(said).filter(|f| (f / shaft - 1.0).abs() <= reach);
-        let own = speeds.map(|f| self.comb(f)).filter(Comb::is_own);
+        let own = self.speeds(reach).map(|f| self.comb(f)).filter(Comb::is_own);
         let highest = own.max_by(|a, b| a.score.total_cmp(&b.score));
         highest.unwrap_or(Comb { speed: shaft, score: 0.0, orders: Vec::new() })
     }
