@@ -108,7 +108,7 @@ def outcome(found, truth):
 def main():
     folder, brinell = Path(sys.argv[1]), sys.argv[2]
     rest = [a for a in sys.argv[3:] if a != "-v"]
-    ways = rest[0].split(",") if rest else ["base", "cut", "speed", "rate", "bearing"]
+    ways = rest[0].split(",") if rest else ["base", "sensor", "cut", "speed", "rate", "bearing"]
     counts = collections.defaultdict(collections.Counter)
 
     def one(job):
