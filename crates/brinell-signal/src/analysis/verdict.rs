@@ -5,6 +5,8 @@ use super::frequencies::Component;
 use super::together::{Envelopes, HARMONICS, Highest, Shaft, Together};
 use super::{AnalysisError, Options};
 
+/// Harmonics of a race that shaft or mains hide from which it may be damaged unseen.
+const HIDDEN: usize = 2;
 /// Lead in score that an element needs over the races: its sidebands at the cage's frequency reach most lines.
 const LEAD: f64 = 2.0;
 /// How far BPFO + BPFI of two damaged races may lie from so many times the shaft's speed as there are elements, relative.
@@ -120,7 +122,7 @@ impl Record {
         }
         one_slip(&mut all, self.shaft, self.options.tolerance);
         self.within_first(&mut all);
-        let lead = leading(&all);
+        let lead = leading(&all, self.options.exact);
         let elsewhere = self.elsewhere(lead.map(|k| &all[k]));
         let Some(lead) = lead.filter(|_| elsewhere.is_none()) else {
             for family in all.iter_mut().filter(|f| f.finding == Finding::Damage) {
@@ -340,19 +342,26 @@ fn one_slip(all: &mut [Family], shaft: f64, tolerance: f64) {
     }
 }
 
+/// Whether the cage's lines may be a race's: elements that differ modulate its damage once a turn of the cage, and where
+/// its own lines smear, as the speed varies, or are hidden, the cage's are left. A simulation has neither.
+fn may_carry_cage(family: &Family) -> bool {
+    !is_turning(family.component) && (family.score >= family.noise || family.hidden_harmonics() >= HIDDEN)
+}
+
 fn is_turning(component: Component) -> bool {
     matches!(component, Component::Element | Component::Cage)
 }
 
 /// The family that leads: the highest score; an element's or the cage's only with a lead over the races'.
-fn leading(all: &[Family]) -> Option<usize> {
+fn leading(all: &[Family], exact: bool) -> Option<usize> {
     let highest = |of: &dyn Fn(Component) -> bool| {
         let these = (all.iter().enumerate()).filter(|(_, f)| f.finding == Finding::Damage && of(f.component));
         these.max_by(|a, b| a.1.score.total_cmp(&b.1.score))
     };
     let race = highest(&|c| !is_turning(c));
     // A damaged element shows at the cage's frequency too; at its own nothing else does.
-    let turning = highest(&|c| c == Component::Element).or_else(|| highest(&|c| c == Component::Cage));
+    let cage = || highest(&|c| c == Component::Cage).filter(|_| exact || !all.iter().any(may_carry_cage));
+    let turning = highest(&|c| c == Component::Element).or_else(cage);
     match (race, turning) {
         (Some(race), Some(turning)) if turning.1.score > race.1.score + LEAD => Some(turning.0),
         (Some(race), _) => Some(race.0),
