@@ -10,7 +10,7 @@ const HIDDEN: usize = 2;
 /// Lead in score that an element needs over the races: its sidebands at the cage's frequency reach most lines.
 const LEAD: f64 = 2.0;
 /// How far BPFO + BPFI of two damaged races may lie from so many times the shaft's speed as there are elements, relative.
-const ONE_SLIP: f64 = 0.005;
+const ONE_SLIP: f64 = 0.002;
 /// Multiples of the shaft's or the cage's frequency about the first's harmonics that are taken out before a second one
 /// is sought.
 const SIDES: i32 = 3;
