@@ -89,7 +89,7 @@ pub fn peak_near(spectrum: &Spectrum, frequency: f64, halfwidth: f64) -> Option<
 }
 
 /// Offset in bins and height of the peak of a Hann line, from the highest bin and its neighbours.
-fn interpolate(magnitudes: [f64; 3]) -> (f64, f64) {
+pub(crate) fn interpolate(magnitudes: [f64; 3]) -> (f64, f64) {
     let [left, top, right] = magnitudes.map(|m| m.powf(PEAK_EXPONENT));
     let offset = 0.5 * (left - right) / (left - 2.0 * top + right);
     let height = top - 0.25 * (left - right) * offset;

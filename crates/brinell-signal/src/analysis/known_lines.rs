@@ -130,7 +130,7 @@ impl<'a> Lines<'a> {
     /// Whether the mains or the supply could have made a line there.
     fn is_hidden(&self, f: f64) -> bool {
         let width = 2.0 * self.step;
-        near_mains(f, width) || self.options.supply.is_some_and(|f0| (f - (f / f0).round() * f0).abs() < width)
+        near_mains(f, width) || self.options.supply.is_some_and(|f0| near_multiple(f, f0, width))
     }
 
     /// The highest line that agrees with a frequency.
@@ -161,7 +161,7 @@ impl<'a> Lines<'a> {
     /// tried.
     fn chance(&self, comb: &Comb) -> f64 {
         let one = (2.0 * AGREE * self.step * self.each.len() as f64 / self.top).min(1.0);
-        let others = (1..=OF_COMB).filter(|h| !self.is_hidden(*h as f64 * comb.speed)).count().saturating_sub(1);
+        let others = self.seen(comb, OF_COMB).saturating_sub(1);
         let mut ways = 1.0;
         let mut tail = 0.0;
         for k in 0..=others {
@@ -186,8 +186,12 @@ impl<'a> Lines<'a> {
         let Some(last) = comb.orders.last() else {
             return false;
         };
-        let could_be = (1..=*last).filter(|h| !self.is_hidden(*h as f64 * comb.speed)).count();
-        comb.orders.len() >= fewest && comb.orders[0] == 1 && 2 * comb.orders.len() >= could_be
+        comb.orders.len() >= fewest && comb.orders[0] == 1 && 2 * comb.orders.len() >= self.seen(comb, *last)
+    }
+
+    /// How many harmonics up to one nothing hides.
+    fn seen(&self, comb: &Comb, last: usize) -> usize {
+        (1..=last).filter(|h| !self.is_hidden(*h as f64 * comb.speed)).count()
     }
 
     /// Least squares of a comb's lines.
@@ -206,8 +210,11 @@ impl<'a> Lines<'a> {
 
 /// Whether a harmonic of the mains lies within `width` (Hz) of a frequency.
 pub(super) fn near_mains(f: f64, width: f64) -> bool {
-    let off = |mains: f64| (f - (f / mains).round() * mains).abs();
-    Mains::ALL.iter().any(|m| off(m.frequency()) < width)
+    Mains::ALL.iter().any(|m| near_multiple(f, m.frequency(), width))
+}
+
+fn near_multiple(f: f64, of: f64, width: f64) -> bool {
+    (f - (f / of).round() * of).abs() < width
 }
 
 fn divisor(a: usize, b: usize) -> usize {

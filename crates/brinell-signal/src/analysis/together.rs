@@ -11,6 +11,7 @@ use super::{AnalysisError, Options};
 use crate::distribution::chi_square_quantile;
 use crate::lengths::fast_up_to;
 use crate::parallel;
+use crate::spectrum::interpolate;
 use crate::{Band, Segments, Spectrum, Thinned, Transformed, psd, resample};
 
 /// Harmonics of a defect frequency that are looked at.
@@ -184,13 +185,13 @@ impl Together {
     /// The line at a frequency, of the three bins there, to a fraction of a bin: Hz.
     pub(super) fn line(&self, frequency: f64) -> f64 {
         let bin = self.bin(frequency);
-        let power = |b: usize| self.ratio.get(b).map_or(f64::MIN_POSITIVE, |r| r.max(f64::MIN_POSITIVE));
-        let top = (bin.saturating_sub(1)..bin + 2).max_by(|a, b| power(*a).total_cmp(&power(*b))).unwrap_or(bin);
-        // A parabola through logarithms: within 0.016 bin with Hann's window.
-        let [left, middle, right] = [top.saturating_sub(1), top, top + 1].map(|b| power(b).ln());
-        let offset = 0.5 * (left - right) / (left - 2.0 * middle + right);
-        let is_peak = middle >= left && middle >= right && offset.is_finite();
-        (top as f64 + if is_peak { offset } else { 0.0 }) * self.step
+        let amplitude = |b: usize| self.ratio.get(b).map_or(0.0, |r| r.sqrt());
+        let top =
+            (bin.saturating_sub(1)..bin + 2).max_by(|a, b| amplitude(*a).total_cmp(&amplitude(*b))).unwrap_or(bin);
+        let around = [top.saturating_sub(1), top, top + 1].map(amplitude);
+        let is_peak = around[1] > around[0].min(around[2]) && around[1] >= around[0].max(around[2]);
+        let offset = if is_peak { interpolate(around).0 } else { 0.0 };
+        (top as f64 + offset) * self.step
     }
 
     /// Power over floor at a frequency, whatever is hidden there.
