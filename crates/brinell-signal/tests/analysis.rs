@@ -4,7 +4,7 @@ use crate::cases::{CASES, first};
 use std::f64::consts::TAU;
 
 use brinell_signal::analysis::{
-    Analysis, AnalysisError, Component, Finding, NamedBearing, Options, Side, Verdict, analyze, compare,
+    Analysis, AnalysisError, Component, DefectOrders, Finding, NamedBearing, Options, Side, Verdict, analyze, compare,
 };
 use brinell_signal::random::Random;
 
@@ -332,6 +332,34 @@ fn regress_impacts_at_a_multiple_of_the_speed_are_said_to_look_the_same() {
     assert!(told.contains("Outer race damage") && !told.contains("times a turn of the shaft"), "{told}");
 }
 
+/// A race whose lines lie on multiples of the shaft's frequency, or of the mains', is neither called nor passed over; where
+/// the record is long enough to part them it is called. One impact a turn is the shaft's.
+#[test]
+fn prop_a_race_on_known_lines_is_not_passed_over() {
+    let fs = 20_000.0;
+    let of = |impacts: f64, bpfo: f64, seconds: f64, seed: u64| {
+        // The rig slips by half a per cent.
+        let damage = Damage { order: impacts / 0.995, modulation: 0.0, jitter: 0.002, snr_db: 0.0 };
+        let orders = DefectOrders { bpfo: Some(bpfo), ..DefectOrders::default() };
+        analyze(&damaged(fs, seconds, seed, &damage), fs, &Options::new(SHAFT, orders)).unwrap()
+    };
+    let on_shaft = "7 impacts a turn of the shaft (blades, jaws of a coupling) have theirs";
+    for (on, words) in [(7.0, on_shaft), (50.0 / SHAFT, "50 Hz mains have theirs")] {
+        for seed in 0..4 {
+            let told = of(on, 1.004 * on, 1.0, seed);
+            let verdict = told.verdict();
+            assert_eq!(told.conclusion(), Verdict::CannotTell, "{verdict}");
+            assert!(told.families[0].masked && verdict.contains(words), "{verdict}");
+        }
+    }
+    for seed in 0..4 {
+        let told = of(7.06, 7.09, 4.0, seed);
+        assert_eq!(first(&told), Some(Component::OuterRace), "{}", told.verdict());
+        let told = of(1.0, 7.03, 1.0, seed);
+        assert!(told.families.iter().all(|f| !f.masked), "{}", told.verdict());
+    }
+}
+
 /// An inverter's lines near BPFO are nobody's where its frequency is given.
 #[test]
 fn prop_lines_of_the_supply_are_excluded() {
@@ -409,7 +437,7 @@ fn regress_words_on_what_cannot_be_analysed() {
     holes[7] = f64::NAN;
     holes[9] = f64::INFINITY;
     assert!(say(&holes, 12_000.0).starts_with("2 of 12000 samples are missing or infinite, the first at sample 8"));
-    let none = analyze(&x, 12_000.0, &Options::new(30.0, Default::default()));
+    let none = analyze(&x, 12_000.0, &Options::new(30.0, DefectOrders::default()));
     assert!(matches!(none, Err(AnalysisError::NoFrequencies)));
 }
 

@@ -130,6 +130,8 @@ pub struct Family {
     pub sidebands: Option<Sidebands>,
     /// Whether it lies at the end of what was searched and its lines are higher beyond: they are somebody else's.
     pub is_skirt: bool,
+    /// Whether its lines lie where those of the shaft or the mains do, and were read nonetheless: nothing tells them apart.
+    pub masked: bool,
     /// Modulation over that of a record of the healthy machine, where there is one.
     pub growth: Option<f64>,
     /// What is said of it.
@@ -175,6 +177,7 @@ impl Family {
         let detected = self.detected_harmonics();
         let hidden = self.hidden_harmonics();
         !self.is_skirt
+            && !self.masked
             && !self.lacks_sidebands()
             && detected + hidden + self.detected_sidebands() / 2 >= FEWEST.0
             && detected >= FEWEST.1
@@ -262,6 +265,7 @@ pub(super) fn read(together: &Together, shaft: f64, options: &Options) -> Vec<Fa
             harmonics: lines.harmonics,
             sidebands: lines.sidebands,
             is_skirt: outside && self::score(together, next) > score,
+            masked: false,
             growth: None,
             finding: Finding::Silent,
         };

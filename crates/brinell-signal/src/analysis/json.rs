@@ -99,6 +99,7 @@ fn family(analysis: &Analysis, f: &Family) -> Value {
         "says": f.finding.key(),
         "shared_with": match f.finding { Finding::Shared(with) => Some(with), _ => None },
         "may_be_passing": analysis.may_be_passing(f),
+        "masked": f.masked,
         "expected_hz": f.expected,
         "found_hz": f.frequency,
         "order": f.frequency / analysis.shaft,

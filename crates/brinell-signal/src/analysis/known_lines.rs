@@ -213,7 +213,8 @@ pub(super) fn near_mains(f: f64, width: f64) -> bool {
     Mains::ALL.iter().any(|m| near_multiple(f, m.frequency(), width))
 }
 
-fn near_multiple(f: f64, of: f64, width: f64) -> bool {
+/// Whether a multiple of one frequency lies within `width` (Hz) of another.
+pub(super) fn near_multiple(f: f64, of: f64, width: f64) -> bool {
     (f - (f / of).round() * of).abs() < width
 }
 

@@ -34,7 +34,7 @@ const STANDS: f64 = 2.0;
 /// Lines of the mains that have to be detected before they are set aside.
 const OF_MAINS: usize = 3;
 /// How well an inverter's frequency is known, relative.
-const SUPPLY_KNOWN: f64 = 0.005;
+pub(super) const SUPPLY_KNOWN: f64 = 0.005;
 /// Lines of the shaft by which its comb is placed.
 const OF_SHAFT: usize = 10;
 
@@ -50,8 +50,6 @@ pub(super) struct Together {
     step: f64,
     /// Over the floor.
     ratio: Vec<f64>,
-    /// The same before lines of shaft and mains were hidden.
-    unhidden: Vec<f64>,
     /// Above the floor, over the envelope's mean squared.
     depth: Vec<f64>,
     /// Where lines of shaft or mains lie, or of what was taken out: nothing is seen there.
@@ -82,7 +80,6 @@ impl Together {
         let mut together = Together {
             step,
             ratio: vec![0.0; bins],
-            unhidden: Vec::new(),
             depth: vec![0.0; bins],
             hidden: vec![false; bins],
             each: Vec::new(),
@@ -104,7 +101,6 @@ impl Together {
             }
             together.each.push(power);
         }
-        together.unhidden.clone_from(&together.ratio);
         together.hide_known(shaft, options);
         Ok(together)
     }
@@ -160,32 +156,52 @@ impl Together {
         let mut low = ((at - ASIDE).ceil().max(0.0) as usize).min(last);
         let mut high = ((at + ASIDE).floor() as usize).min(last);
         let level = self.detection_level();
-        let falls = |to: f64, from: f64| to >= level && to < from;
-        while low > 0 && falls(self.ratio[low - 1], self.ratio[low]) {
+        let falls = |to: usize, from: usize| {
+            let to = self.seen(to);
+            to >= level && to < self.seen(from)
+        };
+        while low > 0 && falls(low - 1, low) {
             low -= 1;
         }
-        while high < last && falls(self.ratio[high + 1], self.ratio[high]) {
+        while high < last && falls(high + 1, high) {
             high += 1;
         }
         self.hidden[low..=high].fill(true);
-        self.ratio[low..=high].fill(1.0);
-        self.depth[low..=high].fill(0.0);
+    }
+
+    /// What is read where nothing is hidden.
+    pub(super) fn revealed<R>(&mut self, read: impl FnOnce(&Self) -> R) -> R {
+        let hidden = std::mem::take(&mut self.hidden);
+        let result = read(self);
+        self.hidden = hidden;
+        result
+    }
+
+    fn is_hidden(&self, bin: usize) -> bool {
+        self.hidden.get(bin).is_some_and(|h| *h)
+    }
+
+    /// Power over floor in a bin: the floor's where it is hidden.
+    fn seen(&self, bin: usize) -> f64 {
+        if self.is_hidden(bin) { 1.0 } else { self.ratio[bin] }
     }
 
     /// The highest of the three bins at a frequency; beyond the spectrum nothing is seen.
     pub(super) fn at(&self, frequency: f64) -> Place {
         let bin = self.bin(frequency.max(0.0));
-        let hidden = self.hidden.get(bin).is_some_and(|h| *h);
-        match (peak(&self.ratio, bin), peak(&self.depth, bin)) {
-            (Some(ratio), Some(depth)) if !hidden => Place { ratio: Some(ratio), depth },
-            _ => Place { ratio: None, depth: 0.0 },
+        if self.is_hidden(bin) || bin == 0 || bin + 1 >= self.ratio.len() {
+            return Place { ratio: None, depth: 0.0 };
         }
+        let bins = bin - 1..bin + 2;
+        let ratio = bins.clone().map(|b| self.seen(b)).fold(0.0, f64::max);
+        let depth = bins.filter(|b| !self.is_hidden(*b)).map(|b| self.depth[b]).fold(0.0, f64::max);
+        Place { ratio: Some(ratio), depth }
     }
 
     /// The line at a frequency, of the three bins there, to a fraction of a bin: Hz.
     pub(super) fn line(&self, frequency: f64) -> f64 {
         let bin = self.bin(frequency);
-        let amplitude = |b: usize| self.ratio.get(b).map_or(0.0, |r| r.sqrt());
+        let amplitude = |b: usize| if b < self.ratio.len() { self.seen(b).sqrt() } else { 0.0 };
         let top =
             (bin.saturating_sub(1)..bin + 2).max_by(|a, b| amplitude(*a).total_cmp(&amplitude(*b))).unwrap_or(bin);
         let around = [top.saturating_sub(1), top, top + 1].map(amplitude);
@@ -196,7 +212,7 @@ impl Together {
 
     /// Power over floor at a frequency, whatever is hidden there.
     pub(super) fn unhidden(&self, frequency: f64) -> Option<f64> {
-        peak(&self.unhidden, self.bin(frequency))
+        peak(&self.ratio, self.bin(frequency))
     }
 
     /// Bins over which a line of order 10 smears where the speed (Hz) takes these values.

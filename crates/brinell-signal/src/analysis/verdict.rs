@@ -2,7 +2,8 @@
 
 use super::family::{DEEP, FAINT, Family, Finding, SCORE, by_lines, cage, lines, read, score, score_by};
 use super::frequencies::Component;
-use super::together::{Envelopes, HARMONICS, Highest, Shaft, Together};
+use super::known_lines::near_multiple;
+use super::together::{Envelopes, HARMONICS, Highest, SUPPLY_KNOWN, Shaft, Together};
 use super::{AnalysisError, Options};
 
 /// Harmonics of a race that shaft or mains hide from which it may be damaged unseen.
@@ -115,18 +116,16 @@ impl Record {
 
     fn judge(&mut self) -> (Vec<Family>, Option<Elsewhere>) {
         let mut all = read(&self.together, self.shaft, &self.options);
-        for family in all.iter_mut().filter(|f| f.finding == Finding::Damage) {
-            if self.is_short_for(family.component) {
-                family.finding = Finding::Open;
-            }
-        }
         one_slip(&mut all, self.shaft, self.options.tolerance);
         self.within_first(&mut all);
         let lead = leading(&all, self.options.exact);
         let elsewhere = self.elsewhere(lead.map(|k| &all[k]));
-        let Some(lead) = lead.filter(|_| elsewhere.is_none()) else {
+        let Some(lead) = lead.filter(|k| elsewhere.is_none() && !self.is_short_for(all[*k].component)) else {
             for family in all.iter_mut().filter(|f| f.finding == Finding::Damage) {
                 family.finding = Finding::Open;
+            }
+            if elsewhere.is_none() {
+                self.masked(&mut all);
             }
             all.sort_by(|a, b| b.score.total_cmp(&a.score));
             return (all, elsewhere);
@@ -159,6 +158,31 @@ impl Record {
             all[0].component = Component::Element;
         }
         (all, None)
+    }
+
+    /// Where lines of shaft or mains hide a race's, nothing tells them apart. Those that would be damage are open, unless a
+    /// slower comb is as high: then they are that one's.
+    fn masked(&mut self, all: &mut [Family]) {
+        let (shaft, options) = (self.shaft, self.options.clone());
+        let revealed = self.together.revealed(|together| {
+            let races = read(together, shaft, &options).into_iter().filter(|f| !is_turning(f.component));
+            let most = |f: &Family| SLOWER.max((f.frequency / shaft).round() as usize);
+            let is_own = |f: &Family| slower_comb(f, most(f), |f| score(together, f)).is_none();
+            // Those of the supply are known to be there.
+            let of_supply = |f: f64| options.supply.is_some_and(|hz| near_multiple(f, hz, SUPPLY_KNOWN * f));
+            races.filter(|f| f.is_damage() && is_own(f) && !of_supply(f.frequency)).collect::<Vec<_>>()
+        });
+        for mut race in revealed {
+            let hidden = race.harmonics.iter().filter(|h| self.together.at(h.frequency).ratio.is_none());
+            let Some(seen) = all.iter_mut().find(|f| f.name == race.name && f.finding != Finding::Open) else {
+                continue;
+            };
+            if hidden.count() >= HIDDEN {
+                race.masked = true;
+                race.finding = Finding::Open;
+                *seen = race;
+            }
+        }
     }
 
     /// Whether a family may be a second damage: the other race's where a race leads, at the same slip. All turn by that:
@@ -245,19 +269,16 @@ impl Record {
             return None;
         }
         let together = &self.together;
-        (2..=SLOWER)
-            .map(|m| lead.frequency / m as f64)
-            .map(|f| match !self.by_lines && (f / self.shaft - 1.0).abs() <= self.options.tolerance {
-                true => (f, score_by(f, |f| together.unhidden(f))),
-                false => (f, score(together, f)),
-            })
-            .rfind(|(_, score)| *score >= lead.score - HARDLY)
-            .map(|(frequency, score)| Elsewhere {
-                frequency,
-                score,
-                modulation: lines(together, frequency, None).modulation,
-                nearest: None,
-            })
+        let height = |f: f64| match !self.by_lines && (f / self.shaft - 1.0).abs() <= self.options.tolerance {
+            true => score_by(f, |f| together.unhidden(f)),
+            false => score(together, f),
+        };
+        slower_comb(lead, SLOWER, height).map(|(frequency, score)| Elsewhere {
+            frequency,
+            score,
+            modulation: lines(together, frequency, None).modulation,
+            nearest: None,
+        })
     }
 
     fn nearest(&self, frequency: f64) -> Option<Nearest> {
@@ -318,6 +339,13 @@ impl Record {
             k += 1.0;
         }
     }
+}
+
+/// The comb of which a family's lines are every second, third... to `most`th, and which scores hardly less: its fundamental
+/// and score.
+fn slower_comb(family: &Family, most: usize, score: impl Fn(f64) -> f64) -> Option<(f64, f64)> {
+    let combs = (2..=most).map(|m| family.frequency / m as f64).map(|f| (f, score(f)));
+    combs.rev().find(|(_, score)| *score >= family.score - HARDLY)
 }
 
 /// The cage carries the elements past both races: the slip s of FTF is that of BPFO, and BPFI has -s f_c/(f_s - f_c). A

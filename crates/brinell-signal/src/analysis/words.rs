@@ -1,7 +1,7 @@
 //! Families in words.
 
 use super::family::{Family, Finding};
-use super::{Analysis, Elsewhere, Verdict};
+use super::{Analysis, Elsewhere, Mains, Verdict};
 
 /// What a row of [`Analysis::rows`] holds; a column of numbers begins with `#`.
 pub const COLUMNS: [&str; 8] =
@@ -162,10 +162,16 @@ fn cannot_tell(analysis: &Analysis, text: &mut Vec<String>) {
         text.push(format!("Without those lines the verdict would be {}.", hidden.join(", and ")));
     }
     for family in open().filter(|f| !hides(f)) {
+        let (part, evidence) = (family.component.words(), evidence_of(family));
+        if family.masked {
+            text.push(format!(
+                "Cannot tell whether the {part} is damaged: {evidence}, with lines where {}. A record of the healthy machine would tell.",
+                masking(analysis, family)
+            ));
+            continue;
+        }
         text.push(format!(
-            "Cannot tell whether the {} is damaged: {}, with {}. A longer record, another sensor or a record of the healthy machine would decide.",
-            family.component.words(),
-            evidence_of(family),
+            "Cannot tell whether the {part} is damaged: {evidence}, with {}. A longer record, another sensor or a record of the healthy machine would decide.",
             if family.is_damage() {
                 "lines at distances of the cage's frequency, which so short a record does not separate from others"
             } else if family.score < family.noise {
@@ -176,6 +182,20 @@ fn cannot_tell(analysis: &Analysis, text: &mut Vec<String>) {
                 "fewer harmonics than damage has"
             }
         ));
+    }
+}
+
+/// What has lines where a family's are, and what parts them.
+fn masking(analysis: &Analysis, family: &Family) -> String {
+    let times = |of: f64| (family.frequency / of).round();
+    let off = |of: f64| (family.frequency - times(of) * of).abs();
+    let mains = Mains::ALL.map(|m| m.frequency()).into_iter().min_by(|a, b| off(*a).total_cmp(&off(*b)));
+    match mains.filter(|hz| off(*hz) < off(analysis.shaft)) {
+        Some(hz) => format!("{hz:.0} Hz mains have theirs: at another speed they part"),
+        None => format!(
+            "{:.0} impacts a turn of the shaft (blades, jaws of a coupling) have theirs: in a longer record those of a bearing that slips part from them",
+            times(analysis.shaft)
+        ),
     }
 }
 
