@@ -116,11 +116,22 @@ impl Record {
 
     fn judge(&mut self) -> (Vec<Family>, Option<Elsewhere>) {
         let mut all = read(&self.together, self.shaft, &self.options);
+        let mut undecided = f64::NEG_INFINITY;
+        for family in all.iter_mut().filter(|f| f.finding == Finding::Damage) {
+            if self.is_short_for(family.component) {
+                family.finding = Finding::Open;
+                if family.component == Component::Element {
+                    undecided = family.score;
+                }
+            }
+        }
         one_slip(&mut all, self.shaft, self.options.tolerance);
         self.within_first(&mut all);
         let lead = leading(&all, self.options.exact);
-        let elsewhere = self.elsewhere(lead.map(|k| &all[k]));
-        let Some(lead) = lead.filter(|k| elsewhere.is_none() && !self.is_short_for(all[*k].component)) else {
+        // A damaged element's sidebands reach the races' lines.
+        let is_open = lead.is_some_and(|k| !is_turning(all[k].component) && undecided > all[k].score + LEAD);
+        let elsewhere = if is_open { None } else { self.elsewhere(lead.map(|k| &all[k])) };
+        let Some(lead) = lead.filter(|_| elsewhere.is_none() && !is_open) else {
             for family in all.iter_mut().filter(|f| f.finding == Finding::Damage) {
                 family.finding = Finding::Open;
             }
