@@ -1,9 +1,10 @@
 """What `brinell analyze` says of measured records that were made harder.
 
-    python3 validation/robustness/robustness.py RECORDS BRINELL [base,sensor,cut,speed,rate,bearing] [-v]
+    python3 validation/robustness/robustness.py RECORDS BRINELL [base,sensor,cut,speed,rate,bearing,sum] [-v]
 
 RECORDS is a folder with records.csv (id, file, damaged, set, options) and NPZ files. Prints a row of a Markdown table for each way of making them
-harder: by the other sensor of the file, cut short, at wrong speeds, resampled with noise, asked about other bearings. -v lists every wrong call. Needs NumPy and SciPy.
+harder: by the other sensor of the file, cut short, at wrong speeds, resampled with noise, asked about other bearings;
+and one of sums of two damaged bearings' records. -v lists every wrong call. Needs NumPy and SciPy.
 """
 
 import collections
@@ -85,6 +86,19 @@ def jobs(all_records, ways):
                     yield "asked about other bearings", None, f"{r['id']} {other}", (x, rate, speed, [w for pair in keys for w in pair])
 
 
+def sums(all_records):
+    """Parts, name, and what to analyse: two records of one set, at one speed, the weaker at a share of the other's RMS."""
+    damaged = [r for r in all_records if r["truth"]]
+    for i, a in enumerate(damaged):
+        for b in damaged[i + 1 :]:
+            if a["truth"] == b["truth"] or any(a[key] != b[key] for key in ("set", "rate", "speed", "bearing")):
+                continue
+            n = min(len(a["x"]), len(b["x"]))
+            x, y = (r["x"][:n] / np.std(r["x"][:n]) for r in (a, b))
+            for k, l in ((1, 1), (1, 0.4), (0.4, 1)):
+                yield {a["truth"], b["truth"]}, f"{a['id']} * {k} + {b['id']} * {l}", (k * x + l * y, a["rate"], a["speed"], a["bearing"])
+
+
 def analyze(brinell, x, rate, speed, bearing):
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder) / "x.npz"
@@ -105,10 +119,34 @@ def outcome(found, truth):
     return "right" if called[0] == truth else "wrong"
 
 
+def of_sums(folder, brinell, verbose):
+    counts = collections.defaultdict(collections.Counter)
+    together = lambda parts: " + ".join(sorted(parts)).replace("_", " ")
+
+    def one(job):
+        parts, name, what = job
+        called = set(analyze(brinell, *what)["verdict"]["damage"])
+        how = "another" if called - parts else ("none", "one", "both")[len(called)]
+        if verbose and how == "another":
+            print(f"{together(parts)}: {name}: {sorted(called)}", file=sys.stderr)
+        return together(parts), how
+
+    with ThreadPoolExecutor(2) as pool:
+        for parts, how in pool.map(one, sums(list(records(folder)))):
+            counts[parts][how] += 1
+    print("| sums of two records | both named | one | none | another part |")
+    print("| --- | --- | --- | --- | --- |")
+    for parts, c in counts.items():
+        print(f"| {parts} | {c['both']} | {c['one']} | {c['none']} | {c['another']} |")
+
+
 def main():
     folder, brinell = Path(sys.argv[1]), sys.argv[2]
     rest = [a for a in sys.argv[3:] if a != "-v"]
     ways = rest[0].split(",") if rest else ["base", "sensor", "cut", "speed", "rate", "bearing"]
+    if ways == ["sum"]:
+        of_sums(folder, brinell, "-v" in sys.argv)
+        return
     counts = collections.defaultdict(collections.Counter)
 
     def one(job):
