@@ -333,18 +333,37 @@ fn regress_impacts_at_a_multiple_of_the_speed_are_said_to_look_the_same() {
 }
 
 /// A race whose lines lie on multiples of the shaft's frequency, or of the mains', is neither called nor passed over; where
-/// the record is long enough to part them it is called. One impact a turn is the shaft's.
+/// the record is long enough to part them it is called. One impact a turn is the shaft's. A record of the healthy machine
+/// says whether the lines are new.
 #[test]
 fn prop_a_race_on_known_lines_is_not_passed_over() {
     let fs = 20_000.0;
-    let of = |impacts: f64, bpfo: f64, seconds: f64, seed: u64| {
+    let told = |x: &[f64], bpfo: f64| {
+        let orders = DefectOrders { bpfo: Some(bpfo), ..DefectOrders::default() };
+        analyze(x, fs, &Options::new(SHAFT, orders)).unwrap()
+    };
+    let rig = |impacts: f64, seconds: f64, seed: u64| {
         // The rig slips by half a per cent.
         let damage = Damage { order: impacts / 0.995, modulation: 0.0, jitter: 0.002, snr_db: 0.0 };
-        let orders = DefectOrders { bpfo: Some(bpfo), ..DefectOrders::default() };
-        analyze(&damaged(fs, seconds, seed, &damage), fs, &Options::new(SHAFT, orders)).unwrap()
+        damaged(fs, seconds, seed, &damage)
     };
+    let of = |impacts: f64, bpfo: f64, seconds: f64, seed: u64| told(&rig(impacts, seconds, seed), bpfo);
+    let beside = |healthy: &[f64]| {
+        let x = rig(7.0, 1.0, 9);
+        let mut now = told(&x, 7.03);
+        now.beside_healthy(&x, Side { x: healthy, analysis: &told(healthy, 7.03) }).unwrap();
+        (now.families[0].finding, now.conclusion())
+    };
+    // A simulation has no mains.
+    let on_mains = 50.0 / SHAFT;
+    let orders = DefectOrders { bpfo: Some(on_mains), ..DefectOrders::default() };
+    let run = Options { exact: true, ..Options::new(SHAFT, orders) };
+    let run = analyze(&rig(on_mains, 1.0, 7), fs, &run).unwrap();
+    assert_eq!(first(&run), Some(Component::OuterRace), "{}", run.verdict());
+    assert_eq!(beside(&healthy(fs, 1.0, 1)), (Finding::Grown, Verdict::CannotTell));
+    assert_eq!(beside(&rig(7.0, 1.0, 8)), (Finding::AsBefore, Verdict::CannotTell));
     let on_shaft = "7 impacts a turn of the shaft (blades, jaws of a coupling) have theirs";
-    for (on, words) in [(7.0, on_shaft), (50.0 / SHAFT, "50 Hz mains have theirs")] {
+    for (on, words) in [(7.0, on_shaft), (on_mains, "50 Hz mains have theirs")] {
         for seed in 0..4 {
             let told = of(on, 1.004 * on, 1.0, seed);
             let verdict = told.verdict();

@@ -37,9 +37,12 @@ impl Analysis {
             };
             let ratio = own.modulation / healthy.modulation.max(f64::MIN_POSITIVE);
             family.growth = Some(ratio);
+            let was_there = (healthy.is_damage() || healthy.masked) && !is_more(louder * ratio);
+            let is_own = family.is_whole() || family.masked;
             family.finding = match family.finding {
-                Finding::Damage if healthy.is_damage() && !is_more(louder * ratio) => Finding::AsBefore,
-                Finding::Faint | Finding::Open if family.is_whole() && ratio >= GROWN => Finding::Grown,
+                Finding::Damage if was_there => Finding::AsBefore,
+                Finding::Open if family.masked && was_there => Finding::AsBefore,
+                Finding::Faint | Finding::Open if is_own && ratio >= GROWN => Finding::Grown,
                 other => other,
             };
         }

@@ -142,22 +142,7 @@ impl Record {
             return (all, elsewhere);
         };
         let lead = all.remove(lead);
-        self.take_out(lead.frequency);
-        let left = read(&self.together, self.shaft, &self.options);
-        // Frequencies that slip may bring together are not told apart.
-        let apart = |f: &Family| (f.expected / lead.expected - 1.0).abs() > 2.0 * self.options.tolerance;
-        for family in &mut all {
-            let own = left.iter().find(|f| f.name == family.name);
-            let stays = self.is_beside(&lead, family) && own.is_some_and(Family::is_damage) && apart(family);
-            let gone = own.is_none_or(|f| f.detected_harmonics() == 0);
-            let shared = match family.finding {
-                Finding::Damage | Finding::Open => family.component == Component::Cage || !stays,
-                _ => gone && family.detected_harmonics() > 0,
-            };
-            if shared {
-                family.finding = Finding::Shared(lead.name);
-            }
-        }
+        self.share(&lead, &mut all);
         let rank = |f: &Family| match f.finding {
             Finding::Damage => 0,
             _ => 1,
@@ -169,6 +154,26 @@ impl Record {
             all[0].component = Component::Element;
         }
         (all, None)
+    }
+
+    /// Families that share the lines of the one that leads, or are not damage in what those leave.
+    fn share(&mut self, lead: &Family, others: &mut [Family]) {
+        self.take_out(lead.frequency);
+        let left = read(&self.together, self.shaft, &self.options);
+        // Frequencies that slip may bring together are not told apart.
+        let apart = |f: &Family| (f.expected / lead.expected - 1.0).abs() > 2.0 * self.options.tolerance;
+        for family in others {
+            let own = left.iter().find(|f| f.name == family.name);
+            let stays = self.is_beside(lead, family) && own.is_some_and(Family::is_damage) && apart(family);
+            let gone = own.is_none_or(|f| f.detected_harmonics() == 0);
+            let shared = match family.finding {
+                Finding::Damage | Finding::Open => family.component == Component::Cage || !stays,
+                _ => gone && family.detected_harmonics() > 0,
+            };
+            if shared {
+                family.finding = Finding::Shared(lead.name);
+            }
+        }
     }
 
     /// Where lines of shaft or mains hide a race's, nothing tells them apart. Those that would be damage are open, unless a
