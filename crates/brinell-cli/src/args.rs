@@ -1,6 +1,8 @@
 //! The command line. Its help teaches.
 
+use crate::failure::Failure;
 use crate::figures::Print;
+use brinell::analysis::DefectOrders;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use std::num::NonZeroUsize;
 use std::path::PathBuf;
@@ -219,25 +221,91 @@ pub(crate) enum BearingCommand {
 #[command(after_help = "Examples:\n  \
     brinell frequencies NN3007 --speed 1800\n  \
     brinell frequencies scenario.toml\n  \
-    brinell frequencies --pitch 39 --diameter 7.5 --rollers 13 --speed 1500")]
+    brinell frequencies --pitch 39 --diameter 7.5 --rollers 13 --contact-angle 15 --speed 25Hz")]
 pub(crate) struct FrequenciesArgs {
     /// A bearing by name (`brinell bearing list`) or a scenario file (`-` reads standard input)
     pub(crate) bearing: Option<String>,
-    /// Shaft speed, r/min [default: the scenario's, or 60 so that Hz are orders]
-    #[arg(long, value_name = "RPM", allow_negative_numbers = true)]
+    /// The name, as `analyze` takes it
+    #[arg(
+        long = "bearing",
+        id = "name",
+        value_name = "NAME",
+        conflicts_with_all = ["bearing", "rollers", "pitch", "diameter", "contact_angle"]
+    )]
+    pub(crate) name: Option<String>,
+    /// Shaft speed [default: the scenario's, or 60 r/min so that Hz are orders]
+    #[arg(
+        long,
+        value_parser = quantity("r/min", "a speed in r/min other than 0, as 1500 or 25Hz"),
+        value_name = "RPM",
+        allow_negative_numbers = true
+    )]
     pub(crate) speed: Option<f64>,
-    /// Pitch diameter, mm
-    #[arg(long, value_name = "MM", conflicts_with = "bearing", allow_negative_numbers = true)]
-    pub(crate) pitch: Option<f64>,
-    /// Diameter of a rolling element, mm
-    #[arg(long, alias = "roller", value_name = "MM", conflicts_with = "bearing", allow_negative_numbers = true)]
-    pub(crate) diameter: Option<f64>,
-    /// Rollers in a row
-    #[arg(long, value_name = "Z", conflicts_with = "bearing", allow_negative_numbers = true)]
-    pub(crate) rollers: Option<usize>,
+    #[command(flatten)]
+    pub(crate) elements: Elements,
     /// Print JSON
     #[arg(long)]
     pub(crate) json: bool,
+}
+
+/// A bearing by its numbers.
+#[derive(Debug, Args)]
+pub(crate) struct Elements {
+    /// Rolling elements in a row
+    #[arg(long, value_name = "Z", conflicts_with = "bearing")]
+    pub(crate) rollers: Option<usize>,
+    /// Pitch diameter
+    #[arg(
+        long,
+        value_parser = quantity("mm", "more than 0 mm, as 39 or 1.5in"),
+        value_name = "MM",
+        conflicts_with = "bearing",
+        allow_negative_numbers = true
+    )]
+    pub(crate) pitch: Option<f64>,
+    /// Diameter of a rolling element
+    #[arg(
+        long,
+        alias = "roller",
+        value_parser = quantity("mm", "more than 0 mm, as 7.9 or 0.3in"),
+        value_name = "MM",
+        conflicts_with = "bearing",
+        allow_negative_numbers = true
+    )]
+    pub(crate) diameter: Option<f64>,
+    /// Contact angle
+    #[arg(
+        long,
+        value_parser = quantity("deg", "0 to below 90 degrees, as 15 or 15deg"),
+        value_name = "DEG",
+        conflicts_with = "bearing",
+        allow_negative_numbers = true
+    )]
+    pub(crate) contact_angle: Option<f64>,
+}
+
+impl Elements {
+    /// Their orders, and their numbers in words; `None` where none is given.
+    pub(crate) fn orders(&self) -> Result<Option<(DefectOrders, String)>, Failure> {
+        let angle = self.contact_angle.unwrap_or(0.0);
+        match (self.rollers, self.pitch, self.diameter) {
+            (Some(z), Some(pitch), Some(d)) => {
+                let orders = DefectOrders::of_geometry(z, d, pitch, angle).ok_or_else(|| {
+                Failure::Usage(format!(
+                    "--rollers {z} --pitch {pitch} --diameter {d} --contact-angle {angle}: expected 3 or more elements, \
+                     0 < diameter < pitch in mm, and an angle of 0 to below 90 degrees"
+                ))
+            })?;
+                let words =
+                    format!("{z} elements of {d} mm on a pitch circle of {pitch} mm, contact angle {angle} degrees");
+                Ok(Some((orders, words)))
+            }
+            (None, None, None) if self.contact_angle.is_none() => Ok(None),
+            _ => Err(Failure::Usage(
+                "--rollers, --pitch and --diameter describe a bearing together; one of them is missing".into(),
+            )),
+        }
+    }
 }
 
 #[derive(Debug, Subcommand)]

@@ -4,11 +4,11 @@ use crate::args::{BearingCommand, FrequenciesArgs, SchemaArgs};
 use crate::failure::Failure;
 use crate::files;
 use crate::say::{self, document, plain_number, say};
-use brinell::analysis::NamedBearing;
+use brinell::analysis::{DefectOrders, NamedBearing};
 use brinell::bearing::catalogue::{self, BORE, DYNAMIC_RATING, Datum, Entry, FACTS, STATIC_RATING};
 use brinell::bearing::clearance::ClearanceClass;
 use brinell::bearing::kinematics::Geometry;
-use brinell::bearing::{KnownBearing, clearance_of};
+use brinell::bearing::{KnownBearing, clearance_of, frequencies_of, orders_of};
 use brinell::scenario::{Element, Speed};
 use serde_json::{Value, json};
 use std::path::PathBuf;
@@ -209,15 +209,12 @@ fn find(name: &str) -> Result<KnownBearing, Failure> {
 const ORDERS: f64 = 60.0;
 
 pub(crate) fn frequencies(args: &FrequenciesArgs) -> Result<ExitCode, Failure> {
-    let (which, own_speed) = which(args)?;
+    let (orders, own_speed) = orders(args)?;
     let rpm = args.speed.or(own_speed).unwrap_or(ORDERS);
     if !rpm.is_finite() || rpm == 0.0 {
         return Err(Failure::Usage(format!("--speed {rpm}: expected a speed other than 0, in r/min")));
     }
-    let rows = match which {
-        Which::Known(known) => known.frequencies(rpm).map_err(Failure::Usage)?,
-        Which::Geometry(geometry) => geometry.frequencies(rpm),
-    };
+    let rows = frequencies_of(orders, rpm);
     if args.json {
         let values: serde_json::Map<String, Value> = rows
             .iter()
@@ -234,15 +231,18 @@ pub(crate) fn frequencies(args: &FrequenciesArgs) -> Result<ExitCode, Failure> {
     Ok(ExitCode::SUCCESS)
 }
 
-/// Whose frequencies.
-enum Which {
-    Known(KnownBearing),
-    Geometry(Geometry),
-}
-
-fn which(args: &FrequenciesArgs) -> Result<(Which, Option<f64>), Failure> {
+/// Orders of the bearing asked about, and the scenario's speed, r/min.
+fn orders(args: &FrequenciesArgs) -> Result<(DefectOrders, Option<f64>), Failure> {
+    let known = |name: &str| Ok((find(name)?.orders().map_err(Failure::Usage)?.0, None));
     let Some(bearing) = &args.bearing else {
-        return from_numbers(args).map(|g| (Which::Geometry(g), None));
+        return match (&args.name, args.elements.orders()?) {
+            (Some(name), _) => known(name),
+            (None, Some((orders, _))) => Ok((orders, None)),
+            (None, None) => Err(Failure::Usage(
+                "which bearing? Give a name (`brinell bearing list`), a scenario file, or --rollers, --pitch and --diameter"
+                    .into(),
+            )),
+        };
     };
     let path = PathBuf::from(bearing);
     let written_as_a_file = files::is_stdin(&path) || path.components().count() > 1 || bearing.ends_with(".toml");
@@ -252,33 +252,7 @@ fn which(args: &FrequenciesArgs) -> Result<(Which, Option<f64>), Failure> {
             Speed::Constant(rpm) => Some(*rpm),
             Speed::Profile(_) => None,
         };
-        let geometry = Geometry::of(&loaded.scenario.bearing);
-        return Ok((Which::Geometry(geometry), speed));
+        return Ok((orders_of(&Geometry::of(&loaded.scenario.bearing)), speed));
     }
-    Ok((Which::Known(find(bearing)?), None))
-}
-
-/// Raceways follow from pitch and rollers.
-fn from_numbers(args: &FrequenciesArgs) -> Result<Geometry, Failure> {
-    let (Some(pitch), Some(diameter), Some(rollers)) = (args.pitch, args.diameter, args.rollers) else {
-        return Err(Failure::Usage(
-            "which bearing? Give a name (`brinell bearing list`), a scenario file, or --pitch, --diameter and --rollers together".into(),
-        ));
-    };
-    let fits = pitch.is_finite() && diameter.is_finite() && diameter > 0.0 && pitch > diameter;
-    if !fits {
-        return Err(Failure::Usage(format!(
-            "--pitch {pitch} --diameter {diameter}: expected 0 < diameter < pitch, in mm"
-        )));
-    }
-    if rollers < 3 {
-        return Err(Failure::Usage(format!("--rollers {rollers}: expected at least 3")));
-    }
-    Ok(Geometry {
-        inner_raceway_diameter: 1e-3 * (pitch - diameter),
-        outer_raceway_diameter: 1e-3 * (pitch + diameter),
-        pitch_diameter: 1e-3 * pitch,
-        roller_diameter: 1e-3 * diameter,
-        rollers_per_row: rollers,
-    })
+    known(bearing)
 }

@@ -49,6 +49,20 @@ fn prop_frequencies_are_orders_without_a_speed_and_know_no_sense_of_rotation() {
     }
 }
 
+/// As `analyze` takes them.
+#[test]
+fn regress_frequencies_take_a_name_an_angle_and_a_speed_in_hz() {
+    let named = typed("frequencies ZA-2115 --speed 2000 --json");
+    let same = typed("frequencies --bearing ZA-2115 --speed 33.333333333333336Hz --json");
+    let inches =
+        typed("frequencies --rollers 16 --pitch 2.815in --diameter 0.331in --contact-angle 15.17 --speed 2000 --json");
+    for key in ["bpfo_hz", "bpfi_hz", "bsf_hz", "ftf_hz"] {
+        let [named, same, inches] =
+            [&named, &same, &inches].map(|args| parsed(&call(args).exits(0).out)[key].as_f64().unwrap());
+        assert!((same / named - 1.0).abs() < 1e-9 && (inches / named - 1.0).abs() < 1e-3, "{key}");
+    }
+}
+
 #[test]
 fn regress_frequencies_of_a_scenario_use_its_speed() {
     let folder = folder_with("s", SHORT);
@@ -72,12 +86,13 @@ fn regress_frequencies_refuse_what_makes_no_bearing() {
         ),
         (&["missing.toml"], &["cannot read missing.toml"]),
         (&["NN3007", "--speed", "0"], &["--speed 0", "r/min"]),
-        (&["NN3007", "--speed", "nan"], &["--speed NaN", "r/min"]),
+        (&["NN3007", "--speed", "nan"], &["--speed", "r/min"]),
         (&["NN3007", "--pitch", "49"], &["--pitch"]),
-        (&["--pitch", "49"], &["--pitch, --diameter and --rollers together"]),
-        (&["--pitch", "49", "--diameter", "-6", "--rollers", "19"], &["--diameter -6", "0 < diameter < pitch, in mm"]),
+        (&["--pitch", "49"], &["--rollers, --pitch and --diameter describe a bearing together"]),
+        (&["--bearing", "NN3007", "--pitch", "49"], &["--bearing", "--pitch"]),
+        (&["--pitch", "49", "--diameter", "-6", "--rollers", "19"], &["--diameter -6", "0 < diameter < pitch in mm"]),
         (&["--pitch", "49", "--diameter", "60", "--rollers", "19"], &["--diameter 60", "in mm"]),
-        (&["--pitch", "49", "--diameter", "6", "--rollers", "2"], &["--rollers 2", "at least 3"]),
+        (&["--pitch", "49", "--diameter", "6", "--rollers", "2"], &["--rollers 2", "3 or more elements"]),
     ] {
         let call = call(&[&["frequencies"], args].concat()).exits(2).complains(parts);
         assert_eq!(call.out, "");

@@ -3,8 +3,8 @@
 use crate::convert::{array, json_to_python};
 use crate::errors::{bad_value, run_error};
 use crate::scenario::Scenario;
-use brinell::bearing::KnownBearing;
 use brinell::bearing::kinematics::Geometry;
+use brinell::bearing::{KnownBearing, frequencies_of, orders_of};
 use brinell::derived::Derived;
 use brinell::model::Model;
 use brinell::scenario::Speed;
@@ -49,12 +49,6 @@ pub(crate) fn derived<'py>(py: Python<'py>, scenario: &Scenario) -> PyResult<Bou
     json_to_python(py, &value)
 }
 
-/// Whose frequencies.
-enum Which {
-    Known(KnownBearing),
-    Geometry(Geometry),
-}
-
 /// Pure-rolling frequencies of a bearing by name or of a scenario, Hz, at a speed; without one, at the scenario's.
 #[pyfunction]
 pub(crate) fn frequencies<'py>(
@@ -63,10 +57,10 @@ pub(crate) fn frequencies<'py>(
     scenario: Option<&Scenario>,
     speed_rpm: Option<f64>,
 ) -> PyResult<Bound<'py, PyAny>> {
-    let (which, own) = match (bearing, scenario) {
+    let (orders, own) = match (bearing, scenario) {
         (Some(name), _) => {
             let known = KnownBearing::find(name).ok_or_else(|| bad_value(KnownBearing::unknown(name)))?;
-            (Which::Known(known), None)
+            (known.orders().map_err(bad_value)?.0, None)
         }
         (None, Some(scenario)) => {
             let scenario = &scenario.loaded.scenario;
@@ -74,7 +68,7 @@ pub(crate) fn frequencies<'py>(
                 Speed::Constant(rpm) => Some(rpm),
                 Speed::Profile(_) => None,
             };
-            (Which::Geometry(Geometry::of(&scenario.bearing)), own)
+            (orders_of(&Geometry::of(&scenario.bearing)), own)
         }
         (None, None) => return Err(bad_value("which bearing? Give a name or a scenario")),
     };
@@ -82,9 +76,5 @@ pub(crate) fn frequencies<'py>(
     if !rpm.is_finite() || rpm == 0.0 {
         return Err(bad_value(format!("speed_rpm = {rpm}: expected a speed other than 0, in r/min")));
     }
-    let rows = match which {
-        Which::Known(known) => known.frequencies(rpm).map_err(bad_value)?,
-        Which::Geometry(geometry) => geometry.frequencies(rpm),
-    };
-    json_to_python(py, &brinell::derived::frequencies(rows).into())
+    json_to_python(py, &brinell::derived::frequencies(frequencies_of(orders, rpm)).into())
 }

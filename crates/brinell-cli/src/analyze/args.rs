@@ -1,6 +1,6 @@
 //! The options of `brinell analyze`.
 
-use crate::args::{PlotFormat, quantity};
+use crate::args::{Elements, PlotFormat, quantity};
 use crate::figures::Print;
 use brinell::analysis::MachineClass;
 use clap::Args;
@@ -68,37 +68,8 @@ pub(crate) struct AnalyzeArgs {
     /// Bearing by name; again for a further one of the same shaft, as at a motor's other end: each is judged
     #[arg(long, value_name = "NAME")]
     pub(crate) bearing: Vec<String>,
-    /// Rolling elements in a row
-    #[arg(long, value_name = "Z", conflicts_with = "bearing")]
-    pub(crate) rollers: Option<usize>,
-    /// Pitch diameter
-    #[arg(
-        long,
-        value_parser = quantity("mm", "more than 0 mm, as 39 or 1.5in"),
-        value_name = "MM",
-        conflicts_with = "bearing",
-        allow_negative_numbers = true
-    )]
-    pub(crate) pitch: Option<f64>,
-    /// Diameter of a rolling element
-    #[arg(
-        long,
-        alias = "roller",
-        value_parser = quantity("mm", "more than 0 mm, as 7.9 or 0.3in"),
-        value_name = "MM",
-        conflicts_with = "bearing",
-        allow_negative_numbers = true
-    )]
-    pub(crate) diameter: Option<f64>,
-    /// Contact angle
-    #[arg(
-        long,
-        value_parser = quantity("deg", "0 to below 90 degrees, as 15 or 15deg"),
-        value_name = "DEG",
-        conflicts_with = "bearing",
-        allow_negative_numbers = true
-    )]
-    pub(crate) contact_angle: Option<f64>,
+    #[command(flatten)]
+    pub(crate) elements: Elements,
     /// Ball-pass frequency of the outer race in Hz; with x, as 3.585x, a multiple of the shaft's. Likewise the next
     /// three
     #[arg(long, value_name = "HZ|Nx", allow_negative_numbers = true)]
@@ -215,9 +186,10 @@ impl AnalyzeArgs {
     /// Whether anything says which bearing it is.
     pub(super) fn names_a_bearing(&self) -> bool {
         let frequencies = [&self.bpfo, &self.bpfi, &self.bsf, &self.ftf];
-        let lengths = [self.pitch, self.diameter, self.contact_angle];
+        let Elements { rollers, pitch, diameter, contact_angle } = self.elements;
+        let lengths = [pitch, diameter, contact_angle];
         !self.bearing.is_empty()
-            || self.rollers.is_some()
+            || rollers.is_some()
             || lengths.iter().any(Option::is_some)
             || frequencies.iter().any(|f| f.is_some())
     }

@@ -60,25 +60,8 @@ fn base(args: &AnalyzeArgs, name: Option<&str>, measured: &Measured) -> Result<(
         };
         return known.orders().map_err(Failure::Usage);
     }
-    let angle = args.contact_angle.unwrap_or(0.0);
-    match (args.rollers, args.pitch, args.diameter) {
-        (Some(z), Some(pitch), Some(d)) => {
-            let orders = DefectOrders::of_geometry(z, d, pitch, angle).ok_or_else(|| {
-                Failure::Usage(format!(
-                    "--rollers {z} --pitch {pitch} --diameter {d} --contact-angle {angle}: expected 3 or more elements, \
-                     0 < diameter < pitch in mm, and an angle of 0 to below 90 degrees"
-                ))
-            })?;
-            let words =
-                format!("{z} elements of {d} mm on a pitch circle of {pitch} mm, contact angle {angle} degrees");
-            return Ok((orders, words));
-        }
-        (None, None, None) if args.contact_angle.is_none() => {}
-        _ => {
-            return Err(Failure::Usage(
-                "--rollers, --pitch and --diameter describe a bearing together; one of them is missing".into(),
-            ));
-        }
+    if let Some(orders) = args.elements.orders()? {
+        return Ok(orders);
     }
     if args.bpfo.is_none()
         && args.bpfi.is_none()

@@ -34,12 +34,6 @@ impl Geometry {
             rollers_per_row: bearing.rollers_per_row,
         }
     }
-
-    /// Name, value (Hz) and meaning of every frequency in pure rolling at a shaft speed in r/min, that of the shaft
-    /// first.
-    pub fn frequencies(&self, speed_rpm: f64) -> [(&'static str, f64, &'static str); 6] {
-        Kinematics::pure_rolling(self, speed_rpm / 60.0 * TAU).table(speed_rpm.abs() / 60.0)
-    }
 }
 
 /// Speeds (signed) and defect frequencies (never negative) in pure rolling.

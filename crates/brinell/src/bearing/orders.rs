@@ -14,6 +14,15 @@ pub fn orders_of(geometry: &Geometry) -> DefectOrders {
     DefectOrders { ftf: Some(k.ftf), bpfo: Some(k.bpfo), bpfi: Some(k.bpfi), bsf: Some(k.bsf) }
 }
 
+/// Name, value (Hz) and meaning of every frequency in pure rolling at a shaft speed in r/min, that of the shaft first; NaN
+/// where the orders hold none.
+pub fn frequencies_of(orders: DefectOrders, speed_rpm: f64) -> [(&'static str, f64, &'static str); 6] {
+    let shaft = speed_rpm.abs() / 60.0;
+    let hz = |order: Option<f64>| order.unwrap_or(f64::NAN) * shaft;
+    let DefectOrders { ftf, bpfo, bpfi, bsf } = orders;
+    frequency_table(shaft, hz(ftf), hz(bpfo), hz(bpfi), hz(bsf))
+}
+
 /// A bearing that every command knows by its name. A preset of a scenario is one of the catalogue.
 #[derive(Debug, Clone, Copy)]
 pub enum KnownBearing {
@@ -88,24 +97,6 @@ impl KnownBearing {
             Self::DataSet(bearing) => (bearing.orders(), bearing.source.to_owned()),
         })
     }
-
-    /// Name, value (Hz) and meaning of every frequency in pure rolling at a shaft speed in r/min, that of the shaft
-    /// first.
-    ///
-    /// # Errors
-    /// In words, the key that an entry of the catalogue lacks.
-    pub fn frequencies(self, speed_rpm: f64) -> Result<[(&'static str, f64, &'static str); 6], String> {
-        Ok(match self {
-            Self::Catalogue(entry) => geometry(entry)?.frequencies(speed_rpm),
-            Self::DataSet(bearing) => {
-                let shaft = speed_rpm.abs() / 60.0;
-                let orders = bearing.orders();
-                let hz = |order: Option<f64>| order.unwrap_or(f64::NAN) * shaft;
-                let DefectOrders { ftf, bpfo, bpfi, bsf } = orders;
-                frequency_table(shaft, hz(ftf), hz(bpfo), hz(bpfi), hz(bsf))
-            }
-        })
-    }
 }
 
 fn geometry(entry: &Entry) -> Result<Geometry, String> {
@@ -123,7 +114,7 @@ mod tests {
             let found = KnownBearing::find(known.name()).unwrap();
             assert_eq!(found.name(), known.name());
             let (orders, _) = known.orders().unwrap();
-            let rows = known.frequencies(60.0).unwrap();
+            let rows = frequencies_of(known.orders().unwrap().0, 60.0);
             let near = |name: &str, order: Option<f64>| {
                 let row = rows.iter().find(|row| row.0 == name).unwrap();
                 assert!((row.1 / order.unwrap() - 1.0).abs() < 1e-12, "{name}");
