@@ -295,10 +295,10 @@ fn bracketed(name: &str) -> Option<String> {
 }
 
 /// Spellings that make a row of units.
-const KNOWN: [&str; 44] = [
+const KNOWN: [&str; 49] = [
     "s", "sec", "ms", "us", "µs", "m", "mm", "um", "µm", "m/s", "mm/s", "in/s", "m/s^2", "m/s2", "m/s²", "m/s**2",
     "mm/s^2", "g", "G", "mg", "gn", "V", "mV", "A", "mA", "N", "kN", "Nm", "N m", "Pa", "kPa", "MPa", "bar", "Hz",
-    "kHz", "rpm", "1/min", "r/min", "rad", "rad/s", "deg", "°", "°C", "K",
+    "kHz", "rpm", "RPM", "1/min", "r/min", "min-1", "1/s", "r/s", "rps", "rad", "rad/s", "deg", "°", "°C", "K",
 ];
 
 fn is_unit(text: &str) -> bool {
