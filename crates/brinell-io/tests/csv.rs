@@ -39,6 +39,24 @@ fn regress_csv_of_others_is_read() {
     assert!(file.read("force").is_err());
 }
 
+/// One column: a name of several words is one where a unit ends it; other words above it are no name.
+#[test]
+fn regress_a_column_by_itself_keeps_its_name_and_unit() {
+    for (head, name, unit) in [
+        ("acc [g]", "acc [g]", Some("g")),
+        ("Motor DE (m/s^2)", "Motor DE (m/s^2)", Some("m/s^2")),
+        ("# acc [g]", "acc [g]", Some("g")),
+        ("\"acc [g]\"", "acc [g]", Some("g")),
+        ("acc\n[g]", "acc", Some("g")),
+        ("Measured on Monday", "column1", None),
+    ] {
+        let mut file = open_bytes("one.csv", format!("{head}\n1.5\n\n-2.5\n")).unwrap();
+        let channel = &file.channels()[0];
+        assert_eq!((channel.name.as_str(), channel.unit.as_deref()), (name, unit), "{head}");
+        assert_eq!(file.read(name).unwrap(), [1.5, -2.5]);
+    }
+}
+
 #[test]
 fn regress_names_that_csv_would_break_are_refused() {
     let folder = tempfile::tempdir().unwrap();

@@ -238,7 +238,11 @@ fn text(bytes: &[u8]) -> String {
 /// Gives the columns the names and units that are above them.
 fn name(columns: &mut [Column], delimiter: Delimiter, above: &[&[u8]], comment: Option<&[u8]>, more_names: bool) {
     let fits = |line: &[u8]| -> Option<Vec<String>> {
-        let fields = split_quoted(line, delimiter);
+        let mut fields = split_quoted(line, delimiter);
+        // Blanks are between the words of a name, where nothing else is between numbers.
+        if columns.len() == 1 && delimiter == Delimiter::Blanks && bracketed(&text(line)).is_some() {
+            fields = vec![text(line)];
+        }
         let enough = fields.len() == columns.len() || more_names && fields.len() > columns.len();
         enough.then_some(fields)
     };

@@ -2,7 +2,7 @@
 //! names.
 //!
 //! The layout is taken from the first lines (`layout.rs`); a column is then read in one pass, a line at a time, in a
-//! buffer of fixed size (`lines.rs`). Lines that begin with `#` or `%` are comments. An empty field is NaN.
+//! buffer of fixed size (`lines.rs`). Lines that begin with `#` or `%` are comments. An empty field is NaN, an empty line is passed over.
 
 mod layout;
 mod lines;
