@@ -90,6 +90,49 @@ fn prop_a_speed_that_varies_is_followed() {
     assert!(!plain.out.contains("very clear"), "{}", plain.out);
 }
 
+/// The unit in the header of a column of speeds converts it; one that is no speed's is refused.
+#[test]
+fn prop_a_speed_in_another_unit_is_the_same_speed() {
+    let folder = tempdir().unwrap();
+    let x = signal(2.0, 6.0, 0.0);
+    let call = |head: &str, speed: f64| {
+        let text: String = x.iter().fold(format!("acc,{head}\n"), |text, v| text + &format!("{v:.5},{speed}\n"));
+        fs::write(folder.path().join("rig.csv"), text).unwrap();
+        let given = "analyze rig.csv --channel acc --rate 12000 --unit g --bearing 6205 --speed-channel speed";
+        brinell(folder.path(), &typed(given))
+    };
+    for (head, speed, said) in [
+        ("speed [Hz]", 30.0, "in Hz"),
+        ("speed (1/s)", 30.0, "in 1/s"),
+        ("speed_hz", 30.0, "in Hz"),
+        ("speed [rad/s]", 30.0 * TAU, "in rad/s"),
+        ("speed (RPM)", 1800.0, "in RPM"),
+        ("speed", 1800.0, "taken as r/min"),
+    ] {
+        let from = format!("shaft speed 1800 r/min, from the mean of the channel `{head}`, {said}");
+        call(head, speed).exits(0).says(&[&from, "Outer race damage, very clear"]);
+    }
+    call("speed [m/s]", 30.0)
+        .exits(2)
+        .complains(&["--speed-channel speed [m/s]: its unit is m/s; expected r/min, rpm, 1/min, Hz, 1/s or rad/s"]);
+}
+
+/// The other holds nothing of the band that the program chose: a band of both is taken in its place, and named.
+#[test]
+fn prop_the_other_may_be_sampled_more_slowly() {
+    let folder = tempdir().unwrap();
+    let x = signal(2.0, 6.0, 0.0);
+    column(&folder.path().join("fast.csv"), &x);
+    let slow: Vec<f64> = x.chunks_exact(4).map(|four| four.iter().sum::<f64>() / 4.0).collect();
+    column(&folder.path().join("slow.csv"), &slow);
+    let more = ["--against", "slow.csv", "--against-rate", "3000", "-o", "look"];
+    brinell(folder.path(), &with("fast.csv", &more))
+        .exits(0)
+        .says(&["Outer race damage", "1500 Hz, which both sample rates hold; the first signal's band is"]);
+    let given = [&more[..], &["--band", "2000", "4000", "--overwrite"]].concat();
+    brinell(folder.path(), &with("fast.csv", &given)).exits(2).complains(&["give a lower band that both hold"]);
+}
+
 #[test]
 fn regress_files_that_are_no_signal() {
     let folder = tempdir().unwrap();

@@ -39,6 +39,49 @@ fn regress_csv_of_others_is_read() {
     assert!(file.read("force").is_err());
 }
 
+/// One column: a name of several words is one where a unit ends it; other words above it are no name.
+#[test]
+fn regress_a_column_by_itself_keeps_its_name_and_unit() {
+    for (head, name, unit) in [
+        ("acc [g]", "acc [g]", Some("g")),
+        ("Motor DE (m/s^2)", "Motor DE (m/s^2)", Some("m/s^2")),
+        ("# acc [g]", "acc [g]", Some("g")),
+        ("\"acc [g]\"", "acc [g]", Some("g")),
+        ("acc\n[g]", "acc", Some("g")),
+        ("Measured on Monday", "column1", None),
+    ] {
+        let mut file = open_bytes("one.csv", format!("{head}\n1.5\n\n-2.5\n")).unwrap();
+        let channel = &file.channels()[0];
+        assert_eq!((channel.name.as_str(), channel.unit.as_deref()), (name, unit), "{head}");
+        assert_eq!(file.read(name).unwrap(), [1.5, -2.5]);
+    }
+}
+
+/// A line above the numbers states the rate where name and unit are clear, and all such lines agree.
+#[test]
+fn regress_a_line_above_the_numbers_states_the_rate() {
+    for (head, rate) in [
+        ("Sample rate: 12000 Hz\nacc [g]", Some(12_000.0)),
+        ("# fs=12000\nacc [g]", Some(12_000.0)),
+        ("fs = 25.6 kHz\nacc [g]", Some(25_600.0)),
+        ("Sampling frequency [kHz];12.8\nacc [g]", Some(12_800.0)),
+        ("Sampling rate (Hz),12800\nacc [g]", Some(12_800.0)),
+        ("fs=12000\nSample rate: 12 kHz\nacc [g]", Some(12_000.0)),
+        ("fs=12000\nSample rate: 25.6 kHz\nacc [g]", None),
+        ("Sample rate: 12,000 Hz\nacc [g]", None),
+        ("Sample rate: 12000 per minute\nacc [g]", None),
+        ("Speed: 1500 r/min\nacc [g]", None),
+        ("acc [g]", None),
+    ] {
+        let file = open_bytes("rate.csv", format!("{head}\n1.5\n-2.5\n")).unwrap();
+        let channel = &file.channels()[0];
+        assert_eq!(channel.rate.as_ref().map(|r| r.hz), rate, "{head}");
+        assert_eq!(channel.name, "acc [g]", "{head}");
+    }
+    let file = open_bytes("two.csv", "% Sample rate: 12000 Hz\nt [s],acc [g]\n0,1.5\n1,-2.5\n").unwrap();
+    assert_eq!(file.channels()[1].rate.as_ref().map(|r| r.hz), Some(12_000.0));
+}
+
 #[test]
 fn regress_names_that_csv_would_break_are_refused() {
     let folder = tempfile::tempdir().unwrap();

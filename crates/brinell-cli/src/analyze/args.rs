@@ -61,8 +61,8 @@ pub(crate) struct AnalyzeArgs {
         allow_negative_numbers = true
     )]
     pub(crate) speed: Option<f64>,
-    /// Channel that holds the shaft speed in r/min; where it strays by more than 0.5 % it is followed (order tracking),
-    /// else its mean counts
+    /// Channel that holds the shaft speed, in r/min unless the file states its unit; where it strays by more than 0.5 %
+    /// it is followed (order tracking), else its mean counts
     #[arg(long, value_name = "NAME|N", conflicts_with = "speed")]
     pub(crate) speed_channel: Option<String>,
     /// Bearing by name; again for a further one of the same shaft, as at a motor's other end: each is judged

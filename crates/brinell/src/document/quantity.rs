@@ -158,7 +158,7 @@ fn end_of_number(text: &str) -> usize {
 fn product(text: &str) -> Option<Unit> {
     // Common spellings of r/min and Hz that name no turns.
     match text {
-        "1/min" | "min^-1" => return product("rpm"),
+        "1/min" | "min^-1" | "min-1" | "RPM" => return product("rpm"),
         "1/s" | "s^-1" => return product("Hz"),
         _ => {}
     }
@@ -234,6 +234,7 @@ mod tests {
             ("25 Hz", "r/min", 1500.0),
             ("1500 rpm", "Hz", 25.0),
             ("1500 1/min", "r/min", 1500.0),
+            ("1500 RPM", "Hz", 25.0),
             ("2 kN", "N", 2000.0),
             ("-2kN", "N", -2000.0),
             ("10 lbf", "N", 44.482_216_152_605),

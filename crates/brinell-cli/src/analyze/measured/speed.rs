@@ -3,10 +3,10 @@
 use super::channel::resolve;
 use super::{MOST, Wanted, stretch, usage};
 use crate::failure::Failure;
-use brinell::document::Loaded;
+use brinell::document::{Loaded, reading};
 use brinell::operation::Rotation;
 use brinell::scenario::Speed;
-use brinell_io::SignalFile;
+use brinell_io::{Channel, SignalFile};
 use std::f64::consts::PI;
 
 /// A speed that strays from its mean by more than this share is followed; below, the tolerance covers it.
@@ -43,16 +43,18 @@ pub(super) fn speed(
         let own = channel.rate.as_ref().map_or(rate, |r| r.hz);
         let skip = (start * own).round() as usize;
         let most = ((seconds * own).round() as usize).clamp(1, MOST);
-        let (values, _) = stretch(file, &name, skip, most)?;
+        let (mut values, _) = stretch(file, &name, skip, most)?;
         if values.is_empty() {
             return Err(usage(format!("--speed-channel {name}: holds no values {start} s from its beginning")));
         }
         if let Some(bad) = values.iter().find(|v| !v.is_finite()) {
-            return Err(usage(format!("--speed-channel {name}: holds the value {bad}; expected speeds in r/min")));
+            return Err(usage(format!("--speed-channel {name}: holds the value {bad}; expected speeds")));
         }
+        let (unit, rpm) = unit_of(&name, &channel)?;
+        values.iter_mut().for_each(|v| *v *= rpm);
         let mean = values.iter().sum::<f64>() / values.len() as f64;
         let covers = values.len() as f64 / own;
-        let source = format!("the channel `{name}`, taken as r/min");
+        let source = format!("the channel `{name}`, {unit}");
         let course = course(&values, own, mean);
         if course.is_empty() {
             let source = format!("the mean of {source}");
@@ -86,6 +88,20 @@ pub(super) fn speed(
         let source = format!("the variable `{name}` in the file, taken as r/min");
         StatedSpeed::steady(*rpm, source)
     }))
+}
+
+/// The unit of a channel of speeds in words, and r/min in it.
+fn unit_of(name: &str, channel: &Channel) -> Result<(String, f64), Failure> {
+    let by_name = name.to_lowercase().ends_with("_hz").then_some("Hz");
+    let Some(unit) = channel.unit.as_deref().or(by_name) else {
+        return Ok(("taken as r/min".into(), 1.0));
+    };
+    match reading::quantity(&format!("1 {unit}"), "r/min") {
+        Ok(rpm) => Ok((format!("in {unit}"), rpm)),
+        Err(_) => Err(usage(format!(
+            "--speed-channel {name}: its unit is {unit}; expected r/min, rpm, 1/min, Hz, 1/s or rad/s, or no unit, which is r/min"
+        ))),
+    }
 }
 
 /// Whether a speed follows from the file, or from a channel that was named.

@@ -3,6 +3,7 @@
 use super::lines::number;
 use super::lvm::{self, Lvm};
 use super::{Decimal, Delimiter, TextFormat};
+use crate::read::channel::names_a_rate;
 use crate::read::fault::{Fault, damaged, unsupported};
 
 /// How a file's lines are made.
@@ -15,8 +16,8 @@ pub(super) struct Layout {
     /// Where the first line of numbers begins, and which line it is, from 1.
     pub(super) start: u64,
     pub(super) first_line: u64,
-    /// From a header that states it.
-    pub(super) rate_hz: Option<f64>,
+    /// From a header that states it, with what it is called there.
+    pub(super) rate: Option<(f64, String)>,
 }
 
 /// One field of every line.
@@ -57,22 +58,45 @@ pub(super) fn find(sample: &[u8], format: &TextFormat) -> Result<Layout, Fault> 
     let (first, delimiter) =
         first_data(&plain, &format).ok_or_else(|| damaged("no line of numbers among its first lines"))?;
     let data: Vec<&[u8]> = plain[first..].iter().take(LOOK).map(|l| l.text).collect();
-    let above: Vec<&[u8]> = plain[..first].iter().map(|l| l.text).collect();
+    let start = plain[first];
+    let mut rates = lines[from..].iter().take_while(|l| l.start < start.start).filter_map(|l| rate(l.text));
+    let mut rate = rates.next();
+    if rates.any(|other| rate.as_ref().is_some_and(|rate| rate.0 != other.0)) {
+        rate = None;
+    }
+    let above: Vec<&[u8]> = plain[..first].iter().map(|l| l.text).filter(|l| self::rate(l).is_none()).collect();
     let delimiter = comma_or_fraction(delimiter, &format, &above, &data)?;
     let decimal = decimal(delimiter, &format, &data);
     let mut columns = columns(delimiter, decimal, &data)?;
-    let start = plain[first];
     let comment = lines[from..]
         .iter()
-        .rfind(|l| l.comment && l.start < start.start)
+        .rfind(|l| l.comment && l.start < start.start && self::rate(l.text).is_none())
         .map(|l| l.text.trim_ascii_start().get(1..).unwrap_or_default());
     name(&mut columns, delimiter, &above, comment, lvm.is_some());
-    let mut rate_hz = None;
     if let Some(lvm) = lvm {
-        rate_hz = lvm.rate_hz();
+        rate = lvm.rate_hz().map(|hz| (hz, "Delta_X".into()));
         dress(&mut columns, lvm);
     }
-    Ok(Layout { delimiter, decimal, columns, start: start.start as u64, first_line: start.number, rate_hz })
+    Ok(Layout { delimiter, decimal, columns, start: start.start as u64, first_line: start.number, rate })
+}
+
+/// A line such as `Sample rate: 12000 Hz` or `# fs = 25.6 kHz`: hertz, and what the rate is called there.
+fn rate(line: &[u8]) -> Option<(f64, String)> {
+    let line = text(line);
+    let line = line.trim_start_matches(['#', '%', '/']);
+    let (name, value) = line.split_once([':', '=', ';', ',', '\t'])?;
+    let bare = name.split(['[', '(']).next().unwrap_or_default().trim();
+    let is_rate = names_a_rate(&bare.replace([' ', '-'], "_"));
+    let value = value.trim().trim_end_matches([',', ';', '\t']).trim();
+    let end = value.find(|c: char| !(c.is_ascii_digit() || c == '.')).unwrap_or(value.len());
+    let (number, unit) = value.split_at(end);
+    let factor = match (unit.trim(), name.trim().strip_prefix(bare).map(|unit| self::bare(unit.trim())).as_deref()) {
+        ("Hz" | "S/s", _) | ("", Some("" | "Hz" | "S/s")) => 1.0,
+        ("kHz" | "kS/s", _) | ("", Some("kHz" | "kS/s")) => 1e3,
+        _ => return None,
+    };
+    let hz = factor * number.parse::<f64>().ok()?;
+    (is_rate && hz > 0.0 && hz.is_finite()).then(|| (hz, bare.to_owned()))
 }
 
 fn lines(sample: &[u8]) -> Vec<Line<'_>> {
@@ -238,7 +262,11 @@ fn text(bytes: &[u8]) -> String {
 /// Gives the columns the names and units that are above them.
 fn name(columns: &mut [Column], delimiter: Delimiter, above: &[&[u8]], comment: Option<&[u8]>, more_names: bool) {
     let fits = |line: &[u8]| -> Option<Vec<String>> {
-        let fields = split_quoted(line, delimiter);
+        let mut fields = split_quoted(line, delimiter);
+        // Blanks are between the words of a name, where nothing else is between numbers.
+        if columns.len() == 1 && delimiter == Delimiter::Blanks && bracketed(&text(line)).is_some() {
+            fields = vec![text(line)];
+        }
         let enough = fields.len() == columns.len() || more_names && fields.len() > columns.len();
         enough.then_some(fields)
     };
@@ -295,10 +323,10 @@ fn bracketed(name: &str) -> Option<String> {
 }
 
 /// Spellings that make a row of units.
-const KNOWN: [&str; 44] = [
+const KNOWN: [&str; 49] = [
     "s", "sec", "ms", "us", "µs", "m", "mm", "um", "µm", "m/s", "mm/s", "in/s", "m/s^2", "m/s2", "m/s²", "m/s**2",
     "mm/s^2", "g", "G", "mg", "gn", "V", "mV", "A", "mA", "N", "kN", "Nm", "N m", "Pa", "kPa", "MPa", "bar", "Hz",
-    "kHz", "rpm", "1/min", "r/min", "rad", "rad/s", "deg", "°", "°C", "K",
+    "kHz", "rpm", "RPM", "1/min", "r/min", "min-1", "1/s", "r/s", "rps", "rad", "rad/s", "deg", "°", "°C", "K",
 ];
 
 fn is_unit(text: &str) -> bool {

@@ -2,7 +2,8 @@
 //! names.
 //!
 //! The layout is taken from the first lines (`layout.rs`); a column is then read in one pass, a line at a time, in a
-//! buffer of fixed size (`lines.rs`). Lines that begin with `#` or `%` are comments. An empty field is NaN.
+//! buffer of fixed size (`lines.rs`). Lines that begin with `#` or `%` are comments. An empty field is NaN, an empty line is passed over. A
+//! line above the numbers such as `Sample rate: 12000 Hz` states the rate.
 
 mod layout;
 mod lines;
@@ -92,10 +93,8 @@ pub(super) fn list(mut contents: Contents, format: &TextFormat) -> Result<Listin
             name: column.name.clone(),
             stored_as: "text",
             unit: column.unit.clone(),
-            rate: layout
-                .rate_hz
-                .filter(|_| !column.is_x)
-                .map(|hz| Rate { hz, source: RateSource::Header("Delta_X".into()) }),
+            rate: (layout.rate.clone().filter(|_| !column.is_x))
+                .map(|(hz, name)| Rate { hz, source: RateSource::Header(name) }),
             unreadable: column.words.clone().map(|w| format!("holds words such as `{w}`")),
             ..Channel::default()
         });
