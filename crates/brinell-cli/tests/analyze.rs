@@ -117,6 +117,22 @@ fn prop_a_speed_in_another_unit_is_the_same_speed() {
         .complains(&["--speed-channel speed [m/s]: its unit is m/s; expected r/min, rpm, 1/min, Hz, 1/s or rad/s"]);
 }
 
+/// The other holds nothing of the band that the program chose: a band of both is taken in its place, and named.
+#[test]
+fn prop_the_other_may_be_sampled_more_slowly() {
+    let folder = tempdir().unwrap();
+    let x = signal(2.0, 6.0, 0.0);
+    column(&folder.path().join("fast.csv"), &x);
+    let slow: Vec<f64> = x.chunks_exact(4).map(|four| four.iter().sum::<f64>() / 4.0).collect();
+    column(&folder.path().join("slow.csv"), &slow);
+    let more = ["--against", "slow.csv", "--against-rate", "3000", "-o", "look"];
+    brinell(folder.path(), &with("fast.csv", &more))
+        .exits(0)
+        .says(&["Outer race damage", "1500 Hz, which both sample rates hold; the first signal's band is"]);
+    let given = [&more[..], &["--band", "2000", "4000", "--overwrite"]].concat();
+    brinell(folder.path(), &with("fast.csv", &given)).exits(2).complains(&["slow.csv", "half the sample rate"]);
+}
+
 #[test]
 fn regress_files_that_are_no_signal() {
     let folder = tempdir().unwrap();

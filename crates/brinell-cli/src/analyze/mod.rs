@@ -409,6 +409,15 @@ fn lay_over(path: &Path, args: &AnalyzeArgs, measured: &Measured, analysis: &mut
         (analysis.beside_healthy(&measured.x, other_side)).map_err(refused)?;
     }
     let comparison = compare(Side { x: &measured.x, analysis }, other_side).map_err(refused)?;
+    let (low, high) = comparison.band;
+    let shown = analysis.view.band;
+    if (low, high) != (shown.low, shown.high) {
+        other.notes.push(format!(
+            "envelopes are compared from {low:.0} to {high:.0} Hz, which both sample rates hold; the first signal's band is \
+             {:.0} to {:.0} Hz",
+            shown.low, shown.high
+        ));
+    }
     Ok(Against { measured: other, analysis: found, comparison })
 }
 

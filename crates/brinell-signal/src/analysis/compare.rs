@@ -1,8 +1,9 @@
 //! One signal over another: how their indicators, spectra and defect lines differ.
 
+use super::bands::{NARROWEST, highest, range};
 use super::together::HARMONICS;
 use super::{Analysis, AnalysisError};
-use crate::{Indicator, Segments, Spectrum, envelope, harmonics, psd};
+use crate::{Band, Indicator, Segments, Spectrum, envelope, harmonics, psd};
 
 /// A quantity of both signals.
 #[derive(Debug, Clone, PartialEq)]
@@ -60,21 +61,16 @@ pub struct Side<'a> {
     pub analysis: &'a Analysis,
 }
 
-/// Lays `second` over `first`, in the band that shows most in the first, as far as both sample rates hold it.
+/// Lays `second` over `first`, in the band that shows most in the first, as far as both sample rates hold it. Where the
+/// lower one does not, and the user gave no band, it is everything above three times the highest defect frequency.
 ///
 /// # Errors
-/// [`AnalysisError`] where the band lies above what the lower sample rate holds, or a signal is too short for a
-/// spectrum.
+/// [`AnalysisError`] where the lower sample rate does not hold the band, or a signal is too short for a spectrum.
 pub fn compare(first: Side, second: Side) -> Result<Comparison, AnalysisError> {
     let sides = [first, second];
     let rates = sides.map(|s| s.analysis.sample_rate);
     let top = 0.5 * rates[0].min(rates[1]);
-    let mut band = first.analysis.view.band;
-    band.high = band.high.min(top);
-    if band.low >= band.high {
-        let range = "below half of both sample rates";
-        return Err(super::out_of_range("band (Hz)", band.low, range));
-    }
+    let band = common_band(first.analysis, top)?;
     let shortest = sides.map(|s| s.analysis.duration()).into_iter().fold(f64::INFINITY, f64::min);
     let step = (4.0 / shortest).max(1.0);
     let view = &first.analysis.view;
@@ -97,11 +93,26 @@ pub fn compare(first: Side, second: Side) -> Result<Comparison, AnalysisError> {
     })
 }
 
+/// The first one's band, or another, up to `top` (Hz).
+fn common_band(first: &Analysis, top: f64) -> Result<Band, AnalysisError> {
+    let shown = first.view.band;
+    let bands = match first.options.band {
+        Some(_) => vec![shown],
+        None => vec![shown, range(2.0 * top, &first.options)?],
+    };
+    let mut cut = bands.into_iter().map(|band| Band::between(band.low, band.high.min(top)));
+    let least = NARROWEST * highest(&first.options);
+    cut.find(|band| band.high - band.low >= least.min(shown.high - shown.low)).ok_or_else(|| {
+        let range = "well below half of both sample rates; give a lower band that both hold";
+        super::out_of_range("lower edge of the band (Hz)", shown.low, range)
+    })
+}
+
 fn one(
     side: Side,
     step: f64,
     top: f64,
-    band: crate::Band,
+    band: Band,
     envelope_step: f64,
     envelope_top: f64,
 ) -> Result<(Spectrum, Spectrum, f64), AnalysisError> {
