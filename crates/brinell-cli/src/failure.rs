@@ -40,12 +40,7 @@ impl Failure {
             Self::Scenario { .. } | Self::Usage(_) | Self::Read(..) => BAD_INPUT,
             Self::Run(error) if error.is_bad_input() => BAD_INPUT,
             // The place is wrong, not the writing.
-            Self::Write(
-                IoError::NotPermitted { .. }
-                | IoError::NoFolder { .. }
-                | IoError::NotAFileName { .. }
-                | IoError::Busy { .. },
-            ) => BAD_INPUT,
+            Self::Write(IoError::NoFolder { .. } | IoError::NotAFileName { .. } | IoError::Busy { .. }) => BAD_INPUT,
             Self::Write(_) | Self::Picture(_) | Self::Run(_) | Self::NotOpened(_) | Self::Unsaid(_) => 1,
         })
     }
@@ -104,5 +99,20 @@ impl From<IoError> for Failure {
 pub(crate) fn print_problems(name: &str, text: &str, problems: &[Problem]) {
     if !problems.is_empty() {
         complain!("{}", render_diagnostics(name, text, problems));
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::io::ErrorKind;
+
+    /// As the help says: 1 for a result that could not be written, 2 for a place that is none.
+    #[test]
+    fn regress_a_place_without_permission_is_a_failed_write() {
+        let (path, source) = (|| PathBuf::from("out"), || ErrorKind::PermissionDenied.into());
+        let code = |error: IoError| format!("{:?}", Failure::from(error).code());
+        assert_eq!(code(IoError::NotPermitted { path: path(), source: source() }), format!("{:?}", ExitCode::from(1)));
+        assert_eq!(code(IoError::NotAFileName { path: path() }), format!("{:?}", ExitCode::from(BAD_INPUT)));
     }
 }

@@ -21,10 +21,11 @@ use brinell::signal::Indicator;
 use brinell::simulate::{End, Observer, Simulation};
 use brinell::summary::{self, Parts};
 use brinell_damage::Photo;
-use brinell_io::{Format, SignalWriter, atomic_prepare};
+use brinell_io::{Format, IoError, SignalWriter, atomic_prepare};
 use brinell_report::Report;
 use brinell_studio::signal_table;
 use brinell_study::runner::Recorder;
+use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::sync::Arc;
@@ -253,8 +254,12 @@ fn formats(args: &RunArgs) -> Vec<Format> {
 }
 
 pub(crate) fn make_folder(folder: &Path) -> Result<(), Failure> {
-    std::fs::create_dir_all(folder)
-        .map_err(|error| Failure::Usage(format!("cannot make the folder {}: {error}", folder.display())))
+    std::fs::create_dir_all(folder).map_err(|source| match source.kind() {
+        ErrorKind::PermissionDenied | ErrorKind::ReadOnlyFilesystem => {
+            IoError::NotPermitted { path: folder.to_owned(), source }.into()
+        }
+        _ => Failure::Usage(format!("cannot make the folder {}: {source}", folder.display())),
+    })
 }
 
 /// Set by Ctrl-C; a second Ctrl-C ends the process at once.

@@ -100,7 +100,7 @@ fn regress_overrides_are_checked_like_the_file() {
 }
 
 #[test]
-fn regress_an_unwritable_place_is_bad_input() {
+fn regress_a_place_that_is_none_is_bad_input() {
     let folder = folder_with("s.toml", SHORT);
     let here = folder.path();
     fs::write(here.join("file"), "").unwrap();
