@@ -1,4 +1,4 @@
-//! The kurtogram: how impulsive each band is, rows of ever narrower bands; darker where more.
+//! The kurtogram: the spectral kurtosis of each band, how impulsive it is, rows of ever narrower bands; darker where more.
 
 use crate::chart::{Chart, Domain, SCALE_MARGIN, Shades, Size, Spec, range};
 use crate::picture::{Anchor, Paint, Picture, Rect, Shape, Text, ink};
@@ -21,15 +21,6 @@ pub struct Kurtogram {
 /// Columns of the image at most: rows of 1 to 64 bands and their thirds divide it.
 const MOST_COLUMNS: usize = 192;
 
-/// Of noise.
-const NOISE: f64 = 3.0;
-
-/// Kurtosis of the real signal in one of so many bands, from [`Level::kurtosis`]: of a narrow band's complex envelope c
-/// it is 3/2 mean |c|^4 / (mean |c|^2)^2, and the undivided one has its own less 3.
-fn in_band(kurtosis: f64, bands: usize) -> f64 {
-    NOISE + if bands > 1 { 1.5 * kurtosis } else { kurtosis }
-}
-
 impl Kurtogram {
     /// Upper end of the bands, Hz; `None` without one.
     fn top(&self) -> Option<f64> {
@@ -38,13 +29,13 @@ impl Kurtogram {
         (top > 0.0 && top.is_finite()).then_some(top)
     }
 
-    /// Kurtosis of the signal in each band, 3 for noise, at evenly spaced frequencies; the narrowest bands' row first.
+    /// Spectral kurtosis of each band, 0 for noise, at evenly spaced frequencies; the narrowest bands' row first.
     fn rows(&self, top: f64) -> Vec<f64> {
         let row = |l: &Level| {
             let at = |c: usize| {
                 let frequency = (c as f64 + 0.5) / MOST_COLUMNS as f64 * top;
                 let index = (frequency / l.bandwidth).max(0.0) as usize;
-                l.kurtosis.get(index).map_or(f64::NAN, |k| in_band(*k, l.kurtosis.len()))
+                l.kurtosis.get(index).copied().unwrap_or(f64::NAN)
             };
             (0..MOST_COLUMNS).map(at).collect::<Vec<_>>()
         };
@@ -62,7 +53,7 @@ pub(crate) fn kurtogram(view: &Kurtogram, layout: Layout) -> Picture {
     let beside = size.width - SCALE_MARGIN * size.font;
     let top = legend(&mut picture, &entries, 12.0, beside, 2.0, size.font);
     // Over the head of the scale, which has room for half of the words.
-    picture.text(Text::new(beside + 0.9 * size.font, top + 2.0, size.font, Anchor::Start, "kurtosis,"));
+    picture.text(Text::new(size.width, top + 2.0, size.font, Anchor::End, "spectral kurtosis,"));
     let [impulsive, demodulated] = [impulsive, demodulated].map(|entry| entry.1);
     picture.place(map(view, size, impulsive, demodulated), 0.0, top);
     picture.height = top + size.height;
@@ -87,9 +78,13 @@ fn map(view: &Kurtogram, size: Size, impulsive: Paint, demodulated: Paint) -> Pi
         chart.say("No kurtogram");
         return chart.finish();
     };
-    let highest = highest.max(NOISE + 1.0);
-    let shades =
-        Shades { columns: MOST_COLUMNS, values: &values, range: (NOISE, highest), ticks: 5, head: "3 for noise" };
+    let shades = Shades {
+        columns: MOST_COLUMNS,
+        values: &values,
+        range: (0.0, highest.max(1.0)),
+        ticks: 5,
+        head: "0 for noise",
+    };
     chart.shades(&shades);
     let frame = chart.frame;
     let x = |f: f64| frame.left + f / top * (frame.right - frame.left);
@@ -135,16 +130,10 @@ mod tests {
         let rows = map.rows(3000.0);
         assert_eq!(rows.len(), 3 * MOST_COLUMNS);
         let third = MOST_COLUMNS / 3;
-        assert_eq!([rows[0], rows[third], rows[3 * third - 1]], [4.5, 6.0, 7.5]);
+        assert_eq!([rows[0], rows[third], rows[3 * third - 1]], [1.0, 2.0, 3.0]);
         let second = &rows[MOST_COLUMNS..2 * MOST_COLUMNS];
-        assert_eq!([second[MOST_COLUMNS / 2 - 1], second[MOST_COLUMNS / 2]], [in_band(0.2, 2), in_band(0.3, 2)]);
-        assert!(rows[2 * MOST_COLUMNS..].iter().all(|k| *k == 3.1));
-    }
-
-    /// A sine has 3/2, whatever its envelope is called.
-    #[test]
-    fn analytic_kurtosis_is_that_of_the_signal_in_the_band() {
-        assert_eq!([in_band(0.0, 8), in_band(-1.0, 8), in_band(0.0, 1), in_band(-1.5, 1)], [3.0, 1.5, 3.0, 1.5]);
+        assert_eq!([second[MOST_COLUMNS / 2 - 1], second[MOST_COLUMNS / 2]], [0.2, 0.3]);
+        assert!(rows[2 * MOST_COLUMNS..].iter().all(|k| *k == 0.1));
     }
 
     #[test]

@@ -146,9 +146,10 @@ fn kurtogram(a: &Analysis, map: &brinell::signal::Kurtogram) -> Kurtogram {
         chosen_hz: a.kurtogram.map(|k| (k.band.low, k.band.high)),
         demodulated_hz: Some((a.view.band.low, a.view.band.high)),
         note: format!(
-            "Kurtosis of the signal in each band, 3 for noise; from below, {} bands up to half the sample rate. Outlined: the most impulsive \
+            "Spectral kurtosis of each band, 0 for noise; from below, {} bands up to half the sample rate. Outlined: the most impulsive{} \
              among bands wide enough for the defect frequencies; no verdict rests on it. Dashed: the band demodulated below ({}).",
             bands.join(", "),
+            a.kurtogram.map_or(String::new(), |k| format!(" ({})", short(k.kurtosis, 4))),
             a.view.choice.words(),
         ),
     }
