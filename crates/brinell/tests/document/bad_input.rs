@@ -37,6 +37,7 @@ fn regress_each_bad_line_is_named_with_its_line_and_remedy() {
         ("rollers_per_row", "rollers_per_row = 2", "bearing.rollers_per_row", "out of range", "3 to 1000"),
         ("rollers_per_row", "rollers_per_row = 99999999999999999999999", "bearing.rollers_per_row", "out of range", "3 to 1000"),
         ("rollers_per_row", "rollers_per_row = 27", "bearing.rollers_per_row", "rollers overlap in the row", "3 to 25"),
+        ("rows", "preset = \"ZA-2115\"", "bearing.preset", "of a public data set the defect frequencies are known", "NN3007"),
         ("radial_clearance_um", "radial_clearance_um = 1000.0", "bearing.radial_clearance_um", "out of proportion", "-300 to 300 um"),
         ("rows", "rows = 0", "bearing.rows", "out of range", "1 to 100"),
         ("rows", "preset = \"NN3070\"", "bearing.preset", "did you mean \"NN3007\"", "NN3007"),
@@ -262,6 +263,16 @@ fn analytic_sample_rate_is_held_against_the_defect_frequencies() {
             assert_eq!(low, warned, "{on} at {rate} Hz");
         }
     }
+}
+
+/// Where no number of rollers fits, no range of numbers is named.
+#[test]
+fn regress_a_row_without_room_has_no_range() {
+    let text = "[bearing]\nrollers_per_row = 5\ninner_raceway_diameter_mm = 5\nouter_raceway_diameter_mm = 105\n\
+                roller_diameter_mm = 50\nroller_length_mm = 10\n[operation]\nspeed_rpm = 1500\nload_n = [100, 0]\n";
+    let problems = read(text, &[]).unwrap_err();
+    let of_count: Vec<_> = problems.iter().filter(|p| p.key == "bearing.rollers_per_row").collect();
+    assert!(of_count[0].allowed.as_deref().unwrap().contains("fewer than three fit"), "{of_count:?}");
 }
 
 #[test]

@@ -124,7 +124,10 @@ impl Checker<'_> {
                     short(spacing),
                     short(d)
                 ),
-                format!("3 to {}", short(fit)),
+                match fit >= 3.0 {
+                    true => format!("3 to {}", short(fit)),
+                    false => "fewer than three fit: a smaller roller_diameter_mm, or a larger pitch circle".into(),
+                },
                 &[PITCH, ROLLER],
             );
         } else if spacing <= d + 2.0 * self.s.cage.pocket_clearance_mm {
