@@ -245,6 +245,8 @@ impl ValueType for String {
     fn read(node: &Node, spec: &Spec) -> Result<String, Misfit> {
         match &node.value {
             Value::Text(text) => Ok(text.clone()),
+            // The word of an override, which no quotes are around: `--set bearing.preset=6205`.
+            Value::Integer(n) if node.span.is_none() => Ok(n.to_string()),
             _ => Err(wrong_type::<String>(node, spec)),
         }
     }

@@ -5,9 +5,8 @@ use super::super::problem::{Problem, Severity};
 use super::super::source::{Node, Value, brief_path, quote};
 use super::super::value_type::ValueType;
 use super::{MOST_TABLES, Reader, join};
-use crate::bearing::catalogue;
 use crate::bearing::clearance::ClearanceClass;
-use crate::bearing::clearance_of;
+use crate::bearing::{KnownBearing, catalogue, clearance_of};
 use crate::did_you_mean::{did_you_mean, nearest_few};
 
 impl Keys for Reader<'_> {
@@ -111,8 +110,16 @@ impl Keys for Reader<'_> {
         }
         self.preset_unknown = true;
         let names = catalogue::all().iter().map(|entry| entry.name.as_str());
-        let hint =
-            catalogue::nearest_name(name).map(|known| format!("; did you mean {}?", quote(known))).unwrap_or_default();
+        let hint = match KnownBearing::find(name) {
+            Some(KnownBearing::DataSet(_)) => {
+                ": of this bearing of a public data set the defect frequencies are known, and not all that a run needs; give a \
+                 bearing of the catalogue, or the keys of [bearing]"
+                    .to_owned()
+            }
+            _ => catalogue::nearest_name(name)
+                .map(|known| format!("; did you mean {}?", quote(known)))
+                .unwrap_or_default(),
+        };
         let path = join(&self.frame().path, spec.name);
         let span = self.found.get(&path).and_then(|node| node.span.clone());
         let problem = Problem::error(path, format!("not in the catalogue{hint}"))
