@@ -179,9 +179,11 @@ fn regress_what_the_other_file_does_not_say_has_options_of_its_own() {
     ]);
     // Of the same format they are the first signal's, and that is said.
     over("y.csv", &[]).exits(0).says(&[
-        "sample rate 12000 Hz, as the first signal's; else give --against-rate HZ",
+        "sample rate 12000 Hz, as the first signal's",
         "unit g, as the first signal's; else give --against-unit",
     ]);
+    over("y.csv", &[])
+        .complains(&["warning: --against y.csv: no sample rate is stated: the first signal's 12000 Hz was taken"]);
     over("y.csv", &["--against-rate", "6000"]).exits(0).says(&["sample rate 6000 Hz, as given"]);
     // After a sensitivity the first signal's unit is none of the file's.
     let volts = ["--rate", "12000", "--unit", "V", "--sensitivity", "100mV/g", "--speed", "1800", "--bearing", "6205"];
