@@ -219,21 +219,51 @@ pub(crate) enum BearingCommand {
 #[command(after_help = "Examples:\n  \
     brinell frequencies NN3007 --speed 1800\n  \
     brinell frequencies scenario.toml\n  \
-    brinell frequencies --pitch 39 --diameter 7.5 --rollers 13 --speed 1500")]
+    brinell frequencies --pitch 39 --diameter 7.5 --rollers 13 --speed 25Hz")]
 pub(crate) struct FrequenciesArgs {
     /// A bearing by name (`brinell bearing list`) or a scenario file (`-` reads standard input)
     pub(crate) bearing: Option<String>,
-    /// Shaft speed, r/min [default: the scenario's, or 60 so that Hz are orders]
-    #[arg(long, value_name = "RPM", allow_negative_numbers = true)]
+    /// The same, as `analyze` has it
+    #[arg(long = "bearing", value_name = "NAME", conflicts_with = "bearing")]
+    pub(crate) named: Option<String>,
+    /// Shaft speed [default: the scenario's, or 60 r/min so that Hz are orders]
+    #[arg(
+        long,
+        value_parser = quantity("r/min", "a speed in r/min other than 0, as 1500 or 25Hz"),
+        value_name = "RPM",
+        allow_negative_numbers = true
+    )]
     pub(crate) speed: Option<f64>,
-    /// Pitch diameter, mm
-    #[arg(long, value_name = "MM", conflicts_with = "bearing", allow_negative_numbers = true)]
+    /// Pitch diameter
+    #[arg(
+        long,
+        value_parser = quantity("mm", "more than 0 mm, as 39 or 1.5in"),
+        value_name = "MM",
+        conflicts_with_all = ["bearing", "named"],
+        allow_negative_numbers = true
+    )]
     pub(crate) pitch: Option<f64>,
-    /// Diameter of a rolling element, mm
-    #[arg(long, alias = "roller", value_name = "MM", conflicts_with = "bearing", allow_negative_numbers = true)]
+    /// Diameter of a rolling element
+    #[arg(
+        long,
+        alias = "roller",
+        value_parser = quantity("mm", "more than 0 mm, as 7.9 or 0.3in"),
+        value_name = "MM",
+        conflicts_with_all = ["bearing", "named"],
+        allow_negative_numbers = true
+    )]
     pub(crate) diameter: Option<f64>,
+    /// Contact angle [default: 0]
+    #[arg(
+        long,
+        value_parser = quantity("deg", "0 to below 90 degrees, as 15 or 15deg"),
+        value_name = "DEG",
+        conflicts_with_all = ["bearing", "named"],
+        allow_negative_numbers = true
+    )]
+    pub(crate) contact_angle: Option<f64>,
     /// Rollers in a row
-    #[arg(long, value_name = "Z", conflicts_with = "bearing", allow_negative_numbers = true)]
+    #[arg(long, value_name = "Z", conflicts_with_all = ["bearing", "named"], allow_negative_numbers = true)]
     pub(crate) rollers: Option<usize>,
     /// Print JSON
     #[arg(long)]

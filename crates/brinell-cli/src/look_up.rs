@@ -4,11 +4,11 @@ use crate::args::{BearingCommand, FrequenciesArgs, SchemaArgs};
 use crate::failure::Failure;
 use crate::files;
 use crate::say::{self, document, plain_number, say};
-use brinell::analysis::NamedBearing;
+use brinell::analysis::{DefectOrders, NamedBearing};
 use brinell::bearing::catalogue::{self, BORE, DYNAMIC_RATING, Datum, Entry, FACTS, STATIC_RATING};
 use brinell::bearing::clearance::ClearanceClass;
 use brinell::bearing::kinematics::Geometry;
-use brinell::bearing::{KnownBearing, clearance_of};
+use brinell::bearing::{KnownBearing, clearance_of, frequencies_of};
 use brinell::scenario::{Element, Speed};
 use serde_json::{Value, json};
 use std::path::PathBuf;
@@ -217,6 +217,7 @@ pub(crate) fn frequencies(args: &FrequenciesArgs) -> Result<ExitCode, Failure> {
     let rows = match which {
         Which::Known(known) => known.frequencies(rpm).map_err(Failure::Usage)?,
         Which::Geometry(geometry) => geometry.frequencies(rpm),
+        Which::Orders(orders) => frequencies_of(&orders, rpm),
     };
     if args.json {
         let values: serde_json::Map<String, Value> = rows
@@ -238,11 +239,15 @@ pub(crate) fn frequencies(args: &FrequenciesArgs) -> Result<ExitCode, Failure> {
 enum Which {
     Known(KnownBearing),
     Geometry(Geometry),
+    Orders(DefectOrders),
 }
 
 fn which(args: &FrequenciesArgs) -> Result<(Which, Option<f64>), Failure> {
+    if let Some(name) = &args.named {
+        return Ok((Which::Known(find(name)?), None));
+    }
     let Some(bearing) = &args.bearing else {
-        return from_numbers(args).map(|g| (Which::Geometry(g), None));
+        return from_numbers(args).map(|orders| (Which::Orders(orders), None));
     };
     let path = PathBuf::from(bearing);
     let written_as_a_file = files::is_stdin(&path) || path.components().count() > 1 || bearing.ends_with(".toml");
@@ -258,8 +263,7 @@ fn which(args: &FrequenciesArgs) -> Result<(Which, Option<f64>), Failure> {
     Ok((Which::Known(find(bearing)?), None))
 }
 
-/// Raceways follow from pitch and rollers.
-fn from_numbers(args: &FrequenciesArgs) -> Result<Geometry, Failure> {
+fn from_numbers(args: &FrequenciesArgs) -> Result<DefectOrders, Failure> {
     let (Some(pitch), Some(diameter), Some(rollers)) = (args.pitch, args.diameter, args.rollers) else {
         return Err(Failure::Usage(
             "which bearing? Give a name (`brinell bearing list`), a scenario file, or --pitch, --diameter and --rollers together".into(),
@@ -274,11 +278,7 @@ fn from_numbers(args: &FrequenciesArgs) -> Result<Geometry, Failure> {
     if rollers < 3 {
         return Err(Failure::Usage(format!("--rollers {rollers}: expected at least 3")));
     }
-    Ok(Geometry {
-        inner_raceway_diameter: 1e-3 * (pitch - diameter),
-        outer_raceway_diameter: 1e-3 * (pitch + diameter),
-        pitch_diameter: 1e-3 * pitch,
-        roller_diameter: 1e-3 * diameter,
-        rollers_per_row: rollers,
-    })
+    let angle = args.contact_angle.unwrap_or(0.0);
+    DefectOrders::of_geometry(rollers, diameter, pitch, angle)
+        .ok_or_else(|| Failure::Usage(format!("--contact-angle {angle}: expected 0 to below 90 degrees")))
 }

@@ -49,6 +49,19 @@ fn prop_frequencies_are_orders_without_a_speed_and_know_no_sense_of_rotation() {
     }
 }
 
+/// The options of `analyze` do here what they do there.
+#[test]
+fn prop_frequencies_take_the_options_of_analyze() {
+    let json = |args: &str| parsed(&call(&typed(&format!("frequencies {args} --json"))).exits(0).out);
+    assert_eq!(json("--bearing ZA-2115 --speed 25Hz"), json("ZA-2115 --speed 1500"));
+    // As the data set's source has it: 16 rollers of 8.4074 mm on 71.501 mm, 15.17 degrees.
+    let by_numbers = json("--rollers 16 --pitch 71.501 --diameter 8.4074mm --contact-angle 15.17 --speed 1500");
+    assert_eq!(by_numbers, json("ZA-2115 --speed 1500"));
+    call(&typed("frequencies --rollers 16 --pitch 71.5 --diameter 8.4 --contact-angle 90"))
+        .exits(2)
+        .complains(&["--contact-angle 90: expected 0 to below 90 degrees"]);
+}
+
 #[test]
 fn regress_frequencies_of_a_scenario_use_its_speed() {
     let folder = folder_with("s", SHORT);

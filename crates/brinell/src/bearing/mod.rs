@@ -10,4 +10,4 @@ pub mod rating;
 
 pub use designation::clearance_of;
 pub use kinematics::Kinematics;
-pub use orders::{KnownBearing, orders_of};
+pub use orders::{KnownBearing, frequencies_of, orders_of};

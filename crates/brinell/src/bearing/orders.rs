@@ -14,6 +14,14 @@ pub fn orders_of(geometry: &Geometry) -> DefectOrders {
     DefectOrders { ftf: Some(k.ftf), bpfo: Some(k.bpfo), bpfi: Some(k.bpfi), bsf: Some(k.bsf) }
 }
 
+/// [`KnownBearing::frequencies`] of these orders.
+#[doc(hidden)]
+pub fn frequencies_of(orders: &DefectOrders, speed_rpm: f64) -> [(&'static str, f64, &'static str); 6] {
+    let shaft = speed_rpm.abs() / 60.0;
+    let hz = |order: Option<f64>| order.unwrap_or(f64::NAN) * shaft;
+    frequency_table(shaft, hz(orders.ftf), hz(orders.bpfo), hz(orders.bpfi), hz(orders.bsf))
+}
+
 /// A bearing that every command knows by its name. A preset of a scenario is one of the catalogue.
 #[derive(Debug, Clone, Copy)]
 pub enum KnownBearing {
@@ -97,13 +105,7 @@ impl KnownBearing {
     pub fn frequencies(self, speed_rpm: f64) -> Result<[(&'static str, f64, &'static str); 6], String> {
         Ok(match self {
             Self::Catalogue(entry) => geometry(entry)?.frequencies(speed_rpm),
-            Self::DataSet(bearing) => {
-                let shaft = speed_rpm.abs() / 60.0;
-                let orders = bearing.orders();
-                let hz = |order: Option<f64>| order.unwrap_or(f64::NAN) * shaft;
-                let DefectOrders { ftf, bpfo, bpfi, bsf } = orders;
-                frequency_table(shaft, hz(ftf), hz(bpfo), hz(bpfi), hz(bsf))
-            }
+            Self::DataSet(bearing) => frequencies_of(&bearing.orders(), speed_rpm),
         })
     }
 }
