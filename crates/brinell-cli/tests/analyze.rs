@@ -130,7 +130,7 @@ fn prop_the_other_may_be_sampled_more_slowly() {
         .exits(0)
         .says(&["Outer race damage", "1500 Hz, which both sample rates hold; the first signal's band is"]);
     let given = [&more[..], &["--band", "2000", "4000", "--overwrite"]].concat();
-    brinell(folder.path(), &with("fast.csv", &given)).exits(2).complains(&["give a lower band that both hold"]);
+    brinell(folder.path(), &with("fast.csv", &given)).exits(2).complains(&["slow.csv", "half the sample rate"]);
 }
 
 #[test]
@@ -179,9 +179,11 @@ fn regress_what_the_other_file_does_not_say_has_options_of_its_own() {
     ]);
     // Of the same format they are the first signal's, and that is said.
     over("y.csv", &[]).exits(0).says(&[
-        "sample rate 12000 Hz, as the first signal's; else give --against-rate HZ",
+        "sample rate 12000 Hz, as the first signal's",
         "unit g, as the first signal's; else give --against-unit",
     ]);
+    over("y.csv", &[])
+        .complains(&["warning: --against y.csv: no sample rate is stated: the first signal's 12000 Hz was taken"]);
     over("y.csv", &["--against-rate", "6000"]).exits(0).says(&["sample rate 6000 Hz, as given"]);
     // After a sensitivity the first signal's unit is none of the file's.
     let volts = ["--rate", "12000", "--unit", "V", "--sensitivity", "100mV/g", "--speed", "1800", "--bearing", "6205"];

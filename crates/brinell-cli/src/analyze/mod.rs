@@ -240,6 +240,10 @@ fn examine(args: &AnalyzeArgs, mut measured: Measured, name: Option<&str>) -> Re
         Some(path) => Some(lay_over(path, args, &measured, &mut analysis)?),
         None => None,
     };
+    if let Some(other) = &against {
+        let of_other = other.measured.warnings.iter();
+        measured.warnings.extend(of_other.map(|w| format!("--against {}: {w}", other.measured.path.display())));
+    }
     Ok(Result_ {
         measured,
         rest,

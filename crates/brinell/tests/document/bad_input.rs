@@ -268,8 +268,8 @@ fn analytic_sample_rate_is_held_against_the_defect_frequencies() {
 /// Where no number of rollers fits, no range of numbers is named.
 #[test]
 fn regress_a_row_without_room_has_no_range() {
-    let text = "[bearing]\nrollers_per_row = 5\ninner_raceway_diameter_mm = 10\nouter_raceway_diameter_mm = 98\n\
-                roller_diameter_mm = 44\nroller_length_mm = 10\n[operation]\nspeed_rpm = 1500\nload_n = [100, 0]\n";
+    let text = "[bearing]\nrollers_per_row = 5\ninner_raceway_diameter_mm = 5\nouter_raceway_diameter_mm = 105\n\
+                roller_diameter_mm = 50\nroller_length_mm = 10\n[operation]\nspeed_rpm = 1500\nload_n = [100, 0]\n";
     let problems = read(text, &[]).unwrap_err();
     let of_count: Vec<_> = problems.iter().filter(|p| p.key == "bearing.rollers_per_row").collect();
     assert!(of_count[0].allowed.as_deref().unwrap().contains("fewer than three fit"), "{of_count:?}");

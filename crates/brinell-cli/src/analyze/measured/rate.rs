@@ -63,7 +63,9 @@ pub(super) fn rate(
     };
     let Some(time) = time else {
         if let Some(hz) = wanted.like.map(|like| like.rate) {
-            return Ok(Ok((hz, format!("sample rate {hz} Hz, as the first signal's; else give {option} HZ"))));
+            warnings
+                .push(format!("no sample rate is stated: the first signal's {hz} Hz was taken; else give {option} HZ"));
+            return Ok(Ok((hz, format!("sample rate {hz} Hz, as the first signal's"))));
         }
         return Ok(Err(format!("the file states no sample rate; give {option} HZ")));
     };
