@@ -239,7 +239,8 @@ impl Analysis {
 
     /// `very clear`, `clear` or `weak`: how much the evidence of a family that is damage says.
     pub fn clarity(&self, family: &Family) -> &'static str {
-        match (self.may_be_passing(family), family.is_very_clear() && self.speed_used().is_none()) {
+        let may_be_other = self.may_be_passing(family) || words::multiple(self, family).is_some();
+        match (may_be_other, family.is_very_clear() && self.speed_used().is_none()) {
             (true, _) => "weak",
             (_, true) => "very clear",
             _ => "clear",

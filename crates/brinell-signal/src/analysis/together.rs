@@ -107,7 +107,8 @@ impl Together {
 
     /// Lines of the shaft, which every machine has, and of the mains where they are detected.
     fn hide_known(&mut self, shaft: Shaft, options: &Options) {
-        let mains = Mains::ALL.map(|m| m.frequency());
+        // Magnetic forces pull at twice the current's frequency.
+        let mains = Mains::ALL.map(|m| m.frequency()).into_iter().flat_map(|hz| [hz, 2.0 * hz]);
         let this = &*self;
         let lines = |f: f64, n: usize| (1..=n).map(move |k| this.at(k as f64 * f).ratio.unwrap_or(1.0));
         // A simulation has none.
@@ -121,7 +122,7 @@ impl Together {
         };
         let of_shaft = (shaft.tolerance > 0.0).then(|| highest(shaft.hz, shaft.tolerance));
         let of_supply = options.supply.map(|hz| highest(hz, SUPPLY_KNOWN * hz));
-        let combs: Vec<f64> = (mains.into_iter().filter(stand))
+        let combs: Vec<f64> = (mains.filter(stand))
             .chain(of_shaft.flatten())
             .chain(of_supply.flatten())
             .chain((!options.exact).then_some(shaft.hz))

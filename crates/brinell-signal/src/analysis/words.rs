@@ -1,6 +1,7 @@
 //! Families in words.
 
 use super::family::{Family, Finding};
+use super::together::REVOLUTIONS;
 use super::{Analysis, Elsewhere, Mains, Verdict};
 
 /// What a row of [`Analysis::rows`] holds; a column of numbers begins with `#`.
@@ -108,15 +109,12 @@ fn damage(analysis: &Analysis, text: &mut Vec<String>) {
         if analysis.may_be_passing(family) {
             text.push(PASSING.into());
         }
-        text.extend(inverter(analysis, family));
-        if i == 0 {
-            text.extend(multiple(analysis, family));
-        }
+        text.extend(multiple(analysis, family).or_else(|| inverter(analysis, family)));
     }
 }
 
 /// That a race's lines may be those of impacts at a multiple of the shaft's frequency, whose own lines tell nothing.
-fn multiple(analysis: &Analysis, family: &Family) -> Option<String> {
+pub(super) fn multiple(analysis: &Analysis, family: &Family) -> Option<String> {
     let options = &analysis.options;
     let order = family.frequency / options.shaft;
     let times = order.round();
@@ -191,11 +189,20 @@ fn masking(analysis: &Analysis, family: &Family) -> String {
     let off = |of: f64| (family.frequency - times(of) * of).abs();
     let mains = Mains::ALL.map(|m| m.frequency()).into_iter().min_by(|a, b| off(*a).total_cmp(&off(*b)));
     match mains.filter(|hz| off(*hz) < off(analysis.shaft)) {
-        Some(hz) => format!("{hz:.0} Hz mains have theirs: at another speed they part"),
-        None => format!(
-            "{:.0} impacts a turn of the shaft (blades, jaws of a coupling) have theirs: in a longer record those of a bearing that slips part from them",
-            times(analysis.shaft)
-        ),
+        Some(hz) => format!("{hz:.0} Hz mains would have theirs: at another speed they part"),
+        None => {
+            let others = format!(
+                "{:.0} impacts a turn of the shaft (blades, jaws of a coupling) have theirs",
+                times(analysis.shaft)
+            );
+            // Segments are no longer than that.
+            match analysis.duration() * analysis.shaft < REVOLUTIONS {
+                true => format!(
+                    "{others}: in a record of {REVOLUTIONS:.0} turns those of a bearing that slips may part from them"
+                ),
+                false => others,
+            }
+        }
     }
 }
 
