@@ -239,7 +239,7 @@ impl Analysis {
 
     /// `very clear`, `clear` or `weak`: how much the evidence of a family that is damage says.
     pub fn clarity(&self, family: &Family) -> &'static str {
-        let may_be_other = self.may_be_passing(family) || words::multiple(self, family).is_some();
+        let may_be_other = self.may_be_passing(family) || self.impacts_a_turn(family).is_some();
         match (may_be_other, family.is_very_clear() && self.speed_used().is_none()) {
             (true, _) => "weak",
             (_, true) => "very clear",
@@ -251,6 +251,15 @@ impl Analysis {
     pub fn may_be_passing(&self, family: &Family) -> bool {
         let outer = family.component == Component::OuterRace;
         self.options.silent.is_some() && !self.passing_known && outer && family.modulation < PASSING
+    }
+
+    /// How many impacts a turn of the shaft would look like a race's, where nothing tells the shaft's speed.
+    fn impacts_a_turn(&self, family: &Family) -> Option<f64> {
+        let options = &self.options;
+        let times = (family.frequency / options.shaft).round();
+        let off = family.frequency / (options.shaft * times) - 1.0;
+        let told = !self.shaft_lines.is_empty() || options.rotation.is_some() || options.exact;
+        (family.name.starts_with("BPF") && !told && off.abs() <= options.tolerance).then_some(times)
     }
 
     /// The verdict in plain words: the headline first.

@@ -179,9 +179,10 @@ impl Record {
     /// Where lines of shaft or mains hide a race's, nothing tells them apart. Those that would be damage are open, unless a
     /// slower comb is as high: then they are that one's.
     fn masked(&mut self, all: &mut [Family]) {
-        let (shaft, options) = (self.shaft, self.options.clone());
-        let revealed = self.together.revealed(|together| {
-            let races = read(together, shaft, &options).into_iter().filter(|f| !is_turning(f.component));
+        let Record { together, shaft, options, .. } = self;
+        let (shaft, options) = (*shaft, &*options);
+        let revealed = together.revealed(|together| {
+            let races = read(together, shaft, options).into_iter().filter(|f| !is_turning(f.component));
             let most = |f: &Family| SLOWER.max((f.frequency / shaft).round() as usize);
             let is_own = |f: &Family| slower_comb(f, most(f), |f| score(together, f)).is_none();
             // Those of the supply are known to be there.
@@ -189,7 +190,7 @@ impl Record {
             races.filter(|f| f.is_damage() && is_own(f) && !of_supply(f.frequency)).collect::<Vec<_>>()
         });
         for mut race in revealed {
-            let hidden = race.harmonics.iter().filter(|h| self.together.at(h.frequency).ratio.is_none());
+            let hidden = race.harmonics.iter().filter(|h| together.at(h.frequency).ratio.is_none());
             let Some(seen) = all.iter_mut().find(|f| f.name == race.name && f.finding != Finding::Open) else {
                 continue;
             };

@@ -114,14 +114,8 @@ fn damage(analysis: &Analysis, text: &mut Vec<String>) {
 }
 
 /// That a race's lines may be those of impacts at a multiple of the shaft's frequency, whose own lines tell nothing.
-pub(super) fn multiple(analysis: &Analysis, family: &Family) -> Option<String> {
-    let options = &analysis.options;
-    let order = family.frequency / options.shaft;
-    let times = order.round();
-    let off = order / times - 1.0;
-    let is_race = family.name.starts_with("BPF");
-    let told = !analysis.shaft_lines.is_empty() || options.rotation.is_some() || options.exact;
-    (is_race && !told && off.abs() <= options.tolerance).then(|| {
+fn multiple(analysis: &Analysis, family: &Family) -> Option<String> {
+    analysis.impacts_a_turn(family).map(|times| {
         format!(
             "Impacts {times:.0} times a turn of the shaft (blades, jaws of a coupling) look the same if it turns at {:.1} r/min: a tachometer would tell.",
             60.0 * family.frequency / times

@@ -2,8 +2,8 @@
 //! names.
 //!
 //! The layout is taken from the first lines (`layout.rs`); a column is then read in one pass, a line at a time, in a
-//! buffer of fixed size (`lines.rs`). Lines that begin with `#` or `%` are comments. An empty field is NaN, an empty line is passed over. A
-//! line above the numbers such as `Sample rate: 12000 Hz` states the rate.
+//! buffer of fixed size (`lines.rs`). Lines that begin with `#` or `%` are comments. An empty field is NaN, an empty
+//! line is passed over. A line above the numbers such as `Sample rate: 12000 Hz` states the rate.
 
 mod layout;
 mod lines;
