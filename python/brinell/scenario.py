@@ -205,13 +205,7 @@ class Scenario:
         'bearing.toml'
         """
         path = Path(path)
-        beside = path.with_name(path.name + ".partial")
-        try:
-            beside.write_text(self.to_toml(), encoding="utf-8", newline="\n")
-            os.replace(beside, path)
-        except OSError as error:
-            beside.unlink(missing_ok=True)
-            raise _brinell.ReadError(f"cannot write {path}: {error.strerror}") from error
+        self._native.write(path)
         return path
 
     @property

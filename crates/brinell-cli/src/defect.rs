@@ -147,7 +147,7 @@ fn convert(args: &ConvertArgs) -> Result<(), Failure> {
                 let usual = Contour::of(&grid, &real).map_err(refused)?;
                 let level_um = args.level_um.unwrap_or(usual.level_um);
                 let tolerance_mm = args.tolerance_mm.unwrap_or(usual.tolerance_mm);
-                let outline = grid.outline(level_um, tolerance_mm).map_err(refused)?;
+                let outline = brinell_damage::outline(&grid, level_um, tolerance_mm).map_err(refused)?;
                 let volume = extent.area * extent.depth;
                 let depth_um = 1e12 * volume / outline.area_mm2();
                 remarks.push(format!(

@@ -9,7 +9,7 @@ use brinell::bearing::catalogue::{self, BORE, DYNAMIC_RATING, Datum, Entry, FACT
 use brinell::bearing::clearance::ClearanceClass;
 use brinell::bearing::kinematics::Geometry;
 use brinell::bearing::{KnownBearing, clearance_of, frequencies_of, orders_of};
-use brinell::scenario::{Element, Speed};
+use brinell::scenario::Element;
 use serde_json::{Value, json};
 use std::path::PathBuf;
 use std::process::ExitCode;
@@ -202,7 +202,7 @@ fn datum(value: &Datum) -> String {
 }
 
 fn find(name: &str) -> Result<KnownBearing, Failure> {
-    KnownBearing::find(name).ok_or_else(|| Failure::Usage(KnownBearing::unknown(name)))
+    KnownBearing::named(name).map_err(Failure::Usage)
 }
 
 /// r/min at which Hz are orders.
@@ -248,11 +248,8 @@ fn orders(args: &FrequenciesArgs) -> Result<(DefectOrders, Option<f64>), Failure
     let written_as_a_file = files::is_stdin(&path) || path.components().count() > 1 || bearing.ends_with(".toml");
     if KnownBearing::find(bearing).is_none() && (path.exists() || written_as_a_file) {
         let loaded = files::scenario(&path, &[], true)?;
-        let speed = match &loaded.scenario.operation.speed_rpm {
-            Speed::Constant(rpm) => Some(*rpm),
-            Speed::Profile(_) => None,
-        };
-        return Ok((orders_of(&Geometry::of(&loaded.scenario.bearing)), speed));
+        let scenario = &loaded.scenario;
+        return Ok((orders_of(&Geometry::of(&scenario.bearing)), scenario.operation.speed_rpm.constant()));
     }
     known(bearing)
 }

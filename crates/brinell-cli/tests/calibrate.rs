@@ -189,6 +189,7 @@ fn regress_bad_input_is_reported_with_key_value_and_range() {
         &["--budget 3: expected 6 runs or more for 1 key"],
     );
     refuse(&with(&["--measured", "nowhere.csv"]), &["nowhere.csv"]);
+    refuse(&with(&["--rate", "25600", "--target", "sensor_ax.rms=30~1"]), &["give --measured FILE"]);
     fs::write(folder.path().join("rig.csv"), "t,a\n0,1\n0.001,2\n0.002,1\n0.003,3\n").unwrap();
     let rig = with(&["--measured", "rig.csv", "--channel", "a", "--unit", "m/s^2"]);
     let rated = [&rig[..], &["--rate", "1000"]].concat();

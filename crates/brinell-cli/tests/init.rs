@@ -109,7 +109,11 @@ fn prop_init_overwrites_nothing_of_the_users() {
     let here = folder.path();
     brinell(here, &["init", "s.toml"]).exits(0).keeps_quiet().says(&["wrote s.toml", "brinell run s.toml"]);
     let written = fs::read_to_string(here.join("s.toml")).unwrap();
-    // A file's name is its scenario's.
+    // A file's name is its scenario's, whatever it is.
+    brinell(here, &["init", "{load}.toml"]).exits(0);
+    let odd = fs::read_to_string(here.join("{load}.toml")).unwrap();
+    assert_eq!(odd, written.replace("name = \"s\"", "name = \"{load}\""));
+    fs::remove_file(here.join("{load}.toml")).unwrap();
     assert_eq!(brinell(here, &["init"]).exits(0).out, written.replace("name = \"s\"", "name = \"outer-spall\""));
     fs::write(here.join("s.toml"), "mine").unwrap();
     brinell(here, &["init", "s.toml"]).exits(2).complains(&["s.toml exists; --force overwrites it"]);

@@ -7,12 +7,12 @@ use crate::depth_doubts::{raised, tilt};
 use crate::direction::{along_rows, turn_grid};
 use crate::error::{DamageError, check_range};
 use crate::form_fit::remove;
-use crate::geometry::DepthGrid;
+use crate::geometry::DepthMap;
 use crate::holes::{drop_specks, fill};
 use crate::kind::{FileKind, describe};
 use crate::numbers::quantile;
 use crate::{depth_csv, depth_npy, surface};
-use brinell::scenario::{FirstRow, ScanFile, ScanFill, ScanUnit, ScanZero};
+use brinell::scenario::{DepthGrid, FirstRow, ScanFile, ScanFill, ScanUnit, ScanZero};
 
 /// The largest grid that is read: 4096 x 4096.
 pub(crate) const MAX_POINTS: usize = 1 << 24;
@@ -68,7 +68,7 @@ impl Scan {
 
 /// Reads a depth map of up to 2^24 points. `format`: what the file's name or the user says it is; the content must
 /// agree. `None`: as the content shows.
-pub fn read_depth_map(bytes: &[u8], format: Option<FileKind>, options: &ScanFile) -> Result<DepthGrid, DamageError> {
+pub fn read_depth_map(bytes: &[u8], format: Option<FileKind>, options: &ScanFile) -> Result<DepthMap, DamageError> {
     check(options)?;
     let found = FileKind::of_content(bytes);
     let kind = match format {
@@ -115,15 +115,12 @@ pub fn read_depth_map(bytes: &[u8], format: Option<FileKind>, options: &ScanFile
         columns: scan.columns,
         rows: scan.rows,
         depth_um: scan.depth_um,
-        form,
-        warnings,
-        notes,
     };
     if let (true, Some([low, high])) = (options.center, grid.damaged_bounds()) {
         grid.s0_mm = -0.5 * (low[0] + high[0]) as f64 * grid.ds_mm;
         grid.z0_mm = -0.5 * (low[1] + high[1]) as f64 * grid.dz_mm;
     }
-    Ok(grid)
+    Ok(DepthMap { grid, form, warnings, notes })
 }
 
 /// Every number within its range.

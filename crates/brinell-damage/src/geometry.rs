@@ -1,7 +1,7 @@
-//! What the readers give: polygons, or a grid of depths. Frame and origin: see the crate's header.
+//! What the readers give: polygons, or a depth map. Frame and origin: see the crate's header.
 
 use crate::form::FormReport;
-use brinell::scenario;
+use brinell::scenario::DepthGrid;
 
 /// Damaged areas as polygons.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -63,72 +63,15 @@ pub(crate) fn signed_area(ring: &[[f64; 2]]) -> f64 {
     0.5 * twice
 }
 
-/// Depths on a regular grid.
-#[derive(Debug, Clone, PartialEq, Default)]
-pub struct DepthGrid {
-    /// `s` of column 0, mm.
-    pub s0_mm: f64,
-    /// `z` of row 0, mm.
-    pub z0_mm: f64,
-    /// From column to column, mm.
-    pub ds_mm: f64,
-    /// From row to row, mm.
-    pub dz_mm: f64,
-    /// Points along `s`.
-    pub columns: usize,
-    /// Points along `z`.
-    pub rows: usize,
-    /// `depth_um[row * columns + column]`: 0 undamaged, positive into the material, negative raised.
-    pub depth_um: Vec<f64>,
+/// A depth map as it was read.
+#[derive(Debug, Clone, PartialEq)]
+pub struct DepthMap {
+    /// Depths; their frame and origin as elsewhere.
+    pub grid: DepthGrid,
     /// The plane or cylinder that was taken off, where one was requested.
     pub form: Option<FormReport>,
     /// What may be wrong, in sentences.
     pub warnings: Vec<String>,
     /// What the reader understood of the file by itself, in sentences.
     pub notes: Vec<String>,
-}
-
-impl From<scenario::DepthGrid> for DepthGrid {
-    /// Nothing was taken off, nothing is said of it.
-    fn from(grid: scenario::DepthGrid) -> Self {
-        Self {
-            s0_mm: grid.s0_mm,
-            z0_mm: grid.z0_mm,
-            ds_mm: grid.ds_mm,
-            dz_mm: grid.dz_mm,
-            columns: grid.columns,
-            rows: grid.rows,
-            depth_um: grid.depth_um,
-            ..Self::default()
-        }
-    }
-}
-
-impl DepthGrid {
-    /// The depth at a grid point.
-    pub fn at(&self, column: usize, row: usize) -> f64 {
-        self.depth_um[row * self.columns + column]
-    }
-
-    /// The area of the cells that are not 0.
-    pub fn area_mm2(&self) -> f64 {
-        let damaged = self.depth_um.iter().filter(|&&d| d != 0.0).count();
-        damaged as f64 * self.ds_mm * self.dz_mm
-    }
-
-    /// `[min, max]` of columns and of rows that hold anything but 0: `[[c0, r0], [c1, r1]]`.
-    pub fn damaged_bounds(&self) -> Option<[[usize; 2]; 2]> {
-        let mut bounds: Option<[[usize; 2]; 2]> = None;
-        for (row, line) in self.depth_um.chunks_exact(self.columns.max(1)).enumerate() {
-            let Some(first) = line.iter().position(|&d| d != 0.0) else {
-                continue;
-            };
-            let last = line.iter().rposition(|&d| d != 0.0).unwrap_or(first);
-            bounds = Some(match bounds {
-                None => [[first, row], [last, row]],
-                Some([low, high]) => [[low[0].min(first), low[1]], [high[0].max(last), row]],
-            });
-        }
-        bounds
-    }
 }

@@ -2,11 +2,11 @@
 //!
 //! - [`read_svg`]: an outline drawn in a vector editor -> [`Polygons`]
 //! - [`read_image`]: a photo or a mask, PNG or JPEG -> [`Polygons`]
-//! - [`read_depth_map`]: a profilometer's grid or point cloud, CSV, NPY, PNG, SDF, X3P or SUR -> [`DepthGrid`]
+//! - [`read_depth_map`]: a profilometer's grid or point cloud, CSV, NPY, PNG, SDF, X3P or SUR -> [`DepthMap`]
 //! - [`resolve`], [`resolve_loaded`]: every file that a scenario names -> the scenario with geometry in its place. For
 //!   this the crate uses `brinell`, which opens no files: its scenario, and its checks on what came out. The readers
 //!   know no bearing.
-//! - [`DepthGrid::outline`]: the line along which a grid has one depth -> [`Polygons`]
+//! - [`outline`]: the line along which a grid has one depth -> [`Polygons`]
 //!
 //! Frame. `s` runs along the rolling direction, `z` along the axis, both in mm, right-handed as seen by someone
 //! who looks at the damaged surface from the roller's side: with the rolling direction to the right, `z` points up.
@@ -89,9 +89,10 @@ mod svg_union;
 pub use depth::read_depth_map;
 pub use error::DamageError;
 pub use form::FormReport;
-pub use geometry::{DepthGrid, Polygons};
+pub use geometry::{DepthMap, Polygons};
 pub use kind::FileKind;
 pub use loaded::resolve_loaded;
+pub use outline::{level_of_area, outline};
 #[doc(hidden)]
 pub use resolve::MOST_TEXT;
 pub use resolve::{ReadShape, Unresolved, resolve, shape_of_bytes};

@@ -2,68 +2,64 @@
 
 use crate::contour::Field;
 use crate::error::{DamageError, check_range};
-use crate::geometry::{DepthGrid, Polygons, signed_area};
+use crate::geometry::{Polygons, signed_area};
 use brinell::defect::{Fault, faults};
+use brinell::scenario::DepthGrid;
 
-impl DepthGrid {
-    /// What is deeper than `level_um`, its border found between nodes by straight interpolation (marching squares) and
-    /// then freed of the corners that lie within `tolerance_mm` of it; along the grid's edge where damage reaches that.
-    ///
-    /// Polygons as elsewhere: outer rings counter-clockwise, holes clockwise, none crossing itself or another.
-    ///
-    /// # Errors
-    ///
-    /// A level below 0 or a tolerance below 0; nothing deeper than the level; a border of more than two million points.
-    pub fn outline(&self, level_um: f64, tolerance_mm: f64) -> Result<Polygons, DamageError> {
-        check_range("level_um", level_um, -f64::MIN_POSITIVE, f64::MAX, "a depth of 0 um or more")?;
-        check_range("tolerance_mm", tolerance_mm, -f64::MIN_POSITIVE, f64::MAX, "a distance of 0 mm or more")?;
-        let mut rings = self.field(level_um).outlines(0.0)?.rings;
-        if rings.is_empty() {
-            return Err(DamageError::NothingDamaged {
-                why: format!(
-                    "no depth is above `level_um` = {level_um}; the deepest is {} um",
-                    self.depth_um.iter().copied().fold(0.0, f64::max)
-                ),
-            });
-        }
-        for point in rings.iter_mut().flatten() {
-            // Node (0, 0) is the middle of pixel (0, 0).
-            *point = [self.s0_mm + (point[0] - 0.5) * self.ds_mm, self.z0_mm + (point[1] - 0.5) * self.dz_mm];
-        }
-        Ok(Polygons {
-            polygons_mm: simplified(rings, tolerance_mm),
-            warnings: Vec::new(),
-            notes: Vec::new(),
-            threshold: None,
-        })
+/// What is deeper than `level_um`, its border found between nodes by straight interpolation (marching squares) and
+/// then freed of the corners that lie within `tolerance_mm` of it; along the grid's edge where damage reaches that.
+///
+/// Polygons as elsewhere: outer rings counter-clockwise, holes clockwise, none crossing itself or another.
+///
+/// # Errors
+///
+/// A level below 0 or a tolerance below 0; nothing deeper than the level; a border of more than two million points.
+pub fn outline(grid: &DepthGrid, level_um: f64, tolerance_mm: f64) -> Result<Polygons, DamageError> {
+    check_range("level_um", level_um, -f64::MIN_POSITIVE, f64::MAX, "a depth of 0 um or more")?;
+    check_range("tolerance_mm", tolerance_mm, -f64::MIN_POSITIVE, f64::MAX, "a distance of 0 mm or more")?;
+    let mut rings = field(grid, level_um).outlines(0.0)?.rings;
+    if rings.is_empty() {
+        return Err(DamageError::NothingDamaged {
+            why: format!("no depth is above `level_um` = {level_um}; the deepest is {} um", grid.deepest_um()),
+        });
     }
+    for point in rings.iter_mut().flatten() {
+        // Node (0, 0) is the middle of pixel (0, 0).
+        *point = [grid.s0_mm + (point[0] - 0.5) * grid.ds_mm, grid.z0_mm + (point[1] - 0.5) * grid.dz_mm];
+    }
+    Ok(Polygons {
+        polygons_mm: simplified(rings, tolerance_mm),
+        warnings: Vec::new(),
+        notes: Vec::new(),
+        threshold: None,
+    })
+}
 
-    /// The level, um, at which [`DepthGrid::outline`] encloses `area_mm2`; 0 where even that encloses less.
-    ///
-    /// # Errors
-    ///
-    /// Outlines of more than two million points.
-    pub fn level_of_area(&self, area_mm2: f64) -> Result<f64, DamageError> {
-        /// Halvings of the deepest depth: to a part in a million.
-        const HALVINGS: u32 = 20;
-        let cell = self.ds_mm * self.dz_mm;
-        let (mut low, mut high) = (0.0, self.depth_um.iter().copied().fold(0.0, f64::max));
-        for _ in 0..HALVINGS {
-            let level = 0.5 * (low + high);
-            let rings = self.field(level).outlines(0.0)?.rings;
-            let area: f64 = rings.iter().map(|ring| cell * signed_area(ring)).sum();
-            if area > area_mm2 {
-                low = level;
-            } else {
-                high = level;
-            }
+/// The level, um, at which [`outline`] encloses `area_mm2`; 0 where even that encloses less.
+///
+/// # Errors
+///
+/// Outlines of more than two million points.
+pub fn level_of_area(grid: &DepthGrid, area_mm2: f64) -> Result<f64, DamageError> {
+    /// Halvings of the deepest depth: to a part in a million.
+    const HALVINGS: u32 = 20;
+    let cell = grid.ds_mm * grid.dz_mm;
+    let (mut low, mut high) = (0.0, grid.deepest_um());
+    for _ in 0..HALVINGS {
+        let level = 0.5 * (low + high);
+        let rings = field(grid, level).outlines(0.0)?.rings;
+        let area: f64 = rings.iter().map(|ring| cell * signed_area(ring)).sum();
+        if area > area_mm2 {
+            low = level;
+        } else {
+            high = level;
         }
-        Ok(high)
     }
+    Ok(high)
+}
 
-    fn field(&self, level: f64) -> Field<'_, f64> {
-        Field { width: self.columns, height: self.rows, values: &self.depth_um, level, rim: 0.0, sub_pixel: true }
-    }
+fn field(grid: &DepthGrid, level: f64) -> Field<'_, f64> {
+    Field { width: grid.columns, height: grid.rows, values: &grid.depth_um, level, rim: 0.0, sub_pixel: true }
 }
 
 /// The rings with fewer corners; a tolerance under which they would cross is halved.

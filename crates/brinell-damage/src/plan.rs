@@ -1,22 +1,22 @@
 //! Damage seen from above, as polygons: exact, traced along its width, or the line of one depth.
 
+use crate::outline::{level_of_area, outline};
 use brinell::defect::{Shape, spall};
-use brinell::scenario;
+use brinell::scenario::{self, DepthGrid};
 use std::f64::consts::TAU;
 
 /// Corners of a drawn circle.
 pub const CORNERS: usize = 113;
 
 /// The grid of a shape that has one.
-pub fn depth_grid(of: &scenario::Defect) -> Option<crate::DepthGrid> {
-    let grid = match &of.shape {
-        scenario::Shape::DepthMap { grid } => grid.clone(),
+pub fn depth_grid(of: &scenario::Defect) -> Option<DepthGrid> {
+    match &of.shape {
+        scenario::Shape::DepthMap { grid } => Some(grid.clone()),
         scenario::Shape::Random { seed, length_mm, width_mm, roughness } => {
-            spall(*seed, *length_mm, *width_mm, *roughness, of.depth_um.max(1.0))
+            Some(spall(*seed, *length_mm, *width_mm, *roughness, of.depth_um.max(1.0)))
         }
-        _ => return None,
-    };
-    Some(grid.into())
+        _ => None,
+    }
 }
 
 /// Where a grid's border is drawn if nobody says otherwise.
@@ -32,8 +32,8 @@ impl Contour {
     ///
     /// # Errors
     /// Where no depth's line encloses that area.
-    pub fn of(grid: &crate::DepthGrid, shape: &Shape) -> Result<Self, crate::DamageError> {
-        Ok(Self { level_um: grid.level_of_area(1e6 * shape.area())?, tolerance_mm: 0.1 * grid.ds_mm.min(grid.dz_mm) })
+    pub fn of(grid: &DepthGrid, shape: &Shape) -> Result<Self, crate::DamageError> {
+        Ok(Self { level_um: level_of_area(grid, 1e6 * shape.area())?, tolerance_mm: 0.1 * grid.ds_mm.min(grid.dz_mm) })
     }
 }
 
@@ -59,7 +59,7 @@ pub fn polygons_mm(of: &scenario::Defect, shape: &Shape, points: usize) -> Vec<V
         Shape::DepthMap(_) => depth_grid(of)
             .and_then(|grid| {
                 let usual = Contour::of(&grid, shape).ok()?;
-                grid.outline(usual.level_um, usual.tolerance_mm).ok()
+                outline(&grid, usual.level_um, usual.tolerance_mm).ok()
             })
             .map_or(Vec::new(), |outline| outline.polygons_mm),
         _ => centred(shape, points),

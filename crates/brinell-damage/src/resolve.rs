@@ -5,9 +5,9 @@ use std::io::Read;
 use std::path::Path;
 
 use brinell::document::{Problem, Severity};
-use brinell::scenario::{self, ScanFile, Scenario, Shape, SvgFile};
+use brinell::scenario::{DepthGrid, ScanFile, Scenario, Shape, SvgFile};
 
-use crate::{DamageError, DepthGrid, FileKind, Polygons, read_depth_map};
+use crate::{DamageError, DepthMap, FileKind, Polygons, read_depth_map};
 
 /// Bytes of a file of damage.
 const LARGEST: u64 = 256 << 20;
@@ -247,14 +247,15 @@ pub fn shape_of_bytes(shape: &Shape, bytes: &[u8]) -> Result<ReadShape, String> 
         #[cfg(not(feature = "svg"))]
         Shape::Svg(_) => Err(DamageError::LeftOut { kind: FileKind::Svg, feature: "svg" }),
         Shape::Scan(scan) => {
-            let grid = read_depth_map(bytes, Some(kind), scan).map_err(|e| e.to_string())?;
+            let DepthMap { grid, warnings, notes, .. } =
+                read_depth_map(bytes, Some(kind), scan).map_err(|e| e.to_string())?;
             // What may be wrong explains what cannot be used.
-            let with_hints = |error: String| [&[error], &grid.warnings[..]].concat().join("; ");
+            let with_hints = |error: String| [&[error], &warnings[..]].concat().join("; ");
             let doubt = doubt(&grid).map_err(with_hints)?;
             return Ok(ReadShape {
                 shape: cut_out(&grid).map_err(with_hints)?,
-                warnings: grid.warnings.iter().cloned().chain(doubt).collect(),
-                notes: grid.notes,
+                warnings: warnings.iter().cloned().chain(doubt).collect(),
+                notes,
                 threshold: None,
             });
         }
@@ -353,7 +354,7 @@ fn cut_out(grid: &DepthGrid) -> Result<Shape, String> {
         })
         .collect();
     Ok(Shape::DepthMap {
-        grid: scenario::DepthGrid {
+        grid: DepthGrid {
             s0_mm: grid.s0_mm + c0 as f64 * grid.ds_mm,
             z0_mm: grid.z0_mm + r0 as f64 * grid.dz_mm,
             ds_mm: grid.ds_mm,

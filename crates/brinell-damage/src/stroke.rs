@@ -1,7 +1,8 @@
 //! Damage drawn by hand: the area under a round pen, and depth taken off or put back by a round brush.
 
 use crate::svg_union::united;
-use crate::{DamageError, DepthGrid, Polygons};
+use crate::{DamageError, Polygons};
+use brinell::scenario::DepthGrid;
 use i_overlay::core::fill_rule::FillRule;
 use std::f64::consts::PI;
 
@@ -219,7 +220,6 @@ fn grown(grid: Option<&DepthGrid>, points: &[[f64; 2]], radius: f64) -> Result<D
         columns,
         rows,
         depth_um,
-        ..DepthGrid::default()
     })
 }
 
@@ -307,8 +307,7 @@ mod tests {
     fn prop_the_brush_adds_takes_off_and_grows_its_grid() {
         let stroke = Stroke { points_mm: &[[0.0, 0.0], [2.0, 0.0]], width_mm: 1.0 };
         let once = brush(None, &stroke, 10.0).unwrap();
-        let deepest = |g: &DepthGrid| g.depth_um.iter().copied().fold(0.0, f64::max);
-        assert!((deepest(&once) - 10.0).abs() < 0.05);
+        assert!((once.deepest_um() - 10.0).abs() < 0.05);
         let aside = Stroke { points_mm: &[[5.0, 1.0]], width_mm: 1.0 };
         let wider = brush(Some(&once), &aside, 4.0).unwrap();
         assert!(wider.columns > once.columns && wider.rows > once.rows);

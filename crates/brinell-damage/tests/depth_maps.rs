@@ -3,16 +3,26 @@
 use std::f64::consts::PI;
 
 use crate::common::{Noise, npy, npy_f8};
-use brinell::scenario::{FirstRow, RollingDirection, ScanFile, ScanFill, ScanForm, ScanUnit, ScanZero};
-use brinell_damage::{DepthGrid, FileKind, read_depth_map};
+use brinell::scenario::{DepthGrid, FirstRow, RollingDirection, ScanFile, ScanFill, ScanForm, ScanUnit, ScanZero};
+use brinell_damage::{DepthMap, FileKind, read_depth_map};
 
 /// Points 0.01 mm apart where a test does not care.
 fn spaced(options: &ScanFile) -> ScanFile {
     ScanFile { ds_mm: options.ds_mm.or(Some(0.01)), dz_mm: options.dz_mm.or(Some(0.01)), ..options.clone() }
 }
 
-pub(crate) fn read(bytes: &[u8], options: &ScanFile) -> DepthGrid {
+pub(crate) fn read_all(bytes: &[u8], options: &ScanFile) -> DepthMap {
     read_depth_map(bytes, None, &spaced(options)).unwrap()
+}
+
+fn read(bytes: &[u8], options: &ScanFile) -> DepthGrid {
+    read_all(bytes, options).grid
+}
+
+/// The area of the cells that are not 0.
+pub(crate) fn area_mm2(grid: &DepthGrid) -> f64 {
+    let damaged = grid.depth_um.iter().filter(|&&d| d != 0.0).count();
+    damaged as f64 * grid.ds_mm * grid.dz_mm
 }
 
 pub(crate) fn refuse(bytes: &[u8], options: &ScanFile) -> String {
@@ -40,9 +50,9 @@ fn analytic_circle_and_rectangle_have_their_area_and_widths_within_the_spacing()
     };
     let options = ScanFile { ds_mm: Some(step), dz_mm: Some(step), ..Default::default() };
     let rectangle = read(&map(&|s, z| s.abs() < 1.5 && z.abs() < 2.0), &options);
-    assert!((rectangle.area_mm2() - 12.0).abs() < 1e-9);
-    let disc = read(&map(&|s, z| s.hypot(z) < 2.0), &options);
-    assert!((disc.area_mm2() / (4.0 * PI) - 1.0).abs() < 2e-3, "{}", disc.area_mm2());
+    assert!((area_mm2(&rectangle) - 12.0).abs() < 1e-9);
+    let DepthMap { grid: disc, form, warnings, .. } = read_all(&map(&|s, z| s.hypot(z) < 2.0), &options);
+    assert!((area_mm2(&disc) / (4.0 * PI) - 1.0).abs() < 2e-3, "{}", area_mm2(&disc));
     for column in 0..disc.columns {
         let s = disc.s0_mm + column as f64 * step;
         let count = (0..disc.rows).filter(|&row| disc.at(column, row) != 0.0).count();
@@ -50,7 +60,7 @@ fn analytic_circle_and_rectangle_have_their_area_and_widths_within_the_spacing()
         assert!((count as f64 * step - chord).abs() <= step + 1e-9, "s = {s}");
     }
     assert!(disc.depth_um.iter().all(|&d| d == 0.0 || d == 20.0));
-    assert!(disc.form.is_none() && disc.warnings.is_empty());
+    assert!(form.is_none() && warnings.is_empty());
 }
 
 /// An L: the long stroke on the left, the short one at the bottom to the right; deepest at the foot's end.
@@ -132,8 +142,8 @@ fn analytic_tilt_and_curvature_are_removed_exactly() {
             center: false,
             ..Default::default()
         };
-        let grid = read(&map, &options);
-        let found = grid.form.unwrap();
+        let DepthMap { grid, form: found, .. } = read_all(&map, &options);
+        let found = found.unwrap();
         println!("{form:?} {radius}: {found:?}");
         for row in 0..rows {
             for column in 0..columns {
@@ -172,8 +182,8 @@ fn analytic_noise_and_a_large_spall_hardly_move_the_form() {
             threshold_um: 2.0,
             ..Default::default()
         };
-        let grid = read(&map, &options);
-        let found = grid.form.unwrap();
+        let DepthMap { grid, form: found, .. } = read_all(&map, &options);
+        let found = found.unwrap();
         let damaged: Vec<f64> = grid.depth_um.iter().copied().filter(|&d| d != 0.0).collect();
         let mean = damaged.iter().sum::<f64>() / damaged.len() as f64;
         println!("{share}: {found:?}, mean depth {mean}");
@@ -195,9 +205,9 @@ fn analytic_the_drawn_scan_gives_its_raceway_and_its_spall() {
         speck_mm2: 0.05,
         ..Default::default()
     };
-    let grid = read_depth_map(scan, Some(FileKind::Csv), &options).unwrap();
-    let found = grid.form.unwrap();
-    println!("{found:?} {} mm^2 {:?}", grid.area_mm2(), grid.warnings);
+    let DepthMap { grid, form, warnings, .. } = read_depth_map(scan, Some(FileKind::Csv), &options).unwrap();
+    let found = form.unwrap();
+    println!("{found:?} {} mm^2 {:?}", area_mm2(&grid), warnings);
     // See examples/draw_examples.rs.
     assert!((found.radius_mm.unwrap() / 27.5 - 1.0).abs() < 0.01);
     assert!((found.slope_s_um_per_mm - 3.0).abs() < 0.05 && (found.slope_z_um_per_mm + 2.0).abs() < 0.05);
@@ -205,7 +215,7 @@ fn analytic_the_drawn_scan_gives_its_raceway_and_its_spall() {
     let mut deep: Vec<f64> = grid.depth_um.iter().copied().filter(|&d| d > 20.0).collect();
     deep.sort_by(f64::total_cmp);
     assert!((deep[deep.len() / 2] - 25.0).abs() < 0.5);
-    assert!(grid.warnings.iter().any(|w| w.contains("points were missing and are filled")));
+    assert!(warnings.iter().any(|w| w.contains("points were missing and are filled")));
     assert!(read_depth_map(scan, None, &ScanFile { fill: ScanFill::None, ..options }).is_err());
 }
 
@@ -226,16 +236,13 @@ fn analytic_missing_points_of_a_slope_are_filled_on_it() {
         threshold_um: 2.5,
         ..Default::default()
     };
-    let grid = read(&map, &options);
+    let DepthMap { grid, warnings, .. } = read_all(&map, &options);
     for (row, column) in [(6, 6), (5, 7), (12, 12), (12, 14)] {
         assert!((grid.at(column, row) - (2 * row + column) as f64).abs() < 1e-3, "{}", grid.at(column, row));
     }
-    assert_eq!(
-        grid.warnings[0],
-        "13 of 400 points were missing and are filled from their neighbours, up to 2 points deep"
-    );
+    assert_eq!(warnings[0], "13 of 400 points were missing and are filled from their neighbours, up to 2 points deep");
     // A slope that nobody takes off.
-    assert!(grid.warnings[1].contains("as a tilted part does"));
+    assert!(warnings[1].contains("as a tilted part does"));
     assert_eq!(
         refuse(&map, &ScanFile { fill: ScanFill::None, ..options }),
         "13 of 400 points are missing (the first in row 1, column 1); fill them from their neighbours with `fill`"

@@ -238,7 +238,7 @@ fn read_all(noise: &mut Noise, bytes: &[u8]) -> usize {
     let mut read = 0;
     read += usize::from(read_svg(bytes, &svg).map(sound).is_ok());
     read += usize::from(read_image(bytes, &image).map(sound).is_ok());
-    if let Ok(grid) = read_depth_map(bytes, None, &depth) {
+    if let Ok(DepthMap { grid, .. }) = read_depth_map(bytes, None, &depth) {
         read += 1;
         assert_eq!(grid.depth_um.len(), grid.columns * grid.rows);
         assert!(grid.depth_um.iter().all(|d| d.is_finite()));

@@ -2,8 +2,8 @@
 
 use crate::common::npy_f8;
 use crate::common::surfaces::{cloud, sdf_binary, sdf_text, sur, x3p, zip};
-use brinell::scenario::{ScanFile, ScanFill};
-use brinell_damage::{DepthGrid, FileKind, read_depth_map};
+use brinell::scenario::{DepthGrid, ScanFile, ScanFill};
+use brinell_damage::{FileKind, read_depth_map};
 
 const COLUMNS: usize = 31;
 const ROWS: usize = 21;
@@ -32,7 +32,7 @@ fn words(bytes: &[u8], options: &ScanFile) -> String {
 fn xval_every_format_gives_the_map_of_the_array() {
     let step_mm = 1e-3 * STEP;
     let array = npy_f8(ROWS, COLUMNS, |row, column| heights(column, row));
-    let wanted = read_depth_map(&array, None, &options(Some(step_mm))).unwrap();
+    let wanted = read_depth_map(&array, None, &options(Some(step_mm))).unwrap().grid;
     let h = &heights;
     for (name, kind, bytes) in [
         ("SDF, text", FileKind::Sdf, sdf_text(COLUMNS, ROWS, STEP, h)),
@@ -47,7 +47,7 @@ fn xval_every_format_gives_the_map_of_the_array() {
     ] {
         assert_eq!(FileKind::of_content(&bytes), Some(kind), "{name}");
         let found = read_depth_map(&bytes, Some(kind), &options(None)).unwrap_or_else(|e| panic!("{name}: {e}"));
-        same(name, &found, &wanted);
+        same(name, &found.grid, &wanted);
         let wrong = words(&bytes, &options(Some(2.0 * step_mm)));
         assert!(wrong.contains("`ds_mm` is 0.05"), "{name}: {wrong}");
     }
@@ -68,7 +68,7 @@ fn same(name: &str, found: &DepthGrid, wanted: &DepthGrid) {
 #[test]
 fn analytic_a_point_cloud_without_names_takes_its_unit_from_the_stated_spacing() {
     let bytes = cloud(COLUMNS, ROWS, STEP, &heights, "");
-    let grid = read_depth_map(&bytes, None, &options(Some(0.025))).unwrap();
+    let grid = read_depth_map(&bytes, None, &options(Some(0.025))).unwrap().grid;
     assert_eq!((grid.columns, grid.rows), (COLUMNS, ROWS));
     let said = words(&bytes, &options(None));
     assert!(said.contains("name the columns with their units"), "{said}");
@@ -99,8 +99,7 @@ fn regress_axes_in_the_first_row_and_column_are_seen() {
 fn regress_depths_read_as_heights_and_a_tilt_are_said() {
     let options = options(Some(0.025));
     let depths = npy_f8(ROWS, COLUMNS, |row, column| -heights(column, row));
-    let grid = read_depth_map(&depths, None, &options).unwrap();
-    let said = grid.warnings.join("\n");
+    let said = read_depth_map(&depths, None, &options).unwrap().warnings.join("\n");
     assert!(said.contains("are these depths? `height_positive_up = false`"), "{said}");
     let tilted = npy_f8(ROWS, COLUMNS, |row, column| heights(column, row) + 0.5 * column as f64 - 0.2 * row as f64);
     let said = read_depth_map(&tilted, None, &options).unwrap().warnings.join("\n");

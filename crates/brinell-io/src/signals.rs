@@ -82,6 +82,13 @@ impl Metadata {
         self.sample_rate().ok_or_else(|| format!("it needs a sample rate, `{}`", keys::SAMPLE_RATE_HZ))
     }
 
+    /// The scenario of the run that made the file, where it carries one.
+    pub fn scenario(&self) -> Option<&str> {
+        // MAT and UFF write the key's dot otherwise.
+        let of = |(key, _): &&(String, String)| key.starts_with("brinell") && key.ends_with("scenario");
+        self.pairs.iter().find(of).map(|(_, text)| text.as_str())
+    }
+
     /// The value of a key: the first, should a file repeat it.
     pub fn get(&self, key: &str) -> Option<&str> {
         self.pairs.iter().find(|(k, _)| k == key).map(|(_, value)| value.as_str())
@@ -170,8 +177,8 @@ pub enum Format {
 }
 
 impl Format {
-    /// Every format there is, also those that this build left out.
-    pub const ALL: [Self; 6] = [Self::Csv, Self::Parquet, Self::Mat, Self::Npz, Self::Uff58, Self::Wav];
+    /// Every format there is, also those that this build left out; in this order they are looked for in a run's folder.
+    pub const ALL: [Self; 6] = [Self::Parquet, Self::Npz, Self::Mat, Self::Csv, Self::Uff58, Self::Wav];
 
     /// The name that selects it: `csv`, `parquet`, `mat`, `npz`, `uff58` or `wav`.
     pub fn name(self) -> &'static str {

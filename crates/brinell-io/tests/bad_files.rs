@@ -166,7 +166,7 @@ fn regress_bad_text_gets_the_line() {
     );
     assert_eq!(
         here.says("a.txt", "0,5\n1,25\n"),
-        "a.txt: cannot read: `0,5` may be two whole numbers or one with a decimal comma; say which"
+        "a.txt: cannot read: `0,5` may be two whole numbers or one with a decimal comma; write a decimal point, or name the columns in a line above"
     );
     assert_eq!(
         here.says("a.csv", "when;x\n10:15;1\n10:16;2\n"),

@@ -7,7 +7,6 @@ use brinell::bearing::kinematics::Geometry;
 use brinell::bearing::{KnownBearing, frequencies_of, orders_of};
 use brinell::derived::Derived;
 use brinell::model::Model;
-use brinell::scenario::Speed;
 use brinell::statics::static_load_zone;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
@@ -59,16 +58,12 @@ pub(crate) fn frequencies<'py>(
 ) -> PyResult<Bound<'py, PyAny>> {
     let (orders, own) = match (bearing, scenario) {
         (Some(name), _) => {
-            let known = KnownBearing::find(name).ok_or_else(|| bad_value(KnownBearing::unknown(name)))?;
-            (known.orders().map_err(bad_value)?.0, None)
+            let known = KnownBearing::named(name).and_then(|known| known.orders());
+            (known.map_err(bad_value)?.0, None)
         }
         (None, Some(scenario)) => {
             let scenario = &scenario.loaded.scenario;
-            let own = match scenario.operation.speed_rpm {
-                Speed::Constant(rpm) => Some(rpm),
-                Speed::Profile(_) => None,
-            };
-            (orders_of(&Geometry::of(&scenario.bearing)), own)
+            (orders_of(&Geometry::of(&scenario.bearing)), scenario.operation.speed_rpm.constant())
         }
         (None, None) => return Err(bad_value("which bearing? Give a name or a scenario")),
     };

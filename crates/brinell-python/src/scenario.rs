@@ -1,7 +1,7 @@
 //! A scenario: the text it was read from, and what became of it.
 
 use crate::convert::{document, json_to_python, overrides};
-use crate::errors::{bad_value, scenario_error, unreadable};
+use crate::errors::{ReadError, bad_value, scenario_error, unreadable};
 use brinell::document::{Loaded, Problem, read, read_bytes};
 use brinell_damage::resolve_loaded;
 use brinell_study::campaign::fingerprint;
@@ -184,6 +184,11 @@ impl Scenario {
     #[getter]
     fn toml(&self) -> String {
         self.loaded.to_toml()
+    }
+
+    /// Writes [`Scenario::toml`] into a file, whole or not at all.
+    fn write(&self, path: PathBuf) -> PyResult<()> {
+        brinell_io::atomic_write(path, self.loaded.to_toml()).map_err(|error| ReadError::new_err(error.to_string()))
     }
 
     /// What its author should know.

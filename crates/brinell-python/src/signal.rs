@@ -200,11 +200,8 @@ fn orders(
     scenario: Option<&crate::scenario::Scenario>,
     given: [Option<f64>; 4],
 ) -> PyResult<(DefectOrders, String)> {
-    let (mut orders, source) = match (name, scenario) {
-        (Some(name), _) => {
-            let known = KnownBearing::find(name).ok_or_else(|| bad_value(KnownBearing::unknown(name)))?;
-            known.orders().map_err(bad_value)?
-        }
+    let (known, source) = match (name, scenario) {
+        (Some(name), _) => KnownBearing::named(name).and_then(|known| known.orders()).map_err(bad_value)?,
         (None, Some(scenario)) => {
             let scenario = &scenario.loaded.scenario;
             let words = format!("that of the scenario {}", scenario.name);
@@ -212,15 +209,8 @@ fn orders(
         }
         (None, None) => (DefectOrders::default(), String::new()),
     };
-    let names = ["BPFO", "BPFI", "BSF", "FTF"].into_iter().zip(given);
-    let named: Vec<&str> = names.filter(|(_, o)| o.is_some()).map(|(n, _)| n).collect();
-    let as_given = (!named.is_empty()).then(|| format!("{} as given", named.join(", ")));
-    let sources = [Some(source).filter(|words| !words.is_empty()), as_given];
-    let [bpfo, bpfi, bsf, ftf] = given;
-    orders.bpfo = bpfo.or(orders.bpfo);
-    orders.bpfi = bpfi.or(orders.bpfi);
-    orders.bsf = bsf.or(orders.bsf);
-    orders.ftf = ftf.or(orders.ftf);
+    let orders = known.with_given(given).map_err(|error| bad_value(error.to_string()))?;
+    let sources = [Some(source).filter(|words| !words.is_empty()), DefectOrders::given_words(given)];
     let sources: Vec<String> = sources.into_iter().flatten().collect();
     Ok((orders, sources.join("; ")))
 }

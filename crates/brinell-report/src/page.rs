@@ -217,7 +217,7 @@ fn damage(page: &mut String, report: &Report) {
                 page,
                 &format!("damage{index}-photo"),
                 |layout| damage_photo(view, index, layout).unwrap_or_else(empty),
-                &sentence(&escape(&photo.notes.join("; "))),
+                &sentence(&photo.notes.join("; ")),
             );
         }
         let band = match (view.half_turn_mm, view.element()) {

@@ -215,10 +215,7 @@ impl Bench {
 }
 
 fn shaft_of(loaded: &Loaded) -> Option<f64> {
-    match loaded.scenario.operation.speed_rpm {
-        Speed::Constant(rpm) => Some(rpm.abs() / 60.0),
-        Speed::Profile(_) => None,
-    }
+    loaded.scenario.operation.speed_rpm.constant().map(|rpm| rpm.abs() / 60.0)
 }
 
 /// Whether a run of one may go on in the other: the same bearing but for what a force may change at once.

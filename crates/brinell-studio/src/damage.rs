@@ -30,7 +30,7 @@ fn one(k: usize, of: &scenario::Defect, defect: &Defect, arrays: &mut Arrays) ->
     let polygons: Vec<Value> =
         polygons_mm(of, &defect.shape, CORNERS).into_iter().map(|ring| arrays.rounded(ring.as_flattened())).collect();
     let depths = depth_grid(of);
-    let deepest = depths.as_ref().map(|g| g.depth_um.iter().copied().fold(0.0, f64::max));
+    let deepest = depths.as_ref().map(scenario::DepthGrid::deepest_um);
     let grid = depths.map(|g| {
         json!({
             "ds_mm": g.ds_mm, "dz_mm": g.dz_mm, "s0_mm": g.s0_mm, "z0_mm": g.z0_mm,

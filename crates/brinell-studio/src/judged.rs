@@ -6,7 +6,7 @@ use crate::report::{Answer, Trouble};
 use brinell::analysis::{Analysis, COLUMNS, DefectOrders, Family, Options, Quantity, Unit, analyze, shown_spectrum};
 use brinell::bearing::kinematics::Geometry;
 use brinell::bearing::{KnownBearing, orders_of};
-use brinell::scenario::{Scenario, Speed};
+use brinell::scenario::Scenario;
 use brinell::signal::{Estimate, Indicator, Moments};
 use brinell::simulate::Simulation;
 use brinell_io::{Column, Format, Metadata, Outcome, keys};
@@ -59,16 +59,11 @@ pub(crate) fn listen(request: &Value, arrays: &Arrays) -> Answer<Value> {
 
 /// The scenario of the run that made a file, where the file carries it.
 fn made_by(file: &SignalFile) -> Option<Scenario> {
-    let mut words = file.metadata().pairs.iter();
-    let (_, text) = words.find(|(key, _)| key.starts_with("brinell") && key.ends_with("scenario"))?;
-    Scenario::from_toml(text).ok()
+    Scenario::from_toml(file.metadata().scenario()?).ok()
 }
 
 fn rpm(scenario: &Scenario) -> Option<f64> {
-    match scenario.operation.speed_rpm {
-        Speed::Constant(rpm) if rpm != 0.0 => Some(rpm.abs()),
-        _ => None,
-    }
+    scenario.operation.speed_rpm.constant().filter(|rpm| *rpm != 0.0).map(f64::abs)
 }
 
 /// `judge`: one channel, analysed as `brinell analyze` does.
@@ -137,11 +132,7 @@ fn options(request: &Value, run: Option<&Scenario>, unit: &Unit) -> Answer<Optio
     let orders = match (own, named) {
         (Some(run), _) => orders_of(&Geometry::of(&run.bearing)),
         (None, None) => DefectOrders::default(),
-        (None, Some(name)) => {
-            let bearing = KnownBearing::find(name);
-            let bearing = bearing.ok_or_else(|| Trouble::of(KnownBearing::unknown(name)))?;
-            bearing.orders().map_err(Trouble::of)?.0
-        }
+        (None, Some(name)) => KnownBearing::named(name).and_then(|known| known.orders()).map_err(Trouble::of)?.0,
     };
     let mut options = Options::new(turned / 60.0, orders);
     if let Some(run) = run {

@@ -6,7 +6,7 @@ use crate::{about, text};
 use brinell::defect::simplify::Extent;
 use brinell::document::Loaded;
 use brinell::scenario::{self, Scenario, Shape, Surface};
-use brinell_damage::{DepthGrid, Stroke, brush, scratch, shape_of_bytes};
+use brinell_damage::{Stroke, brush, scratch, shape_of_bytes};
 use serde_json::{Value, json};
 
 /// A bearing that any shape of damage fits on, to read and write shapes with.
@@ -79,13 +79,13 @@ pub(crate) fn brushed(request: &Value, arrays: &Arrays) -> Answer<Value> {
     let sign = if request["raise"] == json!(true) { -1.0 } else { 1.0 };
     let before = match request.get("grid").filter(|g| !g.is_null()) {
         Some(shape) => match read(shape)? {
-            Shape::DepthMap { grid } => Some(DepthGrid::from(grid)),
+            Shape::DepthMap { grid } => Some(grid),
             _ => return Err(Trouble::of("\"grid\" must be a shape with a depth map")),
         },
         None => None,
     };
     let depth = sign * number(request, "depth_um")?;
-    let grid = brush(before.as_ref(), &stroke, depth).map_err(|e| Trouble::of(e.to_string()))?;
+    let mut grid = brush(before.as_ref(), &stroke, depth).map_err(|e| Trouble::of(e.to_string()))?;
     let columns = grid.columns;
     let damaged = (grid.depth_um.iter().enumerate()).filter(|(_, d)| **d > 0.0);
     let [low, high] = placed(damaged.map(|(k, _)| {
@@ -96,19 +96,11 @@ pub(crate) fn brushed(request: &Value, arrays: &Arrays) -> Answer<Value> {
         return Err(Trouble::of("nothing is left of the damage; delete it"));
     }
     let middle = if before.is_some() { [0.0; 2] } else { [0.5 * (low[0] + high[0]), 0.5 * (low[1] + high[1])] };
-    let shape = Shape::DepthMap {
-        grid: scenario::DepthGrid {
-            s0_mm: grid.s0_mm - middle[0],
-            z0_mm: grid.z0_mm - middle[1],
-            ds_mm: grid.ds_mm,
-            dz_mm: grid.dz_mm,
-            columns: grid.columns,
-            rows: grid.rows,
-            depth_um: grid.depth_um.iter().map(|d| (d * 1e3).round() / 1e3).collect(),
-        },
-    };
+    grid.s0_mm -= middle[0];
+    grid.z0_mm -= middle[1];
+    grid.depth_um.iter_mut().for_each(|d| *d = (*d * 1e3).round() / 1e3);
     Ok(json!({
-        "shape": stated(shape)?,
+        "shape": stated(Shape::DepthMap { grid })?,
         "center_mm": middle,
         "length_mm": high[0] - low[0],
         "width_mm": high[1] - low[1],

@@ -6,6 +6,7 @@ use crate::report::{Answer, Trouble};
 use crate::{about, damage, differ, judged, pen, spectra, text};
 use brinell::bearing::kinematics::Geometry;
 use brinell::bearing::orders_of;
+use brinell::channel::SENSOR;
 use brinell::plausibility::Beforehand;
 use brinell::result::{Spread, quantities};
 use brinell::scenario::Scenario;
@@ -182,7 +183,7 @@ fn opened(bench: &Bench) -> Value {
         "rate_hz": simulation.sample_rate(),
         "samples": simulation.samples(),
         "settled_s": bench.recording.settled_s(),
-        "axis": (["sensor_ax", "sensor_ay"][bench.recording.axis]),
+        "axis": (SENSOR[bench.recording.axis]),
         "unit": "m/s^2",
         "rpm": bench.shaft().map(|f| 60.0 * f),
         "constant_speed": bench.shaft().is_some(),

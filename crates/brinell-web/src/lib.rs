@@ -25,7 +25,7 @@ pub extern "C" fn give(length: usize) -> *mut u8 {
 /// Answers the request that was written there. At the place that is returned are the answer's length (four bytes, the
 /// least first) and the answer.
 #[unsafe(no_mangle)]
-pub extern "C" fn ask(_place: *const u8, _length: usize) -> *const u8 {
+pub extern "C" fn ask() -> *const u8 {
     let request = REQUEST.take();
     let answer = STUDIO.with_borrow_mut(|studio| studio.ask(&request));
     ANSWER.with_borrow_mut(|kept| {

@@ -6,6 +6,7 @@
 
 mod all;
 
+use crate::contact::is_line_exponent;
 use crate::defect::Side;
 use crate::model::{Model, Workspace};
 use crate::scenario::{Law, ModelKind, Sensor};
@@ -79,9 +80,19 @@ pub struct Channel {
     quantity: Quantity,
 }
 
+/// The sensor's acceleration along X and Y.
+#[doc(hidden)]
+pub const SENSOR: [&str; 2] = ["sensor_ax", "sensor_ay"];
+
 /// Unit of a contact's stiffness: N/m^n.
 #[doc(hidden)]
 pub const STIFFNESS_UNIT: &str = "N/m^n";
+
+/// [`STIFFNESS_UNIT`] of an exponent, which is written out where it is that of line contact, 10/9.
+#[doc(hidden)]
+pub fn stiffness_unit(exponent: f64) -> &'static str {
+    if is_line_exponent(exponent) { "N/m^(10/9)" } else { STIFFNESS_UNIT }
+}
 
 impl Channel {
     /// Whether the channel comes from the anti-alias filter rather than from a frame; then its axis, 0 for x, 1 for y,

@@ -16,6 +16,11 @@ pub fn palmgren_stiffness(length: f64) -> f64 {
     8.06e4 * (length * 1e3).powf(8.0 / 9.0) * 1e3f64.powf(10.0 / 9.0)
 }
 
+/// Whether n is that of line contact, 10/9.
+pub(crate) fn is_line_exponent(n: f64) -> bool {
+    (n - 10.0 / 9.0).abs() < 1e-9
+}
+
 /// Share g = ((L - L_s)/L)^(8/9) of a contact's stiffness that the undamaged length keeps (Eq. 23); 1 where L_s = 0,
 /// to the bit.
 #[inline]

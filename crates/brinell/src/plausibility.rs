@@ -171,10 +171,7 @@ fn overload(scenario: &Scenario, zone: &StaticLoadZone) -> Vec<Problem> {
         ));
     }
     let (side, highest) = highest_pressure(scenario, zone);
-    let ring = match side {
-        Side::Inner => "inner",
-        Side::Outer => "outer",
-    };
+    let ring = side.word();
     let limit = static_limit(&scenario.bearing);
     let element = scenario.bearing.element.word();
     if highest > limit {
@@ -280,10 +277,7 @@ fn felt_by_a_point(scenario: &Scenario, model: &Model, deformation: Option<f64>)
         let Some((side, (deep, reached))) = worst else {
             continue;
         };
-        let ring = match side {
-            Side::Inner => "inner",
-            Side::Outer => "outer",
-        };
+        let ring = side.word();
         let words = if reached < REACHED_SHARE * deep {
             format!(
                 "defect {} is {} um deep, and the roller's radius lets it sink {} um into it at the {ring} raceway; a \"point\" feels the \

@@ -1,5 +1,6 @@
 //! The options of `brinell analyze`.
 
+use super::measured::SignalArgs;
 use crate::args::{Elements, PlotFormat, quantity};
 use crate::figures::Print;
 use brinell::analysis::MachineClass;
@@ -27,32 +28,8 @@ pub(crate) struct AnalyzeArgs {
     /// with 2 before 10
     #[arg(required = true, value_name = "FILE")]
     pub(crate) files: Vec<PathBuf>,
-    /// Channel: its name, a part of it that no other has, or its number from 1; `X(:,2)` takes a matrix's column
-    #[arg(long, value_name = "NAME|N")]
-    pub(crate) channel: Option<String>,
-    /// Sample rate
-    #[arg(
-        long,
-        value_parser = quantity("Hz", "more than 0 Hz, as 12000 or 12kHz"),
-        value_name = "HZ",
-        allow_negative_numbers = true
-    )]
-    pub(crate) rate: Option<f64>,
-    /// Column of times to take the rate from [default: one called t, time or the like]
-    #[arg(long, value_name = "NAME|N", conflicts_with = "rate")]
-    pub(crate) time_channel: Option<String>,
-    /// Unit of the times where the file does not say
-    #[arg(long, value_name = "s|ms|us")]
-    pub(crate) time_unit: Option<String>,
-    /// Unit of the signal: m/s^2, g, mm/s, m/s, V, counts, ...
-    #[arg(long, value_name = "UNIT")]
-    pub(crate) unit: Option<String>,
-    /// The sensor's, of a signal in V or mA: 100mV/g, 10mV/(m/s2), 4mV/(mm/s); the signal is then in g, m/s^2 or mm/s
-    #[arg(long, value_name = "mV/g", allow_negative_numbers = true)]
-    pub(crate) sensitivity: Option<String>,
-    /// Of a WAV: what its largest number means, as 5V (with --sensitivity) or 10g
-    #[arg(long, value_name = "VALUE", conflicts_with = "unit", allow_negative_numbers = true)]
-    pub(crate) full_scale: Option<String>,
+    #[command(flatten)]
+    pub(crate) signal: SignalArgs,
     /// Shaft speed (the inner ring turns, the outer rests)
     #[arg(
         long,
@@ -107,22 +84,6 @@ pub(crate) struct AnalyzeArgs {
         allow_negative_numbers = true
     )]
     pub(crate) supply: Option<f64>,
-    /// Skip so much of the signal's beginning
-    #[arg(
-        long,
-        value_parser = quantity("s", "0 s or more, as 0.5 or 500ms"),
-        value_name = "S",
-        allow_negative_numbers = true
-    )]
-    pub(crate) start: Option<f64>,
-    /// Analyse so much from there [default: what is there; of a long signal the first and the last 4194304 samples]
-    #[arg(
-        long,
-        value_parser = quantity("s", "more than 0 s, as 2 or 500ms"),
-        value_name = "S",
-        allow_negative_numbers = true
-    )]
-    pub(crate) duration: Option<f64>,
     /// Compare it with this: another file of signals, or the folder of a run
     #[arg(long, value_name = "FILE|FOLDER")]
     pub(crate) against: Option<PathBuf>,

@@ -7,10 +7,6 @@ use brinell::analysis::DefectOrders;
 use brinell::bearing::kinematics::Geometry;
 use brinell::bearing::{KnownBearing, orders_of};
 
-/// What BPFO, BPFI, BSF and FTF may be over the shaft's frequency, the outer ring at rest: Z (1 - g) / 2, Z (1 + g) /
-/// 2, (1 / g - g) / 2 and (1 - g) / 2 for five or more elements and a g = (d / D) cos a up to 0.6.
-const POSSIBLE: [(f64, f64); 4] = [(1.0, 200.0), (2.5, 200.0), (0.5, 25.0), (0.19, 0.51)];
-
 /// Orders over the shaft's frequency `shaft` (Hz), of the bearing of this name where there is one, and where they come
 /// from.
 pub(super) fn orders(
@@ -19,29 +15,16 @@ pub(super) fn orders(
     measured: &Measured,
     shaft: f64,
 ) -> Result<(DefectOrders, String), Failure> {
-    let (mut orders, mut source) = base(args, name, measured)?;
-    let given = [
-        ("--bpfo", "BPFO", &args.bpfo, &mut orders.bpfo),
-        ("--bpfi", "BPFI", &args.bpfi, &mut orders.bpfi),
-        ("--bsf", "BSF", &args.bsf, &mut orders.bsf),
-        ("--ftf", "FTF", &args.ftf, &mut orders.ftf),
-    ];
-    let mut named = Vec::new();
-    for ((option, name, text, order), possible) in given.into_iter().zip(POSSIBLE) {
+    let (known, mut source) = base(args, name, measured)?;
+    let options = [("--bpfo", &args.bpfo), ("--bpfi", &args.bpfi), ("--bsf", &args.bsf), ("--ftf", &args.ftf)];
+    let mut given = [None; 4];
+    for (k, (option, text)) in options.into_iter().enumerate() {
         if let Some(text) = text {
-            *order = Some(frequency(option, text, shaft, possible)?);
-            named.push(name);
+            given[k] = Some(frequency(option, text, shaft, DefectOrders::POSSIBLE[k])?);
         }
     }
-    if let (Some(bpfo), Some(bpfi)) = (orders.bpfo, orders.bpfi)
-        && bpfo >= bpfi
-    {
-        return Err(Failure::Usage(format!(
-            "BPFO {bpfo:.4}x and BPFI {bpfi:.4}x: expected the inner race to be passed more often than the outer, which rests"
-        )));
-    }
-    if !named.is_empty() {
-        let words = format!("{} as given", named.join(", "));
+    let orders = known.with_given(given).map_err(|error| Failure::Usage(error.to_string()))?;
+    if let Some(words) = DefectOrders::given_words(given) {
         source = if source.is_empty() { words } else { format!("{source}; {words}") };
     }
     if orders.is_empty() {

@@ -1,14 +1,11 @@
 //! Which files are meant: one, several, or those of a folder.
 
-use super::measured::run_in;
+use super::measured::{names_of_runs, run_in};
 use crate::failure::Failure;
 use crate::say::one_line;
+use brinell_io::FileKind;
 use std::cmp::Ordering;
 use std::path::{Path, PathBuf};
-
-/// Endings of files of signals that are looked for in a folder.
-const ENDINGS: [&str; 15] =
-    ["csv", "tsv", "lvm", "wav", "mat", "npz", "npy", "parquet", "pq", "h5", "hdf5", "hdf", "uff", "unv", "uf"];
 
 /// What was named.
 pub(super) enum Files {
@@ -50,17 +47,19 @@ fn inside(folder: &Path) -> Result<Vec<PathBuf>, Failure> {
     for entry in std::fs::read_dir(folder).map_err(failed)? {
         let path = entry.map_err(failed)?.path();
         let hidden = (path.file_name()).is_some_and(|n| n.to_string_lossy().starts_with('.'));
-        let is_signal = (path.extension()).is_some_and(|e| ENDINGS.iter().any(|known| e.eq_ignore_ascii_case(known)));
+        let is_signal =
+            (path.extension()).is_some_and(|e| FileKind::extensions().any(|known| e.eq_ignore_ascii_case(known)));
         if is_signal && !hidden && path.is_file() {
             found.push(path);
         }
     }
     if found.is_empty() {
         return Err(Failure::Usage(format!(
-            "{} is a folder without files of signals ({}), and not that of a run (signals.parquet, .npz, .mat, .csv, .uff or .wav); name a file, \
-             a folder of files, or the folder of a run",
+            "{} is a folder without files of signals ({}), and not that of a run ({}); name a file, a folder of files, or \
+             the folder of a run",
             folder.display(),
-            ENDINGS.join(", ")
+            FileKind::extensions().collect::<Vec<_>>().join(", "),
+            names_of_runs()
         )));
     }
     found.sort_by(|a, b| by_name(&a.to_string_lossy(), &b.to_string_lossy()));

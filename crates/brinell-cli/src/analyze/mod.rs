@@ -182,20 +182,10 @@ fn load(args: &AnalyzeArgs, path: &Path) -> Result<Measured, Failure> {
     let mut measured = measured::load(
         path,
         &Wanted {
-            channel: args.channel.as_deref(),
-            rate: args.rate,
-            time_channel: args.time_channel.as_deref(),
-            time_unit: args.time_unit.as_deref(),
-            unit: args.unit.as_deref(),
-            sensitivity: args.sensitivity.as_deref(),
-            full_scale: args.full_scale.as_deref(),
             speed_channel: args.speed_channel.as_deref(),
-            start: args.start,
-            duration: args.duration,
-            whose: "",
-            like: None,
             ask_speed: args.speed.is_none(),
             ask_bearing: !args.names_a_bearing(),
+            ..args.signal.wanted()
         },
     )?;
     let of_the_run = measured.of_the_run();
@@ -377,7 +367,7 @@ fn lay_over(path: &Path, args: &AnalyzeArgs, measured: &Measured, analysis: &mut
         sensitivity: args.against_sensitivity.as_deref(),
         full_scale: args.against_full_scale.as_deref(),
         whose: "against-",
-        like: Some(measured).filter(|m| args.sensitivity.is_none() && is_alike(&m.path, path)),
+        like: Some(measured).filter(|m| args.signal.sensitivity.is_none() && is_alike(&m.path, path)),
         ..Wanted::default()
     };
     let mut other = measured::load(path, &wanted)?;

@@ -1,6 +1,6 @@
 //! The command line of `brinell calibrate`.
 
-use crate::args::quantity;
+use crate::analyze::measured::SignalArgs;
 use clap::Args;
 use std::num::NonZeroUsize;
 use std::path::PathBuf;
@@ -48,34 +48,8 @@ pub(crate) struct CalibrateArgs {
     /// a run
     #[arg(long, value_name = "FILE|FOLDER")]
     pub(crate) measured: Option<PathBuf>,
-    /// Channel of the measured signal: its name, a part of it that no other has, or its number from 1
-    #[arg(long, value_name = "NAME|N", requires = "measured")]
-    pub(crate) channel: Option<String>,
-    /// Its sample rate
-    #[arg(
-        long,
-        alias = "sample-rate",
-        value_parser = quantity("Hz", "more than 0 Hz, as 12000 or 12kHz"),
-        value_name = "HZ",
-        requires = "measured",
-        allow_negative_numbers = true
-    )]
-    pub(crate) rate: Option<f64>,
-    /// Column of times to take the rate from [default: one called t, time or the like]
-    #[arg(long, value_name = "NAME|N", requires = "measured", conflicts_with = "rate")]
-    pub(crate) time_channel: Option<String>,
-    /// Unit of the times where the file does not say
-    #[arg(long, value_name = "s|ms|us", requires = "measured")]
-    pub(crate) time_unit: Option<String>,
-    /// Unit of the signal: m/s^2, g, ...
-    #[arg(long, value_name = "UNIT", requires = "measured")]
-    pub(crate) unit: Option<String>,
-    /// Skip so much of the signal's beginning
-    #[arg(long, value_name = "S", requires = "measured", allow_negative_numbers = true)]
-    pub(crate) start: Option<f64>,
-    /// Use so much from there [default: what is there, up to 4194304 samples]
-    #[arg(long, value_name = "S", requires = "measured", allow_negative_numbers = true)]
-    pub(crate) duration: Option<f64>,
+    #[command(flatten)]
+    pub(crate) signal: SignalArgs,
     /// Sensor's axis in the simulation: x or y [default: the axis nearer the load]
     #[arg(long, value_name = "x|y", requires = "measured")]
     pub(crate) axis: Option<String>,

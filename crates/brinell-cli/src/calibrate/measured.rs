@@ -1,12 +1,13 @@
 //! A measured signal as targets.
 
 use super::CalibrateArgs;
-use crate::analyze::measured::{Measured, Wanted, load};
+use crate::analyze::measured::{Measured, SignalArgs, load};
 use crate::failure::Failure;
 use brinell::analysis::Quantity as Dimension;
 use brinell::bearing::Kinematics;
+use brinell::channel::SENSOR;
 use brinell::result::{Quantity, Spread};
-use brinell::scenario::{Scenario, Speed};
+use brinell::scenario::Scenario;
 use brinell::signal::{Band, Blocks, Indicator, Interval, LineSearch, line_frequency};
 use brinell::simulate::Simulation;
 use brinell_study::calibrate::Target;
@@ -39,6 +40,11 @@ pub(super) fn pattern(
     simulation: &Simulation,
 ) -> Result<Option<Pattern>, Failure> {
     let Some(file) = &args.measured else {
+        if args.signal != SignalArgs::default() {
+            return Err(usage(
+                "--channel, --rate, --unit and the like are about a measured signal: give --measured FILE".into(),
+            ));
+        }
         return Ok(None);
     };
     let share = 0.01 * args.model_uncertainty;
@@ -48,34 +54,21 @@ pub(super) fn pattern(
             args.model_uncertainty
         )));
     }
-    let Speed::Constant(rpm) = scenario.operation.speed_rpm else {
+    let Some(rpm) = scenario.operation.speed_rpm.constant() else {
         return Err(usage(
             "--measured: the scenario's speed is not constant, and defect frequencies are looked for at one speed; give --set \
              operation.speed_rpm=RPM"
                 .into(),
         ));
     };
-    let [x, y] = scenario.operation.load_n;
-    let (axis, channel) = match args.axis.as_deref() {
-        Some("x") => (0, "sensor_ax"),
-        Some("y") => (1, "sensor_ay"),
-        None if y.abs() > x.abs() => (1, "sensor_ay"),
-        None => (0, "sensor_ax"),
+    let axis = match args.axis.as_deref() {
+        Some("x") => 0,
+        Some("y") => 1,
+        None => scenario.operation.axis_of_load(),
         Some(other) => return Err(usage(format!("--axis {other}: expected x or y"))),
     };
-    let mut measured = load(
-        file,
-        &Wanted {
-            channel: args.channel.as_deref(),
-            rate: args.rate,
-            time_channel: args.time_channel.as_deref(),
-            time_unit: args.time_unit.as_deref(),
-            unit: args.unit.as_deref(),
-            start: args.start,
-            duration: args.duration,
-            ..Wanted::default()
-        },
-    )?;
+    let channel = SENSOR[axis];
+    let mut measured = load(file, &args.signal.wanted())?;
     let name = measured.path.display().to_string();
     if measured.unit.quantity != Dimension::Acceleration {
         return Err(usage(format!(

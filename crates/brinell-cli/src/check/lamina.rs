@@ -2,7 +2,6 @@
 
 use crate::failure::Failure;
 use crate::say::{say, short, significant};
-use brinell::defect::Side;
 use brinell::lamina::{Distribution, Peak, Rating};
 use brinell::pressure::static_limit;
 use brinell::scenario::{RollerProfile, Scenario};
@@ -74,11 +73,7 @@ fn pressures(of: &str, d: &Distribution) {
 }
 
 fn place(peak: &Peak) -> String {
-    let ring = match peak.side {
-        Side::Inner => "inner",
-        Side::Outer => "outer",
-    };
-    format!("the {ring} raceway of row {}, z = {} mm", peak.row + 1, short(1e3 * peak.z, 3))
+    format!("the {} raceway of row {}, z = {} mm", peak.side.word(), peak.row + 1, short(1e3 * peak.z, 3))
 }
 
 fn life(rating: &Rating, straight: bool, top_speed: f64) {

@@ -1,7 +1,7 @@
 //! The curves of a comparison: signals, spectra, passes over damage, entries and exits.
 
 use super::sides::Side;
-use brinell::channel::STIFFNESS_UNIT;
+use brinell::channel::{STIFFNESS_UNIT, stiffness_unit};
 use brinell::observe::passes::{PassPoint, place};
 use brinell::result::{Impacts, RunResult, impacts};
 use brinell_report::{Along, OverlaidCurve, Overlay, Piece, Vertical, capital};
@@ -114,8 +114,8 @@ pub(super) fn over_defect(runs: &[&RunResult], defect: usize) -> Vec<Piece> {
     if passes.iter().all(Option::is_none) {
         return vec![Piece::Words("No roller passed it from end to end.".into())];
     }
-    let usual = |run: &&RunResult| (run.scenario.contact.exponent - 10.0 / 9.0).abs() < 1e-9;
-    let stiffness = if runs.iter().all(usual) { "N/m^(10/9)" } else { STIFFNESS_UNIT };
+    let units = runs.iter().map(|run| stiffness_unit(run.scenario.contact.exponent));
+    let stiffness = units.reduce(|a, b| if a == b { a } else { STIFFNESS_UNIT }).unwrap_or(STIFFNESS_UNIT);
     let quantities: [Shown; 3] = [
         ("length", "Effective contact length", "mm", |p| 1e3 * p.length),
         ("stiffness", "Contact stiffness", stiffness, |p| p.stiffness),

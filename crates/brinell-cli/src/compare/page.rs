@@ -2,7 +2,7 @@
 
 use super::curves::{called, entry_and_exit, envelope, over_defect, spectrum, waveform};
 use super::sides::Side;
-use crate::say::{bracketed, short, shown_unit};
+use crate::say::{bracketed, short, shown_unit, twelve_digits};
 use crate::sweep::{value_text, words};
 use brinell::observe::passes::place;
 use brinell::result::{Quantity, RunResult};
@@ -192,8 +192,7 @@ fn differing(sides: &[Side]) -> Table {
 /// A value as it is shown: numbers without the round-off of a change of unit, long texts cut.
 fn cut(text: &str) -> String {
     if let Ok(x) = text.parse::<f64>() {
-        let rounded: f64 = format!("{x:.11e}").parse().unwrap_or(x);
-        return format!("{rounded}");
+        return twelve_digits(x).to_string();
     }
     if text.chars().count() <= LONGEST {
         return text.to_owned();

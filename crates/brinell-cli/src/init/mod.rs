@@ -5,7 +5,7 @@ use crate::say::{document, pretty, say};
 use brinell::bearing::catalogue::{self, Entry, STATIC_RATING};
 use brinell::bearing::{KnownBearing, clearance_of};
 use brinell::document::toml_quote;
-use brinell_io::atomic_write;
+use brinell_io::{Complete, atomic_prepare, atomic_write};
 use clap::{Args, ValueEnum};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
@@ -116,7 +116,7 @@ pub(crate) fn init(args: &InitArgs) -> Result<ExitCode, Failure> {
         let base = filled(include_str!("base.toml"), &names, &bearing);
         files.push((beside(&names.base), base.into()));
     }
-    // Last what names the others.
+    // Last the one that names the others.
     files.push((file.clone(), text.into()));
     write(&files, args.force)?;
     let next = match template {
@@ -141,8 +141,14 @@ fn write(files: &[(PathBuf, Vec<u8>)], force: bool) -> Result<(), Failure> {
             return Err(Failure::Usage(format!("{} exists; --force overwrites it", path.display())));
         }
     }
-    for (path, bytes) in files {
-        atomic_write(path, bytes)?;
+    let Some(((scenario, text), beside)) = files.split_last() else {
+        return Ok(());
+    };
+    let ready: Result<Vec<Complete>, _> = beside.iter().map(|(path, bytes)| atomic_prepare(path, bytes)).collect();
+    let ready = ready?;
+    atomic_write(scenario, text)?;
+    for file in ready {
+        file.publish()?;
     }
     Ok(())
 }
@@ -303,11 +309,17 @@ fn filled(text: &str, names: &Names, of: &Fitted) -> String {
         ("{scale}", number((1000.0 * 0.02 * of.scale).round() / 1000.0)),
         ("{step}", number((1000.0 * 0.06 * of.scale).round() / 1000.0)),
     ];
-    let mut text = text.to_owned();
-    for (place, value) in places {
-        text = text.replace(place, &value);
+    // In one pass: a file's name may hold the name of a place.
+    let (mut filled, mut rest) = (String::new(), text);
+    while let Some(at) = rest.find('{') {
+        let (before, behind) = rest.split_at(at);
+        filled += before;
+        let place = places.iter().find_map(|(place, value)| Some((behind.strip_prefix(place)?, value.as_str())));
+        let (behind, value) = place.unwrap_or((&behind[1..], "{"));
+        filled += value;
+        rest = behind;
     }
-    aligned(&text)
+    aligned(&(filled + rest))
 }
 
 /// Comments behind keys, in one column for each block of lines.

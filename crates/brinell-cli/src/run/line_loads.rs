@@ -3,7 +3,6 @@
 use crate::args::RunArgs;
 use crate::failure::Failure;
 use brinell::channel::Frame;
-use brinell::defect::Side;
 use brinell::observe::line_load::{LineLoadRow, LineLoads};
 use brinell::simulate::{Observer, Simulation};
 use brinell_io::{Cells, Column, Complete, Table};
@@ -44,10 +43,7 @@ impl Observer for Reading {
 pub(super) fn ready(Reading(loads): &Reading, folder: &Path) -> Result<Complete, Failure> {
     let rows = &loads.rows;
     let numbers = |of: &dyn Fn(&LineLoadRow) -> f64| Cells::Numbers(rows.iter().map(|row| Some(of(row))).collect());
-    let side = |row: &LineLoadRow| match row.side {
-        Side::Inner => Some("inner".to_owned()),
-        Side::Outer => Some("outer".to_owned()),
-    };
+    let side = |row: &LineLoadRow| Some(row.side.word().to_owned());
     let mut table = Table::default();
     let mut push = |name, unit, what, cells| table.push(Column::new(name, unit, what), cells);
     push("t", "s", "time", numbers(&|row| row.t));

@@ -2,7 +2,7 @@
 
 use super::{Task, earlier, execute, make_folder, ready, safe_name, stop_flag};
 use crate::args::RunArgs;
-use crate::failure::{Failure, INTERRUPTED};
+use crate::failure::{BAD_INPUT, Failure, INTERRUPTED};
 use crate::files;
 use crate::inputs::Inputs;
 use crate::progress::Joint;
@@ -21,7 +21,7 @@ pub(super) fn run(args: &RunArgs) -> Result<ExitCode, Failure> {
     let folders = folders(&args.scenarios, root)?;
     let Some(tasks) = checked(args, folders) else {
         complain!("nothing was run");
-        return Ok(ExitCode::from(2));
+        return Ok(ExitCode::from(BAD_INPUT));
     };
     for task in &tasks {
         make_folder(&task.folder)?;

@@ -21,8 +21,7 @@ const PICTURES: usize = 4;
 /// RMS and peak to peak of the sensor acceleration, the rings' and a cage's, along the axis nearer the load; of `names`
 /// that are there.
 pub(super) fn usual(scenario: &Scenario, names: &[String]) -> Vec<String> {
-    let [x, y] = scenario.operation.load_n;
-    let axis = if y.abs() > x.abs() { "y" } else { "x" };
+    let axis = ["x", "y"][scenario.operation.axis_of_load()];
     let mut usual = Vec::new();
     for channel in ["sensor", "inner", "outer", "cage1"] {
         for indicator in ["rms", "peak_to_peak"] {

@@ -86,10 +86,6 @@ pub(super) fn table(points: &Points, states: &[State], signals: bool) -> Table {
 
 /// The rows as JSON: of each point the cells by their columns' names, an empty one null.
 pub(super) fn rows(table: &Table) -> Vec<Value> {
-    let count = table.cells.first().map_or(0, |cells| match cells {
-        Cells::Numbers(values) => values.len(),
-        Cells::Words(values) => values.len(),
-    });
     let cell = |cells: &Cells, k: usize| match cells {
         Cells::Numbers(values) => values[k].into(),
         Cells::Words(values) => values[k].as_deref().into(),
@@ -99,7 +95,7 @@ pub(super) fn rows(table: &Table) -> Vec<Value> {
         let named = named.map(|(column, cells)| (column.name.clone(), cell(cells, k)));
         Value::Object(named.collect())
     };
-    (0..count).map(row).collect()
+    (0..table.rows()).map(row).collect()
 }
 
 /// Numbers where all are numbers.

@@ -47,21 +47,32 @@ impl fmt::Display for FileKind {
 const HEAD: u64 = 8 << 10;
 const HDF5: &[u8] = b"\x89HDF\r\n\x1a\n";
 
-/// The kinds that a file's extension promises, and how to call them. `txt`, `dat` and others promise nothing.
-fn promised(path: &Path) -> Option<(&'static [FileKind], &'static str)> {
+/// What file extensions promise: the kinds, and how to call them. `txt`, `dat` and others promise nothing.
+const PROMISED: [(&[&str], &[FileKind], &str); 8] = {
     use FileKind as K;
-    let extension = path.extension()?.to_str()?.to_ascii_lowercase();
-    Some(match extension.as_str() {
-        "csv" | "tsv" | "lvm" => (&[K::Text], "text"),
-        "parquet" | "pq" => (&[K::Parquet], "Parquet"),
-        "mat" => (&[K::Mat5, K::Hdf5], "MATLAB"),
-        "h5" | "hdf5" | "hdf" => (&[K::Hdf5], "HDF5"),
-        "npy" => (&[K::Npy], "NumPy npy"),
-        "npz" => (&[K::Npz], "NumPy npz"),
-        "wav" | "wave" => (&[K::Wav], "WAV"),
-        "uff" | "unv" | "uf" | "uf58" | "bunv" => (&[K::Uff58], "UFF"),
-        _ => return None,
-    })
+    [
+        (&["csv", "tsv", "lvm"], &[K::Text], "text"),
+        (&["parquet", "pq"], &[K::Parquet], "Parquet"),
+        (&["mat"], &[K::Mat5, K::Hdf5], "MATLAB"),
+        (&["h5", "hdf5", "hdf"], &[K::Hdf5], "HDF5"),
+        (&["npy"], &[K::Npy], "NumPy npy"),
+        (&["npz"], &[K::Npz], "NumPy npz"),
+        (&["wav", "wave"], &[K::Wav], "WAV"),
+        (&["uff", "unv", "uf", "uf58", "bunv"], &[K::Uff58], "UFF"),
+    ]
+};
+
+impl FileKind {
+    /// Extensions that promise a file of signals, in small letters and without the dot.
+    pub fn extensions() -> impl Iterator<Item = &'static str> {
+        PROMISED.iter().flat_map(|(extensions, ..)| extensions.iter().copied())
+    }
+}
+
+fn promised(path: &Path) -> Option<(&'static [FileKind], &'static str)> {
+    let extension = path.extension()?;
+    let of = PROMISED.iter().find(|(known, ..)| known.iter().any(|known| extension.eq_ignore_ascii_case(known)))?;
+    Some((of.1, of.2))
 }
 
 /// The kind of a file; an error where content and name disagree.

@@ -20,7 +20,7 @@ pub fn ratio(d: &Difference) -> Option<String> {
 pub fn shaft_lines(a: &Analysis) -> String {
     match &a.drift {
         Some(drift) if drift.followed => drift.words(),
-        Some(drift) => format!("{}; {}: give --speed-channel", own_lines(a), drift.words()),
+        Some(drift) => format!("{}; {}: give the channel of a measured speed", own_lines(a), drift.words()),
         None => own_lines(a),
     }
 }

@@ -2,6 +2,7 @@
 
 use super::{DamageView, heading};
 use crate::font;
+use crate::motion::round_below;
 use crate::number::short;
 use crate::picture::{Anchor, Paint, Picture, Rect, Shape, Text, ink};
 use crate::plots::Layout;
@@ -49,8 +50,7 @@ fn scale_bar(picture: &mut Picture, place: Rect, px_per_mm: f64, font: f64) {
     if !(most.is_finite() && most > 0.0) {
         return;
     }
-    let power = 10_f64.powf(most.log10().floor());
-    let mm = [5.0, 2.0, 1.0].map(|k| k * power).into_iter().find(|mm| *mm <= most).unwrap_or(power);
+    let mm = round_below(most);
     let words = match mm < 0.1 {
         true => format!("{} \u{3bc}m", short(1e3 * mm, 2)),
         false => format!("{} mm", short(mm, 2)),

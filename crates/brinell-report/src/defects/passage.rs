@@ -124,11 +124,7 @@ impl Passage<'_> {
 
     /// K = Q / delta^n, a panel a side.
     fn stiffnesses(&self, angles: &[f64]) -> Vec<DamagePanel> {
-        let exponent = self.scenario.contact.exponent;
-        let unit = match (exponent - 10.0 / 9.0).abs() < 1e-9 {
-            true => "N/m^(10/9)",
-            false => brinell::channel::STIFFNESS_UNIT,
-        };
+        let unit = brinell::channel::stiffness_unit(self.scenario.contact.exponent);
         // One length is no law under balls, nor along a profile.
         let sliced_alone = self.scenario.bearing.has_balls() || self.model.profiled().is_some();
         let of = |&(side, delta): &(Side, f64)| {
@@ -155,11 +151,8 @@ impl Passage<'_> {
     }
 }
 
-fn contact(side: Side) -> &'static str {
-    match side {
-        Side::Outer => "outer contact",
-        Side::Inner => "inner contact",
-    }
+fn contact(side: Side) -> String {
+    format!("{} contact", side.word())
 }
 
 fn panel(label: &str, unit: &str, curves: Vec<DamageCurve>) -> DamagePanel {

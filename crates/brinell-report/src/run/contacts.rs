@@ -1,8 +1,7 @@
 //! Of the report's data, the contacts: a roller's pass over a defect, and forces around the bearing.
 
 use crate::RowLoad;
-use brinell::channel::STIFFNESS_UNIT;
-use brinell::defect::Side;
+use brinell::channel::stiffness_unit;
 use brinell::observe::passes::{Pass, place};
 use brinell::scenario::Element;
 use brinell::statics::StaticLoadZone;
@@ -15,10 +14,6 @@ pub(super) fn pass(parts: &Parts, pass: &Pass) -> crate::Pass {
     let l = &model.layout;
     let stride = pass.points.len().div_ceil(PASS_POINTS).max(1);
     let points: Vec<_> = pass.points.iter().step_by(stride).collect();
-    let contact = match pass.side {
-        Side::Inner => "inner contact",
-        Side::Outer => "outer contact",
-    };
     crate::Pass {
         title: format!(
             "{} {} of row {} over defect {} ({})",
@@ -34,13 +29,9 @@ pub(super) fn pass(parts: &Parts, pass: &Pass) -> crate::Pass {
         angle_deg: points.iter().map(|p| p.angle.to_degrees()).collect(),
         length_mm: points.iter().map(|p| 1e3 * p.length).collect(),
         stiffness: points.iter().map(|p| p.stiffness).collect(),
-        stiffness_unit: if (parts.loaded.scenario.contact.exponent - 10.0 / 9.0).abs() < 1e-9 {
-            "N/m^(10/9)".into()
-        } else {
-            STIFFNESS_UNIT.into()
-        },
+        stiffness_unit: stiffness_unit(parts.loaded.scenario.contact.exponent).into(),
         force_n: points.iter().map(|p| p.force).collect(),
-        contact: contact.into(),
+        contact: format!("{} contact", pass.side.word()),
     }
 }
 

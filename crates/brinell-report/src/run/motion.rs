@@ -2,7 +2,6 @@
 
 use crate::number::short;
 use crate::{AxialRow, AxialSection, CageOrbit, CageOrbits, Motion, MotionDamage, MotionRow, SlipRow, Spectrogram};
-use brinell::defect::Side;
 use brinell::observe::load_zone::BINS;
 use brinell::observe::orbit::TURNS;
 use brinell::summary::Parts;
@@ -32,10 +31,7 @@ pub(super) fn spectrogram(parts: &Parts, label: String) -> Spectrogram {
 pub(super) fn cage_orbits(parts: &Parts) -> CageOrbits {
     let model = parts.simulation.model();
     let orbit = &parts.findings.cage_orbit;
-    let guide = match model.land_on() {
-        Side::Inner => "inner",
-        Side::Outer => "outer",
-    };
+    let guide = model.land_on().word();
     let rows = (0..orbit.rows()).map(|row| {
         let points: Vec<(f64, [f64; 2])> = orbit.points(row).collect();
         let end = points.last().map_or(0.0, |p| p.0);

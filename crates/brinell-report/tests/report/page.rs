@@ -2,6 +2,7 @@
 
 use super::checks::{check, check_pictures};
 use super::sample::{filled, ordinary};
+use brinell_damage::Photo;
 use brinell_report::{
     Assumption, Fact, Layout, MinMax, Report, detail_window, headline_png, html, load_distribution, overview, pictures,
 };
@@ -107,11 +108,14 @@ fn regress_an_empty_report_says_so() {
 
 #[test]
 fn regress_every_string_is_escaped() {
-    let report = filled(HOSTILE, &[1.0, 2.0, 3.0, 0.5, 0.7], 0.1, 2.0);
+    let mut report = filled(HOSTILE, &[1.0, 2.0, 3.0, 0.5, 0.7], 0.1, 2.0);
+    let photo = Photo { columns: 1, grey: vec![0], mm_per_pixel: 1.0, notes: vec!["<1>".into()], ..Photo::default() };
+    report.damage[0].photo = Some(photo);
     let page = html(&report);
     check(&page);
     check_pictures(&report);
     assert!(!page.contains("<img") && !page.contains('\u{0}'));
+    assert!(page.contains("&lt;1&gt;."), "escaped once");
 }
 
 #[test]

@@ -23,7 +23,6 @@ impl Analysis {
     /// As [`analyze()`].
     pub fn beside_healthy(&mut self, x: &[f64], healthy: Side) -> Result<(), AnalysisError> {
         let top = 0.5 * self.sample_rate.min(healthy.analysis.sample_rate);
-        let rms = |a: &Analysis| a.indicator(Indicator::Rms).map_or(1.0, |e| e.value);
         let growth = rms(self) / rms(healthy.analysis);
         self.level_growth = Some(growth);
         let louder = growth.max(1.0);
@@ -53,7 +52,6 @@ impl Analysis {
     /// unit at the same rate, `None` where nothing is damaged: rollers that enter the load strike the race at rest as
     /// often as its damage is struck (varying compliance). What is not twice as high as theirs is no damage.
     pub fn beside_healthy_run(&mut self, healthy: Option<&Analysis>) {
-        let rms = |a: &Analysis| a.indicator(Indicator::Rms).map_or(1.0, |e| e.value);
         let louder = healthy.map_or(1.0, |h| (rms(self) / rms(h)).max(1.0));
         for family in
             self.families.iter_mut().filter(|f| f.component == Component::OuterRace && f.finding == Finding::Damage)
@@ -84,6 +82,10 @@ impl Analysis {
             self.families.sort_by_key(|f| f.finding != Finding::Damage);
         }
     }
+}
+
+fn rms(of: &Analysis) -> f64 {
+    of.indicator(Indicator::Rms).map_or(1.0, |e| e.value)
 }
 
 /// Whether lines that are so many times as high as the healthy bearing's say something.

@@ -33,6 +33,30 @@ pub enum AnalysisError {
         /// Length needed, s.
         needed_s: f64,
     },
+    /// A defect frequency that no rolling bearing has.
+    #[error(
+        "{name} of {order:.4} times the shaft's frequency: expected {least} to {most} times for a rolling bearing whose outer ring rests"
+    )]
+    Order {
+        /// BPFO, BPFI, BSF or FTF.
+        name: &'static str,
+        /// Over the shaft's.
+        order: f64,
+        /// The least possible.
+        least: f64,
+        /// The most.
+        most: f64,
+    },
+    /// Frequencies of two raceways that exchange their places.
+    #[error(
+        "BPFO {bpfo:.4}x and BPFI {bpfi:.4}x: expected the inner race to be passed more often than the outer, which rests"
+    )]
+    Passes {
+        /// Over the shaft's.
+        bpfo: f64,
+        /// Over the shaft's.
+        bpfi: f64,
+    },
     /// Samples that are not numbers.
     #[error("{count} of {samples} samples are missing or infinite, the first at sample {first} (counted from 1)")]
     NotFinite {

@@ -5,6 +5,8 @@
 //! diameter d on a pitch circle D, contact angle a and g = (d / D) cos a, in turns of the inner ring, outer ring at
 //! rest, pure rolling: FTF = (1 - g) / 2, BPFO = Z (1 - g) / 2, BPFI = Z (1 + g) / 2, BSF = (D / d) (1 - g^2) / 2.
 
+use super::AnalysisError;
+
 /// What can be damaged.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Component {
@@ -53,6 +55,9 @@ pub struct DefectOrders {
     pub bsf: Option<f64>,
 }
 
+/// Names of the orders that may be given, in their order.
+const GIVEN: [&str; 4] = ["BPFO", "BPFI", "BSF", "FTF"];
+
 impl DefectOrders {
     /// Of Z elements of diameter `d` on a pitch circle `pitch` (one unit), contact angle in degrees. `None` unless
     /// 0 < d < pitch, Z is 3 or more and the angle is 0 to below 90.
@@ -69,6 +74,39 @@ impl DefectOrders {
             bpfi: Some(0.5 * z * (1.0 + g)),
             bsf: Some(0.5 * pitch / d * (1.0 - g * g)),
         })
+    }
+
+    /// What BPFO, BPFI, BSF and FTF may be over the shaft's frequency, the outer ring at rest: Z (1 - g) / 2, Z (1 + g)
+    /// / 2, (1 / g - g) / 2 and (1 - g) / 2 for five or more elements and a g = (d / D) cos a up to 0.6.
+    pub const POSSIBLE: [(f64, f64); 4] = [(1.0, 200.0), (2.5, 200.0), (0.5, 25.0), (0.19, 0.51)];
+
+    /// The same with BPFO, BPFI, BSF and FTF as given, where they are.
+    ///
+    /// # Errors
+    /// One outside [`DefectOrders::POSSIBLE`], or a BPFO that is not below BPFI.
+    pub fn with_given(self, given: [Option<f64>; 4]) -> Result<Self, AnalysisError> {
+        for ((name, order), (least, most)) in GIVEN.into_iter().zip(given).zip(Self::POSSIBLE) {
+            if let Some(order) = order.filter(|order| !(least..=most).contains(order)) {
+                return Err(AnalysisError::Order { name, order, least, most });
+            }
+        }
+        let [bpfo, bpfi, bsf, ftf] = given;
+        let orders = DefectOrders {
+            bpfo: bpfo.or(self.bpfo),
+            bpfi: bpfi.or(self.bpfi),
+            bsf: bsf.or(self.bsf),
+            ftf: ftf.or(self.ftf),
+        };
+        match (orders.bpfo, orders.bpfi) {
+            (Some(bpfo), Some(bpfi)) if bpfo >= bpfi => Err(AnalysisError::Passes { bpfo, bpfi }),
+            _ => Ok(orders),
+        }
+    }
+
+    /// Where orders that are given come from, in words; `None` where none is.
+    pub fn given_words(given: [Option<f64>; 4]) -> Option<String> {
+        let named: Vec<&str> = GIVEN.into_iter().zip(given).filter_map(|(name, order)| order.map(|_| name)).collect();
+        (!named.is_empty()).then(|| format!("{} as given", named.join(", ")))
     }
 
     /// Whether there is nothing to look for.

@@ -49,7 +49,7 @@ impl fmt::Display for Flaw {
             ),
             Flaw::OneEvent { at, share } => write!(
                 f,
-                "{:.0} % of the signal's energy lie in one revolution, from {at:.3} s on: levels are that event's, and lines may be lost in it; leave it out with --start and --duration",
+                "{:.0} % of the signal's energy lie in one revolution, from {at:.3} s on: levels are that event's, and lines may be lost in it; analyse a stretch without it",
                 100.0 * share
             ),
         }

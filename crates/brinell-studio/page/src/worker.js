@@ -1,7 +1,7 @@
 // Holds the engine as WebAssembly and passes bytes: a request in, its answer out, in order.
 "use strict";
 (() => {
-  /** @typedef {{memory: WebAssembly.Memory, give: (n: number) => number, ask: (at: number, n: number) => number, release: () => void}} Exports */
+  /** @typedef {{memory: WebAssembly.Memory, give: (n: number) => number, ask: () => number, release: () => void}} Exports */
   /** @type {{postMessage: (message: unknown, transfer?: Transferable[]) => void, onmessage: ((event: MessageEvent) => void) | null}} */
   const port = /** @type {any} */ (self);
   /** @type {Promise<Exports> | null} */
@@ -11,7 +11,7 @@
   function answer(wasm, request) {
     const at = wasm.give(request.length) >>> 0;
     new Uint8Array(wasm.memory.buffer, at, request.length).set(request);
-    const out = wasm.ask(at, request.length) >>> 0;
+    const out = wasm.ask() >>> 0;
     // The memory may have grown, so it is looked at anew.
     const length = new DataView(wasm.memory.buffer).getUint32(out, true);
     const bytes = new Uint8Array(wasm.memory.buffer).slice(out + 4, out + 4 + length);

@@ -23,7 +23,7 @@ describe("the engine as WebAssembly", { skip: !existsSync(WASM) && "no target/st
     const ask = (/** @type {Record<string, unknown>} */ request) => {
       const bytes = new Uint8Array(encode(request)), at = wasm.give(bytes.length) >>> 0;
       new Uint8Array(wasm.memory.buffer, at, bytes.length).set(bytes);
-      const out = wasm.ask(at, bytes.length) >>> 0, length = new DataView(wasm.memory.buffer).getUint32(out, true);
+      const out = wasm.ask() >>> 0, length = new DataView(wasm.memory.buffer).getUint32(out, true);
       const answer = decode(new Uint8Array(wasm.memory.buffer).slice(out + 4, out + 4 + length));
       wasm.release();
       assert.equal(answer.ok, true, JSON.stringify(answer.problems));

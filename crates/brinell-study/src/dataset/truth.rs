@@ -22,7 +22,7 @@ pub(crate) struct Instant {
 impl Instant {
     /// Contact of the roller: inner or outer.
     pub(crate) fn side(&self) -> String {
-        format!("{:?}", self.event.side).to_lowercase()
+        self.event.side.word().to_owned()
     }
 }
 

@@ -48,6 +48,14 @@ impl KnownBearing {
         catalogued(catalogue::find_exactly).or_else(named).or_else(|| catalogued(catalogue::find))
     }
 
+    /// The same, or why there is none.
+    ///
+    /// # Errors
+    /// As [`KnownBearing::unknown`] words it.
+    pub fn named(name: &str) -> Result<Self, String> {
+        Self::find(name).ok_or_else(|| Self::unknown(name))
+    }
+
     /// Why there is no bearing of this name: the name that was meant, where that can be guessed, and the names that
     /// there are; or that none is of its type.
     pub fn unknown(name: &str) -> String {

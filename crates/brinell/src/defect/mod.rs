@@ -49,6 +49,16 @@ pub enum Side {
     Outer,
 }
 
+impl Side {
+    /// In words: `inner` or `outer`.
+    pub fn word(self) -> &'static str {
+        match self {
+            Side::Inner => "inner",
+            Side::Outer => "outer",
+        }
+    }
+}
+
 /// Both sides, in the order of arrays indexed by side.
 pub const SIDES: [Side; 2] = [Side::Inner, Side::Outer];
 

@@ -2,7 +2,6 @@
 
 use super::Derived;
 use crate::bearing::rating::static_rating;
-use crate::defect::Side;
 use crate::lamina::{Distribution, Peak, Rating};
 use crate::model::Model;
 use crate::plausibility::before;
@@ -81,10 +80,7 @@ fn distribution(d: &Distribution) -> Value {
 fn peak(peak: Peak) -> Value {
     json!({
         "pressure_mpa": 1e-6 * peak.pressure,
-        "raceway": match peak.side {
-            Side::Inner => "inner",
-            Side::Outer => "outer",
-        },
+        "raceway": peak.side.word(),
         "row": peak.row + 1,
         "angle_deg": peak.angle.to_degrees(),
         "z_mm": 1e3 * peak.z,

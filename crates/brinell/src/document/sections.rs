@@ -9,7 +9,7 @@ use super::keys::Fallback::{self, Needed, Required};
 use super::keys::{Keys, assumed, derived, key, stated};
 use super::sensor::sensor;
 use super::unset;
-use crate::contact::ball;
+use crate::contact::{ball, is_line_exponent};
 use crate::scenario::*;
 
 /// Exponent of a line contact (model.md, section 1).
@@ -217,7 +217,7 @@ fn stiffness(b: &Bearing, c: &Contact) -> [Fallback<f64>; 2] {
         return ellipses.map(|e| derived(e.stiffness, "Hertz, of the ball's and the groove's curvatures"));
     }
     let palmgren = || {
-        if (c.exponent - LINE_EXPONENT).abs() < 1e-9 {
+        if is_line_exponent(c.exponent) {
             let k_mm = PALMGREN * b.roller_length_mm.powf(8.0 / 9.0);
             derived(k_mm * 1000f64.powf(LINE_EXPONENT), "Palmgren, 8.06e4 L^(8/9)")
         } else {

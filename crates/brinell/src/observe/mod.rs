@@ -226,7 +226,6 @@ impl Watch {
             .collect();
         let recorded = channels.len();
         channels.extend(simulation.filtered().iter().map(|c| statistics(&c.name, c.unit, Kind::AntiAliased)));
-        let load = model.load.full;
         let duration = scenario.simulation.duration_s;
         let band = envelope_band(model, sample_rate);
         let rolling = model.kinematics(model.rotation.max_speed());
@@ -245,8 +244,8 @@ impl Watch {
             start_angle: 0.0,
             turn: 0,
             row_turn: 0,
-            constant_speed: matches!(scenario.operation.speed_rpm, Speed::Constant(_)),
-            axis: usize::from(load[1].abs() > load[0].abs()),
+            constant_speed: scenario.operation.speed_rpm.constant().is_some(),
+            axis: scenario.operation.axis_of_load(),
             recorded,
             channels,
             places: Places::default(),

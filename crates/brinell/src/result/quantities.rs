@@ -13,7 +13,7 @@ use super::fields::{
 use super::impacts::impacts;
 use crate::did_you_mean::did_you_mean;
 use crate::observe::{Findings, Kind};
-use crate::scenario::{Scenario, Speed};
+use crate::scenario::Scenario;
 use crate::signal::spectrum::{Peak, peak_near};
 use crate::signal::{Estimate, Indicator, Interval, LineSearch};
 use crate::simulate::{Outcome, Simulation};
@@ -129,7 +129,7 @@ fn indicators(findings: &Findings, all: &mut Vec<Quantity>) {
 /// frequency that it is nearest to.
 fn lines(scenario: &Scenario, simulation: &Simulation, findings: &Findings, all: &mut Vec<Quantity>) {
     let model = simulation.model();
-    let constant = matches!(scenario.operation.speed_rpm, Speed::Constant(_));
+    let constant = scenario.operation.speed_rpm.constant().is_some();
     let k = model.kinematics(model.rotation.at(0.0).0);
     let found = LINES.iter().map(|line| {
         let (frequency, n) = ((line.of.0)(&k), line.of.1);

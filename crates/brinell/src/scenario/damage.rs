@@ -345,6 +345,34 @@ pub struct DepthGrid {
     pub depth_um: Vec<f64>,
 }
 
+impl DepthGrid {
+    /// The depth at a node, um.
+    pub fn at(&self, column: usize, row: usize) -> f64 {
+        self.depth_um[row * self.columns + column]
+    }
+
+    /// The deepest node, um; 0 where none is below the sound surface.
+    pub fn deepest_um(&self) -> f64 {
+        self.depth_um.iter().copied().fold(0.0, f64::max)
+    }
+
+    /// `[min, max]` of columns and of rows that hold anything but 0: `[[c0, r0], [c1, r1]]`.
+    pub fn damaged_bounds(&self) -> Option<[[usize; 2]; 2]> {
+        let mut bounds: Option<[[usize; 2]; 2]> = None;
+        for (row, line) in self.depth_um.chunks_exact(self.columns.max(1)).enumerate() {
+            let Some(first) = line.iter().position(|&d| d != 0.0) else {
+                continue;
+            };
+            let last = line.iter().rposition(|&d| d != 0.0).unwrap_or(first);
+            bounds = Some(match bounds {
+                None => [[first, row], [last, row]],
+                Some([low, high]) => [[low[0].min(first), low[1]], [high[0].max(last), row]],
+            });
+        }
+        bounds
+    }
+}
+
 /// One `[[defects]]` entry.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Defect {

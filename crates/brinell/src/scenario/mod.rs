@@ -40,6 +40,24 @@ pub struct Scenario {
     pub simulation: Simulation,
 }
 
+impl Speed {
+    /// The speed, r/min, where it is constant.
+    pub fn constant(&self) -> Option<f64> {
+        match self {
+            Speed::Constant(rpm) => Some(*rpm),
+            Speed::Profile(_) => None,
+        }
+    }
+}
+
+impl Operation {
+    /// The axis nearer the load: 0 is X, 1 is Y.
+    pub fn axis_of_load(&self) -> usize {
+        let [x, y] = self.load_n;
+        usize::from(y.abs() > x.abs())
+    }
+}
+
 impl Scenario {
     /// Whether a healthy contact is pressed evenly along its roller: no profile, nothing that tilts.
     pub fn has_even_contacts(&self) -> bool {
@@ -49,10 +67,7 @@ impl Scenario {
     /// Where statistics of its run begin, s: after the load ramp and a turn of the shaft, half-way through at the
     /// latest.
     pub fn settled_s(&self) -> f64 {
-        let turn = match &self.operation.speed_rpm {
-            Speed::Constant(rpm) if *rpm != 0.0 => 60.0 / rpm.abs(),
-            _ => 0.0,
-        };
+        let turn = self.operation.speed_rpm.constant().filter(|rpm| *rpm != 0.0).map_or(0.0, |rpm| 60.0 / rpm.abs());
         (self.operation.load_ramp_s + turn).min(0.5 * self.simulation.duration_s)
     }
 }

@@ -24,7 +24,7 @@ fn suspect(layout: &Layout, ws: &Workspace) -> String {
             let size = if force.is_finite() { force } else { f64::INFINITY };
             if size > worst.0.max(0.0) {
                 let (roller, row) = (layout.roller(slot) + 1, layout.row(slot) + 1);
-                let side = format!("{side:?}").to_lowercase();
+                let side = side.word();
                 worst = (size, format!("{side} contact of roller {roller} in row {row} carries {force:.4e} N"));
             }
         }

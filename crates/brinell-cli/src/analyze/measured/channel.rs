@@ -2,6 +2,7 @@
 
 use super::{Wanted, usage};
 use crate::failure::Failure;
+use brinell::channel::SENSOR;
 use brinell::document::Loaded;
 use brinell_io::{Channel, SignalFile};
 
@@ -118,8 +119,7 @@ pub(super) fn channel(
         return resolve(file, text, &option).map(one);
     }
     if let Some(run) = run {
-        let load = run.scenario.operation.load_n;
-        let along = if load[1].abs() > load[0].abs() { "sensor_ay" } else { "sensor_ax" };
+        let along = SENSOR[run.scenario.operation.axis_of_load()];
         if let Some(found) = file.channels().iter().find(|c| c.name == along) {
             notes.push(format!("channel {along}, along the load, as none was named"));
             return Ok(one((found.name.clone(), found.clone())));

@@ -1,5 +1,6 @@
 //! The signal in a file: which channel, at what rate, in what unit; and what else the file states.
 
+mod args;
 mod channel;
 mod rate;
 mod speed;
@@ -7,9 +8,10 @@ mod stretch;
 mod unit;
 
 use crate::failure::Failure;
+pub(crate) use args::SignalArgs;
 use brinell::analysis::Unit;
 use brinell::document::{Loaded, read};
-use brinell_io::{Channel, FileKind, IoError, SignalFile, open};
+use brinell_io::{Channel, FileKind, Format, IoError, SignalFile, open};
 use channel::{Chosen, channel};
 use rate::rate;
 pub(crate) use speed::StatedSpeed;
@@ -234,18 +236,21 @@ fn signals_in(path: &Path) -> Result<PathBuf, Failure> {
     }
     run_in(path).ok_or_else(|| {
         usage(format!(
-            "{} is a folder without signals.parquet, .npz, .mat, .csv, .uff or .wav; name a file, or the folder of a run",
-            path.display()
+            "{} is a folder without the signals of a run ({}); name a file, or the folder of a run",
+            path.display(),
+            names_of_runs()
         ))
     })
 }
 
 /// The signals in a folder, where it is a run's.
 pub(super) fn run_in(folder: &Path) -> Option<PathBuf> {
-    ["parquet", "npz", "mat", "csv", "uff", "wav"]
-        .iter()
-        .map(|ending| folder.join(format!("signals.{ending}")))
-        .find(|file| file.is_file())
+    Format::ALL.iter().map(|format| folder.join(format.file_name())).find(|file| file.is_file())
+}
+
+/// What the signals of a run may be called.
+pub(super) fn names_of_runs() -> String {
+    Format::ALL.map(Format::file_name).join(", ")
 }
 
 /// What damage the run had that made a signal, and what it lacks.
@@ -260,9 +265,7 @@ fn truth(run: &Loaded) -> String {
 
 /// The scenario that the file carries, or that lies beside it where the file is a run's.
 fn scenario(file: &SignalFile, path: &Path) -> Option<Box<Loaded>> {
-    let carried = (file.metadata().pairs.iter())
-        .find(|(key, _)| key.starts_with("brinell") && key.ends_with("scenario"))
-        .map(|(_, text)| text.clone());
+    let carried = file.metadata().scenario().map(str::to_owned);
     let beside = || {
         // CSV has no place for a word of brinell's, and UFF has one without room.
         let words = file.metadata().pairs.iter();

@@ -36,7 +36,7 @@ pub(super) fn scale(values: &mut [f64], factor: f64) {
     }
 }
 
-/// What lies beyond the first [`MOST`] samples of a long signal.
+/// The whole of a signal longer than [`MOST`] samples.
 pub(crate) struct Rest {
     /// Samples of the whole, from the first one analysed on.
     pub(crate) samples: u64,
@@ -44,7 +44,7 @@ pub(crate) struct Rest {
     pub(crate) moments: Moments,
     /// Those that are not finite numbers.
     pub(crate) missing: u64,
-    /// The last [`MOST`] samples that do not belong to the first, or as many as there are.
+    /// The last [`MOST`] samples: of less than twice as many, some belong to the first as well.
     pub(crate) last: Vec<f64>,
     /// Where those begin, s.
     pub(crate) last_start: f64,
@@ -79,7 +79,7 @@ impl Reading {
     }
 }
 
-/// All samples after the first `skip`, in one pass; of those beyond the first [`MOST`], the last.
+/// All samples after the first `skip`, in one pass, and the last [`MOST`] of them.
 fn whole(file: &mut SignalFile, name: &str, skip: usize, rate: f64, factor: f64) -> Result<Rest, IoError> {
     let (mut passed, mut scaled) = (0, Vec::new());
     let mut rest = Rest { samples: 0, moments: Moments::new(), missing: 0, last: Vec::new(), last_start: 0.0 };
@@ -98,13 +98,11 @@ fn whole(file: &mut SignalFile, name: &str, skip: usize, rate: f64, factor: f64)
             rest.moments.extend(&finite);
             rest.missing += (piece.len() - finite.len()) as u64;
         }
-        let first = (MOST as u64).saturating_sub(rest.samples);
         rest.samples += piece.len() as u64;
-        let beyond = &piece[piece.len().min(first as usize)..];
-        let beyond = &beyond[beyond.len().saturating_sub(MOST)..];
-        let gone = (last.len() + beyond.len()).saturating_sub(MOST);
+        let kept = &piece[piece.len().saturating_sub(MOST)..];
+        let gone = (last.len() + kept.len()).saturating_sub(MOST);
         last.drain(..gone);
-        last.extend(beyond);
+        last.extend(kept);
         ControlFlow::Continue(())
     })?;
     rest.last = last.into();
@@ -136,9 +134,9 @@ mod tests {
             let rest = whole(&mut file, "array", skip, 100.0, 2.0).unwrap();
             assert_eq!(rest.samples, (n - skip) as u64);
             assert_eq!(rest.missing, 0);
-            let first = (n - MOST).max(skip + MOST);
+            let first = n - MOST;
             assert_eq!(rest.last_start, first as f64 / 100.0);
-            assert_eq!(rest.last.len(), n - first);
+            assert_eq!(rest.last.len(), MOST);
             assert!((first..n).zip(&rest.last).all(|(i, v)| *v == 2.0 * f64::from(value(i))));
             let sum: f64 = (skip..n).map(|i| 2.0 * f64::from(value(i))).sum();
             let mean = rest.moments.get(Indicator::Mean).unwrap();

@@ -205,7 +205,7 @@ fn comma_or_fraction(
         Some(names) if names.contains(&b',') => Ok(Delimiter::Comma),
         Some(_) => Ok(Delimiter::Blanks),
         None => Err(unsupported(format!(
-            "`{}` may be two whole numbers or one with a decimal comma; say which",
+            "`{}` may be two whole numbers or one with a decimal comma; write a decimal point, or name the columns in a line above",
             String::from_utf8_lossy(data.first().unwrap_or(&&b""[..])).trim()
         ))),
     }

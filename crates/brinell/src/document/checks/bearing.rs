@@ -5,6 +5,7 @@ use std::f64::consts::PI;
 use super::{Checker, short};
 use crate::bearing::catalogue;
 use crate::bearing::clearance::{ClearanceClass, bore_diameter_mm, largest_bore_mm};
+use crate::contact::is_line_exponent;
 use crate::scenario::Law;
 
 /// Share of a roller's diameter by which rounded catalogue diameters may miss each other.
@@ -288,7 +289,7 @@ impl Checker<'_> {
         for stiffness in ["contact.inner_stiffness", "contact.outer_stiffness"] {
             if self.finder.is_preset(stiffness)
                 && self.finder.place(EXPONENT).is_some()
-                && (self.s.contact.exponent - 10.0 / 9.0).abs() > 1e-9
+                && !is_line_exponent(self.s.contact.exponent)
             {
                 self.warn(
                     EXPONENT,

@@ -1,0 +1,71 @@
+//! Which signal of a file is meant, and what the file does not say of it.
+
+use super::Wanted;
+use crate::args::quantity;
+use clap::Args;
+
+/// The options about the signal in a file.
+#[derive(Debug, Default, PartialEq, Args)]
+pub(crate) struct SignalArgs {
+    /// Channel: its name, a part of it that no other has, or its number from 1; `X(:,2)` takes a matrix's column
+    #[arg(long, value_name = "NAME|N")]
+    pub(crate) channel: Option<String>,
+    /// Sample rate
+    #[arg(
+        long,
+        alias = "sample-rate",
+        value_parser = quantity("Hz", "more than 0 Hz, as 12000 or 12kHz"),
+        value_name = "HZ",
+        allow_negative_numbers = true
+    )]
+    pub(crate) rate: Option<f64>,
+    /// Column of times to take the rate from [default: one called t, time or the like]
+    #[arg(long, value_name = "NAME|N", conflicts_with = "rate")]
+    pub(crate) time_channel: Option<String>,
+    /// Unit of the times where the file does not say
+    #[arg(long, value_name = "s|ms|us")]
+    pub(crate) time_unit: Option<String>,
+    /// Unit of the signal: m/s^2, g, mm/s, m/s, V, counts, ...
+    #[arg(long, value_name = "UNIT")]
+    pub(crate) unit: Option<String>,
+    /// The sensor's, of a signal in V or mA: 100mV/g, 10mV/(m/s2), 4mV/(mm/s); the signal is then in g, m/s^2 or mm/s
+    #[arg(long, value_name = "mV/g", allow_negative_numbers = true)]
+    pub(crate) sensitivity: Option<String>,
+    /// Of a WAV: what its largest number means, as 5V (with --sensitivity) or 10g
+    #[arg(long, value_name = "VALUE", conflicts_with = "unit", allow_negative_numbers = true)]
+    pub(crate) full_scale: Option<String>,
+    /// Skip so much of the signal's beginning
+    #[arg(
+        long,
+        value_parser = quantity("s", "0 s or more, as 0.5 or 500ms"),
+        value_name = "S",
+        allow_negative_numbers = true
+    )]
+    pub(crate) start: Option<f64>,
+    /// Use so much from there [default: what is there; of a long signal the first and the last 4194304 samples]
+    #[arg(
+        long,
+        value_parser = quantity("s", "more than 0 s, as 2 or 500ms"),
+        value_name = "S",
+        allow_negative_numbers = true
+    )]
+    pub(crate) duration: Option<f64>,
+}
+
+impl SignalArgs {
+    /// What it asks of a file.
+    pub(crate) fn wanted(&self) -> Wanted<'_> {
+        Wanted {
+            channel: self.channel.as_deref(),
+            rate: self.rate,
+            time_channel: self.time_channel.as_deref(),
+            time_unit: self.time_unit.as_deref(),
+            unit: self.unit.as_deref(),
+            sensitivity: self.sensitivity.as_deref(),
+            full_scale: self.full_scale.as_deref(),
+            start: self.start,
+            duration: self.duration,
+            ..Wanted::default()
+        }
+    }
+}
