@@ -231,22 +231,14 @@ impl Model {
         }
     }
 
-    /// Where that ring's x is among the coordinates.
-    pub fn land_ring(&self) -> usize {
-        match self.land_on() {
-            Side::Inner => self.layout.inner(),
-            Side::Outer => self.layout.outer(),
-        }
-    }
-
     /// Where that ring's centre is at the middle of each row.
     #[inline(always)]
     pub fn land(&self) -> Land<'_> {
-        let slope = match self.land_on() {
-            Side::Inner => self.layout.inner_tilt(),
-            Side::Outer => self.layout.outer_tilt(),
+        let (at, slope) = match self.land_on() {
+            Side::Inner => (self.layout.inner(), self.layout.inner_tilt()),
+            Side::Outer => (self.layout.outer(), self.layout.outer_tilt()),
         };
-        Land { at: self.land_ring(), tilt: self.tilt.as_ref().map(|tilt| (slope, &tilt.rows[..])) }
+        Land { at, tilt: self.tilt.as_ref().map(|tilt| (slope, &tilt.rows[..])) }
     }
 
     /// Whether the outer ring of the lumped model is rigidly mounted (section 10).
