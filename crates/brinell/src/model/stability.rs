@@ -2,7 +2,7 @@
 
 use super::Model;
 use crate::defect::{SIDES, Side};
-use crate::scenario::{Element, ModelKind};
+use crate::scenario::ModelKind;
 use crate::solver::{DAMPED_CONTACT, Tableau};
 
 /// The pair that integrates.
@@ -19,13 +19,9 @@ pub(super) fn stable_step(model: &Model, max_elastic: [f64; 2], film_damping: f6
     let mass = model.inertia.roller;
     // Between the raceways, or on one of them.
     let between = [[inner[0] + outer[0], inner[1] + outer[1]], inner, outer].map(|spring| decaying_step(spring, mass));
-    // In rolling: friction's slope at no slip, mu Q / v_s of each contact, on the spin's I_r = m r^2 / 2, of a ball 2/5
-    // m r^2.
+    // In rolling: friction's slope at no slip, mu Q / v_s of each contact, on the spin's I_r.
     let slope = model.friction.coefficient / model.friction.slip_velocity;
-    let per_inertia = match model.element {
-        Element::Roller => 2.0,
-        Element::Ball => 2.5,
-    };
+    let per_inertia = model.element.spin_inertia().recip();
     let rolling = per_inertia * slope * (max_elastic[0] + max_elastic[1]) / mass;
     // All cages against the ring that guides them.
     let ring = match model.land_on() {

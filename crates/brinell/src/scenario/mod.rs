@@ -66,6 +66,24 @@ pub enum Element {
     Ball,
 }
 
+impl Element {
+    /// Stribeck: without clearance the heaviest carries this times F / Z.
+    pub(crate) fn stribeck(self) -> f64 {
+        match self {
+            Self::Roller => 4.08,
+            Self::Ball => 4.37,
+        }
+    }
+
+    /// I_r / (m r^2) of its spin: a cylinder's about its axis, a sphere's.
+    pub(crate) fn spin_inertia(self) -> f64 {
+        match self {
+            Self::Roller => 0.5,
+            Self::Ball => 0.4,
+        }
+    }
+}
+
 /// `[bearing]`: geometry and masses.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Bearing {
