@@ -138,6 +138,15 @@ impl Bearing {
         self.element == Element::Ball
     }
 
+    /// Diameter of a surface, mm.
+    pub fn diameter_mm(&self, of: Surface) -> f64 {
+        match of {
+            Surface::OuterRaceway => self.outer_raceway_diameter_mm,
+            Surface::InnerRaceway => self.inner_raceway_diameter_mm,
+            Surface::Roller(_) => self.roller_diameter_mm,
+        }
+    }
+
     /// Length along the axis within which damage must lie, mm: that of a roller, and more than a ball's groove is wide.
     pub fn axial_reach_mm(&self) -> f64 {
         match self.element {
