@@ -167,7 +167,7 @@ impl<S: Deref<Target = Simulation>> Run<S> {
                     }
                 }
                 Err(error) => {
-                    return Some(End::Failed(explain(error, &model.layout, &self.ws)));
+                    return Some(End::Failed(explain(error, model, &self.ws)));
                 }
             }
         }
