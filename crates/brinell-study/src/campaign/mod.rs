@@ -19,6 +19,7 @@ pub use axis::split;
 pub use columns::{NumberColumn, columns};
 pub use compare::{Compared, compare};
 pub use plan::{Plan, PlanError};
+pub(crate) use plan::{INSIDE, clash};
 #[doc(hidden)]
 pub use row::digest;
 pub use row::{Row, fingerprint};
