@@ -1,6 +1,6 @@
 //! How tight the solver is held: the tolerance of `standard` and `reference`.
 
-use crate::model::{Model, PAIR};
+use crate::model::Model;
 use crate::scenario::Accuracy;
 use crate::solver::Settings;
 
@@ -60,7 +60,6 @@ pub fn settings(model: &Model, accuracy: Accuracy) -> Settings {
         *weight *= RING;
     }
     Settings {
-        tableau: PAIR,
         tolerance: tolerance(model, accuracy),
         mass,
         max_step: (pitch * PITCH_SHARE / orbit).min(LONGEST_STEP),

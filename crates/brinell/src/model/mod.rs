@@ -24,7 +24,6 @@ pub use from_scenario::series_stiffness;
 pub use layout::Layout;
 pub use momentum::imbalance;
 pub use motion::Motion;
-pub use stability::PAIR;
 pub use tilt::{Tilt, TiltingRing};
 pub use workspace::Workspace;
 
