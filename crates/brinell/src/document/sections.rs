@@ -12,7 +12,7 @@ use super::unset;
 use crate::contact::{ball, palmgren_stiffness};
 use crate::scenario::*;
 
-/// Exponent of a line contact (model.md, section 1).
+/// Exponent of a line contact (`docs/src/theory/contact.md`).
 const LINE_EXPONENT: f64 = 10.0 / 9.0;
 /// Exponent of a point contact (Hertz).
 const POINT_EXPONENT: f64 = 1.5;
@@ -288,7 +288,8 @@ fn operation<K: Keys>(k: &mut K, (model, b): (ModelKind, &Bearing), o: &mut Oper
 }
 
 fn support<K: Keys>(k: &mut K, (model, b, load_on): (ModelKind, &Bearing, LoadOn), s: &mut Support) {
-    // Soft where the load acts, or the support would carry it instead of the rollers (model.md, section 12).
+    // Soft where the load acts, or the support would carry it instead of the rollers
+    // (`docs/src/theory/motion.md`).
     let why = "soft on the loaded ring, stiff on the other; the paper does not state it";
     let (inner, outer) = match load_on {
         LoadOn::OuterRing => (5e7, 1e6),

@@ -1,6 +1,6 @@
 //! The anti-alias chain of the sensor channels: linear-phase FIR, then one sample in eight.
 //!
-//! Model.md section 11: the state is sampled at 8 f_s, filtered by a Kaiser-window low-pass (passband to 0.4 f_s,
+//! `docs/src/theory/numerics.md`: the state is sampled at 8 f_s, filtered by a Kaiser-window low-pass (passband to 0.4 f_s,
 //! stopband from 0.5 f_s, 80 dB), its delay removed, and decimated by 8.
 
 use crate::lanes::inner_products;
@@ -31,7 +31,7 @@ pub struct Decimator {
 }
 
 impl Decimator {
-    /// A decimator with the chain of model.md section 11, for frames of `channels` values.
+    /// A decimator with the chain of the module's head, for frames of `channels` values.
     pub fn new(channels: usize) -> Self {
         let factor = FACTOR as f64;
         let mut taps = kaiser_lowpass(PASSBAND / factor, STOPBAND / factor, ATTENUATION_DB);
