@@ -59,9 +59,5 @@ pub fn settings(model: &Model, accuracy: Accuracy) -> Settings {
     for weight in &mut mass[model.layout.inner()..] {
         *weight *= RING;
     }
-    Settings {
-        tolerance: tolerance(model, accuracy),
-        mass,
-        max_step: (pitch * PITCH_SHARE / orbit).min(LONGEST_STEP),
-    }
+    Settings { tolerance: tolerance(model, accuracy), mass, max_step: (pitch * PITCH_SHARE / orbit).min(LONGEST_STEP) }
 }

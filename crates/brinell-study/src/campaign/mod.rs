@@ -18,8 +18,8 @@ pub use axis::Axis;
 pub use axis::split;
 pub use columns::{NumberColumn, columns};
 pub use compare::{Compared, compare};
-pub use plan::{Plan, PlanError};
 pub(crate) use plan::{INSIDE, clash};
+pub use plan::{Plan, PlanError};
 #[doc(hidden)]
 pub use row::digest;
 pub use row::{Row, fingerprint};

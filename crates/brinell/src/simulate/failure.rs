@@ -18,9 +18,8 @@ pub(super) fn explain(error: StepError, model: &Model, ws: &Workspace) -> Error 
 /// The contact that is not finite, or else the one pressed hardest, in words.
 fn suspect(model: &Model, ws: &Workspace) -> String {
     let layout = &model.layout;
-    let name = |slot: usize| {
-        format!("{} {} in row {}", model.element.word(), layout.roller(slot) + 1, layout.row(slot) + 1)
-    };
+    let name =
+        |slot: usize| format!("{} {} in row {}", model.element.word(), layout.roller(slot) + 1, layout.row(slot) + 1);
     let mut worst = (f64::NEG_INFINITY, String::from("no contact is closed"));
     for side in SIDES {
         let c = &ws.contacts[side as usize];
