@@ -89,11 +89,9 @@ pub fn read_depth_map(bytes: &[u8], format: Option<FileKind>, options: &ScanFile
     let missing = check_missing(&raw, options)?;
     let mut scan = turned(raw, spacing_mm, options);
     let hint = tilt(&scan, options);
-    let form = remove(&mut scan, options)?;
-    if let Some(form) = form.filter(|form| form.excluded > form.used) {
+    if let Some((used, apart)) = remove(&mut scan, options)?.filter(|(used, apart)| apart > used) {
         warnings.push(format!(
-            "the form was fitted to {} points only, as {} are far from it; look at the result before using it",
-            form.used, form.excluded
+            "the form was fitted to {used} points only, as {apart} are far from it; look at the result before using it"
         ));
     }
     set_zero(&mut scan, options);
@@ -115,7 +113,6 @@ pub fn read_depth_map(bytes: &[u8], format: Option<FileKind>, options: &ScanFile
         columns: scan.columns,
         rows: scan.rows,
         depth_um: scan.depth_um,
-        form,
         warnings,
         notes,
     };

@@ -1,6 +1,5 @@
 //! What the readers give: polygons, or a grid of depths. Frame and origin: see the crate's header.
 
-use crate::form::FormReport;
 use brinell::scenario;
 
 /// Damaged areas as polygons.
@@ -80,8 +79,6 @@ pub struct DepthGrid {
     pub rows: usize,
     /// `depth_um[row * columns + column]`: 0 undamaged, positive into the material, negative raised.
     pub depth_um: Vec<f64>,
-    /// The plane or cylinder that was taken off, where one was requested.
-    pub form: Option<FormReport>,
     /// What may be wrong, in sentences.
     pub warnings: Vec<String>,
     /// What the reader understood of the file by itself, in sentences.

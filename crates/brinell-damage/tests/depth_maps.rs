@@ -50,7 +50,7 @@ fn analytic_circle_and_rectangle_have_their_area_and_widths_within_the_spacing()
         assert!((count as f64 * step - chord).abs() <= step + 1e-9, "s = {s}");
     }
     assert!(disc.depth_um.iter().all(|&d| d == 0.0 || d == 20.0));
-    assert!(disc.form.is_none() && disc.warnings.is_empty());
+    assert!(disc.warnings.is_empty());
 }
 
 /// An L: the long stroke on the left, the short one at the bottom to the right; deepest at the foot's end.
@@ -133,21 +133,12 @@ fn analytic_tilt_and_curvature_are_removed_exactly() {
             ..Default::default()
         };
         let grid = read(&map, &options);
-        let found = grid.form.unwrap();
-        println!("{form:?} {radius}: {found:?}");
         for row in 0..rows {
             for column in 0..columns {
                 let (s, z) = (grid.s0_mm + column as f64 * step, grid.z0_mm + row as f64 * step);
                 let error = (grid.at(column, row) - spall(s, z)).abs();
                 assert!(error < 1e-5, "{form:?} {radius}: {error} um at {s} {z}");
             }
-        }
-        assert!(found.residual_rms_um < 1e-6);
-        if form == ScanForm::Plane {
-            assert!((found.slope_s_um_per_mm - 7.0).abs() < 1e-6 && (found.slope_z_um_per_mm - 4.0).abs() < 1e-6);
-        } else {
-            assert!((found.radius_mm.unwrap() / radius - 1.0).abs() < 1e-6);
-            assert!((found.axis_turn_deg - turn.atan().to_degrees()).abs() < 1e-4);
         }
     }
 }
@@ -173,13 +164,10 @@ fn analytic_noise_and_a_large_spall_hardly_move_the_form() {
             ..Default::default()
         };
         let grid = read(&map, &options);
-        let found = grid.form.unwrap();
         let damaged: Vec<f64> = grid.depth_um.iter().copied().filter(|&d| d != 0.0).collect();
         let mean = damaged.iter().sum::<f64>() / damaged.len() as f64;
-        println!("{share}: {found:?}, mean depth {mean}");
+        println!("{share}: mean depth {mean}");
         assert!((mean - 25.0).abs() < bound, "{share}: {mean}");
-        assert!((found.radius_mm.unwrap() / 27.5 - 1.0).abs() < 0.01);
-        assert!((found.residual_rms_um - 0.2).abs() < 0.02);
     }
 }
 
@@ -196,12 +184,7 @@ fn analytic_the_drawn_scan_gives_its_raceway_and_its_spall() {
         ..Default::default()
     };
     let grid = read_depth_map(scan, Some(FileKind::Csv), &options).unwrap();
-    let found = grid.form.unwrap();
-    println!("{found:?} {} mm^2 {:?}", grid.area_mm2(), grid.warnings);
     // See examples/draw_examples.rs.
-    assert!((found.radius_mm.unwrap() / 27.5 - 1.0).abs() < 0.01);
-    assert!((found.slope_s_um_per_mm - 3.0).abs() < 0.05 && (found.slope_z_um_per_mm + 2.0).abs() < 0.05);
-    assert!((found.residual_rms_um - 0.15).abs() < 0.03);
     let mut deep: Vec<f64> = grid.depth_um.iter().copied().filter(|&d| d > 20.0).collect();
     deep.sort_by(f64::total_cmp);
     assert!((deep[deep.len() / 2] - 25.0).abs() < 0.5);
