@@ -89,11 +89,9 @@ pub fn read_depth_map(bytes: &[u8], format: Option<FileKind>, options: &ScanFile
     let missing = check_missing(&raw, options)?;
     let mut scan = turned(raw, spacing_mm, options);
     let hint = tilt(&scan, options);
-    let form = remove(&mut scan, options)?;
-    if let Some(form) = form.filter(|form| form.excluded > form.used) {
+    if let Some((used, apart)) = remove(&mut scan, options)?.filter(|(used, apart)| apart > used) {
         warnings.push(format!(
-            "the form was fitted to {} points only, as {} are far from it; look at the result before using it",
-            form.used, form.excluded
+            "the form was fitted to {used} points only, as {apart} are far from it; look at the result before using it"
         ));
     }
     set_zero(&mut scan, options);
@@ -120,7 +118,7 @@ pub fn read_depth_map(bytes: &[u8], format: Option<FileKind>, options: &ScanFile
         grid.s0_mm = -0.5 * (low[0] + high[0]) as f64 * grid.ds_mm;
         grid.z0_mm = -0.5 * (low[1] + high[1]) as f64 * grid.dz_mm;
     }
-    Ok(DepthMap { grid, form, warnings, notes })
+    Ok(DepthMap { grid, warnings, notes })
 }
 
 /// Every number within its range.

@@ -1,6 +1,5 @@
 //! What the readers give: polygons, or a depth map. Frame and origin: see the crate's header.
 
-use crate::form::FormReport;
 use brinell::scenario::DepthGrid;
 
 /// Damaged areas as polygons.
@@ -68,8 +67,6 @@ pub(crate) fn signed_area(ring: &[[f64; 2]]) -> f64 {
 pub struct DepthMap {
     /// Depths; their frame and origin as elsewhere.
     pub grid: DepthGrid,
-    /// The plane or cylinder that was taken off, where one was requested.
-    pub form: Option<FormReport>,
     /// What may be wrong, in sentences.
     pub warnings: Vec<String>,
     /// What the reader understood of the file by itself, in sentences.

@@ -41,7 +41,6 @@ mod depth_doubts;
 mod depth_npy;
 mod direction;
 mod error;
-mod form;
 mod form_fit;
 mod geometry;
 mod holes;
@@ -88,7 +87,6 @@ mod svg_union;
 
 pub use depth::read_depth_map;
 pub use error::DamageError;
-pub use form::FormReport;
 pub use geometry::{DepthMap, Polygons};
 pub use kind::FileKind;
 pub use loaded::resolve_loaded;

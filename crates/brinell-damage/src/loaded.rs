@@ -24,7 +24,7 @@ pub fn resolve_loaded(
             // What an override gave is nowhere in the text.
             let given = overrides.iter().any(|(key, _)| error.key.starts_with(key));
             let place = locate(text, &error.key).filter(|_| !given);
-            Problem::of_file(&error.key, &error.file, &error.message).placed(place)
+            Problem::of_file(&error.key, &error.file, &error.message).at(place)
         };
         let mut problems = Problems::of(text);
         for error in errors {

@@ -59,13 +59,11 @@ pub fn read_svg(bytes: &[u8], options: &SvgFile) -> Result<Polygons, DamageError
     if root.tag_name().name() != "svg" {
         return Err(broken(root, "its outermost element must be `svg`"));
     }
-    if let Some(id) = &options.path_id {
-        find(&document, id)?;
-    }
+    let wanted = options.path_id.as_ref().map(|id| find(&document, id)).transpose()?;
     let mut reader = Reader {
         sheets: Sheets::of(&document),
         options,
-        wanted: options.path_id.as_deref().and_then(|id| find(&document, id).ok()).map(|n| n.id()),
+        wanted: wanted.map(|n| n.id()),
         shapes: Vec::new(),
         points: 0,
         elements: 0,

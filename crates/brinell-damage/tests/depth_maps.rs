@@ -51,7 +51,7 @@ fn analytic_circle_and_rectangle_have_their_area_and_widths_within_the_spacing()
     let options = ScanFile { ds_mm: Some(step), dz_mm: Some(step), ..Default::default() };
     let rectangle = read(&map(&|s, z| s.abs() < 1.5 && z.abs() < 2.0), &options);
     assert!((area_mm2(&rectangle) - 12.0).abs() < 1e-9);
-    let DepthMap { grid: disc, form, warnings, .. } = read_all(&map(&|s, z| s.hypot(z) < 2.0), &options);
+    let DepthMap { grid: disc, warnings, .. } = read_all(&map(&|s, z| s.hypot(z) < 2.0), &options);
     assert!((area_mm2(&disc) / (4.0 * PI) - 1.0).abs() < 2e-3, "{}", area_mm2(&disc));
     for column in 0..disc.columns {
         let s = disc.s0_mm + column as f64 * step;
@@ -60,7 +60,7 @@ fn analytic_circle_and_rectangle_have_their_area_and_widths_within_the_spacing()
         assert!((count as f64 * step - chord).abs() <= step + 1e-9, "s = {s}");
     }
     assert!(disc.depth_um.iter().all(|&d| d == 0.0 || d == 20.0));
-    assert!(form.is_none() && warnings.is_empty());
+    assert!(warnings.is_empty());
 }
 
 /// An L: the long stroke on the left, the short one at the bottom to the right; deepest at the foot's end.
@@ -142,22 +142,13 @@ fn analytic_tilt_and_curvature_are_removed_exactly() {
             center: false,
             ..Default::default()
         };
-        let DepthMap { grid, form: found, .. } = read_all(&map, &options);
-        let found = found.unwrap();
-        println!("{form:?} {radius}: {found:?}");
+        let grid = read(&map, &options);
         for row in 0..rows {
             for column in 0..columns {
                 let (s, z) = (grid.s0_mm + column as f64 * step, grid.z0_mm + row as f64 * step);
                 let error = (grid.at(column, row) - spall(s, z)).abs();
                 assert!(error < 1e-5, "{form:?} {radius}: {error} um at {s} {z}");
             }
-        }
-        assert!(found.residual_rms_um < 1e-6);
-        if form == ScanForm::Plane {
-            assert!((found.slope_s_um_per_mm - 7.0).abs() < 1e-6 && (found.slope_z_um_per_mm - 4.0).abs() < 1e-6);
-        } else {
-            assert!((found.radius_mm.unwrap() / radius - 1.0).abs() < 1e-6);
-            assert!((found.axis_turn_deg - turn.atan().to_degrees()).abs() < 1e-4);
         }
     }
 }
@@ -182,14 +173,11 @@ fn analytic_noise_and_a_large_spall_hardly_move_the_form() {
             threshold_um: 2.0,
             ..Default::default()
         };
-        let DepthMap { grid, form: found, .. } = read_all(&map, &options);
-        let found = found.unwrap();
+        let grid = read(&map, &options);
         let damaged: Vec<f64> = grid.depth_um.iter().copied().filter(|&d| d != 0.0).collect();
         let mean = damaged.iter().sum::<f64>() / damaged.len() as f64;
-        println!("{share}: {found:?}, mean depth {mean}");
+        println!("{share}: mean depth {mean}");
         assert!((mean - 25.0).abs() < bound, "{share}: {mean}");
-        assert!((found.radius_mm.unwrap() / 27.5 - 1.0).abs() < 0.01);
-        assert!((found.residual_rms_um - 0.2).abs() < 0.02);
     }
 }
 
@@ -205,13 +193,8 @@ fn analytic_the_drawn_scan_gives_its_raceway_and_its_spall() {
         speck_mm2: 0.05,
         ..Default::default()
     };
-    let DepthMap { grid, form, warnings, .. } = read_depth_map(scan, Some(FileKind::Csv), &options).unwrap();
-    let found = form.unwrap();
-    println!("{found:?} {} mm^2 {:?}", area_mm2(&grid), warnings);
+    let DepthMap { grid, warnings, .. } = read_depth_map(scan, Some(FileKind::Csv), &options).unwrap();
     // See examples/draw_examples.rs.
-    assert!((found.radius_mm.unwrap() / 27.5 - 1.0).abs() < 0.01);
-    assert!((found.slope_s_um_per_mm - 3.0).abs() < 0.05 && (found.slope_z_um_per_mm + 2.0).abs() < 0.05);
-    assert!((found.residual_rms_um - 0.15).abs() < 0.03);
     let mut deep: Vec<f64> = grid.depth_um.iter().copied().filter(|&d| d > 20.0).collect();
     deep.sort_by(f64::total_cmp);
     assert!((deep[deep.len() / 2] - 25.0).abs() < 0.5);

@@ -131,8 +131,9 @@ impl Facts<'_> {
         } else {
             "So the start-up as chosen here does not explain them."
         };
+        let [irregular, simplified, reference] = RMS;
         let mut text = format!(
-            "The paper’s RMS values (30.414, 32.06 and 29.01 m/s²) are not those of the steady part of our signals: there they are {steady} m/s², \
+            "The paper’s RMS values ({irregular}, {simplified} and {reference} m/s²) are not those of the steady part of our signals: there they are {steady} m/s², \
              up to {} % off. Taken from t = 0 over 0.285 s, so with the start-up, with n = 1, a load ramp of 8 ms and behind the anti-alias filter, \
              they are {from_start} m/s², within {} %. {says}",
             percent(off),

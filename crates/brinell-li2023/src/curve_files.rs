@@ -6,6 +6,7 @@ use brinell::channel::Frame;
 use brinell::result::{Quantity, RunResult, Spread};
 use brinell::simulate::{Observer, Simulation};
 use brinell_io::atomic_write;
+use serde_json::json;
 use std::collections::HashSet;
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
@@ -35,7 +36,7 @@ impl CurveFiles {
     /// The curves of a finished run; `None` where there are none that can be read.
     pub(crate) fn curves(&self, fingerprint: &str) -> Option<Curves> {
         let bytes = std::fs::read(self.path(fingerprint)).ok()?;
-        Curves::from_json(&serde_json::from_slice(&bytes).ok()?)
+        serde_json::from_slice(&bytes).ok()
     }
 
     /// Whether a run has the curves that pictures need of it, if they need any.
@@ -67,7 +68,7 @@ impl CaseObserver {
         if let Some(path) = &self.curves {
             make_folder(path.parent().unwrap_or(Path::new("")))?;
             let curves = Curves::of(finished, self.from_start.pocket_forces());
-            atomic_write(path, curves.to_json().to_string().as_bytes())?;
+            atomic_write(path, json!(curves).to_string())?;
         }
         let drop = finished.findings.passes.best().first().and_then(|pass| {
             let defect = &finished.simulation.model().defects[pass.defect];

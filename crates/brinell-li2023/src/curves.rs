@@ -1,7 +1,7 @@
 //! What pictures need of a run: the end of its waveform, spectra, a pass over the damage, the mean entry and exit.
 
 use brinell::result::{RunResult, impacts};
-use serde_json::{Value, json};
+use serde::{Deserialize, Deserializer, Serialize};
 
 /// Length of the waveform kept, s: the run's last.
 const KEPT_S: f64 = 0.2;
@@ -13,7 +13,7 @@ const TOP_HZ: f64 = 1500.0;
 const PASS: usize = 600;
 
 /// Evenly spaced values.
-#[derive(Debug, Clone, Default, PartialEq)]
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Even {
     pub(crate) first: f64,
     pub(crate) step: f64,
@@ -21,7 +21,7 @@ pub(crate) struct Even {
 }
 
 /// The curves of a run, SI units; empty where the run was too short for one.
-#[derive(Debug, Clone, Default, PartialEq)]
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Curves {
     /// Sensor acceleration along the load.
     pub(crate) waveform: Even,
@@ -39,12 +39,13 @@ pub(crate) struct Curves {
     pub(crate) angle: Vec<f64>,
     pub(crate) length: Vec<f64>,
     pub(crate) stiffness: Vec<f64>,
-    pub(crate) force: Vec<f64>,
     /// Around the bearing, by bins of its angle: mean force at the outer contacts of the damaged row, N.
     pub(crate) around_load: Vec<f64>,
     /// Mean force between its cage and rollers, N; NaN where no roller came by.
+    #[serde(deserialize_with = "gaps")]
     pub(crate) around_pocket: Vec<f64>,
     /// Its rollers' spin over that of pure rolling; NaN likewise.
+    #[serde(deserialize_with = "gaps")]
     pub(crate) around_spin: Vec<f64>,
 }
 
@@ -94,59 +95,37 @@ impl Curves {
             angle: along(|p| p.angle),
             length: along(|p| p.length),
             stiffness: along(|p| p.stiffness),
-            force: along(|p| p.force),
             around_load: findings.load_zone.rows.first().map_or(Vec::new(), |row| row.mean()),
             around_spin: findings.slip_course.over_angle(0).spin.iter().map(|slip| 1.0 - slip).collect(),
             around_pocket,
             waveform,
         }
     }
+}
 
-    pub(crate) fn to_json(&self) -> Value {
-        let even = |e: &Even| json!({ "first": e.first, "step": e.step, "values": e.values });
-        json!({
-            "waveform": even(&self.waveform), "spectrum": even(&self.spectrum), "envelope": even(&self.envelope),
-            "enters": self.enters, "leaves": self.leaves, "entry": even(&self.entry), "exit": even(&self.exit),
-            "angle": self.angle, "length": self.length, "stiffness": self.stiffness, "force": self.force,
-            "around_load": self.around_load, "around_pocket": self.around_pocket, "around_spin": self.around_spin,
-        })
-    }
+/// Values of which some are missing: JSON has no NaN, what no roller came by is null.
+fn gaps<'de, D: Deserializer<'de>>(values: D) -> Result<Vec<f64>, D::Error> {
+    let values = Vec::<Option<f64>>::deserialize(values)?;
+    Ok(values.into_iter().map(|x| x.unwrap_or(f64::NAN)).collect())
+}
 
-    /// From what [`Curves::to_json`] gave; `None` where it is not that.
-    pub(crate) fn from_json(value: &Value) -> Option<Self> {
-        let list = |value: &Value| {
-            let values = value.as_array()?.iter();
-            values.map(Value::as_f64).collect::<Option<Vec<f64>>>()
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn prop_curves_come_back_from_their_files() {
+        let curves = Curves {
+            entry: Even { first: -0.1, step: 1.0 / 3.0, values: vec![0.1 + 0.2, 5e-324, 1e300] },
+            enters: vec![2.0],
+            around_pocket: vec![1.5, f64::NAN],
+            ..Curves::default()
         };
-        let even = |key: &str| {
-            let of = value.get(key)?;
-            Some(Even {
-                first: of.get("first")?.as_f64()?,
-                step: of.get("step")?.as_f64()?,
-                values: list(of.get("values")?)?,
-            })
-        };
-        let all = |key: &str| list(value.get(key)?);
-        // JSON has no NaN: what no roller came by is null.
-        let gaps = |key: &str| {
-            let values = value.get(key)?.as_array()?.iter();
-            Some(values.map(|x| x.as_f64().unwrap_or(f64::NAN)).collect::<Vec<_>>())
-        };
-        Some(Self {
-            waveform: even("waveform")?,
-            spectrum: even("spectrum")?,
-            envelope: even("envelope")?,
-            enters: all("enters")?,
-            leaves: all("leaves")?,
-            entry: even("entry")?,
-            exit: even("exit")?,
-            angle: all("angle")?,
-            length: all("length")?,
-            stiffness: all("stiffness")?,
-            force: all("force")?,
-            around_load: all("around_load")?,
-            around_pocket: gaps("around_pocket")?,
-            around_spin: gaps("around_spin")?,
-        })
+        let text = serde_json::to_string(&curves).unwrap();
+        let back: Curves = serde_json::from_str(&text).unwrap();
+        assert_eq!((&back.entry, &back.enters, &back.spectrum), (&curves.entry, &curves.enters, &Even::default()));
+        assert!(back.around_pocket[0] == 1.5 && back.around_pocket[1].is_nan());
+        assert!(serde_json::from_str::<Curves>("{}").is_err());
+        assert!(serde_json::from_str::<Curves>(&text.replace("[2.0]", "[null]")).is_err());
     }
 }

@@ -50,7 +50,7 @@ pub(crate) use outline::Outline;
 pub(crate) use ranges::{RANGES, READ_AS, RECORDS, Values};
 pub(crate) use reading::{Reading, Record};
 pub(crate) use record::FromStart;
-pub(crate) use search::{Distance, Draw, RMS, SEARCHED, answers, axes, distance, draw, held, targets};
+pub(crate) use search::{Distance, Draw, FREQUENCY, RMS, SEARCHED, answers, axes, distance, draw, held, targets};
 pub(crate) use variants::{VARIANTS, Variant};
 pub(crate) use verdict::Verdict;
 

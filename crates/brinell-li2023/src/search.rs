@@ -14,7 +14,7 @@ pub(crate) const SEARCHED: &[&str] = &["irregular", "simplified", "reference-sim
 /// The paper's RMS of each of [`SEARCHED`], m/s^2 (section 4.5).
 pub(crate) const RMS: [f64; 3] = [30.414, 32.06, 29.01];
 /// The paper's simulated defect frequency of the irregular shape, Hz (section 4.1.3).
-const FREQUENCY: f64 = 249.40;
+pub(crate) const FREQUENCY: f64 = 249.40;
 
 /// One set of assumptions.
 #[derive(Debug, Clone, PartialEq)]

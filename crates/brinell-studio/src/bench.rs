@@ -141,7 +141,7 @@ impl Bench {
         recording.watch = Some(Watch::new(&loaded.scenario, &simulation));
         recording.signals = Some(Signals::new(&simulation)?);
         Ok(Self {
-            run: Simulation::start_in(simulation),
+            run: Run::new(simulation),
             recording,
             course: Course::of(&loaded.scenario.operation.speed_rpm),
             loaded,
@@ -166,7 +166,7 @@ impl Bench {
         let mut scenario = loaded.scenario.clone();
         scenario.operation.speed_rpm = course.speed();
         let simulation = Arc::new(Simulation::new(&scenario)?);
-        if self.run.go_on_in(Arc::clone(&simulation)).is_err() {
+        if !self.run.go_on_in(Arc::clone(&simulation)) {
             return Ok(false);
         }
         self.recording = Recording::new(simulation, self.run.rows(), shaft_of(loaded));

@@ -1,7 +1,7 @@
 //! How tight the solver is held: the tolerance of `standard` and `reference`.
 
-use crate::model::{Model, PAIR};
-use crate::scenario::{Accuracy, Element};
+use crate::model::Model;
+use crate::scenario::Accuracy;
 use crate::solver::Settings;
 
 /// Tolerance of a step's error norm, sqrt(J): a fraction of the square root of the elastic energy that the bearing
@@ -27,13 +27,9 @@ fn characteristic_force(model: &Model) -> f64 {
     load.max(weight).max(centrifugal)
 }
 
-/// Stribeck without clearance: the heaviest roller carries 4.08 F / Z, the heaviest ball 4.37 F / Z.
+/// By Stribeck, without clearance.
 fn heaviest_contact(model: &Model, force: f64) -> f64 {
-    let stribeck = match model.element {
-        Element::Roller => 4.08,
-        Element::Ball => 4.37,
-    };
-    stribeck * force / model.layout.rollers() as f64
+    model.element.stribeck() * force / model.layout.rollers() as f64
 }
 
 /// The integrator in words, for whoever reports it.
@@ -63,10 +59,5 @@ pub fn settings(model: &Model, accuracy: Accuracy) -> Settings {
     for weight in &mut mass[model.layout.inner()..] {
         *weight *= RING;
     }
-    Settings {
-        tableau: PAIR,
-        tolerance: tolerance(model, accuracy),
-        mass,
-        max_step: (pitch * PITCH_SHARE / orbit).min(LONGEST_STEP),
-    }
+    Settings { tolerance: tolerance(model, accuracy), mass, max_step: (pitch * PITCH_SHARE / orbit).min(LONGEST_STEP) }
 }

@@ -28,6 +28,24 @@ pub struct Frame<'a> {
     pub ws: &'a Workspace,
 }
 
+impl Frame<'_> {
+    /// theta of the slots.
+    pub(crate) fn orbits(&self) -> &[f64] {
+        match self.model.kind {
+            ModelKind::Full | ModelKind::Tilting => &self.y[self.model.layout.theta()..],
+            ModelKind::Lumped => &self.ws.kinematic_orbit,
+        }
+    }
+
+    /// phi of a slot.
+    pub(crate) fn spin(&self, slot: usize) -> f64 {
+        match self.model.kind {
+            ModelKind::Full | ModelKind::Tilting => self.y[self.model.layout.phi() + slot],
+            ModelKind::Lumped => self.ws.kinematic_spin,
+        }
+    }
+}
+
 /// What a channel reads.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Quantity {
@@ -136,21 +154,15 @@ fn roller(f: &Frame, quantity: RollerQuantity, slot: usize) -> f64 {
     let dof = l.dof();
     let (cos, sin) = (f.ws.cos[slot], f.ws.sin[slot]);
     let r = f.y[l.r() + slot];
-    let (orbit, orbit_speed, orbit_rate, spin, spin_speed) = match f.model.kind {
-        ModelKind::Full | ModelKind::Tilting => (
-            f.y[l.theta() + slot],
-            f.y[dof + l.theta() + slot],
-            f.a[l.theta() + slot],
-            f.y[l.phi() + slot],
-            f.y[dof + l.phi() + slot],
-        ),
+    let (orbit_speed, orbit_rate, spin_speed) = match f.model.kind {
+        ModelKind::Full | ModelKind::Tilting => {
+            (f.y[dof + l.theta() + slot], f.a[l.theta() + slot], f.y[dof + l.phi() + slot])
+        }
         ModelKind::Lumped => {
             let (w, _) = f.model.rotation.at(f.t);
             (
-                f.ws.kinematic_orbit[slot],
                 f.model.rolling_orbit_speed(w),
                 f.model.rolling_orbit_speed(f.model.rotation.acceleration(f.t)),
-                f.ws.kinematic_spin,
                 f.model.rolling_spin_speed(w),
             )
         }
@@ -165,9 +177,9 @@ fn roller(f: &Frame, quantity: RollerQuantity, slot: usize) -> f64 {
         Q::Y => r * sin,
         Q::Ax => radial * cos - tangential * sin,
         Q::Ay => radial * sin + tangential * cos,
-        Q::Orbit => orbit,
+        Q::Orbit => f.orbits()[slot],
         Q::OrbitSpeed => orbit_speed,
-        Q::Spin => spin,
+        Q::Spin => f.spin(slot),
         Q::SpinSpeed => spin_speed,
     }
 }

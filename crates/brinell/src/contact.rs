@@ -11,9 +11,9 @@ use crate::lanes::{Lanes, eight_ninths};
 use ball::Strips;
 
 /// Palmgren's line contact, K = 8.06e4 L^(8/9) N/mm^(10/9) with L in mm (Eq. 21 with its exponent mended): from
-/// the effective contact length in m to N/m^(10/9).
-pub fn palmgren_stiffness(length: f64) -> f64 {
-    8.06e4 * (length * 1e3).powf(8.0 / 9.0) * 1e3f64.powf(10.0 / 9.0)
+/// the effective contact length in mm to N/m^(10/9).
+pub fn palmgren_stiffness(length_mm: f64) -> f64 {
+    8.06e4 * length_mm.powf(8.0 / 9.0) * 1e3f64.powf(10.0 / 9.0)
 }
 
 /// Whether n is that of line contact, 10/9.
@@ -127,9 +127,9 @@ mod tests {
     #[test]
     fn analytic_palmgren_inverts_his_deflection_formula() {
         // delta = 3.84e-5 Q^0.9 / l^0.8 in N and mm; the rounded 8.06e4 departs from the exact inverse by 0.1 %.
-        let length = 6e-3_f64;
+        let length = 6.0_f64;
         for force in [1.0, 30.0, 500.0, 2e4] {
-            let delta = 3.84e-5 * f64::powf(force, 0.9) / (length * 1e3).powf(0.8) * 1e-3;
+            let delta = 3.84e-5 * f64::powf(force, 0.9) / length.powf(0.8) * 1e-3;
             let law = Hertz { stiffness: palmgren_stiffness(length), ..NN3007 };
             assert!((law.healthy(delta) / force - 1.0).abs() < 2e-3);
         }
@@ -162,7 +162,7 @@ mod tests {
         // Below the floor: K (L_e/L)^(8/9) delta^n, which is Palmgren's law for the length L_e.
         let damaged = 4e-3;
         let floor = ContactReduction { share: remaining_share(length, damaged), depth: 20e-6, damaged_length: damaged };
-        let ratio = palmgren_stiffness(length - damaged) / palmgren_stiffness(length);
+        let ratio = palmgren_stiffness(1e3 * (length - damaged)) / palmgren_stiffness(1e3 * length);
         assert!((NN3007.damaged(shallow, &floor) / (ratio * NN3007.healthy(shallow)) - 1.0).abs() < 1e-13);
         // Full width: the displacement law.
         let full = ContactReduction { share: remaining_share(length, length), depth: 1e-6, damaged_length: length };

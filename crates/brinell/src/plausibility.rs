@@ -125,8 +125,9 @@ fn no_load(scenario: &Scenario, model: &Model) -> Option<Problem> {
         LOAD,
         list(o.load_n),
         format!(
-            "there is neither load nor weight: the centrifugal force of {} N a roller is all that presses the contacts",
-            short(force)
+            "there is neither load nor weight: the centrifugal force of {} N a {} is all that presses the contacts",
+            short(force),
+            scenario.bearing.element.word()
         ),
         "a load, or operation.gravity_m_per_s2",
     ))
@@ -220,6 +221,7 @@ fn outside_the_load_zone(scenario: &Scenario, model: &Model) -> Vec<Problem> {
     let Ok(zone) = static_load_zone(&healthy) else {
         return Vec::new();
     };
+    let element = scenario.bearing.element.word();
     let mut warnings = Vec::new();
     for (k, defect) in model.defects.iter().enumerate() {
         let (first, last) = defect.shape.arc();
@@ -236,14 +238,17 @@ fn outside_the_load_zone(scenario: &Scenario, model: &Model) -> Vec<Problem> {
             let (from, to) = (degrees(zone.middle + zone.ends.0), degrees(zone.middle + zone.ends.1));
             (
                 format!(
-                    "this damage is outside the load zone, which is {:.0} deg wide around {:.0} deg: rollers pass it without load",
+                    "this damage is outside the load zone, which is {:.0} deg wide around {:.0} deg: {element}s pass it without load",
                     zone.extent.to_degrees(),
                     degrees(zone.middle)
                 ),
                 format!("{from:.0} to {to:.0}, counter-clockwise"),
             )
         } else {
-            ("no roller is loaded at rest: there is no load zone that this damage could be in".into(), String::new())
+            (
+                format!("no {element} is loaded at rest: there is no load zone that this damage could be in"),
+                String::new(),
+            )
         };
         warnings.push(warning(
             &format!("defects.{k}.center_deg"),
@@ -268,6 +273,7 @@ fn felt_by_a_point(scenario: &Scenario, model: &Model, deformation: Option<f64>)
     if scenario.contact.roller_path != RollerPath::Point {
         return Vec::new();
     }
+    let element = scenario.bearing.element.word();
     let mut warnings = Vec::new();
     for (k, defect) in model.defects.iter().enumerate() {
         let met = SIDES.into_iter().filter(|s| defect.depth_profile(*s).is_some());
@@ -280,7 +286,7 @@ fn felt_by_a_point(scenario: &Scenario, model: &Model, deformation: Option<f64>)
         let ring = side.word();
         let words = if reached < REACHED_SHARE * deep {
             format!(
-                "defect {} is {} um deep, and the roller's radius lets it sink {} um into it at the {ring} raceway; a \"point\" feels the \
+                "defect {} is {} um deep, and the {element}'s radius lets it sink {} um into it at the {ring} raceway; a \"point\" feels the \
                  floor all the same",
                 k + 1,
                 short(1e6 * deep),
@@ -290,8 +296,8 @@ fn felt_by_a_point(scenario: &Scenario, model: &Model, deformation: Option<f64>)
             && drop > DROP * deformation
         {
             format!(
-                "defect {} is as wide as the roller and {} um deep, {:.0} times the elastic deformation of the most loaded contact at rest: at a \"point\" the \
-                 roller drops by the whole depth at once, which makes impacts many times as strong as along the envelope",
+                "defect {} is as wide as the {element} and {} um deep, {:.0} times the elastic deformation of the most loaded contact at rest: at a \"point\" the \
+                 {element} drops by the whole depth at once, which makes impacts many times as strong as along the envelope",
                 k + 1,
                 short(1e6 * drop),
                 drop / deformation

@@ -27,8 +27,6 @@ pub struct Problem {
     pub orbit: Vec<f64>,
     /// Spin angle of each slot, rad.
     pub spin: Vec<f64>,
-    /// Share of the load.
-    pub load_share: f64,
     /// Hold the inner ring at the centre.
     pub fix_inner: bool,
     /// Hold the outer ring at the centre.
@@ -45,7 +43,6 @@ impl Problem {
             ring_angle: 0.0,
             orbit: model.pocket_angle.to_vec(),
             spin: vec![0.0; model.layout.slots],
-            load_share: 1.0,
             fix_inner: false,
             fix_outer: model.outer_ring_is_fixed(),
             guess: [[0.0; 2]; 2],
@@ -141,7 +138,7 @@ pub fn solve(model: &Model, problem: &Problem) -> Result<Balance, NoBalance> {
     let free = [!problem.fix_inner, !problem.fix_inner, !problem.fix_outer, !problem.fix_outer];
     let guess: Offsets = std::array::from_fn(|k| problem.guess[k / 2][k % 2]);
     let mut rollers = vec![Roller::default(); model.layout.rollers()];
-    let forces = external(model, problem);
+    let forces = external(model);
     let scale = force_scale(model, problem, &forces);
     let found = minimise(guess, &free, (scale, softest(model)), |x| {
         let potential = evaluate(model, problem, &forces, x, &mut rollers);
@@ -171,8 +168,8 @@ fn centrifugal(model: &Model, speed: f64) -> f64 {
 }
 
 /// Loads and weights of the rings, N.
-fn external(model: &Model, problem: &Problem) -> Offsets {
-    let (inner, outer) = model.load.on_rings(problem.load_share);
+fn external(model: &Model) -> Offsets {
+    let (inner, outer) = model.load.on_rings(1.0);
     let (m, g) = (&model.inertia, &model.gravity);
     [
         inner[0] + m.inner_ring * g[0],

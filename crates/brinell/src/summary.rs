@@ -147,9 +147,6 @@ pub fn warnings(parts: &Parts) -> Vec<String> {
     }
     all.extend(clipped(parts));
     all.extend(unsettled(parts.findings));
-    if let Err(error) = &parts.beforehand.statics {
-        all.push(error.to_string());
-    }
     let scenario = &parts.loaded.scenario;
     all.extend(parts.beforehand.warnings.iter().map(ToString::to_string));
     all.extend(plausibility::after(scenario, &parts.outcome.energy));

@@ -107,8 +107,8 @@ const PATHS: [RollerPath; 2] = [RollerPath::Point, RollerPath::Envelope];
 
 #[test]
 fn lit_stribecks_heaviest_ball() {
-    // Harris: Q_max = 4.37 F/Z for many balls without clearance; of nine, one of them at the load, 4.385 (model.md,
-    // section 17).
+    // Harris: Q_max = 4.37 F/Z for many balls without clearance; of nine, one of them at the load, 4.385
+    // (`docs/src/theory/balls.md`).
     for (balls, expected) in [(9, 4.385), (900, 4.37)] {
         let mut s = bearing();
         s.defects.clear();

@@ -6,7 +6,7 @@
 use brinell::document;
 use brinell::model::{Energy, Model, Motion};
 use brinell::scenario::Accuracy;
-use brinell::solver::{DAMPED_CONTACT, Settings, Stepper, System};
+use brinell::solver::{Settings, Stepper, System};
 use brinell::{accuracy, start};
 use std::path::Path;
 
@@ -16,7 +16,7 @@ const ORDER: f64 = 3.0;
 const NEAR: f64 = 0.1;
 
 fn fixed(step: f64, mass: Vec<f64>) -> Settings {
-    Settings { tableau: DAMPED_CONTACT, tolerance: f64::MAX, mass, max_step: step }
+    Settings { tolerance: f64::MAX, mass, max_step: step }
 }
 
 /// Orders between consecutive halvings of the step.

@@ -251,10 +251,11 @@ fn whirl(s: &Scenario, from: f64, to: f64) -> Vec<Whirl> {
     while stepper.t() < from {
         stepper.step(&mut motion).unwrap();
     }
-    let (l, ring) = (&model.layout, model.land_ring());
+    let (l, land) = (&model.layout, model.land());
     let offset = |y: &[f64], row: usize| {
         let at = l.cage(row);
-        [y[at] - y[ring], y[at + 1] - y[ring + 1]]
+        let ring = land.centre(row, y);
+        [y[at] - ring[0], y[at + 1] - ring[1]]
     };
     let mut before = stepper.y().to_vec();
     let begun = before.clone();

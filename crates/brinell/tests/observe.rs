@@ -240,32 +240,49 @@ fn prop_motion_is_in_order_and_bounded_at_any_length() {
     }
 }
 
-/// The centres circle about a ring that moves itself: what is kept is the circle, its last turns, in time's order.
+/// The centres circle about a ring that moves itself and, where it can, tilts: what is kept is the circle, its last
+/// turns, in time's order.
 #[test]
-fn analytic_a_cage_orbit_is_seen_from_the_ring_that_guides_it() {
-    for (guidance, by_inner) in [(Guidance::OuterRing, false), (Guidance::InnerRing, true)] {
-        let model = model(|s| s.cage.guidance = guidance);
+fn analytic_a_cage_orbit_is_seen_from_the_land_that_guides_it() {
+    for (guidance, kind) in [
+        (Guidance::OuterRing, ModelKind::Full),
+        (Guidance::InnerRing, ModelKind::Full),
+        (Guidance::OuterRing, ModelKind::Tilting),
+        (Guidance::InnerRing, ModelKind::Tilting),
+    ] {
+        let model = model(|s| {
+            s.cage.guidance = guidance;
+            s.simulation.model = kind;
+        });
         let l = &model.layout;
         let duration = 1.0;
         let mut orbit = CageOrbit::new(&model, duration, RATE);
         let whirl = model.rolling_orbit_speed(speed(&model));
         let ring = |t: f64| [3e-5 * (900.0 * t).sin(), -2e-5 * (700.0 * t).cos()];
+        let slope = |t: f64| [2e-3 * (800.0 * t).cos(), 1e-3 * (600.0 * t).sin()];
         let radius = |row: usize| 1e-4 * (row + 1) as f64;
         let centre = |row: usize, t: f64| {
             let (sin, cos) = (whirl * t).sin_cos();
             [radius(row) * cos, radius(row) * sin]
         };
+        let mut places = [(l.outer(), l.outer_tilt()), (l.inner(), l.inner_tilt())];
+        if guidance == Guidance::InnerRing {
+            places.reverse();
+        }
+        let [(guide, tilt), (other, _)] = places;
         go(
             &model,
             (duration * RATE) as u64,
             |t, y, _| {
-                let guide = if by_inner { l.inner() } else { l.outer() };
-                let other = if by_inner { l.outer() } else { l.inner() };
                 for k in 0..2 {
                     y[guide + k] = ring(t)[k];
                     y[other + k] = 1.0;
                     for row in 0..l.rows {
-                        y[l.cage(row) + k] = ring(t)[k] + centre(row, t)[k];
+                        let aside = model.tilt.as_ref().map_or(0.0, |of| of.rows[row] * slope(t)[k]);
+                        y[l.cage(row) + k] = ring(t)[k] + aside + centre(row, t)[k];
+                    }
+                    if model.tilt.is_some() {
+                        y[tilt + k] = slope(t)[k];
                     }
                 }
             },

@@ -1,7 +1,7 @@
 //! A run in slices, and a run that goes on in another simulation.
 
 use brinell::Scenario;
-use brinell::simulate::{CannotGoOn, End, Observer, Simulation};
+use brinell::simulate::{End, Observer, Run, Simulation};
 use std::ops::ControlFlow;
 
 const BEARING: &str = "[bearing]\npreset = \"NN3007\"\n[operation]\nspeed_rpm = 1800\nload_n = [300, 0]\n";
@@ -37,7 +37,7 @@ fn prop_however_a_run_is_cut_its_bits_are_the_same() {
     let outcome = simulation.run(&mut whole);
     assert_eq!(whole.0.len() as u64, simulation.samples());
     for slice in [1, 37, 100_000] {
-        let mut run = simulation.start();
+        let mut run = Run::new(&simulation);
         let mut parts = Sensor::default();
         let end = loop {
             let before = run.rows();
@@ -55,12 +55,12 @@ fn prop_however_a_run_is_cut_its_bits_are_the_same() {
 #[test]
 fn prop_a_run_that_goes_on_in_the_same_simulation_stays_on_its_way() {
     let simulation = simulation("");
-    let mut runs = [simulation.start(), simulation.start()];
+    let mut runs = [Run::new(&simulation), Run::new(&simulation)];
     let mut sensors = [Sensor::default(), Sensor::default()];
     for (run, sensor) in runs.iter_mut().zip(&mut sensors) {
         assert_eq!(run.advance(1500, sensor), None);
     }
-    runs[1].go_on_in(&simulation).unwrap();
+    assert!(runs[1].go_on_in(&simulation));
     for (run, sensor) in runs.iter_mut().zip(&mut sensors) {
         assert_eq!(run.advance(20, sensor), None);
     }
@@ -74,11 +74,11 @@ fn prop_a_run_that_goes_on_in_the_same_simulation_stays_on_its_way() {
 fn prop_a_spall_in_a_running_bearing_raises_the_rms_and_the_run_has_no_end() {
     let healthy = simulation("[simulation]\nduration_s = 0.1\n");
     let damaged = simulation(&format!("{SPALL}[simulation]\nduration_s = 0.1\n"));
-    let mut run = healthy.start();
+    let mut run = Run::new(&healthy);
     let mut sensor = Sensor::default();
     assert_eq!(run.advance(u64::MAX, &mut sensor), Some(End::Complete));
     let before = sensor.0.len();
-    run.go_on_in(&damaged).unwrap();
+    assert!(run.go_on_in(&damaged));
     assert_eq!(run.advance(2560, &mut sensor), None);
     let (quiet, damaged) = (&sensor.0[before / 2..before], &sensor.0[before..]);
     assert!(rms(damaged) > 1.5 * rms(quiet), "{} {}", rms(damaged), rms(quiet));
@@ -89,14 +89,14 @@ fn prop_a_spall_in_a_running_bearing_raises_the_rms_and_the_run_has_no_end() {
 #[test]
 fn prop_a_run_goes_on_only_where_the_states_correspond() {
     let simulation_ = simulation("");
-    let mut run = simulation_.start();
+    let mut run = Run::new(&simulation_);
     let one_row = Simulation::new(&Scenario::from_toml(&BEARING.replace("NN3007", "NU206")).unwrap()).unwrap();
-    assert_eq!(run.go_on_in(&one_row), Err(CannotGoOn::Layout));
+    assert!(!run.go_on_in(&one_row));
     let faster = simulation("[simulation]\nsample_rate_hz = 51200\n");
-    assert_eq!(run.go_on_in(&faster), Err(CannotGoOn::SampleRate));
+    assert!(!run.go_on_in(&faster));
     let tilting = simulation("[simulation]\nmodel = \"tilting\"\n");
-    assert_eq!(run.go_on_in(&tilting), Err(CannotGoOn::Layout));
+    assert!(!run.go_on_in(&tilting));
     let more = simulation("[simulation]\nrecord = [\"cage1_ay\"]\n");
-    assert_eq!(run.go_on_in(&more), Err(CannotGoOn::Filtered));
+    assert!(!run.go_on_in(&more));
     assert_eq!(run.advance(3, &mut ()), None);
 }

@@ -62,7 +62,7 @@ fn analytic_nothing_tilted_is_the_planar_model() {
             assert!(
                 (a[from] - b[to]).abs() < 1e-11 * largest,
                 "{}: {} in the plane, {} with tilt",
-                l.name(from),
+                l.name(from, flat.element),
                 a[from],
                 b[to]
             );
@@ -122,7 +122,7 @@ fn prop_mirrored_damage_mirrors_the_tilts() {
             for k in 0..l.dof() {
                 let (to, sign) = place(k);
                 let difference = (sign * a[k] - b[to]).abs();
-                assert!(difference < 1e-11 * largest, "{}: {difference:e}", l.name(k));
+                assert!(difference < 1e-11 * largest, "{}: {difference:e}", l.name(k, model.element));
             }
         }
     }
@@ -184,12 +184,12 @@ fn analytic_an_equilibrium_is_one() {
     for slot in 0..l.rollers() {
         for k in [l.r() + slot, l.beta() + slot] {
             let force = mass[k] * a[k].abs();
-            assert!(force < 2e-4, "{}: {force:e} N left over", l.name(k));
+            assert!(force < 2e-4, "{}: {force:e} N left over", l.name(k, model.element));
         }
     }
     for k in l.inner()..l.outer_tilt() + 2 {
         let force = mass[k] * a[k].abs();
-        assert!(force < 1e-3, "{}: {force:e} N left over", l.name(k));
+        assert!(force < 1e-3, "{}: {force:e} N left over", l.name(k, model.element));
     }
     assert!(y[l.inner_tilt()].abs() > 1e-6, "the load is off the middle");
 }
@@ -235,7 +235,7 @@ fn prop_damage_in_the_middle_of_one_row_tilts_nothing() {
         }
         let a = accelerations(&s, 0.01, &y);
         for k in (l.beta()..l.beta() + l.rollers()).chain(l.inner_tilt()..l.outer_tilt() + 2) {
-            assert!(a[k].abs() < 1e-3, "{}: {} rad/s^2", l.name(k), a[k]);
+            assert!(a[k].abs() < 1e-3, "{}: {} rad/s^2", l.name(k, model.element), a[k]);
         }
     }
 }

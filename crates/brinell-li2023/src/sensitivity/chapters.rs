@@ -1,7 +1,7 @@
 //! The sensitivity and the search as files and the page show them.
 
 use super::{BEST, Candidate, SEED, Sensitivity, Tried};
-use crate::{RANGES, READ_AS, RECORDS, SEARCHED, Values, Verdict, claims};
+use crate::{RANGES, READ_AS, RECORDS, RMS, SEARCHED, Values, Verdict, claims};
 use brinell_report::short;
 use brinell_report::{Chapter, StudyPiece, Table};
 use serde_json::{Value, json};
@@ -127,8 +127,9 @@ impl Sensitivity {
             (false, _) => "No set was found under which most of the checkable claims hold; the nearest is this one",
         };
         let values: Vec<String> = best.distance.values.iter().map(|x| short(*x, 4)).collect();
+        let [irregular, simplified, reference] = RMS;
         let mut text = format!(
-            "{head}: set {}, {held} of {of} claims, RMS {} m/s² against 30.414, 32.06 and 29.01 (distance {}).",
+            "{head}: set {}, {held} of {of} claims, RMS {} m/s² against {irregular}, {simplified} and {reference} (distance {}).",
             best.draw.number,
             values.join(", "),
             short(best.distance.rms, 3)

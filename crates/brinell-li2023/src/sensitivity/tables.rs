@@ -2,7 +2,7 @@
 
 use super::{Candidate, Nearest, Sensitivity, Tried};
 use crate::figures::cell;
-use crate::{RANGES, RMS, Reading, Record, SEARCHED, distance};
+use crate::{FREQUENCY, RANGES, RMS, Reading, Record, SEARCHED, distance};
 use brinell_report::Table;
 use brinell_report::short;
 
@@ -54,7 +54,8 @@ impl Sensitivity {
             row(name, &RMS[k].to_string(), &|c| short(c.distance.values[k], 4));
         }
         row("Distance of the three RMS", "0", &|c| short(c.distance.rms, 3));
-        row("Defect frequency less 249.40 Hz", "0", &|c| c.distance.frequency.map_or("–".into(), |f| short(f, 3)));
+        let frequency = format!("Defect frequency less {FREQUENCY:.2} Hz");
+        row(&frequency, "0", &|c| c.distance.frequency.map_or("–".into(), |f| short(f, 3)));
         row("RMS over", "", &|c| c.draw.reading.record.words());
         row("Outer ring behind the filter", "", &|c| if c.draw.reading.filtered { "yes" } else { "no" }.into());
         row("Eq. (27)", "", &|c| c.draw.outline.words().into());
@@ -90,12 +91,15 @@ impl Sensitivity {
                 value(2),
             ]
         };
+        let [irregular, simplified, reference] = RMS;
         let columns = ["RMS over", "#Sets", "#Nearest set", "#Distance", "#irregular", "#simplified", "#reference"];
         Table::new(
             "How near the sets came, by the stretch of the record",
             columns,
             self.nearest.iter().map(row),
-            "The paper: 30.414, 32.06, 29.01 m/s². By the distance of the three RMS alone, whatever else holds.",
+            format!(
+                "The paper: {irregular}, {simplified}, {reference} m/s². By the distance of the three RMS alone, whatever else holds."
+            ),
         )
     }
 }

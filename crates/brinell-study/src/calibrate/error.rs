@@ -1,5 +1,7 @@
 //! Why there is nothing to fit.
 
+use crate::campaign::INSIDE;
+
 /// What is wrong with keys or targets.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 pub enum CalibrateError {
@@ -26,6 +28,9 @@ pub enum CalibrateError {
     /// One key with two ranges.
     #[error("{0} is to be fitted twice; each key has one range")]
     Twice(String),
+    /// Two keys of which one is part of the other.
+    #[error("{0} and {1} {INSIDE}")]
+    Inside(String, String),
     /// One target with two values.
     #[error("{0} is a target twice; each has one value")]
     TargetTwice(String),

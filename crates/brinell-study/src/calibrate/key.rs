@@ -1,6 +1,7 @@
 //! A key that is fitted: its range, and the line between the range and the unit interval that the search works in.
 
 use super::CalibrateError;
+use crate::campaign::clash;
 
 /// A key and its bounds.
 #[derive(Debug, Clone, PartialEq)]
@@ -100,12 +101,11 @@ pub fn check(keys: &[Key]) -> Result<(), CalibrateError> {
     if keys.is_empty() {
         return Err(CalibrateError::NoKey);
     }
-    for (k, key) in keys.iter().enumerate() {
-        if keys[..k].iter().any(|other| other.name == key.name) {
-            return Err(CalibrateError::Twice(key.name.clone()));
-        }
+    match clash(keys.iter().map(|key| key.name.as_str())) {
+        None => Ok(()),
+        Some([key, again]) if key == again => Err(CalibrateError::Twice(key.into())),
+        Some([first, second]) => Err(CalibrateError::Inside(first.into(), second.into())),
     }
-    Ok(())
 }
 
 #[cfg(test)]
@@ -148,6 +148,12 @@ mod tests {
         assert_eq!(
             check(&[key.clone(), key]).unwrap_err().to_string(),
             "a is to be fitted twice; each key has one range"
+        );
+        let inside = ["a.b=1:2", "a.bc=1:2", "a=1:2"].map(|text| Key::read(text).unwrap());
+        assert_eq!(check(&inside[..2]), Ok(()));
+        assert_eq!(
+            check(&inside).unwrap_err().to_string(),
+            "a.b and a lie one inside the other, and would overwrite each other"
         );
     }
 }

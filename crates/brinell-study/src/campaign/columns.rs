@@ -16,25 +16,28 @@ pub struct NumberColumn {
     pub values: Vec<Option<f64>>,
 }
 
+/// Every number that any of the runs has, in the order of the first that has it: what it is there, and what each run
+/// has.
+pub(super) fn by_name<'a>(runs: &[&'a [Quantity]]) -> Vec<(&'a Quantity, Vec<Option<&'a Quantity>>)> {
+    let mut table: Vec<(&Quantity, Vec<_>)> = Vec::new();
+    let mut places: HashMap<&str, usize> = HashMap::new();
+    for (k, run) in runs.iter().enumerate() {
+        for quantity in *run {
+            let place = *places.entry(&quantity.name).or_insert(table.len());
+            if place == table.len() {
+                table.push((quantity, vec![None; runs.len()]));
+            }
+            table[place].1[k] = Some(quantity);
+        }
+    }
+    table
+}
+
 /// A column for each number, three for one with an interval, in the order of the first run that has them. A run that
 /// failed has no numbers.
 pub fn columns(runs: &[&[Quantity]]) -> Vec<NumberColumn> {
-    let mut order: Vec<&Quantity> = Vec::new();
-    let mut places: HashMap<&str, usize> = HashMap::new();
-    for quantity in runs.iter().copied().flatten() {
-        if !places.contains_key(quantity.name.as_str()) {
-            places.insert(&quantity.name, order.len());
-            order.push(quantity);
-        }
-    }
-    let mut cells = vec![vec![None; runs.len()]; order.len()];
-    for (row, run) in runs.iter().enumerate() {
-        for quantity in *run {
-            cells[places[quantity.name.as_str()]][row] = Some(quantity);
-        }
-    }
     let mut table = Vec::new();
-    for (first, cells) in order.into_iter().zip(cells) {
+    for (first, cells) in by_name(runs) {
         let mut push = |suffix: &str, end: bool, of: fn(&Quantity) -> Option<f64>| {
             table.push(NumberColumn {
                 name: format!("{}{suffix}", first.name),

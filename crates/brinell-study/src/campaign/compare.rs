@@ -1,9 +1,9 @@
 //! Runs side by side: every number of each, and its ratio to that of the baseline, the first run.
 
+use super::columns::by_name;
 use brinell::result::fields::LEAST_STIFFNESS;
 use brinell::result::{Quantity, RunResult};
 use brinell::signal::ratio::{Ratio, ratio};
-use std::collections::HashMap;
 
 /// One number of several runs.
 #[derive(Debug, Clone, PartialEq)]
@@ -22,22 +22,15 @@ pub struct Compared {
 /// Everything that the runs have, in the order of the first that has it. A ratio is that of the two values; see
 /// [`brinell::signal::ratio`].
 pub fn compare(runs: &[&RunResult]) -> Vec<Compared> {
-    let mut all: Vec<Compared> = Vec::new();
-    let mut places: HashMap<String, usize> = HashMap::new();
-    for (k, run) in runs.iter().enumerate() {
-        for quantity in run.quantities() {
-            let place = *places.entry(quantity.name.clone()).or_insert_with(|| {
-                all.push(Compared {
-                    name: quantity.name.clone(),
-                    unit: quantity.unit.clone(),
-                    of: vec![None; runs.len()],
-                    ratios: vec![None; runs.len()],
-                });
-                all.len() - 1
-            });
-            all[place].of[k] = Some(quantity);
-        }
-    }
+    let numbers: Vec<Vec<Quantity>> = runs.iter().map(|run| run.quantities()).collect();
+    let numbers: Vec<&[Quantity]> = numbers.iter().map(Vec::as_slice).collect();
+    let compared = by_name(&numbers).into_iter().map(|(first, of)| Compared {
+        name: first.name.clone(),
+        unit: first.unit.clone(),
+        of: of.into_iter().map(Option::<&Quantity>::cloned).collect(),
+        ratios: vec![None; runs.len()],
+    });
+    let mut all: Vec<Compared> = compared.collect();
     for compared in &mut all {
         for k in 1..runs.len() {
             let estimate = |k: usize| compared.of[k].as_ref().and_then(Quantity::estimate);

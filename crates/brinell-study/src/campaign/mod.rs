@@ -18,6 +18,7 @@ pub use axis::Axis;
 pub use axis::split;
 pub use columns::{NumberColumn, columns};
 pub use compare::{Compared, compare};
+pub(crate) use plan::{INSIDE, clash};
 pub use plan::{Plan, PlanError};
 #[doc(hidden)]
 pub use row::digest;

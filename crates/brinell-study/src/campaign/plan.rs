@@ -7,6 +7,22 @@ use serde_json::{Value, json};
 /// Points of a plan at most: beyond that, a plan is a slip of the keyboard.
 pub(super) const MOST_POINTS: usize = 100_000;
 
+/// What is wrong with keys of which one is part of the other.
+pub(crate) const INSIDE: &str = "lie one inside the other, and would overwrite each other";
+
+/// The first two keys that set the same: a key twice, or one inside the other.
+pub(crate) fn clash<'a>(keys: impl Iterator<Item = &'a str>) -> Option<[&'a str; 2]> {
+    let inside = |a: &str, b: &str| a.strip_prefix(b).is_some_and(|rest| rest.is_empty() || rest.starts_with('.'));
+    let mut before: Vec<&str> = Vec::new();
+    for key in keys {
+        if let Some(other) = before.iter().find(|other| inside(key, other) || inside(other, key)) {
+            return Some([other, key]);
+        }
+        before.push(key);
+    }
+    None
+}
+
 /// Why there is no plan.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 pub enum PlanError {
@@ -63,21 +79,12 @@ impl Plan {
     /// # Errors
     /// Where two axes set one key, or one inside the other, or there are more than 100 000 points.
     pub fn new(axes: Vec<Axis>) -> Result<Self, PlanError> {
-        let keys: Vec<&String> = axes.iter().flat_map(Axis::keys).collect();
-        for (k, key) in keys.iter().enumerate() {
-            for other in &keys[..k] {
-                if other == key {
-                    return Err(PlanError::Twice((*key).clone()));
-                }
-                let inside = |a: &str, b: &str| a.strip_prefix(b).is_some_and(|rest| rest.starts_with('.'));
-                if inside(key, other) || inside(other, key) {
-                    return Err(PlanError::Keys {
-                        first: (*other).clone(),
-                        second: (*key).clone(),
-                        why: "lie one inside the other, and would overwrite each other".into(),
-                    });
-                }
+        match clash(axes.iter().flat_map(Axis::keys).map(String::as_str)) {
+            Some([key, again]) if key == again => return Err(PlanError::Twice(key.into())),
+            Some([first, second]) => {
+                return Err(PlanError::Keys { first: first.into(), second: second.into(), why: INSIDE.into() });
             }
+            None => {}
         }
         // At most 100000^axes: a command line is too short to overflow this, and saturation would still refuse.
         let points = axes.iter().fold(1_u128, |product, axis| product.saturating_mul(axis.settings().len() as u128));

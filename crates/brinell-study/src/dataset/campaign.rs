@@ -99,7 +99,7 @@ impl Document {
     /// What is wrong with a value of its own.
     fn problem_of(&self, key: &str, value: &str, why: &str) -> DatasetError {
         let problem = Problem::of_file(key, value, why);
-        self.problems(vec![problem.placed(locate(&self.text, key))])
+        self.problems(vec![problem.at(locate(&self.text, key))])
     }
 
     /// That the file is a scenario, where it is one.
@@ -357,7 +357,7 @@ impl Sources {
         let of_plan = problems.into_iter().filter_map(|mut p| {
             let at = place(&p)?;
             p.message = unsaid(&p.message);
-            Some(p.placed(Some(at)))
+            Some(p.at(Some(at)))
         });
         plan.problems(of_plan.collect())
     }
@@ -380,5 +380,5 @@ fn survey(draws: &Draws, base: &str, stop: &AtomicBool) -> Survey {
 /// A problem of the plan as a whole, at the line of its key.
 fn draws_problem(problem: Problem, text: &str) -> Problem {
     let place = locate(text, &problem.key);
-    problem.placed(place)
+    problem.at(place)
 }

@@ -277,6 +277,12 @@ pub(crate) fn file_name(part: usize) -> String {
     format!("part-{part:05}.parquet")
 }
 
+/// The number of a file; none where its name is another than [`file_name`] gives.
+pub(crate) fn number_of(name: &str) -> Option<usize> {
+    let digits = name.strip_prefix("part-")?.strip_suffix(".parquet")?;
+    digits.parse().ok().filter(|part| file_name(*part) == name)
+}
+
 pub(crate) fn make(folder: &Path) -> Result<(), DatasetError> {
     std::fs::create_dir_all(folder)
         .map_err(|error| DatasetError::Refused(format!("cannot make the folder {}: {error}", folder.display())))

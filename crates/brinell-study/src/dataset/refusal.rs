@@ -28,7 +28,7 @@ pub(crate) fn refused(draws: &Draws, plan: &Document, survey: &Survey) -> Result
         // A key that the plan sets is found there; what the base gives has its line there already.
         let place = place_in_plan(draws, &plan.text, miss.run, &problem);
         (problem.line, problem.column, problem.span) = (None, None, None);
-        problem.placed(place)
+        problem.at(place)
     };
     let mut problems: Vec<Problem> = survey.errors.iter().map(described).collect();
     // Some of a distribution may fit; of a value that is in the plan nothing does.

@@ -2,7 +2,7 @@
 
 use crate::dataset::card::CROISSANT;
 use crate::dataset::error::DatasetError;
-use crate::dataset::folder::{CAMPAIGN, Folder, PART, SECRET_PATH, file_name};
+use crate::dataset::folder::{CAMPAIGN, Folder, PART, SECRET_PATH, file_name, number_of};
 use crate::dataset::sidecar::{CARD, files_of, is_whole};
 use brinell_io::{keys, record_facts, sha256_of};
 use serde_json::Value;
@@ -148,7 +148,7 @@ impl Set<'_> {
             let name = name.to_string_lossy().into_owned();
             // A file that another process is about to finish is none yet.
             let whole = name.strip_suffix(".partial").unwrap_or(&name);
-            if !(0..found.of).any(|part| whole == file_name(part)) {
+            if number_of(whole).is_none_or(|part| part >= found.of) {
                 let stranger = format!("runs/{name}: no file of this data set");
                 found.problems.push(stranger);
             }

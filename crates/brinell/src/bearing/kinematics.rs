@@ -1,9 +1,9 @@
 //! Pure rolling: the speeds of cage and rollers, and the defect frequencies.
 //!
 //! The outer ring rests. Rollers roll on both raceways without slip, with the levers of the centred bearing
-//! (model.md, section 4): `dtheta = w R_i / (2 R_m)`, `dphi = -(w R_i - R_m dtheta) / r`. Where `R_i = R_m - r`, as
-//! in NN3007, these are the textbook's `(1 - d/D_m)` formulas. Angles are counter-clockwise positive; lengths in m,
-//! speeds in rad/s, frequencies in Hz.
+//! (`docs/src/theory/frame.md`): `dtheta = w R_i / (2 R_m)`, `dphi = -(w R_i - R_m dtheta) / r`. Where `R_i = R_m -
+//! r`, as in NN3007, these are the textbook's `(1 - d/D_m)` formulas. Angles are counter-clockwise positive; lengths in
+//! m, speeds in rad/s, frequencies in Hz.
 
 use crate::scenario::{Bearing, Surface};
 use std::f64::consts::TAU;

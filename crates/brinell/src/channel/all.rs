@@ -38,12 +38,12 @@ impl List<'_> {
         self.channels.push(Channel { name, unit, description, quantity });
     }
 
-    /// A roller in names ("1_07") and in descriptions ("of roller 7 in row 1").
+    /// A roller in names ("1_07") and in descriptions ("roller 7 in row 1").
     fn words(&self, row: usize, roller: usize) -> (String, String) {
         let digits = self.model.layout.rollers_per_row.to_string().len().max(2);
         (
             format!("{}_{:0digits$}", row + 1, roller + 1),
-            format!("of {} {} in row {}", self.model.element.word(), roller + 1, row + 1),
+            format!("{} {} in row {}", self.model.element.word(), roller + 1, row + 1),
         )
     }
 
@@ -100,7 +100,8 @@ impl List<'_> {
     fn roller(&mut self, row: usize, roller: usize) {
         use RollerQuantity as R;
         let slot = self.model.layout.slot(row, roller);
-        let (number, of) = self.words(row, roller);
+        let (number, roller) = self.words(row, roller);
+        let of = format!("of {roller}");
         for (suffix, unit, what, quantity) in [
             ("r", "m", "radial offset", R::R),
             ("x", "m", "radial offset along x", R::X),
@@ -128,7 +129,8 @@ impl List<'_> {
 
     fn contacts(&mut self, row: usize, roller: usize) {
         let slot = self.model.layout.slot(row, roller);
-        let (number, of) = self.words(row, roller);
+        let (number, roller) = self.words(row, roller);
+        let of = format!("of {roller}");
         for (side, name) in [(Side::Outer, "outer"), (Side::Inner, "inner")] {
             for (suffix, unit, what, quantity) in [
                 ("force", "N", "normal force", ContactQuantity::Force),
@@ -151,8 +153,8 @@ impl List<'_> {
 
     fn pocket(&mut self, row: usize, roller: usize) {
         let slot = self.model.layout.slot(row, roller);
-        let (number, _) = self.words(row, roller);
-        let text = format!("force of the pocket along the orbit on roller {} in row {}", roller + 1, row + 1);
+        let (number, on) = self.words(row, roller);
+        let text = format!("force of the pocket along the orbit on {on}");
         self.add(format!("pocket{number}_force"), "N", text, Quantity::PocketForce(slot));
     }
 }

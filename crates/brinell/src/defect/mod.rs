@@ -165,10 +165,9 @@ impl Defect {
         contact: &scenario::Contact,
         extent: Extent,
     ) -> Option<Self> {
-        let (surface, diameter) = match defect.on {
-            Surface::OuterRaceway => (defect.on, bearing.outer_raceway_diameter_mm),
-            Surface::InnerRaceway => (defect.on, bearing.inner_raceway_diameter_mm),
-            Surface::Roller(k) => (Surface::Roller(k.checked_sub(1)?), bearing.roller_diameter_mm),
+        let surface = match defect.on {
+            Surface::Roller(k) => Surface::Roller(k.checked_sub(1)?),
+            raceway => raceway,
         };
         let depth = 1e-6 * defect.depth_um;
         let roller_length = 1e-3 * bearing.axial_reach_mm();
@@ -185,7 +184,7 @@ impl Defect {
             let radius = relative_radius(bearing, side);
             met.then(|| DepthProfile::new(&shape, (depth, middle), extent, radius, &rules))
         });
-        let radius = 0.5e-3 * diameter;
+        let radius = 0.5e-3 * bearing.diameter_mm(surface);
         let arc = shape.arc();
         let windows = [0, 1].map(|side| {
             let (first, last) = profiles[side].as_ref().map_or(arc, |g| g.arc);

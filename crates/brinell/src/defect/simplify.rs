@@ -1,7 +1,7 @@
 //! The simple shapes that others would have assumed instead of the real damage (the paper's section 4.2).
 
 use super::Shape;
-use crate::scenario::{self, Bearing, Surface};
+use crate::scenario::{self, Bearing};
 use std::f64::consts::PI;
 
 /// What to simplify to.
@@ -67,11 +67,7 @@ pub fn simplify(defect: &scenario::Defect, bearing: &Bearing, to: Simple) -> Opt
     let depth = 1e-6 * defect.depth_um;
     let shape = Shape::new(&defect.shape, depth)?;
     let extent = Extent::of(&shape, depth);
-    let diameter_mm = match defect.on {
-        Surface::OuterRaceway => bearing.outer_raceway_diameter_mm,
-        Surface::InnerRaceway => bearing.inner_raceway_diameter_mm,
-        Surface::Roller(_) => bearing.roller_diameter_mm,
-    };
+    let diameter_mm = bearing.diameter_mm(defect.on);
     let rectangle = |factor: f64| scenario::Shape::Rectangle {
         length_mm: 1e3 * factor * extent.length,
         width_mm: 1e3 * factor * extent.width,

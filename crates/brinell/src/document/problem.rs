@@ -100,12 +100,6 @@ impl Problem {
         Problem::error(key, message).value(super::source::quote(file))
     }
 
-    /// At a place of the text.
-    #[must_use]
-    pub fn placed(self, place: Option<Place>) -> Problem {
-        self.at(place)
-    }
-
     /// The value at fault.
     #[must_use]
     pub fn value(mut self, value: impl Into<String>) -> Problem {
@@ -125,7 +119,9 @@ impl Problem {
         self
     }
 
-    pub(crate) fn at(mut self, place: Option<Place>) -> Problem {
+    /// At a place of the text.
+    #[must_use]
+    pub fn at(mut self, place: Option<Place>) -> Problem {
         if let Some(place) = place {
             self.line = Some(place.line);
             self.column = Some(place.column);

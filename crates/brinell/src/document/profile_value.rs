@@ -4,7 +4,7 @@ use serde_json::{Value as Json, json};
 
 use super::keys::{Spec, key};
 use super::source::{Node, Value, quote};
-use super::value_type::{Misfit, ValueType, wrong_type};
+use super::value_type::{Misfit, ValueType, object, read_under, wrong_type};
 use crate::scenario::RollerProfile;
 
 const RADIUS: Spec = key("crowned_radius_mm", "R_c").above(0.0);
@@ -79,19 +79,4 @@ impl ValueType for RollerProfile {
             object(&[&Z, &DROP], &[<Vec<f64>>::schema(&Z), <Vec<f64>>::schema(&DROP)]),
         ] })
     }
-}
-
-fn read_under<T: ValueType>(node: &Node, spec: &Spec) -> Result<T, Misfit> {
-    T::read(node, spec).map_err(|misfit| misfit.in_element(node).under(spec.name))
-}
-
-fn object(specs: &[&Spec], schemas: &[Json]) -> Json {
-    let mut properties = serde_json::Map::new();
-    for (spec, schema) in specs.iter().zip(schemas) {
-        let mut schema = schema.clone();
-        schema["description"] = json!(format!("{} ({})", spec.doc, spec.unit));
-        properties.insert(spec.name.into(), schema);
-    }
-    let required: Vec<&str> = specs.iter().map(|spec| spec.name).collect();
-    json!({ "type": "object", "properties": properties, "required": required, "additionalProperties": false })
 }

@@ -16,7 +16,6 @@ struct Unit {
     powers: Powers,
 }
 
-const NONE: Powers = [0; 5];
 const LENGTH: Powers = [1, 0, 0, 0, 0];
 const TIME: Powers = [0, 0, 1, 0, 0];
 const FORCE: Powers = [1, 1, -2, 0, 0];
@@ -154,44 +153,48 @@ fn end_of_number(text: &str) -> usize {
     end
 }
 
-/// A whole unit: names with powers, one `/` at most, after which all divide.
+/// A whole unit: names with powers, one `/` at most, after which all divide; in brackets after it one more.
 fn product(text: &str) -> Option<Unit> {
+    quotient(text, |bracketed| quotient(bracketed, |_| None))
+}
+
+/// Names with powers, one `/` at most; `bracketed` reads what is in brackets after it.
+fn quotient(text: &str, bracketed: impl Fn(&str) -> Option<Unit>) -> Option<Unit> {
     // Common spellings of r/min and Hz that name no turns.
     match text {
-        "1/min" | "min^-1" | "min-1" | "RPM" => return product("rpm"),
-        "1/s" | "s^-1" => return product("Hz"),
+        "1/min" | "min^-1" | "min-1" | "RPM" => return named("rpm"),
+        "1/s" | "s^-1" => return named("Hz"),
         _ => {}
     }
-    let (above, below) = text.split_once('/').unwrap_or((text, ""));
+    let Some((above, below)) = text.split_once('/') else {
+        return factors(text);
+    };
     let below = below.trim();
-    let mut unit = factors(above)?;
-    if text.contains('/') {
-        let inner = below.strip_prefix('(').and_then(|b| b.strip_suffix(')'));
-        let below = match inner {
-            Some(inner) => product(inner)?,
-            None => factors(below)?,
-        };
-        unit.factor /= below.factor;
-        for (power, less) in unit.powers.iter_mut().zip(below.powers) {
-            *power -= less;
+    let inner = below.strip_prefix('(').and_then(|b| b.strip_suffix(')'));
+    let below = inner.map_or_else(|| factors(below), bracketed)?;
+    let above = factors(above)?;
+    above.joined(above.factor / below.factor, below.powers, i8::checked_sub)
+}
+
+impl Unit {
+    /// With other powers added or subtracted; none where they or the factor are beyond what numbers here reach.
+    fn joined(self, factor: f64, others: Powers, join: fn(i8, i8) -> Option<i8>) -> Option<Unit> {
+        let mut powers = self.powers;
+        for (power, other) in powers.iter_mut().zip(others) {
+            *power = join(*power, other)?;
         }
+        factor.is_normal().then_some(Unit { factor, powers })
     }
-    Some(unit)
 }
 
 /// Names with powers, between spaces or points.
 fn factors(text: &str) -> Option<Unit> {
-    let mut unit = Unit { factor: 1.0, powers: NONE };
-    let mut names = text.split([' ', '*', '\u{b7}']).filter(|n| !n.is_empty()).peekable();
-    names.peek()?;
-    for name in names {
+    let mut names = text.split([' ', '*', '\u{b7}']).filter(|n| !n.is_empty());
+    let first = power(names.next()?)?;
+    names.try_fold(first, |unit, name| {
         let one = power(name)?;
-        unit.factor *= one.factor;
-        for (power, more) in unit.powers.iter_mut().zip(one.powers) {
-            *power += more;
-        }
-    }
-    Some(unit)
+        unit.joined(unit.factor * one.factor, one.powers, i8::checked_add)
+    })
 }
 
 /// A name with a power: `m`, `s^2`, `mm\u{b2}`.
@@ -253,6 +256,8 @@ mod tests {
             ("7.85 g/cm^3", "kg/m^3", 7850.0),
             ("2 kN s/m", "N s/m", 2000.0),
             ("0.5 mm\u{b2}", "mm^2", 0.5),
+            ("3 N/(N/mm)", "mm", 3.0),
+            ("2 m/(1/s)", "m s/rad", std::f64::consts::FRAC_1_PI),
         ] {
             assert_eq!(read(text, unit), Ok(number), "{text} in {unit}");
         }
@@ -280,6 +285,26 @@ mod tests {
         }
         for unit in ["", "N/m^n", "px", "%", "dB"] {
             assert!(!is_convertible(unit), "{unit}");
+        }
+    }
+
+    #[test]
+    fn prop_no_unit_is_too_long_or_too_deep_to_be_refused() {
+        let deep = |levels: usize| format!("1 {}m{}", "m/(".repeat(levels), ")".repeat(levels));
+        for levels in [2, 3, 100_000] {
+            let message = read(&deep(levels), "m").unwrap_err();
+            assert!(message.contains("unknown unit"), "{levels} levels: {message:.60}");
+        }
+        // Powers that an i8 does not hold; one more turn than it counts; a factor beyond floating-point numbers.
+        for unit in [
+            "m^3 ".repeat(43),
+            "m ".repeat(257),
+            format!("m/{}", "m^-3 ".repeat(43)),
+            format!("m/{}", "m^-2 ".repeat(64)),
+            format!("m {}/{}", "Gm^3 ".repeat(12), "Gm^3 ".repeat(12)),
+        ] {
+            let message = read(&format!("1 {unit}"), "m").unwrap_err();
+            assert!(message.contains("unknown unit"), "{unit}: {message}");
         }
     }
 }

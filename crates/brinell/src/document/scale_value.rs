@@ -1,10 +1,10 @@
 //! `image.scale_bar`: a length in a picture.
 
-use serde_json::{Value as Json, json};
+use serde_json::Value as Json;
 
 use super::keys::{Spec, key};
 use super::source::{Node, Value};
-use super::value_type::{Misfit, ValueType, wrong_type};
+use super::value_type::{Misfit, ValueType, object, read_under, wrong_type};
 use crate::scenario::ScaleBar;
 
 const PX: Spec = key("px", "its length in the picture").above(0.0).to(1e5).unit("px");
@@ -33,10 +33,7 @@ impl ValueType for ScaleBar {
             let message = format!("keys {} make no scale bar", names.join(", "));
             return Err(Misfit::new(message, ALLOWED));
         }
-        let value = |spec: &Spec| {
-            let node = &table[spec.name].node;
-            f64::read(node, spec).map_err(|misfit| misfit.in_element(node).under(spec.name))
-        };
+        let value = |spec: &Spec| read_under(&table[spec.name].node, spec);
         Ok(Self { px: value(&PX)?, mm: value(&MM)? })
     }
 
@@ -45,17 +42,7 @@ impl ValueType for ScaleBar {
     }
 
     fn schema(_: &Spec) -> Json {
-        let number = |spec: &Spec| {
-            let mut schema = f64::schema(spec);
-            schema["description"] = json!(format!("{} ({})", spec.doc, spec.unit));
-            schema
-        };
-        json!({
-            "type": "object",
-            "properties": { "px": number(&PX), "mm": number(&MM) },
-            "required": ["px", "mm"],
-            "additionalProperties": false,
-        })
+        object(&[&PX, &MM], &[f64::schema(&PX), f64::schema(&MM)])
     }
 
     fn is_defined(&self) -> bool {

@@ -9,17 +9,15 @@ use super::keys::Fallback::{self, Needed, Required};
 use super::keys::{Keys, assumed, derived, key, stated};
 use super::sensor::sensor;
 use super::unset;
-use crate::contact::{ball, is_line_exponent};
+use crate::contact::{ball, is_line_exponent, palmgren_stiffness};
 use crate::scenario::*;
 
-/// Exponent of a line contact (model.md, section 1).
+/// Exponent of a line contact (`docs/src/theory/contact.md`).
 const LINE_EXPONENT: f64 = 10.0 / 9.0;
 /// Exponent of a point contact (Hertz).
 const POINT_EXPONENT: f64 = 1.5;
 /// Rolling bearing steel, kg/mm^3.
 pub(super) const STEEL: f64 = 7.85e-6;
-/// Palmgren's line contact, N/mm^(10/9) for L in mm (model.md, section 2).
-const PALMGREN: f64 = 8.06e4;
 /// Where some keys have a meaning.
 pub(super) const ROLLERS: &str = "bearing.element is \"roller\"";
 pub(super) const BALLS: &str = "bearing.element is \"ball\"";
@@ -218,8 +216,7 @@ fn stiffness(b: &Bearing, c: &Contact) -> [Fallback<f64>; 2] {
     }
     let palmgren = || {
         if is_line_exponent(c.exponent) {
-            let k_mm = PALMGREN * b.roller_length_mm.powf(8.0 / 9.0);
-            derived(k_mm * 1000f64.powf(LINE_EXPONENT), "Palmgren, 8.06e4 L^(8/9)")
+            derived(palmgren_stiffness(b.roller_length_mm), "Palmgren, 8.06e4 L^(8/9)")
         } else {
             Needed("where contact.exponent is not 10/9, Palmgren's stiffness does not hold")
         }
@@ -291,7 +288,8 @@ fn operation<K: Keys>(k: &mut K, (model, b): (ModelKind, &Bearing), o: &mut Oper
 }
 
 fn support<K: Keys>(k: &mut K, (model, b, load_on): (ModelKind, &Bearing, LoadOn), s: &mut Support) {
-    // Soft where the load acts, or the support would carry it instead of the rollers (model.md, section 12).
+    // Soft where the load acts, or the support would carry it instead of the rollers
+    // (`docs/src/theory/motion.md`).
     let why = "soft on the loaded ring, stiff on the other; the paper does not state it";
     let (inner, outer) = match load_on {
         LoadOn::OuterRing => (5e7, 1e6),

@@ -80,6 +80,23 @@ pub(super) fn wrong_type<T: ValueType>(node: &Node, spec: &Spec) -> Misfit {
     Misfit::new(message, T::range(spec))
 }
 
+/// The value of a key of a table that is itself a value.
+pub(super) fn read_under<T: ValueType>(node: &Node, spec: &Spec) -> Result<T, Misfit> {
+    T::read(node, spec).map_err(|misfit| misfit.in_element(node).under(spec.name))
+}
+
+/// Schema of a table with these keys and no others.
+pub(super) fn object(specs: &[&Spec], schemas: &[Json]) -> Json {
+    let mut properties = serde_json::Map::new();
+    for (spec, schema) in specs.iter().zip(schemas) {
+        let mut schema = schema.clone();
+        schema["description"] = json!(format!("{} ({})", spec.doc, spec.unit));
+        properties.insert(spec.name.into(), schema);
+    }
+    let required: Vec<&str> = specs.iter().map(|spec| spec.name).collect();
+    json!({ "type": "object", "properties": properties, "required": required, "additionalProperties": false })
+}
+
 pub(super) fn in_unit(what: &str, spec: &Spec) -> String {
     match spec.unit {
         "" => what.to_string(),

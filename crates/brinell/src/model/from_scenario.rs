@@ -120,11 +120,7 @@ impl Inertia {
             inner_ring: b.inner_ring_mass_kg,
             outer_ring: b.outer_ring_mass_kg,
             roller: b.roller_mass_kg,
-            roller_spin: match b.element {
-                Element::Roller => 0.5,
-                Element::Ball => 0.4,
-            } * b.roller_mass_kg
-                * geometry.roller_radius.powi(2),
+            roller_spin: b.element.spin_inertia() * b.roller_mass_kg * geometry.roller_radius.powi(2),
             cage: c.mass_kg,
             cage_spin: 0.5 * c.mass_kg * (cage_inner.powi(2) + cage_outer.powi(2)),
         }

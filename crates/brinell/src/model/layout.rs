@@ -7,6 +7,7 @@
 //! i: rows are interleaved, and slots are padded to a multiple of eight with inert ones.
 
 use crate::lanes::WIDTH;
+use crate::scenario::Element;
 
 /// Index arithmetic of the state vector.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -114,13 +115,13 @@ impl Layout {
         self.outer() + 4
     }
 
-    /// Name of the body and coordinate behind entry `index` of the positions, rows and rollers counted from 1.
-    pub fn name(&self, index: usize) -> String {
+    /// Name of the body and coordinate behind entry `index` of the positions, rows and rollers or balls counted from 1.
+    pub fn name(&self, index: usize, element: Element) -> String {
         let axis = |k: usize| ["x", "y", "theta"][k];
         if index < self.cage(0) {
             let slot = index % self.slots;
             let coordinate = ["r", "theta", "phi", "beta"][index / self.slots];
-            format!("{coordinate} of roller {} in row {}", self.roller(slot) + 1, self.row(slot) + 1)
+            format!("{coordinate} of {} {} in row {}", element.word(), self.roller(slot) + 1, self.row(slot) + 1)
         } else if index < self.inner() {
             let k = index - self.cage(0);
             format!("{} of cage {}", axis(k % 3), k / 3 + 1)
@@ -146,7 +147,7 @@ mod tests {
             let layout = Layout::new(3, 7, tilts);
             let end = layout.outer() + if tilts { 6 } else { 2 };
             let real = (0..end).filter(|&k| k >= layout.cage(0) || k % layout.slots < layout.rollers());
-            let names: std::collections::BTreeSet<String> = real.map(|k| layout.name(k)).collect();
+            let names: std::collections::BTreeSet<String> = real.map(|k| layout.name(k, Element::Roller)).collect();
             assert_eq!(names.len(), coordinates);
         }
         assert_eq!(Layout::new(2, 19, false).slots, 40);

@@ -24,7 +24,6 @@ pub use from_scenario::series_stiffness;
 pub use layout::Layout;
 pub use momentum::imbalance;
 pub use motion::Motion;
-pub use stability::PAIR;
 pub use tilt::{Tilt, TiltingRing};
 pub use workspace::Workspace;
 
@@ -231,22 +230,14 @@ impl Model {
         }
     }
 
-    /// Where that ring's x is among the coordinates.
-    pub fn land_ring(&self) -> usize {
-        match self.land_on() {
-            Side::Inner => self.layout.inner(),
-            Side::Outer => self.layout.outer(),
-        }
-    }
-
     /// Where that ring's centre is at the middle of each row.
     #[inline(always)]
     pub fn land(&self) -> Land<'_> {
-        let slope = match self.land_on() {
-            Side::Inner => self.layout.inner_tilt(),
-            Side::Outer => self.layout.outer_tilt(),
+        let (at, slope) = match self.land_on() {
+            Side::Inner => (self.layout.inner(), self.layout.inner_tilt()),
+            Side::Outer => (self.layout.outer(), self.layout.outer_tilt()),
         };
-        Land { at: self.land_ring(), tilt: self.tilt.as_ref().map(|tilt| (slope, &tilt.rows[..])) }
+        Land { at, tilt: self.tilt.as_ref().map(|tilt| (slope, &tilt.rows[..])) }
     }
 
     /// Whether the outer ring of the lumped model is rigidly mounted (section 10).
@@ -306,7 +297,7 @@ impl Model {
     }
 
     /// [`Self::accelerations`] of the full model in lanes of the caller's choice, whatever the workspace's kernel:
-    /// `benches/kernel.rs` counts operations with lanes that count. Compiled for the caller's instructions, so slow
+    /// `benches/parts/benches/kernel.rs` counts operations with lanes that count. Compiled for the caller's instructions, so slow
     /// where those are the target's plain ones.
     pub fn accelerations_in<L: Lanes>(&self, t: f64, y: &[f64], a: &mut [f64], ws: &mut Workspace) {
         full::equations::<L>(self, t, y, a, ws);

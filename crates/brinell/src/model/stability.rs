@@ -2,11 +2,8 @@
 
 use super::Model;
 use crate::defect::{SIDES, Side};
-use crate::scenario::{Element, ModelKind};
-use crate::solver::{DAMPED_CONTACT, Tableau};
-
-/// The pair that integrates.
-pub const PAIR: Tableau = DAMPED_CONTACT;
+use crate::scenario::ModelKind;
+use crate::solver::DAMPED_CONTACT;
 
 /// Stability limit of the step, s: of a roller whose contacts carry the elastic forces `max_elastic` (inner and outer,
 /// N), and of the cages in films that damp them by at most `film_damping`, N s/m.
@@ -19,13 +16,9 @@ pub(super) fn stable_step(model: &Model, max_elastic: [f64; 2], film_damping: f6
     let mass = model.inertia.roller;
     // Between the raceways, or on one of them.
     let between = [[inner[0] + outer[0], inner[1] + outer[1]], inner, outer].map(|spring| decaying_step(spring, mass));
-    // In rolling: friction's slope at no slip, mu Q / v_s of each contact, on the spin's I_r = m r^2 / 2, of a ball 2/5
-    // m r^2.
+    // In rolling: friction's slope at no slip, mu Q / v_s of each contact, on the spin's I_r.
     let slope = model.friction.coefficient / model.friction.slip_velocity;
-    let per_inertia = match model.element {
-        Element::Roller => 2.0,
-        Element::Ball => 2.5,
-    };
+    let per_inertia = model.element.spin_inertia().recip();
     let rolling = per_inertia * slope * (max_elastic[0] + max_elastic[1]) / mass;
     // All cages against the ring that guides them.
     let ring = match model.land_on() {
@@ -33,7 +26,7 @@ pub(super) fn stable_step(model: &Model, max_elastic: [f64; 2], film_damping: f6
         Side::Outer => model.inertia.outer_ring,
     };
     let film = film_damping * (1.0 / model.inertia.cage + model.layout.rows as f64 / ring);
-    between.into_iter().fold(PAIR.stability_limit(rolling.max(film), f64::INFINITY), f64::min)
+    between.into_iter().fold(DAMPED_CONTACT.stability_limit(rolling.max(film), f64::INFINITY), f64::min)
 }
 
 /// Tangent stiffness (N/m) and damping (N s/m) of a contact under the elastic force `force`, N; where it is open, what
@@ -48,5 +41,5 @@ fn decaying_step([k, c]: [f64; 2], m: f64) -> f64 {
     let under_root = 0.25 * c * c - k * m;
     let rate = if under_root > 0.0 { (0.5 * c + under_root.sqrt()) / m } else { (k / m).sqrt() };
     // k = 0 and c = 0: no motion, and any step.
-    PAIR.stability_limit(rate, 0.5 * c / (k * m).sqrt())
+    DAMPED_CONTACT.stability_limit(rate, 0.5 * c / (k * m).sqrt())
 }

@@ -3,7 +3,6 @@
 use crate::channel::Frame;
 use crate::defect::{Side, wrap};
 use crate::model::Layout;
-use crate::scenario::ModelKind;
 use std::f64::consts::TAU;
 
 /// Angular bins around the bearing.
@@ -17,13 +16,8 @@ pub struct Places(Vec<usize>);
 impl Places {
     /// The bin of each roller, by slot.
     pub fn at(&mut self, f: &Frame) -> &[usize] {
-        let l = &f.model.layout;
-        let orbits = match f.model.kind {
-            ModelKind::Full | ModelKind::Tilting => &f.y[l.theta()..],
-            ModelKind::Lumped => &f.ws.kinematic_orbit[..],
-        };
         self.0.clear();
-        self.0.extend(orbits[..l.rollers()].iter().map(|orbit| bin_at(*orbit)));
+        self.0.extend(f.orbits()[..f.model.layout.rollers()].iter().map(|orbit| bin_at(*orbit)));
         &self.0
     }
 }

@@ -92,13 +92,9 @@ impl Motion {
         self.rings[at] = wrap(ring) as f32;
         let [inner, outer] = [Side::Inner, Side::Outer].map(|s| &f.ws.contacts[s as usize].force);
         for slot in 0..self.rollers {
-            let (orbit, spin) = match f.model.kind {
-                ModelKind::Full | ModelKind::Tilting => (f.y[l.theta() + slot], f.y[l.phi() + slot]),
-                ModelKind::Lumped => (f.ws.kinematic_orbit[slot], f.ws.kinematic_spin),
-            };
             self.states[at * self.rollers + slot] = RollerState {
-                orbit: wrap(orbit) as f32,
-                spin: wrap(spin) as f32,
+                orbit: wrap(f.orbits()[slot]) as f32,
+                spin: wrap(f.spin(slot)) as f32,
                 inner_force: inner[slot] as f32,
                 outer_force: outer[slot] as f32,
             };

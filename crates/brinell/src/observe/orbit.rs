@@ -1,4 +1,4 @@
-//! The orbit of each cage's centre about the centre of the ring that guides it: the last turns of the cage.
+//! The orbit of each cage's centre about the centre of the land that guides it: the last turns of the cage.
 
 use crate::channel::Frame;
 use crate::model::Model;
@@ -53,13 +53,14 @@ impl CageOrbit {
             return;
         }
         let l = &f.model.layout;
-        let ring = f.model.land_ring();
+        let land = f.model.land();
         let at = self.taken % self.times.len();
         self.taken += 1;
         self.times[at] = f.t;
         for row in 0..self.rows {
             let cage = l.cage(row);
-            self.centres[at * self.rows + row] = [f.y[cage] - f.y[ring], f.y[cage + 1] - f.y[ring + 1]];
+            let [x, y] = land.centre(row, f.y);
+            self.centres[at * self.rows + row] = [f.y[cage] - x, f.y[cage + 1] - y];
         }
     }
 
@@ -68,7 +69,7 @@ impl CageOrbit {
         self.rows
     }
 
-    /// The row's points in time's order: (t in s, x and y in m from the guiding ring's centre).
+    /// The row's points in time's order: (t in s, x and y in m from the guiding land's centre).
     pub fn points(&self, row: usize) -> impl Iterator<Item = (f64, [f64; 2])> + '_ {
         let capacity = self.times.len();
         let held = self.taken.min(capacity);

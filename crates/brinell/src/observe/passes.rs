@@ -3,7 +3,7 @@
 use crate::channel::{Frame, contact_length, contact_stiffness};
 use crate::defect::{Angles, Defect, SIDES, Side, wrap};
 use crate::model::Model;
-use crate::scenario::{ModelKind, Surface};
+use crate::scenario::Surface;
 use std::collections::VecDeque;
 use std::f64::consts::{PI, TAU};
 
@@ -127,7 +127,6 @@ impl Passes {
 
     /// Takes one accepted step; whole passes are kept only where `keep`.
     pub fn take(&mut self, f: &Frame, keep: bool) {
-        let l = &f.model.layout;
         let ring = f.model.rotation.at(f.t).1;
         for (index, watch) in self.watches.iter_mut().enumerate() {
             let defect = &f.model.defects[index];
@@ -142,12 +141,7 @@ impl Passes {
                 if watch.cos_near.is_some_and(far) && !inside && !watch.is_followed(slot, side) {
                     continue;
                 }
-                let angles = match f.model.kind {
-                    ModelKind::Full | ModelKind::Tilting => {
-                        Angles { orbit: f.y[l.theta() + slot], spin: f.y[l.phi() + slot], ring }
-                    }
-                    ModelKind::Lumped => Angles { orbit: f.ws.kinematic_orbit[slot], spin: f.ws.kinematic_spin, ring },
-                };
+                let angles = Angles { orbit: f.orbits()[slot], spin: f.spin(slot), ring };
                 let u = defect.local_angle(&angles, side);
                 let now = u >= watch.first && u <= watch.last;
                 if now != inside {

@@ -81,6 +81,24 @@ pub enum Element {
     Ball,
 }
 
+impl Element {
+    /// Stribeck: without clearance the heaviest carries this times F / Z.
+    pub(crate) fn stribeck(self) -> f64 {
+        match self {
+            Self::Roller => 4.08,
+            Self::Ball => 4.37,
+        }
+    }
+
+    /// I_r / (m r^2) of its spin: a cylinder's about its axis, a sphere's.
+    pub(crate) fn spin_inertia(self) -> f64 {
+        match self {
+            Self::Roller => 0.5,
+            Self::Ball => 0.4,
+        }
+    }
+}
+
 /// `[bearing]`: geometry and masses.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Bearing {
@@ -133,6 +151,15 @@ impl Bearing {
     /// Whether balls roll in it.
     pub fn has_balls(&self) -> bool {
         self.element == Element::Ball
+    }
+
+    /// Diameter of a surface, mm.
+    pub fn diameter_mm(&self, of: Surface) -> f64 {
+        match of {
+            Surface::OuterRaceway => self.outer_raceway_diameter_mm,
+            Surface::InnerRaceway => self.inner_raceway_diameter_mm,
+            Surface::Roller(_) => self.roller_diameter_mm,
+        }
     }
 
     /// Length along the axis within which damage must lie, mm: that of a roller, and more than a ball's groove is wide.

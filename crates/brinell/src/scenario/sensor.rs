@@ -91,13 +91,13 @@ impl Sensor {
         }
     }
 
-    /// Whether any noise is requested.
+    /// Whether there is anything between ring and record.
     pub fn is_on(&self) -> bool {
         let filters = [self.mounting_resonance_hz, self.low_cut_hz, self.high_cut_hz];
         self.direction_deg.is_some()
             || filters.iter().any(Option::is_some)
             || self.noise_rms().is_some()
-            || self.range().is_some()
+            || self.converter().is_some()
             || !self.path.is_empty()
     }
 
@@ -107,10 +107,9 @@ impl Sensor {
         self.noise_rms_m_per_s2.or(self.noise_snr_db.map(below))
     }
 
-    /// The ADC's full scale, where there is one.
-    pub fn range(&self) -> Option<Range> {
-        self.converter_bits?;
+    /// Bits and full scale of the ADC, where there is one.
+    pub fn converter(&self) -> Option<(usize, Range)> {
         let volts = self.converter_range_mv.map(Range::Voltage);
-        self.converter_range_m_per_s2.map(Range::Acceleration).or(volts)
+        self.converter_bits.zip(self.converter_range_m_per_s2.map(Range::Acceleration).or(volts))
     }
 }

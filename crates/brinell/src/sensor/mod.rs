@@ -74,12 +74,12 @@ impl Chain {
                 corner: sensor.noise_corner_hz,
                 seed: sensor.noise_seed,
             }),
-            adc: sensor.range().map(|range| {
+            adc: sensor.converter().map(|(bits, range)| {
                 let full_scale = match range {
                     Range::Acceleration(a) => a,
                     Range::Voltage(mv) => mv / sensor.sensitivity_mv_per_m_per_s2.unwrap_or(1.0),
                 };
-                Adc::new(sensor.converter_bits.unwrap_or(24), full_scale)
+                Adc::new(bits, full_scale)
             }),
             rate: sample_rate,
         })

@@ -2,20 +2,24 @@
 
 use crate::defect::SIDES;
 use crate::error::Error;
-use crate::model::{Layout, Workspace};
+use crate::model::{Model, Workspace};
 use crate::solver::StepError;
 
 /// What the solver ran into, in words.
-pub(super) fn explain(error: StepError, l: &Layout, ws: &Workspace) -> Error {
-    let contact = suspect(l, ws);
+pub(super) fn explain(error: StepError, model: &Model, ws: &Workspace) -> Error {
+    let contact = suspect(model, ws);
+    let body = |index: usize| model.layout.name(index % model.layout.dof(), model.element);
     match error {
-        StepError::NonFinite { t, index } => Error::NonFinite { t, body: l.name(index % l.dof()), contact },
-        StepError::Vanished { t, index } => Error::StepVanished { t, body: l.name(index % l.dof()), contact },
+        StepError::NonFinite { t, index } => Error::NonFinite { t, body: body(index), contact },
+        StepError::Vanished { t, index } => Error::StepVanished { t, body: body(index), contact },
     }
 }
 
 /// The contact that is not finite, or else the one pressed hardest, in words.
-fn suspect(layout: &Layout, ws: &Workspace) -> String {
+fn suspect(model: &Model, ws: &Workspace) -> String {
+    let layout = &model.layout;
+    let name =
+        |slot: usize| format!("{} {} in row {}", model.element.word(), layout.roller(slot) + 1, layout.row(slot) + 1);
     let mut worst = (f64::NEG_INFINITY, String::from("no contact is closed"));
     for side in SIDES {
         let c = &ws.contacts[side as usize];
@@ -23,17 +27,14 @@ fn suspect(layout: &Layout, ws: &Workspace) -> String {
             let force = c.force[slot];
             let size = if force.is_finite() { force } else { f64::INFINITY };
             if size > worst.0.max(0.0) {
-                let (roller, row) = (layout.roller(slot) + 1, layout.row(slot) + 1);
-                let side = side.word();
-                worst = (size, format!("{side} contact of roller {roller} in row {row} carries {force:.4e} N"));
+                worst = (size, format!("{} contact of {} carries {force:.4e} N", side.word(), name(slot)));
             }
         }
     }
     for (slot, force) in ws.pocket_force[..layout.rollers()].iter().enumerate() {
         let size = if force.is_finite() { force.abs() } else { f64::INFINITY };
         if size > worst.0.max(0.0) {
-            let (roller, row) = (layout.roller(slot) + 1, layout.row(slot) + 1);
-            worst = (size, format!("the pocket of roller {roller} in row {row} carries {size:.4e} N"));
+            worst = (size, format!("the pocket of {} carries {size:.4e} N", name(slot)));
         }
     }
     worst.1

@@ -18,11 +18,11 @@ use crate::scenario::{Accuracy, Scenario};
 use crate::sensor::{Chain, ChannelRecord};
 use crate::solver::Work;
 use crate::start;
-use std::ops::{ControlFlow, Deref};
+use std::ops::ControlFlow;
 
 #[doc(hidden)]
 pub use anti_alias::Decimator;
-pub use run_loop::{CannotGoOn, Run};
+pub use run_loop::Run;
 pub use signals::Signals;
 
 /// Receives a run as it goes.
@@ -230,18 +230,8 @@ impl Simulation {
 
     /// Runs to the end, or until the observer breaks off or the solver fails.
     pub fn run(&self, observer: &mut dyn Observer) -> Outcome {
-        let mut run = self.start();
+        let mut run = Run::new(self);
         let end = run.advance(u64::MAX, observer);
         run.outcome(end.unwrap_or(End::Complete))
-    }
-
-    /// A run at t = 0, to be advanced a few rows at a time.
-    pub fn start(&self) -> Run<&Self> {
-        Run::new(self)
-    }
-
-    /// The same, which keeps its simulation.
-    pub fn start_in<S: Deref<Target = Self>>(simulation: S) -> Run<S> {
-        Run::new(simulation)
     }
 }

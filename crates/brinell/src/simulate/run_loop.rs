@@ -69,20 +69,9 @@ pub struct Run<S> {
     a: Vec<f64>,
 }
 
-/// Why a run cannot go on in another simulation: what differs.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum CannotGoOn {
-    /// Rows, rollers, or whether they tilt: the states have other entries.
-    Layout,
-    /// The sample rate.
-    SampleRate,
-    /// The channels behind the anti-alias filter.
-    Filtered,
-}
-
 impl<S: Deref<Target = Simulation>> Run<S> {
-    /// At t = 0.
-    pub(super) fn new(simulation: S) -> Self {
+    /// At t = 0, to be advanced a few rows at a time.
+    pub fn new(simulation: S) -> Self {
         let model = &simulation.model;
         let mut ws = Workspace::new(model);
         let mut motion = Motion { model, ws: &mut ws };
@@ -167,7 +156,7 @@ impl<S: Deref<Target = Simulation>> Run<S> {
                     }
                 }
                 Err(error) => {
-                    return Some(End::Failed(explain(error, &model.layout, &self.ws)));
+                    return Some(End::Failed(explain(error, model, &self.ws)));
                 }
             }
         }
@@ -195,20 +184,16 @@ impl<S: Deref<Target = Simulation>> Run<S> {
 
     /// Goes on in another simulation, without an end: places, rates, filter and time stay, forces change at once. Such
     /// a run is no run of the other scenario from t = 0. The sensor of the other starts from rest; the audits start
-    /// anew.
-    ///
-    /// # Errors
-    /// Where the states or the filtered channels of the two do not correspond; the run stays as it is.
-    pub fn go_on_in(&mut self, other: S) -> Result<(), CannotGoOn> {
-        if other.model.layout != self.simulation.model.layout {
-            return Err(CannotGoOn::Layout);
-        }
-        if other.sample_rate != self.simulation.sample_rate {
-            return Err(CannotGoOn::SampleRate);
-        }
+    /// anew. `false`: the entries of their states, their sample rates or their filtered channels do not correspond, and
+    /// the run stays as it is.
+    #[must_use]
+    pub fn go_on_in(&mut self, other: S) -> bool {
         let names = |s: &Simulation| -> Vec<String> { s.filtered.iter().map(|c| c.name.clone()).collect() };
-        if names(&other) != names(&self.simulation) {
-            return Err(CannotGoOn::Filtered);
+        if other.model.layout != self.simulation.model.layout
+            || other.sample_rate != self.simulation.sample_rate
+            || names(&other) != names(&self.simulation)
+        {
+            return false;
         }
         let model = &other.model;
         let mut ws = Workspace::new(model);
@@ -226,7 +211,7 @@ impl<S: Deref<Target = Simulation>> Run<S> {
         self.last = u64::MAX;
         self.ws = ws;
         self.simulation = other;
-        Ok(())
+        true
     }
 
     /// Audits of an accepted step.

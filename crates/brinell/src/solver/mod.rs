@@ -35,8 +35,6 @@ pub trait System {
 /// Settings of a [`Stepper`].
 #[derive(Debug, Clone, PartialEq)]
 pub struct Settings {
-    /// The pair.
-    pub tableau: Tableau,
     /// Largest accepted norm of a step's error, in the units of sqrt(mass) times rate.
     pub tolerance: f64,
     /// Weights of the rates' errors (masses), one for each entry of the second half.
@@ -78,7 +76,8 @@ pub enum StepError {
 /// Steps a system through time.
 #[derive(Debug, Clone)]
 pub struct Stepper<F> {
-    settings: Settings,
+    tolerance: f64,
+    max_step: f64,
     /// Accelerations of the stages; the first are those of `y`, the last those of the trial state, and between steps
     /// those of `previous`.
     stages: [Column; STAGES + 1],
@@ -118,6 +117,8 @@ impl<F: Copy + Default + AddAssign + Mul<f64, Output = F>> Stepper<F> {
             trial: Column::new(n, 0.0),
             previous: Column::from(y),
             mass: Column::from(settings.mass.as_slice()),
+            tolerance: settings.tolerance,
+            max_step: settings.max_step,
             t,
             t_previous: t,
             // The controller finds its own step within a few trials; too short costs little, too long is rejected.
@@ -125,7 +126,6 @@ impl<F: Copy + Default + AddAssign + Mul<f64, Output = F>> Stepper<F> {
             limit: f64::INFINITY,
             last_magnitude: 0.0,
             work: Work::default(),
-            settings,
         };
         system.accelerations(t, y, &mut stepper.stages[0]);
         stepper.flows[0] = system.flow();
@@ -178,11 +178,11 @@ impl<F: Copy + Default + AddAssign + Mul<f64, Output = F>> Stepper<F> {
     /// # Errors
     /// Where the state stops being finite, or no step is short enough.
     pub fn step<S: System<Flow = F>>(&mut self, system: &mut S) -> Result<F, StepError> {
-        let tableau = self.settings.tableau;
+        let tableau = DAMPED_CONTACT;
         let exponent = 1.0 / f64::from(tableau.order);
         let mut shrunk = false;
         loop {
-            let h = self.step.min(self.settings.max_step).min(self.limit);
+            let h = self.step.min(self.max_step).min(self.limit);
             if h <= 16.0 * f64::EPSILON * self.t.abs().max(f64::MIN_POSITIVE) || h < 1e-18 {
                 return Err(self.failure());
             }
@@ -197,7 +197,7 @@ impl<F: Copy + Default + AddAssign + Mul<f64, Output = F>> Stepper<F> {
                 self.flows[s + 1] = system.flow();
             }
             self.work.evaluations += STAGES as u64;
-            let error = self.error(h) / self.settings.tolerance;
+            let error = self.error(h) / self.tolerance;
             if error.is_finite() && error <= 1.0 {
                 // Single precision: a step need not be longer or shorter by less.
                 let magnitude = (error.max(1e-10) as f32).log2();
@@ -228,7 +228,7 @@ impl<F: Copy + Default + AddAssign + Mul<f64, Output = F>> Stepper<F> {
     /// Places the trial state of the stage after `V` - 1 = `Q` - 2 others: sums of `Q` lists for positions and `V` for
     /// rates.
     fn place<const Q: usize, const V: usize>(&mut self, h: f64) {
-        let tableau = &self.settings.tableau;
+        let tableau = DAMPED_CONTACT;
         let half = self.y.len() / 2;
         let (q, v) = self.y.split_at(half);
         let (to_q, to_v) = self.trial.split_at_mut(half);
@@ -259,7 +259,7 @@ impl<F: Copy + Default + AddAssign + Mul<f64, Output = F>> Stepper<F> {
     /// Mass-weighted norm of the error of the rates.
     fn error(&self, h: f64) -> f64 {
         let stages = self.stages.each_ref().map(|s| &s[..]);
-        h * weighted_square(&self.mass, self.settings.tableau.error, stages).sqrt()
+        h * weighted_square(&self.mass, DAMPED_CONTACT.error, stages).sqrt()
     }
 
     fn failure(&self) -> StepError {
@@ -271,9 +271,9 @@ impl<F: Copy + Default + AddAssign + Mul<f64, Output = F>> Stepper<F> {
             return StepError::NonFinite { t: self.t, index };
         }
         let share = |k: usize| {
-            let weights = self.settings.tableau.error.iter();
+            let weights = DAMPED_CONTACT.error.iter();
             let e: f64 = weights.zip(&self.stages).map(|(w, s)| w * s[k]).sum();
-            self.settings.mass[k] * e * e
+            self.mass[k] * e * e
         };
         let index = (0..half).max_by(|&a, &b| share(a).total_cmp(&share(b))).unwrap_or(0);
         StepError::Vanished { t: self.t, index: half + index }

@@ -32,8 +32,8 @@ pub(super) fn solve(model: &Model, tilt: &Tilt, problem: &Problem) -> Result<Bal
     let met = |slot| covers(model, slices, slot, &angles(problem, slot));
     let covered: Vec<_> = (0..model.layout.rollers()).map(met).collect();
     let arm = model.geometry.pitch_radius;
-    let planar = external(model, problem);
-    let (load_in, load_out) = model.load.on_rings(problem.load_share);
+    let planar = external(model);
+    let (load_in, load_out) = model.load.on_rings(1.0);
     let moment = |f: f64| tilt.load_offset * f / arm;
     let forces: Rings = [
         planar[0],

@@ -233,7 +233,7 @@ fn regress_overrides_reach_every_key_and_say_what_is_wrong() {
 
 #[test]
 fn analytic_support_that_carries_the_load_is_warned_of() {
-    // k C_r < F: 3e7 N/m at 300 N and 10 um (model.md, section 12).
+    // k C_r < F: 3e7 N/m at 300 N and 10 um (`docs/src/theory/motion.md`).
     let below = with(BARE, &[("support.outer_stiffness_n_per_m", "2.99e7")]).unwrap();
     assert!(below.warnings.is_empty(), "{}", report(&below.warnings));
     let above = with(BARE, &[("support.outer_stiffness_n_per_m", "3.01e7")]).unwrap();

@@ -39,7 +39,7 @@ fn analytic_derived_defaults_of_a_bare_bearing() {
     };
     assert_eq!(s.bearing.pitch_diameter_mm, 49.0);
     assert_eq!((s.bearing.rows, s.bearing.row_stagger_deg), (1, 0.0));
-    // Palmgren for L = 6 mm: model.md, section 12.
+    // Palmgren for L = 6 mm: `docs/src/theory/contact.md`.
     near(s.contact.inner_stiffness, 8.54e8, 1e-3);
     near(s.contact.outer_stiffness, 8.54e8, 1e-3);
     // The estimates give the NN3007's cage and rollers.

@@ -191,6 +191,18 @@ fn analytic_no_body_moves_faster_than_a_run_can_follow() {
 }
 
 #[test]
+fn lit_friction_of_a_ball_is_bounded_by_its_own_load_and_inertia() {
+    // 2 mu Q / (2/5 m v_s) < 1e9 1/s, Stribeck's Q = 4.37 F/Z.
+    let key = "friction.slip_velocity_m_per_s";
+    let text = "[bearing]\npreset = \"6205\"\n[operation]\nspeed_rpm = 1800.0\nload_n = [300.0, 0.0]\n";
+    let s = good(text).scenario;
+    let heaviest = 4.37 * 300.0 / s.bearing.rollers_per_row as f64;
+    let least = 5.0 * s.friction.raceway_coefficient * heaviest / (s.bearing.roller_mass_kg * 1e9);
+    with(text, &[(key, &(1.01 * least).to_string())]).unwrap_or_else(|problems| panic!("{}", report(&problems)));
+    assert_eq!(with(text, &[(key, &(0.99 * least).to_string())]).unwrap_err()[0].key, key);
+}
+
+#[test]
 fn regress_keys_and_values_of_megabytes_are_reported_in_part() {
     let long = "k".repeat(3_000_000);
     for text in [

@@ -35,7 +35,7 @@ impl Checker<'_> {
             if !value.is_empty() {
                 problem = problem.value(value);
             }
-            (problem.placed(place), None)
+            (problem.at(place), None)
         });
     }
 

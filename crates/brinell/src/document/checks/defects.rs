@@ -122,16 +122,12 @@ impl Checker<'_> {
 
     fn arc(&mut self, i: usize, defect: &Defect) {
         let b = &self.s.bearing;
-        let (surface, diameter_key, diameter) = match defect.on {
-            Surface::OuterRaceway => {
-                ("outer raceway", "bearing.outer_raceway_diameter_mm", b.outer_raceway_diameter_mm)
-            }
-            Surface::InnerRaceway => {
-                ("inner raceway", "bearing.inner_raceway_diameter_mm", b.inner_raceway_diameter_mm)
-            }
-            Surface::Roller(_) => ("roller", "bearing.roller_diameter_mm", b.roller_diameter_mm),
+        let (surface, diameter_key) = match defect.on {
+            Surface::OuterRaceway => ("outer raceway", "bearing.outer_raceway_diameter_mm"),
+            Surface::InnerRaceway => ("inner raceway", "bearing.inner_raceway_diameter_mm"),
+            Surface::Roller(_) => (b.element.word(), "bearing.roller_diameter_mm"),
         };
-        let half_circle = 0.5 * PI * diameter;
+        let half_circle = 0.5 * PI * b.diameter_mm(defect.on);
         let Some(shape) = crate::defect::Shape::new(&defect.shape, 1e-6 * defect.depth_um) else {
             return;
         };

@@ -13,7 +13,7 @@ const MOST_SAMPLES: f64 = 1e10;
 const MANY_SAMPLES: f64 = 1e8;
 /// Harmonics of a defect frequency that a spectrum should show.
 const HARMONICS: f64 = 5.0;
-/// Share of the sample rate that the anti-alias filter passes (model.md, section 11).
+/// Share of the sample rate that the anti-alias filter passes (`docs/src/theory/numerics.md`).
 const PASSBAND: f64 = 0.4;
 
 /// Speed factor beyond which no bearing turns, mm r/min: |speed| times pitch diameter. Main-shaft bearings of aircraft
@@ -121,7 +121,7 @@ impl Checker<'_> {
         }
     }
 
-    /// Bound of model.md, section 12: a support that carries the load before the clearance is closed.
+    /// Bound of `docs/src/theory/motion.md`: a support that carries the load before the clearance is closed.
     pub(super) fn support(&mut self) {
         let s = self.s;
         let load = s.operation.load_n[0].hypot(s.operation.load_n[1]);

@@ -21,9 +21,9 @@ impl Checker<'_> {
         };
         let inner_ring = (b.inner_ring_mass_kg, "bearing.inner_ring_mass_kg");
         let outer_ring = (b.outer_ring_mass_kg, "bearing.outer_ring_mass_kg");
-        // Stribeck's heaviest roller.
+        // The heaviest roller or ball.
         let load = s.operation.load_n[0].hypot(s.operation.load_n[1]);
-        let force = (4.08 * load / (b.rows * b.rollers_per_row) as f64).max(LEAST_FORCE);
+        let force = (b.element.stribeck() * load / (b.rows * b.rollers_per_row) as f64).max(LEAST_FORCE);
         let n = contact.exponent;
         // The tangent n Q (K / Q)^(1/n) is at most m w^2.
         for (key, value) in
@@ -47,9 +47,10 @@ impl Checker<'_> {
         ] {
             self.at_most(key, value, body.0 * FASTEST, "", body.1);
         }
-        // Friction's slope at no slip, mu Q / v_s at both contacts, on the spin's inertia m r^2 / 2.
+        // Friction's slope at no slip, mu Q / v_s at both contacts, on the spin's inertia.
         let friction = &s.friction;
-        let least = 4.0 * friction.raceway_coefficient * force / (roller.0 * FASTEST);
+        let inertia = b.element.spin_inertia() * roller.0;
+        let least = 2.0 * friction.raceway_coefficient * force / (inertia * FASTEST);
         if friction.slip_velocity_m_per_s < least && least.is_finite() {
             self.error(
                 "friction.slip_velocity_m_per_s",

@@ -334,12 +334,7 @@ impl Checker<'_> {
             .map(|d| {
                 let depth = 1e-6 * d.depth_um;
                 let arc = defect::Shape::new(&d.shape, depth).map_or((0.0, 0.0), |x| x.arc());
-                let radius = 0.5e-3
-                    * match d.on {
-                        crate::scenario::Surface::OuterRaceway => s.bearing.outer_raceway_diameter_mm,
-                        crate::scenario::Surface::InnerRaceway => s.bearing.inner_raceway_diameter_mm,
-                        crate::scenario::Surface::Roller(_) => s.bearing.roller_diameter_mm,
-                    };
+                let radius = 0.5e-3 * s.bearing.diameter_mm(d.on);
                 (d.center_deg.to_radians(), arc.0 / radius, arc.1 / radius)
             })
             .collect();
