@@ -78,13 +78,8 @@ pub(crate) fn remove(scan: &mut Scan, options: &ScanFile) -> Result<Option<(usiz
 /// The form that is asked for. What lies closer to the surface than the threshold always belongs to it.
 fn fit(samples: &[Sample], options: &ScanFile) -> Result<Option<(Parameters, Found)>, DamageError> {
     let fit = |name, free: &[usize], k| {
-        Fit {
-            samples,
-            free,
-            weights: vec![1.0; samples.len()],
-            floor: (1e-3 * options.threshold_um).max(ROUND_OFF_MM),
-        }
-        .run(name, k)
+        Fit { samples, free, weights: vec![1.0; samples.len()], floor: (1e-3 * options.threshold_um).max(ROUND_OFF_MM) }
+            .run(name, k)
     };
     let found = match (options.remove_form, options.radius_mm) {
         (ScanForm::None, _) => return Ok(None),
