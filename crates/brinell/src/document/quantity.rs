@@ -257,6 +257,7 @@ mod tests {
             ("2 kN s/m", "N s/m", 2000.0),
             ("0.5 mm\u{b2}", "mm^2", 0.5),
             ("3 N/(N/mm)", "mm", 3.0),
+            ("5 m/(1/s)", "m s/rad", 0.795_774_715_459_48),
         ] {
             assert_eq!(read(text, unit), Ok(number), "{text} in {unit}");
         }
