@@ -3,7 +3,7 @@
 use crate::common::{SHORT, brinell, brinell_reading, folder_with, parsed, typed};
 use tempfile::tempdir;
 
-/// model.md, section 13: NN3007 at 1800 r/min, Hz.
+/// NN3007, pure rolling at 1800 r/min, Hz.
 const SECTION_13: [(&str, f64); 4] = [("bpfo", 250.102), ("bpfi", 319.898), ("ftf", 13.163), ("bsf", 120.663)];
 
 fn call(args: &[&str]) -> crate::common::Call {

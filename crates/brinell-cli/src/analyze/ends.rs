@@ -3,18 +3,18 @@
 //! Each bearing is judged by itself. A sensor hears all of them, so where two are called damaged the lines of one may
 //! be sidebands or harmonics of the other's; the higher score leads.
 
-use super::{Result_, as_json};
+use super::{Diagnosis, as_json};
 use brinell::analysis::Family;
 use brinell_report::Table;
 use serde_json::{Value, json};
 
 /// Its highest-scoring damage.
-fn call(result: &Result_) -> Option<&Family> {
+fn call(result: &Diagnosis) -> Option<&Family> {
     (result.analysis.causes()).max_by(|a, b| a.score.total_cmp(&b.score))
 }
 
 /// The bearing whose damage scores highest, by index; the first of equals.
-pub(super) fn lead(results: &[Result_]) -> Option<usize> {
+pub(super) fn lead(results: &[Diagnosis]) -> Option<usize> {
     let score = |k: usize| call(&results[k]).map(|f| f.score);
     let mut best: Option<(usize, f64)> = None;
     for k in 0..results.len() {
@@ -28,7 +28,7 @@ pub(super) fn lead(results: &[Result_]) -> Option<usize> {
 }
 
 /// What is to be said of each beside its verdict, in view of the others.
-pub(super) fn set_beside(results: &mut [Result_]) {
+pub(super) fn set_beside(results: &mut [Diagnosis]) {
     let lead = lead(results);
     let all = 0..results.len();
     let said: Vec<_> = all.map(|k| (beside(results, k, lead), lines_of(results, k, lead))).collect();
@@ -39,14 +39,14 @@ pub(super) fn set_beside(results: &mut [Result_]) {
 
 /// The bearing that leads, where a comb at none of this one's frequencies may be its damage; with a question mark where
 /// it is at another frequency than that.
-fn lines_of(results: &[Result_], k: usize, lead: Option<usize>) -> Option<String> {
+fn lines_of(results: &[Diagnosis], k: usize, lead: Option<usize>) -> Option<String> {
     let (this, lead) = (&results[k].analysis, &results[lead.filter(|l| *l != k)?]);
     let off = this.elsewhere?.frequency / call(lead)?.frequency - 1.0;
     let doubt = if off.abs() <= this.options.tolerance { "" } else { "?" };
     this.causes().next().is_none().then(|| format!("{}{doubt}", lead.name))
 }
 
-fn beside(results: &[Result_], k: usize, lead: Option<usize>) -> Option<String> {
+fn beside(results: &[Diagnosis], k: usize, lead: Option<usize>) -> Option<String> {
     let this = &results[k];
     let mut parts = Vec::new();
     for found in this.analysis.causes() {
@@ -89,13 +89,13 @@ fn beside(results: &[Result_], k: usize, lead: Option<usize>) -> Option<String> 
 }
 
 /// One bearing's JSON as it is; of several, each under `bearings`.
-pub(super) fn to_json(results: &[Result_], of: impl Fn(&Result_) -> Value) -> Value {
+pub(super) fn to_json(results: &[Diagnosis], of: impl Fn(&Diagnosis) -> Value) -> Value {
     if let [only] = results {
         return of(only);
     }
     let path = results.first().map(|r| r.measured.path.display().to_string());
     let lead = lead(results);
-    let one = |result: &Result_| {
+    let one = |result: &Diagnosis| {
         let mut one = of(result);
         one["bearing"] = result.name.clone().into();
         one["beside"] = result.beside.clone().into();
@@ -116,13 +116,13 @@ pub(super) fn to_json(results: &[Result_], of: impl Fn(&Result_) -> Value) -> Va
 }
 
 /// The JSON of everything.
-pub(super) fn whole(results: &[Result_]) -> Value {
+pub(super) fn whole(results: &[Diagnosis]) -> Value {
     to_json(results, as_json)
 }
 
 /// The bearings on the page.
-pub(super) fn table(results: &[Result_]) -> Table {
-    let row = |result: &Result_| {
+pub(super) fn table(results: &[Diagnosis]) -> Table {
+    let row = |result: &Diagnosis| {
         let call = call(result);
         let found = call.map(|f| {
             let hz = f.frequency;

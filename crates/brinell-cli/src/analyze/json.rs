@@ -1,12 +1,12 @@
 //! An analysis as JSON: what the library says of it, and what file, channel and speed it is of.
 
 use super::measured::Rest;
-use super::{HEADLINES, Result_};
+use super::{Diagnosis, HEADLINES};
 use brinell::analysis::to_json;
 use brinell::signal::{Indicator, RECORD_PEAK};
 use serde_json::{Value, json};
 
-pub(super) fn as_json(result: &Result_) -> Value {
+pub(super) fn as_json(result: &Diagnosis) -> Value {
     let m = &result.measured;
     let comparison = result.against.as_ref().map(|a| &a.comparison);
     let mut value = to_json(&result.analysis, &m.unit, result.velocity.as_ref(), comparison);

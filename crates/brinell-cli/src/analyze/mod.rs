@@ -37,7 +37,7 @@ use std::process::ExitCode;
 const HEADLINES: [Indicator; 4] = [Indicator::Rms, Indicator::Peak, Indicator::CrestFactor, Indicator::Kurtosis];
 
 /// Everything that words, JSON and page are made of.
-struct Result_ {
+struct Diagnosis {
     measured: Measured,
     /// What lies beyond the stretch, where the signal is longer than one analysis takes.
     rest: Option<Rest>,
@@ -59,7 +59,7 @@ struct Result_ {
     against: Option<Against>,
 }
 
-impl Result_ {
+impl Diagnosis {
     /// The verdict, and what is to be said beside it.
     fn verdict_text(&self) -> String {
         let mut said = vec![self.analysis.verdict()];
@@ -167,7 +167,7 @@ fn one(args: &AnalyzeArgs, path: &Path) -> Result<ExitCode, Failure> {
 }
 
 /// A result for each bearing that was named, or one. The file is read anew for each but the first.
-fn results(args: &AnalyzeArgs, path: &Path, measured: Measured) -> Result<Vec<Result_>, Failure> {
+fn results(args: &AnalyzeArgs, path: &Path, measured: Measured) -> Result<Vec<Diagnosis>, Failure> {
     let mut names = args.bearing.iter().map(String::as_str);
     let mut results = vec![examine(args, measured, names.next())?];
     for name in names {
@@ -194,7 +194,7 @@ fn load(args: &AnalyzeArgs, path: &Path) -> Result<Measured, Failure> {
 }
 
 /// Everything that follows from a signal.
-fn examine(args: &AnalyzeArgs, mut measured: Measured, name: Option<&str>) -> Result<Result_, Failure> {
+fn examine(args: &AnalyzeArgs, mut measured: Measured, name: Option<&str>) -> Result<Diagnosis, Failure> {
     let (rpm, speed) = speed(args, &measured)?;
     let shaft = rpm.abs() / 60.0;
     let (orders, bearing) = bearing::orders(args, name, &measured, shaft)?;
@@ -234,7 +234,7 @@ fn examine(args: &AnalyzeArgs, mut measured: Measured, name: Option<&str>) -> Re
         let of_other = other.measured.warnings.iter();
         measured.warnings.extend(of_other.map(|w| format!("--against {}: {w}", other.measured.path.display())));
     }
-    Ok(Result_ {
+    Ok(Diagnosis {
         measured,
         rest,
         analysis,

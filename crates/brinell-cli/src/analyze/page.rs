@@ -1,13 +1,13 @@
 //! The page of an analysis: what it calls the signals, and what it is made of.
 
-use super::{Measured, Result_};
+use super::{Diagnosis, Measured};
 use brinell::analysis::Analysis;
 use brinell_report::{AnalysisReport, Analyzed, Findings};
 
 /// Most letters of a name of file or channel in titles and legends.
 const LONGEST_NAME: usize = 24;
 
-pub(super) fn report(result: &Result_) -> AnalysisReport {
+pub(super) fn report(result: &Diagnosis) -> AnalysisReport {
     let m = &result.measured;
     // In whole, which the title may have shortened.
     let mut notes = vec![format!("{}, channel {}", m.path.display(), m.channel)];

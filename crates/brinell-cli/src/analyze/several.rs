@@ -1,7 +1,7 @@
 //! Several files with the same options: a row for each, one after the other, so that no more than one signal is held.
 
 use super::args::AnalyzeArgs;
-use super::{Result_, as_json, earlier, ends, load, put_pages, results};
+use super::{Diagnosis, as_json, earlier, ends, load, put_pages, results};
 use crate::failure::Failure;
 use crate::results::Earlier;
 use crate::say::{self, complain, one_line, say, short};
@@ -184,11 +184,11 @@ fn names(files: &[PathBuf]) -> Vec<String> {
 
 impl Found {
     /// Levels are those of the bearing that leads: its band is the one shown.
-    fn of(results: &[Result_]) -> Self {
+    fn of(results: &[Diagnosis]) -> Self {
         let lead = ends::lead(results);
         let result = &results[lead.unwrap_or(0)];
         let (m, a) = (&result.measured, &result.analysis);
-        let prefix = |r: &Result_| match results.len() {
+        let prefix = |r: &Diagnosis| match results.len() {
             1 => String::new(),
             _ => format!("{} ", r.name),
         };
@@ -261,7 +261,7 @@ impl Found {
 }
 
 /// Where each bearing's frequencies come from.
-fn said_of_bearings(results: &[Result_]) -> String {
+fn said_of_bearings(results: &[Diagnosis]) -> String {
     let all: Vec<&str> = results.iter().map(|r| r.bearing.as_str()).collect();
     all.join("; ")
 }

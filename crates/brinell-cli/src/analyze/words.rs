@@ -1,6 +1,6 @@
 //! What is printed of an analysis.
 
-use super::{Against, HEADLINES, Result_, whole_indicators};
+use super::{Against, Diagnosis, HEADLINES, whole_indicators};
 use crate::say::{self, say, short};
 use brinell::analysis::{Analysis, COLUMNS};
 use brinell::signal::Indicator;
@@ -24,7 +24,7 @@ fn families(a: &Analysis) {
 }
 
 /// Of each bearing the verdict, of the signal the rest: `result` is one of them.
-pub(super) fn tell(results: &[Result_], result: &Result_, written: &[PathBuf]) {
+pub(super) fn tell(results: &[Diagnosis], result: &Diagnosis, written: &[PathBuf]) {
     let (m, a) = (&result.measured, &result.analysis);
     say!("{}, channel {}: {:.3} s, {} samples", m.path.display(), m.channel, a.duration(), a.samples);
     for note in &m.notes {
