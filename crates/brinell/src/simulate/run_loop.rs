@@ -38,7 +38,7 @@ impl Pending {
     }
 }
 
-/// A run under way: [`Simulation::start`]. It stops after any sample and goes on with the same bits.
+/// A run under way: begun by [`Run::new`]. It stops after any sample and goes on with the same bits.
 ///
 /// `S` is how it holds its simulation: a reference, or an [`Arc`](std::sync::Arc) or `Box` where the run is kept.
 #[derive(Debug)]
