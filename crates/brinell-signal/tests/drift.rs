@@ -3,7 +3,7 @@
 
 use crate::cases::{CASES, first};
 use brinell_signal::Rotation;
-use brinell_signal::analysis::{Analysis, NamedBearing, Options, analyze};
+use brinell_signal::analysis::{Analysis, NamedBearing, Options, Verdict, analyze};
 use brinell_signal::random::Random;
 use std::f64::consts::TAU;
 
@@ -131,6 +131,24 @@ fn prop_followed_the_damage_is_named() {
     }
     println!("lost without: {lost} of {count}");
     assert!(3 * lost >= 2 * count, "{lost} of {count}");
+}
+
+/// Where the speed goes farther than is followed, damage that is not found is not said to be none.
+#[test]
+fn prop_a_drift_too_wide_to_follow_leaves_it_open() {
+    for lines in [true, false] {
+        for (component, order, modulation) in CASES {
+            let rig = Rig { seconds: 8.0, ramp: 0.2, lines, strikes: Some((order, modulation, -3.0)) };
+            let a = look(&rig.signal(3));
+            println!("{component:?}: {}", a.verdict());
+            let drift = a.drift.as_ref().expect("a drift");
+            assert!(drift.leaves, "{drift:?}");
+            match first(&a) {
+                None => assert_eq!(a.conclusion(), Verdict::CannotTell),
+                damaged => assert_eq!(damaged, Some(component)),
+            }
+        }
+    }
 }
 
 /// Neither noise nor a steady rig, with damage or without, drifts.

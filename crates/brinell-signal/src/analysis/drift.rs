@@ -30,6 +30,8 @@ const OF_SHAFT: usize = 10;
 const BEYOND: f64 = 0.02;
 /// And so far at most, for the tenth harmonic not to meet its neighbours.
 const FARTHEST: f64 = 0.045;
+/// Where a course keeps to that bound, so many times as far is tried.
+const WIDER: f64 = 1.5;
 /// Distance of the speeds tried: as a share of a bin at the highest order.
 const FINE: f64 = 0.1;
 /// Bins of a stretch's spectrum between two that are independent.
@@ -48,6 +50,11 @@ const OWN_GAIN: f64 = 0.4;
 const AGREEING: usize = 2;
 /// Change of a defect frequency, relative, that slip explains: no speed's.
 const SLIP: f64 = 0.005;
+/// Places from the bound of the speeds tried within which a course keeps to it.
+const AT_BOUND: usize = 3;
+/// Change from one stretch to the next, relative, at which a line of order 10 smears over two bins of a stretch: what is
+/// faster is not followed well.
+const FAST: f64 = 0.0125;
 /// Merit from which a stretch tells a speed.
 const TELLS: f64 = 10.0;
 /// Power over floor, where there is no floor.
@@ -65,6 +72,8 @@ pub struct Drift {
     pub smear: f64,
     /// Whether the verdict rests on envelopes at equal angles of this course. Otherwise these told no more.
     pub followed: bool,
+    /// Whether it leads beyond the speeds tried: the course is then wrong there.
+    pub leaves: bool,
 }
 
 impl Drift {
@@ -85,6 +94,16 @@ impl Drift {
         self.course.iter().map(|p| p.1).sum::<f64>() / self.course.len() as f64
     }
 
+    /// Whether damage may be missed for it: it goes too far or too fast to be followed, or no line of the shaft tells it.
+    pub fn may_hide(&self) -> bool {
+        self.is_lost() || self.by != "shaft"
+    }
+
+    /// Whether it goes too far or too fast to be followed.
+    pub(super) fn is_lost(&self) -> bool {
+        self.leaves || self.course.windows(2).any(|two| (two[1].1 / two[0].1 - 1.0).abs() > FAST)
+    }
+
     /// For a sentence about the shaft's speed.
     pub fn words(&self) -> String {
         let (low, high) = (self.lowest(), self.highest());
@@ -97,8 +116,9 @@ impl Drift {
             true => format!("followed by {by}"),
             false => format!("by {by}; lines of order 10 smear over {:.0} bins", self.smear),
         };
+        let farther = if self.leaves { " or farther" } else { "" };
         format!(
-            "it drifts from {:.0} r/min at {:.1} s to {:.0} r/min at {:.1} s, {then}",
+            "it drifts from {:.0} r/min at {:.1} s to {:.0} r/min at {:.1} s{farther}, {then}",
             60.0 * from.1,
             from.0,
             60.0 * to.1,
@@ -171,7 +191,7 @@ impl<'a> Stretches<'a> {
         let length = samples / count;
         let padded = fast_from(PADDED * length);
         let step = fs / padded as f64;
-        let top = (OF_SHAFT as f64).max(HARMONICS as f64 * options.orders.highest()) * (1.0 + FARTHEST) + 1.0;
+        let top = (OF_SHAFT as f64).max(HARMONICS as f64 * options.orders.highest()) * (1.0 + WIDER * FARTHEST) + 1.0;
         let bins = (top * options.shaft / step) as usize;
         let independent = PADDED as f64;
         let width = (FLOOR.0 * options.shaft / step).max(FLOOR.1 * independent) as usize;
@@ -206,10 +226,17 @@ impl<'a> Stretches<'a> {
 
     /// The course that lines at `orders` tell, where it is a drift, and what it gains.
     fn drift(&self, orders: &[f64], by: &'static str, mains: bool) -> Option<(f64, Drift)> {
+        let reach = (self.options.tolerance + BEYOND).min(FARTHEST);
+        let near = self.drift_within(reach, orders, by, mains)?;
+        let wider = || self.drift_within(WIDER * reach, orders, by, mains).filter(|(_, drift)| !drift.leaves);
+        Some(if near.1.leaves { wider().unwrap_or(near) } else { near })
+    }
+
+    /// The same so far from the speed given, relative.
+    fn drift_within(&self, reach: f64, orders: &[f64], by: &'static str, mains: bool) -> Option<(f64, Drift)> {
         let shaft = self.options.shaft;
         let highest = orders.iter().fold(0.0, |m: f64, o| m.max(*o));
         let fine = FINE / (self.seconds * highest * shaft);
-        let reach = (self.options.tolerance + BEYOND).min(FARTHEST);
         let half = (reach / fine) as i32;
         let speeds: Vec<f64> = (-half..=half).map(|k| shaft * (1.0 + f64::from(k) * fine)).collect();
         let orders: Vec<f64> = (orders.iter().copied()).filter(|o| !(mains && self.meets_mains(*o, &speeds))).collect();
@@ -229,7 +256,8 @@ impl<'a> Stretches<'a> {
             gain >= GAIN * stretches && merits.iter().filter(own).count() >= AGREEING && telling.count() >= FEWEST;
         let middle = |k: usize| (k as f64 + 0.5) * self.seconds;
         let course = path.iter().enumerate().map(|(k, i)| (middle(k), speeds[*i]));
-        let drift = Drift { by, course: course.collect(), smear: 0.0, followed: false };
+        let leaves = path.iter().any(|i| *i < AT_BOUND || *i + AT_BOUND >= speeds.len());
+        let drift = Drift { by, course: course.collect(), smear: 0.0, followed: false, leaves };
         is_drift.then_some((gain, drift))
     }
 

@@ -93,6 +93,9 @@ impl Best {
             return Ok(());
         };
         drift.smear = self.record.together.smear(&drift.course);
+        if drift.leaves && drift.by != "shaft" {
+            return Ok(());
+        }
         let followed = Options { rotation: Some(drift.rotation()?), ..options.clone() };
         let known = Shaft { hz: drift.mean(), tolerance: SHAFT_KNOWN * drift.mean() };
         let at_angles = Record::of(&self.envelopes, known, &followed)?;

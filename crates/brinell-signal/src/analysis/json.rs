@@ -48,6 +48,7 @@ pub fn to_json(
                 "lowest": point(d.lowest()),
                 "highest": point(d.highest()),
                 "order_10_smears_bins": d.smear,
+                "leaves_range": d.leaves,
                 "followed": d.followed,
                 "course": d.course.iter().map(|p| point(*p)).collect::<Vec<_>>(),
             })

@@ -230,7 +230,7 @@ impl Analysis {
         });
         if self.causes().next().is_some() {
             Verdict::Damage
-        } else if open || self.elsewhere.is_some() || self.at_given.is_some() {
+        } else if open || self.elsewhere.is_some() || self.at_given.is_some() || self.hiding_drift().is_some() {
             Verdict::CannotTell
         } else {
             Verdict::NothingFound
@@ -240,7 +240,8 @@ impl Analysis {
     /// `very clear`, `clear` or `weak`: how much the evidence of a family that is damage says.
     pub fn clarity(&self, family: &Family) -> &'static str {
         let may_be_other = self.may_be_passing(family) || self.impacts_a_turn(family).is_some();
-        match (may_be_other, family.is_very_clear() && self.speed_used().is_none()) {
+        let lost = self.drift.as_ref().is_some_and(Drift::is_lost);
+        match (may_be_other, family.is_very_clear() && self.speed_used().is_none() && !lost) {
             (true, _) => "weak",
             (_, true) => "very clear",
             _ => "clear",
@@ -251,6 +252,11 @@ impl Analysis {
     pub fn may_be_passing(&self, family: &Family) -> bool {
         let outer = family.component == Component::OuterRace;
         self.options.silent.is_some() && !self.passing_known && outer && family.modulation < PASSING
+    }
+
+    /// A drift for which damage may be missed.
+    fn hiding_drift(&self) -> Option<&Drift> {
+        self.drift.as_ref().filter(|d| d.may_hide())
     }
 
     /// How many impacts a turn of the shaft would look like a race's, where nothing tells the shaft's speed.

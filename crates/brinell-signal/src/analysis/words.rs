@@ -46,7 +46,7 @@ pub(super) fn verdict(analysis: &Analysis) -> String {
         ));
     }
     text.extend(level(analysis));
-    if analysis.causes().next().is_none() && !faint.is_empty() {
+    if analysis.causes().next().is_none() && analysis.hiding_drift().is_none() && !faint.is_empty() {
         text.push(format!(
             "Lines of {} are present, below the limits of damage: sound machines have such lines.",
             listed(&faint)
@@ -145,6 +145,13 @@ fn cannot_tell(analysis: &Analysis, text: &mut Vec<String>) {
     }
     if let Some(elsewhere) = &analysis.elsewhere {
         text.push(other_lines(analysis, elsewhere));
+    }
+    if let Some(drift) = analysis.hiding_drift() {
+        let why = match drift.is_lost() {
+            true => "farther or faster than lines can be followed",
+            false => "and no line of the shaft tells how",
+        };
+        text.push(format!("Cannot tell: the speed changes, {why}. A tachometer would tell."));
     }
     let open = || (analysis.families.iter()).filter(|f| f.finding == Finding::Open);
     let hides = |family: &&Family| analysis.elsewhere.is_some() && family.is_damage();
