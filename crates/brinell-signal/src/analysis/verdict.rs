@@ -135,6 +135,7 @@ impl Record {
             for family in all.iter_mut().filter(|f| f.finding == Finding::Damage) {
                 family.finding = Finding::Open;
             }
+            slipped(&mut all, self.options.tolerance);
             if elsewhere.is_none() {
                 self.masked(&mut all);
             }
@@ -384,6 +385,24 @@ fn one_slip(all: &mut [Family], shaft: f64, tolerance: f64) {
         if (race.shift() - due).abs() > tolerance {
             race.finding = Finding::Shared(name);
         }
+    }
+}
+
+/// Lines at an element's rate without its sidebands are a race's that slips, where that scores more and its frequency
+/// lies within the tolerances of both: what is open is then the race.
+fn slipped(all: &mut [Family], tolerance: f64) {
+    let Some(k) = all.iter().position(|f| f.finding == Finding::Open && f.lacks_sidebands()) else {
+        return;
+    };
+    let (score, frequency) = (all[k].score, all[k].frequency);
+    let is_its = |f: &&mut Family| {
+        let near = (f.frequency / frequency - 1.0).abs() <= 2.0 * tolerance;
+        near && !is_turning(f.component) && f.finding == Finding::Faint && f.is_whole() && f.score > score
+    };
+    if let Some(race) = all.iter_mut().find(is_its) {
+        race.finding = Finding::Open;
+        let name = race.name;
+        all[k].finding = Finding::Shared(name);
     }
 }
 

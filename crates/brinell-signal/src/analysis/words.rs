@@ -84,7 +84,7 @@ fn level(analysis: &Analysis) -> Option<String> {
 
 /// What a short record without damage leaves open.
 fn short(analysis: &Analysis) -> Option<String> {
-    let turns = analysis.duration() * analysis.shaft;
+    let turns = (analysis.duration() * analysis.shaft).round();
     (analysis.causes().next().is_none() && turns < SHORT).then(|| {
         format!(
             "The record is short, {turns:.0} turns of the shaft: {SHORT:.0}, which take {:.1} s, may show more.",
@@ -177,6 +177,8 @@ fn cannot_tell(analysis: &Analysis, text: &mut Vec<String>) {
                 "lines hardly above what noise shows in a record of this length"
             } else if family.lacks_sidebands() {
                 "fewer sidebands than damage that turns has"
+            } else if family.is_whole() {
+                "lines lower or shallower than those of damage"
             } else {
                 "fewer harmonics than damage has"
             }
