@@ -1,8 +1,8 @@
 //! Tables that are no plain grid: three columns x, y, z of a point cloud, and grids with their axes in the first row
 //! and column.
 
-use crate::depth::{MAX_POINTS, Raw};
 use crate::error::DamageError;
+use crate::scan::{MAX_POINTS, Raw};
 
 /// Points under which three columns are taken for a narrow grid.
 const LEAST_POINTS: usize = 9;

@@ -1,10 +1,10 @@
 //! A grid of numbers in text: one line per row. Commas, semicolons, tabs or blanks between them; decimal commas where
 //! semicolons, tabs or blanks separate. Lines that begin with `#` and one line of names at the top are passed over.
 
-use crate::depth::{MAX_POINTS, Raw};
 use crate::depth_cloud::{gridded, refuse_axes};
 use crate::error::{DamageError, excerpt};
 use crate::kind::FileKind;
+use crate::scan::{MAX_POINTS, Raw};
 
 const MAX_BYTES: usize = 512 << 20;
 

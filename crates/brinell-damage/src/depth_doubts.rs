@@ -1,6 +1,6 @@
 //! Words on scans that are read in a way that was hardly meant: depths as heights, a tilted part as damage.
 
-use crate::depth::Scan;
+use crate::scan::Scan;
 use brinell::scenario::{ScanFile, ScanForm};
 
 /// Share of the deviation that is raised, above which heights and depths are taken for mixed up.

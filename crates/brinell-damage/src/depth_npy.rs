@@ -2,9 +2,9 @@
 //! Format: <https://numpy.org/doc/stable/reference/generated/numpy.lib.format.html>
 
 use crate::bytes::{Kind, Number};
-use crate::depth::{MAX_POINTS, Raw};
 use crate::error::{DamageError, excerpt};
 use crate::kind::FileKind;
+use crate::scan::{MAX_POINTS, Raw};
 
 fn broken(at: &str, why: impl Into<String>) -> DamageError {
     DamageError::Broken { kind: FileKind::Npy, at: at.to_owned(), why: why.into() }

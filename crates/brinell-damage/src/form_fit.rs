@@ -11,9 +11,9 @@
 //! then on the better half of the points (Rousseeuw's concentration steps), then on the points within three robust
 //! standard deviations of the surface, or within the threshold, until that set stays.
 
-use crate::depth::Scan;
 use crate::error::DamageError;
 use crate::numbers::{median, solved};
+use crate::scan::Scan;
 use brinell::scenario::{ScanFile, ScanForm};
 
 /// More points than this add time, not accuracy.

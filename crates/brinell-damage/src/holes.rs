@@ -1,6 +1,6 @@
 //! Missing points of a scan, and specks of what is left of its noise.
 
-use crate::depth::Scan;
+use crate::scan::Scan;
 
 /// Smoothing sweeps over filled points.
 const SWEEPS: usize = 40;

@@ -33,6 +33,7 @@
 #![cfg_attr(not(test), deny(clippy::print_stdout, clippy::print_stderr))]
 
 mod bytes;
+mod confirm;
 mod contour;
 mod depth;
 mod depth_cloud;
@@ -51,6 +52,7 @@ mod outline;
 #[doc(hidden)]
 pub mod plan;
 mod resolve;
+mod scan;
 mod surface;
 
 #[cfg(feature = "image")]

@@ -7,9 +7,9 @@ use zune_jpeg::JpegDecoder;
 use zune_jpeg::zune_core::colorspace::ColorSpace;
 use zune_jpeg::zune_core::options::DecoderOptions;
 
-use crate::depth::{MAX_POINTS, Raw};
 use crate::error::DamageError;
 use crate::kind::{FileKind, describe};
+use crate::scan::{MAX_POINTS, Raw};
 
 /// The largest image that is read: 8192 x 8192, at two bytes a pixel.
 pub(crate) const MAX_PIXELS: u64 = 1 << 26;

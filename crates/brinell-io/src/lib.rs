@@ -43,6 +43,8 @@
 
 mod atomic;
 mod error;
+mod file_kind;
+mod format;
 mod journal;
 mod read;
 #[cfg(feature = "parquet")]
@@ -55,6 +57,8 @@ mod write;
 #[doc(hidden)]
 pub use atomic::{Complete, atomic_copy, atomic_prepare, atomic_write, lock};
 pub use error::IoError;
+pub use file_kind::FileKind;
+pub use format::{Format, MemoryWriter};
 #[doc(hidden)]
 pub use journal::Journal;
 #[doc(hidden)]
@@ -63,7 +67,7 @@ pub use read::MAX_VALUES;
 #[doc(hidden)]
 pub use read::records::read_records;
 pub use read::{
-    Channel, Decimal, Delimiter, FileKind, NoRate, Rate, RateSource, SignalFile, TextFormat, open, open_as, open_bytes,
+    Channel, Decimal, Delimiter, NoRate, Rate, RateSource, SignalFile, TextFormat, open, open_as, open_bytes,
     open_bytes_as, rate_of_times, seconds_in,
 };
 #[cfg(feature = "parquet")]
@@ -71,7 +75,7 @@ pub use read::{
 pub use records::{Cell, Kind, RecordColumn, read_row_file, sha256_of, write_row_file};
 #[doc(hidden)]
 pub use signals::keys;
-pub use signals::{Column, Format, MemoryWriter, Metadata, Outcome, SignalWriter};
+pub use signals::{Column, Metadata, Outcome, SignalWriter};
 #[doc(hidden)]
 pub use table::{Cells, Table};
 #[doc(hidden)]

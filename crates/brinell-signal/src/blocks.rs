@@ -22,79 +22,15 @@
 //! indicator: their interval is value / f to value * f and never reaches zero. Mean and skewness are taken as they are:
 //! value +- half width. Either way the value lies within its interval.
 
+use super::estimate::Estimate;
 use super::indicators::{Indicator, Moments};
-use super::scatter::{Scatter, drift, scatter};
+use super::scatter::{drift, scatter};
 use super::series::{Merge, Series};
 
 /// Name of the largest |x| of a whole record, in files and reports.
 pub const RECORD_PEAK: &str = "record_peak";
 /// Name of its largest less its smallest x.
 pub const RECORD_PEAK_TO_PEAK: &str = "record_peak_to_peak";
-
-/// A 95 % interval.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Interval {
-    /// Lower end.
-    pub low: f64,
-    /// Upper end.
-    pub high: f64,
-    /// Degrees of freedom of the Student's t that it was made with.
-    pub freedom: u32,
-}
-
-impl Interval {
-    /// Of a value whose standard uncertainty is known.
-    pub fn normal(value: f64, uncertainty: f64) -> Self {
-        Interval { low: value - NORMAL * uncertainty, high: value + NORMAL * uncertainty, freedom: MOST_FREEDOM }
-    }
-
-    /// Half the width over 1.96: with many degrees of freedom the standard error; with few it is larger, so that 1.96
-    /// times it still covers.
-    pub fn standard_uncertainty(&self) -> f64 {
-        0.5 * (self.high - self.low) / NORMAL
-    }
-}
-
-/// Beyond so many degrees of freedom Student's t is the normal distribution.
-pub const MOST_FREEDOM: u32 = 1000;
-
-/// Two-sided 95 % of a normal distribution.
-const NORMAL: f64 = 1.959_963_984_540_054;
-
-/// An indicator with its scatter.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Estimate {
-    /// The value, within the interval.
-    pub value: f64,
-    /// 95 % interval of the same quantity; `None` where the record is too short to tell.
-    pub interval: Option<Interval>,
-}
-
-impl Estimate {
-    /// Of a quantity that is positive by definition: value / f to value * f. `relative` is the standard error of its
-    /// logarithm.
-    pub fn positive(value: f64, relative: Option<Scatter>) -> Self {
-        let interval = relative.filter(|_| value > 0.0).map(|s| {
-            let factor = s.half_width().exp();
-            Interval { low: value / factor, high: value * factor, freedom: s.freedom }
-        });
-        Estimate { value, interval: interval.filter(|i| i.high.is_finite()) }
-    }
-
-    /// Of a quantity of either sign: value +- half width.
-    pub fn signed(value: f64, scatter: Option<Scatter>) -> Self {
-        let interval =
-            scatter.map(|s| Interval { low: value - s.half_width(), high: value + s.half_width(), freedom: s.freedom });
-        Estimate { value, interval: interval.filter(|i| i.low.is_finite() && i.high.is_finite()) }
-    }
-
-    /// Of the mean of a correlated series of positive numbers, such as the peaks after impacts; `None` of an empty one.
-    pub fn of_mean(series: &[f64]) -> Option<Self> {
-        let mean = series.iter().sum::<f64>() / series.len() as f64;
-        let relative: Vec<f64> = series.iter().map(|x| x / mean - 1.0).collect();
-        mean.is_finite().then(|| Self::positive(mean, scatter(&relative)))
-    }
-}
 
 /// One or more whole revolutions.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -8,37 +8,11 @@
 //! The band's edges are sharp and the transform treats a segment as periodic, so the first and last few periods of
 //! the band's lower edge are disturbed where a segment's ends do not meet; the Hann window of the spectrum hides them.
 
-use std::ops::Range;
-use std::sync::Arc;
-
-use realfft::num_complex::Complex;
-use rustfft::{Fft, FftPlanner};
-
+use super::band::Band;
 use super::error::{SignalError, check, require};
 use super::psd::{Detrend, Segments, psd};
 use super::spectrum::{FEWEST_SAMPLES, Spectrum};
 use super::transformed::Transformed;
-
-/// A frequency band, Hz; bins on its edges belong to it.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Band {
-    /// Lower edge, Hz.
-    pub low: f64,
-    /// Upper edge, Hz; infinity for everything above `low`.
-    pub high: f64,
-}
-
-impl Band {
-    /// The band between two frequencies, Hz.
-    pub fn between(low: f64, high: f64) -> Self {
-        Band { low, high }
-    }
-
-    /// Everything above a high-pass frequency, Hz.
-    pub fn above(low: f64) -> Self {
-        Band { low, high: f64::INFINITY }
-    }
-}
 
 /// The envelope of `x` (sampled at `fs` Hz) in a band, sample by sample and in its unit; `None` with fewer than
 /// [`FEWEST_SAMPLES`] samples. Its ends are disturbed (see the module); holds the whole transform in memory.
@@ -85,82 +59,6 @@ pub fn envelope_spectrum(x: &[f64], fs: f64, band: Band, segments: &Segments) ->
         ..*segments
     };
     Ok(EnvelopeSpectrum { spectrum: psd(&envelope, fs, &segments)?, mean })
-}
-
-/// Subtracts the window-weighted mean, and gives it.
-pub(super) fn remove_weighted_mean(x: &mut [f64], window: &[f64]) -> f64 {
-    let sum: f64 = x.iter().zip(window).map(|(x, w)| x * w).sum();
-    let mean = sum / window.iter().sum::<f64>();
-    x.iter_mut().for_each(|x| *x -= mean);
-    mean
-}
-
-/// First bin of a band and the one after its last, of a transform of `length` samples at `fs` Hz.
-///
-/// # Panics
-/// Where the band does not satisfy 0 <= low < high and low < fs / 2.
-pub(super) fn bins(fs: f64, length: usize, band: Band) -> Range<usize> {
-    assert!(
-        0.0 <= band.low && band.low < band.high && band.low < 0.5 * fs,
-        "band from {} to {} Hz, sampled at {fs} Hz",
-        band.low,
-        band.high
-    );
-    // Zero frequency and half the sampling rate have no quadrature: they never belong to the band.
-    let most = length.div_ceil(2);
-    let step = fs / length as f64;
-    let first = ((band.low / step).ceil() as usize).clamp(1, most);
-    let end = ((band.high / step).floor() as usize).saturating_add(1).clamp(first, most);
-    first..end
-}
-
-/// Moduli of complex values: roots of sums of squares, by the much slower `hypot` only where a square would leave the
-/// range of numbers.
-pub(super) fn moduli(values: &[Complex<f64>], moduli: &mut [f64]) {
-    for (modulus, value) in moduli.iter_mut().zip(values) {
-        *modulus = value.norm_sqr().sqrt();
-    }
-    let sound = (moduli.iter()).fold(true, |sound, m| sound & (*m > 1e-150) & (*m < 1e150));
-    if !sound {
-        for (modulus, value) in moduli.iter_mut().zip(values) {
-            *modulus = value.re.hypot(value.im);
-        }
-    }
-}
-
-/// Band-pass and Hilbert transform of segments of one length: from their transform to their envelope.
-pub(super) struct Demodulator {
-    bins: Range<usize>,
-    /// Backward.
-    pub(super) fft: Arc<dyn Fft<f64>>,
-    /// A value a sample; between calls, room for whoever needs some.
-    pub(super) values: Vec<Complex<f64>>,
-    pub(super) scratch: Vec<Complex<f64>>,
-}
-
-impl Demodulator {
-    pub(super) fn new(fs: f64, length: usize, band: Band) -> Self {
-        let fft = FftPlanner::new().plan_fft_inverse(length);
-        Demodulator {
-            bins: bins(fs, length, band),
-            values: vec![Complex::ZERO; length],
-            scratch: vec![Complex::ZERO; fft.get_inplace_scratch_len()],
-            fft,
-        }
-    }
-
-    /// The envelope of the segment whose transform this is: the modulus of its analytic signal, which has the band's
-    /// positive frequencies twice and nothing else.
-    pub(super) fn envelope(&mut self, transform: &[Complex<f64>], envelope: &mut [f64]) {
-        let twice = 2.0 / envelope.len() as f64;
-        self.values.fill(Complex::ZERO);
-        let band = self.values[self.bins.clone()].iter_mut();
-        for (value, bin) in band.zip(&transform[self.bins.clone()]) {
-            *value = bin * twice;
-        }
-        self.fft.process_with_scratch(&mut self.values, &mut self.scratch);
-        moduli(&self.values, envelope);
-    }
 }
 
 /// The envelope of a whole signal.

@@ -30,11 +30,10 @@ use realfft::num_complex::Complex;
 
 use self::padded::PADDING;
 pub(super) use self::padded::Padded;
+
 use super::distribution::chi_square_tail;
-use super::envelope::Band;
 use super::indicators::Moments;
 use super::spectrum::FEWEST_SAMPLES;
-use super::stream::SegmentSpectra;
 
 /// Half-width of the band around a harmonic from which its noise is taken, in bins of the segment; in short records
 /// less, so as to stay clear of the next harmonic.
@@ -103,21 +102,6 @@ pub struct LineFrequency {
     pub span: f64,
     /// Distance at which two trains of impacts would show two fundamentals, Hz: two bins of the segment.
     pub resolution: f64,
-}
-
-/// The repetition frequency in the envelope of a whole signal sampled at `fs` Hz, taken as one segment. The `band`, Hz,
-/// is to hold the resonances that the impacts ring. `None` where the signal lasts fewer than 24 periods of the nominal
-/// frequency, or no comb inside the range is clear of the noise (false-alarm probability below 1e-4). For a long run
-/// use [`StreamSpectra`](super::StreamSpectra).
-///
-/// # Panics
-/// Where the search is out of range (see [`LineSearch`] and [`Band`]).
-pub fn line_frequency(x: &[f64], fs: f64, band: Band, search: &LineSearch) -> Option<LineFrequency> {
-    search.fits(x.len(), fs).then(|| {
-        let mut spectra = SegmentSpectra::new(fs, x.len(), band, &[*search]);
-        spectra.add(x);
-        spectra.finish().lines[0]
-    })?
 }
 
 /// The mean of estimates from segments that overlap by half.

@@ -9,7 +9,7 @@ use std::f64::consts::TAU;
 use realfft::num_complex::Complex;
 use rustfft::FftPlanner;
 
-use super::envelope::{Band, bins};
+use super::band::{Band, bins};
 use super::error::{SignalError, check, require};
 use super::fft;
 use super::psd::Detrend;

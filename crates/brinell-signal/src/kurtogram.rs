@@ -18,7 +18,7 @@ use std::f64::consts::{PI, TAU};
 
 use realfft::num_complex::Complex;
 
-use super::envelope::Band;
+use super::band::Band;
 use super::error::{SignalError, check};
 use super::indicators::{Indicator, Moments};
 use super::window::Window;

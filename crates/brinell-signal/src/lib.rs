@@ -53,11 +53,13 @@
 #![cfg_attr(not(test), deny(clippy::print_stdout, clippy::print_stderr))]
 
 pub mod analysis;
+pub mod band;
 pub mod blocks;
 pub mod decimate;
 pub mod distribution;
 pub mod envelope;
 mod error;
+pub mod estimate;
 #[doc(hidden)]
 pub mod fft;
 pub mod frequency;
@@ -83,11 +85,13 @@ pub mod window;
 #[cfg(test)]
 pub(crate) mod test_signals;
 
-pub use blocks::{Blocks, Estimate, Interval, RECORD_PEAK, RECORD_PEAK_TO_PEAK};
+pub use band::Band;
+pub use blocks::{Blocks, RECORD_PEAK, RECORD_PEAK_TO_PEAK};
 pub use decimate::{decimate, kaiser_lowpass};
-pub use envelope::{Band, EnvelopeSpectrum, envelope, envelope_spectrum};
+pub use envelope::{EnvelopeSpectrum, envelope, envelope_spectrum};
 pub use error::SignalError;
-pub use frequency::{LineFrequency, LineSearch, line_frequency};
+pub use estimate::{Estimate, Interval};
+pub use frequency::{LineFrequency, LineSearch};
 pub use indicators::{Indicator, Moments};
 pub use integrate::{band_pass, velocity};
 pub use kurtogram::{Kurtogram, KurtogramBand, kurtogram};
@@ -98,7 +102,7 @@ pub use scatter::{Scatter, scatter, student_t_quantile};
 pub use series::{Averages, MOST_BLOCKS};
 pub use spectrogram::{Spectrogram, spectrogram};
 pub use spectrum::{Peak, Spectrum, peak_near};
-pub use stream::{Spectra, StreamSpectra};
+pub use stream::{Spectra, StreamSpectra, line_frequency};
 pub use transformed::{Thinned, Transformed};
 pub use velocity_bands::{VelocityBands, velocity_bands, velocity_rms};
 pub use window::Window;

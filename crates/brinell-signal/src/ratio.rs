@@ -12,7 +12,7 @@
 //! has none. It supposes runs that scatter independently. Runs that begin alike go alike for a while; that makes the
 //! true scatter of the ratio smaller, so the interval errs on the wide side.
 
-use super::blocks::{Estimate, Interval};
+use super::estimate::{Estimate, Interval};
 use super::scatter::student_t_quantile;
 
 /// Ratio of one run's quantity to another's.

@@ -1,6 +1,6 @@
 //! A series of blocks of whole revolutions in bounded memory, and averages over them.
 
-use super::blocks::Estimate;
+use super::estimate::Estimate;
 use super::scatter::{drift, scatter};
 
 /// Blocks held at most; even.

@@ -4,7 +4,8 @@
 //! as one segment of its own length (and so with bins farther apart), not padded with zeros. One segment is held, with
 //! the room for its transforms: some 9 MB for the longest, however long the stream is.
 
-use super::envelope::{Band, Demodulator, EnvelopeSpectrum, remove_weighted_mean};
+use super::band::{Band, Demodulator, remove_weighted_mean};
+use super::envelope::EnvelopeSpectrum;
 use super::frequency::{Comb, LineAverage, LineFrequency, LineSearch, Padded};
 use super::spectrum::{FEWEST_SAMPLES, PowerAverage, SegmentTransform, Spectrum, hann};
 
@@ -83,8 +84,23 @@ impl StreamSpectra {
     }
 }
 
+/// The repetition frequency in the envelope of a whole signal sampled at `fs` Hz, taken as one segment. The `band`, Hz,
+/// is to hold the resonances that the impacts ring. `None` where the signal lasts fewer than 24 periods of the nominal
+/// frequency, or no comb inside the range is clear of the noise (false-alarm probability below 1e-4). For a long run
+/// use [`StreamSpectra`].
+///
+/// # Panics
+/// Where the search is out of range (see [`LineSearch`] and [`Band`]).
+pub fn line_frequency(x: &[f64], fs: f64, band: Band, search: &LineSearch) -> Option<LineFrequency> {
+    search.fits(x.len(), fs).then(|| {
+        let mut spectra = SegmentSpectra::new(fs, x.len(), band, &[*search]);
+        spectra.add(x);
+        spectra.finish().lines[0]
+    })?
+}
+
 /// Of segments of one length.
-pub(super) struct SegmentSpectra {
+struct SegmentSpectra {
     fs: f64,
     transform: SegmentTransform,
     demodulator: Demodulator,
@@ -99,7 +115,7 @@ pub(super) struct SegmentSpectra {
 }
 
 impl SegmentSpectra {
-    pub(super) fn new(fs: f64, length: usize, band: Band, searches: &[LineSearch]) -> Self {
+    fn new(fs: f64, length: usize, band: Band, searches: &[LineSearch]) -> Self {
         let transform = SegmentTransform::new(hann(length));
         let (mut combs, mut lines) = (Vec::new(), Vec::new());
         for search in searches {
@@ -122,7 +138,7 @@ impl SegmentSpectra {
         }
     }
 
-    pub(super) fn add(&mut self, segment: &[f64]) {
+    fn add(&mut self, segment: &[f64]) {
         let transform = &mut self.transform;
         self.power.add(transform.windowed(segment));
         transform.plain(segment);
@@ -140,7 +156,7 @@ impl SegmentSpectra {
         self.envelope_power.add(transform.windowed_input());
     }
 
-    pub(super) fn finish(self) -> Spectra {
+    fn finish(self) -> Spectra {
         // Room that is needed no more is given back before the results take theirs.
         drop((self.demodulator, self.padded));
         let window = &self.transform.window;

@@ -17,7 +17,7 @@ use std::sync::{Mutex, PoisonError};
 use realfft::num_complex::Complex;
 use rustfft::FftPlanner;
 
-use super::envelope::{Band, bins, moduli};
+use super::band::{Band, bins, moduli};
 use super::error::{SignalError, check};
 use super::fft;
 use super::lengths::fast_from;

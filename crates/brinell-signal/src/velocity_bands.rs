@@ -7,9 +7,10 @@
 //! and its pick-up, none of which is this function's business; its band-pass filters have slopes within a prescribed
 //! mask, here the edges are sharp.
 
-use super::blocks::{Blocks, Estimate};
-use super::envelope::Band;
+use super::band::Band;
+use super::blocks::Blocks;
 use super::error::{SignalError, require};
+use super::estimate::Estimate;
 use super::indicators::Indicator;
 use super::integrate::{Motion, velocities};
 use super::lengths::fast_from;

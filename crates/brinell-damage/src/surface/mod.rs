@@ -13,9 +13,9 @@ pub(crate) use sur::read as read_sur;
 #[cfg(feature = "x3p")]
 pub(crate) use x3p::read as read_x3p;
 
-use crate::depth::{MAX_POINTS, Raw};
 use crate::error::DamageError;
 use crate::kind::FileKind;
+use crate::scan::{MAX_POINTS, Raw};
 
 fn broken(kind: FileKind, at: &str, why: impl Into<String>) -> DamageError {
     DamageError::Broken { kind, at: at.to_owned(), why: why.into() }

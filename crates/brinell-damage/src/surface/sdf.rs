@@ -3,9 +3,9 @@
 
 use super::{broken, map, points, spacing, unsupported};
 use crate::bytes::{Number, f64, u16};
-use crate::depth::Raw;
 use crate::error::{DamageError, excerpt};
 use crate::kind::FileKind;
+use crate::scan::Raw;
 
 const KIND: FileKind = FileKind::Sdf;
 const BINARY_HEADER: usize = 81;

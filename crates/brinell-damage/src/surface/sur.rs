@@ -2,9 +2,9 @@
 
 use super::{broken, map, points, spacing, unsupported};
 use crate::bytes::{Number, f32, i16, i32, u16, u32};
-use crate::depth::Raw;
 use crate::error::{DamageError, excerpt};
 use crate::kind::FileKind;
+use crate::scan::Raw;
 use std::borrow::Cow;
 
 const KIND: FileKind = FileKind::Sur;

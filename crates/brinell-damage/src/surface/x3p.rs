@@ -3,9 +3,9 @@
 use super::zip::Archive;
 use super::{broken, map, points, spacing, unsupported};
 use crate::bytes::Number;
-use crate::depth::Raw;
 use crate::error::{DamageError, excerpt};
 use crate::kind::FileKind;
+use crate::scan::Raw;
 use roxmltree::{Document, Node, ParsingOptions};
 
 const KIND: FileKind = FileKind::X3p;

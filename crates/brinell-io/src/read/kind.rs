@@ -1,79 +1,14 @@
 //! Which format a file is: from its content, checked against its name.
 
-use std::fmt;
 use std::io::Read;
 use std::path::Path;
 
 use crate::IoError;
-
-/// A format that can be read.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-#[non_exhaustive]
-pub enum FileKind {
-    /// Numbers as text: CSV, tab-separated, LabVIEW's LVM.
-    Text,
-    /// Apache Parquet.
-    Parquet,
-    /// MATLAB v5, v6 and v7.
-    Mat5,
-    /// HDF5, among it MATLAB v7.3.
-    Hdf5,
-    /// One NumPy array.
-    Npy,
-    /// NumPy's archive of arrays.
-    Npz,
-    /// WAV: RIFF, RF64.
-    Wav,
-    /// Universal File Format, dataset 58, as text or binary (58b).
-    Uff58,
-}
-
-impl fmt::Display for FileKind {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
-            Self::Text => "text",
-            Self::Parquet => "Parquet",
-            Self::Mat5 => "MATLAB v5/v7",
-            Self::Hdf5 => "HDF5 (MATLAB v7.3)",
-            Self::Npy => "NumPy npy",
-            Self::Npz => "NumPy npz",
-            Self::Wav => "WAV",
-            Self::Uff58 => "UFF",
-        })
-    }
-}
+use crate::file_kind::{FileKind, promised};
 
 /// Enough to see any signature: HDF5's may be behind a user block of 512, 1024, ... bytes.
 const HEAD: u64 = 8 << 10;
 const HDF5: &[u8] = b"\x89HDF\r\n\x1a\n";
-
-/// What file extensions promise: the kinds, and how to call them. `txt`, `dat` and others promise nothing.
-const PROMISED: [(&[&str], &[FileKind], &str); 8] = {
-    use FileKind as K;
-    [
-        (&["csv", "tsv", "lvm"], &[K::Text], "text"),
-        (&["parquet", "pq"], &[K::Parquet], "Parquet"),
-        (&["mat"], &[K::Mat5, K::Hdf5], "MATLAB"),
-        (&["h5", "hdf5", "hdf"], &[K::Hdf5], "HDF5"),
-        (&["npy"], &[K::Npy], "NumPy npy"),
-        (&["npz"], &[K::Npz], "NumPy npz"),
-        (&["wav", "wave"], &[K::Wav], "WAV"),
-        (&["uff", "unv", "uf", "uf58", "bunv"], &[K::Uff58], "UFF"),
-    ]
-};
-
-impl FileKind {
-    /// Extensions that promise a file of signals, in small letters and without the dot.
-    pub fn extensions() -> impl Iterator<Item = &'static str> {
-        PROMISED.iter().flat_map(|(extensions, ..)| extensions.iter().copied())
-    }
-}
-
-fn promised(path: &Path) -> Option<(&'static [FileKind], &'static str)> {
-    let extension = path.extension()?;
-    let of = PROMISED.iter().find(|(known, ..)| known.iter().any(|known| extension.eq_ignore_ascii_case(known)))?;
-    Some((of.1, of.2))
-}
 
 /// The kind of a file; an error where content and name disagree.
 pub(crate) fn sniff(path: &Path, contents: impl Read) -> Result<FileKind, IoError> {

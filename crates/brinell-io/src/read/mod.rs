@@ -34,11 +34,10 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::{Path, PathBuf};
 
 pub use channel::{Channel, Rate, RateSource};
-pub use kind::FileKind;
 pub use text::{Decimal, Delimiter, TextFormat};
 pub use times::{NoRate, rate_of_times, seconds_in};
 
-use crate::{IoError, Metadata};
+use crate::{FileKind, IoError, Metadata};
 use contents::Contents;
 use fault::Fault;
 use numbers::Sink;

@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use realfft::num_complex::Complex;
 
-use super::super::envelope::Demodulator;
+use super::super::band::Demodulator;
 use super::Comb;
 
 /// Points of the padded spectrum for each bin of the segment; even.

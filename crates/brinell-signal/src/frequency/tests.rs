@@ -1,7 +1,7 @@
 //! Rates that are known, in jitter and noise.
 
-use super::super::StreamSpectra;
 use super::super::test_signals::{ImpactTrain, Noise, cosine};
+use super::super::{Band, StreamSpectra, line_frequency};
 use super::*;
 
 const FS: f64 = 25_600.0;

@@ -8,7 +8,7 @@
 use crate::channel::Frame;
 use crate::model::{Layout, Model};
 use crate::scenario::{ModelKind, Surface};
-use crate::signal::blocks::MOST_FREEDOM;
+use crate::signal::estimate::MOST_FREEDOM;
 use crate::signal::{Averages, Estimate, Interval, LineFrequency, Scatter};
 use std::f64::consts::TAU;
 
