@@ -1,13 +1,26 @@
 //! Pictures as files, for the screen or for print, and the numbers of their curves.
 
-use crate::args::PlotFormat;
 use crate::failure::Failure;
-use crate::results::PLOTS;
-use crate::run::make_folder;
+use crate::files::make_folder;
 use brinell_io::{Cells, Column, Complete, Table, atomic_prepare};
 use brinell_report::{CurveTable, Layout, Picture};
+use clap::ValueEnum;
 use std::path::{Path, PathBuf};
 use std::str::FromStr;
+
+/// Folder of the pictures.
+pub(crate) const PLOTS: &str = "plots";
+
+/// Formats of pictures.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(crate) enum PlotFormat {
+    /// Vector drawing
+    Svg,
+    /// Pixels: twice the drawing's size, or 600 an inch with --width
+    Png,
+    /// One page, its typeface inside
+    Pdf,
+}
 
 /// Folder of the numbers of their curves.
 const CURVES: &str = "curves";

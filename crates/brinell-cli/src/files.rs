@@ -5,8 +5,9 @@ use crate::inputs::Inputs;
 use crate::say::{complain, one_line};
 use brinell::document::{Loaded, read_bytes};
 use brinell_damage::resolve_loaded;
-use brinell_io::read_text;
+use brinell_io::{IoError, read_text};
 use brinell_study::design::{FileKind, kind_of};
+use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
 
@@ -145,4 +146,14 @@ fn bytes(path: &Path) -> Result<Vec<u8>, Failure> {
     let read =
         if is_stdin(path) { read_text(std::io::stdin().lock()) } else { std::fs::File::open(path).and_then(read_text) };
     read.map_err(|error| Failure::Read(path.to_owned(), error))
+}
+
+/// Makes a folder, and those above it.
+pub(crate) fn make_folder(folder: &Path) -> Result<(), Failure> {
+    std::fs::create_dir_all(folder).map_err(|source| match source.kind() {
+        ErrorKind::PermissionDenied | ErrorKind::ReadOnlyFilesystem => {
+            IoError::NotPermitted { path: folder.to_owned(), source }.into()
+        }
+        _ => Failure::Usage(format!("cannot make the folder {}: {source}", folder.display())),
+    })
 }

@@ -8,6 +8,7 @@ mod args;
 mod calibrate;
 mod campaign;
 mod check;
+mod cli;
 mod compare;
 mod dataset;
 mod defect;
@@ -25,13 +26,14 @@ mod results;
 mod run;
 mod say;
 mod shell;
+mod stop;
 mod studio;
 mod sweep;
 mod version;
 
-use args::{Cli, Command};
 use brinell::kernel::Kernel;
-use clap::Parser;
+use clap::{CommandFactory, Parser};
+use cli::{Cli, Command};
 use failure::{BAD_INPUT, Failure};
 use std::ffi::OsString;
 use std::process::ExitCode;
@@ -61,8 +63,8 @@ pub fn run(args: impl IntoIterator<Item = OsString>) -> ExitCode {
     };
     match say::arrived() {
         Ok(()) => code,
-        Err(failure) => {
-            let unsaid = code_of(Err(failure));
+        Err(error) => {
+            let unsaid = code_of(Err(Failure::Unsaid(error)));
             if code == ExitCode::SUCCESS { unsaid } else { code }
         }
     }
@@ -122,7 +124,7 @@ fn run_command(command: Command) -> Result<ExitCode, Failure> {
         Command::Schema(args) => look_up::schema(&args),
         Command::Diff(args) => diff::diff(&args),
         Command::Open(args) => open::open(&args),
-        Command::Completions(args) => shell::completions(&args),
-        Command::Man(args) => shell::man(&args),
+        Command::Completions(args) => shell::completions(Cli::command(), &args),
+        Command::Man(args) => shell::man(Cli::command(), &args),
     }
 }

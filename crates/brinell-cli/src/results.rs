@@ -6,9 +6,8 @@
 //! what the earlier one listed, after its own files are complete, and nothing else is ever removed. Finished runs that
 //! a command resumes from are never removed.
 
-use crate::args::PlotFormat;
 use crate::failure::Failure;
-use crate::figures::{picture_files, ready_pictures};
+use crate::figures::{PlotFormat, picture_files, ready_pictures};
 use crate::inputs::Inputs;
 use crate::say::pretty;
 use brinell::document::{Loaded, read};
@@ -29,8 +28,6 @@ pub(crate) const ANALYSIS: &str = "analysis.json";
 pub(crate) const COMPARISON: &str = "compare.json";
 pub(crate) const PREVIEW: &str = "preview.json";
 const PREVIEWED: [&str; 5] = [PREVIEW, "damage-*.svg", "damage-*.png", "damage-*.pdf", "damage-*.csv"];
-/// Folder of the pictures.
-pub(crate) const PLOTS: &str = "plots";
 
 /// Whose results.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

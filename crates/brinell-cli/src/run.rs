@@ -7,12 +7,13 @@ mod spectra;
 
 use crate::args::{RunArgs, SignalFormat};
 use crate::failure::{Failure, INTERRUPTED, print_problems};
-use crate::files;
 use crate::files::Source;
+use crate::files::{self, make_folder};
 use crate::inputs::Inputs;
 use crate::progress::{Progress, Shown};
 use crate::results::{Earlier, Place, REPORT, Results, SCENARIO, SUMMARY, is_of, is_written};
 use crate::say::{complain, document, one_line, say, short};
+use crate::stop::stop_flag;
 use brinell::document::Loaded;
 use brinell::observe::{DefectLine, Findings, Kind};
 use brinell::plausibility::{self, Beforehand};
@@ -21,14 +22,12 @@ use brinell::signal::Indicator;
 use brinell::simulate::{End, Observer, Simulation};
 use brinell::summary::{self, Parts};
 use brinell_damage::Photo;
-use brinell_io::{Format, IoError, SignalWriter, atomic_prepare};
+use brinell_io::{Format, SignalWriter, atomic_prepare};
 use brinell_report::Report;
 use brinell_studio::signal_table;
 use brinell_study::runner::Recorder;
-use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
-use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 pub(crate) fn run(args: &RunArgs) -> Result<ExitCode, Failure> {
@@ -251,28 +250,6 @@ fn formats(args: &RunArgs) -> Vec<Format> {
         }
     }
     formats
-}
-
-pub(crate) fn make_folder(folder: &Path) -> Result<(), Failure> {
-    std::fs::create_dir_all(folder).map_err(|source| match source.kind() {
-        ErrorKind::PermissionDenied | ErrorKind::ReadOnlyFilesystem => {
-            IoError::NotPermitted { path: folder.to_owned(), source }.into()
-        }
-        _ => Failure::Usage(format!("cannot make the folder {}: {source}", folder.display())),
-    })
-}
-
-/// Set by Ctrl-C; a second Ctrl-C ends the process at once.
-pub(crate) fn stop_flag() -> Result<Arc<AtomicBool>, Failure> {
-    let stop = Arc::new(AtomicBool::new(false));
-    let flag = Arc::clone(&stop);
-    ctrlc::set_handler(move || {
-        if flag.swap(true, Ordering::Relaxed) {
-            std::process::exit(i32::from(INTERRUPTED));
-        }
-    })
-    .map_err(|error| Failure::Usage(format!("cannot listen for Ctrl-C: {error}")))?;
-    Ok(stop)
 }
 
 /// A few lines on what came out.

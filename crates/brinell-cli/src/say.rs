@@ -1,7 +1,6 @@
 //! Text to the terminal: what was read from files cannot steer it, and a text that cannot be written is not passed
 //! over. Where nobody reads on (a closed pipe), the command continues quietly.
 
-use crate::failure::Failure;
 use anstyle::AnsiColor;
 pub(crate) use brinell_report::short;
 use serde_json::Value;
@@ -92,13 +91,10 @@ fn keep(result: Result<()>) {
 /// That everything said has arrived.
 ///
 /// # Errors
-/// Where standard output did not take it, a closed pipe aside.
-pub(crate) fn arrived() -> std::result::Result<(), Failure> {
+/// Where standard output did not take it, a closed pipe aside: what it said.
+pub(crate) fn arrived() -> std::result::Result<(), String> {
     keep(std::io::stdout().flush());
-    match FAILED.get() {
-        Some(error) => Err(Failure::Unsaid(error.to_string())),
-        None => Ok(()),
-    }
+    FAILED.get().map_or(Ok(()), |error| Err(error.to_string()))
 }
 
 /// Writes one line to standard error.

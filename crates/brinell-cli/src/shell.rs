@@ -1,11 +1,10 @@
 //! `brinell completions` and `brinell man`: what a shell and `man` need, made from the definitions of the command line.
 
-use crate::args::Cli;
 use crate::failure::Failure;
-use crate::run::make_folder;
+use crate::files::make_folder;
 use crate::say::{document, say};
 use brinell_io::atomic_write;
-use clap::{Args, Command, CommandFactory};
+use clap::{Args, Command};
 use clap_complete::Shell;
 use clap_mangen::Man;
 use std::path::{Path, PathBuf};
@@ -33,17 +32,17 @@ pub(crate) struct ManArgs {
     folder: PathBuf,
 }
 
-pub(crate) fn completions(args: &CompletionsArgs) -> Result<ExitCode, Failure> {
+pub(crate) fn completions(mut command: Command, args: &CompletionsArgs) -> Result<ExitCode, Failure> {
     let mut script = Vec::new();
-    clap_complete::generate(args.shell, &mut Cli::command(), "brinell", &mut script);
+    clap_complete::generate(args.shell, &mut command, "brinell", &mut script);
     document(String::from_utf8_lossy(&script).trim_end());
     Ok(ExitCode::SUCCESS)
 }
 
-pub(crate) fn man(args: &ManArgs) -> Result<ExitCode, Failure> {
+pub(crate) fn man(command: Command, args: &ManArgs) -> Result<ExitCode, Failure> {
     make_folder(&args.folder)?;
     // Without the lines on this machine's kernel.
-    let mut command = Cli::command().disable_help_subcommand(true).long_version(None::<&'static str>);
+    let mut command = command.disable_help_subcommand(true).long_version(None::<&'static str>);
     command.build();
     let count = pages(&command, &args.folder)?;
     say!("wrote {count} pages into {}", args.folder.display());

@@ -1,7 +1,8 @@
 //! The options of `brinell analyze`.
 
 use super::measured::SignalArgs;
-use crate::args::{Elements, PlotFormat, quantity};
+use crate::args::{Elements, quantity};
+use crate::figures::PlotFormat;
 use crate::figures::Print;
 use brinell::analysis::MachineClass;
 use clap::Args;

@@ -12,8 +12,8 @@ mod words;
 
 pub(crate) use args::AnalyzeArgs;
 
-use crate::args::PlotFormat;
 use crate::failure::Failure;
+use crate::figures::PlotFormat;
 use crate::inputs::Inputs;
 use crate::results::{ANALYSIS, Earlier, Place, REPORT, Results, SCENARIO};
 use crate::say::{self, complain, pretty};
@@ -430,7 +430,7 @@ fn put_pages(
     pictures: &[Picture],
     earlier: &Earlier,
 ) -> Result<Vec<PathBuf>, Failure> {
-    crate::run::make_folder(folder)?;
+    crate::files::make_folder(folder)?;
     let page = Some((REPORT, page));
     Ok(earlier.publish(Vec::new(), (ANALYSIS, json.clone()), page, (pictures, formats))?.0)
 }

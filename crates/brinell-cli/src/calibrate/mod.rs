@@ -9,11 +9,12 @@ mod words;
 
 use crate::campaign;
 use crate::failure::Failure;
+use crate::files::make_folder;
 use crate::files::{Source, stem};
 use crate::progress::Joint;
 use crate::results::{Place, Results};
-use crate::run::{make_folder, stop_flag};
 use crate::say::{self, complain, say, short};
+use crate::stop::stop_flag;
 use crate::sweep::{duration, plural};
 pub(crate) use args::CalibrateArgs;
 use brinell::document::Loaded;

@@ -7,12 +7,14 @@ mod sides;
 mod table;
 
 use crate::failure::Failure;
+use crate::files::make_folder;
 use crate::files::{self, stem};
 use crate::inputs::Inputs;
 use crate::progress::Joint;
 use crate::results::{COMPARISON, Earlier, Place, Results};
-use crate::run::{make_folder, safe_name, stop_flag};
+use crate::run::safe_name;
 use crate::say::{self, complain, document, say, short};
+use crate::stop::stop_flag;
 pub(crate) use args::CompareArgs;
 use brinell::simulate::Simulation;
 use brinell::{Error, RunResult};

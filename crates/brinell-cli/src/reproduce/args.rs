@@ -1,6 +1,6 @@
 //! The command line of `brinell reproduce`.
 
-use crate::args::PlotFormat;
+use crate::figures::PlotFormat;
 use crate::figures::Print;
 use brinell_li2023::FIGURES;
 use clap::{Args, ValueEnum};

@@ -1,12 +1,14 @@
 //! `brinell run` of several scenarios: all checked first, then side by side, one to a thread.
 
-use super::{Task, earlier, execute, make_folder, ready, safe_name, stop_flag};
+use super::{Task, earlier, execute, ready, safe_name};
 use crate::args::RunArgs;
 use crate::failure::{BAD_INPUT, Failure, INTERRUPTED};
 use crate::files;
+use crate::files::make_folder;
 use crate::inputs::Inputs;
 use crate::progress::Joint;
 use crate::say::{complain, say};
+use crate::stop::stop_flag;
 use brinell::simulate::End;
 use std::collections::HashMap;
 use std::ffi::OsString;

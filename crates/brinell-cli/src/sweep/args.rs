@@ -1,6 +1,6 @@
 //! The command line of `brinell sweep`.
 
-use crate::args::PlotFormat;
+use crate::figures::PlotFormat;
 use crate::figures::Print;
 use clap::Args;
 use std::num::NonZeroUsize;

@@ -3,7 +3,7 @@
 use super::SweepArgs;
 use crate::failure::Failure;
 use crate::files::Source;
-use crate::run::make_folder;
+use crate::files::make_folder;
 use brinell::document::{Problem, numberless, on_one_line, one_line};
 use brinell::scenario::Scenario;
 use brinell::simulate::Simulation;
