@@ -26,11 +26,13 @@ mod ranges;
 mod reading;
 mod record;
 mod reproduction;
+mod request;
 mod runs;
 mod search;
 mod sensitivity;
 mod variants;
 mod verdict;
+mod written;
 
 pub use cases::BASE;
 #[doc(hidden)]
@@ -39,8 +41,10 @@ pub use cases::{FIGURES, Length};
 pub use curve_files::{CaseObserver, CurveFiles};
 pub use error::Error;
 pub use points::{Point, scenario};
-pub use reproduction::{Reproduction, Request, write_page};
+pub use reproduction::Reproduction;
+pub use request::Request;
 pub use runs::{Runs, Stage};
+pub use written::write_page;
 
 pub(crate) use cases::{CASES, Case, EXPERIMENTS, Experiment, STARTS, case, length_of};
 pub(crate) use claim::{Basis, Claim, claims};

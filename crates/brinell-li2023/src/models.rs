@@ -2,7 +2,7 @@
 
 use crate::cases::owned;
 use crate::outcome::Outcome;
-use crate::points::numbers;
+use crate::runs::numbers;
 use crate::{Case, Error, Length, Numbers, Outline, Point, Runs, Verdict, judge};
 use brinell_io::{Cells, Column};
 use brinell_report::{Chapter, StudyPiece, Table};

@@ -2,7 +2,8 @@
 
 use crate::curves::Curves;
 use crate::outcome::{self, card, counts};
-use crate::reproduction::{Reproduction, Request};
+use crate::reproduction::Reproduction;
+use crate::request::Request;
 use crate::{BASE, Basis};
 use crate::{believe, figures};
 use brinell::scenario::Scenario;

@@ -1,6 +1,6 @@
 //! Cases as runs to be made.
 
-use crate::{BASE, Case, Error, Length, Numbers, Outline, Runs, length_of};
+use crate::{BASE, Case, Error, Length, Outline, length_of};
 use brinell::document;
 use brinell::scenario::Scenario;
 use brinell_study::runner::Task;
@@ -38,15 +38,4 @@ impl Point {
 pub fn scenario(settings: &[(String, String)]) -> Result<Scenario, Error> {
     let loaded = document::read(BASE, settings).map_err(Error::Scenario)?;
     Ok(loaded.scenario)
-}
-
-/// Numbers of all points that are finished.
-pub(crate) fn numbers<'a>(points: impl IntoIterator<Item = &'a Point>, runs: &impl Runs) -> Numbers {
-    let mut numbers = Numbers::default();
-    for point in points {
-        if let Some(row) = runs.row(&point.task.fingerprint) {
-            numbers.add(point.case.id, row);
-        }
-    }
-    numbers
 }

@@ -1,84 +1,12 @@
 //! A reproduction from its request to its files: which runs it needs, what they decide, and what is written of that.
 
-use crate::curve_files::{CurveFiles, make_folder};
 use crate::models::{OtherRuns, OtherVerdicts};
 use crate::outcome::Outcome;
-use crate::points::numbers;
+use crate::request::Request;
+use crate::runs::numbers;
 use crate::sensitivity::{Plan, Sensitivity};
-use crate::{
-    BASE, Case, EXPERIMENTS, Error, Experiment, Length, Numbers, Outline, Point, Runs, Stage, book, case, claims,
-    judge, outcome, page,
-};
-use brinell::scenario::Scenario;
-use brinell_io::atomic_write;
-use brinell_report::{DamageView, Picture, Study};
-use serde_json::json;
+use crate::{Numbers, Point, Runs, Stage, claims, judge};
 use std::ops::ControlFlow;
-use std::path::{Path, PathBuf};
-
-/// What is to be reproduced.
-pub struct Request {
-    pub(crate) experiments: Vec<&'static Experiment>,
-    pub(crate) points: Vec<Point>,
-    pub(crate) length: Length,
-    /// Whether it is all of section 4.
-    whole: bool,
-    plan: Option<Plan>,
-    models: Option<OtherRuns>,
-}
-
-impl Request {
-    /// Some figures of the paper, or all where `figures` is empty; runs last `length`.
-    ///
-    /// # Errors
-    /// Where a case is no scenario.
-    pub fn new(figures: &[u32], length: Length) -> Result<Self, Error> {
-        let wanted = |e: &&Experiment| figures.is_empty() || e.figures.iter().any(|f| figures.contains(f));
-        let experiments: Vec<&Experiment> = EXPERIMENTS.iter().filter(wanted).collect();
-        let mut cases: Vec<&'static Case> = Vec::new();
-        for id in experiments.iter().flat_map(|e| &e.cases) {
-            match case(id) {
-                Some(case) if !cases.contains(&case) => cases.push(case),
-                _ => {}
-            }
-        }
-        let points = cases.into_iter().map(|case| Point::new(case, &[], Outline::Joined, length));
-        Ok(Self {
-            whole: figures.is_empty(),
-            points: points.collect::<Result<_, Error>>()?,
-            experiments,
-            length,
-            plan: None,
-            models: None,
-        })
-    }
-
-    /// The same with every unstated assumption varied, and searches for the set of assumptions that agrees best.
-    ///
-    /// # Errors
-    /// Where a variant of a case is no scenario.
-    pub fn with_sensitivity(self, quick: bool) -> Result<Self, Error> {
-        Ok(Self { plan: Some(Plan::new(quick)?), ..self })
-    }
-
-    /// The same with every case also in slices and with tilting, the verdicts side by side.
-    ///
-    /// # Errors
-    /// Where a case is no scenario of those models.
-    pub fn with_tilting(self) -> Result<Self, Error> {
-        let cases: Vec<_> = self.points.iter().map(|point| point.case).collect();
-        Ok(Self { models: Some(OtherRuns::new(&cases, self.length)?), ..self })
-    }
-
-    /// Points of which pictures show curves.
-    pub(crate) fn with_curves(&self) -> impl Iterator<Item = &Point> {
-        let has_curves = |e: &&&Experiment| e.figures[0] <= 15 || e.figures[0] == 20;
-        self.points.iter().filter(move |p| {
-            let mut experiments = self.experiments.iter().filter(has_curves);
-            experiments.any(|e| e.cases.contains(&p.case.id))
-        })
-    }
-}
 
 /// What came out of a [`Request`].
 pub struct Reproduction {
@@ -154,60 +82,4 @@ impl Reproduction {
     pub fn tilting_result(&self) -> Option<String> {
         self.models.as_ref().map(OtherVerdicts::found)
     }
-
-    /// The page. `plan` gives the view from above of a scenario's first defect.
-    pub fn study(&self, files: &CurveFiles, plan: impl Fn(&Scenario) -> Option<DamageView>) -> Study {
-        let curves = |id: &str| {
-            let point = self.request.points.iter().find(|p| p.case.id == id)?;
-            files.curves(&point.task.fingerprint)
-        };
-        page::study(self, curves, plan)
-    }
-
-    /// Writes `claims.csv`, `claims.json` and, with other models, `models.csv` into a folder, which exists.
-    ///
-    /// # Errors
-    /// Where a file cannot be written.
-    pub fn write_claims(&self, folder: &Path) -> Result<Vec<PathBuf>, Error> {
-        let mut header = json!({
-            "brinell": brinell::VERSION, "length": self.request.length.words(), "base_toml": BASE,
-            "interval": "95 % of the value, an average over whole revolutions of the inner ring; peaks are those of a revolution",
-        });
-        if let Some(sensitivity) = &self.sensitivity {
-            header["sensitivity"] = sensitivity.json();
-        }
-        let mut written = outcome::write(&self.outcomes, &header, folder)?;
-        if let Some(models) = &self.models {
-            written.push(models.write(folder)?);
-        }
-        Ok(written)
-    }
-
-    /// Writes `reproduction.md`, the book's chapter, and its pictures into the folder `book`.
-    ///
-    /// # Errors
-    /// Where the folder cannot be made or a file cannot be written.
-    pub fn write_book(&self, study: &Study, pictures: &[Picture], book: &Path) -> Result<Vec<PathBuf>, Error> {
-        make_folder(book)?;
-        let text = book::text(study, self, book);
-        let mut written = vec![put(book, "reproduction.md", &text)?];
-        for picture in pictures {
-            written.push(put(book, &format!("{}.svg", picture.name), &picture.svg())?);
-        }
-        Ok(written)
-    }
-}
-
-/// Writes `reproduce.html`, the page, into a folder, which exists.
-///
-/// # Errors
-/// Where the file cannot be written.
-pub fn write_page(study: &Study, folder: &Path) -> Result<PathBuf, Error> {
-    put(folder, "reproduce.html", &brinell_report::study_html(study))
-}
-
-fn put(folder: &Path, name: &str, text: &str) -> Result<PathBuf, Error> {
-    let path = folder.join(name);
-    atomic_write(&path, text.as_bytes())?;
-    Ok(path)
 }

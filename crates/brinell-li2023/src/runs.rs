@@ -1,7 +1,7 @@
 //! What makes the runs of a reproduction and keeps their numbers, from outside: this crate knows neither threads nor a
 //! journal.
 
-use crate::{Error, Point};
+use crate::{Error, Numbers, Point};
 use brinell_study::campaign::Row;
 use std::ops::ControlFlow;
 
@@ -32,4 +32,15 @@ pub trait Runs {
 
     /// The searches begin; they look at `sets` sets of assumptions at most.
     fn search_begins(&mut self, sets: usize);
+}
+
+/// Numbers of all points that are finished.
+pub(crate) fn numbers<'a>(points: impl IntoIterator<Item = &'a Point>, runs: &impl Runs) -> Numbers {
+    let mut numbers = Numbers::default();
+    for point in points {
+        if let Some(row) = runs.row(&point.task.fingerprint) {
+            numbers.add(point.case.id, row);
+        }
+    }
+    numbers
 }

@@ -1,6 +1,6 @@
 //! Values across the border: JSON to Python, Python to TOML, arrays both ways.
 
-use crate::errors::bad_value;
+use crate::bad_value::bad_value;
 use numpy::{AllowTypeChange, IntoPyArray, PyArray1, PyArrayLike1};
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;

@@ -1,6 +1,7 @@
 //! Data sets: a plan to files, alone or a share at a time.
 
-use crate::errors::{ReadError, bad_value, scenario_error, unreadable};
+use crate::bad_value::bad_value;
+use crate::errors::{ReadError, scenario_error, unreadable};
 use crate::run::{PATIENCE, Watch, attended, threads};
 use brinell_study::dataset::{self, DatasetError, Shard};
 use pyo3::prelude::*;

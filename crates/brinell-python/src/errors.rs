@@ -6,7 +6,6 @@ use brinell::document::{Problem, Severity, render_diagnostics};
 use pyo3::exceptions::{PyMemoryError, PyOSError, PyRuntimeError, PyValueError};
 use pyo3::prelude::*;
 use serde_json::json;
-use std::fmt::Display;
 use std::path::Path;
 
 pyo3::create_exception!(
@@ -23,11 +22,6 @@ pyo3::create_exception!(
 );
 pyo3::create_exception!(brinell, ReadError, PyOSError, "A file that cannot be read or written.");
 pyo3::create_exception!(brinell, SignalError, PyValueError, "A signal that cannot be analysed as asked.");
-
-/// `python` has no errors for what a user gets wrong: these are its own, in the command's words.
-pub(crate) fn bad_value(words: impl Display) -> PyErr {
-    PyValueError::new_err(words.to_string())
-}
 
 /// A file that could not be opened, as the command says it.
 pub(crate) fn unreadable(path: &Path, error: &std::io::Error) -> PyErr {

@@ -1,15 +1,19 @@
 //! A sweep with a journal: points that are finished are in its folder, and are not run again.
 
-use crate::errors::{ReadError, bad_value};
+use crate::bad_value::bad_value;
+use crate::errors::ReadError;
 use crate::run::{Watch, attended, over_threads, threads};
 use crate::scenario::Source;
-use crate::sweep::Numbers;
 use brinell::document::{on_one_line, one_line};
+use brinell::result::Quantity;
 use brinell::scenario::Scenario;
 use brinell_study::campaign::Plan;
 use brinell_study::runner::{self, Ledger, RunnerError, Task, Work, to_run};
 use pyo3::prelude::*;
 use std::path::Path;
+
+/// A point's numbers, or why there are none.
+pub(crate) type Numbers = Result<Vec<Quantity>, String>;
 
 /// Scenarios of points, from the one that they change.
 struct Points<'a>(&'a Source);

@@ -1,6 +1,7 @@
 //! brinell for Python: the module `brinell._brinell`. It converts and does nothing else; `python/brinell` beside the
 //! workspace is what users see. Python's lock is given up while anything is computed.
 
+mod bad_value;
 mod convert;
 mod dataset;
 mod errors;

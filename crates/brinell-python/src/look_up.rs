@@ -1,7 +1,8 @@
 //! What follows from a scenario before anything moves.
 
+use crate::bad_value::bad_value;
 use crate::convert::{array, json_to_python};
-use crate::errors::{bad_value, run_error};
+use crate::errors::run_error;
 use crate::scenario::Scenario;
 use brinell::bearing::kinematics::Geometry;
 use brinell::bearing::{KnownBearing, frequencies_of, orders_of};

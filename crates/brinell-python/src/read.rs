@@ -1,7 +1,8 @@
 //! Measured signals from files.
 
+use crate::bad_value::bad_value;
 use crate::convert::array;
-use crate::errors::{ReadError, bad_value};
+use crate::errors::ReadError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use std::path::PathBuf;

@@ -1,7 +1,8 @@
 //! Runs: alone, or many over threads, and what they leave.
 
+use crate::bad_value::bad_value;
 use crate::convert::{array, json_to_python};
-use crate::errors::{bad_value, run_error};
+use crate::errors::run_error;
 use crate::scenario::Scenario;
 use brinell::Error;
 use brinell::many::go_on;

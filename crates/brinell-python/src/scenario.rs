@@ -1,7 +1,8 @@
 //! A scenario: the text it was read from, and what became of it.
 
+use crate::bad_value::bad_value;
 use crate::convert::{document, json_to_python, overrides};
-use crate::errors::{ReadError, bad_value, scenario_error, unreadable};
+use crate::errors::{ReadError, scenario_error, unreadable};
 use brinell::document::{Loaded, Problem, read, read_bytes};
 use brinell_damage::resolve_loaded;
 use brinell_study::campaign::fingerprint;

@@ -1,7 +1,8 @@
 //! Analysis of signals that are arrays.
 
+use crate::bad_value::bad_value;
 use crate::convert::{Samples, array, json_to_python, slice};
-use crate::errors::{SignalError, bad_value};
+use crate::errors::SignalError;
 use brinell::analysis::{
     Analysis, DefectOrders, Levels, MachineClass, Options, Quantity, SUPPLY_HZ, Sensitivity, Unit, to_json, velocity,
 };

@@ -1,8 +1,8 @@
 //! A grid of settings, run side by side, as one table.
 
+use crate::bad_value::bad_value;
 use crate::convert::{array, python_to_toml};
-use crate::errors::bad_value;
-use crate::kept;
+use crate::kept::{self, Numbers};
 use crate::run::over_threads;
 use crate::scenario::{Scenario, Source};
 use brinell::document::{on_one_line, one_line};
@@ -13,9 +13,6 @@ use brinell_study::campaign::{Axis, Plan, columns};
 use pyo3::prelude::*;
 use pyo3::types::PyList;
 use std::path::PathBuf;
-
-/// A point's numbers, or why there are none.
-pub(crate) type Numbers = Result<Vec<Quantity>, String>;
 
 /// Runs every combination of the axes, each `(keys, settings)` with a value for each key in every setting. Gives for
 /// each point which setting of each axis it has, and why it failed or None; and the columns: name, unit, values, NaN

@@ -4,7 +4,7 @@ mod chapters;
 mod tables;
 
 use crate::cases::owned;
-use crate::points::numbers;
+use crate::runs::numbers;
 use crate::{
     CASES, Claim, Distance, Draw, Error, Judged, Length, Numbers, Point, RECORDS, Reading, Record, Runs, SEARCHED,
     Stage, VARIANTS, Variant, Verdict, answers, axes, case, claims, distance, draw, held, judge, targets,

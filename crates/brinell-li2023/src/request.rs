@@ -1,0 +1,69 @@
+//! What is to be reproduced: figures of the paper, and the runs that decide what is said of them.
+
+use crate::models::OtherRuns;
+use crate::sensitivity::Plan;
+use crate::{Case, EXPERIMENTS, Error, Experiment, Length, Outline, Point, case};
+
+/// What is to be reproduced.
+pub struct Request {
+    pub(crate) experiments: Vec<&'static Experiment>,
+    pub(crate) points: Vec<Point>,
+    pub(crate) length: Length,
+    /// Whether it is all of section 4.
+    pub(crate) whole: bool,
+    pub(crate) plan: Option<Plan>,
+    pub(crate) models: Option<OtherRuns>,
+}
+
+impl Request {
+    /// Some figures of the paper, or all where `figures` is empty; runs last `length`.
+    ///
+    /// # Errors
+    /// Where a case is no scenario.
+    pub fn new(figures: &[u32], length: Length) -> Result<Self, Error> {
+        let wanted = |e: &&Experiment| figures.is_empty() || e.figures.iter().any(|f| figures.contains(f));
+        let experiments: Vec<&Experiment> = EXPERIMENTS.iter().filter(wanted).collect();
+        let mut cases: Vec<&'static Case> = Vec::new();
+        for id in experiments.iter().flat_map(|e| &e.cases) {
+            match case(id) {
+                Some(case) if !cases.contains(&case) => cases.push(case),
+                _ => {}
+            }
+        }
+        let points = cases.into_iter().map(|case| Point::new(case, &[], Outline::Joined, length));
+        Ok(Self {
+            whole: figures.is_empty(),
+            points: points.collect::<Result<_, Error>>()?,
+            experiments,
+            length,
+            plan: None,
+            models: None,
+        })
+    }
+
+    /// The same with every unstated assumption varied, and searches for the set of assumptions that agrees best.
+    ///
+    /// # Errors
+    /// Where a variant of a case is no scenario.
+    pub fn with_sensitivity(self, quick: bool) -> Result<Self, Error> {
+        Ok(Self { plan: Some(Plan::new(quick)?), ..self })
+    }
+
+    /// The same with every case also in slices and with tilting, the verdicts side by side.
+    ///
+    /// # Errors
+    /// Where a case is no scenario of those models.
+    pub fn with_tilting(self) -> Result<Self, Error> {
+        let cases: Vec<_> = self.points.iter().map(|point| point.case).collect();
+        Ok(Self { models: Some(OtherRuns::new(&cases, self.length)?), ..self })
+    }
+
+    /// Points of which pictures show curves.
+    pub(crate) fn with_curves(&self) -> impl Iterator<Item = &Point> {
+        let has_curves = |e: &&&Experiment| e.figures[0] <= 15 || e.figures[0] == 20;
+        self.points.iter().filter(move |p| {
+            let mut experiments = self.experiments.iter().filter(has_curves);
+            experiments.any(|e| e.cases.contains(&p.case.id))
+        })
+    }
+}
