@@ -2,11 +2,10 @@
 
 use std::fmt::Write;
 
-use crate::embedded::list;
-use crate::motion::{finite, packed, round_below};
-use crate::number::significant;
+use crate::encode::{list, packed};
+use crate::layout::{Layout, legend};
+use crate::number::{finite, round_below, significant};
 use crate::picture::{Anchor, Paint, Picture, Shape, Text, ink};
-use crate::plots::{Layout, legend};
 
 /// A section along the bearing's axis, frame after frame. Lengths in mm, slopes and angles in rad, line loads in N/mm;
 /// Z to the right, outwards up.

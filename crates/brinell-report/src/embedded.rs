@@ -3,8 +3,9 @@
 use std::fmt::Write as _;
 
 use crate::chart::{Domain, LANE_HEIGHT, Lane, Mark};
+use crate::encode::{base64, list};
+use crate::markup::escape;
 use crate::number::{linear_ticks, runs, tick_labels};
-use crate::picture::escape;
 
 /// Values kept for zooming; longer signals and spectra are thinned to this, extremes kept.
 pub(crate) const KEPT: usize = 65_536;
@@ -180,11 +181,6 @@ impl Chart<'_> {
     }
 }
 
-/// A JSON array of what is JSON.
-pub(crate) fn list(parts: impl Iterator<Item = String>) -> String {
-    format!("[{}]", parts.collect::<Vec<_>>().join(","))
-}
-
 /// Whether places go from left to right, all of them numbers.
 fn ascending(places: &[f64]) -> bool {
     !places.is_empty() && places.iter().all(|x| x.is_finite()) && places.windows(2).all(|pair| pair[0] <= pair[1])
@@ -274,23 +270,6 @@ pub(crate) fn json(text: &str) -> String {
     }
     quoted.push('"');
     quoted
-}
-
-pub(crate) fn base64(bytes: &[u8]) -> String {
-    const DIGITS: &[u8; 64] = b"ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    let mut text = String::with_capacity(bytes.len().div_ceil(3) * 4);
-    for chunk in bytes.chunks(3) {
-        let byte = |i: usize| u32::from(chunk.get(i).copied().unwrap_or(0));
-        let bits = byte(0) << 16 | byte(1) << 8 | byte(2);
-        for place in 0..4 {
-            if place <= chunk.len() {
-                text.push(char::from(DIGITS[(bits >> (18 - 6 * place)) as usize & 63]));
-            } else {
-                text.push('=');
-            }
-        }
-    }
-    text
 }
 
 #[cfg(test)]

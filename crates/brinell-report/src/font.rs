@@ -2,7 +2,7 @@
 
 use std::sync::LazyLock;
 
-use crate::embedded::base64;
+use crate::encode::base64;
 use ttf_parser::{Face, GlyphId, OutlineBuilder, Tag};
 
 const REGULAR: &[u8] = include_bytes!("../font/Inter-Regular-subset.otf");

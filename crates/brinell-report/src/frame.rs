@@ -2,11 +2,12 @@
 
 use std::fmt::Write as _;
 
-use crate::embedded::{self, base64};
+use crate::embedded;
+use crate::encode::base64;
 use crate::font;
+use crate::layout::Layout;
 use crate::number::{Height, runs};
 use crate::picture::{Picture, escape};
-use crate::plots::Layout;
 use sha2::{Digest, Sha256};
 
 /// At the foot of pages with curves.

@@ -1,8 +1,8 @@
 //! The kurtogram: the spectral kurtosis of each band, how impulsive it is, rows of ever narrower bands; darker where more.
 
 use crate::chart::{Chart, Domain, SCALE_MARGIN, Shades, Size, Spec, range};
+use crate::layout::{Layout, legend};
 use crate::picture::{Anchor, Paint, Picture, Rect, Shape, Text, ink};
-use crate::plots::{Layout, legend};
 use brinell::signal::kurtogram::Level;
 
 /// The whole map.

@@ -23,10 +23,14 @@ mod damage;
 mod data;
 mod defects;
 mod embedded;
+mod encode;
+mod fact;
 mod font;
 mod frame;
 mod kurtogram;
+mod layout;
 mod load;
+mod markup;
 mod motion;
 mod number;
 mod orbit;
@@ -35,6 +39,7 @@ mod picture;
 mod plots;
 mod raster;
 mod run;
+mod sections;
 mod sensor;
 mod shape;
 mod sheet;
@@ -60,13 +65,15 @@ pub use damage::{AlongRoller, DamageCurve, DamagePanel, DamageView, DepthPatch};
 #[doc(hidden)]
 pub use damage::{damage_passage, damage_photo, damage_plan, damage_section, load_along};
 pub use data::{
-    Assumption, Estimate, Event, Fact, Healthy, IndicatorRow, IndicatorTable, Marker, MinMax, Pass, Report, RowLoad,
-    Series, Spectrum, Value, Waveform,
+    Assumption, Estimate, Event, Healthy, IndicatorRow, IndicatorTable, Marker, MinMax, Pass, Report, RowLoad, Series,
+    Spectrum, Waveform,
 };
 #[doc(hidden)]
 pub use defects::{Damage, Measures, damage_of};
+pub use fact::{Fact, Value};
 #[doc(hidden)]
 pub use kurtogram::Kurtogram;
+pub use layout::Layout;
 #[doc(hidden)]
 pub use load::{bin_centres, load_distribution};
 pub use motion::bearing_motion;
@@ -78,9 +85,9 @@ pub use orbit::cage_orbit;
 pub use orbit::{CageOrbit, CageOrbits};
 pub use page::html;
 pub use picture::{CurveTable, Error, Picture};
-pub use plots::{Layout, headline_png, pictures};
 #[doc(hidden)]
 pub use plots::{detail_window, headline, overview};
+pub use plots::{headline_png, pictures};
 #[doc(hidden)]
 pub use run::defect_markers;
 pub use sensor::SensorView;

@@ -5,9 +5,9 @@ use std::f64::consts::TAU;
 use crate::chart::{Size, range};
 use crate::data::RowLoad;
 use crate::font;
+use crate::layout::{Layout, legend};
 use crate::number::{linear_ticks, tick_labels};
 use crate::picture::{Anchor, Axis, Curve, Paint, Picture, Rect, Shape, Text, ink};
-use crate::plots::{Layout, legend};
 use crate::thin::straightened;
 
 /// Contact force around the bearing, one circle to a row: 0° is +X, angles run counter-clockwise.

@@ -5,14 +5,12 @@ mod row;
 use std::f64::consts::TAU;
 use std::fmt::Write as _;
 
-use crate::axial::{self, AxialSection, axial_section};
-use crate::data::Report;
-use crate::embedded::{base64, list};
+use crate::axial::{self, AxialSection};
+use crate::encode::{list, packed};
 use crate::font;
-use crate::frame::{figure, none};
-use crate::number::significant;
-use crate::picture::{Anchor, Paint, Picture, Shape, Text, escape, ink};
-use crate::plots::{Layout, legend};
+use crate::layout::{Layout, legend};
+use crate::number::{finite, round_below, significant};
+use crate::picture::{Anchor, Paint, Picture, Shape, Text, ink};
 use brinell::scenario::Surface;
 use row::DrawnRow;
 
@@ -78,7 +76,7 @@ const RING: f64 = 0.1;
 
 impl Motion {
     /// Frames that every list holds.
-    fn frames(&self) -> usize {
+    pub(crate) fn frames(&self) -> usize {
         let radii = [self.inner_radius_mm, self.outer_radius_mm, self.pitch_radius_mm, self.roller_radius_mm];
         let sound = radii.iter().all(|r| r.is_finite() && *r > 0.0 && *r < 1e6);
         let times = self.t0_s.is_finite() && self.dt_s.is_finite() && self.dt_s > 0.0;
@@ -101,16 +99,6 @@ impl Motion {
         let largest = forces.copied().filter(|f| f.is_finite()).fold(0.0f32, f32::max);
         f64::from(largest)
     }
-}
-
-pub(crate) fn finite(value: f32) -> f64 {
-    if value.is_finite() { f64::from(value) } else { 0.0 }
-}
-
-/// 1, 2 or 5 times a power of ten: the largest such number up to this one.
-pub(crate) fn round_below(largest: f64) -> f64 {
-    let decade = 10f64.powf(largest.log10().floor());
-    [5.0, 2.0, 1.0].map(|m| m * decade).into_iter().find(|f| *f <= largest).unwrap_or(decade)
 }
 
 /// What is drawn in which colour.
@@ -184,12 +172,8 @@ fn turns(angles: &[f32]) -> impl Iterator<Item = u16> + '_ {
     angles.iter().map(turn)
 }
 
-pub(crate) fn packed(numbers: impl Iterator<Item = u16>) -> String {
-    base64(&numbers.flat_map(u16::to_le_bytes).collect::<Vec<u8>>())
-}
-
 /// The frames, for the page's script: 16 bits a number, angles in turns and forces as shares of the largest.
-fn data(page: &mut String, motion: &Motion, frames: usize) {
+pub(crate) fn frames_for_script(page: &mut String, motion: &Motion, frames: usize) {
     let largest = motion.largest();
     let damage = |damage: &MotionDamage| {
         let (kind, roller) = match damage.surface {
@@ -231,26 +215,4 @@ fn data(page: &mut String, motion: &Motion, frames: usize) {
         axial::data(page, section, frames);
     }
     page.push_str("}</script>\n");
-}
-
-/// The page's section.
-pub(crate) fn section(page: &mut String, report: &Report) {
-    let motion = &report.motion;
-    let frames = motion.frames();
-    if frames == 0 || motion.rows.is_empty() {
-        return none(page, "The motion was not recorded.");
-    }
-    let end = motion.t0_s + motion.dt_s * (frames - 1) as f64;
-    let caption = format!(
-        "The end of the run, {} s to {} s, in {frames} frames. Raceways, rollers and cage are to scale, clearances and \
-         displacements too small to see. The marks on the inner ring and on the rollers show how they turn. Lines from the contacts: \
-         contact forces, as long as the forces are large.",
-        significant(motion.t0_s, 5),
-        significant(end, 5)
-    );
-    figure(page, "motion", |layout| bearing_motion(motion, frames - 1, layout), &escape(&caption));
-    if let Some(section) = motion.section.as_ref().filter(|s| s.frames() >= frames) {
-        figure(page, "tilt", |layout| axial_section(section, frames - 1, layout), &escape(&section.caption()));
-    }
-    data(page, motion, frames);
 }

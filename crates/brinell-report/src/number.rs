@@ -230,6 +230,17 @@ pub(crate) fn tick_labels(ticks: &[f64]) -> (Vec<String>, i32) {
     (labels, power)
 }
 
+/// What is no number becomes 0.
+pub(crate) fn finite(value: f32) -> f64 {
+    if value.is_finite() { f64::from(value) } else { 0.0 }
+}
+
+/// 1, 2 or 5 times a power of ten: the largest such number up to this one.
+pub(crate) fn round_below(largest: f64) -> f64 {
+    let decade = 10f64.powf(largest.log10().floor());
+    [5.0, 2.0, 1.0].map(|m| m * decade).into_iter().find(|f| *f <= largest).unwrap_or(decade)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

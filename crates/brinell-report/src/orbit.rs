@@ -1,11 +1,9 @@
 //! Orbits of the cages' centres.
 
 use crate::chart::{Chart, Domain, Size, Spec, left_margin, range, right_margin};
-use crate::data::Report;
 use crate::font;
-use crate::frame::{figure, none};
-use crate::picture::{Anchor, Paint, Picture, Text, escape, ink};
-use crate::plots::{Layout, legend};
+use crate::layout::{Layout, legend};
+use crate::picture::{Anchor, Paint, Picture, Text, ink};
 
 /// Paths of the cages' centres.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -136,13 +134,4 @@ fn orbit_chart(
         chart.picture.path(&circle, land());
     }
     (chart, tall)
-}
-
-/// The page's section.
-pub(crate) fn section(page: &mut String, report: &Report) {
-    let orbits = &report.cage_orbits;
-    if orbits.rows.is_empty() {
-        return none(page, "The motion of the cages was not recorded.");
-    }
-    figure(page, "orbit", |layout| cage_orbit(orbits, layout), &escape(&orbits.note));
 }

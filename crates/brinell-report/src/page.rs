@@ -6,10 +6,11 @@ use crate::damage::{damage_passage, damage_photo, damage_plan, damage_section, l
 use crate::data::{Report, Spectrum};
 use crate::embedded::{Chart, Curve, Places};
 use crate::frame::{THINNED, alert, close, code, figure, lead, none, open, plain, section};
+use crate::layout::Layout;
 use crate::load::load_distribution;
 use crate::number::{capital, significant};
 use crate::picture::{Picture, escape};
-use crate::plots::{self, Layout};
+use crate::plots;
 use crate::tables::{assumptions, close_table, fact_table, facts, indicators, open_table};
 
 /// Passes drawn; a page with more is no longer read.
@@ -29,15 +30,15 @@ pub fn html(report: &Report) -> String {
         ("spectrum", "Spectrum", "Spectrum", spectrum),
         ("envelope", "Envelope", "Envelope spectrum", envelope),
         ("orders", "Orders", "Envelope orders", orders),
-        ("spectrogram", "Spectrogram", "Spectrogram", crate::spectrogram::section),
-        ("sensor", "Sensor", "Sensor", crate::sensor::section),
+        ("spectrogram", "Spectrogram", "Spectrogram", crate::sections::spectrogram),
+        ("sensor", "Sensor", "Sensor", crate::sections::sensor),
         ("damage", "Damage", "Damage", damage),
         ("passes", "Passes", "Passing the defect", passes),
         ("load", "Load", "Load distribution", load),
-        ("motion", "Motion", "The bearing in motion", crate::motion::section),
-        ("orbit", "Orbit", "Cage orbit", crate::orbit::section),
+        ("motion", "Motion", "The bearing in motion", crate::sections::motion),
+        ("orbit", "Orbit", "Cage orbit", crate::sections::orbit),
         ("indicators", "Indicators", "Indicators", indicators),
-        ("slip", "Slip", "Slip", crate::slip::section),
+        ("slip", "Slip", "Slip", crate::sections::slip),
         ("assumptions", "Assumptions", "Assumptions", assumptions),
         ("audits", "Audits", "Appendix: audits", |page, r| fact_table(page, &r.audits, "No audit was made.")),
         ("work", "Solver", "Appendix: solver work", |page, r| {
@@ -92,7 +93,7 @@ fn waveform(page: &mut String, report: &Report) {
         Some(bins) => (bins.t0_s, bins.t0_s + bins.dt_s * bins.min.len() as f64),
         None => (series.t0_s, series.t0_s + series.dt_s * series.values.len() as f64),
     };
-    let overview_scale = plots::time_unit(overview_hi - overview_lo).1;
+    let overview_scale = crate::layout::time_unit(overview_hi - overview_lo).1;
     let places = Places::Even(series.t0_s * scale, series.dt_s * scale);
     let lanes = plots::event_lanes(report, scale);
     let chart = Chart {

@@ -4,8 +4,8 @@ use std::fmt::Write as _;
 
 use tiny_skia as skia;
 
-use crate::embedded::base64;
-use crate::picture::coordinate;
+use crate::encode::base64;
+use crate::markup::coordinate;
 use crate::shape::Rect;
 
 /// Shades from least to most: lightness falls all the way, so they read in grey, and blue to the colour-blind.

@@ -1,11 +1,9 @@
 //! What is between the machine and the record: the measurement chain's response and what it did.
 
 use crate::chart::{Chart, Domain, Spec, range};
-use crate::data::{Fact, Report};
-use crate::frame::figure;
+use crate::fact::Fact;
+use crate::layout::Layout;
 use crate::picture::{Paint, Picture, ink};
-use crate::plots::Layout;
-use crate::tables::fact_table;
 
 /// The chain; empty where the record is the machine's own vibration.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -44,19 +42,4 @@ pub(crate) fn sensor_response(view: &SensorView, layout: Layout) -> Picture {
     chart.points(&[lo, hi], &[0.0, 0.0], Paint::line(ink::FAINT, 1.0).dashed(&[4.0, 4.0]));
     chart.points(&khz, &gain, Paint::line(ink::BLUE, 1.6));
     chart.finish()
-}
-
-/// The page's section.
-pub(crate) fn section(page: &mut String, report: &Report) {
-    let view = &report.sensor;
-    fact_table(page, &view.facts, "");
-    if view.gain_db.is_empty() {
-        return;
-    }
-    figure(
-        page,
-        "sensor-response",
-        |layout| sensor_response(view, layout),
-        "From the outer ring’s acceleration to the sensor’s, before the anti-alias filter.",
-    );
 }

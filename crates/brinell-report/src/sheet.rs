@@ -6,9 +6,9 @@ use std::fmt::Write as _;
 use crate::chart::{Chart, Domain, Lane, Mark, Size, Spec, range};
 use crate::embedded::{self, Curve, Places};
 use crate::frame::{close, none, open, section, unit_html};
+use crate::layout::time_unit;
 use crate::number::significant;
 use crate::picture::{Paint, Picture, escape, ink};
-use crate::plots::time_unit;
 use brinell_study::dataset::{Sheet, SheetRun};
 
 /// Two of these are beside each other on a desktop, one under the other on a phone.

@@ -1,11 +1,8 @@
 //! Slip against pure rolling, over time and over the place in the bearing.
 
 use crate::chart::{self, Chart, Domain, range};
-use crate::data::Report;
-use crate::frame::figure;
+use crate::layout::{Layout, legend, time_unit};
 use crate::picture::{Paint, Picture, ink};
-use crate::plots::{Layout, legend, time_unit};
-use crate::tables::fact_table;
 
 /// Slip of one row, in percent of the pure-rolling speed. Vectors over time are of one length, as are those over the
 /// angle.
@@ -217,24 +214,4 @@ pub(crate) fn slip_over_angle(rows: &[SlipRow], layout: Layout) -> Picture {
 /// Whether there is anything to draw.
 pub(crate) fn there_is(rows: &[SlipRow]) -> bool {
     rows.iter().any(|row| !row.orbit.is_empty())
-}
-
-/// The page's section.
-pub(crate) fn section(page: &mut String, report: &Report) {
-    fact_table(page, &report.slip, "Slip was not recorded.");
-    if !there_is(&report.slip_rows) {
-        return;
-    }
-    figure(
-        page,
-        "slip-time",
-        |layout| slip_over_time(&report.slip_rows, layout),
-        "How far speeds stay behind pure rolling, as a share of it: means over short stretches of time, of all rolling elements of a row.",
-    );
-    figure(
-        page,
-        "slip-angle",
-        |layout| slip_over_angle(&report.slip_rows, layout),
-        "The same over the rolling element’s place, counter-clockwise from +X: means after the start-up.",
-    );
 }

@@ -1,12 +1,8 @@
 //! The spectrogram: frequency over time, darker where there is more.
 
-use std::fmt::Write as _;
-
 use crate::chart::{Chart, Domain, SCALE_MARGIN, Shades, Spec, range};
-use crate::data::Report;
-use crate::frame::{figure, none, unit_html};
-use crate::picture::{Anchor, Picture, Text, escape};
-use crate::plots::{Layout, time_unit};
+use crate::layout::{Layout, time_unit};
+use crate::picture::{Anchor, Picture, Text};
 
 /// Power spectral density over time.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -106,15 +102,4 @@ pub fn spectrogram(view: &Spectrogram, layout: Layout) -> Picture {
         chart.picture.text(unit.upright());
     }
     chart.finish()
-}
-
-/// The page's section.
-pub(crate) fn section(page: &mut String, report: &Report) {
-    let view = &report.spectrogram;
-    if view.density.is_empty() {
-        return none(page, "No spectrogram was made.");
-    }
-    let mut caption = escape(&view.note);
-    let _ = write!(caption, " Shades: power spectral density in dB re 1 {}.", unit_html(&view.unit));
-    figure(page, "spectrogram", |layout| spectrogram(view, layout), &caption);
 }

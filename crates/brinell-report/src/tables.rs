@@ -2,7 +2,8 @@
 
 use std::fmt::Write as _;
 
-use crate::data::{Assumption, Estimate, Fact, Report, Value};
+use crate::data::{Assumption, Estimate, Report};
+use crate::fact::{Fact, Value};
 use crate::frame::{none, section, unit_html};
 use crate::number::{significant, with_interval};
 use crate::picture::escape;

@@ -3,8 +3,8 @@
 use std::fmt::Write as _;
 
 use crate::frame::{close, figure, none, open, section};
+use crate::layout::Layout;
 use crate::picture::{Picture, escape};
-use crate::plots::Layout;
 use crate::sweep::{IndicatorPlot, embed, indicator_plot};
 use crate::tables::{Table, failures, table};
 

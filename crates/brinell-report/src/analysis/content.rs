@@ -3,7 +3,8 @@
 use super::level::{fact, notes, rows, scaled};
 use super::words::{called, ratio, shaft_lines};
 use super::{AnalysisReport, Badge};
-use crate::data::{Fact, Marker, Series};
+use crate::data::{Marker, Series};
+use crate::fact::Fact;
 use crate::kurtogram::Kurtogram;
 use crate::number::{capital, short};
 use crate::tables::Table;

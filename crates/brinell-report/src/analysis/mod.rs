@@ -8,12 +8,14 @@ mod words;
 use std::fmt::Write as _;
 
 use crate::chart::{Chart, Domain, Spec, range};
-use crate::data::{Fact, Marker, Series, Spectrum};
+use crate::data::{Marker, Series, Spectrum};
 use crate::embedded::{self, Curve, Places};
+use crate::fact::Fact;
 use crate::frame::{THINNED, close as finish, figure, open, plain, section};
 use crate::kurtogram::{Kurtogram, kurtogram};
+use crate::layout::{Layout, legend};
 use crate::picture::{Paint, Picture, escape, ink};
-use crate::plots::{Layout, legend, marker_lanes, spectrum_spec};
+use crate::plots::{marker_lanes, spectrum_spec};
 use crate::tables::{Table, facts, table};
 pub use content::{Analyzed, Findings};
 pub use level::{ZONES, level_lines, scaled};

@@ -4,8 +4,8 @@ use super::{AnalysisReport, draw};
 use crate::chart::{Domain, Spec};
 use crate::data::Series;
 use crate::embedded::KEPT;
+use crate::layout::{Layout, time_unit};
 use crate::picture::Picture;
-use crate::plots::{Layout, time_unit};
 
 /// The stretch that is shown close up, s, and how far from its middle samples are kept for zooming.
 fn close_up(report: &AnalysisReport) -> (f64, f64, f64) {

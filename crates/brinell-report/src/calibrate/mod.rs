@@ -4,10 +4,10 @@ mod plot;
 
 use std::fmt::Write as _;
 
-use crate::data::Fact;
+use crate::fact::Fact;
 use crate::frame::{close, figure, lead, none, open, scenario, section};
+use crate::layout::Layout;
 use crate::picture::{Picture, escape};
-use crate::plots::Layout;
 use crate::tables::{Table, fact_table, facts, failures, table};
 use plot::{course_plot, embed_course, embed_key, key_plot};
 

@@ -3,8 +3,8 @@
 use super::CalibrationReport;
 use crate::chart::{Chart, Domain, Spec};
 use crate::embedded::{self, Curve, Places};
+use crate::layout::Layout;
 use crate::picture::{Paint, Picture, Shape, ink};
-use crate::plots::Layout;
 
 /// Misfits this far above the best are drawn at the upper edge.
 const DECADES: f64 = 6.0;

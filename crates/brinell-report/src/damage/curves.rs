@@ -2,8 +2,8 @@
 
 use super::{AlongRoller, DamagePanel, DamageView, heading};
 use crate::chart::{self, Chart, Domain, range};
+use crate::layout::{Layout, legend};
 use crate::picture::{Paint, Picture, ink};
-use crate::plots::{Layout, legend};
 
 /// L_s, L_e, depth and stiffness over the angle of a roller that passes the damage.
 pub fn damage_passage(view: &DamageView, index: usize, layout: Layout) -> Picture {

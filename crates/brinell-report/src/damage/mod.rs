@@ -6,7 +6,7 @@ mod photo;
 mod plan;
 mod shades;
 
-use crate::data::Fact;
+use crate::fact::Fact;
 use crate::font;
 use crate::picture::{Anchor, Picture, Text};
 pub use curves::{damage_passage, damage_section, load_along};

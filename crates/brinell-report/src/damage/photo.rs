@@ -2,10 +2,9 @@
 
 use super::{DamageView, heading};
 use crate::font;
-use crate::motion::round_below;
-use crate::number::short;
+use crate::layout::Layout;
+use crate::number::{round_below, short};
 use crate::picture::{Anchor, Paint, Picture, Rect, Shape, Text, ink};
-use crate::plots::Layout;
 
 /// Largest photo on a page, px.
 const TALLEST: f64 = 560.0;

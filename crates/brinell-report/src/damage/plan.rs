@@ -3,8 +3,8 @@
 use super::shades::{LEAST, SHADES, colour_bar, shade};
 use super::{DamageView, heading};
 use crate::chart::{Chart, Domain, Size, Spec, left_margin, range, right_margin};
+use crate::layout::{Layout, legend};
 use crate::picture::{Paint, Picture, Shape, ink};
-use crate::plots::{Layout, legend};
 
 /// Where the roller touches.
 const TRACK: &str = "#eef2f6";

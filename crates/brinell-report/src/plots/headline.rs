@@ -1,11 +1,11 @@
 //! The run in one picture.
 
-use super::Layout;
 use super::spectrum::{draw_envelope, envelope_spec};
 use super::waveform::{draw_waveform, waveform_spec};
 use crate::chart::{Size, left_margin, right_margin};
 use crate::data::Report;
 use crate::font;
+use crate::layout::Layout;
 use crate::picture::{Anchor, Error, Picture, Text, ink};
 
 /// Where title and charts are.

@@ -1,7 +1,6 @@
 //! The report's pictures, from its data: the signals' own, and the list of all.
 
 mod headline;
-mod layout;
 mod markers;
 mod pass;
 mod spectrum;
@@ -10,6 +9,7 @@ mod waveform;
 use crate::axial::axial_section;
 use crate::damage::{damage_passage, damage_photo, damage_plan, damage_section};
 use crate::data::Report;
+use crate::layout::Layout;
 use crate::load::load_distribution;
 use crate::motion::bearing_motion;
 use crate::orbit::cage_orbit;
@@ -18,8 +18,6 @@ use crate::sensor::sensor_response;
 use crate::slip::{self, slip_over_angle, slip_over_time};
 use crate::spectrogram::spectrogram;
 pub use headline::{headline, headline_png};
-pub use layout::Layout;
-pub(crate) use layout::{legend, time_unit};
 pub(crate) use markers::{marker_lanes, order_lanes};
 pub(crate) use pass::pass;
 pub(crate) use spectrum::{

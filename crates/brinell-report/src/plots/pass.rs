@@ -1,8 +1,8 @@
 //! One roller on its way over a defect.
 
-use super::layout::{Layout, legend};
 use crate::chart::{Chart, Domain, panels, range};
 use crate::data::Pass;
+use crate::layout::{Layout, legend};
 use crate::picture::{Paint, Picture, ink};
 
 /// Contact length, stiffness and force of one roller over its angle from the defect's centre.

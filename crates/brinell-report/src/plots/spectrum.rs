@@ -1,9 +1,9 @@
 //! Amplitude spectrum and envelope spectrum.
 
-use super::layout::{Layout, healthy_words, known, over_healthy, spacing};
 use super::markers::{marker_lanes, order_lanes, telling};
 use crate::chart::{Chart, Domain, Lane, Size, Spec, range};
 use crate::data::{Marker, Report, Spectrum};
+use crate::layout::{Layout, healthy_words, known, over_healthy, spacing};
 use crate::picture::Picture;
 
 /// The frequency up to which the envelope spectrum is shown: all harmonics of the damage in the bearing.

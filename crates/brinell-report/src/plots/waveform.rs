@@ -1,9 +1,9 @@
 //! The sensor signal: the whole run, and the stretch close up with what rollers do in it.
 
-use super::layout::{Layout, healthy_words, known, over_healthy, spacing, start, time_unit};
 use super::markers::telling;
 use crate::chart::{Chart, Domain, Lane, Mark, Size, Spec, range};
 use crate::data::{MinMax, Report, Series};
+use crate::layout::{Layout, healthy_words, known, over_healthy, spacing, start, time_unit};
 use crate::number::significant;
 use crate::picture::{Paint, Picture, ink};
 

@@ -4,10 +4,11 @@ mod overlay;
 
 use std::fmt::Write as _;
 
-use crate::data::{Fact, Marker};
+use crate::data::Marker;
+use crate::fact::Fact;
 use crate::frame::{THINNED, close, figure, lead, none, open, plain};
+use crate::layout::Layout;
 use crate::picture::{Picture, escape};
-use crate::plots::Layout;
 use crate::tables::{Table, facts, table};
 pub use overlay::overlay;
 pub(crate) use overlay::{embed, stacked};

@@ -4,8 +4,9 @@ use super::{Along, OverlaidCurve, Overlay, Vertical};
 use crate::chart::{Chart, Domain, Lane, Spec, range};
 use crate::embedded::{self, Curve, Places};
 use crate::font;
+use crate::layout::{Layout, legend};
 use crate::picture::{Anchor, Paint, Picture, Text, ink};
-use crate::plots::{Layout, legend, marker_lanes};
+use crate::plots::marker_lanes;
 
 /// Told apart by everybody; a dash more where two might be taken for one another in grey.
 const PAINTS: [(&str, &[f64]); 6] = [

@@ -4,10 +4,10 @@
 use std::fmt::Write as _;
 
 use crate::damage::{DamageView, damage_plan};
-use crate::data::Fact;
+use crate::fact::Fact;
 use crate::frame::{close, figure, lead, none, open, plain, section};
+use crate::layout::Layout;
 use crate::picture::{Picture, escape};
-use crate::plots::Layout;
 use crate::side_by_side::{Overlay, embed, overlay, stacked};
 use crate::sweep::{self, IndicatorPlot, indicator_plot};
 use crate::tables::{Table, facts, table};

@@ -3,9 +3,9 @@
 
 use crate::chart::{Chart, Domain, SCALE_MARGIN, Shades, Spec, range};
 use crate::font;
+use crate::layout::Layout;
 use crate::number::significant;
 use crate::picture::{Anchor, Picture, Text, ink};
-use crate::plots::Layout;
 
 /// An indicator on a grid of two keys.
 #[derive(Clone, Debug, Default, PartialEq)]

@@ -5,11 +5,11 @@ mod plot;
 
 use std::fmt::Write as _;
 
-use crate::data::Fact;
+use crate::fact::Fact;
 use crate::frame::{close, figure, lead, none, open, scenario, section, unit_html};
+use crate::layout::Layout;
 use crate::number::significant;
 use crate::picture::{Picture, escape};
-use crate::plots::Layout;
 use crate::tables::{Table, facts, failures, table};
 pub use heat::HeatMap;
 use heat::heat_map;

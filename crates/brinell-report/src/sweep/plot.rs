@@ -4,8 +4,8 @@ use super::{IndicatorLine, IndicatorPlot, IndicatorPoint};
 use crate::chart::{Chart, Domain, Size, Spec, range};
 use crate::embedded::{self, Curve, Places};
 use crate::font;
+use crate::layout::{Layout, legend};
 use crate::picture::{Anchor, Paint, Picture, Shape, Text, ink};
-use crate::plots::{Layout, legend};
 
 /// Colours that the colour-blind distinguish too, then the same with dashes.
 const COLORS: [&str; 6] = [ink::BLUE, ink::VERMILLION, ink::GREEN, ink::PURPLE, ink::ORANGE, ink::BLACK];
