@@ -90,8 +90,8 @@ impl Task {
     }
 }
 
-/// Reads and tries a scenario, and says what is worth knowing before it runs, of several by the file's name. What it was
-/// read from goes to `inputs`.
+/// Reads and tries a scenario, and says what is worth knowing before it runs, of several by the file's name. What it
+/// was read from goes to `inputs`.
 fn ready(args: &RunArgs, path: &Path, inputs: &mut Inputs) -> Result<Ready, Failure> {
     let source = Source::open(path, &args.set)?;
     let loaded = source.load(&[], args.quiet)?;

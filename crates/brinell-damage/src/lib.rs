@@ -14,8 +14,9 @@
 //! damage's bounding box with `center`, else the centre of the page, image or grid.
 //!
 //! Every reader takes bytes and what a scenario says of the file ([`SvgFile`](brinell::scenario::SvgFile),
-//! [`ImageFile`](brinell::scenario::ImageFile), [`ScanFile`](brinell::scenario::ScanFile)), and gives a [`DamageError`] for what it cannot use; no bytes make it panic, and none make
-//! it take more than about 1 GB. What it decided by itself is said in `warnings`.
+//! [`ImageFile`](brinell::scenario::ImageFile), [`ScanFile`](brinell::scenario::ScanFile)), and gives a [`DamageError`]
+//! for what it cannot use; no bytes make it panic, and none make it take more than about 1 GB. What it decided by
+//! itself is said in `warnings`.
 //!
 //! ```
 //! # #[cfg(feature = "svg")] {

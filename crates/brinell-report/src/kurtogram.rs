@@ -1,4 +1,5 @@
-//! The kurtogram: the spectral kurtosis of each band, how impulsive it is, rows of ever narrower bands; darker where more.
+//! The kurtogram: the spectral kurtosis of each band, how impulsive it is, rows of ever narrower bands; darker where
+//! more.
 
 use crate::chart::{Chart, Domain, SCALE_MARGIN, Shades, Size, Spec, range};
 use crate::layout::{Layout, legend};

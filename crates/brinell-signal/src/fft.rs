@@ -20,8 +20,8 @@ pub(crate) fn bins(x: &mut [f64]) -> Vec<Complex<f64>> {
     bins
 }
 
-/// The complex signal that has the bins of `range` and no others, at the equal steps of a backward `plan`, as many times
-/// as large. The bins are those of a transform of any length: with no more of them than steps, the values are the
+/// The complex signal that has the bins of `range` and no others, at the equal steps of a backward `plan`, as many
+/// times as large. The bins are those of a transform of any length: with no more of them than steps, the values are the
 /// signal's. `shape` gets the number of a bin and what is there.
 pub(crate) fn backward(
     plan: &dyn Fft<f64>,

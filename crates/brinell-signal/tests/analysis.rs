@@ -288,8 +288,8 @@ fn prop_a_slower_comb_is_distinguished_from_damage_at_its_multiple() {
     }
 }
 
-/// A shaft that impacts once a turn has a line at five times its speed, near BPFI of a 6203: a speed half a per cent off
-/// does not hide it, and makes it no damage.
+/// A shaft that impacts once a turn has a line at five times its speed, near BPFI of a 6203: a speed half a per cent
+/// off does not hide it, and makes it no damage.
 #[test]
 fn prop_impacts_once_a_turn_are_no_damage() {
     let fs = 12_000.0;
@@ -333,9 +333,9 @@ fn regress_impacts_at_a_multiple_of_the_speed_are_said_to_look_the_same() {
     assert!(told.contains("Outer race damage") && !told.contains("times a turn of the shaft"), "{told}");
 }
 
-/// A race whose lines lie on multiples of the shaft's frequency, or of the mains', is neither called nor passed over; where
-/// the record is long enough to part them it is called. One impact a turn is the shaft's. A record of the healthy machine
-/// says whether the lines are new.
+/// A race whose lines lie on multiples of the shaft's frequency, or of the mains', is neither called nor passed over;
+/// where the record is long enough to part them it is called. One impact a turn is the shaft's. A record of the healthy
+/// machine says whether the lines are new.
 #[test]
 fn prop_a_race_on_known_lines_is_not_passed_over() {
     let fs = 20_000.0;

@@ -5,6 +5,8 @@
 //!
 //! What one run is, and its numbers, is [`brinell::result`].
 
+#![cfg_attr(not(test), deny(clippy::print_stdout, clippy::print_stderr))]
+
 pub mod calibrate;
 pub mod campaign;
 pub mod dataset;

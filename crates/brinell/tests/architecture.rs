@@ -1,5 +1,6 @@
 //! ARCHITECTURE.md against the code: which module of the engine uses which, which crate depends on which, and that no
-//! modules of a crate use each other. The book's list of a run's numbers against the engine's. Files of tests against the programs that run them.
+//! modules of a crate use each other. The book's list of a run's numbers against the engine's. Files of tests against
+//! the programs that run them.
 
 use brinell::result::fields::{self, Field};
 use brinell::signal::Indicator;

@@ -204,8 +204,8 @@ fn regress_verdicts_on_the_examples() {
     assert!(right >= 19, "{right} of 21");
 }
 
-/// Rollers of a healthy NU206 with clearance C4 strike the outer race at 3600 r/min as damage would: beside the same run
-/// without its damage that is none, and the template's damage stays one.
+/// Rollers of a healthy NU206 with clearance C4 strike the outer race at 3600 r/min as damage would: beside the same
+/// run without its damage that is none, and the template's damage stays one.
 #[test]
 fn regress_passing_rollers_are_no_damage() {
     for (damaged, expected) in [(false, None), (true, Some(Component::OuterRace))] {

@@ -1,7 +1,7 @@
 //! MATLAB v5, written: a column vector of doubles per channel, the sample rate as `fs`, and texts.
 //!
-//! Plain, what MATLAB calls v6: vibration compresses little and slowly. Texts: `brinell_units` (a JSON object), `brinell_outcome`, and each pair of the
-//! metadata with `_` for the dots of its key.
+//! Plain, what MATLAB calls v6: vibration compresses little and slowly. Texts: `brinell_units` (a JSON object),
+//! `brinell_outcome`, and each pair of the metadata with `_` for the dots of its key.
 
 use super::spool::{Limit, Variables};
 use crate::atomic::{Complete, Destination};

@@ -2,8 +2,8 @@
 //!
 //! Rows are collected by column until the row group is full; a row group is then one page per column. Its rows are
 //! chosen so that the collected values take [`GROUP_BYTES`], whatever the number of columns. Beside them the `parquet`
-//! crate keeps some hundred bytes for every column of every row group, which the file's end lists: of three columns next
-//! to nothing, of three hundred about a hundredth of the values, which grows with the rows.
+//! crate keeps some hundred bytes for every column of every row group, which the file's end lists: of three columns
+//! next to nothing, of three hundred about a hundredth of the values, which grows with the rows.
 
 use std::path::Path;
 use std::sync::Arc;

@@ -2,10 +2,10 @@
 //!
 //! The record is cut into stretches of [`TURNS`] revolutions. In the spectrum of each, every speed near the one given
 //! has a merit: power over the noise floor, summed over the harmonics of one comb - the shaft's in the signal or, where
-//! its lines are not detected, a defect frequency's in the envelopes. The course of highest merit, changes of speed weighed
-//! against it, is found by dynamic programming (A. J. Viterbi, IEEE Trans. Inf. Theory 13 (1967) 260-269); several
-//! orders that tell one speed are the idea of Q. Leclère, H. André and J. Antoni, "A multi-order probabilistic approach
-//! for instantaneous angular speed tracking", Mech. Syst. Signal Process. 81 (2016) 375-386.
+//! its lines are not detected, a defect frequency's in the envelopes. The course of highest merit, changes of speed
+//! weighed against it, is found by dynamic programming (A. J. Viterbi, IEEE Trans. Inf. Theory 13 (1967) 260-269);
+//! several orders that tell one speed are the idea of Q. Leclère, H. André and J. Antoni, "A multi-order probabilistic
+//! approach for instantaneous angular speed tracking", Mech. Syst. Signal Process. 81 (2016) 375-386.
 //!
 //! A course of many speeds always has more merit than one speed. It is a drift where it has far more, and where two
 //! harmonics say so, each against the one speed that suits it best: a course that passes from one steady line to
@@ -52,8 +52,8 @@ const AGREEING: usize = 2;
 const SLIP: f64 = 0.005;
 /// Places from the bound of the speeds tried within which a course keeps to it.
 const AT_BOUND: usize = 3;
-/// Change from one stretch to the next, relative, at which a line of order 10 smears over two bins of a stretch: what is
-/// faster is not followed well.
+/// Change from one stretch to the next, relative, at which a line of order 10 smears over two bins of a stretch: what
+/// is faster is not followed well.
 const FAST: f64 = 0.0125;
 /// Merit from which a stretch tells a speed.
 const TELLS: f64 = 10.0;
@@ -94,7 +94,8 @@ impl Drift {
         self.course.iter().map(|p| p.1).sum::<f64>() / self.course.len() as f64
     }
 
-    /// Whether damage may be missed for it: it goes too far or too fast to be followed, or no line of the shaft tells it.
+    /// Whether damage may be missed for it: it goes too far or too fast to be followed, or no line of the shaft tells
+    /// it.
     pub fn may_hide(&self) -> bool {
         self.is_lost() || self.by != "shaft"
     }

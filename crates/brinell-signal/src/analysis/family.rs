@@ -6,10 +6,10 @@
 //! - a modulation, the depth to which its lines and their sidebands modulate the envelopes: what a longer record does
 //!   not change. A sideband counts up to its carrier.
 //!
-//! In measured records of sound bearings families are present too, some of them high, and none of them modulates; of those
-//! that do, none is high. So damage takes both ([`Family::is_damage`]). The limits were set on 72 public records of
-//! three rigs (docs/src/results/analyze.md): of 31 of sound bearings none scores more than 10.7 or, at a score beyond
-//! noise, modulates by more than 20 %.
+//! In measured records of sound bearings families are present too, some of them high, and none of them modulates; of
+//! those that do, none is high. So damage takes both ([`Family::is_damage`]). The limits were set on 72 public records
+//! of three rigs (docs/src/results/analyze.md): of 31 of sound bearings none scores more than 10.7 or, at a score
+//! beyond noise, modulates by more than 20 %.
 
 use super::Options;
 use super::frequencies::Component;
@@ -26,8 +26,8 @@ const LEAST_SCORE: f64 = 5.0;
 pub(super) const FAINT: f64 = 0.14;
 /// Modulation from which a family is damage that is merely clear of the noise.
 pub(super) const DEEP: f64 = 0.25;
-/// Lines that have to be detected, and how many of them have to be harmonics. A harmonic that shaft or mains hide is given
-/// the benefit of the doubt; a pair of sidebands counts as one.
+/// Lines that have to be detected, and how many of them have to be harmonics. A harmonic that shaft or mains hide is
+/// given the benefit of the doubt; a pair of sidebands counts as one.
 const FEWEST: (usize, usize) = (3, 2);
 /// Of so many first harmonics one is detected: where lines of the shaft hide them, higher ones may be another family's.
 const FIRST: usize = 2;
@@ -130,7 +130,8 @@ pub struct Family {
     pub sidebands: Option<Sidebands>,
     /// Whether it lies at the end of what was searched and its lines are higher beyond: they are somebody else's.
     pub is_skirt: bool,
-    /// Whether its lines lie where those of the shaft or the mains do, and were read nonetheless: nothing tells them apart.
+    /// Whether its lines lie where those of the shaft or the mains do, and were read nonetheless: nothing tells them
+    /// apart.
     pub masked: bool,
     /// Modulation over that of a record of the healthy machine, where there is one.
     pub growth: Option<f64>,
@@ -218,8 +219,8 @@ pub(super) fn cage(shaft: f64, options: &Options) -> f64 {
 
 /// Each family at the slip at which its score is highest, up to the tolerance from pure rolling.
 pub(super) fn read(together: &Together, shaft: f64, options: &Options) -> Vec<Family> {
-    // Damage on an element meets both races, twice a turn; on a ball that turns about another axis, one, at lines that 2 BSF has as
-    // well.
+    // Damage on an element meets both races, twice a turn; on a ball that turns about another axis, one, at lines that
+    // 2 BSF has as well.
     let all = (options.orders.defect_frequencies()).filter(|(_, name, _)| *name != "BSF");
     let noise = (HARMONICS as f64 * together.noise.ln()).max(LEAST_SCORE);
     let limit = SCORE.max(noise);

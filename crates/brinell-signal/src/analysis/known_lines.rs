@@ -45,8 +45,8 @@ const FEWEST: usize = 2;
 const FEWEST_FAR: usize = 4;
 /// Chance at most that lines of other sources, as many as there are, agree so well with any speed tried.
 const CHANCE: f64 = 0.1;
-/// What a line counts for at most, ln(power over floor): otherwise one that many places share would decide. A comb beyond
-/// the tolerance has so much more than any within.
+/// What a line counts for at most, ln(power over floor): otherwise one that many places share would decide. A comb
+/// beyond the tolerance has so much more than any within.
 const LINE: f64 = 4.0;
 /// Bins that the tolerance spans at the fundamental; in a shorter record combs beyond it are not told apart.
 const TELLING: f64 = 0.5;
@@ -59,8 +59,8 @@ pub(super) struct ShaftLines {
     pub(super) orders: Vec<usize>,
 }
 
-/// Shaft speed by its own harmonics in the spectrum, within the tolerance or, where few are detected there and far more of
-/// a comb beyond it, there: the speed given is then wrong. `None` where they do not tell it.
+/// Shaft speed by its own harmonics in the spectrum, within the tolerance or, where few are detected there and far more
+/// of a comb beyond it, there: the speed given is then wrong. `None` where they do not tell it.
 ///
 /// Another shaft's lines there look the same: nothing in the signal tells the two apart.
 pub(super) fn shaft(x: &[f64], fs: f64, options: &Options) -> Result<Option<ShaftLines>, AnalysisError> {
@@ -173,7 +173,8 @@ impl<'a> Lines<'a> {
         tail * self.speeds(FARTHEST).count() as f64
     }
 
-    /// Of those that two lines or more say, within `reach` of the speed given, relative; without a score where there is none.
+    /// Of those that two lines or more say, within `reach` of the speed given, relative; without a score where there is
+    /// none.
     fn highest_comb(&self, reach: f64) -> Comb {
         let shaft = self.options.shaft;
         let own = self.speeds(reach).map(|f| self.comb(f)).filter(Comb::is_own);

@@ -10,7 +10,8 @@ use super::{AnalysisError, Options};
 const HIDDEN: usize = 2;
 /// Lead in score that an element needs over the races: its sidebands at the cage's frequency reach most lines.
 const LEAD: f64 = 2.0;
-/// How far BPFO + BPFI of two damaged races may lie from so many times the shaft's speed as there are elements, relative.
+/// How far BPFO + BPFI of two damaged races may lie from so many times the shaft's speed as there are elements,
+/// relative.
 const ONE_SLIP: f64 = 0.002;
 /// Multiples of the shaft's or the cage's frequency about the first's harmonics that are taken out before a second one
 /// is sought.
@@ -150,7 +151,8 @@ impl Record {
         };
         all.sort_by(|a, b| rank(a).cmp(&rank(b)).then(b.score.total_cmp(&a.score)));
         all.insert(0, lead);
-        // What causes an impact once a turn of the cage is one element on its way through the load, more often than the cage.
+        // What causes an impact once a turn of the cage is one element on its way through the load, more often than the
+        // cage.
         if all[0].component == Component::Cage && self.options.orders.bsf.is_some() {
             all[0].component = Component::Element;
         }
@@ -177,8 +179,8 @@ impl Record {
         }
     }
 
-    /// Where lines of shaft or mains hide a race's, nothing tells them apart. Those that would be damage are open, unless a
-    /// slower comb is as high: then they are that one's.
+    /// Where lines of shaft or mains hide a race's, nothing tells them apart. Those that would be damage are open,
+    /// unless a slower comb is as high: then they are that one's.
     fn masked(&mut self, all: &mut [Family]) {
         let Record { together, shaft, options, .. } = self;
         let (shaft, options) = (*shaft, &*options);
@@ -203,9 +205,9 @@ impl Record {
         }
     }
 
-    /// Whether a family may be a second damage: the other race's where a race leads, at the same slip. All turn by that:
-    /// BPFO + BPFI = Z f_shaft. An element strikes both races and carries the cage along, so that sums of its rates
-    /// reach all lines of the bearing; in measured records it is not found beside a race.
+    /// Whether a family may be a second damage: the other race's where a race leads, at the same slip. All turn by
+    /// that: BPFO + BPFI = Z f_shaft. An element strikes both races and carries the cage along, so that sums of its
+    /// rates reach all lines of the bearing; in measured records it is not found beside a race.
     fn is_beside(&self, lead: &Family, family: &Family) -> bool {
         // At a speed farther off than the tolerance one part is as much as can be said.
         if self.options.is_other_speed(self.shaft) && self.options.rotation.is_none() {
@@ -216,8 +218,8 @@ impl Record {
         ![lead, family].iter().any(|f| is_turning(f.component)) && (sum - 1.0).abs() <= most
     }
 
-    /// Slip beyond the tolerance, as a simulation may have, explains a race's comb only where nothing within it is damage:
-    /// BPFI less twice the shaft's frequency is a few per cent below BPFO.
+    /// Slip beyond the tolerance, as a simulation may have, explains a race's comb only where nothing within it is
+    /// damage: BPFI less twice the shaft's frequency is a few per cent below BPFO.
     fn within_first(&self, all: &mut [Family]) {
         let is_near = |f: &Family| f.shift().abs() <= self.options.tolerance;
         let called = |f: &Family| f.finding == Finding::Damage && f.component != Component::Cage;
@@ -280,7 +282,8 @@ impl Record {
     /// too: in measured records at most three quarters as high in score.)
     ///
     /// The shaft itself impacts at every fifth of BPFI where that is near five times its speed: where no lines told the
-    /// speed, its own lines may be anywhere within the tolerance, and those that are hidden about the speed given count.
+    /// speed, its own lines may be anywhere within the tolerance, and those that are hidden about the speed given
+    /// count.
     fn slower(&self, lead: &Family) -> Option<Elsewhere> {
         let races = [Component::OuterRace, Component::InnerRace];
         if !races.contains(&lead.component) {
@@ -359,8 +362,8 @@ impl Record {
     }
 }
 
-/// The comb of which a family's lines are every second, third... to `most`th, and which scores hardly less: its fundamental
-/// and score.
+/// The comb of which a family's lines are every second, third... to `most`th, and which scores hardly less: its
+/// fundamental and score.
 fn slower_comb(family: &Family, most: usize, score: impl Fn(f64) -> f64) -> Option<(f64, f64)> {
     let combs = (2..=most).map(|m| family.frequency / m as f64).map(|f| (f, score(f)));
     combs.rev().find(|(_, score)| *score >= family.score - HARDLY)
@@ -406,8 +409,8 @@ fn slipped(all: &mut [Family], tolerance: f64) {
     }
 }
 
-/// Whether the cage's lines may be a race's: elements that differ modulate its damage once a turn of the cage, and where
-/// its own lines smear, as the speed varies, or are hidden, the cage's are left. A simulation has neither.
+/// Whether the cage's lines may be a race's: elements that differ modulate its damage once a turn of the cage, and
+/// where its own lines smear, as the speed varies, or are hidden, the cage's are left. A simulation has neither.
 fn may_carry_cage(family: &Family) -> bool {
     !is_turning(family.component) && (family.score >= family.noise || family.hidden_harmonics() >= HIDDEN)
 }

@@ -14,8 +14,8 @@ pub fn orders_of(geometry: &Geometry) -> DefectOrders {
     DefectOrders { ftf: Some(k.ftf), bpfo: Some(k.bpfo), bpfi: Some(k.bpfi), bsf: Some(k.bsf) }
 }
 
-/// Name, value (Hz) and meaning of every frequency in pure rolling at a shaft speed in r/min, that of the shaft first; NaN
-/// where the orders hold none.
+/// Name, value (Hz) and meaning of every frequency in pure rolling at a shaft speed in r/min, that of the shaft first;
+/// NaN where the orders hold none.
 pub fn frequencies_of(orders: DefectOrders, speed_rpm: f64) -> [(&'static str, f64, &'static str); 6] {
     let shaft = speed_rpm.abs() / 60.0;
     let hz = |order: Option<f64>| order.unwrap_or(f64::NAN) * shaft;

@@ -12,9 +12,9 @@ use crate::slices;
 /// Derivatives of a contact's elastic energy at a fixed deformation with the angles that carry it over damage, N m.
 ///
 /// With E(x) the energy of the healthy contact at the deformation x and Q(x) its force, dE/ds = (1/n_s) sum over slices
-/// of dphi_k/ds (E(delta - h_k) - E(delta)) - phi_k Q(delta - h_k) dh_k/ds; dE/du = R dE/ds, and u = theta - psi, theta -
-/// psi - W or theta - phi - psi (+ pi) by the damaged surface: so dE/dtheta = dE/du always, dE/dphi = -dE/du for a
-/// roller's defect, dE/dW = -dE/du for an inner one.
+/// of dphi_k/ds (E(delta - h_k) - E(delta)) - phi_k Q(delta - h_k) dh_k/ds; dE/du = R dE/ds, and u =
+/// theta - psi, theta - psi - W or theta - phi - psi (+ pi) by the damaged surface: so dE/dtheta = dE/du always,
+/// dE/dphi = -dE/du for a roller's defect, dE/dW = -dE/du for an inner one.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct EdgeGradient {
     /// dE/dtheta.

@@ -128,7 +128,8 @@ pub struct Defect {
 }
 
 impl Defect {
-    /// From the scenario, alone on its bearing. `None` where its shape makes no sense, or its row or roller counts from 0.
+    /// From the scenario, alone on its bearing. `None` where its shape makes no sense, or its row or roller counts from
+    /// 0.
     pub fn new(defect: &scenario::Defect, bearing: &scenario::Bearing, contact: &scenario::Contact) -> Option<Self> {
         let alone = Self::all(std::slice::from_ref(defect), bearing, contact);
         alone.ok()?.pop()

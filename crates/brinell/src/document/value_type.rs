@@ -71,8 +71,8 @@ pub trait ValueType: Sized + Clone {
     }
 }
 
-/// What a kind of value says of a key, such as [`ValueType::range`]: as a value, so that what uses it is compiled once and
-/// not for each kind.
+/// What a kind of value says of a key, such as [`ValueType::range`]: as a value, so that what uses it is compiled once
+/// and not for each kind.
 pub(super) type Words = fn(&Spec) -> String;
 
 pub(super) fn wrong_type<T: ValueType>(node: &Node, spec: &Spec) -> Misfit {

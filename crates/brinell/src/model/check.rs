@@ -71,7 +71,7 @@ fn defects(s: &Scenario) -> Result<(), ModelError> {
         if !(1..=s.bearing.rows).contains(&defect.row) || !roller_fits {
             return Err(ModelError {
                 key: format!("defects.{k}"),
-                value: format!("row {} on {:?}", defect.row, defect.on),
+                value: format!("row {} on {:?}, of defect {}", defect.row, defect.on, k + 1),
                 requirement: "must be in a row and on a roller that the bearing has",
             });
         }

@@ -297,8 +297,8 @@ impl Model {
     }
 
     /// [`Self::accelerations`] of the full model in lanes of the caller's choice, whatever the workspace's kernel:
-    /// `benches/parts/benches/kernel.rs` counts operations with lanes that count. Compiled for the caller's instructions, so slow
-    /// where those are the target's plain ones.
+    /// `benches/parts/benches/kernel.rs` counts operations with lanes that count. Compiled for the caller's
+    /// instructions, so slow where those are the target's plain ones.
     pub fn accelerations_in<L: Lanes>(&self, t: f64, y: &[f64], a: &mut [f64], ws: &mut Workspace) {
         full::equations::<L>(self, t, y, a, ws);
     }

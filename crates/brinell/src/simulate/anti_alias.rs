@@ -1,7 +1,7 @@
 //! The anti-alias chain of the sensor channels: linear-phase FIR, then one sample in eight.
 //!
-//! `docs/src/theory/numerics.md`: the state is sampled at 8 f_s, filtered by a Kaiser-window low-pass (passband to 0.4 f_s,
-//! stopband from 0.5 f_s, 80 dB), its delay removed, and decimated by 8.
+//! `docs/src/theory/numerics.md`: the state is sampled at 8 f_s, filtered by a Kaiser-window low-pass (passband to 0.4
+//! f_s, stopband from 0.5 f_s, 80 dB), its delay removed, and decimated by 8.
 
 use crate::lanes::inner_products;
 use crate::signal::decimate::{ATTENUATION_DB, FACTOR, PASSBAND, STOPBAND, kaiser_lowpass};

@@ -184,8 +184,9 @@ impl<S: Deref<Target = Simulation>> Run<S> {
 
     /// Goes on in another simulation, without an end: places, rates, filter and time stay, forces change at once. Such
     /// a run is no run of the other scenario from t = 0. The sensor of the other starts from rest; the audits start
-    /// anew. `false`: the entries of their states, their sample rates or their filtered channels do not correspond, and
-    /// the run stays as it is.
+    /// anew; channels that are not filtered wait for those that are, and what waited is lost: they are 0 for half
+    /// the length of the filter. `false`: the entries of their states, their sample rates or their filtered channels do
+    /// not correspond, and the run stays as it is.
     #[must_use]
     pub fn go_on_in(&mut self, other: S) -> bool {
         let names = |s: &Simulation| -> Vec<String> { s.filtered.iter().map(|c| c.name.clone()).collect() };
