@@ -30,7 +30,7 @@ pub(crate) enum Failure {
     /// A page cannot be shown; why.
     NotOpened(String),
     /// Standard output does not take what is said; why.
-    Unsaid(String),
+    Output(String),
 }
 
 impl Failure {
@@ -41,7 +41,7 @@ impl Failure {
             Self::Run(error) if error.is_bad_input() => BAD_INPUT,
             // The place is wrong, not the writing.
             Self::Write(IoError::NoFolder { .. } | IoError::NotAFileName { .. } | IoError::Busy { .. }) => BAD_INPUT,
-            Self::Write(_) | Self::Picture(_) | Self::Run(_) | Self::NotOpened(_) | Self::Unsaid(_) => 1,
+            Self::Write(_) | Self::Picture(_) | Self::Run(_) | Self::NotOpened(_) | Self::Output(_) => 1,
         })
     }
 
@@ -57,7 +57,7 @@ impl Failure {
             Self::Write(error) => error.to_string(),
             Self::Picture(error) => error.to_string(),
             Self::Run(error) => error.to_string(),
-            Self::Unsaid(why) => format!("cannot write to standard output: {why}"),
+            Self::Output(why) => format!("cannot write to standard output: {why}"),
         }
     }
 
@@ -71,7 +71,7 @@ impl Failure {
         let of = if of.is_empty() { String::new() } else { format!("{of}: ") };
         match self {
             Self::Scenario { name, text, problems } => print_problems(name, text, problems),
-            Self::Read(..) | Self::Unsaid(_) => complain!("error: {}", self.words()),
+            Self::Read(..) | Self::Output(_) => complain!("error: {}", self.words()),
             other => complain!("error: {of}{}", other.words()),
         }
     }

@@ -64,8 +64,8 @@ pub fn run(args: impl IntoIterator<Item = OsString>) -> ExitCode {
     match say::arrived() {
         Ok(()) => code,
         Err(error) => {
-            let unsaid = code_of(Err(Failure::Unsaid(error)));
-            if code == ExitCode::SUCCESS { unsaid } else { code }
+            let unwritten = code_of(Err(Failure::Output(error)));
+            if code == ExitCode::SUCCESS { unwritten } else { code }
         }
     }
 }
@@ -117,7 +117,7 @@ fn run_command(command: Command) -> Result<ExitCode, Failure> {
         Command::Analyze(args) => analyze::analyze(&args),
         Command::Sweep(args) => sweep::sweep(&args),
         Command::Calibrate(args) => calibrate::calibrate(&args),
-        Command::Compare(args) => compare::side_by_side(&args),
+        Command::Compare(args) => compare::compare(&args),
         Command::Reproduce(args) => reproduce::reproduce(&args),
         Command::Dataset(args) => dataset::dataset(&args),
         Command::Studio(args) => studio::studio(&args),

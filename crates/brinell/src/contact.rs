@@ -42,7 +42,7 @@ pub struct ContactReduction {
 
 /// Load-deflection law of one raceway.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Hertz {
+pub struct LoadDeflection {
     /// K of the healthy contact, N/m^n.
     pub stiffness: f64,
     /// n.
@@ -53,7 +53,7 @@ pub struct Hertz {
     pub strips: Option<Strips>,
 }
 
-impl Hertz {
+impl LoadDeflection {
     /// K `[delta]_+^n` of each lane, N: Eqs. (29), (36).
     #[inline(always)]
     pub fn healthy<L: Lanes>(&self, delta: L) -> L {
@@ -122,7 +122,8 @@ impl Hertz {
 mod tests {
     use super::*;
 
-    const NN3007: Hertz = Hertz { stiffness: 1.898e8, exponent: Exponent::TenNinths, damping: 200.0, strips: None };
+    const NN3007: LoadDeflection =
+        LoadDeflection { stiffness: 1.898e8, exponent: Exponent::TenNinths, damping: 200.0, strips: None };
 
     #[test]
     fn analytic_palmgren_inverts_his_deflection_formula() {
@@ -130,7 +131,7 @@ mod tests {
         let length = 6.0_f64;
         for force in [1.0, 30.0, 500.0, 2e4] {
             let delta = 3.84e-5 * f64::powf(force, 0.9) / length.powf(0.8) * 1e-3;
-            let law = Hertz { stiffness: palmgren_stiffness(length), ..NN3007 };
+            let law = LoadDeflection { stiffness: palmgren_stiffness(length), ..NN3007 };
             assert!((law.healthy(delta) / force - 1.0).abs() < 2e-3);
         }
         assert!((palmgren_stiffness(length) / 8.54e8 - 1.0).abs() < 1e-3);

@@ -3,7 +3,7 @@
 //! The contact laws of [`crate::contact`] hold for each slice with 1/n_s of the stiffness and of the damping. SI; z
 //! from the roller's middle along +Z.
 
-use crate::contact::Hertz;
+use crate::contact::LoadDeflection;
 use crate::lanes::{Column, Lanes};
 use crate::scenario::RollerProfile;
 
@@ -176,7 +176,7 @@ impl Slices {
 
     /// Forces of a moving contact. Each slice that touches is damped (section 16).
     #[inline(always)]
-    pub fn press<L: Lanes>(&self, law: &Hertz, at: &Approach, cover: Option<&Cover>) -> Pressed {
+    pub fn press<L: Lanes>(&self, law: &LoadDeflection, at: &Approach, cover: Option<&Cover>) -> Pressed {
         let (deformation, tilt) = (L::splat(at.deformation), L::splat(at.tilt));
         let (rate, tilt_rate) = (L::splat(at.rate), L::splat(at.tilt_rate));
         let one = L::splat(1.0);
@@ -209,7 +209,7 @@ impl Slices {
     /// Elastic sum (N) and touching share of the length at a deformation (m) without tilt and damage: those of
     /// [`Slices::press`], to round-off.
     #[inline(always)]
-    pub fn press_evenly<L: Lanes>(&self, law: &Hertz, deformation: f64) -> [f64; 2] {
+    pub fn press_evenly<L: Lanes>(&self, law: &LoadDeflection, deformation: f64) -> [f64; 2] {
         let whole = L::splat(deformation);
         let (mut elastic, mut touching) = (L::zero(), L::zero());
         for k in 0..self.level_drop.len() / L::COUNT {
@@ -226,7 +226,7 @@ impl Slices {
     }
 
     /// Line load q at each slice of a moving contact, N/m: its force over its width; `out` holds n_s numbers.
-    pub fn line_load(&self, law: &Hertz, at: &Approach, cover: Option<&Cover>, out: &mut [f64]) {
+    pub fn line_load(&self, law: &LoadDeflection, at: &Approach, cover: Option<&Cover>, out: &mut [f64]) {
         let per_width = 0.5 / self.half;
         for (k, out) in out.iter_mut().enumerate().take(self.count) {
             let z = self.z[k];
@@ -239,7 +239,7 @@ impl Slices {
     }
 
     /// A resting contact.
-    pub fn carry(&self, law: &Hertz, at: &Approach, cover: Option<&Cover>) -> Carried {
+    pub fn carry(&self, law: &LoadDeflection, at: &Approach, cover: Option<&Cover>) -> Carried {
         let mut sum = Carried::default();
         for k in 0..self.count {
             let z = self.z[k];
@@ -268,7 +268,7 @@ impl Slices {
 
     /// Deformation at the roller's middle under `force` (N) without tilt and damage, m; at least `least`, that of a
     /// straight roller.
-    pub fn deflection(&self, law: &Hertz, force: f64, least: f64) -> f64 {
+    pub fn deflection(&self, law: &LoadDeflection, force: f64, least: f64) -> f64 {
         let carried = |delta: f64| self.carry(law, &Approach::pressed(delta), None).force;
         let (mut low, mut high) = (least, least);
         while carried(high) < force {
@@ -315,7 +315,7 @@ impl<L: Lanes> Sums<L> {
     /// Adds `share` of a group of slices at z whose deformation is `delta` and grows at `d`. A function, since a
     /// closure would not be compiled for the kernel's instructions.
     #[inline(always)]
-    fn add(&mut self, law: &Hertz, (z, d): (L, L), delta: L, share: L) {
+    fn add(&mut self, law: &LoadDeflection, (z, d): (L, L), delta: L, share: L) {
         if !delta.any_positive() {
             return;
         }
@@ -339,7 +339,7 @@ mod tests {
 
     #[test]
     fn prop_slices_of_equal_drop_carry_together_what_each_carries_alone() {
-        let law = Hertz { stiffness: 1e9, exponent: Exponent::TenNinths, damping: 200.0, strips: None };
+        let law = LoadDeflection { stiffness: 1e9, exponent: Exponent::TenNinths, damping: 200.0, strips: None };
         let profiles = [
             RollerProfile::Straight,
             RollerProfile::Logarithmic,

@@ -1,7 +1,7 @@
 //! Ball bearings: Hertz's ellipse, the static balance, damage on strips across the groove (section 17 of the model).
 
 use crate::common::cases::case;
-use brinell::contact::Hertz;
+use brinell::contact::LoadDeflection;
 use brinell::contact::ball::Strips;
 use brinell::defect::{
     Angles, Defect, Defects, SIDES, Side, damaged_contact, depth_at_bottom, edge_gradient, energy, tangent,
@@ -14,7 +14,8 @@ use brinell::statics::{Problem, solve};
 use proptest::prelude::*;
 use std::f64::consts::PI;
 
-const LAW: Hertz = Hertz { stiffness: 2.68371e10, exponent: Exponent::ThreeHalves, damping: 150.0, strips: None };
+const LAW: LoadDeflection =
+    LoadDeflection { stiffness: 2.68371e10, exponent: Exponent::ThreeHalves, damping: 150.0, strips: None };
 
 /// R_w of the 6205's outer contact, and the R_eq that its balls have there, m.
 const ACROSS: f64 = 73.241e-3;
@@ -22,8 +23,8 @@ const ALONG: f64 = 1.0 / (1.0 / 3.97e-3 - 1.0 / 23.49e-3);
 /// R_o, m.
 const RACEWAY: f64 = 23.49e-3;
 
-fn law() -> Hertz {
-    Hertz { strips: Some(Strips::new(LAW.stiffness, ACROSS)), ..LAW }
+fn law() -> LoadDeflection {
+    LoadDeflection { strips: Some(Strips::new(LAW.stiffness, ACROSS)), ..LAW }
 }
 
 fn bearing() -> Scenario {

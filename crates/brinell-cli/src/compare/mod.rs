@@ -19,7 +19,7 @@ pub(crate) use args::CompareArgs;
 use brinell::simulate::Simulation;
 use brinell::{Error, RunResult};
 use brinell_io::{Metadata, atomic_prepare, keys};
-use brinell_study::campaign::{Compared, compare, run_all};
+use brinell_study::campaign::{self, Compared, run_all};
 use serde_json::Value;
 use sides::Side;
 use std::path::{Path, PathBuf};
@@ -32,7 +32,7 @@ const PAGE: &str = "compare.html";
 /// Folder of the scenarios.
 const SCENARIOS: &str = "scenarios";
 
-pub(crate) fn side_by_side(args: &CompareArgs) -> Result<ExitCode, Failure> {
+pub(crate) fn compare(args: &CompareArgs) -> Result<ExitCode, Failure> {
     let layout = args.print.layout(&args.plots)?;
     let mut inputs = Inputs::default();
     let sides = sides::read(args, &mut inputs)?;
@@ -59,7 +59,7 @@ pub(crate) fn side_by_side(args: &CompareArgs) -> Result<ExitCode, Failure> {
         return Ok(ExitCode::FAILURE);
     };
     let all: Vec<&RunResult> = runs.iter().collect();
-    let compared = compare(&all);
+    let compared = campaign::compare(&all);
     let report = page::report(&sides, &all, &compared);
     let table = table::table(&sides, &compared);
     ready.push(table.prepare_csv(folder.join(CSV))?);

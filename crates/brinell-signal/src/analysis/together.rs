@@ -72,7 +72,7 @@ pub(super) struct Place {
 impl Together {
     /// Of a signal's envelopes.
     pub(super) fn of(envelopes: &Envelopes, shaft: Shaft, options: &Options) -> Result<Self, AnalysisError> {
-        let spectra = side_by_side(&envelopes.each, |(_, envelope)| envelopes.spectrum(envelope, shaft.hz, options))?;
+        let spectra = in_parallel(&envelopes.each, |(_, envelope)| envelopes.spectrum(envelope, shaft.hz, options))?;
         let bins = spectra.iter().map(|s| s.1.amplitude.len()).min().unwrap_or(0);
         let (step, freedom) = (spectra.first()).map_or((1.0, 2.0), |(_, s)| (s.frequency_step, s.degrees_of_freedom));
         let width = (FLOOR.0 * shaft.hz / step).max(FLOOR.1) as usize;
@@ -339,7 +339,7 @@ impl Envelopes {
         options: &Options,
     ) -> Result<Self, AnalysisError> {
         let top = top(shaft, options);
-        let each = side_by_side(&tiles(range, top), |band| Ok((*band, thinned(transformed, *band, top))))?;
+        let each = in_parallel(&tiles(range, top), |band| Ok((*band, thinned(transformed, *band, top))))?;
         let rate = each.first().map_or(1.0, |(_, e)| rate_of(e, transformed));
         Ok(Envelopes { each, rate })
     }
@@ -382,7 +382,7 @@ fn at_angles(envelope: &Thinned, rate: f64, shaft: f64, options: &Options) -> Re
 }
 
 /// A job for each, as many at a time as there are cores; results in the order of what they are of.
-fn side_by_side<T: Sync, R: Send>(
+fn in_parallel<T: Sync, R: Send>(
     of: &[T],
     one: impl Fn(&T) -> Result<R, AnalysisError> + Sync,
 ) -> Result<Vec<R>, AnalysisError> {

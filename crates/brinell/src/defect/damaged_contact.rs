@@ -11,7 +11,7 @@ use super::joint::{Depths, Strip, rest};
 use super::map_slices::GAUSS;
 use super::track::settled;
 use super::{Angles, Defect, Defects, Shape};
-use crate::contact::{ContactReduction, Hertz};
+use crate::contact::{ContactReduction, LoadDeflection};
 use crate::scenario::{Law, Surface};
 use crate::slices::{self, borders};
 
@@ -320,7 +320,7 @@ pub(super) fn cover_cuts(cuts: Cuts, cover: &mut slices::Cover) -> bool {
 }
 
 /// What acts in the contact of a roller at `angles` that is pressed by `delta` (m); `None` off all damage.
-pub fn damaged_contact(defects: Defects, law: &Hertz, angles: &Angles, delta: f64) -> Option<DamagedContact> {
+pub fn damaged_contact(defects: Defects, law: &LoadDeflection, angles: &Angles, delta: f64) -> Option<DamagedContact> {
     damaged_contact_given(defects, law, angles, delta, law.exponent.of(delta))
 }
 
@@ -328,7 +328,7 @@ pub fn damaged_contact(defects: Defects, law: &Hertz, angles: &Angles, delta: f6
 #[inline]
 pub fn damaged_contact_given(
     defects: Defects,
-    law: &Hertz,
+    law: &LoadDeflection,
     angles: &Angles,
     delta: f64,
     power: f64,
@@ -394,7 +394,7 @@ fn over_slices(defects: Defects, angles: &Angles, delta: f64, of: impl Fn(f64) -
 }
 
 /// d(elastic)/d(delta) of a contact, on damage or not, N/m.
-pub fn tangent(defects: Defects, law: &Hertz, angles: &Angles, delta: f64) -> f64 {
+pub fn tangent(defects: Defects, law: &LoadDeflection, angles: &Angles, delta: f64) -> f64 {
     if let Some(strips) = &law.strips {
         let on_damage = ball_contact::tangent(Cuts::new(defects, angles), strips, delta);
         return on_damage.unwrap_or_else(|| law.tangent(delta, None));
@@ -412,7 +412,7 @@ pub fn depth_at_bottom(defects: Defects, angles: &Angles) -> Option<f64> {
 }
 
 /// Elastic energy of a contact that may be on any of `defects`, J: the integral of the elastic sum up to delta.
-pub fn energy(defects: Defects, law: &Hertz, angles: &Angles, delta: f64) -> f64 {
+pub fn energy(defects: Defects, law: &LoadDeflection, angles: &Angles, delta: f64) -> f64 {
     if let Some(strips) = &law.strips {
         let on_damage = ball_contact::energy(Cuts::new(defects, angles), strips, delta);
         return on_damage.unwrap_or_else(|| law.energy(delta));

@@ -5,7 +5,7 @@ use super::damaged_contact::{Cuts, cover_cuts, mean};
 use super::depth_profile::Cover;
 use super::track::settled;
 use super::{Angles, Defects};
-use crate::contact::Hertz;
+use crate::contact::LoadDeflection;
 use crate::scenario::Surface;
 use crate::slices;
 
@@ -57,7 +57,7 @@ fn central_differences(cuts: Cuts, mut energy: impl FnMut(Cuts) -> f64) -> EdgeG
 
 /// The derivatives under `sliced` and `envelope`. Of one defect exact; of several a central difference over 0.2 um of
 /// the arc.
-pub fn edge_gradient(defects: Defects, law: &Hertz, angles: &Angles, delta: f64) -> EdgeGradient {
+pub fn edge_gradient(defects: Defects, law: &LoadDeflection, angles: &Angles, delta: f64) -> EdgeGradient {
     let mut gradient = EdgeGradient::default();
     let cuts = Cuts::new(defects, angles);
     let Some((first, several)) = cuts.first() else {

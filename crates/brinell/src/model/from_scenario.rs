@@ -2,7 +2,7 @@
 
 use super::{BroadPhase, Geometry, Inertia, Kernel, Layout, Model, ModelError, Support, Tilt, check};
 use crate::cage::{Guide, Pocket};
-use crate::contact::Hertz;
+use crate::contact::LoadDeflection;
 use crate::contact::ball::{self, Strips};
 use crate::contact::film::SqueezeFilm;
 use crate::defect::{Defect, Rules, SIDES, Side, relative_radius};
@@ -128,7 +128,7 @@ impl Inertia {
 }
 
 /// Laws of the inner contacts, of the outer, and of both in series.
-fn contacts(s: &Scenario) -> Result<[Hertz; 3], ModelError> {
+fn contacts(s: &Scenario) -> Result<[LoadDeflection; 3], ModelError> {
     let (b, contact) = (&s.bearing, &s.contact);
     let exponent = Exponent::new(contact.exponent);
     let ellipses = match b.element {
@@ -139,7 +139,7 @@ fn contacts(s: &Scenario) -> Result<[Hertz; 3], ModelError> {
             requirement: "balls need both conformities, a modulus and Poisson's ratio, and grooves wider than the ball",
         })?),
     };
-    let hertz = |stiffness, side: Side| Hertz {
+    let hertz = |stiffness, side: Side| LoadDeflection {
         stiffness,
         exponent,
         damping: contact.damping_ns_per_m,
@@ -149,7 +149,7 @@ fn contacts(s: &Scenario) -> Result<[Hertz; 3], ModelError> {
     Ok([
         hertz(inner, Side::Inner),
         hertz(outer, Side::Outer),
-        Hertz {
+        LoadDeflection {
             stiffness: series_stiffness(inner, outer, contact.exponent),
             exponent,
             damping: 0.5 * contact.damping_ns_per_m,

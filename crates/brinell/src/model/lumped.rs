@@ -4,14 +4,14 @@
 //! layout; coordinates of rollers and cages have zero rates there and their motion is a function of time.
 
 use super::{Model, Power, Workspace, series_stiffness};
-use crate::contact::{ContactReduction, Hertz};
+use crate::contact::{ContactReduction, LoadDeflection};
 use crate::defect::{Angles, SIDES, Side, depth_at_bottom, floors};
 use crate::scenario::Element;
 
 /// One roller's series contact: law, and the depth that full-width damage takes from the deformation.
 #[derive(Clone, Copy)]
 struct Series {
-    law: Hertz,
+    law: LoadDeflection,
     sunk: f64,
     damaged_length: [f64; 2],
     on_damage: [bool; 2],

@@ -29,7 +29,7 @@ pub use workspace::Workspace;
 
 use crate::bearing::kinematics::{self, Kinematics};
 use crate::cage::{Guide, Pocket};
-use crate::contact::Hertz;
+use crate::contact::LoadDeflection;
 use crate::contact::film::SqueezeFilm;
 use crate::defect::{Defect, Defects, Rules, Side};
 use crate::friction::Friction;
@@ -129,11 +129,11 @@ pub struct Model {
     /// Masses.
     pub inertia: Inertia,
     /// Law of the inner contacts.
-    pub inner_contact: Hertz,
+    pub inner_contact: LoadDeflection,
     /// Law of the outer contacts.
-    pub outer_contact: Hertz,
+    pub outer_contact: LoadDeflection,
     /// Law of both contacts in series, damping c/2 (section 10).
-    pub series_contact: Hertz,
+    pub series_contact: LoadDeflection,
     /// Raceway friction.
     pub friction: Friction,
     /// Drag of a roller, kg/m.
@@ -183,7 +183,7 @@ pub struct Model {
 impl Model {
     /// Law of the contacts on `side`.
     #[inline]
-    pub fn contact(&self, side: Side) -> &Hertz {
+    pub fn contact(&self, side: Side) -> &LoadDeflection {
         match side {
             Side::Inner => &self.inner_contact,
             Side::Outer => &self.outer_contact,

@@ -44,11 +44,11 @@ impl RunResult {
     }
 }
 
-/// Runs a simulation and gathers its findings; `besides` gets every call of an observer too, and may stop it.
-pub fn finish(scenario: Scenario, simulation: Simulation, besides: &mut dyn Observer) -> RunResult {
-    let mut both = Both { watch: Watch::new(&scenario, &simulation), simulation: &simulation, besides };
-    let outcome = simulation.run(&mut both);
-    let findings = both.watch.finish(&simulation);
+/// Runs a simulation and gathers its findings; `observer` is informed of the run as it goes, and may stop it.
+pub fn finish(scenario: Scenario, simulation: Simulation, observer: &mut dyn Observer) -> RunResult {
+    let mut watched = WithWatch { watch: Watch::new(&scenario, &simulation), simulation: &simulation, observer };
+    let outcome = simulation.run(&mut watched);
+    let findings = watched.watch.finish(&simulation);
     RunResult { scenario, simulation, outcome, findings }
 }
 
@@ -89,29 +89,29 @@ fn complete(result: RunResult) -> Result<RunResult, Error> {
     }
 }
 
-struct Both<'a> {
+struct WithWatch<'a> {
     watch: Watch,
     simulation: &'a Simulation,
-    besides: &'a mut dyn Observer,
+    observer: &'a mut dyn Observer,
 }
 
-impl Observer for Both<'_> {
+impl Observer for WithWatch<'_> {
     fn step(&mut self, frame: &Frame) {
         self.watch.step(frame);
-        self.besides.step(frame);
+        self.observer.step(frame);
     }
 
     fn sample(&mut self, index: u64, frame: &Frame) {
         self.watch.sample(frame);
-        self.besides.sample(index, frame);
+        self.observer.sample(index, frame);
     }
 
     fn row(&mut self, index: u64, row: &[f64], filtered: &[f64]) -> ControlFlow<()> {
         self.watch.row(self.simulation, index, row, filtered);
-        self.besides.row(index, row, filtered)
+        self.observer.row(index, row, filtered)
     }
 
     fn progress(&mut self, t: f64, work: &SolverWork) -> ControlFlow<()> {
-        self.besides.progress(t, work)
+        self.observer.progress(t, work)
     }
 }
