@@ -12,6 +12,20 @@ use crate::sensor::SensorView;
 use crate::slip::SlipRow;
 use crate::spectrogram::Spectrogram;
 
+/// Where the values of a curve are.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Along {
+    /// From a first place on, evenly.
+    Even {
+        /// Place of the first value.
+        first: f64,
+        /// From one value to the next.
+        step: f64,
+    },
+    /// Each in its own place.
+    At(Vec<f64>),
+}
+
 /// Everything one page shows.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Report {

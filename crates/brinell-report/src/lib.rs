@@ -59,6 +59,8 @@ pub use calibrate::{CalibrationReport, FittedKey, Tried, calibration_html, calib
 pub use damage::{AlongRoller, DamageCurve, DamagePanel, DamageView, DepthPatch};
 #[doc(hidden)]
 pub use damage::{damage_passage, damage_photo, damage_plan, damage_section, load_along};
+#[doc(hidden)]
+pub use data::Along;
 pub use data::{
     Assumption, Estimate, Event, Fact, Healthy, IndicatorRow, IndicatorTable, Marker, MinMax, Pass, Report, RowLoad,
     Series, Spectrum, Value, Waveform,
@@ -88,7 +90,7 @@ pub use sensor::SensorView;
 pub use sheet::sheet_html;
 #[doc(hidden)]
 pub use side_by_side::{
-    Along, OverlaidCurve, Overlay, Part, Piece, SideBySide, Vertical, overlay, side_by_side_html, side_by_side_pictures,
+    OverlaidCurve, Overlay, Part, Piece, SideBySide, Vertical, overlay, side_by_side_html, side_by_side_pictures,
 };
 pub use slip::SlipRow;
 #[doc(hidden)]

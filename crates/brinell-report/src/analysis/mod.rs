@@ -8,8 +8,8 @@ mod words;
 use std::fmt::Write as _;
 
 use crate::chart::{Chart, Domain, Spec, range};
-use crate::data::{Fact, Marker, Series, Spectrum};
-use crate::embedded::{self, Curve, Places};
+use crate::data::{Along, Fact, Marker, Series, Spectrum};
+use crate::embedded::{self, Curve};
 use crate::frame::{THINNED, close as finish, figure, open, plain, section};
 use crate::kurtogram::{Kurtogram, kurtogram};
 use crate::picture::{Paint, Picture, escape, ink};
@@ -142,7 +142,7 @@ fn embed(page: &mut String, names: &[String], curves: &[(f64, f64, &[f64])], cha
     let drawn: Vec<usize> = (0..curves.len()).filter_map(|i| order.iter().position(|o| *o == i)).collect();
     let named = names.iter().map(String::as_str).chain(std::iter::repeat(""));
     let curves: Vec<Curve> = (curves.iter().zip(named))
-        .map(|((x0, dx, values), name)| Curve { name, places: Places::Even(*x0, *dx), values })
+        .map(|((x0, dx, values), name)| Curve { name, along: Along::Even { first: *x0, step: *dx }, values })
         .collect();
     embedded::Chart { curves: &curves, drawn: &drawn, ..chart }.write(page);
 }

@@ -4,27 +4,13 @@ mod overlay;
 
 use std::fmt::Write as _;
 
-use crate::data::{Fact, Marker};
+use crate::data::{Along, Fact, Marker};
 use crate::frame::{THINNED, close, figure, lead, none, open, plain};
 use crate::picture::{Picture, escape};
 use crate::plots::Layout;
 use crate::tables::{Table, facts, table};
 pub use overlay::overlay;
 pub(crate) use overlay::{embed, stacked};
-
-/// Where the values of a curve are.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Along {
-    /// From a first place on, evenly.
-    Even {
-        /// Place of the first value.
-        first: f64,
-        /// From one value to the next.
-        step: f64,
-    },
-    /// Each in its own place.
-    At(Vec<f64>),
-}
 
 /// One run's curve.
 #[derive(Clone, Debug, PartialEq)]
