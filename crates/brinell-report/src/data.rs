@@ -26,6 +26,28 @@ pub enum Along {
     At(Vec<f64>),
 }
 
+/// How a verdict is coloured.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Tone {
+    /// It holds; nothing was found.
+    Good,
+    /// It does not; something is damaged.
+    Bad,
+    /// Neither can be said.
+    #[default]
+    Open,
+}
+
+impl Tone {
+    pub(crate) fn class(self) -> &'static str {
+        match self {
+            Self::Good => "good",
+            Self::Bad => "bad",
+            Self::Open => "open",
+        }
+    }
+}
+
 /// Everything one page shows.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Report {

@@ -49,8 +49,8 @@ mod trend;
 
 #[doc(hidden)]
 pub use analysis::{
-    AnalysisReport, Analyzed, Badge, Findings, ZONES, analysis_html, analysis_pictures, called, level_lines, ratio,
-    scaled, shaft_lines,
+    AnalysisReport, Analyzed, Findings, ZONES, analysis_html, analysis_pictures, called, level_lines, ratio, scaled,
+    shaft_lines,
 };
 #[doc(hidden)]
 pub use axial::{AxialRow, AxialSection, axial_section};
@@ -60,7 +60,7 @@ pub use damage::{AlongRoller, DamageCurve, DamagePanel, DamageView, DepthPatch};
 #[doc(hidden)]
 pub use damage::{damage_passage, damage_photo, damage_plan, damage_section, load_along};
 #[doc(hidden)]
-pub use data::Along;
+pub use data::{Along, Tone};
 pub use data::{
     Assumption, Estimate, Event, Fact, Healthy, IndicatorRow, IndicatorTable, Marker, MinMax, Pass, Report, RowLoad,
     Series, Spectrum, Value, Waveform,
@@ -99,7 +99,7 @@ pub use spectrogram::Spectrogram;
 #[doc(hidden)]
 pub use spectrogram::spectrogram;
 #[doc(hidden)]
-pub use study::{Chapter, ClaimCard, ClaimPart, Stack, Study, StudyPiece, Tagged, Tone, study_html, study_pictures};
+pub use study::{Chapter, ClaimCard, ClaimPart, Stack, Study, StudyPiece, Tagged, study_html, study_pictures};
 #[doc(hidden)]
 pub use sweep::{HeatMap, IndicatorLine, IndicatorPlot, IndicatorPoint, SweepReport, sweep_html, sweep_pictures};
 pub use tables::Table;
