@@ -53,7 +53,7 @@ pub(crate) fn tagged(verdict: Verdict) -> Tagged {
         tone: match verdict {
             Verdict::Holds => Tone::Good,
             Verdict::Fails => Tone::Bad,
-            _ => Tone::Plain,
+            _ => Tone::Open,
         },
     }
 }

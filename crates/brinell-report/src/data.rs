@@ -12,6 +12,42 @@ use crate::sensor::SensorView;
 use crate::slip::SlipRow;
 use crate::spectrogram::Spectrogram;
 
+/// Where the values of a curve are.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Along {
+    /// From a first place on, evenly.
+    Even {
+        /// Place of the first value.
+        first: f64,
+        /// From one value to the next.
+        step: f64,
+    },
+    /// Each in its own place.
+    At(Vec<f64>),
+}
+
+/// How a verdict is coloured.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Tone {
+    /// It holds; nothing was found.
+    Good,
+    /// It does not; something is damaged.
+    Bad,
+    /// Neither can be said.
+    #[default]
+    Open,
+}
+
+impl Tone {
+    pub(crate) fn class(self) -> &'static str {
+        match self {
+            Self::Good => "good",
+            Self::Bad => "bad",
+            Self::Open => "open",
+        }
+    }
+}
+
 /// Everything one page shows.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Report {

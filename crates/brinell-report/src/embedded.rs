@@ -3,6 +3,7 @@
 use std::fmt::Write as _;
 
 use crate::chart::{Domain, LANE_HEIGHT, Lane, Mark};
+use crate::data::Along;
 use crate::encode::{base64, list};
 use crate::markup::escape;
 use crate::number::{linear_ticks, runs, tick_labels};
@@ -17,21 +18,12 @@ pub(crate) const SCRIPT: [&str; 3] =
 /// Standard acceleration of free fall, m/s^2: the unit g.
 const G: f64 = 9.80665;
 
-/// Where the values of a curve are.
-#[derive(Clone, Copy)]
-pub(crate) enum Places<'a> {
-    /// Evenly, from a first place in steps.
-    Even(f64, f64),
-    /// Each in its own, from left to right.
-    Each(&'a [f64]),
-}
-
 /// A curve as the script redraws it.
-#[derive(Clone, Copy)]
 pub(crate) struct Curve<'a> {
     /// Read out where there are several.
     pub(crate) name: &'a str,
-    pub(crate) places: Places<'a>,
+    /// From left to right.
+    pub(crate) along: Along,
     pub(crate) values: &'a [f64],
 }
 
@@ -148,12 +140,12 @@ impl Chart<'_> {
     /// One curve; `None` where its places are no axis.
     fn curve(&self, curve: &Curve) -> Option<String> {
         let start = format!("{{\"name\":{},", json(curve.name));
-        let (values, places) = match curve.places {
-            Places::Even(x0, dx) if dx.is_finite() && dx > 0.0 && x0.is_finite() => {
-                let (values, dx) = kept(curve.values, dx, self.peak, self.most);
-                (values, format!("\"x0\":{x0},\"dx\":{dx}"))
+        let (values, places) = match &curve.along {
+            Along::Even { first, step } if step.is_finite() && *step > 0.0 && first.is_finite() => {
+                let (values, dx) = kept(curve.values, *step, self.peak, self.most);
+                (values, format!("\"x0\":{first},\"dx\":{dx}"))
             }
-            Places::Each(places) if ascending(places) && places.len() == curve.values.len() => {
+            Along::At(places) if ascending(places) && places.len() == curve.values.len() => {
                 let packed = base64(&packed(places, false));
                 (curve.values.to_vec(), format!("\"places\":\"{packed}\""))
             }

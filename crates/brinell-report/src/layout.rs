@@ -33,10 +33,15 @@ impl Layout {
         }
     }
 
-    /// Side of one of so many squares in a line, px: `wide` where there is room.
-    pub(crate) fn cell(self, wide: f64, per_line: usize) -> f64 {
-        let side = if self.roomy() { wide } else { 350.0 };
-        side.min(self.size(0.0).width / per_line as f64 - 10.0)
+    /// So many squares, one or two to a line, with the same space between and beside them: their side, `wide` px where
+    /// there is room, and of each the left edge, px, and the line, from 0.
+    pub(crate) fn grid(self, count: usize, wide: f64) -> (f64, Vec<(f64, f64)>) {
+        let (side, per_line) = if self.roomy() { (wide, count.clamp(1, 2)) } else { (350.0, 1) };
+        let width = self.size(0.0).width;
+        let cell = side.min(width / per_line as f64 - 10.0);
+        let gap = (width - cell * per_line as f64) / (per_line as f64 + 1.0);
+        let place = |k: usize| (gap + (k % per_line) as f64 * (cell + gap), (k / per_line) as f64);
+        (cell, (0..count).map(place).collect())
     }
 
     /// The pictures as they go to files.

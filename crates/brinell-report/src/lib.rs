@@ -54,8 +54,8 @@ mod trend;
 
 #[doc(hidden)]
 pub use analysis::{
-    AnalysisReport, Analyzed, Badge, Findings, ZONES, analysis_html, analysis_pictures, called, level_lines, ratio,
-    scaled, shaft_lines,
+    AnalysisReport, Analyzed, Findings, ZONES, analysis_html, analysis_pictures, called, level_lines, ratio, scaled,
+    shaft_lines,
 };
 #[doc(hidden)]
 pub use axial::{AxialRow, AxialSection, axial_section};
@@ -64,6 +64,8 @@ pub use calibrate::{CalibrationReport, FittedKey, Tried, calibration_html, calib
 pub use damage::{AlongRoller, DamageCurve, DamagePanel, DamageView, DepthPatch};
 #[doc(hidden)]
 pub use damage::{damage_passage, damage_photo, damage_plan, damage_section, load_along};
+#[doc(hidden)]
+pub use data::{Along, Tone};
 pub use data::{
     Assumption, Estimate, Event, Healthy, IndicatorRow, IndicatorTable, Marker, MinMax, Pass, Report, RowLoad, Series,
     Spectrum, Waveform,
@@ -95,7 +97,7 @@ pub use sensor::SensorView;
 pub use sheet::sheet_html;
 #[doc(hidden)]
 pub use side_by_side::{
-    Along, OverlaidCurve, Overlay, Part, Piece, SideBySide, Vertical, overlay, side_by_side_html, side_by_side_pictures,
+    OverlaidCurve, Overlay, Part, Piece, SideBySide, Vertical, overlay, side_by_side_html, side_by_side_pictures,
 };
 pub use slip::SlipRow;
 #[doc(hidden)]
@@ -104,7 +106,7 @@ pub use spectrogram::Spectrogram;
 #[doc(hidden)]
 pub use spectrogram::spectrogram;
 #[doc(hidden)]
-pub use study::{Chapter, ClaimCard, ClaimPart, Stack, Study, StudyPiece, Tagged, Tone, study_html, study_pictures};
+pub use study::{Chapter, ClaimCard, ClaimPart, Stack, Study, StudyPiece, Tagged, study_html, study_pictures};
 #[doc(hidden)]
 pub use sweep::{HeatMap, IndicatorLine, IndicatorPlot, IndicatorPoint, SweepReport, sweep_html, sweep_pictures};
 pub use tables::Table;

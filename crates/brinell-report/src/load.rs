@@ -13,9 +13,7 @@ use crate::thin::straightened;
 /// Contact force around the bearing, one circle to a row: 0° is +X, angles run counter-clockwise.
 pub fn load_distribution(rows: &[RowLoad], layout: Layout) -> Picture {
     let Size { width, font, .. } = layout.size(0.0);
-    let per_line = if layout.roomy() { rows.len().clamp(1, 2) } else { 1 };
-    let cell = layout.cell(400.0, per_line);
-    let lines = rows.len().div_ceil(per_line).max(1);
+    let (cell, places) = layout.grid(rows.len(), 400.0);
     let entries = [
         ("largest force", Paint::line(ink::VERMILLION, 1.8).dashed(&[5.0, 3.0])),
         ("mean force", Paint::line(ink::BLUE, 1.8).filled(ink::BLUE, 0.18)),
@@ -23,7 +21,7 @@ pub fn load_distribution(rows: &[RowLoad], layout: Layout) -> Picture {
     ];
     let mut picture = Picture::new("load-distribution", "Contact force around the bearing", width, 0.0);
     let top = legend(&mut picture, &entries, 12.0, width - 12.0, 2.0, font);
-    picture.height = top + cell * lines as f64;
+    picture.height = top + cell * places.last().map_or(1.0, |(_, line)| line + 1.0);
     let forces = rows.iter().flat_map(|row| {
         row.mean_n.iter().chain(&row.max_n).copied().chain(row.static_points.iter().map(|(_, force)| *force))
     });
@@ -31,11 +29,8 @@ pub fn load_distribution(rows: &[RowLoad], layout: Layout) -> Picture {
     let largest = if largest > 0.0 { largest } else { 1.0 };
     let rings: Vec<f64> = linear_ticks(0.0, largest * 1.02, 5).into_iter().filter(|r| *r > 0.0).collect();
     let polar = Polar { radius: 0.5 * cell - 44.0, largest, font };
-    for (index, row) in rows.iter().enumerate() {
-        let inset = (width - cell * per_line as f64) / (per_line as f64 + 1.0);
-        let column = (index % per_line) as f64;
-        let x = inset + column * (cell + inset) + 0.5 * cell;
-        let y = top + cell * (index / per_line) as f64 + 0.5 * cell + 12.0;
+    for (row, (left, line)) in rows.iter().zip(places) {
+        let (x, y) = (left + 0.5 * cell, top + cell * line + 0.5 * cell + 12.0);
         polar.grid(&mut picture, (x, y), &rings);
         polar.curves(&mut picture, (x, y), row, entries.map(|e| e.1));
         polar.numbers(&mut picture, (x, y), &rings);

@@ -113,8 +113,7 @@ const COLORS: [(&str, Paint); 4] = [
 pub fn bearing_motion(motion: &Motion, frame: usize, layout: Layout) -> Picture {
     let size = layout.size(0.0);
     let font = size.font;
-    let per_line = if layout.roomy() { motion.rows.len().clamp(1, 2) } else { 1 };
-    let cell = layout.cell(460.0, per_line);
+    let (cell, places) = layout.grid(motion.rows.len(), 460.0);
     let mut picture = Picture::new("motion", "The bearing in motion", size.width, 0.0);
     let shown = &COLORS[..if motion.damage.is_empty() { 3 } else { 4 }];
     let frames = motion.frames();
@@ -136,10 +135,8 @@ pub fn bearing_motion(motion: &Motion, frame: usize, layout: Layout) -> Picture 
     let scale = (0.5 * cell - FORCE - 6.0) / motion.outer_radius_mm;
     let mut centres = String::new();
     let tall = cell + 1.6 * font;
-    for (index, row) in motion.rows.iter().enumerate() {
-        let gap = (size.width - cell * per_line as f64) / (per_line as f64 + 1.0);
-        let x = gap + (index % per_line) as f64 * (cell + gap) + 0.5 * cell;
-        let y = top + (index / per_line) as f64 * tall + 1.6 * font + 0.5 * cell;
+    for (index, (row, (left, line))) in motion.rows.iter().zip(&places).enumerate() {
+        let (x, y) = (left + 0.5 * cell, top + line * tall + 1.6 * font + 0.5 * cell);
         let _ = write!(centres, " {x:.2} {y:.2}");
         let drawn = DrawnRow { motion, row, frame, centre: (x, y), scale };
         let s = &mut picture.shapes;
@@ -152,7 +149,7 @@ pub fn bearing_motion(motion: &Motion, frame: usize, layout: Layout) -> Picture 
         let title = font::fitted(&row.title, font, true, cell);
         picture.text(Text::new(x, y - 0.5 * cell - 0.4 * font, font, Anchor::Middle, &title).bold());
     }
-    picture.height = top + motion.rows.len().div_ceil(per_line) as f64 * tall;
+    picture.height = top + places.last().map_or(0.0, |(_, line)| line + 1.0) * tall;
     picture.attributes = format!(" data-motion=\"{scale:.4} {per_newton:.6}{centres}\"");
     picture
 }

@@ -42,8 +42,7 @@ const MOST: usize = 2048;
 /// A square a cage, both axes to one scale.
 pub fn cage_orbit(orbits: &CageOrbits, layout: Layout) -> Picture {
     let size = layout.size(0.0);
-    let per_line = if layout.roomy() { orbits.rows.len().clamp(1, 2) } else { 1 };
-    let cell = layout.cell(440.0, per_line);
+    let (cell, places) = layout.grid(orbits.rows.len(), 440.0);
     let finite = |row: &CageOrbit| -> Vec<(f64, f64)> {
         let points = row.x_um.iter().copied().zip(row.y_um.iter().copied());
         points.filter(|(x, y)| x.is_finite() && y.is_finite()).collect()
@@ -70,11 +69,9 @@ pub fn cage_orbit(orbits: &CageOrbits, layout: Layout) -> Picture {
     }
     let top = legend(&mut picture, &entries, 12.0, size.width - 12.0, 2.0, size.font);
     let mut height = 0.0f64;
-    for (index, (row, points)) in orbits.rows.iter().zip(&rows).enumerate() {
+    for ((row, points), (left, line)) in orbits.rows.iter().zip(&rows).zip(places) {
         let (chart, tall) = orbit_chart(row, points, (reach, seen), (cell, size));
-        let gap = (size.width - cell * per_line as f64) / (per_line as f64 + 1.0);
-        let left = gap + (index % per_line) as f64 * (cell + gap);
-        let down = top + (index / per_line) as f64 * tall;
+        let down = top + line * tall;
         let title = font::fitted(&row.title, size.font, true, cell);
         let middle = left + 0.5 * (chart.frame.left + chart.frame.right);
         let at = down + 1.1 * size.font;

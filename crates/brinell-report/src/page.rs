@@ -3,8 +3,8 @@
 use std::fmt::Write as _;
 
 use crate::damage::{damage_passage, damage_photo, damage_plan, damage_section, load_along};
-use crate::data::{Report, Spectrum};
-use crate::embedded::{Chart, Curve, Places};
+use crate::data::{Along, Report, Spectrum};
+use crate::embedded::{Chart, Curve};
 use crate::frame::{THINNED, alert, close, code, figure, lead, none, open, plain, section};
 use crate::layout::Layout;
 use crate::load::load_distribution;
@@ -94,7 +94,7 @@ fn waveform(page: &mut String, report: &Report) {
         None => (series.t0_s, series.t0_s + series.dt_s * series.values.len() as f64),
     };
     let overview_scale = crate::layout::time_unit(overview_hi - overview_lo).1;
-    let places = Places::Even(series.t0_s * scale, series.dt_s * scale);
+    let along = Along::Even { first: series.t0_s * scale, step: series.dt_s * scale };
     let lanes = plots::event_lanes(report, scale);
     let chart = Chart {
         name: "waveform",
@@ -105,12 +105,12 @@ fn waveform(page: &mut String, report: &Report) {
         overview_scale: scale / overview_scale,
         ..Chart::default()
     };
-    embed(page, places, &series.values, &report.healthy.waveform, chart);
+    embed(page, along, &series.values, &report.healthy.waveform, chart);
 }
 
 /// What the page's script draws: the run's curve and, where it was run, the healthy bearing's behind it.
-fn embed(page: &mut String, places: Places, values: &[f64], healthy: &[f64], chart: Chart) {
-    let curve = |name, values| Curve { name, places, values };
+fn embed(page: &mut String, along: Along, values: &[f64], healthy: &[f64], chart: Chart) {
+    let curve = |name, values| Curve { name, along: along.clone(), values };
     match healthy {
         [] => Chart { curves: &[curve("", values)], ..chart }.write(page),
         healthy => {
@@ -123,7 +123,7 @@ fn embed(page: &mut String, places: Places, values: &[f64], healthy: &[f64], cha
 /// [`embed`] of a spectrum's lines, from 0 Hz on.
 fn embed_lines(page: &mut String, spectrum: &Spectrum, healthy: &[f64], chart: Chart) {
     let chart = Chart { peak: true, y: (&spectrum.label, &spectrum.unit), ..chart };
-    embed(page, Places::Even(0.0, spectrum.df_hz), &spectrum.amplitude, healthy, chart);
+    embed(page, Along::Even { first: 0.0, step: spectrum.df_hz }, &spectrum.amplitude, healthy, chart);
 }
 
 fn spectrum(page: &mut String, report: &Report) {

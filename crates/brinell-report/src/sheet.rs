@@ -4,7 +4,8 @@
 use std::fmt::Write as _;
 
 use crate::chart::{Chart, Domain, Lane, Mark, Size, Spec, range};
-use crate::embedded::{self, Curve, Places};
+use crate::data::Along;
+use crate::embedded::{self, Curve};
 use crate::frame::{close, none, open, section, unit_html};
 use crate::layout::time_unit;
 use crate::number::significant;
@@ -48,12 +49,12 @@ fn put(page: &mut String, sheet: &Sheet, run: &SheetRun) {
     }
     page.push_str("</div>\n");
     let (unit, scale) = time_unit(run.dt_s * run.stretch.len().saturating_sub(1) as f64);
-    let places = Places::Even(run.from_s * scale, run.dt_s * scale);
+    let along = Along::Even { first: run.from_s * scale, step: run.dt_s * scale };
     embed(
         page,
         run,
         "waveform",
-        (places, &run.stretch),
+        (along, &run.stretch),
         embedded::Chart {
             x: ("Time", unit),
             y: (&sheet.signal, &sheet.unit),
@@ -62,12 +63,12 @@ fn put(page: &mut String, sheet: &Sheet, run: &SheetRun) {
         },
     );
     let lanes = lanes(run, top(run).unwrap_or(1.0));
-    let places = Places::Even(0.0, run.df_hz);
+    let along = Along::Even { first: 0.0, step: run.df_hz };
     embed(
         page,
         run,
         "envelope",
-        (places, &run.envelope),
+        (along, &run.envelope),
         embedded::Chart {
             x: ("Frequency", "Hz"),
             y: ("Envelope", &sheet.unit),
@@ -83,10 +84,10 @@ fn put(page: &mut String, sheet: &Sheet, run: &SheetRun) {
 const KEPT: usize = 4096;
 
 /// Writes what the page's script needs of one picture of a run.
-fn embed(page: &mut String, run: &SheetRun, what: &str, (places, values): (Places, &[f64]), chart: embedded::Chart) {
+fn embed(page: &mut String, run: &SheetRun, what: &str, (along, values): (Along, &[f64]), chart: embedded::Chart) {
     embedded::Chart {
         name: &format!("run{}-{what}", run.run),
-        curves: &[Curve { name: "", places, values }],
+        curves: &[Curve { name: "", along, values }],
         most: KEPT,
         small: true,
         ..chart

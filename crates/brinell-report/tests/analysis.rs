@@ -2,7 +2,7 @@
 
 use brinell::signal::kurtogram::Level;
 use brinell_report::{
-    AnalysisReport, Badge, Fact, Kurtogram, Layout, Marker, Series, Spectrum, Table, analysis_html, analysis_pictures,
+    AnalysisReport, Fact, Kurtogram, Layout, Marker, Series, Spectrum, Table, Tone, analysis_html, analysis_pictures,
 };
 use proptest::prelude::*;
 
@@ -17,7 +17,7 @@ fn report(text: &str, values: &[f64]) -> AnalysisReport {
         subtitle: text.into(),
         version: text.into(),
         verdict: text.into(),
-        badge: Badge::Bad,
+        tone: Tone::Bad,
         warnings: vec![text.into()],
         notes: vec![text.into()],
         facts: vec![Fact::new(text, at(2), text, text)],
@@ -98,8 +98,8 @@ fn prop_the_page_holds_every_part_and_escapes_all_of_it() {
 #[test]
 fn regress_the_verdict_is_the_headline_and_has_its_colour() {
     let mut r = plain();
-    for (badge, class) in [(Badge::Bad, "bad"), (Badge::Good, "good"), (Badge::Open, "open")] {
-        (r.title, r.badge) = ("Damage: outer race".into(), badge);
+    for (tone, class) in [(Tone::Bad, "bad"), (Tone::Good, "good"), (Tone::Open, "open")] {
+        (r.title, r.tone) = ("Damage: outer race".into(), tone);
         let page = analysis_html(&r);
         assert!(page.contains("<h1>Damage: outer race</h1>"));
         assert!(page.contains(&format!("<p class=\"verdict {class}\">")));

@@ -1,9 +1,9 @@
 //! The page of an analysis, from its findings.
 
+use super::AnalysisReport;
 use super::level::{fact, notes, rows, scaled};
 use super::words::{called, ratio, shaft_lines};
-use super::{AnalysisReport, Badge};
-use crate::data::{Marker, Series};
+use crate::data::{Marker, Series, Tone};
 use crate::fact::Fact;
 use crate::kurtogram::Kurtogram;
 use crate::number::{capital, short};
@@ -68,13 +68,13 @@ fn report(of: &Findings) -> AnalysisReport {
     notes_shown.push(format!("bearing: {}", of.bearing));
     notes_shown.extend(notes(of.levels));
     notes_shown.push(format!("mean removed: {} {}", short(a.mean, 4), of.unit.name));
-    let (title, badge) = headline(a);
+    let (title, tone) = headline(a);
     let mut page = AnalysisReport {
         title,
         subtitle: format!("{}, {:.2} s at {} Hz, shaft {:.1} r/min", m.name, a.duration(), m.rate, 60.0 * a.shaft),
         version: brinell::VERSION.into(),
         verdict: of.verdict.into(),
-        badge,
+        tone,
         warnings: of.warnings.to_vec(),
         notes: notes_shown,
         facts: facts(of),
@@ -157,12 +157,12 @@ fn kurtogram(a: &Analysis, map: &brinell::signal::Kurtogram) -> Kurtogram {
 }
 
 /// The parts that are damaged, or what is said instead; and whether that is good, bad or neither.
-fn headline(a: &Analysis) -> (String, Badge) {
+fn headline(a: &Analysis) -> (String, Tone) {
     let called = called(a);
     match a.conclusion() {
-        Verdict::Damage => (format!("Damage: {called}"), Badge::Bad),
-        Verdict::CannotTell => (capital(&called), Badge::Open),
-        Verdict::NothingFound => (capital(&called), Badge::Good),
+        Verdict::Damage => (format!("Damage: {called}"), Tone::Bad),
+        Verdict::CannotTell => (capital(&called), Tone::Open),
+        Verdict::NothingFound => (capital(&called), Tone::Good),
     }
 }
 

@@ -8,8 +8,8 @@ mod words;
 use std::fmt::Write as _;
 
 use crate::chart::{Chart, Domain, Spec, range};
-use crate::data::{Marker, Series, Spectrum};
-use crate::embedded::{self, Curve, Places};
+use crate::data::{Along, Marker, Series, Spectrum, Tone};
+use crate::embedded::{self, Curve};
 use crate::fact::Fact;
 use crate::frame::{THINNED, close as finish, figure, open, plain, section};
 use crate::kurtogram::{Kurtogram, kurtogram};
@@ -21,18 +21,6 @@ pub use content::{Analyzed, Findings};
 pub use level::{ZONES, level_lines, scaled};
 use waveform::{about_middle, close, close_up_domain, close_up_unit, whole};
 pub use words::{called, ratio, shaft_lines};
-
-/// Whether a verdict is good, bad or open.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Badge {
-    /// Nothing was found.
-    #[default]
-    Good,
-    /// Something is damaged.
-    Bad,
-    /// Neither can be said.
-    Open,
-}
 
 /// Everything the page of an analysis shows. Curves come in the order of `names`, one or two of each.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -46,7 +34,7 @@ pub struct AnalysisReport {
     /// The verdict in a paragraph.
     pub verdict: String,
     /// What colour it has.
-    pub badge: Badge,
+    pub tone: Tone,
     /// What deserves attention.
     pub warnings: Vec<String>,
     /// Where rate, unit, speed and bearing come from.
@@ -144,7 +132,7 @@ fn embed(page: &mut String, names: &[String], curves: &[(f64, f64, &[f64])], cha
     let drawn: Vec<usize> = (0..curves.len()).filter_map(|i| order.iter().position(|o| *o == i)).collect();
     let named = names.iter().map(String::as_str).chain(std::iter::repeat(""));
     let curves: Vec<Curve> = (curves.iter().zip(named))
-        .map(|((x0, dx, values), name)| Curve { name, places: Places::Even(*x0, *dx), values })
+        .map(|((x0, dx, values), name)| Curve { name, along: Along::Even { first: *x0, step: *dx }, values })
         .collect();
     embedded::Chart { curves: &curves, drawn: &drawn, ..chart }.write(page);
 }
@@ -278,11 +266,7 @@ fn axis_of(spectra: &[Spectrum]) -> (&str, &str) {
 }
 
 fn verdict(page: &mut String, report: &AnalysisReport) {
-    let class = match report.badge {
-        Badge::Good => "good",
-        Badge::Bad => "bad",
-        Badge::Open => "open",
-    };
+    let class = report.tone.class();
     let verdict = escape(&report.verdict);
     let _ = writeln!(page, "<p class=\"verdict {class}\">{verdict}</p>");
     facts(page, &report.facts);

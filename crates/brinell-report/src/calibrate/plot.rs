@@ -2,7 +2,8 @@
 
 use super::CalibrationReport;
 use crate::chart::{Chart, Domain, Spec};
-use crate::embedded::{self, Curve, Places};
+use crate::data::Along;
+use crate::embedded::{self, Curve};
 use crate::layout::Layout;
 use crate::picture::{Paint, Picture, Shape, ink};
 
@@ -105,7 +106,7 @@ fn embed(page: &mut String, name: &str, x: (&str, &str), x_log: bool, mut runs: 
     let (places, values): (Vec<f64>, Vec<f64>) = runs.into_iter().unzip();
     embedded::Chart {
         name,
-        curves: &[Curve { name: "", places: Places::Each(&places), values: &values }],
+        curves: &[Curve { name: "", along: Along::At(places), values: &values }],
         x,
         y: ("Chi-square", ""),
         still: true,

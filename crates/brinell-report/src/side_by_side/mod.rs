@@ -4,7 +4,7 @@ mod overlay;
 
 use std::fmt::Write as _;
 
-use crate::data::Marker;
+use crate::data::{Along, Marker};
 use crate::fact::Fact;
 use crate::frame::{THINNED, close, figure, lead, none, open, plain};
 use crate::layout::Layout;
@@ -12,20 +12,6 @@ use crate::picture::{Picture, escape};
 use crate::tables::{Table, facts, table};
 pub use overlay::overlay;
 pub(crate) use overlay::{embed, stacked};
-
-/// Where the values of a curve are.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Along {
-    /// From a first place on, evenly.
-    Even {
-        /// Place of the first value.
-        first: f64,
-        /// From one value to the next.
-        step: f64,
-    },
-    /// Each in its own place.
-    At(Vec<f64>),
-}
 
 /// One run's curve.
 #[derive(Clone, Debug, PartialEq)]

@@ -1,8 +1,9 @@
 //! Curves of several runs in one plot, under a legend.
 
-use super::{Along, OverlaidCurve, Overlay, Vertical};
+use super::{OverlaidCurve, Overlay, Vertical};
 use crate::chart::{Chart, Domain, Lane, Spec, range};
-use crate::embedded::{self, Curve, Places};
+use crate::data::Along;
+use crate::embedded::{self, Curve};
 use crate::font;
 use crate::layout::{Layout, legend};
 use crate::picture::{Anchor, Paint, Picture, Text, ink};
@@ -58,10 +59,7 @@ pub(crate) fn embed(page: &mut String, overlay: &Overlay, names: &[String]) {
     let curves: Vec<Curve> = (overlay.curves.iter())
         .map(|curve| Curve {
             name: names.get(curve.of).map_or("", String::as_str),
-            places: match &curve.along {
-                Along::Even { first, step } => Places::Even(*first, *step),
-                Along::At(places) => Places::Each(places),
-            },
+            along: curve.along.clone(),
             values: &curve.values,
         })
         .collect();

@@ -4,6 +4,7 @@
 use std::fmt::Write as _;
 
 use crate::damage::{DamageView, damage_plan};
+use crate::data::Tone;
 use crate::fact::Fact;
 use crate::frame::{close, figure, lead, none, open, plain, section};
 use crate::layout::Layout;
@@ -11,28 +12,6 @@ use crate::picture::{Picture, escape};
 use crate::side_by_side::{Overlay, embed, overlay, stacked};
 use crate::sweep::{self, IndicatorPlot, indicator_plot};
 use crate::tables::{Table, facts, table};
-
-/// How a verdict is coloured.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Tone {
-    /// It holds.
-    Good,
-    /// It does not.
-    Bad,
-    /// Neither.
-    #[default]
-    Plain,
-}
-
-impl Tone {
-    fn class(self) -> &'static str {
-        match self {
-            Self::Good => "tag good",
-            Self::Bad => "tag bad",
-            Self::Plain => "tag",
-        }
-    }
-}
 
 /// A word with its colour.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -223,7 +202,11 @@ fn write_piece(page: &mut String, piece: &StudyPiece, count: usize) {
 }
 
 fn tag(tagged: &Tagged) -> String {
-    format!("<span class=\"{}\">{}</span>", tagged.tone.class(), escape(&tagged.word))
+    let class = match tagged.tone {
+        Tone::Open => String::new(),
+        tone => format!(" {}", tone.class()),
+    };
+    format!("<span class=\"tag{class}\">{}</span>", escape(&tagged.word))
 }
 
 fn claim(page: &mut String, card: &ClaimCard) {

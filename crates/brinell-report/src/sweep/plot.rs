@@ -2,7 +2,8 @@
 
 use super::{IndicatorLine, IndicatorPlot, IndicatorPoint};
 use crate::chart::{Chart, Domain, Size, Spec, range};
-use crate::embedded::{self, Curve, Places};
+use crate::data::Along;
+use crate::embedded::{self, Curve};
 use crate::font;
 use crate::layout::{Layout, legend};
 use crate::picture::{Anchor, Paint, Picture, Shape, Text, ink};
@@ -89,7 +90,7 @@ pub(crate) fn embed(page: &mut String, plot: &IndicatorPlot) {
     };
     let lines: Vec<(Vec<f64>, Vec<f64>)> = plot.lines.iter().map(columns).collect();
     let curves: Vec<Curve> = (plot.lines.iter().zip(&lines))
-        .map(|(line, (places, values))| Curve { name: &line.label, places: Places::Each(places), values })
+        .map(|(line, (places, values))| Curve { name: &line.label, along: Along::At(places.clone()), values })
         .collect();
     embedded::Chart {
         name: &plot.name,
