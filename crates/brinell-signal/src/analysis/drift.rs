@@ -114,6 +114,7 @@ impl Drift {
             name => format!("the lines of {name}"),
         };
         let then = match self.followed {
+            true if self.is_lost() => format!("by {by}: too far or too fast to be followed well"),
             true => format!("followed by {by}"),
             false => format!("by {by}; lines of order 10 smear over {:.0} bins", self.smear),
         };
