@@ -6,11 +6,11 @@
 //! measured signal and of studies are public for the command alone, and are not listed here.
 //!
 //! ```
-//! use brinell_report::{Report, headline_png, html};
+//! use brinell_report::{Layout, Report, html, pictures};
 //!
 //! let report = Report { title: "nn3007-rectangle".into(), ..Report::default() };
 //! assert!(html(&report).starts_with("<!DOCTYPE html>"));
-//! assert!(headline_png(&report).is_ok());
+//! assert_eq!(pictures(&report, Layout::Wide)[0].name, "waveform");
 //! ```
 
 #![cfg_attr(not(test), deny(clippy::print_stdout, clippy::print_stderr))]
@@ -60,7 +60,7 @@ pub use analysis::{
 #[doc(hidden)]
 pub use axial::{AxialRow, AxialSection, axial_section};
 #[doc(hidden)]
-pub use calibrate::{CalibrationReport, FittedKey, Tried, calibration_html, calibration_pictures};
+pub use calibrate::{CalibrationReport, FittedKey, Tried, calibration_html};
 pub use damage::{AlongRoller, DamageCurve, DamagePanel, DamageView, DepthPatch};
 #[doc(hidden)]
 pub use damage::{damage_passage, damage_photo, damage_plan, damage_section, load_along};
@@ -87,9 +87,9 @@ pub use orbit::cage_orbit;
 pub use orbit::{CageOrbit, CageOrbits};
 pub use page::html;
 pub use picture::{CurveTable, Error, Picture};
+pub use plots::pictures;
 #[doc(hidden)]
 pub use plots::{detail_window, headline, overview};
-pub use plots::{headline_png, pictures};
 #[doc(hidden)]
 pub use run::defect_markers;
 pub use sensor::SensorView;

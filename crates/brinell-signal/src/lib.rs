@@ -95,7 +95,7 @@ pub use frequency::{LineFrequency, LineSearch};
 pub use indicators::{Indicator, Moments};
 pub use integrate::{band_pass, velocity};
 pub use kurtogram::{Kurtogram, KurtogramBand, kurtogram};
-pub use lines::{Line, LineSet, harmonics};
+pub use lines::{Line, harmonics};
 pub use order::{Angular, Rotation, resample};
 pub use psd::{Detrend, Segments, psd};
 pub use scatter::{Scatter, scatter, student_t_quantile};

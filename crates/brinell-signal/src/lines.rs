@@ -37,37 +37,21 @@ pub struct Line {
     pub false_alarm: f64,
 }
 
-/// Lines that belong together.
-#[derive(Debug, Clone, PartialEq)]
-pub struct LineSet {
-    /// In order of frequency; those beyond the spectrum or too near zero frequency are missing.
-    pub lines: Vec<Line>,
-}
-
-impl LineSet {
-    /// Lines whose false-alarm probability is at most `level`.
-    pub fn standing(&self, level: f64) -> impl Iterator<Item = &Line> {
-        self.lines.iter().filter(move |l| l.false_alarm <= level)
-    }
-}
-
 /// Harmonics 1 to `count` of `frequency`, known to within +- `tolerance` (both Hz), in a spectrum.
 ///
 /// Harmonic h is sought within h `tolerance` of h `frequency`, and within half a bin at the least. For a tolerance that
-/// makes neighbouring searches meet, the fundamental is uncertain beyond use.
+/// makes neighbouring searches meet, the fundamental is uncertain beyond use. In order of frequency; those beyond the
+/// spectrum or too near zero frequency are missing.
 ///
 /// # Errors
 /// [`SignalError::OutOfRange`] where the frequency is not positive, the tolerance is negative or reaches half the
 /// frequency, or the spectrum has too few bins for a floor.
-pub fn harmonics(spectrum: &Spectrum, frequency: f64, tolerance: f64, count: usize) -> Result<LineSet, SignalError> {
+pub fn harmonics(spectrum: &Spectrum, frequency: f64, tolerance: f64, count: usize) -> Result<Vec<Line>, SignalError> {
     require(frequency > 0.0 && frequency.is_finite(), "frequency (Hz)", frequency, "above 0")?;
     require((0.0..0.5 * frequency).contains(&tolerance), "tolerance (Hz)", tolerance, "0 to below half the frequency")?;
     let floor = Floor::new(spectrum)?;
-    let lines = (1..=count).filter_map(|h| {
-        let h_f = h as f64;
-        floor.line(h as i32, h_f * frequency, h_f * tolerance)
-    });
-    Ok(LineSet { lines: lines.collect() })
+    let line = |h: usize| floor.line(h as i32, h as f64 * frequency, h as f64 * tolerance);
+    Ok((1..=count).filter_map(line).collect())
 }
 
 /// The noise of a spectrum, place by place.
@@ -202,11 +186,11 @@ mod tests {
     fn analytic_amplitudes_floor_and_signal_to_noise() {
         let sigma = 0.2;
         let s = psd(&comb(sigma, 1), FS, &Segments::of(8192)).unwrap();
-        let set = harmonics(&s, 100.0, 0.5, 4).unwrap();
-        assert_eq!(set.lines.len(), 4);
+        let lines = harmonics(&s, 100.0, 0.5, 4).unwrap();
+        assert_eq!(lines.len(), 4);
         // Mean square amplitude of noise: its density over the noise bandwidth, twice for a peak value.
         let noise = 2.0 * (2.0 * sigma * sigma / FS) * s.noise_bandwidth;
-        for (line, (f, a)) in set.lines.iter().zip([(100.3, 1.0), (200.6, 0.5), (300.9, 0.25)]) {
+        for (line, (f, a)) in lines.iter().zip([(100.3, 1.0), (200.6, 0.5), (300.9, 0.25)]) {
             assert!((line.frequency - f).abs() < 0.02, "{line:?}");
             assert!((line.amplitude / a - 1.0).abs() < 0.05, "{line:?}");
             assert!((line.floor / noise.sqrt() - 1.0).abs() < 0.15, "{line:?}");
@@ -214,7 +198,7 @@ mod tests {
             let db = 10.0 * (a * a / noise).log10();
             assert!((line.snr_db - db).abs() < 2.0, "{line:?} {db}");
         }
-        assert!(set.lines[3].false_alarm > 1e-3 && set.lines[3].snr_db < 7.0);
+        assert!(lines[3].false_alarm > 1e-3 && lines[3].snr_db < 7.0);
     }
 
     #[test]
@@ -225,8 +209,8 @@ mod tests {
             for seed in 0..150 {
                 let x = Noise::new(1000 + seed).normals(4096);
                 let s = psd(&x, FS, &segments).unwrap();
-                let set = harmonics(&s, 93.0, 0.0, 20).unwrap();
-                values.extend(set.lines.iter().map(|l| l.false_alarm));
+                let lines = harmonics(&s, 93.0, 0.0, 20).unwrap();
+                values.extend(lines.iter().map(|l| l.false_alarm));
             }
             for (level, slack) in [(0.1, 0.25), (0.01, 0.6)] {
                 let share = values.iter().filter(|p| **p <= level).count() as f64;
@@ -242,11 +226,11 @@ mod tests {
         assert!(harmonics(&s, -1.0, 0.0, 3).is_err());
         assert!(harmonics(&s, 100.0, 60.0, 3).is_err());
         assert!(harmonics(&s, f64::NAN, 0.0, 3).is_err());
-        assert!(harmonics(&s, 5000.0, 1.0, 3).unwrap().lines.is_empty());
+        assert!(harmonics(&s, 5000.0, 1.0, 3).unwrap().is_empty());
         let short = psd(&[1.0; 16], FS, &Segments::of(16)).unwrap();
         assert!(harmonics(&short, 500.0, 1.0, 3).is_err());
         let zero = psd(&[0.0; 1024], FS, &Segments::of(1024)).unwrap();
-        let set = harmonics(&zero, 500.0, 1.0, 3).unwrap();
-        assert!(set.lines.iter().all(|l| l.amplitude.is_finite() && l.false_alarm == 1.0));
+        let lines = harmonics(&zero, 500.0, 1.0, 3).unwrap();
+        assert!(lines.iter().all(|l| l.amplitude.is_finite() && l.false_alarm == 1.0));
     }
 }

@@ -50,7 +50,8 @@ impl Random {
     }
 
     /// `n` standard normal numbers.
-    pub fn normals(&mut self, n: usize) -> Vec<f64> {
+    #[cfg(test)]
+    pub(crate) fn normals(&mut self, n: usize) -> Vec<f64> {
         (0..n).map(|_| self.normal()).collect()
     }
 }

@@ -23,8 +23,8 @@ pub enum Window {
 }
 
 impl Window {
-    /// Every window.
-    pub const ALL: [Window; 5] =
+    #[cfg(test)]
+    pub(crate) const ALL: [Window; 5] =
         [Window::Rectangular, Window::Hann, Window::Hamming, Window::BlackmanHarris, Window::FlatTop];
 
     /// a_0, a_1, ...

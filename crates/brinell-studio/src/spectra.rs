@@ -47,8 +47,8 @@ pub(crate) fn spectra(bench: &Bench, longest: usize, arrays: &mut Arrays) -> Val
             let line = line.as_ref().filter(|_| name.defect.is_some());
             let hz = line.map(|l| l.frequency);
             let present = hz.and_then(|hz| harmonics(&envelope.spectrum, hz, 0.01 * hz, HARMONICS).ok());
-            let present: Vec<f64> =
-                present.map_or(Vec::new(), |set| set.standing(FALSE_ALARM).map(|l| l.snr_db).collect());
+            let present = present.unwrap_or_default().into_iter().filter(|l| l.false_alarm <= FALSE_ALARM);
+            let present: Vec<f64> = present.map(|l| l.snr_db).collect();
             json!({
                 "name": name.name,
                 "hz": hz,

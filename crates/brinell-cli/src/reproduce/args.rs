@@ -3,7 +3,8 @@
 use crate::figures::PlotFormat;
 use crate::figures::Print;
 use brinell_li2023::FIGURES;
-use clap::{Args, ValueEnum};
+use clap::Args;
+use clap::builder::PossibleValue;
 use std::num::NonZeroUsize;
 use std::path::PathBuf;
 
@@ -34,8 +35,8 @@ pub(crate) struct ReproduceArgs {
     #[arg(long, conflicts_with = "figure")]
     pub(crate) sensitivity: bool,
     /// Also make every case with this model, and in slices, and show the verdicts side by side
-    #[arg(long, value_name = "MODEL")]
-    pub(crate) model: Option<OtherModel>,
+    #[arg(long, value_name = "MODEL", value_parser = [PossibleValue::new("tilting").help("Rollers and rings tilt")])]
+    pub(crate) model: Option<String>,
     /// Turns of the shaft whose statistics count, of every run [default: 240, with --quick 40]
     #[arg(long, value_name = "N", conflicts_with = "quick", value_parser = clap::value_parser!(u32).range(3..=100_000))]
     pub(crate) turns: Option<u32>,
@@ -60,13 +61,6 @@ pub(crate) struct ReproduceArgs {
     /// Print nothing but errors
     #[arg(short, long, default_value_if("json", "true", "true"))]
     pub(crate) quiet: bool,
-}
-
-/// Models beside the paper's.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub(crate) enum OtherModel {
-    /// Rollers and rings tilt
-    Tilting,
 }
 
 fn figure(text: &str) -> Result<u32, String> {

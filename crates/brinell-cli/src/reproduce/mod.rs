@@ -11,7 +11,6 @@ use crate::results::{Place, Results};
 use crate::say::{self, complain, document, say, short};
 use crate::stop::stop_flag;
 use crate::sweep::plural;
-use args::OtherModel;
 pub(crate) use args::ReproduceArgs;
 use brinell::result::{Quantity, RunResult};
 use brinell::scenario::Scenario;
@@ -35,7 +34,7 @@ pub(crate) fn reproduce(args: &ReproduceArgs) -> Result<ExitCode, Failure> {
     if args.sensitivity {
         request = request.with_sensitivity(args.quick)?;
     }
-    if args.model == Some(OtherModel::Tilting) {
+    if args.model.is_some() {
         request = request.with_tilting()?;
     }
     let place = Place { kind: Results::Reproduction, folder: &args.output, inputs: &Inputs::default() };

@@ -6,8 +6,7 @@ use std::fmt::Write as _;
 
 use crate::fact::Fact;
 use crate::frame::{close, figure, lead, none, open, scenario, section};
-use crate::layout::Layout;
-use crate::picture::{Picture, escape};
+use crate::picture::escape;
 use crate::tables::{Table, fact_table, facts, failures, table};
 use plot::{course_plot, embed_course, embed_key, key_plot};
 
@@ -74,12 +73,6 @@ pub struct CalibrationReport {
     pub method: Vec<String>,
     /// The best scenario.
     pub scenario_toml: String,
-}
-
-/// The page's pictures, drawn wide.
-pub fn calibration_pictures(report: &CalibrationReport) -> Vec<Picture> {
-    let keys = (0..report.keys.len()).map(|k| key_plot(report, k, Layout::Wide));
-    keys.chain([course_plot(report, Layout::Wide)]).collect()
 }
 
 fn sentences(page: &mut String, all: &[String]) {

@@ -6,7 +6,7 @@ use crate::chart::{Size, left_margin, right_margin};
 use crate::data::Report;
 use crate::font;
 use crate::layout::Layout;
-use crate::picture::{Anchor, Error, Picture, Text, ink};
+use crate::picture::{Anchor, Picture, Text, ink};
 
 /// Where title and charts are.
 struct Plan {
@@ -25,13 +25,9 @@ impl Plan {
     fn of(layout: Layout) -> Self {
         let Layout::Print(_) = layout else {
             return Self {
-                width: 1400.0 / HEADLINE_SCALE,
+                width: 1400.0 / 1.5,
                 type_sizes: [16.0, 13.0],
-                chart: Size {
-                    width: 1400.0 / HEADLINE_SCALE - 12.0,
-                    height: 0.5 * (700.0 / HEADLINE_SCALE - 34.0),
-                    font: 12.5,
-                },
+                chart: Size { width: 1400.0 / 1.5 - 12.0, height: 0.5 * (700.0 / 1.5 - 34.0), font: 12.5 },
                 top: 32.0,
                 below: false,
             };
@@ -78,11 +74,4 @@ pub fn headline(report: &Report, layout: Layout) -> Picture {
     picture.place(draw_waveform(report, upper), 0.0, plan.top);
     picture.place(draw_envelope(report, lower), 0.0, plan.top + chart.height);
     picture
-}
-
-const HEADLINE_SCALE: f64 = 1.5;
-
-/// [`headline`] as a PNG of 1400 x 700 pixels.
-pub fn headline_png(report: &Report) -> Result<Vec<u8>, Error> {
-    headline(report, Layout::Wide).png(HEADLINE_SCALE)
 }

@@ -17,7 +17,7 @@ use crate::picture::Picture;
 use crate::sensor::sensor_response;
 use crate::slip::{self, slip_over_angle, slip_over_time};
 use crate::spectrogram::spectrogram;
-pub use headline::{headline, headline_png};
+pub use headline::headline;
 pub(crate) use markers::{marker_lanes, order_lanes};
 pub(crate) use pass::pass;
 pub(crate) use spectrum::{

@@ -153,7 +153,7 @@ fn lines(sides: &[Side; 2], envelopes: &[Spectrum; 2], means: &[f64; 2]) -> Resu
             let place = (found.filter(|f| f.detected_harmonics() > 0)).map_or(order * analysis.shaft, |f| f.frequency);
             sets.push(harmonics(spectrum, place, 0.005 * place, HARMONICS)?);
         }
-        for (a, b) in sets[0].lines.iter().zip(&sets[1].lines) {
+        for (a, b) in sets[0].iter().zip(&sets[1]) {
             if a.order == b.order {
                 all.push(LineDifference {
                     name,
