@@ -3,6 +3,8 @@
 use crate::failure::Failure;
 use crate::figures::{PlotFormat, Print};
 use brinell::analysis::DefectOrders;
+use brinell_io::Format;
+use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use clap::{Args, Subcommand, ValueEnum};
 use std::num::NonZeroUsize;
 use std::path::PathBuf;
@@ -52,8 +54,8 @@ pub(crate) struct RunArgs {
     #[arg(short, long, value_name = "FOLDER")]
     pub(crate) output: Option<PathBuf>,
     /// Signal files to write, separated by commas
-    #[arg(long, value_delimiter = ',', default_value = "parquet", value_name = "FORMAT")]
-    pub(crate) signals: Vec<SignalFormat>,
+    #[arg(long, value_delimiter = ',', default_value = "parquet", value_name = "FORMAT", value_parser = signal_formats())]
+    pub(crate) signals: Vec<Option<Format>>,
     /// Also write each picture of the report into FOLDER/plots, as files of these formats, and its curves as CSV into
     /// FOLDER/curves
     #[arg(long, value_delimiter = ',', value_name = "FORMAT")]
@@ -84,23 +86,19 @@ pub(crate) struct RunArgs {
     pub(crate) quiet: bool,
 }
 
-/// Formats of signal files.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub(crate) enum SignalFormat {
-    /// A header line of channel names, then numbers
-    Csv,
-    /// Apache Parquet, with units and scenario in its metadata
-    Parquet,
-    /// MATLAB v5: a variable per channel, `fs`, units and scenario as text
-    Mat,
-    /// NumPy's archive: an array per channel, `fs`, units and scenario as text
-    Npz,
-    /// Universal File Format 58b: a function per channel
-    Uff58,
-    /// Sound file of 32-bit floats in the channels' units, which its comment states
-    Wav,
-    /// No signal file
-    None,
+/// Formats of signal files; `None` where none is to be written.
+fn signal_formats() -> impl TypedValueParser<Value = Option<Format>> {
+    let all = [
+        ("csv", "A header line of channel names, then numbers"),
+        ("parquet", "Apache Parquet, with units and scenario in its metadata"),
+        ("mat", "MATLAB v5: a variable per channel, `fs`, units and scenario as text"),
+        ("npz", "NumPy's archive: an array per channel, `fs`, units and scenario as text"),
+        ("uff58", "Universal File Format 58b: a function per channel"),
+        ("wav", "Sound file of 32-bit floats in the channels' units, which its comment states"),
+        ("none", "No signal file"),
+    ];
+    let all = all.map(|(name, help)| PossibleValue::new(name).help(help));
+    PossibleValuesParser::new(all).map(|name| name.parse().ok())
 }
 
 #[derive(Debug, Args)]

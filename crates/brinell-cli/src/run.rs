@@ -5,7 +5,7 @@ mod line_loads;
 mod many;
 mod spectra;
 
-use crate::args::{RunArgs, SignalFormat};
+use crate::args::RunArgs;
 use crate::failure::{Failure, INTERRUPTED, print_problems};
 use crate::files::Source;
 use crate::files::{self, make_folder};
@@ -235,18 +235,9 @@ fn writers(
 /// Formats of signals that are requested, each once.
 fn formats(args: &RunArgs) -> Vec<Format> {
     let mut formats: Vec<Format> = Vec::new();
-    for format in &args.signals {
-        let format = match format {
-            SignalFormat::Csv => Format::Csv,
-            SignalFormat::Parquet => Format::Parquet,
-            SignalFormat::Mat => Format::Mat,
-            SignalFormat::Npz => Format::Npz,
-            SignalFormat::Uff58 => Format::Uff58,
-            SignalFormat::Wav => Format::Wav,
-            SignalFormat::None => continue,
-        };
-        if !formats.contains(&format) {
-            formats.push(format);
+    for format in args.signals.iter().flatten() {
+        if !formats.contains(format) {
+            formats.push(*format);
         }
     }
     formats
