@@ -42,24 +42,56 @@ fn files(of: &Path) -> Vec<PathBuf> {
     entries.flat_map(|path| files(&path)).collect()
 }
 
-/// Modules of the engine and what each names of the others.
+/// Names that follow `prefix` in the text, those in braces among them.
+fn named(text: &str, prefix: &str) -> BTreeSet<String> {
+    let name = |part: &str| part.chars().take_while(|c| c.is_alphanumeric() || *c == '_').collect::<String>();
+    let mut all = BTreeSet::new();
+    for after in text.split(prefix).skip(1) {
+        match after.strip_prefix('{') {
+            Some(group) => {
+                let group = group.split(';').next().unwrap_or("");
+                all.extend(group.split([',', '{']).map(|part| name(part.trim_start())));
+            }
+            None => {
+                all.insert(name(after));
+            }
+        }
+    }
+    all
+}
+
+/// Modules of a crate and what each names of the others, also by what the root gives on of them.
 fn modules(src: &Path) -> Uses {
+    let root = code(&src.join("lib.rs"));
+    let mut given_on = BTreeMap::new();
+    for after in root.split("use ").skip(1) {
+        let used = after.split(';').next().unwrap_or("");
+        if let Some((module, names)) = used.split_once("::") {
+            let names = names.split(|c: char| !c.is_alphanumeric() && c != '_').filter(|n| !n.is_empty());
+            given_on.extend(names.map(|n| (n.to_owned(), module.to_owned())));
+        }
+    }
     let mut all = Uses::new();
-    let entries = fs::read_dir(src).unwrap().map(|e| e.unwrap().path());
-    for path in entries.filter(|path| !path.ends_with("lib.rs")) {
+    for path in fs::read_dir(src).unwrap().map(|e| e.unwrap().path()) {
         let name = path.file_stem().unwrap().to_str().unwrap().to_owned();
+        if name == "lib" || name == "main" {
+            continue;
+        }
         let uses = all.entry(name).or_default();
         for file in files(&path).iter().filter(|f| f.extension().is_some_and(|e| e == "rs") && !f.ends_with("tests.rs"))
         {
-            for after in code(file).split("crate::").skip(1) {
-                let end = after.find(|c: char| !c.is_alphanumeric() && c != '_');
-                uses.insert(after[..end.unwrap_or(after.len())].to_owned());
+            let text = code(file);
+            uses.extend(named(&text, "crate::"));
+            if path.is_file() {
+                uses.extend(named(&text, "super::"));
             }
         }
     }
     let known: BTreeSet<String> = all.keys().cloned().collect();
     for (name, uses) in &mut all {
-        uses.retain(|used| known.contains(used) && used != name);
+        let modules =
+            uses.iter().map(|used| if known.contains(used) { used } else { given_on.get(used).unwrap_or(used) });
+        *uses = modules.filter(|used| known.contains(*used) && *used != name).cloned().collect();
     }
     all
 }
@@ -105,66 +137,12 @@ fn prop_architecture_says_which_module_uses_which() {
     }
 }
 
-/// Names that follow `prefix` in the text, those in braces among them.
-fn named(text: &str, prefix: &str) -> BTreeSet<String> {
-    let name = |part: &str| part.chars().take_while(|c| c.is_alphanumeric() || *c == '_').collect::<String>();
-    let mut all = BTreeSet::new();
-    for after in text.split(prefix).skip(1) {
-        match after.strip_prefix('{') {
-            Some(group) => {
-                let group = group.split(';').next().unwrap_or("");
-                all.extend(group.split([',', '{']).map(|part| name(part.trim_start())));
-            }
-            None => {
-                all.insert(name(after));
-            }
-        }
-    }
-    all
-}
-
-/// Modules of a crate and what each names of the others, also by what the root gives on of them.
-fn reached(src: &Path) -> Uses {
-    let root = code(&src.join("lib.rs"));
-    let mut given_on = BTreeMap::new();
-    for after in root.split("use ").skip(1) {
-        let used = after.split(';').next().unwrap_or("");
-        if let Some((module, names)) = used.split_once("::") {
-            let names = names.split(|c: char| !c.is_alphanumeric() && c != '_').filter(|n| !n.is_empty());
-            given_on.extend(names.map(|n| (n.to_owned(), module.to_owned())));
-        }
-    }
-    let mut all = Uses::new();
-    for path in fs::read_dir(src).unwrap().map(|e| e.unwrap().path()) {
-        let name = path.file_stem().unwrap().to_str().unwrap().to_owned();
-        if name == "lib" || name == "main" {
-            continue;
-        }
-        let uses = all.entry(name).or_default();
-        for file in files(&path).iter().filter(|f| f.extension().is_some_and(|e| e == "rs") && !f.ends_with("tests.rs"))
-        {
-            let text = code(file);
-            uses.extend(named(&text, "crate::"));
-            if path.is_file() {
-                uses.extend(named(&text, "super::"));
-            }
-        }
-    }
-    let known: BTreeSet<String> = all.keys().cloned().collect();
-    for (name, uses) in &mut all {
-        let modules =
-            uses.iter().map(|used| if known.contains(used) { used } else { given_on.get(used).unwrap_or(used) });
-        *uses = modules.filter(|used| known.contains(*used) && *used != name).cloned().collect();
-    }
-    all
-}
-
 #[test]
 fn prop_modules_of_no_crate_use_each_other() {
     for entry in fs::read_dir(root().join("crates")).unwrap() {
         let src = entry.unwrap().path().join("src");
         if src.join("lib.rs").exists() {
-            assert_eq!(cycle(&reached(&src)), None, "modules of {} that use each other", src.display());
+            assert_eq!(cycle(&modules(&src)), None, "modules of {} that use each other", src.display());
         }
     }
 }
@@ -180,7 +158,7 @@ fn prop_architecture_names_every_module() {
             .filter(|n| n.ends_with(".rs") || n.ends_with('/'))
             .map(|n| n.trim_end_matches(".rs").trim_end_matches('/').to_owned())
             .collect();
-        let there: BTreeSet<String> = reached(&src)
+        let there: BTreeSet<String> = modules(&src)
             .into_keys()
             .filter(|n| src.join(n).is_dir() || src.join(format!("{n}.rs")).exists())
             .collect();
