@@ -6,8 +6,9 @@ use crate::embedded;
 use crate::encode::base64;
 use crate::font;
 use crate::layout::Layout;
+use crate::markup::escape;
 use crate::number::{Height, runs};
-use crate::picture::{Picture, escape};
+use crate::picture::Picture;
 use sha2::{Digest, Sha256};
 
 /// At the foot of pages with curves.

@@ -8,8 +8,9 @@ use crate::embedded::{Chart, Curve};
 use crate::frame::{THINNED, alert, close, code, figure, lead, none, open, plain, section};
 use crate::layout::Layout;
 use crate::load::load_distribution;
+use crate::markup::escape;
 use crate::number::{capital, significant};
-use crate::picture::{Picture, escape};
+use crate::picture::Picture;
 use crate::plots;
 use crate::tables::{assumptions, close_table, fact_table, facts, indicators, open_table};
 

@@ -7,7 +7,7 @@ mod pdf;
 mod pixels;
 
 use crate::font;
-pub(crate) use crate::markup::{coordinate, escape};
+use crate::markup::{coordinate, escape};
 use crate::raster;
 
 pub(crate) use crate::shape::{Anchor, Paint, Rect, Shape, Text, ink};

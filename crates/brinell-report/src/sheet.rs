@@ -8,8 +8,9 @@ use crate::data::Along;
 use crate::embedded::{self, Curve};
 use crate::frame::{close, none, open, section, unit_html};
 use crate::layout::time_unit;
+use crate::markup::escape;
 use crate::number::significant;
-use crate::picture::{Paint, Picture, escape, ink};
+use crate::picture::{Paint, Picture, ink};
 use brinell_study::dataset::{Sheet, SheetRun};
 
 /// Two of these are beside each other on a desktop, one under the other on a phone.

@@ -5,8 +5,8 @@ use std::fmt::Write as _;
 use crate::data::{Assumption, Estimate, Report};
 use crate::fact::{Fact, Value};
 use crate::frame::{none, section, unit_html};
+use crate::markup::escape;
 use crate::number::{significant, with_interval};
-use crate::picture::escape;
 
 /// A table of words and numbers as they are to be read.
 #[derive(Clone, Debug, Default, PartialEq)]

@@ -4,7 +4,8 @@ use std::fmt::Write as _;
 
 use crate::frame::{close, figure, none, open, section};
 use crate::layout::Layout;
-use crate::picture::{Picture, escape};
+use crate::markup::escape;
+use crate::picture::Picture;
 use crate::sweep::{IndicatorPlot, embed, indicator_plot};
 use crate::tables::{Table, failures, table};
 

@@ -6,7 +6,7 @@ use std::fmt::Write as _;
 
 use crate::fact::Fact;
 use crate::frame::{close, figure, lead, none, open, scenario, section};
-use crate::picture::escape;
+use crate::markup::escape;
 use crate::tables::{Table, fact_table, facts, failures, table};
 use plot::{course_plot, embed_course, embed_key, key_plot};
 

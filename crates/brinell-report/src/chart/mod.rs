@@ -6,7 +6,8 @@ mod lanes;
 mod shades;
 
 use crate::font;
-use crate::picture::{Anchor, Paint, Picture, Rect, Shape, Text, coordinate, escape, ink};
+use crate::markup::{coordinate, escape};
+use crate::picture::{Anchor, Paint, Picture, Rect, Shape, Text, ink};
 pub(crate) use axis::{Domain, Scale, range};
 use axis::{axis_label, halves, ticks};
 pub(crate) use lanes::{LANE_HEIGHT, Lane, Mark};

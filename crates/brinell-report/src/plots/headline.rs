@@ -21,13 +21,16 @@ struct Plan {
     below: bool,
 }
 
+/// Pixels of a file of 1400 x 700 for each of the drawing.
+const SCALE: f64 = 1.5;
+
 impl Plan {
     fn of(layout: Layout) -> Self {
         let Layout::Print(_) = layout else {
             return Self {
-                width: 1400.0 / 1.5,
+                width: 1400.0 / SCALE,
                 type_sizes: [16.0, 13.0],
-                chart: Size { width: 1400.0 / 1.5 - 12.0, height: 0.5 * (700.0 / 1.5 - 34.0), font: 12.5 },
+                chart: Size { width: 1400.0 / SCALE - 12.0, height: 0.5 * (700.0 / SCALE - 34.0), font: 12.5 },
                 top: 32.0,
                 below: false,
             };

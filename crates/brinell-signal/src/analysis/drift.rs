@@ -30,7 +30,7 @@ const OF_SHAFT: usize = 10;
 const BEYOND: f64 = 0.02;
 /// And so far at most, for the tenth harmonic not to meet its neighbours.
 const FARTHEST: f64 = 0.045;
-/// Where a course keeps to that bound, so many times as far is tried.
+/// Where a course keeps to that bound, so many times as far is tried: there the lower harmonics decide.
 const WIDER: f64 = 1.5;
 /// Distance of the speeds tried: as a share of a bin at the highest order.
 const FINE: f64 = 0.1;
@@ -96,7 +96,7 @@ impl Drift {
 
     /// Whether damage may be missed for it: it goes too far or too fast to be followed, or no line of the shaft tells
     /// it.
-    pub fn may_hide(&self) -> bool {
+    pub(super) fn may_hide(&self) -> bool {
         self.is_lost() || self.by != "shaft"
     }
 

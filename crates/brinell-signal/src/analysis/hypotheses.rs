@@ -93,6 +93,7 @@ impl Best {
             return Ok(());
         };
         drift.smear = self.record.together.smear(&drift.course);
+        // Lines of the bearing alone do not make up for a course that is wrong.
         if drift.leaves && drift.by != "shaft" {
             return Ok(());
         }
