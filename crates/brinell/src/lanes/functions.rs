@@ -154,6 +154,32 @@ pub(super) fn ten_ninths<L: Lanes>(x: L) -> L {
     x.if_above(L::splat(f64::MIN_POSITIVE), result, L::zero())
 }
 
+/// The elementary functions of [`Lanes`], for groups.
+macro_rules! elementary {
+    () => {
+        #[inline(always)]
+        fn sin_cos(self) -> (Self, Self) {
+            super::functions::sin_cos(self)
+        }
+
+        #[inline(always)]
+        fn exp(self) -> Self {
+            super::functions::exp(self)
+        }
+
+        #[inline(always)]
+        fn tanh(self) -> Self {
+            super::functions::tanh(self)
+        }
+
+        #[inline(always)]
+        fn ten_ninths(self) -> Self {
+            super::functions::ten_ninths(self)
+        }
+    };
+}
+pub(super) use elementary;
+
 #[cfg(test)]
 mod tests {
     use super::super::{Portable, WIDTH};

@@ -19,8 +19,6 @@ mod column;
 mod functions;
 mod ninth;
 mod one;
-#[cfg(target_arch = "x86_64")]
-mod pair;
 #[cfg(not(target_feature = "simd128"))]
 mod portable;
 #[cfg(target_feature = "simd128")]
@@ -144,28 +142,13 @@ pub trait Lanes:
     fn sum(self) -> f64;
 
     /// (sin x, cos x), |x| <= 1e5.
-    #[inline(always)]
-    fn sin_cos(self) -> (Self, Self) {
-        functions::sin_cos(self)
-    }
-
+    fn sin_cos(self) -> (Self, Self);
     /// e^x, |x| <= 700.
-    #[inline(always)]
-    fn exp(self) -> Self {
-        functions::exp(self)
-    }
-
+    fn exp(self) -> Self;
     /// tanh x.
-    #[inline(always)]
-    fn tanh(self) -> Self {
-        functions::tanh(self)
-    }
-
+    fn tanh(self) -> Self;
     /// `[x]_+^(10/9)`.
-    #[inline(always)]
-    fn ten_ninths(self) -> Self {
-        functions::ten_ninths(self)
-    }
+    fn ten_ninths(self) -> Self;
 }
 
 /// `+=` and `-=` by `+` and `-`.

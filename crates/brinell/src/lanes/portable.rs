@@ -1,5 +1,6 @@
 //! Lanes as an array: scalar code, or whatever the compiler makes of it.
 
+use super::functions::elementary;
 use super::{Lanes, assigning, grouped};
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
@@ -81,6 +82,7 @@ assigning!(Portable);
 impl Lanes for Portable {
     type Pair = Self;
     grouped!(COUNT);
+    elementary!();
 
     #[inline(always)]
     fn splat(x: f64) -> Self {

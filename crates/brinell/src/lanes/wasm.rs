@@ -1,6 +1,7 @@
 //! Four numbers in two registers of WebAssembly's `simd128`, rounded as the array of `portable` rounds: the same bits
 //! in every browser, and with or without these instructions.
 
+use super::functions::elementary;
 use super::{Lanes, assigning, grouped};
 use std::arch::wasm32::*;
 use std::ops::{Add, Div, Mul, Neg, Sub};
@@ -52,6 +53,7 @@ impl Portable {
 impl Lanes for Portable {
     type Pair = Self;
     grouped!(4);
+    elementary!();
 
     #[inline(always)]
     fn splat(x: f64) -> Self {
