@@ -3,10 +3,16 @@
 use std::f64::consts::PI;
 
 use super::keys::Fallback::{self, Catalogued};
-use super::keys::{Keys, Spec, assumed, derived, key, stated};
-use super::sections::{BALLS, PAPER, ROLLERS, STEEL};
+use super::keys::{Keys, PAPER, assumed, derived, stated};
+use super::spec::{Spec, key};
 use crate::bearing::clearance::{ClearanceClass, bore_diameter_mm};
 use crate::scenario::*;
+
+/// Rolling bearing steel, kg/mm^3.
+pub(super) const STEEL: f64 = 7.85e-6;
+/// Where some keys have a meaning.
+pub(super) const ROLLERS: &str = "bearing.element is \"roller\"";
+pub(super) const BALLS: &str = "bearing.element is \"ball\"";
 
 pub(super) fn bearing<K: Keys>(k: &mut K, model: ModelKind, b: &mut Bearing) {
     k.preset(key("preset", "catalogue bearing that fills the keys left out"), &mut b.preset);

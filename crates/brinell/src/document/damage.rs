@@ -2,8 +2,8 @@
 
 use super::enum_strings::SurfaceWord;
 use super::keys::Fallback::{Needed, Required};
-use super::keys::{Keys, Spec, Variant, assumed, derived, key, stated};
-use super::sections::PAPER;
+use super::keys::{Keys, PAPER, Variant, assumed, derived, stated};
+use super::spec::{Spec, key};
 use super::{damage_files, unset};
 use crate::scenario::*;
 

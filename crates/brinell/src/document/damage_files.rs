@@ -1,7 +1,8 @@
 //! Every key of a shape that is in a file of its own: an image, a drawing, a scan.
 
 use super::keys::Fallback::Required;
-use super::keys::{Fallback, Keys, Spec, assumed, key, stated};
+use super::keys::{Fallback, Keys, assumed, stated};
+use super::spec::{Spec, key};
 use super::value_type::ValueType;
 use crate::scenario::*;
 

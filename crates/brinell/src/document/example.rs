@@ -1,7 +1,8 @@
 //! The scenario that `brinell init` starts from: the NN3007 with the rectangle defect.
 
-use super::load::{by_key, read, write};
+use super::load::{read, write};
 use super::problem::Problem;
+use super::provenance::by_key;
 use super::writer::Style;
 use crate::scenario::Scenario;
 

@@ -4,10 +4,10 @@ use std::collections::HashMap;
 
 use super::checks::{self, Finder};
 use super::problem::{Place, Problem, Severity};
-use super::provenance::{Origin, Provenance};
+use super::provenance::{Origin, Provenance, by_key};
 use super::reader::Reader;
 use super::writer::{Style, Writer};
-use super::{recorded, sections, source, unset};
+use super::{recorded, sections, source, toml_text, unset};
 use crate::scenario::{Scenario, Shape};
 
 /// A scenario that can run, and where its values come from.
@@ -99,7 +99,7 @@ impl Loaded {
         let place = self.provenance.iter().rposition(|p| p.key.starts_with(&of_image));
         let found = Provenance {
             key: of("threshold"),
-            value: source::float(level),
+            value: toml_text::float(level),
             unit: "",
             origin: Origin::Derived("found in the image, its light evened out where that is uneven"),
             assumed: true,
@@ -138,10 +138,6 @@ impl Scenario {
         }
         problems
     }
-}
-
-pub(crate) fn by_key(provenance: &[Provenance]) -> HashMap<&str, &Provenance> {
-    provenance.iter().map(|entry| (entry.key.as_str(), entry)).collect()
 }
 
 pub(crate) fn write(scenario: &Scenario, style: Style<'_>) -> String {

@@ -1,6 +1,6 @@
 //! The scenario file as a document: one TOML file is the whole truth of a run.
 //!
-//! `sections` lists every key once; `reader`, `writer` and `schema` are walks over that list. `checks` holds
+//! `sections` lists every key once, in the vocabulary of `keys`; `reader`, `writer` and `schema` are walks over that list. `checks` holds
 //! what no single key can say: geometry that does not fit, a defect wider than its roller.
 
 mod bearing_keys;
@@ -25,7 +25,9 @@ mod sections;
 mod sensor;
 mod shape_value;
 mod source;
+mod spec;
 mod speed_value;
+mod toml_text;
 mod unset;
 mod value_type;
 mod writer;
@@ -34,8 +36,6 @@ pub use diagnostics::render_diagnostics;
 #[doc(hidden)]
 pub use diagnostics::{on_one_line, one_line};
 pub use example::{explained, template};
-#[doc(hidden)]
-pub use keys::unit_of_key;
 pub use load::{Loaded, read, read_bytes};
 pub use problem::{Place, Problem, Severity};
 #[doc(hidden)]
@@ -43,16 +43,22 @@ pub use problems::{MOST_OF_A_KIND, Problems, numberless};
 pub use provenance::{Origin, Provenance};
 pub use schema::json_schema;
 #[doc(hidden)]
-pub use source::{canonical, float as toml_float, locate, quote as toml_quote};
+pub use source::{canonical, locate};
+#[doc(hidden)]
+pub use spec::unit_of_key;
+#[doc(hidden)]
+pub use toml_text::{float as toml_float, quote as toml_quote};
 
 /// What another document than the scenario is read with: the plan file of `brinell-study`. No promise to anybody else.
 #[doc(hidden)]
 pub mod reading {
     pub use super::checks::Finder;
-    pub use super::keys::{Fallback, Keys, Range, Spec, Variant, key, stated};
+    pub use super::keys::{Fallback, Keys, Variant, stated};
     pub use super::quantity::read as quantity;
     pub use super::reader::Reader;
     pub use super::schema::{Schema, schema_of};
-    pub use super::source::{Entry, Node, Table, Value as Toml, brief_path, key_text, parse, path_parts, quote};
+    pub use super::source::{Entry, Node, Table, Value as Toml, brief_path, parse, path_parts};
+    pub use super::spec::{Range, Spec, key};
+    pub use super::toml_text::{key_text, quote};
     pub use super::value_type::{Choice, Misfit, ValueType};
 }

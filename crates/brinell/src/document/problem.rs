@@ -97,7 +97,7 @@ impl Problem {
 
     /// Of a file that a key names and that cannot be used.
     pub fn of_file(key: &str, file: &str, message: &str) -> Problem {
-        Problem::error(key, message).value(super::source::quote(file))
+        Problem::error(key, message).value(super::toml_text::quote(file))
     }
 
     /// The value at fault.

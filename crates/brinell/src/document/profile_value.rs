@@ -2,8 +2,9 @@
 
 use serde_json::{Value as Json, json};
 
-use super::keys::{Spec, key};
-use super::source::{Node, Value, quote};
+use super::source::{Node, Value};
+use super::spec::{Spec, key};
+use super::toml_text::quote;
 use super::value_type::{Misfit, ValueType, object, read_under, wrong_type};
 use crate::scenario::RollerProfile;
 

@@ -1,5 +1,7 @@
 //! Where every value of a run comes from: the assumption sheet.
 
+use std::collections::HashMap;
+
 /// Who gave a value.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Origin {
@@ -53,4 +55,9 @@ impl Provenance {
             Origin::Recorded(reason) => reason.clone(),
         }
     }
+}
+
+/// Provenance by the path of the key.
+pub(crate) fn by_key(provenance: &[Provenance]) -> HashMap<&str, &Provenance> {
+    provenance.iter().map(|entry| (entry.key.as_str(), entry)).collect()
 }

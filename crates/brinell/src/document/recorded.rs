@@ -11,10 +11,12 @@ use std::collections::{HashMap, HashSet};
 
 use serde_json::{Value as Json, json};
 
-use super::keys::{Keys, Spec, key};
+use super::keys::Keys;
 use super::provenance::Provenance;
 use super::schema::known_keys;
-use super::source::{Node, Value, quote};
+use super::source::{Node, Value};
+use super::spec::{Spec, key};
+use super::toml_text::quote;
 use super::value_type::{Misfit, ValueType, elements, wrong_type};
 use crate::did_you_mean::did_you_mean;
 

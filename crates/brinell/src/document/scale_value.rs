@@ -2,8 +2,8 @@
 
 use serde_json::Value as Json;
 
-use super::keys::{Spec, key};
 use super::source::{Node, Value};
+use super::spec::{Spec, key};
 use super::value_type::{Misfit, ValueType, object, read_under, wrong_type};
 use crate::scenario::ScaleBar;
 

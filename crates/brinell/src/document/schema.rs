@@ -4,7 +4,8 @@ use std::sync::LazyLock;
 
 use serde_json::{Map, Value as Json, json};
 
-use super::keys::{Fallback, Keys, Spec, Variant};
+use super::keys::{Fallback, Keys, Variant};
+use super::spec::Spec;
 use super::value_type::ValueType;
 use super::{recorded, sections, unset};
 

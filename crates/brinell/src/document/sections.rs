@@ -3,11 +3,12 @@
 
 use std::f64::consts::PI;
 
-use super::bearing_keys::{bearing, tilt_key};
+use super::bearing_keys::{BALLS, ROLLERS, STEEL, bearing, tilt_key};
 use super::damage::defect;
 use super::keys::Fallback::{self, Needed, Required};
-use super::keys::{Keys, assumed, derived, key, stated};
+use super::keys::{Keys, PAPER, assumed, derived, stated};
 use super::sensor::sensor;
+use super::spec::key;
 use super::unset;
 use crate::contact::{ball, is_line_exponent, palmgren_stiffness};
 use crate::scenario::*;
@@ -16,14 +17,8 @@ use crate::scenario::*;
 const LINE_EXPONENT: f64 = 10.0 / 9.0;
 /// Exponent of a point contact (Hertz).
 const POINT_EXPONENT: f64 = 1.5;
-/// Rolling bearing steel, kg/mm^3.
-pub(super) const STEEL: f64 = 7.85e-6;
-/// Where some keys have a meaning.
-pub(super) const ROLLERS: &str = "bearing.element is \"roller\"";
-pub(super) const BALLS: &str = "bearing.element is \"ball\"";
 
 const POINT_OF_SCOPE: &str = "not in the paper's model";
-pub(super) const PAPER: &str = "Li et al. 2023";
 
 pub(crate) fn scenario<K: Keys>(k: &mut K, s: &mut Scenario) {
     let name = key("name", "name of the run, free text");

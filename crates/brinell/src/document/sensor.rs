@@ -1,6 +1,7 @@
 //! The keys of `[sensor]`. All are optional: what is not given is not there.
 
-use super::keys::{Keys, assumed, key, stated};
+use super::keys::{Keys, assumed, stated};
+use super::spec::key;
 use super::unset;
 use crate::scenario::{NoiseColour, PathMode, Sensor};
 

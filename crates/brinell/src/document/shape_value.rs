@@ -2,8 +2,8 @@
 
 use serde_json::{Value as Json, json};
 
-use super::keys::Spec;
 use super::source::{Node, Value};
+use super::spec::Spec;
 use super::value_type::{Misfit, ValueType, elements, in_unit, read_each, write_each, wrong_type};
 
 impl ValueType for u64 {

@@ -2,9 +2,9 @@
 
 use serde_json::{Value as Json, json};
 
-use super::keys::{Spec, key};
 use super::quantity;
 use super::source::{Node, Value};
+use super::spec::{Spec, key};
 use super::value_type::{Misfit, ValueType, write_each, wrong_type};
 use crate::scenario::Speed;
 

@@ -2,9 +2,10 @@
 
 use serde_json::{Value as Json, json};
 
-use super::keys::Spec;
 use super::quantity;
-use super::source::{Node, Value, float, quote};
+use super::source::{Node, Value};
+use super::spec::Spec;
+use super::toml_text::{float, quote};
 
 /// A value that does not fit its key.
 #[derive(Debug)]

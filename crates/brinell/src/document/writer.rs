@@ -2,8 +2,9 @@
 
 use std::collections::HashMap;
 
-use super::keys::{Fallback, Keys, Spec, Variant, variant_of};
+use super::keys::{Fallback, Keys, Variant, variant_of};
 use super::provenance::{Origin, Provenance};
+use super::spec::Spec;
 use super::value_type::{ValueType, Words};
 
 /// What the comments say, and which keys are live.
@@ -142,7 +143,7 @@ impl<'a> Writer<'a> {
 fn explain(spec: &Spec, range: Words) -> String {
     let mut text = spec.doc.to_string();
     let range = range(spec);
-    let bounded = !range.is_empty() && range != super::keys::Range::ANY.to_string();
+    let bounded = !range.is_empty() && range != super::spec::Range::ANY.to_string();
     match (bounded, spec.unit) {
         (false, "") => {}
         (false, unit) => text.push_str(&format!("; {unit}")),

@@ -13,11 +13,12 @@ mod slices;
 
 use std::collections::HashMap;
 
-use super::keys::unit_of;
 use super::problem::{Place, Problem, Severity};
 use super::problems::{Problems, numberless};
-use super::provenance::{Origin, Provenance};
-use super::source::{Node, float};
+use super::provenance::{Origin, Provenance, by_key};
+use super::source::Node;
+use super::spec::unit_of;
+use super::toml_text::float;
 use crate::scenario::Scenario;
 
 /// Finds what the file says of a key, and where.
@@ -30,7 +31,7 @@ pub struct Finder<'a> {
 impl<'a> Finder<'a> {
     /// Of the keys that a reader found.
     pub fn new(text: &'a str, found: &'a HashMap<String, &'a Node>, provenance: &'a [Provenance]) -> Finder<'a> {
-        Finder { text, found, provenance: super::load::by_key(provenance) }
+        Finder { text, found, provenance: by_key(provenance) }
     }
 
     /// Where the file gives a key.

@@ -225,7 +225,7 @@ impl Checker<'_> {
         if let Some(name) = self.s.simulation.record.iter().find(bad) {
             self.error(
                 RECORD,
-                format!("no channel can match {}", crate::document::source::quote(name)),
+                format!("no channel can match {}", crate::document::toml_text::quote(name)),
                 "names of letters, digits, _ and *".into(),
                 &[],
             );

@@ -1,8 +1,10 @@
 //! The walk over the list of keys, as it reads a file.
 
-use super::super::keys::{Fallback, Keys, Spec, Variant, key};
+use super::super::keys::{Fallback, Keys, Variant};
 use super::super::problem::{Problem, Severity};
-use super::super::source::{Node, Value, brief_path, quote};
+use super::super::source::{Node, Value, brief_path};
+use super::super::spec::{Spec, key};
+use super::super::toml_text::quote;
 use super::super::value_type::ValueType;
 use super::{MOST_TABLES, Reader, join};
 use crate::bearing::clearance::ClearanceClass;

@@ -1,0 +1,142 @@
+//! What a key is called, means and may hold.
+
+use std::fmt;
+
+/// Name, meaning, unit and range of one key.
+#[derive(Debug, Clone, Copy)]
+pub struct Spec {
+    pub(crate) name: &'static str,
+    pub(crate) doc: &'static str,
+    pub(crate) unit: &'static str,
+    pub(crate) range: Range,
+}
+
+/// A key without a range; its unit is the one in its name.
+pub const fn key(name: &'static str, doc: &'static str) -> Spec {
+    Spec { name, doc, unit: unit_of(name), range: Range::ANY }
+}
+
+impl Spec {
+    /// Another meaning.
+    pub const fn doc(mut self, doc: &'static str) -> Spec {
+        self.doc = doc;
+        self
+    }
+
+    /// A unit that the name does not carry.
+    pub const fn unit(mut self, unit: &'static str) -> Spec {
+        self.unit = unit;
+        self
+    }
+
+    /// Greater than `low`.
+    pub const fn above(mut self, low: f64) -> Spec {
+        self.range.low = Some((low, false));
+        self
+    }
+
+    /// At least `low`.
+    pub const fn from(mut self, low: f64) -> Spec {
+        self.range.low = Some((low, true));
+        self
+    }
+
+    /// At most `high`.
+    pub const fn to(mut self, high: f64) -> Spec {
+        self.range.high = Some((high, true));
+        self
+    }
+}
+
+/// The unit in a key's name: its longest suffix that is one.
+pub(crate) const fn unit_of(name: &str) -> &'static str {
+    const SUFFIXES: [(&str, &str); 22] = [
+        ("_nms_per_rad", "N m s/rad"),
+        ("_nm_per_rad", "N m/rad"),
+        ("_mv_per_m_per_s2", "mV/(m/s^2)"),
+        ("_kg_per_m3", "kg/m^3"),
+        ("_ns_per_m", "N s/m"),
+        ("_m_per_s2", "m/s^2"),
+        ("_n_per_m", "N/m"),
+        ("_m_per_s", "m/s"),
+        ("_pa_s", "Pa s"),
+        ("_gpa", "GPa"),
+        ("_deg", "deg"),
+        ("_rpm", "r/min"),
+        ("_mm2", "mm^2"),
+        ("_mm", "mm"),
+        ("_um", "um"),
+        ("_kg", "kg"),
+        ("_hz", "Hz"),
+        ("_mv", "mV"),
+        ("_db", "dB"),
+        ("_px", "px"),
+        ("_n", "N"),
+        ("_s", "s"),
+    ];
+    let mut i = 0;
+    while i < SUFFIXES.len() {
+        if ends_with(name.as_bytes(), SUFFIXES[i].0.as_bytes()) {
+            return SUFFIXES[i].1;
+        }
+        i += 1;
+    }
+    ""
+}
+
+/// The unit that a key's path carries in its name, an element of a list having its list's; empty where there is none.
+pub fn unit_of_key(path: &str) -> &'static str {
+    let named = |part: &&str| !part.bytes().all(|b| b.is_ascii_digit());
+    path.rsplit('.').find(named).map_or("", unit_of)
+}
+
+const fn ends_with(name: &[u8], suffix: &[u8]) -> bool {
+    if name.len() < suffix.len() {
+        return false;
+    }
+    let mut i = 0;
+    while i < suffix.len() {
+        if name[name.len() - suffix.len() + i] != suffix[i] {
+            return false;
+        }
+        i += 1;
+    }
+    true
+}
+
+/// Interval of finite numbers; each bound says whether it belongs to it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Range {
+    pub(crate) low: Option<(f64, bool)>,
+    pub(crate) high: Option<(f64, bool)>,
+}
+
+impl Range {
+    pub(crate) const ANY: Range = Range { low: None, high: None };
+
+    pub(crate) fn contains(&self, x: f64) -> bool {
+        x.is_finite()
+            && self.low.is_none_or(|(low, closed)| x > low || (closed && x == low))
+            && self.high.is_none_or(|(high, closed)| x < high || (closed && x == high))
+    }
+}
+
+impl fmt::Display for Range {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let sign = |closed, open: &'static str, shut: &'static str| if closed { shut } else { open };
+        let text = |x: f64| {
+            if x.abs() >= 1e6 { format!("{x:e}") } else { x.to_string() }
+        };
+        let low = self.low.map(|(low, closed)| (text(low), closed));
+        let high = self.high.map(|(high, closed)| (text(high), closed));
+        match (low, high) {
+            (None, None) => write!(f, "any finite number"),
+            (Some((low, closed)), None) => write!(f, "{} {low}", sign(closed, ">", ">=")),
+            (None, Some((high, closed))) => write!(f, "{} {high}", sign(closed, "<", "<=")),
+            (Some((low, true)), Some((high, true))) => write!(f, "{low} to {high}"),
+            (Some((low, a)), Some((high, b))) => {
+                write!(f, "{} {low} and {} {high}", sign(a, ">", ">="), sign(b, "<", "<="))
+            }
+        }
+    }
+}
