@@ -11,6 +11,7 @@
 //! en.shjfbearing.com, news 2525, which agree elsewhere but for misprints.
 
 use super::catalogue;
+use super::designation::{is_gap, readings};
 use crate::scenario::{Bearing, Element};
 
 /// A class of radial internal clearance.
@@ -63,6 +64,18 @@ pub fn classes_of(of: Element, bore_mm: f64, diametral_um: f64) -> Vec<Clearance
         class.limits(of, bore_mm).is_some_and(|[low, high]| (low..=high).contains(&diametral_um))
     };
     ClearanceClass::ALL.into_iter().filter(holds).collect()
+}
+
+/// The class of radial clearance that a name's suffixes give: `C3` of `6205-2RSH/C3`.
+pub fn clearance_of(name: &str) -> Option<ClearanceClass> {
+    let (_, suffix) = readings(name).into_iter().next()?;
+    let words = suffix.split(|c: char| is_gap(c) || c == '/');
+    let mut classes = words.filter_map(|word| {
+        // The letters of the grease may follow it: C3WT.
+        let two = word.get(..2)?;
+        ClearanceClass::ALL.into_iter().find(|class| class.name() == two)
+    });
+    classes.next()
 }
 
 /// Bore diameter of a bearing (mm): its own key, else that of its preset.

@@ -4,8 +4,6 @@
 //! which do not change the bearing's inner geometry. The class of clearance among them is reported, because it does
 //! change the clearance.
 
-use super::clearance::ClearanceClass;
-
 /// Makers, whose names may be in front.
 const MAKERS: [&str; 14] =
     ["SKF", "FAG", "INA", "NSK", "NTN", "SNR", "KOYO", "NACHI", "TIMKEN", "LDK", "REXNORD", "ZKL", "RHP", "SCHAEFFLER"];
@@ -55,7 +53,7 @@ pub(super) fn readings(name: &str) -> Vec<(String, String)> {
     found
 }
 
-fn is_gap(c: char) -> bool {
+pub(super) fn is_gap(c: char) -> bool {
     c.is_whitespace() || matches!(c, '-' | '.' | '_')
 }
 
@@ -100,18 +98,6 @@ pub(super) fn kind(name: &str) -> Option<&'static str> {
 /// Whether two names may be meant for each other: not where their types are known, and different.
 pub(super) fn of_one_kind(name: &str, other: &str) -> bool {
     kind(name).is_none_or(|known| kind(other) == Some(known))
-}
-
-/// The class of radial clearance that a name's suffixes give: `C3` of `6205-2RSH/C3`.
-pub fn clearance_of(name: &str) -> Option<ClearanceClass> {
-    let (_, suffix) = readings(name).into_iter().next()?;
-    let words = suffix.split(|c: char| is_gap(c) || c == '/');
-    let mut classes = words.filter_map(|word| {
-        // The letters of the grease may follow it: C3WT.
-        let two = word.get(..2)?;
-        ClearanceClass::ALL.into_iter().find(|class| class.name() == two)
-    });
-    classes.next()
 }
 
 #[cfg(test)]

@@ -8,6 +8,6 @@ pub mod kinematics;
 pub mod orders;
 pub mod rating;
 
-pub use designation::clearance_of;
+pub use clearance::clearance_of;
 pub use kinematics::Kinematics;
 pub use orders::{KnownBearing, frequencies_of, orders_of};
