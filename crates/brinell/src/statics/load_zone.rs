@@ -1,7 +1,8 @@
 //! The static balance as the cage turns through a pitch: load zone, ring shift, stiffness of the bearing.
 
-use super::{NoBalance, Problem, solve};
-use crate::defect::wrap;
+use super::balance::{NoBalance, Problem};
+use super::solve;
+use crate::defect::{SIDES, wrap};
 use crate::model::Model;
 use std::f64::consts::{PI, TAU};
 
@@ -23,6 +24,14 @@ pub struct StaticLoadZone {
     pub shift: [f64; 2],
     /// Mean stiffness of the bearing between its rings, N/m.
     pub stiffness: [[f64; 2]; 2],
+}
+
+impl StaticLoadZone {
+    /// Static deformation of the heaviest contact on the softer raceway, m.
+    pub(crate) fn deformation(&self, model: &Model) -> f64 {
+        let on = |side| model.deflection(side, self.largest);
+        SIDES.into_iter().map(on).fold(0.0, f64::max)
+    }
 }
 
 /// Positions of the cage over one pitch.

@@ -1,6 +1,6 @@
 //! A damped Newton method for the least potential energy.
 
-use super::NoBalance;
+use super::balance::NoBalance;
 
 const MAX_ITERATIONS: usize = 200;
 

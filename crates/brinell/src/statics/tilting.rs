@@ -1,8 +1,10 @@
 //! Static balance where rollers and rings tilt (section 16): each roller's (r, beta) is eliminated, the rings' eight
 //! coordinates are searched.
 
+use super::balance::{
+    Balance, NoBalance, Problem, Tilted, angles, centrifugal, covers, external, force_scale, softest,
+};
 use super::newton::{State, eliminate, minimise};
-use super::{Balance, NoBalance, Problem, Tilted, angles, centrifugal, covers, external, force_scale, softest};
 use crate::model::{Model, Tilt};
 use crate::slices::{Approach, Carried, Cover, Slices};
 

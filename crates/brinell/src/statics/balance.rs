@@ -1,0 +1,146 @@
+//! What is asked of the solvers and what they answer, and the forces that both of them know.
+
+use crate::defect::{Angles, SIDES, cover_slices};
+use crate::model::Model;
+use crate::slices::{Cover, Slices};
+
+/// Question put to the solver.
+#[derive(Debug, Clone, PartialEq)]
+#[doc(hidden)]
+pub struct Problem {
+    /// Speed of the inner ring, rad/s: sets the centrifugal force of rollers in pure rolling.
+    pub speed: f64,
+    /// Angle of the inner ring, rad.
+    pub ring_angle: f64,
+    /// Orbit angle of each slot, rad.
+    pub orbit: Vec<f64>,
+    /// Spin angle of each slot, rad.
+    pub spin: Vec<f64>,
+    /// Hold the inner ring at the centre.
+    pub fix_inner: bool,
+    /// Hold the outer ring at the centre.
+    pub fix_outer: bool,
+    /// Where the search begins: offsets of the inner and the outer ring, m. A ring that is held stays at the centre.
+    pub guess: [[f64; 2]; 2],
+}
+
+impl Problem {
+    /// The state of a model at t = 0 under its full load.
+    pub fn at_start(model: &Model) -> Self {
+        Self {
+            speed: model.rotation.at(0.0).0,
+            ring_angle: 0.0,
+            orbit: model.pocket_angle.to_vec(),
+            spin: vec![0.0; model.layout.slots],
+            fix_inner: false,
+            fix_outer: model.outer_ring_is_fixed(),
+            guess: [[0.0; 2]; 2],
+        }
+    }
+}
+
+/// The balance.
+#[derive(Debug, Clone, PartialEq)]
+#[doc(hidden)]
+pub struct Balance {
+    /// Offset of the inner ring, m.
+    pub inner: [f64; 2],
+    /// Offset of the outer ring, m.
+    pub outer: [f64; 2],
+    /// Radial offset of each slot's roller, m.
+    pub r: Vec<f64>,
+    /// Q_in of each slot, N.
+    pub inner_force: Vec<f64>,
+    /// Q_out of each slot, N.
+    pub outer_force: Vec<f64>,
+    /// Stiffness of the bearing between its rings, N/m: the force on the inner ring is minus this times its
+    /// displacement.
+    pub stiffness: [[f64; 2]; 2],
+    /// Tilts, where rollers and rings tilt.
+    pub tilting: Option<Tilted>,
+    /// Largest force left over on a ring, N; of a moment its share of the pitch radius.
+    pub residual: f64,
+    /// Newton iterations.
+    pub iterations: usize,
+}
+
+/// The tilts of a balance, section 16.
+#[derive(Debug, Clone, PartialEq)]
+#[doc(hidden)]
+pub struct Tilted {
+    /// tau of the inner and of the outer ring, rad.
+    pub rings: [[f64; 2]; 2],
+    /// beta of each slot's roller, rad.
+    pub rollers: Vec<f64>,
+    /// T of each slot's inner and outer contact, N m.
+    pub moments: [Vec<f64>; 2],
+    /// Stiffness of the bearing between its rings over (x, y, tau_x, tau_y): N/m, N/rad, N m/rad. Along the axis
+    /// cylindrical rollers hold nothing.
+    pub stiffness: [[f64; 4]; 4],
+}
+
+/// No balance was found.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[error(
+    "no static balance: {} left on a ring after {iterations} iterations; a free ring needs a support or a loaded contact against \
+     the load, and where it tilts against its moment (support.*_tilt_stiffness_nm_per_rad)",
+    newton(*.residual)
+)]
+pub struct NoBalance {
+    /// Force left over, N; not a number where a contact force was none.
+    pub residual: f64,
+    /// Iterations made.
+    pub iterations: usize,
+}
+
+fn newton(force: f64) -> String {
+    match force.is_finite() {
+        true => format!("{force:.3e} N are"),
+        false => "a force beyond any number is".into(),
+    }
+}
+
+/// Rings' offsets (x_i, y_i, x_o, y_o).
+pub(super) type Offsets = [f64; 4];
+
+/// The largest force at play, N: loads, and the weight and centrifugal force of all rollers.
+pub(super) fn force_scale(model: &Model, problem: &Problem, forces: &[f64]) -> f64 {
+    let count = model.layout.rollers() as f64;
+    let weight = count * model.inertia.roller * centrifugal(model, problem.speed).abs();
+    forces.iter().fold(0.0_f64, |m, f| m.max(f.abs())).max(weight).max(1e-9)
+}
+
+/// Where the damping of Newton's method begins, N/m: the series stiffness at a deflection of a micrometre. Any value of
+/// this order does.
+pub(super) fn softest(model: &Model) -> f64 {
+    1e-3 * model.series_contact.tangent(1e-6, None).max(1.0)
+}
+
+/// Centripetal acceleration of a roller in pure rolling, m/s^2.
+pub(super) fn centrifugal(model: &Model, speed: f64) -> f64 {
+    model.geometry.pitch_radius * model.rolling_orbit_speed(speed).powi(2)
+}
+
+/// Loads and weights of the rings, N.
+pub(super) fn external(model: &Model) -> Offsets {
+    let (inner, outer) = model.load.on_rings(1.0);
+    let (m, g) = (&model.inertia, &model.gravity);
+    [
+        inner[0] + m.inner_ring * g[0],
+        inner[1] + m.inner_ring * g[1],
+        outer[0] + m.outer_ring * g[0],
+        outer[1] + m.outer_ring * g[1],
+    ]
+}
+
+pub(super) fn angles(problem: &Problem, slot: usize) -> Angles {
+    Angles { orbit: problem.orbit[slot], spin: problem.spin[slot], ring: problem.ring_angle }
+}
+
+/// What damage covers of a roller's inner and outer contact.
+pub(super) fn covers(model: &Model, slices: &Slices, slot: usize, angles: &Angles) -> [Option<Cover>; 2] {
+    SIDES.map(|side| {
+        let mut cover = Cover::new(slices.count);
+        cover_slices(model.defects_of(slot, side), angles, &mut cover).then_some(cover)
+    })
+}

@@ -1,0 +1,257 @@
+//! Rings and rollers in the plane: each roller's radial offset is eliminated, for it has one equilibrium at given ring
+//! offsets.
+
+use super::balance::{
+    Balance, NoBalance, Offsets, Problem, angles, centrifugal, covers, external, force_scale, softest,
+};
+use super::newton::{Minimum, State, minimise};
+use crate::defect::{Angles, Side, damaged_contact, energy, tangent};
+use crate::model::{Model, lumped};
+use crate::scenario::ModelKind;
+use crate::slices::{Approach, Carried, Cover, Slices};
+
+/// What one roller contributes at given ring offsets.
+#[derive(Debug, Clone, Copy, Default)]
+struct Roller {
+    r: f64,
+    inner: f64,
+    outer: f64,
+    /// dQ/d(deformation of the rings) through the roller, N/m.
+    tangent: f64,
+    /// Potential energy, J.
+    energy: f64,
+}
+
+/// As [`super::solve`], for rings that do not tilt.
+pub(super) fn solve(model: &Model, problem: &Problem) -> Result<Balance, NoBalance> {
+    let free = [!problem.fix_inner, !problem.fix_inner, !problem.fix_outer, !problem.fix_outer];
+    let guess: Offsets = std::array::from_fn(|k| problem.guess[k / 2][k % 2]);
+    let mut rollers = vec![Roller::default(); model.layout.rollers()];
+    let forces = external(model);
+    let scale = force_scale(model, problem, &forces);
+    let found = minimise(guess, &free, (scale, softest(model)), |x| {
+        let potential = evaluate(model, problem, &forces, x, &mut rollers);
+        let (gradient, hessian) = derivatives(model, problem, &forces, x, &rollers);
+        State { potential, gradient, hessian }
+    })?;
+    evaluate(model, problem, &forces, &found.x, &mut rollers);
+    Ok(finish(model, problem, &found, &rollers))
+}
+
+/// Potential energy at ring offsets `x`; fills `rollers`.
+fn evaluate(model: &Model, problem: &Problem, forces: &Offsets, x: &Offsets, rollers: &mut [Roller]) -> f64 {
+    let (ki, ko) = (model.inner_support.stiffness, model.acting_outer_support().stiffness);
+    let k = [ki, ki, ko, ko];
+    let mut potential: f64 = (0..4).map(|i| 0.5 * k[i] * x[i] * x[i] - forces[i] * x[i]).sum();
+    for (slot, roller) in rollers.iter_mut().enumerate() {
+        *roller = match model.kind {
+            ModelKind::Full | ModelKind::Tilting => between_raceways(model, problem, slot, x),
+            ModelKind::Lumped => in_series(model, problem, slot, x),
+        };
+        potential += roller.energy;
+    }
+    potential
+}
+
+fn in_series(model: &Model, problem: &Problem, slot: usize, x: &Offsets) -> Roller {
+    let (sin, cos) = problem.orbit[slot].sin_cos();
+    let g = &model.geometry;
+    let delta = cos * (x[0] - x[2]) + sin * (x[1] - x[3]) - g.clearance - g.outer_gap;
+    let (force, tangent, energy) = lumped::elastic_at(model, slot, &angles(problem, slot), delta);
+    Roller { r: 0.0, inner: force, outer: force, tangent, energy }
+}
+
+/// The roller's equilibrium: the r at which Q_in - Q_out and its own radial force N balance.
+fn between_raceways(model: &Model, problem: &Problem, slot: usize, x: &Offsets) -> Roller {
+    let angles = angles(problem, slot);
+    let (sin, cos) = angles.orbit.sin_cos();
+    let covers = model.slices.as_ref().map(|s| covers(model, s, slot, &angles));
+    let between = Between {
+        model,
+        slot,
+        angles,
+        inner_at: cos * x[0] + sin * x[1] - model.geometry.clearance,
+        outer_at: cos * x[2] + sin * x[3] + model.geometry.outer_gap,
+        own: model.inertia.roller
+            * (centrifugal(model, problem.speed) + cos * model.gravity[0] + sin * model.gravity[1]),
+        covers,
+    };
+    let r = between.equilibrium();
+    let [(q_in, k_in), (q_out, k_out)] = between.contacts(r);
+    Roller {
+        r,
+        inner: q_in,
+        outer: q_out,
+        tangent: if k_in + k_out > 0.0 { k_in * k_out / (k_in + k_out) } else { 0.0 },
+        energy: between.energy(r),
+    }
+}
+
+/// One roller between raceways that are held.
+struct Between<'a> {
+    model: &'a Model,
+    slot: usize,
+    angles: Angles,
+    /// The r at which the roller just touches the inner raceway, and the outer one, m.
+    inner_at: f64,
+    outer_at: f64,
+    /// Its own radial force, N.
+    own: f64,
+    /// What damage covers, where slices count.
+    covers: Option<[Option<Cover>; 2]>,
+}
+
+impl Between<'_> {
+    fn sliced(&self, slices: &Slices, side: Side, delta: f64) -> Carried {
+        let at = Approach { deformation: delta, ..Approach::default() };
+        let cover = self.covers.as_ref().and_then(|c| c[side as usize].as_ref());
+        slices.carry(self.model.contact(side), &at, cover)
+    }
+
+    /// Force of a contact, and its tangent.
+    fn contact(&self, side: Side, delta: f64) -> (f64, f64) {
+        let (model, angles) = (self.model, &self.angles);
+        if let Some(slices) = &model.slices {
+            let carried = self.sliced(slices, side, delta);
+            return (carried.force, carried.stiffness[0]);
+        }
+        let law = model.contact(side);
+        let defects = model.defects_of(self.slot, side);
+        match damaged_contact(defects, law, angles, delta) {
+            Some(damaged) => (damaged.elastic, tangent(defects, law, angles, delta)),
+            None if delta > 0.0 => {
+                let force = law.healthy(delta);
+                (force, law.exponent.value() * force / delta)
+            }
+            None => (0.0, 0.0),
+        }
+    }
+
+    /// Both contacts of the roller at r.
+    fn contacts(&self, r: f64) -> [(f64, f64); 2] {
+        [self.contact(Side::Inner, self.inner_at - r), self.contact(Side::Outer, r - self.outer_at)]
+    }
+
+    /// Q_in - Q_out + N, which falls with r, and how steeply.
+    fn balance(&self, r: f64) -> (f64, f64) {
+        let [(q_in, k_in), (q_out, k_out)] = self.contacts(r);
+        (q_in - q_out + self.own, k_in + k_out)
+    }
+
+    /// Where the balance is positive, and where it is negative, around the raceways.
+    fn bracket(&self) -> (f64, f64) {
+        let mut low = self.inner_at.min(self.outer_at);
+        let mut high = self.inner_at.max(self.outer_at);
+        let mut reach = 1e-7;
+        while self.balance(low).0 < 0.0 && reach < 1.0 {
+            low -= reach;
+            reach *= 2.0;
+        }
+        reach = 1e-7;
+        while self.balance(high).0 > 0.0 && reach < 1.0 {
+            high += reach;
+            reach *= 2.0;
+        }
+        (low, high)
+    }
+
+    /// The r of the balance, by bisection with Newton steps.
+    fn equilibrium(&self) -> f64 {
+        let (mut low, mut high) = self.bracket();
+        // From the raceway that the roller's own force presses it against.
+        let mut r = if self.own < 0.0 { low } else { high };
+        // Deformations are differences of r and of where the raceways are: finer than their round-off is nothing.
+        let grain = 1e-22 + 2.0 * f64::EPSILON * (self.inner_at.abs() + self.outer_at.abs());
+        if self.balance(r).0 == 0.0 {
+            return r;
+        }
+        for _ in 0..200 {
+            let (f, slope) = self.balance(r);
+            if f > 0.0 {
+                low = r;
+            } else {
+                high = r;
+            }
+            let newton = if slope > 0.0 { r + f / slope } else { f64::NAN };
+            // Where it is found, the step leads nowhere, and so not into the bracket either.
+            if (newton - r).abs() <= grain {
+                break;
+            }
+            let next = if newton > low && newton < high { newton } else { 0.5 * (low + high) };
+            r = next;
+            if high - low <= grain {
+                break;
+            }
+        }
+        r
+    }
+
+    /// Potential energy at r, J.
+    fn energy(&self, r: f64) -> f64 {
+        let model = self.model;
+        let stored = |side, delta| {
+            if let Some(slices) = &model.slices {
+                return self.sliced(slices, side, delta).energy;
+            }
+            energy(model.defects_of(self.slot, side), model.contact(side), &self.angles, delta)
+        };
+        stored(Side::Inner, self.inner_at - r) + stored(Side::Outer, r - self.outer_at) - self.own * r
+    }
+}
+
+/// Gradient (minus the forces on the rings) and Hessian of the potential.
+fn derivatives(
+    model: &Model,
+    problem: &Problem,
+    forces: &Offsets,
+    x: &Offsets,
+    rollers: &[Roller],
+) -> (Offsets, [[f64; 4]; 4]) {
+    let (ki, ko) = (model.inner_support.stiffness, model.acting_outer_support().stiffness);
+    let k = [ki, ki, ko, ko];
+    let mut gradient: Offsets = std::array::from_fn(|i| k[i] * x[i] - forces[i]);
+    let mut hessian = [[0.0; 4]; 4];
+    (0..4).for_each(|i| hessian[i][i] = k[i]);
+    for (slot, roller) in rollers.iter().enumerate() {
+        let (sin, cos) = problem.orbit[slot].sin_cos();
+        let along = [cos, sin, -cos, -sin];
+        for i in 0..4 {
+            gradient[i] += along[i] * if i < 2 { roller.inner } else { roller.outer };
+            for j in 0..4 {
+                hessian[i][j] += roller.tangent * along[i] * along[j];
+            }
+        }
+    }
+    (gradient, hessian)
+}
+
+fn finish(model: &Model, problem: &Problem, found: &Minimum<4>, rollers: &[Roller]) -> Balance {
+    let x = &found.x;
+    let slots = model.layout.slots;
+    let gather = |f: fn(&Roller) -> f64| {
+        let mut values = vec![0.0; slots];
+        values.iter_mut().zip(rollers).for_each(|(v, r)| *v = f(r));
+        values
+    };
+    let mut stiffness = [[0.0; 2]; 2];
+    for (slot, roller) in rollers.iter().enumerate() {
+        let (sin, cos) = problem.orbit[slot].sin_cos();
+        let e = [cos, sin];
+        for i in 0..2 {
+            for j in 0..2 {
+                stiffness[i][j] += roller.tangent * e[i] * e[j];
+            }
+        }
+    }
+    Balance {
+        inner: [x[0], x[1]],
+        outer: [x[2], x[3]],
+        r: gather(|r| r.r),
+        inner_force: gather(|r| r.inner),
+        outer_force: gather(|r| r.outer),
+        stiffness,
+        tilting: None,
+        residual: found.residual,
+        iterations: found.iterations,
+    }
+}
