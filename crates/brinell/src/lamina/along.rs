@@ -1,6 +1,6 @@
 //! The load along one roller at rest over damage, beside that of the healthy bearing.
 
-use super::{ContactLine, in_slices, lines, slices_of};
+use super::line::{ContactLine, in_slices, lines, slices_of};
 use crate::defect::{Defect, Defects, Side, cover_slices};
 use crate::error::Error;
 use crate::model::Model;

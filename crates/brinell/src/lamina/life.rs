@@ -6,7 +6,8 @@
 //! implementation that names the standard's equations (38 to 65), and against the derivation: 0.378, 0.364 and 1.038
 //! are J_r/J_1, J_r/J_2 and J_2/J_1 of a load zone of half a turn.
 
-use super::{ContactLine, Distribution};
+use super::distribution::Distribution;
+use super::line::ContactLine;
 use crate::bearing::rating::{LAMBDA_NU, dynamic_rating};
 use crate::scenario::Bearing;
 
