@@ -7,10 +7,11 @@
 
 mod slices;
 mod tilting;
+mod warning;
 
 use crate::bearing::rating::static_rating;
 use crate::defect::{Defect, SIDES, Side, relative_radius, wrap};
-use crate::document::{Problem, Problems, Severity, toml_float, unit_of_key};
+use crate::document::{Problem, Problems, toml_float};
 use crate::lamina::Rating;
 use crate::model::Model;
 use crate::operation::Rotation;
@@ -20,6 +21,7 @@ use crate::simulate::EnergyAudit;
 use crate::statics::{NoBalance, StaticLoadZone, static_load_zone};
 use slices::coarse_slices;
 use std::f64::consts::TAU;
+use warning::{short, warning};
 
 /// Share of the dissipation in contacts beyond which the parametric work of damage is worth a warning.
 pub(crate) const PARAMETRIC_SHARE: f64 = 0.1;
@@ -65,7 +67,7 @@ pub fn before(scenario: &Scenario, model: &Model, statics: &Result<StaticLoadZon
         Err(error) => warnings.push(warning(LOAD, list(scenario.operation.load_n), error.to_string(), "")),
     }
     warnings.extend(outside_the_load_zone(scenario, model));
-    let deformation = statics.as_ref().ok().map(|zone| deformation(model, zone));
+    let deformation = statics.as_ref().ok().map(|zone| zone.deformation(model));
     warnings.extend(felt_by_a_point(scenario, model, deformation));
     warnings.extend(statics.as_ref().ok().and_then(|zone| coarse_slices(scenario, model, zone)));
     warnings.extend(tilting::warnings(scenario, model));
@@ -84,23 +86,6 @@ fn few_of_a_kind(warnings: Vec<Problem>) -> Vec<Problem> {
 pub fn after(scenario: &Scenario, energy: &EnergyAudit) -> Vec<String> {
     let both = [parametric(scenario, energy), residual(scenario, energy)];
     both.into_iter().flatten().collect()
-}
-
-fn warning(key: &str, value: String, message: String, allowed: impl Into<String>) -> Problem {
-    Problem::new(Severity::Warning, key, message).value(value).allowed(allowed).unit(unit_of_key(key))
-}
-
-/// A number in a message.
-fn short(x: f64) -> String {
-    if x == 0.0 {
-        return "0".into();
-    }
-    let exponent = x.abs().log10().floor() as i32;
-    if !(-4..6).contains(&exponent) {
-        return format!("{x:.2e}");
-    }
-    let decimals = (2 - exponent).max(0) as usize;
-    format!("{x:.decimals$}")
 }
 
 fn list([x, y]: [f64; 2]) -> String {
@@ -258,12 +243,6 @@ fn outside_the_load_zone(scenario: &Scenario, model: &Model) -> Vec<Problem> {
         ));
     }
     warnings
-}
-
-/// Static deformation of the heaviest contact on the softer raceway, m.
-fn deformation(model: &Model, zone: &StaticLoadZone) -> f64 {
-    let on = |side| model.deflection(side, zone.largest);
-    SIDES.into_iter().map(on).fold(0.0, f64::max)
 }
 
 /// What `roller_path = "point"` makes of damage: a floor that the roller's radius keeps it from is felt all the same;

@@ -7,7 +7,7 @@
 //! than delta if the edge runs less than sqrt(R_eq delta / 2) across it. Of depth maps only the edges are judged, not
 //! how the floor varies.
 
-use super::{deformation, short, warning};
+use super::warning::{short, warning};
 use crate::defect::{Defect, Defects, SIDES, Side, cover_slices, relative_radius, wrap};
 use crate::document::Problem;
 use crate::model::Model;
@@ -36,7 +36,7 @@ pub(super) fn coarse_slices(scenario: &Scenario, model: &Model, zone: &StaticLoa
     }
     let edges = Edges {
         scenario,
-        deformation: deformation(model, zone),
+        deformation: zone.deformation(model),
         pressed: model.defects.iter().map(|d| is_pressed(model, zone, d)).collect(),
     };
     let (run, way) = edges.worst(c.slices)?;

@@ -1,6 +1,6 @@
 //! What an engineer would ask of rows, load and slices where rings and rollers tilt or have a profile.
 
-use super::{short, warning};
+use super::warning::{short, warning};
 use crate::document::{Problem, toml_float};
 use crate::lamina::FEWEST_SLICES;
 use crate::model::Model;
