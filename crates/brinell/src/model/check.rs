@@ -1,7 +1,18 @@
 //! What a model refuses of a scenario that was not checked as a file.
 
-use super::ModelError;
 use crate::scenario::{Law, ModelKind, Scenario, Surface};
+
+/// A scenario built in code that no model can be made of.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[error("{key} = {value}: {requirement}")]
+pub struct ModelError {
+    /// Scenario key.
+    pub key: String,
+    /// Offending value.
+    pub value: String,
+    /// What it must be.
+    pub requirement: &'static str,
+}
 
 /// Refuses what would divide by zero or index out of range.
 pub(super) fn check(s: &Scenario) -> Result<(), ModelError> {

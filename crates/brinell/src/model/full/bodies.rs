@@ -1,6 +1,6 @@
 //! Cages and rings, which take up what the rollers leave, and the push of damage's edges.
 
-use super::{Sums, Turn};
+use super::sums::{Sums, Turn};
 use crate::cage::GuideForce;
 use crate::defect::{Angles, SIDES, Side, edge_gradient, edge_gradient_of_slices};
 use crate::model::{Model, Power, Tilt, Workspace};

@@ -1,7 +1,7 @@
 //! Contacts of rollers with raceways: how each moves, what may be on damage, elementary functions, damage, and what
 //! those that are closed carry.
 
-use super::rollers::{Plane, column, columns, pair, polar};
+use super::view::{Plane, column, columns, pair, polar};
 use crate::contact::film::SqueezeFilm;
 use crate::defect::{Angles, SIDES, Side, cover_slices, damaged_contact_given};
 use crate::lanes::Lanes;

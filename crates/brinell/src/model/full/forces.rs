@@ -2,10 +2,10 @@
 
 use super::contacts::closed;
 use super::pockets::pockets;
-use super::rollers::{Plane, along_t, column, columns_mut, pair, polar};
+use super::sums::Sums;
+use super::view::{Plane, along_t, column, columns_mut, pair, polar};
 use crate::defect::Side;
 use crate::lanes::Lanes;
-use crate::model::full::Sums;
 use crate::model::{Model, Power, Workspace};
 
 /// Drag (section 7) and the rollers' own motion (Eq. 51), and what the rings feel of them.

@@ -8,11 +8,14 @@ mod contacts;
 mod forces;
 mod pockets;
 mod rollers;
+mod sums;
+mod view;
 
-use super::{Kernel, Model, Power, Workspace};
+use super::{Kernel, Model, Workspace};
 #[cfg(target_arch = "x86_64")]
 use crate::lanes::{Avx2, Avx512};
 use crate::lanes::{Lanes, Portable};
+use sums::Turn;
 
 /// Accelerations at (t, y), compiled for the instructions that the workspace's kernel names.
 pub(super) fn accelerations(model: &Model, t: f64, y: &[f64], a: &mut [f64], ws: &mut Workspace) {
@@ -38,24 +41,6 @@ fn with_avx512(model: &Model, t: f64, y: &[f64], a: &mut [f64], ws: &mut Workspa
 #[target_feature(enable = "avx2,fma")]
 fn with_avx2(model: &Model, t: f64, y: &[f64], a: &mut [f64], ws: &mut Workspace) {
     equations::<Avx2>(model, t, y, a, ws);
-}
-
-/// Angle and speed of the inner ring.
-#[derive(Clone, Copy)]
-struct Turn {
-    /// w_i, rad/s.
-    speed: f64,
-    /// W_i, rad.
-    angle: f64,
-}
-
-/// What the rollers do to everything else.
-struct Sums {
-    on_inner: [f64; 2],
-    on_outer: [f64; 2],
-    /// Moments on the inner and on the outer ring that tilt them, N m.
-    moments: [[f64; 2]; 2],
-    power: Power,
 }
 
 /// Accelerations at (t, y).

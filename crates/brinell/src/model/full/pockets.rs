@@ -1,6 +1,6 @@
 //! Pockets, section 5.
 
-use super::rollers::{Plane, along_t, column, columns, polar};
+use super::view::{Plane, along_t, column, columns, polar};
 use crate::cage::traction;
 use crate::lanes::Lanes;
 use crate::model::{Model, Workspace};

@@ -1,0 +1,201 @@
+//! The parameters of a model, and what follows from them alone.
+
+use super::broad_phase::BroadPhase;
+use super::geometry::{Geometry, Inertia, Support};
+use super::layout::Layout;
+use super::tilt::Tilt;
+use crate::bearing::kinematics::{self, Kinematics};
+use crate::cage::{Guide, Pocket};
+use crate::contact::LoadDeflection;
+use crate::contact::film::SqueezeFilm;
+use crate::defect::{Defect, Defects, Rules, Side};
+use crate::friction::Friction;
+use crate::lanes::Column;
+use crate::operation::{Load, Rotation};
+use crate::scenario::{Element, Guidance, LoadOn, ModelKind, Start};
+use crate::slices::Slices;
+
+/// The ring with the cages' land among the coordinates.
+#[derive(Debug, Clone, Copy)]
+pub struct Land<'a> {
+    at: usize,
+    /// Its slope among the coordinates, and Z_i of the rows.
+    tilt: Option<(usize, &'a [f64])>,
+}
+
+impl Land<'_> {
+    /// x and y of the ring's centre at the middle of `row`, of positions or of their rates.
+    #[inline(always)]
+    pub fn centre(&self, row: usize, of: &[f64]) -> [f64; 2] {
+        let x = [of[self.at], of[self.at + 1]];
+        match self.tilt {
+            None => x,
+            Some((slope, levers)) => [0, 1].map(|k| x[k] + levers[row] * of[slope + k]),
+        }
+    }
+}
+
+/// One bearing under one operation: everything that does not change while it runs.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Model {
+    /// Which equations hold.
+    pub kind: ModelKind,
+    /// Rollers or balls.
+    pub element: Element,
+    /// State layout.
+    pub layout: Layout,
+    /// Geometry.
+    pub geometry: Geometry,
+    /// Masses.
+    pub inertia: Inertia,
+    /// Law of the inner contacts.
+    pub inner_contact: LoadDeflection,
+    /// Law of the outer contacts.
+    pub outer_contact: LoadDeflection,
+    /// Law of both contacts in series, damping c/2 (section 10).
+    pub series_contact: LoadDeflection,
+    /// Raceway friction.
+    pub friction: Friction,
+    /// Drag of a roller, kg/m.
+    pub drag: f64,
+    /// Films of open contacts, indexed by `Side as usize`, where there are any.
+    pub film: Option<[SqueezeFilm; 2]>,
+    /// Pockets.
+    pub pocket: Pocket,
+    /// Guiding ring.
+    pub guidance: Guidance,
+    /// Film and land.
+    pub guide: Guide,
+    /// Support of the inner ring.
+    pub inner_support: Support,
+    /// Support of the outer ring.
+    pub outer_support: Support,
+    /// The inner ring's rotation.
+    pub rotation: Rotation,
+    /// The load.
+    pub load: Load,
+    /// g, m/s^2.
+    pub gravity: [f64; 2],
+    /// alpha of each slot, rad: the pocket's angle on its cage.
+    pub pocket_angle: Column,
+    /// 1 for the slots of rollers, 0 for padding.
+    pub roller_mask: Column,
+    /// Gap of each slot's contact where all is centred, m, by side; so wide for padding that it never closes.
+    pub(crate) gaps: [Column; 2],
+    /// C_p of each slot, m; so wide for padding that it never closes.
+    pub(crate) pocket_gap: Column,
+    /// Damage.
+    pub defects: Vec<Defect>,
+    /// Where damage can meet the contacts of each side, indexed by `Side as usize`.
+    pub broad_phase: [BroadPhase; 2],
+    /// For each row, over one period of the rows' pattern: 1 for its own slots, else 0.
+    pub(crate) row_lanes: Vec<Column>,
+    /// How damage acts.
+    pub rules: Rules,
+    /// The slices, where each counts by itself: where rollers tilt or have a profile.
+    pub slices: Option<Slices>,
+    /// What tilts, where anything does.
+    pub tilt: Option<Tilt>,
+    /// Start.
+    pub start: Start,
+}
+
+impl Model {
+    /// Law of the contacts on `side`.
+    #[inline]
+    pub fn contact(&self, side: Side) -> &LoadDeflection {
+        match side {
+            Side::Inner => &self.inner_contact,
+            Side::Outer => &self.outer_contact,
+        }
+    }
+
+    /// Defects that meet the contact of `slot` on `side`.
+    #[inline]
+    pub fn defects_of(&self, slot: usize, side: Side) -> Defects<'_> {
+        Defects::under(&self.defects, (self.layout.row(slot), self.layout.roller(slot)), side)
+    }
+
+    /// Pure-rolling orbit speed at the inner ring's speed w_i, rad/s.
+    #[inline]
+    pub fn rolling_orbit_speed(&self, w: f64) -> f64 {
+        w * self.geometry.inner_radius / (2.0 * self.geometry.pitch_radius)
+    }
+
+    /// Pure-rolling absolute spin speed at w_i, rad/s.
+    #[inline]
+    pub fn rolling_spin_speed(&self, w: f64) -> f64 {
+        let g = &self.geometry;
+        -(w * g.inner_radius - g.pitch_radius * self.rolling_orbit_speed(w)) / g.roller_radius
+    }
+
+    /// Pure-rolling speeds and defect frequencies at w_i.
+    pub fn kinematics(&self, w: f64) -> Kinematics {
+        let g = &self.geometry;
+        let geometry = kinematics::Geometry {
+            inner_raceway_diameter: 2.0 * g.inner_radius,
+            outer_raceway_diameter: 2.0 * g.outer_radius,
+            pitch_diameter: 2.0 * g.pitch_radius,
+            roller_diameter: 2.0 * g.roller_radius,
+            rollers_per_row: self.layout.rollers_per_row,
+        };
+        Kinematics::pure_rolling(&geometry, w)
+    }
+
+    /// The ring that has the cages' land: the guiding one, and the outer where rollers guide.
+    pub fn land_on(&self) -> Side {
+        match self.guidance {
+            Guidance::InnerRing => Side::Inner,
+            Guidance::OuterRing | Guidance::Rollers => Side::Outer,
+        }
+    }
+
+    /// Where that ring's centre is at the middle of each row.
+    #[inline(always)]
+    pub fn land(&self) -> Land<'_> {
+        let (at, slope) = match self.land_on() {
+            Side::Inner => (self.layout.inner(), self.layout.inner_tilt()),
+            Side::Outer => (self.layout.outer(), self.layout.outer_tilt()),
+        };
+        Land { at, tilt: self.tilt.as_ref().map(|tilt| (slope, &tilt.rows[..])) }
+    }
+
+    /// Whether the outer ring of the lumped model is rigidly mounted (section 10).
+    pub fn outer_ring_is_fixed(&self) -> bool {
+        self.kind == ModelKind::Lumped && self.load.on == LoadOn::InnerRing
+    }
+
+    /// Support of the outer ring in the equations that hold.
+    pub fn acting_outer_support(&self) -> Support {
+        match self.kind {
+            ModelKind::Full | ModelKind::Tilting => self.outer_support,
+            ModelKind::Lumped => Support { stiffness: 0.0, damping: 0.0 },
+        }
+    }
+
+    /// Masses of the positions, for norms and kinetic energies of the rates: kg for lengths, kg m^2 for angles. 0 for
+    /// pads and for coordinates that are prescribed.
+    pub fn mass(&self) -> Vec<f64> {
+        let (l, m) = (&self.layout, &self.inertia);
+        let mut mass = vec![0.0; l.dof()];
+        if self.kind.moves_every_part() {
+            for slot in 0..l.rollers() {
+                mass[l.r() + slot] = m.roller;
+                mass[l.theta() + slot] = m.roller * self.geometry.pitch_radius.powi(2);
+                mass[l.phi() + slot] = m.roller_spin;
+            }
+            for row in 0..l.rows {
+                let at = l.cage(row);
+                mass[at..at + 3].copy_from_slice(&[m.cage, m.cage, m.cage_spin]);
+            }
+        }
+        mass[l.inner()..l.inner() + 2].fill(m.inner_ring);
+        mass[l.outer()..l.outer() + 2].fill(if self.outer_ring_is_fixed() { 0.0 } else { m.outer_ring });
+        if let Some(tilt) = &self.tilt {
+            mass[l.beta()..][..l.rollers()].fill(tilt.roller_inertia);
+            mass[l.inner_tilt()..][..2].fill(tilt.inner.inertia);
+            mass[l.outer_tilt()..][..2].fill(tilt.outer.inertia);
+        }
+        mass
+    }
+}
