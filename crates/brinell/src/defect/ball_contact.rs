@@ -4,69 +4,15 @@
 //! extent into slices; over the covered part of a slice the strips are pressed by delta - h_k, over everything else by
 //! delta. No term is negative: an ellipse wholly within a pit carries exactly nothing.
 
-use super::DamagedContact;
-use super::damaged_contact::{Cuts, joint};
-use super::depth_profile::{Cover, Extent, slice_borders};
+use super::across::Across;
+use super::contact_defects::{Cuts, DamagedContact, joint};
+use super::depth_profile::Cover;
+use super::extent::slice_borders;
 use super::joint::rest;
-use super::track::{Track, settled};
 use crate::contact::ContactReduction;
 use crate::contact::ball::{Pressed, Strips};
 
 const EVERYWHERE: [f64; 2] = [f64::NEG_INFINITY, f64::INFINITY];
-
-/// Damage across a groove: ranges of z in ascending order, each with what damage covers of it and how deep, along s.
-#[derive(Debug, Clone, PartialEq)]
-pub(super) struct Across {
-    ranges: Vec<([f64; 2], Track)>,
-    /// Whether the ranges are those of z >= 0 and the other side is alike.
-    mirrored: bool,
-    /// Height of the highest raised edge, m.
-    raised: f64,
-}
-
-impl Across {
-    /// From the tracks of slices; `mirrored` where they are those of one side.
-    pub(super) fn of_slices(
-        tracks: Vec<Track>,
-        (slices, extent): (usize, Extent),
-        mirrored: bool,
-        raised: f64,
-    ) -> Self {
-        let ranges = tracks.into_iter().map(|track| {
-            let [low, high] = slice_borders(track.slice, slices, extent);
-            ([if mirrored { low.max(0.0) } else { low }, high], track)
-        });
-        Self { ranges: ranges.collect(), mirrored, raised }
-    }
-
-    /// Of damage that is as deep at every z between two: the slices that it covers from end to end are one. `of` gives
-    /// the track of a slice by the fraction that is covered.
-    pub(super) fn of_rectangle(
-        [low, high]: [f64; 2],
-        (slices, extent): (usize, Extent),
-        of: impl Fn(f64) -> Option<Track>,
-    ) -> Self {
-        let mut ranges: Vec<([f64; 2], Track)> = Vec::new();
-        let mut last_is_whole = false;
-        for k in 0..slices {
-            let [from, to] = slice_borders(k, slices, extent);
-            let phi = settled((high.min(to) - low.max(from)) / (to - from));
-            let is_whole = phi == 1.0;
-            match ranges.last_mut() {
-                Some((range, _)) if is_whole && last_is_whole => range[1] = to,
-                _ if phi > 0.0 => ranges.extend(of(phi).map(|track| ([from, to], track))),
-                _ => {}
-            }
-            last_is_whole = is_whole;
-        }
-        Self { ranges, mirrored: false, raised: 0.0 }
-    }
-
-    /// First and last s of each range, m.
-    pub(super) fn spans(&self) -> impl Iterator<Item = (f64, f64)> {
-        self.ranges.iter().map(|(_, track)| track.span())
-    }
-}
 
 /// Hands every part of the ellipse to `add`, with its weight and what presses it. `None` where no damage is met.
 #[inline]

@@ -1,16 +1,17 @@
 //! Damage under a roller, made ready for one surface, law and path: h_s(s), and phi_k(s) and h_k(s) of slices, in
 //! constant time.
 
-use super::Shape;
-use super::ball_contact::Across;
+use super::across::Across;
+use super::angles::Side;
 use super::bands::Band;
 use super::envelope::envelope;
+use super::extent::{Extent, slice_borders};
 use super::grid::Grid;
 use super::map_slices::{along_the_envelope, at_a_point};
 use super::piecewise::{Line, PiecewisePolynomial};
+use super::shape::Shape;
 use super::track::{Track, fit};
 use crate::scenario::{self, EdgeReaction, Law, RollerPath};
-use crate::slices::borders;
 
 /// How damage acts, the same for every contact of a model (section 3).
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -40,32 +41,6 @@ impl Rules {
     pub fn is_conservative(&self) -> bool {
         self.edge_reaction == EdgeReaction::Conservative
     }
-}
-
-/// What slices divide along z, m: a roller's length, or the extent of the damage under balls.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Extent {
-    pub(super) middle: f64,
-    pub(super) length: f64,
-    /// Whether balls meet it.
-    pub(super) of_balls: bool,
-}
-
-impl Extent {
-    /// A roller of length L, m.
-    pub(super) fn of_roller(length: f64) -> Self {
-        Self { middle: 0.0, length, of_balls: false }
-    }
-
-    /// Damage between two z, m.
-    pub(super) fn of_damage([low, high]: [f64; 2]) -> Self {
-        Self { middle: 0.5 * (low + high), length: high - low, of_balls: true }
-    }
-}
-
-/// First and last z of slice k (from 0) of n_s, m.
-pub(super) fn slice_borders(k: usize, slices: usize, extent: Extent) -> [f64; 2] {
-    borders(k, slices, extent.length).map(|z| extent.middle + z)
 }
 
 /// What damage covers of the slices, and how deep.
@@ -260,10 +235,10 @@ impl Surface {
 
 /// Relative radius of curvature R_eq (m) of a roller of radius r on a raceway: 1/R_eq = 1/r - 1/R_o at the outer one,
 /// 1/r + 1/R_i at the inner one.
-pub fn relative_radius(bearing: &scenario::Bearing, side: super::Side) -> f64 {
+pub fn relative_radius(bearing: &scenario::Bearing, side: Side) -> f64 {
     let roller = 2e3 / bearing.roller_diameter_mm;
     match side {
-        super::Side::Outer => 1.0 / (roller - 2e3 / bearing.outer_raceway_diameter_mm),
-        super::Side::Inner => 1.0 / (roller + 2e3 / bearing.inner_raceway_diameter_mm),
+        Side::Outer => 1.0 / (roller - 2e3 / bearing.outer_raceway_diameter_mm),
+        Side::Inner => 1.0 / (roller + 2e3 / bearing.inner_raceway_diameter_mm),
     }
 }

@@ -1,7 +1,8 @@
 //! What a conservative edge does: derivatives of a contact's elastic energy with the angles that carry it over damage.
 
 use super::ball_contact;
-use super::damaged_contact::{Cuts, cover_cuts, mean};
+use super::contact_defects::Cuts;
+use super::damaged_contact::{cover_cuts, mean};
 use super::depth_profile::Cover;
 use super::track::settled;
 use super::{Angles, Defects};

@@ -4,8 +4,8 @@
 //! the mean at a point is exact; the mean of envelopes is a sum over lines z = const, by Gauss's rule between the rows
 //! of the grid.
 
-use super::depth_profile::{Extent, slice_borders};
 use super::envelope::envelope;
+use super::extent::{Extent, slice_borders};
 use super::grid::Grid;
 use super::piecewise::PiecewisePolynomial;
 use super::track::{Part, Track};

@@ -1,0 +1,65 @@
+//! Angles of a roller, and the side on which it meets damage.
+
+use std::f64::consts::{PI, TAU};
+
+/// Side of a roller: the raceway that it meets there.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Side {
+    /// Inner raceway.
+    Inner,
+    /// Outer raceway.
+    Outer,
+}
+
+impl Side {
+    /// In words: `inner` or `outer`.
+    pub fn word(self) -> &'static str {
+        match self {
+            Side::Inner => "inner",
+            Side::Outer => "outer",
+        }
+    }
+}
+
+/// Both sides, in the order of arrays indexed by side.
+pub const SIDES: [Side; 2] = [Side::Inner, Side::Outer];
+
+/// An angle mapped to [-pi, pi).
+#[inline]
+pub fn wrap(angle: f64) -> f64 {
+    // Adding 1.5 * 2^52 leaves the nearest whole number of turns: `floor` is a function call on processors of old.
+    const ROUNDER: f64 = 6_755_399_441_055_744.0;
+    let turns = (angle * (1.0 / TAU) + ROUNDER) - ROUNDER;
+    let wrapped = angle - TAU * turns;
+    if wrapped >= PI {
+        wrapped - TAU
+    } else if wrapped < -PI {
+        wrapped + TAU
+    } else {
+        wrapped
+    }
+}
+
+/// Angles that decide where a roller is over damage, rad.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Angles {
+    /// theta_j.
+    pub orbit: f64,
+    /// phi_j.
+    pub spin: f64,
+    /// W_i.
+    pub ring: f64,
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn analytic_wrap_maps_to_a_half_open_turn() {
+        assert_eq!(wrap(0.5), 0.5);
+        assert!((wrap(TAU + 0.5) - 0.5).abs() < 1e-15);
+        assert!((wrap(-7.0) - (TAU - 7.0)).abs() < 1e-15);
+        assert_eq!(wrap(PI), -PI);
+    }
+}

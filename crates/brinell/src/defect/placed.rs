@@ -1,0 +1,283 @@
+//! Defects where they are on their surfaces: which contacts they meet, and at which angle.
+
+use super::angles::{Angles, SIDES, Side, wrap};
+use super::depth_profile::{DepthProfile, Rules, relative_radius};
+use super::envelope::envelope;
+use super::extent::Extent;
+use super::piecewise::PiecewisePolynomial;
+use super::shape::Shape;
+use crate::contact::{ContactReduction, remaining_share};
+use crate::scenario::{self, Element, Law, Surface};
+use std::f64::consts::PI;
+
+/// Lowest and highest z of a defect on a surface of a length, m.
+fn heights(defect: &scenario::Defect, length: f64) -> Option<[f64; 2]> {
+    let offset = 1e-3 * defect.axial_offset_mm;
+    let shape = Shape::new(&defect.shape, 1e-6 * defect.depth_um)?.placed(offset, length);
+    let middle = if shape.is_width() { offset } else { 0.0 };
+    let end = 0.5 * length;
+    Some(shape.heights(middle).map(|z| z.clamp(-end, end)))
+}
+
+/// One defect on its surface, SI.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Defect {
+    /// What rolls over it.
+    pub element: Element,
+    /// Damaged surface; a roller counts from 0 here.
+    pub surface: Surface,
+    /// Row, from 0.
+    pub row: usize,
+    /// psi, rad.
+    pub center: f64,
+    /// h, m, where the shape has no depths of its own.
+    pub depth: f64,
+    /// Outline, where it lies.
+    pub shape: Shape,
+    /// z of the middle of a shape that is a width alone, m; outlines and depth maps have been moved instead.
+    pub middle: f64,
+    /// R of the surface, m.
+    pub radius: f64,
+    /// L of the roller, m; of a ball more than its groove is wide.
+    pub roller_length: f64,
+    /// How damage acts.
+    pub rules: Rules,
+    /// Made ready for the sides that the defect meets, indexed by `Side as usize`.
+    profiles: [Option<DepthProfile>; 2],
+    /// Local angles (rad) beyond which neither arc nor profile reaches, by side.
+    windows: [(f64, f64); 2],
+}
+
+impl Defect {
+    /// From the scenario, alone on its bearing. `None` where its shape makes no sense, or its row or roller counts from
+    /// 0.
+    pub fn new(defect: &scenario::Defect, bearing: &scenario::Bearing, contact: &scenario::Contact) -> Option<Self> {
+        let alone = Self::all(std::slice::from_ref(defect), bearing, contact);
+        alone.ok()?.pop()
+    }
+
+    /// All defects of a scenario: under balls the slices divide what all of a row take up together.
+    ///
+    /// # Errors
+    /// The first of which [`Self::new`] would make none.
+    pub fn all(
+        defects: &[scenario::Defect],
+        bearing: &scenario::Bearing,
+        contact: &scenario::Contact,
+    ) -> Result<Vec<Self>, usize> {
+        let length = 1e-3 * bearing.axial_reach_mm();
+        let heights: Vec<[f64; 2]> = match bearing.has_balls() {
+            false => Vec::new(),
+            true => defects.iter().enumerate().map(|(k, d)| heights(d, length).ok_or(k)).collect::<Result<_, _>>()?,
+        };
+        let extent = |row: usize| {
+            let all = defects.iter().zip(&heights).filter(|(d, _)| d.row == row);
+            let bounds = all.map(|(_, h)| *h).reduce(|a, b| [a[0].min(b[0]), a[1].max(b[1])]);
+            bounds.map_or(Extent::of_roller(length), Extent::of_damage)
+        };
+        let of = |(k, defect): (usize, &scenario::Defect)| {
+            Self::within(defect, bearing, contact, extent(defect.row)).ok_or(k)
+        };
+        defects.iter().enumerate().map(of).collect()
+    }
+
+    fn within(
+        defect: &scenario::Defect,
+        bearing: &scenario::Bearing,
+        contact: &scenario::Contact,
+        extent: Extent,
+    ) -> Option<Self> {
+        let surface = match defect.on {
+            Surface::Roller(k) => Surface::Roller(k.checked_sub(1)?),
+            raceway => raceway,
+        };
+        let depth = 1e-6 * defect.depth_um;
+        let roller_length = 1e-3 * bearing.axial_reach_mm();
+        let offset = 1e-3 * defect.axial_offset_mm;
+        let shape = Shape::new(&defect.shape, depth)?.placed(offset, roller_length);
+        let middle = if shape.is_width() { offset } else { 0.0 };
+        let rules = Rules::new(contact);
+        let profiles = SIDES.map(|side| {
+            let met = match surface {
+                Surface::OuterRaceway => side == Side::Outer,
+                Surface::InnerRaceway => side == Side::Inner,
+                Surface::Roller(_) => true,
+            };
+            let radius = relative_radius(bearing, side);
+            met.then(|| DepthProfile::new(&shape, (depth, middle), extent, radius, &rules))
+        });
+        let radius = 0.5e-3 * bearing.diameter_mm(surface);
+        let arc = shape.arc();
+        let windows = [0, 1].map(|side| {
+            let (first, last) = profiles[side].as_ref().map_or(arc, |g| g.arc);
+            // A little wider, so that round-off decides in `floor` alone.
+            (arc.0.min(first) / radius - 1e-9, arc.1.max(last) / radius + 1e-9)
+        });
+        Some(Self {
+            windows,
+            element: bearing.element,
+            surface,
+            row: defect.row.checked_sub(1)?,
+            center: defect.center_deg.to_radians(),
+            depth,
+            shape,
+            middle,
+            radius,
+            roller_length,
+            rules,
+            profiles,
+        })
+    }
+
+    /// Depths under `side`; `None` where the defect does not meet it.
+    #[inline]
+    pub fn depth_profile(&self, side: Side) -> Option<&DepthProfile> {
+        self.profiles[side as usize].as_ref()
+    }
+
+    /// Whether the defect meets roller `roller` (from 0) of row `row` on `side` at all.
+    pub fn meets(&self, row: usize, roller: usize, side: Side) -> bool {
+        self.row == row
+            && match self.surface {
+                Surface::OuterRaceway => side == Side::Outer,
+                Surface::InnerRaceway => side == Side::Inner,
+                Surface::Roller(k) => k == roller,
+            }
+    }
+
+    /// Local angle u of a roller on `side`, rad.
+    #[inline]
+    pub fn local_angle(&self, angles: &Angles, side: Side) -> f64 {
+        let Angles { orbit, spin, ring } = *angles;
+        wrap(match (self.surface, side) {
+            (Surface::OuterRaceway, _) => orbit - self.center,
+            (Surface::InnerRaceway, _) => orbit - self.center - ring,
+            (Surface::Roller(_), Side::Outer) => orbit - spin - self.center,
+            (Surface::Roller(_), Side::Inner) => orbit + PI - spin - self.center,
+        })
+    }
+
+    /// Local angles (rad) beyond which the defect never meets a roller on `side`.
+    pub fn window(&self, side: Side) -> (f64, f64) {
+        self.windows[side as usize]
+    }
+
+    /// Angles of a roller whose contact on a side is at the angle u (rad) from the damage's centre, at rest.
+    pub fn met_at(&self, side: Side, u: f64) -> Angles {
+        // A roller's damage meets the inner raceway half a turn after the outer one.
+        let half_turn = match (self.surface, side) {
+            (Surface::Roller(_), Side::Inner) => PI,
+            _ => 0.0,
+        };
+        Angles { orbit: self.center + u - half_turn, spin: 0.0, ring: 0.0 }
+    }
+
+    /// L_s at the arc coordinate s (m): the covered z within the roller's length; 0 off the damage.
+    #[inline]
+    pub fn damaged_length(&self, s: f64) -> f64 {
+        let (first, last) = self.shape.arc();
+        if s < first || s > last {
+            return 0.0;
+        }
+        let length = self.shape.damaged_length(s);
+        if self.middle == 0.0 {
+            return length.clamp(0.0, self.roller_length);
+        }
+        let end = 0.5 * self.roller_length;
+        let [from, to] = [-0.5, 0.5].map(|side| (self.middle + side * length).clamp(-end, end));
+        (to - from).max(0.0)
+    }
+
+    /// h_s at the arc coordinate s (m) on the damage, before any envelope.
+    #[inline]
+    pub fn depth_at(&self, s: f64) -> f64 {
+        self.shape.own_depth(s).unwrap_or(self.depth)
+    }
+
+    /// Depth of the damage, and depth to which a roller can sink into it that meets it with the relative radius
+    /// `radius` (m): the largest of h_s and of its envelope (section 3), m.
+    pub fn reach(&self, radius: f64) -> (f64, f64) {
+        let floor = self.shape.depths(self.depth);
+        (PiecewisePolynomial::of_lines(&floor).largest(), envelope(&floor, radius).largest())
+    }
+
+    /// What the damage leaves at the local angle u under a law that knows one width and one depth; `None` outside its
+    /// arc.
+    ///
+    /// Along an envelope L_s stays that of the point under the contact line and h_s is replaced by its envelope, which
+    /// comes up to 0 at both ends of the arc: the force is continuous there, and the floor starts where the damage
+    /// does.
+    #[inline]
+    pub fn floor(&self, u: f64, side: Side) -> Option<ContactReduction> {
+        let s = u * self.radius;
+        let (first, last) = self.shape.arc();
+        if s < first || s > last {
+            return None;
+        }
+        let damaged_length = self.damaged_length(s);
+        let along_envelope = self.depth_profile(side).and_then(|g| g.floor.as_ref());
+        Some(ContactReduction {
+            share: remaining_share(self.roller_length, damaged_length),
+            depth: match along_envelope {
+                Some(floor) => floor.value(s).max(0.0),
+                None => self.depth_at(s),
+            },
+            damaged_length,
+        })
+    }
+}
+
+/// Defects that may be under one side of a roller.
+#[derive(Debug, Clone, Copy)]
+pub struct Defects<'a> {
+    among: &'a [Defect],
+    which: Which,
+    pub(super) side: Side,
+}
+
+#[derive(Debug, Clone, Copy)]
+enum Which {
+    All,
+    /// What meets a roller: row and roller, from 0.
+    Under(usize, usize),
+    /// What is on a surface of a row.
+    On(Surface, usize),
+}
+
+impl<'a> Defects<'a> {
+    /// All of `among`.
+    pub fn all(among: &'a [Defect], side: Side) -> Self {
+        Self { among, which: Which::All, side }
+    }
+
+    /// One alone.
+    pub fn one(defect: &'a Defect, side: Side) -> Self {
+        Self::all(std::slice::from_ref(defect), side)
+    }
+
+    /// Of `among` those that meet roller `roller` of row `row`, both from 0.
+    #[inline]
+    pub(crate) fn under(among: &'a [Defect], (row, roller): (usize, usize), side: Side) -> Self {
+        Self { among, which: Which::Under(row, roller), side }
+    }
+
+    /// Of `among` those on the surface of `one`.
+    pub(crate) fn beside(among: &'a [Defect], one: &Defect, side: Side) -> Self {
+        Self { among, which: Which::On(one.surface, one.row), side }
+    }
+
+    #[inline]
+    pub(crate) fn iter(self) -> impl Iterator<Item = &'a Defect> + Clone {
+        self.among.iter().filter(move |d| match self.which {
+            Which::All => true,
+            Which::Under(row, roller) => d.meets(row, roller, self.side),
+            Which::On(surface, row) => d.surface == surface && d.row == row,
+        })
+    }
+
+    /// Their law; `Ecl` where there are none.
+    #[inline]
+    pub(super) fn law(self) -> Law {
+        self.iter().next().map_or(Law::Ecl, |d| d.rules.law)
+    }
+}
