@@ -5,10 +5,10 @@
 //! delta. No term is negative: an ellipse wholly within a pit carries exactly nothing.
 
 use super::across::Across;
-use super::contact_defects::{Cuts, DamagedContact, joint};
+use super::contact_defects::{ContactDefects, DamagedContact, joint};
 use super::depth_profile::Cover;
 use super::extent::slice_borders;
-use super::joint::rest;
+use super::joint::envelope_depth;
 use crate::contact::ContactReduction;
 use crate::contact::ball::{Pressed, Strips};
 
@@ -16,8 +16,8 @@ const EVERYWHERE: [f64; 2] = [f64::NEG_INFINITY, f64::INFINITY];
 
 /// Hands every part of the ellipse to `add`, with its weight and what presses it. `None` where no damage is met.
 #[inline]
-fn parts(cuts: Cuts, strips: &Strips, delta: f64, mut add: impl FnMut(f64, &Pressed, [f64; 2])) -> Option<()> {
-    let (first, several) = cuts.first()?;
+fn parts(met: ContactDefects, strips: &Strips, delta: f64, mut add: impl FnMut(f64, &Pressed, [f64; 2])) -> Option<()> {
+    let (first, several) = met.first()?;
     let whole = strips.pressed(delta);
     // Where the undamaged part begins that is not added yet.
     let mut from = f64::NEG_INFINITY;
@@ -32,7 +32,7 @@ fn parts(cuts: Cuts, strips: &Strips, delta: f64, mut add: impl FnMut(f64, &Pres
     };
     if several {
         let size = (first.profile.slices, first.profile.extent);
-        joint(cuts, size, |k, phi, h| {
+        joint(met, size, |k, phi, h| {
             let z = slice_borders(k, size.0, size.1);
             slice(1.0, &mut from, z, phi, h);
         });
@@ -60,9 +60,9 @@ fn parts(cuts: Cuts, strips: &Strips, delta: f64, mut add: impl FnMut(f64, &Pres
 /// What acts where the contact is on damage; `None` off all of it. Its length is what is not carried of the ellipse's
 /// axis across.
 #[inline]
-pub(super) fn damaged(cuts: Cuts, strips: &Strips, delta: f64) -> Option<DamagedContact> {
+pub(super) fn damaged(met: ContactDefects, strips: &Strips, delta: f64) -> Option<DamagedContact> {
     let (mut area, mut carried) = (0.0, 0.0);
-    parts(cuts, strips, delta, |weight, pressed, z| {
+    parts(met, strips, delta, |weight, pressed, z| {
         area += weight * pressed.area(z);
         carried += weight * pressed.length(z);
     })?;
@@ -78,18 +78,18 @@ pub(super) fn damaged(cuts: Cuts, strips: &Strips, delta: f64) -> Option<Damaged
 }
 
 /// d(elastic)/d(delta) on damage, N/m; `None` off all of it.
-pub(super) fn tangent(cuts: Cuts, strips: &Strips, delta: f64) -> Option<f64> {
+pub(super) fn tangent(met: ContactDefects, strips: &Strips, delta: f64) -> Option<f64> {
     let mut carried = 0.0;
-    parts(cuts, strips, delta, |weight, pressed, z| {
+    parts(met, strips, delta, |weight, pressed, z| {
         carried += weight * pressed.length(z);
     })?;
     Some(strips.stiffness * carried)
 }
 
 /// Elastic energy on damage, J; `None` off all of it.
-pub(super) fn energy(cuts: Cuts, strips: &Strips, delta: f64) -> Option<f64> {
+pub(super) fn energy(met: ContactDefects, strips: &Strips, delta: f64) -> Option<f64> {
     let mut sum = 0.0;
-    parts(cuts, strips, delta, |weight, pressed, z| {
+    parts(met, strips, delta, |weight, pressed, z| {
         sum += weight * pressed.half_squares(z);
     })?;
     Some(strips.stiffness * sum)
@@ -116,13 +116,13 @@ pub(super) fn edge_slope(across: &Across, s: f64, strips: &Strips, delta: f64) -
 
 /// Depth of the damage under the groove's bottom, z = 0, by the ball's path, m: all that the lumped model knows of it.
 /// `None` where no damage is met.
-pub(super) fn depth_at_bottom(cuts: Cuts) -> Option<f64> {
-    let (first, _) = cuts.first()?;
+pub(super) fn depth_at_bottom(met: ContactDefects) -> Option<f64> {
+    let (first, _) = met.first()?;
     Some(match &first.profile.surface {
-        None => cuts.iter().filter_map(|cut| cut.under(0.0)).fold(0.0, f64::max),
+        None => met.iter().filter_map(|one| one.under(0.0)).fold(0.0, f64::max),
         Some(surface) => {
-            let strips = cuts.iter().filter_map(|cut| cut.strip(0.0));
-            rest(strips, surface.extremes.0, surface.radius).max(0.0)
+            let lines = met.iter().filter_map(|one| one.arc_line(0.0));
+            envelope_depth(lines, surface.extremes.0, surface.radius).max(0.0)
         }
     })
 }

@@ -4,7 +4,7 @@ use super::angles::Angles;
 use super::bands::Band;
 use super::depth_profile::DepthProfile;
 use super::extent::{Extent, slice_borders};
-use super::joint::{Depths, Strip, rest};
+use super::joint::{ArcLine, Depths, envelope_depth};
 use super::map_slices::GAUSS;
 use super::placed::{Defect, Defects};
 use super::shape::Shape;
@@ -23,15 +23,15 @@ pub struct DamagedContact {
 
 /// One defect under one side of a roller.
 #[derive(Clone, Copy)]
-pub(super) struct Cut<'a> {
+pub(super) struct DefectAt<'a> {
     pub(super) defect: &'a Defect,
     pub(super) profile: &'a DepthProfile,
     pub(super) s: f64,
 }
 
-impl<'a> Cut<'a> {
+impl<'a> DefectAt<'a> {
     /// The line z = const of the surface before its envelope.
-    pub(super) fn strip(&self, z: f64) -> Option<Strip<'a>> {
+    pub(super) fn arc_line(&self, z: f64) -> Option<ArcLine<'a>> {
         let depths = match &self.defect.shape {
             Shape::DepthMap(grid) => Depths::Map(grid, z),
             _ => Depths::Within {
@@ -41,7 +41,7 @@ impl<'a> Cut<'a> {
                 reached: self.profile.floor.as_ref()?,
             },
         };
-        Some(Strip { depths, s: self.s })
+        Some(ArcLine { depths, s: self.s })
     }
 
     /// The depth at z where the defect covers it, before any envelope.
@@ -86,7 +86,7 @@ impl<'a> Cut<'a> {
 /// The defects that bear on a contact: none where it is on no damage; along an envelope also those beside it that a
 /// roller, resting on the deepest floor under it, would reach.
 #[derive(Clone, Copy)]
-pub(super) struct Cuts<'a> {
+pub(super) struct ContactDefects<'a> {
     defects: Defects<'a>,
     angles: Angles,
     /// The deepest floor under the line of contact, m; `None` where that is on no damage.
@@ -95,12 +95,12 @@ pub(super) struct Cuts<'a> {
     moved: [f64; 2],
 }
 
-impl<'a> Cuts<'a> {
+impl<'a> ContactDefects<'a> {
     #[inline]
     pub(super) fn new(defects: Defects<'a>, angles: &Angles) -> Self {
         let all = Self { defects, angles: *angles, deepest: None, moved: [0.0; 2] };
-        let met = all.all().filter(|cut| cut.away() == 0.0);
-        let floors = met.map(|cut| cut.profile.surface.as_ref().map_or(0.0, |x| x.extremes.1));
+        let met = all.all().filter(|one| one.away() == 0.0);
+        let floors = met.map(|one| one.profile.surface.as_ref().map_or(0.0, |x| x.extremes.1));
         Self { deepest: floors.reduce(f64::max), ..all }
     }
 
@@ -113,52 +113,54 @@ impl<'a> Cuts<'a> {
 
     /// Every defect of the contact, bearing on it or not.
     #[inline]
-    fn all(self) -> impl Iterator<Item = Cut<'a>> + Clone {
+    fn all(self) -> impl Iterator<Item = DefectAt<'a>> + Clone {
         self.defects.iter().filter_map(move |defect| {
             let profile = defect.depth_profile(self.defects.side)?;
             let s = defect.local_angle(&self.angles, self.defects.side) * defect.radius;
-            Some(Cut { defect, profile, s })
+            Some(DefectAt { defect, profile, s })
         })
     }
 
     #[inline]
-    pub(super) fn iter(self) -> impl Iterator<Item = Cut<'a>> + Clone {
-        let bears = move |cut: &Cut| {
-            let away = cut.away();
-            self.deepest.is_some_and(|deepest| match &cut.profile.surface {
+    pub(super) fn iter(self) -> impl Iterator<Item = DefectAt<'a>> + Clone {
+        let bears = move |one: &DefectAt| {
+            let away = one.away();
+            self.deepest.is_some_and(|deepest| match &one.profile.surface {
                 None => away == 0.0,
                 Some(x) => away * away <= 2.0 * x.radius * (deepest - x.extremes.0),
             })
         };
-        self.all().filter(bears).map(move |cut| Cut { s: cut.s + self.moved[usize::from(cut.is_on_roller())], ..cut })
+        self.all()
+            .filter(bears)
+            .map(move |one| DefectAt { s: one.s + self.moved[usize::from(one.is_on_roller())], ..one })
     }
 
     /// The first, and whether there are more.
     #[inline]
-    pub(super) fn first(self) -> Option<(Cut<'a>, bool)> {
-        let mut cuts = self.iter();
-        Some((cuts.next()?, cuts.next().is_some()))
+    pub(super) fn first(self) -> Option<(DefectAt<'a>, bool)> {
+        let mut met = self.iter();
+        Some((met.next()?, met.next().is_some()))
     }
 }
 
 /// The highest raised edge (m, 0 or less) and R_eq of several defects along an envelope; `None` at a point.
-pub(super) fn rolling(cuts: Cuts) -> Option<(f64, f64)> {
-    let radius = cuts.iter().next()?.profile.surface.as_ref()?.radius;
-    let surfaces = cuts.iter().filter_map(|cut| cut.profile.surface.as_ref());
+pub(super) fn rolling(met: ContactDefects) -> Option<(f64, f64)> {
+    let radius = met.iter().next()?.profile.surface.as_ref()?.radius;
+    let surfaces = met.iter().filter_map(|one| one.profile.surface.as_ref());
     Some((surfaces.map(|x| x.extremes.0).fold(0.0, f64::min), radius))
 }
 
 /// Borders, phi_k and h_k of the slices under several defects, for `add`: what any of them covers, the deepest at each
 /// point.
-pub(super) fn joint(cuts: Cuts, (slices, extent): (usize, Extent), mut add: impl FnMut(usize, f64, f64)) {
-    let rolling = rolling(cuts);
-    let deepest = |z: f64| cuts.iter().filter_map(|cut| cut.under(z)).reduce(f64::max);
+pub(super) fn joint(met: ContactDefects, (slices, extent): (usize, Extent), mut add: impl FnMut(usize, f64, f64)) {
+    let rolling = rolling(met);
+    let deepest = |z: f64| met.iter().filter_map(|one| one.under(z)).reduce(f64::max);
     for k in 0..slices {
         let [low, high] = slice_borders(k, slices, extent);
         let (mut covered, mut section) = (0.0, 0.0);
         let mut z = low;
         while z < high {
-            let next = cuts.iter().map(|cut| cut.next(z)).fold(high, f64::min);
+            let next = met.iter().map(|one| one.next(z)).fold(high, f64::min);
             let to = if next > z { next } else { high };
             let (from, wide) = (z, to - z);
             z = to;
@@ -180,8 +182,8 @@ pub(super) fn joint(cuts: Cuts, (slices, extent): (usize, Extent), mut add: impl
                 let h = match rolling {
                     None => deepest(at),
                     Some((lowest, radius)) => {
-                        let strips = cuts.iter().filter_map(move |cut| cut.strip(at));
-                        let h = rest(strips, lowest, radius);
+                        let lines = met.iter().filter_map(move |one| one.arc_line(at));
+                        let h = envelope_depth(lines, lowest, radius);
                         // What lifts the roller counts before the line of contact reaches it.
                         (is_covered || h < 0.0).then_some(h)
                     }

@@ -6,9 +6,9 @@
 
 use super::angles::Angles;
 use super::ball_contact;
-use super::contact_defects::{Cuts, DamagedContact, joint, rolling};
+use super::contact_defects::{ContactDefects, DamagedContact, joint, rolling};
 use super::depth_profile::Cover;
-use super::joint::{Depths, Strip, rest};
+use super::joint::{ArcLine, Depths, envelope_depth};
 use super::placed::Defects;
 use super::track::settled;
 use crate::contact::{ContactReduction, LoadDeflection};
@@ -25,23 +25,23 @@ pub(super) struct Mean {
 /// Mean of f(delta - h) over what is damaged and of f(delta), which is `undamaged`, over the rest; where nothing is,
 /// that to the bit.
 #[inline]
-pub(super) fn mean(cuts: Cuts, undamaged: f64, delta: f64, f: impl Fn(f64) -> f64) -> Option<Mean> {
-    let (first, several) = cuts.first()?;
+pub(super) fn mean(met: ContactDefects, undamaged: f64, delta: f64, f: impl Fn(f64) -> f64) -> Option<Mean> {
+    let (first, several) = met.first()?;
     let profile = first.profile;
     let n = profile.slices as f64;
     // What is covered, slices with any depth, what is left of them, and the sum over the rest; a slice counts 1.
-    let (mut covered, mut met, mut left, mut sum) = (0.0, 0.0, 0.0, 0.0);
+    let (mut covered, mut sunk, mut left, mut sum) = (0.0, 0.0, 0.0, 0.0);
     let mut add = |count: f64, phi: f64, h: f64| {
         covered += count * phi;
         if h != 0.0 {
-            met += count;
+            sunk += count;
             left += count * (1.0 - phi);
             sum += count * phi * f(delta - h);
         }
     };
     if several {
         let size = (profile.slices, profile.extent);
-        joint(cuts, size, |_, phi, h| add(1.0, phi, h));
+        joint(met, size, |_, phi, h| add(1.0, phi, h));
     } else {
         match &profile.cover {
             Cover::Unsliced | Cover::Across(_) => {}
@@ -66,9 +66,9 @@ pub(super) fn mean(cuts: Cuts, undamaged: f64, delta: f64, f: impl Fn(f64) -> f6
             }
         }
     }
-    let left = left + (n - met);
+    let left = left + (n - sunk);
     Some(Mean {
-        value: if met == 0.0 {
+        value: if sunk == 0.0 {
             undamaged
         } else if left == 0.0 {
             sum / n
@@ -81,11 +81,11 @@ pub(super) fn mean(cuts: Cuts, undamaged: f64, delta: f64, f: impl Fn(f64) -> f6
 
 /// phi_k and h_k of every slice under a contact, into `cover`; false where it is on no damage, and nothing is written.
 pub fn cover_slices(defects: Defects, angles: &Angles, cover: &mut slices::Cover) -> bool {
-    cover_cuts(Cuts::new(defects, angles), cover)
+    cover_met(ContactDefects::new(defects, angles), cover)
 }
 
-pub(super) fn cover_cuts(cuts: Cuts, cover: &mut slices::Cover) -> bool {
-    let Some((first, several)) = cuts.first() else {
+pub(super) fn cover_met(met: ContactDefects, cover: &mut slices::Cover) -> bool {
+    let Some((first, several)) = met.first() else {
         return false;
     };
     let (profile, s) = (first.profile, first.s);
@@ -96,7 +96,7 @@ pub(super) fn cover_cuts(cuts: Cuts, cover: &mut slices::Cover) -> bool {
         (cover.fraction[k], cover.depth[k]) = (phi, h);
     };
     if several {
-        joint(cuts, (count, profile.extent), put);
+        joint(met, (count, profile.extent), put);
         return true;
     }
     match &profile.cover {
@@ -147,13 +147,13 @@ pub fn damaged_contact_given(
     power: f64,
 ) -> Option<DamagedContact> {
     if let Some(strips) = &law.strips {
-        return ball_contact::damaged(Cuts::new(defects, angles), strips, delta);
+        return ball_contact::damaged(ContactDefects::new(defects, angles), strips, delta);
     }
     if defects.law() == Law::Sliced {
-        let cuts = Cuts::new(defects, angles);
+        let met = ContactDefects::new(defects, angles);
         let undamaged = law.stiffness * power;
-        let length = cuts.iter().next()?.defect.roller_length;
-        let mean = mean(cuts, undamaged, delta, |x| law.healthy(x))?;
+        let length = met.iter().next()?.defect.roller_length;
+        let mean = mean(met, undamaged, delta, |x| law.healthy(x))?;
         return Some(DamagedContact {
             elastic: mean.value,
             floor: ContactReduction { share: 1.0 - mean.covered, depth: 0.0, damaged_length: mean.covered * length },
@@ -177,15 +177,15 @@ pub fn floors<'a>(defects: Defects<'a>, angles: &Angles) -> impl Iterator<Item =
     let several = defects.iter().nth(1).is_some();
     let joint = several
         .then(|| {
-            let cuts = Cuts::new(defects, angles);
-            let (lowest, radius) = rolling(cuts)?;
-            cuts.iter().nth(1)?;
-            let strips = cuts.iter().filter_map(|cut| {
-                let lines = &cut.profile.surface.as_ref()?.floor;
-                let depths = Depths::Lines(lines, cut.profile.floor.as_ref());
-                Some(Strip { depths, s: cut.s })
+            let met = ContactDefects::new(defects, angles);
+            let (lowest, radius) = rolling(met)?;
+            met.iter().nth(1)?;
+            let lines = met.iter().filter_map(|one| {
+                let floor = &one.profile.surface.as_ref()?.floor;
+                let depths = Depths::Lines(floor, one.profile.floor.as_ref());
+                Some(ArcLine { depths, s: one.s })
             });
-            Some(rest(strips, lowest, radius))
+            Some(envelope_depth(lines, lowest, radius))
         })
         .flatten();
     let angles = *angles;
@@ -203,13 +203,13 @@ pub fn floors<'a>(defects: Defects<'a>, angles: &Angles) -> impl Iterator<Item =
 #[inline]
 fn over_slices(defects: Defects, angles: &Angles, delta: f64, of: impl Fn(f64) -> f64) -> f64 {
     let undamaged = of(delta);
-    mean(Cuts::new(defects, angles), undamaged, delta, of).map_or(undamaged, |mean| mean.value)
+    mean(ContactDefects::new(defects, angles), undamaged, delta, of).map_or(undamaged, |mean| mean.value)
 }
 
 /// d(elastic)/d(delta) of a contact, on damage or not, N/m.
 pub fn tangent(defects: Defects, law: &LoadDeflection, angles: &Angles, delta: f64) -> f64 {
     if let Some(strips) = &law.strips {
-        let on_damage = ball_contact::tangent(Cuts::new(defects, angles), strips, delta);
+        let on_damage = ball_contact::tangent(ContactDefects::new(defects, angles), strips, delta);
         return on_damage.unwrap_or_else(|| law.tangent(delta, None));
     }
     if defects.law() == Law::Sliced {
@@ -221,13 +221,13 @@ pub fn tangent(defects: Defects, law: &LoadDeflection, angles: &Angles, delta: f
 
 /// Depth of the damage under a ball at the groove's bottom by its path, m; `None` where none is met.
 pub fn depth_at_bottom(defects: Defects, angles: &Angles) -> Option<f64> {
-    ball_contact::depth_at_bottom(Cuts::new(defects, angles))
+    ball_contact::depth_at_bottom(ContactDefects::new(defects, angles))
 }
 
 /// Elastic energy of a contact that may be on any of `defects`, J: the integral of the elastic sum up to delta.
 pub fn energy(defects: Defects, law: &LoadDeflection, angles: &Angles, delta: f64) -> f64 {
     if let Some(strips) = &law.strips {
-        let on_damage = ball_contact::energy(Cuts::new(defects, angles), strips, delta);
+        let on_damage = ball_contact::energy(ContactDefects::new(defects, angles), strips, delta);
         return on_damage.unwrap_or_else(|| law.energy(delta));
     }
     if defects.law() == Law::Sliced {

@@ -1,8 +1,8 @@
 //! What a conservative edge does: derivatives of a contact's elastic energy with the angles that carry it over damage.
 
 use super::ball_contact;
-use super::contact_defects::Cuts;
-use super::damaged_contact::{cover_cuts, mean};
+use super::contact_defects::ContactDefects;
+use super::damaged_contact::{cover_met, mean};
 use super::depth_profile::Cover;
 use super::track::settled;
 use super::{Angles, Defects};
@@ -38,18 +38,18 @@ impl EdgeGradient {
     }
 }
 
-/// Derivatives of an energy of what is cut by central differences. Defects on the roller move over the contact apart
+/// Derivatives of an energy of what is one by central differences. Defects on the roller move over the contact apart
 /// from those on the raceway.
-fn central_differences(cuts: Cuts, mut energy: impl FnMut(Cuts) -> f64) -> EdgeGradient {
+fn central_differences(met: ContactDefects, mut energy: impl FnMut(ContactDefects) -> f64) -> EdgeGradient {
     /// m. A thousandth of what h changes over, and a hundred times the ridges that the search over several defects
     /// leaves out.
     const STEP: f64 = 1e-7;
     let mut gradient = EdgeGradient::default();
     for on_roller in [false, true] {
-        let Some(one) = cuts.iter().find(|cut| cut.is_on_roller() == on_roller) else {
+        let Some(one) = met.iter().find(|one| one.is_on_roller() == on_roller) else {
             continue;
         };
-        let mut held = |by: f64| energy(cuts.moved(on_roller, by));
+        let mut held = |by: f64| energy(met.moved(on_roller, by));
         let slope = (held(STEP) - held(-STEP)) / (2.0 * STEP);
         gradient.add(one.defect.surface, slope * one.defect.radius);
     }
@@ -60,16 +60,16 @@ fn central_differences(cuts: Cuts, mut energy: impl FnMut(Cuts) -> f64) -> EdgeG
 /// the arc.
 pub fn edge_gradient(defects: Defects, law: &LoadDeflection, angles: &Angles, delta: f64) -> EdgeGradient {
     let mut gradient = EdgeGradient::default();
-    let cuts = Cuts::new(defects, angles);
-    let Some((first, several)) = cuts.first() else {
+    let met = ContactDefects::new(defects, angles);
+    let Some((first, several)) = met.first() else {
         return gradient;
     };
     if several {
         if let Some(strips) = &law.strips {
-            return central_differences(cuts, |moved| ball_contact::energy(moved, strips, delta).unwrap_or_default());
+            return central_differences(met, |moved| ball_contact::energy(moved, strips, delta).unwrap_or_default());
         }
         let undamaged = law.energy(delta);
-        return central_differences(cuts, |moved| {
+        return central_differences(met, |moved| {
             mean(moved, undamaged, delta, |x| law.energy(x)).map_or(undamaged, |m| m.value)
         });
     }
@@ -109,7 +109,7 @@ pub fn edge_gradient_of_slices(
     cover: &mut slices::Cover,
     energy: impl Fn(Option<&slices::Cover>) -> f64,
 ) -> EdgeGradient {
-    central_differences(Cuts::new(defects, angles), |moved| match cover_cuts(moved, cover) {
+    central_differences(ContactDefects::new(defects, angles), |moved| match cover_met(moved, cover) {
         true => energy(Some(cover)),
         false => energy(None),
     })

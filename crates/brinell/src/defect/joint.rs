@@ -23,7 +23,7 @@ const ROUND_OFF: f64 = 1e-15;
 
 /// One defect under the roller, along one line z = const.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Strip<'a> {
+pub(super) struct ArcLine<'a> {
     /// Its depths.
     pub(super) depths: Depths<'a>,
     /// Where the line of contact is on it, m.
@@ -42,7 +42,7 @@ pub(super) enum Depths<'a> {
     Map(&'a Grid, f64),
 }
 
-/// h = at + slope x of one strip, x from the line of contact.
+/// h = at + slope x of one line, x from the line of contact.
 #[derive(Clone, Copy)]
 struct Straight {
     at: f64,
@@ -147,7 +147,7 @@ fn piece_on(grid: &Grid, z: f64, s: f64, direction: f64) -> (Option<Line>, f64) 
     if end.is_finite() { (None, end) } else { none }
 }
 
-impl Strip<'_> {
+impl ArcLine<'_> {
     /// The deeper of the depths on both sides of x, m; 0 where neither is damaged.
     fn deepest(&self, x: f64) -> f64 {
         [1.0, -1.0]
@@ -197,11 +197,11 @@ impl Strip<'_> {
 
 /// The damaging pieces that begin at x.
 fn straights<'a>(
-    strips: impl Iterator<Item = Strip<'a>> + Clone,
+    lines: impl Iterator<Item = ArcLine<'a>> + Clone,
     x: f64,
     direction: f64,
 ) -> impl Iterator<Item = Straight> + Clone {
-    strips.filter_map(move |it| {
+    lines.filter_map(move |it| {
         let line = it.piece(x, direction).0?;
         let slope = (line.at_to - line.at_from) / (line.to - line.from);
         (line.at_from != 0.0 || line.at_to != 0.0)
@@ -210,9 +210,9 @@ fn straights<'a>(
 }
 
 /// The answer where one defect alone gives it; without raised edges.
-fn on_one<'a>(strips: impl Iterator<Item = Strip<'a>> + Clone, radius: f64) -> Option<f64> {
+fn on_one<'a>(lines: impl Iterator<Item = ArcLine<'a>> + Clone, radius: f64) -> Option<f64> {
     let mut deepest: Option<(usize, f64, f64)> = None;
-    for (k, it) in strips.clone().enumerate() {
+    for (k, it) in lines.clone().enumerate() {
         let (depth, slope) = it.alone(radius)?;
         if deepest.is_none_or(|d| depth > d.1) {
             deepest = Some((k, depth, slope));
@@ -222,17 +222,17 @@ fn on_one<'a>(strips: impl Iterator<Item = Strip<'a>> + Clone, radius: f64) -> O
     // An envelope falls towards the point that it is on: its slope is the distance from there over R_eq.
     let x = -slope * radius;
     let point = depth - x * x / (2.0 * radius);
-    let left = strips.enumerate().all(|(k, it)| k == deepest || it.deepest(x) <= point + ROUND_OFF);
+    let left = lines.enumerate().all(|(k, it)| k == deepest || it.deepest(x) <= point + ROUND_OFF);
     left.then_some(depth)
 }
 
-/// Height of the path of a roller of relative radius `radius` (m) over several strips, below the undamaged surface, m;
+/// Height of the path of a roller of relative radius `radius` (m) over several lines, below the undamaged surface, m;
 /// below 0 on raised edges. `lowest` (m, 0 or less) is the height of the highest raised edge.
 ///
 /// Exact but for ridges that are narrower than a nanometre.
-pub(super) fn rest<'a>(strips: impl Iterator<Item = Strip<'a>> + Clone, lowest: f64, radius: f64) -> f64 {
+pub(super) fn envelope_depth<'a>(lines: impl Iterator<Item = ArcLine<'a>> + Clone, lowest: f64, radius: f64) -> f64 {
     if lowest >= 0.0
-        && let Some(depth) = on_one(strips.clone(), radius)
+        && let Some(depth) = on_one(lines.clone(), radius)
     {
         return depth;
     }
@@ -241,9 +241,9 @@ pub(super) fn rest<'a>(strips: impl Iterator<Item = Strip<'a>> + Clone, lowest: 
         // Where the piece begins.
         let mut x = 0.0_f64;
         while x.is_finite() && x * x / (2.0 * radius) + lowest < best {
-            let ends = strips.clone().map(|strip| direction * strip.piece(x, direction).1);
+            let ends = lines.clone().map(|line| direction * line.piece(x, direction).1);
             let end = direction * ends.fold(f64::INFINITY, f64::min);
-            let here = straights(strips.clone(), x, direction);
+            let here = straights(lines.clone(), x, direction);
             best = best.min(lowest_of(here, x, end, radius));
             x = end;
         }
@@ -304,20 +304,20 @@ mod tests {
         lines
     }
 
-    fn lowest(strips: &[Strip]) -> f64 {
-        let lines = strips.iter().flat_map(lines_of);
+    fn lowest(lines: &[ArcLine]) -> f64 {
+        let lines = lines.iter().flat_map(lines_of);
         lines.map(|l| l.at_from.min(l.at_to)).fold(0.0, f64::min)
     }
 
-    fn lines_of<'a>(strip: &Strip<'a>) -> &'a [Line] {
-        match strip.depths {
+    fn lines_of<'a>(line: &ArcLine<'a>) -> &'a [Line] {
+        match line.depths {
             Depths::Lines(lines, _) => lines,
             _ => &[],
         }
     }
 
-    fn resting(strips: &[Strip]) -> f64 {
-        rest(strips.iter().copied(), lowest(strips), R)
+    fn resting(lines: &[ArcLine]) -> f64 {
+        envelope_depth(lines.iter().copied(), lowest(lines), R)
     }
 
     #[test]
@@ -329,18 +329,18 @@ mod tests {
             for k in 0..200 {
                 let s = -1.5e-3 + 3e-3 * f64::from(k) / 200.0;
                 let depths = Depths::Lines(&lines, None);
-                let ours = resting(&[Strip { depths, s }]);
+                let ours = resting(&[ArcLine { depths, s }]);
                 assert!((ours - plain.value(s)).abs() < 1e-15, "round {round} at {s}");
             }
         }
     }
 
     /// The definition, tried every 50 nm: half a step on the steepest slope, 30 um in 20 um, is 38 nm.
-    fn brute(strips: &[Strip]) -> f64 {
+    fn brute(lines: &[ArcLine]) -> f64 {
         let height = |x: f64| {
-            let depths = strips.iter().filter_map(|strip| {
-                let s = strip.s + x;
-                let l = lines_of(strip).iter().find(|l| s >= l.from && s < l.to)?;
+            let depths = lines.iter().filter_map(|line| {
+                let s = line.s + x;
+                let l = lines_of(line).iter().find(|l| s >= l.from && s < l.to)?;
                 Some(l.at_from + (l.at_to - l.at_from) * (s - l.from) / (l.to - l.from))
             });
             depths.reduce(f64::max).unwrap_or(0.0) + x * x / (2.0 * R)
@@ -355,15 +355,15 @@ mod tests {
             let raised = if round % 2 == 0 { 0.0 } else { 0.3 };
             let lines: Vec<Vec<Line>> = (0..2 + round % 2).map(|_| random_lines(&mut draw, raised)).collect();
             let envelopes: Vec<PiecewisePolynomial> = lines.iter().map(|l| envelope(l, R)).collect();
-            let strips: Vec<Strip> = lines
+            let lines: Vec<ArcLine> = lines
                 .iter()
                 .zip(&envelopes)
-                .map(|(lines, envelope)| Strip {
+                .map(|(lines, envelope)| ArcLine {
                     depths: Depths::Lines(lines, Some(envelope)),
                     s: 1e-3 * (draw() - 0.5),
                 })
                 .collect();
-            let (ours, tried) = (resting(&strips), brute(&strips));
+            let (ours, tried) = (resting(&lines), brute(&lines));
             assert!(ours <= tried + 1e-15, "round {round}: {ours} above {tried}");
             assert!(ours >= tried - 4e-8, "round {round}: {ours} below {tried}");
         }
