@@ -206,7 +206,7 @@ impl Comb {
     }
 
     /// Highest frequency that it looks at, Hz.
-    fn highest(&self) -> f64 {
+    pub(super) fn highest(&self) -> f64 {
         let harmonic = self.noise.len() as f64 * self.search.nominal;
         harmonic * (1.0 + self.search.tolerance) + self.farthest as f64 * self.bin()
     }

@@ -132,7 +132,7 @@ impl SegmentSpectra {
             power: PowerAverage::new(length),
             envelope_power: PowerAverage::new(length),
             sum_of_means: 0.0,
-            padded: Padded::new(fs, length, &combs),
+            padded: Padded::new(fs, length, combs.iter().map(Comb::highest).fold(0.0, f64::max)),
             combs,
             lines,
         }

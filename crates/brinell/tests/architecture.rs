@@ -1,5 +1,5 @@
 //! ARCHITECTURE.md against the code: which module of the engine uses which, which crate depends on which, and that no
-//! modules of a crate use each other. The book's list of a run's numbers against the engine's. Files of tests against
+//! files or modules of a crate use each other. The book's list of a run's numbers against the engine's. Files of tests against
 //! the programs that run them.
 
 use brinell::result::fields::{self, Field};
@@ -29,8 +29,9 @@ fn table(page: &str, heading: &str) -> Vec<Vec<String>> {
 /// Text without comments and tests, which may use anything; strings that hold `//` do not matter here.
 fn code(path: &Path) -> String {
     let text = fs::read_to_string(path).unwrap();
-    let text = text.split("#[cfg(test)]").next().unwrap_or("");
-    let lines = text.lines().map(|line| line.split("//").next().unwrap_or(""));
+    let tests =
+        text.match_indices("#[cfg(test)]\nmod ").find(|(k, _)| text[*k..].lines().nth(1).unwrap().ends_with('{'));
+    let lines = text[..tests.map_or(text.len(), |(k, _)| k)].lines().map(|line| line.split("//").next().unwrap_or(""));
     lines.collect::<Vec<_>>().join("\n")
 }
 
@@ -42,56 +43,151 @@ fn files(of: &Path) -> Vec<PathBuf> {
     entries.flat_map(|path| files(&path)).collect()
 }
 
-/// Names that follow `prefix` in the text, those in braces among them.
-fn named(text: &str, prefix: &str) -> BTreeSet<String> {
-    let name = |part: &str| part.chars().take_while(|c| c.is_alphanumeric() || *c == '_').collect::<String>();
-    let mut all = BTreeSet::new();
-    for after in text.split(prefix).skip(1) {
-        match after.strip_prefix('{') {
-            Some(group) => {
-                let group = group.split(';').next().unwrap_or("");
-                all.extend(group.split([',', '{']).map(|part| name(part.trim_start())));
-            }
-            None => {
-                all.insert(name(after));
-            }
+/// The paths of a `use`: `a::{b, c::{d}}` is `a::b` and `a::c::d`.
+fn paths(used: &str) -> Vec<String> {
+    let used = used.trim();
+    let Some((before, group)) = used.split_once('{') else {
+        return vec![used.to_owned()];
+    };
+    let group = group.trim_end().trim_end_matches('}');
+    let (mut parts, mut depth) = (vec![String::new()], 0);
+    for c in group.chars() {
+        depth += i32::from(c == '{') - i32::from(c == '}');
+        match c {
+            ',' if depth == 0 => parts.push(String::new()),
+            _ => parts.last_mut().unwrap().push(c),
         }
     }
-    all
+    // The brace that closes an inner group may have been taken with the outer one.
+    parts.last_mut().unwrap().push_str(&"}".repeat(depth.max(0) as usize));
+    let parts = parts.iter().filter(|part| !part.trim().is_empty());
+    parts.flat_map(|part| paths(part)).map(|path| format!("{before}{path}")).collect()
 }
 
-/// Modules of a crate and what each names of the others, also by what the root gives on of them.
-fn modules(src: &Path) -> Uses {
-    let root = code(&src.join("lib.rs"));
-    let mut given_on = BTreeMap::new();
-    for after in root.split("use ").skip(1) {
-        let used = after.split(';').next().unwrap_or("");
-        if let Some((module, names)) = used.split_once("::") {
-            let names = names.split(|c: char| !c.is_alphanumeric() && c != '_').filter(|n| !n.is_empty());
-            given_on.extend(names.map(|n| (n.to_owned(), module.to_owned())));
+/// The files of a crate by the path of their module.
+struct Sources(BTreeMap<Vec<String>, Source>);
+
+struct Source {
+    /// What is imported, by the name that it has here.
+    imports: Vec<(String, String)>,
+    /// What is handed on, the same.
+    exports: Vec<(String, String)>,
+    /// Paths within the code.
+    paths: BTreeSet<String>,
+}
+
+impl Source {
+    fn of(text: &str) -> Self {
+        let mut source = Self { imports: Vec::new(), exports: Vec::new(), paths: BTreeSet::new() };
+        let mut statement = String::new();
+        for line in text.lines() {
+            let start = line.trim_start();
+            let uses = start.starts_with("use ") || (start.starts_with("pub") && start.contains(" use "));
+            if !uses && statement.is_empty() {
+                source.paths.extend(
+                    line.split(|c: char| !c.is_alphanumeric() && c != '_' && c != ':')
+                        .map(|word| word.trim_end_matches(':').to_owned())
+                        .filter(|word| word.contains("::")),
+                );
+                continue;
+            }
+            statement.push_str(start);
+            statement.push(' ');
+            if !start.ends_with(';') {
+                continue;
+            }
+            let (visibility, used) = statement.split_once("use ").unwrap();
+            let list = if visibility.is_empty() { &mut source.imports } else { &mut source.exports };
+            for path in paths(used.trim_end().trim_end_matches(';')) {
+                let (path, name) = path.split_once(" as ").unwrap_or((&path, path.rsplit("::").next().unwrap()));
+                list.push((name.trim().to_owned(), path.trim_end_matches("::self").to_owned()));
+            }
+            statement.clear();
         }
+        source
     }
-    let mut all = Uses::new();
-    for path in fs::read_dir(src).unwrap().map(|e| e.unwrap().path()) {
-        let name = path.file_stem().unwrap().to_str().unwrap().to_owned();
-        if name == "lib" || name == "main" {
-            continue;
+}
+
+impl Sources {
+    fn of(src: &Path) -> Self {
+        let mut all = BTreeMap::new();
+        for file in files(src) {
+            if file.extension().is_none_or(|e| e != "rs") || file.ends_with("tests.rs") {
+                continue;
+            }
+            let within = file.strip_prefix(src).unwrap().with_extension("");
+            let mut module: Vec<String> = within.iter().map(|part| part.to_str().unwrap().to_owned()).collect();
+            if ["mod", "lib", "main"].contains(&module.last().unwrap().as_str()) {
+                module.pop();
+            }
+            all.insert(module, Source::of(&code(&file)));
         }
-        let uses = all.entry(name).or_default();
-        for file in files(&path).iter().filter(|f| f.extension().is_some_and(|e| e == "rs") && !f.ends_with("tests.rs"))
-        {
-            let text = code(file);
-            uses.extend(named(&text, "crate::"));
-            if path.is_file() {
-                uses.extend(named(&text, "super::"));
+        Self(all)
+    }
+
+    /// A path from the root of the crate; `None` for another crate's.
+    fn absolute(&self, module: &[String], path: &str) -> Option<Vec<String>> {
+        let mut parts: Vec<String> = path.split("::").map(str::to_owned).collect();
+        let mut base = module.to_vec();
+        match parts[0].as_str() {
+            "crate" => base.clear(),
+            "self" => {}
+            "super" => {
+                while parts.first().is_some_and(|part| part == "super") {
+                    base.pop();
+                    parts.remove(0);
+                }
+                return Some([base, parts].concat());
+            }
+            first => {
+                base.push(first.to_owned());
+                if !self.0.contains_key(&base) {
+                    return None;
+                }
             }
         }
+        Some([base, parts[1..].to_vec()].concat())
     }
-    let known: BTreeSet<String> = all.keys().cloned().collect();
-    for (name, uses) in &mut all {
-        let modules =
-            uses.iter().map(|used| if known.contains(used) { used } else { given_on.get(used).unwrap_or(used) });
-        *uses = modules.filter(|used| known.contains(*used) && *used != name).cloned().collect();
+
+    /// The file that holds what a path names, also where others hand it on; `None` for a module as such.
+    fn home(&self, path: &[String], depth: usize) -> Option<Vec<String>> {
+        let known = (0..=path.len()).rev().find(|k| self.0.contains_key(&path[..*k]))?;
+        let (module, name) = (&path[..known], path.get(known)?);
+        let export = self.0[module].exports.iter().find(|(known, _)| known == name);
+        let elsewhere = export.and_then(|(_, from)| self.absolute(module, from)).filter(|_| depth < 8);
+        match elsewhere {
+            Some(from) => self.home(&[&from[..], &path[known + 1..]].concat(), depth + 1),
+            None => Some(module.to_vec()),
+        }
+    }
+
+    /// Which file uses which, what is only handed on apart.
+    fn uses(&self) -> BTreeMap<Vec<String>, BTreeSet<Vec<String>>> {
+        let uses = self.0.iter().map(|(module, source)| {
+            let imported = source.imports.iter().filter_map(|(_, path)| self.absolute(module, path));
+            let within = source.paths.iter().filter_map(|path| {
+                let (first, rest) = path.split_once("::")?;
+                let import = source.imports.iter().find(|(name, _)| name == first);
+                match import {
+                    Some((_, from)) => self.absolute(module, &format!("{from}::{rest}")),
+                    None => self.absolute(module, path),
+                }
+            });
+            let homes = imported.chain(within).filter_map(|path| self.home(&path, 0));
+            (module.clone(), homes.filter(|home| home != module).collect())
+        });
+        uses.collect()
+    }
+}
+
+/// Modules of a crate and which other ones each uses.
+fn modules(src: &Path) -> Uses {
+    let mut all = Uses::new();
+    for (file, uses) in Sources::of(src).uses() {
+        if let Some(module) = file.first() {
+            let others = uses.iter().filter_map(|used| used.first()).filter(|used| *used != module);
+            all.entry(module.clone()).or_default().extend(others.cloned());
+        }
     }
     all
 }
@@ -138,10 +234,15 @@ fn prop_architecture_says_which_module_uses_which() {
 }
 
 #[test]
-fn prop_modules_of_no_crate_use_each_other() {
+fn prop_files_of_no_crate_use_each_other() {
     for entry in fs::read_dir(root().join("crates")).unwrap() {
         let src = entry.unwrap().path().join("src");
-        if src.join("lib.rs").exists() {
+        if src.exists() {
+            let named = |path: &Vec<String>| path.join("::");
+            let uses = Sources::of(&src).uses();
+            let uses: Uses = uses.iter().map(|(file, used)| (named(file), used.iter().map(named).collect())).collect();
+            assert!(uses.values().any(|used| !used.is_empty()) || uses.len() < 3, "{} is read", src.display());
+            assert_eq!(cycle(&uses), None, "files of {} that use each other", src.display());
             assert_eq!(cycle(&modules(&src)), None, "modules of {} that use each other", src.display());
         }
     }
@@ -158,9 +259,11 @@ fn prop_architecture_names_every_module() {
             .filter(|n| n.ends_with(".rs") || n.ends_with('/'))
             .map(|n| n.trim_end_matches(".rs").trim_end_matches('/').to_owned())
             .collect();
-        let there: BTreeSet<String> = modules(&src)
-            .into_keys()
-            .filter(|n| src.join(n).is_dir() || src.join(format!("{n}.rs")).exists())
+        let there: BTreeSet<String> = (fs::read_dir(&src).unwrap())
+            .map(|entry| entry.unwrap().path())
+            .filter(|path| path.is_dir() || path.extension().is_some_and(|e| e == "rs"))
+            .map(|path| path.file_stem().unwrap().to_str().unwrap().to_owned())
+            .filter(|name| name != "lib")
             .collect();
         let missing: Vec<_> = there.difference(&told).collect();
         let stale: Vec<_> = told.difference(&there).collect();

@@ -1,6 +1,7 @@
 //! Which bands are demodulated.
 
-use super::{AnalysisError, Options};
+use super::error::{AnalysisError, out_of_range};
+use super::options::Options;
 use crate::Band;
 
 /// Multiple of the highest defect frequency above which a carrier is sought.
@@ -56,7 +57,7 @@ pub(super) fn range(fs: f64, options: &Options) -> Result<Band, AnalysisError> {
     let fits = band.low >= 0.0 && band.low < band.high && band.low < top;
     if !fits {
         let range = "0 to below the upper edge and half the sample rate";
-        return Err(super::out_of_range("lower edge of the band (Hz)", band.low, range));
+        return Err(out_of_range("lower edge of the band (Hz)", band.low, range));
     }
     if band.high > top && band.high.is_finite() {
         return Err(AnalysisError::BandTooHigh { high_hz: band.high, most_hz: top });

@@ -104,7 +104,7 @@ fn common_band(first: &Analysis, top: f64) -> Result<Band, AnalysisError> {
     let least = NARROWEST * highest(&first.options);
     cut.find(|band| band.high - band.low >= least.min(shown.high - shown.low)).ok_or_else(|| {
         let range = "well below half of both sample rates; give a lower band that both hold";
-        super::out_of_range("lower edge of the band (Hz)", shown.low, range)
+        super::error::out_of_range("lower edge of the band (Hz)", shown.low, range)
     })
 }
 

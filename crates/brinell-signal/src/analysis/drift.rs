@@ -13,7 +13,8 @@
 
 use super::Options;
 use super::known_lines::near_mains;
-use super::together::{Envelopes, FLOOR, HARMONICS, apart, running_median};
+use super::running_median::running_median;
+use super::together::{Envelopes, FLOOR, HARMONICS, apart};
 use crate::lengths::fast_from;
 use crate::spectrum::SegmentTransform;
 use crate::{Detrend, Rotation, SignalError, Window};

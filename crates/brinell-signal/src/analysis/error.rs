@@ -1,6 +1,5 @@
 //! Why there is no analysis.
 
-use super::{Sensitivity, Unit};
 use crate::SignalError;
 
 /// What is wrong with the signal, or with what was asked of it.
@@ -101,19 +100,20 @@ pub enum AnalysisError {
         most_hz: f64,
     },
     /// A unit that nobody knows.
-    #[error("no unit is called `{spelling}`; known are {}", Unit::KNOWN)]
+    #[error("no unit is called `{spelling}`; known are {known}")]
     UnknownUnit {
         /// As it was given.
         spelling: String,
+        /// Those that are known.
+        known: &'static str,
     },
     /// No sensitivity.
-    #[error(
-        "`{text}`: expected a sensor's output for one unit of vibration, with both units, such as {}",
-        Sensitivity::FORMS
-    )]
+    #[error("`{text}`: expected a sensor's output for one unit of vibration, with both units, such as {forms}")]
     NoSensitivity {
         /// As it was given.
         text: String,
+        /// Spellings that are taken.
+        forms: &'static str,
     },
     /// No full scale.
     #[error("`{text}`: expected what the largest number means, with its unit, such as 5V, 500mV or 10g")]
@@ -131,3 +131,7 @@ pub enum AnalysisError {
 
 /// Fewest revolutions that are analysed: below, neighbouring defect frequencies can hardly be told apart.
 pub const FEWEST_REVOLUTIONS: f64 = 8.0;
+
+pub(super) fn out_of_range(name: &'static str, value: f64, range: &'static str) -> AnalysisError {
+    SignalError::OutOfRange { name, value, range }.into()
+}

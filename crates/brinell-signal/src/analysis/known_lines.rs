@@ -1,32 +1,12 @@
 //! Lines that are nobody's damage: the mains', and the shaft's, which tell its speed.
 
-use super::together::{FLOOR, REVOLUTIONS, running_median};
+use super::mains::Mains;
+use super::running_median::running_median;
+use super::together::{FLOOR, REVOLUTIONS};
 use super::{AnalysisError, Options};
 use crate::distribution::chi_square_quantile;
 use crate::lengths::fast_up_to;
 use crate::{Segments, peak_near, psd};
-
-/// A mains frequency.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Mains {
-    /// 50 Hz.
-    Hz50,
-    /// 60 Hz.
-    Hz60,
-}
-
-impl Mains {
-    /// Both.
-    pub const ALL: [Mains; 2] = [Mains::Hz50, Mains::Hz60];
-
-    /// Hz.
-    pub fn frequency(self) -> f64 {
-        match self {
-            Mains::Hz50 => 50.0,
-            Mains::Hz60 => 60.0,
-        }
-    }
-}
 
 /// Chance under noise at which a peak counts as a line.
 const LEVEL: f64 = 1e-4;

@@ -36,6 +36,10 @@ mod hypotheses;
 mod json;
 mod known_lines;
 mod levels;
+mod mains;
+mod options;
+mod result;
+mod running_median;
 mod sensitivity;
 mod severity;
 mod soundness;
@@ -51,8 +55,10 @@ pub use error::{AnalysisError, FEWEST_REVOLUTIONS};
 pub use family::{Family, Finding, Harmonic, Sidebands};
 pub use frequencies::{Component, DefectOrders, NAMED, NamedBearing};
 pub use json::to_json;
-pub use known_lines::Mains;
 pub use levels::Levels;
+pub use mains::Mains;
+pub use options::{MACHINE_NOISE, Options, SUPPLY_HZ};
+pub use result::{Analysis, Verdict, View};
 pub use sensitivity::{FullScale, Sensitivity};
 pub use severity::{BandLevel, MachineClass, NoVelocity, NoZone, SEVERITY_BAND, Zone, band_level, severity};
 pub use soundness::Flaw;
@@ -63,231 +69,21 @@ pub use words::COLUMNS;
 
 use crate::lengths::fast_up_to;
 use crate::parallel::join;
-use crate::{
-    Band, Blocks, Estimate, Indicator, Kurtogram, KurtogramBand, Rotation, Segments, Spectrum, Transformed,
-    VelocityBands, kurtogram, psd,
-};
+use crate::{Blocks, Estimate, Indicator, Kurtogram, Segments, Spectrum, Transformed, VelocityBands, kurtogram, psd};
+use error::out_of_range;
 use hypotheses::{Best, SpeedEvidence};
-use std::ops::RangeInclusive;
 use together::Envelopes;
 use verdict::Record;
 
-/// What is known beside the samples, and how sure to be.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Options {
-    /// Shaft speed, Hz.
-    pub shaft: f64,
-    /// Defect frequencies over the shaft's.
-    pub orders: DefectOrders,
-    /// How far slip and an inexact speed may move a defect frequency, relative; 0.02 unless told.
-    pub tolerance: f64,
-    /// The range to demodulate; `None` takes everything above three times the highest defect frequency.
-    pub band: Option<Band>,
-    /// Frequency of the motor's supply, Hz, where an inverter makes it: lines at its multiples are set aside, as those
-    /// of the mains are.
-    pub supply: Option<f64>,
-    /// The shaft's angle over time, where its speed varies: envelopes are then taken at equal angles, and a frequency
-    /// in Hz is its order times `shaft`, the mean speed. Time counts from the first sample.
-    pub rotation: Option<Rotation>,
-    /// For a simulation's signal without a sensor's noise, in which healthy rollers that enter the load are heard too:
-    /// RMS of the white noise that a machine would add, in the signal's unit ([`MACHINE_NOISE`] of an acceleration).
-    /// `None` for a signal that has its own.
-    pub silent: Option<f64>,
-    /// Whether speed and bearing are those of a simulation: nothing but the bearing turns, and a shift beyond the
-    /// tolerance is slip of the cage.
-    pub exact: bool,
-}
-
-impl Options {
-    /// With the usual tolerance, for a measured signal.
-    pub fn new(shaft: f64, orders: DefectOrders) -> Self {
-        Options { shaft, orders, tolerance: 0.02, band: None, supply: None, rotation: None, silent: None, exact: false }
-    }
-
-    /// Whether a speed (Hz) lies farther from the one given than the tolerance.
-    fn is_other_speed(&self, shaft: f64) -> bool {
-        (shaft / self.shaft - 1.0).abs() > self.tolerance
-    }
-}
-
-/// Allowed values of [`Options::supply`], Hz.
-pub const SUPPLY_HZ: RangeInclusive<f64> = 1.0..=1000.0;
 /// Fourth powers of larger values, and of the inverse of smaller ones, leave a double's range.
 const LARGEST: f64 = 1e60;
 
-/// RMS of a machine's noise, m/s^2: somewhat below that of the sound motor in the public records of Case Western
-/// Reserve University, 0.63 and 0.67 above 1 kHz at its two ends (48 kHz, 1797 r/min).
-pub const MACHINE_NOISE: f64 = 0.5;
 /// Noise over the signal's RMS that is added to it: the last bit of an ADC of 32.
 const DITHER: f64 = 1.0 / 4_294_967_296.0;
-/// Rollers that enter the load of a healthy bearing strike the resting race at the same rate as its damage is struck
-/// (varying compliance), which simulations without noise show. Evidence that modulates by less is weak there; some
-/// healthy single-row bearings go beyond.
-const PASSING: f64 = 0.4;
 /// Halvings of the kurtogram.
 const DEPTH: usize = 6;
 /// Longest part of a signal that the kurtogram looks at, samples: it is for the eye, and that takes no more.
 const LONGEST: usize = 1 << 18;
-
-/// What the families amount to.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Verdict {
-    /// A part is damaged.
-    Damage,
-    /// Something is there that more or other data would decide.
-    CannotTell,
-    /// No damage was found. Not the same as "healthy".
-    NothingFound,
-}
-
-impl Verdict {
-    /// In files: `damage`, `cannot_tell`, `nothing_found`.
-    pub fn key(self) -> &'static str {
-        match self {
-            Verdict::Damage => "damage",
-            Verdict::CannotTell => "cannot_tell",
-            Verdict::NothingFound => "nothing_found",
-        }
-    }
-}
-
-/// An envelope spectrum.
-#[derive(Debug, Clone)]
-pub struct View {
-    /// The band demodulated.
-    pub band: Band,
-    /// Why this one.
-    pub choice: BandChoice,
-    /// Its envelope's spectrum, up to where lines were sought; peak amplitudes in the signal's unit.
-    pub spectrum: Spectrum,
-    /// Mean of the envelope, in the signal's unit.
-    pub mean: f64,
-}
-
-/// Everything that was found.
-#[derive(Debug, Clone)]
-pub struct Analysis {
-    /// What was asked.
-    pub options: Options,
-    /// Sample rate, Hz.
-    pub sample_rate: f64,
-    /// Samples analysed.
-    pub samples: usize,
-    /// Mean that was removed.
-    pub mean: f64,
-    /// Shaft speed, Hz, as refined from lines at its harmonics, or as given.
-    pub shaft: f64,
-    /// Whether it is known: from lines of the signal, or as it was followed.
-    pub shaft_found: bool,
-    /// What is wrong with the record itself.
-    pub flaws: Vec<Flaw>,
-    /// How the speed changes during the record, where lines tell it and nobody said so.
-    pub drift: Option<Drift>,
-    /// Harmonics of the shaft whose lines told its speed; none where it was given or followed.
-    pub shaft_lines: Vec<usize>,
-    /// Indicators of the signal less its mean over whole revolutions, with intervals; peaks are those of a revolution.
-    pub indicators: Vec<(Indicator, Estimate)>,
-    /// The most impulsive band, where there is one.
-    pub kurtogram: Option<KurtogramBand>,
-    /// The kurtogram it was found in, unless the band was given.
-    pub map: Option<Kurtogram>,
-    /// The envelope spectrum to show.
-    pub view: View,
-    /// Bands whose envelope spectra were averaged.
-    pub bands: usize,
-    /// Each defect frequency with its harmonics, over all bands together: damage first, the part that leads before
-    /// others.
-    pub families: Vec<Family>,
-    /// Where no damage is called: a comb deeper than any of the bearing's, where the bearing has no frequency.
-    pub elsewhere: Option<Elsewhere>,
-    /// What would be damage at the speed given, where no damage is called at the speed by the shaft's lines, and that
-    /// lies farther off than the tolerance: the speed given is wrong, or the lines are another shaft's.
-    pub at_given: Option<Family>,
-    /// Whether the outer race was judged beside the same run without damage ([`Analysis::beside_healthy_run`]).
-    pub passing_known: bool,
-    /// RMS over that of a record of the healthy machine, where there is one.
-    pub level_growth: Option<f64>,
-}
-
-impl Analysis {
-    /// Families that are damage, the one that leads before others.
-    pub fn causes(&self) -> impl Iterator<Item = &Family> {
-        (self.families.iter()).filter(|f| f.finding == Finding::Damage)
-    }
-
-    /// One of the indicators.
-    pub fn indicator(&self, wanted: Indicator) -> Option<Estimate> {
-        let found = self.indicators.iter().find(|(i, _)| *i == wanted);
-        found.map(|(_, estimate)| *estimate)
-    }
-
-    /// What it amounts to.
-    pub fn conclusion(&self) -> Verdict {
-        let open = (self.families.iter()).any(|f| match f.finding {
-            Finding::Open | Finding::Grown => true,
-            Finding::AsBefore => !self.passing_known,
-            _ => false,
-        });
-        if self.causes().next().is_some() {
-            Verdict::Damage
-        } else if open || self.elsewhere.is_some() || self.at_given.is_some() || self.hiding_drift().is_some() {
-            Verdict::CannotTell
-        } else {
-            Verdict::NothingFound
-        }
-    }
-
-    /// `very clear`, `clear` or `weak`: how much the evidence of a family that is damage says.
-    pub fn clarity(&self, family: &Family) -> &'static str {
-        let may_be_other = self.may_be_passing(family) || self.impacts_a_turn(family).is_some();
-        let lost = self.drift.as_ref().is_some_and(Drift::is_lost);
-        match (may_be_other, family.is_very_clear() && self.speed_used().is_none() && !lost) {
-            (true, _) => "weak",
-            (_, true) => "very clear",
-            _ => "clear",
-        }
-    }
-
-    /// Whether the rollers of a healthy bearing may show as much, where nothing drowns them ([`Options::silent`]).
-    pub fn may_be_passing(&self, family: &Family) -> bool {
-        let outer = family.component == Component::OuterRace;
-        self.options.silent.is_some() && !self.passing_known && outer && family.modulation < PASSING
-    }
-
-    /// A drift for which damage may be missed.
-    fn hiding_drift(&self) -> Option<&Drift> {
-        self.drift.as_ref().filter(|d| d.may_hide())
-    }
-
-    /// How many impacts a turn of the shaft would look like a race's, where nothing tells the shaft's speed.
-    fn impacts_a_turn(&self, family: &Family) -> Option<f64> {
-        let options = &self.options;
-        let times = (family.frequency / options.shaft).round();
-        let off = family.frequency / (options.shaft * times) - 1.0;
-        let told = !self.shaft_lines.is_empty() || options.rotation.is_some() || options.exact;
-        (family.name.starts_with("BPF") && !told && off.abs() <= options.tolerance).then_some(times)
-    }
-
-    /// The verdict in plain words: the headline first.
-    pub fn verdict(&self) -> String {
-        words::verdict(self)
-    }
-
-    /// The speed that the verdict rests on, where it is not the one given: a sentence.
-    pub fn speed_used(&self) -> Option<String> {
-        words::speed(self)
-    }
-
-    /// A row for each family, in the order of [`COLUMNS`].
-    pub fn rows(&self) -> Vec<[String; COLUMNS.len()]> {
-        words::rows(self)
-    }
-
-    /// Length of what was analysed, s.
-    pub fn duration(&self) -> f64 {
-        self.samples as f64 / self.sample_rate
-    }
-}
 
 /// Analyses `x`, sampled at `fs` Hz.
 ///
@@ -370,7 +166,8 @@ fn view(record: &Record, envelopes: &Envelopes, transformed: &Transformed) -> Re
     let (shaft, options) = (record.shaft, &record.options);
     let (band, choice, (mean, spectrum)) = match (options.band, record.lead()) {
         (None, Some(lead)) => {
-            let (band, envelope) = &envelopes.each[record.together.clearest(lead)];
+            let lines = lead.harmonics.iter().filter(|h| h.snr_db.is_some()).map(|h| h.frequency);
+            let (band, envelope) = &envelopes.each[record.together.clearest(lines)];
             let spectrum = envelopes.spectrum(envelope, shaft, options)?;
             (*band, BandChoice::Clearest, spectrum)
         }
@@ -465,8 +262,4 @@ fn check(x: &[f64], fs: f64, options: &Options) -> Result<(), AnalysisError> {
         return Err(AnalysisError::TooShort { seconds, revolutions, needed_s: FEWEST_REVOLUTIONS / options.shaft });
     }
     Ok(())
-}
-
-fn out_of_range(name: &'static str, value: f64, range: &'static str) -> AnalysisError {
-    crate::SignalError::OutOfRange { name, value, range }.into()
 }

@@ -31,7 +31,7 @@ impl Sensitivity {
             let (output, of) = (Unit::given(output).ok()?, Unit::given(of).ok()?);
             (output.quantity.is_electrical() && of.quantity.is_vibration()).then_some(Sensitivity { value, output, of })
         };
-        read().ok_or_else(|| AnalysisError::NoSensitivity { text: text.trim().to_owned() })
+        read().ok_or_else(|| AnalysisError::NoSensitivity { text: text.trim().to_owned(), forms: Self::FORMS })
     }
 
     /// What a signal in `unit` is multiplied by to be in [`Sensitivity::of`]; `None` where `unit` is not of the

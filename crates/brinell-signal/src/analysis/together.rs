@@ -5,8 +5,8 @@
 //! the bands: every band counts alike, whatever its level, as in the integrated cyclic spectral coherence (J. Antoni,
 //! "Cyclic spectral analysis in practice", Mech. Syst. Signal Process. 21 (2007) 597-630).
 
-use super::family::{Family, Harmonic};
-use super::known_lines::Mains;
+use super::mains::Mains;
+use super::running_median::running_median;
 use super::{AnalysisError, Options};
 use crate::distribution::chi_square_quantile;
 use crate::lengths::fast_up_to;
@@ -228,13 +228,10 @@ impl Together {
         self.each.len()
     }
 
-    /// The band in which a family's lines are highest, by index.
-    pub(super) fn clearest(&self, family: &Family) -> usize {
-        let seen = |h: &&Harmonic| h.snr_db.is_some();
-        let height = |ratio: &[f64]| -> f64 {
-            let lines = family.harmonics.iter().filter(seen);
-            lines.map(|h| peak(ratio, self.bin(h.frequency)).unwrap_or(1.0).ln()).sum()
-        };
+    /// The band in which lines at these frequencies are highest, by index.
+    pub(super) fn clearest(&self, lines: impl Iterator<Item = f64> + Clone) -> usize {
+        let height =
+            |ratio: &[f64]| -> f64 { lines.clone().map(|hz| peak(ratio, self.bin(hz)).unwrap_or(1.0).ln()).sum() };
         let heights = self.each.iter().map(|ratio| height(ratio)).enumerate();
         let highest = heights.max_by(|a, b| a.1.total_cmp(&b.1));
         highest.map_or(0, |h| h.0)
@@ -389,23 +386,4 @@ fn in_parallel<T: Sync, R: Send>(
     let mut results: Vec<_> = of.iter().map(|_| None).collect();
     parallel::each(of.len(), parallel::threads(of.len()), |k| one(&of[k]), |k, result| results[k] = Some(result));
     results.into_iter().flatten().collect()
-}
-
-/// Medians over `width` neighbours, taken at every eighth of that and joined by lines.
-pub(super) fn running_median(values: &[f64], width: usize) -> Vec<f64> {
-    let n = values.len();
-    let every = (width / 8).max(1);
-    let median = |center: usize| {
-        let from = center.saturating_sub(width / 2).min(n.saturating_sub(width));
-        let mut near = values[from..(from + width).min(n)].to_vec();
-        let middle = near.len() / 2;
-        *near.select_nth_unstable_by(middle, f64::total_cmp).1
-    };
-    let knots: Vec<f64> = (0..n.div_ceil(every) + 1).map(|k| median((k * every).min(n - 1))).collect();
-    (0..n)
-        .map(|k| {
-            let (knot, part) = (k / every, (k % every) as f64 / every as f64);
-            knots[knot] + part * (knots[knot + 1] - knots[knot])
-        })
-        .collect()
 }

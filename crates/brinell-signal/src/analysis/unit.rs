@@ -1,6 +1,7 @@
 //! Units of vibration signals.
 
-use super::AnalysisError;
+use super::error::AnalysisError;
+use super::options::MACHINE_NOISE;
 use std::borrow::Cow;
 
 /// What a signal is of.
@@ -49,11 +50,11 @@ impl Unit {
     /// Units that a user may name; the last line is of raw signals, whose scale to vibration nobody states.
     pub const KNOWN: &str = "m/s^2, mm/s^2, g, mg, in/s^2; m/s, mm/s, in/s; m, mm, um; or, of a raw signal, V, mV, uV, A, mA, N, Pa, counts";
 
-    /// What a simulation's sensor lacks of a machine's white noise ([`MACHINE_NOISE`](super::MACHINE_NOISE)), RMS in
+    /// What a simulation's sensor lacks of a machine's white noise ([`MACHINE_NOISE`]), RMS in
     /// this unit, where its own has the RMS `own`, m/s^2: both together are as strong. `None` where it lacks nothing; 0
     /// for what is no acceleration, of which nothing is known.
     pub fn missing_noise(&self, own: f64) -> Option<f64> {
-        let missing = (super::MACHINE_NOISE.powi(2) - own * own).max(0.0).sqrt();
+        let missing = (MACHINE_NOISE.powi(2) - own * own).max(0.0).sqrt();
         (missing > 0.0).then_some(match self.quantity {
             Quantity::Acceleration => missing / self.to_si,
             _ => 0.0,
@@ -74,7 +75,8 @@ impl Unit {
     /// # Errors
     /// [`AnalysisError::UnknownUnit`] for any that is not of [`Unit::KNOWN`].
     pub fn given(spelling: &str) -> Result<Self, AnalysisError> {
-        Unit::known(spelling).ok_or_else(|| AnalysisError::UnknownUnit { spelling: spelling.trim().to_owned() })
+        Unit::known(spelling)
+            .ok_or_else(|| AnalysisError::UnknownUnit { spelling: spelling.trim().to_owned(), known: Unit::KNOWN })
     }
 
     /// A signal in this unit, in SI units.

@@ -1,5 +1,6 @@
 //! Families in words.
 
+use super::drift::Drift;
 use super::family::{Family, Finding};
 use super::together::REVOLUTIONS;
 use super::{Analysis, Elsewhere, Mains, Verdict};
@@ -19,41 +20,92 @@ const SHORT: f64 = 60.0;
 const PASSING: &str = "Rollers that enter the load of a healthy bearing cause lines of its race too, and modulate the envelope as much where \
                        there is little noise: compare with a run of the healthy bearing.";
 
-/// The verdict: a headline, its reasons, and what would tell more.
-pub(super) fn verdict(analysis: &Analysis) -> String {
-    let mut text = Vec::new();
-    match analysis.conclusion() {
-        Verdict::Damage => damage(analysis, &mut text),
-        Verdict::CannotTell => cannot_tell(analysis, &mut text),
-        Verdict::NothingFound => text.push("No damage found.".into()),
+impl Analysis {
+    /// `very clear`, `clear` or `weak`: how much the evidence of a family that is damage says.
+    pub fn clarity(&self, family: &Family) -> &'static str {
+        let may_be_other = self.may_be_passing(family) || self.impacts_a_turn(family).is_some();
+        let lost = self.drift.as_ref().is_some_and(Drift::is_lost);
+        match (may_be_other, family.is_very_clear() && self.speed_used().is_none() && !lost) {
+            (true, _) => "weak",
+            (_, true) => "very clear",
+            _ => "clear",
+        }
     }
-    text.extend(analysis.speed_used());
-    text.extend(half_speed(analysis));
-    let those = |finding| -> Vec<&str> {
-        let families = analysis.families.iter().filter(|f| f.finding == finding);
-        families.map(|f| f.name).collect()
-    };
-    let (faint, before) = (those(Finding::Faint), those(Finding::AsBefore));
-    if !before.is_empty() && analysis.passing_known {
-        text.push(format!(
-            "Lines of {} are those of rollers that enter the load: without damage the same bearing, simulated, has them half as high or higher.",
-            listed(&before)
-        ));
-    } else if !before.is_empty() {
-        text.push(format!(
-            "Cannot tell: lines of {} would be damage, and the record given as healthy has them as well. Was the machine healthy then? An older record would decide.",
-            listed(&before)
-        ));
+
+    /// The verdict in plain words: the headline first, its reasons, and what would tell more.
+    pub fn verdict(&self) -> String {
+        let mut text = Vec::new();
+        match self.conclusion() {
+            Verdict::Damage => damage(self, &mut text),
+            Verdict::CannotTell => cannot_tell(self, &mut text),
+            Verdict::NothingFound => text.push("No damage found.".into()),
+        }
+        text.extend(self.speed_used());
+        text.extend(half_speed(self));
+        let those = |finding| -> Vec<&str> {
+            let families = self.families.iter().filter(|f| f.finding == finding);
+            families.map(|f| f.name).collect()
+        };
+        let (faint, before) = (those(Finding::Faint), those(Finding::AsBefore));
+        if !before.is_empty() && self.passing_known {
+            text.push(format!(
+                "Lines of {} are those of rollers that enter the load: without damage the same bearing, simulated, has them half as high or higher.",
+                listed(&before)
+            ));
+        } else if !before.is_empty() {
+            text.push(format!(
+                "Cannot tell: lines of {} would be damage, and the record given as healthy has them as well. Was the machine healthy then? An older record would decide.",
+                listed(&before)
+            ));
+        }
+        text.extend(level(self));
+        if self.causes().next().is_none() && self.hiding_drift().is_none() && !faint.is_empty() {
+            text.push(format!(
+                "Lines of {} are present, below the limits of damage: sound machines have such lines.",
+                listed(&faint)
+            ));
+        }
+        text.extend(short(self));
+        text.join(" ")
     }
-    text.extend(level(analysis));
-    if analysis.causes().next().is_none() && analysis.hiding_drift().is_none() && !faint.is_empty() {
-        text.push(format!(
-            "Lines of {} are present, below the limits of damage: sound machines have such lines.",
-            listed(&faint)
-        ));
+
+    /// The speed that the verdict rests on, where it is not the one given: a sentence.
+    pub fn speed_used(&self) -> Option<String> {
+        let (used, given) = (60.0 * self.shaft, 60.0 * self.options.shaft);
+        let is_other =
+            self.at_given.is_none() && self.options.rotation.is_none() && self.options.is_other_speed(self.shaft);
+        is_other.then(|| format!("This is at {used:.0} r/min, by the shaft's lines, not at the {given:.0} given."))
     }
-    text.extend(short(analysis));
-    text.join(" ")
+
+    /// A row for each family, in the order of [`COLUMNS`].
+    pub fn rows(&self) -> Vec<[String; COLUMNS.len()]> {
+        let row = |f: &Family| {
+            let says = match f.finding {
+                Finding::Damage => format!("damage, {}", self.clarity(f)),
+                Finding::Shared(with) => format!("shares the lines of {with}"),
+                Finding::Open => "cannot tell".into(),
+                Finding::Faint => "present, below the limit".into(),
+                Finding::Grown => "grown since healthy".into(),
+                Finding::AsBefore => "as in the healthy record".into(),
+                Finding::Silent if f.is_skirt && f.detected_harmonics() > 0 => "lines are beyond the tolerance".into(),
+                Finding::Silent => "nothing".into(),
+            };
+            [
+                f.component.words().into(),
+                f.name.into(),
+                format!("{:.2}", f.frequency),
+                format!("{:+.2}", 100.0 * f.shift()),
+                match f.hidden_harmonics() {
+                    0 => format!("{} of {}", f.detected_harmonics(), f.harmonics.len()),
+                    n => format!("{} of {}, {n} hidden", f.detected_harmonics(), f.harmonics.len() - n),
+                },
+                format!("{:.0}", f.highest_db()),
+                format!("{:.0}", 100.0 * f.modulation),
+                says,
+            ]
+        };
+        self.families.iter().map(row).collect()
+    }
 }
 
 /// Whether lines of the shaft at even multiples alone let its speed be twice as high.
@@ -61,15 +113,6 @@ fn half_speed(analysis: &Analysis) -> Option<String> {
     let is_even = !analysis.shaft_lines.is_empty() && analysis.shaft_lines.iter().all(|order| order % 2 == 0);
     (is_even && analysis.causes().next().is_some())
         .then(|| "The shaft's lines lie at even multiples of this speed only: is it twice as high?".into())
-}
-
-/// The speed that the verdict rests on, where it is not the one given.
-pub(super) fn speed(analysis: &Analysis) -> Option<String> {
-    let (used, given) = (60.0 * analysis.shaft, 60.0 * analysis.options.shaft);
-    let is_other = analysis.at_given.is_none()
-        && analysis.options.rotation.is_none()
-        && analysis.options.is_other_speed(analysis.shaft);
-    is_other.then(|| format!("This is at {used:.0} r/min, by the shaft's lines, not at the {given:.0} given."))
 }
 
 /// How the level has changed since the machine was healthy, where it has doubled or halved.
@@ -280,36 +323,6 @@ fn harmonics(family: &Family) -> String {
         [one] => format!("harmonic {one}"),
         orders => format!("harmonics {}", orders.join(", ")),
     }
-}
-
-/// A row for each family.
-pub(super) fn rows(analysis: &Analysis) -> Vec<[String; COLUMNS.len()]> {
-    let row = |f: &Family| {
-        let says = match f.finding {
-            Finding::Damage => format!("damage, {}", analysis.clarity(f)),
-            Finding::Shared(with) => format!("shares the lines of {with}"),
-            Finding::Open => "cannot tell".into(),
-            Finding::Faint => "present, below the limit".into(),
-            Finding::Grown => "grown since healthy".into(),
-            Finding::AsBefore => "as in the healthy record".into(),
-            Finding::Silent if f.is_skirt && f.detected_harmonics() > 0 => "lines are beyond the tolerance".into(),
-            Finding::Silent => "nothing".into(),
-        };
-        [
-            f.component.words().into(),
-            f.name.into(),
-            format!("{:.2}", f.frequency),
-            format!("{:+.2}", 100.0 * f.shift()),
-            match f.hidden_harmonics() {
-                0 => format!("{} of {}", f.detected_harmonics(), f.harmonics.len()),
-                n => format!("{} of {}, {n} hidden", f.detected_harmonics(), f.harmonics.len() - n),
-            },
-            format!("{:.0}", f.highest_db()),
-            format!("{:.0}", 100.0 * f.modulation),
-            says,
-        ]
-    };
-    analysis.families.iter().map(row).collect()
 }
 
 /// `A, B and C`.

@@ -5,7 +5,6 @@ use std::f64::consts::TAU;
 use realfft::num_complex::Complex;
 
 use super::super::band::Demodulator;
-use super::Comb;
 
 /// Points of the padded spectrum for each bin of the segment; even.
 pub(super) const PADDING: usize = 8;
@@ -21,9 +20,8 @@ pub(in super::super) struct Padded {
 }
 
 impl Padded {
-    /// For whatever the combs look at.
-    pub(in super::super) fn new(fs: f64, length: usize, combs: &[Comb]) -> Self {
-        let highest = combs.iter().map(Comb::highest).fold(0.0, f64::max);
+    /// Up to `highest`, Hz.
+    pub(in super::super) fn new(fs: f64, length: usize, highest: f64) -> Self {
         // The cubic takes a point below and two above.
         let count = (highest / fs * (PADDING * length) as f64) as usize + 4;
         Padded { fs, length, values: vec![Complex::ZERO; count.min(PADDING * length / 2 + 1)] }

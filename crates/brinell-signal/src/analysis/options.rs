@@ -1,0 +1,49 @@
+//! What is asked of an analysis.
+
+use super::frequencies::DefectOrders;
+use crate::{Band, Rotation};
+use std::ops::RangeInclusive;
+
+/// What is known beside the samples, and how sure to be.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Options {
+    /// Shaft speed, Hz.
+    pub shaft: f64,
+    /// Defect frequencies over the shaft's.
+    pub orders: DefectOrders,
+    /// How far slip and an inexact speed may move a defect frequency, relative; 0.02 unless told.
+    pub tolerance: f64,
+    /// The range to demodulate; `None` takes everything above three times the highest defect frequency.
+    pub band: Option<Band>,
+    /// Frequency of the motor's supply, Hz, where an inverter makes it: lines at its multiples are set aside, as those
+    /// of the mains are.
+    pub supply: Option<f64>,
+    /// The shaft's angle over time, where its speed varies: envelopes are then taken at equal angles, and a frequency
+    /// in Hz is its order times `shaft`, the mean speed. Time counts from the first sample.
+    pub rotation: Option<Rotation>,
+    /// For a simulation's signal without a sensor's noise, in which healthy rollers that enter the load are heard too:
+    /// RMS of the white noise that a machine would add, in the signal's unit ([`MACHINE_NOISE`] of an acceleration).
+    /// `None` for a signal that has its own.
+    pub silent: Option<f64>,
+    /// Whether speed and bearing are those of a simulation: nothing but the bearing turns, and a shift beyond the
+    /// tolerance is slip of the cage.
+    pub exact: bool,
+}
+
+impl Options {
+    /// With the usual tolerance, for a measured signal.
+    pub fn new(shaft: f64, orders: DefectOrders) -> Self {
+        Options { shaft, orders, tolerance: 0.02, band: None, supply: None, rotation: None, silent: None, exact: false }
+    }
+
+    /// Whether a speed (Hz) lies farther from the one given than the tolerance.
+    pub(super) fn is_other_speed(&self, shaft: f64) -> bool {
+        (shaft / self.shaft - 1.0).abs() > self.tolerance
+    }
+}
+
+/// Allowed values of [`Options::supply`], Hz.
+pub const SUPPLY_HZ: RangeInclusive<f64> = 1.0..=1000.0;
+/// RMS of a machine's noise, m/s^2: somewhat below that of the sound motor in the public records of Case Western
+/// Reserve University, 0.63 and 0.67 above 1 kHz at its two ends (48 kHz, 1797 r/min).
+pub const MACHINE_NOISE: f64 = 0.5;
