@@ -252,33 +252,9 @@ fn impacts(
     ringing(&force, modes)
 }
 
-fn background_of(r: &mut Random, background: Background, n: usize, fs: f64, shaft: f64, modes: &[Mode]) -> Vec<f64> {
-    // White noise, noise through the structure's resonances, and noise that falls with frequency; unit RMS together.
-    let shares = [r.uniform() + 0.2, r.uniform(), r.uniform()];
-    let white: Vec<f64> = (0..n).map(|_| r.normal()).collect();
-    let pushed: Vec<f64> = (0..n).map(|_| r.normal()).collect();
-    let structure = ringing(&pushed, modes);
-    let mut low = 0.0;
-    let slope = (-TAU * 500.0 / fs).exp();
-    let red: Vec<f64> = (0..n)
-        .map(|_| {
-            low = slope * low + (1.0 - slope * slope).sqrt() * r.normal();
-            low
-        })
-        .collect();
-    let rms = |v: &[f64]| (v.iter().map(|x| x * x).sum::<f64>() / n as f64).sqrt();
-    let total = shares.iter().sum::<f64>();
-    let parts = [white, structure, red];
-    let gains: Vec<f64> = (parts.iter().zip(shares)).map(|(p, s)| (s / total).sqrt() / rms(p)).collect();
+/// Tones of shaft, mains, gears and a converter; gives the mains' frequency, Hz.
+fn add_tones(r: &mut Random, background: Background, x: &mut [f64], fs: f64, shaft: f64) -> f64 {
     let loud = |kind: Background| background == kind;
-    let breathing = if loud(Background::Unbalance) { r.between(0.05, 0.3) } else { r.between(0.0, 0.05) };
-    let mut x: Vec<f64> = (0..n)
-        .map(|i| {
-            let noise: f64 = parts.iter().zip(&gains).map(|(p, g)| g * p[i]).sum();
-            noise * (1.0 + breathing * (TAU * shaft * i as f64 / fs).cos())
-        })
-        .collect();
-
     let mut tones: Vec<(f64, f64, f64)> = Vec::new();
     let tone = |r: &mut Random, f: f64, a: f64| (f, a, TAU * r.uniform());
     let strong = if loud(Background::Unbalance) { 3.0 } else { 0.4 };
@@ -319,25 +295,58 @@ fn background_of(r: &mut Random, background: Background, n: usize, fs: f64, shaf
         // Rotation by recursion: a sine of every sample is slow.
         let (s, c) = (TAU * f / fs).sin_cos();
         let (mut re, mut im) = (a * phase.cos(), a * phase.sin());
-        for v in &mut x {
+        for v in &mut *x {
             *v += re;
             (re, im) = (re * c - im * s, re * s + im * c);
         }
     }
+    mains
+}
 
+/// A blow a turn of `period` samples.
+fn knocks(r: &mut Random, n: usize, period: f64) -> Vec<f64> {
     let mut force = vec![0.0; n];
-    if loud(Background::Knock) {
-        let height = r.between(0.5, 3.0);
-        let period = fs / shaft;
-        let mut at = r.uniform() * period;
-        while at < n as f64 {
-            let strength = (0.2 * r.normal()).exp();
-            strike(&mut force, at + 0.002 * period * r.normal(), height * strength);
-            at += period;
-        }
-        let rms_of_one = (shaft / fs).sqrt();
-        force.iter_mut().for_each(|f| *f /= rms_of_one * 3.0);
+    let height = r.between(0.5, 3.0);
+    let mut at = r.uniform() * period;
+    while at < n as f64 {
+        let strength = (0.2 * r.normal()).exp();
+        strike(&mut force, at + 0.002 * period * r.normal(), height * strength);
+        at += period;
     }
+    let rms_of_one = (1.0 / period).sqrt();
+    force.iter_mut().for_each(|f| *f /= rms_of_one * 3.0);
+    force
+}
+
+fn background_of(r: &mut Random, background: Background, n: usize, fs: f64, shaft: f64, modes: &[Mode]) -> Vec<f64> {
+    // White noise, noise through the structure's resonances, and noise that falls with frequency; unit RMS together.
+    let shares = [r.uniform() + 0.2, r.uniform(), r.uniform()];
+    let white: Vec<f64> = (0..n).map(|_| r.normal()).collect();
+    let pushed: Vec<f64> = (0..n).map(|_| r.normal()).collect();
+    let structure = ringing(&pushed, modes);
+    let mut low = 0.0;
+    let slope = (-TAU * 500.0 / fs).exp();
+    let red: Vec<f64> = (0..n)
+        .map(|_| {
+            low = slope * low + (1.0 - slope * slope).sqrt() * r.normal();
+            low
+        })
+        .collect();
+    let rms = |v: &[f64]| (v.iter().map(|x| x * x).sum::<f64>() / n as f64).sqrt();
+    let total = shares.iter().sum::<f64>();
+    let parts = [white, structure, red];
+    let gains: Vec<f64> = (parts.iter().zip(shares)).map(|(p, s)| (s / total).sqrt() / rms(p)).collect();
+    let loud = |kind: Background| background == kind;
+    let breathing = if loud(Background::Unbalance) { r.between(0.05, 0.3) } else { r.between(0.0, 0.05) };
+    let mut x: Vec<f64> = (0..n)
+        .map(|i| {
+            let noise: f64 = parts.iter().zip(&gains).map(|(p, g)| g * p[i]).sum();
+            noise * (1.0 + breathing * (TAU * shaft * i as f64 / fs).cos())
+        })
+        .collect();
+
+    let mains = add_tones(r, background, &mut x, fs, shaft);
+    let force = if loud(Background::Knock) { knocks(r, n, fs / shaft) } else { vec![0.0; n] };
     let ring = ringing(&force, modes);
     x.iter_mut().zip(&ring).for_each(|(x, v)| *x += v);
     if loud(Background::Electrical) {
