@@ -8,6 +8,117 @@ use crate::defect::Side;
 use crate::lanes::Lanes;
 use crate::model::{Model, Power, Workspace};
 
+/// What acts on a group of rollers.
+struct OnRollers<L> {
+    /// Sine and cosine of the orbit angles.
+    axes: (L, L),
+    r: L,
+    dr: L,
+    dtheta: L,
+    /// Q and f at the inner and at the outer raceway, the films' part among Q.
+    contacts: [(L, L); 2],
+    /// Normal force and friction of the pockets.
+    pocket: (L, L),
+}
+
+/// Columns of that.
+struct Columns<'a, L: Lanes> {
+    axes: [&'a [L::Group]; 2],
+    r: &'a [L::Group],
+    dr: &'a [L::Group],
+    dtheta: &'a [L::Group],
+    /// Q, f and film of each side.
+    contacts: [[&'a [L::Group]; 3]; 2],
+    pocket: [&'a [L::Group]; 2],
+    has_film: bool,
+}
+
+impl<'a, L: Lanes> Columns<'a, L> {
+    #[inline(always)]
+    fn new(model: &Model, q: &'a [f64], v: &'a [f64], ws: &'a Workspace) -> Self {
+        let count = model.layout.slots / L::COUNT;
+        let all = |from: &'a [f64]| column::<L>(from, 0, count);
+        Self {
+            axes: [all(&ws.sin), all(&ws.cos)],
+            r: all(q),
+            dr: all(v),
+            dtheta: column::<L>(v, 1, count),
+            contacts: [0, 1].map(|side| {
+                let at = &ws.contacts[side];
+                [all(&at.force), all(&at.friction), all(&at.film)]
+            }),
+            pocket: [all(&ws.pocket_force), all(&ws.pocket_friction)],
+            has_film: model.film.is_some(),
+        }
+    }
+
+    #[inline(always)]
+    fn group(&self, k: usize) -> OnRollers<L> {
+        let at = |column: &[L::Group]| L::new(column[k]);
+        OnRollers {
+            axes: (at(self.axes[0]), at(self.axes[1])),
+            r: at(self.r),
+            dr: at(self.dr),
+            dtheta: at(self.dtheta),
+            contacts: self.contacts.map(|[force, friction, film]| {
+                let mut force = at(force);
+                if self.has_film {
+                    force += at(film);
+                }
+                (force, at(friction))
+            }),
+            pocket: (at(self.pocket[0]), at(self.pocket[1])),
+        }
+    }
+}
+
+/// What the rollers' own motion (Eq. 51) needs of the model.
+struct Constants<L> {
+    pitch: L,
+    /// Where gravity acts.
+    gravity: Option<Plane<L>>,
+    per_mass: L,
+    per_spin: L,
+    /// Of the square of the orbit's rate.
+    drag: L,
+}
+
+impl<L: Lanes> Constants<L> {
+    #[inline(always)]
+    fn new(model: &Model) -> Self {
+        let (g, m) = (&model.geometry, &model.inertia);
+        Self {
+            pitch: L::splat(g.pitch_radius),
+            gravity: (model.gravity != [0.0; 2]).then(|| pair(&model.gravity)),
+            per_mass: L::splat(1.0 / m.roller),
+            per_spin: L::splat(g.roller_radius / m.roller_spin),
+            drag: L::splat(model.drag * g.pitch_radius * g.pitch_radius),
+        }
+    }
+
+    /// Second derivatives of r, theta and phi; the tangential force without drag, and the drag's power over the orbit's
+    /// rate. `mask` is 0 for slots without a roller, which nothing but gravity would move.
+    #[inline(always)]
+    fn motion(&self, on: &OnRollers<L>, mask: L) -> ([L; 3], L, L) {
+        let [(q_in, f_in), (q_out, f_out)] = on.contacts;
+        let (pocket, pocket_friction) = on.pocket;
+        let drag = self.drag * on.dtheta * on.dtheta.abs();
+        let arm = self.pitch + on.r;
+        let tangential = f_in + f_out + pocket;
+        let radial = q_in - q_out + pocket_friction;
+        let mut a_r = (on.dtheta * on.dtheta).times_plus(arm, radial * self.per_mass);
+        let mut a_t = (on.dr + on.dr).minus_times(on.dtheta, (tangential - drag) * self.per_mass);
+        if let Some(gravity) = &self.gravity {
+            let (g_r, g_t) = polar(on.axes, gravity);
+            a_r = mask.times_plus(g_r, a_r);
+            a_t = mask.times_plus(g_t, a_t);
+        }
+        // The pocket rubs where it presses: behind the roller or before it.
+        let around = f_out - f_in + pocket_friction.xor(pocket.and_bits(1 << 63));
+        ([a_r, a_t / arm, around * self.per_spin], tangential, drag * arm)
+    }
+}
+
 /// Drag (section 7) and the rollers' own motion (Eq. 51), and what the rings feel of them.
 #[inline(always)]
 pub(super) fn forces<L: Lanes, const TILT: bool>(
@@ -18,90 +129,43 @@ pub(super) fn forces<L: Lanes, const TILT: bool>(
     ws: &mut Workspace,
 ) -> Sums {
     let l = &model.layout;
-    let g = &model.geometry;
-    let m = &model.inertia;
     let count = l.slots / L::COUNT;
     let cage_at = l.cage(0);
     a[cage_at..cage_at + 3 * l.rows].fill(0.0);
     let inner = closed::<L::Pair, TILT>(model, Side::Inner, ws);
     let outer = closed::<L::Pair, TILT>(model, Side::Outer, ws);
     let pockets = pockets::<L>(model, q, v, a, ws);
-    let q_r = column::<L>(q, 0, count);
-    let v_r = column::<L>(v, 0, count);
-    let v_theta = column::<L>(v, 1, count);
+    let columns = Columns::<L>::new(model, q, v, ws);
+    let constants = Constants::<L>::new(model);
     let mask = column::<L>(&model.roller_mask, 0, count);
-    let heavy = model.gravity != [0.0; 2];
     let (xi, xo) = (pair(&q[l.inner()..]), pair(&q[l.outer()..]));
     let ([out_r, out_theta, out_phi], out_beta) = columns_mut::<L>(a, count);
-    let sin = column::<L>(&ws.sin, 0, count);
-    let cos = column::<L>(&ws.cos, 0, count);
-    let pocket_force = column::<L>(&ws.pocket_force, 0, count);
-    let pocket_friction = column::<L>(&ws.pocket_friction, 0, count);
-    let [at_inner, at_outer] = &ws.contacts;
-    let force_in = column::<L>(&at_inner.force, 0, count);
-    let force_out = column::<L>(&at_outer.force, 0, count);
-    let friction_in = column::<L>(&at_inner.friction, 0, count);
-    let friction_out = column::<L>(&at_outer.friction, 0, count);
-    let film_in = column::<L>(&at_inner.film, 0, count);
-    let film_out = column::<L>(&at_outer.film, 0, count);
-
-    let pitch = L::splat(g.pitch_radius);
-    let gravity = pair(&model.gravity);
-    let per_mass = L::splat(1.0 / m.roller);
-    let per_spin = L::splat(g.roller_radius / m.roller_spin);
-    // Of the square of the orbit's rate.
-    let drag_factor = L::splat(model.drag * g.pitch_radius * g.pitch_radius);
 
     let mut on_inner = [L::zero(); 2];
     let mut on_outer = [L::zero(); 2];
     let mut turning = if TILT { Some(Turning::<L>::new(model, q)) } else { None };
     let (mut drive, mut drags, mut lever) = (L::zero(), L::zero(), pockets.lever);
     for group in 0..count {
-        let r = L::new(q_r[group]);
-        let (dr, dtheta) = (L::new(v_r[group]), L::new(v_theta[group]));
-        let axes = (L::new(sin[group]), L::new(cos[group]));
-        let (sin, cos) = axes;
-        let (mut q_in, f_in) = (L::new(force_in[group]), L::new(friction_in[group]));
-        let (mut q_out, f_out) = (L::new(force_out[group]), L::new(friction_out[group]));
-        if model.film.is_some() {
-            q_in += L::new(film_in[group]);
-            q_out += L::new(film_out[group]);
-        }
-        drive += f_in;
-
-        // Roller.
-        let drag = drag_factor * dtheta * dtheta.abs();
-        let arm = pitch + r;
-        let (push, rub) = (L::new(pocket_force[group]), L::new(pocket_friction[group]));
-        let tangential = f_in + f_out + push;
-        let radial = q_in - q_out + rub;
-        let mut a_r = (dtheta * dtheta).times_plus(arm, radial * per_mass);
-        let mut a_t = (dr + dr).minus_times(dtheta, (tangential - drag) * per_mass);
-        if heavy {
-            // Nothing else moves the slots that have no roller.
-            let mask = L::new(mask[group]);
-            let (g_r, g_t) = polar(axes, &gravity);
-            a_r = mask.times_plus(g_r, a_r);
-            a_t = mask.times_plus(g_t, a_t);
-        }
-        // The pocket rubs where it presses: behind the roller or before it.
-        let around = f_out - f_in + rub.xor(push.and_bits(1 << 63));
+        let on = columns.group(group);
+        let ([a_r, a_theta, a_phi], tangential, drag) = constants.motion(&on, L::new(mask[group]));
         out_r[group] = a_r.array();
-        out_theta[group] = (a_t / arm).array();
-        out_phi[group] = (around * per_spin).array();
+        out_theta[group] = a_theta.array();
+        out_phi[group] = a_phi.array();
 
         // Reactions.
+        let OnRollers { axes, r, dtheta, contacts: [(q_in, f_in), (q_out, f_out)], .. } = on;
+        let (sin, cos) = axes;
         on_inner[0] = q_in.minus_times(cos, f_in.times_plus(sin, on_inner[0]));
         on_inner[1] = q_in.minus_times(sin, f_in.minus_times(cos, on_inner[1]));
         on_outer[0] = q_out.times_plus(cos, f_out.times_plus(sin, on_outer[0]));
         on_outer[1] = q_out.times_plus(sin, f_out.minus_times(cos, on_outer[1]));
 
-        drags = (drag * arm).times_plus(dtheta, drags);
+        drive += f_in;
+        drags = drag.times_plus(dtheta, drags);
         let (mut xi_t, mut xo_t) = (along_t(axes, &xi), along_t(axes, &xo));
         if let Some(turning) = &mut turning {
-            let moments = [at_inner, at_outer].map(|c| L::new(L::groups(&c.moment)[group]));
-            let forces = [(q_in, f_in), (q_out, f_out)];
-            turning.take(group, axes, forces, moments);
+            let moments = ws.contacts.each_ref().map(|c| L::new(L::groups(&c.moment)[group]));
+            turning.take(group, axes, on.contacts, moments);
             out_beta[group] = ((moments[0] - moments[1]) * turning.per_inertia).array();
             let z = L::new(turning.levers[group]);
             let (tau_i, tau_o) = (along_t(axes, &turning.tau[0]), along_t(axes, &turning.tau[1]));
@@ -118,7 +182,7 @@ pub(super) fn forces<L: Lanes, const TILT: bool>(
         power: Power {
             contact: (inner.contact + outer.contact).sum(),
             friction: (inner.friction + outer.friction).sum(),
-            drive: drive.sum() * w * g.inner_radius,
+            drive: drive.sum() * w * model.geometry.inner_radius,
             pocket: pockets.pocket.sum(),
             pocket_friction: pockets.friction.sum(),
             drag: drags.sum(),

@@ -72,7 +72,7 @@ pub(super) fn pockets<L: Lanes>(model: &Model, q: &[f64], v: &[f64], a: &mut [f6
             let gone = cage.theta + L::new(pocket_angle[group]) - L::new(theta[group]);
             let s = pitch.times_plus(gone, xc_t);
             let depth = (s.abs() - L::new(pocket_gap[group])).positive_part();
-            let (mut push, mut rub) = (L::zero(), L::zero());
+            let (mut normal, mut friction) = (L::zero(), L::zero());
             if depth.any_positive() {
                 let (sin, cos) = axes;
                 let (dr, dtheta, dphi) = (L::new(v_r[group]), L::new(v_theta[group]), L::new(v_phi[group]));
@@ -82,20 +82,20 @@ pub(super) fn pockets<L: Lanes>(model: &Model, q: &[f64], v: &[f64], a: &mut [f6
                 // Both sides at once: what closes on the side of s, with its sign.
                 let closing = ds * one.with_sign(s);
                 let (size, elastic) = pocket.press(depth, closing);
-                push = size.with_sign(s);
+                normal = size.with_sign(s);
                 // sigma = -sign(F_c), 0 where the pocket is open.
-                let sigma = size.if_above(L::zero(), one.with_sign(-push), L::zero());
+                let sigma = size.if_above(L::zero(), one.with_sign(-normal), L::zero());
                 let u = dr - sigma * radius * (dphi - cage.dtheta) - vc_r;
-                rub = -(traction(u) * size).with_sign_of(u);
+                friction = -(traction(u) * size).with_sign_of(u);
                 sums.pocket = (size - elastic).times_plus(closing, sums.pocket);
-                sums.friction -= rub * u;
-                sums.lever = (dtheta * push).minus_times(xc_r, sums.lever);
-                to_x += push * sin - rub * cos;
-                to_y -= push * cos + rub * sin;
-                to_spin += sigma * radius * rub - push * pitch;
+                sums.friction -= friction * u;
+                sums.lever = (dtheta * normal).minus_times(xc_r, sums.lever);
+                to_x += normal * sin - friction * cos;
+                to_y -= normal * cos + friction * sin;
+                to_spin += sigma * radius * friction - normal * pitch;
             }
-            pocket_force[group] = push.array();
-            pocket_friction[group] = rub.array();
+            pocket_force[group] = normal.array();
+            pocket_friction[group] = friction.array();
             group += period;
         }
         for (row, lanes) in model.row_lanes.iter().enumerate() {
