@@ -1,6 +1,6 @@
 //! ISO 5436-2: a zip archive with `main.xml` and, beside it or within it, the heights. Lengths in m.
 
-use super::zip::Archive;
+use super::archive::Archive;
 use super::{broken, map, points, spacing, unsupported};
 use crate::bytes::Number;
 use crate::error::{DamageError, excerpt};
@@ -15,7 +15,7 @@ const MOST_TEXT: usize = 64 << 20;
 const MOST_NODES: u32 = 20_000_000;
 
 pub(crate) fn read(bytes: &[u8]) -> Result<Raw, DamageError> {
-    let archive = Archive::open(bytes)?;
+    let mut archive = Archive::open(bytes)?;
     let text = archive.file(MAIN, MOST_TEXT)?;
     let text = std::str::from_utf8(&text).map_err(|_| broken(KIND, MAIN, "not UTF-8"))?;
     let options = ParsingOptions { nodes_limit: MOST_NODES, ..ParsingOptions::default() };
@@ -57,7 +57,7 @@ pub(crate) fn read(bytes: &[u8]) -> Result<Raw, DamageError> {
     let scale = decimal(z, "Increment")?.unwrap_or(1.0);
     let offset = decimal(z, "Offset")?.unwrap_or(0.0);
     let mut values = match text_of(root, "PointDataLink") {
-        Some(link) => linked(&archive, root, &link, number, count)?,
+        Some(link) => linked(&mut archive, root, &link, number, count)?,
         None => listed(root, count)?,
     };
     values.iter_mut().for_each(|v| *v = offset + scale * *v);
@@ -84,7 +84,7 @@ fn decimal(of: Node<'_, '_>, name: &'static str) -> Result<Option<f64>, DamageEr
 
 /// Heights in a file of the archive; points that are not valid are missing.
 fn linked(
-    archive: &Archive<'_>,
+    archive: &mut Archive<'_>,
     root: Node<'_, '_>,
     link: &str,
     number: Number,
