@@ -52,6 +52,17 @@ impl<'a, L: Lanes> Columns<'a, L> {
         }
     }
 
+    /// Not by `map` of an array, which is no function of AVX's.
+    #[inline(always)]
+    fn contact(&self, side: usize, k: usize) -> (L, L) {
+        let [force, friction, film] = self.contacts[side];
+        let mut normal = L::new(force[k]);
+        if self.has_film {
+            normal += L::new(film[k]);
+        }
+        (normal, L::new(friction[k]))
+    }
+
     #[inline(always)]
     fn group(&self, k: usize) -> OnRollers<L> {
         let at = |column: &[L::Group]| L::new(column[k]);
@@ -60,13 +71,7 @@ impl<'a, L: Lanes> Columns<'a, L> {
             r: at(self.r),
             dr: at(self.dr),
             dtheta: at(self.dtheta),
-            contacts: self.contacts.map(|[force, friction, film]| {
-                let mut force = at(force);
-                if self.has_film {
-                    force += at(film);
-                }
-                (force, at(friction))
-            }),
+            contacts: [self.contact(0, k), self.contact(1, k)],
             pocket: (at(self.pocket[0]), at(self.pocket[1])),
         }
     }
