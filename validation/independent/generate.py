@@ -5,7 +5,7 @@
     generate.py verify FOLDER        compare with the reference trajectories NAME.toml, NAME.csv in FOLDER
     generate.py goldens [NAME ...]   write crates/brinell/tests/xval/NAME.csv and tolerances.csv
 
-Python 3.11, standard library only; needs gcc. Unit conversion is all that happens here: the physics is in model.c.
+Python 3.11, standard library only; needs gcc. Unit conversion is all that happens here: the physics is in the C files.
 """
 import argparse
 import csv
@@ -23,10 +23,15 @@ SETTLED = 1e-3  # s; the start-up drop before it would hide everything else
 WORST = 0.02  # the share of samples beside a force jump that may be left out
 
 
+def sources(program="main.c"):
+    """The C files; another program may stand in for main.c."""
+    return [*sorted(path for path in HERE.glob("*.c") if path.name != "main.c"), HERE / program]
+
+
 def build(folder):
     exe = pathlib.Path(folder) / "model"
     flags = ["-std=c99", "-O3", "-march=native", "-Wall", "-Wextra"]
-    subprocess.run(["gcc", *flags, "-o", str(exe), str(HERE / "model.c"), "-lm"], check=True)
+    subprocess.run(["gcc", *flags, "-o", str(exe), *map(str, sources()), "-lm"], check=True)
     return exe
 
 
@@ -36,7 +41,7 @@ def palmgren(length_mm):
 
 
 def parameters(sc, step, perturb, record):
-    """The flat SI text that model.c reads."""
+    """The flat SI text that parameters.c reads."""
     b, c, k = sc["bearing"], sc["cage"], sc["contact"]
     f, l, s, o, sim = sc["friction"], sc["lubricant"], sc["support"], sc["operation"], sc["simulation"]
     out = []

@@ -2,11 +2,15 @@
  *
  *   reference PARAMETERS STATES      accelerations at every state of a table, then the start, in the peers' order
  */
-#define main model_main
-#include "../../../validation/independent/model.c"
-#undef main
+#include <stdio.h>
 
-/* Where the peers' coordinate k is in model.c. */
+#include "../../../validation/independent/dynamics.h"
+#include "../../../validation/independent/model.h"
+#include "../../../validation/independent/parameters.h"
+#include "../../../validation/independent/start.h"
+#include "../../../validation/independent/state.h"
+
+/* Where the peers' coordinate k is in the independent implementation. */
 static int place(int k)
 {
     const int n = M.total, cages = 3 * M.rows;
@@ -22,8 +26,7 @@ int main(int argc, char **argv)
     dof = 4 + 3 * M.rows + 3 * M.total;
     detail = need((size_t)M.total, sizeof(Detail));
     double *q = need((size_t)dof, sizeof *q), *v = need((size_t)dof, sizeof *v), *a = need((size_t)dof, sizeof *a);
-    in = fopen(argv[2], "r");
-    if (!in) die("cannot open", argv[2]);
+    open_text(argv[2]);
     for (int states = integer(); states > 0; states--) {
         const double t = num();
         for (int k = 0; k < dof; k++) q[place(k)] = num();

@@ -1,0 +1,10 @@
+/* Forces and accelerations of the full model. */
+#ifndef DYNAMICS_H
+#define DYNAMICS_H
+
+void ring_forces(double t, const double *q, const double *v, double *Fi, double *Fo);
+void accelerations(double t, const double *q, const double *v, double *acc, int want);
+
+#endif
+
+

@@ -1,0 +1,76 @@
+/* The model's parameters, SI units throughout, and small tools that every file uses. */
+#ifndef MODEL_H
+#define MODEL_H
+
+#include <stddef.h>
+
+#define PI 3.14159265358979323846
+
+enum { RECTANGLE, CIRCLE, PROFILE, IRREGULAR, OUTLINE, DEPTH_MAP };
+enum { LAW_ECL, LAW_SLICED };
+enum { PATH_POINT, PATH_ENVELOPE };
+enum { EDGE_NONE, EDGE_CONSERVATIVE };
+enum { OUTER, INNER, ROLLER };
+enum { START_ROLLING, START_REST, START_EQUILIBRIUM };
+enum { GUIDE_NONE, GUIDE_OUTER, GUIDE_INNER };
+enum { FILM_QUASI_STATIC, FILM_DYNAMIC };
+
+typedef struct { double a, b, ha, hb; } Piece; /* depth ha at s = a to hb at s = b, linear between */
+
+/* h(s) along the surface, whole (ecl) or under one slice: pieces in order of s, 0 outside them. */
+typedef struct {
+    int count, space;
+    Piece *piece;
+} Floor;
+
+/* Of every slice at equal steps of s: the integral of h_env over what is covered over the slice's width, and the
+ * fraction that a raised edge lifts beside it. */
+typedef struct {
+    int nodes;
+    double from, step, *section, *lifted; /* [node * slices + slice] */
+} Table;
+
+typedef struct {
+    int on, row, roller, shape, points; /* row and roller count from 0 */
+    double psi, radius, depth;
+    double offset;                      /* along z, of shapes given by width; others are moved as they are read */
+    double length, width;               /* rectangle; width also the irregular shape's largest */
+    double diameter;
+    double *arc, *widths, *depths;      /* profile */
+    int polygons, *corners;             /* outline */
+    double **s, **z;
+    int columns, rows;                  /* depth map */
+    double s0, z0, ds, dz, *grid;
+    double first, last;                 /* its arc */
+    double reach;                       /* how far before it a raised edge lifts a roller */
+    Floor *floor;                       /* one (ecl), or one per line z = const (sliced along the envelope) */
+    Table table[2];                     /* by side, sliced along the envelope */
+} Defect;
+
+typedef struct {
+    int rows, Z, total;
+    double Di, Do, Rm, r, Ri, Ro, L, stagger, Cr, outer_gap, mi, mo, m, Ir;
+    double mc, cage_a, cage_b, Ic, Cp, Cg, L1, kc, cc;
+    int guide, film;
+    double n, Kin, Kout, c;
+    double mu, vs, eta, Cd, rho;
+    double ki, ci, ko, co;
+    int speed_points;
+    double *speed_t, *speed_w;
+    double load[2], ramp, g[2];
+    int load_outer;
+    int defects;
+    Defect *defect;
+    int reference, start, law, path, edge, slices;
+    double duration, fs, step, perturb;
+    int channels;
+    char **channel;
+} Model;
+
+extern Model M;
+
+void die(const char *what, const char *detail);
+void *need(size_t n, size_t size);
+int pick(const char *w, const char *names[], int count);
+
+#endif

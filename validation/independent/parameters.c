@@ -1,0 +1,161 @@
+/* Reading the parameter text. */
+#include "parameters.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "floors.h"
+#include "model.h"
+
+static FILE *in;
+
+void open_text(const char *path)
+{
+    in = fopen(path, "r");
+    if (!in) die("cannot open", path);
+}
+
+double num(void)
+{
+    double v;
+    if (fscanf(in, "%lf", &v) != 1) die("number expected", "");
+    return v;
+}
+
+int integer(void) { return (int)num(); }
+
+static void word(char *w)
+{
+    if (fscanf(in, "%63s", w) != 1) die("word expected", "");
+}
+
+static void read_defect(void)
+{
+    static const char *surfaces[] = {"outer-raceway", "inner-raceway", "roller"};
+    static const char *shapes[] = {"rectangle", "circle", "profile", "li2023_irregular", "outline", "depth_map"};
+    char w[64];
+    M.defect = realloc(M.defect, sizeof(Defect) * (size_t)(M.defects + 1));
+    if (!M.defect) die("out of memory", "");
+    Defect *d = &M.defect[M.defects++];
+    memset(d, 0, sizeof *d);
+    word(w);
+    d->on = pick(w, surfaces, 3);
+    d->row = integer() - 1;
+    d->roller = integer() - 1;
+    d->psi = num();
+    d->depth = num();
+    d->offset = num();
+    word(w);
+    d->shape = pick(w, shapes, 6);
+    if (d->shape == RECTANGLE) {
+        d->length = num();
+        d->width = num();
+    } else if (d->shape == CIRCLE) {
+        d->diameter = num();
+    } else if (d->shape == IRREGULAR) {
+        d->width = num();
+    } else if (d->shape == OUTLINE) {
+        d->polygons = integer();
+        d->corners = need((size_t)d->polygons, sizeof(int));
+        d->s = need((size_t)d->polygons, sizeof(double *));
+        d->z = need((size_t)d->polygons, sizeof(double *));
+        for (int k = 0; k < d->polygons; k++) {
+            d->corners[k] = integer();
+            d->s[k] = need((size_t)d->corners[k], sizeof(double));
+            d->z[k] = need((size_t)d->corners[k], sizeof(double));
+            for (int i = 0; i < d->corners[k]; i++) { d->s[k][i] = num(); d->z[k][i] = num() + d->offset; }
+        }
+    } else if (d->shape == DEPTH_MAP) {
+        d->columns = integer();
+        d->rows = integer();
+        d->s0 = num();
+        d->z0 = num() + d->offset;
+        d->ds = num();
+        d->dz = num();
+        d->grid = need((size_t)(d->columns * d->rows), sizeof(double));
+        for (int i = 0; i < d->columns * d->rows; i++) d->grid[i] = num();
+    } else {
+        d->points = integer();
+        d->arc = need((size_t)d->points, sizeof(double));
+        d->widths = need((size_t)d->points, sizeof(double));
+        d->depths = need((size_t)d->points, sizeof(double));
+        for (int i = 0; i < d->points; i++) {
+            d->arc[i] = num();
+            d->widths[i] = num();
+            d->depths[i] = num();
+        }
+    }
+}
+
+void read_model(const char *path)
+{
+    static const struct { const char *name; double *to; } reals[] = {
+        {"inner_raceway_diameter", &M.Di}, {"outer_raceway_diameter", &M.Do}, {"pitch_radius", &M.Rm},
+        {"roller_radius", &M.r}, {"roller_length", &M.L}, {"stagger", &M.stagger}, {"clearance", &M.Cr},
+        {"outer_gap", &M.outer_gap}, {"inner_mass", &M.mi}, {"outer_mass", &M.mo}, {"roller_mass", &M.m},
+        {"cage_mass", &M.mc}, {"cage_inner_radius", &M.cage_a}, {"cage_outer_radius", &M.cage_b},
+        {"pocket_clearance", &M.Cp}, {"guide_clearance", &M.Cg}, {"guide_width", &M.L1},
+        {"cage_stiffness", &M.kc}, {"cage_damping", &M.cc}, {"exponent", &M.n}, {"inner_stiffness", &M.Kin},
+        {"outer_stiffness", &M.Kout}, {"contact_damping", &M.c}, {"friction", &M.mu}, {"slip_velocity", &M.vs},
+        {"viscosity", &M.eta}, {"drag", &M.Cd}, {"density", &M.rho}, {"support_inner_stiffness", &M.ki},
+        {"support_inner_damping", &M.ci}, {"support_outer_stiffness", &M.ko},
+        {"support_outer_damping", &M.co}, {"load_x", &M.load[0]}, {"load_y", &M.load[1]}, {"ramp", &M.ramp},
+        {"gravity_x", &M.g[0]}, {"gravity_y", &M.g[1]}, {"duration", &M.duration}, {"sample_rate", &M.fs},
+        {"step", &M.step}, {"perturb", &M.perturb}};
+    static const char *guides[] = {"rollers", "outer-ring", "inner-ring"};
+    static const char *films[] = {"quasi-static", "dynamic"};
+    static const char *starts[] = {"rolling", "rest", "equilibrium"};
+    static const char *rings[] = {"inner-ring", "outer-ring"};
+    static const char *models[] = {"full", "lumped"};
+    static const char *laws[] = {"ecl", "sliced"};
+    static const char *paths[] = {"point", "envelope"};
+    static const char *edges[] = {"none", "conservative"};
+    const int count = (int)(sizeof reals / sizeof reals[0]);
+    char w[64];
+    open_text(path);
+    while (fscanf(in, "%63s", w) == 1) {
+        int i = 0;
+        while (i < count && strcmp(w, reals[i].name)) i++;
+        if (i < count) *reals[i].to = num();
+        else if (!strcmp(w, "rows")) M.rows = integer();
+        else if (!strcmp(w, "rollers")) M.Z = integer();
+        else if (!strcmp(w, "guidance")) { word(w); M.guide = pick(w, guides, 3); }
+        else if (!strcmp(w, "guidance_film")) { word(w); M.film = pick(w, films, 2); }
+        else if (!strcmp(w, "start")) { word(w); M.start = pick(w, starts, 3); }
+        else if (!strcmp(w, "load_on")) { word(w); M.load_outer = pick(w, rings, 2); }
+        else if (!strcmp(w, "model")) { word(w); M.reference = pick(w, models, 2); }
+        else if (!strcmp(w, "law")) { word(w); M.law = pick(w, laws, 2); }
+        else if (!strcmp(w, "roller_path")) { word(w); M.path = pick(w, paths, 2); }
+        else if (!strcmp(w, "edge_reaction")) { word(w); M.edge = pick(w, edges, 2); }
+        else if (!strcmp(w, "slices")) M.slices = integer();
+        else if (!strcmp(w, "defect")) read_defect();
+        else if (!strcmp(w, "speed")) {
+            M.speed_points = integer();
+            M.speed_t = need((size_t)M.speed_points, sizeof(double));
+            M.speed_w = need((size_t)M.speed_points, sizeof(double));
+            for (int k = 0; k < M.speed_points; k++) { M.speed_t[k] = num(); M.speed_w[k] = num(); }
+        } else if (!strcmp(w, "record")) {
+            M.channels = integer();
+            M.channel = need((size_t)M.channels, sizeof(char *));
+            for (int k = 0; k < M.channels; k++) {
+                word(w);
+                M.channel[k] = need(strlen(w) + 1, 1);
+                strcpy(M.channel[k], w);
+            }
+        } else die("unknown parameter", w);
+    }
+    fclose(in);
+    M.total = M.rows * M.Z;
+    M.Ri = 0.5 * M.Di;
+    M.Ro = 0.5 * M.Do;
+    M.Ir = 0.5 * M.m * M.r * M.r;
+    M.Ic = 0.5 * M.mc * (M.cage_a * M.cage_a + M.cage_b * M.cage_b);
+    for (int i = 0; i < M.defects; i++) {
+        Defect *d = &M.defect[i];
+        d->radius = d->on == OUTER ? M.Ro : d->on == INNER ? M.Ri : M.r;
+        build_floors(d);
+    }
+    if (M.edge && !(M.law == LAW_SLICED && M.path == PATH_ENVELOPE)) die("edge reaction:", "sliced and envelope only");
+    if (M.reference && (M.law || M.path)) die("the lumped model", "is written for ecl and point");
+}
