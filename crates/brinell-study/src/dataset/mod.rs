@@ -18,6 +18,7 @@
 mod campaign;
 mod card;
 mod columns;
+mod document;
 mod error;
 mod folder;
 mod merge;
