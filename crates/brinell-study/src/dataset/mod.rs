@@ -28,6 +28,7 @@ mod row;
 mod run;
 mod sheet;
 mod sidecar;
+mod simulated;
 mod truth;
 mod verify;
 
