@@ -13,8 +13,8 @@ use hdf5_pure::{AttrValue, DType, Dataset, File as Hdf5, Group, Layout, Object, 
 use super::channel::{Channel, lend_rates, names_a_rate};
 use super::contents::Contents;
 use super::fault::{Fault, damaged, unsupported};
+use super::listing::{Listing, Source};
 use super::numbers::{Number, Sink, give};
-use super::{Listing, Source};
 use crate::Metadata;
 
 const MAX_DEPTH: usize = 24;

@@ -12,6 +12,7 @@ mod fault;
 #[cfg(feature = "hdf5")]
 mod hdf5;
 mod kind;
+mod listing;
 mod mat5;
 mod npy;
 #[cfg(feature = "npz")]
@@ -40,24 +41,11 @@ pub use times::{NoRate, rate_of_times, seconds_in};
 use crate::{FileKind, IoError, Metadata};
 use contents::Contents;
 use fault::Fault;
-use numbers::Sink;
+use listing::Source;
 
 /// The most values that [`SignalFile::read`] collects: 2 GiB of them, and 512 MiB where all memory is 4 GiB, as on
 /// WebAssembly.
 pub const MAX_VALUES: u64 = if cfg!(target_pointer_width = "32") { 1 << 26 } else { 1 << 28 };
-
-/// What a format's reader gives.
-struct Listing {
-    channels: Vec<Channel>,
-    metadata: Metadata,
-    source: Box<dyn Source>,
-}
-
-/// A format's way to the values of a channel.
-trait Source: Send {
-    /// Hands on every value of the channel of this index, in the file's order.
-    fn stream(&mut self, index: usize, sink: Sink<'_>) -> Result<(), Fault>;
-}
 
 /// A file of signals, opened and listed.
 pub struct SignalFile {

@@ -5,8 +5,8 @@ use std::io::{BufReader, Read, Seek, SeekFrom};
 use super::channel::Channel;
 use super::contents::Contents;
 use super::fault::{Fault, damaged};
+use super::listing::{Listing, Source};
 use super::numbers::{Number, Sink};
-use super::{Listing, Source};
 use crate::Metadata;
 
 /// NumPy itself refuses longer headers.

@@ -11,9 +11,9 @@ use zip::result::ZipError;
 use super::channel::{Channel, lend_rates, lend_units, names_a_rate};
 use super::contents::Contents;
 use super::fault::{Fault, damaged};
+use super::listing::{Listing, Source};
 use super::npy::{Array, header};
 use super::numbers::{Number, Sink};
-use super::{Listing, Source};
 use crate::{Metadata, keys};
 
 /// Deflate makes at most 1032 bytes of one.

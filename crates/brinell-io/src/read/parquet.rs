@@ -14,8 +14,8 @@ use parquet::schema::types::{ColumnDescPtr, ColumnDescriptor};
 use super::channel::{Channel, Rate, RateSource, lend_units};
 use super::contents::Contents;
 use super::fault::{Fault, damaged, unsupported};
+use super::listing::{Listing, Source};
 use super::numbers::{Number, Sink, give, half};
-use super::{Listing, Source};
 use crate::{Metadata, keys};
 
 /// Values requested at a time.

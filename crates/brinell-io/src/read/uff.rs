@@ -9,8 +9,8 @@ use std::io::{BufRead, BufReader, Read, Seek, SeekFrom};
 use super::channel::{Channel, Rate, RateSource};
 use super::contents::Contents;
 use super::fault::{Fault, damaged};
+use super::listing::{Listing, Source};
 use super::numbers::{Number, Sink, give};
-use super::{Listing, Source};
 use crate::Metadata;
 
 const MAX_LINE: u64 = 64 << 10;

@@ -11,8 +11,8 @@ use serde_json::{Map, Value};
 use super::channel::{Channel, Rate, RateSource};
 use super::contents::Contents;
 use super::fault::{Fault, damaged, unsupported};
+use super::listing::{Listing, Source};
 use super::numbers::{Number, Sink, give};
-use super::{Listing, Source};
 use crate::{Metadata, keys};
 
 /// Longest comment that is kept.

@@ -1,7 +1,7 @@
 //! One axis of a plan: the settings of one key, or of several that change together. Read from text such as
 //! `operation.speed_rpm=1000:5000:500` or `bearing.radial_clearance_um=5,10,20`.
 
-use super::plan::{MOST_POINTS, PlanError};
+use super::error::{MOST_POINTS, PlanError};
 use std::collections::HashSet;
 
 /// Settings that are tried one after the other.

@@ -9,6 +9,7 @@
 mod axis;
 mod columns;
 mod compare;
+mod error;
 mod plan;
 mod row;
 mod run;
@@ -18,8 +19,9 @@ pub use axis::Axis;
 pub use axis::split;
 pub use columns::{NumberColumn, columns};
 pub use compare::{Compared, compare};
+pub use error::PlanError;
+pub use plan::Plan;
 pub(crate) use plan::{INSIDE, clash};
-pub use plan::{Plan, PlanError};
 #[doc(hidden)]
 pub use row::digest;
 pub use row::{Row, fingerprint};

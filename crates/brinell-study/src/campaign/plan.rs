@@ -1,11 +1,9 @@
 //! A grid of settings: every combination of the axes, in a fixed order.
 
 use super::axis::Axis;
+use super::error::{MOST_POINTS, PlanError};
 use super::row::digest;
 use serde_json::{Value, json};
-
-/// Points of a plan at most: beyond that, a plan is a slip of the keyboard.
-pub(super) const MOST_POINTS: usize = 100_000;
 
 /// What is wrong with keys of which one is part of the other.
 pub(crate) const INSIDE: &str = "lie one inside the other, and would overwrite each other";
@@ -21,50 +19,6 @@ pub(crate) fn clash<'a>(keys: impl Iterator<Item = &'a str>) -> Option<[&'a str;
         before.push(key);
     }
     None
-}
-
-/// Why there is no plan.
-#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
-pub enum PlanError {
-    /// A text that is no axis.
-    #[error("`{text}`: expected {expected}")]
-    Syntax {
-        /// The text.
-        text: String,
-        /// What it should be.
-        expected: String,
-    },
-    /// A value or a range that cannot be.
-    #[error("{key} = {value}: {why}\n  allowed: {allowed}")]
-    Value {
-        /// The key that varies.
-        key: String,
-        /// The value found.
-        value: String,
-        /// What is wrong with it.
-        why: String,
-        /// What would be accepted.
-        allowed: String,
-    },
-    /// Two keys that do not go together.
-    #[error("{first} and {second} {why}")]
-    Keys {
-        /// One key.
-        first: String,
-        /// The other.
-        second: String,
-        /// What is wrong with them.
-        why: String,
-    },
-    /// One key on two axes.
-    #[error("{0} varies twice; each key varies in one place")]
-    Twice(String),
-    /// More points than 100 000.
-    #[error("{points} points\n  allowed: 1 to {MOST_POINTS} points")]
-    TooMany {
-        /// Points requested.
-        points: u128,
-    },
 }
 
 /// Every combination of the settings of some axes. The last axis changes from point to point, the first one slowest.

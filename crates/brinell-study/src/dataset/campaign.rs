@@ -2,20 +2,19 @@
 
 use crate::campaign::{digest, fingerprint};
 use crate::dataset::columns::{DataColumn, columns};
+use crate::dataset::document::Document;
 use crate::dataset::error::DatasetError;
-use crate::dataset::folder::Folder;
 use crate::dataset::refusal::refused;
-use crate::design::{Draw, Draws, FileKind, Part, Plan, Survey, kind_of, place_in_plan, unsaid};
+use crate::design::{Draw, Draws, Part, Plan, Survey, place_in_plan, unsaid};
 use brinell::document::{Loaded, Problem, canonical, locate};
 use brinell::many;
 use brinell::simulate::Simulation;
 use brinell_damage::resolve_loaded;
-use brinell_io::{Column, read_text};
+use brinell_io::Column;
 use std::collections::HashSet;
-use std::fs::File;
 use std::num::NonZeroUsize;
 use std::ops::Range;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::sync::atomic::AtomicBool;
 
 /// Runs that are looked at before any runs; of longer plans every second, third, ... one.
@@ -77,43 +76,6 @@ impl Files {
             }
         }
         Self { runs, files }
-    }
-}
-
-/// A file that was read.
-pub(crate) struct Document {
-    pub(crate) path: PathBuf,
-    pub(crate) text: String,
-}
-
-impl Document {
-    fn open(path: &Path) -> Result<Self, DatasetError> {
-        let bytes = File::open(path).and_then(read_text);
-        let bytes = bytes.map_err(|error| DatasetError::Read { path: path.to_owned(), error })?;
-        let text = String::from_utf8(bytes).map_err(|_| {
-            DatasetError::Refused(format!("{}: not a text file in UTF-8, as TOML must be", path.display()))
-        })?;
-        Ok(Self { path: path.to_owned(), text })
-    }
-
-    /// What is wrong with a value of its own.
-    fn problem_of(&self, key: &str, value: &str, why: &str) -> DatasetError {
-        let problem = Problem::of_file(key, value, why);
-        self.problems(vec![problem.at(locate(&self.text, key))])
-    }
-
-    /// That the file is a scenario, where it is one.
-    fn scenario_in_place(&self) -> Option<DatasetError> {
-        (kind_of(&self.text) == Some(FileKind::Scenario)).then(|| {
-            DatasetError::Refused(format!(
-                "{} is a scenario and no plan of a data set: a plan names its scenario (`base`), how many `runs` and what is drawn for each; `brinell init plan.toml --template data-set` writes one",
-                self.path.display()
-            ))
-        })
-    }
-
-    pub(crate) fn problems(&self, problems: Vec<Problem>) -> DatasetError {
-        DatasetError::Document { name: self.path.display().to_string(), text: self.text.clone(), problems }
     }
 }
 
@@ -198,14 +160,6 @@ impl Campaign {
     /// What a file's runs are for.
     pub fn split_of(&self, part: usize) -> Part {
         self.files.files[part].0
-    }
-
-    /// Makes a folder this data set's, or finds that it is.
-    ///
-    /// # Errors
-    /// Where it holds another one, or one of another version.
-    pub fn claim(&self, folder: impl AsRef<Path>) -> Result<(), DatasetError> {
-        Folder::new(folder.as_ref()).claim(self)
     }
 
     /// Looks at what the runs draw: all of them, or of more than 100000 every second, third, ... one; once `stop` is

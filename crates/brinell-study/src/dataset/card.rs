@@ -3,7 +3,7 @@
 
 use crate::campaign::digest;
 use crate::dataset::error::DatasetError;
-use crate::dataset::sidecar::{put, written};
+use crate::dataset::folder::{put, written};
 use serde_json::{Map, Value, json};
 use std::fmt::Write;
 use std::path::Path;

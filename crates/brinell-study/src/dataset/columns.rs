@@ -2,9 +2,9 @@
 //! label away.
 
 use crate::campaign::fingerprint;
-use crate::dataset::row::{Run, largest};
+use crate::dataset::simulated::Run;
 use crate::design::Draws;
-use brinell::defect::Shape;
+use brinell::defect::{Defect, Shape};
 use brinell::kernel::Kernel;
 use brinell::observe::slip::RowSlip;
 use brinell::result::fields::{self, Field};
@@ -99,7 +99,7 @@ pub(crate) const STATUS: usize = 2;
 const HEAD: [Fixed; 3] = [
     ("run", "1", "index of the run, from 0", Whole(|r| Some(r.index))),
     ("split", "1", "train, validation or test; open where the plan does not divide; held-out where the labels are in files of their own",
-        Words(|r| Some(r.draws().part(r.index).word().into()))),
+        Words(|r| Some(r.draws.part(r.index).word().into()))),
     ("status", "1", "complete or failed", Words(|r| Some(if r.failed.is_some() { "failed" } else { "complete" }.into()))),
 ];
 
@@ -126,7 +126,7 @@ const KNOWN: [Fixed; 11] = [
 /// Last: labels, and what no test rig tells.
 #[rustfmt::skip]
 const TRUTH: [Fixed; 53] = [
-    ("class", "1", "label of the run", Words(|r| Some(r.campaign.plan().classes[r.class()].name.clone()))),
+    ("class", "1", "label of the run", Words(|r| Some(r.draws.plan().classes[r.class()].name.clone()))),
     ("label", "1", "the same as a number: place of the class in the plan, from 0", Whole(|r| Some(r.class()))),
     ("reason", "1", "why the run failed", Words(|r| r.failed.clone())),
     ("defect_on", "1", "of each defect: outer-raceway, inner-raceway or roller", WordsList(|r| r.defects(|d, _| d.on.word().to_owned()))),
@@ -202,6 +202,14 @@ const TRUTH: [Fixed; 53] = [
     ("scenario_sha256", "1", "fingerprint of the scenario: SHA-256 over every key and value, without what was assumed and why",
         Words(|r| r.scenario().map(fingerprint))),
 ];
+
+/// Largest value along a defect's arc, at 2001 points.
+fn largest(defect: &Defect, of: impl Fn(f64) -> f64) -> f64 {
+    const PARTS: u32 = 2000;
+    let (first, last) = defect.shape.arc();
+    let at = |k: u32| of((first + (last - first) * f64::from(k) / f64::from(PARTS)).clamp(first, last));
+    (0..=PARTS).map(at).fold(0.0, f64::max)
+}
 
 /// A column of the engine's list of a run's numbers.
 const fn listed(name: &'static str, source: Source) -> Fixed {

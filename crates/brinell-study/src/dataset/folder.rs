@@ -1,8 +1,6 @@
 //! What lies where in a data set's folder, and whose folder it is.
 
-use crate::dataset::campaign::Campaign;
 use crate::dataset::error::DatasetError;
-use crate::dataset::sidecar;
 use brinell_io::{IoError, Metadata, RecordFacts, atomic_write, lock, record_facts, sha256_of};
 use serde_json::{Value, json};
 use std::fs::File;
@@ -64,25 +62,24 @@ impl Folder {
         self.spool(part).join(format!("run-{run:07}.row"))
     }
 
-    /// Makes the folder this campaign's, or finds that it is.
+    /// Makes the folder a campaign's, or finds that it is; `mine` is what is known of the campaign before a run.
     ///
     /// # Errors
     /// Where it holds another campaign, or one of another version.
-    pub(crate) fn claim(&self, campaign: &Campaign) -> Result<(), DatasetError> {
+    pub(crate) fn claim(&self, mine: &Value) -> Result<(), DatasetError> {
         for folder in ["runs", "work"] {
             make(&self.root.join(folder))?;
         }
-        if campaign.plan().holds_out() {
+        if mine["held_out"] == true {
             make(&self.root.join("held_out"))?;
         }
-        let mine = sidecar::about(campaign);
         // Many shards may begin at once: whoever is first writes.
         for _ in 0..200 {
             if let Some(theirs) = self.about()? {
-                return self.same(&mine, &theirs);
+                return self.same(mine, &theirs);
             }
-            self.parts_are(campaign)?;
-            match atomic_write(self.campaign(), sidecar::written(&mine)) {
+            self.parts_are(mine)?;
+            match atomic_write(self.campaign(), written(mine)) {
                 Err(IoError::Busy { .. }) => std::thread::sleep(Duration::from_millis(50)),
                 Err(error) => return Err(error.into()),
                 Ok(()) => {}
@@ -151,7 +148,7 @@ impl Folder {
     }
 
     /// Files of runs without a word on whose they are: their own metadata decides.
-    fn parts_are(&self, campaign: &Campaign) -> Result<(), DatasetError> {
+    fn parts_are(&self, mine: &Value) -> Result<(), DatasetError> {
         for part in self.parts_there()? {
             let facts = record_facts(&part)?;
             let theirs = json!({
@@ -160,7 +157,7 @@ impl Folder {
                 "name": facts.metadata.get(NAME),
                 "runs": "?",
             });
-            self.same(&sidecar::about(campaign), &theirs)?;
+            self.same(mine, &theirs)?;
         }
         Ok(())
     }
@@ -286,4 +283,21 @@ pub(crate) fn number_of(name: &str) -> Option<usize> {
 pub(crate) fn make(folder: &Path) -> Result<(), DatasetError> {
     std::fs::create_dir_all(folder)
         .map_err(|error| DatasetError::Refused(format!("cannot make the folder {}: {error}", folder.display())))
+}
+
+/// JSON as the folder's files hold it.
+pub(crate) fn written(value: &Value) -> String {
+    serde_json::to_string_pretty(value).unwrap_or_default() + "\n"
+}
+
+/// Writes a file; what is there with the same content stays.
+pub(crate) fn put(path: &Path, text: &str) -> Result<(), DatasetError> {
+    if std::fs::read(path).is_ok_and(|there| there == text.as_bytes()) {
+        return Ok(());
+    }
+    match atomic_write(path, text) {
+        // Another shard that ended at the same time writes the same.
+        Err(IoError::Busy { .. }) | Ok(()) => Ok(()),
+        Err(error) => Err(error.into()),
+    }
 }

@@ -1,7 +1,7 @@
 //! Folders in which shards of one campaign ran apart, joined in one.
 
 use crate::dataset::error::DatasetError;
-use crate::dataset::folder::{Folder, make};
+use crate::dataset::folder::{Folder, make, written};
 use crate::dataset::sidecar;
 use brinell_io::{atomic_copy, atomic_write, sha256_of};
 use serde_json::Value;
@@ -66,7 +66,7 @@ pub fn merge(from: &[PathBuf], into: &Path) -> Result<Merged, DatasetError> {
         make(&into.join(name))?;
     }
     if target.about()?.is_none() {
-        atomic_write(target.campaign(), sidecar::written(&about))?;
+        atomic_write(target.campaign(), written(&about))?;
     }
     let mut merged = Merged::default();
     for part in 0..about["files"].as_u64().unwrap_or(0) as usize {

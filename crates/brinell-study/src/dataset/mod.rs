@@ -18,6 +18,7 @@
 mod campaign;
 mod card;
 mod columns;
+mod document;
 mod error;
 mod folder;
 mod merge;
@@ -27,6 +28,7 @@ mod row;
 mod run;
 mod sheet;
 mod sidecar;
+mod simulated;
 mod truth;
 mod verify;
 

@@ -1,6 +1,6 @@
 //! What is wrong with a plan whose runs cannot all be made, in the author's terms.
 
-use crate::dataset::campaign::Document;
+use crate::dataset::document::Document;
 use crate::dataset::error::DatasetError;
 use crate::design::{Draws, Misses, OutOfRange, Survey, place_in_plan};
 use brinell::document::Problem;

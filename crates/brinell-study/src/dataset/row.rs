@@ -2,19 +2,9 @@
 
 use crate::dataset::campaign::Campaign;
 use crate::dataset::columns::STATUS;
-use crate::dataset::truth::{Instant, Truth};
-use crate::design::{Draw, Draws, Value, unsaid};
+use crate::dataset::simulated::{Run, Short};
 use crate::listener::Listener;
-use brinell::bearing::kinematics::Kinematics;
-use brinell::defect::Defect;
-use brinell::document::{Loaded, on_one_line, one_line};
-use brinell::model::Layout;
-use brinell::observe::slip::RowSlip;
-use brinell::scenario::{self, Scenario, Speed};
-use brinell::signal::Estimate;
-use brinell::simulate::{End, Outcome, Simulation};
 use brinell_io::Cell;
-use serde_json::{Map, Value as Json};
 
 /// A finished run.
 pub(crate) struct Row {
@@ -23,150 +13,16 @@ pub(crate) struct Row {
     pub(crate) failed: Option<String>,
 }
 
-/// What a run's cells are read from, as far as it came.
-pub(crate) struct Run<'a> {
-    pub(crate) campaign: &'a Campaign,
-    pub(crate) index: usize,
-    pub(crate) draw: Option<Draw>,
-    pub(crate) loaded: Option<Loaded>,
-    /// The run as prepared, its outcome, and what was recorded.
-    ended: Option<(Simulation, Outcome, Truth<'a>)>,
-    /// Why it failed.
-    pub(crate) failed: Option<String>,
-}
-
-/// Why a run has no signals.
-enum Short {
-    /// It was broken off.
-    Stopped,
-    /// It cannot be, or failed.
-    Failed(String),
-}
-
 /// Runs `index` and makes its row; nothing where it was broken off. A run that cannot be is a row with its reason.
 pub(crate) fn make(campaign: &Campaign, index: usize, listener: &dyn Listener) -> Option<Row> {
-    let mut run = Run { campaign, index, draw: None, loaded: None, ended: None, failed: None };
-    match run.go(listener) {
+    let mut run = Run::new(campaign.draws(), index);
+    match run.go(campaign.try_scenario(index), campaign.signals(), listener) {
         Ok(()) => {}
         Err(Short::Failed(reason)) => run.failed = Some(reason),
         Err(Short::Stopped) => return None,
     }
     let cells = campaign.columns().iter().map(|column| column.cell(&mut run));
     Some(Row { cells: cells.collect(), failed: run.failed })
-}
-
-impl<'a> Run<'a> {
-    fn go(&mut self, listener: &'a dyn Listener) -> Result<(), Short> {
-        let failed = |error: &dyn std::fmt::Display| Short::Failed(one_line(&error.to_string()));
-        let (loaded, draw) = (self.campaign.try_scenario(self.index)).map_err(|(problems, draw)| {
-            self.draw = draw;
-            Short::Failed(unsaid(&on_one_line(&problems)))
-        })?;
-        self.draw = Some(draw);
-        let scenario = &self.loaded.insert(loaded).scenario;
-        let simulation = Simulation::new(scenario).map_err(|error| failed(&error))?;
-        let signals = self.campaign.signals();
-        let mut channels = simulation.channels().iter();
-        if let Some(channel) = channels.find(|c| signals.iter().all(|s| s.name != c.name)) {
-            return Err(Short::Failed(format!(
-                "its channel {} is not among the data set's signals; name signals without *",
-                channel.name
-            )));
-        }
-        let listener = listener.begin(self.index, scenario.simulation.duration_s);
-        let mut truth = Truth::new(scenario, &simulation, signals, listener);
-        let outcome = simulation.run(&mut truth);
-        let end = outcome.end.clone();
-        self.ended = Some((simulation, outcome, truth));
-        match end {
-            End::Complete => Ok(()),
-            End::Stopped => Err(Short::Stopped),
-            End::Failed(error) => Err(failed(&error)),
-        }
-    }
-
-    pub(crate) fn draws(&self) -> &Draws {
-        self.campaign.draws()
-    }
-
-    pub(crate) fn class(&self) -> usize {
-        self.draws().class(self.index)
-    }
-
-    pub(crate) fn scenario(&self) -> Option<&Scenario> {
-        self.loaded.as_ref().map(|loaded| &loaded.scenario)
-    }
-
-    pub(crate) fn outcome(&self) -> Option<&Outcome> {
-        self.ended.as_ref().map(|(_, outcome, _)| outcome)
-    }
-
-    /// Samples of a signal.
-    pub(crate) fn kept(&self) -> Option<usize> {
-        self.ended.as_ref().map(|(.., truth)| truth.kept as usize)
-    }
-
-    /// What was recorded of a run that came to its end.
-    pub(crate) fn gathered(&self) -> Option<&Truth<'a>> {
-        let ended = self.ended.as_ref().filter(|_| self.failed.is_none());
-        ended.map(|(.., truth)| truth)
-    }
-
-    /// Of pure rolling, at constant speed.
-    pub(crate) fn kinematics(&self) -> Option<Kinematics> {
-        let model = self.ended.as_ref()?.0.model();
-        match self.scenario()?.operation.speed_rpm {
-            Speed::Constant(_) => Some(model.kinematics(model.rotation.at(0.0).0)),
-            Speed::Profile(_) => None,
-        }
-    }
-
-    /// Of each defect, as written and as made.
-    pub(crate) fn defects<T>(&self, of: impl Fn(&scenario::Defect, &Defect) -> T) -> Option<Vec<T>> {
-        let made = self.ended.as_ref()?.0.model().defects.iter();
-        let pairs = self.scenario()?.defects.iter().zip(made);
-        Some(pairs.map(|(written, defect)| of(written, defect)).collect())
-    }
-
-    /// Of each entry or exit.
-    pub(crate) fn instants<T>(&self, enters: bool, of: impl Fn(&Instant, &Layout) -> T) -> Option<Vec<T>> {
-        let layout = &self.ended.as_ref()?.0.model().layout;
-        let these = self.gathered()?.instants.iter();
-        let these = these.filter(|i| i.event.enters == enters);
-        Some(these.map(|i| of(i, layout)).collect())
-    }
-
-    /// Of each row; nothing where a row has none.
-    pub(crate) fn slip(&self, of: fn(&RowSlip) -> Option<Estimate>) -> Option<Vec<f64>> {
-        let rows = self.gathered()?.slip.rows.iter();
-        rows.map(|row| Some(of(row)?.value)).collect()
-    }
-
-    /// A signal, which moves out; where the run came to its end and has it.
-    pub(crate) fn signal(&mut self, k: usize) -> Option<Vec<f32>> {
-        self.gathered()?;
-        self.ended.as_mut()?.2.signal(k)
-    }
-
-    /// A drawn value.
-    pub(crate) fn parameter(&self, k: usize) -> Option<&Value> {
-        self.draw.as_ref()?.values.get(k)?.as_ref()
-    }
-
-    /// What it sets over the base scenario, as JSON.
-    pub(crate) fn settings(&self) -> Option<String> {
-        let settings = self.draw.as_ref()?.settings.iter();
-        let settings: Map<String, Json> = settings.map(|(key, value)| (key.clone(), value.as_str().into())).collect();
-        Some(Json::from(settings).to_string())
-    }
-}
-
-/// Largest value along a defect's arc, at 2001 points.
-pub(crate) fn largest(defect: &Defect, of: impl Fn(f64) -> f64) -> f64 {
-    const PARTS: u32 = 2000;
-    let (first, last) = defect.shape.arc();
-    let at = |k: u32| of((first + (last - first) * f64::from(k) / f64::from(PARTS)).clamp(first, last));
-    (0..=PARTS).map(at).fold(0.0, f64::max)
 }
 
 /// Whether a row's file of its own says that the run failed.

@@ -103,7 +103,7 @@ pub fn run(
     listener: &dyn Listener,
 ) -> Result<ShardSummary, DatasetError> {
     let folder = Folder::new(folder.as_ref());
-    folder.claim(campaign)?;
+    campaign.claim(&folder.root)?;
     let mut summary = ShardSummary::default();
     let mut jobs = Vec::new();
     let parts: Vec<usize> = (0..campaign.parts()).filter(|part| shard.has(*part)).collect();

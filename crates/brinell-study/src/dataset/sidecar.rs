@@ -4,10 +4,10 @@ use crate::campaign::digest;
 use crate::dataset::campaign::Campaign;
 use crate::dataset::card;
 use crate::dataset::error::DatasetError;
-use crate::dataset::folder::{Folder, SECRET_PATH, file_name, make};
+use crate::dataset::folder::{Folder, SECRET_PATH, file_name, make, put, written};
 use crate::design::Part;
 use brinell::document::{Origin, Provenance};
-use brinell_io::{IoError, Kind, atomic_write};
+use brinell_io::Kind;
 use serde_json::{Map, Value, json};
 use std::path::Path;
 
@@ -19,8 +19,18 @@ const CHECKSUM: &str = "checksum";
 /// Key of the card's path and checksum.
 pub(crate) const CARD: &str = "card";
 
+impl Campaign {
+    /// Makes a folder this data set's, or finds that it is.
+    ///
+    /// # Errors
+    /// Where it holds another one, or one of another version.
+    pub fn claim(&self, folder: impl AsRef<Path>) -> Result<(), DatasetError> {
+        Folder::new(folder.as_ref()).claim(&about(self))
+    }
+}
+
 /// Everything that is known before a run: what `work/campaign.json` holds.
-pub(crate) fn about(campaign: &Campaign) -> Value {
+fn about(campaign: &Campaign) -> Value {
     let plan = campaign.plan();
     let (draws, first) = (campaign.draws(), campaign.first());
     let classes = plan.classes.iter().enumerate().map(|(label, class)| {
@@ -208,10 +218,6 @@ pub(crate) fn is_whole(about: &Value) -> Option<bool> {
     Some(stated["sha256"].as_str() == Some(digest(&written(&rest)).as_str()))
 }
 
-pub(crate) fn written(value: &Value) -> String {
-    serde_json::to_string_pretty(value).unwrap_or_default() + "\n"
-}
-
 fn listed(place: &str, part: usize, facts: &Value) -> Value {
     let mut entry = Map::new();
     entry.insert("path".into(), format!("{place}/{}", file_name(part)).into());
@@ -221,16 +227,4 @@ fn listed(place: &str, part: usize, facts: &Value) -> Value {
         }
     }
     entry.into()
-}
-
-/// Writes a file; what is there with the same content stays.
-pub(crate) fn put(path: &Path, text: &str) -> Result<(), DatasetError> {
-    if std::fs::read(path).is_ok_and(|there| there == text.as_bytes()) {
-        return Ok(());
-    }
-    match atomic_write(path, text) {
-        // Another shard that ended at the same time writes the same.
-        Err(IoError::Busy { .. }) | Ok(()) => Ok(()),
-        Err(error) => Err(error.into()),
-    }
 }

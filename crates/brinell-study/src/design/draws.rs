@@ -1,19 +1,20 @@
 //! What each run of a plan draws.
 
-mod drawn;
-
 use super::distribution::{Distribution, KINDS, Value};
-use super::plan::{OutOfRange, Plan};
+use super::drawn::{Drawn, Parameter, common_axes, sequence};
+use super::plan::{Class, OutOfRange, Plan};
 use super::sequence::Sequence;
 use super::split::{self, Part};
 use super::stream::{Secret, bits, seed, unit, word};
 use super::turns::{APART, Place, places};
 use brinell::document::reading::{Node, Toml, parse, quote};
 use brinell::document::{Loaded, Problem, read};
-use drawn::{Drawn, common_axes, sequence};
 
 /// Times that a run is drawn before its class counts as impossible.
 const MOST_ATTEMPTS: u64 = 1000;
+
+/// Bands of equal probability that a continuous distribution is cut into, where runs are grouped by conditions.
+const BANDS: f64 = 8.0;
 
 /// A seed that every run has one of its own of.
 struct Seeded {
@@ -42,17 +43,6 @@ pub struct Draw {
     pub values: Vec<Option<Value>>,
     /// How often it was drawn before, because its values did not fit.
     pub redrawn: u64,
-}
-
-/// A key that is drawn.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Parameter {
-    /// Its path; elements of lists by number.
-    pub key: String,
-    /// Whether every value is a number.
-    pub numeric: bool,
-    /// Whether all classes draw it from `[vary]`, so that it says nothing of the class.
-    pub common: bool,
 }
 
 /// The runs of a plan.
@@ -94,7 +84,9 @@ impl Draws {
         let open = order.iter().filter(|place| **place != APART).count();
         let common = (common, sequence(&plan, u64::MAX, common, open));
         let mut draws = Self { plan, secret, classes, places, common, order, parts: Vec::new(), parameters };
-        draws.parts = split::parts(&draws)?;
+        let conditions = |run, keys: &[String]| draws.conditions(run, keys);
+        let numbers = |run, keys: &[String]| draws.numbers(run, keys);
+        draws.parts = split::parts(&draws.plan, &draws.places, &draws.parameters, conditions, numbers)?;
         Ok(draws)
     }
 
@@ -138,16 +130,16 @@ impl Draws {
         self.parts[run]
     }
 
-    /// Under which conditions run `run` runs: of each key its value, or in which of so many bands of equal probability
-    /// it lies where it is drawn from a continuous distribution.
-    pub(super) fn conditions(&self, run: usize, keys: &[String], bands: f64) -> Vec<String> {
+    /// Under which conditions run `run` runs: of each key its value, or in which of [`BANDS`] it lies where it is drawn
+    /// from a continuous distribution.
+    fn conditions(&self, run: usize, keys: &[String]) -> Vec<String> {
         let class = &self.classes[self.class(run)];
         let of_grid = self.of_grid(run);
         let axes = class.axes.iter().enumerate();
         axes.filter(|(_, axis)| keys.contains(&self.parameters[axis.parameter].key))
             .map(|(k, axis)| match axis.distribution {
                 Distribution::Uniform { .. } | Distribution::Log { .. } | Distribution::Normal { .. } => {
-                    format!("{:.0}", (bands * self.unit(run, k, 0)).floor())
+                    format!("{:.0}", (BANDS * self.unit(run, k, 0)).floor())
                 }
                 Distribution::Whole { .. } | Distribution::Choice { .. } | Distribution::Grid { .. } => {
                     self.value(run, k, 0, of_grid.as_deref()).toml
@@ -157,7 +149,7 @@ impl Draws {
     }
 
     /// What run `run` draws for those of the keys that its class draws, where that is a number.
-    pub(super) fn numbers(&self, run: usize, keys: &[String]) -> Vec<f64> {
+    fn numbers(&self, run: usize, keys: &[String]) -> Vec<f64> {
         let class = &self.classes[self.class(run)];
         let of_grid = self.of_grid(run);
         let axes = class.axes.iter().enumerate();
@@ -168,7 +160,7 @@ impl Draws {
 
     /// What the author should know: grids whose combinations come unequally often.
     pub fn notes(&self) -> Vec<String> {
-        let uneven = |(class, drawn): (&super::Class, &Drawn)| {
+        let uneven = |(class, drawn): (&Class, &Drawn)| {
             (drawn.open % drawn.combinations != 0).then(|| {
                 format!(
                     "class {:?} has {} runs for {} combinations of its grids: some combinations come once more than others",

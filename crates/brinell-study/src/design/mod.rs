@@ -5,6 +5,7 @@
 //! plan, its seed and k, and on nothing else: neither on threads, nor on which runs were done before.
 
 mod distribution;
+mod drawn;
 mod draws;
 mod kind;
 mod plan;
@@ -17,7 +18,8 @@ mod template;
 mod turns;
 
 pub use distribution::{Distribution, Value};
-pub use draws::{Draw, Draws, Parameter};
+pub use drawn::Parameter;
+pub use draws::{Draw, Draws};
 #[doc(hidden)]
 pub use kind::{FileKind, kind_of};
 pub use plan::{Class, Design, HeldSeverity, OutOfRange, Plan, Split};

@@ -1,14 +1,12 @@
 //! Which runs are for training, validation and test: whole groups of runs under like conditions, so that no test
 //! repeats what was trained on.
 
-use super::draws::Draws;
-use super::plan::{HeldSeverity, Split};
+use super::drawn::Parameter;
+use super::plan::{HeldSeverity, Plan, Split};
 use super::stream::{bits, word};
+use super::turns::{APART, Place};
 use brinell::document::Problem;
 use std::collections::BTreeMap;
-
-/// Bands of equal probability that a continuous distribution is cut into.
-const BANDS: f64 = 8.0;
 
 /// What a run is for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -47,13 +45,21 @@ impl Part {
 /// validation, the rest to training; each of these has one group at least. Then runs of the severities that are held
 /// out go to the test, whatever their group.
 ///
+/// `conditions` gives those of a run in the keys that make groups, `numbers` what it draws for keys of severities.
+///
 /// # Errors
 /// Where a key of `by` is not drawn by all classes, there are fewer groups than parts, or the severities held out are
 /// those of no run or leave none to train with.
-pub(super) fn parts(draws: &Draws) -> Result<Vec<Part>, Vec<Problem>> {
-    let plan = draws.plan();
-    let mut parts: Vec<Part> = (0..draws.runs())
-        .map(|run| match (draws.is_held_out(run), &plan.split) {
+pub(super) fn parts(
+    plan: &Plan,
+    places: &[Place],
+    parameters: &[Parameter],
+    conditions: impl Fn(usize, &[String]) -> Vec<String>,
+    numbers: impl Fn(usize, &[String]) -> Vec<f64>,
+) -> Result<Vec<Part>, Vec<Problem>> {
+    let mut parts: Vec<Part> = places
+        .iter()
+        .map(|place| match (place.number == APART, &plan.split) {
             (true, _) => Part::HeldOut,
             (false, None) => Part::Open,
             (false, Some(_)) => Part::Train,
@@ -62,13 +68,13 @@ pub(super) fn parts(draws: &Draws) -> Result<Vec<Part>, Vec<Problem>> {
     let Some(split) = &plan.split else {
         return Ok(parts);
     };
-    let keys = keys(draws, split)?;
+    let keys = keys(parameters, split)?;
     let mut groups: BTreeMap<String, Vec<usize>> = BTreeMap::new();
-    let open = (0..draws.runs()).filter(|run| !draws.is_held_out(*run));
+    let open = (0..parts.len()).filter(|run| parts[*run] != Part::HeldOut);
     for run in open {
         let conditions = match keys.is_empty() {
             true => run.to_string(),
-            false => draws.conditions(run, &keys, BANDS).join("; "),
+            false => conditions(run, &keys).join("; "),
         };
         groups.entry(conditions).or_default().push(run);
     }
@@ -107,15 +113,20 @@ pub(super) fn parts(draws: &Draws) -> Result<Vec<Part>, Vec<Problem>> {
         left -= 1;
     }
     if let Some(severity) = &split.severity {
-        hold_out(draws, severity, &mut parts)?;
+        hold_out(severity, parameters, numbers, &mut parts)?;
     }
     Ok(parts)
 }
 
 /// Puts the runs of the severities into the test.
-fn hold_out(draws: &Draws, severity: &HeldSeverity, parts: &mut [Part]) -> Result<(), Vec<Problem>> {
-    let numeric = || draws.parameters().iter().filter(|p| p.numeric);
-    let names: Vec<&str> = numeric().map(|p| p.key.as_str()).collect();
+fn hold_out(
+    severity: &HeldSeverity,
+    parameters: &[Parameter],
+    numbers: impl Fn(usize, &[String]) -> Vec<f64>,
+    parts: &mut [Part],
+) -> Result<(), Vec<Problem>> {
+    let numeric = parameters.iter().filter(|p| p.numeric);
+    let names: Vec<&str> = numeric.map(|p| p.key.as_str()).collect();
     let unknown = severity.keys.iter().filter(|key| !names.contains(&key.as_str()));
     let problems: Vec<Problem> = unknown
         .map(|key| {
@@ -130,7 +141,7 @@ fn hold_out(draws: &Draws, severity: &HeldSeverity, parts: &mut [Part]) -> Resul
     let [low, high] = severity.range;
     let mut found = 0;
     for (run, part) in parts.iter_mut().enumerate() {
-        let values = draws.numbers(run, &severity.keys);
+        let values = numbers(run, &severity.keys);
         if *part != Part::HeldOut && values.iter().any(|x| (low..=high).contains(x)) {
             *part = Part::Test;
             found += 1;
@@ -146,8 +157,8 @@ fn hold_out(draws: &Draws, severity: &HeldSeverity, parts: &mut [Part]) -> Resul
 }
 
 /// The keys that make groups.
-fn keys(draws: &Draws, split: &Split) -> Result<Vec<String>, Vec<Problem>> {
-    let common = || draws.parameters().iter().filter(|p| p.common);
+fn keys(parameters: &[Parameter], split: &Split) -> Result<Vec<String>, Vec<Problem>> {
+    let common = || parameters.iter().filter(|p| p.common);
     let Some(by) = &split.by else {
         let is_condition = |key: &str| ["bearing.", "operation."].iter().any(|s| key.starts_with(s));
         let keys = common().filter(|p| is_condition(&p.key));

@@ -22,6 +22,11 @@ enum Body<'a> {
     Inflate(Box<ZlibDecoder<BufReader<Take<&'a mut Contents>>>>),
 }
 
+/// Kind of an element that is an array.
+pub(super) const MATRIX: u32 = 14;
+/// Kind of an element that holds another one, deflated.
+pub(super) const COMPRESSED: u32 = 15;
+
 /// The head of a data element.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Tag {

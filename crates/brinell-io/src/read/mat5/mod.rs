@@ -12,15 +12,13 @@ use std::io::{Read, Seek, SeekFrom};
 use super::channel::{lend_labels, lend_rates, lend_units};
 use super::contents::Contents;
 use super::fault::{Fault, damaged};
+use super::listing::{Listing, Source};
 use super::numbers::Sink;
-use super::{Listing, Source};
 use crate::{Metadata, keys};
-use input::Input;
+use input::{COMPRESSED, Input, MATRIX};
 use walk::{Aim, Found, Walk};
 
 const HEADER: u64 = 128;
-const COMPRESSED: u32 = 15;
-const MATRIX: u32 = 14;
 /// Deflate makes at most 1032 bytes of one.
 const MOST: u64 = 1032;
 const MAX_VARIABLES: usize = 100_000;

@@ -2,7 +2,7 @@
 
 use std::ops::ControlFlow;
 
-use super::input::{Input, Tag};
+use super::input::{Input, MATRIX, Tag};
 use crate::read::channel::{Channel, names_a_rate};
 use crate::read::fault::{Fault, damaged};
 use crate::read::numbers::{Number, Sink};
@@ -234,7 +234,7 @@ impl Walk<'_, '_, '_> {
     /// One array within another.
     fn member(&mut self, path: String, end: u64, depth: usize) -> Result<(), Fault> {
         let tag = self.input.tag()?;
-        if tag.kind != super::MATRIX || tag.bytes > end.saturating_sub(self.input.at) {
+        if tag.kind != MATRIX || tag.bytes > end.saturating_sub(self.input.at) {
             return Err(damaged(format!("`{path}` is not where it should be")));
         }
         self.matrix(tag.bytes, Some(path), depth + 1)

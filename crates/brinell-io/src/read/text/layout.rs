@@ -1,8 +1,8 @@
 //! How the lines of a text file are made, from the first of them.
 
-use super::lines::number;
+use super::format::{Decimal, Delimiter, TextFormat};
 use super::lvm::{self, Lvm};
-use super::{Decimal, Delimiter, TextFormat};
+use super::number::number;
 use crate::read::channel::names_a_rate;
 use crate::read::fault::{Fault, damaged, unsupported};
 

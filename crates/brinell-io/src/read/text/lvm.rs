@@ -1,7 +1,7 @@
 //! The two headers of a LabVIEW measurement file (.lvm): National Instruments, "Specification for the LabVIEW
 //! Measurement File".
 
-use super::{Decimal, Delimiter};
+use super::format::{Decimal, Delimiter};
 
 const END: &[u8] = b"***End_of_Header***";
 

@@ -5,65 +5,26 @@
 //! buffer of fixed size (`lines.rs`). Lines that begin with `#` or `%` are comments. An empty field is NaN, an empty
 //! line is passed over. A line above the numbers such as `Sample rate: 12000 Hz` states the rate.
 
+mod format;
 mod layout;
 mod lines;
 mod lvm;
+mod number;
 
 use std::io::{Read, Seek, SeekFrom};
 
 use super::channel::{Channel, Rate, RateSource};
 use super::contents::Contents;
 use super::fault::{Fault, damaged};
+use super::listing::{Listing, Source};
 use super::numbers::Sink;
-use super::{Listing, Source};
 use crate::Metadata;
 use layout::Layout;
 
+pub use format::{Decimal, Delimiter, TextFormat};
+
 /// Lines that decide the layout.
 const SAMPLE: u64 = 256 << 10;
-
-/// What is between the numbers of a line.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Delimiter {
-    /// `,`
-    Comma,
-    /// `;`
-    Semicolon,
-    /// A tab.
-    Tab,
-    /// Any number of spaces and tabs.
-    Blanks,
-}
-
-impl Delimiter {
-    /// Its byte; a space for [`Delimiter::Blanks`].
-    fn sign(self) -> u8 {
-        match self {
-            Self::Comma => b',',
-            Self::Semicolon => b';',
-            Self::Tab => b'\t',
-            Self::Blanks => b' ',
-        }
-    }
-}
-
-/// What is before a number's fraction.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Decimal {
-    /// `0.5`
-    Point,
-    /// `0,5`
-    Comma,
-}
-
-/// What a caller knows of a text file; what is `None` is found out from the file.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct TextFormat {
-    /// Between numbers.
-    pub delimiter: Option<Delimiter>,
-    /// Within numbers.
-    pub decimal: Option<Decimal>,
-}
 
 struct Text {
     contents: Contents,

@@ -1,11 +1,21 @@
 //! What the runs of one class draw, and by which design.
 
-use super::Parameter;
-use crate::design::distribution::Distribution;
-use crate::design::plan::{Class, Design, Plan};
-use crate::design::sequence::{Sequence, Sobol};
-use crate::design::stream::{bits, word};
+use super::distribution::Distribution;
+use super::plan::{Class, Design, Plan};
+use super::sequence::{Sequence, Sobol};
+use super::stream::{bits, word};
 use brinell::document::Problem;
+
+/// A key that is drawn.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Parameter {
+    /// Its path; elements of lists by number.
+    pub key: String,
+    /// Whether every value is a number.
+    pub numeric: bool,
+    /// Whether all classes draw it from `[vary]`, so that it says nothing of the class.
+    pub common: bool,
+}
 
 /// A key that a class draws.
 pub(super) struct Axis {
