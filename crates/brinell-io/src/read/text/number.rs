@@ -5,6 +5,7 @@ use memchr::memchr;
 use super::format::Decimal;
 
 /// A number, or NaN for an empty field; `None` for anything else.
+#[inline]
 pub(super) fn number(text: &[u8], decimal: Option<Decimal>) -> Option<f64> {
     if decimal != Some(Decimal::Comma)
         && let Ok(value) = fast_float2::parse::<f64, _>(text)

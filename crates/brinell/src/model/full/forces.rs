@@ -6,6 +6,7 @@ use super::sums::Sums;
 use super::view::{Plane, along_t, column, columns_mut, pair, polar};
 use crate::defect::Side;
 use crate::lanes::Lanes;
+use crate::model::workspace::Contacts;
 use crate::model::{Model, Power, Workspace};
 
 /// What acts on a group of rollers.
@@ -38,21 +39,19 @@ impl<'a, L: Lanes> Columns<'a, L> {
     fn new(model: &Model, q: &'a [f64], v: &'a [f64], ws: &'a Workspace) -> Self {
         let count = model.layout.slots / L::COUNT;
         let all = |from: &'a [f64]| column::<L>(from, 0, count);
+        let side = |of: &'a Contacts| [all(&of.force), all(&of.friction), all(&of.film)];
         Self {
             axes: [all(&ws.sin), all(&ws.cos)],
             r: all(q),
             dr: all(v),
             dtheta: column::<L>(v, 1, count),
-            contacts: [0, 1].map(|side| {
-                let at = &ws.contacts[side];
-                [all(&at.force), all(&at.friction), all(&at.film)]
-            }),
+            contacts: [side(&ws.contacts[0]), side(&ws.contacts[1])],
             pocket: [all(&ws.pocket_force), all(&ws.pocket_friction)],
             has_film: model.film.is_some(),
         }
     }
 
-    /// Not by `map` of an array, which is no function of AVX's.
+    /// A function, and arrays without `map`, which is not compiled for the lanes' instructions: calls would cost a tenth.
     #[inline(always)]
     fn contact(&self, side: usize, k: usize) -> (L, L) {
         let [force, friction, film] = self.contacts[side];
@@ -169,7 +168,8 @@ pub(super) fn forces<L: Lanes, const TILT: bool>(
         drags = drag.times_plus(dtheta, drags);
         let (mut xi_t, mut xo_t) = (along_t(axes, &xi), along_t(axes, &xo));
         if let Some(turning) = &mut turning {
-            let moments = ws.contacts.each_ref().map(|c| L::new(L::groups(&c.moment)[group]));
+            let moment = |side: usize| L::new(L::groups(&ws.contacts[side].moment)[group]);
+            let moments = [moment(0), moment(1)];
             turning.take(group, axes, on.contacts, moments);
             out_beta[group] = ((moments[0] - moments[1]) * turning.per_inertia).array();
             let z = L::new(turning.levers[group]);
