@@ -1,6 +1,6 @@
 //! `brinell defect preview`: damage as it is seen before it is simulated.
 
-use super::chosen;
+use super::entry::chosen;
 use crate::args::PreviewArgs;
 use crate::failure::Failure;
 use crate::figures::drawn;
