@@ -34,6 +34,7 @@ pub(crate) fn compare(args: &CompareArgs) -> Result<ExitCode, Failure> {
     let layout = args.print.layout(&args.plots)?;
     let mut inputs = Inputs::default();
     let sides = sides::read(args, &mut inputs)?;
+    table::check_columns(&sides)?;
     for side in &sides {
         let simulation = Simulation::new(&side.loaded.scenario).map_err(Failure::Run)?;
         if !args.quiet {
