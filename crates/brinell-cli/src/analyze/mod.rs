@@ -28,7 +28,7 @@ use brinell_io::atomic_write;
 use brinell_report::Picture;
 use files::{Files, files};
 use json::{as_json, whole_indicators};
-use measured::{ASK_SPEED, Beyond, Measured, Reading, Rest, Wanted};
+use measured::{ASK_SPEED, Beyond, Like, Measured, Reading, Rest, Wanted};
 use serde_json::Value;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
@@ -360,6 +360,7 @@ fn velocities(measured: &Measured, shaft: f64) -> Option<VelocityBands> {
 }
 
 fn lay_over(path: &Path, args: &AnalyzeArgs, measured: &Measured, analysis: &mut Analysis) -> Result<Against, Failure> {
+    let alike = Like { channel: &measured.channel, rate: measured.rate, unit: &measured.unit };
     let wanted = Wanted {
         channel: args.against_channel.as_deref(),
         rate: args.against_rate,
@@ -367,7 +368,7 @@ fn lay_over(path: &Path, args: &AnalyzeArgs, measured: &Measured, analysis: &mut
         sensitivity: args.against_sensitivity.as_deref(),
         full_scale: args.against_full_scale.as_deref(),
         whose: "against-",
-        like: Some(measured).filter(|m| args.signal.sensitivity.is_none() && is_alike(&m.path, path)),
+        like: Some(alike).filter(|_| args.signal.sensitivity.is_none() && is_alike(&measured.path, path)),
         ..Wanted::default()
     };
     let mut other = measured::load(path, &wanted)?;
