@@ -1,17 +1,19 @@
 //! `brinell defect`: damage before it is simulated.
 
+mod entry;
 mod preview;
 
 use crate::args::{ConvertArgs, DefectCommand, FitArgs, RandomArgs, ScenarioArgs, SimpleShape, SimplifyArgs, Written};
 use crate::failure::Failure;
 use crate::files::Source;
-use crate::say::{self, complain, document, one_line, say, short, twelve_digits};
+use crate::say::{self, say, short, twelve_digits};
 use brinell::defect::Shape;
 use brinell::defect::fit::{Fit, FitSettings, Segment};
 use brinell::defect::simplify::{Extent, Simple, simplify};
 use brinell::document::Loaded;
 use brinell::scenario::{self, Scenario, Surface};
 use brinell_damage::plan::{self, Contour};
+use entry::{chosen, print, print_entry};
 use preview::preview;
 use serde_json::{Value, json};
 use std::process::ExitCode;
@@ -30,17 +32,6 @@ pub(crate) fn defect(command: &DefectCommand) -> Result<ExitCode, Failure> {
     Ok(ExitCode::SUCCESS)
 }
 
-/// The defect numbered from 1.
-fn chosen(s: &Scenario, number: usize) -> Result<&scenario::Defect, Failure> {
-    let defect = number.checked_sub(1).and_then(|k| s.defects.get(k));
-    defect.ok_or_else(|| {
-        Failure::Usage(match s.defects.len() {
-            0 => format!("{}: the scenario has no [[defects]]", one_line(&s.name)),
-            n => format!("--defect {number}: {} has defects 1 to {n}", one_line(&s.name)),
-        })
-    })
-}
-
 /// Its shape in SI, as the simulation takes it.
 fn shape(defect: &scenario::Defect) -> Result<Shape, Failure> {
     Shape::new(&defect.shape, 1e-6 * defect.depth_um).ok_or_else(|| Failure::Usage("the shape makes no sense".into()))
@@ -52,57 +43,6 @@ fn to_print_of(args: &ScenarioArgs) -> Result<Loaded, Failure> {
     let loaded = source.load(&[], false)?;
     source.inputs().spare_standard_output()?;
     Ok(loaded)
-}
-
-/// One `[[defects]]` entry as TOML; what the scenario's checks say of it goes to standard error.
-fn print(s: &Scenario, mut defect: scenario::Defect, remarks: &[String]) {
-    round(&mut defect);
-    let alone = Scenario { defects: vec![defect], ..s.clone() };
-    for problem in alone.problems() {
-        if problem.to_string().contains("defects") {
-            complain!("{problem}");
-        }
-    }
-    print_entry(&alone, remarks);
-}
-
-/// Twelve digits of what was computed: the others are the round-off of sums and of changes of unit.
-fn round(defect: &mut scenario::Defect) {
-    let twelve = |x: &mut f64| *x = twelve_digits(*x);
-    twelve(&mut defect.depth_um);
-    twelve(&mut defect.center_deg);
-    match &mut defect.shape {
-        scenario::Shape::Rectangle { length_mm, width_mm } => {
-            twelve(length_mm);
-            twelve(width_mm);
-        }
-        scenario::Shape::Circle { diameter_mm } => twelve(diameter_mm),
-        scenario::Shape::Profile { arc_mm, width_mm, depth_um } => {
-            arc_mm.iter_mut().for_each(twelve);
-            width_mm.iter_mut().for_each(twelve);
-            depth_um.iter_mut().flatten().for_each(twelve);
-        }
-        scenario::Shape::Outline { polygons_mm } => {
-            polygons_mm.iter_mut().flatten().flatten().for_each(twelve);
-        }
-        _ => {}
-    }
-}
-
-fn print_entry(alone: &Scenario, remarks: &[String]) {
-    for remark in remarks {
-        say!("# {remark}");
-    }
-    let text = alone.to_toml();
-    let entry = text
-        .lines()
-        .skip_while(|line| *line != "[[defects]]")
-        .enumerate()
-        .take_while(|(k, line)| *k == 0 || !line.starts_with('['))
-        .map(|(_, line)| line)
-        .collect::<Vec<_>>()
-        .join("\n");
-    document(entry.trim_end());
 }
 
 fn checked_points(points: usize, least: usize) -> Result<usize, Failure> {

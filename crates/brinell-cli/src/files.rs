@@ -148,6 +148,18 @@ fn bytes(path: &Path) -> Result<Vec<u8>, Failure> {
     read.map_err(|error| Failure::Read(path.to_owned(), error))
 }
 
+/// A name is free text; a folder's is not.
+pub(crate) fn safe_name(name: &str) -> String {
+    let safe = |c: char| {
+        if c.is_alphanumeric() || "-_.".contains(c) { c } else { '_' }
+    };
+    let name: String = name.chars().map(safe).collect();
+    match name.trim_matches('.') {
+        "" => "run".into(),
+        name => name.into(),
+    }
+}
+
 /// Makes a folder, and those above it.
 pub(crate) fn make_folder(folder: &Path) -> Result<(), Failure> {
     std::fs::create_dir_all(folder).map_err(|source| match source.kind() {

@@ -3,7 +3,8 @@
 //! Each bearing is judged by itself. A sensor hears all of them, so where two are called damaged the lines of one may
 //! be sidebands or harmonics of the other's; the higher score leads.
 
-use super::{Diagnosis, as_json};
+use super::diagnosis::Diagnosis;
+use super::json::as_json;
 use brinell::analysis::Family;
 use brinell_report::Table;
 use serde_json::{Value, json};

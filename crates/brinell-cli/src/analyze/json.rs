@@ -1,10 +1,14 @@
 //! An analysis as JSON: what the library says of it, and what file, channel and speed it is of.
 
+use super::diagnosis::Diagnosis;
 use super::measured::Rest;
-use super::{Diagnosis, HEADLINES};
 use brinell::analysis::to_json;
 use brinell::signal::{Indicator, RECORD_PEAK};
 use serde_json::{Value, json};
+
+/// Indicators that are printed.
+pub(super) const HEADLINES: [Indicator; 4] =
+    [Indicator::Rms, Indicator::Peak, Indicator::CrestFactor, Indicator::Kurtosis];
 
 pub(super) fn as_json(result: &Diagnosis) -> Value {
     let m = &result.measured;

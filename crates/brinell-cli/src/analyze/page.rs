@@ -1,6 +1,7 @@
 //! The page of an analysis: what it calls the signals, and what it is made of.
 
-use super::{Diagnosis, Measured};
+use super::diagnosis::Diagnosis;
+use super::measured::Measured;
 use brinell::analysis::Analysis;
 use brinell_report::{AnalysisReport, Analyzed, Findings};
 

@@ -1,7 +1,11 @@
 //! Several files with the same options: a row for each, one after the other, so that no more than one signal is held.
 
 use super::args::AnalyzeArgs;
-use super::{Diagnosis, as_json, earlier, ends, load, put_pages, results};
+use super::diagnosis::Diagnosis;
+use super::ends;
+use super::examine::{load, results};
+use super::json::as_json;
+use super::written::{earlier, put_json, put_pages};
 use crate::failure::Failure;
 use crate::results::Earlier;
 use crate::say::{self, complain, one_line, say, short};
@@ -286,7 +290,7 @@ fn write(args: &AnalyzeArgs, rows: &[Row], paths: &[String], earlier: &Earlier) 
             earlier,
         )?;
     }
-    super::put_json(args, &json, &mut written)?;
+    put_json(args, &json, &mut written)?;
     Ok(written)
 }
 

@@ -1,6 +1,7 @@
 //! What is printed of an analysis.
 
-use super::{Against, Diagnosis, HEADLINES, whole_indicators};
+use super::diagnosis::{Against, Diagnosis};
+use super::json::{HEADLINES, whole_indicators};
 use crate::say::{self, say, short};
 use brinell::analysis::{Analysis, COLUMNS};
 use brinell::signal::Indicator;

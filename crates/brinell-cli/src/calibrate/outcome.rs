@@ -1,6 +1,6 @@
 //! What a calibration found, as numbers and files.
 
-use super::Plan;
+use super::plan::Plan;
 use super::runs::{Runs, own_uncertainty, settings};
 use crate::failure::Failure;
 use crate::results::put;

@@ -7,12 +7,10 @@ mod sides;
 mod table;
 
 use crate::failure::Failure;
-use crate::files::make_folder;
-use crate::files::{self, stem};
+use crate::files::{self, make_folder, safe_name, stem};
 use crate::inputs::Inputs;
 use crate::progress::Joint;
 use crate::results::{COMPARISON, Earlier, Place, Results};
-use crate::run::safe_name;
 use crate::say::{self, complain, document, say, short};
 use crate::stop::stop_flag;
 pub(crate) use args::CompareArgs;
@@ -36,6 +34,7 @@ pub(crate) fn compare(args: &CompareArgs) -> Result<ExitCode, Failure> {
     let layout = args.print.layout(&args.plots)?;
     let mut inputs = Inputs::default();
     let sides = sides::read(args, &mut inputs)?;
+    table::check_columns(&sides)?;
     for side in &sides {
         let simulation = Simulation::new(&side.loaded.scenario).map_err(Failure::Run)?;
         if !args.quiet {

@@ -1,6 +1,6 @@
 //! What is compared: scenario files, and variants of the baseline: the first one.
 
-use super::{CompareArgs, table};
+use super::CompareArgs;
 use crate::failure::Failure;
 use crate::files::{Source, setting, stem};
 use crate::inputs::Inputs;
@@ -45,26 +45,7 @@ pub(super) fn read(args: &CompareArgs, inputs: &mut Inputs) -> Result<Vec<Side>,
             return Err(Failure::Usage(format!("two runs would be called {}: rename a file or a variant", side.label)));
         }
     }
-    let columns: Vec<String> = columns(&sides).collect();
-    if let Some(twice) = (1..columns.len()).find(|k| columns[..*k].contains(&columns[*k])) {
-        return Err(Failure::Usage(format!(
-            "two columns of compare.csv would be called {}: rename a file or a variant",
-            columns[twice]
-        )));
-    }
     Ok(sides)
-}
-
-/// Names of the table's columns.
-fn columns(sides: &[Side]) -> impl Iterator<Item = String> {
-    let of = |(k, side): (usize, &Side)| {
-        let endings = table::VALUE.iter().chain(if k > 0 { &table::RATIO[..] } else { &[] });
-        let label = side.label.clone();
-        let names: Vec<String> = endings.map(|ending| format!("{label}{ending}")).collect();
-        names
-    };
-    let own = table::OWN.iter().map(|name| (*name).to_owned());
-    own.chain(sides.iter().enumerate().flat_map(of))
 }
 
 /// The name of a scenario file without its ending; of a file that is called like a number, with it.

@@ -2,6 +2,7 @@
 //! run.
 
 use super::sides::Side;
+use crate::failure::Failure;
 use brinell::result::Quantity;
 use brinell::signal::ratio::Ratio;
 use brinell::summary::with_interval;
@@ -10,10 +11,34 @@ use brinell_study::campaign::Compared;
 use serde_json::{Map, Value, json};
 
 /// The table's own columns.
-pub(super) static OWN: [&str; 2] = ["quantity", "unit"];
+static OWN: [&str; 2] = ["quantity", "unit"];
 /// Endings of the columns of each run, and of each but the baseline.
-pub(super) static VALUE: [&str; 3] = ["", ".low", ".high"];
-pub(super) static RATIO: [&str; 3] = [".ratio", ".ratio.low", ".ratio.high"];
+static VALUE: [&str; 3] = ["", ".low", ".high"];
+static RATIO: [&str; 3] = [".ratio", ".ratio.low", ".ratio.high"];
+
+/// That no two columns are called alike.
+pub(super) fn check_columns(sides: &[Side]) -> Result<(), Failure> {
+    let columns: Vec<String> = columns(sides).collect();
+    if let Some(twice) = (1..columns.len()).find(|k| columns[..*k].contains(&columns[*k])) {
+        return Err(Failure::Usage(format!(
+            "two columns of compare.csv would be called {}: rename a file or a variant",
+            columns[twice]
+        )));
+    }
+    Ok(())
+}
+
+/// Names of the table's columns.
+fn columns(sides: &[Side]) -> impl Iterator<Item = String> {
+    let of = |(k, side): (usize, &Side)| {
+        let endings = VALUE.iter().chain(if k > 0 { &RATIO[..] } else { &[] });
+        let label = side.label.clone();
+        let names: Vec<String> = endings.map(|ending| format!("{label}{ending}")).collect();
+        names
+    };
+    let own = OWN.iter().map(|name| (*name).to_owned());
+    own.chain(sides.iter().enumerate().flat_map(of))
+}
 
 pub(super) fn table(sides: &[Side], compared: &[Compared]) -> Table {
     let mut table = Table::default();

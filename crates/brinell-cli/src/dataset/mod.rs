@@ -6,10 +6,10 @@ mod sheet;
 
 use crate::campaign::Terminal;
 use crate::failure::Failure;
+use crate::files::safe_name;
 use crate::inputs::Inputs;
 use crate::progress::Joint;
 use crate::results::{Place, Results};
-use crate::run::safe_name;
 use crate::say::{self, complain, say};
 use crate::stop::stop_flag;
 use crate::sweep::plural;

@@ -1,13 +1,11 @@
 //! `brinell defect preview`: damage as it is seen before it is simulated.
 
-use super::chosen;
+use super::entry::chosen;
 use crate::args::PreviewArgs;
 use crate::failure::Failure;
 use crate::figures::drawn;
-use crate::files::Source;
-use crate::files::make_folder;
+use crate::files::{Source, make_folder, safe_name};
 use crate::results::{PREVIEW, Place, Results};
-use crate::run::safe_name;
 use crate::say::{self, document, say, short};
 use brinell::scenario::Scenario;
 use brinell_io::{Complete, atomic_prepare};

@@ -1,10 +1,9 @@
 //! `brinell run` of several scenarios: all checked first, then side by side, one to a thread.
 
-use super::{Task, earlier, execute, ready, safe_name};
+use super::task::{Task, earlier, execute, ready};
 use crate::args::RunArgs;
 use crate::failure::{BAD_INPUT, Failure, INTERRUPTED};
-use crate::files;
-use crate::files::make_folder;
+use crate::files::{self, make_folder, safe_name};
 use crate::inputs::Inputs;
 use crate::progress::Joint;
 use crate::say::{complain, say};

@@ -1,6 +1,7 @@
 //! The waveform of a measured signal: whole, and a stretch of it close up.
 
-use super::{AnalysisReport, draw};
+use super::AnalysisReport;
+use super::curves::draw;
 use crate::chart::{Domain, Spec};
 use crate::data::Series;
 use crate::embedded::KEPT;

@@ -8,35 +8,8 @@ use crate::fact::Fact;
 use crate::frame::{close, figure, lead, none, open, scenario, section};
 use crate::markup::escape;
 use crate::tables::{Table, fact_table, facts, failures, table};
+pub use plot::{FittedKey, Tried};
 use plot::{course_plot, embed_course, embed_key, key_plot};
-
-/// A run as the pictures show it.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Tried {
-    /// Value of each key.
-    pub values: Vec<f64>,
-    /// Sum of squares of the residuals; not finite where the run failed.
-    pub chi_square: f64,
-    /// Whether it lies on the line through the best run along this key alone, for each key.
-    pub alone: Vec<bool>,
-}
-
-/// A key that was fitted.
-#[derive(Clone, Debug, PartialEq)]
-pub struct FittedKey {
-    /// Dotted path.
-    pub name: String,
-    /// Its unit; empty where it has none.
-    pub unit: String,
-    /// Bounds.
-    pub bounds: (f64, f64),
-    /// Searched in its logarithm.
-    pub log: bool,
-    /// The best value.
-    pub best: f64,
-    /// Ends of the 95 % interval within the bounds, where the data determine the key.
-    pub interval: Option<(f64, f64)>,
-}
 
 /// Everything that the page shows.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -109,15 +82,15 @@ pub fn calibration_html(report: &CalibrationReport) -> String {
         );
         for (index, key) in report.keys.iter().enumerate() {
             let _ = writeln!(page, "<h3><code>{}</code></h3>", escape(&key.name));
-            let draw = |layout| key_plot(report, index, layout);
+            let draw = |layout| key_plot((index, key), &report.tried, layout);
             figure(page, &format!("key{index}"), draw, "");
-            embed_key(page, report, index);
+            embed_key(page, (index, key), &report.tried);
         }
     });
     section(&mut page, "course", "Course of the search", |page| {
         let caption = "Dots: each run in the order requested. Line: the best so far.";
-        figure(page, "course", |layout| course_plot(report, layout), caption);
-        embed_course(page, report);
+        figure(page, "course", |layout| course_plot(&report.tried, layout), caption);
+        embed_course(page, &report.tried);
     });
     table(&mut page, &report.directions);
     if report.keys.len() > 1 {

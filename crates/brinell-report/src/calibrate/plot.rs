@@ -1,18 +1,45 @@
 //! Misfit against a key, and over the runs.
 
-use super::CalibrationReport;
 use crate::chart::{Chart, Domain, Spec};
 use crate::data::Along;
 use crate::embedded::{self, Curve};
 use crate::layout::Layout;
 use crate::picture::{Paint, Picture, Shape, ink};
 
+/// A run as the pictures show it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Tried {
+    /// Value of each key.
+    pub values: Vec<f64>,
+    /// Sum of squares of the residuals; not finite where the run failed.
+    pub chi_square: f64,
+    /// Whether it lies on the line through the best run along this key alone, for each key.
+    pub alone: Vec<bool>,
+}
+
+/// A key that was fitted.
+#[derive(Clone, Debug, PartialEq)]
+pub struct FittedKey {
+    /// Dotted path.
+    pub name: String,
+    /// Its unit; empty where it has none.
+    pub unit: String,
+    /// Bounds.
+    pub bounds: (f64, f64),
+    /// Searched in its logarithm.
+    pub log: bool,
+    /// The best value.
+    pub best: f64,
+    /// Ends of the 95 % interval within the bounds, where the data determine the key.
+    pub interval: Option<(f64, f64)>,
+}
+
 /// Misfits this far above the best are drawn at the upper edge.
 const DECADES: f64 = 6.0;
 
 /// The misfit's axis: from below the best up, in decades; a floor, as a perfect fit has no logarithm.
-fn misfits(report: &CalibrationReport) -> (Domain, f64) {
-    let finite = report.tried.iter().map(|t| t.chi_square).filter(|c| c.is_finite());
+fn misfits(tried: &[Tried]) -> (Domain, f64) {
+    let finite = tried.iter().map(|t| t.chi_square).filter(|c| c.is_finite());
     let lowest = finite.clone().fold(f64::INFINITY, f64::min);
     let highest = finite.fold(0.0, f64::max);
     if !lowest.is_finite() {
@@ -37,9 +64,8 @@ fn dot(chart: &mut Chart, x: f64, y: f64, filled: bool) {
     chart.picture.shapes.push(Shape::Circle { x: chart.x.at(x), y: chart.y.at(y), r: 3.2, paint });
 }
 
-/// Sum of squares against one key.
-pub(crate) fn key_plot(report: &CalibrationReport, key: usize, layout: Layout) -> Picture {
-    let about = &report.keys[key];
+/// Sum of squares against the key with this index.
+pub(super) fn key_plot((key, about): (usize, &FittedKey), tried: &[Tried], layout: Layout) -> Picture {
     let (low, high) = about.bounds;
     let x = if about.log {
         let room = (high / low).powf(0.02);
@@ -48,8 +74,8 @@ pub(crate) fn key_plot(report: &CalibrationReport, key: usize, layout: Layout) -
         let room = 0.02 * (high - low);
         Domain::exact(low - room, high + room)
     };
-    let (y, floor) = misfits(report);
-    let name = key_name(report, key);
+    let (y, floor) = misfits(tried);
+    let name = key_name(about);
     let title = format!("Chi-square over {}", about.name);
     let mut chart = Chart::new(spec(name, title, layout, x, y, (&about.name, &about.unit)));
     if let Some((from, to)) = about.interval {
@@ -59,7 +85,7 @@ pub(crate) fn key_plot(report: &CalibrationReport, key: usize, layout: Layout) -
     let upright = [(best, chart.frame.top), (best, chart.frame.bottom)];
     chart.picture.path(&upright, Paint::line(ink::VERMILLION, 1.2).dashed(&[4.0, 3.0]));
     let height = |c: f64| c.clamp(floor, y.hi);
-    let runs = report.tried.iter().filter(|t| t.chi_square.is_finite());
+    let runs = tried.iter().filter(|t| t.chi_square.is_finite());
     let mut alone: Vec<(f64, f64)> = Vec::new();
     for run in runs {
         let place = (run.values[key], height(run.chi_square));
@@ -77,26 +103,25 @@ pub(crate) fn key_plot(report: &CalibrationReport, key: usize, layout: Layout) -
     for (x, y) in alone {
         dot(&mut chart, x, y, true);
     }
-    chart.interactive(&key_name(report, key));
+    chart.interactive(&key_name(about));
     chart.finish()
 }
 
-fn key_name(report: &CalibrationReport, key: usize) -> String {
-    format!("misfit-{}", report.keys[key].name.replace('.', "-"))
+fn key_name(key: &FittedKey) -> String {
+    format!("misfit-{}", key.name.replace('.', "-"))
 }
 
 /// What the page's script needs to read the runs over a key.
-pub(crate) fn embed_key(page: &mut String, report: &CalibrationReport, key: usize) {
-    let about = &report.keys[key];
+pub(super) fn embed_key(page: &mut String, (key, about): (usize, &FittedKey), tried: &[Tried]) {
     let place = |x: f64| if about.log { x.log10() } else { x };
-    let runs = (report.tried.iter()).map(|run| (place(run.values[key]), run.chi_square));
+    let runs = tried.iter().map(|run| (place(run.values[key]), run.chi_square));
     let x = (about.name.as_str(), about.unit.as_str());
-    embed(page, &key_name(report, key), x, about.log, runs.collect());
+    embed(page, &key_name(about), x, about.log, runs.collect());
 }
 
 /// The same of the runs in their order.
-pub(crate) fn embed_course(page: &mut String, report: &CalibrationReport) {
-    let runs = report.tried.iter().enumerate();
+pub(super) fn embed_course(page: &mut String, tried: &[Tried]) {
+    let runs = tried.iter().enumerate();
     let runs = runs.map(|(k, run)| ((k + 1) as f64, run.chi_square));
     embed(page, "course", ("Run", ""), false, runs.collect());
 }
@@ -117,15 +142,15 @@ fn embed(page: &mut String, name: &str, x: (&str, &str), x_log: bool, mut runs: 
 }
 
 /// Sum of squares of each run in its order, and the best so far.
-pub(crate) fn course_plot(report: &CalibrationReport, layout: Layout) -> Picture {
-    let count = report.tried.len().max(1) as f64;
-    let (y, floor) = misfits(report);
+pub(super) fn course_plot(tried: &[Tried], layout: Layout) -> Picture {
+    let count = tried.len().max(1) as f64;
+    let (y, floor) = misfits(tried);
     let title = "Chi-square over the runs".to_owned();
     let x = Domain::exact(0.0, count + 1.0);
     let mut chart = Chart::new(spec("course".into(), title, layout, x, y, ("Run", "")));
     let mut line: Vec<(f64, f64)> = Vec::new();
     let mut least = f64::INFINITY;
-    for (k, run) in report.tried.iter().enumerate() {
+    for (k, run) in tried.iter().enumerate() {
         least = least.min(run.chi_square);
         let x = (k + 1) as f64;
         if least.is_finite() {

@@ -7,7 +7,6 @@ mod measures;
 mod passage;
 mod seen;
 
-use crate::DamageView;
 pub(crate) use along::along_healthy_roller;
 use brinell::derived::defect_passes;
 use brinell::lamina::AtRest;
@@ -15,16 +14,8 @@ use brinell::model::{Model, ModelError};
 use brinell::scenario::Scenario;
 use brinell::statics::static_load_zone;
 pub use measures::Measures;
+pub use seen::Damage;
 use seen::Seen;
-
-/// One defect with its pictures' data.
-#[derive(Debug, Clone)]
-pub struct Damage {
-    /// Its numbers.
-    pub measures: Measures,
-    /// What its pictures show.
-    pub view: DamageView,
-}
 
 /// Every defect of a scenario; `thickness_mm` is the ring's, 0.6 of the roller's diameter where nobody states it.
 ///

@@ -2,9 +2,8 @@
 
 use super::along::along_roller;
 use super::curves::{depths, section};
-use super::measures::{deepest, facts, widest};
+use super::measures::{Measures, deepest, facts, widest};
 use super::passage::Passage;
-use super::{Damage, Measures};
 use crate::DamageView;
 use crate::number::short;
 use brinell::defect::simplify::Extent;
@@ -21,6 +20,15 @@ use std::f64::consts::TAU;
 const THICKNESS_SHARE: f64 = 0.6;
 /// Approach where no static balance gives one, m.
 const FALLBACK_APPROACH: f64 = 10e-6;
+
+/// One defect with its pictures' data.
+#[derive(Debug, Clone)]
+pub struct Damage {
+    /// Its numbers.
+    pub measures: Measures,
+    /// What its pictures show.
+    pub view: DamageView,
+}
 
 pub(super) struct Seen<'a> {
     scenario: &'a Scenario,

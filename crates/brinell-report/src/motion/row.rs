@@ -1,9 +1,21 @@
 //! One row of the bearing in motion, drawn.
 
-use super::{COLORS, Motion, MotionRow, RING, finite};
+use super::frames::{Motion, MotionRow};
+use crate::number::finite;
 use crate::picture::{Paint, Shape, ink};
 use brinell::scenario::Surface;
 use std::f64::consts::{PI, TAU};
+
+/// A ring's thickness as drawn, share of the outer raceway's radius.
+pub(super) const RING: f64 = 0.1;
+
+/// What is drawn in which colour.
+pub(super) const COLORS: [(&str, Paint); 4] = [
+    ("force at the outer contact", Paint::line(ink::VERMILLION, 2.2)),
+    ("force at the inner contact", Paint::line(ink::BLUE, 2.2)),
+    ("cage", Paint::line(ink::GREEN, 5.0)),
+    ("damage", Paint::line(ink::ORANGE, 5.0)),
+];
 
 /// One row at one instant.
 pub(super) struct DrawnRow<'a> {

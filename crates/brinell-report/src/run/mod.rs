@@ -17,7 +17,7 @@ use brinell::summary::Parts;
 use contacts::{load_distribution, pass};
 use motion::{cage_orbits, motion, slip_rows, spectrogram};
 pub use signals::defect_markers;
-use signals::{envelope_spectrum, indicators, spectrum, waveform};
+use signals::{envelope_spectrum, indicators, sensor_label, spectrum, waveform};
 use tables::{assumptions, audits, facts, slip, solver_work};
 
 impl Report {
@@ -70,19 +70,6 @@ impl Report {
             scenario_toml: parts.loaded.to_toml(),
         }
     }
-}
-
-fn axis(parts: &Parts) -> &'static str {
-    ["x", "y"][parts.findings.axis]
-}
-
-/// What waveform and spectra show.
-fn sensor_label(parts: &Parts) -> String {
-    let what = match parts.simulation.sensor() {
-        Some(_) => "Acceleration at the sensor",
-        None => "Outer ring acceleration",
-    };
-    format!("{what}, {} (sensor)", axis(parts))
 }
 
 fn speed(scenario: &Scenario) -> String {

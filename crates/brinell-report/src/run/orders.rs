@@ -1,8 +1,7 @@
 //! Of the report's data, the envelope over orders: where the speed varies, what a defect frequency is to a steady
 //! shaft.
 
-use super::axis;
-use super::signals::{HARMONICS, markers_at};
+use super::signals::{HARMONICS, axis, markers_at};
 use crate::{Marker, Spectrum};
 use brinell::observe::Findings;
 use brinell::scenario::Speed;

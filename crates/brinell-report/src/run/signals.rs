@@ -1,6 +1,5 @@
 //! Of the report's data, the sensor signal: waveform, spectra, defect frequencies, indicators.
 
-use super::{axis, sensor_label};
 use crate::number::short;
 use crate::{Estimate, Event, IndicatorRow, IndicatorTable, Marker, MinMax, Series, Spectrum, Waveform};
 use brinell::bearing::Kinematics;
@@ -21,6 +20,19 @@ const COLUMNS: [(Indicator, &str); 5] = [
     (Indicator::Kurtosis, "Kurtosis"),
     (Indicator::Skewness, "Skewness"),
 ];
+
+pub(super) fn axis(parts: &Parts) -> &'static str {
+    ["x", "y"][parts.findings.axis]
+}
+
+/// What waveform and spectra show.
+pub(super) fn sensor_label(parts: &Parts) -> String {
+    let what = match parts.simulation.sensor() {
+        Some(_) => "Acceleration at the sensor",
+        None => "Outer ring acceleration",
+    };
+    format!("{what}, {} (sensor)", axis(parts))
+}
 
 pub(super) fn waveform(parts: &Parts) -> Waveform {
     let f = parts.findings;

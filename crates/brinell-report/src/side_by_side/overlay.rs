@@ -1,13 +1,82 @@
 //! Curves of several runs in one plot, under a legend.
 
-use super::{OverlaidCurve, Overlay, Vertical};
 use crate::chart::{Chart, Domain, Lane, Spec, range};
-use crate::data::Along;
+use crate::data::{Along, Marker};
 use crate::embedded::{self, Curve};
 use crate::font;
 use crate::layout::{Layout, legend};
 use crate::picture::{Anchor, Paint, Picture, Text, ink};
 use crate::plots::marker_lanes;
+
+/// One run's curve.
+#[derive(Clone, Debug, PartialEq)]
+pub struct OverlaidCurve {
+    /// Which of the page's names it belongs to, from 0.
+    pub of: usize,
+    /// Where its values are.
+    pub along: Along,
+    /// The values; NaN is a gap.
+    pub values: Vec<f64>,
+}
+
+/// How the y axis is laid out.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Vertical {
+    /// Around the values.
+    #[default]
+    Around,
+    /// From zero up.
+    FromZero,
+    /// Decades of what is largest.
+    Decades,
+}
+
+/// Curves of several runs in one plot.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Overlay {
+    /// Name of the picture's file.
+    pub name: String,
+    /// Over the plot; may be empty.
+    pub title: String,
+    /// Quantity on the x axis.
+    pub x_label: String,
+    /// Its unit; may be empty.
+    pub x_unit: String,
+    /// Ends of the x axis; all that the curves have where there are none.
+    pub x_range: Option<(f64, f64)>,
+    /// Quantity on the y axis.
+    pub y_label: String,
+    /// Its unit; may be empty.
+    pub y_unit: String,
+    /// The y axis.
+    pub vertical: Vertical,
+    /// The curves, the first lowest.
+    pub curves: Vec<OverlaidCurve>,
+    /// Frequencies marked above the plot.
+    pub markers: Vec<Marker>,
+    /// Under it; may be empty.
+    pub note: String,
+}
+
+impl Overlay {
+    /// Of these curves; labels with their units.
+    pub fn new(
+        name: impl Into<String>,
+        (x_label, x_unit): (&str, &str),
+        (y_label, y_unit): (&str, &str),
+        curves: Vec<OverlaidCurve>,
+    ) -> Self {
+        Self {
+            name: name.into(),
+            x_label: x_label.into(),
+            x_unit: x_unit.into(),
+            y_label: y_label.into(),
+            y_unit: y_unit.into(),
+            curves,
+            ..Self::default()
+        }
+    }
+}
 
 /// Told apart by everybody; a dash more where two might be taken for one another in grey.
 const PAINTS: [(&str, &[f64]); 6] = [

@@ -14,63 +14,8 @@ use crate::picture::Picture;
 use crate::tables::{Table, facts, failures, table};
 pub use heat::HeatMap;
 use heat::heat_map;
+pub use plot::{IndicatorLine, IndicatorPlot, IndicatorPoint};
 pub(crate) use plot::{embed, indicator_plot};
-
-/// One point of a line.
-#[derive(Clone, Debug, PartialEq)]
-pub struct IndicatorPoint {
-    /// The varied key's value, or the place among [`IndicatorPlot::x_names`].
-    pub x: f64,
-    /// The dot. NaN where the point failed: the line has a gap there.
-    pub value: f64,
-    /// Ends of the 95 % interval.
-    pub interval: Option<(f64, f64)>,
-}
-
-/// Points that differ in the key on the x axis alone.
-#[derive(Clone, Debug, PartialEq)]
-pub struct IndicatorLine {
-    /// What the others have: "full, 10".
-    pub label: String,
-    /// In the order of x.
-    pub points: Vec<IndicatorPoint>,
-}
-
-/// An indicator against a key.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct IndicatorPlot {
-    /// Name of the picture's file.
-    pub name: String,
-    /// The quantity, for the y axis: "RMS of sensor_ax".
-    pub label: String,
-    /// Its unit; empty where it has none.
-    pub unit: String,
-    /// The key.
-    pub x_label: String,
-    /// Its unit; empty where it has none.
-    pub x_unit: String,
-    /// Names on the x axis where the key's values are no numbers; x then counts them from 0.
-    pub x_names: Vec<String>,
-    /// Whether there is an order in these names, so that points are joined.
-    pub ordered: bool,
-    /// What the lines' labels are values of; may be empty.
-    pub legend: String,
-    /// The lines.
-    pub lines: Vec<IndicatorLine>,
-    /// Values that the lines are compared with, each with a few words; dashed. Of those above all values only the
-    /// lowest is shown.
-    pub limits: Vec<(f64, String)>,
-}
-
-impl IndicatorPlot {
-    /// The limits that are shown.
-    fn shown_limits(&self) -> impl Iterator<Item = &(f64, String)> {
-        let values = self.lines.iter().flat_map(|line| &line.points).map(|p| p.value);
-        let highest = values.fold(f64::NEG_INFINITY, f64::max);
-        let above = self.limits.iter().map(|l| l.0).filter(|l| *l > highest).fold(f64::INFINITY, f64::min);
-        self.limits.iter().filter(move |l| l.0 <= above)
-    }
-}
 
 /// Everything that the page of a sweep shows.
 #[derive(Clone, Debug, Default, PartialEq)]

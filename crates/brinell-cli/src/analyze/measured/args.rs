@@ -1,6 +1,6 @@
 //! Which signal of a file is meant, and what the file does not say of it.
 
-use super::Wanted;
+use super::wanted::Wanted;
 use crate::args::quantity;
 use clap::Args;
 

@@ -1,6 +1,6 @@
 //! The channel meant.
 
-use super::{Wanted, usage};
+use super::wanted::Wanted;
 use crate::failure::Failure;
 use brinell::channel::SENSOR;
 use brinell::document::Loaded;
@@ -22,13 +22,13 @@ pub(super) fn resolve(file: &SignalFile, text: &str, option: &str) -> Result<(St
             && is_matrix(matrix)
         {
             let name = &matrix.name;
-            return Err(usage(format!(
+            return Err(Failure::Usage(format!(
                 "{option} {text}: {} has one channel, the matrix `{name}`; name its column {text} as {option} '{name}(:,{text})'",
                 file.path().display()
             )));
         }
         return (number.checked_sub(1).and_then(|i| channels.get(i)).map(whole)).ok_or_else(|| {
-            usage(format!(
+            Failure::Usage(format!(
                 "{option} {text}: {} has {} channel(s); they count from 1: {}",
                 file.path().display(),
                 channels.len(),
@@ -52,12 +52,12 @@ pub(super) fn resolve(file: &SignalFile, text: &str, option: &str) -> Result<(St
         .collect();
     match partly[..] {
         [only] => Ok(whole(only)),
-        [] => Err(usage(format!(
+        [] => Err(Failure::Usage(format!(
             "{option} {text}: {} has no such channel; there are {}",
             file.path().display(),
             listed(channels.iter())
         ))),
-        _ => Err(usage(format!(
+        _ => Err(Failure::Usage(format!(
             "{option} {text}: several channels are called like that: {}",
             listed(partly.into_iter())
         ))),
@@ -142,7 +142,7 @@ pub(super) fn channel(
             name = only.name
         )),
         [only] => Ok(one((only.name.clone(), only.clone()))),
-        [] => Err(usage(format!("{}: nothing here is a signal: {}", file.path().display(), refused(file)))),
+        [] => Err(Failure::Usage(format!("{}: nothing here is a signal: {}", file.path().display(), refused(file)))),
         _ => among(format!(
             "several channels may be the signal; choose one with {option}: {}",
             listed(signals.iter().copied())

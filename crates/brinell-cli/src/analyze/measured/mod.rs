@@ -6,47 +6,23 @@ mod rate;
 mod speed;
 mod stretch;
 mod unit;
+mod wanted;
 
 use crate::failure::Failure;
 pub(crate) use args::SignalArgs;
 use brinell::analysis::Unit;
 use brinell::document::{Loaded, read};
-use brinell_io::{Channel, FileKind, Format, IoError, SignalFile, open};
+use brinell_io::{Channel, FileKind, Format, SignalFile, open};
 use channel::{Chosen, channel};
 use rate::rate;
 pub(crate) use speed::StatedSpeed;
 use speed::{speed, states_speed};
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
-pub(crate) use stretch::{Beyond, Reading, Rest};
-use stretch::{scale, stretch};
+pub(crate) use stretch::{Beyond, MOST, Reading, Rest};
+use stretch::{bad, scale, stretch};
 use unit::{Scaled, unit};
-
-/// Most samples analysed by default: 82 s at 51.2 kHz. Bounds memory, whatever the file.
-pub(crate) const MOST: usize = 1 << 22;
-
-/// What was requested of a file.
-#[derive(Default)]
-pub(crate) struct Wanted<'a> {
-    pub(crate) channel: Option<&'a str>,
-    pub(crate) rate: Option<f64>,
-    pub(crate) time_channel: Option<&'a str>,
-    pub(crate) time_unit: Option<&'a str>,
-    pub(crate) unit: Option<&'a str>,
-    pub(crate) sensitivity: Option<&'a str>,
-    pub(crate) full_scale: Option<&'a str>,
-    pub(crate) speed_channel: Option<&'a str>,
-    pub(crate) start: Option<f64>,
-    pub(crate) duration: Option<f64>,
-    /// What the options of this file begin with: `against-` in `--against-rate`, or nothing.
-    pub(crate) whose: &'static str,
-    /// What a file of the same format is taken to be like where neither it nor an option says.
-    pub(crate) like: Option<&'a Measured>,
-    /// Whether a shaft speed is requested where the file states none.
-    pub(crate) ask_speed: bool,
-    /// Likewise the bearing.
-    pub(crate) ask_bearing: bool,
-}
+pub(crate) use wanted::{Like, Wanted};
 
 /// A stretch of one channel, with everything that is known of it.
 pub(crate) struct Measured {
@@ -97,14 +73,10 @@ pub(super) const ASK_SPEED: &str =
 /// The request for a missing bearing.
 pub(super) const ASK_BEARING: &str = "which bearing? Give --bearing NAME, or --rollers, --pitch and --diameter, or frequencies (--bpfo, --bpfi, --bsf, --ftf)";
 
-fn usage(message: String) -> Failure {
-    Failure::Usage(message)
-}
-
 /// All that has to be given, at once.
 fn not_stated(path: &Path, missing: &[String]) -> Failure {
     let path = path.display();
-    usage(match missing {
+    Failure::Usage(match missing {
         [only] => format!("{path}: {only}"),
         _ => format!("{path}: {} things have to be given:\n  {}", missing.len(), missing.join("\n  ")),
     })
@@ -129,7 +101,7 @@ pub(crate) fn load(path: &Path, wanted: &Wanted) -> Result<Measured, Failure> {
     scale(&mut x, factor);
     let long = more && wanted.duration.is_none();
     if x.is_empty() {
-        return Err(usage(format!(
+        return Err(Failure::Usage(format!(
             "{}: `{name}` holds no samples {}",
             path.display(),
             if skip > 0 { format!("beyond {start} s") } else { "at all".into() }
@@ -207,9 +179,10 @@ fn known(
 /// Where the stretch begins, s: where it was wanted, or where a run's statistics begin.
 fn start(wanted: &Wanted, run: Option<&Loaded>, notes: &mut Vec<String>) -> Result<f64, Failure> {
     let positive = |option: &str, value: Option<f64>, least: f64| match value {
-        Some(v) if !(v.is_finite() && v >= least) => {
-            Err(usage(format!("{option} {v}: expected {} s", if least == 0.0 { "0 or more" } else { "more than 0" })))
-        }
+        Some(v) if !(v.is_finite() && v >= least) => Err(Failure::Usage(format!(
+            "{option} {v}: expected {} s",
+            if least == 0.0 { "0 or more" } else { "more than 0" }
+        ))),
         _ => Ok(()),
     };
     positive("--start", wanted.start, 0.0)?;
@@ -224,18 +197,13 @@ fn start(wanted: &Wanted, run: Option<&Loaded>, notes: &mut Vec<String>) -> Resu
     })
 }
 
-/// Whatever is wrong with a file that is read is bad input.
-fn bad(error: IoError) -> Failure {
-    usage(error.to_string())
-}
-
 /// The file itself, or the signals in the folder of a run.
 fn signals_in(path: &Path) -> Result<PathBuf, Failure> {
     if !path.is_dir() {
         return Ok(path.to_owned());
     }
     run_in(path).ok_or_else(|| {
-        usage(format!(
+        Failure::Usage(format!(
             "{} is a folder without the signals of a run ({}); name a file, or the folder of a run",
             path.display(),
             names_of_runs()

@@ -1,7 +1,8 @@
 //! The sample rate, and columns of times.
 
 use super::channel::resolve;
-use super::{Wanted, stretch, usage};
+use super::stretch::stretch;
+use super::wanted::Wanted;
 use crate::failure::Failure;
 use crate::say::short;
 use brinell_io::{Channel, NoRate, RateSource, SignalFile, rate_of_times, seconds_in};
@@ -49,7 +50,7 @@ pub(super) fn rate(
     let option = format!("--{}rate", wanted.whose);
     if let Some(given) = wanted.rate {
         if !(given > 0.0 && given.is_finite()) {
-            return Err(usage(format!("{option} {given}: expected more than 0 Hz")));
+            return Err(Failure::Usage(format!("{option} {given}: expected more than 0 Hz")));
         }
         warnings.extend(contradiction(&format!("{option} {given}"), given, stated, file));
         return Ok(Ok((given, format!("sample rate {given} Hz, as given"))));
@@ -71,7 +72,7 @@ pub(super) fn rate(
     };
     let unit = match (wanted.time_unit, time.seconds_in_unit()) {
         (Some(text), _) => {
-            seconds_in(text).ok_or_else(|| usage(format!("--time-unit {text}: expected s, ms or us")))?
+            seconds_in(text).ok_or_else(|| Failure::Usage(format!("--time-unit {text}: expected s, ms or us")))?
         }
         (None, Some(unit)) => unit,
         // By brinell's own contract.
@@ -86,7 +87,7 @@ pub(super) fn rate(
     };
     let (times, _) = stretch(file, &time.name, 0, 1 << 16)?;
     let hz = even(&times, unit).map_err(|why| {
-        usage(format!(
+        Failure::Usage(format!(
             "{}: no sample rate follows from `{}`: {why}; give {option} HZ if you know it",
             file.path().display(),
             time.name

@@ -1,7 +1,8 @@
 //! The shaft's speed, as far as the file states it.
 
 use super::channel::resolve;
-use super::{MOST, Wanted, stretch, usage};
+use super::stretch::{MOST, stretch};
+use super::wanted::Wanted;
 use crate::failure::Failure;
 use brinell::document::{Loaded, reading};
 use brinell::operation::Rotation;
@@ -45,10 +46,12 @@ pub(super) fn speed(
         let most = ((seconds * own).round() as usize).clamp(1, MOST);
         let (mut values, _) = stretch(file, &name, skip, most)?;
         if values.is_empty() {
-            return Err(usage(format!("--speed-channel {name}: holds no values {start} s from its beginning")));
+            return Err(Failure::Usage(format!(
+                "--speed-channel {name}: holds no values {start} s from its beginning"
+            )));
         }
         if let Some(bad) = values.iter().find(|v| !v.is_finite()) {
-            return Err(usage(format!("--speed-channel {name}: holds the value {bad}; expected speeds")));
+            return Err(Failure::Usage(format!("--speed-channel {name}: holds the value {bad}; expected speeds")));
         }
         let (unit, rpm) = unit_of(&name, &channel)?;
         values.iter_mut().for_each(|v| *v *= rpm);
@@ -61,7 +64,7 @@ pub(super) fn speed(
             return Ok(Some(StatedSpeed::steady(mean, source)));
         }
         if covers < 0.98 * seconds {
-            return Err(usage(format!(
+            return Err(Failure::Usage(format!(
                 "--speed-channel {name}: its {} values last {covers:.3} s at {own} Hz and the signal {seconds:.3} s; a speed that varies has to be \
                  known all along",
                 values.len()
@@ -98,7 +101,7 @@ fn unit_of(name: &str, channel: &Channel) -> Result<(String, f64), Failure> {
     };
     match reading::quantity(&format!("1 {unit}"), "r/min") {
         Ok(rpm) => Ok((format!("in {unit}"), rpm)),
-        Err(_) => Err(usage(format!(
+        Err(_) => Err(Failure::Usage(format!(
             "--speed-channel {name}: its unit is {unit}; expected r/min, rpm, 1/min, Hz, 1/s or rad/s, or no unit, which is r/min"
         ))),
     }
@@ -128,7 +131,7 @@ fn variable(file: &SignalFile, signal: &str) -> Option<String> {
 fn followed(rpm: f64, course: Vec<(f64, f64)>, source: &str, of: &str) -> Result<StatedSpeed, Failure> {
     let (low, high) = (course.iter()).fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), p| (l.min(p.1), h.max(p.1)));
     if low <= 0.0 && high >= 0.0 {
-        return Err(usage(format!(
+        return Err(Failure::Usage(format!(
             "{of}: the speed goes from {low:.1} to {high:.1} r/min; expected a shaft that keeps turning one way: choose a stretch with \
              --start and --duration"
         )));

@@ -1,12 +1,19 @@
 //! Samples out of a file: a stretch, or all of a long signal in bounded memory.
 
-use super::{MOST, bad};
 use crate::failure::Failure;
 use brinell::signal::Moments;
 use brinell_io::{IoError, SignalFile};
 use std::collections::VecDeque;
 use std::ops::ControlFlow;
 use std::thread::JoinHandle;
+
+/// Most samples analysed by default: 82 s at 51.2 kHz. Bounds memory, whatever the file.
+pub(crate) const MOST: usize = 1 << 22;
+
+/// Whatever is wrong with a file that is read is bad input.
+pub(super) fn bad(error: IoError) -> Failure {
+    Failure::Usage(error.to_string())
+}
 
 /// Up to `most` samples after the first `skip`, and whether there are more.
 pub(super) fn stretch(

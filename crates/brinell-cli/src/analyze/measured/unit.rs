@@ -1,6 +1,6 @@
 //! The signal's unit, and what the file's numbers are multiplied by to be in it.
 
-use super::{Wanted, usage};
+use super::wanted::Wanted;
 use crate::failure::Failure;
 use crate::say::short;
 use brinell::analysis::{FullScale, Quantity, Sensitivity, Unit};
@@ -33,7 +33,7 @@ pub(super) fn unit(
         return Ok(plain);
     };
     let option = format!("--{whose}sensitivity");
-    let sensitivity = Sensitivity::given(text).map_err(|error| usage(format!("{option} {error}")))?;
+    let sensitivity = Sensitivity::given(text).map_err(|error| Failure::Usage(format!("{option} {error}")))?;
     let Some(factor) = sensitivity.factor(&plain.unit) else {
         let cure = match (plain.unit.quantity, is_wav) {
             (Quantity::Other, true) => {
@@ -42,7 +42,7 @@ pub(super) fn unit(
             (Quantity::Other, false) => format!("; is it --{whose}unit V?"),
             _ => String::new(),
         };
-        return Err(usage(format!(
+        return Err(Failure::Usage(format!(
             "{option} {text}: expected a signal that is a {}, and `{name}` is in {}{cure}",
             sensitivity.output.quantity.words().to_lowercase(),
             plain.unit.name
@@ -71,8 +71,9 @@ fn of_full_scale(
     notes: &mut Vec<String>,
 ) -> Result<Scaled, Failure> {
     let option = format!("--{whose}full-scale");
-    let FullScale { value, unit } = FullScale::given(text).map_err(|error| usage(format!("{option} {error}")))?;
-    let refuse = |why: String| Err(usage(format!("{option} {text}: {why}")));
+    let FullScale { value, unit } =
+        FullScale::given(text).map_err(|error| Failure::Usage(format!("{option} {error}")))?;
+    let refuse = |why: String| Err(Failure::Usage(format!("{option} {text}: {why}")));
     if !is_wav {
         return refuse(format!("only a WAV's numbers are parts of a full scale; of another file give --{whose}unit"));
     }
@@ -104,9 +105,9 @@ fn of_file(
     let stated = channel.unit.as_deref().map(Unit::of);
     let largest = largest(channel.stored_as);
     if let Some(text) = wanted.unit {
-        let given = Unit::given(text).map_err(|error| usage(format!("--{whose}unit {text}: {error}")))?;
+        let given = Unit::given(text).map_err(|error| Failure::Usage(format!("--{whose}unit {text}: {error}")))?;
         if is_wav && stated.is_none() && largest > 1.0 && given.name != "counts" {
-            return Err(usage(format!(
+            return Err(Failure::Usage(format!(
                 "--{whose}unit {text}: the numbers of this WAV are counts of an ADC ({}, full scale {largest}); what that is in {} \
                  the file does not say: give --{whose}full-scale, such as --{whose}full-scale {}, or --{whose}unit counts",
                 channel.stored_as,

@@ -1,0 +1,226 @@
+//! From a file to what is found in it.
+
+use super::args::AnalyzeArgs;
+use super::diagnosis::{Against, Diagnosis};
+use super::measured::{self, ASK_SPEED, Beyond, Like, MOST, Measured, Reading, Rest, Wanted};
+use super::{bearing, ends};
+use crate::failure::Failure;
+use brinell::analysis::{Analysis, Levels, Options, Quantity, Side, analyze as analysis_of, compare, velocity};
+use brinell::result::{Stretch, beside_healthy};
+use brinell::signal::{Band, Rotation, VelocityBands};
+use std::path::Path;
+
+/// A result for each bearing that was named, or one. The file is read anew for each but the first.
+pub(super) fn results(args: &AnalyzeArgs, path: &Path, measured: Measured) -> Result<Vec<Diagnosis>, Failure> {
+    let mut names = args.bearing.iter().map(String::as_str);
+    let mut results = vec![examine(args, measured, names.next())?];
+    for name in names {
+        results.push(examine(args, load(args, path)?, Some(name))?);
+    }
+    ends::set_beside(&mut results);
+    Ok(results)
+}
+
+/// The signal in a file.
+pub(super) fn load(args: &AnalyzeArgs, path: &Path) -> Result<Measured, Failure> {
+    let mut measured = measured::load(
+        path,
+        &Wanted {
+            speed_channel: args.speed_channel.as_deref(),
+            ask_speed: args.speed.is_none(),
+            ask_bearing: !args.names_a_bearing(),
+            ..args.signal.wanted()
+        },
+    )?;
+    let of_the_run = measured.of_the_run();
+    measured.notes.extend(of_the_run);
+    Ok(measured)
+}
+
+/// Everything that follows from a signal.
+fn examine(args: &AnalyzeArgs, mut measured: Measured, name: Option<&str>) -> Result<Diagnosis, Failure> {
+    let (rpm, speed) = speed(args, &measured)?;
+    let shaft = rpm.abs() / 60.0;
+    let (orders, bearing) = bearing::orders(args, name, &measured, shaft)?;
+    let mut options = Options::new(shaft, orders);
+    options.tolerance = 0.01 * args.tolerance;
+    options.silent = measured.silent();
+    options.exact = measured.scenario.is_some() && args.speed.is_none() && !args.names_a_bearing();
+    options.supply = args.supply;
+    options.band = args.band.as_ref().map(|b| Band::between(b[0], b[1]));
+    if args.speed.is_none() {
+        options.rotation = rotation(&measured)?;
+    }
+    // The rest of a long signal is read beside the analysis of its beginning.
+    let reading = measured.beyond.take().map(Beyond::start);
+    let mut analysis = look(&measured, &options)?;
+    (measured.warnings).extend(analysis.flaws.iter().map(ToString::to_string));
+    let velocity = velocities(&measured, shaft);
+    let levels = Levels::of(&measured.x, &measured.unit, &analysis, args.machine_class);
+    let mut rest = reading.map(Reading::finish).transpose()?;
+    let last = match rest.as_mut() {
+        Some(rest) => Some(look_at_last(&measured.path, &measured.channel, rest, measured.rate, &options)?),
+        None => None,
+    };
+    // Of a run, what passing rollers show is no damage of the outer race.
+    if let Some(run) = measured.scenario.as_deref().filter(|_| options.exact && !args.healthy) {
+        let stretch = Stretch { channel: &measured.channel, from_s: measured.start, to_si: measured.unit.to_si };
+        beside_healthy(&mut analysis, &run.scenario, stretch);
+        if analysis.passing_known {
+            measured.notes.push("the outer race is judged beside the same run without its damage".into());
+        }
+    }
+    let against = match &args.against {
+        Some(path) => Some(lay_over(path, args, &measured, &mut analysis)?),
+        None => None,
+    };
+    if let Some(other) = &against {
+        let of_other = other.measured.warnings.iter();
+        measured.warnings.extend(of_other.map(|w| format!("--against {}: {w}", other.measured.path.display())));
+    }
+    Ok(Diagnosis {
+        measured,
+        rest,
+        analysis,
+        // A mean has more digits than anybody reads.
+        speed: format!("shaft speed {} r/min, from {speed}", (100.0 * rpm).round() / 100.0),
+        name: name.unwrap_or_default().to_owned(),
+        bearing,
+        beside: None,
+        lines_of: None,
+        last,
+        velocity,
+        levels,
+        against,
+    })
+}
+
+fn speed(args: &AnalyzeArgs, measured: &Measured) -> Result<(f64, String), Failure> {
+    let (rpm, source) = match (args.speed, &measured.speed) {
+        (Some(rpm), _) => (rpm, "--speed".to_owned()),
+        (None, Some(stated)) => (stated.rpm, stated.source.clone()),
+        (None, None) => return Err(Failure::Usage(ASK_SPEED.into())),
+    };
+    turning(rpm, &source)?;
+    Ok((rpm, source))
+}
+
+pub(super) fn turning(rpm: f64, source: &str) -> Result<(), Failure> {
+    if rpm.is_finite() && rpm != 0.0 {
+        return Ok(());
+    }
+    Err(Failure::Usage(format!(
+        "shaft speed {rpm} r/min, from {source}: expected a speed other than 0; give --speed RPM"
+    )))
+}
+
+fn look(measured: &Measured, options: &Options) -> Result<Analysis, Failure> {
+    analysis_of(&measured.x, measured.rate, options)
+        .map_err(|error| Failure::Usage(format!("{}, `{}`: {error}", measured.path.display(), measured.channel)))
+}
+
+/// The shaft's angle over time, where its speed varies.
+fn rotation(measured: &Measured) -> Result<Option<Rotation>, Failure> {
+    let course = match &measured.speed {
+        Some(stated) if !stated.course.is_empty() => &stated.course,
+        _ => return Ok(None),
+    };
+    let points: Vec<(f64, f64)> = course.iter().map(|(t, rpm)| (*t, rpm.abs() / 60.0)).collect();
+    Rotation::from_speeds(&points)
+        .map(Some)
+        .map_err(|error| Failure::Usage(format!("the course of the speed: {error}")))
+}
+
+/// The last stretch of a long signal, which is given up for it.
+fn look_at_last(
+    path: &Path,
+    channel: &str,
+    rest: &mut Rest,
+    rate: f64,
+    options: &Options,
+) -> Result<Analysis, Failure> {
+    let mut options = options.clone();
+    if options.rotation.take().is_some() {
+        return Err(Failure::Usage(format!(
+            "{}: a speed that varies is followed over {} samples at most; choose a stretch with --start and --duration",
+            path.display(),
+            MOST
+        )));
+    }
+    let last = std::mem::take(&mut rest.last);
+    analysis_of(&last, rate, &options).map_err(|error| {
+        Failure::Usage(format!("{}, `{channel}`, from {:.3} s on: {error}", path.display(), rest.last_start))
+    })
+}
+
+/// Bands of ISO 15242, where the signal is an acceleration.
+fn velocities(measured: &Measured, shaft: f64) -> Option<VelocityBands> {
+    if measured.unit.quantity != Quantity::Acceleration {
+        return None;
+    }
+    let x = measured.unit.in_si(&measured.x);
+    velocity(&x, measured.rate, shaft).ok()
+}
+
+fn lay_over(path: &Path, args: &AnalyzeArgs, measured: &Measured, analysis: &mut Analysis) -> Result<Against, Failure> {
+    let alike = Like { channel: &measured.channel, rate: measured.rate, unit: &measured.unit };
+    let wanted = Wanted {
+        channel: args.against_channel.as_deref(),
+        rate: args.against_rate,
+        unit: args.against_unit.as_deref(),
+        sensitivity: args.against_sensitivity.as_deref(),
+        full_scale: args.against_full_scale.as_deref(),
+        whose: "against-",
+        like: Some(alike).filter(|_| args.signal.sensitivity.is_none() && is_alike(&measured.path, path)),
+        ..Wanted::default()
+    };
+    let mut other = measured::load(path, &wanted)?;
+    if other.unit.quantity != measured.unit.quantity {
+        return Err(Failure::Usage(format!(
+            "--against {}: `{}` is in {}, and the signal in {}; only signals of one quantity are laid over each other",
+            path.display(),
+            other.channel,
+            other.unit.name,
+            measured.unit.name
+        )));
+    }
+    let of_the_run = other.of_the_run();
+    other.notes.extend(of_the_run);
+    let factor = other.unit.to_si / measured.unit.to_si;
+    other.x.iter_mut().for_each(|v| *v *= factor);
+    other.unit = measured.unit.clone();
+    let mut options = analysis.options.clone();
+    if let Some(stated) = &other.speed {
+        options.shaft = stated.rpm.abs() / 60.0;
+    }
+    options.rotation = rotation(&other)?;
+    options.silent = other.silent();
+    options.exact = other.scenario.is_some();
+    if let Some(run) = &other.scenario {
+        let geometry = brinell::bearing::kinematics::Geometry::of(&run.scenario.bearing);
+        options.orders = brinell::bearing::orders_of(&geometry);
+    }
+    let found = look(&other, &options)?;
+    let refused = |error| Failure::Usage(format!("--against {}: {error}", path.display()));
+    let other_side = Side { x: &other.x, analysis: &found };
+    if args.healthy {
+        (analysis.beside_healthy(&measured.x, other_side)).map_err(refused)?;
+    }
+    let comparison = compare(Side { x: &measured.x, analysis }, other_side).map_err(refused)?;
+    let (low, high) = comparison.band;
+    let shown = analysis.view.band;
+    if (low, high) != (shown.low, shown.high) {
+        other.notes.push(format!(
+            "envelopes are compared from {low:.0} to {high:.0} Hz, which both sample rates hold; the first signal's band is \
+             {:.0} to {:.0} Hz",
+            shown.low, shown.high
+        ));
+    }
+    Ok(Against { measured: other, analysis: found, comparison })
+}
+
+/// Whether two files are of one format whose numbers mean the same in both: a WAV's may be parts of other full scales.
+fn is_alike(one: &Path, other: &Path) -> bool {
+    let format = |path: &Path| path.extension().map(|e| e.to_ascii_lowercase()).filter(|e| e != "wav");
+    format(one).is_some() && format(one) == format(other)
+}

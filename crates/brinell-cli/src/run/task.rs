@@ -1,0 +1,186 @@
+//! One run: its scenario read and tried, earlier results that it may replace, and the run with its files.
+
+use super::words::tell;
+use super::{healthy, line_loads, spectra};
+use crate::args::RunArgs;
+use crate::failure::{Failure, print_problems};
+use crate::files::{self, Source, make_folder};
+use crate::inputs::Inputs;
+use crate::progress::{Progress, Shown};
+use crate::results::{Earlier, Place, REPORT, Results, SCENARIO, SUMMARY, is_of, is_written};
+use crate::say::complain;
+use brinell::document::Loaded;
+use brinell::plausibility::Beforehand;
+use brinell::result::{RunResult, finish};
+use brinell::simulate::{End, Observer, Simulation};
+use brinell::summary::{self, Parts};
+use brinell_damage::Photo;
+use brinell_io::{Format, SignalWriter, atomic_prepare};
+use brinell_report::Report;
+use brinell_studio::signal_table;
+use brinell_study::runner::Recorder;
+use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicBool, Ordering};
+
+/// A scenario that was read and tried, with what is known of it before it runs.
+pub(super) struct Ready {
+    pub(super) loaded: Loaded,
+    beforehand: Beforehand,
+    /// The photos that its defects' outlines were read from.
+    photos: Vec<Option<Photo>>,
+}
+
+/// What one run will be. The model is made anew by the thread that runs it, so that memory goes with the runs in
+/// progress.
+pub(super) struct Task {
+    pub(super) ready: Ready,
+    pub(super) folder: PathBuf,
+    pub(super) earlier: Earlier,
+}
+
+impl Task {
+    pub(super) fn duration_s(&self) -> f64 {
+        self.ready.loaded.scenario.simulation.duration_s
+    }
+}
+
+/// Reads and tries a scenario, and says what is worth knowing before it runs, of several by the file's name. What it
+/// was read from goes to `inputs`.
+pub(super) fn ready(args: &RunArgs, path: &Path, inputs: &mut Inputs) -> Result<Ready, Failure> {
+    let source = Source::open(path, &args.set)?;
+    let loaded = source.load(&[], args.quiet)?;
+    inputs.add_all(&source.inputs());
+    let simulation = Simulation::new(&loaded.scenario).map_err(Failure::Run)?;
+    let beforehand = Beforehand::of(&loaded.scenario, simulation.model());
+    let name = |is_said: bool| {
+        if args.scenarios.len() > 1 && is_said {
+            complain!("{}:", path.display());
+        }
+    };
+    if !args.quiet {
+        name(!beforehand.warnings.is_empty());
+        print_problems("", "", &beforehand.warnings);
+        name(!simulation.idle_patterns().is_empty());
+        files::warn_idle(simulation.idle_patterns());
+    }
+    let photos = match args.no_report && args.plots.is_empty() {
+        true => Vec::new(),
+        false => source.photos(),
+    };
+    Ok(Ready { photos, loaded, beforehand })
+}
+
+/// A run that is over, its files written.
+pub(super) struct Done {
+    pub(super) end: End,
+    /// By Ctrl-C.
+    pub(super) interrupted: bool,
+    /// A few lines on what came out; what matters most first.
+    pub(super) printed: Vec<String>,
+    /// The text of summary.json.
+    pub(super) summary: String,
+}
+
+/// Earlier results in `folder` that a run of the scenario may replace.
+pub(super) fn earlier(args: &RunArgs, loaded: &Loaded, folder: &Path, inputs: &Inputs) -> Result<Earlier, Failure> {
+    let mut writes: Vec<&str> = formats(args).into_iter().map(Format::file_name).collect();
+    writes.push(SUMMARY);
+    if writes.contains(&Format::Parquet.file_name()) {
+        writes.push(spectra::FILE);
+    }
+    if !args.line_loads.is_empty() {
+        writes.push(line_loads::FILE);
+    }
+    if !args.no_report {
+        writes.push(REPORT);
+    }
+    let writes: Vec<String> = writes.into_iter().map(str::to_owned).collect();
+    let place = Place { kind: Results::Run, folder, inputs };
+    let earlier = place.earlier(args.overwrite, &writes, |_| is_of(folder, &loaded.scenario))?;
+    if !args.overwrite && !is_written(folder, &loaded.to_toml()) {
+        return Err(Failure::Usage(format!(
+            "{} holds a {SCENARIO} that brinell did not write in this form; choose another folder with -o, or replace it with --overwrite",
+            folder.display()
+        )));
+    }
+    Ok(earlier)
+}
+
+/// Runs, and writes everything that was requested into the folder, in place of the earlier results.
+pub(super) fn execute(args: &RunArgs, task: &Task, progress: Progress, stop: &AtomicBool) -> Result<Done, Failure> {
+    let Task { ready: Ready { loaded, beforehand, photos }, folder, earlier } = task;
+    let simulation = Simulation::new(&loaded.scenario).map_err(Failure::Run)?;
+    let layout = args.print.layout(&args.plots)?;
+    let mut loads = line_loads::requested(args, &simulation, task.duration_s())?;
+    make_folder(folder)?;
+    // These lock their files: another run into the same folder ends here, before anything is removed.
+    let writers = writers(args, loaded, &simulation, folder)?;
+    // What a reader needs to make sense of a partial run comes first.
+    let mut ready = vec![atomic_prepare(folder.join(SCENARIO), loaded.to_toml())?];
+
+    let mut shown = Shown::new(progress, stop);
+    let beside = loads.as_mut().map(|loads| loads as &mut dyn Observer);
+    let mut recorder = Recorder::new(&simulation, writers, &mut shown).beside(beside);
+    let (finished, healthy) =
+        healthy::beside(args, &loaded.scenario, stop, || finish(loaded.scenario.clone(), simulation, &mut recorder));
+    let files = recorder.close(&finished.outcome.end, true);
+    let elapsed = shown.elapsed();
+    drop(shown);
+    ready.extend(files?);
+    if let Some(loads) = &loads {
+        ready.push(line_loads::ready(loads, folder)?);
+    }
+    if formats(args).contains(&Format::Parquet) {
+        ready.extend(spectra::ready(&finished.findings, folder)?);
+    }
+    let RunResult { simulation, outcome, findings, .. } = finished;
+    let interrupted = stop.load(Ordering::Relaxed) && outcome.end == End::Stopped;
+    let parts = Parts {
+        loaded,
+        simulation: &simulation,
+        outcome: &outcome,
+        findings: &findings,
+        beforehand,
+        healthy: healthy.as_ref(),
+    };
+    let report = (!args.no_report || !args.plots.is_empty()).then(|| report(&parts, photos));
+    let pictures = match &report {
+        Some(report) if !args.plots.is_empty() => brinell_report::pictures(report, layout),
+        _ => Vec::new(),
+    };
+    let page = report.filter(|_| !args.no_report).map(|report| brinell_report::html(&report));
+    let page = page.as_deref().map(|page| (REPORT, page));
+    let json = (SUMMARY, summary::to_json(&parts));
+    let (written, summary) = earlier.publish(ready, json, page, (&pictures, &args.plots))?;
+    Ok(Done { printed: tell(&parts, elapsed, &written), end: outcome.end, interrupted, summary })
+}
+
+fn report(parts: &Parts, photos: &[Option<Photo>]) -> Report {
+    let mut report = Report::of_run(parts);
+    for (view, photo) in report.damage.iter_mut().zip(photos) {
+        view.photo = photo.clone();
+    }
+    report
+}
+
+fn writers(
+    args: &RunArgs,
+    loaded: &Loaded,
+    simulation: &Simulation,
+    folder: &Path,
+) -> Result<Vec<Box<dyn SignalWriter>>, Failure> {
+    let (columns, metadata) = signal_table(loaded.to_toml(), simulation);
+    let make = |format: Format| format.create(folder, &columns, &metadata).map_err(Failure::from);
+    formats(args).into_iter().map(make).collect()
+}
+
+/// Formats of signals that are requested, each once.
+fn formats(args: &RunArgs) -> Vec<Format> {
+    let mut formats: Vec<Format> = Vec::new();
+    for format in args.signals.iter().flatten() {
+        if !formats.contains(format) {
+            formats.push(*format);
+        }
+    }
+    formats
+}

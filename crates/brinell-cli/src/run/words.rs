@@ -1,0 +1,95 @@
+//! What is printed of a run.
+
+use crate::say::{one_line, short};
+use brinell::observe::{DefectLine, Findings, Kind};
+use brinell::plausibility;
+use brinell::result::fields;
+use brinell::signal::Indicator;
+use brinell::simulate::End;
+use brinell::summary::{self, Parts};
+use std::path::PathBuf;
+
+/// A few lines on what came out.
+pub(super) fn tell(parts: &Parts, elapsed: f64, written: &[PathBuf]) -> Vec<String> {
+    let mut printed = Vec::new();
+    let Parts { outcome, findings, loaded, .. } = *parts;
+    let reached = outcome.reached;
+    match &outcome.end {
+        End::Complete => {}
+        End::Stopped => printed.push(format!("Interrupted: the results are partial, up to t = {reached:.4} s.")),
+        End::Failed(_) => printed.push(format!("Failed: the results are partial, up to t = {reached:.4} s.")),
+    }
+    printed.push(format!(
+        "{}: {} s simulated in {elapsed:.2} s ({:.2} x real time), {} steps, {} right-hand sides",
+        one_line(&loaded.scenario.name),
+        short(reached, 4),
+        reached / elapsed,
+        (fields::STEPS.of)(outcome),
+        (fields::RIGHT_HAND_SIDES.of)(outcome),
+    ));
+    printed.extend(sensor_lines(findings));
+    printed.extend(healthy_line(parts));
+    let heed = summary::clipped(parts).into_iter().chain(summary::unsettled(findings));
+    printed.extend(heed.map(|words| format!("  {words}")));
+    printed.extend(findings.lines.iter().map(defect_line));
+    let part = (fields::RELATIVE_RESIDUAL.of)(outcome);
+    printed.push(format!(
+        "  energy audit closes to {} of the turnover, momentum to {}",
+        part.map_or("-".into(), |x| short(x.abs(), 1)),
+        (fields::MOMENTUM_IMBALANCE.of)(outcome).map_or("(rigid mount)".into(), |x| short(x, 1)),
+    ));
+    let after = plausibility::after(&loaded.scenario, &outcome.energy);
+    printed.extend(after.into_iter().map(|words| format!("warning: {words}")));
+    for path in written {
+        printed.push(format!("  wrote {}", path.display()));
+    }
+    printed
+}
+
+/// What the sensor read, a line for each of its channels.
+fn sensor_lines(findings: &Findings) -> Vec<String> {
+    let mut printed = Vec::new();
+    for channel in &findings.channels {
+        if channel.kind != Kind::AntiAliased || !channel.name.starts_with("sensor_") {
+            continue;
+        }
+        let Some(rms) = channel.blocks.estimate(Indicator::Rms) else {
+            continue;
+        };
+        let interval =
+            rms.interval.map_or(String::new(), |i| format!(" (95 %: {} to {})", short(i.low, 3), short(i.high, 3)));
+        let other = |i: Indicator| channel.blocks.estimate(i).map_or("-".into(), |e| short(e.value, 3));
+        printed.push(format!(
+            "  {}: RMS {}{interval} {}, peak to peak {} a revolution, kurtosis {}",
+            channel.name,
+            short(rms.value, 3),
+            channel.unit,
+            other(Indicator::PeakToPeak),
+            other(Indicator::Kurtosis),
+        ));
+    }
+    printed
+}
+
+/// The level beside the healthy bearing's.
+fn healthy_line(parts: &Parts) -> Option<String> {
+    let healthy = parts.healthy?;
+    let (rms, ratio) = (healthy.rms()?, parts.findings.over_healthy(healthy)?);
+    let interval =
+        ratio.interval.map_or(String::new(), |(low, high)| format!(" (95 %: {} to {})", short(low, 3), short(high, 3)));
+    Some(format!(
+        "  {} without the damage: RMS {} m/s^2; with it {} x that{interval}",
+        healthy.sensor_name(),
+        short(rms.value, 3),
+        short(ratio.value, 3),
+    ))
+}
+
+/// What the envelope has of a defect.
+fn defect_line(line: &DefectLine) -> String {
+    let found = line.found.map_or("not found in the envelope".into(), |f| {
+        let interval = line.interval.map_or(String::new(), |i| format!(" (95 %: {:.2} to {:.2})", i.low, i.high));
+        format!("{:.2} Hz{interval} in the envelope", f.frequency)
+    });
+    format!("  defect {}: {} {found}; pure rolling {:.2} Hz", line.defect + 1, line.name, line.nominal)
+}
