@@ -269,7 +269,7 @@ fn prop_damage_at_the_speed_given_is_said_beside_another_shafts_lines() {
         assert_eq!(a.conclusion(), Verdict::CannotTell);
         let at_given = a.at_given.as_ref().expect("damage at the speed given");
         assert_eq!(at_given.component, Component::OuterRace, "{}", a.verdict());
-        assert!(a.verdict().contains("A tachometer would tell."), "{}", a.verdict());
+        assert!(a.verdict().contains("A record of the speed would tell."), "{}", a.verdict());
     }
 }
 

@@ -27,10 +27,23 @@ pub(super) fn orders(
     if let Some(words) = DefectOrders::given_words(given) {
         source = if source.is_empty() { words } else { format!("{source}; {words}") };
     }
+    if given[2].is_some()
+        && let Some(bsf) = bsf_of_races(&orders)
+        && (orders.bsf.unwrap_or(bsf) / (2.0 * bsf) - 1.0).abs() < 0.03
+    {
+        source += &format!("; the races' make a BSF of {bsf:.3}x, and twice that is given: is it 2 BSF?");
+    }
     if orders.is_empty() {
         return Err(Failure::Usage(ASK_BEARING.into()));
     }
     Ok((orders, source))
+}
+
+/// The BSF of the bearing whose races are passed so often: with g = (BPFI - BPFO) / (BPFI + BPFO), (1 / g - g) / 2.
+fn bsf_of_races(orders: &DefectOrders) -> Option<f64> {
+    let (bpfo, bpfi) = (orders.bpfo?, orders.bpfi?);
+    let g = (bpfi - bpfo) / (bpfi + bpfo);
+    Some(0.5 * (1.0 / g - g))
 }
 
 fn base(args: &AnalyzeArgs, name: Option<&str>, measured: &Measured) -> Result<(DefectOrders, String), Failure> {

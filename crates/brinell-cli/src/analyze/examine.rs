@@ -5,7 +5,10 @@ use super::diagnosis::{Against, Diagnosis};
 use super::measured::{self, ASK_SPEED, Beyond, Like, MOST, Measured, Reading, Rest, Wanted};
 use super::{bearing, ends};
 use crate::failure::Failure;
-use brinell::analysis::{Analysis, Levels, Options, Quantity, Side, analyze as analysis_of, compare, velocity};
+use brinell::analysis::{
+    Analysis, AnalysisError, FEWEST_REVOLUTIONS, Levels, Options, Quantity, Side, analyze as analysis_of, compare,
+    velocity,
+};
 use brinell::result::{Stretch, beside_healthy};
 use brinell::signal::{Band, Rotation, VelocityBands};
 use std::path::Path;
@@ -40,6 +43,7 @@ pub(super) fn load(args: &AnalyzeArgs, path: &Path) -> Result<Measured, Failure>
 /// Everything that follows from a signal.
 fn examine(args: &AnalyzeArgs, mut measured: Measured, name: Option<&str>) -> Result<Diagnosis, Failure> {
     let (rpm, speed) = speed(args, &measured)?;
+    measured.warnings.extend(other_speed(args, &measured));
     let shaft = rpm.abs() / 60.0;
     let (orders, bearing) = bearing::orders(args, name, &measured, shaft)?;
     let mut options = Options::new(shaft, orders);
@@ -105,6 +109,13 @@ fn speed(args: &AnalyzeArgs, measured: &Measured) -> Result<(f64, String), Failu
     Ok((rpm, source))
 }
 
+/// A warning, where the file states another speed than was given.
+fn other_speed(args: &AnalyzeArgs, measured: &Measured) -> Option<String> {
+    let (given, stated) = (args.speed?, measured.speed.as_ref()?);
+    let differs = (given.abs() / stated.rpm.abs() - 1.0).abs() > 0.01 * args.tolerance;
+    differs.then(|| format!("--speed {given} r/min was taken, but {} says {:.1} r/min", stated.source, stated.rpm))
+}
+
 pub(super) fn turning(rpm: f64, source: &str) -> Result<(), Failure> {
     if rpm.is_finite() && rpm != 0.0 {
         return Ok(());
@@ -115,8 +126,17 @@ pub(super) fn turning(rpm: f64, source: &str) -> Result<(), Failure> {
 }
 
 fn look(measured: &Measured, options: &Options) -> Result<Analysis, Failure> {
-    analysis_of(&measured.x, measured.rate, options)
-        .map_err(|error| Failure::Usage(format!("{}, `{}`: {error}", measured.path.display(), measured.channel)))
+    analysis_of(&measured.x, measured.rate, options).map_err(|error| {
+        let hint = match &error {
+            // As many r/min would be enough as Hz.
+            AnalysisError::TooShort { revolutions, .. } if 60.0 * revolutions >= FEWEST_REVOLUTIONS => {
+                let rpm = 60.0 * options.shaft;
+                format!(", at {rpm:.2} r/min; a speed in Hz is written {rpm:.2}Hz")
+            }
+            _ => String::new(),
+        };
+        Failure::Usage(format!("{}, `{}`: {error}{hint}", measured.path.display(), measured.channel))
+    })
 }
 
 /// The shaft's angle over time, where its speed varies.

@@ -40,18 +40,21 @@ pub(super) fn files(named: &[PathBuf]) -> Result<Files, Failure> {
     Ok(Files::Several(all))
 }
 
-/// The files of signals right in a folder.
+/// The files of signals right in a folder: by their names or, where none has such a name, all that can be read as one.
 fn inside(folder: &Path) -> Result<Vec<PathBuf>, Failure> {
     let failed = |error| Failure::Read(folder.to_owned(), error);
-    let mut found = Vec::new();
+    let (mut found, mut others) = (Vec::new(), Vec::new());
     for entry in std::fs::read_dir(folder).map_err(failed)? {
         let path = entry.map_err(failed)?.path();
         let hidden = (path.file_name()).is_some_and(|n| n.to_string_lossy().starts_with('.'));
         let is_signal =
             (path.extension()).is_some_and(|e| FileKind::extensions().any(|known| e.eq_ignore_ascii_case(known)));
-        if is_signal && !hidden && path.is_file() {
-            found.push(path);
+        if !hidden && path.is_file() {
+            if is_signal { &mut found } else { &mut others }.push(path);
         }
+    }
+    if found.is_empty() {
+        found = others.into_iter().filter(|path| brinell_io::open(path).is_ok()).collect();
     }
     if found.is_empty() {
         return Err(Failure::Usage(format!(

@@ -35,6 +35,7 @@ pub(crate) fn analyze(args: &AnalyzeArgs) -> Result<ExitCode, Failure> {
     if let Some(hz) = args.supply.filter(|hz| !SUPPLY_HZ.contains(hz)) {
         return Err(Failure::Usage(format!("--supply {hz}: expected 1 to 1000 Hz")));
     }
+    args.print.layout(&args.plots)?;
     if args.bearing.len() > 1 {
         let beside = [&args.bpfo, &args.bpfi, &args.bsf, &args.ftf];
         if beside.iter().any(|option| option.is_some()) {

@@ -224,7 +224,7 @@ fn markers(a: &Analysis) -> Vec<Marker> {
     };
     let elsewhere = a.elsewhere.map(|e| Marker {
         label: "other".into(),
-        meaning: "strongest comb, at no frequency of this bearing".into(),
+        meaning: "deepest comb, at no frequency of this bearing".into(),
         frequency_hz: e.frequency,
         harmonics: HARMONICS,
         present: true,

@@ -9,7 +9,7 @@ pub(super) const BROAD: f64 = 3.0;
 /// Least width of a band over the highest defect frequency: its sidebands of first and second order fit in.
 pub(super) const NARROWEST: f64 = 3.0;
 /// Impacts ring below this frequency on every machine, Hz: no part of the range that ends lower is looked at by itself.
-const LOWEST_TOP: f64 = 5000.0;
+pub(super) const LOWEST_TOP: f64 = 5000.0;
 /// Harmonics of the highest defect frequency that the envelope of a given band has to hold.
 const HARMONICS_IN_BAND: f64 = 2.0;
 

@@ -114,6 +114,9 @@ impl Drift {
             "shaft" => "its own lines".to_owned(),
             name => format!("the lines of {name}"),
         };
+        if self.is_lost() && !self.followed {
+            return format!("it changes, by {by}, farther or faster than can be followed");
+        }
         let then = match self.followed {
             true if self.is_lost() => format!("by {by}: too far or too fast to be followed well"),
             true => format!("followed by {by}"),

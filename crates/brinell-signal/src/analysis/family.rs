@@ -168,18 +168,29 @@ impl Family {
 
     /// Whether it says damage by itself: high, and deeper than a sound machine's; or deep, and beyond noise.
     pub fn is_damage(&self) -> bool {
+        self.has_height_of_damage() && self.is_whole()
+    }
+
+    fn has_height_of_damage(&self) -> bool {
         let high = self.score >= self.limit && self.modulation >= self.faint;
         let deep = self.score >= self.noise && self.modulation >= DEEP;
-        (high || deep) && self.is_whole()
+        high || deep
+    }
+
+    /// Whether it would be damage, were its lines not higher beyond the end of what was searched.
+    pub(super) fn is_damage_beyond(&self) -> bool {
+        self.is_skirt && self.has_height_of_damage() && self.has_lines()
     }
 
     /// Whether enough of its lines are detected, and where they belong.
     pub(super) fn is_whole(&self) -> bool {
+        !self.is_skirt && !self.masked && self.has_lines()
+    }
+
+    fn has_lines(&self) -> bool {
         let detected = self.detected_harmonics();
         let hidden = self.hidden_harmonics();
-        !self.is_skirt
-            && !self.masked
-            && !self.lacks_sidebands()
+        !self.lacks_sidebands()
             && detected + hidden + self.detected_sidebands() / 2 >= FEWEST.0
             && detected >= FEWEST.1
             && self.harmonics[..FIRST].iter().any(|h| h.detected)

@@ -139,6 +139,9 @@ impl Record {
             slipped(&mut all, self.options.tolerance);
             if elsewhere.is_none() {
                 self.masked(&mut all);
+                // A wrong speed, or another part's: a sound bearing has no such lines of its own.
+                let beyond = |f: &&mut Family| f.finding == Finding::Silent && f.is_damage_beyond();
+                all.iter_mut().filter(beyond).for_each(|f| f.finding = Finding::Open);
             }
             all.sort_by(|a, b| b.score.total_cmp(&a.score));
             return (all, elsewhere);

@@ -1,5 +1,6 @@
 //! Families in words.
 
+use super::bands::LOWEST_TOP;
 use super::drift::Drift;
 use super::family::{Family, Finding};
 use super::together::REVOLUTIONS;
@@ -65,6 +66,7 @@ impl Analysis {
                 listed(&faint)
             ));
         }
+        text.extend(slow(self));
         text.extend(short(self));
         text.join(" ")
     }
@@ -136,6 +138,13 @@ fn short(analysis: &Analysis) -> Option<String> {
     })
 }
 
+/// What a slowly sampled record without damage leaves open.
+fn slow(analysis: &Analysis) -> Option<String> {
+    let top = 0.5 * analysis.sample_rate;
+    (analysis.causes().next().is_none() && !analysis.options.exact && top < LOWEST_TOP)
+        .then(|| format!("The record holds nothing above {top:.0} Hz: damage that rings higher is not seen in it."))
+}
+
 fn damage(analysis: &Analysis, text: &mut Vec<String>) {
     for (i, family) in analysis.causes().enumerate() {
         let beside = if i > 0 { "Also " } else { "" };
@@ -160,7 +169,7 @@ fn damage(analysis: &Analysis, text: &mut Vec<String>) {
 fn multiple(analysis: &Analysis, family: &Family) -> Option<String> {
     analysis.impacts_a_turn(family).map(|times| {
         format!(
-            "Impacts {times:.0} times a turn of the shaft (blades, jaws of a coupling) look the same if it turns at {:.1} r/min: a tachometer would tell.",
+            "Impacts {times:.0} times a turn of the shaft (blades, jaws of a coupling) look the same if it turns at {:.1} r/min: a record of the speed would tell.",
             60.0 * family.frequency / times
         )
     })
@@ -180,7 +189,7 @@ fn cannot_tell(analysis: &Analysis, text: &mut Vec<String>) {
         let (lines, given) = (60.0 * analysis.shaft, 60.0 * analysis.options.shaft);
         text.push(format!(
             "Cannot tell: at the {given:.0} r/min given this would be {} damage ({}), but lines of a shaft lie at {lines:.0} r/min, and at that speed it is none. \
-             Is the speed right, or does a second shaft turn so fast? A tachometer would tell.",
+             Is the speed right, or does a second shaft turn so fast? A record of the speed would tell.",
             family.component.words(),
             evidence_of(family),
         ));
@@ -194,14 +203,14 @@ fn cannot_tell(analysis: &Analysis, text: &mut Vec<String>) {
             true => "farther or faster than lines can be followed",
             false => "and no line of the shaft tells how",
         };
-        text.push(format!("Cannot tell: the speed changes, {why}. A tachometer would tell."));
+        text.push(format!("Cannot tell: the speed changes, {why}. A record of the speed would tell."));
     }
     let open = || (analysis.families.iter()).filter(|f| f.finding == Finding::Open);
     let hides = |family: &&Family| analysis.elsewhere.is_some() && family.is_damage();
     let hidden: Vec<String> =
         open().filter(hides).map(|f| format!("{} damage ({})", f.component.words(), evidence_of(f))).collect();
     if !hidden.is_empty() {
-        text.push(format!("Without those lines the verdict would be {}.", hidden.join(", and ")));
+        text.push(format!("By its own frequencies alone the verdict would be {}.", hidden.join(", and ")));
     }
     for family in open().filter(|f| !hides(f)) {
         let (part, evidence) = (family.component.words(), evidence_of(family));
@@ -209,6 +218,13 @@ fn cannot_tell(analysis: &Analysis, text: &mut Vec<String>) {
             text.push(format!(
                 "Cannot tell whether the {part} is damaged: {evidence}, with lines where {}. A record of the healthy machine would tell.",
                 masking(analysis, family)
+            ));
+            continue;
+        }
+        if family.is_skirt {
+            text.push(format!(
+                "Cannot tell whether the {part} is damaged: {evidence}, at the end of the tolerance, beyond which its lines are higher. Is the speed right? \
+                 A record of the speed would tell."
             ));
             continue;
         }
@@ -278,8 +294,8 @@ fn other_lines(analysis: &Analysis, elsewhere: &Elsewhere) -> String {
     let order = elsewhere.frequency / analysis.shaft;
     if (order - 1.0).abs() <= analysis.options.tolerance {
         return format!(
-            "Cannot tell: the strongest comb of lines lies at {:.2} Hz, once a turn of the shaft if that is its speed, {:.1} r/min, and a frequency of the bearing is a multiple of it. \
-             Looseness, rub or a coupling has such lines. A tachometer would tell.",
+            "Cannot tell: a comb of lines as high lies at {:.2} Hz, once a turn of the shaft if that is its speed, {:.1} r/min, and a frequency of the bearing is a multiple of it. \
+             Looseness, rub or a coupling has such lines. A record of the speed would tell.",
             elsewhere.frequency,
             60.0 * elsewhere.frequency,
         );
@@ -289,8 +305,8 @@ fn other_lines(analysis: &Analysis, elsewhere: &Elsewhere) -> String {
         false => "Is it this bearing? The shaft's own lines agree with the speed.",
     };
     format!(
-        "Cannot tell: the strongest comb of lines lies at {:.2} Hz, {:.3} times the shaft's speed, modulating by {:.0} %, and this bearing has no frequency there.{nearest} {doubt} \
-         The frequencies of the machine's other bearings and gears would tell, and a tachometer.",
+        "Cannot tell: the deepest comb of lines lies at {:.2} Hz, {:.3} times the shaft's speed, modulating by {:.0} %, and this bearing has no frequency there.{nearest} {doubt} \
+         The frequencies of the machine's other bearings and gears would tell, and a record of the speed.",
         elsewhere.frequency,
         elsewhere.frequency / analysis.shaft,
         100.0 * elsewhere.modulation,

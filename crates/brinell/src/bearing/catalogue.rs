@@ -63,6 +63,12 @@ impl Entry {
         values.any(|v| v.key == "bearing.element" && v.value == ball)
     }
 
+    /// Whether number, size or pitch circle of its elements is estimated, and with it its defect frequencies.
+    pub(super) fn estimates_orders(&self) -> bool {
+        let of_elements = ["bearing.rollers_per_row", "bearing.roller_diameter_mm", "bearing.pitch_diameter_mm"];
+        self.values.iter().any(|v| v.estimated && of_elements.contains(&v.key.as_str()))
+    }
+
     /// One of `FACTS`.
     pub fn fact(&self, key: &str) -> Option<f64> {
         self.fact_of(key).map(|(value, _)| value)

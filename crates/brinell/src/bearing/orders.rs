@@ -99,7 +99,8 @@ impl KnownBearing {
     pub fn orders(self) -> Result<(DefectOrders, String), String> {
         Ok(match self {
             Self::Catalogue(entry) => {
-                let words = format!("{}: {}", entry.name, entry.title);
+                let guess = if entry.estimates_orders() { "; number or size of its elements is estimated" } else { "" };
+                let words = format!("{}: {}{guess}", entry.name, entry.title);
                 (orders_of(&geometry(entry)?), words)
             }
             Self::DataSet(bearing) => (bearing.orders(), bearing.source.to_owned()),

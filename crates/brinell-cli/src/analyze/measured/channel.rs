@@ -116,7 +116,15 @@ pub(super) fn channel(
     let option = format!("--{}channel", wanted.whose);
     let one = |(name, channel)| Chosen::One(name, channel);
     if let Some(text) = wanted.channel {
-        return resolve(file, text, &option).map(one);
+        let (name, channel) = resolve(file, text, &option)?;
+        let others = || file.channels().iter().filter(|c| c.may_be_signal() && !c.is_time());
+        if channel.is_time() && others().next().is_some() {
+            return Err(Failure::Usage(format!(
+                "{option} {text}: `{name}` holds times; expected a signal: {}",
+                listed(others())
+            )));
+        }
+        return Ok(one((name, channel)));
     }
     if let Some(run) = run {
         let along = SENSOR[run.scenario.operation.axis_of_load()];
