@@ -37,6 +37,7 @@ mod orbit;
 mod page;
 mod picture;
 mod plots;
+mod quantity;
 mod raster;
 mod run;
 mod sections;
@@ -81,7 +82,7 @@ pub use load::{bin_centres, load_distribution};
 pub use motion::bearing_motion;
 pub use motion::{Motion, MotionDamage, MotionRow};
 #[doc(hidden)]
-pub use number::{capital, short};
+pub use number::{bracketed, capital, plural, short, shown_unit, twelve_digits};
 #[doc(hidden)]
 pub use orbit::cage_orbit;
 pub use orbit::{CageOrbit, CageOrbits};
@@ -90,6 +91,8 @@ pub use picture::{CurveTable, Error, Picture};
 pub use plots::pictures;
 #[doc(hidden)]
 pub use plots::{detail_window, headline, overview};
+#[doc(hidden)]
+pub use quantity::{value_text, words};
 #[doc(hidden)]
 pub use run::defect_markers;
 pub use sensor::SensorView;

@@ -2,8 +2,7 @@
 
 use super::outcome::Outcome;
 use super::runs::settings;
-use crate::say::short;
-use crate::sweep::plural;
+use crate::say::{plural, short};
 use brinell_report::{CalibrationReport, Fact, Table, Tried};
 use brinell_study::calibrate::search::STEP;
 

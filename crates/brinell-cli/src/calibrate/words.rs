@@ -1,8 +1,7 @@
 //! The outcome in sentences, for the terminal and the page.
 
 use super::outcome::{Found, Outcome};
-use crate::say::{say, short};
-use crate::sweep::plural;
+use crate::say::{plural, say, short};
 use brinell_study::calibrate::identify::{Direction, MOST};
 
 /// A residual worth naming, in standard uncertainties.

@@ -2,12 +2,11 @@
 
 use super::curves::{called, entry_and_exit, envelope, over_defect, spectrum, waveform};
 use super::sides::Side;
-use crate::say::{bracketed, short, shown_unit, twelve_digits};
-use crate::sweep::{value_text, words};
+use crate::say::{short, shown_unit, twelve_digits};
 use brinell::observe::passes::place;
 use brinell::result::{Quantity, RunResult};
 use brinell::signal::ratio::Ratio;
-use brinell_report::{Fact, Part, Piece, SideBySide, Table};
+use brinell_report::{Fact, Part, Piece, SideBySide, Table, bracketed, value_text, words};
 use brinell_study::campaign::Compared;
 
 /// Longest value in the table of what differs.
