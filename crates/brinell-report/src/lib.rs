@@ -82,7 +82,7 @@ pub use load::{bin_centres, load_distribution};
 pub use motion::bearing_motion;
 pub use motion::{Motion, MotionDamage, MotionRow};
 #[doc(hidden)]
-pub use number::{bracketed, capital, plural, short, shown_unit, twelve_digits};
+pub use number::{capital, plural, short, shown_unit, twelve_digits};
 #[doc(hidden)]
 pub use orbit::cage_orbit;
 pub use orbit::{CageOrbit, CageOrbits};
@@ -100,7 +100,8 @@ pub use sensor::SensorView;
 pub use sheet::sheet_html;
 #[doc(hidden)]
 pub use side_by_side::{
-    OverlaidCurve, Overlay, Part, Piece, SideBySide, Vertical, overlay, side_by_side_html, side_by_side_pictures,
+    OverlaidCurve, Overlay, Part, Piece, SideBySide, Vertical, compared_headline, overlay, side_by_side_html,
+    side_by_side_pictures, unsettled,
 };
 pub use slip::SlipRow;
 #[doc(hidden)]

@@ -20,7 +20,7 @@ pub fn short(x: f64, digits: usize) -> String {
 }
 
 /// A value with its interval after it: `1.35 [1.30, 1.40]`.
-pub fn bracketed(value: String, interval: Option<(f64, f64)>) -> String {
+pub(crate) fn bracketed(value: String, interval: Option<(f64, f64)>) -> String {
     match interval {
         Some((low, high)) => format!("{value} [{}, {}]", short(low, 3), short(high, 3)),
         None => value,

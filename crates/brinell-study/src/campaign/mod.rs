@@ -12,6 +12,7 @@ mod compare;
 mod plan;
 mod row;
 mod run;
+mod sides;
 
 pub use axis::Axis;
 #[doc(hidden)]
@@ -24,3 +25,5 @@ pub use plan::{Plan, PlanError};
 pub use row::digest;
 pub use row::{Row, fingerprint};
 pub use run::run_all;
+#[doc(hidden)]
+pub use sides::{Side, SidesError, check_labels, sides_json, sides_scenarios, sides_table};
