@@ -61,7 +61,9 @@ pub use analysis::{
 #[doc(hidden)]
 pub use axial::{AxialRow, AxialSection, axial_section};
 #[doc(hidden)]
-pub use calibrate::{CalibrationReport, FittedKey, Tried, calibration_html};
+pub use calibrate::{
+    CalibrationReport, FittedKey, Tried, calibration_html, calibration_undetermined, calibration_verdict, interval_text,
+};
 pub use damage::{AlongRoller, DamageCurve, DamagePanel, DamageView, DepthPatch};
 #[doc(hidden)]
 pub use damage::{damage_passage, damage_photo, damage_plan, damage_section, load_along};
