@@ -21,6 +21,7 @@ Examples
 
 from brinell._brinell import ReadError, RunError, ScenarioError, SignalError, __version__
 from brinell.analysis import Analysis, analyze
+from brinell.comparisons import Comparison, compare
 from brinell.damage import circle, defect, depth_map, image, outline, rectangle, svg
 from brinell.datasets import DataSet, Plan
 from brinell.notebook import studio
@@ -46,6 +47,7 @@ from brinell.sweeps import Table, sweep
 
 __all__ = [
     "Analysis",
+    "Comparison",
     "DataSet",
     "Kurtogram",
     "LoadZone",
@@ -65,6 +67,7 @@ __all__ = [
     "analyze",
     "bearings",
     "circle",
+    "compare",
     "defect",
     "depth_map",
     "derived",

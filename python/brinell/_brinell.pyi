@@ -7,10 +7,12 @@ import numpy.typing as npt
 
 _Array = npt.NDArray[np.float64]
 _Band = tuple[float, float] | None
+_Columns = list[tuple[str, str, _Array | list[str | None]]]
 _State = tuple[str, str, str | None, list[tuple[str, str]], str | None]
 
 __all__ = [
     "Campaign",
+    "Comparison",
     "Findings",
     "ReadError",
     "Run",
@@ -22,6 +24,7 @@ __all__ = [
     "__version__",
     "analyze",
     "bearings",
+    "check_names",
     "derived",
     "envelope",
     "envelope_spectrum",
@@ -136,6 +139,13 @@ class Campaign:
     ) -> dict[str, Any]: ...
 
 @final
+class Comparison:
+    def __new__(cls, runs: Sequence[tuple[str, Run]]) -> Comparison: ...
+    def columns(self) -> _Columns: ...
+    def report(self) -> dict[str, Any]: ...
+    def to_html(self) -> str: ...
+
+@final
 class StudioEngine:
     def __new__(cls) -> StudioEngine: ...
     def ask(self, request: bytes) -> bytes: ...
@@ -157,6 +167,7 @@ def sweep(
     progress: Callable[[int, int], object] | None,
     folder: str | PathLike[str] | None,
 ) -> tuple[list[list[int]], list[str | None], list[tuple[str, str, _Array]]]: ...
+def check_names(names: Sequence[str]) -> None: ...
 def studio_page() -> list[tuple[str, str, bytes]]: ...
 def statics(scenario: Scenario) -> dict[str, Any]: ...
 def derived(scenario: Scenario) -> dict[str, Any]: ...

@@ -1,5 +1,6 @@
 """The same physics, bits and words as the command's."""
 
+import csv
 import json
 import re
 import subprocess
@@ -46,8 +47,6 @@ def test_xval_sweep_has_the_table_of_the_command(command, examples, tmp_path):
     vary = ["--vary", "operation.speed_rpm=900,1800", "--vary", "bearing.radial_clearance_um=5,-500"]
     run(command, "sweep", examples / "rectangle.toml", *sets, *vary, "-o", tmp_path, "-q", code=1)
     lines = (tmp_path / "sweep.csv").read_text().splitlines()
-    import csv
-
     rows = list(csv.DictReader(line for line in lines if not line.startswith("#")))
     base = brinell.Scenario.from_file(examples / "rectangle.toml", {"simulation.duration_s": 0.1})
     table = brinell.sweep(base, {"operation.speed_rpm": [900, 1800], "bearing.radial_clearance_um": [5, -500]})
@@ -60,6 +59,33 @@ def test_xval_sweep_has_the_table_of_the_command(command, examples, tmp_path):
             cell = row[name]
             expected = float(cell) if cell else np.nan
             np.testing.assert_array_equal(float(table[name][k]), expected, err_msg=f"{name} of point {k}")
+
+
+def same_cells(path, columns):
+    """A table of the command has these columns, bit for bit."""
+    rows = list(csv.DictReader(line for line in path.read_text().splitlines() if not line.startswith("#")))
+    assert list(rows[0]) == list(columns)
+    for name, cells in columns.items():
+        assert len(cells) == len(rows)
+        for row, cell in zip(rows, cells, strict=True):
+            if isinstance(cell, float):
+                np.testing.assert_array_equal(cell, float(row[name] or "nan"), err_msg=name)
+            else:
+                assert (cell or "") == row[name], name
+
+
+def test_xval_a_comparison_is_that_of_the_command(command, examples, tmp_path):
+    scenarios = {name: examples / f"{name}.toml" for name in ("healthy", "rectangle")}
+    variant = ["--variant", "lumped:simulation.model=lumped", "--set", "simulation.duration_s=0.3"]
+    run(command, "compare", *scenarios.values(), *variant, "-o", tmp_path, "-q")
+    settings = {"simulation.duration_s": 0.3}
+    found = brinell.compare(scenarios, {"lumped": {"simulation.model": "lumped"}}, settings=settings)
+    expected = json.loads((tmp_path / "compare.json").read_text())
+    # Only a comparison of the command has files.
+    del expected["files"]
+    assert found.report == expected
+    same_cells(tmp_path / "compare.csv", found.columns)
+    assert found.to_html() == (tmp_path / "compare.html").read_text(encoding="utf-8")
 
 
 @pytest.mark.parametrize(
