@@ -11,6 +11,7 @@ _Columns = list[tuple[str, str, _Array | list[str | None]]]
 _State = tuple[str, str, str | None, list[tuple[str, str]], str | None]
 
 __all__ = [
+    "Calibration",
     "Campaign",
     "Comparison",
     "Findings",
@@ -24,6 +25,7 @@ __all__ = [
     "__version__",
     "analyze",
     "bearings",
+    "calibrate",
     "check_names",
     "derived",
     "envelope",
@@ -146,6 +148,12 @@ class Comparison:
     def to_html(self) -> str: ...
 
 @final
+class Calibration:
+    def columns(self) -> _Columns: ...
+    def report(self) -> dict[str, Any]: ...
+    def to_html(self) -> str: ...
+
+@final
 class StudioEngine:
     def __new__(cls) -> StudioEngine: ...
     def ask(self, request: bytes) -> bytes: ...
@@ -168,6 +176,18 @@ def sweep(
     folder: str | PathLike[str] | None,
 ) -> tuple[list[list[int]], list[str | None], list[tuple[str, str, _Array]]]: ...
 def check_names(names: Sequence[str]) -> None: ...
+def calibrate(
+    scenario: Scenario,
+    fit: Sequence[tuple[str, float, float, bool]],
+    targets: Sequence[tuple[str, float, float]],
+    measured: npt.ArrayLike | None,
+    signal: tuple[float, str, str | None, float],
+    seed: int,
+    budget: int | None,
+    jobs: int | None,
+    progress: Callable[[int, int], object] | None,
+    folder: str | PathLike[str] | None,
+) -> Calibration: ...
 def studio_page() -> list[tuple[str, str, bytes]]: ...
 def statics(scenario: Scenario) -> dict[str, Any]: ...
 def derived(scenario: Scenario) -> dict[str, Any]: ...

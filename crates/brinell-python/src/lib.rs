@@ -2,6 +2,7 @@
 //! workspace is what users see. Python's lock is given up while anything is computed.
 
 mod bad_value;
+mod calibrate;
 mod compare;
 mod convert;
 mod dataset;
@@ -22,6 +23,8 @@ use pyo3::prelude::*;
 mod _brinell {
     use super::*;
 
+    #[pymodule_export]
+    use crate::calibrate::{Calibration, calibrate};
     #[pymodule_export]
     use compare::{Comparison, check_names};
     #[pymodule_export]
