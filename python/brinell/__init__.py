@@ -21,6 +21,8 @@ Examples
 
 from brinell._brinell import ReadError, RunError, ScenarioError, SignalError, __version__
 from brinell.analysis import Analysis, analyze
+from brinell.calibrations import Calibration, calibrate
+from brinell.comparisons import Comparison, compare
 from brinell.damage import circle, defect, depth_map, image, outline, rectangle, svg
 from brinell.datasets import DataSet, Plan
 from brinell.notebook import studio
@@ -46,6 +48,8 @@ from brinell.sweeps import Table, sweep
 
 __all__ = [
     "Analysis",
+    "Calibration",
+    "Comparison",
     "DataSet",
     "Kurtogram",
     "LoadZone",
@@ -64,7 +68,9 @@ __all__ = [
     "__version__",
     "analyze",
     "bearings",
+    "calibrate",
     "circle",
+    "compare",
     "defect",
     "depth_map",
     "derived",

@@ -7,10 +7,13 @@ import numpy.typing as npt
 
 _Array = npt.NDArray[np.float64]
 _Band = tuple[float, float] | None
+_Columns = list[tuple[str, str, _Array | list[str | None]]]
 _State = tuple[str, str, str | None, list[tuple[str, str]], str | None]
 
 __all__ = [
+    "Calibration",
     "Campaign",
+    "Comparison",
     "Findings",
     "ReadError",
     "Run",
@@ -22,6 +25,8 @@ __all__ = [
     "__version__",
     "analyze",
     "bearings",
+    "calibrate",
+    "check_names",
     "derived",
     "envelope",
     "envelope_spectrum",
@@ -136,6 +141,19 @@ class Campaign:
     ) -> dict[str, Any]: ...
 
 @final
+class Comparison:
+    def __new__(cls, runs: Sequence[tuple[str, Run]]) -> Comparison: ...
+    def columns(self) -> _Columns: ...
+    def report(self) -> dict[str, Any]: ...
+    def to_html(self) -> str: ...
+
+@final
+class Calibration:
+    def columns(self) -> _Columns: ...
+    def report(self) -> dict[str, Any]: ...
+    def to_html(self) -> str: ...
+
+@final
 class StudioEngine:
     def __new__(cls) -> StudioEngine: ...
     def ask(self, request: bytes) -> bytes: ...
@@ -157,6 +175,19 @@ def sweep(
     progress: Callable[[int, int], object] | None,
     folder: str | PathLike[str] | None,
 ) -> tuple[list[list[int]], list[str | None], list[tuple[str, str, _Array]]]: ...
+def check_names(names: Sequence[str]) -> None: ...
+def calibrate(
+    scenario: Scenario,
+    fit: Sequence[tuple[str, float, float, bool]],
+    targets: Sequence[tuple[str, float, float]],
+    measured: npt.ArrayLike | None,
+    signal: tuple[float, str, str | None, float],
+    seed: int,
+    budget: int | None,
+    jobs: int | None,
+    progress: Callable[[int, int], object] | None,
+    folder: str | PathLike[str] | None,
+) -> Calibration: ...
 def studio_page() -> list[tuple[str, str, bytes]]: ...
 def statics(scenario: Scenario) -> dict[str, Any]: ...
 def derived(scenario: Scenario) -> dict[str, Any]: ...

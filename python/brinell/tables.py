@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import importlib
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     import polars
     import xarray
 
-__all__ = ["need", "to_pandas", "to_polars", "to_xarray"]
+__all__ = ["columns", "need", "to_pandas", "to_polars", "to_xarray"]
 
 
 def need(library: str, extra: str | None = None) -> Any:
@@ -47,6 +47,18 @@ def need(library: str, extra: str | None = None) -> Any:
         if error.name is not None and error.name.split(".")[0] != library.split(".")[0]:
             raise
         raise ImportError(f'this needs {library}: pip install "brinell[{extra or library}]"') from None
+
+
+def columns(found: Sequence[tuple[str, str, Any]]) -> dict[str, Any]:
+    """Columns by name: numbers as they are, words as arrays of objects.
+
+    Examples
+    --------
+    >>> from brinell.tables import columns
+    >>> columns([("stage", "", ["start", None])])["stage"].dtype
+    dtype('O')
+    """
+    return {name: np.array(cells, dtype=object) if isinstance(cells, list) else cells for name, _, cells in found}
 
 
 def to_pandas(columns: Mapping[str, Any], units: Mapping[str, str]) -> pandas.DataFrame:

@@ -1,5 +1,7 @@
 """The same physics, bits and words as the command's."""
 
+import csv
+import dataclasses
 import json
 import re
 import subprocess
@@ -46,8 +48,6 @@ def test_xval_sweep_has_the_table_of_the_command(command, examples, tmp_path):
     vary = ["--vary", "operation.speed_rpm=900,1800", "--vary", "bearing.radial_clearance_um=5,-500"]
     run(command, "sweep", examples / "rectangle.toml", *sets, *vary, "-o", tmp_path, "-q", code=1)
     lines = (tmp_path / "sweep.csv").read_text().splitlines()
-    import csv
-
     rows = list(csv.DictReader(line for line in lines if not line.startswith("#")))
     base = brinell.Scenario.from_file(examples / "rectangle.toml", {"simulation.duration_s": 0.1})
     table = brinell.sweep(base, {"operation.speed_rpm": [900, 1800], "bearing.radial_clearance_um": [5, -500]})
@@ -60,6 +60,67 @@ def test_xval_sweep_has_the_table_of_the_command(command, examples, tmp_path):
             cell = row[name]
             expected = float(cell) if cell else np.nan
             np.testing.assert_array_equal(float(table[name][k]), expected, err_msg=f"{name} of point {k}")
+
+
+def same_cells(path, columns):
+    """A table of the command has these columns, bit for bit."""
+    rows = list(csv.DictReader(line for line in path.read_text().splitlines() if not line.startswith("#")))
+    assert list(rows[0]) == list(columns)
+    for name, cells in columns.items():
+        assert len(cells) == len(rows)
+        for row, cell in zip(rows, cells, strict=True):
+            if isinstance(cell, float):
+                np.testing.assert_array_equal(cell, float(row[name] or "nan"), err_msg=name)
+            else:
+                assert (cell or "") == row[name], name
+
+
+def test_xval_a_comparison_is_that_of_the_command(command, examples, tmp_path):
+    scenarios = {name: examples / f"{name}.toml" for name in ("healthy", "rectangle")}
+    variant = ["--variant", "lumped:simulation.model=lumped", "--set", "simulation.duration_s=0.3"]
+    run(command, "compare", *scenarios.values(), *variant, "-o", tmp_path, "-q")
+    settings = {"simulation.duration_s": 0.3}
+    found = brinell.compare(scenarios, {"lumped": {"simulation.model": "lumped"}}, settings=settings)
+    expected = json.loads((tmp_path / "compare.json").read_text())
+    # Only a comparison of the command has files.
+    del expected["files"]
+    assert found.report == expected
+    same_cells(tmp_path / "compare.csv", found.columns)
+    assert found.to_html() == (tmp_path / "compare.html").read_text(encoding="utf-8")
+
+
+def test_xval_a_calibration_is_that_of_the_command_and_resumes_it(command, examples, tmp_path):
+    given = ["--set", "simulation.duration_s=0.1", "--fit", "operation.speed_rpm=1500:2100", "--fit", "operation.load_n.0=100:1000:log"]
+    targets = ["--target", "defect1.pure_rolling_frequency=250.1~0.5", "--target", "row1.largest_outer_force=200~20"]
+    call = ["calibrate", examples / "rectangle.toml", *given, *targets, "--budget", "12", "-o", tmp_path, "-q"]
+    run(command, *call)
+    base = brinell.Scenario.from_file(examples / "rectangle.toml", {"simulation.duration_s": 0.1})
+    fit = {"operation.speed_rpm": (1500, 2100), "operation.load_n.0": (100, 1000, "log")}
+    wanted = {"defect1.pure_rolling_frequency": (250.1, 0.5), "row1.largest_outer_force": (200, 20)}
+    found = brinell.calibrate(base, fit, wanted, budget=12)
+    assert found.report == json.loads((tmp_path / "calibrate.json").read_text())
+    same_cells(tmp_path / "calibrate.csv", found.runs)
+    assert found.best.to_toml() == (tmp_path / "best.toml").read_text()
+    assert found.to_html() == (tmp_path / "calibrate.html").read_text(encoding="utf-8")
+    journal = (tmp_path / "journal.jsonl").read_bytes()
+    again = brinell.calibrate(base, fit, wanted, budget=12, folder=tmp_path)
+    assert again.report == found.report and (tmp_path / "journal.jsonl").read_bytes() == journal
+
+
+def test_xval_a_calibration_to_a_measured_signal_is_that_of_the_command(command, examples, tmp_path):
+    base = brinell.Scenario.from_file(examples / "rectangle.toml", {"simulation.duration_s": 0.3})
+    result = brinell.simulate(base, settings={"operation.speed_rpm": 1850.0})
+    np.save(tmp_path / "rig.npy", result["sensor_ax"] / 9.80665)
+    given = ["--set", "simulation.duration_s=0.3", "--fit", "operation.speed_rpm=1750:1950", "--budget", "6"]
+    of_file = ["--measured", tmp_path / "rig.npy", "--rate", result.rate_hz, "--unit", "g", "--axis", "x"]
+    run(command, "calibrate", examples / "rectangle.toml", *given, *of_file, "-o", tmp_path / "out", "-q")
+    measured = dataclasses.replace(brinell.read_signal(tmp_path / "rig.npy"), rate_hz=result.rate_hz, unit="g")
+    found = brinell.calibrate(base, {"operation.speed_rpm": (1750.0, 1950.0)}, measured=measured, axis="x", budget=6)
+    expected = json.loads((tmp_path / "out" / "calibrate.json").read_text())
+    # The command says where the samples are from.
+    del found.report["measured"], expected["measured"]
+    assert found.report == expected
+    assert "signature.octave_5120_10240_hz" in found.residuals
 
 
 @pytest.mark.parametrize(

@@ -113,6 +113,8 @@ def test_prop_runs_go_on_in_threads_of_python_too(base):
         "brinell.simulate(base)",
         "brinell.simulate_many([base, base, base])",
         "brinell.sweep(base, {'operation.speed_rpm': [900.0, 1800.0]})",
+        "brinell.compare({'full': base}, {'lumped': {'simulation.model': 'lumped'}})",
+        "brinell.calibrate(base, {'operation.speed_rpm': (900.0, 1800.0)}, {'sensor_ax.rms': (30.0, 1.0)})",
     ],
 )
 def test_prop_ctrl_c_stops_a_run(call, examples):

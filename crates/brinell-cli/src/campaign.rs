@@ -35,19 +35,7 @@ pub(crate) fn run(
 ) -> Result<ControlFlow<()>, Failure> {
     let total = tasks.iter().map(|task| task.duration_s).sum();
     let joint = Joint::new(tasks.len(), total, quiet);
-    run_within(tasks, work, ledger, threads, &joint, stop)
-}
-
-/// [`run()`] as a part of the work that `joint` shows.
-pub(crate) fn run_within(
-    tasks: &[Task],
-    work: &impl Work<Error = Failure>,
-    ledger: &mut Ledger,
-    threads: NonZeroUsize,
-    joint: &Joint,
-    stop: &AtomicBool,
-) -> Result<ControlFlow<()>, Failure> {
-    runner::run(tasks, work, ledger, threads, &Terminal::new(joint, stop, 0.0))
+    runner::run(tasks, work, ledger, threads, &Terminal::new(&joint, stop, 0.0))
 }
 
 impl From<RunnerError> for Failure {

@@ -2,7 +2,7 @@
 //! over. Where nobody reads on (a closed pipe), the command continues quietly.
 
 use anstyle::AnsiColor;
-pub(crate) use brinell_report::short;
+pub(crate) use brinell_report::{plural, short, shown_unit, twelve_digits};
 use serde_json::Value;
 use std::borrow::Cow;
 use std::fmt::Arguments;
@@ -49,11 +49,6 @@ pub(crate) fn document(text: &str) {
 /// Writes JSON to standard output.
 pub(crate) fn json(value: &Value) {
     document(pretty(value).trim_end());
-}
-
-/// A unit as people read it: a plain number has none.
-pub(crate) fn shown_unit(unit: &str) -> &str {
-    if unit == "1" { "" } else { unit }
 }
 
 /// Which files were written, a line each.
@@ -173,19 +168,6 @@ macro_rules! complain {
     ($($arg:tt)*) => { crate::say::complaint(format_args!($($arg)*)) };
 }
 pub(crate) use complain;
-
-/// A value with its interval after it: `1.35 [1.30, 1.40]`.
-pub(crate) fn bracketed(value: String, interval: Option<(f64, f64)>) -> String {
-    match interval {
-        Some((low, high)) => format!("{value} [{}, {}]", short(low, 3), short(high, 3)),
-        None => value,
-    }
-}
-
-/// A number to 12 digits, without what computing leaves behind them: 0.165, not 0.16499999999999998.
-pub(crate) fn twelve_digits(x: f64) -> f64 {
-    format!("{x:.11e}").parse().unwrap_or(x)
-}
 
 /// [`twelve_digits`] in words.
 pub(crate) fn plain_number(x: f64) -> String {

@@ -93,7 +93,7 @@ fn regress_what_cannot_be_compared() {
     for name in ["unit", "actual.low"] {
         let variant = format!("{name}:operation.speed_rpm=1000");
         call(&["--variant", &variant])
-            .complains(&[&format!("two columns of compare.csv would be called {name}: rename a file or a variant")]);
+            .complains(&[&format!("two columns would be called {name}: rename a file or a variant")]);
     }
     call(&["--variant", "x:name=a; name=b"]).complains(&["name is set twice"]);
     call(&["none.toml"]).complains(&["cannot read none.toml"]);

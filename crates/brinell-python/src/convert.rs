@@ -1,6 +1,7 @@
 //! Values across the border: JSON to Python, Python to TOML, arrays both ways.
 
 use crate::bad_value::bad_value;
+use brinell_io::{Cells, Table};
 use numpy::{AllowTypeChange, IntoPyArray, PyArray1, PyArrayLike1};
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
@@ -50,6 +51,21 @@ pub(crate) fn json_to_python<'py>(py: Python<'py>, value: &Value) -> PyResult<Bo
             dict.into_any()
         }
     })
+}
+
+/// Columns of a table: name, unit, and an array of numbers with NaN where a cell is empty, or a list of words.
+pub(crate) fn table<'py>(py: Python<'py>, table: &Table) -> PyResult<Bound<'py, PyList>> {
+    let list = PyList::empty(py);
+    for (column, cells) in table.columns.iter().zip(&table.cells) {
+        match cells {
+            Cells::Numbers(cells) => {
+                let numbers = cells.iter().map(|cell| cell.unwrap_or(f64::NAN)).collect();
+                list.append((&column.name, &column.unit, array(py, numbers)))?;
+            }
+            Cells::Words(cells) => list.append((&column.name, &column.unit, cells.clone()))?,
+        }
+    }
+    Ok(list)
 }
 
 /// Levels of lists within lists: deeper ones hold themselves.

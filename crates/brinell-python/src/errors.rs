@@ -56,16 +56,24 @@ pub(crate) fn scenario_error(py: Python, problems: Vec<Problem>, seen: Option<(&
 
 /// A scenario that makes no model is a bad one; anything else is a run that failed, or too large a one.
 pub(crate) fn run_error(py: Python, failure: &Failure) -> PyErr {
-    let none = |error: PyErr, name: &str, value: Py<PyAny>| match error.value(py).setattr(name, value) {
-        Ok(()) => error,
-        Err(other) => other,
-    };
     match failure {
         Failure::TooLarge { .. } => PyMemoryError::new_err(failure.to_string()),
         _ if failure.is_bad_input() => {
             let empty = pyo3::types::PyList::empty(py).into_any().unbind();
-            none(ScenarioError::new_err(failure.to_string()), "problems", empty)
+            with(py, ScenarioError::new_err(failure.to_string()), "problems", empty)
         }
-        _ => none(RunError::new_err(failure.to_string()), "partial", py.None()),
+        _ => failed_run(py, failure.to_string()),
+    }
+}
+
+/// A run that failed and left nothing.
+pub(crate) fn failed_run(py: Python, words: String) -> PyErr {
+    with(py, RunError::new_err(words), "partial", py.None())
+}
+
+fn with(py: Python, error: PyErr, name: &str, value: Py<PyAny>) -> PyErr {
+    match error.value(py).setattr(name, value) {
+        Ok(()) => error,
+        Err(other) => other,
     }
 }

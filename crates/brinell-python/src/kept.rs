@@ -1,4 +1,4 @@
-//! A sweep with a journal: points that are finished are in its folder, and are not run again.
+//! Journals: a sweep or a calibration keeps what is finished in its folder, and does not run it again.
 
 use crate::bad_value::bad_value;
 use crate::errors::ReadError;
@@ -10,6 +10,7 @@ use brinell::scenario::Scenario;
 use brinell_study::campaign::Plan;
 use brinell_study::runner::{self, Ledger, RunnerError, Task, Work, to_run};
 use pyo3::prelude::*;
+use serde_json::Value;
 use std::path::Path;
 
 /// A point's numbers, or why there are none.
@@ -27,11 +28,18 @@ impl Work for Points<'_> {
     }
 }
 
-fn refused(folder: &Path, error: RunnerError) -> PyErr {
+pub(crate) fn refused(folder: &Path, error: RunnerError) -> PyErr {
     match error {
         RunnerError::Io(error) => ReadError::new_err(error.to_string()),
         error => bad_value(format!("{}: {error}", folder.display())),
     }
+}
+
+/// A folder's journal, opened or begun.
+pub(crate) fn ledger(folder: &Path, header: &Value) -> PyResult<Ledger> {
+    std::fs::create_dir_all(folder)
+        .map_err(|error| ReadError::new_err(format!("cannot make {}: {error}", folder.display())))?;
+    Ledger::open(folder, header, false).map_err(|error| refused(folder, error))
 }
 
 /// Of each point its numbers, or why there are none.
@@ -54,10 +62,7 @@ pub(crate) fn run(
         },
     )?;
     let prints = points.iter().map(|p| p.as_ref().ok().map(|t| &*t.fingerprint));
-    std::fs::create_dir_all(folder)
-        .map_err(|error| ReadError::new_err(format!("cannot make {}: {error}", folder.display())))?;
-    let ledger = Ledger::open(folder, &plan.header(prints), false);
-    let mut ledger = ledger.map_err(|error| refused(folder, error))?;
+    let mut ledger = ledger(folder, &plan.header(prints))?;
     let tasks = to_run(points.iter().flatten(), |task| ledger.kept.row(&task.fingerprint).is_some());
     let threads = threads(jobs, tasks.len())?;
     let mut done = plan.points() - tasks.len();

@@ -2,6 +2,8 @@
 //! workspace is what users see. Python's lock is given up while anything is computed.
 
 mod bad_value;
+mod calibrate;
+mod compare;
 mod convert;
 mod dataset;
 mod errors;
@@ -21,6 +23,10 @@ use pyo3::prelude::*;
 mod _brinell {
     use super::*;
 
+    #[pymodule_export]
+    use crate::calibrate::{Calibration, calibrate};
+    #[pymodule_export]
+    use compare::{Comparison, check_names};
     #[pymodule_export]
     use dataset::{Campaign, kernel, merge, verify};
     #[pymodule_export]

@@ -263,8 +263,8 @@ pub(crate) fn simulate_many(
 /// A run that is over.
 #[pyclass(frozen, module = "brinell._brinell", name = "Run")]
 pub(crate) struct Run {
-    scenario: Py<Scenario>,
-    finished: RunResult,
+    pub(crate) scenario: Py<Scenario>,
+    pub(crate) finished: RunResult,
     signals: Py<PyDict>,
 }
 

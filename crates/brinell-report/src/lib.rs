@@ -37,6 +37,7 @@ mod orbit;
 mod page;
 mod picture;
 mod plots;
+mod quantity;
 mod raster;
 mod run;
 mod sections;
@@ -60,7 +61,9 @@ pub use analysis::{
 #[doc(hidden)]
 pub use axial::{AxialRow, AxialSection, axial_section};
 #[doc(hidden)]
-pub use calibrate::{CalibrationReport, FittedKey, Tried, calibration_html};
+pub use calibrate::{
+    CalibrationReport, FittedKey, Tried, calibration_html, calibration_undetermined, calibration_verdict, interval_text,
+};
 pub use damage::{AlongRoller, DamageCurve, DamagePanel, DamageView, DepthPatch};
 #[doc(hidden)]
 pub use damage::{damage_passage, damage_photo, damage_plan, damage_section, load_along};
@@ -81,7 +84,7 @@ pub use load::{bin_centres, load_distribution};
 pub use motion::bearing_motion;
 pub use motion::{Motion, MotionDamage, MotionRow};
 #[doc(hidden)]
-pub use number::{capital, short};
+pub use number::{capital, plural, short, shown_unit, twelve_digits};
 #[doc(hidden)]
 pub use orbit::cage_orbit;
 pub use orbit::{CageOrbit, CageOrbits};
@@ -91,13 +94,16 @@ pub use plots::pictures;
 #[doc(hidden)]
 pub use plots::{detail_window, headline, overview};
 #[doc(hidden)]
+pub use quantity::{value_text, words};
+#[doc(hidden)]
 pub use run::defect_markers;
 pub use sensor::SensorView;
 #[doc(hidden)]
 pub use sheet::sheet_html;
 #[doc(hidden)]
 pub use side_by_side::{
-    OverlaidCurve, Overlay, Part, Piece, SideBySide, Vertical, overlay, side_by_side_html, side_by_side_pictures,
+    OverlaidCurve, Overlay, Part, Piece, SideBySide, Vertical, compared_headline, overlay, side_by_side_html,
+    side_by_side_pictures, unsettled,
 };
 pub use slip::SlipRow;
 #[doc(hidden)]

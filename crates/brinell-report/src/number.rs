@@ -19,6 +19,29 @@ pub fn short(x: f64, digits: usize) -> String {
     }
 }
 
+/// A value with its interval after it: `1.35 [1.30, 1.40]`.
+pub(crate) fn bracketed(value: String, interval: Option<(f64, f64)>) -> String {
+    match interval {
+        Some((low, high)) => format!("{value} [{}, {}]", short(low, 3), short(high, 3)),
+        None => value,
+    }
+}
+
+/// A number to 12 digits, without what computing leaves behind them: 0.165, not 0.16499999999999998.
+pub fn twelve_digits(x: f64) -> f64 {
+    format!("{x:.11e}").parse().unwrap_or(x)
+}
+
+/// "1 run", "2 runs".
+pub fn plural(n: usize, word: &str) -> String {
+    format!("{n} {word}{}", if n == 1 { "" } else { "s" })
+}
+
+/// A unit as people read it: a plain number has none.
+pub fn shown_unit(unit: &str) -> &str {
+    if unit == "1" { "" } else { unit }
+}
+
 /// A text that begins with a capital.
 pub fn capital(text: &str) -> String {
     let mut letters = text.chars();

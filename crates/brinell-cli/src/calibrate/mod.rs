@@ -2,44 +2,44 @@
 
 mod args;
 mod measured;
-mod outcome;
-mod page;
-mod plan;
-mod runs;
-mod words;
 
-use crate::campaign;
+use crate::campaign::{self, Terminal};
 use crate::failure::Failure;
-use crate::files::{make_folder, stem};
+use crate::files::make_folder;
+use crate::files::{Source, stem};
 use crate::progress::Joint;
-use crate::results::{Place, Results};
-use crate::say::{self, complain, say};
+use crate::results::{Place, Results, put};
+use crate::say::{self, complain, plural, pretty, say, short};
 use crate::stop::stop_flag;
-use crate::sweep::plural;
+use crate::sweep::duration;
 pub(crate) use args::CalibrateArgs;
+use brinell::simulate::Simulation;
+use brinell_report::{CalibrationReport, calibration_undetermined, calibration_verdict, interval_text};
 use brinell_study::calibrate::search::latin_hypercube;
-use brinell_study::calibrate::{Unfit, fit, start_size};
-use brinell_study::runner::JOURNAL;
-use outcome::Outcome;
-use plan::Plan;
-use runs::{FromPoints, Runs};
+use brinell_study::calibrate::{
+    CalibrateError, Key, Load, Outcome, Plan, Points, Target, Unfinished, Unfit, bounds, check_keys, middle,
+};
+use brinell_study::runner::{JOURNAL, Ledger, Task, estimate};
 use serde_json::Value;
+use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
+use std::sync::Arc;
 use std::time::Instant;
 
 pub(crate) fn calibrate(args: &CalibrateArgs) -> Result<ExitCode, Failure> {
     let begin = Instant::now();
-    let plan = Plan::read(args)?;
+    let (source, plan, warnings) = read(args)?;
     let threads = args.jobs.unwrap_or(brinell::many::threads(usize::MAX));
-    let points = FromPoints { source: &plan.source, keys: &plan.keys, pattern: plan.pattern.as_ref() };
+    let load: &Load<'_> = &|settings| source.load(settings, true).map_err(|failure| crate::sweep::reason(&failure));
+    let points = Points { load, plan: &plan };
     if args.dry_run {
-        plan.tell(&points, threads, None);
+        tell_plan(&points, &warnings, threads, None);
         return Ok(ExitCode::SUCCESS);
     }
     let named = || Path::new("out").join(format!("calibrate-{}", stem(&args.scenario)));
     let folder = args.output.clone().unwrap_or_else(named);
-    let mut inputs = plan.source.inputs();
+    let mut inputs = source.inputs();
     args.measured.iter().for_each(|path| inputs.add(path));
     let place = Place { kind: Results::Calibration, folder: &folder, inputs: &inputs };
     place.alone()?;
@@ -47,58 +47,121 @@ pub(crate) fn calibrate(args: &CalibrateArgs) -> Result<ExitCode, Failure> {
     let words = |other: &Value| other_calibration(&folder, other);
     let ledger = campaign::ledger(&folder, &plan.header(), args.extend, words)?;
     if !args.quiet {
-        plan.tell(&points, threads, Some(&ledger));
+        tell_plan(&points, &warnings, threads, Some(&ledger));
     }
     let stop = stop_flag()?;
     let each = plan.middle.scenario.simulation.duration_s;
-    let total = each * plan.settings.budget as f64;
-    let mut runs = Runs {
-        points,
-        targets: &plan.targets,
-        ledger,
-        threads,
-        joint: Joint::new(plan.settings.budget, total, args.quiet),
-        stop: &stop,
-        done: 0,
-        before: 0,
-        failure: None,
-    };
-    let mut ask = |places: &[Vec<f64>]| runs.ask(places);
-    let found = fit(plan.keys.len(), &plan.targets, plan.settings, &mut ask);
-    runs.joint.clear();
-    if let Some(failure) = runs.failure.take() {
-        return Err(failure);
-    }
-    let found = match found {
-        Ok(found) => found,
-        Err(Unfit::Interrupted) => {
+    let joint = Joint::new(plan.settings.budget, each * plan.settings.budget as f64, args.quiet);
+    let found = brinell_study::calibrate::calibrate(&plan, load, ledger, threads, &Terminal::new(&joint, &stop, each));
+    joint.clear();
+    let outcome = match found {
+        Ok(outcome) => outcome,
+        Err(Unfinished::Runner(error)) => return Err(error.into()),
+        Err(Unfinished::Unfit { unfit: Unfit::Interrupted, .. }) => {
             complain!(
                 "interrupted: finished runs are kept in {}; the same command resumes where this one stopped",
                 folder.join(JOURNAL).display()
             );
             return Ok(ExitCode::FAILURE);
         }
-        Err(error) => {
-            complain!("error: {error}");
-            tell_reasons(&runs, &plan);
+        Err(Unfinished::Unfit { unfit, reasons }) => {
+            complain!("error: {unfit}");
+            for reason in reasons {
+                complain!("  a run failed: {reason}");
+            }
             return Ok(ExitCode::FAILURE);
         }
     };
-    let outcome = Outcome::new(&plan, &runs, found)?;
-    let written = outcome.write(&folder)?;
+    let (verdict, undetermined) = (calibration_verdict(&outcome), calibration_undetermined(&outcome));
+    let json = outcome.to_json(&verdict, &undetermined);
+    let written = write(&outcome, &json, &folder)?;
     if args.json {
-        say::json(&outcome.json());
+        say::json(&json);
     }
     if !args.quiet {
-        tell(&runs, &outcome, &written, begin);
+        let seconds = begin.elapsed().as_secs_f64();
+        say!("{} in {seconds:.2} s, {} from the journal", plural(outcome.done, "run"), outcome.before);
+        for found in &outcome.found {
+            say!("  {} = {} {}  {}", found.key.name, short(found.best, 5), found.unit, interval_text(found));
+        }
+        for sentence in verdict.iter().chain(&undetermined) {
+            say!("  {sentence}");
+        }
+        say::wrote(&written);
     }
     Ok(ExitCode::SUCCESS)
 }
 
-fn tell(runs: &Runs, outcome: &Outcome, written: &[PathBuf], begin: Instant) {
-    say!("{} in {:.2} s, {} from the journal", plural(runs.done, "run"), begin.elapsed().as_secs_f64(), runs.before);
-    outcome.tell();
-    say::wrote(written);
+/// Everything that the calibration leaves; the same runs give the same bytes.
+fn write(outcome: &Outcome, json: &Value, folder: &Path) -> Result<Vec<PathBuf>, Failure> {
+    let mut written = vec![outcome.table().write_csv(folder.join("calibrate.csv"))?];
+    put(folder, "calibrate.json", &pretty(json), &mut written)?;
+    put(folder, "best.toml", &outcome.best.to_toml(), &mut written)?;
+    let page = brinell_report::calibration_html(&CalibrationReport::of_outcome(outcome));
+    put(folder, "calibrate.html", &page, &mut written)?;
+    Ok(written)
+}
+
+fn usage(error: &CalibrateError, option: &str) -> Failure {
+    Failure::Usage(format!("{option}: {error}"))
+}
+
+/// Reads and checks everything, before anything runs. What deserves attention comes with it.
+fn read(args: &CalibrateArgs) -> Result<(Source, Arc<Plan>, Vec<String>), Failure> {
+    let keys: Vec<Key> =
+        (args.fit.iter()).map(|text| Key::read(text).map_err(|e| usage(&e, "--fit"))).collect::<Result<_, _>>()?;
+    check_keys(&keys).map_err(|e| usage(&e, "--fit"))?;
+    let targets: Vec<Target> = (args.target.iter())
+        .map(|text| Target::read(text).map_err(|e| usage(&e, "--target")))
+        .collect::<Result<_, _>>()?;
+    let source = Source::open(&args.scenario, &args.set)?;
+    for settings in bounds(&keys) {
+        source.load(&settings, true)?;
+    }
+    let middle = source.load(&middle(&keys), false)?;
+    let simulation = Simulation::new(&middle.scenario).map_err(Failure::Run)?;
+    let pattern = measured::pattern(args, &middle.scenario, &simulation)?;
+    let (pattern, warnings) = pattern.map_or((None, Vec::new()), |(pattern, warnings)| (Some(pattern), warnings));
+    let plan = Plan::new(keys, targets, pattern, middle, &simulation, args.seed, args.budget);
+    let plan = plan.map_err(|error| match &error {
+        CalibrateError::Name(_) => Failure::Usage(format!("--target {error}")),
+        CalibrateError::Budget { budget, .. } => Failure::Usage(format!("--budget {budget}: {error}")),
+        CalibrateError::NoTarget => Failure::Usage(
+            "there is nothing to fit to: give --target NAME=VALUE~UNCERTAINTY, or --measured FILE".into(),
+        ),
+        _ => usage(&error, "--target"),
+    })?;
+    Ok((source, Arc::new(plan), warnings))
+}
+
+fn tell_plan(points: &Points, warnings: &[String], threads: NonZeroUsize, ledger: Option<&Ledger>) {
+    let plan = points.plan;
+    say!("{} to {}:", plural(plan.keys.len(), "key"), plural(plan.targets.len(), "target"));
+    for (key, unit) in plan.keys.iter().zip(&plan.units) {
+        let log = if key.log { ", in its logarithm" } else { "" };
+        say!("  {} from {:?} to {:?} {unit}{log}", key.name, key.low, key.high);
+    }
+    for note in plan.pattern.iter().flat_map(|pattern| &pattern.notes) {
+        say!("  {note}");
+    }
+    for warning in warnings {
+        complain!("warning: {warning}");
+    }
+    for target in &plan.targets {
+        say!("  {} = {} ~ {}", target.name, short(target.value, 5), short(target.uncertainty, 2));
+    }
+    let budget = plan.settings.budget;
+    let sample = latin_hypercube(plan.settings.seed, plan.keys.len(), budget.min(100));
+    let tasks: Vec<Task> = sample.iter().filter_map(|p| points.task(p).ok()).collect();
+    let scale = budget as f64 / tasks.len().max(1) as f64;
+    let cost = estimate(&tasks, points, threads)
+        .map_or(String::new(), |seconds| format!(", about {}", duration(scale * seconds)));
+    let simulated = plan.middle.scenario.simulation.duration_s * budget as f64;
+    say!("  up to {}: {} s simulated, {} at a time{cost}", plural(budget, "run"), short(simulated, 3), threads);
+    let kept = ledger.map_or(0, |l| l.kept.len());
+    if kept > 0 {
+        say!("  {} in the journal, not to be run again", plural(kept, "run"));
+    }
 }
 
 /// The folder's journal is of something else.
@@ -115,21 +178,4 @@ fn other_calibration(folder: &Path, other: &Value) -> String {
          it with --extend, where runs of the same scenario count",
         keys.join(", ")
     )
-}
-
-/// Why the first runs failed.
-fn tell_reasons(runs: &Runs, plan: &Plan) {
-    const SHOWN: usize = 3;
-    let size = plan.settings.budget;
-    let mut reasons: Vec<String> = Vec::new();
-    // The start lies in the journal or was never a scenario; its points follow from the seed.
-    for place in latin_hypercube(plan.settings.seed, plan.keys.len(), start_size(plan.keys.len(), size)) {
-        if let Err(reason) = runs.row(&place)
-            && !reasons.contains(&reason)
-            && reasons.len() < SHOWN
-        {
-            complain!("  a run failed: {reason}");
-            reasons.push(reason);
-        }
-    }
 }

@@ -1,10 +1,7 @@
 //! `brinell compare`: scenarios side by side, each against the baseline: the first.
 
 mod args;
-mod curves;
-mod page;
 mod sides;
-mod table;
 
 use crate::failure::Failure;
 use crate::files::{self, make_folder, safe_name, stem};
@@ -17,9 +14,9 @@ pub(crate) use args::CompareArgs;
 use brinell::simulate::Simulation;
 use brinell::{Error, RunResult};
 use brinell_io::{Metadata, atomic_prepare, keys};
-use brinell_study::campaign::{self, Compared, run_all};
+use brinell_report::SideBySide;
+use brinell_study::campaign::{self, Compared, Side, run_all, sides_json, sides_scenarios, sides_table};
 use serde_json::Value;
-use sides::Side;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::sync::Mutex;
@@ -34,7 +31,6 @@ pub(crate) fn compare(args: &CompareArgs) -> Result<ExitCode, Failure> {
     let layout = args.print.layout(&args.plots)?;
     let mut inputs = Inputs::default();
     let sides = sides::read(args, &mut inputs)?;
-    table::check_columns(&sides)?;
     for side in &sides {
         let simulation = Simulation::new(&side.loaded.scenario).map_err(Failure::Run)?;
         if !args.quiet {
@@ -59,8 +55,8 @@ pub(crate) fn compare(args: &CompareArgs) -> Result<ExitCode, Failure> {
     };
     let all: Vec<&RunResult> = runs.iter().collect();
     let compared = campaign::compare(&all);
-    let report = page::report(&sides, &all, &compared);
-    let table = table::table(&sides, &compared);
+    let report = SideBySide::of_runs(&sides, &all, &compared);
+    let table = sides_table(&sides, &compared);
     ready.push(table.prepare_csv(folder.join(CSV))?);
     let metadata = Metadata::default().with(keys::VERSION, brinell::VERSION);
     ready.push(table.prepare_parquet(folder.join(PARQUET), &metadata)?);
@@ -68,14 +64,14 @@ pub(crate) fn compare(args: &CompareArgs) -> Result<ExitCode, Failure> {
         [] => Vec::new(),
         _ => brinell_report::side_by_side_pictures(&report, layout),
     };
-    let json = (COMPARISON, table::json(&sides, &compared));
+    let json = (COMPARISON, sides_json(&sides, &compared));
     let page = brinell_report::side_by_side_html(&report);
     let (written, json) = earlier.publish(ready, json, Some((PAGE, &page)), (&pictures, &args.plots))?;
     if args.json {
         document(json.trim_end());
     }
     if !args.quiet {
-        for warning in page::unsettled(&sides, &all) {
+        for warning in brinell_report::unsettled(&sides, &all) {
             complain!("warning: {warning}");
         }
         tell(&sides, &compared);
@@ -95,7 +91,7 @@ fn scenario_files(sides: &[Side], folder: &Path) -> Vec<PathBuf> {
 fn earlier(args: &CompareArgs, sides: &[Side], folder: &Path, inputs: &Inputs) -> Result<Earlier, Failure> {
     let place = Place { kind: Results::Comparison, folder, inputs };
     let writes = [COMPARISON, PAGE, CSV, PARQUET].map(str::to_owned);
-    let same = |previous: &Value| previous.is_null() || previous["scenarios"] == Value::Object(table::scenarios(sides));
+    let same = |previous: &Value| previous.is_null() || previous["scenarios"] == Value::Object(sides_scenarios(sides));
     place.earlier(args.overwrite, &writes, same)
 }
 
@@ -134,7 +130,7 @@ fn run(args: &CompareArgs, sides: &[Side]) -> Result<Option<Vec<RunResult>>, Fai
 fn tell(sides: &[Side], compared: &[Compared]) {
     for (k, side) in sides.iter().enumerate().skip(1) {
         say!("{} over {} (the baseline), ratios:", side.label, sides[0].label);
-        for name in page::headline(compared) {
+        for name in brinell_report::compared_headline(compared) {
             let Some(ratio) = compared.iter().find(|c| c.name == name).and_then(|c| c.ratios[k]) else {
                 continue;
             };

@@ -1,8 +1,8 @@
 //! What a plan means and costs, in words; and why it is refused.
 
 use super::DatasetArgs;
-use crate::say::{complain, say, short, twelve_digits};
-use crate::sweep::{duration, plural};
+use crate::say::{complain, plural, say, short, twelve_digits};
+use crate::sweep::duration;
 use brinell::document::on_one_line;
 use brinell_study::dataset::Campaign;
 use brinell_study::design::{Misses, OutOfRange, Survey};

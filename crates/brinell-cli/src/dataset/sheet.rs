@@ -2,8 +2,7 @@
 
 use super::args::SheetArgs;
 use crate::failure::Failure;
-use crate::say::say;
-use crate::sweep::plural;
+use crate::say::{plural, say};
 use brinell_io::atomic_write;
 use brinell_report::sheet_html;
 use brinell_study::dataset::sheet;

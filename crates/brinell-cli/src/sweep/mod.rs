@@ -11,7 +11,7 @@ use crate::figures::ready_pictures;
 use crate::files::make_folder;
 use crate::files::stem;
 use crate::results::{Place, Results, put};
-use crate::say::{self, complain, pretty, say, short};
+use crate::say::{self, complain, plural, pretty, say, short};
 use crate::stop::stop_flag;
 pub(crate) use args::SweepArgs;
 use brinell::document::read;
@@ -22,7 +22,6 @@ use brinell_study::campaign::fingerprint;
 use brinell_study::runner::{JOURNAL, Kept, Task, estimate, to_run};
 
 use page::usual;
-pub(crate) use page::{plural, value_text, words};
 pub(crate) use points::reason;
 use points::{FromSource, Points};
 use serde_json::{Value, json};

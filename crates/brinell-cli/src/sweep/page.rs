@@ -2,10 +2,12 @@
 
 use super::points::Points;
 use super::table::{State, count, number};
-use crate::say::{bracketed, short, shown_unit};
+use crate::say::{plural, shown_unit};
 use brinell::result::Quantity;
 use brinell::scenario::Scenario;
-use brinell_report::{Fact, HeatMap, IndicatorLine, IndicatorPlot, IndicatorPoint, SweepReport, Table, capital};
+use brinell_report::{
+    Fact, HeatMap, IndicatorLine, IndicatorPlot, IndicatorPoint, SweepReport, Table, value_text, words,
+};
 use brinell_study::campaign::Axis;
 use std::collections::HashMap;
 
@@ -69,10 +71,6 @@ pub(super) fn report(points: &Points, states: &[State], plots: &[String]) -> Swe
         table: table(points, states, plots),
         scenario_toml: points.source.text(),
     }
-}
-
-pub(crate) fn plural(n: usize, word: &str) -> String {
-    format!("{n} {word}{}", if n == 1 { "" } else { "s" })
 }
 
 /// The axis along x: the first one with a key of numbers that takes several values, or else the first.
@@ -197,22 +195,6 @@ fn point(x: f64, quantity: Option<&Quantity>) -> IndicatorPoint {
     IndicatorPoint { x, value, interval: quantity.and_then(Quantity::interval) }
 }
 
-/// "RMS of sensor_ax" for `sensor_ax.rms`.
-pub(crate) fn words(name: &str) -> String {
-    let Some((of, what)) = name.rsplit_once('.') else {
-        return name.replace('_', " ");
-    };
-    let what = match what {
-        "rms" => "RMS".to_owned(),
-        other => capital(other).replace('_', " "),
-    };
-    match of {
-        "envelope" => format!("Envelope spectrum at {}", what.to_uppercase()),
-        "work" | "audit" => what,
-        of => format!("{what} of {}", of.replace(".anti_aliased", ", anti-aliased,")),
-    }
-}
-
 /// The points with their keys and what is plotted.
 fn table(points: &Points, states: &[State], plots: &[String]) -> Table {
     let mut columns = vec!["#Point".to_owned()];
@@ -248,10 +230,4 @@ fn table(points: &Points, states: &[State], plots: &[String]) -> Table {
     };
     let note = "Averages over whole revolutions, in brackets their 95 % intervals; peaks are those of a revolution.";
     Table::new("Points", columns, rows, more + note)
-}
-
-/// A number with its interval, as a cell of a page's table.
-pub(crate) fn value_text(quantity: &Quantity) -> String {
-    let value = quantity.value.map_or("–".to_owned(), |x| short(x, 4));
-    bracketed(value, quantity.interval())
 }

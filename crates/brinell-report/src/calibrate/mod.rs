@@ -1,6 +1,8 @@
 //! The page of a calibration: what was found, how sure it is, what the data do not determine, and the runs that say so.
 
+mod content;
 mod plot;
+mod words;
 
 use std::fmt::Write as _;
 
@@ -10,6 +12,7 @@ use crate::markup::escape;
 use crate::tables::{Table, fact_table, facts, failures, table};
 pub use plot::{FittedKey, Tried};
 use plot::{course_plot, embed_course, embed_key, key_plot};
+pub use words::{calibration_undetermined, calibration_verdict, interval_text};
 
 /// Everything that the page shows.
 #[derive(Clone, Debug, Default, PartialEq)]

@@ -1,5 +1,8 @@
-//! The page of several runs side by side: overlays of their curves, and tables. What the sections are is the caller's.
+//! The page of several runs side by side: overlays of their curves, and tables. `content.rs` says what the sections of a
+//! comparison are, `curves.rs` which curves they show.
 
+mod content;
+mod curves;
 mod overlay;
 
 use std::fmt::Write as _;
@@ -10,6 +13,7 @@ use crate::layout::Layout;
 use crate::markup::escape;
 use crate::picture::Picture;
 use crate::tables::{Table, facts, table};
+pub use content::{compared_headline, unsettled};
 pub use overlay::{OverlaidCurve, Overlay, Vertical, overlay};
 pub(crate) use overlay::{embed, stacked};
 

@@ -107,7 +107,7 @@ pub fn least_budget(keys: usize) -> usize {
 }
 
 /// Runs of the start: those of [`latin_hypercube`] with the seed.
-pub fn start_size(keys: usize, budget: usize) -> usize {
+pub(super) fn start_size(keys: usize, budget: usize) -> usize {
     (2 * keys + 2).max(budget / 4)
 }
 

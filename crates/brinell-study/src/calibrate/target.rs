@@ -65,7 +65,7 @@ impl Target {
 ///
 /// # Errors
 /// Where they may not.
-pub fn check(targets: &[Target]) -> Result<(), CalibrateError> {
+pub(super) fn check(targets: &[Target]) -> Result<(), CalibrateError> {
     if targets.is_empty() {
         return Err(CalibrateError::NoTarget);
     }
@@ -88,10 +88,10 @@ pub struct Answer {
 
 /// Residual of a target for which a run has no number, in standard uncertainties: far off, yet no more than a search
 /// can climb over.
-pub const MISSING: f64 = 10.0;
+pub(super) const MISSING: f64 = 10.0;
 
 /// Difference from the targets over the standard uncertainties `sigma`.
-pub fn residuals(targets: &[Target], sigma: &[f64], answers: &[Answer]) -> Vec<f64> {
+pub(super) fn residuals(targets: &[Target], sigma: &[f64], answers: &[Answer]) -> Vec<f64> {
     let one = |((target, sigma), answer): ((&Target, &f64), &Answer)| match answer.value {
         Some(value) => (value - target.value) / sigma,
         None => MISSING,

@@ -13,6 +13,7 @@ mod error;
 mod plan;
 mod row;
 mod run;
+mod sides;
 
 pub use axis::Axis;
 #[doc(hidden)]
@@ -26,3 +27,5 @@ pub(crate) use plan::{INSIDE, clash};
 pub use row::digest;
 pub use row::{Row, fingerprint};
 pub use run::run_all;
+#[doc(hidden)]
+pub use sides::{Side, SidesError, check_labels, sides_json, sides_scenarios, sides_table};

@@ -59,9 +59,11 @@ impl Kept {
     }
 }
 
-/// A folder's journal, open for more, and the points that are finished.
+/// A folder's journal, open for more, and the points that are finished. The default is one without a folder, which is
+/// forgotten with the process.
+#[derive(Default)]
 pub struct Ledger {
-    journal: Journal,
+    journal: Option<Journal>,
     /// The points that are finished.
     pub kept: Kept,
 }
@@ -89,11 +91,13 @@ impl Ledger {
             _ => journal.append(header)?,
         }
         let kept = Kept::of(&lines);
-        Ok(Self { journal, kept })
+        Ok(Self { journal: Some(journal), kept })
     }
 
     pub(super) fn add(&mut self, row: Row) -> Result<(), RunnerError> {
-        self.journal.append(&row.to_json())?;
+        if let Some(journal) = &mut self.journal {
+            journal.append(&row.to_json())?;
+        }
         self.kept.rows.insert(row.scenario.clone(), row);
         Ok(())
     }

@@ -1,10 +1,13 @@
 //! The curves of a comparison: signals, spectra, passes over damage, entries and exits.
 
-use super::sides::Side;
+use super::{OverlaidCurve, Overlay, Piece, Vertical};
+use crate::data::Along;
+use crate::number::capital;
+use crate::run::defect_markers;
 use brinell::channel::{STIFFNESS_UNIT, stiffness_unit};
 use brinell::observe::passes::{PassPoint, place};
 use brinell::result::{Impacts, RunResult, impacts};
-use brinell_report::{Along, OverlaidCurve, Overlay, Piece, Vertical, capital};
+use brinell_study::campaign::Side;
 
 /// Name of the acceleration that a run's curves show.
 fn acceleration(run: &RunResult) -> String {
@@ -79,7 +82,7 @@ pub(super) fn envelope(sides: &[Side], runs: &[&RunResult]) -> Piece {
     let Some((_, band)) = runs.iter().find_map(|run| run.findings.envelope.as_ref()) else {
         return Piece::Words("The runs are too short for an envelope spectrum.".into());
     };
-    let markers = brinell_report::defect_markers(&runs[0].scenario, runs[0].simulation.model());
+    let markers = defect_markers(&runs[0].scenario, runs[0].simulation.model());
     let top = markers.iter().filter(|m| m.present).map(|m| m.frequency_hz);
     let top = top.fold(0.0, f64::max);
     Piece::Overlay(Overlay {

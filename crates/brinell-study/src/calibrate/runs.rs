@@ -1,63 +1,73 @@
 //! The runs of a calibration: what a point of the unit cube means as a scenario, and what its run answers.
 
-use super::measured::Pattern;
-use crate::campaign;
-use crate::failure::Failure;
-use crate::files::Source;
-use crate::progress::Joint;
+use super::fit::start_size;
+use super::plan::settings;
+use super::search::latin_hypercube;
+use super::{Answer, Pattern, Plan, Target, Unfit};
+use crate::campaign::{Row, digest, fingerprint};
+use crate::listener::Listener;
+use crate::runner::{Beside, Ledger, RunnerError, Task, Work, run};
+use brinell::document::Loaded;
 use brinell::result::{Quantity, RunResult};
 use brinell::scenario::Scenario;
 use brinell::simulate::{Observer, Simulation};
-use brinell_study::calibrate::{Answer, Key, Target, Unfit};
-use brinell_study::campaign::{Row, digest, fingerprint};
-use brinell_study::runner::{Beside, Ledger, Task, Work};
 use std::num::NonZeroUsize;
 use std::ops::ControlFlow;
-use std::sync::atomic::AtomicBool;
+
+/// Reads the scenario with settings over it, or says on one line why there is none.
+pub type Load<'a> = dyn Fn(&[(String, String)]) -> Result<Loaded, String> + Sync + 'a;
+
+/// Why a calibration has no outcome.
+#[derive(Debug, thiserror::Error)]
+pub enum Unfinished {
+    /// Files cannot be read or written.
+    #[error(transparent)]
+    Runner(#[from] RunnerError),
+    /// The runs say nothing, or somebody stopped them.
+    #[error("{unfit}")]
+    Unfit {
+        /// Which of these.
+        unfit: Unfit,
+        /// Why the first runs failed that did.
+        reasons: Vec<String>,
+    },
+}
 
 /// Scenarios from points.
-pub(super) struct FromPoints<'a> {
-    pub(super) source: &'a Source,
-    pub(super) keys: &'a [Key],
-    pub(super) pattern: Option<&'a Pattern>,
+pub struct Points<'a> {
+    /// The scenario.
+    pub load: &'a Load<'a>,
+    /// What is fitted.
+    pub plan: &'a Plan,
 }
 
-/// What a point of the unit cube gives the keys.
-pub(super) fn settings(keys: &[Key], place: &[f64]) -> Vec<(String, String)> {
-    keys.iter().zip(place).map(|(key, unit)| (key.name.clone(), key.text(*unit))).collect()
-}
-
-impl FromPoints<'_> {
+impl Points<'_> {
     /// What is to be run at a point, or why its scenario is bad.
-    pub(super) fn task(&self, place: &[f64]) -> Result<Task, String> {
-        let settings = settings(self.keys, place);
-        let loaded = self.source.load(&settings, true);
-        let scenario = loaded.map_err(|failure| crate::sweep::reason(&failure))?.scenario;
+    pub fn task(&self, place: &[f64]) -> Result<Task, String> {
+        let settings = settings(&self.plan.keys, place);
+        let scenario = (self.load)(&settings)?.scenario;
         Ok(Task { fingerprint: self.fingerprint(&scenario), ..Task::new(settings, &scenario) })
     }
 }
 
-impl Work for FromPoints<'_> {
-    type Error = Failure;
+impl Work for Points<'_> {
+    type Error = RunnerError;
 
-    fn scenario(&self, task: &Task) -> Result<Scenario, Failure> {
-        Ok(self.source.load(&task.settings, true)?.scenario)
+    fn scenario(&self, task: &Task) -> Result<Scenario, RunnerError> {
+        (self.load)(&task.settings).map(|loaded| loaded.scenario).map_err(|_| RunnerError::Changed)
     }
 
     /// Of the scenario, and of what is taken from its signal.
     fn fingerprint(&self, scenario: &Scenario) -> String {
         let own = fingerprint(scenario);
-        match self.pattern {
-            Some(pattern) => {
-                let signature = pattern.signature.describe();
-                digest(&format!("{own} {} {signature}", pattern.channel))
-            }
+        match &self.plan.pattern {
+            Some(pattern) => digest(&format!("{own} {}", pattern.describe())),
             None => own,
         }
     }
 
-    fn beside(&self, _: &Task, _: &Simulation) -> Option<Box<dyn Beside<Failure> + '_>> {
-        Some(Box::new(Sensor { pattern: self.pattern?, signal: Vec::new() }))
+    fn beside(&self, _: &Task, _: &Simulation) -> Option<Box<dyn Beside<RunnerError> + '_>> {
+        Some(Box::new(Sensor { pattern: self.plan.pattern.as_ref()?, signal: Vec::new() }))
     }
 }
 
@@ -74,9 +84,9 @@ impl Observer for Sensor<'_> {
     }
 }
 
-impl Beside<Failure> for Sensor<'_> {
+impl Beside<RunnerError> for Sensor<'_> {
     /// The levels from when the run had settled.
-    fn finished(self: Box<Self>, finished: &RunResult) -> Result<Vec<Quantity>, Failure> {
+    fn finished(self: Box<Self>, finished: &RunResult) -> Result<Vec<Quantity>, RunnerError> {
         let settled = finished.findings.from * finished.simulation.sample_rate();
         Ok(self.pattern.quantities(self.signal.get(settled.ceil() as usize..).unwrap_or(&[])))
     }
@@ -84,36 +94,32 @@ impl Beside<Failure> for Sensor<'_> {
 
 /// Answers batches from the journal, and runs what is not there.
 pub(super) struct Runs<'a> {
-    pub(super) points: FromPoints<'a>,
-    pub(super) targets: &'a [Target],
+    pub(super) points: Points<'a>,
     pub(super) ledger: Ledger,
     pub(super) threads: NonZeroUsize,
-    pub(super) joint: Joint,
-    pub(super) stop: &'a AtomicBool,
+    pub(super) listener: &'a dyn Listener,
     /// Runs of this call, and what it took from the journal.
     pub(super) done: usize,
     pub(super) before: usize,
     /// What ended the campaign, other than the user.
-    pub(super) failure: Option<Failure>,
+    pub(super) failure: Option<RunnerError>,
 }
 
 impl Runs<'_> {
-    /// For [`brinell_study::calibrate::fit`].
+    /// For [`fit`].
     pub(super) fn ask(&mut self, places: &[Vec<f64>]) -> Result<Vec<Option<Vec<Answer>>>, Unfit> {
         let wanted: Vec<Result<Task, String>> = places.iter().map(|place| self.points.task(place)).collect();
         let mut tasks: Vec<Task> = Vec::new();
         for task in wanted.iter().flatten() {
             if self.ledger.kept.row(&task.fingerprint).is_some() {
                 self.before += 1;
-                self.joint.done_before(task.duration_s);
+                self.listener.before(1);
             } else if !tasks.iter().any(|t| t.fingerprint == task.fingerprint) {
                 tasks.push(task.clone());
             }
         }
         self.done += tasks.len();
-        let outcome =
-            campaign::run_within(&tasks, &self.points, &mut self.ledger, self.threads, &self.joint, self.stop);
-        match outcome {
+        match run(&tasks, &self.points, &mut self.ledger, self.threads, self.listener) {
             Ok(flow) if flow.is_continue() => {}
             Ok(_) => return Err(Unfit::Interrupted),
             Err(failure) => {
@@ -123,7 +129,7 @@ impl Runs<'_> {
         }
         let answer = |task: &Result<Task, String>| {
             let row = self.ledger.kept.row(&task.as_ref().ok()?.fingerprint)?;
-            answers(row, self.targets)
+            answers(row, &self.points.plan.targets)
         };
         Ok(wanted.iter().map(answer).collect())
     }
@@ -136,6 +142,29 @@ impl Runs<'_> {
             Ok(_) => Ok(row),
             Err(reason) => Err(reason.clone()),
         }
+    }
+
+    /// The scenario of a point.
+    pub(super) fn scenario(&self, place: &[f64]) -> Result<Loaded, RunnerError> {
+        let settings = settings(&self.points.plan.keys, place);
+        (self.points.load)(&settings).map_err(|_| RunnerError::Changed)
+    }
+
+    /// Why the first runs failed.
+    pub(super) fn reasons(&self) -> Vec<String> {
+        const SHOWN: usize = 3;
+        let (keys, settings) = (self.points.plan.keys.len(), self.points.plan.settings);
+        let mut reasons: Vec<String> = Vec::new();
+        // The start lies in the journal or was never a scenario; its points follow from the seed.
+        for place in latin_hypercube(settings.seed, keys, start_size(keys, settings.budget)) {
+            if let Err(reason) = self.row(&place)
+                && !reasons.contains(&reason)
+                && reasons.len() < SHOWN
+            {
+                reasons.push(reason);
+            }
+        }
+        reasons
     }
 }
 

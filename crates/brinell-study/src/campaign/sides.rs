@@ -1,46 +1,88 @@
 //! A comparison as a table and as JSON: every number of each run, and its ratio to the baseline's, which is the first
-//! run.
+//! run; and what runs may be called there.
 
-use super::sides::Side;
-use crate::failure::Failure;
+use super::Compared;
+use brinell::document::Loaded;
 use brinell::result::Quantity;
 use brinell::signal::ratio::Ratio;
 use brinell::summary::with_interval;
 use brinell_io::{Cells, Column, Table};
-use brinell_study::campaign::Compared;
 use serde_json::{Map, Value, json};
 
+/// Runs that a page can show in distinct colours.
+const MOST: usize = 6;
 /// The table's own columns.
 static OWN: [&str; 2] = ["quantity", "unit"];
 /// Endings of the columns of each run, and of each but the baseline.
 static VALUE: [&str; 3] = ["", ".low", ".high"];
 static RATIO: [&str; 3] = [".ratio", ".ratio.low", ".ratio.high"];
 
-/// That no two columns are called alike.
-pub(super) fn check_columns(sides: &[Side]) -> Result<(), Failure> {
-    let columns: Vec<String> = columns(sides).collect();
-    if let Some(twice) = (1..columns.len()).find(|k| columns[..*k].contains(&columns[*k])) {
-        return Err(Failure::Usage(format!(
-            "two columns of compare.csv would be called {}: rename a file or a variant",
-            columns[twice]
-        )));
+/// One of the runs: what it is called, and its scenario.
+#[derive(Debug, Clone)]
+pub struct Side {
+    /// Its name in tables and legends.
+    pub label: String,
+    /// What was run.
+    pub loaded: Loaded,
+}
+
+/// Why runs cannot be laid side by side.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+pub enum SidesError {
+    /// So many.
+    #[error("{0} to compare\n  allowed: 2 to {MOST} scenarios and variants")]
+    Count(usize),
+    /// A name that cannot head a column.
+    #[error("`{0}` cannot name a run\n  allowed: words without commas and quotes that are no number")]
+    Name(String),
+    /// One name for two runs.
+    #[error("two runs would be called {0}")]
+    Twice(String),
+    /// One name for two columns.
+    #[error("two columns would be called {0}")]
+    Columns(String),
+}
+
+/// That runs of these names can be laid side by side.
+///
+/// # Errors
+/// Where they cannot.
+pub fn check_labels(labels: &[String]) -> Result<(), SidesError> {
+    if !(2..=MOST).contains(&labels.len()) {
+        return Err(SidesError::Count(labels.len()));
     }
-    Ok(())
+    for (k, name) in labels.iter().enumerate() {
+        let bad = name.trim().is_empty()
+            || name.contains([',', '"'])
+            || name.contains(char::is_control)
+            || name.parse::<f64>().is_ok();
+        if bad {
+            return Err(SidesError::Name(name.clone()));
+        }
+        if labels[..k].contains(name) {
+            return Err(SidesError::Twice(name.clone()));
+        }
+    }
+    let columns: Vec<String> = columns(labels).collect();
+    match (1..columns.len()).find(|k| columns[..*k].contains(&columns[*k])) {
+        Some(twice) => Err(SidesError::Columns(columns[twice].clone())),
+        None => Ok(()),
+    }
 }
 
 /// Names of the table's columns.
-fn columns(sides: &[Side]) -> impl Iterator<Item = String> {
-    let of = |(k, side): (usize, &Side)| {
+fn columns(labels: &[String]) -> impl Iterator<Item = String> {
+    let of = |(k, label): (usize, &String)| {
         let endings = VALUE.iter().chain(if k > 0 { &RATIO[..] } else { &[] });
-        let label = side.label.clone();
         let names: Vec<String> = endings.map(|ending| format!("{label}{ending}")).collect();
         names
     };
     let own = OWN.iter().map(|name| (*name).to_owned());
-    own.chain(sides.iter().enumerate().flat_map(of))
+    own.chain(labels.iter().enumerate().flat_map(of))
 }
 
-pub(super) fn table(sides: &[Side], compared: &[Compared]) -> Table {
+/// A row a number: its value and interval in each run, and its ratio to the baseline's.
+pub fn sides_table(sides: &[Side], compared: &[Compared]) -> Table {
     let mut table = Table::default();
     let words = |of: fn(&Compared) -> &str| Cells::Words(compared.iter().map(|c| Some(of(c).to_owned())).collect());
     table.push(Column::new(OWN[0], "", ""), words(|c| &c.name));
@@ -65,12 +107,13 @@ pub(super) fn table(sides: &[Side], compared: &[Compared]) -> Table {
 }
 
 /// Each scenario by its label, as the files have it.
-pub(super) fn scenarios(sides: &[Side]) -> Map<String, Value> {
+pub fn sides_scenarios(sides: &[Side]) -> Map<String, Value> {
     let one = |side: &Side| (side.label.clone(), side.loaded.to_toml().into());
     sides.iter().map(one).collect()
 }
 
-pub(super) fn json(sides: &[Side], compared: &[Compared]) -> Value {
+/// What `compare.json` holds.
+pub fn sides_json(sides: &[Side], compared: &[Compared]) -> Value {
     let value = |q: &Quantity| with_interval(q.value, q.interval());
     let ratio = |r: &Ratio| with_interval(r.value, r.interval);
     let by_label = |of: &dyn Fn(usize) -> Option<Value>| -> Map<String, Value> {
@@ -96,6 +139,6 @@ pub(super) fn json(sides: &[Side], compared: &[Compared]) -> Value {
         "interval_of_a_ratio": "95 %: ln(a/b) +- t sqrt(s_a^2/a^2 + s_b^2/b^2), Student's t with Welch's degrees of freedom; \
                                 supposes runs that scatter independently",
         "quantities": quantities,
-        "scenarios": scenarios(sides),
+        "scenarios": sides_scenarios(sides),
     })
 }

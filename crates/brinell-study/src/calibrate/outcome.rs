@@ -1,88 +1,113 @@
-//! What a calibration found, as numbers and files.
+//! What a calibration found, as numbers, as a table of its runs and as JSON.
 
-use super::plan::Plan;
-use super::runs::{Runs, own_uncertainty, settings};
-use crate::failure::Failure;
-use crate::results::put;
-use crate::say::{pretty, shown_unit};
+use super::identify::MOST;
+use super::plan::settings;
+use super::runs::{Runs, own_uncertainty};
+use super::target::MISSING;
+use super::{Fit, Key, Plan};
+use crate::runner::RunnerError;
 use brinell::document::Loaded;
 use brinell::signal::distribution::chi_square_tail;
 use brinell_io::{Cells, Column, Table};
-use brinell_report::FittedKey;
-use brinell_study::calibrate::identify::MOST;
-use brinell_study::calibrate::{Fit, MISSING};
 use serde_json::{Map, Value, json};
-use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 /// Significance of a misfit: p-values below are one.
 const SIGNIFICANCE: f64 = 0.05;
 
 /// A key's value.
-pub(super) struct Found {
-    pub(super) key: FittedKey,
-    /// In the unit interval.
-    pub(super) place: f64,
+#[derive(Debug, Clone)]
+pub struct Found {
+    /// The key.
+    pub key: Key,
+    /// Its unit; empty where it has none.
+    pub unit: &'static str,
+    /// The best value.
+    pub best: f64,
+    /// Ends of the 95 % interval within the bounds, where the data determine the key.
+    pub interval: Option<(f64, f64)>,
+    /// The best value in the unit interval.
+    pub place: f64,
     /// Half the 95 % interval, in ranges.
-    pub(super) half_width: f64,
+    pub half_width: f64,
 }
 
 impl Found {
-    pub(super) fn is_determined(&self) -> bool {
-        self.key.interval.is_some()
+    /// Whether the data tell the key.
+    pub fn is_determined(&self) -> bool {
+        self.interval.is_some()
     }
 
     /// Whether the interval runs beyond the lower and the upper bound, where it ends for want of runs and not because
     /// data say so.
-    pub(super) fn is_cut(&self) -> [bool; 2] {
+    pub fn is_cut(&self) -> [bool; 2] {
         let within = self.is_determined();
         [within && self.place - self.half_width < 0.0, within && self.place + self.half_width > 1.0]
     }
 }
 
 /// A target against the best run.
-pub(super) struct Compared {
-    pub(super) name: String,
-    pub(super) unit: String,
-    pub(super) target: f64,
-    pub(super) uncertainty: f64,
-    pub(super) value: Option<f64>,
-    /// The run's own.
-    pub(super) own: f64,
-    pub(super) residual: f64,
+#[derive(Debug, Clone)]
+pub struct Met {
+    /// Name of the number.
+    pub name: String,
+    /// Its unit; empty where it has none.
+    pub unit: String,
+    /// What it is to be.
+    pub target: f64,
+    /// The target's standard uncertainty.
+    pub uncertainty: f64,
+    /// What the best run has.
+    pub value: Option<f64>,
+    /// The run's own standard uncertainty.
+    pub own: f64,
+    /// Difference in standard uncertainties.
+    pub residual: f64,
 }
 
-pub(super) struct Outcome<'a> {
-    pub(super) plan: &'a Plan,
-    pub(super) runs: &'a Runs<'a>,
-    pub(super) fit: Fit,
-    pub(super) found: Vec<Found>,
-    pub(super) compared: Vec<Compared>,
-    pub(super) best: Loaded,
+/// What a calibration found.
+#[derive(Debug)]
+pub struct Outcome {
+    /// What was fitted to what.
+    pub plan: Arc<Plan>,
+    /// The search.
+    pub fit: Fit,
+    /// The keys.
+    pub found: Vec<Found>,
+    /// The targets.
+    pub compared: Vec<Met>,
+    /// The best scenario.
+    pub best: Loaded,
+    /// Why each run failed, of those that did.
+    pub reasons: Vec<Option<String>>,
+    /// Runs that were made, and runs that were kept from before.
+    pub done: usize,
+    /// The latter.
+    pub before: usize,
 }
 
-impl<'a> Outcome<'a> {
-    pub(super) fn new(plan: &'a Plan, runs: &'a Runs<'a>, fit: Fit) -> Result<Self, Failure> {
+impl Outcome {
+    pub(super) fn new(plan: &Arc<Plan>, runs: &Runs, fit: Fit) -> Result<Self, RunnerError> {
         let place = &fit.evaluations[fit.best].place;
         let found = plan.keys.iter().enumerate().map(|(k, key)| {
             let half_width = fit.identified.half_widths[k];
-            let fitted = FittedKey {
-                name: key.name.clone(),
-                unit: plan.units[k].into(),
-                bounds: (key.low, key.high),
-                log: key.log,
+            let ends = || (key.value(place[k] - half_width), key.value(place[k] + half_width));
+            Found {
+                key: key.clone(),
+                unit: plan.units[k],
                 best: key.value(place[k]),
-                interval: (2.0 * half_width < MOST)
-                    .then(|| (key.value(place[k] - half_width), key.value(place[k] + half_width))),
-            };
-            Found { key: fitted, place: place[k], half_width }
+                interval: (2.0 * half_width < MOST).then(ends),
+                place: place[k],
+                half_width,
+            }
         });
         let found = found.collect();
         let row = runs.row(place).ok();
         let compared = plan.targets.iter().enumerate().map(|(t, target)| {
             let quantity = row.and_then(|row| row.quantity(&target.name));
-            Compared {
+            Met {
                 name: target.name.clone(),
-                unit: quantity.map_or("", |q| shown_unit(&q.unit)).to_owned(),
+                unit: quantity.map_or("", |q| if q.unit == "1" { "" } else { &*q.unit }).to_owned(),
                 target: target.value,
                 uncertainty: target.uncertainty,
                 value: quantity.and_then(|q| q.value),
@@ -91,22 +116,33 @@ impl<'a> Outcome<'a> {
             }
         });
         let compared = compared.collect();
-        let best = plan.source.load(&settings(runs.points.keys, place), true)?;
-        Ok(Self { plan, runs, found, compared, best, fit })
+        let failed = fit.evaluations.iter().map(|e| match e.answers {
+            Some(_) => None,
+            None => runs.row(&e.place).err(),
+        });
+        let reasons = failed.collect();
+        let best = runs.scenario(place)?;
+        Ok(Self { plan: Arc::clone(plan), found, compared, best, reasons, done: runs.done, before: runs.before, fit })
     }
 
-    pub(super) fn chi_square(&self) -> f64 {
+    /// What a run sets.
+    pub fn settings(&self, run: usize) -> Vec<(String, String)> {
+        settings(&self.plan.keys, &self.fit.evaluations[run].place)
+    }
+
+    /// Sum of squares of the residuals.
+    pub fn chi_square(&self) -> f64 {
         self.fit.evaluations[self.fit.best].chi_square
     }
 
     /// The p-value of the misfit; `None` without a degree of freedom.
-    pub(super) fn p_value(&self) -> Option<f64> {
+    pub fn p_value(&self) -> Option<f64> {
         let freedom = self.fit.identified.freedom;
         (freedom > 0).then(|| chi_square_tail(self.chi_square(), freedom as f64))
     }
 
     /// Whether the uncertainties explain the misfit.
-    pub(super) fn is_met(&self) -> bool {
+    pub fn is_met(&self) -> bool {
         match self.p_value() {
             Some(p) => p >= SIGNIFICANCE,
             // As many keys as targets, or more: each target by itself.
@@ -114,19 +150,8 @@ impl<'a> Outcome<'a> {
         }
     }
 
-    /// Everything that the calibration leaves; the same runs give the same bytes.
-    pub(super) fn write(&self, folder: &Path) -> Result<Vec<PathBuf>, Failure> {
-        let mut written = vec![self.table().write_csv(folder.join("calibrate.csv"))?];
-        let json = pretty(&self.json());
-        put(folder, "calibrate.json", &json, &mut written)?;
-        put(folder, "best.toml", &self.best.to_toml(), &mut written)?;
-        let page = brinell_report::calibration_html(&self.report());
-        put(folder, "calibrate.html", &page, &mut written)?;
-        Ok(written)
-    }
-
     /// A row a run, in the order requested.
-    fn table(&self) -> Table {
+    pub fn table(&self) -> Table {
         let all = &self.fit.evaluations;
         let mut table = Table::default();
         let mut numbers = |name: String, unit: &str, about: &str, of: &dyn Fn(usize) -> Option<f64>| {
@@ -156,25 +181,22 @@ impl<'a> Outcome<'a> {
         let stages = all.iter().map(|e| Some(e.stage.word().to_owned())).collect();
         let about = "start, swarm, local, or around the best";
         table.push(Column::new("stage", "", about), Cells::Words(stages));
-        let reasons = all.iter().map(|e| match e.answers {
-            Some(_) => None,
-            None => self.runs.row(&e.place).err(),
-        });
         let status = all.iter().map(|e| Some(if e.answers.is_some() { "complete" } else { "failed" }.to_owned()));
         table.push(Column::new("status", "", "complete or failed"), Cells::Words(status.collect()));
-        table.push(Column::new("reason", "", "why it failed"), Cells::Words(reasons.collect()));
+        table.push(Column::new("reason", "", "why it failed"), Cells::Words(self.reasons.clone()));
         table
     }
 
-    pub(super) fn json(&self) -> Value {
+    /// What `calibrate.json` holds; whether the targets are met and what is not determined are given in words.
+    pub fn to_json(&self, verdict: &[String], undetermined: &[String]) -> Value {
         let finite = |x: f64| if x.is_finite() { json!(x) } else { Value::Null };
         let identified = &self.fit.identified;
         let keys = self.found.iter().enumerate().map(|(k, f)| {
-            let (key, (low, high)) = (&f.key, f.key.bounds);
+            let key = &f.key;
             json!({
-                "key": key.name, "unit": key.unit, "value": key.best, "low": low, "high": high, "log": key.log,
+                "key": key.name, "unit": f.unit, "value": f.best, "low": key.low, "high": key.high, "log": key.log,
                 "determined": f.is_determined(),
-                "interval_95": key.interval.map(|(low, high)| json!([low, high])),
+                "interval_95": f.interval.map(|(low, high)| json!([low, high])),
                 "standard_uncertainty_in_ranges": finite(identified.deviations[k]),
                 "difference_over_ranges": 2.0 * self.fit.steps[k],
             })
@@ -218,8 +240,8 @@ impl<'a> Outcome<'a> {
             "targets": targets,
             "correlation": correlation,
             "directions": directions,
-            "verdict": self.verdict(),
-            "undetermined": self.undetermined(),
+            "verdict": verdict,
+            "undetermined": undetermined,
             "measured": self.plan.pattern.as_ref().map(|p| p.notes.clone()),
         })
     }

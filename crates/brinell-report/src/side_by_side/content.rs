@@ -1,45 +1,49 @@
 //! A comparison as its page shows it.
 
 use super::curves::{called, entry_and_exit, envelope, over_defect, spectrum, waveform};
-use super::sides::Side;
-use crate::say::{bracketed, short, shown_unit, twelve_digits};
-use crate::sweep::{value_text, words};
+use super::{Part, Piece, SideBySide};
+use crate::fact::Fact;
+use crate::number::{bracketed, short, shown_unit, twelve_digits};
+use crate::quantity::{value_text, words};
+use crate::tables::Table;
 use brinell::observe::passes::place;
 use brinell::result::{Quantity, RunResult};
 use brinell::signal::ratio::Ratio;
-use brinell_report::{Fact, Part, Piece, SideBySide, Table};
-use brinell_study::campaign::Compared;
+use brinell_study::campaign::{Compared, Side};
 
 /// Longest value in the table of what differs.
 const LONGEST: usize = 60;
 
-pub(super) fn report(sides: &[Side], runs: &[&RunResult], compared: &[Compared]) -> SideBySide {
-    let names: Vec<String> = sides.iter().map(|side| side.label.clone()).collect();
-    let mut parts = vec![
-        part("What differs", vec![Piece::Table(differing(sides))]),
-        part("Sensor acceleration", vec![Piece::Overlay(waveform(runs))]),
-        part("Spectrum", vec![spectrum(runs)]),
-        part("Envelope spectrum", vec![envelope(sides, runs)]),
-    ];
-    let defects = runs.iter().map(|run| run.scenario.defects.len()).max();
-    for defect in 0..defects.unwrap_or(0) {
-        parts.push(part(&format!("Over {}", called(runs, defect)), over_defect(runs, defect)));
-        parts.push(part(&format!("Entry and exit, {}", called(runs, defect)), entry_and_exit(runs, defect)));
-    }
-    for (title, wanted) in TABLES {
-        let rows: Vec<&Compared> = compared.iter().filter(|c| wanted(&c.name)).collect();
-        if !rows.is_empty() {
-            parts.push(part(title, vec![Piece::Table(numbers(title, &names, &rows))]));
+impl SideBySide {
+    /// What the page of a comparison shows: `compare.html` of `brinell compare`.
+    pub fn of_runs(sides: &[Side], runs: &[&RunResult], compared: &[Compared]) -> Self {
+        let names: Vec<String> = sides.iter().map(|side| side.label.clone()).collect();
+        let mut parts = vec![
+            part("What differs", vec![Piece::Table(differing(sides))]),
+            part("Sensor acceleration", vec![Piece::Overlay(waveform(runs))]),
+            part("Spectrum", vec![spectrum(runs)]),
+            part("Envelope spectrum", vec![envelope(sides, runs)]),
+        ];
+        let defects = runs.iter().map(|run| run.scenario.defects.len()).max();
+        for defect in 0..defects.unwrap_or(0) {
+            parts.push(part(&format!("Over {}", called(runs, defect)), over_defect(runs, defect)));
+            parts.push(part(&format!("Entry and exit, {}", called(runs, defect)), entry_and_exit(runs, defect)));
         }
-    }
-    SideBySide {
-        title: names.join(", "),
-        subtitle: format!("{} runs, each over the baseline {}", names.len(), names[0]),
-        version: brinell::VERSION.into(),
-        warnings: warnings(sides, runs),
-        facts: facts(&names, compared),
-        names,
-        parts,
+        for (title, wanted) in TABLES {
+            let rows: Vec<&Compared> = compared.iter().filter(|c| wanted(&c.name)).collect();
+            if !rows.is_empty() {
+                parts.push(part(title, vec![Piece::Table(numbers(title, &names, &rows))]));
+            }
+        }
+        Self {
+            title: names.join(", "),
+            subtitle: format!("{} runs, each over the baseline {}", names.len(), names[0]),
+            version: brinell::VERSION.into(),
+            warnings: warnings(sides, runs),
+            facts: facts(&names, compared),
+            names,
+            parts,
+        }
     }
 }
 
@@ -59,7 +63,7 @@ const TABLES: [Wanted; 3] = [
 ];
 
 /// Names of the numbers that say most, of those that are there.
-pub(super) fn headline(compared: &[Compared]) -> Vec<&str> {
+pub fn compared_headline(compared: &[Compared]) -> Vec<&str> {
     let names = compared.iter().map(|c| c.name.as_str());
     let wanted = |name: &&str| {
         let of_acceleration =
@@ -75,7 +79,7 @@ fn part(title: &str, pieces: Vec<Piece>) -> Part {
 
 fn facts(names: &[String], compared: &[Compared]) -> Vec<Fact> {
     let mut facts = Vec::new();
-    for name in headline(compared).into_iter().take(8) {
+    for name in compared_headline(compared).into_iter().take(8) {
         let Some(one) = compared.iter().find(|c| c.name == name) else {
             continue;
         };
@@ -101,7 +105,7 @@ fn facts(names: &[String], compared: &[Compared]) -> Vec<Fact> {
 }
 
 /// Which runs' averages hold part of the start.
-pub(super) fn unsettled(sides: &[Side], runs: &[&RunResult]) -> Vec<String> {
+pub fn unsettled(sides: &[Side], runs: &[&RunResult]) -> Vec<String> {
     (sides.iter().zip(runs))
         .filter(|(_, run)| !run.findings.drifts.is_empty())
         .map(|(side, _)| {

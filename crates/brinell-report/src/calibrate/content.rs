@@ -1,0 +1,175 @@
+//! A calibration as its page shows it.
+
+use super::words::{calibration_undetermined, calibration_verdict, interval_text};
+use super::{CalibrationReport, FittedKey, Tried};
+use crate::fact::Fact;
+use crate::number::{plural, short};
+use crate::tables::Table;
+use brinell_study::calibrate::search::STEP;
+use brinell_study::calibrate::{Evaluation, Found, Met, Outcome};
+
+impl CalibrationReport {
+    /// What the page of a calibration shows: `calibrate.html` of `brinell calibrate`.
+    pub fn of_outcome(of: &Outcome) -> Self {
+        let all = &of.fit.evaluations;
+        let failed: Vec<(String, String)> = (all.iter().enumerate())
+            .filter(|(_, e)| e.answers.is_none())
+            .map(|(k, _)| {
+                let settings = of.settings(k);
+                let texts: Vec<String> = settings.iter().map(|(k, v)| format!("{k} = {v}")).collect();
+                let reason = of.reasons[k].clone().unwrap_or_default();
+                (format!("{}: {}", k + 1, texts.join(", ")), reason)
+            })
+            .collect();
+        let determined = of.found.iter().filter(|f| f.is_determined()).count();
+        let names: Vec<&str> = of.found.iter().map(|f| f.key.name.as_str()).collect();
+        let p_value = of.p_value().map_or("no degree of freedom".to_owned(), |p| format!("p-value {}", short(p, 2)));
+        let mut facts = vec![
+            Fact::new(
+                "Chi-square",
+                short(of.chi_square(), 3),
+                "",
+                format!("{}; {p_value}", plural(of.compared.len(), "target")),
+            ),
+            Fact::new("Keys determined", format!("{determined} of {}", of.found.len()), "", "by their 95 % interval"),
+            Fact::new("Runs", all.len().to_string(), "", format!("the best is run {}", of.fit.best + 1)),
+        ];
+        if !failed.is_empty() {
+            facts.push(Fact::new("Failed", failed.len().to_string(), "", "reasons below"));
+        }
+        Self {
+            title: format!("Calibration of {}", of.best.scenario.name),
+            subtitle: format!("{} to {}", names.join(", "), plural(of.compared.len(), "target")),
+            version: brinell::VERSION.into(),
+            met: of.is_met(),
+            verdict: calibration_verdict(of),
+            facts,
+            keys: of.found.iter().map(fitted).collect(),
+            found: (of.found.iter())
+                .map(|f| Fact::new(&f.key.name, short(f.best, 5), f.unit, interval_text(f)))
+                .collect(),
+            undetermined: calibration_undetermined(of),
+            targets: targets(of),
+            correlation: correlation(of),
+            directions: directions(of),
+            tried: tried(of),
+            failures: failed,
+            method: method(of),
+            scenario_toml: of.best.to_toml(),
+        }
+    }
+}
+
+fn fitted(of: &Found) -> FittedKey {
+    FittedKey {
+        name: of.key.name.clone(),
+        unit: of.unit.into(),
+        bounds: (of.key.low, of.key.high),
+        log: of.key.log,
+        best: of.best,
+        interval: of.interval,
+    }
+}
+
+fn tried(of: &Outcome) -> Vec<Tried> {
+    let best = &of.fit.evaluations[of.fit.best].place;
+    let one = |e: &Evaluation| Tried {
+        values: of.plan.keys.iter().zip(&e.place).map(|(k, u)| k.value(*u)).collect(),
+        chi_square: e.chi_square,
+        alone: (0..best.len())
+            .map(|k| (0..best.len()).all(|other| other == k || e.place[other] == best[other]))
+            .collect(),
+    };
+    of.fit.evaluations.iter().map(one).collect()
+}
+
+fn targets(of: &Outcome) -> Table {
+    let row = |c: &Met| {
+        let own = if c.own > 0.0 { format!(" ± {}", short(c.own, 2)) } else { String::new() };
+        vec![
+            c.name.clone(),
+            c.unit.clone(),
+            format!("{} ± {}", short(c.target, 5), short(c.uncertainty, 2)),
+            c.value.map_or("–".into(), |v| format!("{}{own}", short(v, 5))),
+            format!("{:+.1}", c.residual),
+        ]
+    };
+    Table::new(
+        "Targets and the best run",
+        ["Target", "Unit", "#Wanted", "#Best run", "#Residual"],
+        of.compared.iter().map(row),
+        "Uncertainties are standard ones (one sigma). A residual is the difference over the target's uncertainty and the runs' own together, \
+         the latter being the median over the best few runs, the same for all, so that no run is preferred for being uncertain.",
+    )
+}
+
+fn correlation(of: &Outcome) -> Table {
+    let identified = &of.fit.identified;
+    let mut columns = vec!["Key".to_owned()];
+    columns.extend(of.found.iter().map(|f| format!("#{}", f.key.name)));
+    let row = |a: usize| {
+        let mut row = vec![of.found[a].key.name.clone()];
+        row.extend((0..of.found.len()).map(|b| format!("{:.2}", identified.correlation[(a, b)])));
+        row
+    };
+    Table::new(
+        "Correlation of the estimates",
+        columns,
+        (0..of.found.len()).map(row),
+        "Near 1 or -1 only a combination of the two is determined.",
+    )
+}
+
+fn directions(of: &Outcome) -> Table {
+    let mut columns = vec!["Direction".to_owned()];
+    columns.extend(of.found.iter().map(|f| format!("#{}", f.key.name)));
+    columns.extend(["#Singular value", "#Noise", "#Half 95 % interval", "Determined"].map(String::from));
+    let rows = of.fit.identified.directions.iter().enumerate().map(|(k, d)| {
+        let mut row = vec![(k + 1).to_string()];
+        row.extend(d.vector.iter().map(|v| format!("{v:.2}")));
+        row.push(short(d.singular_value, 3));
+        row.push(short(d.noise, 2));
+        row.push(if d.half_width.is_finite() { short(d.half_width, 2) } else { "∞".into() });
+        row.push(if d.is_determined() { "yes" } else { "no" }.into());
+        row
+    });
+    Table::new(
+        "Directions, from the best to the least determined",
+        columns,
+        rows,
+        "Each key counts in shares of its range. The singular value is how many standard uncertainties the targets change by over one \
+         range along the direction; noise is what the runs' own uncertainty alone would show.",
+    )
+}
+
+fn method(of: &Outcome) -> Vec<String> {
+    let steps: Vec<String> = (of.found.iter().zip(&of.fit.steps))
+        .map(|(f, s)| format!("{} {} %", f.key.name, short(200.0 * s, 2)))
+        .collect();
+    let mut all = vec![
+        format!(
+            "Latin hypercube, particle swarm, then Levenberg and Marquardt's method from the best places; seed {}, {} of at most {} runs.",
+            of.plan.settings.seed,
+            of.fit.evaluations.len(),
+            of.plan.settings.budget
+        ),
+        format!(
+            "The Jacobian is made of differences around run {}, over these shares of the ranges: {}. Within {} % a difference would be below the \
+             scatter of runs, whose impacts amplify round-off.",
+            of.fit.centre + 1,
+            steps.join(", "),
+            200.0 * STEP
+        ),
+        "Intervals hold where the targets depend nearly linearly on the keys over the interval, and where the model is right: what it leaves out \
+         is in no interval."
+            .into(),
+    ];
+    let inflation = of.fit.identified.inflation;
+    if inflation > 1.0 {
+        all.push(format!(
+            "The misfit is larger than the uncertainties explain; they were multiplied by {} for the intervals.",
+            short(inflation, 3)
+        ));
+    }
+    all
+}

@@ -1,0 +1,102 @@
+//! What is fitted to what, before anything runs.
+
+use super::fit::least_budget;
+use super::target::check;
+use super::{CalibrateError, Key, Pattern, Settings, Target};
+use crate::campaign::fingerprint;
+use brinell::document::Loaded;
+use brinell::result::{check_name, names};
+use brinell::simulate::Simulation;
+use serde_json::{Value, json};
+
+/// Runs for each key where no budget is given.
+const RUNS_PER_KEY: usize = 30;
+
+/// A calibration before it runs.
+#[derive(Debug)]
+pub struct Plan {
+    /// What is fitted.
+    pub keys: Vec<Key>,
+    /// Unit of each key.
+    pub units: Vec<&'static str>,
+    /// What is to be met: what is given, then what the measured signal says.
+    pub targets: Vec<Target>,
+    /// The measured signal, where there is one.
+    pub pattern: Option<Pattern>,
+    /// How it is searched.
+    pub settings: Settings,
+    /// The scenario in the middle of the bounds.
+    pub middle: Loaded,
+}
+
+/// What a point of the unit cube gives the keys.
+pub(super) fn settings(keys: &[Key], place: &[f64]) -> Vec<(String, String)> {
+    keys.iter().zip(place).map(|(key, unit)| (key.name.clone(), key.text(*unit))).collect()
+}
+
+/// Settings whose scenarios have to be sound before anything runs: each bound with the middle of the other keys.
+pub fn bounds(keys: &[Key]) -> impl Iterator<Item = Vec<(String, String)>> {
+    let ends = (0..keys.len()).flat_map(|k| [(k, 0.0), (k, 1.0)]);
+    ends.map(|(k, end)| {
+        let mut place = vec![0.5; keys.len()];
+        place[k] = end;
+        settings(keys, &place)
+    })
+}
+
+/// Settings in the middle of the bounds.
+pub fn middle(keys: &[Key]) -> Vec<(String, String)> {
+    settings(keys, &vec![0.5; keys.len()])
+}
+
+impl Plan {
+    /// Of keys that may be fitted together; `middle` is the scenario of [`middle`]'s settings, and `simulation` is its.
+    ///
+    /// # Errors
+    /// Where there is nothing to meet, a target is no number of a run, or the budget is too small.
+    pub fn new(
+        keys: Vec<Key>,
+        mut targets: Vec<Target>,
+        pattern: Option<Pattern>,
+        middle: Loaded,
+        simulation: &Simulation,
+        seed: u64,
+        budget: Option<usize>,
+    ) -> Result<Self, CalibrateError> {
+        let names = names(&middle.scenario, simulation);
+        for target in &targets {
+            check_name(&target.name, &names)?;
+        }
+        if let Some(pattern) = &pattern {
+            // A target that is given outweighs what the signal says of the same number.
+            let given = |t: &&Target| !targets.iter().any(|g| g.name == t.name);
+            let more: Vec<Target> = pattern.targets.iter().filter(given).cloned().collect();
+            targets.extend(more);
+        }
+        check(&targets)?;
+        let least = least_budget(keys.len());
+        let budget = budget.unwrap_or(RUNS_PER_KEY * keys.len());
+        if budget < least {
+            return Err(CalibrateError::Budget { budget, least, keys: keys.len() });
+        }
+        let unit = |key: &Key| middle.provenance_of(&key.name).map_or("", |p| p.unit);
+        let units = keys.iter().map(unit).collect();
+        Ok(Self { settings: Settings { seed, budget }, keys, units, targets, pattern, middle })
+    }
+
+    /// What distinguishes this calibration from others. A larger budget resumes the same one.
+    pub fn header(&self) -> Value {
+        let keys: Vec<Value> =
+            (self.keys.iter()).map(|k| json!({ "key": k.name, "low": k.low, "high": k.high, "log": k.log })).collect();
+        let targets: Vec<Value> = (self.targets.iter())
+            .map(|t| json!({ "name": t.name, "value": t.value, "standard_uncertainty": t.uncertainty }))
+            .collect();
+        json!({
+            "campaign": "calibrate",
+            "keys": keys,
+            "targets": targets,
+            "seed": self.settings.seed,
+            "scenario": fingerprint(&self.middle.scenario),
+        })
+    }
+}
