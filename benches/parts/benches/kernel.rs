@@ -7,7 +7,7 @@
 
 mod common;
 
-use brinell::lanes::{Lanes, Portable};
+use brinell::lanes::{Lanes, Portable, functions};
 use brinell::model::{Kernel, Model, Workspace};
 use common::{Moment, moments, off_and_on_damage, rectangle};
 use criterion::Criterion;
@@ -112,6 +112,22 @@ impl Inner for u64 {
 }
 
 impl Lanes for Counting {
+    fn sin_cos(self) -> (Self, Self) {
+        functions::sin_cos(self)
+    }
+
+    fn exp(self) -> Self {
+        functions::exp(self)
+    }
+
+    fn tanh(self) -> Self {
+        functions::tanh(self)
+    }
+
+    fn ten_ninths(self) -> Self {
+        functions::ten_ninths(self)
+    }
+
     const COUNT: usize = Portable::COUNT;
     type Group = <Portable as Lanes>::Group;
     type Pair = Self;

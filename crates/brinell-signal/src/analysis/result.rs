@@ -137,8 +137,12 @@ impl Analysis {
         let options = &self.options;
         let times = (family.frequency / options.shaft).round();
         let off = family.frequency / (options.shaft * times) - 1.0;
-        let told = !self.shaft_lines.is_empty() || options.rotation.is_some() || options.exact;
-        (family.name.starts_with("BPF") && !told && off.abs() <= options.tolerance).then_some(times)
+        (family.name.starts_with("BPF") && !self.speed_is_told() && off.abs() <= options.tolerance).then_some(times)
+    }
+
+    /// Whether something but the one who asks tells the shaft's speed: its lines, a record of it, or a simulation.
+    pub(super) fn speed_is_told(&self) -> bool {
+        !self.shaft_lines.is_empty() || self.options.rotation.is_some() || self.options.exact
     }
 
     /// Length of what was analysed, s.

@@ -26,7 +26,8 @@ impl Analysis {
     pub fn clarity(&self, family: &Family) -> &'static str {
         let may_be_other = self.may_be_passing(family) || self.impacts_a_turn(family).is_some();
         let lost = self.drift.as_ref().is_some_and(Drift::is_lost);
-        match (may_be_other, family.is_very_clear() && self.speed_used().is_none() && !lost) {
+        let is_sure = self.speed_is_told() && self.speed_used().is_none() && !lost;
+        match (may_be_other, family.is_very_clear() && is_sure) {
             (true, _) => "weak",
             (_, true) => "very clear",
             _ => "clear",

@@ -103,6 +103,7 @@ pub(super) fn of_one_kind(name: &str, other: &str) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::bearing::clearance::{ClearanceClass, clearance_of};
 
     #[test]
     fn prop_designations_are_read_however_they_are_written() {

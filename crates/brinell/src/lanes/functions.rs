@@ -31,7 +31,7 @@ fn polynomial<L: Lanes, const N: usize>(x: L, coefficients: [f64; N]) -> L {
 /// pi/2 in three parts, short enough that their multiples are exact (Cody and Waite), and the minimax polynomials of
 /// the Cephes library on [-pi/4, pi/4].
 #[inline(always)]
-pub(super) fn sin_cos<L: Lanes>(x: L) -> (L, L) {
+pub fn sin_cos<L: Lanes>(x: L) -> (L, L) {
     const PARTS: [f64; 3] = [1.570_796_251_296_997, 7.549_789_415_861_596e-8, 5.390_302_858_158_119e-15];
     let rounded = x.times_plus(L::splat(std::f64::consts::FRAC_2_PI), L::splat(ROUNDER));
     let k = rounded - L::splat(ROUNDER);
@@ -109,14 +109,14 @@ fn exp_parts<L: Lanes>(x: L) -> (L, L) {
 
 /// e^x for |x| <= 700, relative error below 4e-16.
 #[inline(always)]
-pub(super) fn exp<L: Lanes>(x: L) -> L {
+pub fn exp<L: Lanes>(x: L) -> L {
     let (rest, scale) = exp_parts(x);
     rest + scale
 }
 
 /// tanh x, error below 4e-16 relative.
 #[inline(always)]
-pub(super) fn tanh<L: Lanes>(x: L) -> L {
+pub fn tanh<L: Lanes>(x: L) -> L {
     // Beyond 20 the result is 1 to the last bit.
     let limit = L::splat(20.0);
     let size = x.abs().at_most(limit);
@@ -137,7 +137,7 @@ fn one_minus_ninth<L: Lanes>(x: L, z: L) -> L {
 /// z = x^(-1/9) from the exponent bits to 3 %, then a step z (1 - e)^(-1/9) with e = 1 - x z^9 and a cubic. The result
 /// is x^2 z^8 (1 - e)^(-8/9) with the e that is left: no division.
 #[inline(always)]
-pub(super) fn ten_ninths<L: Lanes>(x: L) -> L {
+pub fn ten_ninths<L: Lanes>(x: L) -> L {
     /// 2^52: integers below it are in the low bits of the sum.
     const INTEGER: f64 = 4_503_599_627_370_496.0;
     /// INTEGER - (INTEGER + upper) / 9 + SHIFTED has ORIGIN - upper / 9 in its low bits.

@@ -16,7 +16,7 @@
 
 mod blend;
 mod column;
-mod functions;
+pub mod functions;
 mod ninth;
 mod one;
 #[cfg(not(target_feature = "simd128"))]
