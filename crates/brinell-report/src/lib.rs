@@ -3,7 +3,7 @@
 //! The page needs no network and is complete without its script, which only adds zoom, cursors and saving of pictures.
 //! Every picture is drawn twice, for a desktop and for a phone, and thinned to the pixels it has (smallest and largest
 //! value of each column; the largest alone in spectra); nothing here changes a number that was computed. The pages of a
-//! measured signal and of studies are public for the command alone, and are not listed here.
+//! measured signal and of studies are public for the command and Python, and are not listed here.
 //!
 //! ```
 //! use brinell_report::{Layout, Report, html, pictures};

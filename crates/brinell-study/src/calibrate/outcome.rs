@@ -80,9 +80,9 @@ pub struct Outcome {
     pub best: Loaded,
     /// Why each run failed, of those that did.
     pub reasons: Vec<Option<String>>,
-    /// Runs that were made, and runs that were kept from before.
+    /// Runs that were made.
     pub done: usize,
-    /// The latter.
+    /// Runs that were kept from before.
     pub before: usize,
 }
 
