@@ -133,6 +133,8 @@ pub struct Family {
     /// Whether its lines lie where those of the shaft or the mains do, and were read nonetheless: nothing tells them
     /// apart.
     pub masked: bool,
+    /// Distance of its sidebands, Hz, where it would lead and they are those of a shaft at another speed.
+    pub other_spacing: Option<f64>,
     /// Modulation over that of a record of the healthy machine, where there is one.
     pub growth: Option<f64>,
     /// What is said of it.
@@ -278,6 +280,7 @@ pub(super) fn read(together: &Together, shaft: f64, options: &Options) -> Vec<Fa
             sidebands: lines.sidebands,
             is_skirt: outside && self::score(together, next) > score,
             masked: false,
+            other_spacing: None,
             growth: None,
             finding: Finding::Silent,
         };

@@ -101,6 +101,7 @@ fn family(analysis: &Analysis, f: &Family) -> Value {
         "shared_with": match f.finding { Finding::Shared(with) => Some(with), _ => None },
         "may_be_passing": analysis.may_be_passing(f),
         "masked": f.masked,
+        "other_spacing_hz": f.other_spacing,
         "expected_hz": f.expected,
         "found_hz": f.frequency,
         "order": f.frequency / analysis.shaft,

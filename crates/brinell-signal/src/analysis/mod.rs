@@ -43,6 +43,7 @@ mod running_median;
 mod sensitivity;
 mod severity;
 mod soundness;
+mod spacing;
 mod together;
 mod unit;
 mod verdict;

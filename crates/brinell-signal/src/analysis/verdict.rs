@@ -3,6 +3,7 @@
 use super::family::{DEEP, FAINT, Family, Finding, SCORE, by_lines, cage, lines, read, score, score_by};
 use super::frequencies::Component;
 use super::known_lines::near_multiple;
+use super::spacing::of_other_shaft;
 use super::together::{Envelopes, HARMONICS, Highest, SUPPLY_KNOWN, Shaft, Together};
 use super::{AnalysisError, Options};
 
@@ -132,6 +133,10 @@ impl Record {
         // A damaged element's sidebands reach the races' lines.
         let is_open = lead.is_some_and(|k| !is_turning(all[k].component) && undecided > all[k].score + LEAD);
         let elsewhere = if is_open { None } else { self.elsewhere(lead.map(|k| &all[k])) };
+        if let Some(lead) = lead.filter(|_| elsewhere.is_none() && !self.options.exact) {
+            all[lead].other_spacing = of_other_shaft(&self.together, &all[lead], self.shaft, &self.options);
+        }
+        let is_open = is_open || all.iter().any(|f| f.other_spacing.is_some());
         let Some(lead) = lead.filter(|_| elsewhere.is_none() && !is_open) else {
             for family in all.iter_mut().filter(|f| f.finding == Finding::Damage) {
                 family.finding = Finding::Open;

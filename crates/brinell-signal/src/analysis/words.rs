@@ -222,6 +222,14 @@ fn cannot_tell(analysis: &Analysis, text: &mut Vec<String>) {
             ));
             continue;
         }
+        if let Some(spacing) = family.other_spacing {
+            text.push(format!(
+                "Cannot tell whether the {part} is damaged: {evidence}. Its strongest sidebands lie {spacing:.2} Hz apart, as of a shaft at {:.0} r/min: neither shaft nor \
+                 cage turns so fast at the speed given. Is it right? A record of the speed would tell.",
+                60.0 * spacing
+            ));
+            continue;
+        }
         if family.is_skirt {
             text.push(format!(
                 "Cannot tell whether the {part} is damaged: {evidence}, at the end of the tolerance, beyond which its lines are higher. Is the speed right? \
