@@ -176,7 +176,9 @@ def harder(records, binary):
         way, damaged, sound, _ = (cell.strip() for cell in line.strip("|\n ").split("|"))
         counts = [int(n) for n in damaged.split(" / ")] if "/" in damaged else [0, 0, 0]
         counts.append(int(sound.split(" of ")[0]) if "of" in sound else 0)
-        start = next(start for start in HARDER if way.startswith(start))
+        start = next((start for start in HARDER if way.startswith(start)), None)
+        if start is None:
+            continue
         sums[start] = [a + b for a, b in zip(sums[start], counts)]
     cell = lambda start, n: str(n[3]) if start == "asked" else f"{n[0]} / {n[1]} / {n[2]}; {n[3]}"
     return [cell(start, n) for start, n in sums.items()]

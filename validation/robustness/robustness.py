@@ -1,9 +1,9 @@
 """What `brinell analyze` says of measured records that were made harder.
 
-    python3 validation/robustness/robustness.py RECORDS BRINELL [base,sensor,cut,speed,rate,bearing,sum] [-v]
+    python3 validation/robustness/robustness.py RECORDS BRINELL [base,sensor,cut,speed,far,rate,bearing,sum] [-v]
 
 RECORDS is a folder with records.csv (id, file, damaged, set, options) and NPZ files. Prints a row of a Markdown table for each way of making them
-harder: by the other sensor of the file, cut short, at wrong speeds, resampled with noise, asked about other bearings;
+harder: by the other sensor of the file, cut short, at wrong speeds, at speeds far off, resampled with noise, asked about other bearings;
 and one of sums of two damaged bearings' records. -v lists every wrong call. Needs NumPy and SciPy.
 """
 
@@ -32,6 +32,8 @@ BEARINGS = [
 OWN = (9, 7.94, 39.04, 0)
 CUTS = {0.6: 2, 1.0: 3, 2.0: 2, 3.0: 1}
 SPEEDS = [1, -1, 2, -2, 3, -3, 5, -5, 10, -10]
+# Of another number of poles, and of a shaft that turns otherwise.
+FAR = [20, -17, 50, -50]
 
 
 def orders(bearing):
@@ -70,7 +72,7 @@ def jobs(all_records, ways):
             n = int(seconds * rate)
             for k in range(min(count, len(x) // n)):
                 yield f"cut to {seconds} s", truth, f"{r['id']} {k}", (x[k * n : (k + 1) * n], rate, speed, bearing)
-        for percent in SPEEDS if "speed" in ways else ():
+        for percent in (SPEEDS if "speed" in ways else []) + (FAR if "far" in ways else []):
             yield f"speed given {percent:+} %", truth, r["id"], (x, rate, speed * (1 + percent / 100), bearing)
         if "rate" in ways and rate < 13000:
             for factor in (2, 4, 8):
@@ -81,9 +83,12 @@ def jobs(all_records, ways):
             true = orders(OWN)[truth]
             for other in BEARINGS:
                 near = [o / true / m for o in orders(other).values() for m in (1, 2, 3, 1 / 2, 1 / 3)]
+                keys = zip(["--rollers", "--diameter", "--pitch", "--contact-angle"], map(str, other))
+                asked = x, rate, speed, [word for pair in keys for word in pair]
                 if all(abs(ratio - 1) >= 0.035 for ratio in near):
-                    keys = zip(["--rollers", "--diameter", "--pitch", "--contact-angle"], map(str, other))
-                    yield "asked about other bearings", None, f"{r['id']} {other}", (x, rate, speed, [w for pair in keys for w in pair])
+                    yield "asked about other bearings", None, f"{r['id']} {other}", asked
+                elif any(abs(o / true - 1) <= 0.02 for part, o in orders(other).items() if part != truth):
+                    yield "of which another part's frequency is the true one", None, f"{r['id']} {other}", asked
 
 
 def sums(all_records):
@@ -143,7 +148,7 @@ def of_sums(folder, brinell, verbose):
 def main():
     folder, brinell = Path(sys.argv[1]), sys.argv[2]
     rest = [a for a in sys.argv[3:] if a != "-v"]
-    ways = rest[0].split(",") if rest else ["base", "sensor", "cut", "speed", "rate", "bearing"]
+    ways = rest[0].split(",") if rest else ["base", "sensor", "cut", "speed", "far", "rate", "bearing"]
     if ways == ["sum"]:
         of_sums(folder, brinell, "-v" in sys.argv)
         return

@@ -8,3 +8,4 @@ mod rig;
 mod signal_scipy;
 mod signal_speed;
 mod verdicts;
+mod wrong_speed;

@@ -13,6 +13,8 @@ const TRIED: (f64, f64) = (0.2, 1.4);
 /// races, in the records of docs/src/results/analyze.md at their true speeds, are 7 to 17 high and all at the shaft's
 /// frequency, within 1 %.
 const TELLS: f64 = 9.0;
+/// And over the height of the lines themselves: about very high ones whatever is there stands out.
+const SHARE: f64 = 0.45;
 /// Height of those at the shaft's frequency over it, at most; at the true speeds 0.95 and more.
 const MISSING: f64 = 0.25;
 /// Multiples of the cage's frequency that are its own.
@@ -33,8 +35,10 @@ pub(super) fn of_other_shaft(together: &Together, lead: &Family, shaft: f64, opt
     let (distance, cage) = (highest.middle(), cage(shaft, options));
     let near = |own: f64| (distance - own).abs() <= options.tolerance * own + together.step();
     let is_own = near(shaft) || near(shaft - cage) || (1..=OF_CAGE).any(|k| near(f64::from(k) * cage));
+    let carriers: f64 = (1..=CARRIERS).map(|k| log(f64::from(k) * lead.frequency)).sum();
+    let is_high = highest.height >= TELLS.max(SHARE * carriers);
     let is_missing = height(shaft) <= MISSING * highest.height;
     // The second sidebands may be as high as the first.
     let first = if height(0.5 * distance) >= 0.5 * highest.height { 0.5 * distance } else { distance };
-    (highest.height >= TELLS && is_missing && !is_own).then_some(first)
+    (is_high && is_missing && !is_own).then_some(first)
 }
