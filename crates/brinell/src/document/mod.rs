@@ -11,6 +11,7 @@ mod diagnostics;
 mod enum_strings;
 mod example;
 mod keys;
+mod known_keys;
 mod load;
 mod problem;
 mod problems;
@@ -20,6 +21,7 @@ mod quantity;
 mod reader;
 mod recorded;
 mod scale_value;
+mod scenario_schema;
 mod schema;
 mod sections;
 mod sensor;
@@ -41,7 +43,7 @@ pub use problem::{Place, Problem, Severity};
 #[doc(hidden)]
 pub use problems::{MOST_OF_A_KIND, Problems, numberless};
 pub use provenance::{Origin, Provenance};
-pub use schema::json_schema;
+pub use scenario_schema::json_schema;
 #[doc(hidden)]
 pub use source::{canonical, locate};
 #[doc(hidden)]

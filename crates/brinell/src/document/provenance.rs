@@ -2,6 +2,9 @@
 
 use std::collections::HashMap;
 
+/// Name of the section of a scenario file that records it.
+pub(super) const SECTION: &str = "provenance";
+
 /// Who gave a value.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Origin {

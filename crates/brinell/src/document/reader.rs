@@ -6,11 +6,11 @@ use std::collections::HashMap;
 use std::ops::Range;
 
 use super::keys::Fallback;
+use super::known_keys::known_keys;
 use super::problem::{Problem, Severity};
 use super::problems::Problems;
 use super::provenance::{Origin, Provenance};
 use super::recorded::{self, Assumed};
-use super::schema::known_keys;
 use super::source::{Entry, Node, Table, Value, brief_path, override_value};
 use super::spec::{Spec, unit_of_key};
 use super::value_type::{Misfit, ValueType, Words};

@@ -12,16 +12,14 @@ use std::collections::{HashMap, HashSet};
 use serde_json::{Value as Json, json};
 
 use super::keys::Keys;
-use super::provenance::Provenance;
-use super::schema::known_keys;
+use super::known_keys::known_keys;
+use super::provenance::{Provenance, SECTION};
 use super::source::{Node, Value};
 use super::spec::{Spec, key};
 use super::toml_text::quote;
 use super::value_type::{Misfit, ValueType, elements, wrong_type};
 use crate::did_you_mean::did_you_mean;
 
-/// Name of the section.
-pub(crate) const SECTION: &str = "provenance";
 const KEYS: [&str; 3] = ["key", "value", "reason"];
 
 /// One value that was assumed when the scenario was written.

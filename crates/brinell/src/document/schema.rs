@@ -1,13 +1,10 @@
 //! The walk that describes a scenario file as a JSON Schema (draft 2020-12).
 
-use std::sync::LazyLock;
-
 use serde_json::{Map, Value as Json, json};
 
 use super::keys::{Fallback, Keys, Variant};
 use super::spec::Spec;
 use super::value_type::ValueType;
-use super::{recorded, sections, unset};
 
 /// Keys of a table, as far as the walk has come.
 #[derive(Default)]
@@ -212,37 +209,4 @@ pub fn schema_of(title: &str, doc: &str, list: impl FnOnce(&mut Schema)) -> Json
         schema.extend(body);
     }
     schema
-}
-
-/// JSON Schema (draft 2020-12) of a scenario file; TOML tables are objects.
-pub fn json_schema() -> Json {
-    let doc = "one run of brinell, completely described";
-    schema_of("brinell scenario", doc, |walk| {
-        sections::scenario(walk, &mut unset::scenario());
-        recorded::provenance(walk, &mut None);
-    })
-}
-
-/// Every key as (section, name); the section of a table in a list is written without index.
-pub(crate) fn known_keys() -> &'static [(String, String)] {
-    static KEYS: LazyLock<Vec<(String, String)>> = LazyLock::new(|| {
-        let mut keys = Vec::new();
-        collect("", &json_schema(), &mut keys);
-        // Those of its entries are no hint for anything else.
-        keys.retain(|(section, _)| !section.starts_with(recorded::SECTION));
-        keys
-    });
-    &KEYS
-}
-
-fn collect(section: &str, schema: &Json, keys: &mut Vec<(String, String)>) {
-    for (name, inner) in schema["properties"].as_object().into_iter().flatten() {
-        keys.push((section.to_string(), name.clone()));
-        let path = match section {
-            "" => name.clone(),
-            section => format!("{section}.{name}"),
-        };
-        collect(&path, inner, keys);
-        collect(&path, &inner["items"], keys);
-    }
 }

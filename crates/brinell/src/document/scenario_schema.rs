@@ -1,0 +1,14 @@
+//! The JSON Schema of a scenario file.
+
+use super::schema::schema_of;
+use super::{recorded, sections, unset};
+use serde_json::Value as Json;
+
+/// JSON Schema (draft 2020-12) of a scenario file; TOML tables are objects.
+pub fn json_schema() -> Json {
+    let doc = "one run of brinell, completely described";
+    schema_of("brinell scenario", doc, |walk| {
+        sections::scenario(walk, &mut unset::scenario());
+        recorded::provenance(walk, &mut None);
+    })
+}
