@@ -54,6 +54,7 @@ fn examine(args: &AnalyzeArgs, mut measured: Measured, name: Option<&str>) -> Re
     options.band = args.band.as_ref().map(|b| Band::between(b[0], b[1]));
     if args.speed.is_none() {
         options.rotation = rotation(&measured)?;
+        options.measured_speed = measured.speed.is_some();
     }
     // The rest of a long signal is read beside the analysis of its beginning.
     let reading = measured.beyond.take().map(Beyond::start);

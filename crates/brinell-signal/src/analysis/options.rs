@@ -21,6 +21,8 @@ pub struct Options {
     /// The shaft's angle over time, where its speed varies: envelopes are then taken at equal angles, and a frequency
     /// in Hz is its order times `shaft`, the mean speed. Time counts from the first sample.
     pub rotation: Option<Rotation>,
+    /// Whether the speed was measured beside the signal, and not merely believed.
+    pub measured_speed: bool,
     /// For a simulation's signal without a sensor's noise, in which healthy rollers that enter the load are heard too:
     /// RMS of the white noise that a machine would add, in the signal's unit ([`MACHINE_NOISE`] of an acceleration).
     /// `None` for a signal that has its own.
@@ -33,7 +35,17 @@ pub struct Options {
 impl Options {
     /// With the usual tolerance, for a measured signal.
     pub fn new(shaft: f64, orders: DefectOrders) -> Self {
-        Options { shaft, orders, tolerance: 0.02, band: None, supply: None, rotation: None, silent: None, exact: false }
+        Options {
+            shaft,
+            orders,
+            tolerance: 0.02,
+            band: None,
+            supply: None,
+            rotation: None,
+            measured_speed: false,
+            silent: None,
+            exact: false,
+        }
     }
 
     /// Whether a speed (Hz) lies farther from the one given than the tolerance.

@@ -142,7 +142,8 @@ impl Analysis {
 
     /// Whether something but the one who asks tells the shaft's speed: its lines, a record of it, or a simulation.
     pub(super) fn speed_is_told(&self) -> bool {
-        !self.shaft_lines.is_empty() || self.options.rotation.is_some() || self.options.exact
+        let options = &self.options;
+        !self.shaft_lines.is_empty() || options.rotation.is_some() || options.measured_speed || options.exact
     }
 
     /// Length of what was analysed, s.
