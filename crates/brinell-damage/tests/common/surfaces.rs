@@ -1,5 +1,9 @@
 //! Surface files made for the tests: heights in um of `columns` x `rows` points, `step` um apart, NaN where missing.
 
+use std::io::{Cursor, Write as _};
+use zip::write::SimpleFileOptions;
+use zip::{CompressionMethod, ZipWriter};
+
 /// A height in um at (column, row).
 pub type Height<'a> = &'a dyn Fn(usize, usize) -> f64;
 
@@ -91,30 +95,14 @@ pub fn x3p(columns: usize, rows: usize, step: f64, um: Height<'_>, packed: bool)
 
 /// An archive; its checksums are left out.
 pub fn zip(files: &[(&str, &[u8])], packed: bool) -> Vec<u8> {
-    let (mut bytes, mut directory) = (Vec::new(), Vec::new());
+    let method = if packed { CompressionMethod::Deflated } else { CompressionMethod::Stored };
+    let options = SimpleFileOptions::default().compression_method(method);
+    let mut archive = ZipWriter::new(Cursor::new(Vec::new()));
     for (name, content) in files {
-        let data = match packed {
-            true => miniz_oxide::deflate::compress_to_vec(content, 6),
-            false => content.to_vec(),
-        };
-        // Version, flags, method, time, date, checksum, sizes, length of the name, no extra field.
-        let mut facts = vec![20, 0, 0, 0, if packed { 8 } else { 0 }, 0, 0, 0, 0, 0, 0, 0, 0, 0];
-        facts.extend((data.len() as u32).to_le_bytes());
-        facts.extend((content.len() as u32).to_le_bytes());
-        facts.extend((name.len() as u16).to_le_bytes());
-        facts.extend([0, 0]);
-        let at = bytes.len() as u32;
-        bytes.extend([&b"PK\x03\x04"[..], &facts[..], name.as_bytes(), &data].concat());
-        directory.extend([&b"PK\x01\x02\x14\0"[..], &facts[..], &[0; 10], &at.to_le_bytes(), name.as_bytes()].concat());
+        archive.start_file(*name, options).unwrap();
+        archive.write_all(content).unwrap();
     }
-    let at = bytes.len() as u32;
-    let size = directory.len() as u32;
-    bytes.extend(directory);
-    bytes.extend(b"PK\x05\x06\0\0\0\0");
-    bytes.extend([files.len() as u8, 0, files.len() as u8, 0]);
-    bytes.extend([size.to_le_bytes(), at.to_le_bytes()].concat());
-    bytes.extend([0, 0]);
-    bytes
+    archive.finish().unwrap().into_inner()
 }
 
 /// A point cloud, in columns.
