@@ -1,6 +1,7 @@
 """What each part of the verdict of `brinell analyze` adds, counted on measured records.
 
     python3 validation/ablation/ablate.py SCORE.PY [--harder] [--target FOLDER] [WORDS OF A VARIANT ...]
+    python3 validation/ablation/ablate.py --check
 
 Copies the tracked files to a temporary folder, takes one part out of crates/brinell-signal/src/analysis/ for each variant, builds the command there and
 runs SCORE.PY on it; with --harder ../robustness/robustness.py too, on the records beside SCORE.PY. Prints a row of a Markdown table a variant.
@@ -44,9 +45,11 @@ def together(words, *names):
 variant("plain sum over harmonics", ("family.rs", "sum += least;", "sum += ratio.max(f64::MIN_POSITIVE).ln();"))
 variant("no modulation asked of a high score", ("family.rs", "const FAINT: f64 = 0.14;", "const FAINT: f64 = 0.0;"))
 variant("no score limit: 14 % suffices beyond noise", ("family.rs", "let limit = SCORE.max(noise);", "let limit = noise;"))
-variant("a high score is no way to damage", ("family.rs", "(high || deep) && self", "deep && self"))
-variant("deep modulation is no way to damage", ("family.rs", "(high || deep) && self", "high && self"))
-variant("a comb elsewhere not sought", ("verdict.rs", "let elsewhere = self.elsewhere(lead.map(|k| &all[k]));", "let elsewhere: Option<Elsewhere> = None;"))
+variant("a high score is no way to damage", ("family.rs", "        high || deep\n", "        deep\n"))
+variant("deep modulation is no way to damage", ("family.rs", "        high || deep\n", "        high\n"))
+variant("a comb elsewhere not sought", ("verdict.rs", "let elsewhere = if is_open { None } else { self.elsewhere(lead.map(|k| &all[k])) };", "let elsewhere: Option<Elsewhere> = None;"))
+variant("sidebands of another shaft not sought", ("verdict.rs", "lead.filter(|_| elsewhere.is_none() && !self.options.exact)", "lead.filter(|_| false)"))
+variant("damage beyond the tolerance passed over", ("verdict.rs", "f.finding == Finding::Silent && f.is_damage_beyond()", "f.is_damage_beyond() && false"))
 variant("speed as given not tried", ("hypotheses.rs", "if !best.shaft_lines.is_empty() && !options.exact && !best.record.is_damage()", "if false"))
 variant("lower parts of the range not tried", ("hypotheses.rs", "if options.band.is_none() && !options.exact && !best.record.is_damage()", "if false"))
 variant("no least score", ("family.rs", "const LEAST_SCORE: f64 = 5.0;", "const LEAST_SCORE: f64 = 0.0;"))
@@ -56,19 +59,19 @@ variant("one broad band", ("together.rs", "let width = top.max(whole / BANDS).mi
 variant("shaft and mains not hidden", ("together.rs", "together.hide_known(shaft, options);", ""))
 variant(
     "only three bins hidden, skirts not followed",
-    ("together.rs", "|to: f64, from: f64| to >= level && to < from;", "|_: f64, _: f64| false;"),
+    ("together.rs", "to >= level && to < self.seen(from)", "to >= level && to < self.seen(from) && false"),
 )
 variant("shaft's comb not placed anew", ("together.rs", "let of_shaft = (shaft.tolerance > 0.0)", "let of_shaft = false"))
 variant(
     "speed as given",
-    ("known_lines.rs", "best.filter(|f| own(*f))", "best.filter(|_| false)"),
-    ("known_lines.rs", "None if !options.exact => beyond(x, fs, options),", "None if false => beyond(x, fs, options),"),
+    ("known_lines.rs", "Ok((near.score > 0.0).then(", "Ok((near.score > f64::INFINITY).then("),
+    ("known_lines.rs", "if could_be_wrong && ", "if could_be_wrong && false && "),
 )
 variant(
     "no speed beyond the tolerance",
-    ("known_lines.rs", "None if !options.exact => beyond(x, fs, options),", "None if false => beyond(x, fs, options),"),
+    ("known_lines.rs", "if could_be_wrong && ", "if could_be_wrong && false && "),
 )
-variant("an element needs no sidebands", ("family.rs", "            && !self.lacks_sidebands()\n", ""))
+variant("an element needs no sidebands", ("family.rs", "        !self.lacks_sidebands()\n            && detected", "        detected"))
 variant("an element needs no lead", ("verdict.rs", "const LEAD: f64 = 2.0;", "const LEAD: f64 = 0.0;"))
 variant("an element may run ahead", ("family.rs", "Component::Element => (tolerance, AHEAD.min(tolerance)),", "Component::Element => (tolerance, tolerance),"))
 variant("the cage may run ahead", ("family.rs", "Component::Cage => (slips, AHEAD.min(tolerance)),", "Component::Cage => (slips, tolerance),"))
@@ -186,11 +189,14 @@ def harder(records, binary):
 
 def main():
     parser = argparse.ArgumentParser(description="What each part of the verdict adds, counted on measured records.")
-    parser.add_argument("score", type=Path, help="score.py beside its records")
+    parser.add_argument("score", type=Path, nargs="?", help="score.py beside its records")
+    parser.add_argument("--check", action="store_true", help="only see that every variant still applies")
     parser.add_argument("--harder", action="store_true", help="also count the records made harder, by robustness.py")
     parser.add_argument("--target", type=Path, help="folder for what is built, kept [default: a temporary one]")
     parser.add_argument("words", nargs="*", help="only the variants that have one of these in their name")
     args = parser.parse_intermixed_args()
+    if not args.check and args.score is None:
+        parser.error("SCORE.PY is missing")
     chosen = [v for v in VARIANTS if not args.words or any(word in v[0] for word in args.words)]
     with tempfile.TemporaryDirectory() as temporary:
         folder = Path(temporary) / "brinell"
@@ -198,6 +204,9 @@ def main():
         # All of them, before anything is built.
         for _, changes in VARIANTS:
             restore(apply(changes, folder))
+        if args.check:
+            print(f"{len(VARIANTS)} variants apply")
+            return
         built = set()
         target = (args.target or Path(temporary) / "target").resolve()
         heads = ["", "right / second / wrong / missed", "healthy called", "other end called", "speed off", "its healthy called"]
