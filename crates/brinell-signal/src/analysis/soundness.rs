@@ -33,6 +33,11 @@ pub enum Flaw {
         /// Of the energy, 0 to 1.
         share: f64,
     },
+    /// One stretch again and again, to the bit.
+    Repeats {
+        /// Its length, s.
+        every: f64,
+    },
 }
 
 impl fmt::Display for Flaw {
@@ -52,6 +57,11 @@ impl fmt::Display for Flaw {
                 "{:.0} % of the signal's energy lie in one revolution, from {at:.3} s on: levels are that event's, and lines may be lost in it; analyse a stretch without it",
                 100.0 * share
             ),
+            Flaw::Repeats { every } => write!(
+                f,
+                "the record repeats the same {every:.3} s: it says no more than these, and has lines of its own at multiples of {:.3} Hz",
+                1.0 / every
+            ),
         }
     }
 }
@@ -59,7 +69,10 @@ impl fmt::Display for Flaw {
 /// Of a signal less its mean, sampled at `fs` Hz on a machine whose shaft turns `shaft` times a second.
 pub(super) fn flaws(x: &[f64], fs: f64, shaft: f64) -> Vec<Flaw> {
     let revolution = (fs / shaft).max(4.0);
-    [held(x, fs, revolution), at_limits(x), one_event(x, fs, revolution)].into_iter().flatten().collect()
+    [held(x, fs, revolution), at_limits(x), one_event(x, fs, revolution), repeats(x, fs)]
+        .into_iter()
+        .flatten()
+        .collect()
 }
 
 fn held(x: &[f64], fs: f64, revolution: f64) -> Option<Flaw> {
@@ -92,6 +105,23 @@ fn one_event(x: &[f64], fs: f64, revolution: f64) -> Option<Flaw> {
     (share >= ONE_EVENT.0).then(|| Flaw::OneEvent { at: (largest.0 * revolution as usize) as f64 / fs, share })
 }
 
+/// By the longest beginning that is an end too (D. E. Knuth, J. H. Morris and V. R. Pratt, SIAM J. Comput. 6 (1977)
+/// 323-350).
+fn repeats(x: &[f64], fs: f64) -> Option<Flaw> {
+    // Of the samples up to each.
+    let mut borders = vec![0_u32; x.len()];
+    let mut border = 0;
+    for i in 1..x.len() {
+        while border > 0 && x[i] != x[border] {
+            border = borders[border - 1] as usize;
+        }
+        border += usize::from(x[i] == x[border]);
+        borders[i] = border as u32;
+    }
+    let period = x.len() - border;
+    (2 * period <= x.len()).then(|| Flaw::Repeats { every: period as f64 / fs })
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -116,6 +146,9 @@ mod tests {
         let clipped: Vec<f64> = noise().iter().map(|v| v.clamp(-2.0, 2.0)).collect();
         let found = flaws(&clipped, FS, SHAFT);
         assert!(matches!(found[..], [Flaw::AtLimits { share }] if (share - 0.0455).abs() < 0.006));
+        // The last time not to its end.
+        let looped: Vec<f64> = noise()[..5000].iter().cycle().take(18_000).copied().collect();
+        assert_eq!(flaws(&looped, FS, SHAFT), [Flaw::Repeats { every: 0.5 }]);
         // An energy of 40 000 beside 20 000.
         let mut struck = noise();
         struck[8_100] = 200.0;
