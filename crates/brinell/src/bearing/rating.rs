@@ -45,7 +45,7 @@ pub fn static_rating(bearing: &Bearing) -> StaticRating {
 
 /// f0 of ISO 76, table 1, for radial contact ball bearings by d/D_m, straight between its lines: grooves of 0.52 inside
 /// and 0.53 outside.
-fn ball_factor(ratio: f64) -> f64 {
+pub(super) fn ball_factor(ratio: f64) -> f64 {
     /// From d/D_m = 0 in steps of 0.01.
     const F0: [f64; 41] = [
         14.7, 14.9, 15.1, 15.3, 15.5, 15.7, 15.9, 16.1, 16.3, 16.5, 16.4, 16.1, 15.9, 15.6, 15.4, 15.2, 14.9, 14.7,

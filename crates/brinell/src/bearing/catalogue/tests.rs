@@ -336,6 +336,53 @@ fn lit_balls_follow_from_the_static_rating() {
 }
 
 #[test]
+fn lit_numbers_of_balls_follow_from_another_makers_c0_and_f0() {
+    // The static rating alone leaves the number of balls open: f0 of ISO 76 tells d/D_m, and C0 = f0 Z d^2 then Z. C0 in
+    // kN and f0 of NACHI's catalogue, as a program of other people quotes them (catalogue.toml). NACHI's 6005 has ten
+    // balls, SKF's with its greater C0 nine.
+    const PRINTED: [(&str, f64, f64); 29] = [
+        ("6001", 2.39, 13.2),
+        ("6002", 2.84, 13.9),
+        ("6003", 3.25, 14.3),
+        ("6004", 5.0, 13.9),
+        ("6005", 5.85, 14.5),
+        ("6006", 8.3, 14.8),
+        ("6007", 10.3, 14.8),
+        ("6008", 11.5, 15.3),
+        ("6009", 15.2, 15.3),
+        ("6010", 16.6, 15.6),
+        ("6201", 3.05, 12.3),
+        ("6202", 3.7, 13.1),
+        ("6203", 4.8, 13.1),
+        ("6204", 6.6, 13.1),
+        ("6205", 7.9, 13.9),
+        ("6206", 11.3, 13.9),
+        ("6207", 15.3, 13.8),
+        ("6208", 17.9, 14.0),
+        ("6209", 20.5, 14.1),
+        ("6210", 23.2, 14.4),
+        ("6302", 5.4, 12.3),
+        ("6303", 6.55, 12.3),
+        ("6304", 7.9, 12.4),
+        ("6305", 12.1, 12.2),
+        ("6306", 15.0, 13.2),
+        ("6307", 19.2, 13.2),
+        ("6308", 24.1, 13.2),
+        ("6309", 32.0, 13.1),
+        ("6310", 38.0, 13.1),
+    ];
+    for (name, c0, f0) in PRINTED {
+        let entry = all().iter().find(|entry| entry.name == name).unwrap();
+        let number = bearing(entry, "rollers_per_row");
+        let pitch = bearing(entry, "pitch_diameter_mm");
+        // With d from C0 and the catalogue's Z, f0 is the printed one: to 0.2, one ball being 0.5 of it.
+        let diameter = (1000.0 * c0 / (f0 * number)).sqrt();
+        let iso = crate::bearing::rating::ball_factor(diameter / pitch);
+        assert_eq!((iso - f0).abs() < 0.2, name != "6005", "{name}: {number} balls, f0 {iso:.2} for {f0}");
+    }
+}
+
+#[test]
 fn lit_6203_orders_of_paderborn_and_uer204s_of_xjtu() {
     for (name, bpfo, bpfi) in [("6203", 3.05, 4.95), ("UER204", 3.083, 4.917)] {
         let k = per_turn(name);
