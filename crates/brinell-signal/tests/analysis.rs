@@ -4,7 +4,8 @@ use crate::cases::{CASES, first};
 use std::f64::consts::TAU;
 
 use brinell_signal::analysis::{
-    Analysis, AnalysisError, Component, DefectOrders, Finding, NamedBearing, Options, Side, Verdict, analyze, compare,
+    Analysis, AnalysisError, Component, DefectOrders, Finding, Flaw, NamedBearing, Options, Side, Verdict, analyze,
+    compare,
 };
 use brinell_signal::random::Random;
 
@@ -166,6 +167,20 @@ fn regress_the_verdict_at_falling_signal_to_noise() {
 }
 
 /// A tone that was computed has round-off between its lines, and round-off has a pattern: it is nobody's damage.
+#[test]
+fn prop_a_stretch_that_repeats_is_judged_once() {
+    for (_, order, modulation) in CASES {
+        let damage = Damage { order, modulation, jitter: 0.01, snr_db: -6.0 };
+        let once = damaged(12_000.0, 1.0, 11, &damage);
+        let (alone, repeated) = (look(&once, 12_000.0), look(&once.repeat(10), 12_000.0));
+        assert!(matches!(repeated.flaws[..], [Flaw::Repeats { every }] if (every - 1.0).abs() < 1e-9));
+        for (a, b) in alone.families.iter().zip(&repeated.families) {
+            assert_eq!(a.finding, b.finding, "{}", a.name);
+            assert!((a.score - b.score).abs() < 1e-6, "{}: {} once, {} ten times", a.name, a.score, b.score);
+        }
+    }
+}
+
 #[test]
 fn regress_a_computed_tone_is_no_damage() {
     for hz in [330.0, 1000.0, 2517.0] {

@@ -94,8 +94,13 @@ const LONGEST: usize = 1 << 18;
 pub fn analyze(x: &[f64], fs: f64, options: &Options) -> Result<Analysis, AnalysisError> {
     check(x, fs, options)?;
     let mean = x.iter().sum::<f64>() / x.len() as f64;
-    let x: Vec<f64> = x.iter().map(|v| v - mean).collect();
+    let mut x: Vec<f64> = x.iter().map(|v| v - mean).collect();
     let flaws = soundness::flaws(&x, fs, options.shaft);
+    // A stretch that is there again says nothing new, and its repetition has lines.
+    let once = flaws.iter().find_map(|f| if let Flaw::Repeats { every } = f { Some(*every) } else { None });
+    if let Some(every) = once.filter(|every| every * options.shaft >= FEWEST_REVOLUTIONS) {
+        x.truncate((every * fs).round() as usize);
+    }
     // What is missing has no speed.
     let whole = !(flaws.iter()).any(|f| matches!(f, Flaw::Held { .. }));
     let Prepared { indicators, map, evidence, transformed } = prepare(&x, fs, options, whole)?;

@@ -59,8 +59,7 @@ impl fmt::Display for Flaw {
             ),
             Flaw::Repeats { every } => write!(
                 f,
-                "the record repeats the same {every:.3} s: it says no more than these, and has lines of its own at multiples of {:.3} Hz",
-                1.0 / every
+                "the record repeats the same {every:.3} s: no more than these is judged, unless they are too few turns of the shaft"
             ),
         }
     }
