@@ -1,10 +1,10 @@
 """What `brinell analyze` says of measured records that were made harder.
 
-    python3 validation/robustness/robustness.py RECORDS BRINELL [base,sensor,cut,speed,far,rate,bearing,sum] [-v]
+    python3 validation/robustness/robustness.py RECORDS BRINELL [base,sensor,cut,speed,far,rate,bearing | sum | halves] [-v]
 
 RECORDS is a folder with records.csv (id, file, damaged, set, options) and NPZ files. Prints a row of a Markdown table for each way of making them
 harder: by the other sensor of the file, cut short, at wrong speeds, at speeds far off, resampled with noise, asked about other bearings;
-and one of sums of two damaged bearings' records. -v lists every wrong call. Needs NumPy and SciPy.
+`sum` one of sums of two damaged bearings' records, `halves` how often the 95 % intervals of a record's two halves agree. -v lists every wrong call. Needs NumPy and SciPy.
 """
 
 import collections
@@ -145,12 +145,39 @@ def of_sums(folder, brinell, verbose):
         print(f"| {parts} | {c['both']} | {c['one']} | {c['none']} | {c['another']} |")
 
 
+def of_halves(folder, brinell):
+    """Of each indicator: in how many records the halves differ by no more than their intervals say, as of two independent values."""
+    agree, count = collections.Counter(), collections.Counter()
+
+    def one(r):
+        middle = len(r["x"]) // 2
+        return [analyze(brinell, x, r["rate"], r["speed"], r["bearing"])["indicators"] for x in (r["x"][:middle], r["x"][middle:])]
+
+    with ThreadPoolExecutor(2) as pool:
+        for first, second in pool.map(one, records(folder)):
+            for name in first:
+                values, ends = zip(*((half[name]["value"], half[name]["interval_95"]) for half in (first, second)))
+                # The only one that may be negative: of the others the interval is a factor.
+                if name == "skewness":
+                    continue
+                widths = [math.log(high / low) / 2 for low, high in ends]
+                count[name] += 1
+                agree[name] += abs(math.log(values[0] / values[1])) <= math.hypot(*widths)
+    print("| indicator | the halves agree within their 95 % intervals |")
+    print("| --- | --- |")
+    for name in count:
+        print(f"| {name} | {agree[name]} of {count[name]} |")
+
+
 def main():
     folder, brinell = Path(sys.argv[1]), sys.argv[2]
     rest = [a for a in sys.argv[3:] if a != "-v"]
     ways = rest[0].split(",") if rest else ["base", "sensor", "cut", "speed", "far", "rate", "bearing"]
     if ways == ["sum"]:
         of_sums(folder, brinell, "-v" in sys.argv)
+        return
+    if ways == ["halves"]:
+        of_halves(folder, brinell)
         return
     counts = collections.defaultdict(collections.Counter)
 
