@@ -3,6 +3,7 @@
 use std::sync::LazyLock;
 
 use crate::encode::base64;
+use tiny_skia::PathBuilder;
 use ttf_parser::{Face, GlyphId, OutlineBuilder, Tag};
 
 const REGULAR: &[u8] = include_bytes!("../font/Inter-Regular-subset.otf");
@@ -102,7 +103,7 @@ pub(crate) fn fitted(text: &str, size: f64, bold: bool, limit: f64) -> String {
 }
 
 /// Sends the outline of `text` to `draw`, pen at (x, y) on the baseline, y down; returns the pen's x after it.
-pub(crate) fn outline(text: &str, size: f64, bold: bool, x: f64, y: f64, draw: &mut impl OutlineBuilder) -> f64 {
+pub(crate) fn outline(text: &str, size: f64, bold: bool, x: f64, y: f64, draw: &mut PathBuilder) -> f64 {
     let Some(face) = face(bold) else { return x };
     let scale = size / f64::from(face.units_per_em());
     let mut pen = x;
@@ -116,20 +117,20 @@ pub(crate) fn outline(text: &str, size: f64, bold: bool, x: f64, y: f64, draw: &
 }
 
 /// Scales a glyph from font units, y up, to the page, y down.
-struct Placed<'a, D> {
-    draw: &'a mut D,
+struct Placed<'a> {
+    draw: &'a mut PathBuilder,
     scale: f32,
     x: f32,
     y: f32,
 }
 
-impl<D> Placed<'_, D> {
+impl Placed<'_> {
     fn at(&self, x: f32, y: f32) -> (f32, f32) {
         (self.x + x * self.scale, self.y - y * self.scale)
     }
 }
 
-impl<D: OutlineBuilder> OutlineBuilder for Placed<'_, D> {
+impl OutlineBuilder for Placed<'_> {
     fn move_to(&mut self, x: f32, y: f32) {
         let (x, y) = self.at(x, y);
         self.draw.move_to(x, y);
@@ -144,7 +145,7 @@ impl<D: OutlineBuilder> OutlineBuilder for Placed<'_, D> {
     }
     fn curve_to(&mut self, x1: f32, y1: f32, x2: f32, y2: f32, x: f32, y: f32) {
         let ((x1, y1), (x2, y2), (x, y)) = (self.at(x1, y1), self.at(x2, y2), self.at(x, y));
-        self.draw.curve_to(x1, y1, x2, y2, x, y);
+        self.draw.cubic_to(x1, y1, x2, y2, x, y);
     }
     fn close(&mut self) {
         self.draw.close();

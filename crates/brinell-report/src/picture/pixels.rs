@@ -1,7 +1,6 @@
 //! A picture as pixels.
 
 use tiny_skia as skia;
-use ttf_parser::OutlineBuilder;
 
 use super::{Error, Picture};
 use crate::font;
@@ -176,14 +175,14 @@ fn draw(
 }
 
 fn draw_text(pixels: &mut skia::Pixmap, text: &Text, transform: skia::Transform) {
-    let mut glyphs = Glyphs(skia::PathBuilder::new());
+    let mut glyphs = skia::PathBuilder::new();
     let mut pen = text.start();
     for run in &text.runs {
         let size = run_size(text.size, run);
         let drop = run_drop(text.size, run);
         pen = font::outline(&run.text, size, text.bold, pen, drop, &mut glyphs);
     }
-    let Some(path) = glyphs.0.finish() else {
+    let Some(path) = glyphs.finish() else {
         return;
     };
     let mut place = transform.pre_translate(text.x as f32, text.y as f32);
@@ -191,24 +190,4 @@ fn draw_text(pixels: &mut skia::Pixmap, text: &Text, transform: skia::Transform)
         place = place.pre_rotate(-90.0);
     }
     pixels.fill_path(&path, &skia_paint(text.color, 1.0), skia::FillRule::Winding, place, None);
-}
-
-struct Glyphs(skia::PathBuilder);
-
-impl OutlineBuilder for Glyphs {
-    fn move_to(&mut self, x: f32, y: f32) {
-        self.0.move_to(x, y);
-    }
-    fn line_to(&mut self, x: f32, y: f32) {
-        self.0.line_to(x, y);
-    }
-    fn quad_to(&mut self, x1: f32, y1: f32, x: f32, y: f32) {
-        self.0.quad_to(x1, y1, x, y);
-    }
-    fn curve_to(&mut self, x1: f32, y1: f32, x2: f32, y2: f32, x: f32, y: f32) {
-        self.0.cubic_to(x1, y1, x2, y2, x, y);
-    }
-    fn close(&mut self) {
-        self.0.close();
-    }
 }

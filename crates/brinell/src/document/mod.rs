@@ -62,5 +62,6 @@ pub mod reading {
     pub use super::source::{Entry, Node, Table, Value as Toml, brief_path, parse, path_parts};
     pub use super::spec::{Range, Spec, key};
     pub use super::toml_text::{key_text, quote};
-    pub use super::value_type::{Choice, Misfit, ValueType};
+    pub use super::value_type::{Misfit, ValueType};
+    pub use crate::scenario::Choice;
 }

@@ -1,5 +1,6 @@
 //! Kinds of value that a key can hold: how each is read, written and described.
 
+use crate::scenario::Choice;
 use serde_json::{Value as Json, json};
 
 use super::quantity;
@@ -374,20 +375,6 @@ impl ValueType for Vec<String> {
 
     fn schema(spec: &Spec) -> Json {
         json!({ "type": "array", "items": String::schema(spec) })
-    }
-}
-
-/// A closed set of words.
-pub trait Choice: Copy + PartialEq + 'static {
-    /// Word, value, meaning; the first is used where none could be read.
-    const WORDS: &'static [(&'static str, Self, &'static str)];
-    /// A word of earlier versions, and the one that replaces it.
-    const RENAMED: Option<(&'static str, &'static str)> = None;
-
-    /// Its word.
-    fn word(self) -> &'static str {
-        let own = Self::WORDS.iter().find(|(_, value, _)| *value == self);
-        own.unwrap_or(&Self::WORDS[0]).0
     }
 }
 

@@ -1,5 +1,7 @@
 //! `[[defects]]`: where damage lies and what shape it has.
 
+use super::choices::*;
+
 /// Where a defect lies.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Surface {
@@ -92,28 +94,6 @@ impl Shape {
     }
 }
 
-/// Where the roller passes to, in a picture as it is seen.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum RollingDirection {
-    /// To the right.
-    Right,
-    /// Upwards.
-    Up,
-    /// To the left.
-    Left,
-    /// Downwards.
-    Down,
-}
-
-/// How an outline runs between the pixels of an image.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum ImageEdges {
-    /// Where the brightness crosses the threshold: photos.
-    SubPixel,
-    /// Along pixel edges: masks drawn pixel by pixel.
-    PixelEdges,
-}
-
 /// `image`: damage in a PNG or JPEG.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ImageFile {
@@ -178,15 +158,6 @@ pub struct ScaleBar {
     pub mm: f64,
 }
 
-/// Which dark pieces of an image are damage.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum ImagePieces {
-    /// The largest.
-    Largest,
-    /// All.
-    All,
-}
-
 /// `svg`: damage drawn in a vector editor.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SvgFile {
@@ -207,59 +178,6 @@ impl Default for SvgFile {
     fn default() -> Self {
         Self { file: String::new(), path_id: None, mm_per_unit: None, tolerance_mm: 0.001, center: true }
     }
-}
-
-/// What the numbers of a scan count.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum ScanUnit {
-    /// Micrometres.
-    Um,
-    /// Millimetres.
-    Mm,
-    /// Metres.
-    M,
-    /// Whole numbers of a PNG or an array, `nm_per_count` each.
-    Counts,
-}
-
-/// What to do about points that a scan lacks.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum ScanFill {
-    /// Refuse them.
-    None,
-    /// Join their neighbours.
-    Neighbours,
-}
-
-/// The raceway's own form under a scan.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum ScanForm {
-    /// Stays.
-    None,
-    /// A tilted plane, taken off.
-    Plane,
-    /// A tilted cylinder, taken off.
-    Cylinder,
-}
-
-/// What counts as depth 0 of a scan.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum ScanZero {
-    /// The median of the rim.
-    RimMedian,
-    /// The scan's own zero.
-    AsIs,
-    /// The depth that `zero_percentile` of the points do not exceed.
-    Percentile,
-}
-
-/// Where a scan's first row lies.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum FirstRow {
-    /// On top, as in print.
-    Top,
-    /// At the bottom, rows counting upwards.
-    Bottom,
 }
 
 /// `depth_map` with `file`: heights in CSV, NPY, 16-bit PNG, SDF, X3P or SUR.

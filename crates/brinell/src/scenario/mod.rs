@@ -4,14 +4,13 @@
 //! range checks of the reader, but a scenario built in code has not: [`crate::model::Model::new`] checks again what
 //! it cannot work with.
 
+mod choices;
 mod damage;
 mod sensor;
 
-pub use damage::{
-    Defect, DepthGrid, FirstRow, ImageEdges, ImageFile, ImagePieces, RollingDirection, ScaleBar, ScanFile, ScanFill,
-    ScanForm, ScanUnit, ScanZero, Shape, Surface, SvgFile,
-};
-pub use sensor::{NoiseColour, PathMode, Range, Sensor};
+pub use choices::*;
+pub use damage::{Defect, DepthGrid, ImageFile, ScaleBar, ScanFile, Shape, Surface, SvgFile};
+pub use sensor::{PathMode, Range, Sensor};
 
 /// One run, completely described.
 #[derive(Debug, Clone, PartialEq)]
@@ -70,15 +69,6 @@ impl Scenario {
         let turn = self.operation.speed_rpm.constant().filter(|rpm| *rpm != 0.0).map_or(0.0, |rpm| 60.0 / rpm.abs());
         (self.operation.load_ramp_s + turn).min(0.5 * self.simulation.duration_s)
     }
-}
-
-/// What rolls between the raceways.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Element {
-    /// Cylindrical rollers on cylindrical raceways.
-    Roller,
-    /// Balls in grooves: a deep-groove ball bearing under radial load.
-    Ball,
 }
 
 impl Element {
@@ -171,26 +161,6 @@ impl Bearing {
     }
 }
 
-/// What centres the cage.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Guidance {
-    /// Land on the outer ring (the paper).
-    OuterRing,
-    /// Land on the inner ring.
-    InnerRing,
-    /// No film: the rollers carry the cage, and the outer ring's land stops it where it strays.
-    Rollers,
-}
-
-/// Law of the film between the cage and the ring that guides it; none where rollers do.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum GuidanceFilm {
-    /// A short bearing for any motion of the centres, with a damped land.
-    Dynamic,
-    /// The same for resting centres, with an undamped land (the paper).
-    QuasiStatic,
-}
-
 /// `[cage]`: one cage for each row.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Cage {
@@ -214,34 +184,6 @@ pub struct Cage {
     pub contact_stiffness_n_per_m: f64,
     /// c_c, N s/m, of pockets, and of the land but under the quasi-static film.
     pub contact_damping_ns_per_m: f64,
-}
-
-/// Law of a roller on a damaged raceway.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Law {
-    /// Effective contact length (the paper, made continuous).
-    Ecl,
-    /// Independent slices across the roller, each with the fraction that damage covers and its mean depth (in the
-    /// manner of ISO/TS 16281).
-    Sliced,
-}
-
-/// How a roller follows the damage's floor.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum RollerPath {
-    /// The depth under the contact line (the paper).
-    Point,
-    /// The depth that a roller of finite radius can reach.
-    Envelope,
-}
-
-/// `edge_reaction`: whether the damage's slopes push the rollers along.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum EdgeReaction {
-    /// No (the paper); the energy audit carries the parametric work.
-    None,
-    /// The generalised force -dE/du on what turns; only with `sliced` and `envelope`.
-    Conservative,
 }
 
 /// `[contact]`: normal contact of rollers and raceways.
@@ -276,15 +218,6 @@ pub struct Friction {
     pub raceway_coefficient: f64,
     /// v_s, m/s.
     pub slip_velocity_m_per_s: f64,
-}
-
-/// Film between rollers and raceways that do not touch.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum RacewayFilm {
-    /// None: an open contact carries nothing (the paper).
-    None,
-    /// What a closing gap squeezes out.
-    Squeeze,
 }
 
 /// `[lubricant]`.
@@ -330,15 +263,6 @@ pub enum Speed {
     Profile(Vec<[f64; 2]>),
 }
 
-/// The ring that the load acts on.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum LoadOn {
-    /// -F on the outer ring (the paper's rig).
-    OuterRing,
-    /// +F on the inner ring.
-    InnerRing,
-}
-
 /// `[operation]`.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Operation {
@@ -354,17 +278,6 @@ pub struct Operation {
     pub gravity_m_per_s2: [f64; 2],
     /// Z_F, where along the axis the load acts; `tilting` only.
     pub load_offset_mm: f64,
-}
-
-/// Which equations are integrated.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum ModelKind {
-    /// Every part a moving body.
-    Full,
-    /// The lumped model that the paper compares against: its reference model.
-    Lumped,
-    /// Every part a moving body; rollers and rings tilt too.
-    Tilting,
 }
 
 impl ModelKind {
@@ -393,26 +306,6 @@ pub enum RollerProfile {
         /// p at each.
         drop_um: Vec<f64>,
     },
-}
-
-/// State at t = 0.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Start {
-    /// Pure rolling, rings displaced by 1 um (the paper).
-    Rolling,
-    /// Everything at rest but the inner ring.
-    Rest,
-    /// Pure rolling, rings and rollers in static balance under the full load.
-    Equilibrium,
-}
-
-/// Tolerance of the integrator.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Accuracy {
-    /// About 1 % of an acceleration over 2.5 ms.
-    Standard,
-    /// As tight as round-off amplified by impacts makes sensible.
-    Reference,
 }
 
 /// `[simulation]`.

@@ -1,15 +1,6 @@
 //! `[sensor]`: what is between the outer ring and the record.
 
-/// Colour of a sensor's noise.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum NoiseColour {
-    /// The same density everywhere.
-    White,
-    /// Density ~ 1/f above the corner.
-    Pink,
-    /// Density ~ 1/f^2 above the corner.
-    Brown,
-}
+use super::choices::NoiseColour;
 
 /// One mode of the structure between ring and sensor.
 #[derive(Debug, Clone, PartialEq)]

@@ -1,0 +1,180 @@
+//! The keys of a scenario that take one of a few words.
+
+/// A closed choice: an enum, and the words that the scenario file has for it, each with its meaning.
+macro_rules! choices {
+    ($($(#[$about:meta])* pub enum $type:ident $(renamed $old:literal to $new:literal)? { $($(#[$more:meta])* $variant:ident = $word:literal, $meaning:literal;)+ })+) => {$(
+        $(#[$about])*
+        #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+        pub enum $type {
+            $(#[doc = $meaning] $(#[doc = ""] #[$more])* $variant),+
+        }
+
+        impl Choice for $type {
+            const WORDS: &'static [(&'static str, Self, &'static str)] =
+                &[$(($word, $type::$variant, $meaning)),+];
+            $(const RENAMED: Option<(&'static str, &'static str)> = Some(($old, $new));)?
+        }
+    )+};
+}
+
+/// A closed set of words.
+pub trait Choice: Copy + PartialEq + 'static {
+    /// Word, value, meaning; the first is used where none could be read.
+    const WORDS: &'static [(&'static str, Self, &'static str)];
+    /// A word of earlier versions, and the one that replaces it.
+    const RENAMED: Option<(&'static str, &'static str)> = None;
+
+    /// Its word.
+    fn word(self) -> &'static str {
+        let own = Self::WORDS.iter().find(|(_, value, _)| *value == self);
+        own.unwrap_or(&Self::WORDS[0]).0
+    }
+}
+
+choices! {
+    /// What rolls between the raceways.
+    pub enum Element {
+        Roller = "roller", "cylindrical rollers";
+        /// Balls in grooves: a deep-groove ball bearing under radial load.
+        Ball = "ball", "balls in grooves, radial load";
+    }
+
+    /// What centres the cage.
+    pub enum Guidance {
+        /// Land on the outer ring (the paper).
+        OuterRing = "outer-ring", "a land on the outer ring";
+        InnerRing = "inner-ring", "a land on the inner ring";
+        /// No film: the rollers carry the cage, and the outer ring's land stops it where it strays.
+        Rollers = "rollers", "no film; a cage that strays lands on the outer ring";
+    }
+
+    /// Law of the film between the cage and the ring that guides it; none where rollers do.
+    pub enum GuidanceFilm {
+        Dynamic = "dynamic", "a short bearing in any motion of the centres";
+        /// The same for resting centres, with an undamped land (the paper).
+        QuasiStatic = "quasi-static", "the paper's: as if the centres were at rest";
+    }
+
+    /// Film between rollers and raceways that do not touch.
+    pub enum RacewayFilm {
+        /// None: an open contact carries nothing (the paper).
+        None = "none", "an open contact carries nothing, as in the paper";
+        Squeeze = "squeeze", "a closing gap squeezes the oil out, which cushions a roller that falls or enters the load";
+    }
+
+    /// Law of a roller on a damaged raceway.
+    pub enum Law {
+        /// Effective contact length (the paper, made continuous).
+        Ecl = "ecl", "effective contact length";
+        /// Independent slices across the roller, each with the fraction that damage covers and its mean depth (in the
+        /// manner of ISO/TS 16281).
+        Sliced = "sliced", "independent slices, each with what damage covers of it";
+    }
+
+    /// How a roller follows the damage's floor.
+    pub enum RollerPath {
+        /// The depth under the contact line (the paper).
+        Point = "point", "the depth under the contact line";
+        Envelope = "envelope", "the depth that the roller's radius lets it reach";
+    }
+
+    /// `edge_reaction`: whether the damage's slopes push the rollers along.
+    pub enum EdgeReaction {
+        /// No (the paper); the energy audit carries the parametric work.
+        None = "none", "slopes of the damage do not push";
+        /// The generalised force -dE/du on what turns; only with `sliced` and `envelope`.
+        Conservative = "conservative", "-dE/du on what turns; sliced and envelope only";
+    }
+
+    /// The ring that the load acts on.
+    pub enum LoadOn {
+        /// -F on the outer ring (the paper's rig).
+        OuterRing = "outer-ring", "-F on the outer ring";
+        InnerRing = "inner-ring", "+F on the inner ring";
+    }
+
+    /// Colour of a sensor's noise.
+    pub enum NoiseColour {
+        White = "white", "the same density everywhere";
+        Pink = "pink", "density ~ 1/f above the corner";
+        Brown = "brown", "density ~ 1/f^2 above the corner";
+    }
+
+    /// Which equations are integrated.
+    pub enum ModelKind renamed "reference" to "lumped" {
+        Full = "full", "every part moves";
+        /// The lumped model that the paper compares against: its reference model.
+        Lumped = "lumped", "lumped rings, kinematic cage";
+        Tilting = "tilting", "every part moves, rollers and rings tilt too";
+    }
+
+    /// State at t = 0.
+    pub enum Start {
+        /// Pure rolling, rings displaced by 1 um (the paper).
+        Rolling = "rolling", "pure rolling, rings 1 um off centre";
+        Rest = "rest", "only the inner ring turns";
+        /// Pure rolling, rings and rollers in static balance under the full load.
+        Equilibrium = "equilibrium", "pure rolling in static balance";
+    }
+
+    /// Tolerance of the integrator.
+    pub enum Accuracy {
+        Standard = "standard", "about 1 % of an acceleration over 2.5 ms";
+        /// As tight as round-off amplified by impacts makes sensible.
+        Reference = "reference", "as tight as makes sense";
+    }
+
+    /// Where the roller passes to, in a picture as it is seen.
+    pub enum RollingDirection {
+        Right = "right", "to the right of the picture";
+        Up = "up", "to its top";
+        Left = "left", "to its left";
+        Down = "down", "to its bottom";
+    }
+
+    /// How an outline runs between the pixels of an image.
+    pub enum ImageEdges {
+        SubPixel = "sub-pixel", "where the brightness crosses the threshold: photos";
+        PixelEdges = "pixel-edges", "along pixels: masks drawn pixel by pixel";
+    }
+
+    /// Which dark pieces of an image are damage.
+    pub enum ImagePieces {
+        Largest = "largest", "the largest that is set apart from the surface around it";
+        All = "all", "all of them";
+    }
+
+    /// What the numbers of a scan count.
+    pub enum ScanUnit {
+        Um = "um", "micrometres";
+        Mm = "mm", "millimetres";
+        M = "m", "metres";
+        Counts = "counts", "whole numbers, nm_per_count each";
+    }
+
+    /// What to do about points that a scan lacks.
+    pub enum ScanFill {
+        None = "none", "refuse missing points";
+        Neighbours = "neighbours", "join what is around them";
+    }
+
+    /// The raceway's own form under a scan.
+    pub enum ScanForm {
+        None = "none", "nothing is taken off";
+        Plane = "plane", "a tilted plane";
+        Cylinder = "cylinder", "a tilted cylinder along the axis: the raceway";
+    }
+
+    /// What counts as depth 0 of a scan.
+    pub enum ScanZero {
+        RimMedian = "rim-median", "the median of the scan's rim";
+        AsIs = "as-is", "the scan's own zero";
+        Percentile = "percentile", "the depth that zero_percentile of the points do not exceed";
+    }
+
+    /// Where a scan's first row lies.
+    pub enum FirstRow {
+        Top = "top", "as in print";
+        Bottom = "bottom", "rows count upwards";
+    }
+}
