@@ -128,6 +128,8 @@ def sweep(
 
     Raises
     ------
+    ScenarioError
+        Where the scenario of every point is bad.
     ValueError
         Where there is no plan: a key twice, a value twice, too many points. Where the folder is another sweep's.
     ReadError

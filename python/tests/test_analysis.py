@@ -188,6 +188,11 @@ def test_regress_sweeps_of_keys_in_step_and_across(base):
     assert len(table.to_pandas()) == 4
 
 
+def test_prop_a_sweep_without_a_sound_point_is_refused(base):
+    with pytest.raises(brinell.ScenarioError, match="sped"):
+        brinell.sweep(base, {"operation.speed_rpm": [1000, 2000], "operation.sped": [1, 2]})
+
+
 def test_prop_a_sweep_in_a_folder_resumes(base, tmp_path):
     vary = {"operation.speed_rpm": [900.0, 1800.0], "bearing.radial_clearance_um": [5.0, -500.0]}
     done = []

@@ -2,6 +2,7 @@
 
 use crate::bad_value::bad_value;
 use crate::convert::{array, python_to_toml};
+use crate::errors::scenario_error;
 use crate::kept::{self, Numbers};
 use crate::run::over_threads;
 use crate::scenario::{Scenario, Source};
@@ -39,6 +40,15 @@ pub(crate) fn sweep<'py>(
     });
     let plan = Plan::new(axes.collect::<PyResult<_>>()?).map_err(bad_value)?;
     let total = plan.points();
+    // A point that is bad is a row; where all are, the input is.
+    let first_of_bad = || {
+        let problems = |k: usize| scenario.source.with(&plan.settings(k)).load().err();
+        let first = problems(0)?;
+        (1..total).all(|k| problems(k).is_some()).then_some(first)
+    };
+    if let Some(problems) = py.detach(first_of_bad) {
+        return Err(scenario_error(py, problems, None));
+    }
     let show = |py: Python<'_>, done: usize| match &progress {
         Some(progress) => progress.call1(py, (done, total)).map(drop),
         None => Ok(()),

@@ -466,7 +466,7 @@ fn regress_words_on_what_cannot_be_analysed() {
         slow.starts_with("sampled at 600 Hz the signal holds nothing above 300.0 Hz, and BPFI lies at 162.5 Hz"),
         "{slow}"
     );
-    assert!(say(&x[..1200], 12_000.0).starts_with("0.100 s are 3.0 revolutions"));
+    assert!(say(&x[..1200], 12_000.0).starts_with("0.1000 s are 3.00 revolutions"));
     assert_eq!(say(&[2.5; 9000], 12_000.0), "all 9000 samples are 2.5: a constant is no vibration");
     let mut holes = x.clone();
     holes[7] = f64::NAN;

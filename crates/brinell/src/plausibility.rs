@@ -16,7 +16,7 @@ use crate::lamina::Rating;
 use crate::model::Model;
 use crate::operation::Rotation;
 use crate::pressure::{pressures, static_limit};
-use crate::scenario::{Accuracy, ModelKind, RollerPath, Scenario, Speed, Surface};
+use crate::scenario::{Accuracy, Choice, EdgeReaction, Law, LoadOn, RollerPath, Scenario, Speed, Surface};
 use crate::simulate::EnergyAudit;
 use crate::statics::{NoBalance, StaticLoadZone, static_load_zone};
 use slices::coarse_slices;
@@ -27,13 +27,16 @@ use warning::{short, warning};
 pub(crate) const PARAMETRIC_SHARE: f64 = 0.1;
 /// Share of the load beyond which a weight that is left out is worth a warning.
 const WEIGHT_SHARE: f64 = 0.1;
+/// Share of the load beyond which what a support carries is worth a warning.
+const SUPPORT_SHARE: f64 = 0.1;
 /// Share of a defect's depth that a roller must reach: the deepest point of a rough floor is nobody's.
 const REACHED_SHARE: f64 = 0.9;
 /// Static deformations of the heaviest contact: deeper damage over a roller's whole width takes all load off it where
 /// it begins.
 const DROP: f64 = 10.0;
 /// Share of the turnover that an energy audit may miss before the run is worth a warning; sound runs stay far below.
-const RESIDUAL_SHARE: f64 = 0.01;
+#[doc(hidden)]
+pub const RESIDUAL_SHARE: f64 = 0.01;
 /// Standard gravity, m/s^2.
 const GRAVITY: f64 = 9.80665;
 
@@ -61,9 +64,13 @@ impl Beforehand {
 pub fn before(scenario: &Scenario, model: &Model, statics: &Result<StaticLoadZone, NoBalance>) -> Vec<Problem> {
     let mut warnings = Vec::new();
     warnings.extend(no_load(scenario, model));
+    warnings.extend(sensor_at_rest(scenario, model));
     warnings.extend(weight_left_out(scenario, model));
     match statics {
-        Ok(zone) => warnings.extend(overload(scenario, zone)),
+        Ok(zone) => {
+            warnings.extend(overload(scenario, zone));
+            warnings.extend(carried_by_support(scenario, model, zone));
+        }
         Err(error) => warnings.push(warning(LOAD, list(scenario.operation.load_n), error.to_string(), "")),
     }
     warnings.extend(outside_the_load_zone(scenario, model));
@@ -133,6 +140,44 @@ fn weight_left_out(scenario: &Scenario, model: &Model) -> Option<Problem> {
                 short(load)
             ),
             "[0.0, -9.81] for a horizontal shaft",
+        )
+    })
+}
+
+/// The lumped model has the outer ring fixed where the load is on the inner one.
+fn sensor_at_rest(scenario: &Scenario, model: &Model) -> Option<Problem> {
+    model.outer_ring_is_fixed().then(|| {
+        warning(
+            "simulation.model",
+            format!("\"{}\"", scenario.simulation.model.word()),
+            "the lumped model holds the outer ring where the load is on the inner one: its acceleration and the sensor's are 0".into(),
+            "\"full\", or operation.load_on = \"outer-ring\"",
+        )
+    })
+}
+
+/// A support that carries a part of the load that counts, which the bearing then does not.
+fn carried_by_support(scenario: &Scenario, model: &Model, zone: &StaticLoadZone) -> Option<Problem> {
+    let (key, stiffness) = match scenario.operation.load_on {
+        LoadOn::OuterRing => ("support.outer_stiffness_n_per_m", scenario.support.outer_stiffness_n_per_m),
+        LoadOn::InnerRing => ("support.inner_stiffness_n_per_m", scenario.support.inner_stiffness_n_per_m),
+    };
+    let load = model.load.with_weight([model.inertia.inner_ring, model.inertia.outer_ring], model.gravity);
+    let bearing = zone.resultant();
+    let share = 1.0 - bearing / load;
+    // Where it can carry all of it, the document's own warning says so.
+    let all = stiffness * model.geometry.clearance >= load;
+    (share > SUPPORT_SHARE && !all).then(|| {
+        warning(
+            key,
+            toml_float(stiffness),
+            format!(
+                "at rest the support carries {} N of the {} N on its ring, weight included, and the bearing {} N",
+                short(load - bearing),
+                short(load),
+                short(bearing)
+            ),
+            format!("< {:.1e}", stiffness * SUPPORT_SHARE / share),
         )
     })
 }
@@ -371,18 +416,21 @@ fn parametric(scenario: &Scenario, energy: &EnergyAudit) -> Option<String> {
     } else {
         format!("{:.0} times the {} that contact damping dissipates", work.abs() / dissipated, joule(dissipated))
     };
-    let remedy = match scenario.simulation.model {
-        ModelKind::Full | ModelKind::Tilting => {
-            "Where levels matter set contact.law = \"sliced\", contact.roller_path = \"envelope\" and contact.edge_reaction = \"conservative\", which conserve energy"
-        }
-        ModelKind::Lumped => {
-            "Energy is conserved in simulation.model = \"full\" alone, with contact.law = \"sliced\", contact.roller_path = \"envelope\" and \
-             contact.edge_reaction = \"conservative\""
-        }
+    let s = scenario;
+    let settings = [
+        (!s.simulation.model.moves_every_part(), "simulation.model = \"full\""),
+        (s.contact.law != Law::Sliced, "contact.law = \"sliced\""),
+        (s.contact.roller_path != RollerPath::Envelope, "contact.roller_path = \"envelope\""),
+        (s.contact.edge_reaction != EdgeReaction::Conservative, "contact.edge_reaction = \"conservative\""),
+    ];
+    let lacking: Vec<&str> = settings.iter().filter(|(lacks, _)| *lacks).map(|(_, setting)| *setting).collect();
+    let remedy = match lacking[..] {
+        [] => String::new(),
+        _ => format!(" Where levels matter set {}: with these energy is conserved", lacking.join(", ")),
     };
     Some(format!(
         "parametric work: the changing stiffness of damaged contacts {done} the bearing, {}, {share}; no body {by}, so amplitudes depend \
-         on the contact law; defect frequencies do not. {remedy}",
+         on the contact law; defect frequencies do not.{remedy}",
         joule(work.abs())
     ))
 }

@@ -168,9 +168,32 @@ fn prop_no_load_and_weight_left_out_are_said() {
     assert!(told.contains("neither load nor weight"), "{told}");
     silent(&[("operation.load_n", "[0, 0]"), ("operation.gravity_m_per_s2", "[0, -9.81]"), ("defects", "[]")]);
     // Rings, two cages and 38 rollers: 0.259 kg, 2.54 N.
-    let told = warning(&[("operation.load_n", "[10, 0]"), ("defects", "[]")]);
+    let soft = ("support.outer_stiffness_n_per_m", "1e4");
+    let told = warning(&[("operation.load_n", "[10, 0]"), ("defects", "[]"), soft]);
     assert!(told.contains("weigh 2.54 N, 25 % of the load"), "{told}");
-    silent(&[("operation.load_n", "[26, 0]"), ("defects", "[]")]);
+    silent(&[("operation.load_n", "[26, 0]"), ("defects", "[]"), soft]);
+}
+
+#[test]
+fn analytic_what_the_support_carries_is_said() {
+    // 1e6 N/m over the clearance of 10 um, a little more between two rollers, and deformations of about 1 um.
+    let told = warning(&[("operation.load_n", "[50, 0]"), ("defects", "[]")]);
+    let carried: f64 = told.split("the support carries ").nth(1).unwrap().split(' ').next().unwrap().parse().unwrap();
+    assert!((10.0..12.0).contains(&carried), "{told}");
+    assert!(
+        told.contains(&format!("of the 50.0 N on its ring, weight included, and the bearing {:.1} N", 50.0 - carried)),
+        "{told}"
+    );
+    // Less than a tenth.
+    silent(&[("operation.load_n", "[200, 0]"), ("defects", "[]")]);
+}
+
+#[test]
+fn regress_a_sensor_on_a_fixed_ring_is_said() {
+    let lumped = ("simulation.model", "lumped");
+    let told = warning(&[lumped, ("operation.load_on", "inner-ring"), ("support.outer_stiffness_n_per_m", "0")]);
+    assert!(told.contains("its acceleration and the sensor's are 0"), "{told}");
+    silent(&[lumped]);
 }
 
 #[test]
@@ -289,7 +312,7 @@ fn prop_energy_from_nowhere_is_said_with_what_conserves_it() {
         "parametric work",
         "put energy into the bearing",
         "no body supplies it",
-        "contact.law = \"sliced\", contact.roller_path = \"envelope\" and contact.edge_reaction = \"conservative\"",
+        "set contact.law = \"sliced\", contact.roller_path = \"envelope\", contact.edge_reaction = \"conservative\"",
     ] {
         assert!(told[0].contains(words), "no {words} in {}", told[0]);
     }
@@ -356,5 +379,5 @@ fn analytic_a_tenth_of_the_dissipation_is_the_limit_in_both_directions() {
     energy.parametric = 1.0;
     energy.flows.load = 3.0;
     let told = after(&lumped, &energy).join("\n");
-    assert!(told.contains("in simulation.model = \"full\" alone"), "{told}");
+    assert!(told.contains("set simulation.model = \"full\", contact"), "{told}");
 }

@@ -43,6 +43,12 @@ pub(super) fn files(named: &[PathBuf]) -> Result<Files, Failure> {
 /// The files of signals right in a folder: by their names or, where none has such a name, all that can be read as one.
 fn inside(folder: &Path) -> Result<Vec<PathBuf>, Failure> {
     let failed = |error| Failure::Read(folder.to_owned(), error);
+    if ["scenario.toml", "summary.json"].iter().all(|name| folder.join(name).is_file()) {
+        return Err(Failure::Usage(format!(
+            "{0} is the folder of a run that kept no signals: `brinell run {0}/scenario.toml -o FOLDER` keeps them",
+            one_line(&folder.display().to_string())
+        )));
+    }
     let (mut found, mut others) = (Vec::new(), Vec::new());
     for entry in std::fs::read_dir(folder).map_err(failed)? {
         let path = entry.map_err(failed)?.path();

@@ -11,6 +11,7 @@ use crate::results::{COMPARISON, Earlier, Place, Results};
 use crate::say::{self, complain, document, say, short};
 use crate::stop::stop_flag;
 pub(crate) use args::CompareArgs;
+use brinell::plausibility;
 use brinell::simulate::Simulation;
 use brinell::{Error, RunResult};
 use brinell_io::{Metadata, atomic_prepare, keys};
@@ -73,6 +74,11 @@ pub(crate) fn compare(args: &CompareArgs) -> Result<ExitCode, Failure> {
     if !args.quiet {
         for warning in brinell_report::unsettled(&sides, &all) {
             complain!("warning: {warning}");
+        }
+        for (side, run) in sides.iter().zip(&all) {
+            for warning in plausibility::after(&run.scenario, &run.outcome.energy) {
+                complain!("warning: {}: {warning}", side.label);
+            }
         }
         tell(&sides, &compared);
         say::wrote(&written);

@@ -96,7 +96,7 @@ pub(crate) fn init(args: &InitArgs) -> Result<ExitCode, Failure> {
         text = full(template, &text)?;
     }
     let mut files: Vec<(PathBuf, Vec<u8>)> = Vec::new();
-    let Some(file) = &args.file else {
+    let Some(file) = args.file.as_ref().filter(|file| *file != Path::new("-")) else {
         if template == Template::DataSet || !template.examples().is_empty() {
             return Err(Failure::Usage(format!(
                 "--template {} writes files beside the scenario: give the scenario's name, for instance {0}.toml",

@@ -59,10 +59,14 @@ pub fn calibration_verdict(of: &Outcome) -> Vec<String> {
 pub fn calibration_undetermined(of: &Outcome) -> Vec<String> {
     let mut all = Vec::new();
     let noise = of.fit.identified.directions.iter().any(|d| d.noise > 0.0);
-    for found in of.found.iter().filter(|f| !f.is_determined()) {
+    for (k, found) in of.found.iter().enumerate().filter(|(_, f)| !f.is_determined()) {
         let width = 2.0 * found.half_width;
         let why = match width.is_finite() {
             true => format!("its 95 % interval is {} times as wide as its range", short(width, 2)),
+            // Which of the runs says more than differences around the best one do.
+            false if is_made_up_for(of, k) => {
+                "around the best run another key makes up for what it changes; farther off the runs' chi-square may tell".into()
+            }
             false if noise => "its effect is not significant against the runs' own uncertainty".into(),
             false => "the data say nothing of it".into(),
         };
@@ -93,6 +97,15 @@ pub fn calibration_undetermined(of: &Outcome) -> Vec<String> {
         ));
     }
     all
+}
+
+/// Whether key `k` is left open by combinations with others alone.
+fn is_made_up_for(of: &Outcome, k: usize) -> bool {
+    let is_alone = |direction: &Direction| {
+        let others = direction.vector.iter().enumerate().filter(|(j, _)| *j != k);
+        others.fold(0.0_f64, |m, (_, v)| m.max(v.abs())) < MINOR * direction.vector[k].abs()
+    };
+    !of.fit.identified.directions.iter().any(|direction| !direction.is_determined() && is_alone(direction))
 }
 
 /// What may be changed together; nothing where it is one key.

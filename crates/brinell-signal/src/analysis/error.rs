@@ -22,7 +22,7 @@ pub enum AnalysisError {
     },
     /// Too few revolutions.
     #[error(
-        "{seconds:.3} s are {revolutions:.1} revolutions of the shaft; it takes {needed_s:.3} s or more, {FEWEST_REVOLUTIONS} revolutions"
+        "{seconds:.4} s are {revolutions:.2} revolutions of the shaft; it takes {needed_s:.4} s or more, {FEWEST_REVOLUTIONS} revolutions"
     )]
     TooShort {
         /// Length of the signal, s.

@@ -66,16 +66,17 @@ pub fn classes_of(of: Element, bore_mm: f64, diametral_um: f64) -> Vec<Clearance
     ClearanceClass::ALL.into_iter().filter(holds).collect()
 }
 
-/// The class of radial clearance that a name's suffixes give: `C3` of `6205-2RSH/C3`.
+/// The class of radial clearance that a name's suffixes give: `C3` of `6205-2RSH/C3` and `6205ZZC3`.
 pub fn clearance_of(name: &str) -> Option<ClearanceClass> {
     let (_, suffix) = readings(name).into_iter().next()?;
-    let words = suffix.split(|c: char| is_gap(c) || c == '/');
-    let mut classes = words.filter_map(|word| {
-        // The letters of the grease may follow it: C3WT.
-        let two = word.get(..2)?;
-        ClearanceClass::ALL.into_iter().find(|class| class.name() == two)
-    });
-    classes.next()
+    let mut words = suffix.split(|c: char| is_gap(c) || c == '/');
+    words.find_map(|word| {
+        let (at, class) = ClearanceClass::ALL.into_iter().find_map(|class| Some((word.find(class.name())?, class)))?;
+        let after = word.get(at + class.name().len()..)?;
+        // CN is short for nothing within other letters. Letters of the grease may follow a class: C3WT.
+        let alone = class != ClearanceClass::CN || at == 0;
+        (alone && !after.starts_with(|c: char| c.is_ascii_digit())).then_some(class)
+    })
 }
 
 /// Bore diameter of a bearing (mm): its own key, else that of its preset.

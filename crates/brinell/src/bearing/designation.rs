@@ -177,6 +177,12 @@ mod tests {
             ("6205-2Z/C3WT", Some(ClearanceClass::C3)),
             ("NU 206 ECP/C4", Some(ClearanceClass::C4)),
             ("NU206-C3", Some(ClearanceClass::C3)),
+            ("6205ZZC3", Some(ClearanceClass::C3)),
+            ("NSK 6205DDUC3", Some(ClearanceClass::C3)),
+            ("6205LLUC3/5K", Some(ClearanceClass::C3)),
+            ("6205-2RSC4", Some(ClearanceClass::C4)),
+            ("6205CN", Some(ClearanceClass::CN)),
+            ("6205TCN", None),
             ("6205", None),
             ("NU 206 ECP", None),
         ] {

@@ -27,6 +27,12 @@ pub struct StaticLoadZone {
 }
 
 impl StaticLoadZone {
+    /// What the inner raceway carries together, the mean over the positions of the cage, N.
+    pub(crate) fn resultant(&self) -> f64 {
+        let along = |k: fn(f64) -> f64| self.points.iter().map(|p| p.2 * k(p.1)).sum::<f64>() / PHASES as f64;
+        along(f64::cos).hypot(along(f64::sin))
+    }
+
     /// Static deformation of the heaviest contact on the softer raceway, m.
     pub(crate) fn deformation(&self, model: &Model) -> f64 {
         let on = |side| model.deflection(side, self.largest);

@@ -187,10 +187,13 @@ fn start(wanted: &Wanted, run: Option<&Loaded>, notes: &mut Vec<String>) -> Resu
     };
     positive("--start", wanted.start, 0.0)?;
     positive("--duration", wanted.duration, f64::MIN_POSITIVE)?;
-    Ok(match (wanted.start, run.map(|run| run.scenario.settled_s())) {
+    Ok(match (wanted.start, run) {
         (Some(start), _) => start,
-        (None, Some(settled)) => {
-            notes.push(format!("begins at {settled:.4} s, after the run's load ramp and a turn of the shaft"));
+        (None, Some(run)) => {
+            let settled = run.scenario.settled_s();
+            let turn =
+                if run.scenario.operation.speed_rpm.constant().is_some() { " and a turn of the shaft" } else { "" };
+            notes.push(format!("begins at {settled:.4} s, after the run's load ramp{turn}"));
             settled
         }
         (None, None) => 0.0,
