@@ -87,6 +87,13 @@ impl Template {
     }
 }
 
+impl InitArgs {
+    /// What to write; `None` for standard output.
+    fn file(&self) -> Option<&PathBuf> {
+        self.file.as_ref().filter(|file| *file != Path::new("-"))
+    }
+}
+
 pub(crate) fn init(args: &InitArgs) -> Result<ExitCode, Failure> {
     let template = args.template;
     let bearing = bearing(args)?;
@@ -96,7 +103,7 @@ pub(crate) fn init(args: &InitArgs) -> Result<ExitCode, Failure> {
         text = full(template, &text)?;
     }
     let mut files: Vec<(PathBuf, Vec<u8>)> = Vec::new();
-    let Some(file) = args.file.as_ref().filter(|file| *file != Path::new("-")) else {
+    let Some(file) = args.file() else {
         if template == Template::DataSet || !template.examples().is_empty() {
             return Err(Failure::Usage(format!(
                 "--template {} writes files beside the scenario: give the scenario's name, for instance {0}.toml",
@@ -270,12 +277,12 @@ struct Names {
 impl Names {
     fn of(args: &InitArgs) -> Self {
         let word = args.template.word();
-        let stem = args.file.as_deref().and_then(Path::file_stem);
+        let stem = args.file().and_then(|file| file.file_stem());
         let stem = stem.map_or_else(|| word.clone(), |s| s.to_string_lossy().into_owned());
         Self {
             plan: format!("{stem}.toml"),
             base: format!("{stem}-base.toml"),
-            name: match args.file {
+            name: match args.file() {
                 Some(_) => stem,
                 None => word,
             },

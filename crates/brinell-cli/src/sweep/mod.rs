@@ -94,7 +94,7 @@ fn tell_doubtful(states: &[State]) {
     tell(fields::NOT_SETTLED.name, |v| v == 1.0, "averages hold part of the start: simulate longer");
     let open = |share: f64| share.abs() > RESIDUAL_SHARE;
     tell(
-        fields::RELATIVE_RESIDUAL.name,
+        &format!("audit.{}", fields::RELATIVE_RESIDUAL.name),
         open,
         "the energy audit misses more than 1 % of the turnover: raise simulation.accuracy or contact.slices",
     );
