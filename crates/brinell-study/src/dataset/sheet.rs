@@ -23,7 +23,7 @@ pub struct Sheet {
     pub name: String,
     /// The version of brinell that made it.
     pub version: String,
-    /// The signal's column.
+    /// The signal's column: the sensor along the load of the first run, or the first that there is.
     pub signal: String,
     /// Its unit.
     pub unit: String,
@@ -112,11 +112,6 @@ pub fn sheet(folder: impl AsRef<Path>, each: usize) -> Result<Sheet, DatasetErro
     };
     let text = |value: &Value| value.as_str().unwrap_or("").to_owned();
     let list = |key: &str| about[key].as_array().into_iter().flatten();
-    let Some(signal) = list("columns").find(|c| c["type"] == "list<float>") else {
-        let message = format!("{}: no column is a signal", folder.root.display());
-        return Err(DatasetError::Refused(message));
-    };
-    let name = text(&signal["name"]);
     let parts = folder.parts_there()?;
     if parts.is_empty() {
         return Err(DatasetError::Refused(format!(
@@ -125,6 +120,13 @@ pub fn sheet(folder: impl AsRef<Path>, each: usize) -> Result<Sheet, DatasetErro
         )));
     }
     let places = places(&parts)?;
+    let along = along_the_load(&parts, &places)?;
+    let signals = || list("columns").filter(|c| c["type"] == "list<float>");
+    let Some(signal) = signals().find(|c| c["name"] == along).or_else(|| signals().next()) else {
+        let message = format!("{}: no column is a signal", folder.root.display());
+        return Err(DatasetError::Refused(message));
+    };
+    let name = text(&signal["name"]);
     let mut classes: Vec<SheetClass> = list("classes")
         .enumerate()
         .map(|(label, class)| SheetClass { name: text(&class["name"]), label, runs: 0, shown: Vec::new() })
@@ -169,6 +171,18 @@ fn places(parts: &[PathBuf]) -> Result<Vec<Place>, DatasetError> {
         }
     }
     Ok(places)
+}
+
+/// The sensor's column along the load of the first of the runs.
+fn along_the_load(parts: &[PathBuf], places: &[Place]) -> Result<&'static str, DatasetError> {
+    let Some(first) = places.first() else {
+        return Ok("");
+    };
+    let rows = read_records(&parts[first.part], &["load_n"], |row| row == first.row)?;
+    Ok(match rows.first().and_then(|cells| cells.first()) {
+        Some(Cell::Numbers(load)) if load.len() == 2 && load[1].abs() > load[0].abs() => "sensor_ay",
+        _ => "sensor_ax",
+    })
 }
 
 /// At most `each` of `count` places, the first and the last among them.
