@@ -219,6 +219,7 @@ fn regress_overrides_reach_every_key_and_say_what_is_wrong() {
     }
     for (path, value, message) in [
         ("operation.sped_rpm", "1", "did you mean `speed_rpm`"),
+        ("operation.sped", "1", "did you mean `speed_rpm`"),
         ("operation.speed_rpm", "fast", "found a string (given as an override)"),
         ("operation..speed_rpm", "1", "dotted path"),
         ("", "1", "dotted path"),
