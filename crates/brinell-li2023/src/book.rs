@@ -20,7 +20,7 @@ pub(crate) fn text(study: &Study, reproduction: &Reproduction, book: &Path) -> S
         let _ = writeln!(text, "## {}\n", chapter.title);
         for piece in &chapter.pieces {
             match piece {
-                StudyPiece::Words(words) => {
+                StudyPiece::Words(words) | StudyPiece::Note(words) => {
                     let _ = writeln!(text, "{words}\n");
                 }
                 StudyPiece::Claims(_) => claims(&mut text, &reproduction.outcomes),
@@ -34,6 +34,8 @@ pub(crate) fn text(study: &Study, reproduction: &Reproduction, book: &Path) -> S
                 }
                 StudyPiece::Plan(name, view) => picture(&mut text, &folder, name, &view.plan_title),
                 StudyPiece::Trend(plot) => picture(&mut text, &folder, &plot.name, &plot.label),
+                // A reproduction has its failures among its warnings.
+                StudyPiece::Failures(..) => {}
             }
         }
     }

@@ -72,6 +72,7 @@ pub(crate) fn study(
         footer: "Curves are thinned to the pixels of the page. Every statement with its numbers is in claims.csv and claims.json beside this \
                  page."
             .into(),
+        ..Study::default()
     }
 }
 

@@ -34,6 +34,7 @@ mod markup;
 mod motion;
 mod number;
 mod orbit;
+mod overlay;
 mod page;
 mod picture;
 mod plots;
@@ -51,7 +52,6 @@ mod study;
 mod sweep;
 mod tables;
 mod thin;
-mod trend;
 
 #[doc(hidden)]
 pub use analysis::{
@@ -88,6 +88,8 @@ pub use number::{capital, plural, short, shown_unit, twelve_digits};
 #[doc(hidden)]
 pub use orbit::cage_orbit;
 pub use orbit::{CageOrbit, CageOrbits};
+#[doc(hidden)]
+pub use overlay::{OverlaidCurve, Overlay, Vertical};
 pub use page::html;
 pub use picture::{CurveTable, Error, Picture};
 pub use plots::pictures;
@@ -101,10 +103,7 @@ pub use sensor::SensorView;
 #[doc(hidden)]
 pub use sheet::sheet_html;
 #[doc(hidden)]
-pub use side_by_side::{
-    OverlaidCurve, Overlay, Part, Piece, SideBySide, Vertical, compared_headline, overlay, side_by_side_html,
-    side_by_side_pictures, unsettled,
-};
+pub use side_by_side::{compared_headline, unsettled};
 pub use slip::SlipRow;
 #[doc(hidden)]
 pub use slip::slip_over_time;
@@ -116,5 +115,3 @@ pub use study::{Chapter, ClaimCard, ClaimPart, Stack, Study, StudyPiece, Tagged,
 #[doc(hidden)]
 pub use sweep::{HeatMap, IndicatorLine, IndicatorPlot, IndicatorPoint, SweepReport, sweep_html, sweep_pictures};
 pub use tables::Table;
-#[doc(hidden)]
-pub use trend::{TrendReport, trend_html, trend_pictures};

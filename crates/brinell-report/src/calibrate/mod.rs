@@ -99,7 +99,9 @@ pub fn calibration_html(report: &CalibrationReport) -> String {
     if report.keys.len() > 1 {
         table(&mut page, &report.correlation);
     }
-    failures(&mut page, "Runs that failed", "Run", &report.failures);
+    if !report.failures.is_empty() {
+        section(&mut page, "failures", "Runs that failed", |page| failures(page, "Run", &report.failures));
+    }
     section(&mut page, "method", "Method", |page| {
         sentences(page, &report.method);
     });

@@ -1,5 +1,5 @@
-//! The page of a study: chapters of curves, trends, tables, and claims with their verdicts. What they are is the
-//! caller's.
+//! The page of several runs or signals: chapters of curves, trends, tables, and claims with their verdicts. What they are
+//! is the caller's.
 
 use std::fmt::Write as _;
 
@@ -9,10 +9,10 @@ use crate::fact::Fact;
 use crate::frame::{close, figure, lead, none, open, plain, section};
 use crate::layout::Layout;
 use crate::markup::escape;
+use crate::overlay::{Overlay, embed, overlay, stacked};
 use crate::picture::Picture;
-use crate::side_by_side::{Overlay, embed, overlay, stacked};
 use crate::sweep::{self, IndicatorPlot, indicator_plot};
-use crate::tables::{Table, facts, table};
+use crate::tables::{Table, facts, failures, table};
 
 /// A word with its colour.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -58,6 +58,8 @@ pub struct ClaimCard {
 pub enum StudyPiece {
     /// A paragraph.
     Words(String),
+    /// A paragraph in grey: what marks mean, or why something is missing.
+    Note(String),
     /// Curves, and the names that they belong to.
     Curves(Overlay, Vec<String>),
     /// Plots one below the other.
@@ -68,6 +70,8 @@ pub enum StudyPiece {
     Trend(IndicatorPlot),
     /// Words and numbers; its title is a heading.
     Table(Table),
+    /// What failed, and why. First what one of them is called: "File".
+    Failures(String, Vec<(String, String)>),
     /// Claims.
     Claims(Vec<ClaimCard>),
 }
@@ -96,7 +100,7 @@ pub struct Chapter {
     pub id: String,
     /// In the list of contents.
     pub short: String,
-    /// The heading.
+    /// The heading; empty where a table brings its own.
     pub title: String,
     /// In this order.
     pub pieces: Vec<StudyPiece>,
@@ -107,6 +111,17 @@ impl Chapter {
     pub fn new(id: &str, short: &str, title: &str, pieces: Vec<StudyPiece>) -> Self {
         Self { id: id.into(), short: short.into(), title: title.into(), pieces }
     }
+
+    /// A table and no more, under its own heading.
+    pub fn table(id: &str, short: &str, table: Table) -> Self {
+        Self::new(id, short, "", vec![StudyPiece::Table(table)])
+    }
+
+    /// What failed, where anything did: name and reason of each. `each` is what one of them is called: "File".
+    pub fn failures(title: &str, each: &str, all: Vec<(String, String)>) -> Option<Self> {
+        let some = !all.is_empty();
+        some.then(|| Self::new("failures", "Failed", title, vec![StudyPiece::Failures(each.into(), all)]))
+    }
 }
 
 /// Everything that the page shows.
@@ -116,6 +131,8 @@ pub struct Study {
     pub title: String,
     /// One line under it.
     pub subtitle: String,
+    /// Whether signals were analysed; else runs were simulated.
+    pub analysed: bool,
     /// The version of the program.
     pub version: String,
     /// What deserves attention.
@@ -147,13 +164,18 @@ fn draw(piece: &StudyPiece, layout: Layout) -> Option<Picture> {
             Some(picture)
         }
         StudyPiece::Trend(plot) => Some(indicator_plot(plot, layout)),
-        StudyPiece::Words(_) | StudyPiece::Table(_) | StudyPiece::Claims(_) => None,
+        StudyPiece::Words(_)
+        | StudyPiece::Note(_)
+        | StudyPiece::Table(_)
+        | StudyPiece::Failures(..)
+        | StudyPiece::Claims(_) => None,
     }
 }
 
 /// The self-contained page.
 pub fn study_html(study: &Study) -> String {
-    let mut page = open(&study.title, &study.subtitle, ("Simulated", &study.version), plain(&study.warnings));
+    let done = if study.analysed { "Analysed" } else { "Simulated" };
+    let mut page = open(&study.title, &study.subtitle, (done, &study.version), plain(&study.warnings));
     page.push_str("<nav aria-label=\"Contents\"><ul>");
     for chapter in &study.chapters {
         let _ = write!(page, "<li><a href=\"#{}\">{}</a></li>", chapter.id, escape(&chapter.short));
@@ -179,7 +201,9 @@ fn write_piece(page: &mut String, piece: &StudyPiece, count: usize) {
             let _ = writeln!(page, "<p>{}</p>", escape(words));
             return;
         }
+        StudyPiece::Note(words) => return none(page, &escape(words)),
         StudyPiece::Table(one) => return table(page, one),
+        StudyPiece::Failures(each, all) => return failures(page, each, all),
         StudyPiece::Claims(cards) if cards.is_empty() => {
             return none(page, "No claim belongs to what was run.");
         }
@@ -265,6 +289,8 @@ mod tests {
                 "Chapter one",
                 vec![
                     StudyPiece::Words("some words".into()),
+                    StudyPiece::Note("x > y".into()),
+                    StudyPiece::Failures("File".into(), vec![("c.csv".into(), "empty <".into())]),
                     StudyPiece::Curves(Overlay::default(), vec![]),
                     StudyPiece::Trend(IndicatorPlot::default()),
                     StudyPiece::Stack(Stack {
@@ -284,6 +310,8 @@ mod tests {
             "href=\"#one\"",
             "Chapter one",
             "some words",
+            "x &gt; y",
+            "empty &lt;",
             "Panel a",
             "A table",
             "a &lt; b &amp; c",

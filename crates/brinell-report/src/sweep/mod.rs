@@ -86,7 +86,9 @@ pub fn sweep_html(report: &SweepReport) -> String {
             embed(page, plot);
         }
     });
-    failures(&mut page, "Points that failed", "Point", &report.failures);
+    if !report.failures.is_empty() {
+        section(&mut page, "failures", "Points that failed", |page| failures(page, "Point", &report.failures));
+    }
     table(&mut page, &report.table);
     scenario(&mut page, "Base scenario", &report.scenario_toml);
     let footer = "The whole table, with every indicator, is in sweep.csv and sweep.parquet beside this page.";
