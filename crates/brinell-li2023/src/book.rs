@@ -34,8 +34,11 @@ pub(crate) fn text(study: &Study, reproduction: &Reproduction, book: &Path) -> S
                 }
                 StudyPiece::Plan(name, view) => picture(&mut text, &folder, name, &view.plan_title),
                 StudyPiece::Trend(plot) => picture(&mut text, &folder, &plot.name, &plot.label),
-                // A reproduction has its failures among its warnings.
-                StudyPiece::Failures(..) => {}
+                StudyPiece::Code(toml) => {
+                    let _ = writeln!(text, "```toml\n{toml}```\n");
+                }
+                // A reproduction has no maps, and its failures among its warnings.
+                StudyPiece::Map(_) | StudyPiece::Failures(..) => {}
             }
         }
     }
@@ -79,14 +82,6 @@ fn claims(text: &mut String, all: &[Outcome]) {
 
 fn table(text: &mut String, table: &Table) {
     let _ = writeln!(text, "### {}\n", table.title);
-    if table.columns == ["TOML"] {
-        text.push_str("```toml\n");
-        for row in &table.rows {
-            let _ = writeln!(text, "{}", row.join(""));
-        }
-        text.push_str("```\n\n");
-        return;
-    }
     let heads: Vec<String> = table.columns.iter().map(|c| cell(c.trim_start_matches('#'))).collect();
     let rule = |c: &String| if c.starts_with('#') { "---:" } else { "---" };
     let rules: Vec<&str> = table.columns.iter().map(rule).collect();

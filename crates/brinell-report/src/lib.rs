@@ -113,5 +113,5 @@ pub use spectrogram::spectrogram;
 #[doc(hidden)]
 pub use study::{Chapter, ClaimCard, ClaimPart, Stack, Study, StudyPiece, Tagged, study_html, study_pictures};
 #[doc(hidden)]
-pub use sweep::{HeatMap, IndicatorLine, IndicatorPlot, IndicatorPoint, SweepReport, sweep_html, sweep_pictures};
+pub use sweep::{HeatMap, IndicatorLine, IndicatorPlot, IndicatorPoint, sweep_lead, sweep_legend};
 pub use tables::Table;

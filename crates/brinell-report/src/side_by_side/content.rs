@@ -48,12 +48,14 @@ impl Study {
                 chapters.push(Chapter::table(id, title, numbers(title, &names, &rows)));
             }
         }
+        let facts = facts(&names, compared);
         Self {
             title: names.join(", "),
             subtitle: format!("{} runs, each over the baseline {}", names.len(), names[0]),
             version: brinell::VERSION.into(),
             warnings: warnings(sides, runs),
-            facts: facts(&names, compared),
+            lead: facts.first().map_or(String::new(), Fact::words),
+            facts,
             chapters,
             footer: THINNED.into(),
             ..Self::default()

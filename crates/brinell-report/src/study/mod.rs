@@ -6,12 +6,12 @@ use std::fmt::Write as _;
 use crate::damage::{DamageView, damage_plan};
 use crate::data::Tone;
 use crate::fact::Fact;
-use crate::frame::{close, figure, lead, none, open, plain, section};
+use crate::frame::{close, code, figure, lead, none, open, plain, section, unit_html};
 use crate::layout::Layout;
 use crate::markup::escape;
 use crate::overlay::{Overlay, embed, overlay, stacked};
 use crate::picture::Picture;
-use crate::sweep::{self, IndicatorPlot, indicator_plot};
+use crate::sweep::{self, HeatMap, IndicatorPlot, heat_map, indicator_plot};
 use crate::tables::{Table, facts, failures, table};
 
 /// A word with its colour.
@@ -68,10 +68,14 @@ pub enum StudyPiece {
     Plan(String, Box<DamageView>),
     /// Numbers with intervals against a quantity.
     Trend(IndicatorPlot),
+    /// Numbers over two quantities.
+    Map(HeatMap),
     /// Words and numbers; its title is a heading.
     Table(Table),
     /// What failed, and why. First what one of them is called: "File".
     Failures(String, Vec<(String, String)>),
+    /// Text as written in a file.
+    Code(String),
     /// Claims.
     Claims(Vec<ClaimCard>),
 }
@@ -137,6 +141,8 @@ pub struct Study {
     pub version: String,
     /// What deserves attention.
     pub warnings: Vec<String>,
+    /// The result in a sentence; may be empty.
+    pub lead: String,
     /// Headline numbers.
     pub facts: Vec<Fact>,
     /// The chapters.
@@ -164,10 +170,12 @@ fn draw(piece: &StudyPiece, layout: Layout) -> Option<Picture> {
             Some(picture)
         }
         StudyPiece::Trend(plot) => Some(indicator_plot(plot, layout)),
+        StudyPiece::Map(map) => heat_map(map, layout),
         StudyPiece::Words(_)
         | StudyPiece::Note(_)
         | StudyPiece::Table(_)
         | StudyPiece::Failures(..)
+        | StudyPiece::Code(_)
         | StudyPiece::Claims(_) => None,
     }
 }
@@ -181,7 +189,7 @@ pub fn study_html(study: &Study) -> String {
         let _ = write!(page, "<li><a href=\"#{}\">{}</a></li>", chapter.id, escape(&chapter.short));
     }
     page.push_str("</ul></nav>\n<main>\n");
-    lead(&mut page, &study.facts.first().map_or(String::new(), Fact::words));
+    lead(&mut page, &study.lead);
     facts(&mut page, &study.facts);
     let mut count = 0;
     for chapter in &study.chapters {
@@ -204,18 +212,21 @@ fn write_piece(page: &mut String, piece: &StudyPiece, count: usize) {
         StudyPiece::Note(words) => return none(page, &escape(words)),
         StudyPiece::Table(one) => return table(page, one),
         StudyPiece::Failures(each, all) => return failures(page, each, all),
+        StudyPiece::Code(text) => return code(page, text),
         StudyPiece::Claims(cards) if cards.is_empty() => {
             return none(page, "No claim belongs to what was run.");
         }
         StudyPiece::Claims(cards) => return cards.iter().for_each(|card| claim(page, card)),
-        StudyPiece::Curves(one, _) => (one.title.as_str(), escape(&one.note)),
-        StudyPiece::Stack(stack) => (stack.title.as_str(), escape(&stack.note)),
+        StudyPiece::Curves(one, _) => (escape(&one.title), escape(&one.note)),
+        StudyPiece::Stack(stack) => (escape(&stack.title), escape(&stack.note)),
         // Its title is in the picture.
-        StudyPiece::Plan(..) => ("", String::new()),
-        StudyPiece::Trend(plot) => (plot.label.as_str(), String::new()),
+        StudyPiece::Plan(..) => (String::new(), String::new()),
+        StudyPiece::Trend(plot) => (escape(&plot.label), String::new()),
+        StudyPiece::Map(map) if map.unit.is_empty() => (escape(&map.label), String::new()),
+        StudyPiece::Map(map) => (format!("{} ({})", escape(&map.label), unit_html(&map.unit)), String::new()),
     };
     if !title.is_empty() {
-        let _ = writeln!(page, "<h3>{}</h3>", escape(title));
+        let _ = writeln!(page, "<h3>{title}</h3>");
     }
     let draw = |layout| draw(piece, layout).unwrap_or_else(|| Picture::new("", "", 0.0, 0.0));
     figure(page, &format!("study{count}"), draw, &caption);
@@ -299,6 +310,8 @@ mod tests {
                     }),
                     StudyPiece::Plan("seen-from-above".into(), Box::default()),
                     StudyPiece::Table(Table { title: "A table".into(), ..Table::default() }),
+                    StudyPiece::Map(HeatMap { label: "Over both".into(), unit: "m/s^2".into(), ..HeatMap::default() }),
+                    StudyPiece::Code("load_n = [0.0, -3e3] # <down>".into()),
                     StudyPiece::Claims(vec![card]),
                     StudyPiece::Claims(vec![]),
                 ],
@@ -314,6 +327,8 @@ mod tests {
             "empty &lt;",
             "Panel a",
             "A table",
+            "Over both (m/s²)",
+            "# &lt;down&gt;",
             "a &lt; b &amp; c",
             "tag good",
             "Depends on the filter",

@@ -2,7 +2,7 @@
 
 use brinell_report::{
     Along, Chapter, HeatMap, IndicatorLine, IndicatorPlot, IndicatorPoint, Layout, OverlaidCurve, Overlay, Study,
-    StudyPiece, SweepReport, Vertical, study_html, study_pictures, sweep_html, sweep_pictures,
+    StudyPiece, Vertical, study_html, study_pictures, sweep_lead, sweep_legend,
 };
 
 fn point(x: f64, value: f64, interval: Option<(f64, f64)>) -> IndicatorPoint {
@@ -24,21 +24,32 @@ fn plot(points: Vec<IndicatorPoint>, names: &[&str]) -> IndicatorPlot {
     }
 }
 
+fn study(pieces: Vec<StudyPiece>) -> Study {
+    Study {
+        title: "Sweep of <x>".into(),
+        chapters: vec![Chapter::new("plots", "Plots", "Plots", pieces)],
+        ..Study::default()
+    }
+}
+
 fn page(plot: IndicatorPlot) -> (String, String) {
-    let report = SweepReport { title: "Sweep of <x>".into(), plots: vec![plot], ..SweepReport::default() };
-    let pictures = sweep_pictures(&report, Layout::Wide);
+    let report = study(vec![StudyPiece::Trend(plot)]);
+    let pictures = study_pictures(&report, Layout::Wide);
     assert_eq!(pictures.len(), 1);
-    (sweep_html(&report), pictures[0].svg())
+    (study_html(&report), pictures[0].svg())
 }
 
 #[test]
 fn regress_a_failed_point_is_a_gap_and_the_marks_are_explained() {
     let points = vec![point(1000.0, 3.0, Some((2.5, 3.5))), point(2000.0, f64::NAN, None), point(3000.0, 5.0, None)];
-    let (page, svg) = page(plot(points, &[]));
+    let plot = plot(points, &[]);
+    let marks = sweep_legend(std::slice::from_ref(&plot));
     for words in ["Dots: averages over whole revolutions", "Rings: a value", "Crosses on the axis"] {
-        assert!(page.contains(words), "no {words}");
+        assert!(marks.contains(words), "no {words}");
     }
-    assert!(page.contains("Sweep of &lt;x&gt;") && !page.contains("Short bars"));
+    assert!(!marks.contains("sideways"));
+    let (page, svg) = page(plot);
+    assert!(page.contains("Sweep of &lt;x&gt;"));
     // Two dots, none for the point that failed.
     assert_eq!(svg.matches("<circle").count(), 2);
     assert!(!svg.contains("NaN") && !page.contains("NaN"));
@@ -84,12 +95,7 @@ fn overlaid(vertical: Vertical, values: Vec<f64>) -> Study {
         ..Overlay::default()
     };
     let names = ["actual", "unseen", "simple"].map(str::to_owned).to_vec();
-    let pieces = vec![StudyPiece::Curves(overlay, names), StudyPiece::Note("That is all.".into())];
-    Study {
-        title: "a and b".into(),
-        chapters: vec![Chapter::new("spectrum", "Spectrum", "Spectrum", pieces)],
-        ..Study::default()
-    }
+    study(vec![StudyPiece::Curves(overlay, names), StudyPiece::Note("That is all.".into())])
 }
 
 #[test]
@@ -99,7 +105,7 @@ fn regress_an_overlay_names_the_runs_that_it_shows() {
     let svg = pictures[0].svg();
     assert!(svg.contains(">actual<") && svg.contains(">simple<") && !svg.contains(">unseen<"));
     let page = study_html(&report);
-    assert!(page.contains("That is all.") && page.contains("<h2>Spectrum</h2>"));
+    assert!(page.contains("That is all.") && page.contains("<h2>Plots</h2>"));
 }
 
 #[test]
@@ -121,22 +127,19 @@ fn regress_an_overlay_is_read_out_with_the_names_of_its_runs() {
 
 #[test]
 fn regress_two_keys_make_a_map_and_the_page_begins_with_the_ends() {
-    let report = SweepReport {
-        plots: vec![plot(vec![point(1000.0, 3.0, None), point(2000.0, 5.0, None)], &[])],
-        maps: vec![HeatMap {
-            name: "map".into(),
-            label: "RMS <of>".into(),
-            x_names: vec!["1000".into(), "2000".into()],
-            y_names: vec!["5".into()],
-            values: vec![3.0, 5.0],
-            ..HeatMap::default()
-        }],
-        ..SweepReport::default()
+    let plots = [plot(vec![point(1000.0, 3.0, None), point(2000.0, 5.0, None)], &[])];
+    let map = HeatMap {
+        name: "map".into(),
+        label: "RMS <of>".into(),
+        x_names: vec!["1000".into(), "2000".into()],
+        y_names: vec!["5".into()],
+        values: vec![3.0, 5.0],
+        ..HeatMap::default()
     };
-    let page = sweep_html(&report);
+    let report = Study { lead: sweep_lead(&plots), ..study(vec![StudyPiece::Map(map)]) };
+    let page = study_html(&report);
     for part in [
         "RMS of sensor_ax: from 3 m/s² (operation.speed_rpm = 1000) to 5 m/s² (operation.speed_rpm = 2000).",
-        "Over both keys",
         "RMS &lt;of&gt;",
         "data-name=\"map\"",
     ] {
