@@ -37,8 +37,12 @@ pub(crate) fn text(study: &Study, reproduction: &Reproduction, book: &Path) -> S
                 StudyPiece::Code(toml) => {
                     let _ = writeln!(text, "```toml\n{toml}```\n");
                 }
-                // A reproduction has no maps, and its failures among its warnings.
-                StudyPiece::Map(_) | StudyPiece::Failures(..) => {}
+                // What a reproduction has not; its failures are among its warnings.
+                StudyPiece::Map(_)
+                | StudyPiece::Misfit(..)
+                | StudyPiece::Course(_)
+                | StudyPiece::Facts(_)
+                | StudyPiece::Failures(..) => {}
             }
         }
     }

@@ -110,13 +110,6 @@ pub(crate) fn section(page: &mut String, id: &str, title: &str, write: impl FnOn
     page.push_str("</section>\n");
 }
 
-/// A scenario under a heading, where there is one.
-pub(crate) fn scenario(page: &mut String, title: &str, toml: &str) {
-    if !toml.is_empty() {
-        section(page, "scenario", title, |page| code(page, toml));
-    }
-}
-
 /// Text as written in a file.
 pub(crate) fn code(page: &mut String, text: &str) {
     let _ = writeln!(page, "<pre><code>{}</code></pre>", escape(text));

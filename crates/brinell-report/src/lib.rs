@@ -31,6 +31,7 @@ mod kurtogram;
 mod layout;
 mod load;
 mod markup;
+mod misfit;
 mod motion;
 mod number;
 mod orbit;
@@ -61,9 +62,7 @@ pub use analysis::{
 #[doc(hidden)]
 pub use axial::{AxialRow, AxialSection, axial_section};
 #[doc(hidden)]
-pub use calibrate::{
-    CalibrationReport, FittedKey, Tried, calibration_html, calibration_undetermined, calibration_verdict, interval_text,
-};
+pub use calibrate::{calibration_undetermined, calibration_verdict, interval_text};
 pub use damage::{AlongRoller, DamageCurve, DamagePanel, DamageView, DepthPatch};
 #[doc(hidden)]
 pub use damage::{damage_passage, damage_photo, damage_plan, damage_section, load_along};
@@ -81,6 +80,8 @@ pub use kurtogram::Kurtogram;
 pub use layout::Layout;
 #[doc(hidden)]
 pub use load::{bin_centres, load_distribution};
+#[doc(hidden)]
+pub use misfit::{FittedKey, Tried};
 pub use motion::bearing_motion;
 pub use motion::{Motion, MotionDamage, MotionRow};
 #[doc(hidden)]

@@ -9,10 +9,11 @@ use crate::fact::Fact;
 use crate::frame::{close, code, figure, lead, none, open, plain, section, unit_html};
 use crate::layout::Layout;
 use crate::markup::escape;
+use crate::misfit::{FittedKey, Tried, course_plot, embed_course, embed_key, key_plot};
 use crate::overlay::{Overlay, embed, overlay, stacked};
 use crate::picture::Picture;
 use crate::sweep::{self, HeatMap, IndicatorPlot, heat_map, indicator_plot};
-use crate::tables::{Table, facts, failures, table};
+use crate::tables::{Table, fact_table, facts, failures, table};
 
 /// A word with its colour.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -70,8 +71,14 @@ pub enum StudyPiece {
     Trend(IndicatorPlot),
     /// Numbers over two quantities.
     Map(HeatMap),
+    /// The misfit of the runs of a calibration over a key.
+    Misfit(FittedKey, Vec<Tried>),
+    /// The misfit of the runs of a calibration in their order.
+    Course(Vec<f64>),
     /// Words and numbers; its title is a heading.
     Table(Table),
+    /// Numbers, a line each, with what is to be said of them.
+    Facts(Vec<Fact>),
     /// What failed, and why. First what one of them is called: "File".
     Failures(String, Vec<(String, String)>),
     /// Text as written in a file.
@@ -171,9 +178,12 @@ fn draw(piece: &StudyPiece, layout: Layout) -> Option<Picture> {
         }
         StudyPiece::Trend(plot) => Some(indicator_plot(plot, layout)),
         StudyPiece::Map(map) => heat_map(map, layout),
+        StudyPiece::Misfit(key, tried) => Some(key_plot(key, tried, layout)),
+        StudyPiece::Course(chi_squares) => Some(course_plot(chi_squares, layout)),
         StudyPiece::Words(_)
         | StudyPiece::Note(_)
         | StudyPiece::Table(_)
+        | StudyPiece::Facts(_)
         | StudyPiece::Failures(..)
         | StudyPiece::Code(_)
         | StudyPiece::Claims(_) => None,
@@ -211,6 +221,7 @@ fn write_piece(page: &mut String, piece: &StudyPiece, count: usize) {
         }
         StudyPiece::Note(words) => return none(page, &escape(words)),
         StudyPiece::Table(one) => return table(page, one),
+        StudyPiece::Facts(all) => return fact_table(page, all, ""),
         StudyPiece::Failures(each, all) => return failures(page, each, all),
         StudyPiece::Code(text) => return code(page, text),
         StudyPiece::Claims(cards) if cards.is_empty() => {
@@ -224,6 +235,10 @@ fn write_piece(page: &mut String, piece: &StudyPiece, count: usize) {
         StudyPiece::Trend(plot) => (escape(&plot.label), String::new()),
         StudyPiece::Map(map) if map.unit.is_empty() => (escape(&map.label), String::new()),
         StudyPiece::Map(map) => (format!("{} ({})", escape(&map.label), unit_html(&map.unit)), String::new()),
+        StudyPiece::Misfit(key, _) => (format!("<code>{}</code>", escape(&key.name)), String::new()),
+        StudyPiece::Course(_) => {
+            (String::new(), "Dots: each run in the order requested. Line: the best so far.".into())
+        }
     };
     if !title.is_empty() {
         let _ = writeln!(page, "<h3>{title}</h3>");
@@ -233,6 +248,8 @@ fn write_piece(page: &mut String, piece: &StudyPiece, count: usize) {
     match piece {
         StudyPiece::Curves(one, names) => embed(page, one, names),
         StudyPiece::Trend(plot) => sweep::embed(page, plot),
+        StudyPiece::Misfit(key, tried) => embed_key(page, key, tried),
+        StudyPiece::Course(chi_squares) => embed_course(page, chi_squares),
         _ => {}
     }
 }
