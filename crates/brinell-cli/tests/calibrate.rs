@@ -134,6 +134,8 @@ fn prop_targets_out_of_reach_are_reported_and_so_is_a_key_without_effect() {
     ]);
     let found = json(&folder.path().join("cal/calibrate.json"));
     assert_eq!(found["met"], false);
+    let page = fs::read_to_string(folder.path().join("cal/calibrate.html")).unwrap();
+    assert!(page.contains("The targets are not met within the bounds.") && !page.contains("Runs that failed"));
     assert_eq!(found["keys"][1]["determined"], false);
     assert_eq!(found["keys"][1]["interval_95"], Value::Null);
 }

@@ -20,7 +20,7 @@ pub(crate) fn text(study: &Study, reproduction: &Reproduction, book: &Path) -> S
         let _ = writeln!(text, "## {}\n", chapter.title);
         for piece in &chapter.pieces {
             match piece {
-                StudyPiece::Words(words) => {
+                StudyPiece::Words(words) | StudyPiece::Note(words) => {
                     let _ = writeln!(text, "{words}\n");
                 }
                 StudyPiece::Claims(_) => claims(&mut text, &reproduction.outcomes),
@@ -34,6 +34,15 @@ pub(crate) fn text(study: &Study, reproduction: &Reproduction, book: &Path) -> S
                 }
                 StudyPiece::Plan(name, view) => picture(&mut text, &folder, name, &view.plan_title),
                 StudyPiece::Trend(plot) => picture(&mut text, &folder, &plot.name, &plot.label),
+                StudyPiece::Code(toml) => {
+                    let _ = writeln!(text, "```toml\n{toml}```\n");
+                }
+                // What a reproduction has not; its failures are among its warnings.
+                StudyPiece::Map(_)
+                | StudyPiece::Misfit(..)
+                | StudyPiece::Course(_)
+                | StudyPiece::Facts(_)
+                | StudyPiece::Failures(..) => {}
             }
         }
     }
@@ -77,14 +86,6 @@ fn claims(text: &mut String, all: &[Outcome]) {
 
 fn table(text: &mut String, table: &Table) {
     let _ = writeln!(text, "### {}\n", table.title);
-    if table.columns == ["TOML"] {
-        text.push_str("```toml\n");
-        for row in &table.rows {
-            let _ = writeln!(text, "{}", row.join(""));
-        }
-        text.push_str("```\n\n");
-        return;
-    }
     let heads: Vec<String> = table.columns.iter().map(|c| cell(c.trim_start_matches('#'))).collect();
     let rule = |c: &String| if c.starts_with('#') { "---:" } else { "---" };
     let rules: Vec<&str> = table.columns.iter().map(rule).collect();

@@ -49,8 +49,9 @@ pub(crate) fn study(
     chapters.extend(reproduction.models.as_ref().map(|models| models.chapter()));
     let mut rules: Vec<StudyPiece> = RULES.map(|w| StudyPiece::Words(w.into())).to_vec();
     rules.push(StudyPiece::Table(runs(request)));
-    rules.push(StudyPiece::Table(scenario()));
     chapters.push(Chapter::new("rules", "Rules", "How verdicts come about", rules));
+    let scenario = vec![StudyPiece::Code(BASE.into())];
+    chapters.push(Chapter::new("scenario", "Base scenario", "Base scenario", scenario));
     let mut warnings = Vec::new();
     if reproduction.interrupted {
         warnings.push("Interrupted: some runs are missing. The same command resumes.".into());
@@ -58,6 +59,7 @@ pub(crate) fn study(
     for (case, reason) in &reproduction.failures {
         warnings.push(format!("{case} failed: {reason}"));
     }
+    let facts = facts(reproduction);
     Study {
         title: "Li et al. (2023), reproduced".into(),
         subtitle: format!(
@@ -67,11 +69,13 @@ pub(crate) fn study(
         ),
         version: brinell::VERSION.into(),
         warnings,
-        facts: facts(reproduction),
+        lead: facts.first().map_or(String::new(), Fact::words),
+        facts,
         chapters,
         footer: "Curves are thinned to the pixels of the page. Every statement with its numbers is in claims.csv and claims.json beside this \
                  page."
             .into(),
+        ..Study::default()
     }
 }
 
@@ -113,9 +117,4 @@ fn runs(request: &Request) -> Table {
         vec![point.case.id.into(), point.case.label.into(), settings.join("; "), format!("{}", point.task.duration_s)]
     });
     Table::new("Runs", ["Case", "What", "Settings over the base scenario", "#Duration (s)"], rows, "")
-}
-
-fn scenario() -> Table {
-    let lines = BASE.lines().filter(|l| !l.trim().is_empty());
-    Table::new("Base scenario", ["TOML"], lines.map(|line| vec![line.to_owned()]), "")
 }

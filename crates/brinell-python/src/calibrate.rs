@@ -9,7 +9,7 @@ use crate::scenario::Scenario;
 use brinell::analysis::Unit;
 use brinell::document::on_one_line;
 use brinell::simulate::Simulation;
-use brinell_report::{CalibrationReport, calibration_html, calibration_undetermined, calibration_verdict};
+use brinell_report::{Study, calibration_undetermined, calibration_verdict, study_html};
 use brinell_study::calibrate::{
     self as study, CalibrateError, Key, Load, Measured, Outcome, Pattern, Plan, Target, Unfinished, bounds, check_keys,
     middle,
@@ -39,7 +39,7 @@ impl Calibration {
 
     /// What `calibrate.html` holds.
     fn to_html(&self, py: Python<'_>) -> String {
-        py.detach(|| calibration_html(&CalibrationReport::of_outcome(&self.0)))
+        py.detach(|| study_html(&Study::of_outcome(&self.0)))
     }
 }
 

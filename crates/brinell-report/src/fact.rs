@@ -56,7 +56,7 @@ pub struct Fact {
 
 impl Fact {
     /// It in a sentence, with the first part of its note.
-    pub(crate) fn words(&self) -> String {
+    pub fn words(&self) -> String {
         let value = self.value.words(4);
         let note = self.note.split(';').next().unwrap_or_default();
         let parts = [value.as_str(), &self.unit, note];

@@ -100,18 +100,14 @@ fn head(page: &mut String, title: &str) {
     let _ = write!(page, "</style>\n</head>\n<body>\n<header>\n<h1>{title}</h1>\n");
 }
 
-/// A section with its heading, and what `write` puts under it.
+/// A section with its heading, which may be empty, and what `write` puts under it.
 pub(crate) fn section(page: &mut String, id: &str, title: &str, write: impl FnOnce(&mut String)) {
-    let _ = writeln!(page, "<section id=\"{id}\">\n<h2>{}</h2>", escape(title));
+    let _ = writeln!(page, "<section id=\"{id}\">");
+    if !title.is_empty() {
+        let _ = writeln!(page, "<h2>{}</h2>", escape(title));
+    }
     write(page);
     page.push_str("</section>\n");
-}
-
-/// A scenario under a heading, where there is one.
-pub(crate) fn scenario(page: &mut String, title: &str, toml: &str) {
-    if !toml.is_empty() {
-        section(page, "scenario", title, |page| code(page, toml));
-    }
 }
 
 /// Text as written in a file.

@@ -31,9 +31,11 @@ mod kurtogram;
 mod layout;
 mod load;
 mod markup;
+mod misfit;
 mod motion;
 mod number;
 mod orbit;
+mod overlay;
 mod page;
 mod picture;
 mod plots;
@@ -51,7 +53,6 @@ mod study;
 mod sweep;
 mod tables;
 mod thin;
-mod trend;
 
 #[doc(hidden)]
 pub use analysis::{
@@ -61,9 +62,7 @@ pub use analysis::{
 #[doc(hidden)]
 pub use axial::{AxialRow, AxialSection, axial_section};
 #[doc(hidden)]
-pub use calibrate::{
-    CalibrationReport, FittedKey, Tried, calibration_html, calibration_undetermined, calibration_verdict, interval_text,
-};
+pub use calibrate::{calibration_undetermined, calibration_verdict, interval_text};
 pub use damage::{AlongRoller, DamageCurve, DamagePanel, DamageView, DepthPatch};
 #[doc(hidden)]
 pub use damage::{damage_passage, damage_photo, damage_plan, damage_section, load_along};
@@ -81,6 +80,8 @@ pub use kurtogram::Kurtogram;
 pub use layout::Layout;
 #[doc(hidden)]
 pub use load::{bin_centres, load_distribution};
+#[doc(hidden)]
+pub use misfit::{FittedKey, Tried};
 pub use motion::bearing_motion;
 pub use motion::{Motion, MotionDamage, MotionRow};
 #[doc(hidden)]
@@ -88,6 +89,8 @@ pub use number::{capital, plural, short, shown_unit, twelve_digits};
 #[doc(hidden)]
 pub use orbit::cage_orbit;
 pub use orbit::{CageOrbit, CageOrbits};
+#[doc(hidden)]
+pub use overlay::{OverlaidCurve, Overlay, Vertical};
 pub use page::html;
 pub use picture::{CurveTable, Error, Picture};
 pub use plots::pictures;
@@ -101,10 +104,7 @@ pub use sensor::SensorView;
 #[doc(hidden)]
 pub use sheet::sheet_html;
 #[doc(hidden)]
-pub use side_by_side::{
-    OverlaidCurve, Overlay, Part, Piece, SideBySide, Vertical, compared_headline, overlay, side_by_side_html,
-    side_by_side_pictures, unsettled,
-};
+pub use side_by_side::{compared_headline, unsettled};
 pub use slip::SlipRow;
 #[doc(hidden)]
 pub use slip::slip_over_time;
@@ -114,7 +114,5 @@ pub use spectrogram::spectrogram;
 #[doc(hidden)]
 pub use study::{Chapter, ClaimCard, ClaimPart, Stack, Study, StudyPiece, Tagged, study_html, study_pictures};
 #[doc(hidden)]
-pub use sweep::{HeatMap, IndicatorLine, IndicatorPlot, IndicatorPoint, SweepReport, sweep_html, sweep_pictures};
+pub use sweep::{HeatMap, IndicatorLine, IndicatorPlot, IndicatorPoint, sweep_lead, sweep_legend};
 pub use tables::Table;
-#[doc(hidden)]
-pub use trend::{TrendReport, trend_html, trend_pictures};

@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 
 use crate::data::{Assumption, Estimate, Report};
 use crate::fact::{Fact, Value};
-use crate::frame::{none, section, unit_html};
+use crate::frame::{none, unit_html};
 use crate::markup::escape;
 use crate::number::{significant, with_interval};
 
@@ -209,21 +209,16 @@ pub(crate) fn table(page: &mut String, table: &Table) {
     page.push_str("</section>\n");
 }
 
-/// What failed and why, a section of its own, where anything did. `each` is what one of them is called: "Point".
-pub(crate) fn failures(page: &mut String, title: &str, each: &str, all: &[(String, String)]) {
-    if all.is_empty() {
-        return;
+/// What failed, and why. `each` is what one of them is called: "Point".
+pub(crate) fn failures(page: &mut String, each: &str, all: &[(String, String)]) {
+    open_table(page, true, &[each, "Why"]);
+    for (name, reason) in all {
+        let _ = writeln!(
+            page,
+            "<tr><th scope=\"row\">{}</th><td class=\"note\">{}</td></tr>",
+            escape(name),
+            escape(reason)
+        );
     }
-    section(page, "failures", title, |page| {
-        open_table(page, true, &[each, "Why"]);
-        for (name, reason) in all {
-            let _ = writeln!(
-                page,
-                "<tr><th scope=\"row\">{}</th><td class=\"note\">{}</td></tr>",
-                escape(name),
-                escape(reason)
-            );
-        }
-        close_table(page);
-    });
+    close_table(page);
 }

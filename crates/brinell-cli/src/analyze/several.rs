@@ -12,7 +12,8 @@ use crate::say::{self, complain, one_line, say, short};
 use brinell::analysis::{MachineClass, Unit};
 use brinell::signal::{Estimate, Indicator};
 use brinell_report::{
-    IndicatorLine, IndicatorPlot, IndicatorPoint, Table, TrendReport, ZONES, scaled, trend_html, trend_pictures,
+    Chapter, IndicatorLine, IndicatorPlot, IndicatorPoint, Study, StudyPiece, Table, ZONES, scaled, study_html,
+    study_pictures,
 };
 use serde_json::{Value, json};
 use std::path::{Path, PathBuf};
@@ -285,8 +286,8 @@ fn write(args: &AnalyzeArgs, rows: &[Row], paths: &[String], earlier: &Earlier) 
             folder,
             &args.plots,
             &json,
-            &trend_html(&report),
-            &trend_pictures(&report, args.print.layout(&args.plots)?),
+            &study_html(&report),
+            &study_pictures(&report, args.print.layout(&args.plots)?),
             earlier,
         )?;
     }
@@ -294,7 +295,14 @@ fn write(args: &AnalyzeArgs, rows: &[Row], paths: &[String], earlier: &Earlier) 
     Ok(written)
 }
 
-fn report(rows: &[Row]) -> TrendReport {
+/// What the plots show.
+const TREND: &str = "In the order of the table; numbers on the axis are those of its first column. Bars: 95 % intervals; \
+    rings: values without one; crosses on the axis: no value; dashed: boundaries of the zones, the scores from which a \
+    family is beyond noise or high, the record that each is compared with. The score says only how far a family's \
+    harmonics rise over the noise; the verdict also takes how deep they modulate the envelope, and leaves out lines that \
+    another part's damage accounts for: a high score alone is no damage.";
+
+fn report(rows: &[Row]) -> Study {
     let found = || rows.iter().filter_map(|r| r.found.as_ref().ok());
     let failures = rows.iter().filter_map(|r| Some((r.name.clone(), r.found.as_ref().err()?.clone())));
     let failures: Vec<(String, String)> = failures.collect();
@@ -314,14 +322,23 @@ fn report(rows: &[Row]) -> TrendReport {
     );
     let verdicts =
         rows.iter().filter_map(|row| Some(vec![row.name.clone(), row.found.as_ref().ok()?.sentence.clone()]));
-    TrendReport {
+    let verdicts = Table::new("Verdicts", ["File", "Verdict"], verdicts, "");
+    let mut trend = vec![StudyPiece::Note(TREND.into())];
+    trend.extend(plots(rows).into_iter().map(StudyPiece::Trend));
+    let subtitle = format!("{} files, damage called in {damaged}, no result from {}", rows.len(), failures.len());
+    let mut chapters = vec![Chapter::table("files", "Files", table)];
+    if !verdicts.rows.is_empty() {
+        chapters.push(Chapter::table("verdicts", "Verdicts", verdicts));
+    }
+    chapters.extend(Chapter::failures("Files without a result", "File", failures));
+    chapters.push(Chapter::new("trend", "Trend", "Trend", trend));
+    Study {
         title: "Several signals".into(),
-        subtitle: format!("{} files, damage called in {damaged}, no result from {}", rows.len(), failures.len()),
+        subtitle,
+        analysed: true,
         version: brinell::VERSION.into(),
-        table,
-        verdicts: Table::new("Verdicts", ["File", "Verdict"], verdicts, ""),
-        plots: plots(rows),
-        failures,
+        chapters,
+        ..Study::default()
     }
 }
 

@@ -15,7 +15,7 @@ use brinell::plausibility;
 use brinell::simulate::Simulation;
 use brinell::{Error, RunResult};
 use brinell_io::{Metadata, atomic_prepare, keys};
-use brinell_report::SideBySide;
+use brinell_report::Study;
 use brinell_study::campaign::{self, Compared, Side, run_all, sides_json, sides_scenarios, sides_table};
 use serde_json::Value;
 use std::path::{Path, PathBuf};
@@ -56,17 +56,17 @@ pub(crate) fn compare(args: &CompareArgs) -> Result<ExitCode, Failure> {
     };
     let all: Vec<&RunResult> = runs.iter().collect();
     let compared = campaign::compare(&all);
-    let report = SideBySide::of_runs(&sides, &all, &compared);
+    let report = Study::of_runs(&sides, &all, &compared);
     let table = sides_table(&sides, &compared);
     ready.push(table.prepare_csv(folder.join(CSV))?);
     let metadata = Metadata::default().with(keys::VERSION, brinell::VERSION);
     ready.push(table.prepare_parquet(folder.join(PARQUET), &metadata)?);
     let pictures = match &args.plots[..] {
         [] => Vec::new(),
-        _ => brinell_report::side_by_side_pictures(&report, layout),
+        _ => brinell_report::study_pictures(&report, layout),
     };
     let json = (COMPARISON, sides_json(&sides, &compared));
-    let page = brinell_report::side_by_side_html(&report);
+    let page = brinell_report::study_html(&report);
     let (written, json) = earlier.publish(ready, json, Some((PAGE, &page)), (&pictures, &args.plots))?;
     if args.json {
         document(json.trim_end());

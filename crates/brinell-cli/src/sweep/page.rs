@@ -6,7 +6,8 @@ use crate::say::{plural, shown_unit};
 use brinell::result::Quantity;
 use brinell::scenario::Scenario;
 use brinell_report::{
-    Fact, HeatMap, IndicatorLine, IndicatorPlot, IndicatorPoint, SweepReport, Table, value_text, words,
+    Chapter, Fact, HeatMap, IndicatorLine, IndicatorPlot, IndicatorPoint, Study, StudyPiece, Table, sweep_lead,
+    sweep_legend, value_text, words,
 };
 use brinell_study::campaign::Axis;
 use std::collections::HashMap;
@@ -34,7 +35,7 @@ pub(super) fn usual(scenario: &Scenario, names: &[String]) -> Vec<String> {
     usual
 }
 
-pub(super) fn report(points: &Points, states: &[State], plots: &[String]) -> SweepReport {
+pub(super) fn report(points: &Points, states: &[State], plots: &[String]) -> Study {
     let [complete, failed, missing] = ["complete", "failed", "not run"].map(|word| count(states, word));
     let axes: Vec<String> = points.plan.axes().iter().map(|axis| axis.keys().join(" with ")).collect();
     let fact = |label: &str, n: usize, note: &str| Fact::new(label, n.to_string(), "", note);
@@ -52,6 +53,23 @@ pub(super) fn report(points: &Points, states: &[State], plots: &[String]) -> Swe
         let text = format!("{} of {lines}", LINES * PICTURES);
         facts.push(Fact::new("Lines drawn", text, "", "all are in sweep.csv"));
     }
+    let drawn: Vec<IndicatorPlot> = plots.iter().flat_map(|name| pictures(points, states, name)).collect();
+    let incomplete =
+        format!("This sweep is incomplete. {} not run yet; the same command resumes.", plural(missing, "point"));
+    Study {
+        title: format!("Sweep of {}", points.example.name),
+        subtitle: format!("{} over {}", plural(states.len(), "point"), axes.join(" × ")),
+        version: brinell::VERSION.into(),
+        warnings: Vec::from_iter((missing > 0).then_some(incomplete)),
+        lead: sweep_lead(&drawn),
+        facts,
+        chapters: chapters(points, states, plots, drawn),
+        footer: "The whole table, with every indicator, is in sweep.csv and sweep.parquet beside this page.".into(),
+        ..Study::default()
+    }
+}
+
+fn chapters(points: &Points, states: &[State], plots: &[String], drawn: Vec<IndicatorPlot>) -> Vec<Chapter> {
     let name = |k: usize| {
         let settings = points.plan.settings(k);
         let texts: Vec<String> = settings.iter().map(|(k, v)| format!("{k} = {v}")).collect();
@@ -59,18 +77,20 @@ pub(super) fn report(points: &Points, states: &[State], plots: &[String]) -> Swe
     };
     let failures = states.iter().enumerate();
     let failures = failures.filter_map(|(k, s)| Some((name(k), s.failure()?.to_owned())));
-    SweepReport {
-        title: format!("Sweep of {}", points.example.name),
-        subtitle: format!("{} over {}", plural(states.len(), "point"), axes.join(" × ")),
-        version: brinell::VERSION.into(),
-        partial: (missing > 0).then(|| format!("{} not run yet; the same command resumes.", plural(missing, "point"))),
-        facts,
-        plots: plots.iter().flat_map(|name| pictures(points, states, name)).collect(),
-        maps: plots.iter().filter_map(|name| map(points, states, name)).collect(),
-        failures: failures.take(LISTED).collect(),
-        table: table(points, states, plots),
-        scenario_toml: points.source.text(),
+    let maps: Vec<StudyPiece> =
+        plots.iter().filter_map(|name| map(points, states, name)).map(StudyPiece::Map).collect();
+    let mut indicators = vec![StudyPiece::Note(sweep_legend(&drawn))];
+    indicators.extend(drawn.into_iter().map(StudyPiece::Trend));
+    let mut chapters = Vec::new();
+    if !maps.is_empty() {
+        chapters.push(Chapter::new("maps", "Over both keys", "Over both keys", maps));
     }
+    chapters.push(Chapter::new("indicators", "Indicators", "Indicators", indicators));
+    chapters.extend(Chapter::failures("Points that failed", "Point", failures.take(LISTED).collect()));
+    chapters.push(Chapter::table("points", "Points", table(points, states, plots)));
+    let base = vec![StudyPiece::Code(points.source.text())];
+    chapters.push(Chapter::new("scenario", "Base scenario", "Base scenario", base));
+    chapters
 }
 
 /// The axis along x: the first one with a key of numbers that takes several values, or else the first.

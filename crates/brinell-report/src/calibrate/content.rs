@@ -1,14 +1,15 @@
-//! A calibration as its page shows it.
+//! The chapters of a calibration.
 
 use super::words::{calibration_undetermined, calibration_verdict, interval_text};
-use super::{CalibrationReport, FittedKey, Tried};
 use crate::fact::Fact;
+use crate::misfit::{FittedKey, Tried};
 use crate::number::{plural, short};
+use crate::study::{Chapter, Study, StudyPiece};
 use crate::tables::Table;
 use brinell_study::calibrate::search::STEP;
 use brinell_study::calibrate::{Evaluation, Found, Met, Outcome};
 
-impl CalibrationReport {
+impl Study {
     /// What the page of a calibration shows: `calibrate.html` of `brinell calibrate`.
     pub fn of_outcome(of: &Outcome) -> Self {
         let all = &of.fit.evaluations;
@@ -37,27 +38,55 @@ impl CalibrationReport {
         if !failed.is_empty() {
             facts.push(Fact::new("Failed", failed.len().to_string(), "", "reasons below"));
         }
+        let unmet = (!of.is_met()).then(|| "The targets are not met within the bounds.".to_owned());
         Self {
             title: format!("Calibration of {}", of.best.scenario.name),
             subtitle: format!("{} to {}", names.join(", "), plural(of.compared.len(), "target")),
             version: brinell::VERSION.into(),
-            met: of.is_met(),
-            verdict: calibration_verdict(of),
+            warnings: Vec::from_iter(unmet),
+            lead: calibration_verdict(of).into_iter().next().unwrap_or_default(),
             facts,
-            keys: of.found.iter().map(fitted).collect(),
-            found: (of.found.iter())
-                .map(|f| Fact::new(&f.key.name, short(f.best, 5), f.unit, interval_text(f)))
-                .collect(),
-            undetermined: calibration_undetermined(of),
-            targets: targets(of),
-            correlation: correlation(of),
-            directions: directions(of),
-            tried: tried(of),
-            failures: failed,
-            method: method(of),
-            scenario_toml: of.best.to_toml(),
+            chapters: chapters(of, failed),
+            footer: "All runs are in calibrate.csv, all numbers in calibrate.json; best.toml is the best scenario."
+                .into(),
+            ..Self::default()
         }
     }
+}
+
+fn chapters(of: &Outcome, failed: Vec<(String, String)>) -> Vec<Chapter> {
+    let found = of.found.iter().map(|f| Fact::new(&f.key.name, short(f.best, 5), f.unit, interval_text(f)));
+    let mut outcome = sentences(calibration_verdict(of));
+    outcome.push(StudyPiece::Facts(found.collect()));
+    let mut misfits = vec![StudyPiece::Note(MISFITS.into())];
+    misfits.extend((0..of.found.len()).map(|k| StudyPiece::Misfit(fitted(&of.found[k]), tried(of, k))));
+    let course = StudyPiece::Course(of.fit.evaluations.iter().map(|e| e.chi_square).collect());
+    let undetermined = "What the data do not determine";
+    let mut chapters = vec![
+        Chapter::new("outcome", "Outcome", "Outcome", outcome),
+        Chapter::new("undetermined", "Not determined", undetermined, sentences(calibration_undetermined(of))),
+        Chapter::table("targets", "Targets", targets(of)),
+        Chapter::new("keys", "Misfit", "Misfit over each key", misfits),
+        Chapter::new("course", "Course", "Course of the search", vec![course]),
+        Chapter::table("directions", "Directions", directions(of)),
+    ];
+    if of.found.len() > 1 {
+        chapters.push(Chapter::table("correlation", "Correlation", correlation(of)));
+    }
+    chapters.extend(Chapter::failures("Runs that failed", "Run", failed));
+    chapters.push(Chapter::new("method", "Method", "Method", sentences(method(of))));
+    let scenario = vec![StudyPiece::Code(of.best.to_toml())];
+    chapters.push(Chapter::new("scenario", "Best scenario", "Best scenario", scenario));
+    chapters
+}
+
+/// What the pictures of the keys show.
+const MISFITS: &str = "Dots: all runs, whatever the other keys. Filled: runs that differ from the best in this key alone, \
+    joined. Shaded: the 95 % interval, where the data determine the key. Upright line: the best value. A floor without a \
+    hollow is a key that the data leave open.";
+
+fn sentences(all: Vec<String>) -> Vec<StudyPiece> {
+    all.into_iter().map(StudyPiece::Words).collect()
 }
 
 fn fitted(of: &Found) -> FittedKey {
@@ -71,14 +100,13 @@ fn fitted(of: &Found) -> FittedKey {
     }
 }
 
-fn tried(of: &Outcome) -> Vec<Tried> {
+/// The runs over the key with this index.
+fn tried(of: &Outcome, key: usize) -> Vec<Tried> {
     let best = &of.fit.evaluations[of.fit.best].place;
     let one = |e: &Evaluation| Tried {
-        values: of.plan.keys.iter().zip(&e.place).map(|(k, u)| k.value(*u)).collect(),
+        value: of.plan.keys[key].value(e.place[key]),
         chi_square: e.chi_square,
-        alone: (0..best.len())
-            .map(|k| (0..best.len()).all(|other| other == k || e.place[other] == best[other]))
-            .collect(),
+        alone: (0..best.len()).all(|other| other == key || e.place[other] == best[other]),
     };
     of.fit.evaluations.iter().map(one).collect()
 }

@@ -1,10 +1,11 @@
-//! A comparison as its page shows it.
+//! The chapters of a comparison.
 
 use super::curves::{called, entry_and_exit, envelope, over_defect, spectrum, waveform};
-use super::{Part, Piece, SideBySide};
 use crate::fact::Fact;
+use crate::frame::THINNED;
 use crate::number::{bracketed, short, shown_unit, twelve_digits};
 use crate::quantity::{value_text, words};
+use crate::study::{Chapter, Study};
 use crate::tables::Table;
 use brinell::observe::passes::place;
 use brinell::result::{Quantity, RunResult};
@@ -14,52 +15,69 @@ use brinell_study::campaign::{Compared, Side};
 /// Longest value in the table of what differs.
 const LONGEST: usize = 60;
 
-impl SideBySide {
+impl Study {
     /// What the page of a comparison shows: `compare.html` of `brinell compare`.
     pub fn of_runs(sides: &[Side], runs: &[&RunResult], compared: &[Compared]) -> Self {
         let names: Vec<String> = sides.iter().map(|side| side.label.clone()).collect();
-        let mut parts = vec![
-            part("What differs", vec![Piece::Table(differing(sides))]),
-            part("Sensor acceleration", vec![Piece::Overlay(waveform(runs))]),
-            part("Spectrum", vec![spectrum(runs)]),
-            part("Envelope spectrum", vec![envelope(sides, runs)]),
+        let chapter = |id: &str, title: &str, pieces| Chapter::new(id, title, title, pieces);
+        let mut chapters = vec![
+            Chapter::table("differences", "What differs", differing(sides)),
+            chapter("waveform", "Sensor acceleration", vec![waveform(&names, runs)]),
+            chapter("spectrum", "Spectrum", vec![spectrum(&names, runs)]),
+            chapter("envelope-spectrum", "Envelope spectrum", vec![envelope(&names, runs)]),
         ];
         let defects = runs.iter().map(|run| run.scenario.defects.len()).max();
         for defect in 0..defects.unwrap_or(0) {
-            parts.push(part(&format!("Over {}", called(runs, defect)), over_defect(runs, defect)));
-            parts.push(part(&format!("Entry and exit, {}", called(runs, defect)), entry_and_exit(runs, defect)));
+            let (n, called) = (defect + 1, called(runs, defect));
+            chapters.push(Chapter::new(
+                &format!("defect{n}"),
+                &format!("Over defect {n}"),
+                &format!("Over {called}"),
+                over_defect(&names, runs, defect),
+            ));
+            chapters.push(Chapter::new(
+                &format!("defect{n}-ends"),
+                &format!("Entry and exit, defect {n}"),
+                &format!("Entry and exit, {called}"),
+                entry_and_exit(&names, runs, defect),
+            ));
         }
-        for (title, wanted) in TABLES {
+        for (id, title, wanted) in TABLES {
             let rows: Vec<&Compared> = compared.iter().filter(|c| wanted(&c.name)).collect();
             if !rows.is_empty() {
-                parts.push(part(title, vec![Piece::Table(numbers(title, &names, &rows))]));
+                chapters.push(Chapter::table(id, title, numbers(title, &names, &rows)));
             }
         }
+        let facts = facts(&names, compared);
         Self {
             title: names.join(", "),
             subtitle: format!("{} runs, each over the baseline {}", names.len(), names[0]),
             version: brinell::VERSION.into(),
             warnings: warnings(sides, runs),
-            facts: facts(&names, compared),
-            names,
-            parts,
+            lead: facts.first().map_or(String::new(), Fact::words),
+            facts,
+            chapters,
+            footer: THINNED.into(),
+            ..Self::default()
         }
     }
 }
 
-/// A table's heading, and which numbers are in it.
-type Wanted = (&'static str, fn(&str) -> bool);
+/// A table's place in links, its heading, and which numbers are in it.
+type Wanted = (&'static str, &'static str, fn(&str) -> bool);
 
 const TABLES: [Wanted; 3] = [
-    ("Indicators", |name| {
+    ("indicators", "Indicators", |name| {
         let of = ["sensor_a", "inner_a", "outer_a", "cage1_a"];
         let which = [".rms", ".peak_to_peak", ".kurtosis", ".crest_factor"];
         of.iter().any(|o| name.starts_with(o))
             && which.iter().any(|w| name.ends_with(w))
             && !name.contains("anti_aliased")
     }),
-    ("Defects, envelope and slip", |name| ["defect", "envelope.", "row"].iter().any(|o| name.starts_with(o))),
-    ("Audits and work", |name| ["audit.", "work."].iter().any(|o| name.starts_with(o))),
+    ("defects", "Defects, envelope and slip", |name| {
+        ["defect", "envelope.", "row"].iter().any(|o| name.starts_with(o))
+    }),
+    ("audits", "Audits and work", |name| ["audit.", "work."].iter().any(|o| name.starts_with(o))),
 ];
 
 /// Names of the numbers that say most, of those that are there.
@@ -71,10 +89,6 @@ pub fn compared_headline(compared: &[Compared]) -> Vec<&str> {
         of_acceleration || name.ends_with("entry_peak") || name.ends_with("exit_peak")
     };
     names.filter(wanted).collect()
-}
-
-fn part(title: &str, pieces: Vec<Piece>) -> Part {
-    Part { title: title.into(), pieces }
 }
 
 fn facts(names: &[String], compared: &[Compared]) -> Vec<Fact> {

@@ -1,13 +1,13 @@
 //! The curves of a comparison: signals, spectra, passes over damage, entries and exits.
 
-use super::{OverlaidCurve, Overlay, Piece, Vertical};
 use crate::data::Along;
 use crate::number::capital;
+use crate::overlay::{OverlaidCurve, Overlay, Vertical};
 use crate::run::defect_markers;
+use crate::study::StudyPiece;
 use brinell::channel::{STIFFNESS_UNIT, stiffness_unit};
 use brinell::observe::passes::{PassPoint, place};
 use brinell::result::{Impacts, RunResult, impacts};
-use brinell_study::campaign::Side;
 
 /// Name of the acceleration that a run's curves show.
 fn acceleration(run: &RunResult) -> String {
@@ -15,7 +15,7 @@ fn acceleration(run: &RunResult) -> String {
 }
 
 /// A stretch of the waveforms, five ball-pass periods long, from where all are analysed.
-pub(super) fn waveform(runs: &[&RunResult]) -> Overlay {
+pub(super) fn waveform(names: &[String], runs: &[&RunResult]) -> StudyPiece {
     let kept = |run: &RunResult| {
         let (first, values) = run.findings.waveform.latest();
         (first as f64 / run.simulation.sample_rate(), values)
@@ -37,30 +37,32 @@ pub(super) fn waveform(runs: &[&RunResult]) -> Overlay {
         OverlaidCurve { of, along, values }
     });
     let y_label = capital(&acceleration(runs[0]));
-    Overlay {
+    let overlay = Overlay {
         x_range: Some((1e3 * from, 1e3 * (from + width))),
         note: "The first impacts of the analysed time. Impacts amplify small differences: later the runs drift apart even where their \
                statistics agree."
             .into(),
         ..Overlay::new("waveform", ("Time", "ms"), (&y_label, "m/s^2"), curves.collect())
-    }
+    };
+    StudyPiece::Curves(overlay, names.to_vec())
 }
 
-pub(super) fn spectrum(runs: &[&RunResult]) -> Piece {
+pub(super) fn spectrum(names: &[String], runs: &[&RunResult]) -> StudyPiece {
     let curves = runs.iter().enumerate().filter_map(|(of, run)| {
         let s = run.findings.spectrum.as_ref()?;
         Some(even(of, s.frequency_step, s.amplitude.clone()))
     });
     let curves: Vec<_> = curves.collect();
     if curves.is_empty() {
-        return Piece::Words("The runs are too short for a spectrum.".into());
+        return StudyPiece::Note("The runs are too short for a spectrum.".into());
     }
     let y_label = format!("Amplitude of {}", acceleration(runs[0]));
-    Piece::Overlay(Overlay {
+    let overlay = Overlay {
         vertical: Vertical::Decades,
         note: "Peak amplitude, Hann window, whole analysed time.".into(),
         ..Overlay::new("spectrum", ("Frequency", "Hz"), (&y_label, "m/s^2"), curves)
-    })
+    };
+    StudyPiece::Curves(overlay, names.to_vec())
 }
 
 fn even(of: usize, step: f64, values: Vec<f64>) -> OverlaidCurve {
@@ -68,7 +70,7 @@ fn even(of: usize, step: f64, values: Vec<f64>) -> OverlaidCurve {
     OverlaidCurve { of, along, values }
 }
 
-pub(super) fn envelope(sides: &[Side], runs: &[&RunResult]) -> Piece {
+pub(super) fn envelope(names: &[String], runs: &[&RunResult]) -> StudyPiece {
     let curves = runs.iter().enumerate().filter_map(|(of, run)| {
         let (e, _) = run.findings.envelope.as_ref()?;
         let mut values = e.spectrum.amplitude.clone();
@@ -80,12 +82,12 @@ pub(super) fn envelope(sides: &[Side], runs: &[&RunResult]) -> Piece {
     });
     let curves: Vec<_> = curves.collect();
     let Some((_, band)) = runs.iter().find_map(|run| run.findings.envelope.as_ref()) else {
-        return Piece::Words("The runs are too short for an envelope spectrum.".into());
+        return StudyPiece::Note("The runs are too short for an envelope spectrum.".into());
     };
     let markers = defect_markers(&runs[0].scenario, runs[0].simulation.model());
     let top = markers.iter().filter(|m| m.present).map(|m| m.frequency_hz);
     let top = top.fold(0.0, f64::max);
-    Piece::Overlay(Overlay {
+    let overlay = Overlay {
         x_range: (top > 0.0).then_some((0.0, 5.5 * top)),
         vertical: Vertical::FromZero,
         note: format!(
@@ -93,11 +95,12 @@ pub(super) fn envelope(sides: &[Side], runs: &[&RunResult]) -> Piece {
             acceleration(runs[0]),
             1e-3 * band.low,
             1e-3 * band.high,
-            sides[0].label
+            names[0]
         ),
         markers,
         ..Overlay::new("envelope-spectrum", ("Frequency", "Hz"), ("Envelope amplitude", "m/s^2"), curves)
-    })
+    };
+    StudyPiece::Curves(overlay, names.to_vec())
 }
 
 /// "defect 1 (outer raceway, row 1)".
@@ -111,11 +114,11 @@ pub(super) fn called(runs: &[&RunResult], defect: usize) -> String {
 type Shown = (&'static str, &'static str, &'static str, fn(&PassPoint) -> f64);
 
 /// Contact length, stiffness and force of the heaviest pass of each run.
-pub(super) fn over_defect(runs: &[&RunResult], defect: usize) -> Vec<Piece> {
+pub(super) fn over_defect(names: &[String], runs: &[&RunResult], defect: usize) -> Vec<StudyPiece> {
     let passes: Vec<_> =
         runs.iter().map(|run| run.findings.passes.best().into_iter().find(|p| p.defect == defect)).collect();
     if passes.iter().all(Option::is_none) {
-        return vec![Piece::Words("No roller passed it from end to end.".into())];
+        return vec![StudyPiece::Note("No roller passed it from end to end.".into())];
     }
     let units = runs.iter().map(|run| stiffness_unit(run.scenario.contact.exponent));
     let stiffness = units.reduce(|a, b| if a == b { a } else { STIFFNESS_UNIT }).unwrap_or(STIFFNESS_UNIT);
@@ -132,19 +135,19 @@ pub(super) fn over_defect(runs: &[&RunResult], defect: usize) -> Vec<Piece> {
         });
         let x = ("Angle from the defect’s centre", "°");
         let name = format!("defect{}-{name}", defect + 1);
-        Piece::Overlay(Overlay {
-            vertical: Vertical::FromZero,
-            ..Overlay::new(name, x, (label, unit), curves.collect())
-        })
+        let overlay =
+            Overlay { vertical: Vertical::FromZero, ..Overlay::new(name, x, (label, unit), curves.collect()) };
+        StudyPiece::Curves(overlay, names.to_vec())
     };
-    let mut pieces: Vec<Piece> = quantities.into_iter().map(overlay).collect();
-    pieces
-        .push(Piece::Words("The pass with the largest contact force of each run, step by step of the solver.".into()));
+    let mut pieces: Vec<StudyPiece> = quantities.into_iter().map(overlay).collect();
+    pieces.push(StudyPiece::Note(
+        "The pass with the largest contact force of each run, step by step of the solver.".into(),
+    ));
     pieces
 }
 
 /// The mean acceleration around the instants of rollers' entry to and exit from the defect.
-pub(super) fn entry_and_exit(runs: &[&RunResult], defect: usize) -> Vec<Piece> {
+pub(super) fn entry_and_exit(names: &[String], runs: &[&RunResult], defect: usize) -> Vec<StudyPiece> {
     let all: Vec<Vec<Impacts>> = runs.iter().map(|run| impacts(&run.simulation, &run.findings)).collect();
     let mut pieces = Vec::new();
     for (enters, word) in [(true, "entry"), (false, "exit")] {
@@ -161,19 +164,19 @@ pub(super) fn entry_and_exit(runs: &[&RunResult], defect: usize) -> Vec<Piece> {
             curves.push(OverlaidCurve { of, along, values });
         }
         if curves.is_empty() {
-            let words = format!("No {word} is within the waveform that was kept.");
-            pieces.push(Piece::Words(words));
+            pieces.push(StudyPiece::Note(format!("No {word} is within the waveform that was kept.")));
             continue;
         }
         let labels = [format!("Time from the {word}"), format!("Mean {}", acceleration(runs[0]))];
         let name = format!("defect{}-{word}", defect + 1);
-        pieces.push(Piece::Overlay(Overlay {
+        let overlay = Overlay {
             note: format!(
                 "Sensor acceleration averaged over {} instants of {word}: what they have in common.",
                 counts.join(" and ")
             ),
             ..Overlay::new(name, (&labels[0], "ms"), (&labels[1], "m/s^2"), curves)
-        }));
+        };
+        pieces.push(StudyPiece::Curves(overlay, names.to_vec()));
     }
     pieces
 }

@@ -1,18 +1,19 @@
-//! The page of a study: chapters of curves, trends, tables, and claims with their verdicts. What they are is the
-//! caller's.
+//! The page of several runs or signals: chapters of curves, trends, tables, and claims with their verdicts. What they are
+//! is the caller's.
 
 use std::fmt::Write as _;
 
 use crate::damage::{DamageView, damage_plan};
 use crate::data::Tone;
 use crate::fact::Fact;
-use crate::frame::{close, figure, lead, none, open, plain, section};
+use crate::frame::{close, code, figure, lead, none, open, plain, section, unit_html};
 use crate::layout::Layout;
 use crate::markup::escape;
+use crate::misfit::{FittedKey, Tried, course_plot, embed_course, embed_key, key_plot};
+use crate::overlay::{Overlay, embed, overlay, stacked};
 use crate::picture::Picture;
-use crate::side_by_side::{Overlay, embed, overlay, stacked};
-use crate::sweep::{self, IndicatorPlot, indicator_plot};
-use crate::tables::{Table, facts, table};
+use crate::sweep::{self, HeatMap, IndicatorPlot, heat_map, indicator_plot};
+use crate::tables::{Table, fact_table, facts, failures, table};
 
 /// A word with its colour.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -58,6 +59,8 @@ pub struct ClaimCard {
 pub enum StudyPiece {
     /// A paragraph.
     Words(String),
+    /// A paragraph in grey: what marks mean, or why something is missing.
+    Note(String),
     /// Curves, and the names that they belong to.
     Curves(Overlay, Vec<String>),
     /// Plots one below the other.
@@ -66,8 +69,20 @@ pub enum StudyPiece {
     Plan(String, Box<DamageView>),
     /// Numbers with intervals against a quantity.
     Trend(IndicatorPlot),
+    /// Numbers over two quantities.
+    Map(HeatMap),
+    /// The misfit of the runs of a calibration over a key.
+    Misfit(FittedKey, Vec<Tried>),
+    /// The misfit of the runs of a calibration in their order.
+    Course(Vec<f64>),
     /// Words and numbers; its title is a heading.
     Table(Table),
+    /// Numbers, a line each, with what is to be said of them.
+    Facts(Vec<Fact>),
+    /// What failed, and why. First what one of them is called: "File".
+    Failures(String, Vec<(String, String)>),
+    /// Text as written in a file.
+    Code(String),
     /// Claims.
     Claims(Vec<ClaimCard>),
 }
@@ -96,7 +111,7 @@ pub struct Chapter {
     pub id: String,
     /// In the list of contents.
     pub short: String,
-    /// The heading.
+    /// The heading; empty where a table brings its own.
     pub title: String,
     /// In this order.
     pub pieces: Vec<StudyPiece>,
@@ -107,6 +122,17 @@ impl Chapter {
     pub fn new(id: &str, short: &str, title: &str, pieces: Vec<StudyPiece>) -> Self {
         Self { id: id.into(), short: short.into(), title: title.into(), pieces }
     }
+
+    /// A table and no more, under its own heading.
+    pub fn table(id: &str, short: &str, table: Table) -> Self {
+        Self::new(id, short, "", vec![StudyPiece::Table(table)])
+    }
+
+    /// What failed, where anything did: name and reason of each. `each` is what one of them is called: "File".
+    pub fn failures(title: &str, each: &str, all: Vec<(String, String)>) -> Option<Self> {
+        let some = !all.is_empty();
+        some.then(|| Self::new("failures", "Failed", title, vec![StudyPiece::Failures(each.into(), all)]))
+    }
 }
 
 /// Everything that the page shows.
@@ -116,10 +142,14 @@ pub struct Study {
     pub title: String,
     /// One line under it.
     pub subtitle: String,
+    /// Whether signals were analysed; else runs were simulated.
+    pub analysed: bool,
     /// The version of the program.
     pub version: String,
     /// What deserves attention.
     pub warnings: Vec<String>,
+    /// The result in a sentence; may be empty.
+    pub lead: String,
     /// Headline numbers.
     pub facts: Vec<Fact>,
     /// The chapters.
@@ -147,19 +177,29 @@ fn draw(piece: &StudyPiece, layout: Layout) -> Option<Picture> {
             Some(picture)
         }
         StudyPiece::Trend(plot) => Some(indicator_plot(plot, layout)),
-        StudyPiece::Words(_) | StudyPiece::Table(_) | StudyPiece::Claims(_) => None,
+        StudyPiece::Map(map) => heat_map(map, layout),
+        StudyPiece::Misfit(key, tried) => Some(key_plot(key, tried, layout)),
+        StudyPiece::Course(chi_squares) => Some(course_plot(chi_squares, layout)),
+        StudyPiece::Words(_)
+        | StudyPiece::Note(_)
+        | StudyPiece::Table(_)
+        | StudyPiece::Facts(_)
+        | StudyPiece::Failures(..)
+        | StudyPiece::Code(_)
+        | StudyPiece::Claims(_) => None,
     }
 }
 
 /// The self-contained page.
 pub fn study_html(study: &Study) -> String {
-    let mut page = open(&study.title, &study.subtitle, ("Simulated", &study.version), plain(&study.warnings));
+    let done = if study.analysed { "Analysed" } else { "Simulated" };
+    let mut page = open(&study.title, &study.subtitle, (done, &study.version), plain(&study.warnings));
     page.push_str("<nav aria-label=\"Contents\"><ul>");
     for chapter in &study.chapters {
         let _ = write!(page, "<li><a href=\"#{}\">{}</a></li>", chapter.id, escape(&chapter.short));
     }
     page.push_str("</ul></nav>\n<main>\n");
-    lead(&mut page, &study.facts.first().map_or(String::new(), Fact::words));
+    lead(&mut page, &study.lead);
     facts(&mut page, &study.facts);
     let mut count = 0;
     for chapter in &study.chapters {
@@ -179,25 +219,37 @@ fn write_piece(page: &mut String, piece: &StudyPiece, count: usize) {
             let _ = writeln!(page, "<p>{}</p>", escape(words));
             return;
         }
+        StudyPiece::Note(words) => return none(page, &escape(words)),
         StudyPiece::Table(one) => return table(page, one),
+        StudyPiece::Facts(all) => return fact_table(page, all, ""),
+        StudyPiece::Failures(each, all) => return failures(page, each, all),
+        StudyPiece::Code(text) => return code(page, text),
         StudyPiece::Claims(cards) if cards.is_empty() => {
             return none(page, "No claim belongs to what was run.");
         }
         StudyPiece::Claims(cards) => return cards.iter().for_each(|card| claim(page, card)),
-        StudyPiece::Curves(one, _) => (one.title.as_str(), escape(&one.note)),
-        StudyPiece::Stack(stack) => (stack.title.as_str(), escape(&stack.note)),
+        StudyPiece::Curves(one, _) => (escape(&one.title), escape(&one.note)),
+        StudyPiece::Stack(stack) => (escape(&stack.title), escape(&stack.note)),
         // Its title is in the picture.
-        StudyPiece::Plan(..) => ("", String::new()),
-        StudyPiece::Trend(plot) => (plot.label.as_str(), String::new()),
+        StudyPiece::Plan(..) => (String::new(), String::new()),
+        StudyPiece::Trend(plot) => (escape(&plot.label), String::new()),
+        StudyPiece::Map(map) if map.unit.is_empty() => (escape(&map.label), String::new()),
+        StudyPiece::Map(map) => (format!("{} ({})", escape(&map.label), unit_html(&map.unit)), String::new()),
+        StudyPiece::Misfit(key, _) => (format!("<code>{}</code>", escape(&key.name)), String::new()),
+        StudyPiece::Course(_) => {
+            (String::new(), "Dots: each run in the order requested. Line: the best so far.".into())
+        }
     };
     if !title.is_empty() {
-        let _ = writeln!(page, "<h3>{}</h3>", escape(title));
+        let _ = writeln!(page, "<h3>{title}</h3>");
     }
     let draw = |layout| draw(piece, layout).unwrap_or_else(|| Picture::new("", "", 0.0, 0.0));
     figure(page, &format!("study{count}"), draw, &caption);
     match piece {
         StudyPiece::Curves(one, names) => embed(page, one, names),
         StudyPiece::Trend(plot) => sweep::embed(page, plot),
+        StudyPiece::Misfit(key, tried) => embed_key(page, key, tried),
+        StudyPiece::Course(chi_squares) => embed_course(page, chi_squares),
         _ => {}
     }
 }
@@ -265,6 +317,8 @@ mod tests {
                 "Chapter one",
                 vec![
                     StudyPiece::Words("some words".into()),
+                    StudyPiece::Note("x > y".into()),
+                    StudyPiece::Failures("File".into(), vec![("c.csv".into(), "empty <".into())]),
                     StudyPiece::Curves(Overlay::default(), vec![]),
                     StudyPiece::Trend(IndicatorPlot::default()),
                     StudyPiece::Stack(Stack {
@@ -273,6 +327,8 @@ mod tests {
                     }),
                     StudyPiece::Plan("seen-from-above".into(), Box::default()),
                     StudyPiece::Table(Table { title: "A table".into(), ..Table::default() }),
+                    StudyPiece::Map(HeatMap { label: "Over both".into(), unit: "m/s^2".into(), ..HeatMap::default() }),
+                    StudyPiece::Code("load_n = [0.0, -3e3] # <down>".into()),
                     StudyPiece::Claims(vec![card]),
                     StudyPiece::Claims(vec![]),
                 ],
@@ -284,8 +340,12 @@ mod tests {
             "href=\"#one\"",
             "Chapter one",
             "some words",
+            "x &gt; y",
+            "empty &lt;",
             "Panel a",
             "A table",
+            "Over both (m/s²)",
+            "# &lt;down&gt;",
             "a &lt; b &amp; c",
             "tag good",
             "Depends on the filter",

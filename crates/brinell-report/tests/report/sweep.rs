@@ -1,8 +1,8 @@
 //! The pages of a sweep and of runs side by side: what is in them, whatever the data.
 
 use brinell_report::{
-    Along, HeatMap, IndicatorLine, IndicatorPlot, IndicatorPoint, Layout, OverlaidCurve, Overlay, Part, Piece,
-    SideBySide, SweepReport, Vertical, side_by_side_html, side_by_side_pictures, sweep_html, sweep_pictures,
+    Along, Chapter, HeatMap, IndicatorLine, IndicatorPlot, IndicatorPoint, Layout, OverlaidCurve, Overlay, Study,
+    StudyPiece, Vertical, study_html, study_pictures, sweep_lead, sweep_legend,
 };
 
 fn point(x: f64, value: f64, interval: Option<(f64, f64)>) -> IndicatorPoint {
@@ -24,21 +24,32 @@ fn plot(points: Vec<IndicatorPoint>, names: &[&str]) -> IndicatorPlot {
     }
 }
 
+fn study(pieces: Vec<StudyPiece>) -> Study {
+    Study {
+        title: "Sweep of <x>".into(),
+        chapters: vec![Chapter::new("plots", "Plots", "Plots", pieces)],
+        ..Study::default()
+    }
+}
+
 fn page(plot: IndicatorPlot) -> (String, String) {
-    let report = SweepReport { title: "Sweep of <x>".into(), plots: vec![plot], ..SweepReport::default() };
-    let pictures = sweep_pictures(&report, Layout::Wide);
+    let report = study(vec![StudyPiece::Trend(plot)]);
+    let pictures = study_pictures(&report, Layout::Wide);
     assert_eq!(pictures.len(), 1);
-    (sweep_html(&report), pictures[0].svg())
+    (study_html(&report), pictures[0].svg())
 }
 
 #[test]
 fn regress_a_failed_point_is_a_gap_and_the_marks_are_explained() {
     let points = vec![point(1000.0, 3.0, Some((2.5, 3.5))), point(2000.0, f64::NAN, None), point(3000.0, 5.0, None)];
-    let (page, svg) = page(plot(points, &[]));
+    let plot = plot(points, &[]);
+    let marks = sweep_legend(std::slice::from_ref(&plot));
     for words in ["Dots: averages over whole revolutions", "Rings: a value", "Crosses on the axis"] {
-        assert!(page.contains(words), "no {words}");
+        assert!(marks.contains(words), "no {words}");
     }
-    assert!(page.contains("Sweep of &lt;x&gt;") && !page.contains("Short bars"));
+    assert!(!marks.contains("sideways"));
+    let (page, svg) = page(plot);
+    assert!(page.contains("Sweep of &lt;x&gt;"));
     // Two dots, none for the point that failed.
     assert_eq!(svg.matches("<circle").count(), 2);
     assert!(!svg.contains("NaN") && !page.contains("NaN"));
@@ -69,7 +80,7 @@ fn prop_odd_data_make_a_page() {
     assert!(svg.contains("No point has a value") && page.ends_with("</html>\n"));
 }
 
-fn overlaid(vertical: Vertical, values: Vec<f64>) -> SideBySide {
+fn overlaid(vertical: Vertical, values: Vec<f64>) -> Study {
     let curve = |of, along| OverlaidCurve { of, along, values: values.clone() };
     let places = (0..values.len()).map(|k| k as f64).collect();
     let even = Along::Even { first: 0.0, step: 1.0 };
@@ -83,62 +94,52 @@ fn overlaid(vertical: Vertical, values: Vec<f64>) -> SideBySide {
         curves: vec![curve(0, even), curve(2, Along::At(places))],
         ..Overlay::default()
     };
-    SideBySide {
-        title: "a and b".into(),
-        names: ["actual", "unseen", "simple"].map(str::to_owned).to_vec(),
-        parts: vec![Part {
-            title: "Spectrum".into(),
-            pieces: vec![Piece::Overlay(overlay), Piece::Words("That is all.".into())],
-        }],
-        ..SideBySide::default()
-    }
+    let names = ["actual", "unseen", "simple"].map(str::to_owned).to_vec();
+    study(vec![StudyPiece::Curves(overlay, names), StudyPiece::Note("That is all.".into())])
 }
 
 #[test]
 fn regress_an_overlay_names_the_runs_that_it_shows() {
     let report = overlaid(Vertical::FromZero, vec![1.0, 2.0, f64::NAN, 4.0]);
-    let pictures = side_by_side_pictures(&report, Layout::Wide);
+    let pictures = study_pictures(&report, Layout::Wide);
     let svg = pictures[0].svg();
     assert!(svg.contains(">actual<") && svg.contains(">simple<") && !svg.contains(">unseen<"));
-    let page = side_by_side_html(&report);
-    assert!(page.contains("That is all.") && page.contains("<h2>Spectrum</h2>"));
+    let page = study_html(&report);
+    assert!(page.contains("That is all.") && page.contains("<h2>Plots</h2>"));
 }
 
 #[test]
 fn regress_an_overlay_is_read_out_with_the_names_of_its_runs() {
     let mut report = overlaid(Vertical::FromZero, vec![1.0, 2.0, f64::NAN, 4.0]);
-    let page = side_by_side_html(&report);
+    let page = study_html(&report);
     for part in
         ["data-plot=\"spectrum\"", "data-chart=\"spectrum\"", "\"name\":\"actual\"", "\"name\":\"simple\",\"places\":"]
     {
         assert!(page.contains(part), "{part}");
     }
     // Places that go back and forth are no axis: such a plot is drawn, and not read out.
-    let Piece::Overlay(overlay) = &mut report.parts[0].pieces[0] else {
+    let StudyPiece::Curves(overlay, _) = &mut report.chapters[0].pieces[0] else {
         unreachable!("the sample begins with an overlay");
     };
     overlay.curves[1].along = Along::At(vec![0.0, 2.0, 1.0, 3.0]);
-    assert!(!side_by_side_html(&report).contains("data-chart="));
+    assert!(!study_html(&report).contains("data-chart="));
 }
 
 #[test]
 fn regress_two_keys_make_a_map_and_the_page_begins_with_the_ends() {
-    let report = SweepReport {
-        plots: vec![plot(vec![point(1000.0, 3.0, None), point(2000.0, 5.0, None)], &[])],
-        maps: vec![HeatMap {
-            name: "map".into(),
-            label: "RMS <of>".into(),
-            x_names: vec!["1000".into(), "2000".into()],
-            y_names: vec!["5".into()],
-            values: vec![3.0, 5.0],
-            ..HeatMap::default()
-        }],
-        ..SweepReport::default()
+    let plots = [plot(vec![point(1000.0, 3.0, None), point(2000.0, 5.0, None)], &[])];
+    let map = HeatMap {
+        name: "map".into(),
+        label: "RMS <of>".into(),
+        x_names: vec!["1000".into(), "2000".into()],
+        y_names: vec!["5".into()],
+        values: vec![3.0, 5.0],
+        ..HeatMap::default()
     };
-    let page = sweep_html(&report);
+    let report = Study { lead: sweep_lead(&plots), ..study(vec![StudyPiece::Map(map)]) };
+    let page = study_html(&report);
     for part in [
         "RMS of sensor_ax: from 3 m/s² (operation.speed_rpm = 1000) to 5 m/s² (operation.speed_rpm = 2000).",
-        "Over both keys",
         "RMS &lt;of&gt;",
         "data-name=\"map\"",
     ] {
@@ -150,7 +151,7 @@ fn regress_two_keys_make_a_map_and_the_page_begins_with_the_ends() {
 fn prop_odd_curves_make_a_page() {
     for vertical in [Vertical::Around, Vertical::FromZero, Vertical::Decades] {
         for values in [vec![], vec![f64::NAN; 3], vec![f64::INFINITY, -1e308, 1e308], vec![0.0; 4]] {
-            let page = side_by_side_html(&overlaid(vertical, values));
+            let page = study_html(&overlaid(vertical, values));
             assert!(page.ends_with("</html>\n") && !page.contains("NaN"));
         }
     }

@@ -115,7 +115,7 @@ fn shown(curve: &OverlaidCurve, (lo, hi): (f64, f64)) -> Vec<f64> {
 }
 
 /// The plot; `names` are those of the runs.
-pub fn overlay(overlay: &Overlay, names: &[String], layout: Layout) -> Picture {
+pub(crate) fn overlay(overlay: &Overlay, names: &[String], layout: Layout) -> Picture {
     let height = if layout.roomy() { 330.0 } else { 290.0 };
     plot(overlay, names, layout, height, None)
 }

@@ -6,15 +6,15 @@ use crate::embedded::{self, Curve};
 use crate::layout::Layout;
 use crate::picture::{Paint, Picture, Shape, ink};
 
-/// A run as the pictures show it.
+/// A run as the picture of a key shows it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Tried {
-    /// Value of each key.
-    pub values: Vec<f64>,
+    /// Value of the key.
+    pub value: f64,
     /// Sum of squares of the residuals; not finite where the run failed.
     pub chi_square: f64,
-    /// Whether it lies on the line through the best run along this key alone, for each key.
-    pub alone: Vec<bool>,
+    /// Whether it differs from the best run in this key alone.
+    pub alone: bool,
 }
 
 /// A key that was fitted.
@@ -38,8 +38,8 @@ pub struct FittedKey {
 const DECADES: f64 = 6.0;
 
 /// The misfit's axis: from below the best up, in decades; a floor, as a perfect fit has no logarithm.
-fn misfits(tried: &[Tried]) -> (Domain, f64) {
-    let finite = tried.iter().map(|t| t.chi_square).filter(|c| c.is_finite());
+fn misfits(chi_squares: impl Iterator<Item = f64> + Clone) -> (Domain, f64) {
+    let finite = chi_squares.filter(|c| c.is_finite());
     let lowest = finite.clone().fold(f64::INFINITY, f64::min);
     let highest = finite.fold(0.0, f64::max);
     if !lowest.is_finite() {
@@ -64,8 +64,8 @@ fn dot(chart: &mut Chart, x: f64, y: f64, filled: bool) {
     chart.picture.shapes.push(Shape::Circle { x: chart.x.at(x), y: chart.y.at(y), r: 3.2, paint });
 }
 
-/// Sum of squares against the key with this index.
-pub(super) fn key_plot((key, about): (usize, &FittedKey), tried: &[Tried], layout: Layout) -> Picture {
+/// Sum of squares against a key.
+pub(crate) fn key_plot(about: &FittedKey, tried: &[Tried], layout: Layout) -> Picture {
     let (low, high) = about.bounds;
     let x = if about.log {
         let room = (high / low).powf(0.02);
@@ -74,7 +74,7 @@ pub(super) fn key_plot((key, about): (usize, &FittedKey), tried: &[Tried], layou
         let room = 0.02 * (high - low);
         Domain::exact(low - room, high + room)
     };
-    let (y, floor) = misfits(tried);
+    let (y, floor) = misfits(tried.iter().map(|run| run.chi_square));
     let name = key_name(about);
     let title = format!("Chi-square over {}", about.name);
     let mut chart = Chart::new(spec(name, title, layout, x, y, (&about.name, &about.unit)));
@@ -88,8 +88,8 @@ pub(super) fn key_plot((key, about): (usize, &FittedKey), tried: &[Tried], layou
     let runs = tried.iter().filter(|t| t.chi_square.is_finite());
     let mut alone: Vec<(f64, f64)> = Vec::new();
     for run in runs {
-        let place = (run.values[key], height(run.chi_square));
-        if run.alone[key] {
+        let place = (run.value, height(run.chi_square));
+        if run.alone {
             alone.push(place);
         } else {
             dot(&mut chart, place.0, place.1, false);
@@ -112,17 +112,16 @@ fn key_name(key: &FittedKey) -> String {
 }
 
 /// What the page's script needs to read the runs over a key.
-pub(super) fn embed_key(page: &mut String, (key, about): (usize, &FittedKey), tried: &[Tried]) {
+pub(crate) fn embed_key(page: &mut String, about: &FittedKey, tried: &[Tried]) {
     let place = |x: f64| if about.log { x.log10() } else { x };
-    let runs = tried.iter().map(|run| (place(run.values[key]), run.chi_square));
+    let runs = tried.iter().map(|run| (place(run.value), run.chi_square));
     let x = (about.name.as_str(), about.unit.as_str());
     embed(page, &key_name(about), x, about.log, runs.collect());
 }
 
 /// The same of the runs in their order.
-pub(super) fn embed_course(page: &mut String, tried: &[Tried]) {
-    let runs = tried.iter().enumerate();
-    let runs = runs.map(|(k, run)| ((k + 1) as f64, run.chi_square));
+pub(crate) fn embed_course(page: &mut String, chi_squares: &[f64]) {
+    let runs = chi_squares.iter().enumerate().map(|(k, chi_square)| ((k + 1) as f64, *chi_square));
     embed(page, "course", ("Run", ""), false, runs.collect());
 }
 
@@ -142,22 +141,22 @@ fn embed(page: &mut String, name: &str, x: (&str, &str), x_log: bool, mut runs: 
 }
 
 /// Sum of squares of each run in its order, and the best so far.
-pub(super) fn course_plot(tried: &[Tried], layout: Layout) -> Picture {
-    let count = tried.len().max(1) as f64;
-    let (y, floor) = misfits(tried);
+pub(crate) fn course_plot(chi_squares: &[f64], layout: Layout) -> Picture {
+    let count = chi_squares.len().max(1) as f64;
+    let (y, floor) = misfits(chi_squares.iter().copied());
     let title = "Chi-square over the runs".to_owned();
     let x = Domain::exact(0.0, count + 1.0);
     let mut chart = Chart::new(spec("course".into(), title, layout, x, y, ("Run", "")));
     let mut line: Vec<(f64, f64)> = Vec::new();
     let mut least = f64::INFINITY;
-    for (k, run) in tried.iter().enumerate() {
-        least = least.min(run.chi_square);
+    for (k, &chi_square) in chi_squares.iter().enumerate() {
+        least = least.min(chi_square);
         let x = (k + 1) as f64;
         if least.is_finite() {
             line.push((x, least.clamp(floor, y.hi)));
         }
-        if run.chi_square.is_finite() {
-            dot(&mut chart, x, run.chi_square.clamp(floor, y.hi), false);
+        if chi_square.is_finite() {
+            dot(&mut chart, x, chi_square.clamp(floor, y.hi), false);
         }
     }
     let (xs, ys): (Vec<f64>, Vec<f64>) = line.into_iter().unzip();
