@@ -64,7 +64,7 @@ pub(crate) struct RunArgs {
     pub(crate) print: Print,
     /// Also write line_loads.csv: the load along every loaded roller, slice by slice, at the samples next to these
     /// instants (s); of scenarios with simulation.model = "tilting" or a bearing.profile
-    #[arg(long, value_delimiter = ',', value_name = "T", allow_negative_numbers = true)]
+    #[arg(long, value_delimiter = ',', value_name = "T")]
     pub(crate) line_loads: Vec<f64>,
     /// Skip report.html
     #[arg(long)]
@@ -155,12 +155,7 @@ pub(crate) struct FrequenciesArgs {
     )]
     pub(crate) name: Option<String>,
     /// Shaft speed [default: the scenario's, or 60 r/min so that Hz are orders]
-    #[arg(
-        long,
-        value_parser = quantity("r/min", "a speed in r/min other than 0, as 1500 or 25Hz"),
-        value_name = "RPM",
-        allow_negative_numbers = true
-    )]
+    #[arg(long, value_parser = quantity("r/min", "a speed in r/min other than 0, as 1500 or 25Hz"), value_name = "RPM")]
     pub(crate) speed: Option<f64>,
     #[command(flatten)]
     pub(crate) elements: Elements,
@@ -180,8 +175,7 @@ pub(crate) struct Elements {
         long,
         value_parser = quantity("mm", "more than 0 mm, as 39 or 1.5in"),
         value_name = "MM",
-        conflicts_with = "bearing",
-        allow_negative_numbers = true
+        conflicts_with = "bearing"
     )]
     pub(crate) pitch: Option<f64>,
     /// Diameter of a rolling element
@@ -190,8 +184,7 @@ pub(crate) struct Elements {
         alias = "roller",
         value_parser = quantity("mm", "more than 0 mm, as 7.9 or 0.3in"),
         value_name = "MM",
-        conflicts_with = "bearing",
-        allow_negative_numbers = true
+        conflicts_with = "bearing"
     )]
     pub(crate) diameter: Option<f64>,
     /// Contact angle
@@ -199,8 +192,7 @@ pub(crate) struct Elements {
         long,
         value_parser = quantity("deg", "0 to below 90 degrees, as 15 or 15deg"),
         value_name = "DEG",
-        conflicts_with = "bearing",
-        allow_negative_numbers = true
+        conflicts_with = "bearing"
     )]
     pub(crate) contact_angle: Option<f64>,
 }
@@ -273,7 +265,7 @@ pub(crate) struct PreviewArgs {
     #[arg(long)]
     pub(crate) overwrite: bool,
     /// Thickness of the ring for its section properties [default: 0.6 of the roller's diameter, an assumption]
-    #[arg(long, value_name = "MM", allow_negative_numbers = true)]
+    #[arg(long, value_name = "MM")]
     pub(crate) ring_thickness_mm: Option<f64>,
     /// Print preview.json, and no words
     #[arg(long)]
@@ -307,11 +299,11 @@ pub(crate) struct ConvertArgs {
     #[arg(long, value_name = "N", default_value_t = 113)]
     pub(crate) points: usize,
     /// Outline of a depth map: what is deeper than this [default: the depth at which it encloses the damaged area]
-    #[arg(long, value_name = "UM", allow_negative_numbers = true)]
+    #[arg(long, value_name = "UM")]
     pub(crate) level_um: Option<f64>,
     /// Outline of a depth map: corners closer than this to the line are left out [default: a tenth of the map's finer
     /// step]
-    #[arg(long, value_name = "MM", allow_negative_numbers = true)]
+    #[arg(long, value_name = "MM")]
     pub(crate) tolerance_mm: Option<f64>,
 }
 
@@ -382,16 +374,16 @@ pub(crate) struct RandomArgs {
     #[arg(long, allow_negative_numbers = true)]
     pub(crate) seed: u64,
     /// Extent along the rolling direction
-    #[arg(long, value_name = "MM", allow_negative_numbers = true)]
+    #[arg(long, value_name = "MM")]
     pub(crate) length_mm: f64,
     /// Extent along the roller's axis
-    #[arg(long, value_name = "MM", allow_negative_numbers = true)]
+    #[arg(long, value_name = "MM")]
     pub(crate) width_mm: f64,
     /// 0: an ellipse of even depth; 1: as ragged and uneven as it gets
-    #[arg(long, default_value_t = 0.5, allow_negative_numbers = true)]
+    #[arg(long, default_value_t = 0.5)]
     pub(crate) roughness: f64,
     /// Mean depth
-    #[arg(long, value_name = "UM", default_value_t = 20.0, allow_negative_numbers = true)]
+    #[arg(long, value_name = "UM", default_value_t = 20.0)]
     pub(crate) depth_um: f64,
 }
 

@@ -2,6 +2,7 @@
 
 use crate::args::{BearingCommand, CheckArgs, DefectCommand, FrequenciesArgs, RunArgs, SchemaArgs};
 use clap::{Parser, Subcommand};
+use std::any::TypeId;
 
 /// Vibration of rolling bearings with real damage, from first principles.
 ///
@@ -12,6 +13,7 @@ use clap::{Parser, Subcommand};
     name = "brinell",
     version,
     long_version = crate::version::long(),
+    mut_subcommands = with_negative_numbers,
     after_help = "First steps:\n  \
         brinell init bearing.toml           write a scenario to edit\n  \
         brinell check bearing.toml          see what it means before it runs\n  \
@@ -23,6 +25,16 @@ use clap::{Parser, Subcommand};
 pub(crate) struct Cli {
     #[command(subcommand)]
     pub(crate) command: Command,
+}
+
+/// Where a number is expected, `-1` is a number and not an unknown option. The check of its range then says what is
+/// allowed.
+fn with_negative_numbers(command: clap::Command) -> clap::Command {
+    let command = command.mut_args(|arg| match arg.get_value_parser().type_id() == TypeId::of::<f64>() {
+        true => arg.allow_negative_numbers(true),
+        false => arg,
+    });
+    command.mut_subcommands(with_negative_numbers)
 }
 
 /// What to do.

@@ -2,6 +2,7 @@
 
 use crate::failure::Failure;
 use crate::files::make_folder;
+use brinell::document::reading::quantity;
 use brinell_io::{Cells, Column, Complete, Table, atomic_prepare};
 use brinell_report::{CurveTable, Layout, Picture};
 use clap::ValueEnum;
@@ -55,16 +56,11 @@ impl FromStr for Width {
     type Err = String;
 
     fn from_str(text: &str) -> Result<Self, String> {
-        const UNITS: [(&str, f64); 3] = [("mm", 1.0), ("cm", 10.0), ("in", 25.4)];
         let (least, most) = (Layout::WIDTHS_MM.start(), Layout::WIDTHS_MM.end());
-        let known = UNITS.into_iter().find_map(|(unit, mm)| {
-            let number = text.trim().strip_suffix(unit)?.trim_end();
-            Some(mm * number.parse::<f64>().ok()?)
-        });
-        match known {
-            Some(mm) if Layout::WIDTHS_MM.contains(&mm) => Ok(Self(mm)),
-            Some(_) => Err(format!("expected {least} to {most} mm")),
-            None => Err(format!("expected a number with its unit, mm, cm or in, of {least} to {most} mm: 90mm")),
+        match quantity(text, "mm") {
+            Ok(mm) if Layout::WIDTHS_MM.contains(&mm) => Ok(Self(mm)),
+            Ok(_) => Err(format!("expected {least} to {most} mm")),
+            Err(_) => Err(format!("expected a number with its unit, mm, cm or in, of {least} to {most} mm: 90mm")),
         }
     }
 }

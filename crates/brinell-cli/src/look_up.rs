@@ -7,7 +7,6 @@ use crate::say::{self, document, plain_number, say};
 use brinell::analysis::{DefectOrders, NamedBearing};
 use brinell::bearing::catalogue::{self, BORE, DYNAMIC_RATING, Datum, Entry, FACTS, STATIC_RATING};
 use brinell::bearing::clearance::ClearanceClass;
-use brinell::bearing::kinematics::Geometry;
 use brinell::bearing::{KnownBearing, clearance_of, frequencies_of, orders_of};
 use brinell::scenario::Element;
 use serde_json::{Value, json};
@@ -249,7 +248,7 @@ fn orders(args: &FrequenciesArgs) -> Result<(DefectOrders, Option<f64>), Failure
     if KnownBearing::find(bearing).is_none() && (path.exists() || written_as_a_file) {
         let loaded = files::scenario(&path, &[], true)?;
         let scenario = &loaded.scenario;
-        return Ok((orders_of(&Geometry::of(&scenario.bearing)), scenario.operation.speed_rpm.constant()));
+        return Ok((orders_of(&scenario.bearing), scenario.operation.speed_rpm.constant()));
     }
     known(bearing)
 }

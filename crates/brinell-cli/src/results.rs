@@ -27,19 +27,19 @@ pub(crate) const REPORT: &str = "report.html";
 pub(crate) const ANALYSIS: &str = "analysis.json";
 pub(crate) const COMPARISON: &str = "compare.json";
 pub(crate) const PREVIEW: &str = "preview.json";
-const PREVIEWED: [&str; 5] = [PREVIEW, "damage-*.svg", "damage-*.png", "damage-*.pdf", "damage-*.csv"];
 
-/// Whose results.
+/// Whose results, and what they are.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Results {
-    Run,
-    Analysis,
-    Comparison,
-    Preview,
-    Sweep,
-    Calibration,
-    Reproduction,
-    DataSet,
+pub(crate) struct Results {
+    /// The command, as it is typed after `brinell`. A journal calls its campaign so too.
+    name: &'static str,
+    /// What the results are of.
+    subject: &'static str,
+    /// Files that it may leave, by their names below the folder; `*` represents whatever has no `/`. The first lists
+    /// the results, with brinell's version.
+    own: &'static [&'static str],
+    /// Whether it draws curves too.
+    pictures: bool,
 }
 
 /// The pages that commands leave in their folders, by their names.
@@ -48,106 +48,76 @@ pub(crate) fn pages() -> impl Iterator<Item = &'static str> {
     pages.into_iter().filter(|name| name.ends_with(".html")).rev()
 }
 
+const fn of(name: &'static str, own: &'static [&'static str], pictures: bool) -> Results {
+    Results { name, subject: "scenario", own, pictures }
+}
+
 impl Results {
+    pub(crate) const RUN: Self = of("run", &[SUMMARY, SCENARIO, REPORT, "spectra.parquet"], true);
+    pub(crate) const ANALYSIS: Self = Self { subject: "signal", ..of("analyze", &[ANALYSIS, REPORT], true) };
+    pub(crate) const COMPARISON: Self = Self {
+        subject: "set of scenarios",
+        ..of("compare", &[COMPARISON, "compare.csv", "compare.parquet", "compare.html", "scenarios/*.toml"], true)
+    };
+    pub(crate) const PREVIEW: Self =
+        of("defect preview", &[PREVIEW, "damage-*.svg", "damage-*.png", "damage-*.pdf", "damage-*.csv"], false);
+    pub(crate) const SWEEP: Self =
+        of("sweep", &["sweep.json", JOURNAL, "sweep.csv", "sweep.parquet", "sweep.html", "signals/*.parquet"], true);
+    pub(crate) const CALIBRATION: Self =
+        of("calibrate", &["calibrate.json", JOURNAL, "calibrate.csv", "calibrate.html", "best.toml"], false);
+    pub(crate) const REPRODUCTION: Self =
+        of("reproduce", &["claims.json", JOURNAL, "claims.csv", "reproduce.html", "curves/*"], true);
+    pub(crate) const DATA_SET: Self = of(
+        "dataset",
+        &[
+            "dataset.json",
+            "croissant.json",
+            "README.md",
+            "runs/part-*",
+            "held_out/part-*",
+            "held_out/_plan.json",
+            "work/campaign.json",
+            "work/part-*",
+        ],
+        false,
+    );
     const ALL: [Self; 8] = [
-        Self::Run,
-        Self::Analysis,
-        Self::Comparison,
-        Self::Preview,
-        Self::Sweep,
-        Self::Calibration,
-        Self::Reproduction,
-        Self::DataSet,
+        Self::RUN,
+        Self::ANALYSIS,
+        Self::COMPARISON,
+        Self::PREVIEW,
+        Self::SWEEP,
+        Self::CALIBRATION,
+        Self::REPRODUCTION,
+        Self::DATA_SET,
     ];
 
     /// The command, as it is typed.
-    fn command(self) -> &'static str {
-        match self {
-            Self::Run => "brinell run",
-            Self::Analysis => "brinell analyze",
-            Self::Comparison => "brinell compare",
-            Self::Preview => "brinell defect preview",
-            Self::Sweep => "brinell sweep",
-            Self::Calibration => "brinell calibrate",
-            Self::Reproduction => "brinell reproduce",
-            Self::DataSet => "brinell dataset",
-        }
+    fn command(self) -> String {
+        format!("brinell {}", self.name)
     }
 
-    /// What the results are of.
-    fn subject(self) -> &'static str {
-        match self {
-            Self::Analysis => "signal",
-            Self::Comparison => "set of scenarios",
-            _ => "scenario",
-        }
-    }
-
-    /// The file that lists the results, with brinell's version.
     fn tells(self) -> &'static str {
-        match self {
-            Self::Run => SUMMARY,
-            Self::Analysis => ANALYSIS,
-            Self::Comparison => COMPARISON,
-            Self::Preview => PREVIEW,
-            Self::Sweep => "sweep.json",
-            Self::Calibration => "calibrate.json",
-            Self::Reproduction => "claims.json",
-            Self::DataSet => "dataset.json",
-        }
+        self.own[0]
     }
 
-    /// Name of the campaign in the journal of those that resume.
+    /// Name of the campaign in the journal, which those that resume a campaign keep.
     fn campaign(self) -> Option<&'static str> {
-        match self {
-            Self::Sweep => Some("sweep"),
-            Self::Calibration => Some("calibrate"),
-            Self::Reproduction => Some("reproduce"),
-            _ => None,
-        }
+        self.own.contains(&JOURNAL).then_some(self.name)
     }
 
     /// Whether finished runs lie there, hours of work.
     fn resumes(self) -> bool {
-        self.campaign().is_some() || self == Self::DataSet
+        self.campaign().is_some() || self == Self::DATA_SET
     }
 
-    /// Files that it may leave, by their names below the folder; `*` represents whatever has no `/`.
     fn files(self) -> Vec<&'static str> {
-        const PICTURES: [&str; 4] = ["plots/*.svg", "plots/*.png", "plots/*.pdf", "curves/*.csv"];
-        let (own, pictures): (&[&str], _) = match self {
-            Self::Run => (&[SCENARIO, SUMMARY, REPORT], true),
-            Self::Analysis => (&[ANALYSIS, REPORT], true),
-            Self::Comparison => {
-                (&[COMPARISON, "compare.csv", "compare.parquet", "compare.html", "scenarios/*.toml"], true)
-            }
-            Self::Preview => (&PREVIEWED, false),
-            Self::Sweep => {
-                (&[JOURNAL, "sweep.json", "sweep.csv", "sweep.parquet", "sweep.html", "signals/*.parquet"], true)
-            }
-            Self::Calibration => (&[JOURNAL, "calibrate.json", "calibrate.csv", "calibrate.html", "best.toml"], false),
-            Self::Reproduction => (&[JOURNAL, "claims.json", "claims.csv", "reproduce.html", "curves/*"], true),
-            Self::DataSet => (
-                &[
-                    "dataset.json",
-                    "croissant.json",
-                    "README.md",
-                    "runs/part-*",
-                    "held_out/part-*",
-                    "held_out/_plan.json",
-                    "work/campaign.json",
-                    "work/part-*",
-                ],
-                false,
-            ),
-        };
-        let mut all = own.to_vec();
-        if self == Self::Run {
+        let mut all = self.own.to_vec();
+        if self == Self::RUN {
             all.extend(Format::ALL.into_iter().map(Format::file_name));
-            all.push("spectra.parquet");
         }
-        if pictures {
-            all.extend(PICTURES);
+        if self.pictures {
+            all.extend(["plots/*.svg", "plots/*.png", "plots/*.pdf", "curves/*.csv"]);
         }
         all
     }
@@ -167,7 +137,7 @@ impl Results {
         let text = File::open(folder.join(self.tells())).and_then(read_text);
         let previous = serde_json::from_slice::<Value>(&text.unwrap_or_default());
         let previous = previous.unwrap_or_default();
-        let version = if self == Self::Preview { "version" } else { "brinell" };
+        let version = if self == Self::PREVIEW { "version" } else { "brinell" };
         match previous[version].is_string() {
             true => previous,
             false => Value::Null,
@@ -178,7 +148,7 @@ impl Results {
     fn is_in(self, folder: &Path) -> bool {
         let begun = match self.campaign() {
             Some(campaign) => journal_of(folder).is_some_and(|kind| kind == campaign),
-            None => self == Self::DataSet && folder.join("work/campaign.json").exists(),
+            None => self == Self::DATA_SET && folder.join("work/campaign.json").exists(),
         };
         begun || !self.previous(folder).is_null()
     }
@@ -324,7 +294,7 @@ impl Place<'_> {
         if replaced && !overwrite && !same(&kind.previous(folder)) {
             return Err(Failure::Usage(format!(
                 "{at} holds results of another {} ({}); choose another folder with -o, or replace them with --overwrite",
-                kind.subject(),
+                kind.subject,
                 there.join(", ")
             )));
         }

@@ -76,7 +76,7 @@ pub(crate) fn chapter(
     drawn.figures(first, &cases, plan);
     if first == 20 {
         drawn.names = (cases.iter()).map(|case| with_rms(case, "sensor_ax.rms", numbers)).collect();
-        drawn.stack("fig20-waveform", CurveKind::Waveform, &panels(false), true, "");
+        drawn.stack("fig20-waveform", CurveKind::WAVEFORM, &panels(false), true, "");
         drawn.pieces.extend(from_start(&starts, numbers, &curves));
     }
     let mut pieces = drawn.pieces;
@@ -115,7 +115,7 @@ fn from_start(starts: &[&Case], numbers: &Numbers, curves: &impl Fn(&str) -> Opt
     };
     let words = "If the paper’s Figs. 14a, 16 and 20 look like this, bursts that decay from t = 0, its RMS contains the start-up; \
              bursts of equal height all along refute it. RMS over 0 to 0.285 s.";
-    drawn.stack("fig20-start", CurveKind::Start, &panels(true), true, words);
+    drawn.stack("fig20-start", CurveKind::START, &panels(true), true, words);
     drawn.pieces
 }
 
@@ -165,11 +165,16 @@ impl Drawn {
                 for case in cases {
                     self.plan(&format!("fig08-{}", case.id), case, None, plan);
                 }
-                self.stack("fig09-length", CurveKind::Length, &one_by_one(cases), true, "");
+                self.stack("fig09-length", CurveKind::LENGTH, &one_by_one(cases), true, "");
             }
             10..=12 => {
-                for kind in [CurveKind::Spectrum, CurveKind::Envelope, CurveKind::Waveform, CurveKind::Impact] {
-                    self.together(&format!("fig{first}-{}", kind.file()), kind, &every);
+                for (what, kind) in [
+                    ("spectrum", CurveKind::SPECTRUM),
+                    ("envelope", CurveKind::ENVELOPE),
+                    ("waveform", CurveKind::WAVEFORM),
+                    ("impact", CurveKind::IMPACT),
+                ] {
+                    self.together(&format!("fig{first}-{what}"), kind, &every);
                 }
                 if first == 12 {
                     self.around("section3-around");
@@ -180,14 +185,14 @@ impl Drawn {
                     self.plan("fig13-plan", irregular, Some(simplified), plan);
                 }
                 let own = "Each plot has its own scale: in one, the simplified shape would hide the irregular one.";
-                self.stack("fig14-waveform", CurveKind::Waveform, &one_by_one(cases), false, own);
-                self.together("fig14-stiffness", CurveKind::Stiffness, &every);
-                self.stack("fig14-entry", CurveKind::Entry, &one_by_one(cases), false, own);
-                self.stack("fig14-exit", CurveKind::Exit, &one_by_one(cases), false, own);
+                self.stack("fig14-waveform", CurveKind::WAVEFORM, &one_by_one(cases), false, own);
+                self.together("fig14-stiffness", CurveKind::STIFFNESS, &every);
+                self.stack("fig14-entry", CurveKind::ENTRY, &one_by_one(cases), false, own);
+                self.stack("fig14-exit", CurveKind::EXIT, &one_by_one(cases), false, own);
             }
             15 => {
-                self.together("fig15-length", CurveKind::Length, &every);
-                self.stack("fig16-waveform", CurveKind::Waveform, &one_by_one(cases), true, "One scale for all.");
+                self.together("fig15-length", CurveKind::LENGTH, &every);
+                self.stack("fig16-waveform", CurveKind::WAVEFORM, &one_by_one(cases), true, "One scale for all.");
             }
             _ => {}
         }
@@ -199,12 +204,12 @@ impl Drawn {
     }
 
     fn missing(&mut self, kind: CurveKind) {
-        self.pieces.push(StudyPiece::Words(format!("{}: not computed.", kind.title())));
+        self.pieces.push(StudyPiece::Words(format!("{}: not computed.", kind.title)));
     }
 
     /// Curves in one plot.
     fn together(&mut self, name: &str, kind: CurveKind, places: &[usize]) {
-        match kind.overlay(name, kind.title(), &self.some(places)) {
+        match kind.overlay(name, kind.title, &self.some(places)) {
             Some(overlay) => {
                 let names = self.names.clone();
                 self.pieces.push(StudyPiece::Curves(overlay, names));
@@ -217,7 +222,7 @@ impl Drawn {
     fn stack(&mut self, name: &str, kind: CurveKind, panels: &[(String, Vec<usize>)], alike: bool, more: &str) {
         let plots = panels.iter().filter_map(|(title, places)| kind.overlay(name, title, &self.some(places)));
         let plots = plots.collect();
-        self.below(name, kind.title().into(), kind, plots, alike, more);
+        self.below(name, kind.title.into(), kind, plots, alike, more);
     }
 
     /// These plots one below the other, under the note of `kind`.
@@ -225,18 +230,18 @@ impl Drawn {
         if panels.is_empty() {
             return self.missing(kind);
         }
-        let note = format!("{} {more}", kind.note()).trim().into();
+        let note = format!("{} {more}", kind.note).trim().into();
         let names = self.names.clone();
         self.pieces.push(StudyPiece::Stack(Stack { name: name.into(), title, panels, names, alike, note }));
     }
 
     /// Load, cage forces and spin around the bearing, of the first case.
     fn around(&mut self, name: &str) {
-        let kinds = [CurveKind::Load, CurveKind::Pocket, CurveKind::Spin];
-        let plots = kinds.iter().filter_map(|kind| kind.overlay(name, kind.title(), &self.some(&[0])));
+        let kinds = [CurveKind::LOAD, CurveKind::POCKET, CurveKind::SPIN];
+        let plots = kinds.iter().filter_map(|kind| kind.overlay(name, kind.title, &self.some(&[0])));
         let plots = plots.collect();
         let title = format!("Around the bearing (section 3): {}", self.names[0]);
-        self.below(name, title, CurveKind::Pocket, plots, false, "Rollers go from left to right.");
+        self.below(name, title, CurveKind::POCKET, plots, false, "Rollers go from left to right.");
     }
 
     /// A case's defect from above, another's around it.

@@ -40,8 +40,7 @@ impl Outcome {
 
     /// "supports (outer ring on 1e5 N/m: does not hold); ...": what turns it.
     pub(crate) fn depends(&self) -> String {
-        let one =
-            |flip: &Flip| format!("{} ({}: {})", flip.variant.aspect.words(), flip.variant.words, flip.verdict.words());
+        let one = |flip: &Flip| format!("{} ({}: {})", flip.variant.about, flip.variant.words, flip.verdict.words());
         self.flips.iter().map(one).collect::<Vec<_>>().join("; ")
     }
 }
@@ -134,7 +133,7 @@ fn claim_json(outcome: &Outcome) -> Value {
         })
         .collect();
     let flips = outcome.flips.iter().map(|f| {
-        json!({ "assumption": f.variant.id, "about": f.variant.aspect.words(), "is": f.variant.words, "verdict": f.verdict.words() })
+        json!({ "assumption": f.variant.id, "about": f.variant.about, "is": f.variant.words, "verdict": f.verdict.words() })
     });
     json!({
         "id": outcome.claim.id, "place": outcome.claim.place, "sentence": outcome.claim.sentence, "paper": outcome.claim.paper,

@@ -4,7 +4,6 @@ use crate::bad_value::bad_value;
 use crate::convert::{array, json_to_python};
 use crate::errors::run_error;
 use crate::scenario::Scenario;
-use brinell::bearing::kinematics::Geometry;
 use brinell::bearing::{KnownBearing, frequencies_of, orders_of};
 use brinell::derived::Derived;
 use brinell::model::Model;
@@ -64,7 +63,7 @@ pub(crate) fn frequencies<'py>(
         }
         (None, Some(scenario)) => {
             let scenario = &scenario.loaded.scenario;
-            (orders_of(&Geometry::of(&scenario.bearing)), scenario.operation.speed_rpm.constant())
+            (orders_of(&scenario.bearing), scenario.operation.speed_rpm.constant())
         }
         (None, None) => return Err(bad_value("which bearing? Give a name or a scenario")),
     };

@@ -6,7 +6,6 @@ use crate::errors::SignalError;
 use brinell::analysis::{
     Analysis, DefectOrders, Levels, MachineClass, Options, Quantity, SUPPLY_HZ, Sensitivity, Unit, to_json, velocity,
 };
-use brinell::bearing::kinematics::Geometry;
 use brinell::bearing::{KnownBearing, orders_of};
 use brinell::result::{Stretch, beside_healthy};
 use brinell::signal::{self, Band, Blocks, Detrend, Indicator, Segments, Spectrum, VelocityBands, Window};
@@ -206,7 +205,7 @@ fn orders(
         (None, Some(scenario)) => {
             let scenario = &scenario.loaded.scenario;
             let words = format!("that of the scenario {}", scenario.name);
-            (orders_of(&Geometry::of(&scenario.bearing)), words)
+            (orders_of(&scenario.bearing), words)
         }
         (None, None) => (DefectOrders::default(), String::new()),
     };
@@ -333,7 +332,7 @@ pub(crate) fn analyze<'py>(
     options.exact = simulated;
     if simulated {
         let own = scenario.and_then(|s| s.loaded.scenario.sensor.noise_rms());
-        options.silent = unit.missing_noise(own.unwrap_or(0.0));
+        options.silent = unit.missing_noise(own);
     }
     options.band = band_hz.map(|(low, high)| Band::between(low, high));
     let (analysis, bands) = py.detach(|| {

@@ -17,9 +17,6 @@ pub struct Spectrogram {
     pub bins: usize,
     /// Power spectral density, one-sided, unit^2/Hz: frame after frame, `bins` values each.
     pub density: Vec<f64>,
-    /// Factor from a density to the square of a sine's peak amplitude at an inner bin, Hz: twice the equivalent noise
-    /// bandwidth.
-    pub square_amplitude_per_density: f64,
 }
 
 impl Spectrogram {
@@ -45,7 +42,6 @@ impl Spectrogram {
 pub fn spectrogram(x: &[f64], fs: f64, segments: &Segments) -> Result<Spectrogram, SignalError> {
     let (length, step) = segments.plan(x, fs)?;
     let mut transform = SegmentTransform::new(segments.window.periodic(length));
-    let sum: f64 = transform.window.iter().sum();
     let energy: f64 = transform.window.iter().map(|w| w * w).sum();
     let bins = transform.output.len();
     let mut density = Vec::with_capacity(bins * ((x.len() - length) / step + 1));
@@ -63,7 +59,6 @@ pub fn spectrogram(x: &[f64], fs: f64, segments: &Segments) -> Result<Spectrogra
         time_step: step as f64 / fs,
         bins,
         density,
-        square_amplitude_per_density: 2.0 * fs * energy / (sum * sum),
     })
 }
 
@@ -85,6 +80,7 @@ mod tests {
             (0..8000).map(|i| i as f64 / FS).map(|t| 2.0 * (TAU * (500.0 * t + 1000.0 * t * t)).cos()).collect();
         let options = Segments { window: Window::FlatTop, ..Segments::of(256) };
         let s = spectrogram(&x, FS, &options).unwrap();
+        let bandwidth = psd(&x, FS, &options).unwrap().noise_bandwidth;
         assert_eq!((s.frames(), s.bins), (61, 129));
         for i in 0..s.frames() {
             let frame = s.frame(i);
@@ -92,7 +88,7 @@ mod tests {
             let t = s.first_time + i as f64 * s.time_step;
             let f = 500.0 + 2000.0 * t;
             assert!((top as f64 * s.frequency_step - f).abs() < 1.5 * s.frequency_step);
-            let amplitude = (frame[top] * s.square_amplitude_per_density).sqrt();
+            let amplitude = (2.0 * bandwidth * frame[top]).sqrt();
             assert!((amplitude - 2.0).abs() < 0.05, "{amplitude}");
         }
     }

@@ -9,17 +9,6 @@ pub(crate) fn cosine(n: usize, fs: f64, f: f64, amplitude: f64, phase: f64) -> V
     (0..n).map(|i| amplitude * (TAU * f * i as f64 / fs + phase).cos()).collect()
 }
 
-/// ((7 i^2 + 3 i) mod 101) / 50 - 1, with 3 added every 37th sample: a sequence that other programs make exactly,
-/// for comparison with them.
-pub(crate) fn integer_sequence(n: usize) -> Vec<f64> {
-    (0..n)
-        .map(|i| {
-            let spike = if i % 37 == 0 { 3.0 } else { 0.0 };
-            ((7 * i * i + 3 * i) % 101) as f64 / 50.0 - 1.0 + spike
-        })
-        .collect()
-}
-
 /// Impacts at `rate` Hz with independent timing errors of standard deviation `jitter` periods, each ringing a
 /// resonance at `resonance` Hz that decays with time constant `decay` s; unit height, plus white noise.
 pub(crate) struct ImpactTrain {

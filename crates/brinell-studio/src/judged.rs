@@ -4,7 +4,6 @@ use crate::bench::Bench;
 use crate::message::Arrays;
 use crate::report::{Answer, Trouble};
 use brinell::analysis::{Analysis, COLUMNS, DefectOrders, Family, Options, Quantity, Unit, analyze, shown_spectrum};
-use brinell::bearing::kinematics::Geometry;
 use brinell::bearing::{KnownBearing, orders_of};
 use brinell::scenario::Scenario;
 use brinell::signal::{Estimate, Indicator, Moments};
@@ -130,14 +129,14 @@ fn options(request: &Value, run: Option<&Scenario>, unit: &Unit) -> Answer<Optio
     let named = request["bearing"].as_str();
     let own = run.filter(|run| named.is_none() || named == run.bearing.preset.as_deref());
     let orders = match (own, named) {
-        (Some(run), _) => orders_of(&Geometry::of(&run.bearing)),
+        (Some(run), _) => orders_of(&run.bearing),
         (None, None) => DefectOrders::default(),
         (None, Some(name)) => KnownBearing::named(name).and_then(|known| known.orders()).map_err(Trouble::of)?.0,
     };
     let mut options = Options::new(turned / 60.0, orders);
     if let Some(run) = run {
         // Of samples in SI.
-        let missing = unit.missing_noise(run.sensor.noise_rms().unwrap_or(0.0));
+        let missing = unit.missing_noise(run.sensor.noise_rms());
         options.silent = missing.map(|noise| noise * unit.to_si);
         options.exact = own.is_some() && rpm(run) == Some(turned);
     }

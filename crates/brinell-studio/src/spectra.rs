@@ -105,10 +105,9 @@ pub(crate) fn verdict(bench: &Bench) -> Answer<Value> {
     };
     let scenario = &bench.loaded.scenario;
     let x = bench.recording.settled();
-    let mut options = Options::new(shaft, orders_of(&Geometry::of(&scenario.bearing)));
+    let mut options = Options::new(shaft, orders_of(&scenario.bearing));
     options.exact = true;
-    let sensor = &scenario.sensor;
-    options.silent = Unit::of("m/s^2").missing_noise(sensor.noise_rms().unwrap_or(0.0));
+    options.silent = Unit::of("m/s^2").missing_noise(scenario.sensor.noise_rms());
     let mut analysis =
         analyze(&x, bench.simulation().sample_rate(), &options).map_err(|e| Trouble::of(e.to_string()))?;
     // Rollers that enter the load are no damage.

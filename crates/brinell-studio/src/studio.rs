@@ -4,7 +4,6 @@ use crate::bench::Bench;
 use crate::message::{Arrays, Message};
 use crate::report::{Answer, Trouble};
 use crate::{about, damage, differ, judged, pen, spectra, text};
-use brinell::bearing::kinematics::Geometry;
 use brinell::bearing::orders_of;
 use brinell::channel::SENSOR;
 use brinell::plausibility::Beforehand;
@@ -171,7 +170,7 @@ fn opened(bench: &Bench) -> Value {
     let before = Beforehand::of(scenario, model);
     let warnings: Vec<String> = (loaded.warnings.iter().chain(&before.warnings)).map(text::words).collect();
     let assumed = loaded.provenance.iter().filter(|p| p.assumed).map(|p| &p.key);
-    let orders = orders_of(&Geometry::of(&scenario.bearing));
+    let orders = orders_of(&scenario.bearing);
     let load = model.load.full;
     json!({
         "live": bench.live,

@@ -3,7 +3,6 @@
 //!     cargo run --release -p brinell --example diagnose -- examples/inner-race.toml
 
 use brinell::analysis::{MACHINE_NOISE, Options, analyze};
-use brinell::bearing::kinematics::Geometry;
 use brinell::bearing::orders_of;
 use brinell::document;
 use brinell::scenario::Speed;
@@ -25,7 +24,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let fs = signals.rate_hz();
     let settled = (result.findings.from * fs).ceil() as usize;
     let x = signals.get("sensor_ax").ok_or("sensor_ax is not recorded")?;
-    let mut options = Options::new(rpm / 60.0, orders_of(&Geometry::of(&scenario.bearing)));
+    let mut options = Options::new(rpm / 60.0, orders_of(&scenario.bearing));
     options.silent = Some(MACHINE_NOISE);
     options.exact = true;
     let analysis = analyze(&x[settled..], fs, &options)?;

@@ -3,7 +3,6 @@
 use std::ops::ControlFlow;
 
 use brinell::analysis::{Component, MACHINE_NOISE, Options, Verdict, analyze};
-use brinell::bearing::kinematics::Geometry;
 use brinell::bearing::orders_of;
 use brinell::document;
 use brinell::random::Random;
@@ -62,10 +61,9 @@ fn with_noise(x: &[f64], share: f64) -> Vec<f64> {
 /// The damaged surface comes first in the verdict.
 fn found(on: Surface, component: Component) {
     let mut s = damaged(on);
-    let geometry = Geometry::of(&s.bearing);
     let x = run(&mut s);
     // As the command treats runs of brinell's: nothing else turns, and a record of two seconds tells the cage's lines.
-    let options = Options { exact: true, ..Options::new(30.0, orders_of(&geometry)) };
+    let options = Options { exact: true, ..Options::new(30.0, orders_of(&s.bearing)) };
     let analysis = analyze(&with_noise(&x, 0.3), FS, &options).unwrap();
     println!("{on:?}: {}", analysis.verdict());
     let first = analysis.causes().next().map(|f| f.component);
@@ -111,7 +109,7 @@ fn regress_verdicts_on_short_runs_with_and_without_noise() {
                 _ => {}
             }
             s.operation.speed_rpm = Speed::Constant(rpm);
-            let orders = orders_of(&Geometry::of(&s.bearing));
+            let orders = orders_of(&s.bearing);
             // As the command does: after the load's ramp and a turn of the shaft.
             let x = recorded(&mut s, rate, 2.12, 0.02 + 60.0 / rpm);
             for seconds in [0.5, 0.9, 1.0, 2.0] {
@@ -182,7 +180,7 @@ fn regress_verdicts_on_the_examples() {
             s.defects.clear();
         }
         let Speed::Constant(rpm) = s.operation.speed_rpm else { panic!("a speed that varies") };
-        let orders = orders_of(&Geometry::of(&s.bearing));
+        let orders = orders_of(&s.bearing);
         let rate = s.simulation.sample_rate_hz;
         let start = s.operation.load_ramp_s + 60.0 / rpm;
         let x = recorded(&mut s, rate, 2.0, start);
@@ -219,7 +217,7 @@ fn regress_passing_rollers_are_no_damage() {
         let (_, signals) = brinell::record(&s).unwrap();
         let stretch = Stretch { channel: "sensor_ax", from_s: 0.1, to_si: 1.0 };
         let x = &signals.get("sensor_ax").unwrap()[2560..];
-        let orders = orders_of(&Geometry::of(&s.bearing));
+        let orders = orders_of(&s.bearing);
         let options = Options { silent: Some(MACHINE_NOISE), exact: true, ..Options::new(60.0, orders) };
         let mut analysis = analyze(x, 25_600.0, &options).unwrap();
         assert!(analysis.causes().any(|f| f.component == Component::OuterRace), "nothing to judge again");
@@ -240,7 +238,7 @@ fn regress_a_damaged_roller_is_named_alone() {
                 shape = { rectangle = { length_mm = 1.0, width_mm = 4.4 } }\n";
     let s = document::read(text, &[]).unwrap().scenario;
     let (_, signals) = brinell::record(&s).unwrap();
-    let orders = orders_of(&Geometry::of(&s.bearing));
+    let orders = orders_of(&s.bearing);
     for channel in ["sensor_ax", "sensor_ay"] {
         let x = &signals.get(channel).unwrap()[2560..];
         let options = Options { silent: Some(MACHINE_NOISE), exact: true, ..Options::new(50.0, orders) };
@@ -266,7 +264,7 @@ fn regress_an_inner_race_of_balls_is_no_outer_one() {
             );
             let s = document::read(&text, &[]).unwrap().scenario;
             let (_, signals) = brinell::record(&s).unwrap();
-            let orders = orders_of(&Geometry::of(&s.bearing));
+            let orders = orders_of(&s.bearing);
             let options = Options { silent: Some(MACHINE_NOISE), exact: true, ..Options::new(10.0, orders) };
             for channel in ["sensor_ax", "sensor_ay"] {
                 let analysis = analyze(&signals.get(channel).unwrap()[3072..], 25_600.0, &options).unwrap();
@@ -290,7 +288,7 @@ fn regress_the_verdict_on_the_run_up() {
     let path = format!("{}/../../examples/run-up.toml", env!("CARGO_MANIFEST_DIR"));
     let text = std::fs::read_to_string(path).unwrap();
     let mut s = document::read(&text, &[]).unwrap().scenario;
-    let orders = orders_of(&Geometry::of(&s.bearing));
+    let orders = orders_of(&s.bearing);
     let (rate, seconds, start) = (s.simulation.sample_rate_hz, s.simulation.duration_s, 0.02);
     let x = recorded(&mut s, rate, seconds, start);
     // 4500 (r/min)/s up to 0.4 s.
@@ -321,7 +319,7 @@ fn regress_bpfo_of_healthy_bearings() {
                 "bearing.preset = \"{preset}\"\noperation = {{ speed_rpm = {rpm:?}, load_n = [{load:?}, 0.0], load_on = \"outer-ring\" }}\n"
             );
             let mut s = document::read(&text, &[]).unwrap().scenario;
-            let orders = orders_of(&Geometry::of(&s.bearing));
+            let orders = orders_of(&s.bearing);
             let x = recorded(&mut s, 25_600.0, 2.12, 0.02 + 60.0 / rpm);
             let options = Options { silent: Some(MACHINE_NOISE), exact: true, ..Options::new(rpm / 60.0, orders) };
             let analysis = analyze(&x, 25_600.0, &options).unwrap();

@@ -32,12 +32,7 @@ pub(crate) struct AnalyzeArgs {
     #[command(flatten)]
     pub(crate) signal: SignalArgs,
     /// Shaft speed (the inner ring turns, the outer rests)
-    #[arg(
-        long,
-        value_parser = quantity("r/min", "a speed in r/min other than 0, as 1500 or 25Hz"),
-        value_name = "RPM",
-        allow_negative_numbers = true
-    )]
+    #[arg(long, value_parser = quantity("r/min", "a speed in r/min other than 0, as 1500 or 25Hz"), value_name = "RPM")]
     pub(crate) speed: Option<f64>,
     /// Channel that holds the shaft speed, in r/min unless the file states its unit; where it strays by more than 0.5 %
     /// it is followed (order tracking), else its mean counts
@@ -65,25 +60,19 @@ pub(crate) struct AnalyzeArgs {
     #[arg(long, value_name = "CLASS", value_parser = machine_class())]
     pub(crate) machine_class: Option<MachineClass>,
     /// How far slip and an inexact speed may move a defect frequency
-    #[arg(long, value_name = "PERCENT", default_value_t = 2.0, allow_negative_numbers = true)]
+    #[arg(long, value_name = "PERCENT", default_value_t = 2.0)]
     pub(crate) tolerance: f64,
     /// Range to demodulate [default: everything above three times the highest defect frequency]
     #[arg(
         long,
         num_args = 2,
         value_parser = quantity("Hz", "two frequencies in Hz, as 2000 or 2kHz"),
-        value_names = ["LOW", "HIGH"],
-        allow_negative_numbers = true
+        value_names = ["LOW", "HIGH"]
     )]
     pub(crate) band: Option<Vec<f64>>,
     /// Frequency of the motor's supply where an inverter makes it, known to 0.5 %: lines at its multiples are excluded
     /// [default: those of 50 and 60 Hz where three are significant]
-    #[arg(
-        long,
-        value_parser = quantity("Hz", "1 to 1000 Hz, as 47.5 or 47.5Hz"),
-        value_name = "HZ",
-        allow_negative_numbers = true
-    )]
+    #[arg(long, value_parser = quantity("Hz", "1 to 1000 Hz, as 47.5 or 47.5Hz"), value_name = "HZ")]
     pub(crate) supply: Option<f64>,
     /// Compare it with this: another file of signals, or the folder of a run
     #[arg(long, value_name = "FILE|FOLDER")]
@@ -100,8 +89,7 @@ pub(crate) struct AnalyzeArgs {
         long,
         value_parser = quantity("Hz", "more than 0 Hz, as 12000 or 12kHz"),
         value_name = "HZ",
-        requires = "against",
-        allow_negative_numbers = true
+        requires = "against"
     )]
     pub(crate) against_rate: Option<f64>,
     /// Unit of the other, where its file does not state it

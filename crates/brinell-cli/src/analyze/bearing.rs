@@ -4,7 +4,6 @@ use super::args::AnalyzeArgs;
 use super::measured::{ASK_BEARING, Measured};
 use crate::failure::Failure;
 use brinell::analysis::DefectOrders;
-use brinell::bearing::kinematics::Geometry;
 use brinell::bearing::{KnownBearing, orders_of};
 
 /// Orders over the shaft's frequency `shaft` (Hz), of the bearing of this name where there is one, and where they come
@@ -65,9 +64,8 @@ fn base(args: &AnalyzeArgs, name: Option<&str>, measured: &Measured) -> Result<(
         && args.ftf.is_none()
         && let Some(run) = &measured.scenario
     {
-        let geometry = Geometry::of(&run.scenario.bearing);
         let words = "the scenario of the run in the file".to_owned();
-        return Ok((orders_of(&geometry), words));
+        return Ok((orders_of(&run.scenario.bearing), words));
     }
     Ok((DefectOrders::default(), String::new()))
 }

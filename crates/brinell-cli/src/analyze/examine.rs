@@ -218,8 +218,7 @@ fn lay_over(path: &Path, args: &AnalyzeArgs, measured: &Measured, analysis: &mut
     options.silent = other.silent();
     options.exact = other.scenario.is_some();
     if let Some(run) = &other.scenario {
-        let geometry = brinell::bearing::kinematics::Geometry::of(&run.scenario.bearing);
-        options.orders = brinell::bearing::orders_of(&geometry);
+        options.orders = brinell::bearing::orders_of(&run.scenario.bearing);
     }
     let found = look(&other, &options)?;
     let refused = |error| Failure::Usage(format!("--against {}: {error}", path.display()));

@@ -36,7 +36,7 @@ pub(super) fn earlier(
     let Some(folder) = &args.output else {
         return Ok(Earlier::default());
     };
-    let place = Place { kind: Results::Analysis, folder, inputs: &inputs };
+    let place = Place { kind: Results::ANALYSIS, folder, inputs: &inputs };
     place.earlier(args.overwrite, &[ANALYSIS.into(), REPORT.into()], same)
 }
 

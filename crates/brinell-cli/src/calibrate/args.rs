@@ -54,7 +54,7 @@ pub(crate) struct CalibrateArgs {
     #[arg(long, value_name = "x|y", requires = "measured")]
     pub(crate) axis: Option<String>,
     /// Standard uncertainty of the model's levels against a machine's
-    #[arg(long, value_name = "PERCENT", default_value_t = 5.0, allow_negative_numbers = true)]
+    #[arg(long, value_name = "PERCENT", default_value_t = 5.0)]
     pub(crate) model_uncertainty: f64,
     /// Runs at most [default: 30 a key]
     #[arg(short, long, value_name = "N")]

@@ -41,7 +41,7 @@ pub(crate) fn calibrate(args: &CalibrateArgs) -> Result<ExitCode, Failure> {
     let folder = args.output.clone().unwrap_or_else(named);
     let mut inputs = source.inputs();
     args.measured.iter().for_each(|path| inputs.add(path));
-    let place = Place { kind: Results::Calibration, folder: &folder, inputs: &inputs };
+    let place = Place { kind: Results::CALIBRATION, folder: &folder, inputs: &inputs };
     place.alone()?;
     make_folder(&folder)?;
     let words = |other: &Value| other_calibration(&folder, other);

@@ -95,7 +95,7 @@ fn scenario_files(sides: &[Side], folder: &Path) -> Vec<PathBuf> {
 
 /// Earlier results in the folder that the comparison may replace.
 fn earlier(args: &CompareArgs, sides: &[Side], folder: &Path, inputs: &Inputs) -> Result<Earlier, Failure> {
-    let place = Place { kind: Results::Comparison, folder, inputs };
+    let place = Place { kind: Results::COMPARISON, folder, inputs };
     let writes = [COMPARISON, PAGE, CSV, PARQUET].map(str::to_owned);
     let same = |previous: &Value| previous.is_null() || previous["scenarios"] == Value::Object(sides_scenarios(sides));
     place.earlier(args.overwrite, &writes, same)

@@ -137,7 +137,7 @@ fn tell(shard: &ShardSummary, left: usize, folder: &Path, seconds: f64) {
 
 /// That no other command's results lie in the data set's folder.
 fn alone(folder: &Path, inputs: &Inputs) -> Result<(), Failure> {
-    let place = Place { kind: Results::DataSet, folder, inputs };
+    let place = Place { kind: Results::DATA_SET, folder, inputs };
     place.alone()
 }
 

@@ -26,7 +26,7 @@ pub(super) fn preview(args: &PreviewArgs) -> Result<(), Failure> {
         damage.view.photo = photos.get_mut(*index).and_then(Option::take);
     }
     let folder = args.output.clone().unwrap_or_else(|| Path::new("out").join(safe_name(&s.name)).join("damage"));
-    let place = Place { kind: Results::Preview, folder: &folder, inputs: &source.inputs() };
+    let place = Place { kind: Results::PREVIEW, folder: &folder, inputs: &source.inputs() };
     // Any scenario's preview gives way to the next: it takes a moment to make.
     let earlier = place.earlier(args.overwrite, &[PREVIEW.into()], |_| true)?;
     make_folder(&folder)?;

@@ -36,7 +36,7 @@ pub(crate) fn reproduce(args: &ReproduceArgs) -> Result<ExitCode, Failure> {
     if args.model.is_some() {
         request = request.with_tilting()?;
     }
-    let place = Place { kind: Results::Reproduction, folder: &args.output, inputs: &Inputs::default() };
+    let place = Place { kind: Results::REPRODUCTION, folder: &args.output, inputs: &Inputs::default() };
     place.alone()?;
     make_folder(&args.output)?;
     let header = json!({ "campaign": "reproduce" });

@@ -95,7 +95,7 @@ pub(super) fn earlier(args: &RunArgs, loaded: &Loaded, folder: &Path, inputs: &I
         writes.push(REPORT);
     }
     let writes: Vec<String> = writes.into_iter().map(str::to_owned).collect();
-    let place = Place { kind: Results::Run, folder, inputs };
+    let place = Place { kind: Results::RUN, folder, inputs };
     let earlier = place.earlier(args.overwrite, &writes, |_| is_of(folder, &loaded.scenario))?;
     if !args.overwrite && !is_written(folder, &loaded.to_toml()) {
         return Err(Failure::Usage(format!(

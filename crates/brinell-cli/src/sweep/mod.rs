@@ -44,7 +44,7 @@ pub(crate) fn sweep(args: &SweepArgs) -> Result<ExitCode, Failure> {
         plan(&points, &Kept::look(&folder)?, &work, threads, true);
         return Ok(ExitCode::SUCCESS);
     }
-    let place = Place { kind: Results::Sweep, folder: &folder, inputs: &points.source.inputs() };
+    let place = Place { kind: Results::SWEEP, folder: &folder, inputs: &points.source.inputs() };
     place.alone()?;
     spare_signals(&points, &work)?;
     make_folder(&folder)?;

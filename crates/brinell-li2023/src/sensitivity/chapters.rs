@@ -24,7 +24,7 @@ impl Sensitivity {
             let read = tried.numbers.read(v.reading);
             let rms = SEARCHED.iter().map(|case| read.get(case, "outer_ax.rms").map(|n| n.value));
             json!({
-                "id": v.id, "about": v.aspect.words(), "is": v.words, "eq_27": v.outline.words(),
+                "id": v.id, "about": v.about, "is": v.words, "eq_27": v.outline.words(),
                 "behind_filter": v.reading.filtered, "record": v.reading.record.words(), "rms_m_per_s2": rms.collect::<Vec<_>>(),
                 "settings": v.settings.iter().map(|(k, x)| ((*k).to_owned(), (*x).into())).collect::<serde_json::Map<_, Value>>(),
                 "verdicts": verdicts.map(|(c, j)| (c.id.to_owned(), j.plain.words().into())).collect::<serde_json::Map<_, Value>>(),
@@ -64,12 +64,7 @@ impl Sensitivity {
     fn legend(&self) -> Table {
         let rows = self.variants.iter().enumerate().map(|(k, tried)| {
             let held = tried.judged.iter().filter(|j| j.plain == Verdict::Holds);
-            vec![
-                k.to_string(),
-                tried.variant.aspect.words().into(),
-                tried.variant.words.into(),
-                held.count().to_string(),
-            ]
+            vec![k.to_string(), tried.variant.about.into(), tried.variant.words.into(), held.count().to_string()]
         });
         Table::new("Assumptions", ["#No.", "About", "Assumed (instead of)", "#Claims that hold"], rows, "")
     }

@@ -112,7 +112,7 @@ fn row(k: usize, tried: &Tried) -> Vec<String> {
     };
     let usual = Reading::USUAL;
     let readings = [usual, usual.over_start(ms)];
-    let mut row = vec![k.to_string(), format!("{}: {}", tried.variant.aspect.words(), tried.variant.words)];
+    let mut row = vec![k.to_string(), format!("{}: {}", tried.variant.about, tried.variant.words)];
     let mut nearest: Option<f64> = None;
     for reading in readings {
         let plain = tried.numbers.read(reading);

@@ -42,8 +42,6 @@ pub struct Comparison {
     pub spectra: [Spectrum; 2],
     /// Envelope spectra of one band.
     pub envelopes: [Spectrum; 2],
-    /// Means of the two envelopes.
-    pub envelope_means: [f64; 2],
     /// The band, Hz.
     pub band: (f64, f64),
     /// Harmonics of the defect frequencies.
@@ -80,14 +78,12 @@ pub fn compare(first: Side, second: Side) -> Result<Comparison, AnalysisError> {
     let ((sa, ea, ma), (sb, eb, mb)) = (a?, b?);
     let spectra = [sa, sb];
     let envelopes = [ea, eb];
-    let envelope_means = [ma, mb];
-    let lines = lines(&sides, &envelopes, &envelope_means)?;
+    let lines = lines(&sides, &envelopes, &[ma, mb])?;
     Ok(Comparison {
         indicators: indicators(&sides),
         level_db: level(&spectra),
         spectra,
         envelopes,
-        envelope_means,
         band: (band.low, band.high),
         lines,
     })

@@ -51,9 +51,10 @@ impl Unit {
     pub const KNOWN: &str = "m/s^2, mm/s^2, g, mg, in/s^2; m/s, mm/s, in/s; m, mm, um; or, of a raw signal, V, mV, uV, A, mA, N, Pa, counts";
 
     /// What a simulation's sensor lacks of a machine's white noise ([`MACHINE_NOISE`]), RMS in
-    /// this unit, where its own has the RMS `own`, m/s^2: both together are as strong. `None` where it lacks nothing; 0
-    /// for what is no acceleration, of which nothing is known.
-    pub fn missing_noise(&self, own: f64) -> Option<f64> {
+    /// this unit, where its own, if it has one, has the RMS `own`, m/s^2: both together are as strong. `None` where it
+    /// lacks nothing; 0 for what is no acceleration, of which nothing is known.
+    pub fn missing_noise(&self, own: Option<f64>) -> Option<f64> {
+        let own = own.unwrap_or(0.0);
         let missing = (MACHINE_NOISE.powi(2) - own * own).max(0.0).sqrt();
         (missing > 0.0).then_some(match self.quantity {
             Quantity::Acceleration => missing / self.to_si,
@@ -154,10 +155,10 @@ mod tests {
     #[test]
     fn analytic_missing_noise_and_a_sensors_own_make_a_machines() {
         let unit = |name: &str| Unit::of(name);
-        let missing = unit("m/s^2").missing_noise(0.3).unwrap();
+        let missing = unit("m/s^2").missing_noise(Some(0.3)).unwrap();
         assert!((missing.hypot(0.3) - 0.5).abs() < 1e-15);
-        assert_eq!(unit("g").missing_noise(0.0), Some(0.5 / 9.80665));
-        assert_eq!(unit("m/s^2").missing_noise(0.5), None);
-        assert_eq!(unit("um").missing_noise(0.0), Some(0.0));
+        assert_eq!(unit("g").missing_noise(None), Some(0.5 / 9.80665));
+        assert_eq!(unit("m/s^2").missing_noise(Some(0.5)), None);
+        assert_eq!(unit("um").missing_noise(None), Some(0.0));
     }
 }

@@ -88,7 +88,6 @@ impl Entry {
         let needed = |key| self.number(key).ok_or(key);
         Ok(Geometry {
             inner_raceway_diameter: 1e-3 * needed("inner_raceway_diameter_mm")?,
-            outer_raceway_diameter: 1e-3 * needed("outer_raceway_diameter_mm")?,
             pitch_diameter: 1e-3 * needed("pitch_diameter_mm")?,
             roller_diameter: 1e-3 * needed("roller_diameter_mm")?,
             rollers_per_row: needed("rollers_per_row")? as usize,

@@ -6,10 +6,15 @@ use super::designation::{kind, of_one_kind, with_zeros};
 use super::kinematics::{Geometry, Kinematics, frequency_table};
 use crate::analysis::{DefectOrders, NAMED, NamedBearing};
 use crate::did_you_mean::{did_you_mean, nearest_few};
+use crate::scenario::Bearing;
 use std::f64::consts::TAU;
 
-/// Of a bearing of the catalogue or a scenario.
-pub fn orders_of(geometry: &Geometry) -> DefectOrders {
+/// Of a scenario's bearing.
+pub fn orders_of(bearing: &Bearing) -> DefectOrders {
+    orders(&Geometry::of(bearing))
+}
+
+fn orders(geometry: &Geometry) -> DefectOrders {
     let k = Kinematics::pure_rolling(geometry, TAU);
     DefectOrders { ftf: Some(k.ftf), bpfo: Some(k.bpfo), bpfi: Some(k.bpfi), bsf: Some(k.bsf) }
 }
@@ -101,7 +106,7 @@ impl KnownBearing {
             Self::Catalogue(entry) => {
                 let guess = if entry.estimates_orders() { "; number or size of its elements is estimated" } else { "" };
                 let words = format!("{}: {}{guess}", entry.name, entry.title);
-                (orders_of(&geometry(entry)?), words)
+                (orders(&geometry(entry)?), words)
             }
             Self::DataSet(bearing) => (bearing.orders(), bearing.source.to_owned()),
         })

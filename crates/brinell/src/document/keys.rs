@@ -97,6 +97,9 @@ pub(crate) fn variant_of<T>(variants: &'static [Variant<T>], value: &T) -> &'sta
     variants.iter().find(|variant| (variant.is)(value)).unwrap_or(&variants[0])
 }
 
+/// Whether a key has a meaning here, and the words for where it has one.
+pub type Case = (bool, &'static str);
+
 /// A walk over the keys of a scenario.
 pub trait Keys: Sized {
     /// A key with one value.
@@ -108,25 +111,12 @@ pub trait Keys: Sized {
     /// A key that is required where `wanted`, and has no meaning elsewhere; `case` says where.
     fn only_where<T: ValueType>(&mut self, spec: Spec, wanted: bool, case: &'static str, value: &mut T);
 
-    /// A key with a default where `wanted`, and without a meaning elsewhere; the words say where.
-    fn key_where<T: ValueType>(
-        &mut self,
-        spec: Spec,
-        wanted: (bool, &'static str),
-        fallback: Fallback<T>,
-        value: &mut T,
-    );
+    /// A key with a default in a case, and without a meaning elsewhere.
+    fn key_where<T: ValueType>(&mut self, spec: Spec, case: Case, fallback: Fallback<T>, value: &mut T);
 
-    /// A key of one case, with a default; elsewhere it has no effect, which is said of a file that gives it. The words
-    /// say where it has one.
-    fn key_acting_where<T: ValueType>(
-        &mut self,
-        spec: Spec,
-        wanted: (bool, &'static str),
-        fallback: Fallback<T>,
-        value: &mut T,
-    ) {
-        self.key_where(spec, wanted, fallback, value);
+    /// A key with a default that acts in a case; elsewhere it has no effect, which is said of a file that gives it.
+    fn key_acting_where<T: ValueType>(&mut self, spec: Spec, case: Case, fallback: Fallback<T>, value: &mut T) {
+        self.key_where(spec, case, fallback, value);
     }
 
     /// The value of a key of a later section, before the walk is there: `None` where it is known already or the file

@@ -55,7 +55,7 @@ pub use toml_text::{float as toml_float, quote as toml_quote};
 #[doc(hidden)]
 pub mod reading {
     pub use super::checks::Finder;
-    pub use super::keys::{Fallback, Keys, Variant, stated};
+    pub use super::keys::{Case, Fallback, Keys, Variant, stated};
     pub use super::quantity::read as quantity;
     pub use super::reader::Reader;
     pub use super::schema::{Schema, schema_of};

@@ -2,7 +2,7 @@
 
 use serde_json::{Map, Value as Json, json};
 
-use super::keys::{Fallback, Keys, Variant};
+use super::keys::{Case, Fallback, Keys, Variant};
 use super::spec::Spec;
 use super::value_type::ValueType;
 
@@ -122,13 +122,7 @@ impl Keys for Schema {
         self.put(&spec, T::schema(&spec), doc);
     }
 
-    fn key_where<T: ValueType>(
-        &mut self,
-        spec: Spec,
-        (_, case): (bool, &'static str),
-        fallback: Fallback<T>,
-        value: &mut T,
-    ) {
+    fn key_where<T: ValueType>(&mut self, spec: Spec, (_, case): Case, fallback: Fallback<T>, value: &mut T) {
         let required = matches!(fallback, Fallback::Required);
         let catalogued = matches!(fallback, Fallback::Catalogued);
         self.key(spec, fallback, value);
@@ -143,13 +137,7 @@ impl Keys for Schema {
         self.say_more(spec.name, &format!("; {word} {case}, and only there"));
     }
 
-    fn key_acting_where<T: ValueType>(
-        &mut self,
-        spec: Spec,
-        (_, case): (bool, &'static str),
-        fallback: Fallback<T>,
-        value: &mut T,
-    ) {
+    fn key_acting_where<T: ValueType>(&mut self, spec: Spec, (_, case): Case, fallback: Fallback<T>, value: &mut T) {
         self.key(spec, fallback, value);
         self.say_more(spec.name, &format!("; acts only where {case}"));
     }

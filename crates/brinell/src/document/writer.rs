@@ -2,7 +2,7 @@
 
 use std::collections::HashMap;
 
-use super::keys::{Fallback, Keys, Variant, variant_of};
+use super::keys::{Case, Fallback, Keys, Variant, variant_of};
 use super::provenance::{Origin, Provenance};
 use super::spec::Spec;
 use super::value_type::{ValueType, Words};
@@ -183,13 +183,7 @@ impl Keys for Writer<'_> {
         }
     }
 
-    fn key_where<T: ValueType>(
-        &mut self,
-        spec: Spec,
-        (wanted, case): (bool, &'static str),
-        fallback: Fallback<T>,
-        value: &mut T,
-    ) {
+    fn key_where<T: ValueType>(&mut self, spec: Spec, (wanted, case): Case, fallback: Fallback<T>, value: &mut T) {
         if wanted {
             self.key(spec, fallback, value);
         } else if self.is_template() {

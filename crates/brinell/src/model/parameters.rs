@@ -134,7 +134,6 @@ impl Model {
         let g = &self.geometry;
         let geometry = kinematics::Geometry {
             inner_raceway_diameter: 2.0 * g.inner_radius,
-            outer_raceway_diameter: 2.0 * g.outer_radius,
             pitch_diameter: 2.0 * g.pitch_radius,
             roller_diameter: 2.0 * g.roller_radius,
             rollers_per_row: self.layout.rollers_per_row,

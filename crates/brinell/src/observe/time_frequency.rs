@@ -115,14 +115,12 @@ impl TimeFrequency {
         }
         self.sums.iter_mut().for_each(|sum| *sum /= self.per_frame as f64);
         let step = (self.length / 2) as f64 / self.sample_rate;
-        let whole: f64 = self.window.iter().sum();
         Some(Spectrogram {
             frequency_step: self.sample_rate / self.length as f64,
             first_time: 0.5 * self.length as f64 / self.sample_rate + 0.5 * (self.per_frame - 1) as f64 * step,
             time_step: self.per_frame as f64 * step,
             bins,
             density: self.sums,
-            square_amplitude_per_density: 2.0 * self.sample_rate * self.energy / (whole * whole),
         })
     }
 }

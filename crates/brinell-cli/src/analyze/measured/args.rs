@@ -15,8 +15,7 @@ pub(crate) struct SignalArgs {
         long,
         alias = "sample-rate",
         value_parser = quantity("Hz", "more than 0 Hz, as 12000 or 12kHz"),
-        value_name = "HZ",
-        allow_negative_numbers = true
+        value_name = "HZ"
     )]
     pub(crate) rate: Option<f64>,
     /// Column of times to take the rate from [default: one called t, time or the like]
@@ -35,20 +34,10 @@ pub(crate) struct SignalArgs {
     #[arg(long, value_name = "VALUE", conflicts_with = "unit", allow_negative_numbers = true)]
     pub(crate) full_scale: Option<String>,
     /// Skip so much of the signal's beginning
-    #[arg(
-        long,
-        value_parser = quantity("s", "0 s or more, as 0.5 or 500ms"),
-        value_name = "S",
-        allow_negative_numbers = true
-    )]
+    #[arg(long, value_parser = quantity("s", "0 s or more, as 0.5 or 500ms"), value_name = "S")]
     pub(crate) start: Option<f64>,
     /// Use so much from there [default: what is there; of a long signal the first and the last 4194304 samples]
-    #[arg(
-        long,
-        value_parser = quantity("s", "more than 0 s, as 2 or 500ms"),
-        value_name = "S",
-        allow_negative_numbers = true
-    )]
+    #[arg(long, value_parser = quantity("s", "more than 0 s, as 2 or 500ms"), value_name = "S")]
     pub(crate) duration: Option<f64>,
 }
 

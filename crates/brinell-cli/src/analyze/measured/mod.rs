@@ -61,9 +61,7 @@ impl Measured {
 
     /// Where a run made it: what its sensor lacks of a machine's noise, in the signal's unit.
     pub(super) fn silent(&self) -> Option<f64> {
-        let run = self.scenario.as_ref()?;
-        let own = run.scenario.sensor.noise_rms().unwrap_or(0.0);
-        self.unit.missing_noise(own)
+        self.unit.missing_noise(self.scenario.as_ref()?.scenario.sensor.noise_rms())
     }
 }
 

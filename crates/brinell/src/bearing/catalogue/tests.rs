@@ -54,7 +54,6 @@ fn per_turn(name: &str) -> Kinematics {
     let entry = find(name).unwrap();
     let geometry = Geometry {
         inner_raceway_diameter: bearing(entry, "inner_raceway_diameter_mm") * 1e-3,
-        outer_raceway_diameter: bearing(entry, "outer_raceway_diameter_mm") * 1e-3,
         pitch_diameter: bearing(entry, "pitch_diameter_mm") * 1e-3,
         roller_diameter: bearing(entry, "roller_diameter_mm") * 1e-3,
         rollers_per_row: bearing(entry, "rollers_per_row") as usize,

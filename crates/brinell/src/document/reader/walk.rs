@@ -1,6 +1,6 @@
 //! The walk over the list of keys, as it reads a file.
 
-use super::super::keys::{Fallback, Keys, Variant};
+use super::super::keys::{Case, Fallback, Keys, Variant};
 use super::super::problem::{Problem, Severity};
 use super::super::source::{Node, Value, brief_path};
 use super::super::spec::{Spec, key};
@@ -47,13 +47,7 @@ impl Keys for Reader<'_> {
         }
     }
 
-    fn key_where<T: ValueType>(
-        &mut self,
-        spec: Spec,
-        (wanted, case): (bool, &'static str),
-        fallback: Fallback<T>,
-        value: &mut T,
-    ) {
+    fn key_where<T: ValueType>(&mut self, spec: Spec, (wanted, case): Case, fallback: Fallback<T>, value: &mut T) {
         if wanted {
             self.key(spec, fallback, value);
         } else {
@@ -64,7 +58,7 @@ impl Keys for Reader<'_> {
     fn key_acting_where<T: ValueType>(
         &mut self,
         spec: Spec,
-        (wanted, case): (bool, &'static str),
+        (wanted, case): Case,
         fallback: Fallback<T>,
         value: &mut T,
     ) {
