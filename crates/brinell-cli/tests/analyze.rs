@@ -152,7 +152,7 @@ fn regress_files_that_are_no_signal() {
         ("empty.csv", &["empty.csv: the file is empty"][..]),
         ("constant.csv", &["all 20000 samples are 1.5: a constant is no vibration"]),
         ("holes.csv", &["2 of 24000 samples are missing or infinite, the first at sample 101"]),
-        ("short.csv", &["0.100 s are 3.0 revolutions", "it takes 0.267 s or more"]),
+        ("short.csv", &["0.1000 s are 3.00 revolutions", "it takes 0.2667 s or more"]),
         ("text.mat", &["named like MATLAB, but the content is text"]),
         ("two.csv", &["several channels may be the signal; choose one with --channel: a, b"]),
         ("missing.csv", &["missing.csv: cannot read"]),

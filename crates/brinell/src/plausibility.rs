@@ -378,7 +378,8 @@ fn too_short(scenario: &Scenario, model: &Model) -> Option<Problem> {
 }
 
 /// An energy audit that does not close: the steps were too long for the motion.
-fn residual(scenario: &Scenario, energy: &EnergyAudit) -> Option<String> {
+#[doc(hidden)]
+pub fn residual(scenario: &Scenario, energy: &EnergyAudit) -> Option<String> {
     let share = energy.residual().abs() / energy.turnover();
     // Where nothing moved there is no share.
     (share > RESIDUAL_SHARE).then(|| {

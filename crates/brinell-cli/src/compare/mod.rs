@@ -76,7 +76,7 @@ pub(crate) fn compare(args: &CompareArgs) -> Result<ExitCode, Failure> {
             complain!("warning: {warning}");
         }
         for (side, run) in sides.iter().zip(&all) {
-            for warning in plausibility::after(&run.scenario, &run.outcome.energy) {
+            if let Some(warning) = plausibility::residual(&run.scenario, &run.outcome.energy) {
                 complain!("warning: {}: {warning}", side.label);
             }
         }

@@ -196,8 +196,9 @@ struct Fitted {
 
 /// The paper's bearing, load and spall.
 const PAPER: (&str, f64, [f64; 2]) = ("NN3007", 300.0, [3.0, 4.0]);
-/// Load of a bearing over its static rating, where none is given.
-const LOAD_OVER_RATING: f64 = 0.02;
+/// Load of a bearing over its static rating, where none is given: 5 to 9 % of the dynamic rating, a normal load, of
+/// which the ring's support, as it is where none is given, carries less than a tenth.
+const LOAD_OVER_RATING: f64 = 0.1;
 /// Size of a spall on it over the rolling element's diameter, and over the roller's length.
 const SPALL: [f64; 2] = [0.3, 0.5];
 /// Diameter of a pit over the ball's.
@@ -244,7 +245,7 @@ fn fitted(entry: &Entry, preset: String) -> Fitted {
     let load = entry.fact(STATIC_RATING).map(|c0| LOAD_OVER_RATING * c0);
     let mut of = Fitted {
         preset,
-        load: one_digit(load.unwrap_or(100.0)),
+        load: one_digit(load.unwrap_or(500.0)),
         spall: [tenth(SPALL[0] * diameter), tenth(width)],
         pit: tenth(PIT * diameter),
         scale: match entry.has_balls() {
