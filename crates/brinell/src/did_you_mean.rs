@@ -1,5 +1,7 @@
 //! The known word that a misspelt one most likely meant.
 
+use crate::document::without_unit;
+
 /// The few of `known` bearings that are nearest to `word`, and how to see all.
 pub(crate) fn nearest_few<'a>(word: &str, known: impl Iterator<Item = &'a str>) -> String {
     const FEW: usize = 5;
@@ -26,7 +28,7 @@ pub(crate) fn did_you_mean<'a>(word: &str, known: impl Iterator<Item = &'a str>)
             if stem(&word, &plain) || stem(&plain, &word) {
                 return (1, plain.len().max(word.len()), candidate);
             }
-            let before_unit = plain.rfind('_').map_or("", |at| &plain[..at]);
+            let before_unit = without_unit(&plain);
             let of = |known: &str| (strsim::damerau_levenshtein(&word, known), known.len().max(word.len()));
             let (distance, length) = of(&plain).min(of(before_unit));
             (distance, length, candidate)

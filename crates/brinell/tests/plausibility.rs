@@ -180,10 +180,7 @@ fn analytic_what_the_support_carries_is_said() {
     let told = warning(&[("operation.load_n", "[50, 0]"), ("defects", "[]")]);
     let carried: f64 = told.split("the support carries ").nth(1).unwrap().split(' ').next().unwrap().parse().unwrap();
     assert!((10.0..12.0).contains(&carried), "{told}");
-    assert!(
-        told.contains(&format!("of the 50.0 N on its ring, weight included, and the bearing {:.1} N", 50.0 - carried)),
-        "{told}"
-    );
+    assert!(told.contains(&format!("of the 50.0 N on its ring, and the bearing {:.1} N", 50.0 - carried)), "{told}");
     // Less than a tenth.
     silent(&[("operation.load_n", "[200, 0]"), ("defects", "[]")]);
 }
@@ -192,7 +189,7 @@ fn analytic_what_the_support_carries_is_said() {
 fn regress_a_sensor_on_a_fixed_ring_is_said() {
     let lumped = ("simulation.model", "lumped");
     let told = warning(&[lumped, ("operation.load_on", "inner-ring"), ("support.outer_stiffness_n_per_m", "0")]);
-    assert!(told.contains("its acceleration and the sensor's are 0"), "{told}");
+    assert!(told.contains("its acceleration is 0"), "{told}");
     silent(&[lumped]);
 }
 

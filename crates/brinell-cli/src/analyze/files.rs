@@ -43,21 +43,22 @@ pub(super) fn files(named: &[PathBuf]) -> Result<Files, Failure> {
 /// The files of signals right in a folder: by their names or, where none has such a name, all that can be read as one.
 fn inside(folder: &Path) -> Result<Vec<PathBuf>, Failure> {
     let failed = |error| Failure::Read(folder.to_owned(), error);
-    if ["scenario.toml", "summary.json"].iter().all(|name| folder.join(name).is_file()) {
-        return Err(Failure::Usage(format!(
-            "{0} is the folder of a run that kept no signals: `brinell run {0}/scenario.toml -o FOLDER` keeps them",
-            one_line(&folder.display().to_string())
-        )));
-    }
+    let of_run = ["scenario.toml", "summary.json"].iter().all(|name| folder.join(name).is_file());
     let (mut found, mut others) = (Vec::new(), Vec::new());
     for entry in std::fs::read_dir(folder).map_err(failed)? {
         let path = entry.map_err(failed)?.path();
         let hidden = (path.file_name()).is_some_and(|n| n.to_string_lossy().starts_with('.'));
         let is_signal =
             (path.extension()).is_some_and(|e| FileKind::extensions().any(|known| e.eq_ignore_ascii_case(known)));
-        if !hidden && path.is_file() {
+        if !hidden && path.is_file() && !(of_run && path.ends_with("spectra.parquet")) {
             if is_signal { &mut found } else { &mut others }.push(path);
         }
+    }
+    if found.is_empty() && of_run {
+        return Err(Failure::Usage(format!(
+            "{} is the folder of a run that kept no signals; `brinell run` of the scenario.toml in it keeps them",
+            one_line(&folder.display().to_string())
+        )));
     }
     if found.is_empty() {
         found = others.into_iter().filter(|path| brinell_io::open(path).is_ok()).collect();

@@ -96,7 +96,7 @@ fn tell_doubtful(states: &[State]) {
     tell(
         &format!("audit.{}", fields::RELATIVE_RESIDUAL.name),
         open,
-        "the energy audit misses more than 1 % of the turnover: raise simulation.accuracy or contact.slices",
+        "the energy audit misses more than 1 % of the turnover: raise simulation.accuracy",
     );
 }
 

@@ -65,7 +65,8 @@ pub fn calibration_undetermined(of: &Outcome) -> Vec<String> {
             true => format!("its 95 % interval is {} times as wide as its range", short(width, 2)),
             // Which of the runs says more than differences around the best one do.
             false if is_made_up_for(of, k) => {
-                "around the best run another key makes up for what it changes; farther off the runs' chi-square may tell".into()
+                "around the best run others make up for what it changes; farther off the runs' chi-square may tell"
+                    .into()
             }
             false if noise => "its effect is not significant against the runs' own uncertainty".into(),
             false => "the data say nothing of it".into(),
@@ -99,13 +100,14 @@ pub fn calibration_undetermined(of: &Outcome) -> Vec<String> {
     all
 }
 
-/// Whether key `k` is left open by combinations with others alone.
+/// Whether key `k` by itself changes the targets, by thrice what the runs' own uncertainty shows: then only others
+/// together with it leave it open.
 fn is_made_up_for(of: &Outcome, k: usize) -> bool {
-    let is_alone = |direction: &Direction| {
-        let others = direction.vector.iter().enumerate().filter(|(j, _)| *j != k);
-        others.fold(0.0_f64, |m, (_, v)| m.max(v.abs())) < MINOR * direction.vector[k].abs()
+    let along = |size: fn(&Direction) -> f64| {
+        let squares = of.fit.identified.directions.iter().map(|d| (size(d) * d.vector[k]).powi(2));
+        squares.sum::<f64>().sqrt()
     };
-    !of.fit.identified.directions.iter().any(|direction| !direction.is_determined() && is_alone(direction))
+    along(|d| d.singular_value) > 3.0 * along(|d| d.noise).max(1.0)
 }
 
 /// What may be changed together; nothing where it is one key.

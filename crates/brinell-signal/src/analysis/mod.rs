@@ -62,7 +62,7 @@ pub use options::{MACHINE_NOISE, Options, SUPPLY_HZ};
 pub use result::{Analysis, Verdict, View};
 pub use sensitivity::{FullScale, Sensitivity};
 pub use severity::{BandLevel, MachineClass, NoVelocity, NoZone, SEVERITY_BAND, Zone, band_level, severity};
-pub use soundness::Flaw;
+pub use soundness::{Flaw, repetition};
 pub use together::HARMONICS;
 pub use unit::{Quantity, Unit};
 pub use verdict::Elsewhere;
@@ -89,18 +89,18 @@ const LONGEST: usize = 1 << 18;
 /// Analyses `x`, sampled at `fs` Hz.
 ///
 /// # Errors
-/// [`AnalysisError`] where a sample is not finite, the signal is constant, shorter than [`FEWEST_REVOLUTIONS`]
-/// revolutions, or sampled too slowly for the defect frequencies, or an option is out of range.
+/// [`AnalysisError`] where a sample is not finite, the signal, or the stretch that it repeats, is constant or shorter
+/// than [`FEWEST_REVOLUTIONS`] revolutions, or sampled too slowly for the defect frequencies, or an option is out of range.
 pub fn analyze(x: &[f64], fs: f64, options: &Options) -> Result<Analysis, AnalysisError> {
     check(x, fs, options)?;
-    let mean = x.iter().sum::<f64>() / x.len() as f64;
-    let mut x: Vec<f64> = x.iter().map(|v| v - mean).collect();
-    let flaws = soundness::flaws(&x, fs, options.shaft);
+    let repeats = repetition(x);
     // A stretch that is there again says nothing new, and its repetition has lines.
-    let once = flaws.iter().find_map(|f| if let Flaw::Repeats { every } = f { Some(*every) } else { None });
-    if let Some(every) = once.filter(|every| every * options.shaft >= FEWEST_REVOLUTIONS) {
-        x.truncate((every * fs).round() as usize);
-    }
+    let x = &x[..repeats.unwrap_or(x.len())];
+    check(x, fs, options)?;
+    let mean = x.iter().sum::<f64>() / x.len() as f64;
+    let x: Vec<f64> = x.iter().map(|v| v - mean).collect();
+    let mut flaws = soundness::flaws(&x, fs, options.shaft);
+    flaws.extend(repeats.map(|samples| Flaw::Repeats { every: samples as f64 / fs }));
     // What is missing has no speed.
     let whole = !(flaws.iter()).any(|f| matches!(f, Flaw::Held { .. }));
     let Prepared { indicators, map, evidence, transformed } = prepare(&x, fs, options, whole)?;

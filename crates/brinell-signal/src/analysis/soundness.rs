@@ -57,10 +57,7 @@ impl fmt::Display for Flaw {
                 "{:.0} % of the signal's energy lie in one revolution, from {at:.3} s on: levels are that event's, and lines may be lost in it; analyse a stretch without it",
                 100.0 * share
             ),
-            Flaw::Repeats { every } => write!(
-                f,
-                "the record repeats the same {every:.3} s: no more than these is judged, unless they are too few turns of the shaft"
-            ),
+            Flaw::Repeats { every } => write!(f, "the record repeats the same {every:.3} s: these alone are judged"),
         }
     }
 }
@@ -68,10 +65,7 @@ impl fmt::Display for Flaw {
 /// Of a signal less its mean, sampled at `fs` Hz on a machine whose shaft turns `shaft` times a second.
 pub(super) fn flaws(x: &[f64], fs: f64, shaft: f64) -> Vec<Flaw> {
     let revolution = (fs / shaft).max(4.0);
-    [held(x, fs, revolution), at_limits(x), one_event(x, fs, revolution), repeats(x, fs)]
-        .into_iter()
-        .flatten()
-        .collect()
+    [held(x, fs, revolution), at_limits(x), one_event(x, fs, revolution)].into_iter().flatten().collect()
 }
 
 fn held(x: &[f64], fs: f64, revolution: f64) -> Option<Flaw> {
@@ -104,9 +98,10 @@ fn one_event(x: &[f64], fs: f64, revolution: f64) -> Option<Flaw> {
     (share >= ONE_EVENT.0).then(|| Flaw::OneEvent { at: (largest.0 * revolution as usize) as f64 / fs, share })
 }
 
-/// By the longest beginning that is an end too (D. E. Knuth, J. H. Morris and V. R. Pratt, SIAM J. Comput. 6 (1977)
-/// 323-350).
-fn repeats(x: &[f64], fs: f64) -> Option<Flaw> {
+/// How many samples a signal repeats to the bit, from its first on; the last time not to the end, where need be. `None`
+/// where the stretch is there less than twice. By the longest beginning that is an end too (D. E. Knuth, J. H. Morris
+/// and V. R. Pratt, SIAM J. Comput. 6 (1977) 323-350).
+pub fn repetition(x: &[f64]) -> Option<usize> {
     // Of the samples up to each.
     let mut borders = vec![0_u32; x.len()];
     let mut border = 0;
@@ -118,7 +113,7 @@ fn repeats(x: &[f64], fs: f64) -> Option<Flaw> {
         borders[i] = border as u32;
     }
     let period = x.len() - border;
-    (2 * period <= x.len()).then(|| Flaw::Repeats { every: period as f64 / fs })
+    (2 * period <= x.len()).then_some(period)
 }
 
 #[cfg(test)]
@@ -147,7 +142,7 @@ mod tests {
         assert!(matches!(found[..], [Flaw::AtLimits { share }] if (share - 0.0455).abs() < 0.006));
         // The last time not to its end.
         let looped: Vec<f64> = noise()[..5000].iter().cycle().take(18_000).copied().collect();
-        assert_eq!(flaws(&looped, FS, SHAFT), [Flaw::Repeats { every: 0.5 }]);
+        assert_eq!((repetition(&looped), repetition(&noise())), (Some(5000), None));
         // An energy of 40 000 beside 20 000.
         let mut struck = noise();
         struck[8_100] = 200.0;

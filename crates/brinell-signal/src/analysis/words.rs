@@ -4,7 +4,7 @@ use super::bands::LOWEST_TOP;
 use super::drift::Drift;
 use super::family::{Family, Finding};
 use super::together::REVOLUTIONS;
-use super::{Analysis, Elsewhere, Flaw, Mains, Verdict};
+use super::{Analysis, Elsewhere, Mains, Verdict};
 
 /// What a row of [`Analysis::rows`] holds; a column of numbers begins with `#`.
 pub const COLUMNS: [&str; 8] =
@@ -26,8 +26,7 @@ impl Analysis {
     pub fn clarity(&self, family: &Family) -> &'static str {
         let may_be_other = self.may_be_passing(family) || self.impacts_a_turn(family).is_some();
         let lost = self.drift.as_ref().is_some_and(Drift::is_lost);
-        let repeats = self.flaws.iter().any(|flaw| matches!(flaw, Flaw::Repeats { .. }));
-        let is_sure = self.speed_is_told() && self.speed_used().is_none() && !lost && !repeats;
+        let is_sure = self.speed_is_told() && self.speed_used().is_none() && !lost;
         match (may_be_other, family.is_very_clear() && is_sure) {
             (true, _) => "weak",
             (_, true) => "very clear",

@@ -70,13 +70,25 @@ pub fn classes_of(of: Element, bore_mm: f64, diametral_um: f64) -> Vec<Clearance
 pub fn clearance_of(name: &str) -> Option<ClearanceClass> {
     let (_, suffix) = readings(name).into_iter().next()?;
     let mut words = suffix.split(|c: char| is_gap(c) || c == '/');
-    words.find_map(|word| {
-        let (at, class) = ClearanceClass::ALL.into_iter().find_map(|class| Some((word.find(class.name())?, class)))?;
-        let after = word.get(at + class.name().len()..)?;
-        // CN is short for nothing within other letters. Letters of the grease may follow a class: C3WT.
-        let alone = class != ClearanceClass::CN || at == 0;
-        (alone && !after.starts_with(|c: char| c.is_ascii_digit())).then_some(class)
-    })
+    words.find_map(|word| (0..word.len()).find_map(|at| class_at(word, at)))
+}
+
+/// The class that a word of suffixes names at a place.
+fn class_at(word: &str, at: usize) -> Option<ClearanceClass> {
+    let rest = word.get(at..)?;
+    let class = ClearanceClass::ALL.into_iter().find(|class| rest.starts_with(class.name()))?;
+    let after = &rest[class.name().len()..];
+    let other = match class {
+        // Letters of something else.
+        ClearanceClass::CN => at > 0,
+        // FAG's generation C with seals: C2HRS, C2Z.
+        ClearanceClass::C2 => after.starts_with(['R', 'Z', 'H']),
+        _ => false,
+    };
+    // HC5: SKF's hybrid bearings; CC3: NSK's classes without interchange; VC244: a variant. Letters of the grease may
+    // follow a class: C3WT.
+    let part_of_other = word[..at].ends_with(['H', 'C', 'V']);
+    (!other && !part_of_other && !after.starts_with(|c: char| c.is_ascii_digit())).then_some(class)
 }
 
 /// Bore diameter of a bearing (mm): its own key, else that of its preset.

@@ -183,6 +183,11 @@ mod tests {
             ("6205-2RSC4", Some(ClearanceClass::C4)),
             ("6205CN", Some(ClearanceClass::CN)),
             ("6205TCN", None),
+            ("6205/HC5", None),
+            ("NU206 CC3", None),
+            ("6205/C3VC244", Some(ClearanceClass::C3)),
+            ("6205TCNC3", Some(ClearanceClass::C3)),
+            ("6205C2HRS", None),
             ("6205", None),
             ("NU 206 ECP", None),
         ] {

@@ -50,6 +50,17 @@ impl Spec {
 
 /// The unit in a key's name: its longest suffix that is one.
 pub(crate) const fn unit_of(name: &str) -> &'static str {
+    unit_suffix(name).1
+}
+
+/// A key's name without its unit; nothing where it has none.
+pub(crate) fn without_unit(name: &str) -> &str {
+    let suffix = unit_suffix(name).0;
+    if suffix.is_empty() { "" } else { &name[..name.len() - suffix.len()] }
+}
+
+/// The suffix of a key's name that is a unit, and the unit.
+const fn unit_suffix(name: &str) -> (&'static str, &'static str) {
     const SUFFIXES: [(&str, &str); 22] = [
         ("_nms_per_rad", "N m s/rad"),
         ("_nm_per_rad", "N m/rad"),
@@ -77,11 +88,11 @@ pub(crate) const fn unit_of(name: &str) -> &'static str {
     let mut i = 0;
     while i < SUFFIXES.len() {
         if ends_with(name.as_bytes(), SUFFIXES[i].0.as_bytes()) {
-            return SUFFIXES[i].1;
+            return SUFFIXES[i];
         }
         i += 1;
     }
-    ""
+    ("", "")
 }
 
 /// The unit that a key's path carries in its name, an element of a list having its list's; empty where there is none.

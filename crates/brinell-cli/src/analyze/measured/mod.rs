@@ -10,7 +10,7 @@ mod wanted;
 
 use crate::failure::Failure;
 pub(crate) use args::SignalArgs;
-use brinell::analysis::Unit;
+use brinell::analysis::{Flaw, Unit, repetition};
 use brinell::document::{Loaded, read};
 use brinell_io::{Channel, FileKind, Format, SignalFile, open};
 use channel::{Chosen, channel};
@@ -111,6 +111,11 @@ pub(crate) fn load(path: &Path, wanted: &Wanted) -> Result<Measured, Failure> {
              --start and --duration choose another stretch",
             MOST as f64 / rate
         ));
+    }
+    if let Some(samples) = repetition(&x) {
+        let whole = x.len() as f64 / rate;
+        warnings.push(format!("of {whole:.3} s {}", Flaw::Repeats { every: samples as f64 / rate }));
+        x.truncate(samples);
     }
     let seconds = x.len() as f64 / rate;
     let speed = speed(&mut file, wanted, run, &name, (start, seconds, rate))?;
