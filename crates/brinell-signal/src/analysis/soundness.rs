@@ -99,8 +99,8 @@ fn one_event(x: &[f64], fs: f64, revolution: f64) -> Option<Flaw> {
 }
 
 /// How many samples a signal repeats to the bit, from its first on; the last time not to the end, where need be. `None`
-/// where the stretch is there less than twice. By the longest beginning that is an end too (D. E. Knuth, J. H. Morris
-/// and V. R. Pratt, SIAM J. Comput. 6 (1977) 323-350).
+/// where the stretch is there less than twice, and of a constant. By the longest beginning that is an end too (D. E.
+/// Knuth, J. H. Morris and V. R. Pratt, SIAM J. Comput. 6 (1977) 323-350).
 pub fn repetition(x: &[f64]) -> Option<usize> {
     // Of the samples up to each.
     let mut borders = vec![0_u32; x.len()];
@@ -113,7 +113,8 @@ pub fn repetition(x: &[f64]) -> Option<usize> {
         borders[i] = border as u32;
     }
     let period = x.len() - border;
-    (2 * period <= x.len()).then_some(period)
+    // A constant repeats nothing.
+    (period > 1 && 2 * period <= x.len()).then_some(period)
 }
 
 #[cfg(test)]
