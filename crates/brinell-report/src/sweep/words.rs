@@ -25,8 +25,9 @@ pub fn sweep_lead(plots: &[IndicatorPlot]) -> String {
             Some(name) => name.clone(),
             None => significant(*x, 4),
         };
-        let beside = match (plot.lines.len(), line.is_empty()) {
-            (2.., false) => format!(", {line}"),
+        let beside = match (plot.lines.len(), line.is_empty(), plot.legend.is_empty()) {
+            (2.., false, false) => format!(", {} = {line}", plot.legend),
+            (2.., false, true) => format!(", {line}"),
             _ => String::new(),
         };
         let unit = plot.unit.replace("^2", "²");
