@@ -1,7 +1,5 @@
 //! The known word that a misspelt one most likely meant.
 
-use crate::document::without_unit;
-
 /// The few of `known` bearings that are nearest to `word`, and how to see all.
 pub(crate) fn nearest_few<'a>(word: &str, known: impl Iterator<Item = &'a str>) -> String {
     const FEW: usize = 5;
@@ -24,14 +22,10 @@ pub(crate) fn did_you_mean<'a>(word: &str, known: impl Iterator<Item = &'a str>)
         .map(|candidate| {
             let plain = candidate.to_lowercase().replace('-', "_");
             let stem = |a: &str, b: &str| a.len() >= 4 && b.starts_with(a);
-            // Most often the unit is missing or another one: `load`, `speed_hz`; or it is missing from a misspelt one.
-            if stem(&word, &plain) || stem(&plain, &word) {
-                return (1, plain.len().max(word.len()), candidate);
-            }
-            let before_unit = without_unit(&plain);
-            let of = |known: &str| (strsim::damerau_levenshtein(&word, known), known.len().max(word.len()));
-            let (distance, length) = of(&plain).min(of(before_unit));
-            (distance, length, candidate)
+            // Most often the unit is missing or another one: `load`, `speed_hz`.
+            let distance =
+                if stem(&word, &plain) || stem(&plain, &word) { 1 } else { strsim::damerau_levenshtein(&word, &plain) };
+            (distance, plain.len().max(word.len()), candidate)
         })
         .filter(|(distance, length, _)| *distance <= (*length / 3).max(1))
         .min_by_key(|(distance, ..)| *distance)

@@ -48,7 +48,6 @@ pub use scenario_schema::json_schema;
 pub use source::{canonical, locate};
 #[doc(hidden)]
 pub use spec::unit_of_key;
-pub(crate) use spec::without_unit;
 #[doc(hidden)]
 pub use toml_text::{float as toml_float, quote as toml_quote};
 

@@ -12,7 +12,7 @@ use super::problems::Problems;
 use super::provenance::{Origin, Provenance};
 use super::recorded::{self, Assumed};
 use super::source::{Entry, Node, Table, Value, brief_path, override_value};
-use super::spec::{Spec, unit_of_key};
+use super::spec::{Spec, unit_of_key, without_unit};
 use super::value_type::{Misfit, ValueType, Words};
 use crate::bearing::catalogue;
 use crate::bearing::clearance::ClearanceClass;
@@ -328,9 +328,14 @@ fn unknown(vocabulary: &[(String, String)], frame: &Frame<'_>, name: &str, entry
         let homes: Vec<String> = sections.map(|(section, _)| home(section)).collect();
         homes.join(" or ")
     };
+    // Its unit is missing too.
+    let bare = || {
+        let means = |known: &&&str| did_you_mean(name, without_unit(known).into_iter()).is_some();
+        frame.named.iter().find(means).copied()
+    };
     let hint = if vocabulary.iter().any(|(_, known)| known == name) {
         format!("; it belongs in {}", elsewhere(name))
-    } else if let Some(known) = did_you_mean(name, frame.named.iter().copied()) {
+    } else if let Some(known) = did_you_mean(name, frame.named.iter().copied()).or_else(bare) {
         format!("; did you mean `{known}`?")
     } else if let Some(known) = did_you_mean(name, vocabulary.iter().map(|(_, k)| k.as_str())) {
         format!("; did you mean `{known}` in {}?", elsewhere(known))

@@ -53,10 +53,10 @@ pub(crate) const fn unit_of(name: &str) -> &'static str {
     unit_suffix(name).1
 }
 
-/// A key's name without its unit; nothing where it has none.
-pub(crate) fn without_unit(name: &str) -> &str {
+/// A key's name without its unit; `None` where it has none.
+pub(super) fn without_unit(name: &str) -> Option<&str> {
     let suffix = unit_suffix(name).0;
-    if suffix.is_empty() { "" } else { &name[..name.len() - suffix.len()] }
+    (!suffix.is_empty()).then(|| &name[..name.len() - suffix.len()])
 }
 
 /// The suffix of a key's name that is a unit, and the unit.
