@@ -16,8 +16,6 @@ from pathlib import Path
 
 HERE = Path(__file__).parent
 PARTS = {"IR": "inner_race", "OR": "outer_race", "B": "rolling_element"}
-# The cage's frequency is a damaged element's too: `analyze` names the element there, and so it is counted of the other program.
-OTHERS = {"IR": "IR", "OR": "OR", "B": "B", "FTF": "B"}
 
 
 def first(brinell, folder, record):
@@ -37,7 +35,8 @@ def main():
         for grade in (row["grade"], "all"):
             counts[grade]["records"] += 1
             counts[grade]["right" if said == truth else "wrong" if said else "not called"] += 1
-            counts[grade]["other right"] += OTHERS[row["other_program"]] == record["damaged"]
+            # The cage's frequency is a damaged element's too: `analyze` names the element there, and so it is counted of the other.
+            counts[grade]["other right"] += row["other_program"].replace("FTF", "B") == record["damaged"]
     for grade, n in sorted(counts.items(), key=lambda item: ("Y1", "Y2", "P1", "P2", "N1", "N2", "all").index(item[0])):
         other = n["records"] - n["other right"]
         print(f"| {grade} | {n['records']} | {n['right']} / {n['wrong']} / {n['not called']} | {n['other right']} / {other} |")

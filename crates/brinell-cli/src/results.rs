@@ -23,6 +23,7 @@ use std::path::{Path, PathBuf};
 
 pub(crate) const SCENARIO: &str = "scenario.toml";
 pub(crate) const SUMMARY: &str = "summary.json";
+pub(crate) const SPECTRA: &str = "spectra.parquet";
 pub(crate) const REPORT: &str = "report.html";
 pub(crate) const ANALYSIS: &str = "analysis.json";
 pub(crate) const COMPARISON: &str = "compare.json";
@@ -53,7 +54,7 @@ const fn of(name: &'static str, own: &'static [&'static str], pictures: bool) ->
 }
 
 impl Results {
-    pub(crate) const RUN: Self = of("run", &[SUMMARY, SCENARIO, REPORT, "spectra.parquet"], true);
+    pub(crate) const RUN: Self = of("run", &[SUMMARY, SCENARIO, REPORT, SPECTRA], true);
     pub(crate) const ANALYSIS: Self = Self { subject: "signal", ..of("analyze", &[ANALYSIS, REPORT], true) };
     pub(crate) const COMPARISON: Self = Self {
         subject: "set of scenarios",
@@ -145,7 +146,7 @@ impl Results {
     }
 
     /// Whether results of it lie in a folder, or the beginnings of them.
-    fn is_in(self, folder: &Path) -> bool {
+    pub(crate) fn is_in(self, folder: &Path) -> bool {
         let begun = match self.campaign() {
             Some(campaign) => journal_of(folder).is_some_and(|kind| kind == campaign),
             None => self == Self::DATA_SET && folder.join("work/campaign.json").exists(),

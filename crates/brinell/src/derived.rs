@@ -6,7 +6,7 @@ use crate::accuracy::settings;
 use crate::bearing::Kinematics;
 use crate::defect::{Defect, SIDES};
 use crate::model::Model;
-use crate::scenario::{Accuracy, LoadOn, Surface};
+use crate::scenario::{Accuracy, Surface};
 use crate::statics::{NoBalance, StaticLoadZone, static_load_zone};
 pub use json::{frequencies, to_json};
 use std::f64::consts::TAU;
@@ -75,10 +75,6 @@ impl Derived {
         let roller_angular = (between / m.roller).sqrt();
         let damping = model.inner_contact.damping + model.outer_contact.damping;
         let natural = |stiffness: f64, mass: f64| (stiffness / mass).sqrt() / TAU;
-        let loaded = match model.load.on {
-            LoadOn::OuterRing => model.acting_outer_support(),
-            LoadOn::InnerRing => model.inner_support,
-        };
         Self {
             top_speed,
             kinematics,
@@ -94,10 +90,7 @@ impl Derived {
             roller_period: 1.0 / kinematics.bpfo,
             defect_passes: defect_passes(model),
             longest_step: settings(model, accuracy).max_step,
-            support_share: (
-                loaded.stiffness * g.clearance.max(0.0),
-                model.load.with_weight([m.inner_ring, m.outer_ring], model.gravity),
-            ),
+            support_share: (model.loaded_support().stiffness * g.clearance.max(0.0), model.force_on_loaded_ring()),
             statics,
         }
     }

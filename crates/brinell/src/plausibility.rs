@@ -158,11 +158,11 @@ fn sensor_at_rest(scenario: &Scenario, model: &Model) -> Option<Problem> {
 
 /// A support that carries a part of the load that counts, which the bearing then does not.
 fn carried_by_support(scenario: &Scenario, model: &Model, zone: &StaticLoadZone) -> Option<Problem> {
-    let (key, stiffness) = match scenario.operation.load_on {
-        LoadOn::OuterRing => ("support.outer_stiffness_n_per_m", scenario.support.outer_stiffness_n_per_m),
-        LoadOn::InnerRing => ("support.inner_stiffness_n_per_m", scenario.support.inner_stiffness_n_per_m),
+    let key = match scenario.operation.load_on {
+        LoadOn::OuterRing => "support.outer_stiffness_n_per_m",
+        LoadOn::InnerRing => "support.inner_stiffness_n_per_m",
     };
-    let load = model.load.with_weight([model.inertia.inner_ring, model.inertia.outer_ring], model.gravity);
+    let (stiffness, load) = (model.loaded_support().stiffness, model.force_on_loaded_ring());
     let bearing = zone.resultant();
     let share = 1.0 - bearing / load;
     // Where it can carry all of it, the document's own warning says so.

@@ -126,12 +126,6 @@ pub(super) fn turning(rpm: f64, source: &str) -> Result<(), Failure> {
     )))
 }
 
-/// What to know of a signal that is too short because it repeats itself.
-fn repeated(measured: &Measured) -> String {
-    let said = measured.warnings.iter().find(|warning| warning.contains("repeats the same"));
-    said.map_or_else(String::new, |warning| format!("; {warning}"))
-}
-
 fn look(measured: &Measured, options: &Options) -> Result<Analysis, Failure> {
     analysis_of(&measured.x, measured.rate, options).map_err(|error| {
         let hint = match &error {
@@ -140,7 +134,9 @@ fn look(measured: &Measured, options: &Options) -> Result<Analysis, Failure> {
                 let rpm = 60.0 * options.shaft;
                 format!(", at {rpm:.2} r/min; a speed in Hz is written {rpm:.2}Hz")
             }
-            AnalysisError::TooShort { .. } => repeated(measured),
+            AnalysisError::TooShort { .. } => {
+                measured.repeats.as_ref().map_or_else(String::new, |why| format!("; {why}"))
+            }
             _ => String::new(),
         };
         Failure::Usage(format!("{}, `{}`: {error}{hint}", measured.path.display(), measured.channel))

@@ -2,6 +2,7 @@
 
 use super::measured::{names_of_runs, run_in};
 use crate::failure::Failure;
+use crate::results::{Results, SPECTRA};
 use crate::say::one_line;
 use brinell_io::FileKind;
 use std::cmp::Ordering;
@@ -43,14 +44,14 @@ pub(super) fn files(named: &[PathBuf]) -> Result<Files, Failure> {
 /// The files of signals right in a folder: by their names or, where none has such a name, all that can be read as one.
 fn inside(folder: &Path) -> Result<Vec<PathBuf>, Failure> {
     let failed = |error| Failure::Read(folder.to_owned(), error);
-    let of_run = ["scenario.toml", "summary.json"].iter().all(|name| folder.join(name).is_file());
+    let of_run = Results::RUN.is_in(folder);
     let (mut found, mut others) = (Vec::new(), Vec::new());
     for entry in std::fs::read_dir(folder).map_err(failed)? {
         let path = entry.map_err(failed)?.path();
         let hidden = (path.file_name()).is_some_and(|n| n.to_string_lossy().starts_with('.'));
         let is_signal =
             (path.extension()).is_some_and(|e| FileKind::extensions().any(|known| e.eq_ignore_ascii_case(known)));
-        if !hidden && path.is_file() && !(of_run && path.ends_with("spectra.parquet")) {
+        if !hidden && path.is_file() && !(of_run && path.ends_with(SPECTRA)) {
             if is_signal { &mut found } else { &mut others }.push(path);
         }
     }

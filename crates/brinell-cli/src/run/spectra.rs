@@ -1,11 +1,10 @@
 //! `spectra.parquet`: the spectra of a run, beside its signals.
 
 use crate::failure::Failure;
+use crate::results::SPECTRA;
 use brinell::observe::Findings;
 use brinell_io::{Cells, Column, Complete, Metadata, Table, keys};
 use std::path::Path;
-
-pub(super) const FILE: &str = "spectra.parquet";
 
 /// A row a line of a spectrum, one spectrum after the other; `None` of a run too short for any.
 pub(super) fn ready(findings: &Findings, folder: &Path) -> Result<Option<Complete>, Failure> {
@@ -33,5 +32,5 @@ pub(super) fn ready(findings: &Findings, folder: &Path) -> Result<Option<Complet
     let about = "peak amplitude of the line; at 0 Hz the mean";
     column("amplitude", "m/s^2", about, Cells::Numbers(amplitudes));
     let metadata = Metadata::default().with(keys::VERSION, brinell::VERSION);
-    Ok(Some(table.prepare_parquet(folder.join(FILE), &metadata)?))
+    Ok(Some(table.prepare_parquet(folder.join(SPECTRA), &metadata)?))
 }

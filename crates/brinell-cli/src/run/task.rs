@@ -7,7 +7,7 @@ use crate::failure::{Failure, print_problems};
 use crate::files::{self, Source, make_folder};
 use crate::inputs::Inputs;
 use crate::progress::{Progress, Shown};
-use crate::results::{Earlier, Place, REPORT, Results, SCENARIO, SUMMARY, is_of, is_written};
+use crate::results::{Earlier, Place, REPORT, Results, SCENARIO, SPECTRA, SUMMARY, is_of, is_written};
 use crate::say::complain;
 use brinell::document::Loaded;
 use brinell::plausibility::Beforehand;
@@ -86,7 +86,7 @@ pub(super) fn earlier(args: &RunArgs, loaded: &Loaded, folder: &Path, inputs: &I
     let mut writes: Vec<&str> = formats(args).into_iter().map(Format::file_name).collect();
     writes.push(SUMMARY);
     if writes.contains(&Format::Parquet.file_name()) {
-        writes.push(spectra::FILE);
+        writes.push(SPECTRA);
     }
     if !args.line_loads.is_empty() {
         writes.push(line_loads::FILE);

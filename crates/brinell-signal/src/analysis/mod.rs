@@ -94,9 +94,15 @@ const LONGEST: usize = 1 << 18;
 pub fn analyze(x: &[f64], fs: f64, options: &Options) -> Result<Analysis, AnalysisError> {
     check(x, fs, options)?;
     let repeats = repetition(x);
-    // A stretch that is there again says nothing new, and its repetition has lines.
-    let x = &x[..repeats.unwrap_or(x.len())];
-    check(x, fs, options)?;
+    let x = match repeats {
+        None => x,
+        // A stretch that is there again says nothing new, and its repetition has lines.
+        Some(samples) => {
+            let once = &x[..samples];
+            check(once, fs, options)?;
+            once
+        }
+    };
     let mean = x.iter().sum::<f64>() / x.len() as f64;
     let x: Vec<f64> = x.iter().map(|v| v - mean).collect();
     let mut flaws = soundness::flaws(&x, fs, options.shaft);

@@ -2,7 +2,9 @@
 
 use crate::dataset::error::DatasetError;
 use crate::dataset::folder::Folder;
+use brinell::channel::SENSOR;
 use brinell::observe::envelope_band_above;
+use brinell::scenario::Operation;
 use brinell::signal::{Segments, envelope_spectrum};
 use brinell_io::{Cell, read_records};
 use serde_json::Value;
@@ -180,8 +182,8 @@ fn along_the_load(parts: &[PathBuf], places: &[Place]) -> Result<&'static str, D
     };
     let rows = read_records(&parts[first.part], &["load_n"], |row| row == first.row)?;
     Ok(match rows.first().and_then(|cells| cells.first()) {
-        Some(Cell::Numbers(load)) if load.len() == 2 && load[1].abs() > load[0].abs() => "sensor_ay",
-        _ => "sensor_ax",
+        Some(Cell::Numbers(load)) if load.len() == 2 => SENSOR[Operation::axis_along([load[0], load[1]])],
+        _ => SENSOR[0],
     })
 }
 

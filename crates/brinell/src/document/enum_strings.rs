@@ -3,16 +3,6 @@
 use crate::bearing::clearance::ClearanceClass;
 use crate::scenario::*;
 
-/// Gives a closed choice its words: value, word, meaning.
-macro_rules! words {
-    ($type:ident: $($variant:ident = $word:literal, $meaning:literal;)+) => {
-        impl Choice for $type {
-            const WORDS: &'static [(&'static str, Self, &'static str)] =
-                &[$(($word, $type::$variant, $meaning)),+];
-        }
-    };
-}
-
 words! { ClearanceClass:
     CN = "CN", "normal";
     C2 = "C2", "less than CN";

@@ -172,6 +172,19 @@ impl Model {
         }
     }
 
+    /// Support of the ring that the load acts on.
+    pub fn loaded_support(&self) -> Support {
+        match self.load.on {
+            LoadOn::OuterRing => self.acting_outer_support(),
+            LoadOn::InnerRing => self.inner_support,
+        }
+    }
+
+    /// What acts on that ring, load and weight together, N.
+    pub fn force_on_loaded_ring(&self) -> f64 {
+        self.load.with_weight([self.inertia.inner_ring, self.inertia.outer_ring], self.gravity)
+    }
+
     /// Masses of the positions, for norms and kinetic energies of the rates: kg for lengths, kg m^2 for angles. 0 for
     /// pads and for coordinates that are prescribed.
     pub fn mass(&self) -> Vec<f64> {

@@ -1,5 +1,17 @@
 //! The keys of a scenario that take one of a few words.
 
+/// Gives a closed choice its words: value, word, meaning; and a word of earlier versions with the one that replaces it.
+macro_rules! words {
+    ($type:ident $(renamed $old:literal to $new:literal)?: $($variant:ident = $word:literal, $meaning:literal;)+) => {
+        impl Choice for $type {
+            const WORDS: &'static [(&'static str, Self, &'static str)] =
+                &[$(($word, $type::$variant, $meaning)),+];
+            $(const RENAMED: Option<(&'static str, &'static str)> = Some(($old, $new));)?
+        }
+    };
+}
+pub(crate) use words;
+
 /// A closed choice: an enum, and the words that the scenario file has for it, each with its meaning.
 macro_rules! choices {
     ($($(#[$about:meta])* pub enum $type:ident $(renamed $old:literal to $new:literal)? { $($(#[$more:meta])* $variant:ident = $word:literal, $meaning:literal;)+ })+) => {$(
@@ -9,11 +21,7 @@ macro_rules! choices {
             $(#[doc = $meaning] $(#[doc = ""] #[$more])* $variant),+
         }
 
-        impl Choice for $type {
-            const WORDS: &'static [(&'static str, Self, &'static str)] =
-                &[$(($word, $type::$variant, $meaning)),+];
-            $(const RENAMED: Option<(&'static str, &'static str)> = Some(($old, $new));)?
-        }
+        words! { $type $(renamed $old to $new)?: $($variant = $word, $meaning;)+ }
     )+};
 }
 

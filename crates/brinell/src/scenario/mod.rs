@@ -8,6 +8,7 @@ mod choices;
 mod damage;
 mod sensor;
 
+pub(crate) use choices::words;
 pub use choices::*;
 pub use damage::{Defect, DepthGrid, ImageFile, ScaleBar, ScanFile, Shape, Surface, SvgFile};
 pub use sensor::{PathMode, Range, Sensor};
@@ -52,7 +53,12 @@ impl Speed {
 impl Operation {
     /// The axis nearer the load: 0 is X, 1 is Y.
     pub fn axis_of_load(&self) -> usize {
-        let [x, y] = self.load_n;
+        Self::axis_along(self.load_n)
+    }
+
+    /// The axis nearer a load, the same way.
+    #[doc(hidden)]
+    pub fn axis_along([x, y]: [f64; 2]) -> usize {
         usize::from(y.abs() > x.abs())
     }
 }

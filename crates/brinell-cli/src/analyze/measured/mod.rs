@@ -37,6 +37,8 @@ pub(crate) struct Measured {
     pub(crate) notes: Vec<String>,
     /// What deserves attention.
     pub(crate) warnings: Vec<String>,
+    /// What is warned of where the file repeats one stretch, to which `x` is cut.
+    pub(crate) repeats: Option<String>,
     /// What lies beyond the stretch, where the signal is longer than one analysis takes.
     pub(crate) beyond: Option<Beyond>,
     /// Shaft speed that the file states, and where.
@@ -112,11 +114,12 @@ pub(crate) fn load(path: &Path, wanted: &Wanted) -> Result<Measured, Failure> {
             MOST as f64 / rate
         ));
     }
-    if let Some(samples) = repetition(&x) {
+    let repeats = repetition(&x).map(|samples| {
         let whole = x.len() as f64 / rate;
-        warnings.push(format!("of {whole:.3} s {}", Flaw::Repeats { every: samples as f64 / rate }));
         x.truncate(samples);
-    }
+        format!("of {whole:.3} s {}", Flaw::Repeats { every: samples as f64 / rate })
+    });
+    warnings.extend(repeats.clone());
     let seconds = x.len() as f64 / rate;
     let speed = speed(&mut file, wanted, run, &name, (start, seconds, rate))?;
     Ok(Measured {
@@ -129,6 +132,7 @@ pub(crate) fn load(path: &Path, wanted: &Wanted) -> Result<Measured, Failure> {
         start,
         notes,
         warnings,
+        repeats,
         speed,
         scenario,
     })
