@@ -128,14 +128,12 @@ pub(super) fn turning(rpm: f64, source: &str) -> Result<(), Failure> {
 
 fn look(measured: &Measured, options: &Options) -> Result<Analysis, Failure> {
     analysis_of(&measured.x, measured.rate, options).map_err(|error| {
-        let hint = match &error {
+        let hint = match (&error, &measured.repeats) {
+            (AnalysisError::TooShort { .. }, Some(why)) => format!("; {why}"),
             // As many r/min would be enough as Hz.
-            AnalysisError::TooShort { revolutions, .. } if 60.0 * revolutions >= FEWEST_REVOLUTIONS => {
+            (AnalysisError::TooShort { revolutions, .. }, None) if 60.0 * revolutions >= FEWEST_REVOLUTIONS => {
                 let rpm = 60.0 * options.shaft;
                 format!(", at {rpm:.2} r/min; a speed in Hz is written {rpm:.2}Hz")
-            }
-            AnalysisError::TooShort { .. } => {
-                measured.repeats.as_ref().map_or_else(String::new, |why| format!("; {why}"))
             }
             _ => String::new(),
         };
