@@ -314,7 +314,7 @@ fn regress_a_run_is_known_whatever_its_format() {
     run("ramp", &["--set", "operation.speed_rpm=[[0.0, 1600.0], [0.4, 2000.0]]"]);
     brinell(folder.path(), &["analyze", "out/ramp"])
         .exits(0)
-        .says(&["from the scenario of the run in the file: 1620.0 to 2000.0, so envelopes are taken at equal angles"]);
+        .says(&["from the scenario of the run in the file: 1656.6 to 2000.0, so envelopes are taken at equal angles"]);
 }
 
 #[test]

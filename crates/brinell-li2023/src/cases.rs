@@ -59,7 +59,7 @@ impl Length {
     /// For cases about the start, and for sets of a search.
     pub const START: Self = Self::Seconds(Self::SHORTEST_S);
 
-    /// Simulated time at a speed, s. Statistics begin after the load ramp, 0.02 s, and one turn.
+    /// Simulated time at a speed, s. Statistics begin a turn after the load ramp, 0.02 s.
     pub fn duration_s(self, rpm: f64) -> f64 {
         let turns = match self {
             Self::Turns(turns) => turns,
@@ -67,7 +67,7 @@ impl Length {
         };
         let turn = 60.0 / rpm;
         // A hair more, so that the last turn is whole in spite of round-off and sampling.
-        let exact = turn.max(0.02) + (f64::from(turns) + 1.05) * turn;
+        let exact = 0.02 + (f64::from(turns) + 1.05) * turn;
         ((1e3 * exact).ceil() / 1e3).max(Self::SHORTEST_S)
     }
 
@@ -177,10 +177,9 @@ mod tests {
 
     #[test]
     fn analytic_lengths_hold_their_turns() {
-        // 1800 r/min: a turn is 1/30 s, longer than the ramp; 40 turns, the one before, and a hair.
+        // The ramp of 0.02 s, the turn after it, 40 turns, and a hair.
         let duration = Length::QUICK.duration_s(1800.0);
-        assert!((42.0 / 30.0..42.2 / 30.0).contains(&duration), "{duration}");
-        // 5000 r/min: the ramp of 0.02 s is longer than a turn of 0.012 s.
+        assert!((0.02 + 41.0 / 30.0..0.02 + 41.2 / 30.0).contains(&duration), "{duration}");
         let duration = Length::QUICK.duration_s(5000.0);
         assert!((0.02 + 41.0 * 0.012..0.02 + 41.2 * 0.012).contains(&duration));
         // And 12 turns at 5000 r/min would not hold a record of 0.3 s.

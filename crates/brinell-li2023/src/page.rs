@@ -11,7 +11,7 @@ use brinell_report::{Chapter, DamageView, Fact, Study, StudyPiece, Table, capita
 
 /// How verdicts come about, in words.
 const RULES: [&str; 6] = [
-    "Intervals are at 95 %: averages over whole turns of the shaft, peaks those of a turn, from after the load ramp and the first turn. “A exceeds \
+    "Intervals are at 95 %: averages over whole turns of the shaft, peaks those of a turn, from a turn after the load ramp on. “A exceeds \
      B” is decided by the interval of the ratio of the two means; it holds where that excludes equality, does not hold where it lies at or \
      below it, and is undecided otherwise.",
     "“Near” holds where the interval lies wholly within the stated bounds, and does not hold where it lies wholly outside. Trends are decided by \

@@ -3,7 +3,7 @@
 /// The stretch of a record.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Record {
-    /// After the load ramp and the first turn: the program's own statistics, with intervals.
+    /// From a turn after the load ramp on: the program's own statistics, with intervals.
     Steady,
     /// From t = 0 on, over so many ms. There is one start-up in a record, so its statistics have no interval.
     FromStart(u32),

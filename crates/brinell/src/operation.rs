@@ -1,6 +1,7 @@
 //! Prescribed motion and load: the inner ring's speed and angle, the load and its ramp.
 
-use crate::scenario::{self, Speed};
+use crate::scenario::{self, Scenario, Speed};
+use std::f64::consts::TAU;
 
 /// Speed of the inner ring, piecewise linear in time and held beyond its ends; its angle is the exact integral.
 #[derive(Debug, Clone, PartialEq)]
@@ -61,6 +62,30 @@ impl Rotation {
     }
 }
 
+impl Scenario {
+    /// Where statistics of its run begin, s: the load ramp is over and the shaft has made a turn since; half-way through
+    /// at the latest.
+    pub fn settled_s(&self) -> f64 {
+        let rotation = Rotation::new(&self.operation.speed_rpm);
+        let (ramp, half_way) = (self.operation.load_ramp_s, 0.5 * self.simulation.duration_s);
+        let turned = |t: f64| (rotation.at(t).1 - rotation.at(ramp).1).abs() >= TAU;
+        if ramp >= half_way || !turned(half_way) {
+            return half_way;
+        }
+        if let Some(rpm) = self.operation.speed_rpm.constant() {
+            return ramp + 60.0 / rpm.abs();
+        }
+        let (mut before, mut after) = (ramp, half_way);
+        loop {
+            let middle = 0.5 * (before + after);
+            if middle <= before || middle >= after {
+                return after;
+            }
+            *(if turned(middle) { &mut after } else { &mut before }) = middle;
+        }
+    }
+}
+
 /// The radial load: F points from the centre to the middle of the load zone.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Load {
@@ -117,5 +142,22 @@ mod tests {
         assert!((w - 50.0 * PI).abs() < 1e-12 && (angle - exact).abs() < 1e-12);
         let (w, angle) = Rotation::new(&Speed::Constant(60.0)).at(2.0);
         assert!((w - 2.0 * PI).abs() < 1e-14 && (angle - 4.0 * PI).abs() < 1e-13);
+    }
+
+    #[test]
+    fn analytic_statistics_begin_a_turn_after_the_ramp() {
+        let settled = |speed: &str, duration: f64| {
+            let text = format!(
+                "[bearing]\npreset = \"NU206\"\n[operation]\nspeed_rpm = {speed}\nload_n = [500, 0]\nload_ramp_s = 0.02\n\
+                 [simulation]\nduration_s = {duration}\n"
+            );
+            crate::document::read(&text, &[]).unwrap().scenario.settled_s()
+        };
+        assert!((settled("-6000", 0.5) - 0.03).abs() < 1e-15);
+        assert_eq!(settled("600", 0.2), 0.1, "half-way, before a turn");
+        assert_eq!(settled("6000", 0.03), 0.015, "half-way, before the end of the ramp");
+        // From rest at b rad/s^2: b (t^2 - ramp^2) / 2 is a turn.
+        let t = (0.02_f64.powi(2) + 4.0 * PI / (100.0 * PI)).sqrt();
+        assert!((settled("[[0, 0], [1, 3000]]", 1.0) - t).abs() < 1e-14);
     }
 }

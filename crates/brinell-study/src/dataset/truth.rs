@@ -4,7 +4,6 @@
 use crate::listener::RunListener;
 use brinell::channel::Frame;
 use brinell::defect::{SIDES, Side};
-use brinell::observe::has_settled;
 use brinell::observe::load_zone::{LoadZone, Places};
 use brinell::observe::passes::{Event, Passes};
 use brinell::observe::slip::Slip;
@@ -28,7 +27,7 @@ impl Instant {
 
 pub(crate) struct Truth<'a> {
     listener: Box<dyn RunListener + 'a>,
-    half_way: f64,
+    settled: f64,
     passes: Passes,
     pub(crate) instants: Vec<Instant>,
     /// The analysed time begins here, s.
@@ -67,7 +66,7 @@ impl<'a> Truth<'a> {
         };
         Self {
             listener,
-            half_way: 0.5 * scenario.simulation.duration_s,
+            settled: scenario.settled_s(),
             passes: Passes::new(simulation.model()),
             instants: Vec::new(),
             from: None,
@@ -100,7 +99,7 @@ impl Observer for Truth<'_> {
     }
 
     fn sample(&mut self, _: u64, frame: &Frame) {
-        if self.from.is_none() && has_settled(frame, self.half_way) {
+        if self.from.is_none() && frame.t >= self.settled {
             self.from = Some(frame.t);
         }
         if self.from.is_none() {

@@ -161,7 +161,7 @@ pub enum Drift {
 #[doc(hidden)]
 pub struct Watch {
     sample_rate: f64,
-    half_way: f64,
+    settled: f64,
     ramp: f64,
     started: Option<f64>,
     /// Of the inner ring, when statistics began, rad.
@@ -238,7 +238,7 @@ impl Watch {
         let searches: Vec<LineSearch> = lines.iter().map(search).collect();
         Self {
             sample_rate,
-            half_way: 0.5 * duration,
+            settled: scenario.settled_s(),
             ramp: model.load.ramp,
             started: None,
             start_angle: 0.0,
@@ -271,7 +271,7 @@ impl Watch {
 
     /// At each sample instant.
     pub fn sample(&mut self, frame: &Frame) {
-        if self.started.is_none() && has_settled(frame, self.half_way) {
+        if self.started.is_none() && frame.t >= self.settled {
             self.started = Some(frame.t);
             self.start_angle = frame.model.rotation.at(frame.t).1;
             self.rates.take(frame);
@@ -370,14 +370,6 @@ impl Watch {
 /// Changes that are smaller mislead nobody.
 const LEAST_SLIP_DRIFT: f64 = 1e-3;
 const LEAST_LEVEL_DRIFT: f64 = 0.02;
-
-/// Whether statistics count what a run shows from here on: the load is on and the shaft has turned once, or `half_way`
-/// (s) is reached.
-#[doc(hidden)]
-pub fn has_settled(frame: &Frame, half_way: f64) -> bool {
-    let turned = frame.model.rotation.at(frame.t).1.abs() >= TAU;
-    (turned && frame.t >= frame.model.load.ramp) || frame.t >= half_way
-}
 
 fn whole_turns(angle: f64) -> i64 {
     (angle / TAU).floor() as i64

@@ -68,13 +68,6 @@ impl Scenario {
     pub fn has_even_contacts(&self) -> bool {
         self.bearing.profile == RollerProfile::Straight && self.simulation.model != ModelKind::Tilting
     }
-
-    /// Where statistics of its run begin, s: after the load ramp and a turn of the shaft, half-way through at the
-    /// latest.
-    pub fn settled_s(&self) -> f64 {
-        let turn = self.operation.speed_rpm.constant().filter(|rpm| *rpm != 0.0).map_or(0.0, |rpm| 60.0 / rpm.abs());
-        (self.operation.load_ramp_s + turn).min(0.5 * self.simulation.duration_s)
-    }
 }
 
 impl Element {

@@ -198,9 +198,7 @@ fn start(wanted: &Wanted, run: Option<&Loaded>, notes: &mut Vec<String>) -> Resu
         (Some(start), _) => start,
         (None, Some(run)) => {
             let settled = run.scenario.settled_s();
-            let turn =
-                if run.scenario.operation.speed_rpm.constant().is_some() { " and a turn of the shaft" } else { "" };
-            notes.push(format!("begins at {settled:.4} s, after the run's load ramp{turn}"));
+            notes.push(format!("begins at {settled:.4} s, where statistics of the run do"));
             settled
         }
         (None, None) => 0.0,
