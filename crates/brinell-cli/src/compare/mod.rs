@@ -11,7 +11,6 @@ use crate::results::{COMPARISON, Earlier, Place, Results};
 use crate::say::{self, complain, document, say, short};
 use crate::stop::stop_flag;
 pub(crate) use args::CompareArgs;
-use brinell::plausibility;
 use brinell::simulate::Simulation;
 use brinell::{Error, RunResult};
 use brinell_io::{Metadata, atomic_prepare, keys};
@@ -72,13 +71,8 @@ pub(crate) fn compare(args: &CompareArgs) -> Result<ExitCode, Failure> {
         document(json.trim_end());
     }
     if !args.quiet {
-        for warning in brinell_report::unsettled(&sides, &all) {
+        for warning in brinell_report::doubts(&sides, &all) {
             complain!("warning: {warning}");
-        }
-        for (side, run) in sides.iter().zip(&all) {
-            if let Some(warning) = plausibility::residual(&run.scenario, &run.outcome.energy) {
-                complain!("warning: {}: {warning}", side.label);
-            }
         }
         tell(&sides, &compared);
         say::wrote(&written);

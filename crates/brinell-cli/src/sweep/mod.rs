@@ -15,14 +15,13 @@ use crate::say::{self, complain, plural, pretty, say, short};
 use crate::stop::stop_flag;
 pub(crate) use args::SweepArgs;
 use brinell::document::read;
-use brinell::plausibility::RESIDUAL_SHARE;
-use brinell::result::{check_name, fields, names};
+use brinell::result::{check_name, names};
 use brinell::simulate::Simulation;
 use brinell_io::{Metadata, keys};
 use brinell_study::campaign::fingerprint;
 use brinell_study::runner::{JOURNAL, Kept, Task, estimate, to_run};
 
-use page::usual;
+use page::{doubts, usual};
 pub(crate) use points::reason;
 use points::{FromSource, Points};
 use serde_json::{Value, json};
@@ -71,7 +70,9 @@ pub(crate) fn sweep(args: &SweepArgs) -> Result<ExitCode, Failure> {
     }
     tell_failures(&points, &states);
     if !args.quiet {
-        tell_doubtful(&states);
+        for doubt in doubts(&states) {
+            complain!("warning: {doubt}");
+        }
     }
     if outcome.is_break() {
         complain!(
@@ -80,24 +81,6 @@ pub(crate) fn sweep(args: &SweepArgs) -> Result<ExitCode, Failure> {
         );
     }
     Ok(if failed > 0 || outcome.is_break() { ExitCode::FAILURE } else { ExitCode::SUCCESS })
-}
-
-/// How many points' averages hold part of the start, and of how many the energy audit does not close.
-fn tell_doubtful(states: &[State]) {
-    let tell = |name: &str, is_doubtful: fn(f64) -> bool, words: &str| {
-        let of = |state: &State| state.row()?.quantity(name)?.value;
-        let count = states.iter().filter(|state| of(state).is_some_and(is_doubtful)).count();
-        if count > 0 {
-            complain!("warning: in {} {words} (column `{name}`)", plural(count, "point"));
-        }
-    };
-    tell(fields::NOT_SETTLED.name, |v| v == 1.0, "averages hold part of the start: simulate longer");
-    let open = |share: f64| share.abs() > RESIDUAL_SHARE;
-    tell(
-        &format!("audit.{}", fields::RELATIVE_RESIDUAL.name),
-        open,
-        "the energy audit misses more than 1 % of the turnover: raise simulation.accuracy",
-    );
 }
 
 /// That no signals will be written over, or taken for a point's, that are not of the same scenario.

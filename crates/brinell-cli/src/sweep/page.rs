@@ -3,7 +3,8 @@
 use super::points::Points;
 use super::table::{State, count, number};
 use crate::say::{plural, shown_unit};
-use brinell::result::Quantity;
+use brinell::plausibility::RESIDUAL_SHARE;
+use brinell::result::{Quantity, fields};
 use brinell::scenario::Scenario;
 use brinell_report::{
     Chapter, Fact, HeatMap, IndicatorLine, IndicatorPlot, IndicatorPoint, Study, StudyPiece, Table, sweep_lead,
@@ -35,6 +36,23 @@ pub(super) fn usual(scenario: &Scenario, names: &[String]) -> Vec<String> {
     usual
 }
 
+/// How many points' averages hold part of the start, and of how many the energy audit does not close.
+pub(super) fn doubts(states: &[State]) -> Vec<String> {
+    let doubt = |name: &str, is_doubtful: fn(f64) -> bool, words: &str| {
+        let of = |state: &State| state.row()?.quantity(name)?.value;
+        let count = states.iter().filter(|state| of(state).is_some_and(is_doubtful)).count();
+        (count > 0).then(|| format!("in {} {words} (column `{name}`)", plural(count, "point")))
+    };
+    let open = |share: f64| share.abs() > RESIDUAL_SHARE;
+    let not_settled = doubt(fields::NOT_SETTLED.name, |v| v == 1.0, "averages hold part of the start: simulate longer");
+    let not_closed = doubt(
+        &format!("audit.{}", fields::RELATIVE_RESIDUAL.name),
+        open,
+        "the energy audit misses more than 1 % of the turnover: raise simulation.accuracy",
+    );
+    not_settled.into_iter().chain(not_closed).collect()
+}
+
 pub(super) fn report(points: &Points, states: &[State], plots: &[String]) -> Study {
     let [complete, failed, missing] = ["complete", "failed", "not run"].map(|word| count(states, word));
     let axes: Vec<String> = points.plan.axes().iter().map(|axis| axis.keys().join(" with ")).collect();
@@ -60,7 +78,7 @@ pub(super) fn report(points: &Points, states: &[State], plots: &[String]) -> Stu
         title: format!("Sweep of {}", points.example.name),
         subtitle: format!("{} over {}", plural(states.len(), "point"), axes.join(" × ")),
         version: brinell::VERSION.into(),
-        warnings: Vec::from_iter((missing > 0).then_some(incomplete)),
+        warnings: (missing > 0).then_some(incomplete).into_iter().chain(doubts(states)).collect(),
         lead: sweep_lead(&drawn),
         facts,
         chapters: chapters(points, states, plots, drawn),

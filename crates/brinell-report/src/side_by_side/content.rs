@@ -8,6 +8,7 @@ use crate::quantity::{value_text, words};
 use crate::study::{Chapter, Study};
 use crate::tables::Table;
 use brinell::observe::passes::place;
+use brinell::plausibility;
 use brinell::result::{Quantity, RunResult};
 use brinell::signal::ratio::Ratio;
 use brinell_study::campaign::{Compared, Side};
@@ -118,20 +119,21 @@ fn facts(names: &[String], compared: &[Compared]) -> Vec<Fact> {
     facts
 }
 
-/// Which runs' averages hold part of the start.
-pub fn unsettled(sides: &[Side], runs: &[&RunResult]) -> Vec<String> {
-    (sides.iter().zip(runs))
-        .filter(|(_, run)| !run.findings.drifts.is_empty())
-        .map(|(side, _)| {
-            let label = &side.label;
-            format!("{label} has not settled: its averages hold part of the start; simulate longer")
-        })
-        .collect()
+/// Why averages of some runs are not to be relied on: they hold part of the start, or the energy audit does not close.
+pub fn doubts(sides: &[Side], runs: &[&RunResult]) -> Vec<String> {
+    let mut all = Vec::new();
+    for (Side { label, .. }, run) in sides.iter().zip(runs) {
+        if !run.findings.drifts.is_empty() {
+            all.push(format!("{label} has not settled: its averages hold part of the start; simulate longer"));
+        }
+        all.extend(plausibility::residual(&run.scenario, &run.outcome.energy).map(|open| format!("{label}: {open}")));
+    }
+    all
 }
 
 /// What makes curves hard to hold against each other.
 fn warnings(sides: &[Side], runs: &[&RunResult]) -> Vec<String> {
-    let mut all = unsettled(sides, runs);
+    let mut all = doubts(sides, runs);
     let rate = |run: &RunResult| run.simulation.sample_rate();
     if runs.iter().any(|run| rate(run) != rate(runs[0])) {
         all.push("The runs' sample rates differ: what is above half the lower one is in one of them alone.".into());

@@ -3,4 +3,4 @@
 mod content;
 mod curves;
 
-pub use content::{compared_headline, unsettled};
+pub use content::{compared_headline, doubts};

@@ -11,7 +11,7 @@
 //! en.shjfbearing.com, news 2525, which agree elsewhere but for misprints.
 
 use super::catalogue;
-use super::designation::{is_gap, readings};
+use super::designation::{readings, words};
 use crate::scenario::{Bearing, Element};
 
 /// A class of radial internal clearance.
@@ -69,8 +69,12 @@ pub fn classes_of(of: Element, bore_mm: f64, diametral_um: f64) -> Vec<Clearance
 /// The class of radial clearance that a name's suffixes give: `C3` of `6205-2RSH/C3` and `6205ZZC3`.
 pub fn clearance_of(name: &str) -> Option<ClearanceClass> {
     let (_, suffix) = readings(name).into_iter().next()?;
-    let mut words = suffix.split(|c: char| is_gap(c) || c == '/');
-    words.find_map(|word| (0..word.len()).find_map(|at| class_at(word, at)))
+    words(&suffix).find_map(|word| match word {
+        // Class of tolerance and of clearance in one (SKF General catalogue, p. 301).
+        "P52" | "P62" => Some(ClearanceClass::C2),
+        "P63" => Some(ClearanceClass::C3),
+        _ => (0..word.len()).find_map(|at| class_at(word, at)),
+    })
 }
 
 /// The class that a word of suffixes names at a place.

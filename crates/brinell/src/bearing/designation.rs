@@ -61,7 +61,15 @@ pub(super) fn is_gap(c: char) -> bool {
 fn is_suffix(text: &str) -> bool {
     let bare = text.trim_start_matches(|c| is_gap(c) || c == '/');
     let seals = bare.strip_prefix('2').is_some_and(|after| after.starts_with(['R', 'Z', 'L', 'N']));
-    bare.is_empty() || seals || bare.starts_with(|c: char| c.is_ascii_alphabetic())
+    let letters = bare.is_empty() || seals || bare.starts_with(|c: char| c.is_ascii_alphabetic());
+    // C1 to C5 are classes of clearance; C9 is a slip of the finger.
+    let no_class = |word: &str| matches!(word.as_bytes(), [b'C', b'0' | b'6'..=b'9']);
+    letters && !words(text).any(no_class)
+}
+
+/// Suffixes between gaps and slashes.
+pub(super) fn words(suffix: &str) -> impl Iterator<Item = &str> {
+    suffix.split(|c: char| is_gap(c) || c == '/')
 }
 
 /// The name with the digit in place of each letter O behind its first digit: `NU2O6`, `62O5`. `None` where there is
@@ -190,6 +198,9 @@ mod tests {
             ("6205C2HRS", None),
             ("6205", None),
             ("NU 206 ECP", None),
+            ("6205/P63", Some(ClearanceClass::C3)),
+            ("6205-2Z/P62", Some(ClearanceClass::C2)),
+            ("6205/P6", None),
         ] {
             assert_eq!(clearance_of(name), class, "{name}");
         }
