@@ -26,9 +26,10 @@ const FEWEST_FAR: usize = 4;
 /// Chance at most that lines of other sources, as many as there are, agree so well with any speed tried.
 const CHANCE: f64 = 0.1;
 /// What a line counts for at most, ln(power over floor): otherwise one that many places share would decide. A comb
-/// beyond the tolerance has so much more than any within.
+/// farther from the speed given has so much more than one that is nearer.
 const LINE: f64 = 4.0;
-/// Bins that the tolerance spans at the fundamental; in a shorter record combs beyond it are not told apart.
+/// Bins that the tolerance spans at the fundamental; in a shorter record the lines of any two sources agree with a speed
+/// within it, and tell none.
 const TELLING: f64 = 0.5;
 
 /// A shaft's speed by lines at its harmonics.
@@ -45,10 +46,12 @@ pub(super) struct ShaftLines {
 /// Another shaft's lines there look the same: nothing in the signal tells the two apart.
 pub(super) fn shaft(x: &[f64], fs: f64, options: &Options) -> Result<Option<ShaftLines>, AnalysisError> {
     let lines = Lines::of(x, fs, options)?;
-    let near = lines.highest_comb(options.tolerance);
-    let could_be_wrong = !options.exact && !lines.is_whole(&near, FEWEST);
-    if could_be_wrong && options.tolerance * options.shaft >= TELLING * lines.step {
-        let far = lines.highest_comb(FARTHEST);
+    if options.tolerance * options.shaft < TELLING * lines.step {
+        return Ok(None);
+    }
+    let near = lines.nearest_comb();
+    if !options.exact && !lines.is_whole(&near, FEWEST) {
+        let far = lines.highest_comb();
         if far.score >= near.score + LINE && lines.is_whole(&far, FEWEST_FAR) && lines.chance(&far) <= CHANCE {
             return Ok(Some(lines.told_by(&far)));
         }
@@ -153,13 +156,28 @@ impl<'a> Lines<'a> {
         tail * self.speeds(FARTHEST).count() as f64
     }
 
-    /// Of those that two lines or more say, within `reach` of the speed given, relative; without a score where there is
-    /// none.
-    fn highest_comb(&self, reach: f64) -> Comb {
-        let shaft = self.options.shaft;
-        let own = self.speeds(reach).map(|f| self.comb(f)).filter(Comb::is_own);
-        let highest = own.max_by(|a, b| a.score.total_cmp(&b.score));
-        highest.unwrap_or(Comb { speed: shaft, score: 0.0, orders: Vec::new() })
+    /// Those that two lines or more say, within `reach` of the speed given, relative.
+    fn combs(&self, reach: f64) -> Vec<Comb> {
+        self.speeds(reach).map(|f| self.comb(f)).filter(Comb::is_own).collect()
+    }
+
+    /// The highest as far off as may be; without a score where there is none.
+    fn highest_comb(&self) -> Comb {
+        let highest = self.combs(FARTHEST).into_iter().max_by(|a, b| a.score.total_cmp(&b.score));
+        highest.unwrap_or(self.no_comb())
+    }
+
+    /// Within the tolerance: the nearest to the speed given of those that no other has a line more than.
+    fn nearest_comb(&self) -> Comb {
+        let combs = self.combs(self.options.tolerance);
+        let highest = combs.iter().map(|comb| comb.score).fold(0.0, f64::max);
+        let off = |comb: &Comb| (comb.speed / self.options.shaft - 1.0).abs();
+        let alike = combs.into_iter().filter(|comb| comb.score > highest - LINE);
+        alike.min_by(|a, b| off(a).total_cmp(&off(b))).unwrap_or(self.no_comb())
+    }
+
+    fn no_comb(&self) -> Comb {
+        Comb { speed: self.options.shaft, score: 0.0, orders: Vec::new() }
     }
 
     /// A comb without its fundamental, or of few of its multiples, is another's.
