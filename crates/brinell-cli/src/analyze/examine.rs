@@ -6,9 +6,10 @@ use super::measured::{self, ASK_SPEED, Beyond, Like, MOST, Measured, Reading, Re
 use super::{bearing, ends};
 use crate::failure::Failure;
 use brinell::analysis::{
-    Analysis, AnalysisError, FEWEST_REVOLUTIONS, Levels, Options, Quantity, Side, analyze as analysis_of, compare,
-    velocity,
+    Analysis, AnalysisError, DefectOrders, FEWEST_REVOLUTIONS, Levels, Options, Quantity, Side, analyze as analysis_of,
+    compare, velocity,
 };
+use brinell::bearing::orders_of;
 use brinell::result::{Stretch, beside_healthy};
 use brinell::signal::{Band, Rotation, VelocityBands};
 use std::path::Path;
@@ -46,6 +47,7 @@ fn examine(args: &AnalyzeArgs, mut measured: Measured, name: Option<&str>) -> Re
     measured.warnings.extend(other_speed(args, &measured));
     let shaft = rpm.abs() / 60.0;
     let (orders, bearing) = bearing::orders(args, name, &measured, shaft)?;
+    measured.warnings.extend(other_bearing(&orders, &bearing, &measured, args.tolerance));
     let mut options = Options::new(shaft, orders);
     options.tolerance = 0.01 * args.tolerance;
     options.silent = measured.silent();
@@ -117,6 +119,15 @@ fn other_speed(args: &AnalyzeArgs, measured: &Measured) -> Option<String> {
     differs.then(|| format!("--speed {given} r/min was taken, but {} says {:.1} r/min", stated.source, stated.rpm))
 }
 
+/// A warning, where the run that made the file is of another bearing than was asked about.
+fn other_bearing(orders: &DefectOrders, source: &str, measured: &Measured, tolerance: f64) -> Option<String> {
+    let own = orders_of(&measured.scenario.as_deref()?.scenario.bearing);
+    let pairs = [(orders.bpfo, own.bpfo), (orders.bpfi, own.bpfi)];
+    let off = |(asked, own): (Option<f64>, Option<f64>)| Some((asked? / own? - 1.0).abs());
+    let differs = pairs.into_iter().filter_map(off).any(|off| off > 0.01 * tolerance);
+    differs.then(|| format!("{source} was taken, but the run that made the file is of another bearing"))
+}
+
 pub(super) fn turning(rpm: f64, source: &str) -> Result<(), Failure> {
     if rpm.is_finite() && rpm != 0.0 {
         return Ok(());
@@ -131,7 +142,9 @@ fn look(measured: &Measured, options: &Options) -> Result<Analysis, Failure> {
         let hint = match (&error, &measured.repeats) {
             (AnalysisError::TooShort { .. }, Some(why)) => format!("; {why}"),
             // As many r/min would be enough as Hz.
-            (AnalysisError::TooShort { revolutions, .. }, None) if 60.0 * revolutions >= FEWEST_REVOLUTIONS => {
+            (AnalysisError::TooShort { revolutions, .. }, None)
+                if measured.speed.is_none() && 60.0 * revolutions >= FEWEST_REVOLUTIONS =>
+            {
                 let rpm = 60.0 * options.shaft;
                 format!(", at {rpm:.2} r/min; a speed in Hz is written {rpm:.2}Hz")
             }

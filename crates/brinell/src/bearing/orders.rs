@@ -104,7 +104,11 @@ impl KnownBearing {
     pub fn orders(self) -> Result<(DefectOrders, String), String> {
         Ok(match self {
             Self::Catalogue(entry) => {
-                let guess = if entry.estimates_orders() { "; number or size of its elements is estimated" } else { "" };
+                let guess = if entry.estimates_orders() {
+                    "; number or size of its elements is estimated, and differs between makers"
+                } else {
+                    ""
+                };
                 let words = format!("{}: {}{guess}", entry.name, entry.title);
                 (orders(&geometry(entry)?), words)
             }
