@@ -1,10 +1,11 @@
 """What `brinell analyze` says of measured records that were made harder.
 
-    python3 validation/robustness/robustness.py RECORDS BRINELL [base,sensor,cut,speed,far,rate,bearing | sum | halves] [-v]
+    python3 validation/robustness/robustness.py RECORDS BRINELL [base,sensor,cut,speed,far,rate,bearing | sum | halves | told] [-v]
 
 RECORDS is a folder with records.csv (id, file, damaged, set, options) and NPZ files. Prints a row of a Markdown table for each way of making them
 harder: by the other sensor of the file, cut short, at wrong speeds, at speeds far off, resampled with noise, asked about other bearings;
-`sum` one of sums of two damaged bearings' records, `halves` how often the 95 % intervals of a record's two halves agree. -v lists every wrong call. Needs NumPy and SciPy.
+`sum` one of sums of two damaged bearings' records, `halves` how often the 95 % intervals of a record's two halves agree, `told` how often the
+speed that is taken is that of the whole record's lines. -v lists every wrong call. Needs NumPy and SciPy.
 """
 
 import collections
@@ -167,6 +168,31 @@ def of_halves(folder, brinell):
         print(f"| {name} | {agree[name]} of {count[name]} |")
 
 
+def of_speeds(folder, brinell):
+    """How often the speed taken is more than 0.3 % off what the lines of the whole record tell, at the speed given."""
+    off, count = collections.Counter(), collections.Counter()
+
+    def one(job):
+        way, name, what = job
+        found = analyze(brinell, *what)
+        return way, name, found and found["shaft"]
+
+    with ThreadPoolExecutor(2) as pool:
+        every = list(records(folder))
+        base = [("as it is", r["id"], (r["x"], r["rate"], r["speed"], r["bearing"])) for r in every]
+        whole = {name: shaft["used_hz"] for _, name, shaft in pool.map(one, base) if shaft and shaft["found_in_signal"]}
+        harder = ((way, name, what) for way, _, name, what in jobs([r for r in every if r["id"] in whole], ["cut", "speed"]))
+        for way, name, shaft in pool.map(one, harder):
+            if shaft:
+                of = name if name in whole else name.rsplit(" ", 1)[0]
+                count[way] += 1
+                off[way] += abs(shaft["used_hz"] / whole[of] - 1) > 0.003
+    print("| | speed taken more than 0.3 % off the whole record's |")
+    print("| --- | --- |")
+    for way in count:
+        print(f"| {way} | {off[way]} of {count[way]} |")
+
+
 def main():
     folder, brinell = Path(sys.argv[1]), sys.argv[2]
     rest = [a for a in sys.argv[3:] if a != "-v"]
@@ -176,6 +202,9 @@ def main():
         return
     if ways == ["halves"]:
         of_halves(folder, brinell)
+        return
+    if ways == ["told"]:
+        of_speeds(folder, brinell)
         return
     counts = collections.defaultdict(collections.Counter)
 

@@ -21,9 +21,10 @@ use std::num::NonZeroUsize;
 use std::ops::ControlFlow;
 
 /// Name, scenario, and its sensor channel along the load.
-const CASES: [(&str, &str, &str); 2] = [
+const CASES: [(&str, &str, &str); 3] = [
     ("rectangle (NN3007)", include_str!("../../../examples/rectangle.toml"), "sensor_ax"),
     ("single row (NU206)", include_str!("../../../examples/single-row.toml"), "sensor_ay"),
+    ("ball (6205)", include_str!("../../../examples/ball-6205.toml"), "sensor_ay"),
 ];
 const DURATIONS: [f64; 3] = [0.5, 1.0, 2.0];
 const LONG: f64 = 20.0;

@@ -28,8 +28,7 @@ const CHANCE: f64 = 0.1;
 /// What a line counts for at most, ln(power over floor): otherwise one that many places share would decide. A comb
 /// farther from the speed given has so much more than one that is nearer.
 const LINE: f64 = 4.0;
-/// Bins that the tolerance spans at the fundamental; in a shorter record the lines of any two sources agree with a speed
-/// within it, and tell none.
+/// Bins that the tolerance spans at the fundamental; in a shorter record combs beyond it are not told apart.
 const TELLING: f64 = 0.5;
 
 /// A shaft's speed by lines at its harmonics.
@@ -46,11 +45,9 @@ pub(super) struct ShaftLines {
 /// Another shaft's lines there look the same: nothing in the signal tells the two apart.
 pub(super) fn shaft(x: &[f64], fs: f64, options: &Options) -> Result<Option<ShaftLines>, AnalysisError> {
     let lines = Lines::of(x, fs, options)?;
-    if options.tolerance * options.shaft < TELLING * lines.step {
-        return Ok(None);
-    }
     let near = lines.nearest_comb();
-    if !options.exact && !lines.is_whole(&near, FEWEST) {
+    let could_be_wrong = !options.exact && !lines.is_whole(&near, FEWEST);
+    if could_be_wrong && options.tolerance * options.shaft >= TELLING * lines.step {
         let far = lines.highest_comb();
         if far.score >= near.score + LINE && lines.is_whole(&far, FEWEST_FAR) && lines.chance(&far) <= CHANCE {
             return Ok(Some(lines.told_by(&far)));
