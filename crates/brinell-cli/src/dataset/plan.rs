@@ -4,8 +4,9 @@ use super::DatasetArgs;
 use crate::say::{complain, plural, say, short, twelve_digits};
 use crate::sweep::duration;
 use brinell::document::on_one_line;
+use brinell_study::campaign::Misses;
 use brinell_study::dataset::Campaign;
-use brinell_study::design::{Misses, OutOfRange, Survey};
+use brinell_study::design::{OutOfRange, Survey};
 use brinell_study::runner::mean_pace;
 use serde_json::{Value, json};
 use std::num::NonZeroUsize;
@@ -18,11 +19,11 @@ const BESIDES: f64 = 12e3;
 /// The plan, to standard output; warnings to standard error.
 pub(super) fn tell(campaign: &Campaign, survey: &Survey, runs: usize, threads: NonZeroUsize, args: &DatasetArgs) {
     let (plan, draws) = (campaign.plan(), campaign.draws());
-    for warning in campaign.warnings(survey) {
-        complain!("{warning}");
-    }
     if args.quiet {
         return;
+    }
+    for warning in campaign.warnings(survey) {
+        complain!("{warning}");
     }
     say!(
         "{}: {} in {}, design {}, seed {}",
