@@ -120,7 +120,7 @@ fn prop_a_contact_sheet_shows_runs_of_each_class_and_none_that_is_held_out() {
         // Only the order of the sums may differ.
         assert!((run.rms - square.sqrt()).abs() < 1e-12 * run.rms, "run {}", run.run);
     }
-    assert!(page.contains("both from 0.0100 s on"));
+    assert!(page.contains("both from 0.01 s on"));
     // A waveform and a spectrum each.
     assert_eq!(page.matches("<svg").count(), 8);
     for words in ["healthy · label 0", "outer · label 1", "outer-raceway at"] {
