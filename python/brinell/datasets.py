@@ -51,8 +51,8 @@ class Plan:
     ... runs_per_file = 2
     ... signals = ["sensor_ax"]
     ... [vary]
-    ... simulation.duration_s = 0.02
-    ... operation.speed_rpm = { uniform = [900, 3000] }
+    ... simulation.duration_s = 0.2
+    ... operation.speed_rpm = { uniform = [1500, 3000] }
     ... ''')
     >>> plan = brinell.Plan(folder / "plan.toml")
     >>> plan.runs, plan.parts
@@ -61,7 +61,7 @@ class Plan:
     >>> data.verify()
     []
     >>> data.to_polars()["sensor_ax"].list.len().to_list()
-    [512, 512, 512, 512]
+    [5120, 5120, 5120, 5120]
     """
 
     __slots__ = ("_native", "path")

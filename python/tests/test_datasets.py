@@ -18,6 +18,9 @@ from conftest import blocks
 import brinell
 import brinell.distributed
 
+# Runs are short on purpose, and their plans are warned of.
+pytestmark = pytest.mark.filterwarnings("ignore::brinell.ScenarioWarning")
+
 PLAN = """
 name = "spalls"
 base = "base.toml"

@@ -76,6 +76,17 @@ fn prop_a_run_beside_itself_is_itself_on_any_number_of_threads() {
 }
 
 #[test]
+fn prop_what_check_warns_of_is_said_of_the_runs_and_on_the_page() {
+    let folder = folder();
+    brinell(folder.path(), &typed("compare actual.toml simple.toml --variant above:defects.0.center_deg=180 -o out"))
+        .exits(0)
+        .complains(&["center_deg = 180.0 (defect 1): this damage is outside the load zone"])
+        .complains(&["(in 1 of 3 runs looked at, the first of them run above)"]);
+    let page = fs::read_to_string(folder.path().join("out/compare.html")).unwrap();
+    assert!(page.contains("(in 1 of 3 runs looked at, the first of them run above)"));
+}
+
+#[test]
 fn regress_what_cannot_be_compared() {
     let folder = folder();
     let call = |more: &[&str]| {

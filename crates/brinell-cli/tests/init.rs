@@ -30,7 +30,13 @@ fn prop_every_template_passes_check_with_bearings_of_every_kind() {
             // rating.
             let remarks: Vec<&str> = call.err.lines().filter(|l| l.starts_with("warning:")).collect();
             let of_files = |line: &&&str| line.contains("image") || line.contains("depth");
-            let others = remarks.iter().filter(|line| !of_files(line)).count();
+            // Of what a plan draws, the deepest spalls have a floor that no roller reaches, and the least load of a
+            // small bearing is felt by its support.
+            let of_draws = |line: &&&str| {
+                let drawn = ["feels the floor", "at rest the support carries"];
+                template == "data-set" && drawn.iter().any(|words| line.contains(words))
+            };
+            let others = remarks.iter().filter(|line| !of_files(line) && !of_draws(line)).count();
             assert_eq!(others, 0, "{template}, {bearing}: {}", call.err);
             assert!(text.lines().count() < 50, "not small:\n{text}");
         }

@@ -43,6 +43,26 @@ fn csv(path: &Path) -> Vec<Vec<String>> {
 }
 
 #[test]
+fn prop_what_check_warns_of_is_said_of_the_points_and_on_the_page() {
+    let folder = folder();
+    let vary = ["sweep", "base.toml", "--vary", "defects.0.center_deg=0,150,180", "-o", "out"];
+    let call = |more: &[&str]| brinell(folder.path(), &[&vary, more].concat()).exits(0);
+    let parts = [
+        "warning: defects.0.center_deg = 150.0 (defect 1): this damage is outside the load zone",
+        "(in 2 of 3 points looked at, the first of them point 2)",
+    ];
+    call(&["--dry-run"]).complains(&parts);
+    assert!(!folder.path().join("out").exists());
+    call(&[]).complains(&parts);
+    let warnings = json(&folder.path().join("out/sweep.json"))["warnings"].clone();
+    assert_eq!(warnings.as_array().unwrap().len(), 1);
+    let page = fs::read_to_string(folder.path().join("out/sweep.html")).unwrap();
+    for part in parts {
+        assert!(warnings[0].as_str().unwrap().contains(part) && page.contains(part), "{part}");
+    }
+}
+
+#[test]
 fn prop_neither_threads_nor_a_cut_journal_change_a_byte() {
     let folder = folder();
     let out = |name: &str| folder.path().join(name);

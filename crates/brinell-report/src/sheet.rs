@@ -121,6 +121,7 @@ fn words(sheet: &Sheet, run: &SheetRun) -> String {
     words.push(format!("RMS {} {}", significant(run.rms, 3), unit_html(&sheet.unit)));
     let (low, high) = run.band_hz;
     words.push(format!("envelope {} to {} kHz", significant(1e-3 * low, 2), significant(1e-3 * high, 2)));
+    words.push(format!("both from {} s on", significant(run.analysed_from_s, 3)));
     words.join(" · ")
 }
 

@@ -2,8 +2,8 @@
 //! the run is long enough.
 //!
 //! These are warnings, not errors. [`before`] needs the model and its static balance, and takes milliseconds; `brinell
-//! check` and `brinell run` say it, and `summary.json` holds it. [`after`] needs the energy audit of a run. What a
-//! scenario file alone can say is in [`crate::document`].
+//! check`, `run`, `sweep`, `compare` and `dataset` say it, and `summary.json` holds it. [`after`] needs the energy audit
+//! of a run. What a scenario file alone can say is in [`crate::document`].
 
 mod slices;
 mod tilting;

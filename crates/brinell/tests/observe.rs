@@ -1,13 +1,14 @@
 //! What is kept of a run, fed with motions that are known: the bearing in motion, cage orbits, slip over time and
 //! place.
 
-use crate::common::cases::healthy;
+use crate::common::cases::{healthy, rectangle};
 use brinell::channel::Frame;
 use brinell::defect::{Side, wrap};
 use brinell::model::{Model, Workspace};
 use brinell::observe::load_zone::{BINS, LoadZone, Places};
 use brinell::observe::motion::{FRAMES, Motion};
 use brinell::observe::orbit::{CageOrbit, TURNS};
+use brinell::observe::passes::Passes;
 use brinell::observe::slip_course::{STRETCHES, SlipCourse};
 use brinell::scenario::{Guidance, ModelKind, Scenario, Speed};
 use std::f64::consts::{PI, TAU};
@@ -303,4 +304,37 @@ fn analytic_a_cage_orbit_is_seen_from_the_land_that_guides_it() {
             assert!(last > duration - 2.0 * (last - first) / points.len() as f64);
         }
     }
+}
+
+/// The rollers turn by a pitch, from the middle of the damage to its middle: the first leaves it without having come
+/// onto it, and the last comes onto it.
+#[test]
+fn analytic_a_roller_that_is_on_damage_at_the_start_has_no_entry() {
+    let model = model(|s| s.defects = rectangle().defects);
+    let (l, defect) = (&model.layout, &model.defects[0]);
+    let of_row: Vec<usize> = (0..l.rollers()).filter(|slot| l.row(*slot) == defect.row).collect();
+    let pitch = TAU / of_row.len() as f64;
+    let (first, last) = defect.shape.arc();
+    let half = 0.5 * (last - first) / defect.radius;
+    let samples = 1000;
+    let mut passes = Passes::new(&model);
+    go(
+        &model,
+        samples,
+        |t, y, ws| {
+            let turned = pitch * t * RATE / samples as f64;
+            for slot in 0..l.rollers() {
+                let orbit = defect.center + model.pocket_angle[slot] - model.pocket_angle[of_row[0]] + turned;
+                y[l.theta() + slot] = orbit;
+                (ws.sin[slot], ws.cos[slot]) = orbit.sin_cos();
+            }
+        },
+        |f| passes.take(f, false),
+    );
+    let events: Vec<_> = passes.events.iter().map(|e| (e.slot, e.enters, (e.t * RATE).round() as u64)).collect();
+    // The first sample at which it is beyond the edge, and the first at which the next one is on the damage.
+    let left = (half / pitch * samples as f64).ceil() as u64;
+    let came = ((1.0 - half / pitch) * samples as f64).ceil() as u64;
+    let next = of_row[of_row.len() - 1];
+    assert_eq!(events, [(of_row[0], false, left), (next, true, came)]);
 }

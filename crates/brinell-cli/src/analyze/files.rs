@@ -25,6 +25,14 @@ pub(super) fn files(named: &[PathBuf]) -> Result<Files, Failure> {
             one_line(&scenario.display().to_string())
         )));
     }
+    if let Some(folder) = named.iter().find_map(|path| data_set_of(path)) {
+        return Err(Failure::Usage(format!(
+            "{0} is a data set, not a file of signals: the signals of its runs are lists, a row a run, in runs/part-*.parquet, which `brinell analyze` does not read; \
+             `brinell dataset sheet {0}` shows some of them; for one run, save its cell of the column `scenario` as RUN.toml, then `brinell run RUN.toml -o FOLDER` and \
+             `brinell analyze FOLDER`",
+            one_line(&folder.display().to_string())
+        )));
+    }
     if let [only] = named
         && (!only.is_dir() || run_in(only).is_some())
     {
@@ -39,6 +47,15 @@ pub(super) fn files(named: &[PathBuf]) -> Result<Files, Failure> {
         }
     }
     Ok(Files::Several(all))
+}
+
+/// The folder of the data set that was named: itself, its folder `runs`, or a file in that.
+fn data_set_of(path: &Path) -> Option<&Path> {
+    fn above(path: &Path) -> Option<&Path> {
+        path.parent().filter(|_| path.ends_with("runs"))
+    }
+    let folders = [Some(path), above(path), path.parent().and_then(above)];
+    folders.into_iter().flatten().find(|folder| Results::DATA_SET.is_in(folder))
 }
 
 /// The files of signals right in a folder: by their names or, where none has such a name, all that can be read as one.

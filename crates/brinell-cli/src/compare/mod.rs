@@ -37,6 +37,11 @@ pub(crate) fn compare(args: &CompareArgs) -> Result<ExitCode, Failure> {
             files::warn_idle(simulation.idle_patterns());
         }
     }
+    if !args.quiet {
+        for warning in brinell_report::beforehand(&sides) {
+            complain!("{warning}");
+        }
+    }
     let named = || Path::new("out").join(format!("compare-{}", stem(&args.scenarios[0])));
     let folder = args.output.clone().unwrap_or_else(named);
     let scenarios = scenario_files(&sides, &folder);

@@ -86,6 +86,9 @@ fn make(args: &DatasetArgs, path: &Path) -> Result<ExitCode, Failure> {
     }
     if !args.quiet {
         tell(&shard, left, &folder, begin.elapsed().as_secs_f64());
+        if shard.whole {
+            plan::tell_splits(&campaign);
+        }
     }
     if shard.interrupted {
         complain!("interrupted: {left} to go; the same command resumes where this one stopped");

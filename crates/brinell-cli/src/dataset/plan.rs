@@ -4,8 +4,9 @@ use super::DatasetArgs;
 use crate::say::{complain, plural, say, short, twelve_digits};
 use crate::sweep::duration;
 use brinell::document::on_one_line;
+use brinell_study::campaign::Misses;
 use brinell_study::dataset::Campaign;
-use brinell_study::design::{Misses, OutOfRange, Survey};
+use brinell_study::design::{OutOfRange, Part, Survey};
 use brinell_study::runner::mean_pace;
 use serde_json::{Value, json};
 use std::num::NonZeroUsize;
@@ -18,11 +19,11 @@ const BESIDES: f64 = 12e3;
 /// The plan, to standard output; warnings to standard error.
 pub(super) fn tell(campaign: &Campaign, survey: &Survey, runs: usize, threads: NonZeroUsize, args: &DatasetArgs) {
     let (plan, draws) = (campaign.plan(), campaign.draws());
-    for warning in campaign.warnings(survey) {
-        complain!("{warning}");
-    }
     if args.quiet {
         return;
+    }
+    for warning in campaign.warnings(survey) {
+        complain!("{warning}");
     }
     say!(
         "{}: {} in {}, design {}, seed {}",
@@ -35,6 +36,7 @@ pub(super) fn tell(campaign: &Campaign, survey: &Survey, runs: usize, threads: N
     for (label, class) in plan.classes.iter().enumerate() {
         say!("  {label} {}: {}", class.name, plural(draws.runs_of(label), "run"));
     }
+    tell_splits(campaign);
     let names: Vec<&str> = draws.parameters().iter().map(|p| p.key.as_str()).collect();
     say!("  varies: {}", if names.is_empty() { "nothing".into() } else { names.join(", ") });
     let signals: Vec<&str> = campaign.signals().iter().map(|s| s.name.as_str()).collect();
@@ -66,6 +68,25 @@ pub(super) fn tell(campaign: &Campaign, survey: &Survey, runs: usize, threads: N
     );
 }
 
+/// Runs of each class by split, where the runs are divided.
+pub(super) fn tell_splits(campaign: &Campaign) {
+    let (classes, splits) = (&campaign.plan().classes, campaign.draws().splits());
+    if splits.len() < 2 {
+        return;
+    }
+    let names = || std::iter::once("class").chain(classes.iter().map(|class| class.name.as_str()));
+    let width = names().map(|name| name.chars().count()).max().unwrap_or(0);
+    for (row, name) in names().enumerate() {
+        let cell = |(part, runs): &(Part, Vec<usize>)| {
+            let head = part.word();
+            let text = row.checked_sub(1).map_or(head.to_owned(), |class| runs[class].to_string());
+            format!("  {text:>0$}", head.len().max(7))
+        };
+        let cells: String = splits.iter().map(cell).collect();
+        say!("  {name:<width$}{cells}");
+    }
+}
+
 /// What becomes of values that make no scenario.
 fn fate(out_of_range: OutOfRange) -> &'static str {
     match out_of_range {
@@ -81,6 +102,8 @@ pub(super) fn json(campaign: &Campaign, survey: &Survey, runs: usize, threads: N
     let classes = plan.classes.iter().enumerate();
     let classes: Vec<Value> =
         classes.map(|(label, c)| json!({ "label": label, "name": c.name, "runs": draws.runs_of(label) })).collect();
+    let splits = draws.splits().into_iter();
+    let splits = splits.map(|(part, runs)| json!({ "name": part.word(), "runs_of_classes": runs }));
     let names = draws.parameters().iter().map(|p| p.key.as_str());
     let held_out = (0..draws.runs()).filter(|run| draws.is_held_out(*run));
     let warnings = campaign.warnings(survey);
@@ -92,6 +115,7 @@ pub(super) fn json(campaign: &Campaign, survey: &Survey, runs: usize, threads: N
         "design": plan.design.word(),
         "seed": plan.seed,
         "classes": classes,
+        "splits": splits.collect::<Vec<_>>(),
         "varies": names.collect::<Vec<_>>(),
         "signals": campaign.signals().iter().map(|s| s.name.as_str()).collect::<Vec<_>>(),
         "held_out_runs": held_out.count(),

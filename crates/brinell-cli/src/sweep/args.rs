@@ -13,7 +13,7 @@ use std::path::PathBuf;
     Files in the folder:\n  \
     sweep.csv, sweep.parquet   a row a point: keys, status, reason, every indicator with its interval, lines, slip, audits, work; SI units\n  \
     sweep.html                 plots against the varied key with intervals, and the table; one file, no network\n  \
-    sweep.json                 the plan, the base scenario, the columns' units\n  \
+    sweep.json                 the plan, warnings, the base scenario, the columns' units\n  \
     journal.jsonl              finished points, each on the disk when it is done\n  \
     signals/                   with --keep-signals: FINGERPRINT.parquet a point\n\n\
     The same command again resumes where it stopped: finished points of the same scenario and the same version of brinell are not run \

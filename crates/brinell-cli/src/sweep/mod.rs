@@ -153,9 +153,8 @@ fn tell_plan(points: &Points, tasks: &[Task], before: usize, work: &FromSource, 
         .map(|axis| format!("{} ({})", axis.keys().join(" with "), axis.settings().len()))
         .collect();
     say!("{}: {}", plural(points.tasks.len(), "point"), axes.join(" x "));
-    for (warning, count) in &points.warnings {
-        let first = if *count > 1 { ", as the first of them has it" } else { "" };
-        complain!("{warning}\n  (in {} of the sweep{first})", plural(*count, "point"));
+    for warning in &points.warnings {
+        complain!("{warning}");
     }
     let bad = points.tasks.iter().filter(|task| task.is_err()).count();
     if bad > 0 {
@@ -245,6 +244,7 @@ fn write(
     let json = json!({
         "brinell": brinell::VERSION,
         "plan": points.header()["plan"],
+        "warnings": points.warnings,
         "points": { "complete": count("complete"), "failed": count("failed"), "not_run": count("not run") },
         "interval": "95 % of the value, an average over whole revolutions of the inner ring; peaks are those of a revolution",
         "units": columns,

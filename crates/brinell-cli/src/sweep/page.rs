@@ -78,7 +78,12 @@ pub(super) fn report(points: &Points, states: &[State], plots: &[String]) -> Stu
         title: format!("Sweep of {}", points.example.name),
         subtitle: format!("{} over {}", plural(states.len(), "point"), axes.join(" × ")),
         version: brinell::VERSION.into(),
-        warnings: (missing > 0).then_some(incomplete).into_iter().chain(doubts(states)).collect(),
+        warnings: (missing > 0)
+            .then_some(incomplete)
+            .into_iter()
+            .chain(points.warnings.iter().cloned())
+            .chain(doubts(states))
+            .collect(),
         lead: sweep_lead(&drawn),
         facts,
         chapters: chapters(points, states, plots, drawn),

@@ -4,12 +4,12 @@ use super::SweepArgs;
 use crate::failure::Failure;
 use crate::files::Source;
 use crate::files::make_folder;
-use brinell::document::{Problem, numberless, on_one_line, one_line};
+use brinell::document::{Problem, on_one_line, one_line};
 use brinell::scenario::Scenario;
 use brinell::simulate::Simulation;
 use brinell_io::{ParquetWriter, SignalWriter};
 use brinell_studio::signal_table;
-use brinell_study::campaign::{Axis, Plan};
+use brinell_study::campaign::{Axis, BALANCED, Beforehand, Misses, Plan, count};
 use brinell_study::runner::{Task, Work};
 use serde_json::Value;
 use std::collections::BTreeMap;
@@ -24,8 +24,8 @@ pub(super) struct Points {
     pub(super) tasks: Vec<Result<Task, String>>,
     /// Unit of each varied key, as the file format states it.
     pub(super) units: BTreeMap<String, &'static str>,
-    /// What the author should know, and of how many points.
-    pub(super) warnings: Vec<(String, usize)>,
+    /// What the author should know.
+    pub(super) warnings: Vec<String>,
     /// The first good point.
     pub(super) example: Scenario,
 }
@@ -48,7 +48,10 @@ fn plan(args: &SweepArgs) -> Result<Plan, Failure> {
 struct Checked {
     task: Task,
     units: Vec<(String, &'static str)>,
+    /// Of the document.
     warnings: Vec<Problem>,
+    /// Of what is known before it runs.
+    before: Vec<Problem>,
 }
 
 impl Points {
@@ -65,21 +68,24 @@ impl Points {
                 )));
             }
         }
+        let known = Beforehand::default();
         let mut checked: Vec<Option<Result<Checked, Failure>>> = Vec::new();
         checked.resize_with(plan.points(), || None);
         brinell::many::each(
             plan.points(),
             threads,
-            |k| check(&source, plan.settings(k)),
+            |k| check(&source, plan.settings(k), (k < BALANCED).then_some(&known)),
             |k, result| checked[k] = Some(result),
         );
-        let (mut units, mut warnings) = (BTreeMap::new(), Vec::new());
+        let (mut units, mut warnings, mut before) = (BTreeMap::new(), Vec::new(), Vec::new());
         let (mut tasks, mut first) = (Vec::new(), None);
         for result in checked.into_iter().flatten() {
             tasks.push(match result {
                 Ok(checked) => {
                     units.extend(checked.units);
-                    checked.warnings.into_iter().for_each(|w| count(w, &mut warnings));
+                    let point = tasks.len();
+                    checked.warnings.into_iter().for_each(|w| count(&mut warnings, nowhere(w), point, 1));
+                    checked.before.into_iter().for_each(|w| count(&mut before, w, point, 1));
                     Ok(checked.task)
                 }
                 Err(failure) => {
@@ -89,18 +95,17 @@ impl Points {
                 }
             });
         }
-        let Some(good) = tasks.iter().position(Result::is_ok) else {
+        let Some(first_good) = tasks.iter().position(Result::is_ok) else {
             return Err(first.unwrap_or_else(|| Failure::Usage("the sweep has no points".into())));
         };
-        let example = source.load(&plan.settings(good), true)?.scenario;
-        Ok(Self {
-            source,
-            plan,
-            tasks,
-            units,
-            warnings: warnings.into_iter().map(|(warning, points)| (warning.to_string(), points)).collect(),
-            example,
-        })
+        let words = |misses: Vec<Misses>, looked: usize| {
+            misses.into_iter().map(move |miss| miss.words(looked, "point", miss.run + 1))
+        };
+        let good = tasks.iter().filter(|task| task.is_ok()).count();
+        let balanced = tasks.iter().take(BALANCED).filter(|task| task.is_ok()).count();
+        let warnings = words(warnings, good).chain(words(before, balanced)).collect();
+        let example = source.load(&plan.settings(first_good), true)?.scenario;
+        Ok(Self { source, plan, tasks, units, warnings, example })
     }
 
     /// What distinguishes this sweep from others: the plan, and the scenarios of its points.
@@ -111,7 +116,7 @@ impl Points {
     }
 }
 
-fn check(source: &Source, settings: Vec<(String, String)>) -> Result<Checked, Failure> {
+fn check(source: &Source, settings: Vec<(String, String)>, known: Option<&Beforehand>) -> Result<Checked, Failure> {
     let loaded = source.load(&settings, true)?;
     let unit = |(key, _): &(String, String)| {
         let entry = loaded.provenance_of(key)?;
@@ -119,24 +124,16 @@ fn check(source: &Source, settings: Vec<(String, String)>) -> Result<Checked, Fa
     };
     Ok(Checked {
         units: settings.iter().filter_map(unit).collect(),
+        before: known.map_or(Vec::new(), |known| known.warnings(&loaded.scenario)),
         warnings: loaded.warnings,
         task: Task::new(settings, &loaded.scenario),
     })
 }
 
-/// Adds a warning to those of other points: one about the same key with the same value is given once, as the first
-/// point has it.
-fn count(mut warning: Problem, warnings: &mut Vec<(Problem, usize)>) {
-    let same = |w: &Problem| {
-        w.key == warning.key && w.value == warning.value && numberless(&w.message) == numberless(&warning.message)
-    };
-    if let Some((_, points)) = warnings.iter_mut().find(|(w, _)| same(w)) {
-        *points += 1;
-        return;
-    }
-    // What the settings give is nowhere in the file.
-    (warning.line, warning.column) = (None, None);
-    warnings.push((warning, 1));
+/// A problem without its place: what the settings give is nowhere in the file.
+fn nowhere(mut problem: Problem) -> Problem {
+    (problem.line, problem.column) = (None, None);
+    problem
 }
 
 /// A failure on one line.

@@ -1,6 +1,7 @@
 //! What a row says of its run, and where held-out labels lie.
 
 use super::{PLAN, SECRET, brinell, cell, files, folder_with, json, list, make, parsed, rows, text};
+use brinell_study::dataset::sheet;
 use parquet::record::{Field, Row};
 use std::fs;
 
@@ -19,6 +20,9 @@ fn prop_a_row_is_the_run_that_its_scenario_gives() {
         assert_eq!(entries.is_empty(), !outer, "{run}");
         assert!(entries.is_sorted() && entries.iter().all(|t| (0.0..0.03).contains(t)));
         assert_eq!(list(row, "entry_force_n").unwrap().len(), entries.len());
+        // The first roller is on the damage at the start, and leaves it without an entry.
+        let exits = list(row, "exit_t_s").unwrap();
+        assert!(!outer || exits[0] < entries[0], "{run}: {exits:?} {entries:?}");
     }
     // The row's own scenario, run by itself, gives the same signal.
     let row = &all[3];
@@ -104,6 +108,19 @@ fn prop_a_contact_sheet_shows_runs_of_each_class_and_none_that_is_held_out() {
         }
     }
     assert_eq!(shown, [2, 2]);
+    // What is said of the signal is of the time that the ground truth is of.
+    let all: Vec<Row> = files(&out.join("runs")).iter().flat_map(|name| rows(&out.join("runs").join(name))).collect();
+    for run in sheet(&out, 2).unwrap().classes.into_iter().flat_map(|class| class.shown) {
+        let row = all.iter().find(|row| cell(row, "run") == &Field::Long(run.run)).unwrap();
+        assert_eq!(cell(row, "analysed_from_s"), &Field::Double(run.analysed_from_s));
+        let signal = list(row, "sensor_ax").unwrap();
+        let x = &signal[(run.analysed_from_s / run.dt_s).round() as usize..];
+        let mean = x.iter().sum::<f64>() / x.len() as f64;
+        let square = x.iter().map(|x| (x - mean).powi(2)).sum::<f64>() / x.len() as f64;
+        // Only the order of the sums may differ.
+        assert!((run.rms - square.sqrt()).abs() < 1e-12 * run.rms, "run {}", run.run);
+    }
+    assert!(page.contains("both from 0.01 s on"));
     // A waveform and a spectrum each.
     assert_eq!(page.matches("<svg").count(), 8);
     for words in ["healthy · label 0", "outer · label 1", "outer-raceway at"] {
@@ -210,4 +227,52 @@ fn prop_what_a_data_set_is_and_what_was_made_are_reported_as_json() {
     assert_eq!(verified["problems"], serde_json::json!([]));
     let merged = told(&["dataset", "merge", "d", "-o", "all", "--json"]);
     assert_eq!(merged["files"]["brought"], 3);
+}
+
+#[test]
+fn prop_classes_are_counted_by_split_and_a_missing_one_is_said() {
+    let folder = folder_with(&PLAN.replace("[vary]", "[split]\ntest = 0.1\nby = []\n[vary]"));
+    let table = ["  class      train     test\n  healthy        ", "\n  outer          "];
+    // One run of seven for the test: of one class.
+    let lacks = "warning: the split test has no run of class \"";
+    make(folder.path(), &["-o", "out", "--dry-run"]).exits(0).says(&table).complains(&[lacks]);
+    let made = make(folder.path(), &["-o", "out"]).exits(0).says(&table).complains(&[lacks]);
+    assert_eq!(made.out.matches(table[0]).count(), 2, "before the runs and after them");
+    let out = folder.path().join("out");
+    let splits = json(&out.join("dataset.json"))["splits"].clone();
+    let mut counted = [[0, 0], [0, 0]];
+    for name in files(&out.join("runs")) {
+        for row in rows(&out.join("runs").join(name)) {
+            let part = usize::from(text(&row, "split").unwrap() == "test");
+            counted[part][usize::from(text(&row, "class").unwrap() == "outer")] += 1;
+        }
+    }
+    for (part, classes) in counted.iter().enumerate() {
+        assert_eq!(splits[part]["runs_of_classes"], serde_json::json!(classes));
+    }
+    let card = fs::read_to_string(out.join("README.md")).unwrap();
+    let [[a, b], [c, d]] = counted;
+    let shown = format!(
+        "| class | label | train | test |\n| --- | --- | --- | --- |\n| healthy | 0 | {a} | {c} |\n| outer | 1 | {b} | {d} |\n"
+    );
+    assert!(card.contains(&shown), "{card}");
+    // Of labels that are held out no count is published.
+    let held = PLAN.replace("runs = 7", &format!("runs = 12\nheld_out = 0.4\nsecret = \"{SECRET}\""));
+    let folder = folder_with(&held);
+    make(folder.path(), &["-o", "out", "-q"]).exits(0);
+    let out = folder.path().join("out");
+    let splits = json(&out.join("dataset.json"))["splits"].clone();
+    assert!(splits[0]["runs_of_classes"].is_array() && splits[1].get("runs_of_classes").is_none(), "{splits}");
+    assert!(fs::read_to_string(out.join("README.md")).unwrap().contains("| class | label | train |\n"));
+}
+
+#[test]
+fn regress_analyze_says_that_a_data_set_is_one() {
+    let folder = folder_with(&PLAN.replace("runs = 7", "runs = 2"));
+    make(folder.path(), &["-o", "out", "-q"]).exits(0);
+    for named in ["out", "out/runs", "out/runs/part-00000.parquet"] {
+        let told = brinell(folder.path(), &["analyze", named]).exits(2);
+        let told = told.complains(&["error: out is a data set", "runs/part-*.parquet", "`brinell dataset sheet out`"]);
+        assert_eq!(told.err.lines().count(), 1, "{told:?}");
+    }
 }

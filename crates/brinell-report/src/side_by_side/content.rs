@@ -11,7 +11,7 @@ use brinell::observe::passes::place;
 use brinell::plausibility;
 use brinell::result::{Quantity, RunResult};
 use brinell::signal::ratio::Ratio;
-use brinell_study::campaign::{Compared, Side};
+use brinell_study::campaign::{Beforehand, Compared, Misses, Side, count};
 
 /// Longest value in the table of what differs.
 const LONGEST: usize = 60;
@@ -131,9 +131,19 @@ pub fn doubts(sides: &[Side], runs: &[&RunResult]) -> Vec<String> {
     all
 }
 
+/// What the scenarios should be warned of before they run: each kind of problem once.
+pub fn beforehand(sides: &[Side]) -> Vec<String> {
+    let (known, mut all) = (Beforehand::default(), Vec::new());
+    for (k, side) in sides.iter().enumerate() {
+        let warnings = known.warnings(&side.loaded.scenario);
+        warnings.into_iter().for_each(|warning| count(&mut all, warning, k, 1));
+    }
+    all.iter().map(|miss: &Misses| miss.words(sides.len(), "run", &sides[miss.run].label)).collect()
+}
+
 /// What makes curves hard to hold against each other.
 fn warnings(sides: &[Side], runs: &[&RunResult]) -> Vec<String> {
-    let mut all = doubts(sides, runs);
+    let mut all = [beforehand(sides), doubts(sides, runs)].concat();
     let rate = |run: &RunResult| run.simulation.sample_rate();
     if runs.iter().any(|run| rate(run) != rate(runs[0])) {
         all.push("The runs' sample rates differ: what is above half the lower one is in one of them alone.".into());

@@ -3,4 +3,4 @@
 mod content;
 mod curves;
 
-pub use content::{compared_headline, doubts};
+pub use content::{beforehand, compared_headline, doubts};

@@ -7,6 +7,7 @@
 //! again. [`fingerprint`] says whether it is the same point. [`compare()`] lays finished runs side by side.
 
 mod axis;
+mod beforehand;
 mod columns;
 mod compare;
 mod error;
@@ -18,6 +19,8 @@ mod sides;
 pub use axis::Axis;
 #[doc(hidden)]
 pub use axis::split;
+#[doc(hidden)]
+pub use beforehand::{BALANCED, Beforehand, Misses, count};
 pub use columns::{NumberColumn, columns};
 pub use compare::{Compared, compare};
 pub use error::PlanError;

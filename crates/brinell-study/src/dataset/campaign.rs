@@ -1,6 +1,6 @@
 //! A plan with its base scenario: everything that the runs are made from.
 
-use crate::campaign::{digest, fingerprint};
+use crate::campaign::{BALANCED, Beforehand, Misses, count, digest, fingerprint};
 use crate::dataset::columns::{DataColumn, columns};
 use crate::dataset::document::Document;
 use crate::dataset::error::DatasetError;
@@ -15,7 +15,7 @@ use std::collections::HashSet;
 use std::num::NonZeroUsize;
 use std::ops::Range;
 use std::path::Path;
-use std::sync::atomic::AtomicBool;
+use std::sync::atomic::{AtomicBool, Ordering};
 
 /// Runs that are looked at before any runs; of longer plans every second, third, ... one.
 const SURVEYED: usize = 100_000;
@@ -163,25 +163,39 @@ impl Campaign {
     }
 
     /// Looks at what the runs draw: all of them, or of more than 100000 every second, third, ... one; once `stop` is
-    /// set, at no further ones.
+    /// set, at no further ones. Of a plan that may be run the first 200 also find their static balance.
     pub fn survey(&self, stop: &AtomicBool) -> Survey {
-        survey(self.draws(), &self.sources.base.text, stop)
+        let mut survey = survey(self.draws(), &self.sources.base.text, stop);
+        if survey.is_sound(self.plan().out_of_range) {
+            self.balance(&mut survey, stop);
+        }
+        survey
+    }
+
+    /// Adds the warnings that first runs have before they begin.
+    fn balance(&self, survey: &mut Survey, stop: &AtomicBool) {
+        let (known, runs) = (Beforehand::default(), BALANCED.min(self.draws().runs()));
+        let mut found = vec![None; runs];
+        let warnings = |run| {
+            let stopped = stop.load(Ordering::Relaxed);
+            let loaded = (!stopped).then(|| self.try_scenario(run).ok()).flatten();
+            loaded.map(|(loaded, _)| known.warnings(&loaded.scenario))
+        };
+        many::each(runs, many::threads(runs), warnings, |run, warnings| found[run] = warnings);
+        survey.balanced = found.iter().flatten().count();
+        for (run, warnings) in found.into_iter().enumerate() {
+            warnings.into_iter().flatten().for_each(|warning| count(&mut survey.before, warning, run, 1));
+        }
     }
 
     /// What the plan's author should know, by what a survey found.
     pub fn warnings(&self, survey: &Survey) -> Vec<String> {
-        let of_runs = survey.warnings.iter().map(|miss| {
-            format!(
-                "{}\n  (in {} of {} run{} looked at, the first of them run {})",
-                miss.problem,
-                miss.count,
-                survey.runs,
-                if survey.runs == 1 { "" } else { "s" },
-                miss.run
-            )
-        });
+        let words = |misses: &[Misses], looked| -> Vec<String> {
+            misses.iter().map(|miss| miss.words(looked, "run", miss.run)).collect()
+        };
+        let of_runs = [words(&survey.warnings, survey.runs), words(&survey.before, survey.balanced)].concat();
         let notes = self.draws().notes().into_iter();
-        of_runs.chain(notes.map(|note| format!("warning: {note}"))).collect()
+        of_runs.into_iter().chain(notes.map(|note| format!("warning: {note}"))).collect()
     }
 
     /// That the plan may be run, by what a survey found.

@@ -93,14 +93,14 @@ fn card(about: &Value) -> String {
             let _ = writeln!(card, "    - {}", quoted(path));
         }
     }
-    let _ = write!(
-        card,
-        "---\n\n# {}\n\n{}\n\n| class | label |\n| --- | --- |\n",
-        text(about, "name"),
-        description(about)
-    );
-    for class in list(about, "classes") {
-        let _ = writeln!(card, "| {} | {} |", text(class, "name").replace('|', "\\|"), class["label"]);
+    let _ = write!(card, "---\n\n# {}\n\n{}\n\n", text(about, "name"), description(about));
+    // Classes by split; of runs whose labels are held out nothing is said.
+    let open = || list(about, "splits").filter(|split| split["runs_of_classes"].is_array());
+    let heads: String = open().map(|split| format!(" {} |", split_name(text(split, "name")))).collect();
+    let _ = writeln!(card, "| class | label |{heads}\n| --- | --- |{}", " --- |".repeat(open().count()));
+    for (k, class) in list(about, "classes").enumerate() {
+        let runs: String = open().map(|split| format!(" {} |", split["runs_of_classes"][k])).collect();
+        let _ = writeln!(card, "| {} | {} |{runs}", text(class, "name").replace('|', "\\|"), class["label"]);
     }
     let _ = write!(card, "\n| split | runs |\n| --- | --- |\n");
     for split in list(about, "splits") {

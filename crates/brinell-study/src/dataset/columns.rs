@@ -152,7 +152,7 @@ const TRUTH: [Fixed; 53] = [
         let k = r.kinematics()?;
         r.defects(|d, _| k.defect_frequency(d.on).1)
     })),
-    ("entry_t_s", "s", "instants at which a roller comes onto a defect: ends of solver steps", Numbers(|r| r.instants(true, |i, _| i.event.t))),
+    ("entry_t_s", "s", "instants at which a roller comes onto a defect: ends of solver steps; none of a roller that is on it at t = 0", Numbers(|r| r.instants(true, |i, _| i.event.t))),
     ("entry_defect", "1", "of each entry: which defect, from 1", Wholes(|r| r.instants(true, |i, _| i.event.defect + 1))),
     ("entry_row", "1", "of each entry: row of the roller, from 1", Wholes(|r| r.instants(true, |i, l| l.row(i.event.slot) + 1))),
     ("entry_roller", "1", "of each entry: the roller, from 1", Wholes(|r| r.instants(true, |i, l| l.roller(i.event.slot) + 1))),

@@ -1,8 +1,9 @@
 //! What is wrong with a plan whose runs cannot all be made, in the author's terms.
 
+use crate::campaign::Misses;
 use crate::dataset::document::Document;
 use crate::dataset::error::DatasetError;
-use crate::design::{Draws, Misses, OutOfRange, Survey, place_in_plan};
+use crate::design::{Draws, OutOfRange, Survey, place_in_plan};
 use brinell::document::Problem;
 
 /// That a plan may be run, by what a survey found.

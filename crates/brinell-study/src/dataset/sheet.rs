@@ -11,8 +11,6 @@ use serde_json::Value;
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
-/// Share of a record that is left out at its start of envelope and RMS: the bearing has not settled.
-const START: f64 = 0.25;
 /// Turns of the shaft that the waveform shows, at the record's end.
 const TURNS: f64 = 2.0;
 /// The same where the speed varies, s.
@@ -59,7 +57,9 @@ pub struct SheetRun {
     pub load_n: Vec<f64>,
     /// Its damage.
     pub defects: Vec<SheetDefect>,
-    /// RMS of the signal less its mean, its start left out.
+    /// The ground truth counts from here on, s: so do RMS and envelope.
+    pub analysed_from_s: f64,
+    /// RMS of the signal less its mean, from `analysed_from_s` on.
     pub rms: f64,
     /// Time of the first sample of `stretch`, s.
     pub from_s: f64,
@@ -197,7 +197,7 @@ fn spread(count: usize, each: usize) -> impl Iterator<Item = usize> {
 }
 
 /// What is read of a run, in the order of [`run_of`].
-fn columns(signal: &str) -> [&str; 17] {
+fn columns(signal: &str) -> [&str; 18] {
     [
         "label",
         "run",
@@ -215,6 +215,7 @@ fn columns(signal: &str) -> [&str; 17] {
         "defect_depth_um",
         "defect_frequency_hz",
         "duration_s",
+        "analysed_from_s",
         signal,
     ]
 }
@@ -259,6 +260,7 @@ fn run_of(cells: Vec<Cell>) -> (usize, SheetRun) {
         speed_rpm: number(3),
         load_n: numbers(4).to_vec(),
         defects: defects.collect(),
+        analysed_from_s: number(16).unwrap_or(0.0),
         rms: f64::NAN,
         from_s: 0.0,
         dt_s: number(5).map_or(f64::NAN, |rate| 1.0 / rate),
@@ -268,7 +270,7 @@ fn run_of(cells: Vec<Cell>) -> (usize, SheetRun) {
         envelope: Vec::new(),
         top_hz: 4.5 * highest,
     };
-    if let Cell::Signal(signal) = &cells[16] {
+    if let Cell::Signal(signal) = &cells[17] {
         run.take(signal, highest);
     }
     (whole(0).max(0) as usize, run)
@@ -284,7 +286,8 @@ impl SheetRun {
         let from = x.len().saturating_sub(wanted.max(2.0) as usize);
         self.from_s = from as f64 * self.dt_s;
         self.stretch = x[from..].to_vec();
-        let settled = &x[(START * x.len() as f64) as usize..];
+        let start = (self.analysed_from_s * rate).round() as usize;
+        let settled = &x[start.min(x.len())..];
         let mean = settled.iter().sum::<f64>() / settled.len() as f64;
         let square = settled.iter().map(|x| (x - mean).powi(2)).sum::<f64>();
         self.rms = (square / settled.len() as f64).sqrt();

@@ -99,18 +99,17 @@ fn about(campaign: &Campaign) -> Value {
     about
 }
 
-/// Of each split, in the order of the files: its runs and files.
+/// Of each split, in the order of the files: its runs and files, and its runs by class where that tells no label.
 fn splits(campaign: &Campaign) -> Vec<Value> {
-    let mut splits: Vec<(Part, usize, usize)> = Vec::new();
-    for file in 0..campaign.parts() {
-        let (part, runs) = (campaign.split_of(file), campaign.runs_of(file).len());
-        match splits.last_mut() {
-            Some((last, of, files)) if *last == part => (*of, *files) = (*of + runs, *files + 1),
-            _ => splits.push((part, runs, 1)),
+    let split = |(part, classes): (Part, Vec<usize>)| {
+        let files = (0..campaign.parts()).filter(|file| campaign.split_of(*file) == part).count();
+        let mut split = json!({ "name": part.word(), "runs": classes.iter().sum::<usize>(), "files": files });
+        if part != Part::HeldOut {
+            split["runs_of_classes"] = classes.into();
         }
-    }
-    let splits = splits.into_iter();
-    splits.map(|(part, runs, files)| json!({ "name": part.word(), "runs": runs, "files": files })).collect()
+        split
+    };
+    campaign.draws().splits().into_iter().map(split).collect()
 }
 
 /// Split and rows of each file, in order, as a data set's description has them.

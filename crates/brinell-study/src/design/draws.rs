@@ -130,6 +130,18 @@ impl Draws {
         self.parts[run]
     }
 
+    /// Of each part that has runs, in the order of the files: how many of each class.
+    pub fn splits(&self) -> Vec<(Part, Vec<usize>)> {
+        let of = |part: Part| {
+            let mut runs = vec![0; self.classes.len()];
+            let mine = (0..self.runs()).filter(|run| self.parts[*run] == part);
+            mine.for_each(|run| runs[self.class(run)] += 1);
+            (part, runs)
+        };
+        let all = Part::ALL.into_iter().map(of);
+        all.filter(|(_, runs)| runs.iter().any(|n| *n > 0)).collect()
+    }
+
     /// Under which conditions run `run` runs: of each key its value, or in which of [`BANDS`] it lies where it is drawn
     /// from a continuous distribution.
     fn conditions(&self, run: usize, keys: &[String]) -> Vec<String> {
@@ -158,7 +170,7 @@ impl Draws {
             .collect()
     }
 
-    /// What the author should know: grids whose combinations come unequally often.
+    /// What the author should know: grids whose combinations come unequally often, and splits without a class.
     pub fn notes(&self) -> Vec<String> {
         let uneven = |(class, drawn): (&Class, &Drawn)| {
             (drawn.open % drawn.combinations != 0).then(|| {
@@ -169,7 +181,20 @@ impl Draws {
             })
         };
         let classes = self.plan.classes.iter().zip(&self.classes);
-        classes.filter_map(uneven).collect()
+        classes.filter_map(uneven).chain(self.splits().iter().filter_map(|split| self.lacks(split))).collect()
+    }
+
+    /// That a split lacks classes which have runs.
+    fn lacks(&self, (part, runs): &(Part, Vec<usize>)) -> Option<String> {
+        let absent = (0..runs.len()).filter(|class| runs[*class] == 0 && self.open_runs_of(*class) > 0);
+        let names: Vec<String> = absent.map(|class| format!("{:?}", self.plan.classes[class].name)).collect();
+        (*part != Part::HeldOut && !names.is_empty()).then(|| {
+            format!(
+                "the split {} has no run of class {}: take more runs, or fewer keys in split.by ([] makes each run a group)",
+                part.word(),
+                names.join(", ")
+            )
+        })
     }
 
     /// Bits that belong to a run and words: of the secret where its labels are held out, and of nothing else then.

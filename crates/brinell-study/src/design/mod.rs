@@ -27,5 +27,5 @@ pub use schema::plan_schema;
 #[doc(hidden)]
 pub use sequence::Sobol;
 pub use split::Part;
-pub use survey::{Misses, Survey};
+pub use survey::Survey;
 pub(crate) use survey::{place_in_plan, unsaid};

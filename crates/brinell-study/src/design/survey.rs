@@ -2,24 +2,14 @@
 
 use super::draws::Draws;
 use super::plan::OutOfRange;
-use brinell::document::{Place, Problem, Severity, locate, numberless};
+use crate::campaign::{Misses, count};
+use brinell::document::{Place, Problem, Severity, locate};
 use brinell::many;
 use std::num::NonZeroUsize;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 /// Runs looked at as one job.
 const CHUNK: usize = 64;
-
-/// A problem that some runs have.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Misses {
-    /// As the first of these runs has it.
-    pub problem: Problem,
-    /// Index of that run.
-    pub run: usize,
-    /// How many of the runs looked at.
-    pub count: usize,
-}
 
 /// What came of looking.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -34,6 +24,10 @@ pub struct Survey {
     pub errors: Vec<Misses>,
     /// What authors of the scenarios should know.
     pub warnings: Vec<Misses>,
+    /// Runs whose static balance was solved: the first ones.
+    pub balanced: usize,
+    /// What authors of those should know.
+    pub before: Vec<Misses>,
     /// Simulated time of the runs looked at, s.
     pub simulated: f64,
     /// Samples of the runs looked at.
@@ -95,14 +89,14 @@ impl Survey {
         let is_error = |p: &Problem| p.severity == Severity::Error;
         self.unfit += usize::from(problems.iter().any(is_error));
         for problem in problems.into_iter().filter(is_error) {
-            count(&mut self.errors, problem, run, 1);
+            count(&mut self.errors, without_override(problem), run, 1);
         }
         if let Some(loaded) = loaded {
             let simulation = &loaded.scenario.simulation;
             self.simulated += simulation.duration_s;
             self.samples += simulation.duration_s * simulation.sample_rate_hz;
             for warning in loaded.warnings {
-                count(&mut self.warnings, warning, run, 1);
+                count(&mut self.warnings, without_override(warning), run, 1);
             }
         }
     }
@@ -121,17 +115,9 @@ impl Survey {
     }
 }
 
-/// Adds to those that differ in numbers alone.
-fn count(all: &mut Vec<Misses>, mut problem: Problem, run: usize, times: usize) {
-    let same = |m: &&mut Misses| {
-        m.problem.key == problem.key && numberless(&m.problem.message) == numberless(&problem.message)
-    };
-    if let Some(miss) = all.iter_mut().find(same) {
-        miss.count += times;
-        return;
-    }
+fn without_override(mut problem: Problem) -> Problem {
     problem.message = unsaid(&problem.message);
-    all.push(Misses { problem, run, count: times });
+    problem
 }
 
 /// A message without the word that its value is an override's: in a plan every drawn value is.

@@ -44,6 +44,33 @@ fn prop_splits_share_no_conditions_and_have_their_shares() {
 }
 
 #[test]
+fn prop_runs_are_counted_by_split_and_class_and_a_split_without_a_class_is_noted() {
+    // Four runs, one of them for the test.
+    let plan = |by: &str| {
+        PLAN.replace("[vary]", &format!("[split]\ntest = 0.3\nby = {by}\n[vary]"))
+            .replace("share = 2\n", "")
+            .replace("runs = 60", "runs = 4")
+    };
+    for by in ["[]", "[\"operation.speed_rpm\"]"] {
+        let draws = draws(&plan(by));
+        let splits = draws.splits();
+        assert_eq!(splits.iter().map(|(part, _)| *part).collect::<Vec<_>>(), [Part::Train, Part::Test]);
+        for (part, runs) in &splits {
+            for (class, count) in runs.iter().enumerate() {
+                let mine = (0..4).filter(|run| draws.part(*run) == *part && draws.class(*run) == class);
+                assert_eq!(mine.count(), *count);
+            }
+            let absent = runs.contains(&0);
+            let noted = format!("the split {} has no run of class", part.word());
+            assert_eq!(draws.notes().iter().any(|note| note.starts_with(&noted)), absent, "{by}: {splits:?}");
+        }
+        // Each run by itself, one is for the test: of one class.
+        assert!(by != "[]" || splits[1].1.contains(&0));
+    }
+    assert!(draws(PLAN).notes().is_empty());
+}
+
+#[test]
 fn prop_no_severity_that_is_held_out_is_in_training_or_validation() {
     let plan =
         |split: &str| PLAN.replace("runs = 60", "runs = 600").replace("[vary]", &format!("[split]\n{split}\n[vary]"));

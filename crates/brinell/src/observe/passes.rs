@@ -83,6 +83,8 @@ struct Watch {
 #[derive(Debug, Clone)]
 pub struct Passes {
     watches: Vec<Watch>,
+    /// Whether a step was taken. A roller that is on damage at the first one was there from the start: it has no entry.
+    begun: bool,
     /// The latest events.
     pub events: VecDeque<Event>,
 }
@@ -122,7 +124,7 @@ impl Passes {
                 best: None,
             }
         };
-        Self { watches: model.defects.iter().map(watch).collect(), events: VecDeque::new() }
+        Self { watches: model.defects.iter().map(watch).collect(), begun: false, events: VecDeque::new() }
     }
 
     /// Takes one accepted step; whole passes are kept only where `keep`.
@@ -146,6 +148,8 @@ impl Passes {
                 let now = u >= watch.first && u <= watch.last;
                 if now != inside {
                     watch.contacts[k].2 = now;
+                }
+                if now != inside && self.begun {
                     if self.events.len() == MOST_EVENTS {
                         self.events.pop_front();
                     }
@@ -155,6 +159,7 @@ impl Passes {
                 watch.follow(f, index, slot, side, u, near, keep);
             }
         }
+        self.begun = true;
     }
 
     /// Of each defect that was passed, the pass with the largest contact force.

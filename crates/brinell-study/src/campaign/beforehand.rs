@@ -1,0 +1,68 @@
+//! What many scenarios should be warned of: each kind of problem once, with how many have it.
+
+use crate::campaign::row::fingerprint;
+use brinell::document::{Problem, numberless};
+use brinell::model::Model;
+use brinell::plausibility;
+use brinell::scenario::Scenario;
+use std::collections::HashMap;
+use std::fmt::Display;
+use std::sync::{Mutex, PoisonError};
+
+/// Scenarios whose static balance is solved before any runs: it takes milliseconds.
+pub const BALANCED: usize = 200;
+
+/// A problem that some runs have.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Misses {
+    /// As the first of these runs has it.
+    pub problem: Problem,
+    /// Index of that run.
+    pub run: usize,
+    /// How many of the runs looked at.
+    pub count: usize,
+}
+
+impl Misses {
+    /// The problem, and how many of `looked` have it; `what` are they, and `first` is what the first is called.
+    pub fn words(&self, looked: usize, what: &str, first: impl Display) -> String {
+        let s = if looked == 1 { "" } else { "s" };
+        format!(
+            "{}\n  (in {} of {looked} {what}{s} looked at, the first of them {what} {first})",
+            self.problem, self.count
+        )
+    }
+}
+
+/// Adds to those that differ in numbers alone.
+pub fn count(all: &mut Vec<Misses>, problem: Problem, run: usize, times: usize) {
+    let same = |m: &&mut Misses| {
+        m.problem.key == problem.key && numberless(&m.problem.message) == numberless(&problem.message)
+    };
+    match all.iter_mut().find(same) {
+        Some(miss) => miss.count += times,
+        None => all.push(Misses { problem, run, count: times }),
+    }
+}
+
+/// Finds the warnings of [`plausibility`]; of scenarios that mean the same once.
+#[derive(Debug, Default)]
+pub struct Beforehand {
+    known: Mutex<HashMap<String, Vec<Problem>>>,
+}
+
+impl Beforehand {
+    /// Of a scenario; none where it makes no model: why, its run says.
+    pub fn warnings(&self, scenario: &Scenario) -> Vec<Problem> {
+        let known = || self.known.lock().unwrap_or_else(PoisonError::into_inner);
+        let print = fingerprint(scenario);
+        if let Some(warnings) = known().get(&print) {
+            return warnings.clone();
+        }
+        // Unlocked: other threads have other scenarios.
+        let model = Model::new(scenario);
+        let found = model.map_or(Vec::new(), |model| plausibility::Beforehand::of(scenario, &model).warnings);
+        known().insert(print, found.clone());
+        found
+    }
+}
