@@ -290,6 +290,7 @@ fn load_zone(parts: &Parts) -> Value {
             "extent_deg": z.extent.to_degrees(),
             "shift_inner_to_outer_um": z.shift.map(|x| 1e6 * x),
             "stiffness_n_per_m": z.stiffness,
+            "support_force_n": z.support,
         })
     });
     json!({ "static": statics, "bin_centers_deg": centers, "outer_contacts_by_row": rows.collect::<Vec<_>>() })
