@@ -212,6 +212,7 @@ fn defects(parts: &Parts) -> Value {
                 "name": l.name,
                 "pure_rolling_hz": l.nominal,
                 "found_hz": l.found.map(|f| f.frequency),
+                "too_short": l.too_short,
                 "low_hz": l.interval.map(|i| i.low),
                 "high_hz": l.interval.map(|i| i.high),
                 "uncertainty_hz": l.interval.map(|i| i.standard_uncertainty()),
