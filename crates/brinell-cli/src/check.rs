@@ -101,13 +101,6 @@ fn stiffnesses(s: &Scenario, d: &Derived) {
         short(d.contact_stiffness[0], 3),
         short(d.contact_stiffness[1], 3)
     );
-    let (carried, load) = d.support_share;
-    say!(
-        "  support over clearance  {} N of the {} N of load{}",
-        short(carried, 3),
-        short(load, 3),
-        if s.operation.gravity_m_per_s2 == [0.0; 2] { "" } else { " and ring weight" }
-    );
 }
 
 fn time_scales(s: &Scenario, model: &Model, d: &Derived) {
@@ -207,7 +200,8 @@ fn rounded(value: &str) -> String {
 fn static_balance(s: &Scenario, model: &Model, zone: &StaticLoadZone) {
     let size = zone.shift[0].hypot(zone.shift[1]);
     say!("Static balance under the full load, over a pitch of the cage");
-    say!("  heaviest contact        {} N", short(zone.largest, 4));
+    let with = if s.defects.is_empty() { "" } else { " with the damage" };
+    say!("  heaviest contact        {} N{with}", short(zone.largest, 4));
     // Where the load along a roller is not even, its slices say more.
     if s.has_even_contacts() {
         even_pressures(s, model, zone.largest);
@@ -223,6 +217,12 @@ fn static_balance(s: &Scenario, model: &Model, zone: &StaticLoadZone) {
         short(zone.stiffness[0][0], 4),
         short(zone.stiffness[1][1], 4),
         significant(zone.stiffness[0][1], zone.stiffness[0][0], 2)
+    );
+    say!(
+        "  loaded ring's support   takes {} N of the {} N of load{}; the heaviest contact and the life are those of the rest",
+        short(zone.support, 3),
+        short(model.force_on_loaded_ring(), 5),
+        if s.operation.gravity_m_per_s2 == [0.0; 2] { "" } else { " and ring weight" }
     );
 }
 

@@ -275,3 +275,20 @@ fn regress_a_closed_pipe_is_no_failure() {
         assert_eq!(child.wait().unwrap().code(), Some(code), "{args:?}");
     }
 }
+
+#[test]
+fn regress_a_run_too_short_to_look_for_a_frequency_says_so() {
+    let folder = folder_with("s.toml", SHORT);
+    let here = folder.path();
+    let args = typed("run s.toml -o o --signals none --no-healthy --set simulation.duration_s=0.001");
+    let call = brinell(here, &args).exits(0);
+    let why = "too short to look for BPFO: 0.1 periods of 24; a duration_s of ";
+    call.says(&[why, " would do; pure rolling 131.05 Hz", " of the record, kurtosis"]);
+    let frequency = &json(&here.join("o/summary.json"))["defects"][0]["frequency"];
+    assert!(
+        frequency["found_hz"].is_null() && frequency["too_short"].as_str().unwrap().starts_with(why),
+        "{frequency}"
+    );
+    let page = fs::read_to_string(here.join("o/report.html")).unwrap();
+    assert!(page.contains(why) && page.contains("with the damage; load zone"));
+}

@@ -430,6 +430,7 @@ impl Run {
                     "frequency": line.map(|l| l.name),
                     "pure_rolling_hz": line.map(|l| l.nominal),
                     "found_hz": line.and_then(|l| l.found).map(|f| f.frequency),
+                    "too_short": line.and_then(|l| l.too_short.as_ref()),
                 })
             })
             .collect();

@@ -41,7 +41,8 @@ const NOISE_BINS: usize = 48;
 /// Bins on either side of a harmonic that its own line fills with Hann, and one for the width of a jittered line.
 const LINE_BINS: usize = 3;
 /// Shortest record, in periods of the nominal frequency: below it too little is left between the lines of a comb.
-const FEWEST_PERIODS: f64 = 24.0;
+#[doc(hidden)]
+pub const FEWEST_PERIODS: f64 = 24.0;
 /// Highest nominal frequency, as a share of the sampling rate.
 const HIGHEST_NOMINAL: f64 = 0.4;
 /// Lowest noise that a line is weighed against, as a share of the strongest power: the round-off and leakage that a

@@ -91,6 +91,8 @@ pub use decimate::{decimate, kaiser_lowpass};
 pub use envelope::{EnvelopeSpectrum, envelope, envelope_spectrum};
 pub use error::SignalError;
 pub use estimate::{Estimate, Interval};
+#[doc(hidden)]
+pub use frequency::FEWEST_PERIODS;
 pub use frequency::{LineFrequency, LineSearch};
 pub use indicators::{Indicator, Moments};
 pub use integrate::{band_pass, velocity};

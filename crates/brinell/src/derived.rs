@@ -38,9 +38,6 @@ pub struct Derived {
     pub defect_passes: Vec<f64>,
     /// Longest step that the solver may take, s.
     pub longest_step: f64,
-    /// Load times clearance bound of section 12: the force of the loaded ring's support over the clearance, N, and what
-    /// acts on that ring, load and weight together, N.
-    pub support_share: (f64, f64),
 }
 
 /// Time that a roller takes over each defect at the top speed, s.
@@ -90,7 +87,6 @@ impl Derived {
             roller_period: 1.0 / kinematics.bpfo,
             defect_passes: defect_passes(model),
             longest_step: settings(model, accuracy).max_step,
-            support_share: (model.loaded_support().stiffness * g.clearance.max(0.0), model.force_on_loaded_ring()),
             statics,
         }
     }

@@ -163,8 +163,7 @@ fn carried_by_support(scenario: &Scenario, model: &Model, zone: &StaticLoadZone)
         LoadOn::InnerRing => "support.inner_stiffness_n_per_m",
     };
     let (stiffness, load) = (model.loaded_support().stiffness, model.force_on_loaded_ring());
-    let bearing = zone.resultant();
-    let share = 1.0 - bearing / load;
+    let share = zone.support / load;
     // Where it can carry all of it, the document's own warning says so.
     let all = stiffness * model.geometry.clearance >= load;
     (share > SUPPORT_SHARE && !all).then(|| {
@@ -173,10 +172,10 @@ fn carried_by_support(scenario: &Scenario, model: &Model, zone: &StaticLoadZone)
             toml_float(stiffness),
             format!(
                 "at rest the support carries {} N of the {} N on its ring{}, and the bearing {} N",
-                short(load - bearing),
+                short(zone.support),
                 short(load),
                 if model.gravity == [0.0; 2] { "" } else { ", weight included" },
-                short(bearing)
+                short(load - zone.support)
             ),
             // A softer one lets the ring move a little farther.
             format!("about {:.0e} or less", 0.7 * stiffness * SUPPORT_SHARE / share),

@@ -212,6 +212,7 @@ fn defects(parts: &Parts) -> Value {
                 "name": l.name,
                 "pure_rolling_hz": l.nominal,
                 "found_hz": l.found.map(|f| f.frequency),
+                "too_short": l.too_short,
                 "low_hz": l.interval.map(|i| i.low),
                 "high_hz": l.interval.map(|i| i.high),
                 "uncertainty_hz": l.interval.map(|i| i.standard_uncertainty()),
@@ -290,6 +291,7 @@ fn load_zone(parts: &Parts) -> Value {
             "extent_deg": z.extent.to_degrees(),
             "shift_inner_to_outer_um": z.shift.map(|x| 1e6 * x),
             "stiffness_n_per_m": z.stiffness,
+            "support_force_n": z.support,
         })
     });
     json!({ "static": statics, "bin_centers_deg": centers, "outer_contacts_by_row": rows.collect::<Vec<_>>() })

@@ -2,12 +2,13 @@
 
 use crate::common::cases::{Random, case, healthy, rectangle};
 use brinell::Error;
+use brinell::document::read;
 use brinell::model::{Model, Motion};
-use brinell::scenario::{LoadOn, Scenario, Shape, Start};
+use brinell::scenario::{LoadOn, Scenario, Shape, Speed, Start};
 use brinell::simulate::Simulation;
 use brinell::solver::System;
 use brinell::start;
-use brinell::statics::{Balance, Problem, solve};
+use brinell::statics::{Balance, Problem, solve, static_load_zone};
 
 /// NN3007, inner ring fixed, no outer support, 300 N in +X on the outer ring, printed K: section 13's static facts.
 fn bench(clearance_um: f64, load: f64) -> Model {
@@ -306,4 +307,84 @@ fn regress_no_balance_is_reported_without_a_nan() {
         let words = "no static balance: a force beyond any number is left on a ring after 200";
         assert!(told(residual).starts_with(words), "{}", told(residual));
     }
+}
+
+/// Width of the static load zone, deg, and the rings' shift along the load, um.
+fn zone(s: &Scenario) -> (f64, f64) {
+    let zone = static_load_zone(&Model::new(s).unwrap()).unwrap();
+    (zone.extent.to_degrees(), 1e6 * zone.shift[0].hypot(zone.shift[1]))
+}
+
+/// A bearing without gravity, centrifugal force and supports that count: what Harris's load zone is of.
+fn harris(bearing: &str, load: f64, clearance_um: f64) -> Scenario {
+    let text = format!(
+        "[bearing]\npreset = \"{bearing}\"\nradial_clearance_um = {clearance_um}\n[operation]\nspeed_rpm = 1\nload_n = [0, -{load}]\n\
+         load_on = \"inner-ring\"\n[support]\ninner_stiffness_n_per_m = 10\nouter_stiffness_n_per_m = 1e8\n"
+    );
+    read(&text, &[]).unwrap().scenario
+}
+
+#[test]
+fn analytic_load_zone_is_harris_s() {
+    // Half of the circumference without clearance, however few elements there are. Where their number is odd (13 of the
+    // NU206), the one that enters has none opposite that leaves, and the shift is not along the load.
+    for (bearing, tolerance) in [("6314", 0.1), ("NN3007", 0.1), ("NU206", 0.5)] {
+        let (width, _) = zone(&harris(bearing, 4000.0, 0.0));
+        assert!((width - 180.0).abs() < tolerance, "{bearing}: {width}");
+    }
+    // With clearance psi_l = arccos(P_d / (2 delta_r)), of the mean shift: that of the moment when an element enters
+    // differs, and is turned towards it by a tenth of a degree.
+    for (load, clearance) in [(4000.0, 5.0), (4000.0, 15.0), (1000.0, 15.0)] {
+        let (width, shift) = zone(&harris("NN3007", load, clearance));
+        let expected = 2.0 * (clearance / shift).acos().to_degrees();
+        assert!((width - expected).abs() < 0.3, "{load} N, {clearance} um: {width}, expected {expected}");
+    }
+}
+
+#[test]
+fn analytic_an_element_is_loaded_inside_the_ends_of_the_load_zone_alone() {
+    for (bearing, clearance) in [("6314", 0.0), ("6314", 20.0), ("NU206", 0.0), ("NU206", 16.0)] {
+        let model = Model::new(&harris(bearing, 4000.0, clearance)).unwrap();
+        let zone = static_load_zone(&model).unwrap();
+        let force_at = |angle: f64| {
+            let mut problem = Problem::at_start(&model);
+            let turn = angle - model.pocket_angle[0];
+            problem.orbit.iter_mut().for_each(|orbit| *orbit += turn);
+            balance(&model, &problem).inner_force[0]
+        };
+        let hair = 0.1_f64.to_radians();
+        for (end, inwards) in [(zone.ends.0, hair), (zone.ends.1, -hair)] {
+            let [inside, outside] = [inwards, -inwards].map(|by| force_at(zone.middle + end + by));
+            assert!(
+                inside > 0.0 && outside == 0.0,
+                "{bearing}, {clearance} um: {inside} N inside, {outside} N outside"
+            );
+        }
+    }
+}
+
+#[test]
+fn analytic_own_weight_does_not_widen_the_load_zone() {
+    // So slow that the elements at the top rest on the inner ring: gravity exceeds the centrifugal force.
+    for bearing in ["6314/C3", "NU206"] {
+        let mut s = harris(bearing, 4000.0, 16.0);
+        s.operation.speed_rpm = Speed::Constant(100.0);
+        let (without, _) = zone(&s);
+        s.operation.gravity_m_per_s2 = [0.0, -9.81];
+        let (with, _) = zone(&s);
+        assert!((with - without).abs() < 1.0, "{bearing}: {with}, without gravity {without}");
+    }
+}
+
+#[test]
+fn analytic_the_support_of_the_loaded_ring_takes_its_displacement_times_its_stiffness() {
+    let mut s = harris("NU206", 4000.0, 0.0);
+    let k = 1e6;
+    s.support.inner_stiffness_n_per_m = k;
+    // No clearance: what the spring takes is all by deformation and by the outer ring, which gives way too.
+    let model = Model::new(&s).unwrap();
+    let zone = static_load_zone(&model).unwrap();
+    let shift = zone.shift[1].abs();
+    let expected = k * (shift + (4000.0 - zone.support) / 1e8);
+    assert!((zone.support / expected - 1.0).abs() < 1e-3, "{} N, expected {expected} N", zone.support);
 }

@@ -58,9 +58,10 @@ fn sensor_lines(findings: &Findings) -> Vec<String> {
         };
         let interval =
             rms.interval.map_or(String::new(), |i| format!(" (95 %: {} to {})", short(i.low, 3), short(i.high, 3)));
+        let of = if channel.blocks.revolutions() > 0 { "a revolution" } else { "of the record" };
         let other = |i: Indicator| channel.blocks.estimate(i).map_or("-".into(), |e| short(e.value, 3));
         printed.push(format!(
-            "  {}: RMS {}{interval} {}, peak to peak {} a revolution, kurtosis {}",
+            "  {}: RMS {}{interval} {}, peak to peak {} {of}, kurtosis {}",
             channel.name,
             short(rms.value, 3),
             channel.unit,
@@ -87,9 +88,13 @@ fn healthy_line(parts: &Parts) -> Option<String> {
 
 /// What the envelope has of a defect.
 fn defect_line(line: &DefectLine) -> String {
-    let found = line.found.map_or("not found in the envelope".into(), |f| {
-        let interval = line.interval.map_or(String::new(), |i| format!(" (95 %: {:.2} to {:.2})", i.low, i.high));
-        format!("{:.2} Hz{interval} in the envelope", f.frequency)
-    });
-    format!("  defect {}: {} {found}; pure rolling {:.2} Hz", line.defect + 1, line.name, line.nominal)
+    let found = match (line.found, &line.too_short) {
+        (Some(f), _) => {
+            let interval = line.interval.map_or(String::new(), |i| format!(" (95 %: {:.2} to {:.2})", i.low, i.high));
+            format!("{} {:.2} Hz{interval} in the envelope", line.name, f.frequency)
+        }
+        (None, Some(why)) => why.clone(),
+        (None, None) => format!("{} not found in the envelope", line.name),
+    };
+    format!("  defect {}: {found}; pure rolling {:.2} Hz", line.defect + 1, line.nominal)
 }

@@ -62,13 +62,18 @@ pub(super) fn facts(m: &Measures, bearing: &Bearing) -> Vec<Fact> {
         Fact::new(label, short(value, digits), unit, note)
     };
     let none = String::new;
+    let (element, contact) = match bearing.has_balls() {
+        true => ("ball", "contact"),
+        false => ("roller", "line of contact"),
+    };
+    let deformation = short(m.approach_um, 3);
     let floor = if m.deepest_um > m.approach_um {
         format!(
-            "deeper than the elastic deformation of {} µm: the line of contact does not reach the bottom",
-            short(m.approach_um, 3)
+            "deeper than the heaviest static contact's deformation of {deformation} µm: between raceways that stand still the {element} \
+             carries nothing at the bottom; over a long defect the rings follow, and it can"
         )
     } else {
-        format!("less than the elastic deformation of {} µm: the bottom carries load too", short(m.approach_um, 3))
+        format!("less than the heaviest static contact's deformation of {deformation} µm: the bottom carries load too")
     };
     let mut facts = vec![
         fact("Length", m.length_mm, 4, "mm", "along the rolling direction".into()),
@@ -89,7 +94,7 @@ pub(super) fn facts(m: &Measures, bearing: &Bearing) -> Vec<Fact> {
         fact("Area", m.area_mm2, 4, "mm^2", none()),
         fact("Mean depth", m.mean_depth_um, 4, "µm", "volume over area".into()),
         fact("Deepest", m.deepest_um, 4, "µm", floor),
-        fact("Time to pass", m.pass_ms, 4, "ms", format!("of the line of contact, at {} r/min", short(m.speed_rpm, 4))),
+        fact("Time to pass", m.pass_ms, 4, "ms", format!("of the {contact}, at {} r/min", short(m.speed_rpm, 4))),
     ];
     if m.raised_um > 0.0 {
         facts.push(fact("Raised edge", m.raised_um, 4, "µm", "felt by the law \"sliced\"".into()));

@@ -16,9 +16,10 @@ pub(super) fn lead(parts: &Parts, damage: &[Damage]) -> String {
         said.push(format!("{} m/s² RMS{times}", short(rms.value, 3)));
     }
     for line in &parts.findings.lines {
-        let words = match line.found {
-            Some(found) => format!("{} found at {:.1} Hz", line.name, found.frequency),
-            None => format!("{} not found ({:.1} Hz expected)", line.name, line.nominal),
+        let words = match (line.found, &line.too_short) {
+            (Some(found), _) => format!("{} found at {:.1} Hz", line.name, found.frequency),
+            (None, Some(why)) => why.clone(),
+            (None, None) => format!("{} not found ({:.1} Hz expected)", line.name, line.nominal),
         };
         if !said.contains(&words) {
             said.push(words);

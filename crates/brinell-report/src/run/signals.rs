@@ -156,12 +156,15 @@ pub(super) fn indicators(parts: &Parts) -> IndicatorTable {
         .collect();
     // What a sensor sees comes first.
     rows.sort_by_key(|r| (!r.channel.starts_with("sensor"), r.kind == "instantaneous"));
+    let of = match parts.findings.sensor().is_some_and(|c| c.blocks.revolutions() == 0) {
+        true => "No whole revolution was analysed: averages and peaks are those of the record.",
+        false => "Averages over whole revolutions, in brackets their 95 % intervals; peaks are those of a revolution.",
+    };
     IndicatorTable {
         columns: COLUMNS.iter().map(|(_, name)| (*name).to_owned()).collect(),
         rows,
         note: format!(
-            "From t = {} s on. Averages over whole revolutions, in brackets their 95 % intervals; peaks are those of a revolution. The anti-alias \
-             filter takes away what lies above half the sample rate: instantaneous values hold all of it.",
+            "From t = {} s on. {of} The anti-alias filter takes away what lies above half the sample rate: instantaneous values hold all of it.",
             short(parts.findings.from, 3)
         ),
     }

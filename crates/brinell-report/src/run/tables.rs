@@ -41,7 +41,11 @@ pub(super) fn facts(parts: &Parts) -> Vec<Fact> {
             "Heaviest contact, static",
             short(zone.largest, 3),
             "N",
-            format!("load zone {:.0}° wide", zone.extent.to_degrees()),
+            format!(
+                "{}load zone {:.0}° wide",
+                if parts.simulation.model().defects.is_empty() { "" } else { "with the damage; " },
+                zone.extent.to_degrees()
+            ),
         ));
     }
     facts
@@ -68,7 +72,8 @@ fn healthy_fact(parts: &Parts) -> Option<Fact> {
 /// A defect's frequency.
 fn line_fact(parts: &Parts, line: &DefectLine) -> Fact {
     let defect = &parts.simulation.model().defects[line.defect];
-    let value = line.found.map_or("not found".to_owned(), |f| format!("{:.2}", f.frequency));
+    let missing = if line.too_short.is_some() { "not looked for" } else { "not found" };
+    let value = line.found.map_or(missing.to_owned(), |f| format!("{:.2}", f.frequency));
     let note = match line.found {
         Some(_) => format!(
             "{} in the envelope; {}pure rolling {:.2} Hz",
@@ -76,7 +81,10 @@ fn line_fact(parts: &Parts, line: &DefectLine) -> Fact {
             line.interval.map_or(String::new(), |i| format!("95 %: {:.2} to {:.2} Hz; ", i.low, i.high)),
             line.nominal
         ),
-        None => format!("{}; pure rolling {:.2} Hz", place(defect), line.nominal),
+        None => {
+            let why = line.too_short.as_ref().map_or(String::new(), |why| format!("{why}; "));
+            format!("{}; {why}pure rolling {:.2} Hz", place(defect), line.nominal)
+        }
     };
     let unit = line.found.map_or("", |_| "Hz");
     Fact::new(line.name, value, unit, note)

@@ -13,7 +13,6 @@ use std::f64::consts::TAU;
 /// Units are in the names. `slices` is `null` where contacts have none; of a static balance that does not exist the
 /// warnings tell.
 pub fn to_json(s: &Scenario, model: &Model, d: &Derived) -> Value {
-    let (carried, load) = d.support_share;
     let pressures = pressures(s, d.contact_force);
     let warnings = before(s, model, &d.statics);
     let warnings: Vec<String> = warnings.iter().map(ToString::to_string).collect();
@@ -35,8 +34,8 @@ pub fn to_json(s: &Scenario, model: &Model, d: &Derived) -> Value {
         "roller_period_s": d.roller_period,
         "defect_passes_s": d.defect_passes,
         "longest_step_s": d.longest_step,
-        "support_over_clearance_n": carried,
-        "load_n": load,
+        "support_force_n": d.statics.as_ref().ok().map(|zone| zone.support),
+        "load_n": model.force_on_loaded_ring(),
         "inner_contact_pressure_mpa": 1e-6 * pressures[0],
         "outer_contact_pressure_mpa": 1e-6 * pressures[1],
         "static_limit_mpa": 1e-6 * static_limit(&s.bearing),

@@ -19,8 +19,8 @@ use crate::scenario::{Defect, Scenario, Speed};
 use crate::signal::ratio::{Ratio, ratio};
 use crate::signal::stream::LONGEST_SEGMENT;
 use crate::signal::{
-    Band, Blocks, EnvelopeSpectrum, Estimate, Indicator, Interval, LineFrequency, LineSearch, Spectrogram, Spectrum,
-    StreamSpectra,
+    Band, Blocks, EnvelopeSpectrum, Estimate, FEWEST_PERIODS, Indicator, Interval, LineFrequency, LineSearch,
+    Spectrogram, Spectrum, StreamSpectra,
 };
 use crate::simulate::Simulation;
 use load_zone::{LoadZone, Places};
@@ -79,6 +79,8 @@ pub struct DefectLine {
     pub found: Option<LineFrequency>,
     /// 95 % interval of the mean frequency, slip's wander included; `None` where the run is too short to tell.
     pub interval: Option<Interval>,
+    /// Why it was not looked for, and what run would do, where this one was too short.
+    pub too_short: Option<String>,
 }
 
 impl DefectLine {
@@ -162,6 +164,8 @@ pub enum Drift {
 pub struct Watch {
     sample_rate: f64,
     settled: f64,
+    /// Ramp and a turn, s.
+    unsettled: f64,
     ramp: f64,
     started: Option<f64>,
     /// Of the inner ring, when statistics began, rad.
@@ -184,6 +188,9 @@ pub struct Watch {
     waveform: Waveform,
     spectrogram: TimeFrequency,
     spectra: StreamSpectra,
+    /// Samples of a segment of it, and those that it was given.
+    segment: usize,
+    analysed: usize,
     band: Band,
     /// In the order of the searches.
     lines: Vec<DefectLine>,
@@ -195,6 +202,9 @@ const BAND_HARMONIC: f64 = 10.0;
 const BAND_LATEST: f64 = 0.1;
 /// It ends where the anti-alias filter's passband does.
 const BAND_END: f64 = 0.4;
+
+/// Share of a short run that the segment of its spectra takes.
+const SEGMENT_SHARE: f64 = 0.75;
 
 /// The band whose envelope is taken, at the bearing's highest speed.
 #[doc(hidden)]
@@ -231,7 +241,7 @@ impl Watch {
         let rolling = model.kinematics(model.rotation.max_speed());
         let periods = [rolling.bpfo, rolling.bpfi].map(|hz| sample_rate / hz.abs());
         // One segment where the run is short, for resolution; the longest allowed otherwise.
-        let expected = (0.75 * simulation.samples() as f64).min(LONGEST_SEGMENT as f64) as usize;
+        let expected = (SEGMENT_SHARE * simulation.samples() as f64).min(LONGEST_SEGMENT as f64) as usize;
         let segment = (expected / 2 * 2).max(8);
         let lines = defect_lines(scenario, simulation);
         let search = |line: &DefectLine| LineSearch::new(line.nominal);
@@ -239,6 +249,7 @@ impl Watch {
         Self {
             sample_rate,
             settled: scenario.settled_s(),
+            unsettled: model.load.ramp + 60.0 / scenario.operation.speed_rpm.constant().unwrap_or(f64::INFINITY).abs(),
             ramp: model.load.ramp,
             started: None,
             start_angle: 0.0,
@@ -259,6 +270,8 @@ impl Watch {
             waveform: Waveform::new(),
             spectrogram: TimeFrequency::new(sample_rate, simulation.samples(), periods),
             spectra: StreamSpectra::new(sample_rate, segment, band, &searches),
+            segment,
+            analysed: 0,
             band,
             lines,
         }
@@ -311,6 +324,7 @@ impl Watch {
             channel.blocks.push(*value);
         }
         self.spectra.push(sensor);
+        self.analysed += 1;
     }
 
     /// What came together.
@@ -324,6 +338,10 @@ impl Watch {
         });
         let drifts = self.drifts();
         let spectra = self.spectra.finish();
+        let segment = self.segment.min(self.analysed);
+        for line in &mut self.lines {
+            line.too_short = too_short(line, segment, self.sample_rate, self.unsettled);
+        }
         for (line, found) in self.lines.iter_mut().zip(spectra.lines) {
             if let Some(found) = found {
                 let (found, interval) = self.rates.mean_rate(line.defect, found);
@@ -384,7 +402,54 @@ fn defect_lines(scenario: &Scenario, simulation: &Simulation) -> Vec<DefectLine>
     let k = model.kinematics(model.rotation.at(0.0).0);
     let line = |(defect, d): (usize, &Defect)| {
         let (name, nominal) = k.defect_frequency(d.on);
-        DefectLine { defect, name, nominal, found: None, interval: None }
+        DefectLine { defect, name, nominal, found: None, interval: None, too_short: None }
     };
     scenario.defects.iter().enumerate().map(line).collect()
+}
+
+/// As [`DefectLine::too_short`], by a segment of so many samples; `unsettled`: what [`Scenario::settled_s`] leaves out
+/// of a run that is long enough, s.
+fn too_short(line: &DefectLine, segment: usize, sample_rate: f64, unsettled: f64) -> Option<String> {
+    let periods = line.nominal * segment as f64 / sample_rate;
+    if line.nominal <= 0.0 || periods >= FEWEST_PERIODS {
+        return None;
+    }
+    let least = FEWEST_PERIODS / line.nominal;
+    let longest = LONGEST_SEGMENT as f64;
+    let remedy = if least * sample_rate > longest {
+        format!("a sample_rate_hz of {} or less", (longest / least).floor())
+    } else {
+        // Rounded up.
+        format!("a duration_s of {}", (1e3 * (least / SEGMENT_SHARE).max(least + unsettled)).ceil() / 1e3)
+    };
+    Some(format!("too short to look for {}: {periods:.1} periods of {FEWEST_PERIODS}; {remedy} would do", line.name))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn analytic_the_duration_that_is_said_to_do_does() {
+        let fs = 25600.0;
+        // (BPFO, Hz; r/min; ramp, s): by the segment's share of the run, by what settles first, by the longest segment.
+        for (nominal, rpm, ramp) in [(52.0, 600.0, 0.0), (52.0, 600.0, 0.4), (8.0, 100.0, 0.0)] {
+            let line = DefectLine { defect: 0, name: "BPFO", nominal, found: None, interval: None, too_short: None };
+            let unsettled = ramp + 60.0 / rpm;
+            let segment = |duration: f64, fs: f64| {
+                let left = duration - unsettled.min(0.5 * duration);
+                (fs * left.min(SEGMENT_SHARE * duration)).min(LONGEST_SEGMENT as f64).ceil() as usize
+            };
+            let told = too_short(&line, segment(0.3, fs), fs, unsettled).unwrap();
+            let number = |after: &str| told.split(after).nth(1)?.split(' ').next()?.parse::<f64>().ok();
+            let (duration, rate) =
+                (number("duration_s of ").unwrap_or(100.0), number("sample_rate_hz of ").unwrap_or(fs));
+            assert_eq!(too_short(&line, segment(duration, rate), rate, unsettled), None, "{told}");
+            assert!((nominal < 10.0) == (rate < fs), "{told}");
+            assert!(
+                too_short(&line, segment(0.97 * duration, 1.03 * rate), 1.03 * rate, unsettled).is_some(),
+                "{told}"
+            );
+        }
+    }
 }

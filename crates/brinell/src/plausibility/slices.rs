@@ -72,7 +72,8 @@ fn is_pressed(model: &Model, zone: &StaticLoadZone, defect: &Defect) -> bool {
     let reach = 0.5 * (last - first) / defect.radius + between;
     let middle = defect.center + 0.5 * (first + last) / defect.radius;
     let mut points = zone.points.iter().filter(|p| p.0 == defect.row);
-    points.any(|p| p.2 > 0.0 && wrap(p.1 - middle).abs() <= reach)
+    // By both raceways: its own weight on the inner ring presses no roller onto damage.
+    points.any(|p| p.2 > 0.0 && p.3 > 0.0 && wrap(p.1 - middle).abs() <= reach)
 }
 
 /// The edges of the damage under rollers that sink by `deformation` (m).

@@ -117,8 +117,14 @@ pub(super) fn softest(model: &Model) -> f64 {
 }
 
 /// Centripetal acceleration of a roller in pure rolling, m/s^2.
-pub(super) fn centrifugal(model: &Model, speed: f64) -> f64 {
+fn centrifugal(model: &Model, speed: f64) -> f64 {
     model.geometry.pitch_radius * model.rolling_orbit_speed(speed).powi(2)
+}
+
+/// Radial force of a roller's own weight and centrifugal force, N: outwards.
+pub(super) fn own_force(model: &Model, problem: &Problem, slot: usize) -> f64 {
+    let (sin, cos) = problem.orbit[slot].sin_cos();
+    model.inertia.roller * (centrifugal(model, problem.speed) + cos * model.gravity[0] + sin * model.gravity[1])
 }
 
 /// Loads and weights of the rings, N.

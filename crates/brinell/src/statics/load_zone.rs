@@ -1,9 +1,10 @@
 //! The static balance as the cage turns through a pitch: load zone, ring shift, stiffness of the bearing.
 
-use super::balance::{NoBalance, Problem};
+use super::balance::{Balance, NoBalance, Problem, own_force};
 use super::solve;
-use crate::defect::{SIDES, wrap};
+use crate::defect::{SIDES, Side, wrap};
 use crate::model::Model;
+use crate::scenario::LoadOn;
 use std::f64::consts::{PI, TAU};
 
 /// Load distribution of the static balance: rollers of all rows at several positions of the cage.
@@ -13,8 +14,8 @@ pub struct StaticLoadZone {
     pub points: Vec<(usize, f64, f64, f64)>,
     /// Largest Q_out, N.
     pub largest: f64,
-    /// Extent of the zone where the inner raceway carries, rad; 0 where none does, a full turn where every roller
-    /// carries everywhere.
+    /// Extent of the zone where rollers carry load between the raceways, rad; 0 where none does, a full turn where every
+    /// roller does everywhere. A roller whose own weight rests on the inner ring carries none.
     pub extent: f64,
     /// Where it begins and ends, rad, counted from its middle [`Self::middle`].
     pub ends: (f64, f64),
@@ -24,15 +25,11 @@ pub struct StaticLoadZone {
     pub shift: [f64; 2],
     /// Mean stiffness of the bearing between its rings, N/m.
     pub stiffness: [[f64; 2]; 2],
+    /// What the support of the ring that the load is on takes of it, by the ring's mean displacement, N.
+    pub support: f64,
 }
 
 impl StaticLoadZone {
-    /// What the inner raceway carries together, the mean over the positions of the cage, N.
-    pub(crate) fn resultant(&self) -> f64 {
-        let along = |k: fn(f64) -> f64| self.points.iter().map(|p| p.2 * k(p.1)).sum::<f64>() / PHASES as f64;
-        along(f64::cos).hypot(along(f64::sin))
-    }
-
     /// Static deformation of the heaviest contact on the softer raceway, m.
     pub(crate) fn deformation(&self, model: &Model) -> f64 {
         let on = |side| model.deflection(side, self.largest);
@@ -59,7 +56,10 @@ pub fn static_load_zone(model: &Model) -> Result<StaticLoadZone, NoBalance> {
         middle: 0.0,
         shift: [0.0; 2],
         stiffness: [[0.0; 2]; 2],
+        support: 0.0,
     };
+    let mut places: Vec<Place> = Vec::with_capacity(PHASES * l.rollers());
+    let mut displaced = [0.0; 2];
     for phase in 0..PHASES {
         let turn = pitch * phase as f64 / PHASES as f64;
         problem.orbit.iter_mut().zip(&model.pocket_angle).for_each(|(o, a)| *o = a + turn);
@@ -69,8 +69,15 @@ pub fn static_load_zone(model: &Model) -> Result<StaticLoadZone, NoBalance> {
             let force = balance.outer_force[slot];
             zone.points.push((l.row(slot), wrap(problem.orbit[slot]), balance.inner_force[slot], force));
             zone.largest = zone.largest.max(force);
+            let squeeze = squeeze(model, &problem, &balance, slot);
+            places.push(Place { slot, turn, angle: problem.orbit[slot], squeeze });
         }
+        let loaded = match model.load.on {
+            LoadOn::InnerRing => balance.inner,
+            LoadOn::OuterRing => balance.outer,
+        };
         for k in 0..2 {
+            displaced[k] += loaded[k] / PHASES as f64;
             zone.shift[k] += (balance.inner[k] - balance.outer[k]) / PHASES as f64;
             for j in 0..2 {
                 zone.stiffness[k][j] += balance.stiffness[k][j] / PHASES as f64;
@@ -78,17 +85,78 @@ pub fn static_load_zone(model: &Model) -> Result<StaticLoadZone, NoBalance> {
         }
     }
     zone.middle = zone.shift[1].atan2(zone.shift[0]);
-    if zone.points.iter().all(|point| point.2 > 0.0) {
-        zone.ends = (-PI, PI);
+    zone.ends = if places.iter().all(|place| place.squeeze > 0.0) {
+        (-PI, PI)
     } else {
-        for &(_, angle, inner, _) in &zone.points {
-            if inner > 0.0 {
-                let from_middle = wrap(angle - zone.middle);
-                zone.ends.0 = zone.ends.0.min(from_middle);
-                zone.ends.1 = zone.ends.1.max(from_middle);
-            }
+        places.iter_mut().for_each(|place| place.angle = wrap(place.angle - zone.middle));
+        (-end(model, &mut problem, &places, -1.0)?, end(model, &mut problem, &places, 1.0)?)
+    };
+    zone.extent = zone.ends.1 - zone.ends.0;
+    zone.support = model.loaded_support().stiffness * displaced[0].hypot(displaced[1]);
+    Ok(zone)
+}
+
+/// How far the sound raceways overlap at a roller, less its deformation under its own weight and centrifugal force, m:
+/// positive where both press it.
+fn squeeze(model: &Model, problem: &Problem, balance: &Balance, slot: usize) -> f64 {
+    let (sin, cos) = problem.orbit[slot].sin_cos();
+    let apart = |inner: [f64; 2], outer: [f64; 2]| cos * (inner[0] - outer[0]) + sin * (inner[1] - outer[1]);
+    let middle = apart(balance.inner, balance.outer) - model.geometry.clearance - model.geometry.outer_gap;
+    let (lever, slope) = match (&model.tilt, &balance.tilting) {
+        (Some(tilt), Some(tilting)) => (tilt.levers[slot], apart(tilting.rings[0], tilting.rings[1])),
+        _ => (0.0, 0.0),
+    };
+    let overlap = model.slices.as_ref().map_or(middle, |slices| {
+        let at = |k: usize| middle + slope * (lever + slices.z[k]) - 2.0 * slices.drop[k];
+        (0..slices.count).map(at).fold(f64::NEG_INFINITY, f64::max)
+    });
+    // The lumped model's rollers have no weight.
+    let own = if model.kind.moves_every_part() { own_force(model, problem, slot) } else { 0.0 };
+    let side = if own < 0.0 { Side::Inner } else { Side::Outer };
+    overlap - model.contact(side).deflection(own.abs())
+}
+
+/// A roller at one position of the cage.
+#[derive(Clone, Copy)]
+struct Place {
+    slot: usize,
+    /// How far the cage has turned, rad.
+    turn: f64,
+    /// Of the roller, rad.
+    angle: f64,
+    squeeze: f64,
+}
+
+/// How far the load zone reaches from its middle, forwards or backwards by `sign`, rad; `places` count from there.
+///
+/// The squeeze is interpolated between the last place that is loaded and the next, and once more from the balance at the
+/// angle found: a roller that takes up load pushes the rings back, so the squeeze bends there.
+fn end(model: &Model, problem: &mut Problem, places: &[Place], sign: f64) -> Result<f64, NoBalance> {
+    let outwards = |place: &Place| (sign * place.angle, place.squeeze);
+    let farther = |a: &&Place, b: &&Place| outwards(a).0.total_cmp(&outwards(b).0);
+    let (mut reach, mut between) = (0.0, None);
+    for row in 0..model.layout.rows {
+        let of_row = || places.iter().filter(move |place| model.layout.row(place.slot) == row);
+        let Some(loaded) = of_row().filter(|place| place.squeeze > 0.0).max_by(farther) else {
+            continue;
+        };
+        let next = of_row().filter(|place| outwards(place).0 > outwards(loaded).0).min_by(farther);
+        let at = next.map_or(outwards(loaded).0, |next| zero(outwards(loaded), outwards(next)));
+        if at > reach {
+            (reach, between) = (at, next.map(|next| (loaded, next)));
         }
     }
-    zone.extent = zone.ends.1 - zone.ends.0;
-    Ok(zone)
+    let Some((loaded, next)) = between else {
+        return Ok(reach);
+    };
+    let turn = loaded.turn + sign * reach - loaded.angle;
+    problem.orbit.iter_mut().zip(&model.pocket_angle).for_each(|(o, a)| *o = a + turn);
+    let balance = solve(model, problem)?;
+    let found = (reach, squeeze(model, problem, &balance, loaded.slot));
+    Ok(if found.1 > 0.0 { zero(found, outwards(next)) } else { zero(outwards(loaded), found) })
+}
+
+/// The angle at which the squeeze is 0, between (angle, squeeze) of a roller that is loaded and of one that is not.
+fn zero(loaded: (f64, f64), next: (f64, f64)) -> f64 {
+    loaded.0 + (next.0 - loaded.0) * loaded.1 / (loaded.1 - next.1)
 }

@@ -1,9 +1,7 @@
 //! Rings and rollers in the plane: each roller's radial offset is eliminated, for it has one equilibrium at given ring
 //! offsets.
 
-use super::balance::{
-    Balance, NoBalance, Offsets, Problem, angles, centrifugal, covers, external, force_scale, softest,
-};
+use super::balance::{Balance, NoBalance, Offsets, Problem, angles, covers, external, force_scale, own_force, softest};
 use super::newton::{Minimum, State, minimise};
 use crate::defect::{Angles, Side, damaged_contact, energy, tangent};
 use crate::model::{Model, lumped};
@@ -72,8 +70,7 @@ fn between_raceways(model: &Model, problem: &Problem, slot: usize, x: &Offsets) 
         angles,
         inner_at: cos * x[0] + sin * x[1] - model.geometry.clearance,
         outer_at: cos * x[2] + sin * x[3] + model.geometry.outer_gap,
-        own: model.inertia.roller
-            * (centrifugal(model, problem.speed) + cos * model.gravity[0] + sin * model.gravity[1]),
+        own: own_force(model, problem, slot),
         covers,
     };
     let r = between.equilibrium();

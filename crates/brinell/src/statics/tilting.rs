@@ -1,9 +1,7 @@
 //! Static balance where rollers and rings tilt (section 16): each roller's (r, beta) is eliminated, the rings' eight
 //! coordinates are searched.
 
-use super::balance::{
-    Balance, NoBalance, Problem, Tilted, angles, centrifugal, covers, external, force_scale, softest,
-};
+use super::balance::{Balance, NoBalance, Problem, Tilted, angles, covers, external, force_scale, own_force, softest};
 use super::newton::{State, eliminate, minimise};
 use crate::model::{Model, Tilt};
 use crate::slices::{Approach, Carried, Cover, Slices};
@@ -169,10 +167,8 @@ fn between_raceways(
     met: &[[f64; 2]; 2],
     covers: &[Option<Cover>; 2],
 ) -> Roller {
-    let (sin, cos) = problem.orbit[slot].sin_cos();
     let g = &model.geometry;
-    let own =
-        model.inertia.roller * (centrifugal(model, problem.speed) + cos * model.gravity[0] + sin * model.gravity[1]);
+    let own = own_force(model, problem, slot);
     let [[inner, inner_slope], [outer, outer_slope]] = *met;
     let (inner, outer) = (inner - g.clearance, outer + g.outer_gap);
     let contacts = |r: f64, beta: f64| {
