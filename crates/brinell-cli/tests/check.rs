@@ -93,7 +93,7 @@ fn regress_check_prints_numbers_that_can_be_read() {
     assert!(shift.contains("(0, -"), "{shift}");
     assert!(after("bearing stiffness").ends_with("xy 0 N/m"), "{}", call.out);
     // Values are in one column.
-    let starts: Vec<usize> = ["healthy contacts", "at ", "support over"]
+    let starts: Vec<usize> = ["healthy contacts", "at ", "loaded ring's support"]
         .iter()
         .map(|name| {
             let line = after(name);

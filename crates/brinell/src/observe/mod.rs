@@ -414,13 +414,14 @@ fn too_short(line: &DefectLine, segment: usize, sample_rate: f64, unsettled: f64
     if line.nominal <= 0.0 || periods >= FEWEST_PERIODS {
         return None;
     }
-    let least = FEWEST_PERIODS / line.nominal;
+    // A segment is even, and begins and ends at samples: up to 4 less than its share.
+    let least = FEWEST_PERIODS / line.nominal + 4.0 / sample_rate;
     let longest = LONGEST_SEGMENT as f64;
     let remedy = if least * sample_rate > longest {
         format!("a sample_rate_hz of {} or less", (longest / least).floor())
     } else {
         // Rounded up.
-        format!("a duration_s of {}", (1e3 * (least / SEGMENT_SHARE).max(least + unsettled)).ceil() / 1e3)
+        format!("a duration_s of {}", (1e3 * (least / SEGMENT_SHARE).max(least + unsettled.min(least))).ceil() / 1e3)
     };
     Some(format!("too short to look for {}: {periods:.1} periods of {FEWEST_PERIODS}; {remedy} would do", line.name))
 }
@@ -435,7 +436,7 @@ mod tests {
         // (BPFO, Hz; r/min; ramp, s): by the segment's share of the run, by what settles first, by the longest segment.
         for (nominal, rpm, ramp) in [(52.0, 600.0, 0.0), (52.0, 600.0, 0.4), (8.0, 100.0, 0.0)] {
             let line = DefectLine { defect: 0, name: "BPFO", nominal, found: None, interval: None, too_short: None };
-            let unsettled = ramp + 60.0 / rpm;
+            let unsettled: f64 = ramp + 60.0 / rpm;
             let segment = |duration: f64, fs: f64| {
                 let left = duration - unsettled.min(0.5 * duration);
                 (fs * left.min(SEGMENT_SHARE * duration)).min(LONGEST_SEGMENT as f64).ceil() as usize
