@@ -73,7 +73,9 @@ pub(super) fn facts(m: &Measures, bearing: &Bearing) -> Vec<Fact> {
              carries nothing at the bottom; over a long defect the rings follow, and it can"
         )
     } else {
-        format!("less than the healthy bearing's heaviest static contact deforms, {deformation} µm: the bottom carries load too")
+        format!(
+            "less than the healthy bearing's heaviest static contact deforms, {deformation} µm: the bottom carries load too"
+        )
     };
     let mut facts = vec![
         fact("Length", m.length_mm, 4, "mm", "along the rolling direction".into()),
