@@ -69,11 +69,13 @@ pub(super) fn facts(m: &Measures, bearing: &Bearing) -> Vec<Fact> {
     let deformation = short(m.approach_um, 3);
     let floor = if m.deepest_um > m.approach_um {
         format!(
-            "deeper than the heaviest static contact's deformation of {deformation} µm: between raceways that stand still the {element} \
+            "deeper than the healthy bearing's heaviest static contact deforms, {deformation} µm: between raceways that stand still the {element} \
              carries nothing at the bottom; over a long defect the rings follow, and it can"
         )
     } else {
-        format!("less than the heaviest static contact's deformation of {deformation} µm: the bottom carries load too")
+        format!(
+            "less than the healthy bearing's heaviest static contact deforms, {deformation} µm: the bottom carries load too"
+        )
     };
     let mut facts = vec![
         fact("Length", m.length_mm, 4, "mm", "along the rolling direction".into()),

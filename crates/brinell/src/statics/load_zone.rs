@@ -14,8 +14,8 @@ pub struct StaticLoadZone {
     pub points: Vec<(usize, f64, f64, f64)>,
     /// Largest Q_out, N.
     pub largest: f64,
-    /// Extent of the zone where rollers carry load between the raceways, rad; 0 where none does, a full turn where every
-    /// roller does everywhere. A roller whose own weight rests on the inner ring carries none.
+    /// Extent of the zone where rollers carry load between the raceways, rad; 0 where none does, a full turn where
+    /// every roller does everywhere. A roller whose own weight rests on the inner ring carries none.
     pub extent: f64,
     /// Where it begins and ends, rad, counted from its middle [`Self::middle`].
     pub ends: (f64, f64),
@@ -129,8 +129,8 @@ struct Place {
 
 /// How far the load zone reaches from its middle, forwards or backwards by `sign`, rad; `places` count from there.
 ///
-/// The squeeze is interpolated between the last place that is loaded and the next, and once more from the balance at the
-/// angle found: a roller that takes up load pushes the rings back, so the squeeze bends there.
+/// The squeeze is interpolated between the last place that is loaded and the next, and once more from the balance at
+/// the angle found: a roller that takes up load pushes the rings back, so the squeeze bends there.
 fn end(model: &Model, problem: &mut Problem, places: &[Place], sign: f64) -> Result<f64, NoBalance> {
     let outwards = |place: &Place| (sign * place.angle, place.squeeze);
     let farther = |a: &&Place, b: &&Place| outwards(a).0.total_cmp(&outwards(b).0);
