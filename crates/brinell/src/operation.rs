@@ -1,6 +1,6 @@
 //! Prescribed motion and load: the inner ring's speed and angle, the load and its ramp.
 
-use crate::scenario::{self, Scenario, Speed};
+use crate::scenario::{self, Scenario, Speed, Start};
 use std::f64::consts::TAU;
 
 /// Speed of the inner ring, piecewise linear in time and held beyond its ends; its angle is the exact integral.
@@ -11,6 +11,14 @@ pub struct Rotation {
 }
 
 impl Rotation {
+    /// Of the turns that a shaft makes, whatever their direction, from r/min.
+    pub fn of_turns(speed: &Speed) -> Self {
+        Self::new(&match speed {
+            Speed::Constant(rpm) => Speed::Constant(rpm.abs()),
+            Speed::Profile(points) => Speed::Profile(points.iter().map(|p| [p[0], p[1].abs()]).collect()),
+        })
+    }
+
     /// From r/min.
     pub fn new(speed: &Speed) -> Self {
         let rad = |rpm: f64| rpm * std::f64::consts::PI / 30.0;
@@ -63,12 +71,17 @@ impl Rotation {
 }
 
 impl Scenario {
+    /// t_ramp, s: none from the static balance under the full load.
+    pub(crate) fn load_ramp_s(&self) -> f64 {
+        if self.simulation.start == Start::Equilibrium { 0.0 } else { self.operation.load_ramp_s }
+    }
+
     /// Where statistics of its run begin, s: the load ramp is over and the shaft has made a turn since; half-way through
     /// at the latest.
     pub fn settled_s(&self) -> f64 {
-        let rotation = Rotation::new(&self.operation.speed_rpm);
-        let (ramp, half_way) = (self.operation.load_ramp_s, 0.5 * self.simulation.duration_s);
-        let turned = |t: f64| (rotation.at(t).1 - rotation.at(ramp).1).abs() >= TAU;
+        let rotation = Rotation::of_turns(&self.operation.speed_rpm);
+        let (ramp, half_way) = (self.load_ramp_s(), 0.5 * self.simulation.duration_s);
+        let turned = |t: f64| rotation.at(t).1 - rotation.at(ramp).1 >= TAU;
         if ramp >= half_way || !turned(half_way) {
             return half_way;
         }
@@ -159,5 +172,8 @@ mod tests {
         // From rest at b rad/s^2: b (t^2 - ramp^2) / 2 is a turn.
         let t = (0.02_f64.powi(2) + 4.0 * PI / (100.0 * PI)).sqrt();
         assert!((settled("[[0, 0], [1, 3000]]", 1.0) - t).abs() < 1e-14);
+        // Turns there and back are turns: 50 Hz, and half of a turn each way.
+        let swing = "[[0, 3000], [0.03, 3000], [0.030001, -3000], [1, -3000]]";
+        assert!((settled(swing, 1.0) - 0.04).abs() < 1e-5);
     }
 }

@@ -348,14 +348,7 @@ fn too_short(scenario: &Scenario, model: &Model) -> Option<Problem> {
     // A turn of the shaft before the statistics begin, and then one of the cage; in turns of the shaft.
     let cage = 1.0 / model.kinematics(TAU).ftf;
     let needed = 1.0 + cage;
-    let rotation = match &scenario.operation.speed_rpm {
-        Speed::Constant(_) => model.rotation.clone(),
-        // Turns count whatever their direction.
-        Speed::Profile(points) => {
-            let size = points.iter().map(|p| [p[0], p[1].abs()]).collect();
-            Rotation::new(&Speed::Profile(size))
-        }
-    };
+    let rotation = Rotation::of_turns(&scenario.operation.speed_rpm);
     let turns = |t: f64| rotation.at(t).1.abs() / TAU;
     let turned = if duration > ramp { turns(duration) - turns(ramp) } else { 0.0 };
     if turned >= needed {

@@ -12,6 +12,7 @@ use brinell::analysis::{
 use brinell::bearing::orders_of;
 use brinell::result::{Stretch, beside_healthy};
 use brinell::signal::{Band, Rotation, VelocityBands};
+use std::collections::HashSet;
 use std::path::Path;
 
 /// A result for each bearing that was named, or one. The file is read anew for each but the first.
@@ -22,6 +23,13 @@ pub(super) fn results(args: &AnalyzeArgs, path: &Path, measured: Measured) -> Re
         results.push(examine(args, load(args, path)?, Some(name))?);
     }
     ends::set_beside(&mut results);
+    // What one of the bearings asked about is warned of is said of all.
+    let mut warnings: Vec<String> = results.iter().flat_map(|r| r.measured.warnings.clone()).collect();
+    let mut seen = HashSet::new();
+    warnings.retain(|warning| seen.insert(warning.clone()));
+    for result in &mut results {
+        result.measured.warnings.clone_from(&warnings);
+    }
     Ok(results)
 }
 
@@ -44,10 +52,14 @@ pub(super) fn load(args: &AnalyzeArgs, path: &Path) -> Result<Measured, Failure>
 /// Everything that follows from a signal.
 fn examine(args: &AnalyzeArgs, mut measured: Measured, name: Option<&str>) -> Result<Diagnosis, Failure> {
     let (rpm, speed) = speed(args, &measured)?;
-    measured.warnings.extend(other_speed(args, &measured));
+    let other_speed = other_speed(args, &measured);
     let shaft = rpm.abs() / 60.0;
     let (orders, bearing) = bearing::orders(args, name, &measured, shaft)?;
-    measured.warnings.extend(other_bearing(&orders, &bearing, &measured, args.tolerance));
+    // At another speed frequencies in Hz are other orders.
+    if other_speed.is_none() {
+        measured.warnings.extend(other_bearing(&orders, &bearing, &measured, args.tolerance));
+    }
+    measured.warnings.extend(other_speed);
     let mut options = Options::new(shaft, orders);
     options.tolerance = 0.01 * args.tolerance;
     options.silent = measured.silent();

@@ -155,7 +155,7 @@ impl Costs {
 }
 
 fn tell_misses(survey: &Survey) {
-    for Misses { problem, run, count } in &survey.errors {
+    for Misses { problem, run, count, .. } in &survey.errors {
         complain!(
             "  {count} of {}, such as run {run}: {}",
             plural(survey.runs, "run"),

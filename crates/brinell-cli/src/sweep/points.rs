@@ -84,8 +84,8 @@ impl Points {
                 Ok(checked) => {
                     units.extend(checked.units);
                     let point = tasks.len();
-                    checked.warnings.into_iter().for_each(|w| count(&mut warnings, nowhere(w), point, 1));
-                    checked.before.into_iter().for_each(|w| count(&mut before, w, point, 1));
+                    checked.warnings.into_iter().for_each(|w| count(&mut warnings, nowhere(w), point));
+                    checked.before.into_iter().for_each(|w| count(&mut before, w, point));
                     Ok(checked.task)
                 }
                 Err(failure) => {

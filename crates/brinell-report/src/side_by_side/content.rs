@@ -136,7 +136,7 @@ pub fn beforehand(sides: &[Side]) -> Vec<String> {
     let (known, mut all) = (Beforehand::default(), Vec::new());
     for (k, side) in sides.iter().enumerate() {
         let warnings = known.warnings(&side.loaded.scenario);
-        warnings.into_iter().for_each(|warning| count(&mut all, warning, k, 1));
+        warnings.into_iter().for_each(|warning| count(&mut all, warning, k));
     }
     all.iter().map(|miss: &Misses| miss.words(sides.len(), "run", &sides[miss.run].label)).collect()
 }

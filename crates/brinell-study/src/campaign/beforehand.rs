@@ -9,8 +9,8 @@ use std::collections::HashMap;
 use std::fmt::Display;
 use std::sync::{Mutex, PoisonError};
 
-/// Scenarios whose static balance is solved before any runs: it takes milliseconds.
-pub const BALANCED: usize = 200;
+/// Scenarios whose static balance is solved before any runs: it takes some 10 ms.
+pub const BALANCED: usize = 50;
 
 /// A problem that some runs have.
 #[derive(Debug, Clone, PartialEq)]
@@ -21,6 +21,8 @@ pub struct Misses {
     pub run: usize,
     /// How many of the runs looked at.
     pub count: usize,
+    /// Index of the last of them.
+    pub last: usize,
 }
 
 impl Misses {
@@ -34,14 +36,20 @@ impl Misses {
     }
 }
 
-/// Adds to those that differ in numbers alone.
-pub fn count(all: &mut Vec<Misses>, problem: Problem, run: usize, times: usize) {
-    let same = |m: &&mut Misses| {
-        m.problem.key == problem.key && numberless(&m.problem.message) == numberless(&problem.message)
-    };
-    match all.iter_mut().find(same) {
-        Some(miss) => miss.count += times,
-        None => all.push(Misses { problem, run, count: times }),
+/// Adds to those that differ in numbers alone, of defects too; a run that has several of a kind counts once.
+pub fn count(all: &mut Vec<Misses>, problem: Problem, run: usize) {
+    join(all, Misses { problem, run, count: 1, last: run });
+}
+
+/// Adds what later runs have.
+pub fn join(all: &mut Vec<Misses>, later: Misses) {
+    let kind = |m: &Misses| (numberless(&m.problem.key), numberless(&m.problem.message));
+    match all.iter_mut().find(|m| kind(m) == kind(&later)) {
+        Some(miss) => {
+            miss.count += later.count - usize::from(miss.last == later.run);
+            miss.last = later.last;
+        }
+        None => all.push(later),
     }
 }
 

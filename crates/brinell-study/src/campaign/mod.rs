@@ -20,7 +20,7 @@ pub use axis::Axis;
 #[doc(hidden)]
 pub use axis::split;
 #[doc(hidden)]
-pub use beforehand::{BALANCED, Beforehand, Misses, count};
+pub use beforehand::{BALANCED, Beforehand, Misses, count, join};
 pub use columns::{NumberColumn, columns};
 pub use compare::{Compared, compare};
 pub use error::PlanError;

@@ -184,7 +184,7 @@ impl Campaign {
         many::each(runs, many::threads(runs), warnings, |run, warnings| found[run] = warnings);
         survey.balanced = found.iter().flatten().count();
         for (run, warnings) in found.into_iter().enumerate() {
-            warnings.into_iter().flatten().for_each(|warning| count(&mut survey.before, warning, run, 1));
+            warnings.into_iter().flatten().for_each(|warning| count(&mut survey.before, warning, run));
         }
     }
 

@@ -2,7 +2,7 @@
 
 use super::draws::Draws;
 use super::plan::OutOfRange;
-use crate::campaign::{Misses, count};
+use crate::campaign::{Misses, count, join};
 use brinell::document::{Place, Problem, Severity, locate};
 use brinell::many;
 use std::num::NonZeroUsize;
@@ -89,14 +89,14 @@ impl Survey {
         let is_error = |p: &Problem| p.severity == Severity::Error;
         self.unfit += usize::from(problems.iter().any(is_error));
         for problem in problems.into_iter().filter(is_error) {
-            count(&mut self.errors, without_override(problem), run, 1);
+            count(&mut self.errors, without_override(problem), run);
         }
         if let Some(loaded) = loaded {
             let simulation = &loaded.scenario.simulation;
             self.simulated += simulation.duration_s;
             self.samples += simulation.duration_s * simulation.sample_rate_hz;
             for warning in loaded.warnings {
-                count(&mut self.warnings, without_override(warning), run, 1);
+                count(&mut self.warnings, without_override(warning), run);
             }
         }
     }
@@ -109,7 +109,7 @@ impl Survey {
         self.samples += other.samples;
         for (mine, theirs) in [(&mut self.errors, other.errors), (&mut self.warnings, other.warnings)] {
             for miss in theirs {
-                count(mine, miss.problem, miss.run, miss.count);
+                join(mine, miss);
             }
         }
     }

@@ -105,7 +105,7 @@ impl KnownBearing {
         Ok(match self {
             Self::Catalogue(entry) => {
                 let guess = if entry.estimates_orders() {
-                    "; number or size of its elements is estimated, and differs between makers"
+                    "; number or size of its elements is estimated, and may differ between makers"
                 } else {
                     ""
                 };

@@ -13,7 +13,6 @@ use crate::lanes::Column;
 use crate::operation::{Load, Rotation};
 use crate::scenario::{
     Bearing, Cage, Element, Guidance, GuidanceFilm, Law, Lubricant, ModelKind, RacewayFilm, RollerProfile, Scenario,
-    Start,
 };
 use crate::slices::Slices;
 use std::f64::consts::{FRAC_PI_2, TAU};
@@ -243,11 +242,7 @@ fn guide(c: &Cage, lubricant: &Lubricant) -> Guide {
 }
 
 fn load(s: &Scenario) -> Load {
-    Load {
-        full: s.operation.load_n,
-        on: s.operation.load_on,
-        ramp: if s.simulation.start == Start::Equilibrium { 0.0 } else { s.operation.load_ramp_s },
-    }
+    Load { full: s.operation.load_n, on: s.operation.load_on, ramp: s.load_ramp_s() }
 }
 
 /// The slices, where rollers tilt or have a profile.

@@ -417,11 +417,14 @@ fn too_short(line: &DefectLine, segment: usize, sample_rate: f64, unsettled: f64
     // A segment is even, and begins and ends at samples: up to 4 less than its share.
     let least = FEWEST_PERIODS / line.nominal + 4.0 / sample_rate;
     let longest = LONGEST_SEGMENT as f64;
+    // Rounded up.
+    let duration = |least: f64| (1e3 * (least / SEGMENT_SHARE).max(least + unsettled.min(least))).ceil() / 1e3;
     let remedy = if least * sample_rate > longest {
-        format!("a sample_rate_hz of {} or less", (longest / least).floor())
+        let rate = (longest / least).floor();
+        let least = FEWEST_PERIODS / line.nominal + 4.0 / rate;
+        format!("a duration_s of {} and a sample_rate_hz of {rate} or less", duration(least))
     } else {
-        // Rounded up.
-        format!("a duration_s of {}", (1e3 * (least / SEGMENT_SHARE).max(least + unsettled.min(least))).ceil() / 1e3)
+        format!("a duration_s of {}", duration(least))
     };
     Some(format!("too short to look for {}: {periods:.1} periods of {FEWEST_PERIODS}; {remedy} would do", line.name))
 }
