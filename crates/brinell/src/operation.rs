@@ -159,14 +159,16 @@ mod tests {
 
     #[test]
     fn analytic_statistics_begin_a_turn_after_the_ramp() {
-        let settled = |speed: &str, duration: f64| {
+        let begun = |start: &str, speed: &str, duration: f64| {
             let text = format!(
                 "[bearing]\npreset = \"NU206\"\n[operation]\nspeed_rpm = {speed}\nload_n = [500, 0]\nload_ramp_s = 0.02\n\
-                 [simulation]\nduration_s = {duration}\n"
+                 [simulation]\nduration_s = {duration}\nstart = \"{start}\"\n"
             );
             crate::document::read(&text, &[]).unwrap().scenario.settled_s()
         };
+        let settled = |speed: &str, duration: f64| begun("rolling", speed, duration);
         assert!((settled("-6000", 0.5) - 0.03).abs() < 1e-15);
+        assert!((begun("equilibrium", "6000", 0.5) - 0.01).abs() < 1e-15, "no ramp");
         assert_eq!(settled("600", 0.2), 0.1, "half-way, before a turn");
         assert_eq!(settled("6000", 0.03), 0.015, "half-way, before the end of the ramp");
         // From rest at b rad/s^2: b (t^2 - ramp^2) / 2 is a turn.

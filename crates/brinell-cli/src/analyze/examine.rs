@@ -57,7 +57,7 @@ fn examine(args: &AnalyzeArgs, mut measured: Measured, name: Option<&str>) -> Re
     let (orders, bearing) = bearing::orders(args, name, &measured, shaft)?;
     // At another speed frequencies in Hz are other orders.
     if other_speed.is_none() {
-        measured.warnings.extend(other_bearing(&orders, &bearing, &measured, args.tolerance));
+        measured.warnings.extend(other_bearing(&orders, name, &measured, args.tolerance));
     }
     measured.warnings.extend(other_speed);
     let mut options = Options::new(shaft, orders);
@@ -132,12 +132,13 @@ fn other_speed(args: &AnalyzeArgs, measured: &Measured) -> Option<String> {
 }
 
 /// A warning, where the run that made the file is of another bearing than was asked about.
-fn other_bearing(orders: &DefectOrders, source: &str, measured: &Measured, tolerance: f64) -> Option<String> {
+fn other_bearing(orders: &DefectOrders, name: Option<&str>, measured: &Measured, tolerance: f64) -> Option<String> {
     let own = orders_of(&measured.scenario.as_deref()?.scenario.bearing);
     let pairs = [(orders.bpfo, own.bpfo), (orders.bpfi, own.bpfi)];
     let off = |(asked, own): (Option<f64>, Option<f64>)| Some((asked? / own? - 1.0).abs());
     let differs = pairs.into_iter().filter_map(off).any(|off| off > 0.01 * tolerance);
-    differs.then(|| format!("{source} was taken, but the run that made the file is of another bearing"))
+    let asked = name.map_or("the bearing given".to_owned(), |name| format!("--bearing {name}"));
+    differs.then(|| format!("{asked} was taken, but the run that made the file is of another bearing"))
 }
 
 pub(super) fn turning(rpm: f64, source: &str) -> Result<(), Failure> {

@@ -74,3 +74,23 @@ impl Beforehand {
         found
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn prop_a_run_counts_once_for_each_kind() {
+        let problem = |key: &str, deep: f64| Problem::error(key, format!("{deep} um is deep"));
+        let mut all = Vec::new();
+        for run in 3..6 {
+            for defect in 0..3 {
+                count(&mut all, problem(&format!("defects.{defect}.depth_um"), (run + defect) as f64), run);
+            }
+        }
+        let later = Misses { problem: problem("defects.0.depth_um", 1.0), run: 8, count: 2, last: 9 };
+        join(&mut all, later);
+        let counts: Vec<_> = all.iter().map(|m| (m.run, m.count, m.last)).collect();
+        assert_eq!(counts, [(3, 5, 9)]);
+    }
+}
