@@ -76,17 +76,22 @@ impl Scenario {
         if self.simulation.start == Start::Equilibrium { 0.0 } else { self.operation.load_ramp_s }
     }
 
+    /// The load ramp and a turn of the shaft after it, at a constant speed, s; infinite where it stands still.
+    pub(crate) fn unsettled_s(&self, rpm: f64) -> f64 {
+        self.load_ramp_s() + 60.0 / rpm.abs()
+    }
+
     /// Where statistics of its run begin, s: the load ramp is over and the shaft has made a turn since; half-way through
     /// at the latest.
     pub fn settled_s(&self) -> f64 {
-        let rotation = Rotation::of_turns(&self.operation.speed_rpm);
-        let (ramp, half_way) = (self.load_ramp_s(), 0.5 * self.simulation.duration_s);
+        let half_way = 0.5 * self.simulation.duration_s;
+        if let Some(rpm) = self.operation.speed_rpm.constant() {
+            return self.unsettled_s(rpm).min(half_way);
+        }
+        let (rotation, ramp) = (Rotation::of_turns(&self.operation.speed_rpm), self.load_ramp_s());
         let turned = |t: f64| rotation.at(t).1 - rotation.at(ramp).1 >= TAU;
         if ramp >= half_way || !turned(half_way) {
             return half_way;
-        }
-        if let Some(rpm) = self.operation.speed_rpm.constant() {
-            return ramp + 60.0 / rpm.abs();
         }
         let (mut before, mut after) = (ramp, half_way);
         loop {

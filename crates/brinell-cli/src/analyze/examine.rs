@@ -12,7 +12,6 @@ use brinell::analysis::{
 use brinell::bearing::orders_of;
 use brinell::result::{Stretch, beside_healthy};
 use brinell::signal::{Band, Rotation, VelocityBands};
-use std::collections::HashSet;
 use std::path::Path;
 
 /// A result for each bearing that was named, or one. The file is read anew for each but the first.
@@ -24,9 +23,12 @@ pub(super) fn results(args: &AnalyzeArgs, path: &Path, measured: Measured) -> Re
     }
     ends::set_beside(&mut results);
     // What one of the bearings asked about is warned of is said of all.
-    let mut warnings: Vec<String> = results.iter().flat_map(|r| r.measured.warnings.clone()).collect();
-    let mut seen = HashSet::new();
-    warnings.retain(|warning| seen.insert(warning.clone()));
+    let mut warnings: Vec<String> = Vec::new();
+    for warning in results.iter().flat_map(|r| &r.measured.warnings) {
+        if !warnings.contains(warning) {
+            warnings.push(warning.clone());
+        }
+    }
     for result in &mut results {
         result.measured.warnings.clone_from(&warnings);
     }

@@ -163,7 +163,7 @@ impl Campaign {
     }
 
     /// Looks at what the runs draw: all of them, or of more than 100000 every second, third, ... one; once `stop` is
-    /// set, at no further ones. Of a plan that may be run the first 200 also find their static balance.
+    /// set, at no further ones. Of a plan that may be run the first [`BALANCED`] also find their static balance.
     pub fn survey(&self, stop: &AtomicBool) -> Survey {
         let mut survey = survey(self.draws(), &self.sources.base.text, stop);
         if survey.is_sound(self.plan().out_of_range) {

@@ -164,7 +164,7 @@ pub enum Drift {
 pub struct Watch {
     sample_rate: f64,
     settled: f64,
-    /// Ramp and a turn, s.
+    /// As [`Scenario::unsettled_s`], for lines of a constant speed.
     unsettled: f64,
     ramp: f64,
     started: Option<f64>,
@@ -249,7 +249,7 @@ impl Watch {
         Self {
             sample_rate,
             settled: scenario.settled_s(),
-            unsettled: model.load.ramp + 60.0 / scenario.operation.speed_rpm.constant().unwrap_or(f64::INFINITY).abs(),
+            unsettled: scenario.operation.speed_rpm.constant().map_or(0.0, |rpm| scenario.unsettled_s(rpm)),
             ramp: model.load.ramp,
             started: None,
             start_angle: 0.0,
