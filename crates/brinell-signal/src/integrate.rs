@@ -4,7 +4,7 @@
 //! bound and have to be cut off, and what is cut off is part of the result's meaning. ISO 13373-2 asks for the
 //! high-pass frequency to be stated with the value.
 
-use std::f64::consts::TAU;
+use std::f64::consts::{PI, TAU};
 
 use realfft::num_complex::Complex;
 use rustfft::FftPlanner;
@@ -13,6 +13,9 @@ use super::band::{Band, bins};
 use super::error::{SignalError, check, require};
 use super::fft;
 use super::psd::Detrend;
+
+/// Periods of a band's lower edge over which an end is faded, and a share of the signal that it never exceeds.
+const FADE: (f64, f64) = (5.0, 0.1);
 
 /// Velocity from acceleration `a` (unit/s^2 gives unit/s) sampled at `fs` Hz, of what lies within a band: the transform
 /// over i 2 pi f, without the bins outside. `Band::above(f)` is a high-pass at f.
@@ -43,6 +46,23 @@ pub enum Motion {
     Acceleration,
     /// A velocity, as it is.
     Velocity,
+}
+
+/// Takes the straight line of least squares out of `x`, sampled at `fs` Hz, and fades both ends to nothing by half a
+/// cosine (a Tukey window), and tells how many samples at either end are not to be used of what lies above `low` Hz
+/// then. A transform takes a signal as periodic: a strong line below the band whose ends do not meet would be a step
+/// there, which is in every band.
+pub(super) fn fade(x: &mut [f64], fs: f64, low: f64) -> usize {
+    Detrend::Linear.apply(x);
+    let count = x.len();
+    let most = FADE.1 * count as f64;
+    let faded = (FADE.0 * fs / low).min(most) as usize;
+    for i in 0..faded {
+        let share = 0.5 - 0.5 * (PI * (i as f64 + 0.5) / faded as f64).cos();
+        x[i] *= share;
+        x[count - 1 - i] *= share;
+    }
+    faded + (fs / low).min(most) as usize
 }
 
 fn whole(a: &[f64], fs: f64, band: Band, from: Motion) -> Result<Vec<f64>, SignalError> {
@@ -102,8 +122,6 @@ pub(super) fn velocities(
 
 #[cfg(test)]
 mod tests {
-    use std::f64::consts::PI;
-
     use super::super::test_signals::cosine;
     use super::*;
 

@@ -2,7 +2,7 @@
 //! of the band demodulated.
 
 use super::{Quantity, Unit};
-use crate::integrate::Motion;
+use crate::integrate::{Motion, fade};
 use crate::{Band, Blocks, Estimate, Indicator, SignalError, band_pass, envelope, velocity_rms};
 
 /// The band of ISO 20816-3 for shafts of 600 r/min and more, Hz.
@@ -173,11 +173,15 @@ pub struct BandLevel {
 }
 
 /// Of a signal sampled at `fs` Hz; averages are over whole revolutions of `shaft` Hz. The envelope is the modulus of
-/// the analytic signal: an amplitude A has an envelope A. `None` where nothing lies within the band.
+/// the analytic signal: an amplitude A has an envelope A. Six periods of the band's lower edge at either end are left
+/// out, or a fifth of the signal: the ends are faded, so that a strong line below the band is not in it. `None` where
+/// nothing lies within the band.
 pub fn band_level(x: &[f64], fs: f64, band: Band, shaft: f64) -> Option<BandLevel> {
-    let revolution = fs / shaft;
-    let inside = Blocks::of(&band_pass(x, fs, band).ok()?, revolution);
-    let envelope = Blocks::of(&envelope(x, fs, band)?, revolution);
+    let mut faded = x.to_vec();
+    let end = fade(&mut faded, fs, band.low);
+    let inner = |values: Vec<f64>| Blocks::of(&values[end..x.len() - end], fs / shaft);
+    let inside = inner(band_pass(&faded, fs, band).ok()?);
+    let envelope = inner(envelope(&faded, fs, band)?);
     Some(BandLevel {
         band,
         kurtosis: inside.estimate(Indicator::Kurtosis)?,
@@ -244,6 +248,24 @@ mod tests {
         assert_eq!(LargeRigid.zone(1e-3, 500.0), Err(NoZone::Slow(500.0)));
         assert_eq!(LargeRigid.zone(1e-3, 100.0), Err(NoZone::Speed(100.0)));
         assert_eq!(LargeRigid.zone(1e-3, 31_000.0), Err(NoZone::Speed(31_000.0)));
+    }
+
+    /// A strong line far below the band, whose ends do not meet, is not in the band: noise has a kurtosis of 3 and, by
+    /// Rayleigh, an envelope of sqrt(2) times its RMS.
+    #[test]
+    fn analytic_a_line_below_the_band_leaves_its_noise_as_it_is() {
+        let (fs, sigma) = (12_000.0, 0.03);
+        let band = Band::between(500.0, 5500.0);
+        for (seconds, f) in [(1, 29.7), (2, 49.3), (4, 49.3)] {
+            let mut x = sine(seconds * 12_000, fs, f, 3.0);
+            let noise = crate::test_signals::Noise::new(7).normals(x.len());
+            x.iter_mut().zip(noise).for_each(|(x, n)| *x += sigma * n);
+            let found = band_level(&x, fs, band, 25.0).unwrap();
+            let rms = 2f64.sqrt() * sigma * (5000.0_f64 / 6000.0).sqrt();
+            // Scatter of a second of noise: sqrt(24 / n) = 0.045, and 0.7 %.
+            assert!((found.kurtosis.value - 3.0).abs() < 0.2, "{seconds} s: kurtosis {:?}", found.kurtosis);
+            assert!((found.envelope_rms.value / rms - 1.0).abs() < 0.03, "{seconds} s: {:?}", found.envelope_rms);
+        }
     }
 
     /// A sine's kurtosis is 1.5, and its envelope its amplitude.
