@@ -61,6 +61,31 @@ fn prop_the_right_one_of_many_hollows_is_found() {
     }
 }
 
+/// A key that acts by its distance from 0.4 alone has two solutions, 0.2 and 0.6, and one that acts up to 0.3 has none:
+/// differences about the best run see neither. A line has one.
+#[test]
+fn prop_a_run_elsewhere_that_meets_the_targets_as_well_is_told() {
+    for seed in 0..8 {
+        let settings = Settings { seed, budget: 40 };
+        let found = |course: fn(f64) -> f64, target: f64| {
+            let fit = search(1, &targets(&[target], 0.01), settings, |p| answers(vec![course(p[0])]));
+            let half_width = fit.identified.half_widths[0];
+            let rival = fit.rival(0).map(|run| fit.evaluations[run].place[0]);
+            (fit.evaluations[fit.best].place[0], half_width, rival)
+        };
+        let (best, half_width, rival) = found(|x| (x - 0.4).powi(2), 0.04);
+        let rival = rival.unwrap_or(f64::NAN);
+        assert!(
+            half_width < 0.1 && (best + rival - 0.8).abs() < 0.1 && (best - rival).abs() > 0.3,
+            "{seed}: {best} {rival}"
+        );
+        let (best, half_width, rival) = found(|x| x.min(0.3), 0.3);
+        assert!(2.0 * half_width > 0.75 || rival.is_some(), "{seed}: {best} +- {half_width}");
+        let (best, half_width, rival) = found(|x| x, 0.4);
+        assert!((best - 0.4).abs() < 0.01 && half_width < 0.03 && rival.is_none(), "{seed}: {best} {rival:?}");
+    }
+}
+
 /// Targets that depend linearly on four keys: the covariance is that of linear least squares.
 #[test]
 fn analytic_a_linear_problem_has_its_known_uncertainty() {

@@ -61,6 +61,16 @@ pub fn calibration_undetermined(of: &Outcome) -> Vec<String> {
     let noise = of.fit.identified.directions.iter().any(|d| d.noise > 0.0);
     for (k, found) in of.found.iter().enumerate().filter(|(_, f)| !f.is_determined()) {
         let width = 2.0 * found.half_width;
+        if let Some(rival) = found.rival {
+            let (best, other) = (short(found.best, 4), short(rival.value, 4));
+            let (least, chi) = (short(of.chi_square(), 3), short(rival.chi_square, 3));
+            all.push(format!(
+                "{}: not determined; run {} meets the targets as well with {other} as the best with {best} (chi-square {chi} and {least}), and \
+                 between the two the targets do not depend linearly on the keys: narrower bounds choose one, a further target tells them apart.",
+                found.key.name, rival.run
+            ));
+            continue;
+        }
         let why = match width.is_finite() {
             true => format!("its 95 % interval is {} times as wide as its range", short(width, 2)),
             // Which of the runs says more than differences around the best one do.

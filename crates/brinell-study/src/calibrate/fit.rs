@@ -82,6 +82,24 @@ pub struct Fit {
     pub identified: Identified,
 }
 
+/// So many half intervals from the best point the rise of chi-square should be its square times that at the interval's
+/// end: nine times, which the runs' own uncertainty does not hide.
+const FAR: f64 = 3.0;
+
+impl Fit {
+    /// A run that meets the targets as well as the interval of `key` allows, far outside this interval: the targets do
+    /// not depend linearly on the keys between the two, and differences about the best run do not tell how sure the key
+    /// is. Of several the best.
+    pub fn rival(&self, key: usize) -> Option<usize> {
+        let best = &self.evaluations[self.best];
+        let far = FAR * self.identified.half_widths[key];
+        let most = best.chi_square + self.identified.rise;
+        let all = self.evaluations.iter().enumerate();
+        let rivals = all.filter(|(_, e)| e.chi_square <= most && (e.place[key] - best.place[key]).abs() > far);
+        rivals.min_by(|a, b| a.1.chi_square.total_cmp(&b.1.chi_square)).map(|(k, _)| k)
+    }
+}
+
 /// Why there is no outcome.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 pub enum Unfit {

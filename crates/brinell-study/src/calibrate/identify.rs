@@ -58,6 +58,9 @@ pub struct Identified {
     /// What standard deviations were multiplied by, as the residuals are larger than their uncertainties explain; at
     /// least 1.
     pub inflation: f64,
+    /// How much chi-square rises from the best point to the end of a key's 95 % interval, the other keys following,
+    /// where targets depend linearly on keys.
+    pub rise: f64,
 }
 
 /// From the residuals at a point, the Jacobian there, and the noise of its columns: the standard deviation of a
@@ -94,6 +97,7 @@ pub fn identify(residuals: &[f64], jacobian: &DMatrix<f64>, noise: &[f64]) -> Id
         chi_square,
         freedom,
         inflation: birge,
+        rise: factor * factor,
     }
 }
 
@@ -176,6 +180,8 @@ mod tests {
         assert_eq!((found.freedom, found.inflation), (3, 1.0));
         let ratio = found.half_widths[0] / found.deviations[0];
         assert!((ratio - 1.96).abs() < 1e-3);
+        // 95 % of chi-square with one degree of freedom.
+        assert!((found.rise - 3.841_459).abs() < 1e-5);
     }
 
     #[test]

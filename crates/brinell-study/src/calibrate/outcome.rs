@@ -28,8 +28,21 @@ pub struct Found {
     pub interval: Option<(f64, f64)>,
     /// The best value in the unit interval.
     pub place: f64,
-    /// Half the 95 % interval, in ranges.
+    /// Half the 95 % interval about the best value, in ranges, by differences there.
     pub half_width: f64,
+    /// A run far outside this interval that meets the targets as well ([`Fit::rival`]); the data then leave the key open.
+    pub rival: Option<Rival>,
+}
+
+/// A run that meets the targets as well as the best.
+#[derive(Debug, Clone, Copy)]
+pub struct Rival {
+    /// Its number, from 1.
+    pub run: usize,
+    /// Its value of the key.
+    pub value: f64,
+    /// Its sum of squares of the residuals.
+    pub chi_square: f64,
 }
 
 impl Found {
@@ -92,13 +105,19 @@ impl Outcome {
         let found = plan.keys.iter().enumerate().map(|(k, key)| {
             let half_width = fit.identified.half_widths[k];
             let ends = || (key.value(place[k] - half_width), key.value(place[k] + half_width));
+            let told = 2.0 * half_width < MOST;
+            let rival = fit.rival(k).filter(|_| told).map(|run| {
+                let evaluation = &fit.evaluations[run];
+                Rival { run: run + 1, value: key.value(evaluation.place[k]), chi_square: evaluation.chi_square }
+            });
             Found {
                 key: key.clone(),
                 unit: plan.units[k],
                 best: key.value(place[k]),
-                interval: (2.0 * half_width < MOST).then(ends),
+                interval: (told && rival.is_none()).then(ends),
                 place: place[k],
                 half_width,
+                rival,
             }
         });
         let found = found.collect();
@@ -197,6 +216,7 @@ impl Outcome {
                 "key": key.name, "unit": f.unit, "value": f.best, "low": key.low, "high": key.high, "log": key.log,
                 "determined": f.is_determined(),
                 "interval_95": f.interval.map(|(low, high)| json!([low, high])),
+                "met_as_well_by": f.rival.map(|r| json!({ "run": r.run, "value": r.value, "chi_square": r.chi_square })),
                 "standard_uncertainty_in_ranges": finite(identified.deviations[k]),
                 "difference_over_ranges": 2.0 * self.fit.steps[k],
             })
