@@ -277,7 +277,7 @@ fn slip(findings: &Findings) -> Value {
         Value::from(values)
     });
     json!({
-        "meaning": "fractions of the pure-rolling speed, means over the analysed time; a roller is loaded where the inner raceway presses it",
+        "meaning": "fractions of the pure-rolling speed, means over the analysed time; a roller is loaded where both raceways press it",
         "rows": rows.collect::<Vec<_>>(),
     })
 }

@@ -35,7 +35,7 @@ impl RowSlip {
         self.cage.estimate()
     }
 
-    /// 1 - orbit speed / its pure-rolling speed, of rollers that the inner raceway presses.
+    /// 1 - orbit speed / its pure-rolling speed, of rollers that both raceways press.
     pub fn loaded_orbit(&self) -> Option<Estimate> {
         self.loaded_orbit.estimate()
     }
@@ -84,14 +84,15 @@ impl Slip {
         let dof = l.dof();
         let rolling = f.model.rolling_orbit_speed(w);
         let surface = w * f.model.geometry.inner_radius;
-        let inner = &f.ws.contacts[Side::Inner as usize];
+        let [inner, outer] = [Side::Inner, Side::Outer].map(|side| &f.ws.contacts[side as usize]);
         for row in 0..l.rows {
             self.rows[row].cage.push(1.0 - f.y[dof + l.cage(row) + 2] / rolling);
         }
         for slot in 0..l.rollers() {
             let row = &mut self.rows[l.row(slot)];
             let orbit = 1.0 - f.y[dof + l.theta() + slot] / rolling;
-            if inner.force[slot] > 0.0 {
+            // At one raceway alone it is held by its weight or the centrifugal force, and may slide.
+            if inner.force[slot] > 0.0 && outer.force[slot] > 0.0 {
                 row.loaded_orbit.push(orbit);
                 row.loaded_surface.push((inner.slip[slot] / surface).abs());
             } else {
