@@ -224,6 +224,11 @@ fn static_balance(s: &Scenario, model: &Model, zone: &StaticLoadZone) {
         short(model.force_on_loaded_ring(), 5),
         if s.operation.gravity_m_per_s2 == [0.0; 2] { "" } else { " and ring weight" }
     );
+    say!(
+        "  both rings sink         {} um on their supports: FTF and BPFO come out up to {} % higher than of a centred bearing",
+        short(1e6 * zone.sunk, 3),
+        short(100.0 * zone.sunk / model.geometry.pitch_radius, 2)
+    );
 }
 
 /// Of contacts whose load is even along the roller; `force` is the heaviest contact's, N.

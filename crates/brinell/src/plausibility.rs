@@ -29,6 +29,9 @@ pub(crate) const PARAMETRIC_SHARE: f64 = 0.1;
 const WEIGHT_SHARE: f64 = 0.1;
 /// Share of the load beyond which what a support carries is worth a warning.
 const SUPPORT_SHARE: f64 = 0.1;
+/// Share of the pitch radius by which the bearing may sink as a whole: so much higher do the cage's and the outer race's
+/// frequencies come out, more than a cage slips or runs ahead by its play.
+const SUNK_SHARE: f64 = 0.01;
 /// Share of a defect's depth that a roller must reach: the deepest point of a rough floor is nobody's.
 const REACHED_SHARE: f64 = 0.9;
 /// Static deformations of the heaviest contact: deeper damage over a roller's whole width takes all load off it where
@@ -70,6 +73,7 @@ pub fn before(scenario: &Scenario, model: &Model, statics: &Result<StaticLoadZon
         Ok(zone) => {
             warnings.extend(overload(scenario, zone));
             warnings.extend(carried_by_support(scenario, model, zone));
+            warnings.extend(sunk(scenario, model, zone));
         }
         Err(error) => warnings.push(warning(LOAD, list(scenario.operation.load_n), error.to_string(), "")),
     }
@@ -179,6 +183,30 @@ fn carried_by_support(scenario: &Scenario, model: &Model, zone: &StaticLoadZone)
             ),
             // A softer one lets the ring move a little farther.
             format!("about {:.0e} or less", 0.7 * stiffness * SUPPORT_SHARE / share),
+        )
+    })
+}
+
+/// Supports so soft that the bearing as a whole sinks, which the levers of the centred bearing take for a smaller bearing.
+fn sunk(scenario: &Scenario, model: &Model, zone: &StaticLoadZone) -> Option<Problem> {
+    let share = zone.sunk / model.geometry.pitch_radius;
+    // That of the ring without the load holds the bearing.
+    let (key, stiffness) = match scenario.operation.load_on {
+        LoadOn::InnerRing => ("support.outer_stiffness_n_per_m", scenario.support.outer_stiffness_n_per_m),
+        LoadOn::OuterRing => ("support.inner_stiffness_n_per_m", scenario.support.inner_stiffness_n_per_m),
+    };
+    (share > SUNK_SHARE).then(|| {
+        warning(
+            key,
+            toml_float(stiffness),
+            format!(
+                "the bearing as a whole sinks by {} um, {} % of the pitch radius: as levers are those of the centred bearing, FTF and BPFO come out \
+                 up to as much higher",
+                short(1e6 * zone.sunk),
+                short(100.0 * share)
+            ),
+            // In proportion; twice as stiff as the limit asks.
+            format!("about {:.0e} or more", 2.0 * stiffness * share / SUNK_SHARE),
         )
     })
 }

@@ -388,3 +388,13 @@ fn analytic_the_support_of_the_loaded_ring_takes_its_displacement_times_its_stif
     let expected = k * (shift + (4000.0 - zone.support) / 1e8);
     assert!((zone.support / expected - 1.0).abs() < 1e-3, "{} N, expected {expected} N", zone.support);
 }
+
+/// The ring without the load holds the bearing: both sink by the load over the stiffness of its support.
+#[test]
+fn analytic_the_bearing_sinks_by_the_load_over_the_stiffness_that_holds_it() {
+    let mut s = harris("NU206", 4000.0, 16.0);
+    s.support.inner_stiffness_n_per_m = 0.0;
+    s.support.outer_stiffness_n_per_m = 2e7;
+    let zone = static_load_zone(&Model::new(&s).unwrap()).unwrap();
+    assert!((zone.sunk / (4000.0 / 2e7) - 1.0).abs() < 1e-6, "{} m", zone.sunk);
+}

@@ -35,6 +35,7 @@ pub fn to_json(s: &Scenario, model: &Model, d: &Derived) -> Value {
         "defect_passes_s": d.defect_passes,
         "longest_step_s": d.longest_step,
         "support_force_n": d.statics.as_ref().ok().map(|zone| zone.support),
+        "sunk_um": d.statics.as_ref().ok().map(|zone| 1e6 * zone.sunk),
         "load_n": model.force_on_loaded_ring(),
         "inner_contact_pressure_mpa": 1e-6 * pressures[0],
         "outer_contact_pressure_mpa": 1e-6 * pressures[1],

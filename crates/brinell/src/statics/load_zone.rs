@@ -27,6 +27,10 @@ pub struct StaticLoadZone {
     pub stiffness: [[f64; 2]; 2],
     /// What the support of the ring that the load is on takes of it, by the ring's mean displacement, N.
     pub support: f64,
+    /// How far the bearing as a whole is from the origin, m: the mean displacement of the ring that moves less. The model's
+    /// levers are those of the centred bearing, so the cage, and defect frequencies with it, come out faster by about this
+    /// over R_m.
+    pub sunk: f64,
 }
 
 impl StaticLoadZone {
@@ -57,9 +61,11 @@ pub fn static_load_zone(model: &Model) -> Result<StaticLoadZone, NoBalance> {
         shift: [0.0; 2],
         stiffness: [[0.0; 2]; 2],
         support: 0.0,
+        sunk: 0.0,
     };
     let mut places: Vec<Place> = Vec::with_capacity(PHASES * l.rollers());
-    let mut displaced = [0.0; 2];
+    // Of the inner and the outer ring.
+    let mut displaced = [[0.0; 2]; 2];
     for phase in 0..PHASES {
         let turn = pitch * phase as f64 / PHASES as f64;
         problem.orbit.iter_mut().zip(&model.pocket_angle).for_each(|(o, a)| *o = a + turn);
@@ -72,12 +78,9 @@ pub fn static_load_zone(model: &Model) -> Result<StaticLoadZone, NoBalance> {
             let squeeze = squeeze(model, &problem, &balance, slot);
             places.push(Place { slot, turn, angle: problem.orbit[slot], squeeze });
         }
-        let loaded = match model.load.on {
-            LoadOn::InnerRing => balance.inner,
-            LoadOn::OuterRing => balance.outer,
-        };
         for k in 0..2 {
-            displaced[k] += loaded[k] / PHASES as f64;
+            displaced[0][k] += balance.inner[k] / PHASES as f64;
+            displaced[1][k] += balance.outer[k] / PHASES as f64;
             zone.shift[k] += (balance.inner[k] - balance.outer[k]) / PHASES as f64;
             for j in 0..2 {
                 zone.stiffness[k][j] += balance.stiffness[k][j] / PHASES as f64;
@@ -92,7 +95,13 @@ pub fn static_load_zone(model: &Model) -> Result<StaticLoadZone, NoBalance> {
         (-end(model, &mut problem, &places, -1.0)?, end(model, &mut problem, &places, 1.0)?)
     };
     zone.extent = zone.ends.1 - zone.ends.0;
-    zone.support = model.loaded_support().stiffness * displaced[0].hypot(displaced[1]);
+    let [inner, outer] = displaced.map(|by| by[0].hypot(by[1]));
+    let loaded = match model.load.on {
+        LoadOn::InnerRing => inner,
+        LoadOn::OuterRing => outer,
+    };
+    zone.support = model.loaded_support().stiffness * loaded;
+    zone.sunk = inner.min(outer);
     Ok(zone)
 }
 
