@@ -5,6 +5,7 @@
 //! check`, `run`, `sweep`, `compare` and `dataset` say it, and `summary.json` holds it. [`after`] needs the energy audit
 //! of a run. What a scenario file alone can say is in [`crate::document`].
 
+mod after;
 mod slices;
 mod tilting;
 mod warning;
@@ -16,15 +17,15 @@ use crate::lamina::Rating;
 use crate::model::Model;
 use crate::operation::Rotation;
 use crate::pressure::{pressures, static_limit};
-use crate::scenario::{Accuracy, Choice, EdgeReaction, Law, LoadOn, RollerPath, Scenario, Speed, Surface};
-use crate::simulate::EnergyAudit;
+use crate::scenario::{Choice, LoadOn, RollerPath, Scenario, Speed, Surface};
 use crate::statics::{NoBalance, StaticLoadZone, static_load_zone};
+pub use after::after;
+#[doc(hidden)]
+pub use after::{RESIDUAL_SHARE, residual};
 use slices::coarse_slices;
 use std::f64::consts::TAU;
 use warning::{short, warning};
 
-/// Share of the dissipation in contacts beyond which the parametric work of damage is worth a warning.
-pub(crate) const PARAMETRIC_SHARE: f64 = 0.1;
 /// Share of the load beyond which a weight that is left out is worth a warning.
 const WEIGHT_SHARE: f64 = 0.1;
 /// Share of the load beyond which what a support carries is worth a warning.
@@ -37,9 +38,6 @@ const REACHED_SHARE: f64 = 0.9;
 /// Static deformations of the heaviest contact: deeper damage over a roller's whole width takes all load off it where
 /// it begins.
 const DROP: f64 = 10.0;
-/// Share of the turnover that an energy audit may miss before the run is worth a warning; sound runs stay far below.
-#[doc(hidden)]
-pub const RESIDUAL_SHARE: f64 = 0.01;
 /// Standard gravity, m/s^2.
 const GRAVITY: f64 = 9.80665;
 
@@ -91,12 +89,6 @@ fn few_of_a_kind(warnings: Vec<Problem>) -> Vec<Problem> {
     let mut few = Problems::of("");
     warnings.into_iter().for_each(|w| few.add(w, None));
     few.finish()
-}
-
-/// Warnings of a run that is over.
-pub fn after(scenario: &Scenario, energy: &EnergyAudit) -> Vec<String> {
-    let both = [parametric(scenario, energy), residual(scenario, energy)];
-    both.into_iter().flatten().collect()
 }
 
 fn list([x, y]: [f64; 2]) -> String {
@@ -396,64 +388,5 @@ fn too_short(scenario: &Scenario, model: &Model) -> Option<Problem> {
             short(cage)
         ),
         allowed,
-    ))
-}
-
-/// An energy audit that does not close: the steps were too long for the motion.
-#[doc(hidden)]
-pub fn residual(scenario: &Scenario, energy: &EnergyAudit) -> Option<String> {
-    let share = energy.residual().abs() / energy.turnover();
-    // Where nothing moved there is no share.
-    (share > RESIDUAL_SHARE).then(|| {
-        let remedy = match scenario.simulation.accuracy {
-            Accuracy::Standard => "raise simulation.accuracy (allowed: \"reference\")",
-            Accuracy::Reference => {
-                "simulation.accuracy is \"reference\" already: look for damage that the roller falls into at once (contact.roller_path)"
-            }
-        };
-        format!(
-            "the energy audit closes to {:.1} % of the turnover, and 1 % is the limit of a run to rely on: {remedy}",
-            100.0 * share
-        )
-    })
-}
-
-fn parametric(scenario: &Scenario, energy: &EnergyAudit) -> Option<String> {
-    let (work, dissipated) = (energy.parametric, energy.flows.contact);
-    // A bearing whose contacts dissipate nothing may still be fed.
-    if work.abs() <= PARAMETRIC_SHARE * dissipated.abs() || work == 0.0 {
-        return None;
-    }
-    let joule = |x: f64| match x.abs() {
-        size if size >= 1.0 => format!("{} J", short(x)),
-        size if size >= 1e-3 => format!("{} mJ", short(1e3 * x)),
-        _ => format!("{} uJ", short(1e6 * x)),
-    };
-    let (done, by) =
-        if work > 0.0 { ("put energy into", "supplies it") } else { ("took energy out of", "takes it up") };
-    let share = if dissipated <= 0.0 {
-        "while contact damping dissipates nothing".to_owned()
-    } else if work.abs() < 10.0 * dissipated {
-        let percent = 100.0 * work.abs() / dissipated;
-        format!("{percent:.0} % of the {} that contact damping dissipates", joule(dissipated))
-    } else {
-        format!("{:.0} times the {} that contact damping dissipates", work.abs() / dissipated, joule(dissipated))
-    };
-    let s = scenario;
-    let settings = [
-        (!s.simulation.model.moves_every_part(), "simulation.model = \"full\""),
-        (s.contact.law != Law::Sliced, "contact.law = \"sliced\""),
-        (s.contact.roller_path != RollerPath::Envelope, "contact.roller_path = \"envelope\""),
-        (s.contact.edge_reaction != EdgeReaction::Conservative, "contact.edge_reaction = \"conservative\""),
-    ];
-    let lacking: Vec<&str> = settings.iter().filter(|(lacks, _)| *lacks).map(|(_, setting)| *setting).collect();
-    let remedy = match lacking[..] {
-        [] => String::new(),
-        _ => format!(" Where levels matter set {}: with these energy is conserved", lacking.join(", ")),
-    };
-    Some(format!(
-        "parametric work: the changing stiffness of damaged contacts {done} the bearing, {}, {share}; no body {by}, so amplitudes depend \
-         on the contact law; defect frequencies do not.{remedy}",
-        joule(work.abs())
     ))
 }

@@ -109,7 +109,9 @@ fn prop_pressure_and_rating_are_held_against_the_load() {
     assert!(quarter[0] > quarter[1], "the inner contact is the sharper one");
     let (over, told) = nu206("-80000");
     assert!(over[0] > STATIC_LIMIT);
-    assert_eq!(told.len(), 2, "{told:#?}");
+    assert_eq!(told.len(), 3, "{told:#?}");
+    // 80 kN less the inner ring's support on 5e7 N/m are 1.57 mm, of 23.25 mm.
+    assert!(told[2].contains("sinks by 1566 um, 6.73 % of the pitch radius"), "{}", told[2]);
     assert!(told[0].contains("C0 = 36.5 kN (SKF"), "{}", told[0]);
     assert!(told[1].contains("at the inner raceway") && told[1].contains("4000 MPa"), "{}", told[1]);
     // Hertz: the pressure grows with the root of the force.
@@ -377,4 +379,22 @@ fn analytic_a_tenth_of_the_dissipation_is_the_limit_in_both_directions() {
     energy.flows.load = 3.0;
     let told = after(&lumped, &energy).join("\n");
     assert!(told.contains("set simulation.model = \"full\", contact"), "{told}");
+}
+
+/// Edges that conserve leave nothing over: a tenth of what contact damping takes is worth a word, with what helps.
+#[test]
+fn analytic_conservative_edges_that_do_not_conserve_are_said() {
+    let mut s = base(&[]).scenario;
+    let mut energy = EnergyAudit::default();
+    energy.flows.contact = 1.0;
+    energy.flows.load = 1.2;
+    // A turnover in which a fifth of the damping is less than 1 %.
+    (energy.flows.drive, energy.flows.friction) = (50.0, 50.0);
+    assert_eq!(after(&s, &energy).join("\n"), "");
+    s.contact.edge_reaction = brinell::scenario::EdgeReaction::Conservative;
+    let told = after(&s, &energy).join("\n");
+    assert!(told.contains("200 mJ that no body supplies or takes up, 20 % of the 1.00 J"), "{told}");
+    assert!(told.contains("contact.slices"), "{told}");
+    energy.flows.load = 1.05;
+    assert_eq!(after(&s, &energy).join("\n"), "");
 }

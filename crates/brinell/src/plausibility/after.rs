@@ -1,0 +1,99 @@
+//! What the energy audit of a run says: steps that were too long, and work that no body did.
+
+use super::warning::short;
+use crate::scenario::{Accuracy, EdgeReaction, Law, RollerPath, Scenario};
+use crate::simulate::EnergyAudit;
+
+/// Share of the dissipation in contacts beyond which the parametric work of damage is worth a warning.
+const PARAMETRIC_SHARE: f64 = 0.1;
+/// Share of the turnover that an energy audit may miss before the run is worth a warning; sound runs stay far below.
+#[doc(hidden)]
+pub const RESIDUAL_SHARE: f64 = 0.01;
+
+/// Warnings of a run that is over.
+pub fn after(scenario: &Scenario, energy: &EnergyAudit) -> Vec<String> {
+    let all = [parametric(scenario, energy), unbooked(scenario, energy), residual(scenario, energy)];
+    all.into_iter().flatten().collect()
+}
+
+/// An energy audit that does not close: the steps were too long for the motion.
+#[doc(hidden)]
+pub fn residual(scenario: &Scenario, energy: &EnergyAudit) -> Option<String> {
+    let share = energy.residual().abs() / energy.turnover();
+    // Where nothing moved there is no share.
+    (share > RESIDUAL_SHARE).then(|| {
+        let remedy = match scenario.simulation.accuracy {
+            Accuracy::Standard => "raise simulation.accuracy (allowed: \"reference\")",
+            Accuracy::Reference => {
+                "simulation.accuracy is \"reference\" already: look for damage that the roller falls into at once (contact.roller_path), and for wide \
+                 slices along a depth map (contact.slices)"
+            }
+        };
+        format!(
+            "the energy audit closes to {:.1} % of the turnover, and 1 % is the limit of a run to rely on: {remedy}",
+            100.0 * share
+        )
+    })
+}
+
+/// Of conservative edges, whose damage should do no work: what the audit misses beside what contact damping takes. Along a
+/// depth map the covered share of a wide slice jumps from column to column, and with it the energy; no step is short
+/// enough for that.
+fn unbooked(scenario: &Scenario, energy: &EnergyAudit) -> Option<String> {
+    let (missed, dissipated) = (energy.residual().abs(), energy.flows.contact);
+    let conserving = scenario.contact.edge_reaction == EdgeReaction::Conservative && !scenario.defects.is_empty();
+    (conserving && missed > PARAMETRIC_SHARE * dissipated && dissipated > 0.0).then(|| {
+        format!(
+            "contact.edge_reaction = \"conservative\": {} that no body supplies or takes up, {:.0} % of the {} that contact damping dissipates; narrower \
+             slices (contact.slices, {} now) conserve energy along a depth map, a higher simulation.accuracy elsewhere",
+            joule(missed),
+            100.0 * missed / dissipated,
+            joule(dissipated),
+            scenario.contact.slices
+        )
+    })
+}
+
+/// In words.
+fn joule(x: f64) -> String {
+    match x.abs() {
+        size if size >= 1.0 => format!("{} J", short(x)),
+        size if size >= 1e-3 => format!("{} mJ", short(1e3 * x)),
+        _ => format!("{} uJ", short(1e6 * x)),
+    }
+}
+
+fn parametric(scenario: &Scenario, energy: &EnergyAudit) -> Option<String> {
+    let (work, dissipated) = (energy.parametric, energy.flows.contact);
+    // A bearing whose contacts dissipate nothing may still be fed.
+    if work.abs() <= PARAMETRIC_SHARE * dissipated.abs() || work == 0.0 {
+        return None;
+    }
+    let (done, by) =
+        if work > 0.0 { ("put energy into", "supplies it") } else { ("took energy out of", "takes it up") };
+    let share = if dissipated <= 0.0 {
+        "while contact damping dissipates nothing".to_owned()
+    } else if work.abs() < 10.0 * dissipated {
+        let percent = 100.0 * work.abs() / dissipated;
+        format!("{percent:.0} % of the {} that contact damping dissipates", joule(dissipated))
+    } else {
+        format!("{:.0} times the {} that contact damping dissipates", work.abs() / dissipated, joule(dissipated))
+    };
+    let s = scenario;
+    let settings = [
+        (!s.simulation.model.moves_every_part(), "simulation.model = \"full\""),
+        (s.contact.law != Law::Sliced, "contact.law = \"sliced\""),
+        (s.contact.roller_path != RollerPath::Envelope, "contact.roller_path = \"envelope\""),
+        (s.contact.edge_reaction != EdgeReaction::Conservative, "contact.edge_reaction = \"conservative\""),
+    ];
+    let lacking: Vec<&str> = settings.iter().filter(|(lacks, _)| *lacks).map(|(_, setting)| *setting).collect();
+    let remedy = match lacking[..] {
+        [] => String::new(),
+        _ => format!(" Where levels matter set {}: with these energy is conserved", lacking.join(", ")),
+    };
+    Some(format!(
+        "parametric work: the changing stiffness of damaged contacts {done} the bearing, {}, {share}; no body {by}, so amplitudes depend \
+         on the contact law; defect frequencies do not.{remedy}",
+        joule(work.abs())
+    ))
+}
