@@ -8,7 +8,7 @@ use brinell::analysis::{DefectOrders, NamedBearing};
 use brinell::bearing::catalogue::{self, BORE, DYNAMIC_RATING, Datum, Entry, FACTS, STATIC_RATING};
 use brinell::bearing::clearance::ClearanceClass;
 use brinell::bearing::{KnownBearing, clearance_of, frequencies_of, orders_of};
-use brinell::scenario::Element;
+use brinell::scenario::{Element, Scenario};
 use serde_json::{Value, json};
 use std::path::PathBuf;
 use std::process::ExitCode;
@@ -243,12 +243,16 @@ fn orders(args: &FrequenciesArgs) -> Result<(DefectOrders, Option<f64>), Failure
             )),
         };
     };
+    match scenario_meant(bearing)? {
+        Some(scenario) => Ok((orders_of(&scenario.bearing), scenario.operation.speed_rpm.constant())),
+        None => known(bearing),
+    }
+}
+
+/// The scenario in place of a bearing's name, where it is the name of a file and of no bearing.
+pub(crate) fn scenario_meant(bearing: &str) -> Result<Option<Scenario>, Failure> {
     let path = PathBuf::from(bearing);
     let written_as_a_file = files::is_stdin(&path) || path.components().count() > 1 || bearing.ends_with(".toml");
-    if KnownBearing::find(bearing).is_none() && (path.exists() || written_as_a_file) {
-        let loaded = files::scenario(&path, &[], true)?;
-        let scenario = &loaded.scenario;
-        return Ok((orders_of(&scenario.bearing), scenario.operation.speed_rpm.constant()));
-    }
-    known(bearing)
+    let meant = KnownBearing::find(bearing).is_none() && (path.exists() || written_as_a_file);
+    Ok(if meant { Some(files::scenario(&path, &[], true)?.scenario) } else { None })
 }

@@ -92,3 +92,22 @@ fn regress_several_bearings_of_several_files_and_what_goes_with_one_only() {
         assert!(told.err.contains(&words) && !told.err.contains("did you mean"), "{}", told.err);
     }
 }
+
+#[test]
+fn regress_a_scenario_stands_for_its_bearing() {
+    let folder = outer();
+    fs::write(
+        folder.path().join("own.toml"),
+        "[bearing]\npreset = \"6205\"\n[operation]\nspeed_rpm = 900\nload_n = [200, 0]\n",
+    )
+    .unwrap();
+    let of = |bearing: &str| {
+        let options = ["--bearing", bearing, "--json", "r.json"];
+        brinell(folder.path(), &[&SIGNAL[..], &options].concat()).exits(0);
+        json(&folder.path().join("r.json"))
+    };
+    let (own, named) = (of("own.toml"), of("6205"));
+    assert_eq!(own["verdict"], named["verdict"]);
+    // A file that is not there is said as a file.
+    brinell(folder.path(), &[&SIGNAL[..], &["--bearing", "other.toml"]].concat()).exits(2).complains(&["other.toml"]);
+}

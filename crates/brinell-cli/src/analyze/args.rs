@@ -20,7 +20,7 @@ use std::path::PathBuf;
     brinell analyze out/my-bearing -o look              a run of brinell's own\n  \
     brinell analyze measured.mat ... --against out/my-bearing -o look\n  \
     brinell analyze records/ --rate 25600 --unit g --speed 1480 --bearing 6205 -o trend    a row a file, and a trend\n\n\
-    Bearings by name: `brinell bearing list`, the catalogue and those of public data sets (6205-2RS, 6203-2RS, NICE, ZA-2115, UER204).\n\n\
+    Bearings by name: `brinell bearing list`, the catalogue and those of public data sets (6205-2RS, 6203-2RS, NICE, ZA-2115, UER204); or a scenario file that has the bearing.\n\n\
     Exit codes: 0 analysed (whatever the verdict), 1 a result could not be written, or one of several files could not be analysed, 2 bad input."
 )]
 pub(crate) struct AnalyzeArgs {
@@ -38,7 +38,7 @@ pub(crate) struct AnalyzeArgs {
     /// it is followed (order tracking), else its mean counts
     #[arg(long, value_name = "NAME|N", conflicts_with = "speed")]
     pub(crate) speed_channel: Option<String>,
-    /// Bearing by name; again for a further one of the same shaft, as at a motor's other end: each is judged
+    /// Bearing by name, or a scenario file that has it; again for a further one of the same shaft, as at a motor's other end: each is judged
     #[arg(long, value_name = "NAME")]
     pub(crate) bearing: Vec<String>,
     #[command(flatten)]

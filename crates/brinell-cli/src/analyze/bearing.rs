@@ -3,6 +3,7 @@
 use super::args::AnalyzeArgs;
 use super::measured::{ASK_BEARING, Measured};
 use crate::failure::Failure;
+use crate::look_up::scenario_meant;
 use brinell::analysis::DefectOrders;
 use brinell::bearing::{KnownBearing, orders_of};
 
@@ -47,6 +48,9 @@ fn bsf_of_races(orders: &DefectOrders) -> Option<f64> {
 
 fn base(args: &AnalyzeArgs, name: Option<&str>, measured: &Measured) -> Result<(DefectOrders, String), Failure> {
     if let Some(name) = name {
+        if let Some(scenario) = scenario_meant(name)? {
+            return Ok((orders_of(&scenario.bearing), format!("the scenario {name}")));
+        }
         let Some(known) = KnownBearing::find(name) else {
             return Err(Failure::Usage(format!(
                 "--bearing {name}: {}. For another give --rollers, --diameter, --pitch and --contact-angle, or --bpfo and so on",
