@@ -1,6 +1,6 @@
 """Damage as the scenario file's ``[[defects]]`` entries: from measures, polygons, arrays and files.
 
-The length of a defect runs along the rolling direction (s), its width along the axis (z), both from the defect's centre.
+The length of a defect runs along s, counter-clockwise around the damaged surface, its width along the axis (z), both from the defect's centre.
 """
 
 from __future__ import annotations
@@ -68,7 +68,7 @@ def rectangle(*, length_mm: float, width_mm: float, depth_um: float, **place: An
     Parameters
     ----------
     length_mm, width_mm, depth_um : float
-        Along the rolling direction, along the axis, and into the material.
+        Around the surface (s), along the axis, and into the material.
     **place
         ``on``, ``row``, ``center_deg``, ``roller`` as in `defect`.
 
@@ -181,7 +181,7 @@ def depth_map(
     Parameters
     ----------
     depth_um : array_like, 2-D
-        ``depth_um[i, j]`` at ``z0_mm + i dz_mm``, ``s0_mm + j ds_mm``: columns along the rolling direction, rows along the axis. 0 is
+        ``depth_um[i, j]`` at ``z0_mm + i dz_mm``, ``s0_mm + j ds_mm``: columns along s, rows along the axis. 0 is
         undamaged, negative a raised edge.
     ds_mm, dz_mm : float
         Distance of columns and of rows.
@@ -231,7 +231,8 @@ def image(
     mm_per_pixel, depth_um : float
         The side of a pixel; the depth.
     options : dict, optional
-        More keys of the scenario file's ``image``: ``threshold``, ``invert``, ``rolling_direction`` and so on.
+        More keys of the scenario file's ``image``: ``threshold``, ``invert``, ``rolling_direction`` (where +s, counter-clockwise, points in the
+        picture) and so on.
     **place
         As in `defect`.
 

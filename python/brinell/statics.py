@@ -30,7 +30,7 @@ class LoadZone:
     outer_force_n: npt.NDArray[np.float64]
     largest_contact_force_n: float
     extent_deg: float
-    """Where rolling elements carry load between the raceways; one whose own weight rests on the inner ring carries none."""
+    """Where rolling elements of the bearing without its damage carry load between the raceways; one whose own weight rests on the inner ring carries none."""
     shift_inner_to_outer_um: list[float]
     """Mean offset (x, y), inner ring less outer."""
     stiffness_n_per_m: list[list[float]]

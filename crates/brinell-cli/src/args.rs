@@ -373,7 +373,7 @@ pub(crate) struct RandomArgs {
     /// Which spall: every seed draws another
     #[arg(long, allow_negative_numbers = true)]
     pub(crate) seed: u64,
-    /// Extent along the rolling direction
+    /// Extent along s, around the raceway
     #[arg(long, value_name = "MM")]
     pub(crate) length_mm: f64,
     /// Extent along the roller's axis

@@ -9,6 +9,7 @@ use crate::say::{self, one_line, plain_number, say, short, significant};
 use brinell::bearing::clearance::{bore_diameter_mm, classes_of};
 use brinell::bearing::rating::static_rating;
 use brinell::channel;
+use brinell::defect::wrap;
 use brinell::derived::Derived;
 use brinell::document::Loaded;
 use brinell::model::Model;
@@ -206,7 +207,15 @@ fn static_balance(s: &Scenario, model: &Model, zone: &StaticLoadZone) {
     if s.has_even_contacts() {
         even_pressures(s, model, zone.largest);
     }
-    say!("  load zone               {:.1} deg wide", zone.extent.to_degrees());
+    let from_to = match zone.extent > 0.0 && zone.extent < TAU {
+        true => {
+            let [from, to] = [zone.ends.0, zone.ends.1].map(|end| wrap(zone.middle + end).to_degrees());
+            format!(", from {from:.1} to {to:.1} deg")
+        }
+        false => String::new(),
+    };
+    let without = if s.defects.is_empty() { "" } else { "; without the damage" };
+    say!("  load zone               {:.1} deg wide{from_to}{without}", zone.extent.to_degrees());
     say!(
         "  inner ring from outer   ({}, {}) um",
         significant(1e6 * zone.shift[0], 1e6 * size, 4),

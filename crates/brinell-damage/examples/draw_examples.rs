@@ -5,8 +5,8 @@
 //! cargo run -p brinell-damage --example draw_examples -- examples
 //! ```
 //!
-//! The photo: 240 x 300 pixels of 0.02 mm, rolling direction to the right, a spall 3.0 mm long and 4.0 mm wide.
-//! Its outline is r(a) of [`outline`]; grinding marks run along the rolling direction, light comes from the upper left.
+//! The photo: 240 x 300 pixels of 0.02 mm, +s to the right, a spall 3.0 mm long and 4.0 mm wide.
+//! Its outline is r(a) of [`outline`]; grinding marks run along s, light comes from the upper left.
 //! The scan: 100 x 80 points, 0.06 mm apart, heights in um: an outer raceway of 27.5 mm radius, tilted by 3 um/mm along
 //! s and -2 um/mm along z, 0.15 um of noise, missing points on the steepest walls, and a spall 25 um deep.
 

@@ -1,4 +1,5 @@
-//! Where the rolling direction points in a picture, and the turn that brings it to `s`. Turns only: no mirror.
+//! Where +s points in a picture (the key `rolling_direction`), and the turn that brings it to `s`. Turns only: no mirror.
+//! Which way rollers pass is another thing: [`brinell::derived::Passing`].
 
 use brinell::scenario::RollingDirection;
 

@@ -8,8 +8,10 @@
 //!   know no bearing.
 //! - [`outline`]: the line along which a grid has one depth -> [`Polygons`]
 //!
-//! Frame. `s` runs along the rolling direction, `z` along the axis, both in mm, right-handed as seen by someone
-//! who looks at the damaged surface from the roller's side: with the rolling direction to the right, `z` points up.
+//! Frame. `s` runs counter-clockwise around the damaged surface, in that surface's own frame, and `z` along the axis, both
+//! in mm. With +s to the right in a picture, `z` points up. The key `rolling_direction` names where +s points in the
+//! picture; it is not where rollers pass to, which depends on the surface and on the sign of the speed
+//! ([`Passing`](brinell::derived::Passing)).
 //! Files whose rows run downwards are turned, never mirrored. The origin is the centre of the
 //! damage's bounding box with `center`, else the centre of the page, image or grid.
 //!

@@ -28,12 +28,17 @@ pub struct Contour {
 }
 
 impl Contour {
-    /// At the depth at which the outline encloses the damaged area, to a tenth of the finer step.
+    /// At the depth at which the outline encloses as much area as the damaged nodes have, to a tenth of the finer step:
+    /// about half-way down the ramps to sound nodes.
     ///
     /// # Errors
     /// Where no depth's line encloses that area.
     pub fn of(grid: &DepthGrid, shape: &Shape) -> Result<Self, crate::DamageError> {
-        Ok(Self { level_um: level_of_area(grid, 1e6 * shape.area())?, tolerance_mm: 0.1 * grid.ds_mm.min(grid.dz_mm) })
+        let area = match shape {
+            Shape::DepthMap(map) => map.width().integral(),
+            other => other.area(),
+        };
+        Ok(Self { level_um: level_of_area(grid, 1e6 * area)?, tolerance_mm: 0.1 * grid.ds_mm.min(grid.dz_mm) })
     }
 }
 

@@ -40,6 +40,47 @@ pub struct Derived {
     pub longest_step: f64,
 }
 
+/// Which way rollers pass damage along its own s, or, of damage on a roller, its contacts with the raceways.
+///
+/// s is counter-clockwise on every surface, seen in that surface's own frame. Where everything rolls, rollers run ahead of
+/// the outer ring, the inner ring runs ahead of them, and a roller turns backwards faster than it travels.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Passing {
+    /// The shaft stands still.
+    #[default]
+    Never,
+    /// From the first s to the last.
+    TowardsPlus,
+    /// From the last s to the first.
+    TowardsMinus,
+    /// Towards +s or -s, as the sign of the speed changes. `plus_at_positive`: towards +s at positive speed.
+    Both {
+        /// Towards +s while the speed is positive.
+        plus_at_positive: bool,
+    },
+}
+
+impl Passing {
+    /// Over the whole run.
+    pub fn of(model: &Model, surface: Surface) -> Self {
+        // The contact's speed along s over the shaft's: orbit less the speed of the surface.
+        let shaft = 1.0;
+        let orbit = model.rolling_orbit_speed(shaft);
+        let along = match surface {
+            Surface::OuterRaceway => orbit,
+            Surface::InnerRaceway => orbit - shaft,
+            Surface::Roller(_) => orbit - model.rolling_spin_speed(shaft),
+        };
+        let [lowest, highest] = model.rotation.speeds();
+        match (lowest < 0.0, highest > 0.0) {
+            (false, false) => Self::Never,
+            (true, true) => Self::Both { plus_at_positive: along > 0.0 },
+            (_, forwards) if forwards == (along > 0.0) => Self::TowardsPlus,
+            _ => Self::TowardsMinus,
+        }
+    }
+}
+
 /// Time that a roller takes over each defect at the top speed, s.
 #[doc(hidden)]
 pub fn defect_passes(model: &Model) -> Vec<f64> {

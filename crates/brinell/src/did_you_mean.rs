@@ -31,3 +31,31 @@ pub(crate) fn did_you_mean<'a>(word: &str, known: impl Iterator<Item = &'a str>)
         .min_by_key(|(distance, ..)| *distance)
         .map(|(.., candidate)| candidate)
 }
+
+/// The word used here for what others call `word`.
+pub(crate) fn other_word(word: &str) -> Option<&'static str> {
+    Some(match word.to_lowercase().as_str() {
+        "polygon" | "polygons" | "poly" | "points" | "contour" => "outline",
+        "square" => "rectangle",
+        "disc" | "disk" => "circle",
+        "photo" | "picture" | "mask" => "image",
+        "drawing" => "svg",
+        "scan" | "map" | "heights" => "depth_map",
+        _ => return None,
+    })
+}
+
+/// What to say of a bearing's bore or outside diameter, which nothing in the model is made of: the key of the raceway
+/// that is meant, and what `word` is.
+pub(crate) fn boundary_dimension(word: &str) -> Option<(&'static str, &'static str)> {
+    let bare = word.to_lowercase();
+    match bare.strip_suffix("_mm").unwrap_or(&bare) {
+        "outer_diameter" | "outside_diameter" | "outer_ring_diameter" | "od" => {
+            Some(("outer_raceway_diameter_mm", "outside diameter"))
+        }
+        "inner_diameter" | "inside_diameter" | "bore_diameter" | "inner_ring_diameter" | "bore" | "id" => {
+            Some(("inner_raceway_diameter_mm", "bore"))
+        }
+        _ => None,
+    }
+}

@@ -68,6 +68,12 @@ impl Rotation {
     pub fn max_speed(&self) -> f64 {
         self.knots.iter().map(|k| k[1].abs()).fold(0.0, f64::max)
     }
+
+    /// Lowest and highest w_i, rad/s.
+    pub fn speeds(&self) -> [f64; 2] {
+        let speeds = || self.knots.iter().map(|k| k[1]);
+        [speeds().fold(f64::INFINITY, f64::min), speeds().fold(f64::NEG_INFINITY, f64::max)]
+    }
 }
 
 impl Scenario {

@@ -75,7 +75,7 @@ pub fn before(scenario: &Scenario, model: &Model, statics: &Result<StaticLoadZon
         }
         Err(error) => warnings.push(warning(LOAD, list(scenario.operation.load_n), error.to_string(), "")),
     }
-    warnings.extend(outside_the_load_zone(scenario, model));
+    warnings.extend(statics.iter().flat_map(|zone| outside_the_load_zone(scenario, model, zone)));
     let deformation = statics.as_ref().ok().map(|zone| zone.deformation(model));
     warnings.extend(felt_by_a_point(scenario, model, deformation));
     warnings.extend(statics.as_ref().ok().and_then(|zone| coarse_slices(scenario, model, zone)));
@@ -259,19 +259,11 @@ fn highest_pressure(scenario: &Scenario, zone: &StaticLoadZone) -> (Side, f64) {
 
 /// Damage on the outer raceway that no loaded roller meets. Damage on the inner raceway and on rollers turns into the
 /// load zone.
-fn outside_the_load_zone(scenario: &Scenario, model: &Model) -> Vec<Problem> {
+fn outside_the_load_zone(scenario: &Scenario, model: &Model, zone: &StaticLoadZone) -> Vec<Problem> {
     let fixed = |surface: &Surface| *surface == Surface::OuterRaceway;
     if !model.defects.iter().any(|d| fixed(&d.surface)) {
         return Vec::new();
     }
-    // Of the healthy bearing: damage takes the load off the rollers on it.
-    let healthy = Scenario { defects: Vec::new(), ..scenario.clone() };
-    let Ok(healthy) = Model::new(&healthy) else {
-        return Vec::new();
-    };
-    let Ok(zone) = static_load_zone(&healthy) else {
-        return Vec::new();
-    };
     let element = scenario.bearing.element.word();
     let mut warnings = Vec::new();
     for (k, defect) in model.defects.iter().enumerate() {

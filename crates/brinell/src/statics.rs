@@ -14,6 +14,7 @@ use crate::model::Model;
 pub use balance::NoBalance;
 #[doc(hidden)]
 pub use balance::{Balance, Problem, Tilted};
+pub(crate) use load_zone::PHASES;
 pub use load_zone::{StaticLoadZone, static_load_zone};
 
 /// Solves a static problem.

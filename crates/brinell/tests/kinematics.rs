@@ -1,10 +1,12 @@
 //! How rollers and cages run: rolling under load, slipping out of it (section 13).
 
-use crate::common::cases::healthy;
+use crate::common::cases::{healthy, rectangle};
 use brinell::channel::Frame;
 use brinell::defect::Side;
+use brinell::derived::Passing;
 use brinell::model::Model;
-use brinell::scenario::{Scenario, Start};
+use brinell::observe::passes::Passes;
+use brinell::scenario::{Scenario, Speed, Start, Surface};
 use brinell::simulate::{End, Observer, Simulation};
 
 const DURATION_S: f64 = 0.5;
@@ -108,4 +110,46 @@ fn lit_loaded_rollers_roll_and_the_cage_settles() {
     // whatever the accuracy, so half a digit is what can be asked.
     assert!((5e-3..2e-2).contains(&early), "cage slip {early:e} at first");
     assert!((3e-4..4e-3).contains(&late), "cage slip {late:e} after half a second");
+}
+
+/// Signs of du/dt over the passes of a run's first defect.
+struct Ways {
+    passes: Passes,
+    along: Option<f64>,
+}
+
+impl Observer for Ways {
+    fn step(&mut self, frame: &Frame) {
+        self.passes.take(frame, true);
+        if let Some(pass) = self.passes.best().first() {
+            let [first, .., last] = pass.points[..] else { panic!("{} points", pass.points.len()) };
+            self.along = Some((last.angle - first.angle).signum());
+        }
+    }
+}
+
+#[test]
+fn analytic_rollers_pass_damage_the_way_that_is_told() {
+    let towards = |plus: bool| if plus { Passing::TowardsPlus } else { Passing::TowardsMinus };
+    for (surface, plus) in [(Surface::OuterRaceway, true), (Surface::InnerRaceway, false), (Surface::Roller(1), true)] {
+        let mut s = rectangle();
+        s.defects[0].on = surface;
+        s.simulation.duration_s = 0.012;
+        s.operation.load_ramp_s = 0.0;
+        for (rpm, plus) in [(1800.0, plus), (-1800.0, !plus)] {
+            s.operation.speed_rpm = Speed::Constant(rpm);
+            let model = Model::new(&s).unwrap();
+            let mut ways = Ways { passes: Passes::new(&model), along: None };
+            assert_eq!(Simulation::new(&s).unwrap().run(&mut ways).end, End::Complete);
+            assert_eq!(ways.along, Some(if plus { 1.0 } else { -1.0 }), "{surface:?}, {rpm} r/min");
+            assert_eq!(Passing::of(&model, surface), towards(plus), "{surface:?}, {rpm} r/min");
+        }
+        let mut of = |points: &[[f64; 2]]| {
+            s.operation.speed_rpm = Speed::Profile(points.to_vec());
+            Passing::of(&Model::new(&s).unwrap(), surface)
+        };
+        assert_eq!(of(&[[0.0, 0.0], [1.0, 600.0]]), towards(plus));
+        assert_eq!(of(&[[0.0, -600.0], [1.0, 600.0]]), Passing::Both { plus_at_positive: plus });
+        assert_eq!(of(&[[0.0, 0.0], [1.0, 0.0]]), Passing::Never);
+    }
 }

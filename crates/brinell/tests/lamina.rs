@@ -219,3 +219,23 @@ fn prop_tables_of_the_book() {
         println!("{minutes:7}  {:12.0}  {:15.0}  {:13.2}  {:16.2}", a.0, b.0, a.1 / aligned[0].1, b.1 / aligned[1].1);
     }
 }
+
+#[test]
+fn prop_the_roller_shown_without_damage_is_the_one_that_carries_most() {
+    // A load beside the middle of two rows: the second carries more. Without it, the first of two that carry alike.
+    let text = |offset: f64| {
+        format!(
+            "[bearing]\npreset = \"NN3007\"\n[operation]\nspeed_rpm = 1\nload_n = [0, -3000]\nload_on = \"inner-ring\"\n\
+             load_offset_mm = {offset}\n[support]\ninner_stiffness_n_per_m = 1e3\ninner_tilt_stiffness_nm_per_rad = 1\n\
+             [simulation]\nmodel = \"tilting\""
+        )
+    };
+    for (offset, row) in [(2.0, 1), (0.0, 0), (-2.0, 0)] {
+        let s = read(&text(offset), &[]).unwrap().scenario;
+        let load = LoadAlong::of(&s, None).unwrap().unwrap();
+        let shown = &load.healthy[1];
+        let heaviest = Distribution::of(&s).unwrap().heaviest().unwrap()[1].force;
+        assert_eq!(shown.row, row, "load {offset} mm off");
+        assert!((shown.force / heaviest - 1.0).abs() < 0.02, "{} and {heaviest} N", shown.force);
+    }
+}

@@ -247,7 +247,7 @@ fn analytic_slices_follow_the_slant_of_an_edge_along_an_envelope() {
     };
     // Each half of a circle's edge runs its radius over a half of its width: 45 degrees on average. NN3007's L = 6 mm,
     // R_eq of the outer contact.
-    let way = told.split("less than ").nth(1).expect("a way");
+    let way = told.split("within one slice, and ").nth(1).expect("a way");
     let way: f64 = way.split_whitespace().next().unwrap().parse().unwrap();
     let needed = 6.0 / way;
     assert!((asked(&told) / needed - 1.0).abs() < 0.15, "{told}, {needed}");

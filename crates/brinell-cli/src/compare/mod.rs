@@ -134,9 +134,15 @@ fn run(args: &CompareArgs, sides: &[Side]) -> Result<Option<Vec<RunResult>>, Fai
 /// What matters most of the comparison.
 fn tell(sides: &[Side], compared: &[Compared]) {
     for (k, side) in sides.iter().enumerate().skip(1) {
+        let headline = brinell_report::compared_headline(compared);
+        let ratio = |name: &str| compared.iter().find(|c| c.name == name).and_then(|c| c.ratios[k]);
+        if headline.iter().all(|name| ratio(name).is_none()) {
+            say!("{}", nothing_in_common(side, &sides[0], compared.iter().filter(|c| c.ratios[k].is_some()).count()));
+            continue;
+        }
         say!("{} over {} (the baseline), ratios:", side.label, sides[0].label);
-        for name in brinell_report::compared_headline(compared) {
-            let Some(ratio) = compared.iter().find(|c| c.name == name).and_then(|c| c.ratios[k]) else {
+        for name in headline {
+            let Some(ratio) = ratio(name) else {
                 continue;
             };
             let interval = ratio
@@ -145,4 +151,17 @@ fn tell(sides: &[Side], compared: &[Compared]) {
             say!("  {name}: {} x{interval}", short(ratio.value, 3));
         }
     }
+}
+
+/// Where the numbers that are usually printed are not in both runs, and `common` others are.
+fn nothing_in_common(side: &Side, baseline: &Side, common: usize) -> String {
+    let others = match common {
+        0 => "no other number is, either".to_owned(),
+        1 => "the one number that is, is in compare.csv and compare.html".to_owned(),
+        more => format!("the {more} numbers that are, are in compare.csv and compare.html"),
+    };
+    format!(
+        "{} over {} (the baseline): the sensor's levels and the peaks at defect entry and exit are not in both runs; {others}",
+        side.label, baseline.label
+    )
 }

@@ -186,7 +186,7 @@ struct Fitted {
     preset: String,
     /// Load, N.
     load: f64,
-    /// Size of a spall in the rolling direction and along the axis, mm.
+    /// Size of a spall around the raceway and along the axis, mm.
     spall: [f64; 2],
     /// Diameter of a pit, mm.
     pit: f64,

@@ -61,6 +61,15 @@ impl Domain {
         Self { lo: 0.0, hi: if hi > 0.0 { hi * 1.08 } else { 1.0 }, log: false }
     }
 
+    /// Logarithmic, where all values are positive and lie at least so many decades apart.
+    pub(crate) fn over_decades(values: impl IntoIterator<Item = f64>, decades: f64) -> Option<Self> {
+        let (lo, hi) = range(values).filter(|(lo, _)| *lo > 0.0)?;
+        let [low, high] = [lo, hi].map(f64::log10);
+        let room = 0.06 * (high - low);
+        let [lo, hi] = [low - room, high + room].map(|x| 10f64.powf(x));
+        (high - low >= decades).then_some(Self { lo, hi, log: true })
+    }
+
     /// Whole decades, at most six of them below the largest value.
     pub(crate) fn decades(values: &[f64]) -> Self {
         let positive = || values.iter().copied().filter(|v| *v > 1e-300);

@@ -9,6 +9,7 @@ mod shades;
 use crate::fact::Fact;
 use crate::font;
 use crate::picture::{Anchor, Picture, Text};
+use brinell::derived::Passing;
 pub use curves::{damage_passage, damage_section, load_along};
 pub use photo::damage_photo;
 pub use plan::damage_plan;
@@ -47,6 +48,8 @@ pub struct DamageView {
     /// Of a roller, half its circumference: the view from above goes once around, and either contact meets the damage
     /// half a turn after the other.
     pub half_turn_mm: Option<f64>,
+    /// Which way rollers pass it, so where the line of contact is at entry.
+    pub passing: Passing,
     /// s of the load zone's ends, where the surface rests in it.
     pub load_zone_mm: Option<[f64; 2]>,
     /// Angle of a roller from the defect's centre.

@@ -5,6 +5,7 @@ use super::{DamageView, heading};
 use crate::chart::{Chart, Domain, Size, Spec, left_margin, range, right_margin};
 use crate::layout::{Layout, legend};
 use crate::picture::{Paint, Picture, Shape, ink};
+use brinell::derived::Passing;
 
 /// Where the roller touches.
 const TRACK: &str = "#eef2f6";
@@ -181,7 +182,7 @@ impl<'a> Plan<'a> {
 
     /// Lines of contact as the damage and a roller meet; paints of the legend.
     fn draw_rollers(&mut self) -> [Paint; 2] {
-        let first = self.extent[0];
+        let first = self.extent[entered_at_its_last(self.view) as usize];
         let line = Paint::line(ink::BLUE, 2.4);
         let Some(half) = self.half_turn else {
             let hint = Paint::line(ink::BLUE, 1.2).dashed(&[5.0, 4.0]);
@@ -234,21 +235,38 @@ impl<'a> Plan<'a> {
 
 /// Words for the two lines of [`Plan::draw_rollers`].
 fn contact_words(view: &DamageView) -> [String; 2] {
-    match view.half_turn_mm {
-        Some(half) if half.is_finite() && half > 0.0 => {
-            ["line of contact at defect entry".into(), "the contact with the other raceway then".into()]
-        }
-        _ => ["line of contact at defect entry".into(), format!("the {} above it", view.element())],
-    }
+    let around = view.half_turn_mm.is_some_and(|half| half.is_finite() && half > 0.0);
+    let (who, other) = match around {
+        true => ("contacts pass".to_owned(), "the contact with the other raceway then".to_owned()),
+        false => (format!("{}s pass", view.element()), format!("the {} above it", view.element())),
+    };
+    let entry = "line of contact at defect entry";
+    let side = |plus: bool| if plus { "right" } else { "left" };
+    let line = match view.passing {
+        Passing::Never => "line of contact at one end of the damage; the shaft stands still".to_owned(),
+        Passing::TowardsPlus => format!("{entry}; {who} to the right"),
+        Passing::TowardsMinus => format!("{entry}; {who} to the left"),
+        Passing::Both { plus_at_positive } => format!(
+            "{entry} at positive speed; {who} to the {} then, to the {} at negative speed",
+            side(plus_at_positive),
+            side(!plus_at_positive)
+        ),
+    };
+    [line, other]
+}
+
+/// Whether a roller comes onto the damage at its last s; where the sign of the speed changes, at positive speed.
+fn entered_at_its_last(view: &DamageView) -> bool {
+    matches!(view.passing, Passing::TowardsMinus | Passing::Both { plus_at_positive: false })
 }
 
 fn along(view: &DamageView, around_a_roller: bool) -> String {
     if around_a_roller {
-        format!("Around the {}, rolling direction", view.element())
+        format!("Around the {}, s counter-clockwise", view.element())
     } else if view.surface.is_empty() {
-        "Along the raceway, rolling direction".to_owned()
+        "Along the raceway, s counter-clockwise".to_owned()
     } else {
-        format!("Along the {}, rolling direction", view.surface)
+        format!("Along the {}, s counter-clockwise", view.surface)
     }
 }
 

@@ -6,14 +6,14 @@ use crate::{AlongRoller, DamagePanel};
 use brinell::lamina::{AtRest, ContactLine};
 use brinell::scenario::Scenario;
 
-/// Of the roller in the middle of the load zone. `None` where rollers have no slices, or nothing holds the rings
+/// Of the roller that carries most. `None` where rollers have no slices, or nothing holds the rings
 /// against the load.
 pub(crate) fn along_healthy_roller(s: &Scenario) -> Option<AlongRoller> {
-    along_roller(&AtRest::of(s).ok()??, None)
+    along_roller(s, &AtRest::of(s).ok()??, None)
 }
 
-/// Of the roller over a defect (from 0), or of the one in the middle of the load zone.
-pub(super) fn along_roller(at_rest: &AtRest, defect: Option<usize>) -> Option<AlongRoller> {
+/// Of the roller over a defect (from 0), or of the one that carries most.
+pub(super) fn along_roller(s: &Scenario, at_rest: &AtRest, defect: Option<usize>) -> Option<AlongRoller> {
     let load = at_rest.over(defect).ok()?;
     let sides = [(1, "outer"), (0, "inner")];
     let conditions = || {
@@ -46,9 +46,15 @@ pub(super) fn along_roller(at_rest: &AtRest, defect: Option<usize>) -> Option<Al
         format!("{condition}: {} at the outer, {} at the inner contact", of(&pair[1]), of(&pair[0]))
     };
     let said: Vec<String> = conditions().map(says).collect();
+    let at = &load.healthy[1];
     let place = match defect {
-        Some(_) => "over the damage where it carries least",
-        None => "in the middle of the load zone",
+        Some(_) => "over the damage where it carries least".to_owned(),
+        None => format!(
+            "that carries most: {}at {}°, with {} N",
+            if s.bearing.rows > 1 { format!("row {}, ", at.row + 1) } else { String::new() },
+            short(at.angle.to_degrees(), 3),
+            short(at.force, 4)
+        ),
     };
     Some(AlongRoller {
         title: format!("The load along a roller at rest {place}"),

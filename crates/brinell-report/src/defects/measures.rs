@@ -3,18 +3,19 @@
 use crate::Fact;
 use crate::number::short;
 use brinell::defect::{Defect, Shape};
-use brinell::scenario::Bearing;
+use brinell::derived::Passing;
+use brinell::scenario::{Law, Scenario, Surface};
 
 /// One defect's numbers; lengths in mm, depths in um.
 #[derive(Debug, Clone, Copy)]
 pub struct Measures {
-    /// Along the rolling direction.
+    /// Along s.
     pub length_mm: f64,
     /// Its angle on the damaged surface.
     pub arc_deg: f64,
-    /// Largest damaged length of the contact line, L_s.
+    /// Largest damaged length of the contact line, L_s; of a depth map what the surface between its nodes covers.
     pub widest_mm: f64,
-    /// Seen from above.
+    /// Seen from above; with the other numbers of a depth map of the surface between its nodes.
     pub area_mm2: f64,
     /// Volume over area.
     pub mean_depth_um: f64,
@@ -45,6 +46,14 @@ fn along(shape: &Shape, points: usize) -> impl Iterator<Item = f64> + use<> {
 }
 
 pub(super) fn widest(defect: &Defect) -> f64 {
+    if let Shape::DepthMap(grid) = &defect.shape {
+        return grid.covered().widest;
+    }
+    widest_in_ecl(defect)
+}
+
+/// Largest L_s that the law `ecl` takes, m.
+fn widest_in_ecl(defect: &Defect) -> f64 {
     along(&defect.shape, 20_001).map(|s| defect.damaged_length(s)).fold(0.0, f64::max)
 }
 
@@ -57,11 +66,29 @@ pub(super) fn deepest(defect: &Defect) -> (f64, f64) {
     (own, defect.shape.raised())
 }
 
-pub(super) fn facts(m: &Measures, bearing: &Bearing) -> Vec<Fact> {
+/// Along which coordinate the length is, and which way it is passed.
+fn passed(passing: Passing, defect: &Defect) -> String {
+    let who = match defect.surface {
+        Surface::Roller(_) => "both contacts pass".to_owned(),
+        _ => format!("{}s pass", defect.element.word()),
+    };
+    let side = |plus: bool| if plus { "+s" } else { "-s" };
+    let way = match passing {
+        Passing::Never => return "along s, which runs counter-clockwise; the shaft stands still".into(),
+        Passing::TowardsPlus => side(true).to_owned(),
+        Passing::TowardsMinus => side(false).to_owned(),
+        Passing::Both { plus_at_positive } => {
+            format!("{} at positive, {} at negative speed", side(plus_at_positive), side(!plus_at_positive))
+        }
+    };
+    format!("along s, which runs counter-clockwise; {who} towards {way}")
+}
+
+pub(super) fn facts(m: &Measures, s: &Scenario, defect: &Defect, passing: Passing) -> Vec<Fact> {
+    let (bearing, law) = (&s.bearing, s.contact.law);
     let fact = |label: &str, value: f64, digits: usize, unit: &str, note: String| {
         Fact::new(label, short(value, digits), unit, note)
     };
-    let none = String::new;
     let (element, contact) = match bearing.has_balls() {
         true => ("ball", "contact"),
         false => ("roller", "line of contact"),
@@ -78,7 +105,7 @@ pub(super) fn facts(m: &Measures, bearing: &Bearing) -> Vec<Fact> {
         )
     };
     let mut facts = vec![
-        fact("Length", m.length_mm, 4, "mm", "along the rolling direction".into()),
+        fact("Length", m.length_mm, 4, "mm", passed(passing, defect)),
         fact("Arc", m.arc_deg, 4, "°", "of the damaged surface".into()),
         fact(
             "Widest",
@@ -86,20 +113,31 @@ pub(super) fn facts(m: &Measures, bearing: &Bearing) -> Vec<Fact> {
             4,
             "mm",
             format!(
-                "largest L_s; the {}",
+                "largest {}; the {}",
+                match defect.shape {
+                    Shape::DepthMap(_) => "damaged width of the surface between the nodes",
+                    _ => "L_s",
+                },
                 match bearing.has_balls() {
                     true => format!("ball is {} mm thick", short(bearing.roller_diameter_mm, 4)),
                     false => format!("roller is {} mm long", short(bearing.roller_length_mm, 4)),
                 }
             ),
         ),
-        fact("Area", m.area_mm2, 4, "mm^2", none()),
+        fact("Area", m.area_mm2, 4, "mm^2", "seen from above".into()),
         fact("Mean depth", m.mean_depth_um, 4, "µm", "volume over area".into()),
         fact("Deepest", m.deepest_um, 4, "µm", floor),
         fact("Time to pass", m.pass_ms, 4, "ms", format!("of the {contact}, at {} r/min", short(m.speed_rpm, 4))),
     ];
     if m.raised_um > 0.0 {
         facts.push(fact("Raised edge", m.raised_um, 4, "µm", "felt by the law \"sliced\"".into()));
+    }
+    if let (Shape::DepthMap(grid), Law::Ecl) = (&defect.shape, law) {
+        let note = format!(
+            "largest L_s: this law counts each damaged node as wide as dz, {} mm^2 in all; the law \"sliced\" takes the surface",
+            short(1e6 * grid.width().integral(), 4)
+        );
+        facts.push(fact("Widest in the law ecl", 1e3 * widest_in_ecl(defect), 4, "mm", note));
     }
     if let Some(share) = m.load_zone_share {
         facts.push(fact(

@@ -8,6 +8,7 @@ use crate::DamageView;
 use crate::number::short;
 use brinell::defect::simplify::Extent;
 use brinell::defect::{Defect, Shape, Side, wrap};
+use brinell::derived::Passing;
 use brinell::lamina::AtRest;
 use brinell::model::Model;
 use brinell::observe::passes::place;
@@ -38,7 +39,7 @@ pub(super) struct Seen<'a> {
     measures: Measures,
     /// Contacts that meet it, with their approach, m.
     sides: Vec<(Side, f64)>,
-    /// First and last angle of the loaded rollers of its row, rad.
+    /// Where the static load zone of the healthy bearing begins and ends, rad.
     zone: Option<[f64; 2]>,
     /// Of the ring, m, and whether somebody stated it.
     thickness: f64,
@@ -64,7 +65,7 @@ impl<'a> Seen<'a> {
             Surface::InnerRaceway => vec![approach(Side::Inner)],
             Surface::Roller(_) => vec![approach(Side::Outer), approach(Side::Inner)],
         };
-        let zone = statics.and_then(|z| ends(&z.points, z.shift, defect.row));
+        let zone = statics.filter(|z| z.extent > 0.0).map(|z| [z.middle + z.ends.0, z.middle + z.ends.1]);
         let (first, last) = defect.shape.arc();
         let arc = (last - first) / defect.radius;
         let extent = Extent::of(&defect.shape, defect.depth);
@@ -110,6 +111,7 @@ impl<'a> Seen<'a> {
         };
         let title = format!("Defect {}: {}", self.index + 1, place(defect));
         let element = s.bearing.element.word();
+        let passing = Passing::of(self.model, defect.surface);
         let view = DamageView {
             plan_title: format!("{title}. {}", self.unrolled()),
             passage_title: format!("{title}. {}", self.conditions()),
@@ -122,7 +124,7 @@ impl<'a> Seen<'a> {
             },
             half_turn_mm: self.is_roller().then_some(0.5e3 * TAU * defect.radius),
             title,
-            facts: facts(&self.measures, &s.bearing),
+            facts: facts(&self.measures, s, defect, passing),
             polygons_mm: in_place(of, &defect.shape),
             against_mm: Vec::new(),
             against: String::new(),
@@ -130,11 +132,12 @@ impl<'a> Seen<'a> {
             depths: depths(&defect.shape),
             roller_length_mm: s.bearing.roller_length_mm,
             roller_diameter_mm: s.bearing.roller_diameter_mm,
+            passing,
             load_zone_mm: self.load_zone_mm(),
             angle_deg,
             passage,
             passage_note: self.passage_note(),
-            along: at_rest.and_then(|r| along_roller(r, Some(self.index))),
+            along: at_rest.and_then(|r| along_roller(s, r, Some(self.index))),
             section_s_mm,
             section,
             section_note: self.section_note(),
@@ -249,13 +252,4 @@ fn in_place(of: &scenario::Defect, shape: &Shape) -> Vec<Vec<[f64; 2]>> {
         }
     }
     polygons
-}
-
-/// First and last angle of the rollers of a row that the inner raceway loads, rad.
-fn ends(points: &[(usize, f64, f64, f64)], shift: [f64; 2], row: usize) -> Option<[f64; 2]> {
-    let middle = shift[1].atan2(shift[0]);
-    let loaded = points.iter().filter(|p| p.0 == row && p.2 > 0.0);
-    let (first, last) =
-        loaded.map(|p| wrap(p.1 - middle)).fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), x| (a.min(x), b.max(x)));
-    (last > first).then_some([middle + first, middle + last])
 }

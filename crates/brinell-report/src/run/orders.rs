@@ -2,6 +2,7 @@
 //! shaft.
 
 use super::signals::{HARMONICS, axis, markers_at};
+use crate::number::short;
 use crate::{Marker, Spectrum};
 use brinell::observe::Findings;
 use brinell::scenario::Speed;
@@ -50,10 +51,36 @@ fn spectrum(parts: &Parts, findings: &Findings) -> Option<(Spectrum, Vec<Marker>
         unit: "m/s^2".into(),
         note: format!(
             "Envelope of the sensor acceleration along {} at equal angles of the shaft, the last {:.2} s of the run. An order is an event a turn: \
-             defect frequencies stay lines while the speed varies. Marks are those of pure rolling: a cage that slips moves the lines down by as much.",
+             defect frequencies stay lines while the speed varies. Marks are those of pure rolling: {}.",
             axis(parts),
-            span
+            span,
+            moved_by_slip(model.kinematics(TAU).ftf)
         ),
     };
     Some((spectrum, markers))
+}
+
+/// How lines move where the cage turns slower than in pure rolling; `cage` is its turns over the shaft's, f_c/f_s.
+///
+/// BPFO = Z f_c and BPFI = Z (f_s - f_c): what f_c loses relative to itself, f_s - f_c gains times f_c/(f_s - f_c).
+fn moved_by_slip(cage: f64) -> String {
+    let up = short(cage / (1.0 - cage), 2);
+    format!("a cage that slips by 1 % moves the lines of BPFO and FTF down by 1 %, and those of BPFI up by {up} %")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use brinell::scenario::Scenario;
+
+    #[test]
+    fn analytic_slip_of_the_cage_moves_bpfi_up() {
+        let model = brinell::model::Model::new(&Scenario::example()).unwrap();
+        let k = model.kinematics(TAU);
+        let z = model.layout.rollers_per_row as f64;
+        let slow = 0.99 * k.ftf;
+        assert!((z * slow / k.bpfo - 0.99).abs() < 1e-12);
+        let up = 100.0 * (z * (1.0 - slow) / k.bpfi - 1.0);
+        assert!(moved_by_slip(k.ftf).contains(&format!("BPFI up by {} %", short(up, 2))));
+    }
 }

@@ -69,6 +69,8 @@ const DASHES: [&[f64]; 3] = [&[], &[6.0, 3.0], &[2.0, 2.5]];
 /// Pixels between the same point of neighbouring lines, and of all lines together at most.
 const BESIDE: f64 = 5.0;
 const BESIDE_ALL: f64 = 30.0;
+/// Values over so many decades are drawn on a logarithmic axis.
+const DECADES: f64 = 1.3;
 
 fn paint(line: usize) -> Paint {
     let color = COLORS[line % COLORS.len()];
@@ -168,6 +170,8 @@ fn spec(plot: &IndicatorPlot, size: Size) -> Spec {
         [p.value, low, high]
     });
     let heights = heights.chain(plot.shown_limits().map(|l| l.0));
+    let values = points().map(|p| p.value).chain(plot.shown_limits().map(|l| l.0));
+    let y = Domain::over_decades(values, DECADES).unwrap_or_else(|| y_domain(heights));
     let beside = plot.shown_limits().map(|(_, words)| font::width(words, size.font, false)).fold(0.0, f64::max);
     let x = if named {
         Domain::exact(-0.5, plot.x_names.len() as f64 - 0.5)
@@ -182,7 +186,7 @@ fn spec(plot: &IndicatorPlot, size: Size) -> Spec {
             format!("{} over {}", plot.label, plot.x_label),
             size,
             (x, &plot.x_label, &plot.x_unit),
-            (y_domain(heights), &plot.label, &plot.unit),
+            (y, &plot.label, &plot.unit),
         )
     }
 }

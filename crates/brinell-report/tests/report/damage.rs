@@ -1,6 +1,7 @@
 //! The section of the page about damage.
 
 use super::sample::{filled, ordinary, square_with_a_hole};
+use brinell::derived::Passing;
 use brinell_report::{
     DamageCurve, DamagePanel, DamageView, Layout, damage_passage, damage_plan, damage_section, html, pictures,
 };
@@ -51,31 +52,43 @@ fn regress_a_view_of_nothing_is_drawn_all_the_same() {
     }
 }
 
+/// Where upright strokes of a width stand, px.
+fn uprights(svg: &str, width: &str) -> Vec<f64> {
+    let tree = roxmltree::Document::parse(svg).expect("valid");
+    let x = |part: &str| {
+        let numbers = part.split(|c: char| !(c.is_ascii_digit() || c == '.' || c == '-'));
+        let numbers: Vec<f64> = numbers.filter_map(|x| x.parse().ok()).collect();
+        (numbers.len() == 4 && numbers[0] == numbers[2]).then(|| numbers[0])
+    };
+    tree.descendants()
+        .filter(|n| n.attribute("stroke-width") == Some(width))
+        .filter_map(|n| n.attribute("d"))
+        .flat_map(|d| d.split('M').filter_map(x).collect::<Vec<f64>>())
+        .collect()
+}
+
+#[test]
+fn analytic_the_line_of_contact_is_where_rollers_come_onto_the_damage() {
+    let drawn = |passing| damage_plan(&DamageView { passing, ..square_with_a_hole() }, 0, Layout::Wide).svg();
+    let line = |passing| uprights(&drawn(passing), "2.4")[0];
+    let (plus, minus) = (line(Passing::TowardsPlus), line(Passing::TowardsMinus));
+    // The square lies in the middle of its picture.
+    assert!(plus < minus, "{plus} {minus}");
+    assert_eq!(line(Passing::Both { plus_at_positive: true }), plus);
+    assert_eq!(line(Passing::Both { plus_at_positive: false }), minus);
+    assert!(drawn(Passing::TowardsPlus).contains("rollers pass to the right"));
+    assert!(drawn(Passing::TowardsMinus).contains("rollers pass to the left"));
+    assert!(!drawn(Passing::Never).contains("entry"));
+}
+
 #[test]
 fn analytic_a_rollers_view_goes_once_around_with_both_contacts_half_a_turn_apart() {
     let around = 6.0 * std::f64::consts::PI;
     let view = DamageView { half_turn_mm: Some(0.5 * around), load_zone_mm: None, ..square_with_a_hole() };
     let svg = damage_plan(&view, 0, Layout::Wide).svg();
     assert!(svg.contains("Around the roller") && svg.contains("the other raceway"));
-    let tree = roxmltree::Document::parse(&svg).expect("valid");
-    // Upright strokes: the contacts in blue, 2.4 and 2 wide, and the ends of the roller's surface.
-    let uprights = |width: &str| -> Vec<f64> {
-        tree.descendants()
-            .filter(|n| n.attribute("stroke-width") == Some(width))
-            .filter_map(|n| n.attribute("d"))
-            .flat_map(|d| {
-                d.split('M')
-                    .filter_map(|part| {
-                        let numbers: Vec<f64> = part
-                            .split(|c: char| !(c.is_ascii_digit() || c == '.' || c == '-'))
-                            .filter_map(|x| x.parse().ok())
-                            .collect();
-                        (numbers.len() == 4 && numbers[0] == numbers[2]).then(|| numbers[0])
-                    })
-                    .collect::<Vec<f64>>()
-            })
-            .collect()
-    };
+    // The contacts in blue, 2.4 and 2 wide, and the ends of the roller's surface.
+    let uprights = |width: &str| uprights(&svg, width);
     let (one, other) = (uprights("2.4"), uprights("2"));
     assert!(one.len() == 1 && other.len() == 1, "{one:?} {other:?}");
     let ends = uprights("1");
@@ -126,4 +139,53 @@ fn regress_the_page_shows_the_roller_passage_and_the_rings_section() {
     for name in ["damage-1", "damage-1-passage", "damage-1-section"] {
         assert!(names.iter().any(|n| n == name), "{names:?}");
     }
+}
+
+fn seen(text: &str) -> brinell_report::Damage {
+    let s = brinell::document::read(text, &[]).unwrap().scenario;
+    brinell_report::damage_of(&s, None).unwrap().remove(0)
+}
+
+#[test]
+fn analytic_numbers_of_a_depth_map_are_those_of_the_surface_between_its_nodes() {
+    let text = "[bearing]\npreset = \"NN3007\"\n[operation]\nspeed_rpm = 1800\nload_n = [300, 0]\n[[defects]]\non = \"outer-raceway\"\n\
+                [defects.shape.depth_map]\nds_mm = 0.5\ndz_mm = 0.5\ncolumns = 5\nrows = 5\n\
+                depth_um = [0,0,0,0,0, 0,10,10,10,0, 0,10,10,10,0, 0,10,10,10,0, 0,0,0,0,0]\n";
+    let ecl = seen(text);
+    let m = ecl.measures;
+    for (name, found, expected) in [
+        ("length", m.length_mm, 2.0),
+        ("width", m.widest_mm, 2.0),
+        ("area", m.area_mm2, 4.0),
+        ("volume, um mm^2", m.area_mm2 * m.mean_depth_um, 22.5),
+    ] {
+        assert!((found - expected).abs() < 1e-9, "{name}: {found}");
+    }
+    // The law `ecl` counts nodes, and that is said where it is the law.
+    let told = |damage: &brinell_report::Damage| damage.view.facts.iter().any(|f| f.label == "Widest in the law ecl");
+    assert!(told(&ecl));
+    assert!(!told(&seen(&format!("{text}\n[contact]\nlaw = \"sliced\"\n"))));
+}
+
+#[test]
+fn analytic_the_load_zone_is_the_static_one_whatever_rests_on_the_inner_ring() {
+    // Slow and with gravity: rollers at the top lie on the inner ring and carry nothing.
+    let text = |center: f64| {
+        format!(
+            "[bearing]\npreset = \"NU206\"\n[operation]\nspeed_rpm = 300\nload_n = [0, -7300]\nload_on = \"inner-ring\"\n\
+             gravity_m_per_s2 = [0, -9.81]\n[simulation]\nstart = \"equilibrium\"\n[[defects]]\non = \"outer-raceway\"\n\
+             center_deg = {center}\ndepth_um = 20\nshape = {{ rectangle = {{ length_mm = 2, width_mm = 4 }} }}\n"
+        )
+    };
+    let s = brinell::document::read(&text(-90.0), &[]).unwrap().scenario;
+    let zone = brinell::statics::static_load_zone(&brinell::model::Model::new(&s).unwrap()).unwrap();
+    let below = seen(&text(-90.0));
+    let share = below.measures.load_zone_share.unwrap();
+    assert!((share - below.measures.arc_deg / zone.extent.to_degrees()).abs() < 1e-9, "{share}");
+    assert!((2.0..2.4).contains(&zone.extent), "{} rad", zone.extent);
+    let [from, to] = below.view.load_zone_mm.unwrap();
+    assert!(from < -1.0 && to > 1.0, "{from} to {to} mm");
+    // At the top the zone is half a turn away.
+    let [from, to] = seen(&text(90.0)).view.load_zone_mm.unwrap();
+    assert!(from > 1.0 || to < -1.0, "{from} to {to} mm");
 }

@@ -1,5 +1,6 @@
 //! Reports to draw: everything filled from given strings and numbers, and an ordinary run.
 
+use brinell::derived::Passing;
 use brinell::scenario::Surface;
 use brinell_report::{
     AlongRoller, Assumption, AxialRow, AxialSection, CageOrbit, CageOrbits, DamageCurve, DamagePanel, DamageView,
@@ -36,6 +37,7 @@ fn damage_view(text: &str, values: &[f64]) -> DamageView {
         }),
         roller_length_mm: at(4),
         roller_diameter_mm: at(5),
+        passing: if at(2) > 0.0 { Passing::TowardsPlus } else { Passing::TowardsMinus },
         load_zone_mm: Some([at(6), at(7)]),
         angle_deg: values.to_vec(),
         passage: vec![panel.clone(); 2],

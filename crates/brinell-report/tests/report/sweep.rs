@@ -66,6 +66,23 @@ fn regress_names_are_under_the_axis() {
 }
 
 #[test]
+fn analytic_values_over_decades_are_on_a_logarithmic_axis() {
+    let heights = |values: [f64; 3]| -> [f64; 3] {
+        let points = values.iter().zip([1.0, 2.0, 3.0]).map(|(v, x)| point(x, *v, None)).collect();
+        let (_, svg) = page(plot(points, &[]));
+        let tree = roxmltree::Document::parse(&svg).expect("valid");
+        let circles = tree.descendants().filter_map(|n| n.attribute("cy"));
+        circles.map(|y| y.parse().unwrap()).collect::<Vec<f64>>().try_into().unwrap()
+    };
+    // Of a geometric series the steps are equal on a logarithmic axis, and a tenth of the next on a linear one.
+    let share = |[a, b, c]: [f64; 3]| (b - a) / (c - b);
+    assert!((share(heights([10.0, 100.0, 1000.0])) - 1.0).abs() < 0.01);
+    assert!((share(heights([10.0, 11.0, 21.0])) - 0.1).abs() < 0.01);
+    // 0 has no logarithm.
+    assert!(share(heights([0.0, 10.0, 1000.0])) < 0.02);
+}
+
+#[test]
 fn prop_odd_data_make_a_page() {
     let odd = [f64::NAN, f64::INFINITY, -1e308, 0.0, 1e-320];
     for a in odd {

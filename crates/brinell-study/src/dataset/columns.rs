@@ -137,7 +137,7 @@ const TRUTH: [Fixed; 53] = [
     }))),
     ("defect_center_deg", "deg", "of each defect: psi, counter-clockwise from +x", Numbers(|r| r.defects(|d, _| d.center_deg))),
     ("defect_shape", "1", "of each defect: kind of its shape", WordsList(|r| r.defects(|d, _| d.shape.word().to_owned()))),
-    ("defect_length_mm", "mm", "of each defect: extent along the rolling direction", Numbers(|r| r.defects(|_, d| {
+    ("defect_length_mm", "mm", "of each defect: extent along s, around the surface", Numbers(|r| r.defects(|_, d| {
         let (first, last) = d.shape.arc();
         1e3 * (last - first)
     }))),

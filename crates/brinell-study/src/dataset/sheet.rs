@@ -84,7 +84,7 @@ pub struct SheetDefect {
     pub on: String,
     /// Place, degrees counter-clockwise from +x.
     pub center_deg: f64,
-    /// Extent along the rolling direction, mm.
+    /// Extent along s, mm.
     pub length_mm: f64,
     /// Along the axis, mm.
     pub width_mm: f64,

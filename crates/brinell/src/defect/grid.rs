@@ -3,10 +3,12 @@
 use super::piecewise::{Line, PiecewisePolynomial};
 use crate::scenario::DepthGrid;
 
-/// Depths at the nodes of a grid, with their width L_s(s) and mean depth h_s(s).
+/// Depths at the nodes of a grid, with their width L_s(s) and mean depth h_s(s), and what the surface between the nodes
+/// covers.
 ///
-/// In L_s every damaged node (depth other than 0) represents its cell, dz wide; h_s is the mean depth over that width,
-/// so that L_s h_s is the section of the damage. Both are tabulated at the columns and straight between them.
+/// The law `ecl` needs one width and one depth at each s. In L_s every damaged node (depth other than 0) represents its
+/// cell, dz wide; h_s is the mean depth over that width, so that L_s h_s is the section of the damage at a column. Both
+/// are tabulated at the columns and straight between them. The law `sliced` follows the surface itself ([`Covered`]).
 #[derive(Debug, Clone, PartialEq)]
 pub struct Grid {
     start: [f64; 2],
@@ -17,6 +19,18 @@ pub struct Grid {
     width: PiecewisePolynomial,
     mean: PiecewisePolynomial,
     mean_lines: Vec<Line>,
+    covered: Covered,
+}
+
+/// What the bilinear surface of a grid covers: between four nodes it is damaged unless all four are 0. SI.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Covered {
+    /// Largest measure of the damaged z at one s, m.
+    pub widest: f64,
+    /// Seen from above, m^2.
+    pub area: f64,
+    /// Below the sound surface, m^3; raised nodes count 0.
+    pub volume: f64,
 }
 
 impl Grid {
@@ -42,6 +56,7 @@ impl Grid {
             width: PiecewisePolynomial::default(),
             mean: PiecewisePolynomial::default(),
             mean_lines: Vec::new(),
+            covered: Covered::default(),
         };
         this.tabulate(f64::INFINITY);
         Some(this)
@@ -82,6 +97,33 @@ impl Grid {
         self.width = PiecewisePolynomial::of_lines(&self.lines(&width));
         self.mean_lines = self.lines(&mean);
         self.mean = PiecewisePolynomial::of_lines(&self.mean_lines);
+        self.covered = self.cover(reach);
+    }
+
+    /// Of what lies within |z| <= reach (m).
+    fn cover(&self, reach: f64) -> Covered {
+        let mut all = Covered::default();
+        let rows = self.rows_within(-reach, reach);
+        for column in 0..self.columns - 1 {
+            let (mut width, mut section) = (0.0, 0.0);
+            for &(row, [a, b]) in rows.iter().filter(|(row, _)| self.is_damaged(column, *row)) {
+                width += b - a;
+                let at = row * self.columns + column;
+                let share = (0.5 * (a + b) - self.z(row)) / self.step[1];
+                let mean = |low: usize, high: usize| 0.5 * (self.depth[low].max(0.0) + self.depth[high].max(0.0));
+                let (below, above) = (mean(at, at + 1), mean(at + self.columns, at + self.columns + 1));
+                section += (b - a) * ((1.0 - share) * below + share * above);
+            }
+            all.widest = all.widest.max(width);
+            all.area += width * self.step[0];
+            all.volume += section * self.step[0];
+        }
+        all
+    }
+
+    /// What the surface between its nodes covers.
+    pub fn covered(&self) -> Covered {
+        self.covered
     }
 
     /// s of a column, m.
@@ -256,5 +298,12 @@ mod tests {
         assert!((g.mean_depth().value(0.0) - 6e-6).abs() < 1e-18);
         assert!((g.clone().within(0.4e-3).width().value(0.0) - 0.4e-3).abs() < 1e-15);
         assert_eq!(g.extremes(), (6e-6, 0.0));
+        // The tent covers four cells of 1 mm^2; its volume is a quarter of their box.
+        let c = g.covered();
+        assert!((c.widest - 2e-3).abs() < 1e-15 && (c.area - 4e-6).abs() < 1e-18, "{c:?}");
+        assert!((c.volume - 6e-12).abs() < 1e-24, "{c:?}");
+        let c = g.within(1.0e-3).covered();
+        assert!((c.widest - 1e-3).abs() < 1e-15 && (c.area - 2e-6).abs() < 1e-18, "{c:?}");
+        assert!((c.volume - 4.5e-12).abs() < 1e-24, "{c:?}");
     }
 }

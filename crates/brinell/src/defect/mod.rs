@@ -35,7 +35,7 @@ pub use damaged_contact::{
 pub use depth_profile::{DepthProfile, Rules, relative_radius};
 pub use edge_gradient::{EdgeGradient, edge_gradient, edge_gradient_of_slices};
 pub use envelope::envelope;
-pub use grid::Grid;
+pub use grid::{Covered, Grid};
 pub use outline::{Fault, MOST_CROSSINGS, Outline, Tangle, check_crossings, faults};
 pub use piecewise::{Line, PiecewisePolynomial};
 pub use placed::{Defect, Defects};

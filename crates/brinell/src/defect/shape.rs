@@ -1,6 +1,6 @@
 //! Outlines and floors of damage as functions of the arc: L_s(s) and h_s(s), section 3 and Eqs. (25)-(27).
 //!
-//! s in m along the rolling direction from the defect's centre; L_s and h_s in m. Outside `[first, last]` there is no
+//! s in m from the defect's centre, counter-clockwise around the surface; L_s and h_s in m. Outside `[first, last]` there is no
 //! damage.
 
 use super::bands::Border;
@@ -36,7 +36,7 @@ fn li2023_half_width_mm(index: usize, s: f64) -> f64 {
 pub enum Shape {
     /// Constant width over a length.
     Rectangle {
-        /// Half the length along the rolling direction, m.
+        /// Half the length along s, m.
         half_length: f64,
         /// Width along the axis, m.
         width: f64,
@@ -260,12 +260,12 @@ impl Shape {
         (0..=segments).map(|k| first + (last - first) * k as f64 / segments as f64).collect()
     }
 
-    /// Area of the outline, m^2; of a closed form by the midpoint rule.
+    /// Area seen from above, m^2; of a closed form by the midpoint rule, of a depth map of the surface between its nodes.
     pub fn area(&self) -> f64 {
         const CELLS: u32 = 20_000;
         match self {
             Self::Outline(outline) => return outline.width().integral(),
-            Self::DepthMap(grid) => return grid.width().integral(),
+            Self::DepthMap(grid) => return grid.covered().area,
             _ => {}
         }
         let (first, last) = self.arc();

@@ -18,7 +18,7 @@ pub enum Simple {
 /// Extents and mean depth of a shape, SI.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Extent {
-    /// Along the rolling direction, m.
+    /// Along s, m.
     pub length: f64,
     /// Along the axis, m: from the lowest to the highest z where the shape knows them, else the largest L_s.
     pub width: f64,
@@ -43,6 +43,10 @@ impl Extent {
             widest = widest.max(width);
             area += width * ds;
             volume += width * ds * shape.own_depth(s).unwrap_or(depth);
+        }
+        if let Shape::DepthMap(grid) = shape {
+            let covered = grid.covered();
+            (area, volume) = (covered.area, covered.volume);
         }
         let width = match shape {
             Shape::Outline(outline) => outline.heights().1 - outline.heights().0,

@@ -7,6 +7,7 @@ use crate::model::Model;
 use crate::plausibility::before;
 use crate::pressure::{pressures, static_limit};
 use crate::scenario::Scenario;
+use crate::statics::StaticLoadZone;
 use serde_json::{Map, Value, json};
 use std::f64::consts::TAU;
 
@@ -34,6 +35,7 @@ pub fn to_json(s: &Scenario, model: &Model, d: &Derived) -> Value {
         "roller_period_s": d.roller_period,
         "defect_passes_s": d.defect_passes,
         "longest_step_s": d.longest_step,
+        "load_zone": d.statics.as_ref().ok().map(load_zone),
         "support_force_n": d.statics.as_ref().ok().map(|zone| zone.support),
         "sunk_um": d.statics.as_ref().ok().map(|zone| 1e6 * zone.sunk),
         "load_n": model.force_on_loaded_ring(),
@@ -43,6 +45,18 @@ pub fn to_json(s: &Scenario, model: &Model, d: &Derived) -> Value {
         "static_load_rating_n": static_rating(&s.bearing).load,
         "slices": rating.map(|rating| in_slices(&rating)),
         "warnings": warnings,
+    })
+}
+
+/// What [`StaticLoadZone`] sums up, as `brinell check` prints it; the ends are counter-clockwise from +x.
+fn load_zone(zone: &StaticLoadZone) -> Value {
+    let ends = [zone.ends.0, zone.ends.1].map(|end| (zone.middle + end).to_degrees());
+    json!({
+        "largest_contact_force_n": zone.largest,
+        "extent_deg": zone.extent.to_degrees(),
+        "ends_deg": (zone.extent > 0.0).then_some(ends),
+        "shift_inner_to_outer_um": zone.shift.map(|x| 1e6 * x),
+        "stiffness_n_per_m": zone.stiffness,
     })
 }
 

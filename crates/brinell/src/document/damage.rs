@@ -41,7 +41,8 @@ const SHAPES: &[Variant<Shape>] = &[
     },
     Variant {
         name: "depth_map",
-        doc: "depths on a grid, bilinear between its nodes: in a file, or written out",
+        doc: "depths on a grid, bilinear between its nodes (the law ecl takes each damaged node as wide as dz): in a file, or \
+              written out",
         blank: unset::depth_map,
         is: |shape| matches!(shape, Shape::DepthMap { .. } | Shape::Scan(_)),
     },
@@ -105,7 +106,7 @@ pub(super) fn defect<K: Keys>(k: &mut K, load: [f64; 2], d: &mut Defect) {
     };
     k.key(key("center_deg", "psi, counter-clockwise from +x"), center, &mut d.center_deg);
     k.one_of(
-        key("shape", "outline; length along the rolling direction, width along the axis"),
+        key("shape", "outline; length along s, counter-clockwise around the surface, width along the axis"),
         SHAPES,
         &mut d.shape,
         shape,
@@ -128,7 +129,7 @@ fn shape<K: Keys>(k: &mut K, shape: &mut Shape) {
     const WIDTH: Spec = key("width_mm", "L_s, along the axis, at most the roller's length").from(0.0);
     match shape {
         Shape::Rectangle { length_mm, width_mm } => {
-            let length = key("length_mm", "along the rolling direction").above(0.0);
+            let length = key("length_mm", "along s, around the surface").above(0.0);
             k.key(length, Required, length_mm);
             k.key(WIDTH, Required, width_mm);
         }
@@ -137,7 +138,7 @@ fn shape<K: Keys>(k: &mut K, shape: &mut Shape) {
             k.key(diameter, Required, diameter_mm);
         }
         Shape::Profile { arc_mm, width_mm, depth_um } => {
-            let arc = key("arc_mm", "s of each point, never decreasing");
+            let arc = key("arc_mm", "s of each point, counter-clockwise around the surface, never decreasing");
             k.key(arc, Required, arc_mm);
             k.key(WIDTH, Required, width_mm);
             let depth = key("depth_um", "h_s at each point; left out: the defect's depth");
@@ -160,7 +161,7 @@ fn shape<K: Keys>(k: &mut K, shape: &mut Shape) {
         }
         Shape::Random { seed, length_mm, width_mm, roughness } => {
             k.key(key("seed", "which spall"), stated(1, "the first"), seed);
-            let length = key("length_mm", "extent along the rolling direction").above(0.0);
+            let length = key("length_mm", "extent along s, around the surface").above(0.0);
             k.key(length, Required, length_mm);
             k.key(WIDTH.above(0.0), Required, width_mm);
             let rough = key("roughness", "0: even ellipse; 1: as ragged as it gets");
@@ -176,7 +177,10 @@ fn polygons<K: Keys>(k: &mut K, polygons: &mut Vec<Vec<[f64; 2]>>) {
         [only] => (Some(only.clone()), None),
         _ => (None, Some(polygons.clone())),
     };
-    k.optional(key("points_mm", "corners [s, z] of one polygon, in order"), &mut one);
+    k.optional(
+        key("points_mm", "corners [s, z] of one polygon, in order; s counter-clockwise around the surface"),
+        &mut one,
+    );
     k.optional(key("polygons_mm", "lists of corners, for several polygons"), &mut several);
     *polygons = one.into_iter().chain(several.into_iter().flatten()).collect();
 }
@@ -203,8 +207,10 @@ fn depth_map<K: Keys>(k: &mut K, shape: &mut Shape) {
         let start = -0.5 * n.saturating_sub(1) as f64 * d;
         derived(start, "the grid's middle at the defect's centre")
     };
-    let ds =
-        spacing("ds_mm", "distance of columns, along the rolling direction; of a file that says its own, left out");
+    let ds = spacing(
+        "ds_mm",
+        "distance of columns, along s, counter-clockwise around the surface; of a file that says its own, left out",
+    );
     let dz = spacing("dz_mm", "distance of rows, along the axis; of a file that says its own, left out");
     match file {
         Some(_) => {

@@ -25,7 +25,9 @@ fn center<K: Keys>(k: &mut K, filed: Option<bool>, value: &mut bool) {
 }
 
 fn direction<K: Keys>(k: &mut K, filed: Option<bool>, value: &mut RollingDirection) {
-    let spec = key("rolling_direction", "where the roller passes to");
+    let doc = "where +s, counter-clockwise on the surface, points in the picture; rollers pass an outer raceway towards +s at \
+               positive speed, an inner one towards -s";
+    let spec = key("rolling_direction", doc);
     let fallback = assumed(RollingDirection::Right, "along the rows");
     shared(k, filed, spec, fallback, value);
 }

@@ -16,7 +16,7 @@ use super::spec::{Spec, unit_of_key, without_unit};
 use super::value_type::{Misfit, ValueType, Words};
 use crate::bearing::catalogue;
 use crate::bearing::clearance::ClearanceClass;
-use crate::did_you_mean::did_you_mean;
+use crate::did_you_mean::{boundary_dimension, did_you_mean};
 
 /// Tables of one list, such as `[[defects]]`, at most.
 const MOST_TABLES: usize = 5000;
@@ -333,7 +333,10 @@ fn unknown(vocabulary: &[(String, String)], frame: &Frame<'_>, name: &str, entry
         let means = |known: &&&str| did_you_mean(name, without_unit(known).into_iter()).is_some();
         frame.named.iter().find(means).copied()
     };
-    let hint = if vocabulary.iter().any(|(_, known)| known == name) {
+    let boundary = boundary_dimension(name).filter(|_| frame.path == "bearing");
+    let hint = if let Some((raceway, what)) = boundary {
+        format!("; a bearing's {what} is not asked for: elements run on the raceway, `{raceway}`")
+    } else if vocabulary.iter().any(|(_, known)| known == name) {
         format!("; it belongs in {}", elsewhere(name))
     } else if let Some(known) = did_you_mean(name, frame.named.iter().copied()).or_else(bare) {
         format!("; did you mean `{known}`?")

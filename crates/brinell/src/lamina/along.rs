@@ -1,12 +1,13 @@
 //! The load along one roller at rest over damage, beside that of the healthy bearing.
 
 use super::line::{ContactLine, in_slices, lines, slices_of};
-use crate::defect::{Defect, Defects, Side, cover_slices};
+use crate::defect::{Defect, Defects, Side, cover_slices, wrap};
 use crate::error::Error;
 use crate::model::Model;
 use crate::scenario::{Bearing, Scenario, Surface};
 use crate::slices::{Approach, Cover, Slices};
-use crate::statics::{NoBalance, Problem, StaticLoadZone, solve, static_load_zone};
+use crate::statics::{NoBalance, PHASES, Problem, StaticLoadZone, solve, static_load_zone};
+use std::f64::consts::TAU;
 
 /// Places along damage among which the weakest is looked for.
 const PLACES: usize = 401;
@@ -14,9 +15,11 @@ const PLACES: usize = 401;
 const ACROSS: usize = 64;
 /// Defects that are looked at one by one: thousands can be alike.
 const MOST_DEFECTS: usize = 32;
+/// Rows whose heaviest contacts differ by less than this share carry alike.
+const ALIKE: f64 = 1e-3;
 
-/// One roller under the full load, every part at rest: over the damage where the contact carries least, or in the
-/// middle of the load zone.
+/// One roller under the full load, every part at rest: over the damage where the contact carries least, or where the
+/// healthy bearing's rollers carry most. Its contacts name its row and angle.
 #[derive(Debug, Clone, PartialEq)]
 pub struct LoadAlong {
     /// Middles of the slices, m from the roller's middle.
@@ -71,7 +74,7 @@ impl AtRest {
 
     /// Over the defect with this index: damage of the outer raceway where it lies, of the inner one or of a roller
     /// turned into the middle of the load zone, a roller's towards the outer raceway. Without an index, or where that
-    /// is of no defect, the roller in the middle of the load zone.
+    /// is of no defect, the roller that carries most: in the middle of the load zone, of the row with the most load.
     ///
     /// # Errors
     /// Where nothing holds the rings against the load.
@@ -81,7 +84,11 @@ impl AtRest {
             let pressed = model.deflection(Side::Outer, self.zone.largest);
             (defect, weakest(model, slices, defect, pressed))
         });
-        let (problem, slot) = at_rest(model, over, self.zone.middle);
+        let (row, angle) = match over {
+            Some(_) => (0, self.zone.middle),
+            None => self.heaviest(),
+        };
+        let (problem, slot) = at_rest(model, over, row, angle);
         let contacts = |model: &Model| -> Result<_, Error> {
             let balance = solve(model, &problem)?;
             let balanced = (&problem, &balance);
@@ -97,6 +104,19 @@ impl AtRest {
             healthy: contacts(&self.healthy)?,
             damaged,
         })
+    }
+
+    /// Row and angle (rad) of the roller that carries most in the healthy bearing. Rows that carry alike count as the
+    /// first of them, and an angle beside the middle of the load zone as the middle: the rollers' positions have a grid.
+    fn heaviest(&self) -> (usize, f64) {
+        let (l, zone) = (&self.healthy.layout, &self.zone);
+        let carries_most = |p: &&(usize, f64, f64, f64)| p.3 >= (1.0 - ALIKE) * zone.largest;
+        let most = zone.points.iter().filter(carries_most).min_by_key(|p| p.0);
+        let Some(&(row, angle, ..)) = most else {
+            return (0, zone.middle);
+        };
+        let grid = TAU / (l.rollers_per_row * PHASES) as f64;
+        (row, if wrap(angle - zone.middle).abs() < 2.0 * grid { zone.middle } else { angle })
     }
 }
 
@@ -118,7 +138,7 @@ pub(super) fn over_damage(
         for k in 0..across {
             // The middles of equal parts: an edge itself is on one side or the other by round-off.
             let s = first + (last - first) * (k as f64 + 0.5) / across as f64;
-            let (problem, slot) = at_rest(model, Some((defect, s)), middle);
+            let (problem, slot) = at_rest(model, Some((defect, s)), 0, middle);
             let balance = solve(model, &problem)?;
             all.push(lines(model, bearing, slices, (&problem, &balance), slot));
         }
@@ -126,13 +146,13 @@ pub(super) fn over_damage(
     Ok(all)
 }
 
-/// The positions of all parts with a roller at s (m) of a defect, or in the middle of the load zone (rad), and the slot
-/// that is looked at.
-fn at_rest(model: &Model, over: Option<(&Defect, f64)>, middle: f64) -> (Problem, usize) {
+/// The positions of all parts with a roller at s (m) of a defect, or with one of a row in the middle of the load zone
+/// (rad), and the slot that is looked at.
+fn at_rest(model: &Model, over: Option<(&Defect, f64)>, row: usize, middle: f64) -> (Problem, usize) {
     let l = &model.layout;
     let mut problem = Problem::at_start(model);
     let (slot, orbit) = match over {
-        None => (0, middle),
+        None => (l.slot(row, 0), middle),
         Some((defect, s)) => {
             // With spin and inner ring at 0.
             let met = |side| defect.met_at(side, s / defect.radius).orbit;

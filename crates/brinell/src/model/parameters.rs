@@ -101,6 +101,11 @@ pub struct Model {
 }
 
 impl Model {
+    /// The same bearing before it was damaged, for statics: where damage was looked for stays.
+    pub(crate) fn without_damage(&self) -> Self {
+        Self { defects: Vec::new(), ..self.clone() }
+    }
+
     /// Law of the contacts on `side`.
     #[inline]
     pub fn contact(&self, side: Side) -> &LoadDeflection {

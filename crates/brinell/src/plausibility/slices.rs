@@ -53,8 +53,9 @@ pub(super) fn coarse_slices(scenario: &Scenario, model: &Model, zone: &StaticLoa
         "contact.slices",
         c.slices.to_string(),
         format!(
-            "across one slice an edge of the damage runs {} mm on average, and along an envelope strips let go one after the other where it runs less \
-             than {} mm: wide slices let go as a whole, which makes impacts: the RMS depends on their number, and of a third as many it can be twice as large",
+            "the slices are too wide for this damage: its slanted edge runs {} mm along s within one slice, and {} mm is the most at which the force \
+             on the roller changes gradually. A wider slice comes onto the edge and off it at once, an impact that the real roller does not make. With a \
+             third as many slices as needed the RMS can be twice too large",
             short(1e3 * run),
             short(1e3 * way)
         ),

@@ -132,7 +132,8 @@ choices! {
         Reference = "reference", "as tight as makes sense";
     }
 
-    /// Where the roller passes to, in a picture as it is seen.
+    /// Where +s, counter-clockwise on the surface, points in a picture as it is seen. It is not where rollers pass to: that
+    /// depends on the surface and on the sign of the speed ([`Passing`](crate::derived::Passing)).
     pub enum RollingDirection {
         Right = "right", "to the right of the picture";
         Up = "up", "to its top";

@@ -13,12 +13,12 @@ pub enum Surface {
     Roller(usize),
 }
 
-/// Outline and floor of a defect. Length runs along the rolling direction, width along the axis.
+/// Outline and floor of a defect. Length runs along s, counter-clockwise around the surface, width along the axis.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Shape {
     /// L_s = width for |s| <= length / 2.
     Rectangle {
-        /// Along the rolling direction, mm.
+        /// Along s, mm.
         length_mm: f64,
         /// Along the axis, mm.
         width_mm: f64,
@@ -44,7 +44,7 @@ pub enum Shape {
     },
     /// Seen from above: the inside of closed polygons, each closing on its first point. The even-odd rule makes holes.
     Outline {
-        /// Points (s, z) of each polygon, mm, from the defect's centre: s along the rolling direction, z along the
+        /// Points (s, z) of each polygon, mm, from the defect's centre: s counter-clockwise, z along the
         /// axis.
         polygons_mm: Vec<Vec<[f64; 2]>>,
     },
@@ -67,7 +67,7 @@ pub enum Shape {
     Random {
         /// Which one.
         seed: u64,
-        /// Extent along the rolling direction, mm.
+        /// Extent along s, mm.
         length_mm: f64,
         /// Extent along the axis, mm.
         width_mm: f64,
@@ -107,7 +107,7 @@ pub struct ImageFile {
     pub use_alpha: bool,
     /// Lighter, or more transparent, is damage.
     pub invert: bool,
-    /// Where the roller passes to.
+    /// Where +s points in the picture.
     pub rolling_direction: RollingDirection,
     /// Puts the damage's bounding box at the defect's centre; else the image's middle.
     pub center: bool,
@@ -185,7 +185,7 @@ impl Default for SvgFile {
 pub struct ScanFile {
     /// Path, from the scenario's folder.
     pub file: String,
-    /// From point to point along the rolling direction, mm; `None`: as the file says.
+    /// From point to point along s, mm; `None`: as the file says.
     pub ds_mm: Option<f64>,
     /// From point to point along the axis, mm; `None`: as the file says.
     pub dz_mm: Option<f64>,
@@ -209,7 +209,7 @@ pub struct ScanFile {
     pub zero_percentile: Option<f64>,
     /// First row of the file.
     pub first_row: FirstRow,
-    /// Where the roller passes to.
+    /// Where +s points in the picture.
     pub rolling_direction: RollingDirection,
     /// Shallower than this is undamaged, um.
     pub threshold_um: f64,

@@ -14,12 +14,13 @@ pub struct StaticLoadZone {
     pub points: Vec<(usize, f64, f64, f64)>,
     /// Largest Q_out, N.
     pub largest: f64,
-    /// Extent of the zone where rollers carry load between the raceways, rad; 0 where none does, a full turn where
-    /// every roller does everywhere. A roller whose own weight rests on the inner ring carries none.
+    /// Extent of the zone where rollers of the healthy bearing carry load between the raceways, rad; 0 where none does, a
+    /// full turn where every roller does everywhere. A roller whose own weight rests on the inner ring carries none, and
+    /// damage takes the load off rollers that are over it: so the zone is that without damage.
     pub extent: f64,
     /// Where it begins and ends, rad, counted from its middle [`Self::middle`].
     pub ends: (f64, f64),
-    /// Direction in which the inner ring is displaced in the outer one, rad.
+    /// Direction in which the inner ring of the healthy bearing is displaced in the outer one, rad.
     pub middle: f64,
     /// Mean ring offset, inner less outer, m.
     pub shift: [f64; 2],
@@ -42,13 +43,26 @@ impl StaticLoadZone {
 }
 
 /// Positions of the cage over one pitch.
-const PHASES: usize = 16;
+pub(crate) const PHASES: usize = 16;
 
-/// The healthy or damaged bearing's static load distribution under its full load, as the cage turns through a pitch.
+/// The healthy or damaged bearing's static load distribution under its full load, as the cage turns through a pitch; the
+/// load zone is the healthy bearing's.
 ///
 /// # Errors
 /// Where the rings are not held against the load.
 pub fn static_load_zone(model: &Model) -> Result<StaticLoadZone, NoBalance> {
+    let zone = as_it_is(model)?;
+    if model.defects.is_empty() {
+        return Ok(zone);
+    }
+    let Ok(StaticLoadZone { extent, ends, middle, .. }) = as_it_is(&model.without_damage()) else {
+        return Ok(zone);
+    };
+    Ok(StaticLoadZone { extent, ends, middle, ..zone })
+}
+
+/// The same, with the zone of the bearing as it is.
+fn as_it_is(model: &Model) -> Result<StaticLoadZone, NoBalance> {
     let l = &model.layout;
     let mut problem = Problem::at_start(model);
     let pitch = TAU / l.rollers_per_row as f64;

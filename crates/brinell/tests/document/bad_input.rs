@@ -23,6 +23,9 @@ fn regress_each_bad_line_is_named_with_its_line_and_remedy() {
     #[rustfmt::skip]
     let cases = [
         ("pitch_diameter_mm", "pitch_diameter = 49.0", "bearing.pitch_diameter", "did you mean `pitch_diameter_mm`", ""),
+        ("pitch_diameter_mm", "outer_diameter_mm = 22", "bearing.outer_diameter_mm", "outside diameter is not asked for: elements run on the raceway, `outer_raceway_diameter_mm`", ""),
+        ("pitch_diameter_mm", "outside_diameter_mm = 22", "bearing.outside_diameter_mm", "`outer_raceway_diameter_mm`", ""),
+        ("pitch_diameter_mm", "bore_mm = 8", "bearing.bore_mm", "`inner_raceway_diameter_mm`", ""),
         ("pitch_diameter_mm", "speed_rpm = 1", "bearing.speed_rpm", "it belongs in [operation]", ""),
         ("pitch_diameter_mm", "viscosity = 1", "bearing.viscosity", "did you mean `viscosity_pa_s` in [lubricant]", ""),
         ("pitch_diameter_mm", "pitch_diameter_mm = \"49\"", "bearing.pitch_diameter_mm", "no unit: a string needs one; without quotes the number is in mm", "a string with a unit: mm"),
@@ -68,6 +71,7 @@ fn regress_each_bad_line_is_named_with_its_line_and_remedy() {
         ("row = 1", "roller = 3", "defects.0.roller", "only where on = \"roller\"", ""),
         ("depth_um", "depth_um = -1", "defects.0.depth_um", "out of range", ">= 0 um"),
         ("shape", "shape = { square = { length_mm = 3.0 } }", "defects.0.shape.square", "unknown shape", "rectangle, circle, profile, li2023_irregular, outline, depth_map, grown, random"),
+        ("shape", "shape = { polygon = { points_mm = [[0, 0], [1, 0], [0, 1]] } }", "defects.0.shape.polygon", "did you mean `outline`", ""),
         ("shape", "shape = { rectangel = { length_mm = 3.0 } }", "defects.0.shape.rectangel", "did you mean `rectangle`", ""),
         ("shape", "shape = \"rectangle\"", "defects.0.shape", "expected a table such as", "exactly one of"),
         ("shape", "shape = {}", "defects.0.shape", "it has 0 keys", "exactly one of"),

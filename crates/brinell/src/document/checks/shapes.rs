@@ -359,7 +359,7 @@ impl Checker<'_> {
                 let finder = self.finder;
                 self.problems.add_of(Severity::Warning, "overlaps", || {
                     let (key, other) = (format!("defects.{i}"), format!("defects.{j}"));
-                    let message = format!("overlaps defect {} along the rolling direction; {rule}{path}", j + 1);
+                    let message = format!("overlaps defect {} along s; {rule}{path}", j + 1);
                     let problem = Problem::new(Severity::Warning, key, message);
                     (finder.complete(problem, &[&other]), None)
                 });

@@ -9,7 +9,7 @@ use super::super::value_type::ValueType;
 use super::{MOST_TABLES, Reader, join};
 use crate::bearing::clearance::ClearanceClass;
 use crate::bearing::{KnownBearing, catalogue, clearance_of};
-use crate::did_you_mean::{did_you_mean, nearest_few};
+use crate::did_you_mean::{did_you_mean, nearest_few, other_word};
 
 impl Keys for Reader<'_> {
     fn key<T: ValueType>(&mut self, spec: Spec, fallback: Fallback<T>, value: &mut T) {
@@ -209,6 +209,7 @@ impl Keys for Reader<'_> {
             let Some(variant) = variants.iter().find(|variant| variant.name == name) else {
                 self.problems.add_of(Severity::Error, format!("unknown {}", spec.name), || {
                     let hint = did_you_mean(name, known.iter().copied())
+                        .or_else(|| other_word(name).filter(|word| known.contains(word)))
                         .map(|known| format!("; did you mean `{known}`?"))
                         .unwrap_or_default();
                     let message = format!("unknown {}{hint}", spec.name);
