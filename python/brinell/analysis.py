@@ -5,12 +5,11 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, Literal
 
-import numpy as np
 import numpy.typing as npt
 
 from brinell import _brinell
 from brinell.scenario import Scenario
-from brinell.signals import Spectrum
+from brinell.signals import Spectrum, samples_of
 
 if TYPE_CHECKING:
     import matplotlib.axes
@@ -112,7 +111,7 @@ def analyze(
     band_hz : (float, float), optional
         Range to demodulate; everything above three times the highest defect frequency by default.
     simulated : bool
-        Whether a simulation made the signal: where its sensor (that of the scenario given as `bearing`) has no noise, healthy rollers
+        Whether a simulation made the signal, also a row of a data set: where its sensor (that of the scenario given as `bearing`) has no noise, healthy rollers
         that enter the load excite it too, and weak lines of the outer race say less.
     machine_class : str, optional
         Class of ISO 20816-3, for the zone of the RMS velocity: group 1 is above 300 kW, group 2 above 15 to 300 kW.
@@ -125,7 +124,7 @@ def analyze(
     Raises
     ------
     ValueError
-        Where a name is not known, a sensitivity does not fit the unit, or a frequency of the supply is out of its range.
+        Where a name or a unit is not known, a sensitivity does not fit the unit, or a frequency of the supply is out of its range.
     SignalError
         Where the signal is too short, its rate too low, or a sample not finite.
 
@@ -141,7 +140,7 @@ def analyze(
     0.3
     """
     name, scenario = (None, bearing._native) if isinstance(bearing, Scenario) else (bearing, None)
-    samples = np.asarray(x, dtype=float)
+    samples = samples_of(x)
     orders = [bpfo, bpfi, bsf, ftf]
     report, found, findings = _brinell.analyze(
         samples, rate_hz, unit, speed_rpm, name, scenario, orders, tolerance, band_hz, simulated, _run, machine_class, sensitivity, supply_hz

@@ -7,12 +7,11 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, Literal
 
-import numpy as np
 import numpy.typing as npt
 
 from brinell import _brinell, tables
 from brinell.scenario import Runnable, Scenario, given
-from brinell.signals import Signal
+from brinell.signals import Signal, samples_of
 
 if TYPE_CHECKING:
     import pandas
@@ -161,7 +160,7 @@ def calibrate(
     if measured is not None:
         if measured.rate_hz is None or measured.unit is None:
             raise ValueError("measured: its rate_hz and unit are to be given, for the file states none")
-        samples, rate, unit = np.asarray(measured.values, dtype=float), measured.rate_hz, measured.unit
+        samples, rate, unit = samples_of(measured.values, "measured.values"), measured.rate_hz, measured.unit
     signal = (rate, unit, axis, model_uncertainty_percent)
     native = _brinell.calibrate(base._native, keys, wanted, samples, signal, seed, budget, jobs, progress, folder)
     report = native.report()

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import difflib
 import json
 import os
 import warnings
@@ -120,7 +121,7 @@ class Plan:
         shard: tuple[int, int] = (1, 1),
         progress: Callable[[int, int], object] | None = None,
     ) -> DataSet:
-        """Does what is missing of the data set; the files' bytes depend on the plan alone. Ctrl-C stops it, and the same call goes on.
+        """Does what is missing of the data set; the files' bytes depend on plan, version and kernel. Ctrl-C stops it, and the same call goes on.
 
         Parameters
         ----------
@@ -136,8 +137,21 @@ class Plan:
         Returns
         -------
         DataSet
+
+        Raises
+        ------
+        ValueError
+            Where the folder holds another data set, or one of another version or kernel.
+        ReadError
+            Where the folder cannot be made, or a file not be written.
+
+        Warns
+        -----
+        ScenarioWarning
+            Runs that failed, are clipped, or hold a signal that is one value throughout: how many of each class.
         """
-        self._native.make(folder, shard, jobs, progress)
+        for text in self._native.make(folder, shard, jobs, progress)["warnings"]:
+            warnings.warn(text, ScenarioWarning, stacklevel=2)
         return DataSet(folder)
 
     def __repr__(self) -> str:
@@ -151,6 +165,11 @@ class DataSet:
     ----------
     folder : path
         With ``runs/`` in it.
+
+    Raises
+    ------
+    ReadError
+        Where there is none.
     """
 
     __slots__ = ("folder",)
@@ -158,6 +177,8 @@ class DataSet:
 
     def __init__(self, folder: str | os.PathLike[str]) -> None:
         self.folder = Path(folder)
+        if not any((self.folder / name).exists() for name in ("runs", "dataset.json", "work")):
+            raise _brinell.ReadError(f"{self.folder}: no data set is here (neither runs nor dataset.json)")
 
     @property
     def files(self) -> list[Path]:
@@ -169,6 +190,22 @@ class DataSet:
         if not files:
             raise _brinell.ReadError(f"{self.folder}: no data set is here (runs/part-*.parquet is missing)")
         return files
+
+    def _chosen(self, columns: Sequence[str] | None) -> list[str] | None:
+        """The columns, each of which there must be."""
+        if columns is None:
+            return None
+        chosen = [columns] if isinstance(columns, str) else list(columns)
+        for path in (self.folder / "dataset.json", self.folder / "work" / "campaign.json"):
+            if path.exists():
+                names = [column["name"] for column in json.loads(path.read_bytes())["columns"]]
+                for name in chosen:
+                    if name not in names:
+                        near = difflib.get_close_matches(str(name), names, n=1)
+                        hint = f', did you mean "{near[0]}"?' if near else ""
+                        raise ValueError(f'columns: there is no "{name}"{hint}\n  allowed: {", ".join(names)}')
+                break
+        return chosen
 
     @property
     def about(self) -> dict[str, Any]:
@@ -185,15 +222,15 @@ class DataSet:
         return _brinell.verify(self.folder)[4]
 
     def to_polars(self, columns: Sequence[str] | None = None) -> polars.DataFrame:
-        """A row a run, signals as lists; read the columns that are needed."""
+        """A row a run, signals as lists; read the columns that are needed: names as in `Plan.columns`, else a ValueError says which there are."""
         pl = tables.need("polars")
-        frame: polars.DataFrame = pl.read_parquet(self._there(), columns=None if columns is None else list(columns))
+        frame: polars.DataFrame = pl.read_parquet(self._there(), columns=self._chosen(columns))
         return frame
 
     def to_pandas(self, columns: Sequence[str] | None = None) -> pandas.DataFrame:
         """A row a run, signals as arrays; needs pyarrow."""
         pd = tables.need("pandas")
-        chosen = None if columns is None else list(columns)
+        chosen = self._chosen(columns)
         frame: pandas.DataFrame = pd.concat([pd.read_parquet(file, columns=chosen) for file in self._there()], ignore_index=True)
         return frame
 
@@ -214,7 +251,7 @@ def merge(folders: Sequence[str | os.PathLike[str]], into: str | os.PathLike[str
     Raises
     ------
     ValueError
-        Where a folder is of another campaign or version, or a file is damaged.
+        Where a folder is of another campaign, version or kernel, or a file is damaged.
 
     Warns
     -----

@@ -157,10 +157,10 @@ def _drive(
     plan: Plan, folder: str | os.PathLike[str], engine: _Engine, progress: Callable[[int, int], object] | None
 ) -> DataSet:
     """Everything that is missing, through the engine."""
+    # Whose folder it is, before anything arrives.
+    plan._native.claim(Path(folder))
     data = DataSet(folder)
     incoming = data.folder / "work" / "incoming"
-    # Whose folder it is, before anything arrives.
-    plan._native.claim(data.folder)
     # What arrived before this process's last end.
     put_aside = _join(data, incoming)
     there = {path.name for path in data.files}

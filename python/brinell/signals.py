@@ -40,6 +40,52 @@ __all__ = [
 Array = npt.NDArray[np.float64]
 
 
+def samples_of(x: npt.ArrayLike, name: str = "x") -> Array:
+    """One channel's samples as doubles; a column or row of a matrix counts as one.
+
+    Parameters
+    ----------
+    x : array_like
+        Samples.
+    name : str
+        What errors call them.
+
+    Raises
+    ------
+    TypeError
+        Where they are no real numbers, or those of several channels.
+    SignalError
+        Where some are masked.
+
+    Examples
+    --------
+    >>> from brinell.signals import samples_of
+    >>> samples_of([[1], [2]])
+    array([1., 2.])
+    >>> samples_of([[1, 2], [3, 4]])
+    Traceback (most recent call last):
+    ...
+    TypeError: x: expected the samples of one channel, and its shape is (2, 2); give one of them, such as x[:, 0]
+    """
+    masked = int(np.ma.count_masked(x)) if isinstance(x, np.ma.MaskedArray) else 0
+    if masked:
+        raise _brinell.SignalError(f"{name}: {masked} of {np.size(x)} samples are masked; give a stretch without, or {name}.filled(...) with values")
+    try:
+        if x is None or np.iscomplexobj(x):
+            raise TypeError
+        samples: Array = np.asarray(x, dtype=float)
+    except (TypeError, ValueError):
+        kind = "complex numbers" if np.iscomplexobj(x) else type(x).__name__
+        raise TypeError(f"{name}: expected the samples of one channel, real numbers, and it is {kind}") from None
+    if samples.ndim == 2 and 1 in samples.shape:
+        samples = samples.reshape(-1)
+    if samples.ndim != 1:
+        raise TypeError(
+            f"{name}: expected the samples of one channel, and its shape is {samples.shape}; give one of them, such as {name}[:, 0]"
+        )
+    return samples
+
+
 @dataclass(frozen=True, eq=False)
 class Spectrum:
     """A one-sided spectrum."""
@@ -135,7 +181,7 @@ def psd(
     >>> int(tone.frequency_hz[tone.amplitude.argmax()]), round(float(tone.amplitude.max()), 6)
     (64, 3.0)
     """
-    samples = np.asarray(x, dtype=float)
+    samples = samples_of(x)
     if length is None:
         length = max(min(int(rate_hz) if rate_hz < 2**31 else len(samples), len(samples) // 4), min(256, len(samples)))
     found = _brinell.psd(samples, rate_hz, length, overlap, window, detrend)
@@ -158,7 +204,7 @@ def spectrum(x: npt.ArrayLike, *, rate_hz: float, unit: str, window: _Window = "
     >>> float(lines.frequency_hz[1])
     1.0
     """
-    found = _brinell.psd(np.asarray(x, dtype=float), rate_hz, None, 0.0, window, detrend)
+    found = _brinell.psd(samples_of(x), rate_hz, None, 0.0, window, detrend)
     return Spectrum._of(found, unit)
 
 
@@ -172,7 +218,7 @@ def envelope(x: npt.ArrayLike, *, rate_hz: float, band_hz: tuple[float, float] |
     rate_hz : float
         Samples a second.
     band_hz : (float, float), optional
-        Low and high edge; everything by default.
+        Low and high edge, at most half the rate; everything by default.
 
     Examples
     --------
@@ -181,7 +227,7 @@ def envelope(x: npt.ArrayLike, *, rate_hz: float, band_hz: tuple[float, float] |
     >>> bool(np.allclose(brinell.envelope(2.0 * np.sin(2 * np.pi * 100 * t), rate_hz=1000.0), 2.0))
     True
     """
-    return _brinell.envelope(np.asarray(x, dtype=float), rate_hz, band_hz)
+    return _brinell.envelope(samples_of(x), rate_hz, band_hz)
 
 
 def envelope_spectrum(
@@ -201,7 +247,7 @@ def envelope_spectrum(
     x, rate_hz, unit
         As in `psd`.
     band_hz : (float, float), optional
-        Band to demodulate; `kurtogram` finds an impulsive one.
+        Band to demodulate, at most to half the rate; `kurtogram` finds an impulsive one.
     length : int, optional
         Samples of a segment; the whole signal by default.
     overlap, window
@@ -216,7 +262,7 @@ def envelope_spectrum(
     >>> float(lines.frequency_hz[lines.amplitude.argmax()]), round(float(lines.amplitude.max() / lines.mean), 3)
     (40.0, 0.5)
     """
-    found = _brinell.envelope_spectrum(np.asarray(x, dtype=float), rate_hz, band_hz, length, overlap, window)
+    found = _brinell.envelope_spectrum(samples_of(x), rate_hz, band_hz, length, overlap, window)
     found["band_hz"] = band_hz
     return Spectrum._of(found, unit)
 
@@ -262,7 +308,7 @@ def spectrogram(
     >>> map_.density.shape == (len(map_.time_s), len(map_.frequency_hz)) == (7, 129)
     True
     """
-    samples = np.asarray(x, dtype=float)
+    samples = samples_of(x)
     first, time_step, step, density = _brinell.spectrogram(samples, rate_hz, length, overlap, window)
     frames, bins = density.shape
     time = first + time_step * np.arange(frames, dtype=float)
@@ -318,7 +364,7 @@ def kurtogram(x: npt.ArrayLike, *, rate_hz: float, depth: int = 7, narrowest_hz:
     >>> low < 3000.0 < high
     True
     """
-    return Kurtogram(**_brinell.kurtogram(np.asarray(x, dtype=float), rate_hz, depth, narrowest_hz))
+    return Kurtogram(**_brinell.kurtogram(samples_of(x), rate_hz, depth, narrowest_hz))
 
 
 def indicators(x: npt.ArrayLike, *, rate_hz: float, unit: str, block_s: float) -> dict[str, dict[str, Any]]:
@@ -344,7 +390,7 @@ def indicators(x: npt.ArrayLike, *, rate_hz: float, unit: str, block_s: float) -
     >>> round(found["rms"]["value"], 4), found["rms"]["unit"], found["rms"]["blocks"]
     (0.7071, 'm/s^2', 10)
     """
-    return _brinell.indicators(np.asarray(x, dtype=float), rate_hz, unit, block_s)
+    return _brinell.indicators(samples_of(x), rate_hz, unit, block_s)
 
 
 @dataclass(frozen=True, eq=False)
@@ -371,7 +417,8 @@ def read_signal(path: str | os.PathLike[str], channel: str | None = None) -> Sig
     path : path
         The file; its content says the format.
     channel : str, optional
-        Which one; needed where there are several.
+        Which one; needed where there are several. As ``--channel`` has it: its name, its number from 1, or whole words of its name, whatever the case:
+        ``"DE"`` is ``X098_DE_time``.
 
     Raises
     ------

@@ -97,9 +97,9 @@ class Table:
 
 def sweep(
     scenario: Runnable,
-    vary: Mapping[str, Sequence[Any]] | None = None,
+    vary: Mapping[str, Sequence[Any] | str] | None = None,
     *,
-    together: Sequence[Mapping[str, Sequence[Any]]] = (),
+    together: Sequence[Mapping[str, Sequence[Any] | str]] = (),
     jobs: int | None = None,
     progress: Callable[[int, int], object] | None = None,
     folder: str | os.PathLike[str] | None = None,
@@ -110,8 +110,8 @@ def sweep(
     ----------
     scenario : Scenario or path
         What the settings change.
-    vary : mapping of str to sequence
-        Values by dotted path; the last key changes fastest.
+    vary : mapping of str to sequence or str
+        Values by dotted path, or text as ``brinell sweep --vary`` has it: ``"900:1800:450"``; the last key changes fastest.
     together : sequence of mappings
         Each mapping's keys change in step: equally many values each.
     jobs : int, optional
@@ -147,10 +147,10 @@ def sweep(
     """
     axes: list[tuple[tuple[str, ...], list[list[Any]]]] = []
     for key, values in (vary or {}).items():
-        axes.append(((key,), [[value] for value in _listed(values)]))
+        axes.append(((key,), [[value] for value in _listed(key, values)]))
     for step in together:
         keys = tuple(step)
-        lists = [_listed(step[key]) for key in keys]
+        lists = [_listed(key, step[key]) for key in keys]
         lengths = {len(values) for values in lists}
         if len(lengths) > 1:
             told = ", ".join(f"{key} has {len(values)}" for key, values in zip(keys, lists, strict=True))
@@ -175,8 +175,13 @@ def sweep(
     )
 
 
-def _listed(values: Sequence[Any]) -> list[Any]:
-    return list(values.tolist()) if isinstance(values, np.ndarray) else list(values)
+def _listed(key: str, values: Sequence[Any] | str) -> list[Any]:
+    if isinstance(values, str):
+        return _brinell.values(key, values)
+    try:
+        return list(values.tolist()) if isinstance(values, np.ndarray) else list(values)
+    except TypeError:
+        raise TypeError(f'{key} = {values!r}: expected a list of values, or text such as "900:1800:450" or "5,10,20"') from None
 
 
 def _column(values: list[Any]) -> npt.NDArray[Any]:

@@ -67,7 +67,7 @@ pub use read::MAX_VALUES;
 #[doc(hidden)]
 pub use read::records::read_records;
 pub use read::{
-    Channel, Decimal, Delimiter, NoRate, Rate, RateSource, SignalFile, TextFormat, open, open_as, open_bytes,
+    Channel, Decimal, Delimiter, NoRate, NotNamed, Rate, RateSource, SignalFile, TextFormat, open, open_as, open_bytes,
     open_bytes_as, rate_of_times, seconds_in,
 };
 #[cfg(feature = "parquet")]

@@ -16,6 +16,7 @@ fn failed(py: Python, error: DatasetError) -> PyErr {
         DatasetError::Document { name, text, problems } => scenario_error(py, problems, Some((&name, &text))),
         DatasetError::Refused(words) => bad_value(words),
         DatasetError::Read { path, error } => unreadable(&path, &error),
+        error @ DatasetError::NoFolder { .. } => ReadError::new_err(error.to_string()),
         DatasetError::Io(error) => ReadError::new_err(error.to_string()),
     }
 }
@@ -170,6 +171,8 @@ impl Campaign {
         dict.set_item("before", summary.before)?;
         dict.set_item("failed", summary.failed)?;
         dict.set_item("whole", summary.whole)?;
+        let classes: Vec<String> = self.0.plan().classes.iter().map(|class| class.name.clone()).collect();
+        dict.set_item("warnings", summary.tally.words(&classes))?;
         Ok(dict)
     }
 }

@@ -42,7 +42,7 @@ mod _brinell {
     #[pymodule_export]
     use studio::{StudioEngine, studio_page};
     #[pymodule_export]
-    use sweep::sweep;
+    use crate::sweep::{sweep, values};
 
     #[pymodule_init]
     fn init(module: &Bound<'_, PyModule>) -> PyResult<()> {

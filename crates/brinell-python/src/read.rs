@@ -15,16 +15,16 @@ pub(crate) fn read_signal<'py>(
     channel: Option<String>,
 ) -> PyResult<Bound<'py, PyDict>> {
     let read = py.detach(|| {
-        let mut file = brinell_io::open(&path)?;
-        let name = match channel {
-            Some(name) => name,
-            None => file.only_signal()?.name.clone(),
+        let words = |error: brinell_io::IoError| error.to_string();
+        let mut file = brinell_io::open(&path).map_err(words)?;
+        let (name, about) = match channel {
+            Some(text) => file.named(&text).map_err(|why| format!("channel {text}: {why}"))?,
+            None => file.only_signal().map(|c| (c.name.clone(), c.clone())).map_err(words)?,
         };
-        let values = file.read(&name)?;
-        let about = file.channels().iter().find(|c| c.name == name).cloned();
-        Ok((name, values, about.unwrap_or_default()))
+        let values = file.read(&name).map_err(words)?;
+        Ok((name, values, about))
     });
-    let (name, values, about) = read.map_err(|error: brinell_io::IoError| ReadError::new_err(error.to_string()))?;
+    let (name, values, about) = read.map_err(|words: String| ReadError::new_err(words))?;
     if values.is_empty() {
         return Err(bad_value(format!("{}: `{name}` holds no values", path.display())));
     }

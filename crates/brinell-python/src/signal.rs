@@ -4,7 +4,8 @@ use crate::bad_value::bad_value;
 use crate::convert::{Samples, array, json_to_python, slice};
 use crate::errors::SignalError;
 use brinell::analysis::{
-    Analysis, DefectOrders, Levels, MachineClass, Options, Quantity, SUPPLY_HZ, Sensitivity, Unit, to_json, velocity,
+    Analysis, AnalysisError, DefectOrders, Levels, MachineClass, Options, Quantity, SUPPLY_HZ, Sensitivity, Unit,
+    to_json, velocity,
 };
 use brinell::bearing::{KnownBearing, orders_of};
 use brinell::result::{Stretch, beside_healthy};
@@ -60,8 +61,15 @@ fn segments(samples: usize, length: Option<usize>, overlap: f64, window: &str, d
     })
 }
 
-fn band(of: Option<(f64, f64)>) -> Band {
-    of.map_or(Band::above(0.0), |(low, high)| Band::between(low, high))
+/// A band that ends where the signal does, or before.
+fn band(of: Option<(f64, f64)>, rate_hz: f64) -> PyResult<Band> {
+    let (Some((low, high)), most_hz) = (of, 0.5 * rate_hz) else {
+        return Ok(Band::above(0.0));
+    };
+    match high > most_hz {
+        true => Err(failed(AnalysisError::BandTooHigh { high_hz: high, most_hz })),
+        false => Ok(Band::between(low, high)),
+    }
 }
 
 /// Averaged amplitudes and densities.
@@ -94,7 +102,8 @@ pub(crate) fn envelope_spectrum<'py>(
 ) -> PyResult<Bound<'py, PyDict>> {
     let x = &*slice(&x);
     let segments = segments(x.len(), length, overlap, window, "mean")?;
-    let envelope = py.detach(|| signal::envelope_spectrum(x, rate_hz, band(band_hz), &segments)).map_err(failed)?;
+    let band = band(band_hz, rate_hz)?;
+    let envelope = py.detach(|| signal::envelope_spectrum(x, rate_hz, band, &segments)).map_err(failed)?;
     let dict = spectrum_dict(py, envelope.spectrum)?;
     dict.set_item("mean", envelope.mean)?;
     Ok(dict)
@@ -109,7 +118,7 @@ pub(crate) fn envelope<'py>(
     band_hz: Option<(f64, f64)>,
 ) -> PyResult<Bound<'py, PyAny>> {
     let x = &*slice(&x);
-    let band = band(band_hz);
+    let band = band(band_hz, rate_hz)?;
     // The spectrum says what is wrong with the input; the envelope by itself would panic.
     let values = py.detach(|| {
         let checked = signal::envelope_spectrum(x, rate_hz, band, &Segments::of(x.len().max(8)));
@@ -174,7 +183,7 @@ pub(crate) fn indicators<'py>(
         return Err(failed(format!("rate_hz = {rate_hz}, block_s = {block_s}: expected numbers above 0")));
     }
     if let Some(index) = x.iter().position(|v| !v.is_finite()) {
-        return Err(failed(format!("sample {index} is not finite")));
+        return Err(failed(format!("sample {} is not finite (counted from 1)", index + 1)));
     }
     let blocks = py.detach(|| Blocks::of(x, block_s * rate_hz));
     let values: Map<_, _> = Indicator::ALL
@@ -309,7 +318,12 @@ pub(crate) fn analyze<'py>(
     supply_hz: Option<f64>,
 ) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyDict>, Findings)> {
     let (given, array) = (slice(&x), x.as_unbound().clone_ref(py));
-    let (mut x, mut unit) = (&*given, Unit::of(unit));
+    // A run states its own, of any of its channels.
+    let unit = match run {
+        Some(_) => Unit::of(unit),
+        None => Unit::given(unit).map_err(|error| bad_value(format!("unit = \"{unit}\": {error}")))?,
+    };
+    let (mut x, mut unit) = (&*given, unit);
     let mut factor = 1.0;
     let mut notes = vec![format!("{rate_hz} Hz and {}, as given", unit.name)];
     let class = machine_class.map(class).transpose()?;

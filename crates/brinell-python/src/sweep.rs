@@ -1,7 +1,7 @@
 //! A grid of settings, run side by side, as one table.
 
 use crate::bad_value::bad_value;
-use crate::convert::{array, python_to_toml};
+use crate::convert::{array, json_to_python, python_to_toml};
 use crate::errors::scenario_error;
 use crate::kept::{self, Numbers};
 use crate::run::over_threads;
@@ -66,6 +66,18 @@ pub(crate) fn sweep<'py>(
     let places = (0..plan.points()).map(|k| plan.place(k)).collect();
     let reasons = results.iter().map(|r| r.as_ref().err().cloned()).collect();
     Ok((places, reasons, list))
+}
+
+/// Values of a key in the command's notation, `900:1800:450` or `5,10,20`.
+#[pyfunction]
+pub(crate) fn values<'py>(py: Python<'py>, key: &str, text: &str) -> PyResult<Vec<Bound<'py, PyAny>>> {
+    let axis = Axis::vary(&format!("{key}={text}")).map_err(bad_value)?;
+    let value = |text: &String| {
+        let toml: Option<serde_json::Value> = toml::from_str(&format!("value = {text}")).ok();
+        // A bare word is a string.
+        json_to_python(py, &toml.map_or_else(|| text.as_str().into(), |mut table| table["value"].take()))
+    };
+    axis.settings().iter().flatten().map(value).collect()
 }
 
 /// Of each point its numbers, or why there are none.

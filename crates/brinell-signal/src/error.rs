@@ -14,7 +14,7 @@ pub enum SignalError {
         need: usize,
     },
     /// A sample that is infinite or not a number.
-    #[error("sample {index} is not finite")]
+    #[error("sample {} is not finite (counted from 1)", index + 1)]
     NotFinite {
         /// The first such sample, from 0.
         index: usize,

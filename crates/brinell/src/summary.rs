@@ -1,6 +1,7 @@
 //! `summary.json`: what a run found, what it cost, what it assumed. SI units unless a key says otherwise.
 
 use crate::accuracy::METHOD;
+use crate::channel::Channel;
 use crate::document::{Loaded, Provenance};
 use crate::kernel::Kernel;
 use crate::model::Model;
@@ -9,6 +10,7 @@ use crate::observe::{Drift, Findings, passes};
 use crate::plausibility::{self, Beforehand};
 use crate::result::fields::{self, Field};
 use crate::scenario::{Accuracy, ModelKind, Speed};
+use crate::sensor::{Chain, ChannelRecord};
 use crate::signal::{Estimate, Indicator};
 use crate::simulate::{End, Outcome, Simulation};
 use serde_json::{Map, Value, json};
@@ -112,20 +114,24 @@ fn sensor(parts: &Parts) -> Option<Value> {
     }))
 }
 
-/// Which sensor channels went beyond the ADC's full scale, in words.
+/// Which sensor channels went beyond the ADC's full scale, or stayed within one of its steps, in words.
 #[doc(hidden)]
-pub fn clipped(parts: &Parts) -> Vec<String> {
-    let channels = parts.simulation.filtered().iter();
-    channels
-        .zip(&parts.outcome.sensor)
-        .filter(|(_, record)| record.clipped > 0)
-        .map(|(channel, record)| {
-            format!(
-                "{}: {} of {} samples are beyond the ADC's range and are clipped",
-                channel.name, record.clipped, parts.outcome.rows
-            )
-        })
-        .collect()
+pub fn converted(parts: &Parts) -> Vec<String> {
+    let step = parts.simulation.sensor().and_then(Chain::step).unwrap_or(f64::NAN);
+    // Four digits.
+    let step: f64 = format!("{step:.3e}").parse().unwrap_or(step);
+    let words = |(channel, record): (&Channel, &ChannelRecord)| {
+        let (name, rows) = (&channel.name, parts.outcome.rows);
+        if record.is_constant() && record.clipped == 0 {
+            return Some(format!(
+                "{name}: all {rows} samples are one value, as the ADC's step of {step} m/s^2 is larger than the signal; give sensor.converter_bits \
+                 more bits or a smaller range"
+            ));
+        }
+        (record.clipped > 0)
+            .then(|| format!("{name}: {} of {rows} samples are beyond the ADC's range and are clipped", record.clipped))
+    };
+    parts.simulation.filtered().iter().zip(&parts.outcome.sensor).filter_map(words).collect()
 }
 
 /// Words for how a run ended.
@@ -145,7 +151,7 @@ pub fn warnings(parts: &Parts) -> Vec<String> {
     for pattern in parts.simulation.idle_patterns() {
         all.push(crate::channel::idle_message(pattern));
     }
-    all.extend(clipped(parts));
+    all.extend(converted(parts));
     all.extend(unsettled(parts.findings));
     let scenario = &parts.loaded.scenario;
     all.extend(parts.beforehand.warnings.iter().map(ToString::to_string));

@@ -30,6 +30,7 @@ impl From<DatasetError> for Failure {
             DatasetError::Document { name, text, problems } => Self::Scenario { name, text, problems },
             DatasetError::Refused(message) => Self::Usage(message),
             DatasetError::Read { path, error } => Self::Read(path, error),
+            error @ DatasetError::NoFolder { .. } => Self::Usage(error.to_string()),
             DatasetError::Io(error) => Self::Write(error),
         }
     }
@@ -81,14 +82,17 @@ fn make(args: &DatasetArgs, path: &Path) -> Result<ExitCode, Failure> {
     tell_failures(&failures);
     let shard = shard?;
     let left = shard.runs - shard.done - shard.before;
+    let classes: Vec<String> = campaign.plan().classes.iter().map(|class| class.name.clone()).collect();
+    let heed = shard.tally.words(&classes);
     if args.json {
-        say::json(&summary(&shard, left, &folder, &failures));
+        say::json(&summary(&shard, left, &folder, &failures, &heed));
     }
     if !args.quiet {
         tell(&shard, left, &folder, begin.elapsed().as_secs_f64());
         if shard.whole {
             plan::tell_splits(&campaign);
         }
+        heed.iter().for_each(|words| complain!("warning: {words}"));
     }
     if shard.interrupted {
         complain!("interrupted: {left} to go; the same command resumes where this one stopped");
@@ -107,7 +111,7 @@ fn tell_failures(failures: &[(usize, String)]) {
 }
 
 /// What [`tell`] and [`tell_failures`] say, as JSON.
-fn summary(shard: &ShardSummary, left: usize, folder: &Path, failures: &[(usize, String)]) -> Value {
+fn summary(shard: &ShardSummary, left: usize, folder: &Path, failures: &[(usize, String)], heed: &[String]) -> Value {
     let failures: Vec<Value> = failures.iter().map(|(run, reason)| json!({ "run": run, "reason": reason })).collect();
     json!({
         "folder": folder.display().to_string(),
@@ -115,6 +119,7 @@ fn summary(shard: &ShardSummary, left: usize, folder: &Path, failures: &[(usize,
         "shard": { "runs": shard.runs, "done": shard.done, "before": shard.before, "to_go": left },
         "interrupted": shard.interrupted,
         "failures": failures,
+        "warnings": heed,
     })
 }
 

@@ -29,7 +29,7 @@ pub(super) fn tell(parts: &Parts, elapsed: f64, written: &[PathBuf]) -> Vec<Stri
     ));
     printed.extend(sensor_lines(findings));
     printed.extend(healthy_line(parts));
-    let heed = summary::clipped(parts).into_iter().chain(summary::unsettled(findings));
+    let heed = summary::converted(parts).into_iter().chain(summary::unsettled(findings));
     printed.extend(heed.map(|words| format!("  {words}")));
     printed.extend(findings.lines.iter().map(defect_line));
     let part = (fields::RELATIVE_RESIDUAL.of)(outcome);

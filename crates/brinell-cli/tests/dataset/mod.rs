@@ -2,6 +2,7 @@
 //! fit is reported.
 
 mod bytes;
+mod heed;
 mod refusals;
 mod rows;
 

@@ -67,6 +67,11 @@ fn prop_a_failed_run_is_a_row_with_its_reason() {
         assert!(text(row, "class").is_some() && text(row, "settings").unwrap().contains("-1.0"));
     }
     brinell(folder.path(), &["dataset", "verify", "out"]).exits(0).says(&["6 runs with 2 failed"]);
+    // The card counts signals, and beside them what has none.
+    let card = fs::read_to_string(folder.path().join("out/README.md")).unwrap();
+    for words in ["| train | failed, no signal |", "| train | 4 | 2 |", "2 of 6 runs have failed, without a signal ("] {
+        assert!(card.contains(words), "{words} in {card}");
+    }
     // A scenario that is sound, and has nothing to start from.
     let loose = "vary.simulation.start = \"equilibrium\"\nvary.support = { inner_stiffness_n_per_m = 0.0, outer_stiffness_n_per_m = 0.0 }";
     let plan = PLAN.replace("name = \"outer\"", &format!("name = \"outer\"\n{loose}"));
@@ -160,6 +165,7 @@ fn prop_held_out_labels_lie_apart() {
             assert_eq!(list(row, "sensor_ax").unwrap().len(), 512);
             assert!(matches!(cell(row, "operation.speed_rpm"), Field::Double(_)));
             assert!(matches!(cell(row, "bpfo_hz"), Field::Double(_)));
+            assert!(matches!(cell(row, "analysed_from_s"), Field::Double(_)));
             if is_held {
                 let label = held.next().unwrap();
                 assert_eq!(cell(label, "run"), cell(row, "run"));

@@ -14,6 +14,7 @@ mod hdf5;
 mod kind;
 mod listing;
 mod mat5;
+mod named;
 mod npy;
 #[cfg(feature = "npz")]
 mod npz;
@@ -35,6 +36,7 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::{Path, PathBuf};
 
 pub use channel::{Channel, Rate, RateSource};
+pub use named::NotNamed;
 pub use text::{Decimal, Delimiter, TextFormat};
 pub use times::{NoRate, rate_of_times, seconds_in};
 
@@ -175,10 +177,10 @@ impl SignalFile {
         let mut signals = self.channels.iter().filter(|c| c.may_be_signal());
         match (signals.next(), signals.next()) {
             (Some(signal), None) => Ok(signal),
-            (None, _) => Err(IoError::NoSignal { path: self.path.clone(), found: names(self.channels.iter()) }),
+            (None, _) => Err(IoError::NoSignal { path: self.path.clone(), found: names(plain(self.channels.iter())) }),
             (Some(_), Some(_)) => Err(IoError::SeveralSignals {
                 path: self.path.clone(),
-                names: names(self.channels.iter().filter(|c| c.may_be_signal())),
+                names: names(plain(self.channels.iter().filter(|c| c.may_be_signal()))),
             }),
         }
     }
@@ -220,7 +222,7 @@ impl SignalFile {
                 let index = find(base).ok_or_else(|| IoError::NoChannel {
                     path: self.path.clone(),
                     name: name.to_owned(),
-                    names: names(self.channels.iter()),
+                    names: names(plain(self.channels.iter())),
                 })?;
                 (index, pick)
             }
@@ -240,9 +242,13 @@ impl SignalFile {
     }
 }
 
+fn plain<'a>(channels: impl Iterator<Item = &'a Channel>) -> impl Iterator<Item = String> {
+    channels.map(|c| c.name.clone())
+}
+
 /// Up to twenty names, for a message.
-fn names<'a>(channels: impl Iterator<Item = &'a Channel>) -> String {
-    let mut all: Vec<&str> = channels.map(|c| c.name.as_str()).collect();
+fn names(names: impl Iterator<Item = String>) -> String {
+    let mut all: Vec<String> = names.collect();
     let more = all.len().saturating_sub(20);
     all.truncate(20);
     let mut text = all.join(", ");

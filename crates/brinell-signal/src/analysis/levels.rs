@@ -53,7 +53,10 @@ impl Levels {
                 "machine_class": class.name(),
                 "boundaries_mm_per_s": class.boundaries(),
                 "zone": self.letter(),
-                "why": self.zone.and_then(Result::err).map(|why| why.to_string()),
+                "why": match (&self.velocity, self.zone) {
+                    (Err(why), _) => Some(why.to_string()),
+                    (_, zone) => zone.and_then(Result::err).map(|why| why.to_string()),
+                },
             })),
             "band_shown": self.band.map(|b| json!({
                 "low_hz": b.band.low,

@@ -5,7 +5,9 @@ use crate::dataset::columns::{DataColumn, columns};
 use crate::dataset::document::Document;
 use crate::dataset::error::DatasetError;
 use crate::dataset::refusal::refused;
-use crate::design::{Draw, Draws, Part, Plan, Survey, place_in_plan, unsaid};
+use crate::dataset::signals::Signals;
+use crate::design::{Draw, Draws, Part, Plan, Repeats, Survey, place_in_plan, unsaid};
+use brinell::channel::matches;
 use brinell::document::{Loaded, Problem, canonical, locate};
 use brinell::many;
 use brinell::simulate::Simulation;
@@ -50,7 +52,7 @@ struct FirstRuns {
     /// The first that cannot begin, and why.
     unable: Option<(usize, brinell::Error)>,
     /// Channels of any of them.
-    signals: Vec<Column>,
+    signals: Signals,
     /// Patterns of `signals` that match no channel of any.
     idle: Option<HashSet<String>>,
 }
@@ -194,7 +196,9 @@ impl Campaign {
             misses.iter().map(|miss| miss.words(looked, "run", miss.run)).collect()
         };
         let of_runs = [words(&survey.warnings, survey.runs), words(&survey.before, survey.balanced)].concat();
-        let notes = self.draws().notes().into_iter();
+        let repeats = Repeats::of(&survey.prints, |run| self.draws().part(run));
+        let repeats = repeats.map(|repeats| repeats.words(survey.runs));
+        let notes = repeats.into_iter().chain(self.draws().notes());
         of_runs.into_iter().chain(notes.map(|note| format!("warning: {note}"))).collect()
     }
 
@@ -235,7 +239,7 @@ impl Sources {
             runs.extend(first.filter(|run| *run >= examined));
         }
         let mut found = FirstRuns::default();
-        let (mut known, mut seen) = (HashSet::new(), HashSet::new());
+        let mut seen = HashSet::new();
         // Where none of these makes a scenario, some later one may.
         let further = examined..ASKED.min(draws.runs());
         let examined = runs.len();
@@ -265,13 +269,10 @@ impl Sources {
                 None => these.collect(),
                 Some(idle) => these.filter(|pattern| idle.contains(pattern)).collect(),
             });
-            for channel in simulation.channels() {
-                if known.insert(channel.name.clone()) {
-                    found.signals.push(Column::new(&channel.name, channel.unit, &channel.description));
-                }
-            }
+            found.signals.take(simulation.channels().iter(), draws, run);
             found.first.get_or_insert(loaded);
         }
+        found.signals.take_sensors(draws, &self.base.text);
         found
     }
 
@@ -291,7 +292,11 @@ impl Sources {
             refused(draws, &self.plan, &survey)?;
             return Err(failure.unwrap_or_else(|| DatasetError::Refused("no run of the plan makes a scenario".into())));
         };
-        if let Some(pattern) = idle.iter().flatten().min() {
+        let Signals { columns: signals, clash, .. } = signals;
+        if let Some((channel, why)) = clash {
+            return Err(self.plan.problem_of("signals", &channel, &why));
+        }
+        if let Some(pattern) = idle.iter().flatten().find(|p| !signals.iter().any(|c| matches(p, &c.name))) {
             let near = brinell::channel::today_name(pattern).unwrap_or("sensor_ax".into());
             return Err(self.plan.problem_of(
                 "signals",

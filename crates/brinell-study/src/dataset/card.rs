@@ -4,6 +4,7 @@
 use crate::campaign::digest;
 use crate::dataset::error::DatasetError;
 use crate::dataset::folder::{put, written};
+use crate::dataset::sidecar::tally_of;
 use serde_json::{Map, Value, json};
 use std::fmt::Write;
 use std::path::Path;
@@ -58,11 +59,42 @@ fn paths(about: &Value) -> Vec<(String, Vec<&str>)> {
 
 fn description(about: &Value) -> String {
     format!(
-        "{} vibration signals of rolling bearings, simulated by brinell {} (rings, cages and every roller are moving bodies; damage changes each contact), \
+        "Vibration signals of {} runs of rolling bearings, simulated by brinell {} (rings, cages and every roller are moving bodies; damage changes each contact), \
          with labels and ground truth.",
-        about["runs"]["total"],
+        about["runs"]["complete"],
         text(about, "brinell")
     )
+}
+
+/// How many runs have signals, by class and by split; and what the user should know of others.
+fn counts(about: &Value) -> String {
+    let number = |value: &Value| value.as_u64().unwrap_or(0);
+    let tally = tally_of(about);
+    let fails = number(&about["runs"]["failed"]) > 0;
+    let failed = |count: u64| if fails { format!(" {count} |") } else { String::new() };
+    let (head, rule) = if fails { (" failed, no signal |", " --- |") } else { ("", "") };
+    // Classes by split; of runs whose labels are held out nothing is said.
+    let open = || list(about, "splits").filter(|split| split["runs_of_classes"].is_array());
+    let heads: String = open().map(|split| format!(" {} |", split_name(text(split, "name")))).collect();
+    let mut card = format!("| class | label |{heads}{head}\n| --- | --- |{}{rule}\n", " --- |".repeat(open().count()));
+    for (k, class) in list(about, "classes").enumerate() {
+        let good = |split: &Value| number(&split["runs_of_classes"][k]) - number(&split["failed_of_classes"][k]);
+        let runs: String = open().map(|split| format!(" {} |", good(split))).collect();
+        let name = text(class, "name").replace('|', "\\|");
+        let failed = failed(tally.failed.get(k).copied().unwrap_or(0));
+        card += &format!("| {name} | {} |{runs}{failed}\n", class["label"]);
+    }
+    card += &format!("\n| split | runs |{head}\n| --- | --- |{rule}\n");
+    for split in list(about, "splits") {
+        let without = number(&split["failed"]);
+        let (name, good) = (split_name(text(split, "name")), number(&split["runs"]) - without);
+        card += &format!("| {name} | {good} |{}\n", failed(without));
+    }
+    let names: Vec<String> = list(about, "classes").map(|class| text(class, "name").to_owned()).collect();
+    for words in tally.words(&names) {
+        card += &format!("\n{words}.\n");
+    }
+    card
 }
 
 fn card(about: &Value) -> String {
@@ -94,18 +126,7 @@ fn card(about: &Value) -> String {
         }
     }
     let _ = write!(card, "---\n\n# {}\n\n{}\n\n", text(about, "name"), description(about));
-    // Classes by split; of runs whose labels are held out nothing is said.
-    let open = || list(about, "splits").filter(|split| split["runs_of_classes"].is_array());
-    let heads: String = open().map(|split| format!(" {} |", split_name(text(split, "name")))).collect();
-    let _ = writeln!(card, "| class | label |{heads}\n| --- | --- |{}", " --- |".repeat(open().count()));
-    for (k, class) in list(about, "classes").enumerate() {
-        let runs: String = open().map(|split| format!(" {} |", split["runs_of_classes"][k])).collect();
-        let _ = writeln!(card, "| {} | {} |{runs}", text(class, "name").replace('|', "\\|"), class["label"]);
-    }
-    let _ = write!(card, "\n| split | runs |\n| --- | --- |\n");
-    for split in list(about, "splits") {
-        let _ = writeln!(card, "| {} | {} |", split_name(text(split, "name")), split["runs"]);
-    }
+    card += &counts(about);
     let signals: Vec<String> = list(about, "columns")
         .filter(|c| text(c, "type") == "list<float>")
         .map(|c| format!("`{}` ({})", text(c, "name"), text(c, "unit")))

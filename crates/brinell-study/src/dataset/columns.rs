@@ -93,6 +93,10 @@ type Fixed = (&'static str, &'static str, &'static str, Source);
 
 /// Place of `status` in a row.
 pub(crate) const STATUS: usize = 2;
+/// Column of a run's class, as a number.
+pub(crate) const LABEL: &str = "label";
+/// Column of a run's clipped samples.
+pub(crate) const CLIPPED: &str = "clipped_samples";
 
 /// Before the signals: what a run is.
 #[rustfmt::skip]
@@ -105,10 +109,11 @@ const HEAD: [Fixed; 3] = [
 
 /// After the signals: what is known of a run whose labels are held out as well.
 #[rustfmt::skip]
-const KNOWN: [Fixed; 11] = [
+const KNOWN: [Fixed; 12] = [
     ("sample_rate_hz", "Hz", "samples a second of the signals", Number(|r| Some(r.scenario()?.simulation.sample_rate_hz))),
     ("duration_s", "s", "simulated time; sample k is at k / sample_rate_hz, and the last one just before the end",
         Number(|r| Some(r.scenario()?.simulation.duration_s))),
+    ("analysed_from_s", "s", "the load has its full size and the start is over from here on: forces and slip of the ground truth count from here", Number(|r| r.gathered()?.from)),
     ("bearing", "1", "catalogue name, where one was given", Words(|r| r.scenario()?.bearing.preset.clone())),
     ("rows", "1", "rows of rollers", Whole(|r| Some(r.scenario()?.bearing.rows))),
     ("rollers_per_row", "1", "rollers of a row", Whole(|r| Some(r.scenario()?.bearing.rollers_per_row))),
@@ -127,7 +132,7 @@ const KNOWN: [Fixed; 11] = [
 #[rustfmt::skip]
 const TRUTH: [Fixed; 53] = [
     ("class", "1", "label of the run", Words(|r| Some(r.draws.plan().classes[r.class()].name.clone()))),
-    ("label", "1", "the same as a number: place of the class in the plan, from 0", Whole(|r| Some(r.class()))),
+    (LABEL, "1", "the same as a number: place of the class in the plan, from 0", Whole(|r| Some(r.class()))),
     ("reason", "1", "why the run failed", Words(|r| r.failed.clone())),
     ("defect_on", "1", "of each defect: outer-raceway, inner-raceway or roller", WordsList(|r| r.defects(|d, _| d.on.word().to_owned()))),
     ("defect_row", "1", "of each defect: row, from 1", Wholes(|r| r.defects(|d, _| d.row))),
@@ -164,7 +169,6 @@ const TRUTH: [Fixed; 53] = [
     ("exit_roller", "1", "of each exit: the roller, from 1", Wholes(|r| r.instants(false, |i, l| l.roller(i.event.slot) + 1))),
     ("exit_side", "1", "of each exit: contact of the roller, inner or outer", WordsList(|r| r.instants(false, |i, _| i.side()))),
     ("exit_force_n", "N", "of each exit: force of that contact then", Numbers(|r| r.instants(false, |i, _| i.force))),
-    ("analysed_from_s", "s", "forces and slip below count from here on", Number(|r| r.gathered()?.from)),
     ("largest_contact_force_n", "N", "largest force of a contact at a sample", Number(|r| Some(r.gathered()?.largest))),
     ("roller_mean_outer_force_n", "N", "of each roller, row by row: mean force of its outer contact", Numbers(|r| {
         let truth = r.gathered()?;
@@ -182,6 +186,8 @@ const TRUTH: [Fixed; 53] = [
     listed("unloaded_orbit_slip", Slip(fields::UNLOADED_ORBIT_SLIP)),
     listed("loaded_surface_slip", Slip(fields::LOADED_SURFACE_SLIP)),
     ("samples", "1", "samples of a signal", Whole(|r| r.kept())),
+    (CLIPPED, "1", "samples of the sensor's signals, all together, that are beyond the ADC's range and are clipped, the one at the run's end included; 0 without an ADC",
+        Whole(|r| r.clipped())),
     listed("solver_steps", Count(fields::STEPS)),
     listed("solver_rejections", Count(fields::REJECTIONS)),
     listed("solver_right_hand_sides", Count(fields::RIGHT_HAND_SIDES)),

@@ -29,6 +29,14 @@ pub enum DatasetError {
         /// The system's error.
         error: io::Error,
     },
+    /// A folder of the data set cannot be made.
+    #[error("cannot make the folder {}: {error}", path.display())]
+    NoFolder {
+        /// The folder.
+        path: PathBuf,
+        /// The system's error.
+        error: io::Error,
+    },
     /// A file of the data set cannot be written or read.
     #[error(transparent)]
     Io(#[from] IoError),

@@ -4,6 +4,7 @@ use crate::dataset::error::DatasetError;
 use brinell_io::{IoError, Metadata, RecordFacts, atomic_write, lock, record_facts, sha256_of};
 use serde_json::{Value, json};
 use std::fs::File;
+use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
@@ -144,6 +145,15 @@ impl Folder {
                 theirs["runs"]
             )));
         }
+        let kernels = [mine, theirs].map(|about| about[KERNEL_OF].as_str());
+        if let [Some(mine), Some(theirs)] = kernels
+            && mine != theirs
+        {
+            return Err(DatasetError::Refused(format!(
+                "{at} holds runs of the kernel {theirs}, and these are of {mine}: damaged runs differ wholly between kernels, as impacts amplify \
+                 round-off, so one data set has one kernel; set BRINELL_KERNEL={theirs} on every machine that makes it, or choose another folder"
+            )));
+        }
         Ok(())
     }
 
@@ -155,6 +165,7 @@ impl Folder {
                 "campaign": facts.metadata.get(CAMPAIGN),
                 "brinell": facts.metadata.get(brinell_io::keys::VERSION),
                 "name": facts.metadata.get(NAME),
+                "kernel": facts.metadata.get(KERNEL),
                 "runs": "?",
             });
             self.same(mine, &theirs)?;
@@ -237,7 +248,8 @@ impl Folder {
     fn file_facts(&self, path: &Path) -> Result<Value, DatasetError> {
         let RecordFacts { rows, metadata, .. } = record_facts(path)?;
         let bytes = std::fs::metadata(path).map_err(|error| DatasetError::Read { path: path.to_owned(), error })?;
-        Ok(facts_of(rows, failed_of(&metadata), bytes.len(), &sha256_of(path)?))
+        let tally = metadata.get(TALLY).and_then(|text| serde_json::from_str(text).ok()).unwrap_or_default();
+        Ok(facts_of(rows, failed_of(&metadata), bytes.len(), &sha256_of(path)?, tally))
     }
 
     /// Holds a file's runs to oneself for as long as what comes back lives, on file systems that have locks.
@@ -246,8 +258,7 @@ impl Folder {
     /// Where somebody else holds them.
     pub(crate) fn lock(&self, part: usize) -> Result<File, DatasetError> {
         let path = self.spool(part).join("lock");
-        let file = File::create(&path)
-            .map_err(|error| DatasetError::Refused(format!("cannot write {}: {error}", path.display())))?;
+        let file = File::create(&path).map_err(|source| IoError::Write { path: path.clone(), source })?;
         match lock(&file, &path) {
             Ok(_) => Ok(file),
             Err(IoError::Busy { .. }) => Err(DatasetError::Refused(format!(
@@ -266,8 +277,19 @@ fn failed_of(metadata: &Metadata) -> u64 {
     metadata.get(FAILED).and_then(|text| text.parse().ok()).unwrap_or(0)
 }
 
-pub(crate) fn facts_of(rows: u64, failed: u64, bytes: u64, sha256: &str) -> Value {
-    json!({ "rows": rows, "failed": failed, "bytes": bytes, "sha256": sha256 })
+/// Key of a file's metadata: the instructions that its runs were computed with.
+pub(crate) const KERNEL: &str = "brinell.kernel";
+/// The same in what a folder says of itself.
+pub(crate) const KERNEL_OF: &str = "kernel";
+/// Key of a file's metadata: its [`Tally`](super::Tally); none where labels are held out.
+pub(crate) const TALLY: &str = "brinell.tally";
+
+pub(crate) fn facts_of(rows: u64, failed: u64, bytes: u64, sha256: &str, tally: Value) -> Value {
+    let mut facts = json!({ "rows": rows, "failed": failed, "bytes": bytes, "sha256": sha256 });
+    if tally.is_object() {
+        facts["tally"] = tally;
+    }
+    facts
 }
 
 pub(crate) fn file_name(part: usize) -> String {
@@ -281,8 +303,15 @@ pub(crate) fn number_of(name: &str) -> Option<usize> {
 }
 
 pub(crate) fn make(folder: &Path) -> Result<(), DatasetError> {
-    std::fs::create_dir_all(folder)
-        .map_err(|error| DatasetError::Refused(format!("cannot make the folder {}: {error}", folder.display())))
+    std::fs::create_dir_all(folder).map_err(|error| {
+        let path = folder.to_owned();
+        match error.kind() {
+            ErrorKind::PermissionDenied | ErrorKind::ReadOnlyFilesystem => {
+                IoError::NotPermitted { path, source: error }.into()
+            }
+            _ => DatasetError::NoFolder { path, error },
+        }
+    })
 }
 
 /// JSON as the folder's files hold it.

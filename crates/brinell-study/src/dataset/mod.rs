@@ -2,7 +2,7 @@
 //!
 //! A [`Campaign`] is a plan with its base scenario. [`run`] does a [`Shard`] of it into a folder: each finished run
 //! goes to the disk whole, and as soon as all runs of a file are there, they become that file. The same files come out,
-//! byte for byte, whatever the threads, the shards and the interruptions; what is there already is not touched.
+//! byte for byte, whatever the threads, the shards and the interruptions, of one version and one kernel; what is there already is not touched.
 //! [`merge`] joins folders in which shards ran apart, [`verify`] checks one.
 //!
 //! In a folder:
@@ -28,7 +28,9 @@ mod row;
 mod run;
 mod sheet;
 mod sidecar;
+mod signals;
 mod simulated;
+mod tally;
 mod truth;
 mod verify;
 
@@ -38,4 +40,5 @@ pub use error::DatasetError;
 pub use merge::{Merged, merge};
 pub use run::{Shard, ShardSummary, run};
 pub use sheet::{Sheet, SheetClass, SheetDefect, SheetRun, sheet};
+pub use tally::Tally;
 pub use verify::{Verified, verify};

@@ -3,9 +3,11 @@
 use crate::dataset::campaign::Campaign;
 use crate::dataset::columns::DataColumn;
 use crate::dataset::error::DatasetError;
-use crate::dataset::folder::{CAMPAIGN, FAILED, Folder, NAME, PART, facts_of};
+use crate::dataset::folder::{CAMPAIGN, FAILED, Folder, KERNEL, NAME, PART, TALLY, facts_of};
 use crate::dataset::row::is_failed;
+use crate::dataset::tally::{Places, Tally};
 use crate::design::Part;
+use brinell::kernel::Kernel;
 use brinell_io::{Cell, Metadata, RecordColumn, RecordWriter, Written, keys, read_row_file};
 use serde_json::{Map, Value, json};
 
@@ -47,18 +49,28 @@ impl Rows {
     }
 }
 
-fn metadata(campaign: &Campaign, columns: &[&DataColumn], part: usize, failed: u64) -> Metadata {
+fn metadata(campaign: &Campaign, columns: &[&DataColumn], part: usize, failed: u64, tally: &Value) -> Metadata {
     let descriptions: Map<String, Value> =
         columns.iter().map(|c| (c.record.column.name.clone(), c.record.column.description.as_str().into())).collect();
     let plan = campaign.plan();
-    Metadata::default()
+    let metadata = Metadata::default()
         .with(keys::VERSION, brinell::VERSION)
         .with(NAME, &plan.name)
         .with(CAMPAIGN, campaign.identity())
         .with(PART, part.to_string())
         .with(FAILED, failed.to_string())
+        .with(KERNEL, kernel())
         .with("brinell.licence", &plan.licence)
-        .with(keys::DESCRIPTIONS, Value::from(descriptions).to_string())
+        .with(keys::DESCRIPTIONS, Value::from(descriptions).to_string());
+    match tally {
+        Value::Null => metadata,
+        tally => metadata.with(TALLY, tally.to_string()),
+    }
+}
+
+/// Name of the instructions that this process computes with.
+pub(crate) fn kernel() -> &'static str {
+    Kernel::chosen().map_or("", Kernel::name)
 }
 
 /// Writes file `part` from its finished runs; `None` where one of them is not there, or not whole.
@@ -66,10 +78,14 @@ pub(crate) fn write(campaign: &Campaign, folder: &Folder, part: usize) -> Result
     let records: Vec<RecordColumn> = campaign.columns().iter().map(|c| c.record.clone()).collect();
     let read = |run: usize| read_row_file(folder.row(part, run), &records);
     // Read twice rather than held: how many failed is in the footer, which a writer is given at its beginning.
-    let mut failed = 0;
+    let (mut failed, mut tally) = (0, Tally::of(campaign.plan().classes.len()));
+    let places = Places::of(&records);
     for run in campaign.runs_of(part).iter().copied() {
         match read(run) {
-            Some(cells) => failed += u64::from(is_failed(&cells)),
+            Some(cells) => {
+                failed += u64::from(is_failed(&cells));
+                tally.add(&cells, &places);
+            }
             None => {
                 // Not a whole row: the run is to be done again.
                 let _ = std::fs::remove_file(folder.row(part, run));
@@ -77,11 +93,13 @@ pub(crate) fn write(campaign: &Campaign, folder: &Folder, part: usize) -> Result
             }
         }
     }
+    // By class it would tell labels.
+    let tally = if campaign.split_of(part) == Part::HeldOut { Value::Null } else { tally.to_json() };
     let all: Vec<&DataColumn> = campaign.columns().iter().collect();
     let start = |path, columns: &[&DataColumn]| -> Result<Rows, DatasetError> {
         let records: Vec<RecordColumn> = columns.iter().map(|c| c.record.clone()).collect();
         Ok(Rows {
-            writer: RecordWriter::create(path, &records, &metadata(campaign, columns, part, failed))?,
+            writer: RecordWriter::create(path, &records, &metadata(campaign, columns, part, failed, &tally))?,
             waiting: Vec::new(),
             bytes: 0,
             rows: 0,
@@ -113,9 +131,9 @@ pub(crate) fn write(campaign: &Campaign, folder: &Folder, part: usize) -> Result
     // The labels first: once the file of the runs is there, the part counts as finished.
     let labels = labels.map(Rows::finish).transpose()?;
     let (written, count) = rows.finish()?;
-    let of = |(written, rows): &(Written, u64)| facts_of(*rows, 0, written.bytes, &written.sha256);
+    let of = |(written, rows): &(Written, u64)| facts_of(*rows, 0, written.bytes, &written.sha256, Value::Null);
     let facts = json!({
-        "runs": facts_of(count, failed, written.bytes, &written.sha256),
+        "runs": facts_of(count, failed, written.bytes, &written.sha256, tally),
         "held_out": labels.as_ref().map_or(Value::Null, of),
     });
     folder.write_facts(part, &facts)?;

@@ -3,7 +3,7 @@
 use crate::dataset::campaign::Campaign;
 use crate::dataset::error::DatasetError;
 use crate::dataset::folder::{Folder, make};
-use crate::dataset::{part, row, sidecar};
+use crate::dataset::{Tally, part, row, sidecar};
 use crate::listener::Listener;
 use brinell::many;
 use brinell_io::write_row_file;
@@ -59,6 +59,8 @@ pub struct ShardSummary {
     pub before: usize,
     /// Of the shard's finished files, runs that failed.
     pub failed: u64,
+    /// Of the shard's finished files, by class, what their user should know.
+    pub tally: Tally,
     /// Somebody stopped it.
     pub interrupted: bool,
     /// Whether every file of the whole campaign is there, and `dataset.json` with them.
@@ -140,6 +142,7 @@ pub fn run(
     for part in parts {
         if let Some(facts) = folder.finished(part)? {
             summary.failed += facts["runs"]["failed"].as_u64().unwrap_or(0);
+            summary.tally.join(&facts["runs"]["tally"]);
         }
     }
     summary.whole = sidecar::write(&folder)?;

@@ -4,11 +4,14 @@ use crate::campaign::digest;
 use crate::dataset::campaign::Campaign;
 use crate::dataset::card;
 use crate::dataset::error::DatasetError;
-use crate::dataset::folder::{Folder, SECRET_PATH, file_name, make, put, written};
+use crate::dataset::folder::{Folder, KERNEL_OF, SECRET_PATH, file_name, make, put, written};
+use crate::dataset::part::kernel;
+use crate::dataset::tally::Tally;
 use crate::design::Part;
 use brinell::document::{Origin, Provenance};
 use brinell_io::Kind;
 use serde_json::{Map, Value, json};
+use std::collections::HashMap;
 use std::path::Path;
 
 /// Changes with the meaning of columns and keys.
@@ -65,6 +68,7 @@ fn about(campaign: &Campaign) -> Value {
         "schema": SCHEMA,
         "brinell": brinell::VERSION,
         "campaign": campaign.identity(),
+        KERNEL_OF: kernel(),
         "licence": if plan.licence.is_empty() { Value::Null } else { plan.licence.as_str().into() },
         "runs": draws.runs(),
         "runs_per_file": plan.runs_per_file,
@@ -126,6 +130,47 @@ pub(crate) fn files_of(about: &Value) -> Vec<(String, u64)> {
     files
 }
 
+/// Of each split: failed runs, and what is counted by class.
+#[derive(Default)]
+struct Counted(HashMap<String, (u64, Tally)>);
+
+impl Counted {
+    fn add(&mut self, split: &str, runs: &Value) {
+        let (failed, tally) = self.0.entry(split.to_owned()).or_default();
+        *failed += runs["failed"].as_u64().unwrap_or(0);
+        tally.join(&runs["tally"]);
+    }
+
+    /// Into the splits of a data set's description.
+    fn put(&self, splits: &mut Value) {
+        for split in splits.as_array_mut().into_iter().flatten() {
+            let Some((failed, tally)) = split["name"].as_str().and_then(|name| self.0.get(name)) else {
+                continue;
+            };
+            split["failed"] = (*failed).into();
+            if !tally.runs.is_empty() {
+                split["failed_of_classes"] = json!(tally.failed);
+                split["clipped_of_classes"] = json!(tally.clipped);
+                split["constant_of_classes"] = json!(tally.constant);
+            }
+        }
+    }
+}
+
+/// What is counted of the runs of all splits, from a data set's description.
+pub(crate) fn tally_of(about: &Value) -> Tally {
+    let mut all = Tally::default();
+    for split in about["splits"].as_array().into_iter().flatten().filter(|s| s["failed_of_classes"].is_array()) {
+        all.join(&json!({
+            "runs": split["runs_of_classes"],
+            "failed": split["failed_of_classes"],
+            "clipped": split["clipped_of_classes"],
+            "constant": split["constant_of_classes"],
+        }));
+    }
+    all
+}
+
 fn key(p: &Provenance, varies: bool) -> Value {
     let value = if varies { Value::Null } else { p.value.as_str().into() };
     let mut entry = json!({ "key": p.key, "value": value, "unit": p.unit });
@@ -163,11 +208,13 @@ pub(crate) fn write(folder: &Folder) -> Result<bool, DatasetError> {
         return Ok(false);
     };
     let (mut files, mut labels, mut failed) = (Vec::new(), Vec::new(), 0);
+    let mut counted = Counted::default();
     for (part, (split, _)) in parts.iter().enumerate() {
         let Some(facts) = folder.finished(part)? else {
             return Ok(false);
         };
         failed += facts["runs"]["failed"].as_u64().unwrap_or(0);
+        counted.add(split, &facts["runs"]);
         let mut entry = listed("runs", part, &facts["runs"]);
         entry["split"] = split.as_str().into();
         files.push(entry);
@@ -187,6 +234,9 @@ pub(crate) fn write(folder: &Folder) -> Result<bool, DatasetError> {
     let runs = about["runs"].as_u64().unwrap_or(0);
     about.insert("runs".into(), json!({ "total": runs, "complete": runs - failed.min(runs), "failed": failed }));
     about.insert("files".into(), files.into());
+    if let Some(splits) = about.get_mut("splits") {
+        counted.put(splits);
+    }
     if plan.is_object() {
         about.insert("held_out".into(), json!({
             "plan": plan,

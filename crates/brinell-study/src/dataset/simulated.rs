@@ -4,6 +4,7 @@ use crate::dataset::truth::{Instant, Truth};
 use crate::design::{Draw, Draws, Value, unsaid};
 use crate::listener::Listener;
 use brinell::bearing::kinematics::Kinematics;
+use brinell::channel::Channel;
 use brinell::defect::Defect;
 use brinell::document::{Loaded, Problem, on_one_line, one_line};
 use brinell::model::Layout;
@@ -62,6 +63,14 @@ impl<'a> Run<'a> {
                 channel.name
             )));
         }
+        // The plan was looked over for that; of a long one not every run.
+        let unit = |c: &&Channel| signals.iter().find(|s| s.name == c.name).is_some_and(|s| s.unit != c.unit);
+        if let Some(channel) = simulation.channels().iter().find(unit) {
+            return Err(Short::Failed(format!(
+                "its channel {} is in {}, and the data set's is not: give sensor.sensitivity_mv_per_m_per_s2 in all runs or in none",
+                channel.name, channel.unit
+            )));
+        }
         let listener = listener.begin(self.index, scenario.simulation.duration_s);
         let mut truth = Truth::new(scenario, &simulation, signals, listener);
         let outcome = simulation.run(&mut truth);
@@ -89,6 +98,16 @@ impl<'a> Run<'a> {
     /// Samples of a signal.
     pub(crate) fn kept(&self) -> Option<usize> {
         self.ended.as_ref().map(|(.., truth)| truth.kept as usize)
+    }
+
+    /// Samples of its signals that the ADC clipped.
+    pub(crate) fn clipped(&self) -> Option<usize> {
+        self.gathered()?;
+        let (simulation, outcome, _) = self.ended.as_ref()?;
+        let kept = |name: &str| simulation.channels().iter().any(|c| c.name == name);
+        let channels = simulation.filtered().iter().zip(&outcome.sensor);
+        let clipped = channels.filter(|(channel, _)| kept(&channel.name)).map(|(_, record)| record.clipped);
+        Some(clipped.sum::<u64>() as usize)
     }
 
     /// What was recorded of a run that came to its end.

@@ -9,6 +9,7 @@ mod drawn;
 mod draws;
 mod kind;
 mod plan;
+mod repeats;
 mod schema;
 mod sequence;
 mod split;
@@ -23,6 +24,7 @@ pub use draws::{Draw, Draws};
 #[doc(hidden)]
 pub use kind::{FileKind, kind_of};
 pub use plan::{Class, Design, HeldSeverity, OutOfRange, Plan, Split};
+pub use repeats::Repeats;
 pub use schema::plan_schema;
 #[doc(hidden)]
 pub use sequence::Sobol;

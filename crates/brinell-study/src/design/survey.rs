@@ -2,6 +2,7 @@
 
 use super::draws::Draws;
 use super::plan::OutOfRange;
+use super::repeats::print;
 use crate::campaign::{Misses, count, join};
 use brinell::document::{Place, Problem, Severity, locate};
 use brinell::many;
@@ -32,6 +33,8 @@ pub struct Survey {
     pub simulated: f64,
     /// Samples of the runs looked at.
     pub samples: f64,
+    /// Of each run looked at that makes a scenario: what it sets, for [`Repeats::of`](super::Repeats::of).
+    pub prints: Vec<(usize, u64)>,
 }
 
 impl Survey {
@@ -75,6 +78,7 @@ impl Survey {
         let (problems, loaded) = match draws.scenario(base, run) {
             Ok((loaded, draw)) => {
                 let again = draw.redrawn > 0;
+                self.prints.push((run, print(&draw.settings)));
                 let problems = match draws.first(base, run) {
                     Ok(first) if again => brinell::document::read(base, &first.settings).err(),
                     _ => None,
@@ -107,6 +111,7 @@ impl Survey {
         self.hopeless += other.hopeless;
         self.simulated += other.simulated;
         self.samples += other.samples;
+        self.prints.extend(other.prints);
         for (mine, theirs) in [(&mut self.errors, other.errors), (&mut self.warnings, other.warnings)] {
             for miss in theirs {
                 join(mine, miss);

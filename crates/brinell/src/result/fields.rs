@@ -107,7 +107,7 @@ fields! {
     "What `summary.json` and data sets give in addition."
     COURSE: fn(&Outcome) -> Option<f64>;
     PARAMETRIC_ENERGY "energy_parametric" "J" Exact "work of damage passing under rollers" |o| Some(o.energy.parametric);
-    REACHED "reached" "s" Exact "simulated time of the last sample" |o| Some(o.reached);
+    REACHED "reached" "s" Exact "simulated time that the run reached: its duration where it is complete" |o| Some(o.reached);
 }
 
 fields! {

@@ -139,9 +139,18 @@ pub struct ChannelRecord {
     pub counted: u64,
     /// Sum of the squares of those before noise and ADC, (m/s^2)^2.
     signal_square: f64,
+    /// What the ADC read first, m/s^2.
+    first: Option<f64>,
+    /// Whether it read anything else later.
+    varies: bool,
 }
 
 impl ChannelRecord {
+    /// Whether the ADC read one value throughout: its step is larger than the signal. False without an ADC.
+    pub fn is_constant(&self) -> bool {
+        self.first.is_some() && !self.varies
+    }
+
     /// RMS before noise and ADC, m/s^2; `None` before the load is up.
     pub fn signal_rms(&self) -> Option<f64> {
         (self.counted > 0).then(|| (self.signal_square / self.counted as f64).sqrt())
@@ -221,6 +230,7 @@ impl Sensing {
                 let (read, clipped) = adc.read(*x);
                 *x = read;
                 record.clipped += u64::from(clipped);
+                record.varies |= *record.first.get_or_insert(read) != read;
             }
             if k >= 2 {
                 *x *= self.sensitivity;
@@ -334,6 +344,7 @@ mod tests {
         let [x, y, own] = sensing.records() else { panic!("three channels") };
         // 5 m/s^2 is 50 mV, of which 20.48 are held.
         assert_eq!((x.clipped, x.counted, x.signal_rms()), (n, n - 1000, Some(5.0)));
+        assert!(x.is_constant() && !y.is_constant());
         // Four standard deviations are reached by 4 samples in 100 000.
         assert!(y.clipped < 12 && own.signal_rms() == Some(0.0));
         let rms = (square / n as f64).sqrt();

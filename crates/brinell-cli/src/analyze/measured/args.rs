@@ -7,7 +7,7 @@ use clap::Args;
 /// The options about the signal in a file.
 #[derive(Debug, Default, PartialEq, Args)]
 pub(crate) struct SignalArgs {
-    /// Channel: its name, a part of it that no other has, or its number from 1; `X(:,2)` takes a matrix's column
+    /// Channel: its name, words of it that no other has (DE of X098_DE_time), or its number from 1; `X(:,2)` takes a matrix's column
     #[arg(long, value_name = "NAME|N")]
     pub(crate) channel: Option<String>,
     /// Sample rate

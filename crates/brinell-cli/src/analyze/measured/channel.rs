@@ -6,62 +6,9 @@ use brinell::channel::SENSOR;
 use brinell::document::Loaded;
 use brinell_io::{Channel, SignalFile};
 
-/// The channel meant, by name, part of a name, or number.
+/// The channel meant, by name, words of a name, or number.
 pub(super) fn resolve(file: &SignalFile, text: &str, option: &str) -> Result<(String, Channel), Failure> {
-    let channels = file.channels();
-    let whole = |c: &Channel| (c.name.clone(), c.clone());
-    if let Some(found) = channels.iter().find(|c| c.name == text) {
-        return Ok(whole(found));
-    }
-    let called: Vec<&Channel> = (channels.iter()).filter(|c| c.label.as_deref() == Some(text)).collect();
-    if let [only] = called[..] {
-        return Ok(whole(only));
-    }
-    if let Ok(number) = text.trim().parse::<usize>() {
-        if let [matrix] = channels
-            && is_matrix(matrix)
-        {
-            let name = &matrix.name;
-            return Err(Failure::Usage(format!(
-                "{option} {text}: {} has one channel, the matrix `{name}`; name its column {text} as {option} '{name}(:,{text})'",
-                file.path().display()
-            )));
-        }
-        return (number.checked_sub(1).and_then(|i| channels.get(i)).map(whole)).ok_or_else(|| {
-            Failure::Usage(format!(
-                "{option} {text}: {} has {} channel(s); they count from 1: {}",
-                file.path().display(),
-                channels.len(),
-                listed(channels.iter())
-            ))
-        });
-    }
-    // `X(:,2)`: the reader takes it apart; rate and unit are the matrix's.
-    if let Some(open) = text.rfind('(')
-        && let Some(found) = channels.iter().find(|c| c.name == text[..open])
-    {
-        return Ok((text.to_owned(), found.clone()));
-    }
-    let lower = text.to_lowercase();
-    let partly: Vec<&Channel> = (channels.iter())
-        .filter(|c| c.may_be_signal())
-        .filter(|c| {
-            let label = c.label.as_deref().unwrap_or_default();
-            [c.name.as_str(), label].iter().any(|name| name.to_lowercase().contains(&lower))
-        })
-        .collect();
-    match partly[..] {
-        [only] => Ok(whole(only)),
-        [] => Err(Failure::Usage(format!(
-            "{option} {text}: {} has no such channel; there are {}",
-            file.path().display(),
-            listed(channels.iter())
-        ))),
-        _ => Err(Failure::Usage(format!(
-            "{option} {text}: several channels are called like that: {}",
-            listed(partly.into_iter())
-        ))),
-    }
+    file.named(text).map_err(|why| Failure::Usage(format!("{option} {text}: {why}")))
 }
 
 fn is_matrix(channel: &Channel) -> bool {

@@ -1,0 +1,110 @@
+"""Arguments that are wrong are refused by name, and places that are none by `ReadError`."""
+
+import numpy as np
+import pytest
+
+import brinell
+
+X = np.sin(np.arange(4096.0))
+
+
+@pytest.mark.parametrize(
+    ("x", "kind", "words"),
+    [
+        (np.ma.masked_greater(X, 0.9), brinell.SignalError, r"x: \d+ of 4096 samples are masked"),
+        (np.zeros((4096, 2)), TypeError, r"x: expected the samples of one channel, and its shape is \(4096, 2\)"),
+        (None, TypeError, "x: expected the samples of one channel, real numbers, and it is NoneType"),
+        (X * 1j, TypeError, "complex numbers"),
+        (["a"], TypeError, "x: expected .* and it is list"),
+        (3.0, TypeError, r"its shape is \(\)"),
+    ],
+)
+def test_prop_what_is_no_channel_is_refused_by_name(x, kind, words):
+    for call in (
+        lambda: brinell.psd(x, rate_hz=1e4, unit="g"),
+        lambda: brinell.envelope(x, rate_hz=1e4),
+        lambda: brinell.analyze(x, rate_hz=1e4, unit="g", speed_rpm=1800.0, bearing="6205"),
+    ):
+        with pytest.raises(kind, match=words):
+            call()
+
+
+def test_prop_a_column_is_a_channel():
+    expected = brinell.psd(X, rate_hz=1e4, unit="g").amplitude
+    for x in (X[:, None], X[None, :], np.ma.array(X)):
+        np.testing.assert_array_equal(brinell.psd(x, rate_hz=1e4, unit="g").amplitude, expected)
+
+
+def test_regress_bands_samples_and_units_are_refused_as_by_the_command():
+    for call in (brinell.envelope_spectrum, lambda x, unit, **rest: brinell.envelope(x, **rest)):
+        with pytest.raises(brinell.SignalError, match="ends at 6000 Hz: expected at most 5000 Hz, half the sample rate"):
+            call(X, rate_hz=1e4, unit="g", band_hz=(1000.0, 6000.0))
+    bad = X.copy()
+    bad[2] = np.nan
+    with pytest.raises(brinell.SignalError, match=r"sample 3 is not finite \(counted from 1\)"):
+        brinell.psd(bad, rate_hz=1e4, unit="g")
+    with pytest.raises(brinell.SignalError, match=r"sample 3 is not finite \(counted from 1\)"):
+        brinell.indicators(bad, rate_hz=1e4, unit="g", block_s=0.1)
+    with pytest.raises(ValueError, match=r'unit = "bar": no unit is called `bar`; known are m/s\^2'):
+        brinell.analyze(X, rate_hz=1e4, unit="bar", speed_rpm=1800.0, bearing="6205")
+
+
+def test_regress_a_zone_that_is_not_known_has_its_reason():
+    rng = np.random.default_rng(1)
+    found = brinell.analyze(
+        rng.normal(size=24_000), rate_hz=12_000.0, unit="V", speed_rpm=1800.0, bearing="6205", machine_class="2-rigid"
+    )
+    zone = found.severity["iso_20816_3"]
+    assert zone["zone"] is None and zone["why"] == found.severity["velocity_rms_10_1000_hz"]["why"]
+
+
+def test_prop_a_channel_is_named_as_by_the_command(tmp_path):
+    path = tmp_path / "rig.npz"
+    np.savez(path, X098_DE_time=X, X098_FE_time=-X, grade_of_oil=np.ones(9))
+    found = brinell.read_signal(path, channel="DE")
+    assert found.channel == "X098_DE_time"
+    np.testing.assert_array_equal(found.values, X)
+    assert brinell.read_signal(path, channel="2").channel == "X098_FE_time"
+    for channel, words in (("time", "several channels are called like that: X098_DE_time, X098_FE_time"), ("E", "no such channel")):
+        with pytest.raises(brinell.ReadError, match=words):
+            brinell.read_signal(path, channel=channel)
+
+
+def test_prop_a_sweep_takes_the_commands_ranges(base):
+    table = brinell.sweep(base.replace({"simulation.duration_s": 0.02}), {"operation.speed_rpm": "900:1800:450", "simulation.model": "full, lumped"})
+    assert table.shape == (3, 2) and sorted(set(table["operation.speed_rpm"])) == [900.0, 1350.0, 1800.0]
+    assert list(table["simulation.model"][:2]) == ["full", "lumped"] and not table.failed
+    with pytest.raises(ValueError, match="a range has three parts, FROM:TO:STEP"):
+        brinell.sweep(base, {"operation.speed_rpm": "900:1800"})
+    with pytest.raises(TypeError, match="operation.speed_rpm = 900: expected a list of values, or text"):
+        brinell.sweep(base, {"operation.speed_rpm": 900})
+
+
+@pytest.mark.filterwarnings("ignore::brinell.ScenarioWarning")
+def test_prop_a_data_set_that_is_none_is_an_error_of_reading(tmp_path, examples):
+    with pytest.raises(brinell.ReadError, match="no data set is here"):
+        brinell.DataSet(tmp_path / "none")
+    (tmp_path / "base.toml").write_bytes((examples / "rectangle.toml").read_bytes())
+    (tmp_path / "plan.toml").write_text('base = "base.toml"\nruns = 2\n[vary]\nsimulation.duration_s = { uniform = [0.02, 0.03] }\n')
+    plan = brinell.Plan(tmp_path / "plan.toml")
+    for folder in (tmp_path / "base.toml", tmp_path / "base.toml" / "in"):
+        with pytest.raises(brinell.ReadError, match="cannot make the folder"):
+            plan.run(folder)
+    data = plan.run(tmp_path / "data")
+    assert data.to_polars("status")["status"].to_list() == ["complete", "complete"]
+    for read in (data.to_polars, data.to_pandas):
+        with pytest.raises(ValueError, match=r'columns: there is no "klass", did you mean "class"\?\n  allowed: run, split, status, '):
+            read(["klass"])
+
+
+@pytest.mark.filterwarnings("ignore::brinell.ScenarioWarning")
+def test_prop_clipped_runs_are_warned_of(tmp_path, examples):
+    (tmp_path / "base.toml").write_bytes((examples / "rectangle.toml").read_bytes())
+    (tmp_path / "plan.toml").write_text(
+        'base = "base.toml"\nruns = 2\n[vary]\nsimulation.duration_s = { uniform = [0.02, 0.03] }\n'
+        "sensor.converter_bits = 8\nsensor.converter_range_m_per_s2 = 0.1\n"
+    )
+    plan = brinell.Plan(tmp_path / "plan.toml")
+    with pytest.warns(brinell.ScenarioWarning, match=r"2 of 2 runs have samples beyond the ADC's range, which are clipped \(all 2 of 2\)"):
+        data = plan.run(tmp_path / "data")
+    assert (data.to_polars(["clipped_samples"])["clipped_samples"] > 0).all()
