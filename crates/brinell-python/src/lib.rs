@@ -26,6 +26,8 @@ mod _brinell {
     #[pymodule_export]
     use crate::calibrate::{Calibration, calibrate};
     #[pymodule_export]
+    use crate::sweep::{sweep, values};
+    #[pymodule_export]
     use compare::{Comparison, check_names};
     #[pymodule_export]
     use dataset::{Campaign, kernel, merge, verify};
@@ -41,8 +43,6 @@ mod _brinell {
     use signal::{Findings, analyze, envelope, envelope_spectrum, indicators, kurtogram, psd, spectrogram};
     #[pymodule_export]
     use studio::{StudioEngine, studio_page};
-    #[pymodule_export]
-    use crate::sweep::{sweep, values};
 
     #[pymodule_init]
     fn init(module: &Bound<'_, PyModule>) -> PyResult<()> {
