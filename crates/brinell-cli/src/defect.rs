@@ -106,11 +106,12 @@ fn convert(args: &ConvertArgs) -> Result<(), Failure> {
     };
     let defect = scenario::Defect { shape, depth_um, ..of.clone() };
     let new = self::shape(&defect)?;
-    remarks.push(format!(
-        "area {} mm^2; the shape it was written from has {} mm^2",
-        short(1e6 * new.area(), 5),
-        short(1e6 * extent.area, 5)
-    ));
+    let words = match real {
+        Shape::DepthMap(_) => "the damaged nodes of the grid it was written from count",
+        _ => "the shape it was written from has",
+    };
+    let [now, before] = [new.area(), real.area_in_ecl()].map(|area| short(1e6 * area, 5));
+    remarks.push(format!("area {now} mm^2; {words} {before} mm^2"));
     print(s, defect, &remarks);
     Ok(())
 }

@@ -77,6 +77,11 @@ fn prop_check_as_json_has_the_numbers_of_the_text() {
     assert_eq!(slices["healthy"]["stiffness"].as_array().unwrap().len(), 4);
     assert!(slices["life_revolutions"].as_f64().unwrap() > 1e6);
     assert!(json["frequencies_hz"]["bpfo"].as_f64().unwrap() > 0.0);
+    let zone = &json["load_zone"];
+    let wide = format!("load zone               {:.1} deg wide", zone["extent_deg"].as_f64().unwrap());
+    assert!(text.out.contains(&wide), "{wide}\n{}", text.out);
+    assert_eq!(zone["ends_deg"].as_array().unwrap().len(), 2);
+    assert!(zone["stiffness_n_per_m"][0][0].as_f64().unwrap() > 0.0);
 }
 
 #[test]

@@ -53,6 +53,19 @@ fn regress_files_and_variants_come_side_by_side() {
 }
 
 #[test]
+fn regress_runs_without_a_common_sensor_are_told_where_the_rest_is() {
+    let folder = folder();
+    // The lumped model's outer ring does not move where the load is on the inner one: it has no sensor.
+    let text = fs::read_to_string(folder.path().join("actual.toml")).unwrap();
+    let text = text.replace("[operation]\n", "[operation]\nload_on = \"inner-ring\"\n");
+    fs::write(folder.path().join("inner.toml"), text).unwrap();
+    let args = typed("compare inner.toml -o out --variant lumped:simulation.model=lumped");
+    let call = brinell(folder.path(), &args).exits(0);
+    assert!(!call.out.contains("ratios:"), "{}", call.out);
+    call.says(&["lumped over inner (the baseline): the sensor's levels", "are in compare.csv and compare.html"]);
+}
+
+#[test]
 fn prop_a_run_beside_itself_is_itself_on_any_number_of_threads() {
     let folder = folder();
     let args = typed("compare actual.toml --variant again:name=twin -o");

@@ -34,11 +34,8 @@ impl Contour {
     /// # Errors
     /// Where no depth's line encloses that area.
     pub fn of(grid: &DepthGrid, shape: &Shape) -> Result<Self, crate::DamageError> {
-        let area = match shape {
-            Shape::DepthMap(map) => map.width().integral(),
-            other => other.area(),
-        };
-        Ok(Self { level_um: level_of_area(grid, 1e6 * area)?, tolerance_mm: 0.1 * grid.ds_mm.min(grid.dz_mm) })
+        let level_um = level_of_area(grid, 1e6 * shape.area_in_ecl())?;
+        Ok(Self { level_um, tolerance_mm: 0.1 * grid.ds_mm.min(grid.dz_mm) })
     }
 }
 

@@ -179,6 +179,7 @@ fn entry(index: usize, damage: &Damage) -> serde_json::Value {
         "arc_deg": m.arc_deg,
         "widest_mm": m.widest_mm,
         "area_mm2": m.area_mm2,
+        "area_in_ecl_mm2": m.area_in_ecl_mm2,
         "mean_depth_um": m.mean_depth_um,
         "deepest_um": m.deepest_um,
         "raised_um": m.raised_um,

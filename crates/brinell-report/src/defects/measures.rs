@@ -17,6 +17,8 @@ pub struct Measures {
     pub widest_mm: f64,
     /// Seen from above; with the other numbers of a depth map of the surface between its nodes.
     pub area_mm2: f64,
+    /// What L_s of the law `ecl` adds up to; another only of a depth map, whose nodes it counts.
+    pub area_in_ecl_mm2: f64,
     /// Volume over area.
     pub mean_depth_um: f64,
     /// Its deepest point.
@@ -132,10 +134,10 @@ pub(super) fn facts(m: &Measures, s: &Scenario, defect: &Defect, passing: Passin
     if m.raised_um > 0.0 {
         facts.push(fact("Raised edge", m.raised_um, 4, "µm", "felt by the law \"sliced\"".into()));
     }
-    if let (Shape::DepthMap(grid), Law::Ecl) = (&defect.shape, law) {
+    if let (Shape::DepthMap(_), Law::Ecl) = (&defect.shape, law) {
         let note = format!(
             "largest L_s: this law counts each damaged node as wide as dz, {} mm^2 in all; the law \"sliced\" takes the surface",
-            short(1e6 * grid.width().integral(), 4)
+            short(m.area_in_ecl_mm2, 4)
         );
         facts.push(fact("Widest in the law ecl", 1e3 * widest_in_ecl(defect), 4, "mm", note));
     }

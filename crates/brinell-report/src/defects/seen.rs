@@ -75,6 +75,7 @@ impl<'a> Seen<'a> {
             arc_deg: arc.to_degrees(),
             widest_mm: 1e3 * widest(defect),
             area_mm2: 1e6 * extent.area,
+            area_in_ecl_mm2: 1e6 * defect.shape.area_in_ecl(),
             mean_depth_um: 1e6 * extent.depth,
             deepest_um: 1e6 * deepest,
             raised_um: 1e6 * raised,

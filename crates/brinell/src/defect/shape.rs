@@ -260,6 +260,14 @@ impl Shape {
         (0..=segments).map(|k| first + (last - first) * k as f64 / segments as f64).collect()
     }
 
+    /// What L_s of the law `ecl` adds up to, m^2: of a depth map the cells of its damaged nodes, else the area.
+    pub fn area_in_ecl(&self) -> f64 {
+        match self {
+            Self::DepthMap(grid) => grid.width().integral(),
+            other => other.area(),
+        }
+    }
+
     /// Area seen from above, m^2; of a closed form by the midpoint rule, of a depth map of the surface between its nodes.
     pub fn area(&self) -> f64 {
         const CELLS: u32 = 20_000;
