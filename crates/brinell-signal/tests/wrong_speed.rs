@@ -1,7 +1,11 @@
-//! A speed that was given wrongly, by the sidebands that the shaft's true speed leaves.
+//! A speed that was given wrongly: what the sidebands of the true speed say, a comb beside the bearing's frequencies, and
+//! lines of another shaft.
 
-use crate::analysis::{Damage, damaged};
-use brinell_signal::analysis::{NamedBearing, Options, Verdict, analyze};
+use crate::analysis::{Damage, SHAFT, damaged, healthy};
+use crate::cases::first;
+use brinell_signal::analysis::{Component, NamedBearing, Options, Verdict, analyze};
+use brinell_signal::random::Random;
+use std::f64::consts::TAU;
 
 /// What an inner race at 29.95 turns a second shows to whoever believes in half as many again: lines where BPFO would
 /// be, with sidebands at two thirds of that speed. At the true speed it is the inner race.
@@ -20,5 +24,56 @@ fn prop_sidebands_of_another_speed_leave_the_part_open() {
         assert_eq!(wrong.conclusion(), Verdict::CannotTell, "{}", wrong.verdict());
         let spacing = wrong.families.iter().find_map(|f| f.other_spacing).unwrap();
         assert!((spacing / shaft - 1.0).abs() < 0.01, "{spacing}");
+    }
+}
+
+#[test]
+fn prop_a_wrong_speed_is_pointed_to_and_blamed_on_nobody() {
+    let fs = 12_000.0;
+    let damage = Damage { order: 3.5848, modulation: 0.0, jitter: 0.01, snr_db: 3.0 };
+    for (seed, wrong) in [0.96, 0.97, 1.03, 1.04].into_iter().enumerate() {
+        // Without the shaft's own lines, which would tell its speed.
+        let rig = damaged(fs, 2.0, seed as u64, &damage);
+        let x: Vec<f64> = (rig.iter().zip(healthy(fs, 2.0, seed as u64)))
+            .zip(healthy(fs, 2.0, 50 + seed as u64))
+            .map(|((all, without), noise)| all - without + 0.05 * noise)
+            .collect();
+        let orders = NamedBearing::find("6205-2RS").unwrap().orders();
+        let told = analyze(&x, fs, &Options::new(wrong * SHAFT, orders)).unwrap();
+        assert_eq!(first(&told), None, "{}", told.verdict());
+        assert_eq!(told.conclusion(), Verdict::CannotTell);
+        let elsewhere = told.elsewhere.expect("a comb at no frequency of the bearing");
+        let nearest = elsewhere.nearest.expect("near BPFO");
+        assert_eq!(nearest.name, "BPFO");
+        // Half a per cent of slip.
+        assert!((nearest.shaft / (0.995 * SHAFT) - 1.0).abs() < 5e-3, "{nearest:?}");
+        assert!(told.verdict().contains("Are speed and bearing right?"));
+    }
+}
+
+/// A second shaft 8 % faster, where this one has no lines of its own: nothing says whether the speed given is wrong.
+/// Damage at that speed is then neither called nor passed over.
+#[test]
+fn prop_damage_at_the_speed_given_is_said_beside_another_shafts_lines() {
+    let fs = 12_000.0;
+    let orders = NamedBearing::find("6205-2RS").unwrap().orders();
+    let damage = Damage { order: 3.5848, modulation: 0.0, jitter: 0.01, snr_db: 3.0 };
+    for seed in 0..4 {
+        let mut noise = Random::new(seed);
+        let impacts =
+            damaged(fs, 4.0, seed, &damage).into_iter().zip(healthy(fs, 4.0, seed)).map(|(all, rest)| all - rest);
+        let x: Vec<f64> = (impacts.enumerate())
+            .map(|(i, v)| {
+                let turns = 1.08 * SHAFT * i as f64 / fs;
+                let comb: f64 = (1..=8).map(|k| 0.1 * (TAU * f64::from(k) * turns).sin()).sum();
+                v + comb + 0.1 * noise.normal()
+            })
+            .collect();
+        let a = analyze(&x, fs, &Options::new(SHAFT, orders)).unwrap();
+        assert!((a.shaft / (1.08 * SHAFT) - 1.0).abs() < 1e-3, "{seed} {}", a.shaft);
+        assert_eq!(a.conclusion(), Verdict::CannotTell);
+        let at_given = a.at_given.as_ref().expect("damage at the speed given");
+        assert_eq!(at_given.component, Component::OuterRace, "{}", a.verdict());
+        assert!(a.verdict().contains("A record of the speed would tell."), "{}", a.verdict());
     }
 }
