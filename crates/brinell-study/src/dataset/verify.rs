@@ -154,7 +154,7 @@ impl Set<'_> {
             return BTreeSet::from([kernel.to_owned()]);
         }
         // Earlier versions tell it in a column alone.
-        let rows = read_records(&self.folder.part(part), &["kernel"], |_| true).unwrap_or_default();
+        let rows = read_records(self.folder.part(part), &["kernel"], |_| true).unwrap_or_default();
         let words = rows.into_iter().flatten().filter_map(|cell| match cell {
             Cell::Words(word) => Some(word),
             _ => None,
