@@ -67,7 +67,7 @@ def samples_of(x: npt.ArrayLike, name: str = "x") -> Array:
     ...
     TypeError: x: expected the samples of one channel, and its shape is (2, 2); give one of them, such as x[:, 0]
     """
-    masked = int(np.ma.count_masked(x)) if isinstance(x, np.ma.MaskedArray) else 0
+    masked = int(np.count_nonzero(x.mask)) if isinstance(x, np.ma.MaskedArray) else 0
     if masked:
         raise _brinell.SignalError(f"{name}: {masked} of {np.size(x)} samples are masked; give a stretch without, or {name}.filled(...) with values")
     try:
