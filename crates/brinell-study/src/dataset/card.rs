@@ -4,7 +4,7 @@
 use crate::campaign::digest;
 use crate::dataset::error::DatasetError;
 use crate::dataset::folder::{put, written};
-use crate::dataset::sidecar::tally_of;
+use crate::dataset::tally::Tally;
 use serde_json::{Map, Value, json};
 use std::fmt::Write;
 use std::path::Path;
@@ -69,7 +69,7 @@ fn description(about: &Value) -> String {
 /// How many runs have signals, by class and by split; and what the user should know of others.
 fn counts(about: &Value) -> String {
     let number = |value: &Value| value.as_u64().unwrap_or(0);
-    let tally = tally_of(about);
+    let tally = Tally::of_splits(about);
     let fails = number(&about["runs"]["failed"]) > 0;
     let failed = |count: u64| if fails { format!(" {count} |") } else { String::new() };
     let (head, rule) = if fails { (" failed, no signal |", " --- |") } else { ("", "") };

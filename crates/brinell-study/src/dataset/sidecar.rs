@@ -157,20 +157,6 @@ impl Counted {
     }
 }
 
-/// What is counted of the runs of all splits, from a data set's description.
-pub(crate) fn tally_of(about: &Value) -> Tally {
-    let mut all = Tally::default();
-    for split in about["splits"].as_array().into_iter().flatten().filter(|s| s["failed_of_classes"].is_array()) {
-        all.join(&json!({
-            "runs": split["runs_of_classes"],
-            "failed": split["failed_of_classes"],
-            "clipped": split["clipped_of_classes"],
-            "constant": split["constant_of_classes"],
-        }));
-    }
-    all
-}
-
 fn key(p: &Provenance, varies: bool) -> Value {
     let value = if varies { Value::Null } else { p.value.as_str().into() };
     let mut entry = json!({ "key": p.key, "value": value, "unit": p.unit });

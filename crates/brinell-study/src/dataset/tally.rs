@@ -38,6 +38,20 @@ impl Places {
 }
 
 impl Tally {
+    /// What is counted of the runs of all splits, from a data set's description.
+    pub(crate) fn of_splits(about: &Value) -> Self {
+        let mut all = Self::default();
+        for split in about["splits"].as_array().into_iter().flatten().filter(|s| s["failed_of_classes"].is_array()) {
+            all.join(&json!({
+                "runs": split["runs_of_classes"],
+                "failed": split["failed_of_classes"],
+                "clipped": split["clipped_of_classes"],
+                "constant": split["constant_of_classes"],
+            }));
+        }
+        all
+    }
+
     /// Of no runs of so many classes.
     pub(crate) fn of(classes: usize) -> Self {
         let none = || vec![0; classes];
