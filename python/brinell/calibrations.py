@@ -29,7 +29,8 @@ class Calibration:
     values: dict[str, float]
     """The best value of each key, in the unit of the scenario file."""
     intervals: dict[str, tuple[float, float] | None]
-    """The 95 % interval of each key within its bounds; None where the data do not determine it."""
+    """The 95 % interval of each key within its bounds; None where the data do not determine it, the targets are not met, or
+    the best value is expected outside: ``undetermined`` says which."""
     residuals: dict[str, float]
     """Of each target: the best run's difference from it, in standard uncertainties, the target's and the runs' own
     together."""

@@ -126,7 +126,7 @@ fn prop_targets_out_of_reach_are_reported_and_so_is_a_key_without_effect() {
         "--fit operation.speed_rpm=2900:3100 --fit cage.guide_width_mm=5:7 --target defect1.pure_rolling_frequency=500~1 --budget 14 --set simulation.duration_s=0.04 -o cal",
     ));
     brinell(folder.path(), &args).exits(0).says(&[
-        "The targets are not met within the bounds: chi-square",
+        "The targets are not met by the runs made: chi-square",
         "defect1.pure_rolling_frequency:",
         "standard uncertainties too low",
         "operation.speed_rpm: the best value is on its upper bound",
@@ -135,7 +135,7 @@ fn prop_targets_out_of_reach_are_reported_and_so_is_a_key_without_effect() {
     let found = json(&folder.path().join("cal/calibrate.json"));
     assert_eq!(found["met"], false);
     let page = fs::read_to_string(folder.path().join("cal/calibrate.html")).unwrap();
-    assert!(page.contains("The targets are not met within the bounds.") && !page.contains("Runs that failed"));
+    assert!(page.contains("The targets are not met by the runs made.") && !page.contains("Runs that failed"));
     assert_eq!(found["keys"][1]["determined"], false);
     assert_eq!(found["keys"][1]["interval_95"], Value::Null);
 }

@@ -18,6 +18,8 @@ use std::path::PathBuf;
     from the best places (Levenberg and Marquardt); two to four runs a key are kept for the Jacobian at the best point. Differences are taken over a \
     tenth of a key's range; over a fifth where runs are uncertain themselves, and up to two fifths where a key's effect is not significant against that: impacts amplify round-off, so that an \
     RMS is uncertain by a per cent, which finer differences would take for a slope. Residuals weigh with the target's uncertainty and the runs' own together.\n\n\
+    95 % intervals are about the best run. None is given where the targets are not met, where linear least squares expects the best value outside it, or where a run far outside \
+    meets the targets as well. A search may end in the wrong one of several hollows: intervals of another --seed that do not overlap show it.\n\n\
     Files in the folder:\n  \
     best.toml        the scenario with the best values; `brinell run` takes it\n  \
     calibrate.json   values with 95 % intervals, correlations, what the data do not determine, residuals\n  \

@@ -38,7 +38,7 @@ impl Study {
         if !failed.is_empty() {
             facts.push(Fact::new("Failed", failed.len().to_string(), "", "reasons below"));
         }
-        let unmet = (!of.is_met()).then(|| "The targets are not met within the bounds.".to_owned());
+        let unmet = (!of.is_met()).then(|| "The targets are not met by the runs made.".to_owned());
         Self {
             title: format!("Calibration of {}", of.best.scenario.name),
             subtitle: format!("{} to {}", names.join(", "), plural(of.compared.len(), "target")),

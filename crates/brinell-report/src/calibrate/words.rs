@@ -2,7 +2,7 @@
 
 use crate::number::{plural, short};
 use brinell_study::calibrate::identify::{Direction, MOST};
-use brinell_study::calibrate::{Found, Met, Outcome};
+use brinell_study::calibrate::{Found, Met, Open, Outcome};
 
 /// A residual worth naming, in standard uncertainties.
 const LARGE: f64 = 2.0;
@@ -23,7 +23,7 @@ pub fn calibration_verdict(of: &Outcome) -> Vec<String> {
         _ => "no degree of freedom left".into(),
     };
     let base = format!("chi-square {} over {}, {freedom}{p_value}", short(chi, 3), plural(targets, "target"));
-    let met = if of.is_met() { "met within their uncertainties" } else { "not met within the bounds" };
+    let met = if of.is_met() { "met within their uncertainties" } else { "not met by the runs made" };
     all.push(format!("The targets are {met}: {base}."));
     let mut worst: Vec<&Met> = of.compared.iter().filter(|c| c.residual.abs() > LARGE).collect();
     worst.sort_by(|a, b| b.residual.abs().total_cmp(&a.residual.abs()));
@@ -60,26 +60,25 @@ pub fn calibration_undetermined(of: &Outcome) -> Vec<String> {
     let mut all = Vec::new();
     let noise = of.fit.identified.directions.iter().any(|d| d.noise > 0.0);
     for (k, found) in of.found.iter().enumerate().filter(|(_, f)| !f.is_determined()) {
-        let width = 2.0 * found.half_width;
-        if let Some(rival) = found.rival {
-            let (best, other) = (short(found.best, 4), short(rival.value, 4));
-            let (least, chi) = (short(of.chi_square(), 3), short(rival.chi_square, 3));
-            all.push(format!(
-                "{}: not determined; run {} meets the targets as well with {other} as the best with {best} (chi-square {chi} and {least}), and \
-                 between the two the targets do not depend linearly on the keys: narrower bounds choose one, a further target tells them apart.",
-                found.key.name, rival.run
-            ));
-            continue;
-        }
-        let why = match width.is_finite() {
-            true => format!("its 95 % interval is {} times as wide as its range", short(width, 2)),
-            // Which of the runs says more than differences around the best one do.
-            false if is_made_up_for(of, k) => {
-                "around the best run others make up for what it changes; farther off the runs' chi-square may tell"
-                    .into()
+        let why = match found.open {
+            Some(Open::Rival(rival)) => {
+                let (best, other) = (short(found.best, 4), short(rival.value, 4));
+                let (least, chi) = (short(of.chi_square(), 3), short(rival.chi_square, 3));
+                format!(
+                    "run {} meets the targets as well with {other} as the best with {best} (chi-square {chi} and {least}), far outside the interval \
+                     about the best: narrower bounds choose one, a further target tells them apart",
+                    rival.run
+                )
             }
-            false if noise => "its effect is not significant against the runs' own uncertainty".into(),
-            false => "the data say nothing of it".into(),
+            Some(Open::NotMet) => {
+                "the targets are not met by the runs made; more runs (--budget) or wider bounds may".into()
+            }
+            Some(Open::Elsewhere(expected)) => format!(
+                "linear least squares expects its best value at {}, outside the interval about the best run, where no run was better: the search has \
+                 not come to its end (--budget), or the targets do not depend linearly on the keys",
+                short(expected, 4)
+            ),
+            Some(Open::Wide) | None => wide(of, k, found, noise),
         };
         all.push(format!("{}: not determined; {why}.", found.key.name));
     }
@@ -107,7 +106,29 @@ pub fn calibration_undetermined(of: &Outcome) -> Vec<String> {
             100.0 * MOST
         ));
     }
+    if of.found.iter().any(Found::is_determined) {
+        all.push(
+            "Intervals are about this best run. Whether the search ends elsewhere too, another --seed tells: where its intervals do not \
+             overlap these, neither hold."
+                .into(),
+        );
+    }
     all
+}
+
+/// Why the interval of key `k` is as wide as its bounds; `noise`: whether runs have some of their own.
+fn wide(of: &Outcome, k: usize, found: &Found, noise: bool) -> String {
+    let width = 2.0 * found.half_width;
+    match width.is_finite() {
+        true if width < MOST => "runs over most of its range meet the targets as well".into(),
+        true => format!("its 95 % interval is {} times as wide as its range", short(width, 2)),
+        false if is_made_up_for(of, k) => {
+            "about the best run other keys make up for what it changes; farther off the runs' chi-square may tell"
+                .into()
+        }
+        false if noise => "its effect is not significant against the runs' own uncertainty".into(),
+        false => "the data say nothing of it".into(),
+    }
 }
 
 /// Whether key `k` by itself changes the targets, by thrice what the runs' own uncertainty shows: then only others

@@ -7,7 +7,6 @@
 use super::identify::{Identified, column_noise, identify};
 use super::search::{Ask, Halt, STEP, around, chi_square, latin_hypercube, local, slopes, swarm};
 use super::target::{Answer, Target, residuals};
-use nalgebra::{DMatrix, DVector};
 use std::cell::RefCell;
 
 /// Runs a batch of points of the unit cube: answers in the order of the points, `None` for a run that failed; it may
@@ -80,6 +79,25 @@ pub struct Fit {
     pub steps: Vec<f64>,
     /// What the differences say.
     pub identified: Identified,
+}
+
+impl Fit {
+    /// The interval of `key` by differences about the best point, widened to the runs that meet the targets as well.
+    pub fn interval(&self, key: usize) -> (f64, f64) {
+        let best = &self.evaluations[self.best];
+        let (place, half) = (best.place[key], self.identified.half_widths[key]);
+        let most = best.chi_square + self.identified.rise;
+        let as_well = self.evaluations.iter().filter(|e| e.chi_square <= most).map(|e| e.place[key]);
+        as_well.fold((place - half, place + half), |(low, high), at| (low.min(at), high.max(at)))
+    }
+
+    /// Where linear least squares expects the best place of `key`, in the unit interval, where that is outside its interval
+    /// about the best point: the search has not come to its end there, or the targets are not linear.
+    pub fn elsewhere(&self, key: usize) -> Option<f64> {
+        let expected = self.evaluations[self.centre].place[key] + self.identified.step[key];
+        let off = (expected - self.evaluations[self.best].place[key]).abs();
+        (off > self.identified.half_widths[key]).then_some(expected)
+    }
 }
 
 /// So many half intervals from the best point the rise of chi-square should be its square times that at the interval's
@@ -359,12 +377,12 @@ fn look_around(book: &mut Book, noise: &[f64], mut steps: Vec<f64>) -> Result<(u
         let distance = |k: usize| points[2 * k + 1][k] - points[2 * k][k];
         let floor: Vec<f64> = (0..keys).map(|k| column_noise(noise, distance(k))).collect();
         let identified = identify(&middle, &jacobian, &floor);
-        last = Some((centre, steps.clone(), identified));
         // Over wide differences the step of least squares sees past the roughness that stops a search downhill.
-        match book.indices(&[least_squares(&place, &middle, jacobian.clone())]) {
+        match book.indices(&[moved(&place, &identified.step)]) {
             Err(Halt::Interrupted) => return Err(Unfit::Interrupted),
             Ok(_) | Err(Halt::Budget) => {}
         }
+        last = Some((centre, steps.clone(), identified));
         let best = book.best();
         if book.evaluations[best].chi_square + BETTER < book.evaluations[centre].chi_square {
             centre = best;
@@ -386,17 +404,9 @@ fn look_around(book: &mut Book, noise: &[f64], mut steps: Vec<f64>) -> Result<(u
     }
 }
 
-/// Where linear least squares expects the least misfit, no further than [`FARTHEST`] along any axis and within the
-/// cube. Directions with a thousandth of the largest singular value stay as they are.
-fn least_squares(place: &[f64], residuals: &[f64], jacobian: DMatrix<f64>) -> Vec<f64> {
-    let svd = jacobian.svd(true, true);
-    let least = 1e-3 * svd.singular_values.max();
-    let wanted = -DVector::from_column_slice(residuals);
-    let Ok(step) = svd.solve(&wanted, least) else {
-        return place.to_vec();
-    };
-    let longest = step.amax();
+/// From `place` by `step`, no further than [`FARTHEST`] along any axis and within the cube.
+fn moved(place: &[f64], step: &[f64]) -> Vec<f64> {
+    let longest = step.iter().fold(0.0_f64, |m, d| m.max(d.abs()));
     let scale = if longest > FARTHEST { FARTHEST / longest } else { 1.0 };
-    let moved = place.iter().zip(step.iter());
-    moved.map(|(x, d)| (x + scale * d).clamp(0.0, 1.0)).collect()
+    place.iter().zip(step).map(|(x, d)| (x + scale * d).clamp(0.0, 1.0)).collect()
 }

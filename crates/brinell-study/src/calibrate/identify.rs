@@ -61,6 +61,9 @@ pub struct Identified {
     /// How much chi-square rises from the best point to the end of a key's 95 % interval, the other keys following,
     /// where targets depend linearly on keys.
     pub rise: f64,
+    /// From the point to where linear least squares expects the least misfit, in ranges, along the directions that the
+    /// data tell. Beyond a key's interval the search has not come to its end, or the targets are not linear there.
+    pub step: Vec<f64>,
 }
 
 /// From the residuals at a point, the Jacobian there, and the noise of its columns: the standard deviation of a
@@ -98,7 +101,17 @@ pub fn identify(residuals: &[f64], jacobian: &DMatrix<f64>, noise: &[f64]) -> Id
         freedom,
         inflation: birge,
         rise: factor * factor,
+        step: least_squares(jacobian, residuals),
     }
+}
+
+/// Where linear least squares expects the least misfit, from the point with these residuals. Directions with a
+/// thousandth of the largest singular value stay as they are.
+pub(super) fn least_squares(jacobian: &DMatrix<f64>, residuals: &[f64]) -> Vec<f64> {
+    let svd = jacobian.clone().svd(true, true);
+    let least = 1e-3 * svd.singular_values.max();
+    let step = svd.solve(&-DVector::from_column_slice(residuals), least);
+    step.map_or_else(|_| vec![0.0; jacobian.ncols()], |step| step.iter().copied().collect())
 }
 
 /// Directions with what is known along each, from the best determined to the worst: the square of the singular value

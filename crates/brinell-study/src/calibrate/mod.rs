@@ -34,7 +34,7 @@ pub use key::Key;
 #[doc(hidden)]
 pub use key::check as check_keys;
 #[doc(hidden)]
-pub use outcome::{Found, Met, Outcome};
+pub use outcome::{Found, Met, Open, Outcome};
 #[doc(hidden)]
 pub use pattern::{Measured, Pattern};
 #[doc(hidden)]

@@ -4,7 +4,7 @@ use super::identify::MOST;
 use super::plan::settings;
 use super::runs::{Runs, own_uncertainty};
 use super::target::MISSING;
-use super::{Fit, Key, Plan};
+use super::{Evaluation, Fit, Key, Plan};
 use crate::runner::RunnerError;
 use brinell::document::Loaded;
 use brinell::signal::distribution::chi_square_tail;
@@ -30,8 +30,21 @@ pub struct Found {
     pub place: f64,
     /// Half the 95 % interval about the best value, in ranges, by differences there.
     pub half_width: f64,
-    /// A run far outside this interval that meets the targets as well ([`Fit::rival`]); the data then leave the key open.
-    pub rival: Option<Rival>,
+    /// Why there is no interval.
+    pub open: Option<Open>,
+}
+
+/// Why the data do not determine a key.
+#[derive(Debug, Clone, Copy)]
+pub enum Open {
+    /// The interval is as wide as the bounds, or nearly so.
+    Wide,
+    /// The best run does not meet the targets.
+    NotMet,
+    /// Linear least squares expects the best value elsewhere, here, and no run there was better.
+    Elsewhere(f64),
+    /// A run far outside the interval meets the targets as well ([`Fit::rival`]).
+    Rival(Rival),
 }
 
 /// A run that meets the targets as well as the best.
@@ -102,25 +115,6 @@ pub struct Outcome {
 impl Outcome {
     pub(super) fn new(plan: &Arc<Plan>, runs: &Runs, fit: Fit) -> Result<Self, RunnerError> {
         let place = &fit.evaluations[fit.best].place;
-        let found = plan.keys.iter().enumerate().map(|(k, key)| {
-            let half_width = fit.identified.half_widths[k];
-            let ends = || (key.value(place[k] - half_width), key.value(place[k] + half_width));
-            let told = 2.0 * half_width < MOST;
-            let rival = fit.rival(k).filter(|_| told).map(|run| {
-                let evaluation = &fit.evaluations[run];
-                Rival { run: run + 1, value: key.value(evaluation.place[k]), chi_square: evaluation.chi_square }
-            });
-            Found {
-                key: key.clone(),
-                unit: plan.units[k],
-                best: key.value(place[k]),
-                interval: (told && rival.is_none()).then(ends),
-                place: place[k],
-                half_width,
-                rival,
-            }
-        });
-        let found = found.collect();
         let row = runs.row(place).ok();
         let compared = plan.targets.iter().enumerate().map(|(t, target)| {
             let quantity = row.and_then(|row| row.quantity(&target.name));
@@ -141,7 +135,43 @@ impl Outcome {
         });
         let reasons = failed.collect();
         let best = runs.scenario(place)?;
-        Ok(Self { plan: Arc::clone(plan), found, compared, best, reasons, done: runs.done, before: runs.before, fit })
+        let (done, before) = (runs.done, runs.before);
+        let mut outcome =
+            Self { plan: Arc::clone(plan), found: Vec::new(), compared, best, reasons, done, before, fit };
+        outcome.found = (0..plan.keys.len()).map(|k| outcome.key(k)).collect();
+        Ok(outcome)
+    }
+
+    /// What is known of key `k`.
+    fn key(&self, k: usize) -> Found {
+        let (fit, key) = (&self.fit, &self.plan.keys[k]);
+        let (place, half_width) = (fit.evaluations[fit.best].place[k], fit.identified.half_widths[k]);
+        let (low, high) = fit.interval(k);
+        let rival = || {
+            let run = fit.rival(k)?;
+            let Evaluation { place, chi_square, .. } = &fit.evaluations[run];
+            Some(Rival { run: run + 1, value: key.value(place[k]), chi_square: *chi_square })
+        };
+        let open = if 2.0 * half_width >= MOST {
+            Some(Open::Wide)
+        } else if !self.is_met() {
+            Some(Open::NotMet)
+        } else if let Some(expected) = fit.elsewhere(k) {
+            Some(Open::Elsewhere(key.value(expected)))
+        } else if let Some(rival) = rival() {
+            Some(Open::Rival(rival))
+        } else {
+            (high - low >= MOST).then_some(Open::Wide)
+        };
+        Found {
+            key: key.clone(),
+            unit: self.plan.units[k],
+            best: key.value(place),
+            interval: open.is_none().then(|| (key.value(low), key.value(high))),
+            place,
+            half_width,
+            open,
+        }
     }
 
     /// What a run sets.
@@ -216,7 +246,10 @@ impl Outcome {
                 "key": key.name, "unit": f.unit, "value": f.best, "low": key.low, "high": key.high, "log": key.log,
                 "determined": f.is_determined(),
                 "interval_95": f.interval.map(|(low, high)| json!([low, high])),
-                "met_as_well_by": f.rival.map(|r| json!({ "run": r.run, "value": r.value, "chi_square": r.chi_square })),
+                "met_as_well_by": match f.open {
+                    Some(Open::Rival(r)) => json!({ "run": r.run, "value": r.value, "chi_square": r.chi_square }),
+                    _ => Value::Null,
+                },
                 "standard_uncertainty_in_ranges": finite(identified.deviations[k]),
                 "difference_over_ranges": 2.0 * self.fit.steps[k],
             })
