@@ -234,9 +234,10 @@ fn static_balance(s: &Scenario, model: &Model, zone: &StaticLoadZone) {
         if s.operation.gravity_m_per_s2 == [0.0; 2] { "" } else { " and ring weight" }
     );
     say!(
-        "  both rings sink         {} um on their supports: FTF and BPFO come out up to {} % higher than of a centred bearing",
-        short(1e6 * zone.sunk, 3),
-        short(100.0 * zone.sunk / model.geometry.pitch_radius, 2)
+        "  both rings sink         {} um on their supports: FTF and BPFO come out up to {} % {} than of a centred bearing",
+        short(1e6 * zone.sunk.abs(), 3),
+        short(100.0 * zone.sunk.abs() / model.geometry.pitch_radius, 2),
+        if zone.sunk < 0.0 { "lower" } else { "higher" }
     );
 }
 

@@ -249,10 +249,10 @@ fn orders(args: &FrequenciesArgs) -> Result<(DefectOrders, Option<f64>), Failure
     }
 }
 
-/// The scenario in place of a bearing's name, where it is the name of a file and of no bearing.
+/// The scenario in place of a bearing's name: a name that ends in `.toml`, standard input, or a file called like no bearing.
 pub(crate) fn scenario_meant(bearing: &str) -> Result<Option<Scenario>, Failure> {
     let path = PathBuf::from(bearing);
-    let written_as_a_file = files::is_stdin(&path) || path.components().count() > 1 || bearing.ends_with(".toml");
-    let meant = KnownBearing::find(bearing).is_none() && (path.exists() || written_as_a_file);
+    let written_as_a_file = files::is_stdin(&path) || bearing.to_lowercase().ends_with(".toml");
+    let meant = written_as_a_file || (KnownBearing::find(bearing).is_none() && path.is_file());
     Ok(if meant { Some(files::scenario(&path, &[], true)?.scenario) } else { None })
 }

@@ -35,8 +35,8 @@ pub struct BandVelocity {
 pub type VelocityBands = [Option<BandVelocity>; 3];
 
 /// RMS velocity in `bands` of an acceleration `a` sampled at `fs` Hz, with 95 % intervals from blocks of `block` s
-/// (whole revolutions, best). Six periods of the lowest edge at either end are left out, or a fifth of the signal: the
-/// ends are faded, so that a strong line below a band is not in it.
+/// (whole revolutions, best). Six periods of a band's lower edge at either end are left out, or a fifth of the signal: the
+/// ends are faded, so that a strong line below a band is not in it, where the signal holds sixty periods of the edge.
 ///
 /// # Errors
 /// [`SignalError`] with fewer than 8 samples, samples that are not finite, a band that is empty or begins at 0, or a
@@ -44,21 +44,19 @@ pub type VelocityBands = [Option<BandVelocity>; 3];
 pub fn velocity_bands(a: &[f64], fs: f64, bands: &[Band; 3], block: f64) -> Result<VelocityBands, SignalError> {
     let samples = block * fs;
     require(samples >= 1.0 && samples.is_finite(), "block (s)", block, "at least one sample")?;
-    let inside: Vec<usize> = (0..bands.len()).filter(|i| bands[*i].low < 0.5 * fs).collect();
-    let wanted: Vec<Band> = inside.iter().map(|i| bands[*i]).collect();
     let mut found = [None; 3];
-    let mut faded = a.to_vec();
-    let lowest = wanted.iter().fold(f64::INFINITY, |low, band| low.min(band.low));
-    let end = fade(&mut faded, fs, lowest);
-    let count = |periods| steps(periods, a.len());
-    velocities(&faded, fs, Motion::Acceleration, &wanted, count, |place, velocity| {
-        let band = wanted[place];
-        let ratio = velocity.len() as f64 / a.len() as f64;
-        let end = (ratio * end as f64).ceil() as usize;
-        let inner = velocity.get(end..velocity.len().saturating_sub(end)).unwrap_or_default();
-        let rms = Blocks::of(inner, samples * ratio).estimate(Indicator::Rms);
-        found[inside[place]] = rms.map(|rms| BandVelocity { band, rms, cut_short: band.high > 0.5 * fs });
-    })?;
+    for (place, band) in bands.iter().enumerate().filter(|(_, band)| band.low < 0.5 * fs) {
+        let mut faded = a.to_vec();
+        let end = fade(&mut faded, fs, band.low);
+        let count = |periods| steps(periods, a.len());
+        velocities(&faded, fs, Motion::Acceleration, &[*band], count, |_, velocity| {
+            let ratio = velocity.len() as f64 / a.len() as f64;
+            let end = (ratio * end as f64).ceil() as usize;
+            let inner = velocity.get(end..velocity.len().saturating_sub(end)).unwrap_or_default();
+            let rms = Blocks::of(inner, samples * ratio).estimate(Indicator::Rms);
+            found[place] = rms.map(|rms| BandVelocity { band: *band, rms, cut_short: band.high > 0.5 * fs });
+        })?;
+    }
     Ok(found)
 }
 

@@ -30,7 +30,7 @@ use warning::{short, warning};
 const WEIGHT_SHARE: f64 = 0.1;
 /// Share of the load beyond which what a support carries is worth a warning.
 const SUPPORT_SHARE: f64 = 0.1;
-/// Share of the pitch radius by which the bearing may sink as a whole: so much higher do the cage's and the outer race's
+/// Share of the pitch radius by which the bearing may sink as a whole: up to so much off do the cage's and the outer race's
 /// frequencies come out, more than a cage slips or runs ahead by its play.
 const SUNK_SHARE: f64 = 0.01;
 /// Share of a defect's depth that a roller must reach: the deepest point of a rough floor is nobody's.
@@ -181,7 +181,7 @@ fn carried_by_support(scenario: &Scenario, model: &Model, zone: &StaticLoadZone)
 
 /// Supports so soft that the bearing as a whole sinks, which the levers of the centred bearing take for a smaller bearing.
 fn sunk(scenario: &Scenario, model: &Model, zone: &StaticLoadZone) -> Option<Problem> {
-    let share = zone.sunk / model.geometry.pitch_radius;
+    let share = zone.sunk.abs() / model.geometry.pitch_radius;
     // That of the ring without the load holds the bearing.
     let (key, stiffness) = match scenario.operation.load_on {
         LoadOn::InnerRing => ("support.outer_stiffness_n_per_m", scenario.support.outer_stiffness_n_per_m),
@@ -193,9 +193,10 @@ fn sunk(scenario: &Scenario, model: &Model, zone: &StaticLoadZone) -> Option<Pro
             toml_float(stiffness),
             format!(
                 "the bearing as a whole sinks by {} um, {} % of the pitch radius: as levers are those of the centred bearing, FTF and BPFO come out \
-                 up to as much higher",
-                short(1e6 * zone.sunk),
-                short(100.0 * share)
+                 up to as much {}",
+                short(1e6 * zone.sunk.abs()),
+                short(100.0 * share),
+                if zone.sunk > 0.0 { "higher" } else { "lower" }
             ),
             // In proportion; twice as stiff as the limit asks.
             format!("about {:.0e} or more", 2.0 * stiffness * share / SUNK_SHARE),

@@ -397,4 +397,9 @@ fn analytic_the_bearing_sinks_by_the_load_over_the_stiffness_that_holds_it() {
     s.support.outer_stiffness_n_per_m = 2e7;
     let zone = static_load_zone(&Model::new(&s).unwrap()).unwrap();
     assert!((zone.sunk / (4000.0 / 2e7) - 1.0).abs() < 1e-6, "{} m", zone.sunk);
+    // A load on the outer ring pulls it away from the load zone, against the inner ring's support.
+    s.operation.load_on = LoadOn::OuterRing;
+    (s.support.inner_stiffness_n_per_m, s.support.outer_stiffness_n_per_m) = (2e7, 0.0);
+    let zone = static_load_zone(&Model::new(&s).unwrap()).unwrap();
+    assert!((zone.sunk / (-4000.0 / 2e7) - 1.0).abs() < 1e-6, "{} m", zone.sunk);
 }

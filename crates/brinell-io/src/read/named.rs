@@ -10,7 +10,7 @@ pub struct NotNamed(String);
 impl SignalFile {
     /// The channel meant, with the name under which it is read. `text` is its name, its label, its number from 1, a
     /// column or row of a matrix such as `X(:,2)`, or whole words of one name or label alone: `DE` is `X098_DE_time`,
-    /// and not `grade`. Words end at `_` and the like, between letters and digits, and where capitals begin or end.
+    /// and not `grade`; where none has the word, one that begins so, from three characters on. Words end at `_` and the like, between letters and digits, and where capitals begin or end.
     ///
     /// # Errors
     /// Where there is no such channel, or several are called like that: which there are.
@@ -33,15 +33,21 @@ impl SignalFile {
         {
             return Ok((text.to_owned(), found.clone()));
         }
-        let says = |c: &&Channel| {
-            let label = c.label.as_deref().unwrap_or_default();
-            [c.name.as_str(), label].iter().any(|name| has_words(name, text))
+        let said = |in_name: fn(&str, &str) -> bool| -> Vec<&Channel> {
+            let says = |c: &&Channel| {
+                let label = c.label.as_deref().unwrap_or_default();
+                [c.name.as_str(), label].iter().any(|name| in_name(name, text))
+            };
+            channels.iter().filter(|c| c.may_be_signal()).filter(says).collect()
         };
-        let partly: Vec<&Channel> = channels.iter().filter(|c| c.may_be_signal()).filter(says).collect();
+        let mut partly = said(has_words);
+        if partly.is_empty() && text.trim().chars().count() >= LEAST_BEGINNING {
+            partly = said(has_beginning);
+        }
         match partly[..] {
             [only] => Ok(whole(only)),
             [] => Err(NotNamed(format!(
-                "{} has no such channel; there are {}",
+                "{} has no such channel, by name or by a word of one; there are {}",
                 self.path().display(),
                 listed(channels.iter())
             ))),
@@ -79,13 +85,27 @@ fn listed<'a>(channels: impl Iterator<Item = &'a Channel>) -> String {
     }))
 }
 
+/// Fewest characters of the beginning of a word: `acc` of `acceleration`. Two may be anybody's.
+const LEAST_BEGINNING: usize = 3;
+
 /// Whether `text` is whole words of `name`, whatever the case.
 fn has_words(name: &str, text: &str) -> bool {
+    stands_in(name, text, true)
+}
+
+/// Whether a word of `name` begins like `text`, whatever the case.
+fn has_beginning(name: &str, text: &str) -> bool {
+    stands_in(name, text, false)
+}
+
+/// Whether `text` is in `name` from the beginning of a word on, and to the end of one if it has to be `whole`.
+fn stands_in(name: &str, text: &str, whole: bool) -> bool {
     let (name, text): (Vec<char>, Vec<char>) = (name.chars().collect(), text.trim().chars().collect());
     let alike = |a: &char, b: &char| a.to_lowercase().eq(b.to_lowercase());
     let at = |k: usize| {
         let end = k + text.len();
-        is_border(&name, k) && is_border(&name, end) && name[k..end].iter().zip(&text).all(|(a, b)| alike(a, b))
+        let ends = !whole || is_border(&name, end);
+        is_border(&name, k) && ends && name[k..end].iter().zip(&text).all(|(a, b)| alike(a, b))
     };
     !text.is_empty() && text.len() <= name.len() && (0..=name.len() - text.len()).any(at)
 }

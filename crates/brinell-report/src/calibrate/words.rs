@@ -107,11 +107,16 @@ pub fn calibration_undetermined(of: &Outcome) -> Vec<String> {
         ));
     }
     if of.found.iter().any(Found::is_determined) {
-        all.push(
-            "Intervals are about this best run. Whether the search ends elsewhere too, another --seed tells: where its intervals do not \
-             overlap these, neither hold."
-                .into(),
-        );
+        let cut_off = match of.fit.cut_off {
+            0 => String::new(),
+            n => format!(
+                " The budget cut {n} of the searches downhill short: a larger --budget may find a lower chi-square."
+            ),
+        };
+        all.push(format!(
+            "Intervals are about this best run.{cut_off} Whether the search ends elsewhere too, another --seed tells: where its intervals do not \
+             overlap these, neither holds."
+        ));
     }
     all
 }

@@ -165,13 +165,16 @@ pub(crate) fn embed(page: &mut String, plot: &IndicatorPlot) {
 fn spec(plot: &IndicatorPlot, size: Size) -> Spec {
     let named = !plot.x_names.is_empty();
     let points = || plot.lines.iter().flat_map(|line| &line.points);
-    let heights = points().flat_map(|p| {
-        let (low, high) = p.interval.unwrap_or((p.value, p.value));
-        [p.value, low, high]
-    });
-    let heights = heights.chain(plot.shown_limits().map(|l| l.0));
-    let values = points().map(|p| p.value).chain(plot.shown_limits().map(|l| l.0));
-    let y = Domain::over_decades(values, DECADES).unwrap_or_else(|| y_domain(heights));
+    let heights = || {
+        let heights = points().flat_map(|p| {
+            let (low, high) = p.interval.unwrap_or((p.value, p.value));
+            [p.value, low, high]
+        });
+        heights.chain(plot.shown_limits().map(|l| l.0))
+    };
+    // The values say whether; the ends of intervals are shown, and those of 0 or less only a linear axis shows.
+    let spread = Domain::over_decades(points().map(|p| p.value), DECADES);
+    let y = spread.and_then(|_| Domain::over_decades(heights(), DECADES)).unwrap_or_else(|| y_domain(heights()));
     let beside = plot.shown_limits().map(|(_, words)| font::width(words, size.font, false)).fold(0.0, f64::max);
     let x = if named {
         Domain::exact(-0.5, plot.x_names.len() as f64 - 0.5)

@@ -174,8 +174,8 @@ pub struct BandLevel {
 
 /// Of a signal sampled at `fs` Hz; averages are over whole revolutions of `shaft` Hz. The envelope is the modulus of
 /// the analytic signal: an amplitude A has an envelope A. Six periods of the band's lower edge at either end are left
-/// out, or a fifth of the signal: the ends are faded, so that a strong line below the band is not in it. `None` where
-/// nothing lies within the band.
+/// out, or a fifth of the signal: the ends are faded, so that a strong line below the band is not in it, where the signal holds
+/// sixty periods of the edge. `None` where nothing lies within the band.
 pub fn band_level(x: &[f64], fs: f64, band: Band, shaft: f64) -> Option<BandLevel> {
     let mut faded = x.to_vec();
     let end = fade(&mut faded, fs, band.low);

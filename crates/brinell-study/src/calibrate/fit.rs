@@ -77,6 +77,8 @@ pub struct Fit {
     pub centre: usize,
     /// Half the distance of each key's difference, in ranges.
     pub steps: Vec<f64>,
+    /// Searches downhill that the budget ended, or that did not begin.
+    pub cut_off: usize,
     /// What the differences say.
     pub identified: Identified,
 }
@@ -320,8 +322,10 @@ pub fn fit<'a>(keys: usize, targets: &'a [Target], settings: Settings, ask: &'a 
 
     book.stage = Stage::Local;
     book.limit = settings.budget - reserve;
+    let mut cut_off = 0;
     for beginning in &book.beginnings() {
-        stage(&mut book, |ask| local(ask, beginning, targets.len(), step))?;
+        let ended = stage(&mut book, |ask| local(ask, beginning, targets.len(), step))?;
+        cut_off += usize::from(!ended);
     }
     // Runs near the best are what the outcome rests on.
     let own = book.weigh(particles);
@@ -338,21 +342,23 @@ pub fn fit<'a>(keys: usize, targets: &'a [Target], settings: Settings, ask: &'a 
         best,
         centre,
         steps,
+        cut_off,
         identified,
     })
 }
 
-/// Lets a search ask the book; to run out of points is no failure.
+/// Lets a search ask the book, and tells whether it came to its end; to run out of points is no failure.
 fn stage(
     book: &mut Book,
     search: impl for<'b> FnOnce(&RefCell<&'b mut Ask<'b>>) -> Result<(), Halt>,
-) -> Result<(), Unfit> {
+) -> Result<bool, Unfit> {
     let mut ask = |points: &[Vec<f64>]| {
         let indices = book.indices(points)?;
         Ok(indices.into_iter().map(|k| book.residuals(k)).collect())
     };
     match search(&RefCell::new(&mut ask)) {
-        Ok(()) | Err(Halt::Budget) => Ok(()),
+        Ok(()) => Ok(true),
+        Err(Halt::Budget) => Ok(false),
         Err(Halt::Interrupted) => Err(Unfit::Interrupted),
     }
 }

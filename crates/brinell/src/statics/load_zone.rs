@@ -28,9 +28,10 @@ pub struct StaticLoadZone {
     pub stiffness: [[f64; 2]; 2],
     /// What the support of the ring that the load is on takes of it, by the ring's mean displacement, N.
     pub support: f64,
-    /// How far the bearing as a whole is from the origin, m: the mean displacement of the ring that moves less. The model's
-    /// levers are those of the centred bearing, so the cage, and defect frequencies with it, come out faster by about this
-    /// over R_m.
+    /// How far the bearing as a whole is from the origin, m, towards the load zone: of the two rings' mean displacements
+    /// along [`Self::middle`] the smaller; negative away from it, as under a load on the outer ring, where loaded rollers
+    /// are nearer to the origin. The model's levers are those of the centred bearing, so the cage, and FTF and BPFO with
+    /// it, come out faster by up to this over R_m.
     pub sunk: f64,
 }
 
@@ -109,13 +110,14 @@ fn as_it_is(model: &Model) -> Result<StaticLoadZone, NoBalance> {
         (-end(model, &mut problem, &places, -1.0)?, end(model, &mut problem, &places, 1.0)?)
     };
     zone.extent = zone.ends.1 - zone.ends.0;
-    let [inner, outer] = displaced.map(|by| by[0].hypot(by[1]));
     let loaded = match model.load.on {
-        LoadOn::InnerRing => inner,
-        LoadOn::OuterRing => outer,
+        LoadOn::InnerRing => displaced[0],
+        LoadOn::OuterRing => displaced[1],
     };
-    zone.support = model.loaded_support().stiffness * loaded;
-    zone.sunk = inner.min(outer);
+    zone.support = model.loaded_support().stiffness * loaded[0].hypot(loaded[1]);
+    let (sin, cos) = zone.middle.sin_cos();
+    let [inner, outer] = displaced.map(|by| cos * by[0] + sin * by[1]);
+    zone.sunk = if inner.abs() < outer.abs() { inner } else { outer };
     Ok(zone)
 }
 
