@@ -78,7 +78,7 @@ impl Survey {
         let (problems, loaded) = match draws.scenario(base, run) {
             Ok((loaded, draw)) => {
                 let again = draw.redrawn > 0;
-                self.prints.push((run, print(&draw.settings)));
+                self.prints.push((run, print(&draw.settings, &loaded.scenario)));
                 let problems = match draws.first(base, run) {
                     Ok(first) if again => brinell::document::read(base, &first.settings).err(),
                     _ => None,
