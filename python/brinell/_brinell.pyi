@@ -45,6 +45,7 @@ __all__ = [
     "studio_page",
     "sweep",
     "template",
+    "values",
     "verify",
 ]
 __version__: str
