@@ -102,7 +102,8 @@ pub fn calibration_undetermined(of: &Outcome) -> Vec<String> {
     }
     if all.is_empty() {
         all.push(format!(
-            "Every key is determined: its 95 % interval covers less than {} % of its range.",
+            "Every key is determined{}: its 95 % interval covers less than {} % of its range.",
+            if of.fit.cut_off > 0 { " about the best run" } else { "" },
             100.0 * MOST
         ));
     }
