@@ -209,7 +209,7 @@ fn static_balance(s: &Scenario, model: &Model, zone: &StaticLoadZone) {
     }
     let from_to = match zone.extent > 0.0 && zone.extent < TAU {
         true => {
-            let [from, to] = [zone.ends.0, zone.ends.1].map(|end| wrap(zone.middle + end).to_degrees());
+            let [from, to] = zone.arc().map(|end| wrap(end).to_degrees());
             format!(", from {from:.1} to {to:.1} deg")
         }
         false => String::new(),

@@ -61,8 +61,6 @@ pub use file_kind::FileKind;
 pub use format::{Format, MemoryWriter};
 #[doc(hidden)]
 pub use journal::Journal;
-#[doc(hidden)]
-pub use read::MAX_VALUES;
 #[cfg(feature = "parquet")]
 #[doc(hidden)]
 pub use read::records::read_records;
@@ -70,6 +68,8 @@ pub use read::{
     Channel, Decimal, Delimiter, NoRate, NotNamed, Rate, RateSource, SignalFile, TextFormat, open, open_as, open_bytes,
     open_bytes_as, rate_of_times, seconds_in,
 };
+#[doc(hidden)]
+pub use read::{MAX_VALUES, names};
 #[cfg(feature = "parquet")]
 #[doc(hidden)]
 pub use records::{Cell, Kind, RecordColumn, read_row_file, sha256_of, write_row_file};

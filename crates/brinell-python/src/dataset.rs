@@ -171,8 +171,7 @@ impl Campaign {
         dict.set_item("before", summary.before)?;
         dict.set_item("failed", summary.failed)?;
         dict.set_item("whole", summary.whole)?;
-        let classes: Vec<String> = self.0.plan().classes.iter().map(|class| class.name.clone()).collect();
-        dict.set_item("warnings", summary.tally.words(&classes))?;
+        dict.set_item("warnings", summary.warnings(&self.0))?;
         Ok(dict)
     }
 }

@@ -189,9 +189,7 @@ fn opened(bench: &Bench) -> Value {
         "orders": { "BPFO": orders.bpfo, "BPFI": orders.bpfi, "BSF": orders.bsf, "FTF": orders.ftf },
         "geometry": geometry(scenario),
         "load_deg": load[1].atan2(load[0]).to_degrees(),
-        "load_zone_deg": before.statics.ok().map(|z| {
-            [z.middle + z.ends.0, z.middle + z.ends.1].map(f64::to_degrees)
-        }),
+        "load_zone_deg": before.statics.ok().map(|z| z.arc().map(f64::to_degrees)),
     })
 }
 

@@ -279,7 +279,7 @@ fn outside_the_load_zone(scenario: &Scenario, model: &Model, zone: &StaticLoadZo
         }
         let degrees = |x: f64| wrap(x).to_degrees();
         let (words, allowed) = if zone.extent > 0.0 {
-            let (from, to) = (degrees(zone.middle + zone.ends.0), degrees(zone.middle + zone.ends.1));
+            let [from, to] = zone.arc().map(degrees);
             (
                 format!(
                     "this damage is outside the load zone, which is {:.0} deg wide around {:.0} deg: {element}s pass it without load",

@@ -82,8 +82,7 @@ fn make(args: &DatasetArgs, path: &Path) -> Result<ExitCode, Failure> {
     tell_failures(&failures);
     let shard = shard?;
     let left = shard.runs - shard.done - shard.before;
-    let classes: Vec<String> = campaign.plan().classes.iter().map(|class| class.name.clone()).collect();
-    let heed = shard.tally.words(&classes);
+    let heed = shard.warnings(&campaign);
     if args.json {
         say::json(&summary(&shard, left, &folder, &failures, &heed));
     }

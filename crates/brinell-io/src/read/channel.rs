@@ -76,6 +76,19 @@ impl Channel {
         self.shape.contains(&0) || self.shape.iter().filter(|&&n| n != 1).count() <= 1
     }
 
+    /// Whether it has rows and columns, and more than one of each.
+    pub fn is_matrix(&self) -> bool {
+        self.shape.len() == 2 && self.shape.iter().all(|n| *n > 1)
+    }
+
+    /// Its name, with its label where it has one, for a message.
+    pub fn with_label(&self) -> String {
+        match &self.label {
+            Some(label) => format!("{} ({label})", self.name),
+            None => self.name.clone(),
+        }
+    }
+
     /// Whether this may be a signal: readable, and more than one value.
     pub fn may_be_signal(&self) -> bool {
         self.unreadable.is_none() && self.length.is_none_or(|n| n > 1)

@@ -247,7 +247,8 @@ fn plain<'a>(channels: impl Iterator<Item = &'a Channel>) -> impl Iterator<Item 
 }
 
 /// Up to twenty names, for a message.
-fn names(names: impl Iterator<Item = String>) -> String {
+#[doc(hidden)]
+pub fn names(names: impl Iterator<Item = String>) -> String {
     let mut all: Vec<String> = names.collect();
     let more = all.len().saturating_sub(20);
     all.truncate(20);

@@ -10,7 +10,8 @@ pub struct NotNamed(String);
 impl SignalFile {
     /// The channel meant, with the name under which it is read. `text` is its name, its label, its number from 1, a
     /// column or row of a matrix such as `X(:,2)`, or whole words of one name or label alone: `DE` is `X098_DE_time`,
-    /// and not `grade`; where none has the word, one that begins so, from three characters on. Words end at `_` and the like, between letters and digits, and where capitals begin or end.
+    /// and not `grade`; where none has the word, one that begins so, from three characters on. Words end at `_` and the
+    /// like, between letters and digits, and where capitals begin or end.
     ///
     /// # Errors
     /// Where there is no such channel, or several are called like that: which there are.
@@ -33,16 +34,16 @@ impl SignalFile {
         {
             return Ok((text.to_owned(), found.clone()));
         }
-        let said = |in_name: fn(&str, &str) -> bool| -> Vec<&Channel> {
+        let said = |whole: bool| -> Vec<&Channel> {
             let says = |c: &&Channel| {
                 let label = c.label.as_deref().unwrap_or_default();
-                [c.name.as_str(), label].iter().any(|name| in_name(name, text))
+                [c.name.as_str(), label].iter().any(|name| has_words(name, text, whole))
             };
             channels.iter().filter(|c| c.may_be_signal()).filter(says).collect()
         };
-        let mut partly = said(has_words);
+        let mut partly = said(true);
         if partly.is_empty() && text.trim().chars().count() >= LEAST_BEGINNING {
-            partly = said(has_beginning);
+            partly = said(false);
         }
         match partly[..] {
             [only] => Ok(whole(only)),
@@ -58,8 +59,7 @@ impl SignalFile {
     fn numbered(&self, text: &str, number: usize) -> Result<(String, Channel), NotNamed> {
         let (channels, path) = (self.channels(), self.path().display());
         if let [matrix] = channels
-            && matrix.shape.len() == 2
-            && matrix.shape.iter().all(|n| *n > 1)
+            && matrix.is_matrix()
         {
             return Err(NotNamed(format!(
                 "{path} has one channel, the matrix `{0}`; its column {text} is called '{0}(:,{text})'",
@@ -79,27 +79,15 @@ impl SignalFile {
 
 /// Names with their labels, for a message.
 fn listed<'a>(channels: impl Iterator<Item = &'a Channel>) -> String {
-    names(channels.map(|c| match &c.label {
-        Some(label) => format!("{} ({label})", c.name),
-        None => c.name.clone(),
-    }))
+    names(channels.map(Channel::with_label))
 }
 
 /// Fewest characters of the beginning of a word: `acc` of `acceleration`. Two may be anybody's.
 const LEAST_BEGINNING: usize = 3;
 
-/// Whether `text` is whole words of `name`, whatever the case.
-fn has_words(name: &str, text: &str) -> bool {
-    stands_in(name, text, true)
-}
-
-/// Whether a word of `name` begins like `text`, whatever the case.
-fn has_beginning(name: &str, text: &str) -> bool {
-    stands_in(name, text, false)
-}
-
-/// Whether `text` is in `name` from the beginning of a word on, and to the end of one if it has to be `whole`.
-fn stands_in(name: &str, text: &str, whole: bool) -> bool {
+/// Whether `text` is in `name` from the beginning of a word on, and to the end of one if it has to be `whole`, whatever
+/// the case.
+fn has_words(name: &str, text: &str, whole: bool) -> bool {
     let (name, text): (Vec<char>, Vec<char>) = (name.chars().collect(), text.trim().chars().collect());
     let alike = |a: &char, b: &char| a.to_lowercase().eq(b.to_lowercase());
     let at = |k: usize| {
@@ -148,12 +136,12 @@ mod tests {
             ("acc [g]", "acc"),
             ("Schwingung Süd", "süd"),
         ] {
-            assert!(has_words(name, text), "{text} of {name}");
+            assert!(has_words(name, text, true), "{text} of {name}");
         }
         for (name, text) in
             [("grade_of_oil", "DE"), ("Drive", "d"), ("X098_DE_time", "D"), ("X1098", "98"), ("depth", "DE"), ("a", "")]
         {
-            assert!(!has_words(name, text), "{text} of {name}");
+            assert!(!has_words(name, text, true), "{text} of {name}");
         }
     }
 }

@@ -65,7 +65,7 @@ impl<'a> Seen<'a> {
             Surface::InnerRaceway => vec![approach(Side::Inner)],
             Surface::Roller(_) => vec![approach(Side::Outer), approach(Side::Inner)],
         };
-        let zone = statics.filter(|z| z.extent > 0.0).map(|z| [z.middle + z.ends.0, z.middle + z.ends.1]);
+        let zone = statics.filter(|z| z.extent > 0.0).map(StaticLoadZone::arc);
         let (first, last) = defect.shape.arc();
         let arc = (last - first) / defect.radius;
         let extent = Extent::of(&defect.shape, defect.depth);

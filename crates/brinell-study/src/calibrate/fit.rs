@@ -83,14 +83,22 @@ pub struct Fit {
     pub identified: Identified,
 }
 
+/// So many half intervals from the best point the rise of chi-square should be its square times that at the interval's
+/// end: nine times, which the runs' own uncertainty does not hide.
+const FAR: f64 = 3.0;
+
 impl Fit {
+    /// Runs that meet the targets as well as a 95 % interval allows, with their numbers from 0.
+    fn as_well(&self) -> impl Iterator<Item = (usize, &Evaluation)> {
+        let most = self.evaluations[self.best].chi_square + self.identified.rise;
+        self.evaluations.iter().enumerate().filter(move |(_, e)| e.chi_square <= most)
+    }
+
     /// The interval of `key` by differences about the best point, widened to the runs that meet the targets as well.
     pub fn interval(&self, key: usize) -> (f64, f64) {
-        let best = &self.evaluations[self.best];
-        let (place, half) = (best.place[key], self.identified.half_widths[key]);
-        let most = best.chi_square + self.identified.rise;
-        let as_well = self.evaluations.iter().filter(|e| e.chi_square <= most).map(|e| e.place[key]);
-        as_well.fold((place - half, place + half), |(low, high), at| (low.min(at), high.max(at)))
+        let (place, half) = (self.evaluations[self.best].place[key], self.identified.half_widths[key]);
+        let places = self.as_well().map(|(_, e)| e.place[key]);
+        places.fold((place - half, place + half), |(low, high), at| (low.min(at), high.max(at)))
     }
 
     /// Where linear least squares expects the best place of `key`, in the unit interval, where that is outside its interval
@@ -100,22 +108,13 @@ impl Fit {
         let off = (expected - self.evaluations[self.best].place[key]).abs();
         (off > self.identified.half_widths[key]).then_some(expected)
     }
-}
 
-/// So many half intervals from the best point the rise of chi-square should be its square times that at the interval's
-/// end: nine times, which the runs' own uncertainty does not hide.
-const FAR: f64 = 3.0;
-
-impl Fit {
     /// A run that meets the targets as well as the interval of `key` allows, far outside this interval: the targets do
     /// not depend linearly on the keys between the two, and differences about the best run do not tell how sure the key
     /// is. Of several the best.
     pub fn rival(&self, key: usize) -> Option<usize> {
-        let best = &self.evaluations[self.best];
-        let far = FAR * self.identified.half_widths[key];
-        let most = best.chi_square + self.identified.rise;
-        let all = self.evaluations.iter().enumerate();
-        let rivals = all.filter(|(_, e)| e.chi_square <= most && (e.place[key] - best.place[key]).abs() > far);
+        let (place, far) = (self.evaluations[self.best].place[key], FAR * self.identified.half_widths[key]);
+        let rivals = self.as_well().filter(|(_, e)| (e.place[key] - place).abs() > far);
         rivals.min_by(|a, b| a.1.chi_square.total_cmp(&b.1.chi_square)).map(|(k, _)| k)
     }
 }

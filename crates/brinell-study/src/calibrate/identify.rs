@@ -107,7 +107,7 @@ pub fn identify(residuals: &[f64], jacobian: &DMatrix<f64>, noise: &[f64]) -> Id
 
 /// Where linear least squares expects the least misfit, from the point with these residuals. Directions with a
 /// thousandth of the largest singular value stay as they are.
-pub(super) fn least_squares(jacobian: &DMatrix<f64>, residuals: &[f64]) -> Vec<f64> {
+fn least_squares(jacobian: &DMatrix<f64>, residuals: &[f64]) -> Vec<f64> {
     let svd = jacobian.clone().svd(true, true);
     let least = 1e-3 * svd.singular_values.max();
     let step = svd.solve(&-DVector::from_column_slice(residuals), least);

@@ -165,7 +165,7 @@ impl Folder {
                 "campaign": facts.metadata.get(CAMPAIGN),
                 "brinell": facts.metadata.get(brinell_io::keys::VERSION),
                 "name": facts.metadata.get(NAME),
-                "kernel": facts.metadata.get(KERNEL),
+                KERNEL_OF: facts.metadata.get(KERNEL),
                 "runs": "?",
             });
             self.same(mine, &theirs)?;

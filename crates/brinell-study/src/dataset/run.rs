@@ -67,6 +67,14 @@ pub struct ShardSummary {
     pub whole: bool,
 }
 
+impl ShardSummary {
+    /// What the user of the shard's finished files should know, a sentence each.
+    pub fn warnings(&self, campaign: &Campaign) -> Vec<String> {
+        let classes: Vec<String> = campaign.plan().classes.iter().map(|class| class.name.clone()).collect();
+        self.tally.words(&classes)
+    }
+}
+
 /// A file whose runs are being done.
 struct Open {
     left: usize,

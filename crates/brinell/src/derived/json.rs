@@ -50,7 +50,7 @@ pub fn to_json(s: &Scenario, model: &Model, d: &Derived) -> Value {
 
 /// What [`StaticLoadZone`] sums up, as `brinell check` prints it; the ends are counter-clockwise from +x.
 fn load_zone(zone: &StaticLoadZone) -> Value {
-    let ends = [zone.ends.0, zone.ends.1].map(|end| (zone.middle + end).to_degrees());
+    let ends = zone.arc().map(f64::to_degrees);
     json!({
         "largest_contact_force_n": zone.largest,
         "extent_deg": zone.extent.to_degrees(),

@@ -36,6 +36,11 @@ pub struct StaticLoadZone {
 }
 
 impl StaticLoadZone {
+    /// Where the zone begins and ends, rad, counter-clockwise from +x; not wrapped.
+    pub fn arc(&self) -> [f64; 2] {
+        [self.middle + self.ends.0, self.middle + self.ends.1]
+    }
+
     /// Static deformation of the heaviest contact on the softer raceway, m.
     pub(crate) fn deformation(&self, model: &Model) -> f64 {
         let on = |side| model.deflection(side, self.largest);

@@ -4,23 +4,15 @@ use super::wanted::Wanted;
 use crate::failure::Failure;
 use brinell::channel::SENSOR;
 use brinell::document::Loaded;
-use brinell_io::{Channel, SignalFile};
+use brinell_io::{Channel, SignalFile, names};
 
 /// The channel meant, by name, words of a name, or number.
 pub(super) fn resolve(file: &SignalFile, text: &str, option: &str) -> Result<(String, Channel), Failure> {
     file.named(text).map_err(|why| Failure::Usage(format!("{option} {text}: {why}")))
 }
 
-fn is_matrix(channel: &Channel) -> bool {
-    channel.shape.len() == 2 && channel.shape.iter().all(|n| *n > 1)
-}
-
 fn listed<'a>(channels: impl Iterator<Item = &'a Channel>) -> String {
-    let named = |c: &Channel| match &c.label {
-        Some(label) => format!("{} ({label})", c.name),
-        None => c.name.clone(),
-    };
-    shortened(channels.map(named).collect())
+    names(channels.map(Channel::with_label))
 }
 
 /// Every channel, with why it is no signal.
@@ -32,18 +24,7 @@ fn refused(file: &SignalFile) -> String {
         _ => "holds times".into(),
     };
     let channels = file.channels().iter();
-    let described = channels.map(|c| format!("`{}` {}", c.name, why(c)));
-    shortened(described.collect())
-}
-
-fn shortened(names: Vec<String>) -> String {
-    let more = names.len().saturating_sub(20);
-    let shown = names[..names.len() - more].join(", ");
-    match more {
-        0 if shown.is_empty() => "nothing".into(),
-        0 => shown,
-        _ => format!("{shown} and {more} more"),
-    }
+    names(channels.map(|c| format!("`{}` {}", c.name, why(c))))
 }
 
 /// The channel to analyse.
@@ -90,7 +71,7 @@ pub(super) fn channel(
         Ok(Chosen::Among(signals, words))
     };
     match signals[..] {
-        [only] if is_matrix(only) => among(format!(
+        [only] if only.is_matrix() => among(format!(
             "`{name}` is {} x {}; choose a column, as {option} '{name}(:,1)', or a row, as {option} '{name}(1,:)'",
             only.shape[0],
             only.shape[1],
