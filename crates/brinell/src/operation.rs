@@ -6,19 +6,23 @@ use std::f64::consts::TAU;
 /// Speed of the inner ring, piecewise linear in time and held beyond its ends; its angle is the exact integral.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Rotation {
-    /// (t, w, W at t), t increasing; at least one entry.
-    knots: Vec<[f64; 3]>,
+    /// t increasing; at least one. One lies wherever the speed changes its sign.
+    knots: Vec<Knot>,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Knot {
+    /// s.
+    t: f64,
+    /// w_i, rad/s.
+    w: f64,
+    /// W_i, rad.
+    angle: f64,
+    /// Integral of |w_i|, rad.
+    turned: f64,
 }
 
 impl Rotation {
-    /// Of the turns that a shaft makes, whatever their direction, from r/min.
-    pub fn of_turns(speed: &Speed) -> Self {
-        Self::new(&match speed {
-            Speed::Constant(rpm) => Speed::Constant(rpm.abs()),
-            Speed::Profile(points) => Speed::Profile(points.iter().map(|p| [p[0], p[1].abs()]).collect()),
-        })
-    }
-
     /// From r/min.
     pub fn new(speed: &Speed) -> Self {
         let rad = |rpm: f64| rpm * std::f64::consts::PI / 30.0;
@@ -26,52 +30,75 @@ impl Rotation {
             Speed::Constant(rpm) => vec![[0.0, *rpm]],
             Speed::Profile(points) => points.clone(),
         };
-        let mut knots: Vec<[f64; 3]> = Vec::with_capacity(points.len());
+        let mut rotation = Self { knots: Vec::with_capacity(points.len()) };
         for [t, rpm] in points {
             let w = rad(rpm);
-            let angle = knots.last().map_or(w * t, |&[t0, w0, a0]| a0 + 0.5 * (w0 + w) * (t - t0));
-            knots.push([t, w, angle]);
+            if let Some(&Knot { t: t0, w: w0, .. }) = rotation.knots.last().filter(|k| k.w * w < 0.0) {
+                rotation.push(t0 + (t - t0) * w0 / (w0 - w), 0.0);
+            }
+            rotation.push(t, w);
         }
-        let mut rotation = Self { knots };
-        let (_, start) = rotation.at(0.0);
-        rotation.knots.iter_mut().for_each(|k| k[2] -= start);
+        let ((_, angle), turned) = (rotation.at(0.0), rotation.turned(0.0));
+        for knot in &mut rotation.knots {
+            knot.angle -= angle;
+            knot.turned -= turned;
+        }
         rotation
+    }
+
+    fn push(&mut self, t: f64, w: f64) {
+        let moved = self.knots.last().map_or(w * t, |k| 0.5 * (k.w + w) * (t - k.t));
+        let (angle, turned) = self.knots.last().map_or((0.0, 0.0), |k| (k.angle, k.turned));
+        self.knots.push(Knot { t, w, angle: angle + moved, turned: turned + moved.abs() });
     }
 
     /// (w_i, W_i) in rad/s and rad; W_i(0) = 0.
     #[inline]
     pub fn at(&self, t: f64) -> (f64, f64) {
         let knots = &self.knots;
-        let next = knots.partition_point(|k| k[0] <= t);
+        let next = knots.partition_point(|k| k.t <= t);
         if next == 0 || next == knots.len() {
-            let [t0, w, angle] = knots[next.saturating_sub(1)];
+            let Knot { t: t0, w, angle, .. } = knots[next.saturating_sub(1)];
             return (w, angle + w * (t - t0));
         }
-        let [t0, w0, angle] = knots[next - 1];
-        let [t1, w1, _] = knots[next];
+        let Knot { t: t0, w: w0, angle, .. } = knots[next - 1];
+        let Knot { t: t1, w: w1, .. } = knots[next];
         let slope = (w1 - w0) / (t1 - t0);
         let dt = t - t0;
         (w0 + slope * dt, angle + dt * (w0 + 0.5 * slope * dt))
     }
 
+    /// What it has turned since t = 0, there and back alike: the integral of |w_i|, rad.
+    pub fn turned(&self, t: f64) -> f64 {
+        let before = self.knots.partition_point(|k| k.t <= t).saturating_sub(1);
+        let Knot { t: t0, angle, turned, .. } = self.knots[before];
+        let moved = (self.at(t).1 - angle).abs();
+        if t < t0 { turned - moved } else { turned + moved }
+    }
+
+    /// Whole turns, there and back alike, from one time to a later one.
+    pub fn whole_turns(&self, from: f64, t: f64) -> i64 {
+        ((self.turned(t) - self.turned(from)) / TAU).floor() as i64
+    }
+
     /// dw_i/dt, rad/s^2; the right-hand value at a knot.
     pub fn acceleration(&self, t: f64) -> f64 {
-        let next = self.knots.partition_point(|k| k[0] <= t);
+        let next = self.knots.partition_point(|k| k.t <= t);
         if next == 0 || next == self.knots.len() {
             return 0.0;
         }
-        let ([t0, w0, _], [t1, w1, _]) = (self.knots[next - 1], self.knots[next]);
-        (w1 - w0) / (t1 - t0)
+        let (from, to) = (self.knots[next - 1], self.knots[next]);
+        (to.w - from.w) / (to.t - from.t)
     }
 
     /// Largest |w_i|, rad/s.
     pub fn max_speed(&self) -> f64 {
-        self.knots.iter().map(|k| k[1].abs()).fold(0.0, f64::max)
+        self.knots.iter().map(|k| k.w.abs()).fold(0.0, f64::max)
     }
 
     /// Lowest and highest w_i, rad/s.
     pub fn speeds(&self) -> [f64; 2] {
-        let speeds = || self.knots.iter().map(|k| k[1]);
+        let speeds = || self.knots.iter().map(|k| k.w);
         [speeds().fold(f64::INFINITY, f64::min), speeds().fold(f64::NEG_INFINITY, f64::max)]
     }
 }
@@ -94,8 +121,8 @@ impl Scenario {
         if let Some(rpm) = self.operation.speed_rpm.constant() {
             return self.unsettled_s(rpm).min(half_way);
         }
-        let (rotation, ramp) = (Rotation::of_turns(&self.operation.speed_rpm), self.load_ramp_s());
-        let turned = |t: f64| rotation.at(t).1 - rotation.at(ramp).1 >= TAU;
+        let (rotation, ramp) = (Rotation::new(&self.operation.speed_rpm), self.load_ramp_s());
+        let turned = |t: f64| rotation.turned(t) - rotation.turned(ramp) >= TAU;
         if ramp >= half_way || !turned(half_way) {
             return half_way;
         }
@@ -169,6 +196,21 @@ mod tests {
     }
 
     #[test]
+    fn analytic_turns_there_and_back_add_up() {
+        // 10 turns a second to -10 in 0.2 s: a quarter of 2 turns each way, then one in 0.1 s.
+        let r = Rotation::new(&Speed::Profile(vec![[0.0, 600.0], [0.2, -600.0]]));
+        for (t, turned, angle) in [(0.1, 0.5, 0.5), (0.2, 1.0, 0.0), (0.3, 2.0, -1.0), (0.15, 0.625, 0.375)] {
+            assert!((r.turned(t) - TAU * turned).abs() < 1e-13 && (r.at(t).1 - TAU * angle).abs() < 1e-13);
+        }
+        let r = Rotation::new(&Speed::Constant(-60.0));
+        assert!((r.turned(2.0) - 4.0 * PI).abs() < 1e-13);
+        // Before its first point a profile has that point's speed, and nothing has turned at 0.
+        let r = Rotation::new(&Speed::Profile(vec![[0.1, -600.0], [0.2, 0.0]]));
+        assert_eq!(r.turned(0.0), 0.0);
+        assert!((r.turned(0.05) - TAU * 0.5).abs() < 1e-13 && (r.turned(0.2) - TAU * 1.5).abs() < 1e-13);
+    }
+
+    #[test]
     fn analytic_statistics_begin_a_turn_after_the_ramp() {
         let begun = |start: &str, speed: &str, duration: f64| {
             let text = format!(
@@ -188,5 +230,8 @@ mod tests {
         // Turns there and back are turns: 50 Hz, and half of a turn each way.
         let swing = "[[0, 3000], [0.03, 3000], [0.030001, -3000], [1, -3000]]";
         assert!((settled(swing, 1.0) - 0.04).abs() < 1e-5);
+        // Slowly through rest: 0.32 turns from the ramp to rest at 0.1 s, half a turn back, and what is left at 10 a second.
+        let there = 0.5 * 100.0 * (0.1_f64 - 0.02).powi(2);
+        assert!((settled("[[0, 600], [0.2, -600], [1, -600]]", 1.0) - (0.2 + (0.5 - there) / 10.0)).abs() < 1e-12);
     }
 }

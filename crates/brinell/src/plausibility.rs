@@ -361,8 +361,8 @@ fn too_short(scenario: &Scenario, model: &Model) -> Option<Problem> {
     // A turn of the shaft before the statistics begin, and then one of the cage; in turns of the shaft.
     let cage = 1.0 / model.kinematics(TAU).ftf;
     let needed = 1.0 + cage;
-    let rotation = Rotation::of_turns(&scenario.operation.speed_rpm);
-    let turns = |t: f64| rotation.at(t).1.abs() / TAU;
+    let rotation = Rotation::new(&scenario.operation.speed_rpm);
+    let turns = |t: f64| rotation.turned(t) / TAU;
     let turned = if duration > ramp { turns(duration) - turns(ramp) } else { 0.0 };
     if turned >= needed {
         return None;

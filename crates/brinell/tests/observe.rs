@@ -9,6 +9,7 @@ use brinell::observe::load_zone::{BINS, LoadZone, Places};
 use brinell::observe::motion::{FRAMES, Motion};
 use brinell::observe::orbit::{CageOrbit, TURNS};
 use brinell::observe::passes::Passes;
+use brinell::observe::slip::Slip;
 use brinell::observe::slip_course::{STRETCHES, SlipCourse};
 use brinell::scenario::{Guidance, ModelKind, Scenario, Speed};
 use std::f64::consts::{PI, TAU};
@@ -77,6 +78,36 @@ fn analytic_slip_over_time_is_the_mean_of_each_stretch() {
         }
         // Nothing had settled: no place was counted.
         assert!(course.over_angle(row).orbit.is_empty());
+    }
+}
+
+#[test]
+fn analytic_slip_through_rest_is_that_of_the_way() {
+    // Half a turn forward, half a turn back, and three at -10 a second.
+    let model = model(|s| s.operation.speed_rpm = Speed::Profile(vec![[0.0, 600.0], [0.2, -600.0]]));
+    let l = &model.layout;
+    let dof = l.dof();
+    let mut slip = Slip::new(l);
+    let extra = 0.3;
+    go(
+        &model,
+        (0.501 * RATE) as u64,
+        |t, y, _| {
+            let rolling = model.rolling_orbit_speed(model.rotation.at(t).0);
+            for row in 0..l.rows {
+                y[dof + l.cage(row) + 2] = 0.98 * rolling + extra;
+            }
+            y[dof + l.theta()..][..l.rollers()].fill(0.98 * rolling + extra);
+        },
+        |f| slip.take(f),
+    );
+    let way = 4.0 * TAU * model.rolling_orbit_speed(1.0);
+    let exact = 0.02 - extra * (0.1 - 0.4) / way;
+    for row in &slip.rows {
+        for found in [row.cage(), row.unloaded_orbit()] {
+            let value = found.unwrap().value;
+            assert!((value / exact - 1.0).abs() < 1e-3, "{value} {exact}");
+        }
     }
 }
 

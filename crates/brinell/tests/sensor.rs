@@ -215,3 +215,25 @@ fn prop_a_scenario_without_a_sensor_does_not_mention_one() {
     assert_eq!(assumed, ["sensor.mounting_damping_ratio", "sensor.noise_colour", "sensor.path.0.damping_ratio"]);
     assert_eq!(read(&loaded.to_toml(), &[]).unwrap().scenario, loaded.scenario);
 }
+
+/// A logger at a low rate holds what one at a high rate does, filtered: nothing folds.
+#[test]
+fn prop_a_lower_rate_holds_the_same_below_its_band() {
+    let mut s = short();
+    s.simulation.sample_rate_hz = 51_200.0;
+    let (fast, _) = simulate(&s);
+    s.simulation.sample_rate_hz = 6_400.0;
+    let (slow, _) = simulate(&s);
+    for name in ["sensor_ax", "sensor_ay"] {
+        let exact = brinell::signal::decimate(fast.column(name), 8).unwrap();
+        let found = slow.column(name);
+        // Beyond the response of the filters to the ends.
+        let inner = 40..found.len() - 40;
+        let norm = |x: &mut dyn Iterator<Item = f64>| x.map(|v| v * v).sum::<f64>().sqrt();
+        let all = norm(&mut exact[inner.clone()].iter().copied());
+        let off = norm(&mut inner.map(|k| found[k] - exact[k]));
+        println!("{name}: {:.2e} of {all:.3e}", off / all);
+        // The two passbands end at 0.4 and the transition is theirs alike; ripple and what folds are below.
+        assert!(off < 5e-3 * all, "{name}: {off:e} of {all:e}");
+    }
+}

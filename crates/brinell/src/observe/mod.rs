@@ -30,7 +30,6 @@ use pass_rate::PassRates;
 use passes::Passes;
 use slip::Slip;
 use slip_course::SlipCourse;
-use std::f64::consts::TAU;
 use time_frequency::TimeFrequency;
 use waveform::Waveform;
 
@@ -168,8 +167,6 @@ pub struct Watch {
     unsettled: f64,
     ramp: f64,
     started: Option<f64>,
-    /// Of the inner ring, when statistics began, rad.
-    start_angle: f64,
     /// Whole revolutions since then, by samples and by rows.
     turn: i64,
     row_turn: i64,
@@ -252,7 +249,6 @@ impl Watch {
             unsettled: scenario.operation.speed_rpm.constant().map_or(0.0, |rpm| scenario.unsettled_s(rpm)),
             ramp: model.load.ramp,
             started: None,
-            start_angle: 0.0,
             turn: 0,
             row_turn: 0,
             constant_speed: scenario.operation.speed_rpm.constant().is_some(),
@@ -286,15 +282,14 @@ impl Watch {
     pub fn sample(&mut self, frame: &Frame) {
         if self.started.is_none() && frame.t >= self.settled {
             self.started = Some(frame.t);
-            self.start_angle = frame.model.rotation.at(frame.t).1;
             self.rates.take(frame);
         }
         let bins = self.places.at(frame);
         self.slip_course.take(frame, bins, self.started.is_some());
         self.cage_orbit.take(frame);
         self.motion.take(frame);
-        if self.started.is_some() {
-            let turn = whole_turns(frame.model.rotation.at(frame.t).1 - self.start_angle);
+        if let Some(from) = self.started {
+            let turn = frame.model.rotation.whole_turns(from, frame.t);
             if turn != self.turn {
                 self.turn = turn;
                 self.rates.take(frame);
@@ -310,10 +305,10 @@ impl Watch {
         self.waveform.push(sensor);
         self.spectrogram.push(sensor);
         let t = index as f64 / self.sample_rate;
-        if self.started.is_none_or(|from| t < from) {
+        let Some(from) = self.started.filter(|from| t >= *from) else {
             return;
-        }
-        let turn = whole_turns(simulation.model().rotation.at(t).1 - self.start_angle);
+        };
+        let turn = simulation.model().rotation.whole_turns(from, t);
         let new_turn = turn != self.row_turn;
         self.row_turn = turn;
         let values = row.iter().chain(filtered);
@@ -388,10 +383,6 @@ impl Watch {
 /// Changes that are smaller mislead nobody.
 const LEAST_SLIP_DRIFT: f64 = 1e-3;
 const LEAST_LEVEL_DRIFT: f64 = 0.02;
-
-fn whole_turns(angle: f64) -> i64 {
-    (angle / TAU).floor() as i64
-}
 
 /// One for each defect, at constant speed; not yet found.
 fn defect_lines(scenario: &Scenario, simulation: &Simulation) -> Vec<DefectLine> {

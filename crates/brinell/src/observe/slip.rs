@@ -1,11 +1,11 @@
-//! Slip of cages and rollers against pure rolling, averaged over a run.
+//! Slip of cages and rollers against pure rolling, averaged over a run: by way, so that a speed near zero counts for
+//! next to nothing.
 
 use crate::channel::Frame;
 use crate::defect::Side;
 use crate::model::Layout;
 use crate::scenario::ModelKind;
 use crate::signal::{Averages, Estimate};
-use std::f64::consts::TAU;
 
 /// Slip of one row, as fractions.
 #[derive(Debug, Clone, Default)]
@@ -30,22 +30,22 @@ impl RowSlip {
         self.cage.drift()
     }
 
-    /// 1 - cage speed / its pure-rolling speed.
+    /// 1 - angle turned by the cage / in pure rolling.
     pub fn cage(&self) -> Option<Estimate> {
         self.cage.estimate()
     }
 
-    /// 1 - orbit speed / its pure-rolling speed, of rollers that both raceways press.
+    /// 1 - angle of the orbit / in pure rolling, of rollers that both raceways press.
     pub fn loaded_orbit(&self) -> Option<Estimate> {
         self.loaded_orbit.estimate()
     }
 
-    /// |slip| at the inner contact / speed of the inner raceway's surface, of the same rollers.
+    /// Way slipped at the inner contact / way of the inner raceway's surface, of the same rollers.
     pub fn loaded_surface(&self) -> Option<Estimate> {
         self.loaded_surface.estimate()
     }
 
-    /// 1 - orbit speed / its pure-rolling speed, of the other rollers.
+    /// 1 - angle of the orbit / in pure rolling, of the other rollers.
     pub fn unloaded_orbit(&self) -> Option<Estimate> {
         self.unloaded_orbit.estimate()
     }
@@ -56,8 +56,8 @@ impl RowSlip {
 pub struct Slip {
     /// One a row; empty means for the lumped model, whose motion is kinematic.
     pub rows: Vec<RowSlip>,
-    /// Of the inner ring at the first instant, rad.
-    start_angle: Option<f64>,
+    /// The first instant, s.
+    start: Option<f64>,
     /// Whole revolutions since then.
     turn: i64,
 }
@@ -65,17 +65,16 @@ pub struct Slip {
 impl Slip {
     /// Empty.
     pub fn new(layout: &Layout) -> Self {
-        Self { rows: vec![RowSlip::default(); layout.rows], start_angle: None, turn: 0 }
+        Self { rows: vec![RowSlip::default(); layout.rows], start: None, turn: 0 }
     }
 
     /// Takes one instant; skipped while the ring is at rest.
     pub fn take(&mut self, f: &Frame) {
-        let (w, angle) = f.model.rotation.at(f.t);
+        let (w, _) = f.model.rotation.at(f.t);
         if f.model.kind == ModelKind::Lumped || w == 0.0 {
             return;
         }
-        let start = *self.start_angle.get_or_insert(angle);
-        let turn = ((angle - start) / TAU).floor() as i64;
+        let turn = f.model.rotation.whole_turns(*self.start.get_or_insert(f.t), f.t);
         if turn != self.turn {
             self.turn = turn;
             self.rows.iter_mut().for_each(RowSlip::end_revolution);
@@ -83,20 +82,22 @@ impl Slip {
         let l = &f.model.layout;
         let dof = l.dof();
         let rolling = f.model.rolling_orbit_speed(w);
-        let surface = w * f.model.geometry.inner_radius;
+        // Behind pure rolling, in its direction.
+        let behind = |speed: f64| (rolling - speed) * rolling.signum();
+        let surface = (w * f.model.geometry.inner_radius).abs();
         let [inner, outer] = [Side::Inner, Side::Outer].map(|side| &f.ws.contacts[side as usize]);
         for row in 0..l.rows {
-            self.rows[row].cage.push(1.0 - f.y[dof + l.cage(row) + 2] / rolling);
+            self.rows[row].cage.add(behind(f.y[dof + l.cage(row) + 2]), rolling.abs());
         }
         for slot in 0..l.rollers() {
             let row = &mut self.rows[l.row(slot)];
-            let orbit = 1.0 - f.y[dof + l.theta() + slot] / rolling;
+            let orbit = behind(f.y[dof + l.theta() + slot]);
             // At one raceway alone it is held by its weight or the centrifugal force, and may slide.
             if inner.force[slot] > 0.0 && outer.force[slot] > 0.0 {
-                row.loaded_orbit.push(orbit);
-                row.loaded_surface.push((inner.slip[slot] / surface).abs());
+                row.loaded_orbit.add(orbit, rolling.abs());
+                row.loaded_surface.add(inner.slip[slot].abs(), surface);
             } else {
-                row.unloaded_orbit.push(orbit);
+                row.unloaded_orbit.add(orbit, rolling.abs());
             }
         }
     }

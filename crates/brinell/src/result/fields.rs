@@ -123,13 +123,13 @@ fields! {
 fields! {
     "Slip of a row."
     SLIP: fn(&RowSlip) -> Option<Estimate>;
-    CAGE_SLIP "cage_slip" "1" Revolutions "1 - cage speed / pure rolling, mean" RowSlip::cage;
+    CAGE_SLIP "cage_slip" "1" Revolutions "1 - angle turned by the cage / in pure rolling" RowSlip::cage;
     LOADED_ORBIT_SLIP "loaded_orbit_slip" "1" Revolutions
-        "1 - orbit speed / pure rolling, mean of rollers that both raceways press" RowSlip::loaded_orbit;
+        "1 - angle of the orbit / in pure rolling, of rollers that both raceways press" RowSlip::loaded_orbit;
     LOADED_SURFACE_SLIP "loaded_surface_slip" "1" Revolutions
-        "|slip| at the inner contact / speed of the inner raceway, mean of rollers that both raceways press" RowSlip::loaded_surface;
+        "way slipped at the inner contact / way of the inner raceway, of rollers that both raceways press" RowSlip::loaded_surface;
     UNLOADED_ORBIT_SLIP "unloaded_orbit_slip" "1" Revolutions
-        "1 - orbit speed / pure rolling, mean of the other rollers" RowSlip::unloaded_orbit;
+        "1 - angle of the orbit / in pure rolling, of the other rollers" RowSlip::unloaded_orbit;
 }
 
 fields! {

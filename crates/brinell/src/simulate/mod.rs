@@ -6,6 +6,7 @@
 //! filter's length past the last sample.
 
 mod anti_alias;
+mod averages;
 mod failure;
 mod run_loop;
 mod signals;
@@ -16,6 +17,7 @@ use crate::error::Error;
 use crate::model::{Energy, Model, Power};
 use crate::scenario::{Accuracy, Scenario};
 use crate::sensor::{Chain, ChannelRecord};
+use crate::signal::decimate::FACTOR;
 use crate::solver::Work;
 use crate::start;
 use std::ops::ControlFlow;
@@ -150,7 +152,7 @@ pub struct Simulation {
     model: Model,
     channels: Vec<Channel>,
     filtered: Vec<Channel>,
-    /// Where each slope of the fast grid goes among them, and its entry of the derivative.
+    /// Where each acceleration of the fast grid goes among them, and its entry of the derivative.
     filtered_entries: Vec<(usize, usize)>,
     sensor: Option<Chain>,
     idle_patterns: Vec<String>,
@@ -216,6 +218,11 @@ impl Simulation {
     /// Samples a second.
     pub fn sample_rate(&self) -> f64 {
         self.sample_rate
+    }
+
+    /// Instants of the fast grid a second, in front of the anti-alias filter.
+    fn fast_rate(&self) -> f64 {
+        self.sample_rate * FACTOR as f64
     }
 
     /// Patterns of `record` that match no channel.

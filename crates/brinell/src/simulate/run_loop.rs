@@ -1,6 +1,7 @@
 //! The loop of a run: steps, their audits, samples and the anti-alias filter.
 
 use super::Decimator;
+use super::averages::{Averages, LAG};
 use super::failure::explain;
 use super::switches::Switches;
 use super::{End, EnergyAudit, Observer, Outcome, Simulation, SolverWork};
@@ -46,6 +47,7 @@ pub struct Run<S> {
     simulation: S,
     ws: Workspace,
     stepper: Stepper<Power>,
+    averages: Averages,
     decimator: Decimator,
     /// Input of the decimator.
     fast: Vec<f64>,
@@ -78,6 +80,7 @@ impl<S: Deref<Target = Simulation>> Run<S> {
         let settings = settings(model, simulation.accuracy);
         let stepper = Stepper::new(&mut motion, settings, 0.0, &simulation.initial);
         let n = motion.size();
+        let rates = &simulation.initial[n / 2..];
         let mut contact_state = ContactState::new(&model.layout);
         contact_state.store(model, 0.0, &simulation.initial, &ws);
         let mut switches = Switches::new(&model.layout);
@@ -85,6 +88,7 @@ impl<S: Deref<Target = Simulation>> Run<S> {
         let decimator = Decimator::new(simulation.filtered.len());
         Self {
             pending: Pending::new(&simulation, &decimator),
+            averages: Averages::new(&simulation.filtered_entries, 1.0 / simulation.fast_rate(), rates),
             stepper,
             decimator,
             fast: vec![0.0; simulation.filtered.len()],
@@ -124,7 +128,7 @@ impl<S: Deref<Target = Simulation>> Run<S> {
     /// Gives `rows` more rows at most. `None`: there are more to come. However a run is cut, its bits are the same.
     pub fn advance(&mut self, rows: u64, observer: &mut dyn Observer) -> Option<End> {
         let stop = self.rows.saturating_add(rows);
-        let fast_rate = self.simulation.sample_rate * FACTOR as f64;
+        let fast_rate = self.simulation.fast_rate();
         loop {
             // Dense output: every instant of the fast grid that the last step covered.
             loop {
@@ -143,6 +147,7 @@ impl<S: Deref<Target = Simulation>> Run<S> {
                 }
                 self.next += 1;
             }
+            self.averages.pass(&self.stepper);
             let model = &self.simulation.model;
             let ws = &mut self.ws;
             match self.stepper.step(&mut Motion { model, ws }) {
@@ -230,9 +235,8 @@ impl<S: Deref<Target = Simulation>> Run<S> {
 
     /// One instant of the fast grid.
     ///
-    /// What passes the anti-alias filter are slopes of the interpolated rates, not right-hand sides at interpolated
-    /// states: an eighth of the evaluations. They keep the momentum of every step, so they differ from those above the
-    /// filter's band alone.
+    /// What passes the anti-alias filter are averages of the interpolated motion, not right-hand sides at interpolated
+    /// states: an eighth of the evaluations, and nothing folds.
     fn sample(&mut self, t: f64, observer: &mut dyn Observer) -> ControlFlow<()> {
         let simulation: &Simulation = &self.simulation;
         let model = &simulation.model;
@@ -253,7 +257,13 @@ impl<S: Deref<Target = Simulation>> Run<S> {
                 observer.sample(index, &frame);
             }
         }
-        self.stepper.interpolated_accelerations(t, &simulation.filtered_entries, &mut self.fast);
+        if self.next == 0 {
+            return ControlFlow::Continue(());
+        }
+        self.averages.at(t, &self.stepper, &mut self.fast);
+        if self.next < LAG {
+            return ControlFlow::Continue(());
+        }
         if let (Some(sensing), Some(chain)) = (&mut self.sensing, &simulation.sensor) {
             if let Some(own) = chain.along([self.fast[0], self.fast[1]]) {
                 self.fast[2] = own;

@@ -297,19 +297,17 @@ impl<F: Copy + Default + AddAssign + Mul<f64, Output = F>> Stepper<F> {
         blend(v, factors, [v0, v1, &self.stages[STAGES], &self.stages[0]]);
     }
 
-    /// Slopes of that polynomial, of the rates of positions: for each (place, position) of `entries` into that place of
-    /// `slopes`. Second order at an instant, but their means over the step are exact.
-    pub fn interpolated_accelerations(&self, t: f64, entries: &[(usize, usize)], slopes: &mut [f64]) {
+    /// Integral of the interpolated rate of the position at `index`, from the start of the last step to a time within
+    /// it. It keeps the momentum of every step.
+    pub fn interpolated_displacement(&self, t: f64, index: usize) -> f64 {
         let (s, h) = self.within(t);
-        let r = 1.0 - s;
-        // Of the rise of the rate over the step, and of both ends' slopes.
-        let (rise, first, last) =
-            if h > 0.0 { (6.0 * s * r / h, r * (1.0 - 3.0 * s), s * (1.0 - 3.0 * r)) } else { (0.0, 0.0, 1.0) };
-        let (_, v0) = self.previous.split_at(self.previous.len() / 2);
-        let (_, v1) = self.y.split_at(self.y.len() / 2);
-        let (before, after) = (&self.stages[STAGES], &self.stages[0]);
-        for &(place, k) in entries {
-            slopes[place] = rise * (v1[k] - v0[k]) + first * before[k] + last * after[k];
-        }
+        let half = self.y.len() / 2;
+        let (v0, v1) = (self.previous[half + index], self.y[half + index]);
+        let (a0, a1) = (self.stages[STAGES][index], self.stages[0][index]);
+        // Of the polynomial in `interpolate`, term by term.
+        let (square, cube) = (s * s, s * s * s);
+        let last = cube * (1.0 - 0.5 * s);
+        let first = square * (0.5 - s * (2.0 / 3.0 - 0.25 * s));
+        h * ((s - last) * v0 + last * v1 + h * (first * a0 - cube * (1.0 / 3.0 - 0.25 * s) * a1))
     }
 }
