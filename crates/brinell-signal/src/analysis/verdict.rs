@@ -227,11 +227,13 @@ impl Record {
     }
 
     /// Slip beyond the tolerance, as a simulation may have, explains a race's comb only where nothing within it is
-    /// damage: BPFI less twice the shaft's frequency is a few per cent below BPFO.
+    /// damage: BPFI less twice the shaft's frequency is a few per cent below BPFO, and so may 2 BSF be, which a short
+    /// record leaves open.
     fn within_first(&self, all: &mut [Family]) {
         let is_near = |f: &Family| f.shift().abs() <= self.options.tolerance;
         let called = |f: &Family| f.finding == Finding::Damage && f.component != Component::Cage;
-        let near = all.iter().filter(|f| called(f) && is_near(f));
+        let is_open = |f: &Family| f.finding == Finding::Open && f.component == Component::Element && f.is_damage();
+        let near = all.iter().filter(|f| (called(f) || is_open(f)) && is_near(f));
         let Some(name) = near.max_by(|a, b| a.score.total_cmp(&b.score)).map(|f| f.name) else {
             return;
         };
