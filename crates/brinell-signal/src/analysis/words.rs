@@ -5,10 +5,22 @@ use super::drift::Drift;
 use super::family::{Family, Finding};
 use super::together::REVOLUTIONS;
 use super::{Analysis, Elsewhere, Mains, Verdict};
+use crate::Indicator;
 
 /// What a row of [`Analysis::rows`] holds; a column of numbers begins with `#`.
 pub const COLUMNS: [&str; 8] =
     ["Part", "Frequency", "#At, Hz", "#Shift, %", "#Harmonics", "#Over noise, dB", "#Modulation, %", "Says"];
+
+/// The indicators that are said in one line.
+pub const HEADLINES: [Indicator; 4] = [Indicator::Rms, Indicator::Peak, Indicator::CrestFactor, Indicator::Kurtosis];
+
+/// What one of [`HEADLINES`] is called in words. They are averages over revolutions, so the peak is not the record's.
+pub fn headline(indicator: Indicator) -> String {
+    match indicator {
+        Indicator::Peak => "peak of a revolution".into(),
+        other => other.name().replace('_', " "),
+    }
+}
 
 /// Slip of a loaded induction motor, at most.
 const MOST_SLIP: f64 = 0.05;
