@@ -163,7 +163,8 @@ impl Known {
     /// All that a verdict rests on, for its head.
     fn used(&self, analysis: &Analysis) -> Vec<String> {
         let channel = format!("channel {}: {:.3} s, {} samples", self.channel, analysis.duration(), analysis.samples);
-        let before = [format!("bearing: {}", self.bearing_words), self.speed_words.clone(), self.rate_words.clone()];
+        let speed = format!("{}, and {}", self.speed_words, analysis.shaft_words());
+        let before = [format!("bearing: {}", self.bearing_words), speed, self.rate_words.clone()];
         before.into_iter().chain(self.scaled.notes.iter().cloned()).chain([channel]).collect()
     }
 }

@@ -22,6 +22,8 @@ pub fn headline(indicator: Indicator) -> String {
     }
 }
 
+/// Lines this far, relative, from the speed given may be another shaft's: a tachometer is better than that.
+const SHAFT_DOUBT: f64 = 0.005;
 /// Slip of a loaded induction motor, at most.
 const MOST_SLIP: f64 = 0.05;
 /// Change of the RMS since the machine was healthy that is reported.
@@ -84,6 +86,15 @@ impl Analysis {
         text.join(" ")
     }
 
+    /// What the signal's own lines say of the shaft's speed.
+    pub fn shaft_words(&self) -> String {
+        match &self.drift {
+            Some(drift) if drift.followed => drift.words(),
+            Some(drift) => format!("{}; {}: give the channel of a measured speed", own_lines(self), drift.words()),
+            None => own_lines(self),
+        }
+    }
+
     /// The speed that the verdict rests on, where it is not the one given: a sentence.
     pub fn speed_used(&self) -> Option<String> {
         let (used, given) = (60.0 * self.shaft, 60.0 * self.options.shaft);
@@ -121,6 +132,29 @@ impl Analysis {
         };
         self.families.iter().map(row).collect()
     }
+}
+
+/// What the lines at multiples of the shaft's frequency say of its speed.
+fn own_lines(a: &Analysis) -> String {
+    if a.options.rotation.is_some() {
+        return "followed as stated".into();
+    }
+    if a.shaft_lines.is_empty() {
+        return "no two lines at its harmonics agree on it".into();
+    }
+    let orders: Vec<String> = a.shaft_lines.iter().map(usize::to_string).collect();
+    let off = a.shaft / a.options.shaft - 1.0;
+    let doubt = if off.abs() > SHAFT_DOUBT {
+        ", which is used instead; lines of another shaft near that speed look the same"
+    } else {
+        ""
+    };
+    format!(
+        "lines at its harmonics {} say {:.2} r/min ({:+.2} %){doubt}",
+        orders.join(", "),
+        60.0 * a.shaft,
+        100.0 * off
+    )
 }
 
 /// Whether lines of the shaft at even multiples alone let its speed be twice as high.

@@ -327,7 +327,7 @@ describe(`the page, with ${real ? "its engine" : "a stand-in for the engine"}`, 
     await page.waitForSelector("#measured:not([hidden]) table");
     await until(page, () => document.querySelector('brinell-curve[kind="spectrum"]').data?.second);
     assert.match(await page.textContent("#measured .used"),
-      /^bearing: .*6205-2RS.*; shaft speed 1730 r\/min, as given; sample rate 12000 Hz, as given; unit g, as given; channel x: /);
+      /^bearing: .*6205-2RS.*; shaft speed 1730 r\/min, as given.*; sample rate 12000 Hz, as given; unit g, as given; channel x: /);
     assert.match(await page.textContent("#measured .trouble"), /^Warning: .*of the signal's energy lie in one revolution/);
     assert.match(await page.textContent("#measured .levels"), /^rms .* g, peak of a revolution .* g/);
     // What goes wrong with another file takes that verdict away and names the file; what goes well takes the complaint away.
