@@ -150,7 +150,7 @@
     outline: ({ kind, bytes, name, options }) => {
       if (bytes.length < 60) refuse(null, `${name} is no ${kind}: its first bytes are of no format that is read`);
       if (kind === "photo" && !(options.mm_per_pixel > 0)) refuse("mm_per_pixel", "mm_per_pixel is missing: the side of a pixel");
-      return { shape: { outline: { points_mm: [[-1.5, -2], [1.5, -2], [1.2, 2], [-1.4, 1.8]] } }, notes: ["threshold 0.46"], length_mm: 3, width_mm: 4, area_mm2: 8.92 };
+      return { shape: { outline: { points_mm: [[-1.5, -2], [1.5, -2], [1.2, 2], [-1.4, 1.8]] } }, notes: ["threshold 0.46"], length_mm: 3, width_mm: 4, area_mm2: 8.937 };
     },
     normal: (request) => {
       const s = scenarioOf(request);
