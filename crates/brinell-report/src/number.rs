@@ -1,23 +1,7 @@
 //! Numbers as people read them: ticks at round values, true minus signs, units with raised exponents, symbols with
 //! lowered indices.
 
-/// A number with `digits` significant digits, plain where that is short: "1800", "0.0123", "1.90e8". For text that is
-/// copied or searched, so without spaces and raised digits.
-pub fn short(x: f64, digits: usize) -> String {
-    if x == 0.0 {
-        return "0".into();
-    }
-    if !x.is_finite() {
-        return x.to_string();
-    }
-    let exponent = x.abs().log10().floor() as i32;
-    if (-4..6).contains(&exponent) {
-        let decimals = (digits as i32 - 1 - exponent).max(0) as usize;
-        format!("{x:.decimals$}")
-    } else {
-        format!("{x:.*e}", digits - 1)
-    }
-}
+pub use brinell::signal::short;
 
 /// A value with its interval after it: `1.35 [1.30, 1.40]`.
 pub(crate) fn bracketed(value: String, interval: Option<(f64, f64)>) -> String {

@@ -56,6 +56,7 @@ pub mod analysis;
 pub mod band;
 pub mod blocks;
 pub mod decimate;
+mod digits;
 pub mod distribution;
 pub mod envelope;
 mod error;
@@ -88,6 +89,8 @@ pub(crate) mod test_signals;
 pub use band::Band;
 pub use blocks::{Blocks, RECORD_PEAK, RECORD_PEAK_TO_PEAK};
 pub use decimate::{decimate, kaiser_lowpass};
+#[doc(hidden)]
+pub use digits::short;
 pub use envelope::{EnvelopeSpectrum, envelope, envelope_spectrum};
 pub use error::SignalError;
 pub use estimate::{Estimate, Interval};

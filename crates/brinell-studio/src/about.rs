@@ -1,5 +1,6 @@
 //! What the page offers before anything runs.
 
+use brinell::analysis::NAMED;
 use brinell::bearing::catalogue;
 use brinell::document::json_schema;
 use serde_json::{Value, json};
@@ -39,6 +40,9 @@ pub(crate) fn about() -> Value {
             json!({ "name": entry.name, "words": entry.title, "element": element })
         })
         .collect();
+    // Also those of data sets that are of a catalogued size, as 6205-2RS: a measured file may be of them.
+    let named = NAMED.iter().map(|b| b.name).filter(|name| catalogue::find_exactly(name).is_none());
+    let known: Vec<&str> = catalogue::all().iter().map(|entry| entry.name.as_str()).chain(named).collect();
     let examples: Vec<Value> =
         (EXAMPLES.iter()).map(|(name, text)| json!({ "name": name, "words": words(text), "toml": text })).collect();
     json!({
@@ -46,6 +50,7 @@ pub(crate) fn about() -> Value {
         "engine": if cfg!(target_family = "wasm") { "webassembly" } else { "native" },
         "schema": json_schema(),
         "bearings": bearings,
+        "known": known,
         "examples": examples,
     })
 }

@@ -12,6 +12,7 @@ mod damage;
 mod differ;
 mod frames;
 mod judged;
+mod measured;
 mod message;
 mod page;
 mod pen;

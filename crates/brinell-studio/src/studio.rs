@@ -3,7 +3,7 @@
 use crate::bench::Bench;
 use crate::message::{Arrays, Message};
 use crate::report::{Answer, Trouble};
-use crate::{about, damage, differ, judged, pen, spectra, text};
+use crate::{about, damage, differ, judged, measured, pen, spectra, text};
 use brinell::bearing::orders_of;
 use brinell::channel::SENSOR;
 use brinell::plausibility::Beforehand;
@@ -78,8 +78,8 @@ impl Studio {
             "outline" => pen::outlined(request, given),
             "scratch" => pen::scratched(request, given),
             "brush" => pen::brushed(request, given),
-            "listen" => judged::listen(request, given),
-            "judge" => judged::judge(request, given, arrays),
+            "listen" => measured::listen(request, given),
+            "judge" => measured::judge(request, given, arrays),
             "differ" => differ::differ(request),
             "save" => judged::save(request, self.bench(request)?, arrays),
             "open" => self.open(request),

@@ -1,3 +1,4 @@
 //! Every test of the crate in one program.
 
+mod measured;
 mod studio;

@@ -277,6 +277,13 @@ pub fn sensor_channels(sensor: &Sensor) -> Vec<Channel> {
     channels
 }
 
+/// Unit of a run's channel that a signal may be in, by its name.
+#[doc(hidden)]
+pub fn unit_of_run(name: &str, sensor: &Sensor) -> Option<&'static str> {
+    let of_sensor = sensor_channels(sensor).into_iter().find(|c| c.name == name).map(|c| c.unit);
+    of_sensor.or_else(|| (name.ends_with("_ax") || name.ends_with("_ay")).then_some("m/s^2"))
+}
+
 /// Accelerations of rings and cages: the channels that an anti-alias filter makes sense of.
 pub(crate) fn filterable(model: &Model) -> Vec<Channel> {
     let l = &model.layout;

@@ -7,7 +7,7 @@ use super::{bearing, ends};
 use crate::failure::Failure;
 use brinell::analysis::{
     Analysis, AnalysisError, DefectOrders, FEWEST_REVOLUTIONS, Levels, Options, Quantity, Side, analyze as analysis_of,
-    compare, velocity,
+    compare, other_bearing, other_speed, velocity,
 };
 use brinell::bearing::orders_of;
 use brinell::result::{Stretch, beside_healthy};
@@ -54,12 +54,12 @@ pub(super) fn load(args: &AnalyzeArgs, path: &Path) -> Result<Measured, Failure>
 /// Everything that follows from a signal.
 fn examine(args: &AnalyzeArgs, mut measured: Measured, name: Option<&str>) -> Result<Diagnosis, Failure> {
     let (rpm, speed) = speed(args, &measured)?;
-    let other_speed = other_speed(args, &measured);
+    let other_speed = stated_speed(args, &measured);
     let shaft = rpm.abs() / 60.0;
     let (orders, bearing) = bearing::orders(args, name, &measured, shaft)?;
     // At another speed frequencies in Hz are other orders.
     if other_speed.is_none() {
-        measured.warnings.extend(other_bearing(&orders, name, &measured, args.tolerance));
+        measured.warnings.extend(bearing_of_run(&orders, name, &measured, args.tolerance));
     }
     measured.warnings.extend(other_speed);
     let mut options = Options::new(shaft, orders);
@@ -127,20 +127,16 @@ fn speed(args: &AnalyzeArgs, measured: &Measured) -> Result<(f64, String), Failu
 }
 
 /// A warning, where the file states another speed than was given.
-fn other_speed(args: &AnalyzeArgs, measured: &Measured) -> Option<String> {
+fn stated_speed(args: &AnalyzeArgs, measured: &Measured) -> Option<String> {
     let (given, stated) = (args.speed?, measured.speed.as_ref()?);
-    let differs = (given.abs() / stated.rpm.abs() - 1.0).abs() > 0.01 * args.tolerance;
-    differs.then(|| format!("--speed {given} r/min was taken, but {} says {:.1} r/min", stated.source, stated.rpm))
+    other_speed(&format!("--speed {given}"), given, stated.rpm, &stated.source, 0.01 * args.tolerance)
 }
 
 /// A warning, where the run that made the file is of another bearing than was asked about.
-fn other_bearing(orders: &DefectOrders, name: Option<&str>, measured: &Measured, tolerance: f64) -> Option<String> {
+fn bearing_of_run(orders: &DefectOrders, name: Option<&str>, measured: &Measured, tolerance: f64) -> Option<String> {
     let own = orders_of(&measured.scenario.as_deref()?.scenario.bearing);
-    let pairs = [(orders.bpfo, own.bpfo), (orders.bpfi, own.bpfi)];
-    let off = |(asked, own): (Option<f64>, Option<f64>)| Some((asked? / own? - 1.0).abs());
-    let differs = pairs.into_iter().filter_map(off).any(|off| off > 0.01 * tolerance);
     let asked = name.map_or("the bearing given".to_owned(), |name| format!("--bearing {name}"));
-    differs.then(|| format!("{asked} was taken, but the run that made the file is of another bearing"))
+    other_bearing(&asked, orders, &own, 0.01 * tolerance)
 }
 
 pub(super) fn turning(rpm: f64, source: &str) -> Result<(), Failure> {

@@ -2,13 +2,9 @@
 
 use super::diagnosis::Diagnosis;
 use super::measured::Rest;
-use brinell::analysis::to_json;
+use brinell::analysis::{HEADLINES, to_json};
 use brinell::signal::{Indicator, RECORD_PEAK};
 use serde_json::{Value, json};
-
-/// Indicators that are printed.
-pub(super) const HEADLINES: [Indicator; 4] =
-    [Indicator::Rms, Indicator::Peak, Indicator::CrestFactor, Indicator::Kurtosis];
 
 pub(super) fn as_json(result: &Diagnosis) -> Value {
     let m = &result.measured;

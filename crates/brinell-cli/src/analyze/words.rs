@@ -1,10 +1,9 @@
 //! What is printed of an analysis.
 
 use super::diagnosis::{Against, Diagnosis};
-use super::json::{HEADLINES, whole_indicators};
+use super::json::whole_indicators;
 use crate::say::{self, say, short};
-use brinell::analysis::{Analysis, COLUMNS};
-use brinell::signal::Indicator;
+use brinell::analysis::{Analysis, COLUMNS, HEADLINES, headline};
 use brinell_report::{level_lines, ratio, shaft_lines};
 use std::path::PathBuf;
 
@@ -68,11 +67,7 @@ fn indicators(a: &Analysis, unit: &str) {
         .map(|(i, e)| {
             let unit = if i.has_unit() { format!(" {}", unit) } else { String::new() };
             // Averages over revolutions; the largest of all samples is on the page.
-            let name = match i {
-                Indicator::Peak => "peak of a revolution".into(),
-                i => i.name().replace('_', " "),
-            };
-            format!("{name} {}{unit}", short(e.value, 4))
+            format!("{} {}{unit}", headline(*i), short(e.value, 4))
         })
         .collect();
     say!("  {}", rows.join(", "));

@@ -24,6 +24,7 @@ pub(crate) mod parquet;
 mod pick;
 #[cfg(feature = "parquet")]
 pub(crate) mod records;
+mod stated;
 mod text;
 mod times;
 mod uff;

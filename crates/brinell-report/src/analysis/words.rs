@@ -4,9 +4,6 @@ use crate::number::short;
 use brinell::analysis::{Analysis, Difference, Family, Finding, Verdict};
 use brinell::signal::Indicator;
 
-/// Lines this far, relative, from the speed given may be another shaft's: a tachometer is better than that.
-const SHAFT_DOUBT: f64 = 0.005;
-
 /// This over the other, where that says anything: skewness lies about zero.
 pub fn ratio(d: &Difference) -> Option<String> {
     let ratio = d.first / d.second;
@@ -18,33 +15,7 @@ pub fn ratio(d: &Difference) -> Option<String> {
 
 /// What the signal's own lines say of the shaft's speed.
 pub fn shaft_lines(a: &Analysis) -> String {
-    match &a.drift {
-        Some(drift) if drift.followed => drift.words(),
-        Some(drift) => format!("{}; {}: give the channel of a measured speed", own_lines(a), drift.words()),
-        None => own_lines(a),
-    }
-}
-
-fn own_lines(a: &Analysis) -> String {
-    if a.options.rotation.is_some() {
-        return "followed as stated".into();
-    }
-    if a.shaft_lines.is_empty() {
-        return "no two lines at its harmonics agree on it".into();
-    }
-    let orders: Vec<String> = a.shaft_lines.iter().map(usize::to_string).collect();
-    let off = a.shaft / a.options.shaft - 1.0;
-    let doubt = if off.abs() > SHAFT_DOUBT {
-        ", which is used instead; lines of another shaft near that speed look the same"
-    } else {
-        ""
-    };
-    format!(
-        "lines at its harmonics {} say {:.2} r/min ({:+.2} %){doubt}",
-        orders.join(", "),
-        60.0 * a.shaft,
-        100.0 * off
-    )
+    a.shaft_words()
 }
 
 /// The damaged parts in a word or two each, or what is said instead.

@@ -5,11 +5,25 @@ use super::drift::Drift;
 use super::family::{Family, Finding};
 use super::together::REVOLUTIONS;
 use super::{Analysis, Elsewhere, Mains, Verdict};
+use crate::Indicator;
 
 /// What a row of [`Analysis::rows`] holds; a column of numbers begins with `#`.
 pub const COLUMNS: [&str; 8] =
     ["Part", "Frequency", "#At, Hz", "#Shift, %", "#Harmonics", "#Over noise, dB", "#Modulation, %", "Says"];
 
+/// The indicators that are said in one line.
+pub const HEADLINES: [Indicator; 4] = [Indicator::Rms, Indicator::Peak, Indicator::CrestFactor, Indicator::Kurtosis];
+
+/// What one of [`HEADLINES`] is called in words. They are averages over revolutions, so the peak is not the record's.
+pub fn headline(indicator: Indicator) -> String {
+    match indicator {
+        Indicator::Peak => "peak of a revolution".into(),
+        other => other.name().replace('_', " "),
+    }
+}
+
+/// Lines this far, relative, from the speed given may be another shaft's: a tachometer is better than that.
+const SHAFT_DOUBT: f64 = 0.005;
 /// Slip of a loaded induction motor, at most.
 const MOST_SLIP: f64 = 0.05;
 /// Change of the RMS since the machine was healthy that is reported.
@@ -72,6 +86,15 @@ impl Analysis {
         text.join(" ")
     }
 
+    /// What the signal's own lines say of the shaft's speed.
+    pub fn shaft_words(&self) -> String {
+        match &self.drift {
+            Some(drift) if drift.followed => drift.words(),
+            Some(drift) => format!("{}; {}: give the channel of a measured speed", own_lines(self), drift.words()),
+            None => own_lines(self),
+        }
+    }
+
     /// The speed that the verdict rests on, where it is not the one given: a sentence.
     pub fn speed_used(&self) -> Option<String> {
         let (used, given) = (60.0 * self.shaft, 60.0 * self.options.shaft);
@@ -109,6 +132,29 @@ impl Analysis {
         };
         self.families.iter().map(row).collect()
     }
+}
+
+/// What the lines at multiples of the shaft's frequency say of its speed.
+fn own_lines(a: &Analysis) -> String {
+    if a.options.rotation.is_some() {
+        return "followed as stated".into();
+    }
+    if a.shaft_lines.is_empty() {
+        return "no two lines at its harmonics agree on it".into();
+    }
+    let orders: Vec<String> = a.shaft_lines.iter().map(usize::to_string).collect();
+    let off = a.shaft / a.options.shaft - 1.0;
+    let doubt = if off.abs() > SHAFT_DOUBT {
+        ", which is used instead; lines of another shaft near that speed look the same"
+    } else {
+        ""
+    };
+    format!(
+        "lines at its harmonics {} say {:.2} r/min ({:+.2} %){doubt}",
+        orders.join(", "),
+        60.0 * a.shaft,
+        100.0 * off
+    )
 }
 
 /// Whether lines of the shaft at even multiples alone let its speed be twice as high.

@@ -306,10 +306,10 @@ class Studio {
     notice("refused", rest.length ? rest.map((p) => p.message).join(" ") : null, { bad: true, actions: [["Undo", () => side.store.undo()]] });
   }
 
-  /** @param {unknown} error */
-  #failed(error) {
+  /** @param {unknown} error @param {string} [file] what it is about */
+  #failed(error, file = "") {
     const words = error instanceof Refused ? error.problems.map((p) => p.message).join(" ") : error instanceof Error ? error.message : String(error);
-    notice("failed", words, { bad: true });
+    notice("failed", words.includes(file) ? words : `${file}: ${words}`, { bad: true });
   }
 
   /** Draws what came last, once a frame. */
@@ -401,13 +401,14 @@ class Studio {
       try {
         await this.#open(file);
       } catch (error) {
-        this.#failed(error);
+        this.#failed(error, file.name);
       }
     }
   }
 
   /** @param {File} file */
   async #open(file) {
+    notice("failed", null);
     const kind = await chosenKind(file.name, kindsOf(file.name)), ask = (/** @type {any} */ request) => this.side.live.ask(request);
     if (!kind) return;
     const bytes = await bytesOf(file);
@@ -417,16 +418,25 @@ class Studio {
       if (got) this.panel.place(got.shape);
       return;
     }
-    const { scenario, rpm } = this.side.opened, found = await judged(ask, file.name, bytes, this.about.bearings, { bearing: scenario.bearing?.preset ?? "", rpm });
-    if (!found) return;
+    const { scenario, toml } = this.side.opened, own = { name: scenario.bearing?.preset ?? "", toml };
+    /** @type {any} */
+    let found = null;
     const beside = (/** @type {boolean} */ on) => {
       this.measured = on ? found : null;
       this.#dirty.add("curves");
     };
-    showMeasured(found, file.name, { beside, close: () => {
+    // A verdict on another file is not left beside what went wrong with this one.
+    const close = () => {
       beside(false);
       byId("measured").hidden = true;
-    } });
+    };
+    try {
+      found = await judged(ask, file.name, bytes, this.about.known, own, close);
+    } catch (error) {
+      close();
+      throw error;
+    }
+    if (found) showMeasured(found, file.name, { beside, close });
   }
 
   get #name() { return this.side.opened?.scenario.name ?? "scenario"; }

@@ -1,4 +1,5 @@
 // A measured signal: opened, judged by the engine, shown in the page and laid beside the simulation.
+import { Refused } from "./answers.js";
 import { byId, h, short, spelled, tableOf } from "./dom.js";
 
 /** @typedef {(request: Record<string, unknown>) => Promise<any>} Ask */
@@ -25,42 +26,69 @@ export function line(label, input, unit, note) {
 /** @param {string} text */
 const number = (text) => (text.trim() === "" ? null : Number(text));
 
+/** What a field says, null where it is what the file states: the engine then takes it from there, and says so. @param {HTMLInputElement} input @param {unknown} stated */
+const given = (input, stated) => (input.value.trim() === "" || input.value === String(stated ?? "") ? null : input.value.trim());
+
+/** A channel in a list. @param {any} c */
+const listed = (c) => [c.name, c.samples ? `${c.samples} samples` : "", c.rate_hz ? `${short(c.rate_hz, 6)} Hz` : "", c.unit ? spelled(c.unit) : ""].filter(Boolean).join(", ");
+
+/** Bearings by name, and how the page's own or that of the run that made the file is chosen. @param {string[]} known @param {any} run @param {string} own */
+function bearings(known, run, own) {
+  const of = run?.bearing ? `, ${run.bearing}` : "", option = (/** @type {string} */ value, /** @type {string} */ words) => h("option", { value }, words);
+  return h("select", { required: !run }, option("", run ? `as the file states: that of the run${of}` : "choose"), ...known.map((name) => option(name, name)),
+    option(OWN, `this page's bearing${own ? `: ${own}` : ""}`));
+}
+
+const OWN = "\u0000own";
+
 /**
- * Asks for what the file does not say, and has the signal judged.
+ * Asks for what the file does not say, and has the signal judged. What is refused is asked for again, with the reason.
  * @param {Ask} ask
  * @param {string} name
  * @param {Uint8Array<ArrayBuffer>} bytes
- * @param {{name: string, words: string}[]} bearings
- * @param {{bearing: string, rpm: number}} guess  of the bearing on the page
+ * @param {string[]} known  names of bearings
+ * @param {{name: string, toml: string}} own  bearing on the page, which is taken where it is chosen
+ * @param {() => void} refused
  */
-export async function judged(ask, name, bytes, bearings, guess) {
+export async function judged(ask, name, bytes, known, own, refused) {
   const { channels, run } = await ask({ do: "listen", name, bytes });
   if (!channels?.length) throw new Error(`${name} holds no signal`);
-  const channel = h("select", {},
-    ...channels.map((/** @type {any} */ c) => h("option", { value: c.name },
-      `${c.name}, ${c.samples} samples${c.rate_hz ? ` at ${short(c.rate_hz, 6)} Hz` : ""}${c.unit ? `, ${c.unit}` : ""}`)));
-  const rate = h("input", { type: "number", step: "any", min: "0" }), unit = h("input", { type: "text" }),
-    rpm = h("input", { type: "number", step: "any", value: String(run?.rpm ?? (guess.rpm || "")) }),
-    from = h("input", { type: "number", step: "any", min: "0", value: String(run?.from_s ?? 0) });
-  const known = run ? run.bearing : guess.bearing;
-  const bearing = h("select", {}, h("option", { value: "" }, run ? "that of the run" : "not known"),
-    ...bearings.map((b) => h("option", { value: b.name, selected: b.name === known }, b.name)));
+  const channel = h("select", {}, ...channels.map((/** @type {any} */ c) => h("option", { value: c.name }, listed(c))));
+  const decimal = (/** @type {object} */ more) => h("input", { type: "number", step: "any", ...more }), text = (/** @type {string} */ placeholder) => h("input", { type: "text", placeholder });
+  const rate = decimal({ min: "0", required: true }), rpm = decimal({ required: true }), from = decimal({ min: "0", value: String(run?.from_s ?? 0) });
+  const unit = text("m/s^2, g, mm/s, V, counts"), scale = text("10g, 5V"), sensitivity = text("100mV/g"), bearing = bearings(known, run, own.name);
+  const rows = { rate: line("Sampling rate", rate, "Hz", " "), unit: line("Unit", unit, "", " "),
+    scale: line("Full scale", scale, "", "of a WAV, in place of the unit: what its largest number means"), rpm: line("Speed of the shaft", rpm, "r/min", " ") };
+  const says = (/** @type {HTMLElement} */ row, /** @type {string} */ words) => { /** @type {HTMLElement} */ (row.querySelector(".note")).textContent = words; };
+  const now = () => channels.find((/** @type {any} */ one) => one.name === channel.value) ?? channels[0];
   const fill = () => {
-    const c = channels.find((/** @type {any} */ one) => one.name === channel.value);
-    rate.value = c?.rate_hz ? String(c.rate_hz) : "";
-    rate.required = !c?.rate_hz;
-    unit.value = c?.unit ?? "";
+    const c = now();
+    for (const [input, value] of /** @type {[HTMLInputElement, unknown][]} */ ([[rate, c.rate_hz], [unit, c.unit], [rpm, c.rpm]])) input.value = String(value ?? "");
+    says(rows.rate, c.rate_from ? `from ${c.rate_from}` : "the file does not state it");
+    says(rows.unit, c.unit ? "from the file" : "the file does not state it");
+    says(rows.rpm, c.rpm_from ? `from ${c.rpm_from}` : "the file does not state it");
+    rows.scale.hidden = !c.is_wav || !!c.unit;
   };
   channel.addEventListener("change", fill);
   fill();
-  const form = await asked(`Measured signal: ${name}`, [
-    line("Channel", channel, "", ""), line("Sampling rate", rate, "Hz", ""), line("Unit", unit, "", "as m/s^2, g or mV; left empty: not known"),
-    line("Bearing", bearing, "", "its defect frequencies are looked for"), line("Speed of the shaft", rpm, "r/min", ""),
-    line("Counts from", from, "s", run ? "after the load's ramp and a turn of the shaft of the run that made the file" : "what comes before is left out"),
-  ], "Judge");
-  if (!form) return null;
-  return ask({ do: "judge", name, bytes, channel: channel.value, rate_hz: number(rate.value), unit: unit.value || null, bearing: bearing.value || null,
-    rpm: number(rpm.value), from_s: number(from.value) });
+  const trouble = h("p", { className: "trouble", role: "alert" });
+  for (;;) {
+    const form = await asked(`Measured signal: ${name}`, [trouble,
+      line("Channel", channel, "", ""), rows.rate, rows.unit, rows.scale, line("Sensitivity", sensitivity, "", "of a signal in V or mA: the sensor's"),
+      line("Bearing", bearing, "", "its defect frequencies are looked for"), rows.rpm,
+      line("Counts from", from, "s", run ? "after the load's ramp and a turn of the shaft of the run that made the file" : "what comes before is left out"),
+    ], "Judge");
+    if (!form) return null;
+    const c = now(), whose = bearing.value === OWN ? { of: own.toml } : { bearing: bearing.value || null };
+    try {
+      return await ask({ do: "judge", name, bytes, channel: channel.value, rate_hz: number(given(rate, c.rate_hz) ?? ""), unit: given(unit, c.unit), sensitivity: given(sensitivity, null),
+        full_scale: rows.scale.hidden ? null : given(scale, null), rpm: number(given(rpm, c.rpm) ?? ""), from_s: number(from.value), ...whose });
+    } catch (error) {
+      if (!(error instanceof Refused)) throw error;
+      refused();
+      trouble.textContent = error.problems.map((p) => p.message).join("; ");
+    }
+  }
 }
 
 /**
@@ -83,11 +111,12 @@ export function showMeasured(found, name, { beside, close }) {
   root.replaceChildren(
     h("div", { className: "tools" }, h("h2", {}, `Measured: ${name}`), h("label", {}, lay, "beside the simulation's spectra"), h("span", { className: "spacer" }),
       h("button", { type: "button", onclick: close }, "Close")),
+    h("p", { className: "used" }, (found.used ?? []).map(spelled).join("; ")),
+    ...(found.warnings ?? []).map((/** @type {string} */ words) => h("p", { className: "trouble" }, `Warning: ${words}`)),
     h("p", {}, h("strong", {}, found.headline)),
     h("div", { className: "side-by-side" }, ...curves,
       h("div", { className: "scroll", tabIndex: 0, role: "group", "aria-label": "What was found" }, tableOf(found.table))),
-    h("p", { className: "note" }, found.moments
-      ? `RMS ${short(found.moments.rms)} ${spelled(unit)}, peak ${short(found.moments.peak)} ${spelled(unit)}, kurtosis ${short(found.moments.kurtosis)}` : ""));
+    h("p", { className: "note levels" }, (found.levels ?? []).map((/** @type {any} */ l) => spelled(l.words)).join(", ")));
   root.hidden = false;
   beside(true);
   root.scrollIntoView({ block: "nearest" });

@@ -1,7 +1,7 @@
 // What the engine makes of the page: the same statistics as the command, sound at BPFO, files of damage, memory; in the browser and
 // before `brinell studio`. Needs the engine's module and the command (STUDIO_WASM, BRINELL). Times are printed, not judged.
 import assert from "node:assert/strict";
-import { execFileSync, spawn } from "node:child_process";
+import { execFileSync, spawn, spawnSync } from "node:child_process";
 import { existsSync } from "node:fs";
 import { mkdtemp, readFile, rm, writeFile } from "node:fs/promises";
 import { tmpdir } from "node:os";
@@ -247,6 +247,26 @@ describe("the page before `brinell studio`", { skip: missing }, () => {
     assert.equal(own.value, rms(summary, got.axis).value);
   }));
 
+  it("judges a measured file with the words, warnings and levels of the command", async (t) => on(async (page) => {
+    const turn = 12000 / (1730 / 60), rows = Array.from({ length: 24000 }, (_, k) => (k === 12000 ? 300 : Math.sin(1.5 * k) * Math.exp(-(k % Math.round(turn / 5.415)) / 12) + 0.1 * Math.sin(k * k)));
+    const text = `acc [mg]\n${rows.join("\n")}\n`, file = join(folder, "struck.csv");
+    await writeFile(file, text);
+    await drop(page, "struck.csv", Buffer.from(text).toString("base64"));
+    await page.selectOption("dialog select", "signal");
+    await page.click('dialog button:has-text("Open")');
+    for (const [id, value] of [["sampling-rate", "12000"], ["unit", "g"], ["speed-of-the-shaft", "1730"]]) await page.fill(`#ask-${id}`, value);
+    await page.selectOption("#ask-bearing", "6205-2RS");
+    await page.click('dialog button:has-text("Judge")');
+    await page.waitForSelector("#measured:not([hidden]) table");
+    const { stdout, stderr } = spawnSync(BRINELL, ["analyze", file, "--rate", "12000", "--unit", "g", "--speed", "1730", "--bearing", "6205-2RS"], { encoding: "utf8" });
+    const shown = async (what) => page.locator(`#measured ${what}`).allTextContents(), [verdict] = await shown("strong"), [levels] = await shown(".levels");
+    assert.ok(stdout.includes(`\n${verdict}\n`), `${verdict}\n${stdout}`);
+    assert.ok(stdout.includes(`\n  ${levels}\n`), `${levels}\n${stdout}`);
+    const theirs = stderr.trim().split("\n").map((w) => w.replace(/^warning: (--)?/, ""));
+    assert.equal(theirs.length, 2, stderr);
+    assert.deepEqual((await shown(".trouble")).map((w) => w.replace("Warning: ", "")), theirs);
+    t.diagnostic(levels);
+  }));
   it("is scratched while it runs", async () => on(scratched));
   it("says what is wrong beside the control", async () => on(refused));
   it("carries its scenario over a reload", async () => on(async (page) => {

@@ -136,7 +136,7 @@
 
   const TABLE = { columns: ["found", "Hz", "dB"], rows: [["BPFO", 249.6, 20.1], ["FTF", 13.2, 3.1]] };
   const ANSWERS = {
-    about: () => ({ version: "0.0.0-fake", engine: "webassembly", schema: SCHEMA, bearings: [{ name: "NN3007", words: "double row", element: "roller" }, { name: "6205", words: "deep groove", element: "ball" }],
+    about: () => ({ version: "0.0.0-fake", engine: "webassembly", schema: SCHEMA, bearings: [{ name: "NN3007", words: "double row", element: "roller" }, { name: "6205", words: "deep groove", element: "ball" }], known: ["NN3007", "6205", "6205-2RS"],
       examples: [{ name: "healthy", words: "without damage", toml: text({ ...BASE, name: "healthy" }) }, { name: "rectangle", words: "a spall", toml: text({ ...BASE, defects: [RECTANGLE] }) }] }),
     open, advance, spectra, damage, scratch, brush,
     verdict: ({ slot }) => ({ headline: (slots[slot].scenario.defects ?? []).length ? "BPFO is detected at 249.6 Hz: outer raceway damage" : "No line of a defect is significant", table: TABLE, samples: slots[slot].n, damage: (slots[slot].scenario.defects ?? []).length ? [{ name: "BPFO", hz: 249.6 }] : [], indicators: [] }),
@@ -150,7 +150,7 @@
     outline: ({ kind, bytes, name, options }) => {
       if (bytes.length < 60) refuse(null, `${name} is no ${kind}: its first bytes are of no format that is read`);
       if (kind === "photo" && !(options.mm_per_pixel > 0)) refuse("mm_per_pixel", "mm_per_pixel is missing: the side of a pixel");
-      return { shape: { outline: { points_mm: [[-1.5, -2], [1.5, -2], [1.2, 2], [-1.4, 1.8]] } }, notes: ["threshold 0.46"], length_mm: 3, width_mm: 4, area_mm2: 8.92 };
+      return { shape: { outline: { points_mm: [[-1.5, -2], [1.5, -2], [1.2, 2], [-1.4, 1.8]] } }, notes: ["threshold 0.46"], length_mm: 3, width_mm: 4, area_mm2: 8.937 };
     },
     normal: (request) => {
       const s = scenarioOf(request);
@@ -160,8 +160,16 @@
       if (slots[slot].live || slots[slot].n < slots[slot].all.simulation.duration_s * RATE) refuse(null, "only a run from t = 0 that is done is saved");
       return { name: `signals.${format}`, type: "text/csv", bytes: new TextEncoder().encode(`t,sensor_ax\n${slots[slot].x.map((v, k) => `${k / RATE},${v}`).join("\n")}\n`) };
     },
-    listen: ({ name, bytes }) => (bytes.length < 20 ? refuse(null, `${name} holds no signal`) : { channels: [{ name: "x", samples: 4096, rate_hz: null, unit: null }], run: null }),
-    judge: ({ rate_hz, from_s }) => ({ from_s, headline: "BPFO is detected", table: TABLE, spectrum: { df: 10, values: new Float32Array(512).fill(0.4) }, envelope: { df: 10, values: new Float32Array(128).fill(0.3) }, lines: [], moments: { rms: 1, peak: 4, crest: 4, kurtosis: 3, samples: 4096 }, x: Float32Array.from({ length: 4096 }, (_, k) => noise(k)), rate_hz, unit: "m/s^2" }),
+    listen: ({ name, bytes }) => (bytes.length < 20 ? refuse(null, `${name} holds no signal`)
+      : { channels: [{ name: "x", samples: null, rate_hz: null, rate_from: null, unit: null, rpm: null, rpm_from: null, is_wav: false }], run: null }),
+    judge: ({ rate_hz, from_s, unit, bearing, rpm }) => {
+      if (!unit) refuse(null, "the file states no unit for `x`; give unit, such as unit g or unit m/s^2");
+      if (unit === "furlong") refuse(null, "unit furlong: no unit is called `furlong`");
+      return { from_s, headline: "BPFO is detected", table: TABLE, spectrum: { df: 10, values: new Float32Array(512).fill(0.4) }, envelope: { df: 10, values: new Float32Array(128).fill(0.3) }, lines: [],
+        warnings: ["98 % of the signal's energy lie in one revolution"], levels: [{ name: "rms", value: 1, words: `rms 1.000 ${unit}` }, { name: "peak of a revolution", value: 4, words: `peak of a revolution 4.000 ${unit}` }],
+        used: [`bearing: ${bearing}`, `shaft speed ${rpm} r/min, as given`, `sample rate ${rate_hz} Hz, as given`, `unit ${unit}, as given`, "channel x: 0.160 s, 4096 samples"],
+        x: Float32Array.from({ length: 4096 }, (_, k) => noise(k)), rate_hz, unit: "m/s^2" };
+    },
   };
 
   // As in src/message.js, which a Worker from a Blob cannot import.

@@ -300,15 +300,43 @@ describe(`the page, with ${real ? "its engine" : "a stand-in for the engine"}`, 
     await until(page, () => globalThis.brinellStudio.sides[0].trace.end > 0 && document.querySelector('brinell-curve[kind="spectrum"]').data?.second);
   }));
 
-  it("opens a measured signal and judges it", async () => on({}, async (page) => {
-    const rows = Array.from({ length: 12000 }, (_, k) => Math.sin(k / 3) * Math.exp(-(k % 100) / 20)).join("\n");
-    await drop(page, "measured.csv", Buffer.from(`x\n${rows}\n`).toString("base64"));
+  it("judges a measured signal by what is given and by nothing of the page", async () => on({}, async (page) => {
+    // Bursts of a rolling 6205's inner race, one of them far above the others.
+    const turn = 12000 / (1730 / 60), burst = (k) => Math.sin(k * 1.5) * Math.exp(-(k % Math.round(turn / 5.415)) / 12);
+    const rows = Array.from({ length: 24000 }, (_, k) => (k === 12000 ? 300 : burst(k) + 0.1 * Math.sin(k * k))).join("\n");
+    const dropped = (name) => drop(page, name, Buffer.from(`x\n${rows}\n`).toString("base64"));
+    const judge = () => page.click('dialog button:has-text("Judge")');
+    await dropped("measured.csv");
     await page.selectOption("dialog select", "signal");
     await page.click('dialog button:has-text("Open")');
-    await page.fill("#ask-sampling-rate", "25600");
-    await page.click('dialog button:has-text("Judge")');
+    await page.waitForSelector("#ask-bearing");
+    for (const id of ["sampling-rate", "unit", "bearing", "speed-of-the-shaft"]) assert.equal(await page.inputValue(`#ask-${id}`), "", id);
+    assert.doesNotMatch(await page.textContent("dialog"), /null/);
+    assert.match(await page.textContent("#ask-bearing"), /6205-2RS.*this page's bearing: NN3007/);
+    await judge();
+    assert.ok(await page.isVisible("dialog"), "nothing is judged without rate, bearing and speed");
+    await page.fill("#ask-sampling-rate", "12000");
+    await page.fill("#ask-speed-of-the-shaft", "1730");
+    await page.selectOption("#ask-bearing", "6205-2RS");
+    await page.fill("#ask-unit", "furlong");
+    await judge();
+    await page.waitForSelector('dialog [role="alert"]:has-text("no unit is called `furlong`")');
+    assert.match(await page.textContent("dialog h2"), /measured\.csv/);
+    await page.fill("#ask-unit", "g");
+    await judge();
     await page.waitForSelector("#measured:not([hidden]) table");
     await until(page, () => document.querySelector('brinell-curve[kind="spectrum"]').data?.second);
+    assert.match(await page.textContent("#measured .used"),
+      /^bearing: .*6205-2RS.*; shaft speed 1730 r\/min, as given.*; sample rate 12000 Hz, as given; unit g, as given; channel x: /);
+    assert.match(await page.textContent("#measured .trouble"), /^Warning: .*of the signal's energy lie in one revolution/);
+    assert.match(await page.textContent("#measured .levels"), /^rms .* g, peak of a revolution .* g/);
+    // What goes wrong with another file takes that verdict away and names the file; what goes well takes the complaint away.
+    await drop(page, "broken.wav", Buffer.from("no sound").toString("base64"));
+    await page.waitForSelector('[data-kind="failed"]:has-text("broken.wav")');
+    assert.ok(await page.isHidden("#measured"));
+    await dropped("measured.csv");
+    await page.waitForSelector("dialog[open]");
+    assert.equal(await page.locator('[data-kind="failed"]').count(), 0);
   }));
 
   it("is usable with the keyboard alone", async () => on({}, async (page) => {

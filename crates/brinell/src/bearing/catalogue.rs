@@ -132,7 +132,8 @@ pub fn find(name: &str) -> Option<&'static Entry> {
 }
 
 /// The same without suffixes and maker.
-pub(super) fn find_exactly(name: &str) -> Option<&'static Entry> {
+#[doc(hidden)]
+pub fn find_exactly(name: &str) -> Option<&'static Entry> {
     let wanted = plain(name);
     all().iter().find(|entry| plain(&entry.name) == wanted)
 }

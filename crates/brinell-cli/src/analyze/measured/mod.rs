@@ -10,7 +10,7 @@ mod wanted;
 
 use crate::failure::Failure;
 pub(crate) use args::SignalArgs;
-use brinell::analysis::{Flaw, Unit, repetition};
+use brinell::analysis::{Scaled, Unit, once};
 use brinell::document::{Loaded, read};
 use brinell_io::{Channel, FileKind, Format, SignalFile, open};
 use channel::{Chosen, channel};
@@ -21,7 +21,7 @@ use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 pub(crate) use stretch::{Beyond, MOST, Reading, Rest};
 use stretch::{bad, scale, stretch};
-use unit::{Scaled, unit};
+use unit::unit;
 pub(crate) use wanted::{Like, Wanted};
 
 /// A stretch of one channel, with everything that is known of it.
@@ -89,7 +89,7 @@ pub(crate) fn load(path: &Path, wanted: &Wanted) -> Result<Measured, Failure> {
     let scenario = scenario(&file, &path);
     let (mut notes, mut warnings) = (Vec::new(), Vec::new());
     let run = scenario.as_deref();
-    let Known { name, rate, scaled: Scaled { unit, factor } } =
+    let Known { name, rate, scaled: Scaled { unit, factor, .. } } =
         known(&mut file, &path, wanted, run, (&mut notes, &mut warnings))?;
     let start = start(wanted, run, &mut notes)?;
     let skip = (start * rate).round() as usize;
@@ -114,11 +114,7 @@ pub(crate) fn load(path: &Path, wanted: &Wanted) -> Result<Measured, Failure> {
             MOST as f64 / rate
         ));
     }
-    let repeats = repetition(&x).map(|samples| {
-        let whole = x.len() as f64 / rate;
-        x.truncate(samples);
-        format!("of {whole:.3} s {}", Flaw::Repeats { every: samples as f64 / rate })
-    });
+    let repeats = once(&mut x, rate);
     warnings.extend(repeats.clone());
     let seconds = x.len() as f64 / rate;
     let speed = speed(&mut file, wanted, run, &name, (start, seconds, rate))?;
@@ -168,7 +164,11 @@ fn known(
     let rate = rate(file, &channel, wanted, run.is_some(), warnings)?;
     notes.extend(rate.as_ref().ok().map(|(_, note)| note.clone()));
     let is_wav = file.kind() == FileKind::Wav;
-    let unit = unit(&name, &channel, is_wav, wanted, run, notes, warnings)?;
+    let unit = unit(&name, &channel, is_wav, wanted, run)?;
+    if let Ok(scaled) = &unit {
+        notes.extend(scaled.notes.iter().cloned());
+        warnings.extend(scaled.warnings.iter().cloned());
+    }
     missing.extend(rate.as_ref().err().cloned());
     missing.extend(unit.as_ref().err().cloned());
     if wanted.ask_speed && !states_speed(file, wanted, run, &name) {

@@ -1,36 +1,11 @@
 //! The sample rate, and columns of times.
 
 use super::channel::resolve;
-use super::stretch::stretch;
+use super::stretch::bad;
 use super::wanted::Wanted;
 use crate::failure::Failure;
 use crate::say::short;
-use brinell_io::{Channel, NoRate, RateSource, SignalFile, rate_of_times, seconds_in};
-
-/// A rate given and one stated may differ by so much, relative, before it is worth a word.
-const DIFFERS: f64 = 1e-4;
-
-/// What a column of times whose unit the file states says of the rate: hertz, or what is wrong with the times; and the
-/// column's name.
-fn by_times(file: &mut SignalFile) -> Option<(Result<f64, String>, String)> {
-    let channels = file.channels().iter();
-    let (name, unit) = channels.filter(|c| c.may_be_signal()).find_map(|c| Some((c.name.clone(), c.time_unit()?)))?;
-    let (times, _) = stretch(file, &name, 0, 1 << 16).ok()?;
-    Some((even(&times, unit), name))
-}
-
-/// A warning, where a rate that was given differs from the file's.
-fn contradiction(given: &str, hz: f64, stated: Option<(f64, String)>, file: &mut SignalFile) -> Option<String> {
-    let (other, place) = match (stated, by_times(file)) {
-        (Some(stated), _) => stated,
-        (None, None) => return None,
-        (None, Some((Ok(other), name))) => (other, format!("the column `{name}`")),
-        (None, Some((Err(why), name))) => {
-            return Some(format!("{given} Hz was taken, but the times in `{name}` give no rate: {why}"));
-        }
-    };
-    ((other / hz - 1.0).abs() > DIFFERS).then(|| format!("{given} Hz was taken, but {place} says {other} Hz"))
-}
+use brinell_io::{Channel, NoRate, SignalFile, seconds_in};
 
 /// The rate and where it comes from; `Err` within are the words that ask for it.
 pub(super) fn rate(
@@ -40,19 +15,13 @@ pub(super) fn rate(
     own: bool,
     warnings: &mut Vec<String>,
 ) -> Result<Result<(f64, String), String>, Failure> {
-    let stated = channel.rate.as_ref().map(|rate| {
-        let place = match &rate.source {
-            RateSource::Header(field) => format!("the file's header ({field})"),
-            RateSource::Variable(name) => format!("the variable `{name}` in the file"),
-        };
-        (rate.hz, place)
-    });
+    let stated = channel.rate.as_ref().map(|rate| (rate.hz, rate.source.to_string()));
     let option = format!("--{}rate", wanted.whose);
     if let Some(given) = wanted.rate {
         if !(given > 0.0 && given.is_finite()) {
             return Err(Failure::Usage(format!("{option} {given}: expected more than 0 Hz")));
         }
-        warnings.extend(contradiction(&format!("{option} {given}"), given, stated, file));
+        warnings.extend(file.other_rate(channel, &format!("{option} {given}"), given, |step| short(step, 5)));
         return Ok(Ok((given, format!("sample rate {given} Hz, as given"))));
     }
     if let Some((hz, place)) = stated {
@@ -85,8 +54,8 @@ pub(super) fn rate(
             )));
         }
     };
-    let (times, _) = stretch(file, &time.name, 0, 1 << 16)?;
-    let hz = even(&times, unit).map_err(|why| {
+    let hz = file.rate_of(&time.name, unit).map_err(bad)?.map_err(|why| {
+        let why = words(&why);
         Failure::Usage(format!(
             "{}: no sample rate follows from `{}`: {why}; give {option} HZ if you know it",
             file.path().display(),
@@ -97,15 +66,6 @@ pub(super) fn rate(
     Ok(Ok((hz, place)))
 }
 
-/// [`rate_of_times`], what is wrong in words.
-fn even(times: &[f64], unit: f64) -> Result<f64, String> {
-    rate_of_times(times, unit).map_err(|why| match why {
-        NoRate::TooFew => "it has fewer than three values".into(),
-        NoRate::NotIncreasing => "its values do not increase".into(),
-        NoRate::Uneven { step, after, usual } => format!(
-            "its steps are uneven ({} after {after} values, where {} is usual)",
-            short(step, 5),
-            short(usual, 5)
-        ),
-    })
+fn words(why: &NoRate) -> String {
+    why.words(|step| short(step, 5))
 }

@@ -1,7 +1,7 @@
 //! The shaft's speed, as far as the file states it.
 
 use super::channel::resolve;
-use super::stretch::{MOST, stretch};
+use super::stretch::{MOST, bad, stretch};
 use super::wanted::Wanted;
 use crate::failure::Failure;
 use brinell::document::{Loaded, reading};
@@ -83,14 +83,8 @@ pub(super) fn speed(
         }
         return followed(mean, course, source, "operation.speed_rpm").map(Some);
     }
-    let Some(name) = variable(file, signal) else {
-        return Ok(None);
-    };
-    let (values, _) = stretch(file, &name, 0, 1)?;
-    Ok((values.first().filter(|v| v.is_finite())).map(|rpm| {
-        let source = format!("the variable `{name}` in the file, taken as r/min");
-        StatedSpeed::steady(*rpm, source)
-    }))
+    let stated = file.stated_rpm(signal).map_err(bad)?;
+    Ok(stated.map(|(rpm, source)| StatedSpeed::steady(rpm, source)))
 }
 
 /// The unit of a channel of speeds in words, and r/min in it.
@@ -109,22 +103,7 @@ fn unit_of(name: &str, channel: &Channel) -> Result<(String, f64), Failure> {
 
 /// Whether a speed follows from the file, or from a channel that was named.
 pub(super) fn states_speed(file: &SignalFile, wanted: &Wanted, run: Option<&Loaded>, signal: &str) -> bool {
-    wanted.speed_channel.is_some() || run.is_some() || variable(file, signal).is_some()
-}
-
-/// A single number called like a speed, as X097RPM beside X097_DE_time.
-fn variable(file: &SignalFile, signal: &str) -> Option<String> {
-    let prefix: String = signal.chars().take_while(char::is_ascii_alphanumeric).collect();
-    let named: Vec<&str> = (file.channels().iter())
-        .filter(|c| c.length == Some(1) && c.unreadable.is_none())
-        .map(|c| c.name.as_str())
-        .filter(|n| n.to_lowercase().trim_end_matches("_").ends_with("rpm"))
-        .collect();
-    let mine: Vec<&str> = (named.iter().copied()).filter(|n| n.starts_with(&prefix)).collect();
-    match (&mine[..], &named[..]) {
-        ([only], _) | (_, [only]) => Some((*only).to_owned()),
-        _ => None,
-    }
+    wanted.speed_channel.is_some() || run.is_some() || file.speed_variable(signal).is_some()
 }
 
 /// A speed that varies, which has to keep its sign: `of` is what states it.

@@ -1,0 +1,107 @@
+//! What a file states beside its signals: a shaft's speed, and the sample rate once more.
+
+use super::SignalFile;
+use super::channel::{Channel, RateSource};
+use super::times::{NoRate, rate_of_times};
+use crate::IoError;
+use std::fmt;
+use std::ops::ControlFlow;
+
+/// A rate given and one stated may differ by so much, relative, before it is worth a word.
+const DIFFERS: f64 = 1e-4;
+/// Times that are looked at for a rate.
+const LOOKED_AT: usize = 1 << 16;
+
+impl fmt::Display for RateSource {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            RateSource::Header(field) => write!(f, "the file's header ({field})"),
+            RateSource::Variable(name) => write!(f, "the variable `{name}` in the file"),
+        }
+    }
+}
+
+impl NoRate {
+    /// In words, with steps as `digits` writes them.
+    pub fn words(&self, digits: impl Fn(f64) -> String) -> String {
+        match *self {
+            NoRate::TooFew => "it has fewer than three values".into(),
+            NoRate::NotIncreasing => "its values do not increase".into(),
+            NoRate::Uneven { step, after, usual } => {
+                let (step, usual) = (digits(step), digits(usual));
+                format!("its steps are uneven ({step} after {after} values, where {usual} is usual)")
+            }
+        }
+    }
+}
+
+impl SignalFile {
+    /// The first values of a channel, `most` of them or all.
+    fn beginning(&mut self, name: &str, most: usize) -> Result<Vec<f64>, IoError> {
+        let mut values = Vec::new();
+        self.read_pieces(name, |piece| {
+            values.extend_from_slice(&piece[..piece.len().min(most - values.len())]);
+            if values.len() == most { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+        })?;
+        Ok(values)
+    }
+
+    /// The rate, Hz, that a column of times in units of `seconds` gives.
+    ///
+    /// # Errors
+    /// Where it cannot be read; within, where its times are not even.
+    pub fn rate_of(&mut self, times: &str, seconds: f64) -> Result<Result<f64, NoRate>, IoError> {
+        Ok(rate_of_times(&self.beginning(times, LOOKED_AT)?, seconds))
+    }
+
+    /// What a column of times whose unit the file states says of the rate: hertz, or what is wrong with the times; and
+    /// the column's name.
+    fn rate_by_times(&mut self) -> Option<(Result<f64, NoRate>, String)> {
+        let channels = self.channels().iter().filter(|c| c.may_be_signal());
+        let (name, unit) = channels.into_iter().find_map(|c| Some((c.name.clone(), c.time_unit()?)))?;
+        Some((self.rate_of(&name, unit).ok()?, name))
+    }
+
+    /// A warning, where the rate that was given for a channel, Hz, differs from what the file states. `asked` is what was
+    /// given in words, without the unit; steps of times are written by `digits`.
+    pub fn other_rate(&mut self, of: &Channel, asked: &str, hz: f64, digits: impl Fn(f64) -> String) -> Option<String> {
+        let stated = of.rate.as_ref().map(|rate| (rate.hz, rate.source.to_string()));
+        let (other, place) = match (stated, self.rate_by_times()) {
+            (Some(stated), _) => stated,
+            (None, None) => return None,
+            (None, Some((Ok(other), name))) => (other, format!("the column `{name}`")),
+            (None, Some((Err(why), name))) => {
+                let why = why.words(digits);
+                return Some(format!("{asked} Hz was taken, but the times in `{name}` give no rate: {why}"));
+            }
+        };
+        ((other / hz - 1.0).abs() > DIFFERS).then(|| format!("{asked} Hz was taken, but {place} says {other} Hz"))
+    }
+
+    /// The single number that is called like the speed of the shaft of a signal, as `X097RPM` beside `X097_DE_time`.
+    /// The format gives that name no meaning, so a caller should show it.
+    pub fn speed_variable(&self, signal: &str) -> Option<String> {
+        let prefix: String = signal.chars().take_while(char::is_ascii_alphanumeric).collect();
+        let single = |c: &&Channel| c.length == Some(1) && c.unreadable.is_none();
+        let named: Vec<&str> = (self.channels().iter().filter(single).map(|c| c.name.as_str()))
+            .filter(|n| n.to_lowercase().trim_end_matches("_").ends_with("rpm"))
+            .collect();
+        let mine: Vec<&str> = (named.iter().copied()).filter(|n| n.starts_with(&prefix)).collect();
+        match (&mine[..], &named[..]) {
+            ([only], _) | (_, [only]) => Some((*only).to_owned()),
+            _ => None,
+        }
+    }
+
+    /// Its value, taken as r/min, and where that comes from, in words; `None` where it is no number.
+    ///
+    /// # Errors
+    /// Where it cannot be read.
+    pub fn stated_rpm(&mut self, signal: &str) -> Result<Option<(f64, String)>, IoError> {
+        let Some(name) = self.speed_variable(signal) else {
+            return Ok(None);
+        };
+        let rpm = self.beginning(&name, 1)?.first().copied().filter(|v| v.is_finite());
+        Ok(rpm.map(|rpm| (rpm, format!("{}, taken as r/min", RateSource::Variable(name)))))
+    }
+}

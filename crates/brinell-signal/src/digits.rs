@@ -1,0 +1,19 @@
+//! Numbers in sentences.
+
+/// A number with `digits` significant digits, plain where that is short: "1800", "0.0123", "1.90e8". For text that is
+/// copied or searched, so without spaces and raised digits.
+pub fn short(x: f64, digits: usize) -> String {
+    if x == 0.0 {
+        return "0".into();
+    }
+    if !x.is_finite() {
+        return x.to_string();
+    }
+    let exponent = x.abs().log10().floor() as i32;
+    if (-4..6).contains(&exponent) {
+        let decimals = (digits as i32 - 1 - exponent).max(0) as usize;
+        format!("{x:.decimals$}")
+    } else {
+        format!("{x:.*e}", digits - 1)
+    }
+}
