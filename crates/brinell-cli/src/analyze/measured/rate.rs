@@ -10,11 +10,23 @@ use brinell_io::{Channel, NoRate, RateSource, SignalFile, rate_of_times, seconds
 /// A rate given and one stated may differ by so much, relative, before it is worth a word.
 const DIFFERS: f64 = 1e-4;
 
+/// The column of times: one that is called so, else the first in a unit of time whose values are evenly spaced.
+fn times(file: &mut SignalFile) -> Option<Channel> {
+    let these: Vec<Channel> =
+        file.channels().iter().filter(|c| c.is_time() && c.may_be_signal() && !c.is_matrix()).cloned().collect();
+    let called = these.iter().find(|c| c.is_called_time());
+    let mut others = these.iter().filter(|c| !c.is_called_time());
+    let mut is_even = |c: &&Channel| {
+        stretch(file, &c.name, 0, 1 << 16).is_ok_and(|(times, _)| rate_of_times(&times, 1.0).is_ok())
+    };
+    called.or_else(|| others.find(&mut is_even)).cloned()
+}
+
 /// What a column of times whose unit the file states says of the rate: hertz, or what is wrong with the times; and the
 /// column's name.
 fn by_times(file: &mut SignalFile) -> Option<(Result<f64, String>, String)> {
-    let channels = file.channels().iter();
-    let (name, unit) = channels.filter(|c| c.may_be_signal()).find_map(|c| Some((c.name.clone(), c.time_unit()?)))?;
+    let channel = times(file)?;
+    let (unit, name) = (channel.time_unit()?, channel.name);
     let (times, _) = stretch(file, &name, 0, 1 << 16).ok()?;
     Some((even(&times, unit), name))
 }
@@ -60,7 +72,7 @@ pub(super) fn rate(
     }
     let time = match wanted.time_channel {
         Some(text) => Some(resolve(file, text, "--time-channel")?.1),
-        None => file.channels().iter().find(|c| c.is_time() && c.may_be_signal()).cloned(),
+        None => times(file),
     };
     let Some(time) = time else {
         if let Some(hz) = wanted.like.map(|like| like.rate) {
