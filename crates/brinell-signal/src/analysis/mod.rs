@@ -111,6 +111,7 @@ pub fn analyze(x: &[f64], fs: f64, options: &Options) -> Result<Analysis, Analys
     let whole = !(flaws.iter()).any(|f| matches!(f, Flaw::Held { .. }));
     let Prepared { indicators, map, evidence, transformed } = prepare(&x, fs, options, whole)?;
     let samples = x.len();
+    let record_peak = x.iter().fold(0.0, |m: f64, v| m.max(v.abs()));
     drop(x);
     let Best { record, envelopes, shaft_lines, drift, at_given } = hypotheses::best(&transformed, evidence, options)?;
     let view = view(&record, &envelopes, &transformed)?;
@@ -125,6 +126,7 @@ pub fn analyze(x: &[f64], fs: f64, options: &Options) -> Result<Analysis, Analys
         flaws,
         drift,
         indicators,
+        record_peak,
         kurtogram: (map.as_ref()).and_then(|m| m.best(bands::NARROWEST * bands::highest(options))),
         map,
         view,
@@ -134,6 +136,7 @@ pub fn analyze(x: &[f64], fs: f64, options: &Options) -> Result<Analysis, Analys
         elsewhere: record.elsewhere,
         passing_known: false,
         level_growth: None,
+        level_range: None,
         options: record.options,
     })
 }
