@@ -5,7 +5,7 @@ use super::json::{HEADLINES, whole_indicators};
 use crate::say::{self, say, short};
 use brinell::analysis::{Analysis, COLUMNS};
 use brinell::signal::Indicator;
-use brinell_report::{level_lines, ratio, shaft_lines};
+use brinell_report::{indicator_words, level_lines, orders_in_hz, ratio, shaft_lines};
 use std::path::PathBuf;
 
 /// What is found at each defect frequency, in columns.
@@ -32,6 +32,9 @@ pub(super) fn tell(results: &[Diagnosis], result: &Diagnosis, written: &[PathBuf
         say!("  {note}");
     }
     say!("  {}; {}", result.speed, shaft_lines(a));
+    if let Some(orders) = orders_in_hz(a) {
+        say!("  {orders}");
+    }
     for one in results {
         say!("  bearing: {}", one.bearing);
     }
@@ -51,8 +54,9 @@ pub(super) fn tell(results: &[Diagnosis], result: &Diagnosis, written: &[PathBuf
         say!("  {line}");
     }
     if let Some(rest) = &result.rest {
-        let whole: Vec<String> =
-            whole_indicators(rest).map(|(name, v)| format!("{} {}", name.replace('_', " "), short(v, 4))).collect();
+        let whole: Vec<String> = whole_indicators(rest)
+            .map(|(i, name, v)| format!("{} {}", name.replace('_', " "), value(i, v, &m.unit.name)))
+            .collect();
         say!("  of all {} samples: {}", rest.samples, whole.join(", "));
     }
     if let Some(other) = &result.against {
@@ -61,21 +65,26 @@ pub(super) fn tell(results: &[Diagnosis], result: &Diagnosis, written: &[PathBuf
     say::wrote(written);
 }
 
-/// The indicators that are headlines, in one line.
+/// A value with its unit, where it has one.
+fn value(i: Indicator, value: f64, unit: &str) -> String {
+    let unit = if i.has_unit() { format!(" {unit}") } else { String::new() };
+    format!("{}{unit}", short(value, 4))
+}
+
+/// The indicators that are headlines, in one line: peak and crest factor are the record's.
 fn indicators(a: &Analysis, unit: &str) {
-    let rows: Vec<String> = (a.indicators.iter())
-        .filter(|(i, _)| HEADLINES.contains(i))
-        .map(|(i, e)| {
-            let unit = if i.has_unit() { format!(" {}", unit) } else { String::new() };
-            // Averages over revolutions; the largest of all samples is on the page.
-            let name = match i {
-                Indicator::Peak => "peak of a revolution".into(),
-                i => i.name().replace('_', " "),
-            };
-            format!("{name} {}{unit}", short(e.value, 4))
-        })
-        .collect();
-    say!("  {}", rows.join(", "));
+    let rows = HEADLINES.into_iter().filter_map(|i| {
+        let (name, found) = match i {
+            Indicator::Peak => ("peak", Some(a.record_peak)),
+            Indicator::CrestFactor => ("crest factor", a.record_crest_factor()),
+            i => (i.name(), a.indicator(i).map(|e| e.value)),
+        };
+        Some(format!("{name} {}", value(i, found?, unit)))
+    });
+    let of_a_turn = a
+        .indicator(Indicator::Peak)
+        .map(|e| format!("; {} {}", indicator_words(Indicator::Peak), value(Indicator::Peak, e.value, unit)));
+    say!("  {}{}", rows.collect::<Vec<_>>().join(", "), of_a_turn.unwrap_or_default());
 }
 
 /// This signal beside the other.
@@ -91,11 +100,15 @@ fn against(other: &Against, unit: &str) {
     }
     let (mean, rms) = other.comparison.level_db;
     say!("  third octaves: this one is {:+.1} dB from the other on average, {rms:.1} dB RMS", 0.0 - mean);
-    say!("    {:<16} {:>12} {:>12}  this over the other", "", "this", "the other");
+    let width = other.comparison.indicators.iter().map(|d| indicator_words(d.indicator).len()).max().unwrap_or(0);
+    let within = other.comparison.range.map_or(String::new(), |range| {
+        format!(", of {:.0} to {:.0} Hz, which both are compared in", range.low, range.high)
+    });
+    say!("    {:<width$} {:>12} {:>12}  this over the other{within}", "", "this", "the other");
     for d in &other.comparison.indicators {
         say!(
-            "    {:<16} {:>12} {:>12}  {}{}",
-            d.indicator.name(),
+            "    {:<width$} {:>12} {:>12}  {}{}",
+            indicator_words(d.indicator),
             short(d.first, 4),
             short(d.second, 4),
             ratio(d).map_or("-".into(), |r| format!("x {r}")),

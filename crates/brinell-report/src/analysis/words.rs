@@ -47,6 +47,28 @@ fn own_lines(a: &Analysis) -> String {
     )
 }
 
+/// What an indicator is called that is an average over revolutions: its peaks are no record's.
+pub fn indicator_words(indicator: Indicator) -> String {
+    match indicator {
+        Indicator::Rms => "RMS".into(),
+        Indicator::Peak => "mean peak of a revolution".into(),
+        Indicator::PeakToPeak => "mean peak to peak of a revolution".into(),
+        Indicator::CrestFactor => "mean peak over RMS".into(),
+        Indicator::ImpulseFactor => "mean peak over mean |x|".into(),
+        other => other.name().replace('_', " "),
+    }
+}
+
+/// That frequencies are not those of time, where the speed was followed.
+pub fn orders_in_hz(a: &Analysis) -> Option<String> {
+    a.options.rotation.as_ref()?;
+    Some(format!(
+        "order tracking: envelopes are at equal angles of the shaft, so their frequencies in Hz are orders times the mean speed, {:.3} Hz ({:.1} r/min)",
+        a.shaft,
+        60.0 * a.shaft
+    ))
+}
+
 /// The damaged parts in a word or two each, or what is said instead.
 pub fn called(a: &Analysis) -> String {
     let part = |f: &Family| format!("{}, {}", f.component.words(), a.clarity(f));

@@ -148,14 +148,16 @@ pub(super) fn common_range(first: &Analysis, second: &Analysis) -> Option<Band> 
 /// The indicators of what lies in a range, where there is one; else those of the whole.
 pub(super) fn indicators_in(range: Option<Band>, side: Side) -> Vec<(Indicator, Estimate)> {
     let fs = side.analysis.sample_rate;
-    let revolution = fs / side.analysis.shaft;
     let inside = |range: Band| {
         let mut x: Vec<f64> = side.x.iter().map(|v| v - side.analysis.mean).collect();
         // From the first bin up the whole is periodic enough: what its ends add is little beside it.
         let lowest = fs / x.len() as f64;
         let end = if range.low > lowest { fade(&mut x, fs, range.low) } else { 0 };
         let x = band_pass(&x, fs, Band::between(range.low.max(lowest), range.high)).ok()?;
-        Some(super::indicators(&x[end..x.len() - end], revolution))
+        // As often as the other is sampled: between its samples peaks are missed.
+        let each = (0.5 * fs / range.high).floor().max(1.0);
+        let x: Vec<f64> = x[end..x.len() - end].iter().copied().step_by(each as usize).collect();
+        Some(super::indicators(&x, fs / each / side.analysis.shaft))
     };
     range.and_then(inside).unwrap_or_else(|| side.analysis.indicators.clone())
 }

@@ -243,8 +243,8 @@ fn hidden_by(analysis: &Analysis, drift: &Drift) -> String {
         format!("Cannot tell: the speed changes, and no line of the shaft tells how.{record}")
     } else {
         format!(
-            "Cannot tell: the speed drifts between {:.0} and {:.0} r/min, so that lines of order 10 smear over {:.0} bins, and followed by the shaft's lines the record \
-             shows no more.{record}",
+            "Cannot tell: the speed drifts between {:.0} and {:.0} r/min, so that lines of order 10 smear over {:.0} bins; following it by the shaft's \
+             own lines shows no more.{record}",
             60.0 * drift.lowest().1,
             60.0 * drift.highest().1,
             drift.smear

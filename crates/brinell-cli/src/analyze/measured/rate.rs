@@ -16,9 +16,8 @@ fn times(file: &mut SignalFile) -> Option<Channel> {
         file.channels().iter().filter(|c| c.is_time() && c.may_be_signal() && !c.is_matrix()).cloned().collect();
     let called = these.iter().find(|c| c.is_called_time());
     let mut others = these.iter().filter(|c| !c.is_called_time());
-    let mut is_even = |c: &&Channel| {
-        stretch(file, &c.name, 0, 1 << 16).is_ok_and(|(times, _)| rate_of_times(&times, 1.0).is_ok())
-    };
+    let mut is_even =
+        |c: &&Channel| stretch(file, &c.name, 0, 1 << 16).is_ok_and(|(times, _)| rate_of_times(&times, 1.0).is_ok());
     called.or_else(|| others.find(&mut is_even)).cloned()
 }
 

@@ -88,7 +88,8 @@ mod tests {
         ] {
             assert_eq!(number(text.as_bytes(), comma), Some(value), "{text}");
         }
-        for text in ["0.853", "12.5", "1.33", "1234.567", "1.332e2", "1,332.5", ".332", "1.332.5", "-.332", "1.332,2,5"] {
+        for text in ["0.853", "12.5", "1.33", "1234.567", "1.332e2", "1,332.5", ".332", "1.332.5", "-.332", "1.332,2,5"]
+        {
             assert_eq!(number(text.as_bytes(), comma), None, "{text}");
         }
         // Where points are decimal, or nothing says, they are.
