@@ -121,7 +121,7 @@ fn trend(x: &[f64]) -> Option<Flaw> {
     }
     let slope = with_time / of_time;
     let share = slope * with_time / energy;
-    (share >= TREND).then(|| Flaw::Trend { by: 2.0 * middle * slope, share })
+    (share >= TREND).then_some(Flaw::Trend { by: 2.0 * middle * slope, share })
 }
 
 /// To three digits.
