@@ -1,10 +1,10 @@
 //! Suffixes of designations that makers have: seals, cages, classes of clearance and tolerance, greases, bores.
 //!
-//! From the tables of supplementary designations in the catalogues of SKF, Schaeffler, NSK and NTN. None of them changes
-//! the inner geometry; what is not here may be a slip of the finger, or another bearing.
+//! From the tables of supplementary designations in the catalogues of SKF, Schaeffler, NSK and NTN. None of them
+//! changes the inner geometry; what is not here may be a slip of the finger, or another bearing.
 
-/// As they are written, one after the other where several are in a word: `ZZC3`, `2RS1TN9`. A suffix of seals may have a
-/// 2 before it.
+/// As they are written, one after the other where several are in a word: `ZZC3`, `2RS1TN9`. A suffix of seals may have
+/// a 2 before it.
 const KNOWN: &[&str] = &[
     // Seals and shields.
     "RS", "RS1", "RS2", "RSH", "RSL", "RSR", "RSJ", "RST", "RZ", "ZZ", "ZR", "HRS", "LS", "LU", "LLU", "LLB", "LLH",
