@@ -387,6 +387,21 @@ pub(crate) struct RandomArgs {
     pub(crate) depth_um: f64,
 }
 
+/// A shaft speed as given.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct GivenSpeed {
+    /// r/min.
+    pub(crate) rpm: f64,
+    /// Whether it was a number without a unit.
+    pub(crate) is_bare: bool,
+}
+
+/// Reads a shaft speed: r/min, or with a unit of its own.
+pub(crate) fn shaft_speed(text: &str) -> Result<GivenSpeed, String> {
+    let rpm = quantity("r/min", "a speed in r/min other than 0, as 1500 or 25Hz")(text)?;
+    Ok(GivenSpeed { rpm, is_bare: text.trim().parse::<f64>().is_ok() })
+}
+
 /// Reads a number in `unit`, or one with a unit of its own: `12kHz`. `expected` is said of any other text.
 pub(crate) fn quantity(
     unit: &'static str,

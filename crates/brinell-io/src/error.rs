@@ -122,6 +122,18 @@ pub enum IoError {
         /// The value as written, cut to a few words.
         text: String,
     },
+    /// A decimal point in a text file that has decimal commas, where points are between groups of three digits.
+    #[error("{}: line {line}, column `{column}`: `{text}` has a decimal point, and the file has decimal commas; write one of them throughout", path.display())]
+    DecimalPoint {
+        /// The file.
+        path: PathBuf,
+        /// The line, from 1.
+        line: u64,
+        /// The column's name.
+        column: String,
+        /// The value as written.
+        text: String,
+    },
     /// A line of a text file with more or fewer values than the others.
     #[error("{}: line {line} has {got} values where the first line of numbers has {expected}", path.display())]
     TextRow {

@@ -207,3 +207,26 @@ fn regress_odd_and_sound_text() {
     assert_eq!(read("% c\n1\t2\n# c\n3\t4", "column2").1, [2.0, 4.0]);
     assert_eq!(read("Rig;7\nDate;today\nx;y\n1;2\n3;4\n", "y").1, [2.0, 4.0]);
 }
+
+/// A column of decimal commas says what a point in another one is: never a decimal point.
+#[test]
+fn regress_points_beside_decimal_commas_are_thousands_or_refused() {
+    let here = Here::new();
+    let read = |name: &str, text: &str| open(here.file(name, text)).unwrap().read("acc [mg]").unwrap();
+    // As written by a German Excel: mg, thousands with a point.
+    let head = "Zeit [s];acc [mg]\n0,00000000;9\n0,00008333;424\n";
+    let values = read("de.csv", &format!("{head}0,00016667;-1.332\n0,00025000;1.024.768\n"));
+    assert_eq!(values, [9.0, 424.0, -1332.0, 1_024_768.0]);
+    // Where the first lines show no point.
+    let whole: String = (0..300).map(|i| format!("0,{i:05};{}\n", i % 900)).collect();
+    let values = read("late.csv", &format!("Zeit [s];acc [mg]\n{whole}0,00300;-1.332\n"));
+    assert_eq!(values.last(), Some(&-1332.0));
+    assert_eq!(
+        here.says("mixed.csv", format!("{head}0,00016667;0.853\n")),
+        "mixed.csv: line 4, column `acc [mg]`: `0.853` has a decimal point, and the file has decimal commas; write one of them throughout"
+    );
+    // Thousands of the other kind are no decimal commas.
+    let mut file = open(here.file("en.csv", "t [s];acc [mg]\n0.001;9\n0.002;1,332\n")).unwrap();
+    assert_eq!(file.read("t [s]").unwrap(), [0.001, 0.002]);
+    assert!(file.read("acc [mg]").unwrap_err().to_string().contains("`1,332` is not a number"));
+}

@@ -56,8 +56,8 @@ mod thin;
 
 #[doc(hidden)]
 pub use analysis::{
-    AnalysisReport, Analyzed, Findings, ZONES, analysis_html, analysis_pictures, called, level_lines, ratio, scaled,
-    shaft_lines,
+    AnalysisReport, Analyzed, Findings, ZONES, analysis_html, analysis_pictures, called, level_lines, orders_in_hz,
+    ratio, scaled, shaft_lines,
 };
 #[doc(hidden)]
 pub use axial::{AxialRow, AxialSection, axial_section};

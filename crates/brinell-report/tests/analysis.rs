@@ -33,6 +33,7 @@ fn report(text: &str, values: &[f64]) -> AnalysisReport {
             2
         ],
         close_up_s: at(4),
+        order_tracked: values.len() % 2 == 1,
         spectra: vec![spectrum.clone(); 2],
         envelopes: vec![spectrum; 2],
         markers: vec![Marker {

@@ -29,6 +29,8 @@ use super::series::{Merge, Series};
 
 /// Name of the largest |x| of a whole record, in files and reports.
 pub const RECORD_PEAK: &str = "record_peak";
+/// Name of that over the RMS.
+pub const RECORD_CREST_FACTOR: &str = "record_crest_factor";
 /// Name of its largest less its smallest x.
 pub const RECORD_PEAK_TO_PEAK: &str = "record_peak_to_peak";
 

@@ -73,10 +73,10 @@ impl Indicator {
             Indicator::StandardDeviation => "root mean square about the mean",
             Indicator::Peak => "largest absolute value",
             Indicator::PeakToPeak => "largest less smallest value",
-            Indicator::CrestFactor => "peak over RMS",
+            Indicator::CrestFactor => "mean peak of a revolution over RMS",
             Indicator::Kurtosis => "fourth standardised moment; 3 for a normal distribution",
             Indicator::Skewness => "third standardised moment",
-            Indicator::ImpulseFactor => "peak over mean absolute value",
+            Indicator::ImpulseFactor => "mean peak of a revolution over mean absolute value",
             Indicator::ShapeFactor => "RMS over mean absolute value",
         }
     }

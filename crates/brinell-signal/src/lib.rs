@@ -87,7 +87,7 @@ pub mod window;
 pub(crate) mod test_signals;
 
 pub use band::Band;
-pub use blocks::{Blocks, RECORD_PEAK, RECORD_PEAK_TO_PEAK};
+pub use blocks::{Blocks, RECORD_CREST_FACTOR, RECORD_PEAK, RECORD_PEAK_TO_PEAK};
 pub use decimate::{decimate, kaiser_lowpass};
 #[doc(hidden)]
 pub use digits::short;

@@ -2,6 +2,7 @@
 //! process of its own.
 
 mod analysis;
+mod beside;
 mod cases;
 mod drift;
 mod rig;

@@ -5,8 +5,8 @@ use crate::message::Arrays;
 use crate::report::{Answer, Trouble};
 use crate::text;
 use brinell::analysis::{
-    Analysis, Called, DefectOrders, Given, HEADLINES, NoUnit, Numbers, Options, Quantity, Scaled, Unit, analyze,
-    headline, once, other_bearing, other_speed, shown_spectrum, unit_of,
+    Analysis, Called, DefectOrders, Given, NoUnit, Numbers, Options, Quantity, Scaled, Unit, analyze, once,
+    other_bearing, other_speed, shown_spectrum, unit_of,
 };
 use brinell::bearing::{KnownBearing, orders_of};
 use brinell::channel::unit_of_run;
@@ -142,7 +142,7 @@ pub(crate) fn judge(request: &Value, given: &Arrays, arrays: &mut Arrays) -> Ans
     let mut answer = judged::verdict(&analysis);
     answer["warnings"] = json!(known.warnings);
     answer["used"] = json!(known.used(&analysis));
-    answer["levels"] = levels(&analysis, &unit.name);
+    answer["levels"] = analysis.headlines(&unit.name).into();
     answer["from_s"] = json!(from_s);
     answer["rate_hz"] = json!(rate);
     answer["unit"] = json!(in_si(&unit));
@@ -307,19 +307,6 @@ fn in_si(unit: &Unit) -> &str {
         Quantity::Current => "A",
         Quantity::Other => &unit.name,
     }
-}
-
-/// The indicators that the command prints, in the signal's unit.
-fn levels(analysis: &Analysis, unit: &str) -> Value {
-    let said = analysis.indicators.iter().filter(|(i, _)| HEADLINES.contains(i));
-    let all: Vec<Value> = said
-        .map(|(i, e)| {
-            let of = if i.has_unit() { format!(" {unit}") } else { String::new() };
-            let words = format!("{} {}{of}", headline(*i), short(e.value, 4));
-            json!({ "name": headline(*i), "value": e.value, "words": words })
-        })
-        .collect();
-    json!(all)
 }
 
 /// The families that were called damage, as the page marks lines.

@@ -116,15 +116,14 @@ fn regress_a_wav_states_no_unit_and_counts_are_no_acceleration() {
     assert!(words.contains("the numbers of this WAV are counts of an ADC (int16, full scale 32768)"), "{words}");
     let given = with(&base, json!({ "full_scale": "5V", "sensitivity": "100mV/g" }));
     let answer = judged("a.wav", &bytes, given);
-    let rms = &answer["levels"][0];
-    let words = rms["words"].as_str().unwrap();
-    assert!(words.starts_with("rms ") && words.ends_with(" g"), "{words}");
+    let words = answer["levels"][0].as_str().unwrap();
+    let rms: f64 = words.strip_prefix("rms ").and_then(|w| w.strip_suffix(" g")).unwrap().parse().unwrap();
     let x = signal();
     let own = (x.iter().map(|v| v * v).sum::<f64>() / x.len() as f64).sqrt();
     // 8000 counts are one of the signal's, and a full scale of 32768 is 5 V or 50 g; whole revolutions.
     let expected = own * 8000.0 / 32_768.0 * 50.0;
-    assert!((rms["value"].as_f64().unwrap() / expected - 1.0).abs() < 0.01, "{rms} {expected}");
-    assert_eq!(answer["levels"][1]["name"], "peak of a revolution");
+    assert!((rms / expected - 1.0).abs() < 0.01, "{rms} {expected}");
+    assert!(answer["levels"][1].as_str().unwrap().starts_with("peak "));
     let csv = csv("acc", &x);
     for (given, said) in [
         (json!({ "unit": "furlong" }), "unit furlong: no unit is called `furlong`; known are m/s^2"),

@@ -1,7 +1,7 @@
 //! The options of `brinell analyze`.
 
 use super::measured::SignalArgs;
-use crate::args::{Elements, quantity};
+use crate::args::{Elements, GivenSpeed, quantity, shaft_speed};
 use crate::figures::PlotFormat;
 use crate::figures::Print;
 use brinell::analysis::MachineClass;
@@ -32,8 +32,8 @@ pub(crate) struct AnalyzeArgs {
     #[command(flatten)]
     pub(crate) signal: SignalArgs,
     /// Shaft speed (the inner ring turns, the outer rests)
-    #[arg(long, value_parser = quantity("r/min", "a speed in r/min other than 0, as 1500 or 25Hz"), value_name = "RPM")]
-    pub(crate) speed: Option<f64>,
+    #[arg(long, value_parser = shaft_speed, value_name = "RPM")]
+    pub(crate) speed: Option<GivenSpeed>,
     /// Channel that holds the shaft speed, in r/min unless the file states its unit; where it strays by more than 0.5 %
     /// it is followed (order tracking), else its mean counts
     #[arg(long, value_name = "NAME|N", conflicts_with = "speed")]

@@ -14,6 +14,9 @@ use brinell::result::{Stretch, beside_healthy};
 use brinell::signal::{Band, Rotation, VelocityBands};
 use std::path::Path;
 
+/// Speeds below, in r/min, are as many Hz of usual machines.
+const MAY_BE_HZ: f64 = 100.0;
+
 /// A result for each bearing that was named, or one. The file is read anew for each but the first.
 pub(super) fn results(args: &AnalyzeArgs, path: &Path, measured: Measured) -> Result<Vec<Diagnosis>, Failure> {
     let mut names = args.bearing.iter().map(String::as_str);
@@ -57,6 +60,8 @@ fn examine(args: &AnalyzeArgs, mut measured: Measured, name: Option<&str>) -> Re
     let other_speed = stated_speed(args, &measured);
     let shaft = rpm.abs() / 60.0;
     let (orders, bearing) = bearing::orders(args, name, &measured, shaft)?;
+    measured.warnings.extend(may_be_hz(args, &measured));
+    measured.warnings.extend(name.and_then(bearing::unknown_suffix));
     // At another speed frequencies in Hz are other orders.
     if other_speed.is_none() {
         measured.warnings.extend(bearing_of_run(&orders, name, &measured, args.tolerance));
@@ -118,7 +123,7 @@ fn examine(args: &AnalyzeArgs, mut measured: Measured, name: Option<&str>) -> Re
 
 fn speed(args: &AnalyzeArgs, measured: &Measured) -> Result<(f64, String), Failure> {
     let (rpm, source) = match (args.speed, &measured.speed) {
-        (Some(rpm), _) => (rpm, "--speed".to_owned()),
+        (Some(given), _) => (given.rpm, "--speed".to_owned()),
         (None, Some(stated)) => (stated.rpm, stated.source.clone()),
         (None, None) => return Err(Failure::Usage(ASK_SPEED.into())),
     };
@@ -128,8 +133,27 @@ fn speed(args: &AnalyzeArgs, measured: &Measured) -> Result<(f64, String), Failu
 
 /// A warning, where the file states another speed than was given.
 fn stated_speed(args: &AnalyzeArgs, measured: &Measured) -> Option<String> {
-    let (given, stated) = (args.speed?, measured.speed.as_ref()?);
+    let (given, stated) = (args.speed?.rpm, measured.speed.as_ref()?);
     other_speed(&format!("--speed {given}"), given, stated.rpm, &stated.source, 0.01 * args.tolerance)
+}
+
+/// A warning, where a number without a unit is so low that it may be in Hz.
+fn may_be_hz(args: &AnalyzeArgs, measured: &Measured) -> Option<String> {
+    let is_low = |rpm: f64| rpm.abs() < MAY_BE_HZ;
+    let words = |rpm: f64| format!("{rpm:.4} r/min is {:.2} Hz", rpm / 60.0);
+    match (&args.speed, &measured.speed) {
+        (Some(given), _) if given.is_bare && is_low(given.rpm) => {
+            let rpm = given.rpm;
+            Some(format!("--speed {rpm}: {rpm} r/min is {:.2} Hz; if it is in Hz write {rpm}Hz", rpm / 60.0))
+        }
+        (None, Some(stated)) if stated.is_bare && is_low(stated.rpm) => Some(format!(
+            "{}: a mean of {}; if it is in Hz let the channel say so (`speed [Hz]`, `speed_hz`), or give --speed {:.4}Hz",
+            stated.source,
+            words(stated.rpm),
+            stated.rpm
+        )),
+        _ => None,
+    }
 }
 
 /// A warning, where the run that made the file is of another bearing than was asked about.

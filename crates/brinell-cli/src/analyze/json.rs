@@ -3,7 +3,7 @@
 use super::diagnosis::Diagnosis;
 use super::measured::Rest;
 use brinell::analysis::{HEADLINES, to_json};
-use brinell::signal::{Indicator, RECORD_PEAK};
+use brinell::signal::{Indicator, RECORD_CREST_FACTOR, RECORD_PEAK};
 use serde_json::{Value, json};
 
 pub(super) fn as_json(result: &Diagnosis) -> Value {
@@ -26,7 +26,7 @@ pub(super) fn as_json(result: &Diagnosis) -> Value {
         value["whole"] = json!({
             "samples": rest.samples,
             "missing": rest.missing,
-            "indicators": whole_indicators(rest).map(|(name, v)| json!({ "name": name, "value": v })).collect::<Vec<_>>(),
+            "indicators": whole_indicators(rest).map(|(_, name, v)| json!({ "name": name, "value": v })).collect::<Vec<_>>(),
             "last": {
                 "start_s": rest.last_start,
                 "samples": last.samples,
@@ -47,13 +47,13 @@ pub(super) fn as_json(result: &Diagnosis) -> Value {
 }
 
 /// Headline indicators of a whole long signal; its peak is the largest of all samples.
-pub(super) fn whole_indicators(rest: &Rest) -> impl Iterator<Item = (&'static str, f64)> {
+pub(super) fn whole_indicators(rest: &Rest) -> impl Iterator<Item = (Indicator, &'static str, f64)> {
     HEADLINES.into_iter().filter_map(|i| {
         let name = match i {
             Indicator::Peak => RECORD_PEAK,
-            Indicator::CrestFactor => "record_crest_factor",
+            Indicator::CrestFactor => RECORD_CREST_FACTOR,
             i => i.name(),
         };
-        Some((name, rest.moments.get(i)?))
+        Some((i, name, rest.moments.get(i)?))
     })
 }

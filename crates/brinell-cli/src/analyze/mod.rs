@@ -26,8 +26,8 @@ use std::process::ExitCode;
 use written::{earlier, put_json, put_pages};
 
 pub(crate) fn analyze(args: &AnalyzeArgs) -> Result<ExitCode, Failure> {
-    if let Some(rpm) = args.speed {
-        turning(rpm, "--speed")?;
+    if let Some(speed) = args.speed {
+        turning(speed.rpm, "--speed")?;
     }
     if !(args.tolerance > 0.0 && args.tolerance <= 10.0) {
         return Err(Failure::Usage(format!("--tolerance {}: expected more than 0 to 10 per cent", args.tolerance)));

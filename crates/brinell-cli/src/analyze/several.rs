@@ -50,6 +50,8 @@ struct Found {
     noise: f64,
     /// What it is compared with: name, RMS, kurtosis.
     other: Option<(String, f64, f64)>,
+    /// The RMS over the other's, in the range that both hold.
+    rms_over_other: Option<f64>,
     json: Value,
 }
 
@@ -224,7 +226,8 @@ impl Found {
             damage: lead.is_some(),
             unit: m.unit.clone(),
             rms: a.indicator(Indicator::Rms),
-            peak: a.indicator(Indicator::Peak),
+            // The record's own, which has no interval.
+            peak: Some(Estimate { value: a.record_peak, interval: None }),
             kurtosis: a.indicator(Indicator::Kurtosis),
             velocity: result.levels.velocity.as_ref().ok().map(|v| scaled(v, 1e3)),
             zone: result.levels.letter(),
@@ -234,8 +237,14 @@ impl Found {
             high: a.families.iter().map(|f| f.limit).fold(0.0, f64::max),
             noise: a.families.iter().map(|f| f.noise).fold(0.0, f64::max),
             other: result.against.as_ref().map(|other| {
-                let value = |i| other.analysis.indicator(i).map_or(f64::NAN, |e| e.value);
+                // Of two sample rates levels are not of one range: none is drawn over the other's.
+                let whole = other.comparison.range.is_none();
+                let value = |i| other.analysis.indicator(i).filter(|_| whole).map_or(f64::NAN, |e| e.value);
                 (other.measured.path.display().to_string(), value(Indicator::Rms), value(Indicator::Kurtosis))
+            }),
+            rms_over_other: result.against.as_ref().and_then(|other| {
+                let rms = other.comparison.indicators.iter().find(|d| d.indicator == Indicator::Rms)?;
+                Some(rms.first / rms.second)
             }),
             scores: scores.collect(),
             json,
@@ -250,9 +259,7 @@ impl Found {
             None => "-".into(),
         };
         let mut rms = number(&self.rms, &self.unit.name);
-        if let (Some((_, other, _)), Some(own)) = (&self.other, &self.rms) {
-            rms += &format!(" (x {})", short(own.value / other, 3));
-        }
+        rms += &self.rms_over_other.map_or(String::new(), |ratio| format!(" (x {})", short(ratio, 3)));
         [
             format!("{:.3}", self.seconds),
             self.verdict.clone(),

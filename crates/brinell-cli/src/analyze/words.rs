@@ -3,8 +3,8 @@
 use super::diagnosis::{Against, Diagnosis};
 use super::json::whole_indicators;
 use crate::say::{self, say, short};
-use brinell::analysis::{Analysis, COLUMNS, HEADLINES, headline};
-use brinell_report::{level_lines, ratio, shaft_lines};
+use brinell::analysis::{Analysis, COLUMNS, indicator_words, level_words};
+use brinell_report::{level_lines, orders_in_hz, ratio, shaft_lines};
 use std::path::PathBuf;
 
 /// What is found at each defect frequency, in columns.
@@ -31,6 +31,9 @@ pub(super) fn tell(results: &[Diagnosis], result: &Diagnosis, written: &[PathBuf
         say!("  {note}");
     }
     say!("  {}; {}", result.speed, shaft_lines(a));
+    if let Some(orders) = orders_in_hz(a) {
+        say!("  {orders}");
+    }
     for one in results {
         say!("  bearing: {}", one.bearing);
     }
@@ -45,32 +48,20 @@ pub(super) fn tell(results: &[Diagnosis], result: &Diagnosis, written: &[PathBuf
             say!("\nThe last {} samples, from {:.1} s on: {}", last.samples, rest.last_start, last.verdict());
         }
     }
-    indicators(a, &m.unit.name);
+    say!("  {}", a.headlines(&m.unit.name).join(", "));
     for line in level_lines(&result.levels, &m.unit.name) {
         say!("  {line}");
     }
     if let Some(rest) = &result.rest {
-        let whole: Vec<String> =
-            whole_indicators(rest).map(|(name, v)| format!("{} {}", name.replace('_', " "), short(v, 4))).collect();
+        let whole: Vec<String> = whole_indicators(rest)
+            .map(|(i, name, v)| level_words(&name.replace('_', " "), i, v, &m.unit.name))
+            .collect();
         say!("  of all {} samples: {}", rest.samples, whole.join(", "));
     }
     if let Some(other) = &result.against {
         against(other, &m.unit.name);
     }
     say::wrote(written);
-}
-
-/// The indicators that are headlines, in one line.
-fn indicators(a: &Analysis, unit: &str) {
-    let rows: Vec<String> = (a.indicators.iter())
-        .filter(|(i, _)| HEADLINES.contains(i))
-        .map(|(i, e)| {
-            let unit = if i.has_unit() { format!(" {}", unit) } else { String::new() };
-            // Averages over revolutions; the largest of all samples is on the page.
-            format!("{} {}{unit}", headline(*i), short(e.value, 4))
-        })
-        .collect();
-    say!("  {}", rows.join(", "));
 }
 
 /// This signal beside the other.
@@ -86,11 +77,15 @@ fn against(other: &Against, unit: &str) {
     }
     let (mean, rms) = other.comparison.level_db;
     say!("  third octaves: this one is {:+.1} dB from the other on average, {rms:.1} dB RMS", 0.0 - mean);
-    say!("    {:<16} {:>12} {:>12}  this over the other", "", "this", "the other");
+    let width = other.comparison.indicators.iter().map(|d| indicator_words(d.indicator).len()).max().unwrap_or(0);
+    let within = other.comparison.range.map_or(String::new(), |range| {
+        format!(", of {:.0} to {:.0} Hz, which both are compared in", range.low, range.high)
+    });
+    say!("    {:<width$} {:>12} {:>12}  this over the other{within}", "", "this", "the other");
     for d in &other.comparison.indicators {
         say!(
-            "    {:<16} {:>12} {:>12}  {}{}",
-            d.indicator.name(),
+            "    {:<width$} {:>12} {:>12}  {}{}",
+            indicator_words(d.indicator),
             short(d.first, 4),
             short(d.second, 4),
             ratio(d).map_or("-".into(), |r| format!("x {r}")),

@@ -15,6 +15,8 @@ pub(crate) enum Fault {
     Unsupported(String),
     /// A value of a text file that is no number.
     Number { line: u64, column: String, text: String },
+    /// One with a decimal point, in a file of decimal commas.
+    Point { line: u64, column: String, text: String },
     /// A line of a text file with more or fewer values than the lines above it.
     Row { line: u64, expected: usize, got: usize },
 }
@@ -22,7 +24,7 @@ pub(crate) enum Fault {
 impl Fault {
     /// The same, so many lines further down.
     pub(crate) fn after(mut self, lines: u64) -> Self {
-        if let Self::Number { line, .. } | Self::Row { line, .. } = &mut self {
+        if let Self::Number { line, .. } | Self::Point { line, .. } | Self::Row { line, .. } = &mut self {
             *line += lines;
         }
         self

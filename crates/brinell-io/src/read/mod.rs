@@ -276,6 +276,7 @@ fn located(path: &Path, kind: FileKind, fault: Fault) -> IoError {
         Fault::Damaged(why) => IoError::Damaged { path, kind, why },
         Fault::Unsupported(why) => IoError::Unsupported { path, why },
         Fault::Number { line, column, text } => IoError::CsvNumber { path, line, column, text },
+        Fault::Point { line, column, text } => IoError::DecimalPoint { path, line, column, text },
         Fault::Row { line, expected, got } => IoError::TextRow { path, line, expected, got },
         // Only `read_pieces` has a receiver, and takes this out before.
         Fault::Stopped => IoError::Damaged { path, kind, why: "reading stopped".into() },

@@ -54,11 +54,20 @@ impl SignalFile {
         Ok(rate_of_times(&self.beginning(times, LOOKED_AT)?, seconds))
     }
 
+    /// The column of times: one that is called so, else the first in a unit of time whose values are evenly spaced.
+    pub fn times(&mut self) -> Option<Channel> {
+        let these: Vec<Channel> =
+            self.channels().iter().filter(|c| c.is_time() && c.may_be_signal() && !c.is_matrix()).cloned().collect();
+        let called = these.iter().find(|c| c.is_called_time());
+        let mut others = these.iter().filter(|c| !c.is_called_time());
+        called.or_else(|| others.find(|c| self.rate_of(&c.name, 1.0).is_ok_and(|rate| rate.is_ok()))).cloned()
+    }
+
     /// What a column of times whose unit the file states says of the rate: hertz, or what is wrong with the times; and
     /// the column's name.
     fn rate_by_times(&mut self) -> Option<(Result<f64, NoRate>, String)> {
-        let channels = self.channels().iter().filter(|c| c.may_be_signal());
-        let (name, unit) = channels.into_iter().find_map(|c| Some((c.name.clone(), c.time_unit()?)))?;
+        let times = self.times()?;
+        let (unit, name) = (times.time_unit()?, times.name);
         Some((self.rate_of(&name, unit).ok()?, name))
     }
 

@@ -10,9 +10,14 @@ const TIMES: [&str; 5] = ["t", "time", "times", "timestamp", "zeit"];
 
 impl Channel {
     /// Whether it is called like a column of times.
-    pub fn is_time(&self) -> bool {
+    pub fn is_called_time(&self) -> bool {
         let name = bare(self);
         TIMES.contains(&name.as_str()) || named_unit(&name).is_some()
+    }
+
+    /// Whether it is called so, or its unit is one of time: no vibration has that.
+    pub fn is_time(&self) -> bool {
+        self.is_called_time() || self.unit.as_deref().and_then(seconds_in).is_some()
     }
 
     /// Seconds in its unit, of a column of times, where it states one.
@@ -20,7 +25,7 @@ impl Channel {
         (self.unit.as_deref().and_then(seconds_in)).or_else(|| named_unit(&bare(self)))
     }
 
-    /// The same of what is called like one.
+    /// The same of what [is one](Self::is_time).
     pub fn time_unit(&self) -> Option<f64> {
         self.is_time().then(|| self.seconds_in_unit())?
     }

@@ -2,14 +2,15 @@
 
 use super::AnalysisReport;
 use super::level::{fact, notes, rows, scaled};
-use super::words::{called, ratio, shaft_lines};
+use super::words::{called, orders_in_hz, ratio, shaft_lines};
 use crate::data::{Marker, Series, Tone};
 use crate::fact::Fact;
 use crate::kurtogram::Kurtogram;
 use crate::number::{capital, short};
 use crate::tables::Table;
 use brinell::analysis::{
-    Analysis, COLUMNS, Comparison, Component, Family, Finding, HARMONICS, Levels, Unit, Verdict, shown_spectrum,
+    Analysis, COLUMNS, Comparison, Component, Family, Finding, HARMONICS, Levels, Unit, Verdict, indicator_words,
+    shown_spectrum,
 };
 use brinell::signal::{Estimate, Indicator, Spectrum, VelocityBands};
 
@@ -65,6 +66,7 @@ fn report(of: &Findings) -> AnalysisReport {
     let (m, a) = (&of.signal, of.signal.analysis);
     let mut notes_shown = of.notes.to_vec();
     notes_shown.push(format!("{}; {}", of.speed, shaft_lines(a)));
+    notes_shown.extend(orders_in_hz(a));
     notes_shown.push(format!("bearing: {}", of.bearing));
     notes_shown.extend(notes(of.levels));
     notes_shown.push(format!("mean removed: {} {}", short(a.mean, 4), of.unit.name));
@@ -81,6 +83,7 @@ fn report(of: &Findings) -> AnalysisReport {
         names: vec![m.name.into()],
         close_up_s: 10.0 / strike(a),
         markers: markers(a),
+        order_tracked: a.options.rotation.is_some(),
         kurtogram: a.map.as_ref().map(|map| kurtogram(a, map)),
         ..AnalysisReport::default()
     };
@@ -117,6 +120,10 @@ fn curves(page: &mut AnalysisReport, of: &Findings) {
     let (low, high) = (a.view.band.low, a.view.band.high);
     let shaded = format!(" Shaded: the band demodulated below, {low:.0} to {high:.0} Hz ({}).", a.view.choice.words());
     let lanes = " Above the plot lie the defect frequencies and their harmonics, where their lines are highest; those of damage, and a comb at none of them on which the verdict rests, run through it as dashed lines; short thin marks are the sidebands that were detected.";
+    let lanes = match a.options.rotation {
+        Some(_) => format!(" Order tracked: frequencies are orders times the mean speed, {:.3} Hz.{lanes}", a.shaft),
+        None => lanes.to_owned(),
+    };
     page.waveforms.push(series(m));
     page.band_hz = Some((low, high));
     let (label, of_envelope) = (format!("{quantity} amplitude"), "Envelope amplitude".to_owned());
@@ -126,7 +133,7 @@ fn curves(page: &mut AnalysisReport, of: &Findings) {
             let shown = shown_spectrum(m.x, m.rate).ok();
             page.spectra = (shown.iter()).map(|s| spectrum(s, label.clone(), note(s) + &shaded)).collect();
             let s = &a.view.spectrum;
-            page.envelopes = vec![spectrum(s, of_envelope, note(s) + lanes)];
+            page.envelopes = vec![spectrum(s, of_envelope, note(s) + &lanes)];
         }
         Some((other, c)) => {
             page.names.push(format!("against {}", other.name));
@@ -179,26 +186,19 @@ fn facts(of: &Findings) -> Vec<Fact> {
         let note = format!("pure rolling {:.2} Hz", f.expected);
         facts.push(Fact::new(f.name, f.frequency, "Hz", note));
     }
-    for i in [Indicator::Rms, Indicator::Peak, Indicator::Kurtosis] {
-        if let Some(e) = a.indicator(i) {
-            let unit = i.unit(&of.unit.name);
-            let note = match i {
-                Indicator::Peak => "mean over revolutions",
-                _ => "",
-            };
-            facts.push(Fact::new(named(i), e.value, unit, note));
-        }
-    }
+    let rms = a.indicator(Indicator::Rms).map(|e| Fact::new("RMS", e.value, &of.unit.name, ""));
+    facts.extend(rms);
+    facts.push(Fact::new("Peak", a.record_peak, &of.unit.name, "of the record"));
+    let crest = a.record_crest_factor().map(|crest| Fact::new("Crest factor", crest, "", "peak over RMS"));
+    facts.extend(crest);
+    facts.extend(a.indicator(Indicator::Kurtosis).map(|e| Fact::new("Kurtosis", e.value, "", "")));
     facts.extend(fact(of.levels));
     facts
 }
 
 /// An indicator's name at the head of its row.
 fn named(indicator: Indicator) -> String {
-    match indicator {
-        Indicator::Rms => "RMS".into(),
-        other => capital(&other.name().replace('_', " ")),
-    }
+    capital(&indicator_words(indicator))
 }
 
 /// Where the sidebands lie that are detected, and what they are.
@@ -262,6 +262,13 @@ fn indicators(of: &Findings) -> Table {
             vec![named(*i), short(e.value, 4), with_interval(e), unit]
         })
         .collect();
+    let record = [
+        ("Peak of the record", Some(of.signal.analysis.record_peak), unit.as_str()),
+        ("Crest factor: that over RMS", of.signal.analysis.record_crest_factor(), ""),
+    ];
+    for (name, value, unit) in record {
+        shown.extend(value.map(|v| vec![name.to_owned(), short(v, 4), "–".into(), unit.to_owned()]));
+    }
     for (name, e, unit) in rows(of.levels, unit) {
         shown.push(vec![name, short(e.value, 4), with_interval(&e), unit.to_owned()]);
     }
@@ -278,7 +285,7 @@ fn indicators(of: &Findings) -> Table {
         "Indicators",
         ["Indicator", "#Value", "#95 % interval", "Unit"],
         shown,
-        "Of the signal less its mean: averages over whole revolutions; peaks are those of a revolution. The envelope is the amplitude of what lies in the band shown. \
+        "Of the signal less its mean: averages over whole revolutions, but for the peak of the record, which grows with its length, and the crest factor. The envelope is the amplitude of what lies in the band shown. \
          Bands of velocity from 50 Hz up are those of ISO 15242 at 1800 r/min, with sharp edges.",
     )
 }
@@ -315,7 +322,11 @@ fn differences(of: &Findings, other: &Analyzed, c: &Comparison) -> Vec<Table> {
             ["Indicator", "#This", "#Other", "Unit", "#This over the other", ""],
             indicators,
             format!(
-                "Third octaves from 10 Hz up: this one lies {:+.1} dB from the other on average, {:.1} dB RMS. Verdict on the other: {}",
+                "{}Third octaves from 10 Hz up: this one lies {:+.1} dB from the other on average, {:.1} dB RMS. Verdict on the other: {}",
+                c.range.map_or(String::new(), |range| format!(
+                    "Indicators are of {:.0} to {:.0} Hz, in which both are compared. ",
+                    range.low, range.high
+                )),
                 0.0 - c.level_db.0,
                 c.level_db.1,
                 other.analysis.verdict()

@@ -14,7 +14,7 @@ use crate::tables::Table;
 pub use content::{Analyzed, Findings};
 pub use level::{ZONES, level_lines, scaled};
 pub use page::{analysis_html, analysis_pictures};
-pub use words::{called, ratio, shaft_lines};
+pub use words::{called, orders_in_hz, ratio, shaft_lines};
 
 /// Everything the page of an analysis shows. Curves come in the order of `names`, one or two of each.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -45,6 +45,8 @@ pub struct AnalysisReport {
     pub spectra: Vec<Spectrum>,
     /// Envelope spectra.
     pub envelopes: Vec<Spectrum>,
+    /// Whether envelope spectra are of equal angles: their frequencies are orders times the mean speed.
+    pub order_tracked: bool,
     /// Defect frequencies; `present` for those that are detected.
     pub markers: Vec<Marker>,
     /// The band demodulated, Hz: shaded in the spectrum.

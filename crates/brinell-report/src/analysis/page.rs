@@ -5,7 +5,7 @@ use std::fmt::Write as _;
 use super::AnalysisReport;
 use super::curves::{draw, embed};
 use super::waveform::{about_middle, close, close_up_domain, close_up_unit, whole};
-use crate::chart::Domain;
+use crate::chart::{Domain, Spec};
 use crate::data::Spectrum;
 use crate::embedded;
 use crate::frame::{THINNED, close as finish, figure, open, plain, section};
@@ -53,7 +53,13 @@ fn envelope(report: &AnalysisReport, layout: Layout) -> Picture {
     let (y, top) = (envelope_domain(report), end(&report.envelopes));
     let names = ("envelope-spectrum", "envelope-spectrum");
     let spec = spectrum_spec(names, &first, layout.size(height), top, y, lanes);
+    let spec = Spec { x_label: envelope_axis(report).into(), ..spec };
     draw(report, layout, spec, "envelope", &curves(&report.envelopes), true, None)
+}
+
+/// What the envelope spectrum is over.
+fn envelope_axis(report: &AnalysisReport) -> &'static str {
+    if report.order_tracked { "Order × mean speed" } else { "Frequency" }
 }
 
 /// The page's pictures, for saving as files.
@@ -118,7 +124,7 @@ pub fn analysis_html(report: &AnalysisReport) -> String {
             name: "envelope",
             domain: envelope_domain(report),
             peak: true,
-            x: ("Frequency", "Hz"),
+            x: (envelope_axis(report), "Hz"),
             y: axis_of(&report.envelopes),
             lanes: &lanes,
             toggles: &lanes,

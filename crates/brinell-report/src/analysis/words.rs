@@ -18,6 +18,16 @@ pub fn shaft_lines(a: &Analysis) -> String {
     a.shaft_words()
 }
 
+/// That frequencies are not those of time, where the speed was followed.
+pub fn orders_in_hz(a: &Analysis) -> Option<String> {
+    a.options.rotation.as_ref()?;
+    Some(format!(
+        "order tracking: envelopes are at equal angles of the shaft, so their frequencies in Hz are orders times the mean speed, {:.3} Hz ({:.1} r/min)",
+        a.shaft,
+        60.0 * a.shaft
+    ))
+}
+
 /// The damaged parts in a word or two each, or what is said instead.
 pub fn called(a: &Analysis) -> String {
     let part = |f: &Family| format!("{}, {}", f.component.words(), a.clarity(f));

@@ -15,8 +15,8 @@ pub(super) const HARMONICS: usize = 5;
 /// Indicators that the table shows.
 const COLUMNS: [(Indicator, &str); 5] = [
     (Indicator::Rms, "RMS"),
-    (Indicator::PeakToPeak, "Peak to peak"),
-    (Indicator::CrestFactor, "Crest factor"),
+    (Indicator::PeakToPeak, "Peak to peak of a turn"),
+    (Indicator::CrestFactor, "Crest factor of a turn"),
     (Indicator::Kurtosis, "Kurtosis"),
     (Indicator::Skewness, "Skewness"),
 ];

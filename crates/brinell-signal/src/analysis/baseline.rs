@@ -1,5 +1,6 @@
 //! A record beside one of the same machine when it was healthy: what has grown since, and what was there before.
 
+use super::compare::{common_range, indicators_in};
 use super::family::{Family, Finding};
 use super::{Analysis, AnalysisError, Component, Options, Side, analyze, bands};
 use crate::{Band, Indicator};
@@ -15,7 +16,7 @@ impl Analysis {
     /// lines modulate half as deep there, and are half as high, is none ([`Finding::AsBefore`]); lines that have at
     /// least doubled their modulation have grown ([`Finding::Grown`]).
     ///
-    /// Families are compared in the range that both sample rates hold. How high their lines are goes by modulation
+    /// Families and levels are compared in the range that both sample rates hold. How high their lines are goes by modulation
     /// times the signal's RMS. A level that has merely risen says nothing of the part: load, speed and other parts
     /// raise it.
     ///
@@ -23,8 +24,13 @@ impl Analysis {
     /// As [`analyze()`].
     pub fn beside_healthy(&mut self, x: &[f64], healthy: Side) -> Result<(), AnalysisError> {
         let top = 0.5 * self.sample_rate.min(healthy.analysis.sample_rate);
-        let growth = rms(self) / rms(healthy.analysis);
-        self.level_growth = Some(growth);
+        let range = common_range(self, healthy.analysis);
+        let level = |side| {
+            let found = indicators_in(range, side).into_iter().find(|(i, _)| *i == Indicator::Rms);
+            found.map_or(1.0, |(_, e)| e.value)
+        };
+        let growth = level(Side { x, analysis: self }) / level(healthy);
+        (self.level_growth, self.level_range) = (Some(growth), range);
         let louder = growth.max(1.0);
         let own = families_up_to(top, Side { x, analysis: self })?;
         let healthy = families_up_to(top, healthy)?;

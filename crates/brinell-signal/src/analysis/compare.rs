@@ -3,7 +3,11 @@
 use super::bands::{NARROWEST, highest, range};
 use super::together::HARMONICS;
 use super::{Analysis, AnalysisError};
-use crate::{Band, Indicator, Segments, Spectrum, envelope, harmonics, psd};
+use crate::integrate::{band_pass, fade};
+use crate::{Band, Estimate, Indicator, Segments, Spectrum, envelope, harmonics, psd};
+
+/// Half sample rates that differ by less, relative, hold one range.
+const ONE_RATE: f64 = 0.01;
 
 /// A quantity of both signals.
 #[derive(Debug, Clone, PartialEq)]
@@ -36,8 +40,10 @@ pub struct LineDifference {
 /// Both signals side by side, in one unit and on one frequency axis.
 #[derive(Debug, Clone)]
 pub struct Comparison {
-    /// Indicators.
+    /// Indicators, of what lies in [`Comparison::range`].
     pub indicators: Vec<Difference>,
+    /// What both hold, where that is not all of both, or the band given.
+    pub range: Option<Band>,
     /// Amplitude spectra with lines equally far apart, up to the lower of the two half sample rates.
     pub spectra: [Spectrum; 2],
     /// Envelope spectra of one band.
@@ -79,8 +85,10 @@ pub fn compare(first: Side, second: Side) -> Result<Comparison, AnalysisError> {
     let spectra = [sa, sb];
     let envelopes = [ea, eb];
     let lines = lines(&sides, &envelopes, &[ma, mb])?;
+    let range = common_range(first.analysis, second.analysis);
     Ok(Comparison {
-        indicators: indicators(&sides),
+        indicators: indicators(&sides, range),
+        range,
         level_db: level(&spectra),
         spectra,
         envelopes,
@@ -126,11 +134,43 @@ fn one(
     Ok((spectrum, of_envelope, mean))
 }
 
-fn indicators(sides: &[Side; 2]) -> Vec<Difference> {
-    let [first, second] = sides.map(|s| s.analysis);
+/// What two signals both hold, where that is not all of both: up to the lower half sample rate, in the band given. A
+/// level of one record is none of the other's where its sensor hears farther.
+pub(super) fn common_range(first: &Analysis, second: &Analysis) -> Option<Band> {
+    let tops = [first, second].map(|a| 0.5 * a.sample_rate);
+    let top = tops[0].min(tops[1]);
+    match first.options.band {
+        Some(band) => Some(Band::between(band.low, band.high.min(top))),
+        None => ((tops[0] / tops[1] - 1.0).abs() > ONE_RATE).then(|| Band::between(0.0, top)),
+    }
+}
+
+/// The indicators of what lies in a range, where there is one; else those of the whole.
+pub(super) fn indicators_in(range: Option<Band>, side: Side) -> Vec<(Indicator, Estimate)> {
+    let fs = side.analysis.sample_rate;
+    let inside = |range: Band| {
+        let mut x: Vec<f64> = side.x.iter().map(|v| v - side.analysis.mean).collect();
+        // From the first bin up the whole is periodic enough: what its ends add is little beside it.
+        let lowest = fs / x.len() as f64;
+        let end = if range.low > lowest { fade(&mut x, fs, range.low) } else { 0 };
+        let x = band_pass(&x, fs, Band::between(range.low.max(lowest), range.high)).ok()?;
+        // As often as the other is sampled: between its samples peaks are missed.
+        let each = (0.5 * fs / range.high).floor().max(1.0);
+        let x: Vec<f64> = x[end..x.len() - end].iter().copied().step_by(each as usize).collect();
+        Some(super::indicators(&x, fs / each / side.analysis.shaft))
+    };
+    range.and_then(inside).unwrap_or_else(|| side.analysis.indicators.clone())
+}
+
+fn indicators(sides: &[Side; 2], range: Option<Band>) -> Vec<Difference> {
+    let all = sides.map(|side| indicators_in(range, side));
+    let [first, second] = [0, 1].map(|k| {
+        let these = &all[k];
+        move |wanted: Indicator| these.iter().find(|(i, _)| *i == wanted).map(|found| found.1)
+    });
     (Indicator::ALL.into_iter())
         .filter_map(|i| {
-            let (a, b) = (first.indicator(i)?, second.indicator(i)?);
+            let (a, b) = (first(i)?, second(i)?);
             let apart = (a.interval.zip(b.interval)).map(|(a, b)| a.high < b.low || b.high < a.low);
             Some(Difference { indicator: i, first: a.value, second: b.value, apart })
         })

@@ -56,6 +56,9 @@ const AT_BOUND: usize = 3;
 /// Change from one stretch to the next, relative, at which a line of order 10 smears over two bins of a stretch: what
 /// is faster is not followed well.
 const FAST: f64 = 0.0125;
+/// Bins over which a line of order 10 smears from which damage may be missed where the drift is not followed: the main
+/// lobe of Hann's window has four, however steady the speed.
+const SMEARS: f64 = 4.0;
 /// Merit from which a stretch tells a speed.
 const TELLS: f64 = 10.0;
 /// Power over floor, where there is no floor.
@@ -95,10 +98,10 @@ impl Drift {
         self.course.iter().map(|p| p.1).sum::<f64>() / self.course.len() as f64
     }
 
-    /// Whether damage may be missed for it: it goes too far or too fast to be followed, or no line of the shaft tells
-    /// it.
+    /// Whether damage may be missed for it: it goes too far or too fast to be followed, no line of the shaft tells it,
+    /// or it smears lines and following it showed no more.
     pub(super) fn may_hide(&self) -> bool {
-        self.is_lost() || self.by != "shaft"
+        self.is_lost() || self.by != "shaft" || !self.followed && self.smear > SMEARS
     }
 
     /// Whether it goes too far or too fast to be followed.

@@ -168,6 +168,12 @@ impl Family {
         levels.fold(0.0, f64::max)
     }
 
+    /// The highest of its lines that are detected.
+    pub(super) fn highest_line(&self) -> Option<&Harmonic> {
+        let detected = self.harmonics.iter().filter(|h| h.detected);
+        detected.max_by(|a, b| a.snr_db.unwrap_or(0.0).total_cmp(&b.snr_db.unwrap_or(0.0)))
+    }
+
     /// Whether it says damage by itself: high, and deeper than a sound machine's; or deep, and beyond noise.
     pub fn is_damage(&self) -> bool {
         self.has_height_of_damage() && self.is_whole()
@@ -235,64 +241,83 @@ pub(super) fn read(together: &Together, shaft: f64, options: &Options) -> Vec<Fa
     // Damage on an element meets both races, twice a turn; on a ball that turns about another axis, one, at lines that
     // 2 BSF has as well.
     let all = (options.orders.defect_frequencies()).filter(|(_, name, _)| *name != "BSF");
-    let noise = (HARMONICS as f64 * together.noise.ln()).max(LEAST_SCORE);
-    let limit = SCORE.max(noise);
     all.map(|(component, name, order)| {
-        let expected = order * shaft;
         let (behind, ahead) = reach(component, options);
-        let step = 0.25 * together.step() / (HARMONICS as f64 * expected);
-        let steps = ((ahead + behind) / step) as usize;
-        let places = (0..=steps).map(|k| expected * (1.0 - behind + k as f64 * step));
-        let highest = Highest::of(places, |f| score(together, f));
-        let highest = highest.unwrap_or(Highest { from: expected, to: expected, height: 0.0 });
-        let score = highest.height;
-        let (low, high) = (expected * (1.0 - behind), expected * (1.0 + ahead));
-        let frequency = by_lines(together, highest.middle()).clamp(low, high);
-        let spacing = match component {
-            Component::InnerRace => Some(shaft),
-            Component::Element => Some(cage(shaft, options)),
-            Component::OuterRace | Component::Cage => None,
-        };
-        let lines = lines(together, frequency, spacing);
-        // On the skirt of a line farther off.
-        let next = match frequency > expected {
-            true => highest.to + 4.0 * step * expected,
-            false => highest.from - 4.0 * step * expected,
-        };
-        let outside = next < low || next > high;
-        let mut family = Family {
-            component,
-            name,
-            expected,
-            frequency,
-            score,
-            limit,
-            noise,
-            faint: match component {
-                Component::Cage => f64::INFINITY,
-                // Rollers that enter the load strike the race of a healthy bearing too, and little drowns them in a
-                // simulation.
-                Component::OuterRace if options.silent.is_some() || options.exact => DEEP,
-                _ => FAINT,
-            },
-            modulation: lines.modulation,
-            harmonics: lines.harmonics,
-            sidebands: lines.sidebands,
-            is_skirt: outside && self::score(together, next) > score,
-            masked: false,
-            other_spacing: None,
-            growth: None,
-            finding: Finding::Silent,
-        };
+        let mut family = within(together, shaft, options, (component, name, order * shaft), (behind, ahead));
         family.finding = family.alone();
         family
     })
     .collect()
 }
 
+/// A family at the slip that another one's lines say, to within its resolution: what lies beside it is somebody else's.
+pub(super) fn at_slip(together: &Together, shaft: f64, options: &Options, family: &Family, slip: f64) -> Family {
+    let own = (family.component, family.name, family.expected);
+    let resolved = 0.5 * together.step() / (HARMONICS as f64 * family.expected);
+    let mut family = within(together, shaft, options, own, (resolved - slip, resolved + slip));
+    family.is_skirt = false;
+    family.finding = family.alone();
+    family
+}
+
+/// A family where its score is highest, from so far below to so far above pure rolling, relative.
+fn within(
+    together: &Together,
+    shaft: f64,
+    options: &Options,
+    (component, name, expected): (Component, &'static str, f64),
+    (behind, ahead): (f64, f64),
+) -> Family {
+    let noise = (HARMONICS as f64 * together.noise.ln()).max(LEAST_SCORE);
+    let step = 0.25 * together.step() / (HARMONICS as f64 * expected);
+    let steps = ((ahead + behind) / step) as usize;
+    let places = (0..=steps).map(|k| expected * (1.0 - behind + k as f64 * step));
+    let highest = Highest::of(places, |f| score(together, f));
+    let highest = highest.unwrap_or(Highest { from: expected, to: expected, height: 0.0 });
+    let score = highest.height;
+    let (low, high) = (expected * (1.0 - behind), expected * (1.0 + ahead));
+    let frequency = by_lines(together, highest.middle()).clamp(low, high);
+    let spacing = match component {
+        Component::InnerRace => Some(shaft),
+        Component::Element => Some(cage(shaft, options)),
+        Component::OuterRace | Component::Cage => None,
+    };
+    let lines = lines(together, frequency, spacing);
+    // On the skirt of a line farther off.
+    let next = match frequency > expected {
+        true => highest.to + 4.0 * step * expected,
+        false => highest.from - 4.0 * step * expected,
+    };
+    let outside = next < low || next > high;
+    Family {
+        component,
+        name,
+        expected,
+        frequency,
+        score,
+        limit: SCORE.max(noise),
+        noise,
+        faint: match component {
+            Component::Cage => f64::INFINITY,
+            // Rollers that enter the load strike the race of a healthy bearing too, and little drowns them in a
+            // simulation.
+            Component::OuterRace if options.silent.is_some() || options.exact => DEEP,
+            _ => FAINT,
+        },
+        modulation: lines.modulation,
+        harmonics: lines.harmonics,
+        sidebands: lines.sidebands,
+        is_skirt: outside && self::score(together, next) > score,
+        masked: false,
+        other_spacing: None,
+        growth: None,
+        finding: Finding::Silent,
+    }
+}
+
 /// How far below and above pure rolling a rate may lie, relative. Where speed and bearing are exact, what goes farther
 /// is slip: a cage that lags takes BPFO with it, and raises BPFI.
-fn reach(component: Component, options: &Options) -> (f64, f64) {
+pub(super) fn reach(component: Component, options: &Options) -> (f64, f64) {
     let tolerance = options.tolerance;
     let slips = if options.exact { SLIPS * tolerance } else { tolerance };
     // What the same slip of the cage makes of BPFI.

@@ -1,7 +1,7 @@
 //! An analysis as JSON. Frequencies in Hz; amplitudes in the unit named.
 
 use super::{Analysis, Comparison, Family, Finding, Unit};
-use crate::VelocityBands;
+use crate::{RECORD_CREST_FACTOR, RECORD_PEAK, VelocityBands};
 use serde_json::{Map, Value, json};
 
 /// The analysis; `velocity` is in m/s where it was computed.
@@ -16,6 +16,8 @@ pub fn to_json(
         "verdict": {
             "text": analysis.verdict(),
             "says": analysis.conclusion().key(),
+            "rms_over_healthy": analysis.level_growth,
+            "rms_over_healthy_range_hz": analysis.level_range.map(|range| [range.low, range.high]),
             "damage": analysis.causes().map(|f| f.component.key()).collect::<Vec<_>>(),
             "clarity": analysis.causes().next().map(|f| analysis.clarity(f)),
         },
@@ -65,13 +67,7 @@ pub fn to_json(
         "kurtogram": analysis.kurtogram.map(|k| json!({
             "low_hz": k.band.low, "high_hz": k.band.high, "kurtosis": k.kurtosis, "noise_scatter": k.noise_scatter,
         })),
-        "indicators": analysis.indicators.iter().map(|(i, e)| {
-            (i.name().to_owned(), json!({
-                "value": e.value,
-                "unit": i.unit(&unit.name),
-                "interval_95": e.interval.map(|v| [v.low, v.high]),
-            }))
-        }).collect::<Map<_, _>>(),
+        "indicators": indicators(analysis, unit),
     });
     if let Some(bands) = velocity {
         object["velocity_bands"] = velocity_json(bands).into();
@@ -80,6 +76,19 @@ pub fn to_json(
         object["comparison"] = comparison_json(c);
     }
     object
+}
+
+/// Averages over revolutions, and the peak and the crest factor of the whole record, which have no interval.
+fn indicators(analysis: &Analysis, unit: &Unit) -> Map<String, Value> {
+    let one = |value: f64, unit: &str, interval: Option<[f64; 2]>| json!({ "value": value, "unit": unit, "interval_95": interval });
+    let mut all: Map<String, Value> = (analysis.indicators.iter())
+        .map(|(i, e)| (i.name().to_owned(), one(e.value, i.unit(&unit.name), e.interval.map(|v| [v.low, v.high]))))
+        .collect();
+    all.insert(RECORD_PEAK.into(), one(analysis.record_peak, &unit.name, None));
+    if let Some(crest) = analysis.record_crest_factor() {
+        all.insert(RECORD_CREST_FACTOR.into(), one(crest, "", None));
+    }
+    all
 }
 
 fn velocity_json(bands: &VelocityBands) -> Vec<Value> {
@@ -123,6 +132,7 @@ fn family(analysis: &Analysis, f: &Family) -> Value {
 fn comparison_json(c: &Comparison) -> Value {
     json!({
         "band_hz": [c.band.0, c.band.1],
+        "indicators_range_hz": c.range.map(|range| [range.low, range.high]),
         "level_difference_db": { "mean": c.level_db.0, "rms": c.level_db.1 },
         "indicators": c.indicators.iter().map(|d| (d.indicator.name().to_owned(), json!({
             "measured": d.first, "other": d.second, "ratio": d.first / d.second, "intervals_apart": d.apart,

@@ -68,7 +68,7 @@ pub use soundness::{Flaw, repetition};
 pub use together::HARMONICS;
 pub use unit::{Quantity, Unit};
 pub use verdict::Elsewhere;
-pub use words::{COLUMNS, HEADLINES, headline};
+pub use words::{COLUMNS, HEADLINES, indicator_words, level_words};
 
 use crate::lengths::fast_up_to;
 use crate::parallel::join;
@@ -113,6 +113,7 @@ pub fn analyze(x: &[f64], fs: f64, options: &Options) -> Result<Analysis, Analys
     let whole = !(flaws.iter()).any(|f| matches!(f, Flaw::Held { .. }));
     let Prepared { indicators, map, evidence, transformed } = prepare(&x, fs, options, whole)?;
     let samples = x.len();
+    let record_peak = x.iter().fold(0.0, |m: f64, v| m.max(v.abs()));
     drop(x);
     let Best { record, envelopes, shaft_lines, drift, at_given } = hypotheses::best(&transformed, evidence, options)?;
     let view = view(&record, &envelopes, &transformed)?;
@@ -127,6 +128,7 @@ pub fn analyze(x: &[f64], fs: f64, options: &Options) -> Result<Analysis, Analys
         flaws,
         drift,
         indicators,
+        record_peak,
         kurtogram: (map.as_ref()).and_then(|m| m.best(bands::NARROWEST * bands::highest(options))),
         map,
         view,
@@ -136,6 +138,7 @@ pub fn analyze(x: &[f64], fs: f64, options: &Options) -> Result<Analysis, Analys
         elsewhere: record.elsewhere,
         passing_known: false,
         level_growth: None,
+        level_range: None,
         options: record.options,
     })
 }

@@ -71,6 +71,8 @@ pub struct Analysis {
     pub shaft_lines: Vec<usize>,
     /// Indicators of the signal less its mean over whole revolutions, with intervals; peaks are those of a revolution.
     pub indicators: Vec<(Indicator, Estimate)>,
+    /// Largest |x| of the record less its mean; it grows with the record's length.
+    pub record_peak: f64,
     /// The most impulsive band, where there is one.
     pub kurtogram: Option<KurtogramBand>,
     /// The kurtogram it was found in, unless the band was given.
@@ -91,6 +93,8 @@ pub struct Analysis {
     pub passing_known: bool,
     /// RMS over that of a record of the healthy machine, where there is one.
     pub level_growth: Option<f64>,
+    /// The range in which that is, where it is not the whole.
+    pub level_range: Option<Band>,
 }
 
 impl Analysis {
@@ -103,6 +107,19 @@ impl Analysis {
     pub fn indicator(&self, wanted: Indicator) -> Option<Estimate> {
         let found = self.indicators.iter().find(|(i, _)| *i == wanted);
         found.map(|(_, estimate)| *estimate)
+    }
+
+    /// The crest factor as instruments show it: the record's peak over its RMS. [`Indicator::CrestFactor`] has the mean
+    /// of the revolutions' peaks, which does not grow with the record.
+    pub fn record_crest_factor(&self) -> Option<f64> {
+        let crest = self.record_peak / self.indicator(Indicator::Rms)?.value;
+        crest.is_finite().then_some(crest)
+    }
+
+    /// Whether the speed was given as a record of it, whether it varies or not.
+    pub(super) fn has_record_of_speed(&self) -> bool {
+        self.options.rotation.is_some() && !self.drift.as_ref().is_some_and(|d| d.followed)
+            || self.options.measured_speed
     }
 
     /// What it amounts to.

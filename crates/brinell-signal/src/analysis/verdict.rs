@@ -1,6 +1,6 @@
 //! From families to a verdict: which of them is damage, and which merely shares another's lines.
 
-use super::family::{DEEP, FAINT, Family, Finding, SCORE, by_lines, cage, lines, read, score, score_by};
+use super::family::{DEEP, FAINT, Family, Finding, SCORE, at_slip, by_lines, cage, lines, read, score, score_by};
 use super::frequencies::Component;
 use super::known_lines::near_multiple;
 use super::spacing::of_other_shaft;
@@ -34,6 +34,8 @@ const FEWEST_HARMONICS: f64 = 3.0;
 const SLOWER: usize = 8;
 /// Bins within which two combs are one.
 const WIDTH: f64 = 3.0;
+/// Bins within which two lines are one: half the main lobe of Hann's window.
+const ONE_LINE: f64 = 2.0;
 /// Turns of the cage from which sidebands at its frequency are told from other lines: in a shorter record they fill the
 /// spectrum.
 const TELLING: f64 = 20.0;
@@ -152,6 +154,7 @@ impl Record {
             return (all, elsewhere);
         };
         let lead = all.remove(lead);
+        self.at_slip_of(&lead, &mut all);
         self.share(&lead, &mut all);
         let rank = |f: &Family| match f.finding {
             Finding::Damage => 0,
@@ -167,6 +170,28 @@ impl Record {
         (all, None)
     }
 
+    /// The cage carries the elements past the race that leads: its lines are where that one's slip puts them. What is
+    /// higher beside them is somebody else's.
+    fn at_slip_of(&self, lead: &Family, others: &mut [Family]) {
+        let turns = cage(self.shaft, &self.options);
+        let slip = match lead.component {
+            Component::OuterRace => lead.shift(),
+            // Of a speed that nothing tells, BPFI has the error too.
+            Component::InnerRace if self.by_lines || self.options.exact => -lead.shift() * (self.shaft - turns) / turns,
+            _ => return,
+        };
+        for family in others.iter_mut().filter(|f| f.component == Component::Cage) {
+            *family = at_slip(&self.together, self.shaft, &self.options, family, slip);
+        }
+    }
+
+    /// Whether the highest line of a family is a harmonic of the one that leads.
+    fn is_of(&self, lead: &Family, family: &Family) -> bool {
+        family
+            .highest_line()
+            .is_some_and(|line| near_multiple(line.frequency, lead.frequency, ONE_LINE * self.together.step()))
+    }
+
     /// Families that share the lines of the one that leads, or are not damage in what those leave.
     fn share(&mut self, lead: &Family, others: &mut [Family]) {
         self.take_out(lead.frequency);
@@ -179,7 +204,7 @@ impl Record {
             let gone = own.is_none_or(|f| f.detected_harmonics() == 0);
             let shared = match family.finding {
                 Finding::Damage | Finding::Open => family.component == Component::Cage || !stays,
-                _ => gone && family.detected_harmonics() > 0,
+                _ => family.detected_harmonics() > 0 && (gone || self.is_of(lead, family)),
             };
             if shared {
                 family.finding = Finding::Shared(lead.name);

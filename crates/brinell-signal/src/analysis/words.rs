@@ -2,10 +2,11 @@
 
 use super::bands::LOWEST_TOP;
 use super::drift::Drift;
-use super::family::{Family, Finding};
+use super::family::{Family, Finding, reach};
 use super::together::REVOLUTIONS;
-use super::{Analysis, Elsewhere, Mains, Verdict};
+use super::{Analysis, Component, Elsewhere, Mains, Verdict};
 use crate::Indicator;
+use crate::digits;
 
 /// What a row of [`Analysis::rows`] holds; a column of numbers begins with `#`.
 pub const COLUMNS: [&str; 8] =
@@ -14,12 +15,22 @@ pub const COLUMNS: [&str; 8] =
 /// The indicators that are said in one line.
 pub const HEADLINES: [Indicator; 4] = [Indicator::Rms, Indicator::Peak, Indicator::CrestFactor, Indicator::Kurtosis];
 
-/// What one of [`HEADLINES`] is called in words. They are averages over revolutions, so the peak is not the record's.
-pub fn headline(indicator: Indicator) -> String {
+/// What an indicator is called that is an average over revolutions: its peaks are no record's.
+pub fn indicator_words(indicator: Indicator) -> String {
     match indicator {
-        Indicator::Peak => "peak of a revolution".into(),
+        Indicator::Rms => "RMS".into(),
+        Indicator::Peak => "mean peak of a revolution".into(),
+        Indicator::PeakToPeak => "mean peak to peak of a revolution".into(),
+        Indicator::CrestFactor => "mean peak over RMS".into(),
+        Indicator::ImpulseFactor => "mean peak over mean |x|".into(),
         other => other.name().replace('_', " "),
     }
+}
+
+/// A level by its name, with its unit where it has one.
+pub fn level_words(name: &str, indicator: Indicator, value: f64, unit: &str) -> String {
+    let unit = if indicator.has_unit() { format!(" {unit}") } else { String::new() };
+    format!("{name} {}{unit}", digits::short(value, 4))
 }
 
 /// Lines this far, relative, from the speed given may be another shaft's: a tachometer is better than that.
@@ -84,6 +95,22 @@ impl Analysis {
         text.extend(slow(self));
         text.extend(short(self));
         text.join(" ")
+    }
+
+    /// The levels that are said in one line, in a unit: peak and crest factor are the record's, and the mean peak of a
+    /// revolution comes last.
+    pub fn headlines(&self, unit: &str) -> Vec<String> {
+        let these = HEADLINES.into_iter().filter_map(|i| {
+            let (name, found) = match i {
+                Indicator::Peak => ("peak", Some(self.record_peak)),
+                Indicator::CrestFactor => ("crest factor", self.record_crest_factor()),
+                i => (i.name(), self.indicator(i).map(|e| e.value)),
+            };
+            Some(level_words(name, i, found?, unit))
+        });
+        let mean = self.indicator(Indicator::Peak);
+        let mean = mean.map(|e| level_words(&indicator_words(Indicator::Peak), Indicator::Peak, e.value, unit));
+        these.chain(mean).collect()
     }
 
     /// What the signal's own lines say of the shaft's speed.
@@ -168,10 +195,33 @@ fn half_speed(analysis: &Analysis) -> Option<String> {
 fn level(analysis: &Analysis) -> Option<String> {
     let growth = analysis.level_growth.filter(|g| *g >= CHANGED || *g <= 1.0 / CHANGED)?;
     let db = 20.0 * growth.log10();
+    let within = analysis.level_range.map_or(String::new(), |range| {
+        format!(" from {:.0} to {:.0} Hz, which both records hold,", range.low, range.high)
+    });
     Some(match growth > 1.0 {
-        true => format!("The RMS is {growth:.1} times that of the healthy record ({db:+.0} dB)."),
-        false => format!("The RMS is {db:+.0} dB from that of the healthy record: are unit, gain and place the same?"),
+        true => format!("The RMS{within} is {growth:.1} times that of the healthy record ({db:+.0} dB)."),
+        false => {
+            format!(
+                "The RMS{within} is {db:+.0} dB from that of the healthy record: are unit, gain and place the same?"
+            )
+        }
     })
+}
+
+/// What is asked for where the speed is not sure: a record of it, unless there is one.
+fn record_of_speed(analysis: &Analysis) -> &'static str {
+    match analysis.has_record_of_speed() {
+        true => "",
+        false => " A record of the speed would tell.",
+    }
+}
+
+/// The same of a speed that does not fit.
+fn doubt_of_speed(analysis: &Analysis) -> &'static str {
+    match analysis.has_record_of_speed() {
+        true => "Is the recorded speed this shaft's, and the bearing the one given?",
+        false => "Is the speed right? A record of the speed would tell.",
+    }
 }
 
 /// What a short record without damage leaves open.
@@ -236,22 +286,17 @@ fn cannot_tell(analysis: &Analysis, text: &mut Vec<String>) {
         let (lines, given) = (60.0 * analysis.shaft, 60.0 * analysis.options.shaft);
         text.push(format!(
             "Cannot tell: at the {given:.0} r/min given this would be {} damage ({}), but lines of a shaft lie at {lines:.0} r/min, and at that speed it is none. \
-             Is the speed right, or does a second shaft turn so fast? A record of the speed would tell.",
+             Is the speed right, or does a second shaft turn so fast?{}",
             family.component.words(),
             evidence_of(family),
+            record_of_speed(analysis),
         ));
         return;
     }
     if let Some(elsewhere) = &analysis.elsewhere {
         text.push(other_lines(analysis, elsewhere));
     }
-    if let Some(drift) = analysis.hiding_drift() {
-        let why = match drift.is_lost() {
-            true => "farther or faster than lines can be followed",
-            false => "and no line of the shaft tells how",
-        };
-        text.push(format!("Cannot tell: the speed changes, {why}. A record of the speed would tell."));
-    }
+    text.extend(analysis.hiding_drift().map(|drift| hidden_by(analysis, drift)));
     let open = || (analysis.families.iter()).filter(|f| f.finding == Finding::Open);
     let hides = |family: &&Family| analysis.elsewhere.is_some() && family.is_damage();
     let hidden: Vec<String> =
@@ -259,45 +304,72 @@ fn cannot_tell(analysis: &Analysis, text: &mut Vec<String>) {
     if !hidden.is_empty() {
         text.push(format!("By its own frequencies alone the verdict would be {}.", hidden.join(", and ")));
     }
-    for family in open().filter(|f| !hides(f)) {
-        let (part, evidence) = (family.component.words(), evidence_of(family));
-        if family.masked {
-            text.push(format!(
-                "Cannot tell whether the {part} is damaged: {evidence}, with lines where {}. A record of the healthy machine would tell.",
-                masking(analysis, family)
-            ));
-            continue;
-        }
-        if let Some(spacing) = family.other_spacing {
-            text.push(format!(
-                "Cannot tell whether the {part} is damaged: {evidence}. Its strongest sidebands lie {spacing:.2} Hz apart, as of a shaft at {:.0} r/min: neither shaft nor \
-                 cage turns so fast at the speed given. Is it right? A record of the speed would tell.",
-                60.0 * spacing
-            ));
-            continue;
-        }
-        if family.is_skirt {
-            text.push(format!(
-                "Cannot tell whether the {part} is damaged: {evidence}, at the end of the tolerance, beyond which its lines are higher. Is the speed right? \
-                 A record of the speed would tell."
-            ));
-            continue;
-        }
-        text.push(format!(
-            "Cannot tell whether the {part} is damaged: {evidence}, with {}. A longer record, another sensor or a record of the healthy machine would decide.",
-            if family.is_damage() {
-                "lines at distances of the cage's frequency, which so short a record does not separate from others"
-            } else if family.score < family.noise {
-                "lines hardly above what noise shows in a record of this length"
-            } else if family.lacks_sidebands() {
-                "fewer sidebands than damage that turns has"
-            } else if family.is_whole() {
-                "lines lower or shallower than those of damage"
-            } else {
-                "fewer harmonics than damage has"
-            }
-        ));
+    text.extend(open().filter(|f| !hides(f)).map(|family| undecided(analysis, family)));
+}
+
+/// A speed that changes so that damage may be missed.
+fn hidden_by(analysis: &Analysis, drift: &Drift) -> String {
+    let record = record_of_speed(analysis);
+    if drift.is_lost() {
+        format!("Cannot tell: the speed changes, farther or faster than lines can be followed.{record}")
+    } else if drift.by != "shaft" {
+        format!("Cannot tell: the speed changes, and no line of the shaft tells how.{record}")
+    } else {
+        format!(
+            "Cannot tell: the speed drifts between {:.0} and {:.0} r/min, so that lines of order 10 smear over {:.0} bins; following it by the shaft's \
+             own lines shows no more.{record}",
+            60.0 * drift.lowest().1,
+            60.0 * drift.highest().1,
+            drift.smear
+        )
     }
+}
+
+/// Why a family is neither damage nor none.
+fn undecided(analysis: &Analysis, family: &Family) -> String {
+    let (part, evidence) = (family.component.words(), evidence_of(family));
+    let head = format!("Cannot tell whether the {part} is damaged: {evidence}");
+    if family.masked {
+        let others = masking(analysis, family);
+        return format!("{head}, with lines where {others}. A record of the healthy machine would tell.");
+    }
+    if let Some(spacing) = family.other_spacing {
+        return format!(
+            "{head}. Its strongest sidebands lie {spacing:.2} Hz apart, as of a shaft at {:.0} r/min: neither shaft nor \
+             cage turns so fast at the speed given. {}",
+            60.0 * spacing,
+            if analysis.has_record_of_speed() {
+                doubt_of_speed(analysis)
+            } else {
+                "Is it right? A record of the speed would tell."
+            }
+        );
+    }
+    if family.is_skirt {
+        let (behind, ahead) = reach(family.component, &analysis.options);
+        let is_turning = matches!(family.component, Component::Element | Component::Cage);
+        let end = match family.shift() > 0.0 {
+            true if is_turning && ahead < analysis.options.tolerance => {
+                format!("{:.1} % above pure rolling (elements and cage slip, and hardly run ahead)", 100.0 * ahead)
+            }
+            true => format!("{:.1} % above pure rolling", 100.0 * ahead),
+            false => format!("{:.1} % below pure rolling", 100.0 * behind),
+        };
+        let doubt = doubt_of_speed(analysis);
+        return format!("{head}, sought up to {end}, beyond which lines are higher. {doubt}");
+    }
+    let lacks = if family.is_damage() {
+        "lines at distances of the cage's frequency, which so short a record does not separate from others"
+    } else if family.score < family.noise {
+        "lines hardly above what noise shows in a record of this length"
+    } else if family.lacks_sidebands() {
+        "fewer sidebands than damage that turns has"
+    } else if family.is_whole() {
+        "lines lower or shallower than those of damage"
+    } else {
+        "fewer harmonics than damage has"
+    };
+    format!("{head}, with {lacks}. A longer record, another sensor or a record of the healthy machine would decide.")
 }
 
 /// What has lines where a family's are, and what parts them.
@@ -350,18 +422,21 @@ fn other_lines(analysis: &Analysis, elsewhere: &Elsewhere) -> String {
     if (order - 1.0).abs() <= analysis.options.tolerance {
         return format!(
             "Cannot tell: a comb of lines as high lies at {:.2} Hz, once a turn of the shaft if that is its speed, {:.1} r/min, and a frequency of the bearing is a multiple of it. \
-             Looseness, rub or a coupling has such lines. A record of the speed would tell.",
+             Looseness, rub or a coupling has such lines.{}",
             elsewhere.frequency,
             60.0 * elsewhere.frequency,
+            record_of_speed(analysis),
         );
     }
+    let record = if analysis.has_record_of_speed() { "" } else { ", and a record of the speed" };
     let doubt = match analysis.shaft_lines.is_empty() || analysis.options.is_other_speed(analysis.shaft) {
+        true if record.is_empty() => "Is it this bearing, and the recorded speed its shaft's?",
         true => "Are speed and bearing right?",
         false => "Is it this bearing? The shaft's own lines agree with the speed.",
     };
     format!(
         "Cannot tell: the deepest comb of lines lies at {:.2} Hz, {:.3} times the shaft's speed, modulating by {:.0} %, and this bearing has no frequency there.{nearest} {doubt} \
-         The frequencies of the machine's other bearings and gears would tell, and a record of the speed.",
+         The frequencies of the machine's other bearings and gears would tell{record}.",
         elsewhere.frequency,
         elsewhere.frequency / analysis.shaft,
         100.0 * elsewhere.modulation,

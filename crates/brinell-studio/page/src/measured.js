@@ -116,7 +116,7 @@ export function showMeasured(found, name, { beside, close }) {
     h("p", {}, h("strong", {}, found.headline)),
     h("div", { className: "side-by-side" }, ...curves,
       h("div", { className: "scroll", tabIndex: 0, role: "group", "aria-label": "What was found" }, tableOf(found.table))),
-    h("p", { className: "note levels" }, (found.levels ?? []).map((/** @type {any} */ l) => spelled(l.words)).join(", ")));
+    h("p", { className: "note levels" }, (found.levels ?? []).map((/** @type {string} */ l) => spelled(l)).join(", ")));
   root.hidden = false;
   beside(true);
   root.scrollIntoView({ block: "nearest" });

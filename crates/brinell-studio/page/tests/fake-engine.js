@@ -166,7 +166,7 @@
       if (!unit) refuse(null, "the file states no unit for `x`; give unit, such as unit g or unit m/s^2");
       if (unit === "furlong") refuse(null, "unit furlong: no unit is called `furlong`");
       return { from_s, headline: "BPFO is detected", table: TABLE, spectrum: { df: 10, values: new Float32Array(512).fill(0.4) }, envelope: { df: 10, values: new Float32Array(128).fill(0.3) }, lines: [],
-        warnings: ["98 % of the signal's energy lie in one revolution"], levels: [{ name: "rms", value: 1, words: `rms 1.000 ${unit}` }, { name: "peak of a revolution", value: 4, words: `peak of a revolution 4.000 ${unit}` }],
+        warnings: ["98 % of the signal's energy lie in one revolution"], levels: [`rms 1.000 ${unit}`, `peak 4.000 ${unit}`],
         used: [`bearing: ${bearing}`, `shaft speed ${rpm} r/min, as given`, `sample rate ${rate_hz} Hz, as given`, `unit ${unit}, as given`, "channel x: 0.160 s, 4096 samples"],
         x: Float32Array.from({ length: 4096 }, (_, k) => noise(k)), rate_hz, unit: "m/s^2" };
     },

@@ -29,7 +29,7 @@ pub(super) fn rate(
     }
     let time = match wanted.time_channel {
         Some(text) => Some(resolve(file, text, "--time-channel")?.1),
-        None => file.channels().iter().find(|c| c.is_time() && c.may_be_signal()).cloned(),
+        None => file.times(),
     };
     let Some(time) = time else {
         if let Some(hz) = wanted.like.map(|like| like.rate) {

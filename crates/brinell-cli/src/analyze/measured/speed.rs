@@ -13,19 +13,24 @@ use std::f64::consts::PI;
 /// A speed that strays from its mean by more than this share is followed; below, the tolerance covers it.
 const VARIES: f64 = 0.005;
 
+/// Said of a speed without a unit.
+const TAKEN: &str = "taken as r/min";
+
 /// A speed that the file states.
 pub(crate) struct StatedSpeed {
     /// Its mean, r/min.
     pub(crate) rpm: f64,
     /// Where it is stated.
     pub(crate) source: String,
+    /// Whether its unit was stated by nobody.
+    pub(crate) is_bare: bool,
     /// Time (s, from the stretch's beginning) and speed (r/min), where it varies by more than [`VARIES`].
     pub(crate) course: Vec<(f64, f64)>,
 }
 
 impl StatedSpeed {
     fn steady(rpm: f64, source: String) -> Self {
-        StatedSpeed { rpm, source, course: Vec::new() }
+        StatedSpeed { rpm, source, is_bare: false, course: Vec::new() }
     }
 }
 
@@ -54,6 +59,7 @@ pub(super) fn speed(
             return Err(Failure::Usage(format!("--speed-channel {name}: holds the value {bad}; expected speeds")));
         }
         let (unit, rpm) = unit_of(&name, &channel)?;
+        let is_bare = unit == TAKEN;
         values.iter_mut().for_each(|v| *v *= rpm);
         let mean = values.iter().sum::<f64>() / values.len() as f64;
         let covers = values.len() as f64 / own;
@@ -61,7 +67,7 @@ pub(super) fn speed(
         let course = course(&values, own, mean);
         if course.is_empty() {
             let source = format!("the mean of {source}");
-            return Ok(Some(StatedSpeed::steady(mean, source)));
+            return Ok(Some(StatedSpeed { is_bare, ..StatedSpeed::steady(mean, source) }));
         }
         if covers < 0.98 * seconds {
             return Err(Failure::Usage(format!(
@@ -70,7 +76,8 @@ pub(super) fn speed(
                 values.len()
             )));
         }
-        return followed(mean, course, &source, &format!("--speed-channel {name}")).map(Some);
+        let followed = followed(mean, course, &source, &format!("--speed-channel {name}"))?;
+        return Ok(Some(StatedSpeed { is_bare, ..followed }));
     }
     if let Some(run) = run {
         let source = "the scenario of the run in the file";
@@ -91,7 +98,7 @@ pub(super) fn speed(
 fn unit_of(name: &str, channel: &Channel) -> Result<(String, f64), Failure> {
     let by_name = name.to_lowercase().ends_with("_hz").then_some("Hz");
     let Some(unit) = channel.unit.as_deref().or(by_name) else {
-        return Ok(("taken as r/min".into(), 1.0));
+        return Ok((TAKEN.into(), 1.0));
     };
     match reading::quantity(&format!("1 {unit}"), "r/min") {
         Ok(rpm) => Ok((format!("in {unit}"), rpm)),
@@ -116,7 +123,7 @@ fn followed(rpm: f64, course: Vec<(f64, f64)>, source: &str, of: &str) -> Result
         )));
     }
     let source = format!("{source}: {low:.1} to {high:.1}, so envelopes are taken at equal angles of the shaft");
-    Ok(StatedSpeed { rpm, source, course })
+    Ok(StatedSpeed { rpm, source, is_bare: false, course })
 }
 
 /// Mean speed and its course over a stretch of a run, both exact.

@@ -2,7 +2,7 @@
 
 use super::format::{Decimal, Delimiter, TextFormat};
 use super::lvm::{self, Lvm};
-use super::number::number;
+use super::number::{may_be_grouped, number};
 use crate::read::channel::names_a_rate;
 use crate::read::fault::{Fault, damaged, unsupported};
 
@@ -25,7 +25,7 @@ pub(super) struct Layout {
 pub(super) struct Column {
     pub(super) name: String,
     pub(super) unit: Option<String>,
-    /// What it holds instead of numbers.
+    /// What it holds instead of numbers, in words.
     pub(super) words: Option<String>,
     /// Without a name and always empty, as behind a trailing delimiter.
     pub(super) absent: bool,
@@ -57,7 +57,8 @@ pub(super) fn find(sample: &[u8], format: &TextFormat) -> Result<Layout, Fault> 
     let plain: Vec<&Line> = lines[from..].iter().filter(|l| !l.comment).collect();
     let (first, delimiter) =
         first_data(&plain, &format).ok_or_else(|| damaged("no line of numbers among its first lines"))?;
-    let data: Vec<&[u8]> = plain[first..].iter().take(LOOK).map(|l| l.text).collect();
+    let all: Vec<&[u8]> = plain[first..].iter().map(|l| l.text).collect();
+    let data = &all[..all.len().min(LOOK)];
     let start = plain[first];
     let mut rates = lines[from..].iter().take_while(|l| l.start < start.start).filter_map(|l| rate(l.text));
     let mut rate = rates.next();
@@ -65,9 +66,9 @@ pub(super) fn find(sample: &[u8], format: &TextFormat) -> Result<Layout, Fault> 
         rate = None;
     }
     let above: Vec<&[u8]> = plain[..first].iter().map(|l| l.text).filter(|l| self::rate(l).is_none()).collect();
-    let delimiter = comma_or_fraction(delimiter, &format, &above, &data)?;
-    let decimal = decimal(delimiter, &format, &data);
-    let mut columns = columns(delimiter, decimal, &data)?;
+    let delimiter = comma_or_fraction(delimiter, &format, &above, data)?;
+    let decimal = decimal(delimiter, &format, &all);
+    let mut columns = columns(delimiter, decimal, data)?;
     let comment = lines[from..]
         .iter()
         .rfind(|l| l.comment && l.start < start.start && self::rate(l.text).is_none())
@@ -211,14 +212,20 @@ fn comma_or_fraction(
     }
 }
 
+/// Where points and commas are both there, the comma is decimal if it is no sign between thousands anywhere: a point
+/// beside it is no decimal point then, and what is no number with points between thousands is refused.
 fn decimal(delimiter: Delimiter, format: &TextFormat, data: &[&[u8]]) -> Option<Decimal> {
     if delimiter == Delimiter::Comma {
         return Some(Decimal::Point);
     }
     let fields = || data.iter().flat_map(|line| split(line, delimiter));
     let shows = |sign: u8, decimal| fields().any(|f| f.contains(&sign) && number(f, Some(decimal)).is_some());
+    let is_fraction = |f: &[u8]| f.contains(&b',') && number(f, Some(Decimal::Comma)).is_some();
     format.decimal.or_else(|| {
-        if shows(b'.', Decimal::Point) {
+        let comma = fields().any(|f| is_fraction(f) && !may_be_grouped(f, b','));
+        if comma {
+            Some(Decimal::Comma)
+        } else if shows(b'.', Decimal::Point) {
             Some(Decimal::Point)
         } else if shows(b',', Decimal::Comma) {
             Some(Decimal::Comma)
@@ -237,7 +244,7 @@ fn columns(delimiter: Delimiter, decimal: Option<Decimal>, data: &[&[u8]]) -> Re
     let mut columns: Vec<Column> = fields
         .iter()
         .map(|field| Column {
-            words: number(field, decimal).is_none().then(|| text(field).chars().take(40).collect()),
+            words: number(field, decimal).is_none().then(|| held(field, decimal)),
             absent: true,
             ..Column::default()
         })
@@ -248,6 +255,15 @@ fn columns(delimiter: Delimiter, decimal: Option<Decimal>, data: &[&[u8]]) -> Re
         }
     }
     Ok(columns)
+}
+
+/// What a field holds that is no number.
+fn held(field: &[u8], decimal: Option<Decimal>) -> String {
+    let words: String = text(field).chars().take(40).collect();
+    match decimal == Some(Decimal::Comma) && number(field, Some(Decimal::Point)).is_some() {
+        true => format!("holds `{words}`, with a decimal point where other columns have decimal commas"),
+        false => format!("holds words such as `{words}`"),
+    }
 }
 
 /// UTF-8, or else Latin-1, where a µ is one byte.

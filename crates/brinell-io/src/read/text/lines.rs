@@ -281,12 +281,11 @@ fn row(bytes: &[u8], layout: &Layout, field: usize, line: u64, values: &mut Vec<
     if count != layout.columns.len() {
         return Err(Fault::Row { line, expected: layout.columns.len(), got: count });
     }
-    let text = String::from_utf8_lossy(wanted.unwrap_or_default());
-    Err(Fault::Number {
-        line,
-        column: layout.columns[field].name.clone(),
-        text: text.trim().chars().take(40).collect(),
-    })
+    let wanted = wanted.unwrap_or_default();
+    let text = String::from_utf8_lossy(wanted).trim().chars().take(40).collect();
+    let column = layout.columns[field].name.clone();
+    let has_point = layout.decimal == Some(Decimal::Comma) && number(wanted, Some(Decimal::Point)).is_some();
+    Err(if has_point { Fault::Point { line, column, text } } else { Fault::Number { line, column, text } })
 }
 
 #[cfg(test)]

@@ -3,7 +3,7 @@
 //!
 //! The layout is taken from the first lines (`layout.rs`); a column is then read in one pass, a line at a time, in a
 //! buffer of fixed size (`lines.rs`). Lines that begin with `#` or `%` are comments. An empty field is NaN, an empty
-//! line is passed over. A line above the numbers such as `Sample rate: 12000 Hz` states the rate.
+//! line is passed over. Where commas are decimal, points are signs between thousands. A line above the numbers such as `Sample rate: 12000 Hz` states the rate.
 
 mod format;
 mod layout;
@@ -56,7 +56,7 @@ pub(super) fn list(mut contents: Contents, format: &TextFormat) -> Result<Listin
             unit: column.unit.clone(),
             rate: (layout.rate.clone().filter(|_| !column.is_x))
                 .map(|(hz, name)| Rate { hz, source: RateSource::Header(name) }),
-            unreadable: column.words.clone().map(|w| format!("holds words such as `{w}`")),
+            unreadable: column.words.clone(),
             ..Channel::default()
         });
     }

@@ -1,0 +1,80 @@
+//! What is said beside the part that leads, and beside a record of the healthy machine.
+
+use crate::analysis::{Damage, damaged, healthy, look};
+use brinell_signal::Indicator;
+use brinell_signal::analysis::{Finding, Side, compare};
+use std::f64::consts::TAU;
+
+const FS: f64 = 12_000.0;
+
+/// BPFO is Z times FTF: damage of the outer race says where the cage's lines are, and BPFI's second harmonic is sought
+/// where BPFO's third lies (2 x 5.4152 and 3 x 3.5848 orders, 0.7 % apart).
+#[test]
+fn analytic_one_slip_for_cage_and_leading_race_and_no_line_of_it_is_the_others() {
+    let mut taken = 0;
+    for seed in 0..6 {
+        let outer = Damage { order: 3.5848, modulation: 0.0, jitter: 0.005, snr_db: 3.0 };
+        let inner = Damage { order: 5.4152, modulation: 1.0, jitter: 0.005, snr_db: -14.0 };
+        // The same machine twice: its own lines and noise are taken off one.
+        let weak: Vec<f64> =
+            (damaged(FS, 4.0, seed, &inner).iter().zip(healthy(FS, 4.0, seed))).map(|(d, h)| d - h).collect();
+        let x: Vec<f64> = damaged(FS, 4.0, seed, &outer).iter().zip(&weak).map(|(o, i)| o + i).collect();
+        let a = look(&x, FS);
+        let lead = a.causes().next().expect("damage");
+        assert_eq!(lead.name, "BPFO", "{}", a.verdict());
+        let of = |name| a.families.iter().find(|f| f.name == name).unwrap();
+        // Half a bin of a segment of 120 turns, at the fifth harmonic.
+        let resolved = 0.5 * a.shaft / 120.0 / (5.0 * of("FTF").expected);
+        assert!((of("FTF").shift() - lead.shift()).abs() <= 1.05 * resolved, "{:?}", a.rows());
+        for other in a.families.iter().filter(|f| !matches!(f.finding, Finding::Damage | Finding::Shared("BPFO"))) {
+            let detected = other.harmonics.iter().filter(|h| h.detected);
+            if let Some(highest) = detected.max_by(|a, b| a.snr_db.unwrap().total_cmp(&b.snr_db.unwrap())) {
+                let times = (highest.frequency / lead.frequency).round();
+                assert!((highest.frequency - times * lead.frequency).abs() > a.shaft / 60.0, "{:?}", a.rows());
+            }
+        }
+        taken += usize::from(of("BPFI").finding == Finding::Shared("BPFO"));
+    }
+    println!("{taken} of 6");
+    assert!(taken >= 1);
+}
+
+/// Tones below 5 kHz, and at 48 kHz one above what 12 kHz holds, ten times as high: nothing has grown where both look.
+#[test]
+fn analytic_levels_beside_a_healthy_record_are_of_the_range_that_both_hold() {
+    let at = |fs: f64, high: f64| -> Vec<f64> {
+        let tone = |f: f64, t: f64| (TAU * f * t + f).sin();
+        let of = |t: f64| (1..40).map(|k| tone(123.7 * f64::from(k), t)).sum::<f64>() + high * tone(15_000.0, t);
+        (0..(2.0 * fs) as usize).map(|i| of(i as f64 / fs)).collect()
+    };
+    let (fast, slow) = (at(48_000.0, 40.0), at(FS, 0.0));
+    let (mut measured, other) = (look(&fast, 48_000.0), look(&slow, FS));
+    let whole = |a: &brinell_signal::analysis::Analysis| a.indicator(Indicator::Rms).unwrap().value;
+    assert!(whole(&measured) / whole(&other) > 5.0);
+    measured.beside_healthy(&fast, Side { x: &slow, analysis: &other }).unwrap();
+    assert!((measured.level_growth.unwrap() - 1.0).abs() < 0.01, "{:?}", measured.level_growth);
+    let range = measured.level_range.unwrap();
+    assert_eq!((range.low, range.high), (0.0, 6000.0));
+    assert!(!measured.verdict().contains("times that of the healthy record"), "{}", measured.verdict());
+    let c = compare(Side { x: &fast, analysis: &measured }, Side { x: &slow, analysis: &other }).unwrap();
+    assert_eq!(c.range.map(|r| r.high), Some(6000.0));
+    for wanted in [Indicator::Rms, Indicator::Peak] {
+        let d = c.indicators.iter().find(|d| d.indicator == wanted).unwrap();
+        assert!((d.first / d.second - 1.0).abs() < 0.03, "{d:?}");
+    }
+    // Of one rate they are of the whole.
+    let twice = compare(Side { x: &slow, analysis: &other }, Side { x: &slow, analysis: &other }).unwrap();
+    assert_eq!((twice.range.map(|r| r.high), twice.indicators[0].first), (None, whole(&other)));
+}
+
+/// Peak over RMS of a sine with one impact of nine times its amplitude.
+#[test]
+fn analytic_the_records_crest_factor_is_its_peak_over_its_rms() {
+    let mut x: Vec<f64> = (0..24_000).map(|i| (TAU * 163.0 * f64::from(i) / FS).sin()).collect();
+    x[7_000] = 9.0;
+    let a = look(&x, FS);
+    let expected = 9.0 / 0.5f64.sqrt();
+    assert!((a.record_crest_factor().unwrap() / expected - 1.0).abs() < 0.01);
+    // The mean of the revolutions' peaks hardly sees it.
+    assert!(a.indicator(Indicator::CrestFactor).unwrap().value < 2.0);
+}
