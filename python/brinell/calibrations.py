@@ -3,15 +3,16 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping, Set
 from dataclasses import dataclass, field
+from numbers import Real
 from typing import TYPE_CHECKING, Any, Literal
 
 import numpy.typing as npt
 
 from brinell import _brinell, tables
 from brinell.scenario import Runnable, Scenario, given
-from brinell.signals import Signal, samples_of
+from brinell.signals import Signal, number_of, samples_of
 
 if TYPE_CHECKING:
     import pandas
@@ -73,6 +74,15 @@ class Calibration:
     def __repr__(self) -> str:
         found = ", ".join(f"{key} = {value:g}" for key, value in self.values.items())
         return f"<brinell.Calibration: {found}; {'met' if self.met else 'not met'}>"
+
+
+def _numbers(argument: str, key: str, given: Any, shape: str) -> list[Any]:
+    """A pair of numbers, and what is behind them."""
+    ordered = isinstance(given, Iterable) and not isinstance(given, (str, bytes, Mapping, Set))
+    parts = list(given) if ordered else []
+    if len(parts) < 2 or not all(isinstance(part, Real) for part in parts[:2]):
+        raise TypeError(f"{argument}: {key} = {given!r}: expected {shape}")
+    return parts
 
 
 def calibrate(
@@ -152,16 +162,24 @@ def calibrate(
     base = given(scenario)
     keys = []
     for key, bounds in fit.items():
-        low, high, *kind = bounds
+        low, high, *kind = _numbers("fit", key, bounds, '(low, high) or (low, high, "log")')
         if kind not in ([], ["log"]):
             raise ValueError(f'fit: {key} = {bounds}: expected (low, high) or (low, high, "log")')
         keys.append((key, low, high, bool(kind)))
-    wanted = [(name, value, uncertainty) for name, (value, uncertainty) in (targets or {}).items()]
+    wanted = []
+    for name, target in (targets or {}).items():
+        value, uncertainty, *more = _numbers("targets", name, target, "(value, standard uncertainty)")
+        if more:
+            raise TypeError(f"targets: {name} = {target!r}: expected (value, standard uncertainty)")
+        wanted.append((name, value, uncertainty))
     samples, rate, unit = None, 0.0, ""
     if measured is not None:
+        if not isinstance(measured, Signal):
+            raise TypeError(f"measured: expected a brinell.signals.Signal, as read_signal gives it, and it is {type(measured).__name__}")
         if measured.rate_hz is None or measured.unit is None:
             raise ValueError("measured: its rate_hz and unit are to be given, for the file states none")
-        samples, rate, unit = samples_of(measured.values, "measured.values"), measured.rate_hz, measured.unit
+        samples, unit = samples_of(measured.values, "measured.values"), measured.unit
+        rate = number_of(measured.rate_hz, "measured.rate_hz", "samples a second")
     signal = (rate, unit, axis, model_uncertainty_percent)
     native = _brinell.calibrate(base._native, keys, wanted, samples, signal, seed, budget, jobs, progress, folder)
     report = native.report()

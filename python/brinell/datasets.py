@@ -23,6 +23,8 @@ __all__ = ["DataSet", "Plan", "merge"]
 class Plan:
     """A plan file: which keys of a base scenario vary and how, which classes of damage there are, how many runs.
 
+    A plan can be pickled: as its path, where the same files must be found again.
+
     Parameters
     ----------
     path : path
@@ -91,7 +93,7 @@ class Plan:
         return self._native.parts
 
     def runs_of(self, part: int) -> int:
-        """How many runs a file has, from 0."""
+        """How many runs a file has, files counted from 0."""
         return self._native.runs_of(part)
 
     @property
@@ -154,8 +156,20 @@ class Plan:
             warnings.warn(text, ScenarioWarning, stacklevel=2)
         return DataSet(folder)
 
+    def __reduce__(self) -> tuple[Any, ...]:
+        # The folder may be another where it is read again.
+        return _restored, (os.path.abspath(self.path), self.identity)
+
     def __repr__(self) -> str:
         return f"<brinell.Plan {self.name!r}: {self.runs} runs in {self.parts} files>"
+
+
+def _restored(path: str, identity: str) -> Plan:
+    # Its runs were looked at, and its warnings given, where it was made.
+    plan = Plan(path, check=False)
+    if plan.identity != identity:
+        raise ValueError(f"{path}: not the plan that was sent; a plan travels as its path, and the files have changed")
+    return plan
 
 
 class DataSet:
@@ -183,7 +197,7 @@ class DataSet:
     @property
     def files(self) -> list[Path]:
         """Files of runs that are there, in order."""
-        return sorted((self.folder / "runs").glob("part-*.parquet"))
+        return sorted((self.folder / "runs").glob("part-*.parquet"), key=_number)
 
     def _there(self) -> list[Path]:
         files = self.files
@@ -236,6 +250,12 @@ class DataSet:
 
     def __repr__(self) -> str:
         return f"<brinell.DataSet in {str(self.folder)!r}: {len(self.files)} files>"
+
+
+def _number(file: Path) -> tuple[int, str]:
+    """By its number: beyond 99 999 files names have more digits. One that is no number comes first."""
+    digits = file.stem.removeprefix("part-")
+    return (int(digits) if digits.isdecimal() else -1, file.name)
 
 
 def merge(folders: Sequence[str | os.PathLike[str]], into: str | os.PathLike[str]) -> DataSet:

@@ -133,10 +133,7 @@ class Result:
 
     @cached_property
     def events(self) -> dict[str, npt.NDArray[Any]]:
-        """Ground truth: instants ``t`` (s) at which a ``roller`` of a ``row`` enters (``enters``) or leaves a ``defect``, all from 1.
-
-        The latest 4096.
-        """
+        """Ground truth: instants ``t`` (s) at which a ``roller`` of a ``row`` enters (``enters``) or leaves a ``defect``, all from 1; of the whole run."""
         return self._native().events()
 
     @cached_property

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Callable, Iterable, Mapping
 from typing import Any, Literal, TypeVar, overload
 
@@ -132,6 +133,8 @@ def simulate_many(
     """
     if errors not in ("raise", "return"):
         raise ValueError(f'errors = "{errors}": not known\n  allowed: raise, return')
+    if isinstance(scenarios, (Scenario, str, os.PathLike)):
+        raise TypeError(f"scenarios: expected several, and it is one {type(scenarios).__name__}; give [scenario], or call simulate")
     chosen = [given(scenario) for scenario in scenarios]
     results: list[Any] = [None] * len(chosen)
     over = 0

@@ -172,8 +172,21 @@ class Scenario:
         """Every section with every key's value, defaults filled in."""
         return self._native.values()
 
+    # No sequence, though it has items.
+    __iter__ = None
+
+    def __contains__(self, key: object) -> bool:
+        """Whether there is a value with this dotted path."""
+        try:
+            self[key]  # type: ignore[index]
+        except (KeyError, TypeError):
+            return False
+        return True
+
     def __getitem__(self, key: str) -> Any:
         """A value by its dotted path."""
+        if not isinstance(key, str):
+            raise TypeError(f'{key!r}: a key is a dotted path, such as "operation.speed_rpm"')
         value: Any = self._native.values()
         for step in key.split("."):
             try:

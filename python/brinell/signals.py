@@ -1,11 +1,12 @@
 """Analysis of signals: spectra, envelopes, kurtogram, indicators; and signals from files.
 
-Every function takes samples with their rate and, where a result carries one, their unit: nothing is guessed. Frequencies are Hz. Arrays of
-doubles are not copied; do not write to one while it is analysed in another thread.
+Every function takes samples with their rate and, where a result carries one, their unit: nothing is guessed. Frequencies are Hz. The work is
+done on a copy of the samples, by a thread of its own: Ctrl-C ends the waiting at once, and what is being computed ends on its own.
 """
 
 from __future__ import annotations
 
+import numbers
 import os
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Literal
@@ -38,6 +39,21 @@ __all__ = [
 ]
 
 Array = npt.NDArray[np.float64]
+
+
+def _kind(x: object) -> str:
+    dtype = getattr(x, "dtype", None)
+    return type(x).__name__ if dtype is None else f"{type(x).__name__} of {dtype}"
+
+
+def number_of(value: Any, name: str, what: str) -> float:
+    """A number, which `name` is called; `what` says in which unit it is expected."""
+    try:
+        if isinstance(value, (str, bytes)):
+            raise TypeError
+        return float(value)
+    except TypeError:
+        raise TypeError(f"{name} = {value!r}: expected a number, {what}") from None
 
 
 def samples_of(x: npt.ArrayLike, name: str = "x") -> Array:
@@ -73,9 +89,13 @@ def samples_of(x: npt.ArrayLike, name: str = "x") -> Array:
     try:
         if x is None or np.iscomplexobj(x):
             raise TypeError
-        samples: Array = np.asarray(x, dtype=float)
+        given = np.asarray(x)
+        # Others convert too, instants and text among them, and are no vibration.
+        if given.dtype.kind not in "biuf" and not (given.dtype.kind == "O" and all(isinstance(v, numbers.Real) for v in given.flat)):
+            raise TypeError
+        samples: Array = given.astype(float, copy=False)
     except (TypeError, ValueError):
-        kind = "complex numbers" if np.iscomplexobj(x) else type(x).__name__
+        kind = "complex numbers" if np.iscomplexobj(x) else _kind(x)
         raise TypeError(f"{name}: expected the samples of one channel, real numbers, and it is {kind}") from None
     if samples.ndim == 2 and 1 in samples.shape:
         samples = samples.reshape(-1)
@@ -181,7 +201,7 @@ def psd(
     >>> int(tone.frequency_hz[tone.amplitude.argmax()]), round(float(tone.amplitude.max()), 6)
     (64, 3.0)
     """
-    samples = samples_of(x)
+    samples, rate_hz = samples_of(x), number_of(rate_hz, "rate_hz", "samples a second")
     if length is None:
         length = max(min(int(rate_hz) if rate_hz < 2**31 else len(samples), len(samples) // 4), min(256, len(samples)))
     found = _brinell.psd(samples, rate_hz, length, overlap, window, detrend)

@@ -17,6 +17,10 @@ X = np.sin(np.arange(4096.0))
         (X * 1j, TypeError, "complex numbers"),
         (["a"], TypeError, "x: expected .* and it is list"),
         (3.0, TypeError, r"its shape is \(\)"),
+        (np.arange(4096).astype("datetime64[s]"), TypeError, r"it is ndarray of datetime64\[s\]"),
+        (np.arange(4096).astype("timedelta64[s]"), TypeError, "real numbers"),
+        (np.arange(4096).astype(str), TypeError, "real numbers"),
+        (["1.0", "2.0"] * 2048, TypeError, "real numbers, and it is list"),
     ],
 )
 def test_prop_what_is_no_channel_is_refused_by_name(x, kind, words):
@@ -108,3 +112,37 @@ def test_prop_clipped_runs_are_warned_of(tmp_path, examples):
     with pytest.warns(brinell.ScenarioWarning, match=r"2 of 2 runs have samples beyond the ADC's range, which are clipped \(all 2 of 2\)"):
         data = plan.run(tmp_path / "data")
     assert (data.to_polars(["clipped_samples"])["clipped_samples"] > 0).all()
+
+
+@pytest.mark.parametrize(
+    ("call", "kind", "words"),
+    [
+        (lambda: brinell.psd(X, rate_hz="25600", unit="g"), TypeError, "rate_hz = '25600': expected a number, samples a second"),
+        (lambda: brinell.psd(X, rate_hz=1e4, unit="g", length=-1), ValueError, "length = -1\n  allowed: 0 or more"),
+        (lambda: brinell.kurtogram(X, rate_hz=1e4, depth=-1), ValueError, "depth = -1\n  allowed: 0 or more"),
+        (lambda: brinell.envelope(X, rate_hz=1e4, band_hz=(2000.0, 1000.0)), brinell.SignalError, "lower edge of the band"),
+        (lambda: brinell.envelope(X * np.nan, rate_hz=1e4), brinell.SignalError, "sample 1 is not finite"),
+    ],
+)
+def test_regress_numbers_out_of_range_are_refused_by_name(call, kind, words):
+    with pytest.raises(kind, match=words):
+        call()
+
+
+@pytest.mark.parametrize(
+    ("settings", "kind", "words"),
+    [
+        ({"targets": {"sensor_ax.rms": 30.0}}, TypeError, r"targets: sensor_ax.rms = 30.0: expected \(value, standard uncertainty\)"),
+        ({"targets": {"sensor_ax.rms": (30.0,)}}, TypeError, "targets: sensor_ax.rms"),
+        ({"fit": {"operation.speed_rpm": 1.0}}, TypeError, r"fit: operation.speed_rpm = 1.0: expected \(low, high\)"),
+        ({"fit": {"operation.speed_rpm": {1.0, 2.0}}}, TypeError, "fit: operation.speed_rpm"),
+        ({"measured": X}, TypeError, "measured: expected a brinell.signals.Signal.*ndarray"),
+        ({"measured": brinell.signals.Signal(X, "25600", "g", "a")}, TypeError, "measured.rate_hz = '25600'"),
+        ({"seed": -1}, ValueError, "seed = -1\n  allowed: 0 or more"),
+        ({"fit": {"bearing.radial_clearance_um": (-1e308, 1e308)}}, ValueError, "the bounds are too far apart"),
+    ],
+)
+def test_regress_what_cannot_be_calibrated_is_refused_by_name(base, settings, kind, words):
+    usual = {"fit": {"operation.speed_rpm": (1500.0, 2100.0)}, "targets": {"sensor_ax.rms": (30.0, 1.0)}}
+    with pytest.raises(kind, match=words):
+        brinell.calibrate(base, **(usual | settings))

@@ -234,6 +234,38 @@ def test_prop_what_travels_can_be_pickled(plan):
     assert name == "plan.toml" and {path for path, _ in files} == {"plan.toml", "base.toml", "photo-spall.png"}
 
 
+def test_prop_a_plan_travels_as_its_path(plan):
+    made = plan()
+    assert pickle.loads(pickle.dumps(made)).identity == made.identity
+    sent = pickle.dumps(made)
+    made.path.write_text(made.path.read_text().replace("runs = 15", "runs = 14"))
+    with pytest.raises(ValueError, match="not the plan that was sent"):
+        pickle.loads(sent)
+
+
+def test_regress_files_and_runs_that_there_are_not(plan):
+    made = plan()
+    for call, words in ((made.runs_of, "part = {}: no such file"), (made.scenario, "run = {}: no such run"), (made.label, "run = {}")):
+        for index in (99, -1):
+            with pytest.raises(ValueError, match=words.format(index)):
+                call(index)
+
+
+def test_regress_files_are_in_the_order_of_their_numbers(tmp_path):
+    (tmp_path / "runs").mkdir()
+    for number in (100000, 99999, 7):
+        (tmp_path / "runs" / f"part-{number:05}.parquet").touch()
+    names = [file.stem for file in brinell.DataSet(tmp_path).files]
+    assert names == ["part-00007", "part-99999", "part-100000"]
+
+
+def test_regress_a_run_that_no_float_holds_has_failed(plan, tmp_path):
+    path = plan(runs=2).path
+    path.write_text(path.read_text().replace("[vary]", "[vary]\nsensor.noise_rms_m_per_s2 = { log = [1e50, 1e60] }"))
+    data = brinell.Plan(path).run(tmp_path / "data")
+    assert data.verify() == [] and data.about["runs"]["failed"] == 2
+
+
 def test_prop_a_worker_of_another_version_or_kernel_refuses(plan):
     from brinell.distributed import _make, _parcel
 

@@ -164,6 +164,41 @@ def test_regress_ground_truth_of_entries_and_exits(result):
     np.testing.assert_allclose(np.diff(late).mean(), 1.0 / 250.1, rtol=0.05)
 
 
+def test_regress_every_entry_and_exit_of_a_run_is_kept(base):
+    # The findings keep the latest 4096.
+    spalls = [brinell.rectangle(length_mm=0.2, width_mm=4.0, depth_um=1.0, center_deg=8.0 * k) for k in range(45)]
+    events = brinell.simulate(base, settings={"defects": spalls, "simulation.duration_s": 0.4}).events
+    assert len(events["t"]) > 4096 and events["t"][0] < 0.02 and np.all(np.diff(events["t"]) >= 0.0)
+
+
+def test_regress_more_jobs_than_runs_are_as_many_as_runs(base):
+    for jobs in (10**9, 9 * 10**18):
+        assert len(brinell.simulate_many([base], jobs=jobs)) == 1
+    assert len(brinell.sweep(base, {"operation.speed_rpm": [900.0, 1800.0]}, jobs=10**9)) == 2
+
+
+def test_regress_one_scenario_is_not_many(base):
+    for call in (lambda: brinell.simulate_many(base), lambda: brinell.simulate_many("bearing.toml")):
+        with pytest.raises(TypeError, match=r"scenarios: expected several, and it is one .*; give \[scenario\]"):
+            call()
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="signals of POSIX")
+def test_regress_ctrl_c_ends_the_wait_for_a_spectrum():
+    program = """
+        import brinell, numpy as np, os, signal, threading, time
+        x = np.random.default_rng(1).normal(size=2**23)
+        began = time.monotonic()
+        threading.Timer(0.5, os.kill, (os.getpid(), signal.SIGINT)).start()
+        try:
+            brinell.analyze(x, rate_hz=51200.0, unit="g", speed_rpm=1800.0, bearing="6205-2RS")
+        except KeyboardInterrupt:
+            print(time.monotonic() - began)
+    """
+    done = subprocess.run([sys.executable, "-c", textwrap.dedent(program)], capture_output=True, text=True, timeout=120)
+    assert float(done.stdout) < 2.0, done.stderr
+
+
 def test_regress_names_that_are_not_there(result):
     with pytest.raises(KeyError, match="sensor_ax"):
         result["sensor_az"]

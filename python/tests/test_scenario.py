@@ -1,6 +1,7 @@
 """Scenarios from files, texts and arguments."""
 
 import pickle
+import sys
 import warnings
 
 import numpy as np
@@ -160,3 +161,22 @@ def test_prop_a_scenario_file_appears_whole_or_not_at_all(base, tmp_path):
     with pytest.raises(brinell.ReadError):
         base.write(tmp_path / "no" / "folder.toml")
     assert [p.name for p in tmp_path.iterdir()] == ["scenario.toml"]
+
+
+def test_regress_a_scenario_is_no_sequence(base):
+    with pytest.raises(TypeError, match="not iterable"):
+        list(base)
+    with pytest.raises(TypeError, match="a key is a dotted path"):
+        base[0]
+    assert "operation.speed_rpm" in base and "operation.speed" not in base and 0 not in base
+
+
+def test_regress_a_set_has_no_order():
+    with pytest.raises(TypeError, match="a set has no order; give a list"):
+        brinell.Scenario(bearing="NN3007", operation={"speed_rpm": 1800.0, "load_n": {300.0, 0.0}})
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="a folder that takes no files")
+def test_regress_a_folder_that_is_there_is_not_said_to_be_missing(base):
+    with pytest.raises(brinell.ReadError, match="/proc/x.toml: cannot write"):
+        base.write("/proc/x.toml")

@@ -262,6 +262,8 @@ impl IoError {
         match source.kind() {
             K::StorageFull | K::QuotaExceeded => Self::DiskFull { path, source },
             K::PermissionDenied | K::ReadOnlyFilesystem => Self::NotPermitted { path, source },
+            // Some folders, as /proc, take no files.
+            K::NotFound if path.parent().is_some_and(Path::is_dir) => Self::Write { path, source },
             K::NotFound | K::NotADirectory => Self::NoFolder { path, source },
             K::IsADirectory => Self::NotAFileName { path },
             _ => Self::Write { path, source },
@@ -290,5 +292,7 @@ mod tests {
             "out/signals.csv: writing is not permitted here; choose a folder that you may write to"
         );
         assert_eq!(say(io::ErrorKind::NotFound), "out/signals.csv: there is no such folder as out; create it first");
+        let there = IoError::writing(&std::env::temp_dir().join("x.toml"), io::ErrorKind::NotFound.into());
+        assert!(there.to_string().contains("x.toml: cannot write: "), "{there}");
     }
 }

@@ -8,3 +8,11 @@ use std::fmt::Display;
 pub(crate) fn bad_value(words: impl Display) -> PyErr {
     PyValueError::new_err(words.to_string())
 }
+
+/// A whole number from 0 as Rust has it; `name` is what users call it.
+pub(crate) fn from_zero<T: TryFrom<i128>>(name: &str, value: i128) -> PyResult<T> {
+    T::try_from(value).map_err(|_| {
+        let allowed = if value < 0 { "0 or more" } else { "less" };
+        bad_value(format!("{name} = {value}\n  allowed: {allowed}"))
+    })
+}

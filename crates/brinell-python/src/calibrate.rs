@@ -1,11 +1,11 @@
 //! Keys of a scenario fitted to numbers that are known.
 
-use crate::bad_value::bad_value;
+use crate::bad_value::{bad_value, from_zero};
 use crate::convert::{Samples, json_to_python, slice, table};
 use crate::errors::{SignalError, failed_run, run_error};
 use crate::kept::{ledger, refused};
-use crate::run::{Watch, attended, threads};
 use crate::scenario::Scenario;
+use crate::wait::{Watch, attended, threads};
 use brinell::analysis::Unit;
 use brinell::document::on_one_line;
 use brinell::simulate::Simulation;
@@ -70,8 +70,8 @@ pub(crate) fn calibrate<'py>(
     targets: Vec<(String, f64, f64)>,
     measured: Option<Samples<'py>>,
     signal: (f64, String, Option<String>, f64),
-    seed: u64,
-    budget: Option<usize>,
+    seed: i128,
+    budget: Option<i128>,
     jobs: Option<isize>,
     progress: Option<Py<PyAny>>,
     folder: Option<PathBuf>,
@@ -79,6 +79,8 @@ pub(crate) fn calibrate<'py>(
     // Said once, and not of every point.
     brinell::kernel::Kernel::chosen().map_err(bad_value)?;
     let threads = threads(jobs, usize::MAX)?;
+    let seed = from_zero("seed", seed)?;
+    let budget = budget.map(|budget| from_zero("budget", budget)).transpose()?;
     // By the command's own readers, whose words are known.
     let key = |(name, low, high, log): &(String, f64, f64, bool)| {
         Key::read(&format!("{name}={low:?}:{high:?}{}", if *log { ":log" } else { "" }))

@@ -5,7 +5,7 @@ use brinell_io::{Cells, Table};
 use numpy::{AllowTypeChange, IntoPyArray, PyArray1, PyArrayLike1};
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
-use pyo3::types::{PyBool, PyDict, PyFloat, PyInt, PyList, PyString};
+use pyo3::types::{PyBool, PyDict, PyFloat, PyFrozenSet, PyInt, PyList, PySet, PyString};
 use serde_json::Value;
 use std::borrow::Cow;
 use std::fmt::Write;
@@ -114,6 +114,8 @@ fn write_toml(value: &Bound<'_, PyAny>, out: &mut String, depth: usize) -> PyRes
         return write_toml(&value.call_method0("tolist")?, out, depth);
     } else if value.hasattr("__fspath__")? {
         return write_toml(&value.call_method0("__fspath__")?, out, depth);
+    } else if value.is_instance_of::<PySet>() || value.is_instance_of::<PyFrozenSet>() {
+        return Err(PyTypeError::new_err(format!("{}: a set has no order; give a list", value.repr()?)));
     } else if value.hasattr("__iter__")? {
         out.push('[');
         for (k, item) in value.try_iter()?.enumerate() {

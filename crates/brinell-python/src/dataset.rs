@@ -1,15 +1,14 @@
 //! Data sets: a plan to files, alone or a share at a time.
 
-use crate::bad_value::bad_value;
+use crate::bad_value::{bad_value, from_zero};
 use crate::errors::{ReadError, scenario_error, unreadable};
-use crate::run::{PATIENCE, Watch, attended, threads};
+use crate::wait::{Watch, attended, threads, unstoppable};
 use brinell_study::dataset::{self, DatasetError, Shard};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::sync::mpsc::{RecvTimeoutError, channel};
 
 fn failed(py: Python, error: DatasetError) -> PyErr {
     match error {
@@ -19,6 +18,15 @@ fn failed(py: Python, error: DatasetError) -> PyErr {
         error @ DatasetError::NoFolder { .. } => ReadError::new_err(error.to_string()),
         DatasetError::Io(error) => ReadError::new_err(error.to_string()),
     }
+}
+
+/// The index of one of `count` things, which are called `what`.
+fn below(name: &str, index: i128, what: &str, count: usize) -> PyResult<usize> {
+    let found = usize::try_from(index).ok().filter(|index| *index < count);
+    found.ok_or_else(|| {
+        let last = count.saturating_sub(1);
+        bad_value(format!("{name} = {index}: no such {what}\n  allowed: 0 to {last}"))
+    })
 }
 
 /// A plan with its base scenario, and what its author should know.
@@ -31,39 +39,22 @@ impl Campaign {
     /// own.
     #[staticmethod]
     fn open(py: Python, path: PathBuf, check: bool) -> PyResult<Self> {
-        let (ended, over) = channel();
         let stop = Arc::new(AtomicBool::new(false));
         let theirs = Arc::clone(&stop);
-        std::thread::spawn(move || {
-            let open = || {
-                let campaign = dataset::Campaign::open(&path)?;
-                let mut warnings = Vec::new();
-                if check {
-                    let survey = campaign.survey(&theirs);
-                    campaign.sound(&survey)?;
-                    warnings = campaign.warnings(&survey);
-                }
-                Ok(Self(campaign, warnings))
-            };
-            // Nobody waits after Ctrl-C.
-            let _ = ended.send(open());
-        });
-        let waited = py.detach(move || {
-            loop {
-                match over.recv_timeout(PATIENCE) {
-                    Ok(opened) => return Ok(opened),
-                    Err(RecvTimeoutError::Timeout) => {}
-                    Err(RecvTimeoutError::Disconnected) => {
-                        return Err(bad_value("the thread that read the plan ended"));
-                    }
-                }
-                if let Err(signal) = Python::attach(|py| py.check_signals()) {
-                    stop.store(true, Ordering::Relaxed);
-                    return Err(signal);
-                }
+        let opened = unstoppable(py, move || {
+            let campaign = dataset::Campaign::open(&path)?;
+            let mut warnings = Vec::new();
+            if check {
+                let survey = campaign.survey(&theirs);
+                campaign.sound(&survey)?;
+                warnings = campaign.warnings(&survey);
             }
+            Ok(Self(campaign, warnings))
         });
-        waited?.map_err(|error| failed(py, error))
+        if opened.is_err() {
+            stop.store(true, Ordering::Relaxed);
+        }
+        opened?.map_err(|error| failed(py, error))
     }
 
     /// Makes a folder this plan's, or finds that it is.
@@ -96,8 +87,8 @@ impl Campaign {
     }
 
     /// How many runs a file has.
-    fn runs_of(&self, part: usize) -> usize {
-        self.0.runs_of(part).len()
+    fn runs_of(&self, part: i128) -> PyResult<usize> {
+        Ok(self.0.runs_of(below("part", part, "file", self.0.parts())?).len())
     }
 
     /// What tells this campaign from others.
@@ -113,11 +104,8 @@ impl Campaign {
     }
 
     /// A run's scenario as TOML with every key given, its class, and what it drew.
-    fn run(&self, py: Python<'_>, index: usize) -> PyResult<(String, String)> {
-        if index >= self.0.draws().runs() {
-            let last = self.0.draws().runs() - 1;
-            return Err(bad_value(format!("run {index}: no such run\n  allowed: 0 to {last}")));
-        }
+    fn run(&self, py: Python<'_>, index: i128) -> PyResult<(String, String)> {
+        let index = below("run", index, "run", self.0.draws().runs())?;
         let (loaded, _) = self.0.scenario(index).map_err(|error| failed(py, error))?;
         let class = self.0.draws().class(index);
         Ok((loaded.to_toml(), self.0.plan().classes[class].name.clone()))
@@ -146,11 +134,11 @@ impl Campaign {
         &self,
         py: Python<'py>,
         folder: PathBuf,
-        shard: (usize, usize),
+        shard: (i128, i128),
         jobs: Option<isize>,
         progress: Option<Py<PyAny>>,
     ) -> PyResult<Bound<'py, PyDict>> {
-        let (index, of) = shard;
+        let (index, of) = (from_zero("shard[0]", shard.0)?, from_zero("shard[1]", shard.1)?);
         if !(1..=of).contains(&index) {
             return Err(bad_value(format!("shard = ({index}, {of}): expected (I, N), I from 1 to N")));
         }

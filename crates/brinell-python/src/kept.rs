@@ -2,8 +2,8 @@
 
 use crate::bad_value::bad_value;
 use crate::errors::ReadError;
-use crate::run::{Watch, attended, over_threads, threads};
 use crate::scenario::Source;
+use crate::wait::{Watch, attended, over_threads, threads};
 use brinell::document::{on_one_line, one_line};
 use brinell::result::Quantity;
 use brinell::scenario::Scenario;

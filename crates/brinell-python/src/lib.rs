@@ -15,6 +15,7 @@ mod scenario;
 mod signal;
 mod studio;
 mod sweep;
+mod wait;
 
 use pyo3::prelude::*;
 

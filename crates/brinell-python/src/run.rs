@@ -4,33 +4,37 @@ use crate::bad_value::bad_value;
 use crate::convert::{array, json_to_python};
 use crate::errors::run_error;
 use crate::scenario::Scenario;
+use crate::wait::{PATIENCE, over_threads};
 use brinell::Error;
+use brinell::channel::Frame;
 use brinell::many::go_on;
+use brinell::observe::passes::{Event, Passes};
 use brinell::plausibility::Beforehand;
 use brinell::result::{self, RunResult};
 use brinell::simulate::{End, Observer, Signals, Simulation, SolverWork};
 use brinell::summary::{self, Parts};
 use brinell_report::{Report, html};
-use brinell_study::listener::{Listener, RunListener};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
 use serde_json::json;
-use std::num::NonZeroUsize;
 use std::ops::ControlFlow;
-use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
-use std::sync::mpsc::{RecvTimeoutError, channel, sync_channel};
-use std::time::{Duration, Instant};
+use std::time::Instant;
 
-/// How long Python may have to wait for an answer to Ctrl-C.
-pub(crate) const PATIENCE: Duration = Duration::from_millis(50);
-
-/// Keeps every row; asks now and then whether to go on.
+/// Keeps every row, and every entry and exit, of which a run's findings keep the latest; asks now and then whether to
+/// go on.
 struct Recorder<'a, F> {
     signals: Signals,
+    passes: Passes,
+    events: Vec<Event>,
     go_on: &'a mut F,
 }
 
 impl<F: FnMut(f64) -> ControlFlow<()>> Observer for Recorder<'_, F> {
+    fn step(&mut self, frame: &Frame) {
+        self.passes.take(frame, false);
+        self.events.extend(self.passes.events.drain(..));
+    }
+
     fn row(&mut self, index: u64, row: &[f64], filtered: &[f64]) -> ControlFlow<()> {
         self.signals.row(index, row, filtered)
     }
@@ -42,7 +46,8 @@ impl<F: FnMut(f64) -> ControlFlow<()>> Observer for Recorder<'_, F> {
 
 /// What a run came to.
 enum Ran {
-    Over(Box<RunResult>, Signals),
+    /// With its channels, entries and exits.
+    Over(Box<RunResult>, Signals, Vec<Event>),
     /// There is no model, nothing to start from, or no room for the channels.
     Bad(Error),
     /// Not begun.
@@ -57,18 +62,19 @@ fn run(scenario: &Scenario, mut go_on: impl FnMut(f64) -> ControlFlow<()>) -> Ra
         Ok(begun) => begun,
         Err(error) => return Ran::Bad(error),
     };
-    let mut recorder = Recorder { signals, go_on: &mut go_on };
+    let passes = Passes::new(simulation.model());
+    let mut recorder = Recorder { signals, passes, events: Vec::new(), go_on: &mut go_on };
     let finished = result::finish(scenario.clone(), simulation, &mut recorder);
-    Ran::Over(Box::new(finished), recorder.signals)
+    Ran::Over(Box::new(finished), recorder.signals, recorder.events)
 }
 
 impl Ran {
     /// The result; where the run failed or never began, the exception.
     fn result(self, py: Python<'_>, scenario: &Py<Scenario>) -> PyResult<Run> {
         match self {
-            Self::Over(finished, signals) => {
+            Self::Over(finished, signals, events) => {
                 let end = finished.outcome.end.clone();
-                let run = Run::new(py, scenario.clone_ref(py), *finished, signals)?;
+                let run = Run::new(py, scenario.clone_ref(py), *finished, signals, events)?;
                 let End::Failed(error) = end else {
                     return Ok(run);
                 };
@@ -117,121 +123,6 @@ pub(crate) fn simulate(py: Python<'_>, scenario: &Bound<'_, Scenario>, progress:
     }
 }
 
-/// Runs at a time, of `count` in all: as requested, or one a core.
-pub(crate) fn threads(jobs: Option<isize>, count: usize) -> PyResult<NonZeroUsize> {
-    let Some(jobs) = jobs else {
-        return Ok(brinell::many::threads(count));
-    };
-    let jobs_or_none = usize::try_from(jobs).ok().and_then(NonZeroUsize::new);
-    jobs_or_none.ok_or_else(|| bad_value(format!("jobs = {jobs}: runs at a time\n  allowed: 1 or more")))
-}
-
-/// Does `job` for every index below `count` on threads of its own, and hands each result to `deliver` on this one, with
-/// Python's lock. Signals are noticed meanwhile. An error of `deliver`, or a signal's, stops the rest: jobs see the
-/// flag.
-pub(crate) fn over_threads<T: Send>(
-    py: Python<'_>,
-    count: usize,
-    jobs: Option<isize>,
-    job: impl Fn(usize, &AtomicBool) -> T + Sync,
-    mut deliver: impl FnMut(Python<'_>, usize, T) -> PyResult<()> + Send,
-) -> PyResult<()> {
-    let threads = threads(jobs, count)?;
-    let stop = AtomicBool::new(false);
-    py.detach(|| {
-        std::thread::scope(|scope| {
-            let (results, arrived) = sync_channel(threads.get());
-            let (stop, job) = (&stop, &job);
-            scope.spawn(move || {
-                brinell::many::each(
-                    count,
-                    threads,
-                    |k| job(k, stop),
-                    // Nobody hears what comes after an error.
-                    |k, result| drop(results.send((k, result))),
-                );
-            });
-            let mut outcome = Ok(());
-            loop {
-                let next = match arrived.recv_timeout(PATIENCE) {
-                    Ok(next) => Some(next),
-                    Err(RecvTimeoutError::Timeout) => None,
-                    Err(RecvTimeoutError::Disconnected) => return outcome,
-                };
-                if outcome.is_err() {
-                    continue;
-                }
-                outcome = Python::attach(|py| {
-                    py.check_signals()?;
-                    next.map_or(Ok(()), |(k, result)| deliver(py, k, result))
-                });
-                stop.store(outcome.is_err(), Ordering::Relaxed);
-            }
-        })
-    })
-}
-
-/// What the threads of a study and the thread that waits for them share.
-#[derive(Default)]
-pub(crate) struct Watch {
-    pub(crate) stop: AtomicBool,
-    over: AtomicUsize,
-}
-
-impl Listener for Watch {
-    fn begin(&self, _: usize, _: f64) -> Box<dyn RunListener + '_> {
-        Box::new(&self.stop)
-    }
-
-    fn before(&self, runs: usize) {
-        self.over.fetch_add(runs, Ordering::Relaxed);
-    }
-
-    fn ended(&self, _: usize, _: Option<&str>) {
-        self.over.fetch_add(1, Ordering::Relaxed);
-    }
-}
-
-/// Does `job` on a thread of its own and waits for it, without Python's lock. Signals are noticed meanwhile, and `tell`
-/// gets how many runs are over, whenever more are. An error of `tell`, or a signal's, sets the flag, and is given when
-/// the job has ended.
-pub(crate) fn attended<T: Send>(
-    py: Python<'_>,
-    watch: &Watch,
-    job: impl FnOnce() -> T + Send,
-    mut tell: impl FnMut(Python<'_>, usize) -> PyResult<()> + Send,
-) -> PyResult<T> {
-    py.detach(|| {
-        std::thread::scope(|scope| {
-            let (ended, waiting) = channel();
-            let job = scope.spawn(move || {
-                let result = job();
-                // The thread that waits is there as long as this one.
-                let _ = ended.send(());
-                result
-            });
-            let (mut outcome, mut shown) = (Ok(()), 0);
-            loop {
-                let is_over = waiting.recv_timeout(PATIENCE) != Err(RecvTimeoutError::Timeout);
-                let now = watch.over.load(Ordering::Relaxed);
-                if outcome.is_ok() {
-                    outcome = Python::attach(|py| {
-                        py.check_signals()?;
-                        if now > shown { tell(py, now) } else { Ok(()) }
-                    });
-                    watch.stop.store(outcome.is_err(), Ordering::Relaxed);
-                }
-                shown = now;
-                if is_over {
-                    break;
-                }
-            }
-            let result = job.join().map_err(|_| bad_value("the runs ended without a word"));
-            outcome.and(result)
-        })
-    })
-}
-
 /// Runs scenarios side by side. `deliver` gets each index with its result, or with the exception that there is instead.
 #[pyfunction]
 pub(crate) fn simulate_many(
@@ -266,15 +157,22 @@ pub(crate) struct Run {
     pub(crate) scenario: Py<Scenario>,
     pub(crate) finished: RunResult,
     signals: Py<PyDict>,
+    events: Vec<Event>,
 }
 
 impl Run {
-    fn new(py: Python<'_>, scenario: Py<Scenario>, finished: RunResult, signals: Signals) -> PyResult<Self> {
+    fn new(
+        py: Python<'_>,
+        scenario: Py<Scenario>,
+        finished: RunResult,
+        signals: Signals,
+        events: Vec<Event>,
+    ) -> PyResult<Self> {
         let dict = PyDict::new(py);
         for (name, column) in signals {
             dict.set_item(name, array(py, column))?;
         }
-        Ok(Self { signals: dict.unbind(), scenario, finished })
+        Ok(Self { signals: dict.unbind(), scenario, finished, events })
     }
 
     /// Everything that summary and page are made of.
@@ -373,13 +271,13 @@ impl Run {
         Ok(Some(dict))
     }
 
-    /// Instants of defect entry and exit, the latest 4096.
+    /// Instants of defect entry and exit.
     fn events<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
-        let events = &self.finished.findings.passes.events;
+        let events = &self.events;
         let layout = &self.finished.simulation.model().layout;
         let dict = PyDict::new(py);
         dict.set_item("t", array(py, events.iter().map(|e| e.t).collect()))?;
-        let whole = |of: &dyn Fn(&brinell::observe::passes::Event) -> usize| {
+        let whole = |of: &dyn Fn(&Event) -> usize| {
             let values: Vec<i64> = events.iter().map(|e| of(e) as i64).collect();
             numpy::IntoPyArray::into_pyarray(values, py)
         };

@@ -1,8 +1,9 @@
 //! Analysis of signals that are arrays.
 
-use crate::bad_value::bad_value;
+use crate::bad_value::{bad_value, from_zero};
 use crate::convert::{Samples, array, json_to_python, slice};
 use crate::errors::SignalError;
+use crate::wait::unstoppable;
 use brinell::analysis::{
     Analysis, AnalysisError, DefectOrders, Levels, MachineClass, Options, Quantity, SUPPLY_HZ, Sensitivity, Unit,
     to_json, velocity,
@@ -31,6 +32,11 @@ pub(crate) fn spectrum_dict(py: Python<'_>, s: Spectrum) -> PyResult<Bound<'_, P
     dict.set_item("amplitude", array(py, s.amplitude))?;
     dict.set_item("density", array(py, s.density))?;
     Ok(dict)
+}
+
+/// A number of samples, where one is given.
+fn samples_given(name: &str, count: Option<i128>) -> PyResult<Option<usize>> {
+    count.map(|count| from_zero(name, count)).transpose()
 }
 
 /// Segments as requested: `length` samples, or the whole signal.
@@ -78,14 +84,14 @@ pub(crate) fn psd<'py>(
     py: Python<'py>,
     x: Samples<'py>,
     rate_hz: f64,
-    length: Option<usize>,
+    length: Option<i128>,
     overlap: f64,
     window: &str,
     detrend: &str,
 ) -> PyResult<Bound<'py, PyDict>> {
-    let x = &*slice(&x);
+    let (x, length) = (slice(&x).into_owned(), samples_given("length", length)?);
     let segments = segments(x.len(), length, overlap, window, detrend)?;
-    let spectrum = py.detach(|| signal::psd(x, rate_hz, &segments));
+    let spectrum = unstoppable(py, move || signal::psd(&x, rate_hz, &segments))?;
     spectrum_dict(py, spectrum.map_err(failed)?)
 }
 
@@ -96,14 +102,14 @@ pub(crate) fn envelope_spectrum<'py>(
     x: Samples<'py>,
     rate_hz: f64,
     band_hz: Option<(f64, f64)>,
-    length: Option<usize>,
+    length: Option<i128>,
     overlap: f64,
     window: &str,
 ) -> PyResult<Bound<'py, PyDict>> {
-    let x = &*slice(&x);
+    let (x, length) = (slice(&x).into_owned(), samples_given("length", length)?);
     let segments = segments(x.len(), length, overlap, window, "mean")?;
     let band = band(band_hz, rate_hz)?;
-    let envelope = py.detach(|| signal::envelope_spectrum(x, rate_hz, band, &segments)).map_err(failed)?;
+    let envelope = unstoppable(py, move || signal::envelope_spectrum(&x, rate_hz, band, &segments))?.map_err(failed)?;
     let dict = spectrum_dict(py, envelope.spectrum)?;
     dict.set_item("mean", envelope.mean)?;
     Ok(dict)
@@ -117,13 +123,8 @@ pub(crate) fn envelope<'py>(
     rate_hz: f64,
     band_hz: Option<(f64, f64)>,
 ) -> PyResult<Bound<'py, PyAny>> {
-    let x = &*slice(&x);
-    let band = band(band_hz, rate_hz)?;
-    // The spectrum says what is wrong with the input; the envelope by itself would panic.
-    let values = py.detach(|| {
-        let checked = signal::envelope_spectrum(x, rate_hz, band, &Segments::of(x.len().max(8)));
-        checked.map(|_| signal::envelope(x, rate_hz, band).unwrap_or_default())
-    });
+    let (x, band) = (slice(&x).into_owned(), band(band_hz, rate_hz)?);
+    let values = unstoppable(py, move || signal::envelope(&x, rate_hz, band))?;
     Ok(array(py, values.map_err(failed)?).into_any())
 }
 
@@ -133,13 +134,13 @@ pub(crate) fn spectrogram<'py>(
     py: Python<'py>,
     x: Samples<'py>,
     rate_hz: f64,
-    length: usize,
+    length: i128,
     overlap: f64,
     window: &str,
 ) -> PyResult<(f64, f64, f64, Bound<'py, PyAny>)> {
-    let x = &*slice(&x);
-    let segments = segments(x.len(), Some(length), overlap, window, "none")?;
-    let s = py.detach(|| signal::spectrogram(x, rate_hz, &segments)).map_err(failed)?;
+    let (x, length) = (slice(&x).into_owned(), samples_given("length", Some(length))?);
+    let segments = segments(x.len(), length, overlap, window, "none")?;
+    let s = unstoppable(py, move || signal::spectrogram(&x, rate_hz, &segments))?.map_err(failed)?;
     let shape = [s.frames(), s.bins];
     let density = array(py, s.density).reshape(shape)?;
     Ok((s.first_time, s.time_step, s.frequency_step, density.into_any()))
@@ -152,11 +153,11 @@ pub(crate) fn kurtogram<'py>(
     py: Python<'py>,
     x: Samples<'py>,
     rate_hz: f64,
-    depth: usize,
+    depth: i128,
     narrowest_hz: f64,
 ) -> PyResult<Bound<'py, PyDict>> {
-    let x = &*slice(&x);
-    let map = py.detach(|| signal::kurtogram(x, rate_hz, depth)).map_err(failed)?;
+    let (x, depth) = (slice(&x).into_owned(), from_zero("depth", depth)?);
+    let map = unstoppable(py, move || signal::kurtogram(&x, rate_hz, depth))?.map_err(failed)?;
     let dict = PyDict::new(py);
     let column = |of: fn(&signal::KurtogramBand) -> f64| array(py, map.bands().map(|b| of(&b)).collect());
     dict.set_item("low_hz", column(|b| b.band.low))?;
@@ -317,23 +318,21 @@ pub(crate) fn analyze<'py>(
     sensitivity: Option<&str>,
     supply_hz: Option<f64>,
 ) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyDict>, Findings)> {
-    let (given, array) = (slice(&x), x.as_unbound().clone_ref(py));
+    let (mut x, array) = (slice(&x).into_owned(), x.as_unbound().clone_ref(py));
     // A run states its own, of any of its channels.
-    let unit = match run {
+    let mut unit = match run {
         Some(_) => Unit::of(unit),
         None => Unit::given(unit).map_err(|error| bad_value(format!("unit = \"{unit}\": {error}")))?,
     };
-    let (mut x, mut unit) = (&*given, unit);
     let mut factor = 1.0;
     let mut notes = vec![format!("{rate_hz} Hz and {}, as given", unit.name)];
     let class = machine_class.map(class).transpose()?;
-    let scaled: Vec<f64>;
     if let Some(text) = sensitivity {
         let (of_sensor, of, words) = sensor(text, &unit)?;
         factor = of_sensor;
         notes.push(words);
-        scaled = x.iter().map(|v| factor * v).collect();
-        (x, unit) = (&scaled, of);
+        x.iter_mut().for_each(|v| *v *= factor);
+        unit = of;
     }
     if !(speed_rpm.is_finite() && speed_rpm != 0.0) {
         return Err(failed(format!("speed_rpm = {speed_rpm}: expected a speed other than 0, in r/min")));
@@ -349,18 +348,21 @@ pub(crate) fn analyze<'py>(
         options.silent = unit.missing_noise(own);
     }
     options.band = band_hz.map(|(low, high)| Band::between(low, high));
-    let (analysis, bands) = py.detach(|| {
-        let analysis = brinell::analysis::analyze(x, rate_hz, &options).map(|mut analysis| {
-            if let (Some(scenario), Some((channel, from_s))) = (scenario, run) {
-                let stretch = Stretch { channel, from_s, to_si: unit.to_si };
-                beside_healthy(&mut analysis, &scenario.loaded.scenario, stretch);
+    let of = unit.clone();
+    let beside =
+        scenario.zip(run).map(|(s, (channel, from_s))| (s.loaded.scenario.clone(), channel.to_owned(), from_s));
+    let (analysis, bands) = unstoppable(py, move || {
+        let analysis = brinell::analysis::analyze(&x, rate_hz, &options).map(|mut analysis| {
+            if let Some((scenario, channel, from_s)) = &beside {
+                let stretch = Stretch { channel, from_s: *from_s, to_si: of.to_si };
+                beside_healthy(&mut analysis, scenario, stretch);
             }
-            let levels = Levels::of(x, &unit, &analysis, class);
+            let levels = Levels::of(&x, &of, &analysis, class);
             (analysis, levels)
         });
-        let bands = (unit.quantity == Quantity::Acceleration).then(|| velocity(&unit.in_si(x), rate_hz, shaft).ok());
+        let bands = (of.quantity == Quantity::Acceleration).then(|| velocity(&of.in_si(&x), rate_hz, shaft).ok());
         (analysis, bands.flatten())
-    });
+    })?;
     let (analysis, levels) = analysis.map_err(failed)?;
     let mut json = to_json(&analysis, &unit, bands.as_ref(), None);
     json["severity"] = levels.to_json(&unit);

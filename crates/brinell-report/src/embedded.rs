@@ -7,6 +7,7 @@ use crate::data::Along;
 use crate::encode::{base64, list};
 use crate::markup::escape;
 use crate::number::{linear_ticks, runs, tick_labels};
+use brinell::analysis::STANDARD_GRAVITY;
 
 /// Values kept for zooming; longer signals and spectra are thinned to this, extremes kept.
 pub(crate) const KEPT: usize = 65_536;
@@ -14,9 +15,6 @@ pub(crate) const KEPT: usize = 65_536;
 /// What the script draws every plot with, in this order.
 pub(crate) const SCRIPT: [&str; 3] =
     [include_str!("script/plot.js"), include_str!("script/read.js"), include_str!("script/tools.js")];
-
-/// Standard acceleration of free fall, m/s^2: the unit g.
-const G: f64 = 9.80665;
 
 /// A curve as the script redraws it.
 pub(crate) struct Curve<'a> {
@@ -129,7 +127,7 @@ impl Chart<'_> {
     fn units(&self) -> String {
         let mut units = format!("[[{},1,false]", json(&plain(self.y.1)));
         if self.y.1 == "m/s^2" {
-            let _ = write!(units, ",[\"g\",{},false]", 1.0 / G);
+            let _ = write!(units, ",[\"g\",{},false]", 1.0 / STANDARD_GRAVITY);
             if self.velocity {
                 units.push_str(",[\"mm/s\",1000,true]");
             }

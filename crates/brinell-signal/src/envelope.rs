@@ -14,16 +14,20 @@ use super::psd::{Detrend, Segments, psd};
 use super::spectrum::{FEWEST_SAMPLES, Spectrum};
 use super::transformed::Transformed;
 
-/// The envelope of `x` (sampled at `fs` Hz) in a band, sample by sample and in its unit; `None` with fewer than
-/// [`FEWEST_SAMPLES`] samples. Its ends are disturbed (see the module); holds the whole transform in memory.
+/// The envelope of `x` (sampled at `fs` Hz) in a band, sample by sample and in its unit. Its ends are disturbed (see the
+/// module); holds the whole transform in memory.
 ///
-/// # Panics
-/// Where the band does not satisfy 0 <= low < high and low < fs / 2.
-pub fn envelope(x: &[f64], fs: f64, band: Band) -> Option<Vec<f64>> {
-    if x.len() < FEWEST_SAMPLES {
-        return None;
-    }
-    Some(demodulated(x, fs, band))
+/// # Errors
+/// [`SignalError`] with fewer than [`FEWEST_SAMPLES`] samples, samples that are not finite, or a band out of range.
+pub fn envelope(x: &[f64], fs: f64, band: Band) -> Result<Vec<f64>, SignalError> {
+    check(x, fs, FEWEST_SAMPLES, "an envelope")?;
+    require(
+        0.0 <= band.low && band.low < band.high && band.low < 0.5 * fs,
+        "lower edge of the band (Hz)",
+        band.low,
+        "0 to below the upper edge and half the sampling rate",
+    )?;
+    Ok(Transformed::unchecked(x, fs).envelope(band, x.len()).values)
 }
 
 /// An averaged envelope spectrum.
@@ -41,14 +45,7 @@ pub struct EnvelopeSpectrum {
 /// # Errors
 /// [`SignalError`] with fewer than 8 samples, samples that are not finite, or a band or segments out of range.
 pub fn envelope_spectrum(x: &[f64], fs: f64, band: Band, segments: &Segments) -> Result<EnvelopeSpectrum, SignalError> {
-    check(x, fs, FEWEST_SAMPLES, "an envelope")?;
-    require(
-        0.0 <= band.low && band.low < band.high && band.low < 0.5 * fs,
-        "lower edge of the band (Hz)",
-        band.low,
-        "0 to below the upper edge and half the sampling rate",
-    )?;
-    let mut envelope = demodulated(x, fs, band);
+    let mut envelope = envelope(x, fs, band)?;
     let mean = envelope.iter().sum::<f64>() / envelope.len() as f64;
     envelope.iter_mut().for_each(|e| *e -= mean);
     let segments = Segments {
@@ -59,12 +56,6 @@ pub fn envelope_spectrum(x: &[f64], fs: f64, band: Band, segments: &Segments) ->
         ..*segments
     };
     Ok(EnvelopeSpectrum { spectrum: psd(&envelope, fs, &segments)?, mean })
-}
-
-/// The envelope of a whole signal.
-fn demodulated(x: &[f64], fs: f64, band: Band) -> Vec<f64> {
-    let transformed = Transformed::unchecked(x, fs);
-    transformed.envelope(band, x.len()).values
 }
 
 #[cfg(test)]
@@ -181,6 +172,17 @@ mod tests {
         assert_eq!((result.spectrum.segment_length, result.spectrum.segments), (3001, 1));
         let line = peak_near(&result.spectrum, 200.0, 20.0).unwrap();
         assert!((line.frequency - 200.0).abs() < 0.1 && (line.amplitude - 0.6).abs() < 0.01, "{line:?}");
+    }
+
+    #[test]
+    fn prop_an_envelope_that_cannot_be_is_an_error() {
+        let x = modulated(512, 90.0, 0.4);
+        for (low, high) in [(-1.0, 5000.0), (5000.0, 5000.0), (f64::NAN, 5000.0), (12_800.0, 13_000.0)] {
+            let band = Band { low, high };
+            assert!(matches!(envelope(&x, FS, band), Err(SignalError::OutOfRange { .. })), "{low} to {high}");
+        }
+        assert_eq!(envelope(&[f64::NAN; 100], FS, Band::above(0.0)), Err(SignalError::NotFinite { index: 0 }));
+        assert!(envelope(&x[..7], FS, Band::above(0.0)).is_err());
     }
 
     #[test]

@@ -30,7 +30,7 @@ impl Interval {
 pub const MOST_FREEDOM: u32 = 1000;
 
 /// Two-sided 95 % of a normal distribution.
-const NORMAL: f64 = 1.959_963_984_540_054;
+pub const NORMAL: f64 = 1.959_963_984_540_054;
 
 /// An indicator with its scatter.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -40,10 +40,10 @@
 //! allocated per sample.
 //!
 //! Of a signal held as a slice, with its sample rate in Hz: [`window`], [`mod@psd`] (Welch with any window),
-//! [`mod@spectrogram`], [`mod@kurtogram`] (which band to demodulate), [`order`] (varying speed), [`mod@decimate`],
+//! [`mod@envelope`], [`mod@spectrogram`], [`mod@kurtogram`] (which band to demodulate), [`order`] (varying speed), [`mod@decimate`],
 //! [`integrate`] (acceleration to velocity), [`mod@velocity_bands`], [`lines`] (harmonics over the local noise), and
-//! [`distribution`] (what powers of noise follow). They return [`SignalError`] for input that they cannot use, and
-//! do not panic.
+//! [`distribution`] (what powers of noise follow). Functions of a signal return [`SignalError`] for input that
+//! they cannot use, and do not panic; the few others that do say so, as [`kaiser_lowpass`] of edges out of order.
 //!
 //! All values are SI: time in s, frequency in Hz, and a signal in its own unit (m/s^2 for an acceleration), here
 //! written "unit". Results do not depend on the number of threads; only [`analysis`] uses more than one. The FFT

@@ -51,7 +51,9 @@ pub fn harmonics(spectrum: &Spectrum, frequency: f64, tolerance: f64, count: usi
     require((0.0..0.5 * frequency).contains(&tolerance), "tolerance (Hz)", tolerance, "0 to below half the frequency")?;
     let floor = Floor::new(spectrum)?;
     let line = |h: usize| floor.line(h as i32, h as f64 * frequency, h as f64 * tolerance);
-    Ok((1..=count).filter_map(line).collect())
+    // The last bin is no line's.
+    let last = (spectrum.amplitude.len() as f64 * spectrum.frequency_step / frequency) as usize;
+    Ok((1..=count.min(last)).filter_map(line).collect())
 }
 
 /// The noise of a spectrum, place by place.
@@ -227,6 +229,8 @@ mod tests {
         assert!(harmonics(&s, 100.0, 60.0, 3).is_err());
         assert!(harmonics(&s, f64::NAN, 0.0, 3).is_err());
         assert!(harmonics(&s, 5000.0, 1.0, 3).unwrap().is_empty());
+        // As many as the spectrum holds, and no search beyond its end.
+        assert_eq!(harmonics(&s, 100.0, 1.0, usize::MAX).unwrap().len(), 20);
         let short = psd(&[1.0; 16], FS, &Segments::of(16)).unwrap();
         assert!(harmonics(&short, 500.0, 1.0, 3).is_err());
         let zero = psd(&[0.0; 1024], FS, &Segments::of(1024)).unwrap();

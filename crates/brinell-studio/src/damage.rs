@@ -4,7 +4,7 @@ use crate::bench::Bench;
 use crate::message::Arrays;
 use crate::report::{Answer, Trouble};
 use brinell::defect::simplify::Extent;
-use brinell::defect::{Defect, Defects, Side, damaged_contact};
+use brinell::defect::{Defect, Side};
 use brinell::model::Model;
 use brinell::scenario::{self, Surface};
 use brinell::slices::Cover;
@@ -39,18 +39,13 @@ fn one(k: usize, of: &scenario::Defect, defect: &Defect, arrays: &mut Arrays) ->
         })
     });
     let extent = Extent::of(&defect.shape, defect.depth);
-    let surface = match of.on {
-        Surface::OuterRaceway => "outer-raceway",
-        Surface::InnerRaceway => "inner-raceway",
-        Surface::Roller(_) => "roller",
-    };
     let element = match of.on {
         Surface::Roller(number) => Some(number),
         _ => None,
     };
     json!({
         "defect": k + 1,
-        "on": surface,
+        "on": of.on.word(),
         "roller": element,
         "row": of.row,
         "center_deg": of.center_deg,
@@ -90,20 +85,15 @@ pub(crate) fn passage(bench: &Bench, number: usize, arrays: &mut Arrays) -> Answ
     let places: Vec<f64> =
         (0..POINTS).map(|k| first - pad + (last - first + 2.0 * pad) * k as f64 / (POINTS - 1) as f64).collect();
     let mut cover = Cover::new(model.profiled().map_or(0, |s| s.count));
-    let law = model.contact(side);
+    let strips = model.contact(side).strips.as_ref();
     // Of a ball the axis of its ellipse across the groove.
-    let ellipse = law.strips.as_ref().map(|strips| strips.pressed(approach).length([f64::MIN, f64::MAX]));
-    let whole = ellipse.unwrap_or(defect.roller_length);
-    let lost = |s: f64| match ellipse {
-        None => defect.damaged_length(s),
-        Some(_) => {
-            let met = defect.met_at(side, s / defect.radius);
-            damaged_contact(Defects::one(defect, side), law, &met, approach).map_or(0.0, |d| d.floor.damaged_length)
-        }
-    };
-    let lengths: Vec<f64> = (places.iter()).map(|s| 1e3 * (whole - lost(*s)).max(0.0)).collect();
-    let force: Vec<f64> =
-        (places.iter()).map(|s| model.force_over(defect, side, s / defect.radius, approach, &mut cover)).collect();
+    let whole = strips.map_or(defect.roller_length, |strips| strips.pressed(approach).length([f64::MIN, f64::MAX]));
+    let (mut lengths, mut force) = (Vec::new(), Vec::new());
+    for s in &places {
+        let u = s / defect.radius;
+        lengths.push(1e3 * model.length_over(defect, side, u, approach, &mut cover).max(0.0));
+        force.push(model.force_over(defect, side, u, approach, &mut cover));
+    }
     let places_mm: Vec<f64> = places.iter().map(|s| 1e3 * s).collect();
     Ok(json!({
         "s_mm": arrays.rounded(&places_mm),

@@ -182,6 +182,21 @@ fn prop_what_is_drawn_is_a_shape_that_a_scenario_takes() {
     }
 }
 
+/// Along a profile the ends of a roller do not touch, and damage takes from what does.
+#[test]
+fn regress_length_under_a_profile_is_what_touches() {
+    let mut studio = Studio::new();
+    let sliced = "[contact]\nlaw = \"sliced\"\nroller_path = \"envelope\"\nslices = 100\n";
+    let text = format!("{}{sliced}{SPALL}", HEALTHY.replace("NN3007", "NU206"));
+    good(&mut studio, json!({ "do": "open", "slot": 0, "toml": text }));
+    let passage = good(&mut studio, json!({ "do": "passage", "slot": 0, "defect": 1 }));
+    let lengths = singles(&passage, &passage.json["length_mm"]);
+    let whole = passage.json["width_mm"].as_f64().unwrap() as f32;
+    let least = lengths.iter().fold(f32::MAX, |m, x| m.min(*x));
+    assert!(lengths[0] < 0.99 * whole, "{} of {whole}", lengths[0]);
+    assert!((lengths[0] - least - 4.0).abs() < 0.1, "{} {least}", lengths[0]);
+}
+
 /// A package holds no file from outside its folder, and links do not survive every checkout.
 #[test]
 fn regress_examples_are_copies_of_the_repositorys() {

@@ -18,7 +18,7 @@ pub fn palmgren_stiffness(length_mm: f64) -> f64 {
 
 /// Whether n is that of line contact, 10/9.
 pub(crate) fn is_line_exponent(n: f64) -> bool {
-    (n - 10.0 / 9.0).abs() < 1e-9
+    Exponent::new(n) == Exponent::TenNinths
 }
 
 /// Share g = ((L - L_s)/L)^(8/9) of a contact's stiffness that the undamaged length keeps (Eq. 23); 1 where L_s = 0,

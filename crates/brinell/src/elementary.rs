@@ -16,9 +16,9 @@ pub enum Exponent {
 }
 
 impl Exponent {
-    /// Recognises 10/9 (to round-off of its decimal form), 3/2 and 1.
+    /// Recognises 10/9 (to nine decimals, as people write it), 3/2 and 1.
     pub fn new(n: f64) -> Self {
-        if (n - 10.0 / 9.0).abs() < 1e-12 {
+        if (n - 10.0 / 9.0).abs() < 1e-9 {
             Self::TenNinths
         } else if n == 1.5 {
             Self::ThreeHalves
@@ -67,6 +67,14 @@ mod tests {
             worst = worst.max((Exponent::TenNinths.of(x) / exact - 1.0).abs());
         }
         assert!(worst < 4e-15, "relative error {worst:e}");
+    }
+
+    #[test]
+    fn prop_ten_ninths_is_recognised_as_people_write_it() {
+        for n in [10.0 / 9.0, 1.111111111, 1.1111111111, 1.111_111_111_111_111] {
+            assert_eq!(Exponent::new(n), Exponent::TenNinths, "{n}");
+        }
+        assert_eq!(Exponent::new(1.1111), Exponent::Other(1.1111));
     }
 
     #[test]

@@ -7,7 +7,8 @@ use crate::statics::NoBalance;
 /// Why a run ended before its time, or never began.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum Error {
-    /// The text is no valid scenario: every problem, errors first, each with key, value, allowed range, unit and line.
+    /// The text, or what was built in code, is no valid scenario: every problem, errors first, each with key, value, allowed range,
+    /// unit, and line of a text.
     #[error("{}", lines(.0))]
     Scenario(Vec<Problem>),
     /// The scenario makes no model.

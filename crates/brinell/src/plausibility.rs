@@ -10,6 +10,7 @@ mod slices;
 mod tilting;
 mod warning;
 
+use crate::analysis::STANDARD_GRAVITY;
 use crate::bearing::rating::static_rating;
 use crate::defect::{Defect, SIDES, Side, relative_radius, wrap};
 use crate::document::{Problem, Problems, toml_float};
@@ -38,8 +39,6 @@ const REACHED_SHARE: f64 = 0.9;
 /// Static deformations of the heaviest contact: deeper damage over a roller's whole width takes all load off it where
 /// it begins.
 const DROP: f64 = 10.0;
-/// Standard gravity, m/s^2.
-const GRAVITY: f64 = 9.80665;
 
 const LOAD: &str = "operation.load_n";
 
@@ -99,7 +98,7 @@ fn list([x, y]: [f64; 2]) -> String {
 fn weight(model: &Model) -> f64 {
     let (m, l) = (&model.inertia, &model.layout);
     let mass = m.inner_ring + m.outer_ring + m.cage * l.rows as f64 + m.roller * l.rollers() as f64;
-    GRAVITY * mass
+    STANDARD_GRAVITY * mass
 }
 
 fn no_load(scenario: &Scenario, model: &Model) -> Option<Problem> {

@@ -1,7 +1,8 @@
 //! A run in slices, and a run that goes on in another simulation.
 
-use brinell::Scenario;
+use brinell::scenario::Speed;
 use brinell::simulate::{End, Observer, Run, Simulation};
+use brinell::{Error, Scenario};
 use std::ops::ControlFlow;
 
 const BEARING: &str = "[bearing]\npreset = \"NN3007\"\n[operation]\nspeed_rpm = 1800\nload_n = [300, 0]\n";
@@ -99,4 +100,25 @@ fn prop_a_run_goes_on_only_where_the_states_correspond() {
     let more = simulation("[simulation]\nrecord = [\"cage1_ay\"]\n");
     assert!(!run.go_on_in(&more));
     assert_eq!(run.advance(3, &mut ()), None);
+}
+
+/// One built in code has no file that was read.
+#[test]
+fn regress_a_scenario_built_in_code_is_held_to_what_a_file_is() {
+    let sound = Scenario::from_toml(&format!("{BEARING}{SPALL}[simulation]\nduration_s = 0.001\n")).unwrap();
+    let bad = |change: fn(&mut Scenario)| {
+        let mut scenario = sound.clone();
+        change(&mut scenario);
+        scenario
+    };
+    let all = [
+        ("operation.speed_rpm", bad(|s| s.operation.speed_rpm = Speed::Profile(Vec::new()))),
+        ("bearing.rows", bad(|s| s.bearing.rows = 1 << 40)),
+        ("depth_um", bad(|s| s.defects[0].depth_um = f64::NAN)),
+    ];
+    for (key, scenario) in all {
+        let error = brinell::simulate(&scenario).unwrap_err();
+        assert!(matches!(error, Error::Scenario(_)) && error.to_string().contains(key), "{key}: {error}");
+    }
+    assert!(brinell::simulate(&sound).is_ok());
 }

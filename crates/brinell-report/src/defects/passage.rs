@@ -2,7 +2,7 @@
 
 use super::curves::curve;
 use crate::{DamageCurve, DamagePanel};
-use brinell::defect::{Defect, Defects, Shape, Side, cover_slices, damaged_contact};
+use brinell::defect::{Defect, Shape, Side};
 use brinell::model::Model;
 use brinell::scenario::{self, Contact, EdgeReaction, Law, RollerPath, Scenario};
 use brinell::slices::Cover;
@@ -61,43 +61,16 @@ impl Passage<'_> {
     fn lengths(&self, angles: &[f64]) -> DamagePanel {
         let damaged = |u: &f64| 1e3 * self.defect.damaged_length(u * self.defect.radius);
         let damaged: Vec<f64> = angles.iter().map(damaged).collect();
-        let left = self.sides.first().and_then(|&(side, delta)| {
-            self.left_of_a_ball(angles, side, delta).or_else(|| self.left_of_a_profile(angles, side, delta))
-        });
-        let left = left.unwrap_or_else(|| {
-            let whole = 1e3 * self.defect.roller_length;
-            damaged.iter().map(|x| whole - x).collect()
-        });
+        let mut cover = Cover::new(self.model.profiled().map_or(0, |s| s.count));
+        let left = match self.sides.first() {
+            Some(&(side, delta)) => {
+                let length = |u: &f64| 1e3 * self.model.length_over(self.defect, side, *u, delta, &mut cover);
+                angles.iter().map(length).collect()
+            }
+            None => damaged.iter().map(|x| 1e3 * self.defect.roller_length - x).collect(),
+        };
         let curves = vec![curve("in contact, L_e", left), curve("damaged, L_s", damaged)];
         panel("Length", "mm", curves)
-    }
-
-    /// Of a ball the axis of its ellipse across the groove.
-    fn left_of_a_ball(&self, angles: &[f64], side: Side, delta: f64) -> Option<Vec<f64>> {
-        let law = self.model.contact(side);
-        let axis = law.strips?.pressed(delta).length([f64::MIN, f64::MAX]);
-        let one = Defects::one(self.defect, side);
-        let lost = |u: &f64| {
-            damaged_contact(one, law, &self.defect.met_at(side, *u), delta).map_or(0.0, |d| d.floor.damaged_length)
-        };
-        Some(angles.iter().map(|u| 1e3 * (axis - lost(u))).collect())
-    }
-
-    /// Along a profile what touches.
-    fn left_of_a_profile(&self, angles: &[f64], side: Side, delta: f64) -> Option<Vec<f64>> {
-        let slices = self.model.profiled()?;
-        let whole = 1e3 * self.defect.roller_length;
-        let mut cover = Cover::new(slices.count);
-        let touching = |u: &f64| {
-            let met = self.cover(self.defect, side, *u, &mut cover);
-            whole * slices.touching(delta, met.then_some(&cover))
-        };
-        Some(angles.iter().map(touching).collect())
-    }
-
-    /// What damage covers of the slices at an angle; whether it covers anything.
-    fn cover(&self, defect: &Defect, side: Side, u: f64, cover: &mut Cover) -> bool {
-        cover_slices(Defects::one(defect, side), &defect.met_at(side, u), cover)
     }
 
     fn depths(&self, angles: &[f64]) -> DamagePanel {

@@ -1,9 +1,10 @@
 //! Of the report's data, the envelope over orders: where the speed varies, what a defect frequency is to a steady
 //! shaft.
 
-use super::signals::{HARMONICS, axis, markers_at};
+use super::signals::{axis, markers_at};
 use crate::number::short;
 use crate::{Marker, Spectrum};
+use brinell::analysis::HARMONICS;
 use brinell::observe::Findings;
 use brinell::scenario::Speed;
 use brinell::signal::{Rotation, Segments, envelope, psd, resample};
@@ -38,7 +39,7 @@ fn spectrum(parts: &Parts, findings: &Findings) -> Option<(Spectrum, Vec<Marker>
     let markers = markers_at(scenario, model, TAU);
     let highest = (markers.iter()).fold(1.0, |m: f64, one| m.max(one.frequency_hz));
     let per_turn = (2.2 * (HARMONICS as f64 + 0.5) * highest).ceil() as usize;
-    let mut envelope = envelope(&values, fs, *band)?;
+    let mut envelope = envelope(&values, fs, *band).ok()?;
     let mean = envelope.iter().sum::<f64>() / envelope.len().max(1) as f64;
     envelope.iter_mut().for_each(|e| *e -= mean);
     let angular = resample(&envelope, fs, &rotation, per_turn.max(4)).ok()?;

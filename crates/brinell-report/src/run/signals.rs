@@ -2,6 +2,7 @@
 
 use crate::number::short;
 use crate::{Estimate, Event, IndicatorRow, IndicatorTable, Marker, MinMax, Series, Spectrum, Waveform};
+use brinell::analysis::HARMONICS;
 use brinell::bearing::Kinematics;
 use brinell::model::Model;
 use brinell::observe::{ChannelStatistics, Kind};
@@ -10,8 +11,6 @@ use brinell::signal::Indicator;
 use brinell::summary::Parts;
 use std::f64::consts::TAU;
 
-/// Harmonics of a defect frequency that are marked.
-pub(super) const HARMONICS: usize = 5;
 /// Indicators that the table shows.
 const COLUMNS: [(Indicator, &str); 5] = [
     (Indicator::Rms, "RMS"),

@@ -125,7 +125,7 @@ fn one(
     let length = |step: f64| ((fs / step).round() as usize).clamp(64, x.len().max(64));
     let mut spectrum = psd(&x, fs, &Segments::of(length(step)))?;
     spectrum.amplitude.truncate((top / spectrum.frequency_step) as usize + 1);
-    let mut e = envelope(&x, fs, band).unwrap_or_default();
+    let mut e = envelope(&x, fs, band)?;
     let mean = e.iter().sum::<f64>() / e.len().max(1) as f64;
     e.iter_mut().for_each(|v| *v -= mean);
     let mut of_envelope = psd(&e, fs, &Segments::of(length(envelope_step)))?;

@@ -22,7 +22,8 @@ pub enum AnalysisError {
     },
     /// Too few revolutions.
     #[error(
-        "{seconds:.4} s are {revolutions:.2} revolutions of the shaft; it takes {needed_s:.4} s or more, {FEWEST_REVOLUTIONS} revolutions"
+        "{seconds:.4} s are {revolutions:.2} revolutions of the shaft; it takes {} s or more, {FEWEST_REVOLUTIONS} revolutions",
+        plain(*needed_s)
     )]
     TooShort {
         /// Length of the signal, s.
@@ -73,7 +74,7 @@ pub enum AnalysisError {
         largest: f64,
     },
     /// A signal that never changes.
-    #[error("all {samples} samples are {value}: a constant is no vibration")]
+    #[error("{} {value}: a constant is no vibration", all(*samples))]
     Constant {
         /// Samples.
         samples: usize,
@@ -134,4 +135,14 @@ pub const FEWEST_REVOLUTIONS: f64 = 8.0;
 
 pub(super) fn out_of_range(name: &'static str, value: f64, range: &'static str) -> AnalysisError {
     SignalError::OutOfRange { name, value, range }.into()
+}
+
+/// A time, s: without the hundreds of digits of one that no record has.
+fn plain(seconds: f64) -> String {
+    if seconds < 1e9 { format!("{seconds:.4}") } else { format!("{seconds:.1e}") }
+}
+
+/// Samples that are one value, with their verb.
+fn all(samples: usize) -> String {
+    if samples == 1 { "the only sample is".into() } else { format!("all {samples} samples are") }
 }

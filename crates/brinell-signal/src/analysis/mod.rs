@@ -66,7 +66,7 @@ pub use sensitivity::{FullScale, Sensitivity};
 pub use severity::{BandLevel, MachineClass, NoVelocity, NoZone, SEVERITY_BAND, Zone, band_level, severity};
 pub use soundness::{Flaw, repetition};
 pub use together::HARMONICS;
-pub use unit::{Quantity, Unit};
+pub use unit::{Quantity, STANDARD_GRAVITY, Unit};
 pub use verdict::Elsewhere;
 pub use words::{COLUMNS, HEADLINES, indicator_words, level_words};
 

@@ -181,7 +181,7 @@ pub fn band_level(x: &[f64], fs: f64, band: Band, shaft: f64) -> Option<BandLeve
     let end = fade(&mut faded, fs, band.low);
     let inner = |values: Vec<f64>| Blocks::of(&values[end..x.len() - end], fs / shaft);
     let inside = inner(band_pass(&faded, fs, band).ok()?);
-    let envelope = inner(envelope(&faded, fs, band)?);
+    let envelope = inner(envelope(&faded, fs, band).ok()?);
     Some(BandLevel {
         band,
         kurtosis: inside.estimate(Indicator::Kurtosis)?,

@@ -4,6 +4,9 @@ use super::error::AnalysisError;
 use super::options::MACHINE_NOISE;
 use std::borrow::Cow;
 
+/// Standard gravity, the unit g, m/s^2.
+pub const STANDARD_GRAVITY: f64 = 9.80665;
+
 /// What a signal is of.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Quantity {
@@ -99,8 +102,8 @@ impl Unit {
             "m/s2" | "m/s/s" | "ms-2" | "m/sec2" => ("m/s^2", Acceleration, 1.0),
             "mm/s2" => ("mm/s^2", Acceleration, 1e-3),
             "in/s2" => ("in/s^2", Acceleration, 0.0254),
-            "g" | "gn" | "g0" => ("g", Acceleration, 9.80665),
-            "mg" => ("mg", Acceleration, 9.80665e-3),
+            "g" | "gn" | "g0" => ("g", Acceleration, STANDARD_GRAVITY),
+            "mg" => ("mg", Acceleration, 1e-3 * STANDARD_GRAVITY),
             "m/s" => ("m/s", Velocity, 1.0),
             "mm/s" => ("mm/s", Velocity, 1e-3),
             "in/s" | "ips" => ("in/s", Velocity, 0.0254),

@@ -8,14 +8,13 @@
 //! Differences of noisy runs give a Jacobian with noise in it, which on average adds its own square to each s^2. That
 //! share is taken off: a direction that shows no more than noise has no information.
 
+use brinell::signal::estimate::NORMAL;
 use brinell::signal::student_t_quantile;
 use nalgebra::{DMatrix, DVector};
 
 /// An interval that covers so much of a key's range says nothing.
 #[doc(hidden)]
 pub const MOST: f64 = 0.75;
-/// Two-sided 95 % of a normal distribution.
-const NORMAL: f64 = 1.959_963_984_540_054;
 /// Information along a direction, relative to the largest, below which it is round-off.
 const ROUND_OFF: f64 = 1e-10;
 

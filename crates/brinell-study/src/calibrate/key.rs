@@ -63,6 +63,10 @@ impl Key {
         if log && low <= 0.0 {
             return Err(wrong("a logarithm needs bounds above 0".into(), "bounds above 0, or no `:log`"));
         }
+        // What lies between is computed from that.
+        if !(if log { high / low } else { high - low }).is_finite() {
+            return Err(wrong("the bounds are too far apart to compute with".into(), "a range that a key can have"));
+        }
         Ok(Self { name: name.into(), low, high, log })
     }
 
@@ -140,6 +144,8 @@ mod tests {
             ("a=20:2", "a = 20:2: the bounds are reversed; 2.0:20.0 is meant"),
             ("a=2:2", "the bounds are equal"),
             ("a=0:2:log", "a logarithm needs bounds above 0"),
+            ("a=-1e308:1e308", "the bounds are too far apart"),
+            ("a=1e-200:1e200:log", "the bounds are too far apart"),
         ] {
             let error = Key::read(text).unwrap_err().to_string();
             assert!(error.contains(said), "{text}: {error}");

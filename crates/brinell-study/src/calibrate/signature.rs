@@ -6,18 +6,17 @@
 //! standard uncertainty follows from their scatter. Both signals have the same rate and the same segments, so that what
 //! a window smears, it smears alike.
 
+use brinell::analysis::HARMONICS;
+use brinell::signal::decimate::PASSBAND;
 use brinell::signal::spectrum::FEWEST_SAMPLES;
 use brinell::signal::{Band, Detrend, Segments, SignalError, envelope, psd};
 
 /// Segments of the shorter signal.
 const SEGMENTS: usize = 4;
-/// Octaves at most, and the highest one's upper end as a share of the sample rate: below the anti-alias filter's edge.
+/// Octaves at most; the highest one ends where the anti-alias filter's passband does.
 const OCTAVES: i32 = 6;
-const TOP: f64 = 0.4;
 /// An octave has so many bins at least.
 const FEWEST_BINS: f64 = 8.0;
-/// Harmonics of a defect frequency.
-pub(crate) const HARMONICS: usize = 5;
 /// Half the band about a harmonic, as a share of its frequency: what slip may do. Two bins at least, which is a line's
 /// width.
 const SLIP: f64 = 0.02;
@@ -63,7 +62,7 @@ impl Signature {
         }
         let bin = rate / segment as f64;
         let octaves = (0..OCTAVES)
-            .map(|k| (TOP * rate * 0.5_f64.powi(k + 1), TOP * rate * 0.5_f64.powi(k)))
+            .map(|k| (PASSBAND * rate * 0.5_f64.powi(k + 1), PASSBAND * rate * 0.5_f64.powi(k)))
             .filter(|(low, high)| high - low >= FEWEST_BINS * bin);
         let mut bands = Vec::new();
         for (name, frequency) in lines {
@@ -86,9 +85,8 @@ impl Signature {
     /// Where the signal is shorter than a segment, or not finite.
     pub fn of(&self, x: &[f64]) -> Result<Vec<Level>, SignalError> {
         let segments = |detrend| Segments { detrend, ..Segments::of(self.segment) };
-        let too_short = SignalError::TooShort { what: "a signature", have: x.len(), need: self.segment };
         if x.len() < self.segment {
-            return Err(too_short);
+            return Err(SignalError::TooShort { what: "a signature", have: x.len(), need: self.segment });
         }
         let spectra = |x: &[f64]| {
             let pieces = x.chunks_exact(self.segment);
@@ -109,7 +107,7 @@ impl Signature {
             }
         };
         let plain = spectra(x)?;
-        let demodulated = envelope(x, self.rate, self.band).ok_or(too_short)?;
+        let demodulated = envelope(x, self.rate, self.band)?;
         let demodulated = spectra(&demodulated)?;
         let octaves = self.octaves.iter().map(|(low, high)| {
             let name = format!("signature.octave_{low:.0}_{high:.0}_hz");

@@ -74,8 +74,12 @@ impl<'a> Run<'a> {
         let listener = listener.begin(self.index, scenario.simulation.duration_s);
         let mut truth = Truth::new(scenario, &simulation, signals, listener);
         let outcome = simulation.run(&mut truth);
-        let end = outcome.end.clone();
+        let (end, too_large) = (outcome.end.clone(), truth.too_large);
         self.ended = Some((simulation, outcome, truth));
+        if let Some((k, value)) = too_large {
+            let name = &signals[k].name;
+            return Err(Short::Failed(format!("{name} reaches {value:.1e}, more than the files' 32-bit floats hold")));
+        }
         match end {
             End::Complete => Ok(()),
             End::Stopped => Err(Short::Stopped),

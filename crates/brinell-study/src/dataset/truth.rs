@@ -46,6 +46,8 @@ pub(crate) struct Truth<'a> {
     /// Of each signal: its place in a row, where the run has it.
     places: Vec<Option<usize>>,
     pub(crate) signals: Vec<Vec<f32>>,
+    /// The signal and the value that no 32-bit float holds, which ended the run.
+    pub(crate) too_large: Option<(usize, f64)>,
 }
 
 impl<'a> Truth<'a> {
@@ -78,6 +80,7 @@ impl<'a> Truth<'a> {
             largest: 0.0,
             keep,
             kept: 0,
+            too_large: None,
             signals: places.iter().map(room).collect(),
             places,
         }
@@ -125,9 +128,14 @@ impl Observer for Truth<'_> {
             return ControlFlow::Continue(());
         }
         self.kept += 1;
-        for (signal, place) in self.signals.iter_mut().zip(&self.places) {
+        for (k, (signal, place)) in self.signals.iter_mut().zip(&self.places).enumerate() {
             if let Some(place) = place {
-                signal.push(row[*place] as f32);
+                let sample = row[*place] as f32;
+                if !sample.is_finite() {
+                    self.too_large.get_or_insert((k, row[*place]));
+                    return ControlFlow::Break(());
+                }
+                signal.push(sample);
             }
         }
         ControlFlow::Continue(())

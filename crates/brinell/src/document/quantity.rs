@@ -4,6 +4,7 @@
 //! frequency and a speed of rotation convert into each other. `g` is the gram, and standard gravity where an
 //! acceleration is wanted.
 
+use crate::analysis::STANDARD_GRAVITY;
 use std::f64::consts::{PI, TAU};
 
 /// Powers of metre, kilogram, second, volt, radian.
@@ -25,8 +26,6 @@ const ANGLE: Powers = [0, 0, 0, 0, 1];
 const MASS: Powers = [0, 1, 0, 0, 0];
 const VOLTAGE: Powers = [0, 0, 0, 1, 0];
 
-/// Standard gravity, m/s^2.
-const GRAVITY: f64 = 9.80665;
 const INCH: f64 = 0.0254;
 /// Pound-force, N.
 const POUND_FORCE: f64 = 4.448_221_615_260_5;
@@ -214,7 +213,7 @@ fn power(text: &str) -> Option<Unit> {
 
 fn named(name: &str) -> Option<Unit> {
     if name == "gravity" {
-        return Some(Unit { factor: GRAVITY, powers: [1, 0, -2, 0, 0] });
+        return Some(Unit { factor: STANDARD_GRAVITY, powers: [1, 0, -2, 0, 0] });
     }
     let of = |name: &str, prefix: f64| {
         let known = NAMES.iter().find(|(known, _, _, takes)| *known == name && (*takes || prefix == 1.0));

@@ -38,6 +38,24 @@ impl Model {
         }
     }
 
+    /// Length (m) of the same contact that touches: of a ball the axis of its ellipse across the groove, along a profile
+    /// what its drop lets touch, else the roller's length; less what `defect` takes.
+    pub fn length_over(&self, defect: &Defect, side: Side, u: f64, delta: f64, cover: &mut Cover) -> f64 {
+        let (law, one) = (self.contact(side), Defects::one(defect, side));
+        if let Some(strips) = &law.strips {
+            let axis = strips.pressed(delta).length([f64::MIN, f64::MAX]);
+            let lost = damaged_contact(one, law, &defect.met_at(side, u), delta);
+            return axis - lost.map_or(0.0, |d| d.floor.damaged_length);
+        }
+        match self.profiled() {
+            Some(slices) => {
+                let met = cover_slices(one, &defect.met_at(side, u), cover);
+                defect.roller_length * slices.touching(delta, met.then_some(&*cover))
+            }
+            None => defect.roller_length - defect.damaged_length(u * defect.radius),
+        }
+    }
+
     /// The slices, where a profile keeps some of them back.
     pub fn profiled(&self) -> Option<&Slices> {
         let slices = self.slices.as_ref()?;

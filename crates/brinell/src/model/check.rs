@@ -1,4 +1,5 @@
-//! What a model refuses of a scenario that was not checked as a file.
+//! What a model refuses of a scenario that was not checked as a file: the commonest values that it would divide by zero or
+//! index out of range with. Everything else is [`Scenario::problems`]', which `brinell::simulate` asks first.
 
 use crate::scenario::{Law, ModelKind, Scenario, Surface};
 
@@ -14,7 +15,7 @@ pub struct ModelError {
     pub requirement: &'static str,
 }
 
-/// Refuses what would divide by zero or index out of range.
+/// Refuses these; what only the reader of files refuses, such as an empty profile of speeds, gets past.
 pub(super) fn check(s: &Scenario) -> Result<(), ModelError> {
     let positive = [
         ("bearing.inner_raceway_diameter_mm", s.bearing.inner_raceway_diameter_mm),

@@ -101,7 +101,10 @@ impl Checker<'_> {
             if length.is_some_and(|length| length != count) {
                 self.error(
                     &path(name),
-                    format!("{} values for the {count} points of arc_mm", length.unwrap_or(0)),
+                    match length.unwrap_or(0) {
+                        1 => format!("1 value for the {count} points of arc_mm"),
+                        n => format!("{n} values for the {count} points of arc_mm"),
+                    },
                     format!("a list of {count}"),
                     &[&path("arc_mm")],
                 );

@@ -1,20 +1,18 @@
 //! Speed, load, supports and sampling.
 
 use super::{Checker, short};
+use crate::analysis::HARMONICS;
 use crate::bearing::kinematics::{Geometry, Kinematics};
 use crate::bearing::rating::static_rating;
 use crate::operation::Load;
 use crate::scenario::{LoadOn, Speed};
+use crate::signal::decimate::PASSBAND;
 use std::f64::consts::PI;
 
 /// Samples beyond which a run is a slip of the unit.
 const MOST_SAMPLES: f64 = 1e10;
 /// Samples beyond which a run is worth a word.
 const MANY_SAMPLES: f64 = 1e8;
-/// Harmonics of a defect frequency that a spectrum should show.
-const HARMONICS: f64 = 5.0;
-/// Share of the sample rate that the anti-alias filter passes (`docs/src/theory/numerics.md`).
-const PASSBAND: f64 = 0.4;
 
 /// Speed factor beyond which no bearing turns, mm r/min: |speed| times pitch diameter. Main-shaft bearings of aircraft
 /// engines were tested at 3e6 (Bamberger, Zaretsky, Signer: Endurance and failure characteristics of main-shaft jet
@@ -204,7 +202,8 @@ impl Checker<'_> {
         let Some((name, frequency)) = highest else {
             return;
         };
-        let needed = HARMONICS * frequency / PASSBAND;
+        // What the diagnosis reads, below what the anti-alias filter passes (`docs/src/theory/numerics.md`).
+        let needed = HARMONICS as f64 * frequency / PASSBAND;
         if self.s.simulation.sample_rate_hz < needed {
             self.warn(
                 RATE,
