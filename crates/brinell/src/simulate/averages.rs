@@ -60,8 +60,9 @@ impl Averages {
     where
         F: Copy + Default + AddAssign + Mul<f64, Output = F>,
     {
+        let whole = stepper.displacements(stepper.t());
         for p in &mut self.lists {
-            p.carried += stepper.interpolated_displacement(stepper.t(), p.index);
+            p.carried += whole(p.index);
         }
     }
 
@@ -71,8 +72,9 @@ impl Averages {
         F: Copy + Default + AddAssign + Mul<f64, Output = F>,
     {
         let per_square = 1.0 / (self.interval * self.interval);
+        let until = stepper.displacements(t);
         for p in &mut self.lists {
-            let within = stepper.interpolated_displacement(t, p.index);
+            let within = until(p.index);
             let now = p.carried + within;
             p.carried = -within;
             let average = (now - p.before) * per_square;

@@ -297,17 +297,22 @@ impl<F: Copy + Default + AddAssign + Mul<f64, Output = F>> Stepper<F> {
         blend(v, factors, [v0, v1, &self.stages[STAGES], &self.stages[0]]);
     }
 
-    /// Integral of the interpolated rate of the position at `index`, from the start of the last step to a time within
-    /// it. It keeps the momentum of every step.
-    pub fn interpolated_displacement(&self, t: f64, index: usize) -> f64 {
+    /// Displacements from the start of the last step to a time within it, by the index of the position: integrals of the
+    /// interpolated rates, which keep the momentum of every step.
+    pub fn displacements(&self, t: f64) -> impl Fn(usize) -> f64 {
         let (s, h) = self.within(t);
-        let half = self.y.len() / 2;
-        let (v0, v1) = (self.previous[half + index], self.y[half + index]);
-        let (a0, a1) = (self.stages[STAGES][index], self.stages[0][index]);
         // Of the polynomial in `interpolate`, term by term.
         let (square, cube) = (s * s, s * s * s);
         let last = cube * (1.0 - 0.5 * s);
-        let first = square * (0.5 - s * (2.0 / 3.0 - 0.25 * s));
-        h * ((s - last) * v0 + last * v1 + h * (first * a0 - cube * (1.0 / 3.0 - 0.25 * s) * a1))
+        let factors = [
+            h * (s - last),
+            h * last,
+            h * h * square * (0.5 - s * (2.0 / 3.0 - 0.25 * s)),
+            h * h * cube * (0.25 * s - 1.0 / 3.0),
+        ];
+        let half = self.y.len() / 2;
+        let (v0, v1) = (&self.previous[half..], &self.y[half..]);
+        let (a0, a1) = (&self.stages[STAGES], &self.stages[0]);
+        move |k| factors[0] * v0[k] + factors[1] * v1[k] + factors[2] * a0[k] + factors[3] * a1[k]
     }
 }
