@@ -225,6 +225,11 @@ fn regress_points_beside_decimal_commas_are_thousands_or_refused() {
         here.says("mixed.csv", format!("{head}0,00016667;0.853\n")),
         "mixed.csv: line 4, column `acc [mg]`: `0.853` has a decimal point, and the file has decimal commas; write one of them throughout"
     );
+    // 2.499 V or 2499: nothing in the column says.
+    assert!(
+        here.says("open.csv", "t [s];acc [V]\n0,003250;2.499\n0,003333;2.501\n")
+            .contains("`2.499` beside decimal commas may be a fraction or have a point between thousands")
+    );
     // Thousands of the other kind are no decimal commas.
     let mut file = open(here.file("en.csv", "t [s];acc [mg]\n0.001;9\n0.002;1,332\n")).unwrap();
     assert_eq!(file.read("t [s]").unwrap(), [0.001, 0.002]);

@@ -283,7 +283,7 @@ fn slip(findings: &Findings) -> Value {
         Value::from(values)
     });
     json!({
-        "meaning": "fractions of the pure-rolling speed, means over the analysed time; a roller is loaded where both raceways press it",
+        "meaning": "shares of the way in pure rolling, over whole turns of the analysed time; a roller is loaded where both raceways press it",
         "rows": rows.collect::<Vec<_>>(),
     })
 }

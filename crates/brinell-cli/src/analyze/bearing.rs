@@ -39,15 +39,6 @@ pub(super) fn orders(
     Ok((orders, source))
 }
 
-/// A warning, where a bearing was found by a name that ends in something unknown.
-pub(super) fn unknown_suffix(name: &str) -> Option<String> {
-    let (known, suffix) = (KnownBearing::find(name)?, KnownBearing::unknown_suffix(name)?);
-    Some(format!(
-        "--bearing {name}: {} was taken, and {suffix} behind it is no suffix that is known here",
-        known.name()
-    ))
-}
-
 /// The BSF of the bearing whose races are passed so often: with g = (BPFI - BPFO) / (BPFI + BPFO), (1 / g - g) / 2.
 fn bsf_of_races(orders: &DefectOrders) -> Option<f64> {
     let (bpfo, bpfi) = (orders.bpfo?, orders.bpfi?);

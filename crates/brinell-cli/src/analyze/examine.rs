@@ -61,7 +61,6 @@ fn examine(args: &AnalyzeArgs, mut measured: Measured, name: Option<&str>) -> Re
     let shaft = rpm.abs() / 60.0;
     let (orders, bearing) = bearing::orders(args, name, &measured, shaft)?;
     measured.warnings.extend(may_be_hz(args, &measured));
-    measured.warnings.extend(name.and_then(bearing::unknown_suffix));
     // At another speed frequencies in Hz are other orders.
     if other_speed.is_none() {
         measured.warnings.extend(bearing_of_run(&orders, name, &measured, args.tolerance));

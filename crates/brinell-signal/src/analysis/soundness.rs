@@ -1,5 +1,6 @@
 //! What is wrong with a record itself, whatever the machine.
 
+use crate::digits::short;
 use std::fmt;
 
 /// The least length of a stretch of one value, in revolutions: no vibration holds still for so long.
@@ -64,7 +65,7 @@ impl fmt::Display for Flaw {
                 f,
                 "the signal drifts by {} (in its unit) over the record, in a line that holds {:.0} % of its energy: RMS and peak are the drift's, and hide \
                  crest factor and kurtosis; use a high-pass filter or the sensor's AC coupling",
-                rounded(*by),
+                short(*by, 3),
                 100.0 * share
             ),
             Flaw::AtLimits { share } => write!(
@@ -104,7 +105,7 @@ fn held(x: &[f64], fs: f64, revolution: f64) -> Option<Flaw> {
             _ => {}
         }
     }
-    let dropped = if dropped as f64 >= DROPOUT.2 * x.len() as f64 { dropped } else { 0 };
+    let dropped = if dropped as f64 >= DROPOUT.2 * x.len() as f64 && !is_coarse(x) { dropped } else { 0 };
     let samples = off + dropped;
     (samples > 0).then(|| Flaw::Held { seconds: samples as f64 / fs, of: x.len() as f64 / fs })
 }
@@ -124,10 +125,12 @@ fn trend(x: &[f64]) -> Option<Flaw> {
     (share >= TREND).then_some(Flaw::Trend { by: 2.0 * middle * slope, share })
 }
 
-/// To three digits.
-fn rounded(value: f64) -> f64 {
-    let unit = 10f64.powf(value.abs().log10().floor() - 2.0);
-    if unit > 0.0 && unit.is_finite() { (value / unit).round() * unit } else { value }
+/// Whether most steps are one step of the ADC: then a slow signal stays at a value without being off.
+fn is_coarse(x: &[f64]) -> bool {
+    let steps = || x.windows(2).map(|w| (w[1] - w[0]).abs()).filter(|d| *d > 0.0);
+    let least = steps().fold(f64::INFINITY, f64::min);
+    let (all, small) = steps().fold((0, 0), |(all, small), d| (all + 1, small + usize::from(d < 1.5 * least)));
+    2 * small >= all
 }
 
 fn limits(x: &[f64]) -> (f64, f64) {

@@ -170,18 +170,14 @@ impl Record {
         (all, None)
     }
 
-    /// The cage carries the elements past the race that leads: its lines are where that one's slip puts them. What is
-    /// higher beside them is somebody else's.
+    /// The cage carries the elements past an outer race at rest, so its lines are where BPFO's slip puts them: what is
+    /// higher beside them is somebody else's. BPFI has the error of the speed too, and says less.
     fn at_slip_of(&self, lead: &Family, others: &mut [Family]) {
-        let turns = cage(self.shaft, &self.options);
-        let slip = match lead.component {
-            Component::OuterRace => lead.shift(),
-            // Of a speed that nothing tells, BPFI has the error too.
-            Component::InnerRace if self.by_lines || self.options.exact => -lead.shift() * (self.shaft - turns) / turns,
-            _ => return,
-        };
+        if lead.component != Component::OuterRace {
+            return;
+        }
         for family in others.iter_mut().filter(|f| f.component == Component::Cage) {
-            *family = at_slip(&self.together, self.shaft, &self.options, family, slip);
+            *family = at_slip(&self.together, self.shaft, &self.options, family, lead.shift());
         }
     }
 

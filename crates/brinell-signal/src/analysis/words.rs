@@ -166,6 +166,9 @@ fn own_lines(a: &Analysis) -> String {
     if a.options.rotation.is_some() {
         return "followed as stated".into();
     }
+    if a.options.exact {
+        return "exact: its lines are not sought".into();
+    }
     if a.shaft_lines.is_empty() {
         return "no two lines at its harmonics agree on it".into();
     }

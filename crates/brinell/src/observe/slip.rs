@@ -5,7 +5,7 @@ use crate::channel::Frame;
 use crate::defect::Side;
 use crate::model::Layout;
 use crate::scenario::ModelKind;
-use crate::signal::{Averages, Estimate};
+use crate::signal::{Averages, Estimate, Interval};
 
 /// Slip of one row, as fractions.
 #[derive(Debug, Clone, Default)]
@@ -42,7 +42,9 @@ impl RowSlip {
 
     /// Way slipped at the inner contact / way of the inner raceway's surface, of the same rollers.
     pub fn loaded_surface(&self) -> Option<Estimate> {
-        self.loaded_surface.estimate()
+        let estimate = self.loaded_surface.estimate()?;
+        let interval = estimate.interval.map(|i| Interval { low: i.low.max(0.0), ..i });
+        Some(Estimate { interval, ..estimate })
     }
 
     /// 1 - angle of the orbit / in pure rolling, of the other rollers.

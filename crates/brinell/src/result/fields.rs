@@ -143,14 +143,14 @@ fields! {
     "Lines of the envelope spectrum: the frequency in pure rolling, Hz, and which harmonic of it."
     LINES: (fn(&Kinematics) -> f64, u32);
     BPFO "bpfo" "m/s^2" Line "line of the envelope spectrum at BPFO" (|k| k.bpfo, 1);
-    BPFO_X2 "bpfo_x2" "m/s^2" Line "line of the envelope spectrum at twice the frequency of bpfo" (|k| k.bpfo, 2);
-    BPFO_X3 "bpfo_x3" "m/s^2" Line "line of the envelope spectrum at 3 times the frequency of bpfo" (|k| k.bpfo, 3);
+    BPFO_X2 "bpfo_x2" "m/s^2" Line "line of the envelope spectrum at 2 BPFO" (|k| k.bpfo, 2);
+    BPFO_X3 "bpfo_x3" "m/s^2" Line "line of the envelope spectrum at 3 BPFO" (|k| k.bpfo, 3);
     BPFI "bpfi" "m/s^2" Line "line of the envelope spectrum at BPFI" (|k| k.bpfi, 1);
-    BPFI_X2 "bpfi_x2" "m/s^2" Line "line of the envelope spectrum at twice the frequency of bpfi" (|k| k.bpfi, 2);
-    BPFI_X3 "bpfi_x3" "m/s^2" Line "line of the envelope spectrum at 3 times the frequency of bpfi" (|k| k.bpfi, 3);
+    BPFI_X2 "bpfi_x2" "m/s^2" Line "line of the envelope spectrum at 2 BPFI" (|k| k.bpfi, 2);
+    BPFI_X3 "bpfi_x3" "m/s^2" Line "line of the envelope spectrum at 3 BPFI" (|k| k.bpfi, 3);
     BSF2 "2bsf" "m/s^2" Line "line of the envelope spectrum at 2 BSF" (|k| 2.0 * k.bsf, 1);
-    BSF2_X2 "2bsf_x2" "m/s^2" Line "line of the envelope spectrum at twice the frequency of 2bsf" (|k| 2.0 * k.bsf, 2);
-    BSF2_X3 "2bsf_x3" "m/s^2" Line "line of the envelope spectrum at 3 times the frequency of 2bsf" (|k| 2.0 * k.bsf, 3);
+    BSF2_X2 "2bsf_x2" "m/s^2" Line "line of the envelope spectrum at 4 BSF" (|k| 2.0 * k.bsf, 2);
+    BSF2_X3 "2bsf_x3" "m/s^2" Line "line of the envelope spectrum at 6 BSF" (|k| 2.0 * k.bsf, 3);
 }
 
 fields! {

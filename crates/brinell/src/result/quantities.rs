@@ -124,28 +124,21 @@ fn indicators(findings: &Findings, all: &mut Vec<Quantity>) {
     all.push(analysed(&ANALYSED_TURNS, findings));
 }
 
-/// Levels of the envelope spectrum at the defect frequencies and their harmonics. The first line is sought within the
-/// share that [`LineSearch`] looks in; the others are at its multiples, as far as they resolve it. Where these shares
-/// overlap, as those of BPFO and 2 BSF of a slender bearing do, a line counts for the frequency that it is nearest to.
+/// Levels of the envelope spectrum at the defect frequencies and their harmonics, within the share that [`LineSearch`]
+/// looks in. Where these shares overlap, as those of BPFO and 2 BSF of a slender bearing do, a line counts for the
+/// frequency that it is nearest to.
 fn lines(scenario: &Scenario, simulation: &Simulation, findings: &Findings, all: &mut Vec<Quantity>) {
     let model = simulation.model();
     let constant = scenario.operation.speed_rpm.constant().is_some();
     let k = model.kinematics(model.rotation.at(0.0).0);
-    let mut first = None;
     let found = LINES.iter().map(|line| {
         let (frequency, n) = ((line.of.0)(&k), line.of.1);
         let at = frequency * f64::from(n);
         let envelope = findings.envelope.as_ref().filter(|_| constant && at > 0.0);
-        let peak = envelope.and_then(|(e, _)| match first.filter(|_| n > 1) {
-            Some(first) => {
-                let reach = f64::from(n) * 0.5 * e.spectrum.frequency_step;
-                peak_near(&e.spectrum, f64::from(n) * first, reach)
-            }
-            None => peak_near(&e.spectrum, at, LineSearch::new(frequency).tolerance * at),
+        let peak = envelope.and_then(|(e, _)| {
+            let tolerance = LineSearch::new(frequency).tolerance;
+            peak_near(&e.spectrum, at, tolerance * at)
         });
-        if n == 1 {
-            first = peak.as_ref().map(|p| p.frequency);
-        }
         (at, peak)
     });
     let found: Vec<_> = found.collect();

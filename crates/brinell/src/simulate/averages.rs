@@ -9,7 +9,7 @@
 //!
 //! exactly: the average weighted by a triangle, whose response is sinc²(f h), twice zero at every frequency that folds
 //! to 0. What folds to f from 1/h - f is lower by (1/(f h) - 1)². In the passband, a_k = -m_(k-1)/12 + 7/6 m_k -
-//! m_(k+1)/12 takes the response of the triangle back, to 1 + 0.18 (pi f h)⁴.
+//! m_(k+1)/12 takes the response of the triangle back, to 1 - 0.18 (pi f h)⁴.
 
 use crate::solver::Stepper;
 use std::ops::{AddAssign, Mul};
@@ -63,6 +63,18 @@ impl Averages {
         let whole = stepper.displacements(stepper.t());
         for p in &mut self.lists {
             p.carried += whole(p.index);
+        }
+    }
+
+    /// Where what follows the last step's end changed its polynomial: what was carried is of the one before, whose
+    /// whole was passed.
+    pub(super) fn go_on<F>(&mut self, stepper: &Stepper<F>)
+    where
+        F: Copy + Default + AddAssign + Mul<f64, Output = F>,
+    {
+        let whole = stepper.displacements(stepper.t());
+        for p in &mut self.lists {
+            p.carried -= whole(p.index);
         }
     }
 

@@ -205,7 +205,9 @@ impl<S: Deref<Target = Simulation>> Run<S> {
         let mut ws = Workspace::new(model);
         let settings = settings(model, other.accuracy);
         let motion = &mut Motion { model, ws: &mut ws };
+        self.averages.pass(&self.stepper);
         self.stepper.go_on_in(motion, settings);
+        self.averages.go_on(&self.stepper);
         let (t, y) = (self.stepper.t(), self.stepper.y());
         self.energy = EnergyAudit::from(Energy::of(model, t, y, &ws));
         self.imbalance = (!model.outer_ring_is_fixed()).then_some(0.0);

@@ -47,7 +47,7 @@ pub(super) fn scale(values: &mut [f64], factor: f64) {
 pub(crate) struct Rest {
     /// Samples of the whole, from the first one analysed on.
     pub(crate) samples: u64,
-    /// Their moments.
+    /// Their moments, less the mean of the first of them.
     pub(crate) moments: Moments,
     /// Those that are not finite numbers.
     pub(crate) missing: u64,
@@ -90,7 +90,7 @@ impl Reading {
 fn whole(file: &mut SignalFile, name: &str, skip: usize, rate: f64, factor: f64) -> Result<Rest, IoError> {
     let (mut passed, mut scaled) = (0, Vec::new());
     let mut rest = Rest { samples: 0, moments: Moments::new(), missing: 0, last: Vec::new(), last_start: 0.0 };
-    let mut last = VecDeque::new();
+    let (mut last, mut mean) = (VecDeque::new(), None);
     file.read_pieces(name, |piece| {
         let from = skip.saturating_sub(passed).min(piece.len());
         passed += piece.len();
@@ -98,12 +98,13 @@ fn whole(file: &mut SignalFile, name: &str, skip: usize, rate: f64, factor: f64)
         scaled.extend_from_slice(&piece[from..]);
         scale(&mut scaled, factor);
         let piece = &scaled[..];
-        if piece.iter().all(|v| v.is_finite()) {
-            rest.moments.extend(piece);
-        } else {
-            let finite: Vec<f64> = piece.iter().copied().filter(|v| v.is_finite()).collect();
+        let mut finite: Vec<f64> = piece.iter().copied().filter(|v| v.is_finite()).collect();
+        rest.missing += (piece.len() - finite.len()) as u64;
+        if !finite.is_empty() {
+            // As of the stretch that is judged, but for what the mean moves from piece to piece.
+            let mean = *mean.get_or_insert_with(|| finite.iter().sum::<f64>() / finite.len() as f64);
+            finite.iter_mut().for_each(|v| *v -= mean);
             rest.moments.extend(&finite);
-            rest.missing += (piece.len() - finite.len()) as u64;
         }
         rest.samples += piece.len() as u64;
         let kept = &piece[piece.len().saturating_sub(MOST)..];
@@ -145,9 +146,12 @@ mod tests {
             assert_eq!(rest.last_start, first as f64 / 100.0);
             assert_eq!(rest.last.len(), MOST);
             assert!((first..n).zip(&rest.last).all(|(i, v)| *v == 2.0 * f64::from(value(i))));
-            let sum: f64 = (skip..n).map(|i| 2.0 * f64::from(value(i))).sum();
-            let mean = rest.moments.get(Indicator::Mean).unwrap();
-            assert!((mean * rest.samples as f64 / sum - 1.0).abs() < 1e-12);
+            let count = rest.samples as f64;
+            let all = || (skip..n).map(|i| 2.0 * f64::from(value(i)));
+            let mean = all().sum::<f64>() / count;
+            let deviation = (all().map(|v| (v - mean).powi(2)).sum::<f64>() / count).sqrt();
+            let found = rest.moments.get(Indicator::StandardDeviation).unwrap();
+            assert!((found / deviation - 1.0).abs() < 1e-6, "{found} {deviation}");
         }
     }
 }

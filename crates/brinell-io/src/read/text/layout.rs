@@ -68,6 +68,9 @@ pub(super) fn find(sample: &[u8], format: &TextFormat) -> Result<Layout, Fault> 
     let above: Vec<&[u8]> = plain[..first].iter().map(|l| l.text).filter(|l| self::rate(l).is_none()).collect();
     let delimiter = comma_or_fraction(delimiter, &format, &above, data)?;
     let decimal = decimal(delimiter, &format, &all);
+    if decimal == Some(Decimal::Comma) {
+        sure_of_thousands(delimiter, &all)?;
+    }
     let mut columns = columns(delimiter, decimal, data)?;
     let comment = lines[from..]
         .iter()
@@ -233,6 +236,28 @@ fn decimal(delimiter: Delimiter, format: &TextFormat, data: &[&[u8]]) -> Option<
             None
         }
     })
+}
+
+/// Beside decimal commas, a column in which every number has one point and three digits behind it may hold thousands or
+/// fractions.
+fn sure_of_thousands(delimiter: Delimiter, data: &[&[u8]]) -> Result<(), Fault> {
+    let one_point = |f: &[u8]| f.iter().filter(|b| **b == b'.').count() == 1 && may_be_grouped(f, b'.');
+    let mut open: Vec<Option<&[u8]>> = data.first().map_or(Vec::new(), |line| {
+        split(line, delimiter).into_iter().map(|f| Some(f).filter(|f| one_point(f))).collect()
+    });
+    for line in data {
+        for (column, field) in open.iter_mut().zip(split(line, delimiter)) {
+            *column = column.filter(|_| field.is_empty() || one_point(field));
+        }
+    }
+    match open.into_iter().flatten().next() {
+        None => Ok(()),
+        Some(field) => Err(unsupported(format!(
+            "`{0}` beside decimal commas may be a fraction or have a point between thousands, as has every number of its column; \
+             write it with a comma, or without the point",
+            String::from_utf8_lossy(field)
+        ))),
+    }
 }
 
 /// The columns by what the lines of numbers hold, not yet named.
