@@ -33,6 +33,8 @@ fn regress_a_bearing_with_a_suffix_that_nobody_has_is_said() {
         let args = format!("analyze outer.csv --rate 12000 --unit g --speed 1800 --bearing {bearing}");
         brinell(folder.path(), &typed(&args)).exits(0)
     };
+    let backwards = typed("analyze outer.csv --rate 12000 --unit g --speed -1800 --bearing 6205");
+    brinell(folder.path(), &backwards).exits(0).says(&["-1800 r/min"]);
     call("6205XYZZY").says(&["bearing: 6205: ", "(of 6205XYZZY)"]);
     assert!(!call("6205-2RSH/C3").err.contains("suffix"));
 }

@@ -37,9 +37,13 @@ pub(crate) fn listen(request: &Value, arrays: &Arrays) -> Answer<Value> {
         Some((name, ..)) => Some(file.read(&name).map_err(bad)?.len()),
         None => None,
     };
-    let mut shown: Vec<Channel> = (file.channels().iter()).filter(|c| c.may_be_signal()).cloned().collect();
-    // What is most probably meant comes first: a sensor's channel, and time last.
-    shown.sort_by_key(|c| (c.is_time(), !c.name.starts_with("sensor")));
+    let mut shown: Vec<Channel> =
+        (file.channels().iter()).filter(|c| c.may_be_signal() && !c.is_time()).cloned().collect();
+    if shown.is_empty() {
+        return Err(Trouble::of("nothing here is a signal"));
+    }
+    // What is most probably meant comes first: a sensor's channel.
+    shown.sort_by_key(|c| !c.name.starts_with("sensor"));
     let mut channels = Vec::new();
     for c in shown {
         let rate = stated_rate(&mut file, &c)?.ok();

@@ -168,3 +168,12 @@ fn regress_everything_that_is_wrong_with_a_record_is_said() {
     let said = json!(["the sample rate 12000 Hz was taken, but the column `time [s]` says 24000 Hz"]);
     assert_eq!(answer["warnings"], said);
 }
+
+#[test]
+fn prop_a_column_of_times_is_no_signal() {
+    let names = |text: &str| asked("listen", "a.csv", text.as_bytes(), json!({}));
+    let both = names("time [s],acc\n0.0,1\n0.1,2\n0.2,4\n");
+    let listed: Vec<&str> = both["channels"].as_array().unwrap().iter().map(|c| c["name"].as_str().unwrap()).collect();
+    assert_eq!(listed, ["acc"]);
+    assert_eq!(names("time [s]\n0.0\n0.1\n0.2\n")["ok"], json!(false));
+}

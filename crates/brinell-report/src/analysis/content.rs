@@ -285,7 +285,7 @@ fn indicators(of: &Findings) -> Table {
         "Indicators",
         ["Indicator", "#Value", "#95 % interval", "Unit"],
         shown,
-        "Of the signal less its mean: averages over whole revolutions, but for the peak of the record, which grows with its length, and the crest factor. The envelope is the amplitude of what lies in the band shown. \
+        "Of the signal less its mean: averages over whole revolutions, but for the peak of the record, which grows with its length, and the crest factor; of a long signal those of the stretch judged. The envelope is the amplitude of what lies in the band shown. \
          Bands of velocity from 50 Hz up are those of ISO 15242 at 1800 r/min, with sharp edges.",
     )
 }
