@@ -109,10 +109,11 @@ def test_xval_a_calibration_is_that_of_the_command_and_resumes_it(command, examp
 
 
 def test_xval_a_calibration_to_a_measured_signal_is_that_of_the_command(command, examples, tmp_path):
-    base = brinell.Scenario.from_file(examples / "rectangle.toml", {"simulation.duration_s": 0.3})
+    # In 0.3 s the line of the damage is found in one run of two, by how impacts amplify round-off.
+    base = brinell.Scenario.from_file(examples / "rectangle.toml", {"simulation.duration_s": 0.5})
     result = brinell.simulate(base, settings={"operation.speed_rpm": 1850.0})
     np.save(tmp_path / "rig.npy", result["sensor_ax"] / 9.80665)
-    given = ["--set", "simulation.duration_s=0.3", "--fit", "operation.speed_rpm=1750:1950", "--budget", "6"]
+    given = ["--set", "simulation.duration_s=0.5", "--fit", "operation.speed_rpm=1750:1950", "--budget", "6"]
     of_file = ["--measured", tmp_path / "rig.npy", "--rate", result.rate_hz, "--unit", "g", "--axis", "x"]
     run(command, "calibrate", examples / "rectangle.toml", *given, *of_file, "-o", tmp_path / "out", "-q")
     measured = dataclasses.replace(brinell.read_signal(tmp_path / "rig.npy"), rate_hz=result.rate_hz, unit="g")
