@@ -50,7 +50,7 @@ variant("deep modulation is no way to damage", ("family.rs", "        high || de
 variant("a comb elsewhere not sought", ("verdict.rs", "let elsewhere = if is_open { None } else { self.elsewhere(lead.map(|k| &all[k])) };", "let elsewhere: Option<Elsewhere> = None;"))
 variant("sidebands of another shaft not sought", ("verdict.rs", "lead.filter(|_| elsewhere.is_none() && !self.options.exact)", "lead.filter(|_| false)"))
 variant("damage beyond the tolerance passed over", ("verdict.rs", "f.finding == Finding::Silent && f.is_damage_beyond()", "f.is_damage_beyond() && false"))
-variant("speed as given not tried", ("hypotheses.rs", "if !best.shaft_lines.is_empty() && !options.exact && !best.record.is_damage()", "if false"))
+variant("speed as given not tried", ("hypotheses.rs", "if !best.shaft_lines.is_empty() && !best.record.is_damage()", "if false"))
 variant("lower parts of the range not tried", ("hypotheses.rs", "if options.band.is_none() && !options.exact && !best.record.is_damage()", "if false"))
 variant("no least score", ("family.rs", "const LEAST_SCORE: f64 = 5.0;", "const LEAST_SCORE: f64 = 0.0;"))
 variant("sidebands not counted in modulation", ("family.rs", "depth += line.depth.min(carrier.depth);", ""))

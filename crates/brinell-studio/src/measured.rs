@@ -33,8 +33,8 @@ fn bad(error: IoError) -> Trouble {
 pub(crate) fn listen(request: &Value, arrays: &Arrays) -> Answer<Value> {
     let mut file = file(request, arrays)?;
     let run = made_by(&file);
-    let timed = match times(&file) {
-        Some((name, ..)) => Some(file.read(&name).map_err(bad)?.len()),
+    let timed = match file.times() {
+        Some(times) => Some(file.read(&times.name).map_err(bad)?.len()),
         None => None,
     };
     let mut shown: Vec<Channel> =
@@ -44,9 +44,13 @@ pub(crate) fn listen(request: &Value, arrays: &Arrays) -> Answer<Value> {
     }
     // What is most probably meant comes first: a sensor's channel.
     shown.sort_by_key(|c| !c.name.starts_with("sensor"));
+    let by_times = match shown.iter().any(|c| c.rate.is_none()) {
+        true => rate_by_times(&mut file)?.ok(),
+        false => None,
+    };
     let mut channels = Vec::new();
     for c in shown {
-        let rate = stated_rate(&mut file, &c)?.ok();
+        let rate = c.stated_rate().or_else(|| by_times.clone());
         let rpm = stated_speed(&mut file, run.as_ref(), &c.name)?;
         channels.push(json!({
             "name": c.name,
@@ -72,24 +76,15 @@ fn own_unit(name: &str, run: Option<&Scenario>) -> Option<&'static str> {
     unit_of_run(name, &run?.sensor)
 }
 
-/// The column of times: its name, seconds in its unit, and what is said where the file states none, as brinell's own CSV,
-/// whose times are in seconds.
-fn times(file: &SignalFile) -> Option<(String, f64, &'static str)> {
-    let column = file.channels().iter().find(|c| c.is_time() && c.may_be_signal())?;
-    let seconds = column.seconds_in_unit();
-    let taken = if seconds.is_some() { "" } else { ", taken as seconds" };
-    Some((column.name.clone(), seconds.unwrap_or(1.0), taken))
-}
-
-/// The rate that the file states, Hz, and where; else what is to be said of that.
-fn stated_rate(file: &mut SignalFile, channel: &Channel) -> Answer<Result<(f64, String), String>> {
-    if let Some(rate) = &channel.rate {
-        return Ok(Ok((rate.hz, rate.source.to_string())));
-    }
-    let Some((name, seconds, taken)) = times(file) else {
+/// The rate by the column of times, Hz, and that in words; else what is to be said of that. Without a unit, as in
+/// brinell's own CSV, times are in seconds.
+fn rate_by_times(file: &mut SignalFile) -> Answer<Result<(f64, String), String>> {
+    let Some(times) = file.times() else {
         return Ok(Err("the file states no sample rate; give it in Hz".into()));
     };
-    Ok(match file.rate_of(&name, seconds).map_err(bad)? {
+    let (name, seconds) = (&times.name, times.seconds_in_unit());
+    let taken = if seconds.is_some() { "" } else { ", taken as seconds" };
+    Ok(match file.rate_of(name, seconds.unwrap_or(1.0)).map_err(bad)? {
         Ok(hz) => Ok((hz, format!("the times in `{name}`{taken}"))),
         Err(why) => {
             Err(format!("no sample rate follows from `{name}`: {}; give it in Hz if you know it", why.words(five)))
@@ -226,7 +221,10 @@ fn rate(
     warnings: &mut Vec<String>,
 ) -> Answer<Result<(f64, String), String>> {
     let Some(given) = request["rate_hz"].as_f64() else {
-        let stated = stated_rate(file, channel)?;
+        let stated = match channel.stated_rate() {
+            Some(stated) => Ok(stated),
+            None => rate_by_times(file)?,
+        };
         return Ok(stated.map(|(hz, place)| (hz, format!("sample rate {hz} Hz, from {place}"))));
     };
     if !(given > 0.0 && given.is_finite()) {

@@ -35,6 +35,13 @@ impl NoRate {
     }
 }
 
+impl Channel {
+    /// The rate that the file states of it, Hz, and where.
+    pub fn stated_rate(&self) -> Option<(f64, String)> {
+        self.rate.as_ref().map(|rate| (rate.hz, rate.source.to_string()))
+    }
+}
+
 impl SignalFile {
     /// The first values of a channel, `most` of them or all.
     fn beginning(&mut self, name: &str, most: usize) -> Result<Vec<f64>, IoError> {
@@ -74,8 +81,7 @@ impl SignalFile {
     /// A warning, where the rate that was given for a channel, Hz, differs from what the file states. `asked` is what was
     /// given in words, without the unit; steps of times are written by `digits`.
     pub fn other_rate(&mut self, of: &Channel, asked: &str, hz: f64, digits: impl Fn(f64) -> String) -> Option<String> {
-        let stated = of.rate.as_ref().map(|rate| (rate.hz, rate.source.to_string()));
-        let (other, place) = match (stated, self.rate_by_times()) {
+        let (other, place) = match (of.stated_rate(), self.rate_by_times()) {
             (Some(stated), _) => stated,
             (None, None) => return None,
             (None, Some((Ok(other), name))) => (other, format!("the column `{name}`")),

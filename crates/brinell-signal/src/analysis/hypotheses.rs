@@ -42,13 +42,9 @@ pub(super) fn best(
     options: &Options,
 ) -> Result<Best, AnalysisError> {
     let range = bands::range(transformed.sample_rate(), options)?;
-    let (shaft, shaft_lines) = match evidence.lines {
-        Some(found) => (found.speed, found.orders),
-        None => (options.shaft, Vec::new()),
-    };
-    let tolerance = match shaft_lines.is_empty() || options.exact {
-        true => 0.0,
-        false => SHAFT_KNOWN * shaft,
+    let (shaft, tolerance, shaft_lines) = match evidence.lines {
+        Some(found) => (found.speed, SHAFT_KNOWN * found.speed, found.orders),
+        None => (options.shaft, 0.0, Vec::new()),
     };
     let known = Shaft { hz: shaft, tolerance };
     let envelopes = Envelopes::of(transformed, range, shaft, options)?;
@@ -58,7 +54,7 @@ pub(super) fn best(
     };
     let mut best =
         Best { record: Record::of(&envelopes, known, options)?, envelopes, shaft_lines, drift, at_given: None };
-    if !best.shaft_lines.is_empty() && !options.exact && !best.record.is_damage() {
+    if !best.shaft_lines.is_empty() && !best.record.is_damage() {
         best.try_as_given(options)?;
     }
     best.try_drift(options)?;

@@ -42,12 +42,8 @@ pub(super) struct ShaftLines {
 /// Shaft speed by its own harmonics in the spectrum, within the tolerance or, where few are detected there and far more
 /// of a comb beyond it, there: the speed given is then wrong. `None` where they do not tell it.
 ///
-/// Another shaft's lines there look the same: nothing in the signal tells the two apart. An exact speed is not told:
-/// a fifth of BPFI is near that of many shafts.
+/// Another shaft's lines there look the same: nothing in the signal tells the two apart.
 pub(super) fn shaft(x: &[f64], fs: f64, options: &Options) -> Result<Option<ShaftLines>, AnalysisError> {
-    if options.exact {
-        return Ok(None);
-    }
     let lines = Lines::of(x, fs, options)?;
     let near = lines.nearest_comb();
     let could_be_wrong = !lines.is_whole(&near, FEWEST);

@@ -15,7 +15,6 @@ pub(super) fn rate(
     own: bool,
     warnings: &mut Vec<String>,
 ) -> Result<Result<(f64, String), String>, Failure> {
-    let stated = channel.rate.as_ref().map(|rate| (rate.hz, rate.source.to_string()));
     let option = format!("--{}rate", wanted.whose);
     if let Some(given) = wanted.rate {
         if !(given > 0.0 && given.is_finite()) {
@@ -24,7 +23,7 @@ pub(super) fn rate(
         warnings.extend(file.other_rate(channel, &format!("{option} {given}"), given, |step| short(step, 5)));
         return Ok(Ok((given, format!("sample rate {given} Hz, as given"))));
     }
-    if let Some((hz, place)) = stated {
+    if let Some((hz, place)) = channel.stated_rate() {
         return Ok(Ok((hz, format!("sample rate {hz} Hz, from {place}"))));
     }
     let time = match wanted.time_channel {
