@@ -58,10 +58,8 @@ fn base(args: &AnalyzeArgs, name: Option<&str>, measured: &Measured) -> Result<(
             )));
         };
         let (orders, source) = known.orders().map_err(Failure::Usage)?;
-        return Ok(match KnownBearing::unknown_suffix(name) {
-            Some(_) => (orders, format!("{source} (of {name})")),
-            None => (orders, source),
-        });
+        let is_its_name = known.name().eq_ignore_ascii_case(name);
+        return Ok((orders, if is_its_name { source } else { format!("{source} (found for {name})") }));
     }
     if let Some(orders) = args.elements.orders()? {
         return Ok(orders);

@@ -7,7 +7,6 @@ mod designation;
 pub mod kinematics;
 pub mod orders;
 pub mod rating;
-mod suffix;
 
 pub use clearance::clearance_of;
 pub use kinematics::Kinematics;

@@ -2,9 +2,8 @@
 //! shaft.
 
 use super::catalogue::{self, Entry};
-use super::designation::{kind, of_one_kind, readings, with_zeros, words};
+use super::designation::{kind, of_one_kind, with_zeros};
 use super::kinematics::{Geometry, Kinematics, frequency_table};
-use super::suffix::is_known_suffix;
 use crate::analysis::{DefectOrders, NAMED, NamedBearing};
 use crate::did_you_mean::{did_you_mean, nearest_few};
 use crate::scenario::Bearing;
@@ -54,18 +53,7 @@ impl KnownBearing {
         catalogued(catalogue::find_exactly).or_else(named).or_else(|| catalogued(catalogue::find))
     }
 
-    /// What follows the size in a name by which a bearing of the catalogue is found, where it is no suffix that makers
-    /// have.
-    pub fn unknown_suffix(name: &str) -> Option<String> {
-        let is_exact = catalogue::find_exactly(name).is_some() || NamedBearing::find(name).is_some();
-        if is_exact || Self::find(name).is_none() {
-            return None;
-        }
-        let (_, suffix) = readings(name).into_iter().find(|(base, _)| catalogue::find_exactly(base).is_some())?;
-        words(&suffix).find(|word| !is_known_suffix(word)).map(str::to_owned)
-    }
-
-    /// The same, or why there is none.
+    /// The bearing of this name, or why there is none.
     ///
     /// # Errors
     /// As [`KnownBearing::unknown`] words it.

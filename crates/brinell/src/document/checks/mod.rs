@@ -18,8 +18,8 @@ use super::problems::{Problems, numberless};
 use super::provenance::{Origin, Provenance, by_key};
 use super::source::Node;
 use super::spec::unit_of;
-use super::toml_text::float;
 use crate::scenario::Scenario;
+use crate::signal;
 
 /// Finds what the file says of a key, and where.
 pub struct Finder<'a> {
@@ -111,15 +111,12 @@ pub(crate) fn check<'a>(scenario: &'a Scenario, finder: &'a Finder<'a>, problems
     checker.problems
 }
 
-/// A number in a message: four figures are enough.
+/// A number in a message: four figures are enough, without zeros at the end.
 fn short(x: f64) -> String {
-    if x == 0.0 || !(1e-3..1e6).contains(&x.abs()) {
-        if x.is_finite() && x != 0.0 {
-            return format!("{x:.3e}");
-        }
-        return float(x);
+    let text = signal::short(x, 4);
+    if text.contains('.') && !text.contains('e') {
+        text.trim_end_matches('0').trim_end_matches('.').into()
+    } else {
+        text
     }
-    let decimals = (3 - x.abs().log10().floor() as i32).clamp(0, 12) as usize;
-    let text = format!("{x:.decimals$}");
-    if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').to_string() } else { text }
 }
