@@ -31,7 +31,7 @@ struct Recorder<'a, F> {
 
 impl<F: FnMut(f64) -> ControlFlow<()>> Observer for Recorder<'_, F> {
     fn step(&mut self, frame: &Frame) {
-        self.passes.take(frame, false);
+        self.passes.take(frame, false, false);
         self.events.extend(self.passes.events.drain(..));
     }
 

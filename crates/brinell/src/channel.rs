@@ -195,8 +195,8 @@ fn contact(f: &Frame, quantity: ContactQuantity, side: Side, slot: usize) -> f64
     }
 }
 
-/// Effective contact length, m: of a roller what damage leaves of it, L - L_s; of a ball what carries of its ellipse's
-/// axis across the groove.
+/// Effective contact length, m: of a roller what damage leaves of it, L - L_s, or under raised damage what touches; of a
+/// ball what carries of its ellipse's axis across the groove.
 #[doc(hidden)]
 pub fn contact_length(model: &Model, ws: &Workspace, side: Side, slot: usize) -> f64 {
     let c = &ws.contacts[side as usize];
@@ -216,7 +216,8 @@ pub fn contact_length(model: &Model, ws: &Workspace, side: Side, slot: usize) ->
 }
 
 /// Time-varying contact stiffness Q_elastic / delta^n of a closed contact, N/m^n; of an open one, the stiffness with
-/// which it would close (Eqs. 22, 23), for a ball over damage 0.
+/// which it would close (Eqs. 22, 23), for a ball over damage 0. Where only raised damage touches (delta <= 0), the
+/// healthy one of the length that does, for a ball the healthy one.
 #[doc(hidden)]
 pub fn contact_stiffness(model: &Model, ws: &Workspace, side: Side, slot: usize) -> f64 {
     let c = &ws.contacts[side as usize];
@@ -239,7 +240,7 @@ pub fn contact_stiffness(model: &Model, ws: &Workspace, side: Side, slot: usize)
         return law.stiffness;
     }
     if law.strips.is_some() && c.deformation[slot] <= 0.0 {
-        return 0.0;
+        return if c.elastic[slot] > 0.0 { law.stiffness } else { 0.0 };
     }
     let by_share = model.kind == ModelKind::Lumped && law.strips.is_none();
     if c.deformation[slot] <= 0.0 || (by_share && share > 0.0) {

@@ -120,7 +120,7 @@ struct Ways {
 
 impl Observer for Ways {
     fn step(&mut self, frame: &Frame) {
-        self.passes.take(frame, true);
+        self.passes.take(frame, true, true);
         if let Some(pass) = self.passes.best().first() {
             let [first, .., last] = pass.points[..] else { panic!("{} points", pass.points.len()) };
             self.along = Some((last.angle - first.angle).signum());

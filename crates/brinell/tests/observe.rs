@@ -360,7 +360,7 @@ fn analytic_a_roller_that_is_on_damage_at_the_start_has_no_entry() {
                 (ws.sin[slot], ws.cos[slot]) = orbit.sin_cos();
             }
         },
-        |f| passes.take(f, false),
+        |f| passes.take(f, false, false),
     );
     let events: Vec<_> = passes.events.iter().map(|e| (e.slot, e.enters, (e.t * RATE).round() as u64)).collect();
     // The first sample at which it is beyond the edge, and the first at which the next one is on the damage.

@@ -120,7 +120,7 @@ fn read(args: &CalibrateArgs) -> Result<(Source, Arc<Plan>, Vec<String>), Failur
     }
     let middle = source.load(&middle(&keys), false)?;
     let simulation = Simulation::new(&middle.scenario).map_err(Failure::Run)?;
-    let pattern = measured::pattern(args, &middle.scenario, &simulation)?;
+    let pattern = measured::pattern(args, &keys, (&middle.scenario, &simulation))?;
     let (pattern, warnings) = pattern.map_or((None, Vec::new()), |(pattern, warnings)| (Some(pattern), warnings));
     let plan = Plan::new(keys, targets, pattern, middle, &simulation, args.seed, args.budget);
     let plan = plan.map_err(|error| match &error {

@@ -3,13 +3,14 @@
 //! Everything is in the unit cube, and residuals are in standard uncertainties. With J = U S V^T, the variance along
 //! column i of V is 1/s_i^2 and the covariance V S^-2 V^T (linear least squares; Bates and Watts 1988, section 1.2).
 //! Where the residuals are larger than their uncertainties explain, with f degrees of freedom left, the covariance is
-//! multiplied by chi^2/f (Birge 1932).
+//! multiplied by chi^2/f (Birge 1932), as the Particle Data Group does. Intervals are then 1.96 of these standard
+//! deviations: at chi^2 = f they do not jump, as they would with Student's t, which is for uncertainties that are
+//! known but for a factor.
 //!
 //! Differences of noisy runs give a Jacobian with noise in it, which on average adds its own square to each s^2. That
 //! share is taken off: a direction that shows no more than noise has no information.
 
 use brinell::signal::estimate::NORMAL;
-use brinell::signal::student_t_quantile;
 use nalgebra::{DMatrix, DVector};
 
 /// An interval that covers so much of a key's range says nothing.
@@ -76,7 +77,7 @@ pub fn identify(residuals: &[f64], jacobian: &DMatrix<f64>, noise: &[f64]) -> Id
         1.. => (chi_square / freedom as f64).sqrt().max(1.0),
         _ => 1.0,
     };
-    let factor = if birge > 1.0 { student_t_quantile(0.975, freedom.min(1_000_000) as u32) * birge } else { NORMAL };
+    let factor = NORMAL * birge;
     let information = directions(jacobian, residuals.len(), noise, factor);
     let largest = information.first().map_or(0.0, |i| i.0);
     let exact = covariance(&information, 0.0);
@@ -200,10 +201,18 @@ mod tests {
     fn analytic_residuals_that_are_too_large_widen_the_intervals() {
         let jacobian = DMatrix::from_fn(4, 1, |_, _| 10.0);
         let found = identify(&[2.0, -2.0, 2.0, -2.0], &jacobian, &[0.0]);
-        // chi^2 = 16 with 3 degrees of freedom; t(0.975, 3) = 3.182.
+        // chi^2 = 16 with 3 degrees of freedom.
         let inflation = (16.0_f64 / 3.0).sqrt();
         assert!((found.inflation - inflation).abs() < 1e-12);
-        assert!((found.half_widths[0] - 3.182_446 * inflation / 20.0).abs() < 1e-5);
+        assert!((found.half_widths[0] - 1.959_964 * inflation / 20.0).abs() < 1e-6);
+    }
+
+    #[test]
+    fn prop_intervals_do_not_jump_where_residuals_begin_to_be_too_large() {
+        let jacobian = DMatrix::from_fn(2, 1, |_, _| 10.0);
+        let half = |r: f64| identify(&[r, -0.5], &jacobian, &[0.0]).half_widths[0];
+        let one = 0.75_f64.sqrt();
+        assert!((half(one + 1e-6) / half(one - 1e-6) - 1.0).abs() < 1e-5);
     }
 
     /// r depends on a + 2 b alone: 2 a - b is free, and c is determined.

@@ -1,18 +1,22 @@
 //! A measured signal as targets: its levels, RMS and kurtosis, and the defects' frequencies where they are significant.
 
 use super::signature::{Level, Signature, decibels};
-use super::{CalibrateError, Target};
+use super::{CalibrateError, Key, Target};
 use brinell::analysis::{Quantity as Dimension, Unit};
 use brinell::bearing::Kinematics;
 use brinell::channel::SENSOR;
 use brinell::result::{Quantity, Spread};
-use brinell::scenario::Scenario;
-use brinell::signal::{Band, Blocks, Indicator, Interval, LineSearch, line_frequency};
+use brinell::scenario::{Scenario, Surface};
+use brinell::signal::{Band, Blocks, Indicator, Interval, LineFrequency, LineSearch, line_frequency};
 use brinell::simulate::Simulation;
 
 /// Share of a run that its statistics are of, at most; and periods of a line that are needed to time it.
 const ANALYSED: f64 = 0.75;
 const PERIODS: f64 = 24.0;
+/// The key whose bounds move every line.
+const SPEED: &str = "operation.speed_rpm";
+/// Widest search about the middle of its bounds, relative ([`LineSearch::tolerance`]).
+const WIDEST: f64 = 0.3;
 
 /// A measured acceleration.
 #[derive(Debug)]
@@ -40,15 +44,17 @@ pub struct Pattern {
 }
 
 impl Pattern {
-    /// Of a signal, for runs of a scenario. `axis` is the sensor's, x or y; without one the one nearer the load.
+    /// Of a signal, for runs of a scenario, that of the middle of the bounds of `keys`. Where the speed is one of them,
+    /// the signal's own lines are sought over its bounds, and levels are read there. `axis` is the sensor's, x or y;
+    /// without one the one nearer the load.
     /// `model_uncertainty_percent` is what levels of the model may differ by from a machine's.
     ///
     /// # Errors
     /// Where signal and scenario do not go together.
     pub fn new(
         measured: &Measured,
-        scenario: &Scenario,
-        simulation: &Simulation,
+        keys: &[Key],
+        (scenario, simulation): (&Scenario, &Simulation),
         axis: Option<&str>,
         model_uncertainty_percent: f64,
     ) -> Result<Self, CalibrateError> {
@@ -71,8 +77,9 @@ impl Pattern {
             return Err(CalibrateError::Rate { measured: measured.rate, simulated });
         }
         let x = &*measured.unit.in_si(measured.x);
-        let turns = rpm.abs() / 60.0;
-        targets(scenario, simulation, (x, measured.rate), axis, turns, share)
+        let speed = keys.iter().find(|key| key.name == SPEED);
+        let reach = speed.map_or(0.0, |key| ((key.high - key.low) / (key.high + key.low)).abs());
+        targets((scenario, simulation), (x, measured.rate), axis, (rpm.abs() / 60.0, reach), share)
     }
 
     /// The levels of a run's signal as numbers of its row.
@@ -95,21 +102,42 @@ impl Pattern {
 }
 
 fn targets(
-    scenario: &Scenario,
-    simulation: &Simulation,
+    (scenario, simulation): (&Scenario, &Simulation),
     (x, rate): (&[f64], f64),
     axis: usize,
-    shaft: f64,
+    (shaft, reach): (f64, f64),
     share: f64,
 ) -> Result<Pattern, CalibrateError> {
     let channel = SENSOR[axis];
     let model = simulation.model();
     let kinematics = model.kinematics(model.rotation.at(0.0).0);
-    let lines = lines(scenario, &kinematics);
+    let analysed = ANALYSED * simulation.samples() as f64 / rate;
+    let line = |nominal: f64, band: Band, tolerance: f64| -> Option<LineFrequency> {
+        let search = LineSearch { tolerance, ..LineSearch::new(nominal) };
+        let fits = nominal < 0.4 * rate && analysed * nominal >= PERIODS;
+        fits.then(|| line_frequency(x, rate, band, &search)).flatten()
+    };
+    let mut lines = lines(scenario, &kinematics);
+    let mut notes = Vec::new();
+    if reach > 0.0 {
+        // The speed is to be found: first where the signal's own lines are, anywhere within its bounds.
+        let wide = (reach + LineSearch::new(1.0).tolerance).min(WIDEST);
+        let around = demodulated(rate, &lines);
+        for (name, at) in &mut lines {
+            match line(*at, around, wide) {
+                Some(found) => *at = found.frequency,
+                None => notes.push(format!(
+                    "no line of {} stands out from {:.1} to {:.1} Hz: its levels are read at {at:.1} Hz, the middle of the bounds of {SPEED}",
+                    name.to_uppercase(),
+                    *at * (1.0 - wide),
+                    *at * (1.0 + wide)
+                )),
+            }
+        }
+    }
+    let band = demodulated(rate, &lines);
     // Runs are analysed from half-way on at the latest.
     let simulated = simulation.samples() as usize / 2;
-    let highest = lines.iter().map(|l| l.1).fold(0.0, f64::max);
-    let band = Band::between((10.0 * highest).clamp(0.02 * rate, 0.1 * rate), 0.4 * rate);
     let signature = Signature::new(rate, simulated.min(x.len()), band, &lines)?;
     let level = decibels(share);
     let mut targets: Vec<Target> = signature
@@ -129,35 +157,41 @@ fn targets(
         }
     }
     for (k, defect) in scenario.defects.iter().enumerate() {
-        let (_, nominal) = kinematics.defect_frequency(defect.on);
-        let enough = ANALYSED * simulation.samples() as f64 / rate * nominal >= PERIODS;
-        if nominal <= 0.0 || nominal >= 0.4 * rate || !enough {
-            continue;
-        }
-        if let Some(line) = line_frequency(x, rate, band, &LineSearch::new(nominal)) {
+        let name = line_name(&kinematics, defect.on);
+        let at = lines.iter().find(|l| l.0 == name).map(|l| l.1);
+        if let Some(found) = at.and_then(|at| line(at, band, LineSearch::new(at).tolerance)) {
             targets.push(Target {
                 name: format!("defect{}.frequency", k + 1),
-                value: line.frequency,
-                uncertainty: line.uncertainty,
+                value: found.frequency,
+                uncertainty: found.uncertainty,
             });
         }
     }
-    Ok(Pattern { signature, axis, channel, targets, notes: Vec::new() })
+    Ok(Pattern { signature, axis, channel, targets, notes })
+}
+
+/// The band whose envelope holds these lines: above ten times the highest.
+fn demodulated(rate: f64, lines: &[(&str, f64)]) -> Band {
+    let highest = lines.iter().map(|l| l.1).fold(0.0, f64::max);
+    Band::between((10.0 * highest).clamp(0.02 * rate, 0.1 * rate), 0.4 * rate)
 }
 
 /// The defect frequencies, Hz, each once, by the names that levels have.
 fn lines(scenario: &Scenario, kinematics: &Kinematics) -> Vec<(&'static str, f64)> {
     let mut lines: Vec<(&'static str, f64)> = Vec::new();
     for defect in &scenario.defects {
-        let (name, frequency) = kinematics.defect_frequency(defect.on);
-        let name = match name {
-            "BPFO" => "bpfo",
-            "BPFI" => "bpfi",
-            _ => "2bsf",
-        };
+        let (name, frequency) = (line_name(kinematics, defect.on), kinematics.defect_frequency(defect.on).1);
         if frequency > 0.0 && !lines.iter().any(|l| l.0 == name) {
             lines.push((name, frequency));
         }
     }
     lines
+}
+
+fn line_name(kinematics: &Kinematics, on: Surface) -> &'static str {
+    match kinematics.defect_frequency(on).0 {
+        "BPFO" => "bpfo",
+        "BPFI" => "bpfi",
+        _ => "2bsf",
+    }
 }

@@ -94,7 +94,7 @@ impl<'a> Truth<'a> {
 
 impl Observer for Truth<'_> {
     fn step(&mut self, frame: &Frame) {
-        self.passes.take(frame, false);
+        self.passes.take(frame, false, false);
         while let Some(event) = self.passes.events.pop_front() {
             let force = frame.ws.contacts[event.side as usize].force[event.slot];
             self.instants.push(Instant { event, force });

@@ -18,8 +18,9 @@ use crate::slices::{self, borders};
 /// Mean over the roller's length of a function of what presses there.
 pub(super) struct Mean {
     pub(super) value: f64,
-    /// Share of the length that damage covers.
-    covered: f64,
+    /// Share of the length that damage takes from the contact: what it covers; where some of it is raised, what does
+    /// not touch.
+    lost: f64,
 }
 
 /// Mean of f(delta - h) over what is damaged and of f(delta), which is `undamaged`, over the rest; where nothing is,
@@ -31,8 +32,14 @@ pub(super) fn mean(met: ContactDefects, undamaged: f64, delta: f64, f: impl Fn(f
     let n = profile.slices as f64;
     // What is covered, slices with any depth, what is left of them, and the sum over the rest; a slice counts 1.
     let (mut covered, mut sunk, mut left, mut sum) = (0.0, 0.0, 0.0, 0.0);
+    // What of the covered touches, and whether any is raised.
+    let (mut touching, mut raised) = (0.0, false);
     let mut add = |count: f64, phi: f64, h: f64| {
         covered += count * phi;
+        raised |= h < 0.0;
+        if delta - h > 0.0 {
+            touching += count * phi;
+        }
         if h != 0.0 {
             sunk += count;
             left += count * (1.0 - phi);
@@ -75,7 +82,10 @@ pub(super) fn mean(met: ContactDefects, undamaged: f64, delta: f64, f: impl Fn(f
         } else {
             (left * undamaged + sum) / n
         },
-        covered: covered / n,
+        lost: match raised {
+            true => 1.0 - (touching + if delta > 0.0 { n - covered } else { 0.0 }) / n,
+            false => covered / n,
+        },
     })
 }
 
@@ -156,7 +166,7 @@ pub fn damaged_contact_given(
         let mean = mean(met, undamaged, delta, |x| law.healthy(x))?;
         return Some(DamagedContact {
             elastic: mean.value,
-            floor: ContactReduction { share: 1.0 - mean.covered, depth: 0.0, damaged_length: mean.covered * length },
+            floor: ContactReduction { share: 1.0 - mean.lost, depth: 0.0, damaged_length: mean.lost * length },
         });
     }
     floors(defects, angles)

@@ -275,7 +275,7 @@ impl Watch {
 
     /// After each accepted step.
     pub fn step(&mut self, frame: &Frame) {
-        self.passes.take(frame, frame.t >= self.ramp);
+        self.passes.take(frame, frame.t >= self.ramp, self.started.is_some());
     }
 
     /// At each sample instant.

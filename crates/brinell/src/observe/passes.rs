@@ -37,6 +37,17 @@ pub struct Pass {
     pub peak: f64,
 }
 
+/// Extremes of the contacts at a defect, half its length before and behind it included.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Extremes {
+    /// Least L_e, m.
+    pub length: f64,
+    /// Least contact stiffness, N/m^n.
+    pub stiffness: f64,
+    /// Largest Q, N.
+    pub force: f64,
+}
+
 /// Defect entry or exit of a roller.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Event {
@@ -77,6 +88,8 @@ struct Watch {
     stride: usize,
     skipped: usize,
     best: Option<Pass>,
+    /// Of the analysed time.
+    extremes: Option<Extremes>,
 }
 
 /// Watches every defect of a run.
@@ -122,13 +135,14 @@ impl Passes {
                 stride: 1,
                 skipped: 0,
                 best: None,
+                extremes: None,
             }
         };
         Self { watches: model.defects.iter().map(watch).collect(), begun: false, events: VecDeque::new() }
     }
 
-    /// Takes one accepted step; whole passes are kept only where `keep`.
-    pub fn take(&mut self, f: &Frame, keep: bool) {
+    /// Takes one accepted step; passes are followed from the first one on where `keep`, extremes where `analysed`.
+    pub fn take(&mut self, f: &Frame, keep: bool, analysed: bool) {
         let ring = f.model.rotation.at(f.t).1;
         for (index, watch) in self.watches.iter_mut().enumerate() {
             let defect = &f.model.defects[index];
@@ -156,7 +170,7 @@ impl Passes {
                     self.events.push_back(Event { t: f.t, defect: index, slot, side, enters: now });
                 }
                 let near = from_middle(u, watch).abs() <= 0.5 * (watch.last - watch.first) + watch.margin;
-                watch.follow(f, index, slot, side, u, near, keep);
+                watch.follow(f, (index, slot, side, u), near, (keep, analysed));
             }
         }
         self.begun = true;
@@ -165,6 +179,11 @@ impl Passes {
     /// Of each defect that was passed, the pass with the largest contact force.
     pub fn best(&self) -> Vec<Pass> {
         self.watches.iter().filter_map(|w| w.best.clone()).collect()
+    }
+
+    /// Of all passes of a defect in the analysed time.
+    pub fn extremes(&self, defect: usize) -> Option<Extremes> {
+        self.watches[defect].extremes
     }
 }
 
@@ -179,11 +198,17 @@ impl Watch {
         self.current.as_ref().is_some_and(mine)
     }
 
-    #[expect(clippy::too_many_arguments, reason = "one contact at one instant")]
-    fn follow(&mut self, f: &Frame, defect: usize, slot: usize, side: Side, u: f64, near: bool, keep: bool) {
+    /// One contact at one instant.
+    fn follow(
+        &mut self,
+        f: &Frame,
+        (defect, slot, side, u): (usize, usize, Side, f64),
+        near: bool,
+        (keep, analysed): (bool, bool),
+    ) {
         let mine = self.current.as_ref().map(|p| p.slot == slot && p.side == side);
         match (mine, near) {
-            (Some(true), true) => self.add(f, u),
+            (Some(true), true) => self.add(f, u, analysed),
             (Some(true), false) => {
                 // A pass counts where it was seen from one margin to the other.
                 if let Some(pass) = self.current.take() {
@@ -197,13 +222,13 @@ impl Watch {
             (None, true) if keep => {
                 self.current = Some(Pass { defect, slot, side, points: Vec::with_capacity(MOST_POINTS), peak: 0.0 });
                 (self.stride, self.skipped) = (1, 0);
-                self.add(f, u);
+                self.add(f, u, analysed);
             }
             _ => {}
         }
     }
 
-    fn add(&mut self, f: &Frame, u: f64) {
+    fn add(&mut self, f: &Frame, u: f64, analysed: bool) {
         let Some(pass) = &mut self.current else {
             return;
         };
@@ -216,6 +241,15 @@ impl Watch {
             force: c.force[pass.slot],
         };
         pass.peak = pass.peak.max(point.force);
+        if analysed {
+            let PassPoint { length, stiffness, force, .. } = point;
+            let so_far = self.extremes.unwrap_or(Extremes { length, stiffness, force });
+            self.extremes = Some(Extremes {
+                length: so_far.length.min(length),
+                stiffness: so_far.stiffness.min(stiffness),
+                force: so_far.force.max(force),
+            });
+        }
         self.skipped += 1;
         if self.skipped < self.stride {
             return;

@@ -5,7 +5,7 @@ use super::impacts::Impacts;
 use crate::bearing::kinematics::Kinematics;
 use crate::channel::STIFFNESS_UNIT;
 use crate::observe::load_zone::RowLoad;
-use crate::observe::passes::{Pass, PassPoint};
+use crate::observe::passes::Extremes;
 use crate::observe::slip::RowSlip;
 use crate::observe::{DefectLine, Findings};
 use crate::signal::{Estimate, Indicator, RECORD_PEAK, RECORD_PEAK_TO_PEAK};
@@ -55,14 +55,8 @@ pub struct Field<F> {
 pub struct FoundDefect<'a> {
     /// Its line in the envelope.
     pub line: Option<&'a DefectLine>,
-    /// The pass with the largest contact force.
-    pub pass: Option<&'a Pass>,
-}
-
-impl FoundDefect<'_> {
-    fn least(&self, of: fn(&PassPoint) -> f64) -> Option<f64> {
-        self.pass?.points.iter().map(of).min_by(f64::total_cmp)
-    }
+    /// Of its passes in the analysed time.
+    pub extremes: Option<Extremes>,
 }
 
 /// A constant for each number, and one for all of them.
@@ -135,7 +129,7 @@ fields! {
 fields! {
     "Load of a row."
     LOAD: fn(&RowLoad) -> Option<f64>;
-    LARGEST_OUTER_FORCE "largest_outer_force" "N" Extreme "largest force of an outer contact of the row"
+    LARGEST_OUTER_FORCE "largest_outer_force" "N" Extreme "largest force of an outer contact of the row at a sample"
         |row| row.max.iter().copied().max_by(f64::total_cmp);
 }
 
@@ -158,9 +152,9 @@ fields! {
     DEFECT: fn(&FoundDefect) -> Option<Estimate>;
     FREQUENCY "frequency" "Hz" Comb "rate of the impacts" |d| d.line?.estimate();
     PURE_ROLLING "pure_rolling_frequency" "Hz" Exact "rate of the impacts in pure rolling" |d| exact(d.line.map(|l| l.nominal));
-    LEAST_LENGTH "least_contact_length" "m" Extreme "least effective contact length over the defect" |d| exact(d.least(|p| p.length));
-    LEAST_STIFFNESS "least_stiffness" STIFFNESS_UNIT Extreme "least contact stiffness over the defect" |d| exact(d.least(|p| p.stiffness));
-    PEAK_FORCE "peak_force" "N" Extreme "largest contact force over the defect" |d| exact(d.pass.map(|p| p.peak));
+    LEAST_LENGTH "least_contact_length" "m" Extreme "least effective contact length over the defect" |d| exact(d.extremes.map(|e| e.length));
+    LEAST_STIFFNESS "least_stiffness" STIFFNESS_UNIT Extreme "least contact stiffness over the defect" |d| exact(d.extremes.map(|e| e.stiffness));
+    PEAK_FORCE "peak_force" "N" Extreme "largest contact force at the defect at a step of the solver, half the defect's length before and behind it included" |d| exact(d.extremes.map(|e| e.force));
 }
 
 fields! {

@@ -162,12 +162,11 @@ fn own_levels(found: &[(f64, Option<Peak>)]) -> Vec<Option<f64>> {
 }
 
 fn defects(simulation: &Simulation, findings: &Findings, all: &mut Vec<Quantity>) {
-    let passes = findings.passes.best();
     let named = |index: usize| format!("defect{}", index + 1);
     for index in 0..simulation.model().defects.len() {
         let found = FoundDefect {
             line: findings.lines.iter().find(|l| l.defect == index),
-            pass: passes.iter().find(|p| p.defect == index),
+            extremes: findings.passes.extremes(index),
         };
         let one = |f: &Field<fn(&FoundDefect) -> _>| f.quantity(&named(index), (f.of)(&found));
         all.extend(DEFECT.iter().map(one));

@@ -29,7 +29,7 @@ pub use signals::Signals;
 
 /// Receives a run as it goes.
 pub trait Observer {
-    /// After each accepted step.
+    /// After each accepted step that ends at the last sample at the latest.
     fn step(&mut self, frame: &Frame) {
         let _ = frame;
     }

@@ -232,7 +232,10 @@ impl<S: Deref<Target = Simulation>> Run<S> {
         self.energy.parametric += parametric_work(model, before, after, &mut self.cover);
         self.contact_states.swap(0, 1);
         self.switches.count(&self.ws, &mut self.work);
-        observer.step(&Frame { model, t, y, a: self.stepper.accelerations(), ws: &self.ws });
+        // Behind the last sample only the filter's lag is left.
+        if t * self.simulation.sample_rate <= self.last.saturating_sub(1) as f64 {
+            observer.step(&Frame { model, t, y, a: self.stepper.accelerations(), ws: &self.ws });
+        }
     }
 
     /// One instant of the fast grid.
