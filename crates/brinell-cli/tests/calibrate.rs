@@ -119,6 +119,23 @@ fn prop_a_measured_signal_is_met_by_the_run_that_made_it() {
     assert!(columns.contains("signature.octave_5120_10240_hz.residual"));
 }
 
+/// Bounds of the speed say where to look, not what is read there.
+#[test]
+fn prop_a_measured_signals_levels_do_not_depend_on_the_bounds_of_the_speed() {
+    let folder = folder();
+    let long = "--set simulation.duration_s=1";
+    let args = format!("run base.toml --set operation.speed_rpm=3300 {long} --no-report --no-healthy -q -o rig");
+    brinell(folder.path(), &typed(&args)).exits(0);
+    let targets = |bounds: &str| -> Vec<String> {
+        let args = format!("{long} --fit operation.speed_rpm={bounds} --measured rig -o cal --dry-run");
+        let done = brinell(folder.path(), &call(&typed(&args))).exits(0);
+        done.out.lines().filter(|line| line.contains(" ~ ")).map(str::to_owned).collect()
+    };
+    let near = targets("3250:3350");
+    assert!(near.iter().any(|line| line.contains("defect1.frequency")), "{near:#?}");
+    assert_eq!(near, targets("2900:4100"));
+}
+
 #[test]
 fn prop_targets_out_of_reach_are_reported_and_so_is_a_key_without_effect() {
     let folder = folder();

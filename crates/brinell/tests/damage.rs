@@ -1,9 +1,12 @@
 //! Whole runs over damage: laws and paths against each other, the energy audit, and what a run costs.
 
 use crate::common::{Rows, simulate};
+use brinell::channel::{Frame, contact_length, contact_stiffness};
 use brinell::defect::{Side, spall};
 use brinell::model::{Model, Motion};
+use brinell::observe::passes::Passes;
 use brinell::scenario::{self, Accuracy, Defect, EdgeReaction, Law, RollerPath, Scenario, Shape, Surface};
+use brinell::simulate::{Observer, Simulation};
 use brinell::solver::Stepper;
 
 fn run_of(shape: Shape, law: Law, path: RollerPath, duration_s: f64) -> Scenario {
@@ -168,6 +171,70 @@ fn analytic_conservative_edges_close_the_energy_audit_on_every_surface() {
         assert!(parametric.abs() > 1e-6, "{name}: nothing to close");
         assert!(closed.abs() < 2e-2 * parametric.abs(), "{name}");
         assert!(momentum < 1e-12, "{name}: momentum {momentum:e}");
+    }
+}
+
+/// Passes, and what the contacts on damage themselves say at every step.
+struct Both {
+    passes: Passes,
+    length: f64,
+    stiffness: f64,
+    last_event: f64,
+}
+
+impl Both {
+    fn of(scenario: &Scenario) -> (Self, u64) {
+        let simulation = Simulation::new(scenario).unwrap();
+        let passes = Passes::new(simulation.model());
+        let mut both = Both { passes, length: f64::INFINITY, stiffness: f64::INFINITY, last_event: 0.0 };
+        let outcome = simulation.run(&mut both);
+        (both, outcome.rows)
+    }
+}
+
+impl Observer for Both {
+    fn step(&mut self, f: &Frame) {
+        self.passes.take(f, true, true);
+        let contacts = &f.ws.contacts[Side::Outer as usize];
+        for slot in (0..f.model.layout.rollers()).filter(|slot| contacts.on_damage[*slot]) {
+            self.length = self.length.min(contact_length(f.model, f.ws, Side::Outer, slot));
+            self.stiffness = self.stiffness.min(contact_stiffness(f.model, f.ws, Side::Outer, slot));
+        }
+        self.last_event = self.passes.events.back().map_or(0.0, |event| event.t);
+    }
+}
+
+#[test]
+fn prop_extremes_of_a_defect_are_of_all_its_passes_and_nothing_happens_after_the_last_sample() {
+    // Loads that pass 1 um only in part, so that passes differ.
+    let mut scenario = run_of(rectangle(4.0), Law::Sliced, RollerPath::Envelope, 0.06);
+    scenario.defects[0].depth_um = 1.2;
+    let (both, rows) = Both::of(&scenario);
+    let found = both.passes.extremes(0).unwrap();
+    assert_eq!((found.length, found.stiffness), (both.length, both.stiffness));
+    assert!(both.last_event > 0.0 && both.last_event * scenario.simulation.sample_rate_hz <= (rows - 1) as f64);
+}
+
+#[test]
+fn analytic_a_contact_that_only_a_ridge_closes_touches_along_the_ridge() {
+    // The full width, and half of it.
+    for (half_width, share) in [(4.0, 1.0), (1.5, 0.5)] {
+        let grid = scenario::DepthGrid {
+            s0_mm: -1.0,
+            z0_mm: -half_width,
+            ds_mm: 2.0,
+            dz_mm: 2.0 * half_width,
+            columns: 2,
+            rows: 2,
+            depth_um: vec![-40.0; 4],
+        };
+        let mut scenario = run_of(Shape::DepthMap { grid }, Law::Sliced, RollerPath::Point, 0.03);
+        // Opposite to the load nothing else touches.
+        scenario.defects[0].center_deg = 180.0;
+        let (both, _) = Both::of(&scenario);
+        let length = scenario.bearing.roller_length_mm * 1e-3;
+        assert!((both.length / (share * length) - 1.0).abs() < 1e-9, "{} of {length}", both.length);
+        assert!((both.stiffness / (share * scenario.contact.outer_stiffness) - 1.0).abs() < 1e-9);
     }
 }
 

@@ -118,14 +118,18 @@ fn targets(
         fits.then(|| line_frequency(x, rate, band, &search)).flatten()
     };
     let mut lines = lines(scenario, &kinematics);
-    let mut notes = Vec::new();
+    let (mut shaft, mut notes) = (shaft, Vec::new());
     if reach > 0.0 {
         // The speed is to be found: first where the signal's own lines are, anywhere within its bounds.
         let wide = (reach + LineSearch::new(1.0).tolerance).min(WIDEST);
         let around = demodulated(rate, &lines);
+        let middle = shaft;
         for (name, at) in &mut lines {
             match line(*at, around, wide) {
-                Some(found) => *at = found.frequency,
+                Some(found) => {
+                    shaft = middle * found.frequency / *at;
+                    *at = found.frequency;
+                }
                 None => notes.push(format!(
                     "no line of {} stands out from {:.1} to {:.1} Hz: its levels are read at {at:.1} Hz, the middle of the bounds of {SPEED}",
                     name.to_uppercase(),
