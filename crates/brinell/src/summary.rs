@@ -93,21 +93,18 @@ fn sensor(parts: &Parts) -> Option<Value> {
         .iter()
         .zip(&parts.outcome.sensor)
         .map(|(channel, record)| {
-            let ratio = noise
-                .zip(record.signal_rms())
-                .filter(|(noise, signal)| *noise > 0.0 && *signal > 0.0)
-                .map(|(noise, signal)| 20.0 * (signal / noise).log10());
             let entry = json!({
                 "unit": channel.unit,
                 "signal_rms_m_per_s2": record.signal_rms(),
-                "signal_to_noise_db": ratio,
+                "noise_rms_m_per_s2": record.noise_rms().filter(|_| noise.is_some()),
+                "signal_to_noise_db": record.signal_to_noise_db(),
                 "clipped_samples": record.clipped,
             });
             (channel.name.clone(), entry)
         })
         .collect();
     Some(json!({
-        "meaning": "signal_rms: before noise and ADC, since the load reached its full size; clipped_samples: of all samples",
+        "meaning": "signal_rms, noise_rms: before noise and ADC, and of the noise added, since the load reached its full size; noise_rms_m_per_s2 above the channels is the level asked for; clipped_samples: of all samples",
         "noise_rms_m_per_s2": noise,
         "converter_step_m_per_s2": chain.step(),
         "channels": channels,

@@ -58,7 +58,7 @@ fn data_set_of(path: &Path) -> Option<&Path> {
     folders.into_iter().flatten().find(|folder| Results::DATA_SET.is_in(folder))
 }
 
-/// The files of signals right in a folder: by their names or, where none has such a name, all that can be read as one.
+/// The files of signals right in a folder: by their names, and all others that can be read as one.
 fn inside(folder: &Path) -> Result<Vec<PathBuf>, Failure> {
     let failed = |error| Failure::Read(folder.to_owned(), error);
     let of_run = Results::RUN.is_in(folder);
@@ -78,9 +78,7 @@ fn inside(folder: &Path) -> Result<Vec<PathBuf>, Failure> {
             one_line(&folder.display().to_string())
         )));
     }
-    if found.is_empty() {
-        found = others.into_iter().filter(|path| brinell_io::open(path).is_ok()).collect();
-    }
+    found.extend(others.into_iter().filter(|path| brinell_io::open(path).is_ok()));
     if found.is_empty() {
         return Err(Failure::Usage(format!(
             "{} is a folder without files of signals ({}), and not that of a run ({}); name a file, a folder of files, or \

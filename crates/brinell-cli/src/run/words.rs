@@ -32,6 +32,12 @@ pub(super) fn tell(parts: &Parts, elapsed: f64, written: &[PathBuf]) -> Vec<Stri
     let heed = summary::converted(parts).into_iter().chain(summary::unsettled(findings));
     printed.extend(heed.map(|words| format!("  {words}")));
     printed.extend(findings.lines.iter().map(defect_line));
+    let same = |h| findings.over_healthy(h).and_then(|r| r.interval).is_some_and(|(low, high)| low < 1.0 && high > 1.0);
+    if parts.healthy.is_some_and(same) && findings.lines.iter().any(|line| line.found.is_some()) {
+        printed.push(
+            "  with the damage the level is as without it: rollers of a sound bearing make a line at BPFO, too".into(),
+        );
+    }
     let part = (fields::RELATIVE_RESIDUAL.of)(outcome);
     printed.push(format!(
         "  energy audit closes to {} of the turnover, momentum to {}",

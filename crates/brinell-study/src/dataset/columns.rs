@@ -130,7 +130,7 @@ const KNOWN: [Fixed; 12] = [
 
 /// Last: labels, and what no test rig tells.
 #[rustfmt::skip]
-const TRUTH: [Fixed; 53] = [
+const TRUTH: [Fixed; 54] = [
     ("class", "1", "label of the run", Words(|r| Some(r.draws.plan().classes[r.class()].name.clone()))),
     (LABEL, "1", "the same as a number: place of the class in the plan, from 0", Whole(|r| Some(r.class()))),
     ("reason", "1", "why the run failed", Words(|r| r.failed.clone())),
@@ -188,6 +188,8 @@ const TRUTH: [Fixed; 53] = [
     ("samples", "1", "samples of a signal", Whole(|r| r.kept())),
     (CLIPPED, "1", "samples of the sensor's signals, all together, that are beyond the ADC's range and are clipped, the one at the run's end included; 0 without an ADC",
         Whole(|r| r.clipped())),
+    ("signal_to_noise_db", "dB", "of each of the sensor's signals: its RMS before noise and ADC over that of the noise in it, once the load is up; none without noise",
+        Numbers(|r| r.signal_to_noise())),
     listed("solver_steps", Count(fields::STEPS)),
     listed("solver_rejections", Count(fields::REJECTIONS)),
     listed("solver_right_hand_sides", Count(fields::RIGHT_HAND_SIDES)),

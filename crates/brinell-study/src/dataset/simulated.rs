@@ -10,6 +10,7 @@ use brinell::document::{Loaded, Problem, on_one_line, one_line};
 use brinell::model::Layout;
 use brinell::observe::slip::RowSlip;
 use brinell::scenario::{self, Scenario, Speed};
+use brinell::sensor::ChannelRecord;
 use brinell::signal::Estimate;
 use brinell::simulate::{End, Outcome, Simulation};
 use brinell_io::Column;
@@ -104,14 +105,23 @@ impl<'a> Run<'a> {
         self.ended.as_ref().map(|(.., truth)| truth.kept as usize)
     }
 
-    /// Samples of its signals that the ADC clipped.
-    pub(crate) fn clipped(&self) -> Option<usize> {
+    /// What became of the sensor's signals that are kept, in their order; none without a sensor.
+    fn sensor(&self) -> Option<impl Iterator<Item = &ChannelRecord>> {
         self.gathered()?;
         let (simulation, outcome, _) = self.ended.as_ref()?;
         let kept = |name: &str| simulation.channels().iter().any(|c| c.name == name);
         let channels = simulation.filtered().iter().zip(&outcome.sensor);
-        let clipped = channels.filter(|(channel, _)| kept(&channel.name)).map(|(_, record)| record.clipped);
-        Some(clipped.sum::<u64>() as usize)
+        Some(channels.filter(move |(channel, _)| kept(&channel.name)).map(|(_, record)| record))
+    }
+
+    /// Samples of its signals that the ADC clipped.
+    pub(crate) fn clipped(&self) -> Option<usize> {
+        Some(self.sensor()?.map(|record| record.clipped).sum::<u64>() as usize)
+    }
+
+    /// Signal over noise of each of the sensor's signals, dB; none without noise.
+    pub(crate) fn signal_to_noise(&self) -> Option<Vec<f64>> {
+        self.sensor()?.map(ChannelRecord::signal_to_noise_db).collect()
     }
 
     /// What was recorded of a run that came to its end.

@@ -139,6 +139,8 @@ pub struct ChannelRecord {
     pub counted: u64,
     /// Sum of the squares of those before noise and ADC, (m/s^2)^2.
     signal_square: f64,
+    /// The same of the noise that was added.
+    noise_square: f64,
     /// What the ADC read first, m/s^2.
     first: Option<f64>,
     /// Whether it read anything else later.
@@ -153,7 +155,22 @@ impl ChannelRecord {
 
     /// RMS before noise and ADC, m/s^2; `None` before the load is up.
     pub fn signal_rms(&self) -> Option<f64> {
-        (self.counted > 0).then(|| (self.signal_square / self.counted as f64).sqrt())
+        self.rms(self.signal_square)
+    }
+
+    /// RMS of the noise in the record, m/s^2: of coloured noise in a short record it may be far from the level asked for.
+    pub fn noise_rms(&self) -> Option<f64> {
+        self.rms(self.noise_square)
+    }
+
+    /// RMS of the signal over that of the noise, dB; `None` where there is none of either.
+    pub fn signal_to_noise_db(&self) -> Option<f64> {
+        let (signal, noise) = (self.signal_rms()?, self.noise_rms()?);
+        (signal > 0.0 && noise > 0.0).then(|| 20.0 * (signal / noise).log10())
+    }
+
+    fn rms(&self, square: f64) -> Option<f64> {
+        (self.counted > 0).then(|| (square / self.counted as f64).sqrt())
     }
 }
 
@@ -224,7 +241,11 @@ impl Sensing {
                 record.signal_square += *x * *x;
             }
             if let Some(noise) = self.noise.get_mut(k) {
-                *x += noise.next();
+                let added = noise.next();
+                *x += added;
+                if counts {
+                    record.noise_square += added * added;
+                }
             }
             if let Some(adc) = &self.adc {
                 let (read, clipped) = adc.read(*x);

@@ -195,10 +195,17 @@ fn start(wanted: &Wanted, run: Option<&Loaded>, notes: &mut Vec<String>) -> Resu
     positive("--start", wanted.start, 0.0)?;
     positive("--duration", wanted.duration, f64::MIN_POSITIVE)?;
     Ok(match (wanted.start, run) {
-        (Some(start), _) => start,
+        (Some(start), _) => {
+            if start > 0.0 {
+                notes.push(format!("begins at {start} s of the signal: times of the results count from there"));
+            }
+            start
+        }
         (None, Some(run)) => {
             let settled = run.scenario.settled_s();
-            notes.push(format!("begins at {settled:.4} s, where statistics of the run do"));
+            notes.push(format!(
+                "begins at {settled:.4} s, where statistics of the run do: times of the results count from there"
+            ));
             settled
         }
         (None, None) => 0.0,
