@@ -104,6 +104,14 @@ fn regress_a_groove_that_cannot_be_is_the_one_error() {
 }
 
 #[test]
+fn analytic_ten_times_the_rating_is_a_pressure_by_the_element() {
+    // ISO 76 has 4.2 GPa of balls and 4 GPa of rollers at C0; Q^(1/3) and Q^(1/2).
+    let load = [("operation.load_n", "[0, -1e6]")];
+    refused(BARE, &load, "operation.load_n", "a contact pressure of 9.05 GPa");
+    refused(super::BARE, &load, "operation.load_n", "a contact pressure of 12.6 GPa");
+}
+
+#[test]
 fn prop_damage_beyond_the_ball_is_refused() {
     // The ball's radius is 3.97 mm, the pit's 0.25 mm.
     let on_ring =

@@ -7,7 +7,7 @@ use crate::bearing::rating::static_rating;
 use crate::operation::Load;
 use crate::pressure::static_limit;
 use crate::scenario::{LoadOn, Speed};
-use crate::signal::decimate::PASSBAND;
+use crate::signal::{self, decimate::PASSBAND};
 use std::f64::consts::PI;
 
 /// Samples beyond which a run is a slip of the unit.
@@ -112,10 +112,10 @@ impl Checker<'_> {
         ] {
             if most > 0.0 && force > most {
                 let root = if b.has_balls() { 1.0 / 3.0 } else { 0.5 };
-                let pressure = 1e-9 * static_limit(b) * MOST_RATINGS.powf(root);
+                let pressure = signal::short(1e-9 * static_limit(b) * MOST_RATINGS.powf(root), 3);
                 let message = format!(
                     "{what} of {} N is {} times the static load rating C0 = {} N; steel flows below {MOST_RATINGS} times C0, a contact pressure of \
-                     {pressure:.1} GPa",
+                     {pressure} GPa",
                     short(force),
                     short(force / rating),
                     short(rating)

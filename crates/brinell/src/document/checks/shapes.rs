@@ -274,7 +274,7 @@ impl Checker<'_> {
                     "raised edges (the highest {} um) act only in contact.law = \"sliced\" of simulation.model = \"full\" or \"tilting\"",
                     short(-1e6 * map.extremes().1)
                 ),
-                ">= 0, or such a law and model".into(),
+                ">= 0".into(),
                 &["contact.law", "simulation.model"],
             );
         }
