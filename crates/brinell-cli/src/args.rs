@@ -2,7 +2,7 @@
 
 use crate::failure::Failure;
 use crate::figures::{PlotFormat, Print};
-use brinell::analysis::DefectOrders;
+use brinell::analysis::{DefectOrders, most_elements};
 use brinell_io::Format;
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use clap::{Args, Subcommand, ValueEnum};
@@ -204,11 +204,16 @@ impl Elements {
         match (self.rollers, self.pitch, self.diameter) {
             (Some(z), Some(pitch), Some(d)) => {
                 let orders = DefectOrders::of_geometry(z, d, pitch, angle).ok_or_else(|| {
-                Failure::Usage(format!(
-                    "--rollers {z} --pitch {pitch} --diameter {d} --contact-angle {angle}: expected 3 or more elements, \
-                     0 < diameter < pitch in mm, and an angle of 0 to below 90 degrees"
-                ))
-            })?;
+                    let most = most_elements(d, pitch);
+                    let room = match d < pitch && most >= 3.0 && most.is_finite() {
+                        true => format!(" (up to {most} have room beside each other)"),
+                        false => String::new(),
+                    };
+                    Failure::Usage(format!(
+                        "--rollers {z} --pitch {pitch} --diameter {d} --contact-angle {angle}: expected 3 or more elements{room}, \
+                         0 < diameter < pitch in mm, and an angle of 0 to below 90 degrees"
+                    ))
+                })?;
                 let words =
                     format!("{z} elements of {d} mm on a pitch circle of {pitch} mm, contact angle {angle} degrees");
                 Ok(Some((orders, words)))

@@ -113,11 +113,11 @@ fn time_scales(s: &Scenario, model: &Model, d: &Derived) {
         short(d.roller_frequency, 3),
         short(d.roller_damping_ratio, 2)
     );
-    say!(
-        "  rings on their supports inner {} Hz, outer {} Hz",
-        short(d.support_frequencies[0], 3),
-        short(d.support_frequencies[1], 3)
-    );
+    let [inner, outer] = d.support_frequencies.map(|f| short(f, 3));
+    match model.outer_ring_is_fixed() {
+        true => say!("  ring on its support     inner {inner} Hz; the outer one is held"),
+        false => say!("  rings on their supports inner {inner} Hz, outer {outer} Hz"),
+    }
     say!("  {:<23} {} ms", format!("{element} after {element}"), short(1e3 * d.roller_period, 4));
     for (defect, time) in model.defects.iter().zip(&d.defect_passes) {
         let (first, last) = defect.shape.arc();
@@ -205,7 +205,7 @@ fn static_balance(s: &Scenario, model: &Model, zone: &StaticLoadZone) {
     say!("  heaviest contact        {} N{with}", short(zone.largest, 4));
     // Where the load along a roller is not even, its slices say more.
     if s.has_even_contacts() {
-        even_pressures(s, model, zone.largest);
+        even_pressures(s, model, zone);
     }
     let from_to = match zone.extent > 0.0 && zone.extent < TAU {
         true => {
@@ -241,14 +241,15 @@ fn static_balance(s: &Scenario, model: &Model, zone: &StaticLoadZone) {
     );
 }
 
-/// Of contacts whose load is even along the roller; `force` is the heaviest contact's, N.
-fn even_pressures(s: &Scenario, model: &Model, force: f64) {
+/// Of contacts whose load is even along the roller. Damage outside the load zone never sees the heaviest of them.
+fn even_pressures(s: &Scenario, model: &Model, zone: &StaticLoadZone) {
+    let force = zone.largest;
     let [inner, outer] = pressures(s, force).map(|p| short(1e-6 * p, 4));
     say!(
         "  contact pressure        {inner} MPa at the inner raceway, {outer} MPa at the outer one; static limit {} MPa",
         plain_number(1e-6 * static_limit(&s.bearing))
     );
-    for (k, defect) in model.defects.iter().enumerate() {
+    for (k, defect) in model.defects.iter().enumerate().filter(|(_, defect)| zone.reaches(model, defect)) {
         if let Some((left, pressure)) = pressure_beside(model, &s.bearing, k, force) {
             say!(
                 "  beside the damage       {} MPa at most on the {} mm of contact left on the {}",

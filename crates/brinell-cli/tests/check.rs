@@ -139,3 +139,16 @@ fn prop_a_plan_in_place_of_a_scenario_is_said_to_be_one() {
     std::fs::write(here.join("s.toml"), "base = \"x\"\nruns = 2\n[bearing]\n").unwrap();
     brinell(here, &["check", "s.toml"]).exits(2).complains(&["unknown key", "preset"]);
 }
+
+#[test]
+fn regress_damage_outside_the_load_zone_has_no_pressure_of_the_heaviest_roller() {
+    let beside = "beside the damage";
+    assert!(check(&["operation.load_n=[300, 0]"]).exits(0).out.contains(beside));
+    assert!(!check(&["operation.load_n=[-300, 0]"]).exits(0).out.contains(beside));
+}
+
+#[test]
+fn regress_a_held_ring_has_no_support_frequency() {
+    let held = check(&["simulation.model=lumped", "operation.load_on=inner-ring"]).exits(0).out;
+    assert!(held.contains("ring on its support     inner ") && !held.contains("rings on their supports"), "{held}");
+}

@@ -6,19 +6,20 @@
 //! of a run. What a scenario file alone can say is in [`crate::document`].
 
 mod after;
+mod damage;
 mod slices;
 mod tilting;
 mod warning;
 
 use crate::analysis::STANDARD_GRAVITY;
 use crate::bearing::rating::static_rating;
-use crate::defect::{Defect, SIDES, Side, relative_radius, wrap};
+use crate::defect::Side;
 use crate::document::{Problem, Problems, toml_float};
 use crate::lamina::Rating;
 use crate::model::Model;
 use crate::operation::Rotation;
 use crate::pressure::{pressures, static_limit};
-use crate::scenario::{Choice, LoadOn, RollerPath, Scenario, Speed, Surface};
+use crate::scenario::{Choice, LoadOn, Scenario, Speed};
 use crate::statics::{NoBalance, StaticLoadZone, static_load_zone};
 pub use after::after;
 #[doc(hidden)]
@@ -34,11 +35,6 @@ const SUPPORT_SHARE: f64 = 0.1;
 /// Share of the pitch radius by which the bearing may sink as a whole: up to so much off do the cage's and the outer race's
 /// frequencies come out, more than a cage slips or runs ahead by its play.
 const SUNK_SHARE: f64 = 0.01;
-/// Share of a defect's depth that a roller must reach: the deepest point of a rough floor is nobody's.
-const REACHED_SHARE: f64 = 0.9;
-/// Static deformations of the heaviest contact: deeper damage over a roller's whole width takes all load off it where
-/// it begins.
-const DROP: f64 = 10.0;
 
 const LOAD: &str = "operation.load_n";
 
@@ -71,12 +67,11 @@ pub fn before(scenario: &Scenario, model: &Model, statics: &Result<StaticLoadZon
             warnings.extend(overload(scenario, zone));
             warnings.extend(carried_by_support(scenario, model, zone));
             warnings.extend(sunk(scenario, model, zone));
+            warnings.extend(displaced(scenario, zone));
         }
         Err(error) => warnings.push(warning(LOAD, list(scenario.operation.load_n), error.to_string(), "")),
     }
-    warnings.extend(statics.iter().flat_map(|zone| outside_the_load_zone(scenario, model, zone)));
-    let deformation = statics.as_ref().ok().map(|zone| zone.deformation(model));
-    warnings.extend(felt_by_a_point(scenario, model, deformation));
+    warnings.extend(damage::warnings(scenario, model, statics.as_ref().ok()));
     warnings.extend(statics.as_ref().ok().and_then(|zone| coarse_slices(scenario, model, zone)));
     warnings.extend(tilting::warnings(scenario, model));
     warnings.extend(too_short(scenario, model));
@@ -203,6 +198,30 @@ fn sunk(scenario: &Scenario, model: &Model, zone: &StaticLoadZone) -> Option<Pro
     })
 }
 
+/// Rings displaced by more than an element's diameter: contacts deform by thousandths of it.
+fn displaced(scenario: &Scenario, zone: &StaticLoadZone) -> Option<Problem> {
+    let (b, c) = (&scenario.bearing, &scenario.contact);
+    let displacement = zone.shift[0].hypot(zone.shift[1]);
+    let (key, stiffness) = match c.inner_stiffness <= c.outer_stiffness {
+        true => ("contact.inner_stiffness", c.inner_stiffness),
+        false => ("contact.outer_stiffness", c.outer_stiffness),
+    };
+    (displacement > 1e-3 * b.roller_diameter_mm).then(|| {
+        warning(
+            key,
+            toml_float(stiffness),
+            format!(
+                "at rest the load displaces the inner ring by {} mm in the outer one, more than the {}'s diameter of {} mm: contacts are far too soft \
+                 for this load",
+                short(1e3 * displacement),
+                b.element.word(),
+                short(b.roller_diameter_mm)
+            ),
+            "",
+        )
+    })
+}
+
 /// Beyond the static load rating, or beyond the pressure that it represents.
 fn overload(scenario: &Scenario, zone: &StaticLoadZone) -> Vec<Problem> {
     let o = &scenario.operation;
@@ -255,103 +274,6 @@ fn highest_pressure(scenario: &Scenario, zone: &StaticLoadZone) -> (Side, f64) {
         true => (Side::Inner, inner),
         false => (Side::Outer, outer),
     }
-}
-
-/// Damage on the outer raceway that no loaded roller meets. Damage on the inner raceway and on rollers turns into the
-/// load zone.
-fn outside_the_load_zone(scenario: &Scenario, model: &Model, zone: &StaticLoadZone) -> Vec<Problem> {
-    let fixed = |surface: &Surface| *surface == Surface::OuterRaceway;
-    if !model.defects.iter().any(|d| fixed(&d.surface)) {
-        return Vec::new();
-    }
-    let element = scenario.bearing.element.word();
-    let mut warnings = Vec::new();
-    for (k, defect) in model.defects.iter().enumerate() {
-        let (first, last) = defect.shape.arc();
-        // From the middle of the zone to the middle of the damage.
-        let half = 0.5 * (last - first) / defect.radius;
-        let middle = defect.center + 0.5 * (first + last) / defect.radius;
-        let away = wrap(middle - zone.middle);
-        let loaded = away + half >= zone.ends.0 && away - half <= zone.ends.1 && zone.extent > 0.0;
-        if !fixed(&defect.surface) || loaded {
-            continue;
-        }
-        let degrees = |x: f64| wrap(x).to_degrees();
-        let (words, allowed) = if zone.extent > 0.0 {
-            let [from, to] = zone.arc().map(degrees);
-            (
-                format!(
-                    "this damage is outside the load zone, which is {:.0} deg wide around {:.0} deg: {element}s pass it without load",
-                    zone.extent.to_degrees(),
-                    degrees(zone.middle)
-                ),
-                format!("{from:.0} to {to:.0}, counter-clockwise"),
-            )
-        } else {
-            (
-                format!("no {element} is loaded at rest: there is no load zone that this damage could be in"),
-                String::new(),
-            )
-        };
-        warnings.push(warning(
-            &format!("defects.{k}.center_deg"),
-            toml_float(scenario.defects[k].center_deg),
-            words,
-            allowed,
-        ));
-    }
-    warnings
-}
-
-/// What `roller_path = "point"` makes of damage: a floor that the roller's radius keeps it from is felt all the same;
-/// and where the damage is as wide as the roller, it drops by the whole depth at once. `deformation` is that of the
-/// heaviest contact, m.
-fn felt_by_a_point(scenario: &Scenario, model: &Model, deformation: Option<f64>) -> Vec<Problem> {
-    if scenario.contact.roller_path != RollerPath::Point {
-        return Vec::new();
-    }
-    let element = scenario.bearing.element.word();
-    let mut warnings = Vec::new();
-    for (k, defect) in model.defects.iter().enumerate() {
-        let met = SIDES.into_iter().filter(|s| defect.depth_profile(*s).is_some());
-        let worst = met
-            .map(|side| (side, defect.reach(relative_radius(&scenario.bearing, side))))
-            .min_by(|a, b| a.1.1.total_cmp(&b.1.1));
-        let Some((side, (deep, reached))) = worst else {
-            continue;
-        };
-        let ring = side.word();
-        let words = if reached < REACHED_SHARE * deep {
-            format!(
-                "defect {} is {} um deep, and the {element}'s radius lets it sink {} um into it at the {ring} raceway; a \"point\" feels the \
-                 floor all the same",
-                k + 1,
-                short(1e6 * deep),
-                short(1e6 * reached)
-            )
-        } else if let (Some(deformation), drop) = (deformation, drop_at_once(defect))
-            && drop > DROP * deformation
-        {
-            format!(
-                "defect {} is as wide as the {element} and {} um deep, {:.0} times the elastic deformation of the most loaded contact at rest: at a \"point\" the \
-                 {element} drops by the whole depth at once, which makes impacts many times as strong as along the envelope",
-                k + 1,
-                short(1e6 * drop),
-                drop / deformation
-            )
-        } else {
-            continue;
-        };
-        warnings.push(warning("contact.roller_path", "\"point\"".into(), words, "\"envelope\""));
-    }
-    warnings
-}
-
-/// Depth at the ends of damage that is as wide as the roller there, m.
-fn drop_at_once(defect: &Defect) -> f64 {
-    let (first, last) = defect.shape.arc();
-    let ends = [first, last].into_iter();
-    ends.filter(|s| defect.damaged_length(*s) >= defect.roller_length).map(|s| defect.depth_at(s)).fold(0.0, f64::max)
 }
 
 /// A run that ends before every roller has passed the load zone once after the start.

@@ -88,6 +88,97 @@ fn prop_damage_outside_the_load_zone_is_said_of_the_outer_raceway_alone() {
 }
 
 #[test]
+fn prop_a_ridge_higher_than_the_gap_is_loaded_outside_the_load_zone() {
+    // At 180 degrees the gap of 300 N is the clearance of 10 um and the displacement of some 13 um.
+    let ridge = |um: &str| {
+        format!(
+            "{{ depth_map = {{ columns = 2, rows = 2, ds_mm = 2, dz_mm = 8, s0_mm = -1, z0_mm = -4, depth_um = [{}] }} }}",
+            [um; 4].join(", ")
+        )
+    };
+    let at = |shape: &str| {
+        warnings(
+            &base(&[("defects.0.center_deg", "180"), ("contact.law", "sliced"), ("defects.0.shape", shape)]).scenario,
+        )
+    };
+    assert_eq!(at(&ridge("-30")), Vec::<String>::new());
+    let low = at(&ridge("-15"));
+    assert!(low.len() == 1 && low[0].contains("only impacts of unloaded rollers remain"), "{low:?}");
+}
+
+/// The drive end of the Case Western rig.
+const BALLS: &str = "\
+[bearing]
+preset = \"6205\"
+[operation]
+speed_rpm = 1797.0
+load_n = [0.0, -200.0]
+load_on = \"outer-ring\"
+[[defects]]
+on = \"outer-raceway\"
+center_deg = -90.0
+depth_um = 20.0
+shape = { rectangle = { length_mm = 0.4, width_mm = 0.2 } }
+[simulation]
+duration_s = 0.5
+";
+
+#[test]
+fn analytic_damage_beside_the_heaviest_ellipse_is_said() {
+    let scenario = |settings: &[(&str, &str)]| {
+        let settings: Vec<_> = settings.iter().map(|(key, value)| ((*key).to_owned(), (*value).to_owned())).collect();
+        read(BALLS, &settings).unwrap_or_else(|problems| panic!("{problems:?}")).scenario
+    };
+    let half_length = |model: &str| {
+        let healthy = scenario(&[("defects", "[]"), ("simulation.model", model)]);
+        let heaviest = static_load_zone(&Model::new(&healthy).unwrap()).unwrap().largest;
+        let ellipses = brinell::contact::ball::ellipses(&healthy.bearing, &healthy.contact).unwrap();
+        1e3 * ellipses[1].half_axes(heaviest)[1]
+    };
+    let half = half_length("full");
+    // The damage is 0.2 mm wide.
+    for (offset, touched) in [(half + 0.09, true), (half + 0.11, false), (-half - 0.11, false)] {
+        let all = warnings(&scenario(&[("defects.0.axial_offset_mm", &format!("{offset:?}"))]));
+        assert_eq!(all.is_empty(), touched, "{offset}: {all:?}");
+        assert!(all.iter().all(|told| told.contains("nothing touches it")), "{all:?}");
+    }
+    // The lumped model has the depth at z = 0 alone.
+    let (lumped, half) = (("simulation.model", "lumped"), half_length("lumped"));
+    for (width, offset, words) in [
+        (0.2, 0.0, Some("the ball sinks by it as a whole")),
+        (0.2, 0.3, Some("this damage does not act")),
+        (2.0 * half - 0.01, 0.0, Some("the ball sinks by it as a whole")),
+        (2.0 * half + 0.01, 0.0, None),
+    ] {
+        let shape = format!("{{ rectangle = {{ length_mm = 0.4, width_mm = {width:?} }} }}");
+        let all = warnings(&scenario(&[
+            lumped,
+            ("defects.0.shape", &shape),
+            ("defects.0.axial_offset_mm", &format!("{offset:?}")),
+        ]));
+        assert_eq!(all.len(), usize::from(words.is_some()), "{all:?}");
+        assert!(all.iter().zip(words).all(|(told, words)| told.contains(words)), "{all:?}");
+    }
+}
+
+#[test]
+fn analytic_a_ring_displaced_by_more_than_a_roller_is_said() {
+    // Hundreds of N on a roller over 6 mm are 1e4 N/m and more; the support is to carry none of it.
+    let soft = [
+        ("contact.inner_stiffness", "1e4"),
+        ("contact.outer_stiffness", "1e5"),
+        ("support.outer_stiffness_n_per_m", "0"),
+        ("defects", "[]"),
+    ];
+    let all = warnings(&base(&soft).scenario);
+    assert!(
+        all.iter()
+            .any(|told| told.contains("contact.inner_stiffness") && told.contains("the roller's diameter of 6.00 mm")),
+        "{all:?}"
+    );
+}
+
+#[test]
 fn analytic_a_preloaded_zone_is_a_full_turn() {
     let s = base(&[("bearing.radial_clearance_um", "-10")]).scenario;
     let zone = static_load_zone(&Model::new(&s).unwrap()).unwrap();

@@ -6,6 +6,7 @@
 //! rest, pure rolling: FTF = (1 - g) / 2, BPFO = Z (1 - g) / 2, BPFI = Z (1 + g) / 2, BSF = (D / d) (1 - g^2) / 2.
 
 use super::AnalysisError;
+use std::f64::consts::PI;
 
 /// What can be damaged.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -55,14 +56,21 @@ pub struct DefectOrders {
     pub bsf: Option<f64>,
 }
 
+/// How many elements of diameter `d` have room beside each other on a pitch circle (one unit): centres of Z are pitch
+/// sin(pi/Z) apart.
+pub fn most_elements(d: f64, pitch: f64) -> f64 {
+    (PI / (d / pitch).clamp(0.0, 1.0).asin()).ceil() - 1.0
+}
+
 /// Names of the orders that may be given, in their order.
 const GIVEN: [&str; 4] = ["BPFO", "BPFI", "BSF", "FTF"];
 
 impl DefectOrders {
     /// Of Z elements of diameter `d` on a pitch circle `pitch` (one unit), contact angle in degrees. `None` unless
-    /// 0 < d < pitch, Z is 3 or more and the angle is 0 to below 90.
+    /// 0 < d < pitch, Z is 3 to [`most_elements`] and the angle is 0 to below 90.
     pub fn of_geometry(elements: usize, d: f64, pitch: f64, contact_angle_deg: f64) -> Option<Self> {
-        let fits = d > 0.0 && d < pitch && pitch.is_finite() && elements >= 3;
+        let fits =
+            d > 0.0 && d < pitch && pitch.is_finite() && elements >= 3 && elements as f64 <= most_elements(d, pitch);
         if !fits || !(0.0..90.0).contains(&contact_angle_deg) {
             return None;
         }
@@ -223,6 +231,14 @@ mod tests {
     use super::*;
 
     /// Orders printed by the data sets: CWRU's table, MFPT and IMS from their papers' frequencies.
+    #[test]
+    fn analytic_six_elements_touch_on_a_circle_of_twice_their_diameter() {
+        assert_eq!(most_elements(1.001, 2.0), 5.0);
+        assert_eq!(most_elements(0.999, 2.0), 6.0);
+        assert!(DefectOrders::of_geometry(6, 0.999, 2.0, 0.0).is_some());
+        assert!(DefectOrders::of_geometry(6, 1.001, 2.0, 0.0).is_none());
+    }
+
     #[test]
     fn lit_orders_of_public_data_sets() {
         for (name, bpfo, bpfi, ftf, element) in [

@@ -135,6 +135,11 @@ impl Defect {
         self.profiles[side as usize].as_ref()
     }
 
+    /// Lowest and highest z, m.
+    pub fn heights(&self) -> [f64; 2] {
+        self.shape.heights(self.middle)
+    }
+
     /// Whether the defect meets roller `roller` (from 0) of row `row` on `side` at all.
     pub fn meets(&self, row: usize, roller: usize, side: Side) -> bool {
         self.row == row

@@ -14,6 +14,15 @@ pub(super) const STEEL: f64 = 7.85e-6;
 pub(super) const ROLLERS: &str = "bearing.element is \"roller\"";
 pub(super) const BALLS: &str = "bearing.element is \"ball\"";
 
+/// Mass of a roller or ball of steel, kg.
+pub(super) fn steel_element_kg(b: &Bearing) -> f64 {
+    let d = b.roller_diameter_mm;
+    match b.element {
+        Element::Roller => STEEL * PI / 4.0 * d.powi(2) * b.roller_length_mm,
+        Element::Ball => STEEL * PI / 6.0 * d.powi(3),
+    }
+}
+
 pub(super) fn bearing<K: Keys>(k: &mut K, model: ModelKind, b: &mut Bearing) {
     k.preset(key("preset", "catalogue bearing that fills the keys left out"), &mut b.preset);
     k.key(
@@ -75,13 +84,8 @@ pub(super) fn bearing<K: Keys>(k: &mut K, model: ModelKind, b: &mut Bearing) {
         derived(outer_ring, ring_how),
         &mut b.outer_ring_mass_kg,
     );
-    let roller = match b.element {
-        Element::Roller => {
-            derived(STEEL * PI / 4.0 * b.roller_diameter_mm.powi(2) * b.roller_length_mm, "steel cylinder")
-        }
-        Element::Ball => derived(STEEL * PI / 6.0 * b.roller_diameter_mm.powi(3), "steel ball"),
-    };
-    k.key(key("roller_mass_kg", "m").above(0.0), roller, &mut b.roller_mass_kg);
+    let how = if b.has_balls() { "steel ball" } else { "steel cylinder" };
+    k.key(key("roller_mass_kg", "m").above(0.0), derived(steel_element_kg(b), how), &mut b.roller_mass_kg);
     // A catalogue bearing's profile is no reason to refuse a scenario that has no slices.
     let unsliced = |how| Fallback::Instead { value: RollerProfile::Straight, how, assumed: false };
     let profile = match (model, k.foretold("contact", "law")) {

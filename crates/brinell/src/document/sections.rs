@@ -205,9 +205,11 @@ fn steel<K: Keys>(k: &mut K, b: &Bearing, c: &mut Contact) {
 }
 
 /// Stiffness of the healthy inner and outer contact where the file gives none.
-fn stiffness(b: &Bearing, c: &Contact) -> [Fallback<f64>; 2] {
-    if let Some(ellipses) = ball::ellipses(b, c) {
-        return ellipses.map(|e| derived(e.stiffness, "Hertz, of the ball's and the groove's curvatures"));
+pub(super) fn stiffness(b: &Bearing, c: &Contact) -> [Fallback<f64>; 2] {
+    if b.has_balls() {
+        // Without ellipses a groove or the material is at fault, which is reported.
+        let of = ball::ellipses(b, c).map_or([f64::NAN; 2], |ellipses| ellipses.map(|e| e.stiffness));
+        return of.map(|of| derived(of, "Hertz, of the ball's and the groove's curvatures"));
     }
     let palmgren = || {
         if is_line_exponent(c.exponent) {

@@ -2,9 +2,9 @@
 
 use super::balance::{Balance, NoBalance, Problem, own_force};
 use super::solve;
-use crate::defect::{SIDES, Side, wrap};
+use crate::defect::{Defect, SIDES, Side, wrap};
 use crate::model::Model;
-use crate::scenario::LoadOn;
+use crate::scenario::{LoadOn, Surface};
 use std::f64::consts::{PI, TAU};
 
 /// Load distribution of the static balance: rollers of all rows at several positions of the cage.
@@ -14,6 +14,8 @@ pub struct StaticLoadZone {
     pub points: Vec<(usize, f64, f64, f64)>,
     /// Largest Q_out, N.
     pub largest: f64,
+    /// The same of the healthy bearing, N.
+    pub healthy_largest: f64,
     /// Extent of the zone where rollers of the healthy bearing carry load between the raceways, rad; 0 where none does, a
     /// full turn where every roller does everywhere. A roller whose own weight rests on the inner ring carries none, and
     /// damage takes the load off rollers that are over it: so the zone is that without damage.
@@ -22,6 +24,8 @@ pub struct StaticLoadZone {
     pub ends: (f64, f64),
     /// Direction in which the inner ring of the healthy bearing is displaced in the outer one, rad.
     pub middle: f64,
+    /// How far, m.
+    pub displacement: f64,
     /// Mean ring offset, inner less outer, m.
     pub shift: [f64; 2],
     /// Mean stiffness of the bearing between its rings, N/m.
@@ -39,6 +43,22 @@ impl StaticLoadZone {
     /// Where the zone begins and ends, rad, counter-clockwise from +x; not wrapped.
     pub fn arc(&self) -> [f64; 2] {
         [self.middle + self.ends.0, self.middle + self.ends.1]
+    }
+
+    /// Whether rollers bear load over damage on the outer raceway: where those of the healthy bearing do, and where the
+    /// damage is raised by more than the healthy gap. Other damage turns into the zone.
+    pub fn reaches(&self, model: &Model, defect: &Defect) -> bool {
+        if defect.surface != Surface::OuterRaceway {
+            return true;
+        }
+        let (first, last) = defect.shape.arc();
+        // From the middle of the zone to the middle of the damage.
+        let half = 0.5 * (last - first) / defect.radius;
+        let away = wrap(defect.center + 0.5 * (first + last) / defect.radius - self.middle);
+        let loaded = self.extent > 0.0 && away + half >= self.ends.0 && away - half <= self.ends.1;
+        let nearest = (away.abs() - half).max(0.0);
+        let gap = model.geometry.clearance + model.geometry.outer_gap - self.displacement * nearest.cos();
+        loaded || defect.shape.raised() > gap
     }
 
     /// Static deformation of the heaviest contact on the softer raceway, m.
@@ -61,10 +81,12 @@ pub fn static_load_zone(model: &Model) -> Result<StaticLoadZone, NoBalance> {
     if model.defects.is_empty() {
         return Ok(zone);
     }
-    let Ok(StaticLoadZone { extent, ends, middle, .. }) = as_it_is(&model.without_damage()) else {
+    let Ok(StaticLoadZone { healthy_largest, extent, ends, middle, displacement, .. }) =
+        as_it_is(&model.without_damage())
+    else {
         return Ok(zone);
     };
-    Ok(StaticLoadZone { extent, ends, middle, ..zone })
+    Ok(StaticLoadZone { healthy_largest, extent, ends, middle, displacement, ..zone })
 }
 
 /// The same, with the zone of the bearing as it is.
@@ -75,9 +97,11 @@ fn as_it_is(model: &Model) -> Result<StaticLoadZone, NoBalance> {
     let mut zone = StaticLoadZone {
         points: Vec::with_capacity(PHASES * l.rollers()),
         largest: 0.0,
+        healthy_largest: 0.0,
         extent: 0.0,
         ends: (0.0, 0.0),
         middle: 0.0,
+        displacement: 0.0,
         shift: [0.0; 2],
         stiffness: [[0.0; 2]; 2],
         support: 0.0,
@@ -107,7 +131,9 @@ fn as_it_is(model: &Model) -> Result<StaticLoadZone, NoBalance> {
             }
         }
     }
+    zone.healthy_largest = zone.largest;
     zone.middle = zone.shift[1].atan2(zone.shift[0]);
+    zone.displacement = zone.shift[0].hypot(zone.shift[1]);
     zone.ends = if places.iter().all(|place| place.squeeze > 0.0) {
         (-PI, PI)
     } else {

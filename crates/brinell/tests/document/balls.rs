@@ -98,6 +98,38 @@ fn prop_a_written_ball_bearing_checks_the_same() {
 }
 
 #[test]
+fn regress_a_groove_that_cannot_be_is_the_one_error() {
+    let problems = with(BARE, &[("bearing.inner_groove_conformity", "4.2")]).unwrap_err();
+    assert_eq!(problems.len(), 1, "{}", report(&problems));
+}
+
+#[test]
+fn analytic_ten_times_the_rating_is_a_pressure_by_the_element() {
+    // ISO 76 has 4.2 GPa of balls and 4 GPa of rollers at C0; Q^(1/3) and Q^(1/2).
+    let load = [("operation.load_n", "[0, -1e6]")];
+    refused(BARE, &load, "operation.load_n", "a contact pressure of 9.05 GPa");
+    refused(super::BARE, &load, "operation.load_n", "a contact pressure of 12.6 GPa");
+}
+
+#[test]
+fn prop_damage_beyond_the_ball_is_refused() {
+    // The ball's radius is 3.97 mm, the pit's 0.25 mm.
+    let on_ring =
+        ("defects.0", "{ on = \"outer-raceway\", depth_um = 280, shape = { circle = { diameter_mm = 0.5 } } }");
+    let at = |mm| [on_ring, ("defects.0.axial_offset_mm", mm)];
+    for mm in ["4.25", "-6"] {
+        refused(BARE, &at(mm), "defects.0.axial_offset_mm", "no ball can touch this damage");
+    }
+    for mm in ["4.15", "-3"] {
+        assert!(with(BARE, &at(mm)).is_ok(), "{mm}");
+    }
+    let outline = "{ outline = { points_mm = [[0, 4], [1, 4], [0, 5]] } }";
+    refused(BARE, &[("defects.0.shape", outline)], "defects.0.shape.outline.points_mm", "into z from -3.97 to 3.97 mm");
+    let map = "{ depth_map = { ds_mm = 1, dz_mm = 1, z0_mm = 5, columns = 2, rows = 2, depth_um = [1, 2, 3, 4] } }";
+    refused(BARE, &[("defects.0.shape", map)], "defects.0.shape.depth_map.depth_um", "no ball can touch this damage");
+}
+
+#[test]
 fn prop_damage_may_be_wider_than_the_ball_but_not_than_any_groove() {
     let wide = |mm: &str| {
         with(BARE, &[("defects.0.shape", &format!("{{ rectangle = {{ length_mm = 1.0, width_mm = {mm} }} }}"))])

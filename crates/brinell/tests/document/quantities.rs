@@ -54,3 +54,50 @@ fn prop_a_quantity_that_does_not_fit_is_refused_with_units_that_do() {
         refused(BARE, &[(key, value)], key, words);
     }
 }
+
+#[test]
+fn analytic_a_stiffness_or_mass_in_another_unit_is_said() {
+    const BALL: &str = "[bearing]\nelement = \"ball\"\ninner_raceway_diameter_mm = 52.291\nouter_raceway_diameter_mm = 77.706\nroller_diameter_mm = 12.7\n\
+                        rollers_per_row = 9\n[operation]\nspeed_rpm = 1800\nload_n = [0, -8900]\n";
+    let told = |text: &str, key: &str, value: f64| -> Vec<String> {
+        let loaded = with(text, &[(key, &format!("{value:?}"))]).unwrap();
+        loaded.warnings.iter().filter(|w| w.key == key).map(ToString::to_string).collect()
+    };
+    let derived = |text: &str, key: &str| -> f64 { good(text).provenance_of(key).unwrap().value.parse().unwrap() };
+    for (text, n) in [(BALL, 1.5), (BARE, 10.0 / 9.0)] {
+        for key in ["contact.inner_stiffness", "contact.outer_stiffness"] {
+            let geometry = derived(text, key);
+            for fits in [0.11, 1.0, 9.0] {
+                assert_eq!(told(text, key, fits * geometry), Vec::<String>::new(), "{key}");
+            }
+            let in_mm = told(text, key, geometry / 1e3_f64.powf(n));
+            assert!(in_mm.len() == 1 && in_mm[0].contains("in N/mm^n instead of N/m^n?"), "{in_mm:?}");
+            let other = told(text, key, 11.0 * geometry);
+            assert!(
+                other.len() == 1 && other[0].contains("11 times the ") && !other[0].contains("N/mm^n"),
+                "{other:?}"
+            );
+        }
+        let key = "bearing.roller_mass_kg";
+        let steel = derived(text, key);
+        // Silicon nitride has 0.41 of the mass.
+        assert_eq!(told(text, key, 0.41 * steel), Vec::<String>::new());
+        let in_g = told(text, key, 1e3 * steel);
+        assert!(in_g.len() == 1 && in_g[0].contains("in g instead of kg?"), "{in_g:?}");
+    }
+    assert_eq!(told(BARE, "friction.raceway_coefficient", 0.8), Vec::<String>::new());
+    assert!(told(BARE, "friction.raceway_coefficient", 5.0)[0].contains("dry steel on steel"));
+}
+
+#[test]
+fn prop_no_preset_is_taken_for_another_unit() {
+    for entry in brinell::bearing::catalogue::all() {
+        let text =
+            format!("[bearing]\npreset = \"{}\"\n[operation]\nspeed_rpm = 1500\nload_n = [100, 0]\n", entry.name);
+        let Ok(loaded) = with(&text, &[]) else {
+            continue;
+        };
+        let suspected = loaded.warnings.iter().filter(|w| w.key.contains("stiffness") || w.key.contains("mass"));
+        assert_eq!(suspected.count(), 0, "{}", entry.name);
+    }
+}

@@ -1,12 +1,10 @@
-//! Geometry of bearing and cage, and their contact.
+//! Geometry of bearing and cage.
 
 use std::f64::consts::PI;
 
 use super::{Checker, short};
-use crate::bearing::catalogue;
+use crate::analysis::most_elements;
 use crate::bearing::clearance::{ClearanceClass, bore_diameter_mm, largest_bore_mm};
-use crate::contact::is_line_exponent;
-use crate::scenario::Law;
 
 /// Share of a roller's diameter by which rounded catalogue diameters may miss each other.
 const GEOMETRY_TOLERANCE: f64 = 0.02;
@@ -15,7 +13,6 @@ const CLEARANCES: f64 = 3.0;
 /// Share of a roller's diameter beyond which a clearance or preload is a slip of the unit.
 const LARGEST_CLEARANCE: f64 = 0.05;
 
-const ELEMENT: &str = "bearing.element";
 const INNER: &str = "bearing.inner_raceway_diameter_mm";
 const OUTER: &str = "bearing.outer_raceway_diameter_mm";
 const PITCH: &str = "bearing.pitch_diameter_mm";
@@ -53,8 +50,25 @@ impl Checker<'_> {
             return;
         }
         self.clearance_unit();
+        self.bore();
         if self.raceways(clearance_mm) {
             self.spacing();
+        }
+    }
+
+    /// Whether the inner ring has a wall. A preset's bore says nothing of raceways of one's own.
+    fn bore(&mut self) {
+        let b = &self.s.bearing;
+        if let Some(bore) = b.bore_diameter_mm
+            && bore >= b.inner_raceway_diameter_mm
+        {
+            let inner = short(b.inner_raceway_diameter_mm);
+            self.error(
+                BORE,
+                format!("a bore of {} mm leaves no inner ring under a raceway of {inner} mm", short(bore)),
+                format!("< {inner}"),
+                &[INNER],
+            );
         }
     }
 
@@ -117,7 +131,7 @@ impl Checker<'_> {
         }
         let spacing = pitch * (PI / z as f64).sin();
         if spacing <= d {
-            let fit = (PI / (d / pitch).clamp(0.0, 1.0).asin()).ceil() - 1.0;
+            let fit = most_elements(d, pitch);
             self.error(
                 COUNT,
                 format!(
@@ -255,49 +269,6 @@ impl Checker<'_> {
                 format!("> {}", short(pitch)),
                 &[PITCH],
             );
-        }
-    }
-
-    /// What balls cannot have.
-    fn balls(&mut self) {
-        const LAW: &str = "contact.law";
-        let entry = self.s.bearing.preset.as_deref().and_then(catalogue::find);
-        if let Some(entry) = entry
-            && entry.has_balls() != self.s.bearing.has_balls()
-        {
-            let word = if entry.has_balls() { "ball" } else { "roller" };
-            self.error(
-                ELEMENT,
-                format!("{} is a {word} bearing", entry.name),
-                format!("\"{word}\", or no preset"),
-                &["bearing.preset"],
-            );
-        }
-        if self.s.bearing.has_balls() && self.s.contact.law == Law::Ecl {
-            self.error(
-                LAW,
-                "a ball's contact has no length that damage could take a share of".into(),
-                "\"sliced\", or the key left out".into(),
-                &[ELEMENT],
-            );
-        }
-    }
-
-    pub(super) fn contact(&mut self) {
-        const EXPONENT: &str = "contact.exponent";
-        self.balls();
-        for stiffness in ["contact.inner_stiffness", "contact.outer_stiffness"] {
-            if self.finder.is_preset(stiffness)
-                && self.finder.place(EXPONENT).is_some()
-                && !is_line_exponent(self.s.contact.exponent)
-            {
-                self.warn(
-                    EXPONENT,
-                    format!("the preset's {stiffness} is in N/m^(10/9) and is now read as N/m^n"),
-                    String::new(),
-                    &[stiffness],
-                );
-            }
         }
     }
 }

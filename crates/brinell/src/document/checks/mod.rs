@@ -3,6 +3,7 @@
 //! Values that could not be read are NaN or 0 here; comparisons are written so that these raise no objection.
 
 mod bearing;
+mod contact;
 mod damage_files;
 mod defects;
 mod operation;

@@ -6,6 +6,7 @@ use crate::document::{Problem, Severity};
 use crate::scenario::{Defect, DepthGrid, EdgeReaction, Law, ModelKind, RollerPath, Shape};
 
 const LENGTH: &str = "bearing.roller_length_mm";
+const BALL: &str = "bearing.roller_diameter_mm";
 /// Pieces that the slices of one depth map may take at a point: 400 MB; along an envelope twice as much.
 const MOST_PIECES: f64 = 5e6;
 /// A corner less than this beyond the roller's end, mm, is round-off.
@@ -110,11 +111,30 @@ impl Checker<'_> {
         }
     }
 
+    /// How far a ball reaches along z, mm, where damage (mm) lies wholly beyond: the groove's width is not known, and no
+    /// groove is wider than its ball.
+    fn beyond_ball(&self, (low, high): (f64, f64)) -> Option<f64> {
+        let radius = 0.5 * self.s.bearing.roller_diameter_mm;
+        (self.s.bearing.has_balls() && (low >= radius || high <= -radius)).then_some(radius)
+    }
+
     /// Damage beyond the roller's ends, given its smallest and largest z in m before it is moved.
     pub(super) fn on_raceway(&mut self, i: usize, defect: &Defect, key: &str, (low, high): (f64, f64)) {
         let half = 0.5 * self.s.bearing.axial_reach_mm();
         let offset = defect.axial_offset_mm;
         let (low, high) = (1e3 * low + offset, 1e3 * high + offset);
+        if let Some(touched) = self.beyond_ball((low, high)) {
+            let message = format!(
+                "no ball can touch this damage: z from {} to {} mm, and a ball reaches from -{2} to {2} mm",
+                short(low),
+                short(high),
+                short(touched)
+            );
+            let offset_key = format!("defects.{i}.axial_offset_mm");
+            let (key, also) = if offset == 0.0 { (key, &[BALL][..]) } else { (&*offset_key, &[key, BALL][..]) };
+            self.error(key, message, format!("damage that reaches into z from -{0} to {0} mm", short(touched)), also);
+            return;
+        }
         // What an offset carries over the edge is left out, as long as anything stays.
         if offset != 0.0 && low < half && high > -half {
             if low < -half - EDGE_SLACK || high > half + EDGE_SLACK {
@@ -251,10 +271,10 @@ impl Checker<'_> {
             self.error(
                 key,
                 format!(
-                    "raised edges (the highest {} um) act only in contact.law = \"sliced\" of simulation.model = \"full\"",
+                    "raised edges (the highest {} um) act only in contact.law = \"sliced\" of simulation.model = \"full\" or \"tilting\"",
                     short(-1e6 * map.extremes().1)
                 ),
-                ">= 0, or those two".into(),
+                ">= 0".into(),
                 &["contact.law", "simulation.model"],
             );
         }
@@ -265,7 +285,7 @@ impl Checker<'_> {
         let (low, high) = map.heights();
         let offset = defect.axial_offset_mm;
         let (low, high) = (1e3 * low + offset, 1e3 * high + offset);
-        if low >= half || high <= -half {
+        if low >= half || high <= -half || self.beyond_ball((low, high)).is_some() {
             self.on_raceway(i, defect, key, map.heights());
         } else if low < -half - grid.dz_mm || high > half + grid.dz_mm {
             self.warn(
