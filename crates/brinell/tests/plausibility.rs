@@ -55,6 +55,12 @@ fn regress_a_sensible_scenario_earns_no_word() {
 }
 
 #[test]
+fn regress_damage_of_no_depth_is_said() {
+    assert!(warning(&[("defects.0.depth_um", "0.001")]).contains("runs as a healthy one"));
+    silent(&[("defects.0.depth_um", "0.05")]);
+}
+
+#[test]
 fn prop_damage_outside_the_load_zone_is_said_of_the_outer_raceway_alone() {
     // The zone of 300 N and 10 um is about 76 degrees wide, around 0 degrees.
     for (center, outside) in

@@ -2,7 +2,7 @@
 //! of it.
 
 use super::warning::{short, warning};
-use crate::defect::{Defect, SIDES, Side, relative_radius, wrap};
+use crate::defect::{Defect, SIDES, Shape, Side, relative_radius, wrap};
 use crate::document::{Problem, toml_float};
 use crate::model::Model;
 use crate::scenario::{ModelKind, RollerPath, Scenario};
@@ -13,15 +13,36 @@ const REACHED_SHARE: f64 = 0.9;
 /// Static deformations of the heaviest contact: deeper damage over a roller's whole width takes all load off it where
 /// it begins.
 const DROP: f64 = 10.0;
+/// Depth of damage that roughness hides, m: ground raceways have Ra of some 0.05 to 0.2 um.
+const ROUGHNESS: f64 = 0.05e-6;
 
 pub(super) fn warnings(scenario: &Scenario, model: &Model, zone: Option<&StaticLoadZone>) -> Vec<Problem> {
-    let mut all = Vec::new();
+    let mut all = hardly_any(scenario, model);
     if let Some(zone) = zone {
         all.extend(outside_the_load_zone(scenario, model, zone));
         all.extend(beside_the_ellipse(scenario, model, zone));
     }
     all.extend(felt_by_a_point(scenario, model, zone.map(|zone| zone.deformation(model))));
     all
+}
+
+/// Damage of no depth to speak of: its label says damage, and its run is the healthy one's.
+fn hardly_any(scenario: &Scenario, model: &Model) -> Vec<Problem> {
+    let of_key = |(k, defect): (usize, &Defect)| {
+        let largest = match &defect.shape {
+            Shape::DepthMap(grid) => grid.extremes().0.max(defect.shape.raised()),
+            _ => defect.reach(defect.radius).0,
+        };
+        (largest < ROUGHNESS).then(|| {
+            warning(
+                &format!("defects.{k}.depth_um"),
+                toml_float(scenario.defects[k].depth_um),
+                format!("this damage is {} um deep at most, less than a raceway is rough: the bearing runs as a healthy one", short(1e6 * largest)),
+                format!(">= {}", short(1e6 * ROUGHNESS)),
+            )
+        })
+    };
+    model.defects.iter().enumerate().filter_map(of_key).collect()
 }
 
 /// Damage on the outer raceway that no loaded roller meets. Damage on the inner raceway and on rollers turns into the
