@@ -184,7 +184,7 @@ def depth_map(
         ``depth_um[i, j]`` at ``z0_mm + i dz_mm``, ``s0_mm + j ds_mm``: columns along s, rows along the axis. 0 is
         undamaged, negative a raised edge.
     ds_mm, dz_mm : float
-        Distance of columns and of rows.
+        From point to point along s (of columns) and along the axis (of rows).
     s0_mm, z0_mm : float, optional
         First column and row; the grid is centred by default.
     **place

@@ -95,7 +95,7 @@ fn origin(p: &Provenance) -> (&'static str, &'static str) {
     match &p.origin {
         Origin::File | Origin::Override => ("file", ""),
         Origin::Preset { .. } => ("catalogue", " (catalogue)"),
-        Origin::DamageFile(_) => ("damage file", " (from its file)"),
+        Origin::DamageFile(_) | Origin::Found(_) => ("damage file", " (from its file)"),
         Origin::Derived(_) => ("derived", " (derived)"),
         Origin::Default(_) => ("default", " (default)"),
         Origin::Recorded(_) => ("recorded", " (assumed)"),

@@ -34,9 +34,10 @@ fn regress_a_written_scenario_says_what_was_assumed_of_its_files() {
         let list = call.out.split("Assumed, because it was not given:\n").nth(1);
         list.unwrap().to_owned()
     };
-    for (name, of_file) in
-        [("photo", &["threshold = 0.67", "blur_px = 1.5 px", "speck_mm2"][..]), ("scan", &["depth_map.zero"])]
-    {
+    for (name, of_file) in [
+        ("photo", &["threshold = 0.67", "blur_px = 1.5 px", "speck_mm2"][..]),
+        ("scan", &["depth_map.zero", "depth_map.radius_mm = 27."]),
+    ] {
         let scenario = example(&format!("{name}.toml"));
         let short = "simulation.duration_s=0.005";
         let run = ["run", &scenario, "-o", name, "-q", "--no-report", "--set", short];

@@ -6,7 +6,7 @@
 use crate::depth_doubts::{raised, tilt};
 use crate::direction::{along_rows, turn_grid};
 use crate::error::{DamageError, check_range};
-use crate::form_fit::remove;
+use crate::form_fit::{Removed, remove};
 use crate::geometry::DepthMap;
 use crate::holes::{drop_specks, fill};
 use crate::kind::{FileKind, describe};
@@ -39,17 +39,23 @@ pub fn read_depth_map(bytes: &[u8], format: Option<FileKind>, options: &ScanFile
             way_out: "at least 2 x 2 are needed, one line per row",
         });
     }
-    let (mut warnings, notes) = (std::mem::take(&mut raw.warnings), std::mem::take(&mut raw.notes));
+    let (mut warnings, mut notes) = (std::mem::take(&mut raw.warnings), std::mem::take(&mut raw.notes));
     let spacing_mm = spacing(&raw, options)?;
     to_depth(&mut raw, options)?;
     let missing = check_missing(&raw, options)?;
     let mut scan = turned(raw, spacing_mm, options);
     let hint = tilt(&scan, options);
-    if let Some((used, apart)) = remove(&mut scan, options)?.filter(|(used, apart)| apart > used) {
+    let removed = remove(&mut scan, options)?;
+    if let Some(Removed { used, apart, .. }) = removed.as_ref().filter(|of| of.apart > of.used) {
         warnings.push(format!(
             "the form was fitted to {used} points only, as {apart} are far from it; look at the result before using it"
         ));
     }
+    let form = removed.and_then(|of| of.form);
+    notes.extend(
+        form.iter()
+            .map(|form| format!("the {} has a radius of {} mm, {}", form.name, form.around.radius_mm(), form.sides())),
+    );
     set_zero(&mut scan, options);
     if missing > 0 {
         let (count, layers) = fill(&mut scan);
@@ -74,7 +80,7 @@ pub fn read_depth_map(bytes: &[u8], format: Option<FileKind>, options: &ScanFile
         grid.s0_mm = -0.5 * (low[0] + high[0]) as f64 * grid.ds_mm;
         grid.z0_mm = -0.5 * (low[1] + high[1]) as f64 * grid.dz_mm;
     }
-    Ok(DepthMap { grid, warnings, notes })
+    Ok(DepthMap { grid, warnings, notes, form })
 }
 
 /// Every number within its range.

@@ -1,17 +1,24 @@
-//! Fits a plane or a cylinder to the undamaged part of a scan.
+//! Fits a plane, a cylinder or a torus to the undamaged part of a scan.
 //!
 //! Heights in mm, up out of the material, at (s, z) in mm from the grid's centre:
 //!
 //! ```text
-//! H = c + b z + y(s - m z),   y(x) = x (k x + 2 p) / (sqrt(1 - p^2) + sqrt(1 - (k x + p)^2))
+//! H = c + b z + (x (k x + 2 p) + y (2 - k y)) / (sqrt(1 - p^2) + sqrt((1 - k y)^2 - (k x + p)^2))
+//! y = w (g w + 2 t) / (sqrt(1 - t^2) + sqrt(1 - (g w + t)^2))
+//! x = (s - m z) / n,   w = (z + m s) / n,   n^2 = 1 + m^2
 //! ```
 //!
-//! y is the circle of curvature k through (0, 0) with slope angle asin(p) there; at k = 0 it is a straight line, and
-//! nothing is singular on the way. Gauss-Newton steps, first with weights 1/|residual| (so that damage pulls little),
+//! y is the circle of curvature g through (0, 0) with slope angle asin(t) there. It turns about an axis and leaves a
+//! circle of curvature k with slope angle asin(p): (1 - k y) / k is its radius beside the middle. At k = 0 and g = 0
+//! they are straight lines, and nothing is singular on the way. A plane has b and p, a cylinder m and k too; a torus has
+//! t for b, and g, so a sphere is one. Left out of a torus: its place across the groove and its tilt are the one t,
+//! which they differ from by t z s^2 / (2 R^2), below 0.1 um for 1 mm, R = 23 mm and t = 0.1.
+//! Gauss-Newton steps, first with weights 1/|residual| (so that damage pulls little),
 //! then on the better half of the points (Rousseeuw's concentration steps), then on the points within three robust
 //! standard deviations of the surface, or within the threshold, until that set stays.
 
 use crate::error::DamageError;
+use crate::geometry::{Curve, Form};
 use crate::numbers::{median, solved};
 use crate::scan::Scan;
 use brinell::scenario::{ScanFile, ScanForm};
@@ -28,13 +35,17 @@ const MAD_TO_SIGMA: f64 = 1.4826;
 /// Residuals below a picometre are round-off.
 const ROUND_OFF_MM: f64 = 1e-9;
 
-/// `[c, b, p, m, k]`.
-type Parameters = [f64; 5];
+/// `[c, b, p, m, k, t, g]`.
+type Parameters = [f64; 7];
 const C: usize = 0;
 const B: usize = 1;
 const P: usize = 2;
 const M: usize = 3;
 const K: usize = 4;
+const T: usize = 5;
+const G: usize = 6;
+/// Parameters that are free at once, at most.
+const MOST_FREE: usize = 6;
 
 struct Sample {
     s: f64,
@@ -42,59 +53,78 @@ struct Sample {
     height: f64,
 }
 
-/// The circle, and its slope; `None` past its end.
-fn circle(p: f64, k: f64, x: f64) -> Option<[f64; 2]> {
-    let u = k * x + p;
-    let (start, end) = (1.0 - p * p, 1.0 - u * u);
-    if !(start > 0.0 && end > 0.0) {
-        return None;
-    }
-    let w = end.sqrt();
-    Some([x * (k * x + 2.0 * p) / (start.sqrt() + w), u / w])
+/// The circle with slope angle asin(p) and curvature k, turned about an axis from the height y; `None` past its end.
+fn turned(p: f64, k: f64, x: f64, y: f64) -> Option<f64> {
+    let (u, v) = (k * x + p, 1.0 - k * y);
+    let (start, end) = (1.0 - p * p, v * v - u * u);
+    (start > 0.0 && end > 0.0 && v > 0.0)
+        .then(|| (x * (k * x + 2.0 * p) + y * (2.0 - k * y)) / (start.sqrt() + end.sqrt()))
 }
 
 fn height(q: &Parameters, s: f64, z: f64) -> Option<f64> {
-    Some(q[C] + q[B] * z + circle(q[P], q[K], s - q[M] * z)?[0])
+    let n = q[M].hypot(1.0);
+    let (x, w) = ((s - q[M] * z) / n, (z + q[M] * s) / n);
+    let across = turned(q[T], q[G], w, 0.0)?;
+    Some(q[C] + q[B] * z + turned(q[P], q[K], x, across)?)
 }
 
-/// Takes the form that is asked for off the scan's depths, along the depth and not along its normal. Gives how many of
-/// the points that were looked at are on it, and how many lie apart, as damage does.
-pub(crate) fn remove(scan: &mut Scan, options: &ScanFile) -> Result<Option<(usize, usize)>, DamageError> {
+/// What was taken off.
+pub(crate) struct Removed {
+    /// Points that were looked at and are on the form.
+    pub(crate) used: usize,
+    /// Those that lie apart, as damage does.
+    pub(crate) apart: usize,
+    /// Where it is curved.
+    pub(crate) form: Option<Form>,
+}
+
+/// Takes the form that is asked for off the scan's depths, along the depth and not along its normal.
+pub(crate) fn remove(scan: &mut Scan, options: &ScanFile) -> Result<Option<Removed>, DamageError> {
     let samples = samples(scan);
     let Some((best, found)) = fit(&samples, options)? else {
         return Ok(None);
     };
+    let name = options.remove_form.word();
     for row in 0..scan.rows {
         for column in 0..scan.columns {
             let (s, z) = scan.place(column, row);
             let surface = height(&best, s, z)
-                .ok_or_else(|| DamageError::NoFit { form: "cylinder", why: "it ends inside the scan".to_owned() })?;
+                .ok_or_else(|| DamageError::NoFit { form: name, why: "it ends inside the scan".to_owned() })?;
             scan.depth_um[row * scan.columns + column] += 1e3 * surface;
         }
     }
-    Ok(Some((found.used, samples.len() - found.used)))
+    let (half_s, half_z) = scan.place(scan.columns - 1, scan.rows - 1);
+    let curve = |of: usize, half_mm| Curve { curvature_per_mm: best[of], half_mm };
+    let given = options.radius_mm.is_some();
+    let form = match options.remove_form {
+        ScanForm::None | ScanForm::Plane => None,
+        ScanForm::Cylinder => Some(Form { name, around: curve(K, half_s), across: None, given }),
+        ScanForm::Torus => Some(Form { name, around: curve(K, half_s), across: Some(curve(G, half_z)), given }),
+    };
+    Ok(Some(Removed { used: found.used, apart: samples.len() - found.used, form }))
 }
 
 /// The form that is asked for. What lies closer to the surface than the threshold always belongs to it.
 fn fit(samples: &[Sample], options: &ScanFile) -> Result<Option<(Parameters, Found)>, DamageError> {
-    let fit = |name, free: &[usize], k| {
-        Fit { samples, free, weights: vec![1.0; samples.len()], floor: (1e-3 * options.threshold_um).max(ROUND_OFF_MM) }
-            .run(name, k)
+    let free: &[usize] = match options.remove_form {
+        ScanForm::None => return Ok(None),
+        ScanForm::Plane => &[C, B, P],
+        ScanForm::Cylinder => &[C, B, P, M, K],
+        ScanForm::Torus => &[C, T, P, M, G, K],
     };
-    let found = match (options.remove_form, options.radius_mm) {
-        (ScanForm::None, _) => return Ok(None),
-        (ScanForm::Plane, _) => fit("plane", &[C, B, P], 0.0)?,
-        (ScanForm::Cylinder, None) => fit("cylinder", &[C, B, P, M, K], 0.0)?,
-        (ScanForm::Cylinder, Some(radius)) => {
-            let free = [C, B, P, M];
-            match (fit("cylinder", &free, 1.0 / radius), fit("cylinder", &free, -1.0 / radius)) {
-                (Ok(hollow), Ok(bulging)) if bulging.1.typical < hollow.1.typical => bulging,
-                (Ok(hollow), _) => hollow,
-                (Err(_), other) => other?,
-            }
-        }
+    let floor = (1e-3 * options.threshold_um).max(ROUND_OFF_MM);
+    let fit =
+        |free, k| Fit { samples, free, weights: vec![1.0; samples.len()], floor }.run(options.remove_form.word(), k);
+    let Some(radius) = options.radius_mm else {
+        return fit(free, 0.0).map(Some);
     };
-    Ok(Some(found))
+    // The curvature, which is the last, is known.
+    let free = &free[..free.len() - 1];
+    Ok(Some(match (fit(free, 1.0 / radius), fit(free, -1.0 / radius)) {
+        (Ok(hollow), Ok(bulging)) if bulging.1.typical < hollow.1.typical => bulging,
+        (Ok(hollow), _) => hollow,
+        (Err(_), other) => other?,
+    }))
 }
 
 /// Points that have a value, thinned evenly.
@@ -138,9 +168,8 @@ impl Fit<'_> {
             )));
         }
         let middle = median(self.samples.iter().map(|p| p.height));
-        let mut q = [middle, 0.0, 0.0, 0.0, curvature];
-        let past_end =
-            || no_fit("the scan is longer than the cylinder is wide; check the radius and `ds_mm`".to_owned());
+        let mut q = [middle, 0.0, 0.0, 0.0, curvature, 0.0, 0.0];
+        let past_end = || no_fit(format!("the scan is longer than the {form} is wide; check the radius and `ds_mm`"));
         for _ in 0..SOFT_PASSES {
             q = self.step(&q).ok_or_else(past_end)?;
             let residuals = self.residuals(&q).ok_or_else(past_end)?;
@@ -202,35 +231,33 @@ impl Fit<'_> {
     /// One Gauss-Newton step with the present weights, shortened until it does not make things worse.
     fn step(&self, q: &Parameters) -> Option<Parameters> {
         let n = self.free.len();
-        let mut normal = [[0.0; 6]; 5];
-        let reach = self.samples.iter().fold(1e-6_f64, |most, p| most.max(p.s.abs()));
-        // Differences for the slope and the curvature: their closed forms are singular where either vanishes.
-        let nudge = [1e-6, 1e-6 / reach];
+        let mut normal = [[0.0; MOST_FREE + 1]; MOST_FREE];
+        let reach = self.samples.iter().fold(1e-6_f64, |most, p| most.max(p.s.abs()).max(p.z.abs()));
+        // Differences: the closed forms are singular where slope or curvature vanishes.
+        let nudge = [1e-6, 1e-6, 1e-6, 1e-6, 1e-6 / reach, 1e-6, 1e-6 / reach];
         for (p, &weight) in self.samples.iter().zip(&self.weights) {
             if weight == 0.0 {
                 continue;
             }
-            let x = p.s - q[M] * p.z;
-            let [y, slope] = circle(q[P], q[K], x)?;
-            let by = |dp: f64, dk: f64| -> Option<f64> {
-                Some(circle(q[P] + dp, q[K] + dk, x)?[0] - circle(q[P] - dp, q[K] - dk, x)?[0])
-            };
-            let residual = p.height - q[C] - q[B] * p.z - y;
-            let mut gradient = [0.0; 5];
-            for (slot, &parameter) in gradient.iter_mut().zip(self.free) {
-                *slot = match parameter {
+            let residual = p.height - height(q, p.s, p.z)?;
+            let mut gradient = [0.0; MOST_FREE];
+            for (slot, &of) in gradient.iter_mut().zip(self.free) {
+                let at = |by: f64| {
+                    let mut moved = *q;
+                    moved[of] += by;
+                    height(&moved, p.s, p.z)
+                };
+                *slot = match of {
                     C => 1.0,
                     B => p.z,
-                    P => by(nudge[0], 0.0)? / (2.0 * nudge[0]),
-                    M => -p.z * slope,
-                    _ => by(0.0, nudge[1])? / (2.0 * nudge[1]),
+                    _ => (at(nudge[of])? - at(-nudge[of])?) / (2.0 * nudge[of]),
                 };
             }
             for i in 0..n {
                 for j in 0..n {
                     normal[i][j] += weight * gradient[i] * gradient[j];
                 }
-                normal[i][5] += weight * gradient[i] * residual;
+                normal[i][MOST_FREE] += weight * gradient[i] * residual;
             }
         }
         // On a plane the axis's turn cannot be told from a slope: the damping leaves it where it is.
@@ -263,7 +290,7 @@ mod tests {
     #[test]
     fn analytic_noise_and_a_large_spall_hardly_move_the_parameters() {
         // A raceway of 27.5 mm, tilted and turned, with 0.2 um of noise; a fifth of it is 25 um deep.
-        let truth = [0.1, 0.002, 0.003, 0.02, 1.0 / 27.5];
+        let truth = [0.1, 0.002, 0.003, 0.02, 1.0 / 27.5, 0.0, 0.0];
         let mut noise = Random::new(5);
         let samples: Vec<Sample> = (0..8000)
             .map(|k| {

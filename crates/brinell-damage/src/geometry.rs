@@ -1,6 +1,7 @@
 //! What the readers give: polygons, or a depth map. Frame and origin: see the crate's header.
 
 use brinell::scenario::DepthGrid;
+use brinell::signal::short;
 
 /// Damaged areas as polygons.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -71,4 +72,49 @@ pub struct DepthMap {
     pub warnings: Vec<String>,
     /// What the reader understood of the file by itself, in sentences.
     pub notes: Vec<String>,
+    /// The curved form that was taken off.
+    pub form: Option<Form>,
+}
+
+/// A cylinder or a torus that was fitted to a scan.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Form {
+    /// As `remove_form` has it.
+    pub name: &'static str,
+    /// Along s; of a given radius its sign alone was found.
+    pub around: Curve,
+    /// Across s; none of a cylinder.
+    pub across: Option<Curve>,
+    /// Whether the radius along s was given.
+    pub given: bool,
+}
+
+/// A circle that was fitted.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Curve {
+    /// One over the radius; positive where the surface is hollow.
+    pub curvature_per_mm: f64,
+    /// Half the scan's length in that direction.
+    pub half_mm: f64,
+}
+
+impl Curve {
+    /// The radius, four figures of it.
+    pub fn radius_mm(self) -> f64 {
+        let radius = self.curvature_per_mm.abs().recip();
+        short(radius, 4).parse().unwrap_or(radius)
+    }
+
+    /// Which way it is curved.
+    pub fn side(self) -> &'static str {
+        if self.curvature_per_mm < 0.0 { "bulging" } else { "hollow" }
+    }
+}
+
+impl Form {
+    /// `hollow along s; across, hollow with a radius of 4.13 mm`.
+    pub fn sides(&self) -> String {
+        let across = self.across.map(|c| format!("; across, {} with a radius of {} mm", c.side(), c.radius_mm()));
+        format!("{} along s{}", self.around.side(), across.unwrap_or_default())
+    }
 }

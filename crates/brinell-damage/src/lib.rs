@@ -45,6 +45,7 @@ mod depth_doubts;
 mod depth_npy;
 mod direction;
 mod error;
+mod form_doubts;
 mod form_fit;
 mod geometry;
 mod holes;
@@ -92,7 +93,7 @@ mod svg_union;
 
 pub use depth::read_depth_map;
 pub use error::DamageError;
-pub use geometry::{DepthMap, Polygons};
+pub use geometry::{Curve, DepthMap, Form, Polygons};
 pub use kind::FileKind;
 pub use loaded::resolve_loaded;
 pub use outline::{level_of_area, outline};

@@ -1,7 +1,7 @@
 //! The files of damage that a scenario's text names, told of with the text's lines.
 
 use crate::Unresolved;
-use crate::resolve::resolve_noting;
+use crate::resolve::{Found, resolve_noting};
 use brinell::document::{Loaded, Problem, Problems, Severity, locate};
 use std::path::Path;
 
@@ -18,8 +18,8 @@ pub fn resolve_loaded(
 ) -> Result<Vec<String>, Vec<Problem>> {
     let files: Vec<Option<String>> =
         loaded.scenario.defects.iter().map(|d| d.shape.file().map(str::to_owned)).collect();
-    let mut thresholds = Vec::new();
-    let warnings = resolve_noting(&mut loaded.scenario, folder, &mut thresholds).map_err(|errors| {
+    let mut found = Vec::new();
+    let warnings = resolve_noting(&mut loaded.scenario, folder, &mut found).map_err(|errors| {
         let placed = |error: Unresolved| {
             // What an override gave is nowhere in the text.
             let given = overrides.iter().any(|(key, _)| error.key.starts_with(key));
@@ -32,13 +32,19 @@ pub fn resolve_loaded(
         }
         problems.finish()
     })?;
+    // Before the geometry, which a written scenario has behind them.
+    for Found { defect, threshold, form } in found {
+        if let Some(level) = threshold {
+            loaded.threshold_found(defect, level);
+        }
+        if let Some(form) = form.filter(|form| !form.given) {
+            loaded.radius_found(defect, form.around.radius_mm(), format!("fitted to the scan: {}", form.sides()));
+        }
+    }
     for (defect, file) in files.iter().enumerate() {
         if let Some(file) = file {
             loaded.read_from(defect, file);
         }
-    }
-    for (defect, level) in thresholds {
-        loaded.threshold_found(defect, level);
     }
     Ok(warnings)
 }

@@ -5,9 +5,10 @@ use std::io::Read;
 use std::path::Path;
 
 use brinell::document::{Problem, Severity};
-use brinell::scenario::{DepthGrid, ScanFile, Scenario, Shape, SvgFile};
+use brinell::scenario::{DepthGrid, ScanFile, ScanForm, Scenario, Shape, SvgFile};
 
-use crate::{DamageError, DepthMap, FileKind, Polygons, read_depth_map};
+use crate::form_doubts::form_doubts;
+use crate::{DamageError, DepthMap, FileKind, Form, Polygons, read_depth_map};
 
 /// Bytes of a file of damage.
 const LARGEST: u64 = 256 << 20;
@@ -69,11 +70,18 @@ pub fn resolve(scenario: &mut Scenario, folder: &Path) -> Result<Vec<String>, Ve
 /// A defect by its index, the key that names its file, and the file.
 type Named = (usize, String, String);
 
-/// [`resolve`], with the thresholds that were found in images, by their defects.
+/// What was found in the file of a defect, and is none of its geometry.
+pub(crate) struct Found {
+    pub(crate) defect: usize,
+    pub(crate) threshold: Option<f64>,
+    pub(crate) form: Option<Form>,
+}
+
+/// [`resolve`], with what was found beside geometry.
 pub(crate) fn resolve_noting(
     scenario: &mut Scenario,
     folder: &Path,
-    thresholds: &mut Vec<(usize, f64)>,
+    found: &mut Vec<Found>,
 ) -> Result<Vec<String>, Vec<Unresolved>> {
     let files: Vec<Named> = scenario
         .defects
@@ -89,12 +97,12 @@ pub(crate) fn resolve_noting(
     let mut hints: Vec<(usize, Vec<String>)> = Vec::new();
     for (i, key, file) in &files {
         match read_noting(&scenario.defects[*i].shape, folder) {
-            Ok(read) => {
-                resolved.defects[*i].shape = read.shape;
-                thresholds.extend(read.threshold.map(|level| (*i, level)));
-                warnings
-                    .extend(read.warnings.iter().map(|text| format!("{key} = \"{file}\" (defect {}): {text}", i + 1)));
-                hints.push((*i, read.warnings));
+            Ok(ReadShape { shape, warnings: mut said, threshold, form, .. }) => {
+                resolved.defects[*i].shape = shape;
+                said.extend(form.iter().flat_map(|form| form_doubts(scenario, *i, form)));
+                found.push(Found { defect: *i, threshold, form });
+                warnings.extend(said.iter().map(|text| format!("{key} = \"{file}\" (defect {}): {text}", i + 1)));
+                hints.push((*i, said));
             }
             Err(message) => errors.push(Unresolved { defect: *i, key: key.clone(), file: file.clone(), message }),
         }
@@ -214,6 +222,8 @@ pub struct ReadShape {
     pub notes: Vec<String>,
     /// The threshold that was found in an image: 0 black to 1 white, or the share of the sound surface's brightness.
     pub threshold: Option<f64>,
+    /// The curved form that was taken off a scan.
+    pub form: Option<Form>,
 }
 
 /// Reads the file of one shape; a shape without a file comes back as it is.
@@ -229,7 +239,8 @@ fn read_noting(shape: &Shape, folder: &Path) -> Result<ReadShape, String> {
 /// # Errors
 /// In words.
 pub fn shape_of_bytes(shape: &Shape, bytes: &[u8]) -> Result<ReadShape, String> {
-    let as_it_is = || ReadShape { shape: shape.clone(), warnings: Vec::new(), notes: Vec::new(), threshold: None };
+    let as_it_is =
+        || ReadShape { shape: shape.clone(), warnings: Vec::new(), notes: Vec::new(), threshold: None, form: None };
     let Some(file) = shape.file() else {
         return Ok(as_it_is());
     };
@@ -247,16 +258,17 @@ pub fn shape_of_bytes(shape: &Shape, bytes: &[u8]) -> Result<ReadShape, String> 
         #[cfg(not(feature = "svg"))]
         Shape::Svg(_) => Err(DamageError::LeftOut { kind: FileKind::Svg, feature: "svg" }),
         Shape::Scan(scan) => {
-            let DepthMap { grid, warnings, notes, .. } =
+            let DepthMap { grid, warnings, notes, form } =
                 read_depth_map(bytes, Some(kind), scan).map_err(|e| e.to_string())?;
             // What may be wrong explains what cannot be used.
             let with_hints = |error: String| [&[error], &warnings[..]].concat().join("; ");
-            let doubt = doubt(&grid).map_err(with_hints)?;
+            let doubt = doubt(&grid, scan.remove_form).map_err(with_hints)?;
             return Ok(ReadShape {
                 shape: cut_out(&grid).map_err(with_hints)?,
                 warnings: warnings.iter().cloned().chain(doubt).collect(),
                 notes,
                 threshold: None,
+                form,
             });
         }
         _ => return Ok(as_it_is()),
@@ -267,6 +279,7 @@ pub fn shape_of_bytes(shape: &Shape, bytes: &[u8]) -> Result<ReadShape, String> 
         warnings: polygons.warnings,
         notes: polygons.notes,
         threshold: polygons.threshold,
+        form: None,
     })
 }
 
@@ -303,13 +316,16 @@ fn bytes(path: &Path, largest: u64) -> Result<Vec<u8>, String> {
 ///
 /// # Errors
 /// Where nearly all of it is damage.
-fn doubt(grid: &DepthGrid) -> Result<Option<String>, String> {
+fn doubt(grid: &DepthGrid, removed: ScanForm) -> Result<Option<String>, String> {
+    let form = match removed {
+        ScanForm::None => "the surface's own form may be in it (`remove_form`)".to_owned(),
+        other => format!("the surface's own form may be in it (`remove_form` is \"{}\")", other.word()),
+    };
     let damaged = |d: &&f64| **d != 0.0;
     let share = grid.depth_um.iter().filter(damaged).count() as f64 / grid.depth_um.len() as f64;
     if share > MOST_DAMAGED {
         return Err(format!(
-            "all of it would be damage ({:.0} % of its points): the raceway's own form may be in it (`remove_form`), \
-             or `zero` and `threshold_um` do not fit",
+            "all of it would be damage ({:.0} % of its points): {form}, or `zero` and `threshold_um` do not fit",
             100.0 * share
         ));
     }
@@ -324,8 +340,7 @@ fn doubt(grid: &DepthGrid) -> Result<Option<String>, String> {
     let share = off as f64 / points as f64;
     Ok((share > DOUBTFUL_RIM).then(|| {
         format!(
-            "{:.0} % of the scan's rim is damage: either the raceway's own form is still in it (`remove_form`), \
-             or the damage continues beyond the scan, where it counts as sound",
+            "{:.0} % of the scan's rim is damage: {form}, or the damage continues beyond the scan, where it counts as sound",
             100.0 * share
         )
     }))

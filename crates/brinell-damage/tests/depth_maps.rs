@@ -107,7 +107,7 @@ fn analytic_an_l_is_turned_and_never_mirrored() {
 /// A raceway of radius `radius` (positive: hollow), its axis turned by `turn`, and tilted; heights in um.
 pub(crate) fn raceway(radius: f64, turn: f64, s: f64, z: f64) -> f64 {
     // Across the axis, from the lowest (or highest) line, which lies beside the middle.
-    let x = s - turn * z + 0.4;
+    let x = (s - turn * z) / turn.hypot(1.0) + 0.4;
     let sag = radius - radius.signum() * (radius * radius - x * x).sqrt();
     1e3 * (sag + 0.004 * z) + 123.0
 }
@@ -149,6 +149,48 @@ fn analytic_tilt_and_curvature_are_removed_exactly() {
                 let error = (grid.at(column, row) - spall(s, z)).abs();
                 assert!(error < 1e-5, "{form:?} {radius}: {error} um at {s} {z}");
             }
+        }
+    }
+}
+
+#[test]
+fn analytic_a_torus_is_removed_exactly_and_its_radii_are_those_of_the_surface() {
+    // Grooves of an outer and an inner ring of a 6205, and a ball; at the middle of its height and beside it.
+    for (radius, across, t) in [(23.49, 4.129, 0.0), (23.49, 4.129, 0.1), (-15.55, 4.129, 0.05), (-3.97, -3.97, 0.08)] {
+        let step = 0.04;
+        let read = |given: Option<f64>, side: usize| {
+            let map = npy_f8(side, side, |row, column| {
+                let (s, z) = place(side, side, step, row, column);
+                let arc = |r: f64, x: f64| r - r.signum() * (r * r - x * x).sqrt();
+                let from = across * t;
+                let y = arc(across, z + from) - arc(across, from);
+                let around = radius - y;
+                // The circle that the profile leaves there, seen beside its middle.
+                let height = radius - around.signum() * (around * around - (s + 0.3).powi(2)).sqrt();
+                1e3 * height - if s.hypot(z) < 0.2 { 20.0 } else { 0.0 }
+            });
+            let options = ScanFile {
+                ds_mm: Some(step),
+                dz_mm: Some(step),
+                remove_form: ScanForm::Torus,
+                radius_mm: given,
+                center: false,
+                ..Default::default()
+            };
+            let read = read_depth_map(&map, None, &options).unwrap();
+            for row in 0..side {
+                for column in 0..side {
+                    let (s, z) = place(side, side, step, row, column);
+                    let error = (read.grid.at(column, row) - if s.hypot(z) < 0.2 { 20.0 } else { 0.0 }).abs();
+                    assert!(error < 1e-4, "{radius} {across} {t} {given:?}: {error} um at {s} {z}");
+                }
+            }
+            read.form.unwrap()
+        };
+        for (given, side) in [(None, 26), (None, 51), (Some(radius.abs()), 51)] {
+            let form = read(given, side);
+            let radii = [form.around, form.across.unwrap()].map(|c| c.curvature_per_mm.recip());
+            assert!((radii[0] / radius - 1.0).abs() < 1e-3 && (radii[1] / across - 1.0).abs() < 1e-3, "{radii:?}");
         }
     }
 }

@@ -219,7 +219,7 @@ fn read_all(noise: &mut Noise, bytes: &[u8]) -> usize {
         height_positive_up: noise.below(2) == 0,
         missing: (noise.below(3) == 0).then(|| number(noise, 0.0)),
         fill: [ScanFill::None, ScanFill::Neighbours][noise.below(3).min(1)],
-        remove_form: [ScanForm::None, ScanForm::Plane, ScanForm::Cylinder][noise.below(3)],
+        remove_form: [ScanForm::None, ScanForm::Plane, ScanForm::Cylinder, ScanForm::Torus][noise.below(4)],
         radius_mm: (noise.below(2) == 0).then(|| number(noise, 20.0)),
         zero: [ScanZero::AsIs, ScanZero::RimMedian, ScanZero::Percentile][noise.below(3)],
         zero_percentile: Some(number(noise, 50.0)),

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use brinell::document::read;
 use brinell::model::Model;
 use brinell::scenario::{DepthGrid, Scenario, Shape};
-use brinell_damage::{Unresolved, resolve};
+use brinell_damage::{Unresolved, resolve, resolve_loaded};
 
 const HEAD: &str = "name = \"files\"\n[bearing]\npreset = \"NN3007\"\n[operation]\nspeed_rpm = 1800.0\n\
     load_n = [300.0, 0.0]\n[simulation]\nduration_s = 0.01\nsample_rate_hz = 25600.0\n";
@@ -191,6 +191,53 @@ fn regress_a_scan_whose_rim_is_damage_is_doubted() {
         Err(errors) => errors[0].to_string(),
     };
     assert!(said.contains("remove_form"), "{said}");
+}
+
+#[test]
+fn analytic_a_fitted_radius_is_kept_and_one_that_is_not_the_surface_s_is_warned_of() {
+    // The example is hollow with 27.5 mm, as the outer raceway is. A spacing of 1.2 makes the radius 1.44 of that, one
+    // of 1.05 makes it 1.10, within a fifth.
+    let warned = |on: &str, keys: &str| {
+        let text = format!(
+            "{HEAD}[contact]\nlaw = \"sliced\"\n[[defects]]\non = \"{on}\"\ncenter_deg = 0.0\nshape = {{ depth_map = {{ \
+             file = \"scan.csv\", dz_mm = 0.06, fill = \"neighbours\", speck_mm2 = 0.05, remove_form = \"cylinder\", {keys} }} }}\n"
+        );
+        let mut loaded = read(&text, &[]).unwrap();
+        let warnings = resolve_loaded(&mut loaded, &text, &[], &examples()).unwrap();
+        let found = loaded.provenance.into_iter().find(|p| p.key == "defects.0.shape.depth_map.radius_mm" && p.assumed);
+        let radius = found.map(|p| (p.value.parse::<f64>().unwrap(), p.reason()));
+        (warnings.into_iter().find(|w| w.contains("the fitted cylinder")), radius)
+    };
+    for (on, keys, radius, wanted) in [
+        ("outer-raceway", "ds_mm = 0.06", 27.5, None),
+        ("outer-raceway", "ds_mm = 0.063", 27.5 * 1.1025, None),
+        ("outer-raceway", "ds_mm = 0.072", 27.5 * 1.44, Some("outer raceway is hollow with 27.5 mm; check `ds_mm`")),
+        ("inner-raceway", "ds_mm = 0.06", 27.5, Some("check `height_positive_up` and `on`")),
+    ] {
+        let (said, found) = warned(on, keys);
+        let (fitted, how) = found.expect(keys);
+        // Noise of 0.15 um on a sag of 160 um, on a surface with a spall.
+        assert!((fitted / radius - 1.0).abs() < 0.01, "{keys}: {fitted}");
+        assert_eq!(how, "fitted to the scan: hollow along s");
+        match wanted {
+            Some(words) => assert!(said.as_ref().is_some_and(|w| w.contains(words)), "{keys}: {said:?}"),
+            None => assert_eq!(said, None, "{keys}"),
+        }
+    }
+    // A radius that was given is its author's.
+    assert_eq!(warned("outer-raceway", "ds_mm = 0.06, radius_mm = 27.5"), (None, None));
+}
+
+#[test]
+fn regress_a_cylinder_is_doubted_on_a_ball_bearing() {
+    let text = HEAD.replace("NN3007", "6205")
+        + "[[defects]]\non = \"outer-raceway\"\nshape = { depth_map = { file = \"a.csv\", remove_form = \"FORM\" } }\n";
+    let remarks = |form: &str| {
+        let loaded = read(&text.replace("FORM", form), &[]).unwrap();
+        loaded.warnings.iter().filter(|w| w.key.ends_with("remove_form")).map(ToString::to_string).collect::<String>()
+    };
+    assert!(remarks("cylinder").contains("no surface of a ball bearing is a cylinder"));
+    assert_eq!(remarks("torus"), "");
 }
 
 #[test]

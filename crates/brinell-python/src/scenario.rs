@@ -55,20 +55,22 @@ impl Source {
         let mut warnings: Vec<String> = loaded.warnings.iter().map(ToString::to_string).collect();
         if let Some(resolved) = &self.resolved {
             let known = read(resolved, &[])?;
-            let found = |k: usize| {
-                let key = format!("defects.{k}.shape.image.threshold");
-                let entry = known.provenance.iter().find(|p| p.assumed && p.key == key);
-                entry.and_then(|p| p.value.parse::<f64>().ok())
+            let found = |k: usize, key: &str| {
+                let key = format!("defects.{k}.shape.{key}");
+                let entry = known.provenance.iter().find(|p| p.assumed && p.key == key)?;
+                Some((entry.value.parse::<f64>().ok()?, entry.reason()))
             };
-            let thresholds: Vec<_> = (0..known.scenario.defects.len()).map(found).collect();
             for (k, known) in known.scenario.defects.into_iter().enumerate() {
                 let file = |d: &brinell::scenario::Defect| d.shape.file().map(str::to_owned);
                 if let Some(file) = loaded.scenario.defects.get(k).and_then(file) {
                     loaded.scenario.defects[k].shape = known.shape;
-                    loaded.read_from(k, &file);
-                    if let Some(level) = thresholds[k] {
+                    if let Some((level, _)) = found(k, "image.threshold") {
                         loaded.threshold_found(k, level);
                     }
+                    if let Some((radius_mm, how)) = found(k, "depth_map.radius_mm") {
+                        loaded.radius_found(k, radius_mm, how);
+                    }
+                    loaded.read_from(k, &file);
                 }
             }
             return Ok((loaded, warnings));

@@ -7,6 +7,7 @@ use crate::figures::drawn;
 use crate::files::{Source, make_folder, safe_name};
 use crate::results::{PREVIEW, Place, Results};
 use crate::say::{self, document, say, short};
+use brinell::document::{Loaded, Origin, Provenance};
 use brinell::scenario::Scenario;
 use brinell_io::{Complete, atomic_prepare};
 use brinell_report::{Damage, DamagePanel, Layout, Picture, damage_of};
@@ -34,7 +35,7 @@ pub(super) fn preview(args: &PreviewArgs) -> Result<(), Failure> {
     let mut entries = Vec::new();
     for (index, damage) in &all {
         if !args.json {
-            tell(damage);
+            tell(damage, form(&loaded, *index));
         }
         let pictures = pictures(*index, damage, layout);
         ready.extend(drawn(&pictures, &args.formats, &folder)?);
@@ -103,7 +104,15 @@ fn tables(index: usize, damage: &Damage, folder: &Path, ready: &mut Vec<Complete
     Ok(())
 }
 
-fn tell(damage: &Damage) {
+/// The radius that was fitted to a defect's scan.
+fn form(loaded: &Loaded, index: usize) -> Option<String> {
+    let key = format!("defects.{index}.shape.depth_map.radius_mm");
+    let found = |p: &&Provenance| p.key == key && matches!(p.origin, Origin::Found(_));
+    let radius = loaded.provenance.iter().find(found)?;
+    Some(format!("radius {} mm, {}", radius.value, radius.reason()))
+}
+
+fn tell(damage: &Damage, form: Option<String>) {
     let view = &damage.view;
     say!("{}", view.title);
     for fact in &view.facts {
@@ -115,6 +124,9 @@ fn tell(damage: &Damage) {
     }
     for note in view.photo.iter().flat_map(|photo| &photo.notes) {
         say!("  Photo: {note}");
+    }
+    if let Some(form) = form {
+        say!("  Form: {form}");
     }
     let plain = view.passage_note.replace('µ', "u").replace("δⁿ", "delta^n");
     say!("  Passage: {plain}");

@@ -1,5 +1,8 @@
 //! `brinell init`: a scenario to start from, small or with every key, and the files that it names.
 
+mod scan;
+
+use self::scan::{Raceway, STEP_MM, scan_of};
 use crate::failure::Failure;
 use crate::say::{document, pretty, say};
 use brinell::bearing::catalogue::{self, Entry, STATIC_RATING};
@@ -117,7 +120,11 @@ pub(crate) fn init(args: &InitArgs) -> Result<ExitCode, Failure> {
     files.push((beside(SCHEMA), pretty(&brinell::document::json_schema()).into()));
     for name in template.examples() {
         let bytes = brinell_studio::example_file(name).expect("templates name the studio's files");
-        files.push((beside(name), bytes.to_vec()));
+        let bytes = match template {
+            Template::Scan => scan_of(bytes, &bearing),
+            _ => bytes.to_vec(),
+        };
+        files.push((beside(name), bytes));
     }
     if template == Template::DataSet {
         let base = filled(include_str!("base.toml"), &names, &bearing);
@@ -192,6 +199,17 @@ struct Fitted {
     pit: f64,
     /// Size of the example photo and scan over that on the paper's bearing.
     scale: f64,
+    /// The outer raceway.
+    raceway: Raceway,
+    /// What the example scan's surface is, as `remove_form` has it.
+    form: &'static str,
+}
+
+impl Fitted {
+    /// Spacing of the example scan.
+    fn step_mm(&self) -> f64 {
+        (1000.0 * STEP_MM * self.scale).round() / 1000.0
+    }
 }
 
 /// The paper's bearing, load and spall.
@@ -203,6 +221,8 @@ const LOAD_OVER_RATING: f64 = 0.1;
 const SPALL: [f64; 2] = [0.3, 0.5];
 /// Diameter of a pit over the ball's.
 const PIT: f64 = 0.1;
+/// Radius of a groove over the ball's diameter, where a scenario gives none.
+const GROOVE: f64 = 0.52;
 /// Length of the paper's rollers, mm, that the example photo was made for.
 const PAPER_LENGTH: f64 = 6.0;
 
@@ -252,6 +272,11 @@ fn fitted(entry: &Entry, preset: String) -> Fitted {
             true => tenth(0.8 * diameter / PAPER_LENGTH).min(1.0),
             false => 1.0,
         },
+        raceway: Raceway {
+            radius_mm: 0.5 * number("outer_raceway_diameter_mm"),
+            across_mm: if entry.has_balls() { GROOVE * diameter } else { f64::INFINITY },
+        },
+        form: if entry.has_balls() { "torus" } else { "cylinder" },
     };
     if entry.name == PAPER.0 {
         (of.load, of.spall) = (PAPER.1, PAPER.2);
@@ -315,7 +340,8 @@ fn filled(text: &str, names: &Names, of: &Fitted) -> String {
         ("{small}", number(tenth(0.25 * of.spall[0]).max(0.1))),
         ("{pit}", number(of.pit)),
         ("{scale}", number((1000.0 * 0.02 * of.scale).round() / 1000.0)),
-        ("{step}", number((1000.0 * 0.06 * of.scale).round() / 1000.0)),
+        ("{form}", of.form.to_owned()),
+        ("{step}", number(of.step_mm())),
     ];
     // In one pass: a file's name may hold the name of a place.
     let (mut filled, mut rest) = (String::new(), text);

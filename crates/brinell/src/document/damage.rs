@@ -209,9 +209,14 @@ fn depth_map<K: Keys>(k: &mut K, shape: &mut Shape) {
     };
     let ds = spacing(
         "ds_mm",
-        "distance of columns, along s, counter-clockwise around the surface; of a file that says its own, left out",
+        "from point to point along s, around the surface: between columns, or between a file's rows where \
+         rolling_direction is up or down; of a file that says its own, left out",
     );
-    let dz = spacing("dz_mm", "distance of rows, along the axis; of a file that says its own, left out");
+    let dz = spacing(
+        "dz_mm",
+        "from point to point along the axis: between rows, or between a file's columns where \
+         rolling_direction is up or down; of a file that says its own, left out",
+    );
     match file {
         Some(_) => {
             k.optional(ds, &mut scan.ds_mm);

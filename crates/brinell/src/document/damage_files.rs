@@ -109,12 +109,12 @@ pub(super) fn scan<K: Keys>(k: &mut K, wanted: bool, s: &mut ScanFile) {
     k.optional(key("missing", "number that marks a missing point, beside empty cells and nan"), &mut s.missing);
     k.key_where(key("fill", "what to do about missing points"), filed, stated(ScanFill::None, "refused"), &mut s.fill);
     k.key_where(
-        key("remove_form", "the raceway's own form, fitted and taken off"),
+        key("remove_form", "the surface's own form, fitted and taken off"),
         filed,
         stated(ScanForm::None, "nothing is taken off"),
         &mut s.remove_form,
     );
-    let radius = key("radius_mm", "the cylinder's radius; left out: fitted");
+    let radius = key("radius_mm", "radius along s of the cylinder or torus; left out: fitted");
     k.optional(radius.above(0.0).to(1e5), &mut s.radius_mm);
     k.key_where(
         key("zero", "what counts as depth 0"),

@@ -49,6 +49,13 @@ impl Element {
     }
 }
 
+impl ScanForm {
+    /// As the scenario file says it: `cylinder`, for one.
+    pub fn word(self) -> &'static str {
+        Choice::word(self)
+    }
+}
+
 impl Accuracy {
     /// As the scenario file says it: `standard` or `reference`.
     pub fn word(self) -> &'static str {

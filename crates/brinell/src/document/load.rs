@@ -93,19 +93,22 @@ impl Loaded {
 
     /// Says that the level which divides damage from sound was found in the image of a defect, 0 black to 1 white.
     pub fn threshold_found(&mut self, defect: usize, level: f64) {
-        let of = |name: &str| format!("defects.{defect}.shape.image.{name}");
-        // After all that the file says of its image: where a written scenario has it.
-        let of_image = of("");
-        let place = self.provenance.iter().rposition(|p| p.key.starts_with(&of_image));
-        let found = Provenance {
-            key: of("threshold"),
-            value: toml_text::float(level),
-            unit: "",
-            origin: Origin::Derived("found in the image, its light evened out where that is uneven"),
-            assumed: true,
-        };
-        let place = place.map_or(self.provenance.len(), |place| place + 1);
-        self.provenance.insert(place, found);
+        let how = "found in the image, its light evened out where that is uneven";
+        self.found(defect, "image", "threshold", "", level, Origin::Derived(how));
+    }
+
+    /// Says that the radius along s of the form of a defect's scan was fitted; `how`, in words.
+    pub fn radius_found(&mut self, defect: usize, radius_mm: f64, how: String) {
+        self.found(defect, "depth_map", "radius_mm", "mm", radius_mm, Origin::Found(how));
+    }
+
+    /// Behind all that the file says of the shape: where a written scenario has it.
+    fn found(&mut self, defect: usize, kind: &str, name: &str, unit: &'static str, value: f64, origin: Origin) {
+        let of_shape = format!("defects.{defect}.shape.{kind}.");
+        let place = self.provenance.iter().rposition(|p| p.key.starts_with(&of_shape));
+        let key = of_shape + name;
+        let found = Provenance { key, value: toml_text::float(value), unit, origin, assumed: true };
+        self.provenance.insert(place.map_or(self.provenance.len(), |place| place + 1), found);
     }
 
     /// The scenario as TOML with every default filled in, each assumed value with its reason beside it and in the

@@ -21,6 +21,8 @@ pub enum Origin {
     },
     /// A file that the scenario names, beside it.
     DamageFile(String),
+    /// Found in such a file; says how.
+    Found(String),
     /// Computed from other keys; says how.
     Derived(&'static str),
     /// Fixed default; says why.
@@ -55,7 +57,7 @@ impl Provenance {
             Origin::DamageFile(file) => format!("read from {file}"),
             Origin::Derived(how) => format!("derived: {how}"),
             Origin::Default(why) => format!("default: {why}"),
-            Origin::Recorded(reason) => reason.clone(),
+            Origin::Found(reason) | Origin::Recorded(reason) => reason.clone(),
         }
     }
 }

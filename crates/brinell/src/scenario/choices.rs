@@ -167,11 +167,12 @@ choices! {
         Neighbours = "neighbours", "join what is around them";
     }
 
-    /// The raceway's own form under a scan.
+    /// The surface's own form under a scan.
     pub enum ScanForm {
         None = "none", "nothing is taken off";
         Plane = "plane", "a tilted plane";
-        Cylinder = "cylinder", "a tilted cylinder along the axis: the raceway";
+        Cylinder = "cylinder", "a tilted cylinder along the axis: a raceway of rollers, or a roller";
+        Torus = "torus", "a tilted torus around the axis: a groove of balls, or a ball";
     }
 
     /// What counts as depth 0 of a scan.

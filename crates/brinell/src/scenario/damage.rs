@@ -185,9 +185,9 @@ impl Default for SvgFile {
 pub struct ScanFile {
     /// Path, from the scenario's folder.
     pub file: String,
-    /// From point to point along s, mm; `None`: as the file says.
+    /// From point to point along s, whichever way that runs in the file, mm; `None`: as the file says.
     pub ds_mm: Option<f64>,
-    /// From point to point along the axis, mm; `None`: as the file says.
+    /// From point to point along the axis, likewise.
     pub dz_mm: Option<f64>,
     /// What the numbers count.
     pub unit: ScanUnit,
@@ -201,7 +201,7 @@ pub struct ScanFile {
     pub fill: ScanFill,
     /// The form to take off.
     pub remove_form: ScanForm,
-    /// The cylinder's radius where known, mm.
+    /// Radius along s of the cylinder or torus where known, mm.
     pub radius_mm: Option<f64>,
     /// Depth 0.
     pub zero: ScanZero,

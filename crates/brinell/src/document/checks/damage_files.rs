@@ -6,11 +6,15 @@ use crate::scenario::{ImageFile, ScanFile, ScanForm};
 impl Checker<'_> {
     /// Keys that mean something only beside others.
     pub(super) fn scan(&mut self, i: usize, scan: &ScanFile) {
-        if scan.radius_mm.is_some() && scan.remove_form != ScanForm::Cylinder {
-            let form = self.shape_key(i, "depth_map", "remove_form");
+        let form = self.shape_key(i, "depth_map", "remove_form");
+        if scan.remove_form == ScanForm::Cylinder && self.s.bearing.has_balls() {
+            let message = "no surface of a ball bearing is a cylinder; grooves and balls are curved along the axis too";
+            self.warn(&form, message.into(), "\"torus\"".into(), &["bearing.element"]);
+        }
+        if scan.radius_mm.is_some() && !matches!(scan.remove_form, ScanForm::Cylinder | ScanForm::Torus) {
             self.error(
                 &self.shape_key(i, "depth_map", "radius_mm"),
-                "has a meaning only where remove_form = \"cylinder\"".into(),
+                "has a meaning only where remove_form is \"cylinder\" or \"torus\"".into(),
                 String::new(),
                 &[&form],
             );

@@ -197,7 +197,7 @@ impl Checker<'_> {
     pub(super) fn depth_map(&mut self, i: usize, defect: &Defect, grid: &DepthGrid) {
         for name in ["missing", "radius_mm"] {
             let key = self.shape_key(i, "depth_map", name);
-            if self.finder.value(&key).is_some() {
+            if self.finder.is_given(&key) {
                 let message = "has a meaning only where there is a `file`".into();
                 self.error(&key, message, String::new(), &[]);
             }
