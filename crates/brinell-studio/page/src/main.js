@@ -323,8 +323,8 @@ class Studio {
       if (side.problems.length) this.#lay(side);
     }
     if (dirty.delete("state") && side.live.opened) this.#state();
-    const shown = /** @type {Side} */ (/** @type {unknown} */ (this.still ?? side)), all = this.beside ? this.sides : [shown];
-    if (dirty.has("curves") && this.curves.draw(shown, all, this.healthy?.curves ?? null, this.measured, now)) dirty.delete("curves");
+    const shown = /** @type {Side} */ (/** @type {unknown} */ (this.still ?? side));
+    if (dirty.has("curves") && this.curves.draw(shown, this.other, this.healthy?.curves ?? null, this.measured, now)) dirty.delete("curves");
     if (dirty.has("readout") && now - this.#read > SLOW_READOUT_MS) {
       dirty.delete("readout");
       this.#read = now;
@@ -436,7 +436,7 @@ class Studio {
       close();
       throw error;
     }
-    if (found) showMeasured(found, file.name, { beside, close });
+    if (found) showMeasured(found, file.name, { beside, close, simulated: this.side.opened.unit });
   }
 
   get #name() { return this.side.opened?.scenario.name ?? "scenario"; }

@@ -95,13 +95,14 @@ export async function judged(ask, name, bytes, known, own, refused) {
  * Shows what the engine found in a measured signal.
  * @param {any} found
  * @param {string} name
- * @param {{beside: (on: boolean) => void, close: () => void}} act
+ * @param {{beside: (on: boolean) => void, close: () => void, simulated: string}} act  simulated: unit of the simulation's spectra
  */
-export function showMeasured(found, name, { beside, close }) {
+export function showMeasured(found, name, { beside, close, simulated }) {
   const root = byId("measured"), lay = h("input", { type: "checkbox", checked: true, onchange: () => beside(lay.checked) });
-  const curve = (/** @type {string} */ kind, /** @type {any} */ data) => Object.assign(document.createElement("brinell-curve"), { data }), unit = found.unit ?? "";
-  const curves = [["waveform", { x0: found.from_s ?? 0, dx: 1 / found.rate_hz, values: found.x, unit, lines: [], behind: null, second: null }],
-    ["envelope", { x0: 0, dx: found.envelope?.df, values: found.envelope?.values, unit, lines: found.lines ?? [], behind: null, second: null }]]
+  const curve = (/** @type {string} */ kind, /** @type {any} */ data) => Object.assign(document.createElement("brinell-curve"), { data }), unit = found.unit ?? "", alike = unit === simulated;
+  const none = { unit, lines: [], behind: null, second: null }, of = (/** @type {any} */ one) => ({ ...none, x0: 0, dx: one?.df, values: one?.values });
+  const curves = [["waveform", { ...none, x0: found.from_s ?? 0, dx: 1 / found.rate_hz, values: found.x }],
+    ["spectrum", { ...of(found.spectrum), band_hz: found.envelope?.band_hz }], ["envelope", { ...of(found.envelope), lines: found.lines ?? [] }]]
     .filter(([, data]) => /** @type {any} */ (data).values)
     .map(([kind, data]) => {
       const node = curve(String(kind), data);
@@ -109,15 +110,16 @@ export function showMeasured(found, name, { beside, close }) {
       return node;
     });
   root.replaceChildren(
-    h("div", { className: "tools" }, h("h2", {}, `Measured: ${name}`), h("label", {}, lay, "beside the simulation's spectra"), h("span", { className: "spacer" }),
+    h("div", { className: "tools" }, h("h2", {}, `Measured: ${name}`), alike ? h("label", {}, lay, "beside the simulation's spectra")
+      : h("span", { className: "note" }, `in ${spelled(unit)}: it cannot be laid beside the simulation's spectra, in ${spelled(simulated)}`), h("span", { className: "spacer" }),
       h("button", { type: "button", onclick: close }, "Close")),
     h("p", { className: "used" }, (found.used ?? []).map(spelled).join("; ")),
     ...(found.warnings ?? []).map((/** @type {string} */ words) => h("p", { className: "trouble" }, `Warning: ${words}`)),
     h("p", {}, h("strong", {}, found.headline)),
-    h("div", { className: "side-by-side" }, ...curves,
-      h("div", { className: "scroll", tabIndex: 0, role: "group", "aria-label": "What was found" }, tableOf(found.table))),
-    h("p", { className: "note levels" }, (found.levels ?? []).map((/** @type {string} */ l) => spelled(l)).join(", ")));
+    h("p", { className: "note levels" }, `${(found.levels ?? []).map((/** @type {string} */ l) => spelled(l)).join(", ")}; curves in ${spelled(unit)}`),
+    h("div", { className: "side-by-side" }, ...curves),
+    h("div", { className: "scroll", tabIndex: 0, role: "group", "aria-label": "What was found" }, tableOf(found.table)));
   root.hidden = false;
-  beside(true);
+  beside(alike);
   root.scrollIntoView({ block: "nearest" });
 }
