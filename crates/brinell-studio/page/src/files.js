@@ -134,6 +134,19 @@ export function droppable(take) {
   });
 }
 
+/** Pictures of the views. @param {any[]} views @param {string} name @param {"svg" | "png"} format */
+export async function savePictures(views, name, format) {
+  for (const view of views) {
+    if (!view?.toSVG) continue;
+    try {
+      const file = `${name}-${view.kind ?? view.localName.replace("brinell-", "")}.${format}`;
+      download(format === "svg" ? new Blob([await view.toSVG()], { type: "image/svg+xml" }) : await view.toPNG(), file);
+    } catch {
+      // A view without data has no picture.
+    }
+  }
+}
+
 /** The Save menu. @param {[string, () => void][]} items @param {string} note */
 export function saveMenu(items, note) {
   const button = byId("save"), list = byId("save-list");

@@ -1,6 +1,6 @@
 // A measured signal: opened, judged by the engine, shown in the page and laid beside the simulation.
 import { Refused } from "./answers.js";
-import { byId, h, short, spelled, tableOf } from "./dom.js";
+import { byId, h, numberInput, numberOf, short, spelled, tableOf } from "./dom.js";
 
 /** @typedef {(request: Record<string, unknown>) => Promise<any>} Ask */
 
@@ -24,7 +24,7 @@ export function line(label, input, unit, note) {
 }
 
 /** @param {string} text */
-const number = (text) => (text.trim() === "" ? null : Number(text));
+const number = (text) => (text.trim() === "" ? null : numberOf(text));
 
 /** What a field says, null where it is what the file states: the engine then takes it from there, and says so. @param {HTMLInputElement} input @param {unknown} stated */
 const given = (input, stated) => (input.value.trim() === "" || input.value === String(stated ?? "") ? null : input.value.trim());
@@ -54,8 +54,8 @@ export async function judged(ask, name, bytes, known, own, refused) {
   const { channels, run } = await ask({ do: "listen", name, bytes });
   if (!channels?.length) throw new Error(`${name} holds no signal`);
   const channel = h("select", {}, ...channels.map((/** @type {any} */ c) => h("option", { value: c.name }, listed(c))));
-  const decimal = (/** @type {object} */ more) => h("input", { type: "number", step: "any", ...more }), text = (/** @type {string} */ placeholder) => h("input", { type: "text", placeholder });
-  const rate = decimal({ min: "0", required: true }), rpm = decimal({ required: true }), from = decimal({ min: "0", value: String(run?.from_s ?? 0) });
+  const text = (/** @type {string} */ placeholder) => h("input", { type: "text", placeholder });
+  const rate = numberInput({ required: true }), rpm = numberInput({ required: true }), from = numberInput({ value: String(run?.from_s ?? 0) });
   const unit = text("m/s^2, g, mm/s, V, counts"), scale = text("10g, 5V"), sensitivity = text("100mV/g"), bearing = bearings(known, run, own.name);
   const rows = { rate: line("Sampling rate", rate, "Hz", " "), unit: line("Unit", unit, "", " "),
     scale: line("Full scale", scale, "", "of a WAV, in place of the unit: what its largest number means"), rpm: line("Speed of the shaft", rpm, "r/min", " ") };
