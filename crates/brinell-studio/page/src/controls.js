@@ -67,6 +67,7 @@ export class Field {
     const [, size, unit] = /^(.*?\d[.,]?)\s*([a-zµ°%].*)$/i.exec(this.spec.united ? box.value.trim() : "") ?? [], whole = numberOf(box.value);
     const said = unit && typeof whole === "string" ? numberOf(size) : whole, empty = box.value.trim() === "";
     this.unread = !empty && typeof said === "string" ? `${said}${this.spec.unit ? ` (${this.spec.unit})` : ""}` : "";
+    box.setCustomValidity(this.unread);
     this.say(this.#said);
     if (this.unread) return;
     const value = empty ? undefined : unit && said !== whole ? `${said} ${unit}` : said;

@@ -145,10 +145,10 @@ class Studio {
       }
     });
     saveMenu([
-      ["Scenario, TOML", () => this.#saveToml()], ["Signals, CSV", () => this.#save("csv")], ["Sound, WAV", () => this.#save("wav")],
-        ["Arrays, NPZ", () => this.#save("npz")],
+      ["Scenario, TOML", () => this.#saveToml()], ["Signals, CSV", () => this.#save("csv")], ["Signals, WAV", () => this.#save("wav")],
+        ["Signals, NPZ", () => this.#save("npz")], ["Sound, WAV", () => this.#saveSound()],
       ["Pictures, SVG", () => this.#pictures("svg")], ["Pictures, PNG", () => this.#pictures("png")],
-    ], "Signals are those of a run from t = 0, which is done first.");
+    ], "Signals are those of a run from t = 0, which is done first; the sound is what Hear plays.");
   }
 
   /** Damage stays where it was drawn, on whatever bearing: that is said. @param {string} bearing */
@@ -356,8 +356,9 @@ class Studio {
   /** @param {KeyboardEvent} e */
   #key(e) {
     const target = /** @type {HTMLElement} */ (e.target);
+    if (e.key === "?" && !target.matches("input[type=text], select, textarea, dialog *")) return showKeys();
     if (e.ctrlKey || e.metaKey) {
-      if (e.key.toLowerCase() !== "z" || target.matches("input[type=text], textarea")) return;
+      if (e.key.toLowerCase() !== "z" || target.matches("input[type=text]:not([inputmode]), textarea")) return;
       e.preventDefault();
       return e.shiftKey ? this.side.store.redo() : this.side.store.undo();
     }
@@ -467,6 +468,12 @@ class Studio {
     } catch (error) {
       this.#failed(error);
     }
+  }
+
+  #saveSound() {
+    const wav = this.sound?.wav?.();
+    if (wav) download(wav, `${this.#name}-sound.wav`);
+    else notice("failed", "There are no whole turns of the shaft to hear yet.", { bad: true });
   }
 
   /** @param {"svg" | "png"} format */

@@ -64,7 +64,7 @@ export async function judged(ask, name, bytes, known, own, refused) {
   const fill = () => {
     const c = now();
     for (const [input, value] of /** @type {[HTMLInputElement, unknown][]} */ ([[rate, c.rate_hz], [unit, c.unit], [rpm, c.rpm]])) input.value = String(value ?? "");
-    says(rows.rate, c.rate_from ? `from ${c.rate_from}` : "the file does not state it");
+    says(rows.rate, c.rate_from ? `from ${c.rate_from}` : c.rate_missing ?? "the file does not state it");
     says(rows.unit, c.unit ? "from the file" : "the file does not state it");
     says(rows.rpm, c.rpm_from ? `from ${c.rpm_from}` : "the file does not state it");
     rows.scale.hidden = !c.is_wav || !!c.unit;
