@@ -116,7 +116,7 @@ export function showMeasured(found, name, { beside, close, simulated }) {
     h("p", { className: "used" }, (found.used ?? []).map(spelled).join("; ")),
     ...(found.warnings ?? []).map((/** @type {string} */ words) => h("p", { className: "trouble" }, `Warning: ${words}`)),
     h("p", {}, h("strong", {}, found.headline)),
-    h("p", { className: "note levels" }, `${(found.levels ?? []).map((/** @type {string} */ l) => spelled(l)).join(", ")}; curves in ${spelled(unit)}`),
+    h("p", { className: "note" }, h("span", { className: "levels" }, (found.levels ?? []).map((/** @type {string} */ l) => spelled(l)).join(", ")), `; curves in ${spelled(unit)}`),
     h("div", { className: "side-by-side" }, ...curves),
     h("div", { className: "scroll", tabIndex: 0, role: "group", "aria-label": "What was found" }, tableOf(found.table)));
   root.hidden = false;
