@@ -1,13 +1,10 @@
 //! How bearing B differs from bearing A: found damage and ratios of indicators, in words.
 
 use crate::report::{Answer, Trouble};
+use brinell::analysis::{HEADLINES, indicator_words};
 use brinell::signal::ratio::{Ratio, ratio};
-use brinell::signal::{Estimate, Interval};
+use brinell::signal::{Estimate, Indicator, Interval};
 use serde_json::{Value, json};
-
-/// Indicators that are compared, as verdicts name them, and what the page calls them.
-const COMPARED: [(&str, &str); 4] =
-    [("rms", "RMS"), ("peak", "peak"), ("crest_factor", "crest factor"), ("kurtosis", "kurtosis")];
 
 /// `differ`: of two answers of `verdict`.
 pub(crate) fn differ(request: &Value) -> Answer<Value> {
@@ -17,8 +14,8 @@ pub(crate) fn differ(request: &Value) -> Answer<Value> {
             return Err(Trouble::of(format!("\"{key}\" must be a verdict")));
         }
     }
-    let ratios: Vec<(&str, Ratio)> =
-        (COMPARED.iter()).filter_map(|(key, words)| Some((*words, ratio(&of(b, key)?, &of(a, key)?)?))).collect();
+    let compared = |i: Indicator| Some((indicator_words(i), ratio(&of(b, i.name())?, &of(a, i.name())?)?));
+    let ratios: Vec<(String, Ratio)> = HEADLINES.into_iter().filter_map(compared).collect();
     let apart = |r: &Ratio| r.interval.is_some_and(|(low, high)| low > 1.0 || high < 1.0);
     let all: Vec<Value> = (ratios.iter())
         .map(|(words, r)| {
@@ -71,8 +68,8 @@ fn damage(a: &Value, b: &Value) -> String {
 }
 
 /// The ratios, those apart from 1 first.
-fn levels(ratios: &[(&str, Ratio)], apart: impl Fn(&Ratio) -> bool) -> String {
-    let word = |(name, r): &(&str, Ratio)| match r.interval {
+fn levels(ratios: &[(String, Ratio)], apart: impl Fn(&Ratio) -> bool) -> String {
+    let word = |(name, r): &(String, Ratio)| match r.interval {
         Some((low, high)) => {
             let [value, low, high] = [r.value, low, high].map(rounded);
             format!("{name} × {value} ({low} to {high})")

@@ -45,18 +45,19 @@ pub(crate) fn listen(request: &Value, arrays: &Arrays) -> Answer<Value> {
     // What is most probably meant comes first: a sensor's channel.
     shown.sort_by_key(|c| !c.name.starts_with("sensor"));
     let by_times = match shown.iter().any(|c| c.rate.is_none()) {
-        true => rate_by_times(&mut file)?.ok(),
-        false => None,
+        true => rate_by_times(&mut file)?,
+        false => Err(String::new()),
     };
     let mut channels = Vec::new();
     for c in shown {
-        let rate = c.stated_rate().or_else(|| by_times.clone());
+        let rate = c.stated_rate().map_or_else(|| by_times.clone(), Ok);
         let rpm = stated_speed(&mut file, run.as_ref(), &c.name)?;
         channels.push(json!({
             "name": c.name,
             "samples": c.length.or(timed.map(|n| n as u64)),
-            "rate_hz": rate.as_ref().map(|r| r.0),
-            "rate_from": rate.map(|r| r.1),
+            "rate_hz": rate.as_ref().ok().map(|r| r.0),
+            "rate_missing": rate.as_ref().err(),
+            "rate_from": rate.ok().map(|r| r.1),
             "unit": c.unit.as_deref().or_else(|| own_unit(&c.name, run.as_ref())),
             "rpm": rpm.as_ref().map(|r| r.0),
             "rpm_from": rpm.map(|r| r.1),

@@ -213,8 +213,8 @@ fn indicators(bench: &Bench) -> Value {
         let recording = spectra::moments(bench);
         let one = |name: &str, key: &str, unit: &str| json!({ "name": name, "unit": unit, "value": recording[key], "low": null, "high": null });
         return json!({ "settled": false, "quantities": [
-            one("RMS", "rms", "m/s^2"), one("Peak", "peak", "m/s^2"),
-            one("Crest factor", "crest", "1"), one("Kurtosis", "kurtosis", "1"),
+            one("RMS", "rms", "m/s^2"), one("peak", "peak", "m/s^2"),
+            one("crest factor", "crest", "1"), one("kurtosis", "kurtosis", "1"),
         ]});
     };
     let scenario = &bench.loaded.scenario;

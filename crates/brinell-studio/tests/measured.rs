@@ -175,5 +175,11 @@ fn prop_a_column_of_times_is_no_signal() {
     let both = names("time [s],acc\n0.0,1\n0.1,2\n0.2,4\n");
     let listed: Vec<&str> = both["channels"].as_array().unwrap().iter().map(|c| c["name"].as_str().unwrap()).collect();
     assert_eq!(listed, ["acc"]);
+    // A gap: that there is no rate is said with the reason.
+    let gap = names("time [s],acc\n0.0,1\n0.1,2\n0.2,4\n0.3,5\n0.9,6\n1.0,7\n");
+    assert_eq!(gap["channels"][0]["rate_hz"], Value::Null);
+    let why = gap["channels"][0]["rate_missing"].as_str().unwrap();
+    assert!(why.starts_with("no sample rate follows from `time [s]`: "), "{why}");
+    assert_eq!(both["channels"][0]["rate_missing"], Value::Null);
     assert_eq!(names("time [s]\n0.0\n0.1\n0.2\n")["ok"], json!(false));
 }

@@ -18,7 +18,7 @@ export async function inflated(text) {
 /** @param {Response | Promise<Response>} response */
 async function compiled(response) {
   const got = await response;
-  if (!got.ok) throw new Error(`${got.url}: ${got.status}`);
+  if (!got.ok) throw new Error(`this page has no engine beside it (${got.url}: ${got.status}). An address of \`brinell studio\` needs its token: take it whole, as the command prints it`);
   if (got.headers.get("Content-Type")?.startsWith("application/wasm")) return WebAssembly.compileStreaming(got);
   return WebAssembly.compile(await got.arrayBuffer());
 }

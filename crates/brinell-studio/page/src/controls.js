@@ -1,5 +1,5 @@
 // Controls of keys: a range and a number with its unit, its reason, and the engine's words where a value is refused.
-import { h, short } from "./dom.js";
+import { h, numberInput, numberOf, short } from "./dom.js";
 import { mainSpecs, moreSpecs } from "./schema.js";
 import { get } from "./state.js";
 
@@ -18,6 +18,13 @@ export class Field {
   #clear;
   /** @type {[number, number]} */
   #span = [0, 1];
+  /** Why what is typed is not read; then it is no part of the scenario. */
+  unread = "";
+  #said = "";
+  /** What the number's field shows, unless the hand is on it. */
+  #shown = "";
+  /** @type {unknown} */
+  #held;
 
   /** @param {Spec} spec @param {Changed} changed @param {{note?: boolean, range?: boolean}} [show] words below, and a range where none is stated */
   constructor(spec, changed, { note: noted = true, range = true } = {}) {
@@ -48,12 +55,24 @@ export class Field {
       const box = h("input", { id, type: "text", spellcheck: false, onchange: () => take(parsed(box.value)) });
       this.#input = box;
     } else {
-      const box = h("input", { id, type: "number", step: spec.integer ? "1" : "any", inputMode: "decimal",
-        oninput: () => { if (box.value !== "" && Number.isFinite(box.valueAsNumber)) take(box.valueAsNumber, true); },
-          onchange: () => take(box.value === "" ? undefined : box.valueAsNumber) });
+      const box = numberInput({ id, onchange: () => this.#typed(box, take) });
       this.#input = box;
       if (spec.span || ranged) this.#range = this.#slider(take);
     }
+  }
+
+  /** Takes what was typed once it is whole. @param {HTMLInputElement} box @param {(value: number | string | undefined) => void} take */
+  #typed(box, take) {
+    // A quantity of the scenario may have its unit with it ("25 Hz"): the engine reads that.
+    const [, size, unit] = /^(.*?\d[.,]?)\s*([a-zµ°%].*)$/i.exec(this.spec.united ? box.value.trim() : "") ?? [], whole = numberOf(box.value);
+    const said = unit && typeof whole === "string" ? numberOf(size) : whole, empty = box.value.trim() === "";
+    this.unread = !empty && typeof said === "string" ? `${said}${this.spec.unit ? ` (${this.spec.unit})` : ""}` : "";
+    box.setCustomValidity(this.unread);
+    this.say(this.#said);
+    if (this.unread) return;
+    const value = empty ? undefined : unit && said !== whole ? `${said} ${unit}` : said;
+    this.#shown = box.value = String(value ?? "");
+    take(value);
   }
 
   /** @param {(value: number, live: boolean) => void} take */
@@ -75,13 +94,17 @@ export class Field {
   update(wanted, all) {
     const read = this.spec.read(wanted), input = this.#input;
     // A number that is stated as a text with its unit shows as the engine read it.
-    const stated = this.spec.kind === "number" && typeof read === "string" ? undefined : read, holds = stated ?? this.spec.read(all) ?? this.spec.fallback;
+    const number = this.spec.kind === "number", stated = number && typeof read === "string" && !this.#said ? undefined : read, holds = stated ?? this.spec.read(all) ?? this.spec.fallback;
     this.#clear.hidden = get(wanted, this.spec.path) === undefined || !!this.spec.required || !(typeof this.spec.path[0] === "string") || this.spec.path[0] === "defects";
     if (!input) return;
     if (input instanceof HTMLInputElement && input.type === "checkbox") input.checked = holds === true;
-    else if (input !== document.activeElement || (input instanceof HTMLInputElement && input.type === "number" && input.valueAsNumber !== holds)) {
+    else if (input !== document.activeElement || (number && input.value === this.#shown)) {
+      // What is not read stays until the key has another value.
+      if (this.unread && holds !== this.#held) this.say(this.unread = "");
       const text = holds === undefined || holds === null ? "" : this.spec.kind === "text" && typeof holds !== "string" ? JSON.stringify(holds) : String(holds);
-      if (input.value !== text && !(input === document.activeElement && Number(input.value) === holds)) input.value = text;
+      if (!this.unread && input.value !== text) input.value = text;
+      this.#shown = text;
+      this.#held = holds;
     }
     if (this.#range) this.#place(holds);
   }
@@ -103,8 +126,10 @@ export class Field {
 
   /** The engine's words about this key, or nothing. @param {string} words */
   say(words) {
-    if (this.#trouble.textContent !== words) this.#trouble.textContent = words;
-    if (words) this.#input?.setAttribute("aria-invalid", "true");
+    this.#said = words;
+    const shown = this.unread || words;
+    if (this.#trouble.textContent !== shown) this.#trouble.textContent = shown;
+    if (shown) this.#input?.setAttribute("aria-invalid", "true");
     else this.#input?.removeAttribute("aria-invalid");
   }
 

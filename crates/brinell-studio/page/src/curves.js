@@ -14,23 +14,22 @@ export class CurveViews {
 
   /**
    * Whether all was drawn; else it is to be asked again in the next frame.
-   * @param {Side} side the one that is edited, whose lines are shown
-   * @param {Side[]} sides
+   * @param {Side} side the one that is edited: the first curve and the marks are its
+   * @param {Side | undefined} other
    * @param {any} healthy
    * @param {any} measured
    * @param {number} now
    */
-  draw(side, sides, healthy, measured, now) {
-    const [waveform, spectrum, envelope] = this.#views, [first, second] = sides;
-    const inputs = [side, first, second, first.spectra, second?.spectra, healthy, measured];
+  draw(side, other, healthy, measured, now) {
+    const [waveform, spectrum, envelope] = this.#views, inputs = [side, other, side.spectra, other?.spectra, healthy, measured];
     if (inputs.some((v, k) => v !== this.#shown[k])) {
       this.#shown = inputs;
-      spectrum.data = this.#spectrum(side, sides, healthy, measured, "spectrum");
-      envelope.data = this.#spectrum(side, sides, healthy, measured, "envelope");
+      spectrum.data = this.#spectrum(side, other, healthy, measured, "spectrum");
+      envelope.data = this.#spectrum(side, other, healthy, measured, "envelope");
     }
     if (now - this.#wave < (still() ? STILL_MS : WAVE_MS)) return false;
     this.#wave = now;
-    waveform.data = first.opened ? this.#waveform(first, second, healthy) : null;
+    waveform.data = side.opened ? this.#waveform(side, other, healthy) : null;
     return true;
   }
 
@@ -44,18 +43,21 @@ export class CurveViews {
     const second = other?.opened ? { x0, dx: 1 / other.opened.rate_hz, values: cut(other) } : null;
     // Of a whole run the first view leaves out what does not count yet: the load as it comes up.
     const settled = whole ? side.opened.settled_s : undefined;
-    return { x0, dx: 1 / rate, values, unit: side.opened.unit, lines: [], behind, second, names: ["A", "B"], settled, stored: "stored" in side };
+    return { x0, dx: 1 / rate, values, unit: side.opened.unit, lines: [], behind, second, names: [side.name, other?.name], settled, stored: "stored" in side };
   }
 
-  /** @param {Side} side @param {Side[]} sides @param {any} healthy @param {any} measured @param {"spectrum" | "envelope"} kind */
-  #spectrum(side, [first, other], healthy, measured, kind) {
-    const got = first.spectra?.[kind];
+  /** @param {Side} side @param {Side | undefined} other @param {any} healthy @param {any} measured @param {"spectrum" | "envelope"} kind */
+  #spectrum(side, other, healthy, measured, kind) {
+    const got = side.spectra?.[kind];
     if (!got) return null;
-    const curve = (/** @type {any} */ one) => (one?.values?.length ? { x0: 0, dx: one.df, values: one.values } : null);
+    const curve = (/** @type {any} */ one) => (one?.values?.length ? { x0: 0, dx: one.df, values: one.values } : null), { lines } = side.spectra;
+    // On one axis only what has its unit; a measured signal then takes the other bearing's place.
+    const beside = measured?.unit === side.opened.unit ? curve(measured[kind]) : null;
+    const names = beside ? [other ? `${side.name}, simulated (${other.name} is not shown)` : "simulated", "measured"]
+      : [kind === "envelope" && lines.length ? `${side.name}, with its lines` : side.name, other?.name];
     return {
-      x0: 0, dx: got.df, values: got.values, unit: first.opened.unit, lines: side.spectra?.lines ?? [], band_hz: got.band_hz,
-        behind: first.damage.length ? curve(healthy?.[kind]) : null,
-      second: curve(measured?.[kind]) ?? curve(other?.spectra?.[kind]), names: measured ? ["simulated", "measured"] : ["A", "B"], stored: "stored" in first,
+      x0: 0, dx: got.df, values: got.values, unit: side.opened.unit, lines, band_hz: got.band_hz, behind: side.damage.length ? curve(healthy?.[kind]) : null,
+      second: beside ?? curve(other?.spectra?.[kind]), names, stored: "stored" in side,
     };
   }
 }

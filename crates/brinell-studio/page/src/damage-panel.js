@@ -1,8 +1,9 @@
 // The panel over the raceway: surface and row, tools, the damage that is selected. Turns what is drawn into edits of the scenario.
 import { Field } from "./controls.js";
-import { h, short } from "./dom.js";
+import { h, numberInput, numberOf, short } from "./dom.js";
 import { defectSpecs } from "./schema.js";
 import { Raceway } from "./raceway.js";
+import { notice } from "./readout.js";
 
 /** @typedef {import("./tools.js").Tool} Tool */
 /** @typedef {import("./tools.js").Request} Request */
@@ -68,8 +69,13 @@ export class DamagePanel {
   #shown = "";
   /** @type {any[]} */
   #damage = [];
-  /** @type {{id: string, index: number | null, base: any, put: boolean, left: boolean} | null} put: it has changed the scenario; left: it was taken back */
+  /** @typedef {{id: string, index: number | null, base: any, scenario: any, left: boolean, ended: boolean}} Gesture  scenario: as it left it; left: it was taken back */
+  /** @type {Gesture | null} */
   #gesture = null;
+  /** The gesture that drew last. @type {Gesture | null} */
+  #latest = null;
+  /** What the engine refused last, and why. @type {{scenario: any, words: string} | null} */
+  #refusal = null;
   #gestures = 0;
   /** @type {{request: Extract<Request, {type: "stroke"}>, gesture: any} | null} */
   #stroke = null;
@@ -87,10 +93,17 @@ export class DamagePanel {
     this.tools = TOOLS.map(([tool, name, key, path]) => h("button",
       { type: "button", className: "icon", title: `${name} (${key})`, "aria-label": name, "data-tool": tool, onclick: () => this.take(tool) }, icon(path),
         h("span", {}, name)));
-    this.width = h("input", { type: "number", className: "narrow-number", min: "0.05", max: "10", step: "0.05", value: "0.5",
-      "aria-label": "Width of pen and brush, mm", oninput: () => { this.raceway.penWidth = this.width.valueAsNumber || 0.5; } });
-    this.depth = h("input", { type: "number", className: "narrow-number", min: "0.1", max: "1000", step: "any", value: String(this.#depth),
-      "aria-label": "Depth that the brush adds, µm", oninput: () => { if (this.depth.valueAsNumber > 0) this.#depth = this.depth.valueAsNumber; } });
+    const size = (/** @type {string} */ label, /** @type {number} */ step, /** @type {() => number} */ now, /** @type {(value: number) => void} */ take) => {
+      const box = numberInput({ className: "narrow-number", value: String(now()), "aria-label": label, onchange: () => {
+        const said = numberOf(box.value);
+        if (typeof said === "number" && said > 0) take(said);
+        else notice("taken", `${label}: ${typeof said === "string" ? said : "expected more than 0"}; ${now()} stays`, { bad: true });
+        box.value = String(now());
+      } }, step);
+      return box;
+    };
+    this.width = size("Width of pen and brush, mm", 0.05, () => this.raceway.penWidth, (value) => { this.raceway.penWidth = value; });
+    this.depth = size("Depth that the brush adds, µm", 1, () => this.#depth, (value) => { this.#depth = value; });
     this.deepest = h("output", { className: "note" });
     this.raise = h("input", { type: "checkbox" });
     this.undo = button("Undo", () => owner.store().undo(), { title: "Ctrl-Z" });
@@ -187,7 +200,7 @@ export class DamagePanel {
   update(all = /** @type {any} */ (null)) {
     const store = this.owner.store(), defect = this.#defects[this.selected - 1];
     if (!defect) this.selected = 0;
-    if (this.depth !== document.activeElement && this.depth.valueAsNumber !== this.#depth) this.depth.value = String(this.#depth);
+    if (this.depth !== document.activeElement) this.depth.value = String(this.#depth);
     this.#deep();
     this.raceway.selected = this.selected;
     this.raceway.defect = defect ?? null;
@@ -236,7 +249,7 @@ export class DamagePanel {
     else if (type === "redo") store.redo();
     else if (type === "select") this.select(request.defect);
     else if (type === "begin") this.#begin();
-    else if (type === "end") this.#gesture = null;
+    else if (type === "end") this.#end();
     else if (type === "cancel") this.#cancel();
     else if (type === "shape") this.#put({ shape: request.shape }, request.s, request.z, this.#gesture ?? this.#begin());
     else if (type === "stroke") this.#scratch(request, this.#gesture ?? this.#begin());
@@ -245,14 +258,37 @@ export class DamagePanel {
 
   #begin() {
     const chosen = this.#defects[this.selected - 1], grid = this.raceway.tool === "brush" && chosen?.shape?.depth_map?.columns ? chosen : null;
-    this.#gesture = { id: `!${++this.#gestures}`, index: grid ? this.selected - 1 : null, base: structuredClone(grid), put: false, left: false };
+    notice("taken", null);
+    this.#latest = this.#gesture = { id: `!${++this.#gestures}`, index: grid ? this.selected - 1 : null, base: structuredClone(grid), scenario: null, left: false, ended: false };
     return this.#gesture;
+  }
+
+  #end() {
+    if (this.#gesture) this.#gesture.ended = true;
+    this.#gesture = null;
+    this.#mend();
+  }
+
+  /** The engine refused a scenario: whether that was what the last gesture drew, which is then taken back. @param {any} scenario @param {string} words */
+  refused(scenario, words) {
+    this.#refusal = { scenario, words };
+    return this.#mend();
+  }
+
+  /** A drag that ends on what is refused leaves nothing, not what was on its way there. */
+  #mend() {
+    const one = this.#latest, why = this.#refusal;
+    if (!one?.ended || !one.scenario || one.scenario !== why?.scenario) return false;
+    this.#latest = this.#refusal = null;
+    this.owner.store().undo();
+    notice("taken", `Taken back: ${why?.words}`, { bad: true });
+    return true;
   }
 
   #cancel() {
     // What the engine still works on is not put there any more.
     if (this.#gesture) this.#gesture.left = true;
-    if (this.#gesture?.put) this.owner.store().undo();
+    if (this.#gesture?.scenario) this.owner.store().undo();
     this.#stroke = this.#gesture = null;
   }
 
@@ -273,7 +309,7 @@ export class DamagePanel {
       if (request.type === "shift") this.#lie(defect, (defect.center_deg + request.degrees) / 360 * this.#turn, (defect.axial_offset_mm ?? 0) + request.z);
       if (request.type === "move") this.#lie(defect, request.s, request.z);
     }, this.#gesture?.id ?? request.type);
-    if (this.#gesture) this.#gesture.put = true;
+    if (this.#gesture) this.#gesture.scenario = store.scenario;
     const depth = this.#defects[at].depth_um;
     if (depth > 0) this.#depth = depth;
     this.raceway.reveal(this.selected);
@@ -291,12 +327,12 @@ export class DamagePanel {
    * @param {any} what
    * @param {number} s
    * @param {number} z
-   * @param {{id: string, index: number | null, put: boolean, left: boolean}} gesture
+   * @param {Gesture} gesture
    */
   #put(what, s, z, gesture) {
     if (gesture.left) return;
-    gesture.put = true;
-    this.owner.store().change((scenario) => {
+    const store = this.owner.store();
+    store.change((scenario) => {
       scenario.defects ??= [];
       if (gesture.index === null || !scenario.defects[gesture.index]) {
         const on = this.surface === "roller" ? { on: "roller", roller: this.roller } : { on: this.surface };
@@ -307,6 +343,7 @@ export class DamagePanel {
       Object.assign(defect, what);
       this.#lie(defect, s, z);
     }, gesture.id);
+    gesture.scenario = store.scenario;
   }
 
   /**

@@ -42,6 +42,33 @@ export function short(value, digits = 3) {
   return text.replace("-", "−");
 }
 
+/** The number that a text says, with a point or a comma before its decimals; else, in words, why it says none. @param {string} text @returns {number | string} */
+export function numberOf(text) {
+  const plain = text.trim().replace("−", "-");
+  if (/^[-+]?[1-9]\d{0,2},\d{3}$/.test(plain)) return `"${plain}" may be ${plain.replace(",", ".")} or ${plain.replace(",", "")}`;
+  return /^[-+]?(\d+([.,]\d*)?|[.,]\d+)(e[-+]?\d+)?$/i.test(plain) ? Number(plain.replace(",", ".")) : `"${plain}" is no number`;
+}
+
+/**
+ * A field for a number: of text, as a browser's own drops what it cannot read. Arrow keys step; no form goes on with what is no number.
+ * @param {Record<string, unknown>} props
+ */
+export function numberInput(props, step = 1) {
+  const box = h("input", { type: "text", inputMode: "decimal", autocomplete: "off", spellcheck: false, ...props });
+  box.addEventListener("input", () => {
+    const said = numberOf(box.value);
+    box.setCustomValidity(box.value.trim() && typeof said === "string" ? said : "");
+  });
+  box.addEventListener("keydown", (e) => {
+    const way = e.key === "ArrowUp" ? 1 : e.key === "ArrowDown" ? -1 : 0, said = numberOf(box.value || "0");
+    if (!way || typeof said === "string") return;
+    e.preventDefault();
+    box.value = String(Number((said + way * step).toPrecision(12)));
+    box.dispatchEvent(new Event("change"));
+  });
+  return box;
+}
+
 /** @param {string} unit */
 export const spelled = (unit) => unit.replaceAll("^2", "²").replaceAll("^3", "³").replaceAll("^n", "ⁿ").replace(/\bdeg\b/g, "°").replace(/\bum\b/g, "µm");
 

@@ -2,6 +2,7 @@
 import { Refused } from "./answers.js";
 import { Field } from "./controls.js";
 import { byId, h, short } from "./dom.js";
+import { hasToken } from "./engine.js";
 import { asked, line } from "./measured.js";
 import { notice } from "./readout.js";
 import { fileSpecs } from "./schema.js";
@@ -134,6 +135,19 @@ export function droppable(take) {
   });
 }
 
+/** Pictures of the views. @param {any[]} views @param {string} name @param {"svg" | "png"} format */
+export async function savePictures(views, name, format) {
+  for (const view of views) {
+    if (!view?.toSVG) continue;
+    try {
+      const file = `${name}-${view.kind ?? view.localName.replace("brinell-", "")}.${format}`;
+      download(format === "svg" ? new Blob([await view.toSVG()], { type: "image/svg+xml" }) : await view.toPNG(), file);
+    } catch {
+      // A view without data has no picture.
+    }
+  }
+}
+
 /** The Save menu. @param {[string, () => void][]} items @param {string} note */
 export function saveMenu(items, note) {
   const button = byId("save"), list = byId("save-list");
@@ -164,14 +178,12 @@ export async function share(toml, save) {
   if (link.length > LINK_LIMIT) return notice("link", `The link would have ${link.length} characters, which many programs cut. Share the file instead.`,
     { actions: [["Save the scenario", save]] });
   history.replaceState(null, "", link);
-  // Without the token of `brinell studio`, which is nobody else's.
-  const address = location.href.replace(location.search, "");
-  const field = h("input", { type: "text", readOnly: true, value: address, "aria-label": "Link to this bearing" });
-  const whose = location.search ? " It opens where this server runs; behind the address of another studio, what follows # is enough." : "";
-  let words = `A link to this bearing:${whose}`;
+  const address = location.href, field = h("input", { type: "text", readOnly: true, value: address, "aria-label": "Link to this bearing" });
+  const whose = hasToken() ? " It opens on this machine while this server runs; behind the address of another studio, what follows # is enough." : "";
+  let words = `A link to this bearing.${whose}`;
   try {
     await navigator.clipboard.writeText(address);
-    words = `The link to this bearing is copied:${whose}`;
+    words = `The link to this bearing is copied.${whose}`;
   } catch {
     // The browser does not let the page write there: the link can be taken from the field.
   }

@@ -3,7 +3,7 @@ import { Lost, Refused } from "./answers.js";
 
 /** @typedef {import("./answers.js").Engine} Engine */
 /** @typedef {import("./state.js").Scenario} Scenario */
-/** @typedef {{scenario?: Scenario, toml?: string, carry: boolean, made: number, again?: boolean}} Edit  again: nothing was edited, the same bearing goes on */
+/** @typedef {{scenario?: Scenario, toml?: string, file?: string, carry: boolean, made: number, again?: boolean}} Edit  file: that it is from; again: nothing was edited, the same bearing goes on */
 /** @typedef {"loading" | "live" | "paused" | "running" | "done" | "lost"} State */
 /** @typedef {(kind: string, data?: any) => void} Report */
 
@@ -65,7 +65,7 @@ export class Live {
     }
   }
 
-  /** The scenario from now on. Only the newest of those that wait is opened. @param {{scenario?: Scenario, toml?: string}} what */
+  /** The scenario from now on. Only the newest of those that wait is opened. @param {{scenario?: Scenario, toml?: string, file?: string}} what */
   edit(what, carry = true) {
     // An edit that starts anew is not undone by a later one that would carry.
     this.#edit = { ...what, carry: carry && this.#edit?.carry !== false, made: performance.now() };

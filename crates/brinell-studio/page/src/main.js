@@ -6,7 +6,7 @@ import { CurveViews } from "./curves.js";
 import { DamagePanel } from "./damage-panel.js";
 import { byId, h, short } from "./dom.js";
 import { engines } from "./engine.js";
-import { bytesOf, chosenKind, download, droppable, kindsOf, saveMenu, shapeOf, share } from "./files.js";
+import { bytesOf, chosenKind, download, droppable, kindsOf, saveMenu, savePictures, shapeOf, share } from "./files.js";
 import { Healthy } from "./healthy.js";
 import { judged, showMeasured } from "./measured.js";
 import { showKeys } from "./help.js";
@@ -18,7 +18,6 @@ import { storedRun } from "./stored.js";
 /** @typedef {import("./side.js").Show} Show */
 
 const START = "rectangle", KEPT_MS = 400, SLOW_READOUT_MS = 200, PASSAGE_MS = 120;
-const VIEWS = ["waveform", "spectrum", "envelope"];
 
 class Studio {
   /** @type {any} */
@@ -146,10 +145,10 @@ class Studio {
       }
     });
     saveMenu([
-      ["Scenario, TOML", () => this.#saveToml()], ["Signals, CSV", () => this.#save("csv")], ["Sound, WAV", () => this.#save("wav")],
-        ["Arrays, NPZ", () => this.#save("npz")],
+      ["Scenario, TOML", () => this.#saveToml()], ["Signals, CSV", () => this.#save("csv")], ["Signals, WAV", () => this.#save("wav")],
+        ["Signals, NPZ", () => this.#save("npz")], ["Sound, WAV", () => this.#saveSound()],
       ["Pictures, SVG", () => this.#pictures("svg")], ["Pictures, PNG", () => this.#pictures("png")],
-    ], "Signals are those of a run from t = 0, which is done first.");
+    ], "Signals are those of a run from t = 0, which is done first; the sound is what Hear plays.");
   }
 
   /** Damage stays where it was drawn, on whatever bearing: that is said. @param {string} bearing */
@@ -172,7 +171,7 @@ class Studio {
     });
     on("share", () => this.#share());
     on("pause", () => this.#pause());
-    on("run", () => this.side.live.run());
+    on("run", () => { if (!this.#isRefused()) this.side.live.run(); });
     on("side-a", () => this.turn(0));
     on("side-b", () => this.turn(1));
     on("both", () => this.compare(!this.beside));
@@ -186,7 +185,7 @@ class Studio {
   }
 
   /** A scenario from a file, a link or an example. @param {string} toml */
-  load(toml, carry = false) { this.side.live.edit({ toml }, carry); }
+  load(toml, carry = false, file = "") { this.side.live.edit({ toml, file }, carry); }
 
   /** @param {import("./schema.js").Spec} spec @param {any} value @param {boolean} live */
   #change(spec, value, live) {
@@ -292,17 +291,22 @@ class Studio {
       return;
     }
     if (side !== this.side) return;
-    if (edit?.toml !== undefined || !edit) notice("refused", problems.map((/** @type {any} */ p) => `${p.line ? `line ${p.line}: ` : ""}${p.message}`).join(" "),
-      { bad: true });
-    else this.#lay(side);
+    const words = problems.map((/** @type {any} */ p) => `${p.line && edit?.toml !== undefined ? `line ${p.line}: ` : ""}${p.message}`).join(" ");
+    if (edit?.toml !== undefined || !edit) notice("refused", edit?.file ? `${edit.file} is refused, and the bearing before it runs on. ${words}` : words, { bad: true });
+    else if (!this.panel.refused(edit.scenario, words)) {
+      this.#dirty.add("fields");
+      this.#lay(side);
+    }
   }
+
+  get #fields() { return [...this.panel.fields, ...(this.controls?.fields ?? [])]; }
 
   /** @param {Side} side */
   #lay(side) {
     const problems = side.problems.map((p) => ({ ...p, path: pathOf(p.key) })), about = problems.find((p) => p.path[0] === "defects" && typeof p.path[1] === "number");
     // The damage that is refused is the one to look at.
     if (about && this.panel.selected !== Number(about.path[1]) + 1 && side.store.scenario.defects?.[Number(about.path[1])]) this.panel.select(Number(about.path[1]) + 1);
-    const rest = lay([...this.panel.fields, ...(this.controls?.fields ?? [])], problems);
+    const rest = lay(this.#fields, problems);
     notice("refused", rest.length ? rest.map((p) => p.message).join(" ") : null, { bad: true, actions: [["Undo", () => side.store.undo()]] });
   }
 
@@ -323,8 +327,8 @@ class Studio {
       if (side.problems.length) this.#lay(side);
     }
     if (dirty.delete("state") && side.live.opened) this.#state();
-    const shown = /** @type {Side} */ (/** @type {unknown} */ (this.still ?? side)), all = this.beside ? this.sides : [shown];
-    if (dirty.has("curves") && this.curves.draw(shown, all, this.healthy?.curves ?? null, this.measured, now)) dirty.delete("curves");
+    const shown = /** @type {Side} */ (/** @type {unknown} */ (this.still ?? side));
+    if (dirty.has("curves") && this.curves.draw(shown, this.other, this.healthy?.curves ?? null, this.measured, now)) dirty.delete("curves");
     if (dirty.has("readout") && now - this.#read > SLOW_READOUT_MS) {
       dirty.delete("readout");
       this.#read = now;
@@ -352,8 +356,9 @@ class Studio {
   /** @param {KeyboardEvent} e */
   #key(e) {
     const target = /** @type {HTMLElement} */ (e.target);
+    if (e.key === "?" && !target.matches("input[type=text], select, textarea, dialog *")) return showKeys();
     if (e.ctrlKey || e.metaKey) {
-      if (e.key.toLowerCase() !== "z" || target.matches("input[type=text], textarea")) return;
+      if (e.key.toLowerCase() !== "z" || target.matches("input[type=text]:not([inputmode]), textarea")) return;
       e.preventDefault();
       return e.shiftKey ? this.side.store.redo() : this.side.store.undo();
     }
@@ -412,7 +417,7 @@ class Studio {
     const kind = await chosenKind(file.name, kindsOf(file.name)), ask = (/** @type {any} */ request) => this.side.live.ask(request);
     if (!kind) return;
     const bytes = await bytesOf(file);
-    if (kind === "toml") return this.load(new TextDecoder().decode(bytes));
+    if (kind === "toml") return this.load(new TextDecoder().decode(bytes), false, file.name);
     if (kind !== "signal") {
       const got = await shapeOf(ask, this.about.schema, /** @type {any} */ (kind), file.name, bytes);
       if (got) this.panel.place(got.shape);
@@ -436,15 +441,17 @@ class Studio {
       close();
       throw error;
     }
-    if (found) showMeasured(found, file.name, { beside, close });
+    if (found) showMeasured(found, file.name, { beside, close, simulated: this.side.opened.unit });
   }
 
   get #name() { return this.side.opened?.scenario.name ?? "scenario"; }
 
-  /** What is refused is neither saved nor shared: the fields would say one thing and the file another. */
+  /** What is refused is not run, saved or shared: the fields would say one thing and the run another. */
   #isRefused() {
-    if (!this.side.problems.length) return false;
-    notice("failed", "The present scenario is refused, so the last good one runs. Correct it or undo, then save or share it.", { bad: true });
+    const field = this.#fields.find((f) => f.unread);
+    if (!field && !this.side.problems.length) return false;
+    notice("refused", field ? `${field.spec.label}: ${field.unread}. Correct it first.` : "The present scenario is refused, so the last good one runs. Correct it or undo first.",
+      { bad: true, actions: field ? [] : [["Undo", () => this.side.store.undo()]] });
     return true;
   }
 
@@ -463,19 +470,14 @@ class Studio {
     }
   }
 
-  /** @param {"svg" | "png"} format */
-  async #pictures(format) {
-    const views = [...document.querySelectorAll("#curves brinell-curve"), this.bearing, this.passage];
-    for (const [k, view] of views.entries()) {
-      if (!view?.toSVG) continue;
-      try {
-        const name = `${this.#name}-${VIEWS[k] ?? view.localName.replace("brinell-", "")}.${format}`;
-        download(format === "svg" ? new Blob([await view.toSVG()], { type: "image/svg+xml" }) : await view.toPNG(), name);
-      } catch {
-        // A view without data has no picture.
-      }
-    }
+  #saveSound() {
+    const wav = this.sound?.wav?.();
+    if (wav) download(wav, `${this.#name}-sound.wav`);
+    else notice("failed", "There are no whole turns of the shaft to hear yet.", { bad: true });
   }
+
+  /** @param {"svg" | "png"} format */
+  #pictures(format) { savePictures([...document.querySelectorAll("#curves brinell-curve"), this.bearing, this.passage], this.#name, format); }
 
   #share() { if (!this.#isRefused()) share(this.side.opened.toml, () => this.#saveToml()); }
 }

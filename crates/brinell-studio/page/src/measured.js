@@ -1,6 +1,6 @@
 // A measured signal: opened, judged by the engine, shown in the page and laid beside the simulation.
 import { Refused } from "./answers.js";
-import { byId, h, short, spelled, tableOf } from "./dom.js";
+import { byId, h, numberInput, numberOf, short, spelled, tableOf } from "./dom.js";
 
 /** @typedef {(request: Record<string, unknown>) => Promise<any>} Ask */
 
@@ -24,7 +24,7 @@ export function line(label, input, unit, note) {
 }
 
 /** @param {string} text */
-const number = (text) => (text.trim() === "" ? null : Number(text));
+const number = (text) => (text.trim() === "" ? null : numberOf(text));
 
 /** What a field says, null where it is what the file states: the engine then takes it from there, and says so. @param {HTMLInputElement} input @param {unknown} stated */
 const given = (input, stated) => (input.value.trim() === "" || input.value === String(stated ?? "") ? null : input.value.trim());
@@ -54,8 +54,8 @@ export async function judged(ask, name, bytes, known, own, refused) {
   const { channels, run } = await ask({ do: "listen", name, bytes });
   if (!channels?.length) throw new Error(`${name} holds no signal`);
   const channel = h("select", {}, ...channels.map((/** @type {any} */ c) => h("option", { value: c.name }, listed(c))));
-  const decimal = (/** @type {object} */ more) => h("input", { type: "number", step: "any", ...more }), text = (/** @type {string} */ placeholder) => h("input", { type: "text", placeholder });
-  const rate = decimal({ min: "0", required: true }), rpm = decimal({ required: true }), from = decimal({ min: "0", value: String(run?.from_s ?? 0) });
+  const text = (/** @type {string} */ placeholder) => h("input", { type: "text", placeholder });
+  const rate = numberInput({ required: true }), rpm = numberInput({ required: true }), from = numberInput({ value: String(run?.from_s ?? 0) });
   const unit = text("m/s^2, g, mm/s, V, counts"), scale = text("10g, 5V"), sensitivity = text("100mV/g"), bearing = bearings(known, run, own.name);
   const rows = { rate: line("Sampling rate", rate, "Hz", " "), unit: line("Unit", unit, "", " "),
     scale: line("Full scale", scale, "", "of a WAV, in place of the unit: what its largest number means"), rpm: line("Speed of the shaft", rpm, "r/min", " ") };
@@ -64,7 +64,7 @@ export async function judged(ask, name, bytes, known, own, refused) {
   const fill = () => {
     const c = now();
     for (const [input, value] of /** @type {[HTMLInputElement, unknown][]} */ ([[rate, c.rate_hz], [unit, c.unit], [rpm, c.rpm]])) input.value = String(value ?? "");
-    says(rows.rate, c.rate_from ? `from ${c.rate_from}` : "the file does not state it");
+    says(rows.rate, c.rate_from ? `from ${c.rate_from}` : c.rate_missing ?? "the file does not state it");
     says(rows.unit, c.unit ? "from the file" : "the file does not state it");
     says(rows.rpm, c.rpm_from ? `from ${c.rpm_from}` : "the file does not state it");
     rows.scale.hidden = !c.is_wav || !!c.unit;
@@ -95,13 +95,14 @@ export async function judged(ask, name, bytes, known, own, refused) {
  * Shows what the engine found in a measured signal.
  * @param {any} found
  * @param {string} name
- * @param {{beside: (on: boolean) => void, close: () => void}} act
+ * @param {{beside: (on: boolean) => void, close: () => void, simulated: string}} act  simulated: unit of the simulation's spectra
  */
-export function showMeasured(found, name, { beside, close }) {
+export function showMeasured(found, name, { beside, close, simulated }) {
   const root = byId("measured"), lay = h("input", { type: "checkbox", checked: true, onchange: () => beside(lay.checked) });
-  const curve = (/** @type {string} */ kind, /** @type {any} */ data) => Object.assign(document.createElement("brinell-curve"), { data }), unit = found.unit ?? "";
-  const curves = [["waveform", { x0: found.from_s ?? 0, dx: 1 / found.rate_hz, values: found.x, unit, lines: [], behind: null, second: null }],
-    ["envelope", { x0: 0, dx: found.envelope?.df, values: found.envelope?.values, unit, lines: found.lines ?? [], behind: null, second: null }]]
+  const curve = (/** @type {string} */ kind, /** @type {any} */ data) => Object.assign(document.createElement("brinell-curve"), { data }), unit = found.unit ?? "", alike = unit === simulated;
+  const none = { unit, lines: [], behind: null, second: null }, of = (/** @type {any} */ one) => ({ ...none, x0: 0, dx: one?.df, values: one?.values });
+  const curves = [["waveform", { ...none, x0: found.from_s ?? 0, dx: 1 / found.rate_hz, values: found.x }],
+    ["spectrum", { ...of(found.spectrum), band_hz: found.envelope?.band_hz }], ["envelope", { ...of(found.envelope), lines: found.lines ?? [] }]]
     .filter(([, data]) => /** @type {any} */ (data).values)
     .map(([kind, data]) => {
       const node = curve(String(kind), data);
@@ -109,15 +110,16 @@ export function showMeasured(found, name, { beside, close }) {
       return node;
     });
   root.replaceChildren(
-    h("div", { className: "tools" }, h("h2", {}, `Measured: ${name}`), h("label", {}, lay, "beside the simulation's spectra"), h("span", { className: "spacer" }),
+    h("div", { className: "tools" }, h("h2", {}, `Measured: ${name}`), alike ? h("label", {}, lay, "beside the simulation's spectra")
+      : h("span", { className: "note" }, `in ${spelled(unit)}: it cannot be laid beside the simulation's spectra, in ${spelled(simulated)}`), h("span", { className: "spacer" }),
       h("button", { type: "button", onclick: close }, "Close")),
     h("p", { className: "used" }, (found.used ?? []).map(spelled).join("; ")),
     ...(found.warnings ?? []).map((/** @type {string} */ words) => h("p", { className: "trouble" }, `Warning: ${words}`)),
     h("p", {}, h("strong", {}, found.headline)),
-    h("div", { className: "side-by-side" }, ...curves,
-      h("div", { className: "scroll", tabIndex: 0, role: "group", "aria-label": "What was found" }, tableOf(found.table))),
-    h("p", { className: "note levels" }, (found.levels ?? []).map((/** @type {string} */ l) => spelled(l)).join(", ")));
+    h("p", { className: "note" }, h("span", { className: "levels" }, (found.levels ?? []).map((/** @type {string} */ l) => spelled(l)).join(", ")), `; curves in ${spelled(unit)}`),
+    h("div", { className: "side-by-side" }, ...curves),
+    h("div", { className: "scroll", tabIndex: 0, role: "group", "aria-label": "What was found" }, tableOf(found.table)));
   root.hidden = false;
-  beside(true);
+  beside(alike);
   root.scrollIntoView({ block: "nearest" });
 }

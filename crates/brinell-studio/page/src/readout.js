@@ -8,8 +8,8 @@ const QUIET_MS = 3500;
 /** @param {string} name @param {string} value @param {string} [title] */
 const pair = (name, value, title) => h("div", { title }, h("dt", {}, name), h("dd", {}, value));
 
-// Of a finished run, which has all channels: those of the sensor's axis, by the ends of their names.
-const RUN = [["rms", "RMS"], ["peak", "peak"], ["crest_factor", "crest factor"], ["kurtosis", "kurtosis"]], MOST = 7;
+// Of a finished run, which has all channels: those of the sensor's axis, by the ends of their names. Its peaks are means over revolutions, a live one's the record's.
+const RUN = [["rms", "RMS"], ["peak", "mean peak of a revolution"], ["crest_factor", "mean peak over RMS"], ["kurtosis", "kurtosis"]], MOST = 7;
 
 /** Quantities and what they are called here. @param {any[]} list @param {string} axis @returns {[any, string][]} */
 function named(list, axis) {

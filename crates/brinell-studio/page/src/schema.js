@@ -10,6 +10,7 @@ import { get, set } from "./state.js";
  * @property {string} unit
  * @property {string} note
  * @property {"number" | "choice" | "flag" | "text"} kind
+ * @property {boolean} [united]  also takes a text of a number and its unit
  * @property {boolean} [integer]
  * @property {number} [min]      allowed by the schema
  * @property {number} [max]
@@ -59,7 +60,7 @@ export function spec(schema, path, own = {}) {
   /** @type {Spec} */
   const made = {
     path, kind, label: named(key), unit: spelled(s["x-unit"] ?? ""), note: spelled((s.description ?? "").replace(/ \([^()]*\)(?=;|$)/, "")) + allowed(s),
-      integer: s.type === "integer",
+      integer: s.type === "integer", united: plain && types.includes("string"),
     fallback: s.default, min: s.minimum ?? s.exclusiveMinimum, max: s.maximum ?? s.exclusiveMaximum, log: s.exclusiveMinimum === 0,
     options: options?.map((/** @type {any} */ o) => [o.const, `${o.const}: ${o.description}`]),
     required: schemaAt(schema, path.slice(0, -1))?.required?.includes(key),
@@ -90,7 +91,7 @@ export function mainSpecs(schema) {
     const before = load(tree) ?? load(all) ?? [0, 0], size = force ?? at(before), a = turn ?? angle(before);
     set(tree, ["operation", "load_n"], [size * Math.cos(a), size * Math.sin(a)].map((v) => (Math.abs(v) < 1e-9 * size ? 0 : tidy(v))));
   };
-  const only = (/** @type {any} */ v) => (typeof v === "number" ? v : undefined);
+  const only = (/** @type {any} */ v) => (typeof v === "object" ? undefined : v);
   /** @type {Path} */
   const speed = ["operation", "speed_rpm"], loads = /** @type {Path} */ (["operation", "load_n"]);
   return [

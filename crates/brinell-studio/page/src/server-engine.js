@@ -24,7 +24,7 @@ export class ServerEngine {
     let bytes;
     try {
       const response = await fetch(`ask${location.search}`, { method: "POST", body: encode(request), headers: { "Content-Type": "application/octet-stream" } });
-      if (!response.ok) throw new Error(`the server answers ${response.status}`);
+      if (!response.ok) throw new Error(`the server answers ${response.status}${response.status === 403 ? ": the address lacks its token, which is new whenever the server starts" : ""}`);
       bytes = new Uint8Array(await response.arrayBuffer());
     } catch (error) {
       throw new Lost(error instanceof Error ? error.message : String(error));

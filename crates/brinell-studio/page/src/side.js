@@ -51,7 +51,8 @@ export class Side {
   #hear(kind, data) {
     if (kind === "opened") this.#open(data);
     else if (kind === "slice") this.#slice(data);
-    else if (kind === "problems") this.problems = data.problems;
+    // Of a text that is refused nothing is in the fields.
+    else if (kind === "problems") this.problems = data.edit?.toml === undefined ? data.problems : this.problems;
     else if (kind === "damage") this.damage = data;
     else if (kind === "state") this.part = data.part ?? 0;
     else if (kind === "spectra" && data.spectrum) this.spectra = data;

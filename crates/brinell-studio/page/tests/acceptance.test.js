@@ -8,7 +8,7 @@ import { tmpdir } from "node:os";
 import { join, resolve } from "node:path";
 import { after, before, describe, it } from "node:test";
 import { launch, quietly, real, serve } from "./browser.js";
-import { drag, drop, opened, saved, start, until } from "./page.js";
+import { drag, drop, opened, saved, start, type, until } from "./page.js";
 
 const ROOT = resolve(import.meta.dirname, "..");
 const BRINELL = process.env.BRINELL || resolve(ROOT, "../../../target/release/brinell");
@@ -64,13 +64,13 @@ async function scratched(page) {
 
 async function refused(page) {
   await start(page, "rectangle");
-  const field = page.locator(".chosen .field", { hasText: "Width" }), input = field.locator("input[type=number]");
-  await input.fill("9");
+  const field = page.locator(".chosen .field", { hasText: "Width" }), input = field.locator("input[inputmode]");
+  await type(input, "9");
   await until(page, () => document.querySelector('.chosen [aria-invalid="true"]'));
   assert.match(await field.locator('[role="alert"]').textContent(), /wider than the roller/);
   const end = await page.evaluate(() => globalThis.brinellStudio.side.trace.end);
   await until(page, (n) => globalThis.brinellStudio.side.trace.end > n + 500, end);
-  await input.fill("5");
+  await type(input, "5");
   await until(page, () => globalThis.brinellStudio.side.opened.scenario.defects[0].shape.rectangle.width_mm === 5 && !document.querySelector('.chosen [aria-invalid="true"]'));
 }
 
@@ -171,7 +171,7 @@ describe("the page with its engine, held against the command", { skip: missing }
     const fill = async (label, value) => {
       const field = page.locator("dialog").getByLabel(label, { exact: true });
       if ((await field.evaluate((node) => node.tagName)) === "SELECT") await field.selectOption(value);
-      else await field.fill(value);
+      else await type(field, value);
     };
     const placed = async (count) => {
       await until(page, () => / mm²/.test(document.querySelector("dialog[open]")?.textContent ?? ""));

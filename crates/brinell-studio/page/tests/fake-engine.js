@@ -161,14 +161,14 @@
       return { name: `signals.${format}`, type: "text/csv", bytes: new TextEncoder().encode(`t,sensor_ax\n${slots[slot].x.map((v, k) => `${k / RATE},${v}`).join("\n")}\n`) };
     },
     listen: ({ name, bytes }) => (bytes.length < 20 ? refuse(null, `${name} holds no signal`)
-      : { channels: [{ name: "x", samples: null, rate_hz: null, rate_from: null, unit: null, rpm: null, rpm_from: null, is_wav: false }], run: null }),
+      : { channels: [{ name: "x", samples: null, rate_hz: null, rate_from: null, rate_missing: "no sample rate follows from `t`", unit: null, rpm: null, rpm_from: null, is_wav: false }], run: null }),
     judge: ({ rate_hz, from_s, unit, bearing, rpm }) => {
       if (!unit) refuse(null, "the file states no unit for `x`; give unit, such as unit g or unit m/s^2");
       if (unit === "furlong") refuse(null, "unit furlong: no unit is called `furlong`");
       return { from_s, headline: "BPFO is detected", table: TABLE, spectrum: { df: 10, values: new Float32Array(512).fill(0.4) }, envelope: { df: 10, values: new Float32Array(128).fill(0.3) }, lines: [],
         warnings: ["98 % of the signal's energy lie in one revolution"], levels: [`rms 1.000 ${unit}`, `peak 4.000 ${unit}`],
         used: [`bearing: ${bearing}`, `shaft speed ${rpm} r/min, as given`, `sample rate ${rate_hz} Hz, as given`, `unit ${unit}, as given`, "channel x: 0.160 s, 4096 samples"],
-        x: Float32Array.from({ length: 4096 }, (_, k) => noise(k)), rate_hz, unit: "m/s^2" };
+        x: Float32Array.from({ length: 4096 }, (_, k) => noise(k)), rate_hz, unit: unit === "g" ? "m/s^2" : unit };
     },
   };
 

@@ -17,6 +17,11 @@ export const moments = async (page, least) => (await page.waitForFunction((n) =>
   const m = globalThis.brinellStudio.side.moments;
   return m?.rms && m.kurtosis && m.samples > n && m;
 }, least)).jsonValue();
+// A value is taken when its field is left.
+export const type = async (input, value) => {
+  await input.fill(value);
+  await input.blur();
+};
 export const start = async (page, example) => {
   await page.selectOption("#preset", `example:${example}`);
   await until(page, (name) => globalThis.brinellStudio.side.opened?.scenario.name === name, example);

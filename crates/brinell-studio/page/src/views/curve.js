@@ -222,11 +222,11 @@ export class BrinellCurve extends View {
     if (this.details.open) this.tableSoon();
   }
   entitleOnce() {
-    const data = this.held, key = `${this.kind} ${this.unit()} ${!!data?.behind} ${!!data?.second} ${data?.settled} ${data?.stored}`;
+    const legend = this.legend(), key = `${this.kind} ${this.unit()} ${this.held?.settled} ${legend}`;
     if (key === this.entitled) return;
     this.entitled = key;
     this.entitle();
-    this.keys.replaceChildren(...this.legend().map(([word, mark]) => {
+    this.keys.replaceChildren(...legend.map(([word, mark]) => {
       const key = element("span", { class: "key" }, word);
       key.style.setProperty("--mark", `var(--_${mark})`);
       return key;

@@ -9,6 +9,8 @@ import { short } from "./scale.js";
 const FADE = 0.08;
 /** Rates that every browser plays, Hz. */
 const RATES = [8000, 96000];
+/** A file holds whole loops of so long or longer, s. */
+const SAVED_S = 5;
 const own = sheet(`
 :host { display: flex; flex-wrap: wrap; align-items: center; gap: 4px 10px; }
 #hear::before { content: ""; display: inline-block; margin-right: 6px; border-style: solid; border-width: 5px 0 5px 8px; border-color: transparent currentColor; }
@@ -123,6 +125,29 @@ export class BrinellSound extends View {
     this.dataset.state = this.hearing ? (this.voice ? "sounding" : "waiting") : "silent";
     this.told.textContent = loop ? `${loop.turns ? `${loop.turns} turns, ` : ""}${short(length, 2)} s, looped at real pace`
       : this.hearing ? "waiting for whole turns" : "";
+  }
+  /** What is heard as a file: WAV, mono, 16 bits. @returns {Blob | null} */
+  wav() {
+    const loop = this.held;
+    if (!loop) return null;
+    const { x } = loop, rate = Math.round(loop.rate_hz), count = x.length * Math.ceil(SAVED_S * rate / x.length), view = new DataView(new ArrayBuffer(44 + 2 * count));
+    const words = (/** @type {number} */ at, /** @type {string} */ text) => [...text].forEach((c, k) => view.setUint8(at + k, c.charCodeAt(0)));
+    const [u16, u32] = [(/** @type {number} */ at, /** @type {number} */ v) => view.setUint16(at, v, true), (/** @type {number} */ at, /** @type {number} */ v) => view.setUint32(at, v, true)];
+    words(0, "RIFF");
+    u32(4, 36 + 2 * count);
+    words(8, "WAVEfmt ");
+    // 16 bytes of format: PCM, one channel, rate, bytes a second, bytes a sample, bits.
+    u32(16, 16);
+    u16(20, 1);
+    u16(22, 1);
+    u32(24, rate);
+    u32(28, 2 * rate);
+    u16(32, 2);
+    u16(34, 16);
+    words(36, "data");
+    u32(40, 2 * count);
+    for (let k = 0; k < count; k++) view.setInt16(44 + 2 * k, Math.round(32767 * x[k % x.length]), true);
+    return new Blob([view], { type: "audio/wav" });
   }
   /** What is heard of a loop, rendered without a loudspeaker. @param {Loop} loop @param {number} [seconds] @returns {Promise<AudioBuffer>} */
   static render(loop, seconds = 1) {

@@ -1,0 +1,114 @@
+// Edits of a scenario on the studio's page: what is taken, what is refused, and what runs meanwhile. Driven in Chromium, as studio.test.js is.
+import assert from "node:assert/strict";
+import { after, before, describe, it } from "node:test";
+import { numberOf } from "../src/dom.js";
+import { launch, quietly, real, serve } from "./browser.js";
+import { drag, drop, opened, scenario, start, type, until } from "./page.js";
+
+let browser, server;
+
+before(async () => {
+  browser = await launch();
+  server = await serve();
+});
+after(async () => {
+  await browser?.close();
+  server?.close();
+});
+
+const on = (options, look) => quietly(browser, server.url, options, look);
+
+describe(`edits, with ${real ? "the engine" : "a stand-in for the engine"}`, () => {
+  it("says that damage stays when another bearing is chosen", async () => on({}, async (page) => {
+    await start(page, "rectangle");
+    await page.selectOption("#preset", "bearing:6205");
+    await page.waitForSelector('[data-kind="kept"]');
+    assert.match(await page.textContent('[data-kind="kept"]'), /6205 has the damage that was drawn before: 1 place/);
+    await page.click('[data-kind="kept"] button:has-text("Remove the damage")');
+    await until(page, () => !globalThis.brinellStudio.side.opened.scenario.defects?.length);
+  }));
+
+  it("takes 100 edits in 2 s, and the last one wins", async (t) => on({}, async (page) => {
+    await start(page, "rectangle");
+    const { frames, asked } = await page.evaluate(async () => {
+      let frames = 0, going = true;
+      const count = () => { frames++; if (going) requestAnimationFrame(count); };
+      requestAnimationFrame(count);
+      const input = [...document.querySelectorAll(".chosen .field")].find((f) => f.textContent.startsWith("Depth")).querySelector("input[type=range]");
+      for (let k = 1; k <= 100; k++) {
+        input.value = String(100 + 2 * k);
+        input.dispatchEvent(new Event("input", { bubbles: true }));
+        await new Promise((done) => setTimeout(done, 20));
+      }
+      going = false;
+      return { frames, asked: globalThis.brinellStudio.side.store.scenario.defects[0].depth_um };
+    });
+    assert.ok(asked > 30, `${asked} µm`);
+    await until(page, (asked) => globalThis.brinellStudio.side.opened.scenario.defects[0].depth_um === asked, asked);
+    assert.ok(frames > 10, `${frames} frames`);
+    t.diagnostic(`${frames} frames while 100 edits were made; the last was open after ${await page.evaluate(() => Math.round(globalThis.brinellStudio.side.took))} ms`);
+    await page.evaluate(() => document.activeElement.blur());
+    await page.keyboard.press("Control+z");
+    await until(page, () => globalThis.brinellStudio.side.opened.scenario.defects[0].depth_um === 20);
+  }));
+
+  it("says what is wrong beside the control, while the last good bearing runs on", async () => on({}, async (page) => {
+    await start(page, "rectangle");
+    const field = page.locator(".chosen .field", { hasText: "Width" }), input = field.locator("input[inputmode]");
+    await type(input, "9");
+    await until(page, () => document.querySelector('.chosen [aria-invalid="true"]'));
+    const alert = field.locator('[role="alert"]');
+    assert.match(await alert.textContent(), /wider than the roller/);
+    assert.equal((await opened(page)).scenario.defects[0].shape.rectangle.width_mm, 4);
+    const end = await page.evaluate(() => globalThis.brinellStudio.side.trace.end);
+    await until(page, (n) => globalThis.brinellStudio.side.trace.end > n + 1000, end);
+    assert.match(await page.textContent("#state"), /last good/);
+    // Nor does Run take what was there before.
+    await page.click("#run");
+    await page.waitForSelector('[data-kind="refused"]');
+    assert.match(await page.textContent("#state"), /last good/);
+    await type(input, "5");
+    await until(page, () => !document.querySelector('.chosen [aria-invalid="true"]') && globalThis.brinellStudio.side.opened.scenario.defects[0].shape.rectangle.width_mm === 5);
+    assert.equal(await alert.textContent(), "");
+    assert.equal(await page.textContent("#state"), "live");
+  }));
+
+  it("takes a number when it is whole, and none that may be another", async () => on({}, async (page) => {
+    for (const [text, value] of [["0,5", 0.5], ["1500,5", 1500.5], [" −3.25e2 ", -325], ["0,125", 0.125], ["1,", 1]]) assert.equal(numberOf(text), value);
+    for (const text of ["1,234", "-12,345", "25 Hz", "1.2.3", "", "-"]) assert.equal(typeof numberOf(text), "string", text);
+    await start(page, "rectangle");
+    const speed = page.getByLabel("Speed", { exact: true }), stated = async () => (await scenario(page)).operation.speed_rpm;
+    // No part of it runs.
+    await speed.fill("30");
+    await page.waitForTimeout(700);
+    assert.equal(await stated(), 1800);
+    await type(speed, "1796,3");
+    assert.equal(await stated(), 1796.3);
+    await speed.press("ArrowUp");
+    assert.equal(await stated(), 1797.3);
+    await type(speed, "1,234");
+    await page.waitForSelector('#controls [role="alert"]:has-text("may be 1.234 or 1234")');
+    await page.click("#run");
+    await page.waitForSelector('[data-kind="refused"]:has-text("Speed")');
+    assert.equal(await page.textContent("#state"), "live");
+    assert.equal(await stated(), 1797.3);
+    await type(speed, "1500");
+    await until(page, () => globalThis.brinellStudio.side.opened.scenario.operation.speed_rpm === 1500);
+    if (!real) return;
+    await type(speed, "25,5 Hz");
+    await until(page, () => globalThis.brinellStudio.side.opened.all.operation.speed_rpm === 1530);
+    await until(page, () => [...document.querySelectorAll("#controls input")].some((one) => one.value === "1530"));
+  }));
+
+  it("leaves nothing of a drag or of a file that is refused, and says why", async () => on({}, async (page) => {
+    await start(page, "rectangle");
+    await page.click('[data-tool="rectangle"]');
+    await drag(page, [0.6, 0.45], [0.63, 2], 40);
+    await page.waitForSelector('[data-kind="taken"]:has-text("wider than the roller")');
+    await until(page, () => globalThis.brinellStudio.side.opened.scenario.defects.length === 1 && !globalThis.brinellStudio.side.problems.length);
+    assert.equal((await scenario(page)).defects.length, 1);
+    await drop(page, "wrong.toml", Buffer.from("preset = ").toString("base64"));
+    await page.waitForSelector('[data-kind="refused"]:has-text("wrong.toml is refused")');
+    assert.equal(await page.textContent("#state"), "live");
+  }));
+});
