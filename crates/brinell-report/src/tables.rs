@@ -8,6 +8,9 @@ use crate::frame::{none, unit_html};
 use crate::markup::escape;
 use crate::number::{significant, with_interval};
 
+/// Characters from which a cell holds sentences.
+const SENTENCE: usize = 100;
+
 /// A table of words and numbers as they are to be read.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Table {
@@ -188,9 +191,14 @@ fn values<'a>(page: &mut String, all: impl Iterator<Item = &'a Assumption>) {
 
 pub(crate) fn table(page: &mut String, table: &Table) {
     let _ = writeln!(page, "<section>\n<h2>{}</h2>", escape(&table.title));
-    open_table(page, false, &table.columns);
-    let number = |i: usize| table.columns.get(i).is_some_and(|c| c.starts_with('#'));
-    let class = |i: usize| if number(i) { " class=\"number\"" } else { "" };
+    // Beside sentences, which a narrow page has no room for in a column.
+    let stack = table.rows.iter().flatten().any(|cell| cell.chars().count() > SENTENCE);
+    open_table(page, stack, &table.columns);
+    let class = |i: usize| match table.columns.get(i).and_then(|head| head.strip_prefix('#')) {
+        Some(head) if stack => format!(" class=\"number\" data-head=\"{}\"", escape(head)),
+        Some(_) => " class=\"number\"".into(),
+        None => String::new(),
+    };
     for row in &table.rows {
         page.push_str("<tr>");
         for (i, cell) in row.iter().enumerate() {
