@@ -121,7 +121,7 @@ pub(crate) fn init(args: &InitArgs) -> Result<ExitCode, Failure> {
     for name in template.examples() {
         let bytes = brinell_studio::example_file(name).expect("templates name the studio's files");
         let bytes = match template {
-            Template::Scan => scan_of(bytes, &bearing),
+            Template::Scan => scan_of(bytes, &bearing.raceway, bearing.step_mm()),
             _ => bytes.to_vec(),
         };
         files.push((beside(name), bytes));

@@ -1,7 +1,5 @@
 //! The example scan as it would be of another bearing: the same spall in that bearing's outer raceway.
 
-use super::Fitted;
-
 /// Columns, rows, spacing (mm) and radius (mm) of the raceway in the example, as `draw_examples.rs` made it.
 const EXAMPLE: (usize, usize, f64, f64) = (100, 80, STEP_MM, 27.5);
 pub(super) const STEP_MM: f64 = 0.06;
@@ -23,15 +21,15 @@ impl Raceway {
     }
 }
 
-/// The example's bytes with the raceway of the bearing in place of its own.
-pub(super) fn scan_of(bytes: &[u8], of: &Fitted) -> Vec<u8> {
+/// The example's bytes with a bearing's raceway in place of its own, at a spacing.
+pub(super) fn scan_of(bytes: &[u8], of: &Raceway, step_mm: f64) -> Vec<u8> {
     let (columns, rows, step, radius_mm) = EXAMPLE;
     let example = Raceway { radius_mm, across_mm: f64::INFINITY };
-    if of.raceway == example {
+    if *of == example {
         return bytes.to_vec();
     }
     let middle = |i: usize, n: usize| i as f64 - 0.5 * (n - 1) as f64;
-    let mut out = format!("# heights in um, {} mm apart, first line on top; made up\n", of.step_mm());
+    let mut out = format!("# heights in um, {} mm apart, first line on top; made up\n", step_mm);
     let text = String::from_utf8_lossy(bytes);
     let lines = text.lines().filter(|line| !line.starts_with('#'));
     for (row, line) in lines.enumerate() {
@@ -40,8 +38,7 @@ pub(super) fn scan_of(bytes: &[u8], of: &Fitted) -> Vec<u8> {
             .enumerate()
             .map(|(column, cell)| {
                 let (s, z) = (middle(column, columns), middle(row, rows));
-                let moved =
-                    of.raceway.height_um(s * of.step_mm(), z * of.step_mm()) - example.height_um(s * step, z * step);
+                let moved = of.height_um(s * step_mm, z * step_mm) - example.height_um(s * step, z * step);
                 cell.parse().map_or(cell.to_owned(), |height: f64| format!("{:.2}", height + moved))
             })
             .collect();
