@@ -319,7 +319,10 @@ fn bytes(path: &Path, largest: u64) -> Result<Vec<u8>, String> {
 fn doubt(grid: &DepthGrid, removed: ScanForm) -> Result<Option<String>, String> {
     let form = match removed {
         ScanForm::None => "the surface's own form may be in it (`remove_form`)".to_owned(),
-        other => format!("the surface's own form may be in it (`remove_form` is \"{}\")", other.word()),
+        other => format!(
+            "the surface's own form may be in it (`remove_form` is \"{}\"; where damage takes a fifth of the scan or more, give `radius_mm` or scan more around it)",
+            other.word()
+        ),
     };
     let damaged = |d: &&f64| **d != 0.0;
     let share = grid.depth_um.iter().filter(damaged).count() as f64 / grid.depth_um.len() as f64;

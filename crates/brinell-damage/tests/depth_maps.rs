@@ -190,7 +190,9 @@ fn analytic_a_torus_is_removed_exactly_and_its_radii_are_those_of_the_surface() 
         for (given, side) in [(None, 26), (None, 51), (Some(radius.abs()), 51)] {
             let form = read(given, side);
             let radii = [form.around, form.across.unwrap()].map(|c| c.curvature_per_mm.recip());
-            assert!((radii[0] / radius - 1.0).abs() < 1e-3 && (radii[1] / across - 1.0).abs() < 1e-3, "{radii:?}");
+            // Of a sphere place, tilt and turn are one: what noise-free depths leave of its radius is above a thousandth.
+            let off = |k: usize, of: f64| (radii[k] / of - 1.0).abs();
+            assert!(off(0, radius) < 2e-3 && off(1, across) < 2e-3, "{radii:?}");
         }
     }
 }

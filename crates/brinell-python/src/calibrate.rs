@@ -99,10 +99,12 @@ pub(crate) fn calibrate<'py>(
     }
     let middle = read(&middle(&keys))?;
     let simulation = py.detach(|| Simulation::new(&middle.scenario)).map_err(|error| run_error(py, &error))?;
+    let own = read(&[])?;
     let pattern = measured.map(|x| {
         let (rate, unit, axis, percent) = (signal.0, Unit::of(&signal.1), signal.2.as_deref(), signal.3);
         let measured = Measured { x: &slice(&x), rate, unit: &unit };
-        let pattern = py.detach(|| Pattern::new(&measured, &keys, (&middle.scenario, &simulation), axis, percent));
+        let pattern = py
+            .detach(|| Pattern::new(&measured, (&own.scenario, &keys), (&middle.scenario, &simulation), axis, percent));
         let mut pattern = pattern.map_err(|error| wrong("measured", error))?;
         pattern.notes.push(format!("{} samples at {rate} Hz, against {}", measured.x.len(), pattern.channel));
         Ok::<_, PyErr>(pattern)

@@ -56,7 +56,8 @@ fn regress_a_sensible_scenario_earns_no_word() {
 
 #[test]
 fn regress_damage_of_no_depth_is_said() {
-    assert!(warning(&[("defects.0.depth_um", "0.001")]).contains("runs as a healthy one"));
+    assert!(warning(&[("defects.0.depth_um", "0")]).contains("runs as a healthy one"));
+    assert!(warning(&[("defects.0.depth_um", "0.001")]).contains("would hide it"));
     silent(&[("defects.0.depth_um", "0.05")]);
 }
 

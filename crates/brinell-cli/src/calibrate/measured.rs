@@ -10,7 +10,7 @@ use brinell_study::calibrate::{CalibrateError, Key, Measured, Pattern};
 /// The signal, if there is one, as targets for runs of a scenario; and what deserves attention.
 pub(super) fn pattern(
     args: &CalibrateArgs,
-    keys: &[Key],
+    own: (&Scenario, &[Key]),
     (scenario, simulation): (&Scenario, &Simulation),
 ) -> Result<Option<(Pattern, Vec<String>)>, Failure> {
     let Some(file) = &args.measured else {
@@ -24,7 +24,7 @@ pub(super) fn pattern(
     let signal = load(file, &args.signal.wanted())?;
     let name = signal.path.display();
     let measured = Measured { x: &signal.x, rate: signal.rate, unit: &signal.unit };
-    let pattern = Pattern::new(&measured, keys, (scenario, simulation), args.axis.as_deref(), args.model_uncertainty);
+    let pattern = Pattern::new(&measured, own, (scenario, simulation), args.axis.as_deref(), args.model_uncertainty);
     let mut pattern = pattern.map_err(|error| {
         Failure::Usage(match error {
             CalibrateError::ModelUncertainty(percent) => format!("--model-uncertainty {percent}: {error}"),

@@ -238,7 +238,7 @@ fn left_open(analysis: &Analysis) -> Vec<String> {
     let (kurtosis, exact) = (analysis.indicator(Indicator::Kurtosis).map_or(0.0, |k| k.value), analysis.options.exact);
     if kurtosis >= IMPULSIVE && !exact && analysis.conclusion() == Verdict::NothingFound {
         text.push(format!(
-            "The record has impacts (kurtosis {}, 3 for noise), and none of this bearing's frequencies explains them: another part, another bearing than the one given, or a wrong speed.",
+            "The record has impacts (kurtosis {}, 3 for noise) that no damage found explains: damage too weak to call, another part, another bearing than the one given, or a wrong speed.",
             digits::short(kurtosis, 3)
         ));
     }

@@ -15,8 +15,8 @@ const ANALYSED: f64 = 0.75;
 const PERIODS: f64 = 24.0;
 /// The key whose bounds move every line.
 const SPEED: &str = "operation.speed_rpm";
-/// Widest search about the middle of its bounds, relative ([`LineSearch::tolerance`]).
-const WIDEST: f64 = 0.3;
+/// Lines of parts of one bearing are apart as in pure rolling, but for slip: relative.
+const ONE_SPEED: f64 = 0.01;
 
 /// A measured acceleration.
 #[derive(Debug)]
@@ -44,16 +44,16 @@ pub struct Pattern {
 }
 
 impl Pattern {
-    /// Of a signal, for runs of a scenario, that of the middle of the bounds of `keys`. Where the speed is one of them,
-    /// the signal's own lines are sought over its bounds, and levels are read there. `axis` is the sensor's, x or y;
-    /// without one the one nearer the load.
+    /// Of a signal, for runs of a scenario, that of the middle of the bounds of `keys`. The signal's lines are sought
+    /// about the speed that `own` states, the scenario before anything is fitted, where that is within the bounds of
+    /// the speed, else about their middle. `axis` is the sensor's, x or y; without one the one nearer the load.
     /// `model_uncertainty_percent` is what levels of the model may differ by from a machine's.
     ///
     /// # Errors
     /// Where signal and scenario do not go together.
     pub fn new(
         measured: &Measured,
-        keys: &[Key],
+        (own, keys): (&Scenario, &[Key]),
         (scenario, simulation): (&Scenario, &Simulation),
         axis: Option<&str>,
         model_uncertainty_percent: f64,
@@ -77,9 +77,10 @@ impl Pattern {
             return Err(CalibrateError::Rate { measured: measured.rate, simulated });
         }
         let x = &*measured.unit.in_si(measured.x);
-        let speed = keys.iter().find(|key| key.name == SPEED);
-        let reach = speed.map_or(0.0, |key| ((key.high - key.low) / (key.high + key.low)).abs());
-        targets((scenario, simulation), (x, measured.rate), axis, (rpm.abs() / 60.0, reach), share)
+        let bounds = keys.iter().find(|key| key.name == SPEED);
+        let within = |own: &f64| bounds.is_none_or(|key| (key.low..=key.high).contains(own));
+        let speed = own.operation.speed_rpm.constant().filter(within).unwrap_or(rpm);
+        targets((scenario, simulation), (x, measured.rate), axis, (speed, speed / rpm), share)
     }
 
     /// The levels of a run's signal as numbers of its row.
@@ -105,41 +106,15 @@ fn targets(
     (scenario, simulation): (&Scenario, &Simulation),
     (x, rate): (&[f64], f64),
     axis: usize,
-    (shaft, reach): (f64, f64),
+    (rpm, scale): (f64, f64),
     share: f64,
 ) -> Result<Pattern, CalibrateError> {
     let channel = SENSOR[axis];
     let model = simulation.model();
-    let kinematics = model.kinematics(model.rotation.at(0.0).0);
-    let analysed = ANALYSED * simulation.samples() as f64 / rate;
-    let line = |nominal: f64, band: Band, tolerance: f64| -> Option<LineFrequency> {
-        let search = LineSearch { tolerance, ..LineSearch::new(nominal) };
-        let fits = nominal < 0.4 * rate && analysed * nominal >= PERIODS;
-        fits.then(|| line_frequency(x, rate, band, &search)).flatten()
-    };
-    let mut lines = lines(scenario, &kinematics);
-    let (mut shaft, mut notes) = (shaft, Vec::new());
-    if reach > 0.0 {
-        // The speed is to be found: first where the signal's own lines are, anywhere within its bounds.
-        let wide = (reach + LineSearch::new(1.0).tolerance).min(WIDEST);
-        let around = demodulated(rate, &lines);
-        let middle = shaft;
-        for (name, at) in &mut lines {
-            match line(*at, around, wide) {
-                Some(found) => {
-                    shaft = middle * found.frequency / *at;
-                    *at = found.frequency;
-                }
-                None => notes.push(format!(
-                    "no line of {} stands out from {:.1} to {:.1} Hz: its levels are read at {at:.1} Hz, the middle of the bounds of {SPEED}",
-                    name.to_uppercase(),
-                    *at * (1.0 - wide),
-                    *at * (1.0 + wide)
-                )),
-            }
-        }
-    }
-    let band = demodulated(rate, &lines);
+    let kinematics = model.kinematics(model.rotation.at(0.0).0 * scale);
+    let lines = lines(scenario, &kinematics);
+    let highest = lines.iter().map(|l| l.1).fold(0.0, f64::max);
+    let band = Band::between((10.0 * highest).clamp(0.02 * rate, 0.1 * rate), 0.4 * rate);
     // Runs are analysed from half-way on at the latest.
     let simulated = simulation.samples() as usize / 2;
     let signature = Signature::new(rate, simulated.min(x.len()), band, &lines)?;
@@ -149,7 +124,7 @@ fn targets(
         .into_iter()
         .map(|l| Target { name: l.name, value: l.decibels, uncertainty: l.uncertainty.hypot(level) })
         .collect();
-    let blocks = Blocks::of(x, rate / shaft);
+    let blocks = Blocks::of(x, 60.0 * rate / rpm.abs());
     for indicator in [Indicator::Rms, Indicator::Kurtosis] {
         if let Some(estimate) = blocks.estimate(indicator) {
             let own = estimate.interval.map_or(0.0, |i| i.standard_uncertainty());
@@ -160,24 +135,43 @@ fn targets(
             });
         }
     }
+    let analysed = ANALYSED * simulation.samples() as f64 / rate;
+    let mut notes = Vec::new();
+    let mut found: Vec<(&str, f64, LineFrequency)> = Vec::new();
+    for &(name, nominal) in lines.iter().filter(|l| l.1 < 0.4 * rate && analysed * l.1 >= PERIODS) {
+        match line_frequency(x, rate, band, &LineSearch::new(nominal)) {
+            Some(line) => found.push((name, line.frequency / nominal, line)),
+            None => notes.push(format!(
+                "no line of {} within {:.0} % of {nominal:.1} Hz, where it is at {rpm:.0} r/min: is {SPEED} the speed of the signal?",
+                name.to_uppercase(),
+                100.0 * LineSearch::new(nominal).tolerance
+            )),
+        }
+    }
+    // The one nearest pure rolling says where the others are: what is not there is another line.
+    let nearest = found.iter().map(|f| f.1).min_by(|a, b| (a - 1.0).abs().total_cmp(&(b - 1.0).abs()));
+    found.retain(|(name, ratio, line)| {
+        let stays = nearest.is_some_and(|nearest| (ratio / nearest - 1.0).abs() < ONE_SPEED);
+        if !stays {
+            let hz = line.frequency;
+            notes.push(format!(
+                "the line at {hz:.2} Hz is left out: {} is not so far from the others",
+                name.to_uppercase()
+            ));
+        }
+        stays
+    });
     for (k, defect) in scenario.defects.iter().enumerate() {
         let name = line_name(&kinematics, defect.on);
-        let at = lines.iter().find(|l| l.0 == name).map(|l| l.1);
-        if let Some(found) = at.and_then(|at| line(at, band, LineSearch::new(at).tolerance)) {
+        if let Some((.., line)) = found.iter().find(|f| f.0 == name) {
             targets.push(Target {
                 name: format!("defect{}.frequency", k + 1),
-                value: found.frequency,
-                uncertainty: found.uncertainty,
+                value: line.frequency,
+                uncertainty: line.uncertainty,
             });
         }
     }
     Ok(Pattern { signature, axis, channel, targets, notes })
-}
-
-/// The band whose envelope holds these lines: above ten times the highest.
-fn demodulated(rate: f64, lines: &[(&str, f64)]) -> Band {
-    let highest = lines.iter().map(|l| l.1).fold(0.0, f64::max);
-    Band::between((10.0 * highest).clamp(0.02 * rate, 0.1 * rate), 0.4 * rate)
 }
 
 /// The defect frequencies, Hz, each once, by the names that levels have.

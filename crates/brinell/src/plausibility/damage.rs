@@ -26,7 +26,7 @@ pub(super) fn warnings(scenario: &Scenario, model: &Model, zone: Option<&StaticL
     all
 }
 
-/// Damage of no depth to speak of: its label says damage, and its run is the healthy one's.
+/// Damage of less depth than a raceway is rough, which the model leaves out.
 fn hardly_any(scenario: &Scenario, model: &Model) -> Vec<Problem> {
     let of_key = |(k, defect): (usize, &Defect)| {
         let largest = match &defect.shape {
@@ -37,7 +37,13 @@ fn hardly_any(scenario: &Scenario, model: &Model) -> Vec<Problem> {
             warning(
                 &format!("defects.{k}.depth_um"),
                 toml_float(scenario.defects[k].depth_um),
-                format!("this damage is {} um deep at most, less than a raceway is rough: the bearing runs as a healthy one", short(1e6 * largest)),
+                match largest > 0.0 {
+                    true => format!(
+                        "this damage is {} um deep at most: a machine's raceways are rougher and would hide it, these have no roughness and may show it",
+                        short(1e6 * largest)
+                    ),
+                    false => "this damage has no depth: the bearing runs as a healthy one".into(),
+                },
                 format!(">= {}", short(1e6 * ROUGHNESS)),
             )
         })
