@@ -8,7 +8,8 @@ import { byId, h, numberInput, numberOf, short, spelled, tableOf } from "./dom.j
 export function asked(title, body, go) {
   const dialog = /** @type {HTMLDialogElement} */ (byId("dialog"));
   const form = h("form", { method: "dialog" }, h("h2", { id: "dialog-title" }, title), ...body.filter((node) => node !== null),
-    h("div", { className: "actions" }, h("button", { type: "submit", value: "", formNoValidate: true }, "Cancel"), h("button", { type: "submit", value: "go" }, go)));
+    // Enter in a field presses the first button that submits: that is what was asked for.
+    h("div", { className: "actions" }, h("button", { type: "button", onclick: () => dialog.close() }, "Cancel"), h("button", { type: "submit", value: "go" }, go)));
   dialog.replaceChildren(form);
   dialog.returnValue = "";
   dialog.showModal();

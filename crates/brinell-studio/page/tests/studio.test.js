@@ -191,7 +191,7 @@ describe(`the page, with ${real ? "its engine" : "a stand-in for the engine"}`, 
     await type(scale, "0,02");
     // The light evened out, as the reader does since it takes photographs under uneven light: 8.937 mm2; with one threshold it was 8.92.
     await until(page, () => /8\.9[34]\d* mm²/.test(document.querySelector("dialog")?.textContent ?? ""));
-    await page.click('dialog button:has-text("Place on the raceway")');
+    await scale.press("Enter");
     await until(page, () => globalThis.brinellStudio.side.opened.scenario.defects?.length === 1);
     assert.ok((await scenario(page)).defects[0].shape.outline);
   }));
@@ -281,7 +281,7 @@ describe(`the page, with ${real ? "its engine" : "a stand-in for the engine"}`, 
     await page.waitForSelector('dialog [role="alert"]:has-text("no unit is called `furlong`")');
     assert.match(await page.textContent("dialog h2"), /measured\.csv/);
     await page.fill("#ask-unit", "g");
-    await judge();
+    await page.press("#ask-unit", "Enter");
     await page.waitForSelector("#measured:not([hidden]) table");
     await until(page, () => document.querySelector('brinell-curve[kind="spectrum"]').data?.second);
     assert.match(await page.textContent("#measured .used"),
