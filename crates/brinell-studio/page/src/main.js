@@ -6,11 +6,12 @@ import { CurveViews } from "./curves.js";
 import { DamagePanel } from "./damage-panel.js";
 import { byId, h, short } from "./dom.js";
 import { engines } from "./engine.js";
-import { bytesOf, chosenKind, download, droppable, kindsOf, saveMenu, savePictures, shapeOf, share } from "./files.js";
+import { bytesOf, chosenKind, droppable, kindsOf, shapeOf } from "./files.js";
 import { Healthy } from "./healthy.js";
 import { judged, showMeasured } from "./measured.js";
 import { showKeys } from "./help.js";
 import { notice, readout, speak } from "./readout.js";
+import { Saving } from "./saving.js";
 import { Side } from "./side.js";
 import { fromLink, pathOf, remember, remembered } from "./state.js";
 import { storedRun } from "./stored.js";
@@ -50,6 +51,10 @@ class Studio {
     this.bearing = /** @type {any} */ (document.querySelector("brinell-bearing"));
     this.passage = /** @type {any} */ (document.querySelector("brinell-passage"));
     this.sound = /** @type {any} */ (document.querySelector("brinell-sound"));
+    this.saving = new Saving({
+      side: () => this.side, fields: () => this.#fields, views: () => [...document.querySelectorAll("#curves brinell-curve"), this.bearing, this.passage],
+      sound: () => this.sound, undo: () => this.side.store.undo(), failed: (error) => this.#failed(error),
+    });
   }
 
   get side() { return this.sides[this.active]; }
@@ -144,11 +149,7 @@ class Studio {
         this.#kept(name);
       }
     });
-    saveMenu([
-      ["Scenario, TOML", () => this.#saveToml()], ["Signals, CSV", () => this.#save("csv")], ["Signals, WAV", () => this.#save("wav")],
-        ["Signals, NPZ", () => this.#save("npz")], ["Sound, WAV", () => this.#saveSound()],
-      ["Pictures, SVG", () => this.#pictures("svg")], ["Pictures, PNG", () => this.#pictures("png")],
-    ], "Signals are those of a run from t = 0, which is done first; the sound is what Hear plays.");
+    this.saving.bind();
   }
 
   /** Damage stays where it was drawn, on whatever bearing: that is said. @param {string} bearing */
@@ -169,9 +170,8 @@ class Studio {
       this.take([...byId("file").files]);
       byId("file").value = "";
     });
-    on("share", () => this.#share());
     on("pause", () => this.#pause());
-    on("run", () => { if (!this.#isRefused()) this.side.live.run(); });
+    on("run", () => { if (!this.saving.isRefused()) this.side.live.run(); });
     on("side-a", () => this.turn(0));
     on("side-b", () => this.turn(1));
     on("both", () => this.compare(!this.beside));
@@ -200,8 +200,8 @@ class Studio {
     if (kind === "spectra" || kind === "scenario" || kind === "problems") this.still = null;
     if (kind === "absent" && side !== this.sides[0]) this.#failed(data.error);
     if (kind === "state" || kind === "problems" || kind === "recovered") this.#dirty.add("state");
-    if (kind === "lost") notice("lost", `The engine was lost (${data.why}). A new one continues with the last good bearing.`);
-    if (kind === "recovered") speak("The engine was lost and runs again");
+    if (kind === "lost") notice("lost", data.gone ? data.why : `The engine was lost (${data.why}). A new one continues with the last good bearing.`, { bad: !!data.gone });
+    if (kind === "recovered") this.#recovered();
     if (kind === "problems") this.#refused(side, data);
     if (kind === "verdict" || kind === "opened") this.#differ();
     if (side !== this.side) return void (side === this.other && this.#dirty.add("curves").add("readout"));
@@ -219,6 +219,12 @@ class Studio {
       speak(data.headline ?? "");
       this.#dirty.add("curves").add("readout");
     } else this.#dirty.add("curves").add("readout");
+  }
+
+  #recovered() {
+    speak("The engine was lost and runs again");
+    // A server that answers again is not said to be gone.
+    if (document.querySelector('[data-kind="lost"].bad')) notice("lost", "The server did not answer for a while; it runs the last good bearing again.");
   }
 
   /** What tells B from A, in the engine's words: of the latest verdicts of both. */
@@ -245,6 +251,7 @@ class Studio {
     if (edit.toml !== undefined && this.panel.selected) this.panel.select(1);
     if (this.bearing) Object.assign(this.bearing, { geometry: opened.geometry, loadDeg: opened.load_deg });
     this.#lay(this.side);
+    if (!edit.again) notice("unsaved", null);
     this.#warn(opened.warnings?.join("\n") ?? "");
     byId("run").textContent = `Run ${short(opened.samples / opened.rate_hz)} s`;
     this.healthy?.want(opened.scenario);
@@ -443,43 +450,6 @@ class Studio {
     }
     if (found) showMeasured(found, file.name, { beside, close, simulated: this.side.opened.unit });
   }
-
-  get #name() { return this.side.opened?.scenario.name ?? "scenario"; }
-
-  /** What is refused is not run, saved or shared: the fields would say one thing and the run another. */
-  #isRefused() {
-    const field = this.#fields.find((f) => f.unread);
-    if (!field && !this.side.problems.length) return false;
-    notice("refused", field ? `${field.spec.label}: ${field.unread}. Correct it first.` : "The present scenario is refused, so the last good one runs. Correct it or undo first.",
-      { bad: true, actions: field ? [] : [["Undo", () => this.side.store.undo()]] });
-    return true;
-  }
-
-  #saveToml() { if (!this.#isRefused()) download(new Blob([this.side.opened.toml], { type: "application/toml" }), `${this.#name}.toml`); }
-
-  /** What is saved is a run from t = 0. @param {"csv" | "wav" | "npz"} format */
-  async #save(format) {
-    const side = this.side;
-    if (this.#isRefused()) return;
-    try {
-      if (!(await side.finished())) return notice("failed", "The run was left before its end, so nothing was saved.", { bad: true });
-      const { name, type, bytes } = await side.live.ask({ do: "save", format });
-      download(new Blob([bytes], { type }), name);
-    } catch (error) {
-      this.#failed(error);
-    }
-  }
-
-  #saveSound() {
-    const wav = this.sound?.wav?.();
-    if (wav) download(wav, `${this.#name}-sound.wav`);
-    else notice("failed", "There are no whole turns of the shaft to hear yet.", { bad: true });
-  }
-
-  /** @param {"svg" | "png"} format */
-  #pictures(format) { savePictures([...document.querySelectorAll("#curves brinell-curve"), this.bearing, this.passage], this.#name, format); }
-
-  #share() { if (!this.#isRefused()) share(this.side.opened.toml, () => this.#saveToml()); }
 }
 
 async function main() {

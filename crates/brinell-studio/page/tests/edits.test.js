@@ -2,8 +2,9 @@
 import assert from "node:assert/strict";
 import { after, before, describe, it } from "node:test";
 import { numberOf } from "../src/dom.js";
+import { fromLink } from "../src/state.js";
 import { launch, quietly, real, serve } from "./browser.js";
-import { drag, drop, opened, scenario, start, type, until } from "./page.js";
+import { drag, drop, opened, saved, scenario, start, type, until } from "./page.js";
 
 let browser, server;
 
@@ -65,7 +66,7 @@ describe(`edits, with ${real ? "the engine" : "a stand-in for the engine"}`, () 
     assert.match(await page.textContent("#state"), /last good/);
     // Nor does Run take what was there before.
     await page.click("#run");
-    await page.waitForSelector('[data-kind="refused"]');
+    await page.waitForSelector('[data-kind="unsaved"]');
     assert.match(await page.textContent("#state"), /last good/);
     await type(input, "5");
     await until(page, () => !document.querySelector('.chosen [aria-invalid="true"]') && globalThis.brinellStudio.side.opened.scenario.defects[0].shape.rectangle.width_mm === 5);
@@ -89,7 +90,7 @@ describe(`edits, with ${real ? "the engine" : "a stand-in for the engine"}`, () 
     await type(speed, "1,234");
     await page.waitForSelector('#controls [role="alert"]:has-text("may be 1.234 or 1234")');
     await page.click("#run");
-    await page.waitForSelector('[data-kind="refused"]:has-text("Speed")');
+    await page.waitForSelector('[data-kind="unsaved"]:has-text("Speed")');
     assert.equal(await page.textContent("#state"), "live");
     assert.equal(await stated(), 1797.3);
     await type(speed, "1500");
@@ -98,6 +99,47 @@ describe(`edits, with ${real ? "the engine" : "a stand-in for the engine"}`, () 
     await type(speed, "25,5 Hz");
     await until(page, () => globalThis.brinellStudio.side.opened.all.operation.speed_rpm === 1530);
     await until(page, () => [...document.querySelectorAll("#controls input")].some((one) => one.value === "1530"));
+  }));
+
+  it("shares and saves what was typed last, and nothing that is refused", async () => on({}, async (page) => {
+    await start(page, "rectangle");
+    const speed = page.getByLabel("Speed", { exact: true }), tap = (id) => page.evaluate((id) => document.getElementById(id).click(), id);
+    // As a finger does: the focus stays in the field.
+    await speed.fill("1450");
+    await tap("share");
+    await page.waitForSelector('[data-kind="link"] input');
+    assert.match(await fromLink(new URL(await page.inputValue('[data-kind="link"] input')).hash), /1450/);
+    await speed.fill("1460");
+    assert.match((await saved(page, "Scenario")).text, /1460/);
+    await speed.fill("1470");
+    const { text } = await saved(page, "Signals, CSV");
+    assert.ok(text.length > 1000);
+    assert.equal((await opened(page)).scenario.operation.speed_rpm, 1470);
+    await page.click("#pause");
+    await until(page, () => document.getElementById("state").textContent === "live");
+    const width = page.locator(".chosen .field", { hasText: "Width" }).locator("input[inputmode]"), before = page.url();
+    await width.fill("9");
+    await tap("share");
+    await page.waitForSelector('[data-kind="unsaved"]:has-text("refused")');
+    assert.equal(page.url(), before);
+    assert.match(await page.textContent('.chosen [role="alert"]:not(:empty)'), /wider than the roller/);
+  }));
+
+  it("says that a server does not answer, and saves nothing that it did not open", async () => quietly(browser, `${server.url}?token=secret`, { engine: "server" }, async (page) => {
+    await start(page, "rectangle");
+    await page.route("**/ask*", (route) => route.abort());
+    await page.waitForSelector('[data-kind="lost"]:has-text("The server does not answer. Start `brinell studio` again")');
+    await type(page.getByLabel("Speed", { exact: true }), "1450");
+    await page.click("#save");
+    await page.click('#save-list button:has-text("Scenario")');
+    await page.waitForSelector('[data-kind="unsaved"]:has-text("neither saved nor shared")');
+    assert.doesNotMatch(await page.textContent("#notices"), /continues/);
+    // It answers again: what was typed meanwhile is opened.
+    await page.unroute("**/ask*");
+    await page.click("#pause");
+    await until(page, () => globalThis.brinellStudio.side.opened.scenario.operation.speed_rpm === 1450 && globalThis.brinellStudio.side.live.state === "live");
+    assert.match((await saved(page, "Scenario")).text, /1450/);
+    page.said = page.said.filter((words) => !/ERR_FAILED/.test(words));
   }));
 
   it("leaves nothing of a drag or of a file that is refused, and says why", async () => on({}, async (page) => {
