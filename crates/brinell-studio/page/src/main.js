@@ -12,6 +12,7 @@ import { judged, showMeasured } from "./measured.js";
 import { showKeys } from "./help.js";
 import { notice, readout, speak } from "./readout.js";
 import { Saving } from "./saving.js";
+import { forgetAngle } from "./schema.js";
 import { Side } from "./side.js";
 import { fromLink, pathOf, remember, remembered } from "./state.js";
 import { storedRun } from "./stored.js";
@@ -44,7 +45,7 @@ class Studio {
 
   constructor() {
     this.panel = new DamagePanel(byId("damage"), {
-      store: () => this.side?.store ?? /** @type {any} */ ({ scenario: {} }), ask: (request) => this.side.live.urgent(request), schema: () => this.about?.schema,
+      undo: () => this.#undo(), store: () => this.side?.store ?? /** @type {any} */ ({ scenario: {} }), ask: (request) => this.side.live.urgent(request), schema: () => this.about?.schema,
       changed: (spec, value, live) => this.#change(spec, value, live), rebuilt: () => this.#dirty.add("fields"), speak, failed: (error) => this.#failed(error),
     });
     this.curves = new CurveViews();
@@ -53,7 +54,7 @@ class Studio {
     this.sound = /** @type {any} */ (document.querySelector("brinell-sound"));
     this.saving = new Saving({
       side: () => this.side, fields: () => this.#fields, views: () => [...document.querySelectorAll("#curves brinell-curve"), this.bearing, this.passage],
-      sound: () => this.sound, undo: () => this.side.store.undo(), failed: (error) => this.#failed(error),
+      sound: () => this.sound, undo: () => this.#undoRefused(), failed: (error) => this.#failed(error),
     });
   }
 
@@ -191,6 +192,8 @@ class Studio {
   #change(spec, value, live) {
     const { store } = this.side, now = spec.read(store.scenario);
     if (JSON.stringify(now) !== JSON.stringify(value)) store.change((s) => spec.write(s, value, this.side.opened?.all), `${spec.label} ${spec.path.join(".")}`);
+    // What is typed may be the value that is there, in another unit.
+    else this.#dirty.add("fields");
     if (!live) store.seal();
   }
 
@@ -244,6 +247,7 @@ class Studio {
   /** @param {any} data */
   #opened({ opened, edit }) {
     if (edit.toml !== undefined) {
+      this.#forget();
       this.panel.selected = opened.scenario.defects?.length ? 1 : 0;
       if (this.#preset && !this.#preset.startsWith("example:")) byId("preset").value = this.#preset = "";
     }
@@ -306,6 +310,26 @@ class Studio {
     }
   }
 
+  /** What was typed and is not taken is of the bearing before. */
+  #forget() {
+    this.#restored();
+    forgetAngle();
+  }
+
+  /** Whether a field held what is not taken or not read. */
+  #restored() {
+    this.#dirty.add("fields");
+    return this.#fields.filter((f) => f.restore()).length > 0;
+  }
+
+  /** One step back; from what a field does not read, to what it held. */
+  #undo() { if (!this.#restored()) this.side.store.undo(); }
+
+  #undoRefused() {
+    this.#restored();
+    this.side.store.undo();
+  }
+
   get #fields() { return [...this.panel.fields, ...(this.controls?.fields ?? [])]; }
 
   /** @param {Side} side */
@@ -314,7 +338,7 @@ class Studio {
     // The damage that is refused is the one to look at.
     if (about && this.panel.selected !== Number(about.path[1]) + 1 && side.store.scenario.defects?.[Number(about.path[1])]) this.panel.select(Number(about.path[1]) + 1);
     const rest = lay(this.#fields, problems);
-    notice("refused", rest.length ? rest.map((p) => p.message).join(" ") : null, { bad: true, actions: [["Undo", () => side.store.undo()]] });
+    notice("refused", rest.length ? rest.map((p) => p.message).join(" ") : null, { bad: true, actions: [["Undo", () => this.#undoRefused()]] });
   }
 
   /** @param {unknown} error @param {string} [file] what it is about */
@@ -365,9 +389,9 @@ class Studio {
     const target = /** @type {HTMLElement} */ (e.target);
     if (e.key === "?" && !target.matches("input[type=text], select, textarea, dialog *")) return showKeys();
     if (e.ctrlKey || e.metaKey) {
-      if (e.key.toLowerCase() !== "z" || target.matches("input[type=text]:not([inputmode]), textarea")) return;
+      if (e.key.toLowerCase() !== "z" || target.matches("input[type=text]:not([inputmode]), textarea, dialog *")) return;
       e.preventDefault();
-      return e.shiftKey ? this.side.store.redo() : this.side.store.undo();
+      return e.shiftKey ? this.side.store.redo() : this.#undo();
     }
     if (e.altKey || target.closest("input, select, textarea, button, summary, dialog, [role=application]") || target.tagName.startsWith("BRINELL-")) return;
     const act = /** @type {Record<string, () => void>} */ ({ " ": () => this.#pause(), l: () => this.side.live.live(),
@@ -379,7 +403,10 @@ class Studio {
 
   /** The bearing that is edited and shown. @param {number} index */
   turn(index) {
+    // What is read of it is still the bearing's that was edited.
+    if (document.activeElement instanceof HTMLInputElement) document.activeElement.blur();
     if (index === 1 && !this.sides[1]) this.#second();
+    if (index !== this.active) this.#forget();
     this.active = index;
     const side = this.side;
     byId("side-a").setAttribute("aria-pressed", String(index === 0));
