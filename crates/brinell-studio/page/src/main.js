@@ -204,6 +204,7 @@ class Studio {
     if (kind === "absent" && side !== this.sides[0]) this.#failed(data.error);
     if (kind === "state" || kind === "problems" || kind === "recovered") this.#dirty.add("state");
     if (kind === "lost") notice("lost", data.gone ? data.why : `The engine was lost (${data.why}). A new one continues with the last good bearing.`, { bad: !!data.gone });
+    if (kind === "state" && data.state === "lost" && !document.querySelector('[data-kind="lost"].bad')) notice("lost", "The engine was lost again and again, so none runs. Start again tries another.");
     if (kind === "recovered") this.#recovered();
     if (kind === "problems") this.#refused(side, data);
     if (kind === "verdict" || kind === "opened") this.#differ();
