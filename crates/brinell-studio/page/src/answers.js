@@ -13,7 +13,13 @@ export class Refused extends Error {
 }
 
 /** The engine is gone; another must be started. */
-export class Lost extends Error {}
+export class Lost extends Error {
+  /** @param {string} why @param {boolean} [gone] no other can be started from this page */
+  constructor(why, gone = false) {
+    super(why);
+    this.gone = gone;
+  }
+}
 
 /**
  * The answer, or an error with the engine's words.

@@ -23,6 +23,10 @@ export class Field {
   #said = "";
   /** What the number's field shows, unless the hand is on it. */
   #shown = "";
+  /** Something was typed that is not taken yet. */
+  #typing = false;
+  /** What must be stated was taken out: no other value is shown in its place. */
+  #emptied = false;
   /** @type {unknown} */
   #held;
 
@@ -55,7 +59,12 @@ export class Field {
       const box = h("input", { id, type: "text", spellcheck: false, onchange: () => take(parsed(box.value)) });
       this.#input = box;
     } else {
-      const box = numberInput({ id, onchange: () => this.#typed(box, take) });
+      const box = numberInput({ id, onchange: () => this.#typed(box, take) }, 1, spec.min);
+      // A browser tells no change where the text is again what the page had put there.
+      const rest = () => { if (this.#typing) this.#typed(box, take); };
+      box.addEventListener("input", () => { this.#typing = true; });
+      box.addEventListener("blur", rest);
+      box.addEventListener("keydown", (e) => { if (e.key === "Enter") rest(); });
       this.#input = box;
       if (spec.span || ranged) this.#range = this.#slider(take);
     }
@@ -66,13 +75,28 @@ export class Field {
     // A quantity of the scenario may have its unit with it ("25 Hz"): the engine reads that.
     const [, size, unit] = /^(.*?\d[.,]?)\s*([a-zµ°%].*)$/i.exec(this.spec.united ? box.value.trim() : "") ?? [], whole = numberOf(box.value);
     const said = unit && typeof whole === "string" ? numberOf(size) : whole, empty = box.value.trim() === "";
-    this.unread = !empty && typeof said === "string" ? `${said}${this.spec.unit ? ` (${this.spec.unit})` : ""}` : "";
+    const inUnit = (unit && said !== whole ? unit : "") || this.spec.unit;
+    this.#typing = false;
+    this.unread = !empty && typeof said === "string" ? `${said}${inUnit ? ` (${inUnit})` : ""}` : this.spec.refuse?.(empty ? undefined : Number(said)) ?? "";
     box.setCustomValidity(this.unread);
     this.say(this.#said);
     if (this.unread) return;
     const value = empty ? undefined : unit && said !== whole ? `${said} ${unit}` : said;
     this.#shown = box.value = String(value ?? "");
+    this.#emptied = empty && !!this.spec.required;
     take(value);
+  }
+
+  /** Puts back what was taken last, in place of what is typed and not taken or not read: whether there was something. */
+  restore() {
+    const box = this.#input;
+    if (!(box instanceof HTMLInputElement) || this.spec.kind !== "number" || !(this.unread || (this.#typing && box.value !== this.#shown))) return false;
+    this.#typing = false;
+    this.unread = "";
+    box.value = this.#shown;
+    box.setCustomValidity("");
+    this.say(this.#said);
+    return true;
   }
 
   /** @param {(value: number, live: boolean) => void} take */
@@ -94,7 +118,10 @@ export class Field {
   update(wanted, all) {
     const read = this.spec.read(wanted), input = this.#input;
     // A number that is stated as a text with its unit shows as the engine read it.
-    const number = this.spec.kind === "number", stated = number && typeof read === "string" && !this.#said ? undefined : read, holds = stated ?? this.spec.read(all) ?? this.spec.fallback;
+    const number = this.spec.kind === "number", stated = number && typeof read === "string" && !this.#said ? undefined : read;
+    if (read !== undefined) this.#emptied = false;
+    // While a key is refused the last good bearing's value is not what is wanted.
+    const known = this.spec.read(all) ?? this.spec.fallback, holds = stated ?? (number && (this.#emptied || this.#said) ? undefined : known);
     this.#clear.hidden = get(wanted, this.spec.path) === undefined || !!this.spec.required || !(typeof this.spec.path[0] === "string") || this.spec.path[0] === "defects";
     if (!input) return;
     if (input instanceof HTMLInputElement && input.type === "checkbox") input.checked = holds === true;
@@ -106,7 +133,7 @@ export class Field {
       this.#shown = text;
       this.#held = holds;
     }
-    if (this.#range) this.#place(holds);
+    if (this.#range) this.#place(holds ?? known);
   }
 
   /** @param {any} holds */

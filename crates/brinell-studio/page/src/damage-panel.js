@@ -11,6 +11,7 @@ import { notice } from "./readout.js";
 /**
  * @typedef {object} Owner
  * @property {() => import("./state.js").Store} store
+ * @property {() => void} undo
  * @property {(request: Record<string, unknown>) => Promise<any>} ask
  * @property {() => any} schema
  * @property {Changed} changed
@@ -106,7 +107,7 @@ export class DamagePanel {
     this.depth = size("Depth that the brush adds, µm", 1, () => this.#depth, (value) => { this.#depth = value; });
     this.deepest = h("output", { className: "note" });
     this.raise = h("input", { type: "checkbox" });
-    this.undo = button("Undo", () => owner.store().undo(), { title: "Ctrl-Z" });
+    this.undo = button("Undo", () => owner.undo(), { title: "Ctrl-Z" });
     this.redo = button("Redo", () => owner.store().redo(), { title: "Ctrl-Shift-Z" });
     this.rollerLabel = h("label", {}, "roller", this.rollers);
     this.widthLabel = h("label", {}, "width", this.width, "mm");
@@ -245,7 +246,7 @@ export class DamagePanel {
   /** @param {Request} request */
   #heed(request) {
     const store = this.owner.store(), type = request.type;
-    if (type === "undo") store.undo();
+    if (type === "undo") this.owner.undo();
     else if (type === "redo") store.redo();
     else if (type === "select") this.select(request.defect);
     else if (type === "begin") this.#begin();
@@ -278,9 +279,9 @@ export class DamagePanel {
   /** A drag that ends on what is refused leaves nothing, not what was on its way there. */
   #mend() {
     const one = this.#latest, why = this.#refusal;
-    if (!one?.ended || !one.scenario || one.scenario !== why?.scenario) return false;
+    if (!one?.ended || !one.scenario || one.scenario !== why?.scenario || one.scenario !== this.owner.store().scenario) return false;
     this.#latest = this.#refusal = null;
-    this.owner.store().undo();
+    this.owner.store().takeBack();
     notice("taken", `Taken back: ${why?.words}`, { bad: true });
     return true;
   }
@@ -288,7 +289,7 @@ export class DamagePanel {
   #cancel() {
     // What the engine still works on is not put there any more.
     if (this.#gesture) this.#gesture.left = true;
-    if (this.#gesture?.scenario) this.owner.store().undo();
+    if (this.#gesture?.scenario) this.owner.store().takeBack();
     this.#stroke = this.#gesture = null;
   }
 

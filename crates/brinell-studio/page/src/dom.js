@@ -50,10 +50,11 @@ export function numberOf(text) {
 }
 
 /**
- * A field for a number: of text, as a browser's own drops what it cannot read. Arrow keys step; no form goes on with what is no number.
+ * A field for a number: of text, as a browser's own drops what it cannot read. Arrow keys step, by a digit of the number where that is finer than
+ * the step, and not below the least; no form goes on with what is no number.
  * @param {Record<string, unknown>} props
  */
-export function numberInput(props, step = 1) {
+export function numberInput(props, step = 1, least = -Infinity) {
   const box = h("input", { type: "text", inputMode: "decimal", autocomplete: "off", spellcheck: false, ...props });
   box.addEventListener("input", () => {
     const said = numberOf(box.value);
@@ -63,10 +64,19 @@ export function numberInput(props, step = 1) {
     const way = e.key === "ArrowUp" ? 1 : e.key === "ArrowDown" ? -1 : 0, said = numberOf(box.value || "0");
     if (!way || typeof said === "string") return;
     e.preventDefault();
-    box.value = String(Number((said + way * step).toPrecision(12)));
+    const next = stepped(said, way, step);
+    if (next < said && next < least) return;
+    box.value = String(next);
     box.dispatchEvent(new Event("change"));
   });
   return box;
+}
+
+/** A step from a number, up (1) or down (-1): from 0.4 by 0.1, from 0.1 down by 0.01. @param {number} from @param {number} way @param {number} step */
+export function stepped(from, way, step) {
+  // Towards 0 from a power of ten, its digit is the next finer one.
+  const size = Math.abs(from) * (from * way < 0 ? 1 - 1e-9 : 1);
+  return Number((from + way * (size ? Math.min(step, 10 ** Math.floor(Math.log10(size))) : step)).toPrecision(12));
 }
 
 /** @param {string} unit */

@@ -31,6 +31,11 @@ export class Live {
   #judged = 0;
   #losses = 0;
   #closed = false;
+  /** The last edit, until the engine has opened or refused it. @type {Edit | null} */
+  #unanswered = null;
+  #opening = false;
+  /** @type {(() => void)[]} */
+  #settling = [];
 
   /**
    * @param {() => Promise<Engine>} start
@@ -68,9 +73,15 @@ export class Live {
   /** The scenario from now on. Only the newest of those that wait is opened. @param {{scenario?: Scenario, toml?: string, file?: string}} what */
   edit(what, carry = true) {
     // An edit that starts anew is not undone by a later one that would carry.
-    this.#edit = { ...what, carry: carry && this.#edit?.carry !== false, made: performance.now() };
+    this.#unanswered = this.#edit = { ...what, carry: carry && this.#edit?.carry !== false, made: performance.now() };
     this.#run = false;
     this.#wake();
+  }
+
+  /** Resolves when no edit waits for the engine: whether the last one has been opened or refused, and is not one that lost the engine. */
+  async settled() {
+    if (!this.#closed && (this.#edit || this.#opening)) await new Promise((done) => { this.#settling.push(() => done(null)); });
+    return !this.#unanswered;
   }
 
   /** A run from t = 0 to its end, as `brinell run` does it. */
@@ -95,7 +106,7 @@ export class Live {
     }
     if (this.state === "lost" && this.#good) {
       this.#losses = 0;
-      this.#edit ??= { ...this.#good, carry: false, again: true };
+      this.#edit ??= { ...(this.#unanswered ?? { ...this.#good, again: true }), carry: false };
     }
     this.#wake();
   }
@@ -116,6 +127,8 @@ export class Live {
 
   async #loop() {
     while (!this.#closed) {
+      this.#opening = this.#edit !== null;
+      if (!this.#opening) this.#settle();
       try {
         if (this.#edit) await this.#open(this.#edit);
         else if (!this.opened || this.#paused || this.#urgent || this.state === "done"
@@ -124,7 +137,11 @@ export class Live {
       } catch (error) {
         if (this.#closed) return;
         // No engine came at all.
-        if (!this.opened && !(error instanceof Lost || error instanceof Refused)) return this.report("absent", { error });
+        if (!this.opened && !(error instanceof Lost || error instanceof Refused)) {
+          this.#closed = true;
+          this.#settle();
+          return this.report("absent", { error });
+        }
         if (error instanceof Lost) await this.#recover(error);
         else {
           this.#paused = true;
@@ -135,6 +152,11 @@ export class Live {
     }
   }
 
+  #settle() { for (const done of this.#settling.splice(0)) done(); }
+
+  /** @param {Edit} edit */
+  #answered(edit) { if (!edit.again && edit.made >= (this.#unanswered?.made ?? Infinity)) this.#unanswered = null; }
+
   /** @param {Edit} edit */
   async #open(edit) {
     this.#edit = null;
@@ -144,14 +166,17 @@ export class Live {
       opened = await this.ask({ do: "open", ...(toml === undefined ? { scenario } : { toml }), carry: edit.carry });
     } catch (error) {
       if (!(error instanceof Refused)) {
-        if (error instanceof Lost) this.#edit ??= this.#good ? { ...this.#good, again: true } : edit;
+        // An edit that may have ended its engine is not tried on the next one; one that did not reach a server is.
+        if (error instanceof Lost) this.#edit ??= this.#good && !error.gone ? { ...this.#good, again: true } : edit;
         throw error;
       }
       // The engine is as it was: the last good bearing runs on.
       this.#run = false;
+      this.#answered(edit);
       this.report("problems", { problems: error.problems, edit });
       return;
     }
+    this.#answered(edit);
     this.#good = { scenario: opened.scenario, carry: true, made: edit.made };
     this.opened = opened;
     [this.#window, this.#spoken, this.#judged] = [FIRST_WINDOW, 0, 0];
@@ -224,7 +249,7 @@ export class Live {
   async #recover(error) {
     const from = performance.now();
     this.#losses += 1;
-    this.report("lost", { why: error.message });
+    this.report("lost", { why: error.message, gone: error.gone });
     (await this.engine.catch(() => null))?.close();
     this.engine = this.#start();
     this.engine.catch(() => {});

@@ -6,11 +6,13 @@ import { CurveViews } from "./curves.js";
 import { DamagePanel } from "./damage-panel.js";
 import { byId, h, short } from "./dom.js";
 import { engines } from "./engine.js";
-import { bytesOf, chosenKind, download, droppable, kindsOf, saveMenu, savePictures, shapeOf, share } from "./files.js";
+import { bytesOf, chosenKind, droppable, kindsOf, shapeOf } from "./files.js";
 import { Healthy } from "./healthy.js";
 import { judged, showMeasured } from "./measured.js";
 import { showKeys } from "./help.js";
 import { notice, readout, speak } from "./readout.js";
+import { Saving } from "./saving.js";
+import { forgetAngle } from "./schema.js";
 import { Side } from "./side.js";
 import { fromLink, pathOf, remember, remembered } from "./state.js";
 import { storedRun } from "./stored.js";
@@ -43,13 +45,17 @@ class Studio {
 
   constructor() {
     this.panel = new DamagePanel(byId("damage"), {
-      store: () => this.side?.store ?? /** @type {any} */ ({ scenario: {} }), ask: (request) => this.side.live.urgent(request), schema: () => this.about?.schema,
+      undo: () => this.#undo(), store: () => this.side?.store ?? /** @type {any} */ ({ scenario: {} }), ask: (request) => this.side.live.urgent(request), schema: () => this.about?.schema,
       changed: (spec, value, live) => this.#change(spec, value, live), rebuilt: () => this.#dirty.add("fields"), speak, failed: (error) => this.#failed(error),
     });
     this.curves = new CurveViews();
     this.bearing = /** @type {any} */ (document.querySelector("brinell-bearing"));
     this.passage = /** @type {any} */ (document.querySelector("brinell-passage"));
     this.sound = /** @type {any} */ (document.querySelector("brinell-sound"));
+    this.saving = new Saving({
+      side: () => this.side, fields: () => this.#fields, views: () => [...document.querySelectorAll("#curves brinell-curve"), this.bearing, this.passage],
+      sound: () => this.sound, undo: () => this.#undoRefused(), failed: (error) => this.#failed(error),
+    });
   }
 
   get side() { return this.sides[this.active]; }
@@ -144,11 +150,7 @@ class Studio {
         this.#kept(name);
       }
     });
-    saveMenu([
-      ["Scenario, TOML", () => this.#saveToml()], ["Signals, CSV", () => this.#save("csv")], ["Signals, WAV", () => this.#save("wav")],
-        ["Signals, NPZ", () => this.#save("npz")], ["Sound, WAV", () => this.#saveSound()],
-      ["Pictures, SVG", () => this.#pictures("svg")], ["Pictures, PNG", () => this.#pictures("png")],
-    ], "Signals are those of a run from t = 0, which is done first; the sound is what Hear plays.");
+    this.saving.bind();
   }
 
   /** Damage stays where it was drawn, on whatever bearing: that is said. @param {string} bearing */
@@ -169,9 +171,8 @@ class Studio {
       this.take([...byId("file").files]);
       byId("file").value = "";
     });
-    on("share", () => this.#share());
     on("pause", () => this.#pause());
-    on("run", () => { if (!this.#isRefused()) this.side.live.run(); });
+    on("run", () => { if (!this.saving.isRefused()) this.side.live.run(); });
     on("side-a", () => this.turn(0));
     on("side-b", () => this.turn(1));
     on("both", () => this.compare(!this.beside));
@@ -191,6 +192,8 @@ class Studio {
   #change(spec, value, live) {
     const { store } = this.side, now = spec.read(store.scenario);
     if (JSON.stringify(now) !== JSON.stringify(value)) store.change((s) => spec.write(s, value, this.side.opened?.all), `${spec.label} ${spec.path.join(".")}`);
+    // What is typed may be the value that is there, in another unit.
+    else this.#dirty.add("fields");
     if (!live) store.seal();
   }
 
@@ -200,8 +203,9 @@ class Studio {
     if (kind === "spectra" || kind === "scenario" || kind === "problems") this.still = null;
     if (kind === "absent" && side !== this.sides[0]) this.#failed(data.error);
     if (kind === "state" || kind === "problems" || kind === "recovered") this.#dirty.add("state");
-    if (kind === "lost") notice("lost", `The engine was lost (${data.why}). A new one continues with the last good bearing.`);
-    if (kind === "recovered") speak("The engine was lost and runs again");
+    if (kind === "lost") notice("lost", data.gone ? data.why : `The engine was lost (${data.why}). A new one continues with the last good bearing.`, { bad: !!data.gone });
+    if (kind === "state" && data.state === "lost" && !document.querySelector('[data-kind="lost"].bad')) notice("lost", "The engine was lost again and again, so none runs. Start again tries another.");
+    if (kind === "recovered") this.#recovered();
     if (kind === "problems") this.#refused(side, data);
     if (kind === "verdict" || kind === "opened") this.#differ();
     if (side !== this.side) return void (side === this.other && this.#dirty.add("curves").add("readout"));
@@ -221,6 +225,12 @@ class Studio {
     } else this.#dirty.add("curves").add("readout");
   }
 
+  #recovered() {
+    speak("The engine was lost and runs again");
+    // A server that answers again is not said to be gone.
+    if (document.querySelector('[data-kind="lost"].bad')) notice("lost", "The server did not answer for a while; it runs the last good bearing again.");
+  }
+
   /** What tells B from A, in the engine's words: of the latest verdicts of both. */
   async #differ() {
     const [a, b] = this.sides.map((s) => s.verdict), before = this.difference;
@@ -238,6 +248,7 @@ class Studio {
   /** @param {any} data */
   #opened({ opened, edit }) {
     if (edit.toml !== undefined) {
+      this.#forget();
       this.panel.selected = opened.scenario.defects?.length ? 1 : 0;
       if (this.#preset && !this.#preset.startsWith("example:")) byId("preset").value = this.#preset = "";
     }
@@ -245,6 +256,7 @@ class Studio {
     if (edit.toml !== undefined && this.panel.selected) this.panel.select(1);
     if (this.bearing) Object.assign(this.bearing, { geometry: opened.geometry, loadDeg: opened.load_deg });
     this.#lay(this.side);
+    if (!edit.again) notice("unsaved", null);
     this.#warn(opened.warnings?.join("\n") ?? "");
     byId("run").textContent = `Run ${short(opened.samples / opened.rate_hz)} s`;
     this.healthy?.want(opened.scenario);
@@ -299,6 +311,26 @@ class Studio {
     }
   }
 
+  /** What was typed and is not taken is of the bearing before. */
+  #forget() {
+    this.#restored();
+    forgetAngle();
+  }
+
+  /** Whether a field held what is not taken or not read. */
+  #restored() {
+    this.#dirty.add("fields");
+    return this.#fields.filter((f) => f.restore()).length > 0;
+  }
+
+  /** One step back; from what a field does not read, to what it held. */
+  #undo() { if (!this.#restored()) this.side.store.undo(); }
+
+  #undoRefused() {
+    this.#restored();
+    this.side.store.undo();
+  }
+
   get #fields() { return [...this.panel.fields, ...(this.controls?.fields ?? [])]; }
 
   /** @param {Side} side */
@@ -307,7 +339,7 @@ class Studio {
     // The damage that is refused is the one to look at.
     if (about && this.panel.selected !== Number(about.path[1]) + 1 && side.store.scenario.defects?.[Number(about.path[1])]) this.panel.select(Number(about.path[1]) + 1);
     const rest = lay(this.#fields, problems);
-    notice("refused", rest.length ? rest.map((p) => p.message).join(" ") : null, { bad: true, actions: [["Undo", () => side.store.undo()]] });
+    notice("refused", rest.length ? rest.map((p) => p.message).join(" ") : null, { bad: true, actions: [["Undo", () => this.#undoRefused()]] });
   }
 
   /** @param {unknown} error @param {string} [file] what it is about */
@@ -358,9 +390,9 @@ class Studio {
     const target = /** @type {HTMLElement} */ (e.target);
     if (e.key === "?" && !target.matches("input[type=text], select, textarea, dialog *")) return showKeys();
     if (e.ctrlKey || e.metaKey) {
-      if (e.key.toLowerCase() !== "z" || target.matches("input[type=text]:not([inputmode]), textarea")) return;
+      if (e.key.toLowerCase() !== "z" || target.matches("input[type=text]:not([inputmode]), textarea, dialog *")) return;
       e.preventDefault();
-      return e.shiftKey ? this.side.store.redo() : this.side.store.undo();
+      return e.shiftKey ? this.side.store.redo() : this.#undo();
     }
     if (e.altKey || target.closest("input, select, textarea, button, summary, dialog, [role=application]") || target.tagName.startsWith("BRINELL-")) return;
     const act = /** @type {Record<string, () => void>} */ ({ " ": () => this.#pause(), l: () => this.side.live.live(),
@@ -372,7 +404,10 @@ class Studio {
 
   /** The bearing that is edited and shown. @param {number} index */
   turn(index) {
+    // What is read of it is still the bearing's that was edited.
+    if (document.activeElement instanceof HTMLInputElement) document.activeElement.blur();
     if (index === 1 && !this.sides[1]) this.#second();
+    if (index !== this.active) this.#forget();
     this.active = index;
     const side = this.side;
     byId("side-a").setAttribute("aria-pressed", String(index === 0));
@@ -443,43 +478,6 @@ class Studio {
     }
     if (found) showMeasured(found, file.name, { beside, close, simulated: this.side.opened.unit });
   }
-
-  get #name() { return this.side.opened?.scenario.name ?? "scenario"; }
-
-  /** What is refused is not run, saved or shared: the fields would say one thing and the run another. */
-  #isRefused() {
-    const field = this.#fields.find((f) => f.unread);
-    if (!field && !this.side.problems.length) return false;
-    notice("refused", field ? `${field.spec.label}: ${field.unread}. Correct it first.` : "The present scenario is refused, so the last good one runs. Correct it or undo first.",
-      { bad: true, actions: field ? [] : [["Undo", () => this.side.store.undo()]] });
-    return true;
-  }
-
-  #saveToml() { if (!this.#isRefused()) download(new Blob([this.side.opened.toml], { type: "application/toml" }), `${this.#name}.toml`); }
-
-  /** What is saved is a run from t = 0. @param {"csv" | "wav" | "npz"} format */
-  async #save(format) {
-    const side = this.side;
-    if (this.#isRefused()) return;
-    try {
-      if (!(await side.finished())) return notice("failed", "The run was left before its end, so nothing was saved.", { bad: true });
-      const { name, type, bytes } = await side.live.ask({ do: "save", format });
-      download(new Blob([bytes], { type }), name);
-    } catch (error) {
-      this.#failed(error);
-    }
-  }
-
-  #saveSound() {
-    const wav = this.sound?.wav?.();
-    if (wav) download(wav, `${this.#name}-sound.wav`);
-    else notice("failed", "There are no whole turns of the shaft to hear yet.", { bad: true });
-  }
-
-  /** @param {"svg" | "png"} format */
-  #pictures(format) { savePictures([...document.querySelectorAll("#curves brinell-curve"), this.bearing, this.passage], this.#name, format); }
-
-  #share() { if (!this.#isRefused()) share(this.side.opened.toml, () => this.#saveToml()); }
 }
 
 async function main() {

@@ -8,7 +8,8 @@ import { byId, h, numberInput, numberOf, short, spelled, tableOf } from "./dom.j
 export function asked(title, body, go) {
   const dialog = /** @type {HTMLDialogElement} */ (byId("dialog"));
   const form = h("form", { method: "dialog" }, h("h2", { id: "dialog-title" }, title), ...body.filter((node) => node !== null),
-    h("div", { className: "actions" }, h("button", { type: "submit", value: "", formNoValidate: true }, "Cancel"), h("button", { type: "submit", value: "go" }, go)));
+    // Enter in a field presses the first button that submits: that is what was asked for.
+    h("div", { className: "actions" }, h("button", { type: "button", onclick: () => dialog.close() }, "Cancel"), h("button", { type: "submit", value: "go" }, go)));
   dialog.replaceChildren(form);
   dialog.returnValue = "";
   dialog.showModal();
@@ -55,18 +56,24 @@ export async function judged(ask, name, bytes, known, own, refused) {
   if (!channels?.length) throw new Error(`${name} holds no signal`);
   const channel = h("select", {}, ...channels.map((/** @type {any} */ c) => h("option", { value: c.name }, listed(c))));
   const text = (/** @type {string} */ placeholder) => h("input", { type: "text", placeholder });
-  const rate = numberInput({ required: true }), rpm = numberInput({ required: true }), from = numberInput({ value: String(run?.from_s ?? 0) });
+  const rate = numberInput({ required: true }, 1, 0), rpm = numberInput({ required: true }), from = numberInput({ value: String(run?.from_s ?? 0) }, 1, 0);
   const unit = text("m/s^2, g, mm/s, V, counts"), scale = text("10g, 5V"), sensitivity = text("100mV/g"), bearing = bearings(known, run, own.name);
   const rows = { rate: line("Sampling rate", rate, "Hz", " "), unit: line("Unit", unit, "", " "),
     scale: line("Full scale", scale, "", "of a WAV, in place of the unit: what its largest number means"), rpm: line("Speed of the shaft", rpm, "r/min", " ") };
   const says = (/** @type {HTMLElement} */ row, /** @type {string} */ words) => { /** @type {HTMLElement} */ (row.querySelector(".note")).textContent = words; };
   const now = () => channels.find((/** @type {any} */ one) => one.name === channel.value) ?? channels[0];
+  /** Fields with what was typed: another channel leaves them. */
+  const typed = new Set();
+  for (const input of [rate, unit, rpm]) for (const event of ["input", "change"]) input.addEventListener(event, () => (input.value.trim() ? typed.add(input) : typed.delete(input)));
   const fill = () => {
-    const c = now();
-    for (const [input, value] of /** @type {[HTMLInputElement, unknown][]} */ ([[rate, c.rate_hz], [unit, c.unit], [rpm, c.rpm]])) input.value = String(value ?? "");
-    says(rows.rate, c.rate_from ? `from ${c.rate_from}` : c.rate_missing ?? "the file does not state it");
-    says(rows.unit, c.unit ? "from the file" : "the file does not state it");
-    says(rows.rpm, c.rpm_from ? `from ${c.rpm_from}` : "the file does not state it");
+    const c = now(), none = "the file does not state it";
+    for (const [input, row, value, from] of /** @type {[HTMLInputElement, HTMLElement, unknown, string][]} */ ([[rate, rows.rate, c.rate_hz, c.rate_from ? `from ${c.rate_from}` : c.rate_missing ?? none],
+      [unit, rows.unit, c.unit, c.unit ? "from the file" : none], [rpm, rows.rpm, c.rpm, c.rpm_from ? `from ${c.rpm_from}` : none]])) {
+      says(row, typed.has(input) ? `as typed${value ? `; the file states ${value}` : ""}` : from);
+      if (typed.has(input)) continue;
+      input.value = String(value ?? "");
+      input.setCustomValidity("");
+    }
     rows.scale.hidden = !c.is_wav || !!c.unit;
   };
   channel.addEventListener("change", fill);

@@ -14,6 +14,7 @@ import { get, set } from "./state.js";
  * @property {boolean} [integer]
  * @property {number} [min]      allowed by the schema
  * @property {number} [max]
+ * @property {(value?: number) => string} [refuse]  why the page itself does not take it, undefined where the field is empty
  * @property {[number, number]} [span]  of the range input
  * @property {boolean} [log]
  * @property {[string, string][]} [options]
@@ -77,18 +78,25 @@ function load(tree) {
   const stated = tree?.operation?.load_n ?? [0, 0];
   return stated.every((/** @type {any} */ v) => typeof v === "number") ? stated : undefined;
 }
+/** Where a load acts that is 0: its two parts do not tell. Radians. */
+let idle = 0;
+/** Another bearing has its own load. */
+export const forgetAngle = () => { idle = 0; };
+/** @param {[number, number]} f */
+const angle = (f) => (f[0] || f[1] ? Math.atan2(f[1], f[0]) : idle);
 /** @param {number} v */
 const tidy = (v) => Number(v.toPrecision(7));
 
 /** The controls that are always shown. @param {any} schema @returns {Spec[]} */
 export function mainSpecs(schema) {
-  const at = (/** @type {[number, number]} */ f) => tidy(Math.hypot(...f)), angle = (/** @type {[number, number]} */ f) => Math.atan2(f[1], f[0]);
+  const at = (/** @type {[number, number]} */ f) => tidy(Math.hypot(...f));
   const read = (/** @type {any} */ tree, /** @type {(f: [number, number]) => number} */ part) => {
     const known = load(tree);
     return known && part(known);
   };
   const put = (/** @type {any} */ tree, /** @type {any} */ all, /** @type {number | null} */ force, /** @type {number | null} */ turn) => {
     const before = load(tree) ?? load(all) ?? [0, 0], size = force ?? at(before), a = turn ?? angle(before);
+    idle = a;
     set(tree, ["operation", "load_n"], [size * Math.cos(a), size * Math.sin(a)].map((v) => (Math.abs(v) < 1e-9 * size ? 0 : tidy(v))));
   };
   const only = (/** @type {any} */ v) => (typeof v === "object" ? undefined : v);
@@ -96,11 +104,13 @@ export function mainSpecs(schema) {
   const speed = ["operation", "speed_rpm"], loads = /** @type {Path} */ (["operation", "load_n"]);
   return [
     spec(schema, speed, { label: "Speed", span: [60, 6000], log: false, read: (t) => only(get(t, speed)) }),
-    spec(schema, loads, { label: "Load", kind: "number", span: [1, 5000], log: true, min: 0, read: (t) => read(t, at), write: (t, v, all) => put(t, all, v, null) }),
+    spec(schema, loads, { label: "Load", kind: "number", span: [1, 5000], log: true, min: 0, read: (t) => read(t, at), write: (t, v, all) => put(t, all, v, null),
+      refuse: (v) => (v === undefined ? "a load is missing" : v < 0 ? "a load is 0 or more; Load at angle turns it" : "") }),
     spec(schema, loads, {
       label: "Load at angle", kind: "number", unit: "°", span: [-180, 180],
       note: "direction from the bearing's centre to the middle of the load zone, counter-clockwise from +x",
       read: (t) => read(t, (f) => Number((angle(f) / RAD).toFixed(2))), write: (t, v, all) => put(t, all, null, v * RAD),
+      refuse: (v) => (v === undefined ? "an angle is missing" : ""),
     }),
     spec(schema, ["bearing", "radial_clearance_um"], { label: "Clearance", span: [-5, 50], log: false }),
     spec(schema, ["contact", "damping_ns_per_m"], { label: "Contact damping", span: [0, 1000], log: false }),

@@ -24,10 +24,11 @@ export class ServerEngine {
     let bytes;
     try {
       const response = await fetch(`ask${location.search}`, { method: "POST", body: encode(request), headers: { "Content-Type": "application/octet-stream" } });
-      if (!response.ok) throw new Error(`the server answers ${response.status}${response.status === 403 ? ": the address lacks its token, which is new whenever the server starts" : ""}`);
+      if (response.status === 403) throw new Lost("The server refuses this address: its token is new whenever the server starts. Open the address that it printed.", true);
+      if (!response.ok) throw new Lost(`the server answers ${response.status}`);
       bytes = new Uint8Array(await response.arrayBuffer());
     } catch (error) {
-      throw new Lost(error instanceof Error ? error.message : String(error));
+      throw error instanceof Lost ? error : new Lost("The server does not answer. Start `brinell studio` again and open its new address.", true);
     }
     return accepted(decode(bytes));
   }

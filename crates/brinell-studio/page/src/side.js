@@ -28,7 +28,11 @@ export class Side {
   pace = 0;
   /** Milliseconds from the last edit to its bearing. */
   took = 0;
+  /** What Hear plays of this scenario, once there is some. @type {any} */
+  loop = null;
   #paced = { t: 0, at: 0 };
+  /** @type {Set<(kind: string, data: any) => void>} */
+  #waiting = new Set();
 
   /**
    * @param {string} name
@@ -56,9 +60,11 @@ export class Side {
     else if (kind === "damage") this.damage = data;
     else if (kind === "state") this.part = data.part ?? 0;
     else if (kind === "spectra" && data.spectrum) this.spectra = data;
+    else if (kind === "sound") this.loop = data;
     else if (kind === "indicators") this.indicators = data;
     else if (kind === "verdict") this.verdict = data;
     this.show(this, kind, data);
+    for (const waiting of [...this.#waiting]) waiting(kind, data);
   }
 
   /** @param {{opened: any, edit: any, took: number}} data */
@@ -68,7 +74,7 @@ export class Side {
     this.indicators = null;
     if (edit.again) return;
     // What was said of the bearing before is not said of this one.
-    this.verdict = null;
+    this.verdict = this.loop = null;
     if (this.spectra) this.spectra = { ...this.spectra, lines: [] };
     this.took = took;
     this.problems = [];
@@ -87,19 +93,32 @@ export class Side {
     }
   }
 
-  /** A run from t = 0 to its end. Resolves when it is done; false where it was left for something else. */
-  finished() {
-    if (this.live.state === "done") return Promise.resolve(true);
+  /** A run from t = 0 to its end, after the last edit. Resolves when it is done; false where it was left for something else. */
+  async finished() {
+    if (!(await this.live.settled())) return false;
+    if (this.live.state === "done") return true;
     this.live.run();
+    return this.#when((kind, data) => (kind === "problems" || kind === "lost" || (kind === "state" && data.state === "live") ? false
+      : (kind === "state" && data.state === "done") || undefined));
+  }
+
+  /** Whole turns of the shaft in the present scenario, to hear. Resolves with them; null where the bearing rests before there are some. */
+  async heard() {
+    if (this.loop || !["live", "running"].includes(this.live.state)) return this.loop;
+    return this.#when((kind, data) => (kind === "sound" ? data : kind === "problems" || kind === "lost" || (kind === "opened" && !data.edit.again)
+      || (kind === "state" && (data.state === "paused" || data.state === "done")) ? null : undefined));
+  }
+
+  /** What `told` says of a report, once it says something. @param {(kind: string, data: any) => any} told @returns {Promise<any>} */
+  #when(told) {
     return new Promise((done) => {
-      const before = this.show;
-      this.show = (side, kind, data) => {
-        before(side, kind, data);
-        const left = kind === "problems" || kind === "lost" || kind === "scenario" || (kind === "state" && data.state === "live");
-        if (!left && !(kind === "state" && data.state === "done")) return;
-        this.show = before;
-        done(!left);
+      const waiting = (/** @type {string} */ kind, /** @type {any} */ data) => {
+        const said = told(kind, data);
+        if (said === undefined) return;
+        this.#waiting.delete(waiting);
+        done(said);
       };
+      this.#waiting.add(waiting);
     });
   }
 }

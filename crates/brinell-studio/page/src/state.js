@@ -96,6 +96,13 @@ export class Store {
   undo() { this.#step(this.#past, this.#future); }
   redo() { this.#step(this.#future, this.#past); }
 
+  /** Undoes the last edit for good: no redo leads to it. */
+  takeBack() {
+    const after = this.#future.length;
+    this.undo();
+    this.#future.length = after;
+  }
+
   /** @param {Scenario[]} from @param {Scenario[]} to */
   #step(from, to) {
     const scenario = from.pop();

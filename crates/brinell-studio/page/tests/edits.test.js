@@ -1,9 +1,10 @@
 // Edits of a scenario on the studio's page: what is taken, what is refused, and what runs meanwhile. Driven in Chromium, as studio.test.js is.
 import assert from "node:assert/strict";
 import { after, before, describe, it } from "node:test";
-import { numberOf } from "../src/dom.js";
+import { numberOf, stepped } from "../src/dom.js";
+import { fromLink } from "../src/state.js";
 import { launch, quietly, real, serve } from "./browser.js";
-import { drag, drop, opened, scenario, start, type, until } from "./page.js";
+import { drag, drop, opened, saved, scenario, start, type, until } from "./page.js";
 
 let browser, server;
 
@@ -65,7 +66,7 @@ describe(`edits, with ${real ? "the engine" : "a stand-in for the engine"}`, () 
     assert.match(await page.textContent("#state"), /last good/);
     // Nor does Run take what was there before.
     await page.click("#run");
-    await page.waitForSelector('[data-kind="refused"]');
+    await page.waitForSelector('[data-kind="unsaved"]');
     assert.match(await page.textContent("#state"), /last good/);
     await type(input, "5");
     await until(page, () => !document.querySelector('.chosen [aria-invalid="true"]') && globalThis.brinellStudio.side.opened.scenario.defects[0].shape.rectangle.width_mm === 5);
@@ -89,7 +90,7 @@ describe(`edits, with ${real ? "the engine" : "a stand-in for the engine"}`, () 
     await type(speed, "1,234");
     await page.waitForSelector('#controls [role="alert"]:has-text("may be 1.234 or 1234")');
     await page.click("#run");
-    await page.waitForSelector('[data-kind="refused"]:has-text("Speed")');
+    await page.waitForSelector('[data-kind="unsaved"]:has-text("Speed")');
     assert.equal(await page.textContent("#state"), "live");
     assert.equal(await stated(), 1797.3);
     await type(speed, "1500");
@@ -97,8 +98,119 @@ describe(`edits, with ${real ? "the engine" : "a stand-in for the engine"}`, () 
     if (!real) return;
     await type(speed, "25,5 Hz");
     await until(page, () => globalThis.brinellStudio.side.opened.all.operation.speed_rpm === 1530);
-    await until(page, () => [...document.querySelectorAll("#controls input")].some((one) => one.value === "1530"));
+    const shown = () => until(page, () => [...document.querySelectorAll("#controls input")].some((one) => one.value === "1530"));
+    await shown();
+    // The same again is shown in the field's unit again.
+    await type(speed, "25,5Hz");
+    await shown();
+    await type(speed, "1,250 Hz");
+    await page.waitForSelector('#controls [role="alert"]:has-text("may be 1.250 or 1250 (Hz)")');
   }));
+
+  it("shares and saves what was typed last, and nothing that is refused", async () => on({}, async (page) => {
+    await start(page, "rectangle");
+    const speed = page.getByLabel("Speed", { exact: true }), tap = (id) => page.evaluate((id) => document.getElementById(id).click(), id);
+    // As a finger does: the focus stays in the field.
+    await speed.fill("1450");
+    await tap("share");
+    await page.waitForSelector('[data-kind="link"] input');
+    assert.match(await fromLink(new URL(await page.inputValue('[data-kind="link"] input')).hash), /1450/);
+    await speed.fill("1460");
+    assert.match((await saved(page, "Scenario")).text, /1460/);
+    await speed.fill("1470");
+    const { text } = await saved(page, "Signals, CSV");
+    assert.ok(text.length > 1000);
+    assert.equal((await opened(page)).scenario.operation.speed_rpm, 1470);
+    await page.click("#pause");
+    await until(page, () => document.getElementById("state").textContent === "live");
+    const width = page.locator(".chosen .field", { hasText: "Width" }).locator("input[inputmode]"), before = page.url();
+    await width.fill("9");
+    await tap("share");
+    await page.waitForSelector('[data-kind="unsaved"]:has-text("refused")');
+    assert.equal(page.url(), before);
+    assert.match(await page.textContent('.chosen [role="alert"]:not(:empty)'), /wider than the roller/);
+  }));
+
+  it("says that a server does not answer, and saves nothing that it did not open", async () => quietly(browser, `${server.url}?token=secret`, { engine: "server" }, async (page) => {
+    await start(page, "rectangle");
+    await page.route("**/ask*", (route) => route.abort());
+    await page.waitForSelector('[data-kind="lost"]:has-text("The server does not answer. Start `brinell studio` again")');
+    await type(page.getByLabel("Speed", { exact: true }), "1450");
+    await page.click("#save");
+    await page.click('#save-list button:has-text("Scenario")');
+    await page.waitForSelector('[data-kind="unsaved"]:has-text("neither saved nor shared")');
+    assert.doesNotMatch(await page.textContent("#notices"), /continues/);
+    // It answers again: what was typed meanwhile is opened.
+    await page.unroute("**/ask*");
+    await page.click("#pause");
+    await until(page, () => globalThis.brinellStudio.side.opened.scenario.operation.speed_rpm === 1450 && globalThis.brinellStudio.side.live.state === "live");
+    assert.match((await saved(page, "Scenario")).text, /1450/);
+    page.said = page.said.filter((words) => !/ERR_FAILED/.test(words));
+  }));
+
+  it("leaves a field empty that must be stated, and takes the number that was there again", async () => on({}, async (page) => {
+    await start(page, "rectangle");
+    const speed = page.getByLabel("Speed", { exact: true }), good = () => until(page, () => !globalThis.brinellStudio.side.problems.length && !document.querySelector('#controls [aria-invalid="true"]'));
+    for (const again of ["Enter", "Tab"]) {
+      await type(speed, "");
+      await page.waitForSelector('#controls [aria-invalid="true"]');
+      await page.waitForTimeout(300);
+      assert.equal(await speed.inputValue(), "");
+      await speed.click();
+      await page.keyboard.type("1800");
+      await page.keyboard.press(again);
+      await good();
+      assert.equal((await scenario(page)).operation.speed_rpm, 1800);
+      await page.evaluate(() => document.activeElement.blur());
+    }
+    // The load's parts tell no angle where it is 0, and none is turned by a sign.
+    const load = page.getByLabel("Load", { exact: true }), angle = page.getByLabel("Load at angle", { exact: true });
+    await type(angle, "45");
+    await type(load, "-300");
+    await page.waitForSelector('#controls [role="alert"]:has-text("a load is 0 or more")');
+    await type(load, "0");
+    await type(load, "300");
+    await until(page, () => Math.abs(globalThis.brinellStudio.side.store.scenario.operation.load_n[1] - 212.132) < 0.01);
+    assert.equal(await angle.inputValue(), "45");
+  }));
+
+  it("takes typed text back before an edit, and leaves none to another bearing", async () => on({}, async (page) => {
+    await start(page, "rectangle");
+    const speed = page.getByLabel("Speed", { exact: true }), load = page.getByLabel("Load", { exact: true });
+    const stated = async () => [(await scenario(page)).operation.speed_rpm, (await scenario(page)).operation.load_n[0]];
+    const shows = (field, value) => until(page, ([name, value]) => [...document.querySelectorAll("#controls .field")].find((f) => f.querySelector("label")?.textContent === name)?.querySelector("input[inputmode]").value === value, [field, value]);
+    await type(speed, "1600");
+    await load.fill("450");
+    await page.keyboard.press("Control+z");
+    assert.equal(await load.inputValue(), "300");
+    assert.deepEqual(await stated(), [1600, 300]);
+    await type(load, "1,234");
+    await page.waitForSelector('#controls [role="alert"]:has-text("may be")');
+    await page.click('#damage button:has-text("Undo")');
+    assert.equal(await load.inputValue(), "300");
+    assert.deepEqual(await stated(), [1600, 300]);
+    await page.keyboard.press("Control+z");
+    assert.deepEqual(await stated(), [1800, 300]);
+    await type(load, "abc");
+    await drop(page, "same.toml", Buffer.from((await opened(page)).toml).toString("base64"));
+    await shows("Load", "300");
+    await type(load, "xyz");
+    await page.click("#side-b");
+    await shows("Load", "300");
+    assert.equal(await page.locator('#controls [aria-invalid="true"]').count(), 0);
+  }));
+
+  it("steps by a digit of the number, and not below what is allowed", async () => {
+    for (const [from, way, to] of [[0.4, -1, 0.3], [0.4, 1, 0.5], [1, -1, 0.9], [0.9, 1, 1], [0.1, -1, 0.09], [1800, 1, 1801], [0, 1, 1], [-0.4, -1, -0.5], [-1, 1, -0.9]])
+      assert.equal(stepped(from, way, 1), to, `${from}, ${way}`);
+    await on({}, async (page) => {
+      await start(page, "rectangle");
+      const width = page.locator(".chosen .field", { hasText: "Width" }).locator("input[inputmode]");
+      await type(width, "0.2");
+      for (let k = 0; k < 3; k++) await width.press("ArrowDown");
+      assert.equal((await scenario(page)).defects[0].shape.rectangle.width_mm, 0.08);
+    });
+  });
 
   it("leaves nothing of a drag or of a file that is refused, and says why", async () => on({}, async (page) => {
     await start(page, "rectangle");
@@ -107,6 +219,7 @@ describe(`edits, with ${real ? "the engine" : "a stand-in for the engine"}`, () 
     await page.waitForSelector('[data-kind="taken"]:has-text("wider than the roller")');
     await until(page, () => globalThis.brinellStudio.side.opened.scenario.defects.length === 1 && !globalThis.brinellStudio.side.problems.length);
     assert.equal((await scenario(page)).defects.length, 1);
+    assert.ok(await page.isDisabled('#damage button:has-text("Redo")'));
     await drop(page, "wrong.toml", Buffer.from("preset = ").toString("base64"));
     await page.waitForSelector('[data-kind="refused"]:has-text("wrong.toml is refused")');
     assert.equal(await page.textContent("#state"), "live");

@@ -26,6 +26,7 @@
       if (d.shape?.rectangle?.width_mm > 6) refuse(key, `${d.shape.rectangle.width_mm} mm is wider than the roller, whose length is 6 mm; allowed: <= 6 mm`, 26);
       if (!(d.depth_um > 0)) refuse(`defects[${k + 1}].depth_um`, "a depth is above 0 um");
     });
+    if (s.operation?.speed_rpm === undefined) refuse("operation.speed_rpm", "missing");
     if (s.operation?.speed_rpm === 0) refuse("operation.speed_rpm", "the shaft does not turn: a number other than 0");
   }
 

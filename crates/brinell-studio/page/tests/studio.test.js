@@ -191,7 +191,7 @@ describe(`the page, with ${real ? "its engine" : "a stand-in for the engine"}`, 
     await type(scale, "0,02");
     // The light evened out, as the reader does since it takes photographs under uneven light: 8.937 mm2; with one threshold it was 8.92.
     await until(page, () => /8\.9[34]\d* mm²/.test(document.querySelector("dialog")?.textContent ?? ""));
-    await page.click('dialog button:has-text("Place on the raceway")');
+    await scale.press("Enter");
     await until(page, () => globalThis.brinellStudio.side.opened.scenario.defects?.length === 1);
     assert.ok((await scenario(page)).defects[0].shape.outline);
   }));
@@ -281,7 +281,7 @@ describe(`the page, with ${real ? "its engine" : "a stand-in for the engine"}`, 
     await page.waitForSelector('dialog [role="alert"]:has-text("no unit is called `furlong`")');
     assert.match(await page.textContent("dialog h2"), /measured\.csv/);
     await page.fill("#ask-unit", "g");
-    await judge();
+    await page.press("#ask-unit", "Enter");
     await page.waitForSelector("#measured:not([hidden]) table");
     await until(page, () => document.querySelector('brinell-curve[kind="spectrum"]').data?.second);
     assert.match(await page.textContent("#measured .used"),
@@ -306,6 +306,28 @@ describe(`the page, with ${real ? "its engine" : "a stand-in for the engine"}`, 
     await dropped("measured.csv");
     await page.waitForSelector("dialog[open]");
     assert.equal(await page.locator('[data-kind="failed"]').count(), 0);
+  }));
+
+  it("leaves what was typed of a measured signal when another channel is chosen", { skip: !real && "the stand-in has one channel" }, async () => on({}, async (page) => {
+    const rows = Array.from({ length: 4000 }, (_, k) => `${Math.sin(k)},${Math.cos(k)}`).join("\n");
+    await drop(page, "two.csv", Buffer.from(`x,y\n${rows}\n`).toString("base64"));
+    await page.selectOption("dialog select", "signal");
+    await page.click('dialog button:has-text("Open")');
+    await page.waitForSelector("#ask-channel");
+    await page.fill("#ask-sampling-rate", "12000");
+    await page.fill("#ask-unit", "g");
+    await page.fill("#ask-speed-of-the-shaft", "12 00");
+    await page.fill("#ask-speed-of-the-shaft", "");
+    await page.selectOption("#ask-channel", { index: 1 });
+    assert.deepEqual(await page.evaluate(() => ["sampling-rate", "unit", "speed-of-the-shaft"].map((id) => document.getElementById(`ask-${id}`).value)), ["12000", "g", ""]);
+    assert.match(await page.textContent("dialog"), /as typed/);
+    // A time is not below 0.
+    await page.fill("#ask-counts-from", "0.1");
+    await page.press("#ask-counts-from", "ArrowDown");
+    assert.equal(await page.inputValue("#ask-counts-from"), "0.09");
+    await page.fill("#ask-counts-from", "0");
+    await page.press("#ask-counts-from", "ArrowDown");
+    assert.equal(await page.inputValue("#ask-counts-from"), "0");
   }));
 
   it("is usable with the keyboard alone", async () => on({}, async (page) => {
