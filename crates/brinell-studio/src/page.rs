@@ -34,6 +34,7 @@ files! {
     "src/raceway-draw.js": JS,
     "src/raceway.js": JS,
     "src/readout.js": JS,
+    "src/saving.js": JS,
     "src/schema.js": JS,
     "src/server-engine.js": JS,
     "src/side.js": JS,

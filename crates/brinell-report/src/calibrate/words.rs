@@ -182,7 +182,9 @@ pub fn interval_text(of: &Found) -> String {
         Some((low, high)) => {
             let bound = |cut: bool| if cut { " (bound)" } else { "" };
             let [below, above] = of.is_cut().map(bound);
-            format!("95 %: {}{below} to {}{above}", short(low, 4), short(high, 4))
+            // Two figures of its width at least: four of its ends may be the same.
+            let figures = (low.abs().max(high.abs()) / (high - low)).log10().ceil().clamp(2.0, 12.0) as usize + 2;
+            format!("95 %: {}{below} to {}{above}", short(low, figures), short(high, figures))
         }
         None => {
             format!("not determined between {} and {}", short(of.key.low, 4), short(of.key.high, 4))
