@@ -99,8 +99,8 @@ pub(crate) fn calibrate<'py>(
     }
     let middle = read(&middle(&keys))?;
     let simulation = py.detach(|| Simulation::new(&middle.scenario)).map_err(|error| run_error(py, &error))?;
-    let own = read(&[])?;
     let pattern = measured.map(|x| {
+        let own = read(&[])?;
         let (rate, unit, axis, percent) = (signal.0, Unit::of(&signal.1), signal.2.as_deref(), signal.3);
         let measured = Measured { x: &slice(&x), rate, unit: &unit };
         let pattern = py

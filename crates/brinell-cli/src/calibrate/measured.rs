@@ -3,6 +3,7 @@
 use super::CalibrateArgs;
 use crate::analyze::measured::{SignalArgs, load};
 use crate::failure::Failure;
+use crate::files::Source;
 use brinell::scenario::Scenario;
 use brinell::simulate::Simulation;
 use brinell_study::calibrate::{CalibrateError, Key, Measured, Pattern};
@@ -10,7 +11,7 @@ use brinell_study::calibrate::{CalibrateError, Key, Measured, Pattern};
 /// The signal, if there is one, as targets for runs of a scenario; and what deserves attention.
 pub(super) fn pattern(
     args: &CalibrateArgs,
-    own: (&Scenario, &[Key]),
+    (source, keys): (&Source, &[Key]),
     (scenario, simulation): (&Scenario, &Simulation),
 ) -> Result<Option<(Pattern, Vec<String>)>, Failure> {
     let Some(file) = &args.measured else {
@@ -24,7 +25,9 @@ pub(super) fn pattern(
     let signal = load(file, &args.signal.wanted())?;
     let name = signal.path.display();
     let measured = Measured { x: &signal.x, rate: signal.rate, unit: &signal.unit };
-    let pattern = Pattern::new(&measured, own, (scenario, simulation), args.axis.as_deref(), args.model_uncertainty);
+    let own = source.load(&[], true)?.scenario;
+    let (axis, percent) = (args.axis.as_deref(), args.model_uncertainty);
+    let pattern = Pattern::new(&measured, (&own, keys), (scenario, simulation), axis, percent);
     let mut pattern = pattern.map_err(|error| {
         Failure::Usage(match error {
             CalibrateError::ModelUncertainty(percent) => format!("--model-uncertainty {percent}: {error}"),

@@ -120,8 +120,7 @@ fn read(args: &CalibrateArgs) -> Result<(Source, Arc<Plan>, Vec<String>), Failur
     }
     let middle = source.load(&middle(&keys), false)?;
     let simulation = Simulation::new(&middle.scenario).map_err(Failure::Run)?;
-    let own = source.load(&[], true)?;
-    let pattern = measured::pattern(args, (&own.scenario, &keys), (&middle.scenario, &simulation))?;
+    let pattern = measured::pattern(args, (&source, &keys), (&middle.scenario, &simulation))?;
     let (pattern, warnings) = pattern.map_or((None, Vec::new()), |(pattern, warnings)| (Some(pattern), warnings));
     let plan = Plan::new(keys, targets, pattern, middle, &simulation, args.seed, args.budget);
     let plan = plan.map_err(|error| match &error {

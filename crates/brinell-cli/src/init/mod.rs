@@ -6,7 +6,7 @@ use self::scan::{Raceway, STEP_MM, scan_of};
 use crate::failure::Failure;
 use crate::say::{document, pretty, say};
 use brinell::bearing::catalogue::{self, Entry, STATIC_RATING};
-use brinell::bearing::{KnownBearing, clearance_of};
+use brinell::bearing::{KnownBearing, USUAL_CONFORMITY, clearance_of};
 use brinell::document::toml_quote;
 use brinell_io::{Complete, atomic_prepare, atomic_write};
 use clap::{Args, ValueEnum};
@@ -221,8 +221,6 @@ const LOAD_OVER_RATING: f64 = 0.1;
 const SPALL: [f64; 2] = [0.3, 0.5];
 /// Diameter of a pit over the ball's.
 const PIT: f64 = 0.1;
-/// Radius of a groove over the ball's diameter, where a scenario gives none.
-const GROOVE: f64 = 0.52;
 /// Length of the paper's rollers, mm, that the example photo was made for.
 const PAPER_LENGTH: f64 = 6.0;
 
@@ -274,7 +272,7 @@ fn fitted(entry: &Entry, preset: String) -> Fitted {
         },
         raceway: Raceway {
             radius_mm: 0.5 * number("outer_raceway_diameter_mm"),
-            across_mm: if entry.has_balls() { GROOVE * diameter } else { f64::INFINITY },
+            across_mm: if entry.has_balls() { USUAL_CONFORMITY * diameter } else { f64::INFINITY },
         },
         form: if entry.has_balls() { "torus" } else { "cylinder" },
     };

@@ -230,7 +230,6 @@ impl NamedBearing {
 mod tests {
     use super::*;
 
-    /// Orders printed by the data sets: CWRU's table, MFPT and IMS from their papers' frequencies.
     #[test]
     fn analytic_six_elements_touch_on_a_circle_of_twice_their_diameter() {
         assert_eq!(most_elements(1.001, 2.0), 5.0);
@@ -239,6 +238,7 @@ mod tests {
         assert!(DefectOrders::of_geometry(6, 1.001, 2.0, 0.0).is_none());
     }
 
+    /// Orders printed by the data sets: CWRU's table, MFPT and IMS from their papers' frequencies.
     #[test]
     fn lit_orders_of_public_data_sets() {
         for (name, bpfo, bpfi, ftf, element) in [

@@ -10,9 +10,8 @@ use brinell::scenario::{Scenario, Surface};
 use brinell::signal::{Band, Blocks, Indicator, Interval, LineFrequency, LineSearch, line_frequency};
 use brinell::simulate::Simulation;
 
-/// Share of a run that its statistics are of, at most; and periods of a line that are needed to time it.
+/// Share of a run that its statistics are of, at most.
 const ANALYSED: f64 = 0.75;
-const PERIODS: f64 = 24.0;
 /// The key whose bounds move every line.
 const SPEED: &str = "operation.speed_rpm";
 /// Lines of parts of one bearing are apart as in pure rolling, but for slip: relative.
@@ -135,16 +134,20 @@ fn targets(
             });
         }
     }
-    let analysed = ANALYSED * simulation.samples() as f64 / rate;
+    let analysed = (ANALYSED * simulation.samples() as f64) as usize;
     let mut notes = Vec::new();
     let mut found: Vec<(&str, f64, LineFrequency)> = Vec::new();
-    for &(name, nominal) in lines.iter().filter(|l| l.1 < 0.4 * rate && analysed * l.1 >= PERIODS) {
-        match line_frequency(x, rate, band, &LineSearch::new(nominal)) {
+    for &(name, nominal) in &lines {
+        let search = LineSearch::new(nominal);
+        if !search.fits(analysed, rate) {
+            continue;
+        }
+        match line_frequency(x, rate, band, &search) {
             Some(line) => found.push((name, line.frequency / nominal, line)),
             None => notes.push(format!(
                 "no line of {} within {:.0} % of {nominal:.1} Hz, where it is at {rpm:.0} r/min: is {SPEED} the speed of the signal?",
                 name.to_uppercase(),
-                100.0 * LineSearch::new(nominal).tolerance
+                100.0 * search.tolerance
             )),
         }
     }

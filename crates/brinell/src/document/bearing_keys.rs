@@ -5,6 +5,7 @@ use std::f64::consts::PI;
 use super::keys::Fallback::{self, Catalogued};
 use super::keys::{Keys, PAPER, assumed, derived, stated};
 use super::spec::{Spec, key};
+use crate::bearing::USUAL_CONFORMITY;
 use crate::bearing::clearance::{ClearanceClass, bore_diameter_mm};
 use crate::scenario::*;
 
@@ -153,7 +154,7 @@ fn grooves<K: Keys>(k: &mut K, b: &mut Bearing) {
         k.key_where(
             spec.above(0.5).to(1.0),
             (has_balls, BALLS),
-            assumed(0.52, "the usual groove of deep-groove bearings (Harris)"),
+            assumed(USUAL_CONFORMITY, "the usual groove of deep-groove bearings (Harris)"),
             &mut conformity,
         );
         *value = has_balls.then_some(conformity);
