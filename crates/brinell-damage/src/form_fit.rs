@@ -14,20 +14,33 @@
 //! t and g as well, and is turned about x by atan(b) as a whole, for which w is solved; a sphere is one. Where the scan
 //! is across its groove (t) and how its axis lies (b) differ by b w x^2 / (2 R r) with the radii R along s and r across:
 //! 0.5 um for 1 mm, R = 23 mm, r = 4 mm and b = 0.1.
-//! Gauss-Newton steps, first with weights 1/|residual| (so that damage pulls little),
-//! then on the better half of the points (Rousseeuw's concentration steps), then on the points within three robust
-//! standard deviations of the surface, or within the threshold, until that set stays.
+//! Gauss-Newton steps from two kinds of starts, on some of the points: with weights 1/|residual| (so that damage pulls
+//! little), and through as many points as there are parameters, so often that one set is free of damage
+//! (P. J. Rousseeuw and K. Van Driessen, "Computing LTS regression for large data sets", Data Mining and Knowledge
+//! Discovery 12, 2006). Each is followed on the better half of its points (concentration steps); the least median of
+//! |residual| wins. Then on all points: on their better half, and on those within three robust standard deviations of
+//! the surface, or within the threshold, until that set stays.
 
 use crate::error::DamageError;
 use crate::geometry::{Curve, Form};
 use crate::numbers::{median, solved};
 use crate::scan::Scan;
+use brinell::random::Random;
 use brinell::scenario::{ScanFile, ScanForm};
 
 /// More points than this add time, not accuracy.
 const MAX_SAMPLES: usize = 100_000;
 /// Fewer than this are no surface.
 const MIN_SAMPLES: usize = 16;
+/// Points that starts are chosen on, at most.
+const START_SAMPLES: usize = 500;
+/// One of the starts is free of damage in 99 cases of 100 where this share of the points is damaged.
+const DAMAGED_SHARE: f64 = 0.4;
+/// Steps through the few points of a start, and concentration steps after them.
+const THROUGH: usize = 3;
+const CONCENTRATIONS: usize = 3;
+/// Starts that are followed to their end.
+const FOLLOWED: usize = 5;
 const SOFT_PASSES: usize = 25;
 const HALF_PASSES: usize = 40;
 const HARD_PASSES: usize = 60;
@@ -50,6 +63,7 @@ const G: usize = 6;
 /// Parameters that are free at once, at most.
 const MOST_FREE: usize = 7;
 
+#[derive(Clone, Copy)]
 struct Sample {
     s: f64,
     z: f64,
@@ -182,32 +196,19 @@ impl Fit<'_> {
                 self.samples.len()
             )));
         }
-        let middle = median(self.samples.iter().map(|p| p.height));
-        let mut q = [middle, 0.0, 0.0, 0.0, curvature, 0.0, 0.0];
         let past_end = || no_fit(format!("the scan is longer than the {form} is wide; check the radius and `ds_mm`"));
-        for _ in 0..SOFT_PASSES {
-            q = self.step(&q).ok_or_else(past_end)?;
-            let residuals = self.residuals(&q).ok_or_else(past_end)?;
-            let typical = median(residuals.iter().map(|r| r.abs()));
-            let least = (0.1 * typical).max(ROUND_OFF_MM);
-            for (weight, r) in self.weights.iter_mut().zip(&residuals) {
-                *weight = least / r.abs().max(least);
-            }
-        }
-        for _ in 0..HALF_PASSES {
-            let residuals = self.residuals(&q).ok_or_else(past_end)?;
-            let typical = median(residuals.iter().map(|r| r.abs()));
-            let mut changed = false;
-            for (weight, r) in self.weights.iter_mut().zip(&residuals) {
-                let kept = if r.abs() <= typical { 1.0 } else { 0.0 };
-                changed |= *weight != kept;
-                *weight = kept;
-            }
-            if !changed {
-                break;
-            }
-            q = self.step(&q).ok_or_else(past_end)?;
-        }
+        let middle = median(self.samples.iter().map(|p| p.height));
+        let flat = [middle, 0.0, 0.0, 0.0, curvature, 0.0, 0.0];
+        self.residuals(&flat).ok_or_else(past_end)?;
+        let mut random = Random::new(1);
+        let mut drawn = || (random.part() * self.samples.len() as f64) as usize;
+        let some: Vec<Sample> = match self.samples.len() {
+            ..=START_SAMPLES => self.samples.to_vec(),
+            _ => (0..START_SAMPLES).map(|_| self.samples[drawn()]).collect(),
+        };
+        let few = Fit { samples: &some, weights: vec![1.0; some.len()], ..self };
+        let mut q = few.start(&flat, &mut random).ok_or_else(past_end)?;
+        self.concentrate(&mut q, HALF_PASSES).ok_or_else(past_end)?;
         let mut steady = 0;
         for _ in 0..HARD_PASSES {
             let residuals = self.residuals(&q).ok_or_else(past_end)?;
@@ -232,6 +233,59 @@ impl Fit<'_> {
             typical: median(residuals.iter().map(|r| r.abs())),
         };
         Ok((q, found))
+    }
+
+    /// The best of the starts.
+    fn start(mut self, flat: &Parameters, random: &mut Random) -> Option<Parameters> {
+        let n = self.samples.len();
+        let mut soft = *flat;
+        for _ in 0..SOFT_PASSES {
+            soft = self.step(&soft)?;
+            let residuals = self.residuals(&soft)?;
+            let typical = median(residuals.iter().map(|r| r.abs()));
+            let least = (0.1 * typical).max(ROUND_OFF_MM);
+            for (weight, r) in self.weights.iter_mut().zip(&residuals) {
+                *weight = least / r.abs().max(least);
+            }
+        }
+        let mut best = vec![(self.concentrate(&mut soft, HALF_PASSES)?, soft)];
+        let clean = (1.0 - DAMAGED_SHARE).powi(self.free.len() as i32);
+        for _ in 0..(0.01_f64.ln() / (1.0 - clean).ln()).ceil() as usize {
+            self.weights.fill(0.0);
+            for _ in self.free {
+                self.weights[(random.part() * n as f64) as usize] = 1.0;
+            }
+            let mut q = *flat;
+            let through = (0..THROUGH).try_for_each(|_| self.step(&q).map(|next| q = next));
+            if let Some(typical) = through.and_then(|()| self.concentrate(&mut q, CONCENTRATIONS)) {
+                best.push((typical, q));
+            }
+        }
+        best[1..].sort_by(|a, b| a.0.total_cmp(&b.0));
+        best.truncate(1 + FOLLOWED);
+        for (typical, q) in &mut best[1..] {
+            *typical = self.concentrate(q, HALF_PASSES).unwrap_or(f64::INFINITY);
+        }
+        best.into_iter().min_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, q)| q)
+    }
+
+    /// Steps on the better half of the points, until that half stays; the median of |residual| at the end.
+    fn concentrate(&mut self, q: &mut Parameters, passes: usize) -> Option<f64> {
+        for _ in 0..passes {
+            let residuals = self.residuals(q)?;
+            let typical = median(residuals.iter().map(|r| r.abs()));
+            let mut changed = false;
+            for (weight, r) in self.weights.iter_mut().zip(&residuals) {
+                let kept = if r.abs() <= typical { 1.0 } else { 0.0 };
+                changed |= *weight != kept;
+                *weight = kept;
+            }
+            if !changed {
+                break;
+            }
+            *q = self.step(q)?;
+        }
+        Some(median(self.residuals(q)?.iter().map(|r| r.abs())))
     }
 
     fn residuals(&self, q: &Parameters) -> Option<Vec<f64>> {
@@ -302,25 +356,34 @@ mod tests {
     use brinell::random::Random;
 
     #[test]
-    fn analytic_noise_and_a_large_spall_hardly_move_the_parameters() {
-        // A raceway of 27.5 mm, tilted and turned, with 0.2 um of noise; a fifth of it is 25 um deep.
-        let truth = [0.1, 0.002, 0.003, 0.02, 1.0 / 27.5, 0.0, 0.0];
-        let mut noise = Random::new(5);
-        let samples: Vec<Sample> = (0..8000)
-            .map(|k| {
-                let (s, z) = (0.06 * f64::from(k % 100 - 50), 0.06 * f64::from(k / 100 - 40));
-                let depth = if (s - 0.4).abs() < 1.2 && z.abs() < 1.2 { 0.025 } else { 0.0 };
-                Sample { s, z, height: height(&truth, s, z).unwrap() - depth + 2e-4 * noise.normal() }
-            })
-            .collect();
-        let options = ScanFile { remove_form: ScanForm::Cylinder, threshold_um: 2.0, ..ScanFile::default() };
-        let (found, counts) = fit(&samples, &options).unwrap().unwrap();
-        assert!((found[K] / truth[K] - 1.0).abs() < 0.01, "radius {}", 1.0 / found[K]);
-        for (of, bound) in [(C, 1e-4), (B, 5e-5), (P, 5e-5), (M, 2e-3)] {
-            assert!((found[of] - truth[of]).abs() < bound, "{of}: {} for {}", found[of], truth[of]);
+    fn analytic_noise_and_a_spall_on_two_fifths_hardly_move_the_parameters() {
+        // Tilted and turned, with 0.2 um of noise; along an end, along a side or in the middle they are 25 um deep.
+        let raceway = [0.1, 0.002, 0.003, 0.02, 1.0 / 27.5, 0.0, 0.0];
+        let groove = [0.1, 0.02, 0.003, 0.02, -1.0 / 15.5, 0.05, 1.0 / 4.13];
+        for (remove_form, truth, half_s, half_z) in
+            [(ScanForm::Cylinder, raceway, 3.0, 2.4), (ScanForm::Torus, groove, 1.0, 1.0)]
+        {
+            for damaged in [|s: f64, _| s < -0.2, |_, z: f64| z < -0.2, |s: f64, z: f64| s.abs().max(z.abs()) < 0.63] {
+                let mut noise = Random::new(5);
+                let mut count = 0;
+                let samples: Vec<Sample> = (0..4000)
+                    .map(|k| {
+                        let (u, v) = (f64::from(k % 80 - 40) / 40.0, f64::from(k / 80 - 25) / 25.0);
+                        let (s, z) = (half_s * u, half_z * v);
+                        count += usize::from(damaged(u, v));
+                        let depth = if damaged(u, v) { 0.025 } else { 0.0 };
+                        Sample { s, z, height: height(&truth, s, z).unwrap() - depth + 2e-4 * noise.normal() }
+                    })
+                    .collect();
+                let options = ScanFile { remove_form, threshold_um: 2.0, ..ScanFile::default() };
+                let (found, counts) = fit(&samples, &options).unwrap().unwrap();
+                assert_eq!(counts.used, samples.len() - count, "{remove_form:?}");
+                for of in [K, G] {
+                    let off = (found[of] - truth[of]).abs();
+                    assert!(off <= 0.01 * truth[of].abs(), "{remove_form:?} {of}: {} for {}", found[of], truth[of]);
+                }
+            }
         }
-        let damaged = samples.iter().filter(|p| (p.s - 0.4).abs() < 1.2 && p.z.abs() < 1.2).count();
-        assert_eq!(counts.used, samples.len() - damaged);
     }
 
     #[test]

@@ -320,7 +320,7 @@ fn doubt(grid: &DepthGrid, removed: ScanForm) -> Result<Option<String>, String> 
     let form = match removed {
         ScanForm::None => "the surface's own form may be in it (`remove_form`)".to_owned(),
         other => format!(
-            "the surface's own form may be in it (`remove_form` is \"{}\"; where damage takes a fifth of the scan or more, give `radius_mm` or scan more around it)",
+            "the surface's own form may be in it (`remove_form` is \"{}\"; where damage takes half of the scan, give `radius_mm` or scan more around it)",
             other.word()
         ),
     };
