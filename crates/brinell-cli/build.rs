@@ -1,7 +1,7 @@
 //! Finds the commit for `brinell --version`, in this order: the variable `BRINELL_COMMIT`, what `cargo package` noted
-//! in the package, the checkout that an optimised build is made in. Nothing of that need be there.
+//! in the package, the checkout that a release build is made in. Nothing of that need be there.
 //!
-//! Only optimised builds ask git, so that a commit does not make the command of a debug build anew.
+//! Only release builds ask git, so that a commit does not make the command of a debug build anew.
 
 use std::path::Path;
 use std::process::Command;
@@ -35,8 +35,9 @@ fn packaged() -> Option<String> {
 }
 
 fn checked_out() -> Option<String> {
-    let optimised = std::env::var("OPT_LEVEL").is_ok_and(|level| level == "2" || level == "3");
-    if !optimised || git(&["rev-parse", "--show-prefix"])? != PLACE {
+    // Not by the level of optimisation: this crate's is its own.
+    let is_release = std::env::var("PROFILE").is_ok_and(|profile| profile == "release");
+    if !is_release || git(&["rev-parse", "--show-prefix"])? != PLACE {
         return None;
     }
     // What changes with each commit; git's own files may be elsewhere (worktrees).

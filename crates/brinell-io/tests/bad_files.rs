@@ -4,7 +4,7 @@
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
-use brinell_io::{Decimal, Delimiter, IoError, TextFormat, open, open_as};
+use brinell_io::{IoError, open};
 
 fn data(name: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/data").join(name)
@@ -172,16 +172,6 @@ fn regress_bad_text_gets_the_line() {
         here.says("a.csv", "when;x\n10:15;1\n10:16;2\n"),
         "a.csv: cannot read: `when` holds words such as `10:15`"
     );
-}
-
-#[test]
-fn regress_what_the_caller_knows_of_text_decides() {
-    let here = Here::new();
-    let path = here.file("a.txt", "0,5\n1,25\n");
-    let comma = TextFormat { decimal: Some(Decimal::Comma), ..TextFormat::default() };
-    assert_eq!(open_as(&path, &comma).unwrap().read("column1").unwrap(), [0.5, 1.25]);
-    let two = TextFormat { delimiter: Some(Delimiter::Comma), decimal: None };
-    assert_eq!(open_as(&path, &two).unwrap().read("column2").unwrap(), [5.0, 25.0]);
 }
 
 #[test]

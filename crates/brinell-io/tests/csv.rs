@@ -2,19 +2,6 @@
 
 use crate::common::{columns, names_in, write};
 use brinell_io::{Column, CsvWriter, IoError, Outcome, SignalWriter, open_bytes};
-use proptest::prelude::*;
-
-proptest! {
-    #[test]
-    fn prop_reading_any_bytes_as_csv_never_panics(bytes in prop::collection::vec(any::<u8>(), 0..200), text in "[t,\"0-9.e\\-\n\r ]{0,80}") {
-        for bytes in [bytes, text.into_bytes()] {
-            if let Ok(mut file) = open_bytes("any.csv", bytes) {
-                let names: Vec<String> = file.channels().iter().map(|c| c.name.clone()).collect();
-                names.iter().for_each(|name| drop(file.read(name)));
-            }
-        }
-    }
-}
 
 #[test]
 fn regress_csv_is_a_header_and_numbers() {

@@ -4,10 +4,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use crate::common::{columns, sampled};
-use brinell_io::{
-    Decimal, Delimiter, Format, IoError, Metadata, Outcome, SignalFile, TextFormat, keys, open, open_bytes,
-    open_bytes_as,
-};
+use brinell_io::{Format, IoError, Metadata, Outcome, SignalFile, keys, open, open_bytes};
 
 /// All that is in a file, errors by their words; values by their bits, for some are NaN.
 fn everything(file: Result<SignalFile, IoError>) -> Result<String, String> {
@@ -63,18 +60,6 @@ fn prop_bytes_are_called_by_their_name() {
     );
     let error = open_bytes("a.txt", *b"1\n2\nx\n").and_then(|mut f| f.read("column1"));
     assert_eq!(error.unwrap_err().to_string(), "a.txt: line 3, column `column1`: `x` is not a number");
-}
-
-#[test]
-fn prop_bytes_of_text_take_the_callers_format() {
-    let text = b"1,5\n2,5\n";
-    assert!(open_bytes("a.csv", *text).is_err());
-    let mut format = TextFormat { decimal: Some(Decimal::Comma), ..TextFormat::default() };
-    let mut file = open_bytes_as("a.csv", *text, &format).unwrap();
-    assert_eq!(file.read("column1").unwrap(), [1.5, 2.5]);
-    format = TextFormat { delimiter: Some(Delimiter::Comma), decimal: None };
-    let mut file = open_bytes_as("a.csv", *text, &format).unwrap();
-    assert_eq!(file.read("column2").unwrap(), [5.0, 5.0]);
 }
 
 /// More rows than a block of the spool holds.

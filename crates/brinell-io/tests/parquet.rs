@@ -11,7 +11,6 @@ use parquet::file::properties::WriterProperties;
 use parquet::file::reader::{FileReader, SerializedFileReader};
 use parquet::file::writer::SerializedFileWriter;
 use parquet::schema::parser::parse_message_type;
-use proptest::prelude::*;
 use serde_json::{Value, json};
 
 fn write_all(folder: &Path, rows: &[Vec<f64>], outcome: Outcome) -> PathBuf {
@@ -24,28 +23,6 @@ fn write_all(folder: &Path, rows: &[Vec<f64>], outcome: Outcome) -> PathBuf {
 
 fn units(file: &SignalFile) -> Vec<(&str, Option<&str>)> {
     file.channels().iter().map(|c| (c.name.as_str(), c.unit.as_deref())).collect()
-}
-
-proptest! {
-    #[test]
-    fn prop_reading_a_damaged_parquet_never_panics(cut in 0.0..1.0f64, flips in prop::collection::vec((0.0..1.0f64, any::<u8>()), 0..6)) {
-        let folder = tempfile::tempdir().unwrap();
-        let rows: Vec<_> = (0..50).map(|i| vec![f64::from(i), 0.1]).collect();
-        let path = write_all(folder.path(), &rows, Outcome::Complete);
-        let mut bytes = std::fs::read(&path).unwrap();
-        for (place, bits) in &flips {
-            let place = (place * bytes.len() as f64) as usize;
-            bytes[place] ^= bits;
-        }
-        if flips.is_empty() {
-            bytes.truncate((cut * bytes.len() as f64) as usize);
-        }
-        std::fs::write(&path, bytes).unwrap();
-        if let Ok(mut file) = open(&path) {
-            let names: Vec<String> = file.channels().iter().map(|c| c.name.clone()).collect();
-            names.iter().for_each(|name| drop(file.read(name)));
-        }
-    }
 }
 
 #[test]

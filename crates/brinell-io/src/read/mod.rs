@@ -38,7 +38,6 @@ use std::path::{Path, PathBuf};
 
 pub use channel::{Channel, Rate, RateSource};
 pub use named::NotNamed;
-pub use text::{Decimal, Delimiter, TextFormat};
 pub use times::{NoRate, rate_of_times, seconds_in};
 
 use crate::{FileKind, IoError, Metadata};
@@ -74,11 +73,6 @@ impl std::fmt::Debug for SignalFile {
 /// The format is what the content shows; where the name promises another, that is an error which names both. Refused
 /// are also files that are empty, cut off, damaged, or claim more than they can hold.
 pub fn open(path: impl AsRef<Path>) -> Result<SignalFile, IoError> {
-    open_as(path, &TextFormat::default())
-}
-
-/// [`open`], with what the caller knows of a text file that the file does not show.
-pub fn open_as(path: impl AsRef<Path>, text: &TextFormat) -> Result<SignalFile, IoError> {
     let path = path.as_ref();
     let reading = |e| IoError::reading(path, e);
     let mut file = File::open(path).map_err(reading)?;
@@ -88,7 +82,7 @@ pub fn open_as(path: impl AsRef<Path>, text: &TextFormat) -> Result<SignalFile, 
     let kind = kind::sniff(path, &mut file)?;
     file.rewind().map_err(reading)?;
     let contents = Contents::of_file(file).map_err(reading)?;
-    listed(path, kind, contents, text)
+    listed(path, kind, contents)
 }
 
 /// [`open`] for a file in memory, as a browser hands it over. `name` is what errors call it; its ending is held against
@@ -107,27 +101,15 @@ pub fn open_as(path: impl AsRef<Path>, text: &TextFormat) -> Result<SignalFile, 
 /// # Errors
 /// As [`open`], without those of the file system.
 pub fn open_bytes(name: &str, bytes: impl AsRef<[u8]> + Send + 'static) -> Result<SignalFile, IoError> {
-    open_bytes_as(name, bytes, &TextFormat::default())
-}
-
-/// [`open_bytes`], with what the caller knows of a text file that the file does not show.
-///
-/// # Errors
-/// As [`open_bytes`].
-pub fn open_bytes_as(
-    name: &str,
-    bytes: impl AsRef<[u8]> + Send + 'static,
-    text: &TextFormat,
-) -> Result<SignalFile, IoError> {
     let path = Path::new(name);
     let kind = kind::sniff(path, bytes.as_ref())?;
-    listed(path, kind, Contents::of_bytes(bytes), text)
+    listed(path, kind, Contents::of_bytes(bytes))
 }
 
 /// The file with its channels.
-fn listed(path: &Path, kind: FileKind, contents: Contents, text: &TextFormat) -> Result<SignalFile, IoError> {
+fn listed(path: &Path, kind: FileKind, contents: Contents) -> Result<SignalFile, IoError> {
     let list = || match kind {
-        FileKind::Text => text::list(contents, text),
+        FileKind::Text => text::list(contents),
         #[cfg(feature = "parquet")]
         FileKind::Parquet => parquet::list(contents),
         FileKind::Mat5 => mat5::list(contents),

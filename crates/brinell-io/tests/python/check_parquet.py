@@ -1,6 +1,6 @@
 """Reads brinell's CSV and Parquet of the same run with other people's libraries and compares them bit by bit.
 
-    cargo run --release -p brinell-io --example write_speed -- /tmp/brinell-io
+    brinell run examples/single-row.toml -o /tmp/brinell-io --signals csv,parquet
     python3 -m venv /tmp/venv-io && /tmp/venv-io/bin/pip install pyarrow pandas polars
     /tmp/venv-io/bin/python crates/brinell-io/tests/python/check_parquet.py /tmp/brinell-io
 """

@@ -34,7 +34,6 @@ pub use power::Power;
 pub use tilt::{Tilt, TiltingRing};
 pub use workspace::Workspace;
 
-use crate::lanes::Lanes;
 use crate::scenario::ModelKind;
 
 impl Model {
@@ -53,12 +52,5 @@ impl Model {
         let dof = self.layout.dof();
         dy[..dof].copy_from_slice(&y[dof..]);
         self.accelerations(t, y, &mut dy[dof..], ws);
-    }
-
-    /// [`Self::accelerations`] of the full model in lanes of the caller's choice, whatever the workspace's kernel:
-    /// `benches/parts/benches/kernel.rs` counts operations with lanes that count. Compiled for the caller's
-    /// instructions, so slow where those are the target's plain ones.
-    pub fn accelerations_in<L: Lanes>(&self, t: f64, y: &[f64], a: &mut [f64], ws: &mut Workspace) {
-        full::equations::<L>(self, t, y, a, ws);
     }
 }

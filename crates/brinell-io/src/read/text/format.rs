@@ -2,7 +2,7 @@
 
 /// What is between the numbers of a line.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Delimiter {
+pub(super) enum Delimiter {
     /// `,`
     Comma,
     /// `;`
@@ -27,18 +27,16 @@ impl Delimiter {
 
 /// What is before a number's fraction.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Decimal {
+pub(super) enum Decimal {
     /// `0.5`
     Point,
     /// `0,5`
     Comma,
 }
 
-/// What a caller knows of a text file; what is `None` is found out from the file.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct TextFormat {
-    /// Between numbers.
-    pub delimiter: Option<Delimiter>,
-    /// Within numbers.
-    pub decimal: Option<Decimal>,
+/// What a text file's header says; what is `None` is found out from its numbers.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct TextFormat {
+    pub(super) delimiter: Option<Delimiter>,
+    pub(super) decimal: Option<Decimal>,
 }

@@ -45,15 +45,12 @@ const ORDER: [Delimiter; 4] = [Delimiter::Tab, Delimiter::Semicolon, Delimiter::
 const LOOK: usize = 200;
 
 /// Finds the layout in the first lines of a file, all of them whole.
-pub(super) fn find(sample: &[u8], format: &TextFormat) -> Result<Layout, Fault> {
+pub(super) fn find(sample: &[u8]) -> Result<Layout, Fault> {
     let lines = lines(sample);
-    let mut format = *format;
     let lvm = lvm::header(&lines.iter().map(|l| l.text).collect::<Vec<_>>());
     let from = lvm.as_ref().map_or(0, |lvm| lvm.lines);
-    if let Some(lvm) = &lvm {
-        format.delimiter = format.delimiter.or(lvm.delimiter);
-        format.decimal = format.decimal.or(lvm.decimal);
-    }
+    let said = |lvm: &lvm::Lvm| TextFormat { delimiter: lvm.delimiter, decimal: lvm.decimal };
+    let format = lvm.as_ref().map_or(TextFormat::default(), said);
     let plain: Vec<&Line> = lines[from..].iter().filter(|l| !l.comment).collect();
     let (first, delimiter) =
         first_data(&plain, &format).ok_or_else(|| damaged("no line of numbers among its first lines"))?;

@@ -292,13 +292,12 @@ fn row(bytes: &[u8], layout: &Layout, field: usize, line: u64, values: &mut Vec<
 mod tests {
     use std::ops::ControlFlow;
 
-    use super::super::format::TextFormat;
     use super::super::layout::find;
     use super::*;
 
     /// Values and fault of a text, however it is cut up.
     fn read(text: &str, field: usize, cut: &Cut) -> (Vec<f64>, Option<String>) {
-        let layout = find(text.as_bytes(), &TextFormat::default()).unwrap();
+        let layout = find(text.as_bytes()).unwrap();
         let mut reader = &text.as_bytes()[layout.start as usize..];
         let mut values = Vec::new();
         let mut sink = |piece: &[f64]| {

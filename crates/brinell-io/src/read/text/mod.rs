@@ -21,8 +21,6 @@ use super::numbers::Sink;
 use crate::Metadata;
 use layout::Layout;
 
-pub use format::{Decimal, Delimiter, TextFormat};
-
 /// Lines that decide the layout.
 const SAMPLE: u64 = 256 << 10;
 
@@ -33,7 +31,7 @@ struct Text {
     fields: Vec<usize>,
 }
 
-pub(super) fn list(mut contents: Contents, format: &TextFormat) -> Result<Listing, Fault> {
+pub(super) fn list(mut contents: Contents) -> Result<Listing, Fault> {
     let mut sample = Vec::new();
     (&mut contents).take(SAMPLE).read_to_end(&mut sample)?;
     if sample.len() as u64 == SAMPLE {
@@ -43,7 +41,7 @@ pub(super) fn list(mut contents: Contents, format: &TextFormat) -> Result<Listin
             None => return Err(damaged("its first line does not end; this is no table")),
         }
     }
-    let layout = layout::find(&sample, format)?;
+    let layout = layout::find(&sample)?;
     let (mut channels, mut fields) = (Vec::new(), Vec::new());
     for (field, column) in layout.columns.iter().enumerate() {
         if column.absent {
