@@ -1,5 +1,5 @@
 // What the engine makes of the page: the same statistics as the command, sound at BPFO, files of damage, memory; in the browser and
-// before `brinell studio`. Needs the engine's module and the command (STUDIO_WASM, BRINELL). Times are printed, not judged.
+// before `brinell studio`. Needs the command too (BRINELL). Times are printed, not judged.
 import assert from "node:assert/strict";
 import { execFileSync, spawn, spawnSync } from "node:child_process";
 import { existsSync } from "node:fs";
@@ -7,14 +7,14 @@ import { mkdtemp, readFile, rm, writeFile } from "node:fs/promises";
 import { tmpdir } from "node:os";
 import { join, resolve } from "node:path";
 import { after, before, describe, it } from "node:test";
-import { launch, quietly, real, serve } from "./browser.js";
+import { launch, quietly, serve } from "./browser.js";
 import { drag, drop, opened, saved, start, type, until } from "./page.js";
 
 const ROOT = resolve(import.meta.dirname, "..");
 const BRINELL = process.env.BRINELL || resolve(ROOT, "../../../target/release/brinell");
 // A third of a second: nine whole revolutions at 1800 r/min after the start, enough for an interval.
 const SHORT_S = 0.35;
-const missing = !real ? "no target/studio/studio.wasm; .ci/studio makes it" : !existsSync(BRINELL) && `no ${BRINELL}`;
+const missing = !existsSync(BRINELL) && `no ${BRINELL}`;
 
 let browser, server, folder;
 
@@ -236,7 +236,7 @@ describe("the page before `brinell studio`", { skip: missing }, () => {
     studio?.kill();
     if (folder) await rm(folder, { recursive: true });
   });
-  const on = (look) => quietly(browser, address, { engine: "server" }, look);
+  const on = (look) => quietly(browser, address, {}, look);
 
   it("runs an example to the numbers of the command", async (t) => on(async (page) => {
     assert.equal(await page.evaluate(() => globalThis.brinellStudio.about.engine), "native");

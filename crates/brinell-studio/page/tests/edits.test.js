@@ -3,7 +3,7 @@ import assert from "node:assert/strict";
 import { after, before, describe, it } from "node:test";
 import { numberOf, stepped } from "../src/dom.js";
 import { fromLink } from "../src/state.js";
-import { launch, quietly, real, serve } from "./browser.js";
+import { launch, quietly, serve } from "./browser.js";
 import { drag, drop, opened, saved, scenario, start, type, until } from "./page.js";
 
 let browser, server;
@@ -19,7 +19,7 @@ after(async () => {
 
 const on = (options, look) => quietly(browser, server.url, options, look);
 
-describe(`edits, with ${real ? "the engine" : "a stand-in for the engine"}`, () => {
+describe("edits", () => {
   it("says that damage stays when another bearing is chosen", async () => on({}, async (page) => {
     await start(page, "rectangle");
     await page.selectOption("#preset", "bearing:6205");
@@ -95,7 +95,6 @@ describe(`edits, with ${real ? "the engine" : "a stand-in for the engine"}`, () 
     assert.equal(await stated(), 1797.3);
     await type(speed, "1500");
     await until(page, () => globalThis.brinellStudio.side.opened.scenario.operation.speed_rpm === 1500);
-    if (!real) return;
     await type(speed, "25,5 Hz");
     await until(page, () => globalThis.brinellStudio.side.opened.all.operation.speed_rpm === 1530);
     const shown = () => until(page, () => [...document.querySelectorAll("#controls input")].some((one) => one.value === "1530"));
@@ -131,7 +130,7 @@ describe(`edits, with ${real ? "the engine" : "a stand-in for the engine"}`, () 
     assert.match(await page.textContent('.chosen [role="alert"]:not(:empty)'), /wider than the roller/);
   }));
 
-  it("says that a server does not answer, and saves nothing that it did not open", async () => quietly(browser, `${server.url}?token=secret`, { engine: "server" }, async (page) => {
+  it("says that a server does not answer, and saves nothing that it did not open", async () => quietly(browser, `${server.url}?token=secret`, {}, async (page) => {
     await start(page, "rectangle");
     await page.route("**/ask*", (route) => route.abort());
     await page.waitForSelector('[data-kind="lost"]:has-text("The server does not answer. Start `brinell studio` again")');

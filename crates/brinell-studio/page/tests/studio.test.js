@@ -1,4 +1,4 @@
-// The studio's page, driven in Chromium. STUDIO_WASM names the engine's module; without one a stand-in answers. Times are printed, not judged.
+// The studio's page, driven in Chromium. STUDIO_WASM names the engine's module; times are printed, not judged.
 import assert from "node:assert/strict";
 import { execFileSync } from "node:child_process";
 import { mkdtemp, readFile, rm } from "node:fs/promises";
@@ -7,7 +7,7 @@ import { tmpdir } from "node:os";
 import { join, resolve } from "node:path";
 import { after, before, describe, it } from "node:test";
 import { pathToFileURL } from "node:url";
-import { launch, open, quietly, real, running, serve } from "./browser.js";
+import { WASM, launch, open, quietly, running, serve } from "./browser.js";
 import { drag, drop, moments, opened, place, saved, scenario, settled, start, type, until } from "./page.js";
 
 const ROOT = resolve(import.meta.dirname, ".."), AXE = createRequire(import.meta.url).resolve("axe-core/axe.min.js");
@@ -17,8 +17,7 @@ before(async () => {
   browser = await launch();
   server = await serve();
   folder = await mkdtemp(join(tmpdir(), "brinell-studio-"));
-  const wasm = process.env.STUDIO_WASM ? ["--wasm", process.env.STUDIO_WASM] : [], views = process.env.STUDIO_VIEWS ? ["--views", process.env.STUDIO_VIEWS] : [];
-  execFileSync(process.execPath, [join(ROOT, "pack.mjs"), ...wasm, ...views, "-o", folder], { cwd: ROOT });
+  execFileSync(process.execPath, [join(ROOT, "pack.mjs"), "--wasm", WASM, "-o", folder]);
   file = pathToFileURL(join(folder, "brinell-studio.html")).href;
 });
 after(async () => {
@@ -29,8 +28,8 @@ after(async () => {
 
 const on = (options, look) => quietly(browser, server.url, options, look);
 
-describe(`the page, with ${real ? "its engine" : "a stand-in for the engine"}`, () => {
-  it("shows a stored run before its engine is there", { skip: !real && "a run is stored with the engine alone" }, async (t) => {
+describe("the page", () => {
+  it("shows a stored run before its engine is there", async (t) => {
     // Nothing is compiled until the test lets it.
     const before = () => {
       const { compile, compileStreaming } = WebAssembly, waiting = new Promise((done) => { globalThis.letGo = done; });
@@ -308,7 +307,7 @@ describe(`the page, with ${real ? "its engine" : "a stand-in for the engine"}`, 
     assert.equal(await page.locator('[data-kind="failed"]').count(), 0);
   }));
 
-  it("leaves what was typed of a measured signal when another channel is chosen", { skip: !real && "the stand-in has one channel" }, async () => on({}, async (page) => {
+  it("leaves what was typed of a measured signal when another channel is chosen", async () => on({}, async (page) => {
     const rows = Array.from({ length: 4000 }, (_, k) => `${Math.sin(k)},${Math.cos(k)}`).join("\n");
     await drop(page, "two.csv", Buffer.from(`x,y\n${rows}\n`).toString("base64"));
     await page.selectOption("dialog select", "signal");
@@ -431,14 +430,14 @@ describe(`the page, with ${real ? "its engine" : "a stand-in for the engine"}`, 
   }));
 
   it("says so where the browser cannot run the engine", async () => {
-    const page = await open(browser, server.url, { engine: "none", before: () => { delete globalThis.WebAssembly; } });
+    const page = await open(browser, server.url, { before: () => { delete globalThis.WebAssembly; } });
     await page.waitForSelector('[data-kind="engine"]');
     assert.match(await page.textContent('[data-kind="engine"]'), /WebAssembly/);
     assert.equal(await page.textContent("#state"), "no WebAssembly");
     await page.context().close();
   });
 
-  it("is the same page before a server's engine", async () => quietly(browser, `${server.url}?token=secret`, { engine: "server" }, async (page) => {
+  it("is the same page before a server's engine", async () => quietly(browser, `${server.url}?token=secret`, {}, async (page) => {
     assert.equal(await page.textContent("#state"), "live");
     assert.equal(page.workers().length, 0);
     await page.click('[data-tool="circle"]');

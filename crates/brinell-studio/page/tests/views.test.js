@@ -1,36 +1,28 @@
 // The views with made-up data, in Chromium. CHROMIUM names another browser. Every test opens a window of its own and fails where the page logs anything.
 import assert from "node:assert/strict";
-import { existsSync, readFileSync } from "node:fs";
+import { readFileSync } from "node:fs";
 import { createRequire } from "node:module";
 import { after, before, describe, it } from "node:test";
-import { chromium } from "playwright-core";
-import { serve } from "./serve.js";
+import { launch, open, serve } from "./browser.js";
 
-const PLACES = ["/usr/bin/chromium", "/usr/bin/chromium-browser", "/usr/bin/google-chrome", "/Applications/Chromium.app/Contents/MacOS/Chromium"];
 const axe = readFileSync(createRequire(import.meta.url).resolve("axe-core/axe.min.js"), "utf8");
 let browser, server;
 
 before(async () => {
-  const executablePath = process.env.CHROMIUM || PLACES.find(existsSync);
-  if (!executablePath) throw new Error(`no Chromium at ${PLACES.join(", ")}; CHROMIUM names another`);
+  browser = await launch();
   server = await serve();
-  browser = await chromium.launch({ executablePath, chromiumSandbox: false, args: ["--disable-gpu", "--no-first-run", "--disable-background-networking"] });
 });
 after(async () => { await browser?.close(); server?.close(); });
 
-async function on({ width = 1280, height = 900, ...options }, look) {
-  const context = await browser.newContext({ viewport: { width, height }, reducedMotion: "reduce", ...options });
-  const page = await context.newPage(), said = [];
-  page.on("console", (message) => said.push(`${message.type()}: ${message.text()}`));
-  page.on("pageerror", (error) => said.push(`error: ${error.message}`));
+async function on(options, look) {
+  const page = await open(browser, `${server.url}tests/views.html`, { width: 1280, reducedMotion: "reduce", ...options });
   try {
-    await page.goto(`${server.url}tests/views.html`);
     await page.locator("html[data-ready]").waitFor();
     await drawn(page);
     await look(page);
-    assert.deepEqual(said, []);
+    assert.deepEqual(page.said, []);
   } finally {
-    await context.close();
+    await page.context().close();
   }
 }
 const drawn = (page) => page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
