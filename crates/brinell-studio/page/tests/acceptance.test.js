@@ -22,7 +22,7 @@ let browser, server, folder;
 async function native(toml, signals = "none") {
   const file = join(folder, "scenario.toml"), out = await mkdtemp(join(folder, "run-"));
   await writeFile(file, toml);
-  execFileSync(BRINELL, ["run", file, "--signals", signals, "-o", out], { stdio: "pipe" });
+  execFileSync(BRINELL, ["run", file, "--signals", signals, "--no-report", "--no-healthy", "-o", out], { stdio: "pipe" });
   return { out, summary: JSON.parse(await readFile(join(out, "summary.json"), "utf8")) };
 }
 
