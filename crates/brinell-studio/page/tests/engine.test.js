@@ -47,7 +47,7 @@ describe("the engine as WebAssembly", () => {
     for (const rows of [1, 100, 10000]) assert.deepEqual(run((await hosted(module)).ask, rectangle, rows), GOLDEN.rectangle);
   });
 
-  it("keeps its memory over thousands of messages and hundreds of edits", async (t) => {
+  it("keeps its memory over a thousand messages and a hundred edits", async (t) => {
     const { ask, size } = await hosted(module), { toml } = ask({ do: "about" }).examples.find((/** @type {any} */ e) => e.name === "rectangle");
     ask({ do: "open", slot: 0, toml });
     // Until what is kept of the signal is full.
@@ -57,11 +57,11 @@ describe("the engine as WebAssembly", () => {
       if (k === 0) ask({ do: "advance", slot: 0, rows: 1024 }), ask({ do: "spectra", slot: 0, longest: 1024 });
     }
     const before = size();
-    for (let k = 0; k < 300; k++) {
+    for (let k = 0; k < 100; k++) {
       ask({ do: "open", slot: 0, toml, carry: true });
       for (let n = 0; n < 10; n++) ask({ do: "advance", slot: 0, rows: 2, frames: true });
     }
-    t.diagnostic(`${before / 1e6} MB before, ${size() / 1e6} MB after 300 edits and 3000 slices`);
-    assert.ok(size() - before < 1e6);
+    t.diagnostic(`${before / 1e6} MB before, ${size() / 1e6} MB after 100 edits and 1000 slices`);
+    assert.ok(size() - before < 3e5);
   });
 });
