@@ -3,6 +3,7 @@ import { fill, h, short } from "../dom.js";
 import { fit, seldom, View } from "./view.js";
 import { sheet } from "./theme.js";
 import { font } from "./pen.js";
+import { paintAxes } from "./plot.js";
 import { roundUp, ticks } from "./scale.js";
 
 /** @typedef {{ s_mm: Float32Array, length_mm: Float32Array, force_n: Float32Array, healthy_n: number, width_mm: number }} Passage */
@@ -128,21 +129,9 @@ export class BrinellPassage extends View {
       pen.stroke();
     };
     pen.setLineDash([]);
-    pen.font = font(11);
-    const xs = ticks(from, to, Math.min(9, width / 60));
-    xs.forEach(([v, label], k) => {
-      stroke([[X(v), top], [X(v), bottom]], colours.grid);
-      pen.fillStyle = colours.faint;
-      pen.textAlign = "center";
-      if (labels) pen.fillText(k === xs.length - 1 ? `${label} mm` : label, Math.min(X(v), left + width - 8), bottom + 15);
-    });
-    pen.textAlign = "right";
-    for (const [v, label] of ticks(0, panel.most, Math.max(2, height / 20))) {
-      stroke([[left, Y(v)], [left + width, Y(v)]], colours.grid);
-      pen.fillStyle = colours.faint;
-      pen.fillText(label, left - 5, Y(v) + 4);
-    }
-    pen.textAlign = "start";
+    const xTicks = ticks(from, to, Math.min(9, width / 60)), last = xTicks.length - 1;
+    paintAxes(pen, panel, { x: [from, to], y: [0, panel.most], yTicks: ticks(0, panel.most, Math.max(2, height / 20)),
+      xTicks: xTicks.map(([v, label], k) => [v, !labels ? "" : k === last ? `${label} mm` : label]) }, colours);
     pen.fillStyle = colours.text;
     pen.font = font(11, 600);
     pen.fillText(`${panel.name}, ${panel.unit}`, left, top - 5);
