@@ -20,49 +20,51 @@ describe("every page", { skip: pages.length ? false : `no page below ${folder}` 
   for (const path of pages) {
     const name = relative(folder, path), url = pathToFileURL(path).href;
 
-    for (const width of [1280, 390]) {
-      for (const colorScheme of ["light", "dark"]) {
-        it(`${name}: nothing that axe-core finds fault with at ${width} px, ${colorScheme}`, async () => quietly(browser, url, { width, colorScheme }, async (page) => {
+    // Colours do not depend on the width, nor places on the colours.
+    for (const [width, colorScheme] of [[1280, "light"], [390, "dark"]]) {
+      it(`${name}, ${width} px, ${colorScheme}`, async (t) => quietly(browser, url, { width, colorScheme }, async (page) => {
+        await t.test("nothing that axe-core finds fault with", async () => {
           await page.evaluate(axe);
           const found = await page.evaluate((values) => window.axe.run(document, { runOnly: { type: "tag", values } }), RULES);
           assert.deepEqual(found.violations.map((one) => `${one.id}: ${one.nodes.slice(0, 3).map((node) => node.html.slice(0, 160)).join(" | ")}`), []);
-        }));
-      }
-      it(`${name}: nothing to scroll aside at ${width} px but wide boxes, which the keyboard reaches`, async () => quietly(browser, url, { width }, async (page) => {
-        const { aside, out } = await page.evaluate(() => ({
-          aside: document.documentElement.scrollWidth - document.documentElement.clientWidth,
-          out: [...document.querySelectorAll(".scroll, pre")].filter((box) => box.scrollWidth > box.clientWidth && box.tabIndex !== 0).length,
-        }));
-        assert.equal(aside, 0);
-        assert.equal(out, 0);
+        });
+
+        await t.test("nothing to scroll aside but wide boxes, which the keyboard reaches", async () => {
+          const { aside, out } = await page.evaluate(() => ({
+            aside: document.documentElement.scrollWidth - document.documentElement.clientWidth,
+            out: [...document.querySelectorAll(".scroll, pre")].filter((box) => box.scrollWidth > box.clientWidth && box.tabIndex !== 0).length,
+          }));
+          assert.equal(aside, 0);
+          assert.equal(out, 0);
+        });
+
+        await t.test("each control has a name of its own", async () => {
+          const names = await page.evaluate(() => [...document.querySelectorAll("button, input, select")].map((node) => node.getAttribute("aria-label") || node.textContent.trim()));
+          assert.deepEqual(names.filter((one, k) => !one || names.indexOf(one) !== k), []);
+        });
+
+        await t.test("folds nothing on paper", async () => {
+          const folded = () => page.locator("details:not([open])").count();
+          const before = await folded();
+          await page.evaluate(() => dispatchEvent(new Event("beforeprint")));
+          assert.equal(await folded(), 0);
+          await page.evaluate(() => dispatchEvent(new Event("afterprint")));
+          assert.equal(await folded(), before);
+        });
+
+        if (colorScheme === "dark") await t.test("light or dark as the reader's system, and as the reader chooses", async () => {
+          const back = () => page.evaluate(() => getComputedStyle(document.body).backgroundColor);
+          const dark = await back();
+          await page.getByRole("button", { name: "Light page" }).click();
+          const light = await back();
+          assert.equal(light, "rgb(255, 255, 255)");
+          assert.notEqual(dark, light);
+          await page.getByRole("button", { name: "Dark page" }).click();
+          assert.equal(await back(), dark);
+          await page.emulateMedia({ media: "print" });
+          assert.equal(await back(), light);
+        });
       }));
     }
-
-    it(`${name}: light or dark as the reader's system, and as the reader chooses`, async () => quietly(browser, url, { colorScheme: "dark" }, async (page) => {
-      const back = () => page.evaluate(() => getComputedStyle(document.body).backgroundColor);
-      const dark = await back();
-      await page.getByRole("button", { name: "Light page" }).click();
-      const light = await back();
-      assert.equal(light, "rgb(255, 255, 255)");
-      assert.notEqual(dark, light);
-      await page.getByRole("button", { name: "Dark page" }).click();
-      assert.equal(await back(), dark);
-      await page.emulateMedia({ media: "print" });
-      assert.equal(await back(), light);
-    }));
-
-    it(`${name}: folds nothing on paper`, async () => quietly(browser, url, {}, async (page) => {
-      const folded = () => page.locator("details:not([open])").count();
-      const before = await folded();
-      await page.evaluate(() => dispatchEvent(new Event("beforeprint")));
-      assert.equal(await folded(), 0);
-      await page.evaluate(() => dispatchEvent(new Event("afterprint")));
-      assert.equal(await folded(), before);
-    }));
-
-    it(`${name}: each control has a name of its own`, async () => quietly(browser, url, {}, async (page) => {
-      const names = await page.evaluate(() => [...document.querySelectorAll("button, input, select")].map((node) => node.getAttribute("aria-label") || node.textContent.trim()));
-      assert.deepEqual(names.filter((one, k) => !one || names.indexOf(one) !== k), []);
-    }));
   }
 });

@@ -1,27 +1,21 @@
 // Packs the page into one HTML file that works from disk, and lays out a folder to serve.
 //
-//     node pack.mjs [--wasm studio.wasm] [--views folder] [-o out]
+//     node pack.mjs [--wasm studio.wasm] [-o out]
 //
 // Modules become data: URLs of an import map, as a page from disk may not import files; they and the engine are gzip in base64, the Worker a Blob.
 import { copyFileSync, existsSync, mkdirSync, readFileSync, renameSync, writeFileSync } from "node:fs";
 import { dirname, join, posix, relative, resolve } from "node:path";
 import { parseArgs } from "node:util";
 import { gzipSync } from "node:zlib";
-import { decode, encode } from "./src/message.js";
+import { hosted } from "./host.js";
+import { encode } from "./src/message.js";
 
 const HERE = import.meta.dirname, WORKER = "src/worker.js";
 const IMPORT = /((?:^|\n|;)\s*(?:import|export)\b[^"';]*?["'])(\.{1,2}\/[^"']+)(["'])/g;
 
-const { values: options } = parseArgs({ options: { wasm: { type: "string", default: "../../../target/studio/studio.wasm" }, views: { type: "string" },
+const { values: options } = parseArgs({ options: { wasm: { type: "string", default: "../../../target/studio/studio.wasm" },
   out: { type: "string", short: "o", default: "../../../target/studio" } } });
 const wasm = resolve(options.wasm), out = resolve(options.out);
-
-/** Where a file of the page lies. @param {string} name */
-function place(name) {
-  const all = [HERE, ...(options.views ? [resolve(options.views)] : [])].map((folder) => join(folder, name)), found = all.find(existsSync);
-  if (!found) throw new Error(`${all.join(", ")}: no such file`);
-  return found;
-}
 
 /** The modules that these need, themselves included, with their imports by name. @param {string[]} names */
 function modules(names) {
@@ -29,7 +23,7 @@ function modules(names) {
   for (const waiting = [...names]; waiting.length;) {
     const name = waiting.pop();
     if (found.has(name)) continue;
-    const text = readFileSync(place(name), "utf8").replace(IMPORT, (_, before, path, after) => {
+    const text = readFileSync(join(HERE, name), "utf8").replace(IMPORT, (_, before, path, after) => {
       const target = posix.join(posix.dirname(name), path);
       waiting.push(target);
       return `${before}${target}${after}`;
@@ -63,16 +57,7 @@ function drawn(value) {
 
 /** What the page shows before its engine is there: the engine's own answers, as one message. @param {Uint8Array<ArrayBuffer>} wasm */
 async function stored(wasm) {
-  const { exports } = (await WebAssembly.instantiate(wasm, {})).instance, engine = /** @type {any} */ (exports);
-  const ask = (/** @type {Record<string, unknown>} */ request) => {
-    const bytes = encode(request), at = engine.give(bytes.length) >>> 0;
-    new Uint8Array(engine.memory.buffer, at, bytes.length).set(bytes);
-    const out = engine.ask(at, bytes.length) >>> 0, length = new DataView(engine.memory.buffer).getUint32(out, true);
-    const { ok, ...answer } = decode(new Uint8Array(engine.memory.buffer).slice(out + 4, out + 4 + length));
-    engine.release();
-    if (!ok) throw new Error(`the engine refused ${request.do}: ${JSON.stringify(answer.problems)}`);
-    return answer;
-  };
+  const { ask } = await hosted(await WebAssembly.compile(wasm));
   const about = ask({ do: "about" }), { toml } = about.examples.find((/** @type {any} */ e) => e.name === EXAMPLE), slot = 0;
   const opened = ask({ do: "open", slot, toml, carry: false });
   let got = /** @type {any} */ (null), x = new Float32Array(0);
@@ -119,7 +104,7 @@ write(join(out, "brinell-studio.html"), page);
 const site = join(out, "site");
 for (const name of ["studio.css", WORKER, ...all.keys()]) {
   mkdirSync(dirname(join(site, name)), { recursive: true });
-  copyFileSync(place(name), join(site, name));
+  copyFileSync(join(HERE, name), join(site, name));
 }
 write(join(site, "index.html"), html.replace("</head>", () => `${still}</head>`));
 if (engine) copyFileSync(wasm, join(site, "studio.wasm"));

@@ -1,6 +1,6 @@
 // Finds the engine's WebAssembly and the Worker's script: within the page where it was packed into one file, else beside it.
 
-/** @typedef {{module: WebAssembly.Module | null, worker: string | URL}} Assets */
+/** @typedef {{module: WebAssembly.Module, worker: string | URL}} Assets */
 
 /** The browser has no WebAssembly, or not the vector instructions that the engine is made of. */
 export class NoWasm extends Error {}
@@ -25,8 +25,6 @@ async function compiled(response) {
 
 /** @returns {Promise<Assets>} */
 export async function assets() {
-  const given = /** @type {{brinellWorker?: string}} */ (globalThis).brinellWorker;
-  if (given) return { module: null, worker: given };
   if (typeof WebAssembly !== "object"
     || !WebAssembly.validate(SIMD)) throw new NoWasm("this browser cannot run the engine: it lacks WebAssembly with vector instructions (simd128)");
   const wasm = document.getElementById("studio-wasm"), worker = document.getElementById("studio-worker");

@@ -39,12 +39,12 @@ export function short(value, digits = 3) {
   if (value === null || value === undefined || !Number.isFinite(value)) return "–";
   const size = Math.abs(value);
   const text = value !== 0 && (size >= 1e6 || size < 1e-3) ? value.toExponential(digits - 1) : String(Number(value.toPrecision(digits)));
-  return text.replace("-", "−");
+  return text.replaceAll("-", "−");
 }
 
 /** The number that a text says, with a point or a comma before its decimals; else, in words, why it says none. @param {string} text @returns {number | string} */
 export function numberOf(text) {
-  const plain = text.trim().replace("−", "-");
+  const plain = text.trim().replaceAll("−", "-");
   if (/^[-+]?[1-9]\d{0,2},\d{3}$/.test(plain)) return `"${plain}" may be ${plain.replace(",", ".")} or ${plain.replace(",", "")}`;
   return /^[-+]?(\d+([.,]\d*)?|[.,]\d+)(e[-+]?\d+)?$/i.test(plain) ? Number(plain.replace(",", ".")) : `"${plain}" is no number`;
 }
@@ -85,15 +85,12 @@ export const spelled = (unit) => unit.replaceAll("^2", "²").replaceAll("^3", "�
 /** Whether the reader asked for little motion. */
 export const still = () => matchMedia("(prefers-reduced-motion: reduce)").matches;
 
-/**
- * A table of the engine's columns and rows.
- * @param {{columns: string[], rows: unknown[][]} | null | undefined} table
- */
-export function tableOf(table) {
-  if (!table) return null;
+/** Head and body of a table anew. @param {HTMLTableElement} table @param {string[]} columns @param {unknown[][]} rows */
+export function fill(table, columns, rows) {
   const cell = (/** @type {unknown} */ v) => (typeof v === "number" ? short(v, 4) : v === null || v === undefined ? "" : String(v));
-  return h("table", {},
-    h("thead", {}, h("tr", {}, ...table.columns.map((c) => h("th", { scope: "col" }, c)))),
-    h("tbody", {}, ...table.rows.map((row) => h("tr", {},
+  table.replaceChildren(
+    h("thead", {}, h("tr", {}, ...columns.map((c) => h("th", { scope: "col" }, c)))),
+    h("tbody", {}, ...rows.map((row) => h("tr", {},
       ...row.map((v, k) => (k === 0 ? h("th", { scope: "row" }, cell(v)) : h("td", { className: typeof v === "number" ? "number" : "" }, cell(v))))))));
+  return table;
 }

@@ -1,6 +1,6 @@
 // A measured signal: opened, judged by the engine, shown in the page and laid beside the simulation.
 import { Refused } from "./answers.js";
-import { byId, h, numberInput, numberOf, short, spelled, tableOf } from "./dom.js";
+import { byId, fill, h, numberInput, numberOf, short, spelled } from "./dom.js";
 
 /** @typedef {(request: Record<string, unknown>) => Promise<any>} Ask */
 
@@ -125,7 +125,7 @@ export function showMeasured(found, name, { beside, close, simulated }) {
     h("p", {}, h("strong", {}, found.headline)),
     h("p", { className: "note" }, h("span", { className: "levels" }, (found.levels ?? []).map((/** @type {string} */ l) => spelled(l)).join(", ")), `; curves in ${spelled(unit)}`),
     h("div", { className: "side-by-side" }, ...curves),
-    h("div", { className: "scroll", tabIndex: 0, role: "group", "aria-label": "What was found" }, tableOf(found.table)));
+    h("div", { className: "scroll", tabIndex: 0, role: "group", "aria-label": "What was found" }, found.table && fill(h("table"), found.table.columns, found.table.rows)));
   root.hidden = false;
   beside(alike);
   root.scrollIntoView({ block: "nearest" });

@@ -1,7 +1,8 @@
 // Draws the unrolled raceway: the whole turn above, and the part in view below, in millimetres of the surface.
+import { box } from "./tools.js";
 
 /** @typedef {{s: number, scale: number}} View  middle of the view along the surface (mm), pixels per mm */
-/** @typedef {{s: number, force: number, offset: number}} Contact  a roller's contact line on the surface */
+/** @typedef {{s: number, force: number}} Contact  a roller's contact line on the surface */
 /**
  * @typedef {object} Scene
  * @property {number} width
@@ -189,7 +190,7 @@ function shaded(grid, ink) {
   for (let r = 0; r < rows; r++) {
     for (let k = 0; k < columns; k++) {
       const at = r * columns + k, to = 4 * ((rows - 1 - r) * columns + k), d = depth[at];
-      const slope = (depth[Math.min(k + 1, columns - 1) + r * columns] - d + d - (depth[Math.min(r + 1, rows - 1) * columns + k] ?? d)) / deepest;
+      const slope = (depth[Math.min(k + 1, columns - 1) + r * columns] - (depth[Math.min(r + 1, rows - 1) * columns + k] ?? d)) / deepest;
       const light = Math.max(-70, Math.min(70, 160 * slope));
       image.data.set([red + light, green + light, blue + light, d === 0 ? 0 : 90 + 150 * Math.min(1, Math.abs(d) / deepest)], to);
     }
@@ -200,8 +201,8 @@ function shaded(grid, ink) {
 }
 
 /** @param {CanvasRenderingContext2D} g @param {Scene} scene @param {Colours} c @param {Contact} contact @param {number} s */
-function roller(g, scene, c, { force, offset }, s) {
-  const { view, across, half, ball, heaviest } = scene, x = xOf(scene, s), y = yOf(scene, offset), wide = half * view.scale, tall = across / 2 * view.scale;
+function roller(g, scene, c, { force }, s) {
+  const { view, across, half, ball, heaviest } = scene, x = xOf(scene, s), y = yOf(scene, 0), wide = half * view.scale, tall = across / 2 * view.scale;
   const share = heaviest > 0 ? Math.sqrt(Math.max(0, force) / heaviest) : 0;
   const body = g.createLinearGradient(x - wide, 0, x + wide, 0);
   body.addColorStop(0, c.ink);
@@ -251,21 +252,6 @@ function chosen(g, scene, c, one, s) {
     g.fill();
     g.stroke();
   }
-}
-
-/** Left, lower, right and upper end of damage about its centre, mm. @param {any} one @returns {[number, number, number, number]} */
-export function box(one) {
-  let l = Infinity, d = Infinity, r = -Infinity, u = -Infinity;
-  for (const points of one.polygons_mm) {
-    for (let i = 0; i < points.length; i += 2) {
-      [l, r] = [Math.min(l, points[i]), Math.max(r, points[i])];
-      [d, u] = [Math.min(d, points[i + 1]), Math.max(u, points[i + 1])];
-    }
-  }
-  if (l <= r) return [l, d, r, u];
-  const grid = one.grid;
-  if (grid) return [grid.s0_mm, grid.z0_mm, grid.s0_mm + (grid.columns - 1) * grid.ds_mm, grid.z0_mm + (grid.rows - 1) * grid.dz_mm];
-  return [-one.length_mm / 2, -one.width_mm / 2, one.length_mm / 2, one.width_mm / 2];
 }
 
 /** What is being drawn, the keyboard's place, and a scale. @param {CanvasRenderingContext2D} g @param {Scene} scene @param {Colours} c */

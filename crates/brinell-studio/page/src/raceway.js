@@ -1,8 +1,8 @@
 // <brinell-raceway>: the raceway unrolled, rollers running over it in slow motion, damage drawn on it with pointer or keys.
 import { still } from "./dom.js";
 import { Felt, Player } from "./player.js";
-import { TOP, box, colours, copies, draw, middle, xOf, yOf } from "./raceway-draw.js";
-import { Corners, TOOL_KEYS, handles, hits, resized, shapeBetween } from "./tools.js";
+import { TOP, colours, copies, draw, middle, xOf, yOf } from "./raceway-draw.js";
+import { Corners, TOOL_KEYS, box, handles, hits, resized, shapeBetween } from "./tools.js";
 
 /** @typedef {import("./tools.js").Tool} Tool */
 /** @typedef {import("./tools.js").Request} Request */
@@ -183,12 +183,12 @@ export class Raceway extends HTMLElement {
     if (!now || !row) return [];
     if (this.#surface !== "roller") {
       const forces = this.#surface === "outer-raceway" ? row.outer : row.inner;
-      return row.orbit.map((_, k) => ({ s: this.#place(now, k), force: forces[k], offset: 0 }));
+      return row.orbit.map((_, k) => ({ s: this.#place(now, k), force: forces[k] }));
     }
     // A roller's surface passes under two lines of contact, one on each raceway.
     const k = Math.min(this.#rollerOf, row.orbit.length) - 1, angle = Number(row.orbit[k] - row.spin[k]);
     const at = (/** @type {number} */ a) => Math.atan2(Math.sin(a), Math.cos(a)) / (2 * Math.PI) * this.turn;
-    return [{ s: at(angle), force: row.outer[k], offset: 0 }, { s: at(angle + Math.PI), force: row.inner[k], offset: 0 }];
+    return [{ s: at(angle), force: row.outer[k] }, { s: at(angle + Math.PI), force: row.inner[k] }];
   }
 
   /** @param {number} now */

@@ -5,8 +5,8 @@ import { byId, h, short, spelled } from "./dom.js";
 
 const QUIET_MS = 3500;
 
-/** @param {string} name @param {string} value @param {string} [title] */
-const pair = (name, value, title) => h("div", { title }, h("dt", {}, name), h("dd", {}, value));
+/** @param {string} name @param {string} value */
+const pair = (name, value) => h("div", {}, h("dt", {}, name), h("dd", {}, value));
 
 // Of a finished run, which has all channels: those of the sensor's axis, by the ends of their names. Its peaks are means over revolutions, a live one's the record's.
 const RUN = [["rms", "RMS"], ["peak", "mean peak of a revolution"], ["crest_factor", "mean peak over RMS"], ["kurtosis", "kurtosis"]], MOST = 7;
@@ -29,7 +29,7 @@ function figures(side) {
     return named(list, side.opened?.axis).map(([q, words]) => {
       const known = (/** @type {any} */ v) => v !== null && v !== undefined;
       const interval = known(q.low) && known(q.high) && q.low !== q.high ? ` (${short(q.low)} to ${short(q.high)})` : "";
-      return pair(words, `${short(q.value)}${written(q.unit)}${interval}`, q.meaning);
+      return pair(words, `${short(q.value)}${written(q.unit)}${interval}`);
     });
   }
   const m = side.moments;

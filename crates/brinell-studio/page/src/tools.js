@@ -108,17 +108,30 @@ export function resized(shape, which, at) {
   return { shape: { rectangle: { ...shape.rectangle, width_mm: tidy(width) } }, ds: 0, dz: sign * (width - w) / 2 };
 }
 
+/** Left, lower, right and upper end of damage about its centre, mm. @param {any} one @returns {[number, number, number, number]} */
+export function box(one) {
+  let l = Infinity, d = Infinity, r = -Infinity, u = -Infinity;
+  for (const points of one.polygons_mm) {
+    for (let i = 0; i < points.length; i += 2) {
+      [l, r] = [Math.min(l, points[i]), Math.max(r, points[i])];
+      [d, u] = [Math.min(d, points[i + 1]), Math.max(u, points[i + 1])];
+    }
+  }
+  if (l <= r) return [l, d, r, u];
+  const grid = one.grid;
+  if (grid) return [grid.s0_mm, grid.z0_mm, grid.s0_mm + (grid.columns - 1) * grid.ds_mm, grid.z0_mm + (grid.rows - 1) * grid.dz_mm];
+  return [-one.length_mm / 2, -one.width_mm / 2, one.length_mm / 2, one.width_mm / 2];
+}
+
 /** Whether a place lies in damage, or close to it. @param {any} one @param {number} s @param {number} z about the damage's centre @param {number} slack */
 export function hits(one, s, z, slack) {
-  let inside = false, l = Infinity, d = Infinity, r = -Infinity, u = -Infinity;
+  let inside = false;
   for (const p of one.polygons_mm) {
     for (let i = 0, j = p.length - 2; i < p.length; j = i, i += 2) {
       if ((p[i + 1] > z) !== (p[j + 1] > z) && s < (p[j] - p[i]) * (z - p[i + 1]) / (p[j + 1] - p[i + 1]) + p[i]) inside = !inside;
-      [l, r, d, u] = [Math.min(l, p[i]), Math.max(r, p[i]), Math.min(d, p[i + 1]), Math.max(u, p[i + 1])];
     }
   }
-  if (l > r) [l, r, d, u] = [-one.length_mm / 2, one.length_mm / 2, -one.width_mm / 2, one.width_mm / 2];
   // Small or thin damage is taken by its box.
-  const near = s > l - slack && s < r + slack && z > d - slack && z < u + slack;
+  const [l, d, r, u] = box(one), near = s > l - slack && s < r + slack && z > d - slack && z < u + slack;
   return inside || (near && (Math.min(r - l, u - d) < 4 * slack || one.grid !== null));
 }

@@ -3,7 +3,7 @@ import assert from "node:assert/strict";
 import { after, before, describe, it } from "node:test";
 import { numberOf, stepped } from "../src/dom.js";
 import { fromLink } from "../src/state.js";
-import { launch, quietly, real, serve } from "./browser.js";
+import { launch, quietly, serve } from "./browser.js";
 import { drag, drop, opened, saved, scenario, start, type, until } from "./page.js";
 
 let browser, server;
@@ -17,9 +17,11 @@ after(async () => {
   server?.close();
 });
 
+// The bearing has run on: an edit before would have reached it.
+const ran = async (page) => until(page, (n) => globalThis.brinellStudio.side.trace.end > n + 1000, await page.evaluate(() => globalThis.brinellStudio.side.trace.end));
 const on = (options, look) => quietly(browser, server.url, options, look);
 
-describe(`edits, with ${real ? "the engine" : "a stand-in for the engine"}`, () => {
+describe("edits", () => {
   it("says that damage stays when another bearing is chosen", async () => on({}, async (page) => {
     await start(page, "rectangle");
     await page.selectOption("#preset", "bearing:6205");
@@ -61,8 +63,7 @@ describe(`edits, with ${real ? "the engine" : "a stand-in for the engine"}`, () 
     const alert = field.locator('[role="alert"]');
     assert.match(await alert.textContent(), /wider than the roller/);
     assert.equal((await opened(page)).scenario.defects[0].shape.rectangle.width_mm, 4);
-    const end = await page.evaluate(() => globalThis.brinellStudio.side.trace.end);
-    await until(page, (n) => globalThis.brinellStudio.side.trace.end > n + 1000, end);
+    await ran(page);
     assert.match(await page.textContent("#state"), /last good/);
     // Nor does Run take what was there before.
     await page.click("#run");
@@ -81,7 +82,7 @@ describe(`edits, with ${real ? "the engine" : "a stand-in for the engine"}`, () 
     const speed = page.getByLabel("Speed", { exact: true }), stated = async () => (await scenario(page)).operation.speed_rpm;
     // No part of it runs.
     await speed.fill("30");
-    await page.waitForTimeout(700);
+    await ran(page);
     assert.equal(await stated(), 1800);
     await type(speed, "1796,3");
     assert.equal(await stated(), 1796.3);
@@ -95,7 +96,6 @@ describe(`edits, with ${real ? "the engine" : "a stand-in for the engine"}`, () 
     assert.equal(await stated(), 1797.3);
     await type(speed, "1500");
     await until(page, () => globalThis.brinellStudio.side.opened.scenario.operation.speed_rpm === 1500);
-    if (!real) return;
     await type(speed, "25,5 Hz");
     await until(page, () => globalThis.brinellStudio.side.opened.all.operation.speed_rpm === 1530);
     const shown = () => until(page, () => [...document.querySelectorAll("#controls input")].some((one) => one.value === "1530"));
@@ -131,7 +131,7 @@ describe(`edits, with ${real ? "the engine" : "a stand-in for the engine"}`, () 
     assert.match(await page.textContent('.chosen [role="alert"]:not(:empty)'), /wider than the roller/);
   }));
 
-  it("says that a server does not answer, and saves nothing that it did not open", async () => quietly(browser, `${server.url}?token=secret`, { engine: "server" }, async (page) => {
+  it("says that a server does not answer, and saves nothing that it did not open", async () => quietly(browser, `${server.url}?token=secret`, {}, async (page) => {
     await start(page, "rectangle");
     await page.route("**/ask*", (route) => route.abort());
     await page.waitForSelector('[data-kind="lost"]:has-text("The server does not answer. Start `brinell studio` again")');
@@ -154,7 +154,7 @@ describe(`edits, with ${real ? "the engine" : "a stand-in for the engine"}`, () 
     for (const again of ["Enter", "Tab"]) {
       await type(speed, "");
       await page.waitForSelector('#controls [aria-invalid="true"]');
-      await page.waitForTimeout(300);
+      await ran(page);
       assert.equal(await speed.inputValue(), "");
       await speed.click();
       await page.keyboard.type("1800");

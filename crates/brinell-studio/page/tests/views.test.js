@@ -1,37 +1,33 @@
-// The views with made-up data, in Chromium. CHROMIUM names another browser. Every test opens a window of its own and fails where the page logs anything.
+// The views with made-up data, in Chromium. CHROMIUM names another browser. Every test loads the page anew, in a window that those with the same options share, and fails where the page logs anything.
 import assert from "node:assert/strict";
-import { existsSync, readFileSync } from "node:fs";
+import { readFileSync } from "node:fs";
 import { createRequire } from "node:module";
 import { after, before, describe, it } from "node:test";
-import { chromium } from "playwright-core";
-import { serve } from "./serve.js";
+import { launch, open, serve } from "./browser.js";
 
-const PLACES = ["/usr/bin/chromium", "/usr/bin/chromium-browser", "/usr/bin/google-chrome", "/Applications/Chromium.app/Contents/MacOS/Chromium"];
 const axe = readFileSync(createRequire(import.meta.url).resolve("axe-core/axe.min.js"), "utf8");
+const windows = new Map();
 let browser, server;
 
 before(async () => {
-  const executablePath = process.env.CHROMIUM || PLACES.find(existsSync);
-  if (!executablePath) throw new Error(`no Chromium at ${PLACES.join(", ")}; CHROMIUM names another`);
+  browser = await launch();
   server = await serve();
-  browser = await chromium.launch({ executablePath, chromiumSandbox: false, args: ["--disable-gpu", "--no-first-run", "--disable-background-networking"] });
 });
 after(async () => { await browser?.close(); server?.close(); });
 
-async function on({ width = 1280, height = 900, ...options }, look) {
-  const context = await browser.newContext({ viewport: { width, height }, reducedMotion: "reduce", ...options });
-  const page = await context.newPage(), said = [];
-  page.on("console", (message) => said.push(`${message.type()}: ${message.text()}`));
-  page.on("pageerror", (error) => said.push(`error: ${error.message}`));
-  try {
-    await page.goto(`${server.url}tests/views.html`);
-    await page.locator("html[data-ready]").waitFor();
-    await drawn(page);
-    await look(page);
-    assert.deepEqual(said, []);
-  } finally {
-    await context.close();
+async function on(options, look) {
+  const url = `${server.url}tests/views.html`, key = JSON.stringify(options), old = windows.get(key);
+  const page = old ?? await open(browser, url, { width: 1280, reducedMotion: "reduce", ...options });
+  windows.set(key, page);
+  if (old) {
+    await page.mouse.move(0, 0);
+    page.said.length = 0;
+    await page.reload();
   }
+  await page.locator("html[data-ready]").waitFor();
+  await drawn(page);
+  await look(page);
+  assert.deepEqual(page.said, []);
 }
 const drawn = (page) => page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
 const curve = (page, kind) => page.locator(`brinell-curve[kind="${kind}"]`);
@@ -392,18 +388,17 @@ describe("the sound", () => {
 });
 
 describe("every view", () => {
-  for (const colorScheme of ["light", "dark"]) {
-    for (const width of [1280, 390]) {
-      it(`is without findings of axe, ${colorScheme}, ${width} px`, async () => on({ width, colorScheme }, async (page) => {
-        for (const node of await page.locator("details").all()) await node.evaluate((d) => { d.open = true; });
-        await page.waitForFunction(() => [...document.querySelectorAll("brinell-curve")].every((c) => c.shadowRoot.querySelector("tbody tr")));
-        await page.evaluate(axe);
-        const found = await page.evaluate(async () => (await window.axe.run()).violations.map((v) => `${v.impact} ${v.id}: ${v.nodes.map((n) => n.target.join(" ")).slice(0, 3)}`));
-        assert.deepEqual(found, []);
-        const sideways = await page.evaluate(() => document.documentElement.scrollWidth - document.documentElement.clientWidth);
-        assert.ok(sideways <= 0, `${sideways} px aside`);
-      }));
-    }
+  // Colours do not depend on the width, nor places on the colours.
+  for (const [width, colorScheme] of [[1280, "light"], [390, "dark"]]) {
+    it(`is without findings of axe, ${colorScheme}, ${width} px`, async () => on({ width, colorScheme }, async (page) => {
+      for (const node of await page.locator("details").all()) await node.evaluate((d) => { d.open = true; });
+      await page.waitForFunction(() => [...document.querySelectorAll("brinell-curve")].every((c) => c.shadowRoot.querySelector("tbody tr")));
+      await page.evaluate(axe);
+      const found = await page.evaluate(async () => (await window.axe.run()).violations.map((v) => `${v.impact} ${v.id}: ${v.nodes.map((n) => n.target.join(" ")).slice(0, 3)}`));
+      assert.deepEqual(found, []);
+      const sideways = await page.evaluate(() => document.documentElement.scrollWidth - document.documentElement.clientWidth);
+      assert.ok(sideways <= 0, `${sideways} px aside`);
+    }));
   }
 
   it("takes the page's scheme and colours", async () => on({}, async (page) => {

@@ -1,8 +1,9 @@
 // <brinell-bearing>: the bearing from its face in slow motion, from the latest turns of the run.
-import { element, fit, View } from "./view.js";
+import { h, short } from "../dom.js";
+import { fit, View } from "./view.js";
 import { sheet } from "./theme.js";
 import { font } from "./pen.js";
-import { Limit, short } from "./scale.js";
+import { Limit } from "./scale.js";
 import { Motion } from "./motion.js";
 import { arcs, paintLegend, paintLoad, paintRow, RING } from "./face.js";
 
@@ -50,19 +51,19 @@ export class BrinellBearing extends View {
     this.which = "both";
     this.calm = matchMedia("(prefers-reduced-motion: reduce)");
     this.seen = new IntersectionObserver((entries) => { this.visible = entries[entries.length - 1].isIntersecting; this.run(); });
-    this.title_ = element("span", { class: "title" }, "Bearing");
-    this.told = element("span", { class: "readout" });
-    this.canvas = /** @type {HTMLCanvasElement} */ (element("canvas", { role: "img", "aria-label": "Bearing" }));
-    this.empty = element("div", { class: "empty" }, "waiting for the bearing");
-    this.stage = /** @type {HTMLElement} */ (element("div", { class: "stage" }, this.canvas, this.empty));
-    this.playButton = /** @type {HTMLButtonElement} */ (element("button", { type: "button", id: "play" }, "Play"));
-    this.turnButton = /** @type {HTMLButtonElement} */ (element("button", { type: "button", title: "One turn of the shaft, then stop" }, "1 turn"));
-    this.pace = /** @type {HTMLInputElement} */ (element("input",
+    this.title_ = h("span", { class: "title" }, "Bearing");
+    this.told = h("span", { class: "readout" });
+    this.canvas = h("canvas", { role: "img", "aria-label": "Bearing" });
+    this.empty = h("div", { class: "empty" }, "waiting for the bearing");
+    this.stage = h("div", { class: "stage" }, this.canvas, this.empty);
+    this.playButton = h("button", { type: "button", id: "play" }, "Play");
+    this.turnButton = h("button", { type: "button", title: "One turn of the shaft, then stop" }, "1 turn");
+    this.pace = /** @type {HTMLInputElement} */ (h("input",
       { type: "range", min: "20", max: "200", step: "5", value: "60", "aria-label": "Slow motion, times slower than real" }));
-    this.paceTold = element("output");
-    this.rowsPick = /** @type {HTMLSelectElement} */ (element("select", { "aria-label": "Row shown" }));
-    const bar = element("div", { class: "tools bar" }, this.playButton, this.turnButton, element("label", {}, this.pace, this.paceTold), this.rowsPick);
-    this.root.append(element("div", { class: "head" }, this.title_, this.told), this.stage, bar);
+    this.paceTold = h("output");
+    this.rowsPick = h("select", { "aria-label": "Row shown" });
+    const bar = h("div", { class: "tools bar" }, this.playButton, this.turnButton, h("label", {}, this.pace, this.paceTold), this.rowsPick);
+    this.root.append(h("div", { class: "head" }, this.title_, this.told), this.stage, bar);
     this.playButton.addEventListener("click", () => { this.wanted = !this.playing; this.toGo = Infinity; this.set(this.wanted); });
     this.turnButton.addEventListener("click", () => this.step());
     this.pace.addEventListener("input", () => { this.slower = Number(this.pace.value); this.tell(); });
@@ -94,7 +95,7 @@ export class BrinellBearing extends View {
       this.limit = new Limit();
       const rows = geometry?.rows ?? 1;
       this.rowsPick.replaceChildren(...[["both", rows > 2 ? "All rows" : "Both rows"],
-        ...Array.from({ length: rows }, (_, k) => [String(k), `Row ${k + 1}`])].map(([value, words]) => element("option", { value }, words)));
+        ...Array.from({ length: rows }, (_, k) => [String(k), `Row ${k + 1}`])].map(([value, words]) => h("option", { value }, words)));
       this.rowsPick.hidden = rows < 2;
       this.which = this.rowsPick.value = "both";
     }

@@ -1,9 +1,10 @@
 // <brinell-curve kind="waveform|spectrum|envelope">: a curve with the healthy bearing behind it, zoom, cursor, marks and a table.
-import { element, fill, seldom, View } from "./view.js";
+import { fill, h, short, spelled } from "../dom.js";
+import { seldom, View } from "./view.js";
 import { sheet } from "./theme.js";
 import { breadth, font } from "./pen.js";
 import { makePlot, paintAxes, plotSheet, ROOM } from "./plot.js";
-import { Limit, short, ticks, unitText } from "./scale.js";
+import { Limit, ticks } from "./scale.js";
 import { decibel, labelRoom, orders, paintBand, paintLines, part, STRIP, trace, tracePath } from "./trace.js";
 
 /** @typedef {import("./trace.js").Curve} Curve */
@@ -60,36 +61,32 @@ export class BrinellCurve extends View {
     this.entitled = "";
     /** @type {ReturnType<typeof makePlot> | null} */
     this.plot = null;
-    this.table = /** @type {HTMLTableElement} */ (element("table"));
-    this.build();
-    this.tellSoon = seldom(1000, () => this.describe());
-    this.tableSoon = seldom(400, () => this.tabulate());
-    this.speakSoon = seldom(300, () => { this.said.textContent = this.readout.textContent; });
-  }
-
-  build() {
-    this.name = element("span", { class: "title" });
-    this.readout = element("span", { class: "readout" });
-    this.keys = element("span", { class: "tools" });
-    this.scaleButton = element("button", { type: "button", "aria-pressed": "false", title: "Logarithmic axis, dB (key L)" }, "dB");
-    this.allButton = element("button", { type: "button", title: "Everything that there is" }, "All");
-    this.resetButton = element("button", { type: "button", title: "Back to the first view (key 0, double click)", hidden: "" }, "Reset");
-    this.box = element("div", { class: "plot", tabindex: "0", role: "application", "aria-roledescription": "plot", "aria-description": HELP });
-    this.empty = element("div", { class: "empty" }, "waiting for samples");
-    this.line = element("div", { class: "cursor", hidden: "" });
-    this.dot = element("div", { class: "dot", hidden: "" });
-    this.said = element("div", { class: "hidden", role: "status" });
-    this.details = element("details", {}, element("summary", {}, "Values"),
-      element("div", { class: "scroll", tabindex: "0", role: "group", "aria-label": "Values" }, this.table));
-    const tools = element("span", { class: "tools end" }, this.resetButton, this.scaleButton, this.allButton);
+    this.table = h("table");
+    this.name = h("span", { class: "title" });
+    this.readout = h("span", { class: "readout" });
+    this.keys = h("span", { class: "tools" });
+    this.scaleButton = h("button", { type: "button", "aria-pressed": "false", title: "Logarithmic axis, dB (key L)" }, "dB");
+    this.allButton = h("button", { type: "button", title: "Everything that there is" }, "All");
+    this.resetButton = h("button", { type: "button", title: "Back to the first view (key 0, double click)", hidden: true }, "Reset");
+    this.box = h("div", { class: "plot", tabindex: "0", role: "application", "aria-roledescription": "plot", "aria-description": HELP });
+    this.empty = h("div", { class: "empty" }, "waiting for samples");
+    this.line = h("div", { class: "cursor", hidden: true });
+    this.dot = h("div", { class: "dot", hidden: true });
+    this.said = h("div", { class: "hidden", role: "status" });
+    this.details = h("details", {}, h("summary", {}, "Values"),
+      h("div", { class: "scroll", tabindex: "0", role: "group", "aria-label": "Values" }, this.table));
+    const tools = h("span", { class: "tools end" }, this.resetButton, this.scaleButton, this.allButton);
     this.box.append(this.empty, this.line, this.dot);
-    this.root.append(element("div", { class: "head" }, this.name, this.keys, tools), this.box, element("div", { class: "foot" }, this.details, this.readout), this.said);
+    this.root.append(h("div", { class: "head" }, this.name, this.keys, tools), this.box, h("div", { class: "foot" }, this.details, this.readout), this.said);
     this.scaleButton.addEventListener("click", () => this.setLog(!this.log));
     this.allButton.addEventListener("click", () => this.zoom(this.full()));
     this.resetButton.addEventListener("click", () => this.zoom(null));
     this.details.addEventListener("toggle", () => this.tabulate());
-    this.box.addEventListener("keydown", (/** @type {KeyboardEvent} */ event) => this.key(event));
+    this.box.addEventListener("keydown", (event) => this.key(event));
     this.box.addEventListener("blur", () => this.point(null));
+    this.tellSoon = seldom(1000, () => this.describe());
+    this.tableSoon = seldom(400, () => this.tabulate());
+    this.speakSoon = seldom(300, () => { this.said.textContent = this.readout.textContent; });
   }
 
   connectedCallback() {
@@ -124,12 +121,12 @@ export class BrinellCurve extends View {
     this.scaleButton.hidden = this.kind === "waveform";
     this.allButton.hidden = this.kind !== "envelope" && this.held?.settled === undefined;
     if (this.kind === "waveform") this.log = false;
-    this.name.replaceChildren(SHORT[this.kind], " ", element("span", { class: "unit" }, this.unit()));
+    this.name.replaceChildren(SHORT[this.kind], " ", h("span", { class: "unit" }, this.unit()));
     this.tellSoon?.();
   }
   /** What the two curves are called. @param {CurveData} data @param {0 | 1} which */
   named(data, which) { return data.names?.[which] ?? (which ? "B" : "A"); }
-  unit() { return this.held ? (this.log ? `dB re 1 ${unitText(this.held.unit)}` : unitText(this.held.unit)) : ""; }
+  unit() { return this.held ? (this.log ? `dB re 1 ${spelled(this.held.unit)}` : spelled(this.held.unit)) : ""; }
   /** @param {boolean} on */
   setLog(on) {
     if (this.kind === "waveform") return;
@@ -227,7 +224,7 @@ export class BrinellCurve extends View {
     this.entitled = key;
     this.entitle();
     this.keys.replaceChildren(...legend.map(([word, mark]) => {
-      const key = element("span", { class: "key" }, word);
+      const key = h("span", { class: "key" }, word);
       key.style.setProperty("--mark", `var(--_${mark})`);
       return key;
     }));
@@ -331,7 +328,7 @@ export class BrinellCurve extends View {
   }
   /** @param {CurveData} data @param {number} x @param {number} index */
   words(data, x, index) {
-    const unit = unitText(data.unit), wave = this.kind === "waveform",
+    const unit = spelled(data.unit), wave = this.kind === "waveform",
       value = (/** @type {number} */ v) => `${short(v, 4)} ${unit}${this.log ? ` (${decibel(v).toFixed(1).replace("-", "−")} dB)` : ""}`;
     const other = (/** @type {Curve | null | undefined} */ curve, /** @type {string} */ name) => (curve?.values?.length
       ? ` · ${name} ${short(curve.values[this.sample(curve, x)], 3)}` : "");
@@ -448,7 +445,7 @@ export class BrinellCurve extends View {
   tabulate() {
     const data = this.held;
     if (!data || !this.details.open) return;
-    const unit = unitText(data.unit),
+    const unit = spelled(data.unit),
       read = (/** @type {Curve | null | undefined} */ curve, /** @type {number} */ x) => (curve?.values?.length ? short(curve.values[this.sample(curve, x)], 4) : "");
     const others = /** @type {[string, Curve][]} */ ([[this.named(data, 1), data.second], ["healthy", data.behind]].filter(([, curve]) => curve));
     const heads = others.map(([name]) => `${name}, ${unit}`);

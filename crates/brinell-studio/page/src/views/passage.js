@@ -1,8 +1,10 @@
 // <brinell-passage>: one roller's passage over the damage: contact length and force over the roller's place.
-import { element, fill, fit, seldom, View } from "./view.js";
+import { fill, h, short } from "../dom.js";
+import { fit, seldom, View } from "./view.js";
 import { sheet } from "./theme.js";
 import { font } from "./pen.js";
-import { roundUp, short, ticks } from "./scale.js";
+import { paintAxes } from "./plot.js";
+import { roundUp, ticks } from "./scale.js";
 
 /** @typedef {{ s_mm: Float32Array, length_mm: Float32Array, force_n: Float32Array, healthy_n: number, width_mm: number }} Passage */
 /** @typedef {import("./pen.js").Pen} Pen */
@@ -28,18 +30,18 @@ export class BrinellPassage extends View {
     this.held = null;
     /** @type {number | null} Index of the cursor. */
     this.index = null;
-    this.canvas = /** @type {HTMLCanvasElement} */ (element("canvas", { "aria-hidden": "true" }));
-    this.readout = element("span", { class: "readout" });
-    this.empty = element("div", { class: "empty" }, "no damage chosen");
-    this.box = /** @type {HTMLElement} */ (element("div",
+    this.canvas = h("canvas", { "aria-hidden": "true" });
+    this.readout = h("span", { class: "readout" });
+    this.empty = h("div", { class: "empty" }, "no damage chosen");
+    this.box = /** @type {HTMLElement} */ (h("div",
       { class: "plot", tabindex: "0", role: "application", "aria-roledescription": "plot", "aria-description": "Arrow keys move the cursor, Shift moves it further" },
         this.canvas, this.empty));
-    this.said = element("div", { class: "hidden", role: "status" });
-    this.table = /** @type {HTMLTableElement} */ (element("table"));
-    this.details = /** @type {HTMLDetailsElement} */ (element("details", {}, element("summary", {}, "Values"),
-      element("div", { class: "scroll", tabindex: "0", role: "group", "aria-label": "Values" }, this.table)));
-    this.root.append(element("div", { class: "head" }, element("span", { class: "title" }, "One roller's passage")), this.box,
-      element("div", { class: "foot" }, this.details, this.readout), this.said);
+    this.said = h("div", { class: "hidden", role: "status" });
+    this.table = h("table");
+    this.details = /** @type {HTMLDetailsElement} */ (h("details", {}, h("summary", {}, "Values"),
+      h("div", { class: "scroll", tabindex: "0", role: "group", "aria-label": "Values" }, this.table)));
+    this.root.append(h("div", { class: "head" }, h("span", { class: "title" }, "One roller's passage")), this.box,
+      h("div", { class: "foot" }, this.details, this.readout), this.said);
     this.speakSoon = seldom(300, () => { this.said.textContent = this.readout.textContent; });
     this.details.addEventListener("toggle", () => this.tabulate());
     this.box.addEventListener("pointermove", (event) => this.point(this.indexAt(event.clientX - this.box.getBoundingClientRect().left)));
@@ -127,21 +129,9 @@ export class BrinellPassage extends View {
       pen.stroke();
     };
     pen.setLineDash([]);
-    pen.font = font(11);
-    const xs = ticks(from, to, Math.min(9, width / 60));
-    xs.forEach(([v, label], k) => {
-      stroke([[X(v), top], [X(v), bottom]], colours.grid);
-      pen.fillStyle = colours.faint;
-      pen.textAlign = "center";
-      if (labels) pen.fillText(k === xs.length - 1 ? `${label} mm` : label, Math.min(X(v), left + width - 8), bottom + 15);
-    });
-    pen.textAlign = "right";
-    for (const [v, label] of ticks(0, panel.most, Math.max(2, height / 20))) {
-      stroke([[left, Y(v)], [left + width, Y(v)]], colours.grid);
-      pen.fillStyle = colours.faint;
-      pen.fillText(label, left - 5, Y(v) + 4);
-    }
-    pen.textAlign = "start";
+    const xTicks = ticks(from, to, Math.min(9, width / 60)), last = xTicks.length - 1;
+    paintAxes(pen, panel, { x: [from, to], y: [0, panel.most], yTicks: ticks(0, panel.most, Math.max(2, height / 20)),
+      xTicks: xTicks.map(([v, label], k) => [v, !labels ? "" : k === last ? `${label} mm` : label]) }, colours);
     pen.fillStyle = colours.text;
     pen.font = font(11, 600);
     pen.fillText(`${panel.name}, ${panel.unit}`, left, top - 5);

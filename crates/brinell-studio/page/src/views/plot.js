@@ -82,7 +82,7 @@ export function makePlot(box, colours, paint) {
   };
 }
 
-/** The same axes on any pen, for pictures that are saved. @param {Pen} pen @param {Frame} frame @param {Axes} axes @param {Colours} colours */
+/** The same axes on any pen, as for pictures that are saved. @param {Pen} pen @param {Frame} frame @param {Axes} axes @param {Colours} colours */
 export function paintAxes(pen, frame, axes, colours) {
   const { left, top, width, height } = frame, right = left + width, bottom = top + height;
   pen.strokeStyle = colours.grid;
@@ -96,7 +96,7 @@ export function paintAxes(pen, frame, axes, colours) {
     pen.lineTo(x, bottom);
     pen.stroke();
     pen.textAlign = "center";
-    pen.fillText(label, x, bottom + 15);
+    if (label) pen.fillText(label, x, bottom + 15);
   }
   for (const [v, label] of axes.yTicks) {
     const y = bottom - height * (v - axes.y[0]) / (axes.y[1] - axes.y[0]);

@@ -1,12 +1,4 @@
-// Ticks, ranges and numbers as text. Drawing arithmetic only: every figure comes from the engine.
-
-/** A number as read by people, with this many digits. @param {number} v @param {number} [digits] */
-export function short(v, digits = 4) {
-  if (!Number.isFinite(v)) return "–";
-  const size = Math.abs(v);
-  const text = v !== 0 && (size >= 1e6 || size < 1e-3) ? v.toExponential(digits - 1) : String(Number(v.toPrecision(digits)));
-  return text.replace(/-/g, "−");
-}
+// Ticks and ranges. Drawing arithmetic only: every figure comes from the engine.
 
 /** Round places between two ends, with their labels. @param {number} lo @param {number} hi @param {number} target @returns {[number, string][]} */
 export function ticks(lo, hi, target) {
@@ -41,6 +33,3 @@ export class Limit {
     return this.top || 1;
   }
 }
-
-/** Superscripts for units: m/s^2 as it is printed. @param {string} unit */
-export const unitText = (unit) => (unit ?? "").replace(/\^2/g, "²").replace(/\^3/g, "³");

@@ -1,7 +1,7 @@
 // <brinell-sound>: the last whole turns of the shaft as a loop, at the pace of the machine. Never by itself: only after a click.
-import { element, View } from "./view.js";
+import { h, short } from "../dom.js";
+import { View } from "./view.js";
 import { sheet } from "./theme.js";
-import { short } from "./scale.js";
 
 /** @typedef {{ rate_hz: number, x: Float32Array, turns?: number }} Loop what `sound` answers; at most +-1 */
 
@@ -42,10 +42,10 @@ export class BrinellSound extends View {
     this.voice = null;
     this.hearing = false;
     this.fading = 0;
-    this.button = /** @type {HTMLButtonElement} */ (element("button", { type: "button", id: "hear", "aria-pressed": "false" }, "Hear"));
-    this.slider = /** @type {HTMLInputElement} */ (element("input", { type: "range", min: "0", max: "1", step: "0.01", value: "0.6" }));
-    this.told = element("span", { class: "told" });
-    this.root.append(this.button, element("label", {}, "volume", this.slider), this.told);
+    this.button = h("button", { type: "button", id: "hear", "aria-pressed": "false" }, "Hear");
+    this.slider = h("input", { type: "range", min: "0", max: "1", step: "0.01", value: "0.6" });
+    this.told = h("span", { class: "told" });
+    this.root.append(this.button, h("label", {}, "volume", this.slider), this.told);
     this.button.addEventListener("click", () => { void this.hear(!this.hearing); });
     this.slider.addEventListener("input", () => this.level());
     this.tell();

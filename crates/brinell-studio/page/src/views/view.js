@@ -5,14 +5,6 @@ import { png, SvgPen } from "./pen.js";
 /** @typedef {import("./theme.js").Colours} Colours */
 /** @typedef {import("./pen.js").Pen} Pen */
 
-/** An element with these attributes and children. @param {string} tag @param {Record<string, string>} [attributes] @param {(Node | string)[]} children @returns {any} */
-export function element(tag, attributes = {}, ...children) {
-  const node = document.createElement(tag);
-  for (const key in attributes) node.setAttribute(key, attributes[key]);
-  node.append(...children);
-  return node;
-}
-
 export class View extends HTMLElement {
   /** @param {CSSStyleSheet} own */
   constructor(own) {
@@ -94,11 +86,4 @@ export function seldom(ms, act) {
     if (timer) return;
     timer = window.setTimeout(() => { timer = 0; last = performance.now(); act(); }, Math.max(0, last + ms - performance.now()));
   };
-}
-
-/** A table's body and head anew. @param {HTMLTableElement} table @param {string[]} columns @param {string[][]} rows */
-export function fill(table, columns, rows) {
-  const head = element("tr", {}, ...columns.map((c) => element("th", { scope: "col" }, c)));
-  const body = rows.map((row) => element("tr", {}, ...row.map((cell, k) => element(k ? "td" : "th", k ? {} : { scope: "row" }, cell))));
-  table.replaceChildren(element("thead", {}, head), element("tbody", {}, ...body));
 }
