@@ -12,6 +12,8 @@ from typing import TYPE_CHECKING, Any, Literal
 import numpy as np
 import numpy.typing as npt
 
+from .signals import masked_values
+
 __all__ = ["circle", "defect", "depth_map", "image", "outline", "rectangle", "svg"]
 
 if TYPE_CHECKING:
@@ -155,8 +157,16 @@ def _rings(polygon: Any) -> Iterable[Any]:
             yield polygon
 
 
+def _real(values: Any, name: str) -> npt.NDArray[np.float64]:
+    if masked := masked_values(values):
+        raise ValueError(f"{name}: {masked} of {np.size(values)} values are masked; give what is there, such as 0 for undamaged, with .filled(...)")
+    if np.iscomplexobj(values):
+        raise TypeError(f"{name}: expected real numbers, and it is complex")
+    return np.asarray(values, dtype=float)
+
+
 def _points(ring: Any) -> list[list[float]]:
-    points = np.asarray(ring, dtype=float)
+    points = _real(ring, "an outline")
     if points.ndim != 2 or points.shape[1] not in (2, 3) or len(points) < 3:
         raise ValueError(f"an outline of shape {points.shape}: expected (N, 2) with N of 3 or more, points (s, z) in mm")
     points = points[:, :2]
@@ -203,7 +213,7 @@ def depth_map(
     >>> brinell.depth_map(bowl, ds_mm=0.1, dz_mm=0.1)["shape"]["depth_map"]["s0_mm"]
     -1.5
     """
-    grid = np.asarray(depth_um, dtype=float)
+    grid = _real(depth_um, "depth_um")
     if grid.ndim != 2:
         raise ValueError(f"a depth map of shape {grid.shape}: expected two dimensions, rows along the axis")
     rows, columns = grid.shape

@@ -242,7 +242,7 @@ def _free(path: Path) -> Path:
 
 class _Dask:
     def __init__(self, client: Any, parcel: _Parcel, retries: int) -> None:
-        library = tables.need("distributed", "dask")
+        library = tables.need("distributed")
         self.client, self.parcel, self.retries = client, parcel, retries
         self.ready = library.as_completed()
         self.parts: dict[Any, int] = {}
@@ -274,7 +274,7 @@ def on_dask(
     retries: int = 3,
     progress: Callable[[int, int], object] | None = None,
 ) -> DataSet:
-    """Runs a plan on a Dask cluster (``pip install "brinell[dask]"``).
+    """Runs a plan on a Dask cluster (which needs ``dask`` and ``distributed``).
 
     Parameters
     ----------
@@ -300,7 +300,7 @@ def on_dask(
     >>> with distributed.Client(processes=False, dashboard_address=None) as client:  # doctest: +SKIP
     ...     data = brinell.distributed.on_dask("plan.toml", "data", client)
     """
-    library = tables.need("distributed", "dask")
+    library = tables.need("distributed")
     chosen = plan if isinstance(plan, Plan) else Plan(plan)
     with _client(library, client) as joined:
         return _drive(chosen, folder, _Dask(joined, _parcel(chosen), retries), progress)
@@ -355,7 +355,7 @@ def on_ray(
     retries: int = 3,
     progress: Callable[[int, int], object] | None = None,
 ) -> DataSet:
-    """Runs a plan on Ray (``pip install "brinell[ray]"``): the cluster that ``ray.init`` joined, or this machine.
+    """Runs a plan on Ray (which needs ``ray``): the cluster that ``ray.init`` joined, or this machine.
 
     Parameters
     ----------

@@ -33,14 +33,14 @@ _STOPS = ((250, 251, 253), (205, 222, 240), (140, 184, 222), (66, 134, 190), (20
 
 
 def _axes(ax: Any, height: float = 3.2) -> matplotlib.axes.Axes:
-    plt = tables.need("matplotlib.pyplot", "plot")
+    plt = tables.need("matplotlib.pyplot")
     if ax is None:
         _, ax = plt.subplots(figsize=(8.0, height), layout="constrained")
     return cast("matplotlib.axes.Axes", ax)
 
 
 def _shades() -> Any:
-    colors = tables.need("matplotlib.colors", "plot")
+    colors = tables.need("matplotlib.colors")
     return colors.LinearSegmentedColormap.from_list("brinell", [tuple(part / 255 for part in stop) for stop in _STOPS])
 
 
@@ -283,7 +283,7 @@ def _polar(ax: Any, title: str) -> matplotlib.axes.Axes:
 
 
 def _polar_axes(ax: Any) -> Any:
-    plt = tables.need("matplotlib.pyplot", "plot")
+    plt = tables.need("matplotlib.pyplot")
     if ax is not None:
         return ax
     _, ax = plt.subplots(figsize=(4.6, 4.6), layout="constrained", subplot_kw={"projection": "polar"})
@@ -366,7 +366,7 @@ def roller_pass(result: Result, defect: int = 1, *, ax: Any = None) -> matplotli
     if not passes:
         raise ValueError(f"defect = {defect}: no roller passed it\n  allowed: 1 to {len(result.defects)}, the scenario's defects")
     shown = passes[0]
-    plt = tables.need("matplotlib.pyplot", "plot")
+    plt = tables.need("matplotlib.pyplot")
     if ax is None:
         figure, panels = plt.subplots(3, 1, sharex=True, figsize=(8.0, 5.2), layout="constrained")
     else:

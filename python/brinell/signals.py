@@ -56,6 +56,18 @@ def number_of(value: Any, name: str, what: str) -> float:
         raise TypeError(f"{name} = {value!r}: expected a number, {what}") from None
 
 
+def masked_values(x: Any) -> int:
+    """How many values of an array are masked.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> masked_values(np.ma.masked_less([1.0, 2.0, 3.0], 2.0))
+    1
+    """
+    return int(np.count_nonzero(x.mask)) if isinstance(x, np.ma.MaskedArray) else 0
+
+
 def samples_of(x: npt.ArrayLike, name: str = "x") -> Array:
     """One channel's samples as doubles; a column or row of a matrix counts as one.
 
@@ -83,15 +95,14 @@ def samples_of(x: npt.ArrayLike, name: str = "x") -> Array:
     ...
     TypeError: x: expected the samples of one channel, and its shape is (2, 2); give one of them, such as x[:, 0]
     """
-    masked = int(np.count_nonzero(x.mask)) if isinstance(x, np.ma.MaskedArray) else 0
-    if masked:
+    if masked := masked_values(x):
         raise _brinell.SignalError(f"{name}: {masked} of {np.size(x)} samples are masked; give a stretch without, or {name}.filled(...) with values")
     try:
         if x is None or np.iscomplexobj(x):
             raise TypeError
         given = np.asarray(x)
         # Others convert too, instants and text among them, and are no vibration.
-        if given.dtype.kind not in "biuf" and not (given.dtype.kind == "O" and all(isinstance(v, numbers.Real) for v in given.flat)):
+        if given.dtype.kind not in "iuf" and not (given.dtype.kind == "O" and all(isinstance(v, numbers.Real) for v in given.flat)):
             raise TypeError
         samples: Array = given.astype(float, copy=False)
     except (TypeError, ValueError):
@@ -100,8 +111,10 @@ def samples_of(x: npt.ArrayLike, name: str = "x") -> Array:
     if samples.ndim == 2 and 1 in samples.shape:
         samples = samples.reshape(-1)
     if samples.ndim != 1:
+        # Of a matrix of few rows and many columns the rows are the channels.
+        first = "[0]" if samples.ndim == 2 and samples.shape[0] < samples.shape[1] else "[:, 0]"
         raise TypeError(
-            f"{name}: expected the samples of one channel, and its shape is {samples.shape}; give one of them, such as {name}[:, 0]"
+            f"{name}: expected the samples of one channel, and its shape is {samples.shape}; give one of them, such as {name}{first}"
         )
     return samples
 

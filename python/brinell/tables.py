@@ -16,15 +16,13 @@ if TYPE_CHECKING:
 __all__ = ["columns", "need", "to_pandas", "to_polars", "to_xarray"]
 
 
-def need(library: str, extra: str | None = None) -> Any:
+def need(library: str) -> Any:
     """A library that brinell does without, or an error that says how to get it.
 
     Parameters
     ----------
     library : str
         What is imported.
-    extra : str, optional
-        The extra of brinell that installs it, where that is called otherwise.
 
     Raises
     ------
@@ -36,17 +34,18 @@ def need(library: str, extra: str | None = None) -> Any:
     >>> from brinell.tables import need
     >>> need("json").dumps([1])
     '[1]'
-    >>> need("no_such_library", "plot")
+    >>> need("no_such_library")
     Traceback (most recent call last):
     ...
-    ImportError: this needs no_such_library: pip install "brinell[plot]"
+    ImportError: this needs no_such_library: pip install no_such_library
     """
     try:
         return importlib.import_module(library)
     except ModuleNotFoundError as error:
-        if error.name is not None and error.name.split(".")[0] != library.split(".")[0]:
+        name = library.split(".")[0]
+        if error.name is not None and error.name.split(".")[0] != name:
             raise
-        raise ImportError(f'this needs {library}: pip install "brinell[{extra or library}]"') from None
+        raise ImportError(f"this needs {name}: pip install {name}") from None
 
 
 def columns(found: Sequence[tuple[str, str, Any]]) -> dict[str, Any]:

@@ -14,7 +14,9 @@ X = np.sin(np.arange(4096.0))
         (np.ma.masked_greater(X, 0.9), brinell.SignalError, r"x: \d+ of 4096 samples are masked"),
         (np.zeros((4096, 2)), TypeError, r"x: expected the samples of one channel, and its shape is \(4096, 2\)"),
         (None, TypeError, "x: expected the samples of one channel, real numbers, and it is NoneType"),
+        (np.zeros((2, 4096)), TypeError, r"give one of them, such as x\[0\]"),
         (X * 1j, TypeError, "complex numbers"),
+        (X > 0.0, TypeError, "real numbers, and it is ndarray of bool"),
         (["a"], TypeError, "x: expected .* and it is list"),
         (3.0, TypeError, r"its shape is \(\)"),
         (np.arange(4096).astype("datetime64[s]"), TypeError, r"it is ndarray of datetime64\[s\]"),
@@ -31,6 +33,17 @@ def test_prop_what_is_no_channel_is_refused_by_name(x, kind, words):
     ):
         with pytest.raises(kind, match=words):
             call()
+
+
+def test_prop_damage_of_masked_or_complex_values_is_refused():
+    depth = np.ma.masked_greater([[0.0, 5.0], [0.0, 0.0]], 1.0)
+    with pytest.raises(ValueError, match="depth_um: 1 of 4 values are masked"):
+        brinell.depth_map(depth, ds_mm=0.1, dz_mm=0.1)
+    with pytest.raises(TypeError, match="depth_um: expected real numbers, and it is complex"):
+        brinell.depth_map(np.zeros((2, 2)) + 0j, ds_mm=0.1, dz_mm=0.1)
+    ring = np.ma.masked_greater([[0.0, 0.0], [1.0, 0.0], [9.0, 9.0]], 5.0)
+    with pytest.raises(ValueError, match="an outline: 2 of 6 values are masked"):
+        brinell.outline(ring, depth_um=5.0)
 
 
 def test_prop_a_column_is_a_channel():

@@ -76,7 +76,7 @@ variant("an element needs no lead", ("verdict.rs", "const LEAD: f64 = 2.0;", "co
 variant("an element may run ahead", ("family.rs", "Component::Element => (tolerance, AHEAD.min(tolerance)),", "Component::Element => (tolerance, tolerance),"))
 variant("the cage may run ahead", ("family.rs", "Component::Cage => (slips, AHEAD.min(tolerance)),", "Component::Cage => (slips, tolerance),"))
 variant("no least number of lines", ("family.rs", "const FEWEST: (usize, usize) = (3, 2);", "const FEWEST: (usize, usize) = (0, 0);"))
-variant("skirts of what lies beyond the tolerance not refused", ("family.rs", "is_skirt: outside &&", "is_skirt: false && outside &&"))
+variant("skirts of what lies beyond the tolerance not refused", ("family.rs", "is_skirt: told != frequency || outside &&", "is_skirt: false && outside &&"))
 variant(
     "cepstral pre-whitening",
     ("../transformed.rs", "*bin += Complex::new(part(), part());", "*bin += Complex::new(part(), part()); *bin /= bin.norm().max(1e-300);"),

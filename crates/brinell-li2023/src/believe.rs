@@ -72,7 +72,8 @@ impl Facts<'_> {
         let Some(sensitivity) = &self.reproduction.sensitivity else {
             return String::new();
         };
-        let all = sensitivity.verdicts(id);
+        let mut all = sensitivity.verdicts(id);
+        all.retain(|v| v.1 != Verdict::Missing);
         let holds = all.iter().filter(|v| v.1 == Verdict::Holds).count();
         let fails = all.iter().filter(|v| v.1 == Verdict::Fails).count();
         format!(
@@ -143,10 +144,11 @@ impl Facts<'_> {
             let [(steady, a), (start, b)] = sensitivity.nearest();
             if let (Some(a), Some(b)) = (a, b) {
                 text += &format!(
-                    " A search over stiffness, damping, clearance and oil agrees: of {steady} sets of assumptions read off the steady part the nearest stays {} % from the three values (root \
-                     mean square), of {start} with the start-up {} %.",
+                    " A search over stiffness, damping, clearance and oil: of {steady} sets of assumptions read off the steady part the nearest stays {} % from the three values (root \
+                     mean square), of {start} with the start-up {} %{}.",
                     percent(a.rms),
-                    percent(b.rms)
+                    percent(b.rms),
+                    if near > 0.1 && b.rms <= 0.1 { ": another start-up would" } else { "" }
                 );
             }
         }
@@ -158,7 +160,7 @@ impl Facts<'_> {
         let (no_ramp, _) = self.three("no-ramp-", "outer_ax.first_300ms.rms")?;
         let also = self.plain("no-ramp-healthy", "outer_ax.first_300ms.rms")?;
         Some(format!(
-            "A record that contains the start-up makes unlike cases alike, since the energy of the start is common to all: there a bearing without \
+            "A record that contains the start-up can make unlike cases alike, since the energy of the start is common to all: there a bearing without \
              any damage has {} m/s². With the load on at once (no filter, n = 10/9) the three cases have {no_ramp} m/s² over 0.3 s, a bearing \
              without damage {}. Differences of 5 %, as in Fig. 20, are then no evidence for one model or one shape over another.",
             short(healthy, 4),

@@ -41,7 +41,7 @@ def studio(scenario: Runnable | None = None) -> Studio:
     Raises
     ------
     ImportError
-        Without anywidget: ``pip install "brinell[studio]"``.
+        Without anywidget: ``pip install anywidget``.
 
     Examples
     --------
@@ -51,7 +51,7 @@ def studio(scenario: Runnable | None = None) -> Studio:
     >>> studio.run()["sensor_ax"].shape
     (1281,)
     """
-    tables.need("anywidget", "studio")
+    tables.need("anywidget")
     from brinell.notebook.widget import Studio
 
     return Studio(scenario)

@@ -41,7 +41,7 @@ fn facts(parts: &Parts) -> Vec<Fact> {
                 .noise_rms()
                 .filter(|noise| *noise > 0.0 && rms > 0.0)
                 .map_or(String::new(), |noise| format!("; {:.1} dB over the noise", 20.0 * (rms / noise).log10()));
-            let note = format!("RMS before noise and ADC, once the load is up{ratio}");
+            let note = format!("RMS before noise and ADC, of the analysed time{ratio}");
             facts.push(Fact::new(channel.name.clone(), text(rms), "m/s^2", note));
         }
         if record.clipped > 0 {

@@ -135,6 +135,9 @@ pub struct Family {
     pub masked: bool,
     /// Distance of its sidebands, Hz, where it would lead and they are those of a shaft at another speed.
     pub other_spacing: Option<f64>,
+    /// Of an outer race or element that would lead: the slip of the cage at which the other's lines lie where its own
+    /// do, where that is no more than two tolerances.
+    pub others_slip: Option<f64>,
     /// Modulation over that of a record of the healthy machine, where there is one.
     pub growth: Option<f64>,
     /// What is said of it.
@@ -276,14 +279,15 @@ fn within(
     let highest = highest.unwrap_or(Highest { from: expected, to: expected, height: 0.0 });
     let score = highest.height;
     let (low, high) = (expected * (1.0 - behind), expected * (1.0 + ahead));
-    let frequency = by_lines(together, highest.middle()).clamp(low, high);
+    let told = by_lines(together, highest.middle());
+    let frequency = told.clamp(low, high);
     let spacing = match component {
         Component::InnerRace => Some(shaft),
         Component::Element => Some(cage(shaft, options)),
         Component::OuterRace | Component::Cage => None,
     };
     let lines = lines(together, frequency, spacing);
-    // On the skirt of a line farther off.
+    // On the skirt of a line farther off, or of one within a bin of the end that lies beyond it.
     let next = match frequency > expected {
         true => highest.to + 4.0 * step * expected,
         false => highest.from - 4.0 * step * expected,
@@ -307,9 +311,10 @@ fn within(
         modulation: lines.modulation,
         harmonics: lines.harmonics,
         sidebands: lines.sidebands,
-        is_skirt: outside && self::score(together, next) > score,
+        is_skirt: told != frequency || outside && self::score(together, next) > score,
         masked: false,
         other_spacing: None,
+        others_slip: None,
         growth: None,
         finding: Finding::Silent,
     }

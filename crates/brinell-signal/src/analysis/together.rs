@@ -125,7 +125,7 @@ impl Together {
         let combs: Vec<f64> = (mains.filter(stand))
             .chain(of_shaft.flatten())
             .chain(of_supply.flatten())
-            .chain((!options.exact).then_some(shaft.hz))
+            .chain((!options.exact || options.rotation.is_some()).then_some(shaft.hz))
             .collect();
         for comb in combs {
             let mut k = 1.0;

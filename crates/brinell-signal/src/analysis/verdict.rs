@@ -137,8 +137,9 @@ impl Record {
         let elsewhere = if is_open { None } else { self.elsewhere(lead.map(|k| &all[k])) };
         if let Some(lead) = lead.filter(|_| elsewhere.is_none() && !self.options.exact) {
             all[lead].other_spacing = of_other_shaft(&self.together, &all[lead], self.shaft, &self.options);
+            all[lead].others_slip = self.others_slip(&all[lead]);
         }
-        let is_open = is_open || all.iter().any(|f| f.other_spacing.is_some());
+        let is_open = is_open || all.iter().any(|f| f.other_spacing.is_some() || f.others_slip.is_some());
         let Some(lead) = lead.filter(|_| elsewhere.is_none() && !is_open) else {
             for family in all.iter_mut().filter(|f| f.finding == Finding::Damage) {
                 family.finding = Finding::Open;
@@ -168,6 +169,20 @@ impl Record {
             all[0].component = Component::Element;
         }
         (all, None)
+    }
+
+    /// The slip s of the cage at which an element's lines lie where an outer race's do, or the reverse: that makes
+    /// BPFO (1 - s) and 2 BSF (1 + s f_c / (f_s - f_c)). In many cylindrical roller bearings 2 BSF lies a few per cent
+    /// below BPFO.
+    fn others_slip(&self, lead: &Family) -> Option<f64> {
+        let (orders, order) = (&self.options.orders, lead.frequency / self.shaft);
+        let turns = cage(1.0, &self.options);
+        let slip = match lead.component {
+            Component::OuterRace => (order / (2.0 * orders.bsf?) - 1.0) * (1.0 - turns) / turns,
+            Component::Element => 1.0 - order / orders.bpfo?,
+            Component::InnerRace | Component::Cage => return None,
+        };
+        (0.0..=2.0 * self.options.tolerance).contains(&slip).then_some(slip)
     }
 
     /// The cage carries the elements past an outer race at rest, so its lines are where BPFO's slip puts them: what is

@@ -359,6 +359,17 @@ fn undecided(analysis: &Analysis, family: &Family) -> String {
             }
         );
     }
+    if let Some(slip) = family.others_slip {
+        let (name, other) = match family.component {
+            Component::OuterRace => ("2 BSF", Component::Element.words()),
+            _ => ("BPFO", Component::OuterRace.words()),
+        };
+        return format!(
+            "Cannot tell which part is damaged, the {part} or the {other}: {evidence}; where the cage slips by {:.1} %, the lines of {name} lie \
+             there. Where it slips by less than half of that, `tolerance` may be lower and tell; a larger load makes it slip less.",
+            100.0 * slip
+        );
+    }
     if family.is_skirt {
         let (behind, ahead) = reach(family.component, &analysis.options);
         let is_turning = matches!(family.component, Component::Element | Component::Cage);

@@ -188,7 +188,7 @@ const TRUTH: [Fixed; 54] = [
     ("samples", "1", "samples of a signal", Whole(|r| r.kept())),
     (CLIPPED, "1", "samples of the sensor's signals, all together, that are beyond the ADC's range and are clipped, the one at the run's end included; 0 without an ADC",
         Whole(|r| r.clipped())),
-    ("signal_to_noise_db", "dB", "of each of the sensor's signals: its RMS before noise and ADC over that of the noise in it, once the load is up; none without noise",
+    ("signal_to_noise_db", "dB", "of each of the sensor's signals: its RMS before noise and ADC over that of the noise in it, from `analysed_from_s` on; none without noise",
         Numbers(|r| r.signal_to_noise())),
     listed("solver_steps", Count(fields::STEPS)),
     listed("solver_rejections", Count(fields::REJECTIONS)),

@@ -57,6 +57,8 @@ pub struct Draws {
     /// Each run's place there, shuffled, so that it says nothing of the class.
     order: Vec<u32>,
     parts: Vec<Part>,
+    /// Of like conditions, where there is a split.
+    groups: usize,
     parameters: Vec<Parameter>,
 }
 
@@ -83,10 +85,10 @@ impl Draws {
         let common = common_axes(&plan);
         let open = order.iter().filter(|place| **place != APART).count();
         let common = (common, sequence(&plan, u64::MAX, common, open));
-        let mut draws = Self { plan, secret, classes, places, common, order, parts: Vec::new(), parameters };
+        let mut draws = Self { plan, secret, classes, places, common, order, parts: Vec::new(), groups: 0, parameters };
         let conditions = |run, keys: &[String]| draws.conditions(run, keys);
         let numbers = |run, keys: &[String]| draws.numbers(run, keys);
-        draws.parts = split::parts(&draws.plan, &draws.places, &draws.parameters, conditions, numbers)?;
+        (draws.parts, draws.groups) = split::parts(&draws.plan, &draws.places, &draws.parameters, conditions, numbers)?;
         Ok(draws)
     }
 
@@ -181,7 +183,22 @@ impl Draws {
             })
         };
         let classes = self.plan.classes.iter().zip(&self.classes);
-        classes.filter_map(uneven).chain(self.splits().iter().filter_map(|split| self.lacks(split))).collect()
+        let lacks = self.splits();
+        let lacks = lacks.iter().filter_map(|split| self.lacks(split));
+        classes.filter_map(uneven).chain(self.lonely()).chain(lacks).collect()
+    }
+
+    /// That most groups are single runs, so that a test run has near neighbours in the training.
+    fn lonely(&self) -> Option<String> {
+        let by_run = self.plan.split.as_ref()?.by.as_ref().is_some_and(Vec::is_empty);
+        let open = self.places.iter().filter(|place| place.number != APART).count();
+        (!by_run && 2 * self.groups > open).then(|| {
+            format!(
+                "the split has {} groups of like conditions for {open} runs, so that runs of the test are much like some of the training: \
+                 fewer keys in split.by make larger groups ([] makes each run a group, on purpose)",
+                self.groups
+            )
+        })
     }
 
     /// That a split lacks classes which have runs.

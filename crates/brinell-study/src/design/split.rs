@@ -39,7 +39,7 @@ impl Part {
     }
 }
 
-/// What each run is for.
+/// What each run is for, and how many groups there are.
 ///
 /// Groups are put in an order by chance (of the plan's seed) and go to the test until it has its share, then to
 /// validation, the rest to training; each of these has one group at least. Then runs of the severities that are held
@@ -56,7 +56,7 @@ pub(super) fn parts(
     parameters: &[Parameter],
     conditions: impl Fn(usize, &[String]) -> Vec<String>,
     numbers: impl Fn(usize, &[String]) -> Vec<f64>,
-) -> Result<Vec<Part>, Vec<Problem>> {
+) -> Result<(Vec<Part>, usize), Vec<Problem>> {
     let mut parts: Vec<Part> = places
         .iter()
         .map(|place| match (place.number == APART, &plan.split) {
@@ -66,7 +66,7 @@ pub(super) fn parts(
         })
         .collect();
     let Some(split) = &plan.split else {
-        return Ok(parts);
+        return Ok((parts, 0));
     };
     let keys = keys(parameters, split)?;
     let mut groups: BTreeMap<String, Vec<usize>> = BTreeMap::new();
@@ -79,8 +79,15 @@ pub(super) fn parts(
         groups.entry(conditions).or_default().push(run);
     }
     let runs: usize = groups.values().map(Vec::len).sum();
+    let count = groups.len();
     let shares = [(Part::Test, split.test), (Part::Validation, split.validation)];
     let wanted = 1 + shares.iter().filter(|(_, share)| *share > 0.0).count();
+    if runs == 0 {
+        let message = "every run's labels are held out, and none is left to split".to_owned();
+        return Err(vec![
+            Problem::error("held_out", message).value(plan.held_out.to_string()).allowed("less, or no [split]"),
+        ]);
+    }
     if groups.len() < wanted {
         let message = format!(
             "the runs have {} group{} of conditions by {}, and {wanted} parts are wanted",
@@ -115,7 +122,7 @@ pub(super) fn parts(
     if let Some(severity) = &split.severity {
         hold_out(severity, parameters, numbers, &mut parts)?;
     }
-    Ok(parts)
+    Ok((parts, count))
 }
 
 /// Puts the runs of the severities into the test.

@@ -220,7 +220,10 @@ impl<'a> Reader<'a> {
     }
 
     fn datum(&self, path: &str) -> Option<&'static catalogue::Value> {
-        self.preset?.values.iter().find(|value| value.key == path)
+        let entry = self.preset?;
+        // The width is a fact of every bearing, and acts where rings tilt.
+        let fact = || entry.facts.iter().find(|fact| fact.key == catalogue::WIDTH && path == "bearing.width_mm");
+        entry.values.iter().find(|value| value.key == path).or_else(fact)
     }
 
     fn record_datum(&mut self, path: &str, spec: &Spec, value: String, datum: &catalogue::Value) {

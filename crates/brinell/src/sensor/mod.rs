@@ -153,7 +153,7 @@ impl ChannelRecord {
         self.first.is_some() && !self.varies
     }
 
-    /// RMS before noise and ADC, m/s^2; `None` before the load is up.
+    /// RMS before noise and ADC, m/s^2; `None` before statistics begin.
     pub fn signal_rms(&self) -> Option<f64> {
         self.rms(self.signal_square)
     }
@@ -233,7 +233,7 @@ impl Sensing {
         }
     }
 
-    /// One sample, behind the anti-alias filter: adds noise and converts. `counts` where the load is up.
+    /// One sample, behind the anti-alias filter: adds noise and converts. `counts` where statistics do.
     pub(crate) fn sample(&mut self, channels: &mut [f64], counts: bool) {
         for (k, (record, x)) in self.records.iter_mut().zip(channels).enumerate() {
             if counts {

@@ -155,6 +155,8 @@ pub struct Simulation {
     /// Where each acceleration of the fast grid goes among them, and its entry of the derivative.
     filtered_entries: Vec<(usize, usize)>,
     sensor: Option<Chain>,
+    /// From when on statistics count, s.
+    settled: f64,
     idle_patterns: Vec<String>,
     initial: Vec<f64>,
     sample_rate: f64,
@@ -183,6 +185,7 @@ impl Simulation {
         Ok(Self {
             filtered_entries: places.zip(slopes.filter_map(Channel::acceleration_entry)).collect(),
             sensor: Chain::new(&scenario.sensor, sample_rate),
+            settled: scenario.settled_s(),
             channels,
             filtered,
             idle_patterns,

@@ -279,7 +279,7 @@ impl<S: Deref<Target = Simulation>> Run<S> {
             self.filtered.copy_from_slice(filtered);
             if let Some(sensing) = &mut self.sensing {
                 let at = self.rows as f64 / simulation.sample_rate;
-                sensing.sample(&mut self.filtered, at >= model.load.ramp);
+                sensing.sample(&mut self.filtered, at >= simulation.settled);
             }
             let row = self.pending.row(self.rows);
             for (value, channel) in row.iter_mut().zip(&simulation.channels) {
