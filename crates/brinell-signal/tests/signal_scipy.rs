@@ -2,7 +2,7 @@
 
 use brinell_signal::distribution::{chi_square_quantile, chi_square_tail, f_tail};
 use brinell_signal::{
-    Band, Detrend, Indicator, Moments, Rotation, Segments, Window, decimate, envelope, kurtogram, psd, spectrogram,
+    Band, Detrend, Indicator, Moments, Rotation, Segments, Window, envelope, kurtogram, psd, spectrogram,
     velocity,
 };
 use serde_json::Value;
@@ -116,13 +116,6 @@ fn xval_envelope() {
     let band = Band::between(number(&golden["low"]), number(&golden["high"]));
     let ours = envelope(&x, fs, band).unwrap();
     assert_close(&ours, &numbers(&golden["envelope"]), 1e-13);
-}
-
-#[test]
-fn xval_decimation() {
-    let ((x, _), golden) = (input("x"), golden("decimation"));
-    let y = decimate(&x, number(&golden["factor"]) as usize).unwrap();
-    assert_close(&y, &numbers(&golden["y"]), 1e-13);
 }
 
 #[test]
