@@ -98,7 +98,7 @@ pub use estimate::{Estimate, Interval};
 pub use frequency::FEWEST_PERIODS;
 pub use frequency::{LineFrequency, LineSearch};
 pub use indicators::{Indicator, Moments};
-pub use integrate::{band_pass, velocity};
+pub use integrate::band_pass;
 pub use kurtogram::{Kurtogram, KurtogramBand, kurtogram};
 pub use lines::{Line, harmonics};
 pub use order::{Angular, Rotation, resample};
