@@ -73,16 +73,6 @@ def envelopes(x):
     return {"low": low, "high": high, "envelope": numbers(np.abs(signal.hilbert(fft.irfft(spectrum, len(x)))))}
 
 
-def decimation(x):
-    """As decimate.rs states it: Kaiser's low-pass from 0.4 to 0.5 of the new rate, designed for 80.5 dB."""
-    factor = 3
-    beta, width = signal.kaiser_beta(80.5), 0.1 / factor
-    half = int(np.ceil((80.5 - 7.95) / (2.285 * 2 * np.pi * width) / 2))
-    h = signal.firwin(2 * half + 1, 0.9 / factor, window=("kaiser", beta))
-    before, after = 2 * x[0] - x[half:0:-1], 2 * x[-1] - x[-2:-half - 2:-1]
-    return {"factor": factor, "y": numbers(np.convolve(np.concatenate([before, x, after]), h, mode="valid")[::factor])}
-
-
 def velocities(x):
     spectrum = fft.rfft(signal.detrend(x))
     f = fft.rfftfreq(len(x), 1 / FS)
@@ -139,7 +129,7 @@ def main():
     made_by = f"SciPy {scipy.__version__}, NumPy {np.__version__}, Python {sys.version.split()[0]}"
     files = {"inputs": {"fs": FS, "x": numbers(x), "long": numbers(long)}, "windows": windows(),
              "distributions": distributions(), "spectra": spectra(x), "envelope": envelopes(x),
-             "decimation": decimation(x), "velocity": velocities(x), "indicators": indicators(x),
+             "velocity": velocities(x), "indicators": indicators(x),
              "kurtogram": kurtosis_of_bands(long, 4), "order": orders(x)}
     for name, content in files.items():
         (OUT / f"{name}.json").write_text(json.dumps({"made_by": made_by, **content}) + "\n")

@@ -239,16 +239,8 @@ fn plot(overlay: &Overlay, names: &[String], layout: Layout, height: f64, common
         .filter(|(k, _)| overlay.curves.iter().any(|curve| curve.of == *k))
         .map(|(k, name)| (name.as_str(), paint(k)))
         .collect();
-    let width = layout.size(0.0).width;
-    let mut picture = Picture::new(name, &title, width, size.height);
-    let top = match entries.len() {
+    chart.under(name, |picture| match entries.len() {
         0 => 0.0,
-        _ => legend(&mut picture, &entries, 12.0, width - 12.0, 2.0, size.font),
-    };
-    picture.height = top + size.height;
-    chart.interactive_at(name, top);
-    let drawn = chart.finish();
-    picture.attributes.clone_from(&drawn.attributes);
-    picture.place(drawn, 0.0, top);
-    picture
+        _ => legend(picture, &entries, 12.0, size.width - 12.0, 2.0, size.font),
+    })
 }

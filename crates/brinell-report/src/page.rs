@@ -213,51 +213,33 @@ fn damage(page: &mut String, report: &Report) {
     }
     for (index, view) in report.damage.iter().take(PASSES).enumerate() {
         let _ = writeln!(page, "<h3>{}</h3>", escape(&view.title));
+        let part = |page: &mut String, what: &str, draw: &dyn Fn(Layout) -> Picture, note: &str| {
+            figure(page, &format!("damage{index}{what}"), draw, &sentence(note));
+        };
         if let Some(photo) = view.photo.as_ref().filter(|_| damage_photo(view, index, Layout::Wide).is_some()) {
             let empty = || Picture::new("", "", 0.0, 0.0);
-            figure(
-                page,
-                &format!("damage{index}-photo"),
-                |layout| damage_photo(view, index, layout).unwrap_or_else(empty),
-                &sentence(&photo.notes.join("; ")),
-            );
+            let draw = |layout| damage_photo(view, index, layout).unwrap_or_else(empty);
+            part(page, "-photo", &draw, &photo.notes.join("; "));
         }
         let band = match (view.half_turn_mm, view.element()) {
-            (Some(_), element) => format!("the {}’s surface, once around", escape(element)),
+            (Some(_), element) => format!("the {element}’s surface, once around"),
             (None, "ball") => "the track, as wide as a ball is thick".into(),
             (None, _) => "the track, as wide as a roller is long".into(),
         };
         let caption = format!("The damaged surface unrolled, both axes to one scale. The grey band is {band}.");
-        figure(page, &format!("damage{index}"), |layout| damage_plan(view, index, layout), &caption);
+        part(page, "", &|layout| damage_plan(view, index, layout), &caption);
         fact_table(page, &view.facts, "Nothing is known of its size.");
         if !view.passage.is_empty() {
-            figure(
-                page,
-                &format!("damage{index}-passage"),
-                |layout| damage_passage(view, index, layout),
-                &sentence(&view.passage_note),
-            );
+            part(page, "-passage", &|layout| damage_passage(view, index, layout), &view.passage_note);
         }
         if let Some(along) = &view.along {
             let name = format!("damage-{}-along", index + 1);
-            figure(
-                page,
-                &format!("damage{index}-along"),
-                |layout| load_along(along, &name, layout),
-                &sentence(&along.note),
-            );
+            part(page, "-along", &|layout| load_along(along, &name, layout), &along.note);
         }
-        if view.section.is_empty() {
-            if !view.section_note.is_empty() {
-                none(page, &sentence(&view.section_note));
-            }
-        } else {
-            figure(
-                page,
-                &format!("damage{index}-section"),
-                |layout| damage_section(view, index, layout),
-                &sentence(&view.section_note),
-            );
+        if !view.section.is_empty() {
+            part(page, "-section", &|layout| damage_section(view, index, layout), &view.section_note);
+        } else if !view.section_note.is_empty() {
+            none(page, &sentence(&view.section_note));
         }
     }
     if report.damage.len() > PASSES {

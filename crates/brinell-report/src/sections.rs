@@ -77,7 +77,7 @@ pub(crate) fn slip(page: &mut String, report: &Report) {
 
 pub(crate) fn spectrogram(page: &mut String, report: &Report) {
     let view = &report.spectrogram;
-    if view.density.is_empty() {
+    if view.of.density.is_empty() {
         return none(page, "No spectrogram was made.");
     }
     let mut caption = escape(&view.note);

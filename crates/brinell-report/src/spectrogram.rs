@@ -3,6 +3,7 @@
 use crate::chart::{Chart, Domain, SCALE_MARGIN, Shades, Spec, range};
 use crate::layout::{Layout, time_unit};
 use crate::picture::{Anchor, Picture, Text};
+use brinell::signal;
 
 /// Power spectral density over time.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -11,16 +12,8 @@ pub struct Spectrogram {
     pub label: String,
     /// Unit of the density: "(m/s^2)^2/Hz".
     pub unit: String,
-    /// Middle of the first frame.
-    pub t0_s: f64,
-    /// From frame to frame.
-    pub dt_s: f64,
-    /// From bin to bin; the first lies at 0 Hz.
-    pub df_hz: f64,
-    /// Bins of a frame.
-    pub bins: usize,
-    /// Frame after frame.
-    pub density: Vec<f64>,
+    /// What is drawn.
+    pub of: signal::Spectrogram,
     /// How it was made; may be empty.
     pub note: String,
 }
@@ -33,24 +26,22 @@ const ROWS: usize = 128;
 impl Spectrogram {
     fn frames(&self) -> usize {
         let known = |d: f64| d.is_finite() && d > 0.0;
-        if self.bins < 2 || !known(self.dt_s) || !known(self.df_hz) || !self.t0_s.is_finite() {
-            return 0;
-        }
-        self.density.len() / self.bins
+        let sound = known(self.of.time_step) && known(self.of.frequency_step) && self.of.first_time.is_finite();
+        if self.of.bins < 2 || !sound { 0 } else { self.of.frames() }
     }
 
     /// Levels in dB, columns by rows with the highest frequency on top: means over neighbours.
     fn levels(&self, most: usize) -> (usize, Vec<f64>) {
         let frames = self.frames();
-        let (wide, tall) = (frames.div_ceil(most).max(1), self.bins.div_ceil(ROWS).max(1));
-        let (columns, rows) = (frames.div_ceil(wide), self.bins.div_ceil(tall));
+        let (wide, tall) = (frames.div_ceil(most).max(1), self.of.bins.div_ceil(ROWS).max(1));
+        let (columns, rows) = (frames.div_ceil(wide), self.of.bins.div_ceil(tall));
         let mut levels = Vec::with_capacity(columns * rows);
         for row in (0..rows).rev() {
             for column in 0..columns {
                 let (mut sum, mut count) = (0.0, 0.0);
                 for frame in column * wide..((column + 1) * wide).min(frames) {
-                    for bin in row * tall..((row + 1) * tall).min(self.bins) {
-                        sum += self.density[frame * self.bins + bin];
+                    for bin in row * tall..((row + 1) * tall).min(self.of.bins) {
+                        sum += self.of.density[frame * self.of.bins + bin];
                         count += 1.0;
                     }
                 }
@@ -66,13 +57,13 @@ pub fn spectrogram(view: &Spectrogram, layout: Layout) -> Picture {
     let size = layout.size(if layout.roomy() { 330.0 } else { 280.0 });
     let frames = view.frames();
     let (first, last) = if frames > 0 {
-        (view.t0_s - 0.5 * view.dt_s, view.t0_s + (frames as f64 - 0.5) * view.dt_s)
+        (view.of.first_time - 0.5 * view.of.time_step, view.of.first_time + (frames as f64 - 0.5) * view.of.time_step)
     } else {
         (0.0, 1.0)
     };
     let (unit, scale) = time_unit(last - first);
     // A bin's shade covers half a bin to each side of it.
-    let top = if frames > 0 { view.df_hz * (view.bins as f64 - 0.5) } else { 1.0 };
+    let top = if frames > 0 { view.of.frequency_step * (view.of.bins as f64 - 0.5) } else { 1.0 };
     let mut chart = Chart::new(Spec {
         right: SCALE_MARGIN * size.font,
         ..Spec::new(
@@ -80,7 +71,7 @@ pub fn spectrogram(view: &Spectrogram, layout: Layout) -> Picture {
             format!("Spectrogram: {}", view.label),
             size,
             (Domain::exact(first * scale, last * scale), "Time", unit),
-            (Domain::exact(-0.5 * view.df_hz * f64::from(u8::from(frames > 0)), top), "Frequency", "Hz"),
+            (Domain::exact(-0.5 * view.of.frequency_step * f64::from(u8::from(frames > 0)), top), "Frequency", "Hz"),
         )
     });
     let (columns, levels) = view.levels(if layout.roomy() { 400 } else { 200 });

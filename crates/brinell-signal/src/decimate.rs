@@ -1,12 +1,10 @@
-//! Decimation: a linear-phase low-pass, then one sample in several.
+//! The low-pass of a decimation, which keeps one sample in several.
 //!
 //! The low-pass has a Kaiser window: passband to 0.4 of the output rate, stopband from 0.5, 80 dB. Everything above
 //! half the output rate is therefore down by 80 dB before it can fold. The filter is J. F. Kaiser, "Nonrecursive
 //! digital filter design using the I0-sinh window function", Proc. IEEE Int. Symp. Circuits and Systems (1974), 20-23.
 
 use std::f64::consts::PI;
-
-use super::error::{SignalError, check, require};
 
 /// Input samples for each output sample of a simulation.
 pub const FACTOR: usize = 8;
@@ -67,61 +65,9 @@ pub fn kaiser_lowpass(passband: f64, stopband: f64, attenuation_db: f64) -> Vec<
     taps
 }
 
-/// One sample in `factor` of a slice, behind the same anti-alias filter scaled to that factor: output k represents
-/// input k `factor`, without delay, and nothing above half the new sampling rate folds by more than 80 dB down. Flat to
-/// 0.4 of the new sampling rate. A factor of 1 gives the slice back.
-///
-/// The ends are extended by the signal turned about its end point; half the filter's length, about 25 output samples,
-/// leans on that.
-///
-/// # Errors
-/// [`SignalError`] where the signal is shorter than the filter (about 51 `factor` samples), a sample is not finite, or
-/// the factor is 0 or above 1000.
-pub fn decimate(x: &[f64], factor: usize) -> Result<Vec<f64>, SignalError> {
-    require((1..=1000).contains(&factor), "decimation factor", factor as f64, "1 to 1000")?;
-    if factor == 1 {
-        check(x, 1.0, 0, "decimation")?;
-        return Ok(x.to_vec());
-    }
-    let rate = factor as f64;
-    let taps = kaiser_lowpass(PASSBAND / rate, STOPBAND / rate, ATTENUATION_DB);
-    check(x, 1.0, taps.len(), "decimation by this factor")?;
-    Ok(strided(&extend_oddly(x, taps.len() / 2), &taps, factor))
-}
-
-/// `x` with `extension` samples more at each end, turned about the end points: 2 x_0 - x_k. Needs extension < length.
-fn extend_oddly(x: &[f64], extension: usize) -> Vec<f64> {
-    let (first, last) = (x[0], x[x.len() - 1]);
-    let before = x[1..=extension].iter().rev().map(|v| 2.0 * first - v);
-    let after = (x[x.len() - 1 - extension..x.len() - 1].iter().rev()).map(|v| 2.0 * last - v);
-    before.chain(x.iter().copied()).chain(after).collect()
-}
-
-/// Inner products of symmetric `taps` with every `step`-th window of `x`.
-fn strided(x: &[f64], taps: &[f64], step: usize) -> Vec<f64> {
-    const LANES: usize = 8;
-    x.windows(taps.len())
-        .step_by(step)
-        .map(|window| {
-            let mut sums = [0.0; LANES];
-            let (w, t) = (window.chunks_exact(LANES), taps.chunks_exact(LANES));
-            let rest: f64 = (w.remainder().iter().zip(t.remainder())).map(|(x, h)| x * h).sum();
-            for (x, h) in w.zip(t) {
-                for lane in 0..LANES {
-                    sums[lane] += x[lane] * h[lane];
-                }
-            }
-            sums.iter().sum::<f64>() + rest
-        })
-        .collect()
-}
-
 #[cfg(test)]
 mod tests {
-    use super::super::test_signals::cosine;
     use super::*;
-
-    const FS: f64 = 25_600.0;
 
     /// Zero-phase response at `f` cycles per input sample.
     fn response(taps: &[f64], f: f64) -> f64 {
@@ -180,24 +126,5 @@ mod tests {
         let formula = (80.0 - 7.95) / (14.36 * 0.1 / 8.0) + 1.0;
         let count = kaiser_lowpass(PASSBAND / 8.0, STOPBAND / 8.0, ATTENUATION_DB).len() as f64;
         assert!((count - formula).abs() <= 6.0, "{count} taps, formula {formula}");
-    }
-
-    #[test]
-    fn analytic_slice_keeps_the_passband_and_stops_the_rest() {
-        for factor in [2, 3, 10] {
-            let fs = FS / factor as f64;
-            let n = 400 * factor;
-            let keep = cosine(n, FS, 0.38 * fs, 1.0, 0.4);
-            let stop = cosine(n, FS, 0.55 * fs, 1.0, 0.4);
-            let expected = cosine(400, fs, 0.38 * fs, 1.0, 0.4);
-            let (kept, stopped) = (decimate(&keep, factor).unwrap(), decimate(&stop, factor).unwrap());
-            assert_eq!(kept.len(), 400);
-            for k in 40..360 {
-                assert!((kept[k] - expected[k]).abs() < 1e-4 && stopped[k].abs() < 1e-4);
-            }
-        }
-        assert!(decimate(&[1.0; 60], 2).is_err());
-        assert!(decimate(&[1.0; 60], 0).is_err());
-        assert_eq!(decimate(&[1.0, 2.0], 1).unwrap(), [1.0, 2.0]);
     }
 }

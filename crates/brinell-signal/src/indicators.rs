@@ -49,36 +49,30 @@ impl Indicator {
         Indicator::ShapeFactor,
     ];
 
+    /// Name, and what it is.
+    fn row(self) -> (&'static str, &'static str) {
+        match self {
+            Indicator::Rms => ("rms", "root mean square, about zero"),
+            Indicator::Mean => ("mean", "mean"),
+            Indicator::StandardDeviation => ("standard_deviation", "root mean square about the mean"),
+            Indicator::Peak => ("peak", "largest absolute value"),
+            Indicator::PeakToPeak => ("peak_to_peak", "largest less smallest value"),
+            Indicator::CrestFactor => ("crest_factor", "mean peak of a revolution over RMS"),
+            Indicator::Kurtosis => ("kurtosis", "fourth standardised moment; 3 for a normal distribution"),
+            Indicator::Skewness => ("skewness", "third standardised moment"),
+            Indicator::ImpulseFactor => ("impulse_factor", "mean peak of a revolution over mean absolute value"),
+            Indicator::ShapeFactor => ("shape_factor", "RMS over mean absolute value"),
+        }
+    }
+
     /// Name in files and reports: `rms`, `crest_factor`, and so on.
     pub fn name(self) -> &'static str {
-        match self {
-            Indicator::Rms => "rms",
-            Indicator::Mean => "mean",
-            Indicator::StandardDeviation => "standard_deviation",
-            Indicator::Peak => "peak",
-            Indicator::PeakToPeak => "peak_to_peak",
-            Indicator::CrestFactor => "crest_factor",
-            Indicator::Kurtosis => "kurtosis",
-            Indicator::Skewness => "skewness",
-            Indicator::ImpulseFactor => "impulse_factor",
-            Indicator::ShapeFactor => "shape_factor",
-        }
+        self.row().0
     }
 
     /// What it is, in one sentence.
     pub fn meaning(self) -> &'static str {
-        match self {
-            Indicator::Rms => "root mean square, about zero",
-            Indicator::Mean => "mean",
-            Indicator::StandardDeviation => "root mean square about the mean",
-            Indicator::Peak => "largest absolute value",
-            Indicator::PeakToPeak => "largest less smallest value",
-            Indicator::CrestFactor => "mean peak of a revolution over RMS",
-            Indicator::Kurtosis => "fourth standardised moment; 3 for a normal distribution",
-            Indicator::Skewness => "third standardised moment",
-            Indicator::ImpulseFactor => "mean peak of a revolution over mean absolute value",
-            Indicator::ShapeFactor => "RMS over mean absolute value",
-        }
+        self.row().1
     }
 
     /// Whether the value cannot be negative; only mean and skewness can.

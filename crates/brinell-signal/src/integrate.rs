@@ -17,26 +17,12 @@ use super::psd::Detrend;
 /// Periods of a band's lower edge over which an end is faded, and a share of the signal that it never exceeds.
 const FADE: (f64, f64) = (5.0, 0.1);
 
-/// Velocity from acceleration `a` (unit/s^2 gives unit/s) sampled at `fs` Hz, of what lies within a band: the transform
-/// over i 2 pi f, without the bins outside. `Band::above(f)` is a high-pass at f.
-///
-/// The lower edge must be above 0. The straight line of least squares is removed first; the edges are sharp and the
-/// transform takes the signal as periodic, so a period of the lower edge at either end is disturbed. The gain inside
-/// the band is that of ideal integration, without the error of a quadrature rule.
-///
-/// # Errors
-/// [`SignalError`] with fewer than 8 samples, samples that are not finite, or a lower edge that is not above 0 and
-/// below half the sampling rate and the upper edge.
-pub fn velocity(a: &[f64], fs: f64, band: Band) -> Result<Vec<f64>, SignalError> {
-    whole(a, fs, band, Motion::Acceleration)
-}
-
-/// What lies within a band of `x`, sampled at `fs` Hz, with the edges and ends of [`velocity`] and its errors.
+/// What lies within a band of `x`, sampled at `fs` Hz, with the edges and ends of [`velocity`].
 ///
 /// # Errors
 /// As [`velocity`].
 pub fn band_pass(x: &[f64], fs: f64, band: Band) -> Result<Vec<f64>, SignalError> {
-    whole(x, fs, band, Motion::Velocity)
+    velocity(x, fs, Motion::Velocity, band, |_| x.len())
 }
 
 /// What a velocity is made of.
@@ -65,59 +51,44 @@ pub(super) fn fade(x: &mut [f64], fs: f64, low: f64) -> usize {
     faded + (fs / low).min(most) as usize
 }
 
-fn whole(a: &[f64], fs: f64, band: Band, from: Motion) -> Result<Vec<f64>, SignalError> {
-    let mut v = Vec::new();
-    velocities(
-        a,
-        fs,
-        from,
-        &[band],
-        |_| a.len(),
-        |_, velocity| {
-            v = velocity.to_vec();
-        },
-    )?;
-    Ok(v)
-}
-
-/// [`velocity`] in several bands, from one transform: `each` gets a band's place and the velocity in it, at as many
-/// equal steps over the whole as `count` makes of the number of periods of the band's highest frequency in `a`: as many
+/// Velocity of a motion `x` (unit/s^2 gives unit/s) sampled at `fs` Hz, of what lies within a band: the transform, of an
+/// acceleration over i 2 pi f, without the bins outside. `Band::above(f)` is a high-pass at f. The values are at as many
+/// equal steps over the whole as `count` makes of the number of periods of the band's highest frequency in `x`: as many
 /// as it has bins, or more.
-pub(super) fn velocities(
-    a: &[f64],
+///
+/// The lower edge must be above 0. The straight line of least squares is removed first; the edges are sharp and the
+/// transform takes the signal as periodic, so a period of the lower edge at either end is disturbed. The gain inside
+/// the band is that of ideal integration, without the error of a quadrature rule.
+///
+/// # Errors
+/// [`SignalError`] with fewer than 8 samples, samples that are not finite, or a lower edge that is not above 0 and
+/// below half the sampling rate and the upper edge.
+pub fn velocity(
+    x: &[f64],
     fs: f64,
     from: Motion,
-    bands: &[Band],
+    band: Band,
     count: impl Fn(usize) -> usize,
-    mut each: impl FnMut(usize, &[f64]),
-) -> Result<(), SignalError> {
-    check(a, fs, 8, "integration")?;
-    for band in bands {
-        require(
-            band.low > 0.0 && band.low < band.high && band.low < 0.5 * fs,
-            "lower edge of the band (Hz)",
-            band.low,
-            "above 0, below the upper edge and half the sampling rate",
-        )?;
-    }
-    let mut v = a.to_vec();
+) -> Result<Vec<f64>, SignalError> {
+    check(x, fs, 8, "integration")?;
+    require(
+        band.low > 0.0 && band.low < band.high && band.low < 0.5 * fs,
+        "lower edge of the band (Hz)",
+        band.low,
+        "above 0, below the upper edge and half the sampling rate",
+    )?;
+    let mut v = x.to_vec();
     Detrend::Linear.apply(&mut v);
     let spectrum = fft::bins(&mut v);
     // Twice the positive frequencies are the whole; half the sampling rate has no quadrature, and so no integral.
     let integral = |k: usize, bin: Complex<f64>| match from {
         Motion::Acceleration => Complex::new(bin.im, -bin.re) * (2.0 / (TAU * fs) / k as f64),
-        Motion::Velocity => bin * (2.0 / a.len() as f64),
+        Motion::Velocity => bin * (2.0 / x.len() as f64),
     };
-    let (mut planner, mut values) = (FftPlanner::new(), Vec::new());
-    for (place, band) in bands.iter().enumerate() {
-        let inside = bins(fs, a.len(), *band);
-        let plan = planner.plan_fft_inverse(count(inside.end));
-        fft::backward(&*plan, &spectrum, inside, &mut values, integral);
-        v.clear();
-        v.extend(values.iter().map(|value| value.re));
-        each(place, &v);
-    }
-    Ok(())
+    let (inside, mut values) = (bins(fs, x.len(), band), Vec::new());
+    let plan = FftPlanner::new().plan_fft_inverse(count(inside.end));
+    fft::backward(&*plan, &spectrum, inside, &mut values, integral);
+    Ok(values.iter().map(|value| value.re).collect())
 }
 
 #[cfg(test)]
@@ -127,6 +98,10 @@ mod tests {
 
     const FS: f64 = 5000.0;
 
+    fn integrated(a: &[f64], band: Band) -> Result<Vec<f64>, SignalError> {
+        velocity(a, FS, Motion::Acceleration, band, |_| a.len())
+    }
+
     #[test]
     fn analytic_sine_integrates_to_a_quarter_turn() {
         // Whole periods: exact to round-off.
@@ -135,7 +110,7 @@ mod tests {
         let slow = cosine(n, FS, 5.0, 50.0, 0.0);
         a.iter_mut().zip(slow).for_each(|(a, s)| *a += s + 20.0);
         // Removing the slow sine's straight line leaks a little into the band.
-        let v = velocity(&a, FS, Band::above(50.0)).unwrap();
+        let v = integrated(&a, Band::above(50.0)).unwrap();
         let expected = cosine(n, FS, f, 3.0 / (TAU * f), 0.2 - 0.5 * PI);
         let worst = (200..3800).map(|i| (v[i] - expected[i]).abs()).fold(0.0, f64::max);
         assert!(worst < 3e-2 * 3.0 / (TAU * f), "{worst:e}");
@@ -145,20 +120,18 @@ mod tests {
     fn prop_bands_add_up() {
         let a = super::super::test_signals::Noise::new(2).normals(999);
         let bands = [Band::between(10.0, 400.0), Band::between(400.1, 5000.0), Band::above(10.0)];
-        let mut v = Vec::new();
-        let whole = |_| a.len();
-        velocities(&a, FS, Motion::Acceleration, &bands, whole, |_, velocity| v.push(velocity.to_vec())).unwrap();
+        let v = bands.map(|band| integrated(&a, band).unwrap());
         let worst = (0..999).map(|i| (v[0][i] + v[1][i] - v[2][i]).abs()).fold(0.0, f64::max);
         assert!(worst < 1e-15);
     }
 
     #[test]
     fn prop_bad_input_is_an_error() {
-        assert!(velocity(&[1.0; 7], FS, Band::above(1.0)).is_err());
-        assert!(velocity(&[1.0; 70], FS, Band::above(0.0)).is_err());
-        assert!(velocity(&[1.0; 70], FS, Band::above(2500.0)).is_err());
-        assert!(velocity(&[f64::NAN; 70], FS, Band::above(10.0)).is_err());
-        let v = velocity(&[1.0; 70], FS, Band::above(100.0)).unwrap();
+        assert!(integrated(&[1.0; 7], Band::above(1.0)).is_err());
+        assert!(integrated(&[1.0; 70], Band::above(0.0)).is_err());
+        assert!(integrated(&[1.0; 70], Band::above(2500.0)).is_err());
+        assert!(integrated(&[f64::NAN; 70], Band::above(10.0)).is_err());
+        let v = integrated(&[1.0; 70], Band::above(100.0)).unwrap();
         assert!(v.iter().all(|v| v.abs() < 1e-15));
     }
 }

@@ -40,15 +40,15 @@
 //! allocated per sample.
 //!
 //! Of a signal held as a slice, with its sample rate in Hz: [`window`], [`mod@psd`] (Welch with any window),
-//! [`mod@envelope`], [`mod@spectrogram`], [`mod@kurtogram`] (which band to demodulate), [`order`] (varying speed), [`mod@decimate`],
+//! [`mod@envelope`], [`mod@spectrogram`], [`mod@kurtogram`] (which band to demodulate), [`order`] (varying speed), [`decimate`] (its low-pass),
 //! [`integrate`] (acceleration to velocity), [`mod@velocity_bands`], [`lines`] (harmonics over the local noise), and
 //! [`distribution`] (what powers of noise follow). Functions of a signal return [`SignalError`] for input that
 //! they cannot use, and do not panic; the few others that do say so, as [`kaiser_lowpass`] of edges out of order.
 //!
 //! All values are SI: time in s, frequency in Hz, and a signal in its own unit (m/s^2 for an acceleration), here
 //! written "unit". Results do not depend on the number of threads; only [`analysis`] uses more than one. The FFT
-//! chooses its instructions by processor, so between processors spectra may differ in the last bits; decimated signals
-//! and indicators use plain arithmetic and do not.
+//! chooses its instructions by processor, so between processors spectra may differ in the last bits;
+//! indicators use plain arithmetic and do not.
 
 #![cfg_attr(not(test), deny(clippy::print_stdout, clippy::print_stderr))]
 
@@ -88,7 +88,7 @@ pub(crate) mod test_signals;
 
 pub use band::Band;
 pub use blocks::{Blocks, RECORD_CREST_FACTOR, RECORD_PEAK, RECORD_PEAK_TO_PEAK};
-pub use decimate::{decimate, kaiser_lowpass};
+pub use decimate::kaiser_lowpass;
 #[doc(hidden)]
 pub use digits::short;
 pub use envelope::{EnvelopeSpectrum, envelope, envelope_spectrum};
@@ -98,7 +98,7 @@ pub use estimate::{Estimate, Interval};
 pub use frequency::FEWEST_PERIODS;
 pub use frequency::{LineFrequency, LineSearch};
 pub use indicators::{Indicator, Moments};
-pub use integrate::{band_pass, velocity};
+pub use integrate::band_pass;
 pub use kurtogram::{Kurtogram, KurtogramBand, kurtogram};
 pub use lines::{Line, harmonics};
 pub use order::{Angular, Rotation, resample};

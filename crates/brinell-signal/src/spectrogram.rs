@@ -5,7 +5,7 @@ use super::psd::Segments;
 use super::spectrum::SegmentTransform;
 
 /// A spectrogram. Frame i lies about time `first_time + i time_step`, bin k about frequency `k frequency_step`.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, Default, PartialEq)]
 pub struct Spectrogram {
     /// Distance between bins, Hz.
     pub frequency_step: f64,

@@ -12,7 +12,7 @@ use super::blocks::Blocks;
 use super::error::{SignalError, require};
 use super::estimate::Estimate;
 use super::indicators::Indicator;
-use super::integrate::{Motion, fade, velocities};
+use super::integrate::{Motion, fade, velocity};
 use super::lengths::fast_from;
 use super::spectrum::FEWEST_SAMPLES;
 
@@ -45,17 +45,13 @@ pub fn velocity_bands(a: &[f64], fs: f64, bands: &[Band; 3], block: f64) -> Resu
     let samples = block * fs;
     require(samples >= 1.0 && samples.is_finite(), "block (s)", block, "at least one sample")?;
     let mut found = [None; 3];
-    for (place, band) in bands.iter().enumerate().filter(|(_, band)| band.low < 0.5 * fs) {
+    for (found, band) in found.iter_mut().zip(bands).filter(|(_, band)| band.low < 0.5 * fs) {
         let mut faded = a.to_vec();
         let end = fade(&mut faded, fs, band.low);
-        let count = |periods| steps(periods, a.len());
-        velocities(&faded, fs, Motion::Acceleration, &[*band], count, |_, velocity| {
-            let ratio = velocity.len() as f64 / a.len() as f64;
-            let end = (ratio * end as f64).ceil() as usize;
-            let inner = velocity.get(end..velocity.len().saturating_sub(end)).unwrap_or_default();
-            let rms = Blocks::of(inner, samples * ratio).estimate(Indicator::Rms);
-            found[place] = rms.map(|rms| BandVelocity { band: *band, rms, cut_short: band.high > 0.5 * fs });
-        })?;
+        let v = velocity(&faded, fs, Motion::Acceleration, *band, |periods| steps(periods, a.len()))?;
+        let ratio = v.len() as f64 / a.len() as f64;
+        let rms = inner_rms(&v, ratio * end as f64, samples * ratio);
+        *found = rms.map(|rms| BandVelocity { band: *band, rms, cut_short: band.high > 0.5 * fs });
     }
     Ok(found)
 }
@@ -70,16 +66,17 @@ pub fn velocity_rms(x: &[f64], fs: f64, from: Motion, band: Band, block: f64) ->
     let seconds = x.len() as f64 / fs;
     require(seconds * band.low >= 3.0, "signal (s)", seconds, "at least three periods of the band's lower edge")?;
     require(block * fs >= 1.0 && block.is_finite(), "block (s)", block, "at least one sample")?;
-    let mut found = None;
-    let count = |periods| steps(periods, x.len());
-    velocities(x, fs, from, &[band], count, |_, velocity| {
-        let rate = fs * velocity.len() as f64 / x.len() as f64;
-        let end = (rate / band.low).ceil() as usize;
-        let inner = velocity.get(end..velocity.len().saturating_sub(end));
-        let blocks = Blocks::of(inner.unwrap_or_default(), block * rate);
-        found = blocks.estimate(Indicator::Rms);
-    })?;
+    let v = velocity(x, fs, from, band, |periods| steps(periods, x.len()))?;
+    let rate = fs * v.len() as f64 / x.len() as f64;
+    let found = inner_rms(&v, rate / band.low, block * rate);
     found.ok_or(SignalError::OutOfRange { name: "block (s)", value: block, range: "at most the signal's length" })
+}
+
+/// RMS without so many values at either end, from blocks of so many.
+fn inner_rms(v: &[f64], end: f64, block: f64) -> Option<Estimate> {
+    let end = end.ceil() as usize;
+    let inner = v.get(end..v.len().saturating_sub(end)).unwrap_or_default();
+    Blocks::of(inner, block).estimate(Indicator::Rms)
 }
 
 /// How often a velocity is taken. Its squares reach up to twice a band's highest frequency: with more steps than that

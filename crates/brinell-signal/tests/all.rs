@@ -7,6 +7,5 @@ mod cases;
 mod drift;
 mod rig;
 mod signal_scipy;
-mod signal_speed;
 mod verdicts;
 mod wrong_speed;

@@ -1,9 +1,9 @@
 //! The signal library against SciPy. `validation/scipy/README.md` says how the goldens in `signal/` are made.
 
 use brinell_signal::distribution::{chi_square_quantile, chi_square_tail, f_tail};
+use brinell_signal::integrate::{Motion, velocity};
 use brinell_signal::{
-    Band, Detrend, Indicator, Moments, Rotation, Segments, Window, decimate, envelope, kurtogram, psd, spectrogram,
-    velocity,
+    Band, Detrend, Indicator, Moments, Rotation, Segments, Window, envelope, kurtogram, psd, spectrogram,
 };
 use serde_json::Value;
 
@@ -119,18 +119,11 @@ fn xval_envelope() {
 }
 
 #[test]
-fn xval_decimation() {
-    let ((x, _), golden) = (input("x"), golden("decimation"));
-    let y = decimate(&x, number(&golden["factor"]) as usize).unwrap();
-    assert_close(&y, &numbers(&golden["y"]), 1e-13);
-}
-
-#[test]
 fn xval_velocity() {
     let ((x, fs), golden) = (input("x"), golden("velocity"));
     let every_second = |v: Vec<f64>| -> Vec<f64> { v.into_iter().step_by(2).collect() };
     let band = Band::between(number(&golden["low"]), number(&golden["high"]));
-    let transform = every_second(velocity(&x, fs, band).unwrap());
+    let transform = every_second(velocity(&x, fs, Motion::Acceleration, band, |_| x.len()).unwrap());
     assert_close(&transform, &numbers(&golden["transform"]), 1e-12);
 }
 

@@ -4,7 +4,7 @@ use super::AnalysisReport;
 use crate::chart::{Chart, Spec, range};
 use crate::data::Along;
 use crate::embedded::{self, Curve};
-use crate::layout::{Layout, legend};
+use crate::layout::legend;
 use crate::picture::{Paint, Picture, ink};
 
 /// Of the signal and of what it is laid over: grey, as colours are those of the marks.
@@ -29,7 +29,6 @@ fn drawing_order(curves: &[(f64, f64, &[f64])], peak: bool) -> Vec<usize> {
 /// still one.
 pub(super) fn draw(
     report: &AnalysisReport,
-    layout: Layout,
     spec: Spec,
     plot: &str,
     curves: &[(f64, f64, &[f64])],
@@ -37,15 +36,6 @@ pub(super) fn draw(
     highlight: Option<(f64, f64)>,
 ) -> Picture {
     let size = spec.size;
-    let width = layout.size(0.0).width;
-    let mut picture = Picture::new(&spec.name, &spec.title, width, size.height);
-    let mut top = 0.0;
-    if curves.len() > 1 {
-        let entries: Vec<(&str, Paint)> =
-            (report.names.iter().zip(paints())).map(|(name, paint)| (name.as_str(), paint)).collect();
-        top = legend(&mut picture, &entries, 12.0, width - 12.0, 2.0, size.font);
-        picture.height = top + size.height;
-    }
     let mut chart = Chart::new(spec);
     if curves.iter().all(|c| range(c.2.iter().copied()).is_none()) {
         chart.say("No samples");
@@ -63,13 +53,12 @@ pub(super) fn draw(
         }
         chart.curve(x0, dx, values, peak, paint);
     }
-    if !plot.is_empty() {
-        chart.interactive_at(plot, top);
-    }
-    let chart = chart.finish();
-    picture.attributes.clone_from(&chart.attributes);
-    picture.place(chart, 0.0, top);
-    picture
+    let entries: Vec<(&str, Paint)> =
+        (report.names.iter().zip(paints())).map(|(name, paint)| (name.as_str(), paint)).collect();
+    chart.under(plot, |picture| match curves.len() {
+        0 | 1 => 0.0,
+        _ => legend(picture, &entries, 12.0, size.width - 12.0, 2.0, size.font),
+    })
 }
 
 /// Writes what the page's script needs of a plot drawn by [`draw`]: `chart` without its curves.

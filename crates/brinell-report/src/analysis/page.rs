@@ -39,7 +39,7 @@ fn spectrum(report: &AnalysisReport, layout: Layout) -> Picture {
     let (y, top) = (spectrum_domain(report), end(&report.spectra));
     let spec = spectrum_spec(("spectrum", "spectrum"), &first, layout.size(height), top, y, vec![]);
     let curves = curves(&report.spectra);
-    draw(report, layout, spec, "spectrum", &curves, true, report.band_hz)
+    draw(report, spec, "spectrum", &curves, true, report.band_hz)
 }
 
 fn envelope_domain(report: &AnalysisReport) -> Domain {
@@ -54,7 +54,7 @@ fn envelope(report: &AnalysisReport, layout: Layout) -> Picture {
     let names = ("envelope-spectrum", "envelope-spectrum");
     let spec = spectrum_spec(names, &first, layout.size(height), top, y, lanes);
     let spec = Spec { x_label: envelope_axis(report).into(), ..spec };
-    draw(report, layout, spec, "envelope", &curves(&report.envelopes), true, None)
+    draw(report, spec, "envelope", &curves(&report.envelopes), true, None)
 }
 
 /// What the envelope spectrum is over.

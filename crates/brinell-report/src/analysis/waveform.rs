@@ -74,7 +74,7 @@ pub(super) fn whole(report: &AnalysisReport, layout: Layout) -> Picture {
     let curves: Vec<(f64, f64, &[f64])> =
         (report.waveforms.iter()).map(|s| (0.0, s.dt_s * scale, &s.values[..])).collect();
     let spec = waveform_spec(report, layout, ("waveform", 200.0), x, unit, y);
-    draw(report, layout, spec, "", &curves, false, None)
+    draw(report, spec, "", &curves, false, None)
 }
 
 pub(super) fn close(report: &AnalysisReport, layout: Layout) -> Picture {
@@ -83,5 +83,5 @@ pub(super) fn close(report: &AnalysisReport, layout: Layout) -> Picture {
     let x = Domain::exact(from * scale, to * scale);
     let y = close_up_domain(report);
     let spec = waveform_spec(report, layout, ("close-up", 300.0), x, unit, y);
-    draw(report, layout, spec, "close-up", &about_middle(report), false, None)
+    draw(report, spec, "close-up", &about_middle(report), false, None)
 }

@@ -285,6 +285,21 @@ impl Chart {
         self.picture
     }
 
+    /// The picture under a legend, which draws itself and returns its height; `plot` is the name to the page's script,
+    /// empty for a still one.
+    pub(crate) fn under(mut self, plot: &str, legend: impl FnOnce(&mut Picture) -> f64) -> Picture {
+        let mut picture = Picture::new(&self.spec.name, &self.spec.title, self.spec.size.width, 0.0);
+        let top = legend(&mut picture);
+        if !plot.is_empty() {
+            self.interactive_at(plot, top);
+        }
+        let drawn = self.finish();
+        picture.height = top + drawn.height;
+        picture.attributes.clone_from(&drawn.attributes);
+        picture.place(drawn, 0.0, top);
+        picture
+    }
+
     /// Tells the page's script where the plot is; of an axis in decades, in their exponents.
     pub(crate) fn interactive(&mut self, plot: &str) {
         self.interactive_at(plot, 0.0);

@@ -52,7 +52,7 @@ pub fn pictures(report: &Report, layout: Layout) -> Vec<Picture> {
     if !report.load_distribution.is_empty() {
         pictures.push(load_distribution(&report.load_distribution, layout));
     }
-    if !report.spectrogram.density.is_empty() {
+    if !report.spectrogram.of.density.is_empty() {
         pictures.push(spectrogram(&report.spectrogram, layout));
     }
     if !report.motion.rows.is_empty() {

@@ -16,11 +16,7 @@ pub(super) fn spectrogram(parts: &Parts, label: String) -> Spectrogram {
     Spectrogram {
         label,
         unit: "(m/s^2)^2/Hz".into(),
-        t0_s: s.first_time,
-        dt_s: s.time_step,
-        df_hz: s.frequency_step,
-        bins: s.bins,
-        density: s.density.clone(),
+        of: s.clone(),
         note: format!(
             "The whole run; Hann windows of {} ms that overlap by half{averaged}.",
             short(1e3 / s.frequency_step, 3)

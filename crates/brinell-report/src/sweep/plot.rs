@@ -87,7 +87,6 @@ pub(crate) fn indicator_plot(plot: &IndicatorPlot, layout: Layout) -> Picture {
         size.height -= axis_room;
     }
     let spec = spec(plot, size);
-    let (name, title) = (spec.name.clone(), spec.title.clone());
     let mut chart = Chart::new(spec);
     if named {
         chart.clear("ticks-x");
@@ -110,33 +109,24 @@ pub(crate) fn indicator_plot(plot: &IndicatorPlot, layout: Layout) -> Picture {
         let beside = (k as f64 - 0.5 * (count as f64 - 1.0)) * step;
         draw(&mut chart, line, paint(k), beside, !named || plot.ordered);
     }
-    let finish = |mut chart: Chart, top: f64| {
-        chart.interactive_at(&plot.name, top);
-        let mut drawn = chart.finish();
-        if named {
-            drawn.height += axis_room;
-        }
-        drawn
-    };
+    if named {
+        chart.picture.height += axis_room;
+    }
     if count < 2 {
-        return finish(chart, 0.0);
+        chart.interactive(&plot.name);
+        return chart.finish();
     }
     let entries: Vec<(&str, Paint)> =
         plot.lines.iter().enumerate().map(|(k, line)| (line.label.as_str(), paint(k))).collect();
-    let width = layout.size(0.0).width;
-    let mut picture = Picture::new(&name, &title, width, 0.0);
-    let mut top = 2.0;
-    if !plot.legend.is_empty() {
-        let words = Text::new(12.0, top + size.font, size.font, Anchor::Start, &plot.legend);
-        picture.text(words.color(ink::FAINT));
-        top += 1.6 * size.font;
-    }
-    top += legend(&mut picture, &entries, 12.0, width - 12.0, top, size.font);
-    let drawn = finish(chart, top);
-    picture.height = top + drawn.height;
-    picture.attributes.clone_from(&drawn.attributes);
-    picture.place(drawn, 0.0, top);
-    picture
+    chart.under(&plot.name, |picture| {
+        let mut top = 2.0;
+        if !plot.legend.is_empty() {
+            let words = Text::new(12.0, top + size.font, size.font, Anchor::Start, &plot.legend);
+            picture.text(words.color(ink::FAINT));
+            top += 1.6 * size.font;
+        }
+        top + legend(picture, &entries, 12.0, size.width - 12.0, top, size.font)
+    })
 }
 
 /// What the page's script needs to read it out.

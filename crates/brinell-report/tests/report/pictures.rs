@@ -1,5 +1,6 @@
 //! Pictures: places and lengths in them against what they are to show.
 
+use brinell::signal;
 use brinell_report::{
     CageOrbit, CageOrbits, Layout, Motion, MotionRow, SlipRow, Spectrogram, bearing_motion, cage_orbit, slip_over_time,
     spectrogram,
@@ -84,11 +85,7 @@ fn analytic_the_spectrogram_puts_a_tone_where_it_is() {
     let view = Spectrogram {
         label: "a".into(),
         unit: "(m/s^2)^2/Hz".into(),
-        t0_s: 0.05,
-        dt_s: 0.1,
-        df_hz: 100.0,
-        bins,
-        density,
+        of: signal::Spectrogram { first_time: 0.05, time_step: 0.1, frequency_step: 100.0, bins, density },
         note: String::new(),
     };
     let picture = spectrogram(&view, Layout::Wide);

@@ -2,6 +2,7 @@
 
 use brinell::derived::Passing;
 use brinell::scenario::Surface;
+use brinell::signal;
 use brinell_report::{
     AlongRoller, Assumption, AxialRow, AxialSection, CageOrbit, CageOrbits, DamageCurve, DamagePanel, DamageView,
     DepthPatch, Estimate, Event, Fact, Healthy, IndicatorRow, IndicatorTable, Marker, MinMax, Motion, MotionDamage,
@@ -228,11 +229,13 @@ pub(crate) fn filled(text: &str, values: &[f64], dt: f64, frequency: f64) -> Rep
         spectrogram: Spectrogram {
             label: text.into(),
             unit: text.into(),
-            t0_s: at(1),
-            dt_s: dt,
-            df_hz: frequency,
-            bins: 3,
-            density: values.iter().take(3000).copied().collect(),
+            of: signal::Spectrogram {
+                first_time: at(1),
+                time_step: dt,
+                frequency_step: frequency,
+                bins: 3,
+                density: values.iter().take(3000).copied().collect(),
+            },
             note: text.into(),
         },
         audits: vec![fact()],

@@ -1,6 +1,5 @@
 //! Lines that are nobody's damage: the mains', and the shaft's, which tell its speed.
 
-use super::mains::Mains;
 use super::running_median::running_median;
 use super::together::{FLOOR, REVOLUTIONS};
 use super::{AnalysisError, Options};
@@ -8,6 +7,8 @@ use crate::distribution::chi_square_quantile;
 use crate::lengths::fast_up_to;
 use crate::{Segments, peak_near, psd};
 
+/// Frequencies of public power supplies.
+pub(super) const MAINS_HZ: [f64; 2] = [50.0, 60.0];
 /// Chance under noise at which a peak counts as a line.
 const LEVEL: f64 = 1e-4;
 /// A line is higher than so many bins to either side: what is near it may be its skirt.
@@ -206,7 +207,7 @@ impl<'a> Lines<'a> {
 
 /// Whether a harmonic of the mains lies within `width` (Hz) of a frequency.
 pub(super) fn near_mains(f: f64, width: f64) -> bool {
-    Mains::ALL.iter().any(|m| near_multiple(f, m.frequency(), width))
+    MAINS_HZ.iter().any(|hz| near_multiple(f, *hz, width))
 }
 
 /// Whether a multiple of one frequency lies within `width` (Hz) of another.

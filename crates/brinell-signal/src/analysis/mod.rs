@@ -9,21 +9,7 @@
 //!
 //! Nothing here knows files. Times are s, frequencies Hz, amplitudes the signal's unit.
 //!
-//! ```
-//! use brinell_signal::analysis::{NamedBearing, Options, analyze};
-//!
-//! let fs = 12_000.0;
-//! let bearing = NamedBearing::find("6205-2RS").unwrap().orders();
-//! // Impacts on the outer race, 3.585 a revolution at 30 Hz, ringing at 3 kHz.
-//! let x: Vec<f64> = (0..24_000)
-//!     .map(|i| {
-//!         let since = (f64::from(i) / fs) % (1.0 / (3.585 * 30.0));
-//!         (-since / 4e-4).exp() * (6.283 * 3000.0 * since).sin() + 1e-3 * f64::from(i * 7919 % 101)
-//!     })
-//!     .collect();
-//! let analysis = analyze(&x, fs, &Options::new(30.0, bearing)).unwrap();
-//! assert_eq!(analysis.causes().next().unwrap().name, "BPFO");
-//! ```
+//! The [crate] shows how to use it.
 
 mod bands;
 mod baseline;
@@ -36,7 +22,6 @@ mod hypotheses;
 mod json;
 mod known_lines;
 mod levels;
-mod mains;
 mod options;
 mod recorded;
 mod result;
@@ -58,7 +43,6 @@ pub use family::{Family, Finding, Harmonic, Sidebands};
 pub use frequencies::{Component, DefectOrders, NAMED, NamedBearing, most_elements};
 pub use json::to_json;
 pub use levels::Levels;
-pub use mains::Mains;
 pub use options::{MACHINE_NOISE, Options, SUPPLY_HZ};
 pub use recorded::{Called, Given, NoUnit, Numbers, Scaled, once, other_bearing, other_speed, unit_of};
 pub use result::{Analysis, Verdict, View};

@@ -95,33 +95,29 @@ impl MachineClass {
     /// All, in the order of the standard's tables.
     pub const ALL: [Self; 4] = [Self::LargeRigid, Self::LargeFlexible, Self::MediumRigid, Self::MediumFlexible];
 
+    /// How it is given, for a sentence, and boundaries A/B, B/C and C/D, mm/s RMS, of ISO 20816-3.
+    fn row(self) -> (&'static str, &'static str, [f64; 3]) {
+        match self {
+            Self::LargeRigid => ("1-rigid", "group 1, rigid support", [2.3, 4.5, 7.1]),
+            Self::LargeFlexible => ("1-flexible", "group 1, flexible support", [3.5, 7.1, 11.0]),
+            Self::MediumRigid => ("2-rigid", "group 2, rigid support", [1.4, 2.8, 4.5]),
+            Self::MediumFlexible => ("2-flexible", "group 2, flexible support", [2.3, 4.5, 7.1]),
+        }
+    }
+
     /// As it is given: `1-rigid`.
     pub fn name(self) -> &'static str {
-        match self {
-            Self::LargeRigid => "1-rigid",
-            Self::LargeFlexible => "1-flexible",
-            Self::MediumRigid => "2-rigid",
-            Self::MediumFlexible => "2-flexible",
-        }
+        self.row().0
     }
 
     /// For a sentence.
     pub fn words(self) -> &'static str {
-        match self {
-            Self::LargeRigid => "group 1, rigid support",
-            Self::LargeFlexible => "group 1, flexible support",
-            Self::MediumRigid => "group 2, rigid support",
-            Self::MediumFlexible => "group 2, flexible support",
-        }
+        self.row().1
     }
 
     /// Boundaries A/B, B/C and C/D, mm/s RMS, of ISO 20816-3.
     pub fn boundaries(self) -> [f64; 3] {
-        match self {
-            Self::LargeRigid | Self::MediumFlexible => [2.3, 4.5, 7.1],
-            Self::LargeFlexible => [3.5, 7.1, 11.0],
-            Self::MediumRigid => [1.4, 2.8, 4.5],
-        }
+        self.row().2
     }
 
     /// The zone of an RMS velocity (m/s) of a machine whose shaft turns at `rpm`.

@@ -5,7 +5,7 @@
 //! the bands: every band counts alike, whatever its level, as in the integrated cyclic spectral coherence (J. Antoni,
 //! "Cyclic spectral analysis in practice", Mech. Syst. Signal Process. 21 (2007) 597-630).
 
-use super::mains::Mains;
+use super::known_lines::MAINS_HZ;
 use super::running_median::running_median;
 use super::{AnalysisError, Options};
 use crate::distribution::chi_square_quantile;
@@ -108,7 +108,7 @@ impl Together {
     /// Lines of the shaft, which every machine has, and of the mains where they are detected.
     fn hide_known(&mut self, shaft: Shaft, options: &Options) {
         // Magnetic forces pull at twice the current's frequency.
-        let mains = Mains::ALL.map(|m| m.frequency()).into_iter().flat_map(|hz| [hz, 2.0 * hz]);
+        let mains = MAINS_HZ.into_iter().flat_map(|hz| [hz, 2.0 * hz]);
         let this = &*self;
         let lines = |f: f64, n: usize| (1..=n).map(move |k| this.at(k as f64 * f).ratio.unwrap_or(1.0));
         // A simulation has none.

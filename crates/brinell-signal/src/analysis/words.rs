@@ -3,8 +3,9 @@
 use super::bands::LOWEST_TOP;
 use super::drift::Drift;
 use super::family::{Family, Finding, reach};
+use super::known_lines::MAINS_HZ;
 use super::together::REVOLUTIONS;
-use super::{Analysis, Component, Elsewhere, Mains, Verdict};
+use super::{Analysis, Component, Elsewhere, Verdict};
 use crate::Indicator;
 use crate::digits;
 
@@ -401,7 +402,7 @@ fn undecided(analysis: &Analysis, family: &Family) -> String {
 fn masking(analysis: &Analysis, family: &Family) -> String {
     let times = |of: f64| (family.frequency / of).round();
     let off = |of: f64| (family.frequency - times(of) * of).abs();
-    let mains = Mains::ALL.map(|m| m.frequency()).into_iter().min_by(|a, b| off(*a).total_cmp(&off(*b)));
+    let mains = MAINS_HZ.into_iter().min_by(|a, b| off(*a).total_cmp(&off(*b)));
     match mains.filter(|hz| off(*hz) < off(analysis.shaft)) {
         Some(hz) => format!("{hz:.0} Hz mains would have theirs: at another speed they part"),
         None => {

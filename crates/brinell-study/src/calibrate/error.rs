@@ -1,32 +1,15 @@
 //! Why there is nothing to fit.
 
-use crate::campaign::INSIDE;
+use crate::campaign::{INSIDE, PlanError};
 use brinell::result::UnknownName;
 use brinell::signal::SignalError;
 
 /// What is wrong with keys, targets or a measured signal.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum CalibrateError {
-    /// A text that is no key with bounds, or no target.
-    #[error("`{text}`: expected {expected}")]
-    Syntax {
-        /// The text.
-        text: String,
-        /// What it should be.
-        expected: String,
-    },
-    /// A bound, value or uncertainty that cannot be.
-    #[error("{name} = {value}: {why}\n  allowed: {allowed}")]
-    Value {
-        /// The key or the target.
-        name: String,
-        /// The value found.
-        value: String,
-        /// What is wrong with it.
-        why: String,
-        /// What would be accepted.
-        allowed: String,
-    },
+    /// A text that is no key with bounds, or no target; a bound, value or uncertainty that cannot be.
+    #[error(transparent)]
+    Plan(#[from] PlanError),
     /// One key with two ranges.
     #[error("{0} is to be fitted twice; each key has one range")]
     Twice(String),

@@ -1,7 +1,7 @@
 //! A key that is fitted: its range, and the line between the range and the unit interval that the search works in.
 
 use super::CalibrateError;
-use crate::campaign::clash;
+use crate::campaign::{PlanError, assigned, clash, number, syntax};
 
 /// A key and its bounds.
 #[derive(Debug, Clone, PartialEq)]
@@ -28,44 +28,37 @@ impl Key {
     /// # Errors
     /// Where the text is not that, or the bounds span nothing.
     pub fn read(text: &str) -> Result<Self, CalibrateError> {
-        let syntax = || CalibrateError::Syntax { text: text.trim().into(), expected: SYNTAX.into() };
-        let (name, bounds) = text.split_once('=').ok_or_else(syntax)?;
-        let name = name.trim();
-        let sound = |part: &str| !part.is_empty() && !part.contains(char::is_whitespace);
-        if !name.split('.').all(sound) || name.contains([',', ';', '"']) {
-            return Err(syntax());
-        }
+        let (name, bounds) = assigned(text, SYNTAX)?;
         let parts: Vec<&str> = bounds.split(':').map(str::trim).collect();
         let (low, high, log) = match parts[..] {
             [low, high] => (low, high, false),
             [low, high, "log"] => (low, high, true),
-            _ => return Err(syntax()),
+            _ => return Err(syntax(text, SYNTAX).into()),
         };
-        let wrong = |why: String, allowed: &str| CalibrateError::Value {
-            name: name.into(),
+        let wrong = |why: String, allowed: &str| PlanError::Value {
+            key: name.into(),
             value: bounds.trim().into(),
             why,
             allowed: allowed.into(),
         };
-        let number = |what: &str, text: &str| match text.replace('_', "").parse::<f64>() {
-            Ok(x) if x.is_finite() => Ok(x),
-            _ => Err(wrong(format!("the {what} bound, `{text}`, is not a number"), SYNTAX)),
-        };
-        let (low, high) = (number("lower", low)?, number("upper", high)?);
+        let bound = |what: &str, text: &str| number(what, text, |why| wrong(why, SYNTAX));
+        let (low, high) = (bound("lower bound", low)?, bound("upper bound", high)?);
         if low >= high {
             let why = if low > high {
                 format!("the bounds are reversed; {high:?}:{low:?} is meant")
             } else {
                 "the bounds are equal".into()
             };
-            return Err(wrong(why, "a lower bound below the upper one"));
+            return Err(wrong(why, "a lower bound below the upper one").into());
         }
         if log && low <= 0.0 {
-            return Err(wrong("a logarithm needs bounds above 0".into(), "bounds above 0, or no `:log`"));
+            return Err(wrong("a logarithm needs bounds above 0".into(), "bounds above 0, or no `:log`").into());
         }
         // What lies between is computed from that.
         if !(if log { high / low } else { high - low }).is_finite() {
-            return Err(wrong("the bounds are too far apart to compute with".into(), "a range that a key can have"));
+            return Err(
+                wrong("the bounds are too far apart to compute with".into(), "a range that a key can have").into()
+            );
         }
         Ok(Self { name: name.into(), low, high, log })
     }

@@ -1,6 +1,7 @@
 //! What a fit is to meet: numbers with their standard uncertainties.
 
 use super::CalibrateError;
+use crate::campaign::{PlanError, number, syntax};
 
 /// A number to be met.
 #[derive(Debug, Clone, PartialEq)]
@@ -23,28 +24,26 @@ impl Target {
     /// # Errors
     /// Where the text is not that.
     pub fn read(text: &str) -> Result<Self, CalibrateError> {
-        let syntax = || CalibrateError::Syntax { text: text.trim().into(), expected: SYNTAX.into() };
+        let syntax = || syntax(text, SYNTAX);
         let (name, rest) = text.split_once('=').ok_or_else(syntax)?;
         let name = name.trim();
         if name.is_empty() || name.contains(char::is_whitespace) {
-            return Err(syntax());
+            return Err(syntax().into());
         }
-        let wrong = |why: String, allowed: &str| CalibrateError::Value {
-            name: name.into(),
+        let wrong = |why: String, allowed: &str| PlanError::Value {
+            key: name.into(),
             value: rest.trim().into(),
             why,
             allowed: allowed.into(),
         };
-        let number = |what: &str, text: &str| match text.trim().replace('_', "").parse::<f64>() {
-            Ok(x) if x.is_finite() => Ok(x),
-            _ => Err(wrong(format!("the {what}, `{}`, is not a number", text.trim()), SYNTAX)),
-        };
+        let number = |what: &str, text: &str| number(what, text.trim(), |why| wrong(why, SYNTAX));
         let Some((value, uncertainty)) = rest.split_once('~') else {
             number("value", rest)?;
             return Err(wrong(
                 "no standard uncertainty is given, and without one it cannot be said how well the target is met".into(),
                 SYNTAX,
-            ));
+            )
+            .into());
         };
         let value = number("value", value)?;
         let uncertainty = match uncertainty.trim().strip_suffix('%') {
@@ -55,7 +54,8 @@ impl Target {
             return Err(wrong(
                 "the standard uncertainty is not above 0".into(),
                 "a standard uncertainty above 0; in per cent only of a value other than 0",
-            ));
+            )
+            .into());
         }
         Ok(Self { name: name.into(), value, uncertainty })
     }

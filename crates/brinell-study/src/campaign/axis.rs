@@ -92,20 +92,34 @@ impl Axis {
     }
 }
 
-fn syntax(text: &str, expected: &str) -> PlanError {
+pub(crate) fn syntax(text: &str, expected: &str) -> PlanError {
     PlanError::Syntax { text: text.trim().into(), expected: expected.into() }
+}
+
+/// A key and what is behind its equals sign.
+pub(crate) fn assigned<'a>(text: &'a str, expected: &str) -> Result<(&'a str, &'a str), PlanError> {
+    let sound = |part: &str| !part.is_empty() && !part.contains(char::is_whitespace);
+    match text.split_once('=').map(|(key, rest)| (key.trim(), rest)) {
+        Some((key, rest)) if key.split('.').all(sound) && !key.contains([',', ';', '"']) => Ok((key, rest)),
+        _ => Err(syntax(text, expected)),
+    }
+}
+
+/// A finite number; `what` it is, is said to `wrong`.
+pub(crate) fn number(what: &str, text: &str, wrong: impl Fn(String) -> PlanError) -> Result<f64, PlanError> {
+    let number = parsed(text).filter(|x| x.is_finite());
+    number.ok_or_else(|| wrong(format!("the {what}, `{text}`, is not a number")))
+}
+
+fn parsed(text: &str) -> Option<f64> {
+    text.replace('_', "").parse().ok()
 }
 
 /// `KEY=VALUES`.
 fn one(text: &str) -> Result<(String, Vec<String>), PlanError> {
     const EXAMPLE: &str =
         "KEY=VALUES, for instance operation.speed_rpm=1000:5000:500 or bearing.radial_clearance_um=5,10,20";
-    let (key, values) = text.split_once('=').ok_or_else(|| syntax(text, EXAMPLE))?;
-    let key = key.trim();
-    let sound = |part: &str| !part.is_empty() && !part.contains(|c: char| c.is_whitespace());
-    if !key.split('.').all(sound) || key.contains([',', ';', '"']) {
-        return Err(syntax(text, EXAMPLE));
-    }
+    let (key, values) = assigned(text, EXAMPLE)?;
     let mut all = Vec::new();
     for item in split(values, ',') {
         expand(key, item.trim(), &mut all)?;
@@ -148,19 +162,15 @@ fn expand(key: &str, item: &str, all: &mut Vec<String>) -> Result<(), PlanError>
         return Err(wrong("a value is missing".into()));
     }
     let parts: Vec<&str> = item.split(':').map(str::trim).collect();
-    let number = |text: &str| text.replace('_', "").parse::<f64>().ok();
-    if parts.len() == 1 || number(parts[0]).is_none() {
+    if parts.len() == 1 || parsed(parts[0]).is_none() {
         all.push(item.into());
         return Ok(());
     }
     let &[from, to, step] = &parts[..] else {
         return Err(wrong("a range has three parts, FROM:TO:STEP".into()));
     };
-    let read = |name: &str, text: &str| match number(text) {
-        Some(x) if x.is_finite() => Ok(x),
-        _ => Err(wrong(format!("the range's {name}, `{text}`, is not a number"))),
-    };
-    let (a, b, d) = (read("start", from)?, read("end", to)?, read("step", step)?);
+    let read = |what: &str, text: &str| number(what, text, wrong);
+    let (a, b, d) = (read("range's start", from)?, read("range's end", to)?, read("range's step", step)?);
     if d == 0.0 {
         return Err(wrong("the range's step is zero".into()));
     }

@@ -19,6 +19,7 @@ mod sides;
 pub use axis::Axis;
 #[doc(hidden)]
 pub use axis::split;
+pub(crate) use axis::{assigned, number, syntax};
 #[doc(hidden)]
 pub use beforehand::{BALANCED, Beforehand, Misses, count, join};
 pub use columns::{NumberColumn, columns};

@@ -81,7 +81,7 @@ fn counts(about: &Value) -> String {
         let good = |split: &Value| number(&split["runs_of_classes"][k]) - number(&split["failed_of_classes"][k]);
         let runs: String = open().map(|split| format!(" {} |", good(split))).collect();
         let name = text(class, "name").replace('|', "\\|");
-        let failed = failed(tally.failed.get(k).copied().unwrap_or(0));
+        let failed = failed(tally.0[1].get(k).copied().unwrap_or(0));
         card += &format!("| {name} | {} |{runs}{failed}\n", class["label"]);
     }
     card += &format!("\n| split | runs |{head}\n| --- | --- |{rule}\n");

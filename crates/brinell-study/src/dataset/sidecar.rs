@@ -6,7 +6,7 @@ use crate::dataset::card;
 use crate::dataset::error::DatasetError;
 use crate::dataset::folder::{Folder, KERNEL_OF, SECRET_PATH, file_name, make, put, written};
 use crate::dataset::part::kernel;
-use crate::dataset::tally::Tally;
+use crate::dataset::tally::{COUNTED, Tally};
 use crate::design::Part;
 use brinell::document::{Origin, Provenance};
 use brinell_io::Kind;
@@ -148,10 +148,9 @@ impl Counted {
                 continue;
             };
             split["failed"] = (*failed).into();
-            if !tally.runs.is_empty() {
-                split["failed_of_classes"] = json!(tally.failed);
-                split["clipped_of_classes"] = json!(tally.clipped);
-                split["constant_of_classes"] = json!(tally.constant);
+            // The plan has the runs.
+            for (name, counts) in COUNTED.iter().zip(&tally.0).skip(1).filter(|(_, counts)| !counts.is_empty()) {
+                split[format!("{name}_of_classes")] = json!(counts);
             }
         }
     }

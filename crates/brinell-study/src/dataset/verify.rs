@@ -4,9 +4,8 @@ use crate::dataset::card::CROISSANT;
 use crate::dataset::error::DatasetError;
 use crate::dataset::folder::{CAMPAIGN, Folder, KERNEL, KERNEL_OF, PART, SECRET_PATH, file_name, number_of};
 use crate::dataset::sidecar::{CARD, files_of, is_whole};
-use brinell_io::{Cell, Metadata, keys, read_records, record_facts, sha256_of};
+use brinell_io::{keys, record_facts, sha256_of};
 use serde_json::Value;
-use std::collections::BTreeSet;
 use std::path::Path;
 
 /// What was found.
@@ -126,13 +125,12 @@ impl Set<'_> {
         let word = |version: Option<&str>| version.unwrap_or("?").to_owned();
         let other = format!("of brinell {}, the others of {}", word(theirs), word(version));
         say(theirs != version, &other);
-        let kernels = self.kernels(part, &facts.metadata);
-        let ours = kernel.get_or_insert_with(|| kernels.first().cloned().unwrap_or_default());
+        let theirs = get(KERNEL).unwrap_or("?");
+        let ours = kernel.get_or_insert_with(|| theirs.to_owned());
         let mixed = format!(
-            "computed with the kernel {}, the data set with {ours}: damaged runs differ wholly between kernels",
-            kernels.iter().map(String::as_str).collect::<Vec<_>>().join(" and ")
+            "computed with the kernel {theirs}, the data set with {ours}: damaged runs differ wholly between kernels"
         );
-        say(kernels.iter().any(|kernel| kernel != ours), &mixed);
+        say(theirs != ours, &mixed);
         let other_part = get(PART) != Some(part.to_string().as_str());
         say(other_part, "another file under this name");
         say(facts.columns != columns, "other columns than the data set's");
@@ -146,20 +144,6 @@ impl Set<'_> {
         found.rows += facts.rows;
         found.files += usize::from(found.problems.len() == before);
         Ok(())
-    }
-
-    /// The instructions that a file's runs were computed with.
-    fn kernels(&self, part: usize, metadata: &Metadata) -> BTreeSet<String> {
-        if let Some(kernel) = metadata.get(KERNEL) {
-            return BTreeSet::from([kernel.to_owned()]);
-        }
-        // Earlier versions tell it in a column alone.
-        let rows = read_records(self.folder.part(part), &["kernel"], |_| true).unwrap_or_default();
-        let words = rows.into_iter().flatten().filter_map(|cell| match cell {
-            Cell::Words(word) => Some(word),
-            _ => None,
-        });
-        words.collect()
     }
 
     /// What is written down of a file.
