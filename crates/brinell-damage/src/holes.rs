@@ -1,6 +1,7 @@
 //! Missing points of a scan, and specks of what is left of its noise.
 
 use crate::scan::Scan;
+use brinell::defect::{neighbours, parts};
 
 /// Smoothing sweeps over filled points.
 const SWEEPS: usize = 40;
@@ -60,44 +61,12 @@ pub(crate) fn fill(scan: &mut Scan) -> (usize, usize) {
 /// Sets connected groups of damaged points that cover fewer than `smallest` points to 0; returns how many groups.
 pub(crate) fn drop_specks(scan: &mut Scan, smallest: f64) -> usize {
     let mut dropped = 0;
-    let mut seen = vec![false; scan.depth_um.len()];
-    let mut group = Vec::new();
-    for start in 0..seen.len() {
-        if seen[start] || scan.depth_um[start] == 0.0 {
-            continue;
-        }
-        seen[start] = true;
-        group.clear();
-        group.push(start);
-        let mut next = 0;
-        while next < group.len() {
-            for j in neighbours(group[next], scan.columns, scan.rows) {
-                if !seen[j] && scan.depth_um[j] != 0.0 {
-                    seen[j] = true;
-                    group.push(j);
-                }
-            }
-            next += 1;
-        }
+    let damaged = scan.depth_um.iter().map(|d| *d != 0.0).collect();
+    parts(scan.columns, damaged, |group| {
         if (group.len() as f64) < smallest {
             dropped += 1;
-            for &i in &group {
-                scan.depth_um[i] = 0.0;
-            }
+            group.iter().for_each(|&i| scan.depth_um[i] = 0.0);
         }
-    }
+    });
     dropped
-}
-
-/// The up to four points next to a point.
-fn neighbours(i: usize, columns: usize, rows: usize) -> impl Iterator<Item = usize> {
-    let (column, row) = (i % columns, i / columns);
-    [
-        (column > 0).then(|| i - 1),
-        (column + 1 < columns).then(|| i + 1),
-        (row > 0).then(|| i - columns),
-        (row + 1 < rows).then(|| i + columns),
-    ]
-    .into_iter()
-    .flatten()
 }

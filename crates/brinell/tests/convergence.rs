@@ -3,12 +3,11 @@
 //! Steps are fixed by a tolerance that refuses nothing and a longest step. The first five grow to it from a thousandth,
 //! by a factor of five each: that is the same share of a step at every step size, and leaves the order alone.
 
-use brinell::document;
+use crate::common::cases::rectangle;
 use brinell::model::{Energy, Model, Motion};
 use brinell::scenario::Accuracy;
 use brinell::solver::{Settings, Stepper, System};
 use brinell::{accuracy, start};
-use std::path::Path;
 
 /// Order of the pair.
 const ORDER: f64 = 3.0;
@@ -211,9 +210,7 @@ const AUDITED: usize = 3;
 /// as the shortest, and against the energy audit, which needs no other solution.
 #[test]
 fn analytic_order_on_the_bearing_between_switches() {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/reference/outer-rectangle.toml");
-    let loaded = document::read(&std::fs::read_to_string(path).unwrap(), &[]).unwrap();
-    let model = Model::new(&loaded.scenario).unwrap();
+    let model = Model::new(&rectangle()).unwrap();
     let (from, to, first) = quiet_stretch(&model, 2e-3, 12e-3);
     println!("quiet from {from:.6} to {to:.6}");
     assert!(to - from > 5e-5, "quiet from {from} to {to}");

@@ -1,17 +1,9 @@
 //! The kernels for different instructions compute the same equations, to round-off.
 
-use crate::common::cases::raceway_film;
-use brinell::document::read;
+use crate::common::cases::{case, raceway_film, rectangle};
 use brinell::model::{Kernel, Model, Workspace};
 use brinell::scenario::{Accuracy, Guidance, Scenario};
 use brinell::simulate::Simulation;
-use std::path::Path;
-
-fn scenario(name: &str) -> Scenario {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests").join(name);
-    let text = std::fs::read_to_string(path.with_extension("toml")).unwrap();
-    read(&text, &[]).unwrap().scenario
-}
 
 /// States along a run, so that contacts, pockets and damage are at work.
 fn states(s: &Scenario) -> Vec<(f64, Vec<f64>)> {
@@ -48,7 +40,7 @@ fn xval_kernels_agree_to_round_off() {
         "xval/rest-speed-profile",
         "raceway film",
     ] {
-        let s = if name == "raceway film" { raceway_film() } else { scenario(name) };
+        let s = if name == "raceway film" { raceway_film() } else { case(name) };
         let model = Model::new(&s).unwrap();
         let dof = model.layout.dof();
         let mass = model.mass();
@@ -82,7 +74,7 @@ fn xval_kernels_agree_to_round_off() {
 
 #[test]
 fn prop_a_workspace_never_holds_a_kernel_that_is_not_there() {
-    let mut s = scenario("reference/outer-rectangle");
+    let mut s = rectangle();
     s.cage.guidance = Guidance::Rollers;
     let simulation = Simulation::new(&s).unwrap();
     for kernel in Kernel::ALL {

@@ -3,12 +3,8 @@
 //! The paper: simulated 249.60 (rectangle 3 x 4 mm), 250.39 (circle 4.5 mm) and 249.40 Hz (irregular, 7 x 4 mm); it
 //! states neither the duration nor the resolution, nor which cage slip holds. Pure rolling gives 250.10 Hz.
 
-use brinell::channel::Frame;
-use brinell::observe::Watch;
 use brinell::scenario::{GuidanceFilm, Scenario, Shape};
 use brinell::signal::LineFrequency;
-use brinell::simulate::{End, Observer, Simulation};
-use std::ops::ControlFlow;
 
 /// Independent starts, the load larger by one part in 10^5 each time.
 const STARTS: u32 = 7;
@@ -16,28 +12,9 @@ const STARTS: u32 = 7;
 /// Half a percent is 1.25 Hz: a bin of a 0.8 s record, and twice the spread of the paper's own three figures.
 const TOLERANCE: f64 = 5e-3;
 
-struct Watching<'a>(Watch, &'a Simulation);
-
-impl Observer for Watching<'_> {
-    fn step(&mut self, frame: &Frame) {
-        self.0.step(frame);
-    }
-    fn sample(&mut self, _: u64, frame: &Frame) {
-        self.0.sample(frame);
-    }
-    fn row(&mut self, index: u64, row: &[f64], filtered: &[f64]) -> ControlFlow<()> {
-        self.0.row(self.1, index, row, filtered);
-        ControlFlow::Continue(())
-    }
-}
-
 /// The line of the only defect.
 fn line(s: &Scenario) -> LineFrequency {
-    let simulation = Simulation::new(s).unwrap();
-    let mut watching = Watching(Watch::new(s, &simulation), &simulation);
-    let outcome = simulation.run(&mut watching);
-    assert_eq!(outcome.end, End::Complete);
-    let findings = watching.0.finish(&simulation);
+    let findings = brinell::simulate(s).unwrap().findings;
     let line = &findings.lines[0];
     assert_eq!(line.name, "BPFO");
     line.found.expect("a line is clear of the noise")

@@ -16,8 +16,6 @@ pub struct Photo {
     pub mm_per_pixel: f64,
     /// Area of the spall; 0 where there is none.
     pub area_mm2: f64,
-    /// A point within the spall, in pixels from the upper left corner.
-    pub inside_px: [f64; 2],
 }
 
 /// What is wrong with a picture beside its spall; a photo has one of them in full and some others in part.
@@ -74,7 +72,6 @@ pub fn photo(seed: u64, k: usize) -> Photo {
         bytes: encoded(&grey, width, height, quality),
         mm_per_pixel: scene.mm_per_pixel,
         area_mm2: area_px * scene.mm_per_pixel.powi(2),
-        inside_px: spall.map_or([0.0; 2], |s| s.inside()),
     }
 }
 
@@ -246,10 +243,6 @@ impl Spall {
 
     fn holds(&self, x: f64, y: f64) -> bool {
         self.lobes.iter().any(|lobe| lobe.holds(x, y))
-    }
-
-    fn inside(&self) -> [f64; 2] {
-        self.lobes[0].centre
     }
 
     /// Of a pixel, the share within: 4 x 4 points where the corners differ.

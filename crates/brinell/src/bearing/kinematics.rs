@@ -128,6 +128,8 @@ mod tests {
         assert_digits(k.bsf, 120.663, 3);
         assert_digits(k.orbit_speed, 82.707, 3);
         assert_digits(k.spin_speed, -675.4, 1);
+        // Centrifugal force of a roller of 1.3 g, N.
+        assert_digits(0.0013 * 0.5 * NN3007.pitch_diameter * k.orbit_speed.powi(2), 0.218, 3);
     }
 
     #[test]

@@ -18,6 +18,7 @@ mod grid;
 mod joint;
 mod map_slices;
 mod outline;
+mod parts;
 mod piecewise;
 mod placed;
 mod profile;
@@ -37,6 +38,8 @@ pub use edge_gradient::{EdgeGradient, edge_gradient, edge_gradient_of_slices};
 pub use envelope::envelope;
 pub use grid::{Covered, Grid};
 pub use outline::{Fault, MOST_CROSSINGS, Outline, Tangle, check_crossings, faults};
+#[doc(hidden)]
+pub use parts::{neighbours, parts};
 pub use piecewise::{Line, PiecewisePolynomial};
 pub use placed::{Defect, Defects};
 pub use profile::Profile;

@@ -4,6 +4,7 @@
 //! the extents requested. Nothing but additions, multiplications and divisions of IEEE doubles is used (no sine, no
 //! power), and the integers are SplitMix64's, so every machine computes the same bits.
 
+use super::parts::parts;
 use crate::random::mix;
 use crate::scenario::DepthGrid;
 
@@ -92,36 +93,12 @@ pub fn spall(seed: u64, length_mm: f64, width_mm: f64, roughness: f64, mean_dept
 
 /// The largest connected part of what is above 0 (four neighbours); of two equal ones the first.
 fn largest_part(field: &[f64]) -> Vec<bool> {
-    let mut seen = vec![false; field.len()];
-    let mut best: Vec<usize> = Vec::new();
-    for start in 0..field.len() {
-        if seen[start] || field[start] <= 0.0 {
-            continue;
-        }
-        let mut part = vec![start];
-        seen[start] = true;
-        let mut next = 0;
-        while next < part.len() {
-            let k = part[next];
-            next += 1;
-            let (row, column) = (k / NODES, k % NODES);
-            let neighbours = [
-                (row > 0).then(|| k - NODES),
-                (row + 1 < NODES).then(|| k + NODES),
-                (column > 0).then(|| k - 1),
-                (column + 1 < NODES).then(|| k + 1),
-            ];
-            for n in neighbours.into_iter().flatten() {
-                if !seen[n] && field[n] > 0.0 {
-                    seen[n] = true;
-                    part.push(n);
-                }
-            }
-        }
+    let mut best = Vec::new();
+    parts(NODES, field.iter().map(|f| *f > 0.0).collect(), |part| {
         if part.len() > best.len() {
-            best = part;
+            best = part.to_vec();
         }
-    }
+    });
     let mut inside = vec![false; field.len()];
     best.into_iter().for_each(|k| inside[k] = true);
     inside

@@ -4,73 +4,37 @@ use super::enum_strings::SurfaceWord;
 use super::keys::Fallback::{Needed, Required};
 use super::keys::{Keys, PAPER, Variant, assumed, derived, stated};
 use super::spec::{Spec, key};
+use super::unset::NONE;
 use super::{damage_files, unset};
 use crate::scenario::*;
 
+/// Name, pattern, one without values, meaning.
+macro_rules! shapes {
+    ($($name:literal: $shape:pat, $blank:expr, $doc:literal;)+) => {
+        &[$(Variant { name: $name, doc: $doc, blank: || $blank, is: |shape| matches!(shape, $shape) }),+]
+    };
+}
+
 /// The shapes of a defect.
-const SHAPES: &[Variant<Shape>] = &[
-    Variant {
-        name: "rectangle",
-        doc: "as wide all along",
-        blank: unset::rectangle,
-        is: |shape| matches!(shape, Shape::Rectangle { .. }),
-    },
-    Variant {
-        name: "circle",
-        doc: "a round pit",
-        blank: unset::circle,
-        is: |shape| matches!(shape, Shape::Circle { .. }),
-    },
-    Variant {
-        name: "profile",
-        doc: "points joined by lines; where arc_mm repeats, it jumps",
-        blank: unset::profile,
-        is: |shape| matches!(shape, Shape::Profile { .. }),
-    },
-    Variant {
-        name: "li2023_irregular",
-        doc: "the paper's irregular spall, 7 mm long",
-        blank: unset::irregular,
-        is: |shape| matches!(shape, Shape::Li2023Irregular { .. }),
-    },
-    Variant {
-        name: "outline",
-        doc: "polygons seen from above; a polygon within another is a hole",
-        blank: unset::outline,
-        is: |shape| matches!(shape, Shape::Outline { .. }),
-    },
-    Variant {
-        name: "depth_map",
-        doc: "depths on a grid, bilinear between its nodes (the law ecl takes each damaged node as wide as dz): in a file, or \
-              written out",
-        blank: unset::depth_map,
-        is: |shape| matches!(shape, Shape::DepthMap { .. } | Shape::Scan(_)),
-    },
-    Variant {
-        name: "grown",
-        doc: "an outline scaled alike in both directions to a width or an area",
-        blank: unset::grown,
-        is: |shape| matches!(shape, Shape::Grown { .. }),
-    },
-    Variant {
-        name: "random",
-        doc: "a ragged spall drawn from a seed, its mean depth the defect's",
-        blank: unset::random,
-        is: |shape| matches!(shape, Shape::Random { .. }),
-    },
-    Variant {
-        name: "image",
-        doc: "a photo or a mask, PNG or JPEG",
-        blank: unset::image,
-        is: |shape| matches!(shape, Shape::Image(_)),
-    },
-    Variant {
-        name: "svg",
-        doc: "a drawing from a vector editor",
-        blank: unset::svg,
-        is: |shape| matches!(shape, Shape::Svg(_)),
-    },
-];
+const SHAPES: &[Variant<Shape>] = shapes! {
+    "rectangle": Shape::Rectangle { .. }, unset::rectangle(), "as wide all along";
+    "circle": Shape::Circle { .. }, Shape::Circle { diameter_mm: NONE }, "a round pit";
+    "profile": Shape::Profile { .. }, Shape::Profile { arc_mm: Vec::new(), width_mm: Vec::new(), depth_um: None },
+        "points joined by lines; where arc_mm repeats, it jumps";
+    "li2023_irregular": Shape::Li2023Irregular { .. }, Shape::Li2023Irregular { max_width_mm: NONE },
+        "the paper's irregular spall, 7 mm long";
+    "outline": Shape::Outline { .. }, Shape::Outline { polygons_mm: Vec::new() },
+        "polygons seen from above; a polygon within another is a hole";
+    "depth_map": Shape::DepthMap { .. } | Shape::Scan(_), Shape::DepthMap { grid: unset::grid() },
+        "depths on a grid, bilinear between its nodes (the law ecl takes each damaged node as wide as dz): in a file, or \
+         written out";
+    "grown": Shape::Grown { .. }, Shape::Grown { outline: Vec::new(), max_width_mm: None, area_mm2: None },
+        "an outline scaled alike in both directions to a width or an area";
+    "random": Shape::Random { .. }, Shape::Random { seed: 0, length_mm: NONE, width_mm: NONE, roughness: NONE },
+        "a ragged spall drawn from a seed, its mean depth the defect's";
+    "image": Shape::Image(_), Shape::Image(ImageFile::default()), "a photo or a mask, PNG or JPEG";
+    "svg": Shape::Svg(_), Shape::Svg(SvgFile::default()), "a drawing from a vector editor";
+};
 
 impl Shape {
     /// As the scenario file says it: `rectangle`, `random`, ...

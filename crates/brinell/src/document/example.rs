@@ -44,7 +44,7 @@ pub fn template() -> String {
 /// Every problem of the text.
 pub fn explained(text: &str) -> Result<String, Vec<Problem>> {
     let loaded = read(text, &[])?;
-    let style = Style::Template(by_key(&loaded.provenance));
+    let style = Style { provenance: by_key(&loaded.provenance), template: true };
     Ok(HEAD.to_string() + &write(&loaded.scenario, style))
 }
 

@@ -114,7 +114,7 @@ impl Loaded {
     /// The scenario as TOML with every default filled in, each assumed value with its reason beside it and in the
     /// section `[provenance]`, so that [`read`] says the same of it.
     pub fn to_toml(&self) -> String {
-        let style = Style::Resolved(by_key(&self.provenance));
+        let style = Style { provenance: by_key(&self.provenance), template: false };
         let mut writer = Writer::new(style);
         sections::scenario(&mut writer, &mut self.scenario.clone());
         recorded::provenance(&mut writer, &mut recorded::of(&self.provenance));
@@ -125,7 +125,7 @@ impl Loaded {
 impl Scenario {
     /// The scenario as TOML with every key given; it reads back to the same scenario, bit for bit.
     pub fn to_toml(&self) -> String {
-        write(self, Style::Resolved(HashMap::new()))
+        write(self, Style { provenance: HashMap::new(), template: false })
     }
 
     /// Everything wrong with a scenario built or changed in code, errors first; keys are those of the file.

@@ -296,26 +296,15 @@ pub fn canonical(text: &str) -> Result<String, Vec<Problem>> {
 /// Where a key is in a scenario's text: a path as in [`Problem::key`]. `None` where the text does not hold it or is not
 /// TOML.
 pub fn locate(text: &str, key: &str) -> Option<Place> {
-    let mut table = Some(parse(text, &[]).ok()?);
-    let mut items: Vec<Node> = Vec::new();
-    let mut span = None;
+    let mut node = Node::table(parse(text, &[]).ok()?);
     for step in key.split('.') {
-        let node = match table.take() {
-            Some(mut table) => table.remove(step)?.node,
-            None => {
-                let k: usize = step.parse().ok()?;
-                items.into_iter().nth(k)?
-            }
+        node = match node.value {
+            Value::Table(mut table) => table.remove(step)?.node,
+            Value::Array(items) => items.into_iter().nth(step.parse().ok()?)?,
+            _ => return None,
         };
-        span = node.span;
-        items = Vec::new();
-        match node.value {
-            Value::Table(inner) => table = Some(inner),
-            Value::Array(inner) => items = inner,
-            _ => {}
-        }
     }
-    Some(Place::new(text, span?))
+    Some(Place::new(text, node.span?))
 }
 
 fn lay_over(root: &mut Node, path: &str, text: &str) -> Result<(), Box<Problem>> {

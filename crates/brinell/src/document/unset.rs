@@ -3,7 +3,7 @@
 use super::value_type::ValueType;
 use crate::scenario::*;
 
-const NONE: f64 = f64::NAN;
+pub(crate) const NONE: f64 = f64::NAN;
 
 pub(crate) fn scenario() -> Scenario {
     Scenario {
@@ -112,42 +112,6 @@ pub(crate) fn rectangle() -> Shape {
     Shape::Rectangle { length_mm: NONE, width_mm: NONE }
 }
 
-pub(crate) fn circle() -> Shape {
-    Shape::Circle { diameter_mm: NONE }
-}
-
-pub(crate) fn profile() -> Shape {
-    Shape::Profile { arc_mm: Vec::new(), width_mm: Vec::new(), depth_um: None }
-}
-
-pub(crate) fn irregular() -> Shape {
-    Shape::Li2023Irregular { max_width_mm: NONE }
-}
-
-pub(crate) fn outline() -> Shape {
-    Shape::Outline { polygons_mm: Vec::new() }
-}
-
-pub(crate) fn depth_map() -> Shape {
-    Shape::DepthMap { grid: grid() }
-}
-
 pub(crate) fn grid() -> DepthGrid {
     DepthGrid { s0_mm: NONE, z0_mm: NONE, ds_mm: NONE, dz_mm: NONE, columns: 0, rows: 0, depth_um: Vec::new() }
-}
-
-pub(crate) fn grown() -> Shape {
-    Shape::Grown { outline: Vec::new(), max_width_mm: None, area_mm2: None }
-}
-
-pub(crate) fn random() -> Shape {
-    Shape::Random { seed: 0, length_mm: NONE, width_mm: NONE, roughness: NONE }
-}
-
-pub(crate) fn image() -> Shape {
-    Shape::Image(ImageFile::default())
-}
-
-pub(crate) fn svg() -> Shape {
-    Shape::Svg(SvgFile::default())
 }

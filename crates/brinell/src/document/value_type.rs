@@ -295,17 +295,38 @@ pub(super) fn write_each<T: ValueType>(items: &[T]) -> String {
     format!("[{}]", texts.join(", "))
 }
 
-impl ValueType for Vec<f64> {
-    fn blank() -> Vec<f64> {
+/// What lists of any length hold.
+pub(super) trait Listed: ValueType {
+    /// Such a list, with its article.
+    const LIST: &'static str;
+    /// Where it holds lists: how many at least.
+    const LISTS: Option<usize> = None;
+}
+
+impl Listed for f64 {
+    const LIST: &'static str = "a list of numbers";
+}
+
+impl Listed for String {
+    const LIST: &'static str = "a list of strings";
+}
+
+impl<T: Listed> ValueType for Vec<T> {
+    fn blank() -> Vec<T> {
         Vec::new()
     }
 
     fn expected(spec: &Spec) -> String {
-        in_unit("a list of numbers", spec)
+        in_unit(T::LIST, spec)
     }
 
-    fn read(node: &Node, spec: &Spec) -> Result<Vec<f64>, Misfit> {
-        read_each(elements::<Vec<f64>>(node, spec)?, spec)
+    fn read(node: &Node, spec: &Spec) -> Result<Vec<T>, Misfit> {
+        let items = elements::<Vec<T>>(node, spec)?;
+        let wrong = items.iter().find(|item| T::LISTS.is_some() && !matches!(item.value, Value::Array(_)));
+        match wrong {
+            Some(item) => Err(wrong_type::<T>(item, spec).in_element(item)),
+            None => read_each(items, spec),
+        }
     }
 
     fn write(&self) -> String {
@@ -313,11 +334,15 @@ impl ValueType for Vec<f64> {
     }
 
     fn schema(spec: &Spec) -> Json {
-        json!({ "type": "array", "items": f64::schema(spec) })
+        let mut schema = json!({ "type": "array", "items": T::schema(spec) });
+        if let Some(least) = T::LISTS {
+            schema["minItems"] = json!(least);
+        }
+        schema
     }
 
     fn range(spec: &Spec) -> String {
-        spec.range.to_string()
+        T::range(spec)
     }
 }
 
@@ -353,28 +378,6 @@ impl<const N: usize> ValueType for [f64; N] {
 
     fn range(spec: &Spec) -> String {
         spec.range.to_string()
-    }
-}
-
-impl ValueType for Vec<String> {
-    fn blank() -> Vec<String> {
-        Vec::new()
-    }
-
-    fn expected(_: &Spec) -> String {
-        "a list of strings".into()
-    }
-
-    fn read(node: &Node, spec: &Spec) -> Result<Vec<String>, Misfit> {
-        read_each(elements::<Vec<String>>(node, spec)?, spec)
-    }
-
-    fn write(&self) -> String {
-        write_each(self)
-    }
-
-    fn schema(spec: &Spec) -> Json {
-        json!({ "type": "array", "items": String::schema(spec) })
     }
 }
 

@@ -8,11 +8,11 @@ use super::spec::Spec;
 use super::value_type::{ValueType, Words};
 
 /// What the comments say, and which keys are live.
-pub(crate) enum Style<'a> {
-    /// Every key, with the reason of those that are assumed.
-    Resolved(HashMap<&'a str, &'a Provenance>),
-    /// Every key explained; those that the file need not give are commented out.
-    Template(HashMap<&'a str, &'a Provenance>),
+pub(crate) struct Style<'a> {
+    pub(crate) provenance: HashMap<&'a str, &'a Provenance>,
+    /// Every key explained, and those that the file need not give commented out; otherwise those that are assumed have
+    /// their reason.
+    pub(crate) template: bool,
 }
 
 struct Line {
@@ -50,34 +50,24 @@ impl<'a> Writer<'a> {
     }
 
     fn provenance(&self, name: &str) -> Option<&'a Provenance> {
-        let path = self.path_of(name);
-        match &self.style {
-            Style::Resolved(map) | Style::Template(map) => map.get(path.as_str()).copied(),
-        }
-    }
-
-    fn is_template(&self) -> bool {
-        matches!(self.style, Style::Template(_))
+        self.style.provenance.get(self.path_of(name).as_str()).copied()
     }
 
     /// Comment of one key.
     fn remark(&self, spec: &Spec, range: Words) -> String {
         let provenance = self.provenance(spec.name);
-        let text = match &self.style {
-            Style::Resolved(_) => match provenance {
-                Some(provenance) if provenance.assumed => {
-                    format!("assumed, {}", provenance.reason())
-                }
+        let text = if self.style.template {
+            let origin = match provenance {
+                Some(provenance) if provenance.assumed => "; assumed",
+                Some(Provenance { origin: Origin::Preset { .. }, .. }) => "; catalogue",
+                _ => "",
+            };
+            explain(spec, range) + origin
+        } else {
+            match provenance {
+                Some(provenance) if provenance.assumed => format!("assumed, {}", provenance.reason()),
                 Some(provenance) if matches!(provenance.origin, Origin::DamageFile(_)) => provenance.reason(),
                 _ => String::new(),
-            },
-            Style::Template(_) => {
-                let origin = match provenance {
-                    Some(provenance) if provenance.assumed => "; assumed",
-                    Some(Provenance { origin: Origin::Preset { .. }, .. }) => "; catalogue",
-                    _ => "",
-                };
-                explain(spec, range) + origin
             }
         };
         text.replace(['\n', '\r'], " ")
@@ -131,7 +121,7 @@ impl<'a> Writer<'a> {
         self.flush();
         self.out.push('\n');
         self.out.push_str(&bracketed);
-        if self.is_template() {
+        if self.style.template {
             self.out.push_str("  # ");
             self.out.push_str(doc);
         }
@@ -158,14 +148,14 @@ impl Keys for Writer<'_> {
         let given = self
             .provenance(spec.name)
             .is_some_and(|provenance| matches!(provenance.origin, Origin::File | Origin::Override));
-        let live = !self.is_template() || given;
+        let live = !self.style.template || given;
         self.add(&spec, T::range, &value.write(), live);
     }
 
     fn optional<T: ValueType>(&mut self, spec: Spec, value: &mut Option<T>) {
         if let Some(value) = value {
             self.add(&spec, T::range, &value.write(), true);
-        } else if self.is_template() {
+        } else if self.style.template {
             self.comment(format!("{}: {}", spec.name, explain(&spec, T::range)));
         }
     }
@@ -173,9 +163,9 @@ impl Keys for Writer<'_> {
     fn only_where<T: ValueType>(&mut self, spec: Spec, wanted: bool, case: &'static str, value: &mut T) {
         if wanted {
             self.add(&spec, T::range, &value.write(), true);
-        } else if self.is_template() && (self.inline.is_some() || !value.fits(&spec)) {
+        } else if self.style.template && (self.inline.is_some() || !value.fits(&spec)) {
             self.comment(format!("{}: {}; only where {case}", spec.name, explain(&spec, T::range)));
-        } else if self.is_template() {
+        } else if self.style.template {
             self.add(&spec, T::range, &value.write(), false);
             if let Some(line) = self.lines.last_mut() {
                 line.comment.push_str(&format!("; only where {case}"));
@@ -186,7 +176,7 @@ impl Keys for Writer<'_> {
     fn key_where<T: ValueType>(&mut self, spec: Spec, (wanted, case): Case, fallback: Fallback<T>, value: &mut T) {
         if wanted {
             self.key(spec, fallback, value);
-        } else if self.is_template() {
+        } else if self.style.template {
             self.comment(format!("{}: {}; only where {case}", spec.name, explain(&spec, T::range)));
         }
     }
@@ -206,7 +196,7 @@ impl Keys for Writer<'_> {
     }
 
     fn tables<T>(&mut self, spec: Spec, items: &mut Vec<T>, _: fn() -> T, mut keys: impl FnMut(&mut Self, &mut T)) {
-        if items.is_empty() && self.is_template() && !self.path.is_empty() {
+        if items.is_empty() && self.style.template && !self.path.is_empty() {
             self.comment(format!("[[{}]]: {}", self.path_of(spec.name), spec.doc));
         }
         for (i, item) in items.iter_mut().enumerate() {
@@ -235,7 +225,7 @@ impl Keys for Writer<'_> {
             writer.path.pop();
             writer.inline.take().unwrap_or_default().join(", ")
         };
-        if self.is_template() {
+        if self.style.template {
             let say = |writer: &mut Self, comment: String| {
                 writer.lines.push(Line { code: String::new(), comment });
             };
@@ -250,9 +240,9 @@ impl Keys for Writer<'_> {
         }
         let inner = walk(self, chosen, value);
         self.path.pop();
-        let comment = match self.style {
-            Style::Resolved(_) => std::mem::take(&mut self.comments).join("; "),
-            Style::Template(_) => String::new(),
+        let comment = match self.style.template {
+            true => String::new(),
+            false => std::mem::take(&mut self.comments).join("; "),
         };
         self.lines.push(Line { code: format!("{} = {{ {chosen} = {{ {inner} }} }}", spec.name), comment });
     }

@@ -8,7 +8,7 @@ use crate::scenario::{LoadOn, Surface};
 use std::f64::consts::{PI, TAU};
 
 /// Load distribution of the static balance: rollers of all rows at several positions of the cage.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, Default, PartialEq)]
 pub struct StaticLoadZone {
     /// (row from 0, orbit angle in rad in [-pi, pi), Q_in, Q_out in N).
     pub points: Vec<(usize, f64, f64, f64)>,
@@ -94,19 +94,7 @@ fn as_it_is(model: &Model) -> Result<StaticLoadZone, NoBalance> {
     let l = &model.layout;
     let mut problem = Problem::at_start(model);
     let pitch = TAU / l.rollers_per_row as f64;
-    let mut zone = StaticLoadZone {
-        points: Vec::with_capacity(PHASES * l.rollers()),
-        largest: 0.0,
-        healthy_largest: 0.0,
-        extent: 0.0,
-        ends: (0.0, 0.0),
-        middle: 0.0,
-        displacement: 0.0,
-        shift: [0.0; 2],
-        stiffness: [[0.0; 2]; 2],
-        support: 0.0,
-        sunk: 0.0,
-    };
+    let mut zone = StaticLoadZone { points: Vec::with_capacity(PHASES * l.rollers()), ..StaticLoadZone::default() };
     let mut places: Vec<Place> = Vec::with_capacity(PHASES * l.rollers());
     // Of the inner and the outer ring.
     let mut displaced = [[0.0; 2]; 2];

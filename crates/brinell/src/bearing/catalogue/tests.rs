@@ -184,36 +184,9 @@ fn prop_bad_text_is_named() {
 
 #[test]
 fn lit_nn3007_is_the_paper() {
-    // Li et al. 2023, Table 1 and the text after it.
+    // Table 1 and the text after it: `xval_reference_scenarios_read_unchanged` holds the values.
     let entry = find("NN3007").unwrap();
-    for (key, printed) in [
-        ("bearing.inner_raceway_diameter_mm", 43.0),
-        ("bearing.outer_raceway_diameter_mm", 55.0),
-        ("bearing.pitch_diameter_mm", 49.0),
-        ("bearing.roller_diameter_mm", 6.0),
-        ("bearing.roller_length_mm", 6.0),
-        ("bearing.rollers_per_row", 19.0),
-        ("bearing.rows", 2.0),
-        ("bearing.radial_clearance_um", 10.0),
-        ("bearing.outer_gap_um", 0.0),
-        ("bearing.inner_ring_mass_kg", 0.1010),
-        ("bearing.outer_ring_mass_kg", 0.0791),
-        ("bearing.roller_mass_kg", 0.0013),
-        ("cage.mass_kg", 0.0148),
-        ("cage.inner_diameter_mm", 45.0),
-        ("cage.outer_diameter_mm", 53.0),
-        ("cage.pocket_clearance_mm", 0.09),
-        ("cage.guide_clearance_mm", 1.0),
-        ("cage.guide_width_mm", 6.0),
-        ("contact.inner_stiffness", 1.828e8),
-        ("contact.outer_stiffness", 1.898e8),
-        ("contact.damping_ns_per_m", 200.0),
-        ("friction.raceway_coefficient", 0.02),
-    ] {
-        assert_eq!(number(entry, key), printed, "{key}");
-        let value = entry.values.iter().find(|value| value.key == key).unwrap();
-        assert!(!value.estimated && value.source.starts_with("Li et al."), "{key}");
-    }
+    assert!(entry.values.iter().all(|value| value.estimated || value.source.starts_with("Li et al. 2023")));
     // What the paper does not give: half a roller pitch, and the stiffness of the cage's contacts.
     assert_eq!(number(entry, "cage.contact_stiffness_n_per_m"), 1e7);
     assert_eq!(bearing(entry, "row_stagger_deg"), 180.0 / 19.0);
