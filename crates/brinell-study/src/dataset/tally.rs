@@ -9,7 +9,7 @@ use serde_json::{Value, json};
 /// those with a sensor's signal that is one value throughout.
 pub(crate) const COUNTED: [&str; 4] = ["runs", "failed", "clipped", "constant"];
 
-/// Counts by class, of runs whose labels are open: a list of each of [`COUNTED`].
+/// Counts by class, of runs whose labels are open: a list of each of `COUNTED`.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct Tally(pub(crate) [Vec<u64>; 4]);
 
