@@ -1,14 +1,12 @@
 //! Lines that are nobody's damage: the mains', and the shaft's, which tell its speed.
 
 use super::running_median::running_median;
-use super::together::{FLOOR, REVOLUTIONS};
+use super::together::{FLOOR, MAINS_HZ, REVOLUTIONS};
 use super::{AnalysisError, Options};
 use crate::distribution::chi_square_quantile;
 use crate::lengths::fast_up_to;
 use crate::{Segments, peak_near, psd};
 
-/// Frequencies of public power supplies.
-pub(super) const MAINS_HZ: [f64; 2] = [50.0, 60.0];
 /// Chance under noise at which a peak counts as a line.
 const LEVEL: f64 = 1e-4;
 /// A line is higher than so many bins to either side: what is near it may be its skirt.

@@ -5,7 +5,6 @@
 //! the bands: every band counts alike, whatever its level, as in the integrated cyclic spectral coherence (J. Antoni,
 //! "Cyclic spectral analysis in practice", Mech. Syst. Signal Process. 21 (2007) 597-630).
 
-use super::known_lines::MAINS_HZ;
 use super::running_median::running_median;
 use super::{AnalysisError, Options};
 use crate::distribution::chi_square_quantile;
@@ -23,8 +22,12 @@ const BANDS: f64 = 12.0;
 pub(super) const REVOLUTIONS: f64 = 120.0;
 /// The envelope is sampled so many times as often as its highest line sought.
 const ENVELOPE_RATE: f64 = 8.0;
+/// Frequencies of public power supplies.
+pub(super) const MAINS_HZ: [f64; 2] = [50.0, 60.0];
 /// Bins to either side of a line of shaft or mains that count for nobody: half the main lobe of Hann's window.
 const ASIDE: f64 = 2.0;
+/// Part of a simulation's spectrum that the shaft's lines may hide.
+const HIDDEN: f64 = 0.1;
 /// Width of the running median, in shaft's frequencies and in bins at least.
 pub(super) const FLOOR: (f64, f64) = (3.0, 41.0);
 /// Noise shows this much at a place once in 700 (three standard deviations).
@@ -122,10 +125,13 @@ impl Together {
         };
         let of_shaft = (shaft.tolerance > 0.0).then(|| highest(shaft.hz, shaft.tolerance));
         let of_supply = options.supply.map(|hz| highest(hz, SUPPLY_KNOWN * hz));
+        // Of a simulation the shaft has lines where its speed varies, too: elements that slip meet damage that turns at
+        // places of the load zone.
+        let with_shaft = !options.exact || options.rotation.is_some() && 2.0 * ASIDE * this.step < HIDDEN * shaft.hz;
         let combs: Vec<f64> = (mains.filter(stand))
             .chain(of_shaft.flatten())
             .chain(of_supply.flatten())
-            .chain((!options.exact || options.rotation.is_some()).then_some(shaft.hz))
+            .chain(with_shaft.then_some(shaft.hz))
             .collect();
         for comb in combs {
             let mut k = 1.0;

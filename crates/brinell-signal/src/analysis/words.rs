@@ -3,8 +3,7 @@
 use super::bands::LOWEST_TOP;
 use super::drift::Drift;
 use super::family::{Family, Finding, reach};
-use super::known_lines::MAINS_HZ;
-use super::together::REVOLUTIONS;
+use super::together::{MAINS_HZ, REVOLUTIONS};
 use super::{Analysis, Component, Elsewhere, Verdict};
 use crate::Indicator;
 use crate::digits;
