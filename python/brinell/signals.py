@@ -102,7 +102,7 @@ def samples_of(x: npt.ArrayLike, name: str = "x") -> Array:
             raise TypeError
         given = np.asarray(x)
         # Others convert too, instants and text among them, and are no vibration.
-        if given.dtype.kind not in "iuf" and not (given.dtype.kind == "O" and all(isinstance(v, numbers.Real) for v in given.flat)):
+        if given.dtype.kind not in "iuf" and not (given.dtype.kind == "O" and all(isinstance(v, numbers.Real) and not isinstance(v, bool) for v in given.flat)):
             raise TypeError
         samples: Array = given.astype(float, copy=False)
     except (TypeError, ValueError):

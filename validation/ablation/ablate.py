@@ -48,7 +48,8 @@ variant("no score limit: 14 % suffices beyond noise", ("family.rs", "limit: SCOR
 variant("a high score is no way to damage", ("family.rs", "        high || deep\n", "        deep\n"))
 variant("deep modulation is no way to damage", ("family.rs", "        high || deep\n", "        high\n"))
 variant("a comb elsewhere not sought", ("verdict.rs", "let elsewhere = if is_open { None } else { self.elsewhere(lead.map(|k| &all[k])) };", "let elsewhere: Option<Elsewhere> = None;"))
-variant("sidebands of another shaft not sought", ("verdict.rs", "lead.filter(|_| elsewhere.is_none() && !self.options.exact)", "lead.filter(|_| false)"))
+variant("sidebands of another shaft not sought", ("verdict.rs", "of_other_shaft(&self.together, &all[lead], self.shaft, &self.options);", "None;"))
+variant("outer race and element not exchanged by slip", ("verdict.rs", "self.others_slip(&all[lead]);", "None;"))
 variant("damage beyond the tolerance passed over", ("verdict.rs", "f.finding == Finding::Silent && f.is_damage_beyond()", "f.is_damage_beyond() && false"))
 variant("speed as given not tried", ("hypotheses.rs", "if !best.shaft_lines.is_empty() && !best.record.is_damage()", "if false"))
 variant("lower parts of the range not tried", ("hypotheses.rs", "if options.band.is_none() && !options.exact && !best.record.is_damage()", "if false"))
@@ -57,10 +58,6 @@ variant("sidebands not counted in modulation", ("family.rs", "depth += line.dept
 variant("sidebands not capped by their carrier", ("family.rs", "depth += line.depth.min(carrier.depth);", "depth += line.depth;"))
 variant("one broad band", ("together.rs", "let width = top.max(whole / BANDS).min(whole);", "let width = whole;"))
 variant("shaft and mains not hidden", ("together.rs", "together.hide_known(shaft, options);", ""))
-variant(
-    "only three bins hidden, skirts not followed",
-    ("together.rs", "to >= level && to < self.seen(from)", "to >= level && to < self.seen(from) && false"),
-)
 variant("shaft's comb not placed anew", ("together.rs", "let of_shaft = (shaft.tolerance > 0.0)", "let of_shaft = false"))
 variant(
     "speed as given",
@@ -76,7 +73,7 @@ variant("an element needs no lead", ("verdict.rs", "const LEAD: f64 = 2.0;", "co
 variant("an element may run ahead", ("family.rs", "Component::Element => (tolerance, AHEAD.min(tolerance)),", "Component::Element => (tolerance, tolerance),"))
 variant("the cage may run ahead", ("family.rs", "Component::Cage => (slips, AHEAD.min(tolerance)),", "Component::Cage => (slips, tolerance),"))
 variant("no least number of lines", ("family.rs", "const FEWEST: (usize, usize) = (3, 2);", "const FEWEST: (usize, usize) = (0, 0);"))
-variant("skirts of what lies beyond the tolerance not refused", ("family.rs", "is_skirt: told != frequency || outside &&", "is_skirt: false && outside &&"))
+variant("skirts of what lies beyond the tolerance not refused", ("family.rs", "|| outside && self::score(together, next) > score,", "&& false,"))
 variant(
     "cepstral pre-whitening",
     ("../transformed.rs", "*bin += Complex::new(part(), part());", "*bin += Complex::new(part(), part()); *bin /= bin.norm().max(1e-300);"),
@@ -97,14 +94,13 @@ constant("faint below", "family.rs", "FAINT", "0.14", (0.1, 0.18))
 WITHOUT_EFFECT = [
     "no modulation asked of a high score",
     "sidebands not counted in modulation",
-    "only three bins hidden, skirts not followed",
     "an element needs no sidebands",
     "an element may run ahead",
     "no least number of lines",
     "skirts of what lies beyond the tolerance not refused",
 ]
-together("seven that change nothing by themselves, at once", *WITHOUT_EFFECT)
-together("the seven, and an element needs no lead", *WITHOUT_EFFECT, "an element needs no lead")
+together("six that change nothing by themselves, at once", *WITHOUT_EFFECT)
+together("the six, and an element needs no lead", *WITHOUT_EFFECT, "an element needs no lead")
 
 
 def apply(changes, folder):

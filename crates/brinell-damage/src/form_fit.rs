@@ -36,6 +36,8 @@ const MIN_SAMPLES: usize = 16;
 const START_SAMPLES: usize = 500;
 /// One of the starts is free of damage in 99 cases of 100 where this share of the points is damaged.
 const DAMAGED_SHARE: f64 = 0.4;
+/// Points for each parameter from which sets are drawn.
+const FEW: usize = 7;
 /// Steps through the few points of a start, and concentration steps after them.
 const THROUGH: usize = 3;
 const CONCENTRATIONS: usize = 3;
@@ -250,7 +252,9 @@ impl Fit<'_> {
         }
         let mut best = vec![(self.concentrate(&mut soft, HALF_PASSES)?, soft)];
         let clean = (1.0 - DAMAGED_SHARE).powi(self.free.len() as i32);
-        for _ in 0..(0.01_f64.ln() / (1.0 - clean).ln()).ceil() as usize {
+        // Few points: the best of many sets fits its own half better than the surface.
+        let sets = if n < FEW * self.free.len() { 0.0 } else { 0.01_f64.ln() / (1.0 - clean).ln() };
+        for _ in 0..sets.ceil() as usize {
             self.weights.fill(0.0);
             for _ in self.free {
                 self.weights[(random.part() * n as f64) as usize] = 1.0;

@@ -189,7 +189,8 @@ impl Facts<'_> {
             self.value("irregular", "outer_ay.rms")?
         );
         if let Some(sensitivity) = &self.reproduction.sensitivity {
-            let all = sensitivity.verdicts("x-above-y");
+            let mut all = sensitivity.verdicts("x-above-y");
+            all.retain(|v| v.1 != Verdict::Missing);
             let others: Vec<String> = (all.iter())
                 .filter(|(_, verdict)| *verdict != Verdict::Holds)
                 .map(|(variant, verdict)| format!("{} ({})", variant.words, verdict.words()))

@@ -63,6 +63,7 @@ pub(super) fn fade(x: &mut [f64], fs: f64, low: f64) -> usize {
 /// # Errors
 /// [`SignalError`] with fewer than 8 samples, samples that are not finite, or a lower edge that is not above 0 and
 /// below half the sampling rate and the upper edge.
+#[doc(hidden)]
 pub fn velocity(
     x: &[f64],
     fs: f64,

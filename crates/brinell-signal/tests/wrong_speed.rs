@@ -3,7 +3,7 @@
 
 use crate::analysis::{Damage, SHAFT, damaged, healthy};
 use crate::cases::first;
-use brinell_signal::analysis::{Component, NamedBearing, Options, Verdict, analyze};
+use brinell_signal::analysis::{Component, DefectOrders, NamedBearing, Options, Verdict, analyze};
 use brinell_signal::random::Random;
 use std::f64::consts::TAU;
 
@@ -48,6 +48,29 @@ fn prop_a_wrong_speed_is_pointed_to_and_blamed_on_nobody() {
         // Half a per cent of slip.
         assert!((nearest.shaft / (0.995 * SHAFT) - 1.0).abs() < 5e-3, "{nearest:?}");
         assert!(told.verdict().contains("Are speed and bearing right?"));
+    }
+}
+
+/// In an NN3007 2 BSF lies 3.5 % below BPFO, and 3 % of cage slip raise it by 2.3 %: into the outer race's place, with
+/// an element's sidebands. Without those it is the race.
+#[test]
+fn prop_what_slip_of_the_cage_exchanges_is_left_open() {
+    let orders = DefectOrders { ftf: Some(0.43878), bpfo: Some(8.3367), bpfi: Some(10.6633), bsf: Some(4.02215) };
+    let (fs, slip) = (20_000.0, 0.03);
+    let order = 2.0 * 4.02215 * (1.0 + slip * 0.43878 / (1.0 - 0.43878));
+    for seed in 0..4 {
+        for modulation in [0.0, (1.0 - slip) * 0.43878] {
+            let damage = Damage { order: order / 0.995, modulation, jitter: 0.001, snr_db: 6.0 };
+            let told = analyze(&damaged(fs, 4.0, seed, &damage), fs, &Options::new(SHAFT, orders)).unwrap();
+            if modulation == 0.0 {
+                assert_eq!(first(&told), Some(Component::OuterRace), "{}", told.verdict());
+                continue;
+            }
+            assert_eq!(told.conclusion(), Verdict::CannotTell, "{}", told.verdict());
+            let found = told.families.iter().find_map(|f| f.others_slip).unwrap();
+            assert!((found - slip).abs() < 2e-3, "{found}");
+            assert!(told.verdict().contains("the outer race or the rolling element"), "{}", told.verdict());
+        }
     }
 }
 

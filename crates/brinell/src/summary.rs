@@ -104,7 +104,7 @@ fn sensor(parts: &Parts) -> Option<Value> {
         })
         .collect();
     Some(json!({
-        "meaning": "signal_rms, noise_rms: before noise and ADC, and of the noise added, since the load reached its full size; noise_rms_m_per_s2 above the channels is the level asked for; clipped_samples: of all samples",
+        "meaning": "signal_rms, noise_rms: before noise and ADC, and of the noise added, from analysed_from_s on; noise_rms_m_per_s2 above the channels is the level asked for; clipped_samples: of all samples",
         "noise_rms_m_per_s2": noise,
         "converter_step_m_per_s2": chain.step(),
         "channels": channels,

@@ -46,7 +46,7 @@ impl Analysis {
             let is_own = family.is_whole() || family.masked;
             family.finding = match family.finding {
                 Finding::Damage if was_there => Finding::AsBefore,
-                Finding::Open if family.masked && was_there => Finding::AsBefore,
+                Finding::Open if (family.masked || family.others_slip.is_some()) && was_there => Finding::AsBefore,
                 Finding::Faint | Finding::Open if is_own && ratio >= GROWN => Finding::Grown,
                 other => other,
             };

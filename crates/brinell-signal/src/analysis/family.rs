@@ -38,7 +38,7 @@ const SIDEBANDS: i32 = 2;
 /// Rates of an element and of the cage lie above pure rolling by less than this, relative: they slip, and do not run
 /// ahead. A contact angle of 15 degrees, from an axial load, raises them by 0.9 % at most where elements are a fifth of
 /// the pitch diameter or less.
-const AHEAD: f64 = 0.01;
+pub(super) const AHEAD: f64 = 0.01;
 /// So many times the tolerance a cage may slip where speed and bearing are exact.
 const SLIPS: f64 = 3.0;
 /// FTF over the shaft's frequency where nobody said.
@@ -213,6 +213,12 @@ impl Family {
         self.component == Component::Element && self.detected_sidebands() < self.detected_harmonics()
     }
 
+    /// Whether its lines have the sidebands of an element, `spacing` Hz apart.
+    pub(super) fn could_be_elements(&self, together: &Together, spacing: f64) -> bool {
+        let Lines { harmonics, sidebands, .. } = lines(together, self.frequency, Some(spacing));
+        !Family { component: Component::Element, harmonics, sidebands, ..self.clone() }.lacks_sidebands()
+    }
+
     /// Whether its evidence is both high and deep.
     pub fn is_very_clear(&self) -> bool {
         self.is_damage() && self.score >= self.limit + VERY_CLEAR && self.modulation >= DEEP
@@ -311,7 +317,8 @@ fn within(
         modulation: lines.modulation,
         harmonics: lines.harmonics,
         sidebands: lines.sidebands,
-        is_skirt: told != frequency || outside && self::score(together, next) > score,
+        is_skirt: (told - frequency).abs() > 0.5 * together.step() / HARMONICS as f64
+            || outside && self::score(together, next) > score,
         masked: false,
         other_spacing: None,
         others_slip: None,

@@ -111,6 +111,7 @@ fn family(analysis: &Analysis, f: &Family) -> Value {
         "may_be_passing": analysis.may_be_passing(f),
         "masked": f.masked,
         "other_spacing_hz": f.other_spacing,
+        "others_slip": f.others_slip,
         "expected_hz": f.expected,
         "found_hz": f.frequency,
         "order": f.frequency / analysis.shaft,

@@ -157,23 +157,12 @@ impl Together {
         self.ratio.len() as f64 * self.step
     }
 
-    /// Nothing is seen there from now on, nor on the skirts of what is there: as far as they fall.
+    /// Nothing is seen there from now on.
     pub(super) fn hide(&mut self, frequency: f64) {
         let at = frequency / self.step;
         let last = self.ratio.len().saturating_sub(1);
-        let mut low = ((at - ASIDE).ceil().max(0.0) as usize).min(last);
-        let mut high = ((at + ASIDE).floor() as usize).min(last);
-        let level = self.detection_level();
-        let falls = |to: usize, from: usize| {
-            let to = self.seen(to);
-            to >= level && to < self.seen(from)
-        };
-        while low > 0 && falls(low - 1, low) {
-            low -= 1;
-        }
-        while high < last && falls(high + 1, high) {
-            high += 1;
-        }
+        let low = ((at - ASIDE).ceil().max(0.0) as usize).min(last);
+        let high = ((at + ASIDE).floor() as usize).min(last);
         self.hidden[low..=high].fill(true);
     }
 

@@ -1,6 +1,8 @@
 //! From families to a verdict: which of them is damage, and which merely shares another's lines.
 
-use super::family::{DEEP, FAINT, Family, Finding, SCORE, at_slip, by_lines, cage, lines, read, score, score_by};
+use super::family::{
+    AHEAD, DEEP, FAINT, Family, Finding, SCORE, at_slip, by_lines, cage, lines, read, score, score_by,
+};
 use super::frequencies::Component;
 use super::known_lines::near_multiple;
 use super::spacing::of_other_shaft;
@@ -136,8 +138,11 @@ impl Record {
         let is_open = lead.is_some_and(|k| !is_turning(all[k].component) && undecided > all[k].score + LEAD);
         let elsewhere = if is_open { None } else { self.elsewhere(lead.map(|k| &all[k])) };
         if let Some(lead) = lead.filter(|_| elsewhere.is_none() && !self.options.exact) {
-            all[lead].other_spacing = of_other_shaft(&self.together, &all[lead], self.shaft, &self.options);
             all[lead].others_slip = self.others_slip(&all[lead]);
+            // A cage that slips has sidebands at a speed of its own.
+            if all[lead].others_slip.is_none() {
+                all[lead].other_spacing = of_other_shaft(&self.together, &all[lead], self.shaft, &self.options);
+            }
         }
         let is_open = is_open || all.iter().any(|f| f.other_spacing.is_some() || f.others_slip.is_some());
         let Some(lead) = lead.filter(|_| elsewhere.is_none() && !is_open) else {
@@ -173,7 +178,7 @@ impl Record {
 
     /// The slip s of the cage at which an element's lines lie where an outer race's do, or the reverse: that makes
     /// BPFO (1 - s) and 2 BSF (1 + s f_c / (f_s - f_c)). In many cylindrical roller bearings 2 BSF lies a few per cent
-    /// below BPFO.
+    /// below BPFO. An element has sidebands at the cage's frequency, so what has none is the race's.
     fn others_slip(&self, lead: &Family) -> Option<f64> {
         let (orders, order) = (&self.options.orders, lead.frequency / self.shaft);
         let turns = cage(1.0, &self.options);
@@ -182,7 +187,13 @@ impl Record {
             Component::Element => 1.0 - order / orders.bpfo?,
             Component::InnerRace | Component::Cage => return None,
         };
-        (0.0..=2.0 * self.options.tolerance).contains(&slip).then_some(slip)
+        // An element's rate is sought as far ahead.
+        if !(-AHEAD..=2.0 * self.options.tolerance).contains(&slip) {
+            return None;
+        }
+        let spacing = (1.0 - slip) * turns * self.shaft;
+        let could_be = lead.component == Component::Element || lead.could_be_elements(&self.together, spacing);
+        could_be.then_some(slip)
     }
 
     /// The cage carries the elements past an outer race at rest, so its lines are where BPFO's slip puts them: what is

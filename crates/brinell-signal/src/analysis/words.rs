@@ -318,7 +318,11 @@ fn cannot_tell(analysis: &Analysis, text: &mut Vec<String>) {
     if !hidden.is_empty() {
         text.push(format!("By its own frequencies alone the verdict would be {}.", hidden.join(", and ")));
     }
-    text.extend(open().filter(|f| !hides(f)).map(|family| undecided(analysis, family)));
+    // Where the one that leads is open, those that would be damage beside it are not the question.
+    let is_led = |f: &Family| f.others_slip.is_some() || f.other_spacing.is_some();
+    let led = open().any(is_led);
+    let asked = open().filter(|f| !hides(f) && (is_led(f) || !led || !f.is_damage()));
+    text.extend(asked.map(|family| undecided(analysis, family)));
 }
 
 /// A speed that changes so that damage may be missed.
@@ -366,8 +370,8 @@ fn undecided(analysis: &Analysis, family: &Family) -> String {
         };
         return format!(
             "Cannot tell which part is damaged, the {part} or the {other}: {evidence}; where the cage slips by {:.1} %, the lines of {name} lie \
-             there. Where it slips by less than half of that, `tolerance` may be lower and tell; a larger load makes it slip less.",
-            100.0 * slip
+             there. A record of the cage's speed would tell, or a larger load, at which it slips less.",
+            100.0 * slip.max(0.0)
         );
     }
     if family.is_skirt {

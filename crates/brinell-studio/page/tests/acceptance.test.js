@@ -160,8 +160,8 @@ describe("the page with its engine, held against the command", { skip: missing }
     await edits(50);
     await until(page, () => globalThis.brinellStudio.side.moments.samples > 6000);
     const first = await used();
-    await edits(50);
-    await until(page, () => globalThis.brinellStudio.side.opened.scenario.defects[0].depth_um === 22.5 && globalThis.brinellStudio.side.moments.samples > 6000);
+    await edits(60);
+    await until(page, () => globalThis.brinellStudio.side.opened.scenario.defects[0].depth_um === 24.75 && globalThis.brinellStudio.side.moments.samples > 6000);
     const last = await used();
     t.diagnostic(`${first.toFixed(1)} MB before, ${last.toFixed(1)} MB after`);
     assert.ok(last - first < 5, `${first} to ${last} MB`);

@@ -190,9 +190,8 @@ impl Draws {
 
     /// That most groups are single runs, so that a test run has near neighbours in the training.
     fn lonely(&self) -> Option<String> {
-        let by_run = self.plan.split.as_ref()?.by.as_ref().is_some_and(Vec::is_empty);
         let open = self.places.iter().filter(|place| place.number != APART).count();
-        (!by_run && 2 * self.groups > open).then(|| {
+        (2 * self.groups > open).then(|| {
             format!(
                 "the split has {} groups of like conditions for {open} runs, so that runs of the test are much like some of the training: \
                  fewer keys in split.by make larger groups ([] makes each run a group, on purpose)",

@@ -90,7 +90,12 @@ mod tests {
             [0.375, 0.375, 0.625, 0.875, 0.375, 0.125, 0.375, 0.875],
             [0.875, 0.875, 0.125, 0.375, 0.875, 0.625, 0.875, 0.375],
         ];
-        for (n, point) in (2..).zip(&expected) {
+        // And random(16)[[8, 15]], of the fourth direction numbers.
+        let further = [
+            [0.1875, 0.3125, 0.9375, 0.4375, 0.5625, 0.3125, 0.4375, 0.9375],
+            [0.0625, 0.9375, 0.5625, 0.3125, 0.6875, 0.1875, 0.8125, 0.3125],
+        ];
+        for (n, point) in (2..).zip(&expected).chain([8, 15].into_iter().zip(&further)) {
             let found: [f64; 8] = std::array::from_fn(|axis| sobol.coordinate(n, axis));
             assert_eq!(found, *point, "point {n}");
         }

@@ -39,7 +39,7 @@ impl Part {
     }
 }
 
-/// What each run is for, and how many groups there are.
+/// What each run is for, and how many groups of like conditions there are; 0 where each run is one.
 ///
 /// Groups are put in an order by chance (of the plan's seed) and go to the test until it has its share, then to
 /// validation, the rest to training; each of these has one group at least. Then runs of the severities that are held
@@ -79,7 +79,7 @@ pub(super) fn parts(
         groups.entry(conditions).or_default().push(run);
     }
     let runs: usize = groups.values().map(Vec::len).sum();
-    let count = groups.len();
+    let count = if keys.is_empty() { 0 } else { groups.len() };
     let shares = [(Part::Test, split.test), (Part::Validation, split.validation)];
     let wanted = 1 + shares.iter().filter(|(_, share)| *share > 0.0).count();
     if runs == 0 {

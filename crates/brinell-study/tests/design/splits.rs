@@ -41,6 +41,14 @@ fn prop_splits_share_no_conditions_and_have_their_shares() {
     );
     assert!(refused("[split]\ntest = 0.5\nvalidation = 0.5")[0].contains("leave none to train with"));
     assert!(refused("out_of_range = \"redraw\"\n[split]\ntest = 0.5")[0].contains("drawn again"));
+    let secret = "held_out = 1.0\nsecret = \"9f86d081884c7d659a2feaa0c55ad015\"";
+    assert!(refused(&format!("{secret}\n[split]\ntest = 0.2"))[0].contains("none is left to split"));
+    // Groups of one run are said, where they are not asked for.
+    for (runs, by, said) in [(2000, "", false), (60, "", true), (60, "by = []", false)] {
+        let few = plan.replace("runs = 2000", &format!("runs = {runs}"));
+        let notes = draws(&few.replace("[vary]", &format!("[split]\ntest = 0.2\n{by}\n[vary]"))).notes();
+        assert_eq!(notes.iter().any(|note| note.contains("groups of like conditions")), said, "{runs} {by}: {notes:?}");
+    }
 }
 
 #[test]

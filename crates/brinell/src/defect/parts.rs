@@ -4,7 +4,7 @@
 /// parts' first nodes.
 #[doc(hidden)]
 pub fn parts(columns: usize, mut left: Vec<bool>, mut each: impl FnMut(&[usize])) {
-    let rows = left.len() / columns;
+    let rows = left.len().checked_div(columns).unwrap_or(0);
     let mut part = Vec::new();
     for start in 0..left.len() {
         if !std::mem::take(&mut left[start]) {

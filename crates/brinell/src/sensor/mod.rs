@@ -135,7 +135,7 @@ pub(crate) fn own_unit(sensitivity: Option<f64>) -> &'static str {
 pub struct ChannelRecord {
     /// Samples beyond the ADC's full scale, over the whole run.
     pub clipped: u64,
-    /// Samples since the load reached its full size.
+    /// Samples since statistics began.
     pub counted: u64,
     /// Sum of the squares of those before noise and ADC, (m/s^2)^2.
     signal_square: f64,
