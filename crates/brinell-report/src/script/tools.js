@@ -36,8 +36,7 @@ function save(name, blob) {
   link.href = URL.createObjectURL(blob);
   link.download = name;
   link.click();
-  // A busy machine begins a download late.
-  setTimeout(() => URL.revokeObjectURL(link.href), 40000);
+  setTimeout(() => URL.revokeObjectURL(link.href), 1000);
 }
 function savePng(svg) {
   const { width, height } = svg.viewBox.baseVal, image = new Image();
