@@ -161,7 +161,7 @@ describe("the page with its engine, held against the command", { skip: missing }
     await until(page, () => globalThis.brinellStudio.side.moments.samples > 6000);
     const first = await used();
     await edits(60);
-    await until(page, () => globalThis.brinellStudio.side.opened.scenario.defects[0].depth_um === 24.75 && globalThis.brinellStudio.side.moments.samples > 6000);
+    await until(page, () => globalThis.brinellStudio.side.opened.scenario.defects[0].depth_um === 25 && globalThis.brinellStudio.side.moments.samples > 6000);
     const last = await used();
     t.diagnostic(`${first.toFixed(1)} MB before, ${last.toFixed(1)} MB after`);
     assert.ok(last - first < 5, `${first} to ${last} MB`);
