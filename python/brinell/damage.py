@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any, Literal
 import numpy as np
 import numpy.typing as npt
 
-from .signals import masked_values
+from brinell.signals import masked_values
 
 __all__ = ["circle", "defect", "depth_map", "image", "outline", "rectangle", "svg"]
 

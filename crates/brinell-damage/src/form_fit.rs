@@ -175,6 +175,16 @@ fn samples(scan: &Scan) -> Vec<Sample> {
     samples
 }
 
+/// The median absolute residual.
+fn typical(residuals: &[f64]) -> f64 {
+    median(residuals.iter().map(|r| r.abs()))
+}
+
+/// A place among `n`.
+fn drawn(random: &mut Random, n: usize) -> usize {
+    (random.part() * n as f64) as usize
+}
+
 struct Found {
     used: usize,
     /// The median absolute residual over all samples.
@@ -203,10 +213,9 @@ impl Fit<'_> {
         let flat = [middle, 0.0, 0.0, 0.0, curvature, 0.0, 0.0];
         self.residuals(&flat).ok_or_else(past_end)?;
         let mut random = Random::new(1);
-        let mut drawn = || (random.part() * self.samples.len() as f64) as usize;
         let some: Vec<Sample> = match self.samples.len() {
             ..=START_SAMPLES => self.samples.to_vec(),
-            _ => (0..START_SAMPLES).map(|_| self.samples[drawn()]).collect(),
+            n => (0..START_SAMPLES).map(|_| self.samples[drawn(&mut random, n)]).collect(),
         };
         let few = Fit { samples: &some, weights: vec![1.0; some.len()], ..self };
         let mut q = few.start(&flat, &mut random).ok_or_else(past_end)?;
@@ -214,14 +223,8 @@ impl Fit<'_> {
         let mut steady = 0;
         for _ in 0..HARD_PASSES {
             let residuals = self.residuals(&q).ok_or_else(past_end)?;
-            let typical = median(residuals.iter().map(|r| r.abs()));
-            let limit = (3.0 * MAD_TO_SIGMA * typical).max(self.floor);
-            let mut changed = false;
-            for (weight, r) in self.weights.iter_mut().zip(&residuals) {
-                let kept = if r.abs() <= limit { 1.0 } else { 0.0 };
-                changed |= *weight != kept;
-                *weight = kept;
-            }
+            let limit = (3.0 * MAD_TO_SIGMA * typical(&residuals)).max(self.floor);
+            let changed = self.keep(&residuals, limit);
             q = self.step(&q).ok_or_else(past_end)?;
             // A few steps more on the set that stays, to converge on it.
             steady = if changed { 0 } else { steady + 1 };
@@ -230,10 +233,7 @@ impl Fit<'_> {
             }
         }
         let residuals = self.residuals(&q).ok_or_else(past_end)?;
-        let found = Found {
-            used: self.weights.iter().filter(|&&w| w > 0.0).count(),
-            typical: median(residuals.iter().map(|r| r.abs())),
-        };
+        let found = Found { used: self.weights.iter().filter(|&&w| w > 0.0).count(), typical: typical(&residuals) };
         Ok((q, found))
     }
 
@@ -244,8 +244,7 @@ impl Fit<'_> {
         for _ in 0..SOFT_PASSES {
             soft = self.step(&soft)?;
             let residuals = self.residuals(&soft)?;
-            let typical = median(residuals.iter().map(|r| r.abs()));
-            let least = (0.1 * typical).max(ROUND_OFF_MM);
+            let least = (0.1 * typical(&residuals)).max(ROUND_OFF_MM);
             for (weight, r) in self.weights.iter_mut().zip(&residuals) {
                 *weight = least / r.abs().max(least);
             }
@@ -257,7 +256,7 @@ impl Fit<'_> {
         for _ in 0..sets.ceil() as usize {
             self.weights.fill(0.0);
             for _ in self.free {
-                self.weights[(random.part() * n as f64) as usize] = 1.0;
+                self.weights[drawn(random, n)] = 1.0;
             }
             let mut q = *flat;
             let through = (0..THROUGH).try_for_each(|_| self.step(&q).map(|next| q = next));
@@ -277,19 +276,24 @@ impl Fit<'_> {
     fn concentrate(&mut self, q: &mut Parameters, passes: usize) -> Option<f64> {
         for _ in 0..passes {
             let residuals = self.residuals(q)?;
-            let typical = median(residuals.iter().map(|r| r.abs()));
-            let mut changed = false;
-            for (weight, r) in self.weights.iter_mut().zip(&residuals) {
-                let kept = if r.abs() <= typical { 1.0 } else { 0.0 };
-                changed |= *weight != kept;
-                *weight = kept;
-            }
-            if !changed {
-                break;
+            let typical = typical(&residuals);
+            if !self.keep(&residuals, typical) {
+                return Some(typical);
             }
             *q = self.step(q)?;
         }
-        Some(median(self.residuals(q)?.iter().map(|r| r.abs())))
+        Some(typical(&self.residuals(q)?))
+    }
+
+    /// Weights of the points that lie no farther than this, and none of the others; whether that is another set.
+    fn keep(&mut self, residuals: &[f64], limit: f64) -> bool {
+        let mut changed = false;
+        for (weight, r) in self.weights.iter_mut().zip(residuals) {
+            let kept = if r.abs() <= limit { 1.0 } else { 0.0 };
+            changed |= *weight != kept;
+            *weight = kept;
+        }
+        changed
     }
 
     fn residuals(&self, q: &Parameters) -> Option<Vec<f64>> {
@@ -357,7 +361,6 @@ impl Fit<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use brinell::random::Random;
 
     #[test]
     fn analytic_noise_and_a_spall_on_two_fifths_hardly_move_the_parameters() {

@@ -72,8 +72,7 @@ impl Facts<'_> {
         let Some(sensitivity) = &self.reproduction.sensitivity else {
             return String::new();
         };
-        let mut all = sensitivity.verdicts(id);
-        all.retain(|v| v.1 != Verdict::Missing);
+        let all = sensitivity.verdicts(id);
         let holds = all.iter().filter(|v| v.1 == Verdict::Holds).count();
         let fails = all.iter().filter(|v| v.1 == Verdict::Fails).count();
         format!(
@@ -189,8 +188,7 @@ impl Facts<'_> {
             self.value("irregular", "outer_ay.rms")?
         );
         if let Some(sensitivity) = &self.reproduction.sensitivity {
-            let mut all = sensitivity.verdicts("x-above-y");
-            all.retain(|v| v.1 != Verdict::Missing);
+            let all = sensitivity.verdicts("x-above-y");
             let others: Vec<String> = (all.iter())
                 .filter(|(_, verdict)| *verdict != Verdict::Holds)
                 .map(|(variant, verdict)| format!("{} ({})", variant.words, verdict.words()))

@@ -277,11 +277,11 @@ impl Sensitivity {
         all.collect()
     }
 
-    /// The verdicts of a claim under every assumption, that of the baseline first.
+    /// The verdicts of a claim under every assumption that has one, that of the baseline first.
     pub(crate) fn verdicts(&self, id: &str) -> Vec<(&'static Variant, Verdict)> {
         let place = claims().position(|claim| claim.id == id);
         let of = |tried: &Tried| Some((tried.variant, tried.judged[place?].plain));
-        self.variants.iter().filter_map(of).collect()
+        self.variants.iter().filter_map(of).filter(|(_, verdict)| *verdict != Verdict::Missing).collect()
     }
 
     /// A number of a case under an assumption.

@@ -213,6 +213,12 @@ impl Family {
         self.component == Component::Element && self.detected_sidebands() < self.detected_harmonics()
     }
 
+    /// Whether it would lead, but for what may have its lines as well: the other part that slip of the cage puts there,
+    /// or a part at another speed.
+    pub(super) fn may_be_anothers(&self) -> bool {
+        self.others_slip.is_some() || self.other_spacing.is_some()
+    }
+
     /// Whether its lines have the sidebands of an element, `spacing` Hz apart.
     pub(super) fn could_be_elements(&self, together: &Together, spacing: f64) -> bool {
         let Lines { harmonics, sidebands, .. } = lines(together, self.frequency, Some(spacing));

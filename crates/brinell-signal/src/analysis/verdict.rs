@@ -144,7 +144,7 @@ impl Record {
                 all[lead].other_spacing = of_other_shaft(&self.together, &all[lead], self.shaft, &self.options);
             }
         }
-        let is_open = is_open || all.iter().any(|f| f.other_spacing.is_some() || f.others_slip.is_some());
+        let is_open = is_open || all.iter().any(Family::may_be_anothers);
         let Some(lead) = lead.filter(|_| elsewhere.is_none() && !is_open) else {
             for family in all.iter_mut().filter(|f| f.finding == Finding::Damage) {
                 family.finding = Finding::Open;

@@ -319,9 +319,8 @@ fn cannot_tell(analysis: &Analysis, text: &mut Vec<String>) {
         text.push(format!("By its own frequencies alone the verdict would be {}.", hidden.join(", and ")));
     }
     // Where the one that leads is open, those that would be damage beside it are not the question.
-    let is_led = |f: &Family| f.others_slip.is_some() || f.other_spacing.is_some();
-    let led = open().any(is_led);
-    let asked = open().filter(|f| !hides(f) && (is_led(f) || !led || !f.is_damage()));
+    let led = open().any(Family::may_be_anothers);
+    let asked = open().filter(|f| !hides(f) && (f.may_be_anothers() || !led || !f.is_damage()));
     text.extend(asked.map(|family| undecided(analysis, family)));
 }
 

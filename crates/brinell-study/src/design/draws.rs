@@ -183,8 +183,8 @@ impl Draws {
             })
         };
         let classes = self.plan.classes.iter().zip(&self.classes);
-        let lacks = self.splits();
-        let lacks = lacks.iter().filter_map(|split| self.lacks(split));
+        let splits = self.splits();
+        let lacks = splits.iter().filter_map(|split| self.lacks(split));
         classes.filter_map(uneven).chain(self.lonely()).chain(lacks).collect()
     }
 

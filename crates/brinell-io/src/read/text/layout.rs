@@ -49,8 +49,7 @@ pub(super) fn find(sample: &[u8]) -> Result<Layout, Fault> {
     let lines = lines(sample);
     let lvm = lvm::header(&lines.iter().map(|l| l.text).collect::<Vec<_>>());
     let from = lvm.as_ref().map_or(0, |lvm| lvm.lines);
-    let said = |lvm: &lvm::Lvm| TextFormat { delimiter: lvm.delimiter, decimal: lvm.decimal };
-    let format = lvm.as_ref().map_or(TextFormat::default(), said);
+    let format = lvm.as_ref().map_or(TextFormat::default(), |lvm| lvm.format);
     let plain: Vec<&Line> = lines[from..].iter().filter(|l| !l.comment).collect();
     let (first, delimiter) =
         first_data(&plain, &format).ok_or_else(|| damaged("no line of numbers among its first lines"))?;

@@ -1,7 +1,7 @@
 //! The two headers of a LabVIEW measurement file (.lvm): National Instruments, "Specification for the LabVIEW
 //! Measurement File".
 
-use super::format::{Decimal, Delimiter};
+use super::format::{Decimal, Delimiter, TextFormat};
 
 const END: &[u8] = b"***End_of_Header***";
 
@@ -10,8 +10,7 @@ const END: &[u8] = b"***End_of_Header***";
 pub(super) struct Lvm {
     /// Lines that the headers take.
     pub(super) lines: usize,
-    pub(super) delimiter: Option<Delimiter>,
-    pub(super) decimal: Option<Decimal>,
+    pub(super) format: TextFormat,
     /// One unit per channel.
     pub(super) units: Vec<String>,
     /// Whether the abscissa's column is left empty.
@@ -56,14 +55,16 @@ pub(super) fn header(lines: &[&[u8]]) -> Option<Lvm> {
         let first = values.first().copied().unwrap_or_default();
         match key {
             "Separator" => {
-                lvm.delimiter = match first {
+                lvm.format.delimiter = match first {
                     "Tab" => Some(Delimiter::Tab),
                     "Comma" => Some(Delimiter::Comma),
                     _ => None,
                 }
             }
             // Where a comma separates, its line is `Decimal_Separator,.`.
-            "Decimal_Separator" => lvm.decimal = Some(if first == "," { Decimal::Comma } else { Decimal::Point }),
+            "Decimal_Separator" => {
+                lvm.format.decimal = Some(if first == "," { Decimal::Comma } else { Decimal::Point })
+            }
             "X_Columns" => lvm.no_x = first == "No",
             "Y_Unit_Label" => lvm.units = values.iter().map(|u| (*u).to_owned()).collect(),
             "X_Dimension" => lvm.seconds = first == "Time",
