@@ -133,14 +133,13 @@ fn time_scales(s: &Scenario, model: &Model, d: &Derived) {
 }
 
 fn recording(s: &Scenario, model: &Model) {
-    let (channels, idle) = channel::select(model, &s.sensor, &s.simulation.record);
+    let (channels, _) = channel::select(model, &s.sensor, &s.simulation.record);
     say!(
         "Recording {} channels, {} samples each at {} Hz",
         channels.len(),
         (s.simulation.duration_s * s.simulation.sample_rate_hz).floor() + 1.0,
         s.simulation.sample_rate_hz
     );
-    files::warn_idle(&idle);
 }
 
 /// How many values nobody gave, or all of them.

@@ -113,13 +113,6 @@ pub(crate) fn setting(option: &str, text: &str) -> Result<(String, String), Fail
     }
 }
 
-/// Patterns of `record` that match no channel.
-pub(crate) fn warn_idle(patterns: &[String]) {
-    for pattern in patterns {
-        complain!("warning: {}", brinell::channel::idle_message(pattern));
-    }
-}
-
 /// What a scenario's file is called without its ending.
 pub(crate) fn stem(path: &Path) -> String {
     if is_stdin(path) {

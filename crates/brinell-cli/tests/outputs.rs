@@ -245,8 +245,8 @@ fn regress_record_picks_channels_by_wildcards() {
     }
     assert_eq!(names.len(), 3 + 11, "{names:?}");
     // There is no third row.
-    let idle = "warning: simulation.record: \"contact3_*\" matches no channel of this bearing\n";
-    assert!(err.ends_with(idle), "{err}");
+    let idle = "warning: simulation.record = \"contact3_*\": matches no channel of this bearing\n";
+    assert!(err.contains(idle), "{err}");
     assert_eq!(err.matches("warning: ").count(), 2, "{err}");
     let (names, _) = columns(here, r#"["contact*_outer_length", "pocket1_13_force"]"#);
     assert_eq!(names.len(), 1 + 13 + 1);
@@ -256,11 +256,11 @@ fn regress_record_picks_channels_by_wildcards() {
     assert_eq!(unique.len(), names.len());
     let (names, err) = columns(here, r#"["nothing"]"#);
     assert_eq!(names, ["t"]);
-    assert!(err.contains("\"nothing\" matches no channel"), "{err}");
+    assert!(err.contains("\"nothing\": matches no channel"), "{err}");
     // Names of earlier versions.
     let (names, err) = columns(here, r#"["measured_*"]"#);
     assert_eq!(names, ["t"]);
-    assert!(err.contains("the channel is called \"sensor_*\""), "{err}");
+    assert!(err.contains("allowed: \"sensor_*\""), "{err}");
 }
 
 /// Rust ignores SIGPIPE: a closed pipe is an error of the write, and `println!` panics at it.

@@ -225,3 +225,22 @@ fn regress_points_beside_decimal_commas_are_thousands_or_refused() {
     assert_eq!(file.read("t [s]").unwrap(), [0.001, 0.002]);
     assert!(file.read("acc [mg]").unwrap_err().to_string().contains("`1,332` is not a number"));
 }
+
+/// As a spreadsheet of a country with decimal commas writes them between commas (RFC 4180).
+#[test]
+fn regress_decimal_commas_in_quotes_between_commas() {
+    let here = Here::new();
+    let read = |name: &str, text: &str| open(here.file(name, text)).unwrap().read("a, [g]").unwrap();
+    let head = "\"t [s]\",\"a, [g]\"\n\"0,0001\",\"-1,25\"\n";
+    assert_eq!(read("quoted.csv", &format!("{head}\"0,0002\",3\n\"0,0003\",\"1.332,5\"\n")), [-1.25, 3.0, 1332.5]);
+    let mut one = open(here.file("one.csv", "\"a\"\n\"0,5\"\n\"-1,25\"\n")).unwrap();
+    assert_eq!(one.read("a").unwrap(), [0.5, -1.25]);
+    assert!(
+        here.says("point.csv", format!("{head}\"0,0002\",0.5\n"))
+            .contains("`0.5` has a decimal point, and the file has decimal commas")
+    );
+    // Thousands of the other kind are no decimal commas.
+    let mut file = open(here.file("en.csv", "t,\"a, [g]\"\n0.001,\"1,332\"\n0.002,\"2,500\"\n")).unwrap();
+    assert_eq!(file.read("t").unwrap(), [0.001, 0.002]);
+    assert!(file.read("a, [g]").unwrap_err().to_string().contains("holds words such as `1,332`"));
+}

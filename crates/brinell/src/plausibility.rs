@@ -13,6 +13,7 @@ mod warning;
 
 use crate::analysis::STANDARD_GRAVITY;
 use crate::bearing::rating::static_rating;
+use crate::channel;
 use crate::defect::Side;
 use crate::document::{Problem, Problems, toml_float};
 use crate::lamina::Rating;
@@ -75,6 +76,7 @@ pub fn before(scenario: &Scenario, model: &Model, statics: &Result<StaticLoadZon
     warnings.extend(statics.as_ref().ok().and_then(|zone| coarse_slices(scenario, model, zone)));
     warnings.extend(tilting::warnings(scenario, model));
     warnings.extend(too_short(scenario, model));
+    warnings.extend(idle_patterns(scenario, model));
     few_of_a_kind(warnings)
 }
 
@@ -303,4 +305,17 @@ fn too_short(scenario: &Scenario, model: &Model) -> Option<Problem> {
         ),
         allowed,
     ))
+}
+
+/// Patterns of `record` that pick no channel; a name of earlier versions is answered with today's.
+fn idle_patterns(scenario: &Scenario, model: &Model) -> Vec<Problem> {
+    let (_, idle) = channel::select(model, &scenario.sensor, &scenario.simulation.record);
+    let of = |pattern: &String| {
+        let allowed = match channel::today_name(pattern) {
+            Some(name) => format!("\"{name}\""),
+            None => "names of channels, such as \"sensor_ax\"; * stands for any characters".into(),
+        };
+        warning("simulation.record", format!("\"{pattern}\""), "matches no channel of this bearing".into(), allowed)
+    };
+    idle.iter().map(of).collect()
 }

@@ -145,9 +145,6 @@ pub fn status(end: &End) -> Value {
 #[doc(hidden)]
 pub fn warnings(parts: &Parts) -> Vec<String> {
     let mut all: Vec<String> = parts.loaded.warnings.iter().map(ToString::to_string).collect();
-    for pattern in parts.simulation.idle_patterns() {
-        all.push(crate::channel::idle_message(pattern));
-    }
     all.extend(converted(parts));
     all.extend(unsettled(parts.findings));
     let scenario = &parts.loaded.scenario;

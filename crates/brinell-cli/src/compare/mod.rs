@@ -4,7 +4,7 @@ mod args;
 mod sides;
 
 use crate::failure::Failure;
-use crate::files::{self, make_folder, safe_name, stem};
+use crate::files::{make_folder, safe_name, stem};
 use crate::inputs::Inputs;
 use crate::progress::Joint;
 use crate::results::{COMPARISON, Earlier, Place, Results};
@@ -32,10 +32,7 @@ pub(crate) fn compare(args: &CompareArgs) -> Result<ExitCode, Failure> {
     let mut inputs = Inputs::default();
     let sides = sides::read(args, &mut inputs)?;
     for side in &sides {
-        let simulation = Simulation::new(&side.loaded.scenario).map_err(Failure::Run)?;
-        if !args.quiet {
-            files::warn_idle(simulation.idle_patterns());
-        }
+        Simulation::new(&side.loaded.scenario).map_err(Failure::Run)?;
     }
     if !args.quiet {
         for warning in brinell_report::beforehand(&sides) {

@@ -4,7 +4,7 @@ use super::words::tell;
 use super::{healthy, line_loads, spectra};
 use crate::args::RunArgs;
 use crate::failure::{Failure, print_problems};
-use crate::files::{self, Source, make_folder};
+use crate::files::{Source, make_folder};
 use crate::inputs::Inputs;
 use crate::progress::{Progress, Shown};
 use crate::results::{Earlier, Place, REPORT, Results, SCENARIO, SPECTRA, SUMMARY, is_of, is_written};
@@ -52,16 +52,11 @@ pub(super) fn ready(args: &RunArgs, path: &Path, inputs: &mut Inputs) -> Result<
     inputs.add_all(&source.inputs());
     let simulation = Simulation::new(&loaded.scenario).map_err(Failure::Run)?;
     let beforehand = Beforehand::of(&loaded.scenario, simulation.model());
-    let name = |is_said: bool| {
-        if args.scenarios.len() > 1 && is_said {
+    if !args.quiet {
+        if args.scenarios.len() > 1 && !beforehand.warnings.is_empty() {
             complain!("{}:", path.display());
         }
-    };
-    if !args.quiet {
-        name(!beforehand.warnings.is_empty());
         print_problems("", "", &beforehand.warnings);
-        name(!simulation.idle_patterns().is_empty());
-        files::warn_idle(simulation.idle_patterns());
     }
     let photos = match args.no_report && args.plots.is_empty() {
         true => Vec::new(),

@@ -37,10 +37,7 @@ fn facts(parts: &Parts) -> Vec<Fact> {
     let channels = parts.simulation.filtered();
     for (channel, record) in channels.iter().zip(&parts.outcome.sensor) {
         if let Some(rms) = record.signal_rms() {
-            let ratio = chain
-                .noise_rms()
-                .filter(|noise| *noise > 0.0 && rms > 0.0)
-                .map_or(String::new(), |noise| format!("; {:.1} dB over the noise", 20.0 * (rms / noise).log10()));
+            let ratio = record.signal_to_noise_db().map_or(String::new(), |db| format!("; {db:.1} dB over the noise"));
             let note = format!("RMS before noise and ADC, of the analysed time{ratio}");
             facts.push(Fact::new(channel.name.clone(), text(rms), "m/s^2", note));
         }

@@ -120,16 +120,17 @@ fn lines(sample: &[u8]) -> Vec<Line<'_>> {
 }
 
 fn split(line: &[u8], delimiter: Delimiter) -> Vec<&[u8]> {
-    match delimiter {
-        Delimiter::Blanks => line.split(|&b| b == b' ' || b == b'\t').filter(|f| !f.is_empty()).collect(),
-        single => line.split(|&b| b == single.sign()).map(<[u8]>::trim_ascii).collect(),
-    }
+    delimiter.fields(line).map(<[u8]>::trim_ascii).collect()
 }
 
 /// How many fields are numbers, and how many are neither numbers nor empty.
 fn score(line: &[u8], delimiter: Delimiter, format: &TextFormat) -> (usize, usize) {
-    let decimal = if delimiter == Delimiter::Comma { Some(Decimal::Point) } else { format.decimal };
-    split(line, delimiter).iter().filter(|f| !f.is_empty()).fold((0, 0), |(good, bad), f| match number(f, decimal) {
+    // Between commas, a decimal one is in quotes.
+    let decimal = |f: &[u8]| match delimiter == Delimiter::Comma && !f.starts_with(b"\"") {
+        true => Some(Decimal::Point),
+        false => format.decimal,
+    };
+    split(line, delimiter).iter().filter(|f| !f.is_empty()).fold((0, 0), |(good, bad), f| match number(f, decimal(f)) {
         Some(_) => (good + 1, bad),
         None => (good, bad + 1),
     })
@@ -137,7 +138,7 @@ fn score(line: &[u8], delimiter: Delimiter, format: &TextFormat) -> (usize, usiz
 
 fn holds(line: &[u8], delimiter: Delimiter) -> bool {
     match delimiter {
-        Delimiter::Comma | Delimiter::Semicolon => line.contains(&delimiter.sign()),
+        Delimiter::Comma | Delimiter::Semicolon => delimiter.fields(line).nth(1).is_some(),
         Delimiter::Tab => line.trim_ascii().contains(&b'\t'),
         Delimiter::Blanks => true,
     }
@@ -214,9 +215,6 @@ fn comma_or_fraction(
 /// Where points and commas are both there, the comma is decimal if it is no sign between thousands anywhere: a point
 /// beside it is no decimal point then, and what is no number with points between thousands is refused.
 fn decimal(delimiter: Delimiter, format: &TextFormat, data: &[&[u8]]) -> Option<Decimal> {
-    if delimiter == Delimiter::Comma {
-        return Some(Decimal::Point);
-    }
     let fields = || data.iter().flat_map(|line| split(line, delimiter));
     let shows = |sign: u8, decimal| fields().any(|f| f.contains(&sign) && number(f, Some(decimal)).is_some());
     let is_fraction = |f: &[u8]| f.contains(&b',') && number(f, Some(Decimal::Comma)).is_some();
@@ -224,7 +222,7 @@ fn decimal(delimiter: Delimiter, format: &TextFormat, data: &[&[u8]]) -> Option<
         let comma = fields().any(|f| is_fraction(f) && !may_be_grouped(f, b','));
         if comma {
             Some(Decimal::Comma)
-        } else if shows(b'.', Decimal::Point) {
+        } else if delimiter == Delimiter::Comma || shows(b'.', Decimal::Point) {
             Some(Decimal::Point)
         } else if shows(b',', Decimal::Comma) {
             Some(Decimal::Comma)
@@ -299,7 +297,7 @@ fn text(bytes: &[u8]) -> String {
 /// Gives the columns the names and units that are above them.
 fn name(columns: &mut [Column], delimiter: Delimiter, above: &[&[u8]], comment: Option<&[u8]>, more_names: bool) {
     let fits = |line: &[u8]| -> Option<Vec<String>> {
-        let mut fields = split_quoted(line, delimiter);
+        let mut fields: Vec<String> = split(line, delimiter).into_iter().map(text).collect();
         // Blanks are between the words of a name, where nothing else is between numbers.
         if columns.len() == 1 && delimiter == Delimiter::Blanks && bracketed(&text(line)).is_some() {
             fields = vec![text(line)];
@@ -326,21 +324,6 @@ fn name(columns: &mut [Column], delimiter: Delimiter, above: &[&[u8]], comment: 
         column.unit = below.or(own);
         column.name = if given.is_empty() { format!("column{}", i + 1) } else { given };
     }
-}
-
-/// Like [`split`], with quoted fields whole.
-fn split_quoted(line: &[u8], delimiter: Delimiter) -> Vec<String> {
-    if !line.contains(&b'"') || delimiter == Delimiter::Blanks {
-        return split(line, delimiter).into_iter().map(text).collect();
-    }
-    let sign = delimiter.sign();
-    let mut quoted = false;
-    line.split(|&b| {
-        quoted ^= b == b'"';
-        b == sign && !quoted
-    })
-    .map(text)
-    .collect()
 }
 
 /// The text within brackets around all of it.

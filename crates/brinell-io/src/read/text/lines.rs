@@ -256,8 +256,7 @@ fn row(bytes: &[u8], layout: &Layout, field: usize, line: u64, values: &mut Vec<
         count += 1;
     };
     match layout.delimiter {
-        Delimiter::Blanks => bytes.split(|&b| b == b' ' || b == b'\t').filter(|piece| !piece.is_empty()).for_each(take),
-        single => {
+        single if single != Delimiter::Blanks && memchr(b'"', bytes).is_none() => {
             let mut start = 0;
             for end in memchr_iter(single.sign(), bytes) {
                 take(&bytes[start..end]);
@@ -265,6 +264,7 @@ fn row(bytes: &[u8], layout: &Layout, field: usize, line: u64, values: &mut Vec<
             }
             take(&bytes[start..]);
         }
+        any => any.fields(bytes).for_each(take),
     }
     let value = wanted.and_then(|text| number(text, layout.decimal));
     if let Some(value) = value
