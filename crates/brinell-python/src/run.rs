@@ -57,7 +57,7 @@ enum Ran {
 /// One run, on the thread that calls.
 fn run(scenario: &Scenario, mut go_on: impl FnMut(f64) -> ControlFlow<()>) -> Ran {
     let scenario = &scenario.loaded.scenario;
-    let begun = Simulation::new(scenario).and_then(|s| Ok((Signals::new(&s)?, s)));
+    let begun = Simulation::unchecked(scenario).and_then(|s| Ok((Signals::new(&s)?, s)));
     let (signals, simulation) = match begun {
         Ok(begun) => begun,
         Err(error) => return Ran::Bad(error),

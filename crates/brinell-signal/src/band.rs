@@ -1,5 +1,7 @@
 //! A frequency band, and the envelope of a segment in it: the modulus of the band's analytic signal.
 
+use super::error::{SignalError, require};
+use super::fft::round_off;
 use std::ops::Range;
 use std::sync::Arc;
 
@@ -33,6 +35,15 @@ pub(super) fn remove_weighted_mean(x: &mut [f64], window: &[f64]) -> f64 {
     let mean = sum / window.iter().sum::<f64>();
     x.iter_mut().for_each(|x| *x -= mean);
     mean
+}
+
+/// That a band satisfies 0 <= low < high and low < fs / 2, and holds a bin of a transform of `length` samples at `fs` Hz.
+pub(super) fn check_band(fs: f64, length: usize, band: Band) -> Result<(), SignalError> {
+    let range = "0 to below the upper edge and half the sampling rate";
+    let holds = 0.0 <= band.low && band.low < band.high && band.low < 0.5 * fs;
+    require(holds, "lower edge of the band (Hz)", band.low, range)?;
+    let range = "above the lower edge by the distance between bins, the sampling rate over the samples, or more";
+    require(!bins(fs, length, band).is_empty(), "upper edge of the band (Hz)", band.high, range)
 }
 
 /// First bin of a band and the one after its last, of a transform of `length` samples at `fs` Hz.
@@ -93,9 +104,10 @@ impl Demodulator {
     /// positive frequencies twice and nothing else.
     pub(super) fn envelope(&mut self, transform: &[Complex<f64>], envelope: &mut [f64]) {
         let twice = 2.0 / envelope.len() as f64;
+        let round_off = round_off(transform);
         self.values.fill(Complex::ZERO);
         let band = self.values[self.bins.clone()].iter_mut();
-        for (value, bin) in band.zip(&transform[self.bins.clone()]) {
+        for (value, bin) in band.zip(&transform[self.bins.clone()]).filter(|(_, bin)| bin.norm_sqr() >= round_off) {
             *value = bin * twice;
         }
         self.fft.process_with_scratch(&mut self.values, &mut self.scratch);

@@ -8,8 +8,8 @@
 //! The band's edges are sharp and the transform treats a segment as periodic, so the first and last few periods of
 //! the band's lower edge are disturbed where a segment's ends do not meet; the Hann window of the spectrum hides them.
 
-use super::band::Band;
-use super::error::{SignalError, check, require};
+use super::band::{Band, check_band};
+use super::error::{SignalError, check};
 use super::psd::{Detrend, Segments, psd};
 use super::spectrum::{FEWEST_SAMPLES, Spectrum};
 use super::transformed::Transformed;
@@ -18,15 +18,11 @@ use super::transformed::Transformed;
 /// module); holds the whole transform in memory.
 ///
 /// # Errors
-/// [`SignalError`] with fewer than [`FEWEST_SAMPLES`] samples, samples that are not finite, or a band out of range.
+/// [`SignalError`] with fewer than [`FEWEST_SAMPLES`] samples, samples that are not finite, or a band out of range or
+/// between two bins.
 pub fn envelope(x: &[f64], fs: f64, band: Band) -> Result<Vec<f64>, SignalError> {
     check(x, fs, FEWEST_SAMPLES, "an envelope")?;
-    require(
-        0.0 <= band.low && band.low < band.high && band.low < 0.5 * fs,
-        "lower edge of the band (Hz)",
-        band.low,
-        "0 to below the upper edge and half the sampling rate",
-    )?;
+    check_band(fs, x.len(), band)?;
     Ok(Transformed::unchecked(x, fs).envelope(band, x.len()).values)
 }
 
@@ -189,5 +185,21 @@ mod tests {
     #[should_panic(expected = "band from 13000 to inf Hz")]
     fn prop_band_above_half_the_rate_is_refused() {
         StreamSpectra::new(FS, 1024, Band::above(13_000.0), &[]);
+    }
+
+    #[test]
+    fn prop_a_band_between_two_bins_is_refused() {
+        let x = cosine(12_000, 12_000.0, 440.0, 1.0, 0.0);
+        for band in [Band::between(437.1, 437.9), Band::between(5999.5, 6000.0)] {
+            let error = envelope(&x, 12_000.0, band).unwrap_err().to_string();
+            assert!(error.contains("upper edge of the band"), "{error}");
+        }
+        assert!(envelope(&x, 12_000.0, Band::between(437.1, 438.0)).is_ok());
+    }
+
+    #[test]
+    fn prop_a_constant_has_no_envelope() {
+        let x = vec![0.1; 24_000];
+        assert!(envelope(&x, 12_000.0, Band::between(1000.0, 3000.0)).unwrap().iter().all(|e| *e == 0.0));
     }
 }

@@ -12,12 +12,25 @@ pub fn forward(length: usize) -> Arc<dyn RealToComplex<f64>> {
     RealFftPlanner::new().plan_fft_forward(length)
 }
 
-/// Bins 0 to N / 2 of the transform of `x`, which is lost.
+/// Bins 0 to N / 2 of the transform of `x`, which is lost; those that hold round-off alone are 0.
 pub(crate) fn bins(x: &mut [f64]) -> Vec<Complex<f64>> {
     let plan = forward(x.len());
     let mut bins = plan.make_output_vec();
     plan.process(x, &mut bins).expect("buffers were made by the plan");
+    let round_off = round_off(&bins);
+    bins.iter_mut().filter(|bin| bin.norm_sqr() < round_off).for_each(|bin| *bin = Complex::ZERO);
     bins
+}
+
+/// Round-off in a bin over the root mean square of all, with room: a bin's error is a few units in the last place of
+/// that.
+const ROUND_OFF: f64 = 64.0 * f64::EPSILON;
+
+/// Power of a transform's bin below which it may hold nothing but round-off. Of a constant, that is all there is but at
+/// zero frequency, and it would have a kurtosis, an envelope and lines. 0 where squares are no numbers.
+pub(crate) fn round_off(bins: &[Complex<f64>]) -> f64 {
+    let power = bins.iter().map(Complex::norm_sqr).sum::<f64>() / bins.len() as f64;
+    if power.is_normal() { ROUND_OFF * ROUND_OFF * power } else { 0.0 }
 }
 
 /// The complex signal that has the bins of `range` and no others, at the equal steps of a backward `plan`, as many

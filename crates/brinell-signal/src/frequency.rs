@@ -68,7 +68,7 @@ pub struct LineSearch {
     pub nominal: f64,
     /// Half the range searched, as a share of `nominal`; above 0, at most 0.3.
     pub tolerance: f64,
-    /// Harmonics of the comb, the fundamental included; those above half the sampling rate are left out.
+    /// Harmonics of the comb, the fundamental included, 1 or more; those above half the sampling rate are left out.
     pub harmonics: usize,
 }
 
@@ -78,11 +78,12 @@ impl LineSearch {
         LineSearch { nominal, tolerance: 0.02, harmonics: 8 }
     }
 
-    /// Whether so many samples at `fs` Hz hold what the search needs: 24 periods of the nominal frequency, and that
-    /// below 0.4 `fs`.
+    /// Whether so many samples at `fs` Hz hold what the search needs: 24 periods of the nominal frequency, that below
+    /// 0.4 `fs`, and the range below half of `fs`.
     pub fn fits(&self, samples: usize, fs: f64) -> bool {
         let fewest = (FEWEST_PERIODS * fs / self.nominal).max(FEWEST_SAMPLES as f64);
-        samples as f64 >= fewest && self.nominal < HIGHEST_NOMINAL * fs
+        let top = self.nominal * (1.0 + self.tolerance);
+        samples as f64 >= fewest && self.nominal < HIGHEST_NOMINAL * fs && top < 0.5 * fs
     }
 }
 
@@ -177,9 +178,10 @@ impl Comb {
         );
         let periods = length as f64 * search.nominal / fs;
         assert!(search.fits(length, fs), "a segment lasts {periods} nominal periods, fewer than {FEWEST_PERIODS}");
+        assert!(search.harmonics > 0, "a comb of no harmonics");
         let highest = (0.5 * fs / (search.nominal * (1.0 + search.tolerance))).ceil() as usize;
-        let harmonics = search.harmonics.min(highest.saturating_sub(1));
-        assert!(harmonics > 0, "no harmonic of {} Hz to look for at {fs} Hz", search.nominal);
+        // Below half the sampling rate: one at least, or the search would not fit.
+        let harmonics = search.harmonics.min(highest - 1);
 
         let (mut w0, mut w1, mut w2, mut v) = (0.0, 0.0, 0.0, 0.0);
         for (i, w) in window.iter().enumerate() {
@@ -244,7 +246,8 @@ impl Comb {
 
         let trials = 1.0 + PLACES_PER_BIN * 2.0 * half_range * harmonics / bin;
         // Of noise, each harmonic's power over its mean is exponentially distributed.
-        if trials * chi_square_tail(2.0 * highest, 2.0 * harmonics) > FALSE_ALARM_LIMIT {
+        let is_noise = |height: f64, count: f64| trials * chi_square_tail(2.0 * height, 2.0 * count) > FALSE_ALARM_LIMIT;
+        if is_noise(highest, harmonics) || self.is_another(e, frequency, is_noise) {
             return None;
         }
         let uncertainty = self.uncertainty(e, frequency);
@@ -255,6 +258,13 @@ impl Comb {
             span: self.length as f64 / self.fs / HANN_SQUARE,
             resolution: self.resolution(),
         })
+    }
+
+    /// Whether one harmonic alone makes the comb, and is not the fundamental: a line of something else, whose
+    /// rate has a harmonic there.
+    fn is_another(&self, e: &Padded, f: f64, is_noise: impl Fn(f64, f64) -> bool) -> bool {
+        let strongest = (1..=self.noise.len()).map(|h| (h, self.ratio(e, f, h))).max_by(|a, b| a.1.total_cmp(&b.1));
+        strongest.is_some_and(|(h, ratio)| h > 1 && is_noise(self.height(e, f) - ratio, self.noise.len() as f64 - 1.0))
     }
 
     /// N_h: the median power around a harmonic, over ln 2 (exponentially distributed powers). The median passes over
@@ -277,16 +287,21 @@ impl Comb {
 
     /// J(f).
     fn height(&self, e: &Padded, f: f64) -> f64 {
-        (self.noise.iter().enumerate()).map(|(h, noise)| e.at((h + 1) as f64 * f).norm_sqr() / noise).sum()
+        (1..=self.noise.len()).map(|h| self.ratio(e, f, h)).sum()
+    }
+
+    /// P(h f) / N_h.
+    fn ratio(&self, e: &Padded, f: f64, h: usize) -> f64 {
+        e.at(h as f64 * f).norm_sqr() / self.noise[h - 1]
     }
 
     /// Standard uncertainty of a maximum of J, Hz (see the module).
     fn uncertainty(&mut self, e: &Padded, f: f64) -> f64 {
         let bin = self.bin();
         let (mut information, mut highest_order) = (0.0, 1.0);
-        for (h, noise) in self.noise.iter().enumerate() {
-            let order = (h + 1) as f64;
-            let ratio = e.at(order * f).norm_sqr() / noise;
+        for h in 1..=self.noise.len() {
+            let order = h as f64;
+            let ratio = self.ratio(e, f, h);
             if ratio > 2.0 {
                 highest_order = order;
             }

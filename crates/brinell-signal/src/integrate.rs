@@ -9,7 +9,7 @@ use std::f64::consts::{PI, TAU};
 use realfft::num_complex::Complex;
 use rustfft::FftPlanner;
 
-use super::band::{Band, bins};
+use super::band::{Band, bins, check_band};
 use super::error::{SignalError, check, require};
 use super::fft;
 use super::psd::Detrend;
@@ -62,7 +62,7 @@ pub(super) fn fade(x: &mut [f64], fs: f64, low: f64) -> usize {
 ///
 /// # Errors
 /// [`SignalError`] with fewer than 8 samples, samples that are not finite, or a lower edge that is not above 0 and
-/// below half the sampling rate and the upper edge.
+/// below half the sampling rate and the upper edge, or a band between two bins.
 #[doc(hidden)]
 pub fn velocity(
     x: &[f64],
@@ -72,12 +72,8 @@ pub fn velocity(
     count: impl Fn(usize) -> usize,
 ) -> Result<Vec<f64>, SignalError> {
     check(x, fs, 8, "integration")?;
-    require(
-        band.low > 0.0 && band.low < band.high && band.low < 0.5 * fs,
-        "lower edge of the band (Hz)",
-        band.low,
-        "above 0, below the upper edge and half the sampling rate",
-    )?;
+    require(band.low > 0.0, "lower edge of the band (Hz)", band.low, "above 0")?;
+    check_band(fs, x.len(), band)?;
     let mut v = x.to_vec();
     Detrend::Linear.apply(&mut v);
     let spectrum = fft::bins(&mut v);

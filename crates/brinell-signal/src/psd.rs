@@ -24,18 +24,19 @@ impl Detrend {
     /// In place.
     pub fn apply(self, x: &mut [f64]) {
         let n = x.len() as f64;
-        if self == Detrend::None || x.is_empty() {
+        let Some(&first) = x.first().filter(|_| self != Detrend::None) else {
             return;
-        }
-        let mean = x.iter().sum::<f64>() / n;
+        };
+        // From the first value on, so that nothing is left of a constant, round-off neither.
+        let mean = x.iter().map(|v| v - first).sum::<f64>() / n;
         let middle = 0.5 * (n - 1.0);
         let mut slope = 0.0;
         if self == Detrend::Linear && x.len() > 1 {
-            let moment: f64 = (x.iter().enumerate()).map(|(i, v)| (i as f64 - middle) * v).sum();
+            let moment: f64 = (x.iter().enumerate()).map(|(i, v)| (i as f64 - middle) * (v - first)).sum();
             slope = moment * 12.0 / (n * (n * n - 1.0));
         }
         for (i, v) in x.iter_mut().enumerate() {
-            *v -= mean + slope * (i as f64 - middle);
+            *v = *v - first - (mean + slope * (i as f64 - middle));
         }
     }
 }

@@ -74,7 +74,8 @@ const PEAK_EXPONENT: f64 = 0.23;
 ///
 /// A parabola through power-scaled magnitudes of the bin and its neighbours: K. J. Werner and F. G. Germain,
 /// "Sinusoidal parameter estimation using quadratic interpolation around power-scaled magnitude spectrum peaks",
-/// Applied Sciences 6 (2016) 306. Holds for a line at least four bins from any other.
+/// Applied Sciences 6 (2016) 306. Holds for Hann's window and a line at least four bins from any other: with a
+/// rectangular one the amplitude is up to 28 % off, with a flat top 2 %.
 pub fn peak_near(spectrum: &Spectrum, frequency: f64, halfwidth: f64) -> Option<Peak> {
     let amplitude = &spectrum.amplitude;
     let nearest = (frequency / spectrum.frequency_step).round();

@@ -86,8 +86,11 @@ impl StreamSpectra {
 
 /// The repetition frequency in the envelope of a whole signal sampled at `fs` Hz, taken as one segment. The `band`, Hz,
 /// is to hold the resonances that the impacts ring. `None` where the signal lasts fewer than 24 periods of the nominal
-/// frequency, or no comb inside the range is clear of the noise (false-alarm probability below 1e-4). For a long run
-/// use [`StreamSpectra`].
+/// frequency, where no comb inside the range is clear of the noise (false-alarm probability of white noise below 1e-4),
+/// or one of its harmonics alone is, and not the fundamental. For a long run use [`StreamSpectra`].
+///
+/// This measures a rate that is known to be there; whether it is, [`analyze`](crate::analysis::analyze) asks. Another
+/// train of impacts or a shaft with two harmonics within the range of two of the comb's is taken for it.
 ///
 /// # Panics
 /// Where the search is out of range (see [`LineSearch`] and [`Band`]).

@@ -456,3 +456,20 @@ fn analytic_a_signal_over_itself_differs_nowhere() {
     assert!((c.level_db.0 + 6.0206).abs() < 1e-3, "{:?}", c.level_db);
     assert!(c.lines.iter().all(|l| (l.modulation[0] / l.modulation[1] - 1.0).abs() < 1e-9));
 }
+
+/// Orders that no bearing has made the search for slip endless, or left it without a bin.
+#[test]
+fn prop_orders_that_no_bearing_has_are_refused() {
+    let x = healthy(12_000.0, 1.0, 1);
+    let of = |orders: DefectOrders| analyze(&x, 12_000.0, &Options::new(SHAFT, orders));
+    let real = NamedBearing::find("6205").unwrap().orders();
+    for ftf in [1e-3, 0.7, 0.999_999, 1.0, f64::NAN] {
+        assert!(matches!(of(DefectOrders { ftf: Some(ftf), ..real }), Err(AnalysisError::Order { .. })), "{ftf}");
+    }
+    for bpfo in [-3.0, 0.0, 1e-9, 1e-3, f64::INFINITY] {
+        assert!(matches!(of(DefectOrders { bpfo: Some(bpfo), ..real }), Err(AnalysisError::Order { .. })), "{bpfo}");
+    }
+    // The ends of what is looked for.
+    assert!(of(DefectOrders { bpfo: Some(0.1), ftf: Some(0.01), ..real }).is_ok());
+    assert!(of(DefectOrders { ftf: Some(0.6), ..real }).is_ok());
+}

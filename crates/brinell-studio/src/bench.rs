@@ -135,7 +135,7 @@ impl Observer for Recording {
 impl Bench {
     /// At t = 0.
     pub(crate) fn start(loaded: Loaded, text: String) -> Answer<Self> {
-        let simulation = Arc::new(Simulation::new(&loaded.scenario)?);
+        let simulation = Arc::new(Simulation::unchecked(&loaded.scenario)?);
         let shaft = shaft_of(&loaded);
         let mut recording = Recording::new(Arc::clone(&simulation), 0, shaft);
         recording.watch = Some(Watch::new(&loaded.scenario, &simulation));
@@ -165,7 +165,7 @@ impl Bench {
         }
         let mut scenario = loaded.scenario.clone();
         scenario.operation.speed_rpm = course.speed();
-        let simulation = Arc::new(Simulation::new(&scenario)?);
+        let simulation = Arc::new(Simulation::unchecked(&scenario)?);
         if !self.run.go_on_in(Arc::clone(&simulation)) {
             return Ok(false);
         }

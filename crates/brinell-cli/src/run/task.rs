@@ -50,7 +50,7 @@ pub(super) fn ready(args: &RunArgs, path: &Path, inputs: &mut Inputs) -> Result<
     let source = Source::open(path, &args.set)?;
     let loaded = source.load(&[], args.quiet)?;
     inputs.add_all(&source.inputs());
-    let simulation = Simulation::new(&loaded.scenario).map_err(Failure::Run)?;
+    let simulation = Simulation::unchecked(&loaded.scenario).map_err(Failure::Run)?;
     let beforehand = Beforehand::of(&loaded.scenario, simulation.model());
     if !args.quiet {
         if args.scenarios.len() > 1 && !beforehand.warnings.is_empty() {
@@ -104,7 +104,7 @@ pub(super) fn earlier(args: &RunArgs, loaded: &Loaded, folder: &Path, inputs: &I
 /// Runs, and writes everything that was requested into the folder, in place of the earlier results.
 pub(super) fn execute(args: &RunArgs, task: &Task, progress: Progress, stop: &AtomicBool) -> Result<Done, Failure> {
     let Task { ready: Ready { loaded, beforehand, photos }, folder, earlier } = task;
-    let simulation = Simulation::new(&loaded.scenario).map_err(Failure::Run)?;
+    let simulation = Simulation::unchecked(&loaded.scenario).map_err(Failure::Run)?;
     let layout = args.print.layout(&args.plots)?;
     let mut loads = line_loads::requested(args, &simulation, task.duration_s())?;
     make_folder(folder)?;

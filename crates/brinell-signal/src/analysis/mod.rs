@@ -67,6 +67,10 @@ const LARGEST: f64 = 1e60;
 
 /// Noise over the signal's RMS that is added to it: the last bit of an ADC of 32.
 const DITHER: f64 = 1.0 / 4_294_967_296.0;
+/// What a defect frequency may be over the shaft's, and FTF, for any bearing of three elements or more with its outer
+/// ring at rest; narrower for those that somebody states, [`DefectOrders::POSSIBLE`].
+const ORDERS: (f64, f64) = (0.1, 1000.0);
+const FTF_ORDERS: (f64, f64) = (0.01, 0.6);
 /// Halvings of the kurtogram.
 const DEPTH: usize = 6;
 /// Longest part of a signal that the kurtogram looks at, samples: it is for the eye, and that takes no more.
@@ -246,7 +250,10 @@ fn check(x: &[f64], fs: f64, options: &Options) -> Result<(), AnalysisError> {
     }
     let all = || options.orders.defect_frequencies();
     for (_, name, order) in all() {
-        positive(name, order)?;
+        let (least, most) = if name == "FTF" { FTF_ORDERS } else { ORDERS };
+        if !(least..=most).contains(&order) {
+            return Err(AnalysisError::Order { name, order, least, most });
+        }
     }
     let Some((_, name, highest)) = all().max_by(|a, b| a.2.total_cmp(&b.2)) else {
         return Err(AnalysisError::NoFrequencies);

@@ -99,6 +99,32 @@ fn prop_line_outside_the_range_is_not_found_at_its_edge() {
     assert!(line_frequency(&train(252.5, 0.0, 0.05).generate(12_800, 3), FS, BAND, &narrow).is_some());
 }
 
+/// Another train's harmonic within the range of one of the comb's: 9 x 139 Hz beside 5 x 250.102 Hz.
+#[test]
+fn prop_one_harmonic_of_another_train_is_no_comb() {
+    for seed in 0..20 {
+        let x = train(139.0, 0.0, 0.1).generate(25_600, 4000 + seed);
+        assert_eq!(line_frequency(&x, FS, BAND, &search()), None, "{seed}");
+    }
+}
+
+#[test]
+fn prop_a_dead_sensor_shows_no_line() {
+    for (i, value) in [0.1, 1.0, 2.5, 9.81, -0.03].into_iter().enumerate() {
+        for n in [12_800, 12_801, 24_000, 32_768] {
+            let x = vec![value; n];
+            assert_eq!(line_frequency(&x, FS, BAND, &search()), None, "{value}, {n}");
+            assert_eq!(tracked(&x, 10_000 + i), None, "{value}, {n}");
+        }
+    }
+}
+
+#[test]
+fn prop_a_range_beyond_half_the_sampling_rate_does_not_fit() {
+    let wide = LineSearch { nominal: 9900.0, tolerance: 0.3, harmonics: 8 };
+    assert_eq!(line_frequency(&Noise::new(1).normals(12_800), FS, BAND, &wide), None);
+}
+
 #[test]
 fn prop_too_short_a_record_is_refused() {
     let x = train(250.0, 0.0, 0.0).generate(2457, 1);

@@ -145,7 +145,7 @@ fn one<W: Work>(
     if work.fingerprint(&scenario) != task.fingerprint {
         return Err(RunnerError::Changed.into());
     }
-    let simulation = match Simulation::new(&scenario) {
+    let simulation = match Simulation::unchecked(&scenario) {
         Ok(simulation) => simulation,
         Err(error) => return Ok(Some(row(Err(error.to_string())))),
     };

@@ -1,7 +1,7 @@
 //! A scenario from start to findings.
 
 use crate::channel::Frame;
-use crate::document::{self, Severity};
+use crate::document;
 use crate::error::Error;
 use crate::observe::{Findings, Watch};
 use crate::scenario::Scenario;
@@ -65,7 +65,7 @@ pub fn simulate(scenario: &Scenario) -> Result<RunResult, Error> {
 /// # Errors
 /// As [`simulate`], and [`Error::Stopped`]: there is no half-finished run among results.
 pub fn simulate_with(scenario: &Scenario, observer: &mut dyn Observer) -> Result<RunResult, Error> {
-    let simulation = begun(scenario)?;
+    let simulation = Simulation::new(scenario)?;
     complete(finish(scenario.clone(), simulation, observer))
 }
 
@@ -74,17 +74,10 @@ pub fn simulate_with(scenario: &Scenario, observer: &mut dyn Observer) -> Result
 /// # Errors
 /// As [`simulate`], and [`Error::TooLarge`].
 pub fn record(scenario: &Scenario) -> Result<(RunResult, Signals), Error> {
-    let simulation = begun(scenario)?;
+    let simulation = Simulation::new(scenario)?;
     let mut signals = Signals::new(&simulation)?;
     let result = complete(finish(scenario.clone(), simulation, &mut signals))?;
     Ok((result, signals))
-}
-
-/// A scenario without errors, prepared: one built in code is held to what a file is.
-fn begun(scenario: &Scenario) -> Result<Simulation, Error> {
-    let mut problems = scenario.problems();
-    problems.retain(|problem| problem.severity == Severity::Error);
-    if problems.is_empty() { Simulation::new(scenario) } else { Err(problems.into()) }
 }
 
 /// Only what came to its end.

@@ -13,6 +13,7 @@ mod signals;
 mod switches;
 
 use crate::channel::{self, Channel, Frame};
+use crate::document::Severity;
 use crate::error::Error;
 use crate::model::{Energy, Model, Power};
 use crate::scenario::{Accuracy, Scenario};
@@ -165,11 +166,22 @@ pub struct Simulation {
 }
 
 impl Simulation {
-    /// Builds the model and its initial state.
+    /// Builds the model and its initial state. A scenario built or changed in code is held to what a file is.
     ///
     /// # Errors
-    /// Where the scenario makes no model or has no equilibrium to start from.
+    /// Every error among [`Scenario::problems`]; where the scenario makes no model or has no equilibrium to start from.
     pub fn new(scenario: &Scenario) -> Result<Self, Error> {
+        let mut problems = scenario.problems();
+        problems.retain(|problem| problem.severity == Severity::Error);
+        if problems.is_empty() { Self::unchecked(scenario) } else { Err(problems.into()) }
+    }
+
+    /// The same of a scenario as it was read, which has been checked.
+    ///
+    /// # Errors
+    /// Where it makes no model or has no equilibrium to start from.
+    #[doc(hidden)]
+    pub fn unchecked(scenario: &Scenario) -> Result<Self, Error> {
         let model = Model::new(scenario)?;
         let initial = start::state(&model)?;
         let (channels, idle_patterns) = channel::select(&model, &scenario.sensor, &scenario.simulation.record);

@@ -21,12 +21,15 @@ impl Signals {
         let channels = simulation.channels().iter().map(|c| c.name.clone());
         let names: Vec<String> = std::iter::once("t".to_owned()).chain(channels).collect();
         let samples = simulation.samples();
+        let too_large = || Error::TooLarge { bytes: 8 * u128::from(samples) * names.len() as u128 };
+        let rows = usize::try_from(samples).map_err(|_| too_large())?;
+        let all = rows.checked_mul(names.len()).ok_or_else(too_large)?;
+        // All of it at once first: a system that promises memory which it may not have refuses only what is obviously
+        // too much, and a column is not.
+        Vec::<f64>::new().try_reserve_exact(all).map_err(|_| too_large())?;
         let mut columns = vec![Vec::new(); names.len()];
         for column in &mut columns {
-            let room = usize::try_from(samples).ok();
-            if room.is_none_or(|n| column.try_reserve_exact(n).is_err()) {
-                return Err(Error::TooLarge { bytes: 8 * u128::from(samples) * names.len() as u128 });
-            }
+            column.try_reserve_exact(rows).map_err(|_| too_large())?;
         }
         Ok(Self { rate_hz: simulation.sample_rate(), names, columns })
     }
