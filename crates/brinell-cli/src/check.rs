@@ -16,7 +16,7 @@ use brinell::model::Model;
 use brinell::observe::passes::place;
 use brinell::plausibility;
 use brinell::pressure::{pressure_beside, pressures, static_limit};
-use brinell::scenario::{Bearing, Element, Scenario, Speed};
+use brinell::scenario::{Bearing, Element, Scenario, Speed, Surface};
 use brinell::statics::StaticLoadZone;
 use std::f64::consts::TAU;
 use std::process::ExitCode;
@@ -128,7 +128,7 @@ fn time_scales(s: &Scenario, model: &Model, d: &Derived) {
             short(1e3 * (last - first), 3)
         );
     }
-    say!("  longest step            {} us", short(1e6 * d.longest_step, 3));
+    say!("  longest step            {} us, without impacts", short(1e6 * d.longest_step, 3));
     say!("  centrifugal force       {} N a {element}", short(d.centrifugal_force, 3));
 }
 
@@ -200,7 +200,11 @@ fn rounded(value: &str) -> String {
 fn static_balance(s: &Scenario, model: &Model, zone: &StaticLoadZone) {
     let size = zone.shift[0].hypot(zone.shift[1]);
     say!("Static balance under the full load, over a pitch of the cage");
-    let with = if s.defects.is_empty() { "" } else { " with the damage" };
+    let with = match model.defects.iter().any(|defect| defect.surface != Surface::OuterRaceway) {
+        _ if s.defects.is_empty() => "",
+        true => " with the damage, turned through the load zone",
+        false => " with the damage",
+    };
     say!("  heaviest contact        {} N{with}", short(zone.largest, 4));
     // Where the load along a roller is not even, its slices say more.
     if s.has_even_contacts() {
@@ -242,14 +246,13 @@ fn static_balance(s: &Scenario, model: &Model, zone: &StaticLoadZone) {
 
 /// Of contacts whose load is even along the roller. Damage outside the load zone never sees the heaviest of them.
 fn even_pressures(s: &Scenario, model: &Model, zone: &StaticLoadZone) {
-    let force = zone.largest;
-    let [inner, outer] = pressures(s, force).map(|p| short(1e-6 * p, 4));
+    let [inner, outer] = pressures(s, zone.heaviest()).map(|p| short(1e-6 * p, 4));
     say!(
         "  contact pressure        {inner} MPa at the inner raceway, {outer} MPa at the outer one; static limit {} MPa",
         plain_number(1e-6 * static_limit(&s.bearing))
     );
     for (k, defect) in model.defects.iter().enumerate().filter(|(_, defect)| zone.reaches(model, defect)) {
-        if let Some((left, pressure)) = pressure_beside(model, &s.bearing, k, force) {
+        if let Some((left, pressure)) = pressure_beside(model, &s.bearing, k, zone.heaviest()) {
             say!(
                 "  beside the damage       {} MPa at most on the {} mm of contact left on the {}",
                 short(1e-6 * pressure, 4),

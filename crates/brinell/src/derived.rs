@@ -36,7 +36,8 @@ pub struct Derived {
     pub roller_period: f64,
     /// Time that a roller takes over each defect at the top speed, s.
     pub defect_passes: Vec<f64>,
-    /// Longest step that the solver may take, s.
+    /// Longest step that the solver may take while the static load's heaviest contacts carry it, s; under an impact it
+    /// is shorter.
     pub longest_step: f64,
 }
 
@@ -108,6 +109,7 @@ impl Derived {
         let statics = static_load_zone(model);
         let centrifugal_force = m.roller * g.pitch_radius * kinematics.orbit_speed.powi(2);
         let contact_force = statics.as_ref().map_or(0.0, |z| z.largest).max(centrifugal_force);
+        let elastic = statics.as_ref().map_or([0.0, centrifugal_force], StaticLoadZone::heaviest);
         let contact_stiffness = SIDES.map(|side| model.stiffness_at(side, contact_force));
         let between = contact_stiffness[0] + contact_stiffness[1];
         let roller_angular = (between / m.roller).sqrt();
@@ -127,7 +129,7 @@ impl Derived {
             centrifugal_force,
             roller_period: 1.0 / kinematics.bpfo,
             defect_passes: defect_passes(model),
-            longest_step: settings(model, accuracy).max_step,
+            longest_step: settings(model, accuracy).max_step.min(model.stable_step_at(elastic)),
             statics,
         }
     }

@@ -255,7 +255,7 @@ fn overload(scenario: &Scenario, zone: &StaticLoadZone) -> Vec<Problem> {
                 "the contact pressure reaches {:.0} MPa at the {ring} raceway under the heaviest {element}'s {} kN, beyond the static limit of {:.0} MPa \
                  (ISO 76): raceways and {element}s would keep dents, and the model is elastic",
                 1e-6 * highest,
-                short(1e-3 * zone.largest),
+                short(1e-3 * zone.heaviest()[side as usize]),
                 1e-6 * limit
             ),
             "",
@@ -271,7 +271,7 @@ fn highest_pressure(scenario: &Scenario, zone: &StaticLoadZone) -> (Side, f64) {
     if let Some(peak) = peak.flatten() {
         return (peak.side, peak.pressure);
     }
-    let [inner, outer] = pressures(scenario, zone.largest);
+    let [inner, outer] = pressures(scenario, zone.heaviest());
     match inner >= outer {
         true => (Side::Inner, inner),
         false => (Side::Outer, outer),

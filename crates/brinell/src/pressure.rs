@@ -3,7 +3,7 @@
 //! It is for reading, not for motion: the contact law of [`crate::contact`] knows forces and deformations alone. SI.
 
 use crate::contact::{ball, remaining_share};
-use crate::defect::{Side, relative_radius};
+use crate::defect::{SIDES, relative_radius};
 use crate::model::Model;
 use crate::scenario::{Bearing, Element, Scenario};
 use std::f64::consts::PI;
@@ -38,22 +38,22 @@ pub(crate) fn line_pressure(force: f64, length: f64, radius: f64) -> f64 {
     (modulus * force.max(0.0) / length / (PI * radius)).sqrt()
 }
 
-/// Largest pressure under `force` (N) at the inner and at the outer raceway of the undamaged bearing, Pa.
-pub fn pressures(scenario: &Scenario, force: f64) -> [f64; 2] {
+/// Largest pressure under `forces` (N) at the inner and at the outer raceway of the undamaged bearing, Pa.
+pub fn pressures(scenario: &Scenario, forces: [f64; 2]) -> [f64; 2] {
     let bearing = &scenario.bearing;
     if let Some(ellipses) = ball::ellipses(bearing, &scenario.contact) {
-        return ellipses.map(|e| e.pressure(force));
+        return SIDES.map(|side| ellipses[side as usize].pressure(forces[side as usize]));
     }
-    [Side::Inner, Side::Outer].map(|side| {
+    SIDES.map(|side| {
         let length = 1e-3 * bearing.roller_length_mm;
-        line_pressure(force, length, relative_radius(bearing, side))
+        line_pressure(forces[side as usize], length, relative_radius(bearing, side))
     })
 }
 
-/// Pressure on what a defect leaves of a contact at its widest place, under `force` (N) on that contact: the length
-/// left (m) and the pressure (Pa), the larger one of the sides that it meets. `None` where nothing is left, or where
+/// Pressure on what a defect leaves of a contact at its widest place, under `forces` (N) on the inner and the outer
+/// contact: the length left (m) and the pressure (Pa), the larger one of the sides that it meets. `None` where nothing is left, or where
 /// the roller is pressed down to the damage's floor, which then carries its share.
-pub fn pressure_beside(model: &Model, bearing: &Bearing, defect: usize, force: f64) -> Option<(f64, f64)> {
+pub fn pressure_beside(model: &Model, bearing: &Bearing, defect: usize, forces: [f64; 2]) -> Option<(f64, f64)> {
     // Under a ball there is no length beside the damage that an even pressure would stand for.
     if bearing.has_balls() {
         return None;
@@ -70,10 +70,11 @@ pub fn pressure_beside(model: &Model, bearing: &Bearing, defect: usize, force: f
         return None;
     }
     let share = remaining_share(defect.roller_length, defect.roller_length - left);
-    [Side::Inner, Side::Outer]
+    SIDES
         .into_iter()
         .filter(|side| defect.depth_profile(*side).is_some())
         .map(|side| {
+            let force = forces[side as usize];
             let sunk = model.contact(side).deflection(force / share);
             let pressure = line_pressure(force, left, relative_radius(bearing, side));
             (sunk <= defect.depth_at(widest)).then_some((left, pressure))
@@ -117,7 +118,7 @@ mod tests {
             let source = rating.source.expect("the catalogue has it");
             assert!(source.contains("SKF"), "{source}");
             let heaviest = 5.0 * rating.load / (b.rows * b.rollers_per_row) as f64;
-            let inner = pressures(&s, heaviest)[0];
+            let inner = pressures(&s, [heaviest; 2])[0];
             assert!((inner / STATIC_LIMIT - 1.0).abs() < 0.02, "{name}: {inner}");
         }
     }

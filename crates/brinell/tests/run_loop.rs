@@ -1,7 +1,7 @@
 //! A run in slices, and a run that goes on in another simulation.
 
 use brinell::scenario::Speed;
-use brinell::simulate::{End, Observer, Run, Simulation};
+use brinell::simulate::{End, Observer, Run, Signals, Simulation};
 use brinell::{Error, Scenario};
 use std::ops::ControlFlow;
 
@@ -121,4 +121,31 @@ fn regress_a_scenario_built_in_code_is_held_to_what_a_file_is() {
         assert!(matches!(error, Error::Scenario(_)) && error.to_string().contains(key), "{key}: {error}");
     }
     assert!(brinell::simulate(&sound).is_ok());
+}
+
+/// What a file would be refused for, and what would end in a panic or in numbers of nothing.
+#[test]
+fn prop_a_scenario_changed_in_code_is_held_to_what_a_file_is() {
+    type Change = fn(&mut Scenario);
+    let changes: [(&str, Change); 6] = [
+        ("depth_um", |s| s.defects[0].depth_um = f64::NAN),
+        ("center_deg", |s| s.defects[0].center_deg = f64::NAN),
+        ("radial_clearance_um", |s| s.bearing.radial_clearance_um = f64::NAN),
+        ("speed_rpm", |s| s.operation.speed_rpm = Speed::Profile(Vec::new())),
+        ("duration_s", |s| s.simulation.duration_s = 1e300),
+        ("rollers_per_row", |s| s.bearing.rollers_per_row = 1 << 40),
+    ];
+    for (key, change) in changes {
+        let mut scenario = Scenario::from_toml(&format!("{BEARING}{SPALL}")).unwrap();
+        change(&mut scenario);
+        let Err(error) = Simulation::new(&scenario) else { panic!("{key} is taken") };
+        assert!(error.is_bad_input() && error.to_string().contains(key), "{key}: {error}");
+    }
+}
+
+/// 22 hours of every channel at 1 MHz, 450 TB, beyond what an address reaches: a column by itself is not.
+#[test]
+fn prop_signals_beyond_any_memory_are_refused_as_a_whole() {
+    let long = simulation("[simulation]\nduration_s = 8e4\nsample_rate_hz = 1e6\nrecord = [\"*\"]\n");
+    assert!(matches!(Signals::new(&long), Err(Error::TooLarge { bytes }) if bytes > 1 << 48));
 }

@@ -9,6 +9,7 @@ use brinell::simulate::Simulation;
 use brinell::solver::System;
 use brinell::start;
 use brinell::statics::{Balance, Problem, solve, static_load_zone};
+use std::f64::consts::TAU;
 
 /// NN3007, inner ring fixed, no outer support, 300 N in +X on the outer ring, printed K: section 13's static facts.
 fn bench(clearance_um: f64, load: f64) -> Model {
@@ -402,4 +403,55 @@ fn analytic_the_bearing_sinks_by_the_load_over_the_stiffness_that_holds_it() {
     (s.support.inner_stiffness_n_per_m, s.support.outer_stiffness_n_per_m) = (2e7, 0.0);
     let zone = static_load_zone(&Model::new(&s).unwrap()).unwrap();
     assert!((zone.sunk / (-4000.0 / 2e7) - 1.0).abs() < 1e-6, "{} m", zone.sunk);
+}
+
+/// Damage that turns is met wherever it starts: against all positions of ring and cage on a fine grid.
+#[test]
+fn prop_the_heaviest_contact_is_that_of_turning_damage_wherever_it_starts() {
+    let at = |on: &str, center: f64| {
+        let text = format!(
+            "[bearing]\npreset = \"NN3007\"\n[operation]\nspeed_rpm = 1800\nload_n = [6000, 0]\n\
+             [contact]\ninner_stiffness = 8.54e8\nouter_stiffness = 8.54e8\n\
+             [[defects]]\non = \"{on}\"\ncenter_deg = {center}\ndepth_um = 60\n\
+             shape = {{ rectangle = {{ length_mm = 20, width_mm = 5.9 }} }}\n"
+        );
+        Model::new(&read(&text, &[]).unwrap().scenario).unwrap()
+    };
+    let model = at("inner-raceway", 0.0);
+    let pitch = TAU / model.layout.rollers_per_row as f64;
+    let mut heaviest = [0.0_f64; 2];
+    let mut problem = Problem::at_start(&model);
+    for k in 0..180 {
+        problem.ring_angle = TAU * f64::from(k) / 180.0;
+        for phase in 0..4 {
+            let turn = pitch * f64::from(phase) / 4.0;
+            problem.orbit.iter_mut().zip(&model.pocket_angle).for_each(|(orbit, pocket)| *orbit = pocket + turn);
+            let balance = balance(&model, &problem);
+            problem.guess = [balance.inner, balance.outer];
+            for (most, forces) in heaviest.iter_mut().zip([&balance.inner_force, &balance.outer_force]) {
+                *most = forces.iter().copied().fold(*most, f64::max);
+            }
+        }
+    }
+    for center in [0.0, 40.0, 180.0] {
+        let zone = static_load_zone(&at("inner-raceway", center)).unwrap();
+        for (found, most) in zone.heaviest().into_iter().zip(heaviest) {
+            // Positions have a grid.
+            assert!((0.98..1.005).contains(&(found / most)), "{center}: {found} of {most}");
+        }
+    }
+    // Damage that rests is met where it lies.
+    let [loaded, away] = [0.0, 180.0].map(|center| static_load_zone(&at("outer-raceway", center)).unwrap());
+    assert!(loaded.largest > 1.2 * loaded.healthy_largest && away.largest < 1.01 * away.healthy_largest);
+}
+
+/// At high speed the outer contacts carry the centrifugal force as well: m R_m theta'^2 more than the inner ones.
+#[test]
+fn analytic_the_inner_contact_carries_less_by_the_centrifugal_force() {
+    let text = "[bearing]\npreset = \"NN3007\"\n[operation]\nspeed_rpm = 60000\nload_n = [300, 0]\n";
+    let model = Model::new(&read(text, &[]).unwrap().scenario).unwrap();
+    let [inner, outer] = static_load_zone(&model).unwrap().heaviest();
+    let orbit = model.rolling_orbit_speed(60_000.0 / 60.0 * TAU);
+    let centrifugal = model.inertia.roller * model.geometry.pitch_radius * orbit * orbit;
+    assert!((outer - inner - centrifugal).abs() < 1e-6 * centrifugal, "{outer} {inner} {centrifugal}");
 }

@@ -14,7 +14,8 @@ use std::f64::consts::TAU;
 /// Units are in the names. `slices` is `null` where contacts have none; of a static balance that does not exist the
 /// warnings tell.
 pub fn to_json(s: &Scenario, model: &Model, d: &Derived) -> Value {
-    let pressures = pressures(s, d.contact_force);
+    // Without a balance, of the force that there is.
+    let pressures = pressures(s, d.statics.as_ref().map_or([d.contact_force; 2], StaticLoadZone::heaviest));
     let warnings = before(s, model, &d.statics);
     let warnings: Vec<String> = warnings.iter().map(ToString::to_string).collect();
     let rating = match &d.statics {

@@ -88,7 +88,7 @@ impl AtRest {
             Some(_) => (0, self.zone.middle),
             None => self.heaviest(),
         };
-        let (problem, slot) = at_rest(model, over, row, angle);
+        let (problem, slot) = Problem::at_rest(model, over, row, angle);
         let contacts = |model: &Model| -> Result<_, Error> {
             let balance = solve(model, &problem)?;
             let balanced = (&problem, &balance);
@@ -138,42 +138,12 @@ pub(super) fn over_damage(
         for k in 0..across {
             // The middles of equal parts: an edge itself is on one side or the other by round-off.
             let s = first + (last - first) * (k as f64 + 0.5) / across as f64;
-            let (problem, slot) = at_rest(model, Some((defect, s)), 0, middle);
+            let (problem, slot) = Problem::at_rest(model, Some((defect, s)), 0, middle);
             let balance = solve(model, &problem)?;
             all.push(lines(model, bearing, slices, (&problem, &balance), slot));
         }
     }
     Ok(all)
-}
-
-/// The positions of all parts with a roller at s (m) of a defect, or with one of a row in the middle of the load zone
-/// (rad), and the slot that is looked at.
-fn at_rest(model: &Model, over: Option<(&Defect, f64)>, row: usize, middle: f64) -> (Problem, usize) {
-    let l = &model.layout;
-    let mut problem = Problem::at_start(model);
-    let (slot, orbit) = match over {
-        None => (l.slot(row, 0), middle),
-        Some((defect, s)) => {
-            // With spin and inner ring at 0.
-            let met = |side| defect.met_at(side, s / defect.radius).orbit;
-            match defect.surface {
-                Surface::OuterRaceway => (l.slot(defect.row, 0), met(Side::Outer)),
-                Surface::InnerRaceway => {
-                    problem.ring_angle = middle - met(Side::Inner);
-                    (l.slot(defect.row, 0), middle)
-                }
-                Surface::Roller(roller) => {
-                    let slot = l.slot(defect.row, roller);
-                    problem.spin[slot] = middle - met(Side::Outer);
-                    (slot, middle)
-                }
-            }
-        }
-    };
-    let cage = orbit - model.pocket_angle[slot];
-    let places = problem.orbit.iter_mut().zip(&model.pocket_angle);
-    places.for_each(|(orbit, pocket)| *orbit = pocket + cage);
-    (problem, slot)
 }
 
 /// s (m) in the middle of where a contact that is pressed by `deformation` (m) without tilt carries least.

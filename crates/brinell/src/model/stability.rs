@@ -5,6 +5,14 @@ use crate::defect::{SIDES, Side};
 use crate::scenario::ModelKind;
 use crate::solver::DAMPED_CONTACT;
 
+impl Model {
+    /// Stability limit of the step, s, of a roller whose contacts carry the elastic forces `elastic` (inner and outer,
+    /// N), and of the cages without a dynamic film.
+    pub(crate) fn stable_step_at(&self, elastic: [f64; 2]) -> f64 {
+        stable_step(self, elastic, 0.0)
+    }
+}
+
 /// Stability limit of the step, s: of a roller whose contacts carry the elastic forces `max_elastic` (inner and outer,
 /// N), and of the cages in films that damp them by at most `film_damping`, N s/m.
 pub(super) fn stable_step(model: &Model, max_elastic: [f64; 2], film_damping: f64) -> f64 {

@@ -1,7 +1,8 @@
 //! What is asked of the solvers and what they answer, and the forces that both of them know.
 
-use crate::defect::{Angles, SIDES, cover_slices};
+use crate::defect::{Angles, Defect, SIDES, Side, cover_slices};
 use crate::model::Model;
+use crate::scenario::Surface;
 use crate::slices::{Cover, Slices};
 
 /// Question put to the solver.
@@ -36,6 +37,40 @@ impl Problem {
             fix_outer: model.outer_ring_is_fixed(),
             guess: [[0.0; 2]; 2],
         }
+    }
+
+    /// The positions of all parts with a roller at s (m) of a defect: of the outer raceway where it lies, of the inner
+    /// one or of a roller turned to the angle `middle` (rad), a roller's towards the outer raceway. Without a defect, with
+    /// a roller of `row` at `middle`. And the slot that is looked at.
+    pub(crate) fn at_rest(model: &Model, over: Option<(&Defect, f64)>, row: usize, middle: f64) -> (Self, usize) {
+        let l = &model.layout;
+        let mut problem = Self::at_start(model);
+        let (slot, orbit) = match over {
+            None => (l.slot(row, 0), middle),
+            Some((defect, s)) => {
+                // With spin and inner ring at 0.
+                let met = |side| defect.met_at(side, s / defect.radius).orbit;
+                match defect.surface {
+                    Surface::OuterRaceway => (l.slot(defect.row, 0), met(Side::Outer)),
+                    Surface::InnerRaceway => {
+                        problem.ring_angle = middle - met(Side::Inner);
+                        (l.slot(defect.row, 0), middle)
+                    }
+                    Surface::Roller(roller) => {
+                        let slot = l.slot(defect.row, roller);
+                        problem.spin[slot] = middle - met(Side::Outer);
+                        (slot, middle)
+                    }
+                }
+            }
+        };
+        problem.turn_cage(model, orbit - model.pocket_angle[slot]);
+        (problem, slot)
+    }
+
+    /// Turns the cages to an angle, rad, from where they start.
+    pub(crate) fn turn_cage(&mut self, model: &Model, angle: f64) {
+        self.orbit.iter_mut().zip(&model.pocket_angle).for_each(|(orbit, pocket)| *orbit = pocket + angle);
     }
 }
 

@@ -12,8 +12,10 @@ use std::f64::consts::{PI, TAU};
 pub struct StaticLoadZone {
     /// (row from 0, orbit angle in rad in [-pi, pi), Q_in, Q_out in N).
     pub points: Vec<(usize, f64, f64, f64)>,
-    /// Largest Q_out, N.
+    /// Largest Q_out, N; where damage turns, with the first of it ([`MOST_TURNED`]) in and about the load zone.
     pub largest: f64,
+    /// Largest Q_in, N, likewise.
+    pub largest_inner: f64,
     /// The same of the healthy bearing, N.
     pub healthy_largest: f64,
     /// Extent of the zone where rollers of the healthy bearing carry load between the raceways, rad; 0 where none does, a
@@ -61,6 +63,18 @@ impl StaticLoadZone {
         loaded || defect.shape.raised() > gap
     }
 
+    /// Takes the forces of one balance into the largest.
+    fn take(&mut self, balance: &Balance) {
+        let largest = |forces: &[f64], so_far: f64| forces.iter().copied().fold(so_far, f64::max);
+        self.largest = largest(&balance.outer_force, self.largest);
+        self.largest_inner = largest(&balance.inner_force, self.largest_inner);
+    }
+
+    /// Largest force of a contact on each raceway, N.
+    pub fn heaviest(&self) -> [f64; 2] {
+        [self.largest_inner, self.largest]
+    }
+
     /// Static deformation of the heaviest contact on the softer raceway, m.
     pub(crate) fn deformation(&self, model: &Model) -> f64 {
         let on = |side| model.deflection(side, self.largest);
@@ -86,7 +100,38 @@ pub fn static_load_zone(model: &Model) -> Result<StaticLoadZone, NoBalance> {
     else {
         return Ok(zone);
     };
-    Ok(StaticLoadZone { healthy_largest, extent, ends, middle, displacement, ..zone })
+    let mut zone = StaticLoadZone { healthy_largest, extent, ends, middle, displacement, ..zone };
+    heaviest_over_turns(model, &mut zone)?;
+    Ok(zone)
+}
+
+/// Damage that turns is looked at so far: there can be thousands, alike.
+pub(crate) const MOST_TURNED: usize = 8;
+/// Places of turning damage about the middle of the load zone, in pitches.
+const TURNED: [f64; 9] = [-2.0, -1.5, -1.0, -0.5, 0.0, 0.5, 1.0, 1.5, 2.0];
+
+/// The heaviest contacts with damage of the inner raceway and of rollers turned into the load zone: it takes load off
+/// the rollers that are over it, and others carry more.
+fn heaviest_over_turns(model: &Model, zone: &mut StaticLoadZone) -> Result<(), NoBalance> {
+    let pitch = TAU / model.layout.rollers_per_row as f64;
+    let turning = model.defects.iter().filter(|defect| defect.surface != Surface::OuterRaceway);
+    for defect in turning.take(MOST_TURNED) {
+        let (first, last) = defect.shape.arc();
+        for by in TURNED.map(|turned| turned * pitch) {
+            let at = zone.middle + by;
+            let (mut problem, slot) = Problem::at_rest(model, Some((defect, 0.5 * (first + last))), 0, at);
+            let cage = problem.orbit[slot] - model.pocket_angle[slot];
+            // A roller's damage turns with its roller; between the inner raceway's and the rollers there is a pitch.
+            let phases = if defect.surface == Surface::InnerRaceway { PHASES / 4 } else { 1 };
+            for phase in 0..phases {
+                problem.turn_cage(model, cage + pitch * phase as f64 / phases as f64);
+                let balance = solve(model, &problem)?;
+                problem.guess = [balance.inner, balance.outer];
+                zone.take(&balance);
+            }
+        }
+    }
+    Ok(())
 }
 
 /// The same, with the zone of the bearing as it is.
@@ -100,16 +145,16 @@ fn as_it_is(model: &Model) -> Result<StaticLoadZone, NoBalance> {
     let mut displaced = [[0.0; 2]; 2];
     for phase in 0..PHASES {
         let turn = pitch * phase as f64 / PHASES as f64;
-        problem.orbit.iter_mut().zip(&model.pocket_angle).for_each(|(o, a)| *o = a + turn);
+        problem.turn_cage(model, turn);
         let balance = solve(model, &problem)?;
         problem.guess = [balance.inner, balance.outer];
         for slot in 0..l.rollers() {
             let force = balance.outer_force[slot];
             zone.points.push((l.row(slot), wrap(problem.orbit[slot]), balance.inner_force[slot], force));
-            zone.largest = zone.largest.max(force);
             let squeeze = squeeze(model, &problem, &balance, slot);
             places.push(Place { slot, turn, angle: problem.orbit[slot], squeeze });
         }
+        zone.take(&balance);
         for k in 0..2 {
             displaced[0][k] += balance.inner[k] / PHASES as f64;
             displaced[1][k] += balance.outer[k] / PHASES as f64;
@@ -194,7 +239,7 @@ fn end(model: &Model, problem: &mut Problem, places: &[Place], sign: f64) -> Res
         return Ok(reach);
     };
     let turn = loaded.turn + sign * reach - loaded.angle;
-    problem.orbit.iter_mut().zip(&model.pocket_angle).for_each(|(o, a)| *o = a + turn);
+    problem.turn_cage(model, turn);
     let balance = solve(model, problem)?;
     let found = (reach, squeeze(model, problem, &balance, loaded.slot));
     Ok(if found.1 > 0.0 { zero(found, outwards(next)) } else { zero(outwards(loaded), found) })
