@@ -135,7 +135,7 @@ impl Facts<'_> {
         let mut text = format!(
             "The paper’s RMS values ({irregular}, {simplified} and {reference} m/s²) are not those of the steady part of our signals: there they are {steady} m/s², \
              up to {} % off. Taken from t = 0 over 0.285 s, so with the start-up, with n = 1, a load ramp of 8 ms and behind the anti-alias filter, \
-             they are {from_start} m/s², within {} %. {says}",
+             they are {from_start} m/s², up to {} % off. {says}",
             percent(off),
             percent(near)
         );

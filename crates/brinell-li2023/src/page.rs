@@ -10,7 +10,7 @@ use brinell::scenario::Scenario;
 use brinell_report::{Chapter, DamageView, Fact, Study, StudyPiece, Table, capital};
 
 /// How verdicts come about, in words.
-const RULES: [&str; 6] = [
+const RULES: [&str; 7] = [
     "Intervals are at 95 %: averages over whole turns of the shaft, peaks those of a turn, from a turn after the load ramp on. “A exceeds \
      B” is decided by the interval of the ratio of the two means; it holds where that excludes equality, does not hold where it lies at or \
      below it, and is undecided otherwise.",
@@ -19,6 +19,8 @@ const RULES: [&str; 6] = [
      such steps go, does not hold where it fails whichever way they go.",
     "A claim holds where all its statements do, in part where some hold and others do not. Each interval is for one comparison; of twenty true \
      equalities one is expected to look decided. What is read off a shape has no interval.",
+    "An interval is of one start. Numbers ruled by slow motion, such as entry peaks and the crosswise kurtosis, differ by more from start to \
+     start: of 32 starts of the irregular case the intervals held their mean in 13 to 21. Verdicts rest on ratios far larger than that.",
     "A claim that does not hold as it is read first, and does under another reading of what the paper leaves open, is undecided, and the verdict \
      says what it hangs on. A verdict that rests on our reading of the paper’s Ref. [43] says so: the paper describes that model and defect no \
      further, and another reading may give another verdict.",

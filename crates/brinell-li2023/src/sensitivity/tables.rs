@@ -33,7 +33,7 @@ impl Sensitivity {
                  the simplified one. Instantaneous, with its 95 % interval where there is one, / behind the anti-alias filter. From t = 0: over \
                  {} s, or what the assumption names; one start a record, so no interval. Nearest: the smallest root mean square of ln(ours/paper’s) \
                  among the four readings; 0.05 is 5 %.",
-                1e-3 * f64::from(SHOWN_MS)
+                f64::from(SHOWN_MS) / 1e3
             ),
         )
     }
