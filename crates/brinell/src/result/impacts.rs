@@ -4,7 +4,8 @@
 //! Instants are those of [`crate::observe::passes::Event`], as far as the waveform kept reaches. The window is the time
 //! that a roller takes over the defect at the top speed: half of it before the instant, one and a half after it; the
 //! peak is the largest |acceleration| within the half after it, so that what leaving does to the acceleration is no
-//! part of what coming did: the anti-alias filter spreads both to either side. Other rollers, in other places, add to
+//! part of what coming did: the anti-alias filter spreads both to either side. It ends where the next roller comes or
+//! leaves; an instant after which that is too soon does not count. Rollers in other places, as of another row, add to
 //! both.
 
 use crate::derived::defect_passes;
@@ -14,8 +15,10 @@ use crate::simulate::Simulation;
 
 /// Fewest samples that a roller's time over the defect is taken for.
 const FEWEST: f64 = 8.0;
-/// Share of the window after the instant that the peak is looked for in.
+/// Share of the window after the instant that the peak is looked for in, and the least of it that is left before the
+/// next roller comes or leaves.
 const PEAK: f64 = 0.5;
+const LEAST_PEAK: f64 = 0.25;
 /// Points of the mean course to a sample.
 const FINER: usize = 4;
 
@@ -46,11 +49,13 @@ pub fn impacts(simulation: &Simulation, findings: &Findings) -> Vec<Impacts> {
     let mut all = Vec::new();
     for (defect, pass) in defect_passes(simulation.model()).into_iter().enumerate() {
         let window = if pass.is_finite() { pass } else { 0.0 }.max(FEWEST / rate);
+        let mut events: Vec<_> = findings.passes.events.iter().filter(|e| e.defect == defect).collect();
+        events.sort_by(|a, b| a.t.total_cmp(&b.t));
         for enters in [true, false] {
-            let events = findings.passes.events.iter();
-            let wanted = events.filter(|e| e.defect == defect && e.enters == enters && e.t >= findings.from);
+            let nexts = events.iter().skip(1).map(|next| next.t).chain([f64::INFINITY]);
+            let wanted = events.iter().zip(nexts).filter(|(e, _)| e.enters == enters && e.t >= findings.from);
             // Samples from the first one kept.
-            let instants = wanted.map(|e| e.t * rate - first as f64);
+            let instants = wanted.map(|(e, next)| (e.t * rate - first as f64, (next - e.t) * rate));
             let (mean, peaks) = around(&values, instants, window * rate);
             let count = peaks.len();
             all.push(Impacts {
@@ -68,17 +73,17 @@ pub fn impacts(simulation: &Simulation, findings: &Findings) -> Vec<Impacts> {
 }
 
 /// Mean course from half a window before to one and a half after the instants, and the peak after each; all in samples.
-/// Instants whose surroundings are not all there do not count.
-fn around(values: &[f64], instants: impl Iterator<Item = f64>, window: f64) -> (Vec<f64>, Vec<f64>) {
+/// Instants, each with the time to the next one of any kind, whose surroundings are not all there do not count.
+fn around(values: &[f64], instants: impl Iterator<Item = (f64, f64)>, window: f64) -> (Vec<f64>, Vec<f64>) {
     let points = (2.0 * window * FINER as f64).ceil() as usize + 1;
     let (mut mean, mut peaks) = (vec![0.0; points], Vec::new());
-    for instant in instants {
+    for (instant, alone) in instants {
         let from = instant - 0.5 * window;
         let end = from + (points - 1) as f64 / FINER as f64 + 1.0;
-        if from < 0.0 || end >= values.len() as f64 {
+        if from < 0.0 || end >= values.len() as f64 || alone < LEAST_PEAK * window {
             continue;
         }
-        peaks.push(peak(values, instant, PEAK * window));
+        peaks.push(peak(values, instant, alone.min(PEAK * window)));
         for (k, mean) in mean.iter_mut().enumerate() {
             let place = from + k as f64 / FINER as f64;
             let (i, part) = (place as usize, place.fract());
@@ -115,7 +120,7 @@ mod tests {
                 values[instant as usize + k] -= height * share;
             }
         }
-        let (mean, peaks) = around(&values, instants.into_iter(), 20.0);
+        let (mean, peaks) = around(&values, instants.map(|at| (at, f64::INFINITY)).into_iter(), 20.0);
         assert_eq!(peaks, heights);
         assert_eq!(mean.len(), 161);
         for (k, mean) in mean.iter().enumerate() {
@@ -130,14 +135,18 @@ mod tests {
         // A roller enters at 50 and leaves at 70; a symmetric filter lets the exit begin before its instant.
         let mut values = vec![0.0; 200];
         (values[52], values[69], values[71]) = (3.0, -7.0, 9.0);
-        let peaks = |instant: f64| around(&values, [instant].into_iter(), 20.0).1;
-        assert_eq!((peaks(50.0), peaks(70.0)), (vec![3.0], vec![9.0]));
+        let peaks = |values: &[f64], instant: f64, alone: f64| around(values, [(instant, alone)].into_iter(), 20.0).1;
+        assert_eq!((peaks(&values, 50.0, 20.0), peaks(&values, 70.0, 80.0)), (vec![3.0], vec![9.0]));
+        // The next roller comes where the first one has just left, or a little later.
+        values[77] = 30.0;
+        let peaks = |alone: f64| peaks(&values, 70.0, alone);
+        assert_eq!((peaks(80.0), peaks(6.0), peaks(4.0)), (vec![30.0], vec![9.0], vec![]));
     }
 
     #[test]
     fn prop_instants_at_the_ends_do_not_count() {
         let values = vec![1.0; 100];
-        let count = |instant: f64| around(&values, [instant].into_iter(), 20.0).1.len();
+        let count = |instant: f64| around(&values, [(instant, 20.0)].into_iter(), 20.0).1.len();
         assert_eq!([9.9, 10.0, 68.9, 69.0, 200.0, -5.0].map(count), [0, 1, 1, 0, 0, 0]);
         assert_eq!(around(&values, std::iter::empty(), 20.0), (vec![], vec![]));
         assert_eq!(Estimate::of_mean(&[]), None);
