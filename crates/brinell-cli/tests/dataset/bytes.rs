@@ -26,6 +26,9 @@ fn prop_neither_threads_nor_shards_nor_a_second_call_change_a_byte() {
         assert_eq!(at("three/dataset.json").exists(), shard == "2/3");
     }
     same(&at("one"), &at("three"));
+    make(folder.path(), &["-o", "three", "--shard", "4/4"])
+        .exits(0)
+        .complains(&["this shard is empty, as the plan has 3 files in all"]);
     // In folders of their own, merged; then twice.
     for shard in ["1/2", "2/2"] {
         make(folder.path(), &["-o", &shard.replace('/', "-"), "--shard", shard, "-q"]).exits(0);
