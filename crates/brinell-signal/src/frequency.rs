@@ -246,7 +246,8 @@ impl Comb {
 
         let trials = 1.0 + PLACES_PER_BIN * 2.0 * half_range * harmonics / bin;
         // Of noise, each harmonic's power over its mean is exponentially distributed.
-        let is_noise = |height: f64, count: f64| trials * chi_square_tail(2.0 * height, 2.0 * count) > FALSE_ALARM_LIMIT;
+        let is_noise =
+            |height: f64, count: f64| trials * chi_square_tail(2.0 * height, 2.0 * count) > FALSE_ALARM_LIMIT;
         if is_noise(highest, harmonics) || self.is_another(e, frequency, is_noise) {
             return None;
         }

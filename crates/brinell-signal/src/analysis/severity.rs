@@ -229,7 +229,10 @@ mod tests {
     fn prop_a_constant_has_no_level_in_a_band() {
         for value in [0.1, 1.0, 9.81] {
             let level = band_level(&vec![value; 24_000], 12_000.0, Band::between(1000.0, 3000.0), 30.0);
-            assert!(level.is_none_or(|level| level.envelope_peak.value == 0.0 && level.kurtosis.value.is_nan()), "{level:?}");
+            assert!(
+                level.is_none_or(|level| level.envelope_peak.value == 0.0 && level.kurtosis.value.is_nan()),
+                "{level:?}"
+            );
         }
     }
 
