@@ -113,3 +113,20 @@ fn regress_several_files_beside_one_healthy_record() {
     let page = fs::read_to_string(folder.path().join("look/report.html")).unwrap();
     assert!(page.contains("In brackets: the RMS over that of records/r1.csv"));
 }
+
+#[test]
+fn regress_what_contradicts_what_was_given_is_on_the_page_of_several_files_too() {
+    let folder = tempdir().unwrap();
+    for name in ["w1.csv", "w2.csv"] {
+        let rows: String = impacts(6.0).iter().map(|v| format!("{v:.4}\n")).collect();
+        fs::write(folder.path().join(name), format!("acc [mg]\n{rows}")).unwrap();
+    }
+    let call = brinell(folder.path(), &call(&["w1.csv", "w2.csv"], &["-o", "look"])).exits(0);
+    let warned = "--unit g was taken, but the file says mg";
+    assert_eq!(call.err.matches(warned).count(), 2, "{}", call.err);
+    let listed = json(&folder.path().join("look/analysis.json"));
+    assert!(listed["records"][1]["file"]["warnings"].to_string().contains(warned), "{listed}");
+    let page = fs::read_to_string(folder.path().join("look/report.html")).unwrap();
+    assert_eq!(page.matches(warned).count(), 1);
+    assert!(page.contains("(in 2 of 2 files looked at, the first of them file w1.csv)"));
+}

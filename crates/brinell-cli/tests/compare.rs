@@ -22,8 +22,7 @@ fn regress_files_and_variants_come_side_by_side() {
     brinell(folder.path(), &typed(&args))
         .exits(0)
         .says(&["simple over actual (the baseline), ratios:", "lumped over actual (the baseline), ratios:"])
-        .says(&["sensor_ax.rms: ", "(95 %: "])
-        .keeps_quiet();
+        .says(&["sensor_ax.rms: ", "(95 %: "]);
     let out = folder.path().join("out");
     let names = files(&out);
     let results =
@@ -97,6 +96,26 @@ fn prop_what_check_warns_of_is_said_of_the_runs_and_on_the_page() {
         .complains(&["(in 1 of 3 runs looked at, the first of them run above)"]);
     let page = fs::read_to_string(folder.path().join("out/compare.html")).unwrap();
     assert!(page.contains("(in 1 of 3 runs looked at, the first of them run above)"));
+}
+
+#[test]
+fn prop_what_a_run_warns_of_is_said_once_with_its_runs_on_the_terminal_the_page_and_in_the_json() {
+    let folder = folder();
+    let hi = ["--variant", "hi:simulation.sample_rate_hz=51200"];
+    let args = [&typed("compare actual.toml simple.toml -o out")[..], &hi].concat();
+    let call = brinell(folder.path(), &args).exits(0);
+    let warned: Vec<String> = ["parametric work: ", "are of different bandwidths"].map(str::to_owned).into();
+    let told = "(in 3 of 3 runs looked at, the first of them run actual)";
+    let page = fs::read_to_string(folder.path().join("out/compare.html")).unwrap();
+    let json = json(&folder.path().join("out/compare.json"))["warnings"].to_string();
+    for words in warned.iter().map(String::as_str).chain([told]) {
+        for text in [&call.err, &json, &page] {
+            assert_eq!(text.matches(words).count(), 1, "{words}: {}{json}", call.err);
+        }
+    }
+    // Of one sample rate levels are of one bandwidth.
+    let call = brinell(folder.path(), &typed("compare actual.toml simple.toml -o same")).exits(0);
+    assert!(!call.err.contains("bandwidths"), "{}", call.err);
 }
 
 #[test]

@@ -55,10 +55,28 @@ fn prop_what_check_warns_of_is_said_of_the_points_and_on_the_page() {
     assert!(!folder.path().join("out").exists());
     call(&[]).complains(&parts);
     let warnings = json(&folder.path().join("out/sweep.json"))["warnings"].clone();
-    assert_eq!(warnings.as_array().unwrap().len(), 1);
     let page = fs::read_to_string(folder.path().join("out/sweep.html")).unwrap();
     for part in parts {
         assert!(warnings[0].as_str().unwrap().contains(part) && page.contains(part), "{part}");
+    }
+}
+
+#[test]
+fn prop_what_runs_warn_of_is_said_once_with_its_points_and_after_a_resumption_too() {
+    let folder = folder();
+    let args = typed("sweep base.toml --vary simulation.sample_rate_hz=25600,51200 -o out");
+    let told =
+        ["parametric work: ", "are of different bandwidths", "(in 2 of 2 points looked at, the first of them point 1)"];
+    // The second call runs nothing.
+    for _ in 0..2 {
+        let call = brinell(folder.path(), &args).exits(0);
+        let page = fs::read_to_string(folder.path().join("out/sweep.html")).unwrap();
+        let json = json(&folder.path().join("out/sweep.json"))["warnings"].to_string();
+        for words in told {
+            for text in [&call.err, &page, &json] {
+                assert_eq!(text.matches(words).count(), 1, "{words}: {}{json}", call.err);
+            }
+        }
     }
 }
 
@@ -73,7 +91,7 @@ fn prop_neither_threads_nor_a_cut_journal_change_a_byte() {
             "4 runs to do: 0.720 s simulated, 1 at a time, about",
             "4 of 4 points complete",
         ])
-        .keeps_quiet();
+        .complains(&["(in 4 of 4 points looked at, the first of them point 1)"]);
     brinell(folder.path(), &with(&["-o", "two", "--jobs", "2", "-q"])).exits(0).keeps_quiet();
     same(&out("one"), &out("two"));
     assert_eq!(

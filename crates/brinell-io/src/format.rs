@@ -90,7 +90,7 @@ impl Format {
     /// A writer of this format's file in an existing folder. CSV has no place for metadata and leaves it out.
     ///
     /// MAT, NPZ and UFF keep the rows in a nameless temporary file of that folder until the end, for they store one
-    /// channel after the other. UFF and WAV need [`crate::keys::SAMPLE_RATE_HZ`] and leave out a column `t` in seconds,
+    /// channel after the other. UFF and WAV need [`Metadata::with_rate`] and leave out a column `t` in seconds,
     /// which it replaces.
     pub fn create(
         self,

@@ -65,6 +65,12 @@ impl Metadata {
         self
     }
 
+    /// The same with the sample rate in hertz.
+    #[must_use]
+    pub fn with_rate(self, hz: f64) -> Self {
+        self.with(keys::SAMPLE_RATE_HZ, hz.to_string())
+    }
+
     /// The sample rate in hertz, where one is given.
     pub(crate) fn sample_rate(&self) -> Option<f64> {
         let hz = self.get(keys::SAMPLE_RATE_HZ)?.trim().parse().ok()?;

@@ -126,6 +126,7 @@ mod tests {
             settings: vec![],
             scenario: String::new(),
             version: String::new(),
+            warnings: vec![],
             result: Ok(vec![
                 quantity("outer_ax.rms", Some(3.3), Spread::Interval(interval)),
                 quantity("sensor_ax.rms", Some(2.0), Spread::Interval(interval)),

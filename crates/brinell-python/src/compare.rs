@@ -5,7 +5,7 @@ use crate::convert::{json_to_python, table};
 use crate::run::Run;
 use brinell::result::RunResult;
 use brinell::simulate::End;
-use brinell_report::{Study, study_html};
+use brinell_report::{Study, beforehand, doubts, study_html};
 use brinell_study::campaign::{self, Compared, Side, check_labels, sides_json, sides_table};
 use pyo3::prelude::*;
 use pyo3::types::PyList;
@@ -49,7 +49,8 @@ impl Comparison {
 
     /// What `compare.json` holds.
     fn report<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
-        json_to_python(py, &sides_json(&self.sides, &self.compared))
+        let warnings = [beforehand(&self.sides), doubts(&self.sides, &results(&self.runs))].concat();
+        json_to_python(py, &sides_json(&self.sides, &self.compared, &warnings))
     }
 
     /// What `compare.html` holds.

@@ -23,8 +23,6 @@ use crate::pressure::{pressures, static_limit};
 use crate::scenario::{Choice, LoadOn, Scenario, Speed};
 use crate::statics::{NoBalance, StaticLoadZone, static_load_zone};
 pub use after::after;
-#[doc(hidden)]
-pub use after::{RESIDUAL_SHARE, residual};
 use slices::coarse_slices;
 use std::f64::consts::TAU;
 use warning::{short, warning};

@@ -9,7 +9,7 @@ use crate::observe::load_zone::BINS;
 use crate::observe::{Drift, Findings, passes};
 use crate::plausibility::{self, Beforehand};
 use crate::result::fields::{self, Field};
-use crate::scenario::{Accuracy, ModelKind, Speed};
+use crate::scenario::{Accuracy, ModelKind, Scenario, Speed};
 use crate::sensor::{Chain, ChannelRecord};
 use crate::signal::{Estimate, Indicator};
 use crate::simulate::{End, Outcome, Simulation};
@@ -113,22 +113,23 @@ fn sensor(parts: &Parts) -> Option<Value> {
 
 /// Which sensor channels went beyond the ADC's full scale, or stayed within one of its steps, in words.
 #[doc(hidden)]
-pub fn converted(parts: &Parts) -> Vec<String> {
-    let step = parts.simulation.sensor().and_then(Chain::step).unwrap_or(f64::NAN);
+pub fn converted(simulation: &Simulation, outcome: &Outcome) -> Vec<String> {
+    let step = simulation.sensor().and_then(Chain::step).unwrap_or(f64::NAN);
     // Four digits.
     let step: f64 = format!("{step:.3e}").parse().unwrap_or(step);
     let words = |(channel, record): (&Channel, &ChannelRecord)| {
-        let (name, rows) = (&channel.name, parts.outcome.rows);
+        let (name, rows) = (&channel.name, outcome.rows);
         if record.is_constant() && record.clipped == 0 {
             return Some(format!(
-                "{name}: all {rows} samples are one value, as the ADC's step of {step} m/s^2 is larger than the signal; give sensor.converter_bits \
+                "all {rows} samples of {name} are one value: the ADC's step of {step} m/s^2 is larger than the signal; give sensor.converter_bits \
                  more bits or a smaller range"
             ));
         }
-        (record.clipped > 0)
-            .then(|| format!("{name}: {} of {rows} samples are beyond the ADC's range and are clipped", record.clipped))
+        (record.clipped > 0).then(|| {
+            format!("{} of {rows} samples of {name} are beyond the ADC's range and are clipped", record.clipped)
+        })
     };
-    parts.simulation.filtered().iter().zip(&parts.outcome.sensor).filter_map(words).collect()
+    simulation.filtered().iter().zip(&outcome.sensor).filter_map(words).collect()
 }
 
 /// Words for how a run ended.
@@ -144,13 +145,15 @@ pub fn status(end: &End) -> Value {
 /// What the run's reader should know, warnings of the scenario first.
 #[doc(hidden)]
 pub fn warnings(parts: &Parts) -> Vec<String> {
-    let mut all: Vec<String> = parts.loaded.warnings.iter().map(ToString::to_string).collect();
-    all.extend(converted(parts));
-    all.extend(unsettled(parts.findings));
-    let scenario = &parts.loaded.scenario;
-    all.extend(parts.beforehand.warnings.iter().map(ToString::to_string));
-    all.extend(plausibility::after(scenario, &parts.outcome.energy));
-    all
+    let Parts { loaded, simulation, outcome, findings, beforehand, .. } = *parts;
+    let before = loaded.warnings.iter().chain(&beforehand.warnings);
+    before.map(ToString::to_string).chain(afterwards(&loaded.scenario, simulation, outcome, findings)).collect()
+}
+
+/// What a run shows that its reader should know; what kind of warning it is stands before the colon.
+#[doc(hidden)]
+pub fn afterwards(scenario: &Scenario, simulation: &Simulation, outcome: &Outcome, findings: &Findings) -> Vec<String> {
+    [converted(simulation, outcome), unsettled(findings), plausibility::after(scenario, &outcome.energy)].concat()
 }
 
 /// What had not settled when statistics began, in words.

@@ -15,6 +15,7 @@ use brinell_report::{
     Chapter, IndicatorLine, IndicatorPlot, IndicatorPoint, Study, StudyPiece, Table, ZONES, scaled, study_html,
     study_pictures,
 };
+use brinell_study::campaign::{Misses, count_result};
 use serde_json::{Value, json};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
@@ -52,6 +53,8 @@ struct Found {
     other: Option<(String, f64, f64)>,
     /// The RMS over the other's, in the range that both hold.
     rms_over_other: Option<f64>,
+    /// What contradicts what was given.
+    warnings: Vec<String>,
     json: Value,
 }
 
@@ -165,13 +168,11 @@ fn wrapped(text: &str, width: usize) -> Vec<String> {
 }
 
 fn one(args: &AnalyzeArgs, path: &Path) -> Result<Found, Failure> {
-    let results = results(args, path, load(args, path)?)?;
+    let found = Found::of(&results(args, path, load(args, path)?)?);
     if !args.quiet {
-        for warning in results.iter().take(1).flat_map(|r| &r.measured.warnings) {
-            complain!("warning: {}: {warning}", path.display());
-        }
+        found.warnings.iter().for_each(|warning| complain!("warning: {}: {warning}", path.display()));
     }
-    Ok(Found::of(&results))
+    Ok(found)
 }
 
 /// File names, or whole paths where two are called alike.
@@ -247,6 +248,7 @@ impl Found {
                 Some(rms.first / rms.second)
             }),
             scores: scores.collect(),
+            warnings: m.warnings.clone(),
             json,
         }
     }
@@ -344,9 +346,20 @@ fn report(rows: &[Row]) -> Study {
         subtitle,
         analysed: true,
         version: brinell::VERSION.into(),
+        warnings: warnings(rows),
         chapters,
         ..Study::default()
     }
+}
+
+/// Each kind once: a folder of files that one option contradicts would fill the page.
+fn warnings(rows: &[Row]) -> Vec<String> {
+    let (mut all, mut looked) = (Vec::new(), 0);
+    for (k, found) in rows.iter().enumerate().filter_map(|(k, row)| Some((k, row.found.as_ref().ok()?))) {
+        count_result(&mut all, found.warnings.clone(), k);
+        looked += 1;
+    }
+    all.iter().map(|miss: &Misses| miss.words(looked, "file", &rows[miss.run].name)).collect()
 }
 
 /// Files whose verdict rests on another speed than the one given.

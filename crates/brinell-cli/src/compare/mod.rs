@@ -34,10 +34,9 @@ pub(crate) fn compare(args: &CompareArgs) -> Result<ExitCode, Failure> {
     for side in &sides {
         Simulation::unchecked(&side.loaded.scenario).map_err(Failure::Run)?;
     }
+    let beforehand = brinell_report::beforehand(&sides);
     if !args.quiet {
-        for warning in brinell_report::beforehand(&sides) {
-            complain!("{warning}");
-        }
+        beforehand.iter().for_each(|warning| complain!("{warning}"));
     }
     let named = || Path::new("out").join(format!("compare-{}", stem(&args.scenarios[0])));
     let folder = args.output.clone().unwrap_or_else(named);
@@ -66,16 +65,15 @@ pub(crate) fn compare(args: &CompareArgs) -> Result<ExitCode, Failure> {
         [] => Vec::new(),
         _ => brinell_report::study_pictures(&report, layout),
     };
-    let json = (COMPARISON, sides_json(&sides, &compared));
+    let doubts = brinell_report::doubts(&sides, &all);
+    let json = (COMPARISON, sides_json(&sides, &compared, &[&beforehand[..], &doubts].concat()));
     let page = brinell_report::study_html(&report);
     let (written, json) = earlier.publish(ready, json, Some((PAGE, &page)), (&pictures, &args.plots))?;
     if args.json {
         document(json.trim_end());
     }
     if !args.quiet {
-        for warning in brinell_report::doubts(&sides, &all) {
-            complain!("warning: {warning}");
-        }
+        doubts.iter().for_each(|warning| complain!("{warning}"));
         tell(&sides, &compared);
         say::wrote(&written);
     }

@@ -12,7 +12,7 @@ use std::path::PathBuf;
 /// A few lines on what came out.
 pub(super) fn tell(parts: &Parts, elapsed: f64, written: &[PathBuf]) -> Vec<String> {
     let mut printed = Vec::new();
-    let Parts { outcome, findings, loaded, .. } = *parts;
+    let Parts { outcome, findings, loaded, simulation, .. } = *parts;
     let reached = outcome.reached;
     match &outcome.end {
         End::Complete => {}
@@ -29,7 +29,7 @@ pub(super) fn tell(parts: &Parts, elapsed: f64, written: &[PathBuf]) -> Vec<Stri
     ));
     printed.extend(sensor_lines(findings));
     printed.extend(healthy_line(parts));
-    let heed = summary::converted(parts).into_iter().chain(summary::unsettled(findings));
+    let heed = summary::converted(simulation, outcome).into_iter().chain(summary::unsettled(findings));
     printed.extend(heed.map(|words| format!("  {words}")));
     printed.extend(findings.lines.iter().map(defect_line));
     let same = |h| findings.over_healthy(h).and_then(|r| r.interval).is_some_and(|(low, high)| low < 1.0 && high > 1.0);

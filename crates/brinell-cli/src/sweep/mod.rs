@@ -70,9 +70,7 @@ pub(crate) fn sweep(args: &SweepArgs) -> Result<ExitCode, Failure> {
     }
     tell_failures(&points, &states);
     if !args.quiet {
-        for doubt in doubts(&states) {
-            complain!("warning: {doubt}");
-        }
+        doubts(&states).iter().for_each(|doubt| complain!("{doubt}"));
     }
     if outcome.is_break() {
         complain!(
@@ -242,10 +240,11 @@ fn write(
         table.columns.iter().map(|c| (c.name.clone(), c.unit.as_str().into())).collect();
     let overrides: serde_json::Map<String, Value> =
         points.source.overrides().iter().map(|(key, value)| (key.clone(), value.as_str().into())).collect();
+    let warnings = [&points.warnings[..], &doubts(states)].concat();
     let json = json!({
         "brinell": brinell::VERSION,
         "plan": points.header()["plan"],
-        "warnings": points.warnings,
+        "warnings": warnings,
         "points": { "complete": count("complete"), "failed": count("failed"), "not_run": count("not run") },
         "interval": "95 % of the value, an average over whole revolutions of the inner ring; peaks are those of a revolution",
         "units": columns,

@@ -3,14 +3,13 @@
 use super::points::Points;
 use super::table::{State, count, number};
 use crate::say::{plural, shown_unit};
-use brinell::plausibility::RESIDUAL_SHARE;
-use brinell::result::{Quantity, fields};
+use brinell::result::Quantity;
 use brinell::scenario::Scenario;
 use brinell_report::{
     Chapter, Fact, HeatMap, IndicatorLine, IndicatorPlot, IndicatorPoint, Study, StudyPiece, Table, sweep_lead,
     sweep_legend, value_text, words,
 };
-use brinell_study::campaign::Axis;
+use brinell_study::campaign::{Axis, count_result};
 use std::collections::HashMap;
 
 /// Points and failures that the page lists; beyond that, the table is the place.
@@ -36,21 +35,14 @@ pub(super) fn usual(scenario: &Scenario, names: &[String]) -> Vec<String> {
     usual
 }
 
-/// How many points' averages hold part of the start, and of how many the energy audit does not close.
+/// What the results should be warned of: each kind of problem once.
 pub(super) fn doubts(states: &[State]) -> Vec<String> {
-    let doubt = |name: &str, is_doubtful: fn(f64) -> bool, words: &str| {
-        let of = |state: &State| state.row()?.quantity(name)?.value;
-        let count = states.iter().filter(|state| of(state).is_some_and(is_doubtful)).count();
-        (count > 0).then(|| format!("in {} {words} (column `{name}`)", plural(count, "point")))
-    };
-    let open = |share: f64| share.abs() > RESIDUAL_SHARE;
-    let not_settled = doubt(fields::NOT_SETTLED.name, |v| v == 1.0, "averages hold part of the start: simulate longer");
-    let not_closed = doubt(
-        &format!("audit.{}", fields::RELATIVE_RESIDUAL.name),
-        open,
-        "the energy audit misses more than 1 % of the turnover: raise simulation.accuracy",
-    );
-    not_settled.into_iter().chain(not_closed).collect()
+    let (mut all, mut looked) = (Vec::new(), 0);
+    for (k, row) in states.iter().enumerate().filter_map(|(k, state)| Some((k, state.row()?))) {
+        count_result(&mut all, row.warnings.clone(), k);
+        looked += 1;
+    }
+    all.iter().map(|miss| miss.words(looked, "point", miss.run + 1)).collect()
 }
 
 pub(super) fn report(points: &Points, states: &[State], plots: &[String]) -> Study {

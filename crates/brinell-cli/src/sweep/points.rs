@@ -9,7 +9,7 @@ use brinell::scenario::Scenario;
 use brinell::simulate::Simulation;
 use brinell_io::{ParquetWriter, SignalWriter};
 use brinell_studio::signal_table;
-use brinell_study::campaign::{Axis, BALANCED, Beforehand, Misses, Plan, count};
+use brinell_study::campaign::{Axis, BALANCED, BANDWIDTHS, Beforehand, Misses, Plan, bandwidth, count};
 use brinell_study::runner::{Task, Work};
 use serde_json::Value;
 use std::collections::BTreeMap;
@@ -24,7 +24,7 @@ pub(super) struct Points {
     pub(super) tasks: Vec<Result<Task, String>>,
     /// Unit of each varied key, as the file format states it.
     pub(super) units: BTreeMap<String, &'static str>,
-    /// What the author should know.
+    /// What the author should know before the points run.
     pub(super) warnings: Vec<String>,
     /// The first good point.
     pub(super) example: Scenario,
@@ -52,6 +52,7 @@ struct Checked {
     warnings: Vec<Problem>,
     /// Of what is known before it runs.
     before: Vec<Problem>,
+    bandwidth: [Option<f64>; 3],
 }
 
 impl Points {
@@ -78,11 +79,12 @@ impl Points {
             |k, result| checked[k] = Some(result),
         );
         let (mut units, mut warnings, mut before) = (BTreeMap::new(), Vec::new(), Vec::new());
-        let (mut tasks, mut first) = (Vec::new(), None);
+        let (mut tasks, mut first, mut bandwidths) = (Vec::new(), None, Vec::new());
         for result in checked.into_iter().flatten() {
             tasks.push(match result {
                 Ok(checked) => {
                     units.extend(checked.units);
+                    bandwidths.push(checked.bandwidth);
                     let point = tasks.len();
                     checked.warnings.into_iter().for_each(|w| count(&mut warnings, nowhere(w), point));
                     checked.before.into_iter().for_each(|w| count(&mut before, w, point));
@@ -103,7 +105,10 @@ impl Points {
         };
         let good = tasks.iter().filter(|task| task.is_ok()).count();
         let balanced = tasks.iter().take(BALANCED).filter(|task| task.is_ok()).count();
-        let warnings = words(warnings, good).chain(words(before, balanced)).collect();
+        let mut warnings: Vec<String> = words(warnings, good).chain(words(before, balanced)).collect();
+        if bandwidths.iter().any(|b| *b != bandwidths[0]) {
+            warnings.push(format!("warning: {BANDWIDTHS}"));
+        }
         let example = source.load(&plan.settings(first_good), true)?.scenario;
         Ok(Self { source, plan, tasks, units, warnings, example })
     }
@@ -125,6 +130,7 @@ fn check(source: &Source, settings: Vec<(String, String)>, known: Option<&Before
     Ok(Checked {
         units: settings.iter().filter_map(unit).collect(),
         before: known.map_or(Vec::new(), |known| known.warnings(&loaded.scenario)),
+        bandwidth: bandwidth(&loaded.scenario),
         warnings: loaded.warnings,
         task: Task::new(settings, &loaded.scenario),
     })

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use brinell_io::{Column, IoError, Metadata, SignalWriter, keys};
+use brinell_io::{Column, IoError, Metadata, SignalWriter};
 use proptest::prelude::*;
 
 /// A time and an acceleration.
@@ -12,7 +12,7 @@ pub(crate) fn columns() -> Vec<Column> {
 
 /// What every format can be written with.
 pub(crate) fn sampled() -> Metadata {
-    Metadata::default().with(keys::SAMPLE_RATE_HZ, "25600")
+    Metadata::default().with_rate(25_600.0)
 }
 
 /// Any 64 bits, the awkward ones often.

@@ -8,10 +8,10 @@ use crate::quantity::{value_text, words};
 use crate::study::{Chapter, Study};
 use crate::tables::Table;
 use brinell::observe::passes::place;
-use brinell::plausibility;
 use brinell::result::{Quantity, RunResult};
 use brinell::signal::ratio::Ratio;
-use brinell_study::campaign::{Beforehand, Compared, Misses, Side, count};
+use brinell::summary::afterwards;
+use brinell_study::campaign::{BANDWIDTHS, Beforehand, Compared, Misses, Side, bandwidth, count, count_result};
 
 /// Longest value in the table of what differs.
 const LONGEST: usize = 60;
@@ -54,7 +54,7 @@ impl Study {
             title: names.join(", "),
             subtitle: format!("{} runs, each over the baseline {}", names.len(), names[0]),
             version: brinell::VERSION.into(),
-            warnings: warnings(sides, runs),
+            warnings: [beforehand(sides), doubts(sides, runs)].concat(),
             lead: facts.first().map_or(String::new(), Fact::words),
             facts,
             chapters,
@@ -119,16 +119,18 @@ fn facts(names: &[String], compared: &[Compared]) -> Vec<Fact> {
     facts
 }
 
-/// Why averages of some runs are not to be relied on: they hold part of the start, or the energy audit does not close.
+/// What the results should be warned of: each kind of problem once, and what makes runs hard to hold against each other.
 pub fn doubts(sides: &[Side], runs: &[&RunResult]) -> Vec<String> {
     let mut all = Vec::new();
-    for (Side { label, .. }, run) in sides.iter().zip(runs) {
-        if !run.findings.drifts.is_empty() {
-            all.push(format!("{label} has not settled: its averages hold part of the start; simulate longer"));
-        }
-        all.extend(plausibility::residual(&run.scenario, &run.outcome.energy).map(|open| format!("{label}: {open}")));
+    for (k, run) in runs.iter().enumerate() {
+        let RunResult { scenario, simulation, outcome, findings } = run;
+        count_result(&mut all, afterwards(scenario, simulation, outcome, findings), k);
     }
-    all
+    [told(&all, sides), unlike(sides, runs)].concat()
+}
+
+fn told(all: &[Misses], sides: &[Side]) -> Vec<String> {
+    all.iter().map(|miss| miss.words(sides.len(), "run", &sides[miss.run].label)).collect()
 }
 
 /// What the scenarios should be warned of before they run: each kind of problem once.
@@ -138,37 +140,37 @@ pub fn beforehand(sides: &[Side]) -> Vec<String> {
         let warnings = known.warnings(&side.loaded.scenario);
         warnings.into_iter().for_each(|warning| count(&mut all, warning, k));
     }
-    all.iter().map(|miss: &Misses| miss.words(sides.len(), "run", &sides[miss.run].label)).collect()
+    told(&all, sides)
 }
 
 /// What makes curves hard to hold against each other.
-fn warnings(sides: &[Side], runs: &[&RunResult]) -> Vec<String> {
-    let mut all = [beforehand(sides), doubts(sides, runs)].concat();
-    let rate = |run: &RunResult| run.simulation.sample_rate();
-    if runs.iter().any(|run| rate(run) != rate(runs[0])) {
-        all.push("The runs' sample rates differ: what is above half the lower one is in one of them alone.".into());
+fn unlike(sides: &[Side], runs: &[&RunResult]) -> Vec<String> {
+    let mut all = Vec::new();
+    let mut warn = |words: &str| all.push(format!("warning: {words}"));
+    let ends = |side: &Side| bandwidth(&side.loaded.scenario);
+    if sides.iter().any(|side| ends(side) != ends(&sides[0])) {
+        warn(BANDWIDTHS);
     }
     let duration = |side: &Side| side.loaded.scenario.simulation.duration_s;
     if sides.iter().any(|side| duration(side) != duration(&sides[0])) {
-        all.push(
-            "The runs' durations differ: the largest of a whole run (record_*) grows with it; everything else compares."
-                .into(),
+        warn(
+            "the runs' durations differ: the largest of a whole run (record_*) grows with it; everything else compares",
         );
     }
     let axis = |run: &RunResult| run.findings.axis;
     if runs.iter().any(|run| axis(run) != axis(runs[0])) {
-        all.push("The loads point along different axes: curves show each run's own, the one nearer its load.".into());
+        warn("the loads point along different axes: curves show each run's own, the one nearer its load");
     }
     let exponent = |run: &RunResult| run.scenario.contact.exponent;
     if runs.iter().any(|run| exponent(run) != exponent(runs[0])) {
-        all.push("The contacts' exponents n differ: stiffnesses in N/m^n have different units and no ratio.".into());
+        warn("the contacts' exponents n differ: stiffnesses in N/m^n have different units and no ratio");
     }
     let band = |run: &RunResult| run.findings.envelope.as_ref().map(|(_, band)| (band.low, band.high));
     let mut bands = runs.iter().filter_map(|run| band(run));
     if let Some(first) = bands.next()
         && bands.any(|other| other != first)
     {
-        all.push("The envelopes' bands differ: levels of their lines are of different bands.".into());
+        warn("the envelopes' bands differ: levels of their lines are of different bands");
     }
     let most = runs.iter().map(|run| run.simulation.model().defects.len()).max();
     for defect in 0..most.unwrap_or(0) {
@@ -176,8 +178,8 @@ fn warnings(sides: &[Side], runs: &[&RunResult]) -> Vec<String> {
         let mut places: Vec<String> = runs.iter().filter_map(here).collect();
         places.dedup();
         if places.len() > 1 {
-            all.push(format!(
-                "Defect {} is not in the same place in all runs ({}): its passes and ratios are of different contacts.",
+            warn(&format!(
+                "defect {} is not in the same place in all runs ({}): its passes and ratios are of different contacts",
                 defect + 1,
                 places.join("; ")
             ));

@@ -1,4 +1,4 @@
-//! What many scenarios should be warned of: each kind of problem once, with how many have it.
+//! What many runs should be warned of: each kind of problem once, with how many have it.
 
 use crate::campaign::row::fingerprint;
 use brinell::document::{Problem, numberless};
@@ -43,7 +43,12 @@ pub fn count(all: &mut Vec<Misses>, problem: Problem, run: usize) {
 
 /// Adds what later runs have.
 pub fn join(all: &mut Vec<Misses>, later: Misses) {
-    let kind = |m: &Misses| (numberless(&m.problem.key), numberless(&m.problem.message));
+    let kind = |m: &Misses| {
+        let Problem { key, message, .. } = &m.problem;
+        // What a result is warned of has no key: its kind is before the colon, and units and remedies behind it vary.
+        let words = if key.is_empty() { message.split(": ").next() } else { None };
+        (numberless(key), numberless(words.unwrap_or(message)))
+    };
     match all.iter_mut().find(|m| kind(m) == kind(&later)) {
         Some(miss) => {
             miss.count += later.count - usize::from(miss.last == later.run);
@@ -52,6 +57,22 @@ pub fn join(all: &mut Vec<Misses>, later: Misses) {
         None => all.push(later),
     }
 }
+
+/// What a run that is over should be warned of, by [`brinell::summary::afterwards`].
+pub fn count_result(all: &mut Vec<Misses>, warnings: Vec<String>, run: usize) {
+    warnings.into_iter().for_each(|words| count(all, Problem::warning("", words), run));
+}
+
+/// Where a scenario's sensor signals end: its sample rate and the sensor's band, Hz.
+pub fn bandwidth(scenario: &Scenario) -> [Option<f64>; 3] {
+    let Scenario { simulation, sensor, .. } = scenario;
+    [Some(simulation.sample_rate_hz), sensor.low_cut_hz, sensor.high_cut_hz]
+}
+
+/// What is said where [`bandwidth`] is not the same in all runs.
+pub const BANDWIDTHS: &str = "the sensor's levels, peaks and kurtosis are of different bandwidths, and so are \
+    their ratios: the anti-alias filter goes with the sample rate. To compare bearings, give \
+    simulation.sample_rate_hz, sensor.low_cut_hz and sensor.high_cut_hz the same values";
 
 /// Finds the warnings of [`plausibility`]; of scenarios that mean the same once.
 #[derive(Debug, Default)]
@@ -90,7 +111,10 @@ mod tests {
         }
         let later = Misses { problem: problem("defects.0.depth_um", 1.0), run: 8, count: 2, last: 9 };
         join(&mut all, later);
-        let counts: Vec<_> = all.iter().map(|m| (m.run, m.count, m.last)).collect();
-        assert_eq!(counts, [(3, 5, 9)]);
+        let counts = |all: &[Misses]| -> Vec<_> { all.iter().map(|m| (m.run, m.count, m.last)).collect() };
+        assert_eq!(counts(&all), [(3, 5, 9)]);
+        let (mut all, said) = (Vec::new(), ["audit: 1 J, 20 %", "audit: 3 mJ, 5 times", "not settled: row 1"]);
+        said.into_iter().enumerate().for_each(|(run, words)| count_result(&mut all, vec![words.into()], run));
+        assert_eq!(counts(&all), [(0, 2, 1), (2, 1, 2)]);
     }
 }

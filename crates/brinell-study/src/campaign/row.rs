@@ -17,6 +17,8 @@ pub struct Row {
     pub version: String,
     /// Its numbers, or why it failed.
     pub result: Result<Vec<Quantity>, String>,
+    /// What it shows that its reader should know.
+    pub warnings: Vec<String>,
 }
 
 /// Which scenario it is: SHA-256 of its text with every key given, in hexadecimal. Scenarios that mean the same have
@@ -58,6 +60,9 @@ impl Row {
             }
             Err(reason) => object["failed"] = reason.as_str().into(),
         }
+        if !self.warnings.is_empty() {
+            object["warnings"] = self.warnings.as_slice().into();
+        }
         object
     }
 
@@ -73,7 +78,9 @@ impl Row {
                 Ok(values.map(|(name, parts)| quantity(name, parts.as_array()?)).collect::<Option<Vec<_>>>()?)
             }
         };
+        let warnings = value.get("warnings").and_then(Value::as_array).into_iter().flatten();
         Some(Row {
+            warnings: warnings.map(|words| Some(words.as_str()?.to_owned())).collect::<Option<_>>()?,
             settings: settings.collect::<Option<_>>()?,
             scenario: text("scenario")?,
             version: text("brinell")?,
@@ -124,6 +131,7 @@ mod tests {
             scenario: "ab12".into(),
             version: "0.1.0".into(),
             result: Err("the state stopped being finite\nat t = 1 s".into()),
+            warnings: vec![],
         };
         let back = |row: &Row| {
             let text = row.to_json().to_string();
@@ -145,6 +153,7 @@ mod tests {
             quantity(&format!("q{k}"), (k % 7 > 0).then_some(x), spread)
         });
         row.result = Ok(quantities.collect());
+        row.warnings = vec!["not settled: \"x\"".into(), "y".into()];
         let again = back(&row).unwrap();
         assert_eq!(again, row);
         let bits = |row: &Row| -> Vec<u64> {
@@ -163,6 +172,7 @@ mod tests {
             r#"{"settings":{"a":1},"scenario":"a","brinell":"1","failed":"x"}"#,
             r#"{"settings":{},"scenario":"a","brinell":"1","values":{"a":[1,2]}}"#,
             r#"{"settings":{},"scenario":"a","brinell":"1","values":{"a":["m","2"]}}"#,
+            r#"{"settings":{},"scenario":"a","brinell":"1","values":{},"warnings":[1]}"#,
         ] {
             assert_eq!(Row::from_json(&serde_json::from_str(text).unwrap()), None, "{text}");
         }

@@ -112,8 +112,8 @@ pub fn sides_scenarios(sides: &[Side]) -> Map<String, Value> {
     sides.iter().map(one).collect()
 }
 
-/// What `compare.json` holds.
-pub fn sides_json(sides: &[Side], compared: &[Compared]) -> Value {
+/// What `compare.json` holds; `warnings` are what its reader should know.
+pub fn sides_json(sides: &[Side], compared: &[Compared], warnings: &[String]) -> Value {
     let value = |q: &Quantity| with_interval(q.value, q.interval());
     let ratio = |r: &Ratio| with_interval(r.value, r.interval);
     let by_label = |of: &dyn Fn(usize) -> Option<Value>| -> Map<String, Value> {
@@ -134,6 +134,7 @@ pub fn sides_json(sides: &[Side], compared: &[Compared]) -> Value {
     json!({
         "brinell": brinell::VERSION,
         "baseline": sides[0].label,
+        "warnings": warnings,
         "interval": "95 % of the value, an average over whole revolutions, or over a defect's entries or exits; peaks are those of a revolution",
         "ratio": "of the value to the baseline's",
         "interval_of_a_ratio": "95 %: ln(a/b) +- t sqrt(s_a^2/a^2 + s_b^2/b^2), Student's t with Welch's degrees of freedom; \

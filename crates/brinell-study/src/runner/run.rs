@@ -6,6 +6,7 @@ use crate::listener::Listener;
 use brinell::result::{Quantity, RunResult, finish};
 use brinell::scenario::Scenario;
 use brinell::simulate::{End, Observer, Simulation};
+use brinell::summary::afterwards;
 use brinell_io::SignalWriter;
 use std::collections::HashSet;
 use std::num::NonZeroUsize;
@@ -135,11 +136,12 @@ fn one<W: Work>(
     if stop.load(Ordering::Relaxed) {
         return Ok(None);
     }
-    let row = |result| Row {
+    let row = |result, warnings| Row {
         settings: task.settings.clone(),
         scenario: task.fingerprint.clone(),
         version: brinell::VERSION.to_owned(),
         result,
+        warnings,
     };
     let scenario = work.scenario(task)?;
     if work.fingerprint(&scenario) != task.fingerprint {
@@ -147,7 +149,7 @@ fn one<W: Work>(
     }
     let simulation = match Simulation::unchecked(&scenario) {
         Ok(simulation) => simulation,
-        Err(error) => return Ok(Some(row(Err(error.to_string())))),
+        Err(error) => return Ok(Some(row(Err(error.to_string()), Vec::new()))),
     };
     let writers = work.signals(task, &simulation)?;
     let mut hearer = listener.begin(k, task.duration_s);
@@ -171,5 +173,7 @@ fn one<W: Work>(
             Ok([finished.quantities(), besides].concat())
         }
     };
-    Ok(Some(row(numbers)))
+    let RunResult { scenario, simulation, outcome, findings } = &finished;
+    let warnings = if numbers.is_ok() { afterwards(scenario, simulation, outcome, findings) } else { Vec::new() };
+    Ok(Some(row(numbers, warnings)))
 }

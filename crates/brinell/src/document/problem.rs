@@ -95,6 +95,11 @@ impl Problem {
         Problem::new(Severity::Error, key, message)
     }
 
+    /// That its author should know.
+    pub fn warning(key: impl Into<String>, message: impl Into<String>) -> Problem {
+        Problem::new(Severity::Warning, key, message)
+    }
+
     /// Of a file that a key names and that cannot be used.
     pub fn of_file(key: &str, file: &str, message: &str) -> Problem {
         Problem::error(key, message).value(super::toml_text::quote(file))

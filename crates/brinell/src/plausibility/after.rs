@@ -7,8 +7,7 @@ use crate::simulate::EnergyAudit;
 /// Share of the dissipation in contacts beyond which the parametric work of damage is worth a warning.
 const PARAMETRIC_SHARE: f64 = 0.1;
 /// Share of the turnover that an energy audit may miss before the run is worth a warning; sound runs stay far below.
-#[doc(hidden)]
-pub const RESIDUAL_SHARE: f64 = 0.01;
+const RESIDUAL_SHARE: f64 = 0.01;
 
 /// Warnings of a run that is over.
 pub fn after(scenario: &Scenario, energy: &EnergyAudit) -> Vec<String> {
@@ -17,8 +16,7 @@ pub fn after(scenario: &Scenario, energy: &EnergyAudit) -> Vec<String> {
 }
 
 /// An energy audit that does not close: the steps were too long for the motion.
-#[doc(hidden)]
-pub fn residual(scenario: &Scenario, energy: &EnergyAudit) -> Option<String> {
+fn residual(scenario: &Scenario, energy: &EnergyAudit) -> Option<String> {
     let share = energy.residual().abs() / energy.turnover();
     // Where nothing moved there is no share.
     (share > RESIDUAL_SHARE).then(|| {

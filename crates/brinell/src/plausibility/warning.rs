@@ -1,10 +1,10 @@
 //! A warning, and a number in it.
 
-use crate::document::{Problem, Severity, unit_of_key};
+use crate::document::{Problem, unit_of_key};
 use crate::signal;
 
 pub(super) fn warning(key: &str, value: String, message: String, allowed: impl Into<String>) -> Problem {
-    Problem::new(Severity::Warning, key, message).value(value).allowed(allowed).unit(unit_of_key(key))
+    Problem::warning(key, message).value(value).allowed(allowed).unit(unit_of_key(key))
 }
 
 /// A number in a message.

@@ -40,7 +40,7 @@ pub trait Observer {
         let _ = (index, frame);
     }
 
-    /// One complete row of the recorded channels, in order; `filtered` are the anti-aliased values of
+    /// One complete row of the recorded channels, in the order of [`Simulation::channels`]; `filtered` are the anti-aliased values of
     /// [`Simulation::filtered`] at that sample. Breaking ends the run.
     fn row(&mut self, index: u64, row: &[f64], filtered: &[f64]) -> ControlFlow<()> {
         let _ = (index, row, filtered);
