@@ -228,7 +228,7 @@ class Studio {
   #recovered() {
     speak("The engine was lost and runs again");
     // A server that answers again is not said to be gone.
-    if (document.querySelector('[data-kind="lost"].bad')) notice("lost", "The server did not answer for a while; it runs the last good bearing again.");
+    if (document.querySelector('[data-kind="lost"].bad')) notice("lost", "The engine answers again: the bearing was started anew.");
   }
 
   /** What tells B from A, in the engine's words: of the latest verdicts of both. */

@@ -134,7 +134,7 @@ describe("edits", () => {
   it("says that a server does not answer, and saves nothing that it did not open", async () => quietly(browser, `${server.url}?token=secret`, {}, async (page) => {
     await start(page, "rectangle");
     await page.route("**/ask*", (route) => route.abort());
-    await page.waitForSelector('[data-kind="lost"]:has-text("The server does not answer. Start `brinell studio` again")');
+    await page.waitForSelector('[data-kind="lost"]:has-text("The server does not answer. Start again tries once more")');
     await type(page.getByLabel("Speed", { exact: true }), "1450");
     await page.click("#save");
     await page.click('#save-list button:has-text("Scenario")');
