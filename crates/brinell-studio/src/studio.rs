@@ -73,7 +73,7 @@ impl Studio {
         let (request, given) = (&message.json, &message.arrays);
         let name = request["do"].as_str().unwrap_or_default();
         match name {
-            "about" => Ok(about::about()),
+            "about" => about::about(),
             "normal" => normal(request),
             "outline" => pen::outlined(request, given),
             "scratch" => pen::scratched(request, given),
@@ -116,7 +116,7 @@ impl Studio {
     fn open(&mut self, request: &Value) -> Answer<Value> {
         let slot = Self::slot(request)?;
         let text = text::of_request(request)?;
-        let (loaded, text) = pen::resolved(text::read(&text)?, text)?;
+        let (loaded, text) = pen::whole(text::read(&text)?, text)?;
         let text = text::plain(&text)?;
         let carried = match (&mut self.slots[slot], request["carry"] == json!(true)) {
             (Some(bench), true) => bench.carry(&loaded, &text)?,
@@ -154,7 +154,7 @@ impl Studio {
 /// `normal`: a scenario's text with all that is stated, and its stated keys.
 fn normal(request: &Value) -> Answer<Value> {
     let text = text::of_request(request)?;
-    let (loaded, text) = pen::resolved(text::read(&text)?, text)?;
+    let (loaded, text) = pen::whole(text::read(&text)?, text)?;
     let text = text::plain(&text)?;
     Ok(json!({
         "toml": text,

@@ -301,3 +301,16 @@ fn prop_two_verdicts_are_held_against_each_other() {
     let without = json!({ "do": "differ", "a": healthy });
     assert_eq!(ask(&mut studio, without).json["ok"], json!(false));
 }
+
+#[test]
+fn regress_a_file_of_an_examples_name_is_not_the_examples_file() {
+    let mut studio = Studio::new();
+    for (name, file) in [("photo", "photo-spall.png"), ("scan", "scan.csv")] {
+        let text = fs::read_to_string(Path::new("../../examples").join(name).with_extension("toml")).unwrap();
+        for request in ["open", "normal"] {
+            let answer = ask(&mut studio, json!({ "do": request, "slot": 0, "toml": text })).json;
+            let words = format!("defect 1: {file} is not here; drop the file on the raceway");
+            assert_eq!(answer["problems"][0]["message"], json!(words), "{answer}");
+        }
+    }
+}
