@@ -91,3 +91,20 @@ export function notice(kind, words, { bad = false, actions = [], stays = false }
   if (old) old.replaceWith(node);
   else root.append(node);
 }
+
+/** Notices of what the scenario, and the result of its whole run, warn of. The same is not shown again after it was closed. */
+export class Warnings {
+  /** @type {Record<string, string>} */
+  #shown = {};
+
+  /** @param {Side} side */
+  show({ opened, indicators, live }) {
+    const result = live.state === "done" ? indicators?.warnings : null;
+    for (const [kind, list] of /** @type {[string, string[] | undefined][]} */ ([["warnings", opened?.warnings], ["result", result]])) {
+      const words = list?.join("\n") ?? "";
+      if (words === (this.#shown[kind] ?? "")) continue;
+      this.#shown[kind] = words;
+      notice(kind, words || null);
+    }
+  }
+}
