@@ -350,8 +350,8 @@ class Studio {
     if (!side?.opened || !dirty.size) return;
     const now = performance.now();
     if (dirty.delete("fields")) {
-      this.controls?.update(side.store.scenario, side.opened.all);
-      this.panel.update(side.opened.all);
+      this.controls?.update(side.store.scenario, side.opened);
+      this.panel.update(side.opened);
       if (side.problems.length) this.#lay(side);
     }
     if (dirty.delete("state") && side.live.opened) this.#state();

@@ -245,6 +245,8 @@ describe("the page before `brinell studio`", { skip: missing }, () => {
     t.diagnostic(`RMS ${own.value}, the command's ${rms(summary, got.axis).value}; ${Math.round(got.took)} ms`);
     // The same engine: the same bits.
     assert.equal(own.value, rms(summary, got.axis).value);
+    assert.match(summary.warnings.join(), /parametric work/);
+    assert.equal(await page.textContent('[data-kind="result"] p'), summary.warnings.join("\n"));
   }));
 
   it("judges a measured file with the words, warnings and levels of the command", async (t) => on(async (page) => {
