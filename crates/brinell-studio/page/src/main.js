@@ -486,7 +486,7 @@ async function main() {
     const state = byId("state");
     state.textContent = error instanceof NoWasm ? "no WebAssembly" : "no engine";
     state.dataset.state = "lost";
-    notice("engine", `${error instanceof Error ? error.message : error}. The command \`brinell studio\` runs the same page with its own engine.`,
+    notice("engine", `${String(error instanceof Error ? error.message : error).replace(/\.$/, "")}. The command \`brinell studio\` runs the same page with its own engine.`,
       { bad: true, stays: true });
   }
 }
