@@ -9,6 +9,7 @@ use brinell::observe::{Findings, Watch};
 use brinell::scenario::{Bearing, Scenario, Speed};
 use brinell::signal::Moments;
 use brinell::simulate::{End, Observer, Outcome, Run, Signals, Simulation};
+use serde_json::json;
 use std::collections::VecDeque;
 use std::ops::ControlFlow;
 use std::sync::Arc;
@@ -228,8 +229,8 @@ fn same_parts(a: &Scenario, b: &Scenario) -> bool {
 }
 
 impl Trouble {
-    /// A slot that holds no bearing.
+    /// A slot that holds no bearing. By its key the page knows that the engine is another than before.
     pub(crate) fn empty(slot: usize) -> Self {
-        Self::of(format!("slot {slot} holds no bearing; open one"))
+        Self(vec![json!({ "key": "slot", "line": null, "message": format!("slot {slot} holds no bearing; open one") })])
     }
 }

@@ -2,7 +2,7 @@
 
 use crate::message::Arrays;
 use crate::report::{Answer, Trouble};
-use crate::{about, text};
+use crate::text;
 use brinell::defect::simplify::Extent;
 use brinell::document::Loaded;
 use brinell::scenario::{self, Scenario, Shape, Surface};
@@ -137,14 +137,23 @@ pub(crate) fn outlined(request: &Value, arrays: &Arrays) -> Answer<Value> {
     }))
 }
 
-/// Puts the files that the examples name into a scenario, and what they hold into its text.
-pub(crate) fn resolved(mut loaded: Loaded, text: String) -> Answer<(Loaded, String)> {
+/// Refuses a scenario whose damage is in a file: a page has no folder to look into.
+pub(crate) fn whole(loaded: Loaded, text: String) -> Answer<(Loaded, String)> {
+    resolved(loaded, text, |_| None)
+}
+
+/// Puts what files hold into a scenario and its text; `find` gives a file's bytes.
+pub(crate) fn resolved(
+    mut loaded: Loaded,
+    text: String,
+    find: impl Fn(&str) -> Option<&'static [u8]>,
+) -> Answer<(Loaded, String)> {
     let mut stated_keys = None;
     for (k, defect) in loaded.scenario.defects.iter_mut().enumerate() {
         let Some(file) = defect.shape.file().map(str::to_owned) else {
             continue;
         };
-        let bytes = about::example_file(&file).ok_or_else(|| {
+        let bytes = find(&file).ok_or_else(|| {
             Trouble::of(format!("defect {}: {file} is not here; drop the file on the raceway", k + 1))
         })?;
         let shape = shape_of_bytes(&defect.shape, bytes).map_err(Trouble::of)?.shape;

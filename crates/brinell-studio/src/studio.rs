@@ -6,9 +6,12 @@ use crate::report::{Answer, Trouble};
 use crate::{about, damage, differ, judged, measured, pen, spectra, text};
 use brinell::bearing::orders_of;
 use brinell::channel::SENSOR;
+use brinell::observe::Findings;
 use brinell::plausibility::Beforehand;
 use brinell::result::{Spread, quantities};
 use brinell::scenario::Scenario;
+use brinell::simulate::Outcome;
+use brinell::summary::{self, Parts};
 use serde_json::{Value, json};
 use std::sync::{Mutex, PoisonError};
 
@@ -73,7 +76,7 @@ impl Studio {
         let (request, given) = (&message.json, &message.arrays);
         let name = request["do"].as_str().unwrap_or_default();
         match name {
-            "about" => Ok(about::about()),
+            "about" => about::about(),
             "normal" => normal(request),
             "outline" => pen::outlined(request, given),
             "scratch" => pen::scratched(request, given),
@@ -116,7 +119,7 @@ impl Studio {
     fn open(&mut self, request: &Value) -> Answer<Value> {
         let slot = Self::slot(request)?;
         let text = text::of_request(request)?;
-        let (loaded, text) = pen::resolved(text::read(&text)?, text)?;
+        let (loaded, text) = pen::whole(text::read(&text)?, text)?;
         let text = text::plain(&text)?;
         let carried = match (&mut self.slots[slot], request["carry"] == json!(true)) {
             (Some(bench), true) => bench.carry(&loaded, &text)?,
@@ -154,7 +157,7 @@ impl Studio {
 /// `normal`: a scenario's text with all that is stated, and its stated keys.
 fn normal(request: &Value) -> Answer<Value> {
     let text = text::of_request(request)?;
-    let (loaded, text) = pen::resolved(text::read(&text)?, text)?;
+    let (loaded, text) = pen::whole(text::read(&text)?, text)?;
     let text = text::plain(&text)?;
     Ok(json!({
         "toml": text,
@@ -230,9 +233,20 @@ fn indicators(bench: &Bench) -> Value {
         })
         .collect();
     json!({
-        "settled": brinell::summary::unsettled(findings).is_empty(),
+        "settled": summary::unsettled(findings).is_empty(),
         "quantities": all,
+        "warnings": resulting(bench, outcome, findings),
         "steps": outcome.work.solver.steps,
         "evaluations": outcome.work.solver.evaluations,
     })
+}
+
+/// What a run's reader should know of its result, in the words of `brinell run`; without what was known beforehand.
+fn resulting(bench: &Bench, outcome: &Outcome, findings: &Findings) -> Vec<String> {
+    let (loaded, simulation) = (&bench.loaded, bench.simulation());
+    let beforehand = &Beforehand::of(&loaded.scenario, simulation.model());
+    let known: Vec<String> = loaded.warnings.iter().chain(&beforehand.warnings).map(ToString::to_string).collect();
+    let mut all = summary::warnings(&Parts { loaded, simulation, outcome, findings, beforehand, healthy: None });
+    all.retain(|words| !known.contains(words));
+    all
 }

@@ -1,5 +1,7 @@
 //! The engine behind its messages, as the page asks it.
 
+use brinell::plausibility::Beforehand;
+use brinell::summary::{self, Parts};
 use brinell_studio::{Message, Studio};
 use serde_json::{Value, json};
 use std::fs;
@@ -300,4 +302,35 @@ fn prop_two_verdicts_are_held_against_each_other() {
     assert!(rms["apart"] == json!(true) && rms["low"].as_f64().unwrap() > 2.0, "{rms}");
     let without = json!({ "do": "differ", "a": healthy });
     assert_eq!(ask(&mut studio, without).json["ok"], json!(false));
+}
+
+#[test]
+fn regress_a_file_of_an_examples_name_is_not_the_examples_file() {
+    let mut studio = Studio::new();
+    for (name, file) in [("photo", "photo-spall.png"), ("scan", "scan.csv")] {
+        let text = fs::read_to_string(Path::new("../../examples").join(name).with_extension("toml")).unwrap();
+        for request in ["open", "normal"] {
+            let answer = ask(&mut studio, json!({ "do": request, "slot": 0, "toml": text })).json;
+            let words = format!("defect 1: {file} is not here; drop the file on the raceway");
+            assert_eq!(answer["problems"][0]["message"], json!(words), "{answer}");
+        }
+    }
+}
+
+#[test]
+fn regress_a_whole_run_warns_of_its_result_as_the_command_does() {
+    // The spall does parametric work.
+    let text = format!("{HEALTHY}{SPALL}").replace("0.06", "0.2");
+    let loaded = &brinell::document::read(&text, &[]).unwrap();
+    let (result, _) = brinell::record(&loaded.scenario).unwrap();
+    let (simulation, outcome, findings) = (&result.simulation, &result.outcome, &result.findings);
+    let beforehand = &Beforehand::of(&loaded.scenario, simulation.model());
+    let of_command = summary::warnings(&Parts { loaded, simulation, outcome, findings, beforehand, healthy: None });
+    assert!(of_command.iter().any(|words| words.starts_with("parametric work")), "{of_command:?}");
+    let mut studio = Studio::new();
+    let opened = good(&mut studio, json!({ "do": "open", "slot": 0, "toml": text })).json;
+    run(&mut studio, 10_000);
+    let shown = good(&mut studio, json!({ "do": "indicators", "slot": 0 })).json;
+    let all = [opened["warnings"].as_array().unwrap().as_slice(), shown["warnings"].as_array().unwrap()].concat();
+    assert_eq!(all, of_command);
 }

@@ -14,8 +14,10 @@ pub(super) struct Door {
 pub(super) enum Route<'a> {
     /// A file of the page; none of them is a secret.
     Page(&'a str),
-    /// A message for the engine.
-    Engine,
+    /// A message for the engine of a page. It gets a new one where it has none and `begins`.
+    Engine { page: &'a str, begins: bool },
+    /// The page is closed.
+    Closed { page: &'a str },
     /// Neither: status and words.
     Refused(&'static str, &'static str),
 }
@@ -43,13 +45,24 @@ impl Door {
             return Route::Refused(FORBIDDEN, "another page asks");
         }
         let (path, query) = url.split_once('?').unwrap_or((url, ""));
-        let mut pairs = query.split('&');
-        let token = pairs.find_map(|pair| pair.strip_prefix("token="));
+        let stated = |key: &str| {
+            query
+                .split('&')
+                .find_map(|pair| pair.strip_prefix(key)?.strip_prefix('='))
+                .filter(|value| !value.is_empty())
+        };
         match (method, path) {
             ("GET", "/") => Route::Page("index.html"),
             ("GET", path) => Route::Page(path.trim_start_matches('/')),
-            ("POST", "/ask") if token.is_some_and(|t| same(t, &self.token)) => Route::Engine,
-            ("POST", "/ask") => Route::Refused(FORBIDDEN, "the address lacks its token"),
+            ("POST", "/ask") if !stated("token").is_some_and(|t| same(t, &self.token)) => {
+                Route::Refused(FORBIDDEN, "the address lacks its token")
+            }
+            ("POST", "/ask") => match (stated("page"), stated("new"), stated("closed")) {
+                (Some(page), None, None) => Route::Engine { page, begins: false },
+                (None, Some(page), None) => Route::Engine { page, begins: true },
+                (None, None, Some(page)) => Route::Closed { page },
+                _ => Route::Refused("400 Bad Request", "state which page asks: one of page=, new=, closed="),
+            },
             _ => Route::Refused("405 Method Not Allowed", "only GET of the page and POST of /ask"),
         }
     }
@@ -70,15 +83,21 @@ mod tests {
         let door = Door::new(4000, "5ec3e7".into());
         let here = Some("127.0.0.1:4000");
         let ask = |url, host, origin| door.route("POST", url, host, origin);
-        let good = "/ask?token=5ec3e7";
-        assert_eq!(ask(good, here, None), Route::Engine);
-        assert_eq!(ask(good, Some("localhost:4000"), Some("http://localhost:4000")), Route::Engine);
+        let good = "/ask?token=5ec3e7&page=p1";
+        let engine = |begins| Route::Engine { page: "p1", begins };
+        assert_eq!(ask(good, here, None), engine(false));
+        assert_eq!(ask(good, Some("localhost:4000"), Some("http://localhost:4000")), engine(false));
+        assert_eq!(ask("/ask?token=5ec3e7&new=p1", here, None), engine(true));
+        assert_eq!(ask("/ask?closed=p1&token=5ec3e7", here, None), Route::Closed { page: "p1" });
+        for nobody in ["/ask?token=5ec3e7", "/ask?token=5ec3e7&page=", "/ask?token=5ec3e7&page=p1&closed=p2"] {
+            assert!(matches!(ask(nobody, here, None), Route::Refused("400 Bad Request", _)), "{nobody}");
+        }
         for (url, host, origin) in [
-            ("/ask", here, None),
-            ("/ask?token=", here, None),
-            ("/ask?token=5ec3e", here, None),
-            ("/ask?token=5ec3e8", here, None),
-            ("/ask?token=5ec3e77", here, None),
+            ("/ask?page=p1", here, None),
+            ("/ask?token=&page=p1", here, None),
+            ("/ask?token=5ec3e&page=p1", here, None),
+            ("/ask?token=5ec3e8&new=p1", here, None),
+            ("/ask?token=5ec3e77&closed=p1", here, None),
             (good, None, None),
             (good, Some("127.0.0.1"), None),
             (good, Some("evil.example:4000"), None),

@@ -10,8 +10,10 @@ const LONGEST_HEAD: usize = 16 << 10;
 const LONGEST_BODY: u64 = 256 << 20;
 /// Most header fields.
 const FIELDS: usize = 64;
-/// A page on this machine is not slower: between two pieces, and for a whole head.
+/// A page on this machine is not slower between two pieces.
 const PATIENCE: Duration = Duration::from_secs(10);
+/// Nor for a whole head. A browser opens connections before it needs them; they hold no place for longer.
+const HEAD_PATIENCE: Duration = Duration::from_secs(2);
 
 /// A request whose body is not read yet.
 pub(super) struct Request {
@@ -28,7 +30,7 @@ pub(super) struct Request {
 impl Request {
     /// Reads the head. The inner error is the reply to one that makes no sense.
     pub(super) fn read(mut stream: TcpStream) -> Result<std::result::Result<Self, Reply>> {
-        stream.set_read_timeout(Some(PATIENCE))?;
+        stream.set_read_timeout(Some(HEAD_PATIENCE))?;
         stream.set_write_timeout(Some(PATIENCE))?;
         let begun = Instant::now();
         let mut bytes = Vec::new();
@@ -56,7 +58,7 @@ impl Request {
                     stream,
                 }));
             }
-            let late = begun.elapsed() > PATIENCE;
+            let late = begun.elapsed() > HEAD_PATIENCE;
             if parsed.is_err() || n == 0 || bytes.len() > LONGEST_HEAD || late {
                 let words = "this is no request that is answered here";
                 return Ok(Err(Reply::refusal(stream, "400 Bad Request", words)));
@@ -74,8 +76,13 @@ impl Request {
             let words = "the request is longer than 256 MiB";
             return Ok(Err(Reply::refusal(self.stream, "413 Content Too Large", words)));
         }
+        self.stream.set_read_timeout(Some(PATIENCE))?;
         let missing = length.saturating_sub(self.begun.len() as u64);
         (&mut self.stream).take(missing).read_to_end(&mut self.begun)?;
+        if self.begun.len() as u64 != length {
+            let words = format!("the request has {} bytes, not the {length} that it states", self.begun.len());
+            return Ok(Err(Reply::refusal(self.stream, "400 Bad Request", &words)));
+        }
         Ok(Ok((self.stream, self.begun)))
     }
 }
@@ -113,5 +120,39 @@ impl Reply {
         )?;
         self.stream.write_all(&self.body)?;
         self.stream.flush()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::net::{Ipv4Addr, Shutdown, TcpListener};
+
+    /// What comes of a request that is sent so and ends there.
+    fn sent(text: &str) -> std::result::Result<Vec<u8>, Reply> {
+        let listener = TcpListener::bind((Ipv4Addr::LOCALHOST, 0)).unwrap();
+        let mut client = TcpStream::connect(listener.local_addr().unwrap()).unwrap();
+        client.write_all(text.as_bytes()).unwrap();
+        client.shutdown(Shutdown::Write).unwrap();
+        let (server, _) = listener.accept().unwrap();
+        Request::read(server).unwrap()?.body().unwrap().map(|(_, body)| body)
+    }
+
+    #[test]
+    fn regress_a_body_that_is_cut_off_is_refused() {
+        let head = "POST /ask HTTP/1.1\r\nHost: 127.0.0.1\r\nContent-Length: 5\r\n\r\n";
+        assert_eq!(sent(&format!("{head}whole")).ok(), Some(b"whole".to_vec()));
+        let Err(reply) = sent(&format!("{head}cut")) else { panic!("it was taken") };
+        assert_eq!(reply.status, "400 Bad Request");
+        assert_eq!(reply.body, b"the request has 3 bytes, not the 5 that it states");
+    }
+
+    #[test]
+    fn regress_a_connection_without_a_request_is_given_up_soon() {
+        let listener = TcpListener::bind((Ipv4Addr::LOCALHOST, 0)).unwrap();
+        let _idle = TcpStream::connect(listener.local_addr().unwrap()).unwrap();
+        let (server, from) = (listener.accept().unwrap().0, Instant::now());
+        assert!(Request::read(server).is_err());
+        assert!(from.elapsed() < PATIENCE / 2);
     }
 }

@@ -2,12 +2,14 @@
 
 mod answer;
 mod http;
+mod pages;
 
 use crate::failure::Failure;
 use answer::{Door, Route};
-use brinell_studio::{PAGE, SharedStudio};
+use brinell_studio::PAGE;
 use clap::Args;
 use http::{Reply, Request};
+use pages::Pages;
 use std::net::{Ipv4Addr, TcpListener, TcpStream};
 use std::process::ExitCode;
 use std::sync::Arc;
@@ -17,11 +19,13 @@ use std::time::Duration;
 
 #[derive(Debug, Args)]
 pub(crate) struct StudioArgs {
-    /// Port on 127.0.0.1 [default: one that is free]
+    /// Port on 127.0.0.1 [default: 7178, another where that is taken]
     #[arg(long, value_name = "PORT")]
     port: Option<u16>,
 }
 
+/// A browser keeps the last scenario for one address, so the port is the same each time.
+const PORT: u16 = 7178;
 /// After a connection that the system could not give.
 const PAUSE: Duration = Duration::from_millis(50);
 /// Connections at a time: a browser opens six. More are closed.
@@ -30,7 +34,7 @@ const MOST: usize = 32;
 /// What every connection shares.
 struct Shared {
     door: Door,
-    engine: SharedStudio,
+    pages: Pages,
     connections: AtomicUsize,
 }
 
@@ -45,15 +49,17 @@ impl Drop for Counted {
 
 /// Serves until the process ends.
 pub(crate) fn studio(args: &StudioArgs) -> Result<ExitCode, Failure> {
-    let port = args.port.unwrap_or(0);
+    let port = args.port.unwrap_or(PORT);
     let no_port = |e: std::io::Error| Failure::Usage(format!("--port {port}: 127.0.0.1 cannot be listened on: {e}"));
-    let listener = TcpListener::bind((Ipv4Addr::LOCALHOST, port)).map_err(no_port)?;
+    let bind = |port| TcpListener::bind((Ipv4Addr::LOCALHOST, port));
+    let listener = match args.port {
+        Some(port) => bind(port),
+        None => bind(PORT).or_else(|_| bind(0)),
+    };
+    let listener = listener.map_err(no_port)?;
     let port = listener.local_addr().map_err(no_port)?.port();
-    let shared = Arc::new(Shared {
-        door: Door::new(port, token()?),
-        engine: SharedStudio::default(),
-        connections: AtomicUsize::new(0),
-    });
+    let shared =
+        Arc::new(Shared { door: Door::new(port, token()?), pages: Pages::default(), connections: AtomicUsize::new(0) });
     crate::say::line(format_args!(
         "The studio is at {} until Ctrl-C. Only this machine can reach it.",
         shared.door.address()
@@ -98,13 +104,19 @@ fn serve(shared: &Shared, stream: TcpStream) -> std::io::Result<()> {
             Some((_, kind, bytes)) => Reply::of(request.stream, kind, bytes.to_vec()),
             None => Reply::refusal(request.stream, "404 Not Found", "there is no such file"),
         },
-        Route::Engine => {
+        Route::Engine { page, begins } => {
             let (stream, body) = match request.body()? {
                 Ok(body) => body,
                 Err(reply) => return reply.send(),
             };
-            let answer = shared.engine.ask(&body);
-            Reply::of(stream, "application/octet-stream", answer)
+            match shared.pages.engine(page, begins) {
+                Some(engine) => Reply::of(stream, "application/octet-stream", engine.ask(&body)),
+                None => Reply::refusal(stream, "410 Gone", "the engine of this page is gone: new= begins another"),
+            }
+        }
+        Route::Closed { page } => {
+            shared.pages.close(page);
+            Reply::of(request.stream, "text/plain", Vec::new())
         }
         Route::Refused(status, words) => Reply::refusal(request.stream, status, words),
     };

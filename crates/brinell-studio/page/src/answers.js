@@ -14,7 +14,7 @@ export class Refused extends Error {
 
 /** The engine is gone; another must be started. */
 export class Lost extends Error {
-  /** @param {string} why @param {boolean} [gone] no other can be started from this page */
+  /** @param {string} why @param {boolean} [gone] none comes by itself: the reader is told what to do */
   constructor(why, gone = false) {
     super(why);
     this.gone = gone;

@@ -56,7 +56,7 @@ export class Field {
       const box = h("input", { id, type: "checkbox", onchange: () => take(box.checked) });
       this.#input = box;
     } else if (spec.kind === "text") {
-      const box = h("input", { id, type: "text", spellcheck: false, onchange: () => take(parsed(box.value)) });
+      const box = h("input", { id, type: "text", spellcheck: false, onchange: () => take(spec.words ? box.value.trim() || undefined : parsed(box.value)) });
       this.#input = box;
     } else {
       const box = numberInput({ id, onchange: () => this.#typed(box, take) }, 1, spec.min);
@@ -72,18 +72,19 @@ export class Field {
 
   /** Takes what was typed once it is whole. @param {HTMLInputElement} box @param {(value: number | string | undefined) => void} take */
   #typed(box, take) {
-    // A quantity of the scenario may have its unit with it ("25 Hz"): the engine reads that.
-    const [, size, unit] = /^(.*?\d[.,]?)\s*([a-zµ°%].*)$/i.exec(this.spec.united ? box.value.trim() : "") ?? [], whole = numberOf(box.value);
-    const said = unit && typeof whole === "string" ? numberOf(size) : whole, empty = box.value.trim() === "";
-    const inUnit = (unit && said !== whole ? unit : "") || this.spec.unit;
+    const { spec } = this, { units } = spec;
+    // A quantity of the scenario may have its unit with it ("25 Hz"): the engine reads that; what the page makes a key of, the page.
+    const [, size, named] = /^(.*?\d[.,]?)\s*([a-zµ°%].*)$/i.exec(spec.united || units ? box.value.trim() : "") ?? [], whole = numberOf(box.value);
+    const unit = typeof whole === "string" ? named : undefined, empty = box.value.trim() === "", number = unit ? numberOf(size) : whole;
+    const said = unit && units && typeof number === "number" ? inUnit(number, unit, units) : number, shown = unit || spec.unit;
     this.#typing = false;
-    this.unread = !empty && typeof said === "string" ? `${said}${inUnit ? ` (${inUnit})` : ""}` : this.spec.refuse?.(empty ? undefined : Number(said)) ?? "";
+    this.unread = !empty && typeof said === "string" ? `${said}${shown && said === number ? ` (${shown})` : ""}` : spec.refuse?.(empty ? undefined : Number(said)) ?? "";
     box.setCustomValidity(this.unread);
     this.say(this.#said);
     if (this.unread) return;
-    const value = empty ? undefined : unit && said !== whole ? `${said} ${unit}` : said;
+    const value = empty ? undefined : unit && !units ? `${said} ${unit}` : said;
     this.#shown = box.value = String(value ?? "");
-    this.#emptied = empty && !!this.spec.required;
+    this.#emptied = empty && !!spec.required;
     take(value);
   }
 
@@ -114,11 +115,11 @@ export class Field {
     return range;
   }
 
-  /** Shows what is wanted, or what holds where nothing is stated. @param {any} wanted @param {any} all */
-  update(wanted, all) {
+  /** Shows what is wanted, or what holds where nothing is stated. @param {any} wanted @param {any} all @param {any} [opened] what the engine read `all` from */
+  update(wanted, all, opened) {
     const read = this.spec.read(wanted), input = this.#input;
-    // A number that is stated as a text with its unit shows as the engine read it.
-    const number = this.spec.kind === "number", stated = number && typeof read === "string" && !this.#said ? undefined : read;
+    // A number that is stated as a text with its unit shows as the engine read it, once it has.
+    const number = this.spec.kind === "number", stated = number && typeof read === "string" && !this.#said && read === this.spec.read(opened) ? undefined : read;
     if (read !== undefined) this.#emptied = false;
     // While a key is refused the last good bearing's value is not what is wanted.
     const known = this.spec.read(all) ?? this.spec.fallback, holds = stated ?? (number && (this.#emptied || this.#said) ? undefined : known);
@@ -133,7 +134,7 @@ export class Field {
       this.#shown = text;
       this.#held = holds;
     }
-    if (this.#range) this.#place(holds ?? known);
+    if (this.#range) this.#place(typeof holds === "number" ? holds : known);
   }
 
   /** @param {any} holds */
@@ -161,6 +162,11 @@ export class Field {
   }
 
   focus() { this.#input?.focus(); }
+}
+
+/** A number of so many units; else, in words, which there are. @param {number} number @param {string} unit @param {Record<string, number>} units */
+function inUnit(number, unit, units) {
+  return unit in units ? Number((number * units[unit]).toPrecision(14)) : `no unit here is called "${unit}"; allowed: ${Object.keys(units).join(", ")}`;
 }
 
 /** Lists and tables are typed as JSON; anything else is a word. @param {string} text */
@@ -207,8 +213,8 @@ export class Controls {
       h("details", {}, h("summary", {}, "More: every key of the scenario"), ...sections));
   }
 
-  /** @param {any} wanted @param {any} all */
-  update(wanted, all) { for (const field of this.fields) field.update(wanted, all); }
+  /** @param {any} wanted @param {{scenario: any, all: any}} opened */
+  update(wanted, { scenario, all }) { for (const field of this.fields) field.update(wanted, all, scenario); }
 }
 
 /**

@@ -198,7 +198,7 @@ export class DamagePanel {
   }
 
   /** The damage that is drawn next is about as deep as the last one. */
-  update(all = /** @type {any} */ (null)) {
+  update(opened = /** @type {any} */ (null)) {
     const store = this.owner.store(), defect = this.#defects[this.selected - 1];
     if (!defect) this.selected = 0;
     if (this.depth !== document.activeElement) this.depth.value = String(this.#depth);
@@ -212,7 +212,7 @@ export class DamagePanel {
     const key = JSON.stringify([this.selected, defect?.on, Object.keys(defect?.shape ?? {}), this.raceway.tool,
       this.#defects.map((/** @type {any} */ d) => [d.on, d.row, d.center_deg, Object.keys(d.shape ?? {})])]);
     if (key !== this.#shown) this.#rebuild(defect, key);
-    for (const field of this.fields) field.update(store.scenario, all);
+    for (const field of this.fields) field.update(store.scenario, opened?.all, opened?.scenario);
     if (defect) this.raceway.describe(`Selected: damage ${this.selected}, at ${short(defect.center_deg ?? 0, 4)} degrees, ${short(defect.depth_um ?? 0)} µm deep.`);
   }
 

@@ -42,6 +42,9 @@ export function short(value, digits = 3) {
   return text.replaceAll("-", "−");
 }
 
+/** As many digits as the width of an interval needs two of, three at least. @param {number} low @param {number} high */
+export const digitsOf = (low, high) => Math.min(12, Math.max(3, 2 + Math.floor(Math.log10(Math.max(Math.abs(low), Math.abs(high)))) - Math.floor(Math.log10(high - low))));
+
 /** The number that a text says, with a point or a comma before its decimals; else, in words, why it says none. @param {string} text @returns {number | string} */
 export function numberOf(text) {
   const plain = text.trim().replaceAll("−", "-");

@@ -34,20 +34,24 @@ export class Healthy {
 
   /** @param {any} scenario */
   async #run(scenario) {
-    const turn = ++this.#turn, slot = this.#slot;
+    const turn = ++this.#turn;
     /** @type {Engine | null} */
     let engine = null;
+    // Whether the slot is free is asked with each request: what is asked then comes before bearing B's own `open`.
+    const ask = (/** @type {Record<string, unknown>} */ request) => {
+      if (turn !== this.#turn || !this.free()) throw new Error("the slot is another's");
+      return /** @type {Engine} */ (engine).ask({ slot: this.#slot, ...request });
+    };
     try {
       engine = await this.#start();
-      const opened = await engine.ask({ do: "open", slot, scenario, carry: false }), x = new Float32Array(SAMPLES);
+      const opened = await ask({ do: "open", scenario, carry: false }), x = new Float32Array(SAMPLES);
       for (let end = 0; end < SAMPLES;) {
-        const got = await engine.ask({ do: "advance", slot, rows: ROWS, frames: false });
-        if (turn !== this.#turn || !this.free()) return;
+        const got = await ask({ do: "advance", rows: ROWS, frames: false });
         x.set(got.x.subarray(0, SAMPLES - got.first), got.first);
         end = got.first + got.x.length;
         if (got.done) break;
       }
-      const { spectrum, envelope } = await engine.ask({ do: "spectra", slot, longest: WINDOW });
+      const { spectrum, envelope } = await ask({ do: "spectra", longest: WINDOW });
       this.curves = { x, rate_hz: opened.rate_hz, spectrum, envelope };
       this.ready();
     } catch {

@@ -54,7 +54,14 @@ export class Live {
   #start;
 
   /** @param {Record<string, unknown>} request */
-  async ask(request) { return (await this.engine).ask({ slot: this.slot, ...request }); }
+  async ask(request) {
+    try {
+      return await (await this.engine).ask({ slot: this.slot, ...request });
+    } catch (error) {
+      // An engine that begins anew, for the other bearing, does not hold this one.
+      throw error instanceof Refused && error.problems[0]?.key === "slot" ? new Lost(error.message) : error;
+    }
+  }
 
   /** An answer that makes an edit: no slice is begun until it is there. @param {Record<string, unknown>} request */
   async urgent(request) {
@@ -177,6 +184,7 @@ export class Live {
       return;
     }
     this.#answered(edit);
+    if (this.state === "lost") this.report("recovered");
     this.#good = { scenario: opened.scenario, carry: true, made: edit.made };
     this.opened = opened;
     [this.#window, this.#spoken, this.#judged] = [FIRST_WINDOW, 0, 0];
@@ -253,7 +261,7 @@ export class Live {
     (await this.engine.catch(() => null))?.close();
     this.engine = this.#start();
     this.engine.catch(() => {});
-    if (this.#losses > TRIES) {
+    if (error.gone || this.#losses > TRIES) {
       this.#edit = null;
       this.#say("lost");
       return;

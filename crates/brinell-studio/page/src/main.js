@@ -10,7 +10,7 @@ import { bytesOf, chosenKind, droppable, kindsOf, shapeOf } from "./files.js";
 import { Healthy } from "./healthy.js";
 import { judged, showMeasured } from "./measured.js";
 import { showKeys } from "./help.js";
-import { notice, readout, speak } from "./readout.js";
+import { Warnings, notice, readout, speak } from "./readout.js";
 import { Saving } from "./saving.js";
 import { forgetAngle } from "./schema.js";
 import { Side } from "./side.js";
@@ -41,7 +41,7 @@ class Studio {
   #keep = 0;
   #pass = 0;
   #preset = "";
-  #warned = "";
+  #warnings = new Warnings();
 
   constructor() {
     this.panel = new DamagePanel(byId("damage"), {
@@ -222,13 +222,16 @@ class Studio {
     else if (kind === "verdict") {
       speak(data.headline ?? "");
       this.#dirty.add("curves").add("readout");
-    } else this.#dirty.add("curves").add("readout");
+    } else {
+      if (kind === "state") this.#warnings.show(side);
+      this.#dirty.add("curves").add("readout");
+    }
   }
 
   #recovered() {
     speak("The engine was lost and runs again");
     // A server that answers again is not said to be gone.
-    if (document.querySelector('[data-kind="lost"].bad')) notice("lost", "The server did not answer for a while; it runs the last good bearing again.");
+    if (document.querySelector('[data-kind="lost"].bad')) notice("lost", "The engine answers again: the bearing was started anew.");
   }
 
   /** What tells B from A, in the engine's words: of the latest verdicts of both. */
@@ -257,19 +260,12 @@ class Studio {
     if (this.bearing) Object.assign(this.bearing, { geometry: opened.geometry, loadDeg: opened.load_deg });
     this.#lay(this.side);
     if (!edit.again) notice("unsaved", null);
-    this.#warn(opened.warnings?.join("\n") ?? "");
+    this.#warnings.show(this.side);
     byId("run").textContent = `Run ${short(opened.samples / opened.rate_hz)} s`;
     this.healthy?.want(opened.scenario);
     this.#dirty.add("fields").add("curves").add("state").add("readout");
     clearTimeout(this.#keep);
     if (this.active === 0) this.#keep = setTimeout(() => remember(opened.toml), KEPT_MS);
-  }
-
-  /** The same warning is not shown again after it was closed. @param {string} words */
-  #warn(words) {
-    if (words === this.#warned) return;
-    this.#warned = words;
-    notice("warnings", words || null);
   }
 
   /** @param {any[]} damage */
@@ -354,8 +350,8 @@ class Studio {
     if (!side?.opened || !dirty.size) return;
     const now = performance.now();
     if (dirty.delete("fields")) {
-      this.controls?.update(side.store.scenario, side.opened.all);
-      this.panel.update(side.opened.all);
+      this.controls?.update(side.store.scenario, side.opened);
+      this.panel.update(side.opened);
       if (side.problems.length) this.#lay(side);
     }
     if (dirty.delete("state") && side.live.opened) this.#state();
@@ -490,7 +486,7 @@ async function main() {
     const state = byId("state");
     state.textContent = error instanceof NoWasm ? "no WebAssembly" : "no engine";
     state.dataset.state = "lost";
-    notice("engine", `${error instanceof Error ? error.message : error}. The command \`brinell studio\` runs the same page with its own engine.`,
+    notice("engine", `${String(error instanceof Error ? error.message : error).replace(/\.$/, "")}. The command \`brinell studio\` runs the same page with its own engine.`,
       { bad: true, stays: true });
   }
 }

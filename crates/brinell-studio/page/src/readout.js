@@ -1,5 +1,5 @@
 // Words and numbers below the views: indicators with their intervals, the verdict, and how the run is going.
-import { byId, h, short, spelled } from "./dom.js";
+import { byId, digitsOf, h, short, spelled } from "./dom.js";
 
 /** @typedef {import("./side.js").Side} Side */
 
@@ -27,9 +27,9 @@ function figures(side) {
   const list = side.indicators?.quantities, unit = spelled(side.opened?.unit ?? "");
   if (list?.length) {
     return named(list, side.opened?.axis).map(([q, words]) => {
-      const known = (/** @type {any} */ v) => v !== null && v !== undefined;
-      const interval = known(q.low) && known(q.high) && q.low !== q.high ? ` (${short(q.low)} to ${short(q.high)})` : "";
-      return pair(words, `${short(q.value)}${written(q.unit)}${interval}`);
+      const known = (/** @type {any} */ v) => v !== null && v !== undefined, bounded = known(q.low) && known(q.high) && q.low !== q.high;
+      const digits = bounded ? digitsOf(q.low, q.high) : 3, interval = bounded ? ` (${short(q.low, digits)} to ${short(q.high, digits)})` : "";
+      return pair(words, `${short(q.value, digits)}${written(q.unit)}${interval}`);
     });
   }
   const m = side.moments;
@@ -90,4 +90,21 @@ export function notice(kind, words, { bad = false, actions = [], stays = false }
     stays ? null : h("button", { type: "button", "aria-label": "Close this notice", onclick: () => node.remove() }, "×"));
   if (old) old.replaceWith(node);
   else root.append(node);
+}
+
+/** Notices of what the scenario, and the result of its whole run, warn of. The same is not shown again after it was closed. */
+export class Warnings {
+  /** @type {Record<string, string>} */
+  #shown = {};
+
+  /** @param {Side} side */
+  show({ opened, indicators, live }) {
+    const result = live.state === "done" ? indicators?.warnings : null;
+    for (const [kind, list] of /** @type {[string, string[] | undefined][]} */ ([["warnings", opened?.warnings], ["result", result]])) {
+      const words = list?.join("\n") ?? "";
+      if (words === (this.#shown[kind] ?? "")) continue;
+      this.#shown[kind] = words;
+      notice(kind, words || null);
+    }
+  }
 }

@@ -11,6 +11,8 @@ import { get, set } from "./state.js";
  * @property {string} note
  * @property {"number" | "choice" | "flag" | "text"} kind
  * @property {boolean} [united]  also takes a text of a number and its unit
+ * @property {Record<string, number>} [units]  of a number that the page makes a key of: what one of each is in the field's unit
+ * @property {boolean} [words]  a text that is never JSON
  * @property {boolean} [integer]
  * @property {number} [min]      allowed by the schema
  * @property {number} [max]
@@ -61,7 +63,7 @@ export function spec(schema, path, own = {}) {
   /** @type {Spec} */
   const made = {
     path, kind, label: named(key), unit: spelled(s["x-unit"] ?? ""), note: spelled((s.description ?? "").replace(/ \([^()]*\)(?=;|$)/, "")) + allowed(s),
-      integer: s.type === "integer", united: plain && types.includes("string"),
+      integer: s.type === "integer", united: plain && types.includes("string"), words: s.type === "string",
     fallback: s.default, min: s.minimum ?? s.exclusiveMinimum, max: s.maximum ?? s.exclusiveMaximum, log: s.exclusiveMinimum === 0,
     options: options?.map((/** @type {any} */ o) => [o.const, `${o.const}: ${o.description}`]),
     required: schemaAt(schema, path.slice(0, -1))?.required?.includes(key),
@@ -104,10 +106,10 @@ export function mainSpecs(schema) {
   const speed = ["operation", "speed_rpm"], loads = /** @type {Path} */ (["operation", "load_n"]);
   return [
     spec(schema, speed, { label: "Speed", span: [60, 6000], log: false, read: (t) => only(get(t, speed)) }),
-    spec(schema, loads, { label: "Load", kind: "number", span: [1, 5000], log: true, min: 0, read: (t) => read(t, at), write: (t, v, all) => put(t, all, v, null),
+    spec(schema, loads, { label: "Load", kind: "number", units: { N: 1, kN: 1000, lbf: 4.4482216152605 }, span: [1, 5000], log: true, min: 0, read: (t) => read(t, at), write: (t, v, all) => put(t, all, v, null),
       refuse: (v) => (v === undefined ? "a load is missing" : v < 0 ? "a load is 0 or more; Load at angle turns it" : "") }),
     spec(schema, loads, {
-      label: "Load at angle", kind: "number", unit: "°", span: [-180, 180],
+      label: "Load at angle", kind: "number", unit: "°", units: { "°": 1, deg: 1, rad: 1 / RAD }, span: [-180, 180],
       note: "direction from the bearing's centre to the middle of the load zone, counter-clockwise from +x",
       read: (t) => read(t, (f) => Number((angle(f) / RAD).toFixed(2))), write: (t, v, all) => put(t, all, null, v * RAD),
       refuse: (v) => (v === undefined ? "an angle is missing" : ""),
@@ -122,11 +124,12 @@ export function mainSpecs(schema) {
 /** All other keys, by section. @param {any} schema @returns {{name: string, note: string, specs: Spec[]}[]} */
 export function moreSpecs(schema) {
   const shown = new Set(mainSpecs(schema).map((s) => s.path.join(".")));
-  const sections = Object.entries(schema.properties ?? {}).filter(([name, s]) => s.type === "object" && name !== "provenance");
-  return sections.map(([name, s]) => ({
+  const all = Object.entries(schema.properties ?? {}), sections = all.filter(([name, s]) => s.type === "object" && name !== "provenance");
+  const alone = all.filter(([, s]) => s.type === "string").map(([key]) => spec(schema, [key]));
+  return [{ name: "scenario", note: "", specs: alone }, ...sections.map(([name, s]) => ({
     name, note: s.description ?? "",
     specs: Object.keys(s.properties ?? {}).filter((key) => !shown.has(`${name}.${key}`)).map((key) => spec(schema, [name, key])),
-  }));
+  }))];
 }
 
 /** Fields of a defect of the scenario, as far as numbers say it. @param {any} schema @param {any} defect @param {number} index @returns {Spec[]} */

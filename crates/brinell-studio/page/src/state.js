@@ -114,10 +114,10 @@ export class Store {
   }
 }
 
-/** What was on the page last time, or null. Storage may be forbidden. @returns {string | null} */
+/** What was on this page last time, else on any; or null. Storage may be forbidden. @returns {string | null} */
 export function remembered() {
   try {
-    return localStorage.getItem(KEY);
+    return sessionStorage.getItem(KEY) ?? localStorage.getItem(KEY);
   } catch {
     return null;
   }
@@ -126,6 +126,7 @@ export function remembered() {
 /** @param {string} toml @returns {boolean} whether it is kept */
 export function remember(toml) {
   try {
+    sessionStorage.setItem(KEY, toml);
     localStorage.setItem(KEY, toml);
     return true;
   } catch {

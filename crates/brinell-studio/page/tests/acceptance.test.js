@@ -245,6 +245,8 @@ describe("the page before `brinell studio`", { skip: missing }, () => {
     t.diagnostic(`RMS ${own.value}, the command's ${rms(summary, got.axis).value}; ${Math.round(got.took)} ms`);
     // The same engine: the same bits.
     assert.equal(own.value, rms(summary, got.axis).value);
+    assert.match(summary.warnings.join(), /parametric work/);
+    assert.equal(await page.textContent('[data-kind="result"] p'), summary.warnings.join("\n"));
   }));
 
   it("judges a measured file with the words, warnings and levels of the command", async (t) => on(async (page) => {
@@ -266,6 +268,42 @@ describe("the page before `brinell studio`", { skip: missing }, () => {
     assert.equal(theirs.length, 2, stderr);
     assert.deepEqual((await shown(".trouble")).map((w) => w.replace("Warning: ", "")), theirs);
     t.diagnostic(levels);
+  }));
+  it("runs another bearing on each page, and says so to the one that makes room", async () => on(async (page) => {
+    const speeds = [900, 1100, 1300, 1500], others = [], rpm = (one) => one.evaluate(() => globalThis.brinellStudio.side.opened.rpm);
+    const live = (one, n) => until(one, (n) => globalThis.brinellStudio.side.trace.end > n && globalThis.brinellStudio.side.live.state === "live", n);
+    await start(page, "rectangle");
+    // It rests, so it is the one whose place is taken.
+    await page.click("#pause");
+    for (const speed of speeds) {
+      const other = await page.context().newPage();
+      others.push(other);
+      await other.goto(address);
+      await until(other, () => globalThis.brinellStudio?.side?.opened);
+      await type(other.getByLabel("Speed", { exact: true }), String(speed));
+      await until(other, (speed) => globalThis.brinellStudio.side.opened.rpm === speed, speed);
+      if (speed === speeds[0]) {
+        await page.click("#pause");
+        await live(page, 3000);
+        assert.equal(await rpm(page), 1800);
+        await page.click("#pause");
+      }
+    }
+    await page.click("#pause");
+    await page.waitForSelector('[data-kind="lost"].bad:has-text("four pages at a time")');
+    assert.equal(await page.textContent("#pause"), "Start again");
+    for (const [k, other] of others.entries()) assert.equal(await rpm(other), speeds[k]);
+    // A page that is closed leaves its place, so none of the others is lost.
+    await others.pop().close();
+    await page.click("#pause");
+    await live(page, 3000);
+    assert.equal(await page.locator('[data-kind="lost"].bad').count(), 0);
+    assert.equal(await rpm(page), 1800);
+    for (const other of others) {
+      await other.bringToFront();
+      await live(other, (await other.evaluate(() => globalThis.brinellStudio.side.trace.end)) + 500);
+    }
+    page.said = page.said.filter((words) => !/410/.test(words));
   }));
   it("is scratched while it runs", async () => on(scratched));
   it("says what is wrong beside the control", async () => on(refused));

@@ -25,9 +25,10 @@ export async function launch() {
 export async function serve() {
   let engine;
   const server = createServer(async (request, response) => {
-    const { pathname, search } = new URL(request.url, "http://localhost");
+    const { pathname, searchParams } = new URL(request.url, "http://localhost");
     if (request.method === "POST") {
-      if (pathname + search !== "/ask?token=secret") return response.writeHead(403).end();
+      if (pathname !== "/ask" || searchParams.get("token") !== "secret") return response.writeHead(403).end();
+      if (searchParams.has("closed")) return response.end();
       const bytes = await buffer(request);
       engine ??= WebAssembly.compile(readFileSync(WASM)).then(hosted);
       return response.end((await engine).answer(bytes));

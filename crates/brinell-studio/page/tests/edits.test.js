@@ -1,7 +1,7 @@
 // Edits of a scenario on the studio's page: what is taken, what is refused, and what runs meanwhile. Driven in Chromium, as studio.test.js is.
 import assert from "node:assert/strict";
 import { after, before, describe, it } from "node:test";
-import { numberOf, stepped } from "../src/dom.js";
+import { digitsOf, numberOf, short, stepped } from "../src/dom.js";
 import { fromLink } from "../src/state.js";
 import { launch, quietly, serve } from "./browser.js";
 import { drag, drop, opened, saved, scenario, start, type, until } from "./page.js";
@@ -72,7 +72,8 @@ describe("edits", () => {
     await type(input, "5");
     await until(page, () => !document.querySelector('.chosen [aria-invalid="true"]') && globalThis.brinellStudio.side.opened.scenario.defects[0].shape.rectangle.width_mm === 5);
     assert.equal(await alert.textContent(), "");
-    assert.equal(await page.textContent("#state"), "live");
+    // It is drawn with the next frame.
+    await until(page, () => document.getElementById("state").textContent === "live");
   }));
 
   it("takes a number when it is whole, and none that may be another", async () => on({}, async (page) => {
@@ -107,6 +108,38 @@ describe("edits", () => {
     await page.waitForSelector('#controls [role="alert"]:has-text("may be 1.250 or 1250 (Hz)")');
   }));
 
+  it("shows as many digits as an interval needs", () => {
+    for (const [ends, words] of [[[162.22, 162.33], ["162.22", "162.33"]], [[107, 113], ["107", "113"]], [[-1.25, 1.5], ["−1.25", "1.5"]], [[0.012341, 0.012349], ["0.012341", "0.012349"]]]) assert.deepEqual(ends.map((end) => short(end, digitsOf(...ends))), words);
+  });
+
+  it("takes load and angle in other units, keeps what was typed until it is opened, and a name as it is", async () => on({}, async (page) => {
+    await start(page, "rectangle");
+    const field = (label) => page.getByLabel(label, { exact: true }), load = (wanted) => until(page, (wanted) => JSON.stringify(globalThis.brinellStudio.side.opened.scenario.operation.load_n) === wanted, JSON.stringify(wanted));
+    await type(field("Load"), "0,4 kN");
+    await load([400, 0]);
+    assert.equal(await field("Load").inputValue(), "400");
+    for (const [text, wanted] of [["45 deg", [282.8427, 282.8427]], ["90°", [0, 400]], ["0 rad", [400, 0]]]) {
+      await type(field("Load at angle"), text);
+      await load(wanted);
+    }
+    await type(field("Load"), "3 stone");
+    await page.waitForSelector('#controls [role="alert"]:has-text("allowed: N, kN, lbf")');
+    await type(field("Load"), "300 N");
+    await load([300, 0]);
+    // While the speed is refused nothing is opened.
+    await type(field("Speed"), "1800 U/min");
+    await page.waitForSelector('#controls [aria-invalid="true"]');
+    await type(field("Noise, RMS"), "0.1 g");
+    await ran(page);
+    assert.equal(await field("Noise, RMS").inputValue(), "0.1 g");
+    await type(field("Speed"), "1797");
+    await until(page, () => globalThis.brinellStudio.side.opened.all.sensor?.noise_rms_m_per_s2 > 0.9);
+    await until(page, () => [...document.querySelectorAll("#controls input")].some((one) => one.value === "0.980665"));
+    await page.evaluate(() => { for (const one of document.querySelectorAll("#controls details")) one.open = true; });
+    await type(field("Name"), "12");
+    await until(page, () => globalThis.brinellStudio.side.opened.scenario.name === "12");
+  }));
+
   it("shares and saves what was typed last, and nothing that is refused", async () => on({}, async (page) => {
     await start(page, "rectangle");
     const speed = page.getByLabel("Speed", { exact: true }), tap = (id) => page.evaluate((id) => document.getElementById(id).click(), id);
@@ -134,7 +167,7 @@ describe("edits", () => {
   it("says that a server does not answer, and saves nothing that it did not open", async () => quietly(browser, `${server.url}?token=secret`, {}, async (page) => {
     await start(page, "rectangle");
     await page.route("**/ask*", (route) => route.abort());
-    await page.waitForSelector('[data-kind="lost"]:has-text("The server does not answer. Start `brinell studio` again")');
+    await page.waitForSelector('[data-kind="lost"]:has-text("The server does not answer. Start again tries once more")');
     await type(page.getByLabel("Speed", { exact: true }), "1450");
     await page.click("#save");
     await page.click('#save-list button:has-text("Scenario")');
