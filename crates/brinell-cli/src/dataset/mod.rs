@@ -60,7 +60,9 @@ fn make(args: &DatasetArgs, path: &Path) -> Result<ExitCode, Failure> {
     let runs: usize = parts.map(|part| campaign.runs_of(part).len()).sum();
     if runs == 0 && !args.quiet {
         let files = plural(campaign.parts(), "file");
-        complain!("warning: --shard: this shard is empty, as the plan has {files} in all; smaller files: runs_per_file");
+        complain!(
+            "warning: --shard: this shard is empty, as the plan has {files} in all; smaller files: runs_per_file"
+        );
     }
     let threads = args.jobs.unwrap_or(brinell::many::threads(runs));
     // A folder that was begun has seen this plan looked over.
