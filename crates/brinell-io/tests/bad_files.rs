@@ -164,6 +164,11 @@ fn regress_bad_text_gets_the_line() {
         here.says("a.txt", "nothing\nbut words\n"),
         "a.txt: damaged text file: no line of numbers among its first lines"
     );
+    // As Format::Csv writes a table without rows.
+    assert_eq!(
+        here.says("a.csv", "t,x\n"),
+        "a.csv: cannot read: its only line is no numbers: a table without rows holds no signal"
+    );
     assert_eq!(
         here.says("a.txt", "0,5\n1,25\n"),
         "a.txt: cannot read: `0,5` may be two whole numbers or one with a decimal comma; write a decimal point, or name the columns in a line above"

@@ -3,7 +3,7 @@
 
 use std::path::Path;
 
-use crate::common::{any_table, columns, names_in, numbered, sampled, write};
+use crate::common::{any_table, columns, names_in, numbered, sampled, within_floats, write};
 use brinell_io::{Column, Format, IoError, Metadata, Outcome, RateSource, keys, open};
 use proptest::prelude::*;
 use proptest::test_runner::{Config, RngAlgorithm, TestRng, TestRunner};
@@ -87,6 +87,7 @@ fn prop_csv_gives_back_every_number_by_the_common_reader() {
 #[test]
 fn prop_wav_gives_back_floats_names_and_units() {
     with_tables(|rows| {
+        let rows = within_floats(&rows);
         let folder = tempfile::tempdir().unwrap();
         let columns = numbered(rows[0].len());
         let metadata = sampled().with(keys::SCENARIO, "name = \"Prüfstand\"\n");
@@ -177,6 +178,17 @@ fn regress_what_a_format_cannot_hold_is_said() {
         say(Format::Uff58, time, &sampled()),
         "signals.uff: UFF 58 cannot hold this: there is no channel but the time"
     );
+    let mut wav = Format::Wav.create(folder.path(), &columns(), &sampled()).unwrap();
+    let mut row = vec![0.0; columns().len()];
+    (row[0], row[1]) = (1e300, f64::from(f32::MAX));
+    // Time is not written.
+    wav.write_row(&row).unwrap();
+    row[1] = -1e300;
+    let told = wav.write_row(&row).unwrap_err().to_string();
+    let name = &columns()[1].name;
+    let why = format!("signals.wav: WAV cannot hold this: {name} is -1e300 in row 2, and 32-bit floats end at 3.4e38");
+    assert!(told.ends_with(&why), "{told}");
+    drop(wav);
     for name in ["outer ax", "fs", "brinell_units", "_x"] {
         let columns = [Column::new(name, "", "")];
         let error = Format::Mat.create(folder.path(), &columns, &none).map(drop);

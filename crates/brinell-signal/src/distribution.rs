@@ -17,8 +17,15 @@ pub fn chi_square_tail(x: f64, freedom: f64) -> f64 {
     checked_gamma_ur(0.5 * freedom, 0.5 * x).unwrap_or(f64::NAN)
 }
 
-/// The value that chi-square with `freedom` degrees of freedom stays below with probability `p` (0 to 1), by bisection.
+/// The value that chi-square with `freedom` degrees of freedom stays below with probability `p` (0 to 1), by bisection;
+/// p comes back to 1e-15. Infinite for 1; NaN where `freedom` is not positive or p is not a probability.
 pub fn chi_square_quantile(p: f64, freedom: f64) -> f64 {
+    if !((0.0..=1.0).contains(&p) && freedom > 0.0 && freedom.is_finite()) {
+        return f64::NAN;
+    }
+    if p == 1.0 {
+        return f64::INFINITY;
+    }
     let mut high = freedom.max(1.0);
     while 1.0 - chi_square_tail(high, freedom) < p && high < 1e9 {
         high *= 2.0;
@@ -102,6 +109,10 @@ mod tests {
                 let x = chi_square_quantile(p, freedom);
                 assert!((1.0 - chi_square_tail(x, freedom) - p).abs() < 1e-12);
             }
+        }
+        assert_eq!(chi_square_quantile(1.0, 2.0), f64::INFINITY);
+        for (p, freedom) in [(0.5, -3.0), (2.0, 2.0), (-0.1, 2.0), (f64::NAN, 2.0), (0.5, f64::NAN), (0.5, 0.0)] {
+            assert!(chi_square_quantile(p, freedom).is_nan(), "{p} {freedom}");
         }
     }
 }

@@ -49,6 +49,12 @@ pub(super) fn check(x: &[f64], fs: f64, need: usize, what: &'static str) -> Resu
     }
 }
 
+/// That squares of sums of the samples are numbers, of up to 1e10 samples.
+pub(super) fn check_squares(x: &[f64]) -> Result<(), SignalError> {
+    let power = x.iter().fold(0.0, |most: f64, v| most.max(v.abs())).log10().floor();
+    require(power < 140.0, "power of ten of the largest sample", power, "below 140, as squares overflow")
+}
+
 /// An error unless `holds`.
 pub(super) fn require(holds: bool, name: &'static str, value: f64, range: &'static str) -> Result<(), SignalError> {
     if holds { Ok(()) } else { Err(SignalError::OutOfRange { name, value, range }) }

@@ -149,6 +149,9 @@ const TABLE: usize = 512;
 /// The edge follows a slowing shaft down to this share of the signal's sampling rate, no further.
 const LOWEST_EDGE: f64 = 0.01;
 
+/// Samples from angle 0 beyond which a double cannot count them one by one: 2^53.
+const LAST_COUNTED: f64 = 9_007_199_254_740_992.0;
+
 /// Values made at most for each sample of the signal.
 const MOST_PER_SAMPLE: f64 = 64.0;
 
@@ -159,8 +162,8 @@ const MOST_PER_SAMPLE: f64 = 64.0;
 /// some of what it cannot hold folds.
 ///
 /// # Errors
-/// [`SignalError`] with samples that are not finite, a signal too short for one value, or fewer than 4 samples a
-/// revolution.
+/// [`SignalError`] with samples that are not finite, a signal too short for one value, fewer than 4 samples a
+/// revolution, or an angle beyond 2^53 samples.
 pub fn resample(
     x: &[f64],
     fs: f64,
@@ -179,6 +182,11 @@ pub fn resample(
         expected,
         "at most 64 times as many as the signal has",
     )?;
+    for t in [0.0, last_time] {
+        let angle = rotation.at(t).0;
+        let range = "at most 2^53 samples from 0; let angles begin near 0 at the record's start";
+        require((angle * rate).abs() <= LAST_COUNTED, "angle (revolutions)", angle, range)?;
+    }
     let first = (rotation.at(0.0).0 * rate).ceil();
     let kernel = Kernel::new();
     let mut values = Vec::new();
@@ -378,5 +386,19 @@ mod tests {
         assert!(resample(&x[..20], FS, &steady(20.0), 64).is_err());
         assert!(resample(&x, FS, &steady(20.0), 2).is_err());
         assert!(resample(&x, FS, &steady(1e12), 64).is_err());
+    }
+
+    /// A double does not count on from there by ones: the loop had no end.
+    #[test]
+    fn prop_angles_too_far_from_zero_are_refused() {
+        let x = cosine(10_000, FS, 50.0, 1.0, 0.0);
+        let seconds = x.len() as f64 / FS;
+        let far = |angle: f64| Rotation::from_angles(&[(0.0, angle), (seconds, angle + 30.0 * seconds)]).unwrap();
+        assert!(resample(&x, FS, &far(1e6), 64).is_ok());
+        let past = Rotation::from_speeds(&[(-1e17, 30.0)]).unwrap();
+        for rotation in [far(2e14), far(-2e14), past] {
+            let refused = resample(&x, FS, &rotation, 64).unwrap_err().to_string();
+            assert!(refused.starts_with("angle (revolutions) = ") && refused.contains("2^53"), "{refused}");
+        }
     }
 }

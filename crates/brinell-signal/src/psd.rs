@@ -4,7 +4,7 @@
 //! unit^2/Hz, both one-sided. [`StreamSpectra`](super::StreamSpectra) has the same for a stream, with Hann's window and
 //! half overlap.
 
-use super::error::{SignalError, check, require};
+use super::error::{SignalError, check, check_squares, require};
 use super::spectrum::{FEWEST_SAMPLES, PowerAverage, SegmentTransform, Spectrum};
 use super::window::Window;
 
@@ -64,6 +64,7 @@ impl Segments {
     /// Length and distance of the segments of a signal.
     pub(super) fn plan(&self, x: &[f64], fs: f64) -> Result<(usize, usize), SignalError> {
         check(x, fs, FEWEST_SAMPLES, "a spectrum")?;
+        check_squares(x)?;
         require(self.length >= FEWEST_SAMPLES, "segment length (samples)", self.length as f64, "8 or more")?;
         require((0.0..1.0).contains(&self.overlap), "overlap", self.overlap, "0 to below 1")?;
         let length = self.length.min(x.len());
@@ -76,7 +77,7 @@ impl Segments {
 /// dropped.
 ///
 /// # Errors
-/// [`SignalError`] with fewer than 8 samples, samples that are not finite, or segments out of range.
+/// [`SignalError`] with fewer than 8 samples, samples that are not finite or beyond 1e140, or segments out of range.
 pub fn psd(x: &[f64], fs: f64, segments: &Segments) -> Result<Spectrum, SignalError> {
     let (length, step) = segments.plan(x, fs)?;
     let mut transform = SegmentTransform::new(segments.window.periodic(length));

@@ -20,7 +20,7 @@ use super::scatter::student_t_quantile;
 pub struct Ratio {
     /// Ratio of the values.
     pub value: f64,
-    /// Its 95 % interval; `None` where a value has none, or one that reaches zero.
+    /// Its 95 % interval; `None` where a value has none, one that reaches zero, or one of no degrees of freedom.
     pub interval: Option<(f64, f64)>,
 }
 
@@ -46,7 +46,7 @@ fn half_width(of: &Estimate, to: &Estimate) -> Option<f64> {
 
 /// Variance of the logarithm, and the degrees of freedom that it has.
 fn variance(interval: &Interval) -> Option<(f64, f64)> {
-    (interval.low > 0.0).then(|| {
+    (interval.low > 0.0 && interval.freedom > 0).then(|| {
         let quantile = student_t_quantile(0.975, interval.freedom);
         let error = 0.5 * (interval.high / interval.low).ln() / quantile;
         (error * error, f64::from(interval.freedom))
@@ -109,6 +109,8 @@ mod tests {
         assert_eq!(ratio(&sound, &of(-1.0, -2.0, 1.0)), None);
         let wide = ratio(&sound, &of(2.0, -3.0, 7.0)).unwrap();
         assert_eq!((wide.value, wide.interval), (1.0, None));
+        let free = Estimate { value: 2.0, interval: Some(Interval { low: 1.8, high: 2.2, freedom: 0 }) };
+        assert_eq!(ratio(&sound, &free), Some(Ratio { value: 1.0, interval: None }));
         let exact = of(2.0, 2.0, 2.0);
         assert_eq!(ratio(&exact, &exact).unwrap().interval, Some((1.0, 1.0)));
     }

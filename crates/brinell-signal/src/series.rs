@@ -147,11 +147,11 @@ impl Averages {
 
     /// Spectral density of the average at frequency zero (two-sided, in its unit squared times that of the weight),
     /// from all blocks but the first share `skipped` of them, with its degrees of freedom; `None` of a series too short
-    /// to tell.
+    /// to tell, and where nothing is left.
     pub fn density(&self, skipped: f64) -> Option<(f64, u32)> {
         let all = self.all();
         let influence = self.influence(all.sum / all.weight, all.weight);
-        let rest = &influence[(skipped * influence.len() as f64) as usize..];
+        let rest = influence.get((skipped * influence.len() as f64) as usize..)?;
         let found = scatter(rest)?;
         let revolutions = rest.len() as u64 * self.series.per_block;
         let weight = all.weight * revolutions as f64 / self.series.revolutions() as f64;
@@ -163,5 +163,24 @@ impl Averages {
     pub fn drift(&self) -> Option<f64> {
         let all = self.all();
         drift(&self.influence(all.sum / all.weight, all.weight))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn regress_shares_that_leave_nothing_have_no_density() {
+        let mut averages = Averages::new();
+        for k in 0..40 {
+            averages.push(f64::from(k % 7));
+            averages.end_block();
+        }
+        assert!(averages.density(0.2).is_some());
+        for share in [1.0, 1.5, f64::INFINITY] {
+            assert_eq!(averages.density(share), None);
+        }
+        assert_eq!(Averages::new().density(0.0), None);
     }
 }

@@ -22,7 +22,7 @@ pub struct Spectrogram {
 impl Spectrogram {
     /// Number of frames.
     pub fn frames(&self) -> usize {
-        self.density.len() / self.bins
+        self.density.len().checked_div(self.bins).unwrap_or(0)
     }
 
     /// Densities of a frame, unit^2/Hz.
@@ -72,6 +72,11 @@ mod tests {
     use super::*;
 
     const FS: f64 = 8000.0;
+
+    #[test]
+    fn regress_nothing_has_no_frames() {
+        assert_eq!(Spectrogram::default().frames(), 0);
+    }
 
     #[test]
     fn analytic_chirp_is_followed() {

@@ -9,7 +9,7 @@
 
 use super::band::Band;
 use super::blocks::Blocks;
-use super::error::{SignalError, require};
+use super::error::{SignalError, check_squares, require};
 use super::estimate::Estimate;
 use super::indicators::Indicator;
 use super::integrate::{Motion, fade, velocity};
@@ -67,6 +67,8 @@ pub fn velocity_rms(x: &[f64], fs: f64, from: Motion, band: Band, block: f64) ->
     require(seconds * band.low >= 3.0, "signal (s)", seconds, "at least three periods of the band's lower edge")?;
     require(block * fs >= 1.0 && block.is_finite(), "block (s)", block, "at least one sample")?;
     let v = velocity(x, fs, from, band, |periods| steps(periods, x.len()))?;
+    // Not before samples that are not finite are found.
+    check_squares(x)?;
     let rate = fs * v.len() as f64 / x.len() as f64;
     let found = inner_rms(&v, rate / band.low, block * rate);
     found.ok_or(SignalError::OutOfRange { name: "block (s)", value: block, range: "at most the signal's length" })
@@ -89,6 +91,8 @@ fn steps(periods: usize, samples: usize) -> usize {
 mod tests {
     use std::f64::consts::TAU;
 
+    use super::super::psd::{Segments, psd};
+    use super::super::spectrogram::spectrogram;
     use super::super::test_signals::cosine;
     use super::*;
 
@@ -184,5 +188,16 @@ mod tests {
         assert!(of(&a, 0.01).is_ok());
         assert!(of(&a, 0.0).is_err());
         assert!(of(&[f64::NAN; 4000], 0.01).is_err());
+        // Its squares overflow, and the block is blameless; so do those of any spectrum.
+        let told = of(&[1e300; 4000], 0.03).unwrap_err();
+        assert!(
+            told.to_string().starts_with("power of ten of the largest sample = 300 is outside its range"),
+            "{told}"
+        );
+        let segments = Segments::of(512);
+        assert_eq!(psd(&[1e300; 4000], 1e4, &segments), Err(told.clone()));
+        assert_eq!(spectrogram(&[1e300; 4000], 1e4, &segments), Err(told));
+        assert!(of(&[-9e139; 4000], 0.03).unwrap().value.is_finite());
+        assert!(psd(&[9e139; 4000], 1e4, &segments).unwrap().density.iter().all(|d| d.is_finite()));
     }
 }

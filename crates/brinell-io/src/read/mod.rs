@@ -170,6 +170,9 @@ impl SignalFile {
 
     /// All values of a channel, or of a matrix's column or row such as `X(:,2)`: at most [`MAX_VALUES`].
     ///
+    /// Values are as stored, in the unit that [`Channel::unit`] states. Whole numbers of a WAV are counts of the ADC and
+    /// not scaled to 1: what a count is worth is not in the file.
+    ///
     /// Memory is taken as values arrive, so that a file cannot claim it. Missing values are NaN. 64-bit integers beyond
     /// 2^53 round.
     pub fn read(&mut self, name: &str) -> Result<Vec<f64>, IoError> {

@@ -95,6 +95,12 @@ fn chunk(name: &[u8; 4], body: &[u8]) -> Vec<u8> {
 impl SignalWriter for WavWriter {
     fn write_row(&mut self, row: &[f64]) -> Result<(), IoError> {
         self.file.check_row(self.columns.len(), row)?;
+        let beyond = |&&i: &&usize| row[i].is_finite() && (row[i] as f32).is_infinite();
+        if let Some(&i) = self.kept.iter().find(beyond) {
+            let (name, value, row) = (&self.columns[i].name, row[i], self.rows + 1);
+            let why = format!("{name} is {value:e} in row {row}, and 32-bit floats end at {:.1e}", f32::MAX);
+            return Err(IoError::NotWritable { path: self.file.path().to_owned(), format: "WAV", why });
+        }
         for &i in &self.kept {
             self.buffer.extend_from_slice(&(row[i] as f32).to_le_bytes());
         }

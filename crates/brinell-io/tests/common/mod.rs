@@ -58,3 +58,10 @@ pub(crate) fn names_in(folder: &Path) -> Vec<String> {
     names.sort();
     names
 }
+
+/// Finite values no larger than a 32-bit float holds.
+pub(crate) fn within_floats(rows: &[Vec<f64>]) -> Vec<Vec<f64>> {
+    let most = f64::from(f32::MAX);
+    let within = |v: &f64| if v.is_finite() { v.clamp(-most, most) } else { *v };
+    rows.iter().map(|row| row.iter().map(within).collect()).collect()
+}

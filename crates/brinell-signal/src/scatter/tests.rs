@@ -26,6 +26,17 @@ fn analytic_student_t() {
     let two = (2.0 * p - 1.0) / (2.0 * p * (1.0 - p)).sqrt();
     close(Some(student_t_quantile(p, 2)), two, 1e-12);
     close(Some(student_t_quantile(1.0 - p, 2)), -two, 1e-12);
+    // Far out, by the probability that is left.
+    for q in [1e-3, 2e-4, 1e-4, 9e-5, 1e-6, 1e-9, 1e-12, 1e-50_f64] {
+        let cauchy = -1.0 / (std::f64::consts::PI * q).tan();
+        close(Some(student_t_quantile(q, 1) / cauchy), 1.0, 1e-10);
+        let two = (2.0 * q - 1.0) / (2.0 * q * (1.0 - q)).sqrt();
+        close(Some(student_t_quantile(q, 2) / two), 1.0, 1e-10);
+        close(Some(student_t_quantile(1.0 - q.max(1e-9), 2) / student_t_quantile(q.max(1e-9), 2)), -1.0, 1e-7);
+    }
+    for (p, freedom) in [(0.5, 0), (0.0, 3), (1.0, 3), (-1.0, 3), (f64::NAN, 3)] {
+        assert!(student_t_quantile(p, freedom).is_nan(), "{p} {freedom}");
+    }
 }
 
 /// z_i = rho z_(i-1) + noise of variance 1, from its stationary distribution on.

@@ -51,8 +51,11 @@ pub(super) fn find(sample: &[u8]) -> Result<Layout, Fault> {
     let from = lvm.as_ref().map_or(0, |lvm| lvm.lines);
     let format = lvm.as_ref().map_or(TextFormat::default(), |lvm| lvm.format);
     let plain: Vec<&Line> = lines[from..].iter().filter(|l| !l.comment).collect();
-    let (first, delimiter) =
-        first_data(&plain, &format).ok_or_else(|| damaged("no line of numbers among its first lines"))?;
+    let (first, delimiter) = first_data(&plain, &format).ok_or_else(|| match plain[..] {
+        // A table without rows is sound.
+        [_] => unsupported("its only line is no numbers: a table without rows holds no signal"),
+        _ => damaged("no line of numbers among its first lines"),
+    })?;
     let all: Vec<&[u8]> = plain[first..].iter().map(|l| l.text).collect();
     let data = &all[..all.len().min(LOOK)];
     let start = plain[first];
