@@ -12,7 +12,7 @@ use std::f64::consts::{PI, TAU};
 pub struct StaticLoadZone {
     /// (row from 0, orbit angle in rad in [-pi, pi), Q_in, Q_out in N).
     pub points: Vec<(usize, f64, f64, f64)>,
-    /// Largest Q_out, N; where damage turns, with the first of it ([`MOST_TURNED`]) in and about the load zone.
+    /// Largest Q_out, N; where damage turns, with the first eight pieces of it in and about the load zone.
     pub largest: f64,
     /// Largest Q_in, N, likewise.
     pub largest_inner: f64,
