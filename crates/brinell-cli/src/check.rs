@@ -128,7 +128,7 @@ fn time_scales(s: &Scenario, model: &Model, d: &Derived) {
             short(1e3 * (last - first), 3)
         );
     }
-    say!("  longest step            {} us, without impacts", short(1e6 * d.longest_step, 3));
+    say!("  longest step            {} us under the heaviest contact, without impacts", short(1e6 * d.longest_step, 3));
     say!("  centrifugal force       {} N a {element}", short(d.centrifugal_force, 3));
 }
 

@@ -42,8 +42,8 @@ pub(super) fn check_band(fs: f64, length: usize, band: Band) -> Result<(), Signa
     let range = "0 to below the upper edge and half the sampling rate";
     let holds = 0.0 <= band.low && band.low < band.high && band.low < 0.5 * fs;
     require(holds, "lower edge of the band (Hz)", band.low, range)?;
-    let range = "above the lower edge by the distance between bins, the sampling rate over the samples, or more";
-    require(!bins(fs, length, band).is_empty(), "upper edge of the band (Hz)", band.high, range)
+    let range = "a bin of the transform within the band; bins lie the sampling rate over the samples apart";
+    require(!bins(fs, length, band).is_empty(), "lower edge of the band (Hz)", band.low, range)
 }
 
 /// First bin of a band and the one after its last, of a transform of `length` samples at `fs` Hz.

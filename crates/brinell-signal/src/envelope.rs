@@ -192,7 +192,7 @@ mod tests {
         let x = cosine(12_000, 12_000.0, 440.0, 1.0, 0.0);
         for band in [Band::between(437.1, 437.9), Band::between(5999.5, 6000.0)] {
             let error = envelope(&x, 12_000.0, band).unwrap_err().to_string();
-            assert!(error.contains("upper edge of the band"), "{error}");
+            assert!(error.contains("a bin of the transform within the band"), "{error}");
         }
         assert!(envelope(&x, 12_000.0, Band::between(437.1, 438.0)).is_ok());
     }

@@ -24,7 +24,7 @@ pub(crate) fn bins(x: &mut [f64]) -> Vec<Complex<f64>> {
 
 /// Round-off in a bin over the root mean square of all, with room: a bin's error is a few units in the last place of
 /// that.
-const ROUND_OFF: f64 = 64.0 * f64::EPSILON;
+const ROUND_OFF: f64 = 8.0 * f64::EPSILON;
 
 /// Power of a transform's bin below which it may hold nothing but round-off. Of a constant, that is all there is but at
 /// zero frequency, and it would have a kurtosis, an envelope and lines. 0 where squares are no numbers.

@@ -60,6 +60,8 @@ const HANN_SQUARE: f64 = 1.684_784;
 const HANN_OVERLAP: f64 = 0.165_977;
 /// A comb that noise alone would show more often than this is not reported.
 const FALSE_ALARM_LIMIT: f64 = 1e-4;
+/// The same of its harmonics but the strongest, where that is not the fundamental, at the place that this one tells.
+const OTHERS_LIMIT: f64 = 1e-2;
 
 /// What to look for.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -246,9 +248,8 @@ impl Comb {
 
         let trials = 1.0 + PLACES_PER_BIN * 2.0 * half_range * harmonics / bin;
         // Of noise, each harmonic's power over its mean is exponentially distributed.
-        let is_noise =
-            |height: f64, count: f64| trials * chi_square_tail(2.0 * height, 2.0 * count) > FALSE_ALARM_LIMIT;
-        if is_noise(highest, harmonics) || self.is_another(e, frequency, is_noise) {
+        if trials * chi_square_tail(2.0 * highest, 2.0 * harmonics) > FALSE_ALARM_LIMIT || self.is_another(e, frequency)
+        {
             return None;
         }
         let uncertainty = self.uncertainty(e, frequency);
@@ -261,11 +262,14 @@ impl Comb {
         })
     }
 
-    /// Whether one harmonic alone makes the comb, and is not the fundamental: a line of something else, whose
-    /// rate has a harmonic there.
-    fn is_another(&self, e: &Padded, f: f64, is_noise: impl Fn(f64, f64) -> bool) -> bool {
+    /// Whether one harmonic alone makes the comb, and is not the fundamental: a line of something else, whose rate has a
+    /// harmonic there. That one tells the place, so that the others are looked for at one place alone.
+    fn is_another(&self, e: &Padded, f: f64) -> bool {
         let strongest = (1..=self.noise.len()).map(|h| (h, self.ratio(e, f, h))).max_by(|a, b| a.1.total_cmp(&b.1));
-        strongest.is_some_and(|(h, ratio)| h > 1 && is_noise(self.height(e, f) - ratio, self.noise.len() as f64 - 1.0))
+        strongest.is_some_and(|(h, ratio)| {
+            let others = 2.0 * (self.noise.len() as f64 - 1.0);
+            h > 1 && chi_square_tail(2.0 * (self.height(e, f) - ratio), others) > OTHERS_LIMIT
+        })
     }
 
     /// N_h: the median power around a harmonic, over ln 2 (exponentially distributed powers). The median passes over

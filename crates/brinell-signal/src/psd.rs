@@ -28,7 +28,7 @@ impl Detrend {
             return;
         };
         // From the first value on, so that nothing is left of a constant, round-off neither.
-        let mean = x.iter().map(|v| v - first).sum::<f64>() / n;
+        let mean = first + x.iter().map(|v| v - first).sum::<f64>() / n;
         let middle = 0.5 * (n - 1.0);
         let mut slope = 0.0;
         if self == Detrend::Linear && x.len() > 1 {
@@ -36,7 +36,7 @@ impl Detrend {
             slope = moment * 12.0 / (n * (n * n - 1.0));
         }
         for (i, v) in x.iter_mut().enumerate() {
-            *v = *v - first - (mean + slope * (i as f64 - middle));
+            *v -= mean + slope * (i as f64 - middle);
         }
     }
 }

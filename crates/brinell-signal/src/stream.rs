@@ -87,7 +87,7 @@ impl StreamSpectra {
 /// The repetition frequency in the envelope of a whole signal sampled at `fs` Hz, taken as one segment. The `band`, Hz,
 /// is to hold the resonances that the impacts ring. `None` where the signal lasts fewer than 24 periods of the nominal
 /// frequency, where no comb inside the range is clear of the noise (false-alarm probability of white noise below 1e-4),
-/// or one of its harmonics alone is, and not the fundamental. For a long run use [`StreamSpectra`].
+/// or one of its harmonics alone is, and not the fundamental (of the others, at a level of 1e-2). For a long run use [`StreamSpectra`].
 ///
 /// This measures a rate that is known to be there; whether it is, [`analyze`](crate::analysis::analyze) asks. Another
 /// train of impacts or a shaft with two harmonics within the range of two of the comb's is taken for it.

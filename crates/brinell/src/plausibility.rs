@@ -313,7 +313,9 @@ fn idle_patterns(scenario: &Scenario, model: &Model) -> Vec<Problem> {
             Some(name) => format!("\"{name}\""),
             None => "names of channels, such as \"sensor_ax\"; * stands for any characters".into(),
         };
-        warning("simulation.record", format!("\"{pattern}\""), "matches no channel of this bearing".into(), allowed)
+        // In the message: problems of one key and message are told once.
+        let message = format!("\"{pattern}\" matches no channel of this bearing");
+        Problem::warning("simulation.record", message).allowed(allowed)
     };
     idle.iter().map(of).collect()
 }

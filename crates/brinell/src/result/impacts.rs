@@ -5,8 +5,8 @@
 //! that a roller takes over the defect at the top speed: half of it before the instant, one and a half after it; the
 //! peak is the largest |acceleration| within the half after it, so that what leaving does to the acceleration is no
 //! part of what coming did: the anti-alias filter spreads both to either side. It ends where the next roller comes or
-//! leaves; an instant after which that is too soon does not count. Rollers in other places, as of another row, add to
-//! both.
+//! leaves; an instant after which that is too soon does not count, and where most are so there is no peak. Rollers in
+//! other places, as of another row or in another defect, add to both.
 
 use crate::derived::defect_passes;
 use crate::observe::Findings;
@@ -76,11 +76,15 @@ pub fn impacts(simulation: &Simulation, findings: &Findings) -> Vec<Impacts> {
 /// Instants, each with the time to the next one of any kind, whose surroundings are not all there do not count.
 fn around(values: &[f64], instants: impl Iterator<Item = (f64, f64)>, window: f64) -> (Vec<f64>, Vec<f64>) {
     let points = (2.0 * window * FINER as f64).ceil() as usize + 1;
-    let (mut mean, mut peaks) = (vec![0.0; points], Vec::new());
+    let (mut mean, mut peaks, mut too_soon) = (vec![0.0; points], Vec::new(), 0);
     for (instant, alone) in instants {
         let from = instant - 0.5 * window;
         let end = from + (points - 1) as f64 / FINER as f64 + 1.0;
-        if from < 0.0 || end >= values.len() as f64 || alone < LEAST_PEAK * window {
+        if from < 0.0 || end >= values.len() as f64 {
+            continue;
+        }
+        if alone < LEAST_PEAK * window {
+            too_soon += 1;
             continue;
         }
         peaks.push(peak(values, instant, alone.min(PEAK * window)));
@@ -89,6 +93,10 @@ fn around(values: &[f64], instants: impl Iterator<Item = (f64, f64)>, window: f6
             let (i, part) = (place as usize, place.fract());
             *mean += values[i] * (1.0 - part) + values[i + 1] * part;
         }
+    }
+    // The few that are left where most are followed too soon are odd ones.
+    if too_soon > peaks.len() {
+        peaks.clear();
     }
     if peaks.is_empty() {
         mean.clear();

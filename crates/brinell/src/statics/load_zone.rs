@@ -12,7 +12,7 @@ use std::f64::consts::{PI, TAU};
 pub struct StaticLoadZone {
     /// (row from 0, orbit angle in rad in [-pi, pi), Q_in, Q_out in N).
     pub points: Vec<(usize, f64, f64, f64)>,
-    /// Largest Q_out, N; where damage turns, with the first eight pieces of it in and about the load zone.
+    /// Largest Q_out, N; where damage turns, with up to eight pieces of it, the longest, in and about the load zone.
     pub largest: f64,
     /// Largest Q_in, N, likewise.
     pub largest_inner: f64,
@@ -105,24 +105,35 @@ pub fn static_load_zone(model: &Model) -> Result<StaticLoadZone, NoBalance> {
     Ok(zone)
 }
 
-/// Damage that turns is looked at so far: there can be thousands, alike.
-pub(crate) const MOST_TURNED: usize = 8;
-/// Places of turning damage about the middle of the load zone, in pitches.
-const TURNED: [f64; 9] = [-2.0, -1.5, -1.0, -0.5, 0.0, 0.5, 1.0, 1.5, 2.0];
+/// Pieces of turning damage that are looked at, the longest ones, and of how many pieces in all their number is one
+/// less: there can be thousands, alike, and each balance asks all of them.
+const MOST_TURNED: usize = 8;
+const FEWER_AT: usize = 64;
 
-/// The heaviest contacts with damage of the inner raceway and of rollers turned into the load zone: it takes load off
+/// The heaviest contacts with damage of the inner raceway and of rollers turned through the load zone: it takes load off
 /// the rollers that are over it, and others carry more.
 fn heaviest_over_turns(model: &Model, zone: &mut StaticLoadZone) -> Result<(), NoBalance> {
     let pitch = TAU / model.layout.rollers_per_row as f64;
-    let turning = model.defects.iter().filter(|defect| defect.surface != Surface::OuterRaceway);
-    for defect in turning.take(MOST_TURNED) {
+    let half_arc = |defect: &Defect| {
         let (first, last) = defect.shape.arc();
-        for by in TURNED.map(|turned| turned * pitch) {
-            let at = zone.middle + by;
+        0.5 * (last - first) / defect.radius
+    };
+    let mut turning: Vec<_> = model.defects.iter().filter(|d| d.surface != Surface::OuterRaceway).collect();
+    turning.sort_by(|a, b| half_arc(b).total_cmp(&half_arc(a)));
+    let most = (FEWER_AT / model.defects.len().max(1)).clamp(1, MOST_TURNED);
+    for defect in turning.into_iter().take(most) {
+        let (first, last) = defect.shape.arc();
+        let of_roller = defect.surface != Surface::InnerRaceway;
+        // Its middle in steps of half a pitch, until its ends are two pitches beyond the middle of the load zone. The arc
+        // of a roller's damage is its own.
+        let reach = 2.0 * pitch + if of_roller { 0.0 } else { half_arc(defect) };
+        let steps = (reach.min(PI) / (0.5 * pitch)).ceil() as i32;
+        for step in -steps..=steps {
+            let at = zone.middle + 0.5 * pitch * f64::from(step);
             let (mut problem, slot) = Problem::at_rest(model, Some((defect, 0.5 * (first + last))), 0, at);
             let cage = problem.orbit[slot] - model.pocket_angle[slot];
             // A roller's damage turns with its roller; between the inner raceway's and the rollers there is a pitch.
-            let phases = if defect.surface == Surface::InnerRaceway { PHASES / 4 } else { 1 };
+            let phases = if of_roller { 1 } else { PHASES / 4 };
             for phase in 0..phases {
                 problem.turn_cage(model, cage + pitch * phase as f64 / phases as f64);
                 let balance = solve(model, &problem)?;

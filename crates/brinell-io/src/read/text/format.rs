@@ -1,7 +1,5 @@
 //! What is between the numbers of a text file, and within them.
 
-use memchr::memchr_iter;
-
 /// What is between the numbers of a line.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Delimiter {
@@ -26,15 +24,21 @@ impl Delimiter {
         }
     }
 
-    /// What is between delimiters, whole where it is in quotes.
+    /// What is between delimiters, whole where it begins with a quote (RFC 4180); a quote elsewhere is a sign, as of
+    /// inches.
     pub(super) fn fields(self, line: &[u8]) -> impl Iterator<Item = &[u8]> {
         let blanks = self == Self::Blanks;
-        // A single quote sign, as of inches, is none about a field.
-        let in_pairs = memchr_iter(b'"', line).count().is_multiple_of(2);
-        let mut quoted = false;
+        let (mut quoted, mut begins) = (false, true);
         let ends = move |b: &u8| {
-            quoted ^= *b == b'"' && in_pairs;
-            !quoted && (*b == self.sign() || blanks && *b == b'\t')
+            let is_delimiter = *b == self.sign() || blanks && *b == b'\t';
+            if quoted {
+                // A doubled one goes on.
+                (quoted, begins) = (*b != b'"', *b == b'"');
+                return false;
+            }
+            quoted = *b == b'"' && begins;
+            begins = is_delimiter || begins && *b == b' ';
+            is_delimiter
         };
         line.split(ends).filter(move |field| !(blanks && field.is_empty()))
     }

@@ -220,10 +220,14 @@ fn comma_or_fraction(
 fn decimal(delimiter: Delimiter, format: &TextFormat, data: &[&[u8]]) -> Option<Decimal> {
     let fields = || data.iter().flat_map(|line| split(line, delimiter));
     let shows = |sign: u8, decimal| fields().any(|f| f.contains(&sign) && number(f, Some(decimal)).is_some());
+    let is_point =
+        |f: &[u8]| f.contains(&b'.') && number(f, Some(Decimal::Point)).is_some() && !may_be_grouped(f, b'.');
     let is_fraction = |f: &[u8]| f.contains(&b',') && number(f, Some(Decimal::Comma)).is_some();
     format.decimal.or_else(|| {
         let comma = fields().any(|f| is_fraction(f) && !may_be_grouped(f, b','));
-        if comma {
+        // Between commas only numbers in quotes can have decimal ones, and then none has a point.
+        let may = delimiter != Delimiter::Comma || !fields().any(|f| is_point(f));
+        if comma && may {
             Some(Decimal::Comma)
         } else if delimiter == Delimiter::Comma || shows(b'.', Decimal::Point) {
             Some(Decimal::Point)
