@@ -108,6 +108,28 @@ fn prop_one_harmonic_of_another_train_is_no_comb() {
     }
 }
 
+/// Every second impact is nearly as high: the second harmonic dominates.
+#[test]
+fn prop_a_train_of_high_and_low_impacts_is_a_comb() {
+    let (fs, rate, n) = (FS, 200.3, 25_600);
+    for (low, noise) in [(0.95, 0.0), (0.8, 0.1), (0.5, 0.2)] {
+        let found = (0..20).filter(|seed| {
+            let mut random = Noise::new(600 + seed);
+            let mut x: Vec<f64> = (0..n).map(|_| noise * random.normal()).collect();
+            for k in 0..(2.0 * rate * n as f64 / fs) as usize {
+                let (at, height) = (k as f64 / (2.0 * rate), if k % 2 == 0 { 1.0 } else { low });
+                for i in (at * fs).ceil() as usize..((at + 4e-3) * fs).min(n as f64) as usize {
+                    let since = i as f64 / fs - at;
+                    x[i] += height * (-since / 6e-4).exp() * (TAU * 4000.0 * since).sin();
+                }
+            }
+            let search = LineSearch { harmonics: 2, ..LineSearch::new(200.0) };
+            line_frequency(&x, fs, BAND, &search).is_some_and(|line| (line.frequency / rate - 1.0).abs() < 1e-3)
+        });
+        assert!(found.count() >= 19, "{low} {noise}");
+    }
+}
+
 #[test]
 fn prop_a_dead_sensor_shows_no_line() {
     for (i, value) in [0.1, 1.0, 2.5, 9.81, -0.03].into_iter().enumerate() {

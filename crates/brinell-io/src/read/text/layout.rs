@@ -226,7 +226,7 @@ fn decimal(delimiter: Delimiter, format: &TextFormat, data: &[&[u8]]) -> Option<
     format.decimal.or_else(|| {
         let comma = fields().any(|f| is_fraction(f) && !may_be_grouped(f, b','));
         // Between commas only numbers in quotes can have decimal ones, and then none has a point.
-        let may = delimiter != Delimiter::Comma || !fields().any(|f| is_point(f));
+        let may = delimiter != Delimiter::Comma || !fields().any(is_point);
         if comma && may {
             Some(Decimal::Comma)
         } else if delimiter == Delimiter::Comma || shows(b'.', Decimal::Point) {
