@@ -47,6 +47,8 @@ const bare = (text) => text.replace(/\/\*\* [\s\S]*?\*\/|\/\*\*\n[\s\S]*?\*\//g,
 
 /** Of the example that the page begins with: as many samples as the page shows of a live bearing, and a spectrum of so many. */
 const EXAMPLE = "rectangle", SHOWN = 2560, WINDOW = 4096, SLICE = 1024;
+/** Characters of an example beyond which the page asks the engine for it: scans and photographs. */
+const LONGEST = 5000;
 
 /** Numbers for a picture: without the last twelve bits, which nobody sees, they compress. @param {unknown} value */
 function drawn(value) {
@@ -67,6 +69,7 @@ async function stored(wasm) {
   } while (!got.done);
   const spectra = ask({ do: "spectra", slot, longest: WINDOW }), { headline } = ask({ do: "verdict", slot }), { defects: damage } = ask({ do: "damage", slot });
   for (const one of [spectra.spectrum, spectra.envelope]) one.values = drawn(one.values);
+  for (const example of about.examples) if (example.toml.length > LONGEST) delete example.toml;
   return encode({ about, toml, opened, damage, headline, moments: got.moments, first: got.first + got.x.length - x.length, x: drawn(x), spectra });
 }
 

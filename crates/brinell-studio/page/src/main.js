@@ -131,6 +131,12 @@ class Studio {
     return toml;
   }
 
+  /** Of a page that holds a stored run, the engine alone has what examples' files hold. @param {string} name @returns {Promise<string>} */
+  async #example(name) {
+    const of = (/** @type {any} */ about) => about.examples.find((/** @type {any} */ e) => e.name === name).toml;
+    return of(this.about) ?? of(await this.side.live.urgent({ do: "about" }));
+  }
+
   #fill() {
     const select = byId("preset"), group = (/** @type {string} */ label, /** @type {[string, string, string][]} */ list) => h("optgroup", { label },
       ...list.map(([value, text, title]) => h("option", { value, title }, text)));
@@ -139,7 +145,7 @@ class Studio {
     select.addEventListener("change", () => {
       const [kind, name] = select.value.split(/:(.*)/);
       this.#preset = select.value;
-      if (kind === "example") this.load(this.about.examples.find((/** @type {any} */ e) => e.name === name).toml, false);
+      if (kind === "example") void this.#example(name).then((toml) => this.load(toml, false), (error) => this.#failed(error));
       if (kind === "bearing") {
         // What the preset fills is not stated any more; operation and damage stay.
         this.side.store.change((s) => {
