@@ -12,7 +12,7 @@ use std::f64::consts::{PI, TAU};
 pub struct StaticLoadZone {
     /// (row from 0, orbit angle in rad in [-pi, pi), Q_in, Q_out in N).
     pub points: Vec<(usize, f64, f64, f64)>,
-    /// Largest Q_out, N; where damage turns, with up to eight pieces of it, the longest, in and about the load zone.
+    /// Largest Q_out, N; where damage turns, with up to two pieces of it, the longest, in and about the load zone.
     pub largest: f64,
     /// Largest Q_in, N, likewise.
     pub largest_inner: f64,
@@ -105,10 +105,10 @@ pub fn static_load_zone(model: &Model) -> Result<StaticLoadZone, NoBalance> {
     Ok(zone)
 }
 
-/// Pieces of turning damage that are looked at, the longest ones, and of how many pieces in all their number is one
-/// less: there can be thousands, alike, and each balance asks all of them.
-const MOST_TURNED: usize = 8;
-const FEWER_AT: usize = 64;
+/// Pieces of turning damage that are looked at, the longest ones; one where there are many pieces, alike, as each balance
+/// asks all of them.
+const TURNED: usize = 2;
+const MANY: usize = 32;
 
 /// The heaviest contacts with damage of the inner raceway and of rollers turned through the load zone: it takes load off
 /// the rollers that are over it, and others carry more.
@@ -120,7 +120,7 @@ fn heaviest_over_turns(model: &Model, zone: &mut StaticLoadZone) -> Result<(), N
     };
     let mut turning: Vec<_> = model.defects.iter().filter(|d| d.surface != Surface::OuterRaceway).collect();
     turning.sort_by(|a, b| half_arc(b).total_cmp(&half_arc(a)));
-    let most = (FEWER_AT / model.defects.len().max(1)).clamp(1, MOST_TURNED);
+    let most = if model.defects.len() > MANY { 1 } else { TURNED };
     for defect in turning.into_iter().take(most) {
         let (first, last) = defect.shape.arc();
         let of_roller = defect.surface != Surface::InnerRaceway;
