@@ -54,7 +54,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         End::Failed(error) => return Err(error.to_string().into()),
         End::Complete | End::Stopped => println!("{} s", result.outcome.reached),
     }
-    let loaded = largest.contacts.iter().zip(&largest.forces).filter(|(_, force)| **force > 100.0);
+    let loaded = largest.contacts.iter().zip(&largest.forces).filter(|(_, force)| **force > 60.0);
     loaded.for_each(|(contact, force)| println!("{}: at most {force:.1} {}", contact.name, contact.unit));
     println!("sensor_ax: at most {:.1} m/s^2", largest.peak);
     println!("sensor_ax.rms: {:?} m/s^2", result.quantity("sensor_ax.rms").and_then(|q| q.value));
