@@ -6,12 +6,10 @@ use crate::report::{Answer, Trouble};
 use crate::{about, damage, differ, judged, measured, pen, spectra, text};
 use brinell::bearing::orders_of;
 use brinell::channel::SENSOR;
-use brinell::observe::Findings;
 use brinell::plausibility::Beforehand;
 use brinell::result::{Spread, quantities};
 use brinell::scenario::Scenario;
-use brinell::simulate::Outcome;
-use brinell::summary::{self, Parts};
+use brinell::summary;
 use serde_json::{Value, json};
 use std::sync::{Mutex, PoisonError};
 
@@ -235,18 +233,8 @@ fn indicators(bench: &Bench) -> Value {
     json!({
         "settled": summary::unsettled(findings).is_empty(),
         "quantities": all,
-        "warnings": resulting(bench, outcome, findings),
+        "warnings": summary::afterwards(&bench.loaded.scenario, bench.simulation(), outcome, findings),
         "steps": outcome.work.solver.steps,
         "evaluations": outcome.work.solver.evaluations,
     })
-}
-
-/// What a run's reader should know of its result, in the words of `brinell run`; without what was known beforehand.
-fn resulting(bench: &Bench, outcome: &Outcome, findings: &Findings) -> Vec<String> {
-    let (loaded, simulation) = (&bench.loaded, bench.simulation());
-    let beforehand = &Beforehand::of(&loaded.scenario, simulation.model());
-    let known: Vec<String> = loaded.warnings.iter().chain(&beforehand.warnings).map(ToString::to_string).collect();
-    let mut all = summary::warnings(&Parts { loaded, simulation, outcome, findings, beforehand, healthy: None });
-    all.retain(|words| !known.contains(words));
-    all
 }

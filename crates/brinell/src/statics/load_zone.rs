@@ -16,7 +16,7 @@ pub struct StaticLoadZone {
     pub largest: f64,
     /// Largest Q_in, N, likewise.
     pub largest_inner: f64,
-    /// The same of the healthy bearing, N.
+    /// Largest Q_out of the healthy bearing, N.
     pub healthy_largest: f64,
     /// Extent of the zone where rollers of the healthy bearing carry load between the raceways, rad; 0 where none does, a
     /// full turn where every roller does everywhere. A roller whose own weight rests on the inner ring carries none, and
