@@ -15,7 +15,7 @@ use brinell_report::{
     Chapter, IndicatorLine, IndicatorPlot, IndicatorPoint, Study, StudyPiece, Table, ZONES, scaled, study_html,
     study_pictures,
 };
-use brinell_study::campaign::{Misses, count_result};
+use brinell_study::campaign::of_results;
 use serde_json::{Value, json};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
@@ -354,12 +354,8 @@ fn report(rows: &[Row]) -> Study {
 
 /// Each kind once: a folder of files that one option contradicts would fill the page.
 fn warnings(rows: &[Row]) -> Vec<String> {
-    let (mut all, mut looked) = (Vec::new(), 0);
-    for (k, found) in rows.iter().enumerate().filter_map(|(k, row)| Some((k, row.found.as_ref().ok()?))) {
-        count_result(&mut all, found.warnings.clone(), k);
-        looked += 1;
-    }
-    all.iter().map(|miss: &Misses| miss.words(looked, "file", &rows[miss.run].name)).collect()
+    let of = |(k, row): (usize, &Row)| Some((k, row.found.as_ref().ok()?.warnings.clone()));
+    of_results(rows.iter().enumerate().filter_map(of), "file", |k| &rows[k].name)
 }
 
 /// Files whose verdict rests on another speed than the one given.

@@ -9,7 +9,7 @@ use brinell_report::{
     Chapter, Fact, HeatMap, IndicatorLine, IndicatorPlot, IndicatorPoint, Study, StudyPiece, Table, sweep_lead,
     sweep_legend, value_text, words,
 };
-use brinell_study::campaign::{Axis, count_result};
+use brinell_study::campaign::{Axis, of_results};
 use std::collections::HashMap;
 
 /// Points and failures that the page lists; beyond that, the table is the place.
@@ -37,12 +37,8 @@ pub(super) fn usual(scenario: &Scenario, names: &[String]) -> Vec<String> {
 
 /// What the results should be warned of: each kind of problem once.
 pub(super) fn doubts(states: &[State]) -> Vec<String> {
-    let (mut all, mut looked) = (Vec::new(), 0);
-    for (k, row) in states.iter().enumerate().filter_map(|(k, state)| Some((k, state.row()?))) {
-        count_result(&mut all, row.warnings.clone(), k);
-        looked += 1;
-    }
-    all.iter().map(|miss| miss.words(looked, "point", miss.run + 1)).collect()
+    let of = |(k, state): (usize, &State)| Some((k, state.row()?.warnings.clone()));
+    of_results(states.iter().enumerate().filter_map(of), "point", |k| k + 1)
 }
 
 pub(super) fn report(points: &Points, states: &[State], plots: &[String]) -> Study {

@@ -11,7 +11,7 @@ use brinell::observe::passes::place;
 use brinell::result::{Quantity, RunResult};
 use brinell::signal::ratio::Ratio;
 use brinell::summary::afterwards;
-use brinell_study::campaign::{BANDWIDTHS, Beforehand, Compared, Misses, Side, bandwidth, count, count_result};
+use brinell_study::campaign::{BANDWIDTHS, Beforehand, Compared, Misses, Side, bandwidth, count, of_results};
 
 /// Longest value in the table of what differs.
 const LONGEST: usize = 60;
@@ -121,16 +121,12 @@ fn facts(names: &[String], compared: &[Compared]) -> Vec<Fact> {
 
 /// What the results should be warned of: each kind of problem once, and what makes runs hard to hold against each other.
 pub fn doubts(sides: &[Side], runs: &[&RunResult]) -> Vec<String> {
-    let mut all = Vec::new();
-    for (k, run) in runs.iter().enumerate() {
+    let of = |(k, run): (usize, &&RunResult)| {
         let RunResult { scenario, simulation, outcome, findings } = run;
-        count_result(&mut all, afterwards(scenario, simulation, outcome, findings), k);
-    }
-    [told(&all, sides), unlike(sides, runs)].concat()
-}
-
-fn told(all: &[Misses], sides: &[Side]) -> Vec<String> {
-    all.iter().map(|miss| miss.words(sides.len(), "run", &sides[miss.run].label)).collect()
+        (k, afterwards(scenario, simulation, outcome, findings))
+    };
+    let told = of_results(runs.iter().enumerate().map(of), "run", |k| &sides[k].label);
+    [told, unlike(sides, runs)].concat()
 }
 
 /// What the scenarios should be warned of before they run: each kind of problem once.
@@ -140,7 +136,7 @@ pub fn beforehand(sides: &[Side]) -> Vec<String> {
         let warnings = known.warnings(&side.loaded.scenario);
         warnings.into_iter().for_each(|warning| count(&mut all, warning, k));
     }
-    told(&all, sides)
+    all.iter().map(|miss: &Misses| miss.words(sides.len(), "run", &sides[miss.run].label)).collect()
 }
 
 /// What makes curves hard to hold against each other.

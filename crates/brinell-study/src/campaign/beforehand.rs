@@ -59,8 +59,23 @@ pub fn join(all: &mut Vec<Misses>, later: Misses) {
 }
 
 /// What a run that is over should be warned of, by [`brinell::summary::afterwards`].
-pub fn count_result(all: &mut Vec<Misses>, warnings: Vec<String>, run: usize) {
+fn count_result(all: &mut Vec<Misses>, warnings: Vec<String>, run: usize) {
     warnings.into_iter().for_each(|words| count(all, Problem::warning("", words), run));
+}
+
+/// What results should be warned of, each kind once with how many have it: of run k by [`brinell::summary::afterwards`].
+/// `one` is what each is, and `name` what it is called.
+pub fn of_results<N: Display>(
+    results: impl IntoIterator<Item = (usize, Vec<String>)>,
+    one: &str,
+    name: impl Fn(usize) -> N,
+) -> Vec<String> {
+    let (mut all, mut looked) = (Vec::new(), 0);
+    for (k, warnings) in results {
+        count_result(&mut all, warnings, k);
+        looked += 1;
+    }
+    all.iter().map(|miss: &Misses| miss.words(looked, one, name(miss.run))).collect()
 }
 
 /// Where a scenario's sensor signals end: its sample rate and the sensor's band, Hz.
