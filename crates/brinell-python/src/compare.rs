@@ -49,14 +49,19 @@ impl Comparison {
 
     /// What `compare.json` holds.
     fn report<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
-        let warnings = [beforehand(&self.sides), doubts(&self.sides, &results(&self.runs))].concat();
-        json_to_python(py, &sides_json(&self.sides, &self.compared, &warnings))
+        json_to_python(py, &sides_json(&self.sides, &self.compared, &self.warnings(&results(&self.runs))))
     }
 
     /// What `compare.html` holds.
     fn to_html(&self, py: Python<'_>) -> String {
         let all = results(&self.runs);
-        py.detach(|| study_html(&Study::of_runs(&self.sides, &all, &self.compared)))
+        py.detach(|| study_html(&Study::of_runs(&self.sides, &all, &self.compared, self.warnings(&all))))
+    }
+}
+
+impl Comparison {
+    fn warnings(&self, runs: &[&RunResult]) -> Vec<String> {
+        [beforehand(&self.sides), doubts(&self.sides, runs)].concat()
     }
 }
 

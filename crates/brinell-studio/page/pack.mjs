@@ -47,8 +47,6 @@ const bare = (text) => text.replace(/\/\*\* [\s\S]*?\*\/|\/\*\*\n[\s\S]*?\*\//g,
 
 /** Of the example that the page begins with: as many samples as the page shows of a live bearing, and a spectrum of so many. */
 const EXAMPLE = "rectangle", SHOWN = 2560, WINDOW = 4096, SLICE = 1024;
-/** Characters of an example beyond which the page asks the engine for it: scans and photographs. */
-const LONGEST = 5000;
 
 /** Numbers for a picture: without the last twelve bits, which nobody sees, they compress. @param {unknown} value */
 function drawn(value) {
@@ -60,7 +58,7 @@ function drawn(value) {
 /** What the page shows before its engine is there: the engine's own answers, as one message. @param {Uint8Array<ArrayBuffer>} wasm */
 async function stored(wasm) {
   const { ask } = await hosted(await WebAssembly.compile(wasm));
-  const about = ask({ do: "about" }), { toml } = about.examples.find((/** @type {any} */ e) => e.name === EXAMPLE), slot = 0;
+  const about = ask({ do: "about" }), { toml } = ask({ do: "example", name: EXAMPLE }), slot = 0;
   const opened = ask({ do: "open", slot, toml, carry: false });
   let got = /** @type {any} */ (null), x = new Float32Array(0);
   do {
@@ -69,7 +67,6 @@ async function stored(wasm) {
   } while (!got.done);
   const spectra = ask({ do: "spectra", slot, longest: WINDOW }), { headline } = ask({ do: "verdict", slot }), { defects: damage } = ask({ do: "damage", slot });
   for (const one of [spectra.spectrum, spectra.envelope]) one.values = drawn(one.values);
-  for (const example of about.examples) if (example.toml.length > LONGEST) delete example.toml;
   return encode({ about, toml, opened, damage, headline, moments: got.moments, first: got.first + got.x.length - x.length, x: drawn(x), spectra });
 }
 

@@ -1,6 +1,6 @@
 //! What the page offers before anything runs.
 
-use crate::report::Answer;
+use crate::report::{Answer, Trouble};
 use crate::{pen, text};
 use brinell::analysis::NAMED;
 use brinell::bearing::catalogue;
@@ -35,7 +35,7 @@ pub fn example_file(name: &str) -> Option<&'static [u8]> {
 }
 
 /// The answer to `about`.
-pub(crate) fn about() -> Answer<Value> {
+pub(crate) fn about() -> Value {
     let bearings: Vec<Value> = (catalogue::all().iter())
         .map(|entry| {
             let element = if entry.has_balls() { "ball" } else { "roller" };
@@ -45,20 +45,26 @@ pub(crate) fn about() -> Answer<Value> {
     // Also those of data sets that are of a catalogued size, as 6205-2RS: a measured file may be of them.
     let named = NAMED.iter().map(|b| b.name).filter(|name| catalogue::find_exactly(name).is_none());
     let known: Vec<&str> = catalogue::all().iter().map(|entry| entry.name.as_str()).chain(named).collect();
-    let example = |(name, text): &(&str, &str)| {
-        // With what its files hold: a file of the same name beside another scenario is another file.
-        let (_, toml) = pen::resolved(text::read(text)?, (*text).to_owned(), example_file)?;
-        Ok(json!({ "name": name, "words": words(text), "toml": toml }))
-    };
-    let examples = EXAMPLES.iter().map(example).collect::<Answer<Vec<Value>>>()?;
-    Ok(json!({
+    let examples: Vec<Value> =
+        EXAMPLES.iter().map(|(name, text)| json!({ "name": name, "words": words(text) })).collect();
+    json!({
         "version": brinell::VERSION,
         "engine": if cfg!(target_family = "wasm") { "webassembly" } else { "native" },
         "schema": json_schema(),
         "bearings": bearings,
         "known": known,
         "examples": examples,
-    }))
+    })
+}
+
+/// The answer to `example`: its text, with what its files hold, as a file of the same name beside another scenario is
+/// another file.
+pub(crate) fn example(request: &Value) -> Answer<Value> {
+    let name = request["name"].as_str().unwrap_or_default();
+    let (_, text) = (EXAMPLES.iter().find(|(n, _)| *n == name))
+        .ok_or_else(|| Trouble::of(format!("no example is named {name:?}")))?;
+    let (_, toml) = pen::resolved(text::read(text)?, (*text).to_owned(), example_file)?;
+    Ok(json!({ "toml": toml }))
 }
 
 /// The first sentence of the comment on top of an example.

@@ -74,7 +74,8 @@ impl Studio {
         let (request, given) = (&message.json, &message.arrays);
         let name = request["do"].as_str().unwrap_or_default();
         match name {
-            "about" => about::about(),
+            "about" => Ok(about::about()),
+            "example" => about::example(request),
             "normal" => normal(request),
             "outline" => pen::outlined(request, given),
             "scratch" => pen::scratched(request, given),

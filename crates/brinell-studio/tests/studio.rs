@@ -220,7 +220,8 @@ fn prop_every_example_opens_and_the_photo_is_read() {
     assert!(about["bearings"].as_array().unwrap().len() > 15);
     for example in about["examples"].as_array().unwrap() {
         assert!(!example["words"].as_str().unwrap().is_empty(), "{}", example["name"]);
-        let opened = good(&mut studio, json!({ "do": "open", "slot": 0, "toml": example["toml"] })).json;
+        let text = good(&mut studio, json!({ "do": "example", "name": example["name"] })).json;
+        let opened = good(&mut studio, json!({ "do": "open", "slot": 0, "toml": text["toml"] })).json;
         assert!(opened["orders"]["BPFO"].as_f64().unwrap() > 1.0);
         if example["name"] == "photo" {
             let damage = good(&mut studio, json!({ "do": "damage", "slot": 0 })).json;

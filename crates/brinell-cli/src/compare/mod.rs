@@ -56,7 +56,10 @@ pub(crate) fn compare(args: &CompareArgs) -> Result<ExitCode, Failure> {
     };
     let all: Vec<&RunResult> = runs.iter().collect();
     let compared = campaign::compare(&all);
-    let report = Study::of_runs(&sides, &all, &compared);
+    let doubts = brinell_report::doubts(&sides, &all);
+    let warnings = [&beforehand[..], &doubts].concat();
+    let json = (COMPARISON, sides_json(&sides, &compared, &warnings));
+    let report = Study::of_runs(&sides, &all, &compared, warnings);
     let table = sides_table(&sides, &compared);
     ready.push(table.prepare_csv(folder.join(CSV))?);
     let metadata = Metadata::default().with(keys::VERSION, brinell::VERSION);
@@ -65,8 +68,6 @@ pub(crate) fn compare(args: &CompareArgs) -> Result<ExitCode, Failure> {
         [] => Vec::new(),
         _ => brinell_report::study_pictures(&report, layout),
     };
-    let doubts = brinell_report::doubts(&sides, &all);
-    let json = (COMPARISON, sides_json(&sides, &compared, &[&beforehand[..], &doubts].concat()));
     let page = brinell_report::study_html(&report);
     let (written, json) = earlier.publish(ready, json, Some((PAGE, &page)), (&pictures, &args.plots))?;
     if args.json {

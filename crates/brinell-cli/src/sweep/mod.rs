@@ -21,7 +21,7 @@ use brinell_io::{Metadata, keys};
 use brinell_study::campaign::fingerprint;
 use brinell_study::runner::{JOURNAL, Kept, Task, estimate, to_run};
 
-use page::{doubts, usual};
+use page::usual;
 pub(crate) use points::reason;
 use points::{FromSource, Points};
 use serde_json::{Value, json};
@@ -56,7 +56,9 @@ pub(crate) fn sweep(args: &SweepArgs) -> Result<ExitCode, Failure> {
     let outcome = campaign::run(&tasks, &work, &mut ledger, threads, args.quiet, &stop)?;
 
     let states = states(&points, |fingerprint| ledger.kept.row(fingerprint));
-    let written = write(args, &points, &states, &plots, &folder)?;
+    let doubts = page::doubts(&states);
+    let warnings = [&points.warnings[..], &doubts].concat();
+    let written = write(args, &points, &states, &plots, &folder, warnings)?;
     let [complete, failed, missing] = ["complete", "failed", "not run"].map(|word| count(&states, word));
     if !args.quiet {
         say!(
@@ -70,7 +72,7 @@ pub(crate) fn sweep(args: &SweepArgs) -> Result<ExitCode, Failure> {
     }
     tell_failures(&points, &states);
     if !args.quiet {
-        doubts(&states).iter().for_each(|doubt| complain!("{doubt}"));
+        doubts.iter().for_each(|doubt| complain!("{doubt}"));
     }
     if outcome.is_break() {
         complain!(
@@ -230,6 +232,7 @@ fn write(
     states: &[State],
     plots: &[String],
     folder: &Path,
+    warnings: Vec<String>,
 ) -> Result<Vec<PathBuf>, Failure> {
     let table = table::table(points, states, args.keep_signals);
     let metadata = Metadata::default().with(keys::VERSION, brinell::VERSION).with(keys::SCENARIO, points.source.text());
@@ -240,7 +243,6 @@ fn write(
         table.columns.iter().map(|c| (c.name.clone(), c.unit.as_str().into())).collect();
     let overrides: serde_json::Map<String, Value> =
         points.source.overrides().iter().map(|(key, value)| (key.clone(), value.as_str().into())).collect();
-    let warnings = [&points.warnings[..], &doubts(states)].concat();
     let json = json!({
         "brinell": brinell::VERSION,
         "plan": points.header()["plan"],
@@ -256,7 +258,7 @@ fn write(
         say::json(&shown);
     }
     put(folder, "sweep.json", &pretty(&json), &mut written)?;
-    let report = page::report(points, states, plots);
+    let report = page::report(points, states, plots, warnings);
     put(folder, "sweep.html", &brinell_report::study_html(&report), &mut written)?;
     if !args.plots.is_empty() {
         let layout = args.print.layout(&args.plots)?;

@@ -41,7 +41,7 @@ pub(super) fn doubts(states: &[State]) -> Vec<String> {
     of_results(states.iter().enumerate().filter_map(of), "point", |k| k + 1)
 }
 
-pub(super) fn report(points: &Points, states: &[State], plots: &[String]) -> Study {
+pub(super) fn report(points: &Points, states: &[State], plots: &[String], warnings: Vec<String>) -> Study {
     let [complete, failed, missing] = ["complete", "failed", "not run"].map(|word| count(states, word));
     let axes: Vec<String> = points.plan.axes().iter().map(|axis| axis.keys().join(" with ")).collect();
     let fact = |label: &str, n: usize, note: &str| Fact::new(label, n.to_string(), "", note);
@@ -66,12 +66,7 @@ pub(super) fn report(points: &Points, states: &[State], plots: &[String]) -> Stu
         title: format!("Sweep of {}", points.example.name),
         subtitle: format!("{} over {}", plural(states.len(), "point"), axes.join(" × ")),
         version: brinell::VERSION.into(),
-        warnings: (missing > 0)
-            .then_some(incomplete)
-            .into_iter()
-            .chain(points.warnings.iter().cloned())
-            .chain(doubts(states))
-            .collect(),
+        warnings: (missing > 0).then_some(incomplete).into_iter().chain(warnings).collect(),
         lead: sweep_lead(&drawn),
         facts,
         chapters: chapters(points, states, plots, drawn),

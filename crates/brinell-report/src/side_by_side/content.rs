@@ -17,8 +17,9 @@ use brinell_study::campaign::{BANDWIDTHS, Beforehand, Compared, Misses, Side, ba
 const LONGEST: usize = 60;
 
 impl Study {
-    /// What the page of a comparison shows: `compare.html` of `brinell compare`.
-    pub fn of_runs(sides: &[Side], runs: &[&RunResult], compared: &[Compared]) -> Self {
+    /// What the page of a comparison shows: `compare.html` of `brinell compare`. `warnings`: those of [`beforehand`] and
+    /// [`doubts`].
+    pub fn of_runs(sides: &[Side], runs: &[&RunResult], compared: &[Compared], warnings: Vec<String>) -> Self {
         let names: Vec<String> = sides.iter().map(|side| side.label.clone()).collect();
         let chapter = |id: &str, title: &str, pieces| Chapter::new(id, title, title, pieces);
         let mut chapters = vec![
@@ -54,7 +55,7 @@ impl Study {
             title: names.join(", "),
             subtitle: format!("{} runs, each over the baseline {}", names.len(), names[0]),
             version: brinell::VERSION.into(),
-            warnings: [beforehand(sides), doubts(sides, runs)].concat(),
+            warnings,
             lead: facts.first().map_or(String::new(), Fact::words),
             facts,
             chapters,

@@ -82,7 +82,7 @@ class Studio {
     this.controls = new Controls(byId("controls"), this.about.schema, (spec, value, live) => this.#change(spec, value, live));
     this.#fill();
     this.#bind();
-    const toml = await this.#first(a);
+    const toml = await this.#first(a, stored?.toml ?? (await (await engine).ask({ do: "example", name: START })).toml);
     if (stored && stored.toml === toml) this.#still(a, stored);
     const frame = () => {
       this.#draw();
@@ -110,11 +110,11 @@ class Studio {
     return side;
   }
 
-  /** The scenario of the link, else that of a page around this one, else what was here last time, else an example. @param {Side} side */
-  async #first(side) {
-    const example = this.about.examples.find((/** @type {any} */ e) => e.name === START) ?? this.about.examples[0], before = remembered();
+  /** The scenario of the link, else that of a page around this one, else what was here last time, else an example. @param {Side} side @param {string} example its text */
+  async #first(side, example) {
+    const before = remembered();
     const given = /** @type {{brinellScenario?: string}} */ (globalThis).brinellScenario;
-    let toml = given ?? before ?? example?.toml ?? "";
+    let toml = given ?? before ?? example;
     try {
       const linked = await fromLink(location.hash);
       if (linked !== null) {
@@ -124,17 +124,11 @@ class Studio {
     } catch (error) {
       notice("link", `The link holds no scenario: ${error instanceof Error ? error.message : error}`, { bad: true });
     }
-    if (toml === example?.toml) byId("state").textContent = `loading ${example.name}`;
+    if (toml === example) byId("state").textContent = `loading ${START}`;
     side.live.edit({ toml }, false);
     // A scenario that is refused leaves the page without a bearing: the example comes instead.
-    this.fallback = () => { if (example) side.live.edit({ toml: example.toml }, false); };
+    this.fallback = () => side.live.edit({ toml: example }, false);
     return toml;
-  }
-
-  /** Of a page that holds a stored run, the engine alone has what examples' files hold. @param {string} name @returns {Promise<string>} */
-  async #example(name) {
-    const of = (/** @type {any} */ about) => about.examples.find((/** @type {any} */ e) => e.name === name).toml;
-    return of(this.about) ?? of(await this.side.live.urgent({ do: "about" }));
   }
 
   #fill() {
@@ -145,7 +139,7 @@ class Studio {
     select.addEventListener("change", () => {
       const [kind, name] = select.value.split(/:(.*)/);
       this.#preset = select.value;
-      if (kind === "example") void this.#example(name).then((toml) => this.load(toml, false), (error) => this.#failed(error));
+      if (kind === "example") void this.side.live.urgent({ do: "example", name }).then(({ toml }) => this.load(toml, false), (error) => this.#failed(error));
       if (kind === "bearing") {
         // What the preset fills is not stated any more; operation and damage stay.
         this.side.store.change((s) => {

@@ -28,7 +28,7 @@ async function native(toml, signals = "none") {
 
 /** Opens an example for a shorter time, runs it from t = 0 to its end, and gives its TOML and quantities. */
 const finished = (page, example, duration_s) => page.evaluate(async ([name, duration_s]) => {
-  const studio = globalThis.brinellStudio, { side } = studio, { toml } = studio.about.examples.find((e) => e.name === name);
+  const studio = globalThis.brinellStudio, { side } = studio, { toml } = await side.live.ask({ do: "example", name });
   const { scenario } = await side.live.ask({ do: "normal", toml });
   scenario.simulation = { ...scenario.simulation, duration_s };
   studio.load((await side.live.ask({ do: "normal", scenario })).toml);

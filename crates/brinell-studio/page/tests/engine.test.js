@@ -35,20 +35,20 @@ describe("the engine as WebAssembly", () => {
   it("has no imports", () => assert.deepEqual(WebAssembly.Module.imports(module), []));
 
   it("computes the recorded bits, in whatever slices", async (t) => {
-    const { ask } = await hosted(module), { examples } = ask({ do: "about" }), found = {};
+    const { ask } = await hosted(module), found = {};
     for (const name of Object.keys(GOLDEN)) {
-      const { toml } = examples.find((/** @type {any} */ e) => e.name === name), before = process.cpuUsage();
+      const { toml } = ask({ do: "example", name }), before = process.cpuUsage();
       found[name] = run(ask, toml, 256);
       t.diagnostic(`${name}: ${(process.cpuUsage(before).user / 1e5).toFixed(2)} s of processor time for a simulated second`);
     }
     if (process.env.GOLDEN === "write") return writeFileSync(FILE, `${JSON.stringify(found, null, 1)}\n`);
     assert.deepEqual(found, GOLDEN);
-    const rectangle = examples.find((/** @type {any} */ e) => e.name === "rectangle").toml;
+    const rectangle = ask({ do: "example", name: "rectangle" }).toml;
     for (const rows of [1, 100, 10000]) assert.deepEqual(run((await hosted(module)).ask, rectangle, rows), GOLDEN.rectangle);
   });
 
   it("keeps its memory over a thousand messages and a hundred edits", async (t) => {
-    const { ask, size } = await hosted(module), { toml } = ask({ do: "about" }).examples.find((/** @type {any} */ e) => e.name === "rectangle");
+    const { ask, size } = await hosted(module), { toml } = ask({ do: "example", name: "rectangle" });
     ask({ do: "open", slot: 0, toml });
     // Until what is kept of the signal is full.
     for (let k = 0; k < 20; k++) {
