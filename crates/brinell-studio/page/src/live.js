@@ -85,9 +85,9 @@ export class Live {
     this.#wake();
   }
 
-  /** Resolves when no edit waits for the engine: whether the last one has been opened or refused, and is not one that lost the engine. */
+  /** Resolves when no edit waits for the engine or is being made by it: whether the last one has been opened or refused, and is not one that lost the engine. */
   async settled() {
-    if (!this.#closed && (this.#edit || this.#opening)) await new Promise((done) => { this.#settling.push(() => done(null)); });
+    if (!this.#closed && (this.#edit || this.#opening || this.#urgent)) await new Promise((done) => { this.#settling.push(() => done(null)); });
     return !this.#unanswered;
   }
 
@@ -135,7 +135,7 @@ export class Live {
   async #loop() {
     while (!this.#closed) {
       this.#opening = this.#edit !== null;
-      if (!this.#opening) this.#settle();
+      if (!this.#opening && !this.#urgent) this.#settle();
       try {
         if (this.#edit) await this.#open(this.#edit);
         else if (!this.opened || this.#paused || this.#urgent || this.state === "done"
