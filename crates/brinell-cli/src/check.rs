@@ -102,6 +102,13 @@ fn stiffnesses(s: &Scenario, d: &Derived) {
         short(d.contact_stiffness[0], 3),
         short(d.contact_stiffness[1], 3)
     );
+    let damping = s.contact.damping_ns_per_m;
+    let ratio = 2.0 * damping / (d.contact_stiffness[0] + d.contact_stiffness[1]);
+    say!(
+        "  damping                 {} N s/m, {} s times their mean; of whole bearings Kraemer gives 2.5e-6 to 2.5e-5 s",
+        plain_number(damping),
+        short(ratio, 2)
+    );
 }
 
 fn time_scales(s: &Scenario, model: &Model, d: &Derived) {

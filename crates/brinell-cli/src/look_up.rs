@@ -208,7 +208,7 @@ fn find(name: &str) -> Result<KnownBearing, Failure> {
 const ORDERS: f64 = 60.0;
 
 pub(crate) fn frequencies(args: &FrequenciesArgs) -> Result<ExitCode, Failure> {
-    let (orders, own_speed) = orders(args)?;
+    let Asked { orders, source, speed_rpm: own_speed } = asked(args)?;
     let rpm = args.speed.or(own_speed).unwrap_or(ORDERS);
     if !rpm.is_finite() || rpm == 0.0 {
         return Err(Failure::Usage(format!("--speed {rpm}: expected a speed other than 0, in r/min")));
@@ -218,7 +218,7 @@ pub(crate) fn frequencies(args: &FrequenciesArgs) -> Result<ExitCode, Failure> {
         let values: serde_json::Map<String, Value> = rows
             .iter()
             .map(|(name, hz, _)| (format!("{}_hz", name.to_lowercase().replace(' ', "")), (*hz).into()))
-            .chain([("speed_rpm".to_owned(), rpm.into())])
+            .chain([("speed_rpm".to_owned(), rpm.into()), ("source".to_owned(), source.into())])
             .collect();
         document(&Value::Object(values).to_string());
     } else {
@@ -226,17 +226,27 @@ pub(crate) fn frequencies(args: &FrequenciesArgs) -> Result<ExitCode, Failure> {
         for (name, hz, meaning) in rows {
             say!("  {name:<7} {hz:>11.4} Hz  {:>9.5} x shaft  {meaning}", hz / (rpm.abs() / 60.0));
         }
+        say!("{source}");
     }
     Ok(ExitCode::SUCCESS)
 }
 
-/// Orders of the bearing asked about, and the scenario's speed, r/min.
-fn orders(args: &FrequenciesArgs) -> Result<(DefectOrders, Option<f64>), Failure> {
-    let known = |name: &str| Ok((find(name)?.orders().map_err(Failure::Usage)?.0, None));
+/// The bearing that is asked about.
+struct Asked {
+    orders: DefectOrders,
+    /// Where they come from.
+    source: String,
+    /// The scenario's, where it is constant.
+    speed_rpm: Option<f64>,
+}
+
+fn asked(args: &FrequenciesArgs) -> Result<Asked, Failure> {
+    let of = |(orders, source)| Asked { orders, source, speed_rpm: None };
+    let known = |name: &str| Ok(of(find(name)?.orders().map_err(Failure::Usage)?));
     let Some(bearing) = &args.bearing else {
         return match (&args.name, args.elements.orders()?) {
             (Some(name), _) => known(name),
-            (None, Some((orders, _))) => Ok((orders, None)),
+            (None, Some(given)) => Ok(of(given)),
             (None, None) => Err(Failure::Usage(
                 "which bearing? Give a name (`brinell bearing list`), a scenario file, or --rollers, --pitch and --diameter"
                     .into(),
@@ -244,7 +254,11 @@ fn orders(args: &FrequenciesArgs) -> Result<(DefectOrders, Option<f64>), Failure
         };
     };
     match scenario_meant(bearing)? {
-        Some(scenario) => Ok((orders_of(&scenario.bearing), scenario.operation.speed_rpm.constant())),
+        Some(Scenario { bearing: own, operation, .. }) => Ok(Asked {
+            orders: orders_of(&own),
+            source: format!("the scenario {bearing}"),
+            speed_rpm: operation.speed_rpm.constant(),
+        }),
         None => known(bearing),
     }
 }

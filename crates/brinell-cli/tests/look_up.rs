@@ -68,7 +68,16 @@ fn regress_frequencies_of_a_scenario_use_its_speed() {
     let folder = folder_with("s", SHORT);
     let read = brinell(folder.path(), &["frequencies", "s"]).exits(0).says(&["Pure rolling at 1500 r/min"]);
     let piped = brinell_reading(folder.path(), &["frequencies", "-"], SHORT.as_bytes()).exits(0);
-    assert_eq!(read.out, piped.out);
+    assert_eq!(read.out.replace("the scenario s", "the scenario -"), piped.out);
+}
+
+#[test]
+fn regress_frequencies_tell_that_a_maker_in_front_chooses_nothing() {
+    let words = "number or size of its 11 elements a row is estimated";
+    let another = "those of NACHI give 10 of 16.669 mm";
+    call(&["frequencies", "NACHI 6213"]).exits(0).says(&[words, another, "may differ between makers"]);
+    let json = parsed(&call(&["frequencies", "NACHI 6213", "--json"]).exits(0).out);
+    assert!(json["source"].as_str().unwrap().contains(another), "{json}");
 }
 
 #[test]

@@ -59,3 +59,18 @@ pub(crate) fn boundary_dimension(word: &str) -> Option<(&'static str, &'static s
         _ => None,
     }
 }
+
+/// What `word` requests that the model leaves out.
+pub(crate) fn left_out(word: &str) -> Option<&'static str> {
+    let word = word.to_lowercase();
+    let has = |part: &str| word.contains(part);
+    if has("contact_angle") {
+        Some("a contact angle is left out: elements press radially, and the angle is 0")
+    } else if (has("axial") && (has("load") || has("force"))) || has("preload") || has("thrust") {
+        Some("axial load is left out: the load is radial, and no part moves along the axis")
+    } else if has("outer") && (has("speed") || has("rpm")) {
+        Some("a turning outer ring is left out: the inner ring turns")
+    } else {
+        None
+    }
+}

@@ -63,10 +63,12 @@ impl Entry {
         values.any(|v| v.key == "bearing.element" && v.value == ball)
     }
 
-    /// Whether number, size or pitch circle of its elements is estimated, and with it its defect frequencies.
-    pub(super) fn estimates_orders(&self) -> bool {
+    /// How number, size or pitch circle of its elements was estimated, and with it its defect frequencies: of the
+    /// number, where it was. `None` where sources print all three.
+    pub(super) fn estimates_orders(&self) -> Option<&str> {
         let of_elements = ["bearing.rollers_per_row", "bearing.roller_diameter_mm", "bearing.pitch_diameter_mm"];
-        self.values.iter().any(|v| v.estimated && of_elements.contains(&v.key.as_str()))
+        let estimated = |key: &&str| self.values.iter().find(|v| v.estimated && v.key == *key);
+        Some(&of_elements.iter().find_map(estimated)?.source)
     }
 
     /// One of `FACTS`.

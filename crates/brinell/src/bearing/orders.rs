@@ -61,19 +61,23 @@ impl KnownBearing {
         Self::find(name).ok_or_else(|| Self::unknown(name))
     }
 
+    /// That none is of the type which the name's series means, where it means one.
+    pub(crate) fn of_no_known_type(name: &str) -> Option<String> {
+        let kind = kind(name).filter(|_| !Self::all().any(|known| of_one_kind(name, known.name())))?;
+        let article = if kind.starts_with('a') { "an" } else { "a" };
+        let thrust = if kind.contains("thrust") { ", whose races are passed Z / 2 times a turn each" } else { "" };
+        Some(format!("none of those known by name is {article} {kind}{thrust}"))
+    }
+
     /// Why there is no bearing of this name: the name that was meant, where that can be guessed, and the names that
     /// there are; or that none is of its type.
     pub fn unknown(name: &str) -> String {
         let names: Vec<&str> = Self::all().map(Self::name).collect();
-        let alike = || names.iter().copied().filter(|known| of_one_kind(name, known));
-        if let Some(kind) = kind(name)
-            && alike().next().is_none()
-        {
-            let article = if kind.starts_with('a') { "an" } else { "a" };
-            let thrust = if kind.contains("thrust") { ", whose races are passed Z / 2 times a turn each" } else { "" };
-            return format!("no bearing {name:?}: none of those known by name is {article} {kind}{thrust}");
+        if let Some(why) = Self::of_no_known_type(name) {
+            return format!("no bearing {name:?}: {why}");
         }
         let zeros = with_zeros(name).and_then(|name| Self::find(&name));
+        let alike = || names.iter().copied().filter(|known| of_one_kind(name, known));
         let meant =
             (zeros.map(Self::name)).or_else(|| catalogue::nearest_name(name)).or_else(|| did_you_mean(name, alike()));
         let hint = meant.map_or(String::new(), |name| format!("; did you mean {name}?"));
@@ -97,20 +101,23 @@ impl KnownBearing {
         }
     }
 
-    /// Its orders, and where they come from.
+    /// Its orders, and where they come from: also how they were estimated, where they were.
     ///
     /// # Errors
     /// In words, the key that an entry of the catalogue lacks.
     pub fn orders(self) -> Result<(DefectOrders, String), String> {
         Ok(match self {
             Self::Catalogue(entry) => {
-                let guess = if entry.estimates_orders() {
-                    "; number or size of its elements is estimated, and may differ between makers"
-                } else {
-                    ""
-                };
-                let words = format!("{}: {}{guess}", entry.name, entry.title);
-                (orders(&geometry(entry)?), words)
+                let geometry = geometry(entry)?;
+                let mut words = format!("{}: {}", entry.name, entry.title);
+                if let Some(how) = entry.estimates_orders() {
+                    let how = how.strip_prefix("Estimated: ").unwrap_or(how);
+                    let z = geometry.rollers_per_row;
+                    words += &format!(
+                        "; number or size of its {z} elements a row is estimated ({how}), and may differ between makers"
+                    );
+                }
+                (orders(&geometry), words)
             }
             Self::DataSet(bearing) => (bearing.orders(), bearing.source.to_owned()),
         })

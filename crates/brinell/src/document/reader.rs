@@ -16,7 +16,7 @@ use super::spec::{Spec, unit_of_key, without_unit};
 use super::value_type::{Misfit, ValueType, Words};
 use crate::bearing::catalogue;
 use crate::bearing::clearance::ClearanceClass;
-use crate::did_you_mean::{boundary_dimension, did_you_mean};
+use crate::did_you_mean::{boundary_dimension, did_you_mean, left_out};
 
 /// Tables of one list, such as `[[defects]]`, at most.
 const MOST_TABLES: usize = 5000;
@@ -341,6 +341,8 @@ fn unknown(vocabulary: &[(String, String)], frame: &Frame<'_>, name: &str, entry
         format!("; a bearing's {what} is not asked for: elements run on the raceway, `{raceway}`")
     } else if vocabulary.iter().any(|(_, known)| known == name) {
         format!("; it belongs in {}", elsewhere(name))
+    } else if let Some(why) = left_out(name) {
+        format!("; {why}")
     } else if let Some(known) = did_you_mean(name, frame.named.iter().copied()).or_else(bare) {
         format!("; did you mean `{known}`?")
     } else if let Some(known) = did_you_mean(name, vocabulary.iter().map(|(_, k)| k.as_str())) {

@@ -24,6 +24,9 @@ fn regress_each_bad_line_is_named_with_its_line_and_remedy() {
     let cases = [
         ("pitch_diameter_mm", "pitch_diameter = 49.0", "bearing.pitch_diameter", "did you mean `pitch_diameter_mm`", ""),
         ("pitch_diameter_mm", "outer_diameter_mm = 22", "bearing.outer_diameter_mm", "outside diameter is not asked for: elements run on the raceway, `outer_raceway_diameter_mm`", ""),
+        ("pitch_diameter_mm", "contact_angle_deg = 15", "bearing.contact_angle_deg", "a contact angle is left out", ""),
+        ("speed_rpm", "axial_load_n = 100", "operation.axial_load_n", "axial load is left out: the load is radial", ""),
+        ("speed_rpm", "outer_speed_rpm = 3", "operation.outer_speed_rpm", "a turning outer ring is left out", ""),
         ("pitch_diameter_mm", "outside_diameter_mm = 22", "bearing.outside_diameter_mm", "`outer_raceway_diameter_mm`", ""),
         ("pitch_diameter_mm", "bore_mm = 8", "bearing.bore_mm", "`inner_raceway_diameter_mm`", ""),
         ("pitch_diameter_mm", "speed_rpm = 1", "bearing.speed_rpm", "it belongs in [operation]", ""),

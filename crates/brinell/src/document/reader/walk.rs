@@ -112,9 +112,11 @@ impl Keys for Reader<'_> {
                  bearing of the catalogue, or the keys of [bearing]"
                     .to_owned()
             }
-            _ => catalogue::nearest_name(name)
-                .map(|known| format!("; did you mean {}?", quote(known)))
-                .unwrap_or_default(),
+            _ => match (KnownBearing::of_no_known_type(name), catalogue::nearest_name(name)) {
+                (Some(why), _) => format!("; {why}"),
+                (None, Some(known)) => format!("; did you mean {}?", quote(known)),
+                (None, None) => String::new(),
+            },
         };
         let path = join(&self.frame().path, spec.name);
         let span = self.found.get(&path).and_then(|node| node.span.clone());
