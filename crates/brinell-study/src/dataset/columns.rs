@@ -97,6 +97,8 @@ pub(crate) const STATUS: usize = 2;
 pub(crate) const LABEL: &str = "label";
 /// Column of a run's clipped samples.
 pub(crate) const CLIPPED: &str = "clipped_samples";
+/// Column of what a run's result warns of.
+pub(crate) const WARNINGS: &str = "warnings";
 
 /// Before the signals: what a run is.
 #[rustfmt::skip]
@@ -130,7 +132,7 @@ const KNOWN: [Fixed; 12] = [
 
 /// Last: labels, and what no test rig tells.
 #[rustfmt::skip]
-const TRUTH: [Fixed; 54] = [
+const TRUTH: [Fixed; 55] = [
     ("class", "1", "label of the run", Words(|r| Some(r.draws.plan().classes[r.class()].name.clone()))),
     (LABEL, "1", "the same as a number: place of the class in the plan, from 0", Whole(|r| Some(r.class()))),
     ("reason", "1", "why the run failed", Words(|r| r.failed.clone())),
@@ -202,6 +204,7 @@ const TRUTH: [Fixed; 54] = [
     listed("energy_residual_j", Sum(fields::ENERGY_RESIDUAL)),
     listed("energy_residual_over_turnover", Sum(fields::RELATIVE_RESIDUAL)),
     listed("energy_parametric_j", Sum(fields::PARAMETRIC_ENERGY)),
+    (WARNINGS, "1", "what the energy audit of a complete run warns of, in the words of its summary", WordsList(|r| r.warnings())),
     listed("momentum_imbalance", Sum(fields::MOMENTUM_IMBALANCE)),
     listed("reached_s", Sum(fields::REACHED)),
     ("redrawn", "1", "how often the run was drawn again because its values did not fit", Whole(|r| Some(r.draw.as_ref()?.redrawn as usize))),

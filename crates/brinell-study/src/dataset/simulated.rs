@@ -9,6 +9,7 @@ use brinell::defect::Defect;
 use brinell::document::{Loaded, Problem, on_one_line, one_line};
 use brinell::model::Layout;
 use brinell::observe::slip::RowSlip;
+use brinell::plausibility;
 use brinell::scenario::{self, Scenario, Speed};
 use brinell::sensor::ChannelRecord;
 use brinell::signal::Estimate;
@@ -122,6 +123,12 @@ impl<'a> Run<'a> {
     /// Signal over noise of each of the sensor's signals, dB; none without noise.
     pub(crate) fn signal_to_noise(&self) -> Option<Vec<f64>> {
         self.sensor()?.map(ChannelRecord::signal_to_noise_db).collect()
+    }
+
+    /// What the energy audit of a run that came to its end warns of.
+    pub(crate) fn warnings(&self) -> Option<Vec<String>> {
+        self.gathered()?;
+        Some(plausibility::after(self.scenario()?, &self.outcome()?.energy))
     }
 
     /// What was recorded of a run that came to its end.

@@ -1,22 +1,23 @@
-//! How many runs of each class failed, are clipped, or hold a signal that does not change.
+//! How many runs of each class failed, are clipped, hold a signal that does not change, or have a result with warnings.
 
-use crate::dataset::columns::{CLIPPED, LABEL};
+use crate::dataset::columns::{CLIPPED, LABEL, WARNINGS};
 use crate::dataset::row::is_failed;
 use brinell_io::{Cell, Kind, RecordColumn};
 use serde_json::{Value, json};
 
-/// What is counted, as it is written down: runs; of them, those that failed, those with samples beyond the ADC's range, and
-/// those with a sensor's signal that is one value throughout.
-pub(crate) const COUNTED: [&str; 4] = ["runs", "failed", "clipped", "constant"];
+/// What is counted, as it is written down: runs; of them, those that failed, those with samples beyond the ADC's range,
+/// those with a sensor's signal that is one value throughout, and those whose result has warnings.
+pub(crate) const COUNTED: [&str; 5] = ["runs", "failed", "clipped", "constant", "warned"];
 
 /// Counts by class, of runs whose labels are open: a list of each of `COUNTED`.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
-pub struct Tally(pub(crate) [Vec<u64>; 4]);
+pub struct Tally(pub(crate) [Vec<u64>; 5]);
 
 /// Where in a row is what a tally counts.
 pub(crate) struct Places {
     label: Option<usize>,
     clipped: Option<usize>,
+    warnings: Option<usize>,
     signals: Vec<usize>,
 }
 
@@ -27,6 +28,7 @@ impl Places {
         Self {
             label: place(LABEL),
             clipped: place(CLIPPED),
+            warnings: place(WARNINGS),
             signals: (0..columns.len()).filter(|k| is_signal(&columns[*k])).collect(),
         }
     }
@@ -46,7 +48,7 @@ impl Tally {
 
     /// Of no runs of so many classes.
     pub(crate) fn of(classes: usize) -> Self {
-        Self([(); 4].map(|()| vec![0; classes]))
+        Self([(); 5].map(|()| vec![0; classes]))
     }
 
     /// Counts a run by its row.
@@ -60,7 +62,14 @@ impl Tally {
             Cell::Signal(x) => x.len() > 1 && x.iter().all(|v| *v == x[0]),
             _ => false,
         };
-        let counted = [true, is_failed(cells), whole(places.clipped) > 0, places.signals.iter().any(is_constant)];
+        let warnings = places.warnings.and_then(|k| cells.get(k));
+        let counted = [
+            true,
+            is_failed(cells),
+            whole(places.clipped) > 0,
+            places.signals.iter().any(is_constant),
+            matches!(warnings, Some(Cell::WordsList(words)) if !words.is_empty()),
+        ];
         for (counts, counted) in self.0.iter_mut().zip(counted) {
             if let Some(count) = counts.get_mut(label) {
                 *count += u64::from(counted);
@@ -81,7 +90,7 @@ impl Tally {
 
     /// What the data set's user should know, a sentence each; `classes` are their names.
     pub fn words(&self, classes: &[String]) -> Vec<String> {
-        let [runs, failed, clipped, constant] = &self.0;
+        let [runs, failed, clipped, constant, warned] = &self.0;
         let all: u64 = runs.iter().sum();
         let of = |counts: &[u64], what: &str| {
             let sum: u64 = counts.iter().sum();
@@ -103,7 +112,11 @@ impl Tally {
             of(constant, "a signal that is one value throughout"),
             "the sensor reads nothing, or the ADC's step is larger than the signal: then give sensor.converter_bits more bits or a smaller range",
         );
-        [failed, clipped, constant].into_iter().flatten().collect()
+        let warned = and(
+            of(warned, "an energy audit with a warning"),
+            "the column warnings says which; where it names parametric work, levels depend on the contact law",
+        );
+        [failed, clipped, constant, warned].into_iter().flatten().collect()
     }
 }
 
@@ -122,9 +135,11 @@ mod tests {
 
     #[test]
     fn regress_runs_that_mislead_are_counted_by_class() {
-        let places = Places { label: Some(0), clipped: Some(1), signals: vec![3] };
+        let places = Places { label: Some(0), clipped: Some(1), warnings: Some(4), signals: vec![3] };
         let row = |label, clipped, status: &str, signal: &[f32]| {
-            vec![Cell::Whole(label), Cell::Whole(clipped), Cell::Words(status.into()), Cell::Signal(signal.into())]
+            let warnings = if clipped > 0 { vec!["parametric work".into()] } else { vec![] };
+            let before = [Cell::Whole(label), Cell::Whole(clipped), Cell::Words(status.into())];
+            [&before[..], &[Cell::Signal(signal.into()), Cell::WordsList(warnings)]].concat()
         };
         let mut tally = Tally::of(2);
         tally.add(&row(0, 0, "complete", &[0.0, 0.0]), &places);
@@ -139,5 +154,6 @@ mod tests {
         assert!(words[0].starts_with("1 of 3 runs has failed, without a signal (outer 1 of 2): "), "{words:?}");
         assert!(words[1].contains("clipped (outer 1 of 2): the column clipped_samples"), "{words:?}");
         assert!(words[2].contains("one value throughout (healthy 1 of 1): "), "{words:?}");
+        assert!(words[3].contains("an energy audit with a warning (outer 1 of 2): the column warnings"), "{words:?}");
     }
 }
