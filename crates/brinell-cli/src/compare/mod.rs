@@ -130,7 +130,7 @@ fn run(args: &CompareArgs, sides: &[Side]) -> Result<Option<Vec<RunResult>>, Fai
 /// What matters most of the comparison.
 fn tell(sides: &[Side], compared: &[Compared]) {
     for (k, side) in sides.iter().enumerate().skip(1) {
-        let headline = brinell_report::compared_headline(compared);
+        let headline = brinell_report::compared_headline(sides, compared);
         let ratio = |name: &str| compared.iter().find(|c| c.name == name).and_then(|c| c.ratios[k]);
         if headline.iter().all(|name| ratio(name).is_none()) {
             say!("{}", nothing_in_common(side, &sides[0], compared.iter().filter(|c| c.ratios[k].is_some()).count()));

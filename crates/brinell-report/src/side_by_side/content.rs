@@ -50,7 +50,7 @@ impl Study {
                 chapters.push(Chapter::table(id, title, numbers(title, &names, &rows)));
             }
         }
-        let facts = facts(&names, compared);
+        let facts = facts(sides, &names, compared);
         Self {
             title: names.join(", "),
             subtitle: format!("{} runs, each over the baseline {}", names.len(), names[0]),
@@ -82,20 +82,23 @@ const TABLES: [Wanted; 3] = [
     ("audits", "Audits and work", |name| ["audit.", "work."].iter().any(|o| name.starts_with(o))),
 ];
 
-/// Names of the numbers that say most, of those that are there.
-pub fn compared_headline(compared: &[Compared]) -> Vec<&str> {
+/// Names of the numbers that say most, of those that are there; those along the baseline's load first.
+pub fn compared_headline<'a>(sides: &[Side], compared: &'a [Compared]) -> Vec<&'a str> {
     let names = compared.iter().map(|c| c.name.as_str());
     let wanted = |name: &&str| {
         let of_acceleration =
             name.starts_with("sensor_a") && [".rms", ".peak_to_peak", ".kurtosis"].iter().any(|w| name.ends_with(w));
         of_acceleration || name.ends_with("entry_peak") || name.ends_with("exit_peak")
     };
-    names.filter(wanted).collect()
+    let mut headline: Vec<&str> = names.filter(wanted).collect();
+    let along = sides.first().map(|side| ["sensor_ax", "sensor_ay"][side.loaded.scenario.operation.axis_of_load()]);
+    headline.sort_by_key(|name| along.is_some_and(|along| name.starts_with("sensor_a") && !name.starts_with(along)));
+    headline
 }
 
-fn facts(names: &[String], compared: &[Compared]) -> Vec<Fact> {
+fn facts(sides: &[Side], names: &[String], compared: &[Compared]) -> Vec<Fact> {
     let mut facts = Vec::new();
-    for name in compared_headline(compared).into_iter().take(8) {
+    for name in compared_headline(sides, compared).into_iter().take(8) {
         let Some(one) = compared.iter().find(|c| c.name == name) else {
             continue;
         };
