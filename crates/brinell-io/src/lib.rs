@@ -64,7 +64,7 @@ pub use journal::Journal;
 #[cfg(feature = "parquet")]
 #[doc(hidden)]
 pub use read::records::read_records;
-pub use read::{Channel, NoRate, NotNamed, Rate, RateSource, SignalFile, open, open_bytes, rate_of_times, seconds_in};
+pub use read::{Channel, NoRate, NoTimes, NotNamed, Rate, RateSource, SignalFile, open, open_bytes, seconds_in};
 #[doc(hidden)]
 pub use read::{MAX_VALUES, names};
 #[cfg(feature = "parquet")]

@@ -9,4 +9,5 @@ mod memory;
 mod parquet;
 mod records;
 mod table;
+mod times;
 mod written;

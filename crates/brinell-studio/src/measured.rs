@@ -12,8 +12,9 @@ use brinell::bearing::{KnownBearing, orders_of};
 use brinell::channel::unit_of_run;
 use brinell::scenario::Scenario;
 use brinell::signal::short;
-use brinell_io::{Channel, FileKind, IoError, SignalFile, open_bytes};
+use brinell_io::{Channel, FileKind, IoError, NoTimes, SignalFile, open_bytes};
 use serde_json::{Value, json};
+use std::collections::HashMap;
 
 /// Most samples of a waveform that the page gets: more are not seen.
 const SHOWN: usize = 1 << 18;
@@ -33,10 +34,6 @@ fn bad(error: IoError) -> Trouble {
 pub(crate) fn listen(request: &Value, arrays: &Arrays) -> Answer<Value> {
     let mut file = file(request, arrays)?;
     let run = made_by(&file);
-    let timed = match file.times() {
-        Some(times) => Some(file.read(&times.name).map_err(bad)?.len()),
-        None => None,
-    };
     let mut shown: Vec<Channel> =
         (file.channels().iter()).filter(|c| c.may_be_signal() && !c.is_time()).cloned().collect();
     if shown.is_empty() {
@@ -44,17 +41,28 @@ pub(crate) fn listen(request: &Value, arrays: &Arrays) -> Answer<Value> {
     }
     // What is most probably meant comes first: a sensor's channel.
     shown.sort_by_key(|c| !c.name.starts_with("sensor"));
-    let by_times = match shown.iter().any(|c| c.rate.is_none()) {
-        true => rate_by_times(&mut file)?,
-        false => Err(String::new()),
-    };
-    let mut channels = Vec::new();
+    let (mut channels, mut counts) = (Vec::new(), HashMap::<String, u64>::new());
     for c in shown {
-        let rate = c.stated_rate().map_or_else(|| by_times.clone(), Ok);
+        let times = file.times_of(&c);
+        // All columns of a text file are as long as that of times.
+        let samples = match (c.length, times.as_ref().ok().and_then(Option::as_ref)) {
+            (None, Some(times)) => Some(match counts.get(&times.name) {
+                Some(count) => *count,
+                None => {
+                    let count = file.read(&times.name).map_err(bad)?.len() as u64;
+                    *counts.entry(times.name.clone()).or_insert(count)
+                }
+            }),
+            (length, _) => length,
+        };
+        let rate = match c.stated_rate() {
+            Some(stated) => Ok(stated),
+            None => rate_by(&mut file, times)?,
+        };
         let rpm = stated_speed(&mut file, run.as_ref(), &c.name)?;
         channels.push(json!({
             "name": c.name,
-            "samples": c.length.or(timed.map(|n| n as u64)),
+            "samples": samples,
             "rate_hz": rate.as_ref().ok().map(|r| r.0),
             "rate_missing": rate.as_ref().err(),
             "rate_from": rate.ok().map(|r| r.1),
@@ -77,16 +85,20 @@ fn own_unit(name: &str, run: Option<&Scenario>) -> Option<&'static str> {
     unit_of_run(name, &run?.sensor)
 }
 
-/// The rate by the column of times, Hz, and that in words; else what is to be said of that. Without a unit, as in
-/// brinell's own CSV, times are in seconds.
-fn rate_by_times(file: &mut SignalFile) -> Answer<Result<(f64, String), String>> {
-    let Some(times) = file.times() else {
-        return Ok(Err("the file states no sample rate; give it in Hz".into()));
+/// The rate by a channel's column of times, Hz, and that in words; else what is to be said of that.
+fn rate_by(file: &mut SignalFile, times: Result<Option<Channel>, NoTimes>) -> Answer<Result<(f64, String), String>> {
+    let times = match times {
+        Ok(Some(times)) => times,
+        Ok(None) => return Ok(Err("the file states no sample rate; give it in Hz".into())),
+        Err(why) => return Ok(Err(format!("{why}; give the rate in Hz"))),
     };
-    let (name, seconds) = (&times.name, times.seconds_in_unit());
-    let taken = if seconds.is_some() { "" } else { ", taken as seconds" };
-    Ok(match file.rate_of(name, seconds.unwrap_or(1.0)).map_err(bad)? {
-        Ok(hz) => Ok((hz, format!("the times in `{name}`{taken}"))),
+    let name = &times.name;
+    let Some(seconds) = times.seconds_in_unit() else {
+        let why = times.no_time_unit();
+        return Ok(Err(format!("the file states no sample rate, and {why}; give it in Hz")));
+    };
+    Ok(match file.rate_of(name, seconds).map_err(bad)? {
+        Ok(hz) => Ok((hz, format!("the times in `{name}`"))),
         Err(why) => {
             Err(format!("no sample rate follows from `{name}`: {}; give it in Hz if you know it", why.words(five)))
         }
@@ -224,7 +236,10 @@ fn rate(
     let Some(given) = request["rate_hz"].as_f64() else {
         let stated = match channel.stated_rate() {
             Some(stated) => Ok(stated),
-            None => rate_by_times(file)?,
+            None => {
+                let times = file.times_of(channel);
+                rate_by(file, times)?
+            }
         };
         return Ok(stated.map(|(hz, place)| (hz, format!("sample rate {hz} Hz, from {place}"))));
     };

@@ -182,4 +182,12 @@ fn prop_a_column_of_times_is_no_signal() {
     assert!(why.starts_with("no sample rate follows from `time [s]`: "), "{why}");
     assert_eq!(both["channels"][0]["rate_missing"], Value::Null);
     assert_eq!(names("time [s]\n0.0\n0.1\n0.2\n")["ok"], json!(false));
+    // Each channel has the times to its left, and times without a unit give no rate.
+    let pairs = names("time_s,A,time_s,B\n0.0,1,0.0,4\n0.1,2,0.5,5\n0.2,3,1.0,7\n");
+    let rates: Vec<&Value> = pairs["channels"].as_array().unwrap().iter().map(|c| &c["rate_hz"]).collect();
+    assert_eq!(rates, [10.0, 2.0]);
+    assert_eq!(pairs["channels"][1]["samples"], 3);
+    let bare = names("t,acc\n0.0,1\n0.1,2\n0.2,4\n");
+    let why = bare["channels"][0]["rate_missing"].as_str().unwrap();
+    assert_eq!(why, "the file states no sample rate, and no unit for its times in `t`; give it in Hz");
 }

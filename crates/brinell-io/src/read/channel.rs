@@ -89,6 +89,14 @@ impl Channel {
         }
     }
 
+    /// Its name as the file has it, without the number that [tells it apart](tell_apart).
+    pub(crate) fn own_name(&self) -> &str {
+        match self.name.rsplit_once('#') {
+            Some((name, number)) if number.parse::<usize>().is_ok() => name,
+            _ => &self.name,
+        }
+    }
+
     /// Whether this may be a signal: readable, and more than one value.
     pub fn may_be_signal(&self) -> bool {
         self.unreadable.is_none() && self.length.is_none_or(|n| n > 1)

@@ -26,6 +26,7 @@ mod pick;
 pub(crate) mod records;
 mod stated;
 mod text;
+mod timed;
 mod times;
 mod uff;
 mod wav;
@@ -38,7 +39,8 @@ use std::path::{Path, PathBuf};
 
 pub use channel::{Channel, Rate, RateSource};
 pub use named::NotNamed;
-pub use times::{NoRate, rate_of_times, seconds_in};
+pub use timed::NoTimes;
+pub use times::{NoRate, seconds_in};
 
 use crate::{FileKind, IoError, Metadata};
 use contents::Contents;

@@ -3,7 +3,7 @@
 
 use std::io::{self, BufReader, Read, Seek, SeekFrom};
 
-use parquet::basic::{Compression, ConvertedType, LogicalType, Type};
+use parquet::basic::{Compression, ConvertedType, LogicalType, TimeUnit, Type};
 use parquet::column::reader::{ColumnReader, ColumnReaderImpl};
 use parquet::data_type::DataType;
 use parquet::errors::ParquetError;
@@ -124,6 +124,21 @@ fn stored(column: &ColumnDescriptor) -> Option<(Number, &'static str)> {
         _ => return None,
     };
     Some((number, number.name()))
+}
+
+/// The unit that a column's type has, of times.
+fn time_unit(column: &ColumnDescriptor) -> Option<&'static str> {
+    let unit = match (column.logical_type_ref(), column.converted_type()) {
+        (Some(LogicalType::Timestamp(time) | LogicalType::Time(time)), _) => &time.unit,
+        (None, ConvertedType::TIMESTAMP_MILLIS | ConvertedType::TIME_MILLIS) => &TimeUnit::MILLIS,
+        (None, ConvertedType::TIMESTAMP_MICROS | ConvertedType::TIME_MICROS) => &TimeUnit::MICROS,
+        _ => return None,
+    };
+    Some(match unit {
+        TimeUnit::MILLIS => "ms",
+        TimeUnit::MICROS => "us",
+        TimeUnit::NANOS => "ns",
+    })
 }
 
 /// Decimal places of a column of decimals.
@@ -258,6 +273,9 @@ pub(super) fn list(contents: Contents) -> Result<Listing, Fault> {
     let columns = about.file_metadata().schema_descr().columns().iter();
     let mut channels: Vec<Channel> = columns.enumerate().map(channel).collect();
     lend_units(&mut channels, &metadata, keys::UNITS);
+    for (channel, column) in channels.iter_mut().zip(about.file_metadata().schema_descr().columns()) {
+        channel.unit = channel.unit.take().or_else(|| time_unit(column).map(str::to_owned));
+    }
     Ok(Listing { channels, metadata, source: Box::new(Table(reader)) })
 }
 

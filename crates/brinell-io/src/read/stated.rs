@@ -2,15 +2,13 @@
 
 use super::SignalFile;
 use super::channel::{Channel, RateSource};
-use super::times::{NoRate, rate_of_times};
+use super::times::{Clock, NoRate};
 use crate::IoError;
 use std::fmt;
 use std::ops::ControlFlow;
 
-/// A rate given and one stated may differ by so much, relative, before it is worth a word.
-const DIFFERS: f64 = 1e-4;
-/// Times that are looked at for a rate.
-const LOOKED_AT: usize = 1 << 16;
+/// Two rates may differ by so much, relative, before it is worth a word.
+pub(super) const DIFFERS: f64 = 1e-4;
 
 impl fmt::Display for RateSource {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
@@ -27,6 +25,7 @@ impl NoRate {
         match *self {
             NoRate::TooFew => "it has fewer than three values".into(),
             NoRate::NotIncreasing => "its values do not increase".into(),
+            NoRate::Missing { after } => format!("its value {} is missing or infinite", after + 1),
             NoRate::Uneven { step, after, usual } => {
                 let (step, usual) = (digits(step), digits(usual));
                 format!("its steps are uneven ({step} after {after} values, where {usual} is usual)")
@@ -43,37 +42,20 @@ impl Channel {
 }
 
 impl SignalFile {
-    /// The first values of a channel, `most` of them or all.
-    fn beginning(&mut self, name: &str, most: usize) -> Result<Vec<f64>, IoError> {
-        let mut values = Vec::new();
-        self.read_pieces(name, |piece| {
-            values.extend_from_slice(&piece[..piece.len().min(most - values.len())]);
-            if values.len() == most { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
-        })?;
-        Ok(values)
-    }
-
     /// The rate, Hz, that a column of times in units of `seconds` gives.
     ///
     /// # Errors
     /// Where it cannot be read; within, where its times are not even.
     pub fn rate_of(&mut self, times: &str, seconds: f64) -> Result<Result<f64, NoRate>, IoError> {
-        Ok(rate_of_times(&self.beginning(times, LOOKED_AT)?, seconds))
+        let mut clock = Clock::new();
+        self.read_pieces(times, |piece| clock.take(piece))?;
+        Ok(clock.rate(seconds))
     }
 
-    /// The column of times: one that is called so, else the first in a unit of time whose values are evenly spaced.
-    pub fn times(&mut self) -> Option<Channel> {
-        let these: Vec<Channel> =
-            self.channels().iter().filter(|c| c.is_time() && c.may_be_signal() && !c.is_matrix()).cloned().collect();
-        let called = these.iter().find(|c| c.is_called_time());
-        let mut others = these.iter().filter(|c| !c.is_called_time());
-        called.or_else(|| others.find(|c| self.rate_of(&c.name, 1.0).is_ok_and(|rate| rate.is_ok()))).cloned()
-    }
-
-    /// What a column of times whose unit the file states says of the rate: hertz, or what is wrong with the times; and
-    /// the column's name.
-    fn rate_by_times(&mut self) -> Option<(Result<f64, NoRate>, String)> {
-        let times = self.times()?;
+    /// What a channel's column of times whose unit the file states says of the rate: hertz, or what is wrong with the
+    /// times; and the column's name.
+    fn rate_by_times(&mut self, of: &Channel) -> Option<(Result<f64, NoRate>, String)> {
+        let times = self.times_of(of).ok()??;
         let (unit, name) = (times.time_unit()?, times.name);
         Some((self.rate_of(&name, unit).ok()?, name))
     }
@@ -81,14 +63,15 @@ impl SignalFile {
     /// A warning, where the rate that was given for a channel, Hz, differs from what the file states. `asked` is what was
     /// given in words, without the unit; steps of times are written by `digits`.
     pub fn other_rate(&mut self, of: &Channel, asked: &str, hz: f64, digits: impl Fn(f64) -> String) -> Option<String> {
-        let (other, place) = match (of.stated_rate(), self.rate_by_times()) {
-            (Some(stated), _) => stated,
-            (None, None) => return None,
-            (None, Some((Ok(other), name))) => (other, format!("the column `{name}`")),
-            (None, Some((Err(why), name))) => {
-                let why = why.words(digits);
-                return Some(format!("{asked} Hz was taken, but the times in `{name}` give no rate: {why}"));
-            }
+        let (other, place) = match of.stated_rate() {
+            Some(stated) => stated,
+            None => match self.rate_by_times(of)? {
+                (Ok(other), name) => (other, format!("the column `{name}`")),
+                (Err(why), name) => {
+                    let why = why.words(digits);
+                    return Some(format!("{asked} Hz was taken, but the times in `{name}` give no rate: {why}"));
+                }
+            },
         };
         ((other / hz - 1.0).abs() > DIFFERS).then(|| format!("{asked} Hz was taken, but {place} says {other} Hz"))
     }
@@ -116,7 +99,12 @@ impl SignalFile {
         let Some(name) = self.speed_variable(signal) else {
             return Ok(None);
         };
-        let rpm = self.beginning(&name, 1)?.first().copied().filter(|v| v.is_finite());
+        let mut first = None;
+        self.read_pieces(&name, |piece| {
+            first = piece.first().copied();
+            ControlFlow::Break(())
+        })?;
+        let rpm = first.filter(|v| v.is_finite());
         Ok(rpm.map(|rpm| (rpm, format!("{}, taken as r/min", RateSource::Variable(name)))))
     }
 }

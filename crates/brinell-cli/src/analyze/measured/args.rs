@@ -18,11 +18,11 @@ pub(crate) struct SignalArgs {
         value_name = "HZ"
     )]
     pub(crate) rate: Option<f64>,
-    /// Column of times to take the rate from [default: one called t, time or the like]
+    /// Column of times to take the rate from [default: the channel's, called t, time or the like]
     #[arg(long, value_name = "NAME|N", conflicts_with = "rate")]
     pub(crate) time_channel: Option<String>,
     /// Unit of the times where the file does not say
-    #[arg(long, value_name = "s|ms|us")]
+    #[arg(long, value_name = "s|ms|us|ns|min")]
     pub(crate) time_unit: Option<String>,
     /// Unit of the signal: m/s^2, g, mm/s, m/s, V, counts, ...
     #[arg(long, value_name = "UNIT")]

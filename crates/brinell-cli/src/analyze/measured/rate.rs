@@ -5,7 +5,7 @@ use super::stretch::bad;
 use super::wanted::Wanted;
 use crate::failure::Failure;
 use crate::say::short;
-use brinell_io::{Channel, NoRate, SignalFile, seconds_in};
+use brinell_io::{Channel, NoRate, NoTimes, SignalFile, seconds_in};
 
 /// The rate and where it comes from; `Err` within are the words that ask for it.
 pub(super) fn rate(
@@ -26,9 +26,9 @@ pub(super) fn rate(
     if let Some((hz, place)) = channel.stated_rate() {
         return Ok(Ok((hz, format!("sample rate {hz} Hz, from {place}"))));
     }
-    let time = match wanted.time_channel {
-        Some(text) => Some(resolve(file, text, "--time-channel")?.1),
-        None => file.times(),
+    let time = match times(file, channel, wanted)? {
+        Ok(time) => time,
+        Err(why) => return Ok(Err(format!("{why}; give {option} HZ{}", choice(wanted, &why)))),
     };
     let Some(time) = time else {
         if let Some(hz) = wanted.like.map(|like| like.rate) {
@@ -40,16 +40,16 @@ pub(super) fn rate(
     };
     let unit = match (wanted.time_unit, time.seconds_in_unit()) {
         (Some(text), _) => {
-            seconds_in(text).ok_or_else(|| Failure::Usage(format!("--time-unit {text}: expected s, ms or us")))?
+            seconds_in(text).ok_or_else(|| Failure::Usage(format!("--time-unit {text}: expected {UNITS}")))?
         }
         (None, Some(unit)) => unit,
         // By brinell's own contract.
         (None, None) if own && time.name == "t" => 1.0,
         (None, None) => {
+            let unit = if wanted.whose.is_empty() { format!(", or --time-unit: {UNITS}") } else { String::new() };
             return Ok(Err(format!(
-                "the file states no sample rate, and no unit for its times in `{}`; give {option} HZ{}",
-                time.name,
-                if wanted.whose.is_empty() { ", or --time-unit s" } else { "" }
+                "the file states no sample rate, and {}; give {option} HZ{unit}",
+                time.no_time_unit()
             )));
         }
     };
@@ -63,6 +63,33 @@ pub(super) fn rate(
     })?;
     let place = format!("sample rate {hz} Hz, from the times in `{}`", time.name);
     Ok(Ok((hz, place)))
+}
+
+/// What `--time-unit` takes.
+const UNITS: &str = "s, ms, us, ns or min";
+
+/// The column of times that was named, or that is the channel's; `Err` within is why there is none.
+fn times(
+    file: &mut SignalFile,
+    channel: &Channel,
+    wanted: &Wanted,
+) -> Result<Result<Option<Channel>, NoTimes>, Failure> {
+    let Some(text) = wanted.time_channel else {
+        return Ok(file.times_of(channel));
+    };
+    let (_, time) = resolve(file, text, "--time-channel")?;
+    match channel.is_timed_by(&time) {
+        true => Ok(Ok(Some(time))),
+        false => Err(Failure::Usage(format!(
+            "--time-channel {text}: {}; expected as many, or give --rate HZ",
+            channel.not_timed_by(&time)
+        ))),
+    }
+}
+
+/// The option that chooses, where several columns may be meant.
+fn choice(wanted: &Wanted, why: &NoTimes) -> &'static str {
+    if wanted.whose.is_empty() && matches!(why, NoTimes::Several(_)) { ", or --time-channel NAME" } else { "" }
 }
 
 fn words(why: &NoRate) -> String {
