@@ -140,12 +140,19 @@ with h5py.File(out / "latest.h5", "w", libver=("v110", "v110")) as file:
     file.create_dataset("run/fs", data=51200.0)
     file.create_dataset("run/half", shape=(100,), chunks=(10,), dtype="f8")[:10] = 1.0
 
+with h5py.File(out / "groups.h5", "w", libver="earliest") as file:
+    for group, hz in [("fast", 12000), ("slow", 6000)]:
+        file.create_dataset(f"{group}/time", data=np.arange(300) / hz).attrs["units"] = "s"
+        file.create_dataset(f"{group}/acc", data=signal(0), chunks=(77,), fletcher32=True)
+    file.create_dataset("slow/half", data=signal(4).astype("f2"))
+
 # --- NumPy.
 np.save(out / "f8.npy", signal(0))
 np.save(out / "f4_matrix.npy", np.asfortranarray(np.column_stack([signal(1), signal(2)]).astype("f4")))
 np.save(out / "i2_big.npy", (8 * signal(3)).astype(">i2"))
 np.save(out / "f2.npy", signal(4).astype("f2"))
 np.savez(out / "plain.npz", acc=signal(0), pair=np.column_stack([signal(1), signal(2)]), fs=25600.0, title="Prüfstand")
+np.savez(out / "clocks.npz", time_s=np.arange(300) / 12000, acc=signal(0), slow=signal(1)[:150])
 np.savez_compressed(out / "packed.npz", acc=signal(0), number=np.int32(3), z=signal(0) + 1j)
 
 # --- Parquet: what others compress with, and columns that lie within each other.

@@ -251,3 +251,25 @@ fn regress_decimal_commas_in_quotes_between_commas() {
     assert_eq!(file.read("t").unwrap(), [0.001, 0.002]);
     assert!(file.read("a, [g]").unwrap_err().to_string().contains("holds words such as `1,332`"));
 }
+
+/// One bit of one value is another: what the format keeps a checksum of is refused.
+#[cfg(all(feature = "hdf5", feature = "npz"))]
+#[test]
+fn regress_checksums_are_held_against_the_values() {
+    let here = Here::new();
+    for (name, value, says) in [
+        ("plain.npz", -6.25f64, "a.npz: damaged NumPy npz file: the checksum of an array does not match its bytes"),
+        (
+            "groups.h5",
+            -6.25,
+            "a.h5: damaged HDF5 (MATLAB v7.3) file: a chunk's checksum does not match, at its value 0",
+        ),
+    ] {
+        let mut bytes = std::fs::read(data(name)).unwrap();
+        let value = value.to_le_bytes();
+        let at = bytes.windows(8).position(|b| b == value).unwrap();
+        bytes[at + 6] ^= 1;
+        let extension = name.rsplit('.').next().unwrap();
+        assert_eq!(here.says(&format!("a.{extension}"), bytes), says);
+    }
+}

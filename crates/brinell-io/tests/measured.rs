@@ -158,6 +158,18 @@ fn xval_hdf5_of_h5py() {
     assert!(error.contains("values from 10 on were never written"), "{error}");
 }
 
+#[cfg(feature = "hdf5")]
+#[test]
+fn xval_hdf5_of_h5py_in_groups() {
+    let mut file = opened("groups.h5");
+    holds(&mut file, "fast/acc", &signal(0));
+    holds(&mut file, "slow/half", &signal(4));
+    for group in ["fast", "slow"] {
+        let acc = channel(&file, &format!("{group}/acc")).clone();
+        assert_eq!(file.times_of(&acc).unwrap().unwrap().name, format!("{group}/time"));
+    }
+}
+
 #[test]
 fn xval_numpy_arrays() {
     for (name, values) in [("f8.npy", signal(0)), ("i2_big.npy", eighths(3)), ("f2.npy", signal(4))] {

@@ -57,3 +57,13 @@ fn prop_a_unit_of_times_that_is_not_known_is_said() {
     assert_eq!(times.no_time_unit(), "the unit `ticks` of its times in `time [ticks]` is not known");
     assert_eq!(table("t,A", &[1.0, 2.0]).channels()[0].no_time_unit(), "no unit for its times in `t`");
 }
+
+#[cfg(feature = "npz")]
+#[test]
+fn regress_times_of_another_length_are_not_the_channels() {
+    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/data/clocks.npz");
+    let mut file = brinell_io::open(path).unwrap();
+    assert_eq!(times_of(&mut file, "acc"), Ok(Some("time_s".into())));
+    let words = times_of(&mut file, "slow").unwrap_err().to_string();
+    assert_eq!(words, "`time_s` has 300 times and `slow` 150 values");
+}

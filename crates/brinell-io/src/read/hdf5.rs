@@ -328,8 +328,12 @@ fn vector(
                     unshuffle(&stored, width, &mut raw);
                     std::mem::swap(&mut raw, &mut stored);
                 }
-                // The checksum at the end; deflate has one of its own.
-                _ => stored.truncate(stored.len().saturating_sub(4)),
+                _ => {
+                    let sum = stored.split_off(stored.len().saturating_sub(4));
+                    if sum != fletcher32(&stored).to_le_bytes() {
+                        return Err(damaged(format!("a chunk's checksum does not match, at its value {at}")));
+                    }
+                }
             }
         }
         if stored.len() < chunk_bytes {
@@ -353,6 +357,21 @@ fn vector(
         return Err(unsupported(format!("values from {at} on were never written")));
     }
     Ok(())
+}
+
+/// The checksum of HDF5's filter of that name, over 16-bit words, the high byte first (`H5_checksum_fletcher32`).
+fn fletcher32(bytes: &[u8]) -> u32 {
+    let fold = |sum: u32| (sum & 0xffff) + (sum >> 16);
+    let (mut low, mut high) = (0, 0);
+    // As many words as a sum of 32 bits holds.
+    for block in bytes.chunks(720) {
+        for word in block.chunks(2) {
+            low += u32::from(word[0]) << 8 | word.get(1).map_or(0, |b| u32::from(*b));
+            high += low;
+        }
+        (low, high) = (fold(low), fold(high));
+    }
+    fold(high) << 16 | fold(low)
 }
 
 /// HDF5's shuffle filter put all first bytes first.
@@ -381,8 +400,14 @@ fn number(kind: &DType) -> Option<Number> {
         DType::U64 => Number::U64,
         DType::F32 => Number::F32,
         DType::F64 => Number::F64,
+        DType::Other(other) if is_half(other) => Number::F16,
         _ => return None,
     })
+}
+
+/// Whether a type is the half-precision float of IEEE 754, which the crate has no name for.
+fn is_half(kind: &hdf5_pure::Datatype) -> bool {
+    matches!(kind, hdf5_pure::Datatype::FloatingPoint { size: 2, layout, .. } if layout.exponent_size == 5)
 }
 
 fn is_big_endian(dataset: &Dataset) -> Result<bool, Fault> {

@@ -3,7 +3,7 @@
 //! A small archive may inflate to a huge one. Values are streamed, so that costs no memory; and an array may not claim
 //! more bytes than deflate can make of what is stored.
 
-use std::io::{BufReader, Read};
+use std::io::{self, BufReader, Read};
 
 use zip::ZipArchive;
 use zip::result::ZipError;
@@ -117,6 +117,13 @@ impl Source for Npz {
         let count = array.channel.length.unwrap_or(0);
         // Numbers of their own width again: the header may have been another at the second look.
         let number: Number = array.stored.ok_or_else(|| damaged("no numbers"))?;
-        number.stream(array.big_endian, &mut entry, count, sink)
+        number.stream(array.big_endian, &mut entry, count, sink)?;
+        // The checksum is held against what was read at the end.
+        match io::copy(&mut entry, &mut io::sink()) {
+            Err(e) if e.kind() == io::ErrorKind::InvalidData => {
+                Err(damaged("the checksum of an array does not match its bytes"))
+            }
+            read => Ok(read.map(drop)?),
+        }
     }
 }
