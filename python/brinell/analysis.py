@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
+import os
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, Literal
 
 import numpy.typing as npt
 
 from brinell import _brinell
-from brinell.scenario import Scenario
-from brinell.signals import Spectrum, samples_of
+from brinell.arguments import band_of, number_of, rate_of, samples_of, text_of, unit_of, whole_of
+from brinell.scenario import Scenario, of_bearing
+from brinell.signals import Signal, Spectrum
 
 if TYPE_CHECKING:
     import matplotlib.axes
@@ -76,18 +79,22 @@ class Analysis:
 
 
 def analyze(
-    x: npt.ArrayLike,
+    x: npt.ArrayLike | Signal,
     *,
-    rate_hz: float,
-    unit: str,
+    rate_hz: float | None = None,
+    unit: str | None = None,
     speed_rpm: float,
-    bearing: str | Scenario | None = None,
+    bearing: str | os.PathLike[str] | Scenario | None = None,
+    rollers: int | None = None,
+    pitch_mm: float | None = None,
+    diameter_mm: float | None = None,
+    contact_angle_deg: float | None = None,
     bpfo: float | None = None,
     bpfi: float | None = None,
     bsf: float | None = None,
     ftf: float | None = None,
     tolerance: float = 0.02,
-    band_hz: tuple[float, float] | None = None,
+    band_hz: Sequence[float] | None = None,
     simulated: bool = False,
     machine_class: _MachineClass | None = None,
     sensitivity: str | None = None,
@@ -101,12 +108,16 @@ def analyze(
 
     Parameters
     ----------
-    x, rate_hz, unit
-        As in `psd`.
+    x : array_like or Signal
+        Samples of one channel, or what `read_signal` gives.
+    rate_hz, unit
+        As in `psd`; of a `Signal` its own by default.
     speed_rpm : float
         Of the shaft.
-    bearing : str or Scenario, optional
-        A name that ``brinell analyze --bearing`` takes, or a scenario with this bearing.
+    bearing : str, path or Scenario, optional
+        A name that ``brinell analyze --bearing`` takes, or a scenario with this bearing, or its file.
+    rollers, pitch_mm, diameter_mm, contact_angle_deg : optional
+        A bearing by its numbers instead: rolling elements in a row, pitch diameter, their diameter, contact angle (0 by default).
     bpfo, bpfi, bsf, ftf : float, optional
         Frequencies as multiples of the shaft's, over those of the bearing.
     tolerance : float
@@ -142,11 +153,33 @@ def analyze(
     >>> round(found.severity["velocity_rms_10_1000_hz"]["value"], 1)
     0.3
     """
-    name, scenario = (None, bearing._native) if isinstance(bearing, Scenario) else (bearing, None)
+    name, scenario = of_bearing(bearing)
+    if isinstance(x, Signal):
+        rate_hz, unit, x = x.rate_hz if rate_hz is None else rate_hz, x.unit if unit is None else unit, x.values
     samples = samples_of(x)
-    orders = [bpfo, bpfi, bsf, ftf]
+    elements = None if rollers is None else whole_of(rollers, "rollers", "rolling elements in a row")
+
+    def perhaps(value: float | None, name: str, what: str) -> float | None:
+        return None if value is None else number_of(value, name, what)
+
+    measures = [perhaps(pitch_mm, "pitch_mm", "mm"), perhaps(diameter_mm, "diameter_mm", "mm"), perhaps(contact_angle_deg, "contact_angle_deg", "degrees")]
+    given = {"bpfo": bpfo, "bpfi": bpfi, "bsf": bsf, "ftf": ftf}
     report, found, findings = _brinell.analyze(
-        samples, rate_hz, unit, speed_rpm, name, scenario, orders, tolerance, band_hz, simulated, _run, machine_class, sensitivity, supply_hz
+        samples,
+        rate_of(rate_hz),
+        unit_of(unit),
+        number_of(speed_rpm, "speed_rpm", "r/min"),
+        name,
+        scenario,
+        (elements, measures),
+        [perhaps(order, key, "a multiple of the shaft's frequency") for key, order in given.items()],
+        number_of(tolerance, "tolerance", "a share"),
+        band_of(band_hz),
+        simulated,
+        _run,
+        machine_class if machine_class is None else text_of(machine_class, "machine_class", '"2-rigid"'),
+        sensitivity if sensitivity is None else text_of(sensitivity, "sensitivity", '"100mV/g"'),
+        perhaps(supply_hz, "supply_hz", "Hz"),
     )
     verdict, unit = report["verdict"], report["signal"]["unit"]
     return Analysis(

@@ -11,8 +11,9 @@ from typing import TYPE_CHECKING, Any, Literal
 import numpy.typing as npt
 
 from brinell import _brinell, tables
-from brinell.scenario import Runnable, Scenario, given
-from brinell.signals import Signal, number_of, samples_of
+from brinell.arguments import jobs_of, number_of, samples_of, whole_of
+from brinell.scenario import Runnable, Scenario, given, plain, warn
+from brinell.signals import Signal
 
 if TYPE_CHECKING:
     import pandas
@@ -50,6 +51,11 @@ class Calibration:
     report: dict[str, Any] = field(repr=False)
     """Everything, as ``brinell calibrate --json`` writes it: correlations and directions too."""
     _native: _brinell.Calibration | None = field(repr=False)
+
+    @property
+    def warnings(self) -> list[str]:
+        """What ``brinell calibrate`` warns of: of the best scenario, and of the runs each kind once."""
+        return [plain(text) for text in self.report["warnings"]]
 
     def to_pandas(self) -> pandas.DataFrame:
         """The runs as a data frame."""
@@ -149,6 +155,11 @@ def calibrate(
     ReadError
         Where the folder's journal cannot be read or written.
 
+    Warns
+    -----
+    ScenarioWarning
+        What ``brinell calibrate`` warns of: ``warnings`` of the calibration.
+
     Examples
     --------
     >>> import brinell
@@ -181,11 +192,12 @@ def calibrate(
         samples, unit = samples_of(measured.values, "measured.values"), measured.unit
         rate = number_of(measured.rate_hz, "measured.rate_hz", "samples a second")
     signal = (rate, unit, axis, model_uncertainty_percent)
-    native = _brinell.calibrate(base._native, keys, wanted, samples, signal, seed, budget, jobs, progress, folder)
+    seed, budget = whole_of(seed, "seed", "0 or more"), None if budget is None else whole_of(budget, "budget", "runs at most")
+    native = _brinell.calibrate(base._native, keys, wanted, samples, signal, seed, budget, jobs_of(jobs), progress, folder)
     report = native.report()
     values = {key["key"]: key["value"] for key in report["keys"]}
     ends = {key["key"]: key["interval_95"] for key in report["keys"]}
-    return Calibration(
+    found = Calibration(
         values=values,
         intervals={key: None if pair is None else (pair[0], pair[1]) for key, pair in ends.items()},
         residuals={target["name"]: target["residual"] for target in report["targets"]},
@@ -197,3 +209,5 @@ def calibrate(
         report=report,
         _native=native,
     )
+    warn(found.warnings)
+    return found

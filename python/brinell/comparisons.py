@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
@@ -10,8 +10,8 @@ import numpy.typing as npt
 
 from brinell import _brinell, tables
 from brinell.result import Result
-from brinell.runs import simulate_many
-from brinell.scenario import Runnable, Scenario, given
+from brinell.runs import many
+from brinell.scenario import Runnable, Scenario, given, plain, warn
 
 if TYPE_CHECKING:
     import pandas
@@ -36,17 +36,35 @@ class Comparison:
     """Everything, as ``brinell compare --json`` writes it; there are no files."""
     _native: _brinell.Comparison | None = field(repr=False)
 
+    @property
+    def warnings(self) -> list[str]:
+        """What ``brinell compare`` warns of, each kind once."""
+        return [plain(text) for text in self.report["warnings"]]
+
     def __getitem__(self, quantity: str) -> dict[str, Any]:
         """A number by name (``sensor_ax.rms``): its ``unit``, its ``runs`` and its ``ratios``.
 
         Both are by run, each with ``value`` and, where it is known, ``low`` and ``high``.
         """
-        found: dict[str, Any] = self.report["quantities"][quantity]
-        return found
+        quantities: dict[str, dict[str, Any]] = self.report["quantities"]
+        if quantity not in self:
+            raise KeyError(f"{quantity}: no such number of these runs{tables.meant(quantity, quantities)}")
+        return quantities[quantity]
+
+    def __contains__(self, quantity: object) -> bool:
+        """Whether there is a number of this name."""
+        return quantity in list(self)
+
+    def __iter__(self) -> Iterator[str]:
+        """Names of the numbers."""
+        return iter(self.report["quantities"])
 
     def __len__(self) -> int:
         """Numbers."""
         return len(self.columns["quantity"])
+
+    def _ipython_key_completions_(self) -> list[str]:
+        return list(self)
 
     def to_pandas(self) -> pandas.DataFrame:
         """The columns as a data frame."""
@@ -108,6 +126,11 @@ def compare(
     RunError
         Where a run failed.
 
+    Warns
+    -----
+    ScenarioWarning
+        What ``brinell compare`` warns of: ``warnings`` of the comparison.
+
     Examples
     --------
     >>> import brinell
@@ -118,6 +141,8 @@ def compare(
     >>> list(compared.columns)[:4]
     ['quantity', 'unit', 'full', 'full.low']
     """
+    if not isinstance(runs, Mapping):
+        raise TypeError(f'runs: expected runs by name, such as {{"full": scenario}}, and it is {type(runs).__name__}')
     changes = variants or {}
     _brinell.check_names([*runs, *changes])
     if not runs:
@@ -130,8 +155,11 @@ def compare(
         chosen.append(run if isinstance(run, Result) else given(run).replace(settings) if settings else given(run))
     first = chosen[0].scenario if isinstance(chosen[0], Result) else chosen[0]
     chosen += [first.replace(change) for change in changes.values()]
-    made = iter(simulate_many([run for run in chosen if isinstance(run, Scenario)], jobs=jobs, progress=progress))
-    done = [run if isinstance(run, Result) else next(made) for run in chosen]
+    made, _ = many([run for run in chosen if isinstance(run, Scenario)], jobs, progress)
+    new = iter(made)
+    done = [run if isinstance(run, Result) else next(new) for run in chosen]
     results = dict(zip([*runs, *changes], done, strict=True))
     native = _brinell.Comparison([(name, result._native()) for name, result in results.items()])
-    return Comparison(next(iter(results)), results, tables.columns(native.columns()), native.report(), native)
+    comparison = Comparison(next(iter(results)), results, tables.columns(native.columns()), native.report(), native)
+    warn(comparison.warnings)
+    return comparison

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any, Literal
 import numpy as np
 import numpy.typing as npt
 
-from brinell.signals import masked_values
+from brinell.arguments import masked_values, number_of
 
 __all__ = ["circle", "defect", "depth_map", "image", "outline", "rectangle", "svg"]
 
@@ -64,15 +64,25 @@ def defect(
     return {key: value for key, value in given.items() if value is not None} | {"shape": shape}
 
 
-def rectangle(*, length_mm: float, width_mm: float, depth_um: float, **place: Any) -> dict[str, Any]:
+def rectangle(
+    *,
+    length_mm: float,
+    width_mm: float,
+    depth_um: float,
+    on: _Surface = "outer-raceway",
+    row: int | None = None,
+    center_deg: float | None = None,
+    roller: int | None = None,
+    axial_offset_mm: float | None = None,
+) -> dict[str, Any]:
     """A rectangular spall.
 
     Parameters
     ----------
     length_mm, width_mm, depth_um : float
         Around the surface (s), along the axis, and into the material.
-    **place
-        ``on``, ``row``, ``center_deg``, ``roller`` as in `defect`.
+    on, row, center_deg, roller, axial_offset_mm
+        As in `defect`.
 
     Examples
     --------
@@ -81,17 +91,26 @@ def rectangle(*, length_mm: float, width_mm: float, depth_um: float, **place: An
     0.0
     """
     shape = {"rectangle": {"length_mm": length_mm, "width_mm": width_mm}}
-    return defect(shape, depth_um=depth_um, **place)
+    return defect(shape, depth_um=depth_um, on=on, row=row, center_deg=center_deg, roller=roller, axial_offset_mm=axial_offset_mm)
 
 
-def circle(*, diameter_mm: float, depth_um: float, **place: Any) -> dict[str, Any]:
+def circle(
+    *,
+    diameter_mm: float,
+    depth_um: float,
+    on: _Surface = "outer-raceway",
+    row: int | None = None,
+    center_deg: float | None = None,
+    roller: int | None = None,
+    axial_offset_mm: float | None = None,
+) -> dict[str, Any]:
     """A round pit.
 
     Parameters
     ----------
     diameter_mm, depth_um : float
         At most the roller's length across, and into the material.
-    **place
+    on, row, center_deg, roller, axial_offset_mm
         As in `defect`.
 
     Examples
@@ -100,10 +119,19 @@ def circle(*, diameter_mm: float, depth_um: float, **place: Any) -> dict[str, An
     >>> brinell.circle(diameter_mm=2.0, depth_um=15.0, on="inner-raceway")["on"]
     'inner-raceway'
     """
-    return defect({"circle": {"diameter_mm": diameter_mm}}, depth_um=depth_um, **place)
+    return defect({"circle": {"diameter_mm": diameter_mm}}, depth_um=depth_um, on=on, row=row, center_deg=center_deg, roller=roller, axial_offset_mm=axial_offset_mm)
 
 
-def outline(polygon: Any, *, depth_um: float, **place: Any) -> dict[str, Any]:
+def outline(
+    polygon: Any,
+    *,
+    depth_um: float,
+    on: _Surface = "outer-raceway",
+    row: int | None = None,
+    center_deg: float | None = None,
+    roller: int | None = None,
+    axial_offset_mm: float | None = None,
+) -> dict[str, Any]:
     """Damage of any plan.
 
     Parameters
@@ -113,7 +141,7 @@ def outline(polygon: Any, *, depth_um: float, **place: Any) -> dict[str, Any]:
         ``exterior.coords`` and ``interiors``, or with ``geoms`` of these: shapely's polygons and multipolygons.
     depth_um : float
         Into the material.
-    **place
+    on, row, center_deg, roller, axial_offset_mm
         As in `defect`.
 
     Raises
@@ -133,7 +161,7 @@ def outline(polygon: Any, *, depth_um: float, **place: Any) -> dict[str, Any]:
     if not rings:
         raise ValueError("the outline has no polygon")
     shape = {"points_mm": rings[0]} if len(rings) == 1 else {"polygons_mm": rings}
-    return defect({"outline": shape}, depth_um=depth_um, **place)
+    return defect({"outline": shape}, depth_um=depth_um, on=on, row=row, center_deg=center_deg, roller=roller, axial_offset_mm=axial_offset_mm)
 
 
 def _rings(polygon: Any) -> Iterable[Any]:
@@ -184,7 +212,11 @@ def depth_map(
     dz_mm: float,
     s0_mm: float | None = None,
     z0_mm: float | None = None,
-    **place: Any,
+    on: _Surface = "outer-raceway",
+    row: int | None = None,
+    center_deg: float | None = None,
+    roller: int | None = None,
+    axial_offset_mm: float | None = None,
 ) -> dict[str, Any]:
     """Damage as depths on a grid, bilinear between its nodes.
 
@@ -197,7 +229,7 @@ def depth_map(
         From point to point along s (of columns) and along the axis (of rows).
     s0_mm, z0_mm : float, optional
         First column and row; the grid is centred by default.
-    **place
+    on, row, center_deg, roller, axial_offset_mm
         As in `defect`.
 
     Raises
@@ -217,6 +249,7 @@ def depth_map(
     if grid.ndim != 2:
         raise ValueError(f"a depth map of shape {grid.shape}: expected two dimensions, rows along the axis")
     rows, columns = grid.shape
+    ds_mm, dz_mm = number_of(ds_mm, "ds_mm", "mm"), number_of(dz_mm, "dz_mm", "mm")
     entry = {
         "s0_mm": -0.5 * (columns - 1) * ds_mm if s0_mm is None else s0_mm,
         "z0_mm": -0.5 * (rows - 1) * dz_mm if z0_mm is None else z0_mm,
@@ -226,11 +259,20 @@ def depth_map(
         "rows": rows,
         "depth_um": grid.ravel(),
     }
-    return defect({"depth_map": entry}, **place)
+    return defect({"depth_map": entry}, on=on, row=row, center_deg=center_deg, roller=roller, axial_offset_mm=axial_offset_mm)
 
 
 def image(
-    file: str | os.PathLike[str], *, mm_per_pixel: float, depth_um: float, options: dict[str, Any] | None = None, **place: Any
+    file: str | os.PathLike[str],
+    *,
+    mm_per_pixel: float,
+    depth_um: float,
+    options: dict[str, Any] | None = None,
+    on: _Surface = "outer-raceway",
+    row: int | None = None,
+    center_deg: float | None = None,
+    roller: int | None = None,
+    axial_offset_mm: float | None = None,
 ) -> dict[str, Any]:
     """Damage in a photo or mask, PNG or JPEG: dark is damaged by default.
 
@@ -243,7 +285,7 @@ def image(
     options : dict, optional
         More keys of the scenario file's ``image``: ``threshold``, ``invert``, ``rolling_direction`` (where +s, counter-clockwise, points in the
         picture) and so on.
-    **place
+    on, row, center_deg, roller, axial_offset_mm
         As in `defect`.
 
     Examples
@@ -253,11 +295,19 @@ def image(
     'spall.png'
     """
     shape = {"image": {"file": os.fspath(file), "mm_per_pixel": mm_per_pixel, **(options or {})}}
-    return defect(shape, depth_um=depth_um, **place)
+    return defect(shape, depth_um=depth_um, on=on, row=row, center_deg=center_deg, roller=roller, axial_offset_mm=axial_offset_mm)
 
 
 def svg(
-    file: str | os.PathLike[str], *, depth_um: float, options: dict[str, Any] | None = None, **place: Any
+    file: str | os.PathLike[str],
+    *,
+    depth_um: float,
+    options: dict[str, Any] | None = None,
+    on: _Surface = "outer-raceway",
+    row: int | None = None,
+    center_deg: float | None = None,
+    roller: int | None = None,
+    axial_offset_mm: float | None = None,
 ) -> dict[str, Any]:
     """Damage drawn in a vector editor.
 
@@ -269,7 +319,7 @@ def svg(
         Into the material.
     options : dict, optional
         More keys of the scenario file's ``svg``: ``path_id``, ``mm_per_unit`` and so on.
-    **place
+    on, row, center_deg, roller, axial_offset_mm
         As in `defect`.
 
     Examples
@@ -278,4 +328,4 @@ def svg(
     >>> brinell.svg("spall.svg", depth_um=20.0, options={"path_id": "rim"})["shape"]["svg"]["path_id"]
     'rim'
     """
-    return defect({"svg": {"file": os.fspath(file), **(options or {})}}, depth_um=depth_um, **place)
+    return defect({"svg": {"file": os.fspath(file), **(options or {})}}, depth_um=depth_um, on=on, row=row, center_deg=center_deg, roller=roller, axial_offset_mm=axial_offset_mm)

@@ -11,6 +11,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from brinell import _brinell, tables
+from brinell.arguments import jobs_of
 from brinell.scenario import Scenario, ScenarioWarning
 
 if TYPE_CHECKING:
@@ -152,7 +153,7 @@ class Plan:
         ScenarioWarning
             Runs that failed, are clipped, or hold a signal that is one value throughout: how many of each class.
         """
-        for text in self._native.make(folder, shard, jobs, progress)["warnings"]:
+        for text in self._native.make(folder, shard, jobs_of(jobs), progress)["warnings"]:
             warnings.warn(text, ScenarioWarning, stacklevel=2)
         return DataSet(folder)
 

@@ -375,8 +375,7 @@ def roller_pass(result: Result, defect: int = 1, *, ax: Any = None) -> matplotli
             raise ValueError("ax: needed is one of a grid, such as plt.subplots gives")
         ax.remove()
         panels = place.subgridspec(3, 1).subplots(sharex=True)
-    exponent = result.scenario["contact.exponent"]
-    unit = "N/m$^{10/9}$" if abs(exponent - 10.0 / 9.0) < 1e-9 else "N/m$^n$"
+    unit = shown["stiffness_unit"].replace("^(10/9)", "$^{10/9}$").replace("^n", "$^n$")
     columns = (("effective_length_mm", "Contact length (mm)"), ("stiffness", f"Stiffness ({unit})"), ("force_n", "Force (N)"))
     for panel, (name, label) in zip(panels, columns, strict=True):
         panel.plot(shown["angle_deg"], shown[name], color=LINE, linewidth=1.2)

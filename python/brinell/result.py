@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
@@ -11,7 +11,7 @@ import numpy.typing as npt
 
 from brinell import _brinell, tables
 from brinell.analysis import Analysis, analyze
-from brinell.scenario import Scenario
+from brinell.scenario import Scenario, plain, warn
 from brinell.signals import Spectrum
 
 if TYPE_CHECKING:
@@ -74,8 +74,34 @@ class Result:
         """A channel's samples."""
         try:
             return self.signals[channel]
-        except KeyError:
-            raise KeyError(f"{channel}: not recorded; there are {', '.join(self.signals)}") from None
+        except (KeyError, TypeError):
+            near = tables.meant(channel, self.signals)
+            raise KeyError(f"{channel}: not recorded{near or '; there are ' + ', '.join(self.signals)}") from None
+
+    def __contains__(self, channel: object) -> bool:
+        """Whether a channel was recorded."""
+        return channel in list(self.signals)
+
+    def __iter__(self) -> Iterator[str]:
+        """Names of the channels, time first."""
+        return iter(self.signals)
+
+    def __len__(self) -> int:
+        """Samples of each channel."""
+        return len(self.t)
+
+    def _ipython_key_completions_(self) -> list[str]:
+        return self.channels
+
+    @cached_property
+    def warnings(self) -> list[str]:
+        """What its reader should know, as ``brinell run`` prints it: of the scenario, and of what the run shows."""
+        return [plain(text) for text in self._native().warnings()]
+
+    def _warn(self, *, stacklevel: int = 3) -> None:
+        """Of the scenario itself there were warnings when it was made."""
+        known = {plain(text) for text in self.scenario.warnings}
+        warn((text for text in self.warnings if text not in known), stacklevel=stacklevel + 1)
 
     @property
     def t(self) -> npt.NDArray[np.float64]:
@@ -138,7 +164,8 @@ class Result:
 
     @cached_property
     def passes(self) -> list[dict[str, Any]]:
-        """The heaviest pass over each defect: ``t``, ``angle_deg`` on the damaged surface, ``effective_length_mm``, ``stiffness``, ``force_n``."""
+        """The heaviest pass over each defect: ``t``, ``angle_deg`` on the damaged surface, ``effective_length_mm``, ``stiffness`` (in ``stiffness_unit``),
+        ``force_n``."""
         return self._native().passes()
 
     @cached_property

@@ -7,8 +7,9 @@ from collections.abc import Callable, Iterable, Mapping
 from typing import Any, Literal, TypeVar, overload
 
 from brinell import _brinell
+from brinell.arguments import jobs_of
 from brinell.result import Result
-from brinell.scenario import Runnable, Scenario, given
+from brinell.scenario import Runnable, Scenario, given, warn
 
 __all__ = ["simulate", "simulate_many"]
 
@@ -49,6 +50,11 @@ def simulate(
     RunError
         Where the solver could not go on; ``partial`` is the `Result` until then.
 
+    Warns
+    -----
+    ScenarioWarning
+        What ``brinell run`` warns of: loads, damage and durations that may not be meant, and what the run shows; ``warnings`` of the result.
+
     Examples
     --------
     >>> import brinell
@@ -61,9 +67,14 @@ def simulate(
     if settings:
         chosen = chosen.replace(settings)
     try:
-        return Result._of(_brinell.simulate(chosen._native, progress), chosen)
+        result = Result._of(_brinell.simulate(chosen._native, progress), chosen)
     except _brinell.RunError as error:
-        raise _told(error, chosen) from None
+        told = _told(error, chosen)
+        if isinstance(error.partial, Result):
+            error.partial._warn()
+        raise told from None
+    result._warn()
+    return result
 
 
 @overload
@@ -122,6 +133,11 @@ def simulate_many(
     list
         In the order of the scenarios.
 
+    Warns
+    -----
+    ScenarioWarning
+        As of `simulate`, each kind once, with how many runs have it; what is known beforehand of the first 50 scenarios.
+
     Examples
     --------
     >>> import brinell
@@ -135,7 +151,19 @@ def simulate_many(
         raise ValueError(f'errors = "{errors}": not known\n  allowed: raise, return')
     if isinstance(scenarios, (Scenario, str, os.PathLike)):
         raise TypeError(f"scenarios: expected several, and it is one {type(scenarios).__name__}; give [scenario], or call simulate")
-    chosen = [given(scenario) for scenario in scenarios]
+    results, warnings = many([given(scenario) for scenario in scenarios], jobs, progress, reduce, errors)
+    warn(warnings)
+    return results
+
+
+def many(
+    chosen: list[Scenario],
+    jobs: int | None,
+    progress: Callable[[int, int], object] | None,
+    reduce: Callable[[Result], Any] | None = None,
+    errors: Literal["raise", "return"] = "raise",
+) -> tuple[list[Any], list[str]]:
+    """`simulate_many`, and what it warns of."""
     results: list[Any] = [None] * len(chosen)
     over = 0
 
@@ -153,5 +181,4 @@ def simulate_many(
         if progress is not None:
             progress(over, len(chosen))
 
-    _brinell.simulate_many([scenario._native for scenario in chosen], jobs, deliver)
-    return results
+    return results, _brinell.simulate_many([scenario._native for scenario in chosen], jobs_of(jobs), deliver)

@@ -5,17 +5,28 @@ from __future__ import annotations
 import json
 import os
 import warnings as _warnings
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-from brinell import _brinell
+from brinell import _brinell, tables
 
 __all__ = ["Scenario", "ScenarioWarning", "bearings", "schema", "template"]
 
 
 class ScenarioWarning(UserWarning):
     """A scenario runs, and its author should know something about it."""
+
+
+def plain(words: str) -> str:
+    """A warning without the word before it."""
+    return words.removeprefix("warning: ")
+
+
+def warn(texts: Iterable[str], *, stacklevel: int = 3) -> None:
+    """Gives warnings, by default as of whoever called the function that calls this one."""
+    for text in texts:
+        _warnings.warn(plain(text), ScenarioWarning, stacklevel=stacklevel)
 
 
 class Scenario:
@@ -84,8 +95,7 @@ class Scenario:
     def _take(self, native: _brinell.Scenario, *, quiet: bool = False) -> None:
         self._native = native
         if not quiet:
-            for text in native.warnings:
-                _warnings.warn(text.removeprefix("warning: "), ScenarioWarning, stacklevel=3)
+            warn(native.warnings, stacklevel=4)
 
     @classmethod
     def _of(cls, native: _brinell.Scenario, *, quiet: bool = False) -> Scenario:
@@ -183,6 +193,18 @@ class Scenario:
             return False
         return True
 
+    def _keys(self) -> list[str]:
+        """The dotted paths of sections and values."""
+        found = []
+        for section, values in self.values.items():
+            found.append(section)
+            if isinstance(values, dict):
+                found += [f"{section}.{key}" for key in values]
+        return found
+
+    def _ipython_key_completions_(self) -> list[str]:
+        return self._keys()
+
     def __getitem__(self, key: str) -> Any:
         """A value by its dotted path."""
         if not isinstance(key, str):
@@ -192,7 +214,7 @@ class Scenario:
             try:
                 value = value[int(step)] if isinstance(value, list) else value[step]
             except (KeyError, IndexError, ValueError, TypeError):
-                raise KeyError(key) from None
+                raise KeyError(f"{key}: there is no such value{tables.meant(key, self._keys())}") from None
         return value
 
     def to_toml(self) -> str:
@@ -258,7 +280,21 @@ def given(of: Runnable) -> Scenario:
         return of
     if isinstance(of, (str, os.PathLike)):
         return Scenario.from_file(of)
-    raise TypeError(f"{type(of).__name__}: expected a Scenario or the path of a scenario file")
+    raise TypeError(f"scenario: expected a Scenario or the path of a scenario file, and it is {type(of).__name__}")
+
+
+def of_bearing(bearing: Any) -> tuple[str | None, _brinell.Scenario | None]:
+    """A bearing by its name, or the scenario that has it, as the command takes both."""
+    if isinstance(bearing, Scenario):
+        return None, bearing._native
+    if bearing is not None and not isinstance(bearing, (str, os.PathLike)):
+        raise TypeError(f"bearing = {bearing!r}: expected a name, a Scenario or the path of a scenario file")
+    if bearing is None:
+        return None, None
+    path = Path(bearing)
+    if not isinstance(bearing, str) or path.suffix.lower() == ".toml" or (not _brinell.is_bearing(bearing) and path.is_file()):
+        return None, Scenario.from_file(path)._native
+    return bearing, None
 
 
 def _restored(*state: Any) -> Scenario:

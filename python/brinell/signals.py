@@ -6,8 +6,8 @@ done on a copy of the samples, by a thread of its own: Ctrl-C ends the waiting a
 
 from __future__ import annotations
 
-import numbers
 import os
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Literal
 
@@ -15,6 +15,7 @@ import numpy as np
 import numpy.typing as npt
 
 from brinell import _brinell, tables
+from brinell.arguments import band_of, number_of, rate_of, samples_of, unit_of, whole_of
 
 if TYPE_CHECKING:
     import matplotlib.axes
@@ -39,84 +40,6 @@ __all__ = [
 ]
 
 Array = npt.NDArray[np.float64]
-
-
-def _kind(x: object) -> str:
-    dtype = getattr(x, "dtype", None)
-    return type(x).__name__ if dtype is None else f"{type(x).__name__} of {dtype}"
-
-
-def number_of(value: Any, name: str, what: str) -> float:
-    """A number, which `name` is called; `what` says in which unit it is expected."""
-    try:
-        if isinstance(value, (str, bytes)):
-            raise TypeError
-        return float(value)
-    except TypeError:
-        raise TypeError(f"{name} = {value!r}: expected a number, {what}") from None
-
-
-def masked_values(x: Any) -> int:
-    """How many values of an array are masked.
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> masked_values(np.ma.masked_less([1.0, 2.0, 3.0], 2.0))
-    1
-    """
-    return int(np.count_nonzero(x.mask)) if isinstance(x, np.ma.MaskedArray) else 0
-
-
-def samples_of(x: npt.ArrayLike, name: str = "x") -> Array:
-    """One channel's samples as doubles; a column or row of a matrix counts as one.
-
-    Parameters
-    ----------
-    x : array_like
-        Samples.
-    name : str
-        What errors call them.
-
-    Raises
-    ------
-    TypeError
-        Where they are no real numbers, or those of several channels.
-    SignalError
-        Where some are masked.
-
-    Examples
-    --------
-    >>> from brinell.signals import samples_of
-    >>> samples_of([[1], [2]])
-    array([1., 2.])
-    >>> samples_of([[1, 2], [3, 4]])
-    Traceback (most recent call last):
-    ...
-    TypeError: x: expected the samples of one channel, and its shape is (2, 2); give one of them, such as x[:, 0]
-    """
-    if masked := masked_values(x):
-        raise _brinell.SignalError(f"{name}: {masked} of {np.size(x)} samples are masked; give a stretch without, or {name}.filled(...) with values")
-    try:
-        if x is None or np.iscomplexobj(x):
-            raise TypeError
-        given = np.asarray(x)
-        # Others convert too, instants and text among them, and are no vibration.
-        if given.dtype.kind not in "iuf" and not (given.dtype.kind == "O" and all(isinstance(v, numbers.Real) and not isinstance(v, bool) for v in given.flat)):
-            raise TypeError
-        samples: Array = given.astype(float, copy=False)
-    except (TypeError, ValueError):
-        kind = "complex numbers" if np.iscomplexobj(x) else _kind(x)
-        raise TypeError(f"{name}: expected the samples of one channel, real numbers, and it is {kind}") from None
-    if samples.ndim == 2 and 1 in samples.shape:
-        samples = samples.reshape(-1)
-    if samples.ndim != 1:
-        # Of a matrix of few rows and many columns the rows are the channels.
-        first = "[0]" if samples.ndim == 2 and samples.shape[0] < samples.shape[1] else "[:, 0]"
-        raise TypeError(
-            f"{name}: expected the samples of one channel, and its shape is {samples.shape}; give one of them, such as {name}{first}"
-        )
-    return samples
 
 
 @dataclass(frozen=True, eq=False)
@@ -214,10 +137,10 @@ def psd(
     >>> int(tone.frequency_hz[tone.amplitude.argmax()]), round(float(tone.amplitude.max()), 6)
     (64, 3.0)
     """
-    samples, rate_hz = samples_of(x), number_of(rate_hz, "rate_hz", "samples a second")
+    samples, rate_hz, unit = samples_of(x), rate_of(rate_hz), unit_of(unit)
     if length is None:
         length = max(min(int(rate_hz) if rate_hz < 2**31 else len(samples), len(samples) // 4), min(256, len(samples)))
-    found = _brinell.psd(samples, rate_hz, length, overlap, window, detrend)
+    found = _brinell.psd(samples, rate_hz, whole_of(length, "length", "samples"), number_of(overlap, "overlap", "a share"), window, detrend)
     return Spectrum._of(found, unit)
 
 
@@ -237,11 +160,11 @@ def spectrum(x: npt.ArrayLike, *, rate_hz: float, unit: str, window: _Window = "
     >>> float(lines.frequency_hz[1])
     1.0
     """
-    found = _brinell.psd(samples_of(x), rate_hz, None, 0.0, window, detrend)
-    return Spectrum._of(found, unit)
+    found = _brinell.psd(samples_of(x), rate_of(rate_hz), None, 0.0, window, detrend)
+    return Spectrum._of(found, unit_of(unit))
 
 
-def envelope(x: npt.ArrayLike, *, rate_hz: float, band_hz: tuple[float, float] | None = None) -> Array:
+def envelope(x: npt.ArrayLike, *, rate_hz: float, band_hz: Sequence[float] | None = None) -> Array:
     """Envelope in a band, sample by sample, in the signal's unit. Its ends are disturbed.
 
     Parameters
@@ -260,7 +183,7 @@ def envelope(x: npt.ArrayLike, *, rate_hz: float, band_hz: tuple[float, float] |
     >>> bool(np.allclose(brinell.envelope(2.0 * np.sin(2 * np.pi * 100 * t), rate_hz=1000.0), 2.0))
     True
     """
-    return _brinell.envelope(samples_of(x), rate_hz, band_hz)
+    return _brinell.envelope(samples_of(x), rate_of(rate_hz), band_of(band_hz))
 
 
 def envelope_spectrum(
@@ -268,7 +191,7 @@ def envelope_spectrum(
     *,
     rate_hz: float,
     unit: str,
-    band_hz: tuple[float, float] | None = None,
+    band_hz: Sequence[float] | None = None,
     length: int | None = None,
     overlap: float = 0.5,
     window: _Window = "hann",
@@ -295,9 +218,10 @@ def envelope_spectrum(
     >>> float(lines.frequency_hz[lines.amplitude.argmax()]), round(float(lines.amplitude.max() / lines.mean), 3)
     (40.0, 0.5)
     """
-    found = _brinell.envelope_spectrum(samples_of(x), rate_hz, band_hz, length, overlap, window)
-    found["band_hz"] = band_hz
-    return Spectrum._of(found, unit)
+    samples, band = None if length is None else whole_of(length, "length", "samples"), band_of(band_hz)
+    found = _brinell.envelope_spectrum(samples_of(x), rate_of(rate_hz), band, samples, number_of(overlap, "overlap", "a share"), window)
+    found["band_hz"] = band
+    return Spectrum._of(found, unit_of(unit))
 
 
 @dataclass(frozen=True, eq=False)
@@ -341,11 +265,11 @@ def spectrogram(
     >>> map_.density.shape == (len(map_.time_s), len(map_.frequency_hz)) == (7, 129)
     True
     """
-    samples = samples_of(x)
-    first, time_step, step, density = _brinell.spectrogram(samples, rate_hz, length, overlap, window)
+    samples, length, overlap = samples_of(x), whole_of(length, "length", "samples"), number_of(overlap, "overlap", "a share")
+    first, time_step, step, density = _brinell.spectrogram(samples, rate_of(rate_hz), length, overlap, window)
     frames, bins = density.shape
     time = first + time_step * np.arange(frames, dtype=float)
-    return Spectrogram(time.astype(float), (step * np.arange(bins)).astype(float), density, unit)
+    return Spectrogram(time.astype(float), (step * np.arange(bins)).astype(float), density, unit_of(unit))
 
 
 @dataclass(frozen=True, eq=False)
@@ -397,7 +321,8 @@ def kurtogram(x: npt.ArrayLike, *, rate_hz: float, depth: int = 7, narrowest_hz:
     >>> low < 3000.0 < high
     True
     """
-    return Kurtogram(**_brinell.kurtogram(samples_of(x), rate_hz, depth, narrowest_hz))
+    depth, narrowest = whole_of(depth, "depth", "halvings"), number_of(narrowest_hz, "narrowest_hz", "Hz")
+    return Kurtogram(**_brinell.kurtogram(samples_of(x), rate_of(rate_hz), depth, narrowest))
 
 
 def indicators(x: npt.ArrayLike, *, rate_hz: float, unit: str, block_s: float) -> dict[str, dict[str, Any]]:
@@ -423,7 +348,7 @@ def indicators(x: npt.ArrayLike, *, rate_hz: float, unit: str, block_s: float) -
     >>> round(found["rms"]["value"], 4), found["rms"]["unit"], found["rms"]["blocks"]
     (0.7071, 'm/s^2', 10)
     """
-    return _brinell.indicators(samples_of(x), rate_hz, unit, block_s)
+    return _brinell.indicators(samples_of(x), rate_of(rate_hz), unit_of(unit), number_of(block_s, "block_s", "s"))
 
 
 @dataclass(frozen=True, eq=False)
@@ -442,14 +367,14 @@ class Signal:
         return f"<brinell.Signal {self.channel!r}: {len(self.values)} samples at {rate}, {self.unit or 'unknown unit'}>"
 
 
-def read_signal(path: str | os.PathLike[str], channel: str | None = None) -> Signal:
+def read_signal(path: str | os.PathLike[str], channel: str | int | None = None) -> Signal:
     """One channel of a measured signal's file: CSV and text, Parquet, MAT, HDF5, NPY, NPZ, UFF 58 or WAV.
 
     Parameters
     ----------
     path : path
         The file; its content says the format.
-    channel : str, optional
+    channel : str or int, optional
         Which one; needed where there are several. As ``--channel`` has it: its name, its number from 1, or whole words of its name, whatever the case:
         ``"DE"`` is ``X098_DE_time``.
 
@@ -466,4 +391,6 @@ def read_signal(path: str | os.PathLike[str], channel: str | None = None) -> Sig
     >>> brinell.read_signal(path).values
     array([0., 1., 2., 3., 4.])
     """
+    if channel is not None and not isinstance(channel, str):
+        channel = str(whole_of(channel, "channel", "counted from 1, or the name of a channel"))
     return Signal(**_brinell.read_signal(path, channel))

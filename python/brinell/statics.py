@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
@@ -9,7 +10,8 @@ import numpy as np
 import numpy.typing as npt
 
 from brinell import _brinell, tables
-from brinell.scenario import Runnable, Scenario, given
+from brinell.arguments import number_of
+from brinell.scenario import Runnable, Scenario, given, of_bearing
 
 if TYPE_CHECKING:
     import matplotlib.axes
@@ -89,13 +91,13 @@ def derived(scenario: Runnable) -> dict[str, Any]:
     return _brinell.derived(given(scenario)._native)
 
 
-def frequencies(bearing: str | Scenario, speed_rpm: float | None = None) -> dict[str, float]:
+def frequencies(bearing: str | os.PathLike[str] | Scenario, speed_rpm: float | None = None) -> dict[str, float]:
     """Shaft, cage and defect frequencies in pure rolling, Hz.
 
     Parameters
     ----------
-    bearing : str or Scenario
-        A bearing of the catalogue or of a public data set (``brinell bearing list``), or a scenario.
+    bearing : str, path or Scenario
+        A bearing of the catalogue or of a public data set (``brinell bearing list``), a scenario, or a scenario's file.
     speed_rpm : float, optional
         Needed with a name; the scenario's own by default.
 
@@ -105,6 +107,5 @@ def frequencies(bearing: str | Scenario, speed_rpm: float | None = None) -> dict
     >>> round(brinell.frequencies("NN3007", 1800.0)["bpfo"], 2)
     250.1
     """
-    if isinstance(bearing, Scenario):
-        return _brinell.frequencies(None, bearing._native, speed_rpm)
-    return _brinell.frequencies(bearing, None, speed_rpm)
+    name, of = of_bearing(bearing)
+    return _brinell.frequencies(name, of, None if speed_rpm is None else number_of(speed_rpm, "speed_rpm", "r/min"))

@@ -3,21 +3,24 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import numpy.typing as npt
 
 from brinell import _brinell, tables
-from brinell.scenario import Runnable, given
+from brinell.arguments import jobs_of
+from brinell.scenario import Runnable, given, plain, warn
 
 if TYPE_CHECKING:
     import matplotlib.axes
     import pandas
     import polars
     import xarray
+
+_Values = Sequence[Any] | npt.NDArray[Any] | str
 
 __all__ = ["Table", "sweep"]
 
@@ -29,17 +32,34 @@ class Table:
     keys: list[str]
     """Keys that vary."""
     columns: dict[str, npt.NDArray[Any]]
-    """Settings by key, then numbers by name (``sensor_ax.rms``, its interval ``.low`` and ``.high``); NaN where a run has none."""
+    """As the command's: ``point`` from 1, settings by key, ``status`` (``complete`` or ``failed``), ``reason`` (None of a complete one), then numbers by
+    name (``sensor_ax.rms``, its interval ``.low`` and ``.high``); NaN where a run has none."""
     units: dict[str, str]
     """SI units of the numbers; 1 where there is none."""
     failed: dict[int, str]
     """Why a point failed, by its place from 0."""
     shape: tuple[int, ...]
     """Settings of each axis."""
+    warnings: list[str] = field(default_factory=list, repr=False)
+    """What ``brinell sweep`` warns of, each kind once, and that points failed."""
 
     def __getitem__(self, name: str) -> npt.NDArray[Any]:
         """A column."""
-        return self.columns[name]
+        try:
+            return self.columns[name]
+        except (KeyError, TypeError):
+            raise KeyError(f"{name}: no such column{tables.meant(name, self.columns)}") from None
+
+    def __contains__(self, name: object) -> bool:
+        """Whether there is a column of this name."""
+        return name in list(self.columns)
+
+    def __iter__(self) -> Iterator[str]:
+        """Names of the columns."""
+        return iter(self.columns)
+
+    def _ipython_key_completions_(self) -> list[str]:
+        return list(self.columns)
 
     def __len__(self) -> int:
         """Points."""
@@ -97,9 +117,9 @@ class Table:
 
 def sweep(
     scenario: Runnable,
-    vary: Mapping[str, Sequence[Any] | str] | None = None,
+    vary: Mapping[str, _Values] | None = None,
     *,
-    together: Sequence[Mapping[str, Sequence[Any] | str]] = (),
+    together: Sequence[Mapping[str, _Values]] = (),
     jobs: int | None = None,
     progress: Callable[[int, int], object] | None = None,
     folder: str | os.PathLike[str] | None = None,
@@ -110,7 +130,7 @@ def sweep(
     ----------
     scenario : Scenario or path
         What the settings change.
-    vary : mapping of str to sequence or str
+    vary : mapping of str to sequence, array or str
         Values by dotted path, or text as ``brinell sweep --vary`` has it: ``"900:1800:450"``; the last key changes fastest.
     together : sequence of mappings
         Each mapping's keys change in step: equally many values each.
@@ -135,6 +155,11 @@ def sweep(
     ReadError
         Where the folder's journal cannot be read or written.
 
+    Warns
+    -----
+    ScenarioWarning
+        What ``brinell sweep`` warns of, each kind once, and that points failed: ``warnings`` of the table.
+
     Examples
     --------
     >>> import brinell
@@ -156,26 +181,34 @@ def sweep(
             told = ", ".join(f"{key} has {len(values)}" for key, values in zip(keys, lists, strict=True))
             raise ValueError(f"keys that vary together have equally many values; {told}")
         axes.append((keys, [list(setting) for setting in zip(*lists, strict=True)]))
-    places, reasons, numbers = _brinell.sweep(given(scenario)._native, axes, jobs, progress, folder)
-    columns: dict[str, npt.NDArray[Any]] = {}
+    places, reasons, numbers, warnings = _brinell.sweep(given(scenario)._native, axes, jobs_of(jobs), progress, folder)
+    columns: dict[str, npt.NDArray[Any]] = {"point": np.arange(1.0, len(places) + 1.0)}
     for number, (keys, settings) in enumerate(axes):
         for at, key in enumerate(keys):
             columns[key] = _column([settings[place[number]][at] for place in places])
-    units: dict[str, str] = {}
+    columns["status"] = _column(["complete" if reason is None else "failed" for reason in reasons])
+    columns["reason"] = _column(reasons)
+    units = {"point": "1", "status": "", "reason": ""}
     for name, unit, column in numbers:
         columns[name] = column
         units[name] = unit
-    return Table(
+    failed = {k: reason for k, reason in enumerate(reasons) if reason is not None}
+    for k in list(failed)[:1]:
+        warnings.append(f"{len(failed)} of {len(reasons)} points failed, the first of them point {k + 1}: {failed[k]}")
+    table = Table(
         keys=[key for keys, _ in axes for key in keys],
         columns=columns,
         units=units,
-        failed={k: reason for k, reason in enumerate(reasons) if reason is not None},
+        failed=failed,
         shape=tuple(len(settings) for _, settings in axes),
+        warnings=[plain(text) for text in warnings],
         _axes=tuple(keys for keys, _ in axes),
     )
+    warn(table.warnings)
+    return table
 
 
-def _listed(key: str, values: Sequence[Any] | str) -> list[Any]:
+def _listed(key: str, values: _Values) -> list[Any]:
     if isinstance(values, str):
         return _brinell.values(key, values)
     try:

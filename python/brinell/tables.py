@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+import difflib
 import importlib
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -13,7 +14,7 @@ if TYPE_CHECKING:
     import polars
     import xarray
 
-__all__ = ["columns", "need", "to_pandas", "to_polars", "to_xarray"]
+__all__ = ["columns", "meant", "need", "to_pandas", "to_polars", "to_xarray"]
 
 
 def need(library: str) -> Any:
@@ -46,6 +47,19 @@ def need(library: str) -> Any:
         if error.name is not None and error.name.split(".")[0] != name:
             raise
         raise ImportError(f"this needs {name}: pip install {name}") from None
+
+
+def meant(name: object, names: Iterable[str]) -> str:
+    """What is said after a name that is none of `names`: the one that it most likely means, or nothing.
+
+    Examples
+    --------
+    >>> from brinell.tables import meant
+    >>> meant("sensor_ax.rmss", ["sensor_ax.rms", "t"])
+    ', did you mean "sensor_ax.rms"?'
+    """
+    near = difflib.get_close_matches(str(name), list(names), n=1)
+    return f', did you mean "{near[0]}"?' if near else ""
 
 
 def columns(found: Sequence[tuple[str, str, Any]]) -> dict[str, Any]:

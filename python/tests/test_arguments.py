@@ -8,6 +8,14 @@ import brinell
 X = np.sin(np.arange(4096.0))
 
 
+def analyze(**settings):
+    return brinell.analyze(X, **({"rate_hz": 1e4, "unit": "g", "speed_rpm": 1800.0, "bearing": "6205"} | settings))
+
+
+def scenario(**operation):
+    return brinell.Scenario(bearing="NN3007", operation=operation)
+
+
 @pytest.mark.parametrize(
     ("x", "kind", "words"),
     [
@@ -135,6 +143,27 @@ def test_prop_clipped_runs_are_warned_of(tmp_path, examples):
         (lambda: brinell.kurtogram(X, rate_hz=1e4, depth=-1), ValueError, "depth = -1\n  allowed: 0 or more"),
         (lambda: brinell.envelope(X, rate_hz=1e4, band_hz=(2000.0, 1000.0)), brinell.SignalError, "lower edge of the band"),
         (lambda: brinell.envelope(X * np.nan, rate_hz=1e4), brinell.SignalError, "sample 1 is not finite"),
+        (lambda: brinell.psd(X, rate_hz=1e4, unit=None), TypeError, "unit = None: expected text, such as"),
+        (lambda: brinell.psd(X, rate_hz=1e4, unit="g", length=1024.0), TypeError, "length = 1024.0: expected a whole number, samples"),
+        (lambda: brinell.envelope(X, rate_hz="1e4"), TypeError, "rate_hz = '1e4': expected a number"),
+        (lambda: brinell.envelope(X, rate_hz=1e4, band_hz=[1e3]), TypeError, r"band_hz = \[1000.0\]: expected two numbers, \(low, high\), Hz"),
+        (lambda: analyze(speed_rpm="1797"), TypeError, "speed_rpm = '1797': expected a number, r/min"),
+        (lambda: analyze(bpfo="3.6"), TypeError, "bpfo = '3.6': expected a number"),
+        (lambda: analyze(bearing={"preset": "6205"}), TypeError, "bearing = {'preset': '6205'}: expected a name, a Scenario or the path"),
+        (lambda: analyze(sensitivity=0.1), TypeError, 'sensitivity = 0.1: expected text, such as "100mV/g"'),
+        (lambda: analyze(bearing=None, rollers=9, pitch_mm=39.0), ValueError, "rollers, pitch_mm and diameter_mm describe a bearing together"),
+        (lambda: analyze(rollers=9, pitch_mm=39.0, diameter_mm=7.9), ValueError, "bearing and rollers, .* are given"),
+        (
+            lambda: analyze(bearing=None, rollers=30, pitch_mm=39.0, diameter_mm=7.9),
+            ValueError,
+            r"rollers = 30, pitch_mm = 39, diameter_mm = 7.9, contact_angle_deg = 0: expected 3 or more elements \(up to 15 have room",
+        ),
+        (lambda: brinell.compare([1, 2]), TypeError, "runs: expected runs by name, .* and it is list"),
+        (lambda: brinell.simulate_many([], jobs=1.5), TypeError, "jobs = 1.5: expected a whole number, runs at a time"),
+        (lambda: brinell.depth_map(np.zeros((3, 3)), ds_mm="0.1 mm", dz_mm=0.1), TypeError, "ds_mm = '0.1 mm': expected a number, mm"),
+        (lambda: brinell.rectangle(length_mm=1.0, width_mm=1.0, depth_um=1.0, centre_deg=0), TypeError, r"rectangle\(\) got .*'centre_deg'"),
+        (lambda: scenario(speed_rpm=3 + 4j), TypeError, "operation.speed_rpm: complex: a scenario holds numbers"),
+        (lambda: scenario(speed_rpm=1.0, load_n=[None, 0.0]), TypeError, "operation.load_n.0: None: a scenario holds numbers"),
     ],
 )
 def test_regress_numbers_out_of_range_are_refused_by_name(call, kind, words):
@@ -152,6 +181,7 @@ def test_regress_numbers_out_of_range_are_refused_by_name(call, kind, words):
         ({"measured": X}, TypeError, "measured: expected a brinell.signals.Signal.*ndarray"),
         ({"measured": brinell.signals.Signal(X, "25600", "g", "a")}, TypeError, "measured.rate_hz = '25600'"),
         ({"seed": -1}, ValueError, "seed = -1\n  allowed: 0 or more"),
+        ({"seed": 1.5}, TypeError, "seed = 1.5: expected a whole number"),
         ({"fit": {"bearing.radial_clearance_um": (-1e308, 1e308)}}, ValueError, "the bounds are too far apart"),
     ],
 )
@@ -159,3 +189,34 @@ def test_regress_what_cannot_be_calibrated_is_refused_by_name(base, settings, ki
     usual = {"fit": {"operation.speed_rpm": (1500.0, 2100.0)}, "targets": {"sensor_ax.rms": (30.0, 1.0)}}
     with pytest.raises(kind, match=words):
         brinell.calibrate(base, **(usual | settings))
+
+
+def test_regress_what_is_meant_is_taken(base, tmp_path):
+    np.testing.assert_array_equal(brinell.envelope(X, rate_hz=1e4, band_hz=[1000, 2000]), brinell.envelope(X, rate_hz=1e4, band_hz=(1e3, 2e3)))
+    np.savez(tmp_path / "rig.npz", a=X, b=-X)
+    assert brinell.read_signal(tmp_path / "rig.npz", channel=np.int64(2)).channel == "b"
+    table = brinell.sweep(base.replace({"simulation.duration_s": 0.02}), {"operation.speed_rpm": np.linspace(900.0, 1800.0, 2)})
+    assert list(table["operation.speed_rpm"]) == [900.0, 1800.0]
+
+
+def test_regress_a_bearing_is_a_file_a_name_or_its_numbers(base, tmp_path, monkeypatch):
+    path = base.write(tmp_path / "b.toml")
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "rig").write_bytes(path.read_bytes())
+    expected = brinell.frequencies("NN3007", 1797)
+    for bearing in ("b.toml", path, "rig", base):
+        assert brinell.frequencies(bearing, 1797) == expected
+    with pytest.raises(brinell.ReadError, match="none.toml"):
+        brinell.frequencies("none.toml", 1797)
+    with pytest.raises(ValueError, match="no bearing"):
+        brinell.frequencies("no bearing", 1797)
+    x = np.random.default_rng(1).normal(size=20_000)
+    call = {"rate_hz": 2e4, "unit": "g", "speed_rpm": 1800.0}
+    by_file = brinell.analyze(x, bearing="b.toml", **call)
+    by_numbers = brinell.analyze(x, rollers=19, pitch_mm=49.0, diameter_mm=6.0, **call)
+    hertz = [sorted(family["expected_hz"] for family in found.families) for found in (by_file, by_numbers)]
+    np.testing.assert_allclose(*hertz, rtol=1e-12)
+    of_signal = brinell.analyze(brinell.Signal(x, 2e4, "g", "x"), bearing="b.toml", speed_rpm=1800.0)
+    assert of_signal.families == by_file.families
+    with pytest.raises(TypeError, match="rate_hz = None: expected a number, samples a second"):
+        brinell.analyze(brinell.Signal(x, None, "g", "x"), bearing="NN3007", speed_rpm=1800.0)

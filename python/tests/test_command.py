@@ -48,19 +48,17 @@ def test_xval_sweep_has_the_table_of_the_command(command, examples, tmp_path):
     sets = ["--set", "simulation.duration_s=0.1"]
     vary = ["--vary", "operation.speed_rpm=900,1800", "--vary", "bearing.radial_clearance_um=5,-500"]
     run(command, "sweep", examples / "rectangle.toml", *sets, *vary, "-o", tmp_path, "-q", code=1)
-    lines = (tmp_path / "sweep.csv").read_text().splitlines()
-    rows = list(csv.DictReader(line for line in lines if not line.startswith("#")))
     base = brinell.Scenario.from_file(examples / "rectangle.toml", {"simulation.duration_s": 0.1})
-    table = brinell.sweep(base, {"operation.speed_rpm": [900, 1800], "bearing.radial_clearance_um": [5, -500]})
-    assert len(rows) == len(table) == 4
-    for k, row in enumerate(rows):
-        assert (row["status"] == "failed") == (k in table.failed)
-        if k in table.failed:
-            assert row["reason"] == table.failed[k]
-        for name in table.columns:
-            cell = row[name]
-            expected = float(cell) if cell else np.nan
-            np.testing.assert_array_equal(float(table[name][k]), expected, err_msg=f"{name} of point {k}")
+    with pytest.warns(brinell.ScenarioWarning) as told:
+        table = brinell.sweep(base, {"operation.speed_rpm": [900, 1800], "bearing.radial_clearance_um": [5, -500]})
+    same_cells(tmp_path / "sweep.csv", table.columns)
+    assert sorted(table.failed) == [1, 3] and [row in table.failed for row in range(4)] == list(table["status"] == "failed")
+    expected = json.loads((tmp_path / "sweep.json").read_text())["warnings"]
+    assert table.warnings[:-1] == [text.removeprefix("warning: ") for text in expected] and len(expected) == 2
+    assert table.warnings[-1].startswith("2 of 4 points failed, the first of them point 2: ")
+    assert [str(warning.message) for warning in told] == table.warnings
+    kept = brinell.sweep(base, {"operation.speed_rpm": [900, 1800], "bearing.radial_clearance_um": [5, -500]}, folder=tmp_path / "kept")
+    assert kept.warnings == table.warnings
 
 
 def same_cells(path, columns):

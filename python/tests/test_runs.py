@@ -200,7 +200,7 @@ def test_regress_ctrl_c_ends_the_wait_for_a_spectrum():
 
 
 def test_regress_names_that_are_not_there(result):
-    with pytest.raises(KeyError, match="sensor_ax"):
+    with pytest.raises(KeyError, match='not recorded, did you mean "sensor_a'):
         result["sensor_az"]
     with pytest.raises(TypeError, match="brinell.simulate"):
         brinell.Result()

@@ -2,7 +2,7 @@
 
 use crate::failure::Failure;
 use crate::figures::{PlotFormat, Print};
-use brinell::analysis::{DefectOrders, most_elements};
+use brinell::analysis::{DefectOrders, Wording};
 use brinell_io::Format;
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use clap::{Args, Subcommand, ValueEnum};
@@ -200,29 +200,9 @@ pub(crate) struct Elements {
 impl Elements {
     /// Their orders, and their numbers in words; `None` where none is given.
     pub(crate) fn orders(&self) -> Result<Option<(DefectOrders, String)>, Failure> {
-        let angle = self.contact_angle.unwrap_or(0.0);
-        match (self.rollers, self.pitch, self.diameter) {
-            (Some(z), Some(pitch), Some(d)) => {
-                let orders = DefectOrders::of_geometry(z, d, pitch, angle).ok_or_else(|| {
-                    let most = most_elements(d, pitch);
-                    let room = match d < pitch && most >= 3.0 && most.is_finite() {
-                        true => format!(" (up to {most} have room beside each other)"),
-                        false => String::new(),
-                    };
-                    Failure::Usage(format!(
-                        "--rollers {z} --pitch {pitch} --diameter {d} --contact-angle {angle}: expected 3 or more elements{room}, \
-                         0 < diameter < pitch in mm, and an angle of 0 to below 90 degrees"
-                    ))
-                })?;
-                let words =
-                    format!("{z} elements of {d} mm on a pitch circle of {pitch} mm, contact angle {angle} degrees");
-                Ok(Some((orders, words)))
-            }
-            (None, None, None) if self.contact_angle.is_none() => Ok(None),
-            _ => Err(Failure::Usage(
-                "--rollers, --pitch and --diameter describe a bearing together; one of them is missing".into(),
-            )),
-        }
+        let names = ["--rollers", "--pitch", "--diameter", "--contact-angle"];
+        let measures = [self.pitch, self.diameter, self.contact_angle];
+        DefectOrders::of_numbers(self.rollers, measures, Wording { names, is: " ", then: " " }).map_err(Failure::Usage)
     }
 }
 

@@ -71,16 +71,21 @@ pub(crate) fn table<'py>(py: Python<'py>, table: &Table) -> PyResult<Bound<'py, 
 /// Levels of lists within lists: deeper ones hold themselves.
 const DEEPEST: usize = 32;
 
-/// A value as TOML: numbers, strings, paths, booleans, and lists, tuples, arrays and dicts of them.
-pub(crate) fn python_to_toml(value: &Bound<'_, PyAny>) -> PyResult<String> {
+/// A value as TOML: numbers, strings, paths, booleans, and lists, tuples, arrays and dicts of them; `key` is where it
+/// goes.
+pub(crate) fn python_to_toml(key: &str, value: &Bound<'_, PyAny>) -> PyResult<String> {
     let mut out = String::new();
-    write_toml(value, &mut out, 0)?;
+    write_toml(&|| key.to_owned(), value, &mut out, 0)?;
     Ok(out)
 }
 
-fn write_toml(value: &Bound<'_, PyAny>, out: &mut String, depth: usize) -> PyResult<()> {
+/// `at` words where it goes, once that is to be said.
+fn write_toml(at: &dyn Fn() -> String, value: &Bound<'_, PyAny>, out: &mut String, depth: usize) -> PyResult<()> {
     if depth > DEEPEST {
-        return Err(bad_value(format!("lists more than {DEEPEST} levels deep")));
+        // The path is as deep as that.
+        let path = at();
+        let key: Vec<&str> = path.split('.').take(2).collect();
+        return Err(bad_value(format!("{}: lists more than {DEEPEST} levels deep", key.join("."))));
     }
     let _ = if let Ok(truth) = value.cast::<PyBool>() {
         write!(out, "{}", truth.is_true())
@@ -93,34 +98,18 @@ fn write_toml(value: &Bound<'_, PyAny>, out: &mut String, depth: usize) -> PyRes
         out.push_str(&brinell::document::toml_quote(text.to_str()?));
         Ok(())
     } else if let Ok(table) = value.cast::<PyDict>() {
-        out.push_str("{ ");
-        let mut lead = "";
-        for (key, value) in table {
-            if value.is_none() {
-                continue;
-            }
-            let key = key
-                .cast::<PyString>()
-                .map_err(|_| PyTypeError::new_err(format!("{key}: keys of a scenario are strings")))?;
-            out.push_str(lead);
-            out.push_str(&brinell::document::toml_quote(key.to_str()?));
-            out.push_str(" = ");
-            write_toml(&value, out, depth + 1)?;
-            lead = ", ";
-        }
-        out.push_str(" }");
-        Ok(())
+        return write_table(at, table, out, depth);
     } else if value.hasattr("tolist")? {
-        return write_toml(&value.call_method0("tolist")?, out, depth);
+        return write_toml(at, &value.call_method0("tolist")?, out, depth);
     } else if value.hasattr("__fspath__")? {
-        return write_toml(&value.call_method0("__fspath__")?, out, depth);
+        return write_toml(at, &value.call_method0("__fspath__")?, out, depth);
     } else if value.is_instance_of::<PySet>() || value.is_instance_of::<PyFrozenSet>() {
-        return Err(PyTypeError::new_err(format!("{}: a set has no order; give a list", value.repr()?)));
+        return Err(PyTypeError::new_err(format!("{} = {}: a set has no order; give a list", at(), value.repr()?)));
     } else if value.hasattr("__iter__")? {
         out.push('[');
         for (k, item) in value.try_iter()?.enumerate() {
             out.push_str(if k == 0 { "" } else { ", " });
-            write_toml(&item?, out, depth + 1)?;
+            write_toml(&|| format!("{}.{k}", at()), &item?, out, depth + 1)?;
         }
         out.push(']');
         Ok(())
@@ -128,11 +117,31 @@ fn write_toml(value: &Bound<'_, PyAny>, out: &mut String, depth: usize) -> PyRes
         out.push_str(&brinell::document::toml_float(number));
         Ok(())
     } else {
+        let shown = if value.is_none() { "None".into() } else { value.get_type().name()?.to_string() };
         return Err(PyTypeError::new_err(format!(
-            "{}: a scenario holds numbers, strings, booleans, and lists, arrays and dicts of them",
-            value.get_type().name()?
+            "{}: {shown}: a scenario holds numbers, strings, booleans, and lists, arrays and dicts of them",
+            at()
         )));
     };
+    Ok(())
+}
+
+fn write_table(at: &dyn Fn() -> String, table: &Bound<'_, PyDict>, out: &mut String, depth: usize) -> PyResult<()> {
+    out.push_str("{ ");
+    let mut lead = "";
+    for (key, value) in table {
+        if value.is_none() {
+            continue;
+        }
+        let wrong = |_| PyTypeError::new_err(format!("{}: {key}: keys of a scenario are strings", at()));
+        let key = key.cast::<PyString>().map_err(wrong)?.to_str()?;
+        out.push_str(lead);
+        out.push_str(&brinell::document::toml_quote(key));
+        out.push_str(" = ");
+        write_toml(&|| format!("{}.{key}", at()), &value, out, depth + 1)?;
+        lead = ", ";
+    }
+    out.push_str(" }");
     Ok(())
 }
 
@@ -143,7 +152,8 @@ pub(crate) fn overrides(settings: &Bound<'_, PyDict>) -> PyResult<Vec<(String, S
         let key: String = key
             .extract()
             .map_err(|_| PyTypeError::new_err(format!("{key}: a key is a dotted path, such as operation.speed_rpm")))?;
-        all.push((key, python_to_toml(&value)?));
+        let value = python_to_toml(&key, &value)?;
+        all.push((key, value));
     }
     Ok(all)
 }
@@ -154,7 +164,7 @@ pub(crate) fn document(sections: &Bound<'_, PyDict>) -> PyResult<String> {
     for (key, value) in sections {
         if !value.is_none() {
             let key: String = key.extract()?;
-            let _ = writeln!(text, "{key} = {}", python_to_toml(&value)?);
+            let _ = writeln!(text, "{key} = {}", python_to_toml(&key, &value)?);
         }
     }
     Ok(text)

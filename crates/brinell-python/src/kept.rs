@@ -3,8 +3,8 @@
 use crate::bad_value::bad_value;
 use crate::errors::ReadError;
 use crate::scenario::Source;
-use crate::wait::{Watch, attended, over_threads, threads};
-use brinell::document::{on_one_line, one_line};
+use crate::wait::{Watch, attended, threads};
+use brinell::document::one_line;
 use brinell::result::Quantity;
 use brinell::scenario::Scenario;
 use brinell_study::campaign::Plan;
@@ -13,8 +13,11 @@ use pyo3::prelude::*;
 use serde_json::Value;
 use std::path::Path;
 
-/// A point's numbers, or why there are none.
-pub(crate) type Numbers = Result<Vec<Quantity>, String>;
+/// A point's numbers with what they should be warned of, or why there are none.
+pub(crate) type Ran = Result<(Vec<Quantity>, Vec<String>), String>;
+
+/// Of each point what to run, or why its scenario is bad.
+pub(crate) type Tasks = Vec<Result<Task, String>>;
 
 /// Scenarios of points, from the one that they change.
 struct Points<'a>(&'a Source);
@@ -46,21 +49,11 @@ pub(crate) fn ledger(folder: &Path, header: &Value) -> PyResult<Ledger> {
 pub(crate) fn run(
     py: Python<'_>,
     (plan, source): (&Plan, &Source),
+    points: Tasks,
     folder: &Path,
     jobs: Option<isize>,
     mut progress: impl FnMut(Python<'_>, usize) -> PyResult<()> + Send,
-) -> PyResult<Vec<Numbers>> {
-    let mut points = vec![Err(String::new()); plan.points()];
-    over_threads(
-        py,
-        plan.points(),
-        jobs,
-        |k, _| task(plan.settings(k), source),
-        |_, k, task| {
-            points[k] = task;
-            Ok(())
-        },
-    )?;
+) -> PyResult<Vec<Ran>> {
     let prints = points.iter().map(|p| p.as_ref().ok().map(|t| &*t.fingerprint));
     let mut ledger = ledger(folder, &plan.header(prints))?;
     let tasks = to_run(points.iter().flatten(), |task| ledger.kept.row(&task.fingerprint).is_some());
@@ -78,14 +71,8 @@ pub(crate) fn run(
     attended(py, &watch, runs, tell)?.map(drop).map_err(|error| refused(folder, error))?;
     let result = |point: Result<Task, String>| {
         let row = ledger.kept.row(&point?.fingerprint).ok_or("not run")?;
-        row.result.clone().map_err(|reason| one_line(&reason))
+        let numbers = row.result.clone().map_err(|reason| one_line(&reason))?;
+        Ok((numbers, row.warnings.clone()))
     };
     Ok(points.into_iter().map(result).collect())
-}
-
-/// A point as a task, or what is wrong with its scenario.
-fn task(settings: Vec<(String, String)>, source: &Source) -> Result<Task, String> {
-    let loaded = source.with(&settings).load();
-    let (loaded, _) = loaded.map_err(|problems| on_one_line(&problems))?;
-    Ok(Task::new(settings, &loaded.scenario))
 }

@@ -73,3 +73,9 @@ pub(crate) fn frequencies<'py>(
     }
     json_to_python(py, &brinell::derived::frequencies(frequencies_of(orders, rpm)).into())
 }
+
+/// Whether a bearing is known by this name.
+#[pyfunction]
+pub(crate) fn is_bearing(name: &str) -> bool {
+    KnownBearing::find(name).is_some()
+}

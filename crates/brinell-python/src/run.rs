@@ -6,7 +6,7 @@ use crate::errors::run_error;
 use crate::scenario::Scenario;
 use crate::wait::{PATIENCE, over_threads};
 use brinell::Error;
-use brinell::channel::Frame;
+use brinell::channel::{Frame, stiffness_unit};
 use brinell::many::go_on;
 use brinell::observe::passes::{Event, Passes};
 use brinell::plausibility::Beforehand;
@@ -14,10 +14,12 @@ use brinell::result::{self, RunResult};
 use brinell::simulate::{End, Observer, Signals, Simulation, SolverWork};
 use brinell::summary::{self, Parts};
 use brinell_report::{Report, html};
+use brinell_study::campaign::{BALANCED, Misses, count, of_results};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
 use serde_json::json;
 use std::ops::ControlFlow;
+use std::sync::OnceLock;
 use std::time::Instant;
 
 /// Keeps every row, and every entry and exit, of which a run's findings keep the latest; asks now and then whether to
@@ -46,16 +48,16 @@ impl<F: FnMut(f64) -> ControlFlow<()>> Observer for Recorder<'_, F> {
 
 /// What a run came to.
 enum Ran {
-    /// With its channels, entries and exits.
-    Over(Box<RunResult>, Signals, Vec<Event>),
+    /// With its channels, entries and exits, and what was known beforehand, where that was asked for.
+    Over(Box<RunResult>, Signals, Vec<Event>, Option<Beforehand>),
     /// There is no model, nothing to start from, or no room for the channels.
     Bad(Error),
     /// Not begun.
     LeftOut,
 }
 
-/// One run, on the thread that calls.
-fn run(scenario: &Scenario, mut go_on: impl FnMut(f64) -> ControlFlow<()>) -> Ran {
+/// One run, on the thread that calls; `beforehand`: what was known of it is found here, too.
+fn run(scenario: &Scenario, beforehand: bool, mut go_on: impl FnMut(f64) -> ControlFlow<()>) -> Ran {
     let scenario = &scenario.loaded.scenario;
     let begun = Simulation::unchecked(scenario).and_then(|s| Ok((Signals::new(&s)?, s)));
     let (signals, simulation) = match begun {
@@ -65,16 +67,18 @@ fn run(scenario: &Scenario, mut go_on: impl FnMut(f64) -> ControlFlow<()>) -> Ra
     let passes = Passes::new(simulation.model());
     let mut recorder = Recorder { signals, passes, events: Vec::new(), go_on: &mut go_on };
     let finished = result::finish(scenario.clone(), simulation, &mut recorder);
-    Ran::Over(Box::new(finished), recorder.signals, recorder.events)
+    let beforehand = beforehand.then(|| Beforehand::of(scenario, finished.simulation.model()));
+    Ran::Over(Box::new(finished), recorder.signals, recorder.events, beforehand)
 }
 
 impl Ran {
     /// The result; where the run failed or never began, the exception.
     fn result(self, py: Python<'_>, scenario: &Py<Scenario>) -> PyResult<Run> {
         match self {
-            Self::Over(finished, signals, events) => {
+            Self::Over(finished, signals, events, beforehand) => {
                 let end = finished.outcome.end.clone();
-                let run = Run::new(py, scenario.clone_ref(py), *finished, signals, events)?;
+                let mut run = Run::new(py, scenario.clone_ref(py), *finished, signals, events)?;
+                run.beforehand = beforehand.map_or_else(OnceLock::new, OnceLock::from);
                 let End::Failed(error) = end else {
                     return Ok(run);
                 };
@@ -96,7 +100,7 @@ pub(crate) fn simulate(py: Python<'_>, scenario: &Bound<'_, Scenario>, progress:
     let mut raised = None;
     let ran = py.detach(|| {
         let mut last = Instant::now();
-        run(inner, |t| {
+        run(inner, true, |t| {
             if last.elapsed() < PATIENCE {
                 return ControlFlow::Continue(());
             }
@@ -124,13 +128,15 @@ pub(crate) fn simulate(py: Python<'_>, scenario: &Bound<'_, Scenario>, progress:
 }
 
 /// Runs scenarios side by side. `deliver` gets each index with its result, or with the exception that there is instead.
+/// Gives what they should be warned of, each kind once.
 #[pyfunction]
 pub(crate) fn simulate_many(
     py: Python<'_>,
     scenarios: Vec<Py<Scenario>>,
     jobs: Option<isize>,
     deliver: Py<PyAny>,
-) -> PyResult<()> {
+) -> PyResult<Vec<String>> {
+    let (mut before, mut after, mut looked) = (Vec::new(), Vec::new(), 0);
     over_threads(
         py,
         scenarios.len(),
@@ -139,16 +145,31 @@ pub(crate) fn simulate_many(
             if go_on(stop).is_break() {
                 return Ran::LeftOut;
             }
-            run(scenarios[k].get(), |_| go_on(stop))
+            run(scenarios[k].get(), k < BALANCED, |_| go_on(stop))
         },
         |py, k, ran| {
+            if let Ran::Over(finished, _, _, known) = &ran {
+                let RunResult { scenario, simulation, outcome, findings } = &**finished;
+                after.push((k, summary::afterwards(scenario, simulation, outcome, findings)));
+                looked += usize::from(known.is_some());
+                let known = known.iter().flat_map(|known| &known.warnings);
+                before.extend(known.map(|problem| (k, problem.clone())));
+            }
             match ran.result(py, &scenarios[k]) {
                 Ok(run) => deliver.call1(py, (k, run))?,
                 Err(error) => deliver.call1(py, (k, error))?,
             };
             Ok(())
         },
-    )
+    )?;
+    // In the order of the scenarios, whichever ended first.
+    before.sort_by_key(|(k, _)| *k);
+    after.sort_by_key(|(k, _)| *k);
+    let name = |k| format!("scenarios[{k}]");
+    let mut kinds: Vec<Misses> = Vec::new();
+    before.into_iter().for_each(|(k, problem)| count(&mut kinds, problem, k));
+    let before = kinds.iter().map(|miss| miss.words(looked, "run", name(miss.run)));
+    Ok(before.chain(of_results(after, "run", name)).collect())
 }
 
 /// A run that is over.
@@ -158,6 +179,8 @@ pub(crate) struct Run {
     pub(crate) finished: RunResult,
     signals: Py<PyDict>,
     events: Vec<Event>,
+    /// What was known before it ran; found when it is asked for.
+    beforehand: OnceLock<Beforehand>,
 }
 
 impl Run {
@@ -172,7 +195,7 @@ impl Run {
         for (name, column) in signals {
             dict.set_item(name, array(py, column))?;
         }
-        Ok(Self { signals: dict.unbind(), scenario, finished, events })
+        Ok(Self { signals: dict.unbind(), scenario, finished, events, beforehand: OnceLock::new() })
     }
 
     /// Everything that summary and page are made of.
@@ -186,7 +209,7 @@ impl Run {
                 simulation,
                 outcome: &self.finished.outcome,
                 findings: &self.finished.findings,
-                beforehand: &Beforehand::of(&loaded.scenario, simulation.model()),
+                beforehand: self.beforehand.get_or_init(|| Beforehand::of(&loaded.scenario, simulation.model())),
                 healthy,
             })
         })
@@ -224,6 +247,11 @@ impl Run {
     #[getter]
     fn complete(&self) -> bool {
         self.finished.outcome.end == End::Complete
+    }
+
+    /// What its reader should know, as in [`Run::summary`].
+    fn warnings(&self, py: Python<'_>) -> Vec<String> {
+        self.with_parts(py, None, summary::warnings)
     }
 
     /// What `summary.json` holds.
@@ -298,6 +326,7 @@ impl Run {
             dict.set_item("defect", pass.defect + 1)?;
             dict.set_item("row", layout.row(pass.slot) + 1)?;
             dict.set_item("roller", layout.roller(pass.slot) + 1)?;
+            dict.set_item("stiffness_unit", stiffness_unit(self.finished.scenario.contact.exponent))?;
             let column = |name: &str, of: fn(&brinell::observe::passes::PassPoint) -> f64| {
                 dict.set_item(name, array(py, pass.points.iter().map(of).collect()))
             };

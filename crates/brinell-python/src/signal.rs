@@ -6,7 +6,7 @@ use crate::errors::SignalError;
 use crate::wait::unstoppable;
 use brinell::analysis::{
     Analysis, AnalysisError, DefectOrders, Levels, MachineClass, Options, Quantity, SUPPLY_HZ, Sensitivity, Unit,
-    to_json, velocity,
+    Wording, to_json, velocity,
 };
 use brinell::bearing::{KnownBearing, orders_of};
 use brinell::result::{Stretch, beside_healthy};
@@ -204,12 +204,21 @@ pub(crate) fn indicators<'py>(
     json_to_python(py, &values.into())
 }
 
-/// Orders of the defect frequencies: of a bearing by name, of a scenario, or as given; and where they come from.
+/// Orders of the defect frequencies: of a bearing by name, of a scenario, by its numbers, or as given; and where they
+/// come from.
 fn orders(
     name: Option<&str>,
     scenario: Option<&crate::scenario::Scenario>,
+    (elements, measures): (Option<i128>, [Option<f64>; 3]),
     given: [Option<f64>; 4],
 ) -> PyResult<(DefectOrders, String)> {
+    let names = ["rollers", "pitch_mm", "diameter_mm", "contact_angle_deg"];
+    let elements = elements.map(|count| from_zero(names[0], count)).transpose()?;
+    let numbers = DefectOrders::of_numbers(elements, measures, Wording { names, is: " = ", then: ", " });
+    let numbers = numbers.map_err(bad_value)?;
+    if numbers.is_some() && (name.is_some() || scenario.is_some()) {
+        return Err(bad_value(format!("bearing and {} are given: leave out the one or the other", names.join(", "))));
+    }
     let (known, source) = match (name, scenario) {
         (Some(name), _) => KnownBearing::named(name).and_then(|known| known.orders()).map_err(bad_value)?,
         (None, Some(scenario)) => {
@@ -217,7 +226,7 @@ fn orders(
             let words = format!("that of the scenario {}", scenario.name);
             (orders_of(&scenario.bearing), words)
         }
-        (None, None) => (DefectOrders::default(), String::new()),
+        (None, None) => numbers.unwrap_or_default(),
     };
     let orders = known.with_given(given).map_err(|error| bad_value(error.to_string()))?;
     let sources = [Some(source).filter(|words| !words.is_empty()), DefectOrders::given_words(given)];
@@ -309,6 +318,7 @@ pub(crate) fn analyze<'py>(
     speed_rpm: f64,
     bearing: Option<&str>,
     scenario: Option<&crate::scenario::Scenario>,
+    elements: (Option<i128>, [Option<f64>; 3]),
     orders_given: [Option<f64>; 4],
     tolerance: f64,
     band_hz: Option<(f64, f64)>,
@@ -338,7 +348,7 @@ pub(crate) fn analyze<'py>(
         return Err(failed(format!("speed_rpm = {speed_rpm}: expected a speed other than 0, in r/min")));
     }
     let shaft = speed_rpm.abs() / 60.0;
-    let (orders, bearing) = orders(bearing, scenario, orders_given)?;
+    let (orders, bearing) = orders(bearing, scenario, elements, orders_given)?;
     let mut options = Options::new(shaft, orders);
     options.supply = supply_hz.map(supply).transpose()?;
     options.tolerance = tolerance;

@@ -3,21 +3,23 @@
 use crate::bad_value::bad_value;
 use crate::convert::{array, json_to_python, python_to_toml};
 use crate::errors::scenario_error;
-use crate::kept::{self, Numbers};
+use crate::kept::{self, Ran, Tasks};
 use crate::scenario::{Scenario, Source};
 use crate::wait::over_threads;
-use brinell::document::{on_one_line, one_line};
-use brinell::result::Quantity;
+use brinell::document::{Problem, on_one_line, one_line};
+use brinell::result::{Quantity, RunResult};
 use brinell::simulate::Progress;
 use brinell::simulate_with;
-use brinell_study::campaign::{Axis, Plan, columns};
+use brinell::summary::afterwards;
+use brinell_study::campaign::{Axis, Beforehand, Known, Plan, columns, of_points, of_results};
+use brinell_study::runner::Task;
 use pyo3::prelude::*;
 use pyo3::types::PyList;
 use std::path::PathBuf;
 
 /// Runs every combination of the axes, each `(keys, settings)` with a value for each key in every setting. Gives for
-/// each point which setting of each axis it has, and why it failed or None; and the columns: name, unit, values, NaN
-/// where a run has none. `progress` gets the points done and how many there are. With a `folder`, finished points are
+/// each point which setting of each axis it has, and why it failed or None; the columns: name, unit, values, NaN
+/// where a run has none; and what the points should be warned of. `progress` gets the points done and how many there are. With a `folder`, finished points are
 /// in its journal and not run again.
 #[pyfunction]
 #[expect(clippy::type_complexity, reason = "taken apart by the Python around it")]
@@ -28,36 +30,30 @@ pub(crate) fn sweep<'py>(
     jobs: Option<isize>,
     progress: Option<Py<PyAny>>,
     folder: Option<PathBuf>,
-) -> PyResult<(Vec<Vec<usize>>, Vec<Option<String>>, Bound<'py, PyList>)> {
+) -> PyResult<(Vec<Vec<usize>>, Vec<Option<String>>, Bound<'py, PyList>, Vec<String>)> {
     // Said once, and not of every point.
     brinell::kernel::Kernel::chosen().map_err(bad_value)?;
     let axes = axes.into_iter().map(|(keys, settings)| {
         let texts = settings
             .iter()
-            .map(|setting| setting.iter().map(python_to_toml).collect())
+            .map(|setting| setting.iter().zip(&keys).map(|(value, key)| python_to_toml(key, value)).collect())
             .collect::<PyResult<Vec<Vec<String>>>>()?;
         Axis::new(keys, texts).map_err(bad_value)
     });
     let plan = Plan::new(axes.collect::<PyResult<_>>()?).map_err(bad_value)?;
     let total = plan.points();
-    // A point that is bad is a row; where all are, the input is.
-    let first_of_bad = || {
-        let problems = |k: usize| scenario.source.with(&plan.settings(k)).load().err();
-        let first = problems(0)?;
-        (1..total).all(|k| problems(k).is_some()).then_some(first)
-    };
-    if let Some(problems) = py.detach(first_of_bad) {
-        return Err(scenario_error(py, problems, None));
-    }
+    let (points, mut warnings) = looked_at(py, &plan, &scenario.source, jobs)?;
     let show = |py: Python<'_>, done: usize| match &progress {
         Some(progress) => progress.call1(py, (done, total)).map(drop),
         None => Ok(()),
     };
     let results = match folder {
-        Some(folder) => kept::run(py, (&plan, &scenario.source), &folder, jobs, show)?,
-        None => in_memory(py, (&plan, &scenario.source), jobs, show)?,
+        Some(folder) => kept::run(py, (&plan, &scenario.source), points, &folder, jobs, show)?,
+        None => in_memory(py, &scenario.source, points, jobs, show)?,
     };
-    let runs: Vec<&[Quantity]> = results.iter().map(|r| r.as_deref().unwrap_or_default()).collect();
+    let complete = |(k, ran): (usize, &Ran)| Some((k, ran.as_ref().ok()?.1.clone()));
+    warnings.extend(of_results(results.iter().enumerate().filter_map(complete), "point", |k| k + 1));
+    let runs: Vec<&[Quantity]> = results.iter().map(|r| r.as_ref().map_or(&[][..], |ran| &ran.0)).collect();
     let list = PyList::empty(py);
     for column in columns(&runs) {
         let values = column.values.iter().map(|v| v.unwrap_or(f64::NAN));
@@ -65,7 +61,7 @@ pub(crate) fn sweep<'py>(
     }
     let places = (0..plan.points()).map(|k| plan.place(k)).collect();
     let reasons = results.iter().map(|r| r.as_ref().err().cloned()).collect();
-    Ok((places, reasons, list))
+    Ok((places, reasons, list, warnings))
 }
 
 /// Values of a key in the command's notation, `900:1800:450` or `5,10,20`.
@@ -80,26 +76,62 @@ pub(crate) fn values<'py>(py: Python<'py>, key: &str, text: &str) -> PyResult<Ve
     axis.settings().iter().flatten().map(value).collect()
 }
 
-/// Of each point its numbers, or why there are none.
-fn in_memory(
-    py: Python<'_>,
-    (plan, source): (&Plan, &Source),
-    jobs: Option<isize>,
-    mut progress: impl FnMut(Python<'_>, usize) -> PyResult<()> + Send,
-) -> PyResult<Vec<Numbers>> {
-    let mut results = vec![Err("not run".into()); plan.points()];
-    let mut done = 0;
+/// A point that was read, or what is wrong with its scenario.
+type Looked = Result<(Known, Task), Vec<Problem>>;
+
+/// Every point read: what to run, or why its scenario is bad; and what they should be warned of before they run. Where
+/// all are bad, the input is.
+fn looked_at(py: Python<'_>, plan: &Plan, source: &Source, jobs: Option<isize>) -> PyResult<(Tasks, Vec<String>)> {
+    let known = Beforehand::default();
+    let mut points = Vec::new();
+    points.resize_with(plan.points(), || None);
     over_threads(
         py,
         plan.points(),
         jobs,
+        |k, _| {
+            let settings = plan.settings(k);
+            let (loaded, _) = source.with(&settings).load()?;
+            Ok((known.point(k, &loaded), Task::new(settings, &loaded.scenario)))
+        },
+        |_, k, point: Looked| {
+            points[k] = Some(point);
+            Ok(())
+        },
+    )?;
+    let mut points: Vec<_> = points.into_iter().flatten().collect();
+    if points.iter().all(Result::is_err)
+        && let Some(Err(problems)) = points.first_mut()
+    {
+        return Err(scenario_error(py, std::mem::take(problems), None));
+    }
+    let warnings = of_points(points.iter().map(|point| point.as_ref().ok().map(|(known, _)| known)));
+    let task = |point: Looked| point.map(|(_, task)| task).map_err(|problems| on_one_line(&problems));
+    Ok((points.into_iter().map(task).collect(), warnings))
+}
+
+/// Of each point its numbers, or why there are none.
+fn in_memory(
+    py: Python<'_>,
+    source: &Source,
+    points: Tasks,
+    jobs: Option<isize>,
+    mut progress: impl FnMut(Python<'_>, usize) -> PyResult<()> + Send,
+) -> PyResult<Vec<Ran>> {
+    let mut results = vec![Err("not run".into()); points.len()];
+    let mut done = 0;
+    over_threads(
+        py,
+        points.len(),
+        jobs,
         |k, stop| {
-            let (loaded, _) = source.with(&plan.settings(k)).load().map_err(|problems| on_one_line(&problems))?;
+            let task = points[k].as_ref().map_err(Clone::clone)?;
+            let (loaded, _) = source.with(&task.settings).load().map_err(|problems| on_one_line(&problems))?;
             let mut progress = Progress(|_| brinell::many::go_on(stop));
-            match simulate_with(&loaded.scenario, &mut progress) {
-                Ok(result) => Ok(result.quantities()),
-                Err(error) => Err(one_line(&error.to_string())),
-            }
+            let result = simulate_with(&loaded.scenario, &mut progress);
+            let result = result.map_err(|error| one_line(&error.to_string()))?;
+            let RunResult { scenario, simulation, outcome, findings } = &result;
+            Ok((result.quantities(), afterwards(scenario, simulation, outcome, findings)))
         },
         |py, k, result| {
             results[k] = result;

@@ -88,6 +88,7 @@ pub(crate) fn calibrate(args: &CalibrateArgs) -> Result<ExitCode, Failure> {
             say!("  {sentence}");
         }
         say::wrote(&written);
+        outcome.warnings.iter().for_each(|warning| complain!("{warning}"));
     }
     Ok(ExitCode::SUCCESS)
 }

@@ -4,12 +4,12 @@ use super::SweepArgs;
 use crate::failure::Failure;
 use crate::files::Source;
 use crate::files::make_folder;
-use brinell::document::{Problem, on_one_line, one_line};
+use brinell::document::{on_one_line, one_line};
 use brinell::scenario::Scenario;
 use brinell::simulate::Simulation;
 use brinell_io::{ParquetWriter, SignalWriter};
 use brinell_studio::signal_table;
-use brinell_study::campaign::{Axis, BALANCED, BANDWIDTHS, Beforehand, Misses, Plan, bandwidth, count};
+use brinell_study::campaign::{Axis, Beforehand, Known, Plan, of_points};
 use brinell_study::runner::{Task, Work};
 use serde_json::Value;
 use std::collections::BTreeMap;
@@ -48,11 +48,7 @@ fn plan(args: &SweepArgs) -> Result<Plan, Failure> {
 struct Checked {
     task: Task,
     units: Vec<(String, &'static str)>,
-    /// Of the document.
-    warnings: Vec<Problem>,
-    /// Of what is known before it runs.
-    before: Vec<Problem>,
-    bandwidth: [Option<f64>; 3],
+    known: Known,
 }
 
 impl Points {
@@ -75,24 +71,21 @@ impl Points {
         brinell::many::each(
             plan.points(),
             threads,
-            |k| check(&source, plan.settings(k), (k < BALANCED).then_some(&known)),
+            |k| check(&source, plan.settings(k), k, &known),
             |k, result| checked[k] = Some(result),
         );
-        let (mut units, mut warnings, mut before) = (BTreeMap::new(), Vec::new(), Vec::new());
-        let (mut tasks, mut first, mut bandwidths) = (Vec::new(), None, Vec::new());
+        let (mut units, mut tasks, mut first, mut before) = (BTreeMap::new(), Vec::new(), None, Vec::new());
         for result in checked.into_iter().flatten() {
             tasks.push(match result {
                 Ok(checked) => {
                     units.extend(checked.units);
-                    bandwidths.push(checked.bandwidth);
-                    let point = tasks.len();
-                    checked.warnings.into_iter().for_each(|w| count(&mut warnings, nowhere(w), point));
-                    checked.before.into_iter().for_each(|w| count(&mut before, w, point));
+                    before.push(Some(checked.known));
                     Ok(checked.task)
                 }
                 Err(failure) => {
                     let reason = reason(&failure);
                     first.get_or_insert(failure);
+                    before.push(None);
                     Err(reason)
                 }
             });
@@ -100,15 +93,7 @@ impl Points {
         let Some(first_good) = tasks.iter().position(Result::is_ok) else {
             return Err(first.unwrap_or_else(|| Failure::Usage("the sweep has no points".into())));
         };
-        let words = |misses: Vec<Misses>, looked: usize| {
-            misses.into_iter().map(move |miss| miss.words(looked, "point", miss.run + 1))
-        };
-        let good = tasks.iter().filter(|task| task.is_ok()).count();
-        let balanced = tasks.iter().take(BALANCED).filter(|task| task.is_ok()).count();
-        let mut warnings: Vec<String> = words(warnings, good).chain(words(before, balanced)).collect();
-        if bandwidths.iter().any(|b| *b != bandwidths[0]) {
-            warnings.push(format!("warning: {BANDWIDTHS}"));
-        }
+        let warnings = of_points(before.iter().map(Option::as_ref));
         let example = source.load(&plan.settings(first_good), true)?.scenario;
         Ok(Self { source, plan, tasks, units, warnings, example })
     }
@@ -121,7 +106,7 @@ impl Points {
     }
 }
 
-fn check(source: &Source, settings: Vec<(String, String)>, known: Option<&Beforehand>) -> Result<Checked, Failure> {
+fn check(source: &Source, settings: Vec<(String, String)>, k: usize, known: &Beforehand) -> Result<Checked, Failure> {
     let loaded = source.load(&settings, true)?;
     let unit = |(key, _): &(String, String)| {
         let entry = loaded.provenance_of(key)?;
@@ -129,17 +114,9 @@ fn check(source: &Source, settings: Vec<(String, String)>, known: Option<&Before
     };
     Ok(Checked {
         units: settings.iter().filter_map(unit).collect(),
-        before: known.map_or(Vec::new(), |known| known.warnings(&loaded.scenario)),
-        bandwidth: bandwidth(&loaded.scenario),
-        warnings: loaded.warnings,
+        known: known.point(k, &loaded),
         task: Task::new(settings, &loaded.scenario),
     })
-}
-
-/// A problem without its place: what the settings give is nowhere in the file.
-fn nowhere(mut problem: Problem) -> Problem {
-    (problem.line, problem.column) = (None, None);
-    problem
 }
 
 /// A failure on one line.

@@ -43,7 +43,7 @@ impl Study {
             title: format!("Calibration of {}", of.best.scenario.name),
             subtitle: format!("{} to {}", names.join(", "), plural(of.compared.len(), "target")),
             version: brinell::VERSION.into(),
-            warnings: Vec::from_iter(unmet),
+            warnings: unmet.into_iter().chain(of.warnings.iter().cloned()).collect(),
             lead: calibration_verdict(of).into_iter().next().unwrap_or_default(),
             facts,
             chapters: chapters(of, failed),

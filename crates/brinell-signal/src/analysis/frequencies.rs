@@ -65,7 +65,51 @@ pub fn most_elements(d: f64, pitch: f64) -> f64 {
 /// Names of the orders that may be given, in their order.
 const GIVEN: [&str; 4] = ["BPFO", "BPFI", "BSF", "FTF"];
 
+/// How numbers are written in an error.
+#[derive(Debug, Clone, Copy)]
+pub struct Wording {
+    /// What the number of elements, the pitch diameter, their diameter and the contact angle are called.
+    pub names: [&'static str; 4],
+    /// Between a name and its value.
+    pub is: &'static str,
+    /// Between one and the next.
+    pub then: &'static str,
+}
+
 impl DefectOrders {
+    /// Of a bearing's number of elements and its pitch diameter, their diameter (mm) and contact angle (degrees; 0 where it is not given), and these
+    /// in words; `None` where none is given.
+    ///
+    /// # Errors
+    /// In words, where one is missing or there is no such bearing.
+    pub fn of_numbers(
+        elements: Option<usize>,
+        measures: [Option<f64>; 3],
+        wording: Wording,
+    ) -> Result<Option<(Self, String)>, String> {
+        let Wording { names: [z, p, d, a], is, then } = wording;
+        let (elements, pitch, diameter, angle) = match (elements, measures) {
+            (Some(elements), [Some(pitch), Some(diameter), angle]) => (elements, pitch, diameter, angle.unwrap_or(0.0)),
+            (None, [None, None, None]) => return Ok(None),
+            _ => return Err(format!("{z}, {p} and {d} describe a bearing together; one of them is missing")),
+        };
+        let orders = Self::of_geometry(elements, diameter, pitch, angle).ok_or_else(|| {
+            let most = most_elements(diameter, pitch);
+            let room = match diameter < pitch && most >= 3.0 && most.is_finite() {
+                true => format!(" (up to {most} have room beside each other)"),
+                false => String::new(),
+            };
+            format!(
+                "{z}{is}{elements}{then}{p}{is}{pitch}{then}{d}{is}{diameter}{then}{a}{is}{angle}: expected 3 or more elements{room}, \
+                 0 < diameter < pitch in mm, and an angle of 0 to below 90 degrees"
+            )
+        })?;
+        let words = format!(
+            "{elements} elements of {diameter} mm on a pitch circle of {pitch} mm, contact angle {angle} degrees"
+        );
+        Ok(Some((orders, words)))
+    }
+
     /// Of Z elements of diameter `d` on a pitch circle `pitch` (one unit), contact angle in degrees. `None` unless
     /// 0 < d < pitch, Z is 3 to [`most_elements`] and the angle is 0 to below 90.
     pub fn of_geometry(elements: usize, d: f64, pitch: f64, contact_angle_deg: f64) -> Option<Self> {

@@ -40,7 +40,7 @@ pub use compare::{Comparison, Difference, LineDifference, Side, compare};
 pub use drift::Drift;
 pub use error::{AnalysisError, FEWEST_REVOLUTIONS};
 pub use family::{Family, Finding, Harmonic, Sidebands};
-pub use frequencies::{Component, DefectOrders, NAMED, NamedBearing, most_elements};
+pub use frequencies::{Component, DefectOrders, NAMED, NamedBearing, Wording, most_elements};
 pub use json::to_json;
 pub use levels::Levels;
 pub use options::{MACHINE_NOISE, Options, SUPPLY_HZ};

@@ -5,6 +5,7 @@ use super::plan::settings;
 use super::runs::{Runs, own_uncertainty};
 use super::target::MISSING;
 use super::{Evaluation, Fit, Key, Plan};
+use crate::campaign::{Beforehand, of_results};
 use crate::runner::RunnerError;
 use brinell::document::Loaded;
 use brinell::signal::distribution::chi_square_tail;
@@ -106,6 +107,8 @@ pub struct Outcome {
     pub best: Loaded,
     /// Why each run failed, of those that did.
     pub reasons: Vec<Option<String>>,
+    /// What the best scenario and the runs should be warned of.
+    pub warnings: Vec<String>,
     /// Runs that were made.
     pub done: usize,
     /// Runs that were kept from before.
@@ -135,9 +138,13 @@ impl Outcome {
         });
         let reasons = failed.collect();
         let best = runs.scenario(place)?;
+        let told = |(k, e): (usize, &Evaluation)| Some((k, runs.row(&e.place).ok()?.warnings.clone()));
+        let of_runs = of_results(fit.evaluations.iter().enumerate().filter_map(told), "run", |k| k + 1);
+        let before = Beforehand::default().warnings(&best.scenario);
+        let warnings = before.iter().map(ToString::to_string).chain(of_runs).collect();
         let (done, before) = (runs.done, runs.before);
         let mut outcome =
-            Self { plan: Arc::clone(plan), found: Vec::new(), compared, best, reasons, done, before, fit };
+            Self { plan: Arc::clone(plan), found: Vec::new(), compared, best, reasons, warnings, done, before, fit };
         outcome.found = (0..plan.keys.len()).map(|k| outcome.key(k)).collect();
         Ok(outcome)
     }
@@ -281,6 +288,7 @@ impl Outcome {
         let failed = self.fit.evaluations.iter().filter(|e| e.answers.is_none()).count();
         json!({
             "brinell": brinell::VERSION,
+            "warnings": self.warnings,
             "plan": self.plan.header(),
             "budget": self.plan.settings.budget,
             "runs": { "asked_for": self.fit.evaluations.len(), "failed": failed, "best": self.fit.best + 1, "differences_around": self.fit.centre + 1 },

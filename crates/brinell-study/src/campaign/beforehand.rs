@@ -1,7 +1,7 @@
 //! What many runs should be warned of: each kind of problem once, with how many have it.
 
 use crate::campaign::row::fingerprint;
-use brinell::document::{Problem, numberless};
+use brinell::document::{Loaded, Problem, numberless};
 use brinell::model::Model;
 use brinell::plausibility;
 use brinell::scenario::Scenario;
@@ -95,7 +95,44 @@ pub struct Beforehand {
     known: Mutex<HashMap<String, Vec<Problem>>>,
 }
 
+/// What is known of a point of a grid before it runs.
+#[derive(Debug)]
+pub struct Known {
+    /// Of the document.
+    read: Vec<Problem>,
+    /// Of the scenario; of the first [`BALANCED`] points.
+    before: Option<Vec<Problem>>,
+    bandwidth: [Option<f64>; 3],
+}
+
+/// What a grid's points should be warned of before they run, each kind once; those that are bad are `None`.
+pub fn of_points<'a>(points: impl IntoIterator<Item = Option<&'a Known>>) -> Vec<String> {
+    let (mut read, mut before, mut good, mut balanced) = (Vec::new(), Vec::new(), 0, 0);
+    let (mut first, mut unlike) = (None, false);
+    for (k, known) in points.into_iter().enumerate() {
+        let Some(known) = known else { continue };
+        good += 1;
+        balanced += usize::from(known.before.is_some());
+        known.read.iter().for_each(|problem| count(&mut read, problem.clone(), k));
+        known.before.iter().flatten().for_each(|problem| count(&mut before, problem.clone(), k));
+        unlike |= *first.get_or_insert(known.bandwidth) != known.bandwidth;
+    }
+    let words = |misses: Vec<Misses>, looked: usize| {
+        misses.into_iter().map(move |miss| miss.words(looked, "point", miss.run + 1))
+    };
+    let bandwidths = unlike.then(|| format!("warning: {BANDWIDTHS}"));
+    words(read, good).chain(words(before, balanced)).chain(bandwidths).collect()
+}
+
 impl Beforehand {
+    /// Of point `k` of a grid. Its place in the file goes: what the settings give is nowhere there.
+    pub fn point(&self, k: usize, loaded: &Loaded) -> Known {
+        let mut read = loaded.warnings.clone();
+        read.iter_mut().for_each(|problem| (problem.line, problem.column) = (None, None));
+        let before = (k < BALANCED).then(|| self.warnings(&loaded.scenario));
+        Known { read, before, bandwidth: bandwidth(&loaded.scenario) }
+    }
+
     /// Of a scenario; none where it makes no model: why, its run says.
     pub fn warnings(&self, scenario: &Scenario) -> Vec<Problem> {
         let known = || self.known.lock().unwrap_or_else(PoisonError::into_inner);

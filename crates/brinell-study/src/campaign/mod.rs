@@ -21,7 +21,7 @@ pub use axis::Axis;
 pub use axis::split;
 pub(crate) use axis::{assigned, number, syntax};
 #[doc(hidden)]
-pub use beforehand::{BALANCED, BANDWIDTHS, Beforehand, Misses, bandwidth, count, join, of_results};
+pub use beforehand::{BALANCED, BANDWIDTHS, Beforehand, Known, Misses, bandwidth, count, join, of_points, of_results};
 pub use columns::{NumberColumn, columns};
 pub use compare::{Compared, compare};
 pub use error::PlanError;
