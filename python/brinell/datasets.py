@@ -2,16 +2,16 @@
 
 from __future__ import annotations
 
-import difflib
+import importlib.util
 import json
 import os
 import warnings
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from brinell import _brinell, tables
-from brinell.arguments import jobs_of
+from brinell.arguments import jobs_of, whole_of
 from brinell.scenario import Scenario, ScenarioWarning
 
 if TYPE_CHECKING:
@@ -174,7 +174,7 @@ def _restored(path: str, identity: str) -> Plan:
 
 
 class DataSet:
-    """The folder of a data set.
+    """The folder of a data set. ``len`` is the number of runs in the files that are there, ``data[k]`` is run k.
 
     Parameters
     ----------
@@ -203,24 +203,54 @@ class DataSet:
     def _there(self) -> list[Path]:
         files = self.files
         if not files:
-            raise _brinell.ReadError(f"{self.folder}: no data set is here (runs/part-*.parquet is missing)")
+            waiting = sum(1 for _ in (self.folder / "work").glob("part-*/run-*.row"))
+            words = f"; {waiting} finished run{'' if waiting == 1 else 's'} in work/ wait for the others of their files: Plan.run goes on" if waiting else ""
+            raise _brinell.ReadError(f"{self.folder}: no data set is here (runs/part-*.parquet is missing{words})")
         return files
 
-    def _chosen(self, columns: Sequence[str] | None) -> list[str] | None:
-        """The columns, each of which there must be."""
+    def _known(self) -> dict[str, Any]:
+        """What is known of the whole: ``dataset.json``, or what the runs began with."""
+        for path in (self.folder / "dataset.json", self.folder / "work" / "campaign.json"):
+            if path.exists():
+                known: dict[str, Any] = json.loads(path.read_bytes())
+                return known
+        return {}
+
+    def _chosen(self, columns: Sequence[str] | None, split: str | None) -> list[str] | None:
+        """The columns, each of which there must be, and so the split."""
+        known = self._known()
+        if split is not None and "splits" in known:
+            _one_of("split", split, [each["name"] for each in known["splits"]])
         if columns is None:
             return None
         chosen = [columns] if isinstance(columns, str) else list(columns)
-        for path in (self.folder / "dataset.json", self.folder / "work" / "campaign.json"):
-            if path.exists():
-                names = [column["name"] for column in json.loads(path.read_bytes())["columns"]]
-                for name in chosen:
-                    if name not in names:
-                        near = difflib.get_close_matches(str(name), names, n=1)
-                        hint = f', did you mean "{near[0]}"?' if near else ""
-                        raise ValueError(f'columns: there is no "{name}"{hint}\n  allowed: {", ".join(names)}')
-                break
+        if "columns" in known:
+            for name in chosen:
+                _one_of("columns", name, [column["name"] for column in known["columns"]])
         return chosen
+
+    def _polars(self, columns: Sequence[str] | None, split: str | None, run: int | None = None) -> polars.DataFrame:
+        pl = tables.need("polars")
+        chosen = self._chosen(columns, split)
+        lazy = pl.scan_parquet(self._there())
+        for name, value in (("split", split), ("run", run)):
+            lazy = lazy if value is None else lazy.filter(pl.col(name) == value)
+        frame: polars.DataFrame = (lazy if chosen is None else lazy.select(list(dict.fromkeys([*chosen, "run"])))).collect()
+        frame = frame if frame["run"].is_sorted() else frame.sort("run")
+        return frame if chosen is None else frame.select(chosen)
+
+    def _pandas(self, columns: Sequence[str] | None, split: str | None, run: int | None = None) -> pandas.DataFrame:
+        pd = tables.need("pandas")
+        chosen = self._chosen(columns, split)
+        wanted = None if chosen is None else list(dict.fromkeys([*chosen, "run"]))
+        filters = [(name, "==", value) for name, value in (("split", split), ("run", run)) if value is not None]
+        parts = [pd.read_parquet(file, columns=wanted, filters=filters or None) for file in self._there()]
+        frame: pandas.DataFrame = pd.concat([part for part in parts if len(part)] or parts[:1], ignore_index=True)
+        if not frame["run"].is_monotonic_increasing:
+            frame = frame.sort_values("run", ignore_index=True)
+        frame = frame if chosen is None else frame[chosen]
+        frame.attrs["units"] = {c["name"]: c["unit"] for c in self._known().get("columns", []) if c["name"] in frame.columns}
+        return frame
 
     @property
     def about(self) -> dict[str, Any]:
@@ -236,21 +266,74 @@ class DataSet:
         """Everything that is not as it should be: files missing or damaged, rows, checksums; empty where all is well."""
         return _brinell.verify(self.folder)[4]
 
-    def to_polars(self, columns: Sequence[str] | None = None) -> polars.DataFrame:
-        """A row a run, signals as lists; read the columns that are needed: names as in `Plan.columns`, else a ValueError says which there are."""
-        pl = tables.need("polars")
-        frame: polars.DataFrame = pl.read_parquet(self._there(), columns=self._chosen(columns))
-        return frame
+    def to_polars(self, columns: Sequence[str] | None = None, *, split: str | None = None) -> polars.DataFrame:
+        """A row a run, in order, signals as lists. Read the columns that are needed: names as in `Plan.columns`, else a ValueError says which there are.
 
-    def to_pandas(self, columns: Sequence[str] | None = None) -> pandas.DataFrame:
-        """A row a run, signals as arrays; needs pyarrow."""
-        pd = tables.need("pandas")
-        chosen = self._chosen(columns)
-        frame: pandas.DataFrame = pd.concat([pd.read_parquet(file, columns=chosen) for file in self._there()], ignore_index=True)
-        return frame
+        Parameters
+        ----------
+        columns : sequence of str, optional
+            All by default.
+        split : str, optional
+            Runs of this split alone: ``"train"``, ``"validation"``, ``"test"``.
+        """
+        return self._polars(columns, split)
+
+    def to_pandas(self, columns: Sequence[str] | None = None, *, split: str | None = None) -> pandas.DataFrame:
+        """As `to_polars`, signals as arrays; ``attrs["units"]`` has the units. Needs pyarrow."""
+        return self._pandas(columns, split)
+
+    def __len__(self) -> int:
+        """Runs in the files that are there."""
+        listed = self._known().get("files")
+        if isinstance(listed, list):
+            rows = {Path(file["path"]).name: file["rows"] for file in listed}
+        else:
+            rows = {file.name: json.loads((self.folder / "work" / f"{file.stem}.json").read_bytes())["runs"]["rows"] for file in self.files}
+        return sum(rows.get(file.name, 0) for file in self.files)
+
+    def __getitem__(self, run: int) -> dict[str, Any]:
+        """A run by its number, from 0: its values by column, signals as arrays."""
+        number = whole_of(run, "run", "the number of a run, from 0")
+        frame = self._polars(None, None, number) if _has_polars() else self._pandas(None, None, number)
+        for row in _rows(frame):
+            return row
+        raise KeyError(f"run {number}: not in the files that are there, which hold {len(self)} runs")
+
+    def __iter__(self) -> Iterator[dict[str, Any]]:
+        """Runs as by number, one file in memory at a time; where runs are split, file by file, and so not in order."""
+        for file in self._there():
+            yield from _rows(tables.need("polars" if _has_polars() else "pandas").read_parquet(file))
+
+    # Runs are found by number, and a row is nothing that could be compared.
+    __contains__ = None
 
     def __repr__(self) -> str:
-        return f"<brinell.DataSet in {str(self.folder)!r}: {len(self.files)} files>"
+        known = self._known()
+        parts, runs = known.get("files", 0), known.get("runs", 0)
+        of = {"runs": runs["total"] if isinstance(runs, dict) else runs, "files": len(parts) if isinstance(parts, list) else parts}
+        there = {"runs": len(self), "files": len(self.files)}
+        words = [f"{count} {what}" if count == of[what] else f"{count} of {of[what]} {what}" for what, count in there.items()]
+        classes = ", ".join(each["name"] for each in known.get("classes", []))
+        return f"<brinell.DataSet in {str(self.folder)!r}: {' in '.join(words)}; classes: {classes or 'unknown'}>"
+
+
+def _one_of(argument: str, name: str, names: list[str]) -> None:
+    if name not in names:
+        raise ValueError(f'{argument}: there is no "{name}"{tables.meant(name, names)}\n  allowed: {", ".join(names)}')
+
+
+def _has_polars() -> bool:
+    return importlib.util.find_spec("polars") is not None
+
+
+def _rows(frame: Any) -> Iterator[dict[str, Any]]:
+    """Rows of a frame of either library, lists as arrays."""
+    for k in range(len(frame)):
+        if hasattr(frame, "iloc"):
+            yield frame.iloc[k].to_dict()
+        else:
+            cells = {name: frame[name][k] for name in frame.columns}
+            yield {name: cell.to_numpy() if hasattr(cell, "to_numpy") else cell for name, cell in cells.items()}
 
 
 def _number(file: Path) -> tuple[int, str]:

@@ -430,3 +430,43 @@ def test_prop_nothing_but_the_signal_tells_a_label(tmp_path, examples):
         right, chance = (forest.predict(features[where]) == truth).mean(), truth.value_counts(normalize=True).max()
         # Three standard deviations of guessing; the draws are the plan's, and so the same every time.
         assert len(truth) > 80 and (right > chance + 3 * (chance * (1 - chance) / len(truth)) ** 0.5) == tells, (what, right, chance)
+
+
+def test_prop_runs_are_found_by_number_and_by_split(tmp_path, examples):
+    polars, pandas = pytest.importorskip("polars"), pytest.importorskip("pandas")
+    (tmp_path / "base.toml").write_bytes((examples / "rectangle.toml").read_bytes())
+    (tmp_path / "plan.toml").write_text(
+        'base = "base.toml"\nruns = 12\nruns_per_file = 4\nsignals = ["sensor_ax"]\n[split]\ntest = 0.4\nby = []\n'
+        "[vary]\nsimulation.duration_s = { uniform = [0.02, 0.03] }\n"
+    )
+    plan, stopped = brinell.Plan(tmp_path / "plan.toml"), LookupError("enough")
+
+    def progress(over, of):
+        if over >= 2:
+            raise stopped
+
+    with pytest.raises(LookupError):
+        plan.run(tmp_path / "data", jobs=1, progress=progress)
+    begun = brinell.DataSet(tmp_path / "data")
+    assert len(begun) == 0 and "0 of 12 runs in 0 of " in repr(begun)
+    with pytest.raises(brinell.ReadError, match=r"runs/part-\*.parquet is missing; \d finished runs? in work/ wait"):
+        begun.to_pandas()
+    data = plan.run(tmp_path / "data")
+    assert len(data) == 12 and "12 runs in " in repr(data) and "classes: all>" in repr(data)
+    frame = data.to_pandas()
+    assert list(frame["run"]) == list(range(12)) == data.to_polars()["run"].to_list()
+    assert frame.attrs["units"]["sensor_ax"] == "m/s^2"
+    test = frame[frame["split"] == "test"]
+    assert 0 < len(test) < 12 and list(data.to_pandas(["run"], split="test")["run"]) == list(test["run"])
+    assert data.to_polars("sensor_ax", split="test").columns == ["sensor_ax"]
+    for read in (data.to_pandas, data.to_polars):
+        with pytest.raises(ValueError, match='split: there is no "tests", did you mean "test"'):
+            read(split="tests")
+    row = data[7]
+    assert row["run"] == 7 and row["sensor_ax"].dtype == np.float32
+    np.testing.assert_array_equal(row["sensor_ax"], frame["sensor_ax"][7])
+    assert sorted(row["run"] for row in data) == list(range(12))
+    with pytest.raises(KeyError, match="run 12: not in the files that are there, which hold 12 runs"):
+        data[12]
+    with pytest.raises(TypeError, match="run = 'a': expected a whole number"):
+        data["a"]
