@@ -283,8 +283,16 @@ class Kurtogram:
     noise_scatter: Array
     """Standard deviation of the kurtosis under Gaussian noise."""
     best_hz: tuple[float, float] | None
-    """The most impulsive band."""
+    """The band of the largest kurtosis. Noise has one too, whose kurtosis is up to some 9 of its ``noise_scatter``."""
     best_kurtosis: float | None
+
+    @property
+    def is_impulsive(self) -> bool:
+        """Whether the best band's kurtosis is larger than noise alone has: more than ten times its scatter."""
+        if self.best_hz is None or self.best_kurtosis is None:
+            return False
+        best = (self.low_hz == self.best_hz[0]) & (self.high_hz == self.best_hz[1])
+        return bool(self.best_kurtosis > 10.0 * self.noise_scatter[best].max())
 
     def plot(self, *, ax: Any = None) -> matplotlib.axes.Axes:
         """Kurtosis of every band, a line of bands of one width above the other."""
@@ -293,7 +301,10 @@ class Kurtogram:
         return plot.kurtogram(self, ax=ax)
 
     def __repr__(self) -> str:
-        best = "no band is impulsive" if self.best_hz is None else f"best {self.best_hz[0]:g} to {self.best_hz[1]:g} Hz"
+        best = "no band is impulsive"
+        if self.best_hz is not None:
+            of = f"{self.best_hz[0]:g} to {self.best_hz[1]:g} Hz, kurtosis {self.best_kurtosis:.3g}"
+            best = f"best {of}" if self.is_impulsive else f"{best}: the largest, {of}, is within what noise has"
         return f"<brinell.Kurtogram: {len(self.kurtosis)} bands, {best}>"
 
 

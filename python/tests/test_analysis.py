@@ -256,3 +256,12 @@ def test_regress_pictures(result, base, tmp_path):
         table.plot("x.rms")
     with pytest.raises(ValueError, match="1 to 1"):
         result.plot_pass(2)
+
+
+def test_regress_the_best_band_of_noise_is_not_called_impulsive():
+    x = np.random.default_rng(1).normal(size=20_000)
+    found = brinell.kurtogram(x, rate_hz=10_000.0)
+    assert not found.is_impulsive and "no band is impulsive: the largest, " in repr(found)
+    x[::400] += 20.0
+    found = brinell.kurtogram(x, rate_hz=10_000.0)
+    assert found.is_impulsive and ", best " in repr(found)
