@@ -160,7 +160,7 @@ class Scenario:
         Parameters
         ----------
         settings : mapping
-            Dotted paths to values; elements of lists by number from 0.
+            Dotted paths to values; elements of lists by number from 0. None is the default of a key that has a value.
 
         Examples
         --------
@@ -170,6 +170,8 @@ class Scenario:
         >>> faster["simulation.duration_s"]
         0.2
         """
+        for key in (key for key, value in settings.items() if value is None):
+            self[key]
         return type(self)._of(self._native.changed(_plain(settings)))
 
     @property

@@ -180,3 +180,15 @@ def test_regress_a_set_has_no_order():
 def test_regress_a_folder_that_is_there_is_not_said_to_be_missing(base):
     with pytest.raises(brinell.ReadError, match="/proc/x.toml: cannot write"):
         base.write("/proc/x.toml")
+
+
+def test_regress_none_is_the_default(base):
+    default = brinell.Scenario(bearing="NN3007", operation=OPERATION)["simulation.duration_s"]
+    longer = base.replace({"simulation.duration_s": 0.7})
+    for scenario in (longer, brinell.Scenario.from_toml(longer.to_toml()), pickle.loads(pickle.dumps(longer))):
+        again = scenario.replace({"simulation.duration_s": None})
+        assert again["simulation.duration_s"] == default and again.replace({"simulation.duration_s": 0.7}) == longer
+    shallow = base.replace({"defects.0.center_deg": 5.0}).replace({"defects.0.row": None})
+    assert shallow["defects.0.row"] == 1
+    with pytest.raises(KeyError, match='did you mean "simulation.duration_s"'):
+        base.replace({"simulation.duraton_s": None})

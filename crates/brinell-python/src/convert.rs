@@ -1,6 +1,7 @@
 //! Values across the border: JSON to Python, Python to TOML, arrays both ways.
 
 use crate::bad_value::bad_value;
+use brinell::document::NOT_GIVEN;
 use brinell_io::{Cells, Table};
 use numpy::{AllowTypeChange, IntoPyArray, PyArray1, PyArrayLike1};
 use pyo3::exceptions::PyTypeError;
@@ -145,14 +146,14 @@ fn write_table(at: &dyn Fn() -> String, table: &Bound<'_, PyDict>, out: &mut Str
     Ok(())
 }
 
-/// Overrides: a value by the dotted path of its key.
+/// Overrides: a value by the dotted path of its key; `None` is its default.
 pub(crate) fn overrides(settings: &Bound<'_, PyDict>) -> PyResult<Vec<(String, String)>> {
     let mut all = Vec::new();
     for (key, value) in settings {
         let key: String = key
             .extract()
             .map_err(|_| PyTypeError::new_err(format!("{key}: a key is a dotted path, such as operation.speed_rpm")))?;
-        let value = python_to_toml(&key, &value)?;
+        let value = if value.is_none() { NOT_GIVEN.to_owned() } else { python_to_toml(&key, &value)? };
         all.push((key, value));
     }
     Ok(all)

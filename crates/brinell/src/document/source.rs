@@ -19,6 +19,10 @@ const MOST_TABLES: usize = 50_000;
 /// Bytes of a text up to which every syntax error is looked for; of a longer one the first is reported.
 const MOST_RECOVERED: usize = 256 << 10;
 
+/// The override of a key that is to have its default, as if it were not given; no text of TOML.
+#[doc(hidden)]
+pub const NOT_GIVEN: &str = "\0";
+
 /// A value and where it is in the file; an override is nowhere.
 #[derive(Debug, Clone)]
 pub struct Node {
@@ -310,6 +314,10 @@ pub fn locate(text: &str, key: &str) -> Option<Place> {
 fn lay_over(root: &mut Node, path: &str, text: &str) -> Result<(), Box<Problem>> {
     let wrong = |message: String| Box::new(Problem::error(brief_path(path), message).value(brief_text(text)));
     let parts = path_parts(path).map_err(wrong)?;
+    if text == NOT_GIVEN {
+        take_away(root, &parts);
+        return Ok(());
+    }
     let value = override_value(text).map_err(wrong)?;
     let mut node = root;
     let mut walked = String::new();
@@ -348,6 +356,24 @@ fn lay_over(root: &mut Node, path: &str, text: &str) -> Result<(), Box<Problem>>
     }
     *node = value;
     Ok(())
+}
+
+/// Removes a key, where it is given.
+fn take_away(node: &mut Node, path: &[&str]) {
+    match (path, &mut node.value) {
+        ([key], Value::Table(table)) => drop(table.remove(*key)),
+        ([key, rest @ ..], Value::Table(table)) => {
+            if let Some(entry) = table.get_mut(*key) {
+                take_away(&mut entry.node, rest);
+            }
+        }
+        ([index, rest @ ..], Value::Array(items)) => {
+            if let Some(item) = index.parse().ok().and_then(|index: usize| items.get_mut(index)) {
+                take_away(item, rest);
+            }
+        }
+        _ => {}
+    }
 }
 
 /// A TOML value; a bare word is a string.
