@@ -192,3 +192,10 @@ def test_regress_none_is_the_default(base):
     assert shallow["defects.0.row"] == 1
     with pytest.raises(KeyError, match='did you mean "simulation.duration_s"'):
         base.replace({"simulation.duraton_s": None})
+
+
+def test_regress_a_value_of_python_is_no_override():
+    scenario = brinell.Scenario(bearing="NN3007", operation=OPERATION)
+    with pytest.raises(brinell.ScenarioError, match="found a string") as caught:
+        scenario.replace({"operation.speed_rpm": "fast"})
+    assert "override" not in str(caught.value)

@@ -6,6 +6,7 @@ use crate::errors::{ReadError, scenario_error, unreadable};
 use brinell::document::{Loaded, Problem, read, read_bytes};
 use brinell_damage::resolve_loaded;
 use brinell_study::campaign::fingerprint;
+use brinell_study::design::unsaid;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
 use serde_json::{Value, json};
@@ -46,6 +47,7 @@ impl Source {
                 for problem in &mut problems {
                     (problem.line, problem.column, problem.span) = (None, None, None);
                     problem.also.iter_mut().for_each(|(_, place)| *place = None);
+                    problem.message = unsaid(&problem.message);
                 }
             }
             problems

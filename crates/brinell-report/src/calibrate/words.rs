@@ -71,11 +71,11 @@ pub fn calibration_undetermined(of: &Outcome) -> Vec<String> {
                 )
             }
             Some(Open::NotMet) => {
-                "the targets are not met by the runs made; more runs (--budget) or wider bounds may".into()
+                "the targets are not met by the runs made; more runs (a larger budget) or wider bounds may".into()
             }
             Some(Open::Elsewhere(expected)) => format!(
                 "linear least squares expects its best value at {}, outside the interval about the best run, where no run was better: the search has \
-                 not come to its end (--budget), or the targets do not depend linearly on the keys",
+                 not come to its end (a larger budget), or the targets do not depend linearly on the keys",
                 short(expected, 4)
             ),
             Some(Open::Wide) | None => wide(of, k, found, noise),
@@ -111,7 +111,7 @@ pub fn calibration_undetermined(of: &Outcome) -> Vec<String> {
         let cut_off = match of.fit.cut_off {
             0 => String::new(),
             n => format!(
-                " The budget cut {n} of the searches downhill short: a larger --budget may find a lower chi-square."
+                " The budget cut {n} of the searches downhill short: a larger budget may find a lower chi-square."
             ),
         };
         all.push(format!(

@@ -30,4 +30,6 @@ pub use schema::plan_schema;
 pub use sequence::Sobol;
 pub use split::Part;
 pub use survey::Survey;
-pub(crate) use survey::{place_in_plan, unsaid};
+pub(crate) use survey::place_in_plan;
+#[doc(hidden)]
+pub use survey::unsaid;

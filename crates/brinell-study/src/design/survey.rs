@@ -125,8 +125,8 @@ fn without_override(mut problem: Problem) -> Problem {
     problem
 }
 
-/// A message without the word that its value is an override's: in a plan every drawn value is.
-pub(crate) fn unsaid(message: &str) -> String {
+/// A message without the word that its value is an override's: in a plan every drawn value is, and in Python every value.
+pub fn unsaid(message: &str) -> String {
     message.replace(" (given as an override)", "")
 }
 
