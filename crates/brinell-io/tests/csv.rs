@@ -37,7 +37,7 @@ fn regress_a_column_by_itself_keeps_its_name_and_unit() {
         ("acc\n[g]", "acc", Some("g")),
         ("Measured on Monday", "column1", None),
     ] {
-        let mut file = open_bytes("one.csv", format!("{head}\n1.5\n\n-2.5\n")).unwrap();
+        let mut file = open_bytes("one.csv", format!("{head}\n1.5\n-2.5\n\n")).unwrap();
         let channel = &file.channels()[0];
         assert_eq!((channel.name.as_str(), channel.unit.as_deref()), (name, unit), "{head}");
         assert_eq!(file.read(name).unwrap(), [1.5, -2.5]);
@@ -92,4 +92,40 @@ fn regress_a_row_of_the_wrong_length_is_refused_and_the_file_goes_on() {
     writer.write_row(&[1.0, 2.0]).unwrap();
     let path = writer.finish(Outcome::Complete).unwrap();
     assert_eq!(std::fs::read_to_string(path).unwrap(), "t,outer_ax\n1.0,2.0\n");
+}
+
+/// What cannot be told apart is refused: `2,143` beside `853` may be 2143 or 2.143.
+#[test]
+fn prop_fractions_that_may_be_thousands_are_refused() {
+    let column = |cells: &[&str], between: char| {
+        let lines: Vec<String> = cells.iter().map(|cell| format!("{cell}{between}1")).collect();
+        format!("a{between}b\n{}\n", lines.join("\n"))
+    };
+    let read = |text: String| open_bytes("a.csv", text.into_bytes()).and_then(|mut file| file.read("a"));
+    for between in ['\t', ';'] {
+        let refused = read(column(&["-118", "2,143", "-43,626"], between)).unwrap_err().to_string();
+        assert!(refused.contains("`2,143` may be a fraction or have a comma between thousands"), "{refused}");
+        let refused = read(column(&["-118", "2.143", "-43.626"], between)).unwrap_err().to_string();
+        assert!(refused.contains("`2.143` may be a fraction or have a point between thousands"), "{refused}");
+        for (cells, values) in [
+            (["0,123", "1,728", "2"], [0.123, 1.728, 2.0]),
+            (["1,234", "43,728", "2,000"], [1.234, 43.728, 2.0]),
+            (["1,5", "1,728", "2"], [1.5, 1.728, 2.0]),
+            (["1234", "1,728", "2"], [1234.0, 1.728, 2.0]),
+        ] {
+            assert_eq!(read(column(&cells, between)).unwrap(), values);
+            let pointed = cells.map(|cell| cell.replace(',', "."));
+            assert_eq!(read(column(&pointed.each_ref().map(String::as_str), between)).unwrap(), values);
+        }
+    }
+}
+
+#[test]
+fn regress_a_line_without_a_number_in_a_column_is_refused() {
+    let read = |text: &str| open_bytes("a.csv", text.as_bytes().to_vec()).unwrap().read("acc");
+    assert_eq!(read("# by hand\nacc\n\n1.5\n2.5\n\n\n").unwrap(), [1.5, 2.5]);
+    for (line, what) in [("", "blank"), ("# later", "a comment")] {
+        let error = read(&format!("acc\n1.5\n{line}\n2.5\n")).unwrap_err().to_string();
+        assert!(error.contains(&format!("line 3 is {what}, among numbers")), "{error}");
+    }
 }

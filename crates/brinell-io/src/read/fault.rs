@@ -19,12 +19,18 @@ pub(crate) enum Fault {
     Point { line: u64, column: String, text: String },
     /// A line of a text file with more or fewer values than the lines above it.
     Row { line: u64, expected: usize, got: usize },
+    /// A line without a number among those of one column; it is blank or a comment.
+    Between { line: u64, blank: bool },
 }
 
 impl Fault {
     /// The same, so many lines further down.
     pub(crate) fn after(mut self, lines: u64) -> Self {
-        if let Self::Number { line, .. } | Self::Point { line, .. } | Self::Row { line, .. } = &mut self {
+        if let Self::Number { line, .. }
+        | Self::Point { line, .. }
+        | Self::Row { line, .. }
+        | Self::Between { line, .. } = &mut self
+        {
             *line += lines;
         }
         self

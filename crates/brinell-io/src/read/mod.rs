@@ -264,6 +264,11 @@ fn located(path: &Path, kind: FileKind, fault: Fault) -> IoError {
         Fault::Unsupported(why) => IoError::Unsupported { path, why },
         Fault::Number { line, column, text } => IoError::CsvNumber { path, line, column, text },
         Fault::Point { line, column, text } => IoError::DecimalPoint { path, line, column, text },
+        Fault::Between { line, blank } => {
+            let what = if blank { "blank" } else { "a comment" };
+            let why = format!("line {line} is {what}, among numbers; take it out if no number is missing there");
+            IoError::Damaged { path, kind, why }
+        }
         Fault::Row { line, expected, got } => IoError::TextRow { path, line, expected, got },
         // Only `read_pieces` has a receiver, and takes this out before.
         Fault::Stopped => IoError::Damaged { path, kind, why: "reading stopped".into() },

@@ -70,6 +70,11 @@ pub(super) fn find(sample: &[u8]) -> Result<Layout, Fault> {
     if decimal == Some(Decimal::Comma) {
         sure_of_thousands(delimiter, &all)?;
     }
+    match (format.decimal, decimal) {
+        (None, Some(Decimal::Comma)) => sure_of_fractions(delimiter, &all, b',')?,
+        (None, Some(Decimal::Point)) if delimiter != Delimiter::Comma => sure_of_fractions(delimiter, &all, b'.')?,
+        _ => {}
+    }
     let mut columns = columns(delimiter, decimal, data)?;
     let comment = lines[from..]
         .iter()
@@ -257,6 +262,40 @@ fn sure_of_thousands(delimiter: Delimiter, data: &[&[u8]]) -> Result<(), Fault> 
             "`{0}` beside decimal commas may be a fraction or have a point between thousands, as has every number of its column; \
              write it with a comma, or without the point",
             String::from_utf8_lossy(field)
+        ))),
+    }
+}
+
+/// Where every fraction of a file has three digits, `2,143` may also be thousands: so in a column where shorter numbers
+/// have no fraction at all, and no longer one lacks the sign.
+fn sure_of_fractions(delimiter: Delimiter, data: &[&[u8]], sign: u8) -> Result<(), Fault> {
+    let is_fraction = |f: &[u8]| f.contains(&sign) && !may_be_grouped(f, sign) && number(f, None).is_some();
+    let fields = || data.iter().flat_map(|line| split(line, delimiter));
+    if !fields().any(|f| f.contains(&sign)) || fields().any(is_fraction) {
+        return Ok(());
+    }
+    // Of each column a number with the sign, whether there are short ones without it, and whether there are others.
+    let mut seen: Vec<(Option<&[u8]>, bool, bool)> = Vec::new();
+    for line in data {
+        for (i, field) in split(line, delimiter).into_iter().enumerate().filter(|(_, f)| !f.is_empty()) {
+            seen.resize(seen.len().max(i + 1), (None, false, false));
+            let (with, short, other) = &mut seen[i];
+            let digits = field.strip_prefix(b"-").or(field.strip_prefix(b"+")).unwrap_or(field);
+            match may_be_grouped(field, sign) {
+                true => _ = with.get_or_insert(field),
+                false if digits.len() <= 3 && digits.iter().all(u8::is_ascii_digit) => *short = true,
+                false => *other = true,
+            }
+        }
+    }
+    let open = seen.into_iter().find_map(|(with, short, other)| with.filter(|_| short && !other));
+    match open {
+        None => Ok(()),
+        Some(field) => Err(unsupported(format!(
+            "`{}` may be a fraction or have a {} between thousands, as every longer number of its column; \
+             write all of them without it, or all with as many decimals",
+            String::from_utf8_lossy(field),
+            if sign == b',' { "comma" } else { "point" }
         ))),
     }
 }

@@ -48,7 +48,7 @@ fn in_blocks(reader: &mut (impl Read + Send), wanted: &Wanted, sink: Sink<'_>, c
     let mut filled = fill(reader, &mut buffer, 0)?;
     let mut line = wanted.layout.first_line;
     let mut shares = vec![Vec::new(); cut.threads];
-    let mut values = Vec::new();
+    let (mut values, mut open) = (Vec::new(), None);
     loop {
         let text = &buffer[..filled];
         // At the end of the file what is left is a line too.
@@ -68,7 +68,7 @@ fn in_blocks(reader: &mut (impl Read + Send), wanted: &Wanted, sink: Sink<'_>, c
                 next[..rest.len()].copy_from_slice(rest);
                 Job::start(scope, cut, || fill(reader, &mut next, rest.len()))
             });
-            let found = wanted.parse(text, &mut line, cut, &mut shares);
+            let found = wanted.parse(text, (&mut line, &mut open), cut, &mut shares);
             (found, read.map(Job::result))
         });
         for (share, fault) in shares.iter_mut().zip(found) {
@@ -130,6 +130,8 @@ struct Wanted<'a> {
     layout: &'a Layout,
     field: usize,
     plain: Option<Plain>,
+    /// Whether a line between the numbers that has none may stand for one.
+    single: bool,
 }
 
 impl<'a> Wanted<'a> {
@@ -140,6 +142,7 @@ impl<'a> Wanted<'a> {
         Wanted {
             layout,
             field,
+            single: layout.columns.iter().filter(|c| !c.absent).count() == 1,
             plain: plain.then(|| Plain {
                 delimiter: layout.delimiter.sign(),
                 before: field,
@@ -150,8 +153,14 @@ impl<'a> Wanted<'a> {
 
     /// The values of the lines in `text`, the first of which is number `line`, shared out among threads, `cut.share`
     /// bytes or more to each: a thread has a list of its own to write to, and a result. `line` is then the number of
-    /// the line after.
-    fn parse(&self, text: &[u8], line: &mut u64, cut: &Cut, shares: &mut [Vec<f64>]) -> Vec<Result<(), Fault>> {
+    /// the line after. `open` is a line without a number that no number has followed yet.
+    fn parse(
+        &self,
+        text: &[u8],
+        (line, open): (&mut u64, &mut Option<Fault>),
+        cut: &Cut,
+        shares: &mut [Vec<f64>],
+    ) -> Vec<Result<(), Fault>> {
         let length = (text.len() / shares.len()).max(cut.share);
         let mut rest = text;
         thread::scope(|scope| {
@@ -163,22 +172,31 @@ impl<'a> Wanted<'a> {
                 let end = memchr(b'\n', rest.get(length..).unwrap_or_default());
                 let (mine, others) = rest.split_at(end.map_or(rest.len(), |end| length + end + 1));
                 rest = others;
-                jobs.push(Job::start(scope, cut, move || self.lines(mine, values)));
+                jobs.push(Job::start(scope, cut, move || {
+                    let part = self.lines(mine, values);
+                    (part, values.is_empty())
+                }));
             }
             let found = jobs.into_iter().map(Job::result);
-            let results = found.map(|(lines, result)| {
+            let results = found.map(|(part, is_empty)| {
                 let first = *line;
-                *line += lines;
-                result.map_err(|fault| fault.after(first))
+                *line += part.lines;
+                if !is_empty && let Some(between) = open.take() {
+                    return Err(between);
+                }
+                *open = open.take().or(part.open.map(|fault| fault.after(first)));
+                part.result.map_err(|fault| fault.after(first))
             });
             results.collect()
         })
     }
 
-    /// How many lines there are up to the end, or to the fault; of a fault the line is counted from there, from 0.
-    fn lines(&self, text: &[u8], values: &mut Vec<f64>) -> (u64, Result<(), Fault>) {
-        let (mut at, mut line) = (0, 0);
+    /// The values up to the end, or to the fault.
+    fn lines(&self, text: &[u8], values: &mut Vec<f64>) -> Part {
+        let (mut at, mut lines, mut open) = (0, 0, None);
+        let part = |lines, open, result| Part { lines, open, result };
         while at < text.len() {
+            let known = values.len();
             match self.plain.as_ref().and_then(|plain| plain.value(text, at)) {
                 Some((value, end)) => {
                     values.push(value);
@@ -187,16 +205,32 @@ impl<'a> Wanted<'a> {
                 None => {
                     let rest = &text[at..];
                     let end = memchr(b'\n', rest).unwrap_or(rest.len());
-                    if let Err(fault) = row(&rest[..end], self.layout, self.field, line, values) {
-                        return (line, Err(fault));
+                    if let Err(fault) = row(&rest[..end], self.layout, self.field, lines, values) {
+                        return part(lines, None, Err(fault));
+                    }
+                    if self.single && values.len() == known {
+                        let blank = rest[..end].trim_ascii().is_empty();
+                        open.get_or_insert(Fault::Between { line: lines, blank });
                     }
                     at += end + 1;
                 }
             }
-            line += 1;
+            lines += 1;
+            if values.len() > known && open.is_some() {
+                return part(lines, None, open.map_or(Ok(()), Err));
+            }
         }
-        (line, Ok(()))
+        part(lines, open, Ok(()))
     }
+}
+
+/// What became of some lines; a fault's line counts from their first, from 0.
+struct Part {
+    /// How many there are, up to the fault.
+    lines: u64,
+    /// The first of those at the end that have no number.
+    open: Option<Fault>,
+    result: Result<(), Fault>,
 }
 
 /// Lines as plain as nearly all are: numbers with a point, one sign between them, and nothing about them.
@@ -343,6 +377,16 @@ mod tests {
             // Without an end to the last line.
             let open = text.trim_end();
             assert_eq!(read(open, 1, cut), (expected.clone(), None), "{}", cut.block);
+        }
+        // One column: a line without a number may stand for one, but at the end.
+        for (between, is_blank) in [("\n", true), ("  \r\n", true), ("# a remark\n", false)] {
+            let numbers = "0.5\n".repeat(700);
+            for cut in &cuts {
+                let ends = format!("a\n{numbers}{between}{between}");
+                assert_eq!(read(&ends, 0, cut), (vec![0.5; 700], None), "{}", cut.block);
+                let fault = format!("Between {{ line: 702, blank: {is_blank} }}");
+                assert_eq!(read(&format!("{ends}{numbers}"), 0, cut).1.as_ref(), Some(&fault), "{}", cut.block);
+            }
         }
         let line = text.matches('\n').count() + 1;
         let more = "5,0,0\n".repeat(100);

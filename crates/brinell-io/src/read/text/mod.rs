@@ -3,7 +3,7 @@
 //!
 //! The layout is taken from the first lines (`layout.rs`); a column is then read in one pass, a line at a time, in a
 //! buffer of fixed size (`lines.rs`). Lines that begin with `#` or `%` are comments. An empty field is NaN, an empty
-//! line is passed over. Where commas are decimal, points are signs between thousands; between commas such a number is in
+//! line is passed over; in a file of one column both end what is read, and none but such may follow. Where commas are decimal, points are signs between thousands; between commas such a number is in
 //! quotes, `"0,5","-1,2"`. A line above the numbers such as `Sample rate: 12000 Hz` states the rate.
 
 mod format;
