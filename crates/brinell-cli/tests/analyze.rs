@@ -117,6 +117,19 @@ fn prop_a_speed_in_another_unit_is_the_same_speed() {
         .complains(&["--speed-channel speed [m/s]: its unit is m/s; expected r/min, rpm, 1/min, Hz, 1/s or rad/s"]);
 }
 
+#[test]
+fn regress_speeds_are_as_many_as_the_signals_values() {
+    let folder = tempdir().unwrap();
+    let data = concat!(env!("CARGO_MANIFEST_DIR"), "/../brinell-io/tests/data/clocks.npz");
+    let given = "--channel acc --unit g --bearing 6205 --speed-channel slow";
+    let run = brinell(folder.path(), &[&["analyze", data], &typed(given)[..]].concat());
+    let words = "--speed-channel slow: it has 150 values and `acc` 300; expected as many, or a sample rate of its own";
+    run.exits(2).complains(&[words]);
+    let given = "--channel slow --unit g --bearing 6205 --speed 1800";
+    let run = brinell(folder.path(), &[&["analyze", data], &typed(given)[..]].concat());
+    run.exits(2).complains(&["`time_s` has 300 times and `slow` 150 values; give --rate HZ"]);
+}
+
 /// The other holds nothing of the band that the program chose: a band of both is taken in its place, and named.
 #[test]
 fn prop_the_other_may_be_sampled_more_slowly() {

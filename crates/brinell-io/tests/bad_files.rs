@@ -273,3 +273,24 @@ fn regress_checksums_are_held_against_the_values() {
         assert_eq!(here.says(&format!("a.{extension}"), bytes), says);
     }
 }
+
+#[test]
+fn regress_a_wav_that_says_two_things_is_refused() {
+    let here = Here::new();
+    let chunk = |name: &[u8], bytes: &[u8]| [name, &(bytes.len() as u32).to_le_bytes(), bytes].concat();
+    let says = |chunks: &[Vec<u8>]| {
+        let body = [b"WAVE".to_vec(), chunks.concat()].concat();
+        here.says("a.wav", chunk(b"RIFF", &body)).replace("a.wav: ", "")
+    };
+    let plain: Vec<u8> = [1u16, 2, 12_000, 0, 48_000, 0, 4, 16].iter().flat_map(|v| v.to_le_bytes()).collect();
+    let (format, data) = (chunk(b"fmt ", &plain), chunk(b"data", &[0; 400]));
+    let twice = says(&[format.clone(), data.clone(), data.clone()]);
+    assert_eq!(twice, "cannot read: it has several `data` chunks; one is expected");
+    let twice = says(&[format.clone(), data.clone(), format.clone()]);
+    assert_eq!(twice, "cannot read: it has several `fmt ` chunks; one is expected");
+    let cut = says(&[format, chunk(b"data", &[0; 402])]);
+    assert_eq!(cut, "damaged WAV file: its 402 bytes of samples end within a frame of 4 bytes");
+    let foreign = [&[0xfe, 0xff], &plain[2..], &[22, 0, 16, 0, 0, 0, 0, 0, 1, 0], &[0xff; 14]].concat();
+    let foreign = says(&[chunk(b"fmt ", &foreign), data]);
+    assert_eq!(foreign, "cannot read: extensible WAV of a kind of its own; PCM and floats are read");
+}

@@ -5,8 +5,8 @@ use crate::message::Arrays;
 use crate::report::{Answer, Trouble};
 use crate::text;
 use brinell::analysis::{
-    Analysis, Called, DefectOrders, Given, NoUnit, Numbers, Options, Quantity, Scaled, Unit, analyze, once,
-    other_bearing, other_speed, shown_spectrum, unit_of,
+    Analysis, Called, DefectOrders, Given, NoUnit, Numbers, Options, Quantity, Scaled, Unit, analyze,
+    beyond_full_scale, once, other_bearing, other_speed, shown_spectrum, unit_of,
 };
 use brinell::bearing::{KnownBearing, orders_of};
 use brinell::channel::unit_of_run;
@@ -123,6 +123,7 @@ fn stated_speed(file: &mut SignalFile, run: Option<&Scenario>, signal: &str) -> 
 /// What is known of a signal, with what is said of that.
 struct Known {
     channel: String,
+    stored_as: &'static str,
     rate: f64,
     scaled: Scaled,
     options: Options,
@@ -135,12 +136,13 @@ struct Known {
 }
 
 /// `judge`: one channel, analysed as `brinell analyze` does.
-pub(crate) fn judge(request: &Value, given: &Arrays, arrays: &mut Arrays) -> Answer<Value> {
-    let mut file = file(request, given)?;
+pub(crate) fn judge(request: &Value, sent: &Arrays, arrays: &mut Arrays) -> Answer<Value> {
+    let mut file = file(request, sent)?;
     let mut known = known(request, &mut file)?;
     let (rate, unit) = (known.rate, known.scaled.unit.clone());
     let from_s = request["from_s"].as_f64().or(known.run.as_ref().map(Scenario::settled_s)).unwrap_or(0.0);
     let mut x = after(file.read(&known.channel).map_err(bad)?, from_s, rate)?;
+    known.warnings.extend(beyond_full_scale(&x, known.stored_as, &given(request), &Called::fields()));
     x.iter_mut().for_each(|v| *v *= known.scaled.factor);
     known.warnings.extend(once(&mut x, rate));
     let failed = |e: brinell::analysis::AnalysisError| Trouble::of(format!("`{}`: {e}", known.channel));
@@ -190,6 +192,7 @@ fn known(request: &Value, file: &mut SignalFile) -> Answer<Known> {
         None => file.only_signal().map_err(bad)?.name.clone(),
     };
     let stated = file.channels().iter().find(|c| c.name == channel).cloned().unwrap_or_default();
+    let stored_as = stated.stored_as;
     let (mut missing, mut warnings) = (Vec::new(), Vec::new());
     let rate = rate(request, file, &stated, &mut warnings)?.map_err(|words| missing.push(words)).ok();
     let scaled = scaled(request, file, (&channel, &stated), run.as_ref())?.map_err(|words| missing.push(words)).ok();
@@ -223,7 +226,7 @@ fn known(request: &Value, file: &mut SignalFile) -> Answer<Known> {
         }
     }
     warnings.extend(other_speed);
-    Ok(Known { channel, rate, scaled, options, run, rate_words, speed_words, bearing_words, warnings })
+    Ok(Known { channel, stored_as, rate, scaled, options, run, rate_words, speed_words, bearing_words, warnings })
 }
 
 /// The rate, Hz, and that in words; `Err` within are the words that ask for it.
@@ -250,6 +253,12 @@ fn rate(
     Ok(Ok((given, format!("sample rate {given} Hz, as given"))))
 }
 
+/// What was given of the signal's numbers.
+fn given(request: &Value) -> Given<'_> {
+    let text = |key: &str| request[key].as_str().filter(|text| !text.trim().is_empty());
+    Given { unit: text("unit"), sensitivity: text("sensitivity"), full_scale: text("full_scale") }
+}
+
 /// The unit; `Err` within are the words that ask for it.
 fn scaled(
     request: &Value,
@@ -259,8 +268,7 @@ fn scaled(
 ) -> Answer<Result<Scaled, String>> {
     let is_wav = file.kind() == FileKind::Wav;
     let numbers = Numbers { name, unit: channel.unit.as_deref(), stored_as: channel.stored_as, is_wav };
-    let text = |key: &str| request[key].as_str().filter(|text| !text.trim().is_empty());
-    let given = Given { unit: text("unit"), sensitivity: text("sensitivity"), full_scale: text("full_scale") };
+    let given = given(request);
     if given.unit.is_some() && given.full_scale.is_some() {
         return Err(Trouble::of("a full scale has its own unit: give it or the unit, not both"));
     }

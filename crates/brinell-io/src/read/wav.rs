@@ -20,6 +20,8 @@ const MAX_TEXT: u64 = 1 << 20;
 /// Frames decoded at a time.
 const FRAMES: usize = 4 << 10;
 const NO_SIZE: u64 = 0xffff_ffff;
+/// What follows the tag in the GUID of an extensible WAV, where it is one of plain WAV's.
+const SUBTYPE: [u8; 14] = [0, 0, 0, 0, 0x10, 0, 0x80, 0, 0, 0xaa, 0, 0x38, 0x9b, 0x71];
 
 struct Wav {
     contents: Contents,
@@ -56,7 +58,9 @@ pub(super) fn list(contents: Contents) -> Result<Listing, Fault> {
                 reader.read_exact(&mut sizes)?;
                 long_data = sizes.as_chunks::<8>().0.last().map(|b| u64::from_le_bytes(*b));
             }
+            b"fmt " if layout.is_some() => return Err(unsupported("it has several `fmt ` chunks; one is expected")),
             b"fmt " => layout = Some(format(&mut reader, size)?),
+            b"data" if data.is_some() => return Err(unsupported("it has several `data` chunks; one is expected")),
             b"data" => {
                 if size == NO_SIZE {
                     size = long_data.unwrap_or(length - at - 8);
@@ -78,6 +82,9 @@ pub(super) fn list(contents: Contents) -> Result<Listing, Fault> {
     let (start, bytes) = data.ok_or_else(|| damaged("it has no `data` chunk"))?;
     let frame = u64::from(layout.channels) * layout.stored.bytes() as u64;
     let frames = bytes / frame;
+    if bytes % frame != 0 {
+        return Err(damaged(format!("its {bytes} bytes of samples end within a frame of {frame} bytes")));
+    }
     let comment = comment(&metadata);
     let brinell = comment.as_ref().map(names_and_units).unwrap_or_default();
     // What brinell's comment says of the table is beside it, as in its other formats.
@@ -119,7 +126,10 @@ fn format(reader: &mut impl Read, size: u64) -> Result<Layout, Fault> {
     let u16_at = |at: usize| u16::from_le_bytes([bytes[at], bytes[at + 1]]);
     let (mut tag, channels, bits) = (u16_at(0), u16_at(2), u16_at(14));
     let rate = u32::from_le_bytes([bytes[4], bytes[5], bytes[6], bytes[7]]);
-    if tag == 0xfffe && size >= 26 {
+    if tag == 0xfffe {
+        if size < 40 || bytes[26..] != SUBTYPE {
+            return Err(unsupported("extensible WAV of a kind of its own; PCM and floats are read"));
+        }
         tag = u16_at(24);
     }
     let stored = match (tag, bits) {

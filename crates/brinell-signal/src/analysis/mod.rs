@@ -44,7 +44,9 @@ pub use frequencies::{Component, DefectOrders, NAMED, NamedBearing, Wording, mos
 pub use json::to_json;
 pub use levels::Levels;
 pub use options::{MACHINE_NOISE, Options, SUPPLY_HZ};
-pub use recorded::{Called, Given, NoUnit, Numbers, Scaled, once, other_bearing, other_speed, unit_of};
+pub use recorded::{
+    Called, Given, NoUnit, Numbers, Scaled, beyond_full_scale, once, other_bearing, other_speed, unit_of,
+};
 pub use result::{Analysis, Verdict, View};
 pub use sensitivity::{FullScale, Sensitivity};
 pub use severity::{BandLevel, MachineClass, NoVelocity, NoZone, SEVERITY_BAND, Zone, band_level, severity};

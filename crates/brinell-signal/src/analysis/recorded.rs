@@ -131,6 +131,22 @@ fn largest(stored_as: &str) -> f64 {
     }
 }
 
+/// Beyond the full scale by so much, a value is worth a word: floats may go over it a little.
+const BEYOND: f64 = 1.1;
+
+/// A warning, where numbers as the record has them, `stored_as`, go far beyond the full scale that was given.
+pub fn beyond_full_scale(numbers: &[f64], stored_as: &str, given: &Given, called: &Called) -> Option<String> {
+    let text = given.full_scale?;
+    let times = numbers.iter().fold(0.0, |most: f64, v| most.max(v.abs())) / largest(stored_as);
+    (times > BEYOND).then(|| {
+        let Called { unit, full_scale, .. } = called;
+        format!(
+            "{full_scale} {text}: the largest value is {} times full scale; if the numbers are in a unit already, give {unit} in its place",
+            short(times, 3)
+        )
+    })
+}
+
 fn of_full_scale(text: &str, numbers: &Numbers, called: &Called) -> Result<Scaled, NoUnit> {
     let option = &called.full_scale;
     let FullScale { value, unit } =
@@ -247,6 +263,22 @@ mod tests {
         assert_eq!((counts.factor, counts.unit.name.as_str()), (1.0, "counts"));
         let stated = Numbers { unit: Some("m/s^2"), ..WAV };
         assert_eq!(of(&stated, &Given::default()).unwrap().unit.name, "m/s^2");
+    }
+
+    #[test]
+    fn analytic_values_beyond_full_scale_are_warned_of() {
+        let given = Given { full_scale: Some("16g"), ..Given::default() };
+        let said = |numbers: &[f64], stored_as| {
+            beyond_full_scale(numbers, stored_as, &given, &Called::options("")).map(|words| {
+                assert!(words.ends_with("give --unit in its place"), "{words}");
+                words.split(';').next().unwrap_or_default().to_owned()
+            })
+        };
+        assert_eq!(said(&[0.1, -1.05], "float32"), None);
+        assert_eq!(said(&[32_767.0, -32_768.0], "int16"), None);
+        let words = "--full-scale 16g: the largest value is 12.5 times full scale";
+        assert_eq!(said(&[0.1, -12.5, f64::NAN], "float32").as_deref(), Some(words));
+        assert_eq!(beyond_full_scale(&[9.0], "float32", &Given::default(), &Called::fields()), None);
     }
 
     #[test]

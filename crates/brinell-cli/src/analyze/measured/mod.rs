@@ -21,7 +21,7 @@ use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 pub(crate) use stretch::{Beyond, MOST, Reading, Rest};
 use stretch::{bad, scale, stretch};
-use unit::unit;
+use unit::{beyond, unit};
 pub(crate) use wanted::{Like, Wanted};
 
 /// A stretch of one channel, with everything that is known of it.
@@ -89,7 +89,7 @@ pub(crate) fn load(path: &Path, wanted: &Wanted) -> Result<Measured, Failure> {
     let scenario = scenario(&file, &path);
     let (mut notes, mut warnings) = (Vec::new(), Vec::new());
     let run = scenario.as_deref();
-    let Known { name, rate, scaled: Scaled { unit, factor, .. } } =
+    let Known { name, channel, rate, scaled: Scaled { unit, factor, .. } } =
         known(&mut file, &path, wanted, run, (&mut notes, &mut warnings))?;
     let start = start(wanted, run, &mut notes)?;
     let skip = (start * rate).round() as usize;
@@ -98,6 +98,7 @@ pub(crate) fn load(path: &Path, wanted: &Wanted) -> Result<Measured, Failure> {
         None => MOST,
     };
     let (mut x, more) = stretch(&mut file, &name, skip, most)?;
+    warnings.extend(beyond(&x, channel.stored_as, wanted));
     scale(&mut x, factor);
     let long = more && wanted.duration.is_none();
     if x.is_empty() {
@@ -117,7 +118,7 @@ pub(crate) fn load(path: &Path, wanted: &Wanted) -> Result<Measured, Failure> {
     let repeats = once(&mut x, rate);
     warnings.extend(repeats.clone());
     let seconds = x.len() as f64 / rate;
-    let speed = speed(&mut file, wanted, run, &name, (start, seconds, rate))?;
+    let speed = speed(&mut file, wanted, run, (&name, &channel), (start, seconds, rate))?;
     Ok(Measured {
         beyond: long.then(|| Beyond { file, name: name.clone(), skip, rate, factor }),
         path,
@@ -137,6 +138,7 @@ pub(crate) fn load(path: &Path, wanted: &Wanted) -> Result<Measured, Failure> {
 /// What has to be known of a channel before it is read.
 struct Known {
     name: String,
+    channel: Channel,
     /// Hz.
     rate: f64,
     scaled: Scaled,
@@ -178,7 +180,7 @@ fn known(
         missing.push(ASK_BEARING.into());
     }
     match (rate, unit, &missing[..]) {
-        (Ok((rate, _)), Ok(scaled), []) => Ok(Known { name, rate, scaled }),
+        (Ok((rate, _)), Ok(scaled), []) => Ok(Known { name, channel, rate, scaled }),
         _ => Err(not_stated(path, &missing)),
     }
 }

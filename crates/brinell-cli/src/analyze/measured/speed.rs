@@ -40,44 +40,11 @@ pub(super) fn speed(
     file: &mut SignalFile,
     wanted: &Wanted,
     run: Option<&Loaded>,
-    signal: &str,
+    (signal, of): (&str, &Channel),
     (start, seconds, rate): (f64, f64, f64),
 ) -> Result<Option<StatedSpeed>, Failure> {
     if let Some(text) = wanted.speed_channel {
-        let (name, channel) = resolve(file, text, "--speed-channel")?;
-        // A channel of its own rate, or sampled with the signal.
-        let own = channel.rate.as_ref().map_or(rate, |r| r.hz);
-        let skip = (start * own).round() as usize;
-        let most = ((seconds * own).round() as usize).clamp(1, MOST);
-        let (mut values, _) = stretch(file, &name, skip, most)?;
-        if values.is_empty() {
-            return Err(Failure::Usage(format!(
-                "--speed-channel {name}: holds no values {start} s from its beginning"
-            )));
-        }
-        if let Some(bad) = values.iter().find(|v| !v.is_finite()) {
-            return Err(Failure::Usage(format!("--speed-channel {name}: holds the value {bad}; expected speeds")));
-        }
-        let (unit, rpm) = unit_of(&name, &channel)?;
-        let is_bare = unit == TAKEN;
-        values.iter_mut().for_each(|v| *v *= rpm);
-        let mean = values.iter().sum::<f64>() / values.len() as f64;
-        let covers = values.len() as f64 / own;
-        let source = format!("the channel `{name}`, {unit}");
-        let course = course(&values, own, mean);
-        if course.is_empty() {
-            let source = format!("the mean of {source}");
-            return Ok(Some(StatedSpeed { is_bare, ..StatedSpeed::steady(mean, source) }));
-        }
-        if covers < 0.98 * seconds {
-            return Err(Failure::Usage(format!(
-                "--speed-channel {name}: its {} values last {covers:.3} s at {own} Hz and the signal {seconds:.3} s; a speed that varies has to be \
-                 known all along",
-                values.len()
-            )));
-        }
-        let followed = followed(mean, course, &source, &format!("--speed-channel {name}"))?;
-        return Ok(Some(StatedSpeed { is_bare, ..followed }));
+        return by_channel(file, text, of, (start, seconds, rate)).map(Some);
     }
     if let Some(run) = run {
         let source = "the scenario of the run in the file";
@@ -92,6 +59,73 @@ pub(super) fn speed(
     }
     let stated = file.stated_rpm(signal).map_err(bad)?;
     Ok(stated.map(|(rpm, source)| StatedSpeed::steady(rpm, source)))
+}
+
+/// The speed by a channel that was named, of the stretch of the signal `of`.
+fn by_channel(
+    file: &mut SignalFile,
+    text: &str,
+    of: &Channel,
+    (start, seconds, rate): (f64, f64, f64),
+) -> Result<StatedSpeed, Failure> {
+    let (name, channel) = resolve(file, text, "--speed-channel")?;
+    let own = own_rate(file, &channel, of)?.unwrap_or(rate);
+    let skip = (start * own).round() as usize;
+    let most = ((seconds * own).round() as usize).clamp(1, MOST);
+    let (mut values, _) = stretch(file, &name, skip, most)?;
+    if values.is_empty() {
+        return Err(Failure::Usage(format!("--speed-channel {name}: holds no values {start} s from its beginning")));
+    }
+    if let Some(bad) = values.iter().find(|v| !v.is_finite()) {
+        return Err(Failure::Usage(format!("--speed-channel {name}: holds the value {bad}; expected speeds")));
+    }
+    let (unit, rpm) = unit_of(&name, &channel)?;
+    let is_bare = unit == TAKEN;
+    values.iter_mut().for_each(|v| *v *= rpm);
+    let mean = values.iter().sum::<f64>() / values.len() as f64;
+    let covers = values.len() as f64 / own;
+    let source = format!("the channel `{name}`, {unit}");
+    let course = course(&values, own, mean);
+    if course.is_empty() {
+        let source = format!("the mean of {source}");
+        return Ok(StatedSpeed { is_bare, ..StatedSpeed::steady(mean, source) });
+    }
+    if covers < 0.98 * seconds {
+        return Err(Failure::Usage(format!(
+            "--speed-channel {name}: its {} values last {covers:.3} s at {own} Hz and the signal {seconds:.3} s; a speed that varies has to be \
+             known all along",
+            values.len()
+        )));
+    }
+    let followed = followed(mean, course, &source, &format!("--speed-channel {name}"))?;
+    Ok(StatedSpeed { is_bare, ..followed })
+}
+
+/// The rate that the file states of a channel of speeds alone; else it is sampled with the signal `of`, and as long.
+fn own_rate(file: &mut SignalFile, speeds: &Channel, of: &Channel) -> Result<Option<f64>, Failure> {
+    if let Some(rate) = &speeds.rate {
+        return Ok(Some(rate.hz));
+    }
+    let times = file.times_of(speeds).ok().flatten();
+    if let Some(times) = times
+        && file.times_of(of).ok().flatten().is_none_or(|other| other.name != times.name)
+        && let Some(unit) = times.time_unit()
+        && let Ok(hz) = file.rate_of(&times.name, unit).map_err(bad)?
+    {
+        return Ok(Some(hz));
+    }
+    // A single number is the speed all along.
+    if speeds.length == Some(1) || of.is_timed_by(speeds) || speeds.is_timed_by(of) {
+        return Ok(None);
+    }
+    let count = |c: &Channel| c.length.unwrap_or_default();
+    Err(Failure::Usage(format!(
+        "--speed-channel {}: it has {} values and `{}` {}; expected as many, or a sample rate of its own in the file",
+        speeds.name,
+        count(speeds),
+        of.name,
+        count(of)
+    )))
 }
 
 /// The unit of a channel of speeds in words, and r/min in it.

@@ -2,7 +2,7 @@
 
 use super::wanted::Wanted;
 use crate::failure::Failure;
-use brinell::analysis::{Called, Given, NoUnit, Numbers, Scaled, Unit, unit_of};
+use brinell::analysis::{Called, Given, NoUnit, Numbers, Scaled, Unit, beyond_full_scale, unit_of};
 use brinell::channel::unit_of_run;
 use brinell::document::Loaded;
 use brinell_io::Channel;
@@ -16,7 +16,7 @@ pub(super) fn unit(
     run: Option<&Loaded>,
 ) -> Result<Result<Scaled, String>, Failure> {
     let numbers = Numbers { name, unit: channel.unit.as_deref(), stored_as: channel.stored_as, is_wav };
-    let given = Given { unit: wanted.unit, sensitivity: wanted.sensitivity, full_scale: wanted.full_scale };
+    let given = given(wanted);
     let called = Called::options(wanted.whose);
     let own = || {
         let unit = unit_of_run(name, &run?.scenario.sensor)?;
@@ -32,4 +32,13 @@ pub(super) fn unit(
         Err(NoUnit::Missing(words)) => Ok(Err(words)),
         Err(NoUnit::Refused(words)) => Err(Failure::Usage(words)),
     }
+}
+
+fn given<'a>(wanted: &Wanted<'a>) -> Given<'a> {
+    Given { unit: wanted.unit, sensitivity: wanted.sensitivity, full_scale: wanted.full_scale }
+}
+
+/// A warning of values beyond the full scale that was given.
+pub(super) fn beyond(x: &[f64], stored_as: &str, wanted: &Wanted) -> Option<String> {
+    beyond_full_scale(x, stored_as, &given(wanted), &Called::options(wanted.whose))
 }
