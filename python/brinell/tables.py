@@ -102,7 +102,9 @@ def to_polars(columns: Mapping[str, Any]) -> polars.DataFrame:
     (2, 1)
     """
     pl = need("polars")
-    frame: polars.DataFrame = pl.DataFrame(dict(columns))
+    # As lists words and empty cells are words of polars, and not objects.
+    cells = {name: values.tolist() if getattr(values, "dtype", None) == object else values for name, values in columns.items()}
+    frame: polars.DataFrame = pl.DataFrame(cells, strict=False)
     return frame
 
 

@@ -41,3 +41,13 @@ def test_regress_every_picture_is_drawn_of_balls_and_rollers(bearing):
     result.analyze().plot()
     unit = result.plot_pass().figure.axes[1].get_ylabel()
     assert unit == {"6205": "Stiffness (N/m$^n$)", "NU205": "Stiffness (N/m$^{10/9}$)"}[bearing]
+
+
+def test_regress_reasons_are_words_of_polars(base):
+    polars = pytest.importorskip("polars")
+    short = base.replace({"simulation.duration_s": 0.02})
+    table = brinell.sweep(short, {"bearing.radial_clearance_um": [5, -500], "operation.load_n": [[300.0, 0.0], [200.0, 0.0]]})
+    frame = table.to_polars()
+    assert frame["reason"].dtype == polars.String and frame["reason"].is_null().to_list() == [True, True, False, False]
+    assert frame["operation.load_n"].to_list()[1] == [200.0, 0.0]
+    assert table.to_pandas()["status"].to_list() == ["complete", "complete", "failed", "failed"]
