@@ -40,7 +40,12 @@ impl Failure {
             Self::Scenario { .. } | Self::Usage(_) | Self::Read(..) => BAD_INPUT,
             Self::Run(error) if error.is_bad_input() => BAD_INPUT,
             // The place is wrong, not the writing.
-            Self::Write(IoError::NoFolder { .. } | IoError::NotAFileName { .. } | IoError::Busy { .. }) => BAD_INPUT,
+            Self::Write(
+                IoError::NoFolder { .. }
+                | IoError::NotAFileName { .. }
+                | IoError::Busy { .. }
+                | IoError::Journal { .. },
+            ) => BAD_INPUT,
             Self::Write(_) | Self::Picture(_) | Self::Run(_) | Self::NotOpened(_) | Self::Output(_) => 1,
         })
     }

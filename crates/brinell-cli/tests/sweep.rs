@@ -221,10 +221,21 @@ fn regress_another_sweep_is_refused_unless_extended() {
     ]);
     // The extended one is now the folder's.
     sweep("2900,3000,3100", &[]).exits(0).says(&["3 points finished before"]);
+    // A damaged line: what is to be done is said, and does it.
+    let journal = folder.path().join("out/journal.jsonl");
+    let sound = fs::read_to_string(&journal).unwrap();
+    let mut lines: Vec<&str> = sound.lines().collect();
+    lines[1] = "{\"point\":";
+    fs::write(&journal, lines.join("\n") + "\n").unwrap();
+    let cure = "remove the line, and what it holds is made again";
+    sweep("2900,3000,3100", &[]).exits(2).complains(&["journal.jsonl: line 2 is no line of a journal", cure]);
+    lines.remove(1);
+    fs::write(&journal, lines.join("\n") + "\n").unwrap();
+    sweep("2900,3000,3100", &[]).exits(0).says(&["2 points finished before"]);
+    fs::write(&journal, sound).unwrap();
     // Another base, the same plan.
     sweep("2900,3000,3100", &["--set", "defects.0.depth_um=5"]).exits(2).complains(&["another base scenario"]);
     // A journal of something else.
-    let journal = folder.path().join("out/journal.jsonl");
     fs::write(&journal, "{\"campaign\":\"calibration\"}\n").unwrap();
     sweep("2900,3000,3100", &["--extend"])
         .exits(2)

@@ -235,7 +235,7 @@ pub enum IoError {
         why: String,
     },
     /// A journal with a line that is not one of its own.
-    #[error("{}: line {line} is no line of a journal: {why}", path.display())]
+    #[error("{}: line {line} is no line of a journal: {why}; {}", path.display(), without(*line))]
     Journal {
         /// The file.
         path: PathBuf,
@@ -252,6 +252,14 @@ pub enum IoError {
         /// What the reader said.
         why: String,
     },
+}
+
+/// What to do about a damaged line of a journal.
+fn without(line: usize) -> &'static str {
+    match line {
+        1 => "choose another folder, or remove the file, and all is made again",
+        _ => "remove the line, and what it holds is made again",
+    }
 }
 
 impl IoError {
