@@ -145,6 +145,11 @@ with h5py.File(out / "groups.h5", "w", libver="earliest") as file:
         file.create_dataset(f"{group}/time", data=np.arange(300) / hz).attrs["units"] = "s"
         file.create_dataset(f"{group}/acc", data=signal(0), chunks=(77,), fletcher32=True)
     file.create_dataset("slow/half", data=signal(4).astype("f2"))
+    file["fast/link"] = h5py.SoftLink("/slow/half")
+    file["nowhere"] = h5py.SoftLink("/none")
+    file["elsewhere"] = h5py.ExternalLink("other.h5", "/none")
+    file["slow/circle"] = file["slow"]
+    file["slow/top"] = file["/"]
 
 # --- NumPy.
 np.save(out / "f8.npy", signal(0))

@@ -15,6 +15,7 @@ use super::contents::Contents;
 use super::fault::{Fault, damaged, unsupported};
 use super::listing::{Listing, Source};
 use super::numbers::{Number, Sink, give};
+use super::soft_links::WithoutSoftLinks;
 use crate::Metadata;
 
 const MAX_DEPTH: usize = 24;
@@ -51,6 +52,8 @@ struct Walk {
     most: u64,
     /// Groups and references looked at: a file may lead round in circles.
     visits: usize,
+    /// Where values of the groups around lie: a group with the same ones is one of them.
+    around: Vec<Option<u64>>,
 }
 
 impl From<hdf5_pure::Error> for Fault {
@@ -62,7 +65,7 @@ impl From<hdf5_pure::Error> for Fault {
 pub(super) fn list(mut contents: Contents) -> Result<Listing, Fault> {
     let mut head = [0; 19];
     contents.read_exact(&mut head)?;
-    let source = ReadSeekSource::new(contents.clone()).map_err(|e| damaged(e.to_string()))?;
+    let source = ReadSeekSource::new(WithoutSoftLinks(contents.clone())).map_err(|e| damaged(e.to_string()))?;
     let tree = Hdf5::from_source(source)?;
     let mut walk = Walk {
         matlab: &head == b"MATLAB 7.3 MAT-file",
@@ -71,6 +74,7 @@ pub(super) fn list(mut contents: Contents) -> Result<Listing, Fault> {
         metadata: Metadata::default(),
         most: contents.length().saturating_mul(MOST),
         visits: 0,
+        around: Vec::new(),
     };
     walk.group(&tree.root(), "", 0)?;
     let mut source = Source5 { contents, arrays: walk.arrays };
@@ -107,6 +111,10 @@ impl Walk {
     }
 
     fn group(&mut self, group: &Group, path: &str, depth: usize) -> Result<(), Fault> {
+        // No name is that long: a circle of links.
+        if depth > MAX_DEPTH {
+            return Ok(());
+        }
         self.visit(depth)?;
         let within = |name: &str| match (path, self.matlab) {
             ("", _) => name.to_owned(),
@@ -121,6 +129,15 @@ impl Walk {
             .filter(|(name, _)| !name.starts_with('#'))
             .map(|(name, group)| (within(&name), group))
             .collect();
+        let lies_at = |(_, dataset): &(String, Dataset)| match dataset.layout() {
+            Ok(Layout::Contiguous { address, .. }) => address,
+            _ => None,
+        };
+        let at = datasets.iter().find_map(lies_at);
+        if at.is_some() && self.around.contains(&at) {
+            return Ok(());
+        }
+        self.around.push(at);
         let mut seen = HashSet::new();
         for (name, dataset) in datasets {
             if seen.insert(name.clone()) {
@@ -132,6 +149,7 @@ impl Walk {
                 self.group(&group, &name, depth + 1)?;
             }
         }
+        self.around.pop();
         Ok(())
     }
 

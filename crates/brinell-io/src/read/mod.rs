@@ -24,6 +24,8 @@ pub(crate) mod parquet;
 mod pick;
 #[cfg(feature = "parquet")]
 pub(crate) mod records;
+#[cfg(feature = "hdf5")]
+mod soft_links;
 mod stated;
 mod text;
 mod timed;
