@@ -106,6 +106,9 @@ impl Default for Blocks {
     }
 }
 
+/// Round-off of a revolution's end, samples.
+const END: f64 = 1e-6;
+
 impl Blocks {
     /// No samples, no blocks.
     pub fn new() -> Self {
@@ -117,13 +120,13 @@ impl Blocks {
     pub fn of(x: &[f64], samples: f64) -> Self {
         let mut blocks = Blocks::new();
         let samples = samples.max(1.0);
-        let mut end = samples;
         let mut from = 0;
-        while end <= x.len() as f64 {
-            let to = end.ceil() as usize;
+        // A revolution that ends within round-off of a sample ends there.
+        let ends = (1..).map(|k| (f64::from(k) * samples - END).ceil() as usize);
+        for to in ends.take_while(|to| *to <= x.len()) {
             blocks.current.extend(&x[from..to]);
             blocks.end_block();
-            (from, end) = (to, end + samples);
+            from = to;
         }
         blocks.current.extend(&x[from..]);
         blocks

@@ -453,7 +453,7 @@ fn analytic_a_signal_over_itself_differs_nowhere() {
     let half: Vec<f64> = x.iter().map(|v| 0.5 * v).collect();
     let b = look(&half, 25_600.0);
     let c = compare(side, Side { x: &half, analysis: &b }).unwrap();
-    assert!((c.level_db.0 + 6.0206).abs() < 1e-3, "{:?}", c.level_db);
+    assert!((c.level_db.0 - 6.0206).abs() < 1e-3, "{:?}", c.level_db);
     assert!(c.lines.iter().all(|l| (l.modulation[0] / l.modulation[1] - 1.0).abs() < 1e-9));
 }
 

@@ -1,8 +1,8 @@
 //! What is said beside the part that leads, and beside a record of the healthy machine.
 
-use crate::analysis::{Damage, damaged, healthy, look};
+use crate::analysis::{Damage, SHAFT, damaged, healthy, look};
 use brinell_signal::Indicator;
-use brinell_signal::analysis::{Finding, Side, compare};
+use brinell_signal::analysis::{Finding, NamedBearing, Options, Side, analyze, compare};
 use std::f64::consts::TAU;
 
 const FS: f64 = 12_000.0;
@@ -77,4 +77,31 @@ fn analytic_the_records_crest_factor_is_its_peak_over_its_rms() {
     assert!((a.record_crest_factor().unwrap() / expected - 1.0).abs() < 0.01);
     // The mean of the revolutions' peaks hardly sees it.
     assert!(a.indicator(Indicator::CrestFactor).unwrap().value < 2.0);
+}
+
+/// Impacts whose fifth harmonic comes by a line of the shaft, order 18, which hides it in part.
+#[test]
+fn analytic_the_rate_of_impacts_is_right_where_a_harmonic_is_half_hidden() {
+    for fifth in (0..12).map(|k| 17.95 + 0.01 * f64::from(k)) {
+        let order = fifth / 5.0;
+        let x = damaged(FS, 4.0, 3, &Damage { order: order / 0.995, modulation: 0.0, jitter: 0.0, snr_db: 0.0 });
+        let a = look(&x, FS);
+        let family = a.families.iter().find(|f| f.name == "BPFO").unwrap();
+        let off = family.frequency / (order * SHAFT) - 1.0;
+        assert!(off.abs() < 1e-4, "fifth harmonic {fifth}: {off:e}");
+    }
+}
+
+/// Given 1 % off, revolutions are those of the speed that the signal's lines tell.
+#[test]
+fn analytic_indicators_are_of_the_speed_that_is_used() {
+    let orders = NamedBearing::find("6205-2RS").unwrap().orders();
+    let x = damaged(FS, 4.0, 3, &Damage { order: 3.585, modulation: 1.0, jitter: 0.0, snr_db: 6.0 });
+    let analyses = [1.0, 1.01].map(|given| analyze(&x, FS, &Options::new(given * SHAFT, orders)).unwrap());
+    let [right, off] = &analyses;
+    assert!((off.shaft / right.shaft - 1.0).abs() < 1e-3, "{} {}", off.shaft, right.shaft);
+    for indicator in [Indicator::Peak, Indicator::PeakToPeak, Indicator::CrestFactor] {
+        let [right, off] = analyses.each_ref().map(|a| a.indicator(indicator).unwrap().value);
+        assert!((off / right - 1.0).abs() < 3e-3, "{indicator:?}: {off} {right}");
+    }
 }

@@ -76,7 +76,7 @@ fn against(other: &Against, unit: &str) {
         say!("    {note}");
     }
     let (mean, rms) = other.comparison.level_db;
-    say!("  third octaves: this one is {:+.1} dB from the other on average, {rms:.1} dB RMS", 0.0 - mean);
+    say!("  third octaves, each of equal weight: this one is {mean:+.1} dB from the other on average, {rms:.1} dB RMS");
     let width = other.comparison.indicators.iter().map(|d| indicator_words(d.indicator).len()).max().unwrap_or(0);
     let within = other.comparison.range.map_or(String::new(), |range| {
         format!(", of {:.0} to {:.0} Hz, which both are compared in", range.low, range.high)

@@ -322,12 +322,12 @@ fn differences(of: &Findings, other: &Analyzed, c: &Comparison) -> Vec<Table> {
             ["Indicator", "#This", "#Other", "Unit", "#This over the other", ""],
             indicators,
             format!(
-                "{}Third octaves from 10 Hz up: this one lies {:+.1} dB from the other on average, {:.1} dB RMS. Verdict on the other: {}",
+                "{}Third octaves from 10 Hz up, each of equal weight: this one lies {:+.1} dB from the other on average, {:.1} dB RMS. Verdict on the other: {}",
                 c.range.map_or(String::new(), |range| format!(
                     "Indicators are of {:.0} to {:.0} Hz, in which both are compared. ",
                     range.low, range.high
                 )),
-                0.0 - c.level_db.0,
+                c.level_db.0,
                 c.level_db.1,
                 other.analysis.verdict()
             ),

@@ -52,7 +52,8 @@ pub struct Comparison {
     pub band: (f64, f64),
     /// Harmonics of the defect frequencies.
     pub lines: Vec<LineDifference>,
-    /// Mean and root mean square difference of the spectra's levels, second over first, dB, over third octaves.
+    /// Mean and root mean square difference of the spectra's levels, first over second, dB, over third octaves from 10 Hz
+    /// up that lie below both half sample rates, each of equal weight whatever its level.
     pub level_db: (f64, f64),
 }
 
@@ -212,7 +213,7 @@ fn level(spectra: &[Spectrum; 2]) -> (f64, f64) {
     while low * third < top {
         let [a, b] = [0, 1].map(|i| spectra[i].band_rms(low, low * third));
         if a > 0.0 && b > 0.0 {
-            let db = 20.0 * (b / a).log10();
+            let db = 20.0 * (a / b).log10();
             (count, sum, squares) = (count + 1.0, sum + db, squares + db * db);
         }
         low *= third;

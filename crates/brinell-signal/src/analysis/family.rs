@@ -350,18 +350,16 @@ pub(super) fn reach(component: Component, options: &Options) -> (f64, f64) {
 }
 
 /// The fundamental that the detected lines of a comb say: least squares, weighted by what they count for in the score;
-/// the comb's own where that is not as high.
+/// the comb's own where it has less of these lines.
 pub(super) fn by_lines(together: &Together, frequency: f64) -> f64 {
-    let (mut above, mut below) = (0.0, 0.0);
-    for k in (1..=HARMONICS).map(|k| k as f64) {
-        let at = k * frequency;
-        if let Some(ratio) = together.at(at).ratio.filter(|r| *r >= together.detection_level()) {
-            above += ratio.ln() * k * together.line(at);
-            below += ratio.ln() * k * k;
-        }
-    }
-    let told = above / below;
-    if below > 0.0 && score(together, told) >= score(together, frequency) { told } else { frequency }
+    let detected = |k: &f64| together.at(k * frequency).ratio.is_some_and(|r| r >= together.detection_level());
+    let orders: Vec<f64> = (1..=HARMONICS).map(|k| k as f64).filter(detected).collect();
+    let height = |k: f64, f: f64| together.at(k * f).ratio.unwrap_or(1.0).max(f64::MIN_POSITIVE).ln();
+    let sum = |of: &dyn Fn(f64) -> f64| orders.iter().map(|k| of(*k)).sum::<f64>();
+    let above = sum(&|k| height(k, frequency) * k * together.line(k * frequency));
+    let told = above / sum(&|k| height(k, frequency) * k * k);
+    // Without lines it is no number.
+    if sum(&|k| height(k, told)) >= sum(&|k| height(k, frequency)) && told > 0.0 { told } else { frequency }
 }
 
 /// Of the comb of a frequency.

@@ -101,10 +101,9 @@ pub fn analyze(x: &[f64], fs: f64, options: &Options) -> Result<Analysis, Analys
     flaws.extend(repeats.map(|samples| Flaw::Repeats { every: samples as f64 / fs }));
     // What is missing has no speed.
     let whole = !(flaws.iter()).any(|f| matches!(f, Flaw::Held { .. }));
-    let Prepared { indicators, map, evidence, transformed } = prepare(&x, fs, options, whole)?;
+    let Prepared { map, evidence, transformed } = prepare(&x, fs, options, whole)?;
     let samples = x.len();
     let record_peak = x.iter().fold(0.0, |m: f64, v| m.max(v.abs()));
-    drop(x);
     let Best { record, envelopes, shaft_lines, drift, at_given } = hypotheses::best(&transformed, evidence, options)?;
     let view = view(&record, &envelopes, &transformed)?;
     let damaged = record.is_damage();
@@ -117,7 +116,8 @@ pub fn analyze(x: &[f64], fs: f64, options: &Options) -> Result<Analysis, Analys
         shaft_lines,
         flaws,
         drift,
-        indicators,
+        // Over revolutions of the speed that is used.
+        indicators: indicators(&x, fs / record.shaft),
         record_peak,
         kurtogram: (map.as_ref()).and_then(|m| m.best(bands::NARROWEST * bands::highest(options))),
         map,
@@ -135,7 +135,6 @@ pub fn analyze(x: &[f64], fs: f64, options: &Options) -> Result<Analysis, Analys
 
 /// What is taken from the samples themselves.
 struct Prepared {
-    indicators: Vec<(Indicator, Estimate)>,
     map: Option<Kurtogram>,
     evidence: SpeedEvidence,
     transformed: Transformed,
@@ -157,10 +156,8 @@ fn prepare(x: &[f64], fs: f64, options: &Options, whole: bool) -> Result<Prepare
     // As much as is transformed fast, with a trace of noise, and a machine's where a simulation has none.
     let noise = options.silent.unwrap_or(0.0);
     let transformed = || Transformed::of(&x[..fast_up_to(x.len())], fs);
-    let (indicators, (map, (lines, (drift, transformed)))) =
-        join(|| indicators(x, fs / options.shaft), || join(map, || join(lines, || join(drift, transformed))));
+    let (map, (lines, (drift, transformed))) = join(map, || join(lines, || join(drift, transformed)));
     Ok(Prepared {
-        indicators,
         map: map?,
         evidence: SpeedEvidence { lines: lines?, drift, may_drift },
         transformed: transformed?.dithered(DITHER, noise),

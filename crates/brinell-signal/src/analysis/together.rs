@@ -183,16 +183,21 @@ impl Together {
         if self.is_hidden(bin) { 1.0 } else { self.ratio[bin] }
     }
 
-    /// The highest of the three bins at a frequency; beyond the spectrum nothing is seen.
+    /// The highest of the three bins at a frequency; beyond the spectrum nothing is seen, nor on the skirt of a line that
+    /// is hidden.
     pub(super) fn at(&self, frequency: f64) -> Place {
+        let nothing = Place { ratio: None, depth: 0.0 };
         let bin = self.bin(frequency.max(0.0));
         if self.is_hidden(bin) || bin == 0 || bin + 1 >= self.ratio.len() {
-            return Place { ratio: None, depth: 0.0 };
+            return nothing;
         }
-        let bins = bin - 1..bin + 2;
-        let ratio = bins.clone().map(|b| self.seen(b)).fold(0.0, f64::max);
-        let depth = bins.filter(|b| !self.is_hidden(*b)).map(|b| self.depth[b]).fold(0.0, f64::max);
-        Place { ratio: Some(ratio), depth }
+        let seen = || (bin - 1..bin + 2).filter(|b| !self.is_hidden(*b));
+        let top = seen().max_by(|a, b| self.ratio[*a].total_cmp(&self.ratio[*b])).unwrap_or(bin);
+        let rises_to = |b: usize| self.is_hidden(b) && self.ratio[b] > self.ratio[top];
+        if top.checked_sub(1).is_some_and(rises_to) || rises_to(top + 1) {
+            return nothing;
+        }
+        Place { ratio: Some(self.ratio[top]), depth: seen().map(|b| self.depth[b]).fold(0.0, f64::max) }
     }
 
     /// The line at a frequency, of the three bins there, to a fraction of a bin: Hz.
@@ -201,7 +206,7 @@ impl Together {
         let amplitude = |b: usize| if b < self.ratio.len() { self.seen(b).sqrt() } else { 0.0 };
         let top =
             (bin.saturating_sub(1)..bin + 2).max_by(|a, b| amplitude(*a).total_cmp(&amplitude(*b))).unwrap_or(bin);
-        let around = [top.saturating_sub(1), top, top + 1].map(amplitude);
+        let around = [top.saturating_sub(1), top, top + 1].map(|b| self.ratio.get(b).map_or(0.0, |r| r.sqrt()));
         let is_peak = around[1] > around[0].min(around[2]) && around[1] >= around[0].max(around[2]);
         let offset = if is_peak { interpolate(around).0 } else { 0.0 };
         (top as f64 + offset) * self.step

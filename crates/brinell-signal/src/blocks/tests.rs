@@ -36,12 +36,12 @@ fn prop_blocks_of_a_slice_end_where_pushed_ones_do() {
     let x = Noise::new(9).normals(10_000);
     for samples in [0.5, 1.0, 1.3, 77.7, 1706.6, 9999.5, 20_000.0] {
         let (all, mut one) = (Blocks::of(&x, samples), Blocks::new());
-        let mut end = f64::max(samples, 1.0);
+        let mut ended = 0.0;
         for (i, v) in x.iter().enumerate() {
             one.push(*v);
-            if (i + 1) as f64 >= end {
+            if (i + 1) as f64 >= (ended + 1.0) * f64::max(samples, 1.0) - END {
                 one.end_block();
-                end += f64::max(samples, 1.0);
+                ended += 1.0;
             }
         }
         let counts = |b: &Blocks| -> Vec<u64> {
@@ -210,4 +210,16 @@ fn analytic_a_revolution_of_more_samples_weighs_more() {
     // Half of weight (x^2 - 3.25) / 3.25, the weights being 1/2 and 3/2.
     close(influence[0], 0.25 * (1.0 - 3.25) / 3.25, 1e-12);
     close(influence[1], 0.75 * (4.0 - 3.25) / 3.25, 1e-12);
+}
+
+/// Records of whole revolutions whose samples are no whole number: the last is not lost to round-off.
+#[test]
+fn analytic_the_last_revolution_counts() {
+    for (rate, rpm, seconds) in
+        [(51_200.0, 900.0, 4.0), (25_600.0, 1800.0, 2.0), (25_600.0, 900.0, 1.0), (12e3, 700.0, 30.0)]
+    {
+        let x = vec![1.0; (rate * seconds) as usize];
+        let blocks = Blocks::of(&x, rate * 60.0 / rpm);
+        assert_eq!(blocks.revolutions(), (rpm / 60.0 * seconds) as u64, "{rate} {rpm}");
+    }
 }
