@@ -353,13 +353,13 @@ pub(super) fn reach(component: Component, options: &Options) -> (f64, f64) {
 /// the comb's own where it has less of these lines.
 pub(super) fn by_lines(together: &Together, frequency: f64) -> f64 {
     let detected = |k: &f64| together.at(k * frequency).ratio.is_some_and(|r| r >= together.detection_level());
-    let orders: Vec<f64> = (1..=HARMONICS).map(|k| k as f64).filter(detected).collect();
+    let line = |k: f64| Some((k, together.line(k * frequency)?));
+    let lines: Vec<(f64, f64)> = (1..=HARMONICS).map(|k| k as f64).filter(detected).filter_map(line).collect();
     let height = |k: f64, f: f64| together.at(k * f).ratio.unwrap_or(1.0).max(f64::MIN_POSITIVE).ln();
-    let sum = |of: &dyn Fn(f64) -> f64| orders.iter().map(|k| of(*k)).sum::<f64>();
-    let above = sum(&|k| height(k, frequency) * k * together.line(k * frequency));
-    let told = above / sum(&|k| height(k, frequency) * k * k);
+    let sum = |of: &dyn Fn(f64, f64) -> f64| lines.iter().map(|(k, line)| of(*k, *line)).sum::<f64>();
+    let told = sum(&|k, line| height(k, frequency) * k * line) / sum(&|k, _| height(k, frequency) * k * k);
     // Without lines it is no number.
-    if sum(&|k| height(k, told)) >= sum(&|k| height(k, frequency)) && told > 0.0 { told } else { frequency }
+    if sum(&|k, _| height(k, told)) >= sum(&|k, _| height(k, frequency)) && told > 0.0 { told } else { frequency }
 }
 
 /// Of the comb of a frequency.

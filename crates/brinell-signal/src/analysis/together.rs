@@ -193,15 +193,21 @@ impl Together {
         }
         let seen = || (bin - 1..bin + 2).filter(|b| !self.is_hidden(*b));
         let top = seen().max_by(|a, b| self.ratio[*a].total_cmp(&self.ratio[*b])).unwrap_or(bin);
-        let rises_to = |b: usize| self.is_hidden(b) && self.ratio[b] > self.ratio[top];
-        if top.checked_sub(1).is_some_and(rises_to) || rises_to(top + 1) {
+        // A line whose top is the first of the hidden bins is its own.
+        let rises = |a: Option<usize>, b: Option<usize>| self.rises(Some(top), a) && self.rises(a, b);
+        if rises(top.checked_sub(1), top.checked_sub(2)) || rises(Some(top + 1), Some(top + 2)) {
             return nothing;
         }
         Place { ratio: Some(self.ratio[top]), depth: seen().map(|b| self.depth[b]).fold(0.0, f64::max) }
     }
 
-    /// The line at a frequency, of the three bins there, to a fraction of a bin: Hz.
-    pub(super) fn line(&self, frequency: f64) -> f64 {
+    /// Whether power rises from a bin to another that is hidden.
+    fn rises(&self, from: Option<usize>, to: Option<usize>) -> bool {
+        from.zip(to).is_some_and(|(a, b)| self.is_hidden(b) && self.ratio[b] > self.ratio[a])
+    }
+
+    /// The line at a frequency, of the three bins there, to a fraction of a bin: Hz. `None` where its top is hidden.
+    pub(super) fn line(&self, frequency: f64) -> Option<f64> {
         let bin = self.bin(frequency);
         let amplitude = |b: usize| if b < self.ratio.len() { self.seen(b).sqrt() } else { 0.0 };
         let top =
@@ -209,7 +215,8 @@ impl Together {
         let around = [top.saturating_sub(1), top, top + 1].map(|b| self.ratio.get(b).map_or(0.0, |r| r.sqrt()));
         let is_peak = around[1] > around[0].min(around[2]) && around[1] >= around[0].max(around[2]);
         let offset = if is_peak { interpolate(around).0 } else { 0.0 };
-        (top as f64 + offset) * self.step
+        let is_hidden = self.rises(Some(top), top.checked_sub(1)) || self.rises(Some(top), Some(top + 1));
+        (!is_hidden).then_some((top as f64 + offset) * self.step)
     }
 
     /// Power over floor at a frequency, whatever is hidden there.
