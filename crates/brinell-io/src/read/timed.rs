@@ -26,7 +26,8 @@ impl Channel {
     /// are.
     pub fn is_timed_by(&self, times: &Channel) -> bool {
         match (times.length, self.length) {
-            (Some(times), Some(own)) => times == own || self.shape.contains(&times),
+            // One more at the end: 0:1/fs:T.
+            (Some(times), Some(own)) => times == own || times == own + 1 || self.shape.contains(&times),
             _ => true,
         }
     }
@@ -61,19 +62,21 @@ impl SignalFile {
         let nearest = fit.iter().map(|&i| self.nearness(&channels[i], of)).max();
         let near: Vec<usize> = fit.into_iter().filter(|&i| Some(self.nearness(&channels[i], of)) == nearest).collect();
         let called: Vec<usize> = near.iter().filter(called).copied().collect();
-        if !called.is_empty() {
-            let open = self.contenders(&called, of);
-            return self.agreed(&open).map(Some);
+        let (these, are_called) = if called.is_empty() { (near, false) } else { (called, true) };
+        // Of several, or of what has but a unit of time, those that give a rate: T may be a temperature.
+        let mut even = these.clone();
+        if these.len() > 1 || !are_called {
+            even.retain(|&i| {
+                let name = self.channels()[i].name.clone();
+                self.rate_of(&name, 1.0).is_ok_and(|rate| rate.is_ok())
+            });
         }
-        let is_even = |file: &mut Self, i: usize| {
-            let name = file.channels()[i].name.clone();
-            file.rate_of(&name, 1.0).is_ok_and(|rate| rate.is_ok())
+        let these = match (even.is_empty(), are_called) {
+            (false, _) => even,
+            (true, true) => these,
+            (true, false) => return Ok(None),
         };
-        let even: Vec<usize> = near.into_iter().filter(|&i| is_even(self, i)).collect();
-        if even.is_empty() {
-            return Ok(None);
-        }
-        let open = self.contenders(&even, of);
+        let open = self.contenders(&these, of);
         self.agreed(&open).map(Some)
     }
 

@@ -6,12 +6,16 @@ use std::ops::ControlFlow;
 
 /// Steps between times may differ by so much from their mean, relative, before a rate is refused.
 const UNEVEN: f64 = 0.02;
-/// The mean step of later times may differ by so much from that of the first, relative.
-const DRIFTS: f64 = 1e-3;
-/// Steps in one digit of later times, at most, that have lost digits as they grew.
-const COARSE: f64 = 64.0;
-/// Times looked at together, at least; the first of them give the rate.
+/// The first times, which are looked at one by one.
 const TOGETHER: usize = 1 << 16;
+/// Times whose mean is taken: what printed digits lose averages out.
+const STRETCH: usize = 1 << 10;
+/// First times from which the usual step is known well enough for that.
+const WELL_KNOWN: usize = 16 * STRETCH;
+/// Steps by which the means of two stretches, one between them, may lie apart: a lost sample moves them by one.
+const SHIFT: f64 = 0.6;
+/// Steps by which the last time may lie off.
+const AT_THE_END: f64 = 3.0;
 
 /// What a column of times is called: `t`, `Time [s]`, `time_ms`.
 const TIMES: [&str; 5] = ["t", "time", "times", "timestamp", "zeit"];
@@ -109,48 +113,116 @@ pub enum NoRate {
 
 /// Times as they are read, and the rate that they give.
 pub(super) struct Clock {
-    held: Vec<f64>,
-    /// Times before those.
-    before: usize,
-    /// The first of all.
+    /// The first of them, until their mean step is known.
+    begun: Vec<f64>,
+    /// That step; 0 until then.
+    usual: f64,
     first: f64,
-    /// The mean step of the first times.
-    usual: Option<f64>,
+    last: f64,
+    count: usize,
+    now: Stretch,
+    /// The two stretches before.
+    before: [Option<Stretch>; 2],
     fault: Option<NoRate>,
+}
+
+/// Some times in a row.
+#[derive(Debug, Clone, Copy, Default)]
+struct Stretch {
+    count: usize,
+    /// How far they lie behind times of the usual step: their sum.
+    behind: f64,
+    /// The smallest step, and the one farthest from the usual one with the times before it.
+    least: f64,
+    worst: (f64, usize),
+}
+
+impl Stretch {
+    fn mean(&self) -> f64 {
+        self.behind / self.count as f64
+    }
+
+    /// What the last printed digit is worth, where that is more than a step.
+    fn digit(&self) -> f64 {
+        if self.least == 0.0 { self.worst.0 } else { 0.0 }
+    }
+
+    /// How far such digits may move its mean.
+    fn coarse(&self, usual: f64) -> f64 {
+        self.digit() * self.digit() / (2.0 * STRETCH as f64 * usual)
+    }
 }
 
 impl Clock {
     pub(super) fn new() -> Self {
-        Self { held: Vec::new(), before: 0, first: f64::NAN, usual: None, fault: None }
+        let (begun, now, before) = (Vec::new(), Stretch::default(), [None; 2]);
+        Self { begun, usual: 0.0, first: f64::NAN, last: f64::NAN, count: 0, now, before, fault: None }
     }
 
     /// Takes the next times; breaks off where no rate can follow any more.
     pub(super) fn take(&mut self, times: &[f64]) -> ControlFlow<()> {
-        self.held.extend_from_slice(times);
-        while self.held.len() > 2 * TOGETHER && self.fault.is_none() {
-            // The last of these is looked at twice, for the step to it and from it.
-            self.fault = self.look(TOGETHER + 1).err();
-            self.held.drain(..TOGETHER);
-            self.before += TOGETHER;
-        }
+        let more = times.len().min(TOGETHER - self.begun.len());
+        self.begun.extend_from_slice(&times[..more]);
+        let found = match self.begun.len() == TOGETHER {
+            true => self.begin().and_then(|()| times[more..].iter().try_for_each(|t| self.push(*t))),
+            false => Ok(()),
+        };
+        self.fault = self.fault.or(found.err());
         if self.fault.is_some() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
     }
 
-    /// Whether the next `n` are evenly spaced, as those before.
-    fn look(&mut self, n: usize) -> Result<(), NoRate> {
-        let times = &self.held[..n];
-        let Some(usual) = self.usual else {
-            self.first = *times.first().ok_or(NoRate::TooFew)?;
-            self.usual = Some(even(times, 0.0)?);
+    /// Looks at the first times, once.
+    fn begin(&mut self) -> Result<(), NoRate> {
+        if self.usual > 0.0 {
             return Ok(());
-        };
-        let digit = times.windows(2).map(|w| w[1] - w[0]).filter(|step| *step > 0.0).fold(f64::INFINITY, f64::min);
-        let digit = if digit <= COARSE * usual { digit } else { 0.0 };
-        let step = even(times, digit).map_err(|why| why.later(self.before))?;
-        match (step / usual - 1.0).abs() <= DRIFTS + 2.0 * digit / (usual * n as f64) {
-            true => Ok(()),
-            false => Err(NoRate::Uneven { step, after: self.before, usual }),
         }
+        self.usual = even(&self.begun)?;
+        self.first = self.begun[0];
+        let begun = std::mem::take(&mut self.begun);
+        let found = begun.iter().try_for_each(|t| self.push(*t));
+        self.begun = begun;
+        found
+    }
+
+    fn push(&mut self, t: f64) -> Result<(), NoRate> {
+        if !t.is_finite() {
+            return Err(NoRate::Missing { after: self.count });
+        }
+        if self.count > 0 {
+            let step = t - self.last;
+            let (now, usual) = (&mut self.now, self.usual);
+            now.least = if now.worst.1 == 0 { step } else { now.least.min(step) };
+            if now.worst.1 == 0 || (step - usual).abs() > (now.worst.0 - usual).abs() {
+                now.worst = (step, self.count);
+            }
+        }
+        self.now.behind += t - self.first - self.count as f64 * self.usual;
+        (self.now.count, self.count, self.last) = (self.now.count + 1, self.count + 1, t);
+        if self.now.count < STRETCH {
+            return Ok(());
+        }
+        let now = std::mem::take(&mut self.now);
+        let [earlier, before] = self.before;
+        self.before = [before, Some(now)];
+        match earlier {
+            // Of a short record the usual step is not known so well.
+            Some(earlier) if self.begun.len() >= WELL_KNOWN || self.count > TOGETHER => {
+                let allowed = SHIFT * self.usual + now.coarse(self.usual).max(earlier.coarse(self.usual));
+                self.within(now.mean() - earlier.mean(), allowed, now)
+            }
+            _ => Ok(()),
+        }
+    }
+
+    /// That times lie no farther off than `allowed`; else the step that is to blame, of the last two stretches.
+    fn within(&self, off: f64, allowed: f64, now: Stretch) -> Result<(), NoRate> {
+        if off.abs() <= allowed {
+            return Ok(());
+        }
+        let of = |s: &Stretch| (s.worst.0 - self.usual).abs();
+        let stretches = self.before.iter().flatten().chain([&now]);
+        let (step, after) = stretches.max_by(|a, b| of(a).total_cmp(&of(b))).map_or((0.0, 0), |s| s.worst);
+        Err(NoRate::Uneven { step, after, usual: self.usual })
     }
 
     /// The sample rate, Hz, where `unit` are the seconds in a unit of the times.
@@ -161,28 +233,21 @@ impl Clock {
         if let Some(fault) = self.fault {
             return Err(fault);
         }
-        let n = self.held.len();
-        self.look(n)?;
-        let step = (self.held[n - 1] - self.first) / (self.before + n - 1) as f64;
+        self.begin()?;
+        if let [_, Some(before)] = self.before {
+            let off = self.last - self.first - (self.count - 1) as f64 * self.usual - before.mean();
+            let digit = self.now.digit().max(before.digit());
+            self.within(off, AT_THE_END * self.usual + digit, self.now)?;
+        }
+        let step = (self.last - self.first) / (self.count - 1) as f64;
         let hz = 1.0 / (step * unit);
         let round = hz.round();
         Ok(if (hz / round - 1.0).abs() < 1e-5 { round } else { hz })
     }
 }
 
-impl NoRate {
-    /// The same, where so many values are before those that were looked at.
-    fn later(self, before: usize) -> Self {
-        match self {
-            Self::Missing { after } => Self::Missing { after: before + after },
-            Self::Uneven { step, after, usual } => Self::Uneven { step, after: before + after, usual },
-            _ => self,
-        }
-    }
-}
-
-/// The mean step of evenly spaced times whose last digit is worth `digit` or less than a step.
-fn even(times: &[f64], digit: f64) -> Result<f64, NoRate> {
+/// The mean step of evenly spaced times.
+fn even(times: &[f64]) -> Result<f64, NoRate> {
     let n = times.len();
     if n < 3 {
         return Err(NoRate::TooFew);
@@ -198,8 +263,7 @@ fn even(times: &[f64], digit: f64) -> Result<f64, NoRate> {
     let largest = times[0].abs().max(times[n - 1].abs());
     let allowed = (UNEVEN * step).max(4e-16 * largest);
     let off = times.windows(2).any(|w| (w[1] - w[0] - step).abs() > allowed);
-    let strays = (0.6 * step).max(1.1 * digit);
-    let rounded = || times.iter().enumerate().all(|(i, t)| (t - times[0] - i as f64 * step).abs() <= strays);
+    let rounded = || times.iter().enumerate().all(|(i, t)| (t - times[0] - i as f64 * step).abs() <= 0.6 * step);
     if off && !rounded() {
         let steps: Vec<f64> = times.windows(2).map(|w| w[1] - w[0]).collect();
         let middle = steps.len() / 2;
@@ -242,8 +306,10 @@ mod tests {
         }
         // Six digits in all, and single precision: digits are lost on the way.
         let six = |t: f64| digits(t, 5 - t.max(1e-9).log10().floor() as i32);
-        let found = rate((0..LONG).map(|i| six(i as f64 / 2000.0))).unwrap();
-        assert!((found / 2000.0 - 1.0).abs() < 1e-4, "{found}");
+        for fs in [1000.0, 2000.0, 12e3, 16e3, 24e3, 25.6e3, 44.1e3, 51.2e3, 100e3] {
+            let found = rate((0..20 * TOGETHER).map(|i| six(i as f64 / fs))).unwrap();
+            assert!((found / fs - 1.0).abs() < 1e-4, "{fs}: {found}");
+        }
         let found = rate((0..40 * TOGETHER).map(|i| f64::from((i as f64 / 12_000.0) as f32))).unwrap();
         assert!((found / 12_000.0 - 1.0).abs() < 1e-5, "{found}");
     }
@@ -256,7 +322,12 @@ mod tests {
             let missing = rate((0..LONG).map(|i| if i == at { f64::NAN } else { i as f64 }));
             assert_eq!(missing, Err(NoRate::Missing { after: at }));
         }
-        for (at, factor) in [(TOGETHER, 2.0), (3 * TOGETHER, 1.01), (2 * TOGETHER + 99, 1.5), (LONG - 9, 2.0)] {
+        // One sample is lost.
+        for at in [20_000, TOGETHER + 7, 2 * TOGETHER, 3 * TOGETHER + 5] {
+            let lost = rate((0..LONG).map(|i| (i + usize::from(i >= at)) as f64 / 12_000.0));
+            assert!(matches!(lost, Err(NoRate::Uneven { after, .. }) if after == at), "{at}: {lost:?}");
+        }
+        for (at, factor) in [(60_000, 1.018), (TOGETHER, 2.0), (3 * TOGETHER, 1.01), (2 * TOGETHER + 99, 1.5)] {
             let other = rate((0..LONG).map(|i| if i < at { i as f64 } else { at as f64 + (i - at) as f64 * factor }));
             assert!(matches!(other, Err(NoRate::Uneven { .. })), "{at} {factor}: {other:?}");
         }
