@@ -288,7 +288,10 @@ class DataSet:
         if isinstance(listed, list):
             rows = {Path(file["path"]).name: file["rows"] for file in listed}
         else:
-            rows = {file.name: json.loads((self.folder / "work" / f"{file.stem}.json").read_bytes())["runs"]["rows"] for file in self.files}
+            try:
+                rows = {file.name: json.loads((self.folder / "work" / f"{file.stem}.json").read_bytes())["runs"]["rows"] for file in self.files}
+            except FileNotFoundError:
+                return len(self.to_polars("run") if _has_polars() else self.to_pandas("run"))
         return sum(rows.get(file.name, 0) for file in self.files)
 
     def __getitem__(self, run: int) -> dict[str, Any]:

@@ -66,7 +66,9 @@ pub(crate) fn left_out(word: &str) -> Option<&'static str> {
     let has = |part: &str| word.contains(part);
     if has("contact_angle") {
         Some("a contact angle is left out: elements press radially, and the angle is 0")
-    } else if (has("axial") && (has("load") || has("force"))) || has("preload") || has("thrust") {
+    } else if has("preload") {
+        Some("a preload is a negative clearance, such as bearing.radial_clearance_um = -2; an axial one is left out")
+    } else if (has("axial") && (has("load") || has("force"))) || has("thrust") {
         Some("axial load is left out: the load is radial, and no part moves along the axis")
     } else if has("outer") && (has("speed") || has("rpm")) {
         Some("a turning outer ring is left out: the inner ring turns")

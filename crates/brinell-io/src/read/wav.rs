@@ -42,7 +42,7 @@ pub(super) fn list(contents: Contents) -> Result<Listing, Fault> {
     let mut reader = BufReader::new(contents);
     let mut word = [0; 12];
     reader.read_exact(&mut word)?;
-    let (mut layout, mut data, mut long_data) = (None, None, None);
+    let (mut layout, mut data, mut long_data, mut streamed) = (None, None, None, false);
     let mut metadata = Metadata::default();
     let mut at = 12u64;
     // The last chunk may lack its padding, and some writers stop before its end.
@@ -62,6 +62,7 @@ pub(super) fn list(contents: Contents) -> Result<Listing, Fault> {
             b"fmt " => layout = Some(format(&mut reader, size)?),
             b"data" if data.is_some() => return Err(unsupported("it has several `data` chunks; one is expected")),
             b"data" => {
+                streamed = size == NO_SIZE && long_data.is_none();
                 if size == NO_SIZE {
                     size = long_data.unwrap_or(length - at - 8);
                 }
@@ -82,8 +83,12 @@ pub(super) fn list(contents: Contents) -> Result<Listing, Fault> {
     let (start, bytes) = data.ok_or_else(|| damaged("it has no `data` chunk"))?;
     let frame = u64::from(layout.channels) * layout.stored.bytes() as u64;
     let frames = bytes / frame;
-    if bytes % frame != 0 {
-        return Err(damaged(format!("its {bytes} bytes of samples end within a frame of {frame} bytes")));
+    // A recorder that was cut off ends anywhere, and some count the byte that makes a chunk even.
+    if !matches!((bytes % frame, streamed), (0, _) | (_, true) | (1, _)) {
+        return Err(damaged(format!(
+            "its {bytes} bytes of samples end within a frame of {frame} bytes: bytes are missing or the header is another file's; \
+             write it again with whole frames"
+        )));
     }
     let comment = comment(&metadata);
     let brinell = comment.as_ref().map(names_and_units).unwrap_or_default();

@@ -145,6 +145,15 @@ impl Folder {
                 theirs["runs"]
             )));
         }
+        let columns = |about: &Value| -> Vec<String> {
+            about["columns"].as_array().into_iter().flatten().map(|column| text(column, "name")).collect()
+        };
+        if theirs["columns"].is_array() && columns(mine) != columns(theirs) {
+            return Err(DatasetError::Refused(format!(
+                "{at} holds runs with other columns, made by another build of brinell {}; finish it with that build, or choose another folder",
+                text(mine, "brinell")
+            )));
+        }
         let kernels = [mine, theirs].map(|about| about[KERNEL_OF].as_str());
         if let [Some(mine), Some(theirs)] = kernels
             && mine != theirs

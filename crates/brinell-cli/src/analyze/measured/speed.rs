@@ -103,7 +103,10 @@ fn by_channel(
 
 /// The rate that the file states of a channel of speeds alone; else it is sampled with the signal `of`, and as long.
 fn own_rate(file: &mut SignalFile, speeds: &Channel, of: &Channel) -> Result<Option<f64>, Failure> {
-    if let Some(rate) = &speeds.rate {
+    // One that both have is the signal's, where there are not as many speeds.
+    if let Some(rate) = &speeds.rate
+        && of.rate.as_ref() != Some(rate)
+    {
         return Ok(Some(rate.hz));
     }
     let times = file.times_of(speeds).ok().flatten();

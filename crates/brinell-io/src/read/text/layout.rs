@@ -283,6 +283,8 @@ fn sure_of_fractions(delimiter: Delimiter, data: &[&[u8]], sign: u8) -> Result<(
             let digits = field.strip_prefix(b"-").or(field.strip_prefix(b"+")).unwrap_or(field);
             match may_be_grouped(field, sign) {
                 true => _ = with.get_or_insert(field),
+                // A dropout says nothing.
+                false if digits == b"0" => {}
                 false if digits.len() <= 3 && digits.iter().all(u8::is_ascii_digit) => *short = true,
                 false => *other = true,
             }
