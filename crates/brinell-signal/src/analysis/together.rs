@@ -178,9 +178,14 @@ impl Together {
         self.hidden.get(bin).is_some_and(|h| *h)
     }
 
-    /// Power over floor in a bin: the floor's where it is hidden.
-    fn seen(&self, bin: usize) -> f64 {
-        if self.is_hidden(bin) { 1.0 } else { self.ratio[bin] }
+    /// Those of a bin and its neighbours that are seen.
+    fn seen(&self, bin: usize) -> impl Iterator<Item = usize> {
+        (bin.saturating_sub(1)..bin + 2).filter(|b| *b < self.ratio.len() && !self.is_hidden(*b))
+    }
+
+    /// The highest of them.
+    fn highest(&self, bin: usize) -> usize {
+        self.seen(bin).max_by(|a, b| self.ratio[*a].total_cmp(&self.ratio[*b])).unwrap_or(bin)
     }
 
     /// The highest of the three bins at a frequency; beyond the spectrum nothing is seen, nor on the skirt of a line that
@@ -191,14 +196,13 @@ impl Together {
         if self.is_hidden(bin) || bin == 0 || bin + 1 >= self.ratio.len() {
             return nothing;
         }
-        let seen = || (bin - 1..bin + 2).filter(|b| !self.is_hidden(*b));
-        let top = seen().max_by(|a, b| self.ratio[*a].total_cmp(&self.ratio[*b])).unwrap_or(bin);
+        let top = self.highest(bin);
         // A line whose top is the first of the hidden bins is its own.
         let rises = |a: Option<usize>, b: Option<usize>| self.rises(Some(top), a) && self.rises(a, b);
         if rises(top.checked_sub(1), top.checked_sub(2)) || rises(Some(top + 1), Some(top + 2)) {
             return nothing;
         }
-        Place { ratio: Some(self.ratio[top]), depth: seen().map(|b| self.depth[b]).fold(0.0, f64::max) }
+        Place { ratio: Some(self.ratio[top]), depth: self.seen(bin).map(|b| self.depth[b]).fold(0.0, f64::max) }
     }
 
     /// Whether power rises from a bin to another that is hidden.
@@ -208,10 +212,7 @@ impl Together {
 
     /// The line at a frequency, of the three bins there, to a fraction of a bin: Hz. `None` where its top is hidden.
     pub(super) fn line(&self, frequency: f64) -> Option<f64> {
-        let bin = self.bin(frequency);
-        let amplitude = |b: usize| if b < self.ratio.len() { self.seen(b).sqrt() } else { 0.0 };
-        let top =
-            (bin.saturating_sub(1)..bin + 2).max_by(|a, b| amplitude(*a).total_cmp(&amplitude(*b))).unwrap_or(bin);
+        let top = self.highest(self.bin(frequency));
         let around = [top.saturating_sub(1), top, top + 1].map(|b| self.ratio.get(b).map_or(0.0, |r| r.sqrt()));
         let is_peak = around[1] > around[0].min(around[2]) && around[1] >= around[0].max(around[2]);
         let offset = if is_peak { interpolate(around).0 } else { 0.0 };
