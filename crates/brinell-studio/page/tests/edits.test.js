@@ -4,7 +4,7 @@ import { after, before, describe, it } from "node:test";
 import { digitsOf, numberOf, short, stepped } from "../src/dom.js";
 import { fromLink } from "../src/state.js";
 import { launch, quietly, serve } from "./browser.js";
-import { drag, drop, opened, saved, scenario, start, type, until } from "./page.js";
+import { drag, drop, holds, opened, saved, says, scenario, start, type, until } from "./page.js";
 
 let browser, server;
 
@@ -64,16 +64,15 @@ describe("edits", () => {
     assert.match(await alert.textContent(), /wider than the roller/);
     assert.equal((await opened(page)).scenario.defects[0].shape.rectangle.width_mm, 4);
     await ran(page);
-    assert.match(await page.textContent("#state"), /last good/);
+    await says(page, /last good/);
     // Nor does Run take what was there before.
     await page.click("#run");
     await page.waitForSelector('[data-kind="unsaved"]');
-    assert.match(await page.textContent("#state"), /last good/);
+    await says(page, /last good/);
     await type(input, "5");
     await until(page, () => !document.querySelector('.chosen [aria-invalid="true"]') && globalThis.brinellStudio.side.opened.scenario.defects[0].shape.rectangle.width_mm === 5);
     assert.equal(await alert.textContent(), "");
-    // It is drawn with the next frame.
-    await until(page, () => document.getElementById("state").textContent === "live");
+    await says(page, /^live$/);
   }));
 
   it("takes a number when it is whole, and none that may be another", async () => on({}, async (page) => {
@@ -93,7 +92,7 @@ describe("edits", () => {
     await page.waitForSelector('#controls [role="alert"]:has-text("may be 1.234 or 1234")');
     await page.click("#run");
     await page.waitForSelector('[data-kind="unsaved"]:has-text("Speed")');
-    assert.equal(await page.textContent("#state"), "live");
+    await says(page, /^live$/);
     assert.equal(await stated(), 1797.3);
     await type(speed, "1500");
     await until(page, () => globalThis.brinellStudio.side.opened.scenario.operation.speed_rpm === 1500);
@@ -117,7 +116,7 @@ describe("edits", () => {
     const field = (label) => page.getByLabel(label, { exact: true }), load = (wanted) => until(page, (wanted) => JSON.stringify(globalThis.brinellStudio.side.opened.scenario.operation.load_n) === wanted, JSON.stringify(wanted));
     await type(field("Load"), "0,4 kN");
     await load([400, 0]);
-    assert.equal(await field("Load").inputValue(), "400");
+    await holds(field("Load"), "400");
     for (const [text, wanted] of [["45 deg", [282.8427, 282.8427]], ["90°", [0, 400]], ["0 rad", [400, 0]]]) {
       await type(field("Load at angle"), text);
       await load(wanted);
@@ -155,7 +154,7 @@ describe("edits", () => {
     assert.ok(text.length > 1000);
     assert.equal((await opened(page)).scenario.operation.speed_rpm, 1470);
     await page.click("#pause");
-    await until(page, () => document.getElementById("state").textContent === "live");
+    await says(page, /^live$/);
     const width = page.locator(".chosen .field", { hasText: "Width" }).locator("input[inputmode]"), before = page.url();
     await width.fill("9");
     await tap("share");
@@ -204,7 +203,7 @@ describe("edits", () => {
     await type(load, "0");
     await type(load, "300");
     await until(page, () => Math.abs(globalThis.brinellStudio.side.store.scenario.operation.load_n[1] - 212.132) < 0.01);
-    assert.equal(await angle.inputValue(), "45");
+    await holds(angle, "45");
   }));
 
   it("takes typed text back before an edit, and leaves none to another bearing", async () => on({}, async (page) => {
@@ -215,12 +214,12 @@ describe("edits", () => {
     await type(speed, "1600");
     await load.fill("450");
     await page.keyboard.press("Control+z");
-    assert.equal(await load.inputValue(), "300");
+    await holds(load, "300");
     assert.deepEqual(await stated(), [1600, 300]);
     await type(load, "1,234");
     await page.waitForSelector('#controls [role="alert"]:has-text("may be")');
     await page.click('#damage button:has-text("Undo")');
-    assert.equal(await load.inputValue(), "300");
+    await holds(load, "300");
     assert.deepEqual(await stated(), [1600, 300]);
     await page.keyboard.press("Control+z");
     assert.deepEqual(await stated(), [1800, 300]);
@@ -255,6 +254,6 @@ describe("edits", () => {
     assert.ok(await page.isDisabled('#damage button:has-text("Redo")'));
     await drop(page, "wrong.toml", Buffer.from("preset = ").toString("base64"));
     await page.waitForSelector('[data-kind="refused"]:has-text("wrong.toml is refused")');
-    assert.equal(await page.textContent("#state"), "live");
+    await says(page, /^live$/);
   }));
 });

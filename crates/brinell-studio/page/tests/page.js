@@ -12,6 +12,9 @@ export const settled = (page) => until(page, () => {
     shape.rectangle, shape.circle]) ?? [], (_, v) => sorted(v));
   return text(side.opened?.scenario) === text(side.store.scenario);
 });
+// The page draws with the next frame what it has heard: what a node says and what a field holds is waited for.
+export const says = (page, words) => until(page, ([source, flags]) => new RegExp(source, flags).test(document.getElementById("state").textContent), [words.source, words.flags]);
+export const holds = async (input, value) => until(input.page(), ([node, value]) => node.value === value, [await input.elementHandle(), value]);
 // Statistics of more samples than these, all of them at one instant.
 export const moments = async (page, least) => (await page.waitForFunction((n) => {
   const m = globalThis.brinellStudio.side.moments;

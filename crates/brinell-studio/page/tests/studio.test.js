@@ -8,7 +8,7 @@ import { join, resolve } from "node:path";
 import { after, before, describe, it } from "node:test";
 import { pathToFileURL } from "node:url";
 import { WASM, launch, open, quietly, running, serve } from "./browser.js";
-import { drag, drop, moments, opened, place, saved, scenario, settled, start, type, until } from "./page.js";
+import { drag, drop, moments, opened, place, saved, says, scenario, settled, start, type, until } from "./page.js";
 
 const ROOT = resolve(import.meta.dirname, ".."), AXE = createRequire(import.meta.url).resolve("axe-core/axe.min.js");
 let browser, server, folder, file;
@@ -39,7 +39,7 @@ describe("the page", () => {
     const page = await open(browser, file, { before });
     await until(page, () => document.querySelector('brinell-curve[kind="envelope"]')?.data?.stored && document.querySelector("#controls input"));
     t.diagnostic(`usable, with the stored curves, ${Math.round(await page.evaluate(() => performance.now()))} ms after the window opened`);
-    assert.match(await page.textContent("#state"), /stored run/);
+    await says(page, /stored run/);
     assert.match(await page.textContent("footer"), /^Stored run, shown while the engine loads/);
     // What is edited before is in the bearing that runs then.
     await page.click('[data-tool="circle"]');
@@ -55,7 +55,7 @@ describe("the page", () => {
     const from = performance.now();
     await quietly(browser, file, { offline: true }, async (page) => {
       t.diagnostic(`first spectrum ${Math.round(performance.now() - from)} ms after the window opened`);
-      assert.equal(await page.textContent("#state"), "live");
+      await says(page, /^live$/);
       // It still runs.
       const end = await page.evaluate(() => globalThis.brinellStudio.side.trace.end);
       await until(page, (n) => globalThis.brinellStudio.side.trace.end !== n, end);
@@ -230,9 +230,9 @@ describe("the page", () => {
     const lines = text.trim().split("\n");
     assert.match(lines[0], /^t,/);
     assert.ok(Math.abs(lines.length - 1 - samples) <= 1, `${lines.length} lines for ${samples} samples`);
-    assert.equal(await page.textContent("#state"), "done");
+    await says(page, /^done$/);
     await page.click("#pause");
-    await until(page, () => document.getElementById("state").textContent === "live");
+    await says(page, /^live$/);
   }));
 
   it("compares A with B in two Workers", async () => on({}, async (page) => {
@@ -437,12 +437,12 @@ describe("the page", () => {
     const page = await open(browser, server.url, { before: () => { delete globalThis.WebAssembly; } });
     await page.waitForSelector('[data-kind="engine"]');
     assert.match(await page.textContent('[data-kind="engine"]'), /WebAssembly/);
-    assert.equal(await page.textContent("#state"), "no WebAssembly");
+    await says(page, /^no WebAssembly$/);
     await page.context().close();
   });
 
   it("is the same page before a server's engine", async () => quietly(browser, `${server.url}?token=secret`, {}, async (page) => {
-    assert.equal(await page.textContent("#state"), "live");
+    await says(page, /^live$/);
     assert.equal(page.workers().length, 0);
     await page.click('[data-tool="circle"]');
     await drag(page, [0.7, 0.5], [0.71, 0.5]);

@@ -137,6 +137,7 @@ describe("curves", () => {
     await drawn(page);
     assert.deepEqual(await view(page, "envelope"), home);
     await page.keyboard.press("l");
+    await drawn(page);
     assert.equal(await curve(page, "envelope").getByRole("button", { name: "dB" }).getAttribute("aria-pressed"), "true");
   }));
 
