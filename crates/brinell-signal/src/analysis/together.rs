@@ -26,6 +26,9 @@ const ENVELOPE_RATE: f64 = 8.0;
 pub(super) const MAINS_HZ: [f64; 2] = [50.0, 60.0];
 /// Bins to either side of a line of shaft or mains that count for nobody: half the main lobe of Hann's window.
 const ASIDE: f64 = 2.0;
+/// Powers of the three bins about a line's top over the line's, through Hann's window: 1.5 where it lies on a bin, 1.47
+/// halfway between two.
+const LOBE: f64 = 1.5;
 /// Part of a simulation's spectrum that the shaft's lines may hide.
 const HIDDEN: f64 = 0.1;
 /// Width of the running median, in shaft's frequencies and in bins at least.
@@ -68,7 +71,7 @@ pub(super) struct Together {
 pub(super) struct Place {
     /// Power over floor; `None` where nothing is seen.
     pub(super) ratio: Option<f64>,
-    /// Power above the floor over the envelope's mean squared.
+    /// Power of a line above the floor, over the envelope's mean squared: wherever it lies between the bins.
     pub(super) depth: f64,
 }
 
@@ -202,7 +205,7 @@ impl Together {
         if rises(top.checked_sub(1), top.checked_sub(2)) || rises(Some(top + 1), Some(top + 2)) {
             return nothing;
         }
-        Place { ratio: Some(self.ratio[top]), depth: self.seen(bin).map(|b| self.depth[b]).fold(0.0, f64::max) }
+        Place { ratio: Some(self.ratio[top]), depth: self.seen(top).map(|b| self.depth[b]).sum::<f64>() / LOBE }
     }
 
     /// Whether power rises from a bin to another that is hidden.
