@@ -23,6 +23,7 @@
 //! window and white noise the formula is the Cramer-Rao bound 24 sigma^2 / (A^2 n^3).
 
 mod padded;
+mod wander;
 
 use std::f64::consts::{LN_2, TAU};
 
@@ -30,6 +31,7 @@ use realfft::num_complex::Complex;
 
 use self::padded::PADDING;
 pub(super) use self::padded::Padded;
+pub use self::wander::mean_rate_uncertainty;
 
 use super::distribution::chi_square_tail;
 use super::indicators::Moments;

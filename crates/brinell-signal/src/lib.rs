@@ -96,7 +96,7 @@ pub use error::SignalError;
 pub use estimate::{Estimate, Interval};
 #[doc(hidden)]
 pub use frequency::FEWEST_PERIODS;
-pub use frequency::{LineFrequency, LineSearch};
+pub use frequency::{LineFrequency, LineSearch, mean_rate_uncertainty};
 pub use indicators::{Indicator, Moments};
 pub use integrate::band_pass;
 pub use kurtogram::{Kurtogram, KurtogramBand, kurtogram};

@@ -7,8 +7,11 @@ use brinell::bearing::Kinematics;
 use brinell::channel::SENSOR;
 use brinell::result::{Quantity, Spread};
 use brinell::scenario::{Scenario, Surface};
-use brinell::signal::{Band, Blocks, Indicator, Interval, LineFrequency, LineSearch, line_frequency};
+use brinell::signal::{
+    Band, Blocks, Indicator, Interval, LineSearch, SignalError, line_frequency, mean_rate_uncertainty,
+};
 use brinell::simulate::Simulation;
+use std::f64::consts::TAU;
 
 /// Share of a run that its statistics are of, at most.
 const ANALYSED: f64 = 0.75;
@@ -16,6 +19,10 @@ const ANALYSED: f64 = 0.75;
 const SPEED: &str = "operation.speed_rpm";
 /// Lines of parts of one bearing are apart as in pure rolling, but for slip: relative.
 const ONE_SPEED: f64 = 0.01;
+/// So far beyond the range in which a line is sought none may be higher: relative.
+const BEYOND: f64 = 0.04;
+/// Half the widest range that a search allows, relative.
+const WIDEST: f64 = 0.3;
 
 /// A measured acceleration.
 #[derive(Debug)]
@@ -44,8 +51,8 @@ pub struct Pattern {
 
 impl Pattern {
     /// Of a signal, for runs of a scenario, that of the middle of the bounds of `keys`. The signal's lines are sought
-    /// about the speed that `own` states, the scenario before anything is fitted, where that is within the bounds of
-    /// the speed, else about their middle. `axis` is the sensor's, x or y; without one the one nearer the load.
+    /// about the speed that `own` states, the scenario before anything is fitted, and where the speed is fitted from
+    /// the one of its bounds to the other. `axis` is the sensor's, x or y; without one the one nearer the load.
     /// `model_uncertainty_percent` is what levels of the model may differ by from a machine's.
     ///
     /// # Errors
@@ -76,10 +83,14 @@ impl Pattern {
             return Err(CalibrateError::Rate { measured: measured.rate, simulated });
         }
         let x = &*measured.unit.in_si(measured.x);
-        let bounds = keys.iter().find(|key| key.name == SPEED);
-        let within = |own: &f64| bounds.is_none_or(|key| (key.low..=key.high).contains(own));
-        let speed = own.operation.speed_rpm.constant().filter(within).unwrap_or(rpm);
-        targets((scenario, simulation), (x, measured.rate), axis, (speed, speed / rpm), share)
+        let (own, fitted) = (own.operation.speed_rpm.constant(), keys.iter().find(|key| key.name == SPEED));
+        // Of what is fitted the middle of the bounds is what `scenario` has.
+        let range = match fitted {
+            Some(key) => [key.low / rpm, key.high / rpm],
+            None => [own.unwrap_or(rpm) / rpm; 2],
+        };
+        let range = [range[0].min(range[1]), range[0].max(range[1])];
+        targets((scenario, simulation), (x, measured.rate), axis, range, share)
     }
 
     /// The levels of a run's signal as numbers of its row.
@@ -101,20 +112,30 @@ impl Pattern {
     }
 }
 
+/// `speeds`: the speeds at which the signal's may be, over the scenario's.
 fn targets(
     (scenario, simulation): (&Scenario, &Simulation),
     (x, rate): (&[f64], f64),
     axis: usize,
-    (rpm, scale): (f64, f64),
+    speeds: [f64; 2],
     share: f64,
 ) -> Result<Pattern, CalibrateError> {
     let channel = SENSOR[axis];
     let model = simulation.model();
-    let kinematics = model.kinematics(model.rotation.at(0.0).0 * scale);
-    let lines = lines(scenario, &kinematics);
+    let (speed, _) = model.rotation.at(0.0);
+    let kinematics = model.kinematics(speed);
+    let mut lines = lines(scenario, &kinematics);
     let highest = lines.iter().map(|l| l.1).fold(0.0, f64::max);
     let band = Band::between((10.0 * highest).clamp(0.02 * rate, 0.1 * rate), 0.4 * rate);
     // Runs are analysed from half-way on at the latest.
+    let analysed = (ANALYSED * simulation.samples() as f64) as usize;
+    let (found, notes) = combs((x, rate, band), &lines, speeds, analysed)?;
+    // Where the speed is not known the signal's lines tell it, but for slip.
+    let told = found.iter().map(|f| f.1).min_by(|a, b| (a - 1.0).abs().total_cmp(&(b - 1.0).abs()));
+    let turning = if speeds[0] < speeds[1] { told.unwrap_or(1.0) } else { speeds[0] };
+    for (_, frequency) in &mut lines {
+        *frequency *= turning;
+    }
     let simulated = simulation.samples() as usize / 2;
     let signature = Signature::new(rate, simulated.min(x.len()), band, &lines)?;
     let level = decibels(share);
@@ -123,7 +144,7 @@ fn targets(
         .into_iter()
         .map(|l| Target { name: l.name, value: l.decibels, uncertainty: l.uncertainty.hypot(level) })
         .collect();
-    let blocks = Blocks::of(x, 60.0 * rate / rpm.abs());
+    let blocks = Blocks::of(x, TAU * rate / (speed * turning).abs());
     for indicator in [Indicator::Rms, Indicator::Kurtosis] {
         if let Some(estimate) = blocks.estimate(indicator) {
             let own = estimate.interval.map_or(0.0, |i| i.standard_uncertainty());
@@ -134,47 +155,69 @@ fn targets(
             });
         }
     }
-    let analysed = (ANALYSED * simulation.samples() as f64) as usize;
-    let mut notes = Vec::new();
-    let mut found: Vec<(&str, f64, LineFrequency)> = Vec::new();
-    for &(name, nominal) in &lines {
-        let search = LineSearch::new(nominal);
-        if !search.fits(analysed, rate) {
-            continue;
-        }
-        match line_frequency(x, rate, band, &search) {
-            Some(line) => found.push((name, line.frequency / nominal, line)),
-            None => notes.push(format!(
-                "no line of {} within {:.0} % of {nominal:.1} Hz, where it is at {rpm:.0} r/min: is {SPEED} the speed of the signal?",
-                name.to_uppercase(),
-                100.0 * search.tolerance
-            )),
-        }
-    }
-    // The one nearest pure rolling says where the others are: what is not there is another line.
-    let nearest = found.iter().map(|f| f.1).min_by(|a, b| (a - 1.0).abs().total_cmp(&(b - 1.0).abs()));
-    found.retain(|(name, ratio, line)| {
-        let stays = nearest.is_some_and(|nearest| (ratio / nearest - 1.0).abs() < ONE_SPEED);
-        if !stays {
-            let hz = line.frequency;
-            notes.push(format!(
-                "the line at {hz:.2} Hz is left out: {} is not so far from the others",
-                name.to_uppercase()
-            ));
-        }
-        stays
-    });
     for (k, defect) in scenario.defects.iter().enumerate() {
         let name = line_name(&kinematics, defect.on);
-        if let Some((.., line)) = found.iter().find(|f| f.0 == name) {
-            targets.push(Target {
-                name: format!("defect{}.frequency", k + 1),
-                value: line.frequency,
-                uncertainty: line.uncertainty,
-            });
+        if let Some(&(_, _, value, uncertainty)) = found.iter().find(|f| f.0 == name) {
+            targets.push(Target { name: format!("defect{}.frequency", k + 1), value, uncertainty });
         }
     }
     Ok(Pattern { signature, axis, channel, targets, notes })
+}
+
+/// A comb of lines found: name, over pure rolling, Hz, and standard uncertainty of its mean, Hz.
+type Found = (&'static str, f64, f64, f64);
+
+/// The combs of lines at defect frequencies (Hz, of the scenario's speed) in a signal, its rate and band, at speeds from
+/// and to these over the scenario's; and what is to be said of them. Runs have `analysed` samples to find theirs in.
+fn combs(
+    (x, rate, band): (&[f64], f64, Band),
+    lines: &[(&'static str, f64)],
+    speeds: [f64; 2],
+    analysed: usize,
+) -> Result<(Vec<Found>, Vec<String>), SignalError> {
+    let (mut notes, mut found) = (Vec::new(), Vec::<Found>::new());
+    for &(name, nominal) in lines {
+        let upper = name.to_uppercase();
+        let usual = LineSearch::new(nominal);
+        let comb = |beyond: f64| {
+            let reach = usual.tolerance + beyond;
+            let (low, high) = (nominal * speeds[0] * (1.0 - reach), nominal * speeds[1] * (1.0 + reach));
+            let tolerance = ((high - low) / (high + low)).min(WIDEST);
+            let search = LineSearch { nominal: 0.5 * (low + high), tolerance, ..usual };
+            (search.fits(analysed.min(x.len()), rate)).then(|| line_frequency(x, rate, band, &search))
+        };
+        let Some(line) = comb(0.0) else { continue };
+        let sought = match speeds[0] < speeds[1] {
+            true => {
+                format!("from {:.1} to {:.1} Hz, where its bounds have it", nominal * speeds[0], nominal * speeds[1])
+            }
+            false => format!("{:.1} Hz, where the speed has it", nominal * speeds[0]),
+        };
+        let sought = format!("within {:.0} % of {sought}: is {SPEED} right?", 100.0 * usual.tolerance);
+        let Some(line) = line else {
+            notes.push(format!("no line of {upper} {sought}"));
+            continue;
+        };
+        // On the skirt of higher lines, or beside them, is no line of its own.
+        let higher = comb(BEYOND).flatten().filter(|other| (other.frequency - line.frequency).abs() > line.resolution);
+        if let Some(other) = higher {
+            notes.push(format!("lines at {:.2} Hz are higher than any of {upper} {sought}", other.frequency));
+            continue;
+        }
+        let uncertainty = mean_rate_uncertainty(x, rate, band, &line)?;
+        found.push((name, line.frequency / nominal, line.frequency, uncertainty));
+    }
+    // The one nearest pure rolling says where the others are: what is not there is another line.
+    let nearest = found.iter().map(|f| f.1).min_by(|a, b| (a - 1.0).abs().total_cmp(&(b - 1.0).abs()));
+    found.retain(|(name, ratio, frequency, _)| {
+        let stays = nearest.is_some_and(|nearest| (ratio / nearest - 1.0).abs() < ONE_SPEED);
+        if !stays {
+            let upper = name.to_uppercase();
+            notes.push(format!("the line at {frequency:.2} Hz is left out: {upper} is not so far from the others"));
+        }
+        stays
+    });
+    Ok((found, notes))
 }
 
 /// The defect frequencies, Hz, each once, by the names that levels have.

@@ -164,13 +164,13 @@ const TRUTH: [Fixed; 55] = [
     ("entry_row", "1", "of each entry: row of the roller, from 1", Wholes(|r| r.instants(true, |i, l| l.row(i.event.slot) + 1))),
     ("entry_roller", "1", "of each entry: the roller, from 1", Wholes(|r| r.instants(true, |i, l| l.roller(i.event.slot) + 1))),
     ("entry_side", "1", "of each entry: contact of the roller, inner or outer", WordsList(|r| r.instants(true, |i, _| i.side()))),
-    ("entry_force_n", "N", "of each entry: force of that contact then", Numbers(|r| r.instants(true, |i, _| i.force))),
+    ("entry_force_n", "N", "of each entry: force of that contact at the solver's step before, with which the roller arrives", Numbers(|r| r.instants(true, |i, _| i.force))),
     ("exit_t_s", "s", "instants at which a roller leaves a defect", Numbers(|r| r.instants(false, |i, _| i.event.t))),
     ("exit_defect", "1", "of each exit: which defect, from 1", Wholes(|r| r.instants(false, |i, _| i.event.defect + 1))),
     ("exit_row", "1", "of each exit: row of the roller, from 1", Wholes(|r| r.instants(false, |i, l| l.row(i.event.slot) + 1))),
     ("exit_roller", "1", "of each exit: the roller, from 1", Wholes(|r| r.instants(false, |i, l| l.roller(i.event.slot) + 1))),
     ("exit_side", "1", "of each exit: contact of the roller, inner or outer", WordsList(|r| r.instants(false, |i, _| i.side()))),
-    ("exit_force_n", "N", "of each exit: force of that contact then", Numbers(|r| r.instants(false, |i, _| i.force))),
+    ("exit_force_n", "N", "of each exit: force of that contact at the solver's step before, still on the defect", Numbers(|r| r.instants(false, |i, _| i.force))),
     ("largest_contact_force_n", "N", "largest force of a contact at a sample", Number(|r| Some(r.gathered()?.largest))),
     ("roller_mean_outer_force_n", "N", "of each roller, row by row: mean force of its outer contact", Numbers(|r| {
         let truth = r.gathered()?;

@@ -12,7 +12,7 @@ use brinell::simulate::{Observer, Simulation, SolverWork};
 use brinell_io::Column;
 use std::ops::ControlFlow;
 
-/// An entry or exit, and the force of its contact then, N.
+/// An entry or exit, and the force with which its contact arrives there, at the solver's step before it, N.
 pub(crate) struct Instant {
     pub(crate) event: Event,
     pub(crate) force: f64,
@@ -29,6 +29,8 @@ pub(crate) struct Truth<'a> {
     listener: Box<dyn RunListener + 'a>,
     settled: f64,
     passes: Passes,
+    /// Contact forces at the step before, by side, N.
+    before: [Vec<f64>; 2],
     pub(crate) instants: Vec<Instant>,
     /// The analysed time begins here, s.
     pub(crate) from: Option<f64>,
@@ -70,6 +72,7 @@ impl<'a> Truth<'a> {
             listener,
             settled: scenario.settled_s(),
             passes: Passes::new(simulation.model()),
+            before: [0; 2].map(|_| vec![0.0; layout.rollers()]),
             instants: Vec::new(),
             from: None,
             rollers: Places::default(),
@@ -96,8 +99,13 @@ impl Observer for Truth<'_> {
     fn step(&mut self, frame: &Frame) {
         self.passes.take(frame, false, false);
         while let Some(event) = self.passes.events.pop_front() {
-            let force = frame.ws.contacts[event.side as usize].force[event.slot];
+            let force = self.before[event.side as usize][event.slot];
             self.instants.push(Instant { event, force });
+        }
+        for (before, contacts) in self.before.iter_mut().zip(&frame.ws.contacts) {
+            for (before, now) in before.iter_mut().zip(contacts.force.iter()) {
+                *before = *now;
+            }
         }
     }
 

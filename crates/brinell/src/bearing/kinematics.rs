@@ -71,6 +71,17 @@ impl Kinematics {
         }
     }
 
+    /// With a cage, and rollers, that orbit more slowly by the share `slip`; spins are left as they are.
+    pub(crate) fn with_cage_slip(self, slip: f64) -> Self {
+        Self {
+            ftf: self.ftf * (1.0 - slip),
+            bpfo: self.bpfo * (1.0 - slip),
+            bpfi: self.bpfi + self.bpfo * slip,
+            orbit_speed: self.orbit_speed * (1.0 - slip),
+            ..self
+        }
+    }
+
     /// Name, value (Hz) and meaning of every frequency, that of the shaft (Hz) first.
     pub fn table(&self, shaft: f64) -> [(&'static str, f64, &'static str); 6] {
         frequency_table(shaft, self.ftf, self.bpfo, self.bpfi, self.bsf)

@@ -200,6 +200,9 @@ const BAND_LATEST: f64 = 0.1;
 /// It ends where the anti-alias filter's passband does.
 const BAND_END: f64 = 0.4;
 
+/// A frequency is sought up to this share from pure rolling where the cage slips by more than [`LineSearch::new`] allows.
+const MOST_SLIP: f64 = 0.1;
+
 /// Share of a short run that the segment of its spectra takes.
 const SEGMENT_SHARE: f64 = 0.75;
 
@@ -241,8 +244,10 @@ impl Watch {
         let expected = (SEGMENT_SHARE * simulation.samples() as f64).min(LONGEST_SEGMENT as f64) as usize;
         let segment = (expected / 2 * 2).max(8);
         let lines = defect_lines(scenario, simulation);
-        let search = |line: &DefectLine| LineSearch::new(line.nominal);
-        let searches: Vec<LineSearch> = lines.iter().map(search).collect();
+        // About pure rolling, and as far from it as a cage that slips may take it: the motion says later which counts.
+        let near = lines.iter().map(|line| LineSearch::new(line.nominal));
+        let far = near.clone().map(|search| LineSearch { tolerance: MOST_SLIP, ..search });
+        let searches: Vec<LineSearch> = near.chain(far).collect();
         Self {
             sample_rate,
             settled: scenario.settled_s(),
@@ -337,7 +342,10 @@ impl Watch {
         for line in &mut self.lines {
             line.too_short = too_short(line, segment, self.sample_rate, self.unsettled);
         }
-        for (line, found) in self.lines.iter_mut().zip(spectra.lines) {
+        let (near, far) = spectra.lines.split_at(self.lines.len());
+        for (line, found) in self.lines.iter_mut().zip(near.iter().zip(far)) {
+            let far = self.rates.slips_far(line.defect, line.nominal);
+            let found = if far { self.rates.near_motion(line.defect, *found.1) } else { *found.0 };
             if let Some(found) = found {
                 let (found, interval) = self.rates.mean_rate(line.defect, found);
                 (line.found, line.interval) = (Some(found), interval);

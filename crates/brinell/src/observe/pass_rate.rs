@@ -9,7 +9,7 @@ use crate::channel::Frame;
 use crate::model::{Layout, Model};
 use crate::scenario::{ModelKind, Surface};
 use crate::signal::estimate::MOST_FREEDOM;
-use crate::signal::{Averages, Estimate, Interval, LineFrequency, Scatter};
+use crate::signal::{Averages, Estimate, Interval, LineFrequency, LineSearch, Scatter};
 use std::f64::consts::TAU;
 
 /// Share of a run, at its beginning, that hardly moves a frequency found under Hann's window.
@@ -102,6 +102,24 @@ impl PassRates {
         self.rates.get(defect)?.averages.estimate()
     }
 
+    /// The mean rate of the motion, Hz, where it is that of the impacts: of damage on a raceway.
+    fn motion(&self, defect: usize) -> Option<f64> {
+        self.rates.get(defect).filter(|rate| rate.on_raceway())?;
+        Some(self.rate(defect)?.value.abs())
+    }
+
+    /// Whether the motion's mean rate lies farther from pure rolling, `nominal` Hz, than the usual search reaches.
+    pub(super) fn slips_far(&self, defect: usize, nominal: f64) -> bool {
+        let search = LineSearch::new(nominal);
+        self.motion(defect).is_some_and(|rate| (rate / search.nominal - 1.0).abs() > search.tolerance)
+    }
+
+    /// What was found in a wide search, where it lies as near the motion's mean rate as usual searches reach.
+    pub(super) fn near_motion(&self, defect: usize, found: Option<LineFrequency>) -> Option<LineFrequency> {
+        let search = LineSearch::new(self.motion(defect)?);
+        found.filter(|found| (found.frequency / search.nominal - 1.0).abs() <= search.tolerance)
+    }
+
     /// The frequency found in the envelope as an estimate of the mean rate, with its interval.
     ///
     /// Where the rate swings at a steady pace (a cage that whirls takes the rollers with it), each line of the comb
@@ -109,11 +127,9 @@ impl PassRates {
     /// percent, that one replaces it.
     pub(super) fn mean_rate(&self, defect: usize, found: LineFrequency) -> (LineFrequency, Option<Interval>) {
         let interval = self.interval(defect, &found);
-        let raceway = self.rates.get(defect).is_some_and(Rate::on_raceway);
-        let Some(rate) = self.rate(defect).filter(|_| raceway) else {
+        let Some((frequency, rate)) = self.motion(defect).zip(self.rate(defect)) else {
             return (found, interval);
         };
-        let frequency = rate.value.abs();
         if (found.frequency - frequency).abs() <= LOBE * found.frequency {
             return (found, interval);
         }

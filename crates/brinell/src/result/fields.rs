@@ -134,7 +134,7 @@ fields! {
 }
 
 fields! {
-    "Lines of the envelope spectrum: the frequency in pure rolling, Hz, and which harmonic of it."
+    "Lines of the envelope spectrum: the frequency, Hz, and which harmonic of it."
     LINES: (fn(&Kinematics) -> f64, u32);
     BPFO "bpfo" "m/s^2" Line "line of the envelope spectrum at BPFO" (|k| k.bpfo, 1);
     BPFO_X2 "bpfo_x2" "m/s^2" Line "line of the envelope spectrum at 2 BPFO" (|k| k.bpfo, 2);

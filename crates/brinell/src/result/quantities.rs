@@ -124,13 +124,15 @@ fn indicators(findings: &Findings, all: &mut Vec<Quantity>) {
     all.push(analysed(&ANALYSED_TURNS, findings));
 }
 
-/// Levels of the envelope spectrum at the defect frequencies and their harmonics, within the share that [`LineSearch`]
-/// looks in. Where these shares overlap, as those of BPFO and 2 BSF of a slender bearing do, a line counts for the
-/// frequency that it is nearest to.
+/// Levels of the envelope spectrum at the defect frequencies of the cage's mean slip and their harmonics, within the share
+/// that [`LineSearch`] looks in. Where these shares overlap, as those of BPFO and 2 BSF of a slender bearing do, a line
+/// counts for the frequency that it is nearest to.
 fn lines(scenario: &Scenario, simulation: &Simulation, findings: &Findings, all: &mut Vec<Quantity>) {
     let model = simulation.model();
     let constant = scenario.operation.speed_rpm.constant().is_some();
-    let k = model.kinematics(model.rotation.at(0.0).0);
+    let slips: Vec<f64> = findings.slip.rows.iter().filter_map(|row| Some(row.cage()?.value)).collect();
+    let slip = slips.iter().sum::<f64>() / slips.len().max(1) as f64;
+    let k = model.kinematics(model.rotation.at(0.0).0).with_cage_slip(slip);
     let found = LINES.iter().map(|line| {
         let (frequency, n) = ((line.of.0)(&k), line.of.1);
         let at = frequency * f64::from(n);
