@@ -265,10 +265,8 @@ pub fn sensor_channels(sensor: &Sensor) -> Vec<Channel> {
         description: format!("{what} along {along} after the anti-alias filter"),
         quantity: Quantity::Sensor(k),
     };
-    let mut channels: Vec<Channel> = ["x", "y"]
-        .into_iter()
-        .enumerate()
-        .map(|(k, axis)| one(k, format!("sensor_a{axis}"), "m/s^2", axis.into()))
+    let mut channels: Vec<Channel> = (SENSOR.into_iter().zip(["x", "y"]).enumerate())
+        .map(|(k, (name, axis))| one(k, name.into(), "m/s^2", axis.into()))
         .collect();
     if let Some(degrees) = sensor.direction_deg {
         let unit = own_unit(sensor.sensitivity_mv_per_m_per_s2);
