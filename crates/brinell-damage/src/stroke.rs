@@ -99,9 +99,9 @@ fn capsule(a: [f64; 2], b: [f64; 2], radius: f64) -> Vec<[f64; 2]> {
     end(b, heading - 0.5 * PI).chain(end(a, heading + 0.5 * PI)).collect()
 }
 
-/// A grid with depth added under a brush (or taken off, where `depth_um` is negative; never below the sound surface):
-/// all of it along the line, nothing at the brush's rim, with the square of the distance between. Without a grid a new
-/// one begins.
+/// A grid with depth added under a brush, or taken off, where `depth_um` is negative: then up to the sound surface, and
+/// what is raised above that stays as it is. All of it along the line, nothing at the brush's rim, with the square of the
+/// distance between. Without a grid a new one begins.
 ///
 /// # Errors
 /// As [`scratch`], and where the grid would get too large.
@@ -114,7 +114,7 @@ pub fn brush(grid: Option<&DepthGrid>, stroke: &Stroke, depth_um: f64) -> Result
     for (depth, far) in grid.depth_um.iter_mut().zip(far) {
         let share = far / (radius * radius);
         if share < 1.0 {
-            *depth = (*depth + depth_um * (1.0 - share)).max(0.0);
+            *depth = (*depth + depth_um * (1.0 - share)).max(depth.min(0.0));
         }
     }
     Ok(grid)
@@ -301,6 +301,35 @@ mod tests {
                 false => assert!(found.sqrt() > radius - 2e-3, "{s} {z}"),
             }
         }
+    }
+
+    /// A scan has such places: the rim of a dent.
+    #[test]
+    fn analytic_the_brush_lowers_a_raised_place_and_raises_none() {
+        let stroke = Stroke { points_mm: &[[0.0, 0.0]], width_mm: 1.0 };
+        let depth_um = vec![-5.0; 15];
+        let (steps, counts) = ([0.5, 0.25], [3, 5]);
+        let raised = DepthGrid {
+            s0_mm: -0.5,
+            z0_mm: -0.5,
+            ds_mm: steps[0],
+            dz_mm: steps[1],
+            columns: counts[0],
+            rows: counts[1],
+            depth_um,
+        };
+        let brushed = |depth_um: f64| {
+            let grid = brush(Some(&raised), &stroke, depth_um).unwrap();
+            let at = |s: f64, z: f64| {
+                let node = |x: f64, from: f64, step: f64| ((x - from) / step).round() as usize;
+                grid.depth_um[node(z, grid.z0_mm, grid.dz_mm) * grid.columns + node(s, grid.s0_mm, grid.ds_mm)]
+            };
+            // In the middle, half-way to the brush's rim, on it, and where nothing was raised.
+            [at(0.0, 0.0), at(0.0, 0.25), at(0.0, 0.5), at(1.0, 0.0)]
+        };
+        assert_eq!(brushed(2.0), [-3.0, -3.5, -5.0, 0.0]);
+        assert_eq!(brushed(8.0), [3.0, 1.0, -5.0, 0.0]);
+        assert_eq!(brushed(-2.0), [-5.0, -5.0, -5.0, 0.0]);
     }
 
     #[test]

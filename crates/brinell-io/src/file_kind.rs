@@ -58,7 +58,13 @@ const PROMISED: [(&[&str], &[FileKind], &str); 8] = {
 impl FileKind {
     /// Extensions that promise a file of signals, in small letters and without the dot.
     pub fn extensions() -> impl Iterator<Item = &'static str> {
-        PROMISED.iter().flat_map(|(extensions, ..)| extensions.iter().copied())
+        Self::extensions_by_format().flatten().copied()
+    }
+
+    /// The same, those of a format together.
+    #[doc(hidden)]
+    pub fn extensions_by_format() -> impl Iterator<Item = &'static [&'static str]> {
+        PROMISED.iter().map(|(extensions, ..)| *extensions)
     }
 }
 

@@ -69,7 +69,7 @@ pub use read::{Channel, NoRate, NoTimes, NotNamed, Rate, RateSource, SignalFile,
 pub use read::{MAX_VALUES, names};
 #[cfg(feature = "parquet")]
 #[doc(hidden)]
-pub use records::{Cell, Kind, RecordColumn, read_row_file, sha256_of, write_row_file};
+pub use records::{Cell, Kind, RecordColumn, hexadecimal, read_row_file, sha256_of, write_row_file};
 #[doc(hidden)]
 pub use signals::keys;
 pub use signals::{Column, Metadata, Outcome, SignalWriter};

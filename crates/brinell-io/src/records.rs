@@ -214,7 +214,8 @@ pub fn sha256_of(path: impl AsRef<Path>) -> Result<String, IoError> {
     Ok(hexadecimal(&sum.finalize()))
 }
 
-pub(crate) fn hexadecimal(bytes: &[u8]) -> String {
+/// Bytes as hexadecimal digits, two each.
+pub fn hexadecimal(bytes: &[u8]) -> String {
     bytes.iter().map(|byte| format!("{byte:02x}")).collect()
 }
 

@@ -4,6 +4,7 @@ mod atomic;
 mod bad_files;
 mod common;
 mod csv;
+mod documented;
 mod measured;
 mod memory;
 mod parquet;

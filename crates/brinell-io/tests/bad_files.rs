@@ -197,6 +197,8 @@ fn regress_odd_and_sound_text() {
     assert_eq!((names.as_str(), values.as_slice()), ("a|b", &[1.0, 1.0][..]));
     assert_eq!(read("x\n0,5\n1,5\n", "x").1, [0.5, 1.5]);
     assert_eq!(read("a,a\n1,2\n3,4\n", "a#2").1, [2.0, 4.0]);
+    // A number that the file itself gives a column is not given again.
+    assert_eq!(read("a#2,a,a,a\n1,2,3,4\n5,6,7,8\n", "a#3"), ("a#2|a|a#3|a#4".to_owned(), vec![3.0, 7.0]));
     assert_eq!(read("7", "column1").1, [7.0]);
     assert_eq!(read("0,1  0,2\n-1,5e-3 +2\n", "column2").1, [0.2, 2.0]);
     assert_eq!(read("% c\n1\t2\n# c\n3\t4", "column2").1, [2.0, 4.0]);

@@ -26,7 +26,7 @@ fn prop_times_in_a_table_are_the_nearest_to_the_left() {
         let times: Vec<String> = [0, 2].map(|k| file.channels()[k].name.clone()).to_vec();
         assert_eq!(times_of(&mut file, "A"), named(&times[0]), "{names}");
         assert_eq!(times_of(&mut file, "B"), named(&times[1]), "{names}");
-        assert!(file.channels().iter().step_by(2).all(|c| c.time_unit().is_some()), "{names}");
+        assert!(file.channels().iter().step_by(2).all(|c| c.seconds_in_time_unit().is_some()), "{names}");
     }
     let mut file = table("A,time_s,B", &[3.0, 0.1, 5.0]);
     assert_eq!(times_of(&mut file, "A"), named("time_s"));
@@ -54,8 +54,8 @@ fn prop_times_that_disagree_are_asked_for() {
 fn prop_a_unit_of_times_that_is_not_known_is_said() {
     let file = table("time [ticks],A", &[1.0, 2.0]);
     let times = &file.channels()[0];
-    assert_eq!(times.no_time_unit(), "the unit `ticks` of its times in `time [ticks]` is not known");
-    assert_eq!(table("t,A", &[1.0, 2.0]).channels()[0].no_time_unit(), "no unit for its times in `t`");
+    assert_eq!(times.why_no_time_unit(), "the unit `ticks` of its times in `time [ticks]` is not known");
+    assert_eq!(table("t,A", &[1.0, 2.0]).channels()[0].why_no_time_unit(), "no unit for its times in `t`");
 }
 
 #[cfg(feature = "npz")]

@@ -77,7 +77,7 @@ pub(crate) fn key_plot(about: &FittedKey, tried: &[Tried], layout: Layout) -> Pi
     let (y, floor) = misfits(tried.iter().map(|run| run.chi_square));
     let name = key_name(about);
     let title = format!("Chi-square over {}", about.name);
-    let mut chart = Chart::new(spec(name, title, layout, x, y, (&about.name, &about.unit)));
+    let mut chart = Chart::new(spec(name.clone(), title, layout, x, y, (&about.name, &about.unit)));
     if let Some((from, to)) = about.interval {
         chart.highlight(from, to);
     }
@@ -103,7 +103,7 @@ pub(crate) fn key_plot(about: &FittedKey, tried: &[Tried], layout: Layout) -> Pi
     for (x, y) in alone {
         dot(&mut chart, x, y, true);
     }
-    chart.interactive(&key_name(about));
+    chart.interactive(&name);
     chart.finish()
 }
 

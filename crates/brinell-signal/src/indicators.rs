@@ -55,8 +55,10 @@ impl Indicator {
             Indicator::Rms => ("rms", "root mean square, about zero"),
             Indicator::Mean => ("mean", "mean"),
             Indicator::StandardDeviation => ("standard_deviation", "root mean square about the mean"),
-            Indicator::Peak => ("peak", "largest absolute value"),
-            Indicator::PeakToPeak => ("peak_to_peak", "largest less smallest value"),
+            Indicator::Peak => ("peak", "largest absolute value of a revolution, mean over the revolutions"),
+            Indicator::PeakToPeak => {
+                ("peak_to_peak", "largest less smallest value of a revolution, mean over the revolutions")
+            }
             Indicator::CrestFactor => ("crest_factor", "mean peak of a revolution over RMS"),
             Indicator::Kurtosis => ("kurtosis", "fourth standardised moment; 3 for a normal distribution"),
             Indicator::Skewness => ("skewness", "third standardised moment"),

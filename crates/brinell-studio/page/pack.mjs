@@ -1,7 +1,8 @@
 // Packs the page into one HTML file that works from disk, and lays out a folder to serve.
 //
-//     node pack.mjs [--wasm studio.wasm] [-o out]
+//     node pack.mjs [--wasm studio.wasm | --without-engine] [-o out]
 //
+// Paths that are given count from the working directory; those that are not, are in the repository's target/studio.
 // Modules become data: URLs of an import map, as a page from disk may not import files; they and the engine are gzip in base64, the Worker a Blob.
 import { copyFileSync, existsSync, mkdirSync, readFileSync, renameSync, writeFileSync } from "node:fs";
 import { dirname, join, posix, relative, resolve } from "node:path";
@@ -13,9 +14,14 @@ import { encode } from "./src/message.js";
 const HERE = import.meta.dirname, WORKER = "src/worker.js";
 const IMPORT = /((?:^|\n|;)\s*(?:import|export)\b[^"';]*?["'])(\.{1,2}\/[^"']+)(["'])/g;
 
-const { values: options } = parseArgs({ options: { wasm: { type: "string", default: "../../../target/studio/studio.wasm" },
-  out: { type: "string", short: "o", default: "../../../target/studio" } } });
+const BUILT = join(HERE, "../../../target/studio");
+const { values: options } = parseArgs({ options: { wasm: { type: "string", default: join(BUILT, "studio.wasm") },
+  "without-engine": { type: "boolean", default: false }, out: { type: "string", short: "o", default: BUILT } } });
 const wasm = resolve(options.wasm), out = resolve(options.out);
+if (!options["without-engine"] && !existsSync(wasm)) {
+  console.error(`pack.mjs: no engine ${wasm}: build it with .ci/studio, name it with --wasm, or pack the page --without-engine`);
+  process.exit(1);
+}
 
 /** The modules that these need, themselves included, with their imports by name. @param {string[]} names */
 function modules(names) {
@@ -73,7 +79,7 @@ async function stored(wasm) {
 const html = readFileSync(join(HERE, "index.html"), "utf8");
 const entries = [...html.matchAll(/<script type="module" src="([^"]+)"><\/script>\n/g)].map((m) => m[1]);
 const all = modules(entries);
-const engine = existsSync(wasm) ? readFileSync(wasm) : null;
+const engine = options["without-engine"] ? null : readFileSync(wasm);
 const before = engine ? await stored(new Uint8Array(engine)) : null;
 mkdirSync(out, { recursive: true });
 /** Compressed, as text. @param {string | Buffer} data */

@@ -94,7 +94,7 @@ fn rate_by(file: &mut SignalFile, times: Result<Option<Channel>, NoTimes>) -> An
     };
     let name = &times.name;
     let Some(seconds) = times.seconds_in_unit() else {
-        let why = times.no_time_unit();
+        let why = times.why_no_time_unit();
         return Ok(Err(format!("the file states no sample rate, and {why}; give it in Hz")));
     };
     Ok(match file.rate_of(name, seconds).map_err(bad)? {

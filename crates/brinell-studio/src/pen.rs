@@ -46,8 +46,8 @@ fn number(request: &Value, key: &str) -> Answer<f64> {
     number.ok_or_else(|| Trouble::of(format!("\"{key}\" must be a number")))
 }
 
-/// A shape moved so that the middle of its extents is its origin, with its size; `points` gives all its (s, z), mm.
-fn placed(points: impl Iterator<Item = [f64; 2]>) -> [[f64; 2]; 2] {
+/// The least and the greatest s and z of points.
+fn extents(points: impl Iterator<Item = [f64; 2]>) -> [[f64; 2]; 2] {
     let start = [[f64::MAX; 2], [f64::MIN; 2]];
     points.fold(start, |[low, high], p| [[low[0].min(p[0]), low[1].min(p[1])], [high[0].max(p[0]), high[1].max(p[1])]])
 }
@@ -57,9 +57,9 @@ pub(crate) fn scratched(request: &Value, arrays: &Arrays) -> Answer<Value> {
     let points = points(request, arrays)?;
     let stroke = Stroke { points_mm: &points, width_mm: number(request, "width_mm")? };
     let outline = scratch(&stroke).map_err(|e| Trouble::of(e.to_string()))?;
-    let [low, high] = placed(outline.polygons_mm.iter().flatten().copied());
+    let [low, high] = extents(outline.polygons_mm.iter().flatten().copied());
     let middle = [0.5 * (low[0] + high[0]), 0.5 * (low[1] + high[1])];
-    // A thousandth of a millimetre: what the page draws, and a share link carries.
+    // To a ten-thousandth of a millimetre: the page draws no finer, and a share link carries every digit.
     let near = |x: f64| (x * 1e4).round() / 1e4;
     let about = |p: &[f64; 2]| [near(p[0] - middle[0]), near(p[1] - middle[1])];
     let polygons_mm: Vec<Vec<[f64; 2]>> =
@@ -87,8 +87,8 @@ pub(crate) fn brushed(request: &Value, arrays: &Arrays) -> Answer<Value> {
     let depth = sign * number(request, "depth_um")?;
     let mut grid = brush(before.as_ref(), &stroke, depth).map_err(|e| Trouble::of(e.to_string()))?;
     let columns = grid.columns;
-    let damaged = (grid.depth_um.iter().enumerate()).filter(|(_, d)| **d > 0.0);
-    let [low, high] = placed(damaged.map(|(k, _)| {
+    let damaged = (grid.depth_um.iter().enumerate()).filter(|(_, d)| **d != 0.0);
+    let [low, high] = extents(damaged.map(|(k, _)| {
         let (column, row) = (k % columns, k / columns);
         [grid.s0_mm + grid.ds_mm * column as f64, grid.z0_mm + grid.dz_mm * row as f64]
     }));

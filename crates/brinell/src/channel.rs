@@ -265,10 +265,8 @@ pub fn sensor_channels(sensor: &Sensor) -> Vec<Channel> {
         description: format!("{what} along {along} after the anti-alias filter"),
         quantity: Quantity::Sensor(k),
     };
-    let mut channels: Vec<Channel> = ["x", "y"]
-        .into_iter()
-        .enumerate()
-        .map(|(k, axis)| one(k, format!("sensor_a{axis}"), "m/s^2", axis.into()))
+    let mut channels: Vec<Channel> = (SENSOR.into_iter().zip(["x", "y"]).enumerate())
+        .map(|(k, (name, axis))| one(k, name.into(), "m/s^2", axis.into()))
         .collect();
     if let Some(degrees) = sensor.direction_deg {
         let unit = own_unit(sensor.sensitivity_mv_per_m_per_s2);
@@ -324,26 +322,9 @@ pub fn select(model: &Model, sensor: &Sensor, record: &[String]) -> (Vec<Channel
     (chosen, idle)
 }
 
-/// Today's name of a channel, or of a pattern, that earlier versions called `measured_...`.
-#[doc(hidden)]
-pub fn today_name(pattern: &str) -> Option<String> {
-    match pattern.strip_prefix("measured")? {
-        "_sensor" => Some(OWN_CHANNEL.to_owned()),
-        rest => Some(format!("sensor{rest}")),
-    }
-}
-
 #[cfg(test)]
 mod tests {
-    use super::{matches, today_name};
-
-    #[test]
-    fn earlier_names_are_answered_with_the_new_ones() {
-        assert_eq!(today_name("measured_*").as_deref(), Some("sensor_*"));
-        assert_eq!(today_name("measured_ax").as_deref(), Some("sensor_ax"));
-        assert_eq!(today_name("measured_sensor").as_deref(), Some("sensor_out"));
-        assert_eq!(today_name("contact3_*"), None);
-    }
+    use super::matches;
 
     #[test]
     fn analytic_wildcards() {

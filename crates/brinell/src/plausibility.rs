@@ -305,16 +305,13 @@ fn too_short(scenario: &Scenario, model: &Model) -> Option<Problem> {
     ))
 }
 
-/// Patterns of `record` that pick no channel; a name of earlier versions is answered with today's.
+/// Patterns of `record` that pick no channel.
 fn idle_patterns(scenario: &Scenario, model: &Model) -> Vec<Problem> {
     let (_, idle) = channel::select(model, &scenario.sensor, &scenario.simulation.record);
     let of = |pattern: &String| {
-        let allowed = match channel::today_name(pattern) {
-            Some(name) => format!("\"{name}\""),
-            None => "names of channels, such as \"sensor_ax\"; * stands for any characters".into(),
-        };
         // In the message: problems of one key and message are told once.
         let message = format!("\"{pattern}\" matches no channel of this bearing");
+        let allowed = "names of channels, such as \"sensor_ax\"; * stands for any characters";
         Problem::warning("simulation.record", message).allowed(allowed)
     };
     idle.iter().map(of).collect()

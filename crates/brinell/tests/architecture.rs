@@ -3,7 +3,10 @@
 //! the programs that run them.
 
 use brinell::result::fields::{self, Field};
+use brinell::result::names;
+use brinell::scenario::Scenario;
 use brinell::signal::Indicator;
+use brinell::simulate::Simulation;
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -274,6 +277,19 @@ fn prop_architecture_names_every_module() {
     }
 }
 
+/// The files of a crate that name another one.
+fn users(src: &Path, of: &str) -> Vec<String> {
+    let start = format!("{}::", of.replace('-', "_"));
+    let names_it = |text: &str| {
+        text.match_indices(&start)
+            .any(|(at, _)| !text[..at].ends_with(|c: char| c.is_alphanumeric() || "_:".contains(c)))
+    };
+    let all =
+        files(src).into_iter().filter(|file| file.extension().is_some_and(|e| e == "rs") && names_it(&code(file)));
+    all.map(|file| file.strip_prefix(src).unwrap().to_str().unwrap().replace('\\', "/")).collect()
+}
+
+/// Which one, and where the table says in which files: in these, and in no others.
 #[test]
 fn prop_architecture_says_which_crate_depends_on_which() {
     let page = fs::read_to_string(root().join("ARCHITECTURE.md")).unwrap();
@@ -299,6 +315,19 @@ fn prop_architecture_says_which_crate_depends_on_which() {
         let stale =
             said.split('`').filter_map(|part| part.strip_prefix("crates/")).find(|part| !uses[&name].contains(*part));
         assert_eq!(stale, None, "{name} does not depend on it");
+        for clause in said.split(';') {
+            let places: BTreeSet<&str> = clause.split('`').skip(1).step_by(2).collect();
+            let (used, places): (BTreeSet<&str>, BTreeSet<&str>) =
+                places.into_iter().partition(|p| p.starts_with("crates/"));
+            for used in used.iter().filter(|_| !places.is_empty()) {
+                let there = users(&path.join("src"), &used["crates/".len()..]);
+                let told = |file: &String| places.iter().any(|place| file.starts_with(place));
+                let untold: Vec<_> = there.iter().filter(|file| !told(file)).collect();
+                assert!(untold.is_empty(), "{name} uses {used} in {untold:?}; ARCHITECTURE.md says: {clause}");
+                let stale = places.iter().find(|place| !there.iter().any(|file| file.starts_with(**place)));
+                assert_eq!(stale, None, "{name} does not use {used} there");
+            }
+        }
     }
     assert_eq!(cycle(&uses), None, "crates that depend on each other");
 }
@@ -363,4 +392,19 @@ fn regress_the_book_lists_every_number() {
     let page = fs::read_to_string(root().join("docs/src/results/numbers.md")).unwrap();
     let table = all.concat();
     assert!(page.contains(&table), "docs/src/results/numbers.md should hold\n{table}");
+    // The groups above are listed by hand: what a run has of others is not in the table.
+    let path = root().join("examples/rectangle.toml");
+    let scenario = Scenario::from_toml(&fs::read_to_string(path).unwrap()).unwrap();
+    let names = names(&scenario, &Simulation::new(&scenario).unwrap());
+    for name in &names {
+        let (subject, number) = name.rsplit_once('.').unwrap_or(("", name));
+        let subject = match subject.trim_end_matches(|c: char| c.is_ascii_digit()) {
+            "" => String::new(),
+            of @ ("defect" | "row") => format!("{of}N."),
+            "envelope" | "audit" | "work" => format!("{subject}."),
+            _ => "CHANNEL.".into(),
+        };
+        assert!(table.contains(&format!("| `{subject}{number}` |")), "{name} of a run is not in the table");
+    }
+    assert!(names.iter().any(|n| n.starts_with("defect1.entry")) && names.iter().any(|n| n.starts_with("row2.")));
 }

@@ -6,6 +6,7 @@ mod pages;
 
 use crate::failure::Failure;
 use answer::{Door, Route};
+use brinell_io::hexadecimal;
 use brinell_studio::PAGE;
 use clap::Args;
 use http::{Reply, Request};
@@ -86,7 +87,7 @@ pub(crate) fn studio(args: &StudioArgs) -> Result<ExitCode, Failure> {
 fn token() -> Result<String, Failure> {
     let mut bytes = [0_u8; 16];
     getrandom::fill(&mut bytes).map_err(|e| Failure::Usage(format!("no random numbers for the address: {e}")))?;
-    Ok(bytes.iter().map(|b| format!("{b:02x}")).collect())
+    Ok(hexadecimal(&bytes))
 }
 
 /// One connection: one request and its reply.

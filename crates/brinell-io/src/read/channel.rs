@@ -3,7 +3,7 @@
 use super::numbers::Number;
 use crate::Metadata;
 use serde_json::Value;
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 
 /// A sample rate that a file states.
 #[derive(Clone, Debug, PartialEq)]
@@ -173,14 +173,22 @@ pub(crate) fn lend_labels(channels: &mut [Channel], texts: &[(String, String)]) 
     }
 }
 
-/// Makes names unique: the second `a` becomes `a#2`.
+/// Makes names unique: the second `a` becomes `a#2`, or the next number that no channel of the file has.
 pub(crate) fn tell_apart(channels: &mut [Channel]) {
+    let mut taken: HashSet<String> = channels.iter().map(|c| c.name.clone()).collect();
+    // Of each name the number that its last channel got.
     let mut seen = HashMap::<String, usize>::new();
     for channel in channels {
-        let count = seen.entry(channel.name.clone()).or_default();
-        *count += 1;
-        if *count > 1 {
-            channel.name = format!("{}#{count}", channel.name);
-        }
+        let Some(count) = seen.get_mut(&channel.name) else {
+            seen.insert(channel.name.clone(), 1);
+            continue;
+        };
+        channel.name = loop {
+            *count += 1;
+            let name = format!("{}#{count}", channel.name);
+            if taken.insert(name.clone()) {
+                break name;
+            }
+        };
     }
 }

@@ -56,7 +56,7 @@ impl SignalFile {
     /// times; and the column's name.
     fn rate_by_times(&mut self, of: &Channel) -> Option<(Result<f64, NoRate>, String)> {
         let times = self.times_of(of).ok()??;
-        let (unit, name) = (times.time_unit()?, times.name);
+        let (unit, name) = (times.seconds_in_time_unit()?, times.name);
         Some((self.rate_of(&name, unit).ok()?, name))
     }
 

@@ -129,7 +129,7 @@ impl SignalFile {
         let mut rates = Vec::new();
         for &i in times {
             let time = channel(self, i);
-            if let Some(unit) = time.time_unit() {
+            if let Some(unit) = time.seconds_in_time_unit() {
                 let hz = self.rate_of(&time.name, unit).ok().and_then(Result::ok);
                 rates.push((time, hz));
             }

@@ -21,29 +21,30 @@ const AT_THE_END: f64 = 3.0;
 const TIMES: [&str; 5] = ["t", "time", "times", "timestamp", "zeit"];
 
 impl Channel {
-    /// Whether it is called like a column of times.
+    /// Whether its name is that of a column of times: `t`, `Time [s]`, `time_ms`.
     pub fn is_called_time(&self) -> bool {
         let name = bare(self);
         TIMES.contains(&name.as_str()) || named_unit(&name).is_some()
     }
 
-    /// Whether it is called so, or its unit is one of time: no vibration has that.
+    /// Whether it is a column of times: by its name, or by its unit, as no vibration is in seconds.
     pub fn is_time(&self) -> bool {
         self.is_called_time() || self.unit.as_deref().and_then(seconds_in).is_some()
     }
 
-    /// Seconds in its unit, of a column of times, where it states one that is known.
+    /// Seconds in one of its unit, where the file states a unit of time that is known. The name is not looked at, but for
+    /// a unit that it ends in.
     pub fn seconds_in_unit(&self) -> Option<f64> {
-        self.time_unit_words().as_deref().and_then(seconds_in).or_else(|| named_unit(&bare(self)))
+        self.time_unit().as_deref().and_then(seconds_in).or_else(|| named_unit(&bare(self)))
     }
 
-    /// The same of what [is one](Self::is_time).
-    pub fn time_unit(&self) -> Option<f64> {
+    /// Seconds in one of its unit, where it [is a column of times](Self::is_time) and the unit is known.
+    pub fn seconds_in_time_unit(&self) -> Option<f64> {
         self.is_time().then(|| self.seconds_in_unit())?
     }
 
-    /// The unit of a column of times as the file spells it, known or not.
-    pub fn time_unit_words(&self) -> Option<String> {
+    /// The unit of a column of times as the file spells it, known or not: of the channel, or in brackets in its name.
+    pub fn time_unit(&self) -> Option<String> {
         let within = |name: &str| {
             let (_, unit) = name.split_once(['[', '('])?;
             Some(unit.split([']', ')']).next()?.trim().to_owned()).filter(|unit| !unit.is_empty())
@@ -51,9 +52,9 @@ impl Channel {
         self.unit.clone().or_else(|| within(self.own_name()))
     }
 
-    /// That no unit of its times is known, in words.
-    pub fn no_time_unit(&self) -> String {
-        match self.time_unit_words() {
+    /// A message: why [`seconds_in_unit`](Self::seconds_in_unit) has no answer.
+    pub fn why_no_time_unit(&self) -> String {
+        match self.time_unit() {
             Some(unit) => format!("the unit `{unit}` of its times in `{}` is not known", self.name),
             None => format!("no unit for its times in `{}`", self.name),
         }
@@ -70,13 +71,13 @@ fn bare(channel: &Channel) -> String {
     name.split(['[', '(']).next().unwrap_or("").trim().to_owned()
 }
 
-/// Seconds in the unit that the name of a column of times ends in.
+/// Seconds in one of the unit that the name of a column of times ends in.
 fn named_unit(bare: &str) -> Option<f64> {
     let (name, unit) = bare.rsplit_once('_')?;
     TIMES.contains(&name).then(|| seconds_in(unit))?
 }
 
-/// Seconds in a unit by its name: min, s, ms, us or ns.
+/// Seconds in one of a unit of time, by its name: min, s, ms, us or ns.
 pub fn seconds_in(unit: &str) -> Option<f64> {
     Some(match unit.trim().to_lowercase().as_str() {
         "min" | "minute" | "minutes" => 60.0,

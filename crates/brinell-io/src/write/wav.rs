@@ -122,7 +122,8 @@ impl SignalWriter for WavWriter {
         let list = chunk(b"LIST", &info);
         self.file.append(&list)?;
         let data = 4 * self.kept.len() as u64 * self.rows;
-        let total = DATA + 8 - 8 + data + list.len() as u64;
+        // Of the file, less the 8 bytes before the size; as many are of the data's chunk before the data.
+        let total = DATA + data + list.len() as u64;
         match u32::try_from(total) {
             Ok(total) => {
                 self.file.patch(4, &total.to_le_bytes())?;

@@ -3,6 +3,7 @@
 use brinell::result::{Quantity, Spread};
 use brinell::scenario::Scenario;
 use brinell::signal::Interval;
+use brinell_io::hexadecimal;
 use serde_json::{Map, Value, json};
 use sha2::{Digest, Sha256};
 
@@ -29,8 +30,7 @@ pub fn fingerprint(scenario: &Scenario) -> String {
 
 /// SHA-256 of a text, in hexadecimal.
 pub fn digest(text: &str) -> String {
-    let digest = Sha256::digest(text.as_bytes());
-    digest.iter().map(|byte| format!("{byte:02x}")).collect()
+    hexadecimal(&Sha256::digest(text.as_bytes()))
 }
 
 impl Row {

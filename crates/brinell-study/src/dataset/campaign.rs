@@ -297,11 +297,10 @@ impl Sources {
             return Err(self.plan.problem_of("signals", &channel, &why));
         }
         if let Some(pattern) = idle.iter().flatten().find(|p| !signals.iter().any(|c| matches(p, &c.name))) {
-            let near = brinell::channel::today_name(pattern).unwrap_or("sensor_ax".into());
             return Err(self.plan.problem_of(
                 "signals",
                 pattern,
-                &format!("no channel of the first runs has such a name; channels are those of `simulation.record`, such as \"{near}\""),
+                "no channel of the first runs has such a name; channels are those of `simulation.record`, such as \"sensor_ax\"",
             ));
         }
         Ok(Campaign {

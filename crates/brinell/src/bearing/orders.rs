@@ -134,7 +134,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn every_known_bearing_is_found_by_its_name_and_has_orders() {
+    fn prop_every_known_bearing_is_found_by_its_name_and_has_orders() {
         for known in KnownBearing::all() {
             let found = KnownBearing::find(known.name()).unwrap();
             assert_eq!(found.name(), known.name());

@@ -198,7 +198,7 @@ impl Grid {
             return f64::INFINITY;
         };
         let damaged = |z: f64| self.row_at(z).is_some_and(|row| self.is_damaged(column, row));
-        let inside = |row: f64| row + 0.5 * self.step[1];
+        let inside = |row_z: f64| row_z + 0.5 * self.step[1];
         let mut next = self.next_row(z);
         let here = damaged(next - 0.5 * self.step[1]);
         while next.is_finite() && damaged(inside(next)) == here {

@@ -56,9 +56,8 @@ pub fn spall(seed: u64, length_mm: f64, width_mm: f64, roughness: f64, mean_dept
     let part = largest_part(&field);
     let rows: Vec<usize> = (0..NODES).filter(|r| part[r * NODES..(r + 1) * NODES].contains(&true)).collect();
     let columns: Vec<usize> = (0..NODES).filter(|c| (0..NODES).any(|r| part[r * NODES + c])).collect();
-    let (Some(&top), Some(&bottom)) = (rows.first(), rows.last()) else {
-        unreachable!("noise cannot lift every node above its lowest value");
-    };
+    // The part has a node at least.
+    let (top, bottom) = (rows[0], rows[rows.len() - 1]);
     let (left, right) = (columns[0], columns[columns.len() - 1]);
     // One undamaged node around: the floor falls from it, so the extents are those of the bilinear surface.
     let (wide, high) = (right - left + 3, bottom - top + 3);
@@ -91,7 +90,8 @@ pub fn spall(seed: u64, length_mm: f64, width_mm: f64, roughness: f64, mean_dept
     }
 }
 
-/// The largest connected part of what is above 0 (four neighbours); of two equal ones the first.
+/// The largest connected part of what is above 0 (four neighbours); of two equal ones the first. Where noise leaves
+/// nothing above 0, which no seed is known to do, the highest node.
 fn largest_part(field: &[f64]) -> Vec<bool> {
     let mut best = Vec::new();
     parts(NODES, field.iter().map(|f| *f > 0.0).collect(), |part| {
@@ -99,6 +99,9 @@ fn largest_part(field: &[f64]) -> Vec<bool> {
             best = part.to_vec();
         }
     });
+    if best.is_empty() {
+        best.extend((0..field.len()).max_by(|a, b| field[*a].total_cmp(&field[*b])));
+    }
     let mut inside = vec![false; field.len()];
     best.into_iter().for_each(|k| inside[k] = true);
     inside
@@ -128,6 +131,14 @@ mod tests {
             assert_eq!(even, roughness == 0.0);
         }
         assert_ne!(spall(1, 5.0, 3.0, 0.5, 20.0), spall(2, 5.0, 3.0, 0.5, 20.0));
+    }
+
+    #[test]
+    fn prop_of_a_field_below_0_the_highest_node_is_left() {
+        let mut field = vec![-1.0; NODES * NODES];
+        field[77] = -0.5;
+        let left = largest_part(&field);
+        assert!(left[77] && left.iter().filter(|inside| **inside).count() == 1);
     }
 
     #[test]

@@ -406,12 +406,8 @@ impl<T: Choice> ValueType for T {
         let known = T::WORDS.iter().find(|(word, ..)| word == text);
         known.map(|(_, value, _)| *value).ok_or_else(|| {
             let words = T::WORDS.iter().map(|(word, ..)| *word);
-            let hint = match T::RENAMED {
-                Some((old, new)) if old == text => format!("; it is called {} now", quote(new)),
-                _ => crate::did_you_mean::did_you_mean(text, words)
-                    .map(|word| format!("; did you mean {}?", quote(word)))
-                    .unwrap_or_default(),
-            };
+            let near = crate::did_you_mean::did_you_mean(text, words);
+            let hint = near.map(|word| format!("; did you mean {}?", quote(word))).unwrap_or_default();
             Misfit::new(format!("unknown word{hint}"), word_list::<T>())
         })
     }

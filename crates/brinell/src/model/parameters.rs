@@ -124,14 +124,13 @@ impl Model {
     /// Pure-rolling orbit speed at the inner ring's speed w_i, rad/s.
     #[inline]
     pub fn rolling_orbit_speed(&self, w: f64) -> f64 {
-        w * self.geometry.inner_radius / (2.0 * self.geometry.pitch_radius)
+        self.kinematics(w).orbit_speed
     }
 
     /// Pure-rolling absolute spin speed at w_i, rad/s.
     #[inline]
     pub fn rolling_spin_speed(&self, w: f64) -> f64 {
-        let g = &self.geometry;
-        -(w * g.inner_radius - g.pitch_radius * self.rolling_orbit_speed(w)) / g.roller_radius
+        self.kinematics(w).spin_speed
     }
 
     /// Pure-rolling speeds and defect frequencies at w_i.

@@ -183,9 +183,9 @@ pub fn indicator(indicator: Indicator, unit: &'static str) -> Field<Indicator> {
 
 /// The extremes of a channel's whole record: its largest |value|, and its largest less its smallest value.
 pub fn record(unit: &'static str) -> [Field<Indicator>; 2] {
-    [(RECORD_PEAK, Indicator::Peak), (RECORD_PEAK_TO_PEAK, Indicator::PeakToPeak)].map(|(name, of)| Field {
-        name,
-        estimator: Estimator::Extreme,
-        ..indicator(of, unit)
-    })
+    let all = [
+        (RECORD_PEAK, Indicator::Peak, "largest absolute value of the record"),
+        (RECORD_PEAK_TO_PEAK, Indicator::PeakToPeak, "largest less smallest value of the record"),
+    ];
+    all.map(|(name, of, meaning)| Field { name, meaning, estimator: Estimator::Extreme, ..indicator(of, unit) })
 }

@@ -1,12 +1,11 @@
 //! The keys of a scenario that take one of a few words.
 
-/// Gives a closed choice its words: value, word, meaning; and a word of earlier versions with the one that replaces it.
+/// Gives a closed choice its words: value, word, meaning.
 macro_rules! words {
-    ($type:ident $(renamed $old:literal to $new:literal)?: $($variant:ident = $word:literal, $meaning:literal;)+) => {
+    ($type:ident: $($variant:ident = $word:literal, $meaning:literal;)+) => {
         impl Choice for $type {
             const WORDS: &'static [(&'static str, Self, &'static str)] =
                 &[$(($word, $type::$variant, $meaning)),+];
-            $(const RENAMED: Option<(&'static str, &'static str)> = Some(($old, $new));)?
         }
     };
 }
@@ -14,14 +13,14 @@ pub(crate) use words;
 
 /// A closed choice: an enum, and the words that the scenario file has for it, each with its meaning.
 macro_rules! choices {
-    ($($(#[$about:meta])* pub enum $type:ident $(renamed $old:literal to $new:literal)? { $($(#[$more:meta])* $variant:ident = $word:literal, $meaning:literal;)+ })+) => {$(
+    ($($(#[$about:meta])* pub enum $type:ident { $($(#[$more:meta])* $variant:ident = $word:literal, $meaning:literal;)+ })+) => {$(
         $(#[$about])*
         #[derive(Debug, Clone, Copy, PartialEq, Eq)]
         pub enum $type {
             $(#[doc = $meaning] $(#[doc = ""] #[$more])* $variant),+
         }
 
-        words! { $type $(renamed $old to $new)?: $($variant = $word, $meaning;)+ }
+        words! { $type: $($variant = $word, $meaning;)+ }
     )+};
 }
 
@@ -29,8 +28,6 @@ macro_rules! choices {
 pub trait Choice: Copy + PartialEq + 'static {
     /// Word, value, meaning; the first is used where none could be read.
     const WORDS: &'static [(&'static str, Self, &'static str)];
-    /// A word of earlier versions, and the one that replaces it.
-    const RENAMED: Option<(&'static str, &'static str)> = None;
 
     /// Its word.
     fn word(self) -> &'static str {
@@ -109,7 +106,7 @@ choices! {
     }
 
     /// Which equations are integrated.
-    pub enum ModelKind renamed "reference" to "lumped" {
+    pub enum ModelKind {
         Full = "full", "every part moves";
         /// The lumped model that the paper compares against: its reference model.
         Lumped = "lumped", "lumped rings, kinematic cage";

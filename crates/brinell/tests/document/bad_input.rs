@@ -56,7 +56,7 @@ fn regress_each_bad_line_is_named_with_its_line_and_remedy() {
         ("guidance", "guidance = \"outer_ring\"", "cage.guidance", "did you mean \"outer-ring\"", "\"outer-ring\", \"inner-ring\", \"rollers\""),
         ("law = ", "law = \"slice\"", "contact.law", "did you mean \"sliced\"", "\"ecl\", \"sliced\""),
         ("law = ", "law = 1", "contact.law", "expected one of \"ecl\", \"sliced\", found a whole number", "\"ecl\""),
-        ("start", "model = \"reference\"", "simulation.model", "it is called \"lumped\" now", "\"full\", \"lumped\""),
+        ("start", "model = \"reference\"", "simulation.model", "unknown word", "\"full\", \"lumped\""),
         ("roller_path", "roller_path = \"curve\"", "contact.roller_path", "unknown word", "\"point\", \"envelope\""),
         ("roller_path", "slices = 0", "contact.slices", "out of range", "1 to 10000"),
         ("slip_velocity_m_per_s", "slip_velocity_m_per_s = 0", "friction.slip_velocity_m_per_s", "out of range", "> 0 m/s"),

@@ -49,7 +49,7 @@ pub(super) fn rate(
             let unit = if wanted.whose.is_empty() { format!(", or --time-unit: {UNITS}") } else { String::new() };
             return Ok(Err(format!(
                 "the file states no sample rate, and {}; give {option} HZ{unit}",
-                time.no_time_unit()
+                time.why_no_time_unit()
             )));
         }
     };

@@ -112,7 +112,7 @@ fn own_rate(file: &mut SignalFile, speeds: &Channel, of: &Channel) -> Result<Opt
     let times = file.times_of(speeds).ok().flatten();
     if let Some(times) = times
         && file.times_of(of).ok().flatten().is_none_or(|other| other.name != times.name)
-        && let Some(unit) = times.time_unit()
+        && let Some(unit) = times.seconds_in_time_unit()
         && let Ok(hz) = file.rate_of(&times.name, unit).map_err(bad)?
     {
         return Ok(Some(hz));

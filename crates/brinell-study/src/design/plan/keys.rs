@@ -3,6 +3,7 @@
 use super::problems::problems;
 use super::{Class, Design, HeldSeverity, OutOfRange, Plan, Split};
 use crate::design::template::Template;
+use brinell::channel::SENSOR;
 use brinell::document::reading::{Fallback, Finder, Keys, Reader, key, parse, stated};
 use brinell::document::{Problem, Severity};
 
@@ -99,7 +100,7 @@ pub(in super::super) fn keys<K: Keys>(k: &mut K, p: &mut Plan) {
         );
     });
     p.split = split_of(split);
-    let sensor = ["sensor_ax", "sensor_ay"].map(String::from).to_vec();
+    let sensor = SENSOR.map(String::from).to_vec();
     k.key(
         key("signals", "channels to keep; * matches any characters"),
         stated(sensor, "what a data logger holds"),
