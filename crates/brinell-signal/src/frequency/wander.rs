@@ -17,7 +17,8 @@ const HARMONICS: usize = 5;
 ///
 /// The phase of the comb's strongest harmonic is taken of up to eight pieces of the record; from one to the next it says the
 /// mean rate between. What these rates scatter by, Student's t of their number included, and what their mean lies from
-/// the line are added: a comb of many harmonics settles on the stretch in which the rate was steadiest.
+/// the line are added: a comb of many harmonics settles on the stretch in which the rate was steadiest. It is on the safe
+/// side, in trials by a factor of three: an error of one phase moves the rates before and after it to opposite sides.
 ///
 /// # Errors
 /// As [`envelope`].

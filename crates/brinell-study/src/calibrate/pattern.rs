@@ -239,3 +239,39 @@ fn line_name(kinematics: &Kinematics, on: Surface) -> &'static str {
         _ => "2bsf",
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const RATE: f64 = 25600.0;
+
+    /// A second of impacts at `frequency`.
+    fn impacts(frequency: f64) -> Vec<f64> {
+        let impact = |t: f64| (-t / 6e-4).exp() * (TAU * 4000.0 * t).sin();
+        (0..25600)
+            .map(|k| impact((f64::from(k) / RATE).rem_euclid(1.0 / frequency)) + 1e-2 * (f64::from(k * k) * 0.37).sin())
+            .collect()
+    }
+
+    /// BPFO of 250 Hz at the scenario's speed, impacts elsewhere.
+    #[test]
+    fn prop_lines_are_sought_over_the_bounds_of_the_speed_and_not_beside_higher_ones() {
+        let look = |frequency: f64, speeds| {
+            let x = impacts(frequency);
+            combs((&x, RATE, Band::between(2500.0, 10000.0)), &[("bpfo", 250.0)], speeds, 20000).unwrap()
+        };
+        for (frequency, speeds) in [(252.0, [1.0, 1.0]), (243.0, [0.97, 1.03]), (259.0, [0.97, 1.03])] {
+            let (found, notes) = look(frequency, speeds);
+            assert!(notes.is_empty(), "{notes:?}");
+            let (_, ratio, line, uncertainty) = found[0];
+            assert!((line - frequency).abs() < 0.05 && (ratio - line / 250.0).abs() < 1e-12, "{frequency}: {line}");
+            assert!(uncertainty < 0.1, "{frequency}: {uncertainty}");
+        }
+        for (frequency, speeds) in [(243.0, [1.0, 1.0]), (239.0, [1.0, 1.0]), (264.0, [0.98, 1.02])] {
+            let (found, notes) = look(frequency, speeds);
+            assert!(found.is_empty(), "{frequency}: {found:?}");
+            assert!(notes[0].contains("is operation.speed_rpm right?"), "{notes:?}");
+        }
+    }
+}
