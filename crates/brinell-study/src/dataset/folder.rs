@@ -1,5 +1,6 @@
 //! What lies where in a data set's folder, and whose folder it is.
 
+use crate::campaign::other_kernel;
 use crate::dataset::error::DatasetError;
 use brinell_io::{IoError, Metadata, RecordFacts, atomic_write, lock, record_facts, sha256_of};
 use serde_json::{Value, json};
@@ -158,10 +159,7 @@ impl Folder {
         if let [Some(mine), Some(theirs)] = kernels
             && mine != theirs
         {
-            return Err(DatasetError::Refused(format!(
-                "{at} holds runs of the kernel {theirs}, and these are of {mine}: damaged runs differ wholly between kernels, as impacts amplify \
-                 round-off, so one data set has one kernel; set BRINELL_KERNEL={theirs} on every machine that makes it, or choose another folder"
-            )));
+            return Err(DatasetError::Refused(other_kernel(at, "data set", theirs, mine)));
         }
         Ok(())
     }

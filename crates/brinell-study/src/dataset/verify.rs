@@ -1,5 +1,6 @@
 //! A data set's folder compared with what it says of itself.
 
+use crate::campaign::DIFFER;
 use crate::dataset::card::CROISSANT;
 use crate::dataset::error::DatasetError;
 use crate::dataset::folder::{CAMPAIGN, Folder, KERNEL, KERNEL_OF, PART, SECRET_PATH, file_name, number_of};
@@ -127,9 +128,7 @@ impl Set<'_> {
         say(theirs != version, &other);
         let theirs = get(KERNEL).unwrap_or("?");
         let ours = kernel.get_or_insert_with(|| theirs.to_owned());
-        let mixed = format!(
-            "computed with the kernel {theirs}, the data set with {ours}: damaged runs differ wholly between kernels"
-        );
+        let mixed = format!("computed with the kernel {theirs}, the data set with {ours}: {DIFFER}");
         say(theirs != ours, &mixed);
         let other_part = get(PART) != Some(part.to_string().as_str());
         say(other_part, "another file under this name");
