@@ -98,8 +98,7 @@ impl Folder {
     pub(crate) fn described(&self) -> Result<Value, DatasetError> {
         let path = self.sidecar();
         std::fs::read(&path).map_or(Ok(Value::Null), |bytes| {
-            serde_json::from_slice(&bytes)
-                .map_err(|error| DatasetError::Refused(format!("{}: {error}", path.display())))
+            serde_json::from_slice(&bytes).map_err(|error| self.unreadable(&path, &error))
         })
     }
 
@@ -116,15 +115,20 @@ impl Folder {
         let path = self.campaign();
         let bytes = match std::fs::read(&path) {
             Ok(bytes) => bytes,
-            Err(error) if error.kind() == std::io::ErrorKind::NotFound => return Ok(None),
+            // The name may be a file's.
+            Err(error) if matches!(error.kind(), ErrorKind::NotFound | ErrorKind::NotADirectory) => return Ok(None),
             Err(error) => return Err(DatasetError::Read { path, error }),
         };
-        match serde_json::from_slice(&bytes) {
-            Ok(about) => Ok(Some(about)),
-            Err(error) => {
-                Err(DatasetError::Refused(format!("{}: {error}; this is no file of a data set", path.display())))
-            }
-        }
+        serde_json::from_slice(&bytes).map(Some).map_err(|error| self.unreadable(&path, &error))
+    }
+
+    /// That a description is no JSON, and what mends it.
+    fn unreadable(&self, path: &Path, error: &serde_json::Error) -> DatasetError {
+        let name = path.strip_prefix(&self.root).unwrap_or(path).display();
+        DatasetError::Refused(format!(
+            "{}: damaged ({error}); remove {name}, and the plan's own command, with the same version and kernel, writes it again",
+            path.display()
+        ))
     }
 
     /// Whether two campaigns are the same, with words for what to do where they are not.
