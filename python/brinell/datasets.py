@@ -124,7 +124,7 @@ class Plan:
         shard: tuple[int, int] = (1, 1),
         progress: Callable[[int, int], object] | None = None,
     ) -> DataSet:
-        """Does what is missing of the data set; the files' bytes depend on plan, version and kernel. Ctrl-C stops it, and the same call goes on.
+        """Does what is missing of the data set; the files' bytes depend on plan, version, kernel and the system's mathematics library. Ctrl-C stops it, and the same call goes on.
 
         Parameters
         ----------

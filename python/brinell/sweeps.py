@@ -151,7 +151,7 @@ def sweep(
     ScenarioError
         Where the scenario of every point is bad.
     ValueError
-        Where there is no plan: a key twice, a value twice, too many points. Where the folder is another sweep's.
+        Where there is no plan: a key twice, a value twice, too many points. Where the folder is another sweep's, or of another kernel.
     ReadError
         Where the folder's journal cannot be read or written.
 

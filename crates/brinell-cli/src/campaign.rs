@@ -20,6 +20,7 @@ pub(crate) fn ledger(
 ) -> Result<Ledger, Failure> {
     Ledger::open(folder, header, extend).map_err(|error| match error {
         RunnerError::OtherCampaign(other) => Failure::Usage(words(&other)),
+        other @ RunnerError::OtherKernel { .. } => Failure::Usage(format!("{}: {other}", folder.display())),
         other => other.into(),
     })
 }
@@ -42,7 +43,9 @@ impl From<RunnerError> for Failure {
     fn from(error: RunnerError) -> Self {
         match error {
             RunnerError::Io(error) => Self::Write(error),
-            RunnerError::OtherCampaign(_) | RunnerError::Changed => Self::Usage(error.to_string()),
+            RunnerError::OtherCampaign(_) | RunnerError::OtherKernel { .. } | RunnerError::Changed => {
+                Self::Usage(error.to_string())
+            }
         }
     }
 }

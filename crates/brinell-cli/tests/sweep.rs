@@ -1,7 +1,9 @@
 //! Sweeps: the plan, what a killed one costs, that neither threads nor interruptions change a byte, and what happens to
 //! bad points.
 
-use crate::common::{brinell, cut_journal, files, interrupted, json, lines, results, same, typed, with_blocks};
+use crate::common::{
+    Call, brinell, command, cut_journal, files, interrupted, json, lines, results, same, typed, with_blocks,
+};
 use brinell_io::{Cells, Table};
 use std::fs;
 use std::path::Path;
@@ -242,6 +244,55 @@ fn regress_another_sweep_is_refused_unless_extended() {
         .complains(&["is the journal of calibration; choose another folder"]);
     fs::write(&journal, "[1]\n").unwrap();
     sweep("2900,3000,3100", &[]).exits(2).complains(&["is the journal of something else"]);
+}
+
+#[test]
+fn prop_a_sweep_has_one_kernel() {
+    let folder = folder();
+    let sweep = |kernel: &str, values: &str, more: &[&str]| -> Call {
+        let vary = format!("operation.speed_rpm={values}");
+        let args = ["sweep", "base.toml", "--vary", &vary, "-o", "out", "--set", "simulation.model=lumped"];
+        let mut command = command(folder.path(), &[&args, more].concat());
+        command.env("BRINELL_KERNEL", kernel).output().unwrap().into()
+    };
+    sweep("portable", "2900,3000", &[]).exits(0);
+    assert_eq!(json(&folder.path().join("out/sweep.json"))["kernel"], "portable");
+    let before = fs::read(folder.path().join("out/journal.jsonl")).unwrap();
+    for (values, more) in
+        [("2900,3000", &[][..]), ("2900,3000,3100", &["--extend"]), ("2900,3000,3100", &["--extend", "--dry-run"])]
+    {
+        sweep("plain", values, more).exits(2).complains(&[
+            "out: the folder holds runs of the kernel portable, and these are of plain: runs differ wholly between kernels",
+            "so one sweep has one kernel; set BRINELL_KERNEL=portable",
+        ]);
+    }
+    assert!(before == fs::read(folder.path().join("out/journal.jsonl")).unwrap(), "nothing is touched");
+    sweep("portable", "2900,3000,3100", &["--extend"]).exits(0).says(&["2 points finished before"]);
+    // Of a journal without points any kernel may go on.
+    cut_journal(&folder.path().join("out"), 1, &folder.path().join("cut"));
+    fs::remove_dir_all(folder.path().join("out")).unwrap();
+    fs::rename(folder.path().join("cut"), folder.path().join("out")).unwrap();
+    sweep("plain", "2900,3000", &[]).exits(0).says(&["2 runs to do"]);
+    sweep("portable", "2900,3000", &[]).exits(2).complains(&["of the kernel plain"]);
+}
+
+#[test]
+fn prop_values_with_a_unit_are_numbers_of_the_keys_unit() {
+    let folder = folder();
+    let args = ["sweep", "base.toml", "--vary", "operation.speed_rpm=50 Hz,3100,'55 Hz'", "-o", "out"];
+    brinell(folder.path(), &[&args[..], &["--set", "simulation.model=lumped", "-q"]].concat()).exits(0);
+    let rows = csv(&folder.path().join("out/sweep.csv"));
+    assert_eq!([&rows[1][1], &rows[2][1], &rows[3][1]], ["3000.0", "3100.0", "3300.0"]);
+    let table = Table::read_parquet(folder.path().join("out/sweep.parquet")).unwrap();
+    assert!(matches!(&table.cells[1], Cells::Numbers(_)));
+    assert_eq!(table.columns[1].unit, "r/min");
+    let args = ["sweep", "base.toml", "--vary", "operation.speed_rpm=50 Hz,3000"];
+    brinell(folder.path(), &args).exits(2).complains(&["operation.speed_rpm = 3000: comes twice"]);
+    let args = ["sweep", "base.toml", "--vary", "operation.speed_rpm=50 Hz,20 mm", "--dry-run"];
+    brinell(folder.path(), &args)
+        .exits(0)
+        .says(&["1 point with a bad scenario"])
+        .complains(&["point 2 (operation.speed_rpm=20 mm): ", "does not convert to r/min"]);
 }
 
 #[test]

@@ -13,11 +13,12 @@ use std::path::PathBuf;
     Files in the folder:\n  \
     sweep.csv, sweep.parquet   a row a point: keys, status, reason, every indicator with its interval, lines, slip, audits, work; SI units\n  \
     sweep.html                 plots against the varied key with intervals, and the table; one file, no network\n  \
-    sweep.json                 the plan, warnings, the base scenario, the columns' units\n  \
+    sweep.json                 the plan, warnings, the kernel, the base scenario, the columns' units\n  \
     journal.jsonl              finished points, each on the disk when it is done\n  \
     signals/                   with --keep-signals: FINGERPRINT.parquet a point\n\n\
     The same command again resumes where it stopped: finished points of the same scenario and the same version of brinell are not run \
-    again. A point that fails is a row with its reason. The table's bytes depend on the plan alone, not on --jobs or interruptions.\n\n\
+    again; those that another kernel (BRINELL_KERNEL) computed are refused. A point that fails is a row with its reason. The table's bytes depend on base scenario, \
+    plan, version, kernel and the system's mathematics library, not on --jobs or interruptions.\n\n\
     Exit codes: 0 every point is done, 1 a point failed or Ctrl-C stopped the sweep (what is finished is kept), 2 bad input.\n\n\
     Examples:\n  \
     brinell sweep base.toml --vary operation.speed_rpm=1000:5000:500 --vary bearing.radial_clearance_um=5,10,20 -o out/sweep\n  \

@@ -15,6 +15,7 @@ use crate::say::{self, complain, plural, pretty, say, short};
 use crate::stop::stop_flag;
 pub(crate) use args::SweepArgs;
 use brinell::document::read;
+use brinell::kernel::Kernel;
 use brinell::result::{check_name, names};
 use brinell::simulate::Simulation;
 use brinell_io::{Metadata, keys};
@@ -40,7 +41,11 @@ pub(crate) fn sweep(args: &SweepArgs) -> Result<ExitCode, Failure> {
     let folder = args.output.clone().unwrap_or_else(named);
     let work = FromSource { source: &points.source, signals: args.keep_signals.then(|| folder.join("signals")) };
     if args.dry_run {
-        plan(&points, &Kept::look(&folder)?, &work, threads, true);
+        let kept = Kept::look(&folder)?;
+        kept.same_kernel().map_err(|error| Failure::Usage(format!("{}: {error}", folder.display())))?;
+        plan(&points, &kept, &work, threads, true);
+        let bad = points.tasks.iter().enumerate().filter_map(|(k, task)| Some((k, task.as_ref().err()?.as_str())));
+        tell_points(&points, "", &bad.collect::<Vec<_>>(), "");
         return Ok(ExitCode::SUCCESS);
     }
     let place = Place { kind: Results::SWEEP, folder: &folder, inputs: &points.source.inputs() };
@@ -208,18 +213,23 @@ fn other_sweep(folder: &Path, other: &Value) -> String {
     )
 }
 
-fn tell_failures(points: &Points, states: &[State]) {
+/// Points with the reason of each; `what` became of them, and where the `rest` is.
+fn tell_points(points: &Points, what: &str, reasons: &[(usize, &str)], rest: &str) {
     const SHOWN: usize = 10;
-    let failed = states.iter().enumerate().filter_map(|(k, s)| Some((k, s.failure()?)));
-    let failed: Vec<_> = failed.collect();
-    for (k, reason) in failed.iter().take(SHOWN) {
+    for (k, reason) in reasons.iter().take(SHOWN) {
         let settings = points.plan.settings(*k);
         let texts: Vec<String> = settings.iter().map(|(k, v)| format!("{k}={v}")).collect();
-        complain!("point {} failed ({}): {reason}", k + 1, texts.join(", "));
+        complain!("point {}{what} ({}): {reason}", k + 1, texts.join(", "));
     }
-    if failed.len() > SHOWN {
-        complain!("and {} more: see sweep.csv", failed.len() - SHOWN);
+    if reasons.len() > SHOWN {
+        complain!("and {} more{rest}", reasons.len() - SHOWN);
     }
+}
+
+fn tell_failures(points: &Points, states: &[State]) {
+    let failed = states.iter().enumerate().filter_map(|(k, s)| Some((k, s.failure()?)));
+    let failed: Vec<_> = failed.collect();
+    tell_points(points, " failed", &failed, ": see sweep.csv");
     if !failed.is_empty() {
         complain!("{} of {} failed", failed.len(), plural(states.len(), "point"));
     }
@@ -245,6 +255,7 @@ fn write(
         points.source.overrides().iter().map(|(key, value)| (key.clone(), value.as_str().into())).collect();
     let json = json!({
         "brinell": brinell::VERSION,
+        "kernel": Kernel::chosen().map_or("", Kernel::name),
         "plan": points.header()["plan"],
         "warnings": warnings,
         "points": { "complete": count("complete"), "failed": count("failed"), "not_run": count("not run") },

@@ -179,6 +179,34 @@ fn regress_another_campaign_another_version_and_damage_are_found() {
 }
 
 #[test]
+fn prop_a_description_that_is_cut_short_is_reported_with_its_remedy() {
+    let folder = folder_with(PLAN);
+    let at = |name: &str| folder.path().join("out").join(name);
+    let again = |name: &str| format!("remove {name}, and the plan's own command");
+    make(folder.path(), &["-o", "out", "-q"]).exits(0);
+    for name in ["dataset.json", "work/campaign.json"] {
+        let whole = fs::read(at(name)).unwrap();
+        fs::write(at(name), &whole[..whole.len() / 2]).unwrap();
+        brinell(folder.path(), &["dataset", "verify", "out"])
+            .exits(1)
+            .says(&["3 of 3 files sound"])
+            .complains(&["damaged (EOF", &again(name)]);
+        if name == "work/campaign.json" {
+            make(folder.path(), &["-o", "out", "-q"]).exits(2).complains(&["damaged (EOF", &again(name)]);
+        }
+        fs::remove_file(at(name)).unwrap();
+        make(folder.path(), &["-o", "out", "-q"]).exits(0);
+        assert!(fs::read(at(name)).unwrap() == whole, "{name}");
+        brinell(folder.path(), &["dataset", "verify", "out"]).exits(0);
+    }
+    for name in ["dataset.json", "work/campaign.json"] {
+        fs::write(at(name), "{").unwrap();
+    }
+    brinell(folder.path(), &["dataset", "verify", "out"]).exits(2).complains(&[&again("dataset.json")]);
+    brinell(folder.path(), &["dataset", "verify", "plan.toml"]).exits(2).complains(&["plan.toml: no data set is here"]);
+}
+
+#[test]
 fn regress_a_dry_run_tells_and_writes_nothing() {
     let folder = folder_with(PLAN);
     make(folder.path(), &["--dry-run", "--shard", "1/2"]).exits(0).says(&[

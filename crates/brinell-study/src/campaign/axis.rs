@@ -2,13 +2,15 @@
 //! `operation.speed_rpm=1000:5000:500` or `bearing.radial_clearance_um=5,10,20`.
 
 use super::error::{MOST_POINTS, PlanError};
+use brinell::document::reading::text_in_unit_of;
 use std::collections::HashSet;
 
 /// Settings that are tried one after the other.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Axis {
     keys: Vec<String>,
-    /// Setting after setting, a value for each key: TOML, a bare word being a string.
+    /// Setting after setting, a value for each key: TOML, a bare word being a string; quantities as numbers in the
+    /// key's unit.
     settings: Vec<Vec<String>>,
 }
 
@@ -54,11 +56,12 @@ impl Axis {
         Self::new(parts.iter().map(|part| part.0.clone()).collect(), settings)
     }
 
-    /// Of keys and their settings: each has a value for each key.
+    /// Of keys and their settings: each has a value for each key. A value with a unit of its own becomes a number in
+    /// the key's.
     ///
     /// # Errors
     /// Where a setting has not as many values as there are keys, or one comes twice.
-    pub fn new(keys: Vec<String>, settings: Vec<Vec<String>>) -> Result<Self, PlanError> {
+    pub fn new(keys: Vec<String>, mut settings: Vec<Vec<String>>) -> Result<Self, PlanError> {
         let joined = keys.join(", ");
         let wrong = |setting: &[String], why: &str| PlanError::Value {
             key: joined.clone(),
@@ -70,12 +73,20 @@ impl Axis {
             return Err(wrong(&[], "there is no value"));
         }
         let mut seen = HashSet::new();
-        for setting in &settings {
+        for setting in &mut settings {
             if setting.len() != keys.len() {
                 return Err(wrong(setting, "not a value for each key"));
             }
-            if !seen.insert(setting) {
-                return Err(wrong(setting, "comes twice"));
+            let given = setting.clone();
+            for (key, value) in keys.iter().zip(&mut *setting) {
+                if let Some(number) = text_in_unit_of(key, value) {
+                    *value = number;
+                }
+            }
+            // Numbers by what they mean: 1200 and 20 Hz are one speed.
+            let meant = |value: &String| parsed(value).map_or_else(|| value.clone(), |x| format!("{x:?}"));
+            if !seen.insert(setting.iter().map(meant).collect::<Vec<_>>()) {
+                return Err(wrong(&given, "comes twice"));
             }
         }
         Ok(Self { keys, settings })
@@ -253,6 +264,15 @@ mod tests {
         ] {
             assert_eq!(values(text), expected, "{text}");
         }
+    }
+
+    #[test]
+    fn prop_values_with_a_unit_become_numbers_in_the_keys() {
+        assert_eq!(values("operation.speed_rpm=20 Hz,'30 Hz',1500"), ["1200.0", "1800.0", "1500"]);
+        assert_eq!(values("operation.load_n=[0,\"2 kN\"],[100,0]"), ["[0, 2000.0]", "[100,0]"]);
+        assert_eq!(values("operation.speed_rpm=20 mm"), ["20 mm"], "the reader refuses it");
+        let twice = Axis::vary("operation.speed_rpm=1200,20 Hz").unwrap_err().to_string();
+        assert!(twice.contains("operation.speed_rpm = 20 Hz: comes twice"), "{twice}");
     }
 
     #[test]

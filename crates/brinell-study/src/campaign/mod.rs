@@ -11,6 +11,7 @@ mod beforehand;
 mod columns;
 mod compare;
 mod error;
+mod kernel;
 mod plan;
 mod row;
 mod run;
@@ -25,6 +26,7 @@ pub use beforehand::{BALANCED, BANDWIDTHS, Beforehand, Known, Misses, bandwidth,
 pub use columns::{NumberColumn, columns};
 pub use compare::{Compared, compare};
 pub use error::PlanError;
+pub(crate) use kernel::{DIFFER, kernel, other_kernel};
 pub use plan::Plan;
 pub(crate) use plan::{INSIDE, clash};
 #[doc(hidden)]

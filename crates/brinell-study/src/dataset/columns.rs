@@ -179,7 +179,7 @@ const TRUTH: [Fixed; 55] = [
     })),
     ("roller_largest_outer_force_n", "N", "of each roller, row by row: largest force of its outer contact",
         Numbers(|r| Some(r.gathered()?.outer.iter().map(|(_, most)| *most).collect()))),
-    ("load_zone_mean_n", "N", "mean outer contact force by 5 deg from +x, counter-clockwise, row after row",
+    ("load_zone_mean_n", "N", "mean outer contact force by 5 deg from +x, counter-clockwise, row after row: of the times at which a roller is there; 0 where none comes by",
         Numbers(|r| Some(r.gathered()?.load_zone.rows.iter().flat_map(|z| z.mean()).collect()))),
     ("load_zone_largest_n", "N", "largest outer contact force, likewise",
         Numbers(|r| Some(r.gathered()?.load_zone.rows.iter().flat_map(|z| z.max.clone()).collect()))),

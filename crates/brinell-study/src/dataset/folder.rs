@@ -1,5 +1,6 @@
 //! What lies where in a data set's folder, and whose folder it is.
 
+use crate::campaign::other_kernel;
 use crate::dataset::error::DatasetError;
 use brinell_io::{IoError, Metadata, RecordFacts, atomic_write, lock, record_facts, sha256_of};
 use serde_json::{Value, json};
@@ -97,8 +98,7 @@ impl Folder {
     pub(crate) fn described(&self) -> Result<Value, DatasetError> {
         let path = self.sidecar();
         std::fs::read(&path).map_or(Ok(Value::Null), |bytes| {
-            serde_json::from_slice(&bytes)
-                .map_err(|error| DatasetError::Refused(format!("{}: {error}", path.display())))
+            serde_json::from_slice(&bytes).map_err(|error| self.unreadable(&path, &error))
         })
     }
 
@@ -115,15 +115,20 @@ impl Folder {
         let path = self.campaign();
         let bytes = match std::fs::read(&path) {
             Ok(bytes) => bytes,
-            Err(error) if error.kind() == std::io::ErrorKind::NotFound => return Ok(None),
+            // The name may be a file's.
+            Err(error) if matches!(error.kind(), ErrorKind::NotFound | ErrorKind::NotADirectory) => return Ok(None),
             Err(error) => return Err(DatasetError::Read { path, error }),
         };
-        match serde_json::from_slice(&bytes) {
-            Ok(about) => Ok(Some(about)),
-            Err(error) => {
-                Err(DatasetError::Refused(format!("{}: {error}; this is no file of a data set", path.display())))
-            }
-        }
+        serde_json::from_slice(&bytes).map(Some).map_err(|error| self.unreadable(&path, &error))
+    }
+
+    /// That a description is no JSON, and what mends it.
+    fn unreadable(&self, path: &Path, error: &serde_json::Error) -> DatasetError {
+        let name = path.strip_prefix(&self.root).unwrap_or(path).display();
+        DatasetError::Refused(format!(
+            "{}: damaged ({error}); remove {name}, and the plan's own command, with the same version and kernel, writes it again",
+            path.display()
+        ))
     }
 
     /// Whether two campaigns are the same, with words for what to do where they are not.
@@ -158,10 +163,7 @@ impl Folder {
         if let [Some(mine), Some(theirs)] = kernels
             && mine != theirs
         {
-            return Err(DatasetError::Refused(format!(
-                "{at} holds runs of the kernel {theirs}, and these are of {mine}: damaged runs differ wholly between kernels, as impacts amplify \
-                 round-off, so one data set has one kernel; set BRINELL_KERNEL={theirs} on every machine that makes it, or choose another folder"
-            )));
+            return Err(DatasetError::Refused(other_kernel(at, "data set", theirs, mine)));
         }
         Ok(())
     }

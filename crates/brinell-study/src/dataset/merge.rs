@@ -80,7 +80,7 @@ pub fn merge(from: &[PathBuf], into: &Path) -> Result<Merged, DatasetError> {
             match &there {
                 Some(mine) if *mine != theirs => {
                     return Err(DatasetError::Refused(format!(
-                        "{} and {} differ, and should be the same file: one of them is damaged, or was made on another kind of processor",
+                        "{} and {} differ, and should be the same file: one of them is damaged, or was made with another mathematics library",
                         target.part(part).display(),
                         folder.part(part).display()
                     )));

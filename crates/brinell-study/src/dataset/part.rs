@@ -1,5 +1,6 @@
 //! Finished runs to a file of the data set.
 
+use crate::campaign::kernel;
 use crate::dataset::campaign::Campaign;
 use crate::dataset::columns::DataColumn;
 use crate::dataset::error::DatasetError;
@@ -7,7 +8,6 @@ use crate::dataset::folder::{CAMPAIGN, FAILED, Folder, KERNEL, NAME, PART, TALLY
 use crate::dataset::row::is_failed;
 use crate::dataset::tally::{Places, Tally};
 use crate::design::Part;
-use brinell::kernel::Kernel;
 use brinell_io::{Cell, Metadata, RecordColumn, RecordWriter, Written, keys, read_row_file};
 use serde_json::{Map, Value, json};
 
@@ -66,11 +66,6 @@ fn metadata(campaign: &Campaign, columns: &[&DataColumn], part: usize, failed: u
         Value::Null => metadata,
         tally => metadata.with(TALLY, tally.to_string()),
     }
-}
-
-/// Name of the instructions that this process computes with.
-pub(crate) fn kernel() -> &'static str {
-    Kernel::chosen().map_or("", Kernel::name)
 }
 
 /// Writes file `part` from its finished runs; `None` where one of them is not there, or not whole.

@@ -1,11 +1,10 @@
 //! `dataset.json`: what the files are, for those who have nothing but the folder.
 
-use crate::campaign::digest;
+use crate::campaign::{digest, kernel};
 use crate::dataset::campaign::Campaign;
 use crate::dataset::card;
 use crate::dataset::error::DatasetError;
 use crate::dataset::folder::{Folder, KERNEL_OF, SECRET_PATH, file_name, make, put, written};
-use crate::dataset::part::kernel;
 use crate::dataset::tally::{COUNTED, Tally};
 use crate::design::Part;
 use brinell::document::{Origin, Provenance};

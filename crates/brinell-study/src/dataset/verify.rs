@@ -1,5 +1,6 @@
 //! A data set's folder compared with what it says of itself.
 
+use crate::campaign::DIFFER;
 use crate::dataset::card::CROISSANT;
 use crate::dataset::error::DatasetError;
 use crate::dataset::folder::{CAMPAIGN, Folder, KERNEL, KERNEL_OF, PART, SECRET_PATH, file_name, number_of};
@@ -32,13 +33,20 @@ pub struct Verified {
 /// Where there is no data set, or it cannot be read at all.
 pub fn verify(path: impl AsRef<Path>) -> Result<Verified, DatasetError> {
     let folder = Folder::new(path.as_ref());
-    let sidecar = folder.described()?;
-    let about = match folder.about()? {
-        Some(about) => about,
-        None if sidecar.is_object() => sidecar.clone(),
-        None => return Err(folder.no_data_set()),
+    let (sidecar, about) = (folder.described(), folder.about());
+    // Of a description that is damaged the other one tells what it is of.
+    let problems = [sidecar.as_ref().err(), about.as_ref().err()].into_iter().flatten().map(ToString::to_string);
+    let problems: Vec<String> = problems.collect();
+    let (sidecar, about) = match (sidecar, about) {
+        (sidecar, Ok(Some(about))) => (sidecar.ok(), about),
+        (Ok(sidecar), _) if sidecar.is_object() => (Some(sidecar.clone()), sidecar),
+        (Err(error), _) | (_, Err(error)) => return Err(error),
+        (Ok(_), Ok(None)) => return Err(folder.no_data_set()),
     };
+    let is_damaged = sidecar.is_none();
+    let sidecar = sidecar.unwrap_or_default();
     let mut found = Verified {
+        problems,
         of: match sidecar["files"].as_array() {
             Some(listed) => listed.len(),
             None => about["files"].as_u64().unwrap_or(0) as usize,
@@ -46,7 +54,9 @@ pub fn verify(path: impl AsRef<Path>) -> Result<Verified, DatasetError> {
         ..Verified::default()
     };
     let set = Set { folder: &folder, sidecar: &sidecar, about: &about };
-    set.sidecar(&mut found);
+    if !is_damaged {
+        set.sidecar(&mut found);
+    }
     set.files(&mut found)?;
     set.strangers(&mut found)?;
     set.card(&mut found)?;
@@ -127,9 +137,7 @@ impl Set<'_> {
         say(theirs != version, &other);
         let theirs = get(KERNEL).unwrap_or("?");
         let ours = kernel.get_or_insert_with(|| theirs.to_owned());
-        let mixed = format!(
-            "computed with the kernel {theirs}, the data set with {ours}: damaged runs differ wholly between kernels"
-        );
+        let mixed = format!("computed with the kernel {theirs}, the data set with {ours}: {DIFFER}");
         say(theirs != ours, &mixed);
         let other_part = get(PART) != Some(part.to_string().as_str());
         say(other_part, "another file under this name");

@@ -1,8 +1,9 @@
 //! Distributions of a key's values: from a place in the unit interval to a value.
 
 use crate::campaign::{Axis, PlanError};
-use brinell::document::reading::{Misfit, Node, Toml};
+use brinell::document::reading::{Misfit, Node, Toml, comparable, in_unit_of};
 use brinell::signal::distribution::{normal_quantile, normal_tail};
+use std::collections::HashMap;
 
 /// Significant digits of a drawn number: finer ones mean nothing, and the last bit of a logarithm is not the same on
 /// every machine.
@@ -97,8 +98,8 @@ pub(super) const KINDS: [&str; 6] = ["uniform", "log", "normal", "whole", "choic
 
 impl Distribution {
     /// Reads a table that has one of the distributions' names as its key; `None` where it has none: it is no
-    /// distribution.
-    pub(super) fn read(node: &Node) -> Option<Result<Self, Misfit>> {
+    /// distribution. `key` is whose values they are: quantities become numbers in its unit.
+    pub(super) fn read(key: &str, node: &Node) -> Option<Result<Self, Misfit>> {
         let Toml::Table(table) = &node.value else {
             return None;
         };
@@ -123,10 +124,15 @@ impl Distribution {
             return Some(Err(Misfit::new(message, allowed).in_element(node)));
         }
         let get = |name: &str| table.get(name).map(|entry| &entry.node);
+        let get = (key, get);
         Some(Self::of_kind(kind, &table[kind].node, get).map_err(|m| m.in_element(node)))
     }
 
-    fn of_kind<'a>(kind: &str, node: &Node, get: impl Fn(&str) -> Option<&'a Node>) -> Result<Self, Misfit> {
+    fn of_kind<'a>(
+        kind: &str,
+        node: &Node,
+        (key, get): (&str, impl Fn(&str) -> Option<&'a Node>),
+    ) -> Result<Self, Misfit> {
         Ok(match kind {
             "uniform" => {
                 let (low, high) = ends(kind, node)?;
@@ -151,8 +157,8 @@ impl Distribution {
                 }
                 Self::Whole { low: low as i64, high: high as i64 }
             }
-            "grid" => Self::Grid { values: grid(node)? },
-            _ => Self::choice(kind, node, get)?,
+            "grid" => Self::Grid { values: grid(key, node)? },
+            _ => Self::choice(key, node, get)?,
         })
     }
 
@@ -179,8 +185,8 @@ impl Distribution {
     }
 
     /// Values with their weights.
-    fn choice<'a>(kind: &str, node: &Node, get: impl Fn(&str) -> Option<&'a Node>) -> Result<Self, Misfit> {
-        let values = values(kind, node)?;
+    fn choice<'a>(key: &str, node: &Node, get: impl Fn(&str) -> Option<&'a Node>) -> Result<Self, Misfit> {
+        let values = values("choice", key, node)?;
         let weights = match get("weights") {
             None => vec![1.0; values.len()],
             Some(node) => numbers("weights = [...], one for each value of choice", node)?,
@@ -280,19 +286,30 @@ fn ends(name: &str, node: &Node) -> Result<(f64, f64), Misfit> {
     Err(Misfit::new(why, what))
 }
 
-fn values(name: &str, node: &Node) -> Result<Vec<Value>, Misfit> {
+/// Values that mean the same are written the same, so that they are one condition.
+fn values(name: &str, key: &str, node: &Node) -> Result<Vec<Value>, Misfit> {
     match &node.value {
-        Toml::Array(items) if !items.is_empty() => Ok(items.iter().map(Value::of).collect()),
+        Toml::Array(items) if !items.is_empty() => {
+            let mut first = HashMap::new();
+            let value = |item: &Node| {
+                let item = in_unit_of(key, item);
+                first.entry(comparable(&item)).or_insert_with(|| Value::of(&item)).clone()
+            };
+            Ok(items.iter().map(value).collect())
+        }
         _ => Err(Misfit::new("expected a list of values", format!("{name} = [...] with one value or more"))),
     }
 }
 
 /// A list, or a range as a sweep has it.
-fn grid(node: &Node) -> Result<Vec<Value>, Misfit> {
+fn grid(key: &str, node: &Node) -> Result<Vec<Value>, Misfit> {
     let Toml::Text(text) = &node.value else {
-        return values("grid", node);
+        return values("grid", key, node);
     };
-    let axis = Axis::vary(&format!("grid={text}"));
+    // Only its unit counts here, and a quoted key may be anything.
+    let name = key.rsplit('.').next().filter(|name| !name.is_empty());
+    let plain = |name: &&str| name.bytes().all(|b| b.is_ascii_alphanumeric() || b == b'_');
+    let axis = Axis::vary(&format!("{}={text}", name.filter(plain).unwrap_or("grid")));
     let axis = axis.map_err(|error| {
         let why = match error {
             PlanError::Value { why, .. } => why,

@@ -184,8 +184,29 @@ impl Draws {
         };
         let classes = self.plan.classes.iter().zip(&self.classes);
         let splits = self.splits();
-        let lacks = splits.iter().filter_map(|split| self.lacks(split));
-        classes.filter_map(uneven).chain(self.lonely()).chain(lacks).collect()
+        let lacks = splits.iter().flat_map(|split| self.lacks(split));
+        let notes = self.without_runs().chain(self.idle_secret());
+        notes.chain(classes.filter_map(uneven)).chain(self.lonely()).chain(lacks).collect()
+    }
+
+    /// That a class has a share and no run.
+    fn without_runs(&self) -> impl Iterator<Item = String> {
+        let classes = self.plan.classes.iter().zip(&self.classes);
+        let empty = classes.filter(|(class, drawn)| class.share > 0.0 && drawn.runs == 0);
+        empty.map(|(class, _)| {
+            let (share, runs) = (class.share, self.runs());
+            format!("class {:?} has no run: its share, {share}, is too small for {runs} runs", class.name)
+        })
+    }
+
+    /// That a secret decides nothing.
+    fn idle_secret(&self) -> Option<String> {
+        let is_idle = !self.plan.secret.is_empty() && !self.plan.holds_out();
+        is_idle.then(|| {
+            "secret is given and held_out is 0: no labels are held out, and dataset.json shows the plan with its secret \
+             (held_out = 0.2 holds out a fifth of them)"
+                .to_owned()
+        })
     }
 
     /// That most groups are single runs, so that a test run has near neighbours in the training.
@@ -200,17 +221,31 @@ impl Draws {
         })
     }
 
-    /// That a split lacks classes which have runs.
-    fn lacks(&self, (part, runs): &(Part, Vec<usize>)) -> Option<String> {
+    /// That a split lacks classes which have runs; those of which the severities held out are all runs apart, as no
+    /// other remedy helps there.
+    fn lacks(&self, (part, runs): &(Part, Vec<usize>)) -> Vec<String> {
         let absent = (0..runs.len()).filter(|class| runs[*class] == 0 && self.open_runs_of(*class) > 0);
-        let names: Vec<String> = absent.map(|class| format!("{:?}", self.plan.classes[class].name)).collect();
-        (*part != Part::HeldOut && !names.is_empty()).then(|| {
-            format!(
-                "the split {} has no run of class {}: take more runs, or fewer keys in split.by ([] makes each run a group)",
-                part.word(),
-                names.join(", ")
-            )
-        })
+        let absent = absent.filter(|_| *part != Part::HeldOut);
+        let (severe, few): (Vec<usize>, Vec<usize>) = absent.partition(|class| self.is_severe(*class));
+        let remedies = [
+            (severe, "split.severity_range holds all of its runs, which are for the test: take a narrower range"),
+            (few, "take more runs, or fewer keys in split.by ([] makes each run a group)"),
+        ];
+        let noted = remedies.into_iter().filter(|(classes, _)| !classes.is_empty()).map(|(classes, remedy)| {
+            let names: Vec<String> =
+                classes.iter().map(|class| format!("{:?}", self.plan.classes[*class].name)).collect();
+            format!("the split {} has no run of class {}: {remedy}", part.word(), names.join(", "))
+        });
+        noted.collect()
+    }
+
+    /// Whether every open run of a class has a severity that is for the test alone.
+    fn is_severe(&self, class: usize) -> bool {
+        let Some(severity) = self.plan.split.as_ref().and_then(|split| split.severity.as_ref()) else {
+            return false;
+        };
+        let mut open = (0..self.runs()).filter(|run| self.class(*run) == class && !self.is_held_out(*run));
+        open.all(|run| severity.holds(&self.numbers(run, &severity.keys)))
     }
 
     /// Bits that belong to a run and words: of the secret where its labels are held out, and of nothing else then.

@@ -123,6 +123,14 @@ pub struct Plan {
     pub classes: Vec<Class>,
 }
 
+impl HeldSeverity {
+    /// Whether any of a run's values lies in the range.
+    pub(super) fn holds(&self, values: &[f64]) -> bool {
+        let [low, high] = self.range;
+        values.iter().any(|x| (low..=high).contains(x))
+    }
+}
+
 impl Plan {
     pub(super) fn blank() -> Self {
         Self {

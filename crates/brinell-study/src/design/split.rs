@@ -145,11 +145,9 @@ fn hold_out(
     if !problems.is_empty() {
         return Err(problems);
     }
-    let [low, high] = severity.range;
     let mut found = 0;
     for (run, part) in parts.iter_mut().enumerate() {
-        let values = numbers(run, &severity.keys);
-        if *part != Part::HeldOut && values.iter().any(|x| (low..=high).contains(x)) {
+        if *part != Part::HeldOut && severity.holds(&numbers(run, &severity.keys)) {
             *part = Part::Test;
             found += 1;
         }
@@ -159,6 +157,7 @@ fn hold_out(
         (_, false) => "the range leaves no run to train with",
         (_, true) => return Ok(()),
     };
+    let [low, high] = severity.range;
     let problem = Problem::error("split.severity_range", message.to_owned());
     Err(vec![problem.value(format!("[{low:?}, {high:?}]")).allowed("a range of some of the runs")])
 }

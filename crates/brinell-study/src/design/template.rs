@@ -24,8 +24,9 @@ impl Template {
         Self::Table(BTreeMap::new())
     }
 
-    fn of(node: &Node) -> Result<Self, Misfit> {
-        if let Some(distribution) = Distribution::read(node) {
+    /// Of the value of `key`, or of an element of it.
+    fn of(key: &str, node: &Node) -> Result<Self, Misfit> {
+        if let Some(distribution) = Distribution::read(key, node) {
             return distribution.map(Self::Drawn);
         }
         Ok(match &node.value {
@@ -33,12 +34,12 @@ impl Template {
                 let items = items
                     .iter()
                     .enumerate()
-                    .map(|(k, item)| Self::of(item).map_err(|misfit| misfit.under(&k.to_string())));
+                    .map(|(k, item)| Self::of(key, item).map_err(|misfit| misfit.under(&k.to_string())));
                 Self::List(items.collect::<Result<_, _>>()?)
             }
             Toml::Table(table) => {
                 let pairs = table.iter().map(|(name, entry)| {
-                    let inner = Self::of(&entry.node).map_err(|misfit| misfit.under(name))?;
+                    let inner = Self::of(name, &entry.node).map_err(|misfit| misfit.under(name))?;
                     Ok((name.clone(), inner))
                 });
                 Self::Table(pairs.collect::<Result<_, _>>()?)
@@ -131,7 +132,7 @@ impl ValueType for Template {
     }
 
     fn read(node: &Node, _: &Spec) -> Result<Self, Misfit> {
-        Self::of(node)
+        Self::of("", node)
     }
 
     fn write(&self) -> String {

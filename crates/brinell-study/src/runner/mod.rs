@@ -17,6 +17,7 @@ pub use ledger::{Kept, Ledger};
 pub use recorder::Recorder;
 pub use run::{Beside, Task, Work, run, to_run};
 
+use crate::campaign::other_kernel;
 use brinell_io::IoError;
 use serde_json::Value;
 
@@ -26,6 +27,16 @@ pub enum RunnerError {
     /// The folder's journal is of something else: what its head says, or null.
     #[error("the folder holds the journal of something else")]
     OtherCampaign(Value),
+    /// Another kernel computed the folder's finished points.
+    #[error("{}", other_kernel("the folder", .one, .theirs, .mine))]
+    OtherKernel {
+        /// What the folder holds.
+        one: &'static str,
+        /// The kernel of its points.
+        theirs: String,
+        /// The kernel of this process.
+        mine: &'static str,
+    },
     /// A scenario is no longer what it was.
     #[error(
         "a file of the scenario changed since the campaign began; the same command begins anew with what it holds now"

@@ -1,6 +1,6 @@
 //! The parts of a data set: training, validation and test.
 
-use super::{PLAN, draws, number, numbers, refusals};
+use super::{PLAN, SECRET, draws, number, numbers, refusals};
 use brinell_study::design::{Draws, Part};
 
 #[test]
@@ -76,6 +76,60 @@ fn prop_runs_are_counted_by_split_and_class_and_a_split_without_a_class_is_noted
         assert!(by != "[]" || splits[1].1.contains(&0));
     }
     assert!(draws(PLAN).notes().is_empty());
+}
+
+#[test]
+fn prop_values_with_a_unit_are_the_same_conditions_as_their_numbers() {
+    let speeds = "{ choice = [\"30 Hz\", 1800, \"20 Hz\", 1200.0, \"1200 r/min\", 900] }";
+    let plan = PLAN
+        .replace("runs = 60", "runs = 300")
+        .replace("{ uniform = [1000, 3000] }", speeds)
+        .replace("{ log = [1, 100] }", "{ choice = [\"0.02 mm\", 5] }")
+        .replace(
+            "[vary]",
+            "[split]\ntest = 0.3\nby = [\"operation.speed_rpm\"]\nseverity = [\"defects.0.depth_um\"]\nseverity_range = [19, 21]\n[vary]",
+        );
+    let draws = draws(&plan);
+    let numeric = |key: &str| draws.parameters().iter().find(|p| p.key == key).unwrap().numeric;
+    assert!(numeric("operation.speed_rpm") && numeric("defects.0.depth_um"));
+    let mut of_speed = std::collections::HashMap::new();
+    for run in 0..300 {
+        let depth = number(&draws, run, "defects.0.depth_um");
+        assert!(depth.is_none_or(|depth| [20.0, 5.0].contains(&depth)));
+        if depth == Some(20.0) {
+            assert_eq!(draws.part(run), Part::Test);
+            continue;
+        }
+        let speed = number(&draws, run, "operation.speed_rpm").unwrap();
+        assert_eq!(*of_speed.entry(speed as i64).or_insert(draws.part(run)), draws.part(run), "run {run}: {speed}");
+    }
+    let mut speeds: Vec<i64> = of_speed.into_keys().collect();
+    speeds.sort_unstable();
+    assert_eq!(speeds, [900, 1200, 1800]);
+    // A list as a sweep has it.
+    let grid = PLAN.replace("{ uniform = [1000, 3000] }", "{ grid = \"20 Hz,1500:1800:300\" }");
+    let mut speeds = numbers(&self::draws(&grid), "operation.speed_rpm");
+    speeds.sort_by(f64::total_cmp);
+    speeds.dedup();
+    assert_eq!(speeds, [1200.0, 1500.0, 1800.0]);
+}
+
+#[test]
+fn prop_what_a_plan_says_in_vain_is_noted() {
+    let noted = |plan: &str, words: &str| {
+        let notes = draws(plan).notes();
+        assert!(notes.iter().any(|note| note.contains(words)), "{words}: {notes:?}");
+    };
+    noted(
+        &PLAN.replace("share = 2", "share = 0.001"),
+        "class \"outer\" has no run: its share, 0.001, is too small for 60 runs",
+    );
+    noted(&format!("{SECRET}\n{PLAN}"), "secret is given and held_out is 0");
+    let split = "[split]\ntest = 0.2\nseverity = [\"defects.0.depth_um\"]\nseverity_range = [1, 100]\n[vary]";
+    noted(
+        &PLAN.replace("[vary]", split),
+        "the split train has no run of class \"outer\": split.severity_range holds all of its runs",
+    );
 }
 
 #[test]

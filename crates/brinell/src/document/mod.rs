@@ -10,6 +10,7 @@ mod damage_files;
 mod diagnostics;
 mod enum_strings;
 mod example;
+mod in_unit;
 mod keys;
 mod known_keys;
 mod load;
@@ -57,6 +58,7 @@ pub use toml_text::{float as toml_float, quote as toml_quote};
 #[doc(hidden)]
 pub mod reading {
     pub use super::checks::Finder;
+    pub use super::in_unit::{comparable, in_unit_of, text_in_unit_of};
     pub use super::keys::{Case, Fallback, Keys, Variant, stated};
     pub use super::quantity::read as quantity;
     pub use super::reader::Reader;

@@ -92,6 +92,12 @@ pub(super) fn examples(unit: &str) -> Vec<&'static str> {
     names.filter(|name| *name != unit).collect()
 }
 
+/// The number of a string where a key is in `wanted`; `None` where no quantity is expected there or the text begins with
+/// no number.
+pub(super) fn converted(text: &str, wanted: &str) -> Option<Result<f64, String>> {
+    (begins(text) && is_convertible(wanted)).then(|| read(text, wanted))
+}
+
 /// Whether a text may be a quantity: a number is first.
 pub(super) fn begins(text: &str) -> bool {
     let text = text.trim();

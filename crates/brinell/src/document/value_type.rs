@@ -151,9 +151,10 @@ impl ValueType for f64 {
             Value::HugeInteger(_) => {
                 return Err(Misfit::new("number too large", spec.range.to_string()));
             }
-            Value::Text(text) if quantity::begins(text) && quantity::is_convertible(spec.unit) => {
-                quantity::read(text, spec.unit).map_err(|words| not_a_quantity(words, spec))?
-            }
+            Value::Text(text) => match quantity::converted(text, spec.unit) {
+                Some(number) => number.map_err(|words| not_a_quantity(words, spec))?,
+                None => return Err(wrong_type::<f64>(node, spec)),
+            },
             _ => return Err(wrong_type::<f64>(node, spec)),
         };
         if spec.range.contains(x) { Ok(x) } else { Err(out_of_range(x, spec)) }
