@@ -104,7 +104,7 @@ pub use sensor::SensorView;
 #[doc(hidden)]
 pub use sheet::sheet_html;
 #[doc(hidden)]
-pub use side_by_side::{beforehand, compared_headline, doubts};
+pub use side_by_side::{Headline, beforehand, compared_headline, doubts};
 pub use slip::SlipRow;
 #[doc(hidden)]
 pub use slip::slip_over_time;
