@@ -81,7 +81,8 @@ fn prop_runs_whose_loads_lie_along_different_axes_are_compared_along_their_loads
     fs::write(folder.path().join("down.toml"), down).unwrap();
     let call = brinell(folder.path(), &typed("compare right.toml down.toml -o out --plots svg")).exits(0);
     assert!(!call.out.contains("sensor_ax.rms"), "{}", call.out);
-    call.says(&["sensor.rms along the load (sensor_ay over sensor_ax): "])
+    let call = call
+        .says(&["sensor.rms along the load (sensor_ay over sensor_ax): "])
         .complains(&["the loads point along different axes"]);
     let page = fs::read_to_string(folder.path().join("out/compare.html")).unwrap();
     for part in ["right (sensor_ax)", "down (sensor_ay)", "RMS of the sensor along each run’s load"] {
@@ -100,6 +101,20 @@ fn prop_runs_whose_loads_lie_along_different_axes_are_compared_along_their_loads
         .filter(|head| head.contains("Sensor acceleration"))
         .collect();
     assert!(heads.iter().any(|head| head.contains("down (sensor_ay)")), "{heads:?}");
+}
+
+#[test]
+fn prop_the_folder_of_a_run_stands_for_its_scenario() {
+    let folder = folder();
+    brinell(folder.path(), &typed("run simple.toml --no-report --no-healthy --signals none -q -o runs/simple.1"))
+        .exits(0);
+    brinell(folder.path(), &typed("compare actual.toml runs/simple.1 -q -o out")).exits(0);
+    let of_folder = json(&folder.path().join("out/compare.json"));
+    brinell(folder.path(), &typed("compare actual.toml simple.toml -q -o file")).exits(0);
+    let of_file = json(&folder.path().join("file/compare.json"));
+    let value = |json: &serde_json::Value, run: &str| json["quantities"]["sensor_ax.rms"]["runs"][run]["value"].clone();
+    assert!(value(&of_file, "simple").is_number());
+    assert_eq!(value(&of_folder, "simple.1"), value(&of_file, "simple"));
 }
 
 #[test]
@@ -178,5 +193,7 @@ fn regress_what_cannot_be_compared() {
     }
     call(&["--variant", "x:name=a; name=b"]).complains(&["name is set twice"]);
     call(&["none.toml"]).complains(&["cannot read none.toml"]);
+    fs::create_dir(folder.path().join("empty")).unwrap();
+    call(&["empty"]).complains(&["cannot read empty/scenario.toml"]);
     assert!(!folder.path().join("out").exists());
 }

@@ -23,7 +23,7 @@ use std::path::PathBuf;
     brinell compare base.toml --variant 'sliced:contact.law=sliced; contact.roller_path=envelope' --variant tight:simulation.accuracy=reference"
 )]
 pub(crate) struct CompareArgs {
-    /// The scenarios (TOML), the first of them the baseline
+    /// The scenarios (TOML), or folders with the results of runs, the first of them the baseline
     #[arg(required = true, value_name = "SCENARIO")]
     pub(crate) scenarios: Vec<PathBuf>,
     /// The baseline with some keys changed, under a name
