@@ -405,6 +405,5 @@ pub(crate) fn jobs(text: &str) -> Result<NonZeroUsize, String> {
 
 /// Rolling elements in a row.
 fn rollers(text: &str) -> Result<usize, String> {
-    let number = text.trim().parse().ok().filter(|z| *z >= 3);
-    number.ok_or("expected a whole number of rolling elements in a row, 3 or more, as 13".into())
+    text.trim().parse().map_err(|_| "expected a whole number of rolling elements in a row, 3 or more, as 13".into())
 }

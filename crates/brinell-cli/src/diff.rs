@@ -2,6 +2,7 @@
 
 use crate::failure::Failure;
 use crate::files;
+use crate::results::scenario_file;
 use crate::say::{self, one_line, say};
 use brinell::document::{Loaded, Origin, Provenance};
 use clap::Args;
@@ -48,7 +49,7 @@ pub(crate) fn diff(args: &DiffArgs) -> Result<ExitCode, Failure> {
 }
 
 fn read(path: &Path) -> Result<Loaded, Failure> {
-    files::scenario(&files::scenario_in(path), &[], true)
+    files::scenario(&scenario_file(path), &[], true)
 }
 
 /// A key that has not the same value in both; `None` where one has no such key.

@@ -2,7 +2,6 @@
 
 use crate::failure::{Failure, print_problems};
 use crate::inputs::Inputs;
-use crate::results::SCENARIO;
 use crate::say::{complain, one_line};
 use brinell::document::{Loaded, read_bytes};
 use brinell_damage::resolve_loaded;
@@ -121,11 +120,6 @@ pub(crate) fn stem(path: &Path) -> String {
     }
     let stem = path.file_stem().unwrap_or(path.as_os_str());
     stem.to_string_lossy().into_owned()
-}
-
-/// A scenario file as it is; of a folder with the results of a run, the one in it.
-pub(crate) fn scenario_in(path: &Path) -> PathBuf {
-    if path.is_dir() { path.join(SCENARIO) } else { path.to_owned() }
 }
 
 /// `-` is standard input.

@@ -301,8 +301,8 @@ fn regress_uneven_times_are_reported_with_their_worst_step() {
     let why = "its steps are uneven (0.50008 after 3000 values, where 8.3";
     call(&[]).exits(2).complains(&["no sample rate follows from `time [s]`", why]);
     call(&[]).complains(&[
-        "; that step is from line 3001 (`time` 0.249917; `acc` ",
-        ") to line 3002 (`time` 0.750000; `acc` ",
+        "; that step is from line 3001 (`time [s]` 0.249917; `acc [g]` ",
+        ") to line 3002 (`time [s]` 0.750000; `acc [g]` ",
     ]);
     call(&["--rate", "12000"])
         .exits(0)

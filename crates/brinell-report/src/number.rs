@@ -260,6 +260,15 @@ mod tests {
     use super::*;
 
     #[test]
+    fn prop_a_value_is_as_fine_as_its_uncertainty() {
+        for (value, uncertainty, digits) in
+            [(107.64, 8.9e-5, 9), (24.842, 0.42, 4), (30.0, 1.0, 3), (3.0, 300.0, 2), (0.0, 1.0, 2), (1.0, 0.0, 2)]
+        {
+            assert_eq!(digits_beside(value, uncertainty), digits, "{value} {uncertainty}");
+        }
+    }
+
+    #[test]
     fn regress_numbers_read_well() {
         for (value, text) in [
             (250.102, "250.1"),

@@ -120,7 +120,9 @@ fn read(args: &CalibrateArgs) -> Result<(Source, Arc<Plan>, Vec<String>), Failur
     for (key, value) in source.overrides() {
         let hides =
             |fitted: &&Key| key.strip_prefix(&fitted.name).is_some_and(|rest| rest.is_empty() || rest.starts_with('.'));
-        if let Some(fitted) = keys.iter().find(hides) {
+        // The speed that a measured signal is looked at with, where it is fitted.
+        let is_of_signal = args.measured.is_some() && key == "operation.speed_rpm";
+        if let Some(fitted) = keys.iter().find(hides).filter(|_| !is_of_signal) {
             return Err(Failure::Usage(format!(
                 "--set {key}={value}: every run gives {} another value, as --fit says; leave out the one or the other",
                 fitted.name

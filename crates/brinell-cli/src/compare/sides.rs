@@ -2,8 +2,9 @@
 
 use super::CompareArgs;
 use crate::failure::Failure;
-use crate::files::{Source, scenario_in, setting, stem};
+use crate::files::{Source, setting, stem};
 use crate::inputs::Inputs;
+use crate::results::scenario_file;
 use brinell_study::campaign::{Side, SidesError, check_labels, split};
 use std::path::Path;
 
@@ -19,7 +20,7 @@ pub(super) fn read(args: &CompareArgs, inputs: &mut Inputs) -> Result<Vec<Side>,
             SidesError::Twice(_) | SidesError::Columns(_) => format!("{error}: rename a file or a variant"),
         })
     })?;
-    let sources = args.scenarios.iter().map(|path| Source::open(&scenario_in(path), &args.set));
+    let sources = args.scenarios.iter().map(|path| Source::open(&scenario_file(path), &args.set));
     let sources = sources.collect::<Result<Vec<_>, _>>()?;
     let given = sources.iter().map(|source| (source, &[][..]));
     let changed = variants.iter().map(|(_, settings)| (&sources[0], &settings[..]));

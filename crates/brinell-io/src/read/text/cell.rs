@@ -26,3 +26,36 @@ pub(super) fn find(reader: &mut impl Read, layout: &Layout, field: usize, value:
     }
     None
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::layout::find as layout_of;
+    use super::*;
+
+    /// Blank lines and comments count as lines and not as values; what is no number counts as a value.
+    #[test]
+    fn prop_a_value_is_found_on_its_line() {
+        let mut text = String::from("t,a\n");
+        let mut expected = Vec::new();
+        for i in 0..40 {
+            if i % 7 == 3 {
+                text += "\n# a remark\n";
+            }
+            let cell = match i {
+                20 => "oops".to_owned(),
+                21 => String::new(),
+                22 => "NaN".into(),
+                _ => format!("{i}.5"),
+            };
+            text += &format!("{i},{cell}\r\n");
+            expected.push((text.matches('\n').count() as u64, cell));
+        }
+        let layout = layout_of(&text.as_bytes()[..100]).unwrap();
+        for (value, at) in expected.iter().enumerate() {
+            let mut reader = &text.as_bytes()[layout.start as usize..];
+            assert_eq!(find(&mut reader, &layout, 1, value as u64).as_ref(), Some(at));
+        }
+        let mut reader = &text.as_bytes()[layout.start as usize..];
+        assert_eq!(find(&mut reader, &layout, 1, expected.len() as u64), None);
+    }
+}
