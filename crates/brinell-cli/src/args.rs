@@ -47,7 +47,7 @@ pub(crate) struct RunArgs {
     #[arg(long = "set", value_name = "KEY=VALUE")]
     pub(crate) set: Vec<String>,
     /// Runs at a time, of several scenarios [default: one a core]
-    #[arg(short, long, value_name = "N")]
+    #[arg(short, long, value_name = "N", value_parser = jobs)]
     pub(crate) jobs: Option<NonZeroUsize>,
     /// Folder for the results [default: out/NAME, NAME being the scenario's; of several scenarios out, each in
     /// out/STEM]
@@ -168,7 +168,7 @@ pub(crate) struct FrequenciesArgs {
 #[derive(Debug, Args)]
 pub(crate) struct Elements {
     /// Rolling elements in a row
-    #[arg(long, value_name = "Z", conflicts_with = "bearing")]
+    #[arg(long, value_name = "Z", value_parser = rollers, conflicts_with = "bearing")]
     pub(crate) rollers: Option<usize>,
     /// Pitch diameter
     #[arg(
@@ -396,4 +396,14 @@ pub(crate) fn quantity(
         let plain = text.trim().parse().ok();
         plain.or_else(|| brinell::document::reading::quantity(text, unit).ok()).ok_or(format!("expected {expected}"))
     }
+}
+
+/// Runs at a time.
+pub(crate) fn jobs(text: &str) -> Result<NonZeroUsize, String> {
+    text.trim().parse().map_err(|_| "expected a whole number of runs at a time, 1 or more, as 4".into())
+}
+
+/// Rolling elements in a row.
+fn rollers(text: &str) -> Result<usize, String> {
+    text.trim().parse().map_err(|_| "expected a whole number of rolling elements in a row, 3 or more, as 13".into())
 }

@@ -2,7 +2,7 @@
 
 use crate::failure::Failure;
 use crate::files;
-use crate::results::SCENARIO;
+use crate::results::scenario_file;
 use crate::say::{self, one_line, say};
 use brinell::document::{Loaded, Origin, Provenance};
 use clap::Args;
@@ -49,11 +49,7 @@ pub(crate) fn diff(args: &DiffArgs) -> Result<ExitCode, Failure> {
 }
 
 fn read(path: &Path) -> Result<Loaded, Failure> {
-    let scenario = match path.is_dir() {
-        true => path.join(SCENARIO),
-        false => path.to_owned(),
-    };
-    files::scenario(&scenario, &[], true)
+    files::scenario(&scenario_file(path), &[], true)
 }
 
 /// A key that has not the same value in both; `None` where one has no such key.

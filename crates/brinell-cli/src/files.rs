@@ -159,6 +159,18 @@ pub(crate) fn make_folder(folder: &Path) -> Result<(), Failure> {
         ErrorKind::PermissionDenied | ErrorKind::ReadOnlyFilesystem => {
             IoError::NotPermitted { path: folder.to_owned(), source }.into()
         }
-        _ => Failure::Usage(format!("cannot make the folder {}: {source}", folder.display())),
+        _ => {
+            let above = folder.ancestors().find(|path| path.exists());
+            let why = match above.map(|path| (path, path.is_dir())) {
+                Some((file, false)) => format!("{} is a file", file.display()),
+                // Folders of the system, such as /proc.
+                Some((parent, true)) if source.kind() == ErrorKind::NotFound => {
+                    format!("{} takes no folder", parent.display())
+                }
+                _ => source.to_string(),
+            };
+            let shown = folder.display();
+            Failure::Usage(format!("cannot make the folder {shown}: {why}; give another folder with --output"))
+        }
     })
 }

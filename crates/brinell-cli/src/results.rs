@@ -29,6 +29,11 @@ pub(crate) const ANALYSIS: &str = "analysis.json";
 pub(crate) const COMPARISON: &str = "compare.json";
 pub(crate) const PREVIEW: &str = "preview.json";
 
+/// A scenario file as it is; of a folder with the results of a run, the one in it.
+pub(crate) fn scenario_file(path: &Path) -> PathBuf {
+    if path.is_dir() { path.join(SCENARIO) } else { path.to_owned() }
+}
+
 /// Whose results, and what they are.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct Results {

@@ -164,7 +164,10 @@ fn regress_files_that_are_no_signal() {
     for (file, parts) in [
         ("empty.csv", &["empty.csv: the file is empty"][..]),
         ("constant.csv", &["all 20000 samples are 1.5: a constant is no vibration"]),
-        ("holes.csv", &["2 of 24000 samples are missing or infinite, the first at sample 101"]),
+        (
+            "holes.csv",
+            &["2 of 24000 samples are missing or infinite, the first at sample 101", "on line 101 it is `NaN`"],
+        ),
         ("short.csv", &["0.1000 s are 3.00 revolutions", "it takes 0.2667 s or more"]),
         ("text.mat", &["named like MATLAB, but the content is text"]),
         ("two.csv", &["several channels may be the signal; choose one with --channel: a, b"]),
@@ -297,6 +300,10 @@ fn regress_uneven_times_are_reported_with_their_worst_step() {
     };
     let why = "its steps are uneven (0.50008 after 3000 values, where 8.3";
     call(&[]).exits(2).complains(&["no sample rate follows from `time [s]`", why]);
+    call(&[]).complains(&[
+        "; that step is from line 3001 (`time [s]` 0.249917; `acc [g]` ",
+        ") to line 3002 (`time [s]` 0.750000; `acc [g]` ",
+    ]);
     call(&["--rate", "12000"])
         .exits(0)
         .complains(&["warning: --rate 12000 Hz was taken, but the times in `time [s]` give no rate", why]);

@@ -70,6 +70,10 @@ fn regress_several_bearings_of_several_files_and_what_goes_with_one_only() {
     assert_eq!(told.out.matches("6203-2RS cannot tell, lines of 6205-2RS").count(), 2, "{}", told.out);
     let page = fs::read_to_string(folder.path().join("look/report.html")).unwrap();
     assert!(page.contains("6203-2RS BPFI") && page.contains("6205-2RS BPFO"));
+    let (_, verdicts) = page.split_once("<h2>Verdicts").unwrap();
+    for bearing in ["6203-2RS: ", "6205-2RS: "] {
+        assert_eq!(verdicts.matches(bearing).count(), 2, "{bearing}");
+    }
     let two = [&SIGNAL[..], &both[1..], &["--bpfo", "3.5x"]].concat();
     brinell(folder.path(), &two).exits(2).complains(&["--bearing: expected one bearing with --bpfo"]);
     let beside = ["--against", "y.csv", "--against-rate", "12kHz", "--against-unit", "g", "--json", "two.json"];

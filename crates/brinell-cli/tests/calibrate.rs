@@ -207,6 +207,16 @@ fn regress_bad_input_is_reported_with_key_value_and_range() {
     );
     refuse(&with(&["--measured", "nowhere.csv"]), &["nowhere.csv"]);
     refuse(&with(&["--rate", "25600", "--target", "sensor_ax.rms=30~1"]), &["give --measured FILE"]);
+    let target = ["--target", "sensor_ax.rms=30~1"];
+    let set = ["--set", "operation.speed_rpm=3000"];
+    refuse(&with(&[&target[..], &set].concat()), &["--set operation.speed_rpm=3000: every run gives", "as --fit says"]);
+    refuse(&with(&["--target", "sensor_ax.rms=-20~5%"]), &["sensor_ax.rms = -20.0", "allowed: 0 or more"]);
+    for percent in ["500", "-5"] {
+        refuse(&with(&[&target[..], &["--model-uncertainty", percent]].concat()), &["--measured <FILE|FOLDER>"]);
+    }
+    fs::write(folder.path().join("file"), "").unwrap();
+    refuse(&with(&[&target[..], &["-o", "file"]].concat()), &["cannot make the folder file: file is a file"]);
+    fs::remove_file(folder.path().join("file")).unwrap();
     fs::write(folder.path().join("rig.csv"), "t,a\n0,1\n0.001,2\n0.002,1\n0.003,3\n").unwrap();
     let rig = with(&["--measured", "rig.csv", "--channel", "a", "--unit", "m/s^2"]);
     let rated = [&rig[..], &["--rate", "1000"]].concat();
@@ -215,5 +225,8 @@ fn regress_bad_input_is_reported_with_key_value_and_range() {
     refuse(&unit, &["a calibration takes accelerations"]);
     assert!(files(folder.path()).len() == 2, "nothing is written");
     let plan = with(&["--target", "sensor_ax.rms=30~1", "--dry-run"]);
-    brinell(folder.path(), &call(&plan)).exits(0).says(&["1 key to 1 target", "up to 30 runs"]);
+    brinell(folder.path(), &call(&plan))
+        .exits(0)
+        .says(&["1 key to 1 target", "up to 30 runs"])
+        .says(&["  sensor_ax.rms = 30.0 ~ 1.0 m/s^2\n"]);
 }

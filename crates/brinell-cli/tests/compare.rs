@@ -42,7 +42,14 @@ fn regress_files_and_variants_come_side_by_side() {
     assert!(rms["ratios"].get("actual").is_none());
     assert!(json["scenarios"]["lumped"].as_str().unwrap().contains("model = \"lumped\""));
     let page = fs::read_to_string(out.join("compare.html")).unwrap();
-    for part in ["What differs", "simulation.model", "Entry and exit", "simple / actual"] {
+    for part in [
+        "What differs",
+        "simulation.model",
+        "Entry and exit",
+        "simple / actual",
+        "<td>instantaneous</td>",
+        "<td>anti-aliased</td>",
+    ] {
         assert!(page.contains(part), "no {part}");
     }
     // Values travel in base64, which may spell anything.
@@ -62,6 +69,52 @@ fn regress_runs_without_a_common_sensor_are_told_where_the_rest_is() {
     let call = brinell(folder.path(), &args).exits(0);
     assert!(!call.out.contains("ratios:"), "{}", call.out);
     call.says(&["lumped over inner (the baseline): the sensor's levels", "are in compare.csv and compare.html"]);
+}
+
+#[test]
+fn prop_runs_whose_loads_lie_along_different_axes_are_compared_along_their_loads() {
+    let folder = folder();
+    let text = fs::read_to_string(folder.path().join("actual.toml")).unwrap();
+    fs::write(folder.path().join("right.toml"), &text).unwrap();
+    let down = text.replace("load_n = [300.0, 0.0]", "load_n = [0.0, -300.0]");
+    assert_ne!(down, text);
+    fs::write(folder.path().join("down.toml"), down).unwrap();
+    let call = brinell(folder.path(), &typed("compare right.toml down.toml -o out --plots svg")).exits(0);
+    assert!(!call.out.contains("sensor_ax.rms"), "{}", call.out);
+    let call = call
+        .says(&["sensor.rms along the load (sensor_ay over sensor_ax): "])
+        .complains(&["the loads point along different axes"]);
+    let page = fs::read_to_string(folder.path().join("out/compare.html")).unwrap();
+    for part in ["right (sensor_ax)", "down (sensor_ay)", "RMS of the sensor along each run’s load"] {
+        assert!(page.contains(part), "no {part}");
+    }
+    // What a curve's column is called is what it holds.
+    let json = json(&folder.path().join("out/compare.json"));
+    let rms = |channel: &str, run: &str| json["quantities"][channel]["runs"][run]["value"].as_f64().unwrap();
+    let along = rms("sensor_ay.rms", "down") / rms("sensor_ax.rms", "right");
+    let said = call.out.lines().find(|line| line.contains("sensor.rms")).unwrap().to_owned();
+    let said: f64 = said.split("): ").nth(1).unwrap().split(' ').next().unwrap().parse().unwrap();
+    assert!((said / along - 1.0).abs() < 0.01, "{said} is not {along}");
+    let curves = fs::read_dir(folder.path().join("out/curves")).unwrap();
+    let heads: Vec<String> = curves
+        .map(|file| fs::read_to_string(file.unwrap().path()).unwrap().lines().next().unwrap().to_owned())
+        .filter(|head| head.contains("Sensor acceleration"))
+        .collect();
+    assert!(heads.iter().any(|head| head.contains("down (sensor_ay)")), "{heads:?}");
+}
+
+#[test]
+fn prop_the_folder_of_a_run_stands_for_its_scenario() {
+    let folder = folder();
+    brinell(folder.path(), &typed("run simple.toml --no-report --no-healthy --signals none -q -o runs/simple.1"))
+        .exits(0);
+    brinell(folder.path(), &typed("compare actual.toml runs/simple.1 -q -o out")).exits(0);
+    let of_folder = json(&folder.path().join("out/compare.json"));
+    brinell(folder.path(), &typed("compare actual.toml simple.toml -q -o file")).exits(0);
+    let of_file = json(&folder.path().join("file/compare.json"));
+    let value = |json: &serde_json::Value, run: &str| json["quantities"]["sensor_ax.rms"]["runs"][run]["value"].clone();
+    assert!(value(&of_file, "simple").is_number());
+    assert_eq!(value(&of_folder, "simple.1"), value(&of_file, "simple"));
 }
 
 #[test]
@@ -140,5 +193,7 @@ fn regress_what_cannot_be_compared() {
     }
     call(&["--variant", "x:name=a; name=b"]).complains(&["name is set twice"]);
     call(&["none.toml"]).complains(&["cannot read none.toml"]);
+    fs::create_dir(folder.path().join("empty")).unwrap();
+    call(&["empty"]).complains(&["cannot read empty/scenario.toml"]);
     assert!(!folder.path().join("out").exists());
 }

@@ -102,6 +102,7 @@ fn regress_frequencies_refuse_what_makes_no_bearing() {
         (&["--pitch", "49", "--diameter", "-6", "--rollers", "19"], &["--diameter -6", "0 < diameter < pitch in mm"]),
         (&["--pitch", "49", "--diameter", "60", "--rollers", "19"], &["--diameter 60", "in mm"]),
         (&["--pitch", "49", "--diameter", "6", "--rollers", "2"], &["--rollers 2", "3 or more elements"]),
+        (&["--pitch", "49", "--diameter", "6", "--rollers", "2.5"], &["expected a whole number of rolling elements"]),
         (&["--pitch", "39", "--diameter", "7.5", "--rollers", "17"], &["--rollers 17", "up to 16 have room"]),
     ] {
         let call = call(&[&["frequencies"], args].concat()).exits(2).complains(parts);

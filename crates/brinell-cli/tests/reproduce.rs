@@ -90,7 +90,9 @@ fn regress_what_is_refused() {
     for (args, part) in [
         (vec!["reproduce", "--figure", "7"], "allowed: 8 to 20, the figures of section 4"),
         (vec!["reproduce", "--figure", "x"], "allowed: 8 to 20"),
-        (vec!["reproduce", "--turns", "2"], "3..=100000"),
+        (vec!["reproduce", "--turns", "2"], "expected a whole number of turns of the shaft, 3 to 100000"),
+        (vec!["reproduce", "--jobs", "0"], "expected a whole number of runs at a time, 1 or more"),
+        (vec!["reproduce", "--width", "90mm"], "say which with --plots"),
         (vec!["reproduce", "--figure", "9", "--sensitivity"], "cannot be used with"),
     ] {
         let call = brinell(folder.path(), &args).exits(2);

@@ -1,7 +1,7 @@
 //! The reproduction as one page.
 
 use crate::curves::Curves;
-use crate::outcome::{self, card, counts};
+use crate::outcome::{self, Outcome, card, counts};
 use crate::reproduction::Reproduction;
 use crate::request::Request;
 use crate::{BASE, Basis};
@@ -71,7 +71,7 @@ pub(crate) fn study(
         ),
         version: brinell::VERSION.into(),
         warnings,
-        lead: facts.first().map_or(String::new(), Fact::words),
+        lead: lead(&reproduction.outcomes),
         facts,
         chapters,
         footer: "Curves are thinned to the pixels of the page. Every statement with its numbers is in claims.csv and claims.json beside this \
@@ -79,6 +79,19 @@ pub(crate) fn study(
             .into(),
         ..Study::default()
     }
+}
+
+/// How many of the findings hold, of each basis: dynamics, shapes, kinematics.
+fn held(outcomes: &[Outcome]) -> [(usize, usize); 3] {
+    [Basis::Dynamics, Basis::Shapes, Basis::Kinematics].map(|basis| outcome::held(outcomes, basis))
+}
+
+fn lead(outcomes: &[Outcome]) -> String {
+    let [dynamics, shapes, kinematics] = held(outcomes);
+    format!(
+        "Dynamic findings that hold: {} of {}. Beside them hold {} of {} that follow from the shapes that go in, and {} of {} from kinematics and slip.",
+        dynamics.0, dynamics.1, shapes.0, shapes.1, kinematics.0, kinematics.1
+    )
 }
 
 /// How many claims came out how.
@@ -95,8 +108,7 @@ fn facts(reproduction: &Reproduction) -> Vec<Fact> {
         let n = reproduction.outcomes.iter().filter(|outcome| !outcome.flips.is_empty()).count();
         facts.push(Fact::new("Depend on an assumption", n.to_string(), "", "of the above"));
     }
-    let [dynamics, shapes, kinematics] =
-        [Basis::Dynamics, Basis::Shapes, Basis::Kinematics].map(|b| outcome::held(&reproduction.outcomes, b));
+    let [dynamics, shapes, kinematics] = held(&reproduction.outcomes);
     facts.insert(
         0,
         Fact::new(
@@ -104,7 +116,7 @@ fn facts(reproduction: &Reproduction) -> Vec<Fact> {
             format!("{} of {}", dynamics.0, dynamics.1),
             "",
             format!(
-                "{} of {} more follow from the shapes that go in, {} of {} from kinematics and slip",
+                "beside them hold {} of {} that follow from the shapes that go in, {} of {} from kinematics and slip",
                 shapes.0, shapes.1, kinematics.0, kinematics.1
             ),
         ),

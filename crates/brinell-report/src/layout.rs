@@ -110,10 +110,9 @@ pub(crate) fn legend(
 ) -> f64 {
     let (mut x, mut y) = (left, top + font);
     for (label, paint) in entries {
-        // What no line has room for is cut.
-        let label = fitted(label, font, false, right - left - 32.0);
-        let words = Text::with_unit(0.0, 0.0, font, Anchor::Start, &label);
-        let width = 26.0 + words.width() + 18.0;
+        let lines = wrapped(label, font, right - left - 32.0);
+        let lines: Vec<Text> = lines.iter().map(|line| Text::with_unit(0.0, 0.0, font, Anchor::Start, line)).collect();
+        let width = 26.0 + lines.iter().map(Text::width).fold(0.0, f64::max) + 18.0;
         if x > left && x + width > right + 12.0 {
             x = left;
             y += 1.6 * font;
@@ -124,8 +123,25 @@ pub(crate) fn legend(
         } else {
             picture.shapes.push(Shape::Circle { x: x + 10.0, y: middle, r: 3.5, paint: *paint });
         }
-        picture.text(Text { x: x + 26.0, y, ..words });
+        for (k, words) in lines.into_iter().enumerate() {
+            y += if k > 0 { 1.25 * font } else { 0.0 };
+            picture.text(Text { x: x + 26.0, y, ..words });
+        }
         x += width;
     }
     y - top + 0.6 * font
+}
+
+/// A label on as many lines as it needs; a word that no line has room for is cut.
+fn wrapped(label: &str, font: f64, room: f64) -> Vec<String> {
+    let fits = |text: &str| Text::with_unit(0.0, 0.0, font, Anchor::Start, text).width() <= room;
+    let mut lines: Vec<String> = Vec::new();
+    for word in label.split(' ') {
+        let longer = lines.last().map(|line| format!("{line} {word}"));
+        match (longer.filter(|longer| fits(longer)), lines.last_mut()) {
+            (Some(longer), Some(last)) => *last = longer,
+            _ => lines.push(fitted(word, font, false, room)),
+        }
+    }
+    lines
 }

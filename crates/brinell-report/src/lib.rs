@@ -85,7 +85,7 @@ pub use misfit::{FittedKey, Tried};
 pub use motion::bearing_motion;
 pub use motion::{Motion, MotionDamage, MotionRow};
 #[doc(hidden)]
-pub use number::{capital, plural, short, shown_unit, twelve_digits};
+pub use number::{capital, digits_beside, plural, short, shown_unit, twelve_digits};
 #[doc(hidden)]
 pub use orbit::cage_orbit;
 pub use orbit::{CageOrbit, CageOrbits};
@@ -104,7 +104,7 @@ pub use sensor::SensorView;
 #[doc(hidden)]
 pub use sheet::sheet_html;
 #[doc(hidden)]
-pub use side_by_side::{beforehand, compared_headline, doubts};
+pub use side_by_side::{Headline, beforehand, compared_headline, doubts};
 pub use slip::SlipRow;
 #[doc(hidden)]
 pub use slip::slip_over_time;

@@ -57,6 +57,13 @@ pub(crate) fn significant(value: f64, digits: usize) -> String {
     format!("{}×10{}", trim_zeros(mantissa), superscript(exponent)).replace('-', "−")
 }
 
+/// Significant digits of a value down to the second one of its uncertainty: 2 to 12.
+pub fn digits_beside(value: f64, uncertainty: f64) -> usize {
+    let place = |x: f64| x.abs().log10().floor();
+    let digits = place(value) - place(uncertainty) + 2.0;
+    if digits.is_finite() { digits.clamp(2.0, 12.0) as usize } else { 2 }
+}
+
 /// A value and the ends of its interval, with as many decimals as half the interval's width deserves (two significant
 /// digits).
 pub(crate) fn with_interval(value: f64, low: f64, high: f64) -> [String; 3] {
@@ -251,6 +258,15 @@ pub(crate) fn round_below(largest: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn prop_a_value_is_as_fine_as_its_uncertainty() {
+        for (value, uncertainty, digits) in
+            [(107.64, 8.9e-5, 9), (24.842, 0.42, 4), (30.0, 1.0, 3), (3.0, 300.0, 2), (0.0, 1.0, 2), (1.0, 0.0, 2)]
+        {
+            assert_eq!(digits_beside(value, uncertainty), digits, "{value} {uncertainty}");
+        }
+    }
 
     #[test]
     fn regress_numbers_read_well() {

@@ -58,7 +58,7 @@ fn put(page: &mut String, sheet: &Sheet, run: &SheetRun) {
         (along, &run.stretch),
         embedded::Chart {
             x: ("Time", unit),
-            y: (&sheet.signal, &sheet.unit),
+            y: (&quantity(sheet), &sheet.unit),
             domain: Domain::around(run.stretch.iter().copied()),
             ..embedded::Chart::default()
         },
@@ -72,7 +72,7 @@ fn put(page: &mut String, sheet: &Sheet, run: &SheetRun) {
         (along, &run.envelope),
         embedded::Chart {
             x: ("Frequency", "Hz"),
-            y: ("Envelope", &sheet.unit),
+            y: (&format!("Envelope of {}", sheet.signal), &sheet.unit),
             domain: envelope_domain(run),
             peak: true,
             lanes: &lanes,
@@ -125,6 +125,14 @@ fn words(sheet: &Sheet, run: &SheetRun) -> String {
     words.join(" · ")
 }
 
+/// What the signal is of.
+fn quantity(sheet: &Sheet) -> String {
+    match &*sheet.unit {
+        "m/s^2" => format!("Acceleration {}", sheet.signal),
+        _ => sheet.signal.clone(),
+    }
+}
+
 fn waveform(sheet: &Sheet, run: &SheetRun) -> Picture {
     let span = run.dt_s * run.stretch.len().saturating_sub(1) as f64;
     let (unit, scale) = time_unit(span);
@@ -135,7 +143,7 @@ fn waveform(sheet: &Sheet, run: &SheetRun) -> Picture {
     };
     let mut chart = Chart::new(Spec {
         y: Domain::around(run.stretch.iter().copied()),
-        y_label: String::new(),
+        y_label: quantity(sheet),
         y_unit: sheet.unit.clone(),
         ..spec("waveform", run, Domain::exact(from, to), "Time", unit)
     });
@@ -172,6 +180,7 @@ fn envelope(sheet: &Sheet, run: &SheetRun) -> Picture {
     let top = known.unwrap_or(1.0);
     let mut chart = Chart::new(Spec {
         y: envelope_domain(run),
+        y_label: format!("Envelope of {}", sheet.signal),
         y_unit: sheet.unit.clone(),
         lanes: lanes(run, top),
         ..spec("envelope", run, Domain::exact(0.0, top), "Frequency", "Hz")

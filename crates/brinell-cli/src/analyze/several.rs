@@ -29,8 +29,8 @@ struct Row {
 struct Found {
     seconds: f64,
     verdict: String,
-    /// The same in whole, of the bearing that leads.
-    sentence: String,
+    /// The same in whole, of each bearing.
+    sentences: Vec<String>,
     damage: bool,
     unit: Unit,
     rms: Option<Estimate>,
@@ -220,9 +220,9 @@ impl Found {
         Found {
             seconds: a.duration(),
             verdict: verdicts.collect::<Vec<_>>().join("; "),
-            sentence: match results {
-                [_] => result.verdict_text(),
-                _ => format!("{}: {}", result.name, result.verdict_text()),
+            sentences: match results {
+                [only] => vec![only.verdict_text()],
+                _ => results.iter().map(|r| format!("{}: {}", r.name, r.verdict_text())).collect(),
             },
             damage: lead.is_some(),
             unit: m.unit.clone(),
@@ -329,8 +329,10 @@ fn report(rows: &[Row]) -> Study {
         }),
         note(rows),
     );
-    let verdicts =
-        rows.iter().filter_map(|row| Some(vec![row.name.clone(), row.found.as_ref().ok()?.sentence.clone()]));
+    let verdicts = rows.iter().flat_map(|row| {
+        let sentences = row.found.iter().flat_map(|found| &found.sentences);
+        sentences.map(|sentence| vec![row.name.clone(), sentence.clone()])
+    });
     let verdicts = Table::new("Verdicts", ["File", "Verdict"], verdicts, "");
     let mut trend = vec![StudyPiece::Note(TREND.into())];
     trend.extend(plots(rows).into_iter().map(StudyPiece::Trend));

@@ -1,6 +1,7 @@
 //! The command line of `brinell calibrate`.
 
 use crate::analyze::measured::SignalArgs;
+use crate::args::jobs;
 use clap::Args;
 use std::num::NonZeroUsize;
 use std::path::PathBuf;
@@ -55,9 +56,9 @@ pub(crate) struct CalibrateArgs {
     /// Sensor's axis in the simulation: x or y [default: the axis nearer the load]
     #[arg(long, value_name = "x|y", requires = "measured")]
     pub(crate) axis: Option<String>,
-    /// Standard uncertainty of the model's levels against a machine's
-    #[arg(long, value_name = "PERCENT", default_value_t = 5.0)]
-    pub(crate) model_uncertainty: f64,
+    /// Standard uncertainty of the model's levels against a machine's [default: 5]
+    #[arg(long, value_name = "PERCENT", requires = "measured", allow_negative_numbers = true)]
+    pub(crate) model_uncertainty: Option<f64>,
     /// Runs at most [default: 30 a key]
     #[arg(short, long, value_name = "N")]
     pub(crate) budget: Option<usize>,
@@ -65,7 +66,7 @@ pub(crate) struct CalibrateArgs {
     #[arg(long, value_name = "N", default_value_t = 1)]
     pub(crate) seed: u64,
     /// Runs at a time [default: one a core]
-    #[arg(short, long, value_name = "N")]
+    #[arg(short, long, value_name = "N", value_parser = jobs)]
     pub(crate) jobs: Option<NonZeroUsize>,
     /// Folder for the results [default: out/calibrate-STEM, STEM being the scenario's file name without ending]
     #[arg(short, long, value_name = "FOLDER")]

@@ -8,6 +8,9 @@ use brinell::scenario::Scenario;
 use brinell::simulate::Simulation;
 use brinell_study::calibrate::{CalibrateError, Key, Measured, Pattern};
 
+/// Standard uncertainty of the model's levels where none is given, per cent.
+const MODEL_UNCERTAINTY: f64 = 5.0;
+
 /// The signal, if there is one, as targets for runs of a scenario; and what deserves attention.
 pub(super) fn pattern(
     args: &CalibrateArgs,
@@ -26,7 +29,7 @@ pub(super) fn pattern(
     let name = signal.path.display();
     let measured = Measured { x: &signal.x, rate: signal.rate, unit: &signal.unit };
     let own = source.load(&[], true)?.scenario;
-    let (axis, percent) = (args.axis.as_deref(), args.model_uncertainty);
+    let (axis, percent) = (args.axis.as_deref(), args.model_uncertainty.unwrap_or(MODEL_UNCERTAINTY));
     let pattern = Pattern::new(&measured, (&own, keys), (scenario, simulation), axis, percent);
     let mut pattern = pattern.map_err(|error| {
         Failure::Usage(match error {

@@ -14,7 +14,7 @@ use crate::stop::stop_flag;
 use crate::sweep::duration;
 pub(crate) use args::CalibrateArgs;
 use brinell::simulate::Simulation;
-use brinell_report::{Study, calibration_undetermined, calibration_verdict, interval_text};
+use brinell_report::{Study, calibration_undetermined, calibration_verdict, digits_beside, interval_text};
 use brinell_study::calibrate::search::latin_hypercube;
 use brinell_study::calibrate::{
     CalibrateError, Key, Load, Outcome, Plan, Points, Target, Unfinished, Unfit, bounds, check_keys, middle,
@@ -115,7 +115,20 @@ fn read(args: &CalibrateArgs) -> Result<(Source, Arc<Plan>, Vec<String>), Failur
     let targets: Vec<Target> = (args.target.iter())
         .map(|text| Target::read(text).map_err(|e| usage(&e, "--target")))
         .collect::<Result<_, _>>()?;
+    targets.iter().try_for_each(possible)?;
     let source = Source::open(&args.scenario, &args.set)?;
+    for (key, value) in source.overrides() {
+        let hides =
+            |fitted: &&Key| key.strip_prefix(&fitted.name).is_some_and(|rest| rest.is_empty() || rest.starts_with('.'));
+        // The speed that a measured signal is looked at with, where it is fitted.
+        let is_of_signal = args.measured.is_some() && key == "operation.speed_rpm";
+        if let Some(fitted) = keys.iter().find(hides).filter(|_| !is_of_signal) {
+            return Err(Failure::Usage(format!(
+                "--set {key}={value}: every run gives {} another value, as --fit says; leave out the one or the other",
+                fitted.name
+            )));
+        }
+    }
     for settings in bounds(&keys) {
         source.load(&settings, true)?;
     }
@@ -135,6 +148,30 @@ fn read(args: &CalibrateArgs) -> Result<(Source, Arc<Plan>, Vec<String>), Failur
     Ok((source, Arc::new(plan), warnings))
 }
 
+/// That a target is a value that its number can have.
+fn possible(target: &Target) -> Result<(), Failure> {
+    const NEVER_BELOW_0: [&str; 10] = [
+        "rms",
+        "standard_deviation",
+        "peak",
+        "peak_to_peak",
+        "crest_factor",
+        "kurtosis",
+        "frequency",
+        "record_peak",
+        "record_peak_to_peak",
+        "largest_outer_force",
+    ];
+    let what = target.name.rsplit('.').next().unwrap_or_default();
+    if target.value >= 0.0 || !NEVER_BELOW_0.contains(&what) {
+        return Ok(());
+    }
+    Err(Failure::Usage(format!(
+        "--target {} = {:?}: a number of this kind is never below 0\n  allowed: 0 or more, in its SI unit",
+        target.name, target.value
+    )))
+}
+
 fn tell_plan(points: &Points, warnings: &[String], threads: NonZeroUsize, ledger: Option<&Ledger>) {
     let plan = points.plan;
     say!("{} to {}:", plural(plan.keys.len(), "key"), plural(plan.targets.len(), "target"));
@@ -148,8 +185,9 @@ fn tell_plan(points: &Points, warnings: &[String], threads: NonZeroUsize, ledger
     for warning in warnings {
         complain!("warning: {warning}");
     }
-    for target in &plan.targets {
-        say!("  {} = {} ~ {}", target.name, short(target.value, 5), short(target.uncertainty, 2));
+    for (target, unit) in plan.targets.iter().zip(plan.target_units()) {
+        let value = short(target.value, digits_beside(target.value, target.uncertainty));
+        say!("  {}", format!("{} = {value} ~ {} {unit}", target.name, short(target.uncertainty, 2)).trim_end());
     }
     let budget = plan.settings.budget;
     let sample = latin_hypercube(plan.settings.seed, plan.keys.len(), budget.min(100));

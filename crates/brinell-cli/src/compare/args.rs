@@ -1,5 +1,6 @@
 //! The command line of `brinell compare`.
 
+use crate::args::jobs;
 use crate::figures::PlotFormat;
 use crate::figures::Print;
 use clap::Args;
@@ -23,7 +24,7 @@ use std::path::PathBuf;
     brinell compare base.toml --variant 'sliced:contact.law=sliced; contact.roller_path=envelope' --variant tight:simulation.accuracy=reference"
 )]
 pub(crate) struct CompareArgs {
-    /// The scenarios (TOML), the first of them the baseline
+    /// The scenarios (TOML), or folders with the results of runs, the first of them the baseline
     #[arg(required = true, value_name = "SCENARIO")]
     pub(crate) scenarios: Vec<PathBuf>,
     /// The baseline with some keys changed, under a name
@@ -36,7 +37,7 @@ pub(crate) struct CompareArgs {
     #[arg(short, long, value_name = "FOLDER")]
     pub(crate) output: Option<PathBuf>,
     /// Runs at a time [default: one a core]
-    #[arg(short, long, value_name = "N")]
+    #[arg(short, long, value_name = "N", value_parser = jobs)]
     pub(crate) jobs: Option<NonZeroUsize>,
     /// Also write each plot into FOLDER/plots, as files of these formats, and its curves as CSV into FOLDER/curves
     #[arg(long, value_delimiter = ',', value_name = "FORMAT")]

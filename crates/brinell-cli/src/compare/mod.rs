@@ -129,22 +129,22 @@ fn run(args: &CompareArgs, sides: &[Side]) -> Result<Option<Vec<RunResult>>, Fai
 
 /// What matters most of the comparison.
 fn tell(sides: &[Side], compared: &[Compared]) {
+    let headline = brinell_report::compared_headline(sides, compared);
     for (k, side) in sides.iter().enumerate().skip(1) {
-        let headline = brinell_report::compared_headline(sides, compared);
-        let ratio = |name: &str| compared.iter().find(|c| c.name == name).and_then(|c| c.ratios[k]);
-        if headline.iter().all(|name| ratio(name).is_none()) {
+        if headline.iter().all(|one| one.ratios[k].is_none()) {
             say!("{}", nothing_in_common(side, &sides[0], compared.iter().filter(|c| c.ratios[k].is_some()).count()));
             continue;
         }
         say!("{} over {} (the baseline), ratios:", side.label, sides[0].label);
-        for name in headline {
-            let Some(ratio) = ratio(name) else {
+        for one in &headline {
+            let Some(ratio) = one.ratios[k] else {
                 continue;
             };
+            let over = one.over[k].map_or(String::new(), |(of, to)| format!(" ({of} over {to})"));
             let interval = ratio
                 .interval
                 .map_or(String::new(), |(low, high)| format!(" (95 %: {} x to {} x)", short(low, 3), short(high, 3)));
-            say!("  {name}: {} x{interval}", short(ratio.value, 3));
+            say!("  {}{over}: {} x{interval}", one.name, short(ratio.value, 3));
         }
     }
 }

@@ -4,6 +4,7 @@ use super::CompareArgs;
 use crate::failure::Failure;
 use crate::files::{Source, setting, stem};
 use crate::inputs::Inputs;
+use crate::results::scenario_file;
 use brinell_study::campaign::{Side, SidesError, check_labels, split};
 use std::path::Path;
 
@@ -19,7 +20,7 @@ pub(super) fn read(args: &CompareArgs, inputs: &mut Inputs) -> Result<Vec<Side>,
             SidesError::Twice(_) | SidesError::Columns(_) => format!("{error}: rename a file or a variant"),
         })
     })?;
-    let sources = args.scenarios.iter().map(|path| Source::open(path, &args.set));
+    let sources = args.scenarios.iter().map(|path| Source::open(&scenario_file(path), &args.set));
     let sources = sources.collect::<Result<Vec<_>, _>>()?;
     let given = sources.iter().map(|source| (source, &[][..]));
     let changed = variants.iter().map(|(_, settings)| (&sources[0], &settings[..]));
@@ -32,10 +33,10 @@ pub(super) fn read(args: &CompareArgs, inputs: &mut Inputs) -> Result<Vec<Side>,
     Ok(sides)
 }
 
-/// The name of a scenario file without its ending; of a file that is called like a number, with it.
+/// The name of a scenario file without its ending; of a folder, and of a file that is called like a number, with it.
 fn label(path: &Path) -> String {
     let stem = stem(path);
-    if stem.parse::<f64>().is_ok() {
+    if path.is_dir() || stem.parse::<f64>().is_ok() {
         let name = path.file_name().unwrap_or(path.as_os_str());
         return name.to_string_lossy().trim().to_owned();
     }

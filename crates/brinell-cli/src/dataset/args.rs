@@ -1,5 +1,6 @@
 //! The command line of `brinell dataset`.
 
+use crate::args::jobs;
 use brinell_study::dataset::Shard;
 use clap::{Args, Subcommand};
 use std::num::NonZeroUsize;
@@ -62,7 +63,7 @@ pub(crate) struct DatasetArgs {
     #[arg(long, value_name = "I/N", default_value = "1/1", hide_default_value = true)]
     pub(crate) shard: Shard,
     /// Runs at a time [default: one a core]
-    #[arg(short, long, value_name = "N")]
+    #[arg(short, long, value_name = "N", value_parser = jobs)]
     pub(crate) jobs: Option<NonZeroUsize>,
     /// Print what the plan means and what it costs; run nothing
     #[arg(long)]

@@ -1,5 +1,6 @@
 //! The command line of `brinell reproduce`.
 
+use crate::args::jobs;
 use crate::figures::PlotFormat;
 use crate::figures::Print;
 use brinell_li2023::FIGURES;
@@ -38,13 +39,13 @@ pub(crate) struct ReproduceArgs {
     #[arg(long, value_name = "MODEL", value_parser = [PossibleValue::new("tilting").help("Rollers and rings tilt")])]
     pub(crate) model: Option<String>,
     /// Turns of the shaft whose statistics count, of every run [default: 240, with --quick 40]
-    #[arg(long, value_name = "N", conflicts_with = "quick", value_parser = clap::value_parser!(u32).range(3..=100_000))]
+    #[arg(long, value_name = "N", conflicts_with = "quick", value_parser = turns)]
     pub(crate) turns: Option<u32>,
     /// Folder for the results
     #[arg(short, long, value_name = "FOLDER", default_value = "out/reproduce")]
     pub(crate) output: PathBuf,
     /// Runs at a time [default: one a core]
-    #[arg(short, long, value_name = "N")]
+    #[arg(short, long, value_name = "N", value_parser = jobs)]
     pub(crate) jobs: Option<NonZeroUsize>,
     /// Also write each picture into FOLDER/plots, as files of these formats
     #[arg(long, value_delimiter = ',', value_name = "FORMAT")]
@@ -67,4 +68,9 @@ fn figure(text: &str) -> Result<u32, String> {
     let allowed = || format!("allowed: {} to {}, the figures of section 4", FIGURES.start(), FIGURES.end());
     let number: u32 = text.parse().map_err(|_| allowed())?;
     if FIGURES.contains(&number) { Ok(number) } else { Err(allowed()) }
+}
+
+fn turns(text: &str) -> Result<u32, String> {
+    let number = text.trim().parse().ok().filter(|turns| (3..=100_000).contains(turns));
+    number.ok_or("expected a whole number of turns of the shaft, 3 to 100000, as 240".into())
 }

@@ -17,6 +17,7 @@ use brinell::simulate::Simulation;
 use brinell_li2023::{
     BASE, CaseObserver, CurveFiles, Error, Length, Point, Reproduction, Request, Runs, Stage, scenario, write_page,
 };
+use brinell_report::Layout;
 use brinell_study::campaign::Row;
 use brinell_study::runner::{Beside, Ledger, Task, Work, to_run};
 use serde_json::{Value, json};
@@ -28,6 +29,7 @@ use std::time::Instant;
 
 pub(crate) fn reproduce(args: &ReproduceArgs) -> Result<ExitCode, Failure> {
     let begin = Instant::now();
+    let layout = args.print.layout(&args.plots)?;
     let usual = if args.quick { Length::QUICK } else { Length::FULL };
     let mut request = Request::new(&args.figure, args.turns.map_or(usual, Length::Turns))?;
     if args.sensitivity {
@@ -48,7 +50,7 @@ pub(crate) fn reproduce(args: &ReproduceArgs) -> Result<ExitCode, Failure> {
     let stop = stop_flag()?;
     let mut runner = Runner { args, ledger, curves: &curves, stop: &stop, done: 0 };
     let reproduction = Reproduction::run(request, &mut runner)?;
-    let written = write(args, &reproduction, &curves)?;
+    let written = write(args, layout, &reproduction, &curves)?;
     if args.json {
         let path = args.output.join("claims.json");
         let text = std::fs::read_to_string(&path).map_err(|error| Failure::Read(path, error))?;
@@ -161,7 +163,12 @@ impl Beside<Failure> for CaseObserver {
     }
 }
 
-fn write(args: &ReproduceArgs, reproduction: &Reproduction, curves: &CurveFiles) -> Result<Vec<PathBuf>, Failure> {
+fn write(
+    args: &ReproduceArgs,
+    layout: Layout,
+    reproduction: &Reproduction,
+    curves: &CurveFiles,
+) -> Result<Vec<PathBuf>, Failure> {
     let folder = &args.output;
     let mut written = reproduction.write_claims(folder)?;
     let study = reproduction.study(curves, |scenario| {
@@ -170,11 +177,11 @@ fn write(args: &ReproduceArgs, reproduction: &Reproduction, curves: &CurveFiles)
     });
     written.push(write_page(&study, folder)?);
     if !args.plots.is_empty() {
-        let pictures = brinell_report::study_pictures(&study, args.print.layout(&args.plots)?);
+        let pictures = brinell_report::study_pictures(&study, layout);
         write_plots(&pictures, &args.plots, folder, &mut written)?;
     }
     if let Some(book) = &args.book {
-        let pictures = brinell_report::study_pictures(&study, brinell_report::Layout::Wide);
+        let pictures = brinell_report::study_pictures(&study, Layout::Wide);
         written.extend(reproduction.write_book(&study, &pictures, book)?);
     }
     Ok(written)

@@ -1,5 +1,6 @@
 //! The command line of `brinell sweep`.
 
+use crate::args::jobs;
 use crate::figures::PlotFormat;
 use crate::figures::Print;
 use clap::Args;
@@ -42,7 +43,7 @@ pub(crate) struct SweepArgs {
     #[arg(short, long, value_name = "FOLDER")]
     pub(crate) output: Option<PathBuf>,
     /// Runs at a time [default: one a core]
-    #[arg(short, long, value_name = "N")]
+    #[arg(short, long, value_name = "N", value_parser = jobs)]
     pub(crate) jobs: Option<NonZeroUsize>,
     /// Indicators to plot, such as sensor_ax.rms or envelope.bpfo [default: RMS and peak to peak of the sensor
     /// acceleration, both rings and a cage, along the load]

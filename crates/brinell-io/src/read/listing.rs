@@ -16,4 +16,9 @@ pub(super) struct Listing {
 pub(super) trait Source: Send {
     /// Hands on every value of the channel of this index, in the file's order.
     fn stream(&mut self, index: usize, sink: Sink<'_>) -> Result<(), Fault>;
+
+    /// The line of a text file with a value of a channel (from 0), counted from 1, and what is written there.
+    fn cell(&mut self, _index: usize, _value: u64) -> Option<(u64, String)> {
+        None
+    }
 }

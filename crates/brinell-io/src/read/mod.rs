@@ -196,6 +196,13 @@ impl SignalFile {
         Ok(values)
     }
 
+    /// Where a value of a channel, counted from 0, stands in a text file: its line, counted from 1, and what is written
+    /// there. `None` in other files.
+    pub fn cell(&mut self, name: &str, value: u64) -> Option<(u64, String)> {
+        let index = self.channels.iter().position(|c| c.name == name)?;
+        self.source.cell(index, value)
+    }
+
     /// Hands the values of a channel to `sink` in order, piece by piece, until the end or until it breaks off.
     pub fn read_pieces(&mut self, name: &str, sink: impl FnMut(&[f64]) -> ControlFlow<()>) -> Result<(), IoError> {
         let find = |name: &str| {

@@ -46,15 +46,16 @@ fn zone_words(levels: &Levels) -> Option<String> {
                 Zone::C => format!("{} to {} mm/s", all[1], all[2]),
                 Zone::D => format!("above {} mm/s", all[2]),
             };
-            format!("{}, {limits}: {}", zone.name(), zone.words())
+            format!(
+                "{}, {limits}: {}; of vibration as a whole: early damage of a bearing hardly shows in it",
+                zone.name(),
+                zone.words()
+            )
         }
         Some(Err(why)) => why.to_string(),
         None => "not known, without a velocity".into(),
     };
-    Some(format!(
-        "zone {zone}; of vibration as a whole: early damage of a bearing hardly shows in it ({}; {ZONES})",
-        class.words()
-    ))
+    Some(format!("zone {zone} ({}; {ZONES})", class.words()))
 }
 
 /// The velocity among the page's headline numbers.

@@ -3,9 +3,10 @@
 use super::words::{calibration_undetermined, calibration_verdict, interval_text};
 use crate::fact::Fact;
 use crate::misfit::{FittedKey, Tried};
-use crate::number::{plural, short};
+use crate::number::{digits_beside, plural, short};
 use crate::study::{Chapter, Study, StudyPiece};
 use crate::tables::Table;
+use brinell_study::calibrate::identify::Direction;
 use brinell_study::calibrate::search::STEP;
 use brinell_study::calibrate::{Evaluation, Found, Met, Outcome};
 
@@ -113,12 +114,15 @@ fn tried(of: &Outcome, key: usize) -> Vec<Tried> {
 
 fn targets(of: &Outcome) -> Table {
     let row = |c: &Met| {
+        // Both to the same place, that of the smaller uncertainty.
+        let finest = if c.own > 0.0 { c.own.min(c.uncertainty) } else { c.uncertainty };
+        let shown = |x: f64| short(x, digits_beside(x, finest));
         let own = if c.own > 0.0 { format!(" ± {}", short(c.own, 2)) } else { String::new() };
         vec![
             c.name.clone(),
             c.unit.clone(),
-            format!("{} ± {}", short(c.target, 5), short(c.uncertainty, 2)),
-            c.value.map_or("–".into(), |v| format!("{}{own}", short(v, 5))),
+            format!("{} ± {}", shown(c.target), short(c.uncertainty, 2)),
+            c.value.map_or("–".into(), |v| format!("{}{own}", shown(v))),
             format!("{:+.1}", c.residual),
         ]
     };
@@ -133,34 +137,38 @@ fn targets(of: &Outcome) -> Table {
 
 fn correlation(of: &Outcome) -> Table {
     let identified = &of.fit.identified;
+    let count = of.found.len();
     let mut columns = vec!["Key".to_owned()];
-    columns.extend(of.found.iter().map(|f| format!("#{}", f.key.name)));
+    columns.extend((1..=count).map(|n| format!("#{n}")));
     let row = |a: usize| {
-        let mut row = vec![of.found[a].key.name.clone()];
-        row.extend((0..of.found.len()).map(|b| format!("{:.2}", identified.correlation[(a, b)])));
+        let mut row = vec![format!("{}: {}", a + 1, of.found[a].key.name)];
+        row.extend((0..count).map(|b| format!("{:.2}", identified.correlation[(a, b)])));
         row
     };
     Table::new(
         "Correlation of the estimates",
         columns,
-        (0..of.found.len()).map(row),
-        "Near 1 or -1 only a combination of the two is determined.",
+        (0..count).map(row),
+        "Columns are the keys by their numbers. Near 1 or -1 only a combination of the two is determined.",
     )
 }
 
+/// A column a direction: keys have long names.
 fn directions(of: &Outcome) -> Table {
-    let mut columns = vec!["Direction".to_owned()];
-    columns.extend(of.found.iter().map(|f| format!("#{}", f.key.name)));
-    columns.extend(["#Singular value", "#Noise", "#Half 95 % interval", "Determined"].map(String::from));
-    let rows = of.fit.identified.directions.iter().enumerate().map(|(k, d)| {
-        let mut row = vec![(k + 1).to_string()];
-        row.extend(d.vector.iter().map(|v| format!("{v:.2}")));
-        row.push(short(d.singular_value, 3));
-        row.push(short(d.noise, 2));
-        row.push(if d.half_width.is_finite() { short(d.half_width, 2) } else { "∞".into() });
-        row.push(if d.is_determined() { "yes" } else { "no" }.into());
-        row
-    });
+    let all = &of.fit.identified.directions;
+    let mut columns = vec!["Share of each key".to_owned()];
+    columns.extend((1..=all.len()).map(|n| format!("#{n}")));
+    let row = |head: &str, cell: &dyn Fn(&Direction) -> String| {
+        let cells = all.iter().map(cell);
+        [head.to_owned()].into_iter().chain(cells).collect::<Vec<_>>()
+    };
+    let keys = of.found.iter().enumerate();
+    let mut rows: Vec<_> = keys.map(|(k, f)| row(&f.key.name, &|d| format!("{:.2}", d.vector[k]))).collect();
+    rows.push(row("Singular value", &|d| short(d.singular_value, 3)));
+    rows.push(row("Noise", &|d| short(d.noise, 2)));
+    let half = |d: &Direction| if d.half_width.is_finite() { short(d.half_width, 2) } else { "∞".into() };
+    rows.push(row("Half 95 % interval", &half));
+    rows.push(row("Determined", &|d| if d.is_determined() { "yes" } else { "no" }.into()));
     Table::new(
         "Directions, from the best to the least determined",
         columns,

@@ -30,11 +30,10 @@ pub fn calibration_verdict(of: &Outcome) -> Vec<String> {
     for c in worst.iter().take(6) {
         all.push(match c.value {
             Some(value) => format!(
-                "{}: {} against {} {}, {} standard uncertainties too {}.",
+                "{}: {} against {}, {} standard uncertainties too {}.",
                 c.name,
                 short(value, 4),
-                short(c.target, 4),
-                c.unit,
+                format!("{} {}", short(c.target, 4), c.unit).trim_end(),
                 short(c.residual.abs(), 2),
                 if c.residual > 0.0 { "high" } else { "low" }
             ),

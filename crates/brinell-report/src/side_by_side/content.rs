@@ -1,10 +1,11 @@
 //! The chapters of a comparison.
 
 use super::curves::{called, entry_and_exit, envelope, over_defect, spectrum, waveform};
+use super::headline::compared_headline;
 use crate::fact::Fact;
 use crate::frame::THINNED;
 use crate::number::{bracketed, short, shown_unit, twelve_digits};
-use crate::quantity::{value_text, words};
+use crate::quantity::value_text;
 use crate::study::{Chapter, Study};
 use crate::tables::Table;
 use brinell::observe::passes::place;
@@ -47,7 +48,7 @@ impl Study {
         for (id, title, wanted) in TABLES {
             let rows: Vec<&Compared> = compared.iter().filter(|c| wanted(&c.name)).collect();
             if !rows.is_empty() {
-                chapters.push(Chapter::table(id, title, numbers(title, &names, &rows)));
+                chapters.push(Chapter::table(id, title, numbers(id, title, &names, &rows)));
             }
         }
         let facts = facts(sides, &names, compared);
@@ -68,8 +69,11 @@ impl Study {
 /// A table's place in links, its heading, and which numbers are in it.
 type Wanted = (&'static str, &'static str, fn(&str) -> bool);
 
+/// The table whose numbers are of channels, some of them anti-aliased.
+const INDICATORS: &str = "indicators";
+
 const TABLES: [Wanted; 3] = [
-    ("indicators", "Indicators", |name| {
+    (INDICATORS, "Indicators", |name| {
         let of = ["sensor_a", "inner_a", "outer_a", "cage1_a"];
         let which = [".rms", ".peak_to_peak", ".kurtosis", ".crest_factor"];
         of.iter().any(|o| name.starts_with(o))
@@ -82,30 +86,15 @@ const TABLES: [Wanted; 3] = [
     ("audits", "Audits and work", |name| ["audit.", "work."].iter().any(|o| name.starts_with(o))),
 ];
 
-/// Names of the numbers that say most, of those that are there; those along the baseline's load first.
-pub fn compared_headline<'a>(sides: &[Side], compared: &'a [Compared]) -> Vec<&'a str> {
-    let names = compared.iter().map(|c| c.name.as_str());
-    let wanted = |name: &&str| {
-        let of_acceleration =
-            name.starts_with("sensor_a") && [".rms", ".peak_to_peak", ".kurtosis"].iter().any(|w| name.ends_with(w));
-        of_acceleration || name.ends_with("entry_peak") || name.ends_with("exit_peak")
-    };
-    let mut headline: Vec<&str> = names.filter(wanted).collect();
-    let along = sides.first().map(|side| ["sensor_ax", "sensor_ay"][side.loaded.scenario.operation.axis_of_load()]);
-    headline.sort_by_key(|name| along.is_some_and(|along| name.starts_with("sensor_a") && !name.starts_with(along)));
-    headline
-}
-
 fn facts(sides: &[Side], names: &[String], compared: &[Compared]) -> Vec<Fact> {
     let mut facts = Vec::new();
-    for name in compared_headline(sides, compared).into_iter().take(8) {
-        let Some(one) = compared.iter().find(|c| c.name == name) else {
-            continue;
-        };
-        let ratios: Vec<String> = names
-            .iter()
-            .zip(&one.ratios)
-            .filter_map(|(name, ratio)| Some(format!("{name}: {}", with_interval((*ratio)?))))
+    for one in compared_headline(sides, compared).into_iter().take(8) {
+        let ratios = names.iter().zip(one.ratios.iter().zip(&one.over));
+        let ratios: Vec<String> = ratios
+            .filter_map(|(name, (ratio, over))| {
+                let over = over.as_ref().map_or(String::new(), |(of, to)| format!(" ({of} over {to})"));
+                Some(format!("{name}{over}: {}", with_interval((*ratio)?)))
+            })
             .collect();
         let [first, rest @ ..] = &ratios[..] else {
             continue;
@@ -118,7 +107,7 @@ fn facts(sides: &[Side], names: &[String], compared: &[Compared]) -> Vec<Fact> {
         for more in rest {
             note = format!("{note}; {more}");
         }
-        facts.push(Fact::new(words(name), format!("{value} ×"), "", note));
+        facts.push(Fact::new(one.words, format!("{value} ×"), "", note));
     }
     facts
 }
@@ -159,7 +148,10 @@ fn unlike(sides: &[Side], runs: &[&RunResult]) -> Vec<String> {
     }
     let axis = |run: &RunResult| run.findings.axis;
     if runs.iter().any(|run| axis(run) != axis(runs[0])) {
-        warn("the loads point along different axes: curves show each run's own, the one nearer its load");
+        warn(
+            "the loads point along different axes: curves show each run's own, the one nearer its load, with the channel in the legend; the headline numbers \
+             compare along the loads, the tables each channel with the same one",
+        );
     }
     let exponent = |run: &RunResult| run.scenario.contact.exponent;
     if runs.iter().any(|run| exponent(run) != exponent(runs[0])) {
@@ -239,25 +231,38 @@ fn unit(unit: &str) -> String {
 }
 
 /// Values of each run, and ratios to the baseline's.
-fn numbers(title: &str, names: &[String], rows: &[&Compared]) -> Table {
-    let mut columns = vec!["Quantity".to_owned(), "Unit".to_owned()];
+fn numbers(id: &str, title: &str, names: &[String], rows: &[&Compared]) -> Table {
+    let of_channels = id == INDICATORS;
+    let mut columns = vec!["Quantity".to_owned()];
+    columns.extend(of_channels.then(|| "Signal".to_owned()));
+    columns.push("Unit".to_owned());
     columns.extend(names.iter().map(|name| format!("#{name}")));
     columns.extend(names.iter().skip(1).map(|name| format!("#{name} / {}", names[0])));
     let rows = rows.iter().map(|c| {
-        let mut row = vec![c.name.clone(), unit(&c.unit)];
+        let mut row = vec![c.name.clone()];
+        row.extend(of_channels.then(|| signal(&c.name).to_owned()));
+        row.push(unit(&c.unit));
         let value = |q: &Option<Quantity>| q.as_ref().map_or("–".into(), value_text);
         row.extend(c.of.iter().map(value));
         let ratio = |r: &Option<Ratio>| r.map_or("–".into(), with_interval);
         row.extend(c.ratios.iter().skip(1).map(ratio));
         row
     });
-    Table::new(
-        title,
-        columns,
-        rows,
-        "Averages over whole revolutions (of impacts: over instants), in brackets 95 % intervals; peaks are those of a revolution. \
-         Ratios are of the values beside them; their intervals suppose runs that scatter independently.",
-    )
+    let mut note = "Averages over whole revolutions (of impacts: over instants), in brackets 95 % intervals; peaks are those of a revolution. \
+         Ratios are of the values beside them; their intervals suppose runs that scatter independently."
+        .to_owned();
+    if of_channels {
+        note += " The anti-alias filter takes away what lies above half the sample rate: instantaneous values hold all of it.";
+    }
+    Table::new(title, columns, rows, note)
+}
+
+/// What a channel's numbers are of, in the words of a run's page.
+fn signal(name: &str) -> &'static str {
+    match name.starts_with("sensor_") || name.contains(".anti_aliased.") {
+        true => "anti-aliased",
+        false => "instantaneous",
+    }
 }
 
 fn with_interval(ratio: Ratio) -> String {

@@ -1,5 +1,6 @@
 //! The curves of a comparison: signals, spectra, passes over damage, entries and exits.
 
+use super::headline::SENSOR;
 use crate::data::Along;
 use crate::number::capital;
 use crate::overlay::{OverlaidCurve, Overlay, Vertical};
@@ -9,9 +10,31 @@ use brinell::channel::{STIFFNESS_UNIT, stiffness_unit};
 use brinell::observe::passes::{PassPoint, place};
 use brinell::result::{Impacts, RunResult, impacts};
 
-/// Name of the acceleration that a run's curves show.
-fn acceleration(run: &RunResult) -> String {
-    format!("acceleration sensor_a{}", if run.findings.axis == 0 { "x" } else { "y" })
+/// The acceleration that the runs' curves show: each run's own, on the axis nearer its load.
+struct Shown {
+    /// "acceleration sensor_ax", or without the channel where the runs have not the same.
+    label: String,
+    /// Names of the curves, with the channel where the runs have not the same.
+    names: Vec<String>,
+}
+
+impl Shown {
+    fn of(names: &[String], runs: &[&RunResult]) -> Self {
+        let channel = |run: &RunResult| SENSOR[run.findings.axis];
+        match all_alike(runs.iter().map(|run| channel(run))) {
+            Some(one) => Self { label: format!("acceleration {one}"), names: names.to_vec() },
+            None => Self {
+                label: "sensor acceleration".into(),
+                names: names.iter().zip(runs).map(|(name, run)| format!("{name} ({})", channel(run))).collect(),
+            },
+        }
+    }
+}
+
+/// What all are, where they are the same.
+fn all_alike<T: PartialEq>(mut all: impl Iterator<Item = T>) -> Option<T> {
+    let first = all.next()?;
+    all.all(|other| other == first).then_some(first)
 }
 
 /// A stretch of the waveforms, five ball-pass periods long, from where all are analysed.
@@ -36,7 +59,8 @@ pub(super) fn waveform(names: &[String], runs: &[&RunResult]) -> StudyPiece {
         let along = Along::Even { first: 1e3 * first, step };
         OverlaidCurve { of, along, values }
     });
-    let y_label = capital(&acceleration(runs[0]));
+    let shown = Shown::of(names, runs);
+    let y_label = capital(&shown.label);
     let overlay = Overlay {
         x_range: Some((1e3 * from, 1e3 * (from + width))),
         note: "The first impacts of the analysed time. Impacts amplify small differences: later the runs drift apart even where their \
@@ -44,7 +68,7 @@ pub(super) fn waveform(names: &[String], runs: &[&RunResult]) -> StudyPiece {
             .into(),
         ..Overlay::new("waveform", ("Time", "ms"), (&y_label, "m/s^2"), curves.collect())
     };
-    StudyPiece::Curves(overlay, names.to_vec())
+    StudyPiece::Curves(overlay, shown.names)
 }
 
 pub(super) fn spectrum(names: &[String], runs: &[&RunResult]) -> StudyPiece {
@@ -56,13 +80,14 @@ pub(super) fn spectrum(names: &[String], runs: &[&RunResult]) -> StudyPiece {
     if curves.is_empty() {
         return StudyPiece::Note("The runs are too short for a spectrum.".into());
     }
-    let y_label = format!("Amplitude of {}", acceleration(runs[0]));
+    let shown = Shown::of(names, runs);
+    let y_label = format!("Amplitude of {}", shown.label);
     let overlay = Overlay {
         vertical: Vertical::Decades,
         note: "Peak amplitude, Hann window, whole analysed time.".into(),
         ..Overlay::new("spectrum", ("Frequency", "Hz"), (&y_label, "m/s^2"), curves)
     };
-    StudyPiece::Curves(overlay, names.to_vec())
+    StudyPiece::Curves(overlay, shown.names)
 }
 
 fn even(of: usize, step: f64, values: Vec<f64>) -> OverlaidCurve {
@@ -81,9 +106,23 @@ pub(super) fn envelope(names: &[String], runs: &[&RunResult]) -> StudyPiece {
         Some(even(of, e.spectrum.frequency_step, values))
     });
     let curves: Vec<_> = curves.collect();
-    let Some((_, band)) = runs.iter().find_map(|run| run.findings.envelope.as_ref()) else {
+    if curves.is_empty() {
         return StudyPiece::Note("The runs are too short for an envelope spectrum.".into());
+    }
+    let mut shown = Shown::of(names, runs);
+    let band = |run: &RunResult| {
+        let (_, band) = run.findings.envelope.as_ref()?;
+        Some(format!("{:.1} to {:.1} kHz", 1e-3 * band.low, 1e-3 * band.high))
     };
+    let between = all_alike(runs.iter().filter_map(|run| band(run))).map_or_else(
+        || {
+            for (name, run) in shown.names.iter_mut().zip(runs) {
+                *name = band(run).map_or(name.clone(), |band| format!("{name}, {band}"));
+            }
+            "in each run's own band, which its name states".to_owned()
+        },
+        |band| format!("in the band {band}"),
+    );
     let markers = defect_markers(&runs[0].scenario, runs[0].simulation.model());
     let top = markers.iter().filter(|m| m.present).map(|m| m.frequency_hz);
     let top = top.fold(0.0, f64::max);
@@ -91,16 +130,13 @@ pub(super) fn envelope(names: &[String], runs: &[&RunResult]) -> StudyPiece {
         x_range: (top > 0.0).then_some((0.0, 5.5 * top)),
         vertical: Vertical::FromZero,
         note: format!(
-            "Envelope of {} between {:.1} and {:.1} kHz. Marked: the defect frequencies of {} in pure rolling.",
-            acceleration(runs[0]),
-            1e-3 * band.low,
-            1e-3 * band.high,
-            names[0]
+            "Envelope of {}, {between}. Marked: the defect frequencies of {} in pure rolling.",
+            shown.label, names[0]
         ),
         markers,
         ..Overlay::new("envelope-spectrum", ("Frequency", "Hz"), ("Envelope amplitude", "m/s^2"), curves)
     };
-    StudyPiece::Curves(overlay, names.to_vec())
+    StudyPiece::Curves(overlay, shown.names)
 }
 
 /// "defect 1 (outer raceway, row 1)".
@@ -111,7 +147,7 @@ pub(super) fn called(runs: &[&RunResult], defect: usize) -> String {
 }
 
 /// Name of the picture, quantity, unit, and how a point of a pass gives it.
-type Shown = (&'static str, &'static str, &'static str, fn(&PassPoint) -> f64);
+type OverDefect = (&'static str, &'static str, &'static str, fn(&PassPoint) -> f64);
 
 /// Contact length, stiffness and force of the heaviest pass of each run.
 pub(super) fn over_defect(names: &[String], runs: &[&RunResult], defect: usize) -> Vec<StudyPiece> {
@@ -122,12 +158,12 @@ pub(super) fn over_defect(names: &[String], runs: &[&RunResult], defect: usize) 
     }
     let units = runs.iter().map(|run| stiffness_unit(run.scenario.contact.exponent));
     let stiffness = units.reduce(|a, b| if a == b { a } else { STIFFNESS_UNIT }).unwrap_or(STIFFNESS_UNIT);
-    let quantities: [Shown; 3] = [
+    let quantities: [OverDefect; 3] = [
         ("length", "Effective contact length", "mm", |p| 1e3 * p.length),
         ("stiffness", "Contact stiffness", stiffness, |p| p.stiffness),
         ("force", "Contact force", "N", |p| p.force),
     ];
-    let overlay = |(name, label, unit, value): Shown| {
+    let overlay = |(name, label, unit, value): OverDefect| {
         let curves = passes.iter().enumerate().filter_map(|(of, pass)| {
             let points = &pass.as_ref()?.points;
             let degrees = points.iter().map(|p| p.angle.to_degrees());
@@ -149,6 +185,7 @@ pub(super) fn over_defect(names: &[String], runs: &[&RunResult], defect: usize) 
 /// The mean acceleration around the instants of rollers' entry to and exit from the defect.
 pub(super) fn entry_and_exit(names: &[String], runs: &[&RunResult], defect: usize) -> Vec<StudyPiece> {
     let all: Vec<Vec<Impacts>> = runs.iter().map(|run| impacts(&run.simulation, &run.findings)).collect();
+    let shown = Shown::of(names, runs);
     let mut pieces = Vec::new();
     for (enters, word) in [(true, "entry"), (false, "exit")] {
         let mut counts = Vec::new();
@@ -167,7 +204,7 @@ pub(super) fn entry_and_exit(names: &[String], runs: &[&RunResult], defect: usiz
             pieces.push(StudyPiece::Note(format!("No {word} is within the waveform that was kept.")));
             continue;
         }
-        let labels = [format!("Time from the {word}"), format!("Mean {}", acceleration(runs[0]))];
+        let labels = [format!("Time from the {word}"), format!("Mean {}", shown.label)];
         let name = format!("defect{}-{word}", defect + 1);
         let overlay = Overlay {
             note: format!(
@@ -176,7 +213,7 @@ pub(super) fn entry_and_exit(names: &[String], runs: &[&RunResult], defect: usiz
             ),
             ..Overlay::new(name, (&labels[0], "ms"), (&labels[1], "m/s^2"), curves)
         };
-        pieces.push(StudyPiece::Curves(overlay, names.to_vec()));
+        pieces.push(StudyPiece::Curves(overlay, shown.names.clone()));
     }
     pieces
 }

@@ -5,8 +5,9 @@ use super::target::check;
 use super::{CalibrateError, Key, Pattern, Settings, Target};
 use crate::campaign::fingerprint;
 use brinell::document::Loaded;
-use brinell::result::{check_name, names};
-use brinell::simulate::Simulation;
+use brinell::observe::Watch;
+use brinell::result::{check_name, names, quantities};
+use brinell::simulate::{End, EnergyAudit, Outcome, Simulation, SolverWork};
 use serde_json::{Value, json};
 
 /// Runs for each key where no budget is given.
@@ -27,6 +28,20 @@ pub struct Plan {
     pub settings: Settings,
     /// The scenario in the middle of the bounds.
     pub middle: Loaded,
+}
+
+/// What is left of a run that made no step.
+fn not_run() -> Outcome {
+    Outcome {
+        end: End::Stopped,
+        rows: 0,
+        t: 0.0,
+        reached: 0.0,
+        work: SolverWork::default(),
+        energy: EnergyAudit::default(),
+        momentum_imbalance: None,
+        sensor: Vec::new(),
+    }
 }
 
 /// What a point of the unit cube gives the keys.
@@ -50,6 +65,20 @@ pub fn middle(keys: &[Key]) -> Vec<(String, String)> {
 }
 
 impl Plan {
+    /// Units of the targets, before any run; empty where a number has none.
+    pub fn target_units(&self) -> Vec<String> {
+        // What a signal says of a band or a line.
+        let of_signature = |name: &str| name.starts_with("signature.").then(|| "dB".to_owned());
+        let numbers = Simulation::unchecked(&self.middle.scenario).map_or(Vec::new(), |simulation| {
+            let findings = Watch::new(&self.middle.scenario, &simulation).finish(&simulation);
+            quantities(&self.middle.scenario, &simulation, &not_run(), &findings)
+        });
+        let listed = |name: &str| numbers.iter().find(|q| q.name == name).map(|q| q.unit.clone());
+        let unit = |target: &Target| of_signature(&target.name).or_else(|| listed(&target.name)).unwrap_or_default();
+        let all = self.targets.iter().map(unit);
+        all.map(|unit| if unit == "1" { String::new() } else { unit }).collect()
+    }
+
     /// Of keys that may be fitted together; `middle` is the scenario of [`middle`]'s settings, and `simulation` is its.
     ///
     /// # Errors

@@ -10,6 +10,7 @@ mod wanted;
 
 use crate::failure::Failure;
 pub(crate) use args::SignalArgs;
+use brinell::analysis::AnalysisError;
 use brinell::analysis::{Scaled, Unit, once};
 use brinell::document::{Loaded, read};
 use brinell_io::{Channel, FileKind, Format, SignalFile, open};
@@ -98,6 +99,14 @@ pub(crate) fn load(path: &Path, wanted: &Wanted) -> Result<Measured, Failure> {
         None => MOST,
     };
     let (mut x, more) = stretch(&mut file, &name, skip, most)?;
+    if let Some(first) = x.iter().position(|v| !v.is_finite())
+        && let Some((line, text)) = file.cell(&name, (skip + first) as u64)
+    {
+        let count = x.iter().filter(|v| !v.is_finite()).count();
+        let why = AnalysisError::NotFinite { count, samples: x.len(), first: first + 1 };
+        let text = if text.is_empty() { "empty".into() } else { format!("`{text}`") };
+        return Err(Failure::Usage(format!("{}, `{name}`: {why}; on line {line} it is {text}", path.display())));
+    }
     warnings.extend(beyond(&x, channel.stored_as, wanted));
     scale(&mut x, factor);
     let long = more && wanted.duration.is_none();

@@ -53,10 +53,12 @@ pub(super) fn rate(
             )));
         }
     };
-    let hz = file.rate_of(&time.name, unit).map_err(bad)?.map_err(|why| {
+    let found = file.rate_of(&time.name, unit).map_err(bad)?;
+    let hz = found.map_err(|why| {
+        let at = at_line(file, &why, [&time.name, &channel.name]);
         let why = words(&why);
         Failure::Usage(format!(
-            "{}: no sample rate follows from `{}`: {why}; give {option} HZ if you know it",
+            "{}: no sample rate follows from `{}`: {why}{at}; give {option} HZ if you know it and the times are wrong",
             file.path().display(),
             time.name
         ))
@@ -94,4 +96,25 @@ fn choice(wanted: &Wanted, why: &NoTimes) -> &'static str {
 
 fn words(why: &NoRate) -> String {
     why.words(|step| short(step, 5))
+}
+
+/// The lines of a text file to blame, with what they say in the columns of times and signal.
+fn at_line(file: &mut SignalFile, why: &NoRate, columns: [&str; 2]) -> String {
+    let mut line = |value: u64| {
+        let [(line, time), (_, signal)] = [file.cell(columns[0], value)?, file.cell(columns[1], value)?];
+        let cell = |name: &str, text: &str| match text.parse::<f64>() {
+            Ok(number) if number.is_finite() => format!("`{name}` {text}"),
+            _ if text.is_empty() => format!("`{name}` empty"),
+            _ => format!("`{name}` {text}, no number"),
+        };
+        Some(format!("line {line} ({}; {})", cell(columns[0], &time), cell(columns[1], &signal)))
+    };
+    match *why {
+        NoRate::Missing { after } => line(after as u64).map_or(String::new(), |at| format!("; it is on {at}")),
+        NoRate::Uneven { after, .. } => match (line((after as u64).saturating_sub(1)), line(after as u64)) {
+            (Some(from), Some(to)) => format!("; that step is from {from} to {to}"),
+            _ => String::new(),
+        },
+        NoRate::TooFew | NoRate::NotIncreasing => String::new(),
+    }
 }

@@ -17,7 +17,7 @@ const BLOCK: usize = 2 << 20;
 /// Bytes that are worth a thread.
 const SHARE: usize = 256 << 10;
 /// A longer line is no line of a table.
-const MAX_LINE: usize = 16 << 20;
+pub(super) const MAX_LINE: usize = 16 << 20;
 /// Values handed on at a time, whatever the blocks and threads: what is summed piece by piece comes out the same.
 const PIECE: usize = 16 << 10;
 
@@ -279,8 +279,8 @@ impl Plain {
     }
 }
 
-fn row(bytes: &[u8], layout: &Layout, field: usize, line: u64, values: &mut Vec<f64>) -> Result<(), Fault> {
-    let bytes = bytes.strip_suffix(b"\r").unwrap_or(bytes);
+/// The field of a line that is wanted, and how many it has.
+pub(super) fn field_of<'a>(bytes: &'a [u8], layout: &Layout, field: usize) -> (Option<&'a [u8]>, usize) {
     let mut wanted = None;
     let mut count = 0;
     let mut take = |piece| {
@@ -300,6 +300,17 @@ fn row(bytes: &[u8], layout: &Layout, field: usize, line: u64, values: &mut Vec<
         }
         any => any.fields(bytes).for_each(take),
     }
+    (wanted, count)
+}
+
+/// A field as a message shows it.
+pub(super) fn shown(field: &[u8]) -> String {
+    String::from_utf8_lossy(field).trim().chars().take(40).collect()
+}
+
+pub(super) fn row(bytes: &[u8], layout: &Layout, field: usize, line: u64, values: &mut Vec<f64>) -> Result<(), Fault> {
+    let bytes = bytes.strip_suffix(b"\r").unwrap_or(bytes);
+    let (wanted, count) = field_of(bytes, layout, field);
     let value = wanted.and_then(|text| number(text, layout.decimal));
     if let Some(value) = value
         && count == layout.columns.len()
@@ -316,7 +327,7 @@ fn row(bytes: &[u8], layout: &Layout, field: usize, line: u64, values: &mut Vec<
         return Err(Fault::Row { line, expected: layout.columns.len(), got: count });
     }
     let wanted = wanted.unwrap_or_default();
-    let text = String::from_utf8_lossy(wanted).trim().chars().take(40).collect();
+    let text = shown(wanted);
     let column = layout.columns[field].name.clone();
     let has_point = layout.decimal == Some(Decimal::Comma) && number(wanted, Some(Decimal::Point)).is_some();
     Err(if has_point { Fault::Point { line, column, text } } else { Fault::Number { line, column, text } })

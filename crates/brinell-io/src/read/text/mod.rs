@@ -6,6 +6,7 @@
 //! line is passed over; in a file of one column both end what is read, and none but such may follow. Where commas are decimal, points are signs between thousands; between commas such a number is in
 //! quotes, `"0,5","-1,2"`. A line above the numbers such as `Sample rate: 12000 Hz` states the rate.
 
+mod cell;
 mod format;
 mod layout;
 mod lines;
@@ -66,5 +67,9 @@ impl Source for Text {
     fn stream(&mut self, index: usize, sink: Sink<'_>) -> Result<(), Fault> {
         self.contents.seek(SeekFrom::Start(self.layout.start))?;
         lines::column(&mut self.contents, &self.layout, self.fields[index], sink)
+    }
+    fn cell(&mut self, index: usize, value: u64) -> Option<(u64, String)> {
+        self.contents.seek(SeekFrom::Start(self.layout.start)).ok()?;
+        cell::find(&mut self.contents, &self.layout, self.fields[index], value)
     }
 }
