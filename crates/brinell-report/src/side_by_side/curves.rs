@@ -1,11 +1,11 @@
 //! The curves of a comparison: signals, spectra, passes over damage, entries and exits.
 
-use super::headline::SENSOR;
 use crate::data::Along;
 use crate::number::capital;
 use crate::overlay::{OverlaidCurve, Overlay, Vertical};
 use crate::run::defect_markers;
 use crate::study::StudyPiece;
+use brinell::channel::SENSOR;
 use brinell::channel::{STIFFNESS_UNIT, stiffness_unit};
 use brinell::observe::passes::{PassPoint, place};
 use brinell::result::{Impacts, RunResult, impacts};

@@ -1,13 +1,12 @@
 //! The numbers that say most of a comparison.
 
 use crate::quantity::words;
+use brinell::channel::SENSOR;
 use brinell::result::Quantity;
 use brinell::signal::ratio::{Ratio, ratio};
 use brinell_study::campaign::{Compared, Side};
 
-/// The sensor's channels, by axis.
-pub(super) const SENSOR: [&str; 2] = ["sensor_ax", "sensor_ay"];
-/// Their indicators that say most.
+/// The sensor's indicators that say most.
 const WHICH: [&str; 3] = ["rms", "peak_to_peak", "kurtosis"];
 
 /// A number of the runs, over the baseline's.
