@@ -21,7 +21,7 @@ const HARMONICS: usize = 5;
 /// side, in trials by a factor of three: an error of one phase moves the rates before and after it to opposite sides.
 ///
 /// # Errors
-/// As [`envelope`].
+/// As [`envelope()`].
 pub fn mean_rate_uncertainty(x: &[f64], fs: f64, band: Band, line: &LineFrequency) -> Result<f64, SignalError> {
     let envelope = envelope(x, fs, band)?;
     let periods = x.len() as f64 * line.frequency / fs;
