@@ -264,13 +264,18 @@ impl Comb {
         })
     }
 
-    /// Whether one harmonic alone makes the comb, and is not the fundamental: a line of something else, whose rate has a
-    /// harmonic there. That one tells the place, so that the others are looked for at one place alone.
+    /// Whether it is a comb of something else, whose rate has harmonics there: one harmonic alone makes it, and is not the
+    /// fundamental, or every second or third one. These tell the place, so that the others are looked for at one place
+    /// alone.
     fn is_another(&self, e: &Padded, f: f64) -> bool {
         let strongest = (1..=self.noise.len()).map(|h| (h, self.ratio(e, f, h))).max_by(|a, b| a.1.total_cmp(&b.1));
         strongest.is_some_and(|(h, ratio)| {
             let others = 2.0 * (self.noise.len() as f64 - 1.0);
             h > 1 && chi_square_tail(2.0 * (self.height(e, f) - ratio), others) > OTHERS_LIMIT
+        }) || [2, 3].into_iter().any(|every| {
+            let between = (1..=self.noise.len()).filter(|h| h % every != 0).map(|h| self.ratio(e, f, h));
+            let (count, sum) = between.fold((0.0, 0.0), |(count, sum), ratio| (count + 1.0, sum + ratio));
+            chi_square_tail(2.0 * sum, 2.0 * count) > OTHERS_LIMIT
         })
     }
 

@@ -108,6 +108,18 @@ fn prop_one_harmonic_of_another_train_is_no_comb() {
     }
 }
 
+/// Trains of which every second or third harmonic of the comb is one: at 2/3, 3/2, 1/3 and half of that rate.
+#[test]
+fn prop_a_fraction_of_another_trains_rate_is_no_comb() {
+    for (rate, shares) in [(249.6, [2.0 / 3.0, 1.5, 0.5, 1.0 / 3.0]), (161.2, [2.0 / 3.0, 1.5, 0.5, 1.0 / 3.0])] {
+        for share in shares {
+            let search = LineSearch::new(1.002 * share * rate);
+            let x = train(rate, 0.0, 0.1).generate(51_200, 77);
+            assert_eq!(line_frequency(&x, FS, BAND, &search), None, "{share} of {rate}");
+        }
+    }
+}
+
 /// Every second impact is nearly as high: the second harmonic dominates.
 #[test]
 fn prop_a_train_of_high_and_low_impacts_is_a_comb() {

@@ -2,23 +2,24 @@
 
 use super::LineFrequency;
 use crate::spectrum::hann;
-use crate::{Band, Estimate, Scatter, SignalError, envelope};
+use crate::{Band, Estimate, SignalError, envelope, scatter};
 use realfft::num_complex::Complex;
 use std::f64::consts::TAU;
 
-/// Pieces of the record at most, and periods of one at least: as many as Hann's main lobe has bins.
-const PIECES: f64 = 8.0;
-const PERIODS: f64 = 4.0;
-/// The phase is that of the strongest of so many harmonics.
-const HARMONICS: usize = 5;
+/// Pieces of the record at most, and periods of one at least: the shortest record that is searched has eight pieces.
+const PIECES: f64 = 16.0;
+const PERIODS: f64 = 3.0;
+/// Harmonics whose phases tell the impacts' delay, and steps of a turn in which it is sought.
+const HARMONICS: usize = 8;
+const STEPS: i32 = 4096;
 
 /// Standard uncertainty, Hz, of the line found in the envelope of a signal of the band (Hz) as an estimate of the mean rate
 /// over the signal. [`LineFrequency::uncertainty`] of one segment is that of noise and independent timing errors alone.
 ///
-/// The phase of the comb's strongest harmonic is taken of up to eight pieces of the record; from one to the next it says the
-/// mean rate between. What these rates scatter by, Student's t of their number included, and what their mean lies from
-/// the line are added: a comb of many harmonics settles on the stretch in which the rate was steadiest. It is on the safe
-/// side, in trials by a factor of three: an error of one phase moves the rates before and after it to opposite sides.
+/// The harmonics of up to sixteen pieces of the record are taken; by how much the impacts of one come late beside those of
+/// the piece before, all harmonics together, says the mean rate between. How these rates scatter about their mean,
+/// autocorrelation and Student's t included ([`scatter()`]), and what their mean lies from the line are added: a comb of
+/// many harmonics settles on the stretch in which the rate was steadiest.
 ///
 /// # Errors
 /// As [`envelope()`].
@@ -28,30 +29,31 @@ pub fn mean_rate_uncertainty(x: &[f64], fs: f64, band: Band, line: &LineFrequenc
     let length = x.len() / (periods / PERIODS).clamp(1.0, PIECES) as usize;
     let window = hann(length);
     let mean = envelope.iter().sum::<f64>() / envelope.len() as f64;
-    let phasors = |harmonic: usize| -> Vec<Complex<f64>> {
-        let turn = -TAU * harmonic as f64 * line.frequency / fs;
-        let of = |(piece, values): (usize, &[f64])| {
-            let phasor =
-                |(i, v): (usize, &f64)| Complex::cis(turn * (piece * length + i) as f64) * (window[i] * (v - mean));
-            values.iter().enumerate().map(phasor).sum()
-        };
-        envelope.chunks_exact(length).enumerate().map(of).collect()
-    };
-    let power = |of: &[Complex<f64>]| of.iter().map(Complex::norm_sqr).sum::<f64>();
     let harmonics = (1..=HARMONICS).take_while(|h| (*h as f64 + 0.5) * line.frequency < 0.5 * fs);
-    let combs = harmonics.map(|h| (h, phasors(h)));
-    let strongest = combs.max_by(|a, b| power(&a.1).total_cmp(&power(&b.1)));
-    let rates: Vec<f64> = strongest.map_or(Vec::new(), |(h, phasors)| {
-        let per_radian = fs / (TAU * h as f64 * length as f64);
-        phasors.windows(2).map(|pair| line.frequency + (pair[1] * pair[0].conj()).arg() * per_radian).collect()
-    });
-    let n = rates.len() as f64;
-    let mean = rates.iter().sum::<f64>() / n;
-    let squares: f64 = rates.iter().map(|rate| (rate - mean).powi(2)).sum();
-    let freedom = (rates.len() as u32).saturating_sub(1).max(1);
-    let scatter = Scatter { error: (squares / (n * f64::from(freedom))).sqrt(), freedom };
-    let of_mean = Estimate::signed(mean, Some(scatter)).interval.map_or(0.0, |i| i.standard_uncertainty());
-    Ok(line.uncertainty.hypot(of_mean).hypot(if n > 0.0 { line.frequency - mean } else { 0.0 }))
+    let turns: Vec<f64> = harmonics.map(|h| -TAU * h as f64 * line.frequency / fs).collect();
+    let of = |(piece, values): (usize, &[f64])| -> Vec<Complex<f64>> {
+        let windowed: Vec<f64> = window.iter().zip(values).map(|(w, v)| w * (v - mean)).collect();
+        let phasor = |turn: f64, i: usize| Complex::cis(turn * (piece * length + i) as f64);
+        turns.iter().map(|turn| windowed.iter().enumerate().map(|(i, v)| phasor(*turn, i) * v).sum()).collect()
+    };
+    let pieces: Vec<Vec<Complex<f64>>> = envelope.chunks_exact(length).enumerate().map(of).collect();
+    // The phase of the fundamental that explains how all harmonics have turned from one piece to the next.
+    let turned = |pair: &[Vec<Complex<f64>>]| {
+        let crossed: Vec<Complex<f64>> = pair[0].iter().zip(&pair[1]).map(|(a, b)| b * a.conj()).collect();
+        let agreement = |phase: f64| -> f64 {
+            let terms = crossed.iter().enumerate();
+            terms.map(|(k, c)| (c * Complex::cis(-(k as f64 + 1.0) * phase)).re).sum()
+        };
+        let phases = (-STEPS / 2..STEPS / 2).map(|k| TAU * f64::from(k) / f64::from(STEPS));
+        phases.max_by(|a, b| agreement(*a).total_cmp(&agreement(*b))).unwrap_or(0.0)
+    };
+    let per_radian = fs / (TAU * length as f64);
+    let rates: Vec<f64> = pieces.windows(2).map(|pair| line.frequency + turned(pair) * per_radian).collect();
+    let mean = rates.iter().sum::<f64>() / rates.len() as f64;
+    let Some(of_mean) = Estimate::signed(mean, scatter(&rates)).interval else {
+        return Ok(line.uncertainty);
+    };
+    Ok(line.uncertainty.hypot(of_mean.standard_uncertainty()).hypot(line.frequency - mean))
 }
 
 #[cfg(test)]

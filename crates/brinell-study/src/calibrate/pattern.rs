@@ -8,7 +8,7 @@ use brinell::channel::SENSOR;
 use brinell::result::{Quantity, Spread};
 use brinell::scenario::{Scenario, Surface};
 use brinell::signal::{
-    Band, Blocks, Indicator, Interval, LineSearch, SignalError, line_frequency, mean_rate_uncertainty,
+    Band, Blocks, FEWEST_PERIODS, Indicator, Interval, LineSearch, SignalError, line_frequency, mean_rate_uncertainty,
 };
 use brinell::simulate::Simulation;
 use std::f64::consts::TAU;
@@ -21,8 +21,9 @@ const SPEED: &str = "operation.speed_rpm";
 const ONE_SPEED: f64 = 0.01;
 /// So far beyond the range in which a line is sought none may be higher: relative.
 const BEYOND: f64 = 0.04;
-/// Half the widest range that a search allows, relative.
-const WIDEST: f64 = 0.3;
+/// The bounds of a fitted speed count so far from the speed that is expected, relative: no frequency lies with 4/3 of itself
+/// in so narrow a range, where a comb would be taken for its multiple.
+const WIDEST: f64 = 0.14;
 
 /// A measured acceleration.
 #[derive(Debug)]
@@ -51,8 +52,9 @@ pub struct Pattern {
 
 impl Pattern {
     /// Of a signal, for runs of a scenario, that of the middle of the bounds of `keys`. The signal's lines are sought
-    /// about the speed that `own` states, the scenario before anything is fitted, and where the speed is fitted from
-    /// the one of its bounds to the other. `axis` is the sensor's, x or y; without one the one nearer the load.
+    /// about the speed that `own` states, the scenario before anything is fitted, or about the middle of the bounds of
+    /// the speed where that is outside; over the bounds as far as [`WIDEST`] from there. `axis` is the sensor's, x or y;
+    /// without one the one nearer the load.
     /// `model_uncertainty_percent` is what levels of the model may differ by from a machine's.
     ///
     /// # Errors
@@ -83,14 +85,10 @@ impl Pattern {
             return Err(CalibrateError::Rate { measured: measured.rate, simulated });
         }
         let x = &*measured.unit.in_si(measured.x);
-        let (own, fitted) = (own.operation.speed_rpm.constant(), keys.iter().find(|key| key.name == SPEED));
-        // Of what is fitted the middle of the bounds is what `scenario` has.
-        let range = match fitted {
-            Some(key) => [key.low / rpm, key.high / rpm],
-            None => [own.unwrap_or(rpm) / rpm; 2],
-        };
-        let range = [range[0].min(range[1]), range[0].max(range[1])];
-        targets((scenario, simulation), (x, measured.rate), axis, range, share)
+        let bounds = keys.iter().find(|key| key.name == SPEED).map(|key| [key.low / rpm, key.high / rpm]);
+        let within = |own: &f64| bounds.is_none_or(|[low, high]| (low.min(high)..=low.max(high)).contains(own));
+        let own = own.operation.speed_rpm.constant().map(|own| own / rpm).filter(within);
+        targets((scenario, simulation), (x, measured.rate), axis, Speeds { own, bounds }, share)
     }
 
     /// The levels of a run's signal as numbers of its row.
@@ -112,12 +110,32 @@ impl Pattern {
     }
 }
 
-/// `speeds`: the speeds at which the signal's may be, over the scenario's.
+/// Speeds that the signal's may be, over the scenario's.
+struct Speeds {
+    /// As it is stated, where that is within the bounds.
+    own: Option<f64>,
+    /// Where it is fitted.
+    bounds: Option<[f64; 2]>,
+}
+
+impl Speeds {
+    fn expected(&self) -> f64 {
+        self.own.unwrap_or(1.0)
+    }
+
+    /// From and to which speed lines are sought.
+    fn range(&self) -> [f64; 2] {
+        let expected = self.expected();
+        let [low, high] = self.bounds.unwrap_or([expected; 2]);
+        [low.min(high).max(expected * (1.0 - WIDEST)), low.max(high).min(expected * (1.0 + WIDEST))]
+    }
+}
+
 fn targets(
     (scenario, simulation): (&Scenario, &Simulation),
     (x, rate): (&[f64], f64),
     axis: usize,
-    speeds: [f64; 2],
+    speeds: Speeds,
     share: f64,
 ) -> Result<Pattern, CalibrateError> {
     let channel = SENSOR[axis];
@@ -129,10 +147,10 @@ fn targets(
     let band = Band::between((10.0 * highest).clamp(0.02 * rate, 0.1 * rate), 0.4 * rate);
     // Runs are analysed from half-way on at the latest.
     let analysed = (ANALYSED * simulation.samples() as f64) as usize;
-    let (found, notes) = combs((x, rate, band), &lines, speeds, analysed)?;
+    let (found, notes) = combs((x, rate, band), &lines, speeds.range(), analysed)?;
     // Where the speed is not known the signal's lines tell it, but for slip.
     let told = found.iter().map(|f| f.1).min_by(|a, b| (a - 1.0).abs().total_cmp(&(b - 1.0).abs()));
-    let turning = if speeds[0] < speeds[1] { told.unwrap_or(1.0) } else { speeds[0] };
+    let turning = speeds.bounds.and(told).unwrap_or(speeds.expected());
     for (_, frequency) in &mut lines {
         *frequency *= turning;
     }
@@ -167,41 +185,40 @@ fn targets(
 /// A comb of lines found: name, over pure rolling, Hz, and standard uncertainty of its mean, Hz.
 type Found = (&'static str, f64, f64, f64);
 
-/// The combs of lines at defect frequencies (Hz, of the scenario's speed) in a signal, its rate and band, at speeds from
-/// and to these over the scenario's; and what is to be said of them. Runs have `analysed` samples to find theirs in.
+/// The combs of lines at defect frequencies (Hz, of the scenario's speed) in a signal, its rate and band, from and to these
+/// speeds over the scenario's; and what is to be said of them. Runs have `analysed` samples to find theirs in.
 fn combs(
     (x, rate, band): (&[f64], f64, Band),
     lines: &[(&'static str, f64)],
-    speeds: [f64; 2],
+    [from, to]: [f64; 2],
     analysed: usize,
 ) -> Result<(Vec<Found>, Vec<String>), SignalError> {
     let (mut notes, mut found) = (Vec::new(), Vec::<Found>::new());
     for &(name, nominal) in lines {
-        let upper = name.to_uppercase();
         let usual = LineSearch::new(nominal);
-        let comb = |beyond: f64| {
-            let reach = usual.tolerance + beyond;
-            let (low, high) = (nominal * speeds[0] * (1.0 - reach), nominal * speeds[1] * (1.0 + reach));
-            let tolerance = ((high - low) / (high + low)).min(WIDEST);
-            let search = LineSearch { nominal: 0.5 * (low + high), tolerance, ..usual };
-            (search.fits(analysed.min(x.len()), rate)).then(|| line_frequency(x, rate, band, &search))
+        let upper = name.to_uppercase();
+        if !usual.fits(analysed.min(x.len()), rate) {
+            notes.push(format!(
+                "{upper} is not looked for: signal and runs have to hold {FEWEST_PERIODS} periods of it"
+            ));
+            continue;
+        }
+        let range = |reach: f64| [nominal * from * (1.0 - reach), nominal * to * (1.0 + reach)];
+        let comb = |reach: f64| {
+            let [low, high] = range(reach);
+            let search = LineSearch { nominal: 0.5 * (low + high), tolerance: (high - low) / (high + low), ..usual };
+            line_frequency(x, rate, band, &search)
         };
-        let Some(line) = comb(0.0) else { continue };
-        let sought = match speeds[0] < speeds[1] {
-            true => {
-                format!("from {:.1} to {:.1} Hz, where its bounds have it", nominal * speeds[0], nominal * speeds[1])
-            }
-            false => format!("{:.1} Hz, where the speed has it", nominal * speeds[0]),
-        };
-        let sought = format!("within {:.0} % of {sought}: is {SPEED} right?", 100.0 * usual.tolerance);
-        let Some(line) = line else {
-            notes.push(format!("no line of {upper} {sought}"));
+        let [low, high] = range(usual.tolerance);
+        let place = format!("from {low:.1} to {high:.1} Hz, where the speed has it: is {SPEED} right?");
+        let Some(line) = comb(usual.tolerance) else {
+            notes.push(format!("no line of {upper} {place}"));
             continue;
         };
         // On the skirt of higher lines, or beside them, is no line of its own.
-        let higher = comb(BEYOND).flatten().filter(|other| (other.frequency - line.frequency).abs() > line.resolution);
-        if let Some(other) = higher {
-            notes.push(format!("lines at {:.2} Hz are higher than any of {upper} {sought}", other.frequency));
+        let beyond = comb(usual.tolerance + BEYOND);
+        if let Some(other) = beyond.filter(|other| (other.frequency - line.frequency).abs() > line.resolution) {
+            notes.push(format!("lines at {:.2} Hz are higher than any of {upper} {place}", other.frequency));
             continue;
         }
         let uncertainty = mean_rate_uncertainty(x, rate, band, &line)?;
@@ -257,19 +274,27 @@ mod tests {
     /// BPFO of 250 Hz at the scenario's speed, impacts elsewhere.
     #[test]
     fn prop_lines_are_sought_over_the_bounds_of_the_speed_and_not_beside_higher_ones() {
-        let look = |frequency: f64, speeds| {
-            let x = impacts(frequency);
-            combs((&x, RATE, Band::between(2500.0, 10000.0)), &[("bpfo", 250.0)], speeds, 20000).unwrap()
+        let look = |frequency: f64, own, bounds| {
+            let (x, band) = (impacts(frequency), Band::between(2500.0, 10000.0));
+            combs((&x, RATE, band), &[("bpfo", 250.0)], Speeds { own, bounds }.range(), 20000).unwrap()
         };
-        for (frequency, speeds) in [(252.0, [1.0, 1.0]), (243.0, [0.97, 1.03]), (259.0, [0.97, 1.03])] {
-            let (found, notes) = look(frequency, speeds);
+        let (at, wide) = (Some(1.0), Some([0.5, 3.0]));
+        for (frequency, own, bounds) in [
+            (252.0, at, None),
+            (243.0, at, Some([0.97, 1.03])),
+            (259.0, None, Some([0.97, 1.03])),
+            // Twice and half of it lie within the bounds.
+            (249.0, at, wide),
+            (233.0, at, wide),
+        ] {
+            let (found, notes) = look(frequency, own, bounds);
             assert!(notes.is_empty(), "{notes:?}");
             let (_, ratio, line, uncertainty) = found[0];
             assert!((line - frequency).abs() < 0.05 && (ratio - line / 250.0).abs() < 1e-12, "{frequency}: {line}");
             assert!(uncertainty < 0.1, "{frequency}: {uncertainty}");
         }
-        for (frequency, speeds) in [(243.0, [1.0, 1.0]), (239.0, [1.0, 1.0]), (264.0, [0.98, 1.02])] {
-            let (found, notes) = look(frequency, speeds);
+        for (frequency, own, bounds) in [(243.0, at, None), (239.0, at, None), (264.0, at, Some([0.98, 1.02]))] {
+            let (found, notes) = look(frequency, own, bounds);
             assert!(found.is_empty(), "{frequency}: {found:?}");
             assert!(notes[0].contains("is operation.speed_rpm right?"), "{notes:?}");
         }

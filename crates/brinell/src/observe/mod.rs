@@ -200,8 +200,30 @@ const BAND_LATEST: f64 = 0.1;
 /// It ends where the anti-alias filter's passband does.
 const BAND_END: f64 = 0.4;
 
-/// A frequency is sought up to this share from pure rolling where the cage slips by more than [`LineSearch::new`] allows.
-const MOST_SLIP: f64 = 0.1;
+/// Where a cage slips by more than [`LineSearch::new`] covers, a frequency is sought about the motion's, which is known at the
+/// end alone: in so many ranges to either side of pure rolling, each twice as wide as the next is apart, relative.
+const FARTHEST: i32 = 10;
+const APART: f64 = 0.01;
+/// Searches of a frequency: the usual one, and these.
+const SEARCHES: usize = 2 * FARTHEST as usize + 2;
+
+fn searches(nominal: f64) -> impl Iterator<Item = LineSearch> {
+    let about = move |k: i32| LineSearch {
+        nominal: nominal * (1.0 + APART * f64::from(k)),
+        tolerance: APART,
+        ..LineSearch::new(nominal)
+    };
+    std::iter::once(LineSearch::new(nominal)).chain((-FARTHEST..=FARTHEST).map(about))
+}
+
+/// Which of the searches counts for a motion that lies off pure rolling by this share; `None` beyond them.
+fn place_of_search(off: f64) -> Option<usize> {
+    if off.abs() <= LineSearch::new(1.0).tolerance {
+        return Some(0);
+    }
+    let k = (off / APART).round();
+    (k.abs() <= f64::from(FARTHEST)).then(|| (k as i32 + FARTHEST + 1) as usize)
+}
 
 /// Share of a short run that the segment of its spectra takes.
 const SEGMENT_SHARE: f64 = 0.75;
@@ -245,9 +267,7 @@ impl Watch {
         let segment = (expected / 2 * 2).max(8);
         let lines = defect_lines(scenario, simulation);
         // About pure rolling, and as far from it as a cage that slips may take it: the motion says later which counts.
-        let near = lines.iter().map(|line| LineSearch::new(line.nominal));
-        let far = near.clone().map(|search| LineSearch { tolerance: MOST_SLIP, ..search });
-        let searches: Vec<LineSearch> = near.chain(far).collect();
+        let searches: Vec<LineSearch> = lines.iter().flat_map(|line| searches(line.nominal)).collect();
         Self {
             sample_rate,
             settled: scenario.settled_s(),
@@ -342,12 +362,10 @@ impl Watch {
         for line in &mut self.lines {
             line.too_short = too_short(line, segment, self.sample_rate, self.unsettled);
         }
-        let (near, far) = spectra.lines.split_at(self.lines.len());
-        for (line, found) in self.lines.iter_mut().zip(near.iter().zip(far)) {
-            let far = self.rates.slips_far(line.defect, line.nominal);
-            let found = if far { self.rates.near_motion(line.defect, *found.1) } else { *found.0 };
-            if let Some(found) = found {
-                let (found, interval) = self.rates.mean_rate(line.defect, found);
+        for (line, found) in self.lines.iter_mut().zip(spectra.lines.chunks_exact(SEARCHES)) {
+            let rate = self.rates.motion(line.defect).unwrap_or(line.nominal);
+            if let Some(Some(found)) = place_of_search(rate / line.nominal - 1.0).and_then(|place| found.get(place)) {
+                let (found, interval) = self.rates.mean_rate(line.defect, *found);
                 (line.found, line.interval) = (Some(found), interval);
             }
         }

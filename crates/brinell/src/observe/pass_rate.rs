@@ -9,7 +9,7 @@ use crate::channel::Frame;
 use crate::model::{Layout, Model};
 use crate::scenario::{ModelKind, Surface};
 use crate::signal::estimate::MOST_FREEDOM;
-use crate::signal::{Averages, Estimate, Interval, LineFrequency, LineSearch, Scatter};
+use crate::signal::{Averages, Estimate, Interval, LineFrequency, Scatter};
 use std::f64::consts::TAU;
 
 /// Share of a run, at its beginning, that hardly moves a frequency found under Hann's window.
@@ -103,21 +103,9 @@ impl PassRates {
     }
 
     /// The mean rate of the motion, Hz, where it is that of the impacts: of damage on a raceway.
-    fn motion(&self, defect: usize) -> Option<f64> {
+    pub(super) fn motion(&self, defect: usize) -> Option<f64> {
         self.rates.get(defect).filter(|rate| rate.on_raceway())?;
         Some(self.rate(defect)?.value.abs())
-    }
-
-    /// Whether the motion's mean rate lies farther from pure rolling, `nominal` Hz, than the usual search reaches.
-    pub(super) fn slips_far(&self, defect: usize, nominal: f64) -> bool {
-        let search = LineSearch::new(nominal);
-        self.motion(defect).is_some_and(|rate| (rate / search.nominal - 1.0).abs() > search.tolerance)
-    }
-
-    /// What was found in a wide search, where it lies as near the motion's mean rate as usual searches reach.
-    pub(super) fn near_motion(&self, defect: usize, found: Option<LineFrequency>) -> Option<LineFrequency> {
-        let search = LineSearch::new(self.motion(defect)?);
-        found.filter(|found| (found.frequency / search.nominal - 1.0).abs() <= search.tolerance)
     }
 
     /// The frequency found in the envelope as an estimate of the mean rate, with its interval.
