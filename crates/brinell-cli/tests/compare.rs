@@ -82,7 +82,7 @@ fn prop_runs_whose_loads_lie_along_different_axes_are_compared_along_their_loads
     let call = brinell(folder.path(), &typed("compare right.toml down.toml -o out --plots svg")).exits(0);
     assert!(!call.out.contains("sensor_ax.rms"), "{}", call.out);
     let call = call
-        .says(&["sensor.rms along the load (sensor_ay over sensor_ax): "])
+        .says(&["sensor.rms on the axis nearer the load (sensor_ay over sensor_ax): "])
         .complains(&["the loads point along different axes"]);
     let page = fs::read_to_string(folder.path().join("out/compare.html")).unwrap();
     for part in ["right (sensor_ax)", "down (sensor_ay)", "RMS of the sensor along each run’s load"] {

@@ -156,7 +156,7 @@ fn correlation(of: &Outcome) -> Table {
 /// A column a direction: keys have long names.
 fn directions(of: &Outcome) -> Table {
     let all = &of.fit.identified.directions;
-    let mut columns = vec!["Share of each key".to_owned()];
+    let mut columns = vec!["Direction".to_owned()];
     columns.extend((1..=all.len()).map(|n| format!("#{n}")));
     let row = |head: &str, cell: &dyn Fn(&Direction) -> String| {
         let cells = all.iter().map(cell);
@@ -173,7 +173,7 @@ fn directions(of: &Outcome) -> Table {
         "Directions, from the best to the least determined",
         columns,
         rows,
-        "Each key counts in shares of its range. The singular value is how many standard uncertainties the targets change by over one \
+        "A column a direction: how much of each key is in it, as a share of the key's range, and what is known along it. The singular value is how many standard uncertainties the targets change by over one \
          range along the direction; noise is what the runs' own uncertainty alone would show.",
     )
 }

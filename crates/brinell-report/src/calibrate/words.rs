@@ -1,6 +1,6 @@
 //! The outcome in sentences, for the terminal and the page.
 
-use crate::number::{plural, short};
+use crate::number::{digits_beside, plural, short};
 use brinell_study::calibrate::identify::{Direction, MOST};
 use brinell_study::calibrate::{Found, Met, Open, Outcome};
 
@@ -32,8 +32,8 @@ pub fn calibration_verdict(of: &Outcome) -> Vec<String> {
             Some(value) => format!(
                 "{}: {} against {}, {} standard uncertainties too {}.",
                 c.name,
-                short(value, 4),
-                format!("{} {}", short(c.target, 4), c.unit).trim_end(),
+                short(value, digits_beside(value, c.uncertainty)),
+                format!("{} {}", short(c.target, digits_beside(c.target, c.uncertainty)), c.unit).trim_end(),
                 short(c.residual.abs(), 2),
                 if c.residual > 0.0 { "high" } else { "low" }
             ),

@@ -149,8 +149,8 @@ fn unlike(sides: &[Side], runs: &[&RunResult]) -> Vec<String> {
     let axis = |run: &RunResult| run.findings.axis;
     if runs.iter().any(|run| axis(run) != axis(runs[0])) {
         warn(
-            "the loads point along different axes: curves show each run's own, the one nearer its load, with the channel in the legend; the headline numbers \
-             compare along the loads, the tables each channel with the same one",
+            "the loads point along different axes: curves show each run's own, the one nearer its load, with the channel in the legend; the headline numbers of the \
+             sensor compare these axes, and so do levels of the envelope and peaks of entries and exits; the tables compare every other channel with the same one",
         );
     }
     let exponent = |run: &RunResult| run.scenario.contact.exponent;

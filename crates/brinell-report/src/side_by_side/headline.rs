@@ -12,7 +12,7 @@ const WHICH: [&str; 3] = ["rms", "peak_to_peak", "kurtosis"];
 /// A number of the runs, over the baseline's.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Headline {
-    /// "sensor_ax.rms", or "sensor.rms along the load" where the runs' loads are nearer different axes.
+    /// "sensor_ax.rms", or "sensor.rms on the axis nearer the load" where the runs' loads are nearer different axes.
     pub name: String,
     /// The same for a page.
     pub words: String,
@@ -59,9 +59,9 @@ fn along_loads(axes: &[usize], compared: &[Compared], which: &str) -> Option<Hea
     let of_run = |run: usize| estimate(run).filter(|_| run > 0).and_then(|of| ratio(&of, &first));
     let over = |axis: &usize| (*axis != axes[0]).then(|| (SENSOR[*axis], SENSOR[axes[0]]));
     Some(Headline {
-        name: format!("sensor.{which} along the load"),
+        name: format!("sensor.{which} on the axis nearer the load"),
         words: format!(
-            "{} of the sensor along each run’s load",
+            "{} of the sensor on the axis nearer each run’s load",
             words(&format!("sensor.{which}")).replace(" of sensor", "")
         ),
         ratios: (0..axes.len()).map(of_run).collect(),
