@@ -86,6 +86,9 @@ pub(crate) fn brushed(request: &Value, arrays: &Arrays) -> Answer<Value> {
     };
     let depth = sign * number(request, "depth_um")?;
     let mut grid = brush(before.as_ref(), &stroke, depth).map_err(|e| Trouble::of(e.to_string()))?;
+    // To a nanometre, and of one nanometre nothing: as much as an earlier rounding leaves where a stroke is taken back.
+    let rounded = |d: f64| if d.abs() < 1.5e-3 { 0.0 } else { (d * 1e3).round() / 1e3 };
+    grid.depth_um.iter_mut().for_each(|d| *d = rounded(*d));
     let columns = grid.columns;
     let damaged = (grid.depth_um.iter().enumerate()).filter(|(_, d)| **d != 0.0);
     let [low, high] = extents(damaged.map(|(k, _)| {
@@ -98,7 +101,6 @@ pub(crate) fn brushed(request: &Value, arrays: &Arrays) -> Answer<Value> {
     let middle = if before.is_some() { [0.0; 2] } else { [0.5 * (low[0] + high[0]), 0.5 * (low[1] + high[1])] };
     grid.s0_mm -= middle[0];
     grid.z0_mm -= middle[1];
-    grid.depth_um.iter_mut().for_each(|d| *d = (*d * 1e3).round() / 1e3);
     Ok(json!({
         "shape": stated(Shape::DepthMap { grid })?,
         "center_mm": middle,

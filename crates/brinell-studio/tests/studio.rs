@@ -184,6 +184,24 @@ fn prop_what_is_drawn_is_a_shape_that_a_scenario_takes() {
     }
 }
 
+/// A stroke that is taken back leaves nothing, and one shallower than the numbers' digits makes nothing.
+#[test]
+fn prop_a_stroke_taken_back_leaves_no_damage() {
+    let mut studio = Studio::new();
+    let bytes: Vec<u8> = [-0.6_f64, 0.0, 0.6, 0.0].iter().flat_map(|x| x.to_le_bytes()).collect();
+    let mut brush = |grid: &Value, depth: f64, raise: bool| {
+        let stroke = json!({ "$": ["f64", 0, 4] });
+        let request = json!({ "do": "brush", "grid": grid, "points_mm": stroke, "width_mm": 0.8, "depth_um": depth, "raise": raise });
+        ask_with(&mut studio, request, &bytes).json
+    };
+    let drawn = brush(&Value::Null, 10.0, false);
+    assert_eq!(drawn["ok"], true, "{drawn}");
+    for (grid, depth, raise) in [(&drawn["shape"], 10.0, true), (&Value::Null, 1e-4, false)] {
+        let refused = brush(grid, depth, raise);
+        assert!(refused["ok"] == false && refused.to_string().contains("nothing is left"), "{refused}");
+    }
+}
+
 /// Along a profile the ends of a roller do not touch, and damage takes from what does.
 #[test]
 fn regress_length_under_a_profile_is_what_touches() {
