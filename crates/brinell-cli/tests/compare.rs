@@ -85,7 +85,7 @@ fn prop_runs_whose_loads_lie_along_different_axes_are_compared_along_their_loads
         .says(&["sensor.rms on the axis nearer the load (sensor_ay over sensor_ax): "])
         .complains(&["the loads point along different axes"]);
     let page = fs::read_to_string(folder.path().join("out/compare.html")).unwrap();
-    for part in ["right (sensor_ax)", "down (sensor_ay)", "RMS of the sensor along each run’s load"] {
+    for part in ["right (sensor_ax)", "down (sensor_ay)", "RMS of the sensor on the axis nearer each run’s load"] {
         assert!(page.contains(part), "no {part}");
     }
     // What a curve's column is called is what it holds.
