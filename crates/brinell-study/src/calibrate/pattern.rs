@@ -149,7 +149,7 @@ fn targets(
     let analysed = (ANALYSED * simulation.samples() as f64) as usize;
     let (found, notes) = combs((x, rate, band), &lines, speeds.range(), analysed)?;
     // Where the speed is not known the signal's lines tell it, but for slip.
-    let told = found.iter().map(|f| f.1).min_by(|a, b| (a - 1.0).abs().total_cmp(&(b - 1.0).abs()));
+    let told = nearest(&found);
     let turning = speeds.bounds.and(told).unwrap_or(speeds.expected());
     for (_, frequency) in &mut lines {
         *frequency *= turning;
@@ -184,6 +184,11 @@ fn targets(
 
 /// A comb of lines found: name, over pure rolling, Hz, and standard uncertainty of its mean, Hz.
 type Found = (&'static str, f64, f64, f64);
+
+/// Of the combs found the one nearest pure rolling, over that.
+fn nearest(found: &[Found]) -> Option<f64> {
+    found.iter().map(|f| f.1).min_by(|a, b| (a - 1.0).abs().total_cmp(&(b - 1.0).abs()))
+}
 
 /// The combs of lines at defect frequencies (Hz, of the scenario's speed) in a signal, its rate and band, from and to these
 /// speeds over the scenario's; and what is to be said of them. Runs have `analysed` samples to find theirs in.
@@ -225,7 +230,7 @@ fn combs(
         found.push((name, line.frequency / nominal, line.frequency, uncertainty));
     }
     // The one nearest pure rolling says where the others are: what is not there is another line.
-    let nearest = found.iter().map(|f| f.1).min_by(|a, b| (a - 1.0).abs().total_cmp(&(b - 1.0).abs()));
+    let nearest = nearest(&found);
     found.retain(|(name, ratio, frequency, _)| {
         let stays = nearest.is_some_and(|nearest| (ratio / nearest - 1.0).abs() < ONE_SPEED);
         if !stays {

@@ -52,6 +52,7 @@ pub struct Kinematics {
 
 impl Kinematics {
     /// Pure rolling at an inner ring's speed of `shaft_speed` rad/s.
+    #[inline]
     pub fn pure_rolling(geometry: &Geometry, shaft_speed: f64) -> Self {
         let inner_radius = geometry.inner_raceway_diameter / 2.0;
         let pitch_radius = geometry.pitch_diameter / 2.0;

@@ -134,6 +134,7 @@ impl Model {
     }
 
     /// Pure-rolling speeds and defect frequencies at w_i.
+    #[inline]
     pub fn kinematics(&self, w: f64) -> Kinematics {
         let g = &self.geometry;
         let geometry = kinematics::Geometry {

@@ -201,28 +201,32 @@ const BAND_LATEST: f64 = 0.1;
 const BAND_END: f64 = 0.4;
 
 /// Where a cage slips by more than [`LineSearch::new`] covers, a frequency is sought about the motion's, which is known at the
-/// end alone: in so many ranges to either side of pure rolling, each twice as wide as the next is apart, relative.
-const FARTHEST: i32 = 10;
+/// end alone: in ranges so far from pure rolling, relative, each twice as wide as the next is apart.
 const APART: f64 = 0.01;
+const FARTHEST: i32 = 10;
+/// Within the first of these the usual search is the one.
+const NEAREST: i32 = 2;
 /// Searches of a frequency: the usual one, and these.
-const SEARCHES: usize = 2 * FARTHEST as usize + 2;
+const SEARCHES: usize = 2 * (FARTHEST - NEAREST + 1) as usize + 1;
+
+/// Where they lie, in steps of [`APART`].
+fn far() -> impl Iterator<Item = i32> {
+    (-FARTHEST..=-NEAREST).chain(NEAREST..=FARTHEST)
+}
 
 fn searches(nominal: f64) -> impl Iterator<Item = LineSearch> {
-    let about = move |k: i32| LineSearch {
-        nominal: nominal * (1.0 + APART * f64::from(k)),
-        tolerance: APART,
-        ..LineSearch::new(nominal)
-    };
-    std::iter::once(LineSearch::new(nominal)).chain((-FARTHEST..=FARTHEST).map(about))
+    let usual = LineSearch::new(nominal);
+    let about = move |k| LineSearch { nominal: nominal * (1.0 + APART * f64::from(k)), tolerance: APART, ..usual };
+    std::iter::once(usual).chain(far().map(about))
 }
 
 /// Which of the searches counts for a motion that lies off pure rolling by this share; `None` beyond them.
 fn place_of_search(off: f64) -> Option<usize> {
-    if off.abs() <= LineSearch::new(1.0).tolerance {
+    if off.abs() <= APART * f64::from(NEAREST) {
         return Some(0);
     }
-    let k = (off / APART).round();
-    (k.abs() <= f64::from(FARTHEST)).then(|| (k as i32 + FARTHEST + 1) as usize)
+    let step = (off / APART).round();
+    far().position(|k| f64::from(k) == step).map(|place| place + 1)
 }
 
 /// Share of a short run that the segment of its spectra takes.
