@@ -31,6 +31,7 @@ __all__ = [
     "envelope",
     "envelope_spectrum",
     "frequencies",
+    "in_unit",
     "indicators",
     "is_bearing",
     "kernel",
@@ -179,6 +180,7 @@ def sweep(
     folder: str | PathLike[str] | None,
 ) -> tuple[list[list[int]], list[str | None], list[tuple[str, str, _Array]], list[str]]: ...
 def values(key: str, text: str) -> list[Any]: ...
+def in_unit(key: str, word: str) -> float | str: ...
 def check_names(names: Sequence[str]) -> None: ...
 def calibrate(
     scenario: Scenario,

@@ -212,9 +212,10 @@ def _listed(key: str, values: _Values) -> list[Any]:
     if isinstance(values, str):
         return _brinell.values(key, values)
     try:
-        return list(values.tolist()) if isinstance(values, np.ndarray) else list(values)
+        listed = list(values.tolist()) if isinstance(values, np.ndarray) else list(values)
     except TypeError:
         raise TypeError(f'{key} = {values!r}: expected a list of values, or text such as "900:1800:450" or "5,10,20"') from None
+    return [_brinell.in_unit(key, value) if isinstance(value, str) else value for value in listed]
 
 
 def _column(values: list[Any]) -> npt.NDArray[Any]:

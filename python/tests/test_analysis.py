@@ -188,6 +188,12 @@ def test_regress_sweeps_of_keys_in_step_and_across(base):
     assert len(table.to_pandas()) == 4
 
 
+def test_regress_values_with_a_unit_are_numbers_of_their_key(base):
+    table = brinell.sweep(base, {"operation.speed_rpm": ["20 Hz", 1800.0], "simulation.duration_s": ["100 ms"]})
+    assert list(table["operation.speed_rpm"]) == [1200.0, 1800.0] and not table.failed
+    assert table["operation.speed_rpm"].dtype == float
+
+
 def test_prop_a_sweep_without_a_sound_point_is_refused(base):
     with pytest.raises(brinell.ScenarioError, match="sped"):
         brinell.sweep(base, {"operation.speed_rpm": [1000, 2000], "operation.sped": [1, 2]})

@@ -202,6 +202,10 @@ fn regress_bad_input_is_reported_with_key_value_and_range() {
         &["--target: sensor_ax.rms = 30: no standard uncertainty is given"],
     );
     refuse(
+        &with(&["--target", "row1.largest_outer_force=-3~1"]),
+        &["--target: row1.largest_outer_force = -3.0: a number of this kind is never below 0", "allowed: 0 or more"],
+    );
+    refuse(
         &with(&["--target", "sensor_ax.rms=30~1", "--budget", "3"]),
         &["--budget 3: expected 6 runs or more for 1 key"],
     );

@@ -27,7 +27,7 @@ mod _brinell {
     #[pymodule_export]
     use crate::calibrate::{Calibration, calibrate};
     #[pymodule_export]
-    use crate::sweep::{sweep, values};
+    use crate::sweep::{in_unit, sweep, values};
     #[pymodule_export]
     use compare::{Comparison, check_names};
     #[pymodule_export]

@@ -6,6 +6,7 @@ use crate::errors::scenario_error;
 use crate::kept::{self, Ran, Tasks};
 use crate::scenario::{Scenario, Source};
 use crate::wait::over_threads;
+use brinell::document::reading::text_in_unit_of;
 use brinell::document::{Problem, on_one_line, one_line};
 use brinell::result::{Quantity, RunResult};
 use brinell::simulate::Progress;
@@ -14,7 +15,7 @@ use brinell::summary::afterwards;
 use brinell_study::campaign::{Axis, Beforehand, Known, Plan, columns, of_points, of_results};
 use brinell_study::runner::Task;
 use pyo3::prelude::*;
-use pyo3::types::PyList;
+use pyo3::types::{PyList, PyString};
 use std::path::PathBuf;
 
 /// Runs every combination of the axes, each `(keys, settings)` with a value for each key in every setting. Gives for
@@ -68,12 +69,20 @@ pub(crate) fn sweep<'py>(
 #[pyfunction]
 pub(crate) fn values<'py>(py: Python<'py>, key: &str, text: &str) -> PyResult<Vec<Bound<'py, PyAny>>> {
     let axis = Axis::vary(&format!("{key}={text}")).map_err(bad_value)?;
-    let value = |text: &String| {
-        let toml: Option<serde_json::Value> = toml::from_str(&format!("value = {text}")).ok();
-        // A bare word is a string.
-        json_to_python(py, &toml.map_or_else(|| text.as_str().into(), |mut table| table["value"].take()))
-    };
-    axis.settings().iter().flatten().map(value).collect()
+    axis.settings().iter().flatten().map(|text| python_value(py, text)).collect()
+}
+
+/// A word that is a value of a key: a quantity as a number in the key's unit, any other word as it is.
+#[pyfunction]
+pub(crate) fn in_unit<'py>(py: Python<'py>, key: &str, word: &str) -> PyResult<Bound<'py, PyAny>> {
+    let number = text_in_unit_of(key, &brinell::document::toml_quote(word));
+    number.map_or_else(|| Ok(PyString::new(py, word).into_any()), |number| python_value(py, &number))
+}
+
+/// The value that a text in TOML is; a bare word is a string.
+fn python_value<'py>(py: Python<'py>, text: &str) -> PyResult<Bound<'py, PyAny>> {
+    let toml: Option<serde_json::Value> = toml::from_str(&format!("value = {text}")).ok();
+    json_to_python(py, &toml.map_or_else(|| text.into(), |mut table| table["value"].take()))
 }
 
 /// A point that was read, or what is wrong with its scenario.

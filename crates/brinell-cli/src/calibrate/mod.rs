@@ -115,7 +115,6 @@ fn read(args: &CalibrateArgs) -> Result<(Source, Arc<Plan>, Vec<String>), Failur
     let targets: Vec<Target> = (args.target.iter())
         .map(|text| Target::read(text).map_err(|e| usage(&e, "--target")))
         .collect::<Result<_, _>>()?;
-    targets.iter().try_for_each(possible)?;
     let source = Source::open(&args.scenario, &args.set)?;
     for (key, value) in source.overrides() {
         let hides =
@@ -146,30 +145,6 @@ fn read(args: &CalibrateArgs) -> Result<(Source, Arc<Plan>, Vec<String>), Failur
         _ => usage(&error, "--target"),
     })?;
     Ok((source, Arc::new(plan), warnings))
-}
-
-/// That a target is a value that its number can have.
-fn possible(target: &Target) -> Result<(), Failure> {
-    const NEVER_BELOW_0: [&str; 10] = [
-        "rms",
-        "standard_deviation",
-        "peak",
-        "peak_to_peak",
-        "crest_factor",
-        "kurtosis",
-        "frequency",
-        "record_peak",
-        "record_peak_to_peak",
-        "largest_outer_force",
-    ];
-    let what = target.name.rsplit('.').next().unwrap_or_default();
-    if target.value >= 0.0 || !NEVER_BELOW_0.contains(&what) {
-        return Ok(());
-    }
-    Err(Failure::Usage(format!(
-        "--target {} = {:?}: a number of this kind is never below 0\n  allowed: 0 or more, in its SI unit",
-        target.name, target.value
-    )))
 }
 
 fn tell_plan(points: &Points, warnings: &[String], threads: NonZeroUsize, ledger: Option<&Ledger>) {

@@ -5,9 +5,8 @@ use super::target::check;
 use super::{CalibrateError, Key, Pattern, Settings, Target};
 use crate::campaign::fingerprint;
 use brinell::document::Loaded;
-use brinell::observe::Watch;
-use brinell::result::{check_name, names, quantities};
-use brinell::simulate::{End, EnergyAudit, Outcome, Simulation, SolverWork};
+use brinell::result::{can_be_negative, check_name, listed, names};
+use brinell::simulate::Simulation;
 use serde_json::{Value, json};
 
 /// Runs for each key where no budget is given.
@@ -28,20 +27,6 @@ pub struct Plan {
     pub settings: Settings,
     /// The scenario in the middle of the bounds.
     pub middle: Loaded,
-}
-
-/// What is left of a run that made no step.
-fn not_run() -> Outcome {
-    Outcome {
-        end: End::Stopped,
-        rows: 0,
-        t: 0.0,
-        reached: 0.0,
-        work: SolverWork::default(),
-        energy: EnergyAudit::default(),
-        momentum_imbalance: None,
-        sensor: Vec::new(),
-    }
 }
 
 /// What a point of the unit cube gives the keys.
@@ -69,12 +54,10 @@ impl Plan {
     pub fn target_units(&self) -> Vec<String> {
         // What a signal says of a band or a line.
         let of_signature = |name: &str| name.starts_with("signature.").then(|| "dB".to_owned());
-        let numbers = Simulation::unchecked(&self.middle.scenario).map_or(Vec::new(), |simulation| {
-            let findings = Watch::new(&self.middle.scenario, &simulation).finish(&simulation);
-            quantities(&self.middle.scenario, &simulation, &not_run(), &findings)
-        });
-        let listed = |name: &str| numbers.iter().find(|q| q.name == name).map(|q| q.unit.clone());
-        let unit = |target: &Target| of_signature(&target.name).or_else(|| listed(&target.name)).unwrap_or_default();
+        let numbers = Simulation::unchecked(&self.middle.scenario)
+            .map_or(Vec::new(), |simulation| listed(&self.middle.scenario, &simulation));
+        let of_run = |name: &str| numbers.iter().find(|q| q.name == name).map(|q| q.unit.clone());
+        let unit = |target: &Target| of_signature(&target.name).or_else(|| of_run(&target.name)).unwrap_or_default();
         let all = self.targets.iter().map(unit);
         all.map(|unit| if unit == "1" { String::new() } else { unit }).collect()
     }
@@ -82,7 +65,8 @@ impl Plan {
     /// Of keys that may be fitted together; `middle` is the scenario of [`middle`]'s settings, and `simulation` is its.
     ///
     /// # Errors
-    /// Where there is nothing to meet, a target is no number of a run, or the budget is too small.
+    /// Where there is nothing to meet, a target is no number of a run or one that its number cannot
+    /// have, or the budget is too small.
     pub fn new(
         keys: Vec<Key>,
         mut targets: Vec<Target>,
@@ -95,6 +79,9 @@ impl Plan {
         let names = names(&middle.scenario, simulation);
         for target in &targets {
             check_name(&target.name, &names)?;
+            if target.value < 0.0 && !can_be_negative(&target.name) {
+                return Err(target.negative().into());
+            }
         }
         if let Some(pattern) = &pattern {
             // A target that is given outweighs what the signal says of the same number.

@@ -59,6 +59,16 @@ impl Target {
         }
         Ok(Self { name: name.into(), value, uncertainty })
     }
+
+    /// What is wrong with a value below 0 of a number that cannot be.
+    pub(super) fn negative(&self) -> PlanError {
+        PlanError::Value {
+            key: self.name.clone(),
+            value: format!("{:?}", self.value),
+            why: "a number of this kind is never below 0".into(),
+            allowed: "0 or more, in its SI unit".into(),
+        }
+    }
 }
 
 /// Targets that may be together: at least one, none twice.

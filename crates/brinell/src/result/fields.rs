@@ -164,6 +164,22 @@ fields! {
     EXIT_PEAK "exit_peak" "m/s^2" Passes "largest |acceleration| of the sensor after a roller leaves the defect, within half its pass and before the next one enters; none where that is mostly too soon; other rollers and defects add to it" |i| i.peak;
 }
 
+/// Whether a number, by its name, can be below 0.
+pub fn can_be_negative(name: &str) -> bool {
+    let signed = [
+        Indicator::Mean.name(),
+        Indicator::Skewness.name(),
+        ENERGY_RESIDUAL.name,
+        RELATIVE_RESIDUAL.name,
+        PARAMETRIC_ENERGY.name,
+        CAGE_SLIP.name,
+        LOADED_ORBIT_SLIP.name,
+        LOADED_SURFACE_SLIP.name,
+        UNLOADED_ORBIT_SLIP.name,
+    ];
+    signed.iter().any(|field| name.rsplit('.').next() == Some(field))
+}
+
 /// A value that does not scatter, as an estimate.
 pub(super) fn exact(value: Option<f64>) -> Option<Estimate> {
     value.map(|value| Estimate { value, interval: None })

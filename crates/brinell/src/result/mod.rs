@@ -8,10 +8,12 @@ mod quantities;
 mod run;
 
 #[doc(hidden)]
+pub use fields::can_be_negative;
+#[doc(hidden)]
 pub use healthy::{Stretch, beside_healthy};
 #[doc(hidden)]
 pub use impacts::{Impacts, impacts};
 pub use quantities::{Quantity, Spread};
 #[doc(hidden)]
-pub use quantities::{UnknownName, check_name, names, quantities};
+pub use quantities::{UnknownName, check_name, listed, names, quantities};
 pub use run::{RunResult, finish, record, simulate, simulate_with};

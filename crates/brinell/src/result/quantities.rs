@@ -190,8 +190,8 @@ fn rows(findings: &Findings, all: &mut Vec<Quantity>) {
     }
 }
 
-/// The names that runs of a scenario have, before any runs: what a plot may ask for.
-pub fn names(scenario: &Scenario, simulation: &Simulation) -> Vec<String> {
+/// The numbers that runs of a scenario have, before any runs: their names and units count, not their values.
+pub fn listed(scenario: &Scenario, simulation: &Simulation) -> Vec<Quantity> {
     let findings = crate::observe::Watch::new(scenario, simulation).finish(simulation);
     let outcome = Outcome {
         end: crate::simulate::End::Stopped,
@@ -203,8 +203,12 @@ pub fn names(scenario: &Scenario, simulation: &Simulation) -> Vec<String> {
         momentum_imbalance: None,
         sensor: Vec::new(),
     };
-    let all = quantities(scenario, simulation, &outcome, &findings);
-    all.into_iter().map(|q| q.name).collect()
+    quantities(scenario, simulation, &outcome, &findings)
+}
+
+/// The names of [`listed()`]: what a plot may ask for.
+pub fn names(scenario: &Scenario, simulation: &Simulation) -> Vec<String> {
+    listed(scenario, simulation).into_iter().map(|q| q.name).collect()
 }
 
 /// A name that no run of a scenario has.
