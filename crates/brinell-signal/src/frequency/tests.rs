@@ -1,6 +1,6 @@
 //! Rates that are known, in jitter and noise.
 
-use super::super::test_signals::{ImpactTrain, Noise, cosine};
+use super::super::test_signals::{ImpactTrain, Noise, close, cosine};
 use super::super::{Band, StreamSpectra, line_frequency};
 use super::*;
 
@@ -120,25 +120,47 @@ fn prop_a_fraction_of_another_trains_rate_is_no_comb() {
     }
 }
 
+/// A second of impacts, every second one `low` times as high as the others, late by a share of their period that swings
+/// so often a second.
+fn high_and_low(rate: f64, (low, noise): (f64, f64), (late, swings): (f64, f64), seed: u64) -> Vec<f64> {
+    let n = FS as usize;
+    let mut random = Noise::new(seed);
+    let mut x: Vec<f64> = (0..n).map(|_| noise * random.normal()).collect();
+    for k in 0..(2.0 * rate) as usize {
+        let (at, height) = (k as f64 / (2.0 * rate), if k % 2 == 0 { 1.0 } else { low });
+        let at = at + late / rate * (1.0 + (TAU * swings * at).sin());
+        for i in (at * FS).ceil() as usize..((at + 4e-3) * FS).min(n as f64) as usize {
+            let since = i as f64 / FS - at;
+            x[i] += height * (-since / 6e-4).exp() * (TAU * 4000.0 * since).sin();
+        }
+    }
+    x
+}
+
 /// Every second impact is nearly as high: the second harmonic dominates.
 #[test]
 fn prop_a_train_of_high_and_low_impacts_is_a_comb() {
-    let (fs, rate, n) = (FS, 200.3, 25_600);
+    let rate = 200.3;
     for (low, noise) in [(0.95, 0.0), (0.8, 0.1), (0.5, 0.2)] {
         let found = (0..20).filter(|seed| {
-            let mut random = Noise::new(600 + seed);
-            let mut x: Vec<f64> = (0..n).map(|_| noise * random.normal()).collect();
-            for k in 0..(2.0 * rate * n as f64 / fs) as usize {
-                let (at, height) = (k as f64 / (2.0 * rate), if k % 2 == 0 { 1.0 } else { low });
-                for i in (at * fs).ceil() as usize..((at + 4e-3) * fs).min(n as f64) as usize {
-                    let since = i as f64 / fs - at;
-                    x[i] += height * (-since / 6e-4).exp() * (TAU * 4000.0 * since).sin();
-                }
-            }
+            let x = high_and_low(rate, (low, noise), (0.0, 1.0), 600 + seed);
             let search = LineSearch { harmonics: 2, ..LineSearch::new(200.0) };
-            line_frequency(&x, fs, BAND, &search).is_some_and(|line| (line.frequency / rate - 1.0).abs() < 1e-3)
+            line_frequency(&x, FS, BAND, &search).is_some_and(|line| (line.frequency / rate - 1.0).abs() < 1e-3)
         });
         assert!(found.count() >= 19, "{low} {noise}");
+    }
+}
+
+/// A cage that whirls: the second harmonic dominates and has lobes instead of a line, halfway to which the odd ones have
+/// none.
+#[test]
+fn prop_a_rate_that_swings_is_a_comb() {
+    // No line at twice the mean rate: the zero of J0.
+    let late = 2.4048 / (2.0 * TAU);
+    for (low, swings) in [(0.9, 5.0), (0.8, 5.0), (0.8, 7.0)] {
+        let x = high_and_low(246.9, (low, 0.05), (late, swings), 5);
+        let found = line_frequency(&x, FS, BAND, &LineSearch::new(250.1));
+        close(found.map(|found| found.frequency), 246.9, 0.02);
     }
 }
 

@@ -121,7 +121,7 @@ fn cage<K: Keys>(k: &mut K, b: &Bearing, c: &mut Cage) {
         &mut c.guide_width_mm,
     );
     k.key(
-        key("contact_stiffness_n_per_m", "k_c, of pockets and land").above(0.0),
+        key("contact_stiffness_n_per_m", "k_c, of pockets").above(0.0),
         assumed(
             OILED_POCKET_N / (1e-3 * c.pocket_clearance_mm.max(0.01)),
             "11 N over the pocket's clearance: oil cushions it (Meeks)",
@@ -129,12 +129,22 @@ fn cage<K: Keys>(k: &mut K, b: &Bearing, c: &mut Cage) {
         &mut c.contact_stiffness_n_per_m,
     );
     k.key(
-        key("contact_damping_ns_per_m", "c_c, of pockets and land").from(0.0),
+        key("contact_damping_ns_per_m", "c_c, of pockets").from(0.0),
         assumed(
             20.0 * (c.contact_stiffness_n_per_m / STEEL_POCKET).sqrt(),
             "as large a share of the critical damping as 20 N s/m are at 1e7 N/m",
         ),
         &mut c.contact_damping_ns_per_m,
+    );
+    k.key(
+        key("land_stiffness_n_per_m", "k_l, where the cage meets a ring").above(0.0),
+        derived(c.contact_stiffness_n_per_m, "that of pockets"),
+        &mut c.land_stiffness_n_per_m,
+    );
+    k.key(
+        key("land_damping_ns_per_m", "c_l, where the cage meets a ring").from(0.0),
+        derived(c.contact_damping_ns_per_m, "that of pockets"),
+        &mut c.land_damping_ns_per_m,
     );
 }
 

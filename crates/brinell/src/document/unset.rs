@@ -42,6 +42,8 @@ pub(crate) fn scenario() -> Scenario {
             guide_width_mm: NONE,
             contact_stiffness_n_per_m: NONE,
             contact_damping_ns_per_m: NONE,
+            land_stiffness_n_per_m: NONE,
+            land_damping_ns_per_m: NONE,
         },
         contact: Contact {
             law: ValueType::blank(),

@@ -234,10 +234,10 @@ fn guide(c: &Cage, lubricant: &Lubricant) -> Guide {
         clearance: 1e-3 * c.guide_clearance_mm,
         width: 1e-3 * c.guide_width_mm,
         radius: half_mm(if c.guidance == Guidance::InnerRing { c.inner_diameter_mm } else { c.outer_diameter_mm }),
-        land_stiffness: c.contact_stiffness_n_per_m,
+        land_stiffness: c.land_stiffness_n_per_m,
         land_damping: match (c.guidance, c.guidance_film) {
             (Guidance::OuterRing | Guidance::InnerRing, GuidanceFilm::QuasiStatic) => 0.0,
-            _ => c.contact_damping_ns_per_m,
+            _ => c.land_damping_ns_per_m,
         },
     }
 }

@@ -179,10 +179,14 @@ pub struct Cage {
     pub guide_clearance_mm: f64,
     /// L_1, mm.
     pub guide_width_mm: f64,
-    /// k_c, N/m, of pockets and land.
+    /// k_c, N/m, of pockets.
     pub contact_stiffness_n_per_m: f64,
-    /// c_c, N s/m, of pockets, and of the land but under the quasi-static film.
+    /// c_c, N s/m, of pockets.
     pub contact_damping_ns_per_m: f64,
+    /// k_l, N/m, where the cage meets a ring.
+    pub land_stiffness_n_per_m: f64,
+    /// c_l, N s/m, where the cage meets a ring; none under the quasi-static film.
+    pub land_damping_ns_per_m: f64,
 }
 
 /// `[contact]`: normal contact of rollers and raceways.

@@ -307,6 +307,8 @@ fn scenarios() -> impl Strategy<Value = Scenario> {
                 guide_width_mm: x[8],
                 contact_stiffness_n_per_m: x[9],
                 contact_damping_ns_per_m: x[10],
+                land_stiffness_n_per_m: x[9],
+                land_damping_ns_per_m: x[10],
             },
             contact: Contact {
                 law: if words.2 == 2 || balls(words) { Law::Sliced } else { Law::Ecl },

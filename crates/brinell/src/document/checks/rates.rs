@@ -42,6 +42,7 @@ impl Checker<'_> {
         for (key, value, body) in [
             ("contact.damping_ns_per_m", contact.damping_ns_per_m, roller),
             ("cage.contact_damping_ns_per_m", cage.contact_damping_ns_per_m, lighter),
+            ("cage.land_damping_ns_per_m", cage.land_damping_ns_per_m, (cage.mass_kg, "cage.mass_kg")),
             ("support.inner_damping_ns_per_m", support.inner_damping_ns_per_m, inner_ring),
             ("support.outer_damping_ns_per_m", support.outer_damping_ns_per_m, outer_ring),
         ] {
