@@ -243,6 +243,10 @@ fn static_balance(s: &Scenario, model: &Model, zone: &StaticLoadZone) {
         short(model.force_on_loaded_ring(), 5),
         if s.operation.gravity_m_per_s2 == [0.0; 2] { "" } else { " and ring weight" }
     );
+    // The lumped model's orbits are prescribed.
+    if !s.simulation.model.moves_every_part() {
+        return;
+    }
     say!(
         "  both rings sink         {} um on their supports: FTF and BPFO come out up to {} % {} than of a centred bearing",
         short(1e6 * zone.sunk.abs(), 3),

@@ -14,7 +14,7 @@ mod warning;
 use crate::analysis::STANDARD_GRAVITY;
 use crate::bearing::rating::static_rating;
 use crate::channel;
-use crate::defect::Side;
+use crate::defect::{SIDES, Side};
 use crate::document::{Problem, Problems, toml_float};
 use crate::lamina::Rating;
 use crate::model::Model;
@@ -34,6 +34,8 @@ const SUPPORT_SHARE: f64 = 0.1;
 /// Share of the pitch radius by which the bearing may sink as a whole: up to so much off do the cage's and the outer race's
 /// frequencies come out, more than a cage slips or runs ahead by its play.
 const SUNK_SHARE: f64 = 0.01;
+/// Half-width of a groove with shoulders of a fifth of the ball's diameter, over the ball's radius.
+const GROOVE: f64 = 0.8;
 
 const LOAD: &str = "operation.load_n";
 
@@ -66,6 +68,7 @@ pub fn before(scenario: &Scenario, model: &Model, statics: &Result<StaticLoadZon
             warnings.extend(overload(scenario, zone));
             warnings.extend(carried_by_support(scenario, model, zone));
             warnings.extend(sunk(scenario, model, zone));
+            warnings.extend(wide_ellipses(scenario, model, zone));
             warnings.extend(displaced(scenario, zone));
         }
         Err(error) => warnings.push(warning(LOAD, list(scenario.operation.load_n), error.to_string(), "")),
@@ -181,7 +184,8 @@ fn sunk(scenario: &Scenario, model: &Model, zone: &StaticLoadZone) -> Option<Pro
         LoadOn::InnerRing => ("support.outer_stiffness_n_per_m", scenario.support.outer_stiffness_n_per_m),
         LoadOn::OuterRing => ("support.inner_stiffness_n_per_m", scenario.support.inner_stiffness_n_per_m),
     };
-    (share > SUNK_SHARE).then(|| {
+    // The orbits of the lumped model are prescribed.
+    (share > SUNK_SHARE && scenario.simulation.model.moves_every_part()).then(|| {
         warning(
             key,
             toml_float(stiffness),
@@ -260,6 +264,33 @@ fn overload(scenario: &Scenario, zone: &StaticLoadZone) -> Vec<Problem> {
         ));
     }
     warnings
+}
+
+/// Ellipses of balls that reach beyond any groove's shoulders.
+fn wide_ellipses(scenario: &Scenario, model: &Model, zone: &StaticLoadZone) -> Vec<Problem> {
+    let edge = GROOVE * model.geometry.roller_radius;
+    let wide = |side: Side| {
+        let strips = model.contact(side).strips?;
+        let half = (2.0 * strips.radius * model.deflection(side, zone.healthy_largest)).sqrt();
+        let value = match side {
+            Side::Inner => scenario.bearing.inner_groove_conformity,
+            Side::Outer => scenario.bearing.outer_groove_conformity,
+        }?;
+        (half > edge).then(|| {
+            warning(
+                &format!("bearing.{}_groove_conformity", side.word()),
+                toml_float(value),
+                format!(
+                    "under the heaviest ball the contact reaches {} mm to each side, and a groove with shoulders of a fifth of the ball's diameter \
+                     ends at {} mm: no such bearing carries this load so",
+                    short(1e3 * half),
+                    short(1e3 * edge)
+                ),
+                "a larger one: 0.515 to 0.53 is usual",
+            )
+        })
+    };
+    SIDES.into_iter().filter_map(wide).collect()
 }
 
 /// Largest pressure of the healthy bearing, Pa, and its raceway: of even contacts, but slice by slice where a profile

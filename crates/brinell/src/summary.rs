@@ -153,7 +153,35 @@ pub fn warnings(parts: &Parts) -> Vec<String> {
 /// What a run shows that its reader should know; what kind of warning it is stands before the colon.
 #[doc(hidden)]
 pub fn afterwards(scenario: &Scenario, simulation: &Simulation, outcome: &Outcome, findings: &Findings) -> Vec<String> {
-    [converted(simulation, outcome), unsettled(findings), plausibility::after(scenario, &outcome.energy)].concat()
+    let strayed = strayed(scenario, findings);
+    [converted(simulation, outcome), unsettled(findings), strayed, plausibility::after(scenario, &outcome.energy)]
+        .concat()
+}
+
+/// Mean distance of a cage from its land's centre, over the clearance, beyond which its stop is too soft: at the
+/// defaults cages of small bearings lie 1.0 to 1.1 times the clearance away.
+const STRAYED: f64 = 1.2;
+
+/// Cages that push their soft stop far beyond their clearance, in words.
+#[doc(hidden)]
+pub fn strayed(scenario: &Scenario, findings: &Findings) -> Vec<String> {
+    let (orbit, cage) = (&findings.cage_orbit, &scenario.cage);
+    let words = |row: usize| {
+        let (count, sum) = orbit.points(row).fold((0.0, 0.0), |(n, sum), (_, [x, y])| (n + 1.0, sum + x.hypot(y)));
+        let distance = 1e3 * sum / count;
+        (distance > STRAYED * cage.guide_clearance_mm).then(|| {
+            format!(
+                "cage beyond its clearance: the centre of the cage of row {} lay {distance:.3} mm from its land's in its last turns, on average, and \
+                 cage.guide_clearance_mm is {:.3}: cage.land_stiffness_n_per_m, {:.1e} N/m, is too soft for its {:.2} kg, and BPFO and slip shift with \
+                 it; steel on steel is 1e7, with a cage.land_damping_ns_per_m of 20 to 200",
+                row + 1,
+                cage.guide_clearance_mm,
+                cage.land_stiffness_n_per_m,
+                cage.mass_kg,
+            )
+        })
+    };
+    (0..orbit.rows()).filter_map(words).collect()
 }
 
 /// What had not settled when statistics began, in words.

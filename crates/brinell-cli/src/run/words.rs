@@ -44,7 +44,8 @@ pub(super) fn tell(parts: &Parts, elapsed: f64, written: &[PathBuf]) -> Vec<Stri
         part.map_or("-".into(), |x| short(x.abs(), 1)),
         (fields::MOMENTUM_IMBALANCE.of)(outcome).map_or("(rigid mount)".into(), |x| short(x, 1)),
     ));
-    let after = plausibility::after(&loaded.scenario, &outcome.energy);
+    let scenario = &loaded.scenario;
+    let after = [summary::strayed(scenario, findings), plausibility::after(scenario, &outcome.energy)].concat();
     printed.extend(after.into_iter().map(|words| format!("warning: {words}")));
     for path in written {
         printed.push(format!("  wrote {}", path.display()));
