@@ -66,7 +66,7 @@ const MATERIAL: f64 = 1.1;
 ///
 /// C_r = b_m f_c (i L)^(7/9) Z^(3/4) d^(29/27), f_c = 208 lambda nu gamma^(2/9) (1 - gamma)^(29/27) (1 + gamma)^(-1/4)
 /// (1 + (1.04 ((1 - gamma)/(1 + gamma))^(143/108))^(9/2))^(-2/9), gamma = d/D_m, in N and mm (ISO/TR 1281-1). Makers
-/// print more for steel and rollers of their own: SKF about a seventh.
+/// print more for steel and rollers of their own: SKF about a seventh, but nothing in the sizes 204, 205 and 2205.
 pub fn dynamic_rating(bearing: &Bearing) -> f64 {
     let (b, d) = (bearing, bearing.roller_diameter_mm);
     let length = (b.rows as f64 * b.roller_length_mm).powf(7.0 / 9.0);
