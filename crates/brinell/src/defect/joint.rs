@@ -128,13 +128,19 @@ fn piece_on(grid: &Grid, z: f64, s: f64, direction: f64) -> (Option<Line>, f64) 
         }
     };
     let step = direction as i64;
+    let is_ahead = |column: i64| {
+        let c = column as usize;
+        if direction > 0.0 { grid.s(c + 1) > s + NARROWEST } else { grid.s(c) < s - NARROWEST }
+    };
     // The cell beside s, whichever side round-off puts s on.
     let mut column = (grid.column_at(s) - 2 * step).clamp(0, last);
+    while (0..=last).contains(&column) && !is_ahead(column) {
+        column += step;
+    }
     let mut end = f64::INFINITY;
     while (0..=last).contains(&column) {
         let line = cell(column);
-        let ahead = if direction > 0.0 { line.to > s + NARROWEST } else { line.from < s - NARROWEST };
-        if ahead && (line.at_from != 0.0 || line.at_to != 0.0) {
+        if line.at_from != 0.0 || line.at_to != 0.0 {
             let (near, far) = if direction > 0.0 { (line.from, line.to) } else { (line.to, line.from) };
             if direction * (near - s) <= NARROWEST {
                 return (Some(line), far);
@@ -173,6 +179,13 @@ impl ArcLine<'_> {
         (line, end - self.s)
     }
 
+    /// A piece as a function of x, where it is damage.
+    fn straight(&self, line: &Line) -> Option<Straight> {
+        let slope = (line.at_to - line.at_from) / (line.to - line.from);
+        (line.at_from != 0.0 || line.at_to != 0.0)
+            .then_some(Straight { at: line.at_from + slope * (self.s - line.from), slope })
+    }
+
     /// The envelope of this defect alone and its derivative, where they are known without a search.
     fn alone(&self, radius: f64) -> Option<(f64, f64)> {
         match self.depths {
@@ -195,19 +208,8 @@ impl ArcLine<'_> {
     }
 }
 
-/// The damaging pieces that begin at x.
-fn straights<'a>(
-    lines: impl Iterator<Item = ArcLine<'a>> + Clone,
-    x: f64,
-    direction: f64,
-) -> impl Iterator<Item = Straight> + Clone {
-    lines.filter_map(move |it| {
-        let line = it.piece(x, direction).0?;
-        let slope = (line.at_to - line.at_from) / (line.to - line.from);
-        (line.at_from != 0.0 || line.at_to != 0.0)
-            .then_some(Straight { at: line.at_from + slope * (it.s - line.from), slope })
-    })
-}
+/// Straight pieces that are kept rather than looked for again; of more defects at one point there is no room.
+const KEPT: usize = 8;
 
 /// The answer where one defect alone gives it; without raised edges.
 fn on_one<'a>(lines: impl Iterator<Item = ArcLine<'a>> + Clone, radius: f64) -> Option<f64> {
@@ -241,10 +243,25 @@ pub(super) fn envelope_depth<'a>(lines: impl Iterator<Item = ArcLine<'a>> + Clon
         // Where the piece begins.
         let mut x = 0.0_f64;
         while x.is_finite() && x * x / (2.0 * radius) + lowest < best {
-            let ends = lines.clone().map(|line| direction * line.piece(x, direction).1);
-            let end = direction * ends.fold(f64::INFINITY, f64::min);
-            let here = straights(lines.clone(), x, direction);
-            best = best.min(lowest_of(here, x, end, radius));
+            let (mut kept, mut count, mut end) = ([Straight { at: 0.0, slope: 0.0 }; KEPT], 0, f64::INFINITY);
+            for it in lines.clone() {
+                let (line, to) = it.piece(x, direction);
+                end = end.min(direction * to);
+                if let Some(straight) = line.and_then(|line| it.straight(&line)) {
+                    if let Some(place) = kept.get_mut(count) {
+                        *place = straight;
+                    }
+                    count += 1;
+                }
+            }
+            let end = direction * end;
+            best = best.min(match kept.get(..count) {
+                Some(kept) => lowest_of(kept.iter().copied(), x, end, radius),
+                None => {
+                    let all = lines.clone().filter_map(|it| it.straight(&it.piece(x, direction).0?));
+                    lowest_of(all, x, end, radius)
+                }
+            });
             x = end;
         }
     }
