@@ -8,7 +8,7 @@ use brinell::document::Loaded;
 use brinell::observe::{Findings, Watch};
 use brinell::scenario::{Bearing, Scenario, Speed};
 use brinell::signal::Moments;
-use brinell::simulate::{End, Observer, Outcome, Run, Signals, Simulation};
+use brinell::simulate::{End, Observer, Outcome, Run, Signals, Simulation, SolverWork};
 use serde_json::json;
 use std::collections::VecDeque;
 use std::ops::ControlFlow;
@@ -54,6 +54,10 @@ pub(crate) struct Recording {
     watch: Option<Watch>,
     /// Its recorded channels.
     pub(crate) signals: Option<Signals>,
+    /// Steps that the solver may still take in this `advance`.
+    left: u64,
+    /// Its steps as they were last counted.
+    counted: Option<u64>,
 }
 
 impl std::fmt::Debug for Recording {
@@ -77,6 +81,8 @@ impl Recording {
             frames: Frames::new(simulation.model(), simulation.sample_rate()),
             watch: None,
             signals: None,
+            left: u64::MAX,
+            counted: None,
             simulation,
         }
     }
@@ -131,6 +137,16 @@ impl Observer for Recording {
             None => ControlFlow::Continue(()),
         }
     }
+
+    fn progress(&mut self, _: f64, work: &SolverWork) -> ControlFlow<()> {
+        let steps = work.solver.steps;
+        let before = self.counted.replace(steps).unwrap_or(steps);
+        self.left = self.left.saturating_sub(steps.saturating_sub(before));
+        match self.left {
+            0 => ControlFlow::Break(()),
+            _ => ControlFlow::Continue(()),
+        }
+    }
 }
 
 impl Bench {
@@ -179,14 +195,18 @@ impl Bench {
         Ok(true)
     }
 
-    /// Advances by samples; gives those that are new, fewer where the run ended.
-    pub(crate) fn advance(&mut self, rows: u64) -> Answer<Vec<f64>> {
+    /// Advances by samples; gives those that are new, fewer where the run ended or the solver had taken so many steps,
+    /// to a few dozen.
+    pub(crate) fn advance(&mut self, rows: u64, steps: u64) -> Answer<Vec<f64>> {
         if self.finished.is_some() {
             return Ok(Vec::new());
         }
         let before = self.recording.count;
+        self.recording.left = steps;
         match self.run.advance(rows, &mut self.recording) {
             None => {}
+            // Cut short: it goes on from here.
+            Some(End::Stopped) if self.recording.left == 0 => {}
             Some(End::Failed(error)) => return Err(error.into()),
             Some(end) => {
                 let outcome = self.run.outcome(end);

@@ -135,9 +135,11 @@ impl Studio {
 
     fn advance(&mut self, request: &Value, arrays: &mut Arrays) -> Answer<Value> {
         let rows = request["rows"].as_u64().unwrap_or(256).clamp(1, MOST_ROWS);
+        // A page has no clock of the engine's: it bounds a slice in wall time by the steps that took so long before.
+        let steps = request["steps"].as_u64().unwrap_or(u64::MAX).max(1);
         let bench = self.bench(request)?;
         let first = bench.recording.count;
-        let x = bench.advance(rows)?;
+        let x = bench.advance(rows, steps)?;
         let mut answer = json!({
             "t": bench.t(),
             "first": first,
@@ -214,7 +216,7 @@ fn indicators(bench: &Bench) -> Value {
     let Some((outcome, findings)) = &bench.finished else {
         let recording = spectra::moments(bench);
         let one = |name: &str, key: &str, unit: &str| json!({ "name": name, "unit": unit, "value": recording[key], "low": null, "high": null });
-        return json!({ "settled": false, "quantities": [
+        return json!({ "settled": bench.recording.moments.count() > 0, "quantities": [
             one("RMS", "rms", "m/s^2"), one("peak", "peak", "m/s^2"),
             one("crest factor", "crest", "1"), one("kurtosis", "kurtosis", "1"),
         ]});

@@ -44,15 +44,24 @@ fn singles(answer: &Message, of: &Value) -> Vec<f32> {
 }
 
 fn run(studio: &mut Studio, rows: u64) -> Vec<f32> {
+    run_in(studio, json!({ "do": "advance", "slot": 0, "rows": rows }))
+}
+
+fn run_in(studio: &mut Studio, slice: Value) -> Vec<f32> {
     let mut all = Vec::new();
     loop {
-        let answer = good(studio, json!({ "do": "advance", "slot": 0, "rows": rows }));
+        let answer = good(studio, slice.clone());
         assert_eq!(answer.json["first"], json!(all.len()));
         all.extend(singles(&answer, &answer.json["x"]));
         if answer.json["done"] == json!(true) {
             return all;
         }
     }
+}
+
+/// Samples of one slice.
+fn singles_of(studio: &mut Studio, slice: &Value) -> u64 {
+    good(studio, slice.clone()).json["x"]["$"][2].as_u64().unwrap()
 }
 
 #[test]
@@ -75,6 +84,13 @@ fn prop_a_run_in_slices_is_the_run_of_the_library() {
         }
         assert_eq!(indicators["steps"], json!(result.outcome.work.solver.steps));
     }
+    // Cut by the solver's steps too, most slices before their rows and some before a first one.
+    let mut studio = Studio::new();
+    good(&mut studio, json!({ "do": "open", "slot": 0, "toml": text }));
+    let slice = json!({ "do": "advance", "slot": 0, "rows": 10_000, "steps": 1 });
+    assert!(singles_of(&mut studio, &slice) < 100);
+    good(&mut studio, json!({ "do": "open", "slot": 0, "toml": text }));
+    assert_eq!(run_in(&mut studio, slice), expected);
 }
 
 #[test]

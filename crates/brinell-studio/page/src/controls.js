@@ -125,11 +125,12 @@ export class Field {
     const known = this.spec.read(all) ?? this.spec.fallback, holds = stated ?? (number && (this.#emptied || this.#said) ? undefined : known);
     this.#clear.hidden = get(wanted, this.spec.path) === undefined || !!this.spec.required || !(typeof this.spec.path[0] === "string") || this.spec.path[0] === "defects";
     if (!input) return;
+    if (this.spec.other) /** @type {HTMLInputElement} */ (input).placeholder = this.spec.read(wanted) === undefined ? String(this.spec.other(wanted) ?? "") : "";
     if (input instanceof HTMLInputElement && input.type === "checkbox") input.checked = holds === true;
     else if (input !== document.activeElement || (number && input.value === this.#shown)) {
       // What is not read stays until the key has another value.
       if (this.unread && holds !== this.#held) this.say(this.unread = "");
-      const text = holds === undefined || holds === null ? "" : this.spec.kind === "text" && typeof holds !== "string" ? JSON.stringify(holds) : String(holds);
+      const text = holds === undefined || holds === null ? "" : number && stated === undefined && typeof read === "string" ? String(Number(holds.toPrecision(7))) : this.spec.kind === "text" && typeof holds !== "string" ? JSON.stringify(holds) : String(holds);
       if (!this.unread && input.value !== text) input.value = text;
       this.#shown = text;
       this.#held = holds;

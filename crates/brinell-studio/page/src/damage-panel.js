@@ -94,21 +94,26 @@ export class DamagePanel {
     this.tools = TOOLS.map(([tool, name, key, path]) => h("button",
       { type: "button", className: "icon", title: `${name} (${key})`, "aria-label": name, "data-tool": tool, onclick: () => this.take(tool) }, icon(path),
         h("span", {}, name)));
-    const size = (/** @type {string} */ label, /** @type {number} */ step, /** @type {() => number} */ now, /** @type {(value: number) => void} */ take) => {
-      const box = numberInput({ className: "narrow-number", value: String(now()), "aria-label": label, onchange: () => {
+    const size = (/** @type {string} */ label, /** @type {number} */ step, /** @type {() => number} */ most, /** @type {() => number} */ now, /** @type {(value: number) => void} */ take) => {
+      const why = () => {
         const said = numberOf(box.value);
-        if (typeof said === "number" && said > 0) take(said);
-        else notice("taken", `${label}: ${typeof said === "string" ? said : "expected more than 0"}; ${now()} stays`, { bad: true });
+        return typeof said === "string" ? said : said > 0 && said <= most() ? "" : `expected more than 0 and at most ${short(most())}`;
+      };
+      const box = numberInput({ className: "narrow-number", value: String(now()), "aria-label": label, oninput: () => box.setAttribute("aria-invalid", String(why() !== "")), onchange: () => {
+        const wrong = why();
+        if (!wrong) take(Number(numberOf(box.value)));
+        notice("size", wrong ? `${label}: ${wrong}; ${now()} stays` : null, { bad: true });
         box.value = String(now());
+        box.setAttribute("aria-invalid", "false");
       } }, step);
       return box;
     };
-    this.width = size("Width of pen and brush, mm", 0.05, () => this.raceway.penWidth, (value) => { this.raceway.penWidth = value; });
-    this.depth = size("Depth that the brush adds, µm", 1, () => this.#depth, (value) => { this.#depth = value; });
+    this.width = size("Width of pen and brush, mm", 0.05, () => this.raceway.geometry?.length_mm ?? Infinity, () => this.raceway.penWidth, (value) => { this.raceway.penWidth = value; });
+    this.depth = size("Depth that the brush adds, µm", 1, () => 1000, () => this.#depth, (value) => { this.#depth = value; });
     this.deepest = h("output", { className: "note" });
     this.raise = h("input", { type: "checkbox" });
-    this.undo = button("Undo", () => owner.undo(), { title: "Ctrl-Z" });
-    this.redo = button("Redo", () => owner.store().redo(), { title: "Ctrl-Shift-Z" });
+    this.undo = button("Undo", () => this.step(owner.undo), { title: "Ctrl-Z" });
+    this.redo = button("Redo", () => this.step(), { title: "Ctrl-Shift-Z" });
     this.rollerLabel = h("label", {}, "roller", this.rollers);
     this.widthLabel = h("label", {}, "width", this.width, "mm");
     this.depthLabel = h("label", { className: "brush", title: "What a stroke of the brush adds along its middle" }, "adds", this.depth, "µm");
@@ -216,6 +221,15 @@ export class DamagePanel {
     if (defect) this.raceway.describe(`Selected: damage ${this.selected}, at ${short(defect.center_deg ?? 0, 4)} degrees, ${short(defect.depth_um ?? 0)} µm deep.`);
   }
 
+  /** A step back or forth is seen: damage of another surface that it changes is looked at. @param {() => void} [act] */
+  step(act = () => this.owner.store().redo()) {
+    const before = this.#defects;
+    act();
+    const after = this.#defects, changed = (/** @type {any[]} */ a, /** @type {any[]} */ b) => a.filter((d) => !b.some((o) => JSON.stringify(o) === JSON.stringify(d)));
+    const all = [...changed(after, before), ...changed(before, after)];
+    if (all.length && !all.some((d) => d.on === this.surface)) this.look(all[0].on, all[0].row ?? 1, all[0].roller ?? this.roller);
+  }
+
   /** @param {any} defect @param {string} key */
   #rebuild(defect, key) {
     const before = this.#shown && JSON.parse(this.#shown), now = JSON.parse(key), schema = this.owner.schema();
@@ -246,8 +260,8 @@ export class DamagePanel {
   /** @param {Request} request */
   #heed(request) {
     const store = this.owner.store(), type = request.type;
-    if (type === "undo") this.owner.undo();
-    else if (type === "redo") store.redo();
+    if (type === "undo") this.step(this.owner.undo);
+    else if (type === "redo") this.step();
     else if (type === "select") this.select(request.defect);
     else if (type === "begin") this.#begin();
     else if (type === "end") this.#end();

@@ -179,7 +179,7 @@ export async function share(toml, save) {
     { actions: [["Save the scenario", save]] });
   history.replaceState(null, "", link);
   const address = location.href, field = h("input", { type: "text", readOnly: true, value: address, "aria-label": "Link to this bearing" });
-  const whose = hasToken() ? " It opens on this machine while this server runs; behind the address of another studio, what follows # is enough." : "";
+  const whose = hasToken() ? " It opens on this machine while this server runs. In another studio it opens with the part from # on behind that studio's address." : "";
   let words = `A link to this bearing.${whose}`;
   try {
     await navigator.clipboard.writeText(address);

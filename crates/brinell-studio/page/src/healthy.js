@@ -1,4 +1,5 @@
 // The same bearing without damage, run once in the background, to lie behind the curves.
+import { Pace } from "./pace.js";
 
 /** @typedef {import("./answers.js").Engine} Engine */
 
@@ -44,9 +45,10 @@ export class Healthy {
     };
     try {
       engine = await this.#start();
-      const opened = await ask({ do: "open", scenario, carry: false }), x = new Float32Array(SAMPLES);
+      const opened = await ask({ do: "open", scenario, carry: false }), x = new Float32Array(SAMPLES), pace = new Pace();
       for (let end = 0; end < SAMPLES;) {
-        const got = await ask({ do: "advance", rows: ROWS, frames: false });
+        const from = performance.now(), got = await ask({ do: "advance", rows: ROWS, steps: pace.steps, frames: false });
+        pace.took(performance.now() - from, got.x.length < ROWS && !got.done);
         x.set(got.x.subarray(0, SAMPLES - got.first), got.first);
         end = got.first + got.x.length;
         if (got.done) break;

@@ -1,5 +1,6 @@
 // One bearing that runs. It never stops for an edit: the newest edit is opened after the slice in progress, and the bearing goes on in it.
 import { Lost, Refused } from "./answers.js";
+import { Pace } from "./pace.js";
 
 /** @typedef {import("./answers.js").Engine} Engine */
 /** @typedef {import("./state.js").Scenario} Scenario */
@@ -10,6 +11,8 @@ import { Lost, Refused } from "./answers.js";
 const ROWS = 256, RUN_ROWS = 1024, FIRST_WINDOW = 1024, LAST_WINDOW = 32768;
 // Samples between two sets of indicators. A verdict takes as long as many slices, so it is given anew each time their number has doubled.
 const SENTENCE = 8192, LONGEST_SENTENCE = 65536;
+// An answer that takes longer is waited for in sight.
+const LATE_MS = 1000;
 // A bearing that loses its engine so often on one scenario is not tried again.
 const TRIES = 2;
 
@@ -34,6 +37,9 @@ export class Live {
   /** The last edit, until the engine has opened or refused it. @type {Edit | null} */
   #unanswered = null;
   #opening = false;
+  #pace = new Pace();
+  /** Requests that are late. */
+  #late = 0;
   /** @type {(() => void)[]} */
   #settling = [];
 
@@ -55,12 +61,37 @@ export class Live {
 
   /** @param {Record<string, unknown>} request */
   async ask(request) {
+    let late = 0;
+    const timer = setTimeout(() => this.#wait(late = 1), LATE_MS);
     try {
       return await (await this.engine).ask({ slot: this.slot, ...request });
     } catch (error) {
       // An engine that begins anew, for the other bearing, does not hold this one.
       throw error instanceof Refused && error.problems[0]?.key === "slot" ? new Lost(error.message) : error;
+    } finally {
+      clearTimeout(timer);
+      if (late) this.#wait(-late);
     }
+  }
+
+  /** @param {number} by */
+  #wait(by) {
+    this.#late += by;
+    this.report("working");
+  }
+
+  /** Whether an answer is late. */
+  get working() { return this.#late > 0; }
+  /** Whether it is a run from t = 0 to its end. */
+  get whole() { return this.#run; }
+  /** The edit that the engine has neither opened nor refused yet. */
+  get unanswered() { return this.#unanswered; }
+
+  /** The run from t = 0 is not gone on with. */
+  #leave() {
+    if (!this.#run) return;
+    this.#run = false;
+    this.report("left");
   }
 
   /** An answer that makes an edit: no slice is begun until it is there. @param {Record<string, unknown>} request */
@@ -81,7 +112,7 @@ export class Live {
   edit(what, carry = true) {
     // An edit that starts anew is not undone by a later one that would carry.
     this.#unanswered = this.#edit = { ...what, carry: carry && this.#edit?.carry !== false, made: performance.now() };
-    this.#run = false;
+    this.#leave();
     this.#wake();
   }
 
@@ -108,7 +139,7 @@ export class Live {
   live() {
     this.#paused = false;
     if (this.state === "done" || this.#run) {
-      this.#run = false;
+      this.#leave();
       if (this.#good) this.#edit ??= { ...this.#good, again: true };
     }
     if (this.state === "lost" && this.#good) {
@@ -187,6 +218,7 @@ export class Live {
     if (this.state === "lost") this.report("recovered");
     this.#good = { scenario: opened.scenario, carry: true, made: edit.made };
     this.opened = opened;
+    if (!opened.carried) this.#pace = new Pace();
     [this.#window, this.#spoken, this.#judged] = [FIRST_WINDOW, 0, 0];
     this.report("opened", { opened, edit, took: performance.now() - edit.made });
     this.#say(this.#paused ? "paused" : this.#run ? "running" : "live", { part: 0 });
@@ -194,7 +226,9 @@ export class Live {
   }
 
   async #slice() {
-    const opened = this.opened, got = await this.ask({ do: "advance", rows: this.#run ? RUN_ROWS : ROWS, frames: true });
+    const opened = this.opened, rows = this.#run ? RUN_ROWS : ROWS, { steps } = this.#pace, from = performance.now();
+    const got = await this.ask({ do: "advance", rows, steps, frames: true });
+    this.#pace.took(performance.now() - from, got.x.length < rows && !got.done);
     if (opened !== this.opened) return;
     this.#losses = 0;
     this.report("slice", got);

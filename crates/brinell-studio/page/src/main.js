@@ -15,6 +15,7 @@ import { Saving } from "./saving.js";
 import { forgetAngle } from "./schema.js";
 import { Side } from "./side.js";
 import { fromLink, pathOf, remember, remembered } from "./state.js";
+import { startList } from "./start.js";
 import { storedRun } from "./stored.js";
 
 /** @typedef {import("./side.js").Show} Show */
@@ -40,7 +41,6 @@ class Studio {
   #read = -Infinity;
   #keep = 0;
   #pass = 0;
-  #preset = "";
   #warnings = new Warnings();
 
   constructor() {
@@ -112,7 +112,8 @@ class Studio {
 
   /** The scenario of the link, else that of a page around this one, else what was here last time, else an example. @param {Side} side @param {string} example its text */
   async #first(side, example) {
-    const before = remembered();
+    const { toml: last, edit } = remembered(), now = edit && await side.live.ask({ do: "normal", scenario: JSON.parse(edit) }).catch(() => null);
+    const before = now?.toml ?? last;
     const given = /** @type {{brinellScenario?: string}} */ (globalThis).brinellScenario;
     let toml = given ?? before ?? example;
     try {
@@ -132,36 +133,8 @@ class Studio {
   }
 
   #fill() {
-    const select = byId("preset"), group = (/** @type {string} */ label, /** @type {[string, string, string][]} */ list) => h("optgroup", { label },
-      ...list.map(([value, text, title]) => h("option", { value, title }, text)));
-    select.append(group("Examples", this.about.examples.map((/** @type {any} */ e) => [`example:${e.name}`, e.name, e.words])),
-      group("Bearings", this.about.bearings.map((/** @type {any} */ b) => [`bearing:${b.name}`, `${b.name}, ${b.element}`, b.words])));
-    select.addEventListener("change", () => {
-      const [kind, name] = select.value.split(/:(.*)/);
-      this.#preset = select.value;
-      if (kind === "example") void this.side.live.urgent({ do: "example", name }).then(({ toml }) => this.load(toml, false), (error) => this.#failed(error));
-      if (kind === "bearing") {
-        // What the preset fills is not stated any more; operation and damage stay.
-        this.side.store.change((s) => {
-          for (const key of ["cage", "contact", "friction"]) delete s[key];
-          s.bearing = { preset: name };
-        });
-        this.side.store.seal();
-        this.#kept(name);
-      }
-    });
+    startList(this.about, { side: () => this.side, load: (toml) => this.load(toml), failed: (error) => this.#failed(error) });
     this.saving.bind();
-  }
-
-  /** Damage stays where it was drawn, on whatever bearing: that is said. @param {string} bearing */
-  #kept(bearing) {
-    const { store } = this.side, count = store.scenario.defects?.length ?? 0;
-    if (!count) return notice("kept", null);
-    notice("kept", `${bearing} has the damage that was drawn before: ${count} ${count === 1 ? "place" : "places"}, at the same angles and of the same size.`,
-      { actions: [["Remove the damage", () => {
-        store.change((s) => { s.defects = []; });
-        store.seal();
-      }]] });
   }
 
   #bind() {
@@ -172,7 +145,7 @@ class Studio {
       byId("file").value = "";
     });
     on("pause", () => this.#pause());
-    on("run", () => { if (!this.saving.isRefused()) this.side.live.run(); });
+    on("run", () => (this.side.live.whole ? this.side.live.live() : this.saving.isRefused() || this.side.live.run()));
     on("side-a", () => this.turn(0));
     on("side-b", () => this.turn(1));
     on("both", () => this.compare(!this.beside));
@@ -181,12 +154,16 @@ class Studio {
     document.addEventListener("keydown", (e) => this.#key(e));
     window.addEventListener("hashchange", async () => {
       const toml = await fromLink(location.hash).catch(() => null);
-      if (toml !== null && toml !== this.side.opened?.toml) this.load(toml, false);
+      if (toml !== null && toml !== this.side.opened?.toml) this.side.live.edit({ toml }, false);
     });
+    window.addEventListener("pagehide", () => this.#remember());
   }
 
-  /** A scenario from a file, a link or an example. @param {string} toml */
-  load(toml, carry = false, file = "") { this.side.live.edit({ toml, file }, carry); }
+  /** A scenario from a file or an example. @param {string} toml */
+  load(toml, carry = false, file = "") {
+    this.#unlink();
+    this.side.live.edit({ toml, file }, carry);
+  }
 
   /** @param {import("./schema.js").Spec} spec @param {any} value @param {boolean} live */
   #change(spec, value, live) {
@@ -202,12 +179,18 @@ class Studio {
     // A stored run is not what was edited, and makes room for what is live.
     if (kind === "spectra" || kind === "scenario" || kind === "problems") this.still = null;
     if (kind === "absent" && side !== this.sides[0]) this.#failed(data.error);
-    if (kind === "state" || kind === "problems" || kind === "recovered") this.#dirty.add("state");
+    if (["state", "problems", "recovered", "working", "left"].includes(kind)) this.#dirty.add("state");
     if (kind === "lost") notice("lost", data.gone ? data.why : `The engine was lost (${data.why}). A new one continues with the last good bearing.`, { bad: !!data.gone });
     if (kind === "state" && data.state === "lost" && !document.querySelector('[data-kind="lost"].bad')) notice("lost", "The engine was lost again and again, so none runs. Start again tries another.");
     if (kind === "recovered") this.#recovered();
     if (kind === "problems") this.#refused(side, data);
     if (kind === "verdict" || kind === "opened") this.#differ();
+    // What is kept for the next time waits for no answer.
+    if (side === this.sides[0] && ["opened", "scenario", "problems"].includes(kind)) {
+      clearTimeout(this.#keep);
+      this.#keep = setTimeout(() => this.#remember(), KEPT_MS);
+    }
+    if (kind === "scenario") this.#unlink();
     if (side !== this.side) return void (side === this.other && this.#dirty.add("curves").add("readout"));
     if (kind === "opened") this.#opened(data);
     else if (kind === "scenario") this.#dirty.add("fields");
@@ -227,6 +210,14 @@ class Studio {
       this.#dirty.add("curves").add("readout");
     }
   }
+
+  #remember() {
+    const { opened, live } = this.sides[0];
+    if (opened) remember(opened.toml, live.unanswered?.scenario);
+  }
+
+  /** The address does not name another bearing than the page has. */
+  #unlink() { if (location.hash.startsWith("#s=")) history.replaceState(null, "", location.pathname + location.search); }
 
   #recovered() {
     speak("The engine was lost and runs again");
@@ -253,7 +244,6 @@ class Studio {
     if (edit.toml !== undefined) {
       this.#forget();
       this.panel.selected = opened.scenario.defects?.length ? 1 : 0;
-      if (this.#preset && !this.#preset.startsWith("example:")) byId("preset").value = this.#preset = "";
     }
     this.panel.opened(opened);
     if (edit.toml !== undefined && this.panel.selected) this.panel.select(1);
@@ -261,11 +251,8 @@ class Studio {
     this.#lay(this.side);
     if (!edit.again) notice("unsaved", null);
     this.#warnings.show(this.side);
-    byId("run").textContent = `Run ${short(opened.samples / opened.rate_hz)} s`;
     this.healthy?.want(opened.scenario);
     this.#dirty.add("fields").add("curves").add("state").add("readout");
-    clearTimeout(this.#keep);
-    if (this.active === 0) this.#keep = setTimeout(() => remember(opened.toml), KEPT_MS);
   }
 
   /** @param {any[]} damage */
@@ -366,10 +353,11 @@ class Studio {
 
   #state() {
     const side = this.side, { state } = side.live, bad = side.problems.length > 0, node = byId("state");
-    const words = state === "running" ? `running ${Math.min(99, Math.floor(100 * side.part))} %` : state === "lost" ? "engine lost" : state;
-    node.textContent = bad && state === "live" ? "live, last good one" : words;
+    const words = state === "lost" ? "engine lost" : side.live.working ? "working" : state === "running" ? `running ${side.percent} %` : state;
+    node.textContent = bad && words === "live" ? "live, last good one" : words;
     node.dataset.state = state;
     node.toggleAttribute("data-bad", bad);
+    byId("run").textContent = side.live.whole ? "Cancel" : `Run ${short(side.live.opened.samples / side.live.opened.rate_hz)} s`;
     byId("pause").textContent = state === "live" || state === "running" ? "Pause" : state === "lost" ? "Start again" : "Live";
     this.panel.raceway.frozen = state === "paused" || state === "done" || state === "lost";
   }
@@ -388,8 +376,9 @@ class Studio {
     if (e.ctrlKey || e.metaKey) {
       if (e.key.toLowerCase() !== "z" || target.matches("input[type=text]:not([inputmode]), textarea, dialog *")) return;
       e.preventDefault();
-      return e.shiftKey ? this.side.store.redo() : this.#undo();
+      return e.shiftKey ? this.panel.step() : this.panel.step(() => this.#undo());
     }
+    if (e.key === "Escape" && this.side?.live.whole && !target.closest("input, select, textarea, dialog, .list, [role=application]") && !target.tagName.startsWith("BRINELL-")) return this.side.live.live();
     if (e.altKey || target.closest("input, select, textarea, button, summary, dialog, [role=application]") || target.tagName.startsWith("BRINELL-")) return;
     const act = /** @type {Record<string, () => void>} */ ({ " ": () => this.#pause(), l: () => this.side.live.live(),
       h: () => this.sound?.hear?.(!this.sound.hearing), a: () => this.turn(0), b: () => this.turn(1) })[e.key.toLowerCase()];
@@ -403,14 +392,18 @@ class Studio {
     // What is read of it is still the bearing's that was edited.
     if (document.activeElement instanceof HTMLInputElement) document.activeElement.blur();
     if (index === 1 && !this.sides[1]) this.#second();
-    if (index !== this.active) this.#forget();
+    const other = index !== this.active;
+    if (other) this.#forget();
     this.active = index;
     const side = this.side;
+    if (other) this.panel.selected = side.store.scenario.defects?.length ? 1 : 0;
     byId("side-a").setAttribute("aria-pressed", String(index === 0));
     byId("side-b").setAttribute("aria-pressed", String(index === 1));
     if (side.opened) {
       this.#opened({ opened: side.opened, edit: {} });
       this.#damaged(side.damage);
+      // Another bearing is seen where it is damaged.
+      if (other && this.panel.selected) this.panel.select(1);
     }
     this.#dirty.add("fields").add("curves").add("state").add("readout");
     this.#lay(side);

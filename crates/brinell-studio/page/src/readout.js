@@ -41,9 +41,12 @@ function figures(side) {
 function state(side) {
   const { live, opened, moments } = side;
   if (live.state === "loading") return opened ? "stored run" : "";
-  if (live.state === "done") return `run from t = 0, ${short(opened?.samples / opened?.rate_hz)} s`;
-  const settled = side.indicators?.settled && live.state === "live" ? "" : live.state === "live" || live.state === "paused" ? ", settling" : "";
-  return `${opened ? "live" : ""}${moments ? `, ${moments.samples} samples` : ""}${settled}`;
+  if (live.state === "lost") return "engine lost";
+  const long = `run from t = 0, ${short(opened?.samples / opened?.rate_hz)} s`;
+  if (live.state === "done") return long;
+  const now = live.whole ? `${long}, ${side.percent} %` : live.state, paused = live.whole && live.state === "paused" ? ", paused" : "";
+  // Samples count from where the bearing has settled.
+  return `${opened ? now + paused : ""}${moments ? (moments.samples ? `, ${moments.samples} samples` : ", settling") : ""}`;
 }
 
 /** @param {HTMLElement} root @param {Side[]} sides the one that is shown first @param {string} difference of two, in words */
@@ -51,14 +54,14 @@ export function readout(root, sides, difference) {
   const several = sides.length > 1;
   root.classList.toggle("several", several);
   const differ = several ? h("span", { className: "headline differ" }, difference || "How B differs is said when both have a verdict") : null;
-  root.replaceChildren(...(differ ? [differ] : []), ...sides.flatMap((side) => [
-    h("span", { className: "headline" }, several ? h("span", { className: "name" }, side.name) : null,
-      side.verdict?.headline ?? (side.opened ? "Not enough signal for a verdict yet" : "")),
-    h("span", { className: "note" },
+  root.replaceChildren(...(differ ? [differ] : []), ...sides.map((side) => h("div", { className: "one" },
+    ...(several ? [h("span", { className: "name" }, side.name), h("dl", {}, ...figures(side))] : []),
+    h("span", { className: "headline" }, side.verdict?.headline ?? (side.opened ? "Not enough signal for a verdict yet" : "")),
+    h("span", { className: "note" }, several ? state(side) :
       [state(side), side.pace && side.live.state !== "paused" ? `${short(side.pace, 2)} × real time` : "",
         side.took ? `edit in ${Math.round(side.took)} ms` : ""].filter(Boolean).join(" · ")),
-    h("dl", {}, ...figures(side)),
-  ]));
+    several ? null : h("dl", {}, ...figures(side)),
+  )));
 }
 
 let spoken = "", last = -Infinity, timer = 0;

@@ -21,6 +21,7 @@ import { get, set } from "./state.js";
  * @property {boolean} [log]
  * @property {[string, string][]} [options]
  * @property {boolean} [required]
+ * @property {(tree: any) => any} [other]  words for what the field does not hold
  * @property {any} [fallback]  the schema's default
  * @property {(tree: any) => any} read
  * @property {(tree: any, value: any, all?: any) => void} write  all: every key as the engine read it
@@ -105,7 +106,7 @@ export function mainSpecs(schema) {
   /** @type {Path} */
   const speed = ["operation", "speed_rpm"], loads = /** @type {Path} */ (["operation", "load_n"]);
   return [
-    spec(schema, speed, { label: "Speed", span: [60, 6000], log: false, read: (t) => only(get(t, speed)) }),
+    spec(schema, speed, { label: "Speed", span: [60, 6000], log: false, read: (t) => only(get(t, speed)), other: (t) => (only(get(t, speed)) ?? `varies: ${get(t, speed)?.length} points`) }),
     spec(schema, loads, { label: "Load", kind: "number", units: { N: 1, kN: 1000, lbf: 4.4482216152605 }, span: [1, 5000], log: true, min: 0, read: (t) => read(t, at), write: (t, v, all) => put(t, all, v, null),
       refuse: (v) => (v === undefined ? "a load is missing" : v < 0 ? "a load is 0 or more; Load at angle turns it" : "") }),
     spec(schema, loads, {
@@ -142,7 +143,7 @@ export function defectSpecs(schema, defect, index) {
     spec(schema, at(["shape", "rectangle", "width_mm"]), { label: "Width", span: [0.1, 12], log: true }));
   if (shape === "circle") list.push(spec(schema, at(["shape", "circle", "diameter_mm"]), { label: "Diameter", span: [0.05, 12], log: true }));
   if (shape === "li2023_irregular") list.push(spec(schema, at(["shape", "li2023_irregular", "max_width_mm"]), { label: "Width", span: [0.1, 12], log: true }));
-  list.push(spec(schema, at(["center_deg"]), { label: "At", span: [-180, 180], log: false }));
+  list.push(spec(schema, at(["center_deg"]), { label: "At", span: [-180, 180], log: false, write: (t, v) => set(t, at(["center_deg"]), typeof v === "number" ? tidy(v - 360 * Math.ceil((v - 180) / 360)) : v) }));
   list.push(spec(schema, at(["axial_offset_mm"]), { label: "Axial", span: [-10, 10], log: false }));
   if (defect?.on === "roller") list.push(spec(schema, at(["roller"]), { label: "Roller" }));
   return list;

@@ -24,6 +24,7 @@ export class Side {
   problems = [];
   /** Part of a run that is done. */
   part = 0;
+  get percent() { return Math.min(99, Math.floor(100 * this.part)); }
   /** Simulated seconds for a real one, lately. */
   pace = 0;
   /** Milliseconds from the last edit to its bearing. */
@@ -98,7 +99,7 @@ export class Side {
     if (!(await this.live.settled())) return false;
     if (this.live.state === "done") return true;
     this.live.run();
-    return this.#when((kind, data) => (kind === "problems" || kind === "lost" || (kind === "state" && data.state === "live") ? false
+    return this.#when((kind, data) => (kind === "problems" || kind === "lost" || kind === "left" || (kind === "state" && data.state === "live") ? false
       : (kind === "state" && data.state === "done") || undefined));
   }
 

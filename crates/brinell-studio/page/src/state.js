@@ -3,7 +3,7 @@
 /** @typedef {Record<string, any>} Scenario */
 /** @typedef {(string | number)[]} Path */
 
-const STEPS = 200, TOGETHER_MS = 900, KEY = "brinell-studio";
+const STEPS = 200, TOGETHER_MS = 900, KEY = "brinell-studio", EDIT = `${KEY}-edit`;
 // A link that is longer is cut by some mail programs and chats.
 export const LINK_LIMIT = 8192;
 const INFLATED_LIMIT = 1 << 24;
@@ -114,23 +114,26 @@ export class Store {
   }
 }
 
-/** What was on this page last time, else on any; or null. Storage may be forbidden. @returns {string | null} */
+/** What was on this page last time, else on any; `edit` as JSON where the engine had not answered it. Storage may be forbidden. @returns {{toml: string | null, edit: string | null}} */
 export function remembered() {
   try {
-    return sessionStorage.getItem(KEY) ?? localStorage.getItem(KEY);
+    const store = sessionStorage.getItem(KEY) === null ? localStorage : sessionStorage;
+    return { toml: store.getItem(KEY), edit: store.getItem(EDIT) };
   } catch {
-    return null;
+    return { toml: null, edit: null };
   }
 }
 
-/** @param {string} toml @returns {boolean} whether it is kept */
-export function remember(toml) {
+/** @param {string} toml the bearing that runs @param {Scenario | undefined} edit what the engine has not answered yet */
+export function remember(toml, edit) {
   try {
-    sessionStorage.setItem(KEY, toml);
-    localStorage.setItem(KEY, toml);
-    return true;
+    for (const store of [sessionStorage, localStorage]) {
+      store.setItem(KEY, toml);
+      if (edit) store.setItem(EDIT, JSON.stringify(edit));
+      else store.removeItem(EDIT);
+    }
   } catch {
-    return false;
+    // Then nothing is kept.
   }
 }
 

@@ -25,6 +25,7 @@ describe("edits", () => {
   it("says that damage stays when another bearing is chosen", async () => on({}, async (page) => {
     await start(page, "rectangle");
     await page.selectOption("#preset", "bearing:6205");
+    await page.click("#load");
     await page.waitForSelector('[data-kind="kept"]');
     assert.match(await page.textContent('[data-kind="kept"]'), /6205 has the damage that was drawn before: 1 place/);
     await page.click('[data-kind="kept"] button:has-text("Remove the damage")');

@@ -27,6 +27,7 @@ export const type = async (input, value) => {
 };
 export const start = async (page, example) => {
   await page.selectOption("#preset", `example:${example}`);
+  await page.click("#load");
   // It may have been there already: what is typed while it is loaded anew is dropped.
   await page.evaluate(() => globalThis.brinellStudio.side.live.settled());
   await until(page, (name) => globalThis.brinellStudio.side.opened?.scenario.name === name, example);

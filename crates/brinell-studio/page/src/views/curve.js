@@ -184,7 +184,7 @@ export class BrinellCurve extends View {
       for (let i = first; i <= last; i++) { const v = Math.abs(curve.values[i]); if (v > most) most = v; }
     }
     // Labels are above the curves, nominal frequencies below.
-    const strip = this.kind === "envelope" && data.lines?.length ? STRIP : 0, tall = Math.max(0.4 * height, height - room - strip);
+    const strip = this.kind === "envelope" && data.lines?.length ? STRIP : this.kind === "waveform" ? 7 : 0, tall = Math.max(0.4 * height, height - room - strip);
     const top = this.log ? 10 * Math.ceil(decibel(most || 1) / 10) : this.limit.hold(most), least = this.log ? top - DEPTH : this.kind === "waveform" ? -top : 0,
       px = (top - least) / tall;
     this.least = least;
@@ -192,7 +192,9 @@ export class BrinellCurve extends View {
     const [unit, per] = this.xUnit(data),
       xTicks = ticks(this.view[0] * per, this.view[1] * per, Math.min(10, width / 68)).map(([v, label]) => /** @type {[number, string]} */ ([v / per, label]));
     if (xTicks.length) xTicks[xTicks.length - 1][1] += ` ${unit}`;
-    const yTicks = ticks(least, top, Math.max(2, Math.min(6, tall / 28)));
+    let yTicks = ticks(least, top, Math.max(2, Math.min(6, tall / 28)));
+    // Both ends of a symmetric axis are told.
+    if (least === -top && !(yTicks[yTicks.length - 1]?.[0] > 0.6 * top)) yTicks = [-top, 0, top].map((v) => [v, short(v)]);
     return { x: this.view, y: this.range, xTicks, yTicks };
   }
   /** Unit of the x axis and how many of it are in one s or Hz. @param {CurveData} data @returns {[string, number]} */

@@ -58,6 +58,10 @@ th, td { padding: 2px 14px 2px 0; border-bottom: 1px solid var(--_line); text-al
 th:first-child { text-align: left; }
 thead th { color: var(--_faint); font-weight: 600; }
 tbody th { color: var(--_ink); font-weight: 400; }
+@media (forced-colors: active) {
+button[aria-pressed="true"] { forced-color-adjust: none; background: Highlight; border-color: Highlight; color: HighlightText; }
+.key::before, #hear::before { forced-color-adjust: none; }
+}
 `;
 
 /** A sheet that many shadow roots share. @param {string} css */
