@@ -183,6 +183,14 @@ fn regress_what_cannot_be_compared() {
     call(&["--variant", "a=b:c"]).complains(&["expected NAME:KEY=VALUE"]);
     call(&["--variant", "x:a"]).complains(&["expected KEY=VALUE"]);
     call(&["--variant", "5:name=x"]).complains(&["`5` cannot name a run"]);
+    // Of the same name in other folders, each is called by its folder.
+    for name in ["a", "b"] {
+        fs::create_dir(folder.path().join(name)).unwrap();
+        fs::copy(folder.path().join("actual.toml"), folder.path().join(name).join("actual.toml")).unwrap();
+    }
+    brinell(folder.path(), &["compare", "a/actual.toml", "b/actual.toml", "--variant", "b:name=x"])
+        .exits(2)
+        .complains(&["two runs would be called b"]);
     call(&["actual.toml"]).complains(&["two runs would be called actual"]);
     call(&["--variant", "x:operation.speed_rpm=\"fast\""]).complains(&["operation.speed_rpm"]);
     // Found before anything runs, not when the table is written.

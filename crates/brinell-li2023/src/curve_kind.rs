@@ -156,6 +156,7 @@ fn bpfo() -> Marker {
         label: "BPFO".into(),
         meaning: "roller passes a point of the outer raceway".into(),
         frequency_hz: 250.102,
+        pure_rolling_hz: None,
         harmonics: 5,
         present: true,
         sidebands: Vec::new(),

@@ -200,6 +200,8 @@ pub struct Marker {
     pub meaning: String,
     /// Where it lies.
     pub frequency_hz: f64,
+    /// Where it would lie in pure rolling, if `frequency_hz` is what was found.
+    pub pure_rolling_hz: Option<f64>,
     /// How many multiples to mark, the first included.
     pub harmonics: usize,
     /// Whether the scenario holds damage with impacts at this frequency.

@@ -121,7 +121,9 @@ pub(crate) fn none(page: &mut String, words: &str) {
 
 /// A unit with raised exponents.
 pub(crate) fn unit_html(unit: &str) -> String {
-    runs(unit)
+    // Keys and files write u for µ.
+    let micro = unit.strip_prefix('u').filter(|rest| matches!(*rest, "m" | "J"));
+    runs(&micro.map_or_else(|| unit.to_owned(), |rest| format!("µ{rest}")))
         .iter()
         .map(|run| {
             let text = escape(&run.text);

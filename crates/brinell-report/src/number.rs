@@ -3,10 +3,10 @@
 
 pub use brinell::signal::short;
 
-/// A value with its interval after it: `1.35 [1.30, 1.40]`.
+/// A value with its interval after it: `1.35 (1.30 to 1.40)`.
 pub(crate) fn bracketed(value: String, interval: Option<(f64, f64)>) -> String {
     match interval {
-        Some((low, high)) => format!("{value} [{}, {}]", short(low, 3), short(high, 3)),
+        Some((low, high)) => format!("{value} ({} to {})", short(low, 3), short(high, 3)),
         None => value,
     }
 }

@@ -54,6 +54,8 @@ pub struct Overlay {
     pub curves: Vec<OverlaidCurve>,
     /// Frequencies marked above the plot.
     pub markers: Vec<Marker>,
+    /// Whose each of them is; of all runs where none is said.
+    pub marked: Vec<Option<usize>>,
     /// Under it; may be empty.
     pub note: String,
 }
@@ -149,10 +151,12 @@ pub(crate) fn embed(page: &mut String, overlay: &Overlay, names: &[String]) {
     .write(page);
 }
 
-/// Marks of defect frequencies, in grey: colours are those of the runs.
+/// Marks of defect frequencies, in the colour of their run; in grey those of all.
 fn lanes(overlay: &Overlay) -> Vec<Lane> {
-    let lanes = marker_lanes(&overlay.markers).into_iter();
-    lanes.map(|lane| Lane { color: ink::FAINT, ..lane }).collect()
+    let of = overlay.marked.iter().copied().chain(std::iter::repeat(None));
+    let color = |run: Option<usize>| run.map_or(ink::FAINT, |run| PAINTS[run % PAINTS.len()].0);
+    let lanes = marker_lanes(&overlay.markers).into_iter().zip(of);
+    lanes.map(|(lane, run)| Lane { color: color(run), ..lane }).collect()
 }
 
 /// Both axes; the upright one holds `common` too.

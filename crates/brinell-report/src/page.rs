@@ -156,8 +156,8 @@ fn envelope(page: &mut String, report: &Report) {
             caption.push(' ');
         }
         caption.push_str(
-            "Above the plot lie the defect frequencies and their harmonics; those of damage that is in the bearing run \
-             through it as dashed lines.",
+            "Above the plot lie the defect frequencies and their harmonics: as found where it says so, else in pure rolling. \
+             Those of damage that is in the bearing run through it as dashed lines.",
         );
     }
     figure(page, "envelope", |layout| plots::envelope_spectrum(report, layout), &caption);
@@ -181,7 +181,10 @@ fn envelope(page: &mut String, report: &Report) {
             "<tr><th scope=\"row\">{}</th><td class=\"number\">{}</td><td class=\"unit\">Hz</td><td>{}</td><td>{}</td></tr>",
             escape(&marker.label),
             significant(marker.frequency_hz, 6),
-            escape(&marker.meaning),
+            escape(&match marker.pure_rolling_hz {
+                Some(hz) => format!("{}; found, in pure rolling {} Hz", marker.meaning, significant(hz, 6)),
+                None => marker.meaning.clone(),
+            }),
             if marker.present { "<span class=\"tag assumed\">yes</span>" } else { "no" },
         );
     }

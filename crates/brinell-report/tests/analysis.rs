@@ -40,6 +40,7 @@ fn report(text: &str, values: &[f64]) -> AnalysisReport {
             label: text.into(),
             meaning: text.into(),
             frequency_hz: at(5),
+            pure_rolling_hz: None,
             harmonics: 5,
             present: at(6) > 0.0,
             sidebands: vec![(at(4), text.into())],

@@ -4,11 +4,12 @@ use crate::bench::Bench;
 use crate::judged;
 use crate::message::Arrays;
 use crate::report::{Answer, Trouble};
-use brinell::analysis::{Options, Unit, analyze};
+use brinell::analysis::{AnalysisError, Options, Unit, analyze};
 use brinell::bearing::kinematics::Geometry;
 use brinell::bearing::orders_of;
 use brinell::observe::envelope_band;
 use brinell::signal::lines::harmonics;
+use brinell::signal::short;
 use brinell::signal::{LineSearch, StreamSpectra};
 use serde_json::{Value, json};
 
@@ -108,8 +109,14 @@ pub(crate) fn verdict(bench: &Bench) -> Answer<Value> {
     let mut options = Options::new(shaft, orders_of(&scenario.bearing));
     options.exact = true;
     options.silent = Unit::of("m/s^2").missing_noise(scenario.sensor.noise_rms());
-    let mut analysis =
-        analyze(&x, bench.simulation().sample_rate(), &options).map_err(|e| Trouble::of(e.to_string()))?;
+    // What was simulated so far grows by itself: no reason to count its revolutions.
+    let words = |error: AnalysisError| match error {
+        AnalysisError::TooShort { needed_s, .. } => {
+            format!("Not enough signal for a verdict yet: it takes {} s at this speed", short(needed_s, 2))
+        }
+        other => other.to_string(),
+    };
+    let mut analysis = analyze(&x, bench.simulation().sample_rate(), &options).map_err(|e| Trouble::of(words(e)))?;
     // Rollers that enter the load are no damage.
     if scenario.defects.is_empty() {
         analysis.beside_healthy_run(None);

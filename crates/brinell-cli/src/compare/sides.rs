@@ -6,12 +6,12 @@ use crate::files::{Source, setting, stem};
 use crate::inputs::Inputs;
 use crate::results::scenario_file;
 use brinell_study::campaign::{Side, SidesError, check_labels, split};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// Every scenario and variant, read and checked.
 pub(super) fn read(args: &CompareArgs, inputs: &mut Inputs) -> Result<Vec<Side>, Failure> {
     let variants = args.variant.iter().map(|text| variant(text)).collect::<Result<Vec<_>, _>>()?;
-    let labels = args.scenarios.iter().map(|path| label(path)).chain(variants.iter().map(|v| v.0.clone()));
+    let labels = labels(&args.scenarios).into_iter().chain(variants.iter().map(|v| v.0.clone()));
     let labels: Vec<String> = labels.collect();
     check_labels(&labels).map_err(|error| {
         Failure::Usage(match error {
@@ -31,6 +31,18 @@ pub(super) fn read(args: &CompareArgs, inputs: &mut Inputs) -> Result<Vec<Side>,
     let sides = sides.collect::<Result<_, Failure>>()?;
     sources.iter().for_each(|source| inputs.add_all(&source.inputs()));
     Ok(sides)
+}
+
+/// Names of scenario files; of those that are called alike in folders that are not, the folder's.
+fn labels(paths: &[PathBuf]) -> Vec<String> {
+    let folder = |path: &Path| Some(path.parent()?.file_name()?.to_string_lossy().trim().to_owned());
+    let all: Vec<(String, Option<String>)> = paths.iter().map(|path| (label(path), folder(path))).collect();
+    let one = |(k, (name, folder)): (usize, &(String, Option<String>))| {
+        let mut alike = all.iter().enumerate().filter(|(other, (n, _))| *other != k && n == name).peekable();
+        let apart = alike.peek().is_some() && alike.all(|(_, (_, other))| other.is_some() && other != folder);
+        folder.clone().filter(|_| apart).unwrap_or_else(|| name.clone())
+    };
+    all.iter().enumerate().map(one).collect()
 }
 
 /// The name of a scenario file without its ending; of a folder, and of a file that is called like a number, with it.

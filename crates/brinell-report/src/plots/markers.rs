@@ -22,7 +22,11 @@ pub(crate) fn marker_lanes(markers: &[Marker]) -> Vec<Lane> {
         .enumerate()
         .map(|(index, marker)| Lane {
             label: marker.label.clone(),
-            value: format!("{} Hz", significant(marker.frequency_hz, 4)),
+            value: format!(
+                "{} Hz{}",
+                significant(marker.frequency_hz, 4),
+                if marker.pure_rolling_hz.is_some() { " found" } else { "" }
+            ),
             color: MARKER_COLORS[index % MARKER_COLORS.len()],
             dash: &[4.0, 3.0],
             through: marker.present,

@@ -17,6 +17,7 @@ use brinell::summary::Parts;
 use contacts::{load_distribution, pass};
 use motion::{cage_orbits, motion, slip_rows, spectrogram};
 pub use signals::defect_markers;
+pub(crate) use signals::found_markers;
 use signals::{envelope_spectrum, indicators, sensor_label, spectrum, waveform};
 use tables::{assumptions, audits, facts, slip, solver_work};
 
@@ -49,7 +50,7 @@ impl Report {
             envelope_spectrum: envelope_spectrum(parts),
             envelope_orders,
             order_markers,
-            markers: defect_markers(scenario, parts.simulation.model()),
+            markers: found_markers(scenario, parts.simulation.model(), &parts.findings.lines),
             damage: damage.into_iter().map(|d| d.view).collect(),
             undrawn_damage,
             passes: parts.findings.passes.best().iter().map(|p| pass(parts, p)).collect(),

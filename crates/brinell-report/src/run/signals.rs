@@ -5,7 +5,7 @@ use crate::{Estimate, Event, IndicatorRow, IndicatorTable, Marker, MinMax, Serie
 use brinell::analysis::HARMONICS;
 use brinell::bearing::Kinematics;
 use brinell::model::Model;
-use brinell::observe::{ChannelStatistics, Kind};
+use brinell::observe::{ChannelStatistics, DefectLine, Kind};
 use brinell::scenario::{Scenario, Speed};
 use brinell::signal::Indicator;
 use brinell::summary::Parts;
@@ -110,6 +110,19 @@ pub fn defect_markers(scenario: &Scenario, model: &Model) -> Vec<Marker> {
     markers_at(scenario, model, model.rotation.at(0.0).0)
 }
 
+/// The same of a run: of damage whose frequency was found, at that one.
+pub(crate) fn found_markers(scenario: &Scenario, model: &Model, lines: &[DefectLine]) -> Vec<Marker> {
+    let mut markers = defect_markers(scenario, model);
+    for marker in &mut markers {
+        let found = lines.iter().filter(|line| line.name == marker.label).find_map(|line| line.found);
+        if let Some(found) = found {
+            marker.pure_rolling_hz = Some(marker.frequency_hz);
+            marker.frequency_hz = found.frequency;
+        }
+    }
+    markers
+}
+
 /// Defect frequencies at a speed of the shaft, rad/s.
 pub(super) fn markers_at(scenario: &Scenario, model: &Model, speed: f64) -> Vec<Marker> {
     let k: Kinematics = model.kinematics(speed);
@@ -123,6 +136,7 @@ pub(super) fn markers_at(scenario: &Scenario, model: &Model, speed: f64) -> Vec<
             label: name.into(),
             meaning: meaning.into(),
             frequency_hz,
+            pure_rolling_hz: None,
             harmonics: HARMONICS,
             present: damaged.contains(&name),
             sidebands: Vec::new(),

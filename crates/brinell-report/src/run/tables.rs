@@ -1,7 +1,7 @@
 //! Of the report's data, its tables and tiles: headline numbers, slip, audits, the solver's work, assumptions.
 
 use super::healthy;
-use crate::number::short;
+use crate::number::{short, twelve_digits};
 use crate::{Assumption, Fact};
 use brinell::accuracy::METHOD;
 use brinell::observe::DefectLine;
@@ -182,6 +182,17 @@ pub(super) fn solver_work(parts: &Parts) -> Vec<Fact> {
     ]
 }
 
+/// A value without what a change of its unit leaves behind its digits.
+fn plain(value: &str) -> String {
+    match value.parse::<f64>() {
+        Ok(x) if value.len() > LONGEST_NUMBER => twelve_digits(x).to_string(),
+        _ => value.to_owned(),
+    }
+}
+
+/// Longest number that is shown as it was stated.
+const LONGEST_NUMBER: usize = 12;
+
 pub(super) fn assumptions(parts: &Parts) -> Vec<Assumption> {
     let mut sheet: Vec<Assumption> = parts
         .loaded
@@ -189,7 +200,7 @@ pub(super) fn assumptions(parts: &Parts) -> Vec<Assumption> {
         .iter()
         .map(|p| Assumption {
             key: p.key.clone(),
-            value: p.value.clone().into(),
+            value: plain(&p.value).into(),
             unit: p.unit.to_owned(),
             source: p.reason(),
             estimated: p.assumed,

@@ -189,13 +189,29 @@ document.querySelectorAll('svg[data-plot="overview"]').forEach((svg) => {
   if (svg.classList.contains("wide")) {
     const hint = document.createElement("span");
     hint.className = "hint";
-    hint.textContent = " Click to move it.";
+    hint.textContent = " Click or use the arrow keys to move it.";
     svg.closest("figure").querySelector("figcaption")?.append(hint);
   }
-  svg.addEventListener("click", (event) => {
-    const box = svg.getBoundingClientRect(), [l, , r] = svg.dataset.frame.split(" ").map(Number), [lo, hi] = svg.dataset.view.split(" ").map(Number);
-    const x = (event.clientX - box.left) * svg.viewBox.baseVal.width / box.width;
-    const time = (lo + (hi - lo) * (x - l) / (r - l)) * wave.overviewScale, [a, c] = wave.plots[0].view;
+  const [l, , r] = svg.dataset.frame.split(" ").map(Number), [lo, hi] = svg.dataset.view.split(" ").map(Number);
+  const told = () => {
+    const [a, c] = wave.plots[0].view;
+    svg.setAttribute("aria-valuenow", String((a + c) / 2 / wave.overviewScale));
+  };
+  const show = (time) => {
+    const [a, c] = wave.plots[0].view;
     zoom("waveform", [time - (c - a) / 2, time + (c - a) / 2]);
+    told();
+  };
+  for (const [key, value] of [["role", "slider"], ["tabindex", "0"], ["aria-label", "Instant that the waveform shows"], ["aria-valuemin", lo], ["aria-valuemax", hi]]) svg.setAttribute(key, value);
+  told();
+  svg.addEventListener("click", (event) => {
+    const box = svg.getBoundingClientRect(), x = (event.clientX - box.left) * svg.viewBox.baseVal.width / box.width;
+    show((lo + (hi - lo) * (x - l) / (r - l)) * wave.overviewScale);
+  });
+  svg.addEventListener("keydown", (event) => {
+    const [a, c] = wave.plots[0].view, at = (a + c) / 2, to = { ArrowLeft: at - (c - a) / 2, ArrowRight: at + (c - a) / 2, Home: lo * wave.overviewScale, End: hi * wave.overviewScale }[event.key];
+    if (to === undefined) return;
+    event.preventDefault();
+    show(to);
   });
 });

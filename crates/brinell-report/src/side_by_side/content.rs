@@ -1,10 +1,10 @@
 //! The chapters of a comparison.
 
 use super::curves::{called, entry_and_exit, envelope, over_defect, spectrum, waveform};
-use super::headline::compared_headline;
+use super::headline::{Headline, compared_headline};
 use crate::fact::Fact;
 use crate::frame::THINNED;
-use crate::number::{bracketed, short, shown_unit, twelve_digits};
+use crate::number::{bracketed, capital, short, shown_unit, twelve_digits};
 use crate::quantity::value_text;
 use crate::study::{Chapter, Study};
 use crate::tables::Table;
@@ -57,7 +57,7 @@ impl Study {
             subtitle: format!("{} runs, each over the baseline {}", names.len(), names[0]),
             version: brinell::VERSION.into(),
             warnings,
-            lead: facts.first().map_or(String::new(), Fact::words),
+            lead: lead(&names, &compared_headline(sides, compared)),
             facts,
             chapters,
             footer: THINNED.into(),
@@ -86,28 +86,41 @@ const TABLES: [Wanted; 3] = [
     ("audits", "Audits and work", |name| ["audit.", "work."].iter().any(|o| name.starts_with(o))),
 ];
 
+/// The first number in a sentence: "RMS of sensor_ax in b is 0.368 (0.363 to 0.373), in c 1.2 (1.1 to 1.3) times that in a."
+fn lead(names: &[String], headlines: &[Headline]) -> String {
+    let told = headlines.iter().find_map(|one| {
+        let ratios = names.iter().zip(&one.ratios);
+        let ratios: Vec<_> = ratios.filter_map(|(name, ratio)| Some((name, with_interval((*ratio)?)))).collect();
+        let ([(name, first), rest @ ..], words) = (&ratios[..], &one.words) else {
+            return None;
+        };
+        let more: String = rest.iter().map(|(name, ratio)| format!(", in {name} {ratio}")).collect();
+        Some(format!("{} in {name} is {first}{more} times that in {}.", capital(words), names[0]))
+    });
+    told.unwrap_or_default()
+}
+
 fn facts(sides: &[Side], names: &[String], compared: &[Compared]) -> Vec<Fact> {
     let mut facts = Vec::new();
     for one in compared_headline(sides, compared).into_iter().take(8) {
         let ratios = names.iter().zip(one.ratios.iter().zip(&one.over));
-        let ratios: Vec<String> = ratios
+        let ratios: Vec<(String, Ratio)> = ratios
             .filter_map(|(name, (ratio, over))| {
                 let over = over.as_ref().map_or(String::new(), |(of, to)| format!(" ({of} over {to})"));
-                Some(format!("{name}{over}: {}", with_interval((*ratio)?)))
+                Some((format!("{name}{over}"), (*ratio)?))
             })
             .collect();
-        let [first, rest @ ..] = &ratios[..] else {
+        let [(name, first), rest @ ..] = &ratios[..] else {
             continue;
         };
-        let (value, interval) = first.split_once(" [").unwrap_or((first, ""));
         let mut note = format!("of {}", names[0]);
-        if !interval.is_empty() {
-            note = format!("{note}; 95 %: [{interval}");
+        if let Some((low, high)) = first.interval {
+            note = format!("{note}; 95 %: {} to {}", short(low, 3), short(high, 3));
         }
-        for more in rest {
-            note = format!("{note}; {more}");
+        for (name, more) in rest {
+            note = format!("{note}; {name}: {}", with_interval(*more));
         }
-        facts.push(Fact::new(one.words, format!("{value} ×"), "", note));
+        facts.push(Fact::new(one.words, format!("{name}: {} ×", short(first.value, 3)), "", note));
     }
     facts
 }

@@ -1,9 +1,9 @@
 //! The curves of a comparison: signals, spectra, passes over damage, entries and exits.
 
-use crate::data::Along;
+use crate::data::{Along, Marker};
 use crate::number::capital;
 use crate::overlay::{OverlaidCurve, Overlay, Vertical};
-use crate::run::defect_markers;
+use crate::run::found_markers;
 use crate::study::StudyPiece;
 use brinell::channel::SENSOR;
 use brinell::channel::{STIFFNESS_UNIT, stiffness_unit};
@@ -95,6 +95,24 @@ fn even(of: usize, step: f64, values: Vec<f64>) -> OverlaidCurve {
     OverlaidCurve { of, along, values }
 }
 
+/// Defect frequencies to be marked: of each run those of its damage, then the rest of the first run, in pure rolling.
+fn markers(names: &[String], runs: &[&RunResult]) -> Vec<(Option<usize>, Marker)> {
+    let of = |run: &&RunResult| found_markers(&run.scenario, run.simulation.model(), &run.findings.lines);
+    let each: Vec<Vec<Marker>> = runs.iter().map(of).collect();
+    let usable = |marker: &&Marker| marker.frequency_hz.is_finite() && marker.frequency_hz > 0.0;
+    let mut all = Vec::new();
+    for (run, markers) in each.iter().enumerate() {
+        for marker in markers.iter().filter(usable).filter(|marker| marker.present) {
+            let label = format!("{}, {}", marker.label, names[run]);
+            all.push((Some(run), Marker { label, ..marker.clone() }));
+        }
+    }
+    let damaged = |marker: &&Marker| each.iter().flatten().any(|other| other.present && other.label == marker.label);
+    let rest = each[0].iter().filter(usable).filter(|marker| !damaged(marker));
+    all.extend(rest.map(|marker| (None, marker.clone())));
+    all
+}
+
 pub(super) fn envelope(names: &[String], runs: &[&RunResult]) -> StudyPiece {
     let curves = runs.iter().enumerate().filter_map(|(of, run)| {
         let (e, _) = run.findings.envelope.as_ref()?;
@@ -123,17 +141,19 @@ pub(super) fn envelope(names: &[String], runs: &[&RunResult]) -> StudyPiece {
         },
         |band| format!("in the band {band}"),
     );
-    let markers = defect_markers(&runs[0].scenario, runs[0].simulation.model());
+    let (marked, markers): (Vec<_>, Vec<_>) = markers(names, runs).into_iter().unzip();
     let top = markers.iter().filter(|m| m.present).map(|m| m.frequency_hz);
     let top = top.fold(0.0, f64::max);
     let overlay = Overlay {
         x_range: (top > 0.0).then_some((0.0, 5.5 * top)),
         vertical: Vertical::FromZero,
         note: format!(
-            "Envelope of {}, {between}. Marked: the defect frequencies of {} in pure rolling.",
+            "Envelope of {}, {between}. Marked in the colour of its run: damage that is in it, as found, else in pure rolling. In grey: \
+             the other frequencies of {}, in pure rolling.",
             shown.label, names[0]
         ),
         markers,
+        marked,
         ..Overlay::new("envelope-spectrum", ("Frequency", "Hz"), ("Envelope amplitude", "m/s^2"), curves)
     };
     StudyPiece::Curves(overlay, shown.names)

@@ -141,6 +141,7 @@ pub(crate) fn filled(text: &str, values: &[f64], dt: f64, frequency: f64) -> Rep
         label: text.into(),
         meaning: text.into(),
         frequency_hz: frequency,
+        pure_rolling_hz: present.then_some(at(2)),
         harmonics: 5,
         present,
         sidebands: vec![],

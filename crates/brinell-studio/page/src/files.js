@@ -89,7 +89,8 @@ export async function shapeOf(ask, schema, kind, name, bytes) {
     } catch (error) {
       if (mine !== turn) return;
       got = null;
-      const problems = error instanceof Refused ? error.problems : [{ key: null, message: String(error) }];
+      // The engine reads it as the first damage of a scenario of its own.
+      const problems = error instanceof Refused ? error.problems.map((p) => ({ ...p, message: p.message.replace(/^defects\.0\.shape\.\w+\.(\w+)(.*?) \(defect 1\)/, "$1$2") })) : [{ key: null, message: String(error) }];
       const open = (/** @type {{key: string | null}} */ p) => !agreed && p.key !== null && !filled.has(String(pathOf(p.key).at(-1)));
       told.replaceChildren(...problems.filter(open).map((p) => h("p", { className: "note" }, `Still needed: ${p.message}`)));
       trouble.textContent = problems.filter((p) => !open(p)).map((p) => p.message).join(" ");

@@ -9,7 +9,7 @@ const KEYS = [
       ["Delete", "deletes the damage"],
     ["Page up, page down", "the damage before, the next one"], ["+ − 0", "zoom in, out, fit"], ["Escape", "takes back what is being drawn; else lets go"],
   ]],
-  ["Anywhere", [["Ctrl-Z, Ctrl-Shift-Z", "undo, redo"], ["Space, L", "pause, live"], ["H", "hear"], ["A, B", "the bearing that is edited"], ["?", "these keys"]]],
+  ["Anywhere", [["Ctrl-Z, Ctrl-Shift-Z", "undo, redo"], ["Space, L", "pause, live"], ["Escape", "cancels a run from t = 0"], ["H", "hear"], ["A, B", "the bearing that is edited"], ["?", "these keys"]]],
   ["By hand", [["One finger", "draws"], ["Two fingers", "move and zoom the raceway"], ["Drop a file", "photo, SVG or depth map of damage, scenario, measured signal"]]],
 ];
 

@@ -76,6 +76,12 @@ export async function judged(ask, name, bytes, known, own, refused) {
     }
     rows.scale.hidden = !c.is_wav || !!c.unit;
   };
+  rate.addEventListener("change", () => {
+    const [, size, kilo] = /^(.*\d[.,]?)\s*(k?)hz$/i.exec(rate.value.trim()) ?? [], said = numberOf(size ?? "");
+    if (typeof said !== "number") return;
+    rate.value = String(Number((kilo ? 1000 * said : said).toPrecision(12)));
+    rate.setCustomValidity("");
+  });
   channel.addEventListener("change", fill);
   fill();
   const trouble = h("p", { className: "trouble", role: "alert" });

@@ -104,6 +104,7 @@ export class Raceway extends HTMLElement {
     this.describe();
   }
 
+  get geometry() { return this.#geometry; }
   /** @param {any} geometry */
   set geometry(geometry) {
     const first = !this.#geometry || JSON.stringify(geometry) !== JSON.stringify(this.#geometry);

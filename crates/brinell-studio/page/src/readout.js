@@ -33,7 +33,7 @@ function figures(side) {
     });
   }
   const m = side.moments;
-  if (!m) return [];
+  if (!m?.samples) return [];
   return [pair("RMS", `${short(m.rms)} ${unit}`), pair("peak", `${short(m.peak)} ${unit}`), pair("crest factor", short(m.crest)), pair("kurtosis", short(m.kurtosis))];
 }
 
@@ -49,6 +49,9 @@ function state(side) {
   return `${opened ? now + paused : ""}${moments ? (moments.samples ? `, ${moments.samples} samples` : ", settling") : ""}`;
 }
 
+/** Words of the engine, which are those of a terminal, with a true minus. @param {string} words */
+const proper = (words) => words.replace(/(?<![\w)])-(?=\d)/g, "−").replace(/[−+](0\.0+ %)/g, "$1");
+
 /** @param {HTMLElement} root @param {Side[]} sides the one that is shown first @param {string} difference of two, in words */
 export function readout(root, sides, difference) {
   const several = sides.length > 1;
@@ -56,7 +59,7 @@ export function readout(root, sides, difference) {
   const differ = several ? h("span", { className: "headline differ" }, difference || "How B differs is said when both have a verdict") : null;
   root.replaceChildren(...(differ ? [differ] : []), ...sides.map((side) => h("div", { className: "one" },
     ...(several ? [h("span", { className: "name" }, side.name), h("dl", {}, ...figures(side))] : []),
-    h("span", { className: "headline" }, side.verdict?.headline ?? (side.opened ? "Not enough signal for a verdict yet" : "")),
+    h("span", { className: "headline" }, proper(side.verdict?.headline ?? "") || (side.opened ? "Not enough signal for a verdict yet" : "")),
     h("span", { className: "note" }, several ? state(side) :
       [state(side), side.pace && side.live.state !== "paused" ? `${short(side.pace, 2)} × real time` : "",
         side.took ? `edit in ${Math.round(side.took)} ms` : ""].filter(Boolean).join(" · ")),

@@ -153,5 +153,10 @@ export function defectSpecs(schema, defect, index) {
 export function fileSpecs(schema, shape) {
   const base = /** @type {Path} */ (["defects", 0, "shape", shape]), keys = Object.keys(schemaAt(schema, base)?.properties ?? {});
   const written = new Set(["file", "columns", "rows", "s0_mm", "z0_mm", "depth_um"]);
-  return keys.filter((key) => !written.has(key)).map((key) => spec(schema, [...base, key], { read: (t) => t?.[key], write: (t, v) => set(t, [key], v), required: true }));
+  const labels = /** @type {Record<string, string>} */ ({ ds_mm: "Point spacing around", dz_mm: "Point spacing along the axis" });
+  return keys.filter((key) => !written.has(key)).map((key) => {
+    // The dialog always has a file.
+    const made = spec(schema, [...base, key], { read: (t) => t?.[key], write: (t, v) => set(t, [key], v), required: true });
+    return { ...made, label: labels[key] ?? made.label, note: made.note.replace(/; (where|required where) there is (a|no) `file`, and only there/g, "") };
+  });
 }

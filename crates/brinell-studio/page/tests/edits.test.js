@@ -32,6 +32,57 @@ describe("edits", () => {
     await until(page, () => !globalThis.brinellStudio.side.opened.scenario.defects?.length);
   }));
 
+  it("loads an example again, changes nothing on the way along the list, and keeps an edit that has no answer yet", async () => on({}, async (page) => {
+    await start(page, "rectangle");
+    const speed = page.getByLabel("Speed", { exact: true }), runs = (rpm) => until(page, (rpm) => globalThis.brinellStudio.side.opened.scenario.operation.speed_rpm === rpm, rpm);
+    await type(speed, "1500");
+    await runs(1500);
+    await start(page, "rectangle");
+    await runs(1800);
+    await page.selectOption("#preset", "example:circle");
+    await ran(page);
+    assert.equal((await opened(page)).scenario.name, "rectangle");
+    // The engine does not answer any more.
+    await page.evaluate(() => globalThis.brinellStudio.side.live.kill());
+    await type(speed, "1450");
+    await page.reload();
+    await page.waitForFunction(() => globalThis.brinellStudio?.side?.opened);
+    await runs(1450);
+    // A link does not come back after an edit.
+    await page.click("#share");
+    await page.waitForSelector('[data-kind="link"] input');
+    assert.match(page.url(), /#s=/);
+    await type(speed, "1440");
+    await runs(1440);
+    assert.doesNotMatch(page.url(), /#/);
+  }));
+
+  it("cancels a run, and says at once that nothing was saved of it", async () => on({}, async (page) => {
+    await start(page, "run-up");
+    assert.equal(await page.getByLabel("Speed", { exact: true }).getAttribute("placeholder"), "varies: 2 points");
+    await page.click("#save");
+    await page.click('#save-list button:has-text("CSV")');
+    await says(page, /^running/);
+    await page.click('#run:has-text("Cancel")');
+    await page.waitForSelector('[data-kind="failed"]:has-text("nothing was saved")');
+    await says(page, /^live$/);
+    await page.click("#run");
+    await says(page, /^running/);
+    await page.keyboard.press("Escape");
+    await says(page, /^live$/);
+    assert.match(await page.textContent("#run"), /^Run 0.6 s$/);
+  }));
+
+  it("shows the surface on which undo and redo act", async () => on({}, async (page) => {
+    await start(page, "rectangle");
+    await page.click('[data-surface="inner-raceway"]');
+    await page.click('[data-tool="circle"]');
+    await drag(page, [0.4, 0.5], [0.42, 0.5]);
+    await page.click('[data-surface="outer-raceway"]');
+    await page.click('#damage button:has-text("Undo")');
+    assert.equal(await page.getAttribute('[data-surface="inner-raceway"]', "aria-pressed"), "true");
+  }));
+
   it("takes 100 edits in 2 s, and the last one wins", async (t) => on({}, async (page) => {
     await start(page, "rectangle");
     const { frames, asked } = await page.evaluate(async () => {

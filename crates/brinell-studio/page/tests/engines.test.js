@@ -3,6 +3,7 @@ import assert from "node:assert/strict";
 import { describe, it } from "node:test";
 import { Healthy } from "../src/healthy.js";
 import { decode, encode } from "../src/message.js";
+import { Pace } from "../src/pace.js";
 import { ServerEngine } from "../src/server-engine.js";
 
 const pause = (ms) => new Promise((done) => setTimeout(done, ms));
@@ -30,6 +31,23 @@ describe("the healthy bearing behind the curves", () => {
     assert.deepEqual(await asked(0), []);
     assert.deepEqual(await asked(1), ["open"]);
     assert.deepEqual(await asked(3), ["open", "advance", "advance"]);
+  });
+});
+
+describe("the pace of slices", () => {
+  it("comes to a tenth of a second, whatever a step takes, and back", () => {
+    const pace = new Pace(), slice = (step_ms, needed) => {
+      const steps = Math.min(needed, pace.steps), ms = step_ms * steps;
+      pace.took(ms, steps < needed);
+      return ms;
+    };
+    for (let k = 0; k < 20; k++) slice(0.01, 1e9);
+    assert.ok(Math.abs(slice(0.01, 1e9) - 100) < 1, `${pace.steps} steps`);
+    // An edit makes a step a hundred times as long: a few slices later it is bounded again.
+    for (let k = 0; k < 6; k++) slice(1, 1e9);
+    assert.ok(slice(1, 1e9) < 110);
+    for (let k = 0; k < 20; k++) slice(0.001, 2000);
+    assert.equal(slice(0.001, 2000), 2, "as many as its rows need");
   });
 });
 
