@@ -51,6 +51,9 @@ function write(path, text) {
 /** Code without its comments of whole lines and of JSDoc, and without indentation: half a browser's download of the page's own code. @param {string} text */
 const bare = (text) => text.replace(/\/\*\* [\s\S]*?\*\/|\/\*\*\n[\s\S]*?\*\//g, "").replace(/^[ \t]*\/\/ .*\n/gm, "").replace(/^[ \t]+/gm, "").replace(/\n{2,}/g, "\n");
 
+/** A style sheet without its comments and the spaces that say nothing. @param {string} text */
+const tight = (text) => text.replace(/\/\*[\s\S]*?\*\//g, "").replace(/\s+/g, " ").replace(/ ?([{};]) ?|([,:]) /g, "$1$2").replaceAll(";}", "}").trim();
+
 /** Of the example that the page begins with: as many samples as the page shows of a live bearing, and a spectrum of so many. */
 const EXAMPLE = "rectangle", SHOWN = 2560, WINDOW = 4096, SLICE = 1024;
 
@@ -96,9 +99,9 @@ document.head.append(Object.assign(document.createElement("script"), { type: "im
 for (const name of ${JSON.stringify(entries)}) await import(name);
 `;
 const head = [
-  `<style>\n${readFileSync(join(HERE, "studio.css"), "utf8")}</style>`,
+  `<style>${tight(readFileSync(join(HERE, "studio.css"), "utf8"))}</style>`,
   `<script type="text/plain" id="studio-modules">${packed(JSON.stringify(Object.fromEntries([...all].map(([name, text]) => [name, bare(text)]))))}</script>`,
-  `<script type="text/plain" id="studio-worker">${within(readFileSync(join(HERE, WORKER), "utf8"))}</script>`,
+  `<script type="text/plain" id="studio-worker">${within(bare(readFileSync(join(HERE, WORKER), "utf8")))}</script>`,
   ...(engine ? [`<script type="text/plain" id="studio-wasm">${packed(engine)}</script>`] : []),
 ].join("\n");
 const still = before ? `<script type="text/plain" id="studio-stored">${packed(Buffer.from(before))}</script>\n` : "";

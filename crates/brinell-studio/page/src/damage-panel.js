@@ -254,7 +254,7 @@ export class DamagePanel {
       kind = Object.keys(defect.shape ?? {})[0] ?? "damage";
     const place = `${String(defect.on).replace("-raceway", "")}${(this.rows.options.length > 1 && ` ${defect.row ?? 1}`) || ""}`;
     return h("button", { type: "button", "aria-pressed": String(number === this.selected), onclick: () => this.select(number) },
-      `${number} ${names[kind] ?? kind}, ${place}, ${short(defect.center_deg ?? 0, 3)}°`);
+      `${number} ${names[kind] ?? kind}, ${place}, ${typeof defect.center_deg === "string" ? defect.center_deg : `${short(defect.center_deg ?? 0, 3)}°`}`);
   }
 
   /** @param {Request} request */
