@@ -182,16 +182,17 @@ pub(super) fn solver_work(parts: &Parts) -> Vec<Fact> {
     ]
 }
 
-/// A value without what a change of its unit leaves behind its digits.
+/// A value without what a change of its unit, or a quotient, leaves behind its digits; the scenario below has them all.
 fn plain(value: &str) -> String {
     match value.parse::<f64>() {
+        Ok(x) if twelve_digits(x).to_string().len() > LONGEST_NUMBER => short(x, 6),
         Ok(x) if value.len() > LONGEST_NUMBER => twelve_digits(x).to_string(),
         _ => value.to_owned(),
     }
 }
 
 /// Longest number that is shown as it was stated.
-const LONGEST_NUMBER: usize = 12;
+const LONGEST_NUMBER: usize = 9;
 
 pub(super) fn assumptions(parts: &Parts) -> Vec<Assumption> {
     let mut sheet: Vec<Assumption> = parts
