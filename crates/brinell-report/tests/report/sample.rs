@@ -137,7 +137,7 @@ pub(crate) fn filled(text: &str, values: &[f64], dt: f64, frequency: f64) -> Rep
     let fact = || Fact::new(text, at(0), text, text).judged(at(1) > 0.0);
     let spectrum =
         || Spectrum { label: text.into(), df_hz: dt, amplitude: values.to_vec(), unit: text.into(), note: text.into() };
-    let marker = |present| Marker {
+    let marker = |present: bool| Marker {
         label: text.into(),
         meaning: text.into(),
         frequency_hz: frequency,
