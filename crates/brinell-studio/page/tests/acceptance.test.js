@@ -195,7 +195,7 @@ describe("the page with its engine, held against the command", { skip: missing }
       await drop(page, name, bytes.toString("base64"));
       await page.click('dialog button:has-text("Open")');
       await page.locator("dialog summary", { hasText: "More" }).click();
-      for (const [label, value] of [["Ds", "0.06"], ["Dz", "0.06"], ["Fill", "neighbours"], ["Remove form", "cylinder"], ["Rolling direction", "right"], ["Threshold", "1"], ["Speck", "0.05"]]) await fill(label, value);
+      for (const [label, value] of [["Point spacing around", "0.06"], ["Point spacing along the axis", "0.06"], ["Fill", "neighbours"], ["Remove form", "cylinder"], ["Rolling direction", "right"], ["Threshold", "1"], ["Speck", "0.05"]]) await fill(label, value);
       const got = await placed(k + 2);
       t.diagnostic(`${name}: ${got.area_mm2.toFixed(3)} mm2, ${got.deepest_um.toFixed(2)} um deep; the example's ${scan.area_mm2.toFixed(3)} mm2, ${scan.deepest_um.toFixed(2)} um`);
       assert.ok(Math.abs(got.area_mm2 / scan.area_mm2 - 1) < 1e-3 && Math.abs(got.deepest_um / scan.deepest_um - 1) < 1e-3, JSON.stringify([got.area_mm2, scan.area_mm2, got.deepest_um, scan.deepest_um]));
