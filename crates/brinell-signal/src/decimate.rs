@@ -39,7 +39,8 @@ pub(super) fn bessel_i0(x: f64) -> f64 {
 /// for A > 50 dB and are good to about 0.1 dB, so the window is designed half a decibel tighter than asked.
 ///
 /// # Panics
-/// Where the edges are out of order or range, or `attenuation_db` is not within 50 to 160.
+/// Where the edges are out of order or range, or so close that it takes more than 2^24 taps, or `attenuation_db` is not
+/// within 50 to 160.
 pub fn kaiser_lowpass(passband: f64, stopband: f64, attenuation_db: f64) -> Vec<f64> {
     assert!(
         0.0 < passband && passband < stopband && stopband <= 0.5,
@@ -50,6 +51,7 @@ pub fn kaiser_lowpass(passband: f64, stopband: f64, attenuation_db: f64) -> Vec<
     let beta = 0.1102 * (attenuation - 8.7);
     let order = (attenuation - 7.95) / (2.285 * 2.0 * PI * (stopband - passband));
     let half = (0.5 * order).ceil() as usize;
+    assert!(half <= 1 << 23, "edges too close: passband {passband}, stopband {stopband} cycles per sample");
     let cutoff = 0.5 * (passband + stopband);
 
     let mut taps = vec![0.0; 2 * half + 1];

@@ -41,7 +41,7 @@ pub struct Line {
 ///
 /// Harmonic h is sought within h `tolerance` of h `frequency`, and within half a bin at the least. For a tolerance that
 /// makes neighbouring searches meet, the fundamental is uncertain beyond use. In order of frequency; those beyond the
-/// spectrum or too near zero frequency are missing.
+/// spectrum or too near zero frequency are missing, as are orders beyond the number of its bins.
 ///
 /// # Errors
 /// [`SignalError::OutOfRange`] where the frequency is not positive, the tolerance is negative or reaches half the
@@ -53,7 +53,7 @@ pub fn harmonics(spectrum: &Spectrum, frequency: f64, tolerance: f64, count: usi
     let line = |h: usize| floor.line(h as i32, h as f64 * frequency, h as f64 * tolerance);
     // The last bin is no line's.
     let last = (spectrum.amplitude.len() as f64 * spectrum.frequency_step / frequency) as usize;
-    Ok((1..=count.min(last)).filter_map(line).collect())
+    Ok((1..=count.min(last).min(spectrum.amplitude.len())).filter_map(line).collect())
 }
 
 /// The noise of a spectrum, place by place.

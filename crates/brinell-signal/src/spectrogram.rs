@@ -30,7 +30,7 @@ impl Spectrogram {
     /// # Panics
     /// Where there is no such frame.
     pub fn frame(&self, index: usize) -> &[f64] {
-        &self.density[index * self.bins..(index + 1) * self.bins]
+        self.density.chunks_exact(self.bins).nth(index).expect("a frame of the spectrogram")
     }
 }
 

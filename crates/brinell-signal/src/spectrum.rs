@@ -52,7 +52,8 @@ impl Spectrum {
             .filter(|&(k, _)| (low..=high).contains(&self.frequency(k)))
             .map(|(_, density)| density)
             .sum();
-        (sum * self.frequency_step).sqrt()
+        // The sum over nothing is -0.
+        (sum * self.frequency_step + 0.0).sqrt()
     }
 }
 
@@ -238,6 +239,7 @@ mod tests {
         assert!((spectrum.noise_bandwidth - 1.5 * 12.5).abs() < 1e-12);
         // Mean square A^2 / 2 over the three bins of the density.
         assert!((spectrum.band_rms(230.0, 270.0) - 3.0 / 2f64.sqrt()).abs() < 1e-12);
+        assert!(spectrum.band_rms(270.0, 230.0).is_sign_positive());
     }
 
     #[test]

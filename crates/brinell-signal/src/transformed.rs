@@ -94,8 +94,9 @@ impl Transformed {
     /// band's width asks for: with as many stretches as there were samples, the envelope sample by sample.
     ///
     /// # Panics
-    /// Where the band does not satisfy 0 <= low < high and low < fs / 2, or `count` is 0.
+    /// Where the band does not satisfy 0 <= low < high and low < fs / 2, or `count` is 0 or above that of the samples.
     pub fn envelope(&self, band: Band, count: usize) -> Thinned {
+        assert!((1..=self.samples()).contains(&count), "{count} stretches of {} samples", self.samples());
         let band = bins(self.fs, self.samples(), band);
         let ample = (AMPLE * band.len() as f64 / count as f64).ceil() as usize;
         let every = fast_from(ample.min(self.samples().div_ceil(count)));

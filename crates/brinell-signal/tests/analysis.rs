@@ -3,6 +3,7 @@
 use crate::cases::{CASES, first};
 use std::f64::consts::TAU;
 
+use brinell_signal::Rotation;
 use brinell_signal::analysis::{
     Analysis, AnalysisError, Component, DefectOrders, Finding, Flaw, NamedBearing, Options, Side, Verdict, analyze,
     compare,
@@ -437,6 +438,34 @@ fn prop_odd_input_does_not_panic() {
     }
     let spike: Vec<f64> = (0..12_000).map(|i| f64::from(u8::from(i == 6000))).collect();
     assert!(look(&spike, 12_000.0).causes().next().is_none());
+}
+
+#[test]
+fn prop_options_that_cannot_be_are_refused_by_name() {
+    let x = healthy(12_000.0, 1.0, 1);
+    let usual = Options::new(SHAFT, NamedBearing::find("6205").unwrap().orders());
+    let turning = |hz| Some(Rotation::from_speeds(&[(0.0, hz)]).unwrap());
+    assert!(analyze(&x, 12_000.0, &Options { rotation: turning(1.01 * SHAFT), ..usual.clone() }).is_ok());
+    for (name, options) in [
+        ("silent", Options { silent: Some(f64::NAN), ..usual.clone() }),
+        ("silent", Options { silent: Some(1e200), ..usual.clone() }),
+        ("silent", Options { silent: Some(-1.0), ..usual.clone() }),
+        ("rotation", Options { rotation: turning(0.0), ..usual.clone() }),
+        ("rotation", Options { rotation: turning(0.5 * SHAFT), ..usual.clone() }),
+        ("BPFO", Options { orders: DefectOrders { bpfo: usual.orders.bpfi, ..usual.orders }, ..usual }),
+    ] {
+        let error = analyze(&x, 12_000.0, &options).unwrap_err().to_string();
+        assert!(error.starts_with(name), "{error}");
+    }
+}
+
+#[test]
+fn prop_samples_that_were_not_analysed_are_refused() {
+    let x = healthy(12_000.0, 1.0, 1);
+    let a = look(&x, 12_000.0);
+    let (whole, none) = (Side { x: &x, analysis: &a }, Side { x: &[], analysis: &a });
+    assert!(compare(whole, none).is_err() && compare(none, whole).is_err());
+    assert!(a.clone().beside_healthy(&[], whole).is_err() && a.clone().beside_healthy(&x, none).is_err());
 }
 
 #[test]

@@ -21,8 +21,9 @@ impl Analysis {
     /// raise it.
     ///
     /// # Errors
-    /// As [`analyze()`].
+    /// As [`analyze()`], and where the samples are fewer than were analysed.
     pub fn beside_healthy(&mut self, x: &[f64], healthy: Side) -> Result<(), AnalysisError> {
+        [Side { x, analysis: self }, healthy].iter().try_for_each(Side::check)?;
         let top = 0.5 * self.sample_rate.min(healthy.analysis.sample_rate);
         let range = common_range(self, healthy.analysis);
         let level = |side| {

@@ -66,13 +66,23 @@ pub struct Side<'a> {
     pub analysis: &'a Analysis,
 }
 
+impl Side<'_> {
+    /// That these can be the samples that were analysed.
+    pub(super) fn check(&self) -> Result<(), AnalysisError> {
+        let need = self.analysis.samples;
+        Ok(crate::error::check(self.x, self.analysis.sample_rate, need, "the analysis of them")?)
+    }
+}
+
 /// Lays `second` over `first`, in the band that shows most in the first, as far as both sample rates hold it. Where the
 /// lower one does not, and the user gave no band, it is everything above three times the highest defect frequency.
 ///
 /// # Errors
-/// [`AnalysisError`] where the lower sample rate does not hold the band, or a signal is too short for a spectrum.
+/// [`AnalysisError`] where the lower sample rate does not hold the band, a signal is too short for a spectrum, or its samples
+/// are fewer than were analysed.
 pub fn compare(first: Side, second: Side) -> Result<Comparison, AnalysisError> {
     let sides = [first, second];
+    sides.iter().try_for_each(Side::check)?;
     let rates = sides.map(|s| s.analysis.sample_rate);
     let top = 0.5 * rates[0].min(rates[1]);
     let band = common_band(first.analysis, top)?;

@@ -56,10 +56,10 @@ pub use unit::{Quantity, STANDARD_GRAVITY, Unit};
 pub use verdict::Elsewhere;
 pub use words::{COLUMNS, HEADLINES, indicator_words, level_words};
 
+use crate::error::require;
 use crate::lengths::fast_up_to;
 use crate::parallel::join;
 use crate::{Blocks, Estimate, Indicator, Kurtogram, Segments, Spectrum, Transformed, VelocityBands, kurtogram, psd};
-use error::out_of_range;
 use hypotheses::{Best, SpeedEvidence};
 use together::Envelopes;
 use verdict::Record;
@@ -69,10 +69,6 @@ const LARGEST: f64 = 1e60;
 
 /// Noise over the signal's RMS that is added to it: the last bit of an ADC of 32.
 const DITHER: f64 = 1.0 / 4_294_967_296.0;
-/// What a defect frequency may be over the shaft's, and FTF, for any bearing of three elements or more with its outer
-/// ring at rest; narrower for those that somebody states, [`DefectOrders::POSSIBLE`].
-const ORDERS: (f64, f64) = (0.1, 1000.0);
-const FTF_ORDERS: (f64, f64) = (0.01, 0.6);
 /// Halvings of the kurtogram.
 const DEPTH: usize = 6;
 /// Longest part of a signal that the kurtogram looks at, samples: it is for the eye, and that takes no more.
@@ -84,6 +80,8 @@ const LONGEST: usize = 1 << 18;
 /// [`AnalysisError`] where a sample is not finite, the signal, or the stretch that it repeats, is constant or shorter
 /// than [`FEWEST_REVOLUTIONS`] revolutions, or sampled too slowly for the defect frequencies, or an option is out of range.
 pub fn analyze(x: &[f64], fs: f64, options: &Options) -> Result<Analysis, AnalysisError> {
+    require(fs > 0.0 && fs.is_finite(), "sample rate (Hz)", fs, "above 0")?;
+    options.check(x.len() as f64 / fs)?;
     check(x, fs, options)?;
     let repeats = repetition(x);
     let x = match repeats {
@@ -221,16 +219,6 @@ pub fn velocity(x: &[f64], fs: f64, shaft: f64) -> Result<VelocityBands, Analysi
 }
 
 fn check(x: &[f64], fs: f64, options: &Options) -> Result<(), AnalysisError> {
-    let positive = |name, value: f64| match value > 0.0 && value.is_finite() {
-        true => Ok(()),
-        false => Err(out_of_range(name, value, "above 0")),
-    };
-    positive("sample rate (Hz)", fs)?;
-    positive("shaft speed (Hz)", options.shaft)?;
-    if !(options.tolerance > 0.0 && options.tolerance <= 0.1) {
-        let range = "above 0 to 0.1";
-        return Err(out_of_range("tolerance", options.tolerance, range));
-    }
     let missing = x.iter().filter(|v| !v.is_finite()).count();
     if let Some(first) = x.iter().position(|v| !v.is_finite()) {
         return Err(AnalysisError::NotFinite { count: missing, samples: x.len(), first: first + 1 });
@@ -244,17 +232,8 @@ fn check(x: &[f64], fs: f64, options: &Options) -> Result<(), AnalysisError> {
     {
         return Err(AnalysisError::Constant { samples: x.len(), value });
     }
-    if let Some(hz) = options.supply.filter(|hz| !SUPPLY_HZ.contains(hz)) {
-        return Err(out_of_range("supply (Hz)", hz, "1 to 1000"));
-    }
-    let all = || options.orders.defect_frequencies();
-    for (_, name, order) in all() {
-        let (least, most) = if name == "FTF" { FTF_ORDERS } else { ORDERS };
-        if !(least..=most).contains(&order) {
-            return Err(AnalysisError::Order { name, order, least, most });
-        }
-    }
-    let Some((_, name, highest)) = all().max_by(|a, b| a.2.total_cmp(&b.2)) else {
+    let all = options.orders.defect_frequencies();
+    let Some((_, name, highest)) = all.max_by(|a, b| a.2.total_cmp(&b.2)) else {
         return Err(AnalysisError::NoFrequencies);
     };
     let frequency = highest * options.shaft;

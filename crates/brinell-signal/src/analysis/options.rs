@@ -1,6 +1,8 @@
 //! What is asked of an analysis.
 
+use super::AnalysisError;
 use super::frequencies::DefectOrders;
+use crate::error::require;
 use crate::{Band, Rotation};
 use std::ops::RangeInclusive;
 
@@ -32,6 +34,13 @@ pub struct Options {
     pub exact: bool,
 }
 
+/// What a defect frequency may be over the shaft's, and FTF, for any bearing of three elements or more with its outer
+/// ring at rest; narrower for those that somebody states, [`DefectOrders::POSSIBLE`].
+const ORDERS: (f64, f64) = (0.1, 1000.0);
+const FTF_ORDERS: (f64, f64) = (0.01, 0.6);
+/// How far the mean speed of a rotation may be from the shaft's, relative: that of its points is a little off.
+const ALIKE: f64 = 0.1;
+
 impl Options {
     /// With the usual tolerance, for a measured signal.
     pub fn new(shaft: f64, orders: DefectOrders) -> Self {
@@ -46,6 +55,27 @@ impl Options {
             silent: None,
             exact: false,
         }
+    }
+
+    /// That they can be, for a record of so many s.
+    pub(super) fn check(&self, seconds: f64) -> Result<(), AnalysisError> {
+        require(self.shaft > 0.0 && self.shaft.is_finite(), "shaft speed (Hz)", self.shaft, "above 0")?;
+        require(self.tolerance > 0.0 && self.tolerance <= 0.1, "tolerance", self.tolerance, "above 0 to 0.1")?;
+        let supply = self.supply.unwrap_or(*SUPPLY_HZ.start());
+        require(SUPPLY_HZ.contains(&supply), "supply (Hz)", supply, "1 to 1000")?;
+        let noise = self.silent.unwrap_or(0.0);
+        require((0.0..=super::LARGEST).contains(&noise), "silent (RMS of a machine's noise)", noise, "0 to 1e60")?;
+        let turned = self.rotation.as_ref().map(|rotation| rotation.at(seconds).0 - rotation.at(0.0).0);
+        let mean = turned.map_or(self.shaft, |turns| turns / seconds);
+        let alike = (mean / self.shaft - 1.0).abs() <= ALIKE;
+        require(alike, "rotation (Hz, mean over the record)", mean, "within a tenth of `shaft`, which is that mean")?;
+        for (_, name, order) in self.orders.defect_frequencies() {
+            let (least, most) = if name == "FTF" { FTF_ORDERS } else { ORDERS };
+            if !(least..=most).contains(&order) {
+                return Err(AnalysisError::Order { name, order, least, most });
+            }
+        }
+        self.orders.with_given([None; 4]).map(drop)
     }
 
     /// Whether a speed (Hz) lies farther from the one given than the tolerance.

@@ -89,6 +89,9 @@ pub enum NoZone {
     /// No zone is for it.
     #[error("not known, as the standard is for 120 to 30000 r/min, and this shaft turns at {0:.0} r/min")]
     Speed(f64),
+    /// The level is none.
+    #[error("not known, as {0} m/s is no RMS velocity")]
+    Velocity(f64),
 }
 
 impl MachineClass {
@@ -123,12 +126,13 @@ impl MachineClass {
     /// The zone of an RMS velocity (m/s) of a machine whose shaft turns at `rpm`.
     ///
     /// # Errors
-    /// [`NoZone`] where the standard is not for that speed.
+    /// [`NoZone`] where the standard is not for that speed, or the velocity is negative or not finite.
     pub fn zone(self, velocity: f64, rpm: f64) -> Result<Zone, NoZone> {
         let (least, from_ten, most) = SPEEDS;
         match rpm {
             _ if !(least..=most).contains(&rpm) => return Err(NoZone::Speed(rpm)),
             _ if rpm < from_ten => return Err(NoZone::Slow(rpm)),
+            _ if !(velocity >= 0.0 && velocity.is_finite()) => return Err(NoZone::Velocity(velocity)),
             _ => {}
         }
         let beyond = self.boundaries().iter().filter(|b| 1e3 * velocity > **b).count();
@@ -255,6 +259,9 @@ mod tests {
         assert_eq!(LargeRigid.zone(1e-3, 500.0), Err(NoZone::Slow(500.0)));
         assert_eq!(LargeRigid.zone(1e-3, 100.0), Err(NoZone::Speed(100.0)));
         assert_eq!(LargeRigid.zone(1e-3, 31_000.0), Err(NoZone::Speed(31_000.0)));
+        for none in [f64::NAN, -1e-3, f64::INFINITY] {
+            assert!(matches!(LargeRigid.zone(none, 1500.0), Err(NoZone::Velocity(_))), "{none}");
+        }
     }
 
     /// A strong line far below the band, whose ends do not meet, is not in the band: noise has a kurtosis of 3 and, by

@@ -1,6 +1,7 @@
 //! How well a comb of lines tells the mean rate of impacts whose rate wanders slowly.
 
 use super::LineFrequency;
+use crate::error::require;
 use crate::spectrum::hann;
 use crate::{Band, Estimate, SignalError, envelope, scatter};
 use realfft::num_complex::Complex;
@@ -22,9 +23,11 @@ const STEPS: i32 = 4096;
 /// many harmonics settles on the stretch in which the rate was steadiest.
 ///
 /// # Errors
-/// As [`envelope()`].
+/// As [`envelope()`]; where the line's frequency is not between 0 and half the sample rate.
 pub fn mean_rate_uncertainty(x: &[f64], fs: f64, band: Band, line: &LineFrequency) -> Result<f64, SignalError> {
     let envelope = envelope(x, fs, band)?;
+    let within = line.frequency > 0.0 && line.frequency < 0.5 * fs;
+    require(within, "frequency of the line (Hz)", line.frequency, "above 0 and below half the sample rate")?;
     let periods = x.len() as f64 * line.frequency / fs;
     let length = x.len() / (periods / PERIODS).clamp(1.0, PIECES) as usize;
     let window = hann(length);
@@ -103,6 +106,16 @@ mod tests {
             assert!(within >= 36, "{seconds} s, {share}: {within} of 40");
             assert!(share == 0.0 || noise_alone < 30, "{seconds} s: {noise_alone} of 40");
             assert!(narrow >= 36, "{seconds} s, {share}: {narrow} of 40");
+        }
+    }
+
+    #[test]
+    fn regress_a_line_without_a_frequency_is_refused() {
+        let (x, _) = wandering(0.2, 0.0, 1);
+        let line = line_frequency(&x, FS, BAND, &LineSearch::new(250.0)).unwrap();
+        for frequency in [f64::NAN, 0.0, -250.0, 1e9] {
+            let bad = crate::LineFrequency { frequency, ..line };
+            assert!(mean_rate_uncertainty(&x, FS, BAND, &bad).is_err(), "{frequency}");
         }
     }
 }
