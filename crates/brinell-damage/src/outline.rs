@@ -6,6 +6,30 @@ use crate::geometry::{Polygons, signed_area};
 use brinell::defect::{Fault, faults};
 use brinell::scenario::DepthGrid;
 
+/// Depths beyond are no damage; what is computed with them stays finite.
+pub(crate) const DEEPEST_UM: f64 = 1e9;
+
+/// That a grid is one, of a size and of depths that can be reckoned with.
+pub(crate) fn check_grid(grid: &DepthGrid) -> Result<(), DamageError> {
+    let DepthGrid { s0_mm, z0_mm, ds_mm, dz_mm, columns, rows, depth_um } = grid;
+    let sound = (*columns).min(*rows) >= 2
+        && columns.checked_mul(*rows) == Some(depth_um.len())
+        && [ds_mm, dz_mm].iter().all(|step| (1e-9..=1e4).contains(*step))
+        && [s0_mm, z0_mm].iter().all(|origin| origin.abs() <= 1e4)
+        && depth_um.iter().all(|depth| depth.abs() <= DEEPEST_UM);
+    if sound {
+        return Ok(());
+    }
+    let depths = depth_um.len();
+    Err(DamageError::Option {
+        option: "grid",
+        value: format!(
+            "{depths} depths of {columns} columns and {rows} rows, {ds_mm} by {dz_mm} mm apart, from ({s0_mm}, {z0_mm}) mm"
+        ),
+        allowed: "2 columns and rows or more, 1e-9 mm to 10 m apart and beginning within 10 m, with a depth within 1 km at each node",
+    })
+}
+
 /// What is deeper than `level_um`, its border found between nodes by straight interpolation (marching squares) and
 /// then freed of the corners that lie within `tolerance_mm` of it; along the grid's edge where damage reaches that.
 ///
@@ -13,8 +37,10 @@ use brinell::scenario::DepthGrid;
 ///
 /// # Errors
 ///
-/// A level below 0 or a tolerance below 0; nothing deeper than the level; a border of more than two million points.
+/// Sizes that do not fit the depths, or are no numbers; a level below 0 or a tolerance below 0; nothing deeper than the level;
+/// a border of more than two million points.
 pub fn outline(grid: &DepthGrid, level_um: f64, tolerance_mm: f64) -> Result<Polygons, DamageError> {
+    check_grid(grid)?;
     check_range("level_um", level_um, -f64::MIN_POSITIVE, f64::MAX, "a depth of 0 um or more")?;
     check_range("tolerance_mm", tolerance_mm, -f64::MIN_POSITIVE, f64::MAX, "a distance of 0 mm or more")?;
     let mut rings = field(grid, level_um).outlines(0.0)?.rings;
@@ -39,10 +65,12 @@ pub fn outline(grid: &DepthGrid, level_um: f64, tolerance_mm: f64) -> Result<Pol
 ///
 /// # Errors
 ///
-/// Outlines of more than two million points.
+/// Sizes that do not fit the depths, or are no numbers; an area below 0; outlines of more than two million points.
 pub fn level_of_area(grid: &DepthGrid, area_mm2: f64) -> Result<f64, DamageError> {
     /// Halvings of the deepest depth: to a part in a million.
     const HALVINGS: u32 = 20;
+    check_grid(grid)?;
+    check_range("area_mm2", area_mm2, -f64::MIN_POSITIVE, f64::MAX, "an area of 0 mm^2 or more")?;
     let cell = grid.ds_mm * grid.dz_mm;
     let (mut low, mut high) = (0.0, grid.deepest_um());
     for _ in 0..HALVINGS {

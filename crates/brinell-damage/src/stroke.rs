@@ -1,5 +1,7 @@
 //! Damage drawn by hand: the area under a round pen, and depth taken off or put back by a round brush.
 
+use crate::error::check_range;
+use crate::outline::{DEEPEST_UM, check_grid};
 use crate::svg_union::united;
 use crate::{DamageError, Polygons};
 use brinell::scenario::DepthGrid;
@@ -104,9 +106,11 @@ fn capsule(a: [f64; 2], b: [f64; 2], radius: f64) -> Vec<[f64; 2]> {
 /// distance between. Without a grid a new one begins.
 ///
 /// # Errors
-/// As [`scratch`], and where the grid would get too large.
+/// As [`scratch`]; where the grid's sizes do not fit its depths, or it would get too large; where the depth is no number.
 pub fn brush(grid: Option<&DepthGrid>, stroke: &Stroke, depth_um: f64) -> Result<DepthGrid, DamageError> {
     stroke.check()?;
+    grid.map_or(Ok(()), check_grid)?;
+    check_range("depth_um", depth_um.abs(), -f64::MIN_POSITIVE, DEEPEST_UM, "within 1 km")?;
     let points = stroke.thinned();
     let radius = 0.5 * stroke.width_mm;
     let mut grid = grown(grid, &points, radius)?;
@@ -344,6 +348,10 @@ mod tests {
         assert!(sum(&wider) > sum(&once));
         let back = brush(Some(&wider), &aside, -4.0).unwrap();
         assert!((sum(&back) - sum(&once)).abs() < 1e-9 * sum(&once));
+        assert!(brush(None, &stroke, f64::NAN).is_err());
+        for bad in [DepthGrid { ds_mm: 0.0, ..once.clone() }, DepthGrid { s0_mm: f64::INFINITY, ..once.clone() }] {
+            assert!(brush(Some(&bad), &stroke, 1.0).unwrap_err().to_string().starts_with("`grid` is"));
+        }
         let far = Stroke { points_mm: &[[5000.0, 0.0]], width_mm: 1.0 };
         assert!(brush(Some(&once), &far, 1.0).is_err());
         for width_mm in [0.0, -1.0, f64::NAN, 1e9] {

@@ -112,6 +112,29 @@ fn regress_what_cannot_be_outlined_is_reported() {
         let error = outline(&flat, level, tolerance).unwrap_err();
         assert!(matches!(error, DamageError::Option { .. }), "{error}");
     }
+    for area in [f64::NAN, -1.0, f64::INFINITY] {
+        assert!(level_of_area(&flat, area).is_err(), "{area}");
+    }
+}
+
+/// Its fields are anybody's.
+#[test]
+fn prop_a_grid_that_is_none_is_refused() {
+    let sound = grid([1.0, 1.0], 0.5, |s, z| s + z);
+    for bad in [
+        DepthGrid { depth_um: vec![5.0], ..sound.clone() },
+        DepthGrid { columns: usize::MAX, ..sound.clone() },
+        DepthGrid { columns: 0, rows: 0, depth_um: Vec::new(), ..sound.clone() },
+        DepthGrid { columns: 1, rows: 25, ..sound.clone() },
+        DepthGrid { dz_mm: f64::NAN, ..sound.clone() },
+        DepthGrid { depth_um: vec![f64::NAN; 25], ..sound.clone() },
+        DepthGrid { depth_um: vec![1e308; 25], ..sound },
+    ] {
+        let errors = [outline(&bad, 1.0, 0.0).map(drop), level_of_area(&bad, 1.0).map(drop)];
+        for error in errors.map(Result::unwrap_err) {
+            assert!(error.to_string().starts_with("`grid` is"), "{error}");
+        }
+    }
 }
 
 proptest! {
