@@ -23,6 +23,7 @@ fn prop_unusable_images_are_refused_in_words() {
         (at(1.0), "`threshold` is 1; it must be a number above 0 and below 1"),
         (at(f64::NAN), "`threshold` is NaN"),
         (ImageFile { mm_per_pixel: 0.0, ..default.clone() }, "`mm_per_pixel` is 0"),
+        (ImageFile::default(), "`mm_per_pixel` is NaN"),
         (ImageFile { mm_per_pixel: 1e9, ..default.clone() }, "`mm_per_pixel` is 1000000000"),
         (options((ImageEdges::SubPixel, -1.0)), "`blur_px` is -1"),
         (ImageFile { speck_mm2: f64::INFINITY, ..default.clone() }, "`speck_mm2` is inf"),

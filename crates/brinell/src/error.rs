@@ -1,6 +1,6 @@
 //! Why there is no result: one error above those of the modules.
 
-use crate::document::Problem;
+use crate::document::{Problem, Severity};
 use crate::model::ModelError;
 use crate::statics::NoBalance;
 
@@ -61,8 +61,14 @@ impl Error {
     /// assert!(error.to_string().contains("operation.speed_rpm"));
     /// ```
     pub fn is_bad_input(&self) -> bool {
-        matches!(self, Self::Scenario(_) | Self::Model(_) | Self::NoBalance(_))
+        matches!(self, Self::Scenario(_) | Self::Model(_) | Self::NoBalance(_) | Self::TooLarge { .. })
     }
+}
+
+/// Refuses the errors among problems.
+pub(crate) fn refuse(mut problems: Vec<Problem>) -> Result<(), Error> {
+    problems.retain(|problem| problem.severity == Severity::Error);
+    if problems.is_empty() { Ok(()) } else { Err(Error::Scenario(problems)) }
 }
 
 impl From<Vec<Problem>> for Error {

@@ -11,7 +11,7 @@ mod life;
 mod line;
 mod positions;
 
-use crate::error::Error;
+use crate::error::{Error, refuse};
 use crate::scenario::Scenario;
 pub use along::{AtRest, LoadAlong};
 pub use distribution::{Distribution, Peak};
@@ -38,16 +38,13 @@ pub struct Rating {
 }
 
 impl Rating {
-    /// The healthy bearing's distribution alone.
-    ///
-    /// # Errors
-    /// As for [`Distribution::of`].
-    pub fn healthy(s: &Scenario) -> Result<Option<Distribution>, Error> {
+    /// The distribution alone of the healthy bearing of a scenario that was checked.
+    pub(crate) fn healthy(s: &Scenario) -> Result<Option<Distribution>, Error> {
         let Some(mut s) = in_slices(s) else {
             return Ok(None);
         };
         s.defects.clear();
-        Distribution::of(&s).map(Some)
+        Distribution::unchecked(&s).map(Some)
     }
 
     /// Of a scenario; `None` where its rollers have no slices (`law = "ecl"`, the lumped model), and of balls.
@@ -55,15 +52,21 @@ impl Rating {
     /// # Errors
     /// As for [`Distribution::of`].
     pub fn of(s: &Scenario) -> Result<Option<Self>, Error> {
+        refuse(s.problems())?;
+        Self::unchecked(s)
+    }
+
+    /// The same of a scenario that was checked.
+    pub(crate) fn unchecked(s: &Scenario) -> Result<Option<Self>, Error> {
         let Some(mut s) = in_slices(s) else {
             return Ok(None);
         };
         let damaged = match s.defects.is_empty() {
             true => None,
-            false => Some(Distribution::of(&s)?),
+            false => Some(Distribution::unchecked(&s)?),
         };
         s.defects.clear();
-        let healthy = Distribution::of(&s)?;
+        let healthy = Distribution::unchecked(&s)?;
         let b = &s.bearing;
         Ok(Some(Self {
             life: reference_life(b, &healthy),

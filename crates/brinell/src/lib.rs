@@ -14,8 +14,8 @@
 //! # Ok::<(), brinell::Error>(())
 //! ```
 //!
-//! - A [`Scenario`] is plain data with a field for every key of the scenario file. [`Scenario::from_toml`] reads one;
-//!   [`document::read`] also takes overrides (`operation.speed_rpm` = `900`), and gives warnings and the origin of
+//! - A [`Scenario`] is plain data with a field for every key of the scenario file. [`Scenario::of_bearing`] begins one
+//!   in code, [`Scenario::from_toml`] reads one; [`document::read`] also takes overrides (`operation.speed_rpm` = `900`), and gives warnings and the origin of
 //!   every value. [`Scenario::to_toml`] writes it with every default.
 //! - [`simulate()`] runs it to its end. The same scenario gives the same bits on the same machine, on any number of
 //!   threads.

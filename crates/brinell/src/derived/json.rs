@@ -19,7 +19,7 @@ pub fn to_json(s: &Scenario, model: &Model, d: &Derived) -> Value {
     let warnings = before(s, model, &d.statics);
     let warnings: Vec<String> = warnings.iter().map(ToString::to_string).collect();
     let rating = match &d.statics {
-        Ok(_) => Rating::of(s).ok().flatten(),
+        Ok(_) => Rating::unchecked(s).ok().flatten(),
         Err(_) => None,
     };
     json!({

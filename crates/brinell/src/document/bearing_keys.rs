@@ -130,9 +130,10 @@ pub(super) fn tilt_key<K: Keys>(
     match element {
         Element::Roller => k.key_acting_where(spec, acts, fallback, value),
         Element::Ball => {
-            let without = fallback.clone().value();
-            k.key_where(spec, (false, ROLLERS), fallback, value);
-            *value = without.unwrap_or(*value);
+            // Nothing acts on it: what it holds is no matter.
+            let mut none = f64::NAN;
+            k.key_where(spec, (false, ROLLERS), fallback.clone(), &mut none);
+            *value = fallback.value().unwrap_or(none);
         }
     }
 }

@@ -2,11 +2,13 @@
 
 use super::keys::Fallback::Required;
 use super::keys::{Fallback, Keys, assumed, stated};
+use super::scale_value::ScaleBar;
 use super::spec::{Spec, key};
 use super::value_type::ValueType;
 use crate::scenario::*;
 
 pub(super) const FILE: Spec = key("file", "path, from the scenario's folder");
+pub(super) const SCALE_BAR: Spec = key("scale_bar", "a length in the picture, from which mm_per_pixel follows");
 /// What the keys of a scan need; a `depth_map` may hold its numbers instead.
 const FILED: &str = "there is a `file`";
 
@@ -39,10 +41,11 @@ fn speck<K: Keys>(k: &mut K, filed: Option<bool>, fallback: Fallback<f64>, value
 
 pub(super) fn image<K: Keys>(k: &mut K, i: &mut ImageFile) {
     k.key(FILE, Required, &mut i.file);
-    k.optional(key("scale_bar", "a length in the picture, from which mm_per_pixel follows"), &mut i.scale_bar);
+    let mut bar: Option<ScaleBar> = None;
+    k.optional(SCALE_BAR, &mut bar);
     let scale = key("mm_per_pixel", "the side of a pixel").above(0.0);
-    let of_bar = |bar: ScaleBar| Fallback::Instead { value: bar.mm / bar.px, how: "from scale_bar", assumed: false };
-    let fallback = i.scale_bar.map_or(Required, of_bar);
+    let of_bar = |bar: ScaleBar| Fallback::Instead { value: bar.mm_per_pixel(), how: "from scale_bar", assumed: false };
+    let fallback = bar.map_or(Required, of_bar);
     k.key(scale.to(10.0).unit("mm"), fallback, &mut i.mm_per_pixel);
     let threshold = key(
         "threshold",

@@ -6,7 +6,8 @@ use super::checks::{self, Finder};
 use super::problem::{Place, Problem, Severity};
 use super::provenance::{Origin, Provenance, by_key};
 use super::reader::Reader;
-use super::writer::{Style, Writer};
+use super::spec::unit_of;
+use super::writer::{Style, Unwritten, Writer};
 use super::{recorded, sections, source, toml_text, unset};
 use crate::scenario::{Scenario, Shape};
 
@@ -123,15 +124,18 @@ impl Loaded {
 }
 
 impl Scenario {
-    /// The scenario as TOML with every key given; it reads back to the same scenario, bit for bit.
+    /// The scenario as TOML with every key given. Where [`Scenario::problems`] finds no error it reads back to the same
+    /// scenario, bit for bit, but for fields of `tilting` that do not act: those have their defaults then.
     pub fn to_toml(&self) -> String {
-        write(self, Style { provenance: HashMap::new(), template: false })
+        written(self).0
     }
 
-    /// Everything wrong with a scenario built or changed in code, errors first; keys are those of the file.
+    /// Everything wrong with a scenario built or changed in code, errors first; keys are those of the file. A field whose key
+    /// has no meaning in the present case holds what a file's reader gives it there.
     pub fn problems(&self) -> Vec<Problem> {
-        let mut problems = match read(&self.to_toml(), &[]) {
-            Ok(loaded) => loaded.warnings,
+        let (text, unwritten) = written(self);
+        let mut problems = match read(&text, &[]) {
+            Ok(loaded) => [lost(unwritten, written(&loaded.scenario).1), loaded.warnings].concat(),
             Err(problems) => problems,
         };
         for problem in &mut problems {
@@ -143,8 +147,30 @@ impl Scenario {
     }
 }
 
+/// Every key that a scenario has, and the fields that have none.
+fn written(scenario: &Scenario) -> (String, Vec<Unwritten>) {
+    let mut writer = walked(scenario, Style { provenance: HashMap::new(), template: false });
+    let unwritten = std::mem::take(&mut writer.unwritten);
+    (writer.finish(), unwritten)
+}
+
+/// Values that a text has no key for, and that do not come back by themselves.
+fn lost(unwritten: Vec<Unwritten>, read_back: Vec<Unwritten>) -> Vec<Problem> {
+    let differing = unwritten.into_iter().zip(read_back).filter(|(own, back)| own.value != back.value);
+    let problem = |(Unwritten { key, case, value }, back): (Unwritten, Unwritten)| {
+        let unit = unit_of(key.rsplit('.').next().unwrap_or_default());
+        let allowed = if back.value == "nan" { "none".into() } else { back.value };
+        Problem::error(key, format!("has a meaning only where {case}")).value(value).allowed(allowed).unit(unit)
+    };
+    differing.map(problem).collect()
+}
+
 pub(crate) fn write(scenario: &Scenario, style: Style<'_>) -> String {
+    walked(scenario, style).finish()
+}
+
+fn walked<'a>(scenario: &Scenario, style: Style<'a>) -> Writer<'a> {
     let mut writer = Writer::new(style);
     sections::scenario(&mut writer, &mut scenario.clone());
-    writer.finish()
+    writer
 }

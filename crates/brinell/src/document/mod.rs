@@ -46,7 +46,6 @@ pub use problems::{MOST_OF_A_KIND, Problems, numberless};
 pub use provenance::{Origin, Provenance};
 pub use scenario_schema::json_schema;
 #[doc(hidden)]
-#[doc(hidden)]
 pub use source::NOT_GIVEN;
 pub use source::{canonical, locate};
 #[doc(hidden)]

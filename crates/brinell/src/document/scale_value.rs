@@ -5,7 +5,20 @@ use serde_json::Value as Json;
 use super::source::{Node, Value};
 use super::spec::{Spec, key};
 use super::value_type::{Misfit, ValueType, object, read_under, wrong_type};
-use crate::scenario::ScaleBar;
+
+/// A length that is known in a picture.
+#[derive(Clone, Copy)]
+pub(super) struct ScaleBar {
+    px: f64,
+    mm: f64,
+}
+
+impl ScaleBar {
+    /// The side of a pixel, mm.
+    pub(super) fn mm_per_pixel(self) -> f64 {
+        self.mm / self.px
+    }
+}
 
 const PX: Spec = key("px", "its length in the picture").above(0.0).to(1e5).unit("px");
 const MM: Spec = key("mm", "its length").above(0.0).to(1e4).unit("mm");

@@ -2,7 +2,7 @@
 
 use super::line::{ContactLine, in_slices, lines, slices_of};
 use crate::defect::{Defect, Defects, Side, cover_slices, wrap};
-use crate::error::Error;
+use crate::error::{Error, refuse};
 use crate::model::Model;
 use crate::scenario::{Bearing, Scenario, Surface};
 use crate::slices::{Approach, Cover, Slices};
@@ -60,8 +60,9 @@ impl AtRest {
     /// Of a scenario; `None` where rollers have no slices (`law = "ecl"`, the lumped model), and of balls.
     ///
     /// # Errors
-    /// Where the scenario makes no model, or nothing holds the rings against the load.
+    /// Every error among [`Scenario::problems`]; where the scenario makes no model, or nothing holds the rings against the load.
     pub fn of(s: &Scenario) -> Result<Option<Self>, Error> {
+        refuse(s.problems())?;
         let Some(s) = in_slices(s) else {
             return Ok(None);
         };

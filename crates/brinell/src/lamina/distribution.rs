@@ -4,7 +4,7 @@ use super::along::over_damage;
 use super::line::{ContactLine, lines, slices_of};
 use super::positions::Positions;
 use crate::defect::Side;
-use crate::error::Error;
+use crate::error::{Error, refuse};
 use crate::model::Model;
 use crate::scenario::{Bearing, Scenario};
 use crate::statics::{NoBalance, Problem, solve};
@@ -53,8 +53,14 @@ impl Distribution {
     /// Of a scenario with its slices and its damage.
     ///
     /// # Errors
-    /// Where the scenario makes no model, or nothing holds the rings against the load.
+    /// Every error among [`Scenario::problems`]; where the scenario makes no model, or nothing holds the rings against the load.
     pub fn of(s: &Scenario) -> Result<Self, Error> {
+        refuse(s.problems())?;
+        Self::unchecked(s)
+    }
+
+    /// The same of a scenario that was checked.
+    pub(super) fn unchecked(s: &Scenario) -> Result<Self, Error> {
         let model = Model::new(s)?;
         Ok(distribution(&model, &s.bearing)?)
     }

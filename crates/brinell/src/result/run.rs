@@ -17,6 +17,20 @@ impl Scenario {
     pub fn from_toml(text: &str) -> Result<Self, Error> {
         Ok(document::read(text, &[])?.scenario)
     }
+
+    /// A healthy bearing by its name (`bearing.preset`) at a speed, r/min, under a load `[x, y]`, N; all else by default.
+    ///
+    /// # Errors
+    /// [`Error::Scenario`] where no catalogue has the bearing, or it cannot run so.
+    pub fn of_bearing(name: &str, speed_rpm: f64, [x, y]: [f64; 2]) -> Result<Self, Error> {
+        let number = document::toml_float;
+        let given = [
+            ("bearing.preset", document::toml_quote(name)),
+            ("operation.speed_rpm", number(speed_rpm)),
+            ("operation.load_n", format!("[{}, {}]", number(x), number(y))),
+        ];
+        Ok(document::read("", &given.map(|(key, value)| (key.into(), value)))?.scenario)
+    }
 }
 
 /// A run that is over, with all that was found in it.

@@ -99,7 +99,7 @@ impl Shape {
 pub struct ImageFile {
     /// Path, from the scenario's folder.
     pub file: String,
-    /// The side of a pixel, mm.
+    /// The side of a pixel, mm; a file may give a length in the picture in its place, its `scale_bar`.
     pub mm_per_pixel: f64,
     /// Brightness (0 to 1) below which is damage; `None`: the level that divides the picture best.
     pub threshold: Option<f64>,
@@ -123,16 +123,14 @@ pub struct ImageFile {
     pub pieces: Option<ImagePieces>,
     /// A point within the piece that is damage, pixels from the upper left corner.
     pub at_px: Option<[f64; 2]>,
-    /// A length in the picture, from which `mm_per_pixel` follows.
-    pub scale_bar: Option<ScaleBar>,
 }
 
 impl Default for ImageFile {
-    /// A photo at 0.01 mm per pixel; blur of 1.5 pixels, specks below 0.02 mm^2.
+    /// A photo whose scale is not known (NaN); blur of 1.5 pixels, specks below 0.02 mm^2.
     fn default() -> Self {
         Self {
             file: String::new(),
-            mm_per_pixel: 0.01,
+            mm_per_pixel: f64::NAN,
             threshold: None,
             use_alpha: false,
             invert: false,
@@ -144,18 +142,8 @@ impl Default for ImageFile {
             region_px: None,
             pieces: None,
             at_px: None,
-            scale_bar: None,
         }
     }
-}
-
-/// A length that is known in a picture.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct ScaleBar {
-    /// As it is in the picture, pixels.
-    pub px: f64,
-    /// As it is, mm.
-    pub mm: f64,
 }
 
 /// `svg`: damage drawn in a vector editor.

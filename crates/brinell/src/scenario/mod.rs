@@ -10,7 +10,7 @@ mod sensor;
 
 pub(crate) use choices::words;
 pub use choices::*;
-pub use damage::{Defect, DepthGrid, ImageFile, ScaleBar, ScanFile, Shape, Surface, SvgFile};
+pub use damage::{Defect, DepthGrid, ImageFile, ScanFile, Shape, Surface, SvgFile};
 pub use sensor::{PathMode, Range, Sensor};
 
 /// One run, completely described.
@@ -91,7 +91,8 @@ impl Element {
 /// `[bearing]`: geometry and masses.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Bearing {
-    /// Catalogue name that filled the keys not given, if any.
+    /// Catalogue name that filled the keys not given, if any. What runs are the other fields, whatever the catalogue says of
+    /// that bearing: `None` for one that is another. The bore alone goes by the name, where `bore_diameter_mm` gives none.
     pub preset: Option<String>,
     /// Rollers or balls. The keys named after rollers are then a ball's.
     pub element: Element,

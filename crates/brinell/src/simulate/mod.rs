@@ -13,8 +13,7 @@ mod signals;
 mod switches;
 
 use crate::channel::{self, Channel, Frame};
-use crate::document::Severity;
-use crate::error::Error;
+use crate::error::{Error, refuse};
 use crate::model::{Energy, Model, Power};
 use crate::scenario::{Accuracy, Scenario};
 use crate::sensor::{Chain, ChannelRecord};
@@ -171,9 +170,8 @@ impl Simulation {
     /// # Errors
     /// Every error among [`Scenario::problems`]; where the scenario makes no model or has no equilibrium to start from.
     pub fn new(scenario: &Scenario) -> Result<Self, Error> {
-        let mut problems = scenario.problems();
-        problems.retain(|problem| problem.severity == Severity::Error);
-        if problems.is_empty() { Self::unchecked(scenario) } else { Err(problems.into()) }
+        refuse(scenario.problems())?;
+        Self::unchecked(scenario)
     }
 
     /// The same of a scenario as it was read, which has been checked.

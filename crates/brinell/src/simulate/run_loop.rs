@@ -287,8 +287,8 @@ impl<S: Deref<Target = Simulation>> Run<S> {
                     *value = self.filtered[axis];
                 }
             }
-            observer.row(self.rows, row, &self.filtered)?;
             self.rows += 1;
+            observer.row(self.rows - 1, row, &self.filtered)?;
         }
         ControlFlow::Continue(())
     }

@@ -2,7 +2,7 @@
 
 use brinell::bearing::catalogue;
 use brinell::document::{Origin, read, template};
-use brinell::scenario::{GuidanceFilm, Scenario, Shape, Surface};
+use brinell::scenario::{GuidanceFilm, RollerProfile, Scenario, Shape, Surface};
 
 use super::{BARE, INNER, OUTER, good, report, with};
 
@@ -157,4 +157,24 @@ fn regress_problems_of_a_scenario_changed_in_code() {
     scenario.defects[0].row = 3;
     let keys: Vec<String> = scenario.problems().into_iter().map(|p| p.key).collect();
     assert_eq!(keys, ["bearing.roller_mass_kg", "defects.0.row"]);
+}
+
+/// What a text has no key for would be lost in it, and be simulated all the same.
+#[test]
+fn prop_a_field_without_a_key_holds_what_the_reader_gives_it() {
+    let ball = Scenario::of_bearing("6205", 1800.0, [500.0, 0.0]).unwrap();
+    assert_eq!(ball.problems(), []);
+    let mut other = ball.clone();
+    other.contact.exponent = 1.2;
+    other.bearing.profile = RollerProfile::Crowned { crowned_radius_mm: 1e4 };
+    other.sensor.noise_corner_hz = 5.0;
+    let problems = other.problems();
+    let keys: Vec<&str> = problems.iter().map(|p| p.key.as_str()).collect();
+    assert_eq!(keys, ["bearing.profile", "contact.exponent", "sensor.noise_corner_hz"]);
+    assert_eq!((problems[1].value.as_deref(), problems[1].allowed.as_deref()), (Some("1.2"), Some("1.5")));
+    assert!(brinell::simulate(&other).unwrap_err().is_bad_input());
+    // Nothing acts on these, and they follow from others where a text is read.
+    other = Scenario { sensor: ball.sensor.clone(), contact: ball.contact.clone(), ..other };
+    (other.bearing.profile, other.bearing.width_mm) = (ball.bearing.profile.clone(), 99.0);
+    assert_eq!(other.problems(), []);
 }

@@ -1,6 +1,9 @@
 //! Files of damage: keys that need or exclude each other.
 
 use super::{Checker, short};
+use crate::document::damage_files::SCALE_BAR;
+use crate::document::scale_value::ScaleBar;
+use crate::document::value_type::ValueType;
 use crate::scenario::{ImageFile, ScanFile, ScanForm};
 
 impl Checker<'_> {
@@ -26,16 +29,16 @@ impl Checker<'_> {
         /// How far the side of a pixel may be from that of the scale bar.
         const SAME: f64 = 0.01;
         let key = |name: &str| format!("defects.{i}.shape.image.{name}");
-        if let Some(bar) = image.scale_bar {
-            let of_bar = bar.mm / bar.px;
-            if (image.mm_per_pixel / of_bar - 1.0).abs() > SAME {
-                self.error(
-                    &key("mm_per_pixel"),
-                    format!("scale_bar says {} mm; give one of them", short(of_bar)),
-                    String::new(),
-                    &[&key("scale_bar")],
-                );
-            }
+        let bar = self.finder.found.get(&key(SCALE_BAR.name));
+        if let Some(of_bar) = bar.and_then(|node| ScaleBar::read(node, &SCALE_BAR).ok()).map(ScaleBar::mm_per_pixel)
+            && (image.mm_per_pixel / of_bar - 1.0).abs() > SAME
+        {
+            self.error(
+                &key("mm_per_pixel"),
+                format!("scale_bar says {} mm; give one of them", short(of_bar)),
+                String::new(),
+                &[&key(SCALE_BAR.name)],
+            );
         }
         if image.at_px.is_some() && image.pieces.is_some() {
             self.error(
