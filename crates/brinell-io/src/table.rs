@@ -148,64 +148,10 @@ impl Table {
         writer.write_group(&(0..self.rows()).map(row).collect::<Vec<_>>())?;
         writer.complete()
     }
-
-    /// Reads a table back from Parquet.
-    ///
-    /// # Errors
-    /// Where the file cannot be read or holds other columns than of doubles and of words.
-    #[cfg(feature = "parquet")]
-    pub fn read_parquet(path: impl AsRef<Path>) -> Result<Self, IoError> {
-        let path = path.as_ref();
-        parquet::table(path).map_err(|error| IoError::Parquet { path: path.to_owned(), why: error.to_string() })
-    }
 }
 
 /// Quotes where they are needed.
 fn quoted(text: &str) -> String {
     let plain = !text.contains([',', '"', '\n', '\r']) && text.trim() == text;
     if plain { text.to_owned() } else { format!("\"{}\"", text.replace('"', "\"\"")) }
-}
-
-#[cfg(feature = "parquet")]
-mod parquet {
-    use super::{Cells, Table};
-    use crate::{Column, keys};
-    use parquet::basic::Type as Physical;
-    use parquet::errors::{ParquetError, Result};
-    use parquet::file::reader::{FileReader, SerializedFileReader};
-    use parquet::record::Field;
-    use std::path::Path;
-
-    pub(super) fn table(path: &Path) -> Result<Table> {
-        let file = std::fs::File::open(path)?;
-        let reader = SerializedFileReader::new(file)?;
-        let meta = reader.metadata().file_metadata();
-        let units = meta
-            .key_value_metadata()
-            .and_then(|pairs| pairs.iter().find(|pair| pair.key == keys::UNITS))
-            .and_then(|pair| serde_json::from_str(pair.value.as_deref()?).ok())
-            .unwrap_or(serde_json::Value::Null);
-        let mut table = Table::default();
-        for column in meta.schema_descr().columns() {
-            let cells = match column.physical_type() {
-                Physical::DOUBLE => Cells::Numbers(Vec::new()),
-                Physical::BYTE_ARRAY => Cells::Words(Vec::new()),
-                other => return Err(ParquetError::General(format!("a column of {other}"))),
-            };
-            let unit = units[column.name()].as_str().unwrap_or("");
-            table.push(Column::new(column.name(), unit, ""), cells);
-        }
-        for row in reader.get_row_iter(None)? {
-            for (cells, (_, field)) in table.cells.iter_mut().zip(row?.get_column_iter()) {
-                match (cells, field) {
-                    (Cells::Numbers(cells), Field::Double(x)) => cells.push(Some(*x)),
-                    (Cells::Numbers(cells), Field::Null) => cells.push(None),
-                    (Cells::Words(cells), Field::Str(text)) => cells.push(Some(text.clone())),
-                    (Cells::Words(cells), Field::Null) => cells.push(None),
-                    (_, other) => return Err(ParquetError::General(format!("a cell of {other}"))),
-                }
-            }
-        }
-        Ok(table)
-    }
 }
