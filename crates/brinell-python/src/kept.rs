@@ -45,17 +45,17 @@ pub(crate) fn ledger(folder: &Path, header: &Value) -> PyResult<Ledger> {
     Ledger::open(folder, header, false).map_err(|error| refused(folder, error))
 }
 
-/// Of each point its numbers, or why there are none.
+/// Of each point its numbers, or why there are none; with a `folder` none is run again that is in its journal.
 pub(crate) fn run(
     py: Python<'_>,
     (plan, source): (&Plan, &Source),
     points: Tasks,
-    folder: &Path,
+    folder: Option<&Path>,
     jobs: Option<isize>,
     mut progress: impl FnMut(Python<'_>, usize) -> PyResult<()> + Send,
 ) -> PyResult<Vec<Ran>> {
     let prints = points.iter().map(|p| p.as_ref().ok().map(|t| &*t.fingerprint));
-    let mut ledger = ledger(folder, &plan.header(prints))?;
+    let mut ledger = folder.map_or_else(|| Ok(Ledger::default()), |folder| ledger(folder, &plan.header(prints)))?;
     let tasks = to_run(points.iter().flatten(), |task| ledger.kept.row(&task.fingerprint).is_some());
     let threads = threads(jobs, tasks.len())?;
     let mut done = plan.points() - tasks.len();
@@ -68,7 +68,11 @@ pub(crate) fn run(
             progress(py, done)
         })
     };
-    attended(py, &watch, runs, tell)?.map(drop).map_err(|error| refused(folder, error))?;
+    let told = |error: RunnerError| match folder {
+        Some(folder) => refused(folder, error),
+        None => bad_value(error),
+    };
+    attended(py, &watch, runs, tell)?.map(drop).map_err(told)?;
     let result = |point: Result<Task, String>| {
         let row = ledger.kept.row(&point?.fingerprint).ok_or("not run")?;
         let numbers = row.result.clone().map_err(|reason| one_line(&reason))?;

@@ -7,11 +7,8 @@ use crate::kept::{self, Ran, Tasks};
 use crate::scenario::{Scenario, Source};
 use crate::wait::over_threads;
 use brinell::document::reading::text_in_unit_of;
-use brinell::document::{Problem, on_one_line, one_line};
-use brinell::result::{Quantity, RunResult};
-use brinell::simulate::Progress;
-use brinell::simulate_with;
-use brinell::summary::afterwards;
+use brinell::document::{Problem, on_one_line};
+use brinell::result::Quantity;
 use brinell_study::campaign::{Axis, Beforehand, Known, Plan, columns, of_points, of_results};
 use brinell_study::runner::Task;
 use pyo3::prelude::*;
@@ -48,10 +45,7 @@ pub(crate) fn sweep<'py>(
         Some(progress) => progress.call1(py, (done, total)).map(drop),
         None => Ok(()),
     };
-    let results = match folder {
-        Some(folder) => kept::run(py, (&plan, &scenario.source), points, &folder, jobs, show)?,
-        None => in_memory(py, &scenario.source, points, jobs, show)?,
-    };
+    let results = kept::run(py, (&plan, &scenario.source), points, folder.as_deref(), jobs, show)?;
     let complete = |(k, ran): (usize, &Ran)| Some((k, ran.as_ref().ok()?.1.clone()));
     warnings.extend(of_results(results.iter().enumerate().filter_map(complete), "point", |k| k + 1));
     let runs: Vec<&[Quantity]> = results.iter().map(|r| r.as_ref().map_or(&[][..], |ran| &ran.0)).collect();
@@ -117,36 +111,4 @@ fn looked_at(py: Python<'_>, plan: &Plan, source: &Source, jobs: Option<isize>) 
     let warnings = of_points(points.iter().map(|point| point.as_ref().ok().map(|(known, _)| known)));
     let task = |point: Looked| point.map(|(_, task)| task).map_err(|problems| on_one_line(&problems));
     Ok((points.into_iter().map(task).collect(), warnings))
-}
-
-/// Of each point its numbers, or why there are none.
-fn in_memory(
-    py: Python<'_>,
-    source: &Source,
-    points: Tasks,
-    jobs: Option<isize>,
-    mut progress: impl FnMut(Python<'_>, usize) -> PyResult<()> + Send,
-) -> PyResult<Vec<Ran>> {
-    let mut results = vec![Err("not run".into()); points.len()];
-    let mut done = 0;
-    over_threads(
-        py,
-        points.len(),
-        jobs,
-        |k, stop| {
-            let task = points[k].as_ref().map_err(Clone::clone)?;
-            let (loaded, _) = source.with(&task.settings).load().map_err(|problems| on_one_line(&problems))?;
-            let mut progress = Progress(|_| brinell::many::go_on(stop));
-            let result = simulate_with(&loaded.scenario, &mut progress);
-            let result = result.map_err(|error| one_line(&error.to_string()))?;
-            let RunResult { scenario, simulation, outcome, findings } = &result;
-            Ok((result.quantities(), afterwards(scenario, simulation, outcome, findings)))
-        },
-        |py, k, result| {
-            results[k] = result;
-            done += 1;
-            progress(py, done)
-        },
-    )?;
-    Ok(results)
 }
