@@ -5,6 +5,7 @@ use crate::files;
 use crate::results::scenario_file;
 use crate::say::{self, one_line, say};
 use brinell::document::{Loaded, Origin, Provenance};
+use brinell_study::campaign::differing;
 use clap::Args;
 use serde_json::{Value, json};
 use std::path::{Path, PathBuf};
@@ -29,9 +30,9 @@ pub(crate) struct DiffArgs {
 
 pub(crate) fn diff(args: &DiffArgs) -> Result<ExitCode, Failure> {
     let [a, b] = [read(&args.a)?, read(&args.b)?];
-    let differences = differences(&a, &b);
+    let differences = differing(&[&a, &b]);
     if args.json {
-        let all: Vec<Value> = differences.iter().map(Difference::json).collect();
+        let all: Vec<Value> = differences.iter().map(json_of).collect();
         let json = json!({
             "a": args.a.display().to_string(),
             "b": args.b.display().to_string(),
@@ -52,38 +53,26 @@ fn read(path: &Path) -> Result<Loaded, Failure> {
     files::scenario(&scenario_file(path), &[], true)
 }
 
-/// A key that has not the same value in both; `None` where one has no such key.
-struct Difference<'a> {
-    key: &'a str,
-    unit: &'static str,
-    sides: [Option<&'a Provenance>; 2],
+/// A key with what both have of it.
+type Difference<'a> = (&'a str, Vec<Option<&'a Provenance>>);
+
+fn unit(sides: &[Option<&Provenance>]) -> &'static str {
+    sides.iter().flatten().map(|p| p.unit).next().unwrap_or_default()
 }
 
-fn differences<'a>(a: &'a Loaded, b: &'a Loaded) -> Vec<Difference<'a>> {
-    let of = |loaded: &'a Loaded, key: &str| loaded.provenance.iter().find(|p| p.key == key);
-    let own = a.provenance.iter().map(|p| Difference { key: &p.key, unit: p.unit, sides: [Some(p), of(b, &p.key)] });
-    let others = b.provenance.iter().filter(|p| of(a, &p.key).is_none());
-    let others = others.map(|p| Difference { key: &p.key, unit: p.unit, sides: [None, Some(p)] });
-    let value = |side: Option<&'a Provenance>| side.map(|p| p.value.as_str());
-    let all = own.chain(others);
-    all.filter(|d| value(d.sides[0]) != value(d.sides[1])).collect()
-}
-
-impl Difference<'_> {
-    fn json(&self) -> Value {
-        let side = |p: Option<&Provenance>| {
-            p.map(|p| {
-                // Most of TOML's values are JSON's.
-                let value = serde_json::from_str(&p.value);
-                json!({
-                    "value": value.unwrap_or_else(|_| Value::String(p.value.clone())),
-                    "origin": origin(p).0,
-                    "reason": p.reason(),
-                })
+fn json_of((key, sides): &Difference) -> Value {
+    let side = |p: Option<&Provenance>| {
+        p.map(|p| {
+            // Most of TOML's values are JSON's.
+            let value = serde_json::from_str(&p.value);
+            json!({
+                "value": value.unwrap_or_else(|_| Value::String(p.value.clone())),
+                "origin": origin(p).0,
+                "reason": p.reason(),
             })
-        };
-        json!({ "key": self.key, "unit": self.unit, "a": side(self.sides[0]), "b": side(self.sides[1]) })
-    }
+        })
+    };
+    json!({ "key": key, "unit": unit(sides), "a": side(sides[0]), "b": side(sides[1]) })
 }
 
 /// Who gave a value, in JSON's word and behind the value of a table.
@@ -106,9 +95,9 @@ fn tell(differences: &[Difference], names: &[String; 2]) {
     };
     let [a, b] = names.clone();
     let mut rows = vec![["key".to_owned(), a, b, "unit".to_owned()]];
-    rows.extend(differences.iter().map(|d| {
-        let [a, b] = d.sides;
-        [d.key.to_owned(), cell(a, b), cell(b, a), d.unit.to_owned()]
+    rows.extend(differences.iter().map(|(key, sides)| {
+        let (a, b) = (sides[0], sides[1]);
+        [(*key).to_owned(), cell(a, b), cell(b, a), unit(sides).to_owned()]
     }));
     if rows.len() == 1 {
         return;

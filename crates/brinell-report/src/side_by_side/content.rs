@@ -8,11 +8,12 @@ use crate::number::{bracketed, capital, short, shown_unit, twelve_digits};
 use crate::quantity::value_text;
 use crate::study::{Chapter, Study};
 use crate::tables::Table;
+use brinell::document::Loaded;
 use brinell::observe::passes::place;
 use brinell::result::{Quantity, RunResult};
 use brinell::signal::ratio::Ratio;
 use brinell::summary::afterwards;
-use brinell_study::campaign::{BANDWIDTHS, Beforehand, Compared, Misses, Side, bandwidth, count, of_results};
+use brinell_study::campaign::{self, BANDWIDTHS, Beforehand, Compared, Misses, Side, bandwidth, count, of_results};
 
 /// Longest value in the table of what differs.
 const LONGEST: usize = 60;
@@ -20,7 +21,11 @@ const LONGEST: usize = 60;
 impl Study {
     /// What the page of a comparison shows: `compare.html` of `brinell compare`. `warnings`: those of [`beforehand`] and
     /// [`doubts`].
+    ///
+    /// # Panics
+    /// Without a run, or with more or fewer sides than runs.
     pub fn of_runs(sides: &[Side], runs: &[&RunResult], compared: &[Compared], warnings: Vec<String>) -> Self {
+        assert!(!runs.is_empty() && runs.len() == sides.len(), "{} sides of {} runs", sides.len(), runs.len());
         let names: Vec<String> = sides.iter().map(|side| side.label.clone()).collect();
         let chapter = |id: &str, title: &str, pieces| Chapter::new(id, title, title, pieces);
         let mut chapters = vec![
@@ -195,25 +200,12 @@ fn unlike(sides: &[Side], runs: &[&RunResult]) -> Vec<String> {
 
 /// Keys with different values.
 fn differing(sides: &[Side]) -> Table {
-    let value = |side: &Side, key: &str| {
-        let entry = side.loaded.provenance.iter().find(|p| p.key == key)?;
-        Some((entry.value.clone(), entry.unit))
-    };
-    let mut keys: Vec<&str> = Vec::new();
-    for p in sides.iter().flat_map(|side| &side.loaded.provenance) {
-        if !keys.contains(&p.key.as_str()) {
-            keys.push(&p.key);
-        }
-    }
+    let loaded: Vec<&Loaded> = sides.iter().map(|side| &side.loaded).collect();
     let mut rows = Vec::new();
-    for key in keys {
-        let values: Vec<_> = sides.iter().map(|side| value(side, key)).collect();
-        if values.windows(2).all(|pair| pair[0] == pair[1]) || key == "name" {
-            continue;
-        }
-        let unit = values.iter().flatten().map(|v| v.1).next().unwrap_or("");
+    for (key, values) in campaign::differing(&loaded).into_iter().filter(|(key, _)| *key != "name") {
+        let unit = values.iter().flatten().map(|p| p.unit).next().unwrap_or("");
         let mut row = vec![if unit.is_empty() { key.to_owned() } else { format!("{key} ({unit})") }];
-        row.extend(values.into_iter().map(|v| v.map_or("–".into(), |v| cut(&v.0))));
+        row.extend(values.into_iter().map(|p| p.map_or("–".into(), |p| cut(&p.value))));
         rows.push(row);
     }
     let note = if rows.is_empty() {

@@ -27,12 +27,13 @@ pub struct Headline {
 /// another's across it.
 pub fn compared_headline(sides: &[Side], compared: &[Compared]) -> Vec<Headline> {
     let axes: Vec<usize> = sides.iter().map(|side| side.loaded.scenario.operation.axis_of_load()).collect();
-    let alike = axes.iter().all(|axis| *axis == axes[0]);
-    let of_sensor = match (alike, axes.first()) {
-        (true, Some(axis)) => sensors(compared, *axis),
-        _ => WHICH.iter().filter_map(|which| along_loads(&axes, compared, which)).collect(),
+    let Some(&first) = axes.first() else {
+        return Vec::new();
     };
-    let across = axes.first().filter(|_| alike).map_or(Vec::new(), |axis| sensors(compared, 1 - axis));
+    let (of_sensor, across) = match axes.iter().all(|axis| *axis == first) {
+        true => (sensors(compared, first), sensors(compared, 1 - first)),
+        false => (WHICH.iter().filter_map(|which| along_loads(&axes, compared, which)).collect(), Vec::new()),
+    };
     let peak = |c: &&Compared| c.name.ends_with("entry_peak") || c.name.ends_with("exit_peak");
     let peaks = compared.iter().filter(peak).map(as_it_is);
     of_sensor.into_iter().chain(peaks).chain(across).collect()

@@ -64,7 +64,11 @@ impl Plan {
     }
 
     /// Which setting of each axis a point has.
+    ///
+    /// # Panics
+    /// Where the point is not below [`Plan::points`].
     pub fn place(&self, point: usize) -> Vec<usize> {
+        assert!(point < self.points(), "point {point} of {}", self.points());
         let mut rest = point;
         let mut place: Vec<usize> = self
             .axes
@@ -91,6 +95,9 @@ impl Plan {
     }
 
     /// Key and value of everything that a point sets: overrides for [`brinell::document::read`].
+    ///
+    /// # Panics
+    /// As [`Plan::place`].
     pub fn settings(&self, point: usize) -> Vec<(String, String)> {
         let chosen = self.axes.iter().zip(self.place(point));
         chosen

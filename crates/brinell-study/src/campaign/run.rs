@@ -8,7 +8,7 @@ use std::ops::ControlFlow;
 
 /// Runs scenarios side by side, up to `threads` at a time; each result in the place of its scenario. `progress` gets
 /// which scenario has reached which time, s, from the thread that runs it. Results are those of each run alone, bit for
-/// bit.
+/// bit, and all are held until the last is there.
 pub fn run_all(
     scenarios: &[Scenario],
     threads: NonZeroUsize,

@@ -2,7 +2,7 @@
 //! run; and what runs may be called there.
 
 use super::Compared;
-use brinell::document::Loaded;
+use brinell::document::{Loaded, Provenance};
 use brinell::result::Quantity;
 use brinell::signal::ratio::Ratio;
 use brinell::summary::with_interval;
@@ -106,6 +106,23 @@ pub fn sides_table(sides: &[Side], compared: &[Compared]) -> Table {
     table
 }
 
+/// Keys that have not the same value in all scenarios, each in the order of its first file, with what every scenario has:
+/// `None` where it has no such key.
+pub fn differing<'a>(all: &[&'a Loaded]) -> Vec<(&'a str, Vec<Option<&'a Provenance>>)> {
+    let mut keys: Vec<&str> = Vec::new();
+    for p in all.iter().flat_map(|loaded| &loaded.provenance) {
+        if !keys.contains(&p.key.as_str()) {
+            keys.push(&p.key);
+        }
+    }
+    let with_values = keys.into_iter().map(|key| {
+        let values = all.iter().map(|loaded| loaded.provenance.iter().find(|p| p.key == key));
+        (key, values.collect::<Vec<Option<&Provenance>>>())
+    });
+    let value = |p: Option<&'a Provenance>| p.map(|p| p.value.as_str());
+    with_values.filter(|(_, values)| values.windows(2).any(|pair| value(pair[0]) != value(pair[1]))).collect()
+}
+
 /// Each scenario by its label, as the files have it.
 pub fn sides_scenarios(sides: &[Side]) -> Map<String, Value> {
     let one = |side: &Side| (side.label.clone(), side.loaded.to_toml().into());
@@ -133,7 +150,7 @@ pub fn sides_json(sides: &[Side], compared: &[Compared], warnings: &[String]) ->
         .collect();
     json!({
         "brinell": brinell::VERSION,
-        "baseline": sides[0].label,
+        "baseline": sides.first().map(|side| &side.label),
         "warnings": warnings,
         "interval": "95 % of the value, an average over whole revolutions, or over a defect's entries or exits; peaks are those of a revolution",
         "ratio": "of the value to the baseline's",
