@@ -333,8 +333,12 @@ fn regress_signals_are_kept_on_request_and_a_dry_run_leaves_nothing() {
     // Signals were not kept: requested now, the points run again.
     brinell(folder.path(), &args(&["--keep-signals"])).exits(0).says(&["2 runs to do"]);
     let names = read_records(out.join("sweep.parquet"), &["signals"], |_| true).unwrap();
+    let word = |cells: &Vec<Cell>| match &cells[..] {
+        [Cell::Words(name)] => name.clone(),
+        other => panic!("names are words: {other:?}"),
+    };
+    let names: Vec<String> = names.iter().map(word).collect();
     for name in &names {
-        let [Cell::Words(name)] = &name[..] else { panic!("names are words") };
         let mut signals = brinell_io::open(out.join(name)).unwrap();
         assert_eq!(signals.read("sensor_ax").unwrap().len(), 4609);
     }
@@ -343,7 +347,7 @@ fn regress_signals_are_kept_on_request_and_a_dry_run_leaves_nothing() {
     // Its own signals are written over where no journal names them, and nobody else's.
     fs::remove_file(out.join("journal.jsonl")).unwrap();
     brinell(folder.path(), &args(&["--keep-signals"])).exits(0).says(&["2 runs to do"]);
-    let signals = out.join(names[0].as_deref().unwrap());
+    let signals = out.join(&names[0]);
     fs::write(&signals, "mine").unwrap();
     brinell(folder.path(), &args(&["--keep-signals"])).exits(2).complains(&["no sweep wrote it", "signals/", "-o"]);
     assert_eq!(fs::read(&signals).unwrap(), b"mine");
