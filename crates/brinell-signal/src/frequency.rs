@@ -65,7 +65,7 @@ const FALSE_ALARM_LIMIT: f64 = 1e-4;
 /// The same of its harmonics but the strongest, where that is not the fundamental, at the place that this one tells; and
 /// of those between every second or third.
 const OTHERS_LIMIT: f64 = 1e-2;
-/// Distance from the place of a comb, relative, at which a harmonic's highest lobe may lie where the rate swings.
+/// Distance from the place of a comb, relative, at which its fundamental may lie where the rate swings.
 const LOBES: f64 = 0.02;
 
 /// What to look for.
@@ -269,29 +269,28 @@ impl Comb {
 
     /// Whether it is a comb of something else, whose rate has harmonics there: one harmonic alone makes it, and is not the
     /// fundamental, or every second or third one. These tell the place, so that the others are looked for at one place
-    /// alone; those in between anywhere near it, because a rate that swings splits each line into lobes, of which one
-    /// harmonic's highest is not another's.
+    /// alone.
     fn is_another(&self, e: &Padded, f: f64) -> bool {
         let strongest = (1..=self.noise.len()).map(|h| (h, self.ratio(e, f, h))).max_by(|a, b| a.1.total_cmp(&b.1));
         strongest.is_some_and(|(h, ratio)| {
             let others = 2.0 * (self.noise.len() as f64 - 1.0);
             h > 1 && chi_square_tail(2.0 * (self.height(e, f) - ratio), others) > OTHERS_LIMIT
-        }) || [2, 3].into_iter().any(|every| self.nothing_between(e, f, every))
+        }) || [2, 3].into_iter().any(|every| {
+            let between = (1..=self.noise.len()).filter(|h| h % every != 0).map(|h| self.ratio(e, f, h));
+            let (count, sum) = between.fold((0.0, 0.0), |(count, sum), ratio| (count + 1.0, sum + ratio));
+            chi_square_tail(2.0 * sum, 2.0 * count) > OTHERS_LIMIT
+        }) && !self.fundamental_near(e, f)
     }
 
-    /// Whether no harmonics but every `every`th rise within [`LOBES`] of `f`, together.
-    fn nothing_between(&self, e: &Padded, f: f64, every: usize) -> bool {
-        let between = || (1..=self.noise.len()).filter(move |h| h % every != 0);
-        let count = between().count() as f64;
-        let sum = |f: f64| between().map(|h| self.ratio(e, f, h)).sum::<f64>();
-        let nowhere = |highest: f64, trials: f64| trials * chi_square_tail(2.0 * highest, 2.0 * count) > OTHERS_LIMIT;
-        if !nowhere(sum(f), 1.0) {
-            return false;
-        }
-        let bins = LOBES * f * self.noise.len() as f64 / self.bin();
+    /// Whether the fundamental rises near `f`, if not there. A rate that swings splits each line into lobes: the highest of
+    /// every second harmonic may lie where the fundamental has none. Higher harmonics are not asked, because lines of
+    /// others lie within their reach.
+    fn fundamental_near(&self, e: &Padded, f: f64) -> bool {
+        let bins = LOBES * f / self.bin();
         let steps = (bins * PADDING as f64).ceil();
         let places = (-steps as isize..=steps as isize).map(|i| f * (1.0 + LOBES * i as f64 / steps));
-        nowhere(places.map(sum).fold(0.0, f64::max), 1.0 + PLACES_PER_BIN * 2.0 * bins)
+        let highest = places.map(|f| self.ratio(e, f, 1)).fold(0.0, f64::max);
+        (1.0 + PLACES_PER_BIN * 2.0 * bins) * chi_square_tail(2.0 * highest, 2.0) < FALSE_ALARM_LIMIT
     }
 
     /// N_h: the median power around a harmonic, over ln 2 (exponentially distributed powers). The median passes over

@@ -112,11 +112,24 @@ fn prop_one_harmonic_of_another_train_is_no_comb() {
 #[test]
 fn prop_a_fraction_of_another_trains_rate_is_no_comb() {
     for (rate, shares) in [(249.6, [2.0 / 3.0, 1.5, 0.5, 1.0 / 3.0]), (161.2, [2.0 / 3.0, 1.5, 0.5, 1.0 / 3.0])] {
-        for share in shares {
-            let search = LineSearch::new(1.002 * share * rate);
-            let x = train(rate, 0.0, 0.1).generate(51_200, 77);
+        for (share, off, seconds) in shares.into_iter().flat_map(|share| [(share, 1.002, 2), (share, 0.985, 5)]) {
+            let search = LineSearch::new(off * share * rate);
+            let x = train(rate, 0.0, 0.1).generate(seconds * 25_600, 77);
             assert_eq!(line_frequency(&x, FS, BAND, &search), None, "{share} of {rate}");
         }
+    }
+}
+
+/// A 6205's inner race with the shaft's sidebands has every third line of a comb near its outer race's frequency.
+#[test]
+fn prop_a_modulated_train_is_no_comb_at_two_thirds_of_its_rate() {
+    let (shaft, rate) = (29.95, 5.4152 * 29.95);
+    for seconds in [0.7, 1.0, 2.0] {
+        let mut x = train(rate, 0.0, 0.1).generate((seconds * FS) as usize, 78);
+        for (i, x) in x.iter_mut().enumerate() {
+            *x *= 1.0 + 0.8 * (TAU * shaft * i as f64 / FS).cos();
+        }
+        assert_eq!(line_frequency(&x, FS, BAND, &LineSearch::new(3.5848 * shaft)), None, "{seconds} s");
     }
 }
 
