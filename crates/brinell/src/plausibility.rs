@@ -286,7 +286,7 @@ fn wide_ellipses(scenario: &Scenario, model: &Model, zone: &StaticLoadZone) -> V
                     short(1e3 * half),
                     short(1e3 * edge)
                 ),
-                "a larger one: 0.515 to 0.53 is usual",
+                "a larger one (0.515 to 0.53 is usual), or a smaller operation.load_n",
             )
         })
     };

@@ -173,7 +173,7 @@ pub fn strayed(scenario: &Scenario, findings: &Findings) -> Vec<String> {
             format!(
                 "cage beyond its clearance: the centre of the cage of row {} lay {distance:.3} mm from its land's in its last turns, on average, and \
                  cage.guide_clearance_mm is {:.3}: cage.land_stiffness_n_per_m, {:.1e} N/m, is too soft for its {:.2} kg, and BPFO and slip shift with \
-                 it; steel on steel is 1e7, with a cage.land_damping_ns_per_m of 20 to 200",
+                 it; steel on steel is 1e7, with a cage.land_damping_ns_per_m of 20 to 200, on which the cage strikes, and levels and kurtosis rise",
                 row + 1,
                 cage.guide_clearance_mm,
                 cage.land_stiffness_n_per_m,

@@ -9,8 +9,10 @@ use brinell::defect::{
 use brinell::document::read;
 use brinell::elementary::Exponent;
 use brinell::model::Model;
+use brinell::plausibility::before;
 use brinell::scenario::{self, DepthGrid, RollerPath, Scenario, Surface};
-use brinell::statics::{Problem, solve};
+use brinell::statics::{Problem, solve, static_load_zone};
+use brinell::summary::strayed;
 use proptest::prelude::*;
 use std::f64::consts::PI;
 
@@ -377,4 +379,39 @@ proptest! {
             prop_assert!((-1e-15..=axis + 1e-15).contains(&damaged.floor.damaged_length));
         }
     }
+}
+
+/// A heavy cage under 5 kN at 8000 r/min.
+fn fast(settings: &[(&str, &str)]) -> Scenario {
+    let text = "bearing.preset = \"6316\"\noperation = { speed_rpm = 8000, load_n = [0, -5000], \
+                gravity_m_per_s2 = [0, -9.81] }\nsimulation = { duration_s = 0.1, sample_rate_hz = 25600 }";
+    let settings: Vec<_> = settings.iter().map(|(key, value)| ((*key).to_owned(), (*value).to_owned())).collect();
+    read(text, &settings).unwrap().scenario
+}
+
+#[test]
+fn regress_a_cage_that_its_soft_land_lets_stray_is_said_and_a_stiff_one_holds_it() {
+    let warned = |settings: &[(&str, &str)]| {
+        let scenario = fast(settings);
+        let run = brinell::simulate(&scenario).unwrap();
+        strayed(&scenario, &run.findings)
+    };
+    let said = warned(&[]);
+    assert!(
+        said.len() == 1 && said[0].starts_with("cage beyond its clearance: the centre of the cage of row 1"),
+        "{said:?}"
+    );
+    let stiff = [("cage.land_stiffness_n_per_m", "1e7"), ("cage.land_damping_ns_per_m", "200")];
+    assert_eq!(warned(&stiff), Vec::<String>::new());
+}
+
+#[test]
+fn regress_an_ellipse_beyond_any_groove_is_said() {
+    let warned = |conformity: &str| {
+        let scenario = fast(&[("bearing.inner_groove_conformity", conformity)]);
+        let model = Model::new(&scenario).unwrap();
+        let all = before(&scenario, &model, &static_load_zone(&model));
+        all.iter().any(|problem| problem.to_string().contains("no such bearing carries this load so"))
+    };
+    assert!(warned("0.5005") && !warned("0.52"));
 }

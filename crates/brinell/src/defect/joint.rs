@@ -370,7 +370,8 @@ mod tests {
         let mut draw = draws(11);
         for round in 0..400 {
             let raised = if round % 2 == 0 { 0.0 } else { 0.3 };
-            let lines: Vec<Vec<Line>> = (0..2 + round % 2).map(|_| random_lines(&mut draw, raised)).collect();
+            let lines: Vec<Vec<Line>> =
+                (0..[2, 3, KEPT + 2][round % 3]).map(|_| random_lines(&mut draw, raised)).collect();
             let envelopes: Vec<PiecewisePolynomial> = lines.iter().map(|l| envelope(l, R)).collect();
             let lines: Vec<ArcLine> = lines
                 .iter()
