@@ -333,11 +333,11 @@ fn regress_signals_are_kept_on_request_and_a_dry_run_leaves_nothing() {
     // Signals were not kept: requested now, the points run again.
     brinell(folder.path(), &args(&["--keep-signals"])).exits(0).says(&["2 runs to do"]);
     let names = read_records(out.join("sweep.parquet"), &["signals"], |_| true).unwrap();
-    let word = |cells: &Vec<Cell>| match &cells[..] {
+    let words = |row: &Vec<Cell>| match &row[..] {
         [Cell::Words(name)] => name.clone(),
-        other => panic!("names are words: {other:?}"),
+        other => panic!("{other:?}"),
     };
-    let names: Vec<String> = names.iter().map(word).collect();
+    let names: Vec<String> = names.iter().map(words).collect();
     for name in &names {
         let mut signals = brinell_io::open(out.join(name)).unwrap();
         assert_eq!(signals.read("sensor_ax").unwrap().len(), 4609);

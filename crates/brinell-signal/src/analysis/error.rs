@@ -130,6 +130,9 @@ pub enum AnalysisError {
     Signal(#[from] SignalError),
 }
 
+/// Fourth powers of larger values, and of the inverse of smaller ones, leave a double's range.
+pub(super) const LARGEST: f64 = 1e60;
+
 /// Fewest revolutions that are analysed: below, neighbouring defect frequencies can hardly be told apart.
 pub const FEWEST_REVOLUTIONS: f64 = 8.0;
 

@@ -60,12 +60,10 @@ use crate::error::require;
 use crate::lengths::fast_up_to;
 use crate::parallel::join;
 use crate::{Blocks, Estimate, Indicator, Kurtogram, Segments, Spectrum, Transformed, VelocityBands, kurtogram, psd};
+use error::LARGEST;
 use hypotheses::{Best, SpeedEvidence};
 use together::Envelopes;
 use verdict::Record;
-
-/// Fourth powers of larger values, and of the inverse of smaller ones, leave a double's range.
-const LARGEST: f64 = 1e60;
 
 /// Noise over the signal's RMS that is added to it: the last bit of an ADC of 32.
 const DITHER: f64 = 1.0 / 4_294_967_296.0;

@@ -1,6 +1,6 @@
 //! What is asked of an analysis.
 
-use super::AnalysisError;
+use super::error::{AnalysisError, LARGEST};
 use super::frequencies::DefectOrders;
 use crate::error::require;
 use crate::{Band, Rotation};
@@ -64,7 +64,7 @@ impl Options {
         let supply = self.supply.unwrap_or(*SUPPLY_HZ.start());
         require(SUPPLY_HZ.contains(&supply), "supply (Hz)", supply, "1 to 1000")?;
         let noise = self.silent.unwrap_or(0.0);
-        require((0.0..=super::LARGEST).contains(&noise), "silent (RMS of a machine's noise)", noise, "0 to 1e60")?;
+        require((0.0..=LARGEST).contains(&noise), "silent (RMS of a machine's noise)", noise, "0 to 1e60")?;
         let turned = self.rotation.as_ref().map(|rotation| rotation.at(seconds).0 - rotation.at(0.0).0);
         let mean = turned.map_or(self.shaft, |turns| turns / seconds);
         let alike = (mean / self.shaft - 1.0).abs() <= ALIKE;
