@@ -460,15 +460,6 @@ fn prop_options_that_cannot_be_are_refused_by_name() {
 }
 
 #[test]
-fn prop_samples_that_were_not_analysed_are_refused() {
-    let x = healthy(12_000.0, 1.0, 1);
-    let a = look(&x, 12_000.0);
-    let (whole, none) = (Side { x: &x, analysis: &a }, Side { x: &[], analysis: &a });
-    assert!(compare(whole, none).is_err() && compare(none, whole).is_err());
-    assert!(a.clone().beside_healthy(&[], whole).is_err() && a.clone().beside_healthy(&x, none).is_err());
-}
-
-#[test]
 fn analytic_a_signal_over_itself_differs_nowhere() {
     let damage = Damage { order: 3.5848, modulation: 0.0, jitter: 0.01, snr_db: 0.0 };
     let x = damaged(25_600.0, 2.0, 1, &damage);

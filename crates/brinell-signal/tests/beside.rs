@@ -124,3 +124,12 @@ fn analytic_modulation_is_the_same_on_a_bin_and_between_two() {
     assert!((0.40..0.47).contains(&mean), "{modulations:?}");
     assert!(modulations.iter().all(|m| (m / mean - 1.0).abs() < 0.04), "{modulations:?}");
 }
+
+#[test]
+fn prop_samples_that_were_not_analysed_are_refused() {
+    let x = healthy(12_000.0, 1.0, 1);
+    let a = look(&x, 12_000.0);
+    let (whole, none) = (Side { x: &x, analysis: &a }, Side { x: &[], analysis: &a });
+    assert!(compare(whole, none).is_err() && compare(none, whole).is_err());
+    assert!(a.clone().beside_healthy(&[], whole).is_err() && a.clone().beside_healthy(&x, none).is_err());
+}
