@@ -35,11 +35,20 @@ pub struct Judged {
 }
 
 impl Judged {
+    /// Whether the sentence holds under its other reading alone.
+    fn turned(&self) -> bool {
+        let open = matches!(self.plain, Verdict::Fails | Verdict::Partly | Verdict::Undecided);
+        open && self.otherwise.as_ref().is_some_and(|other| other.0 == Verdict::Holds)
+    }
+
     /// The verdict in words, with what it is conditional on: "undecided: holds if the RMS includes the start-up".
     pub fn words(&self, claim: &Claim) -> String {
         let mut words = self.verdict.words().to_owned();
-        if let Some(other) = claim.otherwise.as_ref().filter(|_| self.verdict != self.plain) {
-            words += &format!(": holds {}", other.words);
+        let fails = self.statements.iter().any(|s| s.0 == Verdict::Fails);
+        match &claim.otherwise {
+            Some(other) if self.turned() => words += &format!(": holds {}", other.words),
+            _ if self.verdict == Verdict::Undecided && fails => words += ": in part at most",
+            _ => {}
         }
         if !claim.under.is_empty() && self.verdict != Verdict::Missing {
             words += &format!(", {}", claim.under);
@@ -58,9 +67,11 @@ pub(crate) fn judge(claim: &Claim, numbers: &Numbers) -> Judged {
     };
     let (plain, statements) = all(&claim.statements);
     let otherwise = claim.otherwise.as_ref().map(|other| all(&other.statements));
-    let turned = matches!(plain, Verdict::Fails | Verdict::Partly)
-        && otherwise.as_ref().is_some_and(|other| other.0 == Verdict::Holds);
-    Judged { verdict: if turned { Verdict::Undecided } else { plain }, plain, statements, otherwise }
+    let mut judged = Judged { verdict: plain, plain, statements, otherwise };
+    if judged.turned() {
+        judged.verdict = Verdict::Undecided;
+    }
+    judged
 }
 
 /// SI unit of a number, by its name.
@@ -282,6 +293,24 @@ mod tests {
         assert_eq!(words(20.0, Some(20.0)), "does not hold, under a guess");
         assert_eq!(words(20.0, None), "does not hold, under a guess");
         assert_eq!(words(10.0, Some(20.0)), "holds, under a guess");
+        assert_eq!(words(11.0, Some(10.0)), "undecided: holds if b, under a guess");
+        assert_eq!(words(11.0, None), "undecided, under a guess");
+    }
+
+    #[test]
+    fn prop_what_fails_beside_the_undecided_says_so() {
+        let near = |case| Statement { words: "", check: Check::Near { case, name: "q.rms", paper: 10.0, share: 0.1 } };
+        let claim = Claim { statements: vec![near("a"), near("b")], ..Claim::default() };
+        let words = |a: f64, b: f64| {
+            let mut numbers = Numbers::default();
+            numbers.insert("a", "q.rms", scattered(a));
+            numbers.insert("b", "q.rms", scattered(b));
+            judge(&claim, &numbers).words(&claim)
+        };
+        assert_eq!(words(20.0, 11.0), "undecided: in part at most");
+        assert_eq!(words(10.0, 11.0), "undecided");
+        assert_eq!(words(20.0, 20.0), "does not hold");
+        assert_eq!(words(20.0, 10.0), "holds in part");
     }
 
     #[test]

@@ -43,16 +43,17 @@ impl Verdict {
         }
     }
 
-    /// Of a claim, from its statements.
+    /// Of a claim, from its statements: what is decided decides it where the undecided cannot change that.
     pub fn of_all(parts: &[Verdict]) -> Self {
         let some = |verdict| parts.contains(&verdict);
         match parts {
             [] => Self::NotCheckable,
             _ if some(Self::Missing) => Self::Missing,
             _ if some(Self::Fails) && (some(Self::Holds) || some(Self::Partly)) => Self::Partly,
-            _ if some(Self::Fails) => Self::Fails,
             _ if some(Self::Partly) => Self::Partly,
+            // Were the open ones to hold, it would hold in part.
             _ if some(Self::Undecided) => Self::Undecided,
+            _ if some(Self::Fails) => Self::Fails,
             _ => Self::Holds,
         }
     }
@@ -254,7 +255,8 @@ mod tests {
             (vec![Holds, Holds], Holds),
             (vec![Holds, Fails], Partly),
             (vec![Fails, Fails], Fails),
-            (vec![Fails, Undecided], Fails),
+            (vec![Fails, Undecided], Undecided),
+            (vec![Partly, Undecided], Partly),
             (vec![Holds, Undecided], Undecided),
             (vec![Holds, Undecided, Fails], Partly),
             (vec![Holds, Missing], Missing),
