@@ -1,6 +1,6 @@
 //! The reproduction as a chapter's text: Markdown, pictures beside it.
 
-use crate::outcome::{Outcome, counts, ours};
+use crate::outcome::{Outcome, counts, not_counted, ours};
 use crate::reproduction::Reproduction;
 use brinell_report::{Study, StudyPiece, Table};
 use std::fmt::Write as _;
@@ -12,7 +12,8 @@ pub(crate) fn text(study: &Study, reproduction: &Reproduction, book: &Path) -> S
     let mut text = String::from("<!-- Written by `brinell reproduce --book`; edits are lost. -->\n\n");
     let counts: Vec<String> =
         counts(&reproduction.outcomes).iter().map(|(verdict, n)| format!("{} {n}", verdict.words())).collect();
-    let _ = writeln!(text, "{}. Claims: {}.\n", study.subtitle, counts.join(", "));
+    let rest = not_counted(&reproduction.outcomes);
+    let _ = writeln!(text, "{}. Claims: {}.{rest}\n", study.subtitle, counts.join(", "));
     for warning in &study.warnings {
         let _ = writeln!(text, "> {warning}\n");
     }
@@ -68,8 +69,9 @@ fn claims(text: &mut String, all: &[Outcome]) {
             lines.push(outcome.claim.note.to_owned());
         }
         let mut verdict = outcome.judged.words(outcome.claim);
-        if !outcome.flips.is_empty() {
-            verdict = format!("{verdict}; depends on {}", outcome.depends());
+        let depends = outcome.depends();
+        if !depends.is_empty() {
+            verdict = format!("{verdict}; depends on {depends}");
         }
         let _ = writeln!(
             text,

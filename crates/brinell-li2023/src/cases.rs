@@ -1,6 +1,7 @@
 //! The scenarios behind the paper's figures. They are in `cases.toml`.
 
 use crate::outline::Outline;
+use crate::variants::EDGE;
 use serde::Deserialize;
 use std::sync::LazyLock;
 
@@ -25,9 +26,13 @@ pub struct Case {
 }
 
 impl Case {
-    /// Everything that it sets over [`BASE`], `more` below its own, its irregular defect in a reading of Eq. (27).
+    /// Everything that it sets over [`BASE`], `more` below its own, its irregular defect in a reading of Eq. (27). What
+    /// its model has not is left out.
     pub fn over(&self, more: &[(String, String)], outline: Outline) -> Vec<(String, String)> {
         let mut settings = [more, &owned(&self.settings)].concat();
+        if self.settings.contains(&("simulation.model", "lumped")) {
+            settings.retain(|(key, _)| key != EDGE);
+        }
         if let Some(shape) = self.irregular_width_mm.and_then(|mm| outline.shape(mm)) {
             settings.retain(|(key, _)| key != SHAPE);
             settings.push((SHAPE.to_owned(), shape));
@@ -54,6 +59,9 @@ impl Length {
     pub const VARIANT: Self = Self::Turns(24);
     /// The same, quick.
     pub const QUICK_VARIANT: Self = Self::Turns(12);
+    /// Starts of a case in runs as long as [`Length::FULL`]: one start's interval knows of no motion slower than its
+    /// run. Shorter runs have one.
+    pub(crate) const STARTS: u32 = 8;
     /// Holds a record of 0.3 s from t = 0.
     pub const SHORTEST_S: f64 = 0.301;
     /// For cases about the start, and for sets of a search.
@@ -71,6 +79,14 @@ impl Length {
         ((1e3 * exact).ceil() / 1e3).max(Self::SHORTEST_S)
     }
 
+    /// Starts of a case.
+    pub(crate) fn starts(self) -> u32 {
+        match (self, Self::FULL) {
+            (Self::Turns(turns), Self::Turns(full)) if turns >= full => Self::STARTS,
+            _ => 1,
+        }
+    }
+
     /// "240 turns of the shaft".
     pub fn words(self) -> String {
         match self {
@@ -84,6 +100,19 @@ impl Length {
 pub(crate) fn owned(settings: &[(&str, &str)]) -> Vec<(String, String)> {
     let own = |(key, value): &(&str, &str)| ((*key).to_owned(), (*value).to_owned());
     settings.iter().map(own).collect()
+}
+
+/// Load ramp of [`BASE`], ms.
+pub(crate) const RAMP_MS: u32 = 20;
+
+/// What the `k`th start of a case sets: a load ramp shorter by k ms than the scenario's.
+pub(crate) fn start(k: u32) -> Vec<(String, String)> {
+    vec![("operation.load_ramp_s".to_owned(), format!("{:?}", f64::from(RAMP_MS - k) / 1e3))]
+}
+
+/// Whether a case is about the start: its record begins at t = 0.
+pub(crate) fn about_start(case: &Case) -> bool {
+    STARTS.iter().any(|start| start.id == case.id)
 }
 
 const SHAPE: &str = "defects.0.shape";
@@ -115,7 +144,7 @@ pub(crate) fn case(id: &str) -> Option<&'static Case> {
 
 /// How long a case runs where the others run `length`: those about the start need no more than that.
 pub(crate) fn length_of(case: &Case, length: Length) -> Length {
-    if STARTS.iter().any(|start| start.id == case.id) { Length::START } else { length }
+    if about_start(case) { Length::START } else { length }
 }
 
 /// What a figure or several of them show.
@@ -182,6 +211,7 @@ mod tests {
         assert!((0.02 + 41.0 / 30.0..0.02 + 41.2 / 30.0).contains(&duration), "{duration}");
         let duration = Length::QUICK.duration_s(5000.0);
         assert!((0.02 + 41.0 * 0.012..0.02 + 41.2 * 0.012).contains(&duration));
+        assert_eq!((Length::FULL.starts(), Length::QUICK.starts()), (8, 1));
         // And 12 turns at 5000 r/min would not hold a record of 0.3 s.
         assert_eq!(Length::QUICK_VARIANT.duration_s(5000.0), Length::SHORTEST_S);
     }

@@ -96,6 +96,8 @@ pub enum Basis {
     Shapes,
     /// Geometry, speed and the cage's slip.
     Kinematics,
+    /// What goes in, found again: no evidence, and not counted.
+    Given,
 }
 
 impl Basis {
@@ -105,6 +107,7 @@ impl Basis {
             Self::Dynamics => "dynamics",
             Self::Shapes => "shapes alone",
             Self::Kinematics => "kinematics and slip",
+            Self::Given => "what goes in",
         }
     }
 }
@@ -177,6 +180,11 @@ impl Check {
 }
 
 impl Claim {
+    /// Whether its verdict is one of those that are counted.
+    pub(crate) fn counts(&self) -> bool {
+        self.basis != Basis::Given
+    }
+
     /// Cases that it needs.
     pub fn cases(&self) -> Vec<&'static str> {
         let other = self.otherwise.iter().flat_map(|o| &o.statements);

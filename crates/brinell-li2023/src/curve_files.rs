@@ -75,13 +75,16 @@ impl CaseObserver {
             let (first, last) = defect.shape.arc();
             entry_drop(&pass.points, (last - first) / defect.radius)
         });
+        let energy = &finished.outcome.energy;
+        let parametric = energy.parametric / energy.flows.contact.abs();
         let mut all = self.from_start.quantities(&finished.findings);
-        all.push(Quantity {
-            name: "defect1.entry_drop".into(),
-            unit: "1".into(),
-            value: drop,
-            spread: Spread::Without,
-        });
+        for (name, value) in [
+            ("defect1.entry_drop", drop),
+            // Positive where damage puts energy into the bearing.
+            ("parametric_share", Some(parametric).filter(|share| share.is_finite())),
+        ] {
+            all.push(Quantity { name: name.into(), unit: "1".into(), value, spread: Spread::Without });
+        }
         Ok(all)
     }
 }

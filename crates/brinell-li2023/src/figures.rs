@@ -1,9 +1,10 @@
 //! The paper's figures as pictures and tables of ours.
 
+use crate::cases::about_start;
 use crate::curve_kind::CurveKind;
 use crate::curves::Curves;
 use crate::points::scenario;
-use crate::{Case, Experiment, Numbers, Outline, RMS, STARTS, case};
+use crate::{Case, Experiment, Numbers, Outline, RMS, case};
 use brinell::scenario::Scenario;
 use brinell::signal::Estimate;
 use brinell_report::short;
@@ -65,9 +66,7 @@ pub(crate) fn chapter(
     let first = experiment.figures[0];
     let all: Vec<&Case> = experiment.cases.iter().filter_map(|id| case(id)).collect();
     // Those about the start have pictures and a table of their own.
-    let about_start = |case: &&&Case| STARTS.iter().any(|s| s.id == case.id);
-    let cases: Vec<&Case> = all.iter().filter(|c| !about_start(c)).copied().collect();
-    let starts: Vec<&Case> = all.iter().filter(about_start).copied().collect();
+    let (starts, cases): (Vec<&Case>, Vec<&Case>) = all.into_iter().partition(|case| about_start(case));
     let mut drawn = Drawn {
         names: cases.iter().map(|case| case.label.to_owned()).collect(),
         curves: cases.iter().map(|case| curves(case.id)).collect(),
@@ -313,7 +312,7 @@ pub(crate) fn cell(number: Option<Estimate>) -> String {
     with_interval(number.map(|n| n.value), interval)
 }
 
-const COLUMNS: [(&str, &str); 9] = [
+const COLUMNS: [(&str, &str); 10] = [
     ("Defect frequency (Hz)", "defect1.frequency"),
     ("RMS outer x", "outer_ax.rms"),
     ("RMS outer x, filtered", "sensor_ax.rms"),
@@ -323,6 +322,7 @@ const COLUMNS: [(&str, &str); 9] = [
     ("Peak to peak outer x", "outer_ax.peak_to_peak"),
     ("Entry peak", "defect1.entry_peak"),
     ("Exit peak", "defect1.exit_peak"),
+    ("Parametric work", "parametric_share"),
 ];
 
 fn table(cases: &[&Case], numbers: &Numbers) -> Table {
@@ -337,7 +337,9 @@ fn table(cases: &[&Case], numbers: &Numbers) -> Table {
         "Numbers",
         columns,
         cases.iter().map(row),
-        "Accelerations in m/s². Averages over whole turns with 95 % intervals; peaks: means over entries or exits.",
+        "Accelerations in m/s². Averages over whole turns with 95 % intervals; peaks: means over entries or exits. Parametric work: what damage \
+         that passes under rollers does on the bearing without a body that supplies it, as a share of what the damping of contacts \
+         dissipates; below 0 it takes energy out. Where it is large, amplitudes depend on the contact law.",
     )
 }
 

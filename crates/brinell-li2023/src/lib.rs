@@ -46,7 +46,7 @@ pub use request::Request;
 pub use runs::{Runs, Stage};
 pub use written::write_page;
 
-pub(crate) use cases::{CASES, Case, EXPERIMENTS, Experiment, STARTS, case, length_of};
+pub(crate) use cases::{CASES, Case, EXPERIMENTS, Experiment, case, length_of};
 pub(crate) use claim::{Basis, Claim, claims};
 pub(crate) use judge::{Found, Judged, judge};
 pub(crate) use numbers::{Numbers, entry_drop};

@@ -3,7 +3,7 @@
 use crate::reading::{Reading, Record};
 use brinell::observe::passes::PassPoint;
 use brinell::result::Spread;
-use brinell::signal::{Estimate, Interval};
+use brinell::signal::{Estimate, Interval, Scatter};
 use brinell_study::campaign::Row;
 use std::collections::BTreeMap;
 
@@ -28,16 +28,20 @@ impl Numbers {
         self.all.insert((case.to_owned(), name.to_owned()), number);
     }
 
-    /// Adds everything of a finished run.
-    pub(crate) fn add(&mut self, case: &str, row: &Row) {
-        for quantity in row.result.as_deref().unwrap_or(&[]) {
+    /// Adds everything of a case's finished runs, one from each start.
+    pub(crate) fn add(&mut self, case: &str, rows: &[&Row]) {
+        let mut all: BTreeMap<&str, Vec<Estimate>> = BTreeMap::new();
+        for quantity in rows.iter().flat_map(|row| row.result.as_deref().unwrap_or(&[])) {
             let Some(mut number) = quantity.estimate() else {
                 continue;
             };
             if quantity.spread == Spread::Unknown {
                 number.interval = Some(UNKNOWN);
             }
-            self.insert(case, &quantity.name, number);
+            all.entry(&quantity.name).or_default().push(number);
+        }
+        for (name, starts) in all {
+            self.insert(case, name, over_starts(&starts));
         }
     }
 
@@ -70,6 +74,28 @@ impl Numbers {
             all.extend(sensor);
         }
         Self { all }
+    }
+}
+
+/// A number over several starts: their mean, its interval from how they scatter, which a motion slower than a run is
+/// part of. What is the same in all is exact. Of one start it is its own.
+fn over_starts(starts: &[Estimate]) -> Estimate {
+    let first = starts[0];
+    if starts.len() == 1 {
+        return first;
+    }
+    if starts.iter().all(|start| start.value == first.value) {
+        return Estimate { value: first.value, interval: None };
+    }
+    let n = starts.len() as f64;
+    let mean = starts.iter().map(|start| start.value).sum::<f64>() / n;
+    let squares: f64 = starts.iter().map(|start| (start.value - mean).powi(2)).sum();
+    let error = (squares / (n - 1.0) / n).sqrt();
+    let freedom = starts.len() as u32 - 1;
+    if starts.iter().all(|start| start.value > 0.0) {
+        Estimate::positive(mean, Some(Scatter { error: error / mean, freedom }))
+    } else {
+        Estimate::signed(mean, Some(Scatter { error, freedom }))
     }
 }
 
@@ -119,6 +145,20 @@ mod tests {
     }
 
     #[test]
+    fn analytic_numbers_over_starts() {
+        let own = |value| Estimate { value, interval: Some(Interval { low: 0.5, high: 9.0, freedom: 4 }) };
+        assert_eq!(over_starts(&[own(2.0)]), own(2.0));
+        assert_eq!(over_starts(&[exact(2.0), exact(2.0)]), exact(2.0));
+        // Mean 3, standard deviation sqrt(2), error 1: t(0.975, 1) is 12.7062.
+        let two = over_starts(&[own(2.0), own(4.0)]);
+        let interval = two.interval.unwrap();
+        assert_eq!((two.value, interval.freedom), (3.0, 1));
+        assert!((interval.high / 3.0 - (12.7062_f64 / 3.0).exp()).abs() < 1e-2);
+        let signed = over_starts(&[exact(-1.0), exact(1.0)]).interval.unwrap();
+        assert!((signed.high - 12.7062).abs() < 1e-3 && (signed.low + 12.7062).abs() < 1e-3);
+    }
+
+    #[test]
     fn prop_rows_become_numbers() {
         let quantity = |name: &str, value, spread| Quantity { name: name.into(), unit: "1".into(), value, spread };
         let interval = Interval { low: 2.0, high: 4.0, freedom: 8 };
@@ -139,7 +179,7 @@ mod tests {
             ]),
         };
         let mut numbers = Numbers::default();
-        numbers.add("a", &row);
+        numbers.add("a", &[&row]);
         let rms = numbers.get("a", "outer_ax.rms").unwrap();
         assert_eq!((rms.value, rms.interval), (3.3, Some(interval)));
         assert_eq!(numbers.get("a", "none"), None);

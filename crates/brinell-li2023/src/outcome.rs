@@ -16,6 +16,8 @@ pub struct Outcome {
     /// What the numbers decide.
     pub judged: Judged,
     pub(crate) flips: Vec<Flip>,
+    /// Its verdict in the shorter runs that the flips are compared with, where assumptions were varied.
+    pub(crate) unchanged: Option<Verdict>,
 }
 
 impl Outcome {
@@ -38,10 +40,22 @@ impl Outcome {
         all
     }
 
-    /// "supports (outer ring on 1e5 N/m: does not hold); ...": what turns it.
+    /// "supports (outer ring on 1e5 N/m: does not hold); ...": what turns it, and the verdict that it turns where that
+    /// is another than the claim's. Where the shorter runs decide nothing it says so.
     pub(crate) fn depends(&self) -> String {
+        match self.unchanged {
+            Some(Verdict::Undecided) if self.judged.plain != Verdict::Undecided => {
+                return "what is not known: the shorter runs leave it undecided".into();
+            }
+            _ if self.flips.is_empty() => return String::new(),
+            _ => {}
+        }
         let one = |flip: &Flip| format!("{} ({}: {})", flip.variant.about, flip.variant.words, flip.verdict.words());
-        self.flips.iter().map(one).collect::<Vec<_>>().join("; ")
+        let all = self.flips.iter().map(one).collect::<Vec<_>>().join("; ");
+        match self.unchanged.filter(|verdict| *verdict != self.judged.plain) {
+            Some(verdict) => format!("{all}; in the shorter runs, nothing changed: {}", verdict.words()),
+            None => all,
+        }
     }
 }
 
@@ -95,14 +109,23 @@ pub(crate) fn card(outcome: &Outcome) -> ClaimCard {
     }
 }
 
-/// Verdicts and how many claims have each, in a fixed order.
+/// Verdicts and how many claims have each, in a fixed order; without those that hold by construction.
 pub(crate) fn counts(all: &[Outcome]) -> Vec<(Verdict, usize)> {
     use Verdict::{Fails, Holds, Missing, NotCheckable, Partly, Undecided};
     [Holds, Partly, Fails, Undecided, Missing, NotCheckable]
         .into_iter()
-        .map(|v| (v, all.iter().filter(|t| t.judged.verdict == v).count()))
+        .map(|v| (v, all.iter().filter(|t| t.claim.counts() && t.judged.verdict == v).count()))
         .filter(|(_, count)| *count > 0)
         .collect()
+}
+
+/// "2 claims find again what goes in, and are not counted": empty where there are none.
+pub(crate) fn not_counted(all: &[Outcome]) -> String {
+    match all.iter().filter(|t| !t.claim.counts()).count() {
+        0 => String::new(),
+        1 => " One claim finds again what goes in, and is not counted.".into(),
+        n => format!(" {n} claims find again what goes in, and are not counted."),
+    }
 }
 
 /// Claims with a verdict of a basis: how many of them hold.

@@ -1,4 +1,4 @@
-//! What the paper does not state: ranges to draw whole sets from.
+//! What the paper does not state, and start and film, which it states for section 4.1: ranges to draw whole sets from.
 
 use crate::outline::Outline;
 use crate::reading::Record;

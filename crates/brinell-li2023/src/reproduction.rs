@@ -31,7 +31,7 @@ impl Reproduction {
         let plan = request.plan.as_ref();
         let varied = plan.into_iter().flat_map(Plan::points);
         let others = request.models.iter().flat_map(OtherRuns::points);
-        let points = request.points.iter().chain(varied).chain(others);
+        let points = request.starts().chain(varied).chain(others);
         let points: Vec<&Point> = points.collect();
         let mut flow = runs.make(&points, Stage::Cases)?;
         let mut sensitivity = None;
@@ -45,17 +45,18 @@ impl Reproduction {
     }
 
     fn decided(request: Request, runs: &impl Runs, sensitivity: Option<Sensitivity>, interrupted: bool) -> Self {
-        let numbers = numbers(&request.points, runs);
+        let numbers = numbers(request.starts(), runs);
         let has = |id: &str| request.points.iter().any(|p| p.case.id == id);
         let outcomes = claims().enumerate().filter_map(|(place, claim)| {
             let cases = claim.cases();
             // What cannot be checked belongs to the whole.
             let wanted = cases.iter().all(|id| has(id)) && (request.whole || !cases.is_empty());
             let judged = judge(claim, &numbers);
-            let flips = sensitivity.as_ref().map_or(Vec::new(), |s| s.flips(place, judged.plain));
-            wanted.then_some(Outcome { claim, judged, flips })
+            let flips = sensitivity.as_ref().map_or(Vec::new(), |s| s.flips(place));
+            let unchanged = sensitivity.as_ref().and_then(|s| s.unchanged(place));
+            wanted.then_some(Outcome { claim, judged, flips, unchanged })
         });
-        let failures = request.points.iter().filter_map(|point| {
+        let failures = request.starts().filter_map(|point| {
             let row = runs.row(&point.task.fingerprint)?;
             let reason = row.result.as_ref().err()?;
             Some((point.case.label.to_owned(), reason.clone()))

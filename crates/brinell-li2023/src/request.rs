@@ -1,5 +1,6 @@
 //! What is to be reproduced: figures of the paper, and the runs that decide what is said of them.
 
+use crate::cases::{about_start, start};
 use crate::models::OtherRuns;
 use crate::sensitivity::Plan;
 use crate::{Case, EXPERIMENTS, Error, Experiment, Length, Outline, Point, case};
@@ -7,7 +8,10 @@ use crate::{Case, EXPERIMENTS, Error, Experiment, Length, Outline, Point, case};
 /// What is to be reproduced.
 pub struct Request {
     pub(crate) experiments: Vec<&'static Experiment>,
+    /// Every case once.
     pub(crate) points: Vec<Point>,
+    /// The same from further starts.
+    pub(crate) repeats: Vec<Point>,
     pub(crate) length: Length,
     /// Whether it is all of section 4.
     pub(crate) whole: bool,
@@ -16,7 +20,8 @@ pub struct Request {
 }
 
 impl Request {
-    /// Some figures of the paper, or all where `figures` is empty; runs last `length`.
+    /// Some figures of the paper, or all where `figures` is empty; runs last `length`. Full runs are made from several
+    /// starts.
     ///
     /// # Errors
     /// Where a case is no scenario.
@@ -30,10 +35,16 @@ impl Request {
                 _ => {}
             }
         }
-        let points = cases.into_iter().map(|case| Point::new(case, &[], Outline::Joined, length));
+        let points = cases.iter().map(|case| Point::new(case, &[], Outline::Joined, length));
+        let steady = cases.iter().filter(|case| !about_start(case));
+        let repeats = steady.flat_map(|case| {
+            let further = 1..length.starts();
+            further.map(move |k| Point::new(case, &start(k), Outline::Joined, length))
+        });
         Ok(Self {
             whole: figures.is_empty(),
             points: points.collect::<Result<_, Error>>()?,
+            repeats: repeats.collect::<Result<_, Error>>()?,
             experiments,
             length,
             plan: None,
@@ -56,6 +67,11 @@ impl Request {
     pub fn with_tilting(self) -> Result<Self, Error> {
         let cases: Vec<_> = self.points.iter().map(|point| point.case).collect();
         Ok(Self { models: Some(OtherRuns::new(&cases, self.length)?), ..self })
+    }
+
+    /// All runs of the cases.
+    pub(crate) fn starts(&self) -> impl Iterator<Item = &Point> {
+        self.points.iter().chain(&self.repeats)
     }
 
     /// Points of which pictures show curves.

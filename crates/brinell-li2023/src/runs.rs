@@ -3,6 +3,7 @@
 
 use crate::{Error, Numbers, Point};
 use brinell_study::campaign::Row;
+use std::collections::BTreeMap;
 use std::ops::ControlFlow;
 
 /// What a batch of runs is for.
@@ -34,13 +35,17 @@ pub trait Runs {
     fn search_begins(&mut self, sets: usize);
 }
 
-/// Numbers of all points that are finished.
+/// Numbers of all points that are finished; points of one case are its starts.
 pub(crate) fn numbers<'a>(points: impl IntoIterator<Item = &'a Point>, runs: &impl Runs) -> Numbers {
-    let mut numbers = Numbers::default();
+    let mut rows: BTreeMap<&str, Vec<&Row>> = BTreeMap::new();
     for point in points {
         if let Some(row) = runs.row(&point.task.fingerprint) {
-            numbers.add(point.case.id, row);
+            rows.entry(point.case.id).or_default().push(row);
         }
+    }
+    let mut numbers = Numbers::default();
+    for (case, rows) in rows {
+        numbers.add(case, &rows);
     }
     numbers
 }

@@ -70,14 +70,25 @@ struct Candidate {
 
 impl Candidate {
     fn held(&self) -> usize {
-        let holds = |j: &&(_, Judged)| j.1.plain == Verdict::Holds;
-        self.judged.iter().filter(holds).count()
+        held_of(self.judged.iter().map(|(_, judged)| judged))
     }
 
     fn checkable(&self) -> usize {
-        let checkable = |j: &&(_, Judged)| j.1.plain != Verdict::NotCheckable;
+        let checkable = |(claim, judged): &&(&Claim, Judged)| claim.counts() && judged.plain != Verdict::NotCheckable;
         self.judged.iter().filter(checkable).count()
     }
+}
+
+impl Tried {
+    fn held(&self) -> usize {
+        held_of(&self.judged)
+    }
+}
+
+/// How many of all claims hold that count; theirs are all verdicts in the order of the claims.
+fn held_of<'a>(judged: impl IntoIterator<Item = &'a Judged>) -> usize {
+    let holds = claims().zip(judged).filter(|(claim, j)| claim.counts() && j.plain == Verdict::Holds);
+    holds.count()
 }
 
 /// What came out.
@@ -262,17 +273,24 @@ fn score(numbers: &Numbers) -> Option<f64> {
     Some(1.0 - held(numbers) + distance(numbers)?.rms)
 }
 
+/// Whether one decided verdict is another than the other; what is open on either side turns nothing.
+fn turns(verdict: Verdict, other: Verdict) -> bool {
+    let decided = |v| matches!(v, Verdict::Holds | Verdict::Partly | Verdict::Fails);
+    decided(verdict) && decided(other) && verdict != other
+}
+
 impl Sensitivity {
-    /// Assumptions under which a claim that held fails, or one that failed holds. `verdict` is that of its own
-    /// statements alone.
-    pub(crate) fn flips(&self, place: usize, verdict: Verdict) -> Vec<Flip> {
-        let turned = |other: Verdict| {
-            use Verdict::{Fails, Holds, Partly};
-            matches!((verdict, other), (Holds, Fails | Partly) | (Fails, Holds | Partly) | (Partly, Holds | Fails))
-        };
+    /// The verdict of a claim's own statements in runs as short as those under the assumptions, nothing changed.
+    pub(crate) fn unchanged(&self, place: usize) -> Option<Verdict> {
+        self.variants.first().map(|tried| tried.judged[place].plain)
+    }
+
+    /// Assumptions that turn a claim's verdict, compared with runs of the same length in which nothing is changed.
+    pub(crate) fn flips(&self, place: usize) -> Vec<Flip> {
+        let unchanged = self.unchanged(place);
         let all = self.variants.iter().filter_map(|tried| {
             let other = tried.judged[place].plain;
-            turned(other).then_some(Flip { variant: tried.variant, verdict: other })
+            turns(unchanged?, other).then_some(Flip { variant: tried.variant, verdict: other })
         });
         all.collect()
     }
@@ -312,5 +330,50 @@ impl Sensitivity {
             let best = best.min_by(|a, b| a.rms.total_cmp(&b.rms));
             (mine().map(|n| n.sets).sum(), best)
         })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn prop_only_decided_verdicts_turn() {
+        use Verdict::{Fails, Holds, Missing, NotCheckable, Partly, Undecided};
+        let decided = [Holds, Partly, Fails];
+        for (k, a) in decided.into_iter().enumerate() {
+            for (j, b) in decided.into_iter().enumerate() {
+                assert_eq!(turns(a, b), j != k, "{a:?} {b:?}");
+            }
+            for open in [Undecided, Missing, NotCheckable] {
+                assert!(!turns(a, open) && !turns(open, a), "{a:?} {open:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn prop_flips_compare_with_runs_of_the_same_length() {
+        let place = claims().position(|claim| !claim.statements.is_empty()).unwrap();
+        let tried = |variant: &'static Variant, verdict: Verdict| {
+            let numbers = Numbers::default();
+            let mut judged: Vec<Judged> = claims().map(|claim| judge(claim, &numbers)).collect();
+            judged[place].plain = verdict;
+            Tried { variant, judged, numbers }
+        };
+        let flips = |verdicts: [Verdict; 3]| {
+            let variants = VARIANTS.iter().zip(verdicts).map(|(variant, verdict)| tried(variant, verdict));
+            let sensitivity = Sensitivity {
+                variants: variants.collect(),
+                candidates: vec![],
+                drawn: 0,
+                nearest: vec![],
+                length: Length::VARIANT,
+            };
+            sensitivity.flips(place).iter().map(|flip| flip.variant.id).collect::<Vec<_>>()
+        };
+        use Verdict::{Fails, Holds, Undecided};
+        assert_eq!(flips([Fails, Fails, Holds]), [VARIANTS[2].id]);
+        assert!(flips([Undecided, Fails, Holds]).is_empty());
+        assert!(flips([Holds, Undecided, Holds]).is_empty());
     }
 }
