@@ -52,7 +52,7 @@ impl Request {
         })
     }
 
-    /// The same with every unstated assumption varied, and searches for the set of assumptions that agrees best.
+    /// The same with every assumption varied, and searches for the set of assumptions that agrees best.
     ///
     /// # Errors
     /// Where a variant of a case is no scenario.

@@ -9,7 +9,7 @@ use std::ops::ControlFlow;
 /// What a batch of runs is for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Stage {
-    /// The cases, and the same under each unstated assumption.
+    /// The cases, and the same under each assumption made otherwise.
     Cases,
     /// A batch of a search for a set of assumptions: one of many.
     Search,

@@ -1,4 +1,4 @@
-//! The claims under each unstated assumption, and the search for a set of assumptions that agrees best.
+//! The claims under each assumption made otherwise, and the search for a set of assumptions that agrees best.
 
 mod chapters;
 mod tables;
