@@ -101,3 +101,63 @@ fn table(text: &mut String, table: &Table) {
         let _ = writeln!(text, "{}\n", table.note);
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::{cell, table};
+    use crate::figures::figures;
+    use crate::sensitivity::{intro, ranges};
+    use crate::{BASE, EXPERIMENTS, Length, Request, VARIANTS, claims, page};
+    use brinell_report::Table;
+
+    /// The book's chapter; `None` where the book is not beside the crate.
+    fn chapter() -> Option<String> {
+        let book = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs/src");
+        book.is_dir().then(|| std::fs::read_to_string(book.join("reproduction/reproduction.md")).unwrap())
+    }
+
+    fn written(one: &Table) -> String {
+        let mut text = String::new();
+        table(&mut text, one);
+        text
+    }
+
+    /// What the program writes without a run, piece by piece.
+    fn pieces() -> Vec<String> {
+        let mut all: Vec<String> = page::rules(Length::FULL).iter().map(|words| format!("\n{words}\n")).collect();
+        all.push(format!("```toml\n{BASE}```\n"));
+        all.push(format!("\n{}\n", intro(Length::VARIANT)));
+        all.push(written(&ranges()));
+        all.push(written(&page::runs(&Request::new(&[], Length::FULL).unwrap())));
+        for experiment in EXPERIMENTS.iter() {
+            all.push(format!("\n## {}: {}\n\n{}\n", figures(experiment), experiment.title, experiment.words));
+        }
+        for (k, variant) in VARIANTS.iter().enumerate() {
+            all.push(format!("\n| {k} | {} | {} | ", cell(variant.about), cell(variant.words)));
+        }
+        all
+    }
+
+    #[test]
+    fn prop_the_books_chapter_is_what_the_program_writes() {
+        let Some(text) = chapter() else {
+            eprintln!("skipped: the book is not beside the crate");
+            return;
+        };
+        let again = "write it again: brinell reproduce --sensitivity --book docs/src/reproduction";
+        let mut missing = pieces();
+        missing.retain(|piece| !text.contains(piece));
+        let rows = text.split("## The paper’s claims").nth(1).and_then(|rest| rest.split("\n## ").next()).unwrap();
+        let rows: Vec<&str> = rows.lines().filter(|line| line.starts_with("| ")).skip(2).collect();
+        assert_eq!(rows.len(), claims().count(), "{again}");
+        for (row, claim) in rows.into_iter().zip(claims()) {
+            assert!(row.starts_with(&format!("| {} ({}) | ", cell(claim.sentence), claim.place)), "{again}\n{row}");
+            let other = claim.otherwise.iter().flat_map(|other| &other.statements);
+            let statements = claim.statements.iter().chain(other).map(|statement| format!("{} — ", statement.words));
+            let parts = statements.chain([claim.note.to_owned(), format!(" | {} | ", claim.paper)]);
+            let parts = parts.filter(|part| !(row.contains(&cell(part)) || row.contains(part)));
+            missing.extend(parts.map(|part| format!("{}: {part}", claim.id)));
+        }
+        assert!(missing.is_empty(), "{again}\n{}", missing.join("\n"));
+    }
+}

@@ -3,6 +3,9 @@
 mod chapters;
 mod tables;
 
+#[cfg(test)]
+pub(crate) use chapters::{intro, ranges};
+
 use crate::cases::owned;
 use crate::runs::numbers;
 use crate::{
