@@ -25,8 +25,8 @@ impl Reproduction {
     /// Where a file cannot be written.
     pub fn write_claims(&self, folder: &Path) -> Result<Vec<PathBuf>, Error> {
         let mut header = json!({
-            "brinell": brinell::VERSION, "length": self.request.length.words(), "base_toml": BASE,
-            "interval": "95 % of the value, an average over whole revolutions of the inner ring; peaks are those of a revolution",
+            "brinell": brinell::VERSION, "length": self.request.length.words(), "starts": self.request.length.starts(), "base_toml": BASE,
+            "interval": "95 % of the value, an average over whole revolutions of the inner ring and over the starts; peaks are those of a revolution",
         });
         if let Some(sensitivity) = &self.sensitivity {
             header["sensitivity"] = sensitivity.json();
