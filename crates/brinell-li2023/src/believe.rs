@@ -67,18 +67,21 @@ impl Facts<'_> {
         Some(outcome.judged.words(outcome.claim))
     }
 
-    /// "; it holds under 40 of 45 assumptions", where assumptions were varied.
+    /// "; of 47 sets of assumptions it holds under 40, does not under 3, ...", where assumptions were varied.
     fn under(&self, id: &str) -> String {
         let Some(sensitivity) = &self.reproduction.sensitivity else {
             return String::new();
         };
         let all = sensitivity.verdicts(id);
-        let holds = all.iter().filter(|v| v.1 == Verdict::Holds).count();
-        let fails = all.iter().filter(|v| v.1 == Verdict::Fails).count();
+        let count = |wanted: Verdict| all.iter().filter(|(_, verdict)| *verdict == wanted).count();
         format!(
-            "; of {} sets of assumptions (most change one of them) it holds under {holds}, does not under {fails}, and under {} in part or undecided",
+            "; of {} sets of assumptions (most change one of them) it holds under {}, does not under {}, holds in part under {} and is undecided \
+             under {}",
             all.len(),
-            all.len() - holds - fails
+            count(Verdict::Holds),
+            count(Verdict::Fails),
+            count(Verdict::Partly),
+            count(Verdict::Undecided)
         )
     }
 

@@ -125,8 +125,7 @@ impl Sensitivity {
             short(best.distance.rms, 3)
         );
         if let Some((held, variant)) = single {
-            text +=
-                &format!(" No fewer, {held}, hold with one assumption changed: {}, {}.", variant.about, variant.words);
+            text += &format!(" With one assumption changed {held} hold: {}, {}.", variant.about, variant.words);
         }
         let off: Vec<&str> = best
             .judged
