@@ -31,7 +31,7 @@ pub(crate) struct ReproduceArgs {
     /// Shorter runs, wider intervals
     #[arg(long)]
     pub(crate) quick: bool,
-    /// Also vary what the paper does not state, one assumption at a time, and search over 1000 sets of assumptions for
+    /// Also vary what the paper does not state or what is taken otherwise, one at a time, and search over 1000 sets of assumptions for
     /// those that agree best
     #[arg(long, conflicts_with = "figure")]
     pub(crate) sensitivity: bool,
