@@ -2,7 +2,8 @@
 
 use crate::figures::cell;
 use crate::reproduction::Reproduction;
-use crate::{Numbers, RMS, Verdict};
+use crate::variants::PRINTED_FILM;
+use crate::{Numbers, RMS, Variant, Verdict};
 use brinell_report::StudyPiece;
 use brinell_report::short;
 
@@ -223,7 +224,11 @@ impl Facts<'_> {
                     text += &format!(", {} under {n} ({words})", verdict.words());
                 }
             }
-            text += ". The paper’s film of Eq. (42) has no damping and drives the cage into a whirl.";
+            text += ".";
+            let printed = |variant: &Variant| variant.settings.contains(&PRINTED_FILM);
+            if all.iter().any(|(variant, verdict)| printed(variant) && *verdict != Verdict::Holds) {
+                text += " The paper’s film of Eq. (42) has no damping and drives the cage into a whirl.";
+            }
         }
         Some(text)
     }

@@ -102,7 +102,7 @@ pub(crate) fn owned(settings: &[(&str, &str)]) -> Vec<(String, String)> {
     settings.iter().map(own).collect()
 }
 
-/// Load ramp of [`BASE`], ms.
+/// Load ramp of [`BASE`], ms: the default of the key, which it leaves out.
 pub(crate) const RAMP_MS: u32 = 20;
 
 /// What the `k`th start of a case sets: a load ramp shorter by k ms than the scenario's.
@@ -184,6 +184,13 @@ mod tests {
             };
             assert_eq!(case.irregular_width_mm, width, "{}", case.id);
         }
+    }
+
+    #[test]
+    fn analytic_load_ramp_of_the_base() {
+        let base = document::read(BASE, &[]).unwrap().scenario;
+        assert_eq!(base.operation.load_ramp_s, f64::from(RAMP_MS) / 1e3);
+        assert_eq!(start(0), [("operation.load_ramp_s".to_owned(), "0.02".to_owned())]);
     }
 
     #[test]

@@ -28,10 +28,12 @@ impl Numbers {
         self.all.insert((case.to_owned(), name.to_owned()), number);
     }
 
-    /// Adds everything of a case's finished runs, one from each start.
+    /// Adds everything of a case's finished runs, one from each start. What one of them lacks is missing: a mean over
+    /// the others would be of a selection.
     pub(crate) fn add(&mut self, case: &str, rows: &[&Row]) {
+        let finished: Vec<_> = rows.iter().filter_map(|row| row.result.as_deref().ok()).collect();
         let mut all: BTreeMap<&str, Vec<Estimate>> = BTreeMap::new();
-        for quantity in rows.iter().flat_map(|row| row.result.as_deref().unwrap_or(&[])) {
+        for quantity in finished.iter().copied().flatten() {
             let Some(mut number) = quantity.estimate() else {
                 continue;
             };
@@ -40,7 +42,7 @@ impl Numbers {
             }
             all.entry(&quantity.name).or_default().push(number);
         }
-        for (name, starts) in all {
+        for (name, starts) in all.into_iter().filter(|(_, starts)| starts.len() == finished.len()) {
             self.insert(case, name, over_starts(&starts));
         }
     }
@@ -156,6 +158,37 @@ mod tests {
         assert!((interval.high / 3.0 - (12.7062_f64 / 3.0).exp()).abs() < 1e-2);
         let signed = over_starts(&[exact(-1.0), exact(1.0)]).interval.unwrap();
         assert!((signed.high - 12.7062).abs() < 1e-3 && (signed.low + 12.7062).abs() < 1e-3);
+    }
+
+    #[test]
+    fn prop_a_number_that_one_start_lacks_is_missing() {
+        let row = |result| Row {
+            settings: vec![],
+            scenario: String::new(),
+            version: String::new(),
+            warnings: vec![],
+            result,
+        };
+        let start = |found: Option<f64>, more: Option<&str>| {
+            let one =
+                |name: &str, value| Quantity { name: name.into(), unit: "1".into(), value, spread: Spread::Without };
+            let mut all = vec![one("rms", Some(2.0)), one("frequency", found)];
+            all.extend(more.map(|name| one(name, Some(1.0))));
+            row(Ok(all))
+        };
+        let (full, none) = (start(Some(250.0), Some("more")), start(None, None));
+        let failed = row(Err("too stiff".into()));
+        let of = |rows: &[&Row]| {
+            let mut numbers = Numbers::default();
+            numbers.add("a", rows);
+            ["rms", "frequency", "more"].map(|name| numbers.get("a", name).map(|n| n.value))
+        };
+        assert_eq!(of(&[&full, &full]), [Some(2.0), Some(250.0), Some(1.0)]);
+        assert_eq!(of(&[&full, &none, &full]), [Some(2.0), None, None]);
+        assert_eq!(of(&[&none, &full]), [Some(2.0), None, None]);
+        // A start that failed has no numbers at all; the page names it.
+        assert_eq!(of(&[&full, &failed]), [Some(2.0), Some(250.0), Some(1.0)]);
+        assert_eq!(of(&[&failed]), [None; 3]);
     }
 
     #[test]

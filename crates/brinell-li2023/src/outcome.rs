@@ -40,6 +40,11 @@ impl Outcome {
         all
     }
 
+    /// Assumptions that turn it, by their ids: "outer-soft; law-sliced". Empty too where that is not known.
+    fn turned_by(&self) -> String {
+        self.flips.iter().map(|flip| flip.variant.id).collect::<Vec<_>>().join("; ")
+    }
+
     /// "supports (outer ring on 1e5 N/m: does not hold); ...": what turns it, and the verdict that it turns where that
     /// is another than the claim's. Where the shorter runs decide nothing it says so.
     pub(crate) fn depends(&self) -> String {
@@ -182,7 +187,7 @@ fn table(all: &[Outcome]) -> Table {
                 one.map(|s| s.0.clone()),
                 one.map(|s| s.1.words().to_owned()),
                 one.map(|s| ours(s.2)),
-                Some(outcome.depends()),
+                Some(outcome.turned_by()),
             ];
             for (column, cell) in columns.iter_mut().zip(cells) {
                 column.push(cell.filter(|text| !text.is_empty()));
@@ -199,11 +204,37 @@ fn table(all: &[Outcome]) -> Table {
         ("statement", "what is checked"),
         ("verdict", "of the statement"),
         ("ours", "numbers with 95 % intervals"),
-        ("depends_on", "assumptions that turn the claim's verdict"),
+        ("depends_on", "ids of assumptions that turn the claim's verdict; none where that is not known"),
     ];
     let mut table = Table::default();
     for ((name, about), cells) in heads.into_iter().zip(columns) {
         table.push(Column::new(name, "", about), Cells::Words(cells));
     }
     table
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{Numbers, VARIANTS, claims, judge};
+
+    #[test]
+    fn prop_files_name_what_turns_a_claim_by_ids_alone() {
+        let claim = claims().find(|claim| !claim.statements.is_empty()).unwrap();
+        let outcome = |unchanged, flips: &[usize]| {
+            let flip = |k: &usize| Flip { variant: &VARIANTS[*k], verdict: Verdict::Fails };
+            let judged = Judged { plain: Verdict::Holds, ..judge(claim, &Numbers::default()) };
+            Outcome { claim, judged, flips: flips.iter().map(flip).collect(), unchanged: Some(unchanged) }
+        };
+        let unknown = outcome(Verdict::Undecided, &[]);
+        assert!(unknown.depends().starts_with("what is not known"));
+        assert_eq!(unknown.turned_by(), "");
+        assert_eq!(claim_json(&unknown)["depends_on"], json!([]));
+        let known = outcome(Verdict::Holds, &[1, 2]);
+        assert_eq!(known.turned_by(), "filter; record-100");
+        let table = table(&[unknown, known]);
+        let n = table.rows() / 2;
+        let cells = [vec![None; n], vec![Some("filter; record-100".to_owned()); n]].concat();
+        assert_eq!(table.cells.last(), Some(&Cells::Words(cells)));
+    }
 }

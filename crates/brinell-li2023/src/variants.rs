@@ -22,6 +22,12 @@ pub(crate) struct Variant {
 }
 
 impl Variant {
+    /// Whether it changes one assumption: not none, and not more than what it is about.
+    pub(crate) fn changes_one(&self) -> bool {
+        let none = self.settings.is_empty() && self.outline == Outline::Joined && self.reading == Reading::USUAL;
+        !none && self.about != SEVERAL && !MORE.contains(&self.id)
+    }
+
     const fn outlined(self, outline: Outline) -> Self {
         Self { outline, ..self }
     }
@@ -41,6 +47,15 @@ const fn v(
 }
 
 const FROM_START: Reading = Reading::USUAL.over_start(285);
+
+/// What variants of several assumptions are about.
+const SEVERAL: &str = "several at once";
+
+/// Variants that change another assumption with the one that they are about.
+const MORE: [&str; 3] = ["start-rest-no-ramp", "outer-hard", "law-conservative"];
+
+/// The film of Eq. (42).
+pub(crate) const PRINTED_FILM: (&str, &str) = ("cage.guidance_film", "quasi-static");
 
 /// The lumped model prescribes how rollers turn and has none.
 pub(crate) const EDGE: &str = "contact.edge_reaction";
@@ -74,19 +89,19 @@ pub(crate) const VARIANTS: &[Variant] = &[
     // Chosen knowing the paper's three RMS values; what it gives is in the tables.
     v(
         "together-start-up",
-        "several at once",
+        SEVERAL,
         "from t = 0 over 0.285 s, n = 1, ramp 8 ms, filter",
         &[("contact.exponent", "1.0"), (RAMP, "0.008")],
     )
     .read(FROM_START.behind_filter()),
     v(
         "together-palmgren",
-        "several at once",
+        SEVERAL,
         "the same with Palmgren's stiffness, 8.54e8 N/m^(10/9)",
         &[("contact.inner_stiffness", "8.54e8"), ("contact.outer_stiffness", "8.54e8"), (RAMP, "0.008")],
     )
     .read(FROM_START.behind_filter()),
-    v("together-no-ramp", "several at once", "from t = 0 over 0.3 s, no load ramp", &[(RAMP, "0.0")])
+    v("together-no-ramp", SEVERAL, "from t = 0 over 0.3 s, no load ramp", &[(RAMP, "0.0")])
         .read(Reading::USUAL.over_start(300)),
     v("outer-soft", "supports", "outer ring on 1e5 N/m (1e6)", &[("support.outer_stiffness_n_per_m", "1e5")]),
     v("outer-stiff", "supports", "outer ring on 1e7 N/m (1e6)", &[("support.outer_stiffness_n_per_m", "1e7")]),
@@ -144,17 +159,12 @@ pub(crate) const VARIANTS: &[Variant] = &[
     v("outline-factor", "Eq. (27)", Outline::Factor16.words(), &[]).outlined(Outline::Factor16),
     v("outline-inverted", "Eq. (27)", Outline::Inverted.words(), &[]).outlined(Outline::Inverted),
     v("outline-depth", "Eq. (27)", Outline::Depth.words(), &[]).outlined(Outline::Depth),
-    v(
-        "film-quasi-static",
-        "cage's film",
-        "quasi-static, Eq. (42) as printed (dynamic)",
-        &[("cage.guidance_film", "quasi-static")],
-    ),
+    v("film-quasi-static", "cage's film", "quasi-static, Eq. (42) as printed (dynamic)", &[PRINTED_FILM]),
     v(
         "paper-4-1",
-        "several at once",
+        SEVERAL,
         "section 4.1 as the paper states it: from rest, with Eq. (42) as printed",
-        &[(START, "rest"), ("cage.guidance_film", "quasi-static")],
+        &[(START, "rest"), PRINTED_FILM],
     ),
     v("cage-soft", "cage contact", "1e5 N/m (1e7)", &[(CAGE_K, "1e5")]),
     v("cage-stiff", "cage contact", "1e8 N/m (1e7)", &[(CAGE_K, "1e8")]),
@@ -163,3 +173,24 @@ pub(crate) const VARIANTS: &[Variant] = &[
     v("slip-low", "slip velocity", "0.01 m/s (0.05)", &[(SLIP, "0.01")]),
     v("slip-high", "slip velocity", "0.2 m/s (0.05)", &[(SLIP, "0.2")]),
 ];
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn prop_variants_of_none_or_several_changes_are_known() {
+        let others = VARIANTS.iter().filter(|variant| !variant.changes_one());
+        let wanted = [
+            "baseline",
+            "start-rest-no-ramp",
+            "together-start-up",
+            "together-palmgren",
+            "together-no-ramp",
+            "outer-hard",
+            "law-conservative",
+            "paper-4-1",
+        ];
+        assert_eq!(others.map(|variant| variant.id).collect::<Vec<_>>(), wanted);
+    }
+}

@@ -103,7 +103,8 @@ impl Sensitivity {
             return "No set came through the search.".into();
         };
         let (held, of) = (best.held(), best.checkable());
-        let single = self.variants.iter().map(|tried| (tried.held(), tried.variant));
+        let single = self.variants.iter().filter(|tried| tried.variant.changes_one());
+        let single = single.map(|tried| (tried.held(), tried.variant));
         let single = single.max_by_key(|(held, _)| *held).filter(|(most, _)| *most >= held);
         let most = 2 * held > of;
         let near = best.distance.rms < 0.05;
