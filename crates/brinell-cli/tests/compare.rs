@@ -164,6 +164,25 @@ fn prop_what_a_run_warns_of_is_said_once_with_its_runs_on_the_terminal_the_page_
 }
 
 #[test]
+fn regress_scenarios_that_are_called_alike_are_named_by_their_folders() {
+    let folder = folder();
+    for name in ["a", "b", "1", "2"] {
+        fs::create_dir(folder.path().join(name)).unwrap();
+        fs::copy(folder.path().join("actual.toml"), folder.path().join(name).join("scenario.toml")).unwrap();
+    }
+    // From within one's folder, and of folders that are numbers.
+    for (from, scenarios, columns) in [
+        ("a", "scenario.toml ../b/scenario.toml", ["scenario", "b", "b.ratio"]),
+        ("b", "../1/scenario.toml ../2/scenario.toml", ["1/scenario", "2/scenario", "2/scenario.ratio"]),
+    ] {
+        let from = folder.path().join(from);
+        brinell(&from, &typed(&format!("compare {scenarios} -q -o out"))).exits(0);
+        let rows = read_records(from.join("out/compare.parquet"), &columns, |_| true).unwrap();
+        assert!(rows.iter().any(|row| row[2] == Cell::Number(1.0)));
+    }
+}
+
+#[test]
 fn regress_what_cannot_be_compared() {
     let folder = folder();
     let call = |more: &[&str]| {

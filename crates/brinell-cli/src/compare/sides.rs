@@ -33,14 +33,19 @@ pub(super) fn read(args: &CompareArgs, inputs: &mut Inputs) -> Result<Vec<Side>,
     Ok(sides)
 }
 
-/// Names of scenario files; of those that are called alike in folders that are not, the folder's.
+/// Names of scenario files; of those that are called alike in folders that are not, the folder's where it has one;
+/// with the file's behind it where it is a number, which names no run.
 fn labels(paths: &[PathBuf]) -> Vec<String> {
     let folder = |path: &Path| Some(path.parent()?.file_name()?.to_string_lossy().trim().to_owned());
     let all: Vec<(String, Option<String>)> = paths.iter().map(|path| (label(path), folder(path))).collect();
     let one = |(k, (name, folder)): (usize, &(String, Option<String>))| {
         let mut alike = all.iter().enumerate().filter(|(other, (n, _))| *other != k && n == name).peekable();
-        let apart = alike.peek().is_some() && alike.all(|(_, (_, other))| other.is_some() && other != folder);
-        folder.clone().filter(|_| apart).unwrap_or_else(|| name.clone())
+        let apart = alike.peek().is_some() && alike.all(|(_, (_, other))| other != folder);
+        match folder.as_ref().filter(|_| apart) {
+            Some(called) if called.parse::<f64>().is_ok() => format!("{called}/{name}"),
+            Some(called) => called.clone(),
+            None => name.clone(),
+        }
     };
     all.iter().enumerate().map(one).collect()
 }

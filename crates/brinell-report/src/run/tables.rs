@@ -183,7 +183,11 @@ pub(super) fn solver_work(parts: &Parts) -> Vec<Fact> {
 }
 
 /// A value without what a change of its unit, or a quotient, leaves behind its digits; the scenario below has them all.
+/// A whole number, as a seed is, stays as it is.
 fn plain(value: &str) -> String {
+    if value.parse::<i128>().is_ok() {
+        return value.to_owned();
+    }
     match value.parse::<f64>() {
         Ok(x) if twelve_digits(x).to_string().len() > LONGEST_NUMBER => short(x, 6),
         Ok(x) if value.len() > LONGEST_NUMBER => twelve_digits(x).to_string(),

@@ -270,13 +270,15 @@ function clamp(chart, view) {
   return [middle - width / 2, middle + width / 2];
 }
 
-// The overview shades what the waveform shows.
+// The overview shades what the waveform shows, and says its middle.
+const middleOf = (wave) => (wave.plots[0].view[0] + wave.plots[0].view[1]) / 2 / wave.overviewScale;
 function follow() {
   const wave = charts.waveform;
   document.querySelectorAll('svg[data-plot="overview"]').forEach((svg) => {
     const [l, t, r, b] = svg.dataset.frame.split(" ").map(Number), [lo, hi] = svg.dataset.view.split(" ").map(Number);
     const X = (v) => Math.min(Math.max(l + (r - l) * (v / wave.overviewScale - lo) / (hi - lo), l), r), [x1, x2] = wave.plots[0].view.map(X);
     svg.querySelector(".window path")?.setAttribute("d", `M${x1 - 1} ${t}H${x2 + 1}V${b}H${x1 - 1}Z`);
+    svg.setAttribute("aria-valuenow", middleOf(wave));
   });
 }
 

@@ -193,17 +193,11 @@ document.querySelectorAll('svg[data-plot="overview"]').forEach((svg) => {
     svg.closest("figure").querySelector("figcaption")?.append(hint);
   }
   const [l, , r] = svg.dataset.frame.split(" ").map(Number), [lo, hi] = svg.dataset.view.split(" ").map(Number);
-  const told = () => {
-    const [a, c] = wave.plots[0].view;
-    svg.setAttribute("aria-valuenow", String((a + c) / 2 / wave.overviewScale));
-  };
   const show = (time) => {
     const [a, c] = wave.plots[0].view;
     zoom("waveform", [time - (c - a) / 2, time + (c - a) / 2]);
-    told();
   };
-  for (const [key, value] of [["role", "slider"], ["tabindex", "0"], ["aria-label", "Instant that the waveform shows"], ["aria-valuemin", lo], ["aria-valuemax", hi]]) svg.setAttribute(key, value);
-  told();
+  for (const [key, value] of [["role", "slider"], ["tabindex", "0"], ["aria-label", "Instant that the waveform shows"], ["aria-valuemin", lo], ["aria-valuemax", hi], ["aria-valuenow", middleOf(wave)]]) svg.setAttribute(key, value);
   svg.addEventListener("click", (event) => {
     const box = svg.getBoundingClientRect(), x = (event.clientX - box.left) * svg.viewBox.baseVal.width / box.width;
     show((lo + (hi - lo) * (x - l) / (r - l)) * wave.overviewScale);

@@ -128,6 +128,7 @@ export class Live {
     this.#edit = { ...(this.#edit ?? { ...this.#good, again: true }), carry: false, made: performance.now() };
     this.#run = true;
     this.#paused = false;
+    this.report("working");
     this.#wake();
   }
 
@@ -292,6 +293,7 @@ export class Live {
     const from = performance.now();
     this.#losses += 1;
     this.report("lost", { why: error.message, gone: error.gone });
+    this.#leave();
     (await this.engine.catch(() => null))?.close();
     this.engine = this.#start();
     this.engine.catch(() => {});

@@ -138,14 +138,15 @@ class Studio {
   }
 
   #bind() {
-    const on = (/** @type {string} */ id, /** @type {() => void} */ act) => byId(id).addEventListener("click", act);
+    const on = (/** @type {string} */ id, /** @type {(e: MouseEvent) => void} */ act) => byId(id).addEventListener("click", act);
     on("open", () => byId("file").click());
     byId("file").addEventListener("change", () => {
       this.take([...byId("file").files]);
       byId("file").value = "";
     });
     on("pause", () => this.#pause());
-    on("run", () => (this.side.live.whole ? this.side.live.live() : this.saving.isRefused() || this.side.live.run()));
+    // The second half of a double click cancels nothing.
+    on("run", (e) => e.detail > 1 || (this.side.live.whole ? this.side.live.live() : this.saving.isRefused() || this.side.live.run()));
     on("side-a", () => this.turn(0));
     on("side-b", () => this.turn(1));
     on("both", () => this.compare(!this.beside));
@@ -156,12 +157,13 @@ class Studio {
       const toml = await fromLink(location.hash).catch(() => null);
       if (toml !== null && toml !== this.side.opened?.toml) this.side.live.edit({ toml }, false);
     });
-    window.addEventListener("pagehide", () => this.#remember());
+    // A page where nothing was edited does not write over what another one kept.
+    window.addEventListener("pagehide", () => (this.#keep || this.sides[0].live.unanswered) && this.#remember());
   }
 
   /** A scenario from a file or an example. @param {string} toml */
   load(toml, carry = false, file = "") {
-    this.#unlink();
+    this.#unlink(this.side);
     this.side.live.edit({ toml, file }, carry);
   }
 
@@ -186,11 +188,11 @@ class Studio {
     if (kind === "problems") this.#refused(side, data);
     if (kind === "verdict" || kind === "opened") this.#differ();
     // What is kept for the next time waits for no answer.
-    if (side === this.sides[0] && ["opened", "scenario", "problems"].includes(kind)) {
+    if (side === this.sides[0] && ["opened", "scenario", "problems"].includes(kind) && !data?.edit?.again) {
       clearTimeout(this.#keep);
       this.#keep = setTimeout(() => this.#remember(), KEPT_MS);
     }
-    if (kind === "scenario") this.#unlink();
+    if (kind === "scenario") this.#unlink(side);
     if (side !== this.side) return void (side === this.other && this.#dirty.add("curves").add("readout"));
     if (kind === "opened") this.#opened(data);
     else if (kind === "scenario") this.#dirty.add("fields");
@@ -212,12 +214,13 @@ class Studio {
   }
 
   #remember() {
+    this.#keep = 0;
     const { opened, live } = this.sides[0];
     if (opened) remember(opened.toml, live.unanswered?.scenario);
   }
 
-  /** The address does not name another bearing than the page has. */
-  #unlink() { if (location.hash.startsWith("#s=")) history.replaceState(null, "", location.pathname + location.search); }
+  /** The address does not name another bearing than A, which it opens. @param {Side} side that is edited */
+  #unlink(side) { if (side === this.sides[0] && location.hash.startsWith("#s=")) history.replaceState(null, "", location.pathname + location.search); }
 
   #recovered() {
     speak("The engine was lost and runs again");

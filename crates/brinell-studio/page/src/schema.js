@@ -143,7 +143,7 @@ export function defectSpecs(schema, defect, index) {
     spec(schema, at(["shape", "rectangle", "width_mm"]), { label: "Width", span: [0.1, 12], log: true }));
   if (shape === "circle") list.push(spec(schema, at(["shape", "circle", "diameter_mm"]), { label: "Diameter", span: [0.05, 12], log: true }));
   if (shape === "li2023_irregular") list.push(spec(schema, at(["shape", "li2023_irregular", "max_width_mm"]), { label: "Width", span: [0.1, 12], log: true }));
-  list.push(spec(schema, at(["center_deg"]), { label: "At", span: [-180, 180], log: false, write: (t, v) => set(t, at(["center_deg"]), typeof v === "number" ? tidy(v - 360 * Math.ceil((v - 180) / 360)) : v) }));
+  list.push(spec(schema, at(["center_deg"]), { label: "At", span: [-180, 180], log: false, write: (t, v) => set(t, at(["center_deg"]), typeof v === "number" ? tidy(Math.abs(v) > 180 ? v - 360 * Math.ceil((v - 180) / 360) : v) : v) }));
   list.push(spec(schema, at(["axial_offset_mm"]), { label: "Axial", span: [-10, 10], log: false }));
   if (defect?.on === "roller") list.push(spec(schema, at(["roller"]), { label: "Roller" }));
   return list;

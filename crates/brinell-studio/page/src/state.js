@@ -118,7 +118,10 @@ export class Store {
 export function remembered() {
   try {
     const store = sessionStorage.getItem(KEY) === null ? localStorage : sessionStorage;
-    return { toml: store.getItem(KEY), edit: store.getItem(EDIT) };
+    const edit = store.getItem(EDIT);
+    // An edit that ends its engine is tried once, not at each reload.
+    for (const kept of [sessionStorage, localStorage]) if (kept.getItem(EDIT) === edit) kept.removeItem(EDIT);
+    return { toml: store.getItem(KEY), edit };
   } catch {
     return { toml: null, edit: null };
   }
