@@ -5,7 +5,7 @@ use crate::files;
 use crate::results::scenario_file;
 use crate::say::{self, one_line, say};
 use brinell::document::{Loaded, Origin, Provenance};
-use brinell_study::campaign::differing;
+use brinell_study::campaign::{Differing, differing};
 use clap::Args;
 use serde_json::{Value, json};
 use std::path::{Path, PathBuf};
@@ -53,14 +53,7 @@ fn read(path: &Path) -> Result<Loaded, Failure> {
     files::scenario(&scenario_file(path), &[], true)
 }
 
-/// A key with what both have of it.
-type Difference<'a> = (&'a str, Vec<Option<&'a Provenance>>);
-
-fn unit(sides: &[Option<&Provenance>]) -> &'static str {
-    sides.iter().flatten().map(|p| p.unit).next().unwrap_or_default()
-}
-
-fn json_of((key, sides): &Difference) -> Value {
+fn json_of(Differing { key, unit, values }: &Differing) -> Value {
     let side = |p: Option<&Provenance>| {
         p.map(|p| {
             // Most of TOML's values are JSON's.
@@ -72,7 +65,7 @@ fn json_of((key, sides): &Difference) -> Value {
             })
         })
     };
-    json!({ "key": key, "unit": unit(sides), "a": side(sides[0]), "b": side(sides[1]) })
+    json!({ "key": key, "unit": unit, "a": side(values[0]), "b": side(values[1]) })
 }
 
 /// Who gave a value, in JSON's word and behind the value of a table.
@@ -88,16 +81,16 @@ fn origin(p: &Provenance) -> (&'static str, &'static str) {
 }
 
 /// A table: key, a's value, b's, unit.
-fn tell(differences: &[Difference], names: &[String; 2]) {
+fn tell(differences: &[Differing], names: &[String; 2]) {
     let cell = |side: Option<&Provenance>, other: Option<&Provenance>| match side {
         None => "-".to_owned(),
         Some(p) => shown(&p.value, other.map(|p| p.value.as_str())) + origin(p).1,
     };
     let [a, b] = names.clone();
     let mut rows = vec![["key".to_owned(), a, b, "unit".to_owned()]];
-    rows.extend(differences.iter().map(|(key, sides)| {
-        let (a, b) = (sides[0], sides[1]);
-        [(*key).to_owned(), cell(a, b), cell(b, a), unit(sides).to_owned()]
+    rows.extend(differences.iter().map(|d| {
+        let (a, b) = (d.values[0], d.values[1]);
+        [d.key.to_owned(), cell(a, b), cell(b, a), d.unit.to_owned()]
     }));
     if rows.len() == 1 {
         return;

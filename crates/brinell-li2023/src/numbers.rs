@@ -3,7 +3,7 @@
 use crate::reading::{Reading, Record};
 use brinell::observe::passes::PassPoint;
 use brinell::result::Spread;
-use brinell::signal::{Estimate, Interval, Scatter};
+use brinell::signal::{Estimate, Interval, Moments, Scatter};
 use brinell_study::campaign::Row;
 use std::collections::BTreeMap;
 
@@ -89,11 +89,10 @@ fn over_starts(starts: &[Estimate]) -> Estimate {
     if starts.iter().all(|start| start.value == first.value) {
         return Estimate { value: first.value, interval: None };
     }
-    let n = starts.len() as f64;
-    let mean = starts.iter().map(|start| start.value).sum::<f64>() / n;
-    let squares: f64 = starts.iter().map(|start| (start.value - mean).powi(2)).sum();
-    let error = (squares / (n - 1.0) / n).sqrt();
-    let freedom = starts.len() as u32 - 1;
+    let mut moments = Moments::default();
+    starts.iter().for_each(|start| moments.push(start.value));
+    let (mean, freedom) = (moments.mean(), starts.len() as u32 - 1);
+    let error = moments.standard_deviation() / f64::from(freedom).sqrt();
     if starts.iter().all(|start| start.value > 0.0) {
         Estimate::positive(mean, Some(Scatter { error: error / mean, freedom }))
     } else {

@@ -271,7 +271,7 @@ fn wide_ellipses(scenario: &Scenario, model: &Model, zone: &StaticLoadZone) -> V
     let edge = GROOVE * model.geometry.roller_radius;
     let wide = |side: Side| {
         let strips = model.contact(side).strips?;
-        let half = (2.0 * strips.radius * model.deflection(side, zone.healthy_largest)).sqrt();
+        let half = strips.half_axis(model.deflection(side, zone.healthy_largest));
         let value = match side {
             Side::Inner => scenario.bearing.inner_groove_conformity,
             Side::Outer => scenario.bearing.outer_groove_conformity,

@@ -13,7 +13,9 @@ use brinell::observe::passes::place;
 use brinell::result::{Quantity, RunResult};
 use brinell::signal::ratio::Ratio;
 use brinell::summary::afterwards;
-use brinell_study::campaign::{self, BANDWIDTHS, Beforehand, Compared, Misses, Side, bandwidth, count, of_results};
+use brinell_study::campaign::{
+    self, BANDWIDTHS, Beforehand, Compared, Differing, Misses, Side, bandwidth, count, of_results,
+};
 
 /// Longest value in the table of what differs.
 const LONGEST: usize = 60;
@@ -56,14 +58,14 @@ impl Study {
                 chapters.push(Chapter::table(id, title, numbers(id, title, &names, &rows)));
             }
         }
-        let facts = facts(sides, &names, compared);
+        let headlines = compared_headline(sides, compared);
         Self {
             title: names.join(", "),
             subtitle: format!("{} runs, each over the baseline {}", names.len(), names[0]),
             version: brinell::VERSION.into(),
             warnings,
-            lead: lead(&names, &compared_headline(sides, compared)),
-            facts,
+            lead: lead(&names, &headlines),
+            facts: facts(&names, &headlines),
             chapters,
             footer: THINNED.into(),
             ..Self::default()
@@ -105,9 +107,9 @@ fn lead(names: &[String], headlines: &[Headline]) -> String {
     told.unwrap_or_default()
 }
 
-fn facts(sides: &[Side], names: &[String], compared: &[Compared]) -> Vec<Fact> {
+fn facts(names: &[String], headlines: &[Headline]) -> Vec<Fact> {
     let mut facts = Vec::new();
-    for one in compared_headline(sides, compared).into_iter().take(8) {
+    for one in headlines.iter().take(8) {
         let ratios = names.iter().zip(one.ratios.iter().zip(&one.over));
         let ratios: Vec<(String, Ratio)> = ratios
             .filter_map(|(name, (ratio, over))| {
@@ -125,7 +127,7 @@ fn facts(sides: &[Side], names: &[String], compared: &[Compared]) -> Vec<Fact> {
         for (name, more) in rest {
             note = format!("{note}; {name}: {}", with_interval(*more));
         }
-        facts.push(Fact::new(one.words, format!("{name}: {} ×", short(first.value, 3)), "", note));
+        facts.push(Fact::new(&one.words, format!("{name}: {} ×", short(first.value, 3)), "", note));
     }
     facts
 }
@@ -202,8 +204,7 @@ fn unlike(sides: &[Side], runs: &[&RunResult]) -> Vec<String> {
 fn differing(sides: &[Side]) -> Table {
     let loaded: Vec<&Loaded> = sides.iter().map(|side| &side.loaded).collect();
     let mut rows = Vec::new();
-    for (key, values) in campaign::differing(&loaded).into_iter().filter(|(key, _)| *key != "name") {
-        let unit = values.iter().flatten().map(|p| p.unit).next().unwrap_or("");
+    for Differing { key, unit, values } in campaign::differing(&loaded).into_iter().filter(|d| d.key != "name") {
         let mut row = vec![if unit.is_empty() { key.to_owned() } else { format!("{key} ({unit})") }];
         row.extend(values.into_iter().map(|p| p.map_or("–".into(), |p| cut(&p.value))));
         rows.push(row);

@@ -34,4 +34,4 @@ pub use row::digest;
 pub use row::{Row, fingerprint};
 pub use run::run_all;
 #[doc(hidden)]
-pub use sides::{Side, SidesError, check_labels, differing, sides_json, sides_scenarios, sides_table};
+pub use sides::{Differing, Side, SidesError, check_labels, differing, sides_json, sides_scenarios, sides_table};

@@ -106,9 +106,19 @@ pub fn sides_table(sides: &[Side], compared: &[Compared]) -> Table {
     table
 }
 
-/// Keys that have not the same value in all scenarios, each in the order of its first file, with what every scenario has:
-/// `None` where it has no such key.
-pub fn differing<'a>(all: &[&'a Loaded]) -> Vec<(&'a str, Vec<Option<&'a Provenance>>)> {
+/// A key that has not the same value in all scenarios.
+#[derive(Debug, Clone)]
+pub struct Differing<'a> {
+    /// Its dotted path.
+    pub key: &'a str,
+    /// Unit of its values.
+    pub unit: &'static str,
+    /// What every scenario has: `None` where it has no such key.
+    pub values: Vec<Option<&'a Provenance>>,
+}
+
+/// Keys that have not the same value in all scenarios, each in the order of its first file.
+pub fn differing<'a>(all: &[&'a Loaded]) -> Vec<Differing<'a>> {
     let mut keys: Vec<&str> = Vec::new();
     for p in all.iter().flat_map(|loaded| &loaded.provenance) {
         if !keys.contains(&p.key.as_str()) {
@@ -116,11 +126,12 @@ pub fn differing<'a>(all: &[&'a Loaded]) -> Vec<(&'a str, Vec<Option<&'a Provena
         }
     }
     let with_values = keys.into_iter().map(|key| {
-        let values = all.iter().map(|loaded| loaded.provenance.iter().find(|p| p.key == key));
-        (key, values.collect::<Vec<Option<&Provenance>>>())
+        let values: Vec<_> = all.iter().map(|loaded| loaded.provenance.iter().find(|p| p.key == key)).collect();
+        let unit = values.iter().flatten().next().map_or("", |p| p.unit);
+        Differing { key, unit, values }
     });
     let value = |p: Option<&'a Provenance>| p.map(|p| p.value.as_str());
-    with_values.filter(|(_, values)| values.windows(2).any(|pair| value(pair[0]) != value(pair[1]))).collect()
+    with_values.filter(|d| d.values.windows(2).any(|pair| value(pair[0]) != value(pair[1]))).collect()
 }
 
 /// Each scenario by its label, as the files have it.

@@ -154,6 +154,11 @@ impl Strips {
         let squared = 2.0 * self.radius * delta.max(0.0);
         Pressed { squared, end: squared.sqrt(), per_radius: 0.5 / self.radius }
     }
+
+    /// Half of the ellipse's axis across the groove at a deformation, m: a_z.
+    pub fn half_axis(&self, delta: f64) -> f64 {
+        self.pressed(delta).end
+    }
 }
 
 /// [delta - z^2/(2 R_w)]_+ over z: the deformation of each strip.

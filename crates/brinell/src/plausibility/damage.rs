@@ -93,7 +93,7 @@ fn beside_the_ellipse(scenario: &Scenario, model: &Model, zone: &StaticLoadZone)
         let half_length = |side: Side, raised: f64| {
             let strips = model.contact(side).strips?;
             let delta = model.deflection(side, zone.healthy_largest);
-            Some((2.0 * strips.radius * (delta + raised)).sqrt())
+            Some(strips.half_axis(delta + raised))
         };
         let met = || SIDES.into_iter().filter(|side| defect.depth_profile(*side).is_some());
         let longest = |raised: f64| met().filter_map(|side| half_length(side, raised)).reduce(f64::max);
