@@ -12,6 +12,10 @@ pub(crate) fn nearest_few<'a>(word: &str, known: impl Iterator<Item = &'a str>) 
 
 /// The nearest of `known` to `word`, if any is near.
 pub(crate) fn did_you_mean<'a>(word: &str, known: impl Iterator<Item = &'a str>) -> Option<&'a str> {
+    nearest(word, &known.collect::<Vec<_>>())
+}
+
+fn nearest<'a>(word: &str, known: &[&'a str]) -> Option<&'a str> {
     // Edit distance is quadratic: a word that long was never a misspelt key.
     const LONGEST: usize = 80;
     if word.len() > LONGEST {
@@ -19,7 +23,8 @@ pub(crate) fn did_you_mean<'a>(word: &str, known: impl Iterator<Item = &'a str>)
     }
     let word = word.to_lowercase().replace('-', "_");
     known
-        .map(|candidate| {
+        .iter()
+        .map(|&candidate| {
             let plain = candidate.to_lowercase().replace('-', "_");
             let stem = |a: &str, b: &str| a.len() >= 4 && b.starts_with(a);
             // Most often the unit is missing or another one: `load`, `speed_hz`.

@@ -78,8 +78,12 @@ pub trait ValueType: Sized + Clone {
 pub(super) type Words = fn(&Spec) -> String;
 
 pub(super) fn wrong_type<T: ValueType>(node: &Node, spec: &Spec) -> Misfit {
-    let message = format!("expected {}, found {}", T::expected(spec), node.kind());
-    Misfit::new(message, T::range(spec))
+    expected_another(T::expected(spec), node, T::range(spec))
+}
+
+/// Compiled once, not for each type.
+fn expected_another(expected: String, node: &Node, range: String) -> Misfit {
+    Misfit::new(format!("expected {expected}, found {}", node.kind()), range)
 }
 
 /// The value of a key of a table that is itself a value.
