@@ -39,11 +39,17 @@ fn code(path: &Path) -> String {
 }
 
 fn files(of: &Path) -> Vec<PathBuf> {
+    files_but(of, &[])
+}
+
+/// The files in a folder, without those in folders of these names.
+fn files_but(of: &Path, left_out: &[&str]) -> Vec<PathBuf> {
     if of.is_file() {
         return vec![of.to_owned()];
     }
     let entries = fs::read_dir(of).unwrap().map(|e| e.unwrap().path());
-    entries.flat_map(|path| files(&path)).collect()
+    let wanted = entries.filter(|path| !left_out.iter().any(|name| path.ends_with(name)));
+    wanted.flat_map(|path| files_but(&path, left_out)).collect()
 }
 
 /// The paths of a `use`: `a::{b, c::{d}}` is `a::b` and `a::c::d`.
@@ -249,6 +255,18 @@ fn prop_files_of_no_crate_use_each_other() {
             assert_eq!(cycle(&modules(&src)), None, "modules of {} that use each other", src.display());
         }
     }
+}
+
+#[test]
+fn prop_no_file_is_longer_than_500_lines() {
+    let sources = ["crates", "docs/tool", "python", "validation"].map(|folder| root().join(folder));
+    let built = ["target", "node_modules", "vendor", "build"];
+    let long: Vec<_> = (sources.iter())
+        .flat_map(|folder| files_but(folder, &built))
+        .filter(|path| path.extension().is_some_and(|e| ["rs", "py", "js", "mjs"].iter().any(|known| e == *known)))
+        .filter(|path| fs::read_to_string(path).unwrap().lines().count() > 500)
+        .collect();
+    assert_eq!(long, Vec::<PathBuf>::new(), "longer than 500 lines");
 }
 
 /// Tables without what each module uses: that they name all.

@@ -1,0 +1,32 @@
+//! What was found of a family, in words.
+
+use super::super::family::Family;
+
+/// Its frequency, harmonics, sidebands and modulation.
+pub(super) fn evidence_of(family: &Family) -> String {
+    let sidebands = match &family.sidebands {
+        Some(s) if s.detected.len() >= 2 => {
+            format!(", with {} sidebands {:.2} Hz apart", s.detected.len(), s.spacing)
+        }
+        _ => String::new(),
+    };
+    format!(
+        "{} at {:.2} Hz ({:+.2} % of pure rolling), {} up to {:.0} dB over noise{sidebands}, modulating by {:.0} %",
+        family.name,
+        family.frequency,
+        100.0 * family.shift(),
+        harmonics(family),
+        family.highest_db(),
+        100.0 * family.modulation,
+    )
+}
+
+fn harmonics(family: &Family) -> String {
+    let detected = family.harmonics.iter().filter(|h| h.detected);
+    let orders: Vec<String> = detected.map(|h| h.order.to_string()).collect();
+    match orders.as_slice() {
+        [] => "no harmonic".into(),
+        [one] => format!("harmonic {one}"),
+        orders => format!("harmonics {}", orders.join(", ")),
+    }
+}
