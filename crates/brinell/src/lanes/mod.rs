@@ -42,7 +42,7 @@ use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
 /// lanes' groups.
 pub const WIDTH: usize = 8;
 
-/// A group of numbers.
+/// A group of numbers. What is given here goes lane by lane; the lanes of registers have an instruction for most of it.
 pub trait Lanes:
     Copy
     + Add<Output = Self>
@@ -71,36 +71,123 @@ pub trait Lanes:
     fn new(x: Self::Group) -> Self;
     /// As an array.
     fn array(self) -> Self::Group;
-    /// self * b + c, rounded once where the processor can.
-    fn times_plus(self, b: Self, c: Self) -> Self;
-    /// c - self * b, rounded once where the processor can.
-    fn minus_times(self, b: Self, c: Self) -> Self;
-    /// |self|.
-    fn abs(self) -> Self;
-    /// Square root.
-    fn sqrt(self) -> Self;
-    /// |self| with the sign of `sign`.
-    fn with_sign(self, sign: Self) -> Self;
     /// `x` where self > other, else `y`.
     fn if_above(self, other: Self, x: Self, y: Self) -> Self;
+
+    /// Each lane through a function of single numbers.
+    #[inline(always)]
+    fn each(self, f: impl Fn(f64) -> f64) -> Self {
+        let mut group = self.array();
+        for x in group.as_mut() {
+            *x = f(*x);
+        }
+        Self::new(group)
+    }
+
+    /// Each lane with that of `other` through a function of single numbers.
+    #[inline(always)]
+    fn zip(self, other: Self, f: impl Fn(f64, f64) -> f64) -> Self {
+        let (mut group, other) = (self.array(), other.array());
+        for (x, y) in group.as_mut().iter_mut().zip(other.as_ref()) {
+            *x = f(*x, *y);
+        }
+        Self::new(group)
+    }
+
+    /// The bits of each lane through a function.
+    #[inline(always)]
+    fn bits(self, f: impl Fn(u64) -> u64) -> Self {
+        self.each(|x| f64::from_bits(f(x.to_bits())))
+    }
+
+    /// self * b + c, rounded once where the processor can.
+    #[inline(always)]
+    fn times_plus(self, b: Self, c: Self) -> Self {
+        self * b + c
+    }
+
+    /// c - self * b, rounded once where the processor can.
+    #[inline(always)]
+    fn minus_times(self, b: Self, c: Self) -> Self {
+        (-self).times_plus(b, c)
+    }
+
+    /// |self|.
+    #[inline(always)]
+    fn abs(self) -> Self {
+        self.and_bits(!(1 << 63))
+    }
+
+    /// Square root.
+    #[inline(always)]
+    fn sqrt(self) -> Self {
+        self.each(f64::sqrt)
+    }
+
+    /// |self| with the sign of `sign`.
+    #[inline(always)]
+    fn with_sign(self, sign: Self) -> Self {
+        self.abs().xor(sign.and_bits(1 << 63))
+    }
+
     /// The lanes above `other`, a bit each.
-    fn above(self, other: Self) -> u8;
+    #[inline(always)]
+    fn above(self, other: Self) -> u8 {
+        let (group, other) = (self.array(), other.array());
+        let mut bits = 0;
+        for (lane, (x, y)) in group.as_ref().iter().zip(other.as_ref()).enumerate() {
+            bits |= u8::from(x > y) << lane;
+        }
+        bits
+    }
+
     /// Bitwise and with a constant.
-    fn and_bits(self, bits: u64) -> Self;
+    #[inline(always)]
+    fn and_bits(self, bits: u64) -> Self {
+        self.bits(|x| x & bits)
+    }
+
     /// Bitwise or with a constant.
-    fn or_bits(self, bits: u64) -> Self;
+    #[inline(always)]
+    fn or_bits(self, bits: u64) -> Self {
+        self.bits(|x| x | bits)
+    }
+
     /// Bitwise and.
-    fn and(self, other: Self) -> Self;
+    #[inline(always)]
+    fn and(self, other: Self) -> Self {
+        self.zip(other, |a, b| f64::from_bits(a.to_bits() & b.to_bits()))
+    }
+
     /// Bitwise exclusive or.
-    fn xor(self, other: Self) -> Self;
+    #[inline(always)]
+    fn xor(self, other: Self) -> Self {
+        self.zip(other, |a, b| f64::from_bits(a.to_bits() ^ b.to_bits()))
+    }
+
     /// Adds a constant to the bits, taken as an integer.
-    fn add_bits(self, bits: u64) -> Self;
+    #[inline(always)]
+    fn add_bits(self, bits: u64) -> Self {
+        self.bits(|x| x.wrapping_add(bits))
+    }
+
     /// Minus the bits, taken as an integer.
-    fn minus_bits(self) -> Self;
+    #[inline(always)]
+    fn minus_bits(self) -> Self {
+        self.bits(u64::wrapping_neg)
+    }
+
     /// Shifts the bits up.
-    fn shift_up<const N: i32>(self) -> Self;
+    #[inline(always)]
+    fn shift_up<const N: i32>(self) -> Self {
+        self.bits(|x| x << N)
+    }
+
     /// Shifts the bits down, filling with zeros.
-    fn shift_down<const N: i32>(self) -> Self;
+    #[inline(always)]
+    fn shift_down<const N: i32>(self) -> Self {
+        self.bits(|x| x >> N)
+    }
 
     /// Zeros.
     #[inline(always)]
@@ -115,11 +202,22 @@ pub trait Lanes:
     }
 
     /// max(self, 0), and 0 for what is not a number.
-    fn positive_part(self) -> Self;
+    #[inline(always)]
+    fn positive_part(self) -> Self {
+        self.at_least(Self::zero())
+    }
+
     /// max(self, other), and `other` for what is not a number.
-    fn at_least(self, other: Self) -> Self;
+    #[inline(always)]
+    fn at_least(self, other: Self) -> Self {
+        self.if_above(other, self, other)
+    }
+
     /// min(self, other), and `other` for what is not a number.
-    fn at_most(self, other: Self) -> Self;
+    #[inline(always)]
+    fn at_most(self, other: Self) -> Self {
+        other.if_above(self, self, other)
+    }
 
     /// self with the sign of `other` multiplied in, and 0 where `other` is 0.
     #[inline(always)]
@@ -128,18 +226,20 @@ pub trait Lanes:
         other.if_above(zero, self, zero.if_above(other, -self, zero))
     }
 
-    /// Each lane through a function of single numbers.
-    #[inline(always)]
-    fn each(self, f: impl Fn(f64) -> f64) -> Self {
-        let mut group = self.array();
-        for x in group.as_mut() {
-            *x = f(*x);
-        }
-        Self::new(group)
-    }
-
     /// Sum of the lanes, in a fixed order.
-    fn sum(self) -> f64;
+    #[inline(always)]
+    fn sum(self) -> f64 {
+        let mut group = self.array();
+        let list = group.as_mut();
+        let mut half = Self::COUNT / 2;
+        while half > 0 {
+            for k in 0..half {
+                list[k] += list[k + half];
+            }
+            half /= 2;
+        }
+        list[0]
+    }
 
     /// (sin x, cos x), |x| <= 1e5.
     fn sin_cos(self) -> (Self, Self);

@@ -72,21 +72,6 @@ impl Lanes for Portable {
         [a, b, c, d]
     }
 
-    #[inline(always)]
-    fn times_plus(self, b: Self, c: Self) -> Self {
-        self * b + c
-    }
-
-    #[inline(always)]
-    fn minus_times(self, b: Self, c: Self) -> Self {
-        (-self).times_plus(b, c)
-    }
-
-    #[inline(always)]
-    fn positive_part(self) -> Self {
-        self.at_least(Self::zero())
-    }
-
     halved! {
         fn at_least(other) |a, b| f64x2_pmax(b, a);
         fn at_most(other) |a, b| f64x2_pmin(b, a);

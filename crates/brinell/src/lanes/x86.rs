@@ -45,7 +45,7 @@ macro_rules! operators {
 /// Functions of [`Lanes`] that are one instruction of either width.
 macro_rules! alike {
     ($count:literal; splat $splat:ident new $new:ident array $array:ident times_plus $times_plus:ident minus_times $minus_times:ident
-     at_least $at_least:ident at_most $at_most:ident zero $zero:ident sqrt $sqrt:ident) => {
+     at_least $at_least:ident at_most $at_most:ident sqrt $sqrt:ident) => {
         grouped!($count);
         elementary!();
 
@@ -77,11 +77,6 @@ macro_rules! alike {
         }
 
         #[inline(always)]
-        fn positive_part(self) -> Self {
-            unsafe { Self($at_least(self.0, $zero())) }
-        }
-
-        #[inline(always)]
         fn at_least(self, other: Self) -> Self {
             unsafe { Self($at_least(self.0, other.0)) }
         }
@@ -94,16 +89,6 @@ macro_rules! alike {
         #[inline(always)]
         fn sqrt(self) -> Self {
             unsafe { Self($sqrt(self.0)) }
-        }
-
-        #[inline(always)]
-        fn abs(self) -> Self {
-            self.and_bits(!(1 << 63))
-        }
-
-        #[inline(always)]
-        fn with_sign(self, sign: Self) -> Self {
-            self.abs().xor(sign.and_bits(1 << 63))
         }
     };
 }
@@ -137,7 +122,7 @@ impl Lanes for Avx512 {
     type Pair = Self;
     alike! {
         8; splat _mm512_set1_pd new _mm512_loadu_pd array _mm512_storeu_pd times_plus _mm512_fmadd_pd minus_times _mm512_fnmadd_pd
-        at_least _mm512_max_pd at_most _mm512_min_pd zero _mm512_setzero_pd sqrt _mm512_sqrt_pd
+        at_least _mm512_max_pd at_most _mm512_min_pd sqrt _mm512_sqrt_pd
     }
 
     #[inline(always)]
@@ -220,7 +205,7 @@ impl Lanes for Avx2 {
     type Pair = Avx2Pair;
     alike! {
         4; splat _mm256_set1_pd new _mm256_loadu_pd array _mm256_storeu_pd times_plus _mm256_fmadd_pd minus_times _mm256_fnmadd_pd
-        at_least _mm256_max_pd at_most _mm256_min_pd zero _mm256_setzero_pd sqrt _mm256_sqrt_pd
+        at_least _mm256_max_pd at_most _mm256_min_pd sqrt _mm256_sqrt_pd
     }
 
     #[inline(always)]
@@ -356,9 +341,7 @@ impl Lanes for Avx2Pair {
     halved! {
         times_plus(b, c;);
         minus_times(b, c;);
-        abs(;);
         sqrt(;);
-        with_sign(sign;);
         if_above(other, x, y;);
         and_bits(; bits);
         or_bits(; bits);
@@ -366,7 +349,6 @@ impl Lanes for Avx2Pair {
         xor(other;);
         add_bits(; bits);
         minus_bits(;);
-        positive_part(;);
         at_least(other;);
         at_most(other;);
     }

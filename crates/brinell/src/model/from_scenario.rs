@@ -1,6 +1,6 @@
 //! A scenario as the model it stands for: from the file's names and units to SI.
 
-use super::{BroadPhase, Geometry, Inertia, Kernel, Layout, Model, ModelError, Support, Tilt, check};
+use super::{BroadPhase, Geometry, Inertia, Kernel, Layout, Model, Support, Tilt};
 use crate::cage::{Guide, Pocket};
 use crate::contact::LoadDeflection;
 use crate::contact::ball::{self, Strips};
@@ -17,6 +17,18 @@ use crate::scenario::{
 use crate::slices::Slices;
 use std::f64::consts::{FRAC_PI_2, TAU};
 
+/// A scenario that no model can be made of.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[error("{key} = {value}: {requirement}")]
+pub struct ModelError {
+    /// Scenario key.
+    pub key: String,
+    /// Offending value.
+    pub value: String,
+    /// What it must be.
+    pub requirement: &'static str,
+}
+
 /// The gap of padding, m: its contacts never close.
 const NEVER_CLOSES: f64 = 1e3;
 
@@ -26,12 +38,11 @@ fn half_mm(diameter: f64) -> f64 {
 }
 
 impl Model {
-    /// The model of a scenario.
+    /// The model of a scenario in which [`Scenario::problems`] finds no error; of any other it may panic.
     ///
     /// # Errors
-    /// Where a value that the scenario's reader would have refused makes the model meaningless.
+    /// Where damage is still a file or has no shape, grooves make no ellipse, or the process's kernel is not there.
     pub fn new(s: &Scenario) -> Result<Self, ModelError> {
-        check::check(s)?;
         Kernel::chosen().map_err(|error| ModelError {
             key: kernel::SETTING.into(),
             value: format!("{:?}", error.value),

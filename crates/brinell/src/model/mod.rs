@@ -5,7 +5,6 @@
 
 mod at_rest;
 mod broad_phase;
-mod check;
 pub(crate) mod energy;
 mod from_scenario;
 mod full;
@@ -22,9 +21,8 @@ mod workspace;
 
 pub use crate::kernel::Kernel;
 pub use broad_phase::BroadPhase;
-pub use check::ModelError;
 pub use energy::Energy;
-pub use from_scenario::series_stiffness;
+pub use from_scenario::{ModelError, series_stiffness};
 pub use geometry::{Geometry, Inertia, Support};
 pub use layout::Layout;
 pub use momentum::imbalance;

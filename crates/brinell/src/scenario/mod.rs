@@ -1,8 +1,7 @@
 //! The resolved scenario: every key of the file, with every default filled in.
 //!
 //! Fields carry the file's names and units; [`crate::model`] converts to SI once. A value here has passed the
-//! range checks of the reader, but a scenario built in code has not: [`crate::model::Model::new`] checks again what
-//! it cannot work with.
+//! range checks of the reader, but a scenario built in code has not: [`Scenario::problems`] makes up for that.
 
 mod choices;
 mod damage;
