@@ -185,3 +185,10 @@ pub(super) fn covers(model: &Model, slices: &Slices, slot: usize, angles: &Angle
         cover_slices(model.defects_of(slot, side), angles, &mut cover).then_some(cover)
     })
 }
+
+/// A number of each roller by its slot; 0 for padding.
+pub(super) fn by_slot<R>(model: &Model, rollers: &[R], of: impl Fn(&R) -> f64) -> Vec<f64> {
+    let mut values = vec![0.0; model.layout.slots];
+    values.iter_mut().zip(rollers).for_each(|(value, roller)| *value = of(roller));
+    values
+}

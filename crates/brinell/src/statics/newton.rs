@@ -11,6 +11,19 @@ pub(super) struct State<const N: usize> {
     pub(super) hessian: [[f64; N]; N],
 }
 
+impl<const N: usize> State<N> {
+    /// Of springs from 0 to the coordinates `x` and of forces on them.
+    pub(super) fn of_springs(springs: &[f64; N], forces: &[f64; N], x: &[f64; N]) -> Self {
+        let mut hessian = [[0.0; N]; N];
+        (0..N).for_each(|i| hessian[i][i] = springs[i]);
+        Self {
+            potential: (0..N).map(|i| 0.5 * springs[i] * x[i] * x[i] - forces[i] * x[i]).sum(),
+            gradient: std::array::from_fn(|i| springs[i] * x[i] - forces[i]),
+            hessian,
+        }
+    }
+}
+
 /// Where the gradient vanishes.
 pub(super) struct Minimum<const N: usize> {
     pub(super) x: [f64; N],

@@ -1,8 +1,10 @@
 //! Rings and rollers in the plane: each roller's radial offset is eliminated, for it has one equilibrium at given ring
 //! offsets.
 
-use super::balance::{Balance, NoBalance, Offsets, Problem, angles, covers, external, force_scale, own_force, softest};
-use super::newton::{Minimum, State, minimise};
+use super::balance::{
+    Balance, NoBalance, Offsets, Problem, angles, by_slot, covers, external, force_scale, own_force, softest,
+};
+use super::newton::{State, minimise};
 use crate::defect::{Angles, Side, damaged_contact, energy, tangent};
 use crate::model::{Model, lumped};
 use crate::scenario::ModelKind;
@@ -27,28 +29,50 @@ pub(super) fn solve(model: &Model, problem: &Problem) -> Result<Balance, NoBalan
     let mut rollers = vec![Roller::default(); model.layout.rollers()];
     let forces = external(model);
     let scale = force_scale(model, problem, &forces);
-    let found = minimise(guess, &free, (scale, softest(model)), |x| {
-        let potential = evaluate(model, problem, &forces, x, &mut rollers);
-        let (gradient, hessian) = derivatives(model, problem, &forces, x, &rollers);
-        State { potential, gradient, hessian }
-    })?;
-    evaluate(model, problem, &forces, &found.x, &mut rollers);
-    Ok(finish(model, problem, &found, &rollers))
-}
-
-/// Potential energy at ring offsets `x`; fills `rollers`.
-fn evaluate(model: &Model, problem: &Problem, forces: &Offsets, x: &Offsets, rollers: &mut [Roller]) -> f64 {
     let (ki, ko) = (model.inner_support.stiffness, model.acting_outer_support().stiffness);
-    let k = [ki, ki, ko, ko];
-    let mut potential: f64 = (0..4).map(|i| 0.5 * k[i] * x[i] * x[i] - forces[i] * x[i]).sum();
-    for (slot, roller) in rollers.iter_mut().enumerate() {
-        *roller = match model.kind {
-            ModelKind::Full | ModelKind::Tilting => between_raceways(model, problem, slot, x),
-            ModelKind::Lumped => in_series(model, problem, slot, x),
-        };
-        potential += roller.energy;
+    let mut evaluate = |x: &Offsets| {
+        let mut state = State::of_springs(&[ki, ki, ko, ko], &forces, x);
+        for (slot, roller) in rollers.iter_mut().enumerate() {
+            *roller = match model.kind {
+                ModelKind::Full | ModelKind::Tilting => between_raceways(model, problem, slot, x),
+                ModelKind::Lumped => in_series(model, problem, slot, x),
+            };
+            state.potential += roller.energy;
+            let (sin, cos) = problem.orbit[slot].sin_cos();
+            let along = [cos, sin, -cos, -sin];
+            for i in 0..4 {
+                state.gradient[i] += along[i] * if i < 2 { roller.inner } else { roller.outer };
+                for j in 0..4 {
+                    state.hessian[i][j] += roller.tangent * along[i] * along[j];
+                }
+            }
+        }
+        state
+    };
+    let found = minimise(guess, &free, (scale, softest(model)), &mut evaluate)?;
+    evaluate(&found.x);
+    let mut stiffness = [[0.0; 2]; 2];
+    for (slot, roller) in rollers.iter().enumerate() {
+        let (sin, cos) = problem.orbit[slot].sin_cos();
+        let e = [cos, sin];
+        for i in 0..2 {
+            for j in 0..2 {
+                stiffness[i][j] += roller.tangent * e[i] * e[j];
+            }
+        }
     }
-    potential
+    let [x_in, y_in, x_out, y_out] = found.x;
+    Ok(Balance {
+        inner: [x_in, y_in],
+        outer: [x_out, y_out],
+        r: by_slot(model, &rollers, |r| r.r),
+        inner_force: by_slot(model, &rollers, |r| r.inner),
+        outer_force: by_slot(model, &rollers, |r| r.outer),
+        stiffness,
+        tilting: None,
+        residual: found.residual,
+        iterations: found.iterations,
+    })
 }
 
 fn in_series(model: &Model, problem: &Problem, slot: usize, x: &Offsets) -> Roller {
@@ -193,62 +217,5 @@ impl Between<'_> {
             energy(model.defects_of(self.slot, side), model.contact(side), &self.angles, delta)
         };
         stored(Side::Inner, self.inner_at - r) + stored(Side::Outer, r - self.outer_at) - self.own * r
-    }
-}
-
-/// Gradient (minus the forces on the rings) and Hessian of the potential.
-fn derivatives(
-    model: &Model,
-    problem: &Problem,
-    forces: &Offsets,
-    x: &Offsets,
-    rollers: &[Roller],
-) -> (Offsets, [[f64; 4]; 4]) {
-    let (ki, ko) = (model.inner_support.stiffness, model.acting_outer_support().stiffness);
-    let k = [ki, ki, ko, ko];
-    let mut gradient: Offsets = std::array::from_fn(|i| k[i] * x[i] - forces[i]);
-    let mut hessian = [[0.0; 4]; 4];
-    (0..4).for_each(|i| hessian[i][i] = k[i]);
-    for (slot, roller) in rollers.iter().enumerate() {
-        let (sin, cos) = problem.orbit[slot].sin_cos();
-        let along = [cos, sin, -cos, -sin];
-        for i in 0..4 {
-            gradient[i] += along[i] * if i < 2 { roller.inner } else { roller.outer };
-            for j in 0..4 {
-                hessian[i][j] += roller.tangent * along[i] * along[j];
-            }
-        }
-    }
-    (gradient, hessian)
-}
-
-fn finish(model: &Model, problem: &Problem, found: &Minimum<4>, rollers: &[Roller]) -> Balance {
-    let x = &found.x;
-    let slots = model.layout.slots;
-    let gather = |f: fn(&Roller) -> f64| {
-        let mut values = vec![0.0; slots];
-        values.iter_mut().zip(rollers).for_each(|(v, r)| *v = f(r));
-        values
-    };
-    let mut stiffness = [[0.0; 2]; 2];
-    for (slot, roller) in rollers.iter().enumerate() {
-        let (sin, cos) = problem.orbit[slot].sin_cos();
-        let e = [cos, sin];
-        for i in 0..2 {
-            for j in 0..2 {
-                stiffness[i][j] += roller.tangent * e[i] * e[j];
-            }
-        }
-    }
-    Balance {
-        inner: [x[0], x[1]],
-        outer: [x[2], x[3]],
-        r: gather(|r| r.r),
-        inner_force: gather(|r| r.inner),
-        outer_force: gather(|r| r.outer),
-        stiffness,
-        tilting: None,
-        residual: found.residual,
-        iterations: found.iterations,
     }
 }

@@ -1,7 +1,9 @@
 //! Static balance where rollers and rings tilt (section 16): each roller's (r, beta) is eliminated, the rings' eight
 //! coordinates are searched.
 
-use super::balance::{Balance, NoBalance, Problem, Tilted, angles, covers, external, force_scale, own_force, softest};
+use super::balance::{
+    Balance, NoBalance, Problem, Tilted, angles, by_slot, covers, external, force_scale, own_force, softest,
+};
 use super::newton::{State, eliminate, minimise};
 use crate::model::{Model, Tilt};
 use crate::slices::{Approach, Carried, Cover, Slices};
@@ -53,12 +55,7 @@ pub(super) fn solve(model: &Model, tilt: &Tilt, problem: &Problem) -> Result<Bal
     let mut rollers = vec![Roller::default(); model.layout.rollers()];
     let scale = force_scale(model, problem, &forces);
     let mut evaluate = |x: &Rings| {
-        let mut state = State {
-            potential: (0..8).map(|i| 0.5 * springs[i] * x[i] * x[i] - forces[i] * x[i]).sum(),
-            gradient: std::array::from_fn(|i| springs[i] * x[i] - forces[i]),
-            hessian: [[0.0; 8]; 8],
-        };
-        (0..8).for_each(|i| state.hessian[i][i] = springs[i]);
+        let mut state = State::of_springs(&springs, &forces, x);
         for (slot, roller) in rollers.iter_mut().enumerate() {
             let along = directions(tilt.levers[slot], problem.orbit[slot], arm);
             let met = meet(&along, x);
@@ -73,12 +70,7 @@ pub(super) fn solve(model: &Model, tilt: &Tilt, problem: &Problem) -> Result<Bal
     if let Some(failed) = rollers.iter().find_map(|roller| roller.failed.clone()) {
         return Err(failed);
     }
-    let slots = model.layout.slots;
-    let gather = |of: &dyn Fn(&Roller) -> f64| {
-        let mut values = vec![0.0; slots];
-        values.iter_mut().zip(&rollers).for_each(|(v, r)| *v = of(r));
-        values
-    };
+    let gather = |of: &dyn Fn(&Roller) -> f64| by_slot(model, &rollers, of);
     let stiffness = stiffness(tilt, problem, &rollers);
     let x = &found.x;
     Ok(Balance {
