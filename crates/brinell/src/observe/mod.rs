@@ -10,6 +10,7 @@ pub mod passes;
 pub mod section;
 pub mod slip;
 pub mod slip_course;
+mod stretches;
 pub mod time_frequency;
 pub mod waveform;
 
@@ -171,26 +172,17 @@ pub struct Watch {
     turn: i64,
     row_turn: i64,
     constant_speed: bool,
-    axis: usize,
     recorded: usize,
-    channels: Vec<ChannelStatistics>,
     places: Places,
-    load_zone: LoadZone,
-    slip: Slip,
-    slip_course: SlipCourse,
-    cage_orbit: CageOrbit,
-    motion: Motion,
-    passes: Passes,
+    /// As far as they are known; lines in the order of the searches.
+    found: Findings,
     rates: PassRates,
-    waveform: Waveform,
     spectrogram: TimeFrequency,
     spectra: StreamSpectra,
     /// Samples of a segment of it, and those that it was given.
     segment: usize,
     analysed: usize,
     band: Band,
-    /// In the order of the searches.
-    lines: Vec<DefectLine>,
 }
 
 /// The envelope's band begins at this many times the highest defect frequency, if that leaves room.
@@ -281,30 +273,37 @@ impl Watch {
             turn: 0,
             row_turn: 0,
             constant_speed: scenario.operation.speed_rpm.constant().is_some(),
-            axis: scenario.operation.axis_of_load(),
             recorded,
-            channels,
             places: Places::default(),
-            load_zone: LoadZone::new(&model.layout),
-            slip: Slip::new(&model.layout),
-            slip_course: SlipCourse::new(&model.layout),
-            cage_orbit: CageOrbit::new(model, duration, sample_rate),
-            motion: Motion::new(model, duration, sample_rate),
-            passes: Passes::new(model),
+            found: Findings {
+                from: 0.0,
+                axis: scenario.operation.axis_of_load(),
+                channels,
+                load_zone: LoadZone::new(&model.layout),
+                slip: Slip::new(&model.layout),
+                slip_course: SlipCourse::new(&model.layout),
+                cage_orbit: CageOrbit::new(model, duration, sample_rate),
+                motion: Motion::new(model, duration, sample_rate),
+                passes: Passes::new(model),
+                waveform: Waveform::new(),
+                spectrogram: None,
+                spectrum: None,
+                envelope: None,
+                lines,
+                drifts: Vec::new(),
+            },
             rates: PassRates::new(model),
-            waveform: Waveform::new(),
             spectrogram: TimeFrequency::new(sample_rate, simulation.samples(), periods),
             spectra: StreamSpectra::new(sample_rate, segment, band, &searches),
             segment,
             analysed: 0,
             band,
-            lines,
         }
     }
 
     /// After each accepted step.
     pub fn step(&mut self, frame: &Frame) {
-        self.passes.take(frame, frame.t >= self.ramp, self.started.is_some());
+        self.found.passes.take(frame, frame.t >= self.ramp, self.started.is_some());
     }
 
     /// At each sample instant.
@@ -314,24 +313,24 @@ impl Watch {
             self.rates.take(frame);
         }
         let bins = self.places.at(frame);
-        self.slip_course.take(frame, bins, self.started.is_some());
-        self.cage_orbit.take(frame);
-        self.motion.take(frame);
+        self.found.slip_course.take(frame, bins, self.started.is_some());
+        self.found.cage_orbit.take(frame);
+        self.found.motion.take(frame);
         if let Some(from) = self.started {
             let turn = frame.model.rotation.whole_turns(from, frame.t);
             if turn != self.turn {
                 self.turn = turn;
                 self.rates.take(frame);
             }
-            self.load_zone.take(frame, bins);
-            self.slip.take(frame);
+            self.found.load_zone.take(frame, bins);
+            self.found.slip.take(frame);
         }
     }
 
     /// One complete row.
     pub fn row(&mut self, simulation: &Simulation, index: u64, row: &[f64], filtered: &[f64]) {
-        let sensor = filtered[self.axis];
-        self.waveform.push(sensor);
+        let sensor = filtered[self.found.axis];
+        self.found.waveform.push(sensor);
         self.spectrogram.push(sensor);
         let t = index as f64 / self.sample_rate;
         let Some(from) = self.started.filter(|from| t >= *from) else {
@@ -341,7 +340,7 @@ impl Watch {
         let new_turn = turn != self.row_turn;
         self.row_turn = turn;
         let values = row.iter().chain(filtered);
-        for (channel, value) in self.channels.iter_mut().zip(values) {
+        for (channel, value) in self.found.channels.iter_mut().zip(values) {
             if new_turn {
                 channel.blocks.end_block();
             }
@@ -356,17 +355,16 @@ impl Watch {
         // The sensor channels were counted twice where they are recorded.
         let names: Vec<&str> = simulation.channels().iter().map(|c| c.name.as_str()).collect();
         let mut index = 0;
-        self.channels.retain(|c| {
+        self.found.channels.retain(|c| {
             index += 1;
             index <= self.recorded || !names.contains(&c.name.as_str()) || !c.name.starts_with("sensor_")
         });
         let drifts = self.drifts();
         let spectra = self.spectra.finish();
         let segment = self.segment.min(self.analysed);
-        for line in &mut self.lines {
+        let mut lines = self.found.lines;
+        for (line, found) in lines.iter_mut().zip(spectra.lines.chunks_exact(SEARCHES)) {
             line.too_short = too_short(line, segment, self.sample_rate, self.unsettled);
-        }
-        for (line, found) in self.lines.iter_mut().zip(spectra.lines.chunks_exact(SEARCHES)) {
             let rate = self.rates.motion(line.defect).unwrap_or(line.nominal);
             if let Some(Some(found)) = place_of_search(rate / line.nominal - 1.0).and_then(|place| found.get(place)) {
                 let (found, interval) = self.rates.mean_rate(line.defect, *found);
@@ -375,20 +373,12 @@ impl Watch {
         }
         Findings {
             from: self.started.unwrap_or(0.0),
-            axis: self.axis,
-            channels: self.channels,
-            load_zone: self.load_zone,
-            slip: self.slip,
-            slip_course: self.slip_course,
-            cage_orbit: self.cage_orbit,
-            motion: self.motion,
-            passes: self.passes,
-            waveform: self.waveform,
             spectrogram: self.spectrogram.finish(),
             spectrum: spectra.spectrum,
             envelope: spectra.envelope.map(|envelope| (envelope, self.band)),
-            lines: self.lines,
+            lines,
             drifts,
+            ..self.found
         }
     }
 
@@ -397,10 +387,10 @@ impl Watch {
         if !self.constant_speed {
             return Vec::new();
         }
-        let rows = self.slip.rows.iter().enumerate();
+        let rows = self.found.slip.rows.iter().enumerate();
         let slips = rows.filter_map(|(row, slip)| Some(Drift::CageSlip(row, slip.cage_drift()?)));
-        let sensor = format!("sensor_a{}", ["x", "y"][self.axis]);
-        let level = self.channels.iter().find(|c| c.name == sensor);
+        let sensor = format!("sensor_a{}", ["x", "y"][self.found.axis]);
+        let level = self.found.channels.iter().find(|c| c.name == sensor);
         let level = level.and_then(|c| {
             let ratio = (0.5 * c.blocks.level_drift()?).exp() - 1.0;
             (ratio.abs() > LEAST_LEVEL_DRIFT).then_some(Drift::Level(c.name.clone(), ratio))

@@ -37,13 +37,14 @@ pub struct Sections {
     place: Place,
     rows: usize,
     strips: usize,
-    values: Vec<f32>,
+    /// Slopes of the rings, frame by frame.
+    rings: Vec<[f32; 2]>,
+    /// Tilts of the rollers, row by row of each frame.
+    tilts: Vec<f32>,
+    /// Line loads, likewise: inner, then outer.
+    loads: Vec<f32>,
     reader: LineLoad,
 }
-
-/// Slopes of the rings, and a row's tilt before its line loads.
-const RINGS: usize = 2;
-const ROLLER: usize = 1;
 
 impl Sections {
     /// For `frames` frames of a model that tilts; `None` for others.
@@ -65,17 +66,11 @@ impl Sections {
             place,
             rows: l.rows,
             strips,
-            values: vec![0.0; frames * (RINGS + l.rows * (ROLLER + 2 * strips))],
+            rings: vec![[0.0; 2]; frames],
+            tilts: vec![0.0; frames * l.rows],
+            loads: vec![0.0; frames * l.rows * 2 * strips],
             reader: LineLoad::new(slices),
         })
-    }
-
-    fn row_size(&self) -> usize {
-        ROLLER + 2 * self.strips
-    }
-
-    fn frame_size(&self) -> usize {
-        RINGS + self.rows * self.row_size()
     }
 
     /// Takes an instant as frame `at` of the ring buffer.
@@ -88,21 +83,19 @@ impl Sections {
         };
         let (sin, cos) = angle.sin_cos();
         let slope = |tau: usize| (cos * f.y[tau] + sin * f.y[tau + 1]) as f32;
-        let first = at * self.frame_size();
-        self.values[first] = slope(l.inner_tilt());
-        self.values[first + 1] = slope(l.outer_tilt());
+        self.rings[at] = [slope(l.inner_tilt()), slope(l.outer_tilt())];
         for row in 0..self.rows {
             let near = |slot: &usize| cos * f.ws.cos[*slot] + sin * f.ws.sin[*slot];
             let slots = (0..l.rollers_per_row).map(|roller| l.slot(row, roller));
             let Some(slot) = slots.max_by(|a, b| near(a).total_cmp(&near(b))) else {
                 continue;
             };
-            let start = first + RINGS + row * self.row_size();
-            self.values[start] = f.y[l.beta() + slot] as f32;
+            let place = at * self.rows + row;
+            self.tilts[place] = f.y[l.beta() + slot] as f32;
             for side in SIDES {
                 let line = self.reader.of(f, slot, side);
                 let (strips, count) = (self.strips, line.len());
-                let to = &mut self.values[start + ROLLER + side as usize * strips..][..strips];
+                let to = &mut self.loads[(2 * place + side as usize) * strips..][..strips];
                 for (k, to) in to.iter_mut().enumerate() {
                     let part = &line[k * count / strips..(k + 1) * count / strips];
                     *to = (part.iter().sum::<f64>() / part.len() as f64) as f32;
@@ -113,15 +106,14 @@ impl Sections {
 
     /// Slopes of the inner and the outer ring's axis in the plane of the section, of a place in the ring buffer, rad.
     pub(super) fn rings(&self, at: usize) -> [f32; 2] {
-        let first = at * self.frame_size();
-        [self.values[first], self.values[first + 1]]
+        self.rings[at]
     }
 
     /// A row of the same.
     pub(super) fn row(&self, at: usize, row: usize) -> SectionRow<'_> {
-        let start = at * self.frame_size() + RINGS + row * self.row_size();
-        let loads = &self.values[start + ROLLER..][..2 * self.strips];
+        let place = at * self.rows + row;
+        let loads = &self.loads[2 * place * self.strips..][..2 * self.strips];
         let (inner, outer) = loads.split_at(self.strips);
-        SectionRow { tilt: self.values[start], line_loads: [inner, outer] }
+        SectionRow { tilt: self.tilts[place], line_loads: [inner, outer] }
     }
 }

@@ -1,8 +1,9 @@
 //! Slip of cages and rollers against pure rolling: over time from the start on, and over the place in the bearing.
 
+use super::load_zone::BINS;
+use super::stretches::Stretches;
 use crate::channel::Frame;
 use crate::model::Layout;
-use crate::observe::load_zone::BINS;
 use crate::scenario::ModelKind;
 
 /// Stretches of time, at most.
@@ -48,11 +49,8 @@ pub struct Slips {
 #[derive(Debug, Clone, PartialEq)]
 pub struct SlipCourse {
     rows: usize,
-    /// Samples of a full stretch.
-    per_stretch: u64,
-    in_stretch: u64,
-    /// Stretch after stretch, a row each.
-    stretches: Vec<Sums>,
+    /// A row each.
+    stretches: Stretches<Sums>,
     /// Row after row, [`BINS`] places each.
     places: Vec<Sums>,
 }
@@ -62,24 +60,14 @@ impl SlipCourse {
     pub fn new(layout: &Layout) -> Self {
         Self {
             rows: layout.rows,
-            per_stretch: 1,
-            in_stretch: 0,
-            stretches: Vec::with_capacity(STRETCHES * layout.rows),
+            stretches: Stretches::new(STRETCHES, layout.rows),
             places: vec![Sums::default(); BINS * layout.rows],
         }
     }
 
     /// Takes one sample instant, at which the rollers are in these bins; places are counted where `settled`.
     pub fn take(&mut self, f: &Frame, bins: &[usize], settled: bool) {
-        if self.in_stretch == 0 {
-            if self.stretches.len() == STRETCHES * self.rows {
-                self.merge();
-            }
-            for _ in 0..self.rows {
-                self.stretches.push(Sums::default());
-            }
-        }
-        self.in_stretch = (self.in_stretch + 1) % self.per_stretch;
+        let stretch = self.stretches.next(Sums::default(), Sums::with);
         let (w, _) = f.model.rotation.at(f.t);
         if f.model.kind == ModelKind::Lumped || w == 0.0 || w.abs() < SLOWEST * f.model.rotation.max_speed().abs() {
             return;
@@ -88,10 +76,9 @@ impl SlipCourse {
         let dof = l.dof();
         let per_rolling = 1.0 / f.model.rolling_orbit_speed(w);
         let per_spinning = 1.0 / f.model.rolling_spin_speed(w);
-        let first = self.stretches.len() - self.rows;
         let orbits = &f.y[dof + l.theta()..];
         let spins = &f.y[dof + l.phi()..];
-        for (row, stretch) in self.stretches[first..].iter_mut().enumerate() {
+        for (row, stretch) in stretch.iter_mut().enumerate() {
             let mut sums = *stretch;
             sums.cage += 1.0 - f.y[dof + l.cage(row) + 2] * per_rolling;
             sums.cages += 1;
@@ -113,27 +100,14 @@ impl SlipCourse {
         }
     }
 
-    /// Joins stretches two by two.
-    fn merge(&mut self) {
-        let half = STRETCHES / 2;
-        for stretch in 0..half {
-            for row in 0..self.rows {
-                let at = |k: usize| k * self.rows + row;
-                self.stretches[at(stretch)] = self.stretches[at(2 * stretch)].with(self.stretches[at(2 * stretch + 1)]);
-            }
-        }
-        self.stretches.truncate(half * self.rows);
-        self.per_stretch *= 2;
-    }
-
     /// Samples of a stretch.
     pub fn samples_per_stretch(&self) -> u64 {
-        self.per_stretch
+        self.stretches.samples
     }
 
     /// Slip of a row, stretch by stretch from t = 0 on; empty for the lumped model, whose motion is kinematic.
     pub fn over_time(&self, row: usize) -> Slips {
-        means(self.stretches.iter().skip(row).step_by(self.rows))
+        means(self.stretches.values.iter().skip(row).step_by(self.rows))
     }
 
     /// Slip of a row's rollers over their orbit angle, in the bins of the load distribution; `cage` says nothing here.

@@ -1,5 +1,6 @@
 //! The spectrogram of a signal of any length, in a bounded number of frames: of a long signal, neighbours are averaged.
 
+use super::stretches::Stretches;
 use crate::signal::{Spectrogram, Window};
 use realfft::RealToComplex;
 use realfft::num_complex::Complex;
@@ -29,9 +30,7 @@ pub(crate) struct TimeFrequency {
     output: Vec<Complex<f64>>,
     scratch: Vec<Complex<f64>>,
     /// Sums of densities, frame after frame; the last may be incomplete.
-    sums: Vec<f64>,
-    per_frame: usize,
-    in_frame: usize,
+    sums: Stretches<f64>,
 }
 
 impl TimeFrequency {
@@ -53,9 +52,7 @@ impl TimeFrequency {
             input: fft.make_input_vec(),
             output: fft.make_output_vec(),
             scratch: fft.make_scratch_vec(),
-            sums: Vec::with_capacity(FRAMES * (length / 2 + 1)),
-            per_frame: 1,
-            in_frame: 0,
+            sums: Stretches::new(FRAMES, length / 2 + 1),
             fft,
         }
     }
@@ -76,51 +73,32 @@ impl TimeFrequency {
         if done.is_err() {
             return;
         }
-        let bins = self.output.len();
-        if self.in_frame == 0 {
-            if self.sums.len() == FRAMES * bins {
-                self.merge();
-            }
-            self.sums.resize(self.sums.len() + bins, 0.0);
-        }
-        self.in_frame = (self.in_frame + 1) % self.per_frame;
-        let first = self.sums.len() - bins;
         let density = 1.0 / (self.sample_rate * self.energy);
-        for (k, (sum, value)) in self.sums[first..].iter_mut().zip(&self.output).enumerate() {
+        let frame = self.sums.next(0.0, |a, b| a + b);
+        for (k, (sum, value)) in frame.iter_mut().zip(&self.output).enumerate() {
             let sides = if k == 0 || 2 * k == self.length { 1.0 } else { 2.0 };
             *sum += sides * value.norm_sqr() * density;
         }
     }
 
-    /// Joins frames two by two.
-    fn merge(&mut self) {
-        let bins = self.output.len();
-        for frame in 0..FRAMES / 2 {
-            for k in 0..bins {
-                self.sums[frame * bins + k] = self.sums[2 * frame * bins + k] + self.sums[(2 * frame + 1) * bins + k];
-            }
-        }
-        self.sums.truncate(FRAMES / 2 * bins);
-        self.per_frame *= 2;
-    }
-
     /// The frames, each the mean of as many segments; `None` where the signal was shorter than one.
-    pub(crate) fn finish(mut self) -> Option<Spectrogram> {
+    pub(crate) fn finish(self) -> Option<Spectrogram> {
         let bins = self.output.len();
-        if self.in_frame > 0 {
-            self.sums.truncate(self.sums.len() - bins);
+        let Stretches { mut values, samples, begun, .. } = self.sums;
+        if begun > 0 {
+            values.truncate(values.len() - bins);
         }
-        if self.sums.is_empty() {
+        if values.is_empty() {
             return None;
         }
-        self.sums.iter_mut().for_each(|sum| *sum /= self.per_frame as f64);
+        values.iter_mut().for_each(|sum| *sum /= samples as f64);
         let step = (self.length / 2) as f64 / self.sample_rate;
         Some(Spectrogram {
             frequency_step: self.sample_rate / self.length as f64,
-            first_time: 0.5 * self.length as f64 / self.sample_rate + 0.5 * (self.per_frame - 1) as f64 * step,
-            time_step: self.per_frame as f64 * step,
+            first_time: 0.5 * self.length as f64 / self.sample_rate + 0.5 * (samples - 1) as f64 * step,
+            time_step: samples as f64 * step,
             bins,
-            density: self.sums,
+            density: values,
         })
     }
 }
@@ -171,9 +149,9 @@ mod tests {
     #[test]
     fn prop_memory_is_bounded() {
         let mut stream = TimeFrequency::with_length(1000.0, 64);
-        let room = stream.sums.capacity();
+        let room = stream.sums.values.capacity();
         (0..1_000_000_u32).for_each(|k| stream.push(f64::from(k % 7)));
-        assert_eq!(stream.sums.capacity(), room);
+        assert_eq!(stream.sums.values.capacity(), room);
         assert!(stream.finish().is_some_and(|s| s.frames() <= FRAMES));
         assert!(TimeFrequency::new(1000.0, 10, [100.0, 60.0]).finish().is_none());
     }

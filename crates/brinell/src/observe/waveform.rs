@@ -1,5 +1,6 @@
 //! What a plot needs of a signal of any length: its latest part sample by sample, and the extremes of all of it.
 
+use super::stretches::Stretches;
 use std::collections::VecDeque;
 
 /// Samples kept one by one.
@@ -13,16 +14,13 @@ const BINS: usize = 2048;
 pub struct Waveform {
     latest: VecDeque<f64>,
     seen: u64,
-    /// Samples a full bin.
-    per_bin: u64,
-    extremes: Vec<[f64; 2]>,
-    in_bin: u64,
+    extremes: Stretches<[f64; 2]>,
 }
 
 impl Waveform {
     /// Empty.
     pub fn new() -> Self {
-        Self { latest: VecDeque::new(), seen: 0, per_bin: 1, extremes: Vec::new(), in_bin: 0 }
+        Self { latest: VecDeque::new(), seen: 0, extremes: Stretches::new(BINS, 1) }
     }
 
     /// Takes one sample.
@@ -32,17 +30,9 @@ impl Waveform {
         }
         self.latest.push_back(x);
         self.seen += 1;
-        if self.in_bin == 0 {
-            if self.extremes.len() == BINS {
-                let merged = self.extremes.chunks(2).map(|c| [c[0][0].min(c[1][0]), c[0][1].max(c[1][1])]);
-                self.extremes = merged.collect();
-                self.per_bin *= 2;
-            }
-            self.extremes.push([x, x]);
-        } else if let Some(last) = self.extremes.last_mut() {
-            *last = [last[0].min(x), last[1].max(x)];
-        }
-        self.in_bin = (self.in_bin + 1) % self.per_bin;
+        let join = |a: [f64; 2], b: [f64; 2]| [a[0].min(b[0]), a[1].max(b[1])];
+        let bin = &mut self.extremes.next([x, x], join)[0];
+        *bin = join(*bin, [x, x]);
     }
 
     /// The latest samples and the index of the first of them.
@@ -52,7 +42,7 @@ impl Waveform {
 
     /// (smallest, largest) of each bin, and the samples in a bin.
     pub fn overview(&self) -> (&[[f64; 2]], u64) {
-        (&self.extremes, self.per_bin)
+        (&self.extremes.values, self.extremes.samples)
     }
 }
 
