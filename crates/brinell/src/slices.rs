@@ -114,19 +114,19 @@ impl Approach {
     }
 }
 
-/// What the slices of a moving contact carry together.
+/// What the slices of a moving contact carry together, or the slices in each lane.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
-pub struct Pressed {
+pub struct Pressed<T = f64> {
     /// Elastic sum, N.
-    pub elastic: f64,
+    pub elastic: T,
     /// Q with each slice's own damping, N.
-    pub force: f64,
+    pub force: T,
     /// T = sum of z_k q_k, N m.
-    pub moment: f64,
+    pub moment: T,
     /// What the damping takes, W.
-    pub loss: f64,
+    pub loss: T,
     /// Share of the roller's length that touches.
-    pub touching: f64,
+    pub touching: T,
 }
 
 /// What the slices of a resting contact carry together.
@@ -180,7 +180,7 @@ impl Slices {
         let (deformation, tilt) = (L::splat(at.deformation), L::splat(at.tilt));
         let (rate, tilt_rate) = (L::splat(at.rate), L::splat(at.tilt_rate));
         let one = L::splat(1.0);
-        let mut sums = Sums::<L>::new();
+        let mut sums = Pressed::<L>::nothing();
         for k in 0..self.z.len() / L::COUNT {
             let z = L::new(L::groups(&self.z)[k]);
             let weight = L::new(L::groups(&self.weight)[k]);
@@ -225,26 +225,32 @@ impl Slices {
         [elastic.sum(), touching.sum()]
     }
 
+    /// What is whole and what damage covers of each slice: its share, and its deformation, m.
+    #[inline]
+    pub(crate) fn parts(&self, at: Approach, cover: Option<&Cover>) -> impl Iterator<Item = [(f64, f64); 2]> {
+        (0..self.count).map(move |k| {
+            let delta = at.deformation + at.tilt * self.z[k] - self.drop[k];
+            let (fraction, depth) = cover.map_or((0.0, 0.0), |c| (c.fraction[k], c.depth[k]));
+            [(1.0 - fraction, delta), (fraction, delta - depth)]
+        })
+    }
+
     /// Line load q at each slice of a moving contact, N/m: its force over its width; `out` holds n_s numbers.
     pub fn line_load(&self, law: &LoadDeflection, at: &Approach, cover: Option<&Cover>, out: &mut [f64]) {
         let per_width = 0.5 / self.half;
-        for (k, out) in out.iter_mut().enumerate().take(self.count) {
-            let z = self.z[k];
-            let delta = at.deformation + at.tilt * z - self.drop[k];
+        for ((out, parts), z) in out.iter_mut().zip(self.parts(*at, cover)).zip(&self.z) {
             let rate = at.rate + at.tilt_rate * z;
-            let (fraction, depth) = cover.map_or((0.0, 0.0), |c| (c.fraction[k], c.depth[k]));
-            let force = |delta: f64| law.with_damping(law.healthy(delta), rate);
-            *out = per_width * ((1.0 - fraction) * force(delta) + fraction * force(delta - depth));
+            let [whole, sunk] = parts.map(|(share, delta)| share * law.with_damping(law.healthy(delta), rate));
+            *out = per_width * (whole + sunk);
         }
     }
 
     /// A resting contact.
     pub fn carry(&self, law: &LoadDeflection, at: &Approach, cover: Option<&Cover>) -> Carried {
         let mut sum = Carried::default();
-        for k in 0..self.count {
+        for (k, parts) in self.parts(*at, cover).enumerate() {
             let z = self.z[k];
-            let delta = at.deformation + at.tilt * z - self.drop[k];
-            let mut add = |delta: f64, share: f64| {
+            for (share, delta) in parts {
                 if delta > 0.0 && share > 0.0 {
                     let weight = share * self.weight[k];
                     let force = weight * law.healthy(delta);
@@ -256,11 +262,6 @@ impl Slices {
                     }
                     sum.energy += weight * law.energy(delta);
                 }
-            };
-            let fraction = cover.map_or(0.0, |cover| cover.fraction[k]);
-            add(delta, 1.0 - fraction);
-            if let Some(cover) = cover.filter(|_| fraction > 0.0) {
-                add(delta - cover.depth[k], fraction);
             }
         }
         sum
@@ -287,28 +288,15 @@ impl Slices {
 
     /// Share of the roller's length that touches at a deformation without tilt.
     pub fn touching(&self, deformation: f64, cover: Option<&Cover>) -> f64 {
-        let of = |k: usize| {
-            let delta = deformation - self.drop[k];
-            let (fraction, depth) = cover.map_or((0.0, 0.0), |c| (c.fraction[k], c.depth[k]));
-            let touches = |delta: f64, share: f64| if delta > 0.0 { share } else { 0.0 };
-            self.weight[k] * (touches(delta, 1.0 - fraction) + touches(delta - depth, fraction))
-        };
-        (0..self.count).map(of).sum()
+        let touches = |(share, delta): (f64, f64)| if delta > 0.0 { share } else { 0.0 };
+        let parts = self.parts(Approach::pressed(deformation), cover);
+        parts.zip(&self.weight).map(|([whole, sunk], weight)| weight * (touches(whole) + touches(sunk))).sum()
     }
 }
 
-/// [`Pressed`] in lanes.
-struct Sums<L> {
-    elastic: L,
-    force: L,
-    moment: L,
-    loss: L,
-    touching: L,
-}
-
-impl<L: Lanes> Sums<L> {
+impl<L: Lanes> Pressed<L> {
     #[inline(always)]
-    fn new() -> Self {
+    fn nothing() -> Self {
         Self { elastic: L::zero(), force: L::zero(), moment: L::zero(), loss: L::zero(), touching: L::zero() }
     }
 

@@ -93,18 +93,18 @@ impl Border {
     }
 
     /// Where in a range of z the border lies at or before s.
-    fn before(&self, s: f64, [a, b]: Range) -> Range {
-        match (self.s(a) <= s, self.s(b) <= s) {
-            (true, true) => [a, b],
-            (false, false) => [a, a],
-            (true, false) => [a, self.z(s).clamp(a, b)],
-            (false, true) => [self.z(s).clamp(a, b), b],
-        }
+    fn before(&self, s: f64, range: Range) -> Range {
+        self.part_where(s, range, |own| own <= s)
     }
 
     /// Where in a range of z the border lies at or after s.
-    fn after(&self, s: f64, [a, b]: Range) -> Range {
-        match (self.s(a) >= s, self.s(b) >= s) {
+    fn after(&self, s: f64, range: Range) -> Range {
+        self.part_where(s, range, |own| own >= s)
+    }
+
+    /// Where in a range of z what is asked of the border's s holds, which changes at s alone.
+    fn part_where(&self, s: f64, [a, b]: Range, holds: impl Fn(f64) -> bool) -> Range {
+        match (holds(self.s(a)), holds(self.s(b))) {
             (true, true) => [a, b],
             (false, false) => [a, a],
             (true, false) => [a, self.z(s).clamp(a, b)],

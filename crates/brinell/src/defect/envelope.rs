@@ -9,34 +9,15 @@
 
 use super::piecewise::{Line, Piece, PiecewisePolynomial};
 
-/// One piece of h with what it lends to the envelope.
-#[derive(Clone, Copy)]
-struct Candidate {
-    from: f64,
-    to: f64,
-    at_from: f64,
-    at_to: f64,
-    slope: f64,
-}
-
-impl Candidate {
-    fn new(line: &Line) -> Self {
-        Self {
-            from: line.from,
-            to: line.to,
-            at_from: line.at_from,
-            at_to: line.at_to,
-            slope: (line.at_to - line.at_from) / (line.to - line.from),
-        }
-    }
-
+/// What a piece of h lends to the envelope.
+impl Line {
     /// s below which the first end acts, and above which the last does.
     fn regimes(&self, radius: f64) -> [f64; 2] {
-        let ahead = self.slope * radius;
+        let ahead = self.slope() * radius;
         [self.from + ahead, self.to + ahead]
     }
 
-    fn value(&self, s: f64, radius: f64) -> f64 {
+    fn lent(&self, s: f64, radius: f64) -> f64 {
         let [low, high] = self.regimes(radius);
         let parabola = |vertex: f64| (s - vertex) * (s - vertex) / (2.0 * radius);
         if s < low {
@@ -44,7 +25,8 @@ impl Candidate {
         } else if s > high {
             self.at_to + parabola(self.to)
         } else {
-            self.at_from + self.slope * (s - self.from) - 0.5 * self.slope * self.slope * radius
+            let slope = self.slope();
+            self.at_from + slope * (s - self.from) - 0.5 * slope * slope * radius
         }
     }
 
@@ -60,7 +42,7 @@ impl Candidate {
         }
         let (a, b) = (from.max(low), to.min(high));
         if a < b {
-            pieces.push(Piece { start: a, c: [self.value(a, radius), self.slope, 0.0] });
+            pieces.push(Piece { start: a, c: [self.lent(a, radius), self.slope(), 0.0] });
         }
         if to > high {
             pieces.push(parabola(from.max(high), self.to, self.at_to));
@@ -82,22 +64,22 @@ pub fn envelope(lines: &[Line], radius: f64) -> PiecewisePolynomial {
     let (start, end) = (first.from - reach, last.to + reach);
     // The undamaged surface on both sides and in the gaps; "far" is beyond all that matters.
     let far = 1.0 + (end - start);
-    let mut candidates = vec![Candidate::new(&Line::flat(first.from - far, first.from, 0.0))];
+    let mut candidates = vec![Line::flat(first.from - far, first.from, 0.0)];
     let mut at = first.from;
     for line in &lines {
         if line.from > at {
-            candidates.push(Candidate::new(&Line::flat(at, line.from, 0.0)));
+            candidates.push(Line::flat(at, line.from, 0.0));
         }
-        candidates.push(Candidate::new(line));
+        candidates.push(**line);
         at = line.to;
     }
-    candidates.push(Candidate::new(&Line::flat(at, at + far, 0.0)));
+    candidates.push(Line::flat(at, at + far, 0.0));
 
     // Which candidate is the lowest from which s on.
     let mut stack: Vec<(usize, f64)> = vec![(0, start)];
     for (j, right) in candidates.iter().enumerate().skip(1) {
         while let Some(&(i, from)) = stack.last() {
-            let above = |s: f64| candidates[i].value(s, radius) - right.value(s, radius);
+            let above = |s: f64| candidates[i].lent(s, radius) - right.lent(s, radius);
             if above(from) >= 0.0 && stack.len() > 1 {
                 stack.pop();
                 continue;

@@ -181,7 +181,7 @@ impl ArcLine<'_> {
 
     /// A piece as a function of x, where it is damage.
     fn straight(&self, line: &Line) -> Option<Straight> {
-        let slope = (line.at_to - line.at_from) / (line.to - line.from);
+        let slope = line.slope();
         (line.at_from != 0.0 || line.at_to != 0.0)
             .then_some(Straight { at: line.at_from + slope * (self.s - line.from), slope })
     }

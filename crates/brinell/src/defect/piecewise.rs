@@ -21,6 +21,11 @@ impl Line {
     pub fn flat(from: f64, to: f64, value: f64) -> Self {
         Self { from, to, at_from: value, at_to: value }
     }
+
+    /// Its slope.
+    pub(super) fn slope(&self) -> f64 {
+        (self.at_to - self.at_from) / (self.to - self.from)
+    }
 }
 
 /// c0 + c1 x + c2 x^2 with x = s - start, from `start` to the next piece's.
@@ -98,8 +103,7 @@ impl PiecewisePolynomial {
                 pieces.push(Piece { start: end, c: [0.0; 3] });
             }
             first.get_or_insert(line.from);
-            let slope = (line.at_to - line.at_from) / (line.to - line.from);
-            pieces.push(Piece { start: line.from, c: [line.at_from, slope, 0.0] });
+            pieces.push(Piece { start: line.from, c: [line.at_from, line.slope(), 0.0] });
             end = line.to;
         }
         first.map_or_else(Self::default, |first| Self::of_pieces(first, end, pieces))

@@ -95,8 +95,7 @@ impl Distribution {
 fn distribution(model: &Model, bearing: &Bearing) -> Result<Distribution, NoBalance> {
     let l = &model.layout;
     let slices = slices_of(model, bearing);
-    let Positions { places, groups } = Positions::of(model);
-    let positions = places;
+    let Positions { places: positions, groups } = Positions::of(model);
     let share = 1.0 / positions.len() as f64;
     let mut problem = Problem::at_start(model);
     let mut all = Distribution {
@@ -110,8 +109,7 @@ fn distribution(model: &Model, bearing: &Bearing) -> Result<Distribution, NoBala
         stiffness: model.tilt.is_some().then_some([[0.0; 4]; 4]),
     };
     for [cage, ring, spin] in positions {
-        let places = problem.orbit.iter_mut().zip(&model.pocket_angle);
-        places.for_each(|(orbit, pocket)| *orbit = pocket + cage);
+        problem.turn_cage(model, cage);
         problem.spin.fill(spin);
         problem.ring_angle = ring;
         let balance = solve(model, &problem)?;

@@ -114,20 +114,18 @@ fn line(
         pressure: Vec::with_capacity(slices.count),
         touching: 0.0,
     };
-    for k in 0..slices.count {
-        let delta = at.deformation + at.tilt * slices.z[k] - slices.drop[k];
+    for (parts, z) in slices.parts(at, Some(&cover)).zip(&slices.z) {
         // Of the whole slice, as if all of it were left, and as if all of it were damaged.
-        let [left, sunk] = [delta, delta - cover.depth[k]].map(|delta| law.healthy(delta) / slices.count as f64);
-        let covered = cover.fraction[k];
-        let force = (1.0 - covered) * left + covered * sunk;
-        let touching = [(1.0 - covered, left), (covered, sunk)];
+        let carried = parts.map(|(share, delta)| (share, law.healthy(delta) / slices.count as f64));
+        let [whole, sunk] = carried.map(|(share, force)| share * force);
+        let force = whole + sunk;
         contact.force += force;
-        contact.moment += slices.z[k] * force;
+        contact.moment += z * force;
         contact.line_load.push(force / width);
-        let hardest = touching.iter().filter(|part| part.0 > 0.0);
+        let hardest = carried.iter().filter(|part| part.0 > 0.0);
         let hardest = hardest.fold(0.0, |most: f64, part| most.max(part.1));
         contact.pressure.push(line_pressure(hardest, width, radius));
-        let touches = touching.iter().filter(|part| part.1 > 0.0);
+        let touches = carried.iter().filter(|part| part.1 > 0.0);
         contact.touching += width * touches.map(|part| part.0).sum::<f64>();
     }
     contact
