@@ -58,8 +58,6 @@ enum Quantity {
     Roller(RollerQuantity, usize),
     Contact(ContactQuantity, Side, usize),
     PocketForce(usize),
-    /// beta of a roller.
-    Tilt(usize),
     /// x, y or the sensor's own direction of the sensor channels: not in a frame.
     Sensor(usize),
 }
@@ -142,7 +140,6 @@ impl Channel {
             Quantity::Roller(quantity, slot) => roller(f, quantity, slot),
             Quantity::Contact(quantity, side, slot) => contact(f, quantity, side, slot),
             Quantity::PocketForce(slot) => f.ws.pocket_force[slot],
-            Quantity::Tilt(slot) => f.y[f.model.layout.beta() + slot],
             Quantity::Sensor(_) => f64::NAN,
         }
     }

@@ -3,7 +3,6 @@
 //! A process has one kernel for every simulation in it: the one that [`SETTING`] names, or the fastest that the
 //! processor can run. The kernels compute the same equations and differ in round-off alone.
 
-use std::fmt;
 use std::sync::LazyLock;
 
 /// Environment variable that chooses the kernel of a process by its [`Kernel::name`]. Unset or empty: the fastest. It
@@ -26,21 +25,14 @@ pub enum Kernel {
 }
 
 /// What is wrong with the value of [`SETTING`].
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[error("{SETTING} = {value:?}: {requirement}")]
 pub struct KernelError {
     /// The value.
     pub value: String,
     /// What it must be.
     pub requirement: String,
 }
-
-impl fmt::Display for KernelError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{SETTING} = {:?}: {}", self.value, self.requirement)
-    }
-}
-
-impl std::error::Error for KernelError {}
 
 static CHOICE: LazyLock<Result<Kernel, KernelError>> = LazyLock::new(|| {
     let value = std::env::var_os(SETTING).unwrap_or_default();

@@ -12,7 +12,15 @@
 
 use super::catalogue;
 use super::designation::{readings, words};
-use crate::scenario::{Bearing, Element};
+use crate::scenario::{Bearing, Choice, Element, words};
+
+words! { ClearanceClass:
+    CN = "CN", "normal";
+    C2 = "C2", "less than CN";
+    C3 = "C3", "more than CN";
+    C4 = "C4", "more than C3";
+    C5 = "C5", "more than C4";
+}
 
 /// A class of radial internal clearance.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -35,13 +43,7 @@ impl ClearanceClass {
 
     /// Its name in the standard.
     pub fn name(self) -> &'static str {
-        match self {
-            Self::C2 => "C2",
-            Self::CN => "CN",
-            Self::C3 => "C3",
-            Self::C4 => "C4",
-            Self::C5 => "C5",
-        }
+        self.word()
     }
 
     /// Smallest and largest diametral clearance (um) for a bore (mm); `None` outside the table, which ends at

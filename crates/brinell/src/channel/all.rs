@@ -118,7 +118,7 @@ impl List<'_> {
         }
         if self.model.tilt.is_some() {
             let text = format!("tilt {of}");
-            self.add(format!("roller{number}_tilt"), "rad", text, Quantity::Tilt(slot));
+            self.add(format!("roller{number}_tilt"), "rad", text, Quantity::State(self.model.layout.beta() + slot));
         }
         for (side, name) in [(Side::Inner, "inner"), (Side::Outer, "outer")] {
             let quantity = Quantity::Contact(ContactQuantity::Slip, side, slot);

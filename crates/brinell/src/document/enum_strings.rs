@@ -1,15 +1,6 @@
 //! The words that keys with a closed choice accept.
 
-use crate::bearing::clearance::ClearanceClass;
 use crate::scenario::*;
-
-words! { ClearanceClass:
-    CN = "CN", "normal";
-    C2 = "C2", "less than CN";
-    C3 = "C3", "more than CN";
-    C4 = "C4", "more than C3";
-    C5 = "C5", "more than C4";
-}
 
 /// The word of `on`; the roller's number is a key of its own.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

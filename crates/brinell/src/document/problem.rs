@@ -152,7 +152,7 @@ fn defect_number(key: &str) -> Option<usize> {
 const SHOWN: usize = 200;
 
 /// The first `most` characters: a file may hold a key of megabytes.
-fn cut(text: &str, most: usize) -> Cow<'_, str> {
+pub(super) fn cut(text: &str, most: usize) -> Cow<'_, str> {
     match text.char_indices().nth(most) {
         Some((end, _)) => format!("{}...", &text[..end]).into(),
         None => text.into(),

@@ -5,7 +5,7 @@ use std::ops::Range;
 
 use toml::de::{DeTable, DeValue};
 
-use super::problem::{Place, Problem, Severity};
+use super::problem::{Place, Problem, Severity, cut};
 use super::problems::Problems;
 use super::toml_text::{float, key_text, quote};
 use crate::bearing::catalogue::Datum;
@@ -131,11 +131,7 @@ impl Node {
         let mut text = String::new();
         // Characters of several bytes are counted below.
         self.render(&mut text, 4 * LONGEST);
-        if text.chars().count() > LONGEST {
-            text = text.chars().take(LONGEST).collect();
-            text.push_str("...");
-        }
-        text
+        cut(&text, LONGEST).into_owned()
     }
 
     fn render(&self, out: &mut String, enough: usize) {
@@ -198,11 +194,7 @@ pub fn path_parts(path: &str) -> Result<Vec<&str>, String> {
 
 /// A path in a message.
 pub fn brief_path(path: &str) -> String {
-    const LONGEST: usize = 80;
-    match path.char_indices().nth(LONGEST) {
-        Some((end, _)) => format!("{}...", &path[..end]),
-        None => path.to_owned(),
-    }
+    cut(path, 80).into_owned()
 }
 
 /// Parses `text` and lays `overrides` over it. Every syntax error is reported.
