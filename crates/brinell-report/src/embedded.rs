@@ -1,12 +1,14 @@
-//! The numbers that the page's script draws with, inside the page.
+//! Plots that the page's script may redraw: their pictures, and the numbers inside the page that it draws with.
 
 use std::fmt::Write as _;
 
-use crate::chart::{Domain, LANE_HEIGHT, Lane, Mark};
+use crate::chart::{Chart, Domain, LANE_HEIGHT, Lane, Mark, Spec};
 use crate::data::Along;
 use crate::encode::{base64, list};
+use crate::layout::legend;
 use crate::markup::escape;
 use crate::number::{linear_ticks, runs, tick_labels};
+use crate::picture::{Paint, Picture};
 use brinell::analysis::STANDARD_GRAVITY;
 
 /// Values kept for zooming; longer signals and spectra are thinned to this, extremes kept.
@@ -16,69 +18,49 @@ pub(crate) const KEPT: usize = 65_536;
 pub(crate) const SCRIPT: [&str; 3] =
     [include_str!("script/plot.js"), include_str!("script/read.js"), include_str!("script/tools.js")];
 
-/// A curve as the script redraws it.
+/// A curve of a plot.
 pub(crate) struct Curve<'a> {
     /// Read out where there are several.
     pub(crate) name: &'a str,
     /// From left to right.
     pub(crate) along: Along,
     pub(crate) values: &'a [f64],
+    pub(crate) paint: Paint,
 }
 
-/// What the script needs to redraw a plot.
-pub(crate) struct Chart<'a> {
-    pub(crate) name: &'a str,
-    pub(crate) curves: &'a [Curve<'a>],
-    pub(crate) domain: Domain,
+/// A plot of curves that the script may redraw.
+pub(crate) struct Plot<'a> {
+    /// Its axes and lanes.
+    pub(crate) spec: Spec,
+    /// Its name to the script; empty for a still picture.
+    pub(crate) id: String,
+    pub(crate) curves: Vec<Curve<'a>>,
+    /// Places of the curves in the order in which they are drawn, the lowest first; their own where empty.
+    pub(crate) order: Vec<usize>,
+    /// Whether of several values to a pixel the largest is drawn alone.
     pub(crate) peak: bool,
-    /// Label and unit of each axis.
-    pub(crate) x: (&'a str, &'a str),
-    pub(crate) y: (&'a str, &'a str),
-    /// Whether an acceleration may be read as the velocity of the same line.
-    pub(crate) velocity: bool,
-    pub(crate) lanes: &'a [Lane],
-    /// Frequencies whose harmonics the reader may mark: those of lanes' first marks.
-    pub(crate) toggles: &'a [Lane],
-    /// Units of this plot to the overview's.
-    pub(crate) overview_scale: f64,
-    /// Which of the drawn curves is which; in their order where empty.
-    pub(crate) drawn: &'a [usize],
+    /// Said where a curve should be; may be empty.
+    pub(crate) words: &'static str,
+    /// Above it; may be empty.
+    pub(crate) legend: Vec<(&'a str, Paint)>,
     /// A shaded stretch of the x axis.
     pub(crate) band: Option<(f64, f64)>,
-    /// Values of a curve, at most.
+    /// What the script calls the quantities on the axes; empty where it is the axis' label.
+    pub(crate) called: [&'static str; 2],
+    /// Whether an acceleration may be read as the velocity of the same line.
+    pub(crate) velocity: bool,
+    /// Frequencies whose harmonics the reader may mark: those of lanes' first marks.
+    pub(crate) toggles: Vec<Lane>,
+    /// Units of this plot to the overview's.
+    pub(crate) overview_scale: f64,
+    /// Values of a curve that are kept, at most.
     pub(crate) most: usize,
     /// Whether it is read out and not redrawn: plots of single points.
     pub(crate) still: bool,
     /// Whether it is one of many on its page, with few controls.
     pub(crate) small: bool,
-    /// Whether places are exponents of ten.
-    pub(crate) x_log: bool,
     /// Names of the places 0, 1, 2 on the x axis, where they have some.
     pub(crate) x_names: &'a [String],
-}
-
-impl Default for Chart<'_> {
-    fn default() -> Self {
-        Self {
-            name: "",
-            curves: &[],
-            domain: Domain::from_zero([]),
-            peak: false,
-            x: ("", ""),
-            y: ("", ""),
-            velocity: false,
-            lanes: &[],
-            toggles: &[],
-            overview_scale: 1.0,
-            drawn: &[],
-            band: None,
-            most: KEPT,
-            still: false,
-            small: false,
-            x_log: false,
-            x_names: &[],
-        }
-    }
 }
 
 /// A unit without markup.
@@ -86,37 +68,90 @@ fn plain(unit: &str) -> String {
     runs(unit).into_iter().map(|run| run.text).collect()
 }
 
-impl Chart<'_> {
-    pub(crate) fn write(&self, page: &mut String) {
+impl<'a> Plot<'a> {
+    pub(crate) fn new(spec: Spec, id: impl Into<String>, curves: Vec<Curve<'a>>) -> Self {
+        Self {
+            spec,
+            id: id.into(),
+            curves,
+            order: Vec::new(),
+            peak: false,
+            words: "",
+            legend: Vec::new(),
+            band: None,
+            called: ["", ""],
+            velocity: false,
+            toggles: Vec::new(),
+            overview_scale: 1.0,
+            most: KEPT,
+            still: false,
+            small: false,
+            x_names: &[],
+        }
+    }
+
+    /// The curves' places in the order in which they are drawn.
+    fn order(&self) -> Vec<usize> {
+        if self.order.is_empty() { (0..self.curves.len()).collect() } else { self.order.clone() }
+    }
+
+    /// The plot under its legend.
+    pub(crate) fn picture(self) -> Picture {
+        let size = self.spec.size;
+        let order = self.order();
+        let mut chart = Chart::new(self.spec);
+        if !self.words.is_empty() {
+            chart.say(self.words);
+        }
+        if let Some((lo, hi)) = self.band {
+            chart.highlight(lo, hi);
+        }
+        let named = self.curves.len() > 1 || !self.legend.is_empty();
+        for curve in order.into_iter().map(|index| &self.curves[index]) {
+            chart.of(if named { curve.name } else { "" });
+            match &curve.along {
+                Along::Even { first, step } => chart.curve(*first, *step, curve.values, self.peak, curve.paint),
+                Along::At(places) => chart.points(places, curve.values, curve.paint),
+            }
+        }
+        chart.under(&self.id, |picture| match &self.legend[..] {
+            [] => 0.0,
+            entries => legend(picture, entries, 12.0, size.width - 12.0, 2.0, size.font),
+        })
+    }
+
+    /// Writes what the script needs to redraw it.
+    pub(crate) fn embed(&self, page: &mut String) {
         let curves: Vec<String> = self.curves.iter().filter_map(|c| self.curve(c)).collect();
         if curves.is_empty() || curves.len() != self.curves.len() {
             return;
         }
-        let power = tick_labels(&linear_ticks(self.domain.lo, self.domain.hi, 5)).1;
-        let drawn: Vec<usize> = match self.drawn {
-            [] => (0..curves.len()).collect(),
-            drawn => drawn.to_vec(),
-        };
+        // What is not redrawn needs no scale.
+        let y = if self.still { Domain::from_zero([]) } else { self.spec.y };
+        let power = tick_labels(&linear_ticks(y.lo, y.hi, 5)).1;
+        let order = self.order();
+        let drawn: Vec<usize> = (0..curves.len()).filter_map(|k| order.iter().position(|o| *o == k)).collect();
         let band = self.band.map_or("null".into(), |b| format!("[{},{}]", b.0, b.1));
+        let spec = &self.spec;
+        let [x_label, y_label] = [(self.called[0], &spec.x_label), (self.called[1], &spec.y_label)]
+            .map(|(called, label)| json(if called.is_empty() { label } else { called }));
         let _ = write!(
             page,
-            "<script type=\"application/json\" data-chart=\"{}\">{{\"peak\":{},\"log\":{},\"y\":[{},{}],\"yScale\":{},\"xLabel\":{},\
-             \"xUnit\":{},\"yLabel\":{},\"units\":{},\"laneHeight\":{LANE_HEIGHT},\"overviewScale\":{},\"drawn\":{drawn:?},\"band\":{band},\
+            "<script type=\"application/json\" data-chart=\"{}\">{{\"peak\":{},\"log\":{},\"y\":[{},{}],\"yScale\":{},\"xLabel\":{x_label},\
+             \"xUnit\":{},\"yLabel\":{y_label},\"units\":{},\"laneHeight\":{LANE_HEIGHT},\"overviewScale\":{},\"drawn\":{drawn:?},\"band\":{band},\
              \"still\":{},\"small\":{},\"xLog\":{},\"xNames\":{},\"lanes\":",
-            escape(self.name),
+            escape(&self.id),
             self.peak,
-            self.domain.log,
-            self.domain.lo,
-            self.domain.hi,
+            y.log,
+            y.lo,
+            y.hi,
             10f64.powi(power),
-            json(self.x.0),
-            json(&plain(self.x.1)),
-            json(self.y.0),
+            json(&plain(&spec.x_unit)),
             self.units(),
             self.overview_scale,
             self.still,
             self.small,
-            self.x_log,
+            spec.x.log,
             list(self.x_names.iter().map(|name| json(name))),
         );
         self.marks(page);
@@ -125,8 +160,9 @@ impl Chart<'_> {
 
     /// Units to choose from: name, factor, and whether it is the velocity's.
     fn units(&self) -> String {
-        let mut units = format!("[[{},1,false]", json(&plain(self.y.1)));
-        if self.y.1 == "m/s^2" {
+        let unit = &self.spec.y_unit;
+        let mut units = format!("[[{},1,false]", json(&plain(unit)));
+        if unit == "m/s^2" {
             let _ = write!(units, ",[\"g\",{},false]", 1.0 / STANDARD_GRAVITY);
             if self.velocity {
                 units.push_str(",[\"mm/s\",1000,true]");
@@ -166,7 +202,7 @@ impl Chart<'_> {
             let frequency = lane.marks.first().map_or(1.0, |mark| mark.x);
             format!("[{},{frequency},\"{}\",{}]", json(&lane.label), lane.color, lane.through)
         };
-        let (lanes, toggles) = (list(self.lanes.iter().map(lane)), list(self.toggles.iter().map(toggle)));
+        let (lanes, toggles) = (list(self.spec.lanes.iter().map(lane)), list(self.toggles.iter().map(toggle)));
         let _ = write!(page, "{lanes},\"toggles\":{toggles}");
     }
 }

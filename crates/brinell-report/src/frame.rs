@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use crate::embedded;
+use crate::embedded::{Plot, SCRIPT};
 use crate::encode::base64;
 use crate::font;
 use crate::layout::Layout;
@@ -61,7 +61,7 @@ pub(crate) fn alert(page: &mut String, strong: &str, words: &str) {
 /// The end of a page whose `main` is open; `script` is what it runs beside what every page does.
 pub(crate) fn close(mut page: String, footer: &str, script: &[&str]) -> String {
     let _ = writeln!(page, "</main>\n<footer>{}</footer>", escape(footer));
-    let parts = [&embedded::SCRIPT[..], script, &[include_str!("script/frame.js")]];
+    let parts = [&SCRIPT[..], script, &[include_str!("script/frame.js")]];
     let script = format!("\n{}", parts.concat().concat());
     let _ = writeln!(page, "<script>{script}</script>");
     page.push_str("</body>\n</html>\n");
@@ -145,6 +145,12 @@ pub(crate) fn figure(page: &mut String, id: &str, draw: impl Fn(Layout) -> Pictu
         let _ = write!(page, "<figcaption>{caption}</figcaption>");
     }
     page.push_str("</figure>\n");
+}
+
+/// A [`figure`] that the page's script may redraw.
+pub(crate) fn plot<'a>(page: &mut String, id: &str, draw: impl Fn(Layout) -> Plot<'a>, caption: &str) {
+    figure(page, id, |layout| draw(layout).picture(), caption);
+    draw(Layout::Wide).embed(page);
 }
 
 #[cfg(test)]

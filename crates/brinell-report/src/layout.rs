@@ -1,8 +1,8 @@
 //! What every picture shares: its size on a page or a phone, the unit of time, the legend.
 
-use crate::chart::{Chart, Size};
+use crate::chart::Size;
 use crate::font::fitted;
-use crate::picture::{Anchor, Paint, Picture, Shape, Text, ink};
+use crate::picture::{Anchor, Paint, Picture, Shape, Text};
 
 /// What a picture is drawn for.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -59,26 +59,6 @@ impl Layout {
             Self::Print(mm) => Size { width: PX_PER_MM * mm, height, font: 11.0 },
         }
     }
-}
-
-const CURVE: Paint = Paint { stroke: ink::BLUE, width: 1.2, dash: &[], fill: None, opacity: 1.0 };
-
-/// Of the healthy bearing behind it.
-const HEALTHY: Paint = Paint { stroke: ink::FRAME, ..CURVE };
-
-/// What its curve is, where there is one.
-pub(super) fn healthy_words(healthy: &[f64]) -> String {
-    if healthy.is_empty() { String::new() } else { "Grey: the same bearing without the damage".into() }
-}
-
-/// A curve over even places from `first` on, and the healthy bearing's behind it.
-pub(super) fn over_healthy(chart: &mut Chart, (first, step): (f64, f64), values: &[f64], healthy: &[f64], peak: bool) {
-    if !healthy.is_empty() {
-        chart.of("healthy");
-        chart.curve(first, step, healthy, peak, HEALTHY);
-        chart.of("damaged");
-    }
-    chart.curve(first, step, values, peak, CURVE);
 }
 
 /// Seconds or milliseconds, whichever reads better over `span`.

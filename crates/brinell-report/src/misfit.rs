@@ -2,7 +2,7 @@
 
 use crate::chart::{Chart, Domain, Spec};
 use crate::data::Along;
-use crate::embedded::{self, Curve};
+use crate::embedded::{Curve, Plot};
 use crate::layout::Layout;
 use crate::picture::{Paint, Picture, Shape, ink};
 
@@ -64,8 +64,8 @@ fn dot(chart: &mut Chart, x: f64, y: f64, filled: bool) {
     chart.picture.shapes.push(Shape::Circle { x: chart.x.at(x), y: chart.y.at(y), r: 3.2, paint });
 }
 
-/// Sum of squares against a key.
-pub(crate) fn key_plot(about: &FittedKey, tried: &[Tried], layout: Layout) -> Picture {
+/// Axes of the runs over a key, and the floor.
+fn key_axes(about: &FittedKey, tried: &[Tried], layout: Layout) -> (Spec, f64) {
     let (low, high) = about.bounds;
     let x = if about.log {
         let room = (high / low).powf(0.02);
@@ -75,16 +75,30 @@ pub(crate) fn key_plot(about: &FittedKey, tried: &[Tried], layout: Layout) -> Pi
         Domain::exact(low - room, high + room)
     };
     let (y, floor) = misfits(tried.iter().map(|run| run.chi_square));
-    let name = key_name(about);
+    let name = format!("misfit-{}", about.name.replace('.', "-"));
     let title = format!("Chi-square over {}", about.name);
-    let mut chart = Chart::new(spec(name.clone(), title, layout, x, y, (&about.name, &about.unit)));
+    (spec(name, title, layout, x, y, (&about.name, &about.unit)), floor)
+}
+
+/// Axes of the runs in their order, and the floor.
+fn course_axes(chi_squares: &[f64], layout: Layout) -> (Spec, f64) {
+    let (y, floor) = misfits(chi_squares.iter().copied());
+    let x = Domain::exact(0.0, chi_squares.len().max(1) as f64 + 1.0);
+    (spec("course".into(), "Chi-square over the runs".into(), layout, x, y, ("Run", "")), floor)
+}
+
+/// Sum of squares against a key.
+pub(crate) fn key_plot(about: &FittedKey, tried: &[Tried], layout: Layout) -> Picture {
+    let (spec, floor) = key_axes(about, tried, layout);
+    let (name, highest) = (spec.name.clone(), spec.y.hi);
+    let mut chart = Chart::new(spec);
     if let Some((from, to)) = about.interval {
         chart.highlight(from, to);
     }
     let best = chart.x.at(about.best);
     let upright = [(best, chart.frame.top), (best, chart.frame.bottom)];
     chart.picture.path(&upright, Paint::line(ink::VERMILLION, 1.2).dashed(&[4.0, 3.0]));
-    let height = |c: f64| c.clamp(floor, y.hi);
+    let height = |c: f64| c.clamp(floor, highest);
     let runs = tried.iter().filter(|t| t.chi_square.is_finite());
     let mut alone: Vec<(f64, f64)> = Vec::new();
     for run in runs {
@@ -107,56 +121,42 @@ pub(crate) fn key_plot(about: &FittedKey, tried: &[Tried], layout: Layout) -> Pi
     chart.finish()
 }
 
-fn key_name(key: &FittedKey) -> String {
-    format!("misfit-{}", key.name.replace('.', "-"))
-}
-
 /// What the page's script needs to read the runs over a key.
 pub(crate) fn embed_key(page: &mut String, about: &FittedKey, tried: &[Tried]) {
     let place = |x: f64| if about.log { x.log10() } else { x };
     let runs = tried.iter().map(|run| (place(run.value), run.chi_square));
-    let x = (about.name.as_str(), about.unit.as_str());
-    embed(page, &key_name(about), x, about.log, runs.collect());
+    embed(page, key_axes(about, tried, Layout::Wide).0, runs.collect());
 }
 
 /// The same of the runs in their order.
 pub(crate) fn embed_course(page: &mut String, chi_squares: &[f64]) {
     let runs = chi_squares.iter().enumerate().map(|(k, chi_square)| ((k + 1) as f64, *chi_square));
-    embed(page, "course", ("Run", ""), false, runs.collect());
+    embed(page, course_axes(chi_squares, Layout::Wide).0, runs.collect());
 }
 
-fn embed(page: &mut String, name: &str, x: (&str, &str), x_log: bool, mut runs: Vec<(f64, f64)>) {
+fn embed(page: &mut String, spec: Spec, mut runs: Vec<(f64, f64)>) {
     runs.sort_by(|a, b| a.0.total_cmp(&b.0));
     let (places, values): (Vec<f64>, Vec<f64>) = runs.into_iter().unzip();
-    embedded::Chart {
-        name,
-        curves: &[Curve { name: "", along: Along::At(places), values: &values }],
-        x,
-        y: ("Chi-square", ""),
-        still: true,
-        x_log,
-        ..embedded::Chart::default()
-    }
-    .write(page);
+    let curve = Curve { name: "", along: Along::At(places), values: &values, paint: Paint::line(ink::BLUE, 1.2) };
+    let name = spec.name.clone();
+    Plot { still: true, ..Plot::new(spec, name, vec![curve]) }.embed(page);
 }
 
 /// Sum of squares of each run in its order, and the best so far.
 pub(crate) fn course_plot(chi_squares: &[f64], layout: Layout) -> Picture {
-    let count = chi_squares.len().max(1) as f64;
-    let (y, floor) = misfits(chi_squares.iter().copied());
-    let title = "Chi-square over the runs".to_owned();
-    let x = Domain::exact(0.0, count + 1.0);
-    let mut chart = Chart::new(spec("course".into(), title, layout, x, y, ("Run", "")));
+    let (spec, floor) = course_axes(chi_squares, layout);
+    let highest = spec.y.hi;
+    let mut chart = Chart::new(spec);
     let mut line: Vec<(f64, f64)> = Vec::new();
     let mut least = f64::INFINITY;
     for (k, &chi_square) in chi_squares.iter().enumerate() {
         least = least.min(chi_square);
         let x = (k + 1) as f64;
         if least.is_finite() {
-            line.push((x, least.clamp(floor, y.hi)));
+            line.push((x, least.clamp(floor, highest)));
         }
         if chi_square.is_finite() {
-            dot(&mut chart, x, chi_square.clamp(floor, y.hi), false);
+            dot(&mut chart, x, chi_square.clamp(floor, highest), false);
         }
     }
     let (xs, ys): (Vec<f64>, Vec<f64>) = line.into_iter().unzip();

@@ -1,10 +1,10 @@
 //! Curves of several runs in one plot, under a legend.
 
-use crate::chart::{Chart, Domain, Lane, Spec, range};
+use crate::chart::{Domain, Lane, Spec, range};
 use crate::data::{Along, Marker};
-use crate::embedded::{self, Curve};
+use crate::embedded::{Curve, Plot};
 use crate::font;
-use crate::layout::{Layout, legend};
+use crate::layout::Layout;
 use crate::picture::{Anchor, Paint, Picture, Text, ink};
 use crate::plots::marker_lanes;
 
@@ -117,39 +117,13 @@ fn shown(curve: &OverlaidCurve, (lo, hi): (f64, f64)) -> Vec<f64> {
 }
 
 /// The plot; `names` are those of the runs.
-pub(crate) fn overlay(overlay: &Overlay, names: &[String], layout: Layout) -> Picture {
+pub(crate) fn overlay<'a>(overlay: &'a Overlay, names: &'a [String], layout: Layout) -> Plot<'a> {
     let height = if layout.roomy() { 330.0 } else { 290.0 };
     plot(overlay, names, layout, height, None)
 }
 
 /// Values of a curve that the page keeps for zooming.
 const KEPT: usize = 8192;
-
-/// What the page's script needs of it.
-pub(crate) fn embed(page: &mut String, overlay: &Overlay, names: &[String]) {
-    let curves: Vec<Curve> = (overlay.curves.iter())
-        .map(|curve| Curve {
-            name: names.get(curve.of).map_or("", String::as_str),
-            along: curve.along.clone(),
-            values: &curve.values,
-        })
-        .collect();
-    let lanes = lanes(overlay);
-    embedded::Chart {
-        name: &overlay.name,
-        curves: &curves,
-        domain: domains(overlay, None).1,
-        peak: overlay.vertical != Vertical::Around,
-        x: (&overlay.x_label, &overlay.x_unit),
-        y: (&overlay.y_label, &overlay.y_unit),
-        velocity: overlay.vertical == Vertical::Decades && overlay.x_unit == "Hz",
-        lanes: &lanes,
-        toggles: &lanes,
-        most: KEPT,
-        ..embedded::Chart::default()
-    }
-    .write(page);
-}
 
 /// Marks of defect frequencies, in the colour of their run; in grey those of all.
 fn lanes(overlay: &Overlay) -> Vec<Lane> {
@@ -204,7 +178,7 @@ pub(crate) fn stacked(
         top += 1.5 * size.font;
         let panel = Overlay { x_range: panel.x_range.or(along.filter(|_| alike)), ..panel.clone() };
         let named = if panel.curves.len() > 1 { names } else { &[] };
-        let drawn = plot(&panel, named, layout, 215.0, common);
+        let drawn = plot(&panel, named, layout, 215.0, common).picture();
         let height = drawn.height;
         picture.place(drawn, 0.0, top);
         top += height + 6.0;
@@ -214,37 +188,39 @@ pub(crate) fn stacked(
 }
 
 /// A plot of some height under its legend; its y axis holds `common` too.
-fn plot(overlay: &Overlay, names: &[String], layout: Layout, height: f64, common: Option<&[f64]>) -> Picture {
+fn plot<'a>(
+    overlay: &'a Overlay,
+    names: &'a [String],
+    layout: Layout,
+    height: f64,
+    common: Option<&[f64]>,
+) -> Plot<'a> {
     let (x, y) = domains(overlay, common);
     let lanes = lanes(overlay);
     let size = layout.size(height + 16.0 * lanes.len() as f64);
     let (name, title) = (&overlay.name, format!("{} over {}", overlay.y_label, overlay.x_label));
     let (x_label, y_label) = ((x, &*overlay.x_label, &*overlay.x_unit), (y, &*overlay.y_label, &*overlay.y_unit));
-    let spec = Spec { lanes, ..Spec::new(name, &title, size, x_label, y_label) };
-    let mut chart = Chart::new(spec);
-    let values = overlay.curves.iter().flat_map(|c| shown(c, (x.lo, x.hi)));
-    if range(values).is_none() {
-        chart.say("Nothing to show");
-    }
-    let peak = overlay.vertical != Vertical::Around;
-    for curve in &overlay.curves {
+    let spec = Spec { lanes: lanes.clone(), ..Spec::new(name, &title, size, x_label, y_label) };
+    let curve = |curve: &'a OverlaidCurve| {
         let full = paint(curve.of);
-        // What lies on top lets the lower ones shine through.
-        let paint = if curve.of > 0 { full.faded(0.8) } else { full };
-        chart.of(names.get(curve.of).map_or("", String::as_str));
-        match &curve.along {
-            Along::Even { first, step } => chart.curve(*first, *step, &curve.values, peak, paint),
-            Along::At(places) => chart.points(places, &curve.values, paint),
+        Curve {
+            name: names.get(curve.of).map_or("", String::as_str),
+            along: curve.along.clone(),
+            values: &curve.values,
+            // What lies on top lets the lower ones shine through.
+            paint: if curve.of > 0 { full.faded(0.8) } else { full },
         }
+    };
+    let values = overlay.curves.iter().flat_map(|c| shown(c, (x.lo, x.hi)));
+    let entries = names.iter().enumerate();
+    let entries = entries.filter(|(k, _)| overlay.curves.iter().any(|curve| curve.of == *k));
+    Plot {
+        peak: overlay.vertical != Vertical::Around,
+        words: if range(values).is_none() { "Nothing to show" } else { "" },
+        legend: entries.map(|(k, name)| (name.as_str(), paint(k))).collect(),
+        velocity: overlay.vertical == Vertical::Decades && overlay.x_unit == "Hz",
+        toggles: lanes,
+        most: KEPT,
+        ..Plot::new(spec, name, overlay.curves.iter().map(curve).collect())
     }
-    let entries: Vec<(&str, Paint)> = names
-        .iter()
-        .enumerate()
-        .filter(|(k, _)| overlay.curves.iter().any(|curve| curve.of == *k))
-        .map(|(k, name)| (name.as_str(), paint(k)))
-        .collect();
-    chart.under(name, |picture| match entries.len() {
-        0 => 0.0,
-        _ => legend(picture, &entries, 12.0, size.width - 12.0, 2.0, size.font),
-    })
 }

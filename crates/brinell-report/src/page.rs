@@ -3,9 +3,8 @@
 use std::fmt::Write as _;
 
 use crate::damage::{damage_passage, damage_photo, damage_plan, damage_section, load_along};
-use crate::data::{Along, Report, Spectrum};
-use crate::embedded::{Chart, Curve};
-use crate::frame::{THINNED, alert, close, code, figure, lead, none, open, plain, section};
+use crate::data::Report;
+use crate::frame::{THINNED, alert, close, code, figure, lead, none, open, plain, plot, section};
 use crate::layout::Layout;
 use crate::load::load_distribution;
 use crate::markup::escape;
@@ -88,43 +87,7 @@ fn waveform(page: &mut String, report: &Report) {
         _ => "Lines mark rolling elements (row·number) that enter and leave the defect.".to_owned(),
     };
     let name = if series.label.is_empty() { String::new() } else { format!("{}. ", escape(&series.label)) };
-    figure(page, "waveform", |layout| plots::waveform(report, layout), &format!("{name}{events}"));
-    let (unit, scale) = plots::waveform_unit(report);
-    let (overview_lo, overview_hi) = match &report.waveform.overview {
-        Some(bins) => (bins.t0_s, bins.t0_s + bins.dt_s * bins.min.len() as f64),
-        None => (series.t0_s, series.t0_s + series.dt_s * series.values.len() as f64),
-    };
-    let overview_scale = crate::layout::time_unit(overview_hi - overview_lo).1;
-    let along = Along::Even { first: series.t0_s * scale, step: series.dt_s * scale };
-    let lanes = plots::event_lanes(report, scale);
-    let chart = Chart {
-        name: "waveform",
-        domain: plots::waveform_domain(report),
-        x: ("Time", unit),
-        y: ("Acceleration", &series.unit),
-        lanes: &lanes,
-        overview_scale: scale / overview_scale,
-        ..Chart::default()
-    };
-    embed(page, along, &series.values, &report.healthy.waveform, chart);
-}
-
-/// What the page's script draws: the run's curve and, where it was run, the healthy bearing's behind it.
-fn embed(page: &mut String, along: Along, values: &[f64], healthy: &[f64], chart: Chart) {
-    let curve = |name, values| Curve { name, along: along.clone(), values };
-    match healthy {
-        [] => Chart { curves: &[curve("", values)], ..chart }.write(page),
-        healthy => {
-            let curves = [curve("damaged", values), curve("healthy", healthy)];
-            Chart { curves: &curves, drawn: &[1, 0], ..chart }.write(page);
-        }
-    }
-}
-
-/// [`embed`] of a spectrum's lines, from 0 Hz on.
-fn embed_lines(page: &mut String, spectrum: &Spectrum, healthy: &[f64], chart: Chart) {
-    let chart = Chart { peak: true, y: (&spectrum.label, &spectrum.unit), ..chart };
-    embed(page, Along::Even { first: 0.0, step: spectrum.df_hz }, &spectrum.amplitude, healthy, chart);
+    plot(page, "waveform", |layout| plots::waveform(report, layout), &format!("{name}{events}"));
 }
 
 fn spectrum(page: &mut String, report: &Report) {
@@ -132,17 +95,7 @@ fn spectrum(page: &mut String, report: &Report) {
     if spectrum.amplitude.is_empty() {
         return none(page, "No spectrum was made.");
     }
-    figure(page, "spectrum", |layout| plots::spectrum(report, layout), &escape(&spectrum.note));
-    let lanes = plots::marker_lanes(&report.markers);
-    let chart = Chart {
-        name: "spectrum",
-        domain: plots::spectrum_domain(report),
-        x: ("Frequency", "Hz"),
-        velocity: true,
-        toggles: &lanes,
-        ..Chart::default()
-    };
-    embed_lines(page, spectrum, &report.healthy.spectrum, chart);
+    plot(page, "spectrum", |layout| plots::spectrum(report, layout), &escape(&spectrum.note));
 }
 
 fn envelope(page: &mut String, report: &Report) {
@@ -160,17 +113,7 @@ fn envelope(page: &mut String, report: &Report) {
              Those of damage that is in the bearing run through it as dashed lines.",
         );
     }
-    figure(page, "envelope", |layout| plots::envelope_spectrum(report, layout), &caption);
-    let lanes = plots::marker_lanes(&report.markers);
-    let chart = Chart {
-        name: "envelope",
-        domain: plots::envelope_domain(report),
-        x: ("Frequency", "Hz"),
-        lanes: &lanes,
-        toggles: &lanes,
-        ..Chart::default()
-    };
-    embed_lines(page, spectrum, &report.healthy.envelope_spectrum, chart);
+    plot(page, "envelope", |layout| plots::envelope_spectrum(report, layout), &caption);
     if report.markers.is_empty() {
         return;
     }
@@ -192,18 +135,8 @@ fn envelope(page: &mut String, report: &Report) {
 }
 
 fn orders(page: &mut String, report: &Report) {
-    let spectrum = &report.envelope_orders;
-    figure(page, "orders", |layout| plots::order_spectrum(report, layout), &escape(&spectrum.note));
-    let lanes = plots::order_lanes(&report.order_markers);
-    let chart = Chart {
-        name: "orders",
-        domain: plots::order_domain(report),
-        x: ("Order", ""),
-        lanes: &lanes,
-        toggles: &lanes,
-        ..Chart::default()
-    };
-    embed_lines(page, spectrum, &report.healthy.envelope_orders, chart);
+    let note = escape(&report.envelope_orders.note);
+    plot(page, "orders", |layout| plots::order_spectrum(report, layout), &note);
 }
 
 fn damage(page: &mut String, report: &Report) {

@@ -3,14 +3,14 @@
 
 use std::fmt::Write as _;
 
-use crate::chart::{Chart, Domain, Lane, Mark, Size, Spec, range};
+use crate::chart::{Domain, Lane, Mark, Size, Spec, range};
 use crate::data::Along;
-use crate::embedded::{self, Curve};
+use crate::embedded::{Curve, Plot};
 use crate::frame::{close, none, open, section, unit_html};
 use crate::layout::time_unit;
 use crate::markup::escape;
 use crate::number::significant;
-use crate::picture::{Paint, Picture, ink};
+use crate::picture::{Paint, ink};
 use brinell_study::dataset::{Sheet, SheetRun};
 
 /// Two of these are beside each other on a desktop, one under the other on a phone.
@@ -43,57 +43,35 @@ pub fn sheet_html(sheet: &Sheet) -> String {
 
 fn put(page: &mut String, sheet: &Sheet, run: &SheetRun) {
     let _ = writeln!(page, "<div class=\"tile\">\n<p>{}</p>", words(sheet, run));
-    let (waves, lines) = (waveform(sheet, run), envelope(sheet, run));
-    for (id, picture) in [("w", waves), ("e", lines)] {
-        let drawn = picture.inline(&format!("run{}-{id}", run.run), "");
+    let plots = || [("w", waveform(sheet, run)), ("e", envelope(sheet, run))];
+    for (id, plot) in plots() {
+        let drawn = plot.picture().inline(&format!("run{}-{id}", run.run), "");
         let _ = writeln!(page, "<figure>{drawn}</figure>");
     }
     page.push_str("</div>\n");
-    let (unit, scale) = time_unit(run.dt_s * run.stretch.len().saturating_sub(1) as f64);
-    let along = Along::Even { first: run.from_s * scale, step: run.dt_s * scale };
-    embed(
-        page,
-        run,
-        "waveform",
-        (along, &run.stretch),
-        embedded::Chart {
-            x: ("Time", unit),
-            y: (&quantity(sheet), &sheet.unit),
-            domain: Domain::around(run.stretch.iter().copied()),
-            ..embedded::Chart::default()
-        },
-    );
-    let lanes = lanes(run, top(run).unwrap_or(1.0));
-    let along = Along::Even { first: 0.0, step: run.df_hz };
-    embed(
-        page,
-        run,
-        "envelope",
-        (along, &run.envelope),
-        embedded::Chart {
-            x: ("Frequency", "Hz"),
-            y: (&format!("Envelope of {}", sheet.signal), &sheet.unit),
-            domain: envelope_domain(run),
-            peak: true,
-            lanes: &lanes,
-            ..embedded::Chart::default()
-        },
-    );
+    for (_, plot) in plots() {
+        plot.embed(page);
+    }
 }
 
 /// Values that a run keeps for zooming.
 const KEPT: usize = 4096;
 
-/// Writes what the page's script needs of one picture of a run.
-fn embed(page: &mut String, run: &SheetRun, what: &str, (along, values): (Along, &[f64]), chart: embedded::Chart) {
-    embedded::Chart {
-        name: &format!("run{}-{what}", run.run),
-        curves: &[Curve { name: "", along, values }],
-        most: KEPT,
-        small: true,
-        ..chart
-    }
-    .write(page);
+/// One of the plots of a run; `words` are said where there is nothing to draw.
+fn plot<'a>(
+    run: &SheetRun,
+    what: &str,
+    x: (Domain, &str, &str),
+    y: (Domain, &str, &str),
+    (first, step): (f64, f64),
+    values: &'a [f64],
+    words: &'static str,
+) -> Plot<'a> {
+    let name = format!("run{}-{what}", run.run);
+    let spec = Spec::new(name.clone(), format!("Run {}: {what}", run.run), SIZE, x, y);
+    let curve = Curve { name: "", along: Along::Even { first, step }, values, paint: CURVE };
+    let curves = if words.is_empty() { vec![curve] } else { Vec::new() };
+    Plot { words, most: KEPT, small: true, ..Plot::new(spec, name, curves) }
 }
 
 /// The labels of a run.
@@ -133,7 +111,7 @@ fn quantity(sheet: &Sheet) -> String {
     }
 }
 
-fn waveform(sheet: &Sheet, run: &SheetRun) -> Picture {
+fn waveform<'a>(sheet: &Sheet, run: &'a SheetRun) -> Plot<'a> {
     let span = run.dt_s * run.stretch.len().saturating_sub(1) as f64;
     let (unit, scale) = time_unit(span);
     let is_known = span.is_finite() && span > 0.0;
@@ -141,20 +119,10 @@ fn waveform(sheet: &Sheet, run: &SheetRun) -> Picture {
         true => (run.from_s * scale, (run.from_s + span) * scale),
         false => (0.0, 1.0),
     };
-    let mut chart = Chart::new(Spec {
-        y: Domain::around(run.stretch.iter().copied()),
-        y_label: quantity(sheet),
-        y_unit: sheet.unit.clone(),
-        ..spec("waveform", run, Domain::exact(from, to), "Time", unit)
-    });
-    if is_known && range(run.stretch.iter().copied()).is_some() {
-        let step = run.dt_s * scale;
-        chart.curve(from, step, &run.stretch, false, CURVE);
-    } else {
-        chart.say("No samples");
-    }
-    chart.interactive(&format!("run{}-waveform", run.run));
-    chart.finish()
+    let x = (Domain::exact(from, to), "Time", unit);
+    let y = (Domain::around(run.stretch.iter().copied()), &*quantity(sheet), &*sheet.unit);
+    let words = if is_known && range(run.stretch.iter().copied()).is_some() { "" } else { "No samples" };
+    plot(run, "waveform", x, y, (run.from_s * scale, run.dt_s * scale), &run.stretch, words)
 }
 
 /// The frequency up to which the envelope's spectrum is shown; `None` without a spectrum.
@@ -175,23 +143,15 @@ fn envelope_domain(run: &SheetRun) -> Domain {
     Domain::from_zero(shown.map(|(_, level)| level))
 }
 
-fn envelope(sheet: &Sheet, run: &SheetRun) -> Picture {
+fn envelope<'a>(sheet: &Sheet, run: &'a SheetRun) -> Plot<'a> {
     let known = top(run);
     let top = known.unwrap_or(1.0);
-    let mut chart = Chart::new(Spec {
-        y: envelope_domain(run),
-        y_label: format!("Envelope of {}", sheet.signal),
-        y_unit: sheet.unit.clone(),
-        lanes: lanes(run, top),
-        ..spec("envelope", run, Domain::exact(0.0, top), "Frequency", "Hz")
-    });
-    if known.is_some() {
-        chart.curve(0.0, run.df_hz, &run.envelope, true, CURVE);
-    } else {
-        chart.say("No spectrum");
-    }
-    chart.interactive(&format!("run{}-envelope", run.run));
-    chart.finish()
+    let label = format!("Envelope of {}", sheet.signal);
+    let (x, y) = ((Domain::exact(0.0, top), "Frequency", "Hz"), (envelope_domain(run), &*label, &*sheet.unit));
+    let words = if known.is_some() { "" } else { "No spectrum" };
+    let mut plot = plot(run, "envelope", x, y, (0.0, run.df_hz), &run.envelope, words);
+    plot.spec.lanes = lanes(run, top);
+    Plot { peak: true, ..plot }
 }
 
 /// Where damage repeats; a lane for each frequency.
@@ -217,16 +177,6 @@ fn lanes(run: &SheetRun, top: f64) -> Vec<Lane> {
         minor: Vec::new(),
     };
     found.into_iter().zip(colors).map(lane).collect()
-}
-
-fn spec(what: &str, run: &SheetRun, x: Domain, x_label: &str, x_unit: &str) -> Spec {
-    Spec::new(
-        format!("run{}-{what}", run.run),
-        format!("Run {}: {what}", run.run),
-        SIZE,
-        (x, x_label, x_unit),
-        (Domain::exact(0.0, 1.0), "", ""),
-    )
 }
 
 #[cfg(test)]

@@ -1,19 +1,19 @@
 //! The curves of a plot: a signal's, and over it those of a second one.
 
 use super::AnalysisReport;
-use crate::chart::{Chart, Spec, range};
+use crate::chart::{Spec, range};
 use crate::data::Along;
-use crate::embedded::{self, Curve};
-use crate::layout::legend;
-use crate::picture::{Paint, Picture, ink};
+use crate::embedded::{Curve, Plot};
+use crate::picture::{Paint, ink};
 
 /// Of the signal and of what it is laid over: grey, as colours are those of the marks.
-fn paints() -> [Paint; 2] {
-    [Paint::line(ink::BLUE, 1.1), Paint::line(ink::FAINT, 1.1)]
-}
+const PAINTS: [Paint; 2] = [Paint::line(ink::BLUE, 1.1), Paint::line(ink::FAINT, 1.1)];
+
+/// A curve's first place, the distance of its places, and its values.
+pub(super) type Values<'a> = (f64, f64, &'a [f64]);
 
 /// The order in which curves are drawn: what reaches farther lies below, and hides nothing.
-fn drawing_order(curves: &[(f64, f64, &[f64])], peak: bool) -> Vec<usize> {
+fn drawing_order(curves: &[Values], peak: bool) -> Vec<usize> {
     let mut order: Vec<usize> = (0..curves.len()).collect();
     if !peak {
         let size = |i: &usize| {
@@ -25,49 +25,32 @@ fn drawing_order(curves: &[(f64, f64, &[f64])], peak: bool) -> Vec<usize> {
     order
 }
 
-/// A plot of all curves, with a legend where there are several; `plot` is its name to the page's script, empty for a
+/// A plot of all curves, with a legend where there are several; `id` is its name to the page's script, empty for a
 /// still one.
-pub(super) fn draw(
-    report: &AnalysisReport,
+pub(super) fn plot<'a>(
+    report: &'a AnalysisReport,
     spec: Spec,
-    plot: &str,
-    curves: &[(f64, f64, &[f64])],
+    id: &str,
+    curves: Vec<Values<'a>>,
     peak: bool,
-    highlight: Option<(f64, f64)>,
-) -> Picture {
-    let size = spec.size;
-    let mut chart = Chart::new(spec);
-    if curves.iter().all(|c| range(c.2.iter().copied()).is_none()) {
-        chart.say("No samples");
-    }
-    if let Some((lo, hi)) = highlight {
-        chart.highlight(lo, hi);
-    }
+) -> Plot<'a> {
+    let order = drawing_order(&curves, peak);
+    let names = || report.names.iter().map(String::as_str);
     // What lies on top lets the rest shine through.
-    for (above, index) in drawing_order(curves, peak).into_iter().enumerate() {
-        let (x0, dx, values) = curves[index];
-        let paint = paints()[index.min(1)];
-        let paint = if above > 0 { paint.faded(0.75) } else { paint };
-        if curves.len() > 1 {
-            chart.of(&report.names[index.min(1)]);
-        }
-        chart.curve(x0, dx, values, peak, paint);
+    let on_top = |index: usize| order.first() != Some(&index);
+    let named = curves.iter().zip(names().chain(std::iter::repeat(""))).enumerate();
+    let drawn = named.map(|(index, (&(first, step, values), name))| {
+        let paint = PAINTS[index.min(1)];
+        let paint = if on_top(index) { paint.faded(0.75) } else { paint };
+        Curve { name, along: Along::Even { first, step }, values, paint }
+    });
+    let nothing = curves.iter().all(|c| range(c.2.iter().copied()).is_none());
+    let drawn = drawn.collect();
+    Plot {
+        order,
+        legend: if curves.len() > 1 { names().zip(PAINTS).collect() } else { Vec::new() },
+        words: if nothing { "No samples" } else { "" },
+        peak,
+        ..Plot::new(spec, id, drawn)
     }
-    let entries: Vec<(&str, Paint)> =
-        (report.names.iter().zip(paints())).map(|(name, paint)| (name.as_str(), paint)).collect();
-    chart.under(plot, |picture| match curves.len() {
-        0 | 1 => 0.0,
-        _ => legend(picture, &entries, 12.0, size.width - 12.0, 2.0, size.font),
-    })
-}
-
-/// Writes what the page's script needs of a plot drawn by [`draw`]: `chart` without its curves.
-pub(super) fn embed(page: &mut String, names: &[String], curves: &[(f64, f64, &[f64])], chart: embedded::Chart) {
-    let order = drawing_order(curves, chart.peak);
-    let drawn: Vec<usize> = (0..curves.len()).filter_map(|i| order.iter().position(|o| *o == i)).collect();
-    let named = names.iter().map(String::as_str).chain(std::iter::repeat(""));
-    let curves: Vec<Curve> = (curves.iter().zip(named))
-        .map(|((x0, dx, values), name)| Curve { name, along: Along::Even { first: *x0, step: *dx }, values })
-        .collect();
-    embedded::Chart { curves: &curves, drawn: &drawn, ..chart }.write(page);
 }

@@ -3,12 +3,12 @@
 use std::fmt::Write as _;
 
 use super::AnalysisReport;
-use super::curves::{draw, embed};
-use super::waveform::{about_middle, close, close_up_domain, close_up_unit, whole};
-use crate::chart::{Domain, Spec};
+use super::curves::plot;
+use super::waveform::{close, whole};
+use crate::chart::{Domain, Lane, Size};
 use crate::data::Spectrum;
-use crate::embedded;
-use crate::frame::{THINNED, close as finish, figure, open, plain, section};
+use crate::embedded::Plot;
+use crate::frame::{THINNED, close as finish, figure, open, plain, plot as plot_of, section};
 use crate::kurtogram::kurtogram;
 use crate::layout::Layout;
 use crate::markup::escape;
@@ -20,8 +20,19 @@ fn end(spectra: &[Spectrum]) -> f64 {
     (spectra.iter()).map(|s| s.df_hz * s.amplitude.len().saturating_sub(1) as f64).fold(0.0, f64::max)
 }
 
-fn curves(spectra: &[Spectrum]) -> Vec<(f64, f64, &[f64])> {
-    (spectra.iter()).map(|s| (0.0, s.df_hz, &s.amplitude[..])).collect()
+/// The lines of a signal's spectrum, and over them those of a second one's.
+fn lines<'a>(
+    report: &'a AnalysisReport,
+    spectra: &'a [Spectrum],
+    (name, id): (&str, &str),
+    size: Size,
+    y: Domain,
+    lanes: Vec<Lane>,
+) -> Plot<'a> {
+    let first = spectra.first().cloned().unwrap_or_default();
+    let spec = spectrum_spec((name, name), &first, size, end(spectra), y, lanes);
+    let curves = spectra.iter().map(|s| (0.0, s.df_hz, &s.amplitude[..]));
+    Plot { toggles: marker_lanes(&report.markers), ..plot(report, spec, id, curves.collect(), true) }
 }
 
 /// Values of all spectra from bin `from` on.
@@ -29,44 +40,29 @@ fn amplitudes(spectra: &[Spectrum], from: usize) -> impl Iterator<Item = f64> {
     (spectra.iter()).flat_map(move |s| s.amplitude.iter().skip(from).copied())
 }
 
-fn spectrum_domain(report: &AnalysisReport) -> Domain {
-    Domain::decades(&amplitudes(&report.spectra, 2).collect::<Vec<f64>>())
+fn spectrum(report: &AnalysisReport, layout: Layout) -> Plot<'_> {
+    let size = layout.size(if layout.roomy() { 320.0 } else { 280.0 });
+    let y = Domain::decades(&amplitudes(&report.spectra, 2).collect::<Vec<f64>>());
+    let plot = lines(report, &report.spectra, ("spectrum", "spectrum"), size, y, vec![]);
+    Plot { velocity: true, band: report.band_hz, ..plot }
 }
 
-fn spectrum(report: &AnalysisReport, layout: Layout) -> Picture {
-    let first = report.spectra.first().cloned().unwrap_or_default();
-    let height = if layout.roomy() { 320.0 } else { 280.0 };
-    let (y, top) = (spectrum_domain(report), end(&report.spectra));
-    let spec = spectrum_spec(("spectrum", "spectrum"), &first, layout.size(height), top, y, vec![]);
-    let curves = curves(&report.spectra);
-    draw(report, spec, "spectrum", &curves, true, report.band_hz)
-}
-
-fn envelope_domain(report: &AnalysisReport) -> Domain {
-    Domain::from_zero(amplitudes(&report.envelopes, 3))
-}
-
-fn envelope(report: &AnalysisReport, layout: Layout) -> Picture {
-    let first = report.envelopes.first().cloned().unwrap_or_default();
-    let height = if layout.roomy() { 400.0 } else { 360.0 };
-    let lanes = marker_lanes(&report.markers);
-    let (y, top) = (envelope_domain(report), end(&report.envelopes));
-    let names = ("envelope-spectrum", "envelope-spectrum");
-    let spec = spectrum_spec(names, &first, layout.size(height), top, y, lanes);
-    let spec = Spec { x_label: envelope_axis(report).into(), ..spec };
-    draw(report, spec, "envelope", &curves(&report.envelopes), true, None)
-}
-
-/// What the envelope spectrum is over.
-fn envelope_axis(report: &AnalysisReport) -> &'static str {
-    if report.order_tracked { "Order × mean speed" } else { "Frequency" }
+fn envelope(report: &AnalysisReport, layout: Layout) -> Plot<'_> {
+    let size = layout.size(if layout.roomy() { 400.0 } else { 360.0 });
+    let y = Domain::from_zero(amplitudes(&report.envelopes, 3));
+    let names = ("envelope-spectrum", "envelope");
+    let mut plot = lines(report, &report.envelopes, names, size, y, marker_lanes(&report.markers));
+    if report.order_tracked {
+        plot.spec.x_label = "Order × mean speed".into();
+    }
+    plot
 }
 
 /// The page's pictures, for saving as files.
 pub fn analysis_pictures(report: &AnalysisReport, layout: Layout) -> Vec<Picture> {
-    let mut pictures = vec![whole(report, layout), close(report, layout), spectrum(report, layout)];
+    let mut pictures = [whole, close, spectrum].map(|draw| draw(report, layout).picture()).to_vec();
     pictures.extend(report.kurtogram.as_ref().map(|k| kurtogram(k, layout)));
-    pictures.push(envelope(report, layout));
+    pictures.push(envelope(report, layout).picture());
     layout.finished(pictures)
 }
 
@@ -76,40 +72,17 @@ pub fn analysis_html(report: &AnalysisReport) -> String {
     page.push_str("<main>\n");
     section(&mut page, "verdict", "Verdict", |page| verdict(page, report));
     section(&mut page, "waveform", "Waveform", |page| {
-        figure(page, "whole", |layout| whole(report, layout), "");
-        figure(
+        figure(page, "whole", |layout| whole(report, layout).picture(), "");
+        plot_of(
             page,
             "close",
             |layout| close(report, layout),
             "A stretch from the middle, about ten periods of the strongest defect frequency long.",
         );
-        let unit = report.waveforms.first().map_or("", |s| &s.unit);
-        let chart = embedded::Chart {
-            name: "close-up",
-            domain: close_up_domain(report),
-            x: ("Time", close_up_unit(report).0),
-            y: ("Signal", unit),
-            ..embedded::Chart::default()
-        };
-        embed(page, &report.names, &about_middle(report), chart);
     });
-    let lanes = marker_lanes(&report.markers);
     let note = |spectra: &[Spectrum]| spectra.first().map_or(String::new(), |s| escape(&s.note));
     section(&mut page, "spectrum", "Spectrum", |page| {
-        let draw = |layout| spectrum(report, layout);
-        figure(page, "spectrum", draw, &note(&report.spectra));
-        let chart = embedded::Chart {
-            name: "spectrum",
-            domain: spectrum_domain(report),
-            peak: true,
-            x: ("Frequency", "Hz"),
-            y: axis_of(&report.spectra),
-            velocity: true,
-            toggles: &lanes,
-            band: report.band_hz,
-            ..embedded::Chart::default()
-        };
-        embed(page, &report.names, &curves(&report.spectra), chart);
+        plot_of(page, "spectrum", |layout| spectrum(report, layout), &note(&report.spectra));
     });
     if let Some(map) = &report.kurtogram {
         section(&mut page, "kurtogram", "Kurtogram", |page| {
@@ -118,19 +91,7 @@ pub fn analysis_html(report: &AnalysisReport) -> String {
         });
     }
     section(&mut page, "envelope", "Envelope spectrum", |page| {
-        let draw = |layout| envelope(report, layout);
-        figure(page, "envelope", draw, &note(&report.envelopes));
-        let chart = embedded::Chart {
-            name: "envelope",
-            domain: envelope_domain(report),
-            peak: true,
-            x: (envelope_axis(report), "Hz"),
-            y: axis_of(&report.envelopes),
-            lanes: &lanes,
-            toggles: &lanes,
-            ..embedded::Chart::default()
-        };
-        embed(page, &report.names, &curves(&report.envelopes), chart);
+        plot_of(page, "envelope", |layout| envelope(report, layout), &note(&report.envelopes));
     });
     for one in &report.tables {
         table(&mut page, one);
@@ -143,11 +104,6 @@ pub fn analysis_html(report: &AnalysisReport) -> String {
         page.push_str("</ul>\n");
     });
     finish(page, THINNED, &[])
-}
-
-/// Label and unit of the spectra's y axis.
-fn axis_of(spectra: &[Spectrum]) -> (&str, &str) {
-    spectra.first().map_or(("", ""), |s| (&s.label, &s.unit))
 }
 
 fn verdict(page: &mut String, report: &AnalysisReport) {

@@ -1,7 +1,7 @@
 //! The run in one picture.
 
-use super::spectrum::{draw_envelope, envelope_spec};
-use super::waveform::{draw_waveform, waveform_spec};
+use super::spectrum::envelope_of_size;
+use super::waveform::waveform_of_size;
 use crate::chart::{Size, left_margin, right_margin};
 use crate::data::Report;
 use crate::font;
@@ -47,15 +47,15 @@ pub fn headline(report: &Report, layout: Layout) -> Picture {
     let [large, small] = plan.type_sizes;
     let height = plan.top + 2.0 * chart.height + 2.0;
     let mut picture = Picture::new("headline", &report.title, width, height);
-    let mut upper = waveform_spec(report, chart);
-    let mut lower = envelope_spec(report, chart);
-    if lower.lanes.iter().any(|lane| lane.through) {
-        lower.lanes.retain(|lane| lane.through);
+    let mut upper = waveform_of_size(report, chart);
+    let mut lower = envelope_of_size(report, chart);
+    if lower.spec.lanes.iter().any(|lane| lane.through) {
+        lower.spec.lanes.retain(|lane| lane.through);
     }
-    let left = left_margin(&upper).max(left_margin(&lower));
-    let right = right_margin(&upper).max(right_margin(&lower));
-    for spec in [&mut upper, &mut lower] {
-        (spec.left, spec.right) = (left, right);
+    let left = left_margin(&upper.spec).max(left_margin(&lower.spec));
+    let right = right_margin(&upper.spec).max(right_margin(&lower.spec));
+    for plot in [&mut upper, &mut lower] {
+        (plot.spec.left, plot.spec.right) = (left, right);
     }
     let (title_room, start) = match plan.below {
         true => (width - 16.0, 8.0),
@@ -74,7 +74,7 @@ pub fn headline(report: &Report, layout: Layout) -> Picture {
     let subtitle = font::fitted(&report.subtitle, small, false, room);
     picture.text(Text::new(start, first, large, Anchor::Start, &title).bold().color(ink::BLACK));
     picture.text(Text::new(beside, second, small, Anchor::Start, &subtitle));
-    picture.place(draw_waveform(report, upper), 0.0, plan.top);
-    picture.place(draw_envelope(report, lower), 0.0, plan.top + chart.height);
+    picture.place(upper.picture(), 0.0, plan.top);
+    picture.place(lower.picture(), 0.0, plan.top + chart.height);
     picture
 }

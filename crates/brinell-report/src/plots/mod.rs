@@ -1,6 +1,7 @@
 //! The report's pictures, from its data: the signals' own, and the list of all.
 
 mod headline;
+mod healthy;
 mod markers;
 mod pass;
 mod spectrum;
@@ -18,25 +19,22 @@ use crate::sensor::sensor_response;
 use crate::slip::{self, slip_over_angle, slip_over_time};
 use crate::spectrogram::spectrogram;
 pub use headline::headline;
-pub(crate) use markers::{marker_lanes, order_lanes};
+pub(crate) use markers::marker_lanes;
 pub(crate) use pass::pass;
-pub(crate) use spectrum::{
-    envelope_domain, envelope_spectrum, order_domain, order_spectrum, spectrum, spectrum_domain, spectrum_spec,
-};
+pub(crate) use spectrum::{envelope_spectrum, order_spectrum, spectrum, spectrum_spec};
 pub(crate) use waveform::waveform;
 pub use waveform::{detail_window, overview};
-pub(crate) use waveform::{event_lanes, waveform_domain, waveform_unit};
 
 /// Every picture of the report and, last, the one that says most on its own, for saving as files.
 pub fn pictures(report: &Report, layout: Layout) -> Vec<Picture> {
     let mut pictures = vec![
         overview(report, layout),
-        waveform(report, layout),
-        spectrum(report, layout),
-        envelope_spectrum(report, layout),
+        waveform(report, layout).picture(),
+        spectrum(report, layout).picture(),
+        envelope_spectrum(report, layout).picture(),
     ];
     if !report.envelope_orders.amplitude.is_empty() {
-        pictures.push(order_spectrum(report, layout));
+        pictures.push(order_spectrum(report, layout).picture());
     }
     for (index, view) in report.damage.iter().enumerate() {
         pictures.extend(damage_photo(view, index, layout));

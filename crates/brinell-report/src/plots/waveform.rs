@@ -1,11 +1,14 @@
 //! The sensor signal: the whole run, and the stretch close up with what rollers do in it.
 
+use super::healthy::over_healthy;
 use super::markers::telling;
 use crate::chart::{Chart, Domain, Lane, Mark, Size, Spec, range};
-use crate::data::{MinMax, Report, Series};
-use crate::layout::{Layout, healthy_words, known, over_healthy, spacing, start, time_unit};
+use crate::data::{Along, MinMax, Report, Series};
+use crate::embedded::Plot;
+use crate::layout::{Layout, known, spacing, start, time_unit};
 use crate::number::significant;
 use crate::picture::{Paint, Picture, ink};
+use std::borrow::Cow;
 
 fn span(series: &Series) -> (f64, f64) {
     let (t0, dt) = (start(series.t0_s), spacing(series.dt_s));
@@ -42,18 +45,29 @@ fn settled_domain(min: &[f64], max: &[f64]) -> (Domain, Option<(f64, f64)>) {
     }
 }
 
-/// The whole run, the smallest and largest value of each stretch; the close-up's window is shaded.
-pub fn overview(report: &Report, layout: Layout) -> Picture {
+/// The bins that the overview shows: of the whole run, or else a bin a sample.
+fn bins(report: &Report) -> Cow<'_, MinMax> {
     let series = &report.waveform.series;
-    let whole = MinMax {
+    let a_sample_each = || MinMax {
         t0_s: start(series.t0_s) - 0.5 * spacing(series.dt_s),
         dt_s: series.dt_s,
         min: series.values.clone(),
         max: series.values.clone(),
     };
-    let bins = report.waveform.overview.as_ref().unwrap_or(&whole);
-    let (t0, dt, count) = (start(bins.t0_s), spacing(bins.dt_s), bins.min.len().min(bins.max.len()));
-    let end = t0 + dt * count as f64;
+    report.waveform.overview.as_ref().map_or_else(|| Cow::Owned(a_sample_each()), Cow::Borrowed)
+}
+
+/// Start and end of bins, s.
+fn ends(bins: &MinMax) -> (f64, f64) {
+    let t0 = start(bins.t0_s);
+    (t0, t0 + spacing(bins.dt_s) * bins.min.len().min(bins.max.len()) as f64)
+}
+
+/// The whole run, the smallest and largest value of each stretch; the close-up's window is shaded.
+pub fn overview(report: &Report, layout: Layout) -> Picture {
+    let (series, bins) = (&report.waveform.series, bins(report));
+    let (dt, count) = (spacing(bins.dt_s), bins.min.len().min(bins.max.len()));
+    let (t0, end) = ends(&bins);
     let (unit, scale) = time_unit(end - t0);
     let (y, cut) = settled_domain(&bins.min[..count], &bins.max[..count]);
     let remark = cut.map_or(String::new(), |(lo, hi)| {
@@ -81,7 +95,7 @@ pub fn overview(report: &Report, layout: Layout) -> Picture {
     chart.finish()
 }
 
-pub(crate) fn event_lanes(report: &Report, scale: f64) -> Vec<Lane> {
+fn event_lanes(report: &Report, scale: f64) -> Vec<Lane> {
     let lane = |enters: bool, label: &str, color, dash: &'static [f64]| Lane {
         label: label.into(),
         value: String::new(),
@@ -112,53 +126,37 @@ pub(crate) fn event_lanes(report: &Report, scale: f64) -> Vec<Lane> {
 }
 
 /// The sensor signal close up, with the instants at which rollers enter and leave defects.
-pub(crate) fn waveform(report: &Report, layout: Layout) -> Picture {
-    let height = if layout.roomy() { 340.0 } else { 300.0 };
-    draw_waveform(report, waveform_spec(report, layout.size(height)))
+pub(crate) fn waveform(report: &Report, layout: Layout) -> Plot<'_> {
+    waveform_of_size(report, layout.size(if layout.roomy() { 340.0 } else { 300.0 }))
 }
 
-pub(super) fn draw_waveform(report: &Report, spec: Spec) -> Picture {
-    let mut chart = Chart::new(spec);
-    let series = &report.waveform.series;
-    let (_, scale) = waveform_unit(report);
-    if range(series.values.iter().copied()).is_none() {
-        chart.say("No samples");
-    } else if !known(series.dt_s) && series.values.len() > 1 {
-        chart.say("The sample interval is not known");
-    } else {
-        let places = (start(series.t0_s) * scale, spacing(series.dt_s) * scale);
-        over_healthy(&mut chart, places, &series.values, &report.healthy.waveform, false);
-    }
-    chart.interactive("waveform");
-    chart.finish()
-}
-
-pub(crate) fn waveform_unit(report: &Report) -> (&'static str, f64) {
+pub(super) fn waveform_of_size(report: &Report, size: Size) -> Plot<'_> {
+    let (series, healthy) = (&report.waveform.series, &report.healthy.waveform);
     let (lo, hi) = detail_window(report);
-    time_unit(hi - lo)
-}
-
-pub(crate) fn waveform_domain(report: &Report) -> Domain {
-    let series = &report.waveform.series;
+    let (unit, scale) = time_unit(hi - lo);
     let (t0, dt) = (start(series.t0_s), spacing(series.dt_s));
-    let first = (((detail_window(report).0 - t0) / dt).floor().max(0.0) as usize).min(series.values.len());
-    let healthy = report.healthy.waveform.iter().skip(first);
-    Domain::around(series.values[first..].iter().chain(healthy).copied())
-}
-
-pub(super) fn waveform_spec(report: &Report, size: Size) -> Spec {
-    let series = &report.waveform.series;
-    let (lo, hi) = detail_window(report);
-    let (unit, scale) = waveform_unit(report);
-    Spec {
+    let first = (((lo - t0) / dt).floor().max(0.0) as usize).min(series.values.len());
+    let y = Domain::around(series.values[first..].iter().chain(healthy.iter().skip(first)).copied());
+    let spec = Spec {
         lanes: event_lanes(report, scale),
-        remark: healthy_words(&report.healthy.waveform),
         ..Spec::new(
             "waveform",
             format!("Waveform: {}", series.label),
             size,
             (Domain::exact(lo * scale, hi * scale), "Time", unit),
-            (waveform_domain(report), &series.label, &series.unit),
+            (y, &series.label, &series.unit),
         )
+    };
+    let words = match range(series.values.iter().copied()) {
+        None => "No samples",
+        Some(_) if !known(series.dt_s) => "The sample interval is not known",
+        Some(_) => "",
+    };
+    let along = Along::Even { first: t0 * scale, step: dt * scale };
+    let (from, to) = ends(&bins(report));
+    Plot {
+        called: ["", "Acceleration"],
+        overview_scale: scale / time_unit(to - from).1,
+        ..over_healthy(spec, "waveform", words, along, &series.values, healthy)
     }
 }

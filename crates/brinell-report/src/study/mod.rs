@@ -10,7 +10,7 @@ use crate::frame::{close, code, figure, lead, none, open, plain, section, unit_h
 use crate::layout::Layout;
 use crate::markup::escape;
 use crate::misfit::{FittedKey, Tried, course_plot, embed_course, embed_key, key_plot};
-use crate::overlay::{Overlay, embed, overlay, stacked};
+use crate::overlay::{Overlay, overlay, stacked};
 use crate::picture::Picture;
 use crate::sweep::{self, HeatMap, IndicatorPlot, heat_map, indicator_plot};
 use crate::tables::{Table, fact_table, facts, failures, table};
@@ -166,7 +166,7 @@ pub fn study_pictures(study: &Study, layout: Layout) -> Vec<Picture> {
 
 fn draw(piece: &StudyPiece, layout: Layout) -> Option<Picture> {
     match piece {
-        StudyPiece::Curves(one, names) => Some(overlay(one, names, layout)),
+        StudyPiece::Curves(one, names) => Some(overlay(one, names, layout).picture()),
         StudyPiece::Stack(s) => {
             let panels = stacked(&s.name, &s.title, &s.panels, &s.names, s.alike, layout);
             Some(panels)
@@ -246,7 +246,7 @@ fn write_piece(page: &mut String, piece: &StudyPiece, count: usize) {
     let draw = |layout| draw(piece, layout).unwrap_or_else(|| Picture::new("", "", 0.0, 0.0));
     figure(page, &format!("study{count}"), draw, &caption);
     match piece {
-        StudyPiece::Curves(one, names) => embed(page, one, names),
+        StudyPiece::Curves(one, names) => overlay(one, names, Layout::Wide).embed(page),
         StudyPiece::Trend(plot) => sweep::embed(page, plot),
         StudyPiece::Misfit(key, tried) => embed_key(page, key, tried),
         StudyPiece::Course(chi_squares) => embed_course(page, chi_squares),

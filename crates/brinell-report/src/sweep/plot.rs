@@ -2,7 +2,7 @@
 
 use crate::chart::{Chart, Domain, Size, Spec, range};
 use crate::data::Along;
-use crate::embedded::{self, Curve};
+use crate::embedded::{Curve, Plot};
 use crate::font;
 use crate::layout::{Layout, legend};
 use crate::picture::{Anchor, Paint, Picture, Shape, Text, ink};
@@ -136,19 +136,14 @@ pub(crate) fn embed(page: &mut String, plot: &IndicatorPlot) {
         points.map(|p| (p.x, p.value)).unzip::<f64, f64, Vec<f64>, Vec<f64>>()
     };
     let lines: Vec<(Vec<f64>, Vec<f64>)> = plot.lines.iter().map(columns).collect();
-    let curves: Vec<Curve> = (plot.lines.iter().zip(&lines))
-        .map(|(line, (places, values))| Curve { name: &line.label, along: Along::At(places.clone()), values })
-        .collect();
-    embedded::Chart {
-        name: &plot.name,
-        curves: &curves,
-        x: (&plot.x_label, &plot.x_unit),
-        y: (&plot.label, &plot.unit),
-        still: true,
-        x_names: &plot.x_names,
-        ..embedded::Chart::default()
-    }
-    .write(page);
+    let curves = plot.lines.iter().zip(&lines).enumerate().map(|(k, (line, (places, values)))| Curve {
+        name: &line.label,
+        along: Along::At(places.clone()),
+        values,
+        paint: paint(k),
+    });
+    let spec = spec(plot, Layout::Wide.size(0.0));
+    Plot { still: true, x_names: &plot.x_names, ..Plot::new(spec, &plot.name, curves.collect()) }.embed(page);
 }
 
 /// Its axes.
