@@ -3,12 +3,15 @@
 //! Half-widths h in mm over six arcs, as in section 12 of the model. Joined, they are
 //! [`brinell::defect::Shape::Li2023Irregular`].
 
+use serde::Deserialize;
 use std::f64::consts::{FRAC_PI_2, PI};
 
 /// A reading of Eq. (27).
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "kebab-case")]
 pub enum Outline {
     /// The six arcs joined.
+    #[default]
     Joined,
     /// The third arc with the square of the print: it stays at 1 mm, and a step of 0.71 mm in half-width leads to the
     /// fourth.

@@ -1,9 +1,13 @@
 //! Which signal, and which stretch of a run's record, a root mean square is taken from.
 
+use serde::Deserialize;
+
 /// The stretch of a record.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "kebab-case")]
 pub(crate) enum Record {
     /// From a turn after the load ramp on: the program's own statistics, with intervals.
+    #[default]
     Steady,
     /// From t = 0 on, over so many ms. There is one start-up in a record, so its statistics have no interval.
     FromStart(u32),
@@ -13,7 +17,8 @@ pub(crate) enum Record {
 pub(crate) const WINDOWS_MS: &[u32] = &[100, 200, 285, 300, 500, 800];
 
 /// How RMS and peak to peak are read off a run.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Deserialize)]
+#[serde(default, deny_unknown_fields)]
 pub(crate) struct Reading {
     /// Whether the outer ring's accelerations are those behind the anti-alias filter.
     pub filtered: bool,

@@ -168,10 +168,10 @@ fn mark(verdict: Verdict) -> &'static str {
 
 pub(crate) fn ranges() -> Table {
     let rows = RANGES.iter().map(|range| {
-        let values = match range.values {
+        let values = match &range.values {
             Values::Between(low, high) => format!("{low:e} to {high:e}"),
             Values::OneOf(all) => {
-                let one = |values: &&[&str]| values.join(", ");
+                let one = |values: &Vec<&str>| values.join(", ");
                 all.iter().map(one).collect::<Vec<_>>().join(" | ")
             }
         };

@@ -111,7 +111,7 @@ impl Plan {
     pub(crate) fn new(quick: bool) -> Result<Self, Error> {
         let length = if quick { Length::QUICK_VARIANT } else { Length::VARIANT };
         let varied = VARIANTS.iter().map(|variant| {
-            let settings = owned(variant.settings);
+            let settings = owned(&variant.settings);
             let points = CASES.iter();
             let points = points.map(|case| Point::new(case, &settings, variant.outline, length));
             Ok(Varied { variant, points: points.collect::<Result<_, Error>>()? })

@@ -59,8 +59,8 @@ impl Sensitivity {
         row("RMS over", "", &|c| c.draw.reading.record.words());
         row("Outer ring behind the filter", "", &|c| if c.draw.reading.filtered { "yes" } else { "no" }.into());
         row("Eq. (27)", "", &|c| c.draw.outline.words().into());
-        for range in RANGES {
-            for key in range.keys {
+        for range in RANGES.iter() {
+            for key in &range.keys {
                 let of = |c: &Candidate| {
                     let found = c.draw.settings.iter().find(|(k, _)| k == key);
                     found.map_or("–".into(), |(_, v)| v.clone())
