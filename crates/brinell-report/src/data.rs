@@ -1,16 +1,18 @@
-//! What a report is made of: plain numbers and words, no solver types.
+//! What a report is made of: numbers and words, and what the engine has in the shape that is drawn.
 //!
 //! Times are seconds, frequencies hertz and angles degrees; every other quantity carries its unit as text. A unit may
 //! hold an exponent as `N/m^(10/9)` or `m/s^2`; it is typeset, not computed with. Missing data is an empty vector or
 //! `None`, and a value that could not be computed is NaN: both are shown as such.
 
 use crate::damage::{AlongRoller, DamageView};
-use crate::fact::{Fact, Value};
+use crate::fact::Fact;
 use crate::motion::Motion;
 use crate::orbit::CageOrbits;
 use crate::sensor::SensorView;
 use crate::slip::SlipRow;
 use crate::spectrogram::Spectrogram;
+use brinell::document::Provenance;
+use brinell::observe::passes::PassPoint;
 
 /// Where the values of a curve are.
 #[derive(Clone, Debug, PartialEq)]
@@ -108,7 +110,7 @@ pub struct Report {
     /// Steps, rejections, right-hand sides, time taken.
     pub solver_work: Vec<Fact>,
     /// What was given and what was assumed.
-    pub assumptions: Vec<Assumption>,
+    pub assumptions: Vec<Provenance>,
     /// The scenario, complete.
     pub scenario_toml: String,
 }
@@ -210,21 +212,15 @@ pub struct Marker {
     pub sidebands: Vec<(f64, String)>,
 }
 
-/// One roller on its way over a defect; vectors are as long as `angle_deg`, or empty.
+/// One roller on its way over a defect.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Pass {
     /// Which roller, which defect.
     pub title: String,
-    /// Angle of the roller from the defect's centre, along the damaged surface.
-    pub angle_deg: Vec<f64>,
-    /// Effective contact length at the damaged contact.
-    pub length_mm: Vec<f64>,
-    /// Contact stiffness.
-    pub stiffness: Vec<f64>,
-    /// Its unit: "N/m^(10/9)".
+    /// The damaged contact on the way.
+    pub points: Vec<PassPoint>,
+    /// Unit of its stiffness: "N/m^(10/9)".
     pub stiffness_unit: String,
-    /// Contact force.
-    pub force_n: Vec<f64>,
     /// Which contact that is: "outer contact".
     pub contact: String,
 }
@@ -275,19 +271,4 @@ pub struct IndicatorTable {
     pub rows: Vec<IndicatorRow>,
     /// What the intervals are: "in brackets 95 % intervals".
     pub note: String,
-}
-
-/// A line of the assumption sheet.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Assumption {
-    /// The scenario's key: "support.outer_stiffness_n_per_m".
-    pub key: String,
-    /// Its value.
-    pub value: Value,
-    /// Its unit.
-    pub unit: String,
-    /// Where it comes from, or why this value.
-    pub source: String,
-    /// True where it is assumed or estimated, false where somebody stated it.
-    pub estimated: bool,
 }

@@ -69,8 +69,8 @@ pub use damage::{damage_passage, damage_photo, damage_plan, damage_section, load
 #[doc(hidden)]
 pub use data::{Along, Tone};
 pub use data::{
-    Assumption, Estimate, Event, Healthy, IndicatorRow, IndicatorTable, Marker, MinMax, Pass, Report, RowLoad, Series,
-    Spectrum, Waveform,
+    Estimate, Event, Healthy, IndicatorRow, IndicatorTable, Marker, MinMax, Pass, Report, RowLoad, Series, Spectrum,
+    Waveform,
 };
 #[doc(hidden)]
 pub use defects::{Damage, Measures, damage_of};
@@ -81,7 +81,7 @@ pub use layout::Layout;
 #[doc(hidden)]
 pub use load::{bin_centres, load_distribution};
 #[doc(hidden)]
-pub use misfit::{FittedKey, Tried};
+pub use misfit::Tried;
 pub use motion::bearing_motion;
 pub use motion::{Motion, MotionDamage, MotionRow};
 #[doc(hidden)]

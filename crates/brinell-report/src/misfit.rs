@@ -5,6 +5,7 @@ use crate::data::Along;
 use crate::embedded::{Curve, Plot};
 use crate::layout::Layout;
 use crate::picture::{Paint, Picture, Shape, ink};
+use brinell_study::calibrate::{Found, Key};
 
 /// A run as the picture of a key shows it.
 #[derive(Clone, Debug, PartialEq)]
@@ -15,23 +16,6 @@ pub struct Tried {
     pub chi_square: f64,
     /// Whether it differs from the best run in this key alone.
     pub alone: bool,
-}
-
-/// A key that was fitted.
-#[derive(Clone, Debug, PartialEq)]
-pub struct FittedKey {
-    /// Dotted path.
-    pub name: String,
-    /// Its unit; empty where it has none.
-    pub unit: String,
-    /// Bounds.
-    pub bounds: (f64, f64),
-    /// Searched in its logarithm.
-    pub log: bool,
-    /// The best value.
-    pub best: f64,
-    /// Ends of the 95 % interval within the bounds, where the data determine the key.
-    pub interval: Option<(f64, f64)>,
 }
 
 /// Misfits this far above the best are drawn at the upper edge.
@@ -65,9 +49,9 @@ fn dot(chart: &mut Chart, x: f64, y: f64, filled: bool) {
 }
 
 /// Axes of the runs over a key, and the floor.
-fn key_axes(about: &FittedKey, tried: &[Tried], layout: Layout) -> (Spec, f64) {
-    let (low, high) = about.bounds;
-    let x = if about.log {
+fn key_axes(about: &Found, tried: &[Tried], layout: Layout) -> (Spec, f64) {
+    let Key { name, low, high, log } = &about.key;
+    let x = if *log {
         let room = (high / low).powf(0.02);
         Domain { lo: low / room, hi: high * room, log: true }
     } else {
@@ -75,9 +59,9 @@ fn key_axes(about: &FittedKey, tried: &[Tried], layout: Layout) -> (Spec, f64) {
         Domain::exact(low - room, high + room)
     };
     let (y, floor) = misfits(tried.iter().map(|run| run.chi_square));
-    let name = format!("misfit-{}", about.name.replace('.', "-"));
-    let title = format!("Chi-square over {}", about.name);
-    (spec(name, title, layout, x, y, (&about.name, &about.unit)), floor)
+    let file = format!("misfit-{}", name.replace('.', "-"));
+    let title = format!("Chi-square over {name}");
+    (spec(file, title, layout, x, y, (name, about.unit)), floor)
 }
 
 /// Axes of the runs in their order, and the floor.
@@ -88,7 +72,7 @@ fn course_axes(chi_squares: &[f64], layout: Layout) -> (Spec, f64) {
 }
 
 /// Sum of squares against a key.
-pub(crate) fn key_plot(about: &FittedKey, tried: &[Tried], layout: Layout) -> Picture {
+pub(crate) fn key_plot(about: &Found, tried: &[Tried], layout: Layout) -> Picture {
     let (spec, floor) = key_axes(about, tried, layout);
     let (name, highest) = (spec.name.clone(), spec.y.hi);
     let mut chart = Chart::new(spec);
@@ -122,8 +106,8 @@ pub(crate) fn key_plot(about: &FittedKey, tried: &[Tried], layout: Layout) -> Pi
 }
 
 /// What the page's script needs to read the runs over a key.
-pub(crate) fn embed_key(page: &mut String, about: &FittedKey, tried: &[Tried]) {
-    let place = |x: f64| if about.log { x.log10() } else { x };
+pub(crate) fn embed_key(page: &mut String, about: &Found, tried: &[Tried]) {
+    let place = |x: f64| if about.key.log { x.log10() } else { x };
     let runs = tried.iter().map(|run| (place(run.value), run.chi_square));
     embed(page, key_axes(about, tried, Layout::Wide).0, runs.collect());
 }

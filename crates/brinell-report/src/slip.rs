@@ -2,30 +2,21 @@
 
 use crate::chart::{self, Chart, Domain, range};
 use crate::layout::{Layout, legend, time_unit};
+use crate::load::bin_centres;
 use crate::picture::{Paint, Picture, ink};
+use brinell::observe::slip_course::Slips;
 
-/// Slip of one row, in percent of the pure-rolling speed. Vectors over time are of one length, as are those over the
-/// angle.
+/// Slip of one row.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct SlipRow {
     /// "row 1".
     pub name: String,
-    /// Middle of the first stretch of time.
-    pub t0_s: f64,
-    /// From stretch to stretch.
+    /// Length of a stretch of time; the first begins at 0.
     pub dt_s: f64,
-    /// Of the cage's speed.
-    pub cage: Vec<f64>,
-    /// Of the rollers' orbit speed, mean.
-    pub orbit: Vec<f64>,
-    /// Of the rollers' spin speed, mean.
-    pub spin: Vec<f64>,
-    /// Where the rollers are: middles of equal bins around the bearing.
-    pub angle_deg: Vec<f64>,
-    /// Of the rollers' orbit speed there.
-    pub orbit_there: Vec<f64>,
-    /// Of the rollers' spin speed there.
-    pub spin_there: Vec<f64>,
+    /// Stretch by stretch.
+    pub over_time: Slips,
+    /// Over the rollers' place in the bearing, by equal bins of the orbit angle from +X on.
+    pub over_angle: Slips,
 }
 
 const ROWS: [(&str, &[f64]); 4] =
@@ -157,17 +148,16 @@ fn panels(
 
 /// Cage, orbit and spin from the start of the run on.
 pub fn slip_over_time(rows: &[SlipRow], layout: Layout) -> Picture {
-    let end = |row: &SlipRow| row.t0_s + row.dt_s * row.cage.len() as f64;
+    let middle = |row: &SlipRow, k: f64| 0.5 * row.dt_s + k * row.dt_s;
+    let end = |row: &SlipRow| middle(row, row.over_time.cage.len() as f64);
     let last = range(rows.iter().map(end)).map_or(0.0, |r| r.1);
     let (unit, scale) = time_unit(last);
-    let curves = |pick: fn(&SlipRow) -> &Vec<f64>| -> Vec<Curve> {
-        rows.iter()
-            .map(|row| {
-                let ys = pick(row).clone();
-                let xs = (0..ys.len()).map(|k| (row.t0_s + k as f64 * row.dt_s) * scale);
-                (xs.collect(), ys)
-            })
-            .collect()
+    let curves = |pick: fn(&Slips) -> &Vec<f64>| -> Vec<Curve> {
+        let curve = |row: &SlipRow| {
+            let percent = pick(&row.over_time).iter().map(|slip| 100.0 * slip).enumerate();
+            percent.map(|(k, slip)| (middle(row, k as f64) * scale, slip)).unzip()
+        };
+        rows.iter().map(curve).collect()
     };
     panels(
         ("slip-time", "Slip over time"),
@@ -175,43 +165,36 @@ pub fn slip_over_time(rows: &[SlipRow], layout: Layout) -> Picture {
         ("Time", unit),
         rows,
         &[
-            ("Cage slip", curves(|r| &r.cage)),
-            ("Rolling elements’ orbit slip", curves(|r| &r.orbit)),
-            ("Rolling elements’ spin slip", curves(|r| &r.spin)),
+            ("Cage slip", curves(|s| &s.cage)),
+            ("Rolling elements’ orbit slip", curves(|s| &s.orbit)),
+            ("Rolling elements’ spin slip", curves(|s| &s.spin)),
         ],
     )
 }
 
 /// Orbit and spin over the place in the bearing.
 pub(crate) fn slip_over_angle(rows: &[SlipRow], layout: Layout) -> Picture {
-    let curves = |pick: fn(&SlipRow) -> &Vec<f64>| -> Vec<Curve> {
-        rows.iter()
-            .map(|row| {
-                // From -180° on, so that the +X direction, where load often is, lies in the middle.
-                let mut points: Vec<(f64, f64)> = row
-                    .angle_deg
-                    .iter()
-                    .zip(pick(row))
-                    .map(|(a, y)| (if *a > 180.0 { a - 360.0 } else { *a }, *y))
-                    .collect();
-                points.sort_by(|a, b| a.0.total_cmp(&b.0));
-                points.into_iter().unzip()
-            })
-            .collect()
+    let curves = |pick: fn(&Slips) -> &Vec<f64>| -> Vec<Curve> {
+        let curve = |row: &SlipRow| {
+            let slips = pick(&row.over_angle);
+            // From -180° on, so that the +X direction, where load often is, lies in the middle.
+            let angles = bin_centres(slips.len()).into_iter().map(|a| if a > 180.0 { a - 360.0 } else { a });
+            let mut points: Vec<(f64, f64)> = angles.zip(slips.iter().map(|slip| 100.0 * slip)).collect();
+            points.sort_by(|a, b| a.0.total_cmp(&b.0));
+            points.into_iter().unzip()
+        };
+        rows.iter().map(curve).collect()
     };
     panels(
         ("slip-angle", "Slip over the place in the bearing"),
         layout,
         ("Orbit angle of the rolling element", "°"),
         rows,
-        &[
-            ("Rolling elements’ orbit slip", curves(|r| &r.orbit_there)),
-            ("Rolling elements’ spin slip", curves(|r| &r.spin_there)),
-        ],
+        &[("Rolling elements’ orbit slip", curves(|s| &s.orbit)), ("Rolling elements’ spin slip", curves(|s| &s.spin))],
     )
 }
 
 /// Whether there is anything to draw.
 pub(crate) fn there_is(rows: &[SlipRow]) -> bool {
-    rows.iter().any(|row| !row.orbit.is_empty())
+    rows.iter().any(|row| !row.over_time.orbit.is_empty())
 }

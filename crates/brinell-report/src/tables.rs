@@ -2,11 +2,12 @@
 
 use std::fmt::Write as _;
 
-use crate::data::{Assumption, Estimate, Report};
+use crate::data::{Estimate, Report};
 use crate::fact::{Fact, Value};
 use crate::frame::{none, unit_html};
 use crate::markup::escape;
-use crate::number::{significant, with_interval};
+use crate::number::{short, significant, twelve_digits, with_interval};
+use brinell::document::Provenance;
 
 /// Characters from which a cell holds sentences.
 const SENTENCE: usize = 100;
@@ -158,13 +159,13 @@ pub(crate) fn assumptions(page: &mut String, report: &Report) {
     if report.assumptions.is_empty() {
         return none(page, "No assumptions are listed.");
     }
-    let estimated = report.assumptions.iter().filter(|a| a.estimated).count();
+    let estimated = report.assumptions.iter().filter(|a| a.assumed).count();
     let _ = writeln!(
         page,
         "<p>{estimated} of {} values were assumed or estimated; the others were stated by the source named.</p>",
         report.assumptions.len()
     );
-    let part = |estimated: bool| report.assumptions.iter().filter(move |a| a.estimated == estimated);
+    let part = |estimated: bool| report.assumptions.iter().filter(move |a| a.assumed == estimated);
     if estimated > 0 {
         values(page, part(true));
     }
@@ -175,16 +176,32 @@ pub(crate) fn assumptions(page: &mut String, report: &Report) {
     }
 }
 
-fn values<'a>(page: &mut String, all: impl Iterator<Item = &'a Assumption>) {
+/// A value without what a change of its unit, or a quotient, leaves behind its digits; the scenario below has them all.
+/// A whole number, as a seed is, stays as it is.
+fn plain(value: &str) -> String {
+    if value.parse::<i128>().is_ok() {
+        return value.to_owned();
+    }
+    match value.parse::<f64>() {
+        Ok(x) if twelve_digits(x).to_string().len() > LONGEST_NUMBER => short(x, 6),
+        Ok(x) if value.len() > LONGEST_NUMBER => twelve_digits(x).to_string(),
+        _ => value.to_owned(),
+    }
+}
+
+/// Longest number that is shown as it was stated.
+const LONGEST_NUMBER: usize = 9;
+
+fn values<'a>(page: &mut String, all: impl Iterator<Item = &'a Provenance>) {
     open_table(page, true, &["Key", "#Value", "Unit", "Source or reason"]);
     for assumption in all {
         let _ = write!(page, "<tr><th scope=\"row\"><code>{}</code></th>", escape(&assumption.key));
-        value_cells(page, &assumption.value, &assumption.unit);
-        let tag = match assumption.estimated {
+        value_cells(page, &plain(&assumption.value).into(), assumption.unit);
+        let tag = match assumption.assumed {
             true => "<span class=\"tag assumed\">assumed</span> ",
             false => "",
         };
-        let _ = writeln!(page, "<td class=\"note\">{tag}{}</td></tr>", escape(&assumption.source));
+        let _ = writeln!(page, "<td class=\"note\">{tag}{}</td></tr>", escape(&assumption.reason()));
     }
     close_table(page);
 }

@@ -2,13 +2,13 @@
 
 use super::words::{calibration_undetermined, calibration_verdict, interval_text};
 use crate::fact::Fact;
-use crate::misfit::{FittedKey, Tried};
+use crate::misfit::Tried;
 use crate::number::{digits_beside, plural, short};
 use crate::study::{Chapter, Study, StudyPiece};
 use crate::tables::Table;
 use brinell_study::calibrate::identify::Direction;
 use brinell_study::calibrate::search::STEP;
-use brinell_study::calibrate::{Evaluation, Found, Met, Outcome};
+use brinell_study::calibrate::{Evaluation, Met, Outcome};
 
 impl Study {
     /// What the page of a calibration shows: `calibrate.html` of `brinell calibrate`.
@@ -60,7 +60,7 @@ fn chapters(of: &Outcome, failed: Vec<(String, String)>) -> Vec<Chapter> {
     let mut outcome = sentences(calibration_verdict(of));
     outcome.push(StudyPiece::Facts(found.collect()));
     let mut misfits = vec![StudyPiece::Note(MISFITS.into())];
-    misfits.extend((0..of.found.len()).map(|k| StudyPiece::Misfit(fitted(&of.found[k]), tried(of, k))));
+    misfits.extend((0..of.found.len()).map(|k| StudyPiece::Misfit(of.found[k].clone(), tried(of, k))));
     let course = StudyPiece::Course(of.fit.evaluations.iter().map(|e| e.chi_square).collect());
     let undetermined = "What the data do not determine";
     let mut chapters = vec![
@@ -88,17 +88,6 @@ const MISFITS: &str = "Dots: all runs, whatever the other keys. Filled: runs tha
 
 fn sentences(all: Vec<String>) -> Vec<StudyPiece> {
     all.into_iter().map(StudyPiece::Words).collect()
-}
-
-fn fitted(of: &Found) -> FittedKey {
-    FittedKey {
-        name: of.key.name.clone(),
-        unit: of.unit.into(),
-        bounds: (of.key.low, of.key.high),
-        log: of.key.log,
-        best: of.best,
-        interval: of.interval,
-    }
 }
 
 /// The runs over the key with this index.

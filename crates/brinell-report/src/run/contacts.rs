@@ -13,7 +13,6 @@ pub(super) fn pass(parts: &Parts, pass: &Pass) -> crate::Pass {
     let model = parts.simulation.model();
     let l = &model.layout;
     let stride = pass.points.len().div_ceil(PASS_POINTS).max(1);
-    let points: Vec<_> = pass.points.iter().step_by(stride).collect();
     crate::Pass {
         title: format!(
             "{} {} of row {} over defect {} ({})",
@@ -26,11 +25,8 @@ pub(super) fn pass(parts: &Parts, pass: &Pass) -> crate::Pass {
             pass.defect + 1,
             place(&model.defects[pass.defect])
         ),
-        angle_deg: points.iter().map(|p| p.angle.to_degrees()).collect(),
-        length_mm: points.iter().map(|p| 1e3 * p.length).collect(),
-        stiffness: points.iter().map(|p| p.stiffness).collect(),
+        points: pass.points.iter().step_by(stride).copied().collect(),
         stiffness_unit: stiffness_unit(parts.loaded.scenario.contact.exponent).into(),
-        force_n: points.iter().map(|p| p.force).collect(),
         contact: format!("{} contact", pass.side.word()),
     }
 }

@@ -19,7 +19,7 @@ use motion::{cage_orbits, motion, slip_rows, spectrogram};
 pub use signals::defect_markers;
 pub(crate) use signals::found_markers;
 use signals::{envelope_spectrum, indicators, sensor_label, spectrum, waveform};
-use tables::{assumptions, audits, facts, slip, solver_work};
+use tables::{audits, facts, slip, solver_work};
 
 impl Report {
     /// What the page of a run shows: `report.html` of `brinell run`. Damage that makes no model is not drawn, and the
@@ -67,7 +67,7 @@ impl Report {
             motion: motion(parts),
             audits: audits(parts),
             solver_work: solver_work(parts),
-            assumptions: assumptions(parts),
+            assumptions: parts.loaded.provenance.clone(),
             scenario_toml: parts.loaded.to_toml(),
         }
     }

@@ -2,7 +2,6 @@
 
 use crate::number::short;
 use crate::{AxialRow, AxialSection, CageOrbit, CageOrbits, Motion, MotionDamage, MotionRow, SlipRow, Spectrogram};
-use brinell::observe::load_zone::BINS;
 use brinell::observe::orbit::TURNS;
 use brinell::summary::Parts;
 use std::f64::consts::TAU;
@@ -52,23 +51,13 @@ pub(super) fn cage_orbits(parts: &Parts) -> CageOrbits {
 pub(super) fn slip_rows(parts: &Parts) -> Vec<SlipRow> {
     let course = &parts.findings.slip_course;
     let dt = course.samples_per_stretch() as f64 / parts.simulation.sample_rate();
-    let percent = |values: Vec<f64>| values.into_iter().map(|x| 100.0 * x).collect();
-    (0..parts.simulation.model().layout.rows)
-        .map(|row| {
-            let (time, place) = (course.over_time(row), course.over_angle(row));
-            SlipRow {
-                name: format!("row {}", row + 1),
-                t0_s: 0.5 * dt,
-                dt_s: dt,
-                cage: percent(time.cage),
-                orbit: percent(time.orbit),
-                spin: percent(time.spin),
-                angle_deg: crate::bin_centres(BINS),
-                orbit_there: percent(place.orbit),
-                spin_there: percent(place.spin),
-            }
-        })
-        .collect()
+    let slip = |row: usize| SlipRow {
+        name: format!("row {}", row + 1),
+        dt_s: dt,
+        over_time: course.over_time(row),
+        over_angle: course.over_angle(row),
+    };
+    (0..parts.simulation.model().layout.rows).map(slip).collect()
 }
 
 pub(super) fn motion(parts: &Parts) -> Motion {

@@ -1,8 +1,8 @@
 //! Of the report's data, its tables and tiles: headline numbers, slip, audits, the solver's work, assumptions.
 
 use super::healthy;
-use crate::number::{short, twelve_digits};
-use crate::{Assumption, Fact};
+use crate::Fact;
+use crate::number::short;
 use brinell::accuracy::METHOD;
 use brinell::observe::DefectLine;
 use brinell::observe::passes::place;
@@ -180,37 +180,4 @@ pub(super) fn solver_work(parts: &Parts) -> Vec<Fact> {
         count("Pockets opened or closed", fields::POCKET_SWITCHES, ""),
         count("Contacts onto or off damage", fields::DAMAGE_SWITCHES, ""),
     ]
-}
-
-/// A value without what a change of its unit, or a quotient, leaves behind its digits; the scenario below has them all.
-/// A whole number, as a seed is, stays as it is.
-fn plain(value: &str) -> String {
-    if value.parse::<i128>().is_ok() {
-        return value.to_owned();
-    }
-    match value.parse::<f64>() {
-        Ok(x) if twelve_digits(x).to_string().len() > LONGEST_NUMBER => short(x, 6),
-        Ok(x) if value.len() > LONGEST_NUMBER => twelve_digits(x).to_string(),
-        _ => value.to_owned(),
-    }
-}
-
-/// Longest number that is shown as it was stated.
-const LONGEST_NUMBER: usize = 9;
-
-pub(super) fn assumptions(parts: &Parts) -> Vec<Assumption> {
-    let mut sheet: Vec<Assumption> = parts
-        .loaded
-        .provenance
-        .iter()
-        .map(|p| Assumption {
-            key: p.key.clone(),
-            value: plain(&p.value).into(),
-            unit: p.unit.to_owned(),
-            source: p.reason(),
-            estimated: p.assumed,
-        })
-        .collect();
-    sheet.sort_by_key(|a| !a.estimated);
-    sheet
 }

@@ -9,11 +9,12 @@ use crate::fact::Fact;
 use crate::frame::{close, code, figure, lead, none, open, plain, section, unit_html};
 use crate::layout::Layout;
 use crate::markup::escape;
-use crate::misfit::{FittedKey, Tried, course_plot, embed_course, embed_key, key_plot};
+use crate::misfit::{Tried, course_plot, embed_course, embed_key, key_plot};
 use crate::overlay::{Overlay, overlay, stacked};
 use crate::picture::Picture;
 use crate::sweep::{self, HeatMap, IndicatorPlot, heat_map, indicator_plot};
 use crate::tables::{Table, fact_table, facts, failures, table};
+use brinell_study::calibrate::Found;
 
 /// A word with its colour.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -72,7 +73,7 @@ pub enum StudyPiece {
     /// Numbers over two quantities.
     Map(HeatMap),
     /// The misfit of the runs of a calibration over a key.
-    Misfit(FittedKey, Vec<Tried>),
+    Misfit(Found, Vec<Tried>),
     /// The misfit of the runs of a calibration in their order.
     Course(Vec<f64>),
     /// Words and numbers; its title is a heading.
@@ -235,7 +236,7 @@ fn write_piece(page: &mut String, piece: &StudyPiece, count: usize) {
         StudyPiece::Trend(plot) => (escape(&plot.label), String::new()),
         StudyPiece::Map(map) if map.unit.is_empty() => (escape(&map.label), String::new()),
         StudyPiece::Map(map) => (format!("{} ({})", escape(&map.label), unit_html(&map.unit)), String::new()),
-        StudyPiece::Misfit(key, _) => (format!("<code>{}</code>", escape(&key.name)), String::new()),
+        StudyPiece::Misfit(key, _) => (format!("<code>{}</code>", escape(&key.key.name)), String::new()),
         StudyPiece::Course(_) => {
             (String::new(), "Dots: each run in the order requested. Line: the best so far.".into())
         }

@@ -1,23 +1,18 @@
 //! The pictures of a calibration, whatever the data.
 
-use brinell_report::{Chapter, FittedKey, Study, StudyPiece, Tried, study_html};
+use brinell_report::{Chapter, Study, StudyPiece, Tried, study_html};
+use brinell_study::calibrate::{Found, Key};
 
-fn key(log: bool, interval: Option<(f64, f64)>) -> FittedKey {
-    FittedKey {
-        name: "support.outer_stiffness_n_per_m".into(),
-        unit: "N/m".into(),
-        bounds: (1e5, 1e7),
-        log,
-        best: 2e6,
-        interval,
-    }
+fn key(log: bool, interval: Option<(f64, f64)>) -> Found {
+    let key = Key { name: "support.outer_stiffness_n_per_m".into(), low: 1e5, high: 1e7, log };
+    Found { key, unit: "N/m", best: 2e6, interval, place: 0.5, half_width: 0.1, open: None }
 }
 
 fn run(value: f64, chi_square: f64, alone: bool) -> Tried {
     Tried { value, chi_square, alone }
 }
 
-fn page(key: FittedKey, tried: Vec<Tried>) -> String {
+fn page(key: Found, tried: Vec<Tried>) -> String {
     let course = StudyPiece::Course(tried.iter().map(|run| run.chi_square).collect());
     let chapters = vec![
         Chapter::new("keys", "Keys", "Keys", vec![StudyPiece::Misfit(key, tried)]),

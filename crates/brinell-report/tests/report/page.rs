@@ -2,9 +2,10 @@
 
 use super::checks::{check, check_pictures};
 use super::sample::{filled, ordinary};
+use brinell::document::{Origin, Provenance};
 use brinell_damage::Photo;
 use brinell_report::{
-    Assumption, Fact, Layout, MinMax, Report, detail_window, headline, html, load_distribution, overview, pictures,
+    Fact, Layout, MinMax, Report, detail_window, headline, html, load_distribution, overview, pictures,
 };
 use proptest::prelude::*;
 
@@ -35,12 +36,9 @@ fn regress_the_result_comes_first_and_assumptions_before_statements() {
     assert!(!html(&report).contains("<p class=\"lead\">"));
     assert!(!html(&report).contains("id=\"orders\""));
     report.lead = "3 × 4 mm defect <b>".into();
-    let one = |key: &str, estimated| Assumption {
-        key: key.into(),
-        value: "1".into(),
-        unit: String::new(),
-        source: String::new(),
-        estimated,
+    let one = |key: &str, assumed| {
+        let origin = Origin::Recorded(String::new());
+        Provenance { key: key.into(), value: "1".into(), unit: "", origin, assumed }
     };
     report.assumptions = vec![one("stated.key", false), one("assumed.key", true)];
     report.envelope_orders = report.envelope_spectrum.clone();

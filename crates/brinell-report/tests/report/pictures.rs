@@ -1,5 +1,6 @@
 //! Pictures: places and lengths in them against what they are to show.
 
+use brinell::observe::slip_course::Slips;
 use brinell::signal;
 use brinell_report::{
     CageOrbit, CageOrbits, Layout, Motion, MotionRow, SlipRow, Spectrogram, bearing_motion, cage_orbit, slip_over_time,
@@ -116,14 +117,11 @@ fn analytic_the_spectrogram_puts_a_tone_where_it_is() {
 fn analytic_slip_that_swings_too_often_is_drawn_by_its_mean_and_extremes() {
     let row = |swings: f64| {
         let wave: Vec<f64> =
-            (0..1000).map(|k| 0.5 + 2.0 * (swings * std::f64::consts::TAU * f64::from(k) / 1000.0).sin()).collect();
+            (0..1000).map(|k| 0.005 + 0.02 * (swings * std::f64::consts::TAU * f64::from(k) / 1000.0).sin()).collect();
         SlipRow {
             name: "row 1".into(),
-            t0_s: 0.005,
             dt_s: 0.01,
-            cage: wave.clone(),
-            orbit: wave.clone(),
-            spin: wave,
+            over_time: Slips { cage: wave.clone(), orbit: wave.clone(), spin: wave },
             ..SlipRow::default()
         }
     };

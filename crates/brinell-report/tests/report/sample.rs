@@ -1,12 +1,15 @@
 //! Reports to draw: everything filled from given strings and numbers, and an ordinary run.
 
 use brinell::derived::Passing;
+use brinell::document::{Origin, Provenance};
+use brinell::observe::passes::PassPoint;
+use brinell::observe::slip_course::Slips;
 use brinell::scenario::Surface;
 use brinell::signal;
 use brinell_report::{
-    AlongRoller, Assumption, AxialRow, AxialSection, CageOrbit, CageOrbits, DamageCurve, DamagePanel, DamageView,
-    DepthPatch, Estimate, Event, Fact, Healthy, IndicatorRow, IndicatorTable, Marker, MinMax, Motion, MotionDamage,
-    MotionRow, Pass, Report, RowLoad, SensorView, Series, SlipRow, Spectrogram, Spectrum, Waveform, bin_centres,
+    AlongRoller, AxialRow, AxialSection, CageOrbit, CageOrbits, DamageCurve, DamagePanel, DamageView, DepthPatch,
+    Estimate, Event, Fact, Healthy, IndicatorRow, IndicatorTable, Marker, MinMax, Motion, MotionDamage, MotionRow,
+    Pass, Report, RowLoad, SensorView, Series, SlipRow, Spectrogram, Spectrum, Waveform, bin_centres,
 };
 
 /// Damage in which every list is filled; one with depths and one of a polygon come from the sign of the first value.
@@ -73,14 +76,9 @@ fn slip_row(text: &str, values: &[f64], dt: f64) -> SlipRow {
     let some: Vec<f64> = values.iter().take(1000).copied().collect();
     SlipRow {
         name: text.into(),
-        t0_s: 0.5 * dt,
         dt_s: dt,
-        cage: some.clone(),
-        orbit: some.clone(),
-        spin: some.clone(),
-        angle_deg: some.clone(),
-        orbit_there: some.clone(),
-        spin_there: some,
+        over_time: Slips { cage: some.clone(), orbit: some.clone(), spin: some.clone() },
+        over_angle: Slips { cage: vec![], orbit: some.clone(), spin: some },
     }
 }
 
@@ -182,11 +180,11 @@ pub(crate) fn filled(text: &str, values: &[f64], dt: f64, frequency: f64) -> Rep
         damage: vec![damage_view(text, values)],
         passes: vec![Pass {
             title: text.into(),
-            angle_deg: values.to_vec(),
-            length_mm: values.to_vec(),
-            stiffness: values.iter().skip(1).copied().collect(),
+            points: values
+                .iter()
+                .map(|v| PassPoint { t: *v, angle: *v, length: *v, stiffness: *v, force: f64::NAN })
+                .collect(),
             stiffness_unit: text.into(),
-            force_n: vec![],
             contact: text.into(),
         }],
         along: damage_view(text, values).along,
@@ -241,12 +239,12 @@ pub(crate) fn filled(text: &str, values: &[f64], dt: f64, frequency: f64) -> Rep
         },
         audits: vec![fact()],
         solver_work: vec![fact()],
-        assumptions: vec![Assumption {
+        assumptions: vec![Provenance {
             key: text.into(),
-            value: at(0).into(),
-            unit: text.into(),
-            source: text.into(),
-            estimated: true,
+            value: text.into(),
+            unit: "m/s^2",
+            origin: Origin::Recorded(text.into()),
+            assumed: true,
         }],
         scenario_toml: text.into(),
     }
@@ -266,15 +264,16 @@ pub(crate) fn ordinary() -> Report {
     report.envelope_spectrum.df_hz = 0.1;
     report.waveform.series.t0_s = 0.0;
     report.waveform.series.unit = "m/s^2".into();
-    let angle_deg: Vec<f64> = (0..500).map(|i| 0.02 * f64::from(i) - 5.0).collect();
+    let point = |i: i32| {
+        let degrees = 0.02 * f64::from(i) - 5.0;
+        let length = if degrees.abs() < 3.1 { 2e-3 } else { 6e-3 };
+        PassPoint { t: f64::from(i), angle: degrees.to_radians(), length, stiffness: 1.9e8, force: 40.0 }
+    };
     report.damage = vec![square_with_a_hole()];
     report.passes[0] = Pass {
         title: "Row 1, roller 7".into(),
-        length_mm: angle_deg.iter().map(|a| if a.abs() < 3.1 { 2.0 } else { 6.0 }).collect(),
-        stiffness: vec![1.9e8; 500],
+        points: (0..500).map(point).collect(),
         stiffness_unit: "N/m^(10/9)".into(),
-        force_n: vec![40.0; 500],
-        angle_deg,
         ..Pass::default()
     };
     report.load_distribution[0] = RowLoad {

@@ -17,7 +17,7 @@ use std::sync::Arc;
 const SIGNIFICANCE: f64 = 0.05;
 
 /// A key's value.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Found {
     /// The key.
     pub key: Key,
@@ -36,7 +36,7 @@ pub struct Found {
 }
 
 /// Why the data do not determine a key.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Open {
     /// The interval is as wide as the bounds, or nearly so.
     Wide,
@@ -49,7 +49,7 @@ pub enum Open {
 }
 
 /// A run that meets the targets as well as the best.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Rival {
     /// Its number, from 1.
     pub run: usize,
