@@ -3,7 +3,7 @@
 use crate::figures::cell;
 use crate::reproduction::Reproduction;
 use crate::variants::PRINTED_FILM;
-use crate::{Numbers, RMS, Variant, Verdict};
+use crate::{RMS, Variant, Verdict};
 use brinell_report::StudyPiece;
 use brinell_report::short;
 
@@ -12,7 +12,7 @@ const ROLLING_HZ: f64 = 250.10;
 
 /// The chapter: what the motion says, then what follows from geometry and speed. What was not computed is left out.
 pub(crate) fn pieces(reproduction: &Reproduction) -> Vec<StudyPiece> {
-    let facts = Facts { reproduction };
+    let facts = Facts(reproduction);
     let dynamics = [
         facts.simplification(),
         facts.start_up(),
@@ -43,34 +43,28 @@ pub(crate) fn pieces(reproduction: &Reproduction) -> Vec<StudyPiece> {
     pieces
 }
 
-struct Facts<'a> {
-    reproduction: &'a Reproduction,
-}
+struct Facts<'a>(&'a Reproduction);
 
 impl Facts<'_> {
-    fn numbers(&self) -> &Numbers {
-        &self.reproduction.numbers
-    }
-
     /// "2.00 [1.98, 2.02]".
     fn value(&self, case: &str, name: &str) -> Option<String> {
-        Some(cell(Some(self.numbers().get(case, name)?)))
+        Some(cell(Some(self.0.numbers.get(case, name)?)))
     }
 
     fn plain(&self, case: &str, name: &str) -> Option<f64> {
-        self.numbers().get(case, name).map(|n| n.value)
+        self.0.numbers.get(case, name).map(|n| n.value)
     }
 
     /// A claim's verdict in words.
     fn verdict(&self, id: &str) -> Option<String> {
-        let mut outcomes = self.reproduction.outcomes.iter();
+        let mut outcomes = self.0.outcomes.iter();
         let outcome = outcomes.find(|o| o.claim.id == id)?;
         Some(outcome.judged.words(outcome.claim))
     }
 
     /// "; of 47 sets of assumptions it holds under 40, does not under 3, ...", where assumptions were varied.
     fn under(&self, id: &str) -> String {
-        let Some(sensitivity) = &self.reproduction.sensitivity else {
+        let Some(sensitivity) = &self.0.sensitivity else {
             return String::new();
         };
         let all = sensitivity.verdicts(id);
@@ -90,7 +84,7 @@ impl Facts<'_> {
         let name = "outer_ax.rms";
         let (irregular, simplified) = (self.value("irregular", name)?, self.value("simplified", name)?);
         let ratio = self.plain("simplified", name)? / self.plain("irregular", name)?;
-        let range = self.reproduction.sensitivity.as_ref().and_then(|s| s.ratios("simplified", "irregular", name));
+        let range = self.0.sensitivity.as_ref().and_then(|s| s.ratios("simplified", "irregular", name));
         let source = self.without_source(name).unwrap_or_default();
         let range = range.map_or(String::new(), |(low, high)| {
             let sign = if low < 1.0 {
@@ -117,7 +111,7 @@ impl Facts<'_> {
     /// How much of the work comes from nowhere in the two cases of Fig. 14, and what the factor is without such work.
     fn without_source(&self, name: &str) -> Option<String> {
         let percent = |case: &str| self.plain(case, "parametric_share").map(|share| short(100.0 * share, 2));
-        let of = |case: &str| self.reproduction.sensitivity.as_ref()?.value("law-conservative", case, name);
+        let of = |case: &str| self.0.sensitivity.as_ref()?.value("law-conservative", case, name);
         let ratio = of("simplified").zip(of("irregular")).map(|(simplified, irregular)| simplified / irregular);
         let ratio = ratio.map_or(String::new(), |ratio| {
             format!(
@@ -163,7 +157,7 @@ impl Facts<'_> {
             percent(off),
             percent(near)
         );
-        if let Some(sensitivity) = &self.reproduction.sensitivity {
+        if let Some(sensitivity) = &self.0.sensitivity {
             let [(steady, a), (start, b)] = sensitivity.nearest();
             if let (Some(a), Some(b)) = (a, b) {
                 text += &format!(
@@ -211,7 +205,7 @@ impl Facts<'_> {
             self.value("irregular", "outer_ax.rms")?,
             self.value("irregular", "outer_ay.rms")?
         );
-        if let Some(sensitivity) = &self.reproduction.sensitivity {
+        if let Some(sensitivity) = &self.0.sensitivity {
             let all = sensitivity.verdicts("x-above-y");
             let under = |wanted: Verdict| {
                 let mine = all.iter().filter(|(_, verdict)| *verdict == wanted);
@@ -277,12 +271,12 @@ impl Facts<'_> {
         let hertz = |all: [f64; 3]| all.map(|f| format!("{f:.2}")).join(", ");
         let mean = all.iter().sum::<f64>() / 3.0;
         let under = |variant: &str| {
-            let sensitivity = self.reproduction.sensitivity.as_ref()?;
+            let sensitivity = self.0.sensitivity.as_ref()?;
             let of = |case: &str| sensitivity.value(variant, case, "defect1.frequency");
             Some(hertz([of("rectangle")?, of("circle")?, of("irregular")?]))
         };
         let paper = || {
-            let all = self.reproduction.sensitivity.as_ref()?.verdicts("frequency");
+            let all = self.0.sensitivity.as_ref()?.verdicts("frequency");
             let verdict = all.iter().find(|(variant, _)| variant.id == "paper-4-1")?.1.words();
             Some(format!(
                 " Under the paper’s own conditions of section 4.1, from rest and with Eq. (42) as printed, they are {} Hz in shorter runs, and \

@@ -2,6 +2,7 @@
 
 use crate::cases::owned;
 use crate::outcome::Outcome;
+use crate::points::points;
 use crate::runs::numbers;
 use crate::{Case, Error, Length, Numbers, Outline, Point, Runs, Verdict, judge};
 use brinell_io::{Cells, Column};
@@ -43,9 +44,8 @@ impl OtherRuns {
     /// Where a case is no scenario of a model.
     pub(crate) fn new(cases: &[&'static Case], length: Length) -> Result<Self, Error> {
         let set = |model: OtherModel| {
-            let more = owned(model.settings);
-            let points = cases.iter().map(|case| Point::new(case, &more, Outline::Joined, length));
-            Ok((model, points.collect::<Result<_, Error>>()?))
+            let cases = cases.iter().copied();
+            Ok((model, points(cases, &owned(model.settings), Outline::Joined, length)?))
         };
         let sets = TILTING.into_iter().map(set).collect::<Result<_, Error>>()?;
         Ok(Self { sets })

@@ -114,22 +114,19 @@ pub(crate) fn study(
     }
 }
 
-/// How many of the findings hold, of each basis: dynamics, shapes, kinematics.
-fn held(outcomes: &[Outcome]) -> [(usize, usize); 3] {
-    [Basis::Dynamics, Basis::Shapes, Basis::Kinematics].map(|basis| outcome::held(outcomes, basis))
+/// "3 of 4": how many of the findings hold, of each basis: dynamics, shapes, kinematics.
+fn held(outcomes: &[Outcome]) -> [String; 3] {
+    [Basis::Dynamics, Basis::Shapes, Basis::Kinematics].map(|basis| {
+        let (holds, all) = outcome::held(outcomes, basis);
+        format!("{holds} of {all}")
+    })
 }
 
 fn lead(outcomes: &[Outcome]) -> String {
     let [dynamics, shapes, kinematics] = held(outcomes);
+    let rest = outcome::not_counted(outcomes);
     format!(
-        "Dynamic findings that hold: {} of {}. Beside them hold {} of {} that follow from the shapes that go in, and {} of {} from kinematics and slip.{}",
-        dynamics.0,
-        dynamics.1,
-        shapes.0,
-        shapes.1,
-        kinematics.0,
-        kinematics.1,
-        outcome::not_counted(outcomes)
+        "Dynamic findings that hold: {dynamics}. Beside them hold {shapes} that follow from the shapes that go in, and {kinematics} from kinematics and slip.{rest}"
     )
 }
 
@@ -148,18 +145,10 @@ fn facts(reproduction: &Reproduction) -> Vec<Fact> {
         facts.push(Fact::new("Depend on an assumption", n.to_string(), "", "of the above"));
     }
     let [dynamics, shapes, kinematics] = held(&reproduction.outcomes);
-    facts.insert(
-        0,
-        Fact::new(
-            "Dynamic findings that hold",
-            format!("{} of {}", dynamics.0, dynamics.1),
-            "",
-            format!(
-                "beside them hold {} of {} that follow from the shapes that go in, {} of {} from kinematics and slip",
-                shapes.0, shapes.1, kinematics.0, kinematics.1
-            ),
-        ),
+    let beside = format!(
+        "beside them hold {shapes} that follow from the shapes that go in, {kinematics} from kinematics and slip"
     );
+    facts.insert(0, Fact::new("Dynamic findings that hold", dynamics, "", beside));
     facts
 }
 

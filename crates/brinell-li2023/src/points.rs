@@ -31,6 +31,16 @@ impl Point {
     }
 }
 
+/// Cases under the same assumptions.
+pub(crate) fn points(
+    cases: impl IntoIterator<Item = &'static Case>,
+    more: &[(String, String)],
+    outline: Outline,
+    length: Length,
+) -> Result<Vec<Point>, Error> {
+    cases.into_iter().map(|case| Point::new(case, more, outline, length)).collect()
+}
+
 /// The scenario that settings over [`BASE`] make.
 ///
 /// # Errors

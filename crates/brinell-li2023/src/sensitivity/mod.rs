@@ -7,6 +7,7 @@ mod tables;
 pub(crate) use chapters::{intro, ranges};
 
 use crate::cases::owned;
+use crate::points::points;
 use crate::runs::numbers;
 use crate::{
     CASES, Claim, Distance, Draw, Error, Judged, Length, Numbers, Point, RECORDS, Reading, Record, Runs, SEARCHED,
@@ -111,10 +112,8 @@ impl Plan {
     pub(crate) fn new(quick: bool) -> Result<Self, Error> {
         let length = if quick { Length::QUICK_VARIANT } else { Length::VARIANT };
         let varied = VARIANTS.iter().map(|variant| {
-            let settings = owned(&variant.settings);
-            let points = CASES.iter();
-            let points = points.map(|case| Point::new(case, &settings, variant.outline, length));
-            Ok(Varied { variant, points: points.collect::<Result<_, Error>>()? })
+            let points = points(CASES.iter(), &owned(&variant.settings), variant.outline, length)?;
+            Ok(Varied { variant, points })
         });
         Ok(Self { varied: varied.collect::<Result<_, Error>>()?, quick, length })
     }
@@ -145,7 +144,7 @@ impl Plan {
             }
         }
         let finalists = self.finalists(&drawn, runs)?;
-        let points: Vec<&Point> = finalists.iter().flat_map(|f| &f.points).collect();
+        let points: Vec<&Point> = finalists.iter().flat_map(|(_, points)| points).collect();
         let flow = runs.make(&points, Stage::Best)?;
         Ok(flow.is_continue().then(|| self.finish(&drawn, finalists, runs)))
     }
@@ -162,8 +161,7 @@ impl Plan {
             let made = places.iter().enumerate().map(|(k, place)| {
                 let draw = draw(all.len() + k + 1, place, scope.0);
                 let cases = SEARCHED.iter().filter_map(|id| case(id));
-                let points = cases.map(|case| Point::new(case, &draw.settings, draw.outline, Length::START));
-                let points = points.collect::<Result<_, Error>>()?;
+                let points = points(cases, &draw.settings, draw.outline, Length::START)?;
                 Ok((draw, points))
             });
             let batch = made.collect::<Result<Vec<Drawn>, R::Error>>();
@@ -196,7 +194,7 @@ impl Plan {
     }
 
     /// The best sets, on all cases: what runs then.
-    fn finalists(&self, drawn: &[Drawn], runs: &impl Runs) -> Result<Vec<Finalist>, Error> {
+    fn finalists(&self, drawn: &[Drawn], runs: &impl Runs) -> Result<Vec<Drawn>, Error> {
         let scored = drawn.iter().enumerate();
         let mut scored: Vec<(f64, usize)> = scored.filter_map(|(k, one)| Some((score(&read(one, runs))?, k))).collect();
         scored.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
@@ -214,25 +212,23 @@ impl Plan {
                 best.push(one);
             }
         }
-        let finalist = |draw: &Draw| {
-            let points = CASES.iter().map(|case| Point::new(case, &draw.settings, draw.outline, self.length));
-            Ok(Finalist { points: points.collect::<Result<_, Error>>()?, draw: draw.clone() })
-        };
+        let finalist =
+            |draw: &Draw| Ok((draw.clone(), points(CASES.iter(), &draw.settings, draw.outline, self.length)?));
         best.into_iter().map(finalist).collect()
     }
 
-    fn finish(&self, drawn: &[Drawn], finalists: Vec<Finalist>, runs: &impl Runs) -> Sensitivity {
+    fn finish(&self, drawn: &[Drawn], finalists: Vec<Drawn>, runs: &impl Runs) -> Sensitivity {
         let variants = self.varied.iter().map(|v| {
             let plain = numbers(&v.points, runs);
             let read = plain.read(v.variant.reading);
             Tried { variant: v.variant, judged: claims().map(|claim| judge(claim, &read)).collect(), numbers: plain }
         });
-        let candidates = finalists.into_iter().filter_map(|f| {
-            let numbers = numbers(&f.points, runs).read(f.draw.reading);
+        let candidates = finalists.into_iter().filter_map(|finalist| {
+            let numbers = read(&finalist, runs);
             Some(Candidate {
                 distance: distance(&numbers)?,
                 judged: claims().map(|claim| (claim, judge(claim, &numbers))).collect(),
-                draw: f.draw,
+                draw: finalist.0,
             })
         });
         let mut candidates: Vec<Candidate> = candidates.collect();
@@ -259,12 +255,6 @@ fn nearest(drawn: &[Drawn], runs: &impl Runs) -> Vec<Nearest> {
         all.push(Nearest { record: *record, sets: mine.len(), best: known.min_by(|a, b| a.1.rms.total_cmp(&b.1.rms)) });
     }
     all
-}
-
-/// A set of assumptions on its way to all cases.
-struct Finalist {
-    draw: Draw,
-    points: Vec<Point>,
 }
 
 fn read((draw, points): &Drawn, runs: &impl Runs) -> Numbers {
