@@ -4,7 +4,7 @@
 //! hold an exponent as `N/m^(10/9)` or `m/s^2`; it is typeset, not computed with. Missing data is an empty vector or
 //! `None`, and a value that could not be computed is NaN: both are shown as such.
 
-use crate::damage::{AlongRoller, DamageView};
+use crate::damage::{DamageCurves, DamageView};
 use crate::fact::Fact;
 use crate::motion::Motion;
 use crate::orbit::CageOrbits;
@@ -92,7 +92,7 @@ pub struct Report {
     /// Contact force around the bearing, a row each.
     pub load_distribution: Vec<RowLoad>,
     /// The load along a roller of the healthy bearing, where rollers have slices; damage has its own in `damage`.
-    pub along: Option<AlongRoller>,
+    pub along: Option<DamageCurves>,
     /// Indicators of the signals.
     pub indicators: IndicatorTable,
     /// Slip of rollers and cages.
@@ -230,9 +230,7 @@ pub struct Pass {
 pub struct RowLoad {
     /// "Row 1, outer contact".
     pub title: String,
-    /// Bin centres, counter-clockwise from +X; equal bins that cover the circle.
-    pub angle_deg: Vec<f64>,
-    /// Mean force of the rollers in each bin.
+    /// Mean force of the rollers in each of equal bins around the circle, counter-clockwise from +X.
     pub mean_n: Vec<f64>,
     /// Largest force in each bin.
     pub max_n: Vec<f64>,

@@ -37,6 +37,15 @@ pub(crate) fn open<'a>(
     page
 }
 
+/// The list of contents, of places and names, and the beginning of `main`.
+pub(crate) fn contents<'a>(page: &mut String, chapters: impl Iterator<Item = (&'a str, &'a str)>) {
+    page.push_str("<nav aria-label=\"Contents\"><ul>");
+    for (id, name) in chapters {
+        let _ = write!(page, "<li><a href=\"#{id}\">{}</a></li>", escape(name));
+    }
+    page.push_str("</ul></nav>\n<main>\n");
+}
+
 /// The result in a sentence, the first of `main`; may be empty.
 pub(crate) fn lead(page: &mut String, words: &str) {
     if !words.is_empty() {

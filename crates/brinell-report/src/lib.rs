@@ -57,13 +57,13 @@ mod thin;
 #[doc(hidden)]
 pub use analysis::{
     AnalysisReport, Analyzed, Findings, ZONES, analysis_html, analysis_pictures, called, level_lines, orders_in_hz,
-    ratio, scaled, shaft_lines,
+    ratio, scaled,
 };
 #[doc(hidden)]
 pub use axial::{AxialRow, AxialSection, axial_section};
 #[doc(hidden)]
 pub use calibrate::{calibration_undetermined, calibration_verdict, interval_text};
-pub use damage::{AlongRoller, DamageCurve, DamagePanel, DamageView, DepthPatch};
+pub use damage::{DamageCurve, DamageCurves, DamagePanel, DamageView, DepthPatch};
 #[doc(hidden)]
 pub use damage::{damage_passage, damage_photo, damage_plan, damage_section, load_along};
 #[doc(hidden)]
@@ -79,7 +79,7 @@ pub use fact::{Fact, Value};
 pub use kurtogram::Kurtogram;
 pub use layout::Layout;
 #[doc(hidden)]
-pub use load::{bin_centres, load_distribution};
+pub use load::load_distribution;
 #[doc(hidden)]
 pub use misfit::Tried;
 pub use motion::bearing_motion;

@@ -46,8 +46,8 @@ fn keep(picture: &mut Picture, row: &RowLoad) {
     let axis = |label: &str, unit: &str| Axis { label: label.to_owned(), unit: unit.to_owned() };
     let (angles, forces) = row.static_points.iter().copied().unzip();
     for (label, xs, ys) in [
-        ("Mean force", &row.angle_deg, &row.mean_n),
-        ("Largest force", &row.angle_deg, &row.max_n),
+        ("Mean force", &bin_centres(row.mean_n.len()), &row.mean_n),
+        ("Largest force", &bin_centres(row.max_n.len()), &row.max_n),
         ("Force in static equilibrium", &angles, &forces),
     ] {
         let count = xs.len().min(ys.len());
@@ -110,10 +110,9 @@ impl Polar {
             picture.shapes.push(Shape::Path { lines, close: true, paint, clip: None });
         };
         let curve = |forces: &[f64]| -> Vec<(f64, f64)> {
-            let known = row.angle_deg.iter().zip(forces);
-            let known = known.filter(|(angle, _)| angle.is_finite());
             let force = |force: &f64| if force.is_finite() { *force } else { 0.0 };
-            known.map(|(angle, f)| self.at(centre, *angle, force(f))).collect()
+            let angles = bin_centres(forces.len()).into_iter();
+            angles.zip(forces).map(|(angle, f)| self.at(centre, angle, force(f))).collect()
         };
         closed(vec![curve(&row.mean_n)], mean);
         closed(vec![curve(&row.max_n)], largest);
@@ -142,7 +141,7 @@ impl Polar {
     }
 }
 
-/// Angles of equal bins around the circle, degrees: what `RowLoad::angle_deg` holds.
-pub fn bin_centres(bins: usize) -> Vec<f64> {
+/// Middles of equal bins around the circle, degrees.
+pub(crate) fn bin_centres(bins: usize) -> Vec<f64> {
     (0..bins).map(|bin| ((bin as f64 + 0.5) * TAU / bins as f64).to_degrees()).collect()
 }

@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 
 use crate::damage::{damage_passage, damage_photo, damage_plan, damage_section, load_along};
 use crate::data::Report;
-use crate::frame::{THINNED, alert, close, code, figure, lead, none, open, plain, plot, section};
+use crate::frame::{THINNED, alert, close, code, contents, figure, lead, none, open, plain, plot, section};
 use crate::layout::Layout;
 use crate::load::load_distribution;
 use crate::markup::escape;
@@ -52,11 +52,7 @@ pub fn html(report: &Report) -> String {
     if !report.sensor.is_there() {
         sections.retain(|(id, ..)| *id != "sensor");
     }
-    page.push_str("<nav aria-label=\"Contents\"><ul>");
-    for (id, short, ..) in &sections {
-        let _ = write!(page, "<li><a href=\"#{id}\">{short}</a></li>");
-    }
-    page.push_str("</ul></nav>\n<main>\n");
+    contents(&mut page, sections.iter().map(|(id, short, ..)| (*id, *short)));
     lead(&mut page, &report.lead);
     for (strong, words) in plain(&report.warnings) {
         alert(&mut page, strong, words);
@@ -165,17 +161,17 @@ fn damage(page: &mut String, report: &Report) {
         let caption = format!("The damaged surface unrolled, both axes to one scale. The grey band is {band}.");
         part(page, "", &|layout| damage_plan(view, index, layout), &caption);
         fact_table(page, &view.facts, "Nothing is known of its size.");
-        if !view.passage.is_empty() {
-            part(page, "-passage", &|layout| damage_passage(view, index, layout), &view.passage_note);
+        if !view.passage.panels.is_empty() {
+            part(page, "-passage", &|layout| damage_passage(view, index, layout), &view.passage.note);
         }
         if let Some(along) = &view.along {
             let name = format!("damage-{}-along", index + 1);
             part(page, "-along", &|layout| load_along(along, &name, layout), &along.note);
         }
-        if !view.section.is_empty() {
-            part(page, "-section", &|layout| damage_section(view, index, layout), &view.section_note);
-        } else if !view.section_note.is_empty() {
-            none(page, &sentence(&view.section_note));
+        if !view.section.panels.is_empty() {
+            part(page, "-section", &|layout| damage_section(view, index, layout), &view.section.note);
+        } else if !view.section.note.is_empty() {
+            none(page, &sentence(&view.section.note));
         }
     }
     if report.damage.len() > PASSES {

@@ -4,7 +4,7 @@ use super::diagnosis::{Against, Diagnosis};
 use super::json::whole_indicators;
 use crate::say::{self, say, short};
 use brinell::analysis::{Analysis, COLUMNS, indicator_words, level_words};
-use brinell_report::{level_lines, orders_in_hz, ratio, shaft_lines};
+use brinell_report::{level_lines, orders_in_hz, ratio};
 use std::path::PathBuf;
 
 /// What is found at each defect frequency, in columns.
@@ -30,7 +30,7 @@ pub(super) fn tell(results: &[Diagnosis], result: &Diagnosis, written: &[PathBuf
     for note in &m.notes {
         say!("  {note}");
     }
-    say!("  {}; {}", result.speed, shaft_lines(a));
+    say!("  {}; {}", result.speed, a.shaft_words());
     if let Some(orders) = orders_in_hz(a) {
         say!("  {orders}");
     }

@@ -10,7 +10,7 @@ use crate::say::{self, document, say, short};
 use brinell::document::{Loaded, Origin, Provenance};
 use brinell::scenario::Scenario;
 use brinell_io::{Complete, atomic_prepare};
-use brinell_report::{Damage, DamagePanel, Layout, Picture, damage_of};
+use brinell_report::{Damage, DamageCurves, DamagePanel, Layout, Picture, damage_of};
 use serde_json::json;
 use std::path::Path;
 
@@ -77,7 +77,7 @@ fn pictures(index: usize, damage: &Damage, layout: Layout) -> Vec<Picture> {
     let mut pictures: Vec<Picture> = brinell_report::damage_photo(view, index, layout).into_iter().collect();
     pictures.push(brinell_report::damage_plan(view, index, layout));
     pictures.push(brinell_report::damage_passage(view, index, layout));
-    if !view.section.is_empty() {
+    if !view.section.panels.is_empty() {
         pictures.push(brinell_report::damage_section(view, index, layout));
     }
     if let Some(along) = &view.along {
@@ -90,16 +90,11 @@ fn pictures(index: usize, damage: &Damage, layout: Layout) -> Vec<Picture> {
 /// The curves of each picture as CSV.
 fn tables(index: usize, damage: &Damage, folder: &Path, ready: &mut Vec<Complete>) -> Result<(), Failure> {
     let view = &damage.view;
-    let along = view.along.clone().unwrap_or_default();
-    for (name, axis, xs, panels) in [
-        ("passage", "angle_deg", &view.angle_deg, &view.passage),
-        ("section", "s_mm", &view.section_s_mm, &view.section),
-        ("along", "z_mm", &along.z_mm, &along.panels),
-    ] {
-        if !panels.is_empty() {
-            let path = folder.join(format!("damage-{}-{name}.csv", index + 1));
-            ready.push(atomic_prepare(path, csv(axis, xs, panels))?);
-        }
+    let along = view.along.iter().map(|along| ("along", "z_mm", along));
+    let both = [("passage", "angle_deg", &view.passage), ("section", "s_mm", &view.section)];
+    for (name, axis, curves) in both.into_iter().chain(along).filter(|(.., curves)| !curves.panels.is_empty()) {
+        let path = folder.join(format!("damage-{}-{name}.csv", index + 1));
+        ready.push(atomic_prepare(path, csv(axis, curves))?);
     }
     Ok(())
 }
@@ -128,12 +123,12 @@ fn tell(damage: &Damage, form: Option<String>) {
     if let Some(form) = form {
         say!("  Form: {form}");
     }
-    let plain = view.passage_note.replace('µ', "u").replace("δⁿ", "delta^n");
+    let plain = view.passage.note.replace('µ', "u").replace("δⁿ", "delta^n");
     say!("  Passage: {plain}");
     if let Some(along) = &view.along {
         say!("  {}, {}", along.title, along.note);
     }
-    say!("  Section: {}", view.section_note);
+    say!("  Section: {}", view.section.note);
     say!("");
 }
 
@@ -158,14 +153,14 @@ fn columns(panels: &[DamagePanel]) -> Vec<(String, &[f64])> {
         .collect()
 }
 
-fn csv(axis: &str, xs: &[f64], panels: &[DamagePanel]) -> String {
-    let columns = columns(panels);
+fn csv(axis: &str, curves: &DamageCurves) -> String {
+    let columns = columns(&curves.panels);
     let mut text = axis.to_owned();
     for (name, _) in &columns {
         text += ",";
         text += name;
     }
-    for (k, x) in xs.iter().enumerate() {
+    for (k, x) in curves.along.iter().enumerate() {
         text += &format!("\n{x}");
         for (_, values) in &columns {
             text += &format!(",{}", values[k]);
@@ -176,10 +171,10 @@ fn csv(axis: &str, xs: &[f64], panels: &[DamagePanel]) -> String {
 
 fn entry(index: usize, damage: &Damage) -> serde_json::Value {
     let (m, view) = (&damage.measures, &damage.view);
-    let curves = |axis: &str, xs: &[f64], panels: &[DamagePanel]| {
+    let curves = |axis: &str, of: &DamageCurves| {
         let mut all = serde_json::Map::new();
-        all.insert(axis.into(), json!(xs));
-        for (name, values) in columns(panels) {
+        all.insert(axis.into(), json!(of.along));
+        for (name, values) in columns(&of.panels) {
             all.insert(name, json!(values));
         }
         all
@@ -202,11 +197,11 @@ fn entry(index: usize, damage: &Damage) -> serde_json::Value {
         "approach_um": m.approach_um,
         "heaviest_contact_n": m.force_n,
         "polygons_mm": view.polygons_mm,
-        "passage_note": view.passage_note.replace('µ', "u").replace("δⁿ", "delta^n"),
-        "passage": curves("angle_deg", &view.angle_deg, &view.passage),
+        "passage_note": view.passage.note.replace('µ', "u").replace("δⁿ", "delta^n"),
+        "passage": curves("angle_deg", &view.passage),
         "along_note": view.along.as_ref().map(|along| &along.note),
-        "along": view.along.as_ref().map(|along| curves("z_mm", &along.z_mm, &along.panels)),
-        "section_note": view.section_note,
-        "section": curves("s_mm", &view.section_s_mm, &view.section),
+        "along": view.along.as_ref().map(|along| curves("z_mm", along)),
+        "section_note": view.section.note,
+        "section": curves("s_mm", &view.section),
     })
 }

@@ -2,7 +2,7 @@
 
 use super::AnalysisReport;
 use super::level::{fact, notes, rows, scaled};
-use super::words::{called, orders_in_hz, ratio, shaft_lines};
+use super::words::{called, orders_in_hz, ratio};
 use crate::data::{Marker, Series, Tone};
 use crate::fact::Fact;
 use crate::kurtogram::Kurtogram;
@@ -58,43 +58,39 @@ pub struct Findings<'a> {
 impl AnalysisReport {
     /// What the page of an analysis shows: `report.html` of `brinell analyze -o`.
     pub fn of_findings(of: &Findings) -> Self {
-        report(of)
+        let (m, a) = (&of.signal, of.signal.analysis);
+        let mut notes_shown = of.notes.to_vec();
+        notes_shown.push(format!("{}; {}", of.speed, a.shaft_words()));
+        notes_shown.extend(orders_in_hz(a));
+        notes_shown.push(format!("bearing: {}", of.bearing));
+        notes_shown.extend(notes(of.levels));
+        notes_shown.push(format!("mean removed: {} {}", short(a.mean, 4), of.unit.name));
+        let (title, tone) = headline(a);
+        let mut page = Self {
+            title,
+            subtitle: format!("{}, {:.2} s at {} Hz, shaft {:.1} r/min", m.name, a.duration(), m.rate, 60.0 * a.shaft),
+            version: brinell::VERSION.into(),
+            verdict: of.verdict.into(),
+            tone,
+            warnings: of.warnings.to_vec(),
+            notes: notes_shown,
+            facts: facts(of),
+            names: vec![m.name.into()],
+            close_up_s: 10.0 / strike(a),
+            markers: markers(a),
+            order_tracked: a.options.rotation.is_some(),
+            kurtogram: a.map.as_ref().map(|map| kurtogram(a, map)),
+            ..Self::default()
+        };
+        curves(&mut page, of);
+        if let Some((other, comparison)) = &of.against {
+            page.tables.extend(differences(of, other, comparison));
+        }
+        // What the verdict rests on comes first.
+        page.tables.insert(0, families(a));
+        page.tables.push(indicators(of));
+        page
     }
-}
-
-fn report(of: &Findings) -> AnalysisReport {
-    let (m, a) = (&of.signal, of.signal.analysis);
-    let mut notes_shown = of.notes.to_vec();
-    notes_shown.push(format!("{}; {}", of.speed, shaft_lines(a)));
-    notes_shown.extend(orders_in_hz(a));
-    notes_shown.push(format!("bearing: {}", of.bearing));
-    notes_shown.extend(notes(of.levels));
-    notes_shown.push(format!("mean removed: {} {}", short(a.mean, 4), of.unit.name));
-    let (title, tone) = headline(a);
-    let mut page = AnalysisReport {
-        title,
-        subtitle: format!("{}, {:.2} s at {} Hz, shaft {:.1} r/min", m.name, a.duration(), m.rate, 60.0 * a.shaft),
-        version: brinell::VERSION.into(),
-        verdict: of.verdict.into(),
-        tone,
-        warnings: of.warnings.to_vec(),
-        notes: notes_shown,
-        facts: facts(of),
-        names: vec![m.name.into()],
-        close_up_s: 10.0 / strike(a),
-        markers: markers(a),
-        order_tracked: a.options.rotation.is_some(),
-        kurtogram: a.map.as_ref().map(|map| kurtogram(a, map)),
-        ..AnalysisReport::default()
-    };
-    curves(&mut page, of);
-    if let Some((other, comparison)) = &of.against {
-        page.tables.extend(differences(of, other, comparison));
-    }
-    // What the verdict rests on comes first.
-    page.tables.insert(0, families(a));
-    page.tables.push(indicators(of));
-    page
 }
 
 /// Waveforms, spectra and envelopes: the signal's, and beside them those of the one it is compared with.

@@ -13,11 +13,6 @@ pub fn ratio(d: &Difference) -> Option<String> {
     })
 }
 
-/// What the signal's own lines say of the shaft's speed.
-pub fn shaft_lines(a: &Analysis) -> String {
-    a.shaft_words()
-}
-
 /// That frequencies are not those of time, where the speed was followed.
 pub fn orders_in_hz(a: &Analysis) -> Option<String> {
     a.options.rotation.as_ref()?;

@@ -58,30 +58,20 @@ impl Chart {
             }
             lines
         };
-        self.picture.shapes.push(Shape::Open("lane"));
         let fade = if lane.through { 1.0 } else { 0.6 };
-        self.picture.shapes.push(Shape::Path {
-            lines: across(&lane.marks, ruler - 5.5, ruler + 5.5),
-            close: false,
-            paint: Paint::line(lane.color, 2.0).faded(fade),
-            clip: None,
-        });
+        let short = across(&lane.marks, ruler - 5.5, ruler + 5.5);
+        let mut drawn = vec![(short, Paint::line(lane.color, 2.0).faded(fade), None)];
         if lane.through {
-            self.picture.shapes.push(Shape::Path {
-                lines: across(&lane.marks, frame.top, frame.bottom),
-                close: false,
-                paint: Paint::line(lane.color, 1.0).dashed(lane.dash).faded(0.75),
-                clip: Some(frame),
-            });
+            let long = across(&lane.marks, frame.top, frame.bottom);
+            drawn.push((long, Paint::line(lane.color, 1.0).dashed(lane.dash).faded(0.75), Some(frame)));
         }
         if !lane.minor.is_empty() {
-            self.picture.shapes.push(Shape::Path {
-                lines: across(&lane.minor, ruler, ruler + 5.5),
-                close: false,
-                paint: Paint::line(lane.color, 1.0).faded(fade),
-                clip: None,
-            });
+            let half = across(&lane.minor, ruler, ruler + 5.5);
+            drawn.push((half, Paint::line(lane.color, 1.0).faded(fade), None));
         }
+        self.picture.shapes.push(Shape::Open("lane"));
+        let paths = drawn.into_iter().map(|(lines, paint, clip)| Shape::Path { lines, close: false, paint, clip });
+        self.picture.shapes.extend(paths);
         let mut free = f64::NEG_INFINITY;
         let mut next = seen().map(|mark| self.x.at(mark.x)).skip(1);
         let mut labels = vec![];

@@ -1,65 +1,37 @@
 //! Curves of damage: the contact conditions during roller passage, and the ring's section under it.
 
-use super::{AlongRoller, DamagePanel, DamageView, heading};
+use super::{DamageCurves, DamageView, heading};
 use crate::chart::{self, Chart, Domain, range};
 use crate::layout::{Layout, legend};
 use crate::picture::{Paint, Picture, ink};
 
 /// L_s, L_e, depth and stiffness over the angle of a roller that passes the damage.
 pub fn damage_passage(view: &DamageView, index: usize, layout: Layout) -> Picture {
-    stack(
-        &format!("damage-{}-passage", index + 1),
-        [&view.title, &view.passage_title],
-        (
-            &if view.half_turn_mm.is_some() {
-                format!("Angle on the {} from the defect’s centre", view.element())
-            } else {
-                "Angle from the defect’s centre".to_owned()
-            },
-            "°",
-        ),
-        &view.angle_deg,
-        &view.passage,
-        layout,
-    )
+    let x = match view.half_turn_mm {
+        Some(_) => format!("Angle on the {} from the defect’s centre", view.element()),
+        None => "Angle from the defect’s centre".to_owned(),
+    };
+    stack(&format!("damage-{}-passage", index + 1), &view.title, (&x, "°"), &view.passage, layout)
 }
 
 /// Section properties along the damage.
 pub fn damage_section(view: &DamageView, index: usize, layout: Layout) -> Picture {
-    stack(
-        &format!("damage-{}-section", index + 1),
-        [&view.title, &view.section_title],
-        ("Along the damage, from its centre", "mm"),
-        &view.section_s_mm,
-        &view.section,
-        layout,
-    )
+    let x = ("Along the damage, from its centre", "mm");
+    stack(&format!("damage-{}-section", index + 1), &view.title, x, &view.section, layout)
 }
 
 /// Profile, line load and pressure along a roller at rest.
-pub fn load_along(along: &AlongRoller, name: &str, layout: Layout) -> Picture {
-    stack(
-        name,
-        [&along.title, &along.title],
-        ("Along the roller, from its middle", "mm"),
-        &along.z_mm,
-        &along.panels,
-        layout,
-    )
+pub fn load_along(along: &DamageCurves, name: &str, layout: Layout) -> Picture {
+    stack(name, &along.title, ("Along the roller, from its middle", "mm"), along, layout)
 }
 
 const LINES: [(&str, f64, &[f64]); 4] =
     [(ink::BLUE, 2.2, &[]), (ink::ORANGE, 2.0, &[7.0, 3.0]), (ink::GREEN, 1.6, &[]), (ink::PURPLE, 1.6, &[3.0, 3.0])];
 
-/// Panels over one axis, each with its own legend where it holds several curves.
-fn stack(
-    name: &str,
-    [title, shown]: [&str; 2],
-    (x_label, x_unit): (&str, &str),
-    xs: &[f64],
-    panels: &[DamagePanel],
-    layout: Layout,
-) -> Picture {
+/// Panels over one axis, each with its own legend where it holds several curves; `title` is the picture's where they have
+/// none.
+fn stack(name: &str, title: &str, (x_label, x_unit): (&str, &str), curves: &DamageCurves, layout: Layout) -> Picture {
+    let DamageCurves { title: shown, along: xs, panels, .. } = curves;
     let size = layout.size(0.0);
     let part = if layout.roomy() { 118.0 } else { 112.0 };
     let (lo, hi) = range(xs.iter().copied()).unwrap_or((-1.0, 1.0));

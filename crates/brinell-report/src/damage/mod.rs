@@ -25,10 +25,6 @@ pub struct DamageView {
     pub element: String,
     /// What the view from above shows, as the picture's heading.
     pub plan_title: String,
-    /// What the curves over the angle show.
-    pub passage_title: String,
-    /// What the section's curves show.
-    pub section_title: String,
     /// Numbers: length, area, time to pass.
     pub facts: Vec<Fact>,
     /// Seen from above, (s, z) in mm from the defect's centre; a polygon within another is a hole.
@@ -52,32 +48,26 @@ pub struct DamageView {
     pub passing: Passing,
     /// s of the load zone's ends, where the surface rests in it.
     pub load_zone_mm: Option<[f64; 2]>,
-    /// Angle of a roller from the defect's centre.
-    pub angle_deg: Vec<f64>,
-    /// Contact conditions during roller passage.
-    pub passage: Vec<DamagePanel>,
-    /// At which deformation, by which laws.
-    pub passage_note: String,
-    /// The load along a roller at rest on it, where rollers have slices.
-    pub along: Option<AlongRoller>,
-    /// s along the damage.
-    pub section_s_mm: Vec<f64>,
-    /// Section properties there.
-    pub section: Vec<DamagePanel>,
-    /// For which ring.
-    pub section_note: String,
+    /// Contact conditions during roller passage, over the angle of a roller from the defect's centre, in degrees; at
+    /// which deformation, by which laws.
+    pub passage: DamageCurves,
+    /// Profile's drop, line load and pressure along a roller at rest on it, over z from its middle, in mm, where rollers
+    /// have slices; forces and lengths, and by which law.
+    pub along: Option<DamageCurves>,
+    /// Section properties over s along the damage, in mm; for which ring.
+    pub section: DamageCurves,
 }
 
-/// The load along one roller at rest.
+/// Panels over one axis.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct AlongRoller {
-    /// "The load along a roller at rest over the damage where it is widest".
+pub struct DamageCurves {
+    /// What they show.
     pub title: String,
-    /// z from the roller's middle.
-    pub z_mm: Vec<f64>,
-    /// Profile's drop, line load, pressure.
+    /// Places on the axis.
+    pub along: Vec<f64>,
+    /// What is drawn over them.
     pub panels: Vec<DamagePanel>,
-    /// Forces and lengths, and by which law.
+    /// What to know; may be empty.
     pub note: String,
 }
 

@@ -2,18 +2,18 @@
 
 use super::curves::curve;
 use crate::number::short;
-use crate::{AlongRoller, DamagePanel};
+use crate::{DamageCurves, DamagePanel};
 use brinell::lamina::{AtRest, ContactLine};
 use brinell::scenario::Scenario;
 
 /// Of the roller that carries most. `None` where rollers have no slices, or nothing holds the rings
 /// against the load.
-pub(crate) fn along_healthy_roller(s: &Scenario) -> Option<AlongRoller> {
+pub(crate) fn along_healthy_roller(s: &Scenario) -> Option<DamageCurves> {
     along_roller(s, &AtRest::of(s).ok()??, None)
 }
 
 /// Of the roller over a defect (from 0), or of the one that carries most.
-pub(super) fn along_roller(s: &Scenario, at_rest: &AtRest, defect: Option<usize>) -> Option<AlongRoller> {
+pub(super) fn along_roller(s: &Scenario, at_rest: &AtRest, defect: Option<usize>) -> Option<DamageCurves> {
     let load = at_rest.over(defect).ok()?;
     let sides = [(1, "outer"), (0, "inner")];
     let conditions = || {
@@ -56,9 +56,9 @@ pub(super) fn along_roller(s: &Scenario, at_rest: &AtRest, defect: Option<usize>
             short(at.force, 4)
         ),
     };
-    Some(AlongRoller {
+    Some(DamageCurves {
         title: format!("The load along a roller at rest {place}"),
-        z_mm: scaled(1e3, &load.z),
+        along: scaled(1e3, &load.z),
         panels,
         note: format!(
             "{}. Static balance of the whole bearing, in {} slices that do not know of each other: without the stress concentration at edges",

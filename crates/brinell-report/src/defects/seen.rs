@@ -4,8 +4,8 @@ use super::along::along_roller;
 use super::curves::{depths, section};
 use super::measures::{Measures, deepest, facts, widest};
 use super::passage::Passage;
-use crate::DamageView;
 use crate::number::short;
+use crate::{DamageCurves, DamageView};
 use brinell::defect::simplify::Extent;
 use brinell::defect::{Defect, Shape, Side, wrap};
 use brinell::derived::Passing;
@@ -105,8 +105,8 @@ impl<'a> Seen<'a> {
     pub(super) fn damage(self, at_rest: Option<&AtRest>) -> Damage {
         let (s, defect) = (self.scenario, self.defect);
         let of = &s.defects[self.index];
-        let (angle_deg, passage) = Passage { scenario: s, of, defect, model: self.model, sides: &self.sides }.panels();
-        let (section_s_mm, section) = match self.is_roller() || self.is_through() {
+        let passage = Passage { scenario: s, of, defect, model: self.model, sides: &self.sides }.panels();
+        let section = match self.is_roller() || self.is_through() {
             true => (Vec::new(), Vec::new()),
             false => section(defect, ring_width(s), self.thickness),
         };
@@ -115,8 +115,6 @@ impl<'a> Seen<'a> {
         let passing = Passing::of(self.model, defect.surface);
         let view = DamageView {
             plan_title: format!("{title}. {}", self.unrolled()),
-            passage_title: format!("{title}. {}", self.conditions()),
-            section_title: format!("{title}. Section under it of a ring {} mm thick", short(1e3 * self.thickness, 3)),
             element: element.into(),
             surface: match defect.surface {
                 Surface::OuterRaceway => "outer raceway".into(),
@@ -124,7 +122,6 @@ impl<'a> Seen<'a> {
                 Surface::Roller(_) => element.into(),
             },
             half_turn_mm: self.is_roller().then_some(0.5e3 * TAU * defect.radius),
-            title,
             facts: facts(&self.measures, s, defect, passing),
             polygons_mm: in_place(of, &defect.shape),
             against_mm: Vec::new(),
@@ -135,13 +132,20 @@ impl<'a> Seen<'a> {
             roller_diameter_mm: s.bearing.roller_diameter_mm,
             passing,
             load_zone_mm: self.load_zone_mm(),
-            angle_deg,
-            passage,
-            passage_note: self.passage_note(),
+            passage: DamageCurves {
+                title: format!("{title}. {}", self.conditions()),
+                along: passage.0,
+                panels: passage.1,
+                note: self.passage_note(),
+            },
             along: at_rest.and_then(|r| along_roller(s, r, Some(self.index))),
-            section_s_mm,
-            section,
-            section_note: self.section_note(),
+            section: DamageCurves {
+                title: format!("{title}. Section under it of a ring {} mm thick", short(1e3 * self.thickness, 3)),
+                along: section.0,
+                panels: section.1,
+                note: self.section_note(),
+            },
+            title,
         };
         Damage { measures: self.measures, view }
     }

@@ -39,10 +39,10 @@ pub fn pictures(report: &Report, layout: Layout) -> Vec<Picture> {
     for (index, view) in report.damage.iter().enumerate() {
         pictures.extend(damage_photo(view, index, layout));
         pictures.push(damage_plan(view, index, layout));
-        if !view.passage.is_empty() {
+        if !view.passage.panels.is_empty() {
             pictures.push(damage_passage(view, index, layout));
         }
-        if !view.section.is_empty() {
+        if !view.section.panels.is_empty() {
             pictures.push(damage_section(view, index, layout));
         }
     }

@@ -43,7 +43,6 @@ pub(super) fn load_distribution(parts: &Parts) -> Vec<RowLoad> {
         static_points.sort_by(|a, b| a.0.total_cmp(&b.0));
         RowLoad {
             title: format!("Row {}, force at the outer contact", row + 1),
-            angle_deg: crate::bin_centres(load.max.len()),
             mean_n: load.mean(),
             max_n: load.max.clone(),
             static_points,

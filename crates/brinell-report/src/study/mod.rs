@@ -6,7 +6,7 @@ use std::fmt::Write as _;
 use crate::damage::{DamageView, damage_plan};
 use crate::data::Tone;
 use crate::fact::Fact;
-use crate::frame::{close, code, figure, lead, none, open, plain, section, unit_html};
+use crate::frame::{close, code, contents, figure, lead, none, open, plain, section, unit_html};
 use crate::layout::Layout;
 use crate::markup::escape;
 use crate::misfit::{Tried, course_plot, embed_course, embed_key, key_plot};
@@ -195,11 +195,7 @@ fn draw(piece: &StudyPiece, layout: Layout) -> Option<Picture> {
 pub fn study_html(study: &Study) -> String {
     let done = if study.analysed { "Analysed" } else { "Simulated" };
     let mut page = open(&study.title, &study.subtitle, (done, &study.version), plain(&study.warnings));
-    page.push_str("<nav aria-label=\"Contents\"><ul>");
-    for chapter in &study.chapters {
-        let _ = write!(page, "<li><a href=\"#{}\">{}</a></li>", chapter.id, escape(&chapter.short));
-    }
-    page.push_str("</ul></nav>\n<main>\n");
+    contents(&mut page, study.chapters.iter().map(|chapter| (&*chapter.id, &*chapter.short)));
     lead(&mut page, &study.lead);
     facts(&mut page, &study.facts);
     let mut count = 0;

@@ -3,7 +3,8 @@
 use super::sample::{filled, ordinary, square_with_a_hole};
 use brinell::derived::Passing;
 use brinell_report::{
-    DamageCurve, DamagePanel, DamageView, Layout, damage_passage, damage_plan, damage_section, html, pictures,
+    DamageCurve, DamageCurves, DamagePanel, DamageView, Layout, damage_passage, damage_plan, damage_section, html,
+    pictures,
 };
 
 #[test]
@@ -119,14 +120,15 @@ fn regress_the_page_shows_the_roller_passage_and_the_rings_section() {
         from_zero: true,
         curves: vec![curve("in contact, L_e"), curve("damaged, L_s")],
     };
+    let curves = |title: &str, label: &str, note: &str| DamageCurves {
+        title: title.into(),
+        along: vec![-1.0, 0.0, 1.0],
+        panels: vec![panel(label)],
+        note: note.into(),
+    };
     report.damage = vec![DamageView {
-        passage_title: "Contact conditions during roller passage".into(),
-        section_title: "Section under it".into(),
-        angle_deg: vec![-1.0, 0.0, 1.0],
-        passage: vec![panel("Length")],
-        passage_note: "stiffness at 1 um".into(),
-        section_s_mm: vec![-1.0, 0.0, 1.0],
-        section: vec![panel("Thickness")],
+        passage: curves("Contact conditions during roller passage", "Length", "stiffness at 1 um"),
+        section: curves("Section under it", "Thickness", ""),
         ..square_with_a_hole()
     }];
     let page = html(&report);

@@ -7,9 +7,9 @@ use brinell::observe::slip_course::Slips;
 use brinell::scenario::Surface;
 use brinell::signal;
 use brinell_report::{
-    AlongRoller, AxialRow, AxialSection, CageOrbit, CageOrbits, DamageCurve, DamagePanel, DamageView, DepthPatch,
+    AxialRow, AxialSection, CageOrbit, CageOrbits, DamageCurve, DamageCurves, DamagePanel, DamageView, DepthPatch,
     Estimate, Event, Fact, Healthy, IndicatorRow, IndicatorTable, Marker, MinMax, Motion, MotionDamage, MotionRow,
-    Pass, Report, RowLoad, SensorView, Series, SlipRow, Spectrogram, Spectrum, Waveform, bin_centres,
+    Pass, Report, RowLoad, SensorView, Series, SlipRow, Spectrogram, Spectrum, Waveform,
 };
 
 /// Damage in which every list is filled; one with depths and one of a polygon come from the sign of the first value.
@@ -21,13 +21,17 @@ fn damage_view(text: &str, values: &[f64]) -> DamageView {
         from_zero: at(1) > 0.0,
         curves: vec![DamageCurve { name: text.into(), values: values.to_vec() }; 2],
     };
+    let curves = |along: Vec<f64>, panels: usize| DamageCurves {
+        title: text.into(),
+        along,
+        panels: vec![panel.clone(); panels],
+        note: text.into(),
+    };
     DamageView {
         title: text.into(),
         surface: text.into(),
         element: text.into(),
         plan_title: text.into(),
-        passage_title: text.into(),
-        section_title: text.into(),
         half_turn_mm: (at(2) > 0.0).then(|| at(3)),
         facts: vec![Fact::new(text, at(0), text, text)],
         polygons_mm: vec![values.windows(2).map(|w| [w[0], w[1]]).collect()],
@@ -43,20 +47,11 @@ fn damage_view(text: &str, values: &[f64]) -> DamageView {
         roller_diameter_mm: at(5),
         passing: if at(2) > 0.0 { Passing::TowardsPlus } else { Passing::TowardsMinus },
         load_zone_mm: Some([at(6), at(7)]),
-        angle_deg: values.to_vec(),
-        passage: vec![panel.clone(); 2],
-        passage_note: text.into(),
+        passage: curves(values.to_vec(), 2),
         photo: None,
-        along: Some(AlongRoller {
-            title: text.into(),
-            // As many as slices at most.
-            z_mm: values.iter().take(200).copied().collect(),
-            panels: vec![panel.clone()],
-            note: text.into(),
-        }),
-        section_s_mm: values.to_vec(),
-        section: vec![panel],
-        section_note: text.into(),
+        // As many as slices at most.
+        along: Some(curves(values.iter().take(200).copied().collect(), 1)),
+        section: curves(values.to_vec(), 1),
     }
 }
 
@@ -190,7 +185,6 @@ pub(crate) fn filled(text: &str, values: &[f64], dt: f64, frequency: f64) -> Rep
         along: damage_view(text, values).along,
         load_distribution: vec![RowLoad {
             title: text.into(),
-            angle_deg: values.to_vec(),
             mean_n: values.to_vec(),
             max_n: values.iter().rev().copied().collect(),
             static_points: values.iter().map(|v| (*v, at(0))).collect(),
@@ -278,7 +272,6 @@ pub(crate) fn ordinary() -> Report {
     };
     report.load_distribution[0] = RowLoad {
         title: "Row 1".into(),
-        angle_deg: bin_centres(36),
         mean_n: vec![10.0; 36],
         max_n: vec![12.0; 36],
         static_points: vec![(0.0, 11.0)],
