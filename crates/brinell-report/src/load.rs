@@ -1,12 +1,10 @@
 //! Load distribution around the bearing, as a polar picture.
 
-use std::f64::consts::TAU;
-
 use crate::chart::{Size, range};
 use crate::data::RowLoad;
 use crate::font;
 use crate::layout::{Layout, legend};
-use crate::number::{linear_ticks, tick_labels};
+use crate::number::{bin_centres, linear_ticks, tick_labels};
 use crate::picture::{Anchor, Axis, Curve, Paint, Picture, Rect, Shape, Text, ink};
 use crate::thin::straightened;
 
@@ -139,9 +137,4 @@ impl Polar {
             picture.text(label.color(ink::FAINT));
         }
     }
-}
-
-/// Middles of equal bins around the circle, degrees.
-pub(crate) fn bin_centres(bins: usize) -> Vec<f64> {
-    (0..bins).map(|bin| ((bin as f64 + 0.5) * TAU / bins as f64).to_degrees()).collect()
 }

@@ -2,6 +2,7 @@
 //! lowered indices.
 
 pub use brinell::signal::short;
+use std::f64::consts::TAU;
 
 /// A value with its interval after it: `1.35 (1.30 to 1.40)`.
 pub(crate) fn bracketed(value: String, interval: Option<(f64, f64)>) -> String {
@@ -242,6 +243,11 @@ pub(crate) fn tick_labels(ticks: &[f64]) -> (Vec<String>, i32) {
         })
         .collect();
     (labels, power)
+}
+
+/// Middles of equal bins around the circle, degrees.
+pub(crate) fn bin_centres(bins: usize) -> Vec<f64> {
+    (0..bins).map(|bin| ((bin as f64 + 0.5) * TAU / bins as f64).to_degrees()).collect()
 }
 
 /// What is no number becomes 0.

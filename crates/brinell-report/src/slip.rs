@@ -2,7 +2,7 @@
 
 use crate::chart::{self, Chart, Domain, range};
 use crate::layout::{Layout, legend, time_unit};
-use crate::load::bin_centres;
+use crate::number::bin_centres;
 use crate::picture::{Paint, Picture, ink};
 use brinell::observe::slip_course::Slips;
 
