@@ -58,7 +58,6 @@ files! {
     "src/views/view.js": JS,
     "src/worker-engine.js": JS,
     "src/worker.js": JS,
-    "vendor/uplot.mjs": JS,
 }
 
 #[cfg(test)]
@@ -72,14 +71,14 @@ mod tests {
     fn prop_the_list_is_what_lies_there() {
         let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("page");
         let mut found = BTreeSet::from(["index.html".to_owned(), "studio.css".to_owned()]);
-        let mut folders = vec![root.join("src"), root.join("vendor")];
+        let mut folders = vec![root.join("src")];
         while let Some(folder) = folders.pop() {
             for entry in std::fs::read_dir(folder).unwrap() {
                 let path = entry.unwrap().path();
                 let name = path.strip_prefix(&root).unwrap().to_str().unwrap().replace('\\', "/");
                 match path.extension().and_then(|e| e.to_str()) {
                     _ if path.is_dir() => folders.push(path),
-                    Some("js" | "mjs") => drop(found.insert(name)),
+                    Some("js") => drop(found.insert(name)),
                     _ => {}
                 }
             }

@@ -80,11 +80,11 @@ describe("curves", () => {
   }));
 
   it("zooms by a drag, keeps the zoom when data arrive, goes back on a double click", async () => on({}, async (page) => {
-    const home = await view(page, "envelope"), over = curve(page, "envelope").locator(".u-over"), box = await over.boundingBox();
+    const home = await view(page, "envelope"), over = curve(page, "envelope").locator(".over"), box = await over.boundingBox();
     await page.mouse.move(box.x + 0.25 * box.width, box.y + 40);
     await page.mouse.down();
     await page.mouse.move(box.x + 0.4 * box.width, box.y + 50, { steps: 4 });
-    assert.ok((await curve(page, "envelope").locator(".u-select").boundingBox()).width > 0.1 * box.width);
+    assert.ok((await curve(page, "envelope").locator(".select").boundingBox()).width > 0.1 * box.width);
     await page.mouse.up();
     await drawn(page);
     const zoomed = await view(page, "envelope"), wide = home[1] - home[0];
@@ -101,7 +101,7 @@ describe("curves", () => {
     await page.evaluate(() => { const node = document.querySelector("[kind=envelope]");
       node.data = { ...node.data, second: window.made.envelope({ size: 0.5, seed: 4 }) }; });
     await drawn(page);
-    const box = await curve(page, "envelope").locator(".u-over").boundingBox(), [from, to] = await view(page, "envelope");
+    const box = await curve(page, "envelope").locator(".over").boundingBox(), [from, to] = await view(page, "envelope");
     await page.mouse.move(box.x + box.width * (249.5 - from) / (to - from), box.y + 60);
     const text = await readout(page, "envelope");
     assert.match(text, /^2(49|50)[\d.]* Hz · [\d.]+ m\/s² · B [\d.]+ · healthy [\d.]+ · BPFO$/);

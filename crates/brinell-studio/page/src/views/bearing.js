@@ -13,8 +13,6 @@ import { arcs, paintLegend, paintLoad, paintRow, RING } from "./face.js";
 const own = sheet(`
 :host { display: flex; flex-direction: column; }
 .stage { position: relative; flex: 1 0 var(--bearing-height, 260px); border-radius: 4px; }
-.stage canvas { position: absolute; inset: 0; }
-.empty { position: absolute; inset: 0; display: grid; place-items: center; color: var(--_faint); pointer-events: none; }
 .bar { padding-top: 4px; }
 .bar label { flex: 1 1 90px; min-width: 0; }
 .bar input { flex: 1; width: 40px; min-width: 40px; }

@@ -1,9 +1,9 @@
 // <brinell-curve kind="waveform|spectrum|envelope">: a curve with the healthy bearing behind it, zoom, cursor, marks and a table.
 import { fill, h, short, spelled } from "../dom.js";
-import { seldom, View } from "./view.js";
+import { fit, seldom } from "./view.js";
 import { sheet } from "./theme.js";
 import { breadth, font } from "./pen.js";
-import { makePlot, paintAxes, plotSheet, ROOM } from "./plot.js";
+import { paintAxes, PlotView } from "./plot.js";
 import { Limit, ticks } from "./scale.js";
 import { decibel, labelRoom, orders, paintBand, paintLines, part, STRIP, trace, tracePath } from "./trace.js";
 
@@ -24,11 +24,13 @@ const SNAP = 4;
 /** The envelope opens on so many multiples of the highest nominal frequency. */
 const ENVELOPE_ORDERS = 5.6;
 
+/** Room around the frame, px. */
+const ROOM = { top: 8, right: 22, bottom: 20, left: 46 };
+
 const own = sheet(`
-:host { display: flex; flex-direction: column; }
-.plot { position: relative; flex: 1 0 var(--plot-height, 180px); border-radius: 4px; }
-.plot:focus-visible { outline-offset: -1px; }
-.empty { position: absolute; inset: 0; display: grid; place-items: center; color: var(--_faint); pointer-events: none; }
+.plot { flex: 1 0 var(--plot-height, 180px); }
+.over { position: absolute; inset: ${ROOM.top}px ${ROOM.right}px ${ROOM.bottom}px ${ROOM.left}px; cursor: crosshair; touch-action: pan-y; user-select: none; }
+.select { position: absolute; top: 0; bottom: 0; pointer-events: none; background: color-mix(in srgb, var(--_blue) 16%, transparent); }
 .cursor { position: absolute; width: 0; border-left: 1px solid var(--_ink); pointer-events: none; opacity: 0.6; }
 .dot { position: absolute; width: 7px; height: 7px; margin: -3.5px; border-radius: 50%; background: var(--_ink); pointer-events: none; }
 .end { margin-left: auto; }
@@ -36,12 +38,11 @@ const own = sheet(`
 .key::before { content: ""; display: inline-block; width: 14px; height: 0; margin-right: 5px; vertical-align: middle; border-top: 2px solid var(--mark); }
 `);
 
-export class BrinellCurve extends View {
+export class BrinellCurve extends PlotView {
   static observedAttributes = ["kind"];
 
   constructor() {
-    super(own);
-    this.root.adoptedStyleSheets.push(plotSheet);
+    super(own, "waiting for samples", HELP);
     /** @type {CurveData | null} */
     this.held = null;
     /** Ends of the zoom counted from the curve's start; null shows the home view. @type {[number, number] | null} */
@@ -57,47 +58,31 @@ export class BrinellCurve extends View {
     /** Where the curves end below. */
     this.least = 0;
     this.redraws = { count: 0, ms: 0 };
-    this.begun = 0;
     this.entitled = "";
-    /** @type {ReturnType<typeof makePlot> | null} */
-    this.plot = null;
-    this.table = h("table");
     this.name = h("span", { class: "title" });
-    this.readout = h("span", { class: "readout" });
     this.keys = h("span", { class: "tools" });
     this.scaleButton = h("button", { type: "button", "aria-pressed": "false", title: "Logarithmic axis, dB (key L)" }, "dB");
     this.allButton = h("button", { type: "button", title: "Everything that there is" }, "All");
     this.resetButton = h("button", { type: "button", title: "Back to the first view (key 0, double click)", hidden: true }, "Reset");
-    this.box = h("div", { class: "plot", tabindex: "0", role: "application", "aria-roledescription": "plot", "aria-description": HELP });
-    this.empty = h("div", { class: "empty" }, "waiting for samples");
+    /** Shades what is drawn over, to be zoomed to. */
+    this.shaded = h("div", { class: "select", hidden: true });
+    this.over = h("div", { class: "over" }, this.shaded);
     this.line = h("div", { class: "cursor", hidden: true });
     this.dot = h("div", { class: "dot", hidden: true });
-    this.said = h("div", { class: "hidden", role: "status" });
-    this.details = h("details", {}, h("summary", {}, "Values"),
-      h("div", { class: "scroll", tabindex: "0", role: "group", "aria-label": "Values" }, this.table));
     const tools = h("span", { class: "tools end" }, this.resetButton, this.scaleButton, this.allButton);
-    this.box.append(this.empty, this.line, this.dot);
-    this.root.append(h("div", { class: "head" }, this.name, this.keys, tools), this.box, h("div", { class: "foot" }, this.details, this.readout), this.said);
+    this.empty.before(this.over, this.line, this.dot);
+    this.root.prepend(h("div", { class: "head" }, this.name, this.keys, tools));
     this.scaleButton.addEventListener("click", () => this.setLog(!this.log));
     this.allButton.addEventListener("click", () => this.zoom(this.full()));
     this.resetButton.addEventListener("click", () => this.zoom(null));
-    this.details.addEventListener("toggle", () => this.tabulate());
-    this.box.addEventListener("keydown", (event) => this.key(event));
-    this.box.addEventListener("blur", () => this.point(null));
+    this.listen();
     this.tellSoon = seldom(1000, () => this.describe());
     this.tableSoon = seldom(400, () => this.tabulate());
-    this.speakSoon = seldom(300, () => { this.said.textContent = this.readout.textContent; });
   }
 
   connectedCallback() {
     super.connectedCallback();
-    this.sizes.observe(this.box);
     this.entitle();
-  }
-  disconnectedCallback() {
-    super.disconnectedCallback();
-    this.plot?.destroy();
-    this.plot = null;
   }
   attributeChangedCallback() { this.entitle(); this.limit = new Limit(); this.requestDraw(); }
 
@@ -208,13 +193,14 @@ export class BrinellCurve extends View {
     this.empty.hidden = !!data;
     this.entitleOnce();
     if (!data && this.place !== null) this.point(null);
-    if (!this.box.clientWidth || !this.box.clientHeight) return;
-    this.plot ??= this.makePlot();
-    this.begun = performance.now();
-    const room = ROOM;
-    const axes = data ? this.axes(data, this.box.clientWidth - room.left - room.right, this.box.clientHeight - room.top - room.bottom)
-      : { x: /** @type {[number, number]} */ ([0, 1]), y: /** @type {[number, number]} */ ([0, 1]), xTicks: [], yTicks: [] };
-    this.plot.draw(axes);
+    const begun = performance.now(), room = fit(this.canvas, this.box), frame = this.frame();
+    if (!room) return;
+    if (data) {
+      paintAxes(room.pen, frame, this.axes(data, frame.width, frame.height), this.colours, (px) => Math.round(px - 0.5) + 0.5);
+      this.paint(room.pen, frame, this.colours);
+      this.redraws.count++;
+      this.redraws.ms += performance.now() - begun;
+    }
     this.resetButton.hidden = !this.zoomed;
     if (this.place !== null) this.read();
     this.tellSoon();
@@ -239,16 +225,13 @@ export class BrinellCurve extends View {
     if (data?.behind) keys.push(["healthy", "healthy"]);
     return keys;
   }
-  makePlot() {
-    const plot = makePlot(this.box, () => this.colours, (pen, frame) => {
-      if (!this.held) return;
-      this.paint(pen, frame, this.colours);
-      this.redraws.count++;
-      this.redraws.ms += performance.now() - this.begun;
-    });
-    this.listen(plot.over);
-    this.box.append(this.line, this.dot, this.empty);
-    return plot;
+  /** Where the curves are in the box. @returns {import("./plot.js").Frame} */
+  frame() { return { left: ROOM.left, top: ROOM.top, width: this.box.clientWidth - ROOM.left - ROOM.right, height: this.box.clientHeight - ROOM.top - ROOM.bottom }; }
+  /** Shades from one place across the frame to another, px; nothing with null. @param {[number, number] | null} span */
+  shade(span) {
+    const [from, to] = span ?? [0, 0];
+    this.shaded.hidden = !span;
+    this.shaded.style.cssText = `left:${Math.min(from, to)}px;width:${Math.abs(to - from)}px`;
   }
   /** @param {import("./plot.js").Frame} frame @returns {import("./trace.js").Space} */
   space(frame) {
@@ -299,8 +282,8 @@ export class BrinellCurve extends View {
   /** The sample at a place; of spectra the highest one within so many pixels. @param {Curve} curve @param {number} x @param {number} [snap] */
   sample(curve, x, snap = 0) {
     const last = curve.values.length - 1, nearest = Math.min(Math.max(Math.round((x - curve.x0) / curve.dx), 0), last);
-    if (!snap || this.kind === "waveform" || !this.plot) return nearest;
-    const reach = Math.ceil(snap * (this.view[1] - this.view[0]) / this.plot.frame().width / curve.dx);
+    if (!snap || this.kind === "waveform") return nearest;
+    const reach = Math.ceil(snap * (this.view[1] - this.view[0]) / this.frame().width / curve.dx);
     let best = nearest;
     for (let i = Math.max(0, nearest - reach); i <= Math.min(last, nearest + reach); i++) if (curve.values[i] > curve.values[best]) best = i;
     return best;
@@ -318,9 +301,9 @@ export class BrinellCurve extends View {
     this.read();
   }
   read() {
-    const data = this.held, plot = this.plot;
-    if (!data || !plot || this.place === null) return;
-    const frame = plot.frame(), space = this.space(frame), index = this.sample(data, data.x0 + this.place), x = data.x0 + index * data.dx, px = space.X(x);
+    const data = this.held;
+    if (!data || this.place === null) return;
+    const frame = this.frame(), space = this.space(frame), index = this.sample(data, data.x0 + this.place), x = data.x0 + index * data.dx, px = space.X(x);
     const inside = px >= frame.left - 0.5 && px <= frame.left + frame.width + 0.5;
     this.line.hidden = this.dot.hidden = !inside;
     this.line.style.cssText = `left:${px}px;top:${frame.top}px;height:${frame.height}px`;
@@ -351,7 +334,7 @@ export class BrinellCurve extends View {
   /** @param {KeyboardEvent} event */
   key(event) {
     const data = this.held;
-    if (!data || event.ctrlKey || event.metaKey || event.altKey) return;
+    if (!data) return undefined;
     const [from, to] = this.shown(), stride = Math.max((to - from) / 200, data.dx) * (event.shiftKey ? 10 : 1), at = this.place ?? (from + to) / 2;
     /** @type {Record<string, () => void>} */
     const acts = {
@@ -360,12 +343,8 @@ export class BrinellCurve extends View {
         "-": () => this.zoomAround(2, at), _: () => this.zoomAround(2, at),
       0: () => this.zoom(null), l: () => this.setLog(!this.log), L: () => this.setLog(!this.log),
     };
-    if (event.key === "Escape" && (this.zoomed || this.place !== null)) { this.zoom(null); this.point(null); return; }
-    const act = acts[event.key];
-    if (!act) return;
-    event.preventDefault();
-    event.stopPropagation();
-    act();
+    if (event.key === "Escape" && (this.zoomed || this.place !== null)) { this.zoom(null); this.point(null); }
+    return acts[event.key];
   }
   /** Moves the cursor, and the view with it. @param {number} place */
   go(place) {
@@ -383,8 +362,8 @@ export class BrinellCurve extends View {
     const next = way > 0 ? list.find((x) => x > at - data.x0 + gap) : list.findLast((x) => x < at - data.x0 - gap);
     if (next !== undefined) this.go(next);
   }
-  /** @param {HTMLElement} over */
-  listen(over) {
+  listen() {
+    const { over } = this;
     const width = () => over.clientWidth || 1, px = (/** @type {PointerEvent | WheelEvent} */ e) => e.clientX - over.getBoundingClientRect().left;
     const at = (/** @type {number} */ x) => { const [from, to] = this.shown(); return from + (to - from) * Math.min(Math.max(x / width(), 0), 1); };
     /** @type {Map<number, number>} */
@@ -398,7 +377,7 @@ export class BrinellCurve extends View {
       if (event.button !== 0) return;
       fingers.set(event.pointerId, px(event));
       try { over.setPointerCapture(event.pointerId); } catch { /* gone already */ }
-      if (fingers.size === 2) { pinch = spread().map(at); start = null; this.plot?.shade(null); } else start = px(event);
+      if (fingers.size === 2) { pinch = spread().map(at); start = null; this.shade(null); } else start = px(event);
     });
     over.addEventListener("pointermove", (event) => {
       if (fingers.has(event.pointerId)) fingers.set(event.pointerId, px(event));
@@ -407,12 +386,12 @@ export class BrinellCurve extends View {
         // Two fingers keep what is under them.
         const per = (pinch[1] - pinch[0]) / (b - a), from = pinch[0] - a * per;
         this.zoom([from, from + width() * per]);
-      } else if (start !== null && Math.abs(px(event) - start) > 4) this.plot?.shade([start, Math.min(Math.max(px(event), 0), width())]);
+      } else if (start !== null && Math.abs(px(event) - start) > 4) this.shade([start, Math.min(Math.max(px(event), 0), width())]);
       if (!pinch) this.point(at(px(event)), SNAP);
     });
     const lift = (/** @type {PointerEvent} */ event) => {
       fingers.delete(event.pointerId);
-      this.plot?.shade(null);
+      this.shade(null);
       if (pinch) { if (!fingers.size) pinch = null; return; }
       const begun = start;
       start = null;

@@ -1,9 +1,9 @@
 // <brinell-passage>: one roller's passage over the damage: contact length and force over the roller's place.
 import { fill, h, short } from "../dom.js";
-import { fit, seldom, View } from "./view.js";
+import { fit } from "./view.js";
 import { sheet } from "./theme.js";
 import { font } from "./pen.js";
-import { paintAxes } from "./plot.js";
+import { paintAxes, PlotView } from "./plot.js";
 import { roundUp, ticks } from "./scale.js";
 
 /** @typedef {{ s_mm: Float32Array, length_mm: Float32Array, force_n: Float32Array, healthy_n: number, width_mm: number }} Passage */
@@ -16,43 +16,23 @@ import { roundUp, ticks } from "./scale.js";
 
 const ROOM = { left: 46, right: 22, bottom: 22, head: 18, gap: 8 };
 const own = sheet(`
-:host { display: flex; flex-direction: column; }
-.plot { position: relative; flex: 1 0 var(--plot-height, 230px); border-radius: 4px; cursor: crosshair; touch-action: pan-y; }
-.plot:focus-visible { outline-offset: -1px; }
-.plot canvas { position: absolute; inset: 0; }
-.empty { position: absolute; inset: 0; display: grid; place-items: center; color: var(--_faint); pointer-events: none; text-align: center; }
+.plot { flex: 1 0 var(--plot-height, 230px); cursor: crosshair; touch-action: pan-y; }
 `);
 
-export class BrinellPassage extends View {
+export class BrinellPassage extends PlotView {
   constructor() {
-    super(own);
+    super(own, "no damage chosen", "Arrow keys move the cursor, Shift moves it further");
     /** @type {Passage | null} */
     this.held = null;
     /** @type {number | null} Index of the cursor. */
     this.index = null;
-    this.canvas = h("canvas", { "aria-hidden": "true" });
-    this.readout = h("span", { class: "readout" });
-    this.empty = h("div", { class: "empty" }, "no damage chosen");
-    this.box = /** @type {HTMLElement} */ (h("div",
-      { class: "plot", tabindex: "0", role: "application", "aria-roledescription": "plot", "aria-description": "Arrow keys move the cursor, Shift moves it further" },
-        this.canvas, this.empty));
-    this.said = h("div", { class: "hidden", role: "status" });
-    this.table = h("table");
-    this.details = /** @type {HTMLDetailsElement} */ (h("details", {}, h("summary", {}, "Values"),
-      h("div", { class: "scroll", tabindex: "0", role: "group", "aria-label": "Values" }, this.table)));
-    this.root.append(h("div", { class: "head" }, h("span", { class: "title" }, "One roller's passage")), this.box,
-      h("div", { class: "foot" }, this.details, this.readout), this.said);
-    this.speakSoon = seldom(300, () => { this.said.textContent = this.readout.textContent; });
-    this.details.addEventListener("toggle", () => this.tabulate());
+    this.root.prepend(h("div", { class: "head" }, h("span", { class: "title" }, "One roller's passage")));
     this.box.addEventListener("pointermove", (event) => this.point(this.indexAt(event.clientX - this.box.getBoundingClientRect().left)));
     this.box.addEventListener("pointerdown", (event) => this.point(this.indexAt(event.clientX - this.box.getBoundingClientRect().left)));
     this.box.addEventListener("pointerleave", () => { if (this.root.activeElement !== this.box) this.point(null); });
-    this.box.addEventListener("blur", () => this.point(null));
-    this.box.addEventListener("keydown", (event) => this.key(event));
   }
   connectedCallback() {
     super.connectedCallback();
-    this.sizes.observe(this.box);
     this.describe();
   }
   /** @returns {Passage | null} */
@@ -89,14 +69,13 @@ export class BrinellPassage extends View {
   /** @param {KeyboardEvent} event */
   key(event) {
     const data = this.held;
-    if (!data || event.ctrlKey || event.metaKey || event.altKey) return;
+    if (!data) return undefined;
     const last = data.s_mm.length - 1, at = this.index ?? Math.round(last / 2), stride = Math.max(1, Math.round(last / 200)) * (event.shiftKey ? 10 : 1);
     const to = { ArrowLeft: at - stride, ArrowRight: at + stride, Home: 0, End: last }[event.key];
-    if (to === undefined) return;
-    event.preventDefault();
-    event.stopPropagation();
-    this.point(Math.min(Math.max(to, 0), last));
-    this.speakSoon();
+    return to === undefined ? undefined : () => {
+      this.point(Math.min(Math.max(to, 0), last));
+      this.speakSoon();
+    };
   }
 
   draw() {

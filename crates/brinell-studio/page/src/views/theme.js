@@ -45,7 +45,8 @@ button:focus-visible, select:focus-visible, input:focus-visible, summary:focus-v
 input[type="range"] { accent-color: var(--_blue); min-width: 60px; height: 24px; margin: 0; }
 label { display: inline-flex; align-items: center; gap: 6px; font-size: 12px; color: var(--_faint); }
 output { color: var(--_ink); font-size: 12px; font-variant-numeric: tabular-nums; white-space: nowrap; }
-canvas { display: block; }
+canvas { display: block; position: absolute; inset: 0; }
+.empty { position: absolute; inset: 0; display: grid; place-items: center; color: var(--_faint); pointer-events: none; text-align: center; }
 .hidden { position: absolute; width: 1px; height: 1px; overflow: hidden; clip-path: inset(50%); white-space: nowrap; }
 details { font-size: 12px; }
 summary { display: inline-block; min-height: 24px; line-height: 24px; padding: 0 2px; color: var(--_faint); cursor: pointer; border-radius: 3px; }
