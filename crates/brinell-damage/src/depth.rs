@@ -114,19 +114,9 @@ fn raw(bytes: &[u8], kind: Option<FileKind>, options: &ScanFile) -> Result<Raw, 
         Some(FileKind::Csv) => depth_csv::read(bytes, stated(options))?,
         Some(FileKind::Sdf) => surface::read_sdf(bytes)?,
         Some(FileKind::Sur) => surface::read_sur(bytes)?,
-        #[cfg(feature = "x3p")]
         Some(FileKind::X3p) => surface::read_x3p(bytes)?,
-        #[cfg(not(feature = "x3p"))]
-        Some(FileKind::X3p) => {
-            return Err(DamageError::LeftOut { kind: FileKind::X3p, feature: "x3p" });
-        }
         Some(FileKind::Npy) => depth_npy::read(bytes)?,
-        #[cfg(feature = "image")]
         Some(FileKind::Png) => crate::pixels::heights(bytes)?,
-        #[cfg(not(feature = "image"))]
-        Some(FileKind::Png) => {
-            return Err(DamageError::LeftOut { kind: FileKind::Png, feature: "image" });
-        }
         _ => {
             return Err(DamageError::WrongKind {
                 what: describe(bytes),

@@ -1,10 +1,10 @@
 //! NumPy's NPY, versions 1 to 3: two-dimensional arrays of floats or integers, in C or Fortran order.
 //! Format: <https://numpy.org/doc/stable/reference/generated/numpy.lib.format.html>
 
-use crate::bytes::{Kind, Number};
 use crate::error::{DamageError, excerpt};
 use crate::kind::FileKind;
 use crate::scan::{MAX_POINTS, Raw};
+use brinell_io::{Number, npy_entry, npy_number, npy_sides, npy_tuple, npy_word};
 
 fn broken(at: &str, why: impl Into<String>) -> DamageError {
     DamageError::Broken { kind: FileKind::Npy, at: at.to_owned(), why: why.into() }
@@ -27,64 +27,33 @@ pub(crate) fn read(bytes: &[u8]) -> Result<Raw, DamageError> {
     let end = start + length;
     let header = bytes.get(start..end).ok_or_else(short)?;
     let header = std::str::from_utf8(header).map_err(|_| broken("its header", "not UTF-8"))?;
-    let (kind, big) = number(quoted(entry(header, "descr")?))?;
-    let fortran = match entry(header, "fortran_order")? {
+    let entry = |key| npy_entry(header, key).ok_or_else(|| broken("its header", format!("`{key}` is missing")));
+    let (number, big) = number(entry("descr")?)?;
+    let fortran = match entry("fortran_order")? {
         value if value.starts_with("True") => true,
         value if value.starts_with("False") => false,
         value => return Err(broken("fortran_order", format!("`{}`", excerpt(value)))),
     };
-    let [rows, columns] = shape(entry(header, "shape")?)?;
+    let [rows, columns] = shape(entry("shape")?)?;
     let points = rows.checked_mul(columns).filter(|&n| n <= MAX_POINTS);
     let points = points.ok_or_else(|| Raw::too_large(format!("{rows} x {columns}")))?;
-    let data = &bytes[end..];
-    if data.len() != points * kind.size {
-        return Err(broken(
-            "its data",
-            format!("{} bytes where {rows} x {columns} values need {}", data.len(), points * kind.size),
-        ));
+    let (data, wanted) = (&bytes[end..], points * number.bytes());
+    if data.len() != wanted {
+        return Err(broken("its data", format!("{} bytes where {rows} x {columns} values need {wanted}", data.len())));
     }
-    let mut values = vec![0.0; points];
-    for (i, item) in data.chunks_exact(kind.size).enumerate() {
-        let at = if fortran { i % rows * columns + i / rows } else { i };
-        let mut bytes = [0; 8];
-        let bytes = &mut bytes[..kind.size];
-        bytes.copy_from_slice(item);
-        if big {
-            bytes.reverse();
-        }
-        values[at] = kind.value(bytes);
+    let mut values = Vec::with_capacity(points);
+    number.decode(big, data, &mut values);
+    if fortran {
+        values = (0..points).map(|i| values[i % columns * rows + i / columns]).collect();
     }
     Ok(Raw { width: columns, height: rows, values, ..Raw::default() })
 }
 
-/// What follows a key of the header, a Python dictionary of three known keys.
-fn entry<'a>(header: &'a str, key: &'static str) -> Result<&'a str, DamageError> {
-    for quote in ['\'', '"'] {
-        if let Some((_, rest)) = header.split_once(&format!("{quote}{key}{quote}"))
-            && let Some(value) = rest.trim_start().strip_prefix(':')
-        {
-            return Ok(value.trim_start());
-        }
-    }
-    Err(broken("its header", format!("`{key}` is missing")))
-}
-
-fn quoted(text: &str) -> &str {
-    let mut parts = text.splitn(3, ['\'', '"']);
-    match (parts.next(), parts.next()) {
-        (Some(""), Some(inside)) => inside,
-        // A structured type.
-        _ => text,
-    }
-}
-
 fn shape(text: &str) -> Result<[usize; 2], DamageError> {
-    let inside = text.strip_prefix('(').and_then(|t| t.split_once(')')).map(|t| t.0);
-    let inside = inside.ok_or_else(|| broken("shape", format!("`{}`", excerpt(text))))?;
-    let sides: Option<Vec<usize>> =
-        inside.split(',').map(str::trim).filter(|side| !side.is_empty()).map(|side| side.parse().ok()).collect();
-    match sides.as_deref() {
-        Some(&[rows, columns]) => Ok([rows, columns]),
+    let inside = npy_tuple(text).ok_or_else(|| broken("shape", format!("`{}`", excerpt(text))))?;
+    let side = |side: u64| usize::try_from(side).unwrap_or(usize::MAX);
+    match npy_sides(inside).as_deref() {
+        Some(&[rows, columns]) => Ok([side(rows), side(columns)]),
         _ => Err(DamageError::Unsupported {
             at: "shape".to_owned(),
             what: format!("({})", excerpt(inside)),
@@ -93,24 +62,14 @@ fn shape(text: &str) -> Result<[usize; 2], DamageError> {
     }
 }
 
-/// What NumPy calls the type of an array's numbers, and whether they have their highest byte first.
+/// The type of an array's numbers, and whether they have their highest byte first. Truths and half-precision floats are
+/// no heights.
 fn number(descr: &str) -> Result<(Number, bool), DamageError> {
-    let mut letters = descr.chars();
-    let big = match letters.next() {
-        Some('>') => Some(true),
-        Some('<' | '=' | '|') => Some(false),
-        _ => None,
-    };
-    let kind = match letters.next() {
-        Some('f') => Some(Kind::Float),
-        Some('i') => Some(Kind::Signed),
-        Some('u') => Some(Kind::Unsigned),
-        _ => None,
-    };
-    let number = letters.as_str().parse().ok().zip(kind).and_then(|(size, kind)| Number::new(kind, size));
-    number.zip(big).ok_or_else(|| DamageError::Unsupported {
+    let word = npy_word(descr).unwrap_or(descr);
+    let no_height = word.ends_with("b1") || word.ends_with("f2");
+    npy_number(word).filter(|_| !no_height).ok_or_else(|| DamageError::Unsupported {
         at: "descr".to_owned(),
-        what: format!("`{}`", excerpt(descr)),
+        what: format!("`{}`", excerpt(word)),
         way_out: "save the array as float64",
     })
 }

@@ -4,7 +4,6 @@
 use brinell::scenario::RollingDirection;
 
 /// `[s, z]` of a point `x` to the right and `y` down.
-#[cfg(feature = "image")]
 pub(crate) fn turn(direction: RollingDirection, x: f64, y: f64) -> [f64; 2] {
     match direction {
         RollingDirection::Right => [x, -y],

@@ -161,14 +161,6 @@ pub enum DamageError {
         /// What is in the way.
         why: String,
     },
-    /// A format that this build leaves out.
-    #[error("this build does not read {kind}; build brinell-damage with the feature `{feature}`")]
-    LeftOut {
-        /// The format.
-        kind: FileKind,
-        /// The cargo feature that brings it.
-        feature: &'static str,
-    },
 }
 
 /// An option that must be a number above `low` and at most `high`.

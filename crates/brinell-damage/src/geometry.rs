@@ -33,7 +33,6 @@ impl Polygons {
     }
 
     /// Moves the bounding box's centre to the origin.
-    #[cfg(any(feature = "svg", feature = "image"))]
     pub(crate) fn centre(&mut self) {
         let Some([low, high]) = self.bounds_mm() else {
             return;

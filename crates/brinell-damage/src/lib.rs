@@ -21,7 +21,6 @@
 //! itself is said in `warnings`.
 //!
 //! ```
-//! # #[cfg(feature = "svg")] {
 //! use brinell::scenario::SvgFile;
 //! use brinell_damage::read_svg;
 //!
@@ -29,12 +28,13 @@
 //!     <rect x="1" y="2" width="3" height="2"/></svg>"#;
 //! let damage = read_svg(drawing, &SvgFile::default())?;
 //! assert!((damage.area_mm2() - 6.0).abs() < 1e-6);
-//! # }
 //! # Ok::<(), brinell_damage::DamageError>(())
 //! ```
 
 #![cfg_attr(not(test), deny(clippy::print_stdout, clippy::print_stderr))]
 
+mod background;
+mod blur;
 mod bytes;
 mod confirm;
 mod contour;
@@ -49,63 +49,37 @@ mod form_doubts;
 mod form_fit;
 mod geometry;
 mod holes;
+mod image;
 mod kind;
 mod loaded;
 mod numbers;
 mod outline;
+mod photo;
+mod pieces;
+mod pixels;
 #[doc(hidden)]
 pub mod plan;
+mod region;
 mod resolve;
 mod scan;
-mod surface;
-
-#[cfg(feature = "image")]
-mod background;
-#[cfg(feature = "image")]
-mod blur;
-#[cfg(feature = "image")]
-mod image;
-#[cfg(feature = "image")]
-mod photo;
-#[cfg(feature = "image")]
-mod pieces;
-#[cfg(feature = "image")]
-mod pixels;
-#[cfg(feature = "image")]
-mod region;
-#[cfg(feature = "image")]
 mod segment;
-#[cfg(feature = "image")]
-mod threshold;
-
-#[cfg(feature = "svg")]
 mod stroke;
-#[cfg(feature = "svg")]
+mod surface;
 mod svg;
-#[cfg(feature = "svg")]
 mod svg_page;
-#[cfg(feature = "svg")]
 mod svg_shape;
-#[cfg(feature = "svg")]
 mod svg_style;
-#[cfg(feature = "svg")]
 mod svg_union;
+mod threshold;
 
 pub use depth::read_depth_map;
 pub use error::DamageError;
 pub use geometry::{Curve, DepthMap, Form, Polygons};
+pub use image::{Traced, read_image, trace_image};
 pub use kind::FileKind;
 pub use loaded::resolve_loaded;
 pub use outline::{level_of_area, outline};
-#[doc(hidden)]
-pub use resolve::MOST_TEXT;
-pub use resolve::{ReadShape, Unresolved, resolve, shape_of_bytes};
-
-#[cfg(feature = "image")]
-pub use image::{Traced, read_image, trace_image};
-#[cfg(feature = "image")]
 pub use photo::{Photo, photo, photos};
-#[cfg(feature = "svg")]
+pub use resolve::{ReadShape, Unresolved, resolve, shape_of_bytes};
 pub use stroke::{Stroke, brush, scratch};
-#[cfg(feature = "svg")]
 pub use svg::read_svg;

@@ -6,6 +6,7 @@ use std::path::Path;
 
 use brinell::document::{Problem, Severity};
 use brinell::scenario::{DepthGrid, ScanFile, ScanForm, Scenario, Shape, SvgFile};
+use brinell_io::LARGEST_TEXT;
 
 use crate::form_doubts::form_doubts;
 use crate::{DamageError, DepthMap, FileKind, Form, Polygons, read_depth_map};
@@ -14,8 +15,6 @@ use crate::{DamageError, DepthMap, FileKind, Form, Polygons, read_depth_map};
 const LARGEST: u64 = 256 << 20;
 /// Nodes of the damaged part of a scan: they all are in the resolved scenario, 10 bytes each.
 const MOST_NODES: usize = 1 << 18;
-/// Bytes of the resolved scenario's text: longer ones are not read again (`brinell_io::LARGEST_TEXT`).
-pub const MOST_TEXT: usize = 4 << 20;
 /// Share of a scan's points above which it shows nothing sound.
 const MOST_DAMAGED: f64 = 0.95;
 /// Share of a scan's rim above which it is worth a word that the rim is damage.
@@ -129,15 +128,15 @@ pub(crate) fn resolve_noting(
 
 /// That the scenario with its geometry is no longer than what is read.
 fn can_be_read_again(resolved: &Scenario, files: &[Named]) -> Result<(), Vec<Unresolved>> {
-    let text = resolved.to_toml().len();
-    if text > MOST_TEXT {
+    let text = resolved.to_toml().len() as u64;
+    if text > LARGEST_TEXT {
         let largest = files.iter().max_by_key(|(i, ..)| size(&resolved.defects[*i].shape));
         let (defect, key, file) = largest.unwrap_or(&files[0]).clone();
         let message = format!(
             "with the geometry of its files the scenario takes {:.1} MiB, more than the {} MiB that are read again; this file has {} numbers: \
              simplify its damage, or scale it down",
             text as f64 / f64::from(1 << 20),
-            MOST_TEXT >> 20,
+            LARGEST_TEXT >> 20,
             size(&resolved.defects[defect].shape)
         );
         return Err(vec![Unresolved { defect, key, file, message }]);
@@ -249,14 +248,8 @@ pub fn shape_of_bytes(shape: &Shape, bytes: &[u8]) -> Result<ReadShape, String> 
     }
     let kind = FileKind::check(file, bytes).map_err(|e| e.to_string())?;
     let read: Result<Polygons, DamageError> = match shape {
-        #[cfg(feature = "image")]
         Shape::Image(image) => crate::read_image(bytes, image),
-        #[cfg(not(feature = "image"))]
-        Shape::Image(_) => Err(DamageError::LeftOut { kind: FileKind::Png, feature: "image" }),
-        #[cfg(feature = "svg")]
         Shape::Svg(drawing) => crate::read_svg(bytes, drawing),
-        #[cfg(not(feature = "svg"))]
-        Shape::Svg(_) => Err(DamageError::LeftOut { kind: FileKind::Svg, feature: "svg" }),
         Shape::Scan(scan) => {
             let DepthMap { grid, warnings, notes, form } =
                 read_depth_map(bytes, Some(kind), scan).map_err(|e| e.to_string())?;
@@ -291,7 +284,6 @@ pub(crate) fn bytes_of(shape: &Shape, folder: &Path) -> Result<Vec<u8>, String> 
 /// Bytes of a file for a shape at most.
 fn largest(shape: &Shape) -> u64 {
     match shape {
-        #[cfg(feature = "svg")]
         Shape::Svg(_) => crate::svg::MAX_BYTES as u64,
         _ => LARGEST,
     }

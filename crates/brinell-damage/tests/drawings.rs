@@ -1,5 +1,4 @@
 //! SVG drawings against closed forms.
-#![cfg(feature = "svg")]
 
 use std::f64::consts::PI;
 

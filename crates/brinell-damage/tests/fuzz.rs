@@ -4,7 +4,6 @@
 //! A few seconds in the suite; `BRINELL_FUZZ_SECONDS=600` for longer, `BRINELL_FUZZ_SEED` for other mutations. A file
 //! that makes a reader panic is kept in `tests/corpus/` and replayed from then on. `BRINELL_FUZZ_WRITE=1` writes the
 //! made seeds there.
-#![cfg(all(feature = "svg", feature = "image", feature = "x3p"))]
 
 mod common;
 

@@ -1,5 +1,4 @@
 //! Photos and masks that are refused, and the memory that the largest take.
-#![cfg(feature = "image")]
 
 use std::time::Instant;
 

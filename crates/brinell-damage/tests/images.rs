@@ -1,5 +1,4 @@
 //! Photos and masks against closed forms.
-#![cfg(feature = "image")]
 
 use std::f64::consts::PI;
 

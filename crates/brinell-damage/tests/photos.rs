@@ -1,5 +1,4 @@
 //! Photos under uneven light, with noise, JPEG, glints, grinding marks and specks, against the area that was drawn.
-#![cfg(feature = "image")]
 
 use crate::common::photos::{Photo, photo};
 use brinell::scenario::{ImageFile, ImagePieces};

@@ -39,9 +39,7 @@ fn xval_every_format_gives_the_map_of_the_array() {
         ("SDF, binary", FileKind::Sdf, sdf_binary(COLUMNS, ROWS, STEP, h)),
         ("SUR", FileKind::Sur, sur(COLUMNS, ROWS, STEP, h, false)),
         ("SUR, packed", FileKind::Sur, sur(COLUMNS, ROWS, STEP, h, true)),
-        #[cfg(feature = "x3p")]
         ("X3P", FileKind::X3p, x3p(COLUMNS, ROWS, STEP, h, false)),
-        #[cfg(feature = "x3p")]
         ("X3P, packed", FileKind::X3p, x3p(COLUMNS, ROWS, STEP, h, true)),
         ("cloud", FileKind::Csv, cloud(COLUMNS, ROWS, STEP, h, "x_mm,y_mm,z_um\n")),
     ] {

@@ -66,7 +66,7 @@ pub use journal::Journal;
 pub use read::records::read_records;
 pub use read::{Channel, NoRate, NoTimes, NotNamed, Rate, RateSource, SignalFile, open, open_bytes, seconds_in};
 #[doc(hidden)]
-pub use read::{MAX_VALUES, names};
+pub use read::{MAX_VALUES, Number, names, npy_entry, npy_number, npy_sides, npy_tuple, npy_word};
 #[cfg(feature = "parquet")]
 #[doc(hidden)]
 pub use records::{Cell, Kind, RecordColumn, hexadecimal, read_row_file, sha256_of, write_row_file};

@@ -1,16 +1,13 @@
 //! Surfaces as instruments save them, with their spacing: ISO 25178-71 (`.sdf`), ISO 5436-2 (`.x3p`), MountainsMap
 //! (`.sur`).
 
-#[cfg(feature = "x3p")]
 mod archive;
 mod sdf;
 mod sur;
-#[cfg(feature = "x3p")]
 mod x3p;
 
 pub(crate) use sdf::read as read_sdf;
 pub(crate) use sur::read as read_sur;
-#[cfg(feature = "x3p")]
 pub(crate) use x3p::read as read_x3p;
 
 use crate::error::DamageError;

@@ -2,10 +2,11 @@
 //! as BCR-STM, from which the standard took it: versions `aISO-1.0`, `bISO-1.0`, `aBCR-1.0`, `bBCR-1.0`.
 
 use super::{broken, map, points, spacing, unsupported};
-use crate::bytes::{Number, f64, u16};
+use crate::bytes::{f64, u16};
 use crate::error::{DamageError, excerpt};
 use crate::kind::FileKind;
 use crate::scan::Raw;
+use brinell_io::Number;
 
 const KIND: FileKind = FileKind::Sdf;
 const BINARY_HEADER: usize = 81;
@@ -77,15 +78,15 @@ fn binary(bytes: &[u8]) -> Result<Raw, DamageError> {
     let count = points(header.columns, header.rows)?;
     let data = bytes.get(BINARY_HEADER..).ok_or_else(short)?;
     // A trailer may follow.
-    let data = data.get(..count * number.size).ok_or_else(|| {
-        let why = format!("{} bytes where {count} points need {}", data.len(), count * number.size);
+    let wanted = count * number.bytes();
+    let data = data.get(..wanted).ok_or_else(|| {
+        let why = format!("{} bytes where {count} points need {wanted}", data.len());
         broken(KIND, "its data", why)
     })?;
-    let value = |item: &[u8]| {
-        let value = number.value(item);
-        if is_missing(number, value) { f64::NAN } else { value }
-    };
-    finished(&header, data.chunks_exact(number.size).map(value).collect())
+    let mut values = Vec::with_capacity(count);
+    number.decode(false, data, &mut values);
+    values.iter_mut().filter(|v| is_missing(number, **v)).for_each(|v| *v = f64::NAN);
+    finished(&header, values)
 }
 
 fn text(bytes: &[u8]) -> Result<Raw, DamageError> {

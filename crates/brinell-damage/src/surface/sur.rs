@@ -1,10 +1,11 @@
 //! MountainsMap's surface: a header of 512 bytes, a comment, then whole numbers line by line, plain or in zlib streams.
 
 use super::{broken, map, points, spacing, unsupported};
-use crate::bytes::{Number, f32, i16, i32, u16, u32};
+use crate::bytes::{f32, i16, i32, u16, u32};
 use crate::error::{DamageError, excerpt};
 use crate::kind::FileKind;
 use crate::scan::Raw;
+use brinell_io::Number;
 use std::borrow::Cow;
 
 const KIND: FileKind = FileKind::Sur;
@@ -24,7 +25,7 @@ pub(crate) fn read(bytes: &[u8]) -> Result<Raw, DamageError> {
     let count = points(columns, rows)?;
     let skipped = [334, 336].map(|place| usize::from(u16(bytes, place).unwrap_or(0)));
     let data = bytes.get(HEADER + skipped[0] + skipped[1]..).ok_or_else(short)?;
-    let wanted = count * number.size;
+    let wanted = count * number.bytes();
     let data = match bytes.starts_with(b"DSCOMPRESSED") {
         true => unpacked(data, wanted)?,
         false => Cow::Borrowed(data),
@@ -42,15 +43,14 @@ pub(crate) fn read(bytes: &[u8]) -> Result<Raw, DamageError> {
     }
     // Beside the measured ones.
     let missing = (i16(bytes, 86) == Some(1)).then(|| f64::from(i32(bytes, 100).unwrap_or(0)) - 2.0);
-    let value = |item: &[u8]| {
-        let value = number.value(item);
-        if missing == Some(value) { f64::NAN } else { z * value }
-    };
+    let mut values = Vec::with_capacity(count);
+    number.decode(false, data, &mut values);
+    values.iter_mut().for_each(|v| *v = if missing == Some(*v) { f64::NAN } else { z * *v });
     let between = [
         spacing(KIND, "its spacing along x", scale(120, 180)?)?,
         spacing(KIND, "its spacing along y", scale(124, 196)?)?,
     ];
-    Ok(map(columns, between, data.chunks_exact(number.size).map(value).collect()))
+    Ok(map(columns, between, values))
 }
 
 /// What its points are written as, where it is a surface that can be read.

@@ -2,10 +2,10 @@
 
 use super::archive::Archive;
 use super::{broken, map, points, spacing, unsupported};
-use crate::bytes::Number;
 use crate::error::{DamageError, excerpt};
 use crate::kind::FileKind;
 use crate::scan::Raw;
+use brinell_io::Number;
 use roxmltree::{Document, Node, ParsingOptions};
 
 const KIND: FileKind = FileKind::X3p;
@@ -90,13 +90,14 @@ fn linked(
     number: Number,
     count: usize,
 ) -> Result<Vec<f64>, DamageError> {
-    let wanted = count * number.size;
+    let wanted = count * number.bytes();
     let data = archive.file(link, wanted)?;
     if data.len() != wanted {
         let why = format!("{} bytes where {count} points need {wanted}", data.len());
         return Err(broken(KIND, link, why));
     }
-    let mut values: Vec<f64> = data.chunks_exact(number.size).map(|item| number.value(item)).collect();
+    let mut values = Vec::with_capacity(count);
+    number.decode(false, &data, &mut values);
     if let Some(link) = text_of(root, "ValidPointsLink") {
         let valid = archive.file(&link, count.div_ceil(8) + 8)?;
         if valid.len() < count.div_ceil(8) {

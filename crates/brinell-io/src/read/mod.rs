@@ -41,6 +41,8 @@ use std::path::{Path, PathBuf};
 
 pub use channel::{Channel, Rate, RateSource};
 pub use named::NotNamed;
+pub use npy::{npy_entry, npy_number, npy_sides, npy_tuple, npy_word};
+pub use numbers::Number;
 pub use timed::NoTimes;
 pub use times::{NoRate, seconds_in};
 

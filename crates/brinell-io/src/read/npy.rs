@@ -44,29 +44,14 @@ pub(super) fn header(reader: &mut impl Read, name: &str) -> Result<Array, Fault>
     let mut text = vec![0; length];
     reader.read_exact(&mut text)?;
     let text = String::from_utf8_lossy(&text);
-    let after = |key: &str| {
-        let at = text.find(key).map(|at| at + key.len());
-        let rest = at.and_then(|at| text[at..].trim_start().strip_prefix(':'));
-        rest.map(str::trim_start).ok_or_else(|| damaged(format!("the header has no {key}")))
-    };
-    let column_major = after("'fortran_order'")?.starts_with("True");
-    let shape = after("'shape'")?;
-    let shape = shape
-        .strip_prefix('(')
-        .and_then(|s| s.split_once(')'))
-        .ok_or_else(|| damaged("the header's shape is no tuple"))?
-        .0;
-    let shape: Vec<u64> = shape
-        .split(',')
-        .map(str::trim)
-        .filter(|s| !s.is_empty())
-        .map(|s| s.trim_end_matches('L').parse())
-        .collect::<Result<_, _>>()
-        .map_err(|_| damaged(format!("`{shape}` is no shape")))?;
-    let kind = after("'descr'")?;
-    let word = kind.strip_prefix('\'').and_then(|k| k.split_once('\'')).map(|(word, _)| word);
-    let (order, number) = word.and_then(|w| w.split_at_checked(1)).unwrap_or(("", ""));
-    let stored = stored_as(number).filter(|_| matches!(order, "<" | ">" | "|" | "="));
+    let after = |key: &str| npy_entry(&text, key).ok_or_else(|| damaged(format!("the header has no '{key}'")));
+    let column_major = after("fortran_order")?.starts_with("True");
+    let shape = npy_tuple(after("shape")?).ok_or_else(|| damaged("the header's shape is no tuple"))?;
+    let shape: Vec<u64> = npy_sides(shape).ok_or_else(|| damaged(format!("`{shape}` is no shape")))?;
+    let word = npy_word(after("descr")?);
+    let stored = word.and_then(npy_number).map(|(number, _)| number);
+    // Of texts too.
+    let big_endian = word.is_some_and(|word| word.starts_with('>'));
     let mut channel = Channel::array(name, shape, stored.unwrap_or(Number::U8));
     channel.column_major = column_major;
     if stored.is_none() {
@@ -76,12 +61,40 @@ pub(super) fn header(reader: &mut impl Read, name: &str) -> Result<Array, Fault>
     }
     // Saturated products mean more than any file holds.
     let bytes = channel.length.unwrap_or(u64::MAX).saturating_mul(stored.map_or(1, Number::bytes) as u64);
-    Ok(Array { channel, stored, big_endian: order == ">", bytes })
+    Ok(Array { channel, stored, big_endian, bytes })
 }
 
-/// How the numbers of a type's word are stored, where they are real ones.
-fn stored_as(word: &str) -> Option<Number> {
-    Some(match word {
+/// What follows a key of a header, a Python dictionary of three known keys.
+pub fn npy_entry<'a>(header: &'a str, key: &str) -> Option<&'a str> {
+    ['\'', '"'].into_iter().find_map(|quote| {
+        let (_, rest) = header.split_once(&format!("{quote}{key}{quote}"))?;
+        Some(rest.trim_start().strip_prefix(':')?.trim_start())
+    })
+}
+
+/// What is within the brackets of a shape.
+pub fn npy_tuple(shape: &str) -> Option<&str> {
+    Some(shape.strip_prefix('(')?.split_once(')')?.0)
+}
+
+/// The sizes within them.
+pub fn npy_sides(inside: &str) -> Option<Vec<u64>> {
+    let sides = inside.split(',').map(str::trim).filter(|side| !side.is_empty());
+    sides.map(|side| side.trim_end_matches('L').parse().ok()).collect()
+}
+
+/// The word of a type, where it is one and no list of fields.
+pub fn npy_word(descr: &str) -> Option<&str> {
+    ['\'', '"'].into_iter().find_map(|quote| Some(descr.strip_prefix(quote)?.split_once(quote)?.0))
+}
+
+/// How the numbers of a type's word are stored, where they are real ones, and whether their highest byte comes first.
+pub fn npy_number(word: &str) -> Option<(Number, bool)> {
+    let (order, kind) = word.split_at_checked(1)?;
+    if !matches!(order, "<" | ">" | "|" | "=") {
+        return None;
+    }
+    let number = match kind {
         "i1" => Number::I8,
         "u1" | "b1" => Number::U8,
         "i2" => Number::I16,
@@ -94,7 +107,8 @@ fn stored_as(word: &str) -> Option<Number> {
         "f4" => Number::F32,
         "f8" => Number::F64,
         _ => return None,
-    })
+    };
+    Some((number, order == ">"))
 }
 
 struct Npy {

@@ -13,7 +13,8 @@ const PIECE: usize = 8 << 10;
 
 /// How a number is stored.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Number {
+#[expect(missing_docs, reason = "the names say it")]
+pub enum Number {
     I8,
     U8,
     I16,
@@ -31,7 +32,7 @@ pub(crate) enum Number {
 
 impl Number {
     /// Bytes of one number.
-    pub(crate) fn bytes(self) -> usize {
+    pub fn bytes(self) -> usize {
         match self {
             Self::I8 | Self::U8 => 1,
             Self::I16 | Self::U16 | Self::F16 => 2,
@@ -60,7 +61,7 @@ impl Number {
     }
 
     /// Appends the numbers in `bytes`, a whole number of them, to `out`.
-    pub(crate) fn decode(self, big_endian: bool, bytes: &[u8], out: &mut Vec<f64>) {
+    pub fn decode(self, big_endian: bool, bytes: &[u8], out: &mut Vec<f64>) {
         macro_rules! each {
             ($kind:ty, $to:expr) => {{
                 let chunks = bytes.as_chunks::<{ size_of::<$kind>() }>().0.iter();
