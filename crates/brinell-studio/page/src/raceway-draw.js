@@ -1,5 +1,6 @@
 // Draws the unrolled raceway: the whole turn above, and the part in view below, in millimetres of the surface.
 import { box } from "./tools.js";
+import { path } from "./views/pen.js";
 
 /** @typedef {{s: number, scale: number}} View  middle of the view along the surface (mm), pixels per mm */
 /** @typedef {{s: number, force: number}} Contact  a roller's contact line on the surface */
@@ -101,10 +102,7 @@ function overview(g, scene, c) {
   if (load === null) return;
   const at = x(load);
   g.fillStyle = c.warn;
-  g.beginPath();
-  g.moveTo(at - 5, top - 3);
-  g.lineTo(at + 5, top - 3);
-  g.lineTo(at, top + 5);
+  path(g, [[at - 5, top - 3], [at + 5, top - 3], [at, top + 5]]);
   g.fill();
 }
 
@@ -132,9 +130,7 @@ function surface(g, scene, c) {
   for (let k = Math.ceil(from / turn * 360 / step); k * step / 360 * turn <= to; k++) {
     const x = Math.round(xOf(scene, k * step / 360 * turn)) + 0.5, deg = ((k * step + 180) % 360 + 360) % 360 - 180;
     g.globalAlpha = 0.25;
-    g.beginPath();
-    g.moveTo(x, TOP);
-    g.lineTo(x, height - BOTTOM);
+    path(g, [[x, TOP], [x, height - BOTTOM]]);
     g.stroke();
     g.globalAlpha = 1;
     g.fillText(`${String(deg).replace("-", "−")}°`, x, height - 6);
@@ -258,8 +254,7 @@ function chosen(g, scene, c, one, s) {
 function marks(g, scene, c) {
   const { stroke, cursor, view, width, height } = scene;
   if (stroke?.points.length) {
-    g.beginPath();
-    stroke.points.forEach(([s, z], k) => g[k ? "lineTo" : "moveTo"](xOf(scene, s), yOf(scene, z)));
+    path(g, stroke.points.map(([s, z]) => [xOf(scene, s), yOf(scene, z)]));
     g.lineCap = g.lineJoin = "round";
     g.strokeStyle = c.blue;
     if (stroke.closed) g.setLineDash([5, 3]);
@@ -290,9 +285,7 @@ function marks(g, scene, c) {
   const mm = [0.1, 0.2, 0.5, 1, 2, 5, 10, 20].find((m) => m * view.scale > 40) ?? 50, long = mm * view.scale;
   g.strokeStyle = g.fillStyle = c.ink;
   g.lineWidth = 2;
-  g.beginPath();
-  g.moveTo(width - 12 - long, height - BOTTOM - 8);
-  g.lineTo(width - 12, height - BOTTOM - 8);
+  path(g, [[width - 12 - long, height - BOTTOM - 8], [width - 12, height - BOTTOM - 8]]);
   g.stroke();
   g.textAlign = "center";
   g.fillText(`${mm} mm`, width - 12 - long / 2, height - BOTTOM - 13);

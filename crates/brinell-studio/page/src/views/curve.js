@@ -2,7 +2,7 @@
 import { fill, h, short, spelled } from "../dom.js";
 import { fit, seldom } from "./view.js";
 import { sheet } from "./theme.js";
-import { breadth, font } from "./pen.js";
+import { breadth, font, path } from "./pen.js";
 import { paintAxes, PlotView } from "./plot.js";
 import { Limit, ticks } from "./scale.js";
 import { decibel, labelRoom, orders, paintBand, paintLines, part, STRIP, trace, tracePath } from "./trace.js";
@@ -256,10 +256,8 @@ export class BrinellCurve extends PlotView {
     if (data.second) trace(pen, data.second, space, peaks, colours.second, 1, 0.9);
     pen.strokeStyle = colours.frame;
     pen.lineWidth = 1;
-    pen.beginPath();
     const base = top + height * (1 - (this.least - this.range[0]) / (this.range[1] - this.range[0])), zero = this.kind === "waveform" ? space.Y(0) : base - 0.5;
-    pen.moveTo(left, zero);
-    pen.lineTo(left + width, zero);
+    path(pen, [[left, zero], [left + width, zero]]);
     pen.globalAlpha = this.kind === "waveform" ? 0.35 : 1;
     pen.stroke();
     pen.globalAlpha = 1;

@@ -1,5 +1,5 @@
 // Draws one row of the bearing from its face: rings, cage, rollers, contact forces, damage. Angles are counter-clockwise from +x.
-import { breadth, font } from "./pen.js";
+import { breadth, font, path } from "./pen.js";
 
 /** @typedef {import("./pen.js").Pen} Pen */
 /** @typedef {import("./theme.js").Colours} Colours */
@@ -89,9 +89,7 @@ function segment(pen, { x, y, scale }, from, to, angle, colour, width) {
   const [c, s] = [Math.cos(angle), Math.sin(angle)];
   pen.strokeStyle = colour;
   pen.lineWidth = width;
-  pen.beginPath();
-  pen.moveTo(x + scale * from * c, y - scale * from * s);
-  pen.lineTo(x + scale * to * c, y - scale * to * s);
+  path(pen, [from, to].map((r) => [x + scale * r * c, y - scale * r * s]));
   pen.stroke();
 }
 
@@ -208,15 +206,9 @@ export function paintLoad(pen, { x, y, scale, colours }, geometry, degrees) {
     at = (/** @type {number} */ along, /** @type {number} */ aside) => /** @type {[number, number]} */ ([x + along * c - aside * s, y + along * s + aside * c]);
   pen.strokeStyle = pen.fillStyle = colours.text;
   pen.lineWidth = 2;
-  pen.beginPath();
-  pen.moveTo(...at(0, 0));
-  pen.lineTo(...at(tip - head, 0));
+  path(pen, [at(0, 0), at(tip - head, 0)]);
   pen.stroke();
-  pen.beginPath();
-  pen.moveTo(...at(tip, 0));
-  pen.lineTo(...at(tip - head, 0.5 * head));
-  pen.lineTo(...at(tip - head, -0.5 * head));
-  pen.closePath();
+  path(pen, [at(tip, 0), at(tip - head, 0.5 * head), at(tip - head, -0.5 * head)], true);
   pen.fill();
   pen.beginPath();
   pen.arc(x, y, 2.5, 0, 2 * Math.PI);

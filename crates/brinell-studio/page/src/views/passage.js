@@ -2,7 +2,7 @@
 import { fill, h, short } from "../dom.js";
 import { fit } from "./view.js";
 import { sheet } from "./theme.js";
-import { font } from "./pen.js";
+import { font, path } from "./pen.js";
 import { paintAxes, PlotView } from "./plot.js";
 import { roundUp, ticks } from "./scale.js";
 
@@ -103,8 +103,7 @@ export class BrinellPassage extends PlotView {
     const stroke = (/** @type {[number, number][]} */ points, /** @type {string} */ colour, wide = 1) => {
       pen.strokeStyle = colour;
       pen.lineWidth = wide;
-      pen.beginPath();
-      points.forEach(([x, y], k) => (k ? pen.lineTo(x, y) : pen.moveTo(x, y)));
+      path(pen, points);
       pen.stroke();
     };
     pen.setLineDash([]);

@@ -8,6 +8,12 @@
 export const FAMILY = 'Inter, system-ui, "Helvetica Neue", Arial, sans-serif';
 /** @param {number} size px @param {number} [weight] */
 export const font = (size, weight = 400) => `${weight} ${size}px ${FAMILY}`;
+/** A path along points. @param {Pen} pen @param {number[][]} points @param {boolean} [closed] */
+export function path(pen, points, closed = false) {
+  pen.beginPath();
+  points.forEach(([x, y], k) => (k ? pen.lineTo(x, y) : pen.moveTo(x, y)));
+  if (closed) pen.closePath();
+}
 /** @type {CanvasRenderingContext2D | null} */
 let ruler = null;
 /** Width of a text, px. @param {string} text @param {number} size @param {number} [weight] */

@@ -1,6 +1,6 @@
 // What the curves and the passage share: a plot in its box with words, a table of values and a cursor by keys; axes on any pen.
 import { h } from "../dom.js";
-import { font } from "./pen.js";
+import { font, path } from "./pen.js";
 import { sheet } from "./theme.js";
 import { seldom, View } from "./view.js";
 
@@ -61,18 +61,14 @@ export function paintAxes(pen, frame, axes, colours, sharp = (px) => px) {
   pen.font = font(11);
   for (const [v, label] of axes.xTicks) {
     const x = left + width * (v - axes.x[0]) / (axes.x[1] - axes.x[0]);
-    pen.beginPath();
-    pen.moveTo(sharp(x), top);
-    pen.lineTo(sharp(x), bottom);
+    path(pen, [[sharp(x), top], [sharp(x), bottom]]);
     pen.stroke();
     pen.textAlign = "center";
     if (label) pen.fillText(label, x, bottom + 15);
   }
   for (const [v, label] of axes.yTicks) {
     const y = bottom - height * (v - axes.y[0]) / (axes.y[1] - axes.y[0]);
-    pen.beginPath();
-    pen.moveTo(left, sharp(y));
-    pen.lineTo(right, sharp(y));
+    path(pen, [[left, sharp(y)], [right, sharp(y)]]);
     pen.stroke();
     pen.textAlign = "right";
     pen.fillText(label, left - 5, y + 4);

@@ -1,5 +1,5 @@
 // Draws a curve, and the marks of the bearing's frequencies over it.
-import { breadth, font } from "./pen.js";
+import { breadth, font, path } from "./pen.js";
 
 /** @typedef {import("./pen.js").Pen} Pen */
 /** @typedef {import("./theme.js").Colours} Colours */
@@ -115,9 +115,7 @@ export function paintLines(pen, lines, space, base, colours) {
       pen.strokeStyle = colour;
       pen.globalAlpha = 0.75;
       pen.setLineDash(DASHES[lane]);
-      pen.beginPath();
-      pen.moveTo(x, y - 9);
-      pen.lineTo(x, base);
+      path(pen, [[x, y - 9], [x, base]]);
       pen.stroke();
       pen.setLineDash([]);
       pen.globalAlpha = 1;
@@ -181,11 +179,7 @@ function paintNominal(pen, lines, space, base, colours) {
 
 /** @param {Pen} pen @param {number} x @param {number} base @param {string} colour */
 function triangle(pen, x, base, colour) {
-  pen.beginPath();
-  pen.moveTo(x, base + 1.5);
-  pen.lineTo(x - 4, base + 8.5);
-  pen.lineTo(x + 4, base + 8.5);
-  pen.closePath();
+  path(pen, [[x, base + 1.5], [x - 4, base + 8.5], [x + 4, base + 8.5]], true);
   pen.strokeStyle = colour;
   pen.lineWidth = 1.2;
   pen.setLineDash([]);
