@@ -2,7 +2,7 @@
 
 use super::args::AnalyzeArgs;
 use super::diagnosis::{Against, Diagnosis};
-use super::measured::{self, ASK_SPEED, Beyond, Like, MOST, Measured, Reading, Rest, Wanted};
+use super::measured::{self, ASK_SPEED, Beyond, Like, MOST, Measured, Reading, Rest, SignalArgs, Wanted};
 use super::{bearing, ends};
 use crate::failure::Failure;
 use brinell::analysis::{
@@ -46,7 +46,7 @@ pub(super) fn load(args: &AnalyzeArgs, path: &Path) -> Result<Measured, Failure>
             speed_channel: args.speed_channel.as_deref(),
             ask_speed: args.speed.is_none(),
             ask_bearing: !args.names_a_bearing(),
-            ..args.signal.wanted()
+            ..Wanted::of(&args.signal)
         },
     )?;
     let of_the_run = measured.of_the_run();
@@ -233,15 +233,18 @@ fn velocities(measured: &Measured, shaft: f64) -> Option<VelocityBands> {
 
 fn lay_over(path: &Path, args: &AnalyzeArgs, measured: &Measured, analysis: &mut Analysis) -> Result<Against, Failure> {
     let alike = Like { channel: &measured.channel, rate: measured.rate, unit: &measured.unit };
-    let wanted = Wanted {
-        channel: args.against_channel.as_deref(),
+    let signal = SignalArgs {
+        channel: args.against_channel.clone(),
         rate: args.against_rate,
-        unit: args.against_unit.as_deref(),
-        sensitivity: args.against_sensitivity.as_deref(),
-        full_scale: args.against_full_scale.as_deref(),
+        unit: args.against_unit.clone(),
+        sensitivity: args.against_sensitivity.clone(),
+        full_scale: args.against_full_scale.clone(),
+        ..SignalArgs::default()
+    };
+    let wanted = Wanted {
         whose: "against-",
         like: Some(alike).filter(|_| args.signal.sensitivity.is_none() && is_alike(&measured.path, path)),
-        ..Wanted::default()
+        ..Wanted::of(&signal)
     };
     let mut other = measured::load(path, &wanted)?;
     if other.unit.quantity != measured.unit.quantity {

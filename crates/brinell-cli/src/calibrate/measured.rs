@@ -1,7 +1,7 @@
 //! The measured signal of the command line.
 
 use super::CalibrateArgs;
-use crate::analyze::measured::{SignalArgs, load};
+use crate::analyze::measured::{SignalArgs, Wanted, load};
 use crate::failure::Failure;
 use crate::files::Source;
 use brinell::scenario::Scenario;
@@ -25,7 +25,7 @@ pub(super) fn pattern(
         }
         return Ok(None);
     };
-    let signal = load(file, &args.signal.wanted())?;
+    let signal = load(file, &Wanted::of(&args.signal))?;
     let name = signal.path.display();
     let measured = Measured { x: &signal.x, rate: signal.rate, unit: &signal.unit };
     let own = source.load(&[], true)?.scenario;

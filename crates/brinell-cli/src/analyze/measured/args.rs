@@ -1,6 +1,5 @@
 //! Which signal of a file is meant, and what the file does not say of it.
 
-use super::wanted::Wanted;
 use crate::args::quantity;
 use clap::Args;
 
@@ -39,22 +38,4 @@ pub(crate) struct SignalArgs {
     /// Use so much from there [default: what is there; of a long signal the first and the last 4194304 samples]
     #[arg(long, value_parser = quantity("s", "more than 0 s, as 2 or 500ms"), value_name = "S")]
     pub(crate) duration: Option<f64>,
-}
-
-impl SignalArgs {
-    /// What it asks of a file.
-    pub(crate) fn wanted(&self) -> Wanted<'_> {
-        Wanted {
-            channel: self.channel.as_deref(),
-            rate: self.rate,
-            time_channel: self.time_channel.as_deref(),
-            time_unit: self.time_unit.as_deref(),
-            unit: self.unit.as_deref(),
-            sensitivity: self.sensitivity.as_deref(),
-            full_scale: self.full_scale.as_deref(),
-            start: self.start,
-            duration: self.duration,
-            ..Wanted::default()
-        }
-    }
 }

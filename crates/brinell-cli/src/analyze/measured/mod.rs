@@ -94,7 +94,7 @@ pub(crate) fn load(path: &Path, wanted: &Wanted) -> Result<Measured, Failure> {
         known(&mut file, &path, wanted, run, (&mut notes, &mut warnings))?;
     let start = start(wanted, run, &mut notes)?;
     let skip = (start * rate).round() as usize;
-    let most = match wanted.duration {
+    let most = match wanted.signal.duration {
         Some(d) => ((d * rate).round() as usize).max(1),
         None => MOST,
     };
@@ -109,7 +109,7 @@ pub(crate) fn load(path: &Path, wanted: &Wanted) -> Result<Measured, Failure> {
     }
     warnings.extend(beyond(&x, channel.stored_as, wanted));
     scale(&mut x, factor);
-    let long = more && wanted.duration.is_none();
+    let long = more && wanted.signal.duration.is_none();
     if x.is_empty() {
         return Err(Failure::Usage(format!(
             "{}: `{name}` holds no samples {}",
@@ -203,9 +203,9 @@ fn start(wanted: &Wanted, run: Option<&Loaded>, notes: &mut Vec<String>) -> Resu
         ))),
         _ => Ok(()),
     };
-    positive("--start", wanted.start, 0.0)?;
-    positive("--duration", wanted.duration, f64::MIN_POSITIVE)?;
-    Ok(match (wanted.start, run) {
+    positive("--start", wanted.signal.start, 0.0)?;
+    positive("--duration", wanted.signal.duration, f64::MIN_POSITIVE)?;
+    Ok(match (wanted.signal.start, run) {
         (Some(start), _) => {
             if start > 0.0 {
                 notes.push(format!("begins at {start} s of the signal: times of the results count from there"));

@@ -16,7 +16,7 @@ pub(super) fn rate(
     warnings: &mut Vec<String>,
 ) -> Result<Result<(f64, String), String>, Failure> {
     let option = format!("--{}rate", wanted.whose);
-    if let Some(given) = wanted.rate {
+    if let Some(given) = wanted.signal.rate {
         if !(given > 0.0 && given.is_finite()) {
             return Err(Failure::Usage(format!("{option} {given}: expected more than 0 Hz")));
         }
@@ -38,7 +38,7 @@ pub(super) fn rate(
         }
         return Ok(Err(format!("the file states no sample rate; give {option} HZ")));
     };
-    let unit = match (wanted.time_unit, time.seconds_in_unit()) {
+    let unit = match (wanted.signal.time_unit.as_deref(), time.seconds_in_unit()) {
         (Some(text), _) => {
             seconds_in(text).ok_or_else(|| Failure::Usage(format!("--time-unit {text}: expected {UNITS}")))?
         }
@@ -76,7 +76,7 @@ fn times(
     channel: &Channel,
     wanted: &Wanted,
 ) -> Result<Result<Option<Channel>, NoTimes>, Failure> {
-    let Some(text) = wanted.time_channel else {
+    let Some(text) = wanted.signal.time_channel.as_deref() else {
         return Ok(file.times_of(channel));
     };
     let (_, time) = resolve(file, text, "--time-channel")?;

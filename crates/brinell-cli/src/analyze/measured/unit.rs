@@ -23,7 +23,7 @@ pub(super) fn unit(
         Some((Unit::of(unit), format!("unit {unit}, as brinell's own channels have it")))
     };
     let alike = || {
-        let unit = wanted.like.filter(|_| wanted.sensitivity.is_none())?.unit.clone();
+        let unit = wanted.like.filter(|_| wanted.signal.sensitivity.is_none())?.unit.clone();
         let note = format!("unit {}, as the first signal's; else give {}", unit.name, called.unit);
         Some((unit, note))
     };
@@ -35,7 +35,11 @@ pub(super) fn unit(
 }
 
 fn given<'a>(wanted: &Wanted<'a>) -> Given<'a> {
-    Given { unit: wanted.unit, sensitivity: wanted.sensitivity, full_scale: wanted.full_scale }
+    Given {
+        unit: wanted.signal.unit.as_deref(),
+        sensitivity: wanted.signal.sensitivity.as_deref(),
+        full_scale: wanted.signal.full_scale.as_deref(),
+    }
 }
 
 /// A warning of values beyond the full scale that was given.

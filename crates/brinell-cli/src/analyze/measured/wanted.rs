@@ -1,20 +1,12 @@
 //! What is wanted of a file.
 
+use super::args::SignalArgs;
 use brinell::analysis::Unit;
 
 /// What was requested of a file.
-#[derive(Default)]
 pub(crate) struct Wanted<'a> {
-    pub(crate) channel: Option<&'a str>,
-    pub(crate) rate: Option<f64>,
-    pub(crate) time_channel: Option<&'a str>,
-    pub(crate) time_unit: Option<&'a str>,
-    pub(crate) unit: Option<&'a str>,
-    pub(crate) sensitivity: Option<&'a str>,
-    pub(crate) full_scale: Option<&'a str>,
+    pub(crate) signal: &'a SignalArgs,
     pub(crate) speed_channel: Option<&'a str>,
-    pub(crate) start: Option<f64>,
-    pub(crate) duration: Option<f64>,
     /// What the options of this file begin with: `against-` in `--against-rate`, or nothing.
     pub(crate) whose: &'static str,
     /// What a file of the same format is taken to be like where neither it nor an option says.
@@ -23,6 +15,13 @@ pub(crate) struct Wanted<'a> {
     pub(crate) ask_speed: bool,
     /// Likewise the bearing.
     pub(crate) ask_bearing: bool,
+}
+
+impl<'a> Wanted<'a> {
+    /// What its options say, and nothing else.
+    pub(crate) fn of(signal: &'a SignalArgs) -> Self {
+        Self { signal, speed_channel: None, whose: "", like: None, ask_speed: false, ask_bearing: false }
+    }
 }
 
 /// A signal that another is taken to be like.
