@@ -5,6 +5,7 @@ use std::fmt;
 use std::path::{Path, PathBuf};
 
 use crate::{Complete, IoError};
+use serde_json::Value;
 
 /// Keys of the metadata that a Parquet file carries.
 pub mod keys {
@@ -154,10 +155,14 @@ pub(crate) fn check_columns(path: &Path, columns: &[Column]) -> Result<(), IoErr
     Ok(())
 }
 
+/// A text of each column as a JSON object.
+pub(crate) fn by_column(columns: &[Column], of: fn(&Column) -> &str) -> Value {
+    columns.iter().map(|c| (c.name.as_str(), of(c))).collect()
+}
+
 /// The unit of each column as a JSON object.
 pub(crate) fn units_json(columns: &[Column]) -> String {
-    let units = columns.iter().map(|c| (c.name.clone(), c.unit.as_str().into()));
-    serde_json::Value::Object(units.collect()).to_string()
+    by_column(columns, |c| &c.unit).to_string()
 }
 
 /// Where the columns to be written are: not `t`, in files that hold a start and a rate instead.

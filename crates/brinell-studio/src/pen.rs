@@ -46,10 +46,14 @@ fn number(request: &Value, key: &str) -> Answer<f64> {
     number.ok_or_else(|| Trouble::of(format!("\"{key}\" must be a number")))
 }
 
-/// The least and the greatest s and z of points.
-fn extents(points: impl Iterator<Item = [f64; 2]>) -> [[f64; 2]; 2] {
-    let start = [[f64::MAX; 2], [f64::MIN; 2]];
-    points.fold(start, |[low, high], p| [[low[0].min(p[0]), low[1].min(p[1])], [high[0].max(p[0]), high[1].max(p[1])]])
+/// What is drawn, between its least and its greatest s and z, mm, with its middle at a place of the stroke.
+fn drawn(shape: Shape, [low, high]: [[f64; 2]; 2], center_mm: [f64; 2]) -> Answer<Value> {
+    Ok(json!({
+        "shape": stated(shape)?,
+        "center_mm": center_mm,
+        "length_mm": high[0] - low[0],
+        "width_mm": high[1] - low[1],
+    }))
 }
 
 /// `scratch`: the area under a round pen.
@@ -57,19 +61,15 @@ pub(crate) fn scratched(request: &Value, arrays: &Arrays) -> Answer<Value> {
     let points = points(request, arrays)?;
     let stroke = Stroke { points_mm: &points, width_mm: number(request, "width_mm")? };
     let outline = scratch(&stroke).map_err(|e| Trouble::of(e.to_string()))?;
-    let [low, high] = extents(outline.polygons_mm.iter().flatten().copied());
+    let bounds = outline.bounds_mm().ok_or_else(|| Trouble::of("nothing is drawn"))?;
+    let [low, high] = bounds;
     let middle = [0.5 * (low[0] + high[0]), 0.5 * (low[1] + high[1])];
     // To a ten-thousandth of a millimetre: the page draws no finer, and a share link carries every digit.
     let near = |x: f64| (x * 1e4).round() / 1e4;
     let about = |p: &[f64; 2]| [near(p[0] - middle[0]), near(p[1] - middle[1])];
     let polygons_mm: Vec<Vec<[f64; 2]>> =
         (outline.polygons_mm.iter()).map(|ring| ring.iter().map(about).collect()).collect();
-    Ok(json!({
-        "shape": stated(Shape::Outline { polygons_mm })?,
-        "center_mm": middle,
-        "length_mm": high[0] - low[0],
-        "width_mm": high[1] - low[1],
-    }))
+    drawn(Shape::Outline { polygons_mm }, bounds, middle)
 }
 
 /// `brush`: depth under a round brush, added to a grid.
@@ -89,24 +89,14 @@ pub(crate) fn brushed(request: &Value, arrays: &Arrays) -> Answer<Value> {
     // To a nanometre, and of one nanometre nothing: as much as an earlier rounding leaves where a stroke is taken back.
     let rounded = |d: f64| if d.abs() < 1.5e-3 { 0.0 } else { (d * 1e3).round() / 1e3 };
     grid.depth_um.iter_mut().for_each(|d| *d = rounded(*d));
-    let columns = grid.columns;
-    let damaged = (grid.depth_um.iter().enumerate()).filter(|(_, d)| **d != 0.0);
-    let [low, high] = extents(damaged.map(|(k, _)| {
-        let (column, row) = (k % columns, k / columns);
-        [grid.s0_mm + grid.ds_mm * column as f64, grid.z0_mm + grid.dz_mm * row as f64]
-    }));
-    if low[0] > high[0] {
-        return Err(Trouble::of("nothing is left of the damage; delete it"));
-    }
+    let damaged = grid.damaged_bounds().ok_or_else(|| Trouble::of("nothing is left of the damage; delete it"))?;
+    let place =
+        |[column, row]: [usize; 2]| [grid.s0_mm + grid.ds_mm * column as f64, grid.z0_mm + grid.dz_mm * row as f64];
+    let [low, high] = damaged.map(place);
     let middle = if before.is_some() { [0.0; 2] } else { [0.5 * (low[0] + high[0]), 0.5 * (low[1] + high[1])] };
     grid.s0_mm -= middle[0];
     grid.z0_mm -= middle[1];
-    Ok(json!({
-        "shape": stated(Shape::DepthMap { grid })?,
-        "center_mm": middle,
-        "length_mm": high[0] - low[0],
-        "width_mm": high[1] - low[1],
-    }))
+    drawn(Shape::DepthMap { grid }, [low, high], middle)
 }
 
 /// `outline`: a photo, a drawing or a depth map as a shape.

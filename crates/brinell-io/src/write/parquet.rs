@@ -15,10 +15,10 @@ use parquet::file::metadata::KeyValue;
 use parquet::file::properties::{EnabledStatistics, WriterProperties};
 use parquet::file::writer::SerializedFileWriter;
 use parquet::schema::types::Type;
-use serde_json::{Map, Value, json};
+use serde_json::json;
 
 use crate::atomic::{Complete, Destination, PartialFile};
-use crate::signals::check_columns;
+use crate::signals::{by_column, check_columns};
 use crate::{Column, IoError, Metadata, Outcome, SignalWriter, keys};
 
 /// Memory for the rows of one row group.
@@ -92,18 +92,12 @@ impl ParquetWriter {
     }
 
     /// Key and value of everything known about the table.
-    fn key_values(&self, outcome: &Outcome) -> Vec<(String, String)> {
-        let object = |of: fn(&Column) -> &str| -> Value {
-            let pairs = self.columns.iter().map(|c| (c.name.clone(), Value::from(of(c))));
-            Value::Object(pairs.collect::<Map<_, _>>())
-        };
-        let units = object(|c| &c.unit);
-        let mut pairs = self.metadata.pairs.clone();
-        pairs.push((keys::UNITS.into(), units.to_string()));
-        pairs.push((keys::DESCRIPTIONS.into(), object(|c| &c.description).to_string()));
-        pairs.push((keys::OUTCOME.into(), outcome.to_string()));
-        pairs.push((keys::PANDAS_ATTRS.into(), json!({ "units": units }).to_string()));
-        pairs
+    fn key_values(&self, outcome: &Outcome) -> Metadata {
+        let units = by_column(&self.columns, |c| &c.unit);
+        (self.metadata.clone().with(keys::UNITS, units.to_string()))
+            .with(keys::DESCRIPTIONS, by_column(&self.columns, |c| &c.description).to_string())
+            .with(keys::OUTCOME, outcome.to_string())
+            .with(keys::PANDAS_ATTRS, json!({ "units": units }).to_string())
     }
 }
 
@@ -120,7 +114,7 @@ impl SignalWriter for ParquetWriter {
     fn complete(mut self: Box<Self>, outcome: Outcome) -> std::result::Result<Complete, IoError> {
         self.file.inner().check()?;
         self.write_group()?;
-        for (key, value) in self.key_values(&outcome) {
+        for (key, value) in self.key_values(&outcome).pairs {
             self.file.append_key_value_metadata(KeyValue::new(key, value));
         }
         let path = self.file.inner().path().to_owned();
