@@ -9,10 +9,6 @@ use clap::{Args, Subcommand, ValueEnum};
 use std::num::NonZeroUsize;
 use std::path::PathBuf;
 
-/// Vibration of rolling bearings with real damage, from first principles.
-///
-/// Describe a bearing, its damage and its operation in one TOML file; get the vibration that a sensor would see, with
-/// spectra, indicators, load distribution and an honest list of everything that was assumed.
 /// Scenario and overrides.
 #[derive(Debug, Args)]
 pub(crate) struct ScenarioArgs {

@@ -1,7 +1,7 @@
 //! What commands of many runs share: the journal of their folder, and runs shown on a bar.
 
 use crate::failure::Failure;
-use crate::progress::{Joint, Shown};
+use crate::progress::Joint;
 use brinell_study::listener::{Listener, RunListener};
 use brinell_study::runner::{self, Ledger, RunnerError, Task, Work};
 use serde_json::Value;
@@ -43,9 +43,7 @@ impl From<RunnerError> for Failure {
     fn from(error: RunnerError) -> Self {
         match error {
             RunnerError::Io(error) => Self::Write(error),
-            RunnerError::OtherCampaign(_) | RunnerError::OtherKernel { .. } | RunnerError::Changed => {
-                Self::Usage(error.to_string())
-            }
+            other => Self::Usage(other.to_string()),
         }
     }
 }
@@ -72,7 +70,7 @@ impl<'a> Terminal<'a> {
 
 impl Listener for Terminal<'_> {
     fn begin(&self, _: usize, duration_s: f64) -> Box<dyn RunListener + '_> {
-        Box::new(Shown::new(Joint::part(&self.joint.bar(), duration_s), self.stop))
+        Box::new(self.joint.part(duration_s, self.stop))
     }
 
     fn before(&self, runs: usize) {

@@ -13,23 +13,32 @@ pub(crate) const BAD_INPUT: u8 = 2;
 pub(crate) const INTERRUPTED: u8 = 130;
 
 /// Why the command did not do what was asked.
-#[derive(Debug)]
+#[derive(Debug, thiserror::Error)]
 pub(crate) enum Failure {
-    /// The scenario is bad; its text and name are for pointing at lines.
+    /// The scenario is bad; its text and name are for pointing at lines. In words, without these lines: the problems
+    /// one after the other.
+    #[error("{}", in_lines(.problems))]
     Scenario { name: String, text: String, problems: Vec<Problem> },
     /// Anything else that the user got wrong.
+    #[error("{0}")]
     Usage(String),
     /// A file cannot be read.
+    #[error("cannot read {}: {error}", .0.display(), error = .1)]
     Read(PathBuf, std::io::Error),
     /// A result cannot be written.
-    Write(IoError),
+    #[error(transparent)]
+    Write(#[from] IoError),
     /// A picture cannot be drawn.
-    Picture(brinell_report::Error),
+    #[error(transparent)]
+    Picture(#[from] brinell_report::Error),
     /// The run failed.
-    Run(brinell::Error),
+    #[error(transparent)]
+    Run(#[from] brinell::Error),
     /// A page cannot be shown; why.
+    #[error("{0}")]
     NotOpened(String),
     /// Standard output does not take what is said; why.
+    #[error("cannot write to standard output: {0}")]
     Output(String),
 }
 
@@ -50,22 +59,6 @@ impl Failure {
         })
     }
 
-    /// In words, without the lines of the file; problems of a scenario one after the other.
-    pub(crate) fn words(&self) -> String {
-        match self {
-            Self::Scenario { problems, .. } => {
-                let texts: Vec<String> = problems.iter().map(ToString::to_string).collect();
-                texts.join("\n")
-            }
-            Self::Usage(message) | Self::NotOpened(message) => message.clone(),
-            Self::Read(path, error) => format!("cannot read {}: {error}", path.display()),
-            Self::Write(error) => error.to_string(),
-            Self::Picture(error) => error.to_string(),
-            Self::Run(error) => error.to_string(),
-            Self::Output(why) => format!("cannot write to standard output: {why}"),
-        }
-    }
-
     /// To standard error.
     pub(crate) fn print(&self) {
         self.print_of("");
@@ -76,15 +69,9 @@ impl Failure {
         let of = if of.is_empty() { String::new() } else { format!("{of}: ") };
         match self {
             Self::Scenario { name, text, problems } => print_problems(name, text, problems),
-            Self::Read(..) | Self::Output(_) => complain!("error: {}", self.words()),
-            other => complain!("error: {of}{}", other.words()),
+            Self::Read(..) | Self::Output(_) => complain!("error: {self}"),
+            other => complain!("error: {of}{other}"),
         }
-    }
-}
-
-impl From<brinell::Error> for Failure {
-    fn from(error: brinell::Error) -> Self {
-        Self::Run(error)
     }
 }
 
@@ -94,10 +81,8 @@ impl From<ModelError> for Failure {
     }
 }
 
-impl From<IoError> for Failure {
-    fn from(error: IoError) -> Self {
-        Self::Write(error)
-    }
+fn in_lines(problems: &[Problem]) -> String {
+    problems.iter().map(ToString::to_string).collect::<Vec<_>>().join("\n")
 }
 
 /// Each problem with the line that it is about.

@@ -77,7 +77,7 @@ fn file_name(picture: &Picture, format: PlotFormat) -> String {
 fn bytes(picture: &Picture, format: PlotFormat) -> Result<Vec<u8>, Failure> {
     match format {
         PlotFormat::Svg => Ok(picture.svg().into_bytes()),
-        PlotFormat::Png => picture.png_file().map_err(Failure::Picture),
+        PlotFormat::Png => Ok(picture.png_file()?),
         PlotFormat::Pdf => Ok(picture.pdf()),
     }
 }

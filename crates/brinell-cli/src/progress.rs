@@ -14,24 +14,30 @@ use std::time::{Duration, Instant};
 /// Steps between looks at the clock.
 const STRIDE: u32 = 256;
 
-/// Progress of one run.
-pub(crate) struct Progress {
+/// A run shown on a bar, and broken off by Ctrl-C.
+pub(crate) struct Progress<'a> {
     bar: ProgressBar,
     duration: f64,
     begin: Instant,
     skipped: u32,
     /// Of one run among several: what it has added to their common bar, us.
     shared: Option<u64>,
+    stop: &'a AtomicBool,
 }
 
-impl Progress {
-    /// For a run of `duration` seconds.
-    pub(crate) fn new(duration: f64, quiet: bool) -> Self {
-        Self { bar: bar(duration, quiet, Arc::default()), duration, begin: Instant::now(), skipped: 0, shared: None }
+impl<'a> Progress<'a> {
+    /// For a run of `duration` seconds that `stop` breaks off.
+    pub(crate) fn new(duration: f64, quiet: bool, stop: &'a AtomicBool) -> Self {
+        let bar = bar(duration, quiet, Arc::default());
+        Self { bar, duration, begin: Instant::now(), skipped: 0, shared: None, stop }
     }
 
-    /// Simulated time `t` is reached.
-    pub(crate) fn at(&mut self, t: f64) {
+    /// Wall time since the start, s.
+    pub(crate) fn elapsed(&self) -> f64 {
+        self.begin.elapsed().as_secs_f64()
+    }
+
+    fn show(&mut self, t: f64) {
         self.skipped += 1;
         if self.skipped < STRIDE || self.bar.is_hidden() {
             return;
@@ -44,52 +50,27 @@ impl Progress {
             return;
         }
         self.bar.set_position(micros(t));
-        let speed = t / self.begin.elapsed().as_secs_f64();
+        let speed = t / self.elapsed();
         self.bar.set_message(format!("{t:.3} of {} s, {speed:.2} x real time", short(self.duration, 3)));
     }
-
-    fn elapsed(&self) -> f64 {
-        self.begin.elapsed().as_secs_f64()
-    }
-
-    /// Takes the bar away; a common one stays for the others, with this run's share full, unless the run was broken
-    /// off.
-    fn finish(&self, broken_off: bool) {
-        match self.shared {
-            Some(_) if broken_off => {}
-            Some(shown) => self.bar.inc(micros(self.duration).saturating_sub(shown)),
-            None => self.bar.finish_and_clear(),
-        }
-    }
 }
 
-/// A run shown on a bar, and broken off by Ctrl-C.
-pub(crate) struct Shown<'a> {
-    progress: Progress,
-    stop: &'a AtomicBool,
-}
-
-impl<'a> Shown<'a> {
-    pub(crate) fn new(progress: Progress, stop: &'a AtomicBool) -> Self {
-        Self { progress, stop }
-    }
-
-    /// Wall time since the start, s.
-    pub(crate) fn elapsed(&self) -> f64 {
-        self.progress.elapsed()
-    }
-}
-
-impl RunListener for Shown<'_> {
+impl RunListener for Progress<'_> {
     fn at(&mut self, t: f64) -> ControlFlow<()> {
-        self.progress.at(t);
+        self.show(t);
         brinell::many::go_on(self.stop)
     }
 }
 
-impl Drop for Shown<'_> {
+impl Drop for Progress<'_> {
+    /// Takes the bar away; a common one stays for the others, with this run's share full, unless the run was broken
+    /// off.
     fn drop(&mut self) {
-        self.progress.finish(self.stop.load(Ordering::Relaxed));
+        match self.shared {
+            Some(_) if self.stop.load(Ordering::Relaxed) => {}
+            Some(shown) => self.bar.inc(micros(self.duration).saturating_sub(shown)),
+            None => self.bar.finish_and_clear(),
+        }
     }
 }
 
@@ -113,13 +94,8 @@ impl Joint {
 
     /// For one of the runs, `duration` seconds long. Threads may hold theirs at once: what they share is an atomic
     /// number, drawn by whoever finds that a tenth of a second has passed.
-    pub(crate) fn part(bar: &ProgressBar, duration: f64) -> Progress {
-        Progress { bar: bar.clone(), duration, begin: Instant::now(), skipped: 0, shared: Some(0) }
-    }
-
-    /// What the runs' parts are made from.
-    pub(crate) fn bar(&self) -> ProgressBar {
-        self.bar.clone()
+    pub(crate) fn part<'a>(&self, duration: f64, stop: &'a AtomicBool) -> Progress<'a> {
+        Progress { bar: self.bar.clone(), duration, begin: Instant::now(), skipped: 0, shared: Some(0), stop }
     }
 
     /// Takes the bar away: no more runs come.
@@ -233,12 +209,11 @@ mod tests {
 
     #[test]
     fn prop_a_run_that_is_broken_off_does_not_fill_the_common_bar() {
-        let bar = ProgressBar::hidden();
-        bar.set_length(2_000_000);
+        let joint = Joint::new(2, 2.0, true);
         let shown = |stopped: bool| {
             let stop = AtomicBool::new(stopped);
-            drop(Shown::new(Joint::part(&bar, 1.0), &stop));
-            bar.position()
+            drop(joint.part(1.0, &stop));
+            joint.bar.position()
         };
         assert_eq!(shown(true), 0);
         assert_eq!(shown(false), 1_000_000);

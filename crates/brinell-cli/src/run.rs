@@ -35,8 +35,8 @@ pub(crate) fn run(args: &RunArgs) -> Result<ExitCode, Failure> {
     let named = || Path::new("out").join(safe_name(&ready.loaded.scenario.name));
     let folder = args.output.clone().unwrap_or_else(named);
     let task = Task { earlier: earlier(args, &ready.loaded, &folder, &inputs)?, ready, folder };
-    let progress = Progress::new(task.duration_s(), args.quiet);
     let stop = stop_flag()?;
+    let progress = Progress::new(task.duration_s(), args.quiet, &stop);
     let done = execute(args, &task, progress, &stop)?;
     if args.json {
         document(done.summary.trim_end());

@@ -93,7 +93,7 @@ pub(super) fn analyze(args: &AnalyzeArgs, files: &[PathBuf]) -> Result<ExitCode,
     let mut rows: Vec<Row> = Vec::new();
     for (path, name) in files.iter().zip(names) {
         let found = one(args, path).map_err(|error| {
-            let words = error.words().replace('\n', " ");
+            let words = error.to_string().replace('\n', " ");
             // The row has its name.
             let named = format!("{}: ", path.display());
             words.strip_prefix(&named).map_or(words.clone(), str::to_owned)

@@ -132,7 +132,7 @@ fn read(args: &CalibrateArgs) -> Result<(Source, Arc<Plan>, Vec<String>), Failur
         source.load(&settings, true)?;
     }
     let middle = source.load(&middle(&keys), false)?;
-    let simulation = Simulation::unchecked(&middle.scenario).map_err(Failure::Run)?;
+    let simulation = Simulation::unchecked(&middle.scenario)?;
     let pattern = measured::pattern(args, (&source, &keys), (&middle.scenario, &simulation))?;
     let (pattern, warnings) = pattern.map_or((None, Vec::new()), |(pattern, warnings)| (Some(pattern), warnings));
     let plan = Plan::new(keys, targets, pattern, middle, &simulation, args.seed, args.budget);

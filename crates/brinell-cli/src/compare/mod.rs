@@ -16,10 +16,11 @@ use brinell::{Error, RunResult};
 use brinell_io::{Metadata, atomic_prepare, keys};
 use brinell_report::Study;
 use brinell_study::campaign::{self, Compared, Side, run_all, sides_json, sides_scenarios, sides_table};
+use brinell_study::listener::RunListener;
 use serde_json::Value;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
-use std::sync::Mutex;
+use std::sync::{Mutex, PoisonError};
 
 const CSV: &str = "compare.csv";
 const PARQUET: &str = "compare.parquet";
@@ -32,7 +33,7 @@ pub(crate) fn compare(args: &CompareArgs) -> Result<ExitCode, Failure> {
     let mut inputs = Inputs::default();
     let sides = sides::read(args, &mut inputs)?;
     for side in &sides {
-        Simulation::unchecked(&side.loaded.scenario).map_err(Failure::Run)?;
+        Simulation::unchecked(&side.loaded.scenario)?;
     }
     let beforehand = brinell_report::beforehand(&sides);
     if !args.quiet {
@@ -104,14 +105,11 @@ fn run(args: &CompareArgs, sides: &[Side]) -> Result<Option<Vec<RunResult>>, Fai
     let threads = brinell::many::threads(list.len());
     let duration = |side: &Side| side.loaded.scenario.simulation.duration_s;
     let joint = Joint::new(list.len(), sides.iter().map(duration).sum(), args.quiet);
-    let bar = joint.bar();
-    let parts: Vec<Mutex<_>> = sides.iter().map(|side| Mutex::new(Joint::part(&bar, duration(side)))).collect();
+    let parts: Vec<_> = sides.iter().map(|side| Mutex::new(joint.part(duration(side), &stop))).collect();
     let results = run_all(&list, args.jobs.unwrap_or(threads), |k, t| {
-        if let Ok(mut part) = parts[k].lock() {
-            part.at(t);
-        }
-        brinell::many::go_on(&stop)
+        parts[k].lock().unwrap_or_else(PoisonError::into_inner).at(t)
     });
+    drop(parts);
     drop(joint);
     let (mut runs, mut stopped) = (Vec::new(), false);
     for (side, result) in sides.iter().zip(results) {

@@ -32,7 +32,6 @@ pub(super) fn run(args: &RunArgs) -> Result<ExitCode, Failure> {
     let durations = tasks.iter().map(Task::duration_s);
     let total = durations.sum();
     let joint = Joint::new(tasks.len(), total, args.quiet);
-    let bar = joint.bar();
     let (mut left_out, mut interrupted) = (Vec::new(), false);
     let mut failures: Vec<(usize, Failure)> = Vec::new();
     brinell::many::each(
@@ -40,8 +39,8 @@ pub(super) fn run(args: &RunArgs) -> Result<ExitCode, Failure> {
         threads,
         |k| {
             let task = &tasks[k];
-            let progress = Joint::part(&bar, task.duration_s());
-            (!stop.load(Ordering::Relaxed)).then(|| execute(args, task, progress, &stop))
+            let progress = || joint.part(task.duration_s(), &stop);
+            (!stop.load(Ordering::Relaxed)).then(|| execute(args, task, progress(), &stop))
         },
         |k, result| match result {
             None => left_out.push(k),

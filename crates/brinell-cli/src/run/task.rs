@@ -6,7 +6,7 @@ use crate::args::RunArgs;
 use crate::failure::{Failure, print_problems};
 use crate::files::{Source, make_folder};
 use crate::inputs::Inputs;
-use crate::progress::{Progress, Shown};
+use crate::progress::Progress;
 use crate::results::{Earlier, Place, REPORT, Results, SCENARIO, SPECTRA, SUMMARY, is_of, is_written};
 use crate::say::complain;
 use brinell::document::Loaded;
@@ -50,7 +50,7 @@ pub(super) fn ready(args: &RunArgs, path: &Path, inputs: &mut Inputs) -> Result<
     let source = Source::open(path, &args.set)?;
     let loaded = source.load(&[], args.quiet)?;
     inputs.add_all(&source.inputs());
-    let simulation = Simulation::unchecked(&loaded.scenario).map_err(Failure::Run)?;
+    let simulation = Simulation::unchecked(&loaded.scenario)?;
     let beforehand = Beforehand::of(&loaded.scenario, simulation.model());
     if !args.quiet {
         if args.scenarios.len() > 1 && !beforehand.warnings.is_empty() {
@@ -102,9 +102,9 @@ pub(super) fn earlier(args: &RunArgs, loaded: &Loaded, folder: &Path, inputs: &I
 }
 
 /// Runs, and writes everything that was requested into the folder, in place of the earlier results.
-pub(super) fn execute(args: &RunArgs, task: &Task, progress: Progress, stop: &AtomicBool) -> Result<Done, Failure> {
+pub(super) fn execute(args: &RunArgs, task: &Task, mut progress: Progress, stop: &AtomicBool) -> Result<Done, Failure> {
     let Task { ready: Ready { loaded, beforehand, photos }, folder, earlier } = task;
-    let simulation = Simulation::unchecked(&loaded.scenario).map_err(Failure::Run)?;
+    let simulation = Simulation::unchecked(&loaded.scenario)?;
     let layout = args.print.layout(&args.plots)?;
     let mut loads = line_loads::requested(args, &simulation, task.duration_s())?;
     make_folder(folder)?;
@@ -113,14 +113,13 @@ pub(super) fn execute(args: &RunArgs, task: &Task, progress: Progress, stop: &At
     // What a reader needs to make sense of a partial run comes first.
     let mut ready = vec![atomic_prepare(folder.join(SCENARIO), loaded.to_toml())?];
 
-    let mut shown = Shown::new(progress, stop);
     let beside = loads.as_mut().map(|loads| loads as &mut dyn Observer);
-    let mut recorder = Recorder::new(&simulation, writers, &mut shown).beside(beside);
+    let mut recorder = Recorder::new(&simulation, writers, &mut progress).beside(beside);
     let (finished, healthy) =
         healthy::beside(args, &loaded.scenario, stop, || finish(loaded.scenario.clone(), simulation, &mut recorder));
     let files = recorder.close(&finished.outcome.end, true);
-    let elapsed = shown.elapsed();
-    drop(shown);
+    let elapsed = progress.elapsed();
+    drop(progress);
     ready.extend(files?);
     if let Some(loads) = &loads {
         ready.push(line_loads::ready(loads, folder)?);

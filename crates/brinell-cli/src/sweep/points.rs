@@ -123,7 +123,7 @@ fn check(source: &Source, settings: Vec<(String, String)>, k: usize, known: &Bef
 pub(crate) fn reason(failure: &Failure) -> String {
     match failure {
         Failure::Scenario { problems, .. } => on_one_line(problems),
-        other => one_line(&other.words()),
+        other => one_line(&other.to_string()),
     }
 }
 
