@@ -14,7 +14,6 @@ use brinell_study::calibrate::{
     self as study, CalibrateError, Key, Load, Measured, Outcome, Pattern, Plan, Target, Unfinished, bounds, check_keys,
     middle,
 };
-use brinell_study::runner::Ledger;
 use pyo3::prelude::*;
 use pyo3::types::PyList;
 use std::path::PathBuf;
@@ -112,10 +111,7 @@ pub(crate) fn calibrate<'py>(
     let pattern = pattern.transpose()?;
     let plan = py.detach(|| Plan::new(keys, targets, pattern, middle, &simulation, seed, budget));
     let plan = Arc::new(plan.map_err(|error| wrong("targets", error))?);
-    let ledger = match &folder {
-        Some(folder) => ledger(folder, &plan.header())?,
-        None => Ledger::default(),
-    };
+    let ledger = ledger(folder.as_deref(), &plan.header())?;
     let load: &Load<'_> = &|settings| {
         let loaded = source.with(settings).load();
         loaded.map(|(loaded, _)| loaded).map_err(|problems| on_one_line(&problems))
@@ -127,10 +123,7 @@ pub(crate) fn calibrate<'py>(
     };
     let found = attended(py, &watch, || study::calibrate(&plan, load, ledger, threads, &watch), tell)?;
     found.map(Calibration).map_err(|error| match error {
-        Unfinished::Runner(error) => match &folder {
-            Some(folder) => refused(folder, error),
-            None => bad_value(error),
-        },
+        Unfinished::Runner(error) => refused(folder.as_deref(), error),
         Unfinished::Unfit { unfit, reasons } => {
             failed_run(py, [vec![unfit.to_string()], reasons].concat().join("\n  "))
         }

@@ -16,9 +16,6 @@ use std::path::Path;
 /// A point's numbers with what they should be warned of, or why there are none.
 pub(crate) type Ran = Result<(Vec<Quantity>, Vec<String>), String>;
 
-/// Of each point what to run, or why its scenario is bad.
-pub(crate) type Tasks = Vec<Result<Task, String>>;
-
 /// Scenarios of points, from the one that they change.
 struct Points<'a>(&'a Source);
 
@@ -31,31 +28,35 @@ impl Work for Points<'_> {
     }
 }
 
-pub(crate) fn refused(folder: &Path, error: RunnerError) -> PyErr {
-    match error {
-        RunnerError::Io(error) => ReadError::new_err(error.to_string()),
-        error => bad_value(format!("{}: {error}", folder.display())),
+pub(crate) fn refused(folder: Option<&Path>, error: RunnerError) -> PyErr {
+    match (error, folder) {
+        (RunnerError::Io(error), _) => ReadError::new_err(error.to_string()),
+        (error, Some(folder)) => bad_value(format!("{}: {error}", folder.display())),
+        (error, None) => bad_value(error),
     }
 }
 
-/// A folder's journal, opened or begun.
-pub(crate) fn ledger(folder: &Path, header: &Value) -> PyResult<Ledger> {
+/// A folder's journal, opened or begun; without a folder, of this call alone.
+pub(crate) fn ledger(folder: Option<&Path>, header: &Value) -> PyResult<Ledger> {
+    let Some(folder) = folder else {
+        return Ok(Ledger::default());
+    };
     std::fs::create_dir_all(folder)
         .map_err(|error| ReadError::new_err(format!("cannot make {}: {error}", folder.display())))?;
-    Ledger::open(folder, header, false).map_err(|error| refused(folder, error))
+    Ledger::open(folder, header, false).map_err(|error| refused(Some(folder), error))
 }
 
 /// Of each point its numbers, or why there are none; with a `folder` none is run again that is in its journal.
 pub(crate) fn run(
     py: Python<'_>,
     (plan, source): (&Plan, &Source),
-    points: Tasks,
+    points: Vec<Result<Task, String>>,
     folder: Option<&Path>,
     jobs: Option<isize>,
     mut progress: impl FnMut(Python<'_>, usize) -> PyResult<()> + Send,
 ) -> PyResult<Vec<Ran>> {
     let prints = points.iter().map(|p| p.as_ref().ok().map(|t| &*t.fingerprint));
-    let mut ledger = folder.map_or_else(|| Ok(Ledger::default()), |folder| ledger(folder, &plan.header(prints)))?;
+    let mut ledger = ledger(folder, &plan.header(prints))?;
     let tasks = to_run(points.iter().flatten(), |task| ledger.kept.row(&task.fingerprint).is_some());
     let threads = threads(jobs, tasks.len())?;
     let mut done = plan.points() - tasks.len();
@@ -68,11 +69,7 @@ pub(crate) fn run(
             progress(py, done)
         })
     };
-    let told = |error: RunnerError| match folder {
-        Some(folder) => refused(folder, error),
-        None => bad_value(error),
-    };
-    attended(py, &watch, runs, tell)?.map(drop).map_err(told)?;
+    attended(py, &watch, runs, tell)?.map(drop).map_err(|error| refused(folder, error))?;
     let result = |point: Result<Task, String>| {
         let row = ledger.kept.row(&point?.fingerprint).ok_or("not run")?;
         let numbers = row.result.clone().map_err(|reason| one_line(&reason))?;

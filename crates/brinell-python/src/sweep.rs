@@ -3,14 +3,14 @@
 use crate::bad_value::bad_value;
 use crate::convert::{array, json_to_python, python_to_toml};
 use crate::errors::scenario_error;
-use crate::kept::{self, Ran, Tasks};
-use crate::scenario::{Scenario, Source};
-use crate::wait::over_threads;
+use crate::kept::{self, Ran};
+use crate::scenario::Scenario;
+use crate::wait::{Watch, attended, threads};
 use brinell::document::reading::text_in_unit_of;
 use brinell::document::{Problem, on_one_line};
 use brinell::result::Quantity;
-use brinell_study::campaign::{Axis, Beforehand, Known, Plan, columns, of_points, of_results};
-use brinell_study::runner::Task;
+use brinell_study::campaign::{Axis, Plan, columns, of_results};
+use brinell_study::runner::Looked;
 use pyo3::prelude::*;
 use pyo3::types::{PyList, PyString};
 use std::path::PathBuf;
@@ -40,12 +40,16 @@ pub(crate) fn sweep<'py>(
     });
     let plan = Plan::new(axes.collect::<PyResult<_>>()?).map_err(bad_value)?;
     let total = plan.points();
-    let (points, mut warnings) = looked_at(py, &plan, &scenario.source, jobs)?;
+    let threads = threads(jobs, total)?;
+    let load = |settings: &[(String, String)]| scenario.source.with(settings).load().map(|(loaded, _)| loaded);
+    let words = |problems: &Vec<Problem>| on_one_line(problems);
+    let looked = attended(py, &Watch::default(), || Looked::at(&plan, threads, load, words), |_, _| Ok(()))?;
+    let Looked { tasks, mut warnings, .. } = looked.map_err(|problems| scenario_error(py, problems, None))?;
     let show = |py: Python<'_>, done: usize| match &progress {
         Some(progress) => progress.call1(py, (done, total)).map(drop),
         None => Ok(()),
     };
-    let results = kept::run(py, (&plan, &scenario.source), points, folder.as_deref(), jobs, show)?;
+    let results = kept::run(py, (&plan, &scenario.source), tasks, folder.as_deref(), jobs, show)?;
     let complete = |(k, ran): (usize, &Ran)| Some((k, ran.as_ref().ok()?.1.clone()));
     warnings.extend(of_results(results.iter().enumerate().filter_map(complete), "point", |k| k + 1));
     let runs: Vec<&[Quantity]> = results.iter().map(|r| r.as_ref().map_or(&[][..], |ran| &ran.0)).collect();
@@ -77,38 +81,4 @@ pub(crate) fn in_unit<'py>(py: Python<'py>, key: &str, word: &str) -> PyResult<B
 fn python_value<'py>(py: Python<'py>, text: &str) -> PyResult<Bound<'py, PyAny>> {
     let toml: Option<serde_json::Value> = toml::from_str(&format!("value = {text}")).ok();
     json_to_python(py, &toml.map_or_else(|| text.into(), |mut table| table["value"].take()))
-}
-
-/// A point that was read, or what is wrong with its scenario.
-type Looked = Result<(Known, Task), Vec<Problem>>;
-
-/// Every point read: what to run, or why its scenario is bad; and what they should be warned of before they run. Where
-/// all are bad, the input is.
-fn looked_at(py: Python<'_>, plan: &Plan, source: &Source, jobs: Option<isize>) -> PyResult<(Tasks, Vec<String>)> {
-    let known = Beforehand::default();
-    let mut points = Vec::new();
-    points.resize_with(plan.points(), || None);
-    over_threads(
-        py,
-        plan.points(),
-        jobs,
-        |k, _| {
-            let settings = plan.settings(k);
-            let (loaded, _) = source.with(&settings).load()?;
-            Ok((known.point(k, &loaded), Task::new(settings, &loaded.scenario)))
-        },
-        |_, k, point: Looked| {
-            points[k] = Some(point);
-            Ok(())
-        },
-    )?;
-    let mut points: Vec<_> = points.into_iter().flatten().collect();
-    if points.iter().all(Result::is_err)
-        && let Some(Err(problems)) = points.first_mut()
-    {
-        return Err(scenario_error(py, std::mem::take(problems), None));
-    }
-    let warnings = of_points(points.iter().map(|point| point.as_ref().ok().map(|(known, _)| known)));
-    let task = |point: Looked| point.map(|(_, task)| task).map_err(|problems| on_one_line(&problems));
-    Ok((points.into_iter().map(task).collect(), warnings))
 }

@@ -76,6 +76,16 @@ pub fn each<T: Send>(
     });
 }
 
+/// What `job` gives for every k below `count`, in order, by [`each`].
+///
+/// # Panics
+/// As [`each`].
+pub fn map<T: Send>(count: usize, threads: NonZeroUsize, job: impl Fn(usize) -> T + Sync) -> Vec<T> {
+    let mut results: Vec<Option<T>> = (0..count).map(|_| None).collect();
+    each(count, threads, job, |k, result| results[k] = Some(result));
+    results.into_iter().flatten().collect()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

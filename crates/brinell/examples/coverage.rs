@@ -104,14 +104,7 @@ fn all(
     channel: &str,
     threads: NonZeroUsize,
 ) -> Result<Results, Box<dyn Error + Send + Sync>> {
-    let mut results: Vec<_> = numbers.clone().map(|_| None).collect();
-    many::each(
-        numbers.len(),
-        threads,
-        |k| start(base, numbers.start + k, durations, channel),
-        |k, result| results[k] = Some(result),
-    );
-    results.into_iter().flatten().collect()
+    many::map(numbers.len(), threads, |k| start(base, numbers.start + k, durations, channel)).into_iter().collect()
 }
 
 fn median(mut values: Vec<f64>) -> f64 {

@@ -19,6 +19,7 @@ use brinell_study::calibrate::search::latin_hypercube;
 use brinell_study::calibrate::{
     CalibrateError, Key, Load, Outcome, Plan, Points, Target, Unfinished, Unfit, bounds, check_keys, middle,
 };
+use brinell_study::campaign::is_inside;
 use brinell_study::runner::{JOURNAL, Ledger, Task, estimate};
 use serde_json::Value;
 use std::num::NonZeroUsize;
@@ -117,11 +118,9 @@ fn read(args: &CalibrateArgs) -> Result<(Source, Arc<Plan>, Vec<String>), Failur
         .collect::<Result<_, _>>()?;
     let source = Source::open(&args.scenario, &args.set)?;
     for (key, value) in source.overrides() {
-        let hides =
-            |fitted: &&Key| key.strip_prefix(&fitted.name).is_some_and(|rest| rest.is_empty() || rest.starts_with('.'));
         // The speed that a measured signal is looked at with, where it is fitted.
         let is_of_signal = args.measured.is_some() && key == "operation.speed_rpm";
-        if let Some(fitted) = keys.iter().find(hides).filter(|_| !is_of_signal) {
+        if let Some(fitted) = keys.iter().find(|fitted| !is_of_signal && is_inside(key, &fitted.name)) {
             return Err(Failure::Usage(format!(
                 "--set {key}={value}: every run gives {} another value, as --fit says; leave out the one or the other",
                 fitted.name
@@ -160,7 +159,7 @@ fn tell_plan(points: &Points, warnings: &[String], threads: NonZeroUsize, ledger
     for warning in warnings {
         complain!("warning: {warning}");
     }
-    for (target, unit) in plan.targets.iter().zip(plan.target_units()) {
+    for (target, unit) in plan.targets.iter().zip(&plan.target_units) {
         let value = short(target.value, digits_beside(target.value, target.uncertainty));
         say!("  {}", format!("{} = {value} ~ {} {unit}", target.name, short(target.uncertainty, 2)).trim_end());
     }

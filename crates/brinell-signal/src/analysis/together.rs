@@ -394,7 +394,5 @@ fn in_parallel<T: Sync, R: Send>(
     of: &[T],
     one: impl Fn(&T) -> Result<R, AnalysisError> + Sync,
 ) -> Result<Vec<R>, AnalysisError> {
-    let mut results: Vec<_> = of.iter().map(|_| None).collect();
-    parallel::each(of.len(), parallel::threads(of.len()), |k| one(&of[k]), |k, result| results[k] = Some(result));
-    results.into_iter().flatten().collect()
+    parallel::map(of.len(), parallel::threads(of.len()), |k| one(&of[k])).into_iter().collect()
 }

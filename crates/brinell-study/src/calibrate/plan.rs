@@ -5,7 +5,7 @@ use super::target::check;
 use super::{CalibrateError, Key, Pattern, Settings, Target};
 use crate::campaign::fingerprint;
 use brinell::document::Loaded;
-use brinell::result::{can_be_negative, check_name, listed, names};
+use brinell::result::{can_be_negative, check_name, listed};
 use brinell::simulate::Simulation;
 use serde_json::{Value, json};
 
@@ -21,6 +21,8 @@ pub struct Plan {
     pub units: Vec<&'static str>,
     /// What is to be met: what is given, then what the measured signal says.
     pub targets: Vec<Target>,
+    /// Units of the targets; empty where a number has none.
+    pub target_units: Vec<String>,
     /// The measured signal, where there is one.
     pub pattern: Option<Pattern>,
     /// How it is searched.
@@ -50,18 +52,6 @@ pub fn middle(keys: &[Key]) -> Vec<(String, String)> {
 }
 
 impl Plan {
-    /// Units of the targets, before any run; empty where a number has none.
-    pub fn target_units(&self) -> Vec<String> {
-        // What a signal says of a band or a line.
-        let of_signature = |name: &str| name.starts_with("signature.").then(|| "dB".to_owned());
-        let numbers = Simulation::unchecked(&self.middle.scenario)
-            .map_or(Vec::new(), |simulation| listed(&self.middle.scenario, &simulation));
-        let of_run = |name: &str| numbers.iter().find(|q| q.name == name).map(|q| q.unit.clone());
-        let unit = |target: &Target| of_signature(&target.name).or_else(|| of_run(&target.name)).unwrap_or_default();
-        let all = self.targets.iter().map(unit);
-        all.map(|unit| if unit == "1" { String::new() } else { unit }).collect()
-    }
-
     /// Of keys that may be fitted together; `middle` is the scenario of [`middle`]'s settings, and `simulation` is its.
     ///
     /// # Errors
@@ -76,7 +66,8 @@ impl Plan {
         seed: u64,
         budget: Option<usize>,
     ) -> Result<Self, CalibrateError> {
-        let names = names(&middle.scenario, simulation);
+        let numbers = listed(&middle.scenario, simulation);
+        let names: Vec<String> = numbers.iter().map(|number| number.name.clone()).collect();
         for target in &targets {
             check_name(&target.name, &names)?;
             if target.value < 0.0 && !can_be_negative(&target.name) {
@@ -95,9 +86,14 @@ impl Plan {
         if budget < least {
             return Err(CalibrateError::Budget { budget, least, keys: keys.len() });
         }
+        // What a signal says of a band or a line.
+        let of_signature = |name: &str| name.starts_with("signature.").then_some("dB");
+        let of_run = |name: &str| Some(&*numbers.iter().find(|q| q.name == name)?.unit).filter(|unit| *unit != "1");
+        let unit = |target: &Target| of_signature(&target.name).or_else(|| of_run(&target.name)).unwrap_or("");
+        let target_units = targets.iter().map(|target| unit(target).to_owned()).collect();
         let unit = |key: &Key| middle.provenance_of(&key.name).map_or("", |p| p.unit);
         let units = keys.iter().map(unit).collect();
-        Ok(Self { settings: Settings { seed, budget }, keys, units, targets, pattern, middle })
+        Ok(Self { settings: Settings { seed, budget }, keys, units, targets, target_units, pattern, middle })
     }
 
     /// What distinguishes this calibration from others. A larger budget resumes the same one.

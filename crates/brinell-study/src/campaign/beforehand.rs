@@ -106,7 +106,7 @@ pub struct Known {
 }
 
 /// What a grid's points should be warned of before they run, each kind once; those that are bad are `None`.
-pub fn of_points<'a>(points: impl IntoIterator<Item = Option<&'a Known>>) -> Vec<String> {
+pub(crate) fn of_points<'a>(points: impl IntoIterator<Item = Option<&'a Known>>) -> Vec<String> {
     let (mut read, mut before, mut good, mut balanced) = (Vec::new(), Vec::new(), 0, 0);
     let (mut first, mut unlike) = (None, false);
     for (k, known) in points.into_iter().enumerate() {

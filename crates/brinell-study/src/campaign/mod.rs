@@ -21,13 +21,16 @@ pub use axis::Axis;
 #[doc(hidden)]
 pub use axis::split;
 pub(crate) use axis::{assigned, number, syntax};
+pub(crate) use beforehand::of_points;
 #[doc(hidden)]
-pub use beforehand::{BALANCED, BANDWIDTHS, Beforehand, Known, Misses, bandwidth, count, join, of_points, of_results};
+pub use beforehand::{BALANCED, BANDWIDTHS, Beforehand, Known, Misses, bandwidth, count, join, of_results};
 pub use columns::{NumberColumn, columns};
 pub use compare::{Compared, compare};
 pub use error::PlanError;
 pub(crate) use kernel::{DIFFER, kernel, other_kernel};
 pub use plan::Plan;
+#[doc(hidden)]
+pub use plan::is_inside;
 pub(crate) use plan::{INSIDE, clash};
 #[doc(hidden)]
 pub use row::digest;

@@ -8,12 +8,16 @@ use serde_json::{Value, json};
 /// What is wrong with keys of which one is part of the other.
 pub(crate) const INSIDE: &str = "lie one inside the other, and would overwrite each other";
 
+/// Whether a key is another one, or one inside it.
+pub fn is_inside(key: &str, other: &str) -> bool {
+    key.strip_prefix(other).is_some_and(|rest| rest.is_empty() || rest.starts_with('.'))
+}
+
 /// The first two keys that set the same: a key twice, or one inside the other.
 pub(crate) fn clash<'a>(keys: impl Iterator<Item = &'a str>) -> Option<[&'a str; 2]> {
-    let inside = |a: &str, b: &str| a.strip_prefix(b).is_some_and(|rest| rest.is_empty() || rest.starts_with('.'));
     let mut before: Vec<&str> = Vec::new();
     for key in keys {
-        if let Some(other) = before.iter().find(|other| inside(key, other) || inside(other, key)) {
+        if let Some(other) = before.iter().find(|other| is_inside(key, other) || is_inside(other, key)) {
             return Some([other, key]);
         }
         before.push(key);

@@ -14,12 +14,5 @@ pub fn run_all(
     threads: NonZeroUsize,
     progress: impl Fn(usize, f64) -> ControlFlow<()> + Sync,
 ) -> Vec<Result<RunResult, Error>> {
-    let mut all: Vec<Option<Result<RunResult, Error>>> = scenarios.iter().map(|_| None).collect();
-    many::each(
-        scenarios.len(),
-        threads,
-        |k| simulate_with(&scenarios[k], &mut Progress(|t| progress(k, t))),
-        |k, result| all[k] = Some(result),
-    );
-    all.into_iter().map(|result| result.unwrap_or(Err(Error::Stopped))).collect()
+    many::map(scenarios.len(), threads, |k| simulate_with(&scenarios[k], &mut Progress(|t| progress(k, t))))
 }

@@ -177,13 +177,12 @@ impl Campaign {
     /// Adds the warnings that first runs have before they begin.
     fn balance(&self, survey: &mut Survey, stop: &AtomicBool) {
         let (known, runs) = (Beforehand::default(), BALANCED.min(self.draws().runs()));
-        let mut found = vec![None; runs];
         let warnings = |run| {
             let stopped = stop.load(Ordering::Relaxed);
             let loaded = (!stopped).then(|| self.try_scenario(run).ok()).flatten();
             loaded.map(|(loaded, _)| known.warnings(&loaded.scenario))
         };
-        many::each(runs, many::threads(runs), warnings, |run, warnings| found[run] = warnings);
+        let found = many::map(runs, many::threads(runs), warnings);
         survey.balanced = found.iter().flatten().count();
         for (run, warnings) in found.into_iter().enumerate() {
             warnings.into_iter().flatten().for_each(|warning| count(&mut survey.before, warning, run));

@@ -42,25 +42,19 @@ impl Survey {
     pub fn of(draws: &Draws, base: &str, step: NonZeroUsize, threads: NonZeroUsize, stop: &AtomicBool) -> Self {
         let looked = draws.runs().div_ceil(step.get());
         let chunks = looked.div_ceil(CHUNK);
-        let mut parts: Vec<Option<Self>> = vec![None; chunks];
-        many::each(
-            chunks,
-            threads,
-            |k| {
-                let mut part = Self::default();
-                if stop.load(Ordering::Relaxed) {
-                    return part;
-                }
-                for n in k * CHUNK..((k + 1) * CHUNK).min(looked) {
-                    part.look(draws, base, n * step.get());
-                }
-                part
-            },
-            |k, part| parts[k] = Some(part),
-        );
+        let parts = many::map(chunks, threads, |k| {
+            let mut part = Self::default();
+            if stop.load(Ordering::Relaxed) {
+                return part;
+            }
+            for n in k * CHUNK..((k + 1) * CHUNK).min(looked) {
+                part.look(draws, base, n * step.get());
+            }
+            part
+        });
         // In the runs' order, whatever the threads did.
         let mut all = Self::default();
-        parts.into_iter().flatten().for_each(|part| all.join(part));
+        parts.into_iter().for_each(|part| all.join(part));
         all
     }
 
