@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, Literal
 
 import numpy.typing as npt
 
-from brinell import _brinell
+from brinell import _brinell, plot
 from brinell.arguments import band_of, number_of, rate_of, samples_of, text_of, unit_of, whole_of
 from brinell.scenario import Scenario, of_bearing
 from brinell.signals import Signal, Spectrum
@@ -67,8 +67,6 @@ class Analysis:
 
     def plot(self, *, to_hz: float | None = None, ax: Any = None) -> matplotlib.axes.Axes:
         """The envelope spectrum with what was looked for."""
-        from brinell import plot
-
         return plot.analysis(self, to_hz=to_hz, ax=ax)
 
     def __getstate__(self) -> dict[str, Any]:

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import numpy.typing as npt
 
-from brinell import _brinell, tables
+from brinell import _brinell, plot, tables
 from brinell.analysis import Analysis, analyze
 from brinell.scenario import Scenario, plain, warn
 from brinell.signals import Spectrum
@@ -276,32 +276,22 @@ class Result:
         ax : matplotlib axes, optional
             Where to draw; new ones by default.
         """
-        from brinell import plot
-
         return plot.signal(self, channel, from_s=from_s, to_s=to_s, ax=ax)
 
     def plot_spectrum(self, *, to_hz: float | None = None, ax: Any = None) -> matplotlib.axes.Axes:
         """The amplitude spectrum."""
-        from brinell import plot
-
         return plot.spectrum(_there(self.spectrum), to_hz=to_hz, ax=ax)
 
     def plot_envelope(self, *, to_hz: float | None = None, harmonics: int = 5, ax: Any = None) -> matplotlib.axes.Axes:
         """The envelope spectrum; above it the harmonics of every defect frequency, those of the damage dashed through it."""
-        from brinell import plot
-
         return plot.envelope(self, to_hz=to_hz, harmonics=harmonics, ax=ax)
 
     def plot_load_zone(self, *, row: int = 1, ax: Any = None) -> matplotlib.axes.Axes:
         """Mean, largest and static force at the outer contacts of a row, on polar axes."""
-        from brinell import plot
-
         return plot.load_zone(self, row=row, ax=ax)
 
     def plot_pass(self, defect: int = 1, *, ax: Any = None) -> matplotlib.axes.Axes:
         """Contact length, stiffness and force as a roller passes a defect: three panels, of which the lowest is returned."""
-        from brinell import plot
-
         return plot.roller_pass(self, defect, ax=ax)
 
     def __getstate__(self) -> Mapping[str, Any]:

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any, Literal
 import numpy as np
 import numpy.typing as npt
 
-from brinell import _brinell, tables
+from brinell import _brinell, plot, tables
 from brinell.arguments import band_of, number_of, rate_of, samples_of, unit_of, whole_of
 
 if TYPE_CHECKING:
@@ -82,8 +82,6 @@ class Spectrum:
 
     def plot(self, *, to_hz: float | None = None, ax: Any = None) -> matplotlib.axes.Axes:
         """Amplitude over frequency."""
-        from brinell import plot
-
         return plot.spectrum(self, to_hz=to_hz, ax=ax)
 
     def __repr__(self) -> str:
@@ -239,8 +237,6 @@ class Spectrogram:
 
     def plot(self, *, ax: Any = None) -> matplotlib.axes.Axes:
         """Density over time and frequency."""
-        from brinell import plot
-
         return plot.spectrogram(self, ax=ax)
 
     def __repr__(self) -> str:
@@ -296,8 +292,6 @@ class Kurtogram:
 
     def plot(self, *, ax: Any = None) -> matplotlib.axes.Axes:
         """Kurtosis of every band, a line of bands of one width above the other."""
-        from brinell import plot
-
         return plot.kurtogram(self, ax=ax)
 
     def __repr__(self) -> str:

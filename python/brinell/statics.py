@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import numpy.typing as npt
 
-from brinell import _brinell, tables
+from brinell import _brinell, plot, tables
 from brinell.arguments import number_of
 from brinell.scenario import Runnable, Scenario, given, of_bearing
 
@@ -45,8 +45,6 @@ class LoadZone:
 
     def plot(self, *, ax: Any = None) -> matplotlib.axes.Axes:
         """Forces on polar axes."""
-        from brinell import plot
-
         return plot.statics(self, ax=ax)
 
     def __repr__(self) -> str:

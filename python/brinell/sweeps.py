@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import numpy.typing as npt
 
-from brinell import _brinell, tables
+from brinell import _brinell, plot, tables
 from brinell.arguments import jobs_of
 from brinell.scenario import Runnable, given, plain, warn
 
@@ -104,8 +104,6 @@ class Table:
         ax : matplotlib axes, optional
             Where to draw; new ones by default.
         """
-        from brinell import plot
-
         return plot.table(self, y, x, ax=ax)
 
     def __repr__(self) -> str:

@@ -47,9 +47,8 @@ pub(crate) fn scenario_error(py: Python, problems: Vec<Problem>, seen: Option<(&
             })
         })
         .collect();
-    let error = ScenarioError::new_err(words);
-    match json_to_python(py, &list.into()).and_then(|l| error.value(py).setattr("problems", l)) {
-        Ok(()) => error,
+    match json_to_python(py, &list.into()) {
+        Ok(list) => with(py, ScenarioError::new_err(words), "problems", list.unbind()),
         Err(other) => other,
     }
 }
