@@ -35,7 +35,7 @@ pub const RECORD_CREST_FACTOR: &str = "record_crest_factor";
 pub const RECORD_PEAK_TO_PEAK: &str = "record_peak_to_peak";
 
 /// One or more whole revolutions.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
 struct Block {
     moments: Moments,
     /// Sum over revolutions of the largest |x|.
@@ -46,8 +46,6 @@ struct Block {
 }
 
 impl Merge for Block {
-    const NONE: Block = Block { moments: Moments::new(), peaks: 0.0, ranges: 0.0, revolutions: 0 };
-
     fn merge(&self, later: &Block) -> Block {
         Block {
             moments: self.moments.merge(&later.moments),
@@ -93,17 +91,11 @@ impl Block {
 /// [`MOST_BLOCKS`](super::series::MOST_BLOCKS) blocks would begin, neighbours merge in pairs and from then on a block
 /// is twice as many revolutions. Samples before the end of the last whole revolution count; those after it count only
 /// where there is no whole one.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Default)]
 pub struct Blocks {
     series: Series<Block>,
     /// The revolution that has not ended.
     current: Moments,
-}
-
-impl Default for Blocks {
-    fn default() -> Self {
-        Blocks::new()
-    }
 }
 
 /// Round-off of a revolution's end, samples.
@@ -112,7 +104,7 @@ const END: f64 = 1e-6;
 impl Blocks {
     /// No samples, no blocks.
     pub fn new() -> Self {
-        Blocks { series: Series::new(), current: Moments::new() }
+        Self::default()
     }
 
     /// Of a slice, in blocks of `samples` samples (not necessarily whole), 1 or more: a revolution is the sample rate

@@ -6,10 +6,8 @@ use super::scatter::{drift, scatter};
 /// Blocks held at most; even.
 pub const MOST_BLOCKS: usize = 128;
 
-/// What two consecutive blocks make together.
-pub(super) trait Merge: Copy {
-    /// Of no samples.
-    const NONE: Self;
+/// What two consecutive blocks make together; the default is of no samples.
+pub(super) trait Merge: Copy + Default {
     fn merge(&self, later: &Self) -> Self;
 }
 
@@ -24,11 +22,13 @@ pub(super) struct Series<B> {
     pub(super) per_block: u64,
 }
 
-impl<B: Merge> Series<B> {
-    pub(super) fn new() -> Self {
-        Series { closed: Vec::with_capacity(MOST_BLOCKS), open: B::NONE, revolutions_in_open: 0, per_block: 1 }
+impl<B: Merge> Default for Series<B> {
+    fn default() -> Self {
+        Series { closed: Vec::with_capacity(MOST_BLOCKS), open: B::default(), revolutions_in_open: 0, per_block: 1 }
     }
+}
 
+impl<B: Merge> Series<B> {
     /// Takes a whole revolution.
     pub(super) fn push(&mut self, revolution: &B) {
         self.open = self.open.merge(revolution);
@@ -45,7 +45,7 @@ impl<B: Merge> Series<B> {
             return;
         }
         self.closed.push(self.open);
-        self.open = B::NONE;
+        self.open = B::default();
         self.revolutions_in_open = 0;
     }
 
@@ -56,20 +56,18 @@ impl<B: Merge> Series<B> {
     /// All whole revolutions together.
     pub(super) fn all(&self) -> B {
         let fold = |all: B, block: &B| all.merge(block);
-        self.closed.iter().fold(B::NONE, fold).merge(&self.open)
+        self.closed.iter().fold(B::default(), fold).merge(&self.open)
     }
 }
 
 /// A weighted sum and its weights.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
 struct Sum {
     sum: f64,
     weight: f64,
 }
 
 impl Merge for Sum {
-    const NONE: Sum = Sum { sum: 0.0, weight: 0.0 };
-
     fn merge(&self, later: &Sum) -> Sum {
         Sum { sum: self.sum + later.sum, weight: self.weight + later.weight }
     }
@@ -77,22 +75,16 @@ impl Merge for Sum {
 
 /// The average of a quantity over the whole revolutions of a run, with its 95 % interval (see
 /// [`scatter`](super::scatter())).
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Default)]
 pub struct Averages {
     series: Series<Sum>,
     current: Sum,
 }
 
-impl Default for Averages {
-    fn default() -> Self {
-        Averages::new()
-    }
-}
-
 impl Averages {
     /// Nothing seen yet.
     pub fn new() -> Self {
-        Averages { series: Series::new(), current: Sum::NONE }
+        Self::default()
     }
 
     /// Takes a value.
@@ -111,7 +103,7 @@ impl Averages {
     pub fn end_block(&mut self) {
         if self.current.weight > 0.0 {
             self.series.push(&self.current);
-            self.current = Sum::NONE;
+            self.current = Sum::default();
         }
     }
 

@@ -9,9 +9,10 @@ use brinell::document::reading::Choice;
 pub(super) use keys::keys;
 
 /// How runs are spread over what their distributions span.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub enum Design {
     /// Each run for itself.
+    #[default]
     Random,
     /// Of the n runs of a class one in each n-th part of every distribution.
     LatinHypercube,
@@ -20,9 +21,10 @@ pub enum Design {
 }
 
 /// What to do about a run whose values do not make a scenario.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub enum OutOfRange {
     /// Refuse the plan.
+    #[default]
     Refuse,
     /// Draw again until they do: what comes out are the distributions, given that they fit.
     Redraw,
@@ -90,7 +92,7 @@ pub struct HeldSeverity {
 }
 
 /// A campaign of runs, as its file says it.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, Default, PartialEq)]
 pub struct Plan {
     /// Name of the data set.
     pub name: String,
@@ -132,25 +134,6 @@ impl HeldSeverity {
 }
 
 impl Plan {
-    pub(super) fn blank() -> Self {
-        Self {
-            name: String::new(),
-            base: String::new(),
-            runs: 0,
-            seed: 0,
-            design: Design::Random,
-            out_of_range: OutOfRange::Refuse,
-            runs_per_file: 0,
-            licence: String::new(),
-            held_out: 0.0,
-            secret: String::new(),
-            split: None,
-            signals: Vec::new(),
-            vary: Template::empty(),
-            classes: Vec::new(),
-        }
-    }
-
     /// Whether labels are held out.
     pub fn holds_out(&self) -> bool {
         self.held_out > 0.0

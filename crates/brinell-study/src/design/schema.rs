@@ -17,7 +17,7 @@ const PIECES: [(&str, &str); 3] = [
 /// shares leave runs to train with, that a drawn value makes a scenario.
 pub fn plan_schema() -> Json {
     let mut schema = schema_of("brinell plan", "the plan of a data set", |walk| {
-        keys(walk, &mut Plan::blank());
+        keys(walk, &mut Plan::default());
     });
     for (place, piece) in PIECES {
         if let Some(Json::Object(at)) = schema.pointer_mut(place) {

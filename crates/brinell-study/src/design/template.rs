@@ -19,11 +19,6 @@ pub(crate) enum Template {
 }
 
 impl Template {
-    /// Without a key.
-    pub(crate) fn empty() -> Self {
-        Self::Table(BTreeMap::new())
-    }
-
     /// Of the value of `key`, or of an element of it.
     fn of(key: &str, node: &Node) -> Result<Self, Misfit> {
         if let Some(distribution) = Distribution::read(key, node) {
@@ -122,9 +117,16 @@ fn join(path: &str, name: &str) -> String {
     if path.is_empty() { name.to_owned() } else { format!("{path}.{name}") }
 }
 
+impl Default for Template {
+    /// Without a key.
+    fn default() -> Self {
+        Self::Table(BTreeMap::new())
+    }
+}
+
 impl ValueType for Template {
     fn blank() -> Self {
-        Self::empty()
+        Self::default()
     }
 
     fn expected(_: &Spec) -> String {

@@ -17,7 +17,7 @@ impl Plan {
     /// Every problem of the text at once.
     pub fn read(text: &str) -> Result<Self, Vec<Problem>> {
         let root = parse(text, &[])?;
-        let mut plan = Self::blank();
+        let mut plan = Self::default();
         let mut reader = Reader::with_vocabulary(text, &root, &[]);
         keys(&mut reader, &mut plan);
         reader.finish();
@@ -28,7 +28,7 @@ impl Plan {
             return Err(problems);
         }
         if plan.classes.is_empty() {
-            plan.classes.push(Class { name: "all".into(), share: 1.0, vary: Template::empty(), defects: None });
+            plan.classes.push(Class { name: "all".into(), share: 1.0, vary: Template::default(), defects: None });
         }
         Ok(plan)
     }
@@ -108,13 +108,13 @@ pub(in super::super) fn keys<K: Keys>(k: &mut K, p: &mut Plan) {
     );
     k.key(
         key("vary", "keys of the scenario with values or distributions"),
-        stated(Template::empty(), "nothing varies"),
+        stated(Template::default(), "nothing varies"),
         &mut p.vary,
     );
     k.tables(
         key("classes", "kinds of runs: none, one or many"),
         &mut p.classes,
-        || Class { name: String::new(), share: 1.0, vary: Template::empty(), defects: None },
+        || Class { name: String::new(), share: 1.0, vary: Template::default(), defects: None },
         |k, class| {
             k.key(key("name", "label of the class"), Fallback::Required, &mut class.name);
             k.key(
@@ -124,7 +124,7 @@ pub(in super::super) fn keys<K: Keys>(k: &mut K, p: &mut Plan) {
             );
             k.key(
                 key("vary", "keys that vary in this class"),
-                stated(Template::empty(), "what varies in all"),
+                stated(Template::default(), "what varies in all"),
                 &mut class.vary,
             );
             k.optional(key("defects", "defects in place of the base's"), &mut class.defects);
