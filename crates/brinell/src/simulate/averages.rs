@@ -11,8 +11,7 @@
 //! to 0. What folds to f from 1/h - f is lower by (1/(f h) - 1)². In the passband, a_k = -m_(k-1)/12 + 7/6 m_k -
 //! m_(k+1)/12 takes the response of the triangle back, to 1 - 0.18 (pi f h)⁴.
 
-use crate::solver::Stepper;
-use std::ops::{AddAssign, Mul};
+use crate::solver::{Flow, Stepper};
 
 /// Instants by which an average lags: it needs two more on its right.
 pub(super) const LAG: u64 = 2;
@@ -56,10 +55,7 @@ impl Averages {
     }
 
     /// Before the next step: the last one is over.
-    pub(super) fn pass<F>(&mut self, stepper: &Stepper<F>)
-    where
-        F: Copy + Default + AddAssign + Mul<f64, Output = F>,
-    {
+    pub(super) fn pass<F: Flow>(&mut self, stepper: &Stepper<F>) {
         let whole = stepper.displacements(stepper.t());
         for p in &mut self.lists {
             p.carried += whole(p.index);
@@ -68,10 +64,7 @@ impl Averages {
 
     /// Where what follows the last step's end changed its polynomial: what was carried is of the one before, whose
     /// whole was passed.
-    pub(super) fn go_on<F>(&mut self, stepper: &Stepper<F>)
-    where
-        F: Copy + Default + AddAssign + Mul<f64, Output = F>,
-    {
+    pub(super) fn go_on<F: Flow>(&mut self, stepper: &Stepper<F>) {
         let whole = stepper.displacements(stepper.t());
         for p in &mut self.lists {
             p.carried -= whole(p.index);
@@ -79,10 +72,7 @@ impl Averages {
     }
 
     /// At the next instant t, within the last step: the accelerations at the instant [`LAG`] before, into their places.
-    pub(super) fn at<F>(&mut self, t: f64, stepper: &Stepper<F>, accelerations: &mut [f64])
-    where
-        F: Copy + Default + AddAssign + Mul<f64, Output = F>,
-    {
+    pub(super) fn at<F: Flow>(&mut self, t: f64, stepper: &Stepper<F>, accelerations: &mut [f64]) {
         let per_square = 1.0 / (self.interval * self.interval);
         let until = stepper.displacements(t);
         for p in &mut self.lists {

@@ -12,10 +12,15 @@ pub use tableau::{DAMPED_CONTACT, STAGES, Tableau};
 use crate::lanes::{Column, blend, weighted_square};
 use std::ops::{AddAssign, Mul};
 
+/// A quantity integrated along with the state by the same quadrature, outside the error control.
+pub trait Flow: Copy + Default + AddAssign + Mul<f64, Output = Self> {}
+
+impl<F: Copy + Default + AddAssign + Mul<f64, Output = F>> Flow for F {}
+
 /// What is integrated.
 pub trait System {
-    /// A quantity integrated along with the state by the same quadrature, outside the error control.
-    type Flow: Copy + Default + AddAssign + Mul<f64, Output = Self::Flow>;
+    /// What is integrated beside the state.
+    type Flow: Flow;
 
     /// Entries of the state.
     fn size(&self) -> usize;
@@ -106,7 +111,7 @@ const INTEGRAL: f64 = 0.08;
 /// An error of 1e-4 of the tolerance: a smaller one does not hold the next step back further.
 const LEAST_MAGNITUDE: f32 = -13.29;
 
-impl<F: Copy + Default + AddAssign + Mul<f64, Output = F>> Stepper<F> {
+impl<F: Flow> Stepper<F> {
     /// At (t, y), with the accelerations evaluated there.
     pub fn new<S: System<Flow = F>>(system: &mut S, settings: Settings, t: f64, y: &[f64]) -> Self {
         let n = system.size();
