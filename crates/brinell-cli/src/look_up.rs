@@ -5,7 +5,7 @@ use crate::failure::Failure;
 use crate::files;
 use crate::say::{self, document, plain_number, say};
 use brinell::analysis::{DefectOrders, NamedBearing};
-use brinell::bearing::catalogue::{self, BORE, DYNAMIC_RATING, Datum, Entry, FACTS, STATIC_RATING};
+use brinell::bearing::catalogue::{self, BORE, DYNAMIC_RATING, Entry, FACTS, STATIC_RATING};
 use brinell::bearing::clearance::ClearanceClass;
 use brinell::bearing::{KnownBearing, clearance_of, frequencies_of, orders_of};
 use brinell::scenario::{Element, Scenario};
@@ -89,12 +89,7 @@ fn shown(known: KnownBearing, class: Option<ClearanceClass>) -> Value {
     match known {
         KnownBearing::Catalogue(entry) => {
             let of = |v: &catalogue::Value| {
-                let value = match &v.value {
-                    Datum::Number(x) => (*x).into(),
-                    Datum::Integer(n) => (*n).into(),
-                    Datum::Text(text) => Value::from(text.as_str()),
-                };
-                let cell = json!({ "value": value, "source": v.source, "estimated": v.estimated });
+                let cell = json!({ "value": v.value, "source": v.source, "estimated": v.estimated });
                 (v.key.clone(), cell)
             };
             let numbers: serde_json::Map<String, Value> = entry.facts.iter().chain(&entry.values).map(of).collect();
@@ -180,23 +175,22 @@ fn show_entry(entry: &Entry, named: Option<ClearanceClass>) {
 
 /// Its one source prints every number.
 fn show_named(bearing: &NamedBearing) {
-    let elements = i64::try_from(bearing.elements).unwrap_or(i64::MAX);
     for (name, value) in [
-        ("rolling elements", Datum::Integer(elements)),
-        ("pitch_diameter_mm", Datum::Number(bearing.pitch_mm)),
-        ("roller_diameter_mm", Datum::Number(bearing.diameter_mm)),
-        ("contact_angle_deg", Datum::Number(bearing.contact_angle_deg)),
+        ("rolling elements", Value::from(bearing.elements)),
+        ("pitch_diameter_mm", bearing.pitch_mm.into()),
+        ("roller_diameter_mm", bearing.diameter_mm.into()),
+        ("contact_angle_deg", bearing.contact_angle_deg.into()),
     ] {
         say!("  {name:<18}  {:>10}", datum(&value));
     }
 }
 
-fn datum(value: &Datum) -> String {
-    match value {
-        Datum::Number(x) if x.abs() >= 1e6 => format!("{x:e}"),
-        Datum::Number(x) => format!("{}", (x * 1e6).round() / 1e6),
-        Datum::Integer(n) => n.to_string(),
-        Datum::Text(text) => text.clone(),
+fn datum(value: &Value) -> String {
+    match (value, value.as_f64()) {
+        (Value::String(text), _) => text.clone(),
+        (_, Some(x)) if value.is_f64() && x.abs() < 1e6 => format!("{}", (x * 1e6).round() / 1e6),
+        (_, Some(x)) if value.is_f64() => format!("{x:e}"),
+        (count, _) => count.to_string(),
     }
 }
 

@@ -6,6 +6,7 @@
 use super::designation::{of_one_kind, plain, readings, with_zeros};
 use super::kinematics::Geometry;
 use crate::did_you_mean::did_you_mean;
+use serde_json::Value as Json;
 use std::sync::LazyLock;
 
 /// One bearing.
@@ -41,8 +42,8 @@ pub const FACTS: [&str; 6] = [BORE, OUTSIDE, WIDTH, DYNAMIC_RATING, STATIC_RATIN
 pub struct Value {
     /// Scenario path, such as `bearing.pitch_diameter_mm`; its unit is in its name.
     pub key: String,
-    /// The value, in the key's unit.
-    pub value: Datum,
+    /// The value, in the key's unit: a measure, a count, or the word of a choice.
+    pub value: Json,
     /// Where it is printed, or how it was estimated.
     pub source: String,
     /// Whether no source prints it.
@@ -53,14 +54,12 @@ impl Entry {
     /// A number by its key of `[bearing]`; `None` where the entry does not give it.
     pub fn number(&self, key: &str) -> Option<f64> {
         let named = |v: &&Value| v.key.strip_prefix("bearing.") == Some(key);
-        self.values.iter().find(named)?.value.number()
+        self.values.iter().find(named)?.value.as_f64()
     }
 
     /// Whether balls roll in it.
     pub fn has_balls(&self) -> bool {
-        let ball = Datum::Text("ball".into());
-        let mut values = self.values.iter();
-        values.any(|v| v.key == "bearing.element" && v.value == ball)
+        self.values.iter().any(|v| v.key == "bearing.element" && v.value == "ball")
     }
 
     /// How number, size or pitch circle of its elements was estimated, and with it its defect frequencies: of the
@@ -79,42 +78,21 @@ impl Entry {
     /// The same with its source.
     pub fn fact_of(&self, key: &str) -> Option<(f64, &str)> {
         let fact = self.facts.iter().find(|v| v.key == key)?;
-        Some((fact.value.number()?, &fact.source))
+        Some((fact.value.as_f64()?, &fact.source))
     }
 
     /// What its kinematics follow from.
     ///
     /// # Errors
-    /// The first key that the entry does not give.
-    pub fn geometry(&self) -> Result<Geometry, &'static str> {
-        let needed = |key| self.number(key).ok_or(key);
+    /// In words, the first key that the entry does not give.
+    pub(super) fn geometry(&self) -> Result<Geometry, String> {
+        let needed = |key| self.number(key).ok_or_else(|| format!("{}: the catalogue gives no {key}", self.name));
         Ok(Geometry {
             inner_raceway_diameter: 1e-3 * needed("inner_raceway_diameter_mm")?,
             pitch_diameter: 1e-3 * needed("pitch_diameter_mm")?,
             roller_diameter: 1e-3 * needed("roller_diameter_mm")?,
             rollers_per_row: needed("rollers_per_row")? as usize,
         })
-    }
-}
-
-/// A value of a scenario key.
-#[derive(Debug, Clone, PartialEq)]
-pub enum Datum {
-    /// A measure.
-    Number(f64),
-    /// A count.
-    Integer(i64),
-    /// A choice.
-    Text(String),
-}
-
-impl Datum {
-    fn number(&self) -> Option<f64> {
-        match self {
-            Self::Number(x) => Some(*x),
-            Self::Integer(n) => Some(*n as f64),
-            Self::Text(_) => None,
-        }
     }
 }
 
@@ -178,9 +156,9 @@ fn value(key: &str, cell: toml::Value) -> Option<Value> {
         return None;
     };
     let value = match cell.remove("value")? {
-        toml::Value::Float(number) => Datum::Number(number),
-        toml::Value::Integer(count) => Datum::Integer(count),
-        toml::Value::String(choice) => Datum::Text(choice),
+        toml::Value::Float(number) => number.into(),
+        toml::Value::Integer(count) => count.into(),
+        toml::Value::String(choice) => choice.into(),
         _ => return None,
     };
     let source = cell.remove("source")?.as_str()?.to_owned();

@@ -108,7 +108,7 @@ impl KnownBearing {
     pub fn orders(self) -> Result<(DefectOrders, String), String> {
         Ok(match self {
             Self::Catalogue(entry) => {
-                let geometry = geometry(entry)?;
+                let geometry = entry.geometry()?;
                 let mut words = format!("{}: {}", entry.name, entry.title);
                 if let Some(how) = entry.estimates_orders() {
                     let how = how.strip_prefix("Estimated: ").unwrap_or(how);
@@ -122,11 +122,6 @@ impl KnownBearing {
             Self::DataSet(bearing) => (bearing.orders(), bearing.source.to_owned()),
         })
     }
-}
-
-fn geometry(entry: &Entry) -> Result<Geometry, String> {
-    let lacks = |key| format!("{}: the catalogue gives no {key}", entry.name);
-    entry.geometry().map_err(lacks)
 }
 
 #[cfg(test)]

@@ -207,7 +207,7 @@ impl<'a> Reader<'a> {
     /// Reads a key from the catalogue bearing.
     fn catalogued<T: ValueType>(&mut self, path: &str, spec: &Spec) -> Option<T> {
         let datum = self.datum(path)?;
-        match T::read(&Node::from_datum(&datum.value), spec) {
+        match T::read(&Node::of_catalogue(&datum.value), spec) {
             Ok(value) => {
                 self.record_datum(path, spec, value.write(), datum);
                 Some(value)

@@ -3,12 +3,12 @@
 use std::collections::BTreeMap;
 use std::ops::Range;
 
+use serde_json::Value as Json;
 use toml::de::{DeTable, DeValue};
 
 use super::problem::{Place, Problem, Severity, cut};
 use super::problems::Problems;
 use super::toml_text::{float, key_text, quote};
-use crate::bearing::catalogue::Datum;
 
 /// Tables and lists within each other, and parts of a key's path, at most: a scenario's own have eight. What is deeper
 /// would end on the stack.
@@ -69,11 +69,11 @@ impl Node {
         Node { value, span: None }
     }
 
-    pub(crate) fn from_datum(datum: &Datum) -> Node {
-        Node::unplaced(match datum {
-            Datum::Number(x) => Value::Float(*x),
-            Datum::Integer(n) => Value::Integer(*n),
-            Datum::Text(text) => Value::Text(text.clone()),
+    /// A value of the catalogue.
+    pub(crate) fn of_catalogue(value: &Json) -> Node {
+        Node::unplaced(match value {
+            Json::String(text) => Value::Text(text.clone()),
+            number => number.as_i64().map_or_else(|| Value::Float(number.as_f64().unwrap_or(f64::NAN)), Value::Integer),
         })
     }
 
