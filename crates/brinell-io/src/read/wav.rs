@@ -40,47 +40,7 @@ struct Layout {
 pub(super) fn list(contents: Contents) -> Result<Listing, Fault> {
     let length = contents.length();
     let mut reader = BufReader::new(contents);
-    let mut word = [0; 12];
-    reader.read_exact(&mut word)?;
-    let (mut layout, mut data, mut long_data, mut streamed) = (None, None, None, false);
-    let mut metadata = Metadata::default();
-    let mut at = 12u64;
-    // The last chunk may lack its padding, and some writers stop before its end.
-    while at + 8 <= length {
-        reader.seek(SeekFrom::Start(at))?;
-        let mut head = [0; 8];
-        reader.read_exact(&mut head)?;
-        let (name, size) = head.split_at(4);
-        let mut size = u64::from(u32::from_le_bytes([size[0], size[1], size[2], size[3]]));
-        match name {
-            b"ds64" => {
-                let mut sizes = [0; 16];
-                reader.read_exact(&mut sizes)?;
-                long_data = sizes.as_chunks::<8>().0.last().map(|b| u64::from_le_bytes(*b));
-            }
-            b"fmt " if layout.is_some() => return Err(unsupported("it has several `fmt ` chunks; one is expected")),
-            b"fmt " => layout = Some(format(&mut reader, size)?),
-            b"data" if data.is_some() => return Err(unsupported("it has several `data` chunks; one is expected")),
-            b"data" => {
-                streamed = size == NO_SIZE && long_data.is_none();
-                if size == NO_SIZE {
-                    size = long_data.unwrap_or(length - at - 8);
-                }
-                if size > length - at - 8 {
-                    return Err(damaged(format!(
-                        "the header promises {size} bytes of samples and {} are there",
-                        length - at - 8
-                    )));
-                }
-                data = Some((at + 8, size));
-            }
-            b"LIST" => info(&mut reader, size.min(length - at - 8), &mut metadata)?,
-            _ => {}
-        }
-        at = at.saturating_add(8 + size + size % 2);
-    }
-    let layout = layout.ok_or_else(|| damaged("it has no `fmt ` chunk"))?;
-    let (start, bytes) = data.ok_or_else(|| damaged("it has no `data` chunk"))?;
+    let Chunks { layout, start, bytes, streamed, mut metadata } = chunks(&mut reader, length)?;
     let frame = u64::from(layout.channels) * layout.stored.bytes() as u64;
     let frames = bytes / frame;
     // A recorder that was cut off ends anywhere, and some count the byte that makes a chunk even.
@@ -119,6 +79,62 @@ pub(super) fn list(contents: Contents) -> Result<Listing, Fault> {
             frames,
         }),
     })
+}
+
+/// What the chunks of a file say.
+struct Chunks {
+    layout: Layout,
+    /// Of the samples, in bytes.
+    start: u64,
+    bytes: u64,
+    /// Whether the header states no size, as where the file was written to a pipe.
+    streamed: bool,
+    metadata: Metadata,
+}
+
+fn chunks(reader: &mut BufReader<Contents>, length: u64) -> Result<Chunks, Fault> {
+    let mut word = [0; 12];
+    reader.read_exact(&mut word)?;
+    let (mut layout, mut data, mut long_data, mut streamed) = (None, None, None, false);
+    let mut metadata = Metadata::default();
+    let mut at = 12u64;
+    // The last chunk may lack its padding, and some writers stop before its end.
+    while at + 8 <= length {
+        reader.seek(SeekFrom::Start(at))?;
+        let mut head = [0; 8];
+        reader.read_exact(&mut head)?;
+        let (name, size) = head.split_at(4);
+        let mut size = u64::from(u32::from_le_bytes([size[0], size[1], size[2], size[3]]));
+        match name {
+            b"ds64" => {
+                let mut sizes = [0; 16];
+                reader.read_exact(&mut sizes)?;
+                long_data = sizes.as_chunks::<8>().0.last().map(|b| u64::from_le_bytes(*b));
+            }
+            b"fmt " if layout.is_some() => return Err(unsupported("it has several `fmt ` chunks; one is expected")),
+            b"fmt " => layout = Some(format(reader, size)?),
+            b"data" if data.is_some() => return Err(unsupported("it has several `data` chunks; one is expected")),
+            b"data" => {
+                streamed = size == NO_SIZE && long_data.is_none();
+                if size == NO_SIZE {
+                    size = long_data.unwrap_or(length - at - 8);
+                }
+                if size > length - at - 8 {
+                    return Err(damaged(format!(
+                        "the header promises {size} bytes of samples and {} are there",
+                        length - at - 8
+                    )));
+                }
+                data = Some((at + 8, size));
+            }
+            b"LIST" => info(reader, size.min(length - at - 8), &mut metadata)?,
+            _ => {}
+        }
+        at = at.saturating_add(8 + size + size % 2);
+    }
+    let layout = layout.ok_or_else(|| damaged("it has no `fmt ` chunk"))?;
+    let (start, bytes) = data.ok_or_else(|| damaged("it has no `data` chunk"))?;
+    Ok(Chunks { layout, start, bytes, streamed, metadata })
 }
 
 fn format(reader: &mut impl Read, size: u64) -> Result<Layout, Fault> {
