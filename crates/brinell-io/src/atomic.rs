@@ -156,7 +156,7 @@ impl Complete {
     }
 
     /// The bytes of a file in memory; of one on the disk there are none here.
-    pub fn into_bytes(mut self) -> Vec<u8> {
+    pub(crate) fn into_bytes(mut self) -> Vec<u8> {
         match &mut self.0.place {
             Place::Memory(bytes) => std::mem::take(bytes).into_inner(),
             Place::Disk { .. } => Vec::new(),

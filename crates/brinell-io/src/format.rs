@@ -1,15 +1,46 @@
 //! The formats that a table of signals is written in.
 
+use std::fmt;
 use std::path::Path;
 use std::str::FromStr;
 
 use crate::IoError;
 use crate::atomic::Destination;
-use crate::signals::{Column, Metadata, SignalWriter};
+use crate::signals::{Column, Metadata, Outcome, SignalWriter};
 use crate::write::csv::CsvWriter;
 use crate::write::mat::MatWriter;
 use crate::write::uff::UffWriter;
 use crate::write::wav::WavWriter;
+
+/// Takes a table row by row and makes of it, in memory, the bytes that its file would have: for where there is no file
+/// system.
+///
+/// Memory is that of the file; MAT, NPZ and UFF take it twice, for they store one channel after the other.
+pub struct MemoryWriter(Box<dyn SignalWriter>);
+
+impl MemoryWriter {
+    /// Appends one row: a value per column, in the order of the columns.
+    ///
+    /// # Errors
+    /// Where the row has another length, or the format holds no more rows.
+    pub fn write_row(&mut self, row: &[f64]) -> Result<(), IoError> {
+        self.0.write_row(row)
+    }
+
+    /// The whole file.
+    ///
+    /// # Errors
+    /// Where the format cannot hold the table.
+    pub fn finish(self, outcome: Outcome) -> Result<Vec<u8>, IoError> {
+        Ok(self.0.complete(outcome)?.into_bytes())
+    }
+}
+
+impl fmt::Debug for MemoryWriter {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("MemoryWriter").finish_non_exhaustive()
+    }
+}
 
 /// A file format for signals.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -71,8 +102,8 @@ impl Format {
         self.writer(Destination::Disk(&path), columns, metadata)
     }
 
-    /// A writer of this format's bytes in memory, the same as [`Format::create`] makes a file of: for where there is no
-    /// file system. Errors call it [`Format::file_name`]. Memory is that of the file; MAT, NPZ and UFF take it twice.
+    /// A writer of this format's bytes in memory, the same as [`Format::create`] makes a file of. Errors call it
+    /// [`Format::file_name`].
     ///
     /// ```
     /// use brinell_io::{Column, Format, Metadata, Outcome};
@@ -80,14 +111,15 @@ impl Format {
     /// let columns = [Column::new("outer_ax", "m/s^2", "")];
     /// let mut writer = Format::Csv.in_memory(&columns, &Metadata::default())?;
     /// writer.write_row(&[1.5])?;
-    /// assert_eq!(writer.complete(Outcome::Complete)?.into_bytes(), b"outer_ax\n1.5\n");
+    /// assert_eq!(writer.finish(Outcome::Complete)?, b"outer_ax\n1.5\n");
     /// # Ok::<(), brinell_io::IoError>(())
     /// ```
     ///
     /// # Errors
     /// Where the format cannot hold such columns, needs metadata that are not there, or is not in this build.
-    pub fn in_memory(self, columns: &[Column], metadata: &Metadata) -> Result<Box<dyn SignalWriter>, IoError> {
-        self.writer(Destination::Memory(Path::new(self.file_name())), columns, metadata)
+    pub fn in_memory(self, columns: &[Column], metadata: &Metadata) -> Result<MemoryWriter, IoError> {
+        let destination = Destination::Memory(Path::new(self.file_name()));
+        Ok(MemoryWriter(self.writer(destination, columns, metadata)?))
     }
 
     fn writer(

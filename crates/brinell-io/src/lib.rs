@@ -58,7 +58,7 @@ mod write;
 pub use atomic::{Complete, atomic_copy, atomic_prepare, atomic_write, lock};
 pub use error::IoError;
 pub use file_kind::FileKind;
-pub use format::Format;
+pub use format::{Format, MemoryWriter};
 #[doc(hidden)]
 pub use journal::Journal;
 #[cfg(feature = "parquet")]

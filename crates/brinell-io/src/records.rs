@@ -2,7 +2,6 @@
 //! its own, whole or not at all; many rows become one Parquet file ([`crate::RecordWriter`]).
 
 use crate::{Column, IoError, atomic_write};
-use serde::{Deserialize, Deserializer, Serialize};
 use sha2::{Digest, Sha256};
 use std::path::Path;
 
@@ -28,7 +27,7 @@ pub enum Kind {
 }
 
 /// One cell.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq)]
 pub enum Cell {
     /// Nothing.
     Empty,
@@ -41,21 +40,13 @@ pub enum Cell {
     /// Of a column of [`Kind::Words`].
     Words(String),
     /// Of a column of [`Kind::Signal`].
-    #[serde(deserialize_with = "numbers")]
     Signal(Vec<f32>),
     /// Of a column of [`Kind::Wholes`].
     Wholes(Vec<i64>),
     /// Of a column of [`Kind::Numbers`].
-    #[serde(deserialize_with = "numbers")]
     Numbers(Vec<f64>),
     /// Of a column of [`Kind::WordsList`].
     WordsList(Vec<String>),
-}
-
-/// A list of numbers: JSON has `null` for one that is not finite.
-fn numbers<'de, D: Deserializer<'de>, T: Deserialize<'de> + From<f32>>(list: D) -> Result<Vec<T>, D::Error> {
-    let list = Vec::<Option<T>>::deserialize(list)?.into_iter();
-    Ok(list.map(|x| x.unwrap_or_else(|| f32::NAN.into())).collect())
 }
 
 impl Cell {
@@ -91,6 +82,82 @@ impl Cell {
             Self::WordsList(_) => kind == Kind::WordsList,
         }
     }
+
+    fn put(&self, out: &mut Vec<u8>) {
+        fn list<T, const N: usize>(out: &mut Vec<u8>, tag: u8, x: &[T], bytes: fn(&T) -> [u8; N]) {
+            out.push(tag);
+            out.extend((x.len() as u64).to_le_bytes());
+            out.extend(x.iter().flat_map(bytes));
+        }
+        match self {
+            Self::Empty => out.push(0),
+            Self::Flag(x) => out.extend([1, u8::from(*x)]),
+            Self::Whole(x) => {
+                out.push(2);
+                out.extend(x.to_le_bytes());
+            }
+            Self::Number(x) => {
+                out.push(3);
+                out.extend(x.to_le_bytes());
+            }
+            Self::Words(text) => list(out, 4, text.as_bytes(), |b| [*b]),
+            Self::Signal(x) => list(out, 5, x, |x| x.to_le_bytes()),
+            Self::Wholes(x) => list(out, 6, x, |x| x.to_le_bytes()),
+            Self::Numbers(x) => list(out, 7, x, |x| x.to_le_bytes()),
+            Self::WordsList(x) => {
+                out.push(8);
+                out.extend((x.len() as u64).to_le_bytes());
+                for text in x {
+                    Self::Words(text.clone()).put(out);
+                }
+            }
+        }
+    }
+
+    fn take(bytes: &mut &[u8]) -> Option<Self> {
+        let [tag] = array(bytes)?;
+        Some(match tag {
+            0 => Self::Empty,
+            1 => Self::Flag(array::<1>(bytes)? != [0]),
+            2 => Self::Whole(i64::from_le_bytes(array(bytes)?)),
+            3 => Self::Number(f64::from_le_bytes(array(bytes)?)),
+            4 => {
+                let count = count(bytes, 1)?;
+                let (text, rest) = bytes.split_at(count);
+                *bytes = rest;
+                Self::Words(String::from_utf8(text.to_vec()).ok()?)
+            }
+            5 => Self::Signal(items(bytes, f32::from_le_bytes)?),
+            6 => Self::Wholes(items(bytes, i64::from_le_bytes)?),
+            7 => Self::Numbers(items(bytes, f64::from_le_bytes)?),
+            8 => {
+                let count = count(bytes, 1)?;
+                let text = |_| match Self::take(bytes)? {
+                    Self::Words(text) => Some(text),
+                    _ => None,
+                };
+                Self::WordsList((0..count).map(text).collect::<Option<_>>()?)
+            }
+            _ => return None,
+        })
+    }
+}
+
+fn array<const N: usize>(bytes: &mut &[u8]) -> Option<[u8; N]> {
+    let (first, rest) = bytes.split_first_chunk()?;
+    *bytes = rest;
+    Some(*first)
+}
+
+/// How many items of so many bytes at least follow; `None` where there are fewer.
+fn count(bytes: &mut &[u8], each: usize) -> Option<usize> {
+    let count = usize::try_from(u64::from_le_bytes(array(bytes)?)).ok()?;
+    (count.checked_mul(each)? <= bytes.len()).then_some(count)
+}
+
+fn items<T, const N: usize>(bytes: &mut &[u8], of: fn([u8; N]) -> T) -> Option<Vec<T>> {
+    let count = count(bytes, N)?;
+    (0..count).map(|_| array(bytes).map(of)).collect()
 }
 
 /// A column of a data set.
@@ -102,33 +169,34 @@ pub struct RecordColumn {
     pub kind: Kind,
 }
 
-impl RecordColumn {
-    /// Whether a row has a cell for each of the columns.
-    pub(crate) fn fit(columns: &[Self], row: &[Cell]) -> bool {
-        row.len() == columns.len() && row.iter().zip(columns).all(|(cell, column)| cell.fits(column.kind))
-    }
-}
+/// Begins a row's file; changes with its layout.
+const MAGIC: &[u8; 8] = b"brnrow01";
 
-/// Writes one row to a file of its own, which appears whole or not at all, on the disk when this returns: a checksum,
-/// then JSON.
+/// Writes one row to a file of its own, which appears whole or not at all, on the disk when this returns.
 ///
 /// # Errors
 /// Where the disk refuses.
 pub fn write_row_file(path: impl AsRef<Path>, row: &[Cell]) -> Result<(), IoError> {
-    let cells = serde_json::to_vec(row).map_err(|e| IoError::writing(path.as_ref(), e.into()))?;
-    let digest = Sha256::digest(&cells);
-    atomic_write(path, [&digest[..], &cells].concat())
+    let size: usize = row.iter().map(|cell| cell.size() + 9).sum();
+    let mut cells = Vec::with_capacity(size);
+    row.iter().for_each(|cell| cell.put(&mut cells));
+    let mut bytes = Vec::with_capacity(cells.len() + 40);
+    bytes.extend(MAGIC);
+    bytes.extend(Sha256::digest(&cells));
+    bytes.extend(cells);
+    atomic_write(path, bytes)
 }
 
 /// Reads such a row; `None` where there is no whole one that fits the columns.
 pub fn read_row_file(path: impl AsRef<Path>, columns: &[RecordColumn]) -> Option<Vec<Cell>> {
     let bytes = std::fs::read(path).ok()?;
-    let (digest, cells) = bytes.split_first_chunk::<32>()?;
+    let (digest, mut cells) = bytes.strip_prefix(MAGIC)?.split_first_chunk::<32>()?;
     if Sha256::digest(cells)[..] != digest[..] {
         return None;
     }
-    let row: Vec<Cell> = serde_json::from_slice(cells).ok()?;
-    RecordColumn::fit(columns, &row).then_some(row)
+    let cell = |column: &RecordColumn| Cell::take(&mut cells).filter(|cell| cell.fits(column.kind));
+    let row = columns.iter().map(cell).collect::<Option<Vec<_>>>()?;
+    cells.is_empty().then_some(row)
 }
 
 /// SHA-256 of a file, in hexadecimal, read piece by piece.
@@ -181,10 +249,6 @@ mod tests {
         assert_eq!(read_row_file(&path, &columns), Some(row));
         assert_eq!(read_row_file(&path, &columns[1..]), None);
         assert_eq!(read_row_file(folder.path().join("other"), &columns), None);
-        let signal = [Cell::Signal(vec![f32::NAN, 1.5])];
-        write_row_file(folder.path().join("signal"), &signal).unwrap();
-        let read = read_row_file(folder.path().join("signal"), &columns[4..5]).unwrap();
-        assert!(matches!(&read[..], [Cell::Signal(x)] if x[0].is_nan() && x[1] == 1.5));
         let whole = std::fs::read(&path).unwrap();
         for k in 0..whole.len() {
             std::fs::write(&path, &whole[..k]).unwrap();

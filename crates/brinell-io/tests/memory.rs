@@ -76,7 +76,7 @@ fn prop_written_bytes_are_the_files() {
         let (mut file, mut memory) = match (file, memory) {
             (Ok(file), Ok(memory)) => (file, memory),
             (Err(IoError::FormatLeftOut { .. }), Err(IoError::FormatLeftOut { .. })) => continue,
-            (file, memory) => panic!("{format:?}: {:?}, {:?}", file.err(), memory.err()),
+            (file, memory) => panic!("{format:?}: {:?}, {memory:?}", file.err()),
         };
         for i in 0..rows {
             let row = [f64::from(i) / 25600.0, f64::from(i * 7919 % 2003) - 1e3];
@@ -84,7 +84,7 @@ fn prop_written_bytes_are_the_files() {
             memory.write_row(&row).unwrap();
         }
         let path = file.finish(outcome.clone()).unwrap();
-        let bytes = memory.complete(outcome.clone()).unwrap().into_bytes();
+        let bytes = memory.finish(outcome.clone()).unwrap();
         // Not `assert_eq`, which would print megabytes.
         assert!(
             bytes == std::fs::read(path).unwrap(),

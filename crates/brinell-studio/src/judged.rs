@@ -84,7 +84,7 @@ pub(crate) fn save(request: &Value, bench: &Bench, arrays: &mut Arrays) -> Answe
         }
         writer.write_row(&row).map_err(failed)?;
     }
-    let bytes = writer.complete(Outcome::Complete).map_err(failed)?.into_bytes();
+    let bytes = writer.finish(Outcome::Complete).map_err(failed)?;
     let stem: String = (bench.loaded.scenario.name.chars())
         .map(|c| if c.is_alphanumeric() || "-_".contains(c) { c } else { '-' })
         .collect();

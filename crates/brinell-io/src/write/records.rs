@@ -93,7 +93,10 @@ impl RecordWriter {
     /// # Errors
     /// Where a row does not fit the columns, or the disk refuses.
     pub fn write_group(&mut self, rows: &[Vec<Cell>]) -> std::result::Result<(), IoError> {
-        if let Some(row) = rows.iter().find(|row| !RecordColumn::fit(&self.columns, row)) {
+        let misfit = |row: &&Vec<Cell>| {
+            row.len() != self.columns.len() || row.iter().zip(&self.columns).any(|(cell, c)| !cell.fits(c.kind))
+        };
+        if let Some(row) = rows.iter().find(misfit) {
             return Err(IoError::RowLength { path: self.path.clone(), expected: self.columns.len(), got: row.len() });
         }
         let mut write = || -> Result<()> {
