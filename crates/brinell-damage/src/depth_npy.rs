@@ -62,7 +62,7 @@ fn shape(text: &str) -> Result<[usize; 2], DamageError> {
     }
 }
 
-/// The type of an array's numbers, and whether they have their highest byte first. Truths and half-precision floats are
+/// The type of an array's numbers, and whether they have their highest byte first. Booleans and half-precision floats are
 /// no heights.
 fn number(descr: &str) -> Result<(Number, bool), DamageError> {
     let word = npy_word(descr).unwrap_or(descr);

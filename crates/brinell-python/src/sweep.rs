@@ -10,7 +10,7 @@ use brinell::document::reading::text_in_unit_of;
 use brinell::document::{Problem, on_one_line};
 use brinell::result::Quantity;
 use brinell_study::campaign::{Axis, Plan, columns, of_results};
-use brinell_study::runner::Looked;
+use brinell_study::runner::ReadPoints;
 use pyo3::prelude::*;
 use pyo3::types::{PyList, PyString};
 use std::path::PathBuf;
@@ -43,8 +43,8 @@ pub(crate) fn sweep<'py>(
     let threads = threads(jobs, total)?;
     let load = |settings: &[(String, String)]| scenario.source.with(settings).load().map(|(loaded, _)| loaded);
     let words = |problems: &Vec<Problem>| on_one_line(problems);
-    let looked = attended(py, &Watch::default(), || Looked::at(&plan, threads, load, words), |_, _| Ok(()))?;
-    let Looked { tasks, mut warnings, .. } = looked.map_err(|problems| scenario_error(py, problems, None))?;
+    let read = attended(py, &Watch::default(), || ReadPoints::of(&plan, threads, load, words), |_, _| Ok(()))?;
+    let ReadPoints { tasks, mut warnings, .. } = read.map_err(|problems| scenario_error(py, problems, None))?;
     let show = |py: Python<'_>, done: usize| match &progress {
         Some(progress) => progress.call1(py, (done, total)).map(drop),
         None => Ok(()),

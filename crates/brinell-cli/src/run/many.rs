@@ -39,8 +39,8 @@ pub(super) fn run(args: &RunArgs) -> Result<ExitCode, Failure> {
         threads,
         |k| {
             let task = &tasks[k];
-            let progress = || joint.part(task.duration_s(), &stop);
-            (!stop.load(Ordering::Relaxed)).then(|| execute(args, task, progress(), &stop))
+            let execute = || execute(args, task, joint.part(task.duration_s(), &stop), &stop);
+            (!stop.load(Ordering::Relaxed)).then(execute)
         },
         |k, result| match result {
             None => left_out.push(k),

@@ -44,8 +44,7 @@ pub(crate) fn sweep(args: &SweepArgs) -> Result<ExitCode, Failure> {
         let kept = Kept::look(&folder)?;
         kept.same_kernel().map_err(|error| Failure::Usage(format!("{}: {error}", folder.display())))?;
         plan(&points, &kept, &work, threads, true);
-        let bad =
-            points.looked.tasks.iter().enumerate().filter_map(|(k, task)| Some((k, task.as_ref().err()?.as_str())));
+        let bad = points.read.tasks.iter().enumerate().filter_map(|(k, task)| Some((k, task.as_ref().err()?.as_str())));
         tell_points(&points, "", &bad.collect::<Vec<_>>(), "");
         return Ok(ExitCode::SUCCESS);
     }
@@ -63,7 +62,7 @@ pub(crate) fn sweep(args: &SweepArgs) -> Result<ExitCode, Failure> {
 
     let states = states(&points, |fingerprint| ledger.kept.row(fingerprint));
     let doubts = page::doubts(&states);
-    let warnings = [&points.looked.warnings[..], &doubts].concat();
+    let warnings = [&points.read.warnings[..], &doubts].concat();
     let written = write(args, &points, &states, &plots, &folder, warnings)?;
     let [complete, failed, missing] = ["complete", "failed", "not run"].map(|word| count(&states, word));
     if !args.quiet {
@@ -96,7 +95,7 @@ fn spare_signals(points: &Points, work: &FromSource) -> Result<(), Failure> {
         let loaded = read(file.metadata().get(keys::SCENARIO)?, &[]).ok()?;
         Some(fingerprint(&loaded.scenario) == task.fingerprint)
     };
-    for task in points.looked.tasks.iter().flatten() {
+    for task in points.read.tasks.iter().flatten() {
         let Some(path) = work.path(&task.fingerprint).filter(|path| path.exists()) else {
             continue;
         };
@@ -124,7 +123,7 @@ fn plan(
         let row = kept.row(&task.fingerprint);
         row.is_some_and(|row| row.result.is_err() || signals.is_none_or(|path| path.exists()))
     };
-    let good = || points.looked.tasks.iter().flatten();
+    let good = || points.read.tasks.iter().flatten();
     let tasks = to_run(good(), finished);
     if printed {
         let before = good().filter(|task| finished(task)).count();
@@ -159,11 +158,11 @@ fn tell_plan(points: &Points, tasks: &[Task], before: usize, work: &FromSource, 
         .iter()
         .map(|axis| format!("{} ({})", axis.keys().join(" with "), axis.settings().len()))
         .collect();
-    say!("{}: {}", plural(points.looked.tasks.len(), "point"), axes.join(" x "));
-    for warning in &points.looked.warnings {
+    say!("{}: {}", plural(points.read.tasks.len(), "point"), axes.join(" x "));
+    for warning in &points.read.warnings {
         complain!("{warning}");
     }
-    let bad = points.looked.tasks.iter().filter(|task| task.is_err()).count();
+    let bad = points.read.tasks.iter().filter(|task| task.is_err()).count();
     if bad > 0 {
         say!("  {} with a bad scenario, not to be run", plural(bad, "point"));
     }
@@ -228,7 +227,7 @@ fn tell_points(points: &Points, what: &str, reasons: &[(usize, &str)], rest: &st
 }
 
 fn tell_failures(points: &Points, states: &[State]) {
-    let failed = states.iter().enumerate().filter_map(|(k, s)| Some((k, s.and_then(Result::err)?)));
+    let failed = states.iter().enumerate().filter_map(|(k, s)| Some((k, s.failure()?)));
     let failed: Vec<_> = failed.collect();
     tell_points(points, " failed", &failed, ": see sweep.csv");
     if !failed.is_empty() {

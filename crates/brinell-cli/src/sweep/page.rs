@@ -1,7 +1,7 @@
 //! A sweep as its page shows it: which key lies on the x axis, which points make a line.
 
 use super::points::Points;
-use super::table::{State, count, number, word};
+use super::table::{State, count, number};
 use crate::say::{plural, shown_unit};
 use brinell::result::Quantity;
 use brinell::scenario::Scenario;
@@ -37,7 +37,7 @@ pub(super) fn usual(scenario: &Scenario, names: &[String]) -> Vec<String> {
 
 /// What the results should be warned of: each kind of problem once.
 pub(super) fn doubts(states: &[State]) -> Vec<String> {
-    let of = |(k, state): (usize, &State)| Some((k, state.and_then(Result::ok)?.warnings.clone()));
+    let of = |(k, state): (usize, &State)| Some((k, state.row()?.warnings.clone()));
     of_results(states.iter().enumerate().filter_map(of), "point", |k| k + 1)
 }
 
@@ -82,7 +82,7 @@ fn chapters(points: &Points, states: &[State], plots: &[String], drawn: Vec<Indi
         format!("{}: {}", k + 1, texts.join(", "))
     };
     let failures = states.iter().enumerate();
-    let failures = failures.filter_map(|(k, s)| Some((name(k), s.and_then(Result::err)?.to_owned())));
+    let failures = failures.filter_map(|(k, s)| Some((name(k), s.failure()?.to_owned())));
     let maps: Vec<StudyPiece> =
         plots.iter().filter_map(|name| map(points, states, name)).map(StudyPiece::Map).collect();
     let mut indicators = vec![StudyPiece::Note(sweep_legend(&drawn))];
@@ -126,7 +126,7 @@ fn pictures(points: &Points, states: &[State], name: &str) -> Vec<IndicatorPlot>
     for (k, state) in states.iter().enumerate() {
         let place = points.plan.place(k);
         let rest: Vec<usize> = others.iter().map(|a| place[*a]).collect();
-        let quantity = state.and_then(Result::ok).and_then(|row| row.quantity(name));
+        let quantity = state.row().and_then(|row| row.quantity(name));
         if let Some(q) = quantity {
             unit = shown_unit(&q.unit);
         }
@@ -153,7 +153,7 @@ fn pictures(points: &Points, states: &[State], name: &str) -> Vec<IndicatorPlot>
             label: words(name),
             unit: unit.to_owned(),
             x_label: x_key.clone(),
-            x_unit: points.looked.units.get(x_key).copied().unwrap_or("").into(),
+            x_unit: points.read.units.get(x_key).copied().unwrap_or("").into(),
             x_names: match numeric {
                 Some(_) => Vec::new(),
                 None => values.iter().map(|v| (*v).to_owned()).collect(),
@@ -182,7 +182,7 @@ fn map(points: &Points, states: &[State], name: &str) -> Option<HeatMap> {
     let mut values = vec![f64::NAN; states.len()];
     let mut unit = "";
     for (k, state) in states.iter().enumerate() {
-        let Some(quantity) = state.and_then(Result::ok).and_then(|row| row.quantity(name)) else {
+        let Some(quantity) = state.row().and_then(|row| row.quantity(name)) else {
             continue;
         };
         let place = points.plan.place(k);
@@ -190,7 +190,7 @@ fn map(points: &Points, states: &[State], name: &str) -> Option<HeatMap> {
         unit = shown_unit(&quantity.unit);
     }
     let key = |axis: &Axis| {
-        let keys = axis.keys().iter().map(|key| match points.looked.units.get(key) {
+        let keys = axis.keys().iter().map(|key| match points.read.units.get(key) {
             Some(unit) if !unit.is_empty() => format!("{key} ({unit})"),
             _ => key.clone(),
         });
@@ -227,7 +227,7 @@ fn table(points: &Points, states: &[State], plots: &[String]) -> Table {
     columns.extend(points.plan.keys().map(|key| format!("#{key}")));
     columns.push("Status".into());
     let unit = |name: &String| {
-        let rows = states.iter().filter_map(|state| state.and_then(Result::ok));
+        let rows = states.iter().filter_map(State::row);
         let unit = rows.filter_map(|row| row.quantity(name)).next();
         unit.map_or("", |q| shown_unit(&q.unit))
     };
@@ -242,9 +242,9 @@ fn table(points: &Points, states: &[State], plots: &[String]) -> Table {
     let rows = listed.map(|(k, state)| {
         let mut row = vec![(k + 1).to_string()];
         row.extend(points.plan.settings(k).into_iter().map(|(_, value)| value));
-        row.push(word(*state).into());
+        row.push(state.word().into());
         let cell = |name: &String| {
-            let quantity = state.and_then(Result::ok).and_then(|row| row.quantity(name));
+            let quantity = state.row().and_then(|row| row.quantity(name));
             quantity.map_or("–".to_owned(), value_text)
         };
         row.extend(plots.iter().map(cell));

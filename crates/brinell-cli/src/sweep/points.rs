@@ -10,7 +10,7 @@ use brinell::simulate::Simulation;
 use brinell_io::{ParquetWriter, SignalWriter};
 use brinell_studio::signal_table;
 use brinell_study::campaign::{Axis, Plan, is_inside};
-use brinell_study::runner::{Looked, Task, Work};
+use brinell_study::runner::{ReadPoints, Task, Work};
 use serde_json::Value;
 use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
@@ -19,7 +19,7 @@ use std::path::{Path, PathBuf};
 pub(super) struct Points {
     pub(super) source: Source,
     pub(super) plan: Plan,
-    pub(super) looked: Looked,
+    pub(super) read: ReadPoints,
     /// The first good point.
     pub(super) example: Scenario,
 }
@@ -50,15 +50,15 @@ impl Points {
                 )));
             }
         }
-        let looked = Looked::at(&plan, threads, |settings| source.load(settings, true), reason)?;
-        let first_good = looked.tasks.iter().position(Result::is_ok).unwrap_or(0);
+        let read = ReadPoints::of(&plan, threads, |settings| source.load(settings, true), reason)?;
+        let first_good = read.tasks.iter().position(Result::is_ok).unwrap_or(0);
         let example = source.load(&plan.settings(first_good), true)?.scenario;
-        Ok(Self { source, plan, looked, example })
+        Ok(Self { source, plan, read, example })
     }
 
     /// What distinguishes this sweep from others: the plan, and the scenarios of its points.
     pub(super) fn header(&self) -> Value {
-        let tasks = self.looked.tasks.iter();
+        let tasks = self.read.tasks.iter();
         let prints = tasks.map(|task| task.as_ref().ok().map(|t| &*t.fingerprint));
         self.plan.header(prints)
     }

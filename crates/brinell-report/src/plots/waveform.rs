@@ -149,7 +149,7 @@ pub(super) fn waveform_of_size(report: &Report, size: Size) -> Plot<'_> {
     };
     let words = match range(series.values.iter().copied()) {
         None => "No samples",
-        Some(_) if !known(series.dt_s) => "The sample interval is not known",
+        Some(_) if !known(series.dt_s) && series.values.len() > 1 => "The sample interval is not known",
         Some(_) => "",
     };
     let along = Along::Even { first: t0 * scale, step: dt * scale };

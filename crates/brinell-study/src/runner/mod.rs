@@ -1,11 +1,11 @@
 //! Many runs with a journal: what is finished is on the disk, and is not run again.
 //!
 //! A [`Ledger`] is the journal of a folder. [`run()`] makes the runs of [`Task`]s; a [`Work`] says what their scenarios
-//! are and what is kept of them. [`Looked`] reads the points of a plan; [`estimate`] tries a few for what they will cost.
+//! are and what is kept of them. [`ReadPoints`] reads the points of a plan; [`estimate`] tries a few for what they will cost.
 
 mod cost;
 mod ledger;
-mod looked;
+mod read_points;
 mod recorder;
 mod run;
 
@@ -14,7 +14,7 @@ pub use cost::{estimate, mean_pace};
 #[doc(hidden)]
 pub use ledger::JOURNAL;
 pub use ledger::{Kept, Ledger};
-pub use looked::Looked;
+pub use read_points::ReadPoints;
 #[doc(hidden)]
 pub use recorder::Recorder;
 pub use run::{Beside, Task, Work, run, to_run};

@@ -9,7 +9,7 @@
 
 use super::piecewise::{Line, Piece, PiecewisePolynomial};
 
-/// What a piece of h lends to the envelope.
+/// What a piece of h contributes to the envelope.
 impl Line {
     /// s below which the first end acts, and above which the last does.
     fn regimes(&self, radius: f64) -> [f64; 2] {
@@ -17,7 +17,7 @@ impl Line {
         [self.from + ahead, self.to + ahead]
     }
 
-    fn lent(&self, s: f64, radius: f64) -> f64 {
+    fn contribution(&self, s: f64, radius: f64) -> f64 {
         let [low, high] = self.regimes(radius);
         let parabola = |vertex: f64| (s - vertex) * (s - vertex) / (2.0 * radius);
         if s < low {
@@ -42,7 +42,7 @@ impl Line {
         }
         let (a, b) = (from.max(low), to.min(high));
         if a < b {
-            pieces.push(Piece { start: a, c: [self.lent(a, radius), self.slope(), 0.0] });
+            pieces.push(Piece { start: a, c: [self.contribution(a, radius), self.slope(), 0.0] });
         }
         if to > high {
             pieces.push(parabola(from.max(high), self.to, self.at_to));
@@ -79,7 +79,7 @@ pub fn envelope(lines: &[Line], radius: f64) -> PiecewisePolynomial {
     let mut stack: Vec<(usize, f64)> = vec![(0, start)];
     for (j, right) in candidates.iter().enumerate().skip(1) {
         while let Some(&(i, from)) = stack.last() {
-            let above = |s: f64| candidates[i].lent(s, radius) - right.lent(s, radius);
+            let above = |s: f64| candidates[i].contribution(s, radius) - right.contribution(s, radius);
             if above(from) >= 0.0 && stack.len() > 1 {
                 stack.pop();
                 continue;

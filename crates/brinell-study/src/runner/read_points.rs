@@ -8,7 +8,7 @@ use std::num::NonZeroUsize;
 
 /// What is known of a plan's points before they run.
 #[derive(Debug, Default)]
-pub struct Looked {
+pub struct ReadPoints {
     /// Of each point: what to run, or why its scenario is bad.
     pub tasks: Vec<Result<Task, String>>,
     /// Unit of each varied key, as the file format states it.
@@ -17,12 +17,12 @@ pub struct Looked {
     pub warnings: Vec<String>,
 }
 
-impl Looked {
+impl ReadPoints {
     /// Reads every point, up to `threads` at a time: `load` gives the scenario of settings, `words` say why one is bad.
     ///
     /// # Errors
     /// Where all are bad: what is wrong with the first.
-    pub fn at<E: Send>(
+    pub fn of<E: Send>(
         plan: &Plan,
         threads: NonZeroUsize,
         load: impl Fn(&[(String, String)]) -> Result<Loaded, E> + Sync,
@@ -37,22 +37,22 @@ impl Looked {
             Ok((units, known.point(k, &loaded), Task::new(settings, &loaded.scenario)))
         });
         let all_bad = points.iter().all(Result::is_err);
-        let (mut looked, mut before) = (Self::default(), Vec::new());
+        let (mut read, mut before) = (Self::default(), Vec::new());
         for point in points {
             match point {
                 Ok((units, known, task)) => {
-                    looked.units.extend(units);
+                    read.units.extend(units);
                     before.push(Some(known));
-                    looked.tasks.push(Ok(task));
+                    read.tasks.push(Ok(task));
                 }
                 Err(error) if all_bad => return Err(error),
                 Err(error) => {
                     before.push(None);
-                    looked.tasks.push(Err(words(&error)));
+                    read.tasks.push(Err(words(&error)));
                 }
             }
         }
-        looked.warnings = of_points(before.iter().map(Option::as_ref));
-        Ok(looked)
+        read.warnings = of_points(before.iter().map(Option::as_ref));
+        Ok(read)
     }
 }
