@@ -1,9 +1,8 @@
 // <brinell-raceway>: the raceway unrolled, rollers running over it in slow motion, damage drawn on it with pointer or keys.
 import { still } from "./dom.js";
-import { Felt } from "./felt.js";
+import { Felt, Player } from "./player.js";
 import { TOP, colours, copies, draw, middle, xOf, yOf } from "./raceway-draw.js";
 import { Corners, TOOL_KEYS, box, handles, hits, resized, shapeBetween } from "./tools.js";
-import { Motion } from "./views/motion.js";
 
 /** @typedef {import("./tools.js").Tool} Tool */
 /** @typedef {import("./tools.js").Request} Request */
@@ -13,10 +12,6 @@ const HANDLE_PX = 11, SLIP_PX = 5;
 // Clicks that follow each other so soon at one place are one.
 const DOUBLE_MS = 450, SAME_PX = 3;
 const NEAREST = 400;
-/** Real seconds for a simulated one. */
-const SLOWNESS = 100;
-/** Frames after an edit from which on no older ones are shown. */
-const RENEWED = 8;
 
 export class Raceway extends HTMLElement {
   /** @type {"outer-raceway" | "inner-raceway" | "roller"} */
@@ -25,8 +20,7 @@ export class Raceway extends HTMLElement {
   #rollerOf = 1;
   /** @type {any} */
   #geometry = null;
-  /** @type {Motion | null} */
-  #motion = null;
+  #player = new Player();
   /** @type {any[]} */
   #damage = [];
   #felt = new Felt();
@@ -58,7 +52,7 @@ export class Raceway extends HTMLElement {
   /** Whether time is stopped. */
   frozen = false;
   canvas = document.createElement("canvas");
-  /** What is shown of the motion. @type {import("./views/motion.js").State | null} */
+  /** What is shown of the motion. @type {import("./player.js").Now | null} */
   instant = null;
 
   connectedCallback() {
@@ -116,7 +110,7 @@ export class Raceway extends HTMLElement {
     const first = !this.#geometry || JSON.stringify(geometry) !== JSON.stringify(this.#geometry);
     this.#geometry = geometry;
     if (!first) return;
-    this.#motion = new Motion(geometry.rows, geometry.elements, RENEWED);
+    this.#player.reset(geometry.elements);
     this.#felt.clear();
     this.fit();
   }
@@ -124,16 +118,18 @@ export class Raceway extends HTMLElement {
   /** @param {any[]} damage on this surface */
   set damage(damage) {
     this.#damage = damage.map((one) => ({ ...one, s: one.center_deg / 360 * this.turn, z: one.axial_offset_mm ?? 0 }));
-    this.#motion?.edited();
+    this.#player.edited();
     this.describe();
   }
 
   /** @param {any} frames */
   set frames(frames) {
-    if (frames?.count) this.#motion?.push(frames);
-    this.#motion?.renew();
+    this.#player.push(frames);
     if (this.#surface !== "roller" && frames?.rows) this.#felt.take(frames, this.#surface, this.#row, this.#geometry?.elements ?? 0);
   }
+
+  /** Real seconds for a simulated one. @param {number} slowness */
+  set slowness(slowness) { this.#player.slowness = slowness; }
 
   /** Length of the whole turn, mm. */
   get turn() {
@@ -173,24 +169,25 @@ export class Raceway extends HTMLElement {
     this.#view = { scale, s: scale * this.turn < this.#width ? 0 : s - (x - this.#width / 2) / scale };
   }
 
-  /** @param {import("./views/motion.js").State} now @param {number} index */
+  /** @param {import("./player.js").Now} now @param {number} index */
   #place(now, index) {
     const row = now.rows[this.#row - 1];
+    /** @type {number} */
     const angle = row.orbit[index] - (this.#surface === "inner-raceway" ? now.ring : 0);
     const turned = Math.atan2(Math.sin(angle), Math.cos(angle));
     return turned / (2 * Math.PI) * this.turn;
   }
 
-  /** Contact lines at an instant. @param {import("./views/motion.js").State | null} now @returns {import("./raceway-draw.js").Contact[]} */
+  /** Contact lines at an instant. @param {import("./player.js").Now | null} now @returns {import("./raceway-draw.js").Contact[]} */
   #contacts(now) {
     const row = now?.rows[this.#row - 1];
     if (!now || !row) return [];
     if (this.#surface !== "roller") {
       const forces = this.#surface === "outer-raceway" ? row.outer : row.inner;
-      return Array.from(row.orbit, (_, k) => ({ s: this.#place(now, k), force: forces[k] }));
+      return row.orbit.map((_, k) => ({ s: this.#place(now, k), force: forces[k] }));
     }
     // A roller's surface passes under two lines of contact, one on each raceway.
-    const k = Math.min(this.#rollerOf, row.orbit.length) - 1, angle = row.orbit[k] - row.spin[k];
+    const k = Math.min(this.#rollerOf, row.orbit.length) - 1, angle = Number(row.orbit[k] - row.spin[k]);
     const at = (/** @type {number} */ a) => Math.atan2(Math.sin(a), Math.cos(a)) / (2 * Math.PI) * this.turn;
     return [{ s: at(angle), force: row.outer[k] }, { s: at(angle + Math.PI), force: row.inner[k] }];
   }
@@ -206,8 +203,7 @@ export class Raceway extends HTMLElement {
     // All of the turn in view is in the middle.
     if (this.#view.scale * this.turn < this.#width) this.#view.s = 0;
     g.setTransform(ratio, 0, 0, ratio, 0, 0);
-    this.#motion?.go(this.frozen || still() ? 0 : dt / SLOWNESS);
-    this.instant = this.#motion?.clip ? this.#motion.state : null;
+    this.instant = this.#player.step(this.frozen || still() ? 0 : dt);
     draw(g, this.#scene(this.#contacts(this.instant)), this.#colours);
   }
 

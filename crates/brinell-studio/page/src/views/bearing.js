@@ -32,6 +32,8 @@ export class BrinellBearing extends View {
     this.arcs = [];
     /** @type {import("./motion.js").Frames | null} */
     this.given = null;
+    /** The clip shown is older than the damage. */
+    this.stale = false;
     this.towards = 0;
     this.limit = new Limit();
     this.slower = 60;
@@ -107,14 +109,15 @@ export class BrinellBearing extends View {
     this.motion.push(frames);
     if (!this.motion.clip) { this.motion.go(0); this.requestDraw(); }
     // A stopped picture shows the edited bearing too, at nearly the same angles.
-    if (!this.playing && this.motion.renew()) { this.motion.show(0); this.requestDraw(); }
+    if (!this.playing && this.renew()) { this.motion.show(0); this.requestDraw(); }
   }
   /** Answer of `damage`, or its list. @returns {any} */
   get damage() { return this.marks; }
   set damage(damage) {
     this.marks = Array.isArray(damage) ? damage : damage?.defects ?? [];
     this.sort();
-    this.motion?.edited();
+    // What is shown from now on is of the edited bearing as soon as it has made a turn.
+    if (this.motion) { this.motion.fresh = 0; this.stale = true; }
     this.describe();
     this.requestDraw();
   }
@@ -167,7 +170,7 @@ export class BrinellBearing extends View {
     const motion = this.motion;
     if (!motion?.dt) return;
     const turn = motion.perTurn() * motion.dt;
-    motion.renew();
+    this.renew();
     let time = wall / this.slower;
     if (Number.isFinite(this.toGo) && Number.isFinite(turn)) {
       time = Math.min(time, this.toGo * turn);
@@ -176,6 +179,14 @@ export class BrinellBearing extends View {
     motion.go(time);
     this.requestDraw();
     if (this.toGo <= 1e-9) this.set(false);
+  }
+  /** Takes newer turns once the damage has changed and a turn and a half have been made since. */
+  renew() {
+    const motion = this.motion;
+    if (!this.stale || !motion || !(motion.fresh > 1.5 * motion.perTurn())) return false;
+    motion.take();
+    this.stale = false;
+    return true;
   }
   tell() {
     this.playButton.textContent = this.playing ? "Pause" : "Play";

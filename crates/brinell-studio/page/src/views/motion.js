@@ -15,13 +15,10 @@ const TAU = 2 * Math.PI;
 const wrap = (a) => a - TAU * Math.round(a / TAU);
 
 export class Motion {
-  /** @param {number} rows @param {number} elements @param {number} [fewest] frames after an edit from which on no older ones are shown; else a turn and a half */
-  constructor(rows, elements, fewest) {
+  /** @param {number} rows @param {number} elements */
+  constructor(rows, elements) {
     this.rows = rows;
     this.elements = elements;
-    this.fewest = fewest;
-    /** The clip shown is older than the latest edit. */
-    this.stale = false;
     // ring, gap before it, then of each row: cage, orbits, spins, inner forces, outer forces
     this.stride = 2 + rows * (1 + 4 * elements);
     this.buffer = new Float32Array(CAPACITY * this.stride);
@@ -87,23 +84,11 @@ export class Motion {
     }
     return Infinity;
   }
-  /** What is shown from now on is of the edited bearing as soon as there is enough of it. */
-  edited() {
-    this.fresh = 0;
-    this.stale = true;
-  }
-  /** Takes newer frames once there are enough after an edit. */
-  renew() {
-    if (!this.stale || !(this.fresh > (this.fewest ?? 1.5 * this.perTurn()))) return false;
-    this.take();
-    this.stale = false;
-    return true;
-  }
   /** Takes the latest turns as the clip to show, from the frame that looks most like the one shown. */
   take() {
     if (!this.length) return false;
     // Not beyond the latest edit, once there is enough after it.
-    const turn = Math.min(Math.ceil(this.perTurn()), this.length), renewed = this.fresh >= (this.fewest ?? 1.5 * turn),
+    const turn = Math.min(Math.ceil(this.perTurn()), this.length), renewed = this.fresh >= 1.5 * turn,
       far = Math.min(this.length, TURNS * turn, renewed ? this.fresh : Infinity) - 1;
     const near = far >= 2 * turn ? turn : Math.floor(far / 3);
     let start = far;
