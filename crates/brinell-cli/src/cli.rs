@@ -20,7 +20,7 @@ use std::any::TypeId;
         brinell run bearing.toml -o out     simulate\n  \
         brinell open out                    look at the report in a browser\n\n\
         Exit codes: 0 done, 1 the run failed or a result could not be written (to standard output included), 2 bad input, 130 a run interrupted (what was computed is kept; an \
-        interrupted sweep or comparison ends with 1)."
+        interrupted sweep, comparison or data set ends with 1)."
 )]
 pub(crate) struct Cli {
     #[command(subcommand)]

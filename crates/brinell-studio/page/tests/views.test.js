@@ -278,13 +278,17 @@ describe("the bearing", () => {
       node.damage = { defects: [] };
       node.frames = heavy(0.4);
       const early = most();
+      // A stopped picture waits until what the edit upset has settled: four turns.
       for (let k = 1; k < 8; k++) node.frames = heavy(0.4 + 0.012 * k);
+      const upset = most();
+      for (let k = 8; k < 14; k++) node.frames = heavy(0.4 + 0.012 * k);
       const length = node.motion.length;
       node.frames = made.frames(0, 40, 3e-4, { ...made.geometry, elements: 13 });
-      return { first, same, early, late: most(), ring: ring(), ignored: node.motion.length === length };
+      return { first, same, early, upset, late: most(), ring: ring(), ignored: node.motion.length === length };
     });
     assert.equal(seen.same, seen.first.most);
     assert.equal(seen.early, seen.first.most);
+    assert.equal(seen.upset, seen.first.most);
     assert.ok(seen.late > 2 * seen.first.most, `${seen.late} N after ${seen.first.most} N`);
     assert.ok(Math.abs(Math.sin((seen.ring - seen.first.ring) / 2)) < 0.1, "the ring has hardly moved");
     assert.ok(seen.ignored);

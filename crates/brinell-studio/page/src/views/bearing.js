@@ -10,6 +10,9 @@ import { arcs, paintLegend, paintLoad, paintRow, RING } from "./face.js";
 /** @typedef {import("./face.js").Geometry} Geometry */
 /** @typedef {import("./face.js").Damage} Damage */
 
+/** Turns after a change in which the bearing comes to its new state. */
+const SETTLED = 2;
+
 const own = sheet(`
 :host { display: flex; flex-direction: column; }
 .stage { position: relative; flex: 1 0 var(--bearing-height, 260px); border-radius: 4px; }
@@ -180,11 +183,11 @@ export class BrinellBearing extends View {
     this.requestDraw();
     if (this.toGo <= 1e-9) this.set(false);
   }
-  /** Takes newer turns once the damage has changed and a turn and a half have been made since. */
+  /** Takes newer turns once the bearing has changed and a turn and a half have been made since; for a stopped picture, the last two of more, in which what the change upset has settled. */
   renew() {
-    const motion = this.motion;
-    if (!this.stale || !motion || !(motion.fresh > 1.5 * motion.perTurn())) return false;
-    motion.take();
+    const { motion, playing } = this;
+    if (!this.stale || !motion || !(motion.fresh > (playing ? 1.5 : SETTLED + 2) * motion.perTurn())) return false;
+    motion.take(playing ? undefined : 2);
     this.stale = false;
     return true;
   }

@@ -96,9 +96,11 @@ export class BrinellCurve extends PlotView {
   get data() { return this.held; }
   set data(data) {
     const usable = data && data.values?.length > 1 && data.dx > 0 ? data : null;
-    // Another spacing is another axis: what was zoomed stays only where it still fits.
+    // All of a record is no part of the live window that follows it.
+    const { zoomed, held } = this, all = zoomed && held?.settled !== undefined && zoomed[0] <= 0 && zoomed[1] >= this.full()[1];
     this.held = usable;
-    if (usable && this.zoomed && this.zoomed[0] >= usable.dx * (usable.values.length - 1)) this.zoomed = null;
+    // Another spacing is another axis: what was zoomed stays only where it still fits.
+    if (usable && zoomed && (zoomed[0] >= this.full()[1] || (all && usable.settled === undefined))) this.zoomed = null;
     this.requestDraw();
   }
 

@@ -84,12 +84,12 @@ export class Motion {
     }
     return Infinity;
   }
-  /** Takes the latest turns as the clip to show, from the frame that looks most like the one shown. */
-  take() {
+  /** Takes the latest turns as the clip to show, from the frame that looks most like the one shown. @param {number} [turns] that are looked through */
+  take(turns = TURNS) {
     if (!this.length) return false;
     // Not beyond the latest edit, once there is enough after it.
     const turn = Math.min(Math.ceil(this.perTurn()), this.length), renewed = this.fresh >= 1.5 * turn,
-      far = Math.min(this.length, TURNS * turn, renewed ? this.fresh : Infinity) - 1;
+      far = Math.min(this.length, turns * turn, renewed ? this.fresh : Infinity) - 1;
     const near = far >= 2 * turn ? turn : Math.floor(far / 3);
     let start = far;
     if (this.clip) {
