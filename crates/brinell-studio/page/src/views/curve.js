@@ -47,6 +47,8 @@ export class BrinellCurve extends PlotView {
     this.held = null;
     /** Ends of the zoom counted from the curve's start; null shows the home view. @type {[number, number] | null} */
     this.zoomed = null;
+    /** All of a record is shown. */
+    this.all = false;
     /** Where the cursor is, counted from the curve's start. @type {number | null} */
     this.place = null;
     this.log = false;
@@ -96,11 +98,9 @@ export class BrinellCurve extends PlotView {
   get data() { return this.held; }
   set data(data) {
     const usable = data && data.values?.length > 1 && data.dx > 0 ? data : null;
-    // All of a record is no part of the live window that follows it.
-    const { zoomed, held } = this, all = zoomed && held?.settled !== undefined && zoomed[0] <= 0 && zoomed[1] >= this.full()[1];
     this.held = usable;
-    // Another spacing is another axis: what was zoomed stays only where it still fits.
-    if (usable && zoomed && (zoomed[0] >= this.full()[1] || (all && usable.settled === undefined))) this.zoomed = null;
+    // Another spacing is another axis: what was zoomed stays only where it still fits. All of a record is no part of the live window after it.
+    if (usable && this.zoomed && (this.zoomed[0] >= this.full()[1] || (this.all && usable.settled === undefined))) this.zoomed = null;
     this.requestDraw();
   }
 
@@ -146,6 +146,7 @@ export class BrinellCurve extends PlotView {
       if (Math.abs(span[0] - home[0]) + Math.abs(span[1] - home[1]) < 1e-6 * full[1]) span = null;
     }
     this.zoomed = span;
+    this.all = !!span && this.held.settled !== undefined && span[0] <= 0 && span[1] >= full[1] - this.held.dx;
     // What a zoom shows fills the height at once.
     this.limit = new Limit();
     this.requestDraw();
