@@ -58,6 +58,23 @@ describe("curves", () => {
     }));
   }
 
+  it("leaves all of a record when the live window follows it, and keeps another zoom", async () => on({}, async (page) => {
+    const seen = await page.evaluate(() => {
+      const node = document.querySelector("[kind=waveform]"), live = node.data, record = { ...live, ...window.made.waveform({ n: 8192 }), settled: 0.01 };
+      const after = (/** @type {[number, number]} */ span) => {
+        node.data = record;
+        node.zoom(span);
+        const zoomed = !!node.zoomed;
+        node.data = null;
+        node.data = live;
+        return [zoomed, !!node.zoomed];
+      };
+      node.data = record;
+      return { all: after(node.full()), part: after([0.01, 0.02]) };
+    });
+    assert.deepEqual(seen, { all: [true, false], part: [true, true] });
+  }));
+
   it("draws once for each frame with new data, cheaply", async (t) => on({}, async (page) => {
     for (const kind of ["waveform", "spectrum", "envelope"]) {
       const { frames, count, ms } = await page.evaluate(async (kind) => {
