@@ -41,8 +41,8 @@ use std::process::ExitCode;
 /// Runs the command with these arguments, the first of which is the program's name, and prints to the process's
 /// standard output and error.
 ///
-/// Exit codes: 0 done, 1 the run failed or a result could not be written, 2 the input is bad, 130 a run interrupted (what
-/// was computed is kept; an interrupted sweep, comparison or data set ends with 1).
+/// Exit codes: 0 done, 1 the run failed or a result could not be written, 2 the input is bad, 130 a run interrupted
+/// (what was computed is kept; an interrupted sweep, comparison or data set ends with 1).
 ///
 /// It is for a process of its own: it raises that process's limit of open files to what the system allows, ignores
 /// SIGXFSZ, and some commands listen for Ctrl-C, the second of which ends the process.

@@ -62,8 +62,8 @@ fn shape(text: &str) -> Result<[usize; 2], DamageError> {
     }
 }
 
-/// The type of an array's numbers, and whether they have their highest byte first. Booleans and half-precision floats are
-/// no heights.
+/// The type of an array's numbers, and whether they have their highest byte first. Booleans and half-precision floats
+/// are no heights.
 fn number(descr: &str) -> Result<(Number, bool), DamageError> {
     let word = npy_word(descr).unwrap_or(descr);
     let no_height = word.ends_with("b1") || word.ends_with("f2");

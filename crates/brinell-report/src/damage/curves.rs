@@ -28,8 +28,8 @@ pub fn load_along(along: &DamageCurves, name: &str, layout: Layout) -> Picture {
 const LINES: [(&str, f64, &[f64]); 4] =
     [(ink::BLUE, 2.2, &[]), (ink::ORANGE, 2.0, &[7.0, 3.0]), (ink::GREEN, 1.6, &[]), (ink::PURPLE, 1.6, &[3.0, 3.0])];
 
-/// Panels over one axis, each with its own legend where it holds several curves; `title` is the picture's where they have
-/// none.
+/// Panels over one axis, each with its own legend where it holds several curves; `title` is the picture's where they
+/// have none.
 fn stack(name: &str, title: &str, (x_label, x_unit): (&str, &str), curves: &DamageCurves, layout: Layout) -> Picture {
     let DamageCurves { title: shown, along: xs, panels, .. } = curves;
     let size = layout.size(0.0);

@@ -51,8 +51,8 @@ pub struct DamageView {
     /// Contact conditions during roller passage, over the angle of a roller from the defect's centre, in degrees; at
     /// which deformation, by which laws.
     pub passage: DamageCurves,
-    /// Profile's drop, line load and pressure along a roller at rest on it, over z from its middle, in mm, where rollers
-    /// have slices; forces and lengths, and by which law.
+    /// Profile's drop, line load and pressure along a roller at rest on it, over z from its middle, in mm, where
+    /// rollers have slices; forces and lengths, and by which law.
     pub along: Option<DamageCurves>,
     /// Section properties over s along the damage, in mm; for which ring.
     pub section: DamageCurves,

@@ -17,7 +17,8 @@ pub use measures::Measures;
 pub use seen::Damage;
 use seen::Seen;
 
-/// Every defect of a scenario in which [`Scenario::problems`] finds no error; `thickness_mm` is the ring's, 0.6 of the roller's diameter where nobody states it.
+/// Every defect of a scenario in which [`Scenario::problems`] finds no error; `thickness_mm` is the ring's, 0.6 of the
+/// roller's diameter where nobody states it.
 ///
 /// # Errors
 /// Where the scenario makes no model.

@@ -8,7 +8,8 @@ use crate::picture::{Paint, ink};
 const CURVE: Paint = Paint::line(ink::BLUE, 1.2);
 const HEALTHY: Paint = Paint::line(ink::FRAME, 1.2);
 
-/// Values and, where it was run, the healthy bearing's behind them; `words` say why there are none, where there are none.
+/// Values and, where it was run, the healthy bearing's behind them; `words` say why there is nothing, or are
+/// empty.
 pub(super) fn over_healthy<'a>(
     spec: Spec,
     id: &str,

@@ -37,25 +37,33 @@ pub(crate) fn envelope_spectrum(report: &Report, layout: Layout) -> Plot<'_> {
 }
 
 pub(super) fn envelope_of_size(report: &Report, size: Size) -> Plot<'_> {
-    let (spectrum, healthy) = (&report.envelope_spectrum, &report.healthy.envelope_spectrum);
-    let lanes = marker_lanes(&report.markers);
-    let top = top(spectrum, &report.markers);
+    let both = (&report.envelope_spectrum, &report.healthy.envelope_spectrum[..]);
     let names = ("envelope-spectrum", "Envelope spectrum");
-    let y = lines_domain(spectrum, healthy, top);
-    let spec = spectrum_spec(names, spectrum, size, top, y, lanes.clone());
-    Plot { toggles: lanes, ..lines(spec, "envelope", spectrum, healthy) }
+    marked(names, "envelope", size, both, &report.markers, marker_lanes(&report.markers))
 }
 
 /// The envelope over orders of the shaft, with the bearing's orders marked.
 pub(crate) fn order_spectrum(report: &Report, layout: Layout) -> Plot<'_> {
-    let (spectrum, healthy) = (&report.envelope_orders, &report.healthy.envelope_orders);
-    let lanes = order_lanes(&report.order_markers);
-    let top = top(spectrum, &report.order_markers);
-    let names = ("envelope-orders", "Envelope orders");
+    let both = (&report.envelope_orders, &report.healthy.envelope_orders[..]);
+    let (names, markers) = (("envelope-orders", "Envelope orders"), &report.order_markers);
+    let plot = marked(names, "orders", envelope_size(layout), both, markers, order_lanes(markers));
+    let spec = Spec { x_label: "Order of the shaft".into(), x_unit: String::new(), ..plot.spec };
+    Plot { spec, called: ["Order", ""], ..plot }
+}
+
+/// An envelope's spectrum and the healthy bearing's, up to the last harmonic of the damage there is, with lanes.
+fn marked<'a>(
+    names: (&str, &str),
+    id: &str,
+    size: Size,
+    (spectrum, healthy): (&'a Spectrum, &'a [f64]),
+    markers: &[Marker],
+    lanes: Vec<Lane>,
+) -> Plot<'a> {
+    let top = top(spectrum, markers);
     let y = lines_domain(spectrum, healthy, top);
-    let spec = spectrum_spec(names, spectrum, envelope_size(layout), top, y, lanes.clone());
-    let spec = Spec { x_label: "Order of the shaft".into(), x_unit: String::new(), ..spec };
-    Plot { toggles: lanes, called: ["Order", ""], ..lines(spec, "orders", spectrum, healthy) }
+    let spec = spectrum_spec(names, spectrum, size, top, y, lanes.clone());
+    Plot { toggles: lanes, ..lines(spec, id, spectrum, healthy) }
 }
 
 fn lines_domain(spectrum: &Spectrum, healthy: &[f64], top: f64) -> Domain {

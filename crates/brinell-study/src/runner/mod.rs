@@ -1,7 +1,8 @@
 //! Many runs with a journal: what is finished is on the disk, and is not run again.
 //!
 //! A [`Ledger`] is the journal of a folder. [`run()`] makes the runs of [`Task`]s; a [`Work`] says what their scenarios
-//! are and what is kept of them. [`ReadPoints`] reads the points of a plan; [`estimate`] tries a few for what they will cost.
+//! are and what is kept of them. [`ReadPoints`] reads the points of a plan; [`estimate`] tries a few
+//! for what they will cost.
 
 mod cost;
 mod ledger;

@@ -10,8 +10,8 @@ import { arcs, paintLegend, paintLoad, paintRow, RING } from "./face.js";
 /** @typedef {import("./face.js").Geometry} Geometry */
 /** @typedef {import("./face.js").Damage} Damage */
 
-/** Turns after a change in which the bearing comes to its new state. */
-const SETTLED = 2;
+/** Turns after a change: in which the bearing comes to its new state, and of which a stopped picture is taken then. */
+const SETTLES = 2, STOPPED = 2;
 
 const own = sheet(`
 :host { display: flex; flex-direction: column; }
@@ -183,11 +183,11 @@ export class BrinellBearing extends View {
     this.requestDraw();
     if (this.toGo <= 1e-9) this.set(false);
   }
-  /** Takes newer turns once the bearing has changed and a turn and a half have been made since; for a stopped picture, the last two of more, in which what the change upset has settled. */
+  /** Takes newer turns once the bearing has changed and a turn and a half have been made since; for a stopped picture, once it has settled. */
   renew() {
     const { motion, playing } = this;
-    if (!this.stale || !motion || !(motion.fresh > (playing ? 1.5 : SETTLED + 2) * motion.perTurn())) return false;
-    motion.take(playing ? undefined : 2);
+    if (!this.stale || !motion || !(motion.fresh > (playing ? 1.5 : SETTLES + STOPPED) * motion.perTurn())) return false;
+    motion.take(playing ? undefined : STOPPED);
     this.stale = false;
     return true;
   }
