@@ -255,6 +255,7 @@ fn random(args: &RandomArgs) -> Result<(), Failure> {
         center_deg: 0.0,
         depth_um: args.depth_um,
         axial_offset_mm: 0.0,
+        table: None,
         shape: scenario::Shape::Random {
             seed: args.seed,
             length_mm: args.length_mm,

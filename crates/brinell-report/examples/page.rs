@@ -11,6 +11,7 @@ use std::error::Error;
 fn main() -> Result<(), Box<dyn Error>> {
     let mut scenario = Scenario::of_bearing("NU206", 1800.0, [500.0, 0.0])?;
     scenario.defects.push(Defect {
+        table: None,
         on: Surface::OuterRaceway,
         row: 1,
         center_deg: 0.0,

@@ -4,8 +4,10 @@
 //! pocket runs ahead of its roller.
 
 mod film;
+mod wall;
 
 pub use film::HalfFilm;
+pub use wall::{OIL_FORCE, OiledWall};
 
 use crate::lanes::Lanes;
 use crate::scenario::GuidanceFilm;
@@ -40,9 +42,41 @@ pub struct Pocket {
     pub damping: f64,
     /// C_p to each side, m.
     pub clearance: f64,
+    /// Oiled walls in place of spring and damper, with mu_p (section 21).
+    pub wall: Option<(OiledWall, f64)>,
+    /// Whether it holds its element in every direction.
+    pub is_round: bool,
 }
 
 impl Pocket {
+    /// |F_c| and its elastic part in each lane, N, at the distance x >= 0 of the element from the pocket's middle (m), the play
+    /// (C_p, so wide for padding that it never closes) and the rate of x, m/s.
+    #[inline(always)]
+    pub fn wall_force<L: Lanes>(&self, x: L, play: L, rate: L) -> (L, L) {
+        match &self.wall {
+            Some((wall, _)) => wall.press(x, play, rate),
+            None => self.press((x - play).positive_part(), rate),
+        }
+    }
+
+    /// Friction over the slip u (m/s), along it and against it, N, under the normal force `size`; `v_s` is the slip velocity of
+    /// the raceways.
+    #[inline(always)]
+    pub fn friction<L: Lanes>(&self, size: L, u: L, per_slip: L) -> L {
+        match self.wall {
+            Some((_, coefficient)) => L::splat(coefficient) * size * (u * per_slip).tanh(),
+            None => (traction(u) * size).with_sign_of(u),
+        }
+    }
+
+    /// Elastic energy of a pocket at the distance x of its element from its middle, J.
+    pub fn energy(&self, x: f64) -> f64 {
+        match &self.wall {
+            Some((wall, _)) => wall.energy(x.abs(), self.clearance),
+            None => 0.5 * self.stiffness * self.penetration(x).powi(2),
+        }
+    }
+
     /// |F_c| and its elastic part in each lane, N: Eqs. (44), (45), of the deformation beyond the clearance (m, 0 where the pocket is open) and
     /// the rate at which the gap on that side closes (m/s).
     #[inline(always)]
@@ -89,6 +123,19 @@ pub struct Guide {
     pub land_stiffness: f64,
     /// c_c of the land, N s/m; 0 for the paper's, which has no damping.
     pub land_damping: f64,
+    /// The land in place of spring and damper (section 21); a ring without a land has none and no film.
+    pub wall: LandLaw,
+}
+
+/// What stops a cage at its guiding ring.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum LandLaw {
+    /// Nothing: round pockets alone hold the cage.
+    None,
+    /// Spring and damper from the play on.
+    Linear,
+    /// Oil and steel.
+    Oiled(OiledWall),
 }
 
 /// What the guide does to the cage; the guiding ring gets the opposite force.
@@ -119,8 +166,13 @@ impl Guide {
         let mut f = GuideForce::default();
         // Offsets are far from where squares overflow.
         let square = offset[0] * offset[0] + offset[1] * offset[1];
-        if square > self.clearance * self.clearance {
-            self.land(&mut f, offset, velocity, square.sqrt());
+        match self.wall {
+            LandLaw::None => {}
+            LandLaw::Linear if square <= self.clearance * self.clearance => {}
+            LandLaw::Linear => self.land(&mut f, offset, velocity, square.sqrt()),
+            // Without oil of its own nothing before the wall.
+            LandLaw::Oiled(wall) if wall.film == 0.0 && square <= self.clearance * self.clearance => {}
+            LandLaw::Oiled(wall) => self.oiled_land(&mut f, &wall, offset, velocity, square.sqrt()),
         }
         let Some(film) = self.film else {
             return f;
@@ -177,9 +229,25 @@ impl Guide {
         f.land_loss = (push - elastic) * rate;
     }
 
-    /// How far the cage has run into the land, m.
-    pub fn land_penetration(&self, offset: [f64; 2]) -> f64 {
-        (offset[0].hypot(offset[1]) - self.clearance).max(0.0)
+    /// The push of an oiled land on a cage that is `e` off its centre, m.
+    fn oiled_land(&self, f: &mut GuideForce, wall: &OiledWall, offset: [f64; 2], velocity: [f64; 2], e: f64) {
+        if e > 0.0 {
+            let n = offset.map(|x| x / e);
+            let rate = velocity[0] * n[0] + velocity[1] * n[1];
+            let (push, elastic) = wall.press(e, self.clearance, rate);
+            f.land = n.map(|x| -push * x);
+            f.land_loss = (push - elastic) * rate;
+        }
+    }
+
+    /// Elastic energy of the land, J.
+    pub fn land_energy(&self, offset: [f64; 2]) -> f64 {
+        let e = offset[0].hypot(offset[1]);
+        match &self.wall {
+            LandLaw::None => 0.0,
+            LandLaw::Linear => 0.5 * self.land_stiffness * (e - self.clearance).max(0.0).powi(2),
+            LandLaw::Oiled(wall) => wall.energy(e, self.clearance),
+        }
     }
 }
 
@@ -195,6 +263,7 @@ mod tests {
         radius: 26.5e-3,
         land_stiffness: 1e7,
         land_damping: 0.0,
+        wall: LandLaw::Linear,
     };
     const AT_REST: [f64; 2] = [0.0; 2];
 
@@ -261,7 +330,7 @@ mod tests {
 
     #[test]
     fn analytic_pocket_has_clearance_to_both_sides_and_never_pulls() {
-        let p = Pocket { stiffness: 1e7, damping: 20.0, clearance: 9e-5 };
+        let p = Pocket { stiffness: 1e7, damping: 20.0, clearance: 9e-5, wall: None, is_round: false };
         assert_eq!(p.penetration(8e-5), 0.0);
         assert!((p.penetration(10e-5) - 1e-5).abs() < 1e-18);
         assert!((p.penetration(-10e-5) + 1e-5).abs() < 1e-18);

@@ -58,6 +58,8 @@ enum Quantity {
     Roller(RollerQuantity, usize),
     Contact(ContactQuantity, Side, usize),
     PocketForce(usize),
+    /// Of the drive on the inner ring, and of the housing that holds the outer one.
+    Torque(usize),
     /// x, y or the sensor's own direction of the sensor channels: not in a frame.
     Sensor(usize),
 }
@@ -140,6 +142,7 @@ impl Channel {
             Quantity::Roller(quantity, slot) => roller(f, quantity, slot),
             Quantity::Contact(quantity, side, slot) => contact(f, quantity, side, slot),
             Quantity::PocketForce(slot) => f.ws.pocket_force[slot],
+            Quantity::Torque(k) => f.ws.torques[k],
             Quantity::Sensor(_) => f64::NAN,
         }
     }
@@ -175,10 +178,31 @@ fn roller(f: &Frame, quantity: RollerQuantity, slot: usize) -> f64 {
         Q::Ax => radial * cos - tangential * sin,
         Q::Ay => radial * sin + tangential * cos,
         Q::Orbit => f.orbits()[slot],
-        Q::OrbitSpeed => orbit_speed,
+        Q::OrbitSpeed => orbit_speed_of(f, slot, orbit_speed),
         Q::Spin => f.spin(slot),
         Q::SpinSpeed => spin_speed,
     }
+}
+
+/// Orbit speed about the bearing's centre, or in exact geometry about the outer ring's, rad/s.
+fn orbit_speed_of(f: &Frame, slot: usize, about_bearing: f64) -> f64 {
+    if !f.model.exact {
+        return about_bearing;
+    }
+    let l = &f.model.layout;
+    let (q, v) = f.y.split_at(l.dof());
+    let (cos, sin) = (f.ws.cos[slot], f.ws.sin[slot]);
+    let arm = f.model.geometry.pitch_radius + q[l.r() + slot];
+    let (dr, along) = (v[l.r() + slot], arm * about_bearing);
+    let mut distance = [arm * cos, arm * sin];
+    let mut speed = [dr * cos - along * sin, dr * sin + along * cos];
+    let lever = f.model.tilt.as_ref().map_or(0.0, |tilt| tilt.levers[slot]);
+    for k in 0..2 {
+        let tilted = |of: &[f64]| if f.model.tilt.is_some() { lever * of[l.outer_tilt() + k] } else { 0.0 };
+        distance[k] -= q[l.outer() + k] + tilted(q);
+        speed[k] -= v[l.outer() + k] + tilted(v);
+    }
+    (distance[0] * speed[1] - distance[1] * speed[0]) / (distance[0] * distance[0] + distance[1] * distance[1])
 }
 
 fn contact(f: &Frame, quantity: ContactQuantity, side: Side, slot: usize) -> f64 {
@@ -220,6 +244,14 @@ pub fn contact_stiffness(model: &Model, ws: &Workspace, side: Side, slot: usize)
     let c = &ws.contacts[side as usize];
     let law = model.contact(side);
     let length = model.geometry.roller_length;
+    if model.rules.law == Law::HalfSpace {
+        // Equal forces must give the healthy stiffness to the bit.
+        if !c.on_damage[slot] && model.slices.is_none() {
+            return law.stiffness;
+        }
+        let power = law.exponent.of(c.deformation[slot]);
+        return if power > 0.0 { c.elastic[slot] / power } else { law.stiffness };
+    }
     if model.slices.is_some() {
         // Of delta at z = 0, before profile and damage (section 16).
         let power = law.exponent.of(c.deformation[slot]);

@@ -4,11 +4,13 @@
 //! the bodies beyond first touch.
 
 pub mod ball;
+mod damping;
 pub mod film;
 
 use crate::elementary::Exponent;
 use crate::lanes::{Lanes, eight_ninths};
 use ball::Strips;
+pub use damping::{Damping, damped};
 
 /// Palmgren's line contact, K = 8.06e4 L^(8/9) N/mm^(10/9) with L in mm (Eq. 21 with its exponent mended): from
 /// the effective contact length in mm to N/m^(10/9).
@@ -47,8 +49,8 @@ pub struct LoadDeflection {
     pub stiffness: f64,
     /// n.
     pub exponent: Exponent,
-    /// c, N s/m.
-    pub damping: f64,
+    /// Damping.
+    pub damping: Damping,
     /// What carries the load across a ball's ellipse; `None` of rollers.
     pub strips: Option<Strips>,
 }
@@ -73,12 +75,16 @@ impl LoadDeflection {
         self.stiffness * (floor.share * power + (1.0 - floor.share) * sunk)
     }
 
-    /// Force of a closed contact, in each lane: `[elastic + c ddelta]_+` where the elastic sum is positive, else 0, N.
-    /// Eqs. (30), (37).
+    /// c of healthy contacts deformed by `delta` that carry `elastic`, in each lane, N s/m: sections 2 and 20.
     #[inline(always)]
-    pub fn with_damping<L: Lanes>(&self, elastic: L, ddelta: L) -> L {
-        let pressed = ddelta.times_plus(L::splat(self.damping), elastic);
-        elastic.if_above(L::zero(), pressed.positive_part(), L::zero())
+    pub fn damper<L: Lanes>(&self, elastic: L, delta: L) -> L {
+        match self.damping {
+            Damping::Constant(c) => L::splat(c),
+            // tau x/(x + delta_s) K_t, with K_t = n Q/x.
+            Damping::Time { tau, roughness } => {
+                L::splat(tau * self.exponent.value()) * elastic / (delta.positive_part() + L::splat(roughness))
+            }
+        }
     }
 
     /// Elastic energy of the healthy contact, J.
@@ -122,8 +128,12 @@ impl LoadDeflection {
 mod tests {
     use super::*;
 
-    const NN3007: LoadDeflection =
-        LoadDeflection { stiffness: 1.898e8, exponent: Exponent::TenNinths, damping: 200.0, strips: None };
+    const NN3007: LoadDeflection = LoadDeflection {
+        stiffness: 1.898e8,
+        exponent: Exponent::TenNinths,
+        damping: Damping::Constant(200.0),
+        strips: None,
+    };
 
     #[test]
     fn analytic_palmgren_inverts_his_deflection_formula() {

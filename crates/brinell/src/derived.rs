@@ -113,7 +113,8 @@ impl Derived {
         let contact_stiffness = SIDES.map(|side| model.stiffness_at(side, contact_force));
         let between = contact_stiffness[0] + contact_stiffness[1];
         let roller_angular = (between / m.roller).sqrt();
-        let damping = model.inner_contact.damping + model.outer_contact.damping;
+        let damping: f64 =
+            SIDES.iter().zip(contact_stiffness).map(|(side, k)| model.contact(*side).damping.at_most(k)).sum();
         let natural = |stiffness: f64, mass: f64| (stiffness / mass).sqrt() / TAU;
         Self {
             top_speed,

@@ -161,6 +161,7 @@ pub mod solver;
 pub mod start;
 pub mod statics;
 pub mod summary;
+mod waviness;
 
 #[doc(no_inline)]
 pub use brinell_signal as signal;

@@ -3,7 +3,7 @@
 //! The contact laws of [`crate::contact`] hold for each slice with 1/n_s of the stiffness and of the damping. SI; z
 //! from the roller's middle along +Z.
 
-use crate::contact::LoadDeflection;
+use crate::contact::{Damping, LoadDeflection, damped};
 use crate::lanes::{Column, Lanes};
 use crate::scenario::RollerProfile;
 
@@ -127,6 +127,19 @@ pub struct Pressed<T = f64> {
     pub loss: T,
     /// Share of the roller's length that touches.
     pub touching: T,
+    /// K_t, N/m, where nothing tilts.
+    pub tangent: T,
+}
+
+/// The slices in each lane of a contact that is damped with its stiffness.
+struct Timed<L> {
+    elastic: L,
+    moment: L,
+    /// The Hessian of the energy in (delta, tilt) times their rates, N/s and N m/s.
+    rates: [L; 2],
+    touching: L,
+    /// Largest delta_k, m.
+    deepest: L,
 }
 
 /// What the slices of a resting contact carry together.
@@ -177,6 +190,10 @@ impl Slices {
     /// Forces of a moving contact. Each slice that touches is damped (section 16).
     #[inline(always)]
     pub fn press<L: Lanes>(&self, law: &LoadDeflection, at: &Approach, cover: Option<&Cover>) -> Pressed {
+        let c = match law.damping {
+            Damping::Constant(c) => c,
+            Damping::Time { tau, roughness } => return self.press_timed::<L>(law, at, tau, roughness),
+        };
         let (deformation, tilt) = (L::splat(at.deformation), L::splat(at.tilt));
         let (rate, tilt_rate) = (L::splat(at.rate), L::splat(at.tilt_rate));
         let one = L::splat(1.0);
@@ -189,12 +206,12 @@ impl Slices {
             if let Some(cover) = cover {
                 let fraction = L::new(L::groups(&cover.fraction)[k]);
                 let depth = L::new(L::groups(&cover.depth)[k]);
-                sums.add(law, (z, d), delta, (one - fraction) * weight);
+                sums.add(law, (z, d), delta, ((one - fraction) * weight, c));
                 if fraction.any_positive() {
-                    sums.add(law, (z, d), delta - depth, fraction * weight);
+                    sums.add(law, (z, d), delta - depth, (fraction * weight, c));
                 }
             } else {
-                sums.add(law, (z, d), delta, weight);
+                sums.add(law, (z, d), delta, (weight, c));
             }
         }
         Pressed {
@@ -203,15 +220,60 @@ impl Slices {
             moment: sums.moment.sum(),
             loss: sums.loss.sum(),
             touching: sums.touching.sum(),
+            tangent: 0.0,
         }
     }
 
-    /// Elastic sum (N) and touching share of the length at a deformation (m) without tilt and damage: those of
+    /// The same without damage where damping goes with the stiffness (section 20): tau sigma times the Hessian of the energy times
+    /// the rates, sigma at the slice that is deformed most where that is more than the middle.
+    #[inline(always)]
+    fn press_timed<L: Lanes>(&self, law: &LoadDeflection, at: &Approach, tau: f64, roughness: f64) -> Pressed {
+        let zero = L::zero();
+        let (deformation, tilt) = (L::splat(at.deformation), L::splat(at.tilt));
+        let (rate, tilt_rate) = (L::splat(at.rate), L::splat(at.tilt_rate));
+        let exponent = L::splat(law.exponent.value());
+        let mut sums = Timed { elastic: zero, moment: zero, rates: [zero; 2], touching: zero, deepest: zero };
+        for k in 0..self.z.len() / L::COUNT {
+            let z = L::new(L::groups(&self.z)[k]);
+            let weight = L::new(L::groups(&self.weight)[k]);
+            let delta = tilt.times_plus(z, deformation - L::new(L::groups(&self.drop)[k]));
+            if !delta.any_positive() {
+                continue;
+            }
+            let spring = weight * law.healthy(delta);
+            let stiffness = exponent * spring / delta.if_above(zero, delta, L::splat(1.0));
+            let stiffening = stiffness * tilt_rate.times_plus(z, rate);
+            sums.elastic += spring;
+            sums.moment = z.times_plus(spring, sums.moment);
+            sums.rates[0] += stiffening;
+            sums.rates[1] = z.times_plus(stiffening, sums.rates[1]);
+            sums.touching += delta.if_above(zero, weight, zero);
+            sums.deepest = sums.deepest.at_least(weight.if_above(zero, delta, zero));
+        }
+        let (elastic, moment) = (sums.elastic.sum(), sums.moment.sum());
+        let x = sums.deepest.array().as_ref().iter().fold(at.deformation, |a, b| a.max(*b));
+        let damping = if x > 0.0 { tau * x / (x + roughness) } else { 0.0 };
+        let added = sums.rates.map(|rate| damping * rate.sum());
+        let force = elastic + added[0];
+        let open = force <= 0.0 || elastic <= 0.0;
+        let [by_force, by_moment] = if open { [-elastic, -moment] } else { added };
+        Pressed {
+            elastic,
+            force: elastic + by_force,
+            moment: moment + by_moment,
+            loss: by_force * at.rate + by_moment * at.tilt_rate,
+            touching: sums.touching.sum(),
+            tangent: 0.0,
+        }
+    }
+
+    /// Elastic sum, touching share of the length and tangent stiffness at a deformation (m) without tilt and damage: those of
     /// [`Slices::press`], to round-off.
     #[inline(always)]
-    pub fn press_evenly<L: Lanes>(&self, law: &LoadDeflection, deformation: f64) -> [f64; 2] {
+    pub fn press_evenly<L: Lanes>(&self, law: &LoadDeflection, deformation: f64) -> Pressed {
         let whole = L::splat(deformation);
-        let (mut elastic, mut touching) = (L::zero(), L::zero());
+        let exponent = L::splat(law.exponent.value());
+        let (mut elastic, mut touching, mut tangent) = (L::zero(), L::zero(), L::zero());
         for k in 0..self.level_drop.len() / L::COUNT {
             let delta = whole - L::new(L::groups(&self.level_drop)[k]);
             if !delta.any_positive() {
@@ -219,10 +281,12 @@ impl Slices {
                 break;
             }
             let weight = L::new(L::groups(&self.level_weight)[k]);
-            elastic = weight.times_plus(law.healthy(delta), elastic);
+            let force = law.healthy(delta);
+            elastic = weight.times_plus(force, elastic);
             touching += delta.if_above(L::zero(), weight, L::zero());
+            tangent += weight * exponent * force / delta.if_above(L::zero(), delta, L::splat(1.0));
         }
-        [elastic.sum(), touching.sum()]
+        Pressed { elastic: elastic.sum(), touching: touching.sum(), tangent: tangent.sum(), ..Pressed::default() }
     }
 
     /// What is whole and what damage covers of each slice: its share, and its deformation, m.
@@ -240,7 +304,8 @@ impl Slices {
         let per_width = 0.5 / self.half;
         for ((out, parts), z) in out.iter_mut().zip(self.parts(*at, cover)).zip(&self.z) {
             let rate = at.rate + at.tilt_rate * z;
-            let [whole, sunk] = parts.map(|(share, delta)| share * law.with_damping(law.healthy(delta), rate));
+            let [whole, sunk] = parts
+                .map(|(share, delta)| share * damped(law.healthy(delta), law.damper(law.healthy(delta), delta), rate));
             *out = per_width * (whole + sunk);
         }
     }
@@ -297,25 +362,74 @@ impl Slices {
 impl<L: Lanes> Pressed<L> {
     #[inline(always)]
     fn nothing() -> Self {
-        Self { elastic: L::zero(), force: L::zero(), moment: L::zero(), loss: L::zero(), touching: L::zero() }
+        let zero = L::zero();
+        Self { elastic: zero, force: zero, moment: zero, loss: zero, touching: zero, tangent: zero }
     }
 
     /// Adds `share` of a group of slices at z whose deformation is `delta` and grows at `d`. A function, since a
     /// closure would not be compiled for the kernel's instructions.
     #[inline(always)]
-    fn add(&mut self, law: &LoadDeflection, (z, d): (L, L), delta: L, share: L) {
+    fn add(&mut self, law: &LoadDeflection, (z, d): (L, L), delta: L, (share, c): (L, f64)) {
         if !delta.any_positive() {
             return;
         }
         let zero = L::zero();
         let spring = share * law.healthy(delta);
-        let pressed = (share * L::splat(law.damping)).times_plus(d, spring);
+        let pressed = (share * L::splat(c)).times_plus(d, spring);
         let pressed = delta.if_above(zero, pressed.positive_part(), zero);
         self.elastic += spring;
         self.force += pressed;
         self.moment = z.times_plus(pressed, self.moment);
         self.loss = (pressed - spring).times_plus(d, self.loss);
         self.touching += delta.if_above(zero, share, zero);
+    }
+}
+
+/// A healthy contact without tilt, even or along a profile: what energy of damage refers to (section 19).
+#[derive(Debug, Clone, Copy)]
+pub struct Healthy<'a> {
+    /// Law of the contact.
+    pub law: &'a LoadDeflection,
+    /// The slices, where each counts by itself.
+    pub slices: Option<&'a Slices>,
+    /// L, m.
+    pub(crate) length: f64,
+}
+
+impl Healthy<'_> {
+    /// Q (N) and K_t (N/m) at a deformation, m.
+    #[inline]
+    pub fn force_and_tangent(&self, delta: f64) -> [f64; 2] {
+        match self.slices {
+            None => {
+                let force = self.law.healthy(delta);
+                [force, if delta > 0.0 { self.law.exponent.value() * force / delta } else { 0.0 }]
+            }
+            Some(slices) => {
+                let pressed = slices.press_evenly::<f64>(self.law, delta);
+                [pressed.elastic, pressed.tangent]
+            }
+        }
+    }
+
+    /// Elastic energy at a deformation, J.
+    pub fn energy(&self, delta: f64) -> f64 {
+        match self.slices {
+            None => self.law.energy(delta),
+            Some(slices) => slices.carry(self.law, &Approach::pressed(delta), None).energy,
+        }
+    }
+
+    /// What a contact that carries `force` (N) at the deformation `delta` (m) lacks of the touching length of the healthy one, m: of a
+    /// roller by Palmgren's law, in which the force goes with the length to the power 8/9; of a ball in proportion.
+    #[inline]
+    pub(crate) fn lost_length(&self, delta: f64, force: f64) -> f64 {
+        let [whole, _] = self.force_and_tangent(delta);
+        let share = if whole > 0.0 { (force / whole).clamp(0.0, 1.0) } else { f64::from(u8::from(force > 0.0)) };
+        match &self.law.strips {
+            None => self.length * (1.0 - share * share.sqrt().sqrt().sqrt()),
+            Some(strips) => strips.pressed(delta).length([f64::NEG_INFINITY, f64::INFINITY]) * (1.0 - share),
+        }
     }
 }
 
@@ -327,7 +441,12 @@ mod tests {
 
     #[test]
     fn prop_slices_of_equal_drop_carry_together_what_each_carries_alone() {
-        let law = LoadDeflection { stiffness: 1e9, exponent: Exponent::TenNinths, damping: 200.0, strips: None };
+        let law = LoadDeflection {
+            stiffness: 1e9,
+            exponent: Exponent::TenNinths,
+            damping: Damping::Constant(200.0),
+            strips: None,
+        };
         let profiles = [
             RollerProfile::Straight,
             RollerProfile::Logarithmic,
@@ -340,8 +459,8 @@ mod tests {
             for deformation in [-1e-6, 0.0, 1e-8, 3e-7, 2e-6, 9e-6, 4e-5] {
                 let at = Approach::pressed(deformation);
                 let each = slices.press::<Portable>(&law, &at, None);
-                let [elastic, touching] = slices.press_evenly::<Portable>(&law, deformation);
-                let one = slices.press_evenly::<f64>(&law, deformation)[0];
+                let Pressed { elastic, touching, .. } = slices.press_evenly::<Portable>(&law, deformation);
+                let one = slices.press_evenly::<f64>(&law, deformation).elastic;
                 // Round-off of some thirty additions.
                 assert!((elastic - each.elastic).abs() <= 1e-14 * each.elastic);
                 assert!((one - each.elastic).abs() <= 1e-14 * each.elastic);

@@ -15,6 +15,7 @@ mod kernels;
 mod kinematics;
 mod lamina;
 mod literature;
+mod mechanics;
 mod observe;
 mod plausibility;
 mod run_loop;

@@ -1,8 +1,8 @@
 //! Ball bearings: Hertz's ellipse, the static balance, damage on strips across the groove (section 17 of the model).
 
 use crate::common::cases::case;
-use brinell::contact::LoadDeflection;
 use brinell::contact::ball::Strips;
+use brinell::contact::{Damping, LoadDeflection};
 use brinell::defect::{
     Angles, Defect, Defects, SIDES, Side, damaged_contact, depth_at_bottom, edge_gradient, energy, tangent,
 };
@@ -16,8 +16,12 @@ use brinell::summary::strayed;
 use proptest::prelude::*;
 use std::f64::consts::PI;
 
-const LAW: LoadDeflection =
-    LoadDeflection { stiffness: 2.68371e10, exponent: Exponent::ThreeHalves, damping: 150.0, strips: None };
+const LAW: LoadDeflection = LoadDeflection {
+    stiffness: 2.68371e10,
+    exponent: Exponent::ThreeHalves,
+    damping: Damping::Constant(150.0),
+    strips: None,
+};
 
 /// R_w of the 6205's outer contact, and the R_eq that its balls have there, m.
 const ACROSS: f64 = 73.241e-3;

@@ -3,7 +3,7 @@
 use crate::common::cases::{Random, raceway_film};
 use crate::common::simulate;
 use brinell::accuracy::settings;
-use brinell::cage::{Guide, HalfFilm, MAX_ECCENTRICITY};
+use brinell::cage::{Guide, HalfFilm, LandLaw, MAX_ECCENTRICITY};
 use brinell::document;
 use brinell::model::{Model, Motion};
 use brinell::scenario::{Accuracy, Guidance, GuidanceFilm, RacewayFilm, Scenario};
@@ -21,6 +21,7 @@ const BEARING: Guide = Guide {
     radius: 0.05,
     land_stiffness: 0.0,
     land_damping: 0.0,
+    wall: LandLaw::Linear,
 };
 /// Its shaft's speed: 1500 r/min.
 const SPEED: f64 = 1500.0 * TAU / 60.0;
@@ -139,6 +140,7 @@ fn random_state(random: &mut Random) -> (Guide, [f64; 2], [f64; 2], f64, f64) {
         radius: within(0.01, 0.1),
         land_stiffness: 1e7,
         land_damping: 20.0,
+        wall: LandLaw::Linear,
     };
     let (angle, e) = (within(-PI, PI), within(0.0, 1.3) * guide.clearance);
     let (toward, speeds) = (within(-PI, PI), [within(-300.0, 300.0), within(-300.0, 300.0)]);

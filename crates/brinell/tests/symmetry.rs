@@ -160,6 +160,7 @@ fn askew(base: Scenario) -> Scenario {
     s.defects[0].center_deg = 24.0;
     s.defects[0].shape = Shape::Rectangle { length_mm: 3.0, width_mm: 4.0 };
     s.defects.push(Defect {
+        table: None,
         on: Surface::InnerRaceway,
         row: s.bearing.rows,
         center_deg: 17.0,
@@ -172,6 +173,7 @@ fn askew(base: Scenario) -> Scenario {
         },
     });
     s.defects.push(Defect {
+        table: None,
         on: Surface::Roller(3),
         row: 1,
         center_deg: 10.0,

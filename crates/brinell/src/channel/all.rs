@@ -9,6 +9,9 @@ use crate::scenario::Sensor;
 pub fn all(model: &Model, sensor: &Sensor) -> Vec<Channel> {
     let mut list = List { model, channels: Vec::new() };
     list.rings();
+    if model.kind.moves_every_part() {
+        list.torques();
+    }
     list.cages();
     if model.tilt.is_some() {
         list.ring_tilts();
@@ -65,6 +68,13 @@ impl List<'_> {
                     );
                 }
             }
+        }
+    }
+
+    fn torques(&mut self) {
+        let rings = ["torque of the drive on the inner ring", "torque with which the outer ring is held"];
+        for (k, (ring, text)) in ["inner", "outer"].into_iter().zip(rings).enumerate() {
+            self.add(format!("{ring}_torque"), "N m", text.into(), Quantity::Torque(k));
         }
     }
 

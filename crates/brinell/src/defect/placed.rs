@@ -7,8 +7,10 @@ use super::extent::Extent;
 use super::piecewise::PiecewisePolynomial;
 use super::shape::Shape;
 use crate::contact::{ContactReduction, remaining_share};
+use crate::half_space::Table;
 use crate::scenario::{self, Element, Law, Surface};
 use std::f64::consts::PI;
+use std::sync::Arc;
 
 /// Lowest and highest z of a defect on a surface of a length, m.
 fn heights(defect: &scenario::Defect, length: f64) -> Option<[f64; 2]> {
@@ -42,6 +44,8 @@ pub struct Defect {
     pub roller_length: f64,
     /// How damage acts.
     pub rules: Rules,
+    /// delta_eff by side, under `half-space`; none where another defect's table holds this one too.
+    tables: [Option<Arc<Table>>; 2],
     /// Made ready for the sides that the defect meets, indexed by `Side as usize`.
     profiles: [Option<DepthProfile>; 2],
     /// Local angles (rad) beyond which neither arc nor profile reaches, by side.
@@ -125,8 +129,27 @@ impl Defect {
             radius,
             roller_length,
             rules,
+            tables: [None, None],
             profiles,
         })
+    }
+
+    /// delta_eff under `side`, where this defect has a table.
+    #[inline]
+    pub fn table(&self, side: Side) -> Option<&Arc<Table>> {
+        self.tables[side as usize].as_ref()
+    }
+
+    /// Lets damage act by this table at every contact that the defect meets.
+    pub(crate) fn use_table(&mut self, table: Arc<Table>) {
+        for side in SIDES {
+            let k = side as usize;
+            if self.profiles[k].is_some() {
+                let [first, last] = table.range_s();
+                self.windows[k] = (first / self.radius - 1e-9, last / self.radius + 1e-9);
+                self.tables[k] = Some(table.clone());
+            }
+        }
     }
 
     /// Depths under `side`; `None` where the defect does not meet it.

@@ -100,6 +100,12 @@ pub(super) fn bearing<K: Keys>(k: &mut K, model: ModelKind, b: &mut Bearing) {
         profile,
         &mut b.profile,
     );
+    for (name, whose, value) in [
+        ("waviness", "waviness of every raceway; left out: none", &mut b.waviness),
+        ("element_waviness", "waviness of every rolling element; left out: none", &mut b.element_waviness),
+    ] {
+        k.optional(key(name, whose), value);
+    }
     tilt_key(
         k,
         (model, b.element),

@@ -87,6 +87,10 @@ pub(super) fn defect<K: Keys>(k: &mut K, load: [f64; 2], d: &mut Defect) {
         stated(0.0, "z = 0 of the shape is the middle of the row"),
         &mut d.axial_offset_mm,
     );
+    k.optional(
+        key("table", "effective deformation over the damage, in place of one computed from the shape: a CSV file's name, or its numbers"),
+        &mut d.table,
+    );
 }
 
 fn shape<K: Keys>(k: &mut K, shape: &mut Shape) {

@@ -30,9 +30,11 @@ mod shape_value;
 mod source;
 mod spec;
 mod speed_value;
+mod table_value;
 mod toml_text;
 mod unset;
 mod value_type;
+mod waviness_value;
 mod writer;
 
 pub use diagnostics::render_diagnostics;

@@ -17,6 +17,7 @@ use super::value_type::{Misfit, ValueType, Words};
 use crate::bearing::catalogue;
 use crate::bearing::clearance::ClearanceClass;
 use crate::did_you_mean::{boundary_dimension, did_you_mean, left_out};
+use crate::scenario::Laws;
 
 /// Tables of one list, such as `[[defects]]`, at most.
 const MOST_TABLES: usize = 5000;
@@ -37,6 +38,7 @@ struct Frame<'a> {
 pub struct Reader<'a> {
     frames: Vec<Frame<'a>>,
     preset: Option<&'static catalogue::Entry>,
+    laws: Laws,
     /// The class of clearance in the preset's name: C3 of `6205-2RS/C3`.
     named_clearance: Option<ClearanceClass>,
     /// A preset was requested and is unknown: what it would have filled is not worth a word.
@@ -59,6 +61,10 @@ fn join(path: &str, name: &str) -> String {
     if path.is_empty() { name.to_string() } else { format!("{path}.{name}") }
 }
 
+/// What the catalogue gives for the paper's laws alone.
+const OF_LI2023: [&str; 4] =
+    ["contact.inner_stiffness", "contact.outer_stiffness", "cage.contact_stiffness_n_per_m", "lubricant.raceway_film"];
+
 impl<'a> Reader<'a> {
     /// Of a scenario.
     pub(crate) fn new(text: &'a str, root: &'a Table) -> Reader<'a> {
@@ -71,6 +77,7 @@ impl<'a> Reader<'a> {
         Reader {
             frames: vec![root],
             preset: None,
+            laws: Laws::DEFAULT,
             named_clearance: None,
             preset_unknown: false,
             vocabulary,
@@ -221,6 +228,10 @@ impl<'a> Reader<'a> {
 
     fn datum(&self, path: &str) -> Option<&'static catalogue::Value> {
         let entry = self.preset?;
+        // What belongs to the paper's laws is none of the bearing's.
+        if self.laws == Laws::Mechanics && OF_LI2023.contains(&path) {
+            return None;
+        }
         // The width is a fact of every bearing, and acts where rings tilt.
         let fact = || entry.facts.iter().find(|fact| fact.key == catalogue::WIDTH && path == "bearing.width_mm");
         entry.values.iter().find(|value| value.key == path).or_else(fact)

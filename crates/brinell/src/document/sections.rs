@@ -3,12 +3,12 @@
 
 use std::f64::consts::PI;
 
-use super::bearing_keys::{BALLS, ROLLERS, STEEL, bearing, tilt_key};
+use super::bearing_keys::{ROLLERS, STEEL, bearing, tilt_key};
 use super::damage::defect;
 use super::keys::Fallback::{self, Needed, Required};
 use super::keys::{Keys, PAPER, assumed, derived, stated};
 use super::sensor::sensor;
-use super::spec::key;
+use super::spec::{Spec, key};
 use super::unset;
 use crate::contact::{ball, is_line_exponent, palmgren_stiffness};
 use crate::scenario::*;
@@ -27,13 +27,25 @@ pub(crate) fn scenario<K: Keys>(k: &mut K, s: &mut Scenario) {
     if let Some(model) = k.foretold("simulation", "model") {
         s.simulation.model = model;
     }
-    let model = s.simulation.model;
+    if let Some(laws) = k.foretold("simulation", "laws") {
+        s.simulation.laws = laws;
+    }
+    let (model, laws) = (s.simulation.model, s.simulation.laws);
     k.section(key("bearing", "geometry and masses"), |k| bearing(k, model, &mut s.bearing));
-    k.section(key("cage", "one cage for each row"), |k| cage(k, &s.bearing, &mut s.cage));
+    k.section(key("cage", "one cage for each row"), |k| cage(k, (laws, &s.bearing), &mut s.cage));
     k.section(key("contact", "rollers on raceways, along the normal"), |k| {
-        contact(k, (model, &s.bearing), &mut s.contact)
+        contact(k, (laws, model, &s.bearing), &mut s.contact)
     });
-    k.section(key("friction", "rollers on raceways, along the surface"), |k| friction(k, &mut s.friction));
+    k.section(key("friction", "rollers on raceways, along the surface"), |k| friction(k, laws, &mut s.friction));
+    k.section(key("housing", "fixed to the outer ring, moves with it"), |k| {
+        let mass = match laws {
+            Laws::Mechanics => {
+                derived(20.0 * s.bearing.outer_ring_mass_kg, "20 times the outer ring: a small pillow block")
+            }
+            Laws::Li2023 => stated(0.0, PAPER),
+        };
+        k.key(key("mass_kg", "added to the outer ring's").from(0.0), mass, &mut s.housing.mass_kg);
+    });
     k.section(key("lubricant", "oil"), |k| lubricant(k, &s.bearing, &mut s.lubricant));
     k.section(key("operation", "speed, load and gravity"), |k| operation(k, (model, &s.bearing), &mut s.operation));
     k.section(key("support", "springs and dampers that hold the rings"), |k| {
@@ -53,7 +65,7 @@ const OILED_POCKET_N: f64 = 11.0;
 /// Stiffness of a pocket of steel on steel, N/m, as assumed for the paper's bearing.
 const STEEL_POCKET: f64 = 1e7;
 
-fn cage<K: Keys>(k: &mut K, b: &Bearing, c: &mut Cage) {
+fn cage<K: Keys>(k: &mut K, (laws, b): (Laws, &Bearing), c: &mut Cage) {
     let d = b.roller_diameter_mm;
     k.key(
         key("inner_diameter_mm", "2 a").above(0.0),
@@ -120,47 +132,91 @@ fn cage<K: Keys>(k: &mut K, b: &Bearing, c: &mut Cage) {
         },
         &mut c.guide_width_mm,
     );
-    k.key(
+    let (walls, pockets) = match (laws, b.element) {
+        (Laws::Mechanics, Element::Roller) => {
+            (stated(Walls::Oiled, OIL), stated(Pockets::Slot, "rollers lie in slots"))
+        }
+        (Laws::Mechanics, Element::Ball) => {
+            (stated(Walls::Oiled, OIL), stated(Pockets::Round, "balls lie in round pockets"))
+        }
+        (Laws::Li2023, _) => (stated(Walls::Linear, PAPER), stated(Pockets::Slot, PAPER)),
+    };
+    k.key(key("walls", "walls of pockets and lands"), walls, &mut c.walls);
+    k.key(key("pockets", "what pockets hold"), pockets, &mut c.pockets);
+    let oiled = c.walls == Walls::Oiled;
+    k.key_where(
+        key("friction_coefficient", "mu_p, elements in pockets").from(0.0),
+        (oiled, "cage.walls is \"oiled\""),
+        assumed(0.05, "oiled steel or brass; no source for cages of its kind"),
+        &mut c.friction_coefficient,
+    );
+    springs(k, !oiled, c);
+    if oiled {
+        c.contact_stiffness_n_per_m = 0.0;
+        c.contact_damping_ns_per_m = 0.0;
+        c.land_stiffness_n_per_m = 0.0;
+        c.land_damping_ns_per_m = 0.0;
+    } else {
+        c.friction_coefficient = 0.0;
+    }
+}
+
+const OIL: &str = "11 N of oil at the wall (Meeks and Ng 1985), Hertz behind it";
+
+/// Springs and dampers of linear walls.
+fn springs<K: Keys>(k: &mut K, linear: bool, c: &mut Cage) {
+    let acts = (linear, "cage.walls is \"linear\"");
+    k.key_where(
         key("contact_stiffness_n_per_m", "k_c, of pockets").above(0.0),
+        acts,
         assumed(
             OILED_POCKET_N / (1e-3 * c.pocket_clearance_mm.max(0.01)),
             "11 N over the pocket's clearance: oil cushions it (Meeks)",
         ),
         &mut c.contact_stiffness_n_per_m,
     );
-    k.key(
+    k.key_where(
         key("contact_damping_ns_per_m", "c_c, of pockets").from(0.0),
+        acts,
         assumed(
             20.0 * (c.contact_stiffness_n_per_m / STEEL_POCKET).sqrt(),
             "as large a share of the critical damping as 20 N s/m are at 1e7 N/m",
         ),
         &mut c.contact_damping_ns_per_m,
     );
-    k.key(
+    k.key_where(
         key("land_stiffness_n_per_m", "k_l, where the cage meets a ring").above(0.0),
+        acts,
         derived(c.contact_stiffness_n_per_m, "that of pockets"),
         &mut c.land_stiffness_n_per_m,
     );
-    k.key(
+    k.key_where(
         key("land_damping_ns_per_m", "c_l, where the cage meets a ring").from(0.0),
+        acts,
         derived(c.contact_damping_ns_per_m, "that of pockets"),
         &mut c.land_damping_ns_per_m,
     );
 }
 
-fn contact<K: Keys>(k: &mut K, (model, b): (ModelKind, &Bearing), c: &mut Contact) {
+fn contact<K: Keys>(k: &mut K, (laws, model, b): (Laws, ModelKind, &Bearing), c: &mut Contact) {
     let law = match (model, &b.profile) {
-        _ if b.has_balls() => stated(Law::Sliced, "the only law of balls"),
+        (ModelKind::Full, _) if laws == Laws::Mechanics => stated(Law::HalfSpace, "damage as on elastic steel"),
+        _ if b.has_balls() => stated(Law::Sliced, "strips across the groove"),
         (ModelKind::Tilting, _) => stated(Law::Sliced, "what tilts has slices"),
         (_, RollerProfile::Straight) => stated(Law::Ecl, PAPER),
         _ => stated(Law::Sliced, "a profile has slices"),
     };
     let path = match b.element {
+        Element::Roller if laws == Laws::Mechanics => {
+            stated(RollerPath::Envelope, "what a roller's radius lets it reach")
+        }
         Element::Roller => stated(RollerPath::Point, PAPER),
         Element::Ball => stated(RollerPath::Envelope, "what a ball's radius lets it reach"),
     };
-    k.key(key("law", "force of a damaged contact; of balls only sliced"), law, &mut c.law);
-    k.key(key("roller_path", "how a roller follows the damage's depth"), path, &mut c.roller_path);
+    k.key(key("law", "force of a damaged contact"), law, &mut c.law);
+    let by_depth =
+        (c.law != Law::HalfSpace, "contact.law is \"ecl\" or \"sliced\": of the half-space it is part of the solution");
+    k.key_where(key("roller_path", "how a roller follows the damage's depth"), by_depth, path, &mut c.roller_path);
     let slices_why = match b.element {
         Element::Roller => "ecl does not use them",
         Element::Ball => "as of rollers",
@@ -172,8 +228,9 @@ fn contact<K: Keys>(k: &mut K, (model, b): (ModelKind, &Bearing), c: &mut Contac
         stated(30, slices_why),
         &mut c.slices,
     );
-    k.key(
+    k.key_where(
         key("edge_reaction", "push of the damage's slopes along the orbit"),
+        by_depth,
         stated(EdgeReaction::None, PAPER),
         &mut c.edge_reaction,
     );
@@ -186,26 +243,80 @@ fn contact<K: Keys>(k: &mut K, (model, b): (ModelKind, &Bearing), c: &mut Contac
     if b.has_balls() {
         c.exponent = POINT_EXPONENT;
     }
+    k.key_where(
+        key("edge_radius_um", "length over which edges of damage are rounded").above(0.0).to(1000.0),
+        (c.law == Law::HalfSpace, "contact.law is \"half-space\""),
+        assumed(10.0, "a sharp edge of a spall"),
+        &mut c.edge_radius_um,
+    );
+    if c.law != Law::HalfSpace {
+        c.edge_radius_um = 0.0;
+    }
     steel(k, b, c);
     let [inner, outer] = stiffness(b, c);
     k.key(key("inner_stiffness", "K_in of a healthy contact").above(0.0).unit("N/m^n"), inner, &mut c.inner_stiffness);
     k.key(key("outer_stiffness", "K_out of a healthy contact").above(0.0).unit("N/m^n"), outer, &mut c.outer_stiffness);
-    k.key(key("damping_ns_per_m", "c, at each raceway").from(0.0), assumed(200.0, PAPER), &mut c.damping_ns_per_m);
+    damping(k, laws, c);
+}
+
+/// One of two keys: a damper of its own, or a time with the contact's stiffness.
+fn damping<K: Keys>(k: &mut K, laws: Laws, c: &mut Contact) {
+    const TIME: Spec =
+        key("damping_time_us", "tau: damping tau times the tangent stiffness; in place of damping_ns_per_m")
+            .from(0.0)
+            .to(1e5);
+    const CONSTANT: Spec = key("damping_ns_per_m", "c, at each raceway; in place of damping_time_us").from(0.0);
+    let (mut time, mut constant) = match c.damping {
+        ContactDamping::Time { us } => (Some(us), None),
+        ContactDamping::Constant { ns_per_m } => (None, Some(ns_per_m)),
+    };
+    match laws {
+        Laws::Mechanics => {
+            k.optional(CONSTANT, &mut constant);
+            let mut us = time.unwrap_or(f64::NAN);
+            let why = "known to a factor of four either way (Kraemer: 2.5 to 25 us for whole bearings)";
+            let case = (constant.is_none(), "contact.damping_ns_per_m is left out");
+            k.key_where(TIME, case, assumed(2.5, why), &mut us);
+            time = Some(us);
+        }
+        Laws::Li2023 => {
+            k.optional(TIME, &mut time);
+            let mut c = constant.unwrap_or(f64::NAN);
+            let case = (time.is_none(), "contact.damping_time_us is left out");
+            k.key_where(CONSTANT, case, assumed(200.0, PAPER), &mut c);
+            constant = time.is_none().then_some(c);
+        }
+    }
+    c.damping = match (constant, time) {
+        (Some(ns_per_m), _) => ContactDamping::Constant { ns_per_m },
+        (None, us) => ContactDamping::Time { us: us.unwrap_or(f64::NAN) },
+    };
+    let timed = matches!(c.damping, ContactDamping::Time { .. });
+    k.key_where(
+        key("roughness_um", "delta_s: the damper rises over this deformation").above(0.0).to(100.0),
+        (timed, "contact.damping_time_us acts"),
+        assumed(0.1, "ground raceways"),
+        &mut c.roughness_um,
+    );
+    if !timed {
+        c.roughness_um = 0.0;
+    }
 }
 
 /// What Hertz's ellipse needs of the material; of rollers Palmgren's constant has it in it.
 fn steel<K: Keys>(k: &mut K, b: &Bearing, c: &mut Contact) {
-    let wanted = (b.has_balls(), BALLS);
+    let wanted =
+        (b.has_balls() || c.law == Law::HalfSpace, "bearing.element is \"ball\" or contact.law is \"half-space\"");
     let mut modulus = c.youngs_modulus_gpa.unwrap_or(f64::NAN);
     k.key_where(
-        key("youngs_modulus_gpa", "E of balls and rings").above(0.0),
+        key("youngs_modulus_gpa", "E of rolling elements and rings").above(0.0),
         wanted,
         stated(206.0, "rolling bearing steel (ISO/TS 16281)"),
         &mut modulus,
     );
     let mut ratio = c.poisson_ratio.unwrap_or(f64::NAN);
     k.key_where(
-        key("poisson_ratio", "Poisson's ratio of balls and rings").from(0.0).to(0.5),
+        key("poisson_ratio", "Poisson's ratio of rolling elements and rings").from(0.0).to(0.5),
         wanted,
         stated(0.3, "steel"),
         &mut ratio,
@@ -231,7 +342,18 @@ pub(super) fn stiffness(b: &Bearing, c: &Contact) -> [Fallback<f64>; 2] {
     [palmgren(), palmgren()]
 }
 
-fn friction<K: Keys>(k: &mut K, f: &mut Friction) {
+fn friction<K: Keys>(k: &mut K, laws: Laws, f: &mut Friction) {
+    let rolling = match laws {
+        Laws::Mechanics => {
+            assumed(7e-4, "torque of deep-groove bearings; a third of SKF's estimate is sliding and oil")
+        }
+        Laws::Li2023 => stated(0.0, PAPER),
+    };
+    k.key(
+        key("rolling_coefficient", "k_r, rolling resistance over radius and force").from(0.0).to(0.1),
+        rolling,
+        &mut f.rolling_coefficient,
+    );
     k.key(key("raceway_coefficient", "mu").from(0.0), assumed(0.02, PAPER), &mut f.raceway_coefficient);
     k.key(
         key("slip_velocity_m_per_s", "v_s of tanh(slip / v_s)").above(0.0),
@@ -351,6 +473,14 @@ fn support<K: Keys>(k: &mut K, (model, b, load_on): (ModelKind, &Bearing, LoadOn
 }
 
 fn simulation<K: Keys>(k: &mut K, s: &mut Simulation) {
+    k.key(key("laws", "set of laws that gives the defaults"), stated(Laws::DEFAULT, "the default"), &mut s.laws);
+    let geometry = match (s.laws, s.model) {
+        (_, ModelKind::Lumped) => stated(GeometryLaw::Centred, "the lumped model's"),
+        (Laws::Mechanics, _) => stated(GeometryLaw::Exact, "so that momentum and energy close"),
+        (Laws::Li2023, _) => stated(GeometryLaw::Centred, PAPER),
+    };
+    k.key(key("geometry", "levers and rates of contacts"), geometry, &mut s.geometry);
+    k.key(key("seed", "seed of the waves' phases"), stated(1, "the first"), &mut s.seed);
     k.key(key("model", "equations"), stated(ModelKind::Full, "the model itself"), &mut s.model);
     k.key(
         key("duration_s", "simulated time").above(0.0).to(1e6),

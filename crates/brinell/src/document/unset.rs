@@ -8,7 +8,10 @@ pub(crate) const NONE: f64 = f64::NAN;
 pub(crate) fn scenario() -> Scenario {
     Scenario {
         name: String::new(),
+        housing: Housing { mass_kg: NONE },
         bearing: Bearing {
+            waviness: None,
+            element_waviness: None,
             preset: None,
             element: ValueType::blank(),
             inner_raceway_diameter_mm: NONE,
@@ -32,6 +35,9 @@ pub(crate) fn scenario() -> Scenario {
             row_spacing_mm: NONE,
         },
         cage: Cage {
+            walls: ValueType::blank(),
+            pockets: ValueType::blank(),
+            friction_coefficient: NONE,
             mass_kg: NONE,
             inner_diameter_mm: NONE,
             outer_diameter_mm: NONE,
@@ -55,9 +61,11 @@ pub(crate) fn scenario() -> Scenario {
             poisson_ratio: None,
             inner_stiffness: NONE,
             outer_stiffness: NONE,
-            damping_ns_per_m: NONE,
+            damping: ContactDamping::Constant { ns_per_m: NONE },
+            roughness_um: NONE,
+            edge_radius_um: NONE,
         },
-        friction: Friction { raceway_coefficient: NONE, slip_velocity_m_per_s: NONE },
+        friction: Friction { rolling_coefficient: NONE, raceway_coefficient: NONE, slip_velocity_m_per_s: NONE },
         lubricant: Lubricant {
             viscosity_pa_s: NONE,
             raceway_film: ValueType::blank(),
@@ -85,6 +93,9 @@ pub(crate) fn scenario() -> Scenario {
         defects: Vec::new(),
         sensor: Sensor::off(),
         simulation: Simulation {
+            laws: Laws::DEFAULT,
+            geometry: ValueType::blank(),
+            seed: 1,
             model: ValueType::blank(),
             duration_s: NONE,
             sample_rate_hz: NONE,
@@ -97,6 +108,7 @@ pub(crate) fn scenario() -> Scenario {
 
 pub(crate) fn defect() -> Defect {
     Defect {
+        table: None,
         on: Surface::OuterRaceway,
         row: 0,
         center_deg: NONE,

@@ -1,7 +1,8 @@
 //! One contact at rest without tilt, even or along a profile: for what is said of a model before anything moves.
 
 use super::Model;
-use crate::defect::{Defect, Defects, Side, cover_slices, damaged_contact};
+use crate::defect::{Angles, Defect, Defects, Side, cover_slices, damaged_contact};
+use crate::scenario::Law;
 use crate::slices::{Approach, Cover, Slices};
 
 impl Model {
@@ -12,6 +13,28 @@ impl Model {
             Some(slices) => slices.deflection(self.contact(side), force, even),
             None => even,
         }
+    }
+
+    /// Elastic force (N) and tangent stiffness (N/m) of a contact under `half-space` at a deformation, m.
+    pub(crate) fn resting(&self, slot: usize, side: Side, angles: &Angles, delta: f64) -> [f64; 2] {
+        self.on_table(self.defects_of(slot, side), side, angles, delta)
+    }
+
+    fn on_table(&self, defects: Defects, side: Side, angles: &Angles, delta: f64) -> [f64; 2] {
+        let healthy = self.healthy(side);
+        match defects.effective(angles, delta) {
+            None => healthy.force_and_tangent(delta),
+            Some(met) => {
+                let [force, tangent] = healthy.force_and_tangent(met.delta);
+                [force * met.by_delta, tangent * met.by_delta * met.by_delta + force * met.by_delta2]
+            }
+        }
+    }
+
+    /// Elastic energy of the same contact, J.
+    pub(crate) fn resting_energy(&self, slot: usize, side: Side, angles: &Angles, delta: f64) -> f64 {
+        let met = self.defects_of(slot, side).effective(angles, delta);
+        self.healthy(side).energy(met.map_or(delta, |met| met.delta))
     }
 
     /// dQ/d(delta) of a healthy contact under `force` (N), N/m.
@@ -28,6 +51,9 @@ impl Model {
     pub fn force_over(&self, defect: &Defect, side: Side, u: f64, delta: f64, cover: &mut Cover) -> f64 {
         let (law, angles) = (self.contact(side), defect.met_at(side, u));
         let one = Defects::one(defect, side);
+        if self.rules.law == Law::HalfSpace {
+            return self.on_table(one, side, &angles, delta)[0];
+        }
         match self.profiled() {
             Some(slices) => {
                 let met = cover_slices(one, &angles, cover);
@@ -42,6 +68,16 @@ impl Model {
     /// what its drop lets touch, else the roller's length; less what `defect` takes.
     pub fn length_over(&self, defect: &Defect, side: Side, u: f64, delta: f64, cover: &mut Cover) -> f64 {
         let (law, one) = (self.contact(side), Defects::one(defect, side));
+        if self.rules.law == Law::HalfSpace {
+            let healthy = self.healthy(side);
+            let force = self.on_table(one, side, &defect.met_at(side, u), delta)[0];
+            let whole = match (&law.strips, self.profiled()) {
+                (Some(strips), _) => strips.pressed(delta).length([f64::MIN, f64::MAX]),
+                (None, Some(slices)) => defect.roller_length * slices.touching(delta, None),
+                (None, None) => defect.roller_length,
+            };
+            return whole - healthy.lost_length(delta, force).min(whole);
+        }
         if let Some(strips) = &law.strips {
             let axis = strips.pressed(delta).length([f64::MIN, f64::MAX]);
             let lost = damaged_contact(one, law, &defect.met_at(side, u), delta);

@@ -4,10 +4,11 @@
 //! plus the parametric work of stiffnesses that change under a roller (section 3), which [`parametric_work`] measures
 //! over a step.
 
+use super::full::exact::stretch;
 use super::{Layout, Model, Workspace};
 use crate::defect::{Angles, SIDES, Side, cover_slices, energy};
 use crate::lanes::{Column, WIDTH};
-use crate::scenario::ModelKind;
+use crate::scenario::{Law, ModelKind};
 use crate::slices::{Approach, Cover};
 
 /// Energy held, J.
@@ -46,8 +47,11 @@ impl Energy {
             e.supports += 0.5 * support.stiffness * square(&q[at..]);
             e.gravity -= mass * along(&q[at..]);
         }
-        let angles =
-            |slot: usize| Angles { orbit: q[l.theta() + slot], spin: q[l.phi() + slot], ring: model.rotation.at(t).1 };
+        let angles = |slot: usize, side: Side| Angles {
+            orbit: q[l.theta() + slot] + ws.contacts[side as usize].lean(slot),
+            spin: q[l.phi() + slot],
+            ring: model.rotation.at(t).1,
+        };
         if model.kind == ModelKind::Lumped {
             e.contacts = (0..l.rollers()).map(|slot| super::lumped::contact_energy(model, t, slot, ws)).sum();
             return e;
@@ -70,12 +74,16 @@ impl Energy {
             e.gravity -= m.roller * arm * along(&[ws.cos[slot], ws.sin[slot]]);
             for side in SIDES {
                 let at = ws.contacts[side as usize].approach(slot);
-                e.contacts += held(model, (slot, side), &at, &angles(slot), &mut cover);
+                e.contacts += held(model, (slot, side), &at, &angles(slot, side), &mut cover);
+            }
+            if model.exact {
+                e.cage += model.pocket.energy(stretch(model, slot, q));
+                continue;
             }
             let xc = &q[l.cage(l.row(slot))..];
             let s = g.pitch_radius * (xc[2] + model.pocket_angle[slot] - q[l.theta() + slot]) + ws.cos[slot] * xc[1]
                 - ws.sin[slot] * xc[0];
-            e.cage += 0.5 * model.pocket.stiffness * model.pocket.penetration(s).powi(2);
+            e.cage += model.pocket.energy(s);
         }
         for row in 0..l.rows {
             let at = l.cage(row);
@@ -83,7 +91,7 @@ impl Energy {
             e.gravity -= m.cage * along(&q[at..]);
             let ring = model.land().centre(row, q);
             let offset = [q[at] - ring[0], q[at + 1] - ring[1]];
-            e.cage += 0.5 * model.guide.land_stiffness * model.guide.land_penetration(offset).powi(2);
+            e.cage += model.guide.land_energy(offset);
         }
         e
     }
@@ -92,6 +100,10 @@ impl Energy {
 /// Elastic energy of a contact, J; its rates do not matter.
 fn held(model: &Model, (slot, side): (usize, Side), at: &Approach, angles: &Angles, cover: &mut Cover) -> f64 {
     let (defects, law) = (model.defects_of(slot, side), model.contact(side));
+    if model.rules.law == Law::HalfSpace && !model.layout.tilts {
+        let delta = defects.effective(angles, at.deformation).map_or(at.deformation, |met| met.delta);
+        return model.healthy(side).energy(delta);
+    }
     let Some(slices) = &model.slices else {
         return energy(defects, law, angles, at.deformation);
     };
@@ -102,7 +114,8 @@ fn held(model: &Model, (slot, side): (usize, Side), at: &Approach, angles: &Angl
 /// What decides the energy of the contacts at one end of a step.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct ContactState {
-    orbit: Column,
+    /// Seen from either ring's centre.
+    orbit: [Column; 2],
     spin: Column,
     ring: f64,
     deformation: [Column; 2],
@@ -116,7 +129,7 @@ impl ContactState {
         let slots = layout.slots;
         let zeros = || Column::new(slots, 0.0);
         Self {
-            orbit: zeros(),
+            orbit: [zeros(), zeros()],
             spin: zeros(),
             ring: 0.0,
             deformation: [zeros(), zeros()],
@@ -127,31 +140,38 @@ impl ContactState {
 
     /// Takes over the evaluation in `ws` at (t, y).
     pub(crate) fn store(&mut self, model: &Model, t: f64, y: &[f64], ws: &Workspace) {
-        if model.defects.is_empty() {
+        if model.defects.is_empty() || model.rules.law == Law::HalfSpace {
             return;
         }
         let l = &model.layout;
         self.ring = model.rotation.at(t).1;
         match model.kind {
             ModelKind::Full | ModelKind::Tilting => {
-                self.orbit.copy_from_slice(&y[l.theta()..][..l.slots]);
+                for side in SIDES {
+                    let k = side as usize;
+                    for slot in 0..l.rollers() {
+                        self.orbit[k][slot] = y[l.theta() + slot] + ws.contacts[k].lean(slot);
+                    }
+                }
                 self.spin.copy_from_slice(&y[l.phi()..][..l.slots]);
             }
             ModelKind::Lumped => {
-                self.orbit.copy_from_slice(&ws.kinematic_orbit);
+                for orbit in &mut self.orbit {
+                    orbit.copy_from_slice(&ws.kinematic_orbit);
+                }
                 self.spin.fill(ws.kinematic_spin);
             }
         }
         for side in SIDES {
             let k = side as usize;
-            self.deformation[k].copy_from_slice(&ws.contacts[k].deformation);
+            self.deformation[k].copy_from_slice(ws.contacts[k].pressed_or_deformed());
             self.tilt[k].copy_from_slice(&ws.contacts[k].tilt);
             self.on_damage[k].copy_from_slice(&ws.contacts[k].on_damage);
         }
     }
 
-    fn angles(&self, slot: usize) -> Angles {
-        Angles { orbit: self.orbit[slot], spin: self.spin[slot], ring: self.ring }
+    fn angles(&self, slot: usize, side: Side) -> Angles {
+        Angles { orbit: self.orbit[side as usize][slot], spin: self.spin[slot], ring: self.ring }
     }
 }
 
@@ -160,7 +180,7 @@ impl ContactState {
 ///
 /// Where the edges push back (`conservative`) bodies and drive do that work, and none is parametric.
 pub(crate) fn parametric_work(model: &Model, before: &ContactState, after: &ContactState, cover: &mut Cover) -> f64 {
-    if model.rules.is_conservative() {
+    if model.rules.is_conservative() || model.rules.law == Law::HalfSpace {
         return 0.0;
     }
     let mut work = 0.0;
@@ -191,7 +211,7 @@ fn work_at(
     cover: &mut Cover,
 ) -> f64 {
     let k = side as usize;
-    let (from, to) = (before.angles(slot), after.angles(slot));
+    let (from, to) = (before.angles(slot, side), after.angles(slot, side));
     let mut change = |state: &ContactState| {
         let pressed = Approach {
             deformation: state.deformation[k][slot],

@@ -1,21 +1,25 @@
 //! A scenario as the model it stands for: from the file's names and units to SI.
 
 use super::{BroadPhase, Geometry, Inertia, Kernel, Layout, Model, Support, Tilt};
-use crate::cage::{Guide, Pocket};
-use crate::contact::LoadDeflection;
+use crate::cage::{Guide, LandLaw, OIL_FORCE, OiledWall, Pocket};
 use crate::contact::ball::{self, Strips};
 use crate::contact::film::SqueezeFilm;
+use crate::contact::{Damping, LoadDeflection};
 use crate::defect::{Defect, Rules, SIDES, Side, relative_radius};
 use crate::elementary::Exponent;
 use crate::friction::{Friction, drag_factor};
+use crate::half_space::Table;
 use crate::kernel;
 use crate::lanes::Column;
 use crate::operation::{Load, Rotation};
 use crate::scenario::{
-    Bearing, Cage, Element, Guidance, GuidanceFilm, Law, Lubricant, ModelKind, RacewayFilm, RollerProfile, Scenario,
+    Bearing, Cage, ContactDamping, DefectTable, Element, GeometryLaw, Guidance, GuidanceFilm, Housing, Law, Lubricant,
+    ModelKind, Pockets, RacewayFilm, RollerProfile, Scenario, Walls,
 };
 use crate::slices::Slices;
+use crate::waviness::Waviness;
 use std::f64::consts::{FRAC_PI_2, TAU};
+use std::sync::Arc;
 
 /// A scenario that no model can be made of.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -50,12 +54,15 @@ impl Model {
         })?;
         let (b, c) = (&s.bearing, &s.cage);
         let geometry = Geometry::of(b);
-        let inertia = Inertia::of(b, c, &geometry);
+        let inertia = Inertia::of(b, c, &s.housing, &geometry);
         let [inner_contact, outer_contact, series_contact] = contacts(s)?;
         let tilts = s.simulation.model == ModelKind::Tilting;
         let layout = Layout::new(b.rows, b.rollers_per_row, tilts);
         let rules = Rules::new(&s.contact);
-        let defects = defects(s)?;
+        let mut defects = defects(s)?;
+        if rules.law == Law::HalfSpace {
+            tables(s, &mut defects)?;
+        }
         let by_slot = |roller: f64, padding: f64| {
             let mut column = Column::new(layout.slots, padding);
             column[..layout.rollers()].fill(roller);
@@ -66,6 +73,9 @@ impl Model {
             element: b.element,
             roller_mask: by_slot(1.0, 0.0),
             gaps: [geometry.clearance, geometry.outer_gap].map(|gap| by_slot(gap, NEVER_CLOSES)),
+            exact: s.simulation.geometry == GeometryLaw::Exact && s.simulation.model != ModelKind::Lumped,
+            pocket_direction: [f64::sin, f64::cos].map(|of| pocket_angles(b, &layout).iter().map(|a| of(*a)).collect()),
+            waviness: waviness(s),
             pocket_gap: by_slot(1e-3 * c.pocket_clearance_mm, NEVER_CLOSES),
             broad_phase: SIDES.map(|side| BroadPhase::new(&layout, &defects, side)),
             row_lanes: row_lanes(&layout),
@@ -76,6 +86,7 @@ impl Model {
             friction: Friction {
                 coefficient: s.friction.raceway_coefficient,
                 slip_velocity: s.friction.slip_velocity_m_per_s,
+                rolling: s.friction.rolling_coefficient,
             },
             drag: drag(b.element, &s.lubricant, &geometry),
             film: film(s, &geometry),
@@ -83,6 +94,8 @@ impl Model {
                 stiffness: c.contact_stiffness_n_per_m,
                 damping: c.contact_damping_ns_per_m,
                 clearance: 1e-3 * c.pocket_clearance_mm,
+                wall: (c.walls == Walls::Oiled).then_some((OiledWall { film: OIL_FORCE }, c.friction_coefficient)),
+                is_round: c.pockets == Pockets::Round,
             },
             guidance: c.guidance,
             guide: guide(c, &s.lubricant),
@@ -124,11 +137,12 @@ impl Geometry {
 }
 
 impl Inertia {
-    fn of(b: &Bearing, c: &Cage, geometry: &Geometry) -> Self {
+    /// The housing is fixed to the outer ring and moves with it (section 24).
+    fn of(b: &Bearing, c: &Cage, housing: &Housing, geometry: &Geometry) -> Self {
         let (cage_inner, cage_outer) = (half_mm(c.inner_diameter_mm), half_mm(c.outer_diameter_mm));
         Self {
             inner_ring: b.inner_ring_mass_kg,
-            outer_ring: b.outer_ring_mass_kg,
+            outer_ring: b.outer_ring_mass_kg + housing.mass_kg,
             roller: b.roller_mass_kg,
             roller_spin: b.element.spin_inertia() * b.roller_mass_kg * geometry.roller_radius.powi(2),
             cage: c.mass_kg,
@@ -149,10 +163,14 @@ fn contacts(s: &Scenario) -> Result<[LoadDeflection; 3], ModelError> {
             requirement: "balls need both conformities, a modulus and Poisson's ratio, and grooves wider than the ball",
         })?),
     };
+    let damping = match contact.damping {
+        ContactDamping::Constant { ns_per_m } => Damping::Constant(ns_per_m),
+        ContactDamping::Time { us } => Damping::Time { tau: 1e-6 * us, roughness: 1e-6 * contact.roughness_um },
+    };
     let hertz = |stiffness, side: Side| LoadDeflection {
         stiffness,
         exponent,
-        damping: contact.damping_ns_per_m,
+        damping,
         strips: ellipses.map(|e| Strips::new(stiffness, e[side as usize].across)),
     };
     let (inner, outer) = (contact.inner_stiffness, contact.outer_stiffness);
@@ -162,7 +180,7 @@ fn contacts(s: &Scenario) -> Result<[LoadDeflection; 3], ModelError> {
         LoadDeflection {
             stiffness: series_stiffness(inner, outer, contact.exponent),
             exponent,
-            damping: 0.5 * contact.damping_ns_per_m,
+            damping: damping.in_series(),
             strips: None,
         },
     ])
@@ -193,6 +211,32 @@ fn defects(s: &Scenario) -> Result<Vec<Defect>, ModelError> {
         value: format!("{:?}", s.defects[k]).chars().take(200).collect(),
         requirement: "rows and rollers count from 1, and the shape must make sense: lists equally long, arcs that do not go back, polygons with area, grids without holes",
     })
+}
+
+/// Gives damage its tables (section 19): those of files as they are.
+fn tables(s: &Scenario, defects: &mut [Defect]) -> Result<(), ModelError> {
+    for (k, defect) in s.defects.iter().enumerate() {
+        let fault = |value: String, requirement| ModelError { key: format!("defects.{k}.table"), value, requirement };
+        match &defect.table {
+            Some(DefectTable::Read(data)) => {
+                let in_m = |list: &[f64], unit: f64| -> Vec<f64> { list.iter().map(|x| unit * x).collect() };
+                let [s, delta, eff] = [(&data.s_mm, 1e-3), (&data.delta_um, 1e-6), (&data.delta_eff_um, 1e-6)]
+                    .map(|(list, unit)| in_m(list, unit));
+                let table = Table::from_grid(&s, &delta, &eff)
+                    .map_err(|error| fault(error.to_string(), "a full grid whose s and delta rise"))?;
+                defects[k].use_table(Arc::new(table));
+            }
+            Some(DefectTable::File(file)) => {
+                return Err(fault(file.clone(), "a table, not a file: read it first, with brinell_damage::resolve"));
+            }
+            None => {}
+        }
+    }
+    Ok(())
+}
+
+fn waviness(s: &Scenario) -> Option<Waviness> {
+    Waviness::new(&s.bearing, s.simulation.seed).filter(|_| s.simulation.model != ModelKind::Lumped)
 }
 
 /// alpha of each slot, rad; 0 for padding.
@@ -250,6 +294,16 @@ fn guide(c: &Cage, lubricant: &Lubricant) -> Guide {
             (Guidance::OuterRing | Guidance::InnerRing, GuidanceFilm::QuasiStatic) => 0.0,
             _ => c.land_damping_ns_per_m,
         },
+        wall: match (c.walls, c.guidance, c.pockets) {
+            // A round pocket holds its ball in every direction.
+            (Walls::Oiled, Guidance::Rollers, Pockets::Round) => LandLaw::None,
+            (Walls::Oiled, Guidance::Rollers, Pockets::Slot) => {
+                LandLaw::Oiled(OiledWall { film: OIL_FORCE.max(4.0 * 9.81 * c.mass_kg) })
+            }
+            // The guidance film carries where there is one.
+            (Walls::Oiled, Guidance::OuterRing | Guidance::InnerRing, _) => LandLaw::Oiled(OiledWall { film: 0.0 }),
+            (Walls::Linear, ..) => LandLaw::Linear,
+        },
     }
 }
 
@@ -259,7 +313,7 @@ fn load(s: &Scenario) -> Load {
 
 /// The slices, where rollers tilt or have a profile.
 fn slices(s: &Scenario, rules: &Rules, geometry: &Geometry) -> Option<Slices> {
-    let profiled = rules.law == Law::Sliced && s.bearing.profile != RollerProfile::Straight;
+    let profiled = rules.law != Law::Ecl && s.bearing.profile != RollerProfile::Straight;
     (profiled || s.simulation.model == ModelKind::Tilting)
         .then(|| Slices::new(rules.slices, geometry.roller_length, 2.0 * geometry.roller_radius, &s.bearing.profile))
 }

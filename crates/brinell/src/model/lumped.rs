@@ -4,7 +4,7 @@
 //! layout; coordinates of rollers and cages have zero rates there and their motion is a function of time.
 
 use super::{Model, Power, Workspace, series_stiffness};
-use crate::contact::{ContactReduction, LoadDeflection};
+use crate::contact::{ContactReduction, LoadDeflection, damped};
 use crate::defect::{Angles, SIDES, Side, depth_at_bottom, floors};
 use crate::scenario::Element;
 
@@ -123,7 +123,8 @@ pub(super) fn accelerations(model: &Model, t: f64, y: &[f64], a: &mut [f64], ws:
         let angles = Angles { orbit, spin: ws.kinematic_spin, ring: ring_angle };
         let contact = series(model, slot, &angles, delta);
         let elastic = contact.elastic(delta);
-        let force = contact.law.with_damping(elastic, rate);
+        let damper = contact.law.damper(elastic, delta - contact.sunk);
+        let force = damped(elastic, damper, rate);
         for side in SIDES {
             let k = side as usize;
             let c = &mut ws.contacts[k];

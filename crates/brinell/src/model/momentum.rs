@@ -38,7 +38,10 @@ pub fn imbalance(model: &Model, t: f64, y: &[f64], a: &[f64], ws: &Workspace) ->
         }
     }
     let pressed = ws.contacts.iter().flat_map(|c| &c.force).sum::<f64>();
-    let forces = sum.relative(pressed);
+    let mut forces = sum.relative(pressed);
+    if model.exact {
+        forces = forces.max(turning(model, t, (q, v, a), ws));
+    }
     Some(match &model.tilt {
         None => forces,
         Some(tilt) => forces.max(moments(model, tilt, t, (q, v, a), ws)),
@@ -65,6 +68,44 @@ impl Sum {
         let scale = self.scale + more;
         if scale > 0.0 { (self.left[0].abs() + self.left[1].abs()) / scale } else { 0.0 }
     }
+}
+
+/// Torque about the bearing's centre that appears from nowhere, relative to those at play: angular momentum of all bodies changes
+/// by the torques of loads, supports, gravity, drag, the drive and the housing alone (section 18).
+fn turning(model: &Model, t: f64, (q, v, a): (&[f64], &[f64], &[f64]), ws: &Workspace) -> f64 {
+    let (l, m) = (&model.layout, &model.inertia);
+    let (mut left, mut scale) = (0.0, 0.0);
+    let mut add = |torque: f64| {
+        left += torque;
+        scale += torque.abs();
+    };
+    let cross = |x: &[f64], f: [f64; 2]| x[0] * f[1] - x[1] * f[0];
+    let (load_in, load_out) = model.load.on_rings(model.load.share(t));
+    let rings = [
+        (l.inner(), m.inner_ring, model.inner_support, load_in),
+        (l.outer(), m.outer_ring, model.outer_support, load_out),
+    ];
+    for (at, mass, support, load) in rings {
+        let external = |k: usize| load[k] - support.stiffness * q[at + k] - support.damping * v[at + k];
+        let left = |k: usize| mass * (a[at + k] - model.gravity[k]) - external(k);
+        add(cross(&q[at..], [left(0), left(1)]));
+    }
+    for slot in 0..l.rollers() {
+        let arm = model.geometry.pitch_radius + q[l.r() + slot];
+        let [_, tangential] = internal_force(model, slot, (q, v, a), ws);
+        add(arm * tangential);
+        add(m.roller_spin * a[l.phi() + slot]);
+    }
+    for row in 0..l.rows {
+        let at = l.cage(row);
+        add(m.cage_spin * a[at + 2]);
+        add(cross(&q[at..], [0, 1].map(|k: usize| m.cage * (a[at + k] - model.gravity[k]))));
+    }
+    // Of the drive and of the housing.
+    ws.torques.into_iter().for_each(|torque| add(-torque));
+    let pressed = ws.contacts.iter().flat_map(|c| &c.force).sum::<f64>();
+    let scale = scale + pressed * model.geometry.pitch_radius;
+    if scale > 0.0 { left.abs() / scale } else { 0.0 }
 }
 
 /// Moments Z x force that appear from nowhere, relative to those at play: the only check that sees a wrong lever of the

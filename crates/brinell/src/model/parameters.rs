@@ -6,14 +6,15 @@ use super::layout::Layout;
 use super::tilt::Tilt;
 use crate::bearing::kinematics::{self, Kinematics};
 use crate::cage::{Guide, Pocket};
-use crate::contact::LoadDeflection;
 use crate::contact::film::SqueezeFilm;
+use crate::contact::{Damping, LoadDeflection};
 use crate::defect::{Defect, Defects, Rules, Side};
 use crate::friction::Friction;
 use crate::lanes::Column;
 use crate::operation::{Load, Rotation};
-use crate::scenario::{Element, Guidance, LoadOn, ModelKind, Start};
-use crate::slices::Slices;
+use crate::scenario::{Element, Guidance, Law, LoadOn, ModelKind, Start};
+use crate::slices::{Healthy, Slices};
+use crate::waviness::Waviness;
 
 /// The ring with the cages' land among the coordinates.
 #[derive(Debug, Clone, Copy)]
@@ -54,6 +55,8 @@ pub struct Model {
     pub outer_contact: LoadDeflection,
     /// Law of both contacts in series, damping c/2 (section 10).
     pub series_contact: LoadDeflection,
+    /// Whether levers and rates are those of displaced bodies (section 18), or the centred bearing's.
+    pub exact: bool,
     /// Raceway friction.
     pub friction: Friction,
     /// Drag of a roller, kg/m.
@@ -78,6 +81,8 @@ pub struct Model {
     pub gravity: [f64; 2],
     /// alpha of each slot, rad: the pocket's angle on its cage.
     pub pocket_angle: Column,
+    /// sin alpha and cos alpha of each slot.
+    pub(crate) pocket_direction: [Column; 2],
     /// 1 for the slots of rollers, 0 for padding.
     pub roller_mask: Column,
     /// Gap of each slot's contact where all is centred, m, by side; so wide for padding that it never closes.
@@ -92,6 +97,8 @@ pub struct Model {
     pub(crate) row_lanes: Vec<Column>,
     /// How damage acts.
     pub rules: Rules,
+    /// Waviness, where any surface has it.
+    pub waviness: Option<Waviness>,
     /// The slices, where each counts by itself: where rollers tilt or have a profile.
     pub slices: Option<Slices>,
     /// What tilts, where anything does.
@@ -113,6 +120,24 @@ impl Model {
             Side::Inner => &self.inner_contact,
             Side::Outer => &self.outer_contact,
         }
+    }
+
+    /// The healthy contact on `side`.
+    #[inline]
+    pub fn healthy(&self, side: Side) -> Healthy<'_> {
+        Healthy { law: self.contact(side), slices: self.slices.as_ref(), length: self.geometry.roller_length }
+    }
+
+    /// Whether no force jumps: nothing is damped before it is pressed.
+    pub(crate) fn has_smooth_forces(&self) -> bool {
+        matches!(self.outer_contact.damping, Damping::Time { .. })
+            && self.pocket.wall.is_some()
+            && self.rules.law == Law::HalfSpace
+    }
+
+    /// Whether anything on a surface pushes rollers along it: damage by its table, or waves.
+    pub(crate) fn pushes(&self) -> bool {
+        self.waviness.is_some() || (self.rules.law == Law::HalfSpace && !self.defects.is_empty())
     }
 
     /// Defects that meet the contact of `slot` on `side`.

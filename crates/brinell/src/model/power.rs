@@ -7,7 +7,7 @@ use std::ops::{AddAssign, Mul};
 pub struct Power {
     /// Work of the load on its ring.
     pub load: f64,
-    /// Work of the drive through the friction at the inner raceway.
+    /// Work of the drive that turns the inner ring.
     pub drive: f64,
     /// Work of the guidance film on the bodies: dissipation and, at a turning guide, input.
     pub film: f64,
@@ -17,6 +17,8 @@ pub struct Power {
     pub contact: f64,
     /// Dissipated by raceway friction.
     pub friction: f64,
+    /// Dissipated by rolling resistance.
+    pub rolling: f64,
     /// Dissipated by pocket damping.
     pub pocket: f64,
     /// Dissipated by pocket friction.
@@ -37,7 +39,14 @@ impl Power {
 
     /// Everything dissipated, the film's share apart.
     pub fn dissipated(&self) -> f64 {
-        self.contact + self.friction + self.pocket + self.pocket_friction + self.land + self.support + self.drag
+        self.contact
+            + self.friction
+            + self.rolling
+            + self.pocket
+            + self.pocket_friction
+            + self.land
+            + self.support
+            + self.drag
     }
 
     fn zip(self, other: Self, f: impl Fn(f64, f64) -> f64) -> Self {
@@ -48,6 +57,7 @@ impl Power {
             lever: f(self.lever, other.lever),
             contact: f(self.contact, other.contact),
             friction: f(self.friction, other.friction),
+            rolling: f(self.rolling, other.rolling),
             pocket: f(self.pocket, other.pocket),
             pocket_friction: f(self.pocket_friction, other.pocket_friction),
             land: f(self.land, other.land),

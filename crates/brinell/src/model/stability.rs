@@ -41,7 +41,12 @@ pub(super) fn stable_step(model: &Model, max_elastic: [f64; 2], film_damping: f6
 /// its film damps at most.
 fn spring(model: &Model, side: Side, force: f64) -> [f64; 2] {
     let law = model.contact(side);
-    if force > 0.0 { [law.tangent_at(force), law.damping] } else { [0.0, model.film.map_or(0.0, |_| law.damping)] }
+    if force > 0.0 {
+        let tangent = law.tangent_at(force);
+        [tangent, law.damping.at_most(tangent)]
+    } else {
+        [0.0, model.film.map_or(0.0, |_| law.damping.constant())]
+    }
 }
 
 /// Longest step in which m x'' + c x' + k x = 0 decays, s.

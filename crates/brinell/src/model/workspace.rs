@@ -25,6 +25,22 @@ pub struct Contacts {
     pub friction: Column,
     /// Slip of the ring's surface over the roller's, m/s.
     pub slip: Column,
+    /// delta less the surfaces' waviness, m; empty where there is none.
+    pub pressed: Column,
+    /// dw/du of the raceway and of the rolling element, m/rad; empty like that.
+    pub wave_slope: [Column; 2],
+    /// c of the contact, N s/m, where damping goes with the stiffness.
+    pub damper: Column,
+    /// M_r against the rolling on the roller, N m.
+    pub rolling: Column,
+    /// n along e_r and e_t, in exact geometry.
+    pub normal: [Column; 2],
+    /// rho, m, in exact geometry.
+    pub distance: Column,
+    /// P = dE/du of both surfaces together, N m, and of the rolling element's own: what pushes along the surface.
+    pub push: Column,
+    /// See above.
+    pub push_element: Column,
     /// L_s at the contact, m.
     pub damaged_length: Column,
     /// Whether the contact is on damage.
@@ -40,8 +56,9 @@ pub struct Contacts {
 }
 
 impl Contacts {
-    fn new(slots: usize, tilts: bool) -> Self {
+    fn new(slots: usize, tilts: bool, wavy: bool) -> Self {
         let zeros = || Column::new(slots, 0.0);
+        let waves = || Column::new(if wavy { slots } else { 0 }, 0.0);
         let tilting = || Column::new(if tilts { slots } else { 0 }, 0.0);
         Self {
             tilt: tilting(),
@@ -54,6 +71,14 @@ impl Contacts {
             elastic: zeros(),
             force: zeros(),
             film: zeros(),
+            pressed: waves(),
+            wave_slope: [waves(), waves()],
+            damper: zeros(),
+            rolling: zeros(),
+            normal: [Column::new(slots, 1.0), zeros()],
+            distance: Column::new(slots, 1.0),
+            push: zeros(),
+            push_element: zeros(),
             friction: zeros(),
             slip: zeros(),
             damaged_length: zeros(),
@@ -61,12 +86,25 @@ impl Contacts {
         }
     }
 
+    /// Angle from the direction of the bearing's centre to that of the ring's, alpha - theta, rad: section 18; 0 in centred
+    /// geometry.
+    #[inline]
+    pub fn lean(&self, slot: usize) -> f64 {
+        (self.normal[1][slot] / self.normal[0][slot]).atan()
+    }
+
+    /// delta less waviness where there is any, m.
+    #[inline(always)]
+    pub fn pressed_or_deformed(&self) -> &Column {
+        if self.pressed.is_empty() { &self.deformation } else { &self.pressed }
+    }
+
     /// How the contact of `slot` approaches; without tilt where nothing tilts.
     #[inline(always)]
     pub fn approach(&self, slot: usize) -> Approach {
         let tilting = |of: &[f64]| of.get(slot).copied().unwrap_or_default();
         Approach {
-            deformation: self.deformation[slot],
+            deformation: self.pressed_or_deformed()[slot],
             tilt: tilting(&self.tilt),
             rate: self.approach_rate[slot],
             tilt_rate: tilting(&self.tilt_rate),
@@ -85,6 +123,10 @@ pub struct Workspace {
     pub contacts: [Contacts; 2],
     /// Tangential push of damage's slopes on each roller along e_t, N; 0 without `edge_reaction`.
     pub edge_force: Column,
+    /// What pockets do to each roller in exact geometry: along e_r, along e_t (N) and about its axis (N m).
+    pub on_roller: [Column; 3],
+    /// Torque of the drive on the inner ring and of the housing that holds the outer one, N m.
+    pub torques: [f64; 2],
     /// F_c of each slot, N.
     pub pocket_force: Column,
     /// f_c of each slot, N.
@@ -96,6 +138,8 @@ pub struct Workspace {
     pub(super) candidates: [Vec<u8>; 2],
     /// Groups of which some contact may be closed.
     pub(super) maybe_closed: [Vec<bool>; 2],
+    /// Sine and cosine of the directions from a ring's centre, of the side that is being looked at.
+    pub(super) seen: [Column; 2],
     kernel: Kernel,
     /// Orbit angle of each roller in the lumped model, where they are not states.
     pub kinematic_orbit: Vec<f64>,
@@ -124,9 +168,12 @@ impl Workspace {
         Self {
             cos: Column::new(slots, 1.0),
             sin: zeros(),
-            contacts: [0, 1].map(|_| Contacts::new(slots, model.layout.tilts)),
+            contacts: [0, 1].map(|_| Contacts::new(slots, model.layout.tilts, model.waviness.is_some())),
             cover: Cover::new(model.slices.as_ref().map_or(0, |s| s.count)),
             edge_force: zeros(),
+            seen: [zeros(), zeros()],
+            on_roller: [zeros(), zeros(), zeros()],
+            torques: [0.0; 2],
             pocket_force: zeros(),
             pocket_friction: zeros(),
             candidates: [vec![0; slots], vec![0; slots]],

@@ -37,6 +37,34 @@ pub trait Choice: Copy + PartialEq + 'static {
 }
 
 choices! {
+    /// Which set of laws gives the defaults.
+    pub enum Laws {
+        /// Forces from one potential or a dissipation: momentum and energy close, and damage acts as on an elastic body.
+        Mechanics = "mechanics", "forces that close momentum and energy, damage as on elastic steel";
+        /// The laws of Li et al. 2023, as printed and mended.
+        Li2023 = "li2023", "the laws of Li et al. 2023";
+    }
+
+    /// Levers and rates of contacts.
+    pub enum GeometryLaw {
+        Exact = "exact", "forces act where the displaced bodies touch";
+        /// Levers of the centred bearing (the paper).
+        Centred = "centred", "levers of the centred bearing, as in the paper";
+    }
+
+    /// What meets the rolling elements in their pockets and the cage at its land.
+    pub enum Walls {
+        Oiled = "oiled", "oil within the play, steel behind it";
+        /// Springs and dampers from the wall on (the paper).
+        Linear = "linear", "springs and dampers from the wall on, as in the paper";
+    }
+
+    /// What a pocket holds.
+    pub enum Pockets {
+        Slot = "slot", "along the pitch circle alone";
+        Round = "round", "in every direction";
+    }
+
     /// What rolls between the raceways.
     pub enum Element {
         Roller = "roller", "cylindrical rollers";
@@ -67,8 +95,9 @@ choices! {
         Squeeze = "squeeze", "a closing gap squeezes the oil out, which cushions a roller that falls or enters the load";
     }
 
-    /// Law of a roller on a damaged raceway.
+    /// Law of a damaged contact.
     pub enum Law {
+        HalfSpace = "half-space", "the elastic half-space, by a table computed once";
         /// Effective contact length (the paper, made continuous).
         Ecl = "ecl", "effective contact length";
         /// Independent slices across the roller, each with the fraction that damage covers and its mean depth (in the

@@ -9,7 +9,7 @@ mod sensor;
 
 pub(crate) use choices::words;
 pub use choices::*;
-pub use damage::{Defect, DepthGrid, ImageFile, ScanFile, Shape, Surface, SvgFile};
+pub use damage::{Defect, DefectTable, DepthGrid, ImageFile, ScanFile, Shape, Surface, SvgFile, TableData};
 pub use sensor::{PathMode, Range, Sensor};
 
 /// One run, completely described.
@@ -27,6 +27,8 @@ pub struct Scenario {
     pub friction: Friction,
     /// Oil.
     pub lubricant: Lubricant,
+    /// What is fixed to the outer ring.
+    pub housing: Housing,
     /// Supports of the two rings.
     pub support: Support,
     /// Speed, load and gravity.
@@ -67,6 +69,11 @@ impl Scenario {
     pub fn has_even_contacts(&self) -> bool {
         self.bearing.profile == RollerProfile::Straight && self.simulation.model != ModelKind::Tilting
     }
+}
+
+impl Laws {
+    /// What a scenario has that names none.
+    pub const DEFAULT: Self = Self::Li2023;
 }
 
 impl Element {
@@ -128,6 +135,10 @@ pub struct Bearing {
     pub outer_ring_mass_kg: f64,
     /// m, kg.
     pub roller_mass_kg: f64,
+    /// Waviness of every raceway.
+    pub waviness: Option<Waviness>,
+    /// Waviness of every rolling element.
+    pub element_waviness: Option<Waviness>,
     /// p(z), the drop of roller and raceway together.
     pub profile: RollerProfile,
     /// B, of all rows; `tilting` only.
@@ -169,6 +180,12 @@ pub struct Cage {
     pub inner_diameter_mm: f64,
     /// 2 b, mm.
     pub outer_diameter_mm: f64,
+    /// Walls of pockets and lands.
+    pub walls: Walls,
+    /// What pockets hold.
+    pub pockets: Pockets,
+    /// mu_p at oiled walls; 0 at linear ones, which have a curve of their own.
+    pub friction_coefficient: f64,
     /// C_p to each side, mm.
     pub pocket_clearance_mm: f64,
     /// Guiding ring.
@@ -179,7 +196,7 @@ pub struct Cage {
     pub guide_clearance_mm: f64,
     /// L_1, mm.
     pub guide_width_mm: f64,
-    /// k_c, N/m, of pockets.
+    /// k_c, N/m, of pockets; 0, like the next three, where walls are oiled.
     pub contact_stiffness_n_per_m: f64,
     /// c_c, N s/m, of pockets.
     pub contact_damping_ns_per_m: f64,
@@ -202,21 +219,60 @@ pub struct Contact {
     pub edge_reaction: EdgeReaction,
     /// n; 3/2 of balls, which have no key for it.
     pub exponent: f64,
-    /// E of balls and grooves, GPa; `None` for rollers.
+    /// E, GPa; `None` for rollers under other laws than `half-space`.
     pub youngs_modulus_gpa: Option<f64>,
-    /// Poisson's ratio of both; `None` for rollers.
+    /// Poisson's ratio; `None` likewise.
     pub poisson_ratio: Option<f64>,
     /// K_in of a healthy contact, N/m^n.
     pub inner_stiffness: f64,
     /// K_out of a healthy contact, N/m^n.
     pub outer_stiffness: f64,
-    /// c, N s/m.
-    pub damping_ns_per_m: f64,
+    /// Damping.
+    pub damping: ContactDamping,
+    /// delta_s, um: the damper of `Time` rises over it.
+    pub roughness_um: f64,
+    /// Length over which edges of damage are rounded, um; 0 under other laws than `half-space`.
+    pub edge_radius_um: f64,
+}
+
+/// Damping of a closed contact.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum ContactDamping {
+    /// `damping_time_us`: with the contact's stiffness.
+    Time {
+        /// tau, us.
+        us: f64,
+    },
+    /// `damping_ns_per_m`: a damper of its own (the paper).
+    Constant {
+        /// c, N s/m.
+        ns_per_m: f64,
+    },
+}
+
+/// Waviness of a surface: w(u) = sum of A_1 k^-q cos(k u + phase_k).
+#[derive(Debug, Clone, PartialEq)]
+pub struct Waviness {
+    /// A_1, um.
+    pub amplitude_um: f64,
+    /// q.
+    pub exponent: f64,
+    /// First and last k: waves in a turn.
+    pub waves: [u32; 2],
+}
+
+/// `[housing]`: fixed to the outer ring, moves with it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Housing {
+    /// kg.
+    pub mass_kg: f64,
 }
 
 /// `[friction]`: rollers on raceways.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Friction {
+    /// k_r: rolling resistance over radius and force.
+    pub rolling_coefficient: f64,
     /// mu.
     pub raceway_coefficient: f64,
     /// v_s, m/s.
@@ -314,6 +370,12 @@ pub enum RollerProfile {
 /// `[simulation]`.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Simulation {
+    /// The set of laws that gave the defaults.
+    pub laws: Laws,
+    /// Levers and rates of contacts.
+    pub geometry: GeometryLaw,
+    /// Seed of the waves' phases.
+    pub seed: u64,
     /// Equations.
     pub model: ModelKind,
     /// Simulated time, s.

@@ -7,7 +7,7 @@ use super::balance::{
 use super::newton::{State, minimise};
 use crate::defect::{Angles, Side, damaged_contact, energy, tangent};
 use crate::model::{Model, lumped};
-use crate::scenario::ModelKind;
+use crate::scenario::{Law, ModelKind};
 use crate::slices::{Approach, Carried, Cover, Slices};
 
 /// What one roller contributes at given ring offsets.
@@ -20,6 +20,8 @@ struct Roller {
     tangent: f64,
     /// Potential energy, J.
     energy: f64,
+    /// Directions in which the contacts press on the rings, inner and outer: e_r, or n of either contact.
+    along: [[f64; 2]; 2],
 }
 
 /// As [`super::solve`], for rings that do not tilt.
@@ -38,8 +40,8 @@ pub(super) fn solve(model: &Model, problem: &Problem) -> Result<Balance, NoBalan
                 ModelKind::Lumped => in_series(model, problem, slot, x),
             };
             state.potential += roller.energy;
-            let (sin, cos) = problem.orbit[slot].sin_cos();
-            let along = [cos, sin, -cos, -sin];
+            let [[in_x, in_y], [out_x, out_y]] = roller.along;
+            let along = [in_x, in_y, -out_x, -out_y];
             for i in 0..4 {
                 state.gradient[i] += along[i] * if i < 2 { roller.inner } else { roller.outer };
                 for j in 0..4 {
@@ -52,9 +54,8 @@ pub(super) fn solve(model: &Model, problem: &Problem) -> Result<Balance, NoBalan
     let found = minimise(guess, &free, (scale, softest(model)), &mut evaluate)?;
     evaluate(&found.x);
     let mut stiffness = [[0.0; 2]; 2];
-    for (slot, roller) in rollers.iter().enumerate() {
-        let (sin, cos) = problem.orbit[slot].sin_cos();
-        let e = [cos, sin];
+    for roller in &rollers {
+        let e = roller.along[0];
         for i in 0..2 {
             for j in 0..2 {
                 stiffness[i][j] += roller.tangent * e[i] * e[j];
@@ -80,7 +81,7 @@ fn in_series(model: &Model, problem: &Problem, slot: usize, x: &Offsets) -> Roll
     let g = &model.geometry;
     let delta = cos * (x[0] - x[2]) + sin * (x[1] - x[3]) - g.clearance - g.outer_gap;
     let (force, tangent, energy) = lumped::elastic_at(model, slot, &angles(problem, slot), delta);
-    Roller { r: 0.0, inner: force, outer: force, tangent, energy }
+    Roller { r: 0.0, inner: force, outer: force, tangent, energy, along: [[cos, sin]; 2] }
 }
 
 /// The roller's equilibrium: the r at which Q_in - Q_out and its own radial force N balance.
@@ -92,14 +93,21 @@ fn between_raceways(model: &Model, problem: &Problem, slot: usize, x: &Offsets) 
         model,
         slot,
         angles,
-        inner_at: cos * x[0] + sin * x[1] - model.geometry.clearance,
-        outer_at: cos * x[2] + sin * x[3] + model.geometry.outer_gap,
+        sides: [
+            RingAt::new(model, (sin, cos), [x[0], x[1]], -model.geometry.clearance),
+            RingAt::new(model, (sin, cos), [x[2], x[3]], model.geometry.outer_gap),
+        ],
         own: own_force(model, problem, slot),
         covers,
     };
     let r = between.equilibrium();
     let [(q_in, k_in), (q_out, k_out)] = between.contacts(r);
+    let along = between.sides.map(|side| {
+        let [n_r, n_t] = side.normal(r);
+        [cos * n_r - sin * n_t, sin * n_r + cos * n_t]
+    });
     Roller {
+        along,
         r,
         inner: q_in,
         outer: q_out,
@@ -108,14 +116,58 @@ fn between_raceways(model: &Model, problem: &Problem, slot: usize, x: &Offsets) 
     }
 }
 
+/// A ring that is held, as a roller at one orbit angle meets it: e_r . x_g and -e_t . x_g (0 in centred geometry), the gap with the
+/// sign with which it moves the raceway outwards, and R_m, m.
+#[derive(Debug, Clone, Copy)]
+struct RingAt {
+    along: f64,
+    across: f64,
+    gap: f64,
+    pitch: f64,
+}
+
+impl RingAt {
+    fn new(model: &Model, (sin, cos): (f64, f64), x: [f64; 2], gap: f64) -> Self {
+        let across = if model.exact { sin * x[0] - cos * x[1] } else { 0.0 };
+        Self { along: cos * x[0] + sin * x[1], across, gap, pitch: model.geometry.pitch_radius }
+    }
+
+    /// rho - R_m, less the gap, m: what a roller at r stands beyond the raceway by (section 18).
+    fn beyond(&self, r: f64) -> f64 {
+        let a = r - self.along;
+        if self.across == 0.0 {
+            return a - self.gap;
+        }
+        let square = self.across * self.across;
+        let rho = ((self.pitch + a).powi(2) + square).sqrt();
+        (a * (2.0 * self.pitch + a) + square) / (rho + self.pitch) - self.gap
+    }
+
+    /// The r at which the roller just touches.
+    fn touching(&self) -> f64 {
+        let square = self.across * self.across;
+        let root = ((self.pitch + self.gap).powi(2) - square).max(0.0).sqrt();
+        self.along + (self.gap * (2.0 * self.pitch + self.gap) - square) / (root + self.pitch)
+    }
+
+    /// n along e_r and e_t.
+    fn normal(&self, r: f64) -> [f64; 2] {
+        if self.across == 0.0 {
+            return [1.0, 0.0];
+        }
+        let along = self.pitch + r - self.along;
+        let rho = along.hypot(self.across);
+        [along / rho, self.across / rho]
+    }
+}
+
 /// One roller between raceways that are held.
 struct Between<'a> {
     model: &'a Model,
     slot: usize,
     angles: Angles,
-    /// The r at which the roller just touches the inner raceway, and the outer one, m.
-    inner_at: f64,
-    outer_at: f64,
+    /// The inner ring and the outer one.
+    sides: [RingAt; 2],
     /// Its own radial force, N.
     own: f64,
     /// What damage covers, where slices count.
@@ -130,8 +182,12 @@ impl Between<'_> {
     }
 
     /// Force of a contact, and its tangent.
-    fn contact(&self, side: Side, delta: f64) -> (f64, f64) {
-        let (model, angles) = (self.model, &self.angles);
+    fn contact(&self, side: Side, delta: f64, r: f64) -> (f64, f64) {
+        let (model, angles) = (self.model, &self.seen(side, r));
+        if model.rules.law == Law::HalfSpace {
+            let [force, tangent] = model.resting(self.slot, side, angles, delta);
+            return (force, tangent);
+        }
         if let Some(slices) = &model.slices {
             let carried = self.sliced(slices, side, delta);
             return (carried.force, carried.stiffness[0]);
@@ -148,21 +204,29 @@ impl Between<'_> {
         }
     }
 
+    /// The roller's angles as seen from the centre of a ring.
+    fn seen(&self, side: Side, r: f64) -> Angles {
+        let [n_r, n_t] = self.sides[side as usize].normal(r);
+        Angles { orbit: self.angles.orbit + (n_t / n_r).atan(), ..self.angles }
+    }
+
     /// Both contacts of the roller at r.
     fn contacts(&self, r: f64) -> [(f64, f64); 2] {
-        [self.contact(Side::Inner, self.inner_at - r), self.contact(Side::Outer, r - self.outer_at)]
+        [self.contact(Side::Inner, -self.sides[0].beyond(r), r), self.contact(Side::Outer, self.sides[1].beyond(r), r)]
     }
 
     /// Q_in - Q_out + N, which falls with r, and how steeply.
     fn balance(&self, r: f64) -> (f64, f64) {
         let [(q_in, k_in), (q_out, k_out)] = self.contacts(r);
-        (q_in - q_out + self.own, k_in + k_out)
+        let [n_in, n_out] = self.sides.map(|side| side.normal(r)[0]);
+        (q_in * n_in - q_out * n_out + self.own, k_in * n_in * n_in + k_out * n_out * n_out)
     }
 
     /// Where the balance is positive, and where it is negative, around the raceways.
     fn bracket(&self) -> (f64, f64) {
-        let mut low = self.inner_at.min(self.outer_at);
-        let mut high = self.inner_at.max(self.outer_at);
+        let [inner_at, outer_at] = self.sides.map(|side| side.touching());
+        let mut low = inner_at.min(outer_at);
+        let mut high = inner_at.max(outer_at);
         let mut reach = 1e-7;
         while self.balance(low).0 < 0.0 && reach < 1.0 {
             low -= reach;
@@ -182,7 +246,7 @@ impl Between<'_> {
         // From the raceway that the roller's own force presses it against.
         let mut r = if self.own < 0.0 { low } else { high };
         // Deformations are differences of r and of where the raceways are: finer than their round-off is nothing.
-        let grain = 1e-22 + 2.0 * f64::EPSILON * (self.inner_at.abs() + self.outer_at.abs());
+        let grain = 1e-22 + 2.0 * f64::EPSILON * self.sides.iter().map(|side| side.touching().abs()).sum::<f64>();
         if self.balance(r).0 == 0.0 {
             return r;
         }
@@ -211,11 +275,15 @@ impl Between<'_> {
     fn energy(&self, r: f64) -> f64 {
         let model = self.model;
         let stored = |side, delta| {
+            let angles = self.seen(side, r);
+            if model.rules.law == Law::HalfSpace {
+                return model.resting_energy(self.slot, side, &angles, delta);
+            }
             if let Some(slices) = &model.slices {
                 return self.sliced(slices, side, delta).energy;
             }
-            energy(model.defects_of(self.slot, side), model.contact(side), &self.angles, delta)
+            energy(model.defects_of(self.slot, side), model.contact(side), &angles, delta)
         };
-        stored(Side::Inner, self.inner_at - r) + stored(Side::Outer, r - self.outer_at) - self.own * r
+        stored(Side::Inner, -self.sides[0].beyond(r)) + stored(Side::Outer, self.sides[1].beyond(r)) - self.own * r
     }
 }

@@ -1,14 +1,38 @@
 //! Scenarios and states that several test programs start from.
 
+use super::columns;
 use brinell::model::Model;
-use brinell::scenario::{Guidance, GuidanceFilm, ModelKind, Scenario};
+use brinell::scenario::{DefectTable, Guidance, GuidanceFilm, ModelKind, Scenario, TableData};
 use brinell::{document, start};
 
 /// A scenario beside the tests, such as `reference/outer-rectangle` or `xval/roller-defect`.
 pub fn case(path: &str) -> Scenario {
     let file = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("tests").join(path).with_extension("toml");
     let text = std::fs::read_to_string(&file).unwrap_or_else(|e| panic!("{}: {e}", file.display()));
-    document::read(&text, &[]).unwrap_or_else(|p| panic!("{path}: {p:?}")).scenario
+    let mut s = document::read(&text, &[]).unwrap_or_else(|p| panic!("{path}: {p:?}")).scenario;
+    with_tables(&mut s, file.parent().unwrap());
+    s
+}
+
+/// Puts the tables that a scenario names into it, from its folder.
+pub fn with_tables(s: &mut Scenario, folder: &std::path::Path) {
+    for defect in &mut s.defects {
+        if let Some(DefectTable::File(file)) = &defect.table {
+            let rows = columns(&std::fs::read_to_string(folder.join(file)).unwrap());
+            let all = |name: &str| rows.column(name).to_vec();
+            let distinct = |name: &str| {
+                let mut all = all(name);
+                all.sort_by(f64::total_cmp);
+                all.dedup();
+                all
+            };
+            defect.table = Some(DefectTable::Read(TableData {
+                s_mm: distinct("s_mm"),
+                delta_um: distinct("delta_um"),
+                delta_eff_um: all("delta_eff_um"),
+            }));
+        }
+    }
 }
 
 /// The NN3007 of the given trajectories: rectangle 3 x 4 mm, 20 um deep, 300 N, 1800 r/min, C_r = 10 um, load ramp 20

@@ -5,14 +5,18 @@ mod plan;
 mod several;
 mod slices;
 
-use brinell::contact::LoadDeflection;
+use brinell::contact::{Damping, LoadDeflection};
 use brinell::defect::{Angles, Defect, Shape};
 use brinell::elementary::Exponent;
 use brinell::scenario::{self, DepthGrid, Law, RollerPath, Scenario, Surface};
 use std::f64::consts::TAU;
 
-const LAW: LoadDeflection =
-    LoadDeflection { strips: None, stiffness: 1.898e8, exponent: Exponent::TenNinths, damping: 200.0 };
+const LAW: LoadDeflection = LoadDeflection {
+    strips: None,
+    stiffness: 1.898e8,
+    exponent: Exponent::TenNinths,
+    damping: Damping::Constant(200.0),
+};
 
 fn circle_mm(radius: f64, corners: usize) -> Vec<[f64; 2]> {
     (0..corners)

@@ -89,6 +89,9 @@ impl Keys for Reader<'_> {
     }
 
     fn preset(&mut self, spec: Spec, value: &mut Option<String>) {
+        if let Some(laws) = self.foretold("simulation", "laws") {
+            self.laws = laws;
+        }
         let before = self.problems.count();
         self.optional(spec, value);
         if self.problems.count() > before {

@@ -70,7 +70,13 @@ pub(super) fn guidance(model: &Model, (q, v): (&[f64], &[f64]), w: f64, ws: &mut
 
 /// The cages' own motion (Eq. 41).
 #[inline(always)]
-pub(super) fn cages(model: &Model, v: &[f64], a: &mut [f64], guidance: &[GuideForce], sums: &mut Sums) {
+pub(super) fn cages(
+    model: &Model,
+    (q, v): (&[f64], &[f64]),
+    (a, ring_speed): (&mut [f64], f64),
+    guidance: &[GuideForce],
+    sums: &mut Sums,
+) {
     let l = &model.layout;
     let m = &model.inertia;
     let side = model.land_on();
@@ -93,6 +99,17 @@ pub(super) fn cages(model: &Model, v: &[f64], a: &mut [f64], guidance: &[GuideFo
         }
         a[at + 2] += f.moment;
         sums.power.film += f.moment * v[at + 2];
+        // The film's reaction on the ring, which drive or housing hold: M, and with its full lever e x F.
+        let mut reaction = f.moment;
+        if model.exact {
+            let centre = land.centre(row, q);
+            reaction += (q[at] - centre[0]) * f.film[1] - (q[at + 1] - centre[1]) * f.film[0];
+            if side == Side::Inner {
+                sums.power.film -= reaction * ring_speed;
+                sums.power.drive += reaction * ring_speed;
+            }
+        }
+        sums.torques[side as usize] += reaction;
         sums.power.land += f.land_loss;
         a[at] = a[at] / m.cage + model.gravity[0];
         a[at + 1] = a[at + 1] / m.cage + model.gravity[1];

@@ -3,23 +3,40 @@
 
 use super::view::{Plane, column, columns, pair, polar};
 use crate::contact::film::SqueezeFilm;
+use crate::contact::{Damping, damped};
 use crate::defect::{Angles, SIDES, Side, cover_slices, damaged_contact_given};
 use crate::lanes::Lanes;
 use crate::model::workspace::Contacts;
 use crate::model::{Model, Workspace};
+use crate::scenario::Law;
 use crate::slices::{Pressed, Slices};
 
 /// Finds what may be on damage.
 #[inline(always)]
 pub(super) fn candidates<L: Lanes>(model: &Model, ws: &mut Workspace) {
     let count = model.layout.slots / L::COUNT;
-    let sin = column::<L>(&ws.sin, 0, count);
-    let cos = column::<L>(&ws.cos, 0, count);
+    let Workspace { sin, cos, contacts, directions, candidates, seen, .. } = ws;
+    let sin = column::<L>(sin, 0, count);
+    let cos = column::<L>(cos, 0, count);
     for (k, broad_phase) in model.broad_phase.iter().enumerate() {
         if broad_phase.slots.is_empty() {
             continue;
         }
-        broad_phase.lanes::<L>((sin, cos), &ws.directions[k], &mut ws.candidates[k][..count]);
+        let candidates = &mut candidates[k][..count];
+        if !model.exact {
+            broad_phase.lanes::<L>((sin, cos), &directions[k], candidates);
+            continue;
+        }
+        // Damage is met at the angle seen from the ring's own centre.
+        let [n_r, n_t] = contacts[k].normal.each_ref().map(|n| column::<L>(n, 0, count));
+        let [seen_sin, seen_cos] = seen.each_mut().map(|column| &mut L::groups_mut(column)[..count]);
+        for group in 0..count {
+            let (sin, cos) = (L::new(sin[group]), L::new(cos[group]));
+            let (n_r, n_t) = (L::new(n_r[group]), L::new(n_t[group]));
+            seen_sin[group] = sin.times_plus(n_r, cos * n_t).array();
+            seen_cos[group] = cos.times_plus(n_r, -(sin * n_t)).array();
+        }
+        broad_phase.lanes::<L>((seen_sin, seen_cos), &directions[k], candidates);
     }
 }
 
@@ -131,8 +148,11 @@ pub(super) fn functions<L: Lanes>(model: &Model, ws: &mut Workspace) {
     for side in SIDES {
         let law = *model.contact(side);
         let stiffness = L::splat(law.stiffness);
+        let timed = matches!(law.damping, Damping::Time { .. });
         let contacts = &mut ws.contacts[side as usize];
-        let deformation = column::<L>(&contacts.deformation, 0, count);
+        let pressed = if contacts.pressed.is_empty() { &contacts.deformation } else { &contacts.pressed };
+        let deformation = column::<L>(pressed, 0, count);
+        let damper = &mut L::groups_mut(&mut contacts.damper)[..count];
         let slip = column::<L>(&contacts.slip, 0, count);
         let candidates = &ws.candidates[side as usize][..count];
         let power = &mut L::groups_mut(&mut contacts.power)[..count];
@@ -149,6 +169,13 @@ pub(super) fn functions<L: Lanes>(model: &Model, ws: &mut Workspace) {
             }
             power[group] = x.array();
             elastic[group] = (stiffness * x).array();
+        }
+        if timed {
+            for group in 0..count {
+                if maybe_closed[group] {
+                    damper[group] = law.damper(L::new(elastic[group]), L::new(deformation[group])).array();
+                }
+            }
         }
         for group in 0..count {
             if maybe_closed[group] {
@@ -176,13 +203,14 @@ pub(super) fn slices<L: Lanes, const TILT: bool>(
         let contacts = &mut ws.contacts[k];
         contacts.on_damage.fill(false);
         for group in 0..l.slots / L::COUNT {
-            let mut closed = false;
+            let mut closed = model.rules.law == Law::HalfSpace && ws.candidates[k][group] != 0;
             for lane in 0..L::COUNT {
                 let slot = group * L::COUNT + lane;
                 let at = contacts.approach(slot);
                 let mut covered = false;
-                if (ws.candidates[k][group] >> lane) & 1 == 1 {
-                    let angles = Angles { orbit: q[l.theta() + slot], spin: q[l.phi() + slot], ring: ring_angle };
+                if model.rules.law == Law::Sliced && (ws.candidates[k][group] >> lane) & 1 == 1 {
+                    let orbit = q[l.theta() + slot] + contacts.lean(slot);
+                    let angles = Angles { orbit, spin: q[l.phi() + slot], ring: ring_angle };
                     covered = cover_slices(model.defects_of(slot, side), &angles, &mut ws.cover);
                 }
                 contacts.on_damage[slot] = covered;
@@ -191,12 +219,12 @@ pub(super) fn slices<L: Lanes, const TILT: bool>(
                 } else if slices.are_clear(at.deformation, at.tilt) {
                     Pressed::default()
                 } else if !TILT {
-                    let [elastic, touching] = slices.press_evenly::<L>(law, at.deformation);
-                    Pressed { elastic, touching, ..Pressed::default() }
+                    slices.press_evenly::<L>(law, at.deformation)
                 } else {
                     slices.press::<L>(law, &at, None)
                 };
                 contacts.elastic[slot] = pressed.elastic;
+                contacts.damper[slot] = law.damping.of(pressed.tangent, at.deformation);
                 contacts.damaged_length[slot] = length * (1.0 - pressed.touching);
                 if TILT {
                     contacts.force[slot] = pressed.force;
@@ -217,6 +245,10 @@ pub(super) fn slices<L: Lanes, const TILT: bool>(
 /// Elastic forces of the contacts that are on damage, section 3, in place of those of healthy raceways.
 #[inline(always)]
 pub(super) fn damage<L: Lanes>(model: &Model, q: &[f64], ring_angle: f64, ws: &mut Workspace) {
+    let on_table = model.rules.law == Law::HalfSpace;
+    if model.slices.is_some() && !on_table {
+        return;
+    }
     for side in SIDES {
         let k = side as usize;
         if model.broad_phase[k].slots.is_empty() {
@@ -225,11 +257,16 @@ pub(super) fn damage<L: Lanes>(model: &Model, q: &[f64], ring_angle: f64, ws: &m
         let contacts = &mut ws.contacts[k];
         contacts.on_damage.fill(false);
         contacts.damaged_length.fill(0.0);
+        contacts.push.fill(0.0);
+        contacts.push_element.fill(0.0);
         let count = model.layout.slots / L::COUNT;
         for (group, candidates) in ws.candidates[k][..count].iter().enumerate() {
             if *candidates != 0 {
-                let first = group * L::COUNT;
-                on_damage(model, (side, first, *candidates), (q, ring_angle), contacts);
+                let at = (side, group * L::COUNT, *candidates);
+                match on_table {
+                    true => half_space(model, at, (q, ring_angle), contacts),
+                    false => on_damage(model, at, (q, ring_angle), contacts),
+                }
             }
         }
     }
@@ -247,19 +284,56 @@ fn on_damage(
     while candidates != 0 {
         let slot = first + candidates.trailing_zeros() as usize;
         candidates &= candidates - 1;
-        let angles = Angles { orbit: q[l.theta() + slot], spin: q[l.phi() + slot], ring: ring_angle };
+        let orbit = q[l.theta() + slot] + contacts.lean(slot);
+        let angles = Angles { orbit, spin: q[l.phi() + slot], ring: ring_angle };
         let damaged = damaged_contact_given(
             model.defects_of(slot, side),
             model.contact(side),
             &angles,
-            contacts.deformation[slot],
+            contacts.pressed_or_deformed()[slot],
             contacts.power[slot],
         );
         if let Some(damaged) = damaged {
             contacts.elastic[slot] = damaged.elastic;
+            if let Damping::Time { .. } = model.contact(side).damping {
+                let x = contacts.pressed_or_deformed()[slot];
+                let tangent = model.contact(side).tangent(x, Some(&damaged.floor));
+                contacts.damper[slot] = model.contact(side).damping.of(tangent, x.max(0.0));
+            }
             contacts.on_damage[slot] = true;
             contacts.damaged_length[slot] = damaged.floor.damaged_length;
         }
+    }
+}
+
+/// Contacts that are on damage by its table, section 19. `candidates` has a bit for each slot from `first`.
+#[inline(never)]
+fn half_space(
+    model: &Model,
+    (side, first, mut candidates): (Side, usize, u8),
+    (q, ring_angle): (&[f64], f64),
+    contacts: &mut Contacts,
+) {
+    let l = &model.layout;
+    let healthy = model.healthy(side);
+    while candidates != 0 {
+        let slot = first + candidates.trailing_zeros() as usize;
+        candidates &= candidates - 1;
+        let orbit = q[l.theta() + slot] + contacts.lean(slot);
+        let angles = Angles { orbit, spin: q[l.phi() + slot], ring: ring_angle };
+        let delta = contacts.pressed_or_deformed()[slot];
+        let Some(met) = model.defects_of(slot, side).effective(&angles, delta) else {
+            continue;
+        };
+        let [force, stiffness] = healthy.force_and_tangent(met.delta);
+        let elastic = force * met.by_delta;
+        let tangent = stiffness * met.by_delta * met.by_delta + force * met.by_delta2;
+        contacts.elastic[slot] = elastic;
+        contacts.damper[slot] = healthy.law.damping.of(tangent, delta.max(met.delta));
+        contacts.push[slot] = force * (met.by_raceway + met.by_element);
+        contacts.push_element[slot] = force * met.by_element;
+        contacts.on_damage[slot] = true;
+        contacts.damaged_length[slot] = healthy.lost_length(delta, elastic);
     }
 }
 
@@ -282,6 +356,7 @@ pub(super) fn closed<L: Lanes, const TILT: bool>(model: &Model, side: Side, ws: 
     let elastic = column::<L>(&contacts.elastic, 0, count);
     // tanh of the slip, and then the friction.
     let friction = &mut L::groups_mut(&mut contacts.friction)[..count];
+    let dampers = column::<L>(&contacts.damper, 0, count);
     let force = &mut L::groups_mut(&mut contacts.force)[..count];
     // A copy: what is written to does not lie in it, so its numbers stay in registers.
     let law = *model.contact(side);
@@ -298,7 +373,11 @@ pub(super) fn closed<L: Lanes, const TILT: bool>(model: &Model, side: Side, ws: 
                 normal = L::new(force[group]);
                 sums.contact += L::new(L::groups(&contacts.loss)[group]);
             } else {
-                normal = law.with_damping(elastic, rate);
+                let damper = match law.damping {
+                    Damping::Constant(c) => L::splat(c),
+                    Damping::Time { .. } => L::new(dampers[group]),
+                };
+                normal = damped(elastic, damper, rate);
                 sums.contact = (normal - elastic).times_plus(rate, sums.contact);
             }
             tangential = mu * normal * L::new(friction[group]);
@@ -311,7 +390,7 @@ pub(super) fn closed<L: Lanes, const TILT: bool>(model: &Model, side: Side, ws: 
     L::groups_mut(&mut ws.max_elastic[side as usize])[0] = sums.max_elastic.array();
     if let Some(films) = &model.film {
         let film = &films[side as usize];
-        sums.contact += squeezed::<L>(film, law.damping, &ws.candidates[side as usize], contacts);
+        sums.contact += squeezed::<L>(film, law.damping.constant(), &ws.candidates[side as usize], contacts);
     }
     sums
 }

@@ -148,7 +148,8 @@ pub(super) fn forces<L: Lanes, const TILT: bool>(
     let mut on_inner = [L::zero(); 2];
     let mut on_outer = [L::zero(); 2];
     let mut turning = if TILT { Some(Turning::<L>::new(model, q)) } else { None };
-    let (mut drive, mut drags, mut lever) = (L::zero(), L::zero(), pockets.lever);
+    let (mut drive, mut held) = (L::zero(), L::zero());
+    let (mut drags, mut lever) = (L::zero(), pockets.lever);
     for group in 0..count {
         let on = columns.group(group);
         let ([a_r, a_theta, a_phi], tangential, drag) = constants.motion(&on, L::new(mask[group]));
@@ -165,6 +166,7 @@ pub(super) fn forces<L: Lanes, const TILT: bool>(
         on_outer[1] = q_out.times_plus(sin, f_out.minus_times(cos, on_outer[1]));
 
         drive += f_in;
+        held += f_out;
         drags = drag.times_plus(dtheta, drags);
         let (mut xi_t, mut xo_t) = (along_t(axes, &xi), along_t(axes, &xo));
         if let Some(turning) = &mut turning {
@@ -180,7 +182,9 @@ pub(super) fn forces<L: Lanes, const TILT: bool>(
         let levers = q_out.minus_times(xo_t, r.times_plus(tangential, q_in * xi_t));
         lever = dtheta.times_plus(levers, lever);
     }
+    let torques = [drive.sum() * model.geometry.inner_radius, held.sum() * model.geometry.outer_radius];
     Sums {
+        torques,
         on_inner: on_inner.map(L::sum),
         on_outer: on_outer.map(L::sum),
         moments: turning.map_or([[0.0; 2]; 2], |turning| turning.moments.map(|m| m.map(L::sum))),

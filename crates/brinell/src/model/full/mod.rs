@@ -5,13 +5,16 @@
 
 mod bodies;
 mod contacts;
+pub(super) mod exact;
 mod forces;
 mod pockets;
 mod rollers;
 mod sums;
 mod view;
+mod waves;
 
 use super::{Kernel, Model, Workspace};
+use crate::defect::Side;
 #[cfg(target_arch = "x86_64")]
 use crate::lanes::{Avx2, Avx512};
 use crate::lanes::{Lanes, Portable};
@@ -59,10 +62,12 @@ pub(super) fn equations<L: Lanes>(model: &Model, t: f64, y: &[f64], a: &mut [f64
     if model.rules.is_conservative() && !model.defects.is_empty() {
         bodies::edge_reaction(model, q, a, turn, ws, &mut sums.power);
     }
-    bodies::cages(model, v, a, &ws.guidance, &mut sums);
+    let ring_speed = if model.land_on() == Side::Inner { speed } else { 0.0 };
+    bodies::cages(model, (q, v), (a, ring_speed), &ws.guidance, &mut sums);
     bodies::rings(model, t, (q, v), a, &mut sums);
     if let Some(tilt) = &model.tilt {
         bodies::tilting_rings(model, tilt, (t, speed), (q, v), a, &mut sums);
     }
+    ws.torques = sums.torques;
     ws.power = sums.power;
 }

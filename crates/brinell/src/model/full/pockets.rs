@@ -1,23 +1,22 @@
 //! Pockets, section 5.
 
 use super::view::{Plane, along_t, column, columns, polar};
-use crate::cage::traction;
 use crate::lanes::Lanes;
 use crate::model::{Model, Workspace};
 
 /// x, y and theta of each lane's cage, and their rates.
 #[derive(Clone, Copy)]
-struct Cages<L> {
-    x: Plane<L>,
-    theta: L,
-    v: Plane<L>,
-    dtheta: L,
+pub(super) struct Cages<L> {
+    pub(super) x: Plane<L>,
+    pub(super) theta: L,
+    pub(super) v: Plane<L>,
+    pub(super) dtheta: L,
 }
 
 impl<L: Lanes> Cages<L> {
     /// For the groups at the place of `phase` in the pattern of rows.
     #[inline(always)]
-    fn spread(model: &Model, q: &[f64], v: &[f64], phase: usize) -> Self {
+    pub(super) fn spread(model: &Model, q: &[f64], v: &[f64], phase: usize) -> Self {
         let l = &model.layout;
         let mut all = [L::zero(); 6];
         for (row, lanes) in model.row_lanes.iter().enumerate() {
@@ -59,6 +58,7 @@ pub(super) fn pockets<L: Lanes>(model: &Model, q: &[f64], v: &[f64], a: &mut [f6
     let pitch = L::splat(g.pitch_radius);
     let radius = L::splat(g.roller_radius);
     let one = L::splat(1.0);
+    let per_slip = L::splat(1.0 / model.friction.slip_velocity);
     let pocket = model.pocket;
     let mut sums = Pockets { pocket: L::zero(), friction: L::zero(), lever: L::zero() };
     let period = l.row_period() / L::COUNT;
@@ -71,9 +71,9 @@ pub(super) fn pockets<L: Lanes>(model: &Model, q: &[f64], v: &[f64], a: &mut [f6
             let xc_t = along_t(axes, &cage.x);
             let gone = cage.theta + L::new(pocket_angle[group]) - L::new(theta[group]);
             let s = pitch.times_plus(gone, xc_t);
-            let depth = (s.abs() - L::new(pocket_gap[group])).positive_part();
+            let play = L::new(pocket_gap[group]);
             let (mut normal, mut friction) = (L::zero(), L::zero());
-            if depth.any_positive() {
+            if pocket.wall.is_some() || (s.abs() - play).any_positive() {
                 let (sin, cos) = axes;
                 let (dr, dtheta, dphi) = (L::new(v_r[group]), L::new(v_theta[group]), L::new(v_phi[group]));
                 let (xc_r, _) = polar(axes, &cage.x);
@@ -81,12 +81,12 @@ pub(super) fn pockets<L: Lanes>(model: &Model, q: &[f64], v: &[f64], a: &mut [f6
                 let ds = dtheta.minus_times(xc_r, pitch.times_plus(cage.dtheta - dtheta, vc_t));
                 // Both sides at once: what closes on the side of s, with its sign.
                 let closing = ds * one.with_sign(s);
-                let (size, elastic) = pocket.press(depth, closing);
+                let (size, elastic) = pocket.wall_force(s.abs(), play, closing);
                 normal = size.with_sign(s);
                 // sigma = -sign(F_c), 0 where the pocket is open.
                 let sigma = size.if_above(L::zero(), one.with_sign(-normal), L::zero());
                 let u = dr - sigma * radius * (dphi - cage.dtheta) - vc_r;
-                friction = -(traction(u) * size).with_sign_of(u);
+                friction = -pocket.friction(size, u, per_slip);
                 sums.pocket = (size - elastic).times_plus(closing, sums.pocket);
                 sums.friction -= friction * u;
                 sums.lever = (dtheta * normal).minus_times(xc_r, sums.lever);
@@ -98,13 +98,19 @@ pub(super) fn pockets<L: Lanes>(model: &Model, q: &[f64], v: &[f64], a: &mut [f6
             pocket_friction[group] = friction.array();
             group += period;
         }
-        for (row, lanes) in model.row_lanes.iter().enumerate() {
-            let lanes = L::new(L::groups(lanes)[phase]);
-            let at = l.cage(row);
-            for (k, sum) in [to_x, to_y, to_spin].into_iter().enumerate() {
-                a[at + k] += (sum * lanes).sum();
-            }
-        }
+        cage_sums(model, phase, [to_x, to_y, to_spin], a);
     }
     sums
+}
+
+/// Adds what the groups at the place of `phase` do to the cages, into `a`.
+#[inline(always)]
+pub(super) fn cage_sums<L: Lanes>(model: &Model, phase: usize, sums: [L; 3], a: &mut [f64]) {
+    for (row, lanes) in model.row_lanes.iter().enumerate() {
+        let lanes = L::new(L::groups(lanes)[phase]);
+        let at = model.layout.cage(row);
+        for (k, sum) in sums.into_iter().enumerate() {
+            a[at + k] += (sum * lanes).sum();
+        }
+    }
 }

@@ -3,7 +3,8 @@
 
 use super::sums::{Sums, Turn};
 use super::view::column;
-use super::{contacts, forces};
+use super::{contacts, exact, forces, waves};
+use crate::defect::SIDES;
 use crate::lanes::Lanes;
 use crate::model::{Model, Workspace};
 
@@ -22,15 +23,25 @@ pub(super) fn rollers<L: Lanes, const TILT: bool>(
     // A pass for each function that is a long chain of operations which wait for one another: with little in between,
     // the processor works on several groups at once.
     directions::<L::Pair>(model, q, ws);
-    contacts::motion::<L, TILT>(model, (q, v), turn.speed, ws);
+    if model.exact {
+        exact::motion::<L, TILT>(model, (q, v), turn, ws);
+    } else {
+        contacts::motion::<L, TILT>(model, (q, v), turn.speed, ws);
+    }
     contacts::candidates::<L::Pair>(model, ws);
+    waves::waviness(model, (q, turn.angle), ws);
     if let Some(slices) = &model.slices {
         contacts::slices::<L::Pair, TILT>(model, slices, (q, turn.angle), ws);
     } else {
         contacts::functions::<L::Pair>(model, ws);
-        contacts::damage::<L::Pair>(model, q, turn.angle, ws);
     }
-    forces::forces::<L, TILT>(model, (q, v), a, turn.speed, ws)
+    contacts::damage::<L::Pair>(model, q, turn.angle, ws);
+    if model.exact {
+        SIDES.into_iter().for_each(|side| waves::push(model, side, &mut ws.contacts[side as usize]));
+        exact::forces::<L, TILT>(model, (q, v), a, turn, ws)
+    } else {
+        forces::forces::<L, TILT>(model, (q, v), a, turn.speed, ws)
+    }
 }
 
 /// Sine and cosine of every orbit angle.

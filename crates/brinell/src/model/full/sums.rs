@@ -17,5 +17,7 @@ pub(super) struct Sums {
     pub(super) on_outer: [f64; 2],
     /// Moments on the inner and on the outer ring that tilt them, N m.
     pub(super) moments: [[f64; 2]; 2],
+    /// Torque of the drive and of the housing that holds the outer ring, N m.
+    pub(super) torques: [f64; 2],
     pub(super) power: Power,
 }
