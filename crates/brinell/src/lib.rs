@@ -136,6 +136,8 @@ pub mod elementary;
 mod error;
 mod friction;
 #[doc(hidden)]
+pub mod half_space;
+#[doc(hidden)]
 pub mod kernel;
 pub mod lamina;
 #[doc(hidden)]
