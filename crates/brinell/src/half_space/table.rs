@@ -15,6 +15,8 @@ pub const MOST_BYTES: usize = 2 << 20;
 pub const FEWEST_NODES: usize = 4;
 /// Coefficients of a node: value, slope and curvature in delta, each with its second derivative along s.
 const PER_NODE: usize = 6;
+/// Pairs of s and delta at the most.
+pub(super) const MOST_NODES: usize = MOST_BYTES / (8 * PER_NODE);
 
 /// delta_eff at one place, with its derivatives.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -60,7 +62,7 @@ pub enum TableError {
     #[error("a number of the table is not finite")]
     NotFinite,
     /// More than [`MOST_BYTES`].
-    #[error("{nodes} nodes; a table takes at most {most}: leave out s far from edges, or every other delta", most = MOST_BYTES / (8 * PER_NODE))]
+    #[error("{nodes} nodes; a table takes at most {most}: leave out s far from edges, or every other delta", most = MOST_NODES)]
     TooLarge {
         /// Pairs of s and delta.
         nodes: usize,
@@ -206,7 +208,7 @@ impl Table {
         }
         let axes = [Axis::new(s, "s")?, Axis::new(delta, "delta")?];
         let nodes = s.len().saturating_mul(delta.len());
-        if nodes > MOST_BYTES / (8 * PER_NODE) {
+        if nodes > MOST_NODES {
             return Err(TableError::TooLarge { nodes });
         }
         if values.len() != nodes {
