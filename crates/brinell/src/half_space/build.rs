@@ -68,8 +68,8 @@ pub struct Built {
 impl Accuracy {
     pub(super) fn fineness(self) -> Fineness {
         match self {
-            Self::Standard => Fineness { along: 8.0, rows: 40, tolerance: 1e-4, between: 1e-3 },
-            Self::Coarse => Fineness { along: 5.0, rows: 24, tolerance: 3e-4, between: 4e-3 },
+            Self::Standard => Fineness { along: 8.0, rows: 40, tolerance: 1e-4, between: [8e-3, 3e-2] },
+            Self::Coarse => Fineness { along: 5.0, rows: 24, tolerance: 3e-4, between: [2e-2, 6e-2] },
         }
     }
 
@@ -118,6 +118,21 @@ pub fn table(
         return Err(BuildError::NotPositive { what, value });
     }
     let delta = deformations(range, raster.raised(), accuracy);
+    table_at(geometry, raster, &delta, accuracy, threads, stop)
+}
+
+/// As [`table()`], with nodes at the given rising delta (m): at the first nothing touches.
+///
+/// # Errors
+/// Where the solutions make no table, or `stop` was set.
+pub fn table_at(
+    geometry: &Geometry,
+    raster: &Raster,
+    delta: &[f64],
+    accuracy: Accuracy,
+    threads: NonZeroUsize,
+    stop: &AtomicBool,
+) -> Result<Built, BuildError> {
     let fineness = accuracy.fineness();
     let levels = parallel::map(delta.len() - 1, threads, |k| {
         // The deepest first: they take longest.
@@ -127,7 +142,7 @@ pub fn table(
         return Err(BuildError::Stopped);
     }
     let [solutions, convolutions] = [0, 1].map(|k| levels.iter().map(|level| level.work[k]).sum());
-    Ok(Built { table: join(&delta, levels)?, solutions, convolutions })
+    Ok(Built { table: join(delta, levels)?, solutions, convolutions })
 }
 
 /// A level as splines along s.

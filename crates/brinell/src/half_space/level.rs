@@ -20,8 +20,9 @@ pub(super) struct Fineness {
     pub(super) rows: usize,
     /// Residual gaps over delta.
     pub(super) tolerance: f64,
-    /// Error of delta_eff over delta between steps of s that is let pass.
-    pub(super) between: f64,
+    /// What a cubic through four places may miss half-way between two, for these not to be halved again: of delta_eff over delta, and of its slope. What is
+    /// left after that halving is a sixteenth.
+    pub(super) between: [f64; 2],
 }
 
 /// delta_eff at one place, and its slope in delta.
@@ -90,7 +91,8 @@ impl Grid {
         let reach = raster.reach().s;
         let first = (reach[0] / dx).floor() as i64 - 1;
         let last = (reach[1] / dx).ceil() as i64 + 1;
-        let levelled = 0.5 * geometry.half_width(delta + raised) * dx / geometry.along;
+        let half_width = geometry.half_width(delta + raised);
+        let levelled = 0.5 * half_width * dx / geometry.along;
         let (mut kinds, mut columns): (Vec<Vec<Seen>>, Vec<usize>) = (vec![vec![Seen::default(); across]], Vec::new());
         let mut known: HashMap<Vec<[u64; 2]>, usize> = HashMap::new();
         let bits = |column: &[Seen]| -> Vec<[u64; 2]> {
@@ -99,8 +101,9 @@ impl Grid {
         known.insert(bits(&kinds[0]), 0);
         for k in first..last {
             let s = [k as f64 * dx, (k + 1) as f64 * dx];
-            let column: Vec<Seen> =
-                (0..across).map(|row| raster.seen(&Cell { s, z: [z(row), z(row + 1)], levelled })).collect();
+            let column: Vec<Seen> = (0..across)
+                .map(|row| raster.seen(&Cell { s, z: [z(row), z(row + 1)], levelled, half_width }))
+                .collect();
             let kind = *known.entry(bits(&column)).or_insert_with(|| {
                 kinds.push(column);
                 kinds.len() - 1
@@ -206,13 +209,13 @@ pub(super) fn solve(geometry: &Geometry, raster: &Raster, delta: f64, fineness: 
     let step = 2.0 * cell;
     let [first, last] =
         [(span[0] / step).floor() as i64 - half as i64 - 1, (span[1] / step).ceil() as i64 + half as i64 + 1];
-    let places = along([first, last], (delta + raised) * fineness.between, &mut at);
+    let places = along([first, last], [(delta + raised) * fineness.between[0], fineness.between[1]], &mut at);
     Level { delta, places, work }
 }
 
 /// Places from `first` on past `last`, in steps of 2^[`HALVINGS`] that are halved where a cubic through four neighbours misses what lies between
-/// by more than `error`.
-fn along([first, last]: [i64; 2], error: f64, at: &mut impl FnMut(i64) -> Place) -> Vec<Place> {
+/// by more than `errors`.
+fn along([first, last]: [i64; 2], errors: [f64; 2], at: &mut impl FnMut(i64) -> Place) -> Vec<Place> {
     let coarse = 1i64 << HALVINGS;
     // Multiples of the largest step, so that steps of all deformations nest, and healthy places at both ends.
     let [first, last] = [first.div_euclid(coarse) - 1, last.div_euclid(coarse) + 2];
@@ -231,8 +234,9 @@ fn along([first, last]: [i64; 2], error: f64, at: &mut impl FnMut(i64) -> Place)
             }
             let middle = places[k].0 + step / 2;
             let found = at(middle);
-            let guessed = guess(&places, k, middle);
-            let missed = (guessed - found.value).abs() > error || !found.touches;
+            let [value, slope] = guess(&places, k, middle);
+            let alike = places[k].1.touches == found.touches && places[k + 1].1.touches == found.touches;
+            let missed = (value - found.value).abs() > errors[0] || (slope - found.slope).abs() > errors[1] || !alike;
             finer.push((middle, found));
             next.extend([missed; 2]);
         }
@@ -245,19 +249,16 @@ fn along([first, last]: [i64; 2], error: f64, at: &mut impl FnMut(i64) -> Place)
     places.into_iter().map(|(_, place)| place).collect()
 }
 
-/// Cubic through the places around interval k.
-fn guess(places: &[(i64, Place)], k: usize, middle: i64) -> f64 {
+/// Value and slope by cubics through the places around interval k.
+fn guess(places: &[(i64, Place)], k: usize, middle: i64) -> [f64; 2] {
     let from = k.saturating_sub(1).min(places.len().saturating_sub(4));
     let around = &places[from..(from + 4).min(places.len())];
-    around
-        .iter()
-        .map(|(x, place)| {
-            let weight: f64 = around
-                .iter()
-                .filter(|(other, _)| other != x)
-                .map(|(other, _)| (middle - other) as f64 / (x - other) as f64)
-                .product();
-            weight * place.value
-        })
-        .sum()
+    let mut guessed = [0.0; 2];
+    for (x, place) in around {
+        let others = around.iter().filter(|(other, _)| other != x);
+        let weight: f64 = others.map(|(other, _)| (middle - other) as f64 / (x - other) as f64).product();
+        guessed[0] += weight * place.value;
+        guessed[1] += weight * place.slope;
+    }
+    guessed
 }
