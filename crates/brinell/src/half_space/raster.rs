@@ -18,6 +18,14 @@ const SPREAD: f64 = 0.25;
 /// Least share of a cell that is left: less carries nothing that counts.
 const LEAST_SHARE: f64 = 1e-3;
 
+/// Depths (m) and shares that differ by less are the same, so that columns that differ by round-off are solved once.
+const SAME_DEPTH: f64 = 1e-12;
+const SAME_SHARE: f64 = 1e-6;
+
+fn alike(x: f64, step: f64) -> f64 {
+    (x / step).round() * step
+}
+
 /// First and last s and z of damage, m.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Bounds {
@@ -221,11 +229,11 @@ impl Raster {
             lean[0] += weight * at(k / samples[1], 0, -0.5 * size[0]) / size[0];
             lean[1] += weight * at(k % samples[1], 1, -0.5 * size[1]) / size[1];
         }
-        let share = (left / depths.len() as f64).max(LEAST_SHARE);
+        let share = alike(left / depths.len() as f64, SAME_SHARE).max(LEAST_SHARE);
         let lean = lean.map(f64::abs);
         let steep = (lean[0] / size[0]).hypot(lean[1] / size[1]);
         let across = if steep > 0.0 { (lean[0] + lean[1]) / steep } else { size[0].min(size[1]) };
         let softness = SOFTNESS * across / (1.0 + SPREAD * across / cell.half_width) / size[0];
-        Seen { depth: sum / left, soft: softness * (1.0 - share) / share }
+        Seen { depth: alike(sum / left, SAME_DEPTH), soft: alike(softness, SAME_SHARE) * (1.0 - share) / share }
     }
 }
