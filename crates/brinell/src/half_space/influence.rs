@@ -113,6 +113,12 @@ impl Influence {
         self.cells
     }
 
+    /// What a cell does to itself.
+    pub(super) fn own(&self) -> f64 {
+        let (a, b) = (0.5, 0.5 * self.cells.aspect);
+        4.0 * corner(a, b)
+    }
+
     /// Room for [`Self::apply`].
     pub fn scratch(&self) -> Scratch {
         let waves = self.padded / 2 + 1;

@@ -146,6 +146,15 @@ impl<'a> Presser<'a> {
         Self { grid, contact: Contact::new(&grid.influence), gap: zeros(), soft: zeros() }
     }
 
+    /// The pressures of a grid whose cells are twice as large, as a start.
+    fn begin_with(&mut self, coarse: &Contact<'_>) {
+        let along = 2 * self.grid.half;
+        for (k, p) in self.contact.p.iter_mut().enumerate() {
+            // Half the pressure's unit, which is of a cell's length.
+            *p = 0.5 * coarse.p[k / along / 2 * (along / 2) + k % along / 2];
+        }
+    }
+
     /// delta_eff, its slope, and the convolutions that it took. 0 where nothing touches.
     fn press(&mut self, window: &[usize], delta: f64, tolerance: f64) -> ([f64; 2], usize) {
         self.grid.over(window, &mut self.gap, &mut self.soft);
@@ -191,12 +200,13 @@ pub(super) fn solve(geometry: &Geometry, raster: &Raster, delta: f64, fineness: 
         }
         let windows = [grids[0].window(k), window];
         let mut found = [[0.0; 2]; 2];
-        for ((found, presser), window) in found.iter_mut().zip(&mut pressers).zip(&windows) {
-            let convolutions;
-            (*found, convolutions) = presser.press(window, delta, fineness.tolerance);
-            work[0] += 1;
-            work[1] += convolutions;
-        }
+        let [coarse, fine] = &mut pressers;
+        let mut convolutions = [0; 2];
+        (found[0], convolutions[0]) = coarse.press(&windows[0], delta, fineness.tolerance);
+        fine.begin_with(&coarse.contact);
+        (found[1], convolutions[1]) = fine.press(&windows[1], delta, fineness.tolerance);
+        work[0] += 2;
+        work[1] += convolutions[1];
         let [coarse, fine] = found;
         let touches = fine[0] > least;
         let both = coarse[0] > least && touches;

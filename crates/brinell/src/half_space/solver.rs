@@ -6,8 +6,8 @@
 
 use super::influence::{Influence, Scratch};
 
-/// Rounds of the iteration: a bound that nothing met comes near.
-const MOST_ROUNDS: usize = 400;
+/// Convolutions of a solution at the most: a bound that nothing met comes near.
+const MOST_CONVOLUTIONS: usize = 1000;
 
 /// What presses where.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
@@ -83,71 +83,68 @@ impl<'a> Contact<'a> {
         }
     }
 
+    /// Conjugate gradients on the cells that are pressed, scaled by each cell's own compliance.
     fn iterate(&mut self, gap: &[f64], soft: &[f64], delta: f64, limit: f64) -> usize {
+        let own = self.influence.own();
         let (mut before, mut conjugate) = (1.0, false);
         self.direction.fill(0.0);
         self.find_residual(gap, soft, delta);
         let mut convolutions = 1;
-        for _ in 0..MOST_ROUNDS {
-            let (mut square, mut cells, mut worst) = (0.0, 0usize, 0.0_f64);
-            for ((p, r), g) in self.p.iter().zip(&self.residual).zip(gap) {
+        while convolutions < MOST_CONVOLUTIONS {
+            let (mut square, mut scaled, mut cells, mut worst) = (0.0, 0.0, 0usize, 0.0_f64);
+            for (((p, r), g), soft) in self.p.iter().zip(&self.residual).zip(gap).zip(soft) {
                 if *p > 0.0 {
                     square += r * r;
+                    scaled += r * r / (own + soft);
                     cells += 1;
-                } else if *r < 0.0 && *g < delta {
+                } else if *g < delta {
                     worst = worst.max(-r);
                 }
             }
             if square <= limit * limit * cells as f64 && worst <= limit {
                 break;
             }
-            let share = if conjugate { square / before } else { 0.0 };
-            before = square;
-            for ((d, p), r) in self.direction.iter_mut().zip(&self.p).zip(&self.residual) {
-                *d = if *p > 0.0 { r + share * *d } else { 0.0 };
+            let share = if conjugate { scaled / before } else { 0.0 };
+            before = scaled;
+            for (((d, p), r), soft) in self.direction.iter_mut().zip(&self.p).zip(&self.residual).zip(soft) {
+                *d = if *p > 0.0 { r / (own + soft) + share * *d } else { 0.0 };
             }
             self.influence.apply(&self.direction, &mut self.image, &mut self.room);
-            for ((q, d), soft) in self.image.iter_mut().zip(&self.direction).zip(soft) {
-                *q += soft * d;
-            }
             convolutions += 1;
             let (mut along, mut stiff) = (0.0, 0.0);
-            for ((d, q), r) in self.direction.iter().zip(&self.image).zip(&self.residual) {
-                if *d != 0.0 {
-                    along += r * d;
-                    stiff += q * d;
-                }
+            for (((d, q), r), soft) in self.direction.iter().zip(&mut self.image).zip(&self.residual).zip(soft) {
+                *q += soft * d;
+                along += r * d;
+                stiff += *q * d;
             }
             let step = if stiff > 0.0 { along / stiff } else { 0.0 };
-            let (mut projected, mut joined) = (false, false);
-            for k in 0..self.p.len() {
-                if self.p[k] > 0.0 {
-                    self.p[k] -= step * self.direction[k];
-                    if self.p[k] < 0.0 {
-                        self.p[k] = 0.0;
-                        projected = true;
-                    }
-                }
-            }
-            for (r, q) in self.residual.iter_mut().zip(&self.image) {
-                *r -= step * q;
-            }
-            if projected {
+            let changed = self.advance(gap, soft, delta, step);
+            if changed {
                 self.find_residual(gap, soft, delta);
                 convolutions += 1;
             }
-            for k in 0..self.p.len() {
-                if self.p[k] == 0.0 && self.residual[k] < 0.0 && gap[k] < delta {
-                    self.p[k] = -step * self.residual[k];
-                    joined = true;
-                }
-            }
-            if joined {
-                self.find_residual(gap, soft, delta);
-                convolutions += 1;
-            }
-            conjugate = !joined;
+            conjugate = !changed;
         }
         convolutions
+    }
+
+    /// One step, then no pressure below 0, and what overlaps without pressure is pressed. Whether cells came or went.
+    fn advance(&mut self, gap: &[f64], soft: &[f64], delta: f64, step: f64) -> bool {
+        let own = self.influence.own();
+        let mut changed = false;
+        for k in 0..self.p.len() {
+            self.residual[k] -= step * self.image[k];
+            if self.p[k] > 0.0 {
+                self.p[k] -= step * self.direction[k];
+                if self.p[k] <= 0.0 {
+                    self.p[k] = 0.0;
+                    changed = true;
+                }
+            } else if self.residual[k] < 0.0 && gap[k] < delta {
+                self.p[k] = -step * self.residual[k] / (own + soft[k]);
+                changed = true;
+            }
+        }
+        changed
     }
 }
