@@ -17,6 +17,7 @@ pub mod fit;
 mod grid;
 mod joint;
 mod map_slices;
+mod mean_depths;
 mod outline;
 mod parts;
 mod piecewise;
@@ -37,6 +38,7 @@ pub use depth_profile::{DepthProfile, Rules, relative_radius};
 pub use edge_gradient::{EdgeGradient, edge_gradient, edge_gradient_of_slices};
 pub use envelope::envelope;
 pub use grid::{Covered, Grid};
+pub use mean_depths::MeanDepths;
 pub use outline::{Fault, MOST_CROSSINGS, Outline, Tangle, check_crossings, faults};
 #[doc(hidden)]
 pub use parts::{neighbours, parts};

@@ -1,6 +1,10 @@
 //! The healthy gap under one contact: x along the rolling direction, z across from the row's middle, m.
 
 use super::raster::Raster;
+use crate::contact::ball::{Curvature, Ellipse};
+use crate::defect::{Side, relative_radius};
+use crate::scenario::{Bearing, Contact, Element, RollerProfile};
+use crate::slices;
 
 /// Bodies in contact.
 #[derive(Debug, Clone, PartialEq)]
@@ -39,7 +43,43 @@ const CELLS_OVER_DAMAGE: f64 = 4.0;
 /// Rows on one side at the most.
 const MOST_ROWS: usize = 64;
 
+/// Young's modulus (GPa) and Poisson's ratio of rolling bearing steel, where a scenario gives none.
+const STEEL: [f64; 2] = [206.0, 0.3];
+/// Steps of a roller's profile.
+const PROFILE_STEPS: usize = 512;
+/// z of a profile's ends over L/2: the logarithm has none at 1.
+const PROFILE_END: f64 = 1.0 - 1e-3;
+
 impl Geometry {
+    /// One contact of a bearing. `None` where a ball does not touch its groove in an ellipse, or lacks a conformity.
+    pub fn of_bearing(bearing: &Bearing, contact: &Contact, side: Side) -> Option<Self> {
+        let young = 1e9 * contact.youngs_modulus_gpa.unwrap_or(STEEL[0]);
+        let poisson = contact.poisson_ratio.unwrap_or(STEEL[1]);
+        let modulus = 0.5 * young / (1.0 - poisson * poisson);
+        if bearing.element == Element::Roller {
+            let (length, diameter) = (1e-3 * bearing.roller_length_mm, 1e-3 * bearing.roller_diameter_mm);
+            let drops = match &bearing.profile {
+                RollerProfile::Straight => Vec::new(),
+                profile => (0..=PROFILE_STEPS)
+                    .map(|k| {
+                        let z = (k as f64 / PROFILE_STEPS as f64 - 0.5) * length * PROFILE_END;
+                        slices::drop(profile, z, length, diameter)
+                    })
+                    .collect(),
+            };
+            let across = Across::Roller { length, drops };
+            return Some(Self { along: relative_radius(bearing, side), across, modulus });
+        }
+        let (conformity, raceway) = match side {
+            Side::Inner => (bearing.inner_groove_conformity?, bearing.inner_raceway_diameter_mm),
+            Side::Outer => (bearing.outer_groove_conformity?, -bearing.outer_raceway_diameter_mm),
+        };
+        let of = Curvature::new(1e-3 * bearing.roller_diameter_mm, 1e-3 * raceway, conformity);
+        let ellipse = Ellipse::new(of, 2.0 * modulus)?;
+        let across = Across::Groove { radius: of.across, kappa: ellipse.kappa, half_axis: ellipse.across };
+        Some(Self { along: of.along, across, modulus })
+    }
+
     /// Half the width of the healthy contact along the rolling direction, m: exact of a ball, an estimate of a roller.
     pub fn half_width(&self, delta: f64) -> f64 {
         match &self.across {

@@ -2,6 +2,7 @@
 //! energy that the damaged one stores, as a table over deformation and place.
 
 pub mod build;
+pub mod damage;
 mod exchange;
 pub mod geometry;
 mod healthy;
