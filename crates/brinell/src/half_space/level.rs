@@ -7,7 +7,7 @@ use super::geometry::Geometry;
 use super::healthy::Energies;
 use super::influence::{Cells, Influence};
 use super::raster::{Cell, Raster, Seen};
-use super::solver::Contact;
+use super::solver::{Contact, Pressed};
 use std::collections::HashMap;
 use std::sync::atomic::{AtomicBool, Ordering};
 
@@ -45,8 +45,8 @@ pub(super) struct Level {
 }
 
 /// One of the two grids.
-struct Grid {
-    influence: Influence,
+pub(super) struct Grid {
+    pub(super) influence: Influence,
     /// Cells to either side of the contact's middle.
     half: usize,
     /// Gap of the healthy contact.
@@ -65,12 +65,20 @@ const LEAST: f64 = 0.01;
 const HALVINGS: u32 = 4;
 
 /// The cell along s (m) at a deformation whose contact has this half-width: a power of two, so that steps of all deformations nest.
-fn cell_length(half_width: f64, fineness: &Fineness) -> f64 {
+pub(super) fn cell_length(half_width: f64, fineness: &Fineness) -> f64 {
     2f64.powi((half_width / fineness.along).log2().floor() as i32)
 }
 
 impl Grid {
-    fn new(geometry: &Geometry, raster: &Raster, delta: f64, cell: [f64; 2], half: usize, fine: &Fineness) -> Self {
+    /// Over all of the surface's damage; `half` cells to either side of the contact's middle.
+    pub(super) fn new(
+        geometry: &Geometry,
+        raster: &Raster,
+        delta: f64,
+        cell: [f64; 2],
+        half: usize,
+        fine: &Fineness,
+    ) -> Self {
         let [dx, dz] = cell;
         let raised = raster.raised();
         let mirrored = geometry.is_mirrored(raster);
@@ -114,7 +122,7 @@ impl Grid {
     }
 
     /// Columns under a contact whose middle lies before cell `middle`.
-    fn window(&self, middle: i64) -> Vec<usize> {
+    pub(super) fn window(&self, middle: i64) -> Vec<usize> {
         let half = self.half as i64;
         (middle - half..middle + half)
             .map(|k| usize::try_from(k - self.first).ok().and_then(|k| self.columns.get(k)).copied().unwrap_or(0))
@@ -133,15 +141,15 @@ impl Grid {
 }
 
 /// A contact with the room for its gaps.
-struct Presser<'a> {
+pub(super) struct Presser<'a> {
     grid: &'a Grid,
-    contact: Contact<'a>,
+    pub(super) contact: Contact<'a>,
     gap: Vec<f64>,
     soft: Vec<f64>,
 }
 
 impl<'a> Presser<'a> {
-    fn new(grid: &'a Grid) -> Self {
+    pub(super) fn new(grid: &'a Grid) -> Self {
         let zeros = || vec![0.0; grid.gap.len()];
         Self { grid, contact: Contact::new(&grid.influence), gap: zeros(), soft: zeros() }
     }
@@ -155,10 +163,15 @@ impl<'a> Presser<'a> {
         }
     }
 
+    /// Presses what a window sees.
+    pub(super) fn pressed(&mut self, window: &[usize], delta: f64, tolerance: f64) -> Pressed {
+        self.grid.over(window, &mut self.gap, &mut self.soft);
+        self.contact.press(&self.gap, &self.soft, delta, tolerance)
+    }
+
     /// delta_eff, its slope, and the convolutions that it took. 0 where nothing touches.
     fn press(&mut self, window: &[usize], delta: f64, tolerance: f64) -> ([f64; 2], usize) {
-        self.grid.over(window, &mut self.gap, &mut self.soft);
-        let pressed = self.contact.press(&self.gap, &self.soft, delta, tolerance);
+        let pressed = self.pressed(window, delta, tolerance);
         if pressed.energy <= 0.0 {
             return ([0.0; 2], pressed.convolutions);
         }
@@ -206,7 +219,7 @@ pub(super) fn solve(geometry: &Geometry, raster: &Raster, delta: f64, fineness: 
         fine.begin_with(&coarse.contact);
         (found[1], convolutions[1]) = fine.press(&windows[1], delta, fineness.tolerance);
         work[0] += 2;
-        work[1] += convolutions[1];
+        work[1] += convolutions[0] + convolutions[1];
         let [coarse, fine] = found;
         let touches = fine[0] > least;
         let both = coarse[0] > least && touches;

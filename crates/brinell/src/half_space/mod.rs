@@ -4,6 +4,7 @@
 pub mod build;
 pub mod damage;
 mod exchange;
+pub mod field;
 pub mod geometry;
 mod healthy;
 pub mod influence;
@@ -14,3 +15,6 @@ mod spline;
 pub mod table;
 
 pub use table::{Effective, Table, TableError};
+
+#[cfg(test)]
+mod tests;
