@@ -17,6 +17,7 @@ pub mod fit;
 mod grid;
 mod joint;
 mod map_slices;
+mod mean_depths;
 mod on_table;
 mod outline;
 mod parts;
@@ -38,6 +39,7 @@ pub use depth_profile::{DepthProfile, Rules, relative_radius};
 pub use edge_gradient::{EdgeGradient, edge_gradient, edge_gradient_of_slices};
 pub use envelope::envelope;
 pub use grid::{Covered, Grid};
+pub use mean_depths::MeanDepths;
 pub use on_table::Met;
 pub use outline::{Fault, MOST_CROSSINGS, Outline, Tangle, check_crossings, faults};
 #[doc(hidden)]

@@ -15,6 +15,8 @@ pub const MOST_BYTES: usize = 2 << 20;
 pub const FEWEST_NODES: usize = 4;
 /// Coefficients of a node: value, slope and curvature in delta, each with its second derivative along s.
 const PER_NODE: usize = 6;
+/// Pairs of s and delta at the most.
+pub(super) const MOST_NODES: usize = MOST_BYTES / (8 * PER_NODE);
 
 /// delta_eff at one place, with its derivatives.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -60,7 +62,7 @@ pub enum TableError {
     #[error("a number of the table is not finite")]
     NotFinite,
     /// More than [`MOST_BYTES`].
-    #[error("{nodes} nodes; a table takes at most {most}: leave out s far from edges, or every other delta", most = MOST_BYTES / (8 * PER_NODE))]
+    #[error("{nodes} nodes; a table takes at most {most}: leave out s far from edges, or every other delta", most = MOST_NODES)]
     TooLarge {
         /// Pairs of s and delta.
         nodes: usize,
@@ -96,13 +98,20 @@ pub enum TableError {
     },
 }
 
-/// Rising nodes, with the interval at a place found in constant time where they are evenly spaced.
+/// Rising nodes, with the interval at a place found in constant time.
 #[derive(Debug, Clone, PartialEq)]
 struct Axis {
     nodes: Vec<f64>,
-    /// Nodes a metre where all steps are alike, else 0.
+    /// 1/width of every interval.
+    inverse: Vec<f64>,
+    /// Bins a metre.
     density: f64,
+    /// The interval in which each of equally wide bins begins.
+    bins: Vec<u32>,
 }
+
+/// Bins for every interval.
+const BINS: usize = 4;
 
 impl Axis {
     fn new(nodes: &[f64], axis: &'static str) -> Result<Self, TableError> {
@@ -113,9 +122,21 @@ impl Axis {
             return Err(TableError::NotRising { axis, index: k + 2 });
         }
         let (first, last) = (nodes[0], nodes[nodes.len() - 1]);
-        let step = (last - first) / (nodes.len() - 1) as f64;
-        let even = nodes.windows(2).all(|w| ((w[1] - w[0]) / step - 1.0).abs() < 1e-6);
-        Ok(Self { nodes: nodes.to_vec(), density: if even { 1.0 / step } else { 0.0 } })
+        let count = BINS * (nodes.len() - 1);
+        let density = count as f64 / (last - first);
+        let most = nodes.len() - 2;
+        let mut bins = vec![0; count + 1];
+        let mut interval = 0;
+        for (k, bin) in bins.iter_mut().enumerate() {
+            // A hair before its beginning, so that round-off in finding the bin does not matter: the search goes forward alone.
+            let from = first + (k as f64 - 1e-6) / density;
+            while interval < most && nodes[interval + 1] <= from {
+                interval += 1;
+            }
+            *bin = interval as u32;
+        }
+        let inverse = nodes.windows(2).map(|w| 1.0 / (w[1] - w[0])).collect();
+        Ok(Self { nodes: nodes.to_vec(), inverse, density, bins })
     }
 
     fn first(&self) -> f64 {
@@ -129,19 +150,12 @@ impl Axis {
     /// Lower node of the interval at `place`, which lies within the nodes.
     #[inline]
     fn interval(&self, place: f64) -> usize {
-        let most = self.nodes.len() - 2;
-        if self.density > 0.0 {
-            let k = (((place - self.nodes[0]) * self.density) as usize).min(most);
-            // The nodes decide, not the product: at most one off.
-            return if place < self.nodes[k] {
-                k.saturating_sub(1)
-            } else if place >= self.nodes[k + 1] {
-                (k + 1).min(most)
-            } else {
-                k
-            };
+        let bin = ((place - self.nodes[0]) * self.density) as usize;
+        let mut k = self.bins[bin.min(self.bins.len() - 1)] as usize;
+        while k + 2 < self.nodes.len() && self.nodes[k + 1] <= place {
+            k += 1;
         }
-        self.nodes.partition_point(|node| *node <= place).clamp(1, most + 1) - 1
+        k
     }
 }
 
@@ -206,7 +220,7 @@ impl Table {
         }
         let axes = [Axis::new(s, "s")?, Axis::new(delta, "delta")?];
         let nodes = s.len().saturating_mul(delta.len());
-        if nodes > MOST_BYTES / (8 * PER_NODE) {
+        if nodes > MOST_NODES {
             return Err(TableError::TooLarge { nodes });
         }
         if values.len() != nodes {
@@ -256,7 +270,7 @@ impl Table {
         }
         let k = self.delta.interval(delta);
         let [low, high] = along(k);
-        let width = self.delta.nodes[k + 1] - self.delta.nodes[k];
+        let width = [self.delta.nodes[k + 1] - self.delta.nodes[k], self.delta.inverse[k]];
         let x = delta - self.delta.nodes[k];
         let [value, by_delta, by_delta2] = quintic(low.value, high.value, width, x);
         let [by_s, ..] = quintic(low.by_s, high.by_s, width, x);
@@ -268,7 +282,7 @@ impl Table {
     fn along(&self, s: f64) -> impl Fn(usize) -> [Along; 2] {
         let row = self.s.interval(s);
         let h = self.s.nodes[row + 1] - self.s.nodes[row];
-        let inverse = 1.0 / h;
+        let inverse = self.s.inverse[row];
         let b = (s - self.s.nodes[row]) * inverse;
         let a = 1.0 - b;
         // Weights of the cubic: values and second derivatives at both ends; then of its slope.
@@ -330,11 +344,10 @@ struct Along {
     by_s: [f64; 3],
 }
 
-/// Value and first two derivatives at `x` of the quintic over 0..`width` with value, slope and curvature given at both ends.
+/// Value and first two derivatives at `x` of the quintic over 0..`width` (and 1 over that) with value, slope and curvature given at both ends.
 #[inline]
-fn quintic(low: [f64; 3], high: [f64; 3], width: f64, x: f64) -> [f64; 3] {
+fn quintic(low: [f64; 3], high: [f64; 3], [width, inverse]: [f64; 2], x: f64) -> [f64; 3] {
     let [f, d, c] = low;
-    let inverse = 1.0 / width;
     // What is left at the far end above the parabola of the near one, in units of a step.
     let e0 = high[0] - (f + width * (d + 0.5 * width * c));
     let e1 = (high[1] - (d + width * c)) * width;

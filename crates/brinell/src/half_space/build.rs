@@ -1,0 +1,221 @@
+//! A table from geometry and damage: deformations, the solutions along s at each, and how they are joined (section 19).
+
+use super::geometry::Geometry;
+use super::level::{self, Fineness, Level, Place};
+use super::raster::Raster;
+use super::spline;
+use super::table::{FEWEST_NODES, Table, TableError};
+use brinell_signal::parallel;
+use std::num::NonZeroUsize;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+/// How exact a table is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Accuracy {
+    /// delta_eff within 0.5 % of delta at nodes, Q within 1 % of the healthy Q between them.
+    #[default]
+    Standard,
+    /// delta_eff within 1 % of delta at nodes, Q within 3 % of the healthy Q between them.
+    Coarse,
+}
+
+/// Deformations that a table covers.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Range {
+    /// Heaviest static deformation, m: nodes of delta begin at a part of it.
+    pub static_deflection: f64,
+    /// Largest delta, m: beyond, the table is straight.
+    pub largest: f64,
+}
+
+impl Range {
+    /// Up to four times the static deformation, at least 10 um.
+    pub fn of(static_deflection: f64) -> Self {
+        Self { static_deflection, largest: (4.0 * static_deflection).max(10e-6) }
+    }
+}
+
+/// Why there is no table.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum BuildError {
+    /// Nothing to build from.
+    #[error("{what} is {value:e} m; it must be finite and above 0")]
+    NotPositive {
+        /// What.
+        what: &'static str,
+        /// Its value, m.
+        value: f64,
+    },
+    /// The flag was set.
+    #[error("stopped before its end")]
+    Stopped,
+    /// The solutions make no table.
+    #[error(transparent)]
+    Table(#[from] TableError),
+}
+
+/// A table and what it took.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Built {
+    /// The table.
+    pub table: Table,
+    /// Contacts that were solved, on either grid.
+    pub solutions: usize,
+    /// Convolutions of all of them.
+    pub convolutions: usize,
+}
+
+impl Accuracy {
+    pub(super) fn fineness(self) -> Fineness {
+        match self {
+            Self::Standard => Fineness { along: 8.0, rows: 40, tolerance: 1e-4, between: [3e-3, 1e-2] },
+            Self::Coarse => Fineness { along: 5.0, rows: 24, tolerance: 3e-4, between: [1e-2, 4e-2] },
+        }
+    }
+
+    /// Ratio of deformations that follow each other.
+    fn ratio(self) -> f64 {
+        match self {
+            Self::Standard => 1.4,
+            Self::Coarse => 1.7,
+        }
+    }
+}
+
+/// Nodes of delta: without a rim 0, then equal ratios from a tenth of the static deformation on; under a rim of the height `raised`
+/// squares of equal steps from -H on, where contact begins.
+pub fn deformations(range: &Range, raised: f64, accuracy: Accuracy) -> Vec<f64> {
+    if raised > 0.0 {
+        let steps = if accuracy == Accuracy::Standard { 22 } else { 14 };
+        let square = |k: i32| (f64::from(k) / f64::from(steps)).powi(2);
+        return (0..=steps).map(|k| -raised + (range.largest + raised) * square(k)).collect();
+    }
+    let first = (0.1 * range.static_deflection).min(0.1 * range.largest);
+    let steps = ((range.largest / first).ln() / accuracy.ratio().ln()).ceil().max(3.0) as i32;
+    let node = |k: i32| range.largest * (first / range.largest).powf(f64::from(steps - k) / f64::from(steps));
+    std::iter::once(0.0).chain((0..=steps).map(node)).collect()
+}
+
+/// The table of a damaged surface under a contact. Threads change how long it takes, not one bit of it; once `stop` is set it ends soon.
+///
+/// # Errors
+/// Where lengths make no contact, or `stop` was set.
+pub fn table(
+    geometry: &Geometry,
+    raster: &Raster,
+    range: &Range,
+    accuracy: Accuracy,
+    threads: NonZeroUsize,
+    stop: &AtomicBool,
+) -> Result<Built, BuildError> {
+    let lengths = [
+        ("R_x", geometry.along),
+        ("half the contact's width across", geometry.half_across(1e-6)),
+        ("the static deformation", range.static_deflection),
+        ("the largest deformation", range.largest),
+    ];
+    if let Some((what, value)) = lengths.into_iter().find(|(_, x)| !(x.is_finite() && *x > 0.0)) {
+        return Err(BuildError::NotPositive { what, value });
+    }
+    let delta = deformations(range, raster.raised(), accuracy);
+    table_at(geometry, raster, &delta, accuracy, threads, stop)
+}
+
+/// As [`table()`], with nodes at the given rising delta (m): at the first nothing touches.
+///
+/// # Errors
+/// Where the solutions make no table, or `stop` was set.
+pub fn table_at(
+    geometry: &Geometry,
+    raster: &Raster,
+    delta: &[f64],
+    accuracy: Accuracy,
+    threads: NonZeroUsize,
+    stop: &AtomicBool,
+) -> Result<Built, BuildError> {
+    let fineness = accuracy.fineness();
+    let levels = parallel::map(delta.len() - 1, threads, |k| {
+        // The deepest first: they take longest.
+        level::solve(geometry, raster, delta[delta.len() - 1 - k], &fineness, stop)
+    });
+    if stop.load(Ordering::Relaxed) {
+        return Err(BuildError::Stopped);
+    }
+    let [solutions, convolutions] = [0, 1].map(|k| levels.iter().map(|level| level.work[k]).sum());
+    Ok(Built { table: join(delta, levels)?, solutions, convolutions })
+}
+
+/// A level as splines along s.
+struct Spline {
+    s: Vec<f64>,
+    /// Values and slopes, each with its second derivatives along s.
+    fields: [[Vec<f64>; 2]; 2],
+    delta: f64,
+}
+
+impl Spline {
+    fn new(delta: f64, places: &[Place]) -> Self {
+        let s: Vec<f64> = places.iter().map(|place| place.s).collect();
+        let field = |of: fn(&Place) -> f64| {
+            let y: Vec<f64> = places.iter().map(of).collect();
+            let second = spline::curvatures(&s, &y);
+            [y, second]
+        };
+        let fields = [field(|place| place.value), field(|place| place.slope)];
+        Self { s, fields, delta }
+    }
+
+    /// Value and slope at s; healthy beyond.
+    fn at(&self, s: f64) -> [f64; 2] {
+        if s < self.s[0] || s > self.s[self.s.len() - 1] {
+            return [self.delta, 1.0];
+        }
+        self.fields.each_ref().map(|[y, second]| spline::value(&self.s, y, second, s))
+    }
+}
+
+/// Joins the levels (the deepest first) to a table. Where nothing touches, delta_eff goes on straight in delta from the level above.
+fn join(delta: &[f64], levels: Vec<Level>) -> Result<Table, TableError> {
+    let mut s: Vec<f64> = levels.iter().flat_map(|level| level.places.iter().map(|place| place.s)).collect();
+    s.sort_by(f64::total_cmp);
+    s.dedup();
+    let s = thinned(s, delta.len());
+    let mut splines: Vec<Spline> = Vec::with_capacity(levels.len());
+    for level in levels {
+        let mut places = level.places;
+        if let Some(above) = splines.last() {
+            for place in places.iter_mut().filter(|place| !place.touches) {
+                let [value, slope] = above.at(place.s);
+                (place.value, place.slope) = (value - slope * (above.delta - level.delta), slope);
+            }
+        }
+        splines.push(Spline::new(level.delta, &places));
+    }
+    let n = delta.len();
+    let (mut values, mut slopes) = (vec![0.0; s.len() * n], vec![0.0; s.len() * n]);
+    let mut lowest = Vec::with_capacity(s.len());
+    for (row, s) in s.iter().enumerate() {
+        let (values, slopes) = (&mut values[row * n..(row + 1) * n], &mut slopes[row * n..(row + 1) * n]);
+        for (k, level) in splines.iter().enumerate() {
+            [values[n - 1 - k], slopes[n - 1 - k]] = level.at(*s);
+        }
+        let first = (1..n).find(|k| values[*k] > 0.0).unwrap_or(n - 1);
+        for k in 0..first {
+            values[k] = values[first] - slopes[first] * (delta[first] - delta[k]);
+            slopes[k] = slopes[first];
+        }
+        lowest.push(first);
+    }
+    Table::from_slopes((&s, delta), &values, &slopes, &lowest)
+}
+
+/// Without every other of the finest steps, as often as it takes for a table to be allowed.
+fn thinned(mut s: Vec<f64>, deformations: usize) -> Vec<f64> {
+    let most = super::table::MOST_NODES / deformations.max(1);
+    while s.len() > most.max(FEWEST_NODES) {
+        let finest = s.windows(2).map(|w| w[1] - w[0]).fold(f64::INFINITY, f64::min);
+        // Powers of two times whole numbers: the remainders are exact.
+        s.retain(|s| s % (2.0 * finest) == 0.0);
+    }
+    s
+}

@@ -1,0 +1,86 @@
+//! Defects that one contact can meet together, as one surface: the deepest at each point (section 19).
+
+use super::raster::{Bounds, Raster};
+use crate::defect::{Defect, MeanDepths, wrap};
+use crate::scenario::Surface;
+
+/// Damage of one surface that a table stands for.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Damage {
+    /// The surface; a roller counts from 0.
+    pub surface: Surface,
+    /// Row, from 0.
+    pub row: usize,
+    /// Angle psi of s = 0, rad: the first defect's.
+    pub center: f64,
+    /// R of the surface, m.
+    pub radius: f64,
+    /// Which of the defects it is made of.
+    pub members: Vec<usize>,
+    /// Its depths over s and z.
+    pub raster: Raster,
+}
+
+/// Length along s of a defect about its centre, m.
+fn span(defect: &Defect) -> [f64; 2] {
+    defect.shape.arc().into()
+}
+
+/// Gathers defects into what is met together: on one surface of one row, nearer to each other along s than `reach` (m) of either, the
+/// length over which a contact feels damage before its first edge. `edge` (m) rounds edges.
+pub fn gather(defects: &[Defect], reach: impl Fn(&Defect) -> f64, edge: f64) -> Vec<Damage> {
+    let mut group: Vec<usize> = (0..defects.len()).collect();
+    let offset = |of: &Defect, from: &Defect| wrap(of.center - from.center) * from.radius;
+    for a in 0..defects.len() {
+        for b in 0..a {
+            let (one, other) = (&defects[a], &defects[b]);
+            if one.surface != other.surface || one.row != other.row {
+                continue;
+            }
+            let (apart, near) = (offset(one, other), reach(one) + reach(other));
+            let ([first, last], [from, to]) = (span(one).map(|s| s + apart), span(other));
+            if first < to + near && from < last + near {
+                let (keep, join) = (group[b], group[a]);
+                group.iter_mut().filter(|g| **g == join).for_each(|g| *g = keep);
+            }
+        }
+    }
+    let mut all: Vec<Damage> = Vec::new();
+    for (k, own) in group.iter().enumerate() {
+        // Each group at its first member.
+        if group.iter().position(|g| g == own) != Some(k) {
+            continue;
+        }
+        let members: Vec<usize> = (k..defects.len()).filter(|m| group[*m] == *own).collect();
+        let first = &defects[k];
+        let shifted: Vec<(f64, MeanDepths<'_>)> =
+            members.iter().map(|m| (offset(&defects[*m], first), MeanDepths::new(&defects[*m]))).collect();
+        let (surface, row, center, radius) = (first.surface, first.row, first.center, first.radius);
+        all.push(Damage { surface, row, center, radius, members, raster: raster(&shifted, edge) });
+    }
+    all
+}
+
+/// Depths of defects whose centres lie at these s (m).
+fn raster(defects: &[(f64, MeanDepths<'_>)], edge: f64) -> Raster {
+    let mut bounds: Option<Bounds> = None;
+    let join = |a: [f64; 2], b: [f64; 2]| [a[0].min(b[0]), a[1].max(b[1])];
+    for (at, defect) in defects {
+        let [s, z] = defect.bounds();
+        let s = s.map(|s| s + at);
+        bounds = Some(bounds.map_or(Bounds { s, z }, |all| Bounds { s: join(all.s, s), z: join(all.z, z) }));
+    }
+    let bounds = bounds.unwrap_or(Bounds { s: [0.0; 2], z: [0.0; 2] });
+    let mut own = Vec::new();
+    Raster::new(bounds, edge, |[from, to], column| {
+        let cells = (bounds.z[0], (bounds.z[1] - bounds.z[0]) / column.len() as f64);
+        for (at, defect) in defects {
+            own.clear();
+            own.resize(column.len(), 0.0);
+            defect.add([from - at, to - at], cells, &mut own);
+            for (all, own) in column.iter_mut().zip(&own) {
+                *all = if *all == 0.0 || *own == 0.0 { *all + own } else { all.max(*own) };
+            }
+        }
+    })
+}

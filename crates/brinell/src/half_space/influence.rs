@@ -1,0 +1,231 @@
+//! Displacements of an elastic half-space under uniformly loaded rectangles: Love's coefficients on a grid.
+//!
+//! x along the rolling direction, z across. Fourier transforms along x, where the window is short and pressures are summed by convolution;
+//! direct sums along z. Lengths in cells of x, pressures as displacements: u = (dx / (pi E*)) A p with A from here.
+
+use realfft::num_complex::Complex;
+use realfft::{ComplexToReal, RealFftPlanner, RealToComplex};
+use std::sync::Arc;
+
+/// Cells of a window: `along` in x by `across` in z; pressures row by row of z, x within a row.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Cells {
+    /// Cells along x.
+    pub along: usize,
+    /// Rows across.
+    pub across: usize,
+    /// Width of a cell across over its length along.
+    pub aspect: f64,
+    /// Whether the rows are those of z > 0, from z = 0 on, and the other side is alike.
+    pub mirrored: bool,
+}
+
+/// The convolution with Love's coefficients.
+pub struct Influence {
+    cells: Cells,
+    /// Values along x with the zeros that keep both ends apart.
+    padded: usize,
+    /// Transforms along x of the coefficients, wave by wave: rows apart from -(n - 1) up to n - 1, or to 2n - 1 where mirrored.
+    waves: Vec<f64>,
+    /// Rows apart that each wave has.
+    apart: usize,
+    forward: Arc<dyn RealToComplex<f64>>,
+    inverse: Arc<dyn ComplexToReal<f64>>,
+}
+
+/// What a convolution needs; of one [`Influence`].
+pub struct Scratch {
+    line: Vec<f64>,
+    spectrum: Vec<Complex<f64>>,
+    scratch: Vec<Complex<f64>>,
+    /// Spectra of rows, wave by wave: real parts, then imaginary ones.
+    from: Vec<f64>,
+    to: Vec<f64>,
+}
+
+impl std::fmt::Debug for Influence {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("Influence").field("cells", &self.cells).field("padded", &self.padded).finish_non_exhaustive()
+    }
+}
+
+/// Integral of 1/r over the rectangle from the origin to (x, z), signed (Love 1929; Johnson, Contact Mechanics, 3.25).
+fn corner(x: f64, z: f64) -> f64 {
+    x * (z / x.abs()).asinh() + z * (x / z.abs()).asinh()
+}
+
+/// The next length from `n` on that transforms fast: even, without factors above 5.
+fn fast_length(n: usize) -> usize {
+    let smooth = |mut n: usize| {
+        for p in [2, 3, 5] {
+            while n.is_multiple_of(p) {
+                n /= p;
+            }
+        }
+        n == 1
+    };
+    (n.max(4)..).find(|n| n.is_multiple_of(2) && smooth(*n)).unwrap_or(n)
+}
+
+impl Influence {
+    /// For a window.
+    pub fn new(cells: Cells) -> Self {
+        let Cells { along, across, aspect, mirrored } = cells;
+        let padded = fast_length(2 * along - 1);
+        let mut planner = RealFftPlanner::new();
+        let (forward, inverse) = (planner.plan_fft_forward(padded), planner.plan_fft_inverse(padded));
+        let farthest = if mirrored { 2 * across } else { across };
+        let apart = across - 1 + farthest;
+        let count = padded / 2 + 1;
+        let mut waves = vec![0.0; count * apart];
+        // Corners lie between cells: half a cell off their middles.
+        let corners: Vec<Vec<f64>> = (0..=farthest)
+            .map(|row| (0..=along).map(|k| corner(k as f64 - 0.5, (row as f64 - 0.5) * aspect)).collect())
+            .collect();
+        let (mut line, mut spectrum) = (forward.make_input_vec(), forward.make_output_vec());
+        let scale = 1.0 / padded as f64;
+        for row in 0..farthest {
+            line.fill(0.0);
+            for k in 0..along {
+                let value = corners[row + 1][k + 1] - corners[row + 1][k] - corners[row][k + 1] + corners[row][k];
+                line[k] = scale * value;
+                if k > 0 {
+                    line[padded - k] = scale * value;
+                }
+            }
+            // The lengths are the plan's own.
+            let done = forward.process(&mut line, &mut spectrum);
+            debug_assert!(done.is_ok());
+            for (wave, value) in spectrum.iter().enumerate() {
+                // Even in x: the transform is real.
+                let at = &mut waves[wave * apart..(wave + 1) * apart];
+                at[across - 1 + row] = value.re;
+                if row > 0 && row < across {
+                    at[across - 1 - row] = value.re;
+                }
+            }
+        }
+        Self { cells, padded, waves, apart, forward, inverse }
+    }
+
+    /// The window.
+    pub fn cells(&self) -> Cells {
+        self.cells
+    }
+
+    /// What a cell does to itself.
+    pub(super) fn own(&self) -> f64 {
+        let (a, b) = (0.5, 0.5 * self.cells.aspect);
+        4.0 * corner(a, b)
+    }
+
+    /// Room for [`Self::apply`].
+    pub fn scratch(&self) -> Scratch {
+        let waves = self.padded / 2 + 1;
+        let scratch = self.forward.get_scratch_len().max(self.inverse.get_scratch_len());
+        Scratch {
+            line: self.forward.make_input_vec(),
+            spectrum: self.forward.make_output_vec(),
+            scratch: vec![Complex::default(); scratch],
+            from: vec![0.0; 2 * waves * self.cells.across],
+            to: vec![0.0; 2 * waves * self.cells.across],
+        }
+    }
+
+    /// `to` = A `p`.
+    pub fn apply(&self, p: &[f64], to: &mut [f64], room: &mut Scratch) {
+        let Cells { along, across, mirrored, .. } = self.cells;
+        let waves = self.padded / 2 + 1;
+        let mut loaded = Vec::with_capacity(across);
+        for (row, line) in p.chunks_exact(along).enumerate() {
+            if line.iter().all(|p| *p == 0.0) {
+                continue;
+            }
+            loaded.push(row);
+            room.line[..along].copy_from_slice(line);
+            room.line[along..].fill(0.0);
+            let done = self.forward.process_with_scratch(&mut room.line, &mut room.spectrum, &mut room.scratch);
+            debug_assert!(done.is_ok());
+            for (wave, value) in room.spectrum.iter().enumerate() {
+                room.from[2 * wave * across + row] = value.re;
+                room.from[(2 * wave + 1) * across + row] = value.im;
+            }
+        }
+        room.to.fill(0.0);
+        for wave in 0..waves {
+            let coefficients = &self.waves[wave * self.apart..(wave + 1) * self.apart];
+            let span = 2 * wave * across..2 * (wave + 1) * across;
+            let (real, imaginary) = room.to[span.clone()].split_at_mut(across);
+            let (from_real, from_imaginary) = room.from[span].split_at(across);
+            for &row in &loaded {
+                let near = &coefficients[across - 1 - row..][..across];
+                let (re, im) = (from_real[row], from_imaginary[row]);
+                if mirrored {
+                    let far = &coefficients[across + row..][..across];
+                    for k in 0..across {
+                        let a = near[k] + far[k];
+                        real[k] += a * re;
+                        imaginary[k] += a * im;
+                    }
+                } else {
+                    for k in 0..across {
+                        real[k] += near[k] * re;
+                        imaginary[k] += near[k] * im;
+                    }
+                }
+            }
+        }
+        for (row, line) in to.chunks_exact_mut(along).enumerate() {
+            for (wave, value) in room.spectrum.iter_mut().enumerate() {
+                *value = Complex::new(room.to[2 * wave * across + row], room.to[(2 * wave + 1) * across + row]);
+            }
+            // What round-off leaves there, which the transform refuses.
+            room.spectrum[0].im = 0.0;
+            room.spectrum[waves - 1].im = 0.0;
+            let done = self.inverse.process_with_scratch(&mut room.spectrum, &mut room.line, &mut room.scratch);
+            debug_assert!(done.is_ok());
+            line.copy_from_slice(&room.line[..along]);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Love's coefficient of a cell (1 by `aspect`) at a distance.
+    fn love(x: f64, z: f64, aspect: f64) -> f64 {
+        let (a, b) = (0.5, 0.5 * aspect);
+        corner(x + a, z + b) - corner(x - a, z + b) - corner(x + a, z - b) + corner(x - a, z - b)
+    }
+
+    #[test]
+    fn analytic_far_away_a_cell_is_a_point_load_and_at_its_middle_as_in_books() {
+        assert!((love(30.0, 40.0, 2.0) - 2.0 / 50.0).abs() < 1e-5);
+        // A square of side a: 4 a ln(1 + sqrt 2) at its middle.
+        assert!((love(0.0, 0.0, 1.0) - 4.0 * (1.0 + 2f64.sqrt()).ln()).abs() < 1e-12);
+    }
+
+    #[test]
+    fn xval_convolution_is_the_sum_over_cells() {
+        for mirrored in [false, true] {
+            let cells = Cells { along: 7, across: 5, aspect: 1.7, mirrored };
+            let influence = Influence::new(cells);
+            let p: Vec<f64> =
+                (0..35).map(|k| ((k * k) % 11) as f64 * f64::from(u8::from(!(10..20).contains(&k)))).collect();
+            let mut u = vec![0.0; 35];
+            influence.apply(&p, &mut u, &mut influence.scratch());
+            for (k, u) in u.iter().enumerate() {
+                let sum: f64 = (0..35)
+                    .map(|m| {
+                        let x = (m % 7) as f64 - (k % 7) as f64;
+                        let (to, from) = ((k / 7) as f64, (m / 7) as f64);
+                        let other = if mirrored { love(x, 1.7 * (to + from + 1.0), 1.7) } else { 0.0 };
+                        p[m] * (love(x, 1.7 * (to - from), 1.7) + other)
+                    })
+                    .sum();
+                assert!((u - sum).abs() < 1e-11 * sum.abs().max(1.0), "{k}: {u} {sum}");
+            }
+        }
+    }
+}

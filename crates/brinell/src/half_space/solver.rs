@@ -1,0 +1,150 @@
+//! Contact of an elastic half-space with a gap: pressures on a window of cells by conjugate gradients with projection.
+//!
+//! Polonsky and Keer (1999), with the approach given instead of the load. Pressures p >= 0 with u = A p, u + g >= delta and p (u + g - delta) = 0 make
+//! the sum of p (delta - g) - p u/2 largest: its value there is the stored energy, in which errors of p count squared, and its derivative in
+//! delta is the sum of the pressures. Lengths in m. Pressures in units of pi E*/dx, so that u = A p.
+
+use super::influence::{Influence, Scratch};
+
+/// Convolutions of a solution at the most: a bound that nothing met comes near.
+const MOST_CONVOLUTIONS: usize = 1000;
+
+/// What presses where.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct Pressed {
+    /// Sum over cells of p (delta - g) - p u/2.
+    pub energy: f64,
+    /// Sum over cells of p.
+    pub force: f64,
+    /// Convolutions that it took.
+    pub convolutions: usize,
+}
+
+/// A window with its pressures, kept as the start of the next solution.
+pub struct Contact<'a> {
+    influence: &'a Influence,
+    room: Scratch,
+    /// Pressures.
+    pub p: Vec<f64>,
+    /// u + g - delta.
+    residual: Vec<f64>,
+    direction: Vec<f64>,
+    image: Vec<f64>,
+}
+
+impl<'a> Contact<'a> {
+    /// Without pressures.
+    pub fn new(influence: &'a Influence) -> Self {
+        let n = influence.cells().along * influence.cells().across;
+        let zeros = || vec![0.0; n];
+        Self { influence, room: influence.scratch(), p: zeros(), residual: zeros(), direction: zeros(), image: zeros() }
+    }
+
+    /// Presses the window with the gaps `gap` (m; infinite where nothing is to touch) by `delta` (m), from the pressures that there are,
+    /// until residual gaps are below `tolerance` times delta.
+    pub fn press(&mut self, gap: &[f64], soft: &[f64], delta: f64, tolerance: f64) -> Pressed {
+        for (p, g) in self.p.iter_mut().zip(gap) {
+            if *g >= delta {
+                *p = 0.0;
+            }
+        }
+        let most = gap.iter().map(|g| delta - g).fold(0.0, f64::max);
+        if most <= 0.0 {
+            self.p.fill(0.0);
+            return Pressed::default();
+        }
+        if self.p.iter().all(|p| *p == 0.0) {
+            // Any start in the right place: a pressure as the overlap, to be scaled by the first step.
+            for (p, g) in self.p.iter_mut().zip(gap) {
+                *p = (delta - g).max(0.0);
+            }
+            self.influence.apply(&self.p, &mut self.image, &mut self.room);
+            let (work, stored) = (0..gap.len())
+                .filter(|k| self.p[*k] > 0.0)
+                .fold((0.0, 0.0), |(w, e), k| (w + self.p[k] * (delta - gap[k]), e + self.p[k] * self.image[k]));
+            self.p.iter_mut().for_each(|p| *p *= work / stored);
+        }
+        let convolutions = self.iterate(gap, soft, delta, tolerance * most);
+        let (mut energy, mut force) = (0.0, 0.0);
+        for ((p, g), r) in self.p.iter().zip(gap).zip(&self.residual) {
+            if *p > 0.0 {
+                // u = r - g + delta.
+                energy += p * 0.5 * ((delta - g) - r);
+                force += p;
+            }
+        }
+        Pressed { energy, force, convolutions }
+    }
+
+    fn find_residual(&mut self, gap: &[f64], soft: &[f64], delta: f64) {
+        self.influence.apply(&self.p, &mut self.residual, &mut self.room);
+        for (((r, g), p), soft) in self.residual.iter_mut().zip(gap).zip(&self.p).zip(soft) {
+            *r += (g - delta) + soft * p;
+        }
+    }
+
+    /// Conjugate gradients on the cells that are pressed, scaled by each cell's own compliance.
+    fn iterate(&mut self, gap: &[f64], soft: &[f64], delta: f64, limit: f64) -> usize {
+        let own = self.influence.own();
+        let (mut before, mut conjugate) = (1.0, false);
+        self.direction.fill(0.0);
+        self.find_residual(gap, soft, delta);
+        let mut convolutions = 1;
+        while convolutions < MOST_CONVOLUTIONS {
+            let (mut square, mut scaled, mut cells, mut worst) = (0.0, 0.0, 0usize, 0.0_f64);
+            for (((p, r), g), soft) in self.p.iter().zip(&self.residual).zip(gap).zip(soft) {
+                if *p > 0.0 {
+                    square += r * r;
+                    scaled += r * r / (own + soft);
+                    cells += 1;
+                } else if *g < delta {
+                    worst = worst.max(-r);
+                }
+            }
+            if square <= limit * limit * cells as f64 && worst <= limit {
+                break;
+            }
+            let share = if conjugate { scaled / before } else { 0.0 };
+            before = scaled;
+            for (((d, p), r), soft) in self.direction.iter_mut().zip(&self.p).zip(&self.residual).zip(soft) {
+                *d = if *p > 0.0 { r / (own + soft) + share * *d } else { 0.0 };
+            }
+            self.influence.apply(&self.direction, &mut self.image, &mut self.room);
+            convolutions += 1;
+            let (mut along, mut stiff) = (0.0, 0.0);
+            for (((d, q), r), soft) in self.direction.iter().zip(&mut self.image).zip(&self.residual).zip(soft) {
+                *q += soft * d;
+                along += r * d;
+                stiff += *q * d;
+            }
+            let step = if stiff > 0.0 { along / stiff } else { 0.0 };
+            let changed = self.advance(gap, soft, delta, step);
+            if changed {
+                self.find_residual(gap, soft, delta);
+                convolutions += 1;
+            }
+            conjugate = !changed;
+        }
+        convolutions
+    }
+
+    /// One step, then no pressure below 0, and what overlaps without pressure is pressed. Whether cells came or went.
+    fn advance(&mut self, gap: &[f64], soft: &[f64], delta: f64, step: f64) -> bool {
+        let own = self.influence.own();
+        let mut changed = false;
+        for k in 0..self.p.len() {
+            self.residual[k] -= step * self.image[k];
+            if self.p[k] > 0.0 {
+                self.p[k] -= step * self.direction[k];
+                if self.p[k] <= 0.0 {
+                    self.p[k] = 0.0;
+                    changed = true;
+                }
+            } else if self.residual[k] < 0.0 && gap[k] < delta {
+                self.p[k] = -step * self.residual[k] / (own + soft[k]);
+                changed = true;
+            }
+        }
+        changed
+    }
+}
