@@ -132,6 +132,8 @@ pub mod derived;
 mod did_you_mean;
 pub mod document;
 #[doc(hidden)]
+pub mod effective;
+#[doc(hidden)]
 pub mod elementary;
 mod error;
 mod friction;

@@ -7,7 +7,7 @@ use super::extent::Extent;
 use super::piecewise::PiecewisePolynomial;
 use super::shape::Shape;
 use crate::contact::{ContactReduction, remaining_share};
-use crate::half_space::Table;
+use crate::effective::Table;
 use crate::scenario::{self, Element, Law, Surface};
 use std::f64::consts::PI;
 use std::sync::Arc;
@@ -143,12 +143,25 @@ impl Defect {
     /// Lets damage act by this table at every contact that the defect meets.
     pub(crate) fn use_table(&mut self, table: Arc<Table>) {
         for side in SIDES {
-            let k = side as usize;
-            if self.profiles[k].is_some() {
-                let [first, last] = table.range_s();
-                self.windows[k] = (first / self.radius - 1e-9, last / self.radius + 1e-9);
-                self.tables[k] = Some(table.clone());
-            }
+            self.use_table_at(side, table.clone());
+        }
+    }
+
+    /// The same at its contacts on one side alone.
+    pub(crate) fn use_table_at(&mut self, side: Side, table: Arc<Table>) {
+        let k = side as usize;
+        if self.profiles[k].is_some() {
+            let [first, last] = table.range_s();
+            self.windows[k] = (first / self.radius - 1e-9, last / self.radius + 1e-9);
+            self.tables[k] = Some(table);
+        }
+    }
+
+    /// Height of what is raised highest, m.
+    pub(crate) fn raised(&self) -> f64 {
+        match &self.shape {
+            Shape::DepthMap(grid) => (-grid.extremes().1).max(0.0),
+            _ => 0.0,
         }
     }
 

@@ -3,8 +3,8 @@
 use super::geometry::Geometry;
 use super::level::{self, Fineness, Level, Place};
 use super::raster::Raster;
-use super::spline;
-use super::table::{FEWEST_NODES, Table, TableError};
+use crate::effective::spline;
+use crate::effective::table::{FEWEST_NODES, Table, TableError};
 use brinell_signal::parallel;
 use std::num::NonZeroUsize;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -211,7 +211,7 @@ fn join(delta: &[f64], levels: Vec<Level>) -> Result<Table, TableError> {
 
 /// Without every other of the finest steps, as often as it takes for a table to be allowed.
 fn thinned(mut s: Vec<f64>, deformations: usize) -> Vec<f64> {
-    let most = super::table::MOST_NODES / deformations.max(1);
+    let most = crate::effective::table::MOST_NODES / deformations.max(1);
     while s.len() > most.max(FEWEST_NODES) {
         let finest = s.windows(2).map(|w| w[1] - w[0]).fold(f64::INFINITY, f64::min);
         // Powers of two times whole numbers: the remainders are exact.

@@ -27,10 +27,9 @@ fn span(defect: &Defect) -> [f64; 2] {
 }
 
 /// Gathers defects into what is met together: on one surface of one row, nearer to each other along s than `reach` (m) of either, the
-/// length over which a contact feels damage before its first edge. `edge` (m) rounds edges.
-pub fn gather(defects: &[Defect], reach: impl Fn(&Defect) -> f64, edge: f64) -> Vec<Damage> {
+/// length over which a contact feels damage before its first edge: the places of each group's members, rising.
+pub fn gather(defects: &[Defect], reach: impl Fn(&Defect) -> f64) -> Vec<Vec<usize>> {
     let mut group: Vec<usize> = (0..defects.len()).collect();
-    let offset = |of: &Defect, from: &Defect| wrap(of.center - from.center) * from.radius;
     for a in 0..defects.len() {
         for b in 0..a {
             let (one, other) = (&defects[a], &defects[b]);
@@ -45,20 +44,37 @@ pub fn gather(defects: &[Defect], reach: impl Fn(&Defect) -> f64, edge: f64) -> 
             }
         }
     }
-    let mut all: Vec<Damage> = Vec::new();
+    let mut all: Vec<Vec<usize>> = Vec::new();
     for (k, own) in group.iter().enumerate() {
         // Each group at its first member.
         if group.iter().position(|g| g == own) != Some(k) {
             continue;
         }
-        let members: Vec<usize> = (k..defects.len()).filter(|m| group[*m] == *own).collect();
-        let first = &defects[k];
-        let shifted: Vec<(f64, MeanDepths<'_>)> =
-            members.iter().map(|m| (offset(&defects[*m], first), MeanDepths::new(&defects[*m]))).collect();
-        let (surface, row, center, radius) = (first.surface, first.row, first.center, first.radius);
-        all.push(Damage { surface, row, center, radius, members, raster: raster(&shifted, edge) });
+        all.push((k..defects.len()).filter(|m| group[*m] == *own).collect());
     }
     all
+}
+
+/// From the centre of one defect to that of another of its surface along s, m.
+fn offset(of: &Defect, from: &Defect) -> f64 {
+    wrap(of.center - from.center) * from.radius
+}
+
+impl Damage {
+    /// Of one group of [`gather`]; `edge` (m) rounds edges.
+    pub fn of(defects: &[Defect], members: &[usize], edge: f64) -> Self {
+        let first = &defects[members[0]];
+        let shifted: Vec<(f64, MeanDepths<'_>)> =
+            members.iter().map(|m| (offset(&defects[*m], first), MeanDepths::new(&defects[*m]))).collect();
+        Self {
+            surface: first.surface,
+            row: first.row,
+            center: first.center,
+            radius: first.radius,
+            members: members.to_vec(),
+            raster: raster(&shifted, edge),
+        }
+    }
 }
 
 /// Depths of defects whose centres lie at these s (m).

@@ -1,20 +1,19 @@
-//! Damaged contacts as elastic half-spaces (section 19): what a healthy contact would have to be pressed to store the
-//! energy that the damaged one stores, as a table over deformation and place.
+//! Damaged contacts as elastic half-spaces (section 19): the contact problem, and the tables that it makes of defects.
 
 pub mod build;
 pub mod damage;
-mod exchange;
 pub mod field;
 pub mod geometry;
 mod healthy;
 pub mod influence;
 mod level;
 pub mod raster;
+mod shelf;
 pub mod solver;
-mod spline;
-pub mod table;
+mod surfaces;
 
-pub use table::{Effective, Table, TableError};
+pub use shelf::{Shelf, keep_on};
+pub use surfaces::add_tables;
 
 #[cfg(test)]
 mod tests;

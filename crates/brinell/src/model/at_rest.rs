@@ -15,18 +15,22 @@ impl Model {
         }
     }
 
-    /// Elastic force (N) and tangent stiffness (N/m) of a contact under `half-space` at a deformation, m.
-    pub(crate) fn resting(&self, slot: usize, side: Side, angles: &Angles, delta: f64) -> [f64; 2] {
+    /// Elastic force (N), tangent stiffness (N/m) and push P = dE/du (N m) of a contact under `half-space` at a deformation, m.
+    pub(crate) fn resting(&self, slot: usize, side: Side, angles: &Angles, delta: f64) -> [f64; 3] {
         self.on_table(self.defects_of(slot, side), side, angles, delta)
     }
 
-    fn on_table(&self, defects: Defects, side: Side, angles: &Angles, delta: f64) -> [f64; 2] {
+    fn on_table(&self, defects: Defects, side: Side, angles: &Angles, delta: f64) -> [f64; 3] {
         let healthy = self.healthy(side);
         match defects.effective(angles, delta) {
-            None => healthy.force_and_tangent(delta),
+            None => {
+                let [force, tangent] = healthy.force_and_tangent(delta);
+                [force, tangent, 0.0]
+            }
             Some(met) => {
                 let [force, tangent] = healthy.force_and_tangent(met.delta);
-                [force * met.by_delta, tangent * met.by_delta * met.by_delta + force * met.by_delta2]
+                let stiffness = tangent * met.by_delta * met.by_delta + force * met.by_delta2;
+                [force * met.by_delta, stiffness, force * (met.by_raceway + met.by_element)]
             }
         }
     }

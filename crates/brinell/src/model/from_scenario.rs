@@ -6,9 +6,10 @@ use crate::contact::ball::{self, Strips};
 use crate::contact::film::SqueezeFilm;
 use crate::contact::{Damping, LoadDeflection};
 use crate::defect::{Defect, Rules, SIDES, Side, relative_radius};
+use crate::effective::Table;
 use crate::elementary::Exponent;
 use crate::friction::{Friction, drag_factor};
-use crate::half_space::Table;
+use crate::half_space;
 use crate::kernel;
 use crate::lanes::Column;
 use crate::operation::{Load, Rotation};
@@ -62,6 +63,18 @@ impl Model {
         let mut defects = defects(s)?;
         if rules.law == Law::HalfSpace {
             tables(s, &mut defects)?;
+            let contacts = [&inner_contact, &outer_contact];
+            let deflection = |side: Side| {
+                let slices = slices(s, &rules, &geometry);
+                let (law, force) = (contacts[side as usize], heaviest(s, &geometry, &inertia));
+                let least = law.deflection(force);
+                slices.map_or(least, |slices| slices.deflection(law, force, least))
+            };
+            half_space::add_tables(&mut defects, (b, &s.contact), deflection).map_err(|error| ModelError {
+                key: "defects".into(),
+                value: error.to_string(),
+                requirement: "damage that a table of the half-space can hold",
+            })?;
         }
         let by_slot = |roller: f64, padding: f64| {
             let mut column = Column::new(layout.slots, padding);
@@ -211,6 +224,16 @@ fn defects(s: &Scenario) -> Result<Vec<Defect>, ModelError> {
         value: format!("{:?}", s.defects[k]).chars().take(200).collect(),
         requirement: "rows and rollers count from 1, and the shape must make sense: lists equally long, arcs that do not go back, polygons with area, grids without holes",
     })
+}
+
+/// Force of the heaviest contact without clearance (Stribeck), N: of load and weight, or of the elements' own centrifugal force.
+fn heaviest(s: &Scenario, g: &Geometry, m: &Inertia) -> f64 {
+    let gravity = s.operation.gravity_m_per_s2;
+    let count = (s.bearing.rows * s.bearing.rollers_per_row) as f64;
+    let weight = gravity[0].hypot(gravity[1]) * (m.inner_ring + m.outer_ring + count * m.roller);
+    let load = s.operation.load_n[0].hypot(s.operation.load_n[1]) + weight;
+    let orbit = Rotation::new(&s.operation.speed_rpm).max_speed() * g.inner_radius / (2.0 * g.pitch_radius);
+    (s.bearing.element.stribeck() * load / count).max(m.roller * g.pitch_radius * orbit * orbit)
 }
 
 /// Gives damage its tables (section 19): those of files as they are.

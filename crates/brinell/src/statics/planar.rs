@@ -22,6 +22,8 @@ struct Roller {
     energy: f64,
     /// Directions in which the contacts press on the rings, inner and outer: e_r, or n of either contact.
     along: [[f64; 2]; 2],
+    /// What damage pushes the inner and the outer ring by, N.
+    push: [[f64; 2]; 2],
 }
 
 /// As [`super::solve`], for rings that do not tilt.
@@ -44,6 +46,7 @@ pub(super) fn solve(model: &Model, problem: &Problem) -> Result<Balance, NoBalan
             let along = [in_x, in_y, -out_x, -out_y];
             for i in 0..4 {
                 state.gradient[i] += along[i] * if i < 2 { roller.inner } else { roller.outer };
+                state.gradient[i] -= roller.push[i / 2][i % 2];
                 for j in 0..4 {
                     state.hessian[i][j] += roller.tangent * along[i] * along[j];
                 }
@@ -81,7 +84,7 @@ fn in_series(model: &Model, problem: &Problem, slot: usize, x: &Offsets) -> Roll
     let g = &model.geometry;
     let delta = cos * (x[0] - x[2]) + sin * (x[1] - x[3]) - g.clearance - g.outer_gap;
     let (force, tangent, energy) = lumped::elastic_at(model, slot, &angles(problem, slot), delta);
-    Roller { r: 0.0, inner: force, outer: force, tangent, energy, along: [[cos, sin]; 2] }
+    Roller { r: 0.0, inner: force, outer: force, tangent, energy, along: [[cos, sin]; 2], push: [[0.0; 2]; 2] }
 }
 
 /// The roller's equilibrium: the r at which Q_in - Q_out and its own radial force N balance.
@@ -101,7 +104,8 @@ fn between_raceways(model: &Model, problem: &Problem, slot: usize, x: &Offsets) 
         covers,
     };
     let r = between.equilibrium();
-    let [(q_in, k_in), (q_out, k_out)] = between.contacts(r);
+    let contacts = between.contacts(r);
+    let [(q_in, k_in, _), (q_out, k_out, _)] = contacts;
     let along = between.sides.map(|side| {
         let [n_r, n_t] = side.normal(r);
         [cos * n_r - sin * n_t, sin * n_r + cos * n_t]
@@ -113,6 +117,12 @@ fn between_raceways(model: &Model, problem: &Problem, slot: usize, x: &Offsets) 
         outer: q_out,
         tangent: if k_in + k_out > 0.0 { k_in * k_out / (k_in + k_out) } else { 0.0 },
         energy: between.energy(r),
+        // (P/rho) t on either ring, turned into the plane.
+        push: [0, 1].map(|k: usize| {
+            let [n_x, n_y] = along[k];
+            let per_rho = contacts[k].2 / between.sides[k].distance(r);
+            [-n_y * per_rho, n_x * per_rho]
+        }),
     }
 }
 
@@ -150,6 +160,11 @@ impl RingAt {
         self.along + (self.gap * (2.0 * self.pitch + self.gap) - square) / (root + self.pitch)
     }
 
+    /// rho, m.
+    fn distance(&self, r: f64) -> f64 {
+        (self.pitch + r - self.along).hypot(self.across)
+    }
+
     /// n along e_r and e_t.
     fn normal(&self, r: f64) -> [f64; 2] {
         if self.across == 0.0 {
@@ -181,26 +196,26 @@ impl Between<'_> {
         slices.carry(self.model.contact(side), &at, cover)
     }
 
-    /// Force of a contact, and its tangent.
-    fn contact(&self, side: Side, delta: f64, r: f64) -> (f64, f64) {
+    /// Force of a contact, its tangent, and what damage pushes along it, P.
+    fn contact(&self, side: Side, delta: f64, r: f64) -> (f64, f64, f64) {
         let (model, angles) = (self.model, &self.seen(side, r));
         if model.rules.law == Law::HalfSpace {
-            let [force, tangent] = model.resting(self.slot, side, angles, delta);
-            return (force, tangent);
+            let [force, tangent, push] = model.resting(self.slot, side, angles, delta);
+            return (force, tangent, push);
         }
         if let Some(slices) = &model.slices {
             let carried = self.sliced(slices, side, delta);
-            return (carried.force, carried.stiffness[0]);
+            return (carried.force, carried.stiffness[0], 0.0);
         }
         let law = model.contact(side);
         let defects = model.defects_of(self.slot, side);
         match damaged_contact(defects, law, angles, delta) {
-            Some(damaged) => (damaged.elastic, tangent(defects, law, angles, delta)),
+            Some(damaged) => (damaged.elastic, tangent(defects, law, angles, delta), 0.0),
             None if delta > 0.0 => {
                 let force = law.healthy(delta);
-                (force, law.exponent.value() * force / delta)
+                (force, law.exponent.value() * force / delta, 0.0)
             }
-            None => (0.0, 0.0),
+            None => (0.0, 0.0, 0.0),
         }
     }
 
@@ -211,15 +226,16 @@ impl Between<'_> {
     }
 
     /// Both contacts of the roller at r.
-    fn contacts(&self, r: f64) -> [(f64, f64); 2] {
+    fn contacts(&self, r: f64) -> [(f64, f64, f64); 2] {
         [self.contact(Side::Inner, -self.sides[0].beyond(r), r), self.contact(Side::Outer, self.sides[1].beyond(r), r)]
     }
 
     /// Q_in - Q_out + N, which falls with r, and how steeply.
     fn balance(&self, r: f64) -> (f64, f64) {
-        let [(q_in, k_in), (q_out, k_out)] = self.contacts(r);
-        let [n_in, n_out] = self.sides.map(|side| side.normal(r)[0]);
-        (q_in * n_in - q_out * n_out + self.own, k_in * n_in * n_in + k_out * n_out * n_out)
+        let [(q_in, k_in, p_in), (q_out, k_out, p_out)] = self.contacts(r);
+        let [[n_in, t_in], [n_out, t_out]] = self.sides.map(|side| side.normal(r));
+        let pushed = p_in * t_in / self.sides[0].distance(r) + p_out * t_out / self.sides[1].distance(r);
+        (q_in * n_in - q_out * n_out + pushed + self.own, k_in * n_in * n_in + k_out * n_out * n_out)
     }
 
     /// Where the balance is positive, and where it is negative, around the raceways.

@@ -2,7 +2,7 @@
 
 /// Solves a tridiagonal system in place: row k is `below[k] x[k-1] + at[k] x[k] + above[k] x[k+1] = right[k]`; the first of
 /// `below` and the last of `above` are not read. The solution replaces `right`. For diagonally dominant systems.
-pub(super) fn solve_tridiagonal(below: &[f64], at: &mut [f64], above: &[f64], right: &mut [f64]) {
+pub(crate) fn solve_tridiagonal(below: &[f64], at: &mut [f64], above: &[f64], right: &mut [f64]) {
     for k in 1..right.len() {
         let share = below[k] / at[k - 1];
         at[k] -= share * above[k - 1];
@@ -15,7 +15,7 @@ pub(super) fn solve_tridiagonal(below: &[f64], at: &mut [f64], above: &[f64], ri
 }
 
 /// Second derivatives at the nodes of the natural cubic spline through `y` at the rising `x`: 0 at both ends.
-pub(super) fn curvatures(x: &[f64], y: &[f64]) -> Vec<f64> {
+pub(crate) fn curvatures(x: &[f64], y: &[f64]) -> Vec<f64> {
     let n = x.len();
     if n < 3 {
         return vec![0.0; n];
@@ -33,7 +33,7 @@ pub(super) fn curvatures(x: &[f64], y: &[f64]) -> Vec<f64> {
 }
 
 /// First derivatives at the nodes of a cubic spline, given its second ones.
-pub(super) fn slopes(x: &[f64], y: &[f64], curvatures: &[f64]) -> Vec<f64> {
+pub(crate) fn slopes(x: &[f64], y: &[f64], curvatures: &[f64]) -> Vec<f64> {
     let n = x.len();
     (0..n)
         .map(|k| {
@@ -49,7 +49,7 @@ pub(super) fn slopes(x: &[f64], y: &[f64], curvatures: &[f64]) -> Vec<f64> {
 }
 
 /// Value at `place` of the cubic spline through `y` with the second derivatives `m`; `place` within the nodes.
-pub(super) fn value(x: &[f64], y: &[f64], m: &[f64], place: f64) -> f64 {
+pub(crate) fn value(x: &[f64], y: &[f64], m: &[f64], place: f64) -> f64 {
     let k = x.partition_point(|node| *node <= place).clamp(1, x.len() - 1) - 1;
     let h = x[k + 1] - x[k];
     let (a, b) = ((x[k + 1] - place) / h, (place - x[k]) / h);
@@ -58,7 +58,7 @@ pub(super) fn value(x: &[f64], y: &[f64], m: &[f64], place: f64) -> f64 {
 
 /// Second derivatives at the nodes that make the third derivative of the quintic Hermite spline through `y` with the
 /// slopes `d` continuous, given those at the first and the last node.
-pub(super) fn quintic_curvatures(x: &[f64], y: &[f64], d: &[f64], ends: [f64; 2]) -> Vec<f64> {
+pub(crate) fn quintic_curvatures(x: &[f64], y: &[f64], d: &[f64], ends: [f64; 2]) -> Vec<f64> {
     let n = x.len();
     let (mut below, mut at, mut above, mut right) = (vec![0.0; n], vec![1.0; n], vec![0.0; n], vec![0.0; n]);
     right[0] = ends[0];

@@ -16,7 +16,7 @@ pub const FEWEST_NODES: usize = 4;
 /// Coefficients of a node: value, slope and curvature in delta, each with its second derivative along s.
 const PER_NODE: usize = 6;
 /// Pairs of s and delta at the most.
-pub(super) const MOST_NODES: usize = MOST_BYTES / (8 * PER_NODE);
+pub(crate) const MOST_NODES: usize = MOST_BYTES / (8 * PER_NODE);
 
 /// delta_eff at one place, with its derivatives.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -186,7 +186,7 @@ impl Table {
 
     /// From values and slopes in delta on a full grid, row by row of s: exact at nodes in both. `lowest` says for every s which is the
     /// first node of delta that touches: from there down the values must be straight.
-    pub(super) fn from_slopes(
+    pub(crate) fn from_slopes(
         (s, delta): (&[f64], &[f64]),
         delta_eff: &[f64],
         slopes: &[f64],
@@ -303,6 +303,18 @@ impl Table {
                 along
             })
         }
+    }
+
+    /// What stands at the nodes, row by row of s.
+    pub(super) fn values(&self) -> &[[f64; PER_NODE]] {
+        &self.nodes
+    }
+
+    /// Put together from these again; `None` where they make no table.
+    pub(super) fn from_values([s, delta]: [&[f64]; 2], nodes: Vec<[f64; PER_NODE]>) -> Option<Self> {
+        let first: Vec<f64> = nodes.iter().map(|at| at[0]).collect();
+        let [s, delta] = Self::axes(s, delta, &first).ok()?;
+        Some(Self { s, delta, nodes })
     }
 
     /// First and last s, m: outside, the contact is healthy.

@@ -1,0 +1,124 @@
+//! Tables that were made before: in this process, and where its user keeps them.
+
+use super::build::BuildError;
+use crate::effective::Table;
+use crate::random::mix;
+use std::fmt::{self, Write};
+use std::sync::{Arc, Mutex, OnceLock, PoisonError};
+
+/// Changes with what makes tables, so that none of before is taken for one of now.
+const VERSION: u32 = 1;
+/// Tables that a process keeps, at most 2 MB each; the oldest goes first.
+const MOST: usize = 64;
+
+/// Where tables outlive a process. A library opens no files: whoever has a folder for them hands one over.
+pub trait Shelf: Send + Sync {
+    /// What was kept under a name, a word of letters and digits.
+    fn take(&self, name: &str) -> Option<Vec<u8>>;
+    /// Keeps it, or not.
+    fn put(&self, name: &str, bytes: &[u8]);
+}
+
+static SHELF: OnceLock<Box<dyn Shelf>> = OnceLock::new();
+
+/// From now on tables are looked for and kept there too; the first call counts.
+pub fn keep_on(shelf: Box<dyn Shelf>) {
+    let _ = SHELF.set(shelf);
+}
+
+/// What a table is made of, as a number: the same for the same numbers on every machine.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) struct Key([u64; 2]);
+
+impl Key {
+    /// Of everything that a table depends on.
+    pub(super) fn of(parts: fmt::Arguments<'_>) -> Self {
+        let mut hasher = Hasher([u64::from(VERSION), 1]);
+        // Writing to it cannot fail.
+        let _ = hasher.write_fmt(parts);
+        Self(hasher.0)
+    }
+
+    fn name(self) -> String {
+        format!("{:016x}{:016x}", self.0[0], self.0[1])
+    }
+}
+
+struct Hasher([u64; 2]);
+
+impl Write for Hasher {
+    fn write_str(&mut self, text: &str) -> fmt::Result {
+        // However the text is cut, its bytes count one by one.
+        for byte in text.bytes() {
+            self.0[0] = (self.0[0] ^ u64::from(byte)).wrapping_mul(0x0000_0100_0000_01B3);
+            self.0[1] = self.0[1].wrapping_mul(31).wrapping_add(mix(u64::from(byte)));
+        }
+        Ok(())
+    }
+}
+
+type Cell = Arc<OnceLock<Result<Arc<Table>, BuildError>>>;
+
+static TABLES: Mutex<Vec<(Key, Cell)>> = Mutex::new(Vec::new());
+
+/// The table of `key`; made once, whoever asks meanwhile waits for it.
+pub(super) fn table(key: Key, make: impl FnOnce() -> Result<Table, BuildError>) -> Result<Arc<Table>, BuildError> {
+    let cell = {
+        let mut tables = TABLES.lock().unwrap_or_else(PoisonError::into_inner);
+        match tables.iter().find(|(known, _)| *known == key) {
+            Some((_, cell)) => cell.clone(),
+            None => {
+                if tables.len() == MOST {
+                    tables.remove(0);
+                }
+                let cell = Cell::default();
+                tables.push((key, cell.clone()));
+                cell
+            }
+        }
+    };
+    let made = || {
+        let name = key.name();
+        let kept = SHELF.get().and_then(|shelf| shelf.take(&name)).and_then(|bytes| Table::from_bytes(&bytes));
+        if let Some(table) = kept {
+            return Ok(Arc::new(table));
+        }
+        let table = make()?;
+        if let Some(shelf) = SHELF.get() {
+            shelf.put(&name, &table.to_bytes());
+        }
+        Ok(Arc::new(table))
+    };
+    cell.get_or_init(made).clone()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn prop_keys_differ_with_what_they_are_of() {
+        let of = |x: f64| Key::of(format_args!("{x:?} {:?}", [1.0, x]));
+        assert_eq!(of(0.1), of(0.1));
+        assert_ne!(of(0.1), of(0.1 + 1e-16));
+        assert_eq!(of(0.1).name().len(), 32);
+    }
+
+    #[test]
+    fn prop_a_table_is_made_once_and_survives_its_bytes() {
+        let (s, delta) = ([-1e-3, -3e-4, 2e-4, 1e-3], [0.0, 2e-6, 5e-6, 1e-5]);
+        let eff: Vec<f64> = s.iter().flat_map(|s| delta.map(|d| d * (1.0 - 0.4 / (1.0 + 1e7 * s * s)))).collect();
+        let key = Key::of(format_args!("a table of this test"));
+        let make = || Ok(Table::from_grid(&s, &delta, &eff)?);
+        let first = table(key, make).unwrap();
+        let again = table(key, || panic!("made twice")).unwrap();
+        assert!(Arc::ptr_eq(&first, &again));
+        let bytes = first.to_bytes();
+        assert_eq!(Table::from_bytes(&bytes).as_ref(), Some(&*first));
+        // What is cut or changed is no table.
+        assert_eq!(Table::from_bytes(&bytes[..bytes.len() - 3]), None);
+        let mut torn = bytes;
+        torn[60] ^= 1;
+        assert_eq!(Table::from_bytes(&torn), None);
+    }
+}
