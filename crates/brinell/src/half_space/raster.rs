@@ -7,13 +7,15 @@ const MOST_CELLS: usize = 3_000_000;
 /// Steps of a raster, m, where it is not too large.
 const STEP: f64 = 2.5e-6;
 /// Samples of a cell of the solver along each axis at the most.
-const MOST_SAMPLES: usize = 24;
+const MOST_SAMPLES: usize = 12;
 /// Step of these samples, m, where that many are enough.
 const SAMPLE: f64 = 0.5e-6;
+/// Halvings of a step of samples in which an edge lies.
+const HALVINGS: u32 = 4;
 /// Softness of a cell with the share f left, over (1 - f)/f and the cell's size across the edge: with it the force is straight in the
 /// place of an edge within a cell, to 2 % of what a cell carries. Found on edges along both axes, cells from 1:1 to 1:3, and the same on all.
 const SOFTNESS: f64 = 5.43;
-/// How it falls where a cell is wide across against half the contact's width.
+/// How it falls for edges along the rolling direction where a cell is wide against half the contact's width.
 const SPREAD: f64 = 0.25;
 /// Least share of a cell that is left: less carries nothing that counts.
 const LEAST_SHARE: f64 = 1e-3;
@@ -211,29 +213,70 @@ impl Raster {
         }
         let size = [cell.s[1] - cell.s[0], cell.z[1] - cell.z[0]];
         let samples = size.map(|size| ((size / SAMPLE).ceil() as usize).clamp(4, MOST_SAMPLES));
-        let at = |k: usize, axis: usize, from: f64| from + (k as f64 + 0.5) / samples[axis] as f64 * size[axis];
+        let middle = |k: usize, axis: usize| (k as f64 + 0.5) / samples[axis] as f64;
+        let at = |a: f64, b: f64| self.rounded(cell.s[0] + a * size[0], cell.z[0] + b * size[1]);
         let mut depths = [0.0; MOST_SAMPLES * MOST_SAMPLES];
         let depths = &mut depths[..samples[0] * samples[1]];
-        let mut highest = f64::INFINITY;
         for (k, depth) in depths.iter_mut().enumerate() {
-            *depth = self.rounded(at(k / samples[1], 0, cell.s[0]), at(k % samples[1], 1, cell.z[0]));
-            highest = highest.min(*depth);
+            *depth = at(middle(k / samples[1], 0), middle(k % samples[1], 1));
         }
-        let (mut left, mut sum, mut lean) = (0.0, 0.0, [0.0; 2]);
+        let left_of = Left { highest: depths.iter().copied().fold(f64::INFINITY, f64::min), levelled: cell.levelled };
+        let mut lean = [0.0; 2];
         for (k, depth) in depths.iter().enumerate() {
-            let below = (depth - highest) / cell.levelled;
-            let weight = (1.0 + below * below).powi(-2);
-            left += weight;
-            sum += weight * depth;
-            // Twice the first moments: how much more of the far half is left.
-            lean[0] += weight * at(k / samples[1], 0, -0.5 * size[0]) / size[0];
-            lean[1] += weight * at(k % samples[1], 1, -0.5 * size[1]) / size[1];
+            // First moments: how much more of the far half is left.
+            let weight = left_of.weight(*depth);
+            lean[0] += weight * (middle(k / samples[1], 0) - 0.5);
+            lean[1] += weight * (middle(k % samples[1], 1) - 0.5);
         }
-        let share = alike(left / depths.len() as f64, SAME_SHARE).max(LEAST_SHARE);
+        let lean = lean.map(f64::abs);
+        // Along the axis that crosses the edge, on lines beside each other.
+        let along = usize::from(lean[1] / size[1] > lean[0] / size[0]);
+        let (mut left, mut sum) = (0.0, 0.0);
+        for k in 0..samples[1 - along] {
+            let line = |x: f64| if along == 0 { at(x, middle(k, 1)) } else { at(middle(k, 0), x) };
+            let mut from = (0.0, line(0.0));
+            for j in 1..=samples[along] {
+                let x = j as f64 / samples[along] as f64;
+                let to = (x, line(x));
+                let [weight, depth] = left_of.between(&line, from, to, HALVINGS);
+                left += weight;
+                sum += depth;
+                from = to;
+            }
+        }
+        let (sum, left) = (sum / left, left / samples[1 - along] as f64);
+        let share = alike(left, SAME_SHARE).max(LEAST_SHARE);
         let lean = lean.map(f64::abs);
         let steep = (lean[0] / size[0]).hypot(lean[1] / size[1]);
         let across = if steep > 0.0 { (lean[0] + lean[1]) / steep } else { size[0].min(size[1]) };
-        let softness = SOFTNESS * across / (1.0 + SPREAD * across / cell.half_width) / size[0];
-        Seen { depth: alike(sum / left, SAME_DEPTH), soft: alike(softness, SAME_SHARE) * (1.0 - share) / share }
+        let wide = if steep > 0.0 { lean[1] / steep } else { 0.0 };
+        let softness = SOFTNESS * across / (1.0 + SPREAD * wide / cell.half_width) / size[0];
+        Seen { depth: alike(sum, SAME_DEPTH), soft: alike(softness, SAME_SHARE) * (1.0 - share) / share }
+    }
+}
+
+/// How much of a cell is left: wholly what is as high as its highest place, nothing of what is far deeper than its pressure levels.
+struct Left {
+    highest: f64,
+    levelled: f64,
+}
+
+impl Left {
+    fn weight(&self, depth: f64) -> f64 {
+        let below = (depth - self.highest).max(0.0) / self.levelled;
+        (1.0 + below * below).powi(-2)
+    }
+
+    /// Integrals along a line of the weight, and of weight times depth, between two places with their depths.
+    fn between(&self, line: &impl Fn(f64) -> f64, a: (f64, f64), b: (f64, f64), halvings: u32) -> [f64; 2] {
+        let deep = a.1.min(b.1) - self.highest > 4.0 * self.levelled;
+        if halvings == 0 || deep || (a.1 - b.1).abs() < 0.5 * self.levelled {
+            let [p, q] = [a.1, b.1].map(|depth| 0.5 * (b.0 - a.0) * self.weight(depth));
+            return [p + q, p * a.1 + q * b.1];
+        }
+        let x = 0.5 * (a.0 + b.0);
+        let middle = (x, line(x));
+        let [near, far] = [self.between(line, a, middle, halvings - 1), self.between(line, middle, b, halvings - 1)];
+        [near[0] + far[0], near[1] + far[1]]
     }
 }

@@ -167,18 +167,19 @@ fn prop_a_grid_twice_as_fine_changes_little() {
 
 #[test]
 fn prop_where_an_edge_lies_in_a_cell_does_not_matter() {
-    // The same pit moved by parts of a cell (8 to 16 to half the contact's width, 66 um): what the contact feels moves along.
+    // The same pit moved by parts of a cell (3.8 um; 8 to 16 to half the contact's width): what the contact feels moves along. An edge
+    // is placed to some hundredths of a cell, and delta_eff changes by 0.5 % of delta on a micrometre here.
     let ball = geometry("6205");
     let at_edge = |shift: f64| {
         let bounds = Bounds { s: [-1e-3 + shift, 1e-3 + shift], z: [-0.5e-3, 0.5e-3] };
         let pit = Raster::of_depths(bounds, EDGE, |_, _| 100e-6);
         let built = built(&ball, &pit, &[0.0, 1.0, 2.0, 4.0]);
-        [-0.99e-3, -0.95e-3, -0.9e-3].map(|s| built.table.at(2e-6, s + shift).delta)
+        [-1.02e-3, -0.99e-3, -0.96e-3, -0.93e-3].map(|s| built.table.at(2e-6, s + shift).delta)
     };
     let first = at_edge(0.0);
     for shift in [0.9e-6, 1.7e-6, 3.1e-6] {
         for (a, b) in at_edge(shift).into_iter().zip(first) {
-            assert!((a - b).abs() < 5e-3 * 2e-6, "{shift}: {a} {b}");
+            assert!((a - b).abs() < 3e-3 * 2e-6, "{shift}: {a} {b}");
         }
     }
 }
