@@ -16,7 +16,7 @@ use brinell::model::Model;
 use brinell::observe::passes::place;
 use brinell::plausibility;
 use brinell::pressure::{pressure_beside, pressures, static_limit};
-use brinell::scenario::{Bearing, Element, Scenario, Speed, Surface};
+use brinell::scenario::{Bearing, ContactDamping, Element, Scenario, Speed, Surface};
 use brinell::statics::StaticLoadZone;
 use std::f64::consts::TAU;
 use std::process::ExitCode;
@@ -102,13 +102,17 @@ fn stiffnesses(s: &Scenario, d: &Derived) {
         short(d.contact_stiffness[0], 3),
         short(d.contact_stiffness[1], 3)
     );
-    let damping = s.contact.damping_ns_per_m;
-    let ratio = 2.0 * damping / (d.contact_stiffness[0] + d.contact_stiffness[1]);
-    say!(
-        "  damping                 {} N s/m, {} s times their mean; of whole bearings Kraemer gives 2.5e-6 to 2.5e-5 s",
-        plain_number(damping),
-        short(ratio, 2)
-    );
+    match s.contact.damping {
+        ContactDamping::Constant { ns_per_m } => say!(
+            "  damping                 {} N s/m, {} s times their mean; of whole bearings Kraemer gives 2.5e-6 to 2.5e-5 s",
+            plain_number(ns_per_m),
+            short(2.0 * ns_per_m / (d.contact_stiffness[0] + d.contact_stiffness[1]), 2)
+        ),
+        ContactDamping::Time { us } => say!(
+            "  damping                 {} s times the stiffness at hand; of whole bearings Kraemer gives 2.5e-6 to 2.5e-5 s",
+            short(1e-6 * us, 2)
+        ),
+    }
 }
 
 fn time_scales(s: &Scenario, model: &Model, d: &Derived) {

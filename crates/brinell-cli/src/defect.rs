@@ -261,6 +261,7 @@ fn random(args: &RandomArgs) -> Result<(), Failure> {
             width_mm: args.width_mm,
             roughness: args.roughness,
         },
+        table: None,
     };
     let area = 1e6 * shape(&defect)?.area();
     let deepest = match shape(&defect)? {

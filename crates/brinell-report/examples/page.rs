@@ -17,6 +17,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         depth_um: 20.0,
         axial_offset_mm: 0.0,
         shape: Shape::Rectangle { length_mm: 2.0, width_mm: 4.0 },
+        table: None,
     });
     let result = brinell::simulate(&scenario)?;
 

@@ -22,6 +22,7 @@ fn stated(shape: Shape) -> Answer<Value> {
         depth_um: 10.0,
         axial_offset_mm: 0.0,
         shape,
+        table: None,
     });
     Ok(text::stated(&scenario.to_toml())["defects"][0]["shape"].clone())
 }

@@ -126,7 +126,7 @@ fn analytic_a_run_from_equilibrium_on_sliced_damage_starts_as_quietly_as_a_healt
 }
 
 fn on(surface: Surface, shape: Shape) -> Defect {
-    Defect { on: surface, row: 1, center_deg: 0.0, depth_um: 12.0, axial_offset_mm: 0.0, shape }
+    Defect { on: surface, row: 1, center_deg: 0.0, depth_um: 12.0, axial_offset_mm: 0.0, shape, table: None }
 }
 
 /// Energy that no entry explains, the parametric work and the turnover, J.

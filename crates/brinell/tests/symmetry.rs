@@ -170,6 +170,7 @@ fn askew(base: Scenario) -> Scenario {
             width_mm: vec![0.0, 4.0, 3.0, 0.0],
             depth_um: Some(vec![5.0, 12.0, 10.0, 4.0]),
         },
+        table: None,
     });
     s.defects.push(Defect {
         on: Surface::Roller(3),
@@ -178,6 +179,7 @@ fn askew(base: Scenario) -> Scenario {
         depth_um: 9.0,
         axial_offset_mm: 0.0,
         shape: Shape::Circle { diameter_mm: 2.0 },
+        table: None,
     });
     s
 }

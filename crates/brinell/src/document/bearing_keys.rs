@@ -24,8 +24,8 @@ pub(super) fn steel_element_kg(b: &Bearing) -> f64 {
     }
 }
 
-pub(super) fn bearing<K: Keys>(k: &mut K, model: ModelKind, b: &mut Bearing) {
-    k.preset(key("preset", "catalogue bearing that fills the keys left out"), &mut b.preset);
+pub(super) fn bearing<K: Keys>(k: &mut K, (model, laws): (ModelKind, Laws), b: &mut Bearing) {
+    k.preset(key("preset", "catalogue bearing that fills the keys left out"), laws, &mut b.preset);
     k.key(
         key("element", "what rolls; the keys named after rollers are then a ball's"),
         stated(Element::Roller, "cylindrical rollers, as in the paper"),
@@ -100,6 +100,8 @@ pub(super) fn bearing<K: Keys>(k: &mut K, model: ModelKind, b: &mut Bearing) {
         profile,
         &mut b.profile,
     );
+    k.optional(key("waviness", "waves of every raceway, A_k = amplitude_um k^-exponent"), &mut b.waviness);
+    k.optional(key("element_waviness", "waves of every rolling element, likewise"), &mut b.element_waviness);
     tilt_key(
         k,
         (model, b.element),

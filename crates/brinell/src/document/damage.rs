@@ -87,6 +87,13 @@ pub(super) fn defect<K: Keys>(k: &mut K, load: [f64; 2], d: &mut Defect) {
         stated(0.0, "z = 0 of the shape is the middle of the row"),
         &mut d.axial_offset_mm,
     );
+    k.optional(
+        key(
+            "table",
+            "delta_eff(s, delta) of the contact over this damage, from elsewhere; CSV from the scenario's folder",
+        ),
+        &mut d.table,
+    );
 }
 
 fn shape<K: Keys>(k: &mut K, shape: &mut Shape) {

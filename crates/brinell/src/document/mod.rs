@@ -4,7 +4,9 @@
 //! what no single key can say: geometry that does not fit, a defect wider than its roller.
 
 mod bearing_keys;
+mod cage_keys;
 mod checks;
+mod contact_keys;
 mod damage;
 mod damage_files;
 mod diagnostics;
@@ -30,9 +32,11 @@ mod shape_value;
 mod source;
 mod spec;
 mod speed_value;
+mod table_value;
 mod toml_text;
 mod unset;
 mod value_type;
+mod waviness_value;
 mod writer;
 
 pub use diagnostics::render_diagnostics;

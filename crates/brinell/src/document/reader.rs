@@ -17,6 +17,7 @@ use super::value_type::{Misfit, ValueType, Words};
 use crate::bearing::catalogue;
 use crate::bearing::clearance::ClearanceClass;
 use crate::did_you_mean::{boundary_dimension, did_you_mean, left_out};
+use crate::scenario::Laws;
 
 /// Tables of one list, such as `[[defects]]`, at most.
 const MOST_TABLES: usize = 5000;
@@ -37,6 +38,8 @@ struct Frame<'a> {
 pub struct Reader<'a> {
     frames: Vec<Frame<'a>>,
     preset: Option<&'static catalogue::Entry>,
+    /// The set of laws that the preset's values are to hold with.
+    laws: Laws,
     /// The class of clearance in the preset's name: C3 of `6205-2RS/C3`.
     named_clearance: Option<ClearanceClass>,
     /// A preset was requested and is unknown: what it would have filled is not worth a word.
@@ -71,6 +74,7 @@ impl<'a> Reader<'a> {
         Reader {
             frames: vec![root],
             preset: None,
+            laws: Laws::DEFAULT,
             named_clearance: None,
             preset_unknown: false,
             vocabulary,
@@ -223,7 +227,7 @@ impl<'a> Reader<'a> {
         let entry = self.preset?;
         // The width is a fact of every bearing, and acts where rings tilt.
         let fact = || entry.facts.iter().find(|fact| fact.key == catalogue::WIDTH && path == "bearing.width_mm");
-        entry.values.iter().find(|value| value.key == path).or_else(fact)
+        entry.values.iter().find(|value| value.key == path && value.holds_with(self.laws)).or_else(fact)
     }
 
     fn record_datum(&mut self, path: &str, spec: &Spec, value: String, datum: &catalogue::Value) {

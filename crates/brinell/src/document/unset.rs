@@ -28,6 +28,8 @@ pub(crate) fn scenario() -> Scenario {
             outer_ring_mass_kg: NONE,
             roller_mass_kg: NONE,
             profile: ValueType::blank(),
+            waviness: None,
+            element_waviness: None,
             width_mm: NONE,
             row_spacing_mm: NONE,
         },
@@ -40,6 +42,9 @@ pub(crate) fn scenario() -> Scenario {
             guidance_film: ValueType::blank(),
             guide_clearance_mm: NONE,
             guide_width_mm: NONE,
+            walls: ValueType::blank(),
+            pockets: ValueType::blank(),
+            friction_coefficient: NONE,
             contact_stiffness_n_per_m: NONE,
             contact_damping_ns_per_m: NONE,
             land_stiffness_n_per_m: NONE,
@@ -55,9 +60,11 @@ pub(crate) fn scenario() -> Scenario {
             poisson_ratio: None,
             inner_stiffness: NONE,
             outer_stiffness: NONE,
-            damping_ns_per_m: NONE,
+            damping: ContactDamping::Constant { ns_per_m: NONE },
+            roughness_um: NONE,
+            edge_radius_um: NONE,
         },
-        friction: Friction { raceway_coefficient: NONE, slip_velocity_m_per_s: NONE },
+        friction: Friction { raceway_coefficient: NONE, slip_velocity_m_per_s: NONE, rolling_coefficient: NONE },
         lubricant: Lubricant {
             viscosity_pa_s: NONE,
             raceway_film: ValueType::blank(),
@@ -74,6 +81,7 @@ pub(crate) fn scenario() -> Scenario {
             outer_tilt_stiffness_nm_per_rad: NONE,
             outer_tilt_damping_nms_per_rad: NONE,
         },
+        housing: Housing { mass_kg: NONE },
         operation: Operation {
             speed_rpm: ValueType::blank(),
             load_n: [NONE; 2],
@@ -85,6 +93,9 @@ pub(crate) fn scenario() -> Scenario {
         defects: Vec::new(),
         sensor: Sensor::off(),
         simulation: Simulation {
+            laws: Laws::DEFAULT,
+            geometry: ValueType::blank(),
+            seed: 0,
             model: ValueType::blank(),
             duration_s: NONE,
             sample_rate_hz: NONE,
@@ -103,6 +114,7 @@ pub(crate) fn defect() -> Defect {
         depth_um: NONE,
         axial_offset_mm: NONE,
         shape: rectangle(),
+        table: None,
     }
 }
 

@@ -149,10 +149,11 @@ fn contacts(s: &Scenario) -> Result<[LoadDeflection; 3], ModelError> {
             requirement: "balls need both conformities, a modulus and Poisson's ratio, and grooves wider than the ball",
         })?),
     };
+    let constant = contact.damping.constant_ns_per_m().unwrap_or(0.0);
     let hertz = |stiffness, side: Side| LoadDeflection {
         stiffness,
         exponent,
-        damping: contact.damping_ns_per_m,
+        damping: constant,
         strips: ellipses.map(|e| Strips::new(stiffness, e[side as usize].across)),
     };
     let (inner, outer) = (contact.inner_stiffness, contact.outer_stiffness);
@@ -162,7 +163,7 @@ fn contacts(s: &Scenario) -> Result<[LoadDeflection; 3], ModelError> {
         LoadDeflection {
             stiffness: series_stiffness(inner, outer, contact.exponent),
             exponent,
-            damping: 0.5 * contact.damping_ns_per_m,
+            damping: 0.5 * constant,
             strips: None,
         },
     ])

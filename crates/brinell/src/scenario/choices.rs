@@ -67,6 +67,32 @@ choices! {
         Squeeze = "squeeze", "a closing gap squeezes the oil out, which cushions a roller that falls or enters the load";
     }
 
+    /// `laws`: the set that keys left out take their defaults from.
+    pub enum Laws {
+        Mechanics = "mechanics", "bodies with all their levers, half-space contacts, oiled cage walls";
+        Li2023 = "li2023", "the paper's laws";
+    }
+
+    /// How the contacts' normals and levers follow from the bodies' positions.
+    pub enum GeometryLaw {
+        Exact = "exact", "normals and levers from where the centres are";
+        /// Along the radius about the middle of the bearing (the paper).
+        Centred = "centred", "normals and levers about the bearing's middle, the paper's";
+    }
+
+    /// Law of a cage's pockets and lands.
+    pub enum Walls {
+        Oiled = "oiled", "an oil film that stiffens over the play, then the wall";
+        /// The paper's.
+        Linear = "linear", "a spring and a damper beyond the play, the paper's";
+    }
+
+    /// Shape of a cage's pockets.
+    pub enum Pockets {
+        Slot = "slot", "two walls, which hold along the circumference";
+        Round = "round", "a round hole, which holds in every direction of the plane";
+    }
+
     /// Law of a roller on a damaged raceway.
     pub enum Law {
         /// Effective contact length (the paper, made continuous).
@@ -74,6 +100,8 @@ choices! {
         /// Independent slices across the roller, each with the fraction that damage covers and its mean depth (in the
         /// manner of ISO/TS 16281).
         Sliced = "sliced", "independent slices, each with what damage covers of it";
+        /// Elastic half-space: the approach at which the healthy contact stores the energy of the damaged one.
+        HalfSpace = "half-space", "elastic half-space, by the energy that the damaged contact stores";
     }
 
     /// How a roller follows the damage's floor.

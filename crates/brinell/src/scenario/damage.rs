@@ -1,6 +1,7 @@
 //! `[[defects]]`: where damage lies and what shape it has.
 
 use super::choices::*;
+use super::table::TableData;
 
 /// Where a defect lies.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -294,4 +295,16 @@ pub struct Defect {
     pub axial_offset_mm: f64,
     /// Outline.
     pub shape: Shape,
+    /// delta_eff(s, delta) from elsewhere, in place of what the engine finds for the shape; `half-space` only.
+    pub table: Option<DefectTable>,
+}
+
+/// `table`: how the contact yields over this damage.
+#[derive(Debug, Clone, PartialEq)]
+pub enum DefectTable {
+    /// Path from the scenario's folder, not read yet: the core opens no files. `brinell-damage` puts the table in its
+    /// place.
+    File(String),
+    /// The table.
+    Read(TableData),
 }

@@ -5,12 +5,15 @@
 
 mod choices;
 mod damage;
+mod laws;
 mod sensor;
+mod table;
 
 pub(crate) use choices::words;
 pub use choices::*;
-pub use damage::{Defect, DepthGrid, ImageFile, ScanFile, Shape, Surface, SvgFile};
+pub use damage::{Defect, DefectTable, DepthGrid, ImageFile, ScanFile, Shape, Surface, SvgFile};
 pub use sensor::{PathMode, Range, Sensor};
+pub use table::{TableData, TableFault};
 
 /// One run, completely described.
 #[derive(Debug, Clone, PartialEq)]
@@ -29,6 +32,8 @@ pub struct Scenario {
     pub lubricant: Lubricant,
     /// Supports of the two rings.
     pub support: Support,
+    /// What moves with the outer ring.
+    pub housing: Housing,
     /// Speed, load and gravity.
     pub operation: Operation,
     /// Damage, none or any number.
@@ -130,6 +135,10 @@ pub struct Bearing {
     pub roller_mass_kg: f64,
     /// p(z), the drop of roller and raceway together.
     pub profile: RollerProfile,
+    /// w(u) of every raceway; `None`: smooth.
+    pub waviness: Option<Waviness>,
+    /// w(u) of every rolling element; `None`: smooth.
+    pub element_waviness: Option<Waviness>,
     /// B, of all rows; `tilting` only.
     pub width_mm: f64,
     /// b, between the middles of neighbouring rows; `tilting` only.
@@ -179,7 +188,13 @@ pub struct Cage {
     pub guide_clearance_mm: f64,
     /// L_1, mm.
     pub guide_width_mm: f64,
-    /// k_c, N/m, of pockets.
+    /// Law of pockets and lands.
+    pub walls: Walls,
+    /// What the pockets hold.
+    pub pockets: Pockets,
+    /// mu_p of pockets; `oiled` walls only.
+    pub friction_coefficient: f64,
+    /// k_c, N/m, of pockets; `linear` walls only, like the next three.
     pub contact_stiffness_n_per_m: f64,
     /// c_c, N s/m, of pockets.
     pub contact_damping_ns_per_m: f64,
@@ -210,8 +225,56 @@ pub struct Contact {
     pub inner_stiffness: f64,
     /// K_out of a healthy contact, N/m^n.
     pub outer_stiffness: f64,
-    /// c, N s/m.
-    pub damping_ns_per_m: f64,
+    /// Of each contact.
+    pub damping: ContactDamping,
+    /// delta_s, um: over which damping by `tau` sets in.
+    pub roughness_um: f64,
+    /// Length of the running mean that rounds damage's edges, um; `half-space` only.
+    pub edge_radius_um: f64,
+}
+
+/// What damps a contact of element and raceway.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum ContactDamping {
+    /// tau: the stiffness at hand, tau times the rate of approach.
+    Time {
+        /// tau, us.
+        us: f64,
+    },
+    /// c, whatever the load (the paper).
+    Constant {
+        /// c, N s/m.
+        ns_per_m: f64,
+    },
+}
+
+impl ContactDamping {
+    /// c, where it is a constant.
+    pub fn constant_ns_per_m(self) -> Option<f64> {
+        match self {
+            Self::Constant { ns_per_m } => Some(ns_per_m),
+            Self::Time { .. } => None,
+        }
+    }
+
+    /// tau, where it is a time.
+    pub fn time_us(self) -> Option<f64> {
+        match self {
+            Self::Time { us } => Some(us),
+            Self::Constant { .. } => None,
+        }
+    }
+}
+
+/// Waves of a surface of revolution: w(u) = sum of A_k cos(k u + phase_k) with A_k = A_1 k^-q.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Waviness {
+    /// A_1, um.
+    pub amplitude_um: f64,
+    /// q.
+    pub exponent: f64,
+    /// Waves per turn, the fewest and the most.
+    pub waves: [usize; 2],
 }
 
 /// `[friction]`: rollers on raceways.
@@ -221,6 +284,8 @@ pub struct Friction {
     pub raceway_coefficient: f64,
     /// v_s, m/s.
     pub slip_velocity_m_per_s: f64,
+    /// k_r, of the couple that resists rolling.
+    pub rolling_coefficient: f64,
 }
 
 /// `[lubricant]`.
@@ -255,6 +320,13 @@ pub struct Support {
     pub outer_tilt_stiffness_nm_per_rad: f64,
     /// c_to.
     pub outer_tilt_damping_nms_per_rad: f64,
+}
+
+/// `[housing]`: fixed to the outer ring.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Housing {
+    /// kg.
+    pub mass_kg: f64,
 }
 
 /// `speed_rpm`: a number, or points (t in s, r/min) joined by lines and held beyond both ends.
@@ -314,6 +386,12 @@ pub enum RollerProfile {
 /// `[simulation]`.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Simulation {
+    /// Where keys left out took their defaults from.
+    pub laws: Laws,
+    /// Normals and levers of contacts.
+    pub geometry: GeometryLaw,
+    /// Of the phases of waviness.
+    pub seed: u64,
     /// Equations.
     pub model: ModelKind,
     /// Simulated time, s.

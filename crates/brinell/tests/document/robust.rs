@@ -204,6 +204,7 @@ fn defects() -> impl Strategy<Value = Vec<Defect>> {
         depth_um,
         axial_offset_mm: 0.25,
         shape,
+        table: None,
     });
     prop::collection::vec(defect, 0..4)
 }
@@ -242,6 +243,12 @@ fn sensor(kind: usize, x: &[f64]) -> Sensor {
     }
 }
 
+/// Stiffness and damping of linear walls; oiled ones hold the defaults, which do not act.
+fn walls(oiled: bool, d: f64, x: &[f64]) -> [f64; 2] {
+    let usual = 11.0 / (1e-3 * (d / 100.0).max(0.01));
+    if oiled { [usual, 20.0 * (usual / 1e7).sqrt()] } else { [x[9], x[10]] }
+}
+
 fn scenarios() -> impl Strategy<Value = Scenario> {
     let speed = prop_oneof![
         (1e-3..3e4f64).prop_map(Speed::Constant),
@@ -255,6 +262,9 @@ fn scenarios() -> impl Strategy<Value = Scenario> {
     ];
     // A preset of rollers has no balls, and balls do not tilt.
     let balls = |words: (usize, usize, usize, usize, usize)| words.1 == 0 && words.2 != 2 && words.4 == 1;
+    // The lumped model is the paper's.
+    let mechanics = |words: (usize, usize, usize, usize, usize)| words.2 != 1 && words.3 == 2;
+    let half_space = move |words: (usize, usize, usize, usize, usize)| mechanics(words) && words.0 != 1;
     let words = (0..3usize, 0..2usize, 0..3usize, 0..3usize, 0..2usize);
     let numbers = prop::collection::vec(1e-9..1e9f64, 16);
     let text = (any::<String>(), prop::collection::vec("[a-z0-9_*]{1,9}", 0..4));
@@ -289,6 +299,12 @@ fn scenarios() -> impl Strategy<Value = Scenario> {
                     }
                     _ => RollerProfile::Straight,
                 },
+                waviness: mechanics(words).then(|| Waviness {
+                    amplitude_um: 1e-7 * x[8],
+                    exponent: 1.5,
+                    waves: [2, 30],
+                }),
+                element_waviness: None,
                 width_mm: 1.6 * (if balls(words) { d } else { d * 1.1 }) * rows as f64,
                 row_spacing_mm: match (rows, balls(words)) {
                     (1, _) => 0.0,
@@ -305,24 +321,40 @@ fn scenarios() -> impl Strategy<Value = Scenario> {
                 guidance_film: [GuidanceFilm::Dynamic, GuidanceFilm::QuasiStatic][words.0 % 2],
                 guide_clearance_mm: x[7],
                 guide_width_mm: x[8],
-                contact_stiffness_n_per_m: x[9],
-                contact_damping_ns_per_m: x[10],
-                land_stiffness_n_per_m: x[9],
-                land_damping_ns_per_m: x[10],
+                walls: if mechanics(words) { Walls::Oiled } else { Walls::Linear },
+                pockets: [Pockets::Slot, Pockets::Round][words.4],
+                friction_coefficient: if mechanics(words) { x[11] } else { 0.05 },
+                contact_stiffness_n_per_m: walls(mechanics(words), d, &x)[0],
+                contact_damping_ns_per_m: walls(mechanics(words), d, &x)[1],
+                land_stiffness_n_per_m: walls(mechanics(words), d, &x)[0],
+                land_damping_ns_per_m: walls(mechanics(words), d, &x)[1],
             },
             contact: Contact {
-                law: if words.2 == 2 || balls(words) { Law::Sliced } else { Law::Ecl },
+                law: match (half_space(words), words.2 == 2 || balls(words)) {
+                    (true, _) => Law::HalfSpace,
+                    (false, true) => Law::Sliced,
+                    (false, false) => Law::Ecl,
+                },
                 roller_path: RollerPath::Point,
                 slices: z,
                 edge_reaction: EdgeReaction::None,
                 exponent: if balls(words) { 1.5 } else { 1.0 + x[0] / 1e9 },
-                youngs_modulus_gpa: balls(words).then_some(x[8]),
-                poisson_ratio: balls(words).then_some(x[9] / 2e9),
+                youngs_modulus_gpa: (balls(words) || half_space(words)).then_some(x[8]),
+                poisson_ratio: (balls(words) || half_space(words)).then_some(x[9] / 2e9),
                 inner_stiffness: x[11],
                 outer_stiffness: x[12],
-                damping_ns_per_m: x[13],
+                damping: match mechanics(words) {
+                    true => ContactDamping::Time { us: 1.0 + x[13] / 1e6 },
+                    false => ContactDamping::Constant { ns_per_m: x[13] },
+                },
+                roughness_um: if mechanics(words) { 1e-9 * x[14] } else { 0.1 },
+                edge_radius_um: if half_space(words) { 1e-7 * x[15] } else { 10.0 },
             },
-            friction: Friction { raceway_coefficient: x[14] / 1e9, slip_velocity_m_per_s: x[15] },
+            friction: Friction {
+                raceway_coefficient: x[14] / 1e9,
+                slip_velocity_m_per_s: x[15],
+                rolling_coefficient: x[13],
+            },
             lubricant: Lubricant {
                 viscosity_pa_s: x[1],
                 raceway_film: [RacewayFilm::None, RacewayFilm::Squeeze][usize::from(x[2] > x[3] && !balls(words))],
@@ -349,8 +381,12 @@ fn scenarios() -> impl Strategy<Value = Scenario> {
                 load_offset_mm: 0.0,
             },
             defects,
+            housing: Housing { mass_kg: x[13] },
             sensor: sensor(words.0, &x),
             simulation: Simulation {
+                laws: if mechanics(words) { Laws::Mechanics } else { Laws::Li2023 },
+                geometry: [GeometryLaw::Exact, GeometryLaw::Centred][words.4],
+                seed: x[6].to_bits(),
                 model: [ModelKind::Full, ModelKind::Lumped, ModelKind::Tilting][words.2],
                 duration_s: 1.0 + x[12] / 1e9,
                 sample_rate_hz: 1.0 + x[13],

@@ -40,7 +40,7 @@ impl Checker<'_> {
             self.at_most(key, value, body.0 * FASTEST.powi(2), "", body.1);
         }
         for (key, value, body) in [
-            ("contact.damping_ns_per_m", contact.damping_ns_per_m, roller),
+            ("contact.damping_ns_per_m", contact.damping.constant_ns_per_m().unwrap_or(0.0), roller),
             ("cage.contact_damping_ns_per_m", cage.contact_damping_ns_per_m, lighter),
             ("support.inner_damping_ns_per_m", support.inner_damping_ns_per_m, inner_ring),
             ("support.outer_damping_ns_per_m", support.outer_damping_ns_per_m, outer_ring),

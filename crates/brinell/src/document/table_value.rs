@@ -1,0 +1,67 @@
+//! `defects.table`: the name of a file, or the table itself.
+
+use serde_json::{Value as Json, json};
+
+use super::source::{Node, Value};
+use super::spec::{Spec, key};
+use super::toml_text::quote;
+use super::value_type::{Misfit, ValueType, object, read_under, wrong_type};
+use crate::scenario::{DefectTable, TableData};
+
+const S: Spec = key("s_mm", "s, rising");
+const DELTA: Spec = key("delta_um", "delta, rising");
+const DELTA_EFF: Spec = key("delta_eff_um", "delta_eff, at every delta_um of the first s_mm, then of the next");
+const ALLOWED: &str = "\"FILE\", { s_mm = [..], delta_um = [..], delta_eff_um = [..] }";
+
+impl ValueType for DefectTable {
+    fn blank() -> Self {
+        Self::File(String::new())
+    }
+
+    fn expected(_: &Spec) -> String {
+        format!("one of {ALLOWED}")
+    }
+
+    fn range(_: &Spec) -> String {
+        ALLOWED.into()
+    }
+
+    fn read(node: &Node, spec: &Spec) -> Result<Self, Misfit> {
+        let table = match &node.value {
+            Value::Text(file) if file.trim().is_empty() => return Err(Misfit::new("no name of a file", ALLOWED)),
+            Value::Text(file) => return Ok(Self::File(file.clone())),
+            Value::Table(table) => table,
+            _ => return Err(wrong_type::<Self>(node, spec)),
+        };
+        let names: Vec<&str> = table.keys().map(String::as_str).collect();
+        if names != [DELTA_EFF.name, DELTA.name, S.name] {
+            return Err(Misfit::new(format!("keys {} make no table", names.join(", ")), ALLOWED));
+        }
+        let list = |spec: &Spec| read_under::<Vec<f64>>(&table[spec.name].node, spec);
+        let data = TableData { s_mm: list(&S)?, delta_um: list(&DELTA)?, delta_eff_um: list(&DELTA_EFF)? };
+        data.check().map_err(|fault| Misfit::new(fault.message, fault.allowed))?;
+        Ok(Self::Read(data))
+    }
+
+    fn write(&self) -> String {
+        match self {
+            Self::File(file) => quote(file),
+            Self::Read(TableData { s_mm, delta_um, delta_eff_um }) => format!(
+                "{{ {} = {}, {} = {}, {} = {} }}",
+                S.name,
+                s_mm.write(),
+                DELTA.name,
+                delta_um.write(),
+                DELTA_EFF.name,
+                delta_eff_um.write()
+            ),
+        }
+    }
+
+    fn schema(_: &Spec) -> Json {
+        json!({ "oneOf": [
+            { "type": "string", "description": "CSV with the columns s_mm, delta_um, delta_eff_um, from the scenario's folder" },
+            object(&[&S, &DELTA, &DELTA_EFF], &[&S, &DELTA, &DELTA_EFF].map(<Vec<f64>>::schema)),
+        ] })
+    }
+}
