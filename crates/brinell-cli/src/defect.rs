@@ -255,13 +255,13 @@ fn random(args: &RandomArgs) -> Result<(), Failure> {
         center_deg: 0.0,
         depth_um: args.depth_um,
         axial_offset_mm: 0.0,
-        table: None,
         shape: scenario::Shape::Random {
             seed: args.seed,
             length_mm: args.length_mm,
             width_mm: args.width_mm,
             roughness: args.roughness,
         },
+        table: None,
     };
     let area = 1e6 * shape(&defect)?.area();
     let deepest = match shape(&defect)? {

@@ -11,13 +11,13 @@ use std::error::Error;
 fn main() -> Result<(), Box<dyn Error>> {
     let mut scenario = Scenario::of_bearing("NU206", 1800.0, [500.0, 0.0])?;
     scenario.defects.push(Defect {
-        table: None,
         on: Surface::OuterRaceway,
         row: 1,
         center_deg: 0.0,
         depth_um: 20.0,
         axial_offset_mm: 0.0,
         shape: Shape::Rectangle { length_mm: 2.0, width_mm: 4.0 },
+        table: None,
     });
     let result = brinell::simulate(&scenario)?;
 

@@ -16,13 +16,13 @@ const WIDE: &str = "[bearing]\npreset = \"NN3007\"\n[operation]\nspeed_rpm = 180
 fn stated(shape: Shape) -> Answer<Value> {
     let mut scenario = Scenario::from_toml(WIDE)?;
     scenario.defects.push(scenario::Defect {
-        table: None,
         on: Surface::OuterRaceway,
         row: 1,
         center_deg: 0.0,
         depth_um: 10.0,
         axial_offset_mm: 0.0,
         shape,
+        table: None,
     });
     Ok(text::stated(&scenario.to_toml())["defects"][0]["shape"].clone())
 }

@@ -3,7 +3,7 @@
 use brinell::Scenario;
 use brinell::defect::{Defect, SIDES};
 use brinell::half_space::build::{Accuracy, Range, table};
-use brinell::half_space::damage::gather;
+use brinell::half_space::damage::{Damage, gather};
 use brinell::half_space::geometry::Geometry;
 use std::error::Error;
 use std::num::NonZeroUsize;
@@ -23,7 +23,8 @@ fn main() -> Result<(), Box<dyn Error>> {
     for side in SIDES {
         let geometry = Geometry::of_bearing(bearing, &scenario.contact, side).ok_or("no contact")?;
         let reach = geometry.reach(range.largest);
-        for damage in gather(&defects, |_| reach, 10e-6) {
+        for group in gather(&defects, |_| reach) {
+            let damage = Damage::of(&defects, &group, 10e-6);
             if !damage.members.iter().any(|k| defects[*k].depth_profile(side).is_some()) {
                 continue;
             }

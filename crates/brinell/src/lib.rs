@@ -42,6 +42,7 @@
 //!     depth_um: 20.0,
 //!     axial_offset_mm: 0.0,
 //!     shape: Shape::Rectangle { length_mm: 3.0, width_mm: 4.0 },
+//!     table: None,
 //! });
 //! assert!(scenario.problems().is_empty());
 //! let result = brinell::simulate(&scenario)?;

@@ -192,7 +192,7 @@ impl Slices {
     pub fn press<L: Lanes>(&self, law: &LoadDeflection, at: &Approach, cover: Option<&Cover>) -> Pressed {
         let c = match law.damping {
             Damping::Constant(c) => c,
-            Damping::Time { tau, roughness } => return self.press_timed::<L>(law, at, tau, roughness),
+            Damping::Time { tau, roughness } => return self.press_timed::<L>(law, at, cover, [tau, roughness]),
         };
         let (deformation, tilt) = (L::splat(at.deformation), L::splat(at.tilt));
         let (rate, tilt_rate) = (L::splat(at.rate), L::splat(at.tilt_rate));
@@ -224,31 +224,31 @@ impl Slices {
         }
     }
 
-    /// The same without damage where damping goes with the stiffness (section 20): tau sigma times the Hessian of the energy times
-    /// the rates, sigma at the slice that is deformed most where that is more than the middle.
+    /// The same where damping goes with the stiffness (section 20): tau sigma times the Hessian of the energy times the rates, sigma at the slice that is deformed most where that is more than the middle.
     #[inline(always)]
-    fn press_timed<L: Lanes>(&self, law: &LoadDeflection, at: &Approach, tau: f64, roughness: f64) -> Pressed {
+    fn press_timed<L: Lanes>(
+        &self,
+        law: &LoadDeflection,
+        at: &Approach,
+        cover: Option<&Cover>,
+        [tau, roughness]: [f64; 2],
+    ) -> Pressed {
         let zero = L::zero();
         let (deformation, tilt) = (L::splat(at.deformation), L::splat(at.tilt));
         let (rate, tilt_rate) = (L::splat(at.rate), L::splat(at.tilt_rate));
-        let exponent = L::splat(law.exponent.value());
         let mut sums = Timed { elastic: zero, moment: zero, rates: [zero; 2], touching: zero, deepest: zero };
         for k in 0..self.z.len() / L::COUNT {
             let z = L::new(L::groups(&self.z)[k]);
             let weight = L::new(L::groups(&self.weight)[k]);
             let delta = tilt.times_plus(z, deformation - L::new(L::groups(&self.drop)[k]));
-            if !delta.any_positive() {
+            let d = tilt_rate.times_plus(z, rate);
+            let Some(cover) = cover else {
+                sums.add(law, (z, d), delta, weight);
                 continue;
-            }
-            let spring = weight * law.healthy(delta);
-            let stiffness = exponent * spring / delta.if_above(zero, delta, L::splat(1.0));
-            let stiffening = stiffness * tilt_rate.times_plus(z, rate);
-            sums.elastic += spring;
-            sums.moment = z.times_plus(spring, sums.moment);
-            sums.rates[0] += stiffening;
-            sums.rates[1] = z.times_plus(stiffening, sums.rates[1]);
-            sums.touching += delta.if_above(zero, weight, zero);
-            sums.deepest = sums.deepest.at_least(weight.if_above(zero, delta, zero));
+            };
+            let fraction = L::new(L::groups(&cover.fraction)[k]);
+            sums.add(law, (z, d), delta, (L::splat(1.0) - fraction) * weight);
+            sums.add(law, (z, d), delta - L::new(L::groups(&cover.depth)[k]), fraction * weight);
         }
         let (elastic, moment) = (sums.elastic.sum(), sums.moment.sum());
         let x = sums.deepest.array().as_ref().iter().fold(at.deformation, |a, b| a.max(*b));
@@ -356,6 +356,26 @@ impl Slices {
         let touches = |(share, delta): (f64, f64)| if delta > 0.0 { share } else { 0.0 };
         let parts = self.parts(Approach::pressed(deformation), cover);
         parts.zip(&self.weight).map(|([whole, sunk], weight)| weight * (touches(whole) + touches(sunk))).sum()
+    }
+}
+
+impl<L: Lanes> Timed<L> {
+    /// Adds `share` of a group of slices at z whose deformation is `delta` and grows at `d`.
+    #[inline(always)]
+    fn add(&mut self, law: &LoadDeflection, (z, d): (L, L), delta: L, share: L) {
+        if !delta.any_positive() {
+            return;
+        }
+        let zero = L::zero();
+        let spring = share * law.healthy(delta);
+        let stiffness = L::splat(law.exponent.value()) * spring / delta.if_above(zero, delta, L::splat(1.0));
+        let stiffening = stiffness * d;
+        self.elastic += spring;
+        self.moment = z.times_plus(spring, self.moment);
+        self.rates[0] += stiffening;
+        self.rates[1] = z.times_plus(stiffening, self.rates[1]);
+        self.touching += delta.if_above(zero, share, zero);
+        self.deepest = self.deepest.at_least(share.if_above(zero, delta, zero));
     }
 }
 

@@ -33,16 +33,16 @@ impl Wave {
     /// Of surface number `surface`.
     pub fn new(of: &scenario::Waviness, seed: u64, surface: u64) -> Self {
         let [first, last] = of.waves;
-        let count = POINTS * last.max(1) as usize;
+        let count = POINTS * last.max(1);
         let spacing = TAU / count as f64;
         let mut points = vec![[0.0; 3]; count + 1];
         for k in first..=last {
-            let (wave, amplitude) = (f64::from(k), 1e-6 * of.amplitude_um * f64::from(k).powf(-of.exponent));
+            let (wave, amplitude) = (k as f64, 1e-6 * of.amplitude_um * (k as f64).powf(-of.exponent));
             let per_point = wave * spacing;
-            let phase = phase(seed, surface, u64::from(k));
+            let phase = phase(seed, surface, k as u64);
             for (n, [value, slope, curvature]) in points[..count].iter_mut().enumerate() {
                 // n k points of the turn, taken modulo the turn as whole numbers.
-                let (sin, cos) = (spacing * ((n * k as usize) % count) as f64 + phase).sin_cos();
+                let (sin, cos) = (spacing * ((n * k) % count) as f64 + phase).sin_cos();
                 *value += amplitude * cos;
                 *slope -= amplitude * per_point * sin;
                 *curvature -= amplitude * per_point * per_point * cos;
@@ -105,7 +105,7 @@ impl Waviness {
 /// The sum of a surface's amplitudes, m.
 fn largest(of: &scenario::Waviness) -> f64 {
     let [first, last] = of.waves;
-    (first..=last).map(|k| 1e-6 * of.amplitude_um.abs() * f64::from(k).powf(-of.exponent)).sum()
+    (first..=last).map(|k| 1e-6 * of.amplitude_um.abs() * (k as f64).powf(-of.exponent)).sum()
 }
 
 #[cfg(test)]

@@ -241,7 +241,7 @@ fn analytic_equilibrium_start_is_in_balance_but_for_damping_and_film() {
     // What a static balance leaves out: rings off centre make the gaps of orbiting rollers change, which the contact
     // dampers feel, and the centred cages run eccentric in a displaced outer ring.
     let orbit = model.rolling_orbit_speed(model.rotation.at(0.0).0);
-    let c = model.inner_contact.damping.constant();
+    let c = s.contact.damping.constant_ns_per_m().unwrap();
     let mut damping = [[0.0; 2]; 2];
     for slot in 0..l.rollers() {
         let (sin, cos) = model.pocket_angle[slot].sin_cos();

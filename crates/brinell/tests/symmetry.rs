@@ -160,7 +160,6 @@ fn askew(base: Scenario) -> Scenario {
     s.defects[0].center_deg = 24.0;
     s.defects[0].shape = Shape::Rectangle { length_mm: 3.0, width_mm: 4.0 };
     s.defects.push(Defect {
-        table: None,
         on: Surface::InnerRaceway,
         row: s.bearing.rows,
         center_deg: 17.0,
@@ -171,15 +170,16 @@ fn askew(base: Scenario) -> Scenario {
             width_mm: vec![0.0, 4.0, 3.0, 0.0],
             depth_um: Some(vec![5.0, 12.0, 10.0, 4.0]),
         },
+        table: None,
     });
     s.defects.push(Defect {
-        table: None,
         on: Surface::Roller(3),
         row: 1,
         center_deg: 10.0,
         depth_um: 9.0,
         axial_offset_mm: 0.0,
         shape: Shape::Circle { diameter_mm: 2.0 },
+        table: None,
     });
     s
 }

@@ -11,9 +11,6 @@ use brinell::simulate::{Observer, Simulation};
 use brinell::slices::drop;
 use brinell::statics::{Problem, solve};
 
-/// No damper.
-const UNDAMPED: ContactDamping = ContactDamping::Constant { ns_per_m: 0.0 };
-
 fn edge() -> Scenario {
     case("reference/tilting-edge")
 }
@@ -44,7 +41,7 @@ fn analytic_nothing_tilted_is_the_planar_model() {
     // Without damping at the contacts, where every slice is damped by itself; at states without tilt the other
     // coordinates move as in the plane.
     let mut tilting = edge();
-    tilting.contact.damping = UNDAMPED;
+    tilting.contact.damping = ContactDamping::Constant { ns_per_m: 0.0 };
     let mut planar = tilting.clone();
     planar.simulation.model = ModelKind::Full;
     let (flat, full) = (Model::new(&planar).unwrap(), Model::new(&tilting).unwrap());
@@ -179,7 +176,7 @@ fn analytic_an_equilibrium_is_one() {
     // Neither friction nor film nor damping, which the orbit makes felt: what is left is the balance's error, and the
     // centrifugal force on the arm R_m + r in place of R_m, 0.2 N times 20 um over 25 mm.
     s.friction.raceway_coefficient = 0.0;
-    s.contact.damping = UNDAMPED;
+    s.contact.damping = ContactDamping::Constant { ns_per_m: 0.0 };
     s.lubricant.viscosity_pa_s = 0.0;
     let model = Model::new(&s).unwrap();
     let y = brinell::start::state(&model).unwrap();

@@ -6,6 +6,7 @@
 use super::designation::{of_one_kind, plain, readings, with_zeros};
 use super::kinematics::Geometry;
 use crate::did_you_mean::did_you_mean;
+use crate::scenario::{Choice, Laws};
 use serde_json::Value as Json;
 use std::sync::LazyLock;
 
@@ -48,6 +49,15 @@ pub struct Value {
     pub source: String,
     /// Whether no source prints it.
     pub estimated: bool,
+    /// The one set of laws that it holds with; `None`: every one.
+    pub laws: Option<Laws>,
+}
+
+impl Value {
+    /// Whether it is a value of a bearing under these laws.
+    pub(crate) fn holds_with(&self, laws: Laws) -> bool {
+        self.laws.is_none_or(|own| own == laws)
+    }
 }
 
 impl Entry {
@@ -163,7 +173,11 @@ fn value(key: &str, cell: toml::Value) -> Option<Value> {
     };
     let source = cell.remove("source")?.as_str()?.to_owned();
     let estimated = cell.remove("estimated")?.as_bool()?;
-    cell.is_empty().then(|| Value { key: key.to_owned(), value, source, estimated })
+    let laws = match cell.remove("laws") {
+        None => None,
+        Some(word) => Some(Laws::WORDS.iter().find(|(known, ..)| Some(*known) == word.as_str())?.1),
+    };
+    cell.is_empty().then(|| Value { key: key.to_owned(), value, source, estimated, laws })
 }
 
 #[cfg(test)]

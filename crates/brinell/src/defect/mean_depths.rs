@@ -120,6 +120,7 @@ mod tests {
             depth_um: 20.0,
             axial_offset_mm,
             shape,
+            table: None,
         };
         Defect::new(&defect, &scenario.bearing, &scenario.contact).unwrap()
     }

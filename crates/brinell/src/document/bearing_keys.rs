@@ -24,8 +24,8 @@ pub(super) fn steel_element_kg(b: &Bearing) -> f64 {
     }
 }
 
-pub(super) fn bearing<K: Keys>(k: &mut K, model: ModelKind, b: &mut Bearing) {
-    k.preset(key("preset", "catalogue bearing that fills the keys left out"), &mut b.preset);
+pub(super) fn bearing<K: Keys>(k: &mut K, (model, laws): (ModelKind, Laws), b: &mut Bearing) {
+    k.preset(key("preset", "catalogue bearing that fills the keys left out"), laws, &mut b.preset);
     k.key(
         key("element", "what rolls; the keys named after rollers are then a ball's"),
         stated(Element::Roller, "cylindrical rollers, as in the paper"),
@@ -100,12 +100,8 @@ pub(super) fn bearing<K: Keys>(k: &mut K, model: ModelKind, b: &mut Bearing) {
         profile,
         &mut b.profile,
     );
-    for (name, whose, value) in [
-        ("waviness", "waviness of every raceway; left out: none", &mut b.waviness),
-        ("element_waviness", "waviness of every rolling element; left out: none", &mut b.element_waviness),
-    ] {
-        k.optional(key(name, whose), value);
-    }
+    k.optional(key("waviness", "waves of every raceway, A_k = amplitude_um k^-exponent"), &mut b.waviness);
+    k.optional(key("element_waviness", "waves of every rolling element, likewise"), &mut b.element_waviness);
     tilt_key(
         k,
         (model, b.element),

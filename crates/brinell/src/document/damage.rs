@@ -88,7 +88,10 @@ pub(super) fn defect<K: Keys>(k: &mut K, load: [f64; 2], d: &mut Defect) {
         &mut d.axial_offset_mm,
     );
     k.optional(
-        key("table", "effective deformation over the damage, in place of one computed from the shape: a CSV file's name, or its numbers"),
+        key(
+            "table",
+            "delta_eff(s, delta) of the contact over this damage, from elsewhere; CSV from the scenario's folder",
+        ),
         &mut d.table,
     );
 }

@@ -47,6 +47,13 @@ impl ScanForm {
     }
 }
 
+impl Law {
+    /// As the scenario file says it: `half-space`, for one.
+    pub fn word(self) -> &'static str {
+        Choice::word(self)
+    }
+}
+
 impl Accuracy {
     /// As the scenario file says it: `standard` or `reference`.
     pub fn word(self) -> &'static str {

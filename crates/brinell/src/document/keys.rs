@@ -7,6 +7,7 @@
 use super::spec::Spec;
 use super::value_type::ValueType;
 use crate::bearing::clearance::ClearanceClass;
+use crate::scenario::Laws;
 
 /// Where the defaults come from that the model states.
 pub(super) const PAPER: &str = "Li et al. 2023";
@@ -125,8 +126,14 @@ pub trait Keys: Sized {
         None
     }
 
-    /// The key that names the catalogue bearing, whose values replace keys left out after it.
-    fn preset(&mut self, spec: Spec, value: &mut Option<String>) {
+    /// Whether the file gives a key of a section, readable or not; `None` in a walk that reads no file.
+    fn gives(&self, _section: &str, _name: &str) -> Option<bool> {
+        None
+    }
+
+    /// The key that names the catalogue bearing, whose values replace keys left out after it: those that hold with these
+    /// laws.
+    fn preset(&mut self, spec: Spec, _laws: Laws, value: &mut Option<String>) {
         self.optional(spec, value);
     }
 

@@ -4,7 +4,9 @@
 //! what no single key can say: geometry that does not fit, a defect wider than its roller.
 
 mod bearing_keys;
+mod cage_keys;
 mod checks;
+mod contact_keys;
 mod damage;
 mod damage_files;
 mod diagnostics;

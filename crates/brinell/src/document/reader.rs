@@ -38,6 +38,7 @@ struct Frame<'a> {
 pub struct Reader<'a> {
     frames: Vec<Frame<'a>>,
     preset: Option<&'static catalogue::Entry>,
+    /// The set of laws that the preset's values are to hold with.
     laws: Laws,
     /// The class of clearance in the preset's name: C3 of `6205-2RS/C3`.
     named_clearance: Option<ClearanceClass>,
@@ -60,10 +61,6 @@ pub struct Reader<'a> {
 fn join(path: &str, name: &str) -> String {
     if path.is_empty() { name.to_string() } else { format!("{path}.{name}") }
 }
-
-/// What the catalogue gives for the paper's laws alone.
-const OF_LI2023: [&str; 4] =
-    ["contact.inner_stiffness", "contact.outer_stiffness", "cage.contact_stiffness_n_per_m", "lubricant.raceway_film"];
 
 impl<'a> Reader<'a> {
     /// Of a scenario.
@@ -228,13 +225,9 @@ impl<'a> Reader<'a> {
 
     fn datum(&self, path: &str) -> Option<&'static catalogue::Value> {
         let entry = self.preset?;
-        // What belongs to the paper's laws is none of the bearing's.
-        if self.laws == Laws::Mechanics && OF_LI2023.contains(&path) {
-            return None;
-        }
         // The width is a fact of every bearing, and acts where rings tilt.
         let fact = || entry.facts.iter().find(|fact| fact.key == catalogue::WIDTH && path == "bearing.width_mm");
-        entry.values.iter().find(|value| value.key == path).or_else(fact)
+        entry.values.iter().find(|value| value.key == path && value.holds_with(self.laws)).or_else(fact)
     }
 
     fn record_datum(&mut self, path: &str, spec: &Spec, value: String, datum: &catalogue::Value) {

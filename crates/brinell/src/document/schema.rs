@@ -5,6 +5,7 @@ use serde_json::{Map, Value as Json, json};
 use super::keys::{Case, Fallback, Keys, Variant};
 use super::spec::Spec;
 use super::value_type::ValueType;
+use crate::scenario::Laws;
 
 /// Keys of a table, as far as the walk has come.
 #[derive(Default)]
@@ -142,7 +143,7 @@ impl Keys for Schema {
         self.say_more(spec.name, &format!("; acts only where {case}"));
     }
 
-    fn preset(&mut self, spec: Spec, value: &mut Option<String>) {
+    fn preset(&mut self, spec: Spec, _: Laws, value: &mut Option<String>) {
         self.object().preset = Some(spec.name);
         self.optional(spec, value);
     }

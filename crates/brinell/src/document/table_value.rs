@@ -1,4 +1,4 @@
-//! `table` of a defect: a file's name, or the numbers of one.
+//! `defects.table`: the name of a file, or the table itself.
 
 use serde_json::{Value as Json, json};
 
@@ -8,10 +8,10 @@ use super::toml_text::quote;
 use super::value_type::{Misfit, ValueType, object, read_under, wrong_type};
 use crate::scenario::{DefectTable, TableData};
 
-const S: Spec = key("s_mm", "arc from the defect's centre, rising");
-const DELTA: Spec = key("delta_um", "deformation, rising");
-const EFFECTIVE: Spec = key("delta_eff_um", "for each s those of every delta");
-const ALLOWED: &str = "\"FILE.csv\", or { s_mm = [..], delta_um = [..], delta_eff_um = [..] }";
+const S: Spec = key("s_mm", "s, rising");
+const DELTA: Spec = key("delta_um", "delta, rising");
+const DELTA_EFF: Spec = key("delta_eff_um", "delta_eff, at every delta_um of the first s_mm, then of the next");
+const ALLOWED: &str = "\"FILE\", { s_mm = [..], delta_um = [..], delta_eff_um = [..] }";
 
 impl ValueType for DefectTable {
     fn blank() -> Self {
@@ -19,7 +19,7 @@ impl ValueType for DefectTable {
     }
 
     fn expected(_: &Spec) -> String {
-        ALLOWED.into()
+        format!("one of {ALLOWED}")
     }
 
     fn range(_: &Spec) -> String {
@@ -28,23 +28,19 @@ impl ValueType for DefectTable {
 
     fn read(node: &Node, spec: &Spec) -> Result<Self, Misfit> {
         let table = match &node.value {
+            Value::Text(file) if file.trim().is_empty() => return Err(Misfit::new("no name of a file", ALLOWED)),
             Value::Text(file) => return Ok(Self::File(file.clone())),
             Value::Table(table) => table,
             _ => return Err(wrong_type::<Self>(node, spec)),
         };
         let names: Vec<&str> = table.keys().map(String::as_str).collect();
-        if names != [EFFECTIVE.name, DELTA.name, S.name] {
+        if names != [DELTA_EFF.name, DELTA.name, S.name] {
             return Err(Misfit::new(format!("keys {} make no table", names.join(", ")), ALLOWED));
         }
-        let data = TableData {
-            s_mm: read_under(&table[S.name].node, &S)?,
-            delta_um: read_under(&table[DELTA.name].node, &DELTA)?,
-            delta_eff_um: read_under(&table[EFFECTIVE.name].node, &EFFECTIVE)?,
-        };
-        match data.fault() {
-            Some(fault) => Err(Misfit::new(fault, "a full grid whose s_mm and delta_um rise")),
-            None => Ok(Self::Read(data)),
-        }
+        let list = |spec: &Spec| read_under::<Vec<f64>>(&table[spec.name].node, spec);
+        let data = TableData { s_mm: list(&S)?, delta_um: list(&DELTA)?, delta_eff_um: list(&DELTA_EFF)? };
+        data.check().map_err(|fault| Misfit::new(fault.message, fault.allowed))?;
+        Ok(Self::Read(data))
     }
 
     fn write(&self) -> String {
@@ -56,17 +52,16 @@ impl ValueType for DefectTable {
                 s_mm.write(),
                 DELTA.name,
                 delta_um.write(),
-                EFFECTIVE.name,
+                DELTA_EFF.name,
                 delta_eff_um.write()
             ),
         }
     }
 
     fn schema(_: &Spec) -> Json {
-        let lists = [&S, &DELTA, &EFFECTIVE];
         json!({ "oneOf": [
-            { "type": "string", "description": "path of a CSV file, from the scenario's folder" },
-            object(&lists, &lists.map(<Vec<f64>>::schema)),
+            { "type": "string", "description": "CSV with the columns s_mm, delta_um, delta_eff_um, from the scenario's folder" },
+            object(&[&S, &DELTA, &DELTA_EFF], &[&S, &DELTA, &DELTA_EFF].map(<Vec<f64>>::schema)),
         ] })
     }
 }

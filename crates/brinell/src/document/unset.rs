@@ -8,10 +8,7 @@ pub(crate) const NONE: f64 = f64::NAN;
 pub(crate) fn scenario() -> Scenario {
     Scenario {
         name: String::new(),
-        housing: Housing { mass_kg: NONE },
         bearing: Bearing {
-            waviness: None,
-            element_waviness: None,
             preset: None,
             element: ValueType::blank(),
             inner_raceway_diameter_mm: NONE,
@@ -31,13 +28,12 @@ pub(crate) fn scenario() -> Scenario {
             outer_ring_mass_kg: NONE,
             roller_mass_kg: NONE,
             profile: ValueType::blank(),
+            waviness: None,
+            element_waviness: None,
             width_mm: NONE,
             row_spacing_mm: NONE,
         },
         cage: Cage {
-            walls: ValueType::blank(),
-            pockets: ValueType::blank(),
-            friction_coefficient: NONE,
             mass_kg: NONE,
             inner_diameter_mm: NONE,
             outer_diameter_mm: NONE,
@@ -46,6 +42,9 @@ pub(crate) fn scenario() -> Scenario {
             guidance_film: ValueType::blank(),
             guide_clearance_mm: NONE,
             guide_width_mm: NONE,
+            walls: ValueType::blank(),
+            pockets: ValueType::blank(),
+            friction_coefficient: NONE,
             contact_stiffness_n_per_m: NONE,
             contact_damping_ns_per_m: NONE,
             land_stiffness_n_per_m: NONE,
@@ -65,7 +64,7 @@ pub(crate) fn scenario() -> Scenario {
             roughness_um: NONE,
             edge_radius_um: NONE,
         },
-        friction: Friction { rolling_coefficient: NONE, raceway_coefficient: NONE, slip_velocity_m_per_s: NONE },
+        friction: Friction { raceway_coefficient: NONE, slip_velocity_m_per_s: NONE, rolling_coefficient: NONE },
         lubricant: Lubricant {
             viscosity_pa_s: NONE,
             raceway_film: ValueType::blank(),
@@ -82,6 +81,7 @@ pub(crate) fn scenario() -> Scenario {
             outer_tilt_stiffness_nm_per_rad: NONE,
             outer_tilt_damping_nms_per_rad: NONE,
         },
+        housing: Housing { mass_kg: NONE },
         operation: Operation {
             speed_rpm: ValueType::blank(),
             load_n: [NONE; 2],
@@ -95,7 +95,7 @@ pub(crate) fn scenario() -> Scenario {
         simulation: Simulation {
             laws: Laws::DEFAULT,
             geometry: ValueType::blank(),
-            seed: 1,
+            seed: 0,
             model: ValueType::blank(),
             duration_s: NONE,
             sample_rate_hz: NONE,
@@ -108,13 +108,13 @@ pub(crate) fn scenario() -> Scenario {
 
 pub(crate) fn defect() -> Defect {
     Defect {
-        table: None,
         on: Surface::OuterRaceway,
         row: 0,
         center_deg: NONE,
         depth_um: NONE,
         axial_offset_mm: NONE,
         shape: rectangle(),
+        table: None,
     }
 }
 

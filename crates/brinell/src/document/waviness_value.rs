@@ -1,24 +1,47 @@
-//! `bearing.waviness`: a table of an amplitude, its exponent and the waves of a turn.
+//! `bearing.waviness`, `bearing.element_waviness`: a table with the spectrum of a surface's waves.
 
-use serde_json::Value as Json;
+use serde_json::{Value as Json, json};
 
 use super::source::{Node, Value};
 use super::spec::{Spec, key};
-use super::value_type::{Misfit, ValueType, object, read_under, wrong_type};
+use super::value_type::{Misfit, ValueType, read_under, wrong_type};
 use crate::scenario::Waviness;
 
-const AMPLITUDE: Spec = key("amplitude_um", "A_1").from(0.0);
-const EXPONENT: Spec = key("exponent", "q of A_k = A_1 k^-q");
-const WAVES: Spec = key("waves", "first and last k, waves in a turn").from(1.0).to(5000.0);
-const ALLOWED: &str = "{ amplitude_um = A, exponent = 1.5, waves = [2, 300] }";
+const AMPLITUDE: Spec = key("amplitude_um", "A_1").from(0.0).to(1000.0);
+const EXPONENT: Spec = key("exponent", "q of A_k = A_1 k^-q").from(0.0).to(10.0);
+/// Waves per turn at most: those of 1 mm on a bearing of 3 m.
+const MOST_WAVES: usize = 10_000;
+const ALLOWED: &str = "{ amplitude_um = 0.1, exponent = 1.5, waves = [2, 300] }";
+const WAVES: &str = "waves";
+
+/// q where a table leaves it out.
+const USUAL_EXPONENT: f64 = 1.5;
+/// Waves where a table leaves them out: from ovality on; one wave is a ring out of its centre.
+const USUAL_WAVES: [usize; 2] = [2, 300];
+
+fn waves(node: &Node) -> Result<[usize; 2], Misfit> {
+    let allowed = format!("[fewest, most], whole numbers of 1 to {MOST_WAVES}, the second no less than the first");
+    let whole = |node: &Node| match node.value {
+        Value::Integer(n) => usize::try_from(n).ok().filter(|n| (1..=MOST_WAVES).contains(n)),
+        _ => None,
+    };
+    let pair = match &node.value {
+        Value::Array(items) if items.len() == 2 => whole(&items[0]).zip(whole(&items[1])),
+        _ => None,
+    };
+    let pair = pair.filter(|(first, last)| first <= last);
+    let (first, last) =
+        pair.ok_or_else(|| Misfit::new("no two numbers of waves", allowed).in_element(node).under(WAVES))?;
+    Ok([first, last])
+}
 
 impl ValueType for Waviness {
     fn blank() -> Self {
-        Self { amplitude_um: 0.0, exponent: 1.5, waves: [2, 300] }
+        Self { amplitude_um: f64::NAN, exponent: USUAL_EXPONENT, waves: USUAL_WAVES }
     }
 
     fn expected(_: &Spec) -> String {
-        ALLOWED.into()
+        format!("a table such as {ALLOWED}")
     }
 
     fn range(_: &Spec) -> String {
@@ -29,54 +52,55 @@ impl ValueType for Waviness {
         let Value::Table(table) = &node.value else {
             return Err(wrong_type::<Self>(node, spec));
         };
-        let known = [AMPLITUDE.name, EXPONENT.name, WAVES.name];
-        if let Some(other) = table.keys().find(|name| !known.contains(&name.as_str())) {
-            return Err(Misfit::new(format!("{other} is no key of a waviness"), ALLOWED));
+        let known = [AMPLITUDE.name, EXPONENT.name, WAVES];
+        if let Some((name, entry)) = table.iter().find(|(name, _)| !known.contains(&name.as_str())) {
+            return Err(Misfit::new("unknown key", known.join(", ")).in_element(&entry.node).under(name));
         }
         let Some(amplitude) = table.get(AMPLITUDE.name) else {
-            return Err(Misfit::new("no amplitude_um", ALLOWED));
+            return Err(Misfit::new(format!("{} is required", AMPLITUDE.name), ALLOWED));
         };
-        let blank = Self::blank();
-        let waves = match table.get(WAVES.name) {
-            None => blank.waves,
-            Some(entry) => {
-                let waves: Vec<f64> = read_under(&entry.node, &WAVES)?;
-                match waves[..] {
-                    [first, last] if first <= last && first.fract() == 0.0 && last.fract() == 0.0 => {
-                        [first as u32, last as u32]
-                    }
-                    _ => return Err(Misfit::new("not two whole numbers that rise", "[first, last]").under(WAVES.name)),
-                }
-            }
-        };
-        Ok(Self {
-            amplitude_um: read_under(&amplitude.node, &AMPLITUDE)?,
-            exponent: match table.get(EXPONENT.name) {
-                None => blank.exponent,
-                Some(entry) => read_under(&entry.node, &EXPONENT)?,
-            },
-            waves,
-        })
+        let amplitude_um = read_under(&amplitude.node, &AMPLITUDE)?;
+        let exponent = table.get(EXPONENT.name).map_or(Ok(USUAL_EXPONENT), |e| read_under(&e.node, &EXPONENT))?;
+        let waves = table.get(WAVES).map_or(Ok(USUAL_WAVES), |entry| waves(&entry.node))?;
+        Ok(Self { amplitude_um, exponent, waves })
     }
 
     fn write(&self) -> String {
-        let Self { amplitude_um, exponent, waves: [first, last] } = self;
+        let [first, last] = self.waves;
         format!(
-            "{{ {} = {}, {} = {}, {} = [{first}, {last}] }}",
+            "{{ {} = {}, {} = {}, {WAVES} = [{first}, {last}] }}",
             AMPLITUDE.name,
-            amplitude_um.write(),
+            self.amplitude_um.write(),
             EXPONENT.name,
-            exponent.write(),
-            WAVES.name
+            self.exponent.write()
         )
     }
 
     fn schema(_: &Spec) -> Json {
-        let mut schema = object(
-            &[&AMPLITUDE, &EXPONENT, &WAVES],
-            &[f64::schema(&AMPLITUDE), f64::schema(&EXPONENT), <Vec<f64>>::schema(&WAVES)],
-        );
-        schema["required"] = serde_json::json!([AMPLITUDE.name]);
-        schema
+        let described = |spec: &Spec, unit: &str| {
+            let mut schema = f64::schema(spec);
+            schema["description"] = json!(format!("{}{unit}", spec.doc));
+            schema
+        };
+        let mut exponent = described(&EXPONENT, "");
+        exponent["default"] = json!(USUAL_EXPONENT);
+        let wave = json!({ "type": "integer", "minimum": 1, "maximum": MOST_WAVES });
+        json!({
+            "type": "object",
+            "properties": {
+                AMPLITUDE.name: described(&AMPLITUDE, " (um)"),
+                EXPONENT.name: exponent,
+                WAVES: {
+                    "type": "array", "items": wave, "minItems": 2, "maxItems": 2, "default": USUAL_WAVES,
+                    "description": "waves per turn, the fewest and the most",
+                },
+            },
+            "required": [AMPLITUDE.name],
+            "additionalProperties": false,
+        })
+    }
+
+    fn is_defined(&self) -> bool {
+        self.amplitude_um.is_finite()
     }
 }

@@ -1,7 +1,7 @@
 //! Tables against other solvers and closed forms.
 
 use super::build::{self, Accuracy, Built, Range};
-use super::damage::gather;
+use super::damage::{Damage, gather};
 use super::field::pressure_at;
 use super::geometry::Geometry;
 use super::level::{self, Fineness};
@@ -239,6 +239,7 @@ fn prop_defects_that_are_met_together_are_one_surface() {
         depth_um,
         axial_offset_mm: 0.0,
         shape: Shape::Rectangle { length_mm: 1.0, width_mm: 2.0 },
+        table: None,
     };
     let all = [
         defect(359.0, 10.0, Surface::OuterRaceway),
@@ -247,10 +248,9 @@ fn prop_defects_that_are_met_together_are_one_surface() {
         defect(0.0, 20.0, Surface::InnerRaceway),
     ];
     let defects = Defect::all(&all, &scenario.bearing, &scenario.contact).unwrap();
-    let damages = gather(&defects, |_| 0.2e-3, EDGE);
-    let members: Vec<_> = damages.iter().map(|d| d.members.clone()).collect();
-    assert_eq!(members, [vec![0, 2], vec![1], vec![3]]);
-    let raster = &damages[0].raster;
+    let groups = gather(&defects, |_| 0.2e-3);
+    assert_eq!(groups, [vec![0, 2], vec![1], vec![3]]);
+    let raster = &Damage::of(&defects, &groups[0], EDGE).raster;
     // 1.5 degrees on 27.5 mm is 0.72 mm: they overlap from 0.22 to 0.5 mm, where the deeper counts.
     for (s, depth) in [(-0.4e-3, 10e-6), (0.35e-3, 20e-6), (1.0e-3, 20e-6), (1.3e-3, 0.0)] {
         assert!((raster.rounded(s, 0.3e-3) - depth).abs() < 1e-11, "{s}: {}", raster.rounded(s, 0.3e-3));

@@ -37,34 +37,6 @@ pub trait Choice: Copy + PartialEq + 'static {
 }
 
 choices! {
-    /// Which set of laws gives the defaults.
-    pub enum Laws {
-        /// Forces from one potential or a dissipation: momentum and energy close, and damage acts as on an elastic body.
-        Mechanics = "mechanics", "forces that close momentum and energy, damage as on elastic steel";
-        /// The laws of Li et al. 2023, as printed and mended.
-        Li2023 = "li2023", "the laws of Li et al. 2023";
-    }
-
-    /// Levers and rates of contacts.
-    pub enum GeometryLaw {
-        Exact = "exact", "forces act where the displaced bodies touch";
-        /// Levers of the centred bearing (the paper).
-        Centred = "centred", "levers of the centred bearing, as in the paper";
-    }
-
-    /// What meets the rolling elements in their pockets and the cage at its land.
-    pub enum Walls {
-        Oiled = "oiled", "oil within the play, steel behind it";
-        /// Springs and dampers from the wall on (the paper).
-        Linear = "linear", "springs and dampers from the wall on, as in the paper";
-    }
-
-    /// What a pocket holds.
-    pub enum Pockets {
-        Slot = "slot", "along the pitch circle alone";
-        Round = "round", "in every direction";
-    }
-
     /// What rolls between the raceways.
     pub enum Element {
         Roller = "roller", "cylindrical rollers";
@@ -95,14 +67,41 @@ choices! {
         Squeeze = "squeeze", "a closing gap squeezes the oil out, which cushions a roller that falls or enters the load";
     }
 
-    /// Law of a damaged contact.
+    /// `laws`: the set that keys left out take their defaults from.
+    pub enum Laws {
+        Mechanics = "mechanics", "bodies with all their levers, half-space contacts, oiled cage walls";
+        Li2023 = "li2023", "the paper's laws";
+    }
+
+    /// How the contacts' normals and levers follow from the bodies' positions.
+    pub enum GeometryLaw {
+        Exact = "exact", "normals and levers from where the centres are";
+        /// Along the radius about the middle of the bearing (the paper).
+        Centred = "centred", "normals and levers about the bearing's middle, the paper's";
+    }
+
+    /// Law of a cage's pockets and lands.
+    pub enum Walls {
+        Oiled = "oiled", "an oil film that stiffens over the play, then the wall";
+        /// The paper's.
+        Linear = "linear", "a spring and a damper beyond the play, the paper's";
+    }
+
+    /// Shape of a cage's pockets.
+    pub enum Pockets {
+        Slot = "slot", "two walls, which hold along the circumference";
+        Round = "round", "a round hole, which holds in every direction of the plane";
+    }
+
+    /// Law of a roller on a damaged raceway.
     pub enum Law {
-        HalfSpace = "half-space", "the elastic half-space, by a table computed once";
         /// Effective contact length (the paper, made continuous).
         Ecl = "ecl", "effective contact length";
         /// Independent slices across the roller, each with the fraction that damage covers and its mean depth (in the
         /// manner of ISO/TS 16281).
         Sliced = "sliced", "independent slices, each with what damage covers of it";
+        /// Elastic half-space: the approach at which the healthy contact stores the energy of the damaged one.
+        HalfSpace = "half-space", "elastic half-space, by the energy that the damaged contact stores";
     }
 
     /// How a roller follows the damage's floor.

@@ -1,6 +1,7 @@
 //! `[[defects]]`: where damage lies and what shape it has.
 
 use super::choices::*;
+use super::table::TableData;
 
 /// Where a defect lies.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -294,51 +295,16 @@ pub struct Defect {
     pub axial_offset_mm: f64,
     /// Outline.
     pub shape: Shape,
-    /// Its table of the effective deformation in place of one computed from the shape, under `half-space`.
+    /// delta_eff(s, delta) from elsewhere, in place of what the engine finds for the shape; `half-space` only.
     pub table: Option<DefectTable>,
 }
 
-/// `table`: the effective deformation of contacts over the damage.
+/// `table`: how the contact yields over this damage.
 #[derive(Debug, Clone, PartialEq)]
 pub enum DefectTable {
-    /// A file, not read yet: path from the scenario's folder. `brinell-damage` puts its numbers in its place.
+    /// Path from the scenario's folder, not read yet: the core opens no files. `brinell-damage` puts the table in its
+    /// place.
     File(String),
-    /// Its numbers.
+    /// The table.
     Read(TableData),
-}
-
-/// delta_eff on a full grid.
-#[derive(Debug, Clone, PartialEq)]
-pub struct TableData {
-    /// Arc from the defect's centre, rising, mm.
-    pub s_mm: Vec<f64>,
-    /// Deformation, rising, um.
-    pub delta_um: Vec<f64>,
-    /// delta_eff, um: for each s those of every delta.
-    pub delta_eff_um: Vec<f64>,
-}
-
-impl TableData {
-    /// What keeps its numbers from being a full grid whose places and deformations rise.
-    pub fn fault(&self) -> Option<String> {
-        let Self { s_mm, delta_um, delta_eff_um } = self;
-        let cells = s_mm.len() * delta_um.len();
-        if delta_eff_um.len() != cells {
-            return Some(format!(
-                "{} delta_eff for {} s times {} delta: not a full grid",
-                delta_eff_um.len(),
-                s_mm.len(),
-                delta_um.len()
-            ));
-        }
-        for (name, list) in [("s_mm", s_mm), ("delta_um", delta_um)] {
-            if list.len() < 4 {
-                return Some(format!("{} {name}: splines need four or more", list.len()));
-            }
-            if let Some(k) = (1..list.len()).find(|&k| list[k - 1] >= list[k]) {
-                return Some(format!("{name} does not rise at {}", list[k]));
-            }
-        }
-        None
-    }
 }

@@ -5,12 +5,15 @@
 
 mod choices;
 mod damage;
+mod laws;
 mod sensor;
+mod table;
 
 pub(crate) use choices::words;
 pub use choices::*;
-pub use damage::{Defect, DefectTable, DepthGrid, ImageFile, ScanFile, Shape, Surface, SvgFile, TableData};
+pub use damage::{Defect, DefectTable, DepthGrid, ImageFile, ScanFile, Shape, Surface, SvgFile};
 pub use sensor::{PathMode, Range, Sensor};
+pub use table::{TableData, TableFault};
 
 /// One run, completely described.
 #[derive(Debug, Clone, PartialEq)]
@@ -27,10 +30,10 @@ pub struct Scenario {
     pub friction: Friction,
     /// Oil.
     pub lubricant: Lubricant,
-    /// What is fixed to the outer ring.
-    pub housing: Housing,
     /// Supports of the two rings.
     pub support: Support,
+    /// What moves with the outer ring.
+    pub housing: Housing,
     /// Speed, load and gravity.
     pub operation: Operation,
     /// Damage, none or any number.
@@ -69,11 +72,6 @@ impl Scenario {
     pub fn has_even_contacts(&self) -> bool {
         self.bearing.profile == RollerProfile::Straight && self.simulation.model != ModelKind::Tilting
     }
-}
-
-impl Laws {
-    /// What a scenario has that names none.
-    pub const DEFAULT: Self = Self::Li2023;
 }
 
 impl Element {
@@ -135,12 +133,12 @@ pub struct Bearing {
     pub outer_ring_mass_kg: f64,
     /// m, kg.
     pub roller_mass_kg: f64,
-    /// Waviness of every raceway.
-    pub waviness: Option<Waviness>,
-    /// Waviness of every rolling element.
-    pub element_waviness: Option<Waviness>,
     /// p(z), the drop of roller and raceway together.
     pub profile: RollerProfile,
+    /// w(u) of every raceway; `None`: smooth.
+    pub waviness: Option<Waviness>,
+    /// w(u) of every rolling element; `None`: smooth.
+    pub element_waviness: Option<Waviness>,
     /// B, of all rows; `tilting` only.
     pub width_mm: f64,
     /// b, between the middles of neighbouring rows; `tilting` only.
@@ -180,12 +178,6 @@ pub struct Cage {
     pub inner_diameter_mm: f64,
     /// 2 b, mm.
     pub outer_diameter_mm: f64,
-    /// Walls of pockets and lands.
-    pub walls: Walls,
-    /// What pockets hold.
-    pub pockets: Pockets,
-    /// mu_p at oiled walls; 0 at linear ones, which have a curve of their own.
-    pub friction_coefficient: f64,
     /// C_p to each side, mm.
     pub pocket_clearance_mm: f64,
     /// Guiding ring.
@@ -196,7 +188,13 @@ pub struct Cage {
     pub guide_clearance_mm: f64,
     /// L_1, mm.
     pub guide_width_mm: f64,
-    /// k_c, N/m, of pockets; 0, like the next three, where walls are oiled.
+    /// Law of pockets and lands.
+    pub walls: Walls,
+    /// What the pockets hold.
+    pub pockets: Pockets,
+    /// mu_p of pockets; `oiled` walls only.
+    pub friction_coefficient: f64,
+    /// k_c, N/m, of pockets; `linear` walls only, like the next three.
     pub contact_stiffness_n_per_m: f64,
     /// c_c, N s/m, of pockets.
     pub contact_damping_ns_per_m: f64,
@@ -219,64 +217,75 @@ pub struct Contact {
     pub edge_reaction: EdgeReaction,
     /// n; 3/2 of balls, which have no key for it.
     pub exponent: f64,
-    /// E, GPa; `None` for rollers under other laws than `half-space`.
+    /// E of balls and grooves, GPa; `None` for rollers.
     pub youngs_modulus_gpa: Option<f64>,
-    /// Poisson's ratio; `None` likewise.
+    /// Poisson's ratio of both; `None` for rollers.
     pub poisson_ratio: Option<f64>,
     /// K_in of a healthy contact, N/m^n.
     pub inner_stiffness: f64,
     /// K_out of a healthy contact, N/m^n.
     pub outer_stiffness: f64,
-    /// Damping.
+    /// Of each contact.
     pub damping: ContactDamping,
-    /// delta_s, um: the damper of `Time` rises over it.
+    /// delta_s, um: over which damping by `tau` sets in.
     pub roughness_um: f64,
-    /// Length over which edges of damage are rounded, um; 0 under other laws than `half-space`.
+    /// Length of the running mean that rounds damage's edges, um; `half-space` only.
     pub edge_radius_um: f64,
 }
 
-/// Damping of a closed contact.
+/// What damps a contact of element and raceway.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum ContactDamping {
-    /// `damping_time_us`: with the contact's stiffness.
+    /// tau: the stiffness at hand, tau times the rate of approach.
     Time {
         /// tau, us.
         us: f64,
     },
-    /// `damping_ns_per_m`: a damper of its own (the paper).
+    /// c, whatever the load (the paper).
     Constant {
         /// c, N s/m.
         ns_per_m: f64,
     },
 }
 
-/// Waviness of a surface: w(u) = sum of A_1 k^-q cos(k u + phase_k).
+impl ContactDamping {
+    /// c, where it is a constant.
+    pub fn constant_ns_per_m(self) -> Option<f64> {
+        match self {
+            Self::Constant { ns_per_m } => Some(ns_per_m),
+            Self::Time { .. } => None,
+        }
+    }
+
+    /// tau, where it is a time.
+    pub fn time_us(self) -> Option<f64> {
+        match self {
+            Self::Time { us } => Some(us),
+            Self::Constant { .. } => None,
+        }
+    }
+}
+
+/// Waves of a surface of revolution: w(u) = sum of A_k cos(k u + phase_k) with A_k = A_1 k^-q.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Waviness {
     /// A_1, um.
     pub amplitude_um: f64,
     /// q.
     pub exponent: f64,
-    /// First and last k: waves in a turn.
-    pub waves: [u32; 2],
-}
-
-/// `[housing]`: fixed to the outer ring, moves with it.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Housing {
-    /// kg.
-    pub mass_kg: f64,
+    /// Waves per turn, the fewest and the most.
+    pub waves: [usize; 2],
 }
 
 /// `[friction]`: rollers on raceways.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Friction {
-    /// k_r: rolling resistance over radius and force.
-    pub rolling_coefficient: f64,
     /// mu.
     pub raceway_coefficient: f64,
     /// v_s, m/s.
     pub slip_velocity_m_per_s: f64,
+    /// k_r, of the couple that resists rolling.
+    pub rolling_coefficient: f64,
 }
 
 /// `[lubricant]`.
@@ -311,6 +320,13 @@ pub struct Support {
     pub outer_tilt_stiffness_nm_per_rad: f64,
     /// c_to.
     pub outer_tilt_damping_nms_per_rad: f64,
+}
+
+/// `[housing]`: fixed to the outer ring.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Housing {
+    /// kg.
+    pub mass_kg: f64,
 }
 
 /// `speed_rpm`: a number, or points (t in s, r/min) joined by lines and held beyond both ends.
@@ -370,11 +386,11 @@ pub enum RollerProfile {
 /// `[simulation]`.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Simulation {
-    /// The set of laws that gave the defaults.
+    /// Where keys left out took their defaults from.
     pub laws: Laws,
-    /// Levers and rates of contacts.
+    /// Normals and levers of contacts.
     pub geometry: GeometryLaw,
-    /// Seed of the waves' phases.
+    /// Of the phases of waviness.
     pub seed: u64,
     /// Equations.
     pub model: ModelKind,

@@ -139,8 +139,12 @@ fn regress_the_template_is_the_example() {
     let live: String = template()
         .lines()
         .map(|line| match line.strip_prefix("# ") {
-            // Explanations of shapes are indented.
-            Some(code) if code.contains(" = ") && !code.starts_with(' ') && !code.starts_with("roller = ") => {
+            // Explanations of shapes are indented, those of a key without a value begin with `key: `.
+            Some(code)
+                if code.split_whitespace().nth(1) == Some("=")
+                    && !code.starts_with(' ')
+                    && !code.starts_with("roller = ") =>
+            {
                 code.to_string() + "\n"
             }
             _ => line.to_string() + "\n",

@@ -243,6 +243,12 @@ fn sensor(kind: usize, x: &[f64]) -> Sensor {
     }
 }
 
+/// Stiffness and damping of linear walls; oiled ones hold the defaults, which do not act.
+fn walls(oiled: bool, d: f64, x: &[f64]) -> [f64; 2] {
+    let usual = 11.0 / (1e-3 * (d / 100.0).max(0.01));
+    if oiled { [usual, 20.0 * (usual / 1e7).sqrt()] } else { [x[9], x[10]] }
+}
+
 fn scenarios() -> impl Strategy<Value = Scenario> {
     let speed = prop_oneof![
         (1e-3..3e4f64).prop_map(Speed::Constant),
@@ -256,144 +262,139 @@ fn scenarios() -> impl Strategy<Value = Scenario> {
     ];
     // A preset of rollers has no balls, and balls do not tilt.
     let balls = |words: (usize, usize, usize, usize, usize)| words.1 == 0 && words.2 != 2 && words.4 == 1;
+    // The lumped model is the paper's.
+    let mechanics = |words: (usize, usize, usize, usize, usize)| words.2 != 1 && words.3 == 2;
+    let half_space = move |words: (usize, usize, usize, usize, usize)| mechanics(words) && words.0 != 1;
     let words = (0..3usize, 0..2usize, 0..3usize, 0..3usize, 0..2usize);
     let numbers = prop::collection::vec(1e-9..1e9f64, 16);
     let text = (any::<String>(), prop::collection::vec("[a-z0-9_*]{1,9}", 0..4));
     (text, 5.5..40.0f64, 12..=15usize, 2..=4usize, numbers, speed, words, defects()).prop_map(
-        move |((name, record), d, z, rows, x, speed_rpm, words, defects)| {
-            // The default laws, with keys of either set.
-            let mechanics = words.3 == 2;
-            let on_table = mechanics && words.2 == 0;
-            let oiled = mechanics || words.0 == 1;
-            let timed = mechanics != (words.0 == 2);
-            Scenario {
-                name,
-                bearing: Bearing {
-                    preset: (words.1 == 1).then(|| "NN3007".into()),
-                    element: if balls(words) { Element::Ball } else { Element::Roller },
-                    inner_groove_conformity: balls(words).then_some(0.5 + x[6] / 4e9 + 1e-9),
-                    outer_groove_conformity: balls(words).then_some(0.5 + x[7] / 4e9 + 1e-9),
-                    inner_raceway_diameter_mm: 6.0 * d,
-                    outer_raceway_diameter_mm: 8.0 * d,
-                    pitch_diameter_mm: 7.0 * d,
-                    roller_diameter_mm: d,
-                    roller_length_mm: if balls(words) { d } else { d * 1.1 },
-                    rollers_per_row: z,
-                    rows,
-                    row_stagger_deg: -x[0],
-                    bore_diameter_mm: None,
-                    radial_clearance_um: d * x[1] / 1e9,
-                    outer_gap_um: d * x[2] / 1e9,
-                    // No damper here moves a body of 1 kg faster than a run can follow.
-                    inner_ring_mass_kg: 1.0 + x[3],
-                    outer_ring_mass_kg: 1.0 + x[4],
-                    roller_mass_kg: 1.0 + x[5],
-                    waviness: mechanics.then(|| Waviness {
-                        amplitude_um: 1e-9 * x[3],
-                        exponent: x[4] / 1e9,
-                        waves: [z as u32, 40],
-                    }),
-                    element_waviness: None,
-                    profile: match (words.2, words.3) {
-                        (2, 0) => RollerProfile::Logarithmic,
-                        (2, 1) => RollerProfile::Crowned { crowned_radius_mm: 1e3 + x[0] },
-                        (2, _) => RollerProfile::Table {
-                            z_mm: vec![-x[0] - 1.0, x[1] + 1.0],
-                            drop_um: vec![0.0, 1e-12 * x[2]],
-                        },
-                        _ => RollerProfile::Straight,
-                    },
-                    width_mm: 1.6 * (if balls(words) { d } else { d * 1.1 }) * rows as f64,
-                    row_spacing_mm: match (rows, balls(words)) {
-                        (1, _) => 0.0,
-                        (_, true) => 1.5 * d,
-                        (_, false) => 1.5 * (d * 1.1),
-                    },
+        move |((name, record), d, z, rows, x, speed_rpm, words, defects)| Scenario {
+            name,
+            bearing: Bearing {
+                preset: (words.1 == 1).then(|| "NN3007".into()),
+                element: if balls(words) { Element::Ball } else { Element::Roller },
+                inner_groove_conformity: balls(words).then_some(0.5 + x[6] / 4e9 + 1e-9),
+                outer_groove_conformity: balls(words).then_some(0.5 + x[7] / 4e9 + 1e-9),
+                inner_raceway_diameter_mm: 6.0 * d,
+                outer_raceway_diameter_mm: 8.0 * d,
+                pitch_diameter_mm: 7.0 * d,
+                roller_diameter_mm: d,
+                roller_length_mm: if balls(words) { d } else { d * 1.1 },
+                rollers_per_row: z,
+                rows,
+                row_stagger_deg: -x[0],
+                bore_diameter_mm: None,
+                radial_clearance_um: d * x[1] / 1e9,
+                outer_gap_um: d * x[2] / 1e9,
+                // No damper here moves a body of 1 kg faster than a run can follow.
+                inner_ring_mass_kg: 1.0 + x[3],
+                outer_ring_mass_kg: 1.0 + x[4],
+                roller_mass_kg: 1.0 + x[5],
+                profile: match (words.2, words.3) {
+                    (2, 0) => RollerProfile::Logarithmic,
+                    (2, 1) => RollerProfile::Crowned { crowned_radius_mm: 1e3 + x[0] },
+                    (2, _) => {
+                        RollerProfile::Table { z_mm: vec![-x[0] - 1.0, x[1] + 1.0], drop_um: vec![0.0, 1e-12 * x[2]] }
+                    }
+                    _ => RollerProfile::Straight,
                 },
-                cage: Cage {
-                    mass_kg: 1.0 + x[6],
-                    inner_diameter_mm: 6.5 * d,
-                    outer_diameter_mm: 7.7 * d,
-                    pocket_clearance_mm: d / 100.0,
-                    guidance: [Guidance::OuterRing, Guidance::InnerRing, Guidance::Rollers][words.0],
-                    guidance_film: [GuidanceFilm::Dynamic, GuidanceFilm::QuasiStatic][words.0 % 2],
-                    guide_clearance_mm: x[7],
-                    guide_width_mm: x[8],
-                    walls: if oiled { Walls::Oiled } else { Walls::Linear },
-                    pockets: if balls(words) { Pockets::Round } else { Pockets::Slot },
-                    friction_coefficient: if oiled { x[11] } else { 0.0 },
-                    contact_stiffness_n_per_m: if oiled { 0.0 } else { x[9] },
-                    contact_damping_ns_per_m: if oiled { 0.0 } else { x[10] },
-                    land_stiffness_n_per_m: if oiled { 0.0 } else { x[9] },
-                    land_damping_ns_per_m: if oiled { 0.0 } else { x[10] },
+                waviness: mechanics(words).then(|| Waviness {
+                    amplitude_um: 1e-7 * x[8],
+                    exponent: 1.5,
+                    waves: [2, 30],
+                }),
+                element_waviness: None,
+                width_mm: 1.6 * (if balls(words) { d } else { d * 1.1 }) * rows as f64,
+                row_spacing_mm: match (rows, balls(words)) {
+                    (1, _) => 0.0,
+                    (_, true) => 1.5 * d,
+                    (_, false) => 1.5 * (d * 1.1),
                 },
-                contact: Contact {
-                    law: match (on_table, words.2 == 2 || balls(words)) {
-                        (true, _) => Law::HalfSpace,
-                        (false, true) => Law::Sliced,
-                        (false, false) => Law::Ecl,
-                    },
-                    roller_path: RollerPath::Point,
-                    slices: z,
-                    edge_reaction: EdgeReaction::None,
-                    exponent: if balls(words) { 1.5 } else { 1.0 + x[0] / 1e9 },
-                    youngs_modulus_gpa: (balls(words) || on_table).then_some(x[8]),
-                    poisson_ratio: (balls(words) || on_table).then_some(x[9] / 2e9),
-                    inner_stiffness: x[11],
-                    outer_stiffness: x[12],
-                    damping: match timed {
-                        true => ContactDamping::Time { us: x[13] / 1e5 },
-                        false => ContactDamping::Constant { ns_per_m: x[13] },
-                    },
-                    roughness_um: if timed { 0.1 + x[2] / 1e9 } else { 0.0 },
-                    edge_radius_um: if on_table { 1.0 + x[3] / 1e8 } else { 0.0 },
+            },
+            cage: Cage {
+                mass_kg: 1.0 + x[6],
+                inner_diameter_mm: 6.5 * d,
+                outer_diameter_mm: 7.7 * d,
+                pocket_clearance_mm: d / 100.0,
+                guidance: [Guidance::OuterRing, Guidance::InnerRing, Guidance::Rollers][words.0],
+                guidance_film: [GuidanceFilm::Dynamic, GuidanceFilm::QuasiStatic][words.0 % 2],
+                guide_clearance_mm: x[7],
+                guide_width_mm: x[8],
+                walls: if mechanics(words) { Walls::Oiled } else { Walls::Linear },
+                pockets: [Pockets::Slot, Pockets::Round][words.4],
+                friction_coefficient: if mechanics(words) { x[11] } else { 0.05 },
+                contact_stiffness_n_per_m: walls(mechanics(words), d, &x)[0],
+                contact_damping_ns_per_m: walls(mechanics(words), d, &x)[1],
+                land_stiffness_n_per_m: walls(mechanics(words), d, &x)[0],
+                land_damping_ns_per_m: walls(mechanics(words), d, &x)[1],
+            },
+            contact: Contact {
+                law: match (half_space(words), words.2 == 2 || balls(words)) {
+                    (true, _) => Law::HalfSpace,
+                    (false, true) => Law::Sliced,
+                    (false, false) => Law::Ecl,
                 },
-                friction: Friction {
-                    rolling_coefficient: x[13] / 1e11,
-                    raceway_coefficient: x[14] / 1e9,
-                    slip_velocity_m_per_s: x[15],
+                roller_path: RollerPath::Point,
+                slices: z,
+                edge_reaction: EdgeReaction::None,
+                exponent: if balls(words) { 1.5 } else { 1.0 + x[0] / 1e9 },
+                youngs_modulus_gpa: (balls(words) || half_space(words)).then_some(x[8]),
+                poisson_ratio: (balls(words) || half_space(words)).then_some(x[9] / 2e9),
+                inner_stiffness: x[11],
+                outer_stiffness: x[12],
+                damping: match mechanics(words) {
+                    true => ContactDamping::Time { us: 1.0 + x[13] / 1e6 },
+                    false => ContactDamping::Constant { ns_per_m: x[13] },
                 },
-                lubricant: Lubricant {
-                    viscosity_pa_s: x[1],
-                    raceway_film: [RacewayFilm::None, RacewayFilm::Squeeze]
-                        [usize::from(x[2] > x[3] && !balls(words) && !timed)],
-                    drag_coefficient: x[2],
-                    effective_density_kg_per_m3: x[3],
-                },
-                housing: Housing { mass_kg: x[9] },
-                support: Support {
-                    inner_stiffness_n_per_m: x[4],
-                    inner_damping_ns_per_m: x[5],
-                    outer_stiffness_n_per_m: x[6],
-                    outer_damping_ns_per_m: x[7],
-                    inner_tilt_stiffness_nm_per_rad: x[4] * (0.5e-3 * (7.0 * d)).powi(2),
-                    inner_tilt_damping_nms_per_rad: x[5] * (0.5e-3 * (7.0 * d)).powi(2),
-                    outer_tilt_stiffness_nm_per_rad: x[6] * (0.5e-3 * (7.0 * d)).powi(2),
-                    outer_tilt_damping_nms_per_rad: x[7] * (0.5e-3 * (7.0 * d)).powi(2),
-                },
-                operation: Operation {
-                    speed_rpm,
-                    // Within ten times the least static load rating, as the weight.
-                    load_n: [-1e-4 * x[8], 1e-4 * x[9]],
-                    load_on: [LoadOn::OuterRing, LoadOn::InnerRing][words.1],
-                    load_ramp_s: x[10],
-                    gravity_m_per_s2: [-0.0, -1e-13 * x[11]],
-                    load_offset_mm: 0.0,
-                },
-                defects,
-                sensor: sensor(words.0, &x),
-                simulation: Simulation {
-                    laws: if mechanics { Laws::Mechanics } else { Laws::Li2023 },
-                    geometry: if mechanics && words.2 != 1 { GeometryLaw::Exact } else { GeometryLaw::Centred },
-                    seed: x[8].to_bits(),
-                    model: [ModelKind::Full, ModelKind::Lumped, ModelKind::Tilting][words.2],
-                    duration_s: 1.0 + x[12] / 1e9,
-                    sample_rate_hz: 1.0 + x[13],
-                    start: [Start::Rolling, Start::Rest, Start::Equilibrium][words.3],
-                    accuracy: [Accuracy::Standard, Accuracy::Reference][words.4],
-                    record,
-                },
-            }
+                roughness_um: if mechanics(words) { 1e-9 * x[14] } else { 0.1 },
+                edge_radius_um: if half_space(words) { 1e-7 * x[15] } else { 10.0 },
+            },
+            friction: Friction {
+                raceway_coefficient: x[14] / 1e9,
+                slip_velocity_m_per_s: x[15],
+                rolling_coefficient: x[13],
+            },
+            lubricant: Lubricant {
+                viscosity_pa_s: x[1],
+                raceway_film: [RacewayFilm::None, RacewayFilm::Squeeze]
+                    [usize::from(x[2] > x[3] && !balls(words) && !mechanics(words))],
+                drag_coefficient: x[2],
+                effective_density_kg_per_m3: x[3],
+            },
+            support: Support {
+                inner_stiffness_n_per_m: x[4],
+                inner_damping_ns_per_m: x[5],
+                outer_stiffness_n_per_m: x[6],
+                outer_damping_ns_per_m: x[7],
+                inner_tilt_stiffness_nm_per_rad: x[4] * (0.5e-3 * (7.0 * d)).powi(2),
+                inner_tilt_damping_nms_per_rad: x[5] * (0.5e-3 * (7.0 * d)).powi(2),
+                outer_tilt_stiffness_nm_per_rad: x[6] * (0.5e-3 * (7.0 * d)).powi(2),
+                outer_tilt_damping_nms_per_rad: x[7] * (0.5e-3 * (7.0 * d)).powi(2),
+            },
+            operation: Operation {
+                speed_rpm,
+                // Within ten times the least static load rating, as the weight.
+                load_n: [-1e-4 * x[8], 1e-4 * x[9]],
+                load_on: [LoadOn::OuterRing, LoadOn::InnerRing][words.1],
+                load_ramp_s: x[10],
+                gravity_m_per_s2: [-0.0, -1e-13 * x[11]],
+                load_offset_mm: 0.0,
+            },
+            defects,
+            housing: Housing { mass_kg: x[13] },
+            sensor: sensor(words.0, &x),
+            simulation: Simulation {
+                laws: if mechanics(words) { Laws::Mechanics } else { Laws::Li2023 },
+                geometry: [GeometryLaw::Exact, GeometryLaw::Centred][words.4],
+                seed: x[6].to_bits(),
+                model: [ModelKind::Full, ModelKind::Lumped, ModelKind::Tilting][words.2],
+                duration_s: 1.0 + x[12] / 1e9,
+                sample_rate_hz: 1.0 + x[13],
+                start: [Start::Rolling, Start::Rest, Start::Equilibrium][words.3],
+                accuracy: [Accuracy::Standard, Accuracy::Reference][words.4],
+                record,
+            },
         },
     )
 }

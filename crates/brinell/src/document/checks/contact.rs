@@ -1,7 +1,7 @@
 //! The contacts of rolling elements and raceways, and the elements' material.
 
 use super::super::bearing_keys::steel_element_kg;
-use super::super::sections::stiffness;
+use super::super::contact_keys::stiffness;
 use super::{Checker, short};
 use crate::bearing::catalogue;
 use crate::contact::is_line_exponent;
@@ -38,7 +38,7 @@ impl Checker<'_> {
             self.error(
                 LAW,
                 "a ball's contact has no length that damage could take a share of".into(),
-                "\"sliced\", or the key left out".into(),
+                "\"half-space\" or \"sliced\", or the key left out".into(),
                 &[ELEMENT],
             );
         }

@@ -6,6 +6,7 @@ mod bearing;
 mod contact;
 mod damage_files;
 mod defects;
+mod laws;
 mod operation;
 mod rates;
 mod sensor;
@@ -97,6 +98,7 @@ impl Checker<'_> {
 /// Adds what is wrong to the problems of the reader.
 pub(crate) fn check<'a>(scenario: &'a Scenario, finder: &'a Finder<'a>, problems: Problems<'a>) -> Problems<'a> {
     let mut checker = Checker { s: scenario, finder, problems };
+    checker.laws();
     checker.bearing();
     checker.cage();
     checker.contact();

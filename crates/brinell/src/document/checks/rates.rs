@@ -1,7 +1,6 @@
 //! Stiffnesses and dampings whose motions no run can follow.
 
 use super::{Checker, short};
-use crate::scenario::ContactDamping;
 
 /// Fastest motion of a body on one spring or damper, 1/s. The solver's steps stay below some 2 over it, so a simulated
 /// second beyond takes about 1e9 steps, hours to days. A roller of 1 g on steel stays below 1e6 1/s; this leaves a
@@ -40,12 +39,8 @@ impl Checker<'_> {
         ] {
             self.at_most(key, value, body.0 * FASTEST.powi(2), "", body.1);
         }
-        let damper = match contact.damping {
-            ContactDamping::Constant { ns_per_m } => ns_per_m,
-            ContactDamping::Time { .. } => 0.0,
-        };
         for (key, value, body) in [
-            ("contact.damping_ns_per_m", damper, roller),
+            ("contact.damping_ns_per_m", contact.damping.constant_ns_per_m().unwrap_or(0.0), roller),
             ("cage.contact_damping_ns_per_m", cage.contact_damping_ns_per_m, lighter),
             ("support.inner_damping_ns_per_m", support.inner_damping_ns_per_m, inner_ring),
             ("support.outer_damping_ns_per_m", support.outer_damping_ns_per_m, outer_ring),

@@ -359,9 +359,8 @@ impl Checker<'_> {
             })
             .collect();
         let rule = match s.contact.law {
-            // One surface, the deeper of the two at each point: nothing to warn of.
-            Law::HalfSpace => return,
             Law::Sliced => "together they are one surface, the deeper of the two at each point",
+            Law::HalfSpace => "together they are one surface",
             Law::Ecl => "of the two the one that carries less acts: the deeper or wider",
         };
         let path = match s.contact.roller_path {

@@ -16,7 +16,7 @@ impl Checker<'_> {
         let s = self.s;
         let tilts = s.simulation.model == ModelKind::Tilting;
         let has_profile = s.bearing.profile != RollerProfile::Straight;
-        let sliced = s.contact.law == Law::Sliced;
+        let sliced = s.contact.law != Law::Ecl;
         if tilts && s.bearing.has_balls() {
             self.error(
                 MODEL,
@@ -28,7 +28,7 @@ impl Checker<'_> {
             self.error(
                 LAW,
                 "a contact that tilts needs slices: \"ecl\" knows one deformation for the whole roller".into(),
-                "\"sliced\" where simulation.model = \"tilting\"".into(),
+                "\"half-space\" or \"sliced\" where simulation.model = \"tilting\"".into(),
                 &[MODEL],
             );
         } else if has_profile && s.simulation.model == ModelKind::Lumped {
@@ -42,7 +42,7 @@ impl Checker<'_> {
             self.error(
                 PROFILE,
                 "a profile needs slices: \"ecl\" knows one deformation for the whole roller".into(),
-                "\"straight\", or contact.law = \"sliced\"".into(),
+                "\"straight\", or contact.law = \"half-space\" or \"sliced\"".into(),
                 &[LAW],
             );
         }

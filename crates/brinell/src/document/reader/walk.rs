@@ -10,6 +10,7 @@ use super::{MOST_TABLES, Reader, join};
 use crate::bearing::clearance::ClearanceClass;
 use crate::bearing::{KnownBearing, catalogue, clearance_of};
 use crate::did_you_mean::{did_you_mean, nearest_few, other_word};
+use crate::scenario::Laws;
 
 impl Keys for Reader<'_> {
     fn key<T: ValueType>(&mut self, spec: Spec, fallback: Fallback<T>, value: &mut T) {
@@ -88,10 +89,15 @@ impl Keys for Reader<'_> {
         T::read(&table.get(name)?.node, &key(name, "")).ok()
     }
 
-    fn preset(&mut self, spec: Spec, value: &mut Option<String>) {
-        if let Some(laws) = self.foretold("simulation", "laws") {
-            self.laws = laws;
-        }
+    fn gives(&self, section: &str, name: &str) -> Option<bool> {
+        let section = self.frames.first()?.table?.get(section);
+        Some(
+            section
+                .is_some_and(|section| matches!(&section.node.value, Value::Table(table) if table.contains_key(name))),
+        )
+    }
+
+    fn preset(&mut self, spec: Spec, laws: Laws, value: &mut Option<String>) {
         let before = self.problems.count();
         self.optional(spec, value);
         if self.problems.count() > before {
@@ -103,6 +109,7 @@ impl Keys for Reader<'_> {
         };
         if let Some(entry) = catalogue::find(name) {
             self.preset = Some(entry);
+            self.laws = laws;
             self.named_clearance = clearance_of(name);
             value.replace(entry.name.clone());
             return;

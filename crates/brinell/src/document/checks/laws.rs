@@ -1,0 +1,120 @@
+//! Which laws go together.
+
+use super::Checker;
+use crate::scenario::{DefectTable, EdgeReaction, GeometryLaw, Law, Laws, ModelKind, RacewayFilm};
+
+const LAW: &str = "contact.law";
+const LAWS: &str = "simulation.laws";
+const MODEL: &str = "simulation.model";
+
+impl Checker<'_> {
+    pub(super) fn laws(&mut self) {
+        let s = self.s;
+        if s.simulation.model == ModelKind::Lumped {
+            self.lumped();
+        }
+        self.together();
+        let damping = ["contact.damping_time_us", "contact.damping_ns_per_m"];
+        if damping.iter().all(|key| self.finder.is_given(key)) {
+            self.error(
+                damping[1],
+                "a contact's damping is given twice, by a time and by a constant".into(),
+                "one of contact.damping_time_us and contact.damping_ns_per_m".into(),
+                &damping[..1],
+            );
+        }
+        for (i, defect) in s.defects.iter().enumerate() {
+            if defect.table.is_some() && s.contact.law != Law::HalfSpace {
+                self.error(
+                    &format!("defects.{i}.table"),
+                    format!(
+                        "a table says how a half-space yields, which law \"{}\" does not ask",
+                        s.contact.law.word()
+                    ),
+                    "the key left out, or contact.law = \"half-space\"".into(),
+                    &[LAW],
+                );
+            }
+            if let Some(DefectTable::Read(table)) = &defect.table
+                && let Err(fault) = table.check()
+            {
+                self.error(&format!("defects.{i}.table"), fault.message, fault.allowed, &[]);
+            }
+        }
+    }
+
+    /// Laws that need each other.
+    fn together(&mut self) {
+        let s = self.s;
+        if s.contact.law == Law::HalfSpace && s.simulation.geometry == GeometryLaw::Centred {
+            self.error(
+                LAW,
+                "the half-space pushes along the surface, for which levers of the centred bearing have no reaction"
+                    .into(),
+                "simulation.geometry = \"exact\", or another law".into(),
+                &["simulation.geometry"],
+            );
+        }
+        if s.contact.law == Law::HalfSpace && s.simulation.model == ModelKind::Tilting && !s.defects.is_empty() {
+            self.error(
+                LAW,
+                "damage under tilting rollers has no table".into(),
+                "\"sliced\" where simulation.model = \"tilting\"".into(),
+                &[MODEL],
+            );
+        }
+        if s.contact.edge_reaction == EdgeReaction::Conservative && s.simulation.geometry == GeometryLaw::Exact {
+            self.error(
+                "contact.edge_reaction",
+                "the push of slopes has no reaction on the ring".into(),
+                "contact.law = \"half-space\", whose push has one".into(),
+                &["simulation.geometry"],
+            );
+        }
+        if s.lubricant.raceway_film == RacewayFilm::Squeeze && s.contact.damping.time_us().is_some() {
+            self.error(
+                "lubricant.raceway_film",
+                "the film goes over into a contact's damper of its own".into(),
+                "contact.damping_ns_per_m beside it, or no film".into(),
+                &["contact.damping_time_us"],
+            );
+        }
+    }
+
+    /// What the lumped model does not have, as the paper has it.
+    fn lumped(&mut self) {
+        let s = self.s;
+        if s.simulation.laws == Laws::Mechanics {
+            self.error(
+                LAWS,
+                "the lumped model is the paper's reference model, whose contacts and cage are the paper's too".into(),
+                "\"li2023\", or the key left out, where simulation.model = \"lumped\"".into(),
+                &[MODEL],
+            );
+            return;
+        }
+        if s.contact.law == Law::HalfSpace {
+            self.error(
+                LAW,
+                "the lumped model knows no half-space".into(),
+                "\"ecl\" or \"sliced\" where simulation.model = \"lumped\"".into(),
+                &[MODEL],
+            );
+        }
+        let waves =
+            [("bearing.waviness", &s.bearing.waviness), ("bearing.element_waviness", &s.bearing.element_waviness)];
+        for (key, _) in waves.into_iter().filter(|(_, waves)| waves.is_some()) {
+            let allowed = "the key left out where simulation.model = \"lumped\"";
+            self.error(key, "the lumped model's surfaces are smooth".into(), allowed.into(), &[MODEL]);
+        }
+        if s.contact.damping.time_us().is_some() {
+            let allowed = "contact.damping_ns_per_m where simulation.model = \"lumped\"";
+            self.error(
+                "contact.damping_time_us",
+                "the lumped model's contacts are damped by a constant".into(),
+                allowed.into(),
+                &[MODEL],
+            );
+        }
+    }
+}

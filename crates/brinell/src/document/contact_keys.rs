@@ -1,0 +1,154 @@
+//! The keys of `[contact]`.
+
+use super::bearing_keys::ROLLERS;
+use super::keys::Fallback::{self, Needed};
+use super::keys::{Keys, PAPER, assumed, derived, stated};
+use super::spec::key;
+use crate::contact::{ball, is_line_exponent, palmgren_stiffness};
+use crate::scenario::*;
+
+/// Exponent of a line contact (`docs/src/theory/contact.md`).
+const LINE_EXPONENT: f64 = 10.0 / 9.0;
+/// Exponent of a point contact (Hertz).
+const POINT_EXPONENT: f64 = 1.5;
+
+pub(super) fn contact<K: Keys>(k: &mut K, (laws, model, b): (Laws, ModelKind, &Bearing), c: &mut Contact) {
+    let law = match (model, &b.profile) {
+        (ModelKind::Full, _) if laws == Laws::Mechanics => stated(Law::HalfSpace, "damage as on elastic steel"),
+        _ if b.has_balls() => stated(Law::Sliced, "the only law of balls"),
+        (ModelKind::Tilting, _) => stated(Law::Sliced, "what tilts has slices"),
+        (_, RollerProfile::Straight) => stated(Law::Ecl, PAPER),
+        _ => stated(Law::Sliced, "a profile has slices"),
+    };
+    let path = match b.element {
+        Element::Roller if laws == Laws::Mechanics => {
+            stated(RollerPath::Envelope, "what a roller's radius lets it reach")
+        }
+        Element::Roller => stated(RollerPath::Point, PAPER),
+        Element::Ball => stated(RollerPath::Envelope, "what a ball's radius lets it reach"),
+    };
+    k.key(key("law", "force of a damaged contact; of balls not ecl"), law, &mut c.law);
+    let chosen = (c.law != Law::HalfSpace, CHOSEN);
+    k.key_where(key("roller_path", "how a roller follows the damage's depth"), chosen, path, &mut c.roller_path);
+    let slices_why = match b.element {
+        Element::Roller => "ecl does not use them",
+        Element::Ball => "as of rollers",
+    };
+    k.key(
+        key("slices", "slices across the roller, under balls across the damage; ecl does not use them, half-space where the roller has a profile or tilts")
+            .from(1.0)
+            .to(10000.0),
+        stated(30, slices_why),
+        &mut c.slices,
+    );
+    k.key_where(
+        key("edge_reaction", "push of the damage's slopes along the orbit"),
+        chosen,
+        stated(EdgeReaction::None, PAPER),
+        &mut c.edge_reaction,
+    );
+    k.key_where(
+        key("exponent", "n of Q = K delta^n").from(1.0).to(2.0),
+        (!b.has_balls(), ROLLERS),
+        stated(LINE_EXPONENT, "line contact, 10/9"),
+        &mut c.exponent,
+    );
+    if b.has_balls() {
+        c.exponent = POINT_EXPONENT;
+    }
+    steel(k, b, c);
+    let [inner, outer] = stiffness(b, c);
+    k.key(key("inner_stiffness", "K_in of a healthy contact").above(0.0).unit("N/m^n"), inner, &mut c.inner_stiffness);
+    k.key(key("outer_stiffness", "K_out of a healthy contact").above(0.0).unit("N/m^n"), outer, &mut c.outer_stiffness);
+    damping(k, laws, c);
+    k.key_acting_where(
+        key("edge_radius_um", "length of the running mean that rounds the edges of damage").from(0.0).to(1000.0),
+        (c.law == Law::HalfSpace, HALF_SPACE),
+        assumed(10.0, "edges of spalls are no sharper"),
+        &mut c.edge_radius_um,
+    );
+}
+
+const HALF_SPACE: &str = "contact.law is \"half-space\"";
+/// Where there is a choice of path and push.
+const CHOSEN: &str = "contact.law is \"ecl\" or \"sliced\": in the solution of \"half-space\" the element's size and the push \
+                      of the slopes are contained";
+
+/// Damping by a time or by a constant: what the file gives, or the set of laws has.
+fn damping<K: Keys>(k: &mut K, laws: Laws, c: &mut Contact) {
+    const TIME: &str = "damping_time_us";
+    const CONSTANT: &str = "damping_ns_per_m";
+    let [by_time, by_constant] = match (k.gives("contact", TIME), k.gives("contact", CONSTANT)) {
+        // Both, of which the checks say something.
+        (Some(true), Some(true)) => [true, true],
+        (Some(false), Some(false)) => [laws == Laws::Mechanics, laws != Laws::Mechanics],
+        (Some(time), Some(constant)) => [time, constant],
+        _ => match c.damping {
+            ContactDamping::Time { .. } => [true, false],
+            ContactDamping::Constant { .. } => [false, true],
+        },
+    };
+    let (mut us, mut ns_per_m) = match c.damping {
+        ContactDamping::Time { us } => (us, f64::NAN),
+        ContactDamping::Constant { ns_per_m } => (f64::NAN, ns_per_m),
+    };
+    k.key_where(
+        key(TIME, "tau, damping is tau times the contact's stiffness; or damping_ns_per_m").above(0.0).to(1e4),
+        (by_time, "contact.damping_ns_per_m is left out, or by default with the laws \"mechanics\""),
+        assumed(2.5, "of whole bearings 2.5 to 25 us were measured (Kraemer): levels are known to some 6 dB"),
+        &mut us,
+    );
+    k.key_where(
+        key(CONSTANT, "c, at each raceway; or damping_time_us").from(0.0),
+        (by_constant, "contact.damping_time_us is left out, or by default with the laws \"li2023\""),
+        assumed(200.0, PAPER),
+        &mut ns_per_m,
+    );
+    c.damping = if by_time { ContactDamping::Time { us } } else { ContactDamping::Constant { ns_per_m } };
+    k.key_acting_where(
+        key("roughness_um", "delta_s, over which damping sets in").above(0.0).to(100.0),
+        (by_time, "the damping is contact.damping_time_us"),
+        assumed(0.1, "ground and honed raceways"),
+        &mut c.roughness_um,
+    );
+}
+
+const STEEL_ACTS: &str = "bearing.element is \"ball\", or contact.law \"half-space\"";
+
+/// What Hertz's ellipse and the half-space need of the material; of healthy rollers Palmgren's constant has it in it.
+fn steel<K: Keys>(k: &mut K, b: &Bearing, c: &mut Contact) {
+    let wanted = (b.has_balls() || c.law == Law::HalfSpace, STEEL_ACTS);
+    let mut modulus = c.youngs_modulus_gpa.unwrap_or(f64::NAN);
+    k.key_where(
+        key("youngs_modulus_gpa", "E of elements and rings").above(0.0),
+        wanted,
+        stated(206.0, "rolling bearing steel (ISO/TS 16281)"),
+        &mut modulus,
+    );
+    let mut ratio = c.poisson_ratio.unwrap_or(f64::NAN);
+    k.key_where(
+        key("poisson_ratio", "Poisson's ratio of elements and rings").from(0.0).to(0.5),
+        wanted,
+        stated(0.3, "steel"),
+        &mut ratio,
+    );
+    c.youngs_modulus_gpa = wanted.0.then_some(modulus);
+    c.poisson_ratio = wanted.0.then_some(ratio);
+}
+
+/// Stiffness of the healthy inner and outer contact where the file gives none.
+pub(super) fn stiffness(b: &Bearing, c: &Contact) -> [Fallback<f64>; 2] {
+    if b.has_balls() {
+        // Without ellipses a groove or the material is at fault, which is reported.
+        let of = ball::ellipses(b, c).map_or([f64::NAN; 2], |ellipses| ellipses.map(|e| e.stiffness));
+        return of.map(|of| derived(of, "Hertz, of the ball's and the groove's curvatures"));
+    }
+    let palmgren = || {
+        if is_line_exponent(c.exponent) {
+            derived(palmgren_stiffness(b.roller_length_mm), "Palmgren, 8.06e4 L^(8/9)")
+        } else {
+            Needed("where contact.exponent is not 10/9, Palmgren's stiffness does not hold")
+        }
+    };
+    [palmgren(), palmgren()]
+}

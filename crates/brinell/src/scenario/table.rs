@@ -1,0 +1,202 @@
+//! A table of a damaged contact, delta_eff(s, delta), as it is exchanged between programs: CSV with the columns `s_mm`,
+//! `delta_um` and `delta_eff_um` on a full grid (section 19).
+
+use std::collections::HashMap;
+use std::fmt;
+
+/// delta_eff on a full grid of s and delta.
+#[derive(Debug, Clone, PartialEq)]
+pub struct TableData {
+    /// s, rising.
+    pub s_mm: Vec<f64>,
+    /// delta, rising.
+    pub delta_um: Vec<f64>,
+    /// delta_eff, all of the first s, then of the next.
+    pub delta_eff_um: Vec<f64>,
+}
+
+/// What is wrong with a table.
+#[derive(Debug, Clone, PartialEq)]
+pub struct TableFault {
+    /// Line of the file, from 1, where one is at fault.
+    pub line: Option<usize>,
+    /// What is wrong.
+    pub message: String,
+    /// What would do.
+    pub allowed: String,
+}
+
+impl fmt::Display for TableFault {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        if let Some(line) = self.line {
+            write!(f, "line {line}: ")?;
+        }
+        write!(f, "{}; {}", self.message, self.allowed)
+    }
+}
+
+impl std::error::Error for TableFault {}
+
+const COLUMNS: [&str; 3] = ["s_mm", "delta_um", "delta_eff_um"];
+/// Nodes of a table at most: a scenario that has them written out still reads (`document/source.rs`).
+const MOST_NODES: usize = 400_000;
+
+fn fault(line: Option<usize>, message: impl Into<String>, allowed: impl Into<String>) -> TableFault {
+    TableFault { line, message: message.into(), allowed: allowed.into() }
+}
+
+/// A node as the file has it: its line, s, delta, delta_eff.
+type Row = (usize, [f64; 3]);
+
+impl TableData {
+    /// Of the text of a CSV file: a line of column names, then numbers, a node of the grid each, in any order. Further
+    /// columns, empty lines and lines that begin with `#` are left aside.
+    ///
+    /// # Errors
+    /// The first thing that is wrong, with its line.
+    pub fn from_csv_text(text: &str) -> Result<TableData, TableFault> {
+        let text = text.strip_prefix('\u{feff}').unwrap_or(text);
+        let lines = text.lines().enumerate().map(|(i, line)| (i + 1, line.trim()));
+        let mut lines = lines.filter(|(_, line)| !line.is_empty() && !line.starts_with('#'));
+        let needed = "a line with the columns s_mm,delta_um,delta_eff_um comes first";
+        let (number, head) = lines.next().ok_or_else(|| fault(None, "the file is empty", needed))?;
+        let names: Vec<&str> = head.split(',').map(|name| name.trim().trim_matches('"')).collect();
+        let mut places = [0; 3];
+        for (place, column) in places.iter_mut().zip(COLUMNS) {
+            let found = names.iter().position(|name| *name == column);
+            *place = found.ok_or_else(|| fault(Some(number), format!("there is no column {column}"), needed))?;
+        }
+        let rows: Vec<Row> = lines.map(|(number, line)| row(number, line, places)).collect::<Result<_, _>>()?;
+        if rows.len() > MOST_NODES {
+            return Err(fault(None, format!("{} nodes", rows.len()), format!("at most {MOST_NODES} of them")));
+        }
+        let table = on_grid(&rows)?;
+        table.check()?;
+        Ok(table)
+    }
+
+    /// Whether it is a table that a run can use.
+    ///
+    /// # Errors
+    /// The first thing that is wrong.
+    pub fn check(&self) -> Result<(), TableFault> {
+        for (name, nodes) in [("s_mm", &self.s_mm), ("delta_um", &self.delta_um)] {
+            if nodes.len() < 2 {
+                return Err(fault(None, format!("{} {name}", nodes.len()), format!("two {name} or more")));
+            }
+            // Written so that a number that is none does not rise.
+            if let Some(pair) =
+                nodes.windows(2).find(|pair| pair[0].partial_cmp(&pair[1]) != Some(std::cmp::Ordering::Less))
+            {
+                return Err(fault(
+                    None,
+                    format!("{name} goes from {} to {}", pair[0], pair[1]),
+                    format!("{name} rising"),
+                ));
+            }
+        }
+        let wanted = self.s_mm.len().saturating_mul(self.delta_um.len());
+        if self.delta_eff_um.len() != wanted {
+            let message = format!("{} delta_eff_um", self.delta_eff_um.len());
+            return Err(fault(None, message, format!("{wanted}, one for each s_mm and delta_um")));
+        }
+        for (s, of_s) in self.s_mm.iter().zip(self.delta_eff_um.chunks(self.delta_um.len())) {
+            if let Some(k) = of_s.windows(2).position(|pair| !(pair[0] <= pair[1])) {
+                let message = format!(
+                    "at s_mm = {s} delta_eff_um goes from {} to {} where delta_um goes from {} to {}",
+                    of_s[k],
+                    of_s[k + 1],
+                    self.delta_um[k],
+                    self.delta_um[k + 1]
+                );
+                return Err(fault(None, message, "delta_eff_um that never falls where delta_um rises"));
+            }
+        }
+        Ok(())
+    }
+}
+
+fn row(number: usize, line: &str, places: [usize; 3]) -> Result<Row, TableFault> {
+    let cells: Vec<&str> = line.split(',').collect();
+    let mut values = [0.0; 3];
+    for ((value, place), column) in values.iter_mut().zip(places).zip(COLUMNS) {
+        let needed = "a finite number in each of s_mm, delta_um and delta_eff_um";
+        let Some(cell) = cells.get(place) else {
+            return Err(fault(Some(number), format!("there is no {column}"), needed));
+        };
+        let read = cell.trim().trim_matches('"').parse::<f64>().ok().filter(|x| x.is_finite());
+        *value = read.ok_or_else(|| fault(Some(number), format!("{column} is \"{}\"", cell.trim()), needed))?;
+        // One zero.
+        *value += 0.0;
+    }
+    Ok((number, values))
+}
+
+/// The nodes in order; the grid is that of all s and all delta there are.
+fn on_grid(rows: &[Row]) -> Result<TableData, TableFault> {
+    let axis = |which: usize| {
+        let mut all: Vec<f64> = rows.iter().map(|(_, values)| values[which]).collect();
+        all.sort_by(f64::total_cmp);
+        all.dedup();
+        all
+    };
+    let (s_mm, delta_um) = (axis(0), axis(1));
+    let mut nodes: HashMap<[u64; 2], usize> = HashMap::new();
+    for (number, [s, delta, _]) in rows {
+        if let Some(first) = nodes.insert([s.to_bits(), delta.to_bits()], *number) {
+            let message = format!("s_mm = {s}, delta_um = {delta} stands in line {first} already");
+            return Err(fault(Some(*number), message, "each node of the grid once"));
+        }
+    }
+    if nodes.len() != s_mm.len().saturating_mul(delta_um.len()) {
+        for s in &s_mm {
+            for delta in &delta_um {
+                if !nodes.contains_key(&[s.to_bits(), delta.to_bits()]) {
+                    let message = format!("there is no node s_mm = {s}, delta_um = {delta}");
+                    return Err(fault(None, message, "a full grid: every delta_um at every s_mm"));
+                }
+            }
+        }
+    }
+    let mut order: Vec<&Row> = rows.iter().collect();
+    order.sort_by(|(_, a), (_, b)| a[0].total_cmp(&b[0]).then(a[1].total_cmp(&b[1])));
+    let delta_eff_um = order.iter().map(|(_, values)| values[2]).collect();
+    Ok(TableData { s_mm, delta_um, delta_eff_um })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn prop_a_table_is_read_in_any_order_of_its_lines() {
+        let ordered = "s_mm,delta_um,delta_eff_um\n-1,0,0\n-1,2,2\n0.5,0,-1\n0.5,2,0.8\n";
+        let mixed = "\u{feff}# from a solver\r\nnote, delta_eff_um,delta_um,s_mm\r\nx,0.8,2,0.5\r\n\r\n,0,-0.0,-1\r\n,2,2,-1\r\n,-1,0,0.5\r\n";
+        let table = TableData::from_csv_text(ordered).unwrap();
+        assert_eq!(table.s_mm, [-1.0, 0.5]);
+        assert_eq!(table.delta_um, [0.0, 2.0]);
+        assert_eq!(table.delta_eff_um, [0.0, 2.0, -1.0, 0.8]);
+        assert_eq!(TableData::from_csv_text(mixed).unwrap(), table);
+    }
+
+    #[test]
+    fn prop_what_is_no_table_is_refused_with_its_line() {
+        let head = "s_mm,delta_um,delta_eff_um\n";
+        for (body, line, words) in [
+            ("", None, "0 s_mm"),
+            ("0,0,0\n0,1,1\n1,0,0\n", None, "no node s_mm = 1, delta_um = 1"),
+            ("0,0,0\n0,1,1\n0,0,0\n", Some(4), "stands in line 2 already"),
+            ("0,0,nan\n", Some(2), "delta_eff_um is \"nan\""),
+            ("0,0\n", Some(2), "there is no delta_eff_um"),
+            ("0,0,0\n0,1,x\n", Some(3), "delta_eff_um is \"x\""),
+            ("0,0,0\n0,1,1\n1,0,2\n1,1,1\n", None, "goes from 2 to 1"),
+        ] {
+            let fault = TableData::from_csv_text(&format!("{head}{body}")).unwrap_err();
+            assert_eq!(fault.line, line, "{body}: {fault}");
+            assert!(fault.to_string().contains(words), "{body}: {fault}");
+        }
+        let fault = TableData::from_csv_text("s_mm,delta_um\n0,0\n").unwrap_err();
+        assert_eq!((fault.line, &fault.message[..]), (Some(1), "there is no column delta_eff_um"));
+        assert!(TableData::from_csv_text(" \n").unwrap_err().message.contains("empty"));
+    }
+}
