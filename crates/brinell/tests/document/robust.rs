@@ -264,7 +264,7 @@ fn scenarios() -> impl Strategy<Value = Scenario> {
     let balls = |words: (usize, usize, usize, usize, usize)| words.1 == 0 && words.2 != 2 && words.4 == 1;
     // The lumped model is the paper's.
     let mechanics = |words: (usize, usize, usize, usize, usize)| words.2 != 1 && words.3 == 2;
-    let half_space = move |words: (usize, usize, usize, usize, usize)| mechanics(words) && words.0 != 1;
+    let half_space = move |words: (usize, usize, usize, usize, usize)| mechanics(words) && words.0 != 1 && words.2 == 0;
     let words = (0..3usize, 0..2usize, 0..3usize, 0..3usize, 0..2usize);
     let numbers = prop::collection::vec(1e-9..1e9f64, 16);
     let text = (any::<String>(), prop::collection::vec("[a-z0-9_*]{1,9}", 0..4));
@@ -386,7 +386,7 @@ fn scenarios() -> impl Strategy<Value = Scenario> {
             sensor: sensor(words.0, &x),
             simulation: Simulation {
                 laws: if mechanics(words) { Laws::Mechanics } else { Laws::Li2023 },
-                geometry: [GeometryLaw::Exact, GeometryLaw::Centred][words.4],
+                geometry: [GeometryLaw::Exact, GeometryLaw::Centred][if half_space(words) { 0 } else { words.4 }],
                 seed: x[6].to_bits(),
                 model: [ModelKind::Full, ModelKind::Lumped, ModelKind::Tilting][words.2],
                 duration_s: 1.0 + x[12] / 1e9,
