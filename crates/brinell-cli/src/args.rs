@@ -214,6 +214,27 @@ pub(crate) enum DefectCommand {
     Fit(FitArgs),
     /// Print a ragged spall drawn from a seed, the same on every machine
     Random(RandomArgs),
+    /// Write the table of the effective deformation over a defect (half-space contact): s, delta, delta_eff, Q over the healthy Q
+    Table(TableArgs),
+}
+
+#[derive(Debug, Args)]
+#[command(
+    after_help = "A defect reads such a table by `table = \"FILE.csv\"`; the column q_over_q_healthy is for people.\n\n\
+    Example: brinell defect table spall.toml -o spall.csv"
+)]
+pub(crate) struct TableArgs {
+    #[command(flatten)]
+    pub(crate) scenario: ScenarioArgs,
+    /// Which defect, from 1 in the file's order
+    #[arg(long, value_name = "N", default_value_t = 1)]
+    pub(crate) defect: usize,
+    /// Of damage on a rolling element, its contact with the inner raceway instead of the outer one
+    #[arg(long)]
+    pub(crate) inner: bool,
+    /// The CSV file
+    #[arg(short, long, value_name = "FILE")]
+    pub(crate) output: PathBuf,
 }
 
 #[derive(Debug, Args)]

@@ -2,6 +2,7 @@
 
 mod entry;
 mod preview;
+mod table;
 
 use crate::args::{ConvertArgs, DefectCommand, FitArgs, RandomArgs, ScenarioArgs, SimpleShape, SimplifyArgs, Written};
 use crate::failure::Failure;
@@ -28,6 +29,7 @@ pub(crate) fn defect(command: &DefectCommand) -> Result<ExitCode, Failure> {
         DefectCommand::Simplify(args) => simple(args)?,
         DefectCommand::Fit(args) => fit(args)?,
         DefectCommand::Random(args) => random(args)?,
+        DefectCommand::Table(args) => table::table(args)?,
     }
     Ok(ExitCode::SUCCESS)
 }

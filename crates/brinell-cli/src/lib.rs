@@ -48,6 +48,7 @@ use std::process::ExitCode;
 /// SIGXFSZ, and some commands listen for Ctrl-C, the second of which ends the process.
 pub fn run(args: impl IntoIterator<Item = OsString>) -> ExitCode {
     hear_of_full_files();
+    brinell_damage::keep_tables();
     allow_open_files();
     let code = match Cli::try_parse_from(args) {
         Ok(cli) => code_of(chosen_kernel().and_then(|()| run_command(cli.command))),

@@ -50,6 +50,8 @@ mod form_fit;
 mod geometry;
 mod holes;
 mod image;
+#[cfg(not(target_family = "wasm"))]
+mod kept_tables;
 mod kind;
 mod loaded;
 mod numbers;
@@ -76,6 +78,8 @@ pub use depth::read_depth_map;
 pub use error::DamageError;
 pub use geometry::{Curve, DepthMap, Form, Polygons};
 pub use image::{Traced, read_image, trace_image};
+#[cfg(not(target_family = "wasm"))]
+pub use kept_tables::keep_tables;
 pub use kind::FileKind;
 pub use loaded::resolve_loaded;
 pub use outline::{level_of_area, outline};

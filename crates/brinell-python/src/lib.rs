@@ -24,6 +24,12 @@ use pyo3::prelude::*;
 mod _brinell {
     use super::*;
 
+    #[pymodule_init]
+    fn init(_: &Bound<'_, PyModule>) -> PyResult<()> {
+        brinell_damage::keep_tables();
+        Ok(())
+    }
+
     #[pymodule_export]
     use crate::calibrate::{Calibration, calibrate};
     #[pymodule_export]
