@@ -88,7 +88,7 @@ impl Source {
             print_problems(&self.name, &self.text(), &loaded.warnings);
         }
         let damage = loaded.scenario.defects.iter();
-        for file in damage.filter_map(|defect| defect.shape.file()) {
+        for file in damage.flat_map(|defect| [defect.shape.file(), defect.table_file()]).flatten() {
             let mut inputs = self.inputs.lock().unwrap_or_else(PoisonError::into_inner);
             inputs.add(&folder(&self.path).join(file));
         }

@@ -84,6 +84,6 @@ pub use kind::FileKind;
 pub use loaded::resolve_loaded;
 pub use outline::{level_of_area, outline};
 pub use photo::{Photo, photo, photos};
-pub use resolve::{ReadShape, Unresolved, resolve, shape_of_bytes};
+pub use resolve::{ReadShape, Unresolved, resolve, shape_of_bytes, table_of_bytes};
 pub use stroke::{Stroke, brush, scratch};
 pub use svg::read_svg;

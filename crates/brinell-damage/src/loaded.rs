@@ -18,6 +18,8 @@ pub fn resolve_loaded(
 ) -> Result<Vec<String>, Vec<Problem>> {
     let files: Vec<Option<String>> =
         loaded.scenario.defects.iter().map(|d| d.shape.file().map(str::to_owned)).collect();
+    let tables: Vec<Option<String>> =
+        loaded.scenario.defects.iter().map(|d| d.table_file().map(str::to_owned)).collect();
     let mut found = Vec::new();
     let warnings = resolve_noting(&mut loaded.scenario, folder, &mut found).map_err(|errors| {
         let placed = |error: Unresolved| {
@@ -44,6 +46,11 @@ pub fn resolve_loaded(
     for (defect, file) in files.iter().enumerate() {
         if let Some(file) = file {
             loaded.read_from(defect, file);
+        }
+    }
+    for (defect, file) in tables.iter().enumerate() {
+        if let Some(file) = file {
+            loaded.table_read_from(defect, file);
         }
     }
     Ok(warnings)

@@ -5,7 +5,7 @@ use std::io::Read;
 use std::path::Path;
 
 use brinell::document::{Problem, Severity};
-use brinell::scenario::{DepthGrid, ScanFile, ScanForm, Scenario, Shape, SvgFile};
+use brinell::scenario::{Defect, DefectTable, DepthGrid, ScanFile, ScanForm, Scenario, Shape, SvgFile, TableData};
 use brinell_io::LARGEST_TEXT;
 
 use crate::form_doubts::form_doubts;
@@ -58,12 +58,32 @@ fn named(defect: usize, shape: &Shape) -> Option<(String, String)> {
 }
 
 /// Reads every file of damage that a scenario names, from `folder` where its path is not absolute, and puts its
-/// outline or depth map in place. The checks of the scenario run again on what came out. Gives warnings.
+/// outline, depth map or table in place. The checks of the scenario run again on what came out. Gives warnings.
 ///
 /// # Errors
 /// Every file that could not be read or does not fit the bearing; the scenario is then as it was.
 pub fn resolve(scenario: &mut Scenario, folder: &Path) -> Result<Vec<String>, Vec<Unresolved>> {
     resolve_noting(scenario, folder, &mut Vec::new())
+}
+
+/// Reads the table of a defect from its file; `None` where it names none.
+fn table(defect: &Defect, folder: &Path) -> Option<Result<TableData, String>> {
+    let read = |file: &str| table_of_bytes(&bytes(&folder.join(file), LARGEST)?);
+    defect.table_file().map(read)
+}
+
+/// The table delta_eff(s, delta) that a file holds.
+///
+/// # Errors
+/// In words, with the line.
+pub fn table_of_bytes(bytes: &[u8]) -> Result<TableData, String> {
+    let text = std::str::from_utf8(bytes).map_err(|error| {
+        let line = 1 + bytes[..error.valid_up_to()].iter().filter(|byte| **byte == b'\n').count();
+        format!(
+            "line {line}: not a text file in UTF-8; a CSV file with the columns s_mm,delta_um,delta_eff_um is needed"
+        )
+    })?;
+    TableData::from_csv_text(text).map_err(|fault| fault.to_string())
 }
 
 /// A defect by its index, the key that names its file, and the file.
@@ -82,19 +102,22 @@ pub(crate) fn resolve_noting(
     folder: &Path,
     found: &mut Vec<Found>,
 ) -> Result<Vec<String>, Vec<Unresolved>> {
-    let files: Vec<Named> = scenario
+    let shapes: Vec<Named> = scenario
         .defects
         .iter()
         .enumerate()
         .filter_map(|(i, d)| named(i, &d.shape).map(|(key, file)| (i, key, file)))
         .collect();
+    let of_table = |(i, d): (usize, &Defect)| Some((i, format!("defects.{i}.table"), d.table_file()?.to_owned()));
+    let tables: Vec<Named> = scenario.defects.iter().enumerate().filter_map(of_table).collect();
+    let files = [shapes.clone(), tables.clone()].concat();
     if files.is_empty() {
         return Ok(Vec::new());
     }
     let mut resolved = scenario.clone();
     let (mut warnings, mut errors) = (Vec::new(), Vec::new());
     let mut hints: Vec<(usize, Vec<String>)> = Vec::new();
-    for (i, key, file) in &files {
+    for (i, key, file) in &shapes {
         match read_noting(&scenario.defects[*i].shape, folder) {
             Ok(ReadShape { shape, warnings: mut said, threshold, form, .. }) => {
                 resolved.defects[*i].shape = shape;
@@ -104,6 +127,14 @@ pub(crate) fn resolve_noting(
                 hints.push((*i, said));
             }
             Err(message) => errors.push(Unresolved { defect: *i, key: key.clone(), file: file.clone(), message }),
+        }
+    }
+    for (i, key, file) in &tables {
+        match table(&scenario.defects[*i], folder) {
+            Some(Err(message)) => {
+                errors.push(Unresolved { defect: *i, key: key.clone(), file: file.clone(), message });
+            }
+            read => resolved.defects[*i].table = read.and_then(Result::ok).map(DefectTable::Read),
         }
     }
     if !errors.is_empty() {
@@ -130,15 +161,19 @@ pub(crate) fn resolve_noting(
 fn can_be_read_again(resolved: &Scenario, files: &[Named]) -> Result<(), Vec<Unresolved>> {
     let text = resolved.to_toml().len() as u64;
     if text > LARGEST_TEXT {
-        let largest = files.iter().max_by_key(|(i, ..)| size(&resolved.defects[*i].shape));
-        let (defect, key, file) = largest.unwrap_or(&files[0]).clone();
+        let numbers = |(i, key, _): &Named| match (&resolved.defects[*i].table, key.ends_with(".table")) {
+            (Some(DefectTable::Read(table)), true) => table.delta_eff_um.len(),
+            _ => size(&resolved.defects[*i].shape),
+        };
+        let largest = files.iter().max_by_key(|named| numbers(named)).unwrap_or(&files[0]);
         let message = format!(
-            "with the geometry of its files the scenario takes {:.1} MiB, more than the {} MiB that are read again; this file has {} numbers: \
-             simplify its damage, or scale it down",
+            "with what its files hold the scenario takes {:.1} MiB, more than the {} MiB that are read again; this file has {} numbers: \
+             simplify its damage, or thin it out",
             text as f64 / f64::from(1 << 20),
             LARGEST_TEXT >> 20,
-            size(&resolved.defects[defect].shape)
+            numbers(largest)
         );
+        let (defect, key, file) = largest.clone();
         return Err(vec![Unresolved { defect, key, file, message }]);
     }
     Ok(())

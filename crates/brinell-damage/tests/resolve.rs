@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use brinell::document::read;
 use brinell::model::Model;
-use brinell::scenario::{DepthGrid, Scenario, Shape};
+use brinell::scenario::{DefectTable, DepthGrid, Scenario, Shape};
 use brinell_damage::{Unresolved, resolve, resolve_loaded};
 
 const HEAD: &str = "name = \"files\"\n[bearing]\npreset = \"NN3007\"\n[operation]\nspeed_rpm = 1800.0\n\
@@ -264,5 +264,45 @@ fn regress_keys_of_a_written_grid_and_of_a_file_exclude_each_other() {
     ] {
         let words = read_shape(keys).unwrap_err();
         assert!(words.contains(wanted), "{keys}\n{words}");
+    }
+}
+
+/// A scenario of the half-space law with a table, and a folder that has its file.
+fn tabled(name: &str, csv: &str) -> (Scenario, PathBuf) {
+    let folder = std::env::temp_dir().join(format!("brinell-table-{name}-{}", std::process::id()));
+    fs::create_dir_all(&folder).unwrap();
+    fs::write(folder.join("pit.csv"), csv).unwrap();
+    let text = format!(
+        "{HEAD}laws = \"mechanics\"\n[[defects]]\non = \"outer-raceway\"\ncenter_deg = 0.0\ndepth_um = 20.0\n\
+         shape = {{ rectangle = {{ length_mm = 3.0, width_mm = 4.0 }} }}\ntable = \"pit.csv\"\n"
+    );
+    (read(&text, &[]).map_or_else(|e| panic!("{e:?}"), |loaded| loaded.scenario), folder)
+}
+
+#[test]
+fn prop_a_table_comes_from_its_file_and_is_written_out() {
+    let (mut scenario, folder) =
+        tabled("good", "s_mm,delta_um,delta_eff_um,note\n-2,0,0,a\n-2,5,5,b\n2,0,0,c\n2,5,5,d\n");
+    assert_eq!(resolve(&mut scenario, &folder), Ok(vec![]));
+    let Some(DefectTable::Read(table)) = &scenario.defects[0].table else { panic!("no table") };
+    assert_eq!(table.delta_eff_um, [0.0, 5.0, 0.0, 5.0]);
+    assert_eq!(read(&scenario.to_toml(), &[]).unwrap().scenario, scenario);
+    fs::remove_dir_all(folder).unwrap();
+}
+
+#[test]
+fn prop_a_table_that_does_not_do_is_named_with_its_line() {
+    for (csv, words) in [
+        ("s_mm,delta_um,delta_eff_um\n-2,0,0\n-2,5,x\n", "line 3: delta_eff_um is \"x\""),
+        ("s_mm,delta_um,delta_eff_um\n-2,0,0\n-2,5,5\n2,0,0\n", "no node s_mm = 2, delta_um = 5"),
+        ("s_mm,delta_um\n", "no column delta_eff_um"),
+    ] {
+        let (mut scenario, folder) = tabled(&format!("bad-{}", csv.len()), csv);
+        let before = scenario.clone();
+        let errors = resolve(&mut scenario, &folder).unwrap_err();
+        assert_eq!((&errors[0].key[..], &errors[0].file[..]), ("defects.0.table", "pit.csv"));
+        assert!(errors[0].message.contains(words), "{}", errors[0].message);
+        assert_eq!(scenario, before);
+        fs::remove_dir_all(folder).unwrap();
     }
 }

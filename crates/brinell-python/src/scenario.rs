@@ -64,6 +64,11 @@ impl Source {
             };
             for (k, known) in known.scenario.defects.into_iter().enumerate() {
                 let file = |d: &brinell::scenario::Defect| d.shape.file().map(str::to_owned);
+                let table_file = loaded.scenario.defects.get(k).and_then(|d| d.table_file().map(str::to_owned));
+                if let Some(file) = table_file {
+                    loaded.scenario.defects[k].table = known.table;
+                    loaded.table_read_from(k, &file);
+                }
                 if let Some(file) = loaded.scenario.defects.get(k).and_then(file) {
                     loaded.scenario.defects[k].shape = known.shape;
                     if let Some((level, _)) = found(k, "image.threshold") {
@@ -160,7 +165,7 @@ impl Scenario {
         let s = &self.source;
         let from_files = read(&s.text, &s.overrides).is_ok_and(|loaded| {
             let mut defects = loaded.scenario.defects.iter();
-            defects.any(|d| d.shape.file().is_some())
+            defects.any(|d| d.shape.file().is_some() || d.table_file().is_some())
         });
         (
             s.text.clone(),

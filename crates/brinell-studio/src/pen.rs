@@ -5,8 +5,8 @@ use crate::report::{Answer, Trouble};
 use crate::text;
 use brinell::defect::simplify::Extent;
 use brinell::document::Loaded;
-use brinell::scenario::{self, Scenario, Shape, Surface};
-use brinell_damage::{Stroke, brush, scratch, shape_of_bytes};
+use brinell::scenario::{self, Scenario, Shape, Surface, TableData};
+use brinell_damage::{Stroke, brush, scratch, shape_of_bytes, table_of_bytes};
 use serde_json::{Value, json};
 
 /// A bearing that any shape of damage fits on, to read and write shapes with.
@@ -143,12 +143,19 @@ pub(crate) fn resolved(
 ) -> Answer<(Loaded, String)> {
     let mut stated_keys = None;
     for (k, defect) in loaded.scenario.defects.iter_mut().enumerate() {
+        let bytes_of = |file: &str| {
+            let missing = || Trouble::of(format!("defect {}: {file} is not here; drop the file on the raceway", k + 1));
+            find(file).ok_or_else(missing)
+        };
+        if let Some(file) = defect.table_file() {
+            let TableData { s_mm, delta_um, delta_eff_um } = table_of_bytes(bytes_of(file)?).map_err(Trouble::of)?;
+            let keys = stated_keys.get_or_insert_with(|| text::stated(&text));
+            keys["defects"][k]["table"] = json!({ "s_mm": s_mm, "delta_um": delta_um, "delta_eff_um": delta_eff_um });
+        }
         let Some(file) = defect.shape.file().map(str::to_owned) else {
             continue;
         };
-        let bytes = find(&file).ok_or_else(|| {
-            Trouble::of(format!("defect {}: {file} is not here; drop the file on the raceway", k + 1))
-        })?;
+        let bytes = bytes_of(&file)?;
         let shape = shape_of_bytes(&defect.shape, bytes).map_err(Trouble::of)?.shape;
         let keys = stated_keys.get_or_insert_with(|| text::stated(&text));
         keys["defects"][k]["shape"] = stated(shape)?;

@@ -20,7 +20,7 @@ use crate::lamina::Rating;
 use crate::model::Model;
 use crate::operation::Rotation;
 use crate::pressure::{pressures, static_limit};
-use crate::scenario::{Choice, LoadOn, Scenario, Speed};
+use crate::scenario::{Choice, GeometryLaw, LoadOn, Scenario, Speed};
 use crate::statics::{NoBalance, StaticLoadZone, static_load_zone};
 pub use after::after;
 use slices::coarse_slices;
@@ -184,8 +184,9 @@ fn sunk(scenario: &Scenario, model: &Model, zone: &StaticLoadZone) -> Option<Pro
         LoadOn::InnerRing => ("support.outer_stiffness_n_per_m", scenario.support.outer_stiffness_n_per_m),
         LoadOn::OuterRing => ("support.inner_stiffness_n_per_m", scenario.support.inner_stiffness_n_per_m),
     };
-    // The orbits of the lumped model are prescribed.
-    (share > SUNK_SHARE && scenario.simulation.model.moves_every_part()).then(|| {
+    // The orbits of the lumped model are prescribed; exact levers are those of where the rings are.
+    let centred = scenario.simulation.geometry == GeometryLaw::Centred;
+    (share > SUNK_SHARE && centred && scenario.simulation.model.moves_every_part()).then(|| {
         warning(
             key,
             toml_float(stiffness),

@@ -59,7 +59,7 @@ pub(super) fn bearing<K: Keys>(k: &mut K, (model, laws): (ModelKind, Laws), b: &
         derived(180.0 / b.rollers_per_row as f64, "half a roller pitch")
     };
     k.key(stagger, stagger_default, &mut b.row_stagger_deg);
-    clearance(k, b);
+    clearance(k, laws, b);
     k.key(
         key("outer_gap_um", "gap subtracted at the outer contact too").from(0.0),
         stated(0.0, "all clearance is at the inner contact"),
@@ -67,11 +67,11 @@ pub(super) fn bearing<K: Keys>(k: &mut K, (model, laws): (ModelKind, Laws), b: &
     );
     // Rings of rectangular section. Of rollers: wall 0.6 d, width 1.6 L for each row, within 8 % of the NN3007's sum;
     // of balls: wall 0.45 d, width 1.75 d, within 12 % of what makers print for 6204 to 6206 less balls and cage.
-    let (wall, width, ring_how) = match b.element {
-        Element::Roller => (0.6, 1.6, "steel ring, wall 0.6 roller diameters, width 1.6 roller lengths a row"),
-        Element::Ball => (0.45, 1.75, "steel ring, wall 0.45 and width 1.75 ball diameters"),
+    let (width, ring_how) = match b.element {
+        Element::Roller => (1.6, "steel ring, wall 0.6 roller diameters, width 1.6 roller lengths a row"),
+        Element::Ball => (1.75, "steel ring, wall 0.45 and width 1.75 ball diameters"),
     };
-    let wall = wall * b.roller_diameter_mm;
+    let wall = ring_wall_mm(b);
     let ring = |mean_diameter: f64| STEEL * PI * mean_diameter * wall * width * b.roller_length_mm * b.rows as f64;
     let inner_ring = ring(b.inner_raceway_diameter_mm - wall);
     let outer_ring = ring(b.outer_raceway_diameter_mm + wall);
@@ -164,9 +164,24 @@ fn grooves<K: Keys>(k: &mut K, b: &mut Bearing) {
     }
 }
 
+/// C_r of class CN; `None` for a bore beyond ISO 5753-1.
+fn usual_clearance_um(b: &Bearing) -> Option<f64> {
+    let bore = bore_diameter_mm(b).unwrap_or(b.inner_raceway_diameter_mm - 2.0 * ring_wall_mm(b));
+    ClearanceClass::CN.one_sided_middle(b.element, bore)
+}
+
+/// Wall of a ring under its raceway, mm.
+fn ring_wall_mm(b: &Bearing) -> f64 {
+    let diameters = match b.element {
+        Element::Roller => 0.6,
+        Element::Ball => 0.45,
+    };
+    diameters * b.roller_diameter_mm
+}
+
 /// The clearance: on one side, on the diameter, or as a class of ISO 5753-1. `checks` sees to it that only one is
 /// given.
-fn clearance<K: Keys>(k: &mut K, b: &mut Bearing) {
+fn clearance<K: Keys>(k: &mut K, laws: Laws, b: &mut Bearing) {
     k.optional(
         key("bore_diameter_mm", "bore, for clearance_class; left out, the preset's").above(0.0),
         &mut b.bore_diameter_mm,
@@ -201,6 +216,10 @@ fn clearance<K: Keys>(k: &mut K, b: &mut Bearing) {
             how: "the class of clearance in the bearing's name, half of the middle of its diametral range (ISO 5753-1)",
             assumed: true,
         },
+        (None, None) if let (Laws::Mechanics, Some(gap)) = (laws, usual_clearance_um(b)) => derived(
+            gap,
+            "half of the middle of class CN of ISO 5753-1 for the bore, one that leaves the inner ring's usual wall if none is given",
+        ),
         (None, None) => match b.element {
             Element::Roller => assumed(10.0, "a small bearing's usual gap, and the NN3007's"),
             Element::Ball => assumed(6.25, "half of the middle of class CN of ISO 5753-1 for bores of 18 to 30 mm"),

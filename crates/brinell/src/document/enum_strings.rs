@@ -47,6 +47,13 @@ impl ScanForm {
     }
 }
 
+impl Laws {
+    /// As the scenario file says it: `mechanics` or `li2023`.
+    pub fn word(self) -> &'static str {
+        Choice::word(self)
+    }
+}
+
 impl Law {
     /// As the scenario file says it: `half-space`, for one.
     pub fn word(self) -> &'static str {

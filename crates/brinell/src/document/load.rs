@@ -92,6 +92,15 @@ impl Loaded {
         });
     }
 
+    /// Says of a defect whose table was put in place of a file's name that it came from that file.
+    pub fn table_read_from(&mut self, defect: usize, file: &str) {
+        let key = format!("defects.{defect}.table");
+        if let Some(entry) = self.provenance.iter_mut().find(|entry| entry.key == key) {
+            entry.value = String::new();
+            entry.origin = Origin::DamageFile(file.to_string());
+        }
+    }
+
     /// Says that the level which divides damage from sound was found in the image of a defect, 0 black to 1 white.
     pub fn threshold_found(&mut self, defect: usize, level: f64) {
         let how = "found in the image, its light evened out where that is uneven";

@@ -10,6 +10,7 @@ mod contact_keys;
 mod damage;
 mod damage_files;
 mod diagnostics;
+mod differences;
 mod enum_strings;
 mod example;
 mod in_unit;
@@ -42,6 +43,7 @@ mod writer;
 pub use diagnostics::render_diagnostics;
 #[doc(hidden)]
 pub use diagnostics::{on_one_line, one_line};
+pub use differences::{Difference, LawsInForce};
 pub use example::{explained, template};
 pub use load::{Loaded, read, read_bytes};
 pub use problem::{Place, Problem, Severity};

@@ -6,7 +6,7 @@ use super::bearing_keys::{ROLLERS, bearing, tilt_key};
 use super::cage_keys::cage;
 use super::contact_keys::contact;
 use super::damage::defect;
-use super::keys::Fallback::Required;
+use super::keys::Fallback::{self, Required};
 use super::keys::{Keys, PAPER, assumed, derived, stated};
 use super::sensor::sensor;
 use super::spec::key;
@@ -38,7 +38,7 @@ pub(crate) fn scenario<K: Keys>(k: &mut K, s: &mut Scenario) {
     k.section(key("lubricant", "oil"), |k| lubricant(k, &s.bearing, &mut s.lubricant));
     k.section(key("operation", "speed, load and gravity"), |k| operation(k, (model, &s.bearing), &mut s.operation));
     k.section(key("support", "springs and dampers that hold the rings"), |k| {
-        support(k, (model, &s.bearing, s.operation.load_on), &mut s.support)
+        support(k, (laws, model, &s.bearing, s.operation.load_on), &mut s.support)
     });
     k.section(key("housing", "fixed to the outer ring"), |k| housing(k, (laws, &s.bearing), &mut s.housing));
     let load = s.operation.load_n;
@@ -46,7 +46,7 @@ pub(crate) fn scenario<K: Keys>(k: &mut K, s: &mut Scenario) {
     k.section(key("sensor", "from the outer ring to the record: nothing, unless a key says so"), |k| {
         sensor(k, &mut s.sensor)
     });
-    k.section(key("simulation", "what to compute and to record"), |k| simulation(k, &mut s.simulation));
+    k.section(key("simulation", "what to compute and to record"), |k| simulation(k, &s.operation, &mut s.simulation));
 }
 
 fn friction<K: Keys>(k: &mut K, laws: Laws, f: &mut Friction) {
@@ -123,26 +123,45 @@ fn operation<K: Keys>(k: &mut K, (model, b): (ModelKind, &Bearing), o: &mut Oper
     );
 }
 
-fn support<K: Keys>(k: &mut K, (model, b, load_on): (ModelKind, &Bearing, LoadOn), s: &mut Support) {
+/// How much larger than the NN3007, for which they were chosen, a bearing is to its supports: as its load rating over its
+/// pitch radius is, of which the rating goes as Z N_r L d, of balls as 0.3 of that (ISO 76: f_0 of 13, and 44). A shaft
+/// and a housing grow with what they carry, and a heavy bearing on a small one's supports would sink by millimetres. No
+/// less than 1: small bearings stand in rigs like the NN3007's.
+fn support_scale(b: &Bearing) -> f64 {
+    const NN3007_MM: f64 = 38.0 * 6.0 * 6.0 / 49.0;
+    let elements = b.rollers_per_row as f64 * b.rows as f64;
+    let of_element = match b.element {
+        Element::Roller => 1.0,
+        Element::Ball => 0.3,
+    };
+    let size = of_element * elements * b.roller_length_mm * b.roller_diameter_mm / b.pitch_diameter_mm;
+    // What could not be read raises no objection.
+    (size / NN3007_MM).max(1.0)
+}
+
+fn support<K: Keys>(k: &mut K, (laws, model, b, load_on): (Laws, ModelKind, &Bearing, LoadOn), s: &mut Support) {
     // Soft where the load acts, or the support would carry it instead of the rollers
     // (`docs/src/theory/motion.md`).
-    let why = "soft on the loaded ring, stiff on the other; the paper does not state it";
+    let (scale, why) = match laws {
+        Laws::Mechanics => (
+            support_scale(b),
+            "soft on the loaded ring, stiff on the other; larger bearings than the NN3007 on stiffer ones",
+        ),
+        Laws::Li2023 => (1.0, "soft on the loaded ring, stiff on the other; the paper does not state it"),
+    };
     let (inner, outer) = match load_on {
-        LoadOn::OuterRing => (5e7, 1e6),
-        LoadOn::InnerRing => (1e6, 5e7),
+        LoadOn::OuterRing => (5e7 * scale, 1e6 * scale),
+        LoadOn::InnerRing => (1e6 * scale, 5e7 * scale),
+    };
+    // As sqrt(k m) of bearings that are alike: k grows as the size, m as its cube.
+    let (damping, damping_why) = match laws {
+        Laws::Mechanics => (500.0 * scale.powi(2), "about a tenth of critical, as for the NN3007"),
+        Laws::Li2023 => (500.0, "the paper does not state it"),
     };
     k.key(key("inner_stiffness_n_per_m", "k_i").from(0.0), assumed(inner, why), &mut s.inner_stiffness_n_per_m);
-    k.key(
-        key("inner_damping_ns_per_m", "c_i").from(0.0),
-        assumed(500.0, "the paper does not state it"),
-        &mut s.inner_damping_ns_per_m,
-    );
+    k.key(key("inner_damping_ns_per_m", "c_i").from(0.0), assumed(damping, damping_why), &mut s.inner_damping_ns_per_m);
     k.key(key("outer_stiffness_n_per_m", "k_o").from(0.0), assumed(outer, why), &mut s.outer_stiffness_n_per_m);
-    k.key(
-        key("outer_damping_ns_per_m", "c_o").from(0.0),
-        assumed(500.0, "the paper does not state it"),
-        &mut s.outer_damping_ns_per_m,
-    );
+    k.key(key("outer_damping_ns_per_m", "c_o").from(0.0), assumed(damping, damping_why), &mut s.outer_damping_ns_per_m);
     let lever = (0.5e-3 * b.pitch_diameter_mm).powi(2);
     let (stiffness, damping) = ("k R_m^2 of the same ring", "c R_m^2 of the same ring");
     let mut tilt = |name, symbol, own: f64, how, value: &mut f64| {
@@ -187,7 +206,21 @@ fn housing<K: Keys>(k: &mut K, (laws, b): (Laws, &Bearing), h: &mut Housing) {
     k.key(key("mass_kg", "of what moves with the outer ring").from(0.0), mass, &mut h.mass_kg);
 }
 
-fn simulation<K: Keys>(k: &mut K, s: &mut Simulation) {
+/// Half a second; of a slow bearing four turns of the shaft after the load's ramp, in which every element passes the load
+/// zone once.
+fn duration(laws: Laws, o: &Operation) -> Fallback<f64> {
+    const USUAL: f64 = 0.5;
+    let of_turns = o.speed_rpm.constant().map_or(0.0, |rpm| o.load_ramp_s + 4.0 * 60.0 / rpm.abs());
+    match laws {
+        Laws::Mechanics if of_turns > USUAL && of_turns <= 1e6 => {
+            derived(of_turns, "four turns of the shaft after the load's ramp")
+        }
+        Laws::Mechanics => assumed(USUAL, "long enough for statistics of a bearing that is not slow"),
+        Laws::Li2023 => assumed(USUAL, "the paper does not state it"),
+    }
+}
+
+fn simulation<K: Keys>(k: &mut K, o: &Operation, s: &mut Simulation) {
     let laws = match s.model {
         ModelKind::Lumped => "the lumped model is the paper's",
         ModelKind::Full | ModelKind::Tilting => "the usual set",
@@ -204,11 +237,7 @@ fn simulation<K: Keys>(k: &mut K, s: &mut Simulation) {
     k.key(key("geometry", "normals and levers of contacts"), geometry, &mut s.geometry);
     k.key(key("seed", "of the phases of waviness"), stated(1, "the first"), &mut s.seed);
     k.key(key("model", "equations"), stated(ModelKind::Full, "the model itself"), &mut s.model);
-    k.key(
-        key("duration_s", "simulated time").above(0.0).to(1e6),
-        assumed(0.5, "the paper does not state it"),
-        &mut s.duration_s,
-    );
+    k.key(key("duration_s", "simulated time").above(0.0).to(1e6), duration(s.laws, o), &mut s.duration_s);
     k.key(
         key("sample_rate_hz", "f_s").above(0.0).to(1e9),
         stated(25600.0, "the paper's data logger"),

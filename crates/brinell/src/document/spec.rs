@@ -61,7 +61,7 @@ pub(super) fn without_unit(name: &str) -> Option<&str> {
 
 /// The suffix of a key's name that is a unit, and the unit.
 const fn unit_suffix(name: &str) -> (&'static str, &'static str) {
-    const SUFFIXES: [(&str, &str); 22] = [
+    const SUFFIXES: [(&str, &str); 23] = [
         ("_nms_per_rad", "N m s/rad"),
         ("_nm_per_rad", "N m/rad"),
         ("_mv_per_m_per_s2", "mV/(m/s^2)"),
@@ -83,6 +83,7 @@ const fn unit_suffix(name: &str) -> (&'static str, &'static str) {
         ("_db", "dB"),
         ("_px", "px"),
         ("_n", "N"),
+        ("_us", "us"),
         ("_s", "s"),
     ];
     let mut i = 0;

@@ -218,6 +218,15 @@ fn defects(s: &Scenario) -> Result<Vec<Defect>, ModelError> {
             });
         }
     }
+    for (k, defect) in s.defects.iter().enumerate() {
+        if let Some(file) = defect.table_file() {
+            return Err(ModelError {
+                key: format!("defects.{k}.table"),
+                value: file.to_string(),
+                requirement: "a table, not a file: read it first, with brinell_damage::resolve",
+            });
+        }
+    }
     Defect::all(&s.defects, &s.bearing, &s.contact).map_err(|k| ModelError {
         key: format!("defects.{k}"),
         // A scan has a million depths.

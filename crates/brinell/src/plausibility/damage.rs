@@ -5,7 +5,7 @@ use super::warning::{short, warning};
 use crate::defect::{Defect, SIDES, Shape, Side, relative_radius, wrap};
 use crate::document::{Problem, toml_float};
 use crate::model::Model;
-use crate::scenario::{ModelKind, RollerPath, Scenario};
+use crate::scenario::{Law, ModelKind, RollerPath, Scenario};
 use crate::statics::StaticLoadZone;
 
 /// Share of a defect's depth that a roller must reach: the deepest point of a rough floor is nobody's.
@@ -138,7 +138,8 @@ fn beside_the_ellipse(scenario: &Scenario, model: &Model, zone: &StaticLoadZone)
 /// and where the damage is as wide as the roller, it drops by the whole depth at once. `deformation` is that of the
 /// heaviest contact, m.
 fn felt_by_a_point(scenario: &Scenario, model: &Model, deformation: Option<f64>) -> Vec<Problem> {
-    if scenario.contact.roller_path != RollerPath::Point {
+    // In a half-space the element's radius is.
+    if scenario.contact.law == Law::HalfSpace || scenario.contact.roller_path != RollerPath::Point {
         return Vec::new();
     }
     let element = scenario.bearing.element.word();

@@ -299,6 +299,16 @@ pub struct Defect {
     pub table: Option<DefectTable>,
 }
 
+impl Defect {
+    /// The file that its table is still to be read from.
+    pub fn table_file(&self) -> Option<&str> {
+        match &self.table {
+            Some(DefectTable::File(file)) => Some(file),
+            Some(DefectTable::Read(_)) | None => None,
+        }
+    }
+}
+
 /// `table`: how the contact yields over this damage.
 #[derive(Debug, Clone, PartialEq)]
 pub enum DefectTable {

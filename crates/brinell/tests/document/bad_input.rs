@@ -108,7 +108,7 @@ fn regress_each_bad_line_is_named_with_its_line_and_remedy() {
         ("shape", "shape = { depth_map = { ds_mm = 1, dz_mm = 1, columns = 2, rows = 2, depth_um = [1, 2, 3] } }", "defects.0.shape.depth_map.depth_um", "3 depths for 2 columns and 2 rows", "4 numbers"),
         ("shape", "shape = { depth_map = { ds_mm = 1, dz_mm = 1, columns = 2, rows = 2, depth_um = [1, 2, 3, nan] } }", "defects.0.shape.depth_map.depth_um", "not a finite number", ""),
         ("shape", "shape = { depth_map = { ds_mm = 1, dz_mm = 1, columns = 2, rows = 2, depth_um = [0, 0, 0, 0] } }", "defects.0.shape.depth_map.depth_um", "there is no damage", ""),
-        ("shape", "shape = { depth_map = { ds_mm = 1, dz_mm = 1, columns = 2, rows = 2, depth_um = [1, 2, 3, -4] } }", "defects.0.shape.depth_map.depth_um", "raised edges (the highest 4 um) act only in contact.law = \"sliced\" of simulation.model = \"full\" or \"tilting\"", ""),
+        ("shape", "shape = { depth_map = { ds_mm = 1, dz_mm = 1, columns = 2, rows = 2, depth_um = [1, 2, 3, -4] } }", "defects.0.shape.depth_map.depth_um", "raised edges (the highest 4 um) act only in contact.law = \"half-space\" or \"sliced\" of simulation.model = \"full\" or \"tilting\"", ""),
         ("shape", "shape = { depth_map = { ds_mm = 1, dz_mm = 1, z0_mm = 5, columns = 2, rows = 2, depth_um = [1, 2, 3, 4] } }", "defects.0.shape.depth_map.depth_um", "off the raceway's edge", ""),
         ("shape", "shape = { depth_map = { ds_mm = 1, dz_mm = 1, columns = 2, rows = 2, depth_um = [1, 2, 3, 40000] } }", "defects.0.shape.depth_map.depth_um", "nm instead of um", "<= 6000 um"),
         ("roller_path", "edge_reaction = \"conservative\"", "contact.edge_reaction", "an energy without jumps", "roller_path"),

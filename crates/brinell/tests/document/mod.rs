@@ -5,6 +5,7 @@ mod balls;
 mod clearance;
 mod defaults;
 mod json;
+mod laws;
 mod limits;
 mod quantities;
 mod recorded;

@@ -266,12 +266,11 @@ impl Checker<'_> {
 
     /// What rises above the raceway, where it would not act.
     fn raised_edges(&mut self, key: &str, map: &defect::Grid) {
-        if map.extremes().1 < 0.0 && (self.s.contact.law != Law::Sliced || self.s.simulation.model == ModelKind::Lumped)
-        {
+        if map.extremes().1 < 0.0 && (self.s.contact.law == Law::Ecl || self.s.simulation.model == ModelKind::Lumped) {
             self.error(
                 key,
                 format!(
-                    "raised edges (the highest {} um) act only in contact.law = \"sliced\" of simulation.model = \"full\" or \"tilting\"",
+                    "raised edges (the highest {} um) act only in contact.law = \"half-space\" or \"sliced\" of simulation.model = \"full\" or \"tilting\"",
                     short(-1e6 * map.extremes().1)
                 ),
                 ">= 0".into(),

@@ -1,0 +1,126 @@
+//! Which set of laws a scenario has, and which keys of it hold something else.
+
+use std::fmt;
+
+use super::keys::{Case, Fallback, Keys, Variant};
+use super::sections;
+use super::spec::Spec;
+use super::value_type::ValueType;
+use crate::scenario::{Laws, Scenario};
+
+/// The keys that a set of laws decides.
+const OF_THE_SET: [&str; 13] = [
+    "simulation.geometry",
+    "contact.law",
+    "contact.roller_path",
+    "contact.edge_reaction",
+    CONSTANT,
+    TIME,
+    "contact.roughness_um",
+    "contact.edge_radius_um",
+    "cage.walls",
+    "cage.pockets",
+    "cage.friction_coefficient",
+    "friction.rolling_coefficient",
+    "housing.mass_kg",
+];
+const TIME: &str = "contact.damping_time_us";
+const CONSTANT: &str = "contact.damping_ns_per_m";
+
+/// A key that holds something else than its set of laws has.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Difference {
+    /// The key.
+    pub key: String,
+    /// What it holds, as TOML.
+    pub value: String,
+    /// What the set has, as TOML; empty where the set has another key in its place.
+    pub usual: String,
+}
+
+/// A set of laws, and what differs from it.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct LawsInForce {
+    /// The set.
+    pub laws: Laws,
+    /// The keys that differ, in the file's order.
+    pub differences: Vec<Difference>,
+}
+
+impl fmt::Display for LawsInForce {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}", self.laws.word())?;
+        for (i, Difference { key, value, usual }) in self.differences.iter().enumerate() {
+            write!(f, "{} {key} = {value}", if i == 0 { ", but" } else { "," })?;
+            if !usual.is_empty() {
+                write!(f, " (not {usual})")?;
+            }
+        }
+        Ok(())
+    }
+}
+
+impl Scenario {
+    /// The set of laws that it names, and the keys of contacts, cage, friction, housing and geometry that hold something
+    /// else than that set has for this bearing.
+    pub fn laws_and_differences(&self) -> LawsInForce {
+        let mut walk = Differing { path: Vec::new(), laws: self.simulation.laws, found: Vec::new() };
+        sections::scenario(&mut walk, &mut self.clone());
+        LawsInForce { laws: self.simulation.laws, differences: walk.found }
+    }
+}
+
+/// The walk that compares each key of a set with its default.
+struct Differing {
+    path: Vec<&'static str>,
+    laws: Laws,
+    found: Vec<Difference>,
+}
+
+impl Differing {
+    fn compare<T: ValueType>(&mut self, spec: &Spec, fallback: Fallback<T>, value: &T) {
+        let key = [&self.path[..], &[spec.name]].concat().join(".");
+        if !OF_THE_SET.contains(&key.as_str()) {
+            return;
+        }
+        // Whichever damps, its default says nothing of which does.
+        let of_another_set = match key.as_str() {
+            TIME => self.laws != Laws::Mechanics,
+            CONSTANT => self.laws == Laws::Mechanics,
+            _ => false,
+        };
+        let value = value.write();
+        let usual = fallback.value().map_or(String::new(), |usual| usual.write());
+        if of_another_set {
+            self.found.push(Difference { key, value, usual: String::new() });
+        } else if value != usual {
+            self.found.push(Difference { key, value, usual });
+        }
+    }
+}
+
+impl Keys for Differing {
+    fn key<T: ValueType>(&mut self, spec: Spec, fallback: Fallback<T>, value: &mut T) {
+        self.compare(&spec, fallback, value);
+    }
+
+    fn optional<T: ValueType>(&mut self, _: Spec, _: &mut Option<T>) {}
+
+    fn only_where<T: ValueType>(&mut self, _: Spec, _: bool, _: &'static str, _: &mut T) {}
+
+    fn key_where<T: ValueType>(&mut self, spec: Spec, (wanted, _): Case, fallback: Fallback<T>, value: &mut T) {
+        if wanted {
+            self.key(spec, fallback, value);
+        }
+    }
+
+    fn section(&mut self, spec: Spec, mut keys: impl FnMut(&mut Self)) {
+        self.path.push(spec.name);
+        keys(self);
+        self.path.pop();
+    }
+
+    fn tables<T>(&mut self, _: Spec, _: &mut Vec<T>, _: fn() -> T, _: impl FnMut(&mut Self, &mut T)) {}
+
+    fn one_of<T: 'static>(&mut self, _: Spec, _: &'static [Variant<T>], _: &mut T, _: impl FnMut(&mut Self, &mut T)) {}
+}
