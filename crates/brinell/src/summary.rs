@@ -51,6 +51,7 @@ pub fn to_json(parts: &Parts) -> Value {
             "sample_rate_hz": simulation.sample_rate(),
             "analysed_from_s": (fields::ANALYSED_FROM.of)(findings),
         },
+        "laws": laws(scenario),
         "defect_frequencies": frequencies(model, &scenario.operation.speed_rpm),
         "defects": defects(parts),
         "indicators": indicators(findings),
@@ -69,6 +70,13 @@ pub fn to_json(parts: &Parts) -> Value {
         summary["healthy"] = beside(findings, healthy);
     }
     summary
+}
+
+/// The set of laws, and the keys that hold something else than it has.
+fn laws(scenario: &Scenario) -> Value {
+    let in_force = scenario.laws_and_differences();
+    let differences = in_force.differences.iter().map(|d| json!({ "key": d.key, "value": d.value, "usual": d.usual }));
+    json!({ "set": in_force.laws.word(), "differences": differences.collect::<Vec<_>>() })
 }
 
 /// The level beside that of the healthy bearing.
@@ -357,7 +365,7 @@ fn energy(outcome: &Outcome) -> Value {
         "held_at_end": held(&e.last),
         "input": { "drive": f.drive, "load": f.load, "guidance_film": f.film },
         "dissipated": {
-            "contact_damping": f.contact, "raceway_friction": f.friction, "pocket_damping": f.pocket,
+            "contact_damping": f.contact, "raceway_friction": f.friction, "rolling_resistance": f.rolling, "pocket_damping": f.pocket,
             "pocket_friction": f.pocket_friction, "land_damping": f.land, "supports": f.support, "drag": f.drag,
         },
         "parametric_work_of_defects": (fields::PARAMETRIC_ENERGY.of)(outcome),

@@ -27,6 +27,7 @@ pub(super) fn tell(parts: &Parts, elapsed: f64, written: &[PathBuf]) -> Vec<Stri
         (fields::STEPS.of)(outcome),
         (fields::RIGHT_HAND_SIDES.of)(outcome),
     ));
+    printed.push(format!("  laws: {}", loaded.scenario.laws_and_differences()));
     printed.extend(sensor_lines(findings));
     printed.extend(healthy_line(parts));
     let heed = summary::converted(simulation, outcome).into_iter().chain(summary::unsettled(findings));

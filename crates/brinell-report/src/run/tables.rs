@@ -147,16 +147,18 @@ pub(super) fn audits(parts: &Parts) -> Vec<Fact> {
     facts.push(mj("Guidance film", f.film, "net work on the bodies"));
     facts.push(mj("Dissipated in contact damping", f.contact, ""));
     facts.push(mj("Dissipated in raceway friction", f.friction, ""));
+    facts.push(mj("Dissipated in rolling resistance", f.rolling, ""));
     facts.push(mj("Dissipated in pockets", f.pocket + f.pocket_friction, "damping and friction"));
     facts.push(mj("Dissipated at the cages' lands", f.land, "damping where a cage touches its guiding ring"));
     facts.push(mj("Dissipated in supports", f.support, ""));
     facts.push(mj("Dissipated in drag", f.drag, ""));
-    facts.push(mj(
-        "Parametric work of defects",
-        e.parametric,
-        "stiffness that changes under a rolling element; no body pays for it in the paper's model",
-    ));
-    facts.push(mj("Centred levers", f.lever, "contact forces act through the bearing's centre, as in the paper"));
+    if e.parametric != 0.0 {
+        let note = "energy error of the paper's contact law: stiffness that changes under a rolling element";
+        facts.push(mj("Parametric work of defects", e.parametric, note));
+    }
+    if f.lever != 0.0 {
+        facts.push(mj("Centred levers", f.lever, "contact forces act through the bearing's centre, as in the paper"));
+    }
     facts
 }
 

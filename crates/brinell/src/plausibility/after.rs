@@ -1,7 +1,7 @@
-//! What the energy audit of a run says: steps that were too long, and work that no body did.
+//! What the energy audit of a run says: steps that were too long, and the energy error of contact laws that are not conservative.
 
 use super::warning::short;
-use crate::scenario::{Accuracy, EdgeReaction, Law, RollerPath, Scenario};
+use crate::scenario::{Accuracy, EdgeReaction, ModelKind, Scenario};
 use crate::simulate::EnergyAudit;
 
 /// Share of the dissipation in contacts beyond which the parametric work of damage is worth a warning.
@@ -67,8 +67,6 @@ fn parametric(scenario: &Scenario, energy: &EnergyAudit) -> Option<String> {
     if work.abs() <= PARAMETRIC_SHARE * dissipated.abs() || work == 0.0 {
         return None;
     }
-    let (done, by) =
-        if work > 0.0 { ("put energy into", "supplies it") } else { ("took energy out of", "takes it up") };
     let share = if dissipated <= 0.0 {
         "while contact damping dissipates nothing".to_owned()
     } else if work.abs() < 10.0 * dissipated {
@@ -77,21 +75,12 @@ fn parametric(scenario: &Scenario, energy: &EnergyAudit) -> Option<String> {
     } else {
         format!("{:.0} times the {} that contact damping dissipates", work.abs() / dissipated, joule(dissipated))
     };
-    let s = scenario;
-    let settings = [
-        (!s.simulation.model.moves_every_part(), "simulation.model = \"full\""),
-        (s.contact.law != Law::Sliced, "contact.law = \"sliced\""),
-        (s.contact.roller_path != RollerPath::Envelope, "contact.roller_path = \"envelope\""),
-        (s.contact.edge_reaction != EdgeReaction::Conservative, "contact.edge_reaction = \"conservative\""),
-    ];
-    let lacking: Vec<&str> = settings.iter().filter(|(lacks, _)| *lacks).map(|(_, setting)| *setting).collect();
-    let remedy = match lacking[..] {
-        [] => String::new(),
-        _ => format!(" Where levels matter set {}: with these energy is conserved", lacking.join(", ")),
+    let remedy = match scenario.simulation.model {
+        ModelKind::Full => " simulation.laws = \"mechanics\" has no such error.",
+        ModelKind::Lumped | ModelKind::Tilting => "",
     };
     Some(format!(
-        "parametric work: the changing stiffness of damaged contacts {done} the bearing, {}, {share}; no body {by}, so amplitudes depend \
-         on the contact law; defect frequencies do not.{remedy}",
+        "parametric work: an energy error of the paper's contact law, {}, {share}, is spurious: levels are unreliable, frequencies are fine.{remedy}",
         joule(work.abs())
     ))
 }
