@@ -24,12 +24,27 @@ struct Seeded {
     name: &'static str,
     /// Keys of which the table has one where the seed means something; none where it always does.
     with: &'static [&'static str],
+    /// The seed's key, where another table holds it.
+    elsewhere: Option<&'static str>,
+}
+
+impl Seeded {
+    /// The key, of a table that is there.
+    fn key(&self, holder: &str) -> String {
+        self.elsewhere.map_or_else(|| format!("{holder}.{}", self.name), str::to_owned)
+    }
 }
 
 /// Keys that are seeded per run, where the plan does not set them.
-const SEEDED_PER_RUN: [Seeded; 2] = [
-    Seeded { table: "defects.*.shape.random", name: "seed", with: &[] },
-    Seeded { table: "sensor", name: "noise_seed", with: &["noise_rms_m_per_s2", "noise_snr_db"] },
+const SEEDED_PER_RUN: [Seeded; 3] = [
+    Seeded { table: "defects.*.shape.random", name: "seed", with: &[], elsewhere: None },
+    Seeded { table: "sensor", name: "noise_seed", with: &["noise_rms_m_per_s2", "noise_snr_db"], elsewhere: None },
+    Seeded {
+        table: "bearing",
+        name: "seed",
+        with: &["waviness", "element_waviness"],
+        elsewhere: Some("simulation.seed"),
+    },
 ];
 
 /// One run's settings.
@@ -344,11 +359,11 @@ impl Draws {
     ) -> Result<Vec<(String, String)>, Vec<Problem>> {
         let root = Node::table(parse(base, settings)?);
         let mut seeds = Vec::new();
-        for Seeded { table, name, with } in &SEEDED_PER_RUN {
+        for seeded in &SEEDED_PER_RUN {
             let mut holders = Vec::new();
-            holding(&root, table, with, "", &mut holders);
+            holding(&root, seeded.table, seeded.with, "", &mut holders);
             for holder in holders {
-                let key = format!("{holder}.{name}");
+                let key = seeded.key(&holder);
                 if !self.sets(self.class(run), &key) {
                     let own = seed(self.own_bits(run, &[word(&key)]));
                     seeds.push((key, own.to_string()));
@@ -368,6 +383,9 @@ impl Draws {
     /// Whether runs have a seed of their own under this key, which is no parameter and differs all the same.
     pub fn is_seed(&self, key: &str) -> bool {
         let is = |seeded: &Seeded| {
+            if let Some(elsewhere) = seeded.elsewhere {
+                return key == elsewhere;
+            }
             let (pattern, words) = (seeded.table.split('.').chain([seeded.name]), key.split('.'));
             pattern.clone().count() == words.clone().count() && pattern.zip(words).all(|(p, w)| p == "*" || p == w)
         };

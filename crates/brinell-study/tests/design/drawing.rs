@@ -35,6 +35,21 @@ fn prop_every_run_makes_a_scenario_of_its_class_with_a_seed_of_its_own() {
 }
 
 #[test]
+fn prop_a_bearings_waves_are_others_in_every_run() {
+    let seeds = |base: &str, plan: &str| -> std::collections::BTreeSet<u64> {
+        let draws = draws(plan);
+        (0..20).map(|run| draws.scenario(base, run).unwrap().0.scenario.simulation.seed).collect()
+    };
+    let wavy = BASE.replace("[bearing]", "[bearing]\nwaviness = { amplitude_um = 0.1 }");
+    assert_eq!(seeds(&wavy, PLAN).len(), 20);
+    let fixed = PLAN.replace("[vary]", "[vary]\nsimulation.seed = 9");
+    assert_eq!(seeds(&wavy, &fixed), [9].into());
+    assert!(draws(PLAN).is_seed("simulation.seed") && !draws(&fixed).is_seed("simulation.seed"));
+    // Smooth surfaces have no phases.
+    assert_eq!(seeds(BASE, PLAN), [1].into());
+}
+
+#[test]
 fn prop_a_sensors_noise_is_another_in_every_run() {
     let seeds = |base: &str, plan: &str| -> Vec<u64> {
         let draws = draws(plan);

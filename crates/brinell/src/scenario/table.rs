@@ -1,6 +1,7 @@
 //! A table of a damaged contact, delta_eff(s, delta), as it is exchanged between programs: CSV with the columns `s_mm`,
 //! `delta_um` and `delta_eff_um` on a full grid (section 19).
 
+use std::cmp::Ordering;
 use std::collections::HashMap;
 use std::fmt;
 
@@ -80,14 +81,13 @@ impl TableData {
     /// # Errors
     /// The first thing that is wrong.
     pub fn check(&self) -> Result<(), TableFault> {
+        let rises = |pair: &[f64]| pair[0].partial_cmp(&pair[1]) == Some(Ordering::Less);
+        let falls = |pair: &[f64]| matches!(pair[0].partial_cmp(&pair[1]), Some(Ordering::Greater) | None);
         for (name, nodes) in [("s_mm", &self.s_mm), ("delta_um", &self.delta_um)] {
             if nodes.len() < 2 {
                 return Err(fault(None, format!("{} {name}", nodes.len()), format!("two {name} or more")));
             }
-            // Written so that a number that is none does not rise.
-            if let Some(pair) =
-                nodes.windows(2).find(|pair| pair[0].partial_cmp(&pair[1]) != Some(std::cmp::Ordering::Less))
-            {
+            if let Some(pair) = nodes.windows(2).find(|pair| !rises(pair)) {
                 return Err(fault(
                     None,
                     format!("{name} goes from {} to {}", pair[0], pair[1]),
@@ -101,7 +101,7 @@ impl TableData {
             return Err(fault(None, message, format!("{wanted}, one for each s_mm and delta_um")));
         }
         for (s, of_s) in self.s_mm.iter().zip(self.delta_eff_um.chunks(self.delta_um.len())) {
-            if let Some(k) = of_s.windows(2).position(|pair| !(pair[0] <= pair[1])) {
+            if let Some(k) = of_s.windows(2).position(falls) {
                 let message = format!(
                     "at s_mm = {s} delta_eff_um goes from {} to {} where delta_um goes from {} to {}",
                     of_s[k],
