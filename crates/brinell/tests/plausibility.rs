@@ -408,7 +408,7 @@ fn prop_energy_from_nowhere_is_said_with_what_conserves_it() {
     for words in [
         "parametric work",
         "energy error of the paper's contact law",
-        "is spurious: levels are unreliable, frequencies are fine",
+        "it is spurious: levels are unreliable, frequencies are fine",
         "simulation.laws = \"mechanics\" has no such error",
     ] {
         assert!(told[0].contains(words), "no {words} in {}", told[0]);
@@ -451,8 +451,8 @@ fn analytic_a_tenth_of_the_dissipation_is_the_limit_in_both_directions() {
     for (work, words) in [
         (0.399, None),
         (-0.399, None),
-        (0.401, Some("put energy into the bearing, 401 mJ, 10 % of the 4.00 J")),
-        (-0.5, Some("took energy out of the bearing, 500 mJ, 12 % of the 4.00 J")),
+        (0.401, Some("put into the bearing 401 mJ, 10 % of the 4.00 J")),
+        (-0.5, Some("took out of the bearing 500 mJ, 12 % of the 4.00 J")),
         (80.0, Some("80.0 J, 20 times the 4.00 J")),
     ] {
         energy.parametric = work;

@@ -67,6 +67,7 @@ fn parametric(scenario: &Scenario, energy: &EnergyAudit) -> Option<String> {
     if work.abs() <= PARAMETRIC_SHARE * dissipated.abs() || work == 0.0 {
         return None;
     }
+    let done = if work > 0.0 { "put into" } else { "took out of" };
     let share = if dissipated <= 0.0 {
         "while contact damping dissipates nothing".to_owned()
     } else if work.abs() < 10.0 * dissipated {
@@ -80,7 +81,8 @@ fn parametric(scenario: &Scenario, energy: &EnergyAudit) -> Option<String> {
         ModelKind::Lumped | ModelKind::Tilting => "",
     };
     Some(format!(
-        "parametric work: an energy error of the paper's contact law, {}, {share}, is spurious: levels are unreliable, frequencies are fine.{remedy}",
+        "parametric work: the energy error of the paper's contact law {done} the bearing {}, {share}; it is spurious: levels are unreliable, \
+         frequencies are fine.{remedy}",
         joule(work.abs())
     ))
 }
