@@ -15,6 +15,7 @@ double channel(const char *name, double t, const double *q, const double *v, con
     if (!strcmp(name, "t")) return t;
     if (!strncmp(name, "inner_", 6) || !strncmp(name, "outer_", 6)) {
         static const char *axes[] = {"x", "y", "vx", "vy", "ax", "ay"};
+        if (!strcmp(name + 6, "torque") && M.geometry == GEOMETRY_EXACT) return name[0] == 'o' ? outer_torque : inner_torque;
         const int k = pick(name + 6, axes, 6), base = name[0] == 'o' ? 2 : 0;
         return (k < 2 ? q : k < 4 ? v : acc)[base + k % 2];
     }
@@ -38,7 +39,7 @@ double channel(const char *name, double t, const double *q, const double *v, con
         if (!strcmp(rest, "ax")) return detail[k].ax;
         if (!strcmp(rest, "ay")) return detail[k].ay;
         if (!strcmp(rest, "orbit")) return q[p + 1];
-        if (!strcmp(rest, "orbit_speed")) return v[p + 1];
+        if (!strcmp(rest, "orbit_speed")) return M.geometry == GEOMETRY_EXACT ? detail[k].orbit_speed : v[p + 1];
         if (!strcmp(rest, "spin")) return q[p + 2];
         if (!strcmp(rest, "spin_speed")) return v[p + 2];
         if (!strcmp(rest, "slip_inner")) return detail[k].slip_inner;

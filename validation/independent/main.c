@@ -8,9 +8,13 @@
  */
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
 
 #include "channels.h"
 #include "dynamics.h"
+#include "exact.h"
+#include "extrapolation.h"
+#include "facts.h"
 #include "lumped.h"
 #include "model.h"
 #include "parameters.h"
@@ -19,14 +23,17 @@
 
 static void rates(double t, const double *q, const double *v, double *acc, int want)
 {
-    if (M.reference) reference_accelerations(t, q, v, acc, want);
+    if (M.geometry == GEOMETRY_EXACT) exact_accelerations(t, q, v, acc, want);
+    else if (M.reference) reference_accelerations(t, q, v, acc, want);
     else accelerations(t, q, v, acc, want);
 }
 
 int main(int argc, char **argv)
 {
-    if (argc != 2) die("usage:", "model PARAMETERS");
-    read_model(argv[1]);
+    if (argc == 2 && !strcmp(argv[1], "--facts")) return facts();
+    const int audit = argc == 3 && !strcmp(argv[1], "--balance");
+    if (argc != 2 + audit) die("usage:", "model [--balance] PARAMETERS | --facts");
+    read_model(argv[1 + audit]);
     dof = M.reference ? 4 : 4 + 3 * M.rows + 3 * M.total;
     detail = need((size_t)M.total, sizeof(Detail));
     const size_t n = (size_t)dof;
@@ -34,6 +41,7 @@ int main(int argc, char **argv)
     double *q = store, *v = q + n, *q2 = v + n, *v2 = q2 + n, *v3 = v2 + n, *v4 = v3 + n;
     double *a1 = v4 + n, *a2 = a1 + n, *a3 = a2 + n, *a4 = a3 + n;
     begin(q, v);
+    if (audit) return balance_of_flows(q, v);
 
     const long samples = (long)floor(M.duration * M.fs + 1e-6);
     const long substeps = (long)ceil(1.0 / (M.fs * M.step) - 1e-9);
@@ -46,6 +54,11 @@ int main(int argc, char **argv)
         for (int i = 0; i < M.channels; i++) printf("%s%.11e", i ? "," : "", channel(M.channel[i], t0, q, v, a1));
         printf("\n");
         if (k == samples) break;
+        if (M.tolerance > 0.0) {
+            extrapolate(rates, t0, (double)(k + 1) / M.fs, q, v);
+            if (!isfinite(q[0])) die("the state left the numbers", "");
+            continue;
+        }
         for (long s = 0; s < substeps; s++) {
             const double t = t0 + (double)s * h;
             rates(t, q, v, a1, 0);

@@ -4,6 +4,7 @@
 
 int dof;
 Detail *detail;
+double inner_torque, outer_torque;
 
 int cage_at(int row) { return 4 + 3 * row; }
 int roller_at(int k) { return 4 + 3 * M.rows + 3 * k; }

@@ -12,8 +12,10 @@ double pocket_angle(int row, int j);
 
 typedef struct {
     double outer_force, inner_force, outer_length, inner_length, pocket, slip_inner, slip_outer, ax, ay;
+    double orbit_speed; /* about the outer ring's centre (exact geometry) */
 } Detail;
 
 extern Detail *detail; /* filled only when asked for, at output instants */
+extern double inner_torque, outer_torque; /* what the drive and the housing supply (exact geometry) */
 
 #endif
