@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "dynamics.h"
 #include "exact.h"
 #include "halfspace.h"
 #include "model.h"
@@ -104,8 +105,9 @@ int facts(void)
 
 static double uniform(void) { return 2.0 * rand() / (double)RAND_MAX - 1.0; }
 
-/* Section 18, "must hold", at a few states about the start, whatever the dampers: momentum against the supports, angular
- * momentum about the origin against drive, housing and supports; and, where the parameters have no dampers, energy. */
+/* Section 18, "must hold", at a few states about the start, whatever the dampers: the rate of momentum against supports,
+ * gravity and load, that of angular momentum about the origin against these, drive and housing; and, where nothing but
+ * the supports damps, that of energy (else what is left is the dissipation). Drag is to be 0. */
 int balance_of_flows(double *q, double *v)
 {
     const size_t n = (size_t)dof;
@@ -122,26 +124,29 @@ int balance_of_flows(double *q, double *v)
         }
         drive(t, &w, &W);
         exact_accelerations(t, q, v, acc, 1);
-        const double mass[2] = {M.mi, M.mo}, k[2] = {M.ki, M.ko}, c[2] = {M.ci, M.co};
+        const double mass[2] = {M.mi, M.mo}, k[2] = {M.ki, M.ko};
+        double outside[4]; /* supports, gravity and load on both rings */
+        ring_forces(t, q, v, outside, outside + 2);
         for (int g = 0; g < 2; g++)
             for (int a = 0; a < 2; a++) {
                 const int i = 2 * g + a;
-                const double hold = k[g] * q[i] + c[g] * v[i], left = mass[g] * acc[i] + hold, arm = q[2 * g + 1 - a];
+                const double left = mass[g] * acc[i] - outside[i], arm = q[2 * g + 1 - a];
                 P[a] += left;
                 size += fabs(left);
                 L += (a ? 1.0 : -1.0) * arm * left;
-                power += mass[g] * acc[i] * v[i] + c[g] * v[i] * v[i];
+                power += (left - k[g] * q[i]) * v[i]; /* the support's spring is in the potential */
             }
         for (int row = 0; row < M.rows; row++) {
             const int p = cage_at(row);
-            P[0] += M.mc * acc[p];
-            P[1] += M.mc * acc[p + 1];
-            L += M.mc * (q[p] * acc[p + 1] - q[p + 1] * acc[p]) + M.Ic * acc[p + 2];
-            power += M.mc * (v[p] * acc[p] + v[p + 1] * acc[p + 1]) + M.Ic * v[p + 2] * acc[p + 2];
+            const double A[2] = {acc[p] - M.g[0], acc[p + 1] - M.g[1]};
+            P[0] += M.mc * A[0];
+            P[1] += M.mc * A[1];
+            L += M.mc * (q[p] * A[1] - q[p + 1] * A[0]) + M.Ic * acc[p + 2];
+            power += M.mc * (v[p] * A[0] + v[p + 1] * A[1]) + M.Ic * v[p + 2] * acc[p + 2];
         }
         for (int j = 0; j < M.total; j++) {
             const int p = roller_at(j);
-            const double R = M.Rm + q[p], e[2] = {cos(q[p + 1]), sin(q[p + 1])}, A[2] = {detail[j].ax, detail[j].ay};
+            const double R = M.Rm + q[p], e[2] = {cos(q[p + 1]), sin(q[p + 1])}, A[2] = {detail[j].ax - M.g[0], detail[j].ay - M.g[1]};
             const double V[2] = {v[p] * e[0] - R * v[p + 1] * e[1], v[p] * e[1] + R * v[p + 1] * e[0]};
             P[0] += M.m * A[0];
             P[1] += M.m * A[1];
