@@ -118,6 +118,11 @@ int balance_of_flows(double *q, double *v)
         double P[2] = {0, 0}, size = 0.0, L = 0.0, turn = 0.0, power = 0.0, w, W, Tsize = 0.0;
         const double t = 1e-3 * trial, h = 1e-8;
         for (size_t i = 0; i < n; i++) {
+            if (i >= (size_t)roller_at(M.total)) {
+                q[i] += 3e-4 * uniform();
+                v[i] += 0.2 * uniform();
+                continue;
+            }
             const int angle = i >= 4 + 3 * (size_t)M.rows ? (i - 4 - 3 * (size_t)M.rows) % 3 : (i - 4) % 3 == 2 ? 1 : 0;
             q[i] += i < 4 || !angle ? 5e-6 * uniform() : 1e-3 * uniform();
             v[i] += i < 4 || !angle ? 2e-3 * uniform() : 1.0 * uniform();
@@ -136,6 +141,17 @@ int balance_of_flows(double *q, double *v)
                 L += (a ? 1.0 : -1.0) * arm * left;
                 power += (left - k[g] * q[i]) * v[i]; /* the support's spring is in the potential */
             }
+        for (int g = 0; g < 2 && M.tilting; g++) {
+            const int p = tilt_at(g);
+            const double spin = g == 0 ? M.Ip * w : 0.0, out = M.load_offset * ramp_factor(t);
+            const double on = g == 1 && M.load_outer ? -out : g == 0 && !M.load_outer ? out : 0.0;
+            double left[2]; /* less the support's springs and dampers, the load and the gyroscope */
+            for (int a = 0; a < 2; a++)
+                left[a] = M.Jring[g] * acc[p + a] + M.tilt_stiffness[g] * q[p + a] + M.tilt_damping[g] * v[p + a]
+                          + (a ? -1.0 : 1.0) * spin * v[p + 1 - a] - on * M.load[a];
+            L += q[p] * left[1] - q[p + 1] * left[0];
+            for (int a = 0; a < 2; a++) power += (left[a] - M.tilt_stiffness[g] * q[p + a]) * v[p + a];
+        }
         for (int row = 0; row < M.rows; row++) {
             const int p = cage_at(row);
             const double A[2] = {acc[p] - M.g[0], acc[p + 1] - M.g[1]};
@@ -147,6 +163,7 @@ int balance_of_flows(double *q, double *v)
         for (int j = 0; j < M.total; j++) {
             const int p = roller_at(j);
             const double R = M.Rm + q[p], e[2] = {cos(q[p + 1]), sin(q[p + 1])}, A[2] = {detail[j].ax - M.g[0], detail[j].ay - M.g[1]};
+            if (M.tilting) power += M.Jr * v[beta_at(j)] * acc[beta_at(j)];
             const double V[2] = {v[p] * e[0] - R * v[p + 1] * e[1], v[p] * e[1] + R * v[p + 1] * e[0]};
             P[0] += M.m * A[0];
             P[1] += M.m * A[1];

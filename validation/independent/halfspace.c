@@ -131,6 +131,26 @@ void healthy(int side, double delta, double *E, double *Q, double *K)
     }
 }
 
+Tilted tilted_energy(int side, double delta, double tilt)
+{
+    Tilted e = {0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0};
+    const double stiff = (side == OUTER ? M.Kout : M.Kin) / M.slices;
+    for (int k = 0; k < M.slices; k++) {
+        const double z = ((k + 0.5) / M.slices - 0.5) * M.L;
+        const double x = delta + tilt * z - (M.profile == STRAIGHT ? 0.0 : M.slice_drop[k]);
+        if (x <= 0.0) continue;
+        const double q = stiff * pow(x, M.n), stiffness = M.n * q / x;
+        e.E += q * x / (M.n + 1.0);
+        e.Q += q;
+        e.T += z * q;
+        e.K += stiffness;
+        e.KT += z * stiffness;
+        e.KTT += z * z * stiffness;
+        e.x = fmax(e.x, x);
+    }
+    return e;
+}
+
 /* The damage of a surface that is met at s; its table is chosen by s, so tables of one surface must not overlap. */
 static const Damage *damage_at(int on, int row, int j, double angle, double *s)
 {

@@ -13,6 +13,10 @@ typedef struct {
     double P_ring, P_element;
 } Energy;
 
+/* The healthy contact under tilt: E and its gradient and Hessian by delta and tilt; x of the deepest slice. */
+typedef struct { double E, Q, T, K, KT, KTT, x; } Tilted;
+
+Tilted tilted_energy(int side, double delta, double tilt);
 void spline_damage(Damage *d);
 int depth_at(const Damage *d, double delta, double s, Depth *out);
 void slice_profile(void);

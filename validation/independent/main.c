@@ -1,10 +1,11 @@
 /* An independent implementation of the mathematical contract (model.md), written from the text alone.
  *
  * Planar cylindrical roller bearing: X right, Y up, angles counter-clockwise, SI units throughout.
- * Fixed-step classical Runge-Kutta of fourth order; nothing is tuned, everything is plain.
+ * Fixed-step classical Runge-Kutta of fourth order, or an adaptive extrapolation; nothing is tuned, everything is plain.
  * Section numbers in the comments are those of model.md.
  *
  * usage: model PARAMETERS > signals.csv     (the parameter text is written by generate.py)
+ *        model --balance PARAMETERS | model --facts
  */
 #include <math.h>
 #include <stdio.h>
@@ -34,7 +35,7 @@ int main(int argc, char **argv)
     const int audit = argc == 3 && !strcmp(argv[1], "--balance");
     if (argc != 2 + audit) die("usage:", "model [--balance] PARAMETERS | --facts");
     read_model(argv[1 + audit]);
-    dof = M.reference ? 4 : 4 + 3 * M.rows + 3 * M.total;
+    dof = M.reference ? 4 : 4 + 3 * M.rows + 3 * M.total + (M.tilting ? 4 + M.total : 0);
     detail = need((size_t)M.total, sizeof(Detail));
     const size_t n = (size_t)dof;
     double *store = need(12 * n, sizeof(double));

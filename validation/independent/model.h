@@ -88,6 +88,9 @@ typedef struct {
     Damage *damage;
     Waves raceway_waves, element_waves;
     double seed;
+    int tilting;
+    double width, spacing, load_offset, tilt_stiffness[2], tilt_damping[2]; /* inner, outer */
+    double Jr, Jring[2], Ip;
     int profile, drops;
     double crowned, *drop_z, *drop, *slice_drop;
     double tolerance; /* of the extrapolation; 0: Runge-Kutta's fixed steps */

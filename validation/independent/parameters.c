@@ -152,12 +152,14 @@ void read_model(const char *path)
         {"gravity_x", &M.g[0]}, {"gravity_y", &M.g[1]}, {"duration", &M.duration}, {"sample_rate", &M.fs},
         {"step", &M.step}, {"perturb", &M.perturb}, {"damping_time", &M.tau}, {"roughness", &M.roughness},
         {"rolling", &M.rolling}, {"pocket_friction", &M.pocket_friction}, {"housing_mass", &M.housing},
-        {"seed", &M.seed}, {"tolerance", &M.tolerance}};
+        {"width", &M.width}, {"row_spacing", &M.spacing}, {"load_offset", &M.load_offset},
+        {"inner_tilt_stiffness", &M.tilt_stiffness[0]}, {"outer_tilt_stiffness", &M.tilt_stiffness[1]},
+        {"inner_tilt_damping", &M.tilt_damping[0]}, {"outer_tilt_damping", &M.tilt_damping[1]}, {"seed", &M.seed}, {"tolerance", &M.tolerance}};
     static const char *guides[] = {"rollers", "outer-ring", "inner-ring"};
     static const char *films[] = {"quasi-static", "dynamic"};
     static const char *starts[] = {"rolling", "rest", "equilibrium"};
     static const char *rings[] = {"inner-ring", "outer-ring"};
-    static const char *models[] = {"full", "lumped"};
+    static const char *models[] = {"full", "lumped", "tilting"};
     static const char *laws[] = {"ecl", "sliced", "half-space"};
     static const char *paths[] = {"point", "envelope"};
     static const char *edges[] = {"none", "conservative"};
@@ -179,7 +181,12 @@ void read_model(const char *path)
         else if (!strcmp(w, "guidance_film")) { word(w); M.film = pick(w, films, 2); }
         else if (!strcmp(w, "start")) { word(w); M.start = pick(w, starts, 3); }
         else if (!strcmp(w, "load_on")) { word(w); M.load_outer = pick(w, rings, 2); }
-        else if (!strcmp(w, "model")) { word(w); M.reference = pick(w, models, 2); }
+        else if (!strcmp(w, "model")) {
+            word(w);
+            const int model = pick(w, models, 3);
+            M.reference = model == 1;
+            M.tilting = model == 2;
+        }
         else if (!strcmp(w, "law")) { word(w); M.law = pick(w, laws, 3); }
         else if (!strcmp(w, "geometry")) { word(w); M.geometry = pick(w, geometries, 2); }
         else if (!strcmp(w, "element")) { word(w); M.element = pick(w, elements, 2); }
@@ -213,6 +220,10 @@ void read_model(const char *path)
     M.Ri = 0.5 * M.Di;
     M.Ro = 0.5 * M.Do;
     M.Ir = (M.element == ELEMENT_BALL ? 0.4 : 0.5) * M.m * M.r * M.r;
+    M.Jr = M.m * (3.0 * M.r * M.r + M.L * M.L) / 12.0;
+    M.Jring[0] = M.mi * (0.5 * M.Ri * M.Ri + M.width * M.width / 12.0);
+    M.Jring[1] = M.mo * (0.5 * M.Ro * M.Ro + M.width * M.width / 12.0); /* the ring's alone */
+    M.Ip = M.mi * M.Ri * M.Ri;
     M.mo += M.housing; /* section 24 */
     M.Ic = 0.5 * M.mc * (M.cage_a * M.cage_a + M.cage_b * M.cage_b);
     for (int i = 0; i < M.defects; i++) {
@@ -224,10 +235,11 @@ void read_model(const char *path)
         M.damage[i].radius = M.damage[i].on == OUTER ? M.Ro : M.damage[i].on == INNER ? M.Ri : M.r;
     if (M.geometry == GEOMETRY_EXACT) {
         if (M.defects) die("exact geometry:", "damage by tables only");
+        if (M.tilting && (M.damages || M.element == ELEMENT_BALL)) die("tilting:", "healthy rollers only");
         if (M.start == START_EQUILIBRIUM) die("exact geometry:", "no equilibrium start");
         slice_profile();
         ready_waves();
-    } else if (M.damages || M.tau >= 0.0 || M.walls || M.pockets || M.rolling > 0.0 || M.profile
+    } else if (M.damages || M.tilting || M.tau >= 0.0 || M.walls || M.pockets || M.rolling > 0.0 || M.profile
                || M.raceway_waves.amplitude > 0.0 || M.element_waves.amplitude > 0.0 || M.law > LAW_SLICED)
         die("Part II", "is written for exact geometry");
     if (M.edge && !(M.law == LAW_SLICED && M.path == PATH_ENVELOPE)) die("edge reaction:", "sliced and envelope only");
