@@ -15,6 +15,8 @@ double channel(const char *name, double t, const double *q, const double *v, con
     if (!strcmp(name, "t")) return t;
     if (!strncmp(name, "inner_", 6) || !strncmp(name, "outer_", 6)) {
         static const char *axes[] = {"x", "y", "vx", "vy", "ax", "ay"};
+        if (!strcmp(name + 6, "torque") && M.geometry == GEOMETRY_EXACT) return name[0] == 'o' ? outer_torque : inner_torque;
+        if (M.tilting && !strncmp(name + 6, "tilt_", 5)) return q[tilt_at(name[0] == 'o') + (name[11] == 'y')];
         const int k = pick(name + 6, axes, 6), base = name[0] == 'o' ? 2 : 0;
         return (k < 2 ? q : k < 4 ? v : acc)[base + k % 2];
     }
@@ -35,10 +37,11 @@ double channel(const char *name, double t, const double *q, const double *v, con
         if (!strcmp(rest, "r")) return q[p];
         if (!strcmp(rest, "x")) return q[p] * cos(q[p + 1]);
         if (!strcmp(rest, "y")) return q[p] * sin(q[p + 1]);
+        if (M.tilting && !strcmp(rest, "tilt")) return q[beta_at(k)];
         if (!strcmp(rest, "ax")) return detail[k].ax;
         if (!strcmp(rest, "ay")) return detail[k].ay;
         if (!strcmp(rest, "orbit")) return q[p + 1];
-        if (!strcmp(rest, "orbit_speed")) return v[p + 1];
+        if (!strcmp(rest, "orbit_speed")) return M.geometry == GEOMETRY_EXACT ? detail[k].orbit_speed : v[p + 1];
         if (!strcmp(rest, "spin")) return q[p + 2];
         if (!strcmp(rest, "spin_speed")) return v[p + 2];
         if (!strcmp(rest, "slip_inner")) return detail[k].slip_inner;
@@ -50,6 +53,8 @@ double channel(const char *name, double t, const double *q, const double *v, con
         rest = name + used;
         if (!strcmp(rest, "outer_force")) return o->outer_force;
         if (!strcmp(rest, "inner_force")) return o->inner_force;
+        if (M.tilting && !strcmp(rest, "outer_moment")) return o->outer_moment;
+        if (M.tilting && !strcmp(rest, "inner_moment")) return o->inner_moment;
         if (!strcmp(rest, "outer_length")) return o->outer_length;
         if (!strcmp(rest, "inner_length")) return o->inner_length;
     }

@@ -57,6 +57,24 @@ static void pushing_film(double ex, double ey, double vx, double vy, double scal
     *fy = -scale * speed * sy;
 }
 
+/* Section 6 without the land, about a guiding ring at e = x_c - x_g with the rate v: F on the cage; returns M. */
+double guidance_film(const double *e, const double *v, double wc, double wg, double *F)
+{
+    const double size = sqrt(e[0] * e[0] + e[1] * e[1]), eps = fmin(size / M.Cg, 0.95), one = 1.0 - eps * eps;
+    const double R1 = M.guide == GUIDE_OUTER ? M.cage_b : M.cage_a, width3 = M.L1 * M.L1 * M.L1, half = 0.5 * (wc + wg);
+    if (M.film == FILM_DYNAMIC) {
+        const double held = size > 0.0 ? eps * M.Cg / size : 1.0;
+        pushing_film(held * e[0], held * e[1], v[0] + half * e[1], v[1] - half * e[0], M.eta * R1 * width3, F, F + 1);
+    } else {
+        const double nx = size > 0.0 ? e[0] / size : 1.0, ny = size > 0.0 ? e[1] / size : 0.0, ue = 2.0 * R1 * half;
+        const double Fn = -M.eta * fabs(ue) * width3 * eps * eps / (M.Cg * M.Cg * one * one);
+        const double Ft = PI * M.eta * ue * width3 * eps / (4.0 * M.Cg * M.Cg * one * sqrt(one));
+        F[0] = Fn * nx - Ft * ny;
+        F[1] = Fn * ny + Ft * nx;
+    }
+    return -2.0 * PI * M.eta * R1 * (wc - wg) * R1 * R1 * M.L1 / (M.Cg * sqrt(one));
+}
+
 /* Section 8: accelerations of every coordinate. */
 void accelerations(double t, const double *q, const double *v, double *acc, int want)
 {

@@ -3,6 +3,7 @@
 #define DYNAMICS_H
 
 void ring_forces(double t, const double *q, const double *v, double *Fi, double *Fo);
+double guidance_film(const double *e, const double *v, double wc, double wg, double *F);
 void accelerations(double t, const double *q, const double *v, double *acc, int want);
 
 #endif

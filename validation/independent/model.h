@@ -7,13 +7,18 @@
 #define PI 3.14159265358979323846
 
 enum { RECTANGLE, CIRCLE, PROFILE, IRREGULAR, OUTLINE, DEPTH_MAP };
-enum { LAW_ECL, LAW_SLICED };
+enum { LAW_ECL, LAW_SLICED, LAW_HALF_SPACE };
 enum { PATH_POINT, PATH_ENVELOPE };
 enum { EDGE_NONE, EDGE_CONSERVATIVE };
 enum { OUTER, INNER, ROLLER };
 enum { START_ROLLING, START_REST, START_EQUILIBRIUM };
 enum { GUIDE_NONE, GUIDE_OUTER, GUIDE_INNER };
 enum { FILM_QUASI_STATIC, FILM_DYNAMIC };
+enum { GEOMETRY_CENTRED, GEOMETRY_EXACT };
+enum { ELEMENT_ROLLER, ELEMENT_BALL };
+enum { WALLS_LINEAR, WALLS_OILED };
+enum { POCKETS_SLOT, POCKETS_ROUND };
+enum { STRAIGHT, LOGARITHMIC, CROWNED, DROPS };
 
 typedef struct { double a, b, ha, hb; } Piece; /* depth ha at s = a to hb at s = b, linear between */
 
@@ -47,6 +52,19 @@ typedef struct {
     Table table[2];                     /* by side, sliced along the envelope */
 } Defect;
 
+/* delta_eff(delta, s) of one damaged surface, section 19: values at nodes and what natural splines need. */
+typedef struct {
+    int on, row, roller, ns, nd;
+    double psi, radius, *s, *d; /* nodes */
+    double *f, *fs, *fd, *fsd;  /* [s node * nd + delta node]: value, second derivatives along s, delta and both */
+} Damage;
+
+/* Section 23: the cosines of one kind of surface. */
+typedef struct {
+    double amplitude, exponent;
+    int first, last;
+} Waves;
+
 typedef struct {
     int rows, Z, total;
     double Di, Do, Rm, r, Ri, Ro, L, stagger, Cr, outer_gap, mi, mo, m, Ir;
@@ -63,6 +81,19 @@ typedef struct {
     Defect *defect;
     int reference, start, law, path, edge, slices;
     double duration, fs, step, perturb;
+    /* Part II */
+    int geometry, element, walls, pockets;
+    double tau, roughness, rolling, pocket_friction, housing; /* tau < 0: the damping c instead */
+    int damages;
+    Damage *damage;
+    Waves raceway_waves, element_waves;
+    double seed;
+    int tilting;
+    double width, spacing, load_offset, tilt_stiffness[2], tilt_damping[2]; /* inner, outer */
+    double Jr, Jring[2], Ip;
+    int profile, drops;
+    double crowned, *drop_z, *drop, *slice_drop;
+    double tolerance; /* of the extrapolation; 0: Runge-Kutta's fixed steps */
     int channels;
     char **channel;
 } Model;

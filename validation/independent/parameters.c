@@ -6,7 +6,9 @@
 #include <string.h>
 
 #include "floors.h"
+#include "halfspace.h"
 #include "model.h"
+#include "waviness.h"
 
 static FILE *in;
 
@@ -88,6 +90,52 @@ static void read_defect(void)
     }
 }
 
+static void read_waves(Waves *w)
+{
+    w->amplitude = num();
+    w->exponent = num();
+    w->first = integer();
+    w->last = integer();
+}
+
+static void read_profile(void)
+{
+    static const char *kinds[] = {"straight", "logarithmic", "crowned", "drops"};
+    char w[64];
+    word(w);
+    M.profile = pick(w, kinds, 4);
+    if (M.profile == CROWNED) M.crowned = num();
+    if (M.profile != DROPS) return;
+    M.drops = integer();
+    M.drop_z = need((size_t)M.drops, sizeof(double));
+    M.drop = need((size_t)M.drops, sizeof(double));
+    for (int i = 0; i < M.drops; i++) { M.drop_z[i] = num(); M.drop[i] = num(); }
+}
+
+static void read_damage(void)
+{
+    static const char *surfaces[] = {"outer-raceway", "inner-raceway", "roller"};
+    char w[64];
+    M.damage = realloc(M.damage, sizeof(Damage) * (size_t)(M.damages + 1));
+    if (!M.damage) die("out of memory", "");
+    Damage *d = &M.damage[M.damages++];
+    memset(d, 0, sizeof *d);
+    word(w);
+    d->on = pick(w, surfaces, 3);
+    d->row = integer() - 1;
+    d->roller = integer() - 1;
+    d->psi = num();
+    d->ns = integer();
+    d->nd = integer();
+    d->s = need((size_t)d->ns, sizeof(double));
+    d->d = need((size_t)d->nd, sizeof(double));
+    d->f = need((size_t)(d->ns * d->nd), sizeof(double));
+    for (int i = 0; i < d->ns; i++) d->s[i] = num();
+    for (int i = 0; i < d->nd; i++) d->d[i] = num();
+    for (int i = 0; i < d->ns * d->nd; i++) d->f[i] = num();
+    spline_damage(d);
+}
+
 void read_model(const char *path)
 {
     static const struct { const char *name; double *to; } reals[] = {
@@ -102,17 +150,26 @@ void read_model(const char *path)
         {"support_inner_damping", &M.ci}, {"support_outer_stiffness", &M.ko},
         {"support_outer_damping", &M.co}, {"load_x", &M.load[0]}, {"load_y", &M.load[1]}, {"ramp", &M.ramp},
         {"gravity_x", &M.g[0]}, {"gravity_y", &M.g[1]}, {"duration", &M.duration}, {"sample_rate", &M.fs},
-        {"step", &M.step}, {"perturb", &M.perturb}};
+        {"step", &M.step}, {"perturb", &M.perturb}, {"damping_time", &M.tau}, {"roughness", &M.roughness},
+        {"rolling", &M.rolling}, {"pocket_friction", &M.pocket_friction}, {"housing_mass", &M.housing},
+        {"width", &M.width}, {"row_spacing", &M.spacing}, {"load_offset", &M.load_offset},
+        {"inner_tilt_stiffness", &M.tilt_stiffness[0]}, {"outer_tilt_stiffness", &M.tilt_stiffness[1]},
+        {"inner_tilt_damping", &M.tilt_damping[0]}, {"outer_tilt_damping", &M.tilt_damping[1]}, {"seed", &M.seed}, {"tolerance", &M.tolerance}};
     static const char *guides[] = {"rollers", "outer-ring", "inner-ring"};
     static const char *films[] = {"quasi-static", "dynamic"};
     static const char *starts[] = {"rolling", "rest", "equilibrium"};
     static const char *rings[] = {"inner-ring", "outer-ring"};
-    static const char *models[] = {"full", "lumped"};
-    static const char *laws[] = {"ecl", "sliced"};
+    static const char *models[] = {"full", "lumped", "tilting"};
+    static const char *laws[] = {"ecl", "sliced", "half-space"};
     static const char *paths[] = {"point", "envelope"};
     static const char *edges[] = {"none", "conservative"};
+    static const char *geometries[] = {"centred", "exact"};
+    static const char *elements[] = {"roller", "ball"};
+    static const char *walls[] = {"linear", "oiled"};
+    static const char *pockets[] = {"slot", "round"};
     const int count = (int)(sizeof reals / sizeof reals[0]);
     char w[64];
+    M.tau = -1.0;
     open_text(path);
     while (fscanf(in, "%63s", w) == 1) {
         int i = 0;
@@ -124,8 +181,21 @@ void read_model(const char *path)
         else if (!strcmp(w, "guidance_film")) { word(w); M.film = pick(w, films, 2); }
         else if (!strcmp(w, "start")) { word(w); M.start = pick(w, starts, 3); }
         else if (!strcmp(w, "load_on")) { word(w); M.load_outer = pick(w, rings, 2); }
-        else if (!strcmp(w, "model")) { word(w); M.reference = pick(w, models, 2); }
-        else if (!strcmp(w, "law")) { word(w); M.law = pick(w, laws, 2); }
+        else if (!strcmp(w, "model")) {
+            word(w);
+            const int model = pick(w, models, 3);
+            M.reference = model == 1;
+            M.tilting = model == 2;
+        }
+        else if (!strcmp(w, "law")) { word(w); M.law = pick(w, laws, 3); }
+        else if (!strcmp(w, "geometry")) { word(w); M.geometry = pick(w, geometries, 2); }
+        else if (!strcmp(w, "element")) { word(w); M.element = pick(w, elements, 2); }
+        else if (!strcmp(w, "walls")) { word(w); M.walls = pick(w, walls, 2); }
+        else if (!strcmp(w, "pockets")) { word(w); M.pockets = pick(w, pockets, 2); }
+        else if (!strcmp(w, "profile")) read_profile();
+        else if (!strcmp(w, "raceway_waves")) read_waves(&M.raceway_waves);
+        else if (!strcmp(w, "element_waves")) read_waves(&M.element_waves);
+        else if (!strcmp(w, "damage")) read_damage();
         else if (!strcmp(w, "roller_path")) { word(w); M.path = pick(w, paths, 2); }
         else if (!strcmp(w, "edge_reaction")) { word(w); M.edge = pick(w, edges, 2); }
         else if (!strcmp(w, "slices")) M.slices = integer();
@@ -149,13 +219,29 @@ void read_model(const char *path)
     M.total = M.rows * M.Z;
     M.Ri = 0.5 * M.Di;
     M.Ro = 0.5 * M.Do;
-    M.Ir = 0.5 * M.m * M.r * M.r;
+    M.Ir = (M.element == ELEMENT_BALL ? 0.4 : 0.5) * M.m * M.r * M.r;
+    M.Jr = M.m * (3.0 * M.r * M.r + M.L * M.L) / 12.0;
+    M.Jring[0] = M.mi * (0.5 * M.Ri * M.Ri + M.width * M.width / 12.0);
+    M.Jring[1] = M.mo * (0.5 * M.Ro * M.Ro + M.width * M.width / 12.0); /* the ring's alone */
+    M.Ip = M.mi * M.Ri * M.Ri;
+    M.mo += M.housing; /* section 24 */
     M.Ic = 0.5 * M.mc * (M.cage_a * M.cage_a + M.cage_b * M.cage_b);
     for (int i = 0; i < M.defects; i++) {
         Defect *d = &M.defect[i];
         d->radius = d->on == OUTER ? M.Ro : d->on == INNER ? M.Ri : M.r;
         build_floors(d);
     }
+    for (int i = 0; i < M.damages; i++)
+        M.damage[i].radius = M.damage[i].on == OUTER ? M.Ro : M.damage[i].on == INNER ? M.Ri : M.r;
+    if (M.geometry == GEOMETRY_EXACT) {
+        if (M.defects) die("exact geometry:", "damage by tables only");
+        if (M.tilting && (M.damages || M.element == ELEMENT_BALL)) die("tilting:", "healthy rollers only");
+        if (M.start == START_EQUILIBRIUM) die("exact geometry:", "no equilibrium start");
+        slice_profile();
+        ready_waves();
+    } else if (M.damages || M.tilting || M.tau >= 0.0 || M.walls || M.pockets || M.rolling > 0.0 || M.profile
+               || M.raceway_waves.amplitude > 0.0 || M.element_waves.amplitude > 0.0 || M.law > LAW_SLICED)
+        die("Part II", "is written for exact geometry");
     if (M.edge && !(M.law == LAW_SLICED && M.path == PATH_ENVELOPE)) die("edge reaction:", "sliced and envelope only");
     if (M.reference && (M.law || M.path)) die("the lumped model", "is written for ecl and point");
 }

@@ -8,12 +8,18 @@ extern int dof;
 
 int cage_at(int row);
 int roller_at(int k);
+int tilt_at(int ring);  /* 0 inner, 1 outer: two slopes; tilting model only */
+int beta_at(int k);
+double row_height(int row);
 double pocket_angle(int row, int j);
 
 typedef struct {
     double outer_force, inner_force, outer_length, inner_length, pocket, slip_inner, slip_outer, ax, ay;
+    double inner_moment, outer_moment;
+    double orbit_speed; /* about the outer ring's centre (exact geometry) */
 } Detail;
 
 extern Detail *detail; /* filled only when asked for, at output instants */
+extern double inner_torque, outer_torque; /* what the drive and the housing supply (exact geometry) */
 
 #endif

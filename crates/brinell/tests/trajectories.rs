@@ -167,6 +167,7 @@ fn xval_independent_implementation() {
         .map(|e| e.unwrap().path())
         .filter(|p| p.extension().is_some_and(|e| e == "toml"))
         .map(|p| p.file_stem().unwrap().to_string_lossy().into_owned())
+        .filter(|name| !name.starts_with("mechanics-")) // Part II: their damage lies in tables beside them
         .collect();
     names.sort();
     assert_eq!(names.len(), 25);
