@@ -24,12 +24,6 @@ use pyo3::prelude::*;
 mod _brinell {
     use super::*;
 
-    #[pymodule_init]
-    fn init(_: &Bound<'_, PyModule>) -> PyResult<()> {
-        brinell_damage::keep_tables();
-        Ok(())
-    }
-
     #[pymodule_export]
     use crate::calibrate::{Calibration, calibrate};
     #[pymodule_export]
@@ -53,6 +47,7 @@ mod _brinell {
 
     #[pymodule_init]
     fn init(module: &Bound<'_, PyModule>) -> PyResult<()> {
+        brinell_damage::keep_tables();
         let py = module.py();
         module.add("ScenarioError", py.get_type::<errors::ScenarioError>())?;
         module.add("RunError", py.get_type::<errors::RunError>())?;
