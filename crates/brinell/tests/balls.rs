@@ -1,12 +1,12 @@
 //! Ball bearings: Hertz's ellipse, the static balance, damage on strips across the groove (section 17 of the model).
 
 use crate::common::cases::case;
+use crate::common::read_li2023 as read;
 use brinell::contact::ball::Strips;
 use brinell::contact::{Damping, LoadDeflection};
 use brinell::defect::{
     Angles, Defect, Defects, SIDES, Side, damaged_contact, depth_at_bottom, edge_gradient, energy, tangent,
 };
-use brinell::document::read;
 use brinell::elementary::Exponent;
 use brinell::model::Model;
 use brinell::plausibility::before;

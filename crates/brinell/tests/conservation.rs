@@ -304,7 +304,7 @@ fn prop_levers_leave_little_in_the_papers_case() {
 fn regress_a_cage_that_rollers_guide_stays_in_its_bearing() {
     // Without a land it strayed by 3.5 mm in this time, and by more than the bearing's radius in twice as long.
     let text = "[bearing]\npreset = \"NU206\"\n[operation]\nspeed_rpm = 3600.0\nload_n = [300.0, 0.0]\n";
-    let s = brinell::document::read(text, &[]).unwrap().scenario;
+    let s = crate::common::read_li2023(text, &[]).unwrap().scenario;
     assert_eq!(s.cage.guidance, Guidance::Rollers);
     let model = Model::new(&s).unwrap();
     let mut motion = Motion::new(&model);

@@ -10,7 +10,7 @@ use brinell::simulate::{Observer, Simulation};
 use brinell::solver::Stepper;
 
 fn run_of(shape: Shape, law: Law, path: RollerPath, duration_s: f64) -> Scenario {
-    let mut s = Scenario::example();
+    let mut s = crate::common::example();
     s.contact.law = law;
     s.contact.roller_path = path;
     s.simulation.duration_s = duration_s;

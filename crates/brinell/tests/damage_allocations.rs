@@ -37,7 +37,7 @@ fn prop_steps_over_damage_allocate_nothing() {
         (Law::Sliced, RollerPath::Point, EdgeReaction::None),
         (Law::Sliced, RollerPath::Envelope, EdgeReaction::Conservative),
     ] {
-        let mut s = Scenario::example();
+        let mut s = common::example();
         s.contact.law = law;
         s.contact.roller_path = path;
         s.contact.edge_reaction = edge_reaction;

@@ -4,7 +4,6 @@ use crate::common::cases::{Random, raceway_film};
 use crate::common::simulate;
 use brinell::accuracy::settings;
 use brinell::cage::{Guide, HalfFilm, LandLaw, MAX_ECCENTRICITY};
-use brinell::document;
 use brinell::model::{Model, Motion};
 use brinell::scenario::{Accuracy, Guidance, GuidanceFilm, RacewayFilm, Scenario};
 use brinell::solver::Stepper;
@@ -291,7 +290,7 @@ fn healthy(preset: &str, guidance: Guidance, film: GuidanceFilm) -> Scenario {
     let text = format!(
         "[bearing]\npreset = \"{preset}\"\n[operation]\nspeed_rpm = 1800.0\nload_n = [300.0, 0.0]\nload_on = \"outer-ring\"\n"
     );
-    let mut s = document::read(&text, &[]).unwrap().scenario;
+    let mut s = crate::common::read_li2023(&text, &[]).unwrap().scenario;
     s.cage.guidance = guidance;
     s.cage.guidance_film = film;
     s

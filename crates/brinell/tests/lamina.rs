@@ -1,8 +1,8 @@
 //! Static load slice by slice, edge pressure and reference rating life: against ISO/TS 16281 by another program,
 //! against limits and printed tables.
 
+use crate::common::read_li2023 as read;
 use brinell::bearing::rating::dynamic_rating;
-use brinell::document::read;
 use brinell::lamina::{Distribution, LoadAlong, reference_life, stress_riser};
 use brinell::scenario::{LoadOn, RollerProfile, Scenario};
 

@@ -22,7 +22,7 @@ fn line(s: &Scenario) -> LineFrequency {
 }
 
 fn found(name: &str, shape: Shape, printed: f64) {
-    let mut s = Scenario::example();
+    let mut s = crate::common::example();
     s.defects[0].shape = shape;
     s.defects[0].depth_um = 20.0;
     // The paper's film. In the dynamic one the cages run 0.7 mm off centre, slip by 1.27 %, and the line lies 1.15 %

@@ -1,5 +1,6 @@
 //! A run in slices, and a run that goes on in another simulation.
 
+use crate::common::li2023;
 use brinell::scenario::Speed;
 use brinell::simulate::{End, Observer, Run, Signals, Simulation};
 use brinell::{Error, Scenario};
@@ -10,7 +11,7 @@ const SPALL: &str = "[[defects]]\non = \"outer-raceway\"\ncenter_deg = 0\ndepth_
     shape = { rectangle = { length_mm = 3, width_mm = 4 } }\n";
 
 fn simulation(more: &str) -> Simulation {
-    let scenario = Scenario::from_toml(&format!("{BEARING}{more}")).unwrap();
+    let scenario = li2023(&format!("{BEARING}{more}"));
     Simulation::new(&scenario).unwrap()
 }
 
@@ -91,7 +92,7 @@ fn prop_a_spall_in_a_running_bearing_raises_the_rms_and_the_run_has_no_end() {
 fn prop_a_run_goes_on_only_where_the_states_correspond() {
     let simulation_ = simulation("");
     let mut run = Run::new(&simulation_);
-    let one_row = Simulation::new(&Scenario::from_toml(&BEARING.replace("NN3007", "NU206")).unwrap()).unwrap();
+    let one_row = Simulation::new(&li2023(&BEARING.replace("NN3007", "NU206"))).unwrap();
     assert!(!run.go_on_in(&one_row));
     let faster = simulation("[simulation]\nsample_rate_hz = 51200\n");
     assert!(!run.go_on_in(&faster));
@@ -105,7 +106,7 @@ fn prop_a_run_goes_on_only_where_the_states_correspond() {
 /// One built in code has no file that was read.
 #[test]
 fn regress_a_scenario_built_in_code_is_held_to_what_a_file_is() {
-    let sound = Scenario::from_toml(&format!("{BEARING}{SPALL}[simulation]\nduration_s = 0.001\n")).unwrap();
+    let sound = li2023(&format!("{BEARING}{SPALL}[simulation]\nduration_s = 0.001\n"));
     let bad = |change: fn(&mut Scenario)| {
         let mut scenario = sound.clone();
         change(&mut scenario);
@@ -136,7 +137,7 @@ fn prop_a_scenario_changed_in_code_is_held_to_what_a_file_is() {
         ("rollers_per_row", |s| s.bearing.rollers_per_row = 1 << 40),
     ];
     for (key, change) in changes {
-        let mut scenario = Scenario::from_toml(&format!("{BEARING}{SPALL}")).unwrap();
+        let mut scenario = li2023(&format!("{BEARING}{SPALL}"));
         change(&mut scenario);
         let Err(error) = Simulation::new(&scenario) else { panic!("{key} is taken") };
         assert!(error.is_bad_input() && error.to_string().contains(key), "{key}: {error}");
@@ -149,6 +150,6 @@ fn prop_signals_beyond_any_memory_are_refused_as_a_whole() {
     let text = "[bearing]\nrows = 2\nrollers_per_row = 120\nroller_diameter_mm = 6\nroller_length_mm = 6\npitch_diameter_mm = 500\ninner_raceway_diameter_mm = 494\nouter_raceway_diameter_mm = 506\n\
         [operation]\nspeed_rpm = 600\nload_n = [300, 0]\n\
         [simulation]\nduration_s = 1e4\nsample_rate_hz = 999999\nrecord = [\"*\"]\n";
-    let long = Simulation::new(&Scenario::from_toml(text).unwrap()).unwrap();
+    let long = Simulation::new(&li2023(text)).unwrap();
     assert!(matches!(Signals::new(&long), Err(Error::TooLarge { bytes }) if bytes > 1 << 48));
 }

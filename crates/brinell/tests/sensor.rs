@@ -1,7 +1,8 @@
 //! The measurement chain on runs: what it changes, what it leaves alone, and that it repeats.
 
+use crate::common::read_li2023 as read;
 use crate::common::{Rows, simulate};
-use brinell::document::{Problem, Severity, read};
+use brinell::document::{Problem, Severity};
 use brinell::many::each;
 use brinell::scenario::{NoiseColour, PathMode, Scenario, Sensor};
 use brinell::signal::decimate::{ATTENUATION_DB, PASSBAND, STOPBAND, kaiser_lowpass};

@@ -4,7 +4,6 @@ use std::ops::ControlFlow;
 
 use brinell::analysis::{Component, MACHINE_NOISE, Options, Verdict, analyze};
 use brinell::bearing::orders_of;
-use brinell::document;
 use brinell::random::Random;
 use brinell::result::{Stretch, beside_healthy};
 use brinell::scenario::{Scenario, Shape, Speed, Surface};
@@ -43,7 +42,7 @@ fn recorded(s: &mut Scenario, rate: f64, seconds: f64, start: f64) -> Vec<f64> {
 }
 
 fn damaged(on: Surface) -> Scenario {
-    let mut s = Scenario::example();
+    let mut s = crate::common::example();
     s.defects[0].on = on;
     s.defects[0].depth_um = 20.0;
     s.defects[0].shape = Shape::Rectangle { length_mm: 3.0, width_mm: 4.0 };
@@ -175,7 +174,7 @@ fn regress_verdicts_on_the_examples() {
     ] {
         let path = format!("{}/../../examples/{name}.toml", env!("CARGO_MANIFEST_DIR"));
         let text = std::fs::read_to_string(path).unwrap();
-        let mut s = document::read(&text, &[]).unwrap().scenario;
+        let mut s = crate::common::read_li2023(&text, &[]).unwrap().scenario;
         if component.is_none() {
             s.defects.clear();
         }
@@ -213,7 +212,7 @@ fn regress_passing_rollers_are_no_damage() {
              simulation = {{ duration_s = 1.0, sample_rate_hz = 25600.0 }}\n{}",
             if damaged { defect } else { "" }
         );
-        let s = document::read(&text, &[]).unwrap().scenario;
+        let s = crate::common::read_li2023(&text, &[]).unwrap().scenario;
         let (_, signals) = brinell::record(&s).unwrap();
         let stretch = Stretch { channel: "sensor_ax", from_s: 0.1, to_si: 1.0 };
         let x = &signals.get("sensor_ax").unwrap()[2560..];
@@ -236,7 +235,7 @@ fn regress_a_damaged_roller_is_named_alone() {
                 simulation = { duration_s = 2.0, sample_rate_hz = 25600.0 }\n\
                 [[defects]]\non = \"roller\"\nroller = 1\ncenter_deg = 90.0\ndepth_um = 20.0\n\
                 shape = { rectangle = { length_mm = 1.0, width_mm = 4.4 } }\n";
-    let s = document::read(text, &[]).unwrap().scenario;
+    let s = crate::common::read_li2023(text, &[]).unwrap().scenario;
     let (_, signals) = brinell::record(&s).unwrap();
     let orders = orders_of(&s.bearing);
     for channel in ["sensor_ax", "sensor_ay"] {
@@ -263,7 +262,7 @@ fn regress_a_roller_in_a_short_record_is_no_outer_race() {
              [[defects]]\non = \"roller\"\nroller = {roller}\ndepth_um = {depth}\n\
              shape = {{ rectangle = {{ length_mm = {length}, width_mm = {width} }} }}\n"
         );
-        let s = document::read(&text, &[]).unwrap().scenario;
+        let s = crate::common::read_li2023(&text, &[]).unwrap().scenario;
         let (_, signals) = brinell::record(&s).unwrap();
         let orders = orders_of(&s.bearing);
         let options = Options { silent: Some(MACHINE_NOISE), exact: true, ..Options::new(rpm / 60.0, orders) };
@@ -287,7 +286,7 @@ fn regress_an_inner_race_of_balls_is_no_outer_one() {
                  [[defects]]\non = \"inner-raceway\"\ncenter_deg = -90.0\ndepth_um = 10.0\n\
                  shape = {{ rectangle = {{ length_mm = 1.0, width_mm = 1.0 }} }}\n"
             );
-            let s = document::read(&text, &[]).unwrap().scenario;
+            let s = crate::common::read_li2023(&text, &[]).unwrap().scenario;
             let (_, signals) = brinell::record(&s).unwrap();
             let orders = orders_of(&s.bearing);
             let options = Options { silent: Some(MACHINE_NOISE), exact: true, ..Options::new(10.0, orders) };
@@ -312,7 +311,7 @@ fn regress_an_inner_race_of_balls_is_no_outer_one() {
 fn regress_the_verdict_on_the_run_up() {
     let path = format!("{}/../../examples/run-up.toml", env!("CARGO_MANIFEST_DIR"));
     let text = std::fs::read_to_string(path).unwrap();
-    let mut s = document::read(&text, &[]).unwrap().scenario;
+    let mut s = crate::common::read_li2023(&text, &[]).unwrap().scenario;
     let orders = orders_of(&s.bearing);
     let (rate, seconds, start) = (s.simulation.sample_rate_hz, s.simulation.duration_s, 0.02);
     let x = recorded(&mut s, rate, seconds, start);
@@ -343,7 +342,7 @@ fn regress_bpfo_of_healthy_bearings() {
             let text = format!(
                 "bearing.preset = \"{preset}\"\noperation = {{ speed_rpm = {rpm:?}, load_n = [{load:?}, 0.0], load_on = \"outer-ring\" }}\n"
             );
-            let mut s = document::read(&text, &[]).unwrap().scenario;
+            let mut s = crate::common::read_li2023(&text, &[]).unwrap().scenario;
             let orders = orders_of(&s.bearing);
             let x = recorded(&mut s, 25_600.0, 2.12, 0.02 + 60.0 / rpm);
             let options = Options { silent: Some(MACHINE_NOISE), exact: true, ..Options::new(rpm / 60.0, orders) };

@@ -1,8 +1,8 @@
 //! The static balance: load distribution, shift and stiffness against closed forms, and the start that is made of it.
 
 use crate::common::cases::{Random, case, healthy, rectangle};
+use crate::common::read_li2023 as read;
 use brinell::Error;
-use brinell::document::read;
 use brinell::model::{Model, Motion};
 use brinell::scenario::{LoadOn, Scenario, Shape, Speed, Start};
 use brinell::simulate::Simulation;

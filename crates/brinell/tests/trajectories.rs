@@ -5,7 +5,7 @@
 //! round-off, so no comparison can be closer than that.
 
 use crate::common::{Rows, columns, simulate_rows};
-use brinell::{document, scenario};
+use brinell::scenario;
 use std::collections::HashMap;
 use std::path::Path;
 
@@ -39,7 +39,7 @@ fn compare(path: &Path) -> (Vec<(String, f64, f64)>, Rows) {
 fn compare_until(path: &Path, to: f64) -> (Vec<(String, f64, f64)>, Rows) {
     let text = std::fs::read_to_string(path.with_extension("toml")).unwrap();
     let golden = columns(&std::fs::read_to_string(path.with_extension("csv")).unwrap());
-    let mut loaded = document::read(&text, &[]).unwrap_or_else(|p| panic!("{}: {p:?}", path.display()));
+    let mut loaded = crate::common::read_li2023(&text, &[]).unwrap_or_else(|p| panic!("{}: {p:?}", path.display()));
     loaded.scenario.simulation.accuracy = scenario::Accuracy::Reference;
     loaded.scenario.simulation.record = golden.names.iter().filter(|n| *n != "t").cloned().collect();
     let ours = simulate_rows(&loaded.scenario);

@@ -39,7 +39,7 @@ const COUNTS: [&str; 3] = ["steps", "rejections", "right_hand_sides"];
 fn example(name: &str) -> Scenario {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../examples").join(name).with_extension("toml");
     let text = std::fs::read_to_string(path).unwrap();
-    brinell::document::read(&text, &[]).unwrap().scenario
+    crate::common::read_li2023(&text, &[]).unwrap().scenario
 }
 
 fn scenarios() -> Vec<(&'static str, Scenario)> {

@@ -149,6 +149,8 @@ mod tests {
             center_deg = 90
             depth_um = 20
             shape = { rectangle = { length_mm = 90, width_mm = 4 } }
+            [simulation]
+            laws = "li2023"
         "#;
         let scenario = crate::document::read(text, &[]).unwrap().scenario;
         let model = Model::new(&scenario).unwrap();

@@ -3,13 +3,13 @@
 use super::columns;
 use brinell::model::Model;
 use brinell::scenario::{DefectTable, Guidance, GuidanceFilm, ModelKind, Scenario, TableData};
-use brinell::{document, start};
+use brinell::start;
 
 /// A scenario beside the tests, such as `reference/outer-rectangle` or `xval/roller-defect`.
 pub fn case(path: &str) -> Scenario {
     let file = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("tests").join(path).with_extension("toml");
     let text = std::fs::read_to_string(&file).unwrap_or_else(|e| panic!("{}: {e}", file.display()));
-    let mut s = document::read(&text, &[]).unwrap_or_else(|p| panic!("{path}: {p:?}")).scenario;
+    let mut s = crate::common::read_li2023(&text, &[]).unwrap_or_else(|p| panic!("{path}: {p:?}")).scenario;
     with_tables(&mut s, file.parent().unwrap());
     s
 }
@@ -83,7 +83,7 @@ pub fn every_term() -> Vec<(&'static str, Scenario)> {
 pub fn raceway_film() -> Scenario {
     let text = "[bearing]\npreset = \"NU206\"\n[operation]\nspeed_rpm = 300\nload_n = [0, -1000]\nload_on = \"inner-ring\"\n\
                 gravity_m_per_s2 = [0, -9.81]\nload_ramp_s = 0\n";
-    document::read(text, &[]).unwrap().scenario
+    crate::common::read_li2023(text, &[]).unwrap().scenario
 }
 
 /// A tilting bearing, its load off the middle, its cages on the inner ring, an oblique dent on a roller whose edges

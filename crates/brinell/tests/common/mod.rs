@@ -5,8 +5,33 @@ pub mod cases;
 #[path = "../../../brinell-signal/tests/common/counting.rs"]
 pub mod counting;
 
+use brinell::document::{Loaded, Problem, read};
 use brinell::scenario::Scenario;
 use brinell::simulate::{End, Outcome, Signals, Simulation};
+
+/// A scenario under the laws of Li et al. 2023 where its text names no set: for what is about those laws, or was recorded under them.
+pub fn read_li2023(text: &str, overrides: &[(String, String)]) -> Result<Loaded, Vec<Problem>> {
+    let mut overrides = overrides.to_vec();
+    if !text.contains("laws =") && !overrides.iter().any(|(key, _)| key == "simulation.laws") {
+        overrides.push(("simulation.laws".into(), "li2023".into()));
+    }
+    read(text, &overrides)
+}
+
+/// The same of a valid text.
+pub fn li2023(text: &str) -> Scenario {
+    read_li2023(text, &[]).unwrap_or_else(|problems| panic!("{problems:?}")).scenario
+}
+
+/// The scenario of `Scenario::example`, the NN3007 with the rectangle, under the paper's laws.
+pub fn example() -> Scenario {
+    li2023(
+        "name = \"nn3007-rectangle\"\n[bearing]\npreset = \"NN3007\"\n[operation]\nspeed_rpm = 1800.0\nload_n = [300.0, 0.0]\n\
+         [[defects]]\non = \"outer-raceway\"\nrow = 1\ncenter_deg = 0.0\ndepth_um = 20.0\n\
+         shape = { rectangle = { length_mm = 3.0, width_mm = 4.0 } }\n\
+         [simulation]\nlaws = \"li2023\"\nduration_s = 0.5\nsample_rate_hz = 25600.0\n",
+    )
+}
 
 /// Named columns.
 pub struct Rows {

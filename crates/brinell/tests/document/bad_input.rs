@@ -243,9 +243,10 @@ fn regress_overrides_reach_every_key_and_say_what_is_wrong() {
 #[test]
 fn analytic_support_that_carries_the_load_is_warned_of() {
     // k C_r < F: 3e7 N/m at 300 N and 10 um (`docs/src/theory/motion.md`).
-    let below = with(BARE, &[("support.outer_stiffness_n_per_m", "2.99e7")]).unwrap();
+    let gap = ("bearing.radial_clearance_um", "10");
+    let below = with(BARE, &[gap, ("support.outer_stiffness_n_per_m", "2.99e7")]).unwrap();
     assert!(below.warnings.is_empty(), "{}", report(&below.warnings));
-    let above = with(BARE, &[("support.outer_stiffness_n_per_m", "3.01e7")]).unwrap();
+    let above = with(BARE, &[gap, ("support.outer_stiffness_n_per_m", "3.01e7")]).unwrap();
     let warning = problem_of(&above.warnings, "support.outer_stiffness_n_per_m");
     assert_eq!(warning.severity, Severity::Warning);
     assert!(warning.to_string().contains("< 3.000e7 N/m"), "{warning}");

@@ -1,6 +1,6 @@
 //! Scenario files of ball bearings: which keys they have, which are refused, what is assumed.
 
-use super::{good, refused, report, with};
+use super::{LI2023, refused, report, with};
 use brinell::document::{Loaded, read};
 use brinell::model::Model;
 use brinell::scenario::{Element, Law, RollerPath};
@@ -27,7 +27,7 @@ shape = { circle = { diameter_mm = 0.5 } }
 
 #[test]
 fn regress_defaults_of_balls() {
-    let loaded = good(BARE);
+    let loaded = with(BARE, &[LI2023]).unwrap();
     let s = &loaded.scenario;
     assert_eq!(s.bearing.element, Element::Ball);
     assert_eq!(s.bearing.inner_groove_conformity, Some(0.52));
@@ -67,7 +67,7 @@ fn regress_what_balls_do_not_have_is_refused() {
     refused(BARE, &[("bearing.preset", "NU206")], "bearing.element", "NU206 is a roller bearing");
     let balls = with(super::BARE, &[("bearing.outer_groove_conformity", "0.53")]).unwrap_err();
     assert!(report(&balls).contains("has a meaning only where bearing.element is \"ball\""));
-    let balls = with(super::BARE, &[("contact.youngs_modulus_gpa", "210")]).unwrap_err();
+    let balls = with(super::BARE, &[LI2023, ("contact.youngs_modulus_gpa", "210")]).unwrap_err();
     assert!(report(&balls).contains("has a meaning only where bearing.element is \"ball\""));
 }
 
@@ -76,7 +76,7 @@ fn prop_a_written_ball_bearing_checks_the_same() {
     for overrides in [
         &[][..],
         &[("simulation.model", "lumped")],
-        &[("contact.inner_stiffness", "2e10"), ("contact.roller_path", "point")],
+        &[LI2023, ("contact.inner_stiffness", "2e10"), ("contact.roller_path", "point")],
         &[("bearing.clearance_class", "C3"), ("bearing.bore_diameter_mm", "25")],
     ] {
         let loaded = with(BARE, overrides).unwrap_or_else(|p| panic!("{}", report(&p)));

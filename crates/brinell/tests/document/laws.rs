@@ -1,6 +1,6 @@
 //! `simulation.laws` and the keys that it decides.
 
-use super::{BARE, OUTER, good, refused, report, with};
+use super::{BARE, LI2023, OUTER, good, refused, report, with};
 use brinell::document::{Loaded, json_schema, read};
 use brinell::model::Model;
 use brinell::plausibility::Beforehand;
@@ -104,7 +104,7 @@ fn prop_keys_without_a_meaning_are_refused_with_the_law_that_has_none() {
     refused(BARE, &both, "contact.damping_ns_per_m", "given twice");
     refused(BARE, &[("contact.damping_time_us", "0")], "contact.damping_time_us", "> 0");
     refused(BARE, &[("contact.damping_time_us", "\"soon\"")], "contact.damping_time_us", "expected a number");
-    refused(BARE, &[("contact.youngs_modulus_gpa", "206")], "contact.youngs_modulus_gpa", "half-space");
+    refused(BARE, &[LI2023, ("contact.youngs_modulus_gpa", "206")], "contact.youngs_modulus_gpa", "half-space");
     let lumped = ("simulation.model", "lumped");
     refused(BARE, &[LAWS, lumped], "simulation.laws", "lumped");
     refused(BARE, &[("contact.law", "half-space"), lumped], "contact.law", "half-space");

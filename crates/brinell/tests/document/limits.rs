@@ -4,7 +4,7 @@ use brinell::defect::MOST_CROSSINGS;
 use brinell::document::{MOST_OF_A_KIND, Problem, Severity, read};
 use brinell::random::Random;
 
-use super::{BARE, OUTER, good, report, with};
+use super::{BARE, LI2023, OUTER, good, report, with};
 
 fn refused(text: &str) -> Vec<Problem> {
     match read(text, &[]) {
@@ -179,7 +179,7 @@ fn analytic_no_body_moves_faster_than_a_run_can_follow() {
         ("support.outer_damping_ns_per_m", "1e30".into()),
         ("friction.slip_velocity_m_per_s", "1e-30".into()),
     ] {
-        let problems = with(BARE, &[(key, &value)]).unwrap_err();
+        let problems = with(BARE, &[LI2023, (key, &value)]).unwrap_err();
         let problem = &problems[0];
         assert_eq!(problem.key, key, "{}", report(&problems));
         let told = problem.to_string();

@@ -30,6 +30,9 @@ speed_rpm = 1800.0
 load_n = [300.0, 0.0]
 ";
 
+/// The paper's laws, for what is theirs alone.
+const LI2023: (&str, &str) = ("simulation.laws", "li2023");
+
 fn good(text: &str) -> Loaded {
     read(text, &[]).unwrap_or_else(|problems| panic!("{}", report(&problems)))
 }

@@ -1,6 +1,6 @@
 //! Scenario files with profiles and tilts: defaults, what is refused, and what has no effect.
 
-use super::{good, refused, with};
+use super::{LI2023, good, refused, with};
 use brinell::scenario::{Law, ModelKind, RollerProfile};
 
 const BARE: &str = "\
@@ -45,7 +45,7 @@ fn regress_what_has_no_slices_has_no_profile_and_no_tilt() {
     let lumped = ("simulation.model", "lumped");
     refused(BARE, &[profile, lumped], "bearing.profile", "no profile");
     // With a profile alone the law is sliced.
-    let loaded = with(BARE, &[profile]).unwrap();
+    let loaded = with(BARE, &[LI2023, profile]).unwrap();
     assert_eq!(loaded.scenario.contact.law, Law::Sliced);
 }
 

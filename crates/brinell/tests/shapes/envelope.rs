@@ -2,13 +2,13 @@
 
 use super::{LAW, at, defect, grid_mm, oblique};
 use brinell::defect::{Angles, Defect, Defects, Side, damaged_contact, edge_gradient, energy, spall};
-use brinell::scenario::{self, Law, RollerPath, Scenario, Surface};
+use brinell::scenario::{self, Law, RollerPath, Surface};
 use std::f64::consts::PI;
 
 #[test]
 fn analytic_axial_offset_moves_any_shape_and_what_leaves_the_roller_does_not_count() {
     let make = |of: scenario::Shape, axial_offset_mm: f64, law, path| {
-        let mut s = Scenario::example();
+        let mut s = crate::common::example();
         (s.contact.law, s.contact.roller_path, s.contact.slices) = (law, path, 11);
         let d = scenario::Defect { shape: of, axial_offset_mm, ..s.defects[0].clone() };
         Defect::new(&d, &s.bearing, &s.contact).unwrap()

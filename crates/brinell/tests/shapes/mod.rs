@@ -8,7 +8,7 @@ mod slices;
 use brinell::contact::{Damping, LoadDeflection};
 use brinell::defect::{Angles, Defect, Shape};
 use brinell::elementary::Exponent;
-use brinell::scenario::{self, DepthGrid, Law, RollerPath, Scenario, Surface};
+use brinell::scenario::{self, DepthGrid, Law, RollerPath, Surface};
 use std::f64::consts::TAU;
 
 const LAW: LoadDeflection = LoadDeflection {
@@ -48,7 +48,7 @@ fn shape(of: scenario::Shape) -> Shape {
 
 /// The example's defect with another shape, law and path.
 fn defect(of: scenario::Shape, on: Surface, law: Law, path: RollerPath, slices: usize) -> Defect {
-    let mut s = Scenario::example();
+    let mut s = crate::common::example();
     s.contact.law = law;
     s.contact.roller_path = path;
     s.contact.slices = slices;

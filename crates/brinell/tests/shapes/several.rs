@@ -2,13 +2,13 @@
 
 use super::{LAW, at, defect, grid_mm};
 use brinell::defect::{Angles, Defect, Defects, Side, damaged_contact, energy};
-use brinell::scenario::{self, EdgeReaction, Law, RollerPath, Scenario, Surface};
+use brinell::scenario::{self, EdgeReaction, Law, RollerPath, Surface};
 use std::f64::consts::PI;
 
 #[test]
 fn analytic_deepest_of_several_acts_in_each_slice_and_spares_raised_edges() {
     let flat = |length_mm, depth_um| {
-        let mut s = Scenario::example();
+        let mut s = crate::common::example();
         s.contact.law = Law::Sliced;
         s.contact.edge_reaction = EdgeReaction::None;
         let d = scenario::Defect {
@@ -99,7 +99,7 @@ fn analytic_halves_that_touch_or_overlap_are_the_whole_under_the_envelope() {
 #[test]
 fn analytic_under_ecl_two_defects_follow_the_envelope_of_one_profile_and_a_pit_deepens_no_dent() {
     let make = |of, depth_um| {
-        let mut s = Scenario::example();
+        let mut s = crate::common::example();
         s.contact.roller_path = RollerPath::Envelope;
         let d = scenario::Defect { shape: of, depth_um, ..s.defects[0].clone() };
         Defect::new(&d, &s.bearing, &s.contact).unwrap()
