@@ -134,6 +134,7 @@ void healthy(int side, double delta, double *E, double *Q, double *K)
 Tilted tilted_energy(int side, double delta, double tilt)
 {
     Tilted e = {0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0};
+    e.x = fmax(delta, 0.0);
     const double stiff = (side == OUTER ? M.Kout : M.Kin) / M.slices;
     for (int k = 0; k < M.slices; k++) {
         const double z = ((k + 0.5) / M.slices - 0.5) * M.L;

@@ -35,6 +35,7 @@ fn cases() -> Vec<(&'static str, Scenario)> {
         ("guided-inside", guided_inside),
         ("two-surfaces", two_surfaces),
         ("slotted", slotted),
+        ("tilting", case("tilting-mechanics")),
     ]
 }
 

@@ -4,6 +4,7 @@
 //! text alone, with the difference between two equally tight runs of that program beside them: impacts amplify
 //! round-off, so no comparison can be closer than that.
 
+use crate::common::cases::with_tables;
 use crate::common::{Rows, columns, simulate_rows};
 use brinell::scenario;
 use std::collections::HashMap;
@@ -40,6 +41,7 @@ fn compare_until(path: &Path, to: f64) -> (Vec<(String, f64, f64)>, Rows) {
     let text = std::fs::read_to_string(path.with_extension("toml")).unwrap();
     let golden = columns(&std::fs::read_to_string(path.with_extension("csv")).unwrap());
     let mut loaded = crate::common::read_li2023(&text, &[]).unwrap_or_else(|p| panic!("{}: {p:?}", path.display()));
+    with_tables(&mut loaded.scenario, path.parent().unwrap());
     loaded.scenario.simulation.accuracy = scenario::Accuracy::Reference;
     loaded.scenario.simulation.record = golden.names.iter().filter(|n| *n != "t").cloned().collect();
     let ours = simulate_rows(&loaded.scenario);
@@ -167,10 +169,9 @@ fn xval_independent_implementation() {
         .map(|e| e.unwrap().path())
         .filter(|p| p.extension().is_some_and(|e| e == "toml"))
         .map(|p| p.file_stem().unwrap().to_string_lossy().into_owned())
-        .filter(|name| !name.starts_with("mechanics-")) // Part II: their damage lies in tables beside them
         .collect();
     names.sort();
-    assert_eq!(names.len(), 25);
+    assert_eq!(names.len(), 34);
     let mut failures = Vec::new();
     for name in names {
         let (differences, _) = compare(&folder("xval").join(&name));

@@ -39,7 +39,8 @@ pub fn imbalance(model: &Model, t: f64, y: &[f64], a: &[f64], ws: &Workspace) ->
     }
     let pressed = ws.contacts.iter().flat_map(|c| &c.force).sum::<f64>();
     let mut forces = sum.relative(pressed);
-    if model.exact {
+    // Where rings tilt their forces act at the rows' middles: a torque of second order in small slopes has no body to turn.
+    if model.exact && model.tilt.is_none() {
         forces = forces.max(turning(model, t, (q, v, a), ws));
     }
     Some(match &model.tilt {
@@ -129,8 +130,16 @@ fn moments(model: &Model, tilt: &Tilt, t: f64, (q, v, a): (&[f64], &[f64], &[f64
     for slot in 0..l.rollers() {
         let (cos, sin) = (ws.cos[slot], ws.sin[slot]);
         let [radial, tangential] = internal_force(model, slot, (q, v, a), ws);
-        let radial = tilt.levers[slot] * radial + tilt.roller_inertia * a[l.beta() + slot];
-        let tangential = tilt.levers[slot] * tangential;
+        let [mut radial, mut tangential] = [radial, tangential].map(|force| tilt.levers[slot] * force);
+        if model.exact {
+            // T acts along n of either contact on its ring, and on the roller's tilt, which has no direction of its own.
+            for (contacts, sign) in ws.contacts.iter().zip([1.0, -1.0]) {
+                radial += sign * contacts.moment[slot] * contacts.normal[0][slot];
+                tangential += sign * contacts.moment[slot] * contacts.normal[1][slot];
+            }
+        } else {
+            radial += tilt.roller_inertia * a[l.beta() + slot];
+        }
         add([radial * cos - tangential * sin, radial * sin + tangential * cos]);
     }
     for row in 0..l.rows {
