@@ -316,8 +316,8 @@ fn regress_a_run_is_known_whatever_its_format() {
     let folder = tempdir().unwrap();
     let run = |name: &str, more: &[&'static str]| {
         let out = format!("out/{name}");
-        let short = ["run", "s.toml", "--no-report", "--set", "simulation.duration_s=0.4", "-o", &out];
-        brinell(folder.path(), &[&short[..], more].concat()).exits(0);
+        let set = ["--set", "simulation.duration_s=0.4", "--set", "simulation.laws=li2023", "-o", &out];
+        brinell(folder.path(), &[&["run", "s.toml", "--no-report"], &set[..], more].concat()).exits(0);
     };
     brinell(folder.path(), &["init", "s.toml"]).exits(0);
     run("steady", &["--signals", "csv,parquet,mat,npz,uff58,wav"]);

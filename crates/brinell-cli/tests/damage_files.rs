@@ -10,7 +10,9 @@ fn regress_examples_from_files_run_and_their_results_run_again_without_the_file(
     for (name, file) in [("photo", "photo-spall.png"), ("scan", "scan.csv")] {
         let scenario = example(&format!("{name}.toml"));
         let run = |scenario: &str, out: &str| {
-            let args = typed("run --signals csv --no-report --set simulation.duration_s=0.005 -o");
+            let args = typed(
+                "run --signals csv --no-report --set simulation.duration_s=0.005 --set simulation.laws=li2023 -o",
+            );
             brinell(here, &[&args[..], &[out, scenario]].concat()).exits(0);
         };
         let (first, second) = (format!("{name}-1"), format!("{name}-2"));
@@ -30,7 +32,8 @@ fn regress_examples_from_files_run_and_their_results_run_again_without_the_file(
 fn regress_a_written_scenario_says_what_was_assumed_of_its_files() {
     let folder = tempfile::tempdir().unwrap();
     let list = |scenario: &str, more: &[&str]| {
-        let call = brinell(folder.path(), &[&["check", scenario, "--assumptions"], more].concat()).exits(0);
+        let check = ["check", scenario, "--assumptions", "--set", "simulation.laws=li2023"];
+        let call = brinell(folder.path(), &[&check, more].concat()).exits(0);
         let list = call.out.split("Assumed, because it was not given:\n").nth(1);
         list.unwrap().to_owned()
     };
@@ -40,7 +43,8 @@ fn regress_a_written_scenario_says_what_was_assumed_of_its_files() {
     ] {
         let scenario = example(&format!("{name}.toml"));
         let short = "simulation.duration_s=0.005";
-        let run = ["run", &scenario, "-o", name, "-q", "--no-report", "--set", short];
+        let laws = "simulation.laws=li2023";
+        let run = ["run", &scenario, "-o", name, "-q", "--no-report", "--set", short, "--set", laws];
         brinell(folder.path(), &run).exits(0);
         let written = format!("{name}/scenario.toml");
         let source = list(&scenario, &[]);

@@ -96,6 +96,10 @@ fn prop_linear_and_angular_momentum_change_by_external_forces_alone() {
             let own = imbalance(&model, 0.011, &y, a, &motion.ws).unwrap();
             // Round-off of some 500 additions.
             assert!(own < 1e-13, "{name}: {own:e}");
+            if model.tilt.is_some() {
+                // Torques about the axis are audited in the plane alone.
+                continue;
+            }
             // The audit sees a torque that has no reaction.
             let phi = model.layout.phi();
             a[phi] += 1e3;
