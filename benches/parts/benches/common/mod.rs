@@ -9,12 +9,11 @@ use criterion::Criterion;
 use std::path::Path;
 use std::time::Duration;
 
-/// `examples/rectangle.toml` with the paper's laws.
+/// `examples/rectangle.toml`.
 pub fn rectangle() -> Scenario {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../examples/rectangle.toml");
     let text = std::fs::read_to_string(path).expect("the example is there");
-    let laws = ("simulation.laws".to_owned(), "li2023".to_owned());
-    brinell::document::read(&text, &[laws]).expect("the example is sound").scenario
+    brinell::document::read(&text, &[]).expect("the example is sound").scenario
 }
 
 /// A time and the state there.
