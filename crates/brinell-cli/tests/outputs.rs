@@ -11,7 +11,7 @@ const ROWS: usize = 513;
 
 /// The default channels of a single-row bearing (design.md).
 const CHANNELS: &str = "t inner_x inner_y inner_vx inner_vy inner_ax inner_ay outer_x outer_y outer_vx outer_vy outer_ax \
-                        outer_ay cage1_x cage1_y cage1_ax cage1_ay cage1_speed sensor_ax sensor_ay";
+                        outer_ay inner_torque outer_torque cage1_x cage1_y cage1_ax cage1_ay cage1_speed sensor_ax sensor_ay";
 
 #[test]
 fn regress_csv_has_the_documented_channels_and_number_of_rows() {
