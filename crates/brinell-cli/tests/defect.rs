@@ -4,7 +4,7 @@ use crate::common::{brinell, example, json};
 use std::path::Path;
 
 const HEAD: &str = "name = \"t\"\n[bearing]\npreset = \"NN3007\"\n[operation]\nspeed_rpm = 1800.0\n\
-    load_n = [300.0, 0.0]\nload_on = \"outer-ring\"\n[simulation]\nduration_s = 0.1\n";
+    load_n = [300.0, 0.0]\nload_on = \"outer-ring\"\n[simulation]\nlaws = \"li2023\"\nduration_s = 0.1\n";
 const SQUARE_WITH_A_HOLE: &str = "[[defects]]\non = \"outer-raceway\"\ndepth_um = 8.0\n\
     shape = { outline = { polygons_mm = [[[-2, -2], [2, -2], [2, 2], [-2, 2]], [[-1, -1], [1, -1], [1, 1], [-1, 1]]] } }\n";
 

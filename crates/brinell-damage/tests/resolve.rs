@@ -9,7 +9,7 @@ use brinell::scenario::{DefectTable, DepthGrid, Scenario, Shape};
 use brinell_damage::{Unresolved, resolve, resolve_loaded};
 
 const HEAD: &str = "name = \"files\"\n[bearing]\npreset = \"NN3007\"\n[operation]\nspeed_rpm = 1800.0\n\
-    load_n = [300.0, 0.0]\n[simulation]\nduration_s = 0.01\nsample_rate_hz = 25600.0\n";
+    load_n = [300.0, 0.0]\n[simulation]\nlaws = \"li2023\"\nduration_s = 0.01\nsample_rate_hz = 25600.0\n";
 
 fn examples() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../../examples")

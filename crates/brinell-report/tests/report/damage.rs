@@ -150,8 +150,8 @@ fn seen(text: &str) -> brinell_report::Damage {
 
 #[test]
 fn analytic_numbers_of_a_depth_map_are_those_of_the_surface_between_its_nodes() {
-    let text = "[bearing]\npreset = \"NN3007\"\n[operation]\nspeed_rpm = 1800\nload_n = [300, 0]\n[[defects]]\non = \"outer-raceway\"\n\
-                [defects.shape.depth_map]\nds_mm = 0.5\ndz_mm = 0.5\ncolumns = 5\nrows = 5\n\
+    let text = "[bearing]\npreset = \"NN3007\"\n[operation]\nspeed_rpm = 1800\nload_n = [300, 0]\n[simulation]\nlaws = \"li2023\"\n\
+                [[defects]]\non = \"outer-raceway\"\n[defects.shape.depth_map]\nds_mm = 0.5\ndz_mm = 0.5\ncolumns = 5\nrows = 5\n\
                 depth_um = [0,0,0,0,0, 0,10,10,10,0, 0,10,10,10,0, 0,10,10,10,0, 0,0,0,0,0]\n";
     let ecl = seen(text);
     let m = ecl.measures;

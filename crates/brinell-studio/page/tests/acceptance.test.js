@@ -26,10 +26,11 @@ async function native(toml, signals = "none") {
   return { out, summary: JSON.parse(await readFile(join(out, "summary.json"), "utf8")) };
 }
 
-/** Opens an example for a shorter time, runs it from t = 0 to its end, and gives its TOML and quantities. */
+/** Opens an example with the paper's laws for a shorter time, runs it from t = 0 to its end, and gives its TOML and quantities. */
 const finished = (page, example, duration_s) => page.evaluate(async ([name, duration_s]) => {
   const studio = globalThis.brinellStudio, { side } = studio, { toml } = await side.live.ask({ do: "example", name });
-  const { scenario } = await side.live.ask({ do: "normal", toml });
+  const paper = toml.includes("\nlaws =") ? toml : toml.replace("[simulation]\n", '[simulation]\nlaws = "li2023"\n');
+  const { scenario } = await side.live.ask({ do: "normal", toml: paper });
   scenario.simulation = { ...scenario.simulation, duration_s };
   studio.load((await side.live.ask({ do: "normal", scenario })).toml);
   while (side.opened.scenario.name !== name || side.opened.scenario.simulation.duration_s !== duration_s) {
