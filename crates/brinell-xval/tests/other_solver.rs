@@ -280,7 +280,8 @@ impl Kind {
         match channel.unit {
             "m" | "rad" => Self::Displacement,
             "m/s" | "rad/s" => Self::Rate,
-            "m/s^2" => Self::Acceleration,
+            // The torque of contacts jumps where a damper does, as accelerations do.
+            "m/s^2" | "N m" => Self::Acceleration,
             unit => panic!("{}: {unit}", channel.name),
         }
     }
