@@ -273,8 +273,9 @@ fn tabled(name: &str, csv: &str) -> (Scenario, PathBuf) {
     fs::create_dir_all(&folder).unwrap();
     fs::write(folder.join("pit.csv"), csv).unwrap();
     let text = format!(
-        "{HEAD}laws = \"mechanics\"\n[[defects]]\non = \"outer-raceway\"\ncenter_deg = 0.0\ndepth_um = 20.0\n\
-         shape = {{ rectangle = {{ length_mm = 3.0, width_mm = 4.0 }} }}\ntable = \"pit.csv\"\n"
+        "{}[[defects]]\non = \"outer-raceway\"\ncenter_deg = 0.0\ndepth_um = 20.0\n\
+         shape = {{ rectangle = {{ length_mm = 3.0, width_mm = 4.0 }} }}\ntable = \"pit.csv\"\n",
+        HEAD.replace("li2023", "mechanics")
     );
     (read(&text, &[]).map_or_else(|e| panic!("{e:?}"), |loaded| loaded.scenario), folder)
 }
