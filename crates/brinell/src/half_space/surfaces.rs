@@ -5,19 +5,34 @@ use super::damage::{Damage, gather};
 use super::geometry::Geometry;
 use super::shelf::{self, Key};
 use crate::defect::{Defect, SIDES, Side};
-use crate::effective::Table;
+use crate::effective::{Table, Tilted};
 use crate::scenario::{Bearing, Contact};
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
+/// Tilts of tables: how much deeper one end of the roller lies than its middle, over the static deformation.
+const TILTS: [f64; 4] = [0.0, 1.0, 3.0, 9.0];
+
+/// One contact that meets damage.
+struct Met<'a> {
+    geometry: &'a Geometry,
+    range: &'a Range,
+    /// Length over which edges are rounded, m.
+    edge: f64,
+    /// What the damage is made of, as far as a table depends on it.
+    of: String,
+}
+
 /// Makes the tables of all damage that has none yet, each surface's once for every contact that meets it, and gives them to the first
-/// defect of each surface. `deflection` is the heaviest static deformation of the healthy contact on a side, m.
+/// defect of each surface; where rollers tilt (`tilts`) one for each of a few tilts. `deflection` is the heaviest static deformation of the
+/// healthy contact on a side, m.
 ///
 /// # Errors
 /// Where the contact makes no table: lengths that are not positive, damage too large for a table.
 pub fn add_tables(
     defects: &mut [Defect],
     (bearing, contact): (&Bearing, &Contact),
+    tilts: bool,
     deflection: impl Fn(Side) -> f64,
 ) -> Result<(), BuildError> {
     let own: Vec<usize> =
@@ -26,11 +41,13 @@ pub fn add_tables(
     let ranges = SIDES.map(|side| Range::of(step_up(deflection(side))));
     let geometries = SIDES.map(|side| Geometry::of_bearing(bearing, contact, side));
     let edge = 1e-6 * contact.edge_radius_um;
+    let most_lead = |range: &Range| if tilts { TILTS[TILTS.len() - 1] * range.static_deflection } else { 0.0 };
     let reach = |defect: &Defect| {
         let of = |side: Side| {
             let (geometry, range) = (&geometries[side as usize], &ranges[side as usize]);
             let met = defect.depth_profile(side).is_some();
-            geometry.as_ref().filter(|_| met).map_or(0.0, |g| g.reach(range.largest + defect.raised()))
+            let most = range.largest + most_lead(range) + defect.raised();
+            geometry.as_ref().filter(|_| met).map_or(0.0, |g| g.reach(most))
         };
         of(Side::Inner).max(of(Side::Outer))
     };
@@ -47,18 +64,54 @@ pub fn add_tables(
                 let d = &to_make[*m];
                 (&d.shape, d.depth, d.middle, d.center - to_make[first].center, d.radius)
             });
-            let accuracy = Accuracy::Standard;
-            let key =
-                Key::of(format_args!("{geometry:?} {range:?} {edge:?} {accuracy:?} {:?}", members.collect::<Vec<_>>()));
-            let table: Arc<Table> = shelf::table(key, || {
-                let damage = Damage::of(&to_make, &group, edge);
-                let threads = brinell_signal::parallel::threads(usize::MAX);
-                Ok(build::table(geometry, &damage.raster, range, accuracy, threads, &AtomicBool::new(false))?.table)
-            })?;
-            defects[own[first]].use_table_at(side, table);
+            let met = Met { geometry, range, edge, of: format!("{:?}", members.collect::<Vec<_>>()) };
+            let upright = met.table(&to_make, &group, 0.0)?;
+            if tilts {
+                let tables = met.tilted(&to_make, &group, &upright, 0.5 * defects[own[first]].roller_length)?;
+                defects[own[first]].use_tilted_at(side, upright, tables);
+            } else {
+                defects[own[first]].use_table_at(side, upright);
+            }
         }
     }
     Ok(())
+}
+
+impl Met<'_> {
+    /// The table at one tilt, of how much deeper one end lies than the middle, m: that at +z where above 0.
+    fn table(&self, defects: &[Defect], group: &[usize], lead: f64) -> Result<Arc<Table>, BuildError> {
+        let half = self.geometry.half_across(self.range.largest);
+        let geometry = self.geometry.tilted(lead / half);
+        let range = Range { largest: self.range.largest + lead.abs(), ..*self.range };
+        let (edge, accuracy) = (self.edge, Accuracy::Standard);
+        let key = Key::of(format_args!("{geometry:?} {range:?} {edge:?} {accuracy:?} {}", self.of));
+        shelf::table(key, || {
+            let damage = Damage::of(defects, group, edge);
+            let threads = brinell_signal::parallel::threads(usize::MAX);
+            Ok(build::table(&geometry, &damage.raster, &range, accuracy, threads, &AtomicBool::new(false))?.table)
+        })
+    }
+
+    /// Tables over tilt. Where the contact is alike on both sides of the middle, opposite tilts share theirs.
+    fn tilted(
+        &self,
+        defects: &[Defect],
+        group: &[usize],
+        upright: &Arc<Table>,
+        half: f64,
+    ) -> Result<Tilted, BuildError> {
+        let mirrored = self.geometry.is_mirrored(&Damage::of(defects, group, self.edge).raster);
+        let leads = TILTS.map(|share| share * self.range.static_deflection);
+        let mut all = vec![(0.0, upright.clone())];
+        for lead in &leads[1..] {
+            let up = self.table(defects, group, *lead)?;
+            let down = if mirrored { up.clone() } else { self.table(defects, group, -lead)? };
+            all.push((lead / half, up));
+            all.insert(0, (-lead / half, down));
+        }
+        let (tilts, tables) = all.into_iter().unzip();
+        Ok(Tilted::new(tilts, tables, half))
+    }
 }
 
 /// The next of the steps of a quarter of an octave, m: loads that differ little share their tables.

@@ -22,7 +22,7 @@ impl Model {
 
     fn on_table(&self, defects: Defects, side: Side, angles: &Angles, delta: f64) -> [f64; 3] {
         let healthy = self.healthy(side);
-        match defects.effective(angles, delta) {
+        match defects.effective(angles, delta, None) {
             None => {
                 let [force, tangent] = healthy.force_and_tangent(delta);
                 [force, tangent, 0.0]
@@ -37,7 +37,7 @@ impl Model {
 
     /// Elastic energy of the same contact, J.
     pub(crate) fn resting_energy(&self, slot: usize, side: Side, angles: &Angles, delta: f64) -> f64 {
-        let met = self.defects_of(slot, side).effective(angles, delta);
+        let met = self.defects_of(slot, side).effective(angles, delta, None);
         self.healthy(side).energy(met.map_or(delta, |met| met.delta))
     }
 

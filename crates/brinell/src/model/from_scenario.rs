@@ -70,7 +70,7 @@ impl Model {
                 let least = law.deflection(force);
                 slices.map_or(least, |slices| slices.deflection(law, force, least))
             };
-            half_space::add_tables(&mut defects, (b, &s.contact), deflection).map_err(|error| ModelError {
+            half_space::add_tables(&mut defects, (b, &s.contact), tilts, deflection).map_err(|error| ModelError {
                 key: "defects".into(),
                 value: error.to_string(),
                 requirement: "damage that a table of the half-space can hold",
