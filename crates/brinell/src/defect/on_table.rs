@@ -3,9 +3,9 @@
 //! Where two damaged surfaces meet at one contact, delta_eff = delta_eff2(delta_eff1(delta, s1), s2), with derivatives by the chain
 //! rule.
 
+use super::Side;
 use super::angles::Angles;
 use super::placed::{Defect, Defects};
-use super::Side;
 use crate::effective::Leaning;
 use crate::scenario::Surface;
 

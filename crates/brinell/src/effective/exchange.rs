@@ -41,7 +41,8 @@ mod tests {
     #[test]
     fn prop_a_table_is_the_same_after_writing() {
         let full = || (0..5).flat_map(|s| (0..4).map(move |delta| (s, delta)));
-        let lines = full().map(|(s, delta)| format!("{},{},{}\n", s as f64 * 0.1, delta, delta as f64 * 0.9 - s as f64));
+        let lines =
+            full().map(|(s, delta)| format!("{},{},{}\n", s as f64 * 0.1, delta, delta as f64 * 0.9 - s as f64));
         let table = read(&("s_mm,delta_um,delta_eff_um\n".to_owned() + &lines.collect::<String>()));
         let written = table.to_csv_text(|delta| delta * delta.sqrt());
         let again = read(&written);

@@ -82,7 +82,13 @@ impl Weights {
     pub(crate) fn of(&self, j: usize, seconds: &[f64]) -> [f64; 3] {
         let k = self.lower;
         [0, 1, 2].map(|n| {
-            let node = if j == k { self.values[n][0] } else if j == k + 1 { self.values[n][1] } else { 0.0 };
+            let node = if j == k {
+                self.values[n][0]
+            } else if j == k + 1 {
+                self.values[n][1]
+            } else {
+                0.0
+            };
             node + self.seconds[n][0] * seconds[k] + self.seconds[n][1] * seconds[k + 1]
         })
     }

@@ -123,11 +123,16 @@ mod tests {
     fn prop_derivatives_are_those_of_one_function_and_continuous() {
         let of = tilted();
         let step = [1e-10, 1e-7, 1e-8];
-        for (delta, tilt, s) in
-            [(3.1e-6, 1.3e-4, 2.2e-4), (-1e-6, -7e-4, -3.3e-4), (5e-6, 1.7e-3, 1e-5), (2e-6, -2.5e-3, 4e-4), (-4e-6, 2e-4, 0.0)]
-        {
+        for (delta, tilt, s) in [
+            (3.1e-6, 1.3e-4, 2.2e-4),
+            (-1e-6, -7e-4, -3.3e-4),
+            (5e-6, 1.7e-3, 1e-5),
+            (2e-6, -2.5e-3, 4e-4),
+            (-4e-6, 2e-4, 0.0),
+        ] {
             let here = of.at(delta, tilt, s);
-            let slope = |from: Leaning, to: Leaning, step: f64, of: fn(&Leaning) -> f64| (of(&to) - of(&from)) / (2.0 * step);
+            let slope =
+                |from: Leaning, to: Leaning, step: f64, of: fn(&Leaning) -> f64| (of(&to) - of(&from)) / (2.0 * step);
             let by_delta = [of.at(delta - step[0], tilt, s), of.at(delta + step[0], tilt, s)];
             let by_tilt = [of.at(delta, tilt - step[1], s), of.at(delta, tilt + step[1], s)];
             let by_s = [of.at(delta, tilt, s - step[2]), of.at(delta, tilt, s + step[2])];
