@@ -24,6 +24,8 @@ pub struct Pressed {
 pub struct Contact<'a> {
     influence: &'a Influence,
     room: Scratch,
+    /// Rows that can touch.
+    rows: Vec<usize>,
     /// Pressures.
     pub p: Vec<f64>,
     /// u + g - delta.
@@ -37,7 +39,8 @@ impl<'a> Contact<'a> {
     pub fn new(influence: &'a Influence) -> Self {
         let n = influence.cells().along * influence.cells().across;
         let zeros = || vec![0.0; n];
-        Self { influence, room: influence.scratch(), p: zeros(), residual: zeros(), direction: zeros(), image: zeros() }
+        let (room, rows) = (influence.scratch(), Vec::with_capacity(influence.cells().across));
+        Self { influence, room, rows, p: zeros(), residual: zeros(), direction: zeros(), image: zeros() }
     }
 
     /// Presses the window with the gaps `gap` (m; infinite where nothing is to touch) by `delta` (m), from the pressures that there are,
@@ -53,12 +56,15 @@ impl<'a> Contact<'a> {
             self.p.fill(0.0);
             return Pressed::default();
         }
+        let along = self.influence.cells().along;
+        self.rows.clear();
+        self.rows.extend((0..gap.len() / along).filter(|row| gap[row * along..][..along].iter().any(|g| *g < delta)));
         if self.p.iter().all(|p| *p == 0.0) {
             // Any start in the right place: a pressure as the overlap, to be scaled by the first step.
             for (p, g) in self.p.iter_mut().zip(gap) {
                 *p = (delta - g).max(0.0);
             }
-            self.influence.apply(&self.p, &mut self.image, &mut self.room);
+            self.influence.apply(&self.p, &mut self.image, &self.rows, &mut self.room);
             let (work, stored) = (0..gap.len())
                 .filter(|k| self.p[*k] > 0.0)
                 .fold((0.0, 0.0), |(w, e), k| (w + self.p[k] * (delta - gap[k]), e + self.p[k] * self.image[k]));
@@ -77,7 +83,7 @@ impl<'a> Contact<'a> {
     }
 
     fn find_residual(&mut self, gap: &[f64], soft: &[f64], delta: f64) {
-        self.influence.apply(&self.p, &mut self.residual, &mut self.room);
+        self.influence.apply(&self.p, &mut self.residual, &self.rows, &mut self.room);
         for (((r, g), p), soft) in self.residual.iter_mut().zip(gap).zip(&self.p).zip(soft) {
             *r += (g - delta) + soft * p;
         }
@@ -109,7 +115,7 @@ impl<'a> Contact<'a> {
             for (((d, p), r), soft) in self.direction.iter_mut().zip(&self.p).zip(&self.residual).zip(soft) {
                 *d = if *p > 0.0 { r / (own + soft) + share * *d } else { 0.0 };
             }
-            self.influence.apply(&self.direction, &mut self.image, &mut self.room);
+            self.influence.apply(&self.direction, &mut self.image, &self.rows, &mut self.room);
             convolutions += 1;
             let (mut along, mut stiff) = (0.0, 0.0);
             for (((d, q), r), soft) in self.direction.iter().zip(&mut self.image).zip(&self.residual).zip(soft) {
