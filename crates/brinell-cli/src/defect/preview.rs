@@ -123,8 +123,7 @@ fn tell(damage: &Damage, form: Option<String>) {
     if let Some(form) = form {
         say!("  Form: {form}");
     }
-    let plain = view.passage.note.replace('µ', "u").replace("δⁿ", "delta^n");
-    say!("  Passage: {plain}");
+    say!("  Passage: {}", plain(&view.passage.note));
     if let Some(along) = &view.along {
         say!("  {}, {}", along.title, along.note);
     }
@@ -132,10 +131,15 @@ fn tell(damage: &Damage, form: Option<String>) {
     say!("");
 }
 
+/// Words in ASCII.
+fn plain(words: &str) -> String {
+    words.replace('µ', "u").replace("δⁿ", "delta^n").replace('δ', "delta")
+}
+
 /// "stiffness_k_ecl_point".
 fn slug(words: &[&str]) -> String {
     let mut slug = String::new();
-    for c in words.join(" ").replace('µ', "u").chars() {
+    for c in plain(&words.join(" ")).chars() {
         if c.is_ascii_alphanumeric() {
             slug.push(c.to_ascii_lowercase());
         } else if !slug.is_empty() && !slug.ends_with('_') {
@@ -197,7 +201,7 @@ fn entry(index: usize, damage: &Damage) -> serde_json::Value {
         "approach_um": m.approach_um,
         "heaviest_contact_n": m.force_n,
         "polygons_mm": view.polygons_mm,
-        "passage_note": view.passage.note.replace('µ', "u").replace("δⁿ", "delta^n"),
+        "passage_note": plain(&view.passage.note),
         "passage": curves("angle_deg", &view.passage),
         "along_note": view.along.as_ref().map(|along| &along.note),
         "along": view.along.as_ref().map(|along| curves("z_mm", along)),
