@@ -68,6 +68,14 @@ impl Model {
         }
     }
 
+    /// delta_eff (m) under `half-space` and the elastic force (N) of a contact deformed by `delta` (m), at the angle `u` (rad) from the
+    /// centre of `defect`, over all damage of its surface.
+    pub fn effective_over(&self, defect: &Defect, side: Side, u: f64, delta: f64) -> [f64; 2] {
+        let (surface, angles) = (Defects::beside(&self.defects, defect, side), defect.met_at(side, u));
+        let effective = surface.effective(&angles, delta).map_or(delta, |met| met.delta);
+        [effective, self.on_table(surface, side, &angles, delta)[0]]
+    }
+
     /// Length (m) of the same contact that touches: of a ball the axis of its ellipse across the groove, along a profile
     /// what its drop lets touch, else the roller's length; less what `defect` takes.
     pub fn length_over(&self, defect: &Defect, side: Side, u: f64, delta: f64, cover: &mut Cover) -> f64 {
