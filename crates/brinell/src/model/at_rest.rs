@@ -72,7 +72,7 @@ impl Model {
     /// centre of `defect`, over all damage of its surface.
     pub fn effective_over(&self, defect: &Defect, side: Side, u: f64, delta: f64) -> [f64; 2] {
         let (surface, angles) = (Defects::beside(&self.defects, defect, side), defect.met_at(side, u));
-        let effective = surface.effective(&angles, delta).map_or(delta, |met| met.delta);
+        let effective = surface.effective(&angles, delta, None).map_or(delta, |met| met.delta);
         [effective, self.on_table(surface, side, &angles, delta)[0]]
     }
 
