@@ -113,6 +113,33 @@ fn prop_a_preview_under_half_space_is_of_its_tables() {
     let note = json["defects"][0]["passage_note"].as_str().unwrap();
     assert!(note.contains("law half-space") && note.is_ascii(), "{note}");
     assert!(!note.contains("paths and laws side by side"));
+    let pressures = json["defects"][0]["pressure"].as_array().unwrap();
+    let [of] = &pressures[..] else { panic!("{} pressures", pressures.len()) };
+    let value = |key: &str| of[key].as_f64().unwrap();
+    let numbers =
+        |of: &serde_json::Value| of.as_array().unwrap().iter().map(|x| x.as_f64().unwrap()).collect::<Vec<_>>();
+    let [s, z] = ["s_mm", "z_mm"].map(|axis| numbers(&of["cells"][axis]));
+    let rows: Vec<Vec<f64>> = of["cells"]["pressure_mpa"].as_array().unwrap().iter().map(numbers).collect();
+    assert!(rows.len() == z.len() && rows.iter().all(|row| row.len() == s.len()));
+    // Means over cells times their area are the force, which is the passage's where the ball is.
+    let area = (s[1] - s[0]) * (z[1] - z[0]);
+    assert!((rows.iter().flatten().sum::<f64>() * area / value("force_n") - 1.0).abs() < 1e-9);
+    let angle = curve("angle_deg");
+    let at = angle.partition_point(|u| u.to_radians() * 19.525 < value("contact_at_s_mm"));
+    let healthy = number(&json, "heaviest_contact_n");
+    assert!((value("force_n") / (healthy * force[at]) - 1.0).abs() < 0.02, "{} {}", value("force_n"), force[at]);
+    let row = z.iter().position(|z| (z - value("z_mm")).abs() < 1e-9).unwrap();
+    let column = s.iter().position(|s| (s - value("s_mm")).abs() < 1e-9).unwrap();
+    assert_eq!(rows[row][column], value("largest_pressure_mpa"));
+    assert!(rows.iter().flatten().all(|p| (0.0..=value("largest_pressure_mpa")).contains(p)));
+    assert!(value("largest_pressure_mpa") > 1.5 * value("healthy_pressure_mpa"));
+    assert!((value("yield_begins_at_mpa"), value("share_beyond_yield")) == (3040.0, 0.0));
+    let picture = folder.path().join("preview/damage-1-pressure.svg");
+    assert!(picture.exists());
+    // The paper's laws know none.
+    let without = preview(folder.path(), &example("ball-6205.toml"));
+    assert_eq!(without["defects"][0]["pressure"].as_array().map(Vec::len), Some(0));
+    assert!(!picture.exists());
 }
 
 #[test]

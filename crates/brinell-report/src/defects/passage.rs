@@ -192,7 +192,7 @@ fn magnified(panel: DamagePanel) -> DamagePanel {
     DamagePanel { from_zero, ..panel }
 }
 
-fn contact(side: Side) -> String {
+pub(super) fn contact(side: Side) -> String {
     format!("{} contact", side.word())
 }
 

@@ -4,6 +4,7 @@ use super::along::along_roller;
 use super::curves::{depths, section};
 use super::measures::{Measures, deepest, facts, widest};
 use super::passage::Passage;
+use super::pressures::pressures;
 use crate::number::short;
 use crate::{DamageCurves, DamageView};
 use brinell::defect::simplify::Extent;
@@ -138,6 +139,7 @@ impl<'a> Seen<'a> {
                 panels: passage.1,
                 note: self.passage_note(),
             },
+            pressures: pressures((s, self.model, self.index), &self.sides, &title),
             along: at_rest.and_then(|r| along_roller(s, r, Some(self.index))),
             section: DamageCurves {
                 title: format!("{title}. Section under it of a ring {} mm thick", short(1e3 * self.thickness, 3)),

@@ -1,7 +1,8 @@
-//! The tables of a bearing's damage.
+//! The tables of a bearing's damage, and the pressures over it.
 
 use super::build::{self, Accuracy, BuildError, Range};
-use super::damage::{Damage, gather};
+use super::damage::{Damage, gather, offset};
+use super::field::{self, Field};
 use super::geometry::Geometry;
 use super::shelf::{self, Key};
 use crate::defect::{Defect, SIDES, Side};
@@ -59,6 +60,31 @@ pub fn add_tables(
         }
     }
     Ok(())
+}
+
+/// Pressures under a contact that passes the damage `defects[of]` at the deformation `delta` (m), where they are largest; with all damage
+/// that the contact meets there. s is from the defect's centre. `None` where nothing touches, or the defect does not meet the side.
+pub fn pressure_over(
+    (defects, of): (&[Defect], usize),
+    (bearing, contact): (&Bearing, &Contact),
+    side: Side,
+    delta: f64,
+) -> Option<Field> {
+    let defect = &defects[of];
+    defect.depth_profile(side)?;
+    let geometry = Geometry::of_bearing(bearing, contact, side)?;
+    let groups = gather(defects, |d| geometry.reach(delta + d.raised()));
+    let group = groups.into_iter().find(|group| group.contains(&of))?;
+    let damage = Damage::of(defects, &group, 1e-6 * contact.edge_radius_um);
+    let apart = offset(defect, &defects[group[0]]);
+    let (first, last) = defect.shape.arc();
+    let between = [first + apart, last + apart];
+    field::largest_pressure(&geometry, &damage.raster, delta, between).map(|field| field.seen_from(apart))
+}
+
+/// The largest pressure of the healthy contact at the deformation `delta` (m), Pa.
+pub fn healthy_pressure((bearing, contact): (&Bearing, &Contact), side: Side, delta: f64) -> Option<f64> {
+    field::healthy(&Geometry::of_bearing(bearing, contact, side)?, delta)
 }
 
 /// The next of the steps of a quarter of an octave, m: loads that differ little share their tables.
