@@ -103,8 +103,8 @@ pub fn damage_pressure(view: &DamageView, of: &PressureView, index: usize, layou
             &name,
             &of.title,
             size,
-            (domain(0), "Along the surface, s from the defect’s centre; z to another scale", "mm"),
-            (domain(1), "Across, z", "mm"),
+            (domain(0), "s from the defect’s centre", "mm"),
+            (domain(1), "z across", "mm"),
         )
     });
     if of.rows() == 0 {

@@ -27,7 +27,7 @@ pub(super) fn pressures(
         let on = if sides.len() > 1 { format!(" of the {}", contact(side)) } else { String::new() };
         let view = PressureView {
             title: format!(
-                "{title}. Pressure{on} where it is largest: {element} at s = {} mm, pressed by {} µm",
+                "{title}. Pressure{on} where it is largest: {element} at s = {} mm, pressed by {} µm; axes not to one scale",
                 short(1e3 * field.middle, 3).replace('-', "−"),
                 short(1e6 * delta, 3)
             ),
