@@ -35,8 +35,9 @@ pub struct Contact<'a> {
     residual: Vec<f64>,
     direction: Vec<f64>,
     image: Vec<f64>,
-    /// Cells that touch.
-    free: Vec<bool>,
+    /// 1 for cells that touch, else 0; and over their own compliance.
+    free: Vec<f64>,
+    yields: Vec<f64>,
 }
 
 impl<'a> Contact<'a> {
@@ -53,7 +54,8 @@ impl<'a> Contact<'a> {
             residual: zeros(),
             direction: zeros(),
             image: zeros(),
-            free: vec![false; n],
+            free: zeros(),
+            yields: zeros(),
         }
     }
 
@@ -104,17 +106,17 @@ impl<'a> Contact<'a> {
     }
 
     /// Which cells touch, with the sum of their squared residuals and their number; whether residuals are below `limit`.
-    fn find_free(&mut self, gap: &[f64], delta: f64, limit: f64) -> (f64, usize, bool) {
-        let (mut square, mut cells, mut done) = (0.0, 0usize, true);
-        for (((free, p), r), g) in self.free.iter_mut().zip(&self.p).zip(&self.residual).zip(gap) {
-            let overlaps = *p <= 0.0 && *g < delta && *r < -limit;
-            *free = *p > 0.0 || overlaps;
-            if *free {
-                square += r * r;
-                cells += 1;
-            }
+    fn find_free(&mut self, gap: &[f64], soft: &[f64], delta: f64, limit: f64) -> (f64, usize, bool) {
+        let own = self.influence.own();
+        let (mut cells, mut done) = (0usize, true);
+        for k in 0..gap.len() {
+            let overlaps = self.p[k] <= 0.0 && gap[k] < delta && self.residual[k] < -limit;
+            let is_free = self.p[k] > 0.0 || overlaps;
+            (self.free[k], self.yields[k]) = if is_free { (1.0, 1.0 / (own + soft[k])) } else { (0.0, 0.0) };
+            cells += usize::from(is_free);
             done &= !overlaps;
         }
+        let square = sum_of_products(&self.residual, &self.residual, &self.free);
         (square, cells, done && square <= limit * limit * cells as f64)
     }
 
@@ -123,7 +125,7 @@ impl<'a> Contact<'a> {
         self.find_residual(gap, soft, delta);
         let mut convolutions = 1;
         while convolutions < MOST_CONVOLUTIONS {
-            let (square, cells, done) = self.find_free(gap, delta, limit);
+            let (square, cells, done) = self.find_free(gap, soft, delta, limit);
             if done {
                 break;
             }
@@ -144,37 +146,43 @@ impl<'a> Contact<'a> {
 
     /// Conjugate gradients on the cells that touch, scaled by each cell's own compliance, until the sum of squared residuals is below `goal`.
     fn equalise(&mut self, soft: &[f64], goal: f64, most: usize) -> usize {
-        let own = self.influence.own();
         let mut before = f64::INFINITY;
+        self.direction.fill(0.0);
         for convolutions in 1..=most {
-            let mut scaled = 0.0;
-            for ((free, r), soft) in self.free.iter().zip(&self.residual).zip(soft) {
-                scaled += if *free { r * r / (own + soft) } else { 0.0 };
-            }
+            let scaled = sum_of_products(&self.residual, &self.residual, &self.yields);
             let share = scaled / before;
             before = scaled;
-            for (((d, free), r), soft) in self.direction.iter_mut().zip(&self.free).zip(&self.residual).zip(soft) {
-                *d = if *free { r / (own + soft) + share * *d } else { 0.0 };
+            for ((d, r), yields) in self.direction.iter_mut().zip(&self.residual).zip(&self.yields) {
+                *d = r * yields + share * *d;
             }
             self.influence.apply(&self.direction, &mut self.image, &self.rows, &mut self.room);
-            let mut stiff = 0.0;
-            for ((d, q), soft) in self.direction.iter().zip(&mut self.image).zip(soft) {
+            for ((q, d), soft) in self.image.iter_mut().zip(&self.direction).zip(soft) {
                 *q += soft * d;
-                stiff += *q * d;
             }
+            let stiff = sum_of_products(&self.image, &self.direction, &self.free);
             let step = if stiff > 0.0 { scaled / stiff } else { 0.0 };
-            let mut square = 0.0;
-            for k in 0..self.p.len() {
-                self.residual[k] -= step * self.image[k];
-                if self.free[k] {
-                    self.p[k] -= step * self.direction[k];
-                    square += self.residual[k] * self.residual[k];
-                }
+            for (r, q) in self.residual.iter_mut().zip(&self.image) {
+                *r -= step * q;
             }
-            if square <= goal {
+            for (p, d) in self.p.iter_mut().zip(&self.direction) {
+                *p -= step * d;
+            }
+            if sum_of_products(&self.residual, &self.residual, &self.free) <= goal {
                 return convolutions;
             }
         }
         most
     }
+}
+
+/// Sum of a b c, in the same order with any instructions.
+fn sum_of_products(a: &[f64], b: &[f64], c: &[f64]) -> f64 {
+    const LANES: usize = 8;
+    let mut sums = [0.0; LANES];
+    for ((a, b), c) in a.chunks(LANES).zip(b.chunks(LANES)).zip(c.chunks(LANES)) {
+        for (((sum, a), b), c) in sums.iter_mut().zip(a).zip(b).zip(c) {
+            *sum += a * b * c;
+        }
+    }
+    sums.iter().sum()
 }
