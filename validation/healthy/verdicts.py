@@ -33,7 +33,6 @@ load_n = [0, -{load}]
 load_on = "inner-ring"
 gravity_m_per_s2 = [0, -9.81]
 [simulation]
-laws = "li2023"
 duration_s = {max(1.0, 1800 / rpm)}
 sample_rate_hz = 25600
 start = "equilibrium"

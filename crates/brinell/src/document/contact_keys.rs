@@ -69,6 +69,12 @@ pub(super) fn contact<K: Keys>(k: &mut K, (laws, model, b): (Laws, ModelKind, &B
         assumed(10.0, "edges of spalls are no sharper"),
         &mut c.edge_radius_um,
     );
+    k.key_where(
+        key("tables", "how exact the tables of damage are"),
+        (c.law == Law::HalfSpace, HALF_SPACE),
+        stated(Tables::Standard, "0.5 % of the deformation"),
+        &mut c.tables,
+    );
 }
 
 const HALF_SPACE: &str = "contact.law is \"half-space\"";

@@ -7,7 +7,7 @@ use super::geometry::Geometry;
 use super::shelf::{self, Key};
 use crate::defect::{Defect, SIDES, Side};
 use crate::effective::{Table, Tilted};
-use crate::scenario::{Bearing, Contact};
+use crate::scenario::{Bearing, Contact, Tables};
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
@@ -20,6 +20,7 @@ struct Met<'a> {
     range: &'a Range,
     /// Length over which edges are rounded, m.
     edge: f64,
+    accuracy: Accuracy,
     /// What the damage is made of, as far as a table depends on it.
     of: String,
 }
@@ -65,7 +66,11 @@ pub fn add_tables(
                 let d = &to_make[*m];
                 (&d.shape, d.depth, d.middle, d.center - to_make[first].center, d.radius)
             });
-            let met = Met { geometry, range, edge, of: format!("{:?}", members.collect::<Vec<_>>()) };
+            let accuracy = match contact.tables {
+                Tables::Standard => Accuracy::Standard,
+                Tables::Coarse => Accuracy::Coarse,
+            };
+            let met = Met { geometry, range, edge, accuracy, of: format!("{:?}", members.collect::<Vec<_>>()) };
             let upright = met.table(&to_make, &group, 0.0)?;
             if tilts {
                 let tables = met.tilted(&to_make, &group, &upright, 0.5 * defects[own[first]].roller_length)?;
@@ -84,7 +89,7 @@ impl Met<'_> {
         let half = self.geometry.half_across(self.range.largest);
         let geometry = self.geometry.tilted(lead / half);
         let range = Range { largest: self.range.largest + lead.abs(), ..*self.range };
-        let (edge, accuracy) = (self.edge, Accuracy::Standard);
+        let (edge, accuracy) = (self.edge, self.accuracy);
         let key = Key::of(format_args!("{geometry:?} {range:?} {edge:?} {accuracy:?} {}", self.of));
         shelf::table(key, || {
             let damage = Damage::of(defects, group, edge);

@@ -104,6 +104,12 @@ choices! {
         HalfSpace = "half-space", "elastic half-space, by the energy that the damaged contact stores";
     }
 
+    /// How exact the tables of damaged contacts are.
+    pub enum Tables {
+        Standard = "standard", "the effective deformation within 0.5 % of the deformation, the force within 1 % of the healthy one between nodes";
+        Coarse = "coarse", "within 1 % and 4 %, for data sets whose damage is drawn anew for every run";
+    }
+
     /// How a roller follows the damage's floor.
     pub enum RollerPath {
         /// The depth under the contact line (the paper).
