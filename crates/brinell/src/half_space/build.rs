@@ -70,7 +70,7 @@ impl Accuracy {
     pub(super) fn fineness(self) -> Fineness {
         match self {
             Self::Standard => Fineness { along: 8.0, rows: 40, tolerance: 3e-4, between: [1.5e-3, 5e-3] },
-            Self::Coarse => Fineness { along: 5.0, rows: 24, tolerance: 1e-3, between: [8e-3, 3e-2] },
+            Self::Coarse => Fineness { along: 5.0, rows: 24, tolerance: 1e-3, between: [5e-3, 2e-2] },
         }
     }
 
