@@ -15,8 +15,8 @@ pub enum Accuracy {
     /// delta_eff within 0.5 % of delta at nodes, Q within 1 % of the healthy Q between them.
     #[default]
     Standard,
-    /// delta_eff within 1 % of delta at nodes, Q within 4 % of the healthy Q between them (rectangles, pits and irregular outlines
-    /// under NN3007 and 6205).
+    /// delta_eff within 1.3 % of delta at nodes, Q within 4.5 % of the healthy Q between them (rectangles, pits and irregular outlines
+    /// under NN3007 and 6205); within 8 % over a measured scan.
     Coarse,
 }
 
