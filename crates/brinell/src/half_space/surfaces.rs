@@ -69,6 +69,7 @@ pub fn add_tables(
             let accuracy = match contact.tables {
                 Tables::Standard => Accuracy::Standard,
                 Tables::Coarse => Accuracy::Coarse,
+                Tables::Quick => Accuracy::Quick,
             };
             let met = Met { geometry, range, edge, accuracy, of: format!("{:?}", members.collect::<Vec<_>>()) };
             let upright = met.table(&to_make, &group, 0.0)?;
