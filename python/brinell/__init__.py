@@ -43,7 +43,7 @@ from brinell.signals import (
     spectrogram,
     spectrum,
 )
-from brinell.statics import LoadZone, derived, frequencies, static_analysis
+from brinell.statics import LoadZone, Pressure, derived, frequencies, pressures, static_analysis
 from brinell.sweeps import Table, sweep
 
 __all__ = [
@@ -54,6 +54,7 @@ __all__ = [
     "Kurtogram",
     "LoadZone",
     "Plan",
+    "Pressure",
     "ReadError",
     "Result",
     "RunError",
@@ -81,6 +82,7 @@ __all__ = [
     "indicators",
     "kurtogram",
     "outline",
+    "pressures",
     "psd",
     "read_signal",
     "rectangle",

@@ -10,14 +10,14 @@ import numpy as np
 import numpy.typing as npt
 
 from brinell import _brinell, plot, tables
-from brinell.arguments import number_of
+from brinell.arguments import number_of, whole_of
 from brinell.scenario import Runnable, Scenario, given, of_bearing
 
 if TYPE_CHECKING:
     import matplotlib.axes
     import pandas
 
-__all__ = ["LoadZone", "derived", "frequencies", "static_analysis"]
+__all__ = ["LoadZone", "Pressure", "derived", "frequencies", "pressures", "static_analysis"]
 
 
 @dataclass(frozen=True, eq=False)
@@ -73,6 +73,64 @@ def static_analysis(scenario: Runnable) -> LoadZone:
     True
     """
     return LoadZone(**_brinell.statics(given(scenario)._native))
+
+
+@dataclass(frozen=True, eq=False)
+class Pressure:
+    """Pressures in one contact over damage, where they are largest while the contact, held at the static deformation, passes it."""
+
+    contact: str
+    """``"outer"`` or ``"inner"``."""
+    s_mm: npt.NDArray[np.float64]
+    """Along the damaged surface, from the defect's centre."""
+    z_mm: npt.NDArray[np.float64]
+    """Across."""
+    pressure_mpa: npt.NDArray[np.float64]
+    """Mean over each cell, a row each ``z_mm``. Elastic: at sharp edges it grows as cells shrink."""
+    largest_pressure_mpa: float
+    at_mm: list[float]
+    """(s, z) of the largest."""
+    contact_at_s_mm: float
+    """Of the contact's middle."""
+    deformation_um: float
+    force_n: float
+    healthy_pressure_mpa: float
+    """The largest without damage."""
+    yield_begins_at_mpa: float
+    """Largest pressure of a smooth contact at which bearing steel begins to yield, with a yield strength of 1.9 GPa assumed."""
+    share_beyond_yield: float
+    """Of the pressed area."""
+    note: str
+    """All of that in words."""
+
+    def __repr__(self) -> str:
+        return f"<brinell.Pressure: {self.contact} contact, up to {self.largest_pressure_mpa:.4g} MPa>"
+
+
+def pressures(scenario: Runnable, defect: int = 1) -> list[Pressure]:
+    """Pressures over damage, one a contact that meets it: of damage on a rolling element two.
+
+    Parameters
+    ----------
+    scenario : Scenario or path
+        Empty where its law is not ``"half-space"`` or the damage's table is from elsewhere.
+    defect : int, optional
+        Which of its defects, from 1.
+
+    Examples
+    --------
+    >>> import brinell
+    >>> pit = brinell.circle(diameter_mm=0.2, depth_um=100.0)
+    >>> operation = {"speed_rpm": 1500.0, "load_n": [500.0, 0.0]}
+    >>> over = brinell.pressures(brinell.Scenario(bearing="6205", operation=operation, defects=[pit]))[0]
+    >>> over.pressure_mpa.shape == (over.z_mm.size, over.s_mm.size)
+    True
+    >>> over.largest_pressure_mpa > over.healthy_pressure_mpa
+    True
+    """
+    found = _brinell.pressures(given(scenario)._native, whole_of(defect, "defect", "a defect, counted from 1"))
+    shape = [(of["z_mm"].size, of["s_mm"].size) for of in found]
+    return [Pressure(**{**of, "pressure_mpa": of["pressure_mpa"].reshape(s)}) for of, s in zip(found, shape, strict=True)]
 
 
 def derived(scenario: Runnable) -> dict[str, Any]:

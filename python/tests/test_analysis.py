@@ -155,6 +155,24 @@ def test_prop_unknown_bearings_are_reported_with_some_known():
         brinell.frequencies("NN3007")
 
 
+def test_prop_pressures_over_damage_add_up_to_the_force(base):
+    base = base.replace({"simulation.laws": "mechanics"})
+    (over,) = brinell.pressures(base)
+    assert over.contact == "outer" and over.pressure_mpa.shape == (over.z_mm.size, over.s_mm.size)
+    cell = (over.s_mm[1] - over.s_mm[0]) * (over.z_mm[1] - over.z_mm[0])
+    assert over.pressure_mpa.sum() * cell == pytest.approx(over.force_n, rel=1e-9)
+    assert over.pressure_mpa.max() == over.largest_pressure_mpa > over.healthy_pressure_mpa > 0.0
+    # Beside the spall of 3 by 4 mm, whose floor is out of reach.
+    assert abs(over.at_mm[0]) > 1.5 or abs(over.at_mm[1]) > 2.0
+    assert "largest" in over.note and repr(over).startswith("<brinell.Pressure: outer")
+    assert brinell.pressures(base.replace({"simulation.laws": "li2023"})) == []
+    for wrong in (0, 2, -1):
+        with pytest.raises(ValueError, match=f"defect = {wrong}: the scenario has 1"):
+            brinell.pressures(base, defect=wrong)
+    with pytest.raises(TypeError, match="defect = 1.0"):
+        brinell.pressures(base, defect=1.0)
+
+
 def test_analytic_static_forces_hold_the_load(base):
     zone = brinell.static_analysis(base.replace({"defects": []}))
     angle = np.radians(zone.angle_deg)

@@ -18,7 +18,7 @@ def test_prop_arguments_mean_what_the_file_means(examples):
         bearing={"preset": "NN3007"},
         operation={**OPERATION, "load_on": "outer-ring"},
         defects=[brinell.rectangle(length_mm=3.0, width_mm=4.0, depth_um=20.0, row=1, center_deg=0.0)],
-        simulation={"duration_s": 0.5, "sample_rate_hz": 25600.0},
+        simulation={"laws": "li2023", "duration_s": 0.5, "sample_rate_hz": 25600.0},
     )
     read = brinell.Scenario.from_file(examples / "rectangle.toml")
     assert built == read and built.fingerprint == read.fingerprint and hash(built) == hash(read)

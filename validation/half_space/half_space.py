@@ -170,7 +170,7 @@ bearing = {{ preset = "6205", radial_clearance_um = 6.25 }}
 contact = {{ law = "sliced", roller_path = "envelope", edge_reaction = "conservative", slices = 60 }}
 operation = {{ speed_rpm = 1797, load_n = [800, 0] }}
 defects = [{{ on = "outer-raceway", center_deg = 0, depth_um = 100, shape = {{ rectangle = {{ length_mm = {length}, width_mm = {width} }} }} }}]
-simulation = {{ duration_s = {seconds}, sample_rate_hz = 25600, start = "equilibrium", record = ["*"] }}
+simulation = {{ laws = "li2023", duration_s = {seconds}, sample_rate_hz = 25600, start = "equilibrium", record = ["*"] }}
 """
 
 

@@ -23,9 +23,9 @@ class Problem:
 
     def __init__(self, programs):
         self.build = programs.build
-        # The peers know the paper's film only; the example says nothing of its cage.
+        # The peers know the paper's laws and film only; the example says nothing of its laws and cage.
         self.example = self.build / SCENARIO.name
-        self.example.write_text(SCENARIO.read_text() + '\n[cage]\nguidance_film = "quasi-static"\n')
+        self.example.write_text(SCENARIO.read_text().replace("[simulation]\n", '[simulation]\nlaws = "li2023"\n') + '\n[cage]\nguidance_film = "quasi-static"\n')
         text = capture([*programs.commands["brinell"], "resolve", self.example])
         scenario = tomllib.loads(text)
         scenario["simulation"] |= {"duration_s": FROM_S + WINDOWS * WINDOW_S, "sample_rate_hz": RATE}

@@ -16,7 +16,7 @@ use brinell::model::Model;
 use brinell::observe::passes::place;
 use brinell::plausibility;
 use brinell::pressure::{pressure_beside, pressures, static_limit};
-use brinell::scenario::{Bearing, ContactDamping, Element, Scenario, Speed, Surface};
+use brinell::scenario::{Bearing, ContactDamping, Element, GeometryLaw, Scenario, Speed, Surface};
 use brinell::statics::StaticLoadZone;
 use std::f64::consts::TAU;
 use std::process::ExitCode;
@@ -251,9 +251,13 @@ fn static_balance(s: &Scenario, model: &Model, zone: &StaticLoadZone) {
     if !s.simulation.model.moves_every_part() {
         return;
     }
+    let by = short(1e6 * zone.sunk.abs(), 3);
+    // Exact levers are those of where the rings are.
+    if s.simulation.geometry == GeometryLaw::Exact {
+        return say!("  both rings sink         {by} um on their supports");
+    }
     say!(
-        "  both rings sink         {} um on their supports: FTF and BPFO come out up to {} % {} than of a centred bearing",
-        short(1e6 * zone.sunk.abs(), 3),
+        "  both rings sink         {by} um on their supports: FTF and BPFO come out up to {} % {} than of a centred bearing",
         short(100.0 * zone.sunk.abs() / model.geometry.pitch_radius, 2),
         if zone.sunk < 0.0 { "lower" } else { "higher" }
     );

@@ -97,7 +97,7 @@ fn regress_a_file_that_is_no_damage_is_reported_with_its_line_and_leaves_nothing
         let depth = if shape.starts_with("image") { "depth_um = 8\n" } else { "" };
         let text = format!(
             "name = \"t\"\n[bearing]\npreset = \"NN3007\"\n[operation]\nspeed_rpm = 1800.0\nload_n = [300.0, 0.0]\n\
-             [[defects]]\non = \"outer-raceway\"\n{depth}shape = {{ {shape} }}\n[simulation]\nduration_s = 0.1\n"
+             [[defects]]\non = \"outer-raceway\"\n{depth}shape = {{ {shape} }}\n[simulation]\nlaws = \"li2023\"\nduration_s = 0.1\n"
         );
         std::fs::write(at("bad.toml"), &text).unwrap();
         let line = text.lines().position(|l| l.starts_with("shape")).unwrap() + 1;

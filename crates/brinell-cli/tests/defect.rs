@@ -4,7 +4,7 @@ use crate::common::{brinell, example, json};
 use std::path::Path;
 
 const HEAD: &str = "name = \"t\"\n[bearing]\npreset = \"NN3007\"\n[operation]\nspeed_rpm = 1800.0\n\
-    load_n = [300.0, 0.0]\nload_on = \"outer-ring\"\n[simulation]\nduration_s = 0.1\n";
+    load_n = [300.0, 0.0]\nload_on = \"outer-ring\"\n[simulation]\nlaws = \"li2023\"\nduration_s = 0.1\n";
 const SQUARE_WITH_A_HOLE: &str = "[[defects]]\non = \"outer-raceway\"\ndepth_um = 8.0\n\
     shape = { outline = { polygons_mm = [[[-2, -2], [2, -2], [2, 2], [-2, 2]], [[-1, -1], [1, -1], [1, 1], [-1, 1]]] } }\n";
 
@@ -21,10 +21,15 @@ fn scenario(folder: &Path, name: &str, defects: &str) -> String {
 }
 
 /// preview.json of a scenario.
-fn preview(folder: &Path, scenario: &str) -> serde_json::Value {
+fn preview_of(folder: &Path, scenario: &str, set: &[&str]) -> serde_json::Value {
     let args = ["defect", "preview", scenario, "-o", "preview", "--formats", "svg"];
-    brinell(folder, &args).exits(0);
+    brinell(folder, &[&args, set].concat()).exits(0);
     json(&folder.join("preview/preview.json"))
+}
+
+/// The same under the paper's laws.
+fn preview(folder: &Path, scenario: &str) -> serde_json::Value {
+    preview_of(folder, scenario, &["--set", "simulation.laws=li2023"])
 }
 
 /// A curve of a preview's passage.
@@ -87,6 +92,54 @@ fn analytic_a_rollers_preview_holds_both_contacts() {
     assert!((curve("k_outer_contact_ecl_point_n_m_10_9")[0] / 1.898e8 - 1.0).abs() < 1e-9);
     assert!((curve("k_inner_contact_ecl_point_n_m_10_9")[0] / 1.828e8 - 1.0).abs() < 1e-9);
     assert!(!folder.path().join("preview/damage-1-section.svg").exists());
+}
+
+#[test]
+fn prop_a_preview_under_half_space_is_of_its_tables() {
+    let folder = tempfile::tempdir().unwrap();
+    let json = preview_of(folder.path(), &example("ball-6205.toml"), &[]);
+    let curve = |name: &str| curve(&json, name);
+    let (effective, healthy) = (curve("effective_delta_damaged_um"), curve("effective_delta_healthy_delta_um"));
+    let (force, pressed) = (curve("q_q_0_at_the_static_deformation"), curve("q_q_0_at_twice_it"));
+    assert!(healthy.iter().all(|x| (x - number(&json, "approach_um")).abs() < 1e-9));
+    // Healthy where the pit is out of reach; over it the ball carries less, and the less the lighter it is pressed.
+    for k in [0, force.len() - 1] {
+        assert!((effective[k] / healthy[k] - 1.0).abs() < 1e-6, "{} {}", effective[k], healthy[k]);
+        assert!((force[k] - 1.0).abs() < 1e-3 && (pressed[k] - 1.0).abs() < 1e-2, "{} {}", force[k], pressed[k]);
+    }
+    let middle = force.len() / 2;
+    assert!(effective[middle] < 0.99 * healthy[middle]);
+    assert!(force[middle] < pressed[middle] && pressed[middle] < 1.0, "{} {}", force[middle], pressed[middle]);
+    let note = json["defects"][0]["passage_note"].as_str().unwrap();
+    assert!(note.contains("law half-space") && note.is_ascii(), "{note}");
+    assert!(!note.contains("paths and laws side by side"));
+    let pressures = json["defects"][0]["pressure"].as_array().unwrap();
+    let [of] = &pressures[..] else { panic!("{} pressures", pressures.len()) };
+    let value = |key: &str| of[key].as_f64().unwrap();
+    let numbers =
+        |of: &serde_json::Value| of.as_array().unwrap().iter().map(|x| x.as_f64().unwrap()).collect::<Vec<_>>();
+    let [s, z] = ["s_mm", "z_mm"].map(|axis| numbers(&of["cells"][axis]));
+    let rows: Vec<Vec<f64>> = of["cells"]["pressure_mpa"].as_array().unwrap().iter().map(numbers).collect();
+    assert!(rows.len() == z.len() && rows.iter().all(|row| row.len() == s.len()));
+    // Means over cells times their area are the force, which is the passage's where the ball is.
+    let area = (s[1] - s[0]) * (z[1] - z[0]);
+    assert!((rows.iter().flatten().sum::<f64>() * area / value("force_n") - 1.0).abs() < 1e-9);
+    let angle = curve("angle_deg");
+    let at = angle.partition_point(|u| u.to_radians() * 19.525 < value("contact_at_s_mm"));
+    let healthy = number(&json, "heaviest_contact_n");
+    assert!((value("force_n") / (healthy * force[at]) - 1.0).abs() < 0.02, "{} {}", value("force_n"), force[at]);
+    let row = z.iter().position(|z| (z - value("z_mm")).abs() < 1e-9).unwrap();
+    let column = s.iter().position(|s| (s - value("s_mm")).abs() < 1e-9).unwrap();
+    assert_eq!(rows[row][column], value("largest_pressure_mpa"));
+    assert!(rows.iter().flatten().all(|p| (0.0..=value("largest_pressure_mpa")).contains(p)));
+    assert!(value("largest_pressure_mpa") > 1.5 * value("healthy_pressure_mpa"));
+    assert!((value("yield_begins_at_mpa"), value("share_beyond_yield")) == (3040.0, 0.0));
+    let picture = folder.path().join("preview/damage-1-pressure.svg");
+    assert!(picture.exists());
+    // The paper's laws know none.
+    let without = preview(folder.path(), &example("ball-6205.toml"));
+    assert_eq!(without["defects"][0]["pressure"].as_array().map(Vec::len), Some(0));
+    assert!(!picture.exists());
 }
 
 #[test]

@@ -67,7 +67,7 @@ fn regress_all_errors_come_at_once_in_the_order_of_the_file() {
     ]);
     let at = |part: &str| call.err.find(part).unwrap_or_else(|| panic!("no {part} in {}", call.err));
     assert!(at("line 8: operation.laod_n = [300.0, 0.0]") < at("line 13: defects.0.depth_um = -20.0"));
-    assert!(at("line 13: defects.0.depth_um") < at("line 18: simulation.sample_rate_hz = \"often\""));
+    assert!(at("line 13: defects.0.depth_um") < at("line 19: simulation.sample_rate_hz = \"often\""));
     assert_eq!(call.out, "");
 }
 

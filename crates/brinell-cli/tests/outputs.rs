@@ -223,7 +223,7 @@ fn regress_quiet_is_silent_and_the_default_folder_bears_the_name() {
     let args = ["run", "-", "--no-report", "--signals", "none"];
     brinell_reading(here, &args, text.as_bytes())
         .exits(0)
-        .complains(&["warning, line 18: simulation.sample_rate_hz = 1000.0", "too low"]);
+        .complains(&["warning, line 19: simulation.sample_rate_hz = 1000.0", "too low"]);
 }
 
 /// Names of the recorded columns, and what was said on standard error.

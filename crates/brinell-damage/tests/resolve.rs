@@ -9,7 +9,7 @@ use brinell::scenario::{DefectTable, DepthGrid, Scenario, Shape};
 use brinell_damage::{Unresolved, resolve, resolve_loaded};
 
 const HEAD: &str = "name = \"files\"\n[bearing]\npreset = \"NN3007\"\n[operation]\nspeed_rpm = 1800.0\n\
-    load_n = [300.0, 0.0]\n[simulation]\nduration_s = 0.01\nsample_rate_hz = 25600.0\n";
+    load_n = [300.0, 0.0]\n[simulation]\nlaws = \"li2023\"\nduration_s = 0.01\nsample_rate_hz = 25600.0\n";
 
 fn examples() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../../examples")
@@ -273,8 +273,9 @@ fn tabled(name: &str, csv: &str) -> (Scenario, PathBuf) {
     fs::create_dir_all(&folder).unwrap();
     fs::write(folder.join("pit.csv"), csv).unwrap();
     let text = format!(
-        "{HEAD}laws = \"mechanics\"\n[[defects]]\non = \"outer-raceway\"\ncenter_deg = 0.0\ndepth_um = 20.0\n\
-         shape = {{ rectangle = {{ length_mm = 3.0, width_mm = 4.0 }} }}\ntable = \"pit.csv\"\n"
+        "{}[[defects]]\non = \"outer-raceway\"\ncenter_deg = 0.0\ndepth_um = 20.0\n\
+         shape = {{ rectangle = {{ length_mm = 3.0, width_mm = 4.0 }} }}\ntable = \"pit.csv\"\n",
+        HEAD.replace("li2023", "mechanics")
     );
     (read(&text, &[]).map_or_else(|e| panic!("{e:?}"), |loaded| loaded.scenario), folder)
 }

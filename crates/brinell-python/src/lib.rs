@@ -33,7 +33,7 @@ mod _brinell {
     #[pymodule_export]
     use dataset::{Campaign, kernel, merge, verify};
     #[pymodule_export]
-    use look_up::{derived, frequencies, is_bearing, statics};
+    use look_up::{derived, frequencies, is_bearing, pressures, statics};
     #[pymodule_export]
     use read::read_signal;
     #[pymodule_export]

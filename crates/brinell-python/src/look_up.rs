@@ -8,6 +8,7 @@ use brinell::bearing::{KnownBearing, frequencies_of, orders_of};
 use brinell::derived::Derived;
 use brinell::model::Model;
 use brinell::statics::static_load_zone;
+use brinell_report::{PressureView, damage_of};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
@@ -35,6 +36,36 @@ pub(crate) fn statics<'py>(py: Python<'py>, scenario: &Scenario) -> PyResult<Bou
     let stiffness = zone.stiffness.map(|row| row.to_vec()).to_vec();
     dict.set_item("stiffness_n_per_m", stiffness)?;
     Ok(dict)
+}
+
+/// Pressures over a defect (from 1), a dict a contact; none under laws that have none.
+#[pyfunction]
+pub(crate) fn pressures<'py>(py: Python<'py>, scenario: &Scenario, defect: i64) -> PyResult<Vec<Bound<'py, PyDict>>> {
+    let all = py.detach(|| damage_of(&scenario.loaded.scenario, None));
+    let all = all.map_err(|error| run_error(py, &error.into()))?;
+    let count = all.len();
+    let Some(damage) = usize::try_from(defect - 1).ok().and_then(|k| all.into_iter().nth(k)) else {
+        return Err(bad_value(format!("defect = {defect}: the scenario has {count}, counted from 1")));
+    };
+    let to_python = |of: PressureView| {
+        let dict = PyDict::new(py);
+        let [s, z] = of.middles_mm();
+        dict.set_item("contact", of.contact)?;
+        dict.set_item("s_mm", array(py, s))?;
+        dict.set_item("z_mm", array(py, z))?;
+        dict.set_item("pressure_mpa", array(py, of.pressure_mpa))?;
+        dict.set_item("largest_pressure_mpa", of.largest_mpa)?;
+        dict.set_item("at_mm", of.at_mm.to_vec())?;
+        dict.set_item("contact_at_s_mm", of.middle_mm)?;
+        dict.set_item("deformation_um", of.deformation_um)?;
+        dict.set_item("force_n", of.force_n)?;
+        dict.set_item("healthy_pressure_mpa", of.healthy_mpa)?;
+        dict.set_item("yield_begins_at_mpa", of.yield_mpa)?;
+        dict.set_item("share_beyond_yield", of.share_beyond_yield)?;
+        dict.set_item("note", of.note)?;
+        Ok(dict)
+    };
+    damage.view.pressures.into_iter().map(to_python).collect()
 }
 
 /// What `brinell check` prints, as numbers.

@@ -63,9 +63,9 @@ pub use analysis::{
 pub use axial::{AxialRow, AxialSection, axial_section};
 #[doc(hidden)]
 pub use calibrate::{calibration_undetermined, calibration_verdict, interval_text};
-pub use damage::{DamageCurve, DamageCurves, DamagePanel, DamageView, DepthPatch};
+pub use damage::{DamageCurve, DamageCurves, DamagePanel, DamageView, DepthPatch, PressureView};
 #[doc(hidden)]
-pub use damage::{damage_passage, damage_photo, damage_plan, damage_section, load_along};
+pub use damage::{damage_passage, damage_photo, damage_plan, damage_pressure, damage_section, load_along};
 #[doc(hidden)]
 pub use data::{Along, Tone};
 pub use data::{

@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use crate::damage::{damage_passage, damage_photo, damage_plan, damage_section, load_along};
+use crate::damage::{damage_passage, damage_photo, damage_plan, damage_pressure, damage_section, load_along};
 use crate::data::Report;
 use crate::frame::{THINNED, alert, close, code, contents, figure, lead, none, open, plain, plot, section};
 use crate::layout::Layout;
@@ -163,6 +163,10 @@ fn damage(page: &mut String, report: &Report) {
         fact_table(page, &view.facts, "Nothing is known of its size.");
         if !view.passage.panels.is_empty() {
             part(page, "-passage", &|layout| damage_passage(view, index, layout), &view.passage.note);
+        }
+        for of in &view.pressures {
+            let what = format!("-pressure-{}", of.contact);
+            part(page, &what, &|layout| damage_pressure(view, of, index, layout), &of.note);
         }
         if let Some(along) = &view.along {
             let name = format!("damage-{}-along", index + 1);

@@ -6,7 +6,7 @@ use crate::report::{Answer, Trouble};
 use brinell::channel::Frame;
 use brinell::document::Loaded;
 use brinell::observe::{Findings, Watch};
-use brinell::scenario::{Bearing, Scenario, Speed};
+use brinell::scenario::{Bearing, Law, Scenario, Speed, Tables};
 use brinell::signal::Moments;
 use brinell::simulate::{End, Observer, Outcome, Run, Signals, Simulation, SolverWork};
 use serde_json::json;
@@ -149,10 +149,19 @@ impl Observer for Recording {
     }
 }
 
+/// What is shown while damage is drawn: a scenario with quick tables.
+fn at_once(of: &Scenario) -> Scenario {
+    let mut quick = of.clone();
+    if quick.contact.law == Law::HalfSpace {
+        quick.contact.tables = Tables::Quick;
+    }
+    quick
+}
+
 impl Bench {
     /// At t = 0.
     pub(crate) fn start(loaded: Loaded, text: String) -> Answer<Self> {
-        let simulation = Arc::new(Simulation::unchecked(&loaded.scenario)?);
+        let simulation = Arc::new(Simulation::unchecked(&at_once(&loaded.scenario))?);
         let shaft = shaft_of(&loaded);
         let mut recording = Recording::new(Arc::clone(&simulation), 0, shaft);
         recording.watch = Some(Watch::new(&loaded.scenario, &simulation));
@@ -182,7 +191,7 @@ impl Bench {
         }
         let mut scenario = loaded.scenario.clone();
         scenario.operation.speed_rpm = course.speed();
-        let simulation = Arc::new(Simulation::unchecked(&scenario)?);
+        let simulation = Arc::new(Simulation::unchecked(&at_once(&scenario))?);
         if !self.run.go_on_in(Arc::clone(&simulation)) {
             return Ok(false);
         }

@@ -45,7 +45,7 @@ fn simulated() -> Result<PathBuf, Box<dyn Error>> {
         "[bearing]\npreset = \"6205\"\n[operation]\nspeed_rpm = {SPEED_RPM}\nload_n = [200, 0]\n\
          [[defects]]\non = \"outer-raceway\"\ncenter_deg = 0\ndepth_um = 30\n\
          shape = {{ circle = {{ diameter_mm = 0.5 }} }}\n\
-         [simulation]\nduration_s = 1.5\nsample_rate_hz = 25600"
+         [simulation]\nlaws = \"li2023\"\nduration_s = 1.5\nsample_rate_hz = 25600"
     );
     let (_, signals) = brinell::record(&Scenario::from_toml(&text)?)?;
     let columns = [Column::new("sensor_ax", "m/s^2", "sensor acceleration along x")];

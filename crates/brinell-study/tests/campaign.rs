@@ -12,7 +12,7 @@ use std::ops::ControlFlow;
 
 fn scenario(settings: &[(&str, &str)]) -> Scenario {
     let text = include_str!("../../../examples/single-row.toml");
-    let mut overrides = vec![("simulation.duration_s", "0.32")];
+    let mut overrides = vec![("simulation.duration_s", "0.32"), ("simulation.laws", "li2023")];
     overrides.extend(settings);
     let overrides: Vec<(String, String)> =
         overrides.into_iter().map(|(key, value)| (key.into(), value.into())).collect();

@@ -26,6 +26,18 @@ pub fn static_limit(bearing: &Bearing) -> f64 {
     }
 }
 
+/// Yield strength of hardened bearing steel, Pa: an assumption.
+const YIELD: f64 = 1.9e9;
+
+/// Largest pressure of a smooth contact at which bearing steel begins to yield, below its surface, Pa (Johnson, Contact Mechanics, 4.2,
+/// 6.1): 1.6 Y in a circle, which is taken for a ball's ellipse, and about 1.8 Y in a line.
+pub fn yields_at(bearing: &Bearing) -> f64 {
+    match bearing.element {
+        Element::Roller => 1.8 * YIELD,
+        Element::Ball => 1.6 * YIELD,
+    }
+}
+
 /// Largest pressure of a line contact of two steel bodies, Pa: Hertz's p = sqrt(E* w / (pi R)) with the line load w =
 /// Q/L and E* = E / (2 (1 - nu^2)). `force` is Q (N), `length` is L (m), `radius` is R with 1/R = 1/r +- 1/R_raceway
 /// (m).

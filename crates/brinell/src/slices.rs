@@ -187,6 +187,12 @@ impl Slices {
         deformation + tilt.abs() * self.half <= 0.0
     }
 
+    /// Largest deformation of a healthy slice, m.
+    pub(crate) fn deepest(&self, deformation: f64, tilt: f64) -> f64 {
+        let own = self.z.iter().zip(&self.drop).take(self.count).map(|(z, drop)| deformation + tilt * z - drop);
+        own.fold(deformation, f64::max)
+    }
+
     /// Forces of a moving contact. Each slice that touches is damped (section 16).
     #[inline(always)]
     pub fn press<L: Lanes>(&self, law: &LoadDeflection, at: &Approach, cover: Option<&Cover>) -> Pressed {

@@ -320,3 +320,13 @@ fn regress_a_cage_that_rollers_guide_stays_in_its_bearing() {
     let clearance = model.guide.clearance;
     assert!((clearance..1.2 * clearance).contains(&farthest), "{farthest} m of {clearance} m");
 }
+
+/// Before anything touches, torques are the difference of large parts: their round-off is no imbalance.
+#[test]
+fn regress_momentum_is_kept_while_nothing_touches() {
+    let text = "[bearing]\npreset = \"NU206\"\n[operation]\nspeed_rpm = 1000.0\nload_n = [1500.0, 0.0]\n\
+                [simulation]\nlaws = \"mechanics\"\nduration_s = 0.002\n";
+    let s = brinell::document::read(text, &[]).unwrap().scenario;
+    let left = simulate(&s).1.momentum_imbalance.unwrap();
+    assert!(left < 1e-13, "{left}");
+}

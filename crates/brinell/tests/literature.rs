@@ -1,10 +1,14 @@
-//! The paper's own figures: defect frequencies of its three shapes at 1800 r/min and 300 N.
+//! Figures that others print: the paper's, and makers' drive torques.
+//!
+//! The paper's defect frequencies of its three shapes at 1800 r/min and 300 N.
 //!
 //! The paper: simulated 249.60 (rectangle 3 x 4 mm), 250.39 (circle 4.5 mm) and 249.40 Hz (irregular, 7 x 4 mm); it
 //! states neither the duration nor the resolution, nor which cage slip holds. Pure rolling gives 250.10 Hz.
 
+use brinell::document::read;
 use brinell::scenario::{GuidanceFilm, Scenario, Shape};
 use brinell::signal::LineFrequency;
+use std::f64::consts::TAU;
 
 /// Independent starts, the load larger by one part in 10^5 each time.
 const STARTS: u32 = 7;
@@ -71,4 +75,43 @@ fn lit_circle_frequency() {
 #[test]
 fn lit_irregular_frequency() {
     found("irregular", Shape::Li2023Irregular { max_width_mm: 4.0 }, 249.40);
+}
+
+/// SKF's quick estimate of a bearing's frictional moment, M = 0.5 mu P d (General catalogue, "Estimating the frictional moment":
+/// loads of about a tenth of C, good lubrication, normal speeds), against the mean torque of the drive under section 22. The
+/// contract's k_r is one number for all bearings; it gives k_r R_m times the sum of all contact forces, 1.1 to 1.2 times the load.
+#[test]
+fn lit_drive_torque_is_near_the_makers_quick_estimate() {
+    const RPM: f64 = 1800.0;
+    let (roller, ball) = (0.0011, 0.0015);
+    // Bore in mm and C in kN of SKF's catalogues.
+    for (bearing, bore, rating, mu) in [
+        ("NN3007", 35.0, 39.1, roller),
+        ("NU206", 30.0, 44.0, roller),
+        ("NU210", 50.0, 73.5, roller),
+        ("6205", 25.0, 14.8, ball),
+        ("6309", 45.0, 55.3, ball),
+    ] {
+        let load = 0.1 * 1e3 * rating;
+        let text = format!(
+            "[bearing]\npreset = \"{bearing}\"\n[operation]\nspeed_rpm = {RPM}\nload_n = [0.0, -{load}]\nload_on = \"inner-ring\"\n\
+             [simulation]\nlaws = \"mechanics\"\nduration_s = 0.1\nstart = \"equilibrium\"\nrecord = [\"inner_torque\"]\n"
+        );
+        let scenario = read(&text, &[]).unwrap_or_else(|problems| panic!("{bearing}: {problems:?}")).scenario;
+        let (rows, outcome) = crate::common::simulate(&scenario);
+        let samples = rows.column("inner_torque");
+        let torque = samples.iter().sum::<f64>() / samples.len() as f64;
+        let by_work = outcome.energy.flows.drive / (outcome.t * RPM / 60.0 * TAU);
+        let estimate = 0.5 * mu * load * 1e-3 * bore;
+        println!(
+            "{bearing}, {load:.0} N: {:.2} N mm, by the drive's work {:.2}, SKF {:.2} ({:+.1} %)",
+            1e3 * torque,
+            1e3 * by_work,
+            1e3 * estimate,
+            100.0 * (torque / estimate - 1.0)
+        );
+        assert!((torque / estimate - 1.0).abs() < 0.3, "{bearing}: {torque} N m, SKF {estimate} N m");
+        // The start takes up the couples on the elements, and cages catch up: some of the drive's work.
+        assert!((by_work / torque - 1.0).abs() < 0.03, "{bearing}: {by_work} N m by work, {torque} N m");
+    }
 }

@@ -27,7 +27,13 @@ fn cases() -> Vec<(&'static str, Scenario)> {
     let mut slotted = case("reference/mechanics-ball-outer");
     slotted.cage.pockets = Pockets::Slot;
     slotted.contact.damping = ContactDamping::Constant { ns_per_m: 150.0 };
+    let mut tilting_damaged = case("tilting-mechanics");
+    tilting_damaged.defects = case("reference/mechanics-rectangle").defects;
+    tilting_damaged.defects[0].table = None;
+    tilting_damaged.defects[0].axial_offset_mm = 1.0;
+    tilting_damaged.defects[0].row = 2;
     vec![
+        ("tilting-damaged", tilting_damaged),
         ("rectangle", case("reference/mechanics-rectangle")),
         ("ball", case("reference/mechanics-ball-outer")),
         ("healthy-roller", case("reference/mechanics-healthy-roller")),

@@ -318,9 +318,15 @@ fn zone(s: &Scenario) -> (f64, f64) {
 
 /// A bearing without gravity, centrifugal force and supports that count: what Harris's load zone is of.
 fn harris(bearing: &str, load: f64, clearance_um: f64) -> Scenario {
+    harris_under("li2023", bearing, load, clearance_um)
+}
+
+/// The same under a set of laws.
+fn harris_under(laws: &str, bearing: &str, load: f64, clearance_um: f64) -> Scenario {
     let text = format!(
         "[bearing]\npreset = \"{bearing}\"\nradial_clearance_um = {clearance_um}\n[operation]\nspeed_rpm = 1\nload_n = [0, -{load}]\n\
-         load_on = \"inner-ring\"\n[support]\ninner_stiffness_n_per_m = 10\nouter_stiffness_n_per_m = 1e8\n"
+         load_on = \"inner-ring\"\n[support]\ninner_stiffness_n_per_m = 10\nouter_stiffness_n_per_m = 1e8\n\
+         [simulation]\nlaws = \"{laws}\"\n"
     );
     read(&text, &[]).unwrap().scenario
 }
@@ -344,8 +350,9 @@ fn analytic_load_zone_is_harris_s() {
 
 #[test]
 fn analytic_an_element_is_loaded_inside_the_ends_of_the_load_zone_alone() {
-    for (bearing, clearance) in [("6314", 0.0), ("6314", 20.0), ("NU206", 0.0), ("NU206", 16.0)] {
-        let model = Model::new(&harris(bearing, 4000.0, clearance)).unwrap();
+    let bearings = [("6314", 0.0), ("6314", 20.0), ("NU206", 0.0), ("NU206", 16.0)];
+    for ((bearing, clearance), laws) in bearings.into_iter().flat_map(|b| [(b, "li2023"), (b, "mechanics")]) {
+        let model = Model::new(&harris_under(laws, bearing, 4000.0, clearance)).unwrap();
         let zone = static_load_zone(&model).unwrap();
         let force_at = |angle: f64| {
             let mut problem = Problem::at_start(&model);
@@ -358,7 +365,7 @@ fn analytic_an_element_is_loaded_inside_the_ends_of_the_load_zone_alone() {
             let [inside, outside] = [inwards, -inwards].map(|by| force_at(zone.middle + end + by));
             assert!(
                 inside > 0.0 && outside == 0.0,
-                "{bearing}, {clearance} um: {inside} N inside, {outside} N outside"
+                "{laws}, {bearing}, {clearance} um: {inside} N inside, {outside} N outside"
             );
         }
     }

@@ -45,12 +45,15 @@ fn example(name: &str) -> Scenario {
 fn scenarios() -> Vec<(&'static str, Scenario)> {
     let mut reference = example("rectangle");
     reference.simulation.accuracy = Accuracy::Reference;
+    // The load that its counts were recorded under.
+    let mut inner_race = example("inner-race");
+    inner_race.operation.load_n = [300.0, 0.0];
     vec![
         ("rectangle", example("rectangle")),
         ("rectangle-reference", reference),
         ("circle", example("circle")),
         ("irregular", example("irregular")),
-        ("inner-race", example("inner-race")),
+        ("inner-race", inner_race),
         ("roller", example("roller")),
         ("single-row", example("single-row")),
         ("healthy", healthy()),

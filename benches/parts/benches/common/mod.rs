@@ -9,11 +9,12 @@ use criterion::Criterion;
 use std::path::Path;
 use std::time::Duration;
 
-/// `examples/rectangle.toml`.
+/// `examples/rectangle.toml` with the paper's laws.
 pub fn rectangle() -> Scenario {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../examples/rectangle.toml");
     let text = std::fs::read_to_string(path).expect("the example is there");
-    brinell::document::read(&text, &[]).expect("the example is sound").scenario
+    let laws = ("simulation.laws".to_owned(), "li2023".to_owned());
+    brinell::document::read(&text, &[laws]).expect("the example is sound").scenario
 }
 
 /// A time and the state there.

@@ -33,7 +33,7 @@ pub(crate) fn compare(args: &CompareArgs) -> Result<ExitCode, Failure> {
     let mut inputs = Inputs::default();
     let sides = sides::read(args, &mut inputs)?;
     for side in &sides {
-        Simulation::unchecked(&side.loaded.scenario)?;
+        Simulation::planned(&side.loaded.scenario)?;
     }
     let beforehand = brinell_report::beforehand(&sides);
     if !args.quiet {

@@ -10,7 +10,7 @@ use crate::say::{self, document, say, short};
 use brinell::document::{Loaded, Origin, Provenance};
 use brinell::scenario::Scenario;
 use brinell_io::{Complete, atomic_prepare};
-use brinell_report::{Damage, DamageCurves, DamagePanel, Layout, Picture, damage_of};
+use brinell_report::{Damage, DamageCurves, DamagePanel, Layout, Picture, PressureView, damage_of};
 use serde_json::json;
 use std::path::Path;
 
@@ -77,6 +77,8 @@ fn pictures(index: usize, damage: &Damage, layout: Layout) -> Vec<Picture> {
     let mut pictures: Vec<Picture> = brinell_report::damage_photo(view, index, layout).into_iter().collect();
     pictures.push(brinell_report::damage_plan(view, index, layout));
     pictures.push(brinell_report::damage_passage(view, index, layout));
+    let pressures = view.pressures.iter();
+    pictures.extend(pressures.map(|of| brinell_report::damage_pressure(view, of, index, layout)));
     if !view.section.panels.is_empty() {
         pictures.push(brinell_report::damage_section(view, index, layout));
     }
@@ -123,8 +125,10 @@ fn tell(damage: &Damage, form: Option<String>) {
     if let Some(form) = form {
         say!("  Form: {form}");
     }
-    let plain = view.passage.note.replace('µ', "u").replace("δⁿ", "delta^n");
-    say!("  Passage: {plain}");
+    say!("  Passage: {}", plain(&view.passage.note));
+    for of in &view.pressures {
+        say!("  Pressure: {}", plain(&of.note));
+    }
     if let Some(along) = &view.along {
         say!("  {}, {}", along.title, along.note);
     }
@@ -132,10 +136,15 @@ fn tell(damage: &Damage, form: Option<String>) {
     say!("");
 }
 
+/// Words in ASCII.
+fn plain(words: &str) -> String {
+    words.replace('µ', "u").replace("δⁿ", "delta^n").replace('δ', "delta")
+}
+
 /// "stiffness_k_ecl_point".
 fn slug(words: &[&str]) -> String {
     let mut slug = String::new();
-    for c in words.join(" ").replace('µ', "u").chars() {
+    for c in plain(&words.join(" ")).chars() {
         if c.is_ascii_alphanumeric() {
             slug.push(c.to_ascii_lowercase());
         } else if !slug.is_empty() && !slug.ends_with('_') {
@@ -169,6 +178,25 @@ fn csv(axis: &str, curves: &DamageCurves) -> String {
     text + "\n"
 }
 
+/// Largest pressure on one contact, and all of them with the cells' middles.
+fn pressure(of: &PressureView) -> serde_json::Value {
+    let [s, z] = of.middles_mm();
+    json!({
+        "contact": of.contact,
+        "deformation_um": of.deformation_um,
+        "force_n": of.force_n,
+        "contact_at_s_mm": of.middle_mm,
+        "largest_pressure_mpa": of.largest_mpa,
+        "s_mm": of.at_mm[0],
+        "z_mm": of.at_mm[1],
+        "healthy_pressure_mpa": of.healthy_mpa,
+        "yield_begins_at_mpa": of.yield_mpa,
+        "share_beyond_yield": of.share_beyond_yield,
+        "note": plain(&of.note),
+        "cells": { "s_mm": s, "z_mm": z, "pressure_mpa": of.pressure_mpa.chunks(of.columns.max(1)).collect::<Vec<_>>() },
+    })
+}
+
 fn entry(index: usize, damage: &Damage) -> serde_json::Value {
     let (m, view) = (&damage.measures, &damage.view);
     let curves = |axis: &str, of: &DamageCurves| {
@@ -197,8 +225,9 @@ fn entry(index: usize, damage: &Damage) -> serde_json::Value {
         "approach_um": m.approach_um,
         "heaviest_contact_n": m.force_n,
         "polygons_mm": view.polygons_mm,
-        "passage_note": view.passage.note.replace('µ', "u").replace("δⁿ", "delta^n"),
+        "passage_note": plain(&view.passage.note),
         "passage": curves("angle_deg", &view.passage),
+        "pressure": view.pressures.iter().map(pressure).collect::<Vec<_>>(),
         "along_note": view.along.as_ref().map(|along| &along.note),
         "along": view.along.as_ref().map(|along| curves("z_mm", along)),
         "section_note": view.section.note,

@@ -5,7 +5,9 @@ mod scan;
 use self::scan::{Raceway, STEP_MM, scan_of};
 use crate::failure::Failure;
 use crate::say::{document, pretty, say};
-use brinell::bearing::catalogue::{self, Entry, STATIC_RATING};
+use brinell::Scenario;
+use brinell::bearing::catalogue::{self, Entry};
+use brinell::bearing::rating::static_rating;
 use brinell::bearing::{KnownBearing, USUAL_CONFORMITY, clearance_of};
 use brinell::document::toml_quote;
 use brinell_io::{Complete, atomic_prepare, atomic_write};
@@ -212,8 +214,10 @@ impl Fitted {
     }
 }
 
-/// The paper's bearing, load and spall.
-const PAPER: (&str, f64, [f64; 2]) = ("NN3007", 300.0, [3.0, 4.0]);
+/// The paper's bearing and spall.
+const PAPER: (&str, [f64; 2]) = ("NN3007", [3.0, 4.0]);
+/// r/min.
+const SPEED_RPM: f64 = 1800.0;
 /// Load of a bearing over its static rating, where none is given: 5 to 9 % of the dynamic rating, a normal load, of
 /// which the ring's support, as it is where none is given, carries less than a tenth.
 const LOAD_OVER_RATING: f64 = 0.1;
@@ -260,10 +264,10 @@ fn fitted(entry: &Entry, preset: String) -> Fitted {
         true => SPALL[0] * diameter,
         false => SPALL[1] * number("roller_length_mm"),
     };
-    let load = entry.fact(STATIC_RATING).map(|c0| LOAD_OVER_RATING * c0);
+    let rating = Scenario::of_bearing(&entry.name, SPEED_RPM, [1.0, 0.0]).map(|s| static_rating(&s.bearing).load);
     let mut of = Fitted {
         preset,
-        load: one_digit(load.unwrap_or(500.0)),
+        load: one_digit(rating.map_or(500.0, |c0| LOAD_OVER_RATING * c0)),
         spall: [tenth(SPALL[0] * diameter), tenth(width)],
         pit: tenth(PIT * diameter),
         scale: match entry.has_balls() {
@@ -277,7 +281,7 @@ fn fitted(entry: &Entry, preset: String) -> Fitted {
         form: if entry.has_balls() { "torus" } else { "cylinder" },
     };
     if entry.name == PAPER.0 {
-        (of.load, of.spall) = (PAPER.1, PAPER.2);
+        of.spall = PAPER.1;
     }
     of
 }
@@ -316,8 +320,6 @@ impl Names {
 
 /// A template with its places filled.
 fn filled(text: &str, names: &Names, of: &Fitted) -> String {
-    /// r/min.
-    const SPEED: f64 = 1800.0;
     // Within quotes of the template.
     let inside = |text: &str| {
         let quoted = toml_quote(text);
@@ -329,8 +331,8 @@ fn filled(text: &str, names: &Names, of: &Fitted) -> String {
         ("{plan}", names.plan.replace('\n', " ")),
         ("{base}", inside(&names.base)),
         ("{preset}", of.preset.clone()),
-        ("{speed}", number(SPEED)),
-        ("{slow}", number(0.5 * SPEED)),
+        ("{speed}", number(SPEED_RPM)),
+        ("{slow}", number(0.5 * SPEED_RPM)),
         ("{load}", number(of.load)),
         ("{light}", number(0.5 * of.load)),
         ("{length}", number(of.spall[0])),

@@ -4,7 +4,6 @@ use crate::say::{one_line, short};
 use brinell::observe::{DefectLine, Findings, Kind};
 use brinell::plausibility;
 use brinell::result::fields;
-use brinell::scenario::Laws;
 use brinell::signal::Indicator;
 use brinell::simulate::End;
 use brinell::summary::{self, Parts};
@@ -28,9 +27,7 @@ pub(super) fn tell(parts: &Parts, elapsed: f64, written: &[PathBuf]) -> Vec<Stri
         (fields::STEPS.of)(outcome),
         (fields::RIGHT_HAND_SIDES.of)(outcome),
     ));
-    if loaded.scenario.simulation.laws != Laws::DEFAULT {
-        printed.push(format!("  laws: {}", loaded.scenario.laws_and_differences()));
-    }
+    printed.push(format!("  laws: {}", loaded.scenario.laws_and_differences()));
     printed.extend(sensor_lines(findings));
     printed.extend(healthy_line(parts));
     let heed = summary::converted(simulation, outcome).into_iter().chain(summary::unsettled(findings));

@@ -141,7 +141,7 @@ fn plan(
 fn plots(args: &SweepArgs, points: &Points) -> Result<Vec<String>, Failure> {
     // A point without a model is a row with its reason, and says nothing of the others' numbers.
     let names =
-        Simulation::unchecked(&points.example).map_or(Vec::new(), |simulation| names(&points.example, &simulation));
+        Simulation::planned(&points.example).map_or(Vec::new(), |simulation| names(&points.example, &simulation));
     for name in args.plot.iter().filter(|_| !names.is_empty()) {
         check_name(name, &names).map_err(|error| Failure::Usage(format!("--plot {error}")))?;
     }

@@ -7,7 +7,8 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};
 use tempfile::TempDir;
 
-/// A scenario on every line of which a test may rely; 20 ms, so that a run takes a tenth of a second.
+/// A scenario on every line of which a test may rely; 20 ms, so that a run takes a tenth of a second. It has the paper's laws,
+/// which the numbers and words of the tests are about, and which need no table for damage.
 pub(crate) const SHORT: &str = r#"name = "short"
 
 [bearing]
@@ -24,6 +25,7 @@ depth_um = 20.0
 shape = { rectangle = { length_mm = 2.0, width_mm = 4.0 } }
 
 [simulation]
+laws = "li2023"
 duration_s = 0.02
 sample_rate_hz = 25600.0
 "#;

@@ -1,9 +1,10 @@
-//! Pictures of damage: the raceway unrolled, the contact conditions during roller passage, and the ring's section under
-//! it.
+//! Pictures of damage: the raceway unrolled, the contact conditions during roller passage, pressures, and the ring's
+//! section under it.
 
 mod curves;
 mod photo;
 mod plan;
+mod pressure;
 mod shades;
 
 use crate::fact::Fact;
@@ -13,6 +14,7 @@ use brinell::derived::Passing;
 pub use curves::{damage_passage, damage_section, load_along};
 pub use photo::damage_photo;
 pub use plan::damage_plan;
+pub use pressure::{PressureView, damage_pressure};
 
 /// One defect, seen before it is simulated. Vectors of a panel are as long as the panel's axis.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -51,6 +53,8 @@ pub struct DamageView {
     /// Contact conditions during roller passage, over the angle of a roller from the defect's centre, in degrees; at
     /// which deformation, by which laws.
     pub passage: DamageCurves,
+    /// Pressures over it where they are largest, a contact each; none under laws that have none.
+    pub pressures: Vec<PressureView>,
     /// Profile's drop, line load and pressure along a roller at rest on it, over z from its middle, in mm, where
     /// rollers have slices; forces and lengths, and by which law.
     pub along: Option<DamageCurves>,

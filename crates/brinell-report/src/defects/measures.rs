@@ -96,7 +96,12 @@ pub(super) fn facts(m: &Measures, s: &Scenario, defect: &Defect, passing: Passin
         false => ("roller", "line of contact"),
     };
     let deformation = short(m.approach_um, 3);
-    let floor = if m.deepest_um > m.approach_um {
+    let floor = if m.deepest_um > m.approach_um && law == Law::HalfSpace {
+        format!(
+            "deeper than the healthy bearing's heaviest static contact deforms, {deformation} µm: pressed no further, the {element} rests on what \
+             lies beside the damage"
+        )
+    } else if m.deepest_um > m.approach_um {
         format!(
             "deeper than the healthy bearing's heaviest static contact deforms, {deformation} µm: between raceways that stand still the {element} \
              carries nothing at the bottom; over a long defect the rings follow, and it can"
@@ -132,7 +137,7 @@ pub(super) fn facts(m: &Measures, s: &Scenario, defect: &Defect, passing: Passin
         fact("Time to pass", m.pass_ms, 4, "ms", format!("of the {contact}, at {} r/min", short(m.speed_rpm, 4))),
     ];
     if m.raised_um > 0.0 {
-        facts.push(fact("Raised edge", m.raised_um, 4, "µm", "felt by the law \"sliced\"".into()));
+        facts.push(fact("Raised edge", m.raised_um, 4, "µm", "felt by the laws \"half-space\" and \"sliced\"".into()));
     }
     if let (Shape::DepthMap(_), Law::Ecl) = (&defect.shape, law) {
         let note = format!(

@@ -1,10 +1,11 @@
-//! Damage as it is seen before it is simulated: extents, outlines, contact conditions during roller passage, the ring's
-//! section.
+//! Damage as it is seen before it is simulated: extents, outlines, contact conditions during roller passage, pressures, the
+//! ring's section.
 
 mod along;
 mod curves;
 mod measures;
 mod passage;
+mod pressures;
 mod seen;
 
 pub(crate) use along::along_healthy_roller;

@@ -1,15 +1,19 @@
-//! Contact conditions during roller passage over a defect: lengths, depths and stiffness by path and law.
+//! Contact conditions during roller passage over a defect. Under the laws of strips lengths, depths and stiffness, by path and law; under
+//! `half-space` what the tables hold (section 19).
 
 use super::curves::curve;
 use crate::{DamageCurve, DamagePanel};
 use brinell::defect::{Defect, Shape, Side};
+use brinell::half_space::geometry::Geometry;
 use brinell::model::Model;
 use brinell::scenario::{self, Contact, EdgeReaction, Law, RollerPath, Scenario};
 use brinell::slices::Cover;
 
 /// Points of a curve.
 const POINTS: usize = 1601;
-/// Every law and path, with its name.
+/// The second deformation that Q/Q_0 is drawn at, over the static one.
+const TWICE: f64 = 2.0;
+/// Every law of strips and path, with its name.
 const LAWS: [(Law, RollerPath, &str); 4] = [
     (Law::Ecl, RollerPath::Point, "ecl, point"),
     (Law::Ecl, RollerPath::Envelope, "ecl, envelope"),
@@ -17,7 +21,7 @@ const LAWS: [(Law, RollerPath, &str); 4] = [
     (Law::Sliced, RollerPath::Envelope, "sliced, envelope"),
 ];
 
-/// One defect alone under a roller that does not tilt; `sides` with the deformation of each, m.
+/// One defect under a roller that does not tilt, under laws of strips alone; `sides` with the deformation of each, m.
 pub(super) struct Passage<'a> {
     pub(super) scenario: &'a Scenario,
     pub(super) of: &'a scenario::Defect,
@@ -30,8 +34,14 @@ impl Passage<'_> {
     /// Angles of a roller from the defect's centre in degrees, and what it meets there.
     pub(super) fn panels(&self) -> (Vec<f64>, Vec<DamagePanel>) {
         let angles = self.angles();
-        let mut panels = vec![self.lengths(&angles), self.depths(&angles)];
-        panels.extend(self.stiffnesses(&angles));
+        let panels = match self.scenario.contact.law {
+            Law::HalfSpace => self.on_tables(&angles),
+            Law::Ecl | Law::Sliced => {
+                let mut panels = vec![self.lengths(&angles), self.depths(&angles)];
+                panels.extend(self.stiffnesses(&angles));
+                panels
+            }
+        };
         (angles.iter().map(|u| u.to_degrees()).collect(), panels)
     }
 
@@ -39,7 +49,7 @@ impl Passage<'_> {
     fn angles(&self) -> Vec<f64> {
         let (first, last) = self.defect.shape.arc();
         let radius = self.defect.radius;
-        let pad = 0.2 * (last - first);
+        let pad = (0.2 * (last - first)).max(self.felt_before());
         let (from, to) = ((first - pad) / radius, (last + pad) / radius);
         let mut angles: Vec<f64> = (0..POINTS).map(|k| from + (to - from) * k as f64 / (POINTS - 1) as f64).collect();
         // Edges are jumps, not slopes between two points.
@@ -50,6 +60,61 @@ impl Passage<'_> {
         }
         angles.sort_by(f64::total_cmp);
         angles
+    }
+
+    /// How far before an edge a contact feels it, m; 0 under laws that know no width of the contact along s.
+    fn felt_before(&self) -> f64 {
+        if self.scenario.contact.law != Law::HalfSpace {
+            return 0.0;
+        }
+        let reach = |&(side, delta): &(Side, f64)| {
+            let geometry = Geometry::of_bearing(&self.scenario.bearing, &self.scenario.contact, side);
+            geometry.map_or(0.0, |g| g.reach(TWICE * delta))
+        };
+        self.sides.iter().map(reach).fold(0.0, f64::max)
+    }
+
+    /// L_s, depth, and on each side delta_eff and the force over the healthy one.
+    fn on_tables(&self, angles: &[f64]) -> Vec<DamagePanel> {
+        let over = |of: &dyn Fn(f64) -> f64| angles.iter().map(|u| of(*u)).collect::<Vec<f64>>();
+        let on_damage = |s: f64| {
+            let (first, last) = self.defect.shape.arc();
+            (first..=last).contains(&s)
+        };
+        let damaged = over(&|u| 1e3 * self.defect.damaged_length(u * self.defect.radius));
+        let depth = over(&|u| {
+            let s = u * self.defect.radius;
+            if on_damage(s) { 1e6 * self.defect.depth_at(s) } else { 0.0 }
+        });
+        let mut panels = vec![
+            panel("Damaged, L_s", "mm", vec![curve("", damaged)]),
+            panel(self.depth_label(), "µm", vec![curve("", depth)]),
+        ];
+        for &(side, delta) in self.sides {
+            let label = |what: &str| match self.sides.len() > 1 {
+                true => format!("{what}, {}", contact(side)),
+                false => what.to_owned(),
+            };
+            let at = |u: f64, delta: f64| self.model.effective_over(self.defect, side, u, delta);
+            let effective = over(&|u| 1e6 * at(u, delta)[0]);
+            let healthy = over(&|_| 1e6 * delta);
+            let both = vec![curve("damaged", effective), curve("healthy, δ", healthy)];
+            panels.push(magnified(panel(&label("Effective δ"), "µm", both)));
+            let ratio = |name: &str, delta: f64| {
+                let whole = self.model.healthy(side).force_and_tangent(delta)[0];
+                curve(name, over(&|u| at(u, delta)[1] / whole))
+            };
+            let ratios = vec![ratio("at the static deformation", delta), ratio("at twice it", TWICE * delta)];
+            panels.push(magnified(panel(&label("Q/Q_0"), "", ratios)));
+        }
+        panels
+    }
+
+    fn depth_label(&self) -> &'static str {
+        match self.defect.shape {
+            Shape::DepthMap(_) => "Mean depth h_s",
+            _ => "Depth h_s",
+        }
     }
 
     /// The defect under a law and a path.
@@ -88,11 +153,7 @@ impl Passage<'_> {
             };
             curves.extend(depths(RollerPath::Envelope, side, &name));
         }
-        let label = match self.defect.shape {
-            Shape::DepthMap(_) => "Mean depth h_s",
-            _ => "Depth h_s",
-        };
-        panel(label, "µm", curves)
+        panel(self.depth_label(), "µm", curves)
     }
 
     /// K = Q / delta^n, a panel a side.
@@ -124,7 +185,14 @@ impl Passage<'_> {
     }
 }
 
-fn contact(side: Side) -> String {
+/// Without the axis down to 0 where little changes.
+fn magnified(panel: DamagePanel) -> DamagePanel {
+    let all = || panel.curves.iter().flat_map(|c| c.values.iter().copied());
+    let from_zero = all().fold(f64::INFINITY, f64::min) < 0.8 * all().fold(0.0, f64::max);
+    DamagePanel { from_zero, ..panel }
+}
+
+pub(super) fn contact(side: Side) -> String {
     format!("{} contact", side.word())
 }
 

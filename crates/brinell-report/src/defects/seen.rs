@@ -4,6 +4,7 @@ use super::along::along_roller;
 use super::curves::{depths, section};
 use super::measures::{Measures, deepest, facts, widest};
 use super::passage::Passage;
+use super::pressures::pressures;
 use crate::number::short;
 use crate::{DamageCurves, DamageView};
 use brinell::defect::simplify::Extent;
@@ -12,7 +13,7 @@ use brinell::derived::Passing;
 use brinell::lamina::AtRest;
 use brinell::model::Model;
 use brinell::observe::passes::place;
-use brinell::scenario::{self, Scenario, Surface};
+use brinell::scenario::{self, Law, Scenario, Surface};
 use brinell::statics::StaticLoadZone;
 use brinell_damage::plan::{CORNERS, polygons_mm};
 use std::f64::consts::TAU;
@@ -138,6 +139,7 @@ impl<'a> Seen<'a> {
                 panels: passage.1,
                 note: self.passage_note(),
             },
+            pressures: pressures((s, self.model, self.index), &self.sides, &title),
             along: at_rest.and_then(|r| along_roller(s, r, Some(self.index))),
             section: DamageCurves {
                 title: format!("{title}. Section under it of a ring {} mm thick", short(1e3 * self.thickness, 3)),
@@ -180,14 +182,13 @@ impl<'a> Seen<'a> {
 
     fn conditions(&self) -> String {
         let deformation = self.deformation();
-        let element = self.scenario.bearing.element.word();
-        match self.is_roller() {
-            true => {
-                format!("Both contacts while it turns; K at a deformation of {deformation}")
-            }
-            false => {
-                format!("Contact during {element} passage; K at a deformation of {deformation}")
-            }
+        let contacts = match self.is_roller() {
+            true => "Both contacts while it turns".to_owned(),
+            false => format!("Contact during {} passage", self.scenario.bearing.element.word()),
+        };
+        match self.scenario.contact.law {
+            Law::HalfSpace => format!("{contacts}; law half-space, at a static deformation of {deformation}"),
+            Law::Ecl | Law::Sliced => format!("{contacts}; K at a deformation of {deformation}"),
         }
     }
 
@@ -199,10 +200,16 @@ impl<'a> Seen<'a> {
             Some(_) => "; along the profile, the roller does not tilt",
             None => "",
         };
-        format!(
-            "stiffness Q/δⁿ at a deformation of {} ({by_force}); this defect alone, the paths and laws side by side{profile}",
-            self.deformation()
-        )
+        let deformation = self.deformation();
+        match self.scenario.contact.law {
+            Law::HalfSpace => format!(
+                "law half-space, as the run takes it: the effective δ is that at which the healthy contact stores the energy that the damaged one \
+                 stores at δ; Q over the healthy Q_0 at the same δ, the static {deformation} ({by_force}) and twice it; with all damage of this surface{profile}"
+            ),
+            Law::Ecl | Law::Sliced => format!(
+                "stiffness Q/δⁿ at a deformation of {deformation} ({by_force}); this defect alone, the paths and laws side by side{profile}"
+            ),
+        }
     }
 
     fn load_zone_mm(&self) -> Option<[f64; 2]> {

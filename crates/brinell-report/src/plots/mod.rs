@@ -8,7 +8,7 @@ mod spectrum;
 mod waveform;
 
 use crate::axial::axial_section;
-use crate::damage::{damage_passage, damage_photo, damage_plan, damage_section};
+use crate::damage::{damage_passage, damage_photo, damage_plan, damage_pressure, damage_section};
 use crate::data::Report;
 use crate::layout::Layout;
 use crate::load::load_distribution;
@@ -42,6 +42,7 @@ pub fn pictures(report: &Report, layout: Layout) -> Vec<Picture> {
         if !view.passage.panels.is_empty() {
             pictures.push(damage_passage(view, index, layout));
         }
+        pictures.extend(view.pressures.iter().map(|of| damage_pressure(view, of, index, layout)));
         if !view.section.panels.is_empty() {
             pictures.push(damage_section(view, index, layout));
         }

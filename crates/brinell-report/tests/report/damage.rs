@@ -3,8 +3,8 @@
 use super::sample::{filled, ordinary, square_with_a_hole};
 use brinell::derived::Passing;
 use brinell_report::{
-    DamageCurve, DamageCurves, DamagePanel, DamageView, Layout, damage_passage, damage_plan, damage_section, html,
-    pictures,
+    DamageCurve, DamageCurves, DamagePanel, DamageView, Layout, PressureView, damage_passage, damage_plan,
+    damage_pressure, damage_section, html, pictures,
 };
 
 #[test]
@@ -143,6 +143,44 @@ fn regress_the_page_shows_the_roller_passage_and_the_rings_section() {
     }
 }
 
+#[test]
+fn analytic_pressures_are_drawn_a_picture_a_contact_with_the_cells_beyond_yield_outlined() {
+    // Three cells by two, the middle one of the upper row beyond.
+    let of = |contact: &str| PressureView {
+        title: format!("Pressure of the {contact} contact"),
+        contact: contact.into(),
+        start_mm: [-0.1, -0.5],
+        step_mm: [0.1, 1.0],
+        columns: 3,
+        pressure_mpa: vec![100.0, 900.0, 100.0, 500.0, 4000.0, 500.0],
+        largest_mpa: 4000.0,
+        at_mm: [0.0, 0.5],
+        yield_mpa: 3420.0,
+        note: "largest 4000 MPa".into(),
+        ..PressureView::default()
+    };
+    assert_eq!(of("outer").middles_mm(), [vec![-0.1, 0.0, 0.1], vec![-0.5, 0.5]]);
+    let mut report = ordinary();
+    report.damage = vec![DamageView { pressures: vec![of("outer"), of("inner")], ..square_with_a_hole() }];
+    let page = html(&report);
+    assert!(page.contains("Pressure of the inner contact") && page.contains("Largest 4000 MPa."));
+    let all = pictures(&report, Layout::Wide);
+    let drawn: Vec<_> = all.iter().filter(|p| p.name.starts_with("damage-1-pressure-")).collect();
+    assert_eq!(drawn.iter().map(|p| &p.name[18..]).collect::<Vec<_>>(), ["outer", "inner"]);
+    for picture in drawn {
+        let svg = picture.svg();
+        assert!(svg.contains("beyond 3420 MPa") && svg.contains("largest, 4000 MPa"));
+        let edges = svg.split("<path d=\"").filter(|path| path.matches('M').count() == 4 && path.contains("#D55E00"));
+        assert_eq!(edges.count(), 1, "the four sides of one cell");
+    }
+    // Alone it needs no side; where nothing is beyond there is nothing to outline.
+    let calm = PressureView { yield_mpa: 5000.0, ..of("outer") };
+    let view = DamageView { pressures: vec![calm.clone()], ..square_with_a_hole() };
+    let picture = damage_pressure(&view, &calm, 0, Layout::Narrow);
+    assert!(picture.name == "damage-1-pressure" && !picture.svg().contains("beyond"));
+    assert!(damage_pressure(&view, &PressureView::default(), 0, Layout::Wide).svg().contains("Nothing touches"));
+}
+
 fn seen(text: &str) -> brinell_report::Damage {
     let s = brinell::document::read(text, &[]).unwrap().scenario;
     brinell_report::damage_of(&s, None).unwrap().remove(0)
@@ -150,8 +188,8 @@ fn seen(text: &str) -> brinell_report::Damage {
 
 #[test]
 fn analytic_numbers_of_a_depth_map_are_those_of_the_surface_between_its_nodes() {
-    let text = "[bearing]\npreset = \"NN3007\"\n[operation]\nspeed_rpm = 1800\nload_n = [300, 0]\n[[defects]]\non = \"outer-raceway\"\n\
-                [defects.shape.depth_map]\nds_mm = 0.5\ndz_mm = 0.5\ncolumns = 5\nrows = 5\n\
+    let text = "[bearing]\npreset = \"NN3007\"\n[operation]\nspeed_rpm = 1800\nload_n = [300, 0]\n[simulation]\nlaws = \"li2023\"\n\
+                [[defects]]\non = \"outer-raceway\"\n[defects.shape.depth_map]\nds_mm = 0.5\ndz_mm = 0.5\ncolumns = 5\nrows = 5\n\
                 depth_um = [0,0,0,0,0, 0,10,10,10,0, 0,10,10,10,0, 0,10,10,10,0, 0,0,0,0,0]\n";
     let ecl = seen(text);
     let m = ecl.measures;

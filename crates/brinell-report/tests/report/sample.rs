@@ -9,7 +9,7 @@ use brinell::signal;
 use brinell_report::{
     AxialRow, AxialSection, CageOrbit, CageOrbits, DamageCurve, DamageCurves, DamagePanel, DamageView, DepthPatch,
     Estimate, Event, Fact, Healthy, IndicatorRow, IndicatorTable, Marker, MinMax, Motion, MotionDamage, MotionRow,
-    Pass, Report, RowLoad, SensorView, Series, SlipRow, Spectrogram, Spectrum, Waveform,
+    Pass, PressureView, Report, RowLoad, SensorView, Series, SlipRow, Spectrogram, Spectrum, Waveform,
 };
 
 /// Damage in which every list is filled; one with depths and one of a polygon come from the sign of the first value.
@@ -49,6 +49,19 @@ fn damage_view(text: &str, values: &[f64]) -> DamageView {
         load_zone_mm: Some([at(6), at(7)]),
         passage: curves(values.to_vec(), 2),
         photo: None,
+        pressures: vec![PressureView {
+            title: text.into(),
+            contact: text.into(),
+            start_mm: [at(1), at(2)],
+            step_mm: [at(3), 0.5],
+            columns: 3,
+            pressure_mpa: values.to_vec(),
+            largest_mpa: at(4),
+            at_mm: [at(5), at(6)],
+            yield_mpa: at(7),
+            note: text.into(),
+            ..PressureView::default()
+        }],
         // As many as slices at most.
         along: Some(curves(values.iter().take(200).copied().collect(), 1)),
         section: curves(values.to_vec(), 1),

@@ -141,7 +141,7 @@ impl Beforehand {
             return warnings.clone();
         }
         // Unlocked: other threads have other scenarios.
-        let model = Model::new(scenario);
+        let model = Model::planned(scenario);
         let found = model.map_or(Vec::new(), |model| plausibility::Beforehand::of(scenario, &model).warnings);
         known().insert(print, found.clone());
         found

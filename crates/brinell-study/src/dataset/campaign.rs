@@ -256,7 +256,7 @@ impl Sources {
             if seen.insert(draws.class(run)) {
                 meaning.push(fingerprint(&loaded.scenario));
             }
-            let simulation = match Simulation::unchecked(&loaded.scenario) {
+            let simulation = match Simulation::planned(&loaded.scenario) {
                 Ok(simulation) => simulation,
                 Err(error) => {
                     found.unable.get_or_insert((run, error));

@@ -15,6 +15,7 @@ preset = "NU206"
 speed_rpm = 1500.0
 load_n = [300.0, 0.0]
 [simulation]
+laws = "li2023"
 duration_s = 0.02
 "#;
 

@@ -7,7 +7,7 @@ use super::extent::Extent;
 use super::piecewise::PiecewisePolynomial;
 use super::shape::Shape;
 use crate::contact::{ContactReduction, remaining_share};
-use crate::effective::Table;
+use crate::effective::{Table, Tilted};
 use crate::scenario::{self, Element, Law, Surface};
 use std::f64::consts::PI;
 use std::sync::Arc;
@@ -46,6 +46,8 @@ pub struct Defect {
     pub rules: Rules,
     /// delta_eff by side, under `half-space`; none where another defect's table holds this one too.
     tables: [Option<Arc<Table>>; 2],
+    /// The same over tilt, where rollers tilt.
+    tilted: [Option<Arc<Tilted>>; 2],
     /// Made ready for the sides that the defect meets, indexed by `Side as usize`.
     profiles: [Option<DepthProfile>; 2],
     /// Local angles (rad) beyond which neither arc nor profile reaches, by side.
@@ -130,6 +132,7 @@ impl Defect {
             roller_length,
             rules,
             tables: [None, None],
+            tilted: [None, None],
             profiles,
         })
     }
@@ -138,6 +141,12 @@ impl Defect {
     #[inline]
     pub fn table(&self, side: Side) -> Option<&Arc<Table>> {
         self.tables[side as usize].as_ref()
+    }
+
+    /// The same where the contact tilts.
+    #[inline]
+    pub fn tilted(&self, side: Side) -> Option<&Arc<Tilted>> {
+        self.tilted[side as usize].as_ref()
     }
 
     /// Lets damage act by this table at every contact that the defect meets.
@@ -154,6 +163,17 @@ impl Defect {
             let [first, last] = table.range_s();
             self.windows[k] = (first / self.radius - 1e-9, last / self.radius + 1e-9);
             self.tables[k] = Some(table);
+        }
+    }
+
+    /// The same where the contact tilts; `upright` is that without tilt.
+    pub(crate) fn use_tilted_at(&mut self, side: Side, upright: Arc<Table>, tables: Tilted) {
+        self.use_table_at(side, upright);
+        let k = side as usize;
+        if self.profiles[k].is_some() {
+            let [first, last] = tables.range_s();
+            self.windows[k] = (first / self.radius - 1e-9, last / self.radius + 1e-9);
+            self.tilted[k] = Some(Arc::new(tables));
         }
     }
 

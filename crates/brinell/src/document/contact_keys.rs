@@ -14,7 +14,9 @@ const POINT_EXPONENT: f64 = 1.5;
 
 pub(super) fn contact<K: Keys>(k: &mut K, (laws, model, b): (Laws, ModelKind, &Bearing), c: &mut Contact) {
     let law = match (model, &b.profile) {
-        (ModelKind::Full, _) if laws == Laws::Mechanics => stated(Law::HalfSpace, "damage as on elastic steel"),
+        (ModelKind::Full | ModelKind::Tilting, _) if laws == Laws::Mechanics => {
+            stated(Law::HalfSpace, "damage as on elastic steel")
+        }
         _ if b.has_balls() => stated(Law::Sliced, "the only law of balls"),
         (ModelKind::Tilting, _) => stated(Law::Sliced, "what tilts has slices"),
         (_, RollerProfile::Straight) => stated(Law::Ecl, PAPER),
@@ -66,6 +68,12 @@ pub(super) fn contact<K: Keys>(k: &mut K, (laws, model, b): (Laws, ModelKind, &B
         (c.law == Law::HalfSpace, HALF_SPACE),
         assumed(10.0, "edges of spalls are no sharper"),
         &mut c.edge_radius_um,
+    );
+    k.key_where(
+        key("tables", "how exact the tables of damage are"),
+        (c.law == Law::HalfSpace, HALF_SPACE),
+        stated(Tables::Standard, "0.5 % of the deformation"),
+        &mut c.tables,
     );
 }
 

@@ -37,10 +37,11 @@ pub(crate) fn scenario<K: Keys>(k: &mut K, s: &mut Scenario) {
     k.section(key("friction", "rollers on raceways, along the surface"), |k| friction(k, laws, &mut s.friction));
     k.section(key("lubricant", "oil"), |k| lubricant(k, &s.bearing, &mut s.lubricant));
     k.section(key("operation", "speed, load and gravity"), |k| operation(k, (model, &s.bearing), &mut s.operation));
-    k.section(key("support", "springs and dampers that hold the rings"), |k| {
-        support(k, (laws, model, &s.bearing, s.operation.load_on), &mut s.support)
-    });
     k.section(key("housing", "fixed to the outer ring"), |k| housing(k, (laws, &s.bearing), &mut s.housing));
+    let masses = [s.bearing.inner_ring_mass_kg, s.bearing.outer_ring_mass_kg + s.housing.mass_kg];
+    k.section(key("support", "springs and dampers that hold the rings"), |k| {
+        support(k, (laws, model, &s.bearing, s.operation.load_on), masses, &mut s.support)
+    });
     let load = s.operation.load_n;
     k.tables(key("defects", "damage: none, one or many"), &mut s.defects, unset::defect, |k, d| defect(k, load, d));
     k.section(key("sensor", "from the outer ring to the record: nothing, unless a key says so"), |k| {
@@ -139,7 +140,13 @@ fn support_scale(b: &Bearing) -> f64 {
     (size / NN3007_MM).max(1.0)
 }
 
-fn support<K: Keys>(k: &mut K, (laws, model, b, load_on): (Laws, ModelKind, &Bearing, LoadOn), s: &mut Support) {
+/// `masses` are those of the inner ring and of the outer one with its housing, kg.
+fn support<K: Keys>(
+    k: &mut K,
+    (laws, model, b, load_on): (Laws, ModelKind, &Bearing, LoadOn),
+    masses: [f64; 2],
+    s: &mut Support,
+) {
     // Soft where the load acts, or the support would carry it instead of the rollers
     // (`docs/src/theory/motion.md`).
     let (scale, why) = match laws {
@@ -153,15 +160,15 @@ fn support<K: Keys>(k: &mut K, (laws, model, b, load_on): (Laws, ModelKind, &Bea
         LoadOn::OuterRing => (5e7 * scale, 1e6 * scale),
         LoadOn::InnerRing => (1e6 * scale, 5e7 * scale),
     };
-    // As sqrt(k m) of bearings that are alike: k grows as the size, m as its cube.
-    let (damping, damping_why) = match laws {
-        Laws::Mechanics => (500.0 * scale.powi(2), "about a tenth of critical, as for the NN3007"),
-        Laws::Li2023 => (500.0, "the paper does not state it"),
-    };
+    let damping = masses.map(|mass| match laws {
+        Laws::Mechanics => derived(0.2 * (5e7 * scale * mass).sqrt(), "a tenth of critical on the stiff support"),
+        Laws::Li2023 => assumed(500.0, "the paper does not state it"),
+    });
     k.key(key("inner_stiffness_n_per_m", "k_i").from(0.0), assumed(inner, why), &mut s.inner_stiffness_n_per_m);
-    k.key(key("inner_damping_ns_per_m", "c_i").from(0.0), assumed(damping, damping_why), &mut s.inner_damping_ns_per_m);
+    let [of_inner, of_outer] = damping;
+    k.key(key("inner_damping_ns_per_m", "c_i").from(0.0), of_inner, &mut s.inner_damping_ns_per_m);
     k.key(key("outer_stiffness_n_per_m", "k_o").from(0.0), assumed(outer, why), &mut s.outer_stiffness_n_per_m);
-    k.key(key("outer_damping_ns_per_m", "c_o").from(0.0), assumed(damping, damping_why), &mut s.outer_damping_ns_per_m);
+    k.key(key("outer_damping_ns_per_m", "c_o").from(0.0), of_outer, &mut s.outer_damping_ns_per_m);
     let lever = (0.5e-3 * b.pitch_diameter_mm).powi(2);
     let (stiffness, damping) = ("k R_m^2 of the same ring", "c R_m^2 of the same ring");
     let mut tilt = |name, symbol, own: f64, how, value: &mut f64| {

@@ -63,6 +63,7 @@ pub(crate) fn scenario() -> Scenario {
             damping: ContactDamping::Constant { ns_per_m: NONE },
             roughness_um: NONE,
             edge_radius_um: NONE,
+            tables: ValueType::blank(),
         },
         friction: Friction { raceway_coefficient: NONE, slip_velocity_m_per_s: NONE, rolling_coefficient: NONE },
         lubricant: Lubricant {

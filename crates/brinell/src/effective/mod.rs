@@ -5,5 +5,7 @@ mod bytes;
 mod exchange;
 pub mod spline;
 pub mod table;
+mod tilted;
 
 pub use table::{Effective, Table, TableError};
+pub use tilted::{Leaning, Tilted};

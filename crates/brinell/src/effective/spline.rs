@@ -48,12 +48,57 @@ pub(crate) fn slopes(x: &[f64], y: &[f64], curvatures: &[f64]) -> Vec<f64> {
         .collect()
 }
 
+/// Lower node of the interval of the rising `x` at `place`, which lies within them.
+pub(crate) fn interval(x: &[f64], place: f64) -> usize {
+    x.partition_point(|node| *node <= place).clamp(1, x.len() - 1) - 1
+}
+
+/// What the nodes of one interval weigh in a cubic spline's value and in its first two derivatives at a place.
+pub(crate) struct Weights {
+    lower: usize,
+    /// Of the lower and the upper node.
+    values: [[f64; 2]; 3],
+    seconds: [[f64; 2]; 3],
+}
+
+impl Weights {
+    /// At `place` within the interval from node `k` on.
+    pub(crate) fn at(x: &[f64], k: usize, place: f64) -> Self {
+        let h = x[k + 1] - x[k];
+        let (a, b) = ((x[k + 1] - place) / h, (place - x[k]) / h);
+        let sixth = h / 6.0;
+        Self {
+            lower: k,
+            values: [[a, b], [-1.0 / h, 1.0 / h], [0.0; 2]],
+            seconds: [
+                [(a * a * a - a) * h * sixth, (b * b * b - b) * h * sixth],
+                [(1.0 - 3.0 * a * a) * sixth, (3.0 * b * b - 1.0) * sixth],
+                [a, b],
+            ],
+        }
+    }
+
+    /// Value and first two derivatives there of the spline that is 1 at node `j`, 0 at the others, and has these second derivatives at the nodes.
+    pub(crate) fn of(&self, j: usize, seconds: &[f64]) -> [f64; 3] {
+        let k = self.lower;
+        [0, 1, 2].map(|n| {
+            let node = if j == k {
+                self.values[n][0]
+            } else if j == k + 1 {
+                self.values[n][1]
+            } else {
+                0.0
+            };
+            node + self.seconds[n][0] * seconds[k] + self.seconds[n][1] * seconds[k + 1]
+        })
+    }
+}
+
 /// Value at `place` of the cubic spline through `y` with the second derivatives `m`; `place` within the nodes.
 pub(crate) fn value(x: &[f64], y: &[f64], m: &[f64], place: f64) -> f64 {
-    let k = x.partition_point(|node| *node <= place).clamp(1, x.len() - 1) - 1;
-    let h = x[k + 1] - x[k];
-    let (a, b) = ((x[k + 1] - place) / h, (place - x[k]) / h);
-    a * y[k] + b * y[k + 1] + ((a * a * a - a) * m[k] + (b * b * b - b) * m[k + 1]) * h * h / 6.0
+    let k = interval(x, place);
+    let Weights { values: [[a, b], ..], seconds: [[wa, wb], ..], .. } = Weights::at(x, k, place);
+    a * y[k] + b * y[k + 1] + (wa * m[k] + wb * m[k + 1])
 }
 
 /// Second derivatives at the nodes that make the third derivative of the quintic Hermite spline through `y` with the

@@ -67,35 +67,6 @@ pub enum TableError {
         /// Pairs of s and delta.
         nodes: usize,
     },
-    /// A column that the file lacks.
-    #[error("no column {0}; the first line names the columns s_mm, delta_um and delta_eff_um, separated by commas")]
-    NoColumn(&'static str),
-    /// A line without a number where one belongs.
-    #[error("line {line}: no number in column {column}; write a decimal number such as 12.5")]
-    NoNumber {
-        /// Line of the file, from 1.
-        line: usize,
-        /// Column.
-        column: &'static str,
-    },
-    /// Two lines for one place.
-    #[error("line {line}: s_mm {s_mm} and delta_um {delta_um} are there twice; leave one of them out")]
-    Twice {
-        /// Line of the file, from 1.
-        line: usize,
-        /// Its s, mm.
-        s_mm: f64,
-        /// Its delta, um.
-        delta_um: f64,
-    },
-    /// A place without a line.
-    #[error("no line for s_mm {s_mm} and delta_um {delta_um}; the grid must be full: every delta_um at every s_mm")]
-    Missing {
-        /// s, mm.
-        s_mm: f64,
-        /// delta, um.
-        delta_um: f64,
-    },
 }
 
 /// Rising nodes, with the interval at a place found in constant time.
@@ -256,11 +227,20 @@ impl Table {
         if delta <= first {
             return Effective { delta: delta - first, by_delta: 0.0, by_s: 0.0, by_delta2: 0.0 };
         }
+        self.straight(delta, s)
+    }
+
+    /// The same, but below the first delta it goes on as straight as beyond the last.
+    #[inline]
+    pub(super) fn straight(&self, delta: f64, s: f64) -> Effective {
+        if !(s >= self.s.first() && s <= self.s.last()) {
+            return Effective { delta, by_delta: 1.0, by_s: 0.0, by_delta2: 0.0 };
+        }
         let along = self.along(s);
-        let last = self.delta.last();
-        if delta >= last {
-            let [_, at] = along(self.delta.nodes.len() - 2);
-            let beyond = delta - last;
+        let (first, last) = (self.delta.first(), self.delta.last());
+        if delta <= first || delta >= last {
+            let [low, high] = along(if delta <= first { 0 } else { self.delta.nodes.len() - 2 });
+            let (at, beyond) = if delta <= first { (low, delta - first) } else { (high, delta - last) };
             return Effective {
                 delta: at.value[0] + beyond * at.value[1],
                 by_delta: at.value[1],

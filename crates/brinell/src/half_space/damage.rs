@@ -56,7 +56,7 @@ pub fn gather(defects: &[Defect], reach: impl Fn(&Defect) -> f64) -> Vec<Vec<usi
 }
 
 /// From the centre of one defect to that of another of its surface along s, m.
-fn offset(of: &Defect, from: &Defect) -> f64 {
+pub(super) fn offset(of: &Defect, from: &Defect) -> f64 {
     wrap(of.center - from.center) * from.radius
 }
 

@@ -80,6 +80,23 @@ impl Geometry {
         Some(Self { along: of.along, across, modulus })
     }
 
+    /// The same roller, tilted: the gap counts from its deepest end. `tilt` is the deformation's change along z.
+    pub(super) fn tilted(&self, tilt: f64) -> Self {
+        let mut of = self.clone();
+        if let Across::Roller { length, drops } = &mut of.across
+            && tilt != 0.0
+        {
+            if drops.len() < 2 {
+                *drops = vec![0.0; 2];
+            }
+            let steps = (drops.len() - 1) as f64;
+            for (k, drop) in drops.iter_mut().enumerate() {
+                *drop += (0.5 * tilt.abs() - tilt * (k as f64 / steps - 0.5)) * *length;
+            }
+        }
+        of
+    }
+
     /// Half the width of the healthy contact along the rolling direction, m: exact of a ball, an estimate of a roller.
     pub fn half_width(&self, delta: f64) -> f64 {
         match &self.across {

@@ -1,11 +1,16 @@
 //! Displacements of an elastic half-space under uniformly loaded rectangles: Love's coefficients on a grid.
 //!
-//! x along the rolling direction, z across. Fourier transforms along x, where the window is short and pressures are summed by convolution;
-//! direct sums along z. Lengths in cells of x, pressures as displacements: u = (dx / (pi E*)) A p with A from here.
+//! x along the rolling direction, z across. Fourier transforms along x; direct sums along z, over the rows that can touch alone. Lengths in
+//! cells of x, pressures as displacements: u = (dx / (pi E*)) A p with A from here.
 
 use realfft::num_complex::Complex;
 use realfft::{ComplexToReal, RealFftPlanner, RealToComplex};
 use std::sync::Arc;
+
+/// Real and imaginary parts that are summed together.
+const LANES: usize = 8;
+/// Rows next to each other that are summed together.
+const BLOCK: usize = 4;
 
 /// Cells of a window: `along` in x by `across` in z; pressures row by row of z, x within a row.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -25,9 +30,12 @@ pub struct Influence {
     cells: Cells,
     /// Values along x with the zeros that keep both ends apart.
     padded: usize,
-    /// Transforms along x of the coefficients, wave by wave: rows apart from -(n - 1) up to n - 1, or to 2n - 1 where mirrored.
-    waves: Vec<f64>,
-    /// Rows apart that each wave has.
+    /// Transforms along x of the coefficients, each twice for real and imaginary parts: group by group of lanes, rows apart from -(n - 1) up to
+    /// n - 1, or to 2n - 1 where mirrored.
+    waves: Vec<[f64; LANES]>,
+    /// Groups of lanes in a row's transform.
+    groups: usize,
+    /// Rows apart that each group has, with room for the last block.
     apart: usize,
     forward: Arc<dyn RealToComplex<f64>>,
     inverse: Arc<dyn ComplexToReal<f64>>,
@@ -38,9 +46,11 @@ pub struct Scratch {
     line: Vec<f64>,
     spectrum: Vec<Complex<f64>>,
     scratch: Vec<Complex<f64>>,
-    /// Spectra of rows, wave by wave: real parts, then imaginary ones.
-    from: Vec<f64>,
-    to: Vec<f64>,
+    /// Spectra of rows, group by group of lanes.
+    from: Vec<[f64; LANES]>,
+    to: Vec<[f64; LANES]>,
+    /// Rows with pressures.
+    loaded: Vec<usize>,
 }
 
 impl std::fmt::Debug for Influence {
@@ -75,9 +85,9 @@ impl Influence {
         let mut planner = RealFftPlanner::new();
         let (forward, inverse) = (planner.plan_fft_forward(padded), planner.plan_fft_inverse(padded));
         let farthest = if mirrored { 2 * across } else { across };
-        let apart = across - 1 + farthest;
-        let count = padded / 2 + 1;
-        let mut waves = vec![0.0; count * apart];
+        let groups = (2 * (padded / 2 + 1)).div_ceil(LANES);
+        let apart = across - 1 + farthest + BLOCK;
+        let mut waves = vec![[0.0; LANES]; groups * apart];
         // Corners lie between cells: half a cell off their middles.
         let corners: Vec<Vec<f64>> = (0..=farthest)
             .map(|row| (0..=along).map(|k| corner(k as f64 - 0.5, (row as f64 - 0.5) * aspect)).collect())
@@ -96,16 +106,16 @@ impl Influence {
             // The lengths are the plan's own.
             let done = forward.process(&mut line, &mut spectrum);
             debug_assert!(done.is_ok());
-            for (wave, value) in spectrum.iter().enumerate() {
-                // Even in x: the transform is real.
-                let at = &mut waves[wave * apart..(wave + 1) * apart];
-                at[across - 1 + row] = value.re;
-                if row > 0 && row < across {
-                    at[across - 1 - row] = value.re;
+            // Even in x: the transform is real.
+            for (k, value) in spectrum.iter().flat_map(|value| [value.re; 2]).enumerate() {
+                let at = k / LANES * apart + across - 1;
+                waves[at + row][k % LANES] = value;
+                if row < across {
+                    waves[at - row][k % LANES] = value;
                 }
             }
         }
-        Self { cells, padded, waves, apart, forward, inverse }
+        Self { cells, padded, waves, groups, apart, forward, inverse }
     }
 
     /// The window.
@@ -121,70 +131,102 @@ impl Influence {
 
     /// Room for [`Self::apply`].
     pub fn scratch(&self) -> Scratch {
-        let waves = self.padded / 2 + 1;
         let scratch = self.forward.get_scratch_len().max(self.inverse.get_scratch_len());
         Scratch {
             line: self.forward.make_input_vec(),
             spectrum: self.forward.make_output_vec(),
             scratch: vec![Complex::default(); scratch],
-            from: vec![0.0; 2 * waves * self.cells.across],
-            to: vec![0.0; 2 * waves * self.cells.across],
+            from: vec![[0.0; LANES]; self.groups * self.cells.across],
+            to: vec![[0.0; LANES]; self.groups * (self.cells.across + BLOCK)],
+            loaded: Vec::with_capacity(self.cells.across),
         }
     }
 
-    /// `to` = A `p`.
-    pub fn apply(&self, p: &[f64], to: &mut [f64], room: &mut Scratch) {
-        let Cells { along, across, mirrored, .. } = self.cells;
-        let waves = self.padded / 2 + 1;
-        let mut loaded = Vec::with_capacity(across);
-        for (row, line) in p.chunks_exact(along).enumerate() {
+    /// `to` = A `p` in these rows, rising, where all pressures are; elsewhere `to` stays.
+    pub fn apply(&self, p: &[f64], to: &mut [f64], rows: &[usize], room: &mut Scratch) {
+        let Cells { along, across, .. } = self.cells;
+        room.loaded.clear();
+        for &row in rows {
+            let line = &p[row * along..][..along];
             if line.iter().all(|p| *p == 0.0) {
                 continue;
             }
-            loaded.push(row);
+            room.loaded.push(row);
             room.line[..along].copy_from_slice(line);
             room.line[along..].fill(0.0);
             let done = self.forward.process_with_scratch(&mut room.line, &mut room.spectrum, &mut room.scratch);
             debug_assert!(done.is_ok());
-            for (wave, value) in room.spectrum.iter().enumerate() {
-                room.from[2 * wave * across + row] = value.re;
-                room.from[(2 * wave + 1) * across + row] = value.im;
+            for (k, value) in room.spectrum.iter().flat_map(|value| [value.re, value.im]).enumerate() {
+                room.from[k / LANES * across + row][k % LANES] = value;
             }
         }
-        room.to.fill(0.0);
-        for wave in 0..waves {
-            let coefficients = &self.waves[wave * self.apart..(wave + 1) * self.apart];
-            let span = 2 * wave * across..2 * (wave + 1) * across;
-            let (real, imaginary) = room.to[span.clone()].split_at_mut(across);
-            let (from_real, from_imaginary) = room.from[span].split_at(across);
-            for &row in &loaded {
-                let near = &coefficients[across - 1 - row..][..across];
-                let (re, im) = (from_real[row], from_imaginary[row]);
-                if mirrored {
-                    let far = &coefficients[across + row..][..across];
-                    for k in 0..across {
-                        let a = near[k] + far[k];
-                        real[k] += a * re;
-                        imaginary[k] += a * im;
-                    }
-                } else {
-                    for k in 0..across {
-                        real[k] += near[k] * re;
-                        imaginary[k] += near[k] * im;
-                    }
-                }
-            }
-        }
-        for (row, line) in to.chunks_exact_mut(along).enumerate() {
-            for (wave, value) in room.spectrum.iter_mut().enumerate() {
-                *value = Complex::new(room.to[2 * wave * across + row], room.to[(2 * wave + 1) * across + row]);
+        self.add_up(rows, room);
+        let last = room.spectrum.len() - 1;
+        for &row in rows {
+            for (k, value) in room.spectrum.iter_mut().enumerate() {
+                let at = &room.to[2 * k / LANES * (across + BLOCK) + row];
+                *value = Complex::new(at[2 * k % LANES], at[2 * k % LANES + 1]);
             }
             // What round-off leaves there, which the transform refuses.
             room.spectrum[0].im = 0.0;
-            room.spectrum[waves - 1].im = 0.0;
+            room.spectrum[last].im = 0.0;
             let done = self.inverse.process_with_scratch(&mut room.spectrum, &mut room.line, &mut room.scratch);
             debug_assert!(done.is_ok());
-            line.copy_from_slice(&room.line[..along]);
+            to[row * along..][..along].copy_from_slice(&room.line[..along]);
+        }
+    }
+
+    /// Sums of what the loaded rows do to all others, wave by wave: the same to the bit with any instructions, for no product is fused.
+    fn add_up(&self, rows: &[usize], room: &mut Scratch) {
+        #[cfg(target_arch = "x86_64")]
+        {
+            #[target_feature(enable = "avx512f")]
+            fn with_avx512(of: &Influence, rows: &[usize], room: &mut Scratch) {
+                of.add_up_in_lanes(rows, room);
+            }
+            #[target_feature(enable = "avx2")]
+            fn with_avx2(of: &Influence, rows: &[usize], room: &mut Scratch) {
+                of.add_up_in_lanes(rows, room);
+            }
+            if is_x86_feature_detected!("avx512f") {
+                // SAFETY: the processor has been asked.
+                return unsafe { with_avx512(self, rows, room) };
+            }
+            if is_x86_feature_detected!("avx2") {
+                // SAFETY: as above.
+                return unsafe { with_avx2(self, rows, room) };
+            }
+        }
+        self.add_up_in_lanes(rows, room);
+    }
+
+    #[inline(always)]
+    fn add_up_in_lanes(&self, rows: &[usize], room: &mut Scratch) {
+        let Cells { across, mirrored, .. } = self.cells;
+        for group in 0..self.groups {
+            let waves = &self.waves[group * self.apart..][..self.apart];
+            let from = &room.from[group * across..][..across];
+            let to = &mut room.to[group * (across + BLOCK)..][..across + BLOCK];
+            let mut next = 0;
+            for &row in rows {
+                if row < next {
+                    continue;
+                }
+                next = row + BLOCK;
+                let mut sums = [[0.0; LANES]; BLOCK];
+                for &other in &room.loaded {
+                    let near = &waves[across - 1 + row - other..][..BLOCK];
+                    let far = if mirrored { &waves[across + row + other..][..BLOCK] } else { near };
+                    let from = &from[other];
+                    for j in 0..BLOCK {
+                        for k in 0..LANES {
+                            let both = if mirrored { near[j][k] + far[j][k] } else { near[j][k] };
+                            sums[j][k] += both * from[k];
+                        }
+                    }
+                }
+                to[row..next].copy_from_slice(&sums);
+            }
         }
     }
 }
@@ -214,7 +256,7 @@ mod tests {
             let p: Vec<f64> =
                 (0..35).map(|k| ((k * k) % 11) as f64 * f64::from(u8::from(!(10..20).contains(&k)))).collect();
             let mut u = vec![0.0; 35];
-            influence.apply(&p, &mut u, &mut influence.scratch());
+            influence.apply(&p, &mut u, &[0, 1, 2, 3, 4], &mut influence.scratch());
             for (k, u) in u.iter().enumerate() {
                 let sum: f64 = (0..35)
                     .map(|m| {

@@ -61,8 +61,8 @@ pub(super) struct Grid {
 
 /// Share of delta below which a contact's energy stands for nothing but a cell or two.
 const LEAST: f64 = 0.01;
-/// Halvings of the steps along s, from four times half the contact's width to a quarter of it.
-const HALVINGS: u32 = 4;
+/// Halvings of the steps along s, from eight times half the contact's width to a quarter of it.
+const HALVINGS: u32 = 5;
 
 /// The cell along s (m) at a deformation whose contact has this half-width: a power of two, so that steps of all deformations nest.
 pub(super) fn cell_length(half_width: f64, fineness: &Fineness) -> f64 {

@@ -13,7 +13,7 @@ pub mod solver;
 mod surfaces;
 
 pub use shelf::{Shelf, keep_on};
-pub use surfaces::add_tables;
+pub use surfaces::{add_tables, healthy_pressure, pressure_over};
 
 #[cfg(test)]
 mod tests;

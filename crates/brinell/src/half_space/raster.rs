@@ -22,7 +22,7 @@ const LEAST_SHARE: f64 = 1e-3;
 
 /// Depths (m) and shares that differ by less are the same, so that columns that differ by round-off are solved once.
 const SAME_DEPTH: f64 = 1e-12;
-const SAME_SHARE: f64 = 1e-6;
+const SAME_SHARE: f64 = 1e-5;
 
 fn alike(x: f64, step: f64) -> f64 {
     (x / step).round() * step

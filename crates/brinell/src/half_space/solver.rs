@@ -1,6 +1,7 @@
-//! Contact of an elastic half-space with a gap: pressures on a window of cells by conjugate gradients with projection.
+//! Contact of an elastic half-space with a gap: pressures on a window of cells by conjugate gradients on the cells that touch.
 //!
-//! Polonsky and Keer (1999), with the approach given instead of the load. Pressures p >= 0 with u = A p, u + g >= delta and p (u + g - delta) = 0 make
+//! The approach is given. Which cells touch is found in turns: equal gaps on those that do, then those that pull are let go and those that overlap
+//! join them. Pressures p >= 0 with u = A p, u + g >= delta and p (u + g - delta) = 0 make
 //! the sum of p (delta - g) - p u/2 largest: its value there is the stored energy, in which errors of p count squared, and its derivative in
 //! delta is the sum of the pressures. Lengths in m. Pressures in units of pi E*/dx, so that u = A p.
 
@@ -8,6 +9,8 @@ use super::influence::{Influence, Scratch};
 
 /// Convolutions of a solution at the most: a bound that nothing met comes near.
 const MOST_CONVOLUTIONS: usize = 1000;
+/// What is left of the residual after one turn.
+const TURN: f64 = 0.1;
 
 /// What presses where.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
@@ -24,12 +27,17 @@ pub struct Pressed {
 pub struct Contact<'a> {
     influence: &'a Influence,
     room: Scratch,
+    /// Rows that can touch.
+    rows: Vec<usize>,
     /// Pressures.
     pub p: Vec<f64>,
     /// u + g - delta.
     residual: Vec<f64>,
     direction: Vec<f64>,
     image: Vec<f64>,
+    /// 1 for cells that touch, else 0; and over their own compliance.
+    free: Vec<f64>,
+    yields: Vec<f64>,
 }
 
 impl<'a> Contact<'a> {
@@ -37,7 +45,18 @@ impl<'a> Contact<'a> {
     pub fn new(influence: &'a Influence) -> Self {
         let n = influence.cells().along * influence.cells().across;
         let zeros = || vec![0.0; n];
-        Self { influence, room: influence.scratch(), p: zeros(), residual: zeros(), direction: zeros(), image: zeros() }
+        let (room, rows) = (influence.scratch(), Vec::with_capacity(influence.cells().across));
+        Self {
+            influence,
+            room,
+            rows,
+            p: zeros(),
+            residual: zeros(),
+            direction: zeros(),
+            image: zeros(),
+            free: zeros(),
+            yields: zeros(),
+        }
     }
 
     /// Presses the window with the gaps `gap` (m; infinite where nothing is to touch) by `delta` (m), from the pressures that there are,
@@ -53,12 +72,15 @@ impl<'a> Contact<'a> {
             self.p.fill(0.0);
             return Pressed::default();
         }
+        let along = self.influence.cells().along;
+        self.rows.clear();
+        self.rows.extend((0..gap.len() / along).filter(|row| gap[row * along..][..along].iter().any(|g| *g < delta)));
         if self.p.iter().all(|p| *p == 0.0) {
             // Any start in the right place: a pressure as the overlap, to be scaled by the first step.
             for (p, g) in self.p.iter_mut().zip(gap) {
                 *p = (delta - g).max(0.0);
             }
-            self.influence.apply(&self.p, &mut self.image, &mut self.room);
+            self.influence.apply(&self.p, &mut self.image, &self.rows, &mut self.room);
             let (work, stored) = (0..gap.len())
                 .filter(|k| self.p[*k] > 0.0)
                 .fold((0.0, 0.0), |(w, e), k| (w + self.p[k] * (delta - gap[k]), e + self.p[k] * self.image[k]));
@@ -77,74 +99,90 @@ impl<'a> Contact<'a> {
     }
 
     fn find_residual(&mut self, gap: &[f64], soft: &[f64], delta: f64) {
-        self.influence.apply(&self.p, &mut self.residual, &mut self.room);
+        self.influence.apply(&self.p, &mut self.residual, &self.rows, &mut self.room);
         for (((r, g), p), soft) in self.residual.iter_mut().zip(gap).zip(&self.p).zip(soft) {
             *r += (g - delta) + soft * p;
         }
     }
 
-    /// Conjugate gradients on the cells that are pressed, scaled by each cell's own compliance.
-    fn iterate(&mut self, gap: &[f64], soft: &[f64], delta: f64, limit: f64) -> usize {
+    /// Which cells touch, with the sum of their squared residuals and their number; whether residuals are below `limit`.
+    fn find_free(&mut self, gap: &[f64], soft: &[f64], delta: f64, limit: f64) -> (f64, usize, bool) {
         let own = self.influence.own();
-        let (mut before, mut conjugate) = (1.0, false);
-        self.direction.fill(0.0);
+        let (mut cells, mut done) = (0usize, true);
+        for k in 0..gap.len() {
+            let overlaps = self.p[k] <= 0.0 && gap[k] < delta && self.residual[k] < -limit;
+            let is_free = self.p[k] > 0.0 || overlaps;
+            (self.free[k], self.yields[k]) = if is_free { (1.0, 1.0 / (own + soft[k])) } else { (0.0, 0.0) };
+            cells += usize::from(is_free);
+            done &= !overlaps;
+        }
+        let square = sum_of_products(&self.residual, &self.residual, &self.free);
+        (square, cells, done && square <= limit * limit * cells as f64)
+    }
+
+    /// Turns until residuals are below `limit`; the convolutions that they took.
+    fn iterate(&mut self, gap: &[f64], soft: &[f64], delta: f64, limit: f64) -> usize {
         self.find_residual(gap, soft, delta);
         let mut convolutions = 1;
         while convolutions < MOST_CONVOLUTIONS {
-            let (mut square, mut scaled, mut cells, mut worst) = (0.0, 0.0, 0usize, 0.0_f64);
-            for (((p, r), g), soft) in self.p.iter().zip(&self.residual).zip(gap).zip(soft) {
-                if *p > 0.0 {
-                    square += r * r;
-                    scaled += r * r / (own + soft);
-                    cells += 1;
-                } else if *g < delta {
-                    worst = worst.max(-r);
-                }
-            }
-            if square <= limit * limit * cells as f64 && worst <= limit {
+            let (square, cells, done) = self.find_free(gap, soft, delta, limit);
+            if done {
                 break;
             }
-            let share = if conjugate { scaled / before } else { 0.0 };
-            before = scaled;
-            for (((d, p), r), soft) in self.direction.iter_mut().zip(&self.p).zip(&self.residual).zip(soft) {
-                *d = if *p > 0.0 { r / (own + soft) + share * *d } else { 0.0 };
+            let goal = (TURN * TURN * square).max(0.25 * limit * limit * cells as f64);
+            convolutions += self.equalise(soft, goal, MOST_CONVOLUTIONS - convolutions);
+            let mut pulls = false;
+            for p in self.p.iter_mut().filter(|p| **p < 0.0) {
+                *p = 0.0;
+                pulls = true;
             }
-            self.influence.apply(&self.direction, &mut self.image, &mut self.room);
-            convolutions += 1;
-            let (mut along, mut stiff) = (0.0, 0.0);
-            for (((d, q), r), soft) in self.direction.iter().zip(&mut self.image).zip(&self.residual).zip(soft) {
-                *q += soft * d;
-                along += r * d;
-                stiff += *q * d;
-            }
-            let step = if stiff > 0.0 { along / stiff } else { 0.0 };
-            let changed = self.advance(gap, soft, delta, step);
-            if changed {
+            if pulls {
                 self.find_residual(gap, soft, delta);
                 convolutions += 1;
             }
-            conjugate = !changed;
         }
         convolutions
     }
 
-    /// One step, then no pressure below 0, and what overlaps without pressure is pressed. Whether cells came or went.
-    fn advance(&mut self, gap: &[f64], soft: &[f64], delta: f64, step: f64) -> bool {
-        let own = self.influence.own();
-        let mut changed = false;
-        for k in 0..self.p.len() {
-            self.residual[k] -= step * self.image[k];
-            if self.p[k] > 0.0 {
-                self.p[k] -= step * self.direction[k];
-                if self.p[k] <= 0.0 {
-                    self.p[k] = 0.0;
-                    changed = true;
-                }
-            } else if self.residual[k] < 0.0 && gap[k] < delta {
-                self.p[k] = -step * self.residual[k] / (own + soft[k]);
-                changed = true;
+    /// Conjugate gradients on the cells that touch, scaled by each cell's own compliance, until the sum of squared residuals is below `goal`.
+    fn equalise(&mut self, soft: &[f64], goal: f64, most: usize) -> usize {
+        let mut before = f64::INFINITY;
+        self.direction.fill(0.0);
+        for convolutions in 1..=most {
+            let scaled = sum_of_products(&self.residual, &self.residual, &self.yields);
+            let share = scaled / before;
+            before = scaled;
+            for ((d, r), yields) in self.direction.iter_mut().zip(&self.residual).zip(&self.yields) {
+                *d = r * yields + share * *d;
+            }
+            self.influence.apply(&self.direction, &mut self.image, &self.rows, &mut self.room);
+            for ((q, d), soft) in self.image.iter_mut().zip(&self.direction).zip(soft) {
+                *q += soft * d;
+            }
+            let stiff = sum_of_products(&self.image, &self.direction, &self.free);
+            let step = if stiff > 0.0 { scaled / stiff } else { 0.0 };
+            for (r, q) in self.residual.iter_mut().zip(&self.image) {
+                *r -= step * q;
+            }
+            for (p, d) in self.p.iter_mut().zip(&self.direction) {
+                *p -= step * d;
+            }
+            if sum_of_products(&self.residual, &self.residual, &self.free) <= goal {
+                return convolutions;
             }
         }
-        changed
+        most
     }
+}
+
+/// Sum of a b c, in the same order with any instructions.
+fn sum_of_products(a: &[f64], b: &[f64], c: &[f64]) -> f64 {
+    const LANES: usize = 8;
+    let mut sums = [0.0; LANES];
+    for ((a, b), c) in a.chunks(LANES).zip(b.chunks(LANES)).zip(c.chunks(LANES)) {
+        for (((sum, a), b), c) in sums.iter_mut().zip(a).zip(b).zip(c) {
+            *sum += a * b * c;
+        }
+    }
+    sums.iter().sum()
 }

@@ -1,23 +1,40 @@
-//! The tables of a bearing's damage.
+//! The tables of a bearing's damage, and the pressures over it.
 
 use super::build::{self, Accuracy, BuildError, Range};
-use super::damage::{Damage, gather};
+use super::damage::{Damage, gather, offset};
+use super::field::{self, Field};
 use super::geometry::Geometry;
 use super::shelf::{self, Key};
 use crate::defect::{Defect, SIDES, Side};
-use crate::effective::Table;
-use crate::scenario::{Bearing, Contact};
+use crate::effective::{Table, Tilted};
+use crate::scenario::{Bearing, Contact, Tables};
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
+/// Tilts of tables: how much deeper one end of the roller lies than its middle, over the static deformation.
+const TILTS: [f64; 4] = [0.0, 1.0, 3.0, 9.0];
+
+/// One contact that meets damage.
+struct Met<'a> {
+    geometry: &'a Geometry,
+    range: &'a Range,
+    /// Length over which edges are rounded, m.
+    edge: f64,
+    accuracy: Accuracy,
+    /// What the damage is made of, as far as a table depends on it.
+    of: String,
+}
+
 /// Makes the tables of all damage that has none yet, each surface's once for every contact that meets it, and gives them to the first
-/// defect of each surface. `deflection` is the heaviest static deformation of the healthy contact on a side, m.
+/// defect of each surface; where rollers tilt (`tilts`) one for each of a few tilts. `deflection` is the heaviest static deformation of the
+/// healthy contact on a side, m.
 ///
 /// # Errors
 /// Where the contact makes no table: lengths that are not positive, damage too large for a table.
 pub fn add_tables(
     defects: &mut [Defect],
     (bearing, contact): (&Bearing, &Contact),
+    tilts: bool,
     deflection: impl Fn(Side) -> f64,
 ) -> Result<(), BuildError> {
     let own: Vec<usize> =
@@ -26,11 +43,13 @@ pub fn add_tables(
     let ranges = SIDES.map(|side| Range::of(step_up(deflection(side))));
     let geometries = SIDES.map(|side| Geometry::of_bearing(bearing, contact, side));
     let edge = 1e-6 * contact.edge_radius_um;
+    let most_lead = |range: &Range| if tilts { TILTS[TILTS.len() - 1] * range.static_deflection } else { 0.0 };
     let reach = |defect: &Defect| {
         let of = |side: Side| {
             let (geometry, range) = (&geometries[side as usize], &ranges[side as usize]);
             let met = defect.depth_profile(side).is_some();
-            geometry.as_ref().filter(|_| met).map_or(0.0, |g| g.reach(range.largest + defect.raised()))
+            let most = range.largest + most_lead(range) + defect.raised();
+            geometry.as_ref().filter(|_| met).map_or(0.0, |g| g.reach(most))
         };
         of(Side::Inner).max(of(Side::Outer))
     };
@@ -47,18 +66,84 @@ pub fn add_tables(
                 let d = &to_make[*m];
                 (&d.shape, d.depth, d.middle, d.center - to_make[first].center, d.radius)
             });
-            let accuracy = Accuracy::Standard;
-            let key =
-                Key::of(format_args!("{geometry:?} {range:?} {edge:?} {accuracy:?} {:?}", members.collect::<Vec<_>>()));
-            let table: Arc<Table> = shelf::table(key, || {
-                let damage = Damage::of(&to_make, &group, edge);
-                let threads = brinell_signal::parallel::threads(usize::MAX);
-                Ok(build::table(geometry, &damage.raster, range, accuracy, threads, &AtomicBool::new(false))?.table)
-            })?;
-            defects[own[first]].use_table_at(side, table);
+            let accuracy = match contact.tables {
+                Tables::Standard => Accuracy::Standard,
+                Tables::Coarse => Accuracy::Coarse,
+                Tables::Quick => Accuracy::Quick,
+            };
+            let met = Met { geometry, range, edge, accuracy, of: format!("{:?}", members.collect::<Vec<_>>()) };
+            let upright = met.table(&to_make, &group, 0.0)?;
+            if tilts {
+                let tables = met.tilted(&to_make, &group, &upright, 0.5 * defects[own[first]].roller_length)?;
+                defects[own[first]].use_tilted_at(side, upright, tables);
+            } else {
+                defects[own[first]].use_table_at(side, upright);
+            }
         }
     }
     Ok(())
+}
+
+impl Met<'_> {
+    /// The table at one tilt, of how much deeper one end lies than the middle, m: that at +z where above 0.
+    fn table(&self, defects: &[Defect], group: &[usize], lead: f64) -> Result<Arc<Table>, BuildError> {
+        let half = self.geometry.half_across(self.range.largest);
+        let geometry = self.geometry.tilted(lead / half);
+        let range = Range { largest: self.range.largest + lead.abs(), ..*self.range };
+        let (edge, accuracy) = (self.edge, self.accuracy);
+        let key = Key::of(format_args!("{geometry:?} {range:?} {edge:?} {accuracy:?} {}", self.of));
+        shelf::table(key, || {
+            let damage = Damage::of(defects, group, edge);
+            let threads = brinell_signal::parallel::threads(usize::MAX);
+            Ok(build::table(&geometry, &damage.raster, &range, accuracy, threads, &AtomicBool::new(false))?.table)
+        })
+    }
+
+    /// Tables over tilt. Where the contact is alike on both sides of the middle, opposite tilts share theirs.
+    fn tilted(
+        &self,
+        defects: &[Defect],
+        group: &[usize],
+        upright: &Arc<Table>,
+        half: f64,
+    ) -> Result<Tilted, BuildError> {
+        let mirrored = self.geometry.is_mirrored(&Damage::of(defects, group, self.edge).raster);
+        let leads = TILTS.map(|share| share * self.range.static_deflection);
+        let mut all = vec![(0.0, upright.clone())];
+        for lead in &leads[1..] {
+            let up = self.table(defects, group, *lead)?;
+            let down = if mirrored { up.clone() } else { self.table(defects, group, -lead)? };
+            all.push((lead / half, up));
+            all.insert(0, (-lead / half, down));
+        }
+        let (tilts, tables) = all.into_iter().unzip();
+        Ok(Tilted::new(tilts, tables, half))
+    }
+}
+
+/// Pressures under a contact that passes the damage `defects[of]` at the deformation `delta` (m), where they are largest; with all damage
+/// that the contact meets there. s is from the defect's centre. `None` where nothing touches, or the defect does not meet the side.
+pub fn pressure_over(
+    (defects, of): (&[Defect], usize),
+    (bearing, contact): (&Bearing, &Contact),
+    side: Side,
+    delta: f64,
+) -> Option<Field> {
+    let defect = &defects[of];
+    defect.depth_profile(side)?;
+    let geometry = Geometry::of_bearing(bearing, contact, side)?;
+    let groups = gather(defects, |d| geometry.reach(delta + d.raised()));
+    let group = groups.into_iter().find(|group| group.contains(&of))?;
+    let damage = Damage::of(defects, &group, 1e-6 * contact.edge_radius_um);
+    let apart = offset(defect, &defects[group[0]]);
+    let (first, last) = defect.shape.arc();
+    let between = [first + apart, last + apart];
+    field::largest_pressure(&geometry, &damage.raster, delta, between).map(|field| field.seen_from(apart))
+}
+
+/// The largest pressure of the healthy contact at the deformation `delta` (m), Pa.
+pub fn healthy_pressure((bearing, contact): (&Bearing, &Contact), side: Side, delta: f64) -> Option<f64> {
+    field::healthy(&Geometry::of_bearing(bearing, contact, side)?, delta)
 }
 
 /// The next of the steps of a quarter of an octave, m: loads that differ little share their tables.

@@ -6,6 +6,7 @@ use super::field::pressure_at;
 use super::geometry::Geometry;
 use super::level::{self, Fineness};
 use super::raster::{Bounds, Raster};
+use super::{healthy_pressure, pressure_over};
 use crate::defect::{Defect, Side};
 use crate::scenario::{self, Scenario, Shape, Surface};
 use std::num::NonZeroUsize;
@@ -128,6 +129,64 @@ fn xval_the_healthy_ball_is_hertz() {
     let hertz = 1.5 * 424.37 / (std::f64::consts::PI * 132.2e-6 * 960.6e-6);
     assert!((field.largest / hertz - 1.0).abs() < 5e-3, "{} {hertz}", field.largest);
     assert_eq!(field.pressure.len(), field.cells[0] * field.cells[1]);
+}
+
+#[test]
+fn analytic_pressures_over_no_depth_are_hertz_and_add_up_to_the_force() {
+    let (of, no_depth) = (scenario("6205"), [pit_at(90.0, 0.0)]);
+    for (defects, share) in [(&no_depth[..], 1.0), (&[pit_at(90.0, 280.0)], 0.995)] {
+        let defects = Defect::all(defects, &of.bearing, &of.contact).unwrap();
+        let field = pressure_over((&defects, 0), (&of.bearing, &of.contact), Side::Outer, 3e-6).unwrap();
+        let sum: f64 = field.pressure.iter().sum();
+        assert!((sum * field.size[0] * field.size[1] / field.force - 1.0).abs() < 1e-9);
+        let [_, hertz] = crate::pressure::pressures(&of, [field.force; 2]);
+        let healthy = healthy_pressure((&of.bearing, &of.contact), Side::Outer, 3e-6).unwrap();
+        if share == 1.0 {
+            assert!((field.largest / hertz - 1.0).abs() < 0.03, "{} {hertz}", field.largest);
+            assert!((healthy / hertz - 1.0).abs() < 0.03, "{healthy} {hertz}");
+            assert_eq!(field.share_above(2.0 * healthy), 0.0);
+        } else {
+            // A pit 0.18 mm across takes little of the force; beside it the pressure is far above.
+            assert!(field.force < share * hertz_force(&of, 3e-6) && field.largest > 1.5 * healthy);
+            assert!(field.at[0].hypot(field.at[1]) > 0.08e-3, "{:?}", field.at);
+            assert!((1e-4..0.2).contains(&field.share_above(1.5 * healthy)));
+        }
+    }
+}
+
+/// A round pit on the outer raceway of a 6205.
+fn pit_at(center_deg: f64, depth_um: f64) -> scenario::Defect {
+    scenario::Defect {
+        on: Surface::OuterRaceway,
+        row: 1,
+        center_deg,
+        depth_um,
+        axial_offset_mm: 0.0,
+        shape: Shape::Circle { diameter_mm: 0.1778 },
+        table: None,
+    }
+}
+
+/// Q of the healthy outer contact at a deformation, N.
+fn hertz_force(of: &Scenario, delta: f64) -> f64 {
+    crate::model::Model::new(of).unwrap().contact(Side::Outer).healthy(delta)
+}
+
+#[test]
+fn prop_pressures_are_counted_from_their_own_defect() {
+    let of = scenario("6205");
+    let found = |defects: &[scenario::Defect], k: usize| {
+        let defects = Defect::all(defects, &of.bearing, &of.contact).unwrap();
+        pressure_over((&defects, k), (&of.bearing, &of.contact), Side::Outer, 3e-6).unwrap()
+    };
+    let (alone, far) = (found(&[pit_at(90.0, 280.0)], 0), [pit_at(90.0, 280.0), pit_at(270.0, 280.0)]);
+    assert_eq!(found(&far, 1), alone);
+    // 1 degree is 0.4 mm: one contact meets both, and the second is as far from the first.
+    let near = found(&[pit_at(90.0, 280.0), pit_at(91.0, 280.0)], 1);
+    assert!((near.largest / alone.largest - 1.0).abs() < 0.25, "{} {}", near.largest, alone.largest);
+    assert!((near.at[0].hypot(near.at[1]) - 0.1e-3).abs() < 0.03e-3, "{:?}", near.at);
+    let defects = Defect::all(&far, &of.bearing, &of.contact).unwrap();
+    assert_eq!(pressure_over((&defects, 0), (&of.bearing, &of.contact), Side::Inner, 3e-6), None);
 }
 
 #[test]

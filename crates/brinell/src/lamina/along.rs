@@ -1,11 +1,11 @@
 //! The load along one roller at rest over damage, beside that of the healthy bearing.
 
 use super::line::{ContactLine, in_slices, lines, slices_of};
-use crate::defect::{Defect, Defects, Side, cover_slices, wrap};
+use crate::defect::{Defect, Side, wrap};
 use crate::error::{Error, refuse};
 use crate::model::Model;
 use crate::scenario::{Bearing, Scenario, Surface};
-use crate::slices::{Approach, Cover, Slices};
+use crate::slices::{Cover, Slices};
 use crate::statics::{NoBalance, PHASES, Problem, StaticLoadZone, solve, static_load_zone};
 use std::f64::consts::TAU;
 
@@ -153,16 +153,11 @@ fn weakest(model: &Model, slices: &Slices, defect: &Defect, deformation: f64) ->
         Surface::InnerRaceway => Side::Inner,
         _ => Side::Outer,
     };
-    let (law, at) = (model.contact(side), Approach::pressed(deformation));
     let (first, last) = defect.shape.arc();
     let place = |k: usize| first + (last - first) * (k as f64 + 0.5) / PLACES as f64;
     let mut cover = Cover::new(slices.count);
     let carried: Vec<f64> = (0..PLACES)
-        .map(|k| {
-            let met = defect.met_at(side, place(k) / defect.radius);
-            let on = cover_slices(Defects::one(defect, side), &met, &mut cover);
-            slices.carry(law, &at, on.then_some(&cover)).force
-        })
+        .map(|k| model.force_over(defect, side, place(k) / defect.radius, deformation, &mut cover))
         .collect();
     let least = carried.iter().copied().fold(f64::INFINITY, f64::min);
     let weak = |k: &usize| carried[*k] <= least * (1.0 + 1e-9);

@@ -1,6 +1,6 @@
 //! One contact of a balance, slice by slice: line load and Hertz's pressure.
 
-use crate::defect::{Angles, SIDES, Side, cover_slices, relative_radius, wrap};
+use crate::defect::{Angles, SIDES, Side, relative_radius, wrap};
 use crate::model::Model;
 use crate::pressure::line_pressure;
 use crate::scenario::{Bearing, Element, Law, Scenario};
@@ -101,7 +101,7 @@ fn line(
     let at = approach(model, balance, orbit, (slot, side));
     let angles = Angles { orbit, spin: problem.spin[slot], ring: problem.ring_angle };
     let mut cover = Cover::new(slices.count);
-    cover_slices(model.defects_of(slot, side), &angles, &mut cover);
+    let (at, covered) = model.shown_in_slices((slot, side), &angles, at, &mut cover);
     let law = model.contact(side);
     let width = model.geometry.roller_length / slices.count as f64;
     let mut contact = ContactLine {
@@ -114,7 +114,7 @@ fn line(
         pressure: Vec::with_capacity(slices.count),
         touching: 0.0,
     };
-    for (parts, z) in slices.parts(at, Some(&cover)).zip(&slices.z) {
+    for (parts, z) in slices.parts(at, covered.then_some(&cover)).zip(&slices.z) {
         // Of the whole slice, as if all of it were left, and as if all of it were damaged.
         let carried = parts.map(|(share, delta)| (share, law.healthy(delta) / slices.count as f64));
         let [whole, sunk] = carried.map(|(share, force)| share * force);

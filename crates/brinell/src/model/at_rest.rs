@@ -22,7 +22,7 @@ impl Model {
 
     fn on_table(&self, defects: Defects, side: Side, angles: &Angles, delta: f64) -> [f64; 3] {
         let healthy = self.healthy(side);
-        match defects.effective(angles, delta) {
+        match defects.effective(angles, delta, None) {
             None => {
                 let [force, tangent] = healthy.force_and_tangent(delta);
                 [force, tangent, 0.0]
@@ -37,7 +37,7 @@ impl Model {
 
     /// Elastic energy of the same contact, J.
     pub(crate) fn resting_energy(&self, slot: usize, side: Side, angles: &Angles, delta: f64) -> f64 {
-        let met = self.defects_of(slot, side).effective(angles, delta);
+        let met = self.defects_of(slot, side).effective(angles, delta, None);
         self.healthy(side).energy(met.map_or(delta, |met| met.delta))
     }
 
@@ -66,6 +66,14 @@ impl Model {
             }
             None => damaged_contact(one, law, &angles, delta).map_or(law.healthy(delta), |a| a.elastic),
         }
+    }
+
+    /// delta_eff (m) under `half-space` and the elastic force (N) of a contact deformed by `delta` (m), at the angle `u` (rad) from the
+    /// centre of `defect`, over all damage of its surface.
+    pub fn effective_over(&self, defect: &Defect, side: Side, u: f64, delta: f64) -> [f64; 2] {
+        let (surface, angles) = (Defects::beside(&self.defects, defect, side), defect.met_at(side, u));
+        let effective = surface.effective(&angles, delta, None).map_or(delta, |met| met.delta);
+        [effective, self.on_table(surface, side, &angles, delta)[0]]
     }
 
     /// Length (m) of the same contact that touches: of a ball the axis of its ellipse across the groove, along a profile

@@ -101,12 +101,15 @@ impl Energy {
 fn held(model: &Model, (slot, side): (usize, Side), at: &Approach, angles: &Angles, cover: &mut Cover) -> f64 {
     let (defects, law) = (model.defects_of(slot, side), model.contact(side));
     if model.rules.law == Law::HalfSpace && !model.layout.tilts {
-        let delta = defects.effective(angles, at.deformation).map_or(at.deformation, |met| met.delta);
+        let delta = defects.effective(angles, at.deformation, None).map_or(at.deformation, |met| met.delta);
         return model.healthy(side).energy(delta);
     }
     let Some(slices) = &model.slices else {
         return energy(defects, law, angles, at.deformation);
     };
+    if model.rules.law == Law::HalfSpace {
+        return model.carried(slices, (slot, side), angles, at, None).energy;
+    }
     let covered = cover_slices(defects, angles, cover);
     slices.carry(law, at, covered.then_some(cover)).energy
 }

@@ -48,6 +48,19 @@ impl Model {
     /// # Errors
     /// Where damage is still a file or has no shape, grooves make no ellipse, or the process's kernel is not there.
     pub fn new(s: &Scenario) -> Result<Self, ModelError> {
+        Self::made(s, true)
+    }
+
+    /// The same before the tables of damage are made, without which damage does nothing: for what is said of many scenarios beforehand.
+    ///
+    /// # Errors
+    /// As [`Self::new`].
+    #[doc(hidden)]
+    pub fn planned(s: &Scenario) -> Result<Self, ModelError> {
+        Self::made(s, false)
+    }
+
+    fn made(s: &Scenario, with_tables: bool) -> Result<Self, ModelError> {
         Kernel::chosen().map_err(|error| ModelError {
             key: kernel::SETTING.into(),
             value: format!("{:?}", error.value),
@@ -61,7 +74,7 @@ impl Model {
         let layout = Layout::new(b.rows, b.rollers_per_row, tilts);
         let rules = Rules::new(&s.contact);
         let mut defects = defects(s)?;
-        if rules.law == Law::HalfSpace {
+        if rules.law == Law::HalfSpace && with_tables {
             tables(s, &mut defects)?;
             let contacts = [&inner_contact, &outer_contact];
             let deflection = |side: Side| {
@@ -70,7 +83,7 @@ impl Model {
                 let least = law.deflection(force);
                 slices.map_or(least, |slices| slices.deflection(law, force, least))
             };
-            half_space::add_tables(&mut defects, (b, &s.contact), deflection).map_err(|error| ModelError {
+            half_space::add_tables(&mut defects, (b, &s.contact), tilts, deflection).map_err(|error| ModelError {
                 key: "defects".into(),
                 value: error.to_string(),
                 requirement: "damage that a table of the half-space can hold",

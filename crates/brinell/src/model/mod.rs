@@ -10,6 +10,7 @@ mod from_scenario;
 mod full;
 mod geometry;
 mod layout;
+mod leaning;
 pub(crate) mod lumped;
 mod momentum;
 mod motion;

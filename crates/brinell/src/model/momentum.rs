@@ -76,34 +76,43 @@ impl Sum {
 fn turning(model: &Model, t: f64, (q, v, a): (&[f64], &[f64], &[f64]), ws: &Workspace) -> f64 {
     let (l, m) = (&model.layout, &model.inertia);
     let (mut left, mut scale) = (0.0, 0.0);
-    let mut add = |torque: f64| {
+    let mut add = |torque: f64, size: f64| {
         left += torque;
-        scale += torque.abs();
+        scale += size;
     };
-    let cross = |x: &[f64], f: [f64; 2]| x[0] * f[1] - x[1] * f[0];
+    // A force's torque is as large as its parts: where nothing touches they are all that is at play, and cancel.
+    let moment = |x: &[f64], f: [f64; 2]| (x[0] * f[1] - x[1] * f[0], (x[0] * f[1]).abs() + (x[1] * f[0]).abs());
     let (load_in, load_out) = model.load.on_rings(model.load.share(t));
     let rings = [
         (l.inner(), m.inner_ring, model.inner_support, load_in),
         (l.outer(), m.outer_ring, model.outer_support, load_out),
     ];
     for (at, mass, support, load) in rings {
-        let external = |k: usize| load[k] - support.stiffness * q[at + k] - support.damping * v[at + k];
-        let left = |k: usize| mass * (a[at + k] - model.gravity[k]) - external(k);
-        add(cross(&q[at..], [left(0), left(1)]));
+        let inertia = |k: usize| mass * (a[at + k] - model.gravity[k]);
+        let supports = |k: usize| support.stiffness * q[at + k] + support.damping * v[at + k];
+        let parts: [&dyn Fn(usize) -> f64; 3] = [&inertia, &supports, &|k| -load[k]];
+        for part in parts {
+            let (torque, size) = moment(&q[at..], [part(0), part(1)]);
+            add(torque, size);
+        }
     }
     for slot in 0..l.rollers() {
         let arm = model.geometry.pitch_radius + q[l.r() + slot];
         let [_, tangential] = internal_force(model, slot, (q, v, a), ws);
-        add(arm * tangential);
-        add(m.roller_spin * a[l.phi() + slot]);
+        let coriolis = 2.0 * m.roller * arm * v[l.r() + slot] * v[l.theta() + slot];
+        add(arm * tangential, (arm * tangential).abs() + coriolis.abs());
+        let spun = m.roller_spin * a[l.phi() + slot];
+        add(spun, spun.abs());
     }
     for row in 0..l.rows {
         let at = l.cage(row);
-        add(m.cage_spin * a[at + 2]);
-        add(cross(&q[at..], [0, 1].map(|k: usize| m.cage * (a[at + k] - model.gravity[k]))));
+        let spun = m.cage_spin * a[at + 2];
+        add(spun, spun.abs());
+        let (torque, size) = moment(&q[at..], [0, 1].map(|k: usize| m.cage * (a[at + k] - model.gravity[k])));
+        add(torque, size);
     }
     // Of the drive and of the housing.
-    ws.torques.into_iter().for_each(|torque| add(-torque));
+    ws.torques.into_iter().for_each(|torque| add(-torque, torque.abs()));
     let pressed = ws.contacts.iter().flat_map(|c| &c.force).sum::<f64>();
     let scale = scale + pressed * model.geometry.pitch_radius;
     if scale > 0.0 { left.abs() / scale } else { 0.0 }

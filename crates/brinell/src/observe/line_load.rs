@@ -1,7 +1,7 @@
 //! The load along rollers: q(z) of contacts at an instant, and of all loaded contacts at chosen ones.
 
 use crate::channel::Frame;
-use crate::defect::{Angles, SIDES, Side, cover_slices};
+use crate::defect::{Angles, SIDES, Side};
 use crate::model::Model;
 use crate::slices::{Cover, Slices};
 
@@ -27,10 +27,12 @@ impl LineLoad {
         let contacts = &f.ws.contacts[side as usize];
         let at = contacts.approach(slot);
         let l = &f.model.layout;
-        let angles =
-            Angles { orbit: f.y[l.theta() + slot], spin: f.y[l.phi() + slot], ring: f.model.rotation.at(f.t).1 };
-        let covered =
-            contacts.on_damage[slot] && cover_slices(f.model.defects_of(slot, side), &angles, &mut self.cover);
+        let orbit = f.y[l.theta() + slot] + contacts.lean(slot);
+        let angles = Angles { orbit, spin: f.y[l.phi() + slot], ring: f.model.rotation.at(f.t).1 };
+        let (at, covered) = match contacts.on_damage[slot] {
+            true => f.model.shown_in_slices((slot, side), &angles, at, &mut self.cover),
+            false => (at, false),
+        };
         let cover = covered.then_some(&self.cover);
         slices.line_load(f.model.contact(side), &at, cover, &mut self.values);
         &self.values

@@ -4,7 +4,7 @@ use super::choices::{Laws, ModelKind};
 
 impl Laws {
     /// The set of a file that names none: the one place that decides it.
-    pub const DEFAULT: Laws = Laws::Li2023;
+    pub const DEFAULT: Laws = Laws::Mechanics;
 
     /// The same of a file with these equations: the lumped model is the paper's.
     pub fn default_of(model: ModelKind) -> Laws {

@@ -231,6 +231,8 @@ pub struct Contact {
     pub roughness_um: f64,
     /// Length of the running mean that rounds damage's edges, um; `half-space` only.
     pub edge_radius_um: f64,
+    /// How exact the tables of damage are; `half-space` only.
+    pub tables: Tables,
 }
 
 /// What damps a contact of element and raceway.

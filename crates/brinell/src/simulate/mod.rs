@@ -180,7 +180,19 @@ impl Simulation {
     /// Where it makes no model or has no equilibrium to start from.
     #[doc(hidden)]
     pub fn unchecked(scenario: &Scenario) -> Result<Self, Error> {
-        let model = Model::new(scenario)?;
+        Self::of(scenario, Model::new(scenario)?)
+    }
+
+    /// The same to plan with, by [`Model::planned`]: not to be run.
+    ///
+    /// # Errors
+    /// As [`Self::unchecked`].
+    #[doc(hidden)]
+    pub fn planned(scenario: &Scenario) -> Result<Self, Error> {
+        Self::of(scenario, Model::planned(scenario)?)
+    }
+
+    fn of(scenario: &Scenario, model: Model) -> Result<Self, Error> {
         let initial = start::state(&model)?;
         let (channels, idle_patterns) = channel::select(&model, &scenario.sensor, &scenario.simulation.record);
         let sample_rate = scenario.simulation.sample_rate_hz;

@@ -1,6 +1,7 @@
 //! The static balance as the cage turns through a pitch: load zone, ring shift, stiffness of the bearing.
 
 use super::balance::{Balance, NoBalance, Problem, own_force};
+use super::planar::RingAt;
 use super::solve;
 use crate::defect::{Defect, SIDES, Side, wrap};
 use crate::model::Model;
@@ -198,18 +199,22 @@ fn as_it_is(model: &Model) -> Result<StaticLoadZone, NoBalance> {
 }
 
 /// How far the sound raceways overlap at a roller, less its deformation under its own weight and centrifugal force, m:
-/// positive where both press it.
+/// positive where both press it. Along e_r, from where the roller touches the one to where it touches the other: in exact
+/// geometry (section 18) a raceway that is displaced across e_r stands off by the square of that over 2 R_m.
 fn squeeze(model: &Model, problem: &Problem, balance: &Balance, slot: usize) -> f64 {
-    let (sin, cos) = problem.orbit[slot].sin_cos();
-    let apart = |inner: [f64; 2], outer: [f64; 2]| cos * (inner[0] - outer[0]) + sin * (inner[1] - outer[1]);
-    let middle = apart(balance.inner, balance.outer) - model.geometry.clearance - model.geometry.outer_gap;
-    let (lever, slope) = match (&model.tilt, &balance.tilting) {
-        (Some(tilt), Some(tilting)) => (tilt.levers[slot], apart(tilting.rings[0], tilting.rings[1])),
-        _ => (0.0, 0.0),
+    let at = problem.orbit[slot].sin_cos();
+    let (lever, tilts) = match (&model.tilt, &balance.tilting) {
+        (Some(tilt), Some(tilting)) => (tilt.levers[slot], tilting.rings),
+        _ => (0.0, [[0.0; 2]; 2]),
     };
+    let in_row = |x: [f64; 2], tau: [f64; 2]| [x[0] + lever * tau[0], x[1] + lever * tau[1]];
+    let touching = |x, tau, gap| RingAt::new(model, at, in_row(x, tau), gap).touching();
+    let middle = touching(balance.inner, tilts[0], -model.geometry.clearance)
+        - touching(balance.outer, tilts[1], model.geometry.outer_gap);
+    let slope = at.1 * (tilts[0][0] - tilts[1][0]) + at.0 * (tilts[0][1] - tilts[1][1]);
     let overlap = model.slices.as_ref().map_or(middle, |slices| {
-        let at = |k: usize| middle + slope * (lever + slices.z[k]) - 2.0 * slices.drop[k];
-        (0..slices.count).map(at).fold(f64::NEG_INFINITY, f64::max)
+        let of = |k: usize| middle + slope * slices.z[k] - 2.0 * slices.drop[k];
+        (0..slices.count).map(of).fold(f64::NEG_INFINITY, f64::max)
     });
     // The lumped model's rollers have no weight.
     let own = if model.kind.moves_every_part() { own_force(model, problem, slot) } else { 0.0 };

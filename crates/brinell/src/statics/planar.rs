@@ -34,8 +34,13 @@ pub(super) fn solve(model: &Model, problem: &Problem) -> Result<Balance, NoBalan
     let forces = external(model);
     let scale = force_scale(model, problem, &forces);
     let (ki, ko) = (model.inner_support.stiffness, model.acting_outer_support().stiffness);
+    let reach = reach(model);
     let mut evaluate = |x: &Offsets| {
         let mut state = State::of_springs(&[ki, ki, ko, ko], &forces, x);
+        if (x[0] - x[2]).hypot(x[1] - x[3]) > reach {
+            state.potential = f64::INFINITY;
+            return state;
+        }
         for (slot, roller) in rollers.iter_mut().enumerate() {
             *roller = match model.kind {
                 ModelKind::Full | ModelKind::Tilting => between_raceways(model, problem, slot, x),
@@ -77,6 +82,13 @@ pub(super) fn solve(model: &Model, problem: &Problem) -> Result<Balance, NoBalan
         residual: found.residual,
         iterations: found.iterations,
     })
+}
+
+/// How far the rings may be from each other, m. Beyond a roller's radius and the gap exact geometry has rings that do not meet
+/// at all, and a soft support a balance there: a first step without a loaded contact leads to it.
+fn reach(model: &Model) -> f64 {
+    let g = &model.geometry;
+    if model.exact { g.roller_radius + g.clearance.abs() + g.outer_gap.abs() } else { f64::INFINITY }
 }
 
 fn in_series(model: &Model, problem: &Problem, slot: usize, x: &Offsets) -> Roller {
@@ -129,7 +141,7 @@ fn between_raceways(model: &Model, problem: &Problem, slot: usize, x: &Offsets) 
 /// A ring that is held, as a roller at one orbit angle meets it: e_r . x_g and -e_t . x_g (0 in centred geometry), the gap with the
 /// sign with which it moves the raceway outwards, and R_m, m.
 #[derive(Debug, Clone, Copy)]
-struct RingAt {
+pub(super) struct RingAt {
     along: f64,
     across: f64,
     gap: f64,
@@ -137,8 +149,9 @@ struct RingAt {
 }
 
 impl RingAt {
-    fn new(model: &Model, (sin, cos): (f64, f64), x: [f64; 2], gap: f64) -> Self {
-        let across = if model.exact { sin * x[0] - cos * x[1] } else { 0.0 };
+    pub(super) fn new(model: &Model, (sin, cos): (f64, f64), x: [f64; 2], gap: f64) -> Self {
+        // Rings that tilt have their balance in centred geometry.
+        let across = if model.exact && model.tilt.is_none() { sin * x[0] - cos * x[1] } else { 0.0 };
         Self { along: cos * x[0] + sin * x[1], across, gap, pitch: model.geometry.pitch_radius }
     }
 
@@ -154,7 +167,7 @@ impl RingAt {
     }
 
     /// The r at which the roller just touches.
-    fn touching(&self) -> f64 {
+    pub(super) fn touching(&self) -> f64 {
         let square = self.across * self.across;
         let root = ((self.pitch + self.gap).powi(2) - square).max(0.0).sqrt();
         self.along + (self.gap * (2.0 * self.pitch + self.gap) - square) / (root + self.pitch)

@@ -5,6 +5,7 @@ use super::balance::{
     Balance, NoBalance, Problem, Tilted, angles, by_slot, covers, external, force_scale, own_force, softest,
 };
 use super::newton::{State, eliminate, minimise};
+use crate::defect::Side;
 use crate::model::{Model, Tilt};
 use crate::slices::{Approach, Carried, Cover, Slices};
 
@@ -163,12 +164,15 @@ fn between_raceways(
     let own = own_force(model, problem, slot);
     let [[inner, inner_slope], [outer, outer_slope]] = *met;
     let (inner, outer) = (inner - g.clearance, outer + g.outer_gap);
+    let met = angles(problem, slot);
+    let carried =
+        |side: Side, at: &Approach, cover: Option<&Cover>| model.carried(slices, (slot, side), &met, at, cover);
     let contacts = |r: f64, beta: f64| {
         let at = |deformation, tilt| Approach { deformation, tilt, ..Approach::default() };
         let [cover_in, cover_out] = covers;
         [
-            slices.carry(&model.inner_contact, &at(inner - r, inner_slope - beta), cover_in.as_ref()),
-            slices.carry(&model.outer_contact, &at(r - outer, beta - outer_slope), cover_out.as_ref()),
+            carried(Side::Inner, &at(inner - r, inner_slope - beta), cover_in.as_ref()),
+            carried(Side::Outer, &at(r - outer, beta - outer_slope), cover_out.as_ref()),
         ]
     };
     // Lengths: beta times half the roller's length.

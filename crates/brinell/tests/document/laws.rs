@@ -54,17 +54,22 @@ fn regress_a_set_of_laws_chooses_what_the_catalogue_says_of_the_nn3007() {
     // Palmgren, of rollers of 6 mm.
     assert!((s.contact.inner_stiffness / 8.54e8 - 1.0).abs() < 1e-3, "{}", s.contact.inner_stiffness);
     assert_eq!(s.contact.inner_stiffness, s.contact.outer_stiffness);
-    assert_eq!((s.cage.guide_clearance_mm, s.cage.guidance_film), (1.0, GuidanceFilm::Dynamic));
+    // The paper's land leaves the cage 1 mm: under heavier loads it ran 0.9 mm off centre, 3.5 % slow.
+    assert_eq!((s.cage.guidance, s.cage.guide_clearance_mm), (Guidance::Rollers, 0.09));
     // Chosen for this bearing: larger ones have larger.
     let (support, housing) = (&s.support, s.housing.mass_kg);
-    assert_eq!((support.inner_stiffness_n_per_m, support.inner_damping_ns_per_m), (5e7, 500.0));
-    assert_eq!((support.outer_stiffness_n_per_m, support.outer_damping_ns_per_m), (1e6, 500.0));
+    assert_eq!(support.inner_stiffness_n_per_m, 5e7);
+    // A tenth of critical of the rings, the outer one with its housing of 20 times its mass.
+    assert!((support.inner_damping_ns_per_m - 0.2 * (5e7f64 * 0.101).sqrt()).abs() < 1e-9);
+    assert!((support.outer_damping_ns_per_m - 0.2 * (5e7f64 * 21.0 * 0.0791).sqrt()).abs() < 1e-9);
+    assert_eq!(support.outer_stiffness_n_per_m, 1e6);
     assert!((housing - 1.582).abs() < 1e-9, "{housing}");
     let linear = mechanics(NN3007, &[("cage.walls", "linear")]).scenario;
     assert!((linear.cage.contact_stiffness_n_per_m * 90e-6 / 11.0 - 1.0).abs() < 1e-12);
     let paper = with(NN3007, &[("simulation.laws", "li2023")]).unwrap().scenario;
     assert_eq!((paper.contact.inner_stiffness, paper.contact.outer_stiffness), (1.828e8, 1.898e8));
     assert_eq!(paper.cage.contact_stiffness_n_per_m, 1e7);
+    assert_eq!((paper.cage.guidance, paper.cage.guide_clearance_mm), (Guidance::OuterRing, 1.0));
 }
 
 #[test]

@@ -349,6 +349,7 @@ fn scenarios() -> impl Strategy<Value = Scenario> {
                 },
                 roughness_um: if mechanics(words) { 1e-9 * x[14] } else { 0.1 },
                 edge_radius_um: if half_space(words) { 1e-7 * x[15] } else { 10.0 },
+                tables: if half_space(words) { [Tables::Standard, Tables::Coarse][words.4] } else { Tables::Standard },
             },
             friction: Friction {
                 raceway_coefficient: x[14] / 1e9,

@@ -17,7 +17,7 @@ fn regress_defaults_of_what_tilts() {
     let loaded = good(&text);
     let s = &loaded.scenario;
     assert_eq!(s.simulation.model, ModelKind::Tilting);
-    assert_eq!(s.contact.law, Law::Sliced);
+    assert_eq!(s.contact.law, Law::HalfSpace);
     assert_eq!(s.bearing.profile, RollerProfile::Straight);
     // The catalogue's, 1.5 L, k R_m^2 and c R_m^2.
     assert_eq!(s.bearing.width_mm, 20.0);

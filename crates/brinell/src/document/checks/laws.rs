@@ -35,6 +35,14 @@ impl Checker<'_> {
                     &[LAW],
                 );
             }
+            if defect.table.is_some() && s.simulation.model == ModelKind::Tilting {
+                self.error(
+                    &format!("defects.{i}.table"),
+                    "a file's table holds for rollers that do not tilt".into(),
+                    "the key left out where simulation.model = \"tilting\"".into(),
+                    &[MODEL],
+                );
+            }
             if let Some(DefectTable::Read(table)) = &defect.table
                 && let Err(fault) = table.check()
             {
@@ -53,14 +61,6 @@ impl Checker<'_> {
                     .into(),
                 "simulation.geometry = \"exact\", or another law".into(),
                 &["simulation.geometry"],
-            );
-        }
-        if s.contact.law == Law::HalfSpace && s.simulation.model == ModelKind::Tilting && !s.defects.is_empty() {
-            self.error(
-                LAW,
-                "damage under tilting rollers has no table".into(),
-                "\"sliced\" where simulation.model = \"tilting\"".into(),
-                &[MODEL],
             );
         }
         if s.contact.edge_reaction == EdgeReaction::Conservative && s.simulation.geometry == GeometryLaw::Exact {

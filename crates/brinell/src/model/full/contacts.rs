@@ -6,6 +6,7 @@ use crate::contact::film::SqueezeFilm;
 use crate::contact::{Damping, damped};
 use crate::defect::{Angles, SIDES, Side, cover_slices, damaged_contact_given};
 use crate::lanes::Lanes;
+use crate::model::leaning::{Leaned, positive};
 use crate::model::workspace::Contacts;
 use crate::model::{Model, Workspace};
 use crate::scenario::Law;
@@ -242,9 +243,9 @@ pub(super) fn slices<L: Lanes, const TILT: bool>(
     }
 }
 
-/// Elastic forces of the contacts that are on damage, section 3, in place of those of healthy raceways.
+/// Elastic forces of the contacts that are on damage, section 3, in place of those of healthy raceways; where rollers tilt the damped ones.
 #[inline(always)]
-pub(super) fn damage<L: Lanes>(model: &Model, q: &[f64], ring_angle: f64, ws: &mut Workspace) {
+pub(super) fn damage<L: Lanes, const TILT: bool>(model: &Model, q: &[f64], ring_angle: f64, ws: &mut Workspace) {
     let on_table = model.rules.law == Law::HalfSpace;
     if model.slices.is_some() && !on_table {
         return;
@@ -256,7 +257,9 @@ pub(super) fn damage<L: Lanes>(model: &Model, q: &[f64], ring_angle: f64, ws: &m
         }
         let contacts = &mut ws.contacts[k];
         contacts.on_damage.fill(false);
-        contacts.damaged_length.fill(0.0);
+        if !TILT {
+            contacts.damaged_length.fill(0.0);
+        }
         contacts.push.fill(0.0);
         contacts.push_element.fill(0.0);
         let count = model.layout.slots / L::COUNT;
@@ -264,6 +267,7 @@ pub(super) fn damage<L: Lanes>(model: &Model, q: &[f64], ring_angle: f64, ws: &m
             if *candidates != 0 {
                 let at = (side, group * L::COUNT, *candidates);
                 match on_table {
+                    true if TILT => leaning(model, at, (q, ring_angle), contacts),
                     true => half_space(model, at, (q, ring_angle), contacts),
                     false => on_damage(model, at, (q, ring_angle), contacts),
                 }
@@ -322,7 +326,7 @@ fn half_space(
         let orbit = q[l.theta() + slot] + contacts.lean(slot);
         let angles = Angles { orbit, spin: q[l.phi() + slot], ring: ring_angle };
         let delta = contacts.pressed_or_deformed()[slot];
-        let Some(met) = model.defects_of(slot, side).effective(&angles, delta) else {
+        let Some(met) = model.defects_of(slot, side).effective(&angles, delta, None) else {
             continue;
         };
         let [force, stiffness] = healthy.force_and_tangent(met.delta);
@@ -334,6 +338,53 @@ fn half_space(
         contacts.push_element[slot] = force * met.by_element;
         contacts.on_damage[slot] = true;
         contacts.damaged_length[slot] = healthy.lost_length(delta, elastic);
+    }
+}
+
+/// The same of contacts that tilt: forces with their damping, tau sigma times the Hessian of the energy times the rates (section 20).
+#[inline(never)]
+fn leaning(
+    model: &Model,
+    (side, first, mut candidates): (Side, usize, u8),
+    (q, ring_angle): (&[f64], f64),
+    contacts: &mut Contacts,
+) {
+    let Some(slices) = &model.slices else { return };
+    let l = &model.layout;
+    let half = 0.5 * model.geometry.roller_length;
+    while candidates != 0 {
+        let slot = first + candidates.trailing_zeros() as usize;
+        candidates &= candidates - 1;
+        let orbit = q[l.theta() + slot] + contacts.lean(slot);
+        let angles = Angles { orbit, spin: q[l.phi() + slot], ring: ring_angle };
+        let at = contacts.approach(slot);
+        let Some(leaned) = model.leaned(model.defects_of(slot, side), side, &angles, &at) else {
+            continue;
+        };
+        let Leaned { carried, push, largest } = leaned;
+        let healthy = contacts.elastic[slot];
+        let share = if healthy > 0.0 { (carried.force / healthy).clamp(0.0, 1.0) } else { 0.0 };
+        // Palmgren's force goes with the length to the power 8/9.
+        let touching = (2.0 * half - contacts.damaged_length[slot]) * share * share.sqrt().sqrt().sqrt();
+        let [h11, h12, h22] = match model.contact(side).damping {
+            // Of a line of contact, as of a healthy one, over all of the roller.
+            Damping::Constant(c) => [c, 0.0, c * half * half / 3.0],
+            of @ Damping::Time { .. } => {
+                let damper = of.of(1.0, slices.deepest(largest, at.tilt).max(0.0));
+                positive(carried.stiffness, half).map(|h| damper * h)
+            }
+        };
+        let added = [h11 * at.rate + h12 * at.tilt_rate, h12 * at.rate + h22 * at.tilt_rate];
+        let open = carried.force + added[0] <= 0.0 || carried.force <= 0.0;
+        let [by_force, by_moment] = if open { [-carried.force, -carried.moment] } else { added };
+        contacts.elastic[slot] = carried.force;
+        contacts.force[slot] = carried.force + by_force;
+        contacts.moment[slot] = carried.moment + by_moment;
+        contacts.loss[slot] = by_force * at.rate + by_moment * at.tilt_rate;
+        contacts.push[slot] = push[0] + push[1];
+        contacts.push_element[slot] = push[1];
+        contacts.on_damage[slot] = true;
+        contacts.damaged_length[slot] = 2.0 * half - touching;
     }
 }
 

@@ -35,7 +35,7 @@ pub(super) fn rollers<L: Lanes, const TILT: bool>(
     } else {
         contacts::functions::<L::Pair>(model, ws);
     }
-    contacts::damage::<L::Pair>(model, q, turn.angle, ws);
+    contacts::damage::<L::Pair, TILT>(model, q, turn.angle, ws);
     if model.exact {
         SIDES.into_iter().for_each(|side| waves::push(model, side, &mut ws.contacts[side as usize]));
         exact::forces::<L, TILT>(model, (q, v), a, turn, ws)
