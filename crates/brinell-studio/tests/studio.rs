@@ -145,7 +145,7 @@ fn prop_a_bad_scenario_is_reported_in_the_librarys_words_and_the_last_good_one_r
     let problem = &answer["problems"][0];
     assert!(problem["key"].as_str().unwrap().starts_with("defects[1]"), "{problem}");
     assert!(problem["message"].as_str().unwrap().contains("90"), "{problem}");
-    assert_eq!(problem["line"], json!(12));
+    assert_eq!(problem["line"], json!(13));
     good(&mut studio, json!({ "do": "advance", "slot": 0, "rows": 10 }));
     for wrong in [
         json!({ "do": "advance", "slot": 1 }),
