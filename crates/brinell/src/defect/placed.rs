@@ -160,8 +160,7 @@ impl Defect {
     pub(crate) fn use_table_at(&mut self, side: Side, table: Arc<Table>) {
         let k = side as usize;
         if self.profiles[k].is_some() {
-            let [first, last] = table.range_s();
-            self.windows[k] = (first / self.radius - 1e-9, last / self.radius + 1e-9);
+            self.windows[k] = self.angles_between(table.range_s());
             self.tables[k] = Some(table);
         }
     }
@@ -171,10 +170,14 @@ impl Defect {
         self.use_table_at(side, upright);
         let k = side as usize;
         if self.profiles[k].is_some() {
-            let [first, last] = tables.range_s();
-            self.windows[k] = (first / self.radius - 1e-9, last / self.radius + 1e-9);
+            self.windows[k] = self.angles_between(tables.range_s());
             self.tilted[k] = Some(Arc::new(tables));
         }
+    }
+
+    /// Local angles of what lies between two s (m), a little wider.
+    fn angles_between(&self, [first, last]: [f64; 2]) -> (f64, f64) {
+        (first / self.radius - 1e-9, last / self.radius + 1e-9)
     }
 
     /// Height of what is raised highest, m.

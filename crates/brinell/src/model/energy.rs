@@ -101,17 +101,13 @@ impl Energy {
 fn held(model: &Model, (slot, side): (usize, Side), at: &Approach, angles: &Angles, cover: &mut Cover) -> f64 {
     let (defects, law) = (model.defects_of(slot, side), model.contact(side));
     if model.rules.law == Law::HalfSpace && !model.layout.tilts {
-        let delta = defects.effective(angles, at.deformation, None).map_or(at.deformation, |met| met.delta);
-        return model.healthy(side).energy(delta);
+        return model.resting_energy(slot, side, angles, at.deformation);
     }
     let Some(slices) = &model.slices else {
         return energy(defects, law, angles, at.deformation);
     };
-    if model.rules.law == Law::HalfSpace {
-        return model.carried(slices, (slot, side), angles, at, None).energy;
-    }
-    let covered = cover_slices(defects, angles, cover);
-    slices.carry(law, at, covered.then_some(cover)).energy
+    let covered = model.rules.law != Law::HalfSpace && cover_slices(defects, angles, cover);
+    model.carried(slices, (slot, side), angles, at, covered.then_some(cover)).energy
 }
 
 /// What decides the energy of the contacts at one end of a step.

@@ -2,7 +2,7 @@
 
 use crate::defect::{Angles, Defect, SIDES, Side, cover_slices};
 use crate::model::Model;
-use crate::scenario::Surface;
+use crate::scenario::{Law, Surface};
 use crate::slices::{Cover, Slices};
 
 /// Question put to the solver.
@@ -178,9 +178,12 @@ pub(super) fn angles(problem: &Problem, slot: usize) -> Angles {
     Angles { orbit: problem.orbit[slot], spin: problem.spin[slot], ring: problem.ring_angle }
 }
 
-/// What damage covers of a roller's inner and outer contact.
+/// What damage covers of a roller's inner and outer contact, where it acts by that and not by tables.
 pub(super) fn covers(model: &Model, slices: &Slices, slot: usize, angles: &Angles) -> [Option<Cover>; 2] {
     SIDES.map(|side| {
+        if model.rules.law == Law::HalfSpace {
+            return None;
+        }
         let mut cover = Cover::new(slices.count);
         cover_slices(model.defects_of(slot, side), angles, &mut cover).then_some(cover)
     })

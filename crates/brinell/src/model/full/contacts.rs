@@ -210,8 +210,7 @@ pub(super) fn slices<L: Lanes, const TILT: bool>(
                 let at = contacts.approach(slot);
                 let mut covered = false;
                 if model.rules.law == Law::Sliced && (ws.candidates[k][group] >> lane) & 1 == 1 {
-                    let orbit = q[l.theta() + slot] + contacts.lean(slot);
-                    let angles = Angles { orbit, spin: q[l.phi() + slot], ring: ring_angle };
+                    let angles = met_at(model, (q, ring_angle), contacts, slot);
                     covered = cover_slices(model.defects_of(slot, side), &angles, &mut ws.cover);
                 }
                 contacts.on_damage[slot] = covered;
@@ -276,20 +275,33 @@ pub(super) fn damage<L: Lanes, const TILT: bool>(model: &Model, q: &[f64], ring_
     }
 }
 
+/// The slots that have a bit of `candidates`, which counts from `first`.
+#[inline]
+fn slots(first: usize, mut candidates: u8) -> impl Iterator<Item = usize> {
+    std::iter::from_fn(move || {
+        let slot = (candidates != 0).then(|| first + candidates.trailing_zeros() as usize)?;
+        candidates &= candidates - 1;
+        Some(slot)
+    })
+}
+
+/// Angles at which a contact meets damage, seen from its ring's centre.
+#[inline]
+fn met_at(model: &Model, (q, ring): (&[f64], f64), contacts: &Contacts, slot: usize) -> Angles {
+    let l = &model.layout;
+    Angles { orbit: q[l.theta() + slot] + contacts.lean(slot), spin: q[l.phi() + slot], ring }
+}
+
 /// `candidates` has a bit for each slot from `first`.
 #[inline(never)]
 fn on_damage(
     model: &Model,
-    (side, first, mut candidates): (Side, usize, u8),
+    (side, first, candidates): (Side, usize, u8),
     (q, ring_angle): (&[f64], f64),
     contacts: &mut Contacts,
 ) {
-    let l = &model.layout;
-    while candidates != 0 {
-        let slot = first + candidates.trailing_zeros() as usize;
-        candidates &= candidates - 1;
-        let orbit = q[l.theta() + slot] + contacts.lean(slot);
-        let angles = Angles { orbit, spin: q[l.phi() + slot], ring: ring_angle };
+    for slot in slots(first, candidates) {
+        let angles = met_at(model, (q, ring_angle), contacts, slot);
         let damaged = damaged_contact_given(
             model.defects_of(slot, side),
             model.contact(side),
@@ -314,17 +326,13 @@ fn on_damage(
 #[inline(never)]
 fn half_space(
     model: &Model,
-    (side, first, mut candidates): (Side, usize, u8),
+    (side, first, candidates): (Side, usize, u8),
     (q, ring_angle): (&[f64], f64),
     contacts: &mut Contacts,
 ) {
-    let l = &model.layout;
     let healthy = model.healthy(side);
-    while candidates != 0 {
-        let slot = first + candidates.trailing_zeros() as usize;
-        candidates &= candidates - 1;
-        let orbit = q[l.theta() + slot] + contacts.lean(slot);
-        let angles = Angles { orbit, spin: q[l.phi() + slot], ring: ring_angle };
+    for slot in slots(first, candidates) {
+        let angles = met_at(model, (q, ring_angle), contacts, slot);
         let delta = contacts.pressed_or_deformed()[slot];
         let Some(met) = model.defects_of(slot, side).effective(&angles, delta, None) else {
             continue;
@@ -345,18 +353,14 @@ fn half_space(
 #[inline(never)]
 fn leaning(
     model: &Model,
-    (side, first, mut candidates): (Side, usize, u8),
+    (side, first, candidates): (Side, usize, u8),
     (q, ring_angle): (&[f64], f64),
     contacts: &mut Contacts,
 ) {
     let Some(slices) = &model.slices else { return };
-    let l = &model.layout;
     let half = 0.5 * model.geometry.roller_length;
-    while candidates != 0 {
-        let slot = first + candidates.trailing_zeros() as usize;
-        candidates &= candidates - 1;
-        let orbit = q[l.theta() + slot] + contacts.lean(slot);
-        let angles = Angles { orbit, spin: q[l.phi() + slot], ring: ring_angle };
+    for slot in slots(first, candidates) {
+        let angles = met_at(model, (q, ring_angle), contacts, slot);
         let at = contacts.approach(slot);
         let Some(leaned) = model.leaned(model.defects_of(slot, side), side, &angles, &at) else {
             continue;
