@@ -111,11 +111,11 @@ impl Facts<'_> {
     /// How much of the work comes from nowhere in the two cases of Fig. 14, and what the factor is without such work.
     fn without_source(&self, name: &str) -> Option<String> {
         let percent = |case: &str| self.plain(case, "parametric_share").map(|share| short(100.0 * share, 2));
-        let of = |case: &str| self.0.sensitivity.as_ref()?.value("law-conservative", case, name);
+        let of = |case: &str| self.0.sensitivity.as_ref()?.value("law-half-space", case, name);
         let ratio = of("simplified").zip(of("irregular")).map(|(simplified, irregular)| simplified / irregular);
         let ratio = ratio.map_or(String::new(), |ratio| {
             format!(
-                " Under a law without such work (slices, envelope, slopes that push back) the factor is {}.",
+                " Under a law without such work (half-space in exact geometry) the factor is {}.",
                 short(ratio, 3)
             )
         });

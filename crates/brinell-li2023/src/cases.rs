@@ -1,7 +1,7 @@
 //! The scenarios behind the paper's figures. They are in `cases.toml`.
 
 use crate::outline::Outline;
-use crate::variants::EDGE;
+use crate::variants::NOT_LUMPED;
 use serde::Deserialize;
 use std::sync::LazyLock;
 
@@ -31,7 +31,7 @@ impl Case {
     pub fn over(&self, more: &[(String, String)], outline: Outline) -> Vec<(String, String)> {
         let mut settings = [more, &owned(&self.settings)].concat();
         if self.settings.contains(&("simulation.model", "lumped")) {
-            settings.retain(|(key, _)| key != EDGE);
+            settings.retain(|(key, _)| !NOT_LUMPED.contains(&key.as_str()));
         }
         if let Some(shape) = self.irregular_width_mm.and_then(|mm| outline.shape(mm)) {
             settings.retain(|(key, _)| key != SHAPE);

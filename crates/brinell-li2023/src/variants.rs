@@ -40,13 +40,13 @@ impl Variant {
 const SEVERAL: &str = "several at once";
 
 /// Variants that change another assumption with the one that they are about.
-const MORE: [&str; 3] = ["start-rest-no-ramp", "outer-hard", "law-conservative"];
+const MORE: [&str; 3] = ["start-rest-no-ramp", "outer-hard", "law-half-space"];
 
 /// The film of Eq. (42).
 pub(crate) const PRINTED_FILM: (&str, &str) = ("cage.guidance_film", "quasi-static");
 
-/// The lumped model prescribes how rollers turn and has none.
-pub(crate) const EDGE: &str = "contact.edge_reaction";
+/// The lumped model knows the law `ecl` alone, and no exact geometry.
+pub(crate) const NOT_LUMPED: [&str; 2] = ["contact.law", "simulation.geometry"];
 
 /// Every variant; the first changes nothing, at the length of the others. Those of filter and record need no run of
 /// their own.
@@ -77,7 +77,7 @@ mod tests {
             "together-palmgren",
             "together-no-ramp",
             "outer-hard",
-            "law-conservative",
+            "law-half-space",
             "paper-4-1",
         ];
         assert_eq!(others.map(|variant| variant.id).collect::<Vec<_>>(), wanted);

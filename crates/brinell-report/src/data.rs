@@ -91,7 +91,7 @@ pub struct Report {
     pub passes: Vec<Pass>,
     /// Contact force around the bearing, a row each.
     pub load_distribution: Vec<RowLoad>,
-    /// The load along a roller of the healthy bearing, where rollers have slices; damage has its own in `damage`.
+    /// The load along a roller of the bearing without damage, where it is uneven.
     pub along: Option<DamageCurves>,
     /// Indicators of the signals.
     pub indicators: IndicatorTable,

@@ -168,10 +168,6 @@ fn damage(page: &mut String, report: &Report) {
             let what = format!("-pressure-{}", of.contact);
             part(page, &what, &|layout| damage_pressure(view, of, index, layout), &of.note);
         }
-        if let Some(along) = &view.along {
-            let name = format!("damage-{}-along", index + 1);
-            part(page, "-along", &|layout| load_along(along, &name, layout), &along.note);
-        }
         if !view.section.panels.is_empty() {
             part(page, "-section", &|layout| damage_section(view, index, layout), &view.section.note);
         } else if !view.section.note.is_empty() {
@@ -219,7 +215,7 @@ fn load(page: &mut String, report: &Report) {
         "Contact force of the rolling elements over their place in the bearing. 0° is the +X direction, angles run counter-clockwise.",
     );
     if let Some(along) = &report.along {
-        figure(page, "along", |layout| load_along(along, "along", layout), &sentence(&along.note));
+        figure(page, "along", |layout| load_along(along, layout), &sentence(&along.note));
     }
 }
 

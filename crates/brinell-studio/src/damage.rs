@@ -7,7 +7,6 @@ use brinell::defect::simplify::Extent;
 use brinell::defect::{Defect, Side};
 use brinell::model::Model;
 use brinell::scenario::{self, Surface};
-use brinell::slices::Cover;
 use brinell::statics::static_load_zone;
 use brinell_damage::plan::{CORNERS, depth_grid, polygons_mm};
 use serde_json::{Value, json};
@@ -84,15 +83,13 @@ pub(crate) fn passage(bench: &Bench, number: usize, arrays: &mut Arrays) -> Answ
     let pad = 0.25 * (last - first);
     let places: Vec<f64> =
         (0..POINTS).map(|k| first - pad + (last - first + 2.0 * pad) * k as f64 / (POINTS - 1) as f64).collect();
-    let mut cover = Cover::new(model.profiled().map_or(0, |s| s.count));
-    let strips = model.contact(side).strips.as_ref();
     // Of a ball the axis of its ellipse across the groove.
-    let whole = strips.map_or(defect.roller_length, |strips| strips.pressed(approach).length([f64::MIN, f64::MAX]));
+    let whole = model.contact(side).axis_across(approach).unwrap_or(defect.roller_length);
     let (mut lengths, mut force) = (Vec::new(), Vec::new());
     for s in &places {
         let u = s / defect.radius;
-        lengths.push(1e3 * model.length_over(defect, side, u, approach, &mut cover).max(0.0));
-        force.push(model.force_over(defect, side, u, approach, &mut cover));
+        lengths.push(1e3 * model.length_over(defect, side, u, approach).max(0.0));
+        force.push(model.force_over(defect, side, u, approach));
     }
     let places_mm: Vec<f64> = places.iter().map(|s| 1e3 * s).collect();
     Ok(json!({

@@ -222,56 +222,32 @@ fn contact(f: &Frame, quantity: ContactQuantity, side: Side, slot: usize) -> f64
 pub fn contact_length(model: &Model, ws: &Workspace, side: Side, slot: usize) -> f64 {
     let c = &ws.contacts[side as usize];
     let law = model.contact(side);
-    let whole = match &law.strips {
-        None => model.geometry.roller_length,
-        Some(strips) => {
-            let delta = match model.kind {
-                ModelKind::Full | ModelKind::Tilting => c.deformation[slot],
-                // One contact in series for both sides.
-                ModelKind::Lumped => law.deflection(c.elastic[slot]),
-            };
-            strips.pressed(delta).length([f64::NEG_INFINITY, f64::INFINITY])
-        }
+    let delta = match model.kind {
+        ModelKind::Full | ModelKind::Tilting => c.deformation[slot],
+        // One contact in series for both sides.
+        ModelKind::Lumped => law.deflection(c.elastic[slot]),
     };
-    whole - c.damaged_length[slot]
+    law.axis_across(delta).unwrap_or(model.geometry.roller_length) - c.damaged_length[slot]
 }
 
 /// Time-varying contact stiffness Q_elastic / delta^n of a closed contact, N/m^n; of an open one, the stiffness with
-/// which it would close (Eqs. 22, 23), for a ball over damage 0. Where only raised damage touches (delta <= 0), the
-/// healthy one of the length that does, for a ball the healthy one.
+/// which it would close (Eqs. 22, 23).
 #[doc(hidden)]
 pub fn contact_stiffness(model: &Model, ws: &Workspace, side: Side, slot: usize) -> f64 {
     let c = &ws.contacts[side as usize];
     let law = model.contact(side);
     let length = model.geometry.roller_length;
-    if model.rules.law == Law::HalfSpace {
-        // Equal forces must give the healthy stiffness to the bit.
-        if !c.on_damage[slot] && model.slices.is_none() {
-            return law.stiffness;
-        }
-        let power = law.exponent.of(c.deformation[slot]);
-        return if power > 0.0 { c.elastic[slot] / power } else { law.stiffness };
-    }
-    if model.slices.is_some() {
-        // Of delta at z = 0, before profile and damage (section 16).
-        let power = law.exponent.of(c.deformation[slot]);
-        return if power > 0.0 && c.elastic[slot] > 0.0 {
-            c.elastic[slot] / power
-        } else {
-            law.stiffness * (1.0 - c.damaged_length[slot] / length)
-        };
-    }
-    let share = match model.rules.law {
-        Law::Sliced if model.kind.moves_every_part() => 1.0 - c.damaged_length[slot] / length,
-        _ => crate::contact::remaining_share(length, c.damaged_length[slot]),
-    };
-    if !c.on_damage[slot] {
+    // Equal forces must give the healthy stiffness to the bit.
+    if !c.on_damage[slot] && model.slices.is_none() {
         return law.stiffness;
     }
-    if law.strips.is_some() && c.deformation[slot] <= 0.0 {
-        return if c.elastic[slot] > 0.0 { law.stiffness } else { 0.0 };
+    if model.law == Law::HalfSpace {
+        let power = law.exponent.of(c.deformation[slot]);
+        // Of delta at z = 0, before the profile (section 16).
+        return if power > 0.0 { c.elastic[slot] / power } else { law.stiffness };
     }
-    let by_share = model.kind == ModelKind::Lumped && law.strips.is_none();
+    let share = crate::contact::remaining_share(length, c.damaged_length[slot]);
+    let by_share = model.kind == ModelKind::Lumped && law.across.is_none();
     if c.deformation[slot] <= 0.0 || (by_share && share > 0.0) {
         return law.stiffness * share;
     }
@@ -279,7 +255,6 @@ pub fn contact_stiffness(model: &Model, ws: &Workspace, side: Side, slot: usize)
         ModelKind::Full | ModelKind::Tilting => law.stiffness * c.power[slot],
         ModelKind::Lumped => model.series_contact.healthy(c.deformation[slot]),
     };
-    // Equal forces must give the healthy stiffness to the bit.
     law.stiffness * (c.elastic[slot] / healthy)
 }
 

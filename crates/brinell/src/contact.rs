@@ -9,7 +9,6 @@ pub mod film;
 
 use crate::elementary::Exponent;
 use crate::lanes::{Lanes, eight_ninths};
-use ball::Strips;
 pub use damping::{Damping, damped};
 
 /// Palmgren's line contact, K = 8.06e4 L^(8/9) N/mm^(10/9) with L in mm (Eq. 21 with its exponent mended): from
@@ -51,8 +50,8 @@ pub struct LoadDeflection {
     pub exponent: Exponent,
     /// Damping.
     pub damping: Damping,
-    /// What carries the load across a ball's ellipse; `None` of rollers.
-    pub strips: Option<Strips>,
+    /// R_w of a ball's ellipse, m, whose half-axis across the groove is sqrt(2 R_w delta); `None` of rollers.
+    pub across: Option<f64>,
 }
 
 impl LoadDeflection {
@@ -99,15 +98,21 @@ impl LoadDeflection {
         floor.share * self.energy(delta) + (1.0 - floor.share) * self.energy(delta - floor.depth)
     }
 
-    /// d(elastic)/d(delta) of a contact, on damage or not, N/m.
-    pub fn tangent(&self, delta: f64, floor: Option<&ContactReduction>) -> f64 {
-        let slope = |x: f64| {
-            if x > 0.0 { self.exponent.value() * self.healthy(x) / x } else { 0.0 }
-        };
-        match floor {
-            None => slope(delta),
-            Some(f) => f.share * slope(delta) + (1.0 - f.share) * slope(delta - f.depth),
-        }
+    /// Axis of a ball's ellipse across the groove at a deformation, m; `None` of rollers.
+    #[inline]
+    pub fn axis_across(&self, delta: f64) -> Option<f64> {
+        self.across.map(|radius| 2.0 * (2.0 * radius * delta.max(0.0)).sqrt())
+    }
+
+    /// d(elastic)/d(delta) of the healthy contact, N/m.
+    #[inline]
+    pub fn tangent(&self, delta: f64) -> f64 {
+        if delta > 0.0 { self.exponent.value() * self.healthy(delta) / delta } else { 0.0 }
+    }
+
+    /// d(elastic)/d(delta) of a damaged contact, N/m.
+    pub fn damaged_tangent(&self, delta: f64, floor: &ContactReduction) -> f64 {
+        floor.share * self.tangent(delta) + (1.0 - floor.share) * self.tangent(delta - floor.depth)
     }
 
     /// d(elastic)/d(delta) of a healthy contact that carries `force` > 0, N/m: n K^(1/n) Q^(1 - 1/n). To seven digits:
@@ -132,7 +137,7 @@ mod tests {
         stiffness: 1.898e8,
         exponent: Exponent::TenNinths,
         damping: Damping::Constant(200.0),
-        strips: None,
+        across: None,
     };
 
     #[test]
@@ -150,7 +155,7 @@ mod tests {
     #[test]
     fn analytic_deflection_inverts_the_law() {
         for force in [1e-3, 1.0, 1e4] {
-            let tangent = NN3007.tangent(NN3007.deflection(force), None);
+            let tangent = NN3007.tangent(NN3007.deflection(force));
             assert!((NN3007.tangent_at(force) / tangent - 1.0).abs() < 1e-6);
             assert!((NN3007.healthy(NN3007.deflection(force)) / force - 1.0).abs() < 1e-13);
         }

@@ -7,7 +7,6 @@
 
 mod after;
 mod damage;
-mod slices;
 mod tilting;
 mod warning;
 
@@ -23,7 +22,6 @@ use crate::pressure::{pressures, static_limit};
 use crate::scenario::{Choice, GeometryLaw, LoadOn, Scenario, Speed};
 use crate::statics::{NoBalance, StaticLoadZone, static_load_zone};
 pub use after::after;
-use slices::coarse_slices;
 use std::f64::consts::TAU;
 use warning::{short, warning};
 
@@ -74,7 +72,6 @@ pub fn before(scenario: &Scenario, model: &Model, statics: &Result<StaticLoadZon
         Err(error) => warnings.push(warning(LOAD, list(scenario.operation.load_n), error.to_string(), "")),
     }
     warnings.extend(damage::warnings(scenario, model, statics.as_ref().ok()));
-    warnings.extend(statics.as_ref().ok().and_then(|zone| coarse_slices(scenario, model, zone)));
     warnings.extend(tilting::warnings(scenario, model));
     warnings.extend(too_short(scenario, model));
     warnings.extend(idle_patterns(scenario, model));
@@ -271,8 +268,7 @@ fn overload(scenario: &Scenario, zone: &StaticLoadZone) -> Vec<Problem> {
 fn wide_ellipses(scenario: &Scenario, model: &Model, zone: &StaticLoadZone) -> Vec<Problem> {
     let edge = GROOVE * model.geometry.roller_radius;
     let wide = |side: Side| {
-        let strips = model.contact(side).strips?;
-        let half = strips.half_axis(model.deflection(side, zone.healthy_largest));
+        let half = 0.5 * model.contact(side).axis_across(model.deflection(side, zone.healthy_largest))?;
         let value = match side {
             Side::Inner => scenario.bearing.inner_groove_conformity,
             Side::Outer => scenario.bearing.outer_groove_conformity,
@@ -297,7 +293,7 @@ fn wide_ellipses(scenario: &Scenario, model: &Model, zone: &StaticLoadZone) -> V
 /// Largest pressure of the healthy bearing, Pa, and its raceway: of even contacts, but slice by slice where a profile
 /// or a tilt makes them uneven.
 fn highest_pressure(scenario: &Scenario, zone: &StaticLoadZone) -> (Side, f64) {
-    let peak = (!scenario.has_even_contacts()).then(|| Rating::healthy(scenario).ok()??.peak());
+    let peak = (!scenario.has_even_contacts()).then(|| Rating::unchecked(scenario).ok()??.distribution.peak());
     if let Some(peak) = peak.flatten() {
         return (peak.side, peak.pressure);
     }

@@ -84,7 +84,7 @@ pub fn pressure_beside(model: &Model, bearing: &Bearing, defect: usize, forces: 
     let share = remaining_share(defect.roller_length, defect.roller_length - left);
     SIDES
         .into_iter()
-        .filter(|side| defect.depth_profile(*side).is_some())
+        .filter(|side| defect.meets_side(*side))
         .map(|side| {
             let force = forces[side as usize];
             let sunk = model.contact(side).deflection(force / share);

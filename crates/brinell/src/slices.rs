@@ -1,4 +1,4 @@
-//! Slices across a roller: where they lie, the profile's drop there, and what they carry together (sections 3, 15, 16).
+//! Slices across a roller: where they lie, the profile's drop there, and what healthy ones carry together (sections 15, 16).
 //!
 //! The contact laws of [`crate::contact`] hold for each slice with 1/n_s of the stiffness and of the damping. SI; z
 //! from the roller's middle along +Z.
@@ -77,27 +77,10 @@ fn levels(drops: &[f64]) -> [Column; 2] {
     [drop, weight]
 }
 
-/// What damage covers of each slice under one contact, padded like [`Slices`].
-#[derive(Debug, Clone, Default, PartialEq)]
-pub struct Cover {
-    /// phi_k.
-    pub fraction: Column,
-    /// h_k, m.
-    pub depth: Column,
-}
-
-impl Cover {
-    /// Nothing covered.
-    pub fn new(count: usize) -> Self {
-        let padded = count.next_multiple_of(crate::lanes::WIDTH);
-        Self { fraction: Column::new(padded, 0.0), depth: Column::new(padded, 0.0) }
-    }
-}
-
 /// How roller and raceway approach at the roller's middle, and how that changes along it.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct Approach {
-    /// delta at z = 0 before profile and damage, m.
+    /// delta at z = 0 before the profile, m.
     pub deformation: f64,
     /// d(delta)/dz.
     pub tilt: f64,
@@ -195,30 +178,20 @@ impl Slices {
 
     /// Forces of a moving contact. Each slice that touches is damped (section 16).
     #[inline(always)]
-    pub fn press<L: Lanes>(&self, law: &LoadDeflection, at: &Approach, cover: Option<&Cover>) -> Pressed {
+    pub fn press<L: Lanes>(&self, law: &LoadDeflection, at: &Approach) -> Pressed {
         let c = match law.damping {
             Damping::Constant(c) => c,
-            Damping::Time { tau, roughness } => return self.press_timed::<L>(law, at, cover, [tau, roughness]),
+            Damping::Time { tau, roughness } => return self.press_timed::<L>(law, at, [tau, roughness]),
         };
         let (deformation, tilt) = (L::splat(at.deformation), L::splat(at.tilt));
         let (rate, tilt_rate) = (L::splat(at.rate), L::splat(at.tilt_rate));
-        let one = L::splat(1.0);
         let mut sums = Pressed::<L>::nothing();
         for k in 0..self.z.len() / L::COUNT {
             let z = L::new(L::groups(&self.z)[k]);
             let weight = L::new(L::groups(&self.weight)[k]);
             let delta = tilt.times_plus(z, deformation - L::new(L::groups(&self.drop)[k]));
             let d = tilt_rate.times_plus(z, rate);
-            if let Some(cover) = cover {
-                let fraction = L::new(L::groups(&cover.fraction)[k]);
-                let depth = L::new(L::groups(&cover.depth)[k]);
-                sums.add(law, (z, d), delta, ((one - fraction) * weight, c));
-                if fraction.any_positive() {
-                    sums.add(law, (z, d), delta - depth, (fraction * weight, c));
-                }
-            } else {
-                sums.add(law, (z, d), delta, (weight, c));
-            }
+            sums.add(law, (z, d), delta, (weight, c));
         }
         Pressed {
             elastic: sums.elastic.sum(),
@@ -232,13 +205,7 @@ impl Slices {
 
     /// The same where damping goes with the stiffness (section 20): tau sigma times the Hessian of the energy times the rates, sigma at the slice that is deformed most where that is more than the middle.
     #[inline(always)]
-    fn press_timed<L: Lanes>(
-        &self,
-        law: &LoadDeflection,
-        at: &Approach,
-        cover: Option<&Cover>,
-        [tau, roughness]: [f64; 2],
-    ) -> Pressed {
+    fn press_timed<L: Lanes>(&self, law: &LoadDeflection, at: &Approach, [tau, roughness]: [f64; 2]) -> Pressed {
         let zero = L::zero();
         let (deformation, tilt) = (L::splat(at.deformation), L::splat(at.tilt));
         let (rate, tilt_rate) = (L::splat(at.rate), L::splat(at.tilt_rate));
@@ -248,13 +215,7 @@ impl Slices {
             let weight = L::new(L::groups(&self.weight)[k]);
             let delta = tilt.times_plus(z, deformation - L::new(L::groups(&self.drop)[k]));
             let d = tilt_rate.times_plus(z, rate);
-            let Some(cover) = cover else {
-                sums.add(law, (z, d), delta, weight);
-                continue;
-            };
-            let fraction = L::new(L::groups(&cover.fraction)[k]);
-            sums.add(law, (z, d), delta, (L::splat(1.0) - fraction) * weight);
-            sums.add(law, (z, d), delta - L::new(L::groups(&cover.depth)[k]), fraction * weight);
+            sums.add(law, (z, d), delta, weight);
         }
         let (elastic, moment) = (sums.elastic.sum(), sums.moment.sum());
         let x = sums.deepest.array().as_ref().iter().fold(at.deformation, |a, b| a.max(*b));
@@ -295,53 +256,42 @@ impl Slices {
         Pressed { elastic: elastic.sum(), touching: touching.sum(), tangent: tangent.sum(), ..Pressed::default() }
     }
 
-    /// What is whole and what damage covers of each slice: its share, and its deformation, m.
+    /// Deformation of each slice, m.
     #[inline]
-    pub(crate) fn parts(&self, at: Approach, cover: Option<&Cover>) -> impl Iterator<Item = [(f64, f64); 2]> {
-        (0..self.count).map(move |k| {
-            let delta = at.deformation + at.tilt * self.z[k] - self.drop[k];
-            let (fraction, depth) = cover.map_or((0.0, 0.0), |c| (c.fraction[k], c.depth[k]));
-            [(1.0 - fraction, delta), (fraction, delta - depth)]
-        })
+    pub(crate) fn deformations(&self, at: Approach) -> impl Iterator<Item = f64> {
+        (0..self.count).map(move |k| at.deformation + at.tilt * self.z[k] - self.drop[k])
     }
 
     /// Line load q at each slice of a moving contact, N/m: its force over its width; `out` holds n_s numbers.
-    pub fn line_load(&self, law: &LoadDeflection, at: &Approach, cover: Option<&Cover>, out: &mut [f64]) {
+    pub fn line_load(&self, law: &LoadDeflection, at: &Approach, out: &mut [f64]) {
         let per_width = 0.5 / self.half;
-        for ((out, parts), z) in out.iter_mut().zip(self.parts(*at, cover)).zip(&self.z) {
+        for ((out, delta), z) in out.iter_mut().zip(self.deformations(*at)).zip(&self.z) {
             let rate = at.rate + at.tilt_rate * z;
-            let [whole, sunk] = parts
-                .map(|(share, delta)| share * damped(law.healthy(delta), law.damper(law.healthy(delta), delta), rate));
-            *out = per_width * (whole + sunk);
+            *out = per_width * damped(law.healthy(delta), law.damper(law.healthy(delta), delta), rate);
         }
     }
 
     /// A resting contact.
-    pub fn carry(&self, law: &LoadDeflection, at: &Approach, cover: Option<&Cover>) -> Carried {
+    pub fn carry(&self, law: &LoadDeflection, at: &Approach) -> Carried {
         let mut sum = Carried::default();
-        for (k, parts) in self.parts(*at, cover).enumerate() {
-            let z = self.z[k];
-            for (share, delta) in parts {
-                if delta > 0.0 && share > 0.0 {
-                    let weight = share * self.weight[k];
-                    let force = weight * law.healthy(delta);
-                    let stiffness = weight * law.tangent(delta, None);
-                    sum.force += force;
-                    sum.moment += force * z;
-                    for (sum, lever) in sum.stiffness.iter_mut().zip([1.0, z, z * z]) {
-                        *sum += stiffness * lever;
-                    }
-                    sum.energy += weight * law.energy(delta);
-                }
+        for (k, delta) in self.deformations(*at).enumerate().filter(|(_, delta)| *delta > 0.0) {
+            let (z, weight) = (self.z[k], self.weight[k]);
+            let force = weight * law.healthy(delta);
+            let stiffness = weight * law.tangent(delta);
+            sum.force += force;
+            sum.moment += force * z;
+            for (sum, lever) in sum.stiffness.iter_mut().zip([1.0, z, z * z]) {
+                *sum += stiffness * lever;
             }
+            sum.energy += weight * law.energy(delta);
         }
         sum
     }
 
-    /// Deformation at the roller's middle under `force` (N) without tilt and damage, m; at least `least`, that of a
+    /// Deformation at the roller's middle under `force` (N) without tilt, m; at least `least`, that of a
     /// straight roller.
     pub fn deflection(&self, law: &LoadDeflection, force: f64, least: f64) -> f64 {
-        let carried = |delta: f64| self.carry(law, &Approach::pressed(delta), None).force;
+        let carried = |delta: f64| self.carry(law, &Approach::pressed(delta)).force;
         let (mut low, mut high) = (least, least);
         while carried(high) < force {
             (low, high) = (high, 2.0 * high + 1e-9);
@@ -358,10 +308,9 @@ impl Slices {
     }
 
     /// Share of the roller's length that touches at a deformation without tilt.
-    pub fn touching(&self, deformation: f64, cover: Option<&Cover>) -> f64 {
-        let touches = |(share, delta): (f64, f64)| if delta > 0.0 { share } else { 0.0 };
-        let parts = self.parts(Approach::pressed(deformation), cover);
-        parts.zip(&self.weight).map(|([whole, sunk], weight)| weight * (touches(whole) + touches(sunk))).sum()
+    pub fn touching(&self, deformation: f64) -> f64 {
+        let touching = self.deformations(Approach::pressed(deformation)).zip(&self.weight);
+        touching.filter(|(delta, _)| *delta > 0.0).map(|(_, weight)| weight).sum()
     }
 }
 
@@ -442,7 +391,16 @@ impl Healthy<'_> {
     pub fn energy(&self, delta: f64) -> f64 {
         match self.slices {
             None => self.law.energy(delta),
-            Some(slices) => slices.carry(self.law, &Approach::pressed(delta), None).energy,
+            Some(slices) => slices.carry(self.law, &Approach::pressed(delta)).energy,
+        }
+    }
+
+    /// Length that touches at a deformation, m: of a ball the axis of its ellipse across the groove.
+    pub(crate) fn touching(&self, delta: f64) -> f64 {
+        match (self.law.axis_across(delta), self.slices) {
+            (Some(axis), _) => axis,
+            (None, Some(slices)) => self.length * slices.touching(delta),
+            (None, None) => self.length,
         }
     }
 
@@ -452,9 +410,9 @@ impl Healthy<'_> {
     pub(crate) fn lost_length(&self, delta: f64, force: f64) -> f64 {
         let [whole, _] = self.force_and_tangent(delta);
         let share = if whole > 0.0 { (force / whole).clamp(0.0, 1.0) } else { f64::from(u8::from(force > 0.0)) };
-        match &self.law.strips {
+        match self.law.axis_across(delta) {
             None => self.length * (1.0 - share * share.sqrt().sqrt().sqrt()),
-            Some(strips) => strips.pressed(delta).length([f64::NEG_INFINITY, f64::INFINITY]) * (1.0 - share),
+            Some(axis) => axis * (1.0 - share),
         }
     }
 }
@@ -471,7 +429,7 @@ mod tests {
             stiffness: 1e9,
             exponent: Exponent::TenNinths,
             damping: Damping::Constant(200.0),
-            strips: None,
+            across: None,
         };
         let profiles = [
             RollerProfile::Straight,
@@ -484,7 +442,7 @@ mod tests {
             let slices = Slices::new(count, 9e-3, 9e-3, profile);
             for deformation in [-1e-6, 0.0, 1e-8, 3e-7, 2e-6, 9e-6, 4e-5] {
                 let at = Approach::pressed(deformation);
-                let each = slices.press::<Portable>(&law, &at, None);
+                let each = slices.press::<Portable>(&law, &at);
                 let Pressed { elastic, touching, .. } = slices.press_evenly::<Portable>(&law, deformation);
                 let one = slices.press_evenly::<f64>(&law, deformation).elastic;
                 // Round-off of some thirty additions.

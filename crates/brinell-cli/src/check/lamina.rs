@@ -1,4 +1,4 @@
-//! Of `brinell check`: edge pressure, tilt, stiffness and life where the contacts have slices.
+//! Of `brinell check`: edge pressure, tilt, stiffness and life of bearings with rollers.
 
 use crate::failure::Failure;
 use crate::say::{say, short, significant};
@@ -13,8 +13,8 @@ pub(super) fn print(s: &Scenario, top_speed: f64) -> Result<(), Failure> {
         return Ok(());
     };
     say!(
-        "Static load in {} slices (ISO/TS 16281), {} rollers; static limit {} MPa",
-        rating.healthy.z.len(),
+        "Static load without damage in {} slices (ISO/TS 16281), {} rollers; static limit {} MPa",
+        rating.distribution.z.len(),
         match s.bearing.profile {
             RollerProfile::Straight => "straight",
             RollerProfile::Logarithmic => "logarithmic",
@@ -23,13 +23,9 @@ pub(super) fn print(s: &Scenario, top_speed: f64) -> Result<(), Failure> {
         },
         1e-6 * static_limit(&s.bearing)
     );
-    pressures("healthy", &rating.healthy);
-    if let Some(damaged) = &rating.damaged {
-        pressures("damaged", damaged);
-    }
-    let shown = rating.damaged.as_ref().unwrap_or(&rating.healthy);
-    if let Some(k) = shown.stiffness {
-        tilts(shown, &k);
+    pressures(&rating.distribution);
+    if let Some(k) = rating.distribution.stiffness {
+        tilts(&rating.distribution, &k);
     }
     life(&rating, s.bearing.profile == RollerProfile::Straight, top_speed);
     say!("");
@@ -58,15 +54,15 @@ fn tilts(d: &Distribution, stiffness: &[[f64; 4]; 4]) {
     }
 }
 
-fn pressures(of: &str, d: &Distribution) {
+fn pressures(d: &Distribution) {
     let Some(peak) = d.peak() else {
-        say!("  {of:<23} no contact carries load");
+        say!("  pressure                no contact carries load");
         return;
     };
     let end = d.end_peak().map_or("no load".to_owned(), |end| format!("{} MPa", short(1e-6 * end.pressure, 4)));
     say!(
         "  {:<23} {} MPa at {}; in the end slices {end}",
-        format!("{of}, largest"),
+        "pressure, largest",
         short(1e-6 * peak.pressure, 4),
         place(&peak)
     );
@@ -91,19 +87,5 @@ fn life(rating: &Rating, straight: bool, top_speed: f64) {
             true => "; of straight rollers it falls with wider slices: compare at one number of them",
             false => "",
         }
-    );
-    let Some(damaged) = rating.damaged_life else {
-        return;
-    };
-    let error = rating
-        .damaged_life_error
-        .map_or(String::new(), |error| format!(" (standard error {} %)", short(100.0 * error / life, 2)));
-    let longer = match damaged > life {
-        true => ": what lies over damage carries nothing and no longer counts",
-        false => "",
-    };
-    say!(
-        "                          the damaged bearing's load distribution alone makes it {} %{error}{longer}; fatigue that starts at the damage is not in it",
-        short(100.0 * damaged / life, 3)
     );
 }

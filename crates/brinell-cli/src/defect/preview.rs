@@ -82,19 +82,14 @@ fn pictures(index: usize, damage: &Damage, layout: Layout) -> Vec<Picture> {
     if !view.section.panels.is_empty() {
         pictures.push(brinell_report::damage_section(view, index, layout));
     }
-    if let Some(along) = &view.along {
-        let name = format!("damage-{}-along", index + 1);
-        pictures.push(brinell_report::load_along(along, &name, layout));
-    }
     layout.finished(pictures)
 }
 
 /// The curves of each picture as CSV.
 fn tables(index: usize, damage: &Damage, folder: &Path, ready: &mut Vec<Complete>) -> Result<(), Failure> {
     let view = &damage.view;
-    let along = view.along.iter().map(|along| ("along", "z_mm", along));
     let both = [("passage", "angle_deg", &view.passage), ("section", "s_mm", &view.section)];
-    for (name, axis, curves) in both.into_iter().chain(along).filter(|(.., curves)| !curves.panels.is_empty()) {
+    for (name, axis, curves) in both.into_iter().filter(|(.., curves)| !curves.panels.is_empty()) {
         let path = folder.join(format!("damage-{}-{name}.csv", index + 1));
         ready.push(atomic_prepare(path, csv(axis, curves))?);
     }
@@ -128,9 +123,6 @@ fn tell(damage: &Damage, form: Option<String>) {
     say!("  Passage: {}", plain(&view.passage.note));
     for of in &view.pressures {
         say!("  Pressure: {}", plain(&of.note));
-    }
-    if let Some(along) = &view.along {
-        say!("  {}, {}", along.title, along.note);
     }
     say!("  Section: {}", view.section.note);
     say!("");
@@ -228,8 +220,6 @@ fn entry(index: usize, damage: &Damage) -> serde_json::Value {
         "passage_note": plain(&view.passage.note),
         "passage": curves("angle_deg", &view.passage),
         "pressure": view.pressures.iter().map(pressure).collect::<Vec<_>>(),
-        "along_note": view.along.as_ref().map(|along| &along.note),
-        "along": view.along.as_ref().map(|along| curves("z_mm", along)),
         "section_note": view.section.note,
         "section": curves("s_mm", &view.section),
     })

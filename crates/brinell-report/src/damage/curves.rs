@@ -21,8 +21,8 @@ pub fn damage_section(view: &DamageView, index: usize, layout: Layout) -> Pictur
 }
 
 /// Profile, line load and pressure along a roller at rest.
-pub fn load_along(along: &DamageCurves, name: &str, layout: Layout) -> Picture {
-    stack(name, &along.title, ("Along the roller, from its middle", "mm"), along, layout)
+pub fn load_along(along: &DamageCurves, layout: Layout) -> Picture {
+    stack("along", &along.title, ("Along the roller, from its middle", "mm"), along, layout)
 }
 
 const LINES: [(&str, f64, &[f64]); 4] =

@@ -55,9 +55,6 @@ pub struct DamageView {
     pub passage: DamageCurves,
     /// Pressures over it where they are largest, a contact each; none under laws that have none.
     pub pressures: Vec<PressureView>,
-    /// Profile's drop, line load and pressure along a roller at rest on it, over z from its middle, in mm, where
-    /// rollers have slices; forces and lengths, and by which law.
-    pub along: Option<DamageCurves>,
     /// Section properties over s along the damage, in mm; for which ring.
     pub section: DamageCurves,
 }

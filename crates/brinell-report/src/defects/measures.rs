@@ -137,11 +137,11 @@ pub(super) fn facts(m: &Measures, s: &Scenario, defect: &Defect, passing: Passin
         fact("Time to pass", m.pass_ms, 4, "ms", format!("of the {contact}, at {} r/min", short(m.speed_rpm, 4))),
     ];
     if m.raised_um > 0.0 {
-        facts.push(fact("Raised edge", m.raised_um, 4, "µm", "felt by the laws \"half-space\" and \"sliced\"".into()));
+        facts.push(fact("Raised edge", m.raised_um, 4, "µm", "felt by the law \"half-space\"".into()));
     }
     if let (Shape::DepthMap(_), Law::Ecl) = (&defect.shape, law) {
         let note = format!(
-            "largest L_s: this law counts each damaged node as wide as dz, {} mm^2 in all; the law \"sliced\" takes the surface",
+            "largest L_s: this law counts each damaged node as wide as dz, {} mm^2 in all; the law \"half-space\" takes the surface",
             short(m.area_in_ecl_mm2, 4)
         );
         facts.push(fact("Widest in the law ecl", 1e3 * widest_in_ecl(defect), 4, "mm", note));

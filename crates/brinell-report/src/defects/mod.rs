@@ -8,9 +8,8 @@ mod passage;
 mod pressures;
 mod seen;
 
-pub(crate) use along::along_healthy_roller;
+pub(crate) use along::along_roller;
 use brinell::derived::defect_passes;
-use brinell::lamina::AtRest;
 use brinell::model::{Model, ModelError};
 use brinell::scenario::Scenario;
 use brinell::statics::static_load_zone;
@@ -31,8 +30,7 @@ pub fn damage_of(s: &Scenario, thickness_mm: Option<f64>) -> Result<Vec<Damage>,
     let healthy = Model::new(&Scenario { defects: Vec::new(), ..s.clone() })?;
     let passes = defect_passes(&model);
     let statics = static_load_zone(&healthy).ok();
-    let at_rest = AtRest::of(s).ok().flatten();
     let seen = (0..model.defects.len())
-        .map(|k| Seen::of((s, &model, k), passes[k], statics.as_ref(), thickness_mm).damage(at_rest.as_ref()));
+        .map(|k| Seen::of((s, &model, k), passes[k], statics.as_ref(), thickness_mm).damage());
     Ok(seen.collect())
 }

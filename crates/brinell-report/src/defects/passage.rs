@@ -1,27 +1,18 @@
-//! Contact conditions during roller passage over a defect. Under the laws of strips lengths, depths and stiffness, by path and law; under
-//! `half-space` what the tables hold (section 19).
+//! Contact conditions during roller passage over a defect: under `ecl` lengths, depths and stiffness by path, under `half-space` what the
+//! tables hold (section 19).
 
 use super::curves::curve;
 use crate::{DamageCurve, DamagePanel};
 use brinell::defect::{Defect, Shape, Side};
 use brinell::half_space::geometry::Geometry;
 use brinell::model::Model;
-use brinell::scenario::{self, Contact, EdgeReaction, Law, RollerPath, Scenario};
-use brinell::slices::Cover;
+use brinell::scenario::{self, Contact, Law, RollerPath, Scenario};
 
 /// Points of a curve.
 const POINTS: usize = 1601;
 /// The second deformation that Q/Q_0 is drawn at, over the static one.
 const TWICE: f64 = 2.0;
-/// Every law of strips and path, with its name.
-const LAWS: [(Law, RollerPath, &str); 4] = [
-    (Law::Ecl, RollerPath::Point, "ecl, point"),
-    (Law::Ecl, RollerPath::Envelope, "ecl, envelope"),
-    (Law::Sliced, RollerPath::Point, "sliced, point"),
-    (Law::Sliced, RollerPath::Envelope, "sliced, envelope"),
-];
-
-/// One defect under a roller that does not tilt, under laws of strips alone; `sides` with the deformation of each, m.
+/// One defect under a roller that does not tilt, alone under `ecl`; `sides` with the deformation of each, m.
 pub(super) struct Passage<'a> {
     pub(super) scenario: &'a Scenario,
     pub(super) of: &'a scenario::Defect,
@@ -36,7 +27,7 @@ impl Passage<'_> {
         let angles = self.angles();
         let panels = match self.scenario.contact.law {
             Law::HalfSpace => self.on_tables(&angles),
-            Law::Ecl | Law::Sliced => {
+            Law::Ecl => {
                 let mut panels = vec![self.lengths(&angles), self.depths(&angles)];
                 panels.extend(self.stiffnesses(&angles));
                 panels
@@ -62,7 +53,7 @@ impl Passage<'_> {
         angles
     }
 
-    /// How far before an edge a contact feels it, m; 0 under laws that know no width of the contact along s.
+    /// How far before an edge a contact feels it, m; 0 under `ecl`, which knows no width of the contact along s.
     fn felt_before(&self) -> f64 {
         if self.scenario.contact.law != Law::HalfSpace {
             return 0.0;
@@ -117,19 +108,18 @@ impl Passage<'_> {
         }
     }
 
-    /// The defect under a law and a path.
-    fn under(&self, law: Law, roller_path: RollerPath) -> Option<Defect> {
-        let contact = Contact { law, roller_path, edge_reaction: EdgeReaction::None, ..self.scenario.contact.clone() };
+    /// The defect under a path.
+    fn under(&self, roller_path: RollerPath) -> Option<Defect> {
+        let contact = Contact { roller_path, ..self.scenario.contact.clone() };
         Defect::new(self.of, &self.scenario.bearing, &contact)
     }
 
     fn lengths(&self, angles: &[f64]) -> DamagePanel {
         let damaged = |u: &f64| 1e3 * self.defect.damaged_length(u * self.defect.radius);
         let damaged: Vec<f64> = angles.iter().map(damaged).collect();
-        let mut cover = Cover::new(self.model.profiled().map_or(0, |s| s.count));
         let left = match self.sides.first() {
             Some(&(side, delta)) => {
-                let length = |u: &f64| 1e3 * self.model.length_over(self.defect, side, *u, delta, &mut cover);
+                let length = |u: &f64| 1e3 * self.model.length_over(self.defect, side, *u, delta);
                 angles.iter().map(length).collect()
             }
             None => damaged.iter().map(|x| 1e3 * self.defect.roller_length - x).collect(),
@@ -140,7 +130,7 @@ impl Passage<'_> {
 
     fn depths(&self, angles: &[f64]) -> DamagePanel {
         let depths = |path: RollerPath, side: Side, name: &str| {
-            let d = self.under(Law::Ecl, path)?;
+            let d = self.under(path)?;
             let h = |u: &f64| d.floor(*u, side).map_or(0.0, |f| 1e6 * f.depth);
             Some(curve(name, angles.iter().map(h).collect()))
         };
@@ -159,12 +149,10 @@ impl Passage<'_> {
     /// K = Q / delta^n, a panel a side.
     fn stiffnesses(&self, angles: &[f64]) -> Vec<DamagePanel> {
         let unit = brinell::channel::stiffness_unit(self.scenario.contact.exponent);
-        // One length is no law under balls, nor along a profile.
-        let sliced_alone = self.scenario.bearing.has_balls() || self.model.profiled().is_some();
         let of = |&(side, delta): &(Side, f64)| {
-            let laws = LAWS.iter().filter(|l| l.0 == Law::Sliced || !sliced_alone);
-            let curves = laws.filter_map(|&(law, path, name)| {
-                let d = self.under(law, path)?;
+            let paths = [(RollerPath::Point, "point"), (RollerPath::Envelope, "envelope")];
+            let curves = paths.into_iter().filter_map(|(path, name)| {
+                let d = self.under(path)?;
                 Some(curve(name, self.stiffness(angles, &d, side, delta)))
             });
             let label = match self.sides.len() > 1 {
@@ -179,8 +167,7 @@ impl Passage<'_> {
     fn stiffness(&self, angles: &[f64], d: &Defect, side: Side, delta: f64) -> Vec<f64> {
         let law = self.model.contact(side);
         let per_force = law.stiffness / law.healthy(delta);
-        let mut cover = Cover::new(self.model.profiled().map_or(0, |s| s.count));
-        let k = |u: &f64| per_force * self.model.force_over(d, side, *u, delta, &mut cover);
+        let k = |u: &f64| per_force * self.model.force_over(d, side, *u, delta);
         angles.iter().map(k).collect()
     }
 }

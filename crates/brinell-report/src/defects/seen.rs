@@ -1,6 +1,5 @@
 //! One defect with what its numbers, words and pictures are made of.
 
-use super::along::along_roller;
 use super::curves::{depths, section};
 use super::measures::{Measures, deepest, facts, widest};
 use super::passage::Passage;
@@ -10,7 +9,6 @@ use crate::{DamageCurves, DamageView};
 use brinell::defect::simplify::Extent;
 use brinell::defect::{Defect, Shape, Side, wrap};
 use brinell::derived::Passing;
-use brinell::lamina::AtRest;
 use brinell::model::Model;
 use brinell::observe::passes::place;
 use brinell::scenario::{self, Law, Scenario, Surface};
@@ -103,7 +101,7 @@ impl<'a> Seen<'a> {
         }
     }
 
-    pub(super) fn damage(self, at_rest: Option<&AtRest>) -> Damage {
+    pub(super) fn damage(self) -> Damage {
         let (s, defect) = (self.scenario, self.defect);
         let of = &s.defects[self.index];
         let passage = Passage { scenario: s, of, defect, model: self.model, sides: &self.sides }.panels();
@@ -140,7 +138,6 @@ impl<'a> Seen<'a> {
                 note: self.passage_note(),
             },
             pressures: pressures((s, self.model, self.index), &self.sides, &title),
-            along: at_rest.and_then(|r| along_roller(s, r, Some(self.index))),
             section: DamageCurves {
                 title: format!("{title}. Section under it of a ring {} mm thick", short(1e3 * self.thickness, 3)),
                 along: section.0,
@@ -188,7 +185,7 @@ impl<'a> Seen<'a> {
         };
         match self.scenario.contact.law {
             Law::HalfSpace => format!("{contacts}; law half-space, at a static deformation of {deformation}"),
-            Law::Ecl | Law::Sliced => format!("{contacts}; K at a deformation of {deformation}"),
+            Law::Ecl => format!("{contacts}; K at a deformation of {deformation}"),
         }
     }
 
@@ -206,8 +203,8 @@ impl<'a> Seen<'a> {
                 "law half-space, as the run takes it: the effective δ is that at which the healthy contact stores the energy that the damaged one \
                  stores at δ; Q over the healthy Q_0 at the same δ, the static {deformation} ({by_force}) and twice it; with all damage of this surface{profile}"
             ),
-            Law::Ecl | Law::Sliced => format!(
-                "stiffness Q/δⁿ at a deformation of {deformation} ({by_force}); this defect alone, the paths and laws side by side{profile}"
+            Law::Ecl => format!(
+                "stiffness Q/δⁿ at a deformation of {deformation} ({by_force}); this defect alone, the paths side by side{profile}"
             ),
         }
     }

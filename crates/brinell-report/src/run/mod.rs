@@ -55,10 +55,7 @@ impl Report {
             undrawn_damage,
             passes: parts.findings.passes.best().iter().map(|p| pass(parts, p)).collect(),
             load_distribution: load_distribution(parts),
-            along: match scenario.defects.is_empty() {
-                true => crate::defects::along_healthy_roller(scenario),
-                false => None,
-            },
+            along: crate::defects::along_roller(scenario),
             indicators: indicators(parts),
             slip: slip(parts),
             slip_rows: slip_rows(parts),

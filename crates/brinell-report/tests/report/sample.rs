@@ -62,8 +62,6 @@ fn damage_view(text: &str, values: &[f64]) -> DamageView {
             note: text.into(),
             ..PressureView::default()
         }],
-        // As many as slices at most.
-        along: Some(curves(values.iter().take(200).copied().collect(), 1)),
         section: curves(values.to_vec(), 1),
     }
 }
@@ -195,7 +193,7 @@ pub(crate) fn filled(text: &str, values: &[f64], dt: f64, frequency: f64) -> Rep
             stiffness_unit: text.into(),
             contact: text.into(),
         }],
-        along: damage_view(text, values).along,
+        along: Some(damage_view(text, values).section),
         load_distribution: vec![RowLoad {
             title: text.into(),
             mean_n: values.to_vec(),

@@ -1,4 +1,4 @@
-//! Hertz's contact of a ball and a groove: stiffness, ellipse, and how its load is spread across the groove.
+//! Hertz's contact of a ball and a groove: stiffness and ellipse.
 //!
 //! SI. x is along the rolling direction, z across the groove from its bottom. The ellipse is in Hamrock's form
 //! (Hamrock, Schmid, Jacobson: Fundamentals of Fluid Film Lubrication, chapter 17); ball and rings are of one elastic
@@ -127,86 +127,6 @@ pub fn ellipses(bearing: &Bearing, contact: &Contact) -> Option<[Ellipse; 2]> {
         Ellipse::new(of, modulus)
     };
     Some([of(bearing.inner_raceway_diameter_mm, inner)?, of(-bearing.outer_raceway_diameter_mm, outer)?])
-}
-
-/// Independent strips along the rolling direction that carry together what the ellipse carries, each as much as Hertz's
-/// pressure sums up to there.
-///
-/// The line load across the ellipse, 3 Q/(4 a_z) (1 - z^2/a_z^2), is that of strips of the stiffness C = 3 K/(4 sqrt(2
-/// R_w)) per length on the profile z^2/(2 R_w), because a_z = sqrt(2 R_w delta).
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Strips {
-    /// C, N/m^2.
-    pub stiffness: f64,
-    /// R_w, m.
-    pub radius: f64,
-}
-
-impl Strips {
-    /// Of a contact of the stiffness K (N/m^1.5) and R_w (m).
-    pub fn new(stiffness: f64, across: f64) -> Self {
-        Self { stiffness: 0.75 * stiffness / (2.0 * across).sqrt(), radius: across }
-    }
-
-    /// What is pressed at a deformation, m.
-    #[inline]
-    pub fn pressed(&self, delta: f64) -> Pressed {
-        let squared = 2.0 * self.radius * delta.max(0.0);
-        Pressed { squared, end: squared.sqrt(), per_radius: 0.5 / self.radius }
-    }
-
-    /// Half of the ellipse's axis across the groove at a deformation, m: a_z.
-    pub fn half_axis(&self, delta: f64) -> f64 {
-        self.pressed(delta).end
-    }
-}
-
-/// [delta - z^2/(2 R_w)]_+ over z: the deformation of each strip.
-#[derive(Debug, Clone, Copy)]
-pub struct Pressed {
-    /// a_z^2, m^2.
-    squared: f64,
-    /// a_z, m.
-    end: f64,
-    /// 1/(2 R_w), 1/m.
-    per_radius: f64,
-}
-
-impl Pressed {
-    #[inline]
-    fn within(&self, [from, to]: [f64; 2]) -> [f64; 2] {
-        [from, to].map(|z| z.max(-self.end).min(self.end))
-    }
-
-    /// How much of a range of z is pressed, m.
-    #[inline]
-    pub fn length(&self, range: [f64; 2]) -> f64 {
-        let [from, to] = self.within(range);
-        to - from
-    }
-
-    /// G: the integral of the deformation over a range of z, m^2. Never negative, and exactly 0 beyond the ellipse.
-    #[inline]
-    pub fn area(&self, range: [f64; 2]) -> f64 {
-        let [from, to] = self.within(range);
-        let mean_square = (to * to + from * to + from * from) * (1.0 / 3.0);
-        // Round-off of a sliver at the ellipse's end.
-        ((to - from) * (self.squared - mean_square) * self.per_radius).max(0.0)
-    }
-
-    /// The integral of half its square over a range of z, m^3: by Gauss's three points, which are exact for it and add
-    /// up what is not negative.
-    #[inline]
-    pub fn half_squares(&self, range: [f64; 2]) -> f64 {
-        let [from, to] = self.within(range);
-        let (middle, half) = (0.5 * (from + to), 0.5 * (to - from));
-        let at = |x: f64| {
-            let z = middle + half * x;
-            ((self.squared - z * z) * self.per_radius).powi(2)
-        };
-        const OUTER: f64 = 0.774_596_669_241_483_4;
-        half * (5.0 * (at(-OUTER) + at(OUTER)) + 8.0 * at(0.0)) / 18.0
-    }
 }
 
 #[cfg(test)]

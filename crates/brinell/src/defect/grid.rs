@@ -8,7 +8,7 @@ use crate::scenario::DepthGrid;
 ///
 /// The law `ecl` needs one width and one depth at each s. In L_s every damaged node (depth other than 0) represents its
 /// cell, dz wide; h_s is the mean depth over that width, so that L_s h_s is the section of the damage at a column. Both
-/// are tabulated at the columns and straight between them. The law `sliced` follows the surface itself ([`Covered`]).
+/// are tabulated at the columns and straight between them. What the surface itself covers is [`Covered`].
 #[derive(Debug, Clone, PartialEq)]
 pub struct Grid {
     start: [f64; 2],
@@ -127,22 +127,12 @@ impl Grid {
     }
 
     /// s of a column, m.
-    pub(super) fn s(&self, column: usize) -> f64 {
+    fn s(&self, column: usize) -> f64 {
         self.start[0] + column as f64 * self.step[0]
     }
 
-    /// Nodes along s.
-    pub(super) fn columns(&self) -> usize {
-        self.columns
-    }
-
-    /// Distance of columns, m.
-    pub(super) fn step(&self) -> f64 {
-        self.step[0]
-    }
-
     /// The cells between rows within low..high (m): the row below each, and what of its z lies within.
-    pub(super) fn rows_within(&self, low: f64, high: f64) -> Vec<(usize, [f64; 2])> {
+    fn rows_within(&self, low: f64, high: f64) -> Vec<(usize, [f64; 2])> {
         (0..self.rows - 1)
             .map(|row| (row, [self.z(row).max(low), self.z(row + 1).min(high)]))
             .filter(|(_, [a, b])| a < b)
@@ -150,20 +140,20 @@ impl Grid {
     }
 
     /// Whether anything is damaged between two columns and two rows, given the first of each.
-    pub(super) fn is_damaged(&self, column: usize, row: usize) -> bool {
+    fn is_damaged(&self, column: usize, row: usize) -> bool {
         let at = row * self.columns + column;
         [at, at + 1, at + self.columns, at + self.columns + 1].iter().any(|k| self.depth[*k] != 0.0)
     }
 
     /// Depth of a column at z between the row given and the next, m.
-    pub(super) fn between_rows(&self, column: usize, row: usize, z: f64) -> f64 {
+    fn between_rows(&self, column: usize, row: usize, z: f64) -> f64 {
         let share = (z - self.z(row)) / self.step[1];
         let at = row * self.columns + column;
         (1.0 - share) * self.depth[at] + share * self.depth[at + self.columns]
     }
 
     /// The row below z; `None` beyond the grid.
-    pub(super) fn row_at(&self, z: f64) -> Option<usize> {
+    fn row_at(&self, z: f64) -> Option<usize> {
         Self::place((z - self.start[1]) / self.step[1], self.rows)
     }
 
@@ -180,36 +170,6 @@ impl Grid {
             let (a, b) = (self.between_rows(column, row, z), self.between_rows(column + 1, row, z));
             a + share * (b - a)
         })
-    }
-
-    /// z of the next row above z, m; infinite beyond the last.
-    pub(super) fn next_row(&self, z: f64) -> f64 {
-        let row = ((z - self.start[1]) / self.step[1]).floor() + 1.0;
-        let mut row = row.clamp(0.0, self.rows as f64) as usize;
-        while row < self.rows && self.z(row) <= z {
-            row += 1;
-        }
-        if row < self.rows { self.z(row) } else { f64::INFINITY }
-    }
-
-    /// z of the next row above z at which damage begins or ends at s, m; infinite beyond the last.
-    pub(super) fn next_end(&self, s: f64, z: f64) -> f64 {
-        let Some(column) = Self::place((s - self.start[0]) / self.step[0], self.columns) else {
-            return f64::INFINITY;
-        };
-        let damaged = |z: f64| self.row_at(z).is_some_and(|row| self.is_damaged(column, row));
-        let inside = |row_z: f64| row_z + 0.5 * self.step[1];
-        let mut next = self.next_row(z);
-        let here = damaged(next - 0.5 * self.step[1]);
-        while next.is_finite() && damaged(inside(next)) == here {
-            next = self.next_row(next);
-        }
-        next
-    }
-
-    /// First column at s or before it, below 0 before the first.
-    pub(super) fn column_at(&self, s: f64) -> i64 {
-        ((s - self.start[0]) / self.step[0]).floor() as i64
     }
 
     fn z(&self, row: usize) -> f64 {

@@ -1,6 +1,5 @@
 //! Damage seen from above: the inside of polygons by the even-odd rule. Points (s, z) in m.
 
-use super::bands::Border;
 use super::piecewise::{Line, PiecewisePolynomial};
 use std::collections::HashSet;
 
@@ -115,11 +114,15 @@ impl Outline {
         self
     }
 
-    /// Borders between damage and none, each monotone in z, and the z at which sides cross.
-    pub(super) fn borders(&self) -> (Vec<Border>, Vec<f64>) {
+    /// The s at which sides cross the line z = 0, rising: damage begins and ends by turns.
+    pub(super) fn crossings_of_bottom(&self) -> Vec<f64> {
         let all = self.polygons.iter().flat_map(|p| sides(p));
-        let crossings = crossings(&edges(&self.polygons)).unwrap_or_default();
-        (all.filter_map(|(p, q)| Border::straight(p, q)).collect(), crossings.iter().map(|(_, at)| at[1]).collect())
+        let mut crossed: Vec<f64> = all
+            .filter(|(p, q)| (p[1] <= 0.0) != (q[1] <= 0.0))
+            .map(|(p, q)| p[0] - (q[0] - p[0]) * p[1] / (q[1] - p[1]))
+            .collect();
+        crossed.sort_by(f64::total_cmp);
+        crossed
     }
 
     /// The same, larger by `factor` in both directions about the origin.

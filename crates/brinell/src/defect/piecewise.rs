@@ -142,11 +142,6 @@ impl PiecewisePolynomial {
         self.at(s).map_or(0.0, |(p, x)| p.c[1] + 2.0 * x * p.c[2])
     }
 
-    /// Value, derivative and half the second derivative at s.
-    pub(super) fn quadratic(&self, s: f64) -> [f64; 3] {
-        self.at(s).map_or([0.0; 3], |(p, x)| [p.c[0] + x * (p.c[1] + x * p.c[2]), p.c[1] + 2.0 * x * p.c[2], p.c[2]])
-    }
-
     /// Each piece and where it ends, m.
     fn with_ends(&self) -> impl Iterator<Item = (&Piece, f64)> {
         let ends = self.pieces.iter().skip(1).map(|p| p.start);

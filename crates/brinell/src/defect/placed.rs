@@ -1,24 +1,23 @@
 //! Defects where they are on their surfaces: which contacts they meet, and at which angle.
 
 use super::angles::{Angles, SIDES, Side, wrap};
-use super::depth_profile::{DepthProfile, Rules, relative_radius};
 use super::envelope::envelope;
-use super::extent::Extent;
 use super::piecewise::PiecewisePolynomial;
 use super::shape::Shape;
 use crate::contact::{ContactReduction, remaining_share};
 use crate::effective::{Table, Tilted};
-use crate::scenario::{self, Element, Law, Surface};
+use crate::scenario::{self, Element, Law, RollerPath, Surface};
 use std::f64::consts::PI;
 use std::sync::Arc;
 
-/// Lowest and highest z of a defect on a surface of a length, m.
-fn heights(defect: &scenario::Defect, length: f64) -> Option<[f64; 2]> {
-    let offset = 1e-3 * defect.axial_offset_mm;
-    let shape = Shape::new(&defect.shape, 1e-6 * defect.depth_um)?.placed(offset, length);
-    let middle = if shape.is_width() { offset } else { 0.0 };
-    let end = 0.5 * length;
-    Some(shape.heights(middle).map(|z| z.clamp(-end, end)))
+/// Relative radius of curvature R_eq (m) of a roller of radius r on a raceway: 1/R_eq = 1/r - 1/R_o at the outer one,
+/// 1/r + 1/R_i at the inner one.
+pub fn relative_radius(bearing: &scenario::Bearing, side: Side) -> f64 {
+    let roller = 2e3 / bearing.roller_diameter_mm;
+    match side {
+        Side::Outer => 1.0 / (roller - 2e3 / bearing.outer_raceway_diameter_mm),
+        Side::Inner => 1.0 / (roller + 2e3 / bearing.inner_raceway_diameter_mm),
+    }
 }
 
 /// One defect on its surface, SI.
@@ -42,27 +41,21 @@ pub struct Defect {
     pub radius: f64,
     /// L of the roller, m; of a ball more than its groove is wide.
     pub roller_length: f64,
-    /// How damage acts.
-    pub rules: Rules,
     /// delta_eff by side, under `half-space`; none where another defect's table holds this one too.
     tables: [Option<Arc<Table>>; 2],
     /// The same over tilt, where rollers tilt.
     tilted: [Option<Arc<Tilted>>; 2],
-    /// Made ready for the sides that the defect meets, indexed by `Side as usize`.
-    profiles: [Option<DepthProfile>; 2],
+    /// Which sides of rolling elements the defect meets, indexed by `Side as usize`.
+    met: [bool; 2],
+    /// The law `ecl`: depth along the path where that is the envelope, and under balls, of which the lumped model knows the groove's
+    /// bottom alone.
+    floors: [Option<PiecewisePolynomial>; 2],
     /// Local angles (rad) beyond which neither arc nor profile reaches, by side.
     windows: [(f64, f64); 2],
 }
 
 impl Defect {
-    /// From the scenario, alone on its bearing. `None` where its shape makes no sense, or its row or roller counts from
-    /// 0.
-    pub fn new(defect: &scenario::Defect, bearing: &scenario::Bearing, contact: &scenario::Contact) -> Option<Self> {
-        let alone = Self::all(std::slice::from_ref(defect), bearing, contact);
-        alone.ok()?.pop()
-    }
-
-    /// All defects of a scenario: under balls the slices divide what all of a row take up together.
+    /// All defects of a scenario.
     ///
     /// # Errors
     /// The first of which [`Self::new`] would make none.
@@ -71,27 +64,14 @@ impl Defect {
         bearing: &scenario::Bearing,
         contact: &scenario::Contact,
     ) -> Result<Vec<Self>, usize> {
-        let length = 1e-3 * bearing.axial_reach_mm();
-        let heights: Vec<[f64; 2]> = match bearing.has_balls() {
-            false => Vec::new(),
-            true => defects.iter().enumerate().map(|(k, d)| heights(d, length).ok_or(k)).collect::<Result<_, _>>()?,
-        };
-        let extent = |row: usize| {
-            let all = defects.iter().zip(&heights).filter(|(d, _)| d.row == row);
-            let bounds = all.map(|(_, h)| *h).reduce(|a, b| [a[0].min(b[0]), a[1].max(b[1])]);
-            bounds.map_or(Extent::of_roller(length), Extent::of_damage)
-        };
-        let of = |(k, defect): (usize, &scenario::Defect)| {
-            Self::within(defect, bearing, contact, extent(defect.row)).ok_or(k)
-        };
-        defects.iter().enumerate().map(of).collect()
+        defects.iter().enumerate().map(|(k, defect)| Self::new(defect, bearing, contact).ok_or(k)).collect()
     }
 
-    fn within(
+    /// From the scenario. `None` where its shape makes no sense, or its row or roller counts from 0.
+    pub fn new(
         defect: &scenario::Defect,
         bearing: &scenario::Bearing,
         contact: &scenario::Contact,
-        extent: Extent,
     ) -> Option<Self> {
         let surface = match defect.on {
             Surface::Roller(k) => Surface::Roller(k.checked_sub(1)?),
@@ -102,25 +82,31 @@ impl Defect {
         let offset = 1e-3 * defect.axial_offset_mm;
         let shape = Shape::new(&defect.shape, depth)?.placed(offset, roller_length);
         let middle = if shape.is_width() { offset } else { 0.0 };
-        let rules = Rules::new(contact);
-        let profiles = SIDES.map(|side| {
-            let met = match surface {
-                Surface::OuterRaceway => side == Side::Outer,
-                Surface::InnerRaceway => side == Side::Inner,
-                Surface::Roller(_) => true,
+        let met = SIDES.map(|side| match surface {
+            Surface::OuterRaceway => side == Side::Outer,
+            Surface::InnerRaceway => side == Side::Inner,
+            Surface::Roller(_) => true,
+        });
+        let floors = SIDES.map(|side| {
+            if contact.law != Law::Ecl || !met[side as usize] {
+                return None;
+            }
+            let lines = match bearing.element {
+                Element::Roller => shape.depths(depth),
+                Element::Ball => shape.depths_at_bottom(depth, middle),
             };
-            let radius = relative_radius(bearing, side);
-            met.then(|| DepthProfile::new(&shape, (depth, middle), extent, radius, &rules))
+            match (contact.roller_path, bearing.element) {
+                (RollerPath::Envelope, _) => Some(envelope(&lines, relative_radius(bearing, side))),
+                (RollerPath::Point, Element::Ball) => Some(PiecewisePolynomial::of_lines(&lines)),
+                (RollerPath::Point, Element::Roller) => None,
+            }
         });
         let radius = 0.5e-3 * bearing.diameter_mm(surface);
-        let arc = shape.arc();
-        let windows = [0, 1].map(|side| {
-            let (first, last) = profiles[side].as_ref().map_or(arc, |g| g.arc);
-            // A little wider, so that round-off decides in `floor` alone.
-            (arc.0.min(first) / radius - 1e-9, arc.1.max(last) / radius + 1e-9)
-        });
+        let (first, last) = shape.arc();
+        // A little wider, so that round-off decides in `floor` alone.
+        let window = (first / radius - 1e-9, last / radius + 1e-9);
         Some(Self {
-            windows,
+            windows: [window; 2],
             element: bearing.element,
             surface,
             row: defect.row.checked_sub(1)?,
@@ -130,10 +116,10 @@ impl Defect {
             middle,
             radius,
             roller_length,
-            rules,
             tables: [None, None],
             tilted: [None, None],
-            profiles,
+            met,
+            floors,
         })
     }
 
@@ -159,7 +145,7 @@ impl Defect {
     /// The same at its contacts on one side alone.
     pub(crate) fn use_table_at(&mut self, side: Side, table: Arc<Table>) {
         let k = side as usize;
-        if self.profiles[k].is_some() {
+        if self.met[k] {
             self.windows[k] = self.angles_between(table.range_s());
             self.tables[k] = Some(table);
         }
@@ -169,7 +155,7 @@ impl Defect {
     pub(crate) fn use_tilted_at(&mut self, side: Side, upright: Arc<Table>, tables: Tilted) {
         self.use_table_at(side, upright);
         let k = side as usize;
-        if self.profiles[k].is_some() {
+        if self.met[k] {
             self.windows[k] = self.angles_between(tables.range_s());
             self.tilted[k] = Some(Arc::new(tables));
         }
@@ -188,10 +174,10 @@ impl Defect {
         }
     }
 
-    /// Depths under `side`; `None` where the defect does not meet it.
+    /// Whether the defect meets rolling elements on `side`.
     #[inline]
-    pub fn depth_profile(&self, side: Side) -> Option<&DepthProfile> {
-        self.profiles[side as usize].as_ref()
+    pub fn meets_side(&self, side: Side) -> bool {
+        self.met[side as usize]
     }
 
     /// Lowest and highest z, m.
@@ -265,8 +251,7 @@ impl Defect {
         (PiecewisePolynomial::of_lines(&floor).largest(), envelope(&floor, radius).largest())
     }
 
-    /// What the damage leaves at the local angle u under a law that knows one width and one depth; `None` outside its
-    /// arc.
+    /// What the damage leaves at the local angle u under the law `ecl`; `None` outside its arc.
     ///
     /// Along an envelope L_s stays that of the point under the contact line and h_s is replaced by its envelope, which
     /// comes up to 0 at both ends of the arc: the force is continuous there, and the floor starts where the damage
@@ -279,10 +264,9 @@ impl Defect {
             return None;
         }
         let damaged_length = self.damaged_length(s);
-        let along_envelope = self.depth_profile(side).and_then(|g| g.floor.as_ref());
         Some(ContactReduction {
             share: remaining_share(self.roller_length, damaged_length),
-            depth: match along_envelope {
+            depth: match &self.floors[side as usize] {
                 Some(floor) => floor.value(s).max(0.0),
                 None => self.depth_at(s),
             },
@@ -337,11 +321,5 @@ impl<'a> Defects<'a> {
             Which::Under(row, roller) => d.meets(row, roller, self.side),
             Which::On(surface, row) => d.surface == surface && d.row == row,
         })
-    }
-
-    /// Their law; `Ecl` where there are none.
-    #[inline]
-    pub(super) fn law(self) -> Law {
-        self.iter().next().map_or(Law::Ecl, |d| d.rules.law)
     }
 }

@@ -37,14 +37,9 @@ impl Profile {
         self.depth.as_ref().map(|d| lerp(d, self.locate(s)))
     }
 
-    /// Half the width at each point (s, w/2), m.
-    pub(super) fn half_widths(&self) -> impl Iterator<Item = [f64; 2]> + '_ {
-        self.arc.iter().zip(&self.width).map(|(s, w)| [*s, 0.5 * w])
-    }
-
-    /// Whether the profile lists depths of its own.
-    pub(super) fn has_depths(&self) -> bool {
-        self.depth.is_some()
+    /// Largest width, m.
+    pub(super) fn widest(&self) -> f64 {
+        self.width.iter().copied().fold(0.0, f64::max)
     }
 
     /// h_s(s) as straight pieces over the whole arc.

@@ -3,7 +3,6 @@
 //! s in m from the defect's centre, counter-clockwise around the surface; L_s and h_s in m. Outside `[first, last]` there is no
 //! damage.
 
-use super::bands::Border;
 use super::grid::Grid;
 use super::outline::Outline;
 use super::piecewise::Line;
@@ -193,49 +192,38 @@ impl Shape {
         }
     }
 
-    /// Borders between damage and none with the z at which they cross; a width alone is centred on z = `middle` (m).
-    /// None for a depth map.
-    pub(super) fn borders(&self, middle: f64) -> (Vec<Border>, Vec<f64>) {
-        let upper: Vec<Border> = match self {
-            Self::Outline(outline) => return outline.borders(),
-            Self::DepthMap(_) => return (Vec::new(), Vec::new()),
-            Self::Rectangle { half_length, width } => {
-                joined([[-half_length, 0.5 * width], [*half_length, 0.5 * width]])
+    /// The same along the line z = 0 alone, which a width about z = `middle` (m) may miss.
+    pub(super) fn depths_at_bottom(&self, depth: f64, middle: f64) -> Vec<Line> {
+        /// Pieces of which each is on the damage or beside it, of a width that is not centred.
+        const PIECES: u32 = 2048;
+        match self {
+            Self::DepthMap(grid) => grid.along(0.0).iter().flat_map(sunk).collect(),
+            Self::Outline(outline) => {
+                let flat = |ends: &[f64]| Line::flat(ends[0], ends[1], depth);
+                outline.crossings_of_bottom().chunks_exact(2).map(flat).collect()
             }
-            Self::Profile(p) => joined(p.half_widths()),
-            Self::Circle { radius } => [-1.0, 1.0]
-                .into_iter()
-                .filter_map(|side| Border::arc([0.0; 2], [*radius; 2], [side, 1.0], [0.0, *radius]))
-                .collect(),
-            Self::Li2023Irregular { scale } => li2023_borders(self.arc().0, *scale),
-        };
-        let lower = upper.iter().map(|b| b.mirrored());
-        let whole = upper.iter().copied().chain(lower);
-        (whole.map(|b| b.moved(middle)).collect(), Vec::new())
+            _ if middle == 0.0 => self.depths(depth),
+            _ => {
+                let (first, last) = self.arc();
+                let step = (last - first) / f64::from(PIECES);
+                let pieces = (0..PIECES).map(|k| first + (f64::from(k) + 0.5) * step);
+                let met = pieces.filter(|s| 0.5 * self.damaged_length(*s) >= middle.abs());
+                met.map(|s| Line::flat(s - 0.5 * step, s + 0.5 * step, self.own_depth(s).unwrap_or(depth))).collect()
+            }
+        }
     }
 
     /// Lowest and highest z; a width alone is centred on z = `middle` (m).
     pub(super) fn heights(&self, middle: f64) -> [f64; 2] {
-        if let Self::DepthMap(grid) = self {
-            return grid.heights().into();
-        }
-        let (borders, _) = self.borders(middle);
-        let all = borders.iter().map(|b| b.z);
-        all.reduce(|a, b| [a[0].min(b[0]), a[1].max(b[1])]).unwrap_or([middle; 2])
-    }
-
-    /// Whether every line z = const that meets the damage meets it from its first to its last s.
-    pub(super) fn is_straight(&self) -> bool {
-        matches!(self, Self::Rectangle { .. })
-    }
-
-    /// Whether the depth is another at another s.
-    pub(super) fn has_depths(&self) -> bool {
-        match self {
-            Self::Profile(p) => p.has_depths(),
-            Self::DepthMap(_) => true,
-            _ => false,
-        }
+        let widest = match self {
+            Self::DepthMap(grid) => return grid.heights().into(),
+            Self::Outline(outline) => return outline.heights().into(),
+            Self::Rectangle { width, .. } => *width,
+            Self::Circle { radius } => 2.0 * radius,
+            Self::Profile(p) => p.widest(),
+            Self::Li2023Irregular { scale } => 1e-3 * LI2023_WIDTH_MM * scale,
+        };
+        [middle - 0.5 * widest, middle + 0.5 * widest]
     }
 
     /// Height of the highest raised edge, m; 0 where none is.
@@ -298,54 +286,6 @@ fn sunk(line: &Line) -> impl Iterator<Item = Line> + use<> {
 fn outline(polygons_mm: &[Vec<[f64; 2]>]) -> Option<Outline> {
     let metres = |p: &Vec<[f64; 2]>| p.iter().map(|x| x.map(|x| 1e-3 * x)).collect();
     Outline::new(polygons_mm.iter().map(metres).collect())
-}
-
-/// Borders of the half z >= 0 under points (s, half width), down to z = 0 at both ends.
-fn joined(points: impl IntoIterator<Item = [f64; 2]>) -> Vec<Border> {
-    let points: Vec<[f64; 2]> = points.into_iter().collect();
-    let ends = points
-        .first()
-        .map(|p| [p[0], 0.0])
-        .into_iter()
-        .chain(points.iter().copied())
-        .chain(points.last().map(|p| [p[0], 0.0]));
-    let all: Vec<[f64; 2]> = ends.collect();
-    all.windows(2).filter_map(|w| Border::straight(w[0], w[1])).collect()
-}
-
-/// Borders of the half z >= 0 of the paper's irregular shape, whose first s is `first` (m). The six arcs are printed to
-/// four digits and do not quite meet: straight borders join them.
-#[expect(clippy::approx_constant, reason = "the paper's printed digits")]
-fn li2023_borders(first: f64, scale: f64) -> Vec<Border> {
-    const MM: f64 = 1e-3;
-    let mut start = first;
-    let mut borders = Vec::new();
-    let mut end = [first, 0.0];
-    for (index, length) in LI2023_ARCS_MM.into_iter().enumerate() {
-        let half = |share: f64| (MM * scale * li2023_half_width_mm(index, share)).max(0.0);
-        let [a, b] = [half(0.0), half(1.0)];
-        let to = start + MM * length;
-        borders.extend(Border::straight(end, [start, a]));
-        // Parts of circles, as wide as `scale` makes them: centre (s, z), radius, quadrant, z.
-        let mut arc = |center: [f64; 2], radius: f64, side: [f64; 2], z: [f64; 2]| {
-            let center = [start + MM * center[0], MM * scale * center[1]];
-            let radii = [MM * radius, MM * scale * radius];
-            borders.extend(Border::arc(center, radii, side, z));
-        };
-        match index {
-            0 => arc([-1.1589, 3.8284], 4.0, [1.0, -1.0], [a, b]),
-            3 => {
-                let top = half(0.5);
-                arc([0.7071, 1.0], 1.0, [-1.0, 1.0], [a, top]);
-                arc([0.7071, 1.0], 1.0, [1.0, 1.0], [b, top]);
-            }
-            5 => arc([0.0, 0.0], 1.0, [1.0, 1.0], [b, a]),
-            _ => borders.extend(Border::straight([start, a], [to, b])),
-        }
-        (start, end) = (to, [to, b]);
-    }
-    borders.extend(Border::straight(end, [start, 0.0]));
-    borders
 }
 
 #[cfg(test)]

@@ -71,13 +71,10 @@ pub fn frequencies(rows: [(&str, f64, &str); 6]) -> Map<String, Value> {
 fn in_slices(rating: &Rating) -> Value {
     let scaled = |by: f64, values: &[f64]| values.iter().map(|x| by * x).collect::<Vec<f64>>();
     json!({
-        "z_mm": scaled(1e3, &rating.healthy.z),
-        "profile_drop_um": scaled(1e6, &rating.healthy.drop),
-        "healthy": distribution(&rating.healthy),
-        "damaged": rating.damaged.as_ref().map(distribution),
+        "z_mm": scaled(1e3, &rating.distribution.z),
+        "profile_drop_um": scaled(1e6, &rating.distribution.drop),
+        "healthy": distribution(&rating.distribution),
         "life_revolutions": rating.life,
-        "damaged_load_life_revolutions": rating.damaged_life,
-        "damaged_load_life_standard_error_revolutions": rating.damaged_life_error,
     })
 }
 

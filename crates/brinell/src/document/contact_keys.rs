@@ -13,41 +13,27 @@ const LINE_EXPONENT: f64 = 10.0 / 9.0;
 const POINT_EXPONENT: f64 = 1.5;
 
 pub(super) fn contact<K: Keys>(k: &mut K, (laws, model, b): (Laws, ModelKind, &Bearing), c: &mut Contact) {
+    let of_li2023 = laws == Laws::Li2023 && b.element == Element::Roller;
     let law = match (model, &b.profile) {
-        (ModelKind::Full | ModelKind::Tilting, _) if laws == Laws::Mechanics => {
-            stated(Law::HalfSpace, "damage as on elastic steel")
-        }
-        _ if b.has_balls() => stated(Law::Sliced, "the only law of balls"),
-        (ModelKind::Tilting, _) => stated(Law::Sliced, "what tilts has slices"),
-        (_, RollerProfile::Straight) => stated(Law::Ecl, PAPER),
-        _ => stated(Law::Sliced, "a profile has slices"),
+        (ModelKind::Lumped, _) => stated(Law::Ecl, PAPER),
+        (ModelKind::Full, RollerProfile::Straight) if of_li2023 => stated(Law::Ecl, PAPER),
+        _ => stated(Law::HalfSpace, "damage as on elastic steel"),
     };
-    let path = match b.element {
-        Element::Roller if laws == Laws::Mechanics => {
-            stated(RollerPath::Envelope, "what a roller's radius lets it reach")
-        }
-        Element::Roller => stated(RollerPath::Point, PAPER),
-        Element::Ball => stated(RollerPath::Envelope, "what a ball's radius lets it reach"),
+    let path = match of_li2023 {
+        true => stated(RollerPath::Point, PAPER),
+        false => stated(RollerPath::Envelope, "what an element's radius lets it reach"),
     };
-    k.key(key("law", "force of a damaged contact; of balls not ecl"), law, &mut c.law);
-    let chosen = (c.law != Law::HalfSpace, CHOSEN);
-    k.key_where(key("roller_path", "how a roller follows the damage's depth"), chosen, path, &mut c.roller_path);
-    let slices_why = match b.element {
-        Element::Roller => "ecl does not use them",
-        Element::Ball => "as of rollers",
-    };
-    k.key(
-        key("slices", "slices across the roller, under balls across the damage; ecl does not use them, half-space where the roller has a profile or tilts")
-            .from(1.0)
-            .to(10000.0),
-        stated(30, slices_why),
-        &mut c.slices,
-    );
+    k.key(key("law", "force of a contact on damage; ecl of straight rollers that do not tilt, and of the lumped model"), law, &mut c.law);
     k.key_where(
-        key("edge_reaction", "push of the damage's slopes along the orbit"),
-        chosen,
-        stated(EdgeReaction::None, PAPER),
-        &mut c.edge_reaction,
+        key("roller_path", "how an element follows the damage's depth"),
+        (c.law == Law::Ecl, "contact.law is \"ecl\": the solution of \"half-space\" contains the element's size"),
+        path,
+        &mut c.roller_path,
+    );
+    k.key(
+        key("slices", "slices across rollers that have a profile or tilt; those of the load along a roller").from(1.0).to(10000.0),
+        stated(30, "as ISO/TS 16281 asks for"),
+        &mut c.slices,
     );
     k.key_where(
         key("exponent", "n of Q = K delta^n").from(1.0).to(2.0),
@@ -78,9 +64,6 @@ pub(super) fn contact<K: Keys>(k: &mut K, (laws, model, b): (Laws, ModelKind, &B
 }
 
 const HALF_SPACE: &str = "contact.law is \"half-space\"";
-/// Where there is a choice of path and push.
-const CHOSEN: &str = "contact.law is \"ecl\" or \"sliced\": in the solution of \"half-space\" the element's size and the push \
-                      of the slopes are contained";
 
 /// Damping by a time or by a constant: what the file gives, or the set of laws has.
 fn damping<K: Keys>(k: &mut K, laws: Laws, c: &mut Contact) {

@@ -9,11 +9,10 @@ use super::value_type::ValueType;
 use crate::scenario::{Laws, Scenario};
 
 /// The keys that a set of laws decides.
-const OF_THE_SET: [&str; 13] = [
+const OF_THE_SET: [&str; 12] = [
     "simulation.geometry",
     "contact.law",
     "contact.roller_path",
-    "contact.edge_reaction",
     CONSTANT,
     TIME,
     "contact.roughness_um",

@@ -54,7 +54,6 @@ pub(crate) fn scenario() -> Scenario {
             law: ValueType::blank(),
             roller_path: ValueType::blank(),
             slices: 0,
-            edge_reaction: ValueType::blank(),
             exponent: NONE,
             youngs_modulus_gpa: None,
             poisson_ratio: None,

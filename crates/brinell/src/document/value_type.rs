@@ -1,5 +1,6 @@
 //! Kinds of value that a key can hold: how each is read, written and described.
 
+use crate::did_you_mean::{did_you_mean, other_word};
 use crate::scenario::Choice;
 use serde_json::{Value as Json, json};
 
@@ -411,7 +412,8 @@ impl<T: Choice> ValueType for T {
         let known = T::WORDS.iter().find(|(word, ..)| word == text);
         known.map(|(_, value, _)| *value).ok_or_else(|| {
             let words = T::WORDS.iter().map(|(word, ..)| *word);
-            let near = crate::did_you_mean::did_you_mean(text, words);
+            let other = other_word(text).filter(|other| words.clone().any(|word| word == *other));
+            let near = other.or_else(|| did_you_mean(text, words));
             let hint = near.map(|word| format!("; did you mean {}?", quote(word))).unwrap_or_default();
             Misfit::new(format!("unknown word{hint}"), word_list::<T>())
         })

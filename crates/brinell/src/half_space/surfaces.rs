@@ -47,7 +47,7 @@ pub fn add_tables(
     let reach = |defect: &Defect| {
         let of = |side: Side| {
             let (geometry, range) = (&geometries[side as usize], &ranges[side as usize]);
-            let met = defect.depth_profile(side).is_some();
+            let met = defect.meets_side(side);
             let most = range.largest + most_lead(range) + defect.raised();
             geometry.as_ref().filter(|_| met).map_or(0.0, |g| g.reach(most))
         };
@@ -59,7 +59,7 @@ pub fn add_tables(
             let (Some(geometry), range) = (&geometries[side as usize], &ranges[side as usize]) else {
                 continue;
             };
-            if to_make[first].depth_profile(side).is_none() {
+            if !to_make[first].meets_side(side) {
                 continue;
             }
             let members = group.iter().map(|m| {
@@ -130,7 +130,9 @@ pub fn pressure_over(
     delta: f64,
 ) -> Option<Field> {
     let defect = &defects[of];
-    defect.depth_profile(side)?;
+    if !defect.meets_side(side) {
+        return None;
+    }
     let geometry = Geometry::of_bearing(bearing, contact, side)?;
     let groups = gather(defects, |d| geometry.reach(delta + d.raised()));
     let group = groups.into_iter().find(|group| group.contains(&of))?;

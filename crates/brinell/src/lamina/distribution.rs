@@ -1,13 +1,15 @@
 //! The load distribution of a bearing: every contact at several positions of the cage.
 
-use super::along::over_damage;
 use super::line::{ContactLine, lines, slices_of};
-use super::positions::Positions;
 use crate::defect::Side;
 use crate::error::{Error, refuse};
 use crate::model::Model;
-use crate::scenario::{Bearing, Scenario};
+use crate::scenario::Scenario;
 use crate::statics::{NoBalance, Problem, solve};
+use std::f64::consts::TAU;
+
+/// Positions of the cage over one pitch.
+const POSITIONS: usize = 16;
 
 /// Where a contact is pressed hardest.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -33,12 +35,6 @@ pub struct Distribution {
     pub drop: Vec<f64>,
     /// Inner and outer contact of every roller at every position, position after position.
     pub contacts: Vec<[ContactLine; 2]>,
-    /// Groups of positions that each cover all there are, to tell how sure a mean over them is: position k belongs to
-    /// group k modulo this number.
-    pub groups: usize,
-    /// The roller over damage, at places across each defect (of the first 32), in the middle of the load zone where the
-    /// damage turns.
-    pub over_damage: Vec<[ContactLine; 2]>,
     /// Tilt of the inner ring in the outer one, mean over the positions, rad; 0 in the plane.
     pub tilt: [f64; 2],
     /// Largest tilt of a roller, rad.
@@ -50,7 +46,7 @@ pub struct Distribution {
 }
 
 impl Distribution {
-    /// Of a scenario with its slices and its damage.
+    /// Of a scenario with its slices, without its damage.
     ///
     /// # Errors
     /// Every error among [`Scenario::problems`]; where the scenario makes no model, or nothing holds the rings against the load.
@@ -61,8 +57,8 @@ impl Distribution {
 
     /// The same of a scenario that was checked.
     pub(super) fn unchecked(s: &Scenario) -> Result<Self, Error> {
-        let model = Model::new(s)?;
-        Ok(distribution(&model, &s.bearing)?)
+        let s = &Scenario { defects: Vec::new(), ..s.clone() };
+        Ok(distribution(&Model::new(s)?, s)?)
     }
 
     /// Largest pressure on any slice; none where nothing is loaded.
@@ -76,7 +72,7 @@ impl Distribution {
     }
 
     fn peak_among(&self, slices: impl IntoIterator<Item = usize> + Clone) -> Option<Peak> {
-        let lines = self.contacts.iter().chain(&self.over_damage).flatten();
+        let lines = self.contacts.iter().flatten();
         let all = lines.flat_map(|line| slices.clone().into_iter().map(move |k| (line, k)));
         let (line, k) = all
             .filter(|(line, k)| line.pressure[*k] > 0.0)
@@ -92,30 +88,25 @@ impl Distribution {
     }
 }
 
-fn distribution(model: &Model, bearing: &Bearing) -> Result<Distribution, NoBalance> {
+fn distribution(model: &Model, s: &Scenario) -> Result<Distribution, NoBalance> {
     let l = &model.layout;
-    let slices = slices_of(model, bearing);
-    let Positions { places: positions, groups } = Positions::of(model);
-    let share = 1.0 / positions.len() as f64;
+    let slices = slices_of(model, s);
+    let share = 1.0 / POSITIONS as f64;
     let mut problem = Problem::at_start(model);
     let mut all = Distribution {
         z: slices.z[..slices.count].to_vec(),
         drop: slices.drop[..slices.count].to_vec(),
-        contacts: Vec::with_capacity(positions.len() * l.rollers()),
-        groups,
-        over_damage: Vec::new(),
+        contacts: Vec::with_capacity(POSITIONS * l.rollers()),
         tilt: [0.0; 2],
         roller_tilt: 0.0,
         stiffness: model.tilt.is_some().then_some([[0.0; 4]; 4]),
     };
-    for [cage, ring, spin] in positions {
-        problem.turn_cage(model, cage);
-        problem.spin.fill(spin);
-        problem.ring_angle = ring;
+    for k in 0..POSITIONS {
+        problem.turn_cage(model, TAU / l.rollers_per_row as f64 * k as f64 / POSITIONS as f64);
         let balance = solve(model, &problem)?;
         problem.guess = [balance.inner, balance.outer];
         for slot in 0..l.rollers() {
-            let pair = lines(model, bearing, &slices, (&problem, &balance), slot);
+            let pair = lines(model, &s.bearing, &slices, (&problem, &balance), slot);
             all.contacts.push(pair);
         }
         let Some(tilted) = &balance.tilting else {
@@ -130,6 +121,5 @@ fn distribution(model: &Model, bearing: &Bearing) -> Result<Distribution, NoBala
             sum.iter_mut().zip(own).for_each(|(k, own)| *k += share * own);
         }
     }
-    all.over_damage = over_damage(model, bearing, &slices)?;
     Ok(all)
 }

@@ -45,26 +45,7 @@ pub fn lamina_ratings(bearing: &Bearing, slices: usize) -> [f64; 2] {
 /// A distribution at several positions of the cage counts as one with so many times the rollers. The forces are those
 /// of the contacts: what a support holds is not among them, and the rollers' centrifugal force is.
 pub fn reference_life(bearing: &Bearing, distribution: &Distribution) -> Option<f64> {
-    life_over(bearing, distribution, &distribution.contacts.iter().collect::<Vec<_>>())
-}
-
-/// Standard error of [`reference_life`] by the scatter of the groups of positions, revolutions; `None` where there is
-/// one.
-pub(super) fn life_error(bearing: &Bearing, distribution: &Distribution) -> Option<f64> {
-    let (groups, rollers) = (distribution.groups, bearing.rows * bearing.rollers_per_row);
-    let of_group = |group: usize| {
-        let positions = distribution.contacts.chunks(rollers);
-        let own = positions.skip(group).step_by(groups).flatten();
-        life_over(bearing, distribution, &own.collect::<Vec<_>>())
-    };
-    let lives: Vec<f64> = (0..groups).map(of_group).collect::<Option<_>>()?;
-    let n = groups as f64;
-    let mean = lives.iter().sum::<f64>() / n;
-    let scatter = lives.iter().map(|x| (x - mean).powi(2)).sum::<f64>();
-    (groups > 1).then(|| (scatter / (n * (n - 1.0))).sqrt())
-}
-
-fn life_over(bearing: &Bearing, distribution: &Distribution, contacts: &[&[ContactLine; 2]]) -> Option<f64> {
+    let contacts = &distribution.contacts;
     if contacts.iter().all(|[inner, _]| inner.force <= 0.0) {
         return None;
     }
@@ -77,7 +58,7 @@ fn life_over(bearing: &Bearing, distribution: &Distribution, contacts: &[&[Conta
         let count = pairs.clone().count() as f64;
         for k in 0..slices {
             for (side, order) in [(0, 4.0), (1, 4.5)] {
-                let power = |p: &&[ContactLine; 2]| (p[side].line_load[k] * width / ratings[side]).powf(order);
+                let power = |p: &[ContactLine; 2]| (p[side].line_load[k] * width / ratings[side]).powf(order);
                 let mean = pairs.clone().map(power).sum::<f64>() / count;
                 let equivalent = stress_riser(k, slices) * mean.powf(1.0 / order);
                 sum += equivalent.powf(4.5);

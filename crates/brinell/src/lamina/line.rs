@@ -1,11 +1,11 @@
 //! One contact of a balance, slice by slice: line load and Hertz's pressure.
 
-use crate::defect::{Angles, SIDES, Side, relative_radius, wrap};
+use crate::defect::{SIDES, Side, relative_radius, wrap};
 use crate::model::Model;
 use crate::pressure::line_pressure;
-use crate::scenario::{Bearing, Element, Law, Scenario};
-use crate::slices::{Approach, Cover, Slices};
-use crate::statics::{Balance, Problem};
+use crate::scenario::{Bearing, Scenario};
+use crate::slices::{Approach, Slices};
+use crate::statics::{Balance, Problem, RingAt};
 
 /// Slices that the life needs: ISO/TS 16281 divides a roller in at least so many.
 pub const FEWEST_SLICES: usize = 30;
@@ -27,50 +27,43 @@ pub struct ContactLine {
     pub moment: f64,
     /// Line load q(z) of each slice, N/m.
     pub line_load: Vec<f64>,
-    /// Largest pressure in each slice, Pa: of what damage leaves of it, where it leaves anything.
+    /// Largest pressure in each slice, Pa.
     pub pressure: Vec<f64>,
     /// Length that touches, m.
     pub touching: f64,
 }
 
-/// The scenario with [`FEWEST_SLICES`] to [`MOST_SLICES`]; `None` where its rollers have no slices (`law = "ecl"`, the
-/// lumped model), and of balls.
+/// The undamaged scenario with [`FEWEST_SLICES`] to [`MOST_SLICES`]; `None` for balls and for the lumped model.
 pub(super) fn in_slices(s: &Scenario) -> Option<Scenario> {
-    let rollers = s.bearing.element == Element::Roller;
-    if !rollers || s.contact.law != Law::Sliced || !s.simulation.model.moves_every_part() {
+    if s.bearing.has_balls() || !s.simulation.model.moves_every_part() {
         return None;
     }
-    let mut s = s.clone();
+    let mut s = Scenario { defects: Vec::new(), ..s.clone() };
     s.contact.slices = s.contact.slices.clamp(FEWEST_SLICES, MOST_SLICES);
     Some(s)
 }
 
 /// In the plane a straight roller's are not kept in the model.
-pub(super) fn slices_of(model: &Model, bearing: &Bearing) -> Slices {
+pub(super) fn slices_of(model: &Model, s: &Scenario) -> Slices {
     let g = &model.geometry;
-    let (length, diameter) = (g.roller_length, 2.0 * g.roller_radius);
-    Slices::new(model.rules.slices, length, diameter, &bearing.profile)
+    Slices::new(s.contact.slices, g.roller_length, 2.0 * g.roller_radius, &s.bearing.profile)
 }
 
 /// How a roller and a raceway approach in a balance.
 fn approach(model: &Model, balance: &Balance, orbit: f64, (slot, side): (usize, Side)) -> Approach {
     let (sin, cos) = orbit.sin_cos();
     let along = |x: [f64; 2]| cos * x[0] + sin * x[1];
-    let lever = model.tilt.as_ref().map_or(0.0, |tilt| tilt.levers[slot]);
-    let (slopes, beta) = match &balance.tilting {
-        Some(tilted) => (tilted.rings.map(along), tilted.rollers[slot]),
-        None => ([0.0; 2], 0.0),
+    let (r, g) = (balance.r[slot], &model.geometry);
+    let Some((tilted, tilt)) = balance.tilting.as_ref().zip(model.tilt.as_ref()) else {
+        return Approach::pressed(match side {
+            Side::Inner => -RingAt::new(model, (sin, cos), balance.inner, -g.clearance).beyond(r),
+            Side::Outer => RingAt::new(model, (sin, cos), balance.outer, g.outer_gap).beyond(r),
+        });
     };
-    let r = balance.r[slot];
+    let (slopes, beta, lever) = (tilted.rings.map(along), tilted.rollers[slot], tilt.levers[slot]);
     let (deformation, tilt) = match side {
-        Side::Inner => {
-            let raceway = along(balance.inner) + lever * slopes[0] - model.geometry.clearance;
-            (raceway - r, slopes[0] - beta)
-        }
-        Side::Outer => {
-            let raceway = along(balance.outer) + lever * slopes[1] + model.geometry.outer_gap;
-            (r - raceway, beta - slopes[1])
-        }
+        Side::Inner => (along(balance.inner) + lever * slopes[0] - g.clearance - r, slopes[0] - beta),
+        Side::Outer => (r - along(balance.outer) - lever * slopes[1] - g.outer_gap, beta - slopes[1]),
     };
     Approach { deformation, tilt, ..Approach::default() }
 }
@@ -99,9 +92,6 @@ fn line(
 ) -> ContactLine {
     let orbit = problem.orbit[slot];
     let at = approach(model, balance, orbit, (slot, side));
-    let angles = Angles { orbit, spin: problem.spin[slot], ring: problem.ring_angle };
-    let mut cover = Cover::new(slices.count);
-    let (at, covered) = model.shown_in_slices((slot, side), &angles, at, &mut cover);
     let law = model.contact(side);
     let width = model.geometry.roller_length / slices.count as f64;
     let mut contact = ContactLine {
@@ -114,19 +104,13 @@ fn line(
         pressure: Vec::with_capacity(slices.count),
         touching: 0.0,
     };
-    for (parts, z) in slices.parts(at, covered.then_some(&cover)).zip(&slices.z) {
-        // Of the whole slice, as if all of it were left, and as if all of it were damaged.
-        let carried = parts.map(|(share, delta)| (share, law.healthy(delta) / slices.count as f64));
-        let [whole, sunk] = carried.map(|(share, force)| share * force);
-        let force = whole + sunk;
+    for (delta, z) in slices.deformations(at).zip(&slices.z) {
+        let force = law.healthy(delta) / slices.count as f64;
         contact.force += force;
         contact.moment += z * force;
         contact.line_load.push(force / width);
-        let hardest = carried.iter().filter(|part| part.0 > 0.0);
-        let hardest = hardest.fold(0.0, |most: f64, part| most.max(part.1));
-        contact.pressure.push(line_pressure(hardest, width, radius));
-        let touches = carried.iter().filter(|part| part.1 > 0.0);
-        contact.touching += width * touches.map(|part| part.0).sum::<f64>();
+        contact.pressure.push(line_pressure(force, width, radius));
+        contact.touching += if delta > 0.0 { width } else { 0.0 };
     }
     contact
 }

@@ -1,15 +1,15 @@
 //! Energy that the bodies and springs hold, and the flows that change it.
 //!
 //! d(energy)/dt = load + drive + film + lever - contact - friction - pocket - pocket_friction - land - support - drag,
-//! plus the parametric work of stiffnesses that change under a roller (section 3), which [`parametric_work`] measures
-//! over a step.
+//! plus the parametric work of the law `ecl`, whose stiffnesses change under a roller (section 3), which [`parametric_work`]
+//! measures over a step.
 
 use super::full::exact::stretch;
 use super::{Layout, Model, Workspace};
-use crate::defect::{Angles, SIDES, Side, cover_slices, energy};
+use crate::defect::{Angles, SIDES, Side};
 use crate::lanes::{Column, WIDTH};
 use crate::scenario::{Law, ModelKind};
-use crate::slices::{Approach, Cover};
+use crate::slices::Approach;
 
 /// Energy held, J.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
@@ -57,7 +57,6 @@ impl Energy {
             return e;
         }
         let g = &model.geometry;
-        let mut cover = Cover::new(model.slices.as_ref().map_or(0, |s| s.count));
         if let Some(tilt) = &model.tilt {
             let rings = [(l.inner_tilt(), &tilt.inner), (l.outer_tilt(), &tilt.outer)];
             for (at, ring) in rings {
@@ -74,7 +73,7 @@ impl Energy {
             e.gravity -= m.roller * arm * along(&[ws.cos[slot], ws.sin[slot]]);
             for side in SIDES {
                 let at = ws.contacts[side as usize].approach(slot);
-                e.contacts += held(model, (slot, side), &at, &angles(slot, side), &mut cover);
+                e.contacts += held(model, (slot, side), &at, &angles(slot, side));
             }
             if model.exact {
                 e.cage += model.pocket.energy(stretch(model, slot, q));
@@ -98,16 +97,11 @@ impl Energy {
 }
 
 /// Elastic energy of a contact, J; its rates do not matter.
-fn held(model: &Model, (slot, side): (usize, Side), at: &Approach, angles: &Angles, cover: &mut Cover) -> f64 {
-    let (defects, law) = (model.defects_of(slot, side), model.contact(side));
-    if model.rules.law == Law::HalfSpace && !model.layout.tilts {
-        return model.resting_energy(slot, side, angles, at.deformation);
+fn held(model: &Model, (slot, side): (usize, Side), at: &Approach, angles: &Angles) -> f64 {
+    match &model.slices {
+        Some(slices) if model.layout.tilts => model.carried(slices, (slot, side), angles, at).energy,
+        _ => model.contact_law(side).energy(model.defects_of(slot, side), angles, at.deformation),
     }
-    let Some(slices) = &model.slices else {
-        return energy(defects, law, angles, at.deformation);
-    };
-    let covered = model.rules.law != Law::HalfSpace && cover_slices(defects, angles, cover);
-    model.carried(slices, (slot, side), angles, at, covered.then_some(cover)).energy
 }
 
 /// What decides the energy of the contacts at one end of a step.
@@ -118,8 +112,6 @@ pub(crate) struct ContactState {
     spin: Column,
     ring: f64,
     deformation: [Column; 2],
-    /// Where rollers tilt.
-    tilt: [Column; 2],
     on_damage: [Vec<bool>; 2],
 }
 
@@ -132,14 +124,13 @@ impl ContactState {
             spin: zeros(),
             ring: 0.0,
             deformation: [zeros(), zeros()],
-            tilt: [0, 1].map(|_| Column::new(if layout.tilts { slots } else { 0 }, 0.0)),
             on_damage: [vec![false; slots], vec![false; slots]],
         }
     }
 
     /// Takes over the evaluation in `ws` at (t, y).
     pub(crate) fn store(&mut self, model: &Model, t: f64, y: &[f64], ws: &Workspace) {
-        if model.defects.is_empty() || model.rules.law == Law::HalfSpace {
+        if model.defects.is_empty() || model.law == Law::HalfSpace {
             return;
         }
         let l = &model.layout;
@@ -164,7 +155,6 @@ impl ContactState {
         for side in SIDES {
             let k = side as usize;
             self.deformation[k].copy_from_slice(ws.contacts[k].pressed_or_deformed());
-            self.tilt[k].copy_from_slice(&ws.contacts[k].tilt);
             self.on_damage[k].copy_from_slice(&ws.contacts[k].on_damage);
         }
     }
@@ -177,9 +167,9 @@ impl ContactState {
 /// Work that the changing stiffness of damaged contacts does from `before` to `after`, J: the change of the elastic
 /// energy with the angle at a fixed deformation, the mean of both ends. Jumps at an edge are included.
 ///
-/// Where the edges push back (`conservative`) bodies and drive do that work, and none is parametric.
-pub(crate) fn parametric_work(model: &Model, before: &ContactState, after: &ContactState, cover: &mut Cover) -> f64 {
-    if model.rules.is_conservative() || model.rules.law == Law::HalfSpace {
+/// Under `half-space` damage pushes back: bodies and drive do that work, and none is parametric.
+pub(crate) fn parametric_work(model: &Model, before: &ContactState, after: &ContactState) -> f64 {
+    if model.law == Law::HalfSpace {
         return 0.0;
     }
     let mut work = 0.0;
@@ -194,7 +184,7 @@ pub(crate) fn parametric_work(model: &Model, before: &ContactState, after: &Cont
             for lane in 0..WIDTH {
                 if from[lane] || to[lane] {
                     let at = (WIDTH * group + lane, side);
-                    work += work_at(model, at, (before, after), cover);
+                    work += work_at(model, at, (before, after));
                 }
             }
         }
@@ -207,25 +197,21 @@ fn work_at(
     model: &Model,
     (slot, side): (usize, Side),
     (before, after): (&ContactState, &ContactState),
-    cover: &mut Cover,
 ) -> f64 {
     let k = side as usize;
     let (from, to) = (before.angles(slot, side), after.angles(slot, side));
-    let mut change = |state: &ContactState| {
-        let pressed = Approach {
-            deformation: state.deformation[k][slot],
-            tilt: state.tilt[k].get(slot).copied().unwrap_or_default(),
-            ..Approach::default()
-        };
+    let change = |state: &ContactState| {
+        let deformation = state.deformation[k][slot];
         match model.kind {
             ModelKind::Full | ModelKind::Tilting => {
-                let mut at = |angles: &Angles| held(model, (slot, side), &pressed, angles, cover);
+                let defects = model.defects_of(slot, side);
+                let at = |angles: &Angles| model.contact_law(side).energy(defects, angles, deformation);
                 at(&to) - at(&from)
             }
             // One contact in series for both sides: counted at the inner one where that is on damage.
             ModelKind::Lumped if side == Side::Outer && (before.on_damage[0][slot] || after.on_damage[0][slot]) => 0.0,
             ModelKind::Lumped => {
-                let at = |angles: &Angles| super::lumped::energy_at(model, slot, angles, pressed.deformation);
+                let at = |angles: &Angles| super::lumped::energy_at(model, slot, angles, deformation);
                 at(&to) - at(&from)
             }
         }

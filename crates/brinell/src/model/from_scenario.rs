@@ -2,10 +2,10 @@
 
 use super::{BroadPhase, Geometry, Inertia, Kernel, Layout, Model, Support, Tilt};
 use crate::cage::{Guide, LandLaw, OIL_FORCE, OiledWall, Pocket};
-use crate::contact::ball::{self, Strips};
+use crate::contact::ball;
 use crate::contact::film::SqueezeFilm;
 use crate::contact::{Damping, LoadDeflection};
-use crate::defect::{Defect, Rules, SIDES, Side, relative_radius};
+use crate::defect::{Defect, SIDES, Side, relative_radius};
 use crate::effective::Table;
 use crate::elementary::Exponent;
 use crate::friction::{Friction, drag_factor};
@@ -15,7 +15,7 @@ use crate::lanes::Column;
 use crate::operation::{Load, Rotation};
 use crate::scenario::{
     Bearing, Cage, ContactDamping, DefectTable, Element, GeometryLaw, Guidance, GuidanceFilm, Housing, Law, Lubricant,
-    ModelKind, Pockets, RacewayFilm, RollerProfile, Scenario, Walls,
+    ModelKind, Pockets, RacewayFilm, Scenario, Walls,
 };
 use crate::slices::Slices;
 use crate::waviness::Waviness;
@@ -72,13 +72,12 @@ impl Model {
         let [inner_contact, outer_contact, series_contact] = contacts(s)?;
         let tilts = s.simulation.model == ModelKind::Tilting;
         let layout = Layout::new(b.rows, b.rollers_per_row, tilts);
-        let rules = Rules::new(&s.contact);
         let mut defects = defects(s)?;
-        if rules.law == Law::HalfSpace && with_tables {
+        if s.contact.law == Law::HalfSpace && with_tables {
             tables(s, &mut defects)?;
             let contacts = [&inner_contact, &outer_contact];
             let deflection = |side: Side| {
-                let slices = slices(s, &rules, &geometry);
+                let slices = slices(s, &geometry);
                 let (law, force) = (contacts[side as usize], heaviest(s, &geometry, &inertia));
                 let least = law.deflection(force);
                 slices.map_or(least, |slices| slices.deflection(law, force, least))
@@ -136,14 +135,14 @@ impl Model {
             rotation: Rotation::new(&s.operation.speed_rpm),
             load: load(s),
             gravity: s.operation.gravity_m_per_s2,
-            slices: slices(s, &rules, &geometry),
+            slices: slices(s, &geometry),
             tilt: tilts.then(|| Tilt::new(s, &layout, &geometry, &inertia)),
             start: s.simulation.start,
             layout,
             geometry,
             inertia,
             defects,
-            rules,
+            law: s.contact.law,
         })
     }
 }
@@ -197,7 +196,7 @@ fn contacts(s: &Scenario) -> Result<[LoadDeflection; 3], ModelError> {
         stiffness,
         exponent,
         damping,
-        strips: ellipses.map(|e| Strips::new(stiffness, e[side as usize].across)),
+        across: ellipses.map(|e| e[side as usize].across),
     };
     let (inner, outer) = (contact.inner_stiffness, contact.outer_stiffness);
     Ok([
@@ -207,7 +206,7 @@ fn contacts(s: &Scenario) -> Result<[LoadDeflection; 3], ModelError> {
             stiffness: series_stiffness(inner, outer, contact.exponent),
             exponent,
             damping: damping.in_series(),
-            strips: None,
+            across: None,
         },
     ])
 }
@@ -354,8 +353,6 @@ fn load(s: &Scenario) -> Load {
 }
 
 /// The slices, where rollers tilt or have a profile.
-fn slices(s: &Scenario, rules: &Rules, geometry: &Geometry) -> Option<Slices> {
-    let profiled = rules.law != Law::Ecl && s.bearing.profile != RollerProfile::Straight;
-    (profiled || s.simulation.model == ModelKind::Tilting)
-        .then(|| Slices::new(rules.slices, geometry.roller_length, 2.0 * geometry.roller_radius, &s.bearing.profile))
+fn slices(s: &Scenario, geometry: &Geometry) -> Option<Slices> {
+    (!s.has_even_contacts()).then(|| Slices::new(s.contact.slices.max(1), geometry.roller_length, 2.0 * geometry.roller_radius, &s.bearing.profile))
 }

@@ -3,9 +3,8 @@
 //! Forces are the gradient of E: Q along delta, the moment T along tilt, the push P along the damaged surface.
 
 use super::Model;
-use crate::defect::{Angles, Defects, Side, cover_slices};
-use crate::scenario::Law;
-use crate::slices::{Approach, Carried, Cover, Slices};
+use crate::defect::{Angles, Defects, Side};
+use crate::slices::{Approach, Carried, Slices};
 
 /// A tilting contact on damage.
 #[derive(Debug, Clone, Copy)]
@@ -24,7 +23,7 @@ impl Model {
         let slices = self.slices.as_ref()?;
         let met = defects.effective(angles, at.deformation, Some(at.tilt))?;
         let there = Approach { deformation: met.delta, tilt: at.tilt, ..Approach::default() };
-        let healthy = slices.carry(self.contact(side), &there, None);
+        let healthy = slices.carry(self.contact(side), &there);
         let ([k0, k1, k2], q) = (healthy.stiffness, healthy.force);
         let (a, b) = (met.by_delta, met.by_tilt);
         let carried = Carried {
@@ -41,38 +40,23 @@ impl Model {
         Some(Leaned { carried, push, largest: at.deformation.max(met.delta) })
     }
 
-    /// How a healthy contact would have to be deformed to hold the energy of this one, where damage acts by tables: what its slices
-    /// show of it. `cover` is filled with what damage covers of them where there are none; whether it does.
-    pub(crate) fn shown_in_slices(
-        &self,
-        (slot, side): (usize, Side),
-        angles: &Angles,
-        at: Approach,
-        cover: &mut Cover,
-    ) -> (Approach, bool) {
-        let defects = self.defects_of(slot, side);
-        if self.rules.law != Law::HalfSpace {
-            return (at, cover_slices(defects, angles, cover));
-        }
-        let met = defects.effective(angles, at.deformation, self.layout.tilts.then_some(at.tilt));
-        (Approach { deformation: met.map_or(at.deformation, |met| met.delta), ..at }, false)
+    /// How a healthy contact would have to be deformed to hold the energy of this one: what its slices show of damage.
+    pub(crate) fn shown_in_slices(&self, (slot, side): (usize, Side), angles: &Angles, at: Approach) -> Approach {
+        let tilt = self.layout.tilts.then_some(at.tilt);
+        let met = self.defects_of(slot, side).effective(angles, at.deformation, tilt);
+        Approach { deformation: met.map_or(at.deformation, |met| met.delta), ..at }
     }
 
-    /// A contact at rest in slices, healthy or damaged; `cover` is what damage covers of them where there are no tables.
+    /// A tilting contact at rest, healthy or damaged.
     pub(crate) fn carried(
         &self,
         slices: &Slices,
         (slot, side): (usize, Side),
         angles: &Angles,
         at: &Approach,
-        cover: Option<&Cover>,
     ) -> Carried {
-        let law = self.contact(side);
-        if self.rules.law != Law::HalfSpace {
-            return slices.carry(law, at, cover);
-        }
         let leaned = self.leaned(self.defects_of(slot, side), side, angles, at);
-        leaned.map_or_else(|| slices.carry(law, at, None), |leaned| leaned.carried)
+        leaned.map_or_else(|| slices.carry(self.contact(side), at), |leaned| leaned.carried)
     }
 }
 

@@ -5,7 +5,8 @@
 
 use super::{Model, Power, Workspace, series_stiffness};
 use crate::contact::{ContactReduction, LoadDeflection, damped};
-use crate::defect::{Angles, SIDES, Side, depth_at_bottom, floors};
+use crate::defect::ecl::{depth_at_bottom, floors};
+use crate::defect::{Angles, SIDES, Side};
 use crate::scenario::Element;
 
 /// One roller's series contact: law, and the depth that full-width damage takes from the deformation.
@@ -85,7 +86,7 @@ pub(super) fn energy_at(model: &Model, slot: usize, angles: &Angles, delta: f64)
 pub(crate) fn elastic_at(model: &Model, slot: usize, angles: &Angles, delta: f64) -> (f64, f64, f64) {
     let contact = series(model, slot, angles, delta);
     let x = delta - contact.sunk;
-    (contact.law.healthy(x), contact.law.tangent(x, None), contact.law.energy(x))
+    (contact.law.healthy(x), contact.law.tangent(x), contact.law.energy(x))
 }
 
 /// Elastic energy of one roller's series contact as evaluated in `ws`, J.

@@ -3,8 +3,8 @@
 //! Planar; X right, Y up, angles counter-clockwise from +X, origin at the bearing's centre. Rows, rollers and cages
 //! count from 0 in code and from 1 in names and scenarios.
 
-mod at_rest;
 mod broad_phase;
+mod contact_law;
 pub(crate) mod energy;
 mod from_scenario;
 mod full;
@@ -22,6 +22,7 @@ mod workspace;
 
 pub use crate::kernel::Kernel;
 pub use broad_phase::BroadPhase;
+pub use contact_law::{ContactLaw, Resting};
 pub use energy::Energy;
 pub use from_scenario::{ModelError, series_stiffness};
 pub use geometry::{Geometry, Inertia, Support};

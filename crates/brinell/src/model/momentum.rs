@@ -172,6 +172,6 @@ fn internal_force(model: &Model, slot: usize, (q, v, a): (&[f64], &[f64], &[f64]
     let [gx, gy] = model.gravity;
     let radial = a[l.r() + slot] - arm * dtheta * dtheta - (cos * gx + sin * gy);
     let tangential = arm * a[l.theta() + slot] + 2.0 * dr * dtheta - (cos * gy - sin * gx);
-    // Drag and the push of damage's slopes have no reaction on any body.
-    [mass * radial, mass * tangential + drag - ws.edge_force[slot]]
+    // Drag has no reaction on any body.
+    [mass * radial, mass * tangential + drag]
 }

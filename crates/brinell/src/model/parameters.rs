@@ -8,7 +8,7 @@ use crate::bearing::kinematics::{self, Kinematics};
 use crate::cage::{Guide, Pocket};
 use crate::contact::film::SqueezeFilm;
 use crate::contact::{Damping, LoadDeflection};
-use crate::defect::{Defect, Defects, Rules, Side};
+use crate::defect::{Defect, Defects, Side};
 use crate::friction::Friction;
 use crate::lanes::Column;
 use crate::operation::{Load, Rotation};
@@ -95,8 +95,8 @@ pub struct Model {
     pub broad_phase: [BroadPhase; 2],
     /// For each row, over one period of the rows' pattern: 1 for its own slots, else 0.
     pub(crate) row_lanes: Vec<Column>,
-    /// How damage acts.
-    pub rules: Rules,
+    /// Law of contacts on damage.
+    pub law: Law,
     /// Waviness, where any surface has it.
     pub waviness: Option<Waviness>,
     /// The slices, where each counts by itself: where rollers tilt or have a profile.
@@ -132,12 +132,12 @@ impl Model {
     pub(crate) fn has_smooth_forces(&self) -> bool {
         matches!(self.outer_contact.damping, Damping::Time { .. })
             && self.pocket.wall.is_some()
-            && self.rules.law == Law::HalfSpace
+            && self.law == Law::HalfSpace
     }
 
     /// Whether anything on a surface pushes rollers along it: damage by its table, or waves.
     pub(crate) fn pushes(&self) -> bool {
-        self.waviness.is_some() || (self.rules.law == Law::HalfSpace && !self.defects.is_empty())
+        self.waviness.is_some() || (self.law == Law::HalfSpace && !self.defects.is_empty())
     }
 
     /// Defects that meet the contact of `slot` on `side`.

@@ -4,7 +4,7 @@ use super::{Model, Power};
 use crate::cage::GuideForce;
 use crate::kernel::Kernel;
 use crate::lanes::{Column, WIDTH};
-use crate::slices::{Approach, Cover};
+use crate::slices::Approach;
 
 /// Contact of one side, structure of arrays over slots.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -121,8 +121,6 @@ pub struct Workspace {
     pub sin: Column,
     /// Inner and outer contacts, indexed by `Side as usize`.
     pub contacts: [Contacts; 2],
-    /// Tangential push of damage's slopes on each roller along e_t, N; 0 without `edge_reaction`.
-    pub edge_force: Column,
     /// What pockets do to each roller in exact geometry: along e_r, along e_t (N) and about its axis (N m).
     pub on_roller: [Column; 3],
     /// Torque of the drive on the inner ring and of the housing that holds the outer one, N m.
@@ -147,8 +145,6 @@ pub struct Workspace {
     pub kinematic_spin: f64,
     /// Largest elastic force of each side's contacts, N, in each lane.
     pub(super) max_elastic: [[f64; WIDTH]; 2],
-    /// What damage covers of the contact that is being looked at, slice by slice.
-    pub(super) cover: Cover,
     /// What guides each row's cage.
     pub(super) guidance: Vec<GuideForce>,
     /// Flows of energy at this instant, W.
@@ -169,8 +165,6 @@ impl Workspace {
             cos: Column::new(slots, 1.0),
             sin: zeros(),
             contacts: [0, 1].map(|_| Contacts::new(slots, model.layout.tilts, model.waviness.is_some())),
-            cover: Cover::new(model.slices.as_ref().map_or(0, |s| s.count)),
-            edge_force: zeros(),
             seen: [zeros(), zeros()],
             on_roller: [zeros(), zeros(), zeros()],
             torques: [0.0; 2],

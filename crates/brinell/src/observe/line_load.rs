@@ -3,19 +3,18 @@
 use crate::channel::Frame;
 use crate::defect::{Angles, SIDES, Side};
 use crate::model::Model;
-use crate::slices::{Cover, Slices};
+use crate::slices::Slices;
 
 /// Reads line loads off frames.
 #[derive(Debug, Clone, PartialEq)]
 pub struct LineLoad {
     values: Vec<f64>,
-    cover: Cover,
 }
 
 impl LineLoad {
     /// For contacts in such slices.
     pub fn new(slices: &Slices) -> Self {
-        Self { values: vec![0.0; slices.count], cover: Cover::new(slices.count) }
+        Self { values: vec![0.0; slices.count] }
     }
 
     /// Line load of each slice of one contact, N/m, with each slice's own damping; empty where contacts have no slices
@@ -29,12 +28,11 @@ impl LineLoad {
         let l = &f.model.layout;
         let orbit = f.y[l.theta() + slot] + contacts.lean(slot);
         let angles = Angles { orbit, spin: f.y[l.phi() + slot], ring: f.model.rotation.at(f.t).1 };
-        let (at, covered) = match contacts.on_damage[slot] {
-            true => f.model.shown_in_slices((slot, side), &angles, at, &mut self.cover),
-            false => (at, false),
+        let at = match contacts.on_damage[slot] {
+            true => f.model.shown_in_slices((slot, side), &angles, at),
+            false => at,
         };
-        let cover = covered.then_some(&self.cover);
-        slices.line_load(f.model.contact(side), &at, cover, &mut self.values);
+        slices.line_load(f.model.contact(side), &at, &mut self.values);
         &self.values
     }
 }

@@ -1,7 +1,7 @@
 //! What the energy audit of a run says: steps that were too long, and the energy error of contact laws that are not conservative.
 
 use super::warning::short;
-use crate::scenario::{Accuracy, EdgeReaction, ModelKind, Scenario};
+use crate::scenario::{Accuracy, ModelKind, Scenario};
 use crate::simulate::EnergyAudit;
 
 /// Share of the dissipation in contacts beyond which the parametric work of damage is worth a warning.
@@ -11,7 +11,7 @@ const RESIDUAL_SHARE: f64 = 0.01;
 
 /// Warnings of a run that is over.
 pub fn after(scenario: &Scenario, energy: &EnergyAudit) -> Vec<String> {
-    let all = [parametric(scenario, energy), unbooked(scenario, energy), residual(scenario, energy)];
+    let all = [parametric(scenario, energy), residual(scenario, energy)];
     all.into_iter().flatten().collect()
 }
 
@@ -23,31 +23,12 @@ fn residual(scenario: &Scenario, energy: &EnergyAudit) -> Option<String> {
         let remedy = match scenario.simulation.accuracy {
             Accuracy::Standard => "raise simulation.accuracy (allowed: \"reference\")",
             Accuracy::Reference => {
-                "simulation.accuracy is \"reference\" already: look for damage that the roller falls into at once (contact.roller_path), and for wide \
-                 slices along a depth map (contact.slices)"
+                "simulation.accuracy is \"reference\" already: look for damage that the roller falls into at once (contact.roller_path)"
             }
         };
         format!(
             "the energy audit closes to {:.1} % of the turnover, and 1 % is the limit of a run to rely on: {remedy}",
             100.0 * share
-        )
-    })
-}
-
-/// Of conservative edges, whose damage should do no work: what the audit misses beside what contact damping takes. Along a
-/// depth map the covered share of a wide slice jumps from column to column, and with it the energy; no step is short
-/// enough for that.
-fn unbooked(scenario: &Scenario, energy: &EnergyAudit) -> Option<String> {
-    let (missed, dissipated) = (energy.residual().abs(), energy.flows.contact);
-    let conserving = scenario.contact.edge_reaction == EdgeReaction::Conservative && !scenario.defects.is_empty();
-    (conserving && missed > PARAMETRIC_SHARE * dissipated && dissipated > 0.0).then(|| {
-        format!(
-            "contact.edge_reaction = \"conservative\": {} that no body supplies or takes up, {:.0} % of the {} that contact damping dissipates; narrower \
-             slices (contact.slices, {} now) conserve energy along a depth map, a higher simulation.accuracy elsewhere",
-            joule(missed),
-            100.0 * missed / dissipated,
-            joule(dissipated),
-            scenario.contact.slices
         )
     })
 }
@@ -77,8 +58,8 @@ fn parametric(scenario: &Scenario, energy: &EnergyAudit) -> Option<String> {
         format!("{:.0} times the {} that contact damping dissipates", work.abs() / dissipated, joule(dissipated))
     };
     let remedy = match scenario.simulation.model {
-        ModelKind::Full => " simulation.laws = \"mechanics\" has no such error.",
-        ModelKind::Lumped | ModelKind::Tilting => "",
+        ModelKind::Full | ModelKind::Tilting => " simulation.laws = \"mechanics\" has no such error.",
+        ModelKind::Lumped => "",
     };
     Some(format!(
         "parametric work: the energy error of the paper's contact law {done} the bearing {}, {share}; it is spurious: levels are unreliable, \

@@ -91,13 +91,12 @@ fn beside_the_ellipse(scenario: &Scenario, model: &Model, zone: &StaticLoadZone)
     let mut warnings = Vec::new();
     for (k, defect) in model.defects.iter().enumerate() {
         let half_length = |side: Side, raised: f64| {
-            let strips = model.contact(side).strips?;
             let delta = model.deflection(side, zone.healthy_largest);
-            Some(strips.half_axis(delta + raised))
+            Some(0.5 * model.contact(side).axis_across(delta + raised)?)
         };
-        let met = || SIDES.into_iter().filter(|side| defect.depth_profile(*side).is_some());
+        let met = || SIDES.into_iter().filter(|side| defect.meets_side(*side));
         let longest = |raised: f64| met().filter_map(|side| half_length(side, raised)).reduce(f64::max);
-        // Raised damage is touched by strips that are not pressed elsewhere.
+        // Raised damage is touched where nothing is pressed elsewhere.
         let (Some(half), Some(touched)) = (longest(0.0), longest(defect.shape.raised())) else {
             continue;
         };
@@ -145,7 +144,7 @@ fn felt_by_a_point(scenario: &Scenario, model: &Model, deformation: Option<f64>)
     let element = scenario.bearing.element.word();
     let mut warnings = Vec::new();
     for (k, defect) in model.defects.iter().enumerate() {
-        let met = SIDES.into_iter().filter(|s| defect.depth_profile(*s).is_some());
+        let met = SIDES.into_iter().filter(|s| defect.meets_side(*s));
         let worst = met
             .map(|side| (side, defect.reach(relative_radius(&scenario.bearing, side))))
             .min_by(|a, b| a.1.1.total_cmp(&b.1.1));

@@ -93,15 +93,12 @@ choices! {
         Round = "round", "a round hole, which holds in every direction of the plane";
     }
 
-    /// Law of a roller on a damaged raceway.
+    /// Law of a rolling element on damage.
     pub enum Law {
-        /// Effective contact length (the paper, made continuous).
-        Ecl = "ecl", "effective contact length";
-        /// Independent slices across the roller, each with the fraction that damage covers and its mean depth (in the
-        /// manner of ISO/TS 16281).
-        Sliced = "sliced", "independent slices, each with what damage covers of it";
         /// Elastic half-space: the approach at which the healthy contact stores the energy of the damaged one.
         HalfSpace = "half-space", "elastic half-space, by the energy that the damaged contact stores";
+        /// Effective contact length (the paper, made continuous).
+        Ecl = "ecl", "the paper's effective contact length";
     }
 
     /// How exact the tables of damaged contacts are.
@@ -111,19 +108,11 @@ choices! {
         Quick = "quick", "a first look: errors several times those, in a moment";
     }
 
-    /// How a roller follows the damage's floor.
+    /// How a roller follows the damage's floor under `ecl`.
     pub enum RollerPath {
         /// The depth under the contact line (the paper).
         Point = "point", "the depth under the contact line";
         Envelope = "envelope", "the depth that the roller's radius lets it reach";
-    }
-
-    /// `edge_reaction`: whether the damage's slopes push the rollers along.
-    pub enum EdgeReaction {
-        /// No (the paper); the energy audit carries the parametric work.
-        None = "none", "slopes of the damage do not push";
-        /// The generalised force -dE/du on what turns; only with `sliced` and `envelope`.
-        Conservative = "conservative", "-dE/du on what turns; sliced and envelope only";
     }
 
     /// The ring that the load acts on.

@@ -209,12 +209,10 @@ pub struct Cage {
 pub struct Contact {
     /// Law of a damaged contact.
     pub law: Law,
-    /// Path of the roller through damage.
+    /// Path of the roller through damage, under `ecl`.
     pub roller_path: RollerPath,
-    /// Slices across the roller; `ecl` does not use them.
+    /// Slices across rollers that tilt or have a profile.
     pub slices: usize,
-    /// Tangential push of the damage's slopes.
-    pub edge_reaction: EdgeReaction,
     /// n; 3/2 of balls, which have no key for it.
     pub exponent: f64,
     /// E of balls and grooves, GPa; `None` for rollers.

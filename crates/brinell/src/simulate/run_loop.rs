@@ -11,7 +11,6 @@ use crate::model::energy::{ContactState, parametric_work};
 use crate::model::{Energy, Motion, Power, Workspace, imbalance};
 use crate::sensor::Sensing;
 use crate::signal::decimate::FACTOR;
-use crate::slices::Cover;
 use crate::solver::{Stepper, System};
 use std::ops::{ControlFlow, Deref};
 
@@ -64,8 +63,6 @@ pub struct Run<S> {
     energy: EnergyAudit,
     imbalance: Option<f64>,
     contact_states: [ContactState; 2],
-    /// What damage covers of one of them at a time.
-    cover: Cover,
     switches: Switches,
     y: Vec<f64>,
     a: Vec<f64>,
@@ -101,7 +98,6 @@ impl<S: Deref<Target = Simulation>> Run<S> {
             energy: EnergyAudit::from(Energy::of(model, 0.0, &simulation.initial, &ws)),
             imbalance: (!model.outer_ring_is_fixed()).then_some(0.0),
             contact_states: [contact_state.clone(), contact_state],
-            cover: Cover::new(model.slices.as_ref().map_or(0, |s| s.count)),
             switches,
             y: vec![0.0; n],
             a: vec![0.0; model.layout.dof()],
@@ -212,7 +208,6 @@ impl<S: Deref<Target = Simulation>> Run<S> {
         self.energy = EnergyAudit::from(Energy::of(model, t, y, &ws));
         self.imbalance = (!model.outer_ring_is_fixed()).then_some(0.0);
         self.contact_states[0].store(model, t, y, &ws);
-        self.cover = Cover::new(model.slices.as_ref().map_or(0, |s| s.count));
         self.switches.store(&ws);
         self.pending = Pending::new(&other, &self.decimator);
         self.sensing = other.sensor.as_ref().map(Sensing::new);
@@ -229,7 +224,7 @@ impl<S: Deref<Target = Simulation>> Run<S> {
         self.energy.flows += flows;
         let [before, after] = &mut self.contact_states;
         after.store(model, t, y, &self.ws);
-        self.energy.parametric += parametric_work(model, before, after, &mut self.cover);
+        self.energy.parametric += parametric_work(model, before, after);
         self.contact_states.swap(0, 1);
         self.switches.count(&self.ws, &mut self.work);
         // Behind the last sample only the filter's lag is left.

@@ -1,9 +1,8 @@
 //! What is asked of the solvers and what they answer, and the forces that both of them know.
 
-use crate::defect::{Angles, Defect, SIDES, Side, cover_slices};
+use crate::defect::{Angles, Defect, Side};
 use crate::model::Model;
-use crate::scenario::{Law, Surface};
-use crate::slices::{Cover, Slices};
+use crate::scenario::Surface;
 
 /// Question put to the solver.
 #[derive(Debug, Clone, PartialEq)]
@@ -148,7 +147,7 @@ pub(super) fn force_scale(model: &Model, problem: &Problem, forces: &[f64]) -> f
 /// Where the damping of Newton's method begins, N/m: the series stiffness at a deflection of a micrometre. Any value of
 /// this order does.
 pub(super) fn softest(model: &Model) -> f64 {
-    1e-3 * model.series_contact.tangent(1e-6, None).max(1.0)
+    1e-3 * model.series_contact.tangent(1e-6).max(1.0)
 }
 
 /// Centripetal acceleration of a roller in pure rolling, m/s^2.
@@ -176,17 +175,6 @@ pub(super) fn external(model: &Model) -> Offsets {
 
 pub(super) fn angles(problem: &Problem, slot: usize) -> Angles {
     Angles { orbit: problem.orbit[slot], spin: problem.spin[slot], ring: problem.ring_angle }
-}
-
-/// What damage covers of a roller's inner and outer contact, where it acts by that and not by tables.
-pub(super) fn covers(model: &Model, slices: &Slices, slot: usize, angles: &Angles) -> [Option<Cover>; 2] {
-    SIDES.map(|side| {
-        if model.rules.law == Law::HalfSpace {
-            return None;
-        }
-        let mut cover = Cover::new(slices.count);
-        cover_slices(model.defects_of(slot, side), angles, &mut cover).then_some(cover)
-    })
 }
 
 /// A number of each roller by its slot; 0 for padding.

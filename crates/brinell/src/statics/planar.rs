@@ -1,14 +1,11 @@
 //! Rings and rollers in the plane: each roller's radial offset is eliminated, for it has one equilibrium at given ring
 //! offsets.
 
-use super::balance::{
-    Balance, NoBalance, Offsets, Problem, angles, by_slot, covers, external, force_scale, own_force, softest,
-};
+use super::balance::{Balance, NoBalance, Offsets, Problem, angles, by_slot, external, force_scale, own_force, softest};
 use super::newton::{State, minimise};
-use crate::defect::{Angles, Side, damaged_contact, energy, tangent};
-use crate::model::{Model, lumped};
-use crate::scenario::{Law, ModelKind};
-use crate::slices::{Approach, Carried, Cover, Slices};
+use crate::defect::{Angles, Side};
+use crate::model::{Model, Resting, lumped};
+use crate::scenario::ModelKind;
 
 /// What one roller contributes at given ring offsets.
 #[derive(Debug, Clone, Copy, Default)]
@@ -103,7 +100,6 @@ fn in_series(model: &Model, problem: &Problem, slot: usize, x: &Offsets) -> Roll
 fn between_raceways(model: &Model, problem: &Problem, slot: usize, x: &Offsets) -> Roller {
     let angles = angles(problem, slot);
     let (sin, cos) = angles.orbit.sin_cos();
-    let covers = model.slices.as_ref().map(|s| covers(model, s, slot, &angles));
     let between = Between {
         model,
         slot,
@@ -113,11 +109,10 @@ fn between_raceways(model: &Model, problem: &Problem, slot: usize, x: &Offsets) 
             RingAt::new(model, (sin, cos), [x[2], x[3]], model.geometry.outer_gap),
         ],
         own: own_force(model, problem, slot),
-        covers,
     };
     let r = between.equilibrium();
     let contacts = between.contacts(r);
-    let [(q_in, k_in, _), (q_out, k_out, _)] = contacts;
+    let [(q_in, k_in), (q_out, k_out)] = contacts.map(|c| (c.force, c.tangent));
     let along = between.sides.map(|side| {
         let [n_r, n_t] = side.normal(r);
         [cos * n_r - sin * n_t, sin * n_r + cos * n_t]
@@ -132,7 +127,7 @@ fn between_raceways(model: &Model, problem: &Problem, slot: usize, x: &Offsets) 
         // (P/rho) t on either ring, turned into the plane.
         push: [0, 1].map(|k: usize| {
             let [n_x, n_y] = along[k];
-            let per_rho = contacts[k].2 / between.sides[k].distance(r);
+            let per_rho = contacts[k].push / between.sides[k].distance(r);
             [-n_y * per_rho, n_x * per_rho]
         }),
     }
@@ -141,7 +136,7 @@ fn between_raceways(model: &Model, problem: &Problem, slot: usize, x: &Offsets) 
 /// A ring that is held, as a roller at one orbit angle meets it: e_r . x_g and -e_t . x_g (0 in centred geometry), the gap with the
 /// sign with which it moves the raceway outwards, and R_m, m.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct RingAt {
+pub(crate) struct RingAt {
     along: f64,
     across: f64,
     gap: f64,
@@ -149,14 +144,14 @@ pub(super) struct RingAt {
 }
 
 impl RingAt {
-    pub(super) fn new(model: &Model, (sin, cos): (f64, f64), x: [f64; 2], gap: f64) -> Self {
+    pub(crate) fn new(model: &Model, (sin, cos): (f64, f64), x: [f64; 2], gap: f64) -> Self {
         // Rings that tilt have their balance in centred geometry.
         let across = if model.exact && model.tilt.is_none() { sin * x[0] - cos * x[1] } else { 0.0 };
         Self { along: cos * x[0] + sin * x[1], across, gap, pitch: model.geometry.pitch_radius }
     }
 
     /// rho - R_m, less the gap, m: what a roller at r stands beyond the raceway by (section 18).
-    fn beyond(&self, r: f64) -> f64 {
+    pub(crate) fn beyond(&self, r: f64) -> f64 {
         let a = r - self.along;
         if self.across == 0.0 {
             return a - self.gap;
@@ -198,38 +193,11 @@ struct Between<'a> {
     sides: [RingAt; 2],
     /// Its own radial force, N.
     own: f64,
-    /// What damage covers, where slices count.
-    covers: Option<[Option<Cover>; 2]>,
 }
 
 impl Between<'_> {
-    fn sliced(&self, slices: &Slices, side: Side, delta: f64) -> Carried {
-        let at = Approach { deformation: delta, ..Approach::default() };
-        let cover = self.covers.as_ref().and_then(|c| c[side as usize].as_ref());
-        slices.carry(self.model.contact(side), &at, cover)
-    }
-
-    /// Force of a contact, its tangent, and what damage pushes along it, P.
-    fn contact(&self, side: Side, delta: f64, r: f64) -> (f64, f64, f64) {
-        let (model, angles) = (self.model, &self.seen(side, r));
-        if model.rules.law == Law::HalfSpace {
-            let [force, tangent, push] = model.resting(self.slot, side, angles, delta);
-            return (force, tangent, push);
-        }
-        if let Some(slices) = &model.slices {
-            let carried = self.sliced(slices, side, delta);
-            return (carried.force, carried.stiffness[0], 0.0);
-        }
-        let law = model.contact(side);
-        let defects = model.defects_of(self.slot, side);
-        match damaged_contact(defects, law, angles, delta) {
-            Some(damaged) => (damaged.elastic, tangent(defects, law, angles, delta), 0.0),
-            None if delta > 0.0 => {
-                let force = law.healthy(delta);
-                (force, law.exponent.value() * force / delta, 0.0)
-            }
-            None => (0.0, 0.0, 0.0),
-        }
+    fn contact(&self, side: Side, delta: f64, r: f64) -> Resting {
+        self.model.contact_law(side).at(self.model.defects_of(self.slot, side), &self.seen(side, r), delta)
     }
 
     /// The roller's angles as seen from the centre of a ring.
@@ -239,13 +207,13 @@ impl Between<'_> {
     }
 
     /// Both contacts of the roller at r.
-    fn contacts(&self, r: f64) -> [(f64, f64, f64); 2] {
+    fn contacts(&self, r: f64) -> [Resting; 2] {
         [self.contact(Side::Inner, -self.sides[0].beyond(r), r), self.contact(Side::Outer, self.sides[1].beyond(r), r)]
     }
 
     /// Q_in - Q_out + N, which falls with r, and how steeply.
     fn balance(&self, r: f64) -> (f64, f64) {
-        let [(q_in, k_in, p_in), (q_out, k_out, p_out)] = self.contacts(r);
+        let [(q_in, k_in, p_in), (q_out, k_out, p_out)] = self.contacts(r).map(|c| (c.force, c.tangent, c.push));
         let [[n_in, t_in], [n_out, t_out]] = self.sides.map(|side| side.normal(r));
         let pushed = p_in * t_in / self.sides[0].distance(r) + p_out * t_out / self.sides[1].distance(r);
         (q_in * n_in - q_out * n_out + pushed + self.own, k_in * n_in * n_in + k_out * n_out * n_out)
@@ -304,14 +272,7 @@ impl Between<'_> {
     fn energy(&self, r: f64) -> f64 {
         let model = self.model;
         let stored = |side, delta| {
-            let angles = self.seen(side, r);
-            if model.rules.law == Law::HalfSpace {
-                return model.resting_energy(self.slot, side, &angles, delta);
-            }
-            if let Some(slices) = &model.slices {
-                return self.sliced(slices, side, delta).energy;
-            }
-            energy(model.defects_of(self.slot, side), model.contact(side), &angles, delta)
+            model.contact_law(side).energy(model.defects_of(self.slot, side), &self.seen(side, r), delta)
         };
         stored(Side::Inner, -self.sides[0].beyond(r)) + stored(Side::Outer, self.sides[1].beyond(r)) - self.own * r
     }

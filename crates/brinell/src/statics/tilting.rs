@@ -1,13 +1,11 @@
 //! Static balance where rollers and rings tilt (section 16): each roller's (r, beta) is eliminated, the rings' eight
 //! coordinates are searched.
 
-use super::balance::{
-    Balance, NoBalance, Problem, Tilted, angles, by_slot, covers, external, force_scale, own_force, softest,
-};
+use super::balance::{Balance, NoBalance, Problem, Tilted, angles, by_slot, external, force_scale, own_force, softest};
 use super::newton::{State, eliminate, minimise};
 use crate::defect::Side;
 use crate::model::{Model, Tilt};
-use crate::slices::{Approach, Carried, Cover, Slices};
+use crate::slices::{Approach, Carried, Slices};
 
 /// (x_i, y_i, tau_ix, tau_iy, x_o, y_o, tau_ox, tau_oy); tilts times the pitch radius, m.
 type Rings = [f64; 8];
@@ -32,8 +30,6 @@ struct Roller {
 
 pub(super) fn solve(model: &Model, tilt: &Tilt, problem: &Problem) -> Result<Balance, NoBalance> {
     let slices = model.slices.as_ref().expect("a tilting model has slices");
-    let met = |slot| covers(model, slices, slot, &angles(problem, slot));
-    let covered: Vec<_> = (0..model.layout.rollers()).map(met).collect();
     let arm = model.geometry.pitch_radius;
     let planar = external(model);
     let (load_in, load_out) = model.load.on_rings(1.0);
@@ -60,7 +56,7 @@ pub(super) fn solve(model: &Model, tilt: &Tilt, problem: &Problem) -> Result<Bal
         for (slot, roller) in rollers.iter_mut().enumerate() {
             let along = directions(tilt.levers[slot], problem.orbit[slot], arm);
             let met = meet(&along, x);
-            *roller = between_raceways(model, slices, problem, (slot, scale), &met, &covered[slot]);
+            *roller = between_raceways(model, slices, problem, (slot, scale), &met);
             state.potential += roller.energy;
             add(&mut state, roller, &along);
         }
@@ -158,22 +154,18 @@ fn between_raceways(
     problem: &Problem,
     (slot, load): (usize, f64),
     met: &[[f64; 2]; 2],
-    covers: &[Option<Cover>; 2],
 ) -> Roller {
     let g = &model.geometry;
     let own = own_force(model, problem, slot);
     let [[inner, inner_slope], [outer, outer_slope]] = *met;
     let (inner, outer) = (inner - g.clearance, outer + g.outer_gap);
     let met = angles(problem, slot);
-    let carried =
-        |side: Side, at: &Approach, cover: Option<&Cover>| model.carried(slices, (slot, side), &met, at, cover);
     let contacts = |r: f64, beta: f64| {
-        let at = |deformation, tilt| Approach { deformation, tilt, ..Approach::default() };
-        let [cover_in, cover_out] = covers;
-        [
-            carried(Side::Inner, &at(inner - r, inner_slope - beta), cover_in.as_ref()),
-            carried(Side::Outer, &at(r - outer, beta - outer_slope), cover_out.as_ref()),
-        ]
+        let carried = |side: Side, deformation: f64, tilt: f64| {
+            let at = Approach { deformation, tilt, ..Approach::default() };
+            model.carried(slices, (slot, side), &met, &at)
+        };
+        [carried(Side::Inner, inner - r, inner_slope - beta), carried(Side::Outer, r - outer, beta - outer_slope)]
     };
     // Lengths: beta times half the roller's length.
     let half = 0.5 * g.roller_length;

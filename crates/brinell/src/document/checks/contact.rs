@@ -34,11 +34,12 @@ impl Checker<'_> {
                 &["bearing.preset"],
             );
         }
-        if self.s.bearing.has_balls() && self.s.contact.law == Law::Ecl {
+        let planar = self.s.simulation.model.moves_every_part();
+        if self.s.bearing.has_balls() && planar && self.s.contact.law == Law::Ecl {
             self.error(
                 LAW,
                 "a ball's contact has no length that damage could take a share of".into(),
-                "\"half-space\" or \"sliced\", or the key left out".into(),
+                "\"half-space\", or the key left out".into(),
                 &[ELEMENT],
             );
         }

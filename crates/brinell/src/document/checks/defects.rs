@@ -25,7 +25,6 @@ impl Checker<'_> {
             self.depth_scale(i, defect);
             self.arc(i, defect);
         }
-        self.edge_reaction();
         self.overlaps();
     }
 

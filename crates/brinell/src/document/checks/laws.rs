@@ -1,7 +1,7 @@
 //! Which laws go together.
 
 use super::Checker;
-use crate::scenario::{DefectTable, EdgeReaction, GeometryLaw, Law, Laws, ModelKind, RacewayFilm};
+use crate::scenario::{DefectTable, GeometryLaw, Law, Laws, ModelKind, RacewayFilm};
 
 const LAW: &str = "contact.law";
 const LAWS: &str = "simulation.laws";
@@ -54,20 +54,13 @@ impl Checker<'_> {
     /// Laws that need each other.
     fn together(&mut self) {
         let s = self.s;
-        if s.contact.law == Law::HalfSpace && s.simulation.geometry == GeometryLaw::Centred {
+        let pushes = s.contact.law == Law::HalfSpace && !s.defects.is_empty();
+        if pushes && s.simulation.geometry == GeometryLaw::Centred {
             self.error(
                 LAW,
-                "the half-space pushes along the surface, for which levers of the centred bearing have no reaction"
+                "damage on a half-space pushes along the surface, for which levers of the centred bearing have no reaction"
                     .into(),
-                "simulation.geometry = \"exact\", or another law".into(),
-                &["simulation.geometry"],
-            );
-        }
-        if s.contact.edge_reaction == EdgeReaction::Conservative && s.simulation.geometry == GeometryLaw::Exact {
-            self.error(
-                "contact.edge_reaction",
-                "the push of slopes has no reaction on the ring".into(),
-                "contact.law = \"half-space\", whose push has one".into(),
+                "simulation.geometry = \"exact\"; \"ecl\" for straight rollers that do not tilt".into(),
                 &["simulation.geometry"],
             );
         }
@@ -97,7 +90,7 @@ impl Checker<'_> {
             self.error(
                 LAW,
                 "the lumped model knows no half-space".into(),
-                "\"ecl\" or \"sliced\" where simulation.model = \"lumped\"".into(),
+                "\"ecl\" where simulation.model = \"lumped\"".into(),
                 &[MODEL],
             );
         }

@@ -3,12 +3,10 @@
 use super::{Checker, short};
 use crate::defect::{self, Fault};
 use crate::document::{Problem, Severity};
-use crate::scenario::{Defect, DepthGrid, EdgeReaction, Law, ModelKind, RollerPath, Shape};
+use crate::scenario::{Defect, DepthGrid, Law, Shape};
 
 const LENGTH: &str = "bearing.roller_length_mm";
 const BALL: &str = "bearing.roller_diameter_mm";
-/// Pieces that the slices of one depth map may take at a point: 400 MB; along an envelope twice as much.
-const MOST_PIECES: f64 = 5e6;
 /// A corner less than this beyond the roller's end, mm, is round-off.
 const EDGE_SLACK: f64 = 1e-6;
 
@@ -215,18 +213,6 @@ impl Checker<'_> {
         };
         self.raised_edges(&key, &map);
         self.depth_map_on_raceway(i, defect, (&key, grid), &map);
-        let pieces = grid.columns as f64 * self.s.contact.slices as f64;
-        if self.s.contact.law == Law::Sliced && pieces > MOST_PIECES {
-            self.error(
-                &self.shape_key(i, "depth_map", "columns"),
-                format!(
-                    "{} columns in each of {} slices are more than memory should hold",
-                    grid.columns, self.s.contact.slices
-                ),
-                format!("columns times contact.slices <= {MOST_PIECES:e}"),
-                &["contact.slices"],
-            );
-        }
     }
 
     /// The depths as a grid, where there is one for each node and damage among them.
@@ -266,11 +252,11 @@ impl Checker<'_> {
 
     /// What rises above the raceway, where it would not act.
     fn raised_edges(&mut self, key: &str, map: &defect::Grid) {
-        if map.extremes().1 < 0.0 && (self.s.contact.law == Law::Ecl || self.s.simulation.model == ModelKind::Lumped) {
+        if map.extremes().1 < 0.0 && self.s.contact.law == Law::Ecl {
             self.error(
                 key,
                 format!(
-                    "raised edges (the highest {} um) act only in contact.law = \"half-space\" or \"sliced\" of simulation.model = \"full\" or \"tilting\"",
+                    "raised edges (the highest {} um) act only in contact.law = \"half-space\"",
                     short(-1e6 * map.extremes().1)
                 ),
                 ">= 0".into(),
@@ -321,29 +307,6 @@ impl Checker<'_> {
         }
     }
 
-    pub(super) fn edge_reaction(&mut self) {
-        const KEY: &str = "contact.edge_reaction";
-        let c = &self.s.contact;
-        if c.edge_reaction != EdgeReaction::Conservative {
-            return;
-        }
-        if c.law != Law::Sliced || c.roller_path != RollerPath::Envelope {
-            self.error(
-                KEY,
-                "the push of slopes needs an energy without jumps".into(),
-                "\"none\", or law = \"sliced\" with roller_path = \"envelope\"".into(),
-                &["contact.law", "contact.roller_path"],
-            );
-        } else if self.s.simulation.model == ModelKind::Lumped {
-            self.error(
-                KEY,
-                "the lumped model prescribes how rollers turn: nothing can push them".into(),
-                "\"none\" where simulation.model = \"lumped\"".into(),
-                &["simulation.model"],
-            );
-        }
-    }
-
     /// Damage that overlaps on one surface of one row.
     pub(super) fn overlaps(&mut self) {
         let s = self.s;
@@ -358,13 +321,8 @@ impl Checker<'_> {
             })
             .collect();
         let rule = match s.contact.law {
-            Law::Sliced => "together they are one surface, the deeper of the two at each point",
-            Law::HalfSpace => "together they are one surface",
+            Law::HalfSpace => "together they are one surface, the deeper of the two at each point",
             Law::Ecl => "of the two the one that carries less acts: the deeper or wider",
-        };
-        let path = match s.contact.roller_path {
-            RollerPath::Point => "",
-            RollerPath::Envelope => "; the path is the envelope of both together, the deeper point of each",
         };
         for (i, a) in s.defects.iter().enumerate() {
             for (j, b) in s.defects[..i].iter().enumerate() {
@@ -379,7 +337,7 @@ impl Checker<'_> {
                 let finder = self.finder;
                 self.problems.add_of(Severity::Warning, "overlaps", || {
                     let (key, other) = (format!("defects.{i}"), format!("defects.{j}"));
-                    let message = format!("overlaps defect {} along s; {rule}{path}", j + 1);
+                    let message = format!("overlaps defect {} along s; {rule}", j + 1);
                     let problem = Problem::new(Severity::Warning, key, message);
                     (finder.complete(problem, &[&other]), None)
                 });

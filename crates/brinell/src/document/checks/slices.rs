@@ -16,7 +16,7 @@ impl Checker<'_> {
         let s = self.s;
         let tilts = s.simulation.model == ModelKind::Tilting;
         let has_profile = s.bearing.profile != RollerProfile::Straight;
-        let sliced = s.contact.law != Law::Ecl;
+        let is_ecl = s.contact.law == Law::Ecl;
         if tilts && s.bearing.has_balls() {
             self.error(
                 MODEL,
@@ -24,11 +24,11 @@ impl Checker<'_> {
                 "\"full\" or \"lumped\" where bearing.element = \"ball\"".into(),
                 &["bearing.element"],
             );
-        } else if tilts && !sliced {
+        } else if tilts && is_ecl {
             self.error(
                 LAW,
                 "a contact that tilts needs slices: \"ecl\" knows one deformation for the whole roller".into(),
-                "\"half-space\" or \"sliced\" where simulation.model = \"tilting\"".into(),
+                "\"half-space\" where simulation.model = \"tilting\"".into(),
                 &[MODEL],
             );
         } else if has_profile && s.simulation.model == ModelKind::Lumped {
@@ -38,11 +38,11 @@ impl Checker<'_> {
                 "\"straight\" where simulation.model = \"lumped\"".into(),
                 &[MODEL],
             );
-        } else if has_profile && !sliced {
+        } else if has_profile && is_ecl {
             self.error(
                 PROFILE,
                 "a profile needs slices: \"ecl\" knows one deformation for the whole roller".into(),
-                "\"straight\", or contact.law = \"half-space\" or \"sliced\"".into(),
+                "\"straight\", or contact.law = \"half-space\"".into(),
                 &[LAW],
             );
         }

@@ -1,53 +1,9 @@
-//! Cages and rings, which take up what the rollers leave, and the push of damage's edges.
+//! Cages and rings, which take up what the rollers leave.
 
-use super::sums::{Sums, Turn};
+use super::sums::Sums;
 use crate::cage::GuideForce;
-use crate::defect::{Angles, SIDES, Side, edge_gradient, edge_gradient_of_slices};
-use crate::model::{Model, Power, Tilt, Workspace};
-
-/// The push of damage's slopes, `edge_reaction = "conservative"` (section 3): the generalised forces -dE/dtheta on the
-/// orbit and -dE/dphi on the spin of each roller. At an inner defect the drive holds the ring against -dE/dW and so
-/// puts in dE/dW w_i.
-///
-/// -dE/dtheta is a moment about the bearing's centre; over the roller's arm it is a force along e_t. The local angles
-/// know nothing of the rings' displacements, so that force has no reaction on them: the momentum audit books it as
-/// external.
-pub(super) fn edge_reaction(
-    model: &Model,
-    q: &[f64],
-    a: &mut [f64],
-    turn: Turn,
-    ws: &mut Workspace,
-    power: &mut Power,
-) {
-    let l = &model.layout;
-    ws.edge_force.fill(0.0);
-    for side in SIDES {
-        let contacts = &ws.contacts[side as usize];
-        let cover = &mut ws.cover;
-        for &slot in &model.broad_phase[side as usize].slots {
-            if !contacts.on_damage[slot] || contacts.elastic[slot] <= 0.0 {
-                continue;
-            }
-            let angles = Angles { orbit: q[l.theta() + slot], spin: q[l.phi() + slot], ring: turn.angle };
-            let arm = model.geometry.pitch_radius + q[l.r() + slot];
-            let delta = contacts.deformation[slot];
-            let defects = model.defects_of(slot, side);
-            let law = model.contact(side);
-            let e = match &model.slices {
-                None => edge_gradient(defects, law, &angles, delta),
-                Some(slices) => {
-                    let at = contacts.approach(slot);
-                    edge_gradient_of_slices(defects, &angles, cover, |cover| slices.carry(law, &at, cover).energy)
-                }
-            };
-            ws.edge_force[slot] -= e.orbit / arm;
-            a[l.theta() + slot] -= e.orbit / (model.inertia.roller * arm * arm);
-            a[l.phi() + slot] -= e.spin / model.inertia.roller_spin;
-            power.drive += e.ring * turn.speed;
-        }
-    }
-}
+use crate::defect::Side;
+use crate::model::{Model, Tilt, Workspace};
 
 /// What guides each cage (section 6), into the workspace. Long chains of operations that wait for one another and for
 /// no roller: a processor that is given them first works on the rollers meanwhile.

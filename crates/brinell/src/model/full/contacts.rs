@@ -4,7 +4,7 @@
 use super::view::{Plane, column, columns, pair, polar};
 use crate::contact::film::SqueezeFilm;
 use crate::contact::{Damping, damped};
-use crate::defect::{Angles, SIDES, Side, cover_slices, damaged_contact_given};
+use crate::defect::{Angles, SIDES, Side, ecl};
 use crate::lanes::Lanes;
 use crate::model::leaning::{Leaned, positive};
 use crate::model::workspace::Contacts;
@@ -186,15 +186,10 @@ pub(super) fn functions<L: Lanes>(model: &Model, ws: &mut Workspace) {
     }
 }
 
-/// Forces of contacts slice by slice, healthy and on damage, and tanh of the slip in place of the friction: sections 15
-/// and 16. Where nothing tilts the elastic forces alone, since the damper is the whole contact's there.
+/// Forces of healthy contacts slice by slice, and tanh of the slip in place of the friction: sections 15 and 16. Where
+/// nothing tilts the elastic forces alone, since the damper is the whole contact's there.
 #[inline(always)]
-pub(super) fn slices<L: Lanes, const TILT: bool>(
-    model: &Model,
-    slices: &Slices,
-    (q, ring_angle): (&[f64], f64),
-    ws: &mut Workspace,
-) {
+pub(super) fn slices<L: Lanes, const TILT: bool>(model: &Model, slices: &Slices, ws: &mut Workspace) {
     let l = &model.layout;
     let per_slip = L::splat(1.0 / model.friction.slip_velocity);
     let length = model.geometry.roller_length;
@@ -202,26 +197,17 @@ pub(super) fn slices<L: Lanes, const TILT: bool>(
         let k = side as usize;
         let law = model.contact(side);
         let contacts = &mut ws.contacts[k];
-        contacts.on_damage.fill(false);
         for group in 0..l.slots / L::COUNT {
-            let mut closed = model.rules.law == Law::HalfSpace && ws.candidates[k][group] != 0;
+            let mut closed = ws.candidates[k][group] != 0;
             for lane in 0..L::COUNT {
                 let slot = group * L::COUNT + lane;
                 let at = contacts.approach(slot);
-                let mut covered = false;
-                if model.rules.law == Law::Sliced && (ws.candidates[k][group] >> lane) & 1 == 1 {
-                    let angles = met_at(model, (q, ring_angle), contacts, slot);
-                    covered = cover_slices(model.defects_of(slot, side), &angles, &mut ws.cover);
-                }
-                contacts.on_damage[slot] = covered;
-                let pressed = if covered {
-                    slices.press::<L>(law, &at, Some(&ws.cover))
-                } else if slices.are_clear(at.deformation, at.tilt) {
+                let pressed = if slices.are_clear(at.deformation, at.tilt) {
                     Pressed::default()
                 } else if !TILT {
                     slices.press_evenly::<L>(law, at.deformation)
                 } else {
-                    slices.press::<L>(law, &at, None)
+                    slices.press::<L>(law, &at)
                 };
                 contacts.elastic[slot] = pressed.elastic;
                 contacts.damper[slot] = law.damping.of(pressed.tangent, at.deformation);
@@ -245,10 +231,6 @@ pub(super) fn slices<L: Lanes, const TILT: bool>(
 /// Elastic forces of the contacts that are on damage, section 3, in place of those of healthy raceways; where rollers tilt the damped ones.
 #[inline(always)]
 pub(super) fn damage<L: Lanes, const TILT: bool>(model: &Model, q: &[f64], ring_angle: f64, ws: &mut Workspace) {
-    let on_table = model.rules.law == Law::HalfSpace;
-    if model.slices.is_some() && !on_table {
-        return;
-    }
     for side in SIDES {
         let k = side as usize;
         if model.broad_phase[k].slots.is_empty() {
@@ -256,7 +238,7 @@ pub(super) fn damage<L: Lanes, const TILT: bool>(model: &Model, q: &[f64], ring_
         }
         let contacts = &mut ws.contacts[k];
         contacts.on_damage.fill(false);
-        if !TILT {
+        if model.slices.is_none() {
             contacts.damaged_length.fill(0.0);
         }
         contacts.push.fill(0.0);
@@ -265,10 +247,10 @@ pub(super) fn damage<L: Lanes, const TILT: bool>(model: &Model, q: &[f64], ring_
         for (group, candidates) in ws.candidates[k][..count].iter().enumerate() {
             if *candidates != 0 {
                 let at = (side, group * L::COUNT, *candidates);
-                match on_table {
-                    true if TILT => leaning(model, at, (q, ring_angle), contacts),
-                    true => half_space(model, at, (q, ring_angle), contacts),
-                    false => on_damage(model, at, (q, ring_angle), contacts),
+                match model.law {
+                    Law::HalfSpace if TILT => leaning(model, at, (q, ring_angle), contacts),
+                    Law::HalfSpace => half_space(model, at, (q, ring_angle), contacts),
+                    Law::Ecl => on_damage(model, at, (q, ring_angle), contacts),
                 }
             }
         }
@@ -292,7 +274,7 @@ fn met_at(model: &Model, (q, ring): (&[f64], f64), contacts: &Contacts, slot: us
     Angles { orbit: q[l.theta() + slot] + contacts.lean(slot), spin: q[l.phi() + slot], ring }
 }
 
-/// `candidates` has a bit for each slot from `first`.
+/// Contacts that are on damage by the law `ecl`. `candidates` has a bit for each slot from `first`.
 #[inline(never)]
 fn on_damage(
     model: &Model,
@@ -302,18 +284,13 @@ fn on_damage(
 ) {
     for slot in slots(first, candidates) {
         let angles = met_at(model, (q, ring_angle), contacts, slot);
-        let damaged = damaged_contact_given(
-            model.defects_of(slot, side),
-            model.contact(side),
-            &angles,
-            contacts.pressed_or_deformed()[slot],
-            contacts.power[slot],
-        );
+        let pressed = (contacts.pressed_or_deformed()[slot], contacts.power[slot]);
+        let damaged = ecl::damaged_contact(model.defects_of(slot, side), model.contact(side), &angles, pressed);
         if let Some(damaged) = damaged {
             contacts.elastic[slot] = damaged.elastic;
             if let Damping::Time { .. } = model.contact(side).damping {
                 let x = contacts.pressed_or_deformed()[slot];
-                let tangent = model.contact(side).tangent(x, Some(&damaged.floor));
+                let tangent = model.contact(side).damaged_tangent(x, &damaged.floor);
                 contacts.damper[slot] = model.contact(side).damping.of(tangent, x.max(0.0));
             }
             contacts.on_damage[slot] = true;

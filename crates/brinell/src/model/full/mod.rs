@@ -59,9 +59,6 @@ pub(super) fn equations<L: Lanes>(model: &Model, t: f64, y: &[f64], a: &mut [f64
     } else {
         rollers::rollers::<L, false>(model, (q, v), a, turn, ws)
     };
-    if model.rules.is_conservative() && !model.defects.is_empty() {
-        bodies::edge_reaction(model, q, a, turn, ws, &mut sums.power);
-    }
     let ring_speed = if model.land_on() == Side::Inner { speed } else { 0.0 };
     bodies::cages(model, (q, v), (a, ring_speed), &ws.guidance, &mut sums);
     bodies::rings(model, t, (q, v), a, &mut sums);

@@ -31,7 +31,7 @@ pub(super) fn rollers<L: Lanes, const TILT: bool>(
     contacts::candidates::<L::Pair>(model, ws);
     waves::waviness(model, (q, turn.angle), ws);
     if let Some(slices) = &model.slices {
-        contacts::slices::<L::Pair, TILT>(model, slices, (q, turn.angle), ws);
+        contacts::slices::<L::Pair, TILT>(model, slices, ws);
     } else {
         contacts::functions::<L::Pair>(model, ws);
     }

@@ -1,0 +1,141 @@
+//! The law of a contact without tilt: what it carries and stores at rest, healthy or on damage, by `half-space` (section 19) or by the
+//! paper's `ecl` (section 3).
+
+use super::Model;
+use crate::defect::{Angles, Defect, Defects, Side, ecl};
+use crate::scenario::Law;
+use crate::slices::{Approach, Healthy, Slices};
+
+/// The law of the contacts on one side.
+#[derive(Debug, Clone, Copy)]
+pub struct ContactLaw<'a> {
+    law: Law,
+    healthy: Healthy<'a>,
+}
+
+/// What a contact carries at rest.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Resting {
+    /// Q, N.
+    pub force: f64,
+    /// dQ/d(delta), N/m.
+    pub tangent: f64,
+    /// P = dE/du, what it pushes along the damaged surface, N m; 0 under `ecl`.
+    pub push: f64,
+}
+
+impl ContactLaw<'_> {
+    /// A contact that may be on any of `defects` at a deformation, m.
+    #[inline]
+    pub fn at(&self, defects: Defects, angles: &Angles, delta: f64) -> Resting {
+        let healthy = self.healthy;
+        match self.law {
+            Law::HalfSpace => match defects.effective(angles, delta, None) {
+                None => self.undamaged(delta),
+                Some(met) => {
+                    let [force, tangent] = healthy.force_and_tangent(met.delta);
+                    Resting {
+                        force: force * met.by_delta,
+                        tangent: tangent * met.by_delta * met.by_delta + force * met.by_delta2,
+                        push: force * (met.by_raceway + met.by_element),
+                    }
+                }
+            },
+            Law::Ecl => {
+                let power = healthy.law.exponent.of(delta);
+                match ecl::damaged_contact(defects, healthy.law, angles, (delta, power)) {
+                    None => self.undamaged(delta),
+                    Some(damaged) => Resting {
+                        force: damaged.elastic,
+                        tangent: healthy.law.damaged_tangent(delta, &damaged.floor),
+                        push: 0.0,
+                    },
+                }
+            }
+        }
+    }
+
+    fn undamaged(&self, delta: f64) -> Resting {
+        let [force, tangent] = self.healthy.force_and_tangent(delta);
+        Resting { force, tangent, push: 0.0 }
+    }
+
+    /// Its elastic energy, J.
+    pub fn energy(&self, defects: Defects, angles: &Angles, delta: f64) -> f64 {
+        match self.law {
+            Law::HalfSpace => {
+                let met = defects.effective(angles, delta, None);
+                self.healthy.energy(met.map_or(delta, |met| met.delta))
+            }
+            Law::Ecl => ecl::energy(defects, self.healthy.law, angles, delta),
+        }
+    }
+
+    /// Its length that touches, m: of a ball the axis of its ellipse across the groove, along a profile what its drop lets touch, else
+    /// the roller's length; less what damage takes.
+    pub fn touching(&self, defects: Defects, angles: &Angles, delta: f64) -> f64 {
+        let whole = self.healthy.touching(delta);
+        match self.law {
+            Law::HalfSpace => {
+                whole - self.healthy.lost_length(delta, self.at(defects, angles, delta).force).min(whole)
+            }
+            Law::Ecl => {
+                let power = self.healthy.law.exponent.of(delta);
+                let damaged = ecl::damaged_contact(defects, self.healthy.law, angles, (delta, power));
+                whole - damaged.map_or(0.0, |damaged| damaged.floor.damaged_length)
+            }
+        }
+    }
+}
+
+impl Model {
+    /// The law of the contacts on `side`.
+    #[inline]
+    pub fn contact_law(&self, side: Side) -> ContactLaw<'_> {
+        ContactLaw { law: self.law, healthy: self.healthy(side) }
+    }
+
+    /// Deformation at the roller's middle of a healthy contact under `force` (N), m.
+    pub fn deflection(&self, side: Side, force: f64) -> f64 {
+        let even = self.contact(side).deflection(force);
+        match self.profiled() {
+            Some(slices) => slices.deflection(self.contact(side), force, even),
+            None => even,
+        }
+    }
+
+    /// dQ/d(delta) of a healthy contact under `force` (N), N/m.
+    pub fn stiffness_at(&self, side: Side, force: f64) -> f64 {
+        let (law, delta) = (self.contact(side), self.deflection(side, force));
+        match self.profiled() {
+            Some(slices) => slices.carry(law, &Approach::pressed(delta)).stiffness[0],
+            None => law.tangent(delta),
+        }
+    }
+
+    /// Elastic force (N) of a contact deformed by `delta` (m) at the roller's middle, at the angle `u` (rad) from the
+    /// centre of `defect`, which need not be of this model.
+    pub fn force_over(&self, defect: &Defect, side: Side, u: f64, delta: f64) -> f64 {
+        self.contact_law(side).at(Defects::one(defect, side), &defect.met_at(side, u), delta).force
+    }
+
+    /// Length of the same contact that touches, m.
+    pub fn length_over(&self, defect: &Defect, side: Side, u: f64, delta: f64) -> f64 {
+        self.contact_law(side).touching(Defects::one(defect, side), &defect.met_at(side, u), delta)
+    }
+
+    /// delta_eff (m) under `half-space` and the elastic force (N) of a contact deformed by `delta` (m), at the angle `u` (rad) from the
+    /// centre of `defect`, over all damage of its surface.
+    pub fn effective_over(&self, defect: &Defect, side: Side, u: f64, delta: f64) -> [f64; 2] {
+        let (surface, angles) = (Defects::beside(&self.defects, defect, side), defect.met_at(side, u));
+        let effective = surface.effective(&angles, delta, None).map_or(delta, |met| met.delta);
+        [effective, self.contact_law(side).at(surface, &angles, delta).force]
+    }
+
+    /// The slices, where a profile keeps some of them back.
+    pub fn profiled(&self) -> Option<&Slices> {
+        let slices = self.slices.as_ref()?;
+        let profiled = slices.drop[..slices.count].iter().any(|p| *p != 0.0);
+        profiled.then_some(slices)
+    }
+}
