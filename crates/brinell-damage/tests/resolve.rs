@@ -182,9 +182,7 @@ fn regress_every_bad_file_is_reported_at_once_and_overlaps_are_seen_after_readin
 #[test]
 fn regress_a_scan_whose_rim_is_damage_is_doubted() {
     let shape = "depth_map = { file = \"scan.csv\", ds_mm = 0.06, dz_mm = 0.06, fill = \"neighbours\", remove_form = \"plane\" }";
-    let text = format!(
-        "{HEAD}[contact]\nlaw = \"sliced\"\n[[defects]]\non = \"outer-raceway\"\ncenter_deg = 0.0\nshape = {{ {shape} }}\n"
-    );
+    let text = format!("{HEAD}[[defects]]\non = \"outer-raceway\"\ncenter_deg = 0.0\nshape = {{ {shape} }}\n");
     let mut scenario = read(&text, &[]).unwrap().scenario;
     let said = match resolve(&mut scenario, &examples()) {
         Ok(warnings) => warnings.join("\n"),
@@ -199,7 +197,7 @@ fn analytic_a_fitted_radius_is_kept_and_one_that_is_not_the_surface_s_is_warned_
     // of 1.05 makes it 1.10, within a fifth.
     let warned = |on: &str, keys: &str| {
         let text = format!(
-            "{HEAD}[contact]\nlaw = \"sliced\"\n[[defects]]\non = \"{on}\"\ncenter_deg = 0.0\nshape = {{ depth_map = {{ \
+            "{HEAD}[[defects]]\non = \"{on}\"\ncenter_deg = 0.0\nshape = {{ depth_map = {{ \
              file = \"scan.csv\", dz_mm = 0.06, fill = \"neighbours\", speck_mm2 = 0.05, remove_form = \"cylinder\", {keys} }} }}\n"
         );
         let mut loaded = read(&text, &[]).unwrap();

@@ -114,10 +114,7 @@ impl Facts<'_> {
         let of = |case: &str| self.0.sensitivity.as_ref()?.value("law-half-space", case, name);
         let ratio = of("simplified").zip(of("irregular")).map(|(simplified, irregular)| simplified / irregular);
         let ratio = ratio.map_or(String::new(), |ratio| {
-            format!(
-                " Under a law without such work (half-space in exact geometry) the factor is {}.",
-                short(ratio, 3)
-            )
+            format!(" Under a law without such work (half-space in exact geometry) the factor is {}.", short(ratio, 3))
         });
         Some(format!(
             " The law of effective contact length takes part in it: damage that passes under rollers puts work into the bearing without a source, \

@@ -1,4 +1,4 @@
-//! Whether the paper's claims change with the model: the same cases in slices and with tilting, verdicts side by side.
+//! Whether the paper's claims change with the model: the same cases on a half-space and with tilting, verdicts side by side.
 
 use crate::cases::owned;
 use crate::outcome::Outcome;
@@ -17,13 +17,17 @@ struct OtherModel {
     settings: &'static [(&'static str, &'static str)],
 }
 
-/// In slices first, so that what the law changes is not put down to tilting. The lumped cases keep their model.
+/// In the plane first, so that what the law changes is not put down to tilting. The lumped cases keep their model.
 const TILTING: [OtherModel; 2] = [
-    OtherModel { id: "sliced", words: "planar, sliced", settings: &[("contact.law", "sliced")] },
+    OtherModel {
+        id: "half-space",
+        words: "planar, half-space",
+        settings: &[("contact.law", "half-space"), ("simulation.geometry", "exact")],
+    },
     OtherModel {
         id: "tilting",
         words: "tilting",
-        settings: &[("contact.law", "sliced"), ("simulation.model", "tilting")],
+        settings: &[("contact.law", "half-space"), ("simulation.geometry", "exact"), ("simulation.model", "tilting")],
     },
 ];
 
@@ -71,14 +75,14 @@ impl OtherRuns {
 }
 
 impl OtherVerdicts {
-    /// How many verdicts of the last model differ from those of the same cases in slices, in a sentence.
+    /// How many verdicts of the last model differ from those of the same cases in the plane, in a sentence.
     pub(crate) fn found(&self) -> String {
         let changed: Vec<&str> =
             self.rows.iter().filter(|(_, _, verdicts)| verdicts[1] != verdicts[2]).map(|(id, ..)| *id).collect();
         match changed.len() {
-            0 => "Tilting changes no verdict that slices alone leave.".into(),
+            0 => "Tilting changes no verdict that the half-space alone leaves.".into(),
             n => format!(
-                "Tilting changes {n} of {} verdicts that slices alone leave: {}.",
+                "Tilting changes {n} of {} verdicts that the half-space alone leaves: {}.",
                 self.rows.len(),
                 changed.join(", ")
             ),
@@ -96,7 +100,7 @@ impl OtherVerdicts {
             "Verdicts side by side",
             columns,
             rows,
-            "The same cases, all else alike. What tilts has slices, so slices in the plane are between both.",
+            "The same cases, all else alike. What tilts has damage as on a half-space and exact geometry, so that law in the plane is between both.",
         );
         let pieces = vec![StudyPiece::Words(self.found()), StudyPiece::Table(table)];
         Chapter::new("models", "Tilting", "With rollers and rings that tilt", pieces)

@@ -25,7 +25,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         let reach = geometry.reach(range.largest);
         for group in gather(&defects, |_| reach) {
             let damage = Damage::of(&defects, &group, 10e-6);
-            if !damage.members.iter().any(|k| defects[*k].depth_profile(side).is_some()) {
+            if !damage.members.iter().any(|k| defects[*k].meets_side(side)) {
                 continue;
             }
             let start = Instant::now();

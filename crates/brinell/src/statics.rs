@@ -15,8 +15,8 @@ pub use balance::NoBalance;
 #[doc(hidden)]
 pub use balance::{Balance, Problem, Tilted};
 pub(crate) use load_zone::PHASES;
-pub(crate) use planar::RingAt;
 pub use load_zone::{StaticLoadZone, static_load_zone};
+pub(crate) use planar::RingAt;
 
 /// Solves a static problem.
 ///

@@ -143,7 +143,7 @@ fn fastest_rate(model: &Model) -> f64 {
     let problem = Problem::at_start(model);
     let heaviest = statics::solve(model, &problem).unwrap().outer_force.iter().copied().fold(0.0, f64::max);
     let law = &model.outer_contact;
-    let k = law.tangent(law.deflection(heaviest), None);
+    let k = law.tangent(law.deflection(heaviest));
     let (m, c) = (model.inertia.roller, law.damping.constant());
     let under_root = c * c - 2.0 * k * m;
     if under_root > 0.0 { (c + under_root.sqrt()) / m } else { (2.0 * k / m).sqrt() }

@@ -3,10 +3,9 @@
 use crate::common::cases::{every_term, random_state, rectangle};
 use crate::common::simulate;
 use brinell::accuracy::{settings, tolerance};
-use brinell::defect::{Angles, SIDES, cover_slices, energy};
+use brinell::defect::{Angles, SIDES};
 use brinell::model::{Energy, Model, Motion, imbalance};
-use brinell::scenario::{Accuracy, Guidance, LoadOn, ModelKind, Scenario};
-use brinell::slices::{Approach, Cover};
+use brinell::scenario::{Accuracy, Guidance, Law, LoadOn, ModelKind, Scenario};
 use brinell::solver::Stepper;
 use brinell::start;
 use proptest::prelude::*;
@@ -91,13 +90,7 @@ proptest! {
         let mut motion = Motion::new(&model);
         let mut dy = vec![0.0; y.len()];
         motion.derivative(t, &y, &mut dy);
-        let (mut sum, size) = unexplained_force(&s, &model, t, &y, &dy);
-        // The push of damage's slopes has no reaction.
-        for slot in 0..model.layout.rollers() {
-            let push = motion.ws.edge_force[slot];
-            sum[0] += push * motion.ws.sin[slot];
-            sum[1] -= push * motion.ws.cos[slot];
-        }
+        let (sum, size) = unexplained_force(&s, &model, t, &y, &dy);
         // Round-off: some 500 additions of 1e-16 each.
         prop_assert!(sum[0].abs().max(sum[1].abs()) < 5e-14 * size, "{name}: {sum:?} N of {size} N");
         let own = imbalance(&model, t, &y, &dy[model.layout.dof()..], &motion.ws).unwrap();
@@ -125,17 +118,7 @@ fn parametric_rate(model: &Model, t: f64, y: &[f64], motion: &Motion, h: f64) ->
         for side in SIDES {
             let contacts = &motion.ws.contacts[side as usize];
             let delta = contacts.deformation[slot];
-            let held = |dt: f64| {
-                if let Some(slices) = &model.slices {
-                    let mut cover = Cover::new(slices.count);
-                    let defects = model.defects_of(slot, side);
-                    let covered = cover_slices(defects, &angles(dt), &mut cover);
-                    let at = Approach { deformation: delta, tilt: contacts.approach(slot).tilt, ..Approach::default() };
-                    let law = model.contact(side);
-                    return slices.carry(law, &at, covered.then_some(&cover)).energy;
-                }
-                energy(model.defects_of(slot, side), model.contact(side), &angles(dt), delta)
-            };
+            let held = |dt: f64| model.contact_law(side).energy(model.defects_of(slot, side), &angles(dt), delta);
             rate += (held(h) - held(-h)) / (2.0 * h);
         }
     }
@@ -164,7 +147,7 @@ fn prop_power_balance_at_any_instant() {
             motion.derivative(t, &y, &mut dy);
             let power = motion.ws.power;
             let middle = motion.ws.clone();
-            let parametric = if model.kind.moves_every_part() && !model.rules.is_conservative() {
+            let parametric = if model.kind.moves_every_part() && model.law == Law::Ecl {
                 parametric_rate(&model, t, &y, &motion, H)
             } else {
                 0.0

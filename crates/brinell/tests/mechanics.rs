@@ -222,7 +222,7 @@ fn lit_restitution_of_a_free_element() {
             stiffness,
             exponent: brinell::elementary::Exponent::new(exponent),
             damping: brinell::contact::Damping::Time { tau: 2.5e-6, roughness: 1e-7 },
-            strips: None,
+            across: None,
         };
         for (speed, expected) in [0.01, 0.05, 0.2].into_iter().zip(expected) {
             let acceleration = |x: f64, v: f64| {

@@ -21,7 +21,7 @@ use std::path::PathBuf;
     Examples:\n  \
     brinell compare actual.toml simplified.toml -o out/compare\n  \
     brinell compare base.toml --variant lumped:simulation.model=lumped\n  \
-    brinell compare base.toml --variant 'sliced:contact.law=sliced; contact.roller_path=envelope' --variant tight:simulation.accuracy=reference"
+    brinell compare base.toml --variant 'paper:simulation.laws=li2023; contact.roller_path=envelope' --variant tight:simulation.accuracy=reference"
 )]
 pub(crate) struct CompareArgs {
     /// The scenarios (TOML), or folders with the results of runs, the first of them the baseline

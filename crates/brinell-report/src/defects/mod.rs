@@ -30,7 +30,7 @@ pub fn damage_of(s: &Scenario, thickness_mm: Option<f64>) -> Result<Vec<Damage>,
     let healthy = Model::new(&Scenario { defects: Vec::new(), ..s.clone() })?;
     let passes = defect_passes(&model);
     let statics = static_load_zone(&healthy).ok();
-    let seen = (0..model.defects.len())
-        .map(|k| Seen::of((s, &model, k), passes[k], statics.as_ref(), thickness_mm).damage());
+    let seen =
+        (0..model.defects.len()).map(|k| Seen::of((s, &model, k), passes[k], statics.as_ref(), thickness_mm).damage());
     Ok(seen.collect())
 }

@@ -204,7 +204,11 @@ fn analytic_numbers_of_a_depth_map_are_those_of_the_surface_between_its_nodes() 
     // The law `ecl` counts nodes, and that is said where it is the law.
     let told = |damage: &brinell_report::Damage| damage.view.facts.iter().any(|f| f.label == "Widest in the law ecl");
     assert!(told(&ecl));
-    assert!(!told(&seen(&format!("{text}\n[contact]\nlaw = \"sliced\"\n"))));
+    assert!(!told(&seen(
+        &text
+            .replace("laws = \"li2023\"", "laws = \"mechanics\"")
+            .replace("[[defects]]", "[contact]\ntables = \"quick\"\n[[defects]]")
+    )));
 }
 
 #[test]

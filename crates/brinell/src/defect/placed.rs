@@ -68,11 +68,7 @@ impl Defect {
     }
 
     /// From the scenario. `None` where its shape makes no sense, or its row or roller counts from 0.
-    pub fn new(
-        defect: &scenario::Defect,
-        bearing: &scenario::Bearing,
-        contact: &scenario::Contact,
-    ) -> Option<Self> {
+    pub fn new(defect: &scenario::Defect, bearing: &scenario::Bearing, contact: &scenario::Contact) -> Option<Self> {
         let surface = match defect.on {
             Surface::Roller(k) => Surface::Roller(k.checked_sub(1)?),
             raceway => raceway,

@@ -1,6 +1,7 @@
 //! The keys of `[contact]`.
 
 use super::bearing_keys::ROLLERS;
+use super::enum_strings::EdgeReaction;
 use super::keys::Fallback::{self, Needed};
 use super::keys::{Keys, PAPER, assumed, derived, stated};
 use super::spec::key;
@@ -23,15 +24,25 @@ pub(super) fn contact<K: Keys>(k: &mut K, (laws, model, b): (Laws, ModelKind, &B
         true => stated(RollerPath::Point, PAPER),
         false => stated(RollerPath::Envelope, "what an element's radius lets it reach"),
     };
-    k.key(key("law", "force of a contact on damage; ecl of straight rollers that do not tilt, and of the lumped model"), law, &mut c.law);
+    k.key(
+        key("law", "force of a contact on damage; ecl of straight rollers that do not tilt, and of the lumped model"),
+        law,
+        &mut c.law,
+    );
     k.key_where(
         key("roller_path", "how an element follows the damage's depth"),
         (c.law == Law::Ecl, "contact.law is \"ecl\": the solution of \"half-space\" contains the element's size"),
         path,
         &mut c.roller_path,
     );
+    if c.law == Law::Ecl {
+        // What files of the paper's laws may say, and all that they may.
+        k.optional(key("edge_reaction", "none: slopes of the damage do not push"), &mut None::<EdgeReaction>);
+    }
     k.key(
-        key("slices", "slices across rollers that have a profile or tilt; those of the load along a roller").from(1.0).to(10000.0),
+        key("slices", "slices across rollers that have a profile or tilt; those of the load along a roller")
+            .from(1.0)
+            .to(10000.0),
         stated(30, "as ISO/TS 16281 asks for"),
         &mut c.slices,
     );

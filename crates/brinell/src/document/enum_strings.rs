@@ -16,6 +16,14 @@ words! { SurfaceWord:
     Roller = "roller", "turns with that roller";
 }
 
+/// `edge_reaction`.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum EdgeReaction {
+    None,
+}
+
+words! { EdgeReaction: None = "none", "slopes of the damage do not push"; }
+
 impl From<Surface> for SurfaceWord {
     fn from(surface: Surface) -> Self {
         match surface {

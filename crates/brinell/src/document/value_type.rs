@@ -1,6 +1,6 @@
 //! Kinds of value that a key can hold: how each is read, written and described.
 
-use crate::did_you_mean::{did_you_mean, other_word};
+use crate::did_you_mean::{did_you_mean, left_out, other_word};
 use crate::scenario::Choice;
 use serde_json::{Value as Json, json};
 
@@ -414,7 +414,11 @@ impl<T: Choice> ValueType for T {
             let words = T::WORDS.iter().map(|(word, ..)| *word);
             let other = other_word(text).filter(|other| words.clone().any(|word| word == *other));
             let near = other.or_else(|| did_you_mean(text, words));
-            let hint = near.map(|word| format!("; did you mean {}?", quote(word))).unwrap_or_default();
+            let hint = match (near, left_out(text)) {
+                (Some(word), _) => format!("; did you mean {}?", quote(word)),
+                (None, Some(why)) => format!("; {why}"),
+                (None, None) => String::new(),
+            };
             Misfit::new(format!("unknown word{hint}"), word_list::<T>())
         })
     }

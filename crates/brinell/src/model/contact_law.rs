@@ -76,9 +76,7 @@ impl ContactLaw<'_> {
     pub fn touching(&self, defects: Defects, angles: &Angles, delta: f64) -> f64 {
         let whole = self.healthy.touching(delta);
         match self.law {
-            Law::HalfSpace => {
-                whole - self.healthy.lost_length(delta, self.at(defects, angles, delta).force).min(whole)
-            }
+            Law::HalfSpace => whole - self.healthy.lost_length(delta, self.at(defects, angles, delta).force).min(whole),
             Law::Ecl => {
                 let power = self.healthy.law.exponent.of(delta);
                 let damaged = ecl::damaged_contact(defects, self.healthy.law, angles, (delta, power));

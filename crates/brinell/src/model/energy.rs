@@ -193,11 +193,7 @@ pub(crate) fn parametric_work(model: &Model, before: &ContactState, after: &Cont
 }
 
 /// The share of one contact.
-fn work_at(
-    model: &Model,
-    (slot, side): (usize, Side),
-    (before, after): (&ContactState, &ContactState),
-) -> f64 {
+fn work_at(model: &Model, (slot, side): (usize, Side), (before, after): (&ContactState, &ContactState)) -> f64 {
     let k = side as usize;
     let (from, to) = (before.angles(slot, side), after.angles(slot, side));
     let change = |state: &ContactState| {

@@ -354,5 +354,7 @@ fn load(s: &Scenario) -> Load {
 
 /// The slices, where rollers tilt or have a profile.
 fn slices(s: &Scenario, geometry: &Geometry) -> Option<Slices> {
-    (!s.has_even_contacts()).then(|| Slices::new(s.contact.slices.max(1), geometry.roller_length, 2.0 * geometry.roller_radius, &s.bearing.profile))
+    (!s.has_even_contacts()).then(|| {
+        Slices::new(s.contact.slices.max(1), geometry.roller_length, 2.0 * geometry.roller_radius, &s.bearing.profile)
+    })
 }

@@ -1,7 +1,9 @@
 //! Rings and rollers in the plane: each roller's radial offset is eliminated, for it has one equilibrium at given ring
 //! offsets.
 
-use super::balance::{Balance, NoBalance, Offsets, Problem, angles, by_slot, external, force_scale, own_force, softest};
+use super::balance::{
+    Balance, NoBalance, Offsets, Problem, angles, by_slot, external, force_scale, own_force, softest,
+};
 use super::newton::{State, minimise};
 use crate::defect::{Angles, Side};
 use crate::model::{Model, Resting, lumped};
@@ -271,9 +273,8 @@ impl Between<'_> {
     /// Potential energy at r, J.
     fn energy(&self, r: f64) -> f64 {
         let model = self.model;
-        let stored = |side, delta| {
-            model.contact_law(side).energy(model.defects_of(self.slot, side), &self.seen(side, r), delta)
-        };
+        let stored =
+            |side, delta| model.contact_law(side).energy(model.defects_of(self.slot, side), &self.seen(side, r), delta);
         stored(Side::Inner, -self.sides[0].beyond(r)) + stored(Side::Outer, self.sides[1].beyond(r)) - self.own * r
     }
 }

@@ -73,9 +73,9 @@ pub fn every_term() -> Vec<(&'static str, Scenario)> {
         ("reference-model", lumped),
         ("rest", case("xval/rest-speed-profile")),
         ("heavy", case("xval/heavy-load-profile")),
-        ("tilting", case("reference/tilting-edge")),
+        ("tilting", case("tilting-edge")),
         ("tilting-offset", tilting_offset()),
-        ("balls", case("reference/ball-6205-outer")),
+        ("balls", case("ball-6205")),
     ]
 }
 
@@ -86,8 +86,7 @@ pub fn raceway_film() -> Scenario {
     crate::common::read_li2023(text, &[]).unwrap().scenario
 }
 
-/// A tilting bearing, its load off the middle, its cages on the inner ring, an oblique dent on a roller whose edges
-/// push.
+/// A tilting bearing, its load off the middle, its cages on the inner ring.
 pub fn tilting_offset() -> Scenario {
     case("tilting-offset")
 }

@@ -34,7 +34,7 @@ fn regress_defaults_of_balls() {
     assert_eq!(s.bearing.outer_groove_conformity, Some(0.52));
     assert_eq!(s.contact.youngs_modulus_gpa, Some(206.0));
     assert_eq!(s.contact.poisson_ratio, Some(0.3));
-    assert_eq!((s.contact.law, s.contact.roller_path), (Law::Sliced, RollerPath::Envelope));
+    assert_eq!((s.contact.law, s.contact.roller_path), (Law::HalfSpace, RollerPath::Envelope));
     assert_eq!(s.contact.exponent, 1.5);
     assert!((s.contact.inner_stiffness / 2.53251e10 - 1.0).abs() < 1e-5);
     assert!((s.contact.outer_stiffness / 2.68371e10 - 1.0).abs() < 1e-5);
@@ -62,7 +62,7 @@ fn regress_what_balls_do_not_have_is_refused() {
     let no_meaning = "has a meaning only where bearing.element is \"roller\"";
     refused(BARE, &[("bearing.roller_length_mm", "7.0")], "bearing.roller_length_mm", no_meaning);
     refused(BARE, &[("contact.exponent", "1.5")], "contact.exponent", no_meaning);
-    refused(BARE, &[("contact.law", "ecl")], "contact.law", "sliced");
+    refused(BARE, &[("contact.law", "ecl")], "contact.law", "half-space");
     refused(BARE, &[("bearing.inner_groove_conformity", "0.5")], "bearing.inner_groove_conformity", "> 0.5");
     refused(BARE, &[("bearing.preset", "NU206")], "bearing.element", "NU206 is a roller bearing");
     let balls = with(super::BARE, &[("bearing.outer_groove_conformity", "0.53")]).unwrap_err();

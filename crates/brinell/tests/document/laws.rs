@@ -97,7 +97,7 @@ fn prop_what_each_set_writes_is_read_again() {
 fn prop_keys_without_a_meaning_are_refused_with_the_law_that_has_none() {
     for (key, value, law) in [
         ("contact.roller_path", "envelope", "half-space"),
-        ("contact.edge_reaction", "conservative", "half-space"),
+        ("contact.edge_reaction", "none", "half-space"),
         ("cage.contact_stiffness_n_per_m", "1e7", "cage.walls is \"linear\""),
         ("cage.contact_damping_ns_per_m", "20.0", "cage.walls is \"linear\""),
         ("cage.land_stiffness_n_per_m", "1e7", "cage.walls is \"linear\""),
@@ -166,7 +166,7 @@ fn prop_a_table_is_a_file_or_what_stands_in_it() {
     let Some(DefectTable::Read(table)) = &loaded.scenario.defects[0].table else { panic!("no table") };
     assert_eq!((table.s_mm.len(), table.delta_um.len(), table.delta_eff_um[4]), (2, 3, 0.4));
     assert_eq!(good(&loaded.to_toml()).scenario, loaded.scenario);
-    refused(&text, &[LAWS, ("contact.law", "sliced"), ("defects.0.table", inline)], "defects.0.table", "sliced");
+    refused(&text, &[LAWS, ("contact.law", "ecl"), ("defects.0.table", inline)], "defects.0.table", "ecl");
     for (value, words) in [
         ("{ s_mm = [1, -1], delta_um = [0, 1], delta_eff_um = [0, 1, 0, 1] }", "s_mm rising"),
         ("{ s_mm = [0, 1], delta_um = [0, 1], delta_eff_um = [0, 1, 0] }", "3 delta_eff_um"),
@@ -189,12 +189,12 @@ fn prop_a_run_names_its_laws_and_what_differs() {
             assert_eq!(s.laws_and_differences().to_string(), laws);
         }
     }
-    let changed = [("contact.law", "sliced"), ("contact.damping_ns_per_m", "200"), ("housing.mass_kg", "1")];
+    let changed = [("contact.law", "ecl"), ("contact.damping_ns_per_m", "200"), ("housing.mass_kg", "1")];
     let s = mechanics(NN3007, &changed).scenario;
     let differences = s.laws_and_differences().differences;
     let keys: Vec<&str> = differences.iter().map(|d| d.key.as_str()).collect();
     assert_eq!(keys, ["contact.law", "contact.damping_ns_per_m", "housing.mass_kg"]);
-    assert_eq!((&differences[0].value[..], &differences[0].usual[..]), ("\"sliced\"", "\"half-space\""));
+    assert_eq!((&differences[0].value[..], &differences[0].usual[..]), ("\"ecl\"", "\"half-space\""));
 }
 
 /// Nobody should be warned of a value that nobody gave, however large the bearing.

@@ -330,14 +330,9 @@ fn scenarios() -> impl Strategy<Value = Scenario> {
                 land_damping_ns_per_m: walls(mechanics(words), d, &x)[1],
             },
             contact: Contact {
-                law: match (half_space(words), words.2 == 2 || balls(words)) {
-                    (true, _) => Law::HalfSpace,
-                    (false, true) => Law::Sliced,
-                    (false, false) => Law::Ecl,
-                },
+                law: if half_space(words) { Law::HalfSpace } else { Law::Ecl },
                 roller_path: RollerPath::Point,
                 slices: z,
-                edge_reaction: EdgeReaction::None,
                 exponent: if balls(words) { 1.5 } else { 1.0 + x[0] / 1e9 },
                 youngs_modulus_gpa: (balls(words) || half_space(words)).then_some(x[8]),
                 poisson_ratio: (balls(words) || half_space(words)).then_some(x[9] / 2e9),

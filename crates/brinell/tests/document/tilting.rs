@@ -44,9 +44,9 @@ fn regress_what_has_no_slices_has_no_profile_and_no_tilt() {
     refused(BARE, &[profile, ecl], "bearing.profile", "needs slices");
     let lumped = ("simulation.model", "lumped");
     refused(BARE, &[profile, lumped], "bearing.profile", "no profile");
-    // With a profile alone the law is sliced.
+    // With a profile alone the law is half-space.
     let loaded = with(BARE, &[LI2023, profile]).unwrap();
-    assert_eq!(loaded.scenario.contact.law, Law::Sliced);
+    assert_eq!(loaded.scenario.contact.law, Law::HalfSpace);
 }
 
 #[test]

@@ -2,17 +2,16 @@
 
 mod envelope;
 mod plan;
-mod several;
-mod slices;
 
 use brinell::contact::{Damping, LoadDeflection};
-use brinell::defect::{Angles, Defect, Shape};
+use brinell::defect::ecl::{DamagedContact, damaged_contact};
+use brinell::defect::{Angles, Defect, Defects, Shape, Side};
 use brinell::elementary::Exponent;
-use brinell::scenario::{self, DepthGrid, Law, RollerPath, Surface};
+use brinell::scenario::{self, DepthGrid, RollerPath, Surface};
 use std::f64::consts::TAU;
 
 const LAW: LoadDeflection = LoadDeflection {
-    strips: None,
+    across: None,
     stiffness: 1.898e8,
     exponent: Exponent::TenNinths,
     damping: Damping::Constant(200.0),
@@ -46,22 +45,19 @@ fn shape(of: scenario::Shape) -> Shape {
     Shape::new(&of, 20e-6).unwrap()
 }
 
-/// The example's defect with another shape, law and path.
-fn defect(of: scenario::Shape, on: Surface, law: Law, path: RollerPath, slices: usize) -> Defect {
+/// The example's defect with another shape and path, under `ecl`.
+fn defect(of: scenario::Shape, on: Surface, path: RollerPath) -> Defect {
     let mut s = crate::common::example();
-    s.contact.law = law;
     s.contact.roller_path = path;
-    s.contact.slices = slices;
     let d = scenario::Defect { shape: of, on, ..s.defects[0].clone() };
     Defect::new(&d, &s.bearing, &s.contact).unwrap()
 }
 
-fn at(orbit: f64) -> Angles {
-    Angles { orbit, spin: 0.0, ring: 0.0 }
+/// What acts over one defect; `None` off it.
+fn felt(d: &Defect, angles: &Angles, delta: f64) -> Option<DamagedContact> {
+    damaged_contact(Defects::one(d, Side::Outer), &LAW, angles, (delta, LAW.exponent.of(delta)))
 }
 
-/// The outline of `tests/reference/slices-oblique.toml`, moved as there.
-fn oblique() -> scenario::Shape {
-    let corners = [[-1.7, 0.15], [0.4, -0.65], [1.6, 0.9], [1.1, 2.75], [-0.3, 1.35], [-1.2, 2.4]];
-    scenario::Shape::Outline { polygons_mm: vec![corners.map(|[s, z]| [s, z - 0.3]).to_vec()] }
+fn at(orbit: f64) -> Angles {
+    Angles { orbit, spin: 0.0, ring: 0.0 }
 }

@@ -1,8 +1,8 @@
 //! Outlines and depth maps against closed forms and an independent geometry library.
 
-use super::{LAW, at, circle_mm, defect, grid_mm, shape};
-use brinell::defect::{Defect, Defects, Outline, Shape, Side, damaged_contact, energy};
-use brinell::scenario::{self, Law, RollerPath, Surface};
+use super::{circle_mm, defect, grid_mm, shape};
+use brinell::defect::{Outline, Shape, Side};
+use brinell::scenario::{self, RollerPath, Surface};
 use i_overlay::core::fill_rule::FillRule;
 use i_overlay::float::clip::FloatClip;
 use i_overlay::string::clip::ClipRule;
@@ -155,9 +155,8 @@ proptest! {
         seed in any::<u64>(), roughness in 0.0..1.0f64, length in 0.5..6.0f64, width in 0.5..6.0f64,
     ) {
         let spall = scenario::Shape::Random { seed, length_mm: length, width_mm: width, roughness };
-        let make = |law, path| defect(spall.clone(), Surface::OuterRaceway, law, path, 15);
-        let (plain, along) = (make(Law::Ecl, RollerPath::Point), make(Law::Ecl, RollerPath::Envelope));
-        let (cut, cut_along) = (make(Law::Sliced, RollerPath::Point), make(Law::Sliced, RollerPath::Envelope));
+        let make = |path| defect(spall.clone(), Surface::OuterRaceway, path);
+        let (plain, along) = (make(RollerPath::Point), make(RollerPath::Envelope));
         let (first, last) = plain.shape.arc();
         prop_assert!((last - first - 1e-3 * length).abs() < 1e-9);
         for k in 0..=100 {
@@ -167,25 +166,7 @@ proptest! {
             };
             prop_assert!((0.0..=6e-3).contains(&a.damaged_length) && a.damaged_length == b.damaged_length);
             prop_assert!(b.depth <= a.depth + 1e-15 && b.depth >= 0.0);
-            let force = |d: &Defect| damaged_contact(Defects::one(d, Side::Outer), &LAW, &at(u), 30e-6).map_or(0.0, |a| a.elastic);
-            // Along the envelope the mean over a slice of a fine map is a sum over 12 lines, at a point it is exact.
-            prop_assert!(force(&cut_along) >= force(&cut) * (1.0 - 3e-2));
         }
     }
 
-    #[test]
-    fn prop_sliced_and_ecl_agree_on_full_width_damage(u in -0.06..0.06f64, delta in -5e-6..60e-6f64) {
-        let full = scenario::Shape::Rectangle { length_mm: 3.0, width_mm: 6.0 };
-        for path in [RollerPath::Point, RollerPath::Envelope] {
-            let force = |law| {
-                let d = defect(full.clone(), Surface::OuterRaceway, law, path, 30);
-                let stored = energy(Defects::one(&d, Side::Outer), &LAW, &at(u), delta);
-                (damaged_contact(Defects::one(&d, Side::Outer), &LAW, &at(u), delta).map(|a| a.elastic), stored)
-            };
-            let ((a, ea), (b, eb)) = (force(Law::Ecl), force(Law::Sliced));
-            prop_assert_eq!(a.is_some(), b.is_some());
-            prop_assert!((a.unwrap_or(0.0) - b.unwrap_or(0.0)).abs() <= 1e-12 * LAW.healthy(60e-6));
-            prop_assert!((ea - eb).abs() <= 1e-12 * LAW.energy(60e-6));
-        }
-    }
 }
