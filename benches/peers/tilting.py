@@ -60,9 +60,7 @@ def main(folder):
         work = pathlib.Path(work)
         scenario = work / "tilting.toml"
         text = (ROOT / "examples" / "one-sided.toml").read_text()
-        # As it was measured: the paper's laws, along an envelope whose slopes push back.
-        text = text.replace("slices = 40", 'slices = 20\nroller_path = "envelope"\nedge_reaction = "conservative"')
-        scenario.write_text(text.replace("[simulation]\n", '[simulation]\nlaws = "li2023"\n'))
+        scenario.write_text(text.replace("slices = 40", "slices = 20"))
         truth = launch(folder / "brinell-peer", "solver", scenario, work / "truth", [1e-2], 1.0)[0]["ax"]
         costs = {}
         for name, program, method, tolerances, max_step in (
