@@ -4,6 +4,8 @@
 #include <math.h>
 #include <stdlib.h>
 
+enum { CROSSINGS = 64 };
+
 static double wrap(double u)
 {
     return u - 2.0 * PI * floor((u + PI) / (2.0 * PI));
@@ -32,18 +34,18 @@ int ascending(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-/* Where the line p = at crosses an outline's edges, ascending in the other coordinate q. Between odd and even crossings
- * lies damage, so a polygon within another is a hole. Half-open edges: a corner on the line counts once. */
-int crossings(const Defect *d, double **p, double **q, double at, double *found, int space)
+/* Where the line s = at crosses an outline's edges, ascending in z. Between odd and even crossings lies damage, so a
+ * polygon within another is a hole. Half-open edges: a corner on the line counts once. */
+static int crossings(const Defect *d, double at, double *found, int space)
 {
     int count = 0;
     for (int k = 0; k < d->polygons; k++)
         for (int i = 0; i < d->corners[k]; i++) {
             const int j = (i + 1) % d->corners[k];
-            const double pa = p[k][i], pb = p[k][j];
-            if ((pa <= at) == (pb <= at)) continue;
+            const double sa = d->s[k][i], sb = d->s[k][j];
+            if ((sa <= at) == (sb <= at)) continue;
             if (count == space) die("outline:", "too many crossings");
-            found[count++] = q[k][i] + (at - pa) / (pb - pa) * (q[k][j] - q[k][i]);
+            found[count++] = d->z[k][i] + (at - sa) / (sb - sa) * (d->z[k][j] - d->z[k][i]);
         }
     qsort(found, (size_t)count, sizeof(double), ascending);
     return count;
@@ -58,13 +60,13 @@ static double within(double from, double to, double lo, double hi)
 double outline_width(const Defect *d, double s)
 {
     double z[CROSSINGS], sum = 0.0;
-    const int count = crossings(d, d->s, d->z, s, z, CROSSINGS);
+    const int count = crossings(d, s, z, CROSSINGS);
     for (int i = 0; i + 1 < count; i += 2) sum += within(z[i], z[i + 1], -0.5 * M.L, 0.5 * M.L);
     return sum;
 }
 
 /* Width, unclipped, and depth at s; returns 0 outside the arc. */
-int width_at(const Defect *d, double s, double *width, double *h)
+static int width_at(const Defect *d, double s, double *width, double *h)
 {
     double w = 0.0;
     *h = d->depth;
@@ -89,9 +91,6 @@ int width_at(const Defect *d, double s, double *width, double *h)
         if (s < d->first || s > d->last) return 0;
         w = outline_width(d, s);
         break;
-    case DEPTH_MAP:
-        die("depth map:", "sliced only");
-        break;
     default: {
         const int n = d->points;
         if (s < d->arc[0] || s > d->arc[n - 1]) return 0;
@@ -105,6 +104,19 @@ int width_at(const Defect *d, double s, double *width, double *h)
     }
     *width = fmax(w, 0.0);
     return 1;
+}
+
+/* Section 17: depth at the groove's bottom, z = 0. */
+int depth_at_bottom(const Defect *d, double u, double *h)
+{
+    const double s = u * d->radius;
+    double w, z[CROSSINGS];
+    int inside = 0;
+    if (!width_at(d, s, &w, h)) return 0;
+    if (d->shape != OUTLINE) return fabs(d->offset) <= 0.5 * w;
+    const int count = crossings(d, s, z, CROSSINGS);
+    for (int i = 0; i < count; i++) inside ^= z[i] <= 0.0;
+    return inside;
 }
 
 /* Damaged length and depth at local angle u; returns 0 outside the arc. */

@@ -6,13 +6,10 @@
 
 #define IRREGULAR_ARC (1.6695 + 1.5000 + 0.7071 + 1.4142 + 0.7071 + 1.0000)
 
-enum { CROSSINGS = 64 };
-
 int ascending(const void *a, const void *b);
-int crossings(const Defect *d, double **p, double **q, double at, double *found, int space);
 double outline_width(const Defect *d, double s);
-int width_at(const Defect *d, double s, double *width, double *h);
 int defect_at(const Defect *d, double u, double *Ls, double *h);
+int depth_at_bottom(const Defect *d, double u, double *h);
 int local_angle(const Defect *d, int side, int row, int j, double theta, double phi, double W, double *u);
 
 #endif

@@ -75,17 +75,45 @@ double guidance_film(const double *e, const double *v, double wc, double wg, dou
     return -2.0 * PI * M.eta * R1 * (wc - wg) * R1 * R1 * M.L1 / (M.Cg * sqrt(one));
 }
 
-/* Section 8: accelerations of every coordinate. */
+/* Section 16: both rings' slopes; N of contacts and guidance comes in, load's, support's and the gyroscope's are added. */
+void tilt_rings(double t, const double *q, const double *v, double N[2][2], double w, double *acc)
+{
+    const double k = ramp_factor(t) * M.load_offset;
+    for (int g = 0; g < 2; g++) {
+        const int p = tilt_at(g);
+        const double H = g == 0 ? M.Ip * w : 0.0;
+        for (int a = 0; a < 2; a++) {
+            if (g == 1 && M.load_outer) N[g][a] -= k * M.load[a];
+            if (g == 0 && !M.load_outer) N[g][a] += k * M.load[a];
+            N[g][a] -= M.tilt_stiffness[g] * q[p + a] + M.tilt_damping[g] * v[p + a];
+        }
+        acc[p] = (N[g][0] - H * v[p + 1]) / M.Jring[g];
+        acc[p + 1] = (N[g][1] + H * v[p]) / M.Jring[g];
+    }
+}
+
+/* Section 8, and 16 where rollers and rings tilt: accelerations of every coordinate. */
 void accelerations(double t, const double *q, const double *v, double *acc, int want)
 {
     double wi, W, Fi[2], Fo[2];
     drive(t, &wi, &W);
     ring_forces(t, q, v, Fi, Fo);
-    const double xi = q[0], yi = q[1], xo = q[2], yo = q[3];
-    const double vxi = v[0], vyi = v[1], vxo = v[2], vyo = v[3];
+    double N[2][2] = {{0.0, 0.0}, {0.0, 0.0}}; /* tilting moments on the rings */
 
     for (int row = 0; row < M.rows; row++) {
         const int c = cage_at(row);
+        /* The rings at the row's height: x_i y_i x_o y_o, their rates, and the slopes of the axes. */
+        const double Z = row_height(row);
+        double x[4], u[4], tau[4] = {0.0, 0.0, 0.0, 0.0}, dtau[4] = {0.0, 0.0, 0.0, 0.0};
+        for (int a = 0; a < 4; a++) {
+            if (M.tilting) {
+                tau[a] = q[tilt_at(0) + a];
+                dtau[a] = v[tilt_at(0) + a];
+            }
+            x[a] = q[a] + Z * tau[a];
+            u[a] = v[a] + Z * dtau[a];
+        }
+        const double xi = x[0], yi = x[1], xo = x[2], yo = x[3], vxi = u[0], vyi = u[1], vxo = u[2], vyo = u[3];
         const double xc = q[c], yc = q[c + 1], thc = q[c + 2];
         const double vxc = v[c], vyc = v[c + 1], wc = v[c + 2];
         double Fcx = M.mc * M.g[0], Fcy = M.mc * M.g[1], Tc = 0.0;
@@ -101,21 +129,23 @@ void accelerations(double t, const double *q, const double *v, double *acc, int 
             const double ddin = ex * vxi + ey * vyi + dth * (tx * xi + ty * yi) - drj;
             const double dout = rj - (ex * xo + ey * yo) - M.outer_gap;
             const double ddout = drj - (ex * vxo + ey * vyo) - dth * (tx * xo + ty * yo);
-            double Qin = 0.0, Qout = 0.0, Lin = M.L, Lout = M.L;
-            double push = 0.0, push_own = 0.0;
-            if (din > 0.0 || want || M.law == LAW_SLICED) { /* a raised slice touches sooner */
+            double Qin = 0.0, Qout = 0.0, Tin = 0.0, Tout = 0.0, Lin = M.L, Lout = M.L;
+            if (M.tilting) {
+                const double beta = q[beta_at(k)], dbeta = v[beta_at(k)];
+                Qin = sliced_force(INNER, din, ddin, ex * tau[0] + ey * tau[1] - beta,
+                                   ex * dtau[0] + ey * dtau[1] + dth * (tx * tau[0] + ty * tau[1]) - dbeta, &Tin);
+                Qout = sliced_force(OUTER, dout, ddout, beta - ex * tau[2] - ey * tau[3],
+                                    dbeta - ex * dtau[2] - ey * dtau[3] - dth * (tx * tau[2] + ty * tau[3]), &Tout);
+                acc[beta_at(k)] = (Tin - Tout) / M.Jr;
+            } else if (din > 0.0 || want) {
                 const Elastic e = elastic_law(INNER, row, j, th, ph, W, din, 0);
                 if (e.elastic > 0.0) Qin = fmax(e.elastic + M.c * ddin, 0.0);
                 Lin = e.length;
-                push += e.push;
-                push_own += e.push_own;
             }
-            if (dout > 0.0 || want || M.law == LAW_SLICED) {
+            if (!M.tilting && (dout > 0.0 || want)) {
                 const Elastic e = elastic_law(OUTER, row, j, th, ph, W, dout, 0);
                 if (e.elastic > 0.0) Qout = fmax(e.elastic + M.c * ddout, 0.0);
                 Lout = e.length;
-                push += e.push;
-                push_own += e.push_own;
             }
 
             /* section 4 */
@@ -140,21 +170,26 @@ void accelerations(double t, const double *q, const double *v, double *acc, int 
             }
 
             /* section 7 */
-            const double Fd = 0.5 * M.Cd * M.rho * M.L * (2.0 * M.r) * vt * fabs(vt);
+            const double across = M.element == ELEMENT_BALL ? 0.5 * PI * M.r : M.L; /* area over 2 r */
+            const double Fd = 0.5 * M.Cd * M.rho * across * (2.0 * M.r) * vt * fabs(vt);
 
             /* section 8, roller */
             const double R = M.Rm + rj;
             const double radial = Qin - Qout + fc + M.m * (M.g[0] * ex + M.g[1] * ey);
-            const double tangential = fin + fout + Fc - Fd + push / R + M.m * (M.g[0] * tx + M.g[1] * ty);
+            const double tangential = fin + fout + Fc - Fd + M.m * (M.g[0] * tx + M.g[1] * ty);
             acc[p] = radial / M.m + R * dth * dth;
             acc[p + 1] = (tangential / M.m - 2.0 * drj * dth) / R;
-            acc[p + 2] = (M.r * (fout - fin) - sigma * M.r * fc - push_own) / M.Ir;
+            acc[p + 2] = (M.r * (fout - fin) - sigma * M.r * fc) / M.Ir;
 
             /* reactions */
             Fi[0] += -Qin * ex - fin * tx;
             Fi[1] += -Qin * ey - fin * ty;
             Fo[0] += Qout * ex - fout * tx;
             Fo[1] += Qout * ey - fout * ty;
+            N[0][0] += Z * (-Qin * ex - fin * tx) - Tin * ex;
+            N[0][1] += Z * (-Qin * ey - fin * ty) - Tin * ey;
+            N[1][0] += Z * (Qout * ex - fout * tx) + Tout * ex;
+            N[1][1] += Z * (Qout * ey - fout * ty) + Tout * ey;
             Fcx += -Fc * tx - fc * ex;
             Fcy += -Fc * ty - fc * ey;
             Tc += -Fc * M.Rm + sigma * M.r * fc;
@@ -163,6 +198,8 @@ void accelerations(double t, const double *q, const double *v, double *acc, int 
                 Detail *o = &detail[k];
                 o->outer_force = Qout;
                 o->inner_force = Qin;
+                o->outer_moment = Tout;
+                o->inner_moment = Tin;
                 o->outer_length = Lout;
                 o->inner_length = Lin;
                 o->pocket = Fc;
@@ -190,7 +227,7 @@ void accelerations(double t, const double *q, const double *v, double *acc, int 
             if (paper && e > M.Cg) Fn -= M.kc * (e - M.Cg);
             double fx = Fn * nx - Ft * ny, fy = Fn * ny + Ft * nx;
             if (!paper) {
-                const double gvx = vxc - v[outer ? 2 : 0], gvy = vyc - v[outer ? 3 : 1];
+                const double gvx = vxc - (outer ? vxo : vxi), gvy = vyc - (outer ? vyo : vyi);
                 const double half = 0.5 * (wc + wg), held = e > 0.0 ? eps * M.Cg / e : 1.0;
                 pushing_film(held * gx, held * gy, gvx + half * gy, gvy - half * gx, eta * R1 * M.L1 * M.L1 * M.L1,
                              &fx, &fy);
@@ -205,6 +242,8 @@ void accelerations(double t, const double *q, const double *v, double *acc, int 
             Tc += -2.0 * PI * eta * ud * R1 * R1 * M.L1 / (M.Cg * sqrt(one));
             if (outer) { Fo[0] -= fx; Fo[1] -= fy; }
             else { Fi[0] -= fx; Fi[1] -= fy; }
+            N[outer][0] -= Z * fx;
+            N[outer][1] -= Z * fy;
         }
         acc[c] = Fcx / M.mc;
         acc[c + 1] = Fcy / M.mc;
@@ -214,4 +253,5 @@ void accelerations(double t, const double *q, const double *v, double *acc, int 
     acc[1] = Fi[1] / M.mi;
     acc[2] = Fo[0] / M.mo;
     acc[3] = Fo[1] / M.mo;
+    if (M.tilting) tilt_rings(t, q, v, N, wi, acc);
 }

@@ -227,23 +227,6 @@ static void element(int k, const double *q, const double *v, double *acc, Ring *
     if (M.tilting) acc[beta_at(k)] = b.moment / M.Jr;
 }
 
-/* Section 16: both rings' slopes; N of contacts and guidance comes in, load's, support's and the gyroscope's are added. */
-static void tilt_rings(double t, const double *q, const double *v, double N[2][2], double w, double *acc)
-{
-    const double k = ramp_factor(t) * M.load_offset;
-    for (int g = 0; g < 2; g++) {
-        const int p = tilt_at(g);
-        const double H = g == 0 ? M.Ip * w : 0.0;
-        for (int a = 0; a < 2; a++) {
-            if (g == 1 && M.load_outer) N[g][a] -= k * M.load[a];
-            if (g == 0 && !M.load_outer) N[g][a] += k * M.load[a];
-            N[g][a] -= M.tilt_stiffness[g] * q[p + a] + M.tilt_damping[g] * v[p + a];
-        }
-        acc[p] = (N[g][0] - H * v[p + 1]) / M.Jring[g];
-        acc[p + 1] = (N[g][1] + H * v[p]) / M.Jring[g];
-    }
-}
-
 void exact_accelerations(double t, const double *q, const double *v, double *acc, int want)
 {
     double wi, W, Fi[2], Fo[2], N[2][2] = {{0.0, 0.0}, {0.0, 0.0}};

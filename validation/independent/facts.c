@@ -1,4 +1,4 @@
-/* The "Facts" of Part II, and the balance of momentum, angular momentum and energy at one state. */
+/* The "Facts" of balls and of Part II, and the balance of momentum, angular momentum and energy at one state. */
 #include "facts.h"
 
 #include <math.h>
@@ -9,6 +9,7 @@
 #include "dynamics.h"
 #include "exact.h"
 #include "halfspace.h"
+#include "hertz.h"
 #include "model.h"
 #include "operation.h"
 #include "state.h"
@@ -94,9 +95,23 @@ static void impacts(void)
                  cases[i].want[k], 0.0051);
 }
 
+/* Section 17: a 6205 at 0.52. */
+static void grooves(void)
+{
+    double kappa;
+    M.r = 3.97e-3;
+    M.Ri = 15.55e-3;
+    M.Ro = 23.49e-3;
+    fact("K_in of a 6205, N/m^1.5", groove_stiffness(INNER, 0.52, 206e9, 0.3, &kappa), 2.53251e10, 5e4);
+    fact("its kappa", kappa, 9.3412, 5e-5);
+    fact("K_out", groove_stiffness(OUTER, 0.52, 206e9, 0.3, &kappa), 2.68371e10, 5e4);
+    fact("its kappa", kappa, 7.2653, 5e-5);
+}
+
 int facts(void)
 {
     geometry();
+    grooves();
     impacts();
     fact("phase, rad", phase(1.0, 0, 2), 4.685884980, 1e-9);
     printf("%d differ\n", failed);

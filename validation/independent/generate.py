@@ -62,21 +62,10 @@ def damage_table(path):
     return [s * 1e-3 for s in along], [d * 1e-6 for d in deltas], flat
 
 
-def mechanics(sc, put, folder):
-    """The keys of Part II; none has a default here."""
-    b, c, k, f, sim = sc["bearing"], sc["cage"], sc["contact"], sc["friction"], sc["simulation"]
-    assert sim["geometry"] == "exact" and k["law"] == "half-space" and sc["lubricant"].get("raceway_film", "none") == "none"
-    put("geometry", "exact")
-    put("element", b["element"])
-    put("walls", c["walls"])
-    put("pockets", c["pockets"])
-    put("pocket_friction", c["friction_coefficient"])
-    if "damping_time_us" in k:
-        put("damping_time", k["damping_time_us"] * 1e-6)
-        put("roughness", k["roughness_um"] * 1e-6)
-    put("rolling", f["rolling_coefficient"])
-    put("housing_mass", sc["housing"]["mass_kg"])
-    if sim["model"] == "tilting":
+def slices(sc, put):
+    """The keys of tilting rollers and of profiles."""
+    b = sc["bearing"]
+    if sc["simulation"].get("model") == "tilting":
         put("width", b["width_mm"] * 1e-3)
         put("row_spacing", b["row_spacing_mm"] * 1e-3)
         put("load_offset", sc["operation"]["load_offset_mm"] * 1e-3)
@@ -91,6 +80,21 @@ def mechanics(sc, put, folder):
     else:
         pairs = zip(profile["z_mm"], profile["drop_um"], strict=True)
         put("profile", "drops", len(profile["z_mm"]), *(x for z, p in pairs for x in (z * 1e-3, p * 1e-6)))
+
+
+def mechanics(sc, put, folder):
+    """The keys of Part II; none has a default here."""
+    b, c, k, f, sim = sc["bearing"], sc["cage"], sc["contact"], sc["friction"], sc["simulation"]
+    assert sim["geometry"] == "exact" and k["law"] == "half-space" and sc["lubricant"].get("raceway_film", "none") == "none"
+    put("geometry", "exact")
+    put("walls", c["walls"])
+    put("pockets", c["pockets"])
+    put("pocket_friction", c["friction_coefficient"])
+    if "damping_time_us" in k:
+        put("damping_time", k["damping_time_us"] * 1e-6)
+        put("roughness", k["roughness_um"] * 1e-6)
+    put("rolling", f["rolling_coefficient"])
+    put("housing_mass", sc["housing"]["mass_kg"])
     for key, name in ("waviness", "raceway_waves"), ("element_waviness", "element_waves"):
         if key in b:
             put(name, b[key]["amplitude_um"] * 1e-6, b[key]["exponent"], *b[key]["waves"])
@@ -101,7 +105,7 @@ def mechanics(sc, put, folder):
             *along, *deltas, *values)
 
 
-def parameters(sc, step, perturb, record, folder, tolerance=0.0):
+def parameters(sc, step, perturb, record, folder=None, tolerance=0.0):
     """The flat SI text that parameters.c reads; tables of damage lie in `folder`."""
     b, c, k = sc["bearing"], sc["cage"], sc["contact"]
     f, l, s, o, sim = sc["friction"], sc["lubricant"], sc["support"], sc["operation"], sc["simulation"]
@@ -113,6 +117,7 @@ def parameters(sc, step, perturb, record, folder, tolerance=0.0):
         out.append(" ".join([name, *(v if isinstance(v, str) else repr(v) for v in values)]))
 
     rpm = math.pi / 30
+    put("element", b.get("element", "roller"))
     put("rows", b["rows"])
     put("rollers", b["rollers_per_row"])
     put("inner_raceway_diameter", b["inner_raceway_diameter_mm"] * 1e-3)
@@ -140,10 +145,13 @@ def parameters(sc, step, perturb, record, folder, tolerance=0.0):
     put("exponent", 1.5 if ball else k.get("exponent", 10 / 9))
     for ring in "inner", "outer":
         key = f"{ring}_stiffness"
-        put(key, k[key] if key in k else palmgren(b["roller_length_mm"]))
+        if key in k or not ball:
+            put(key, k[key] if key in k else palmgren(b["roller_length_mm"]))
+    if ball:
+        put("grooves", *(b.get(f"{ring}_groove_conformity", 0.52) for ring in ("inner", "outer")),
+            k.get("youngs_modulus_gpa", 206.0) * 1e9, k.get("poisson_ratio", 0.3))
     put("law", k.get("law", "ecl"))
     put("roller_path", k.get("roller_path", "point"))
-    put("edge_reaction", k.get("edge_reaction", "none"))
     put("slices", k.get("slices", 30))
     if not part_two or "damping_ns_per_m" in k:
         put("contact_damping", k["damping_ns_per_m"])
@@ -165,6 +173,7 @@ def parameters(sc, step, perturb, record, folder, tolerance=0.0):
     gravity = o.get("gravity_m_per_s2", [0.0, 0.0])
     put("gravity_x", gravity[0])
     put("gravity_y", gravity[1])
+    slices(sc, put)
     if part_two:
         mechanics(sc, put, folder)
     for d in [] if part_two else sc.get("defects", []):

@@ -33,6 +33,10 @@ void reference_accelerations(double t, const double *q, const double *v, double 
                 for (int i = 0; i < M.defects; i++) {
                     double u, Ls, h;
                     if (!local_angle(&M.defect[i], side, row, j, th, spin, W, &u)) continue;
+                    if (M.element == ELEMENT_BALL) {
+                        if (depth_at_bottom(&M.defect[i], u, &h)) depth[side] = fmax(depth[side], h);
+                        continue;
+                    }
                     if (!defect_at(&M.defect[i], u, &Ls, &h)) continue;
                     if (Ls < M.L) g[side] = fmin(g[side], factor(Ls));
                     else depth[side] = fmax(depth[side], h);

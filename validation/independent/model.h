@@ -6,10 +6,9 @@
 
 #define PI 3.14159265358979323846
 
-enum { RECTANGLE, CIRCLE, PROFILE, IRREGULAR, OUTLINE, DEPTH_MAP };
-enum { LAW_ECL, LAW_SLICED, LAW_HALF_SPACE };
+enum { RECTANGLE, CIRCLE, PROFILE, IRREGULAR, OUTLINE };
+enum { LAW_ECL, LAW_HALF_SPACE };
 enum { PATH_POINT, PATH_ENVELOPE };
-enum { EDGE_NONE, EDGE_CONSERVATIVE };
 enum { OUTER, INNER, ROLLER };
 enum { START_ROLLING, START_REST, START_EQUILIBRIUM };
 enum { GUIDE_NONE, GUIDE_OUTER, GUIDE_INNER };
@@ -22,18 +21,11 @@ enum { STRAIGHT, LOGARITHMIC, CROWNED, DROPS };
 
 typedef struct { double a, b, ha, hb; } Piece; /* depth ha at s = a to hb at s = b, linear between */
 
-/* h(s) along the surface, whole (ecl) or under one slice: pieces in order of s, 0 outside them. */
+/* h(s) along the surface: pieces in order of s, 0 outside them. */
 typedef struct {
     int count, space;
     Piece *piece;
 } Floor;
-
-/* Of every slice at equal steps of s: the integral of h_env over what is covered over the slice's width, and the
- * fraction that a raised edge lifts beside it. */
-typedef struct {
-    int nodes;
-    double from, step, *section, *lifted; /* [node * slices + slice] */
-} Table;
 
 typedef struct {
     int on, row, roller, shape, points; /* row and roller count from 0 */
@@ -41,15 +33,11 @@ typedef struct {
     double offset;                      /* along z, of shapes given by width; others are moved as they are read */
     double length, width;               /* rectangle; width also the irregular shape's largest */
     double diameter;
-    double *arc, *widths, *depths;      /* profile */
+    double *arc, *widths, *depths;      /* profile, or what a depth map comes to */
     int polygons, *corners;             /* outline */
     double **s, **z;
-    int columns, rows;                  /* depth map */
-    double s0, z0, ds, dz, *grid;
     double first, last;                 /* its arc */
-    double reach;                       /* how far before it a raised edge lifts a roller */
-    Floor *floor;                       /* one (ecl), or one per line z = const (sliced along the envelope) */
-    Table table[2];                     /* by side, sliced along the envelope */
+    Floor floor;
 } Defect;
 
 /* delta_eff(delta, s) of one damaged surface, section 19: values at nodes and what natural splines need. */
@@ -79,7 +67,7 @@ typedef struct {
     int load_outer;
     int defects;
     Defect *defect;
-    int reference, start, law, path, edge, slices;
+    int reference, start, law, path, slices;
     double duration, fs, step, perturb;
     /* Part II */
     int geometry, element, walls, pockets;

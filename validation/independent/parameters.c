@@ -1,12 +1,14 @@
 /* Reading the parameter text. */
 #include "parameters.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "floors.h"
 #include "halfspace.h"
+#include "hertz.h"
 #include "model.h"
 #include "waviness.h"
 
@@ -32,6 +34,33 @@ static void word(char *w)
     if (fscanf(in, "%63s", w) != 1) die("word expected", "");
 }
 
+static void ready_points(Defect *d, int points)
+{
+    d->points = points;
+    d->arc = need((size_t)points, sizeof(double));
+    d->widths = need((size_t)points, sizeof(double));
+    d->depths = need((size_t)points, sizeof(double));
+}
+
+/* A depth map in `ecl`: at a column L_s is the number of its damaged nodes times dz, h their mean depth. */
+static void read_map(Defect *d)
+{
+    const int columns = integer(), rows = integer();
+    const double s0 = num(), z0 = num() + d->offset, ds = num(), dz = num();
+    if (fmax(fabs(z0), fabs(z0 + (rows - 1) * dz)) > 0.5 * M.L) die("depth map:", "wider than the roller");
+    d->offset = 0.0; /* all of it lies on the roller */
+    ready_points(d, columns);
+    for (int i = 0; i < columns; i++) d->arc[i] = s0 + i * ds;
+    for (int i = 0; i < columns * rows; i++) {
+        const double h = num();
+        if (h < 0.0) die("depth map:", "raised edges are not covered");
+        if (h > 0.0) d->widths[i % columns] += dz;
+        d->depths[i % columns] += h * dz;
+    }
+    for (int i = 0; i < columns; i++)
+        if (d->widths[i] > 0.0) d->depths[i] /= d->widths[i];
+}
+
 static void read_defect(void)
 {
     static const char *surfaces[] = {"outer-raceway", "inner-raceway", "roller"};
@@ -49,7 +78,8 @@ static void read_defect(void)
     d->depth = num();
     d->offset = num();
     word(w);
-    d->shape = pick(w, shapes, 6);
+    const int map = sizeof shapes / sizeof shapes[0] - 1, shape = pick(w, shapes, map + 1);
+    d->shape = shape == map ? PROFILE : shape;
     if (d->shape == RECTANGLE) {
         d->length = num();
         d->width = num();
@@ -68,20 +98,10 @@ static void read_defect(void)
             d->z[k] = need((size_t)d->corners[k], sizeof(double));
             for (int i = 0; i < d->corners[k]; i++) { d->s[k][i] = num(); d->z[k][i] = num() + d->offset; }
         }
-    } else if (d->shape == DEPTH_MAP) {
-        d->columns = integer();
-        d->rows = integer();
-        d->s0 = num();
-        d->z0 = num() + d->offset;
-        d->ds = num();
-        d->dz = num();
-        d->grid = need((size_t)(d->columns * d->rows), sizeof(double));
-        for (int i = 0; i < d->columns * d->rows; i++) d->grid[i] = num();
+    } else if (shape == map) {
+        read_map(d);
     } else {
-        d->points = integer();
-        d->arc = need((size_t)d->points, sizeof(double));
-        d->widths = need((size_t)d->points, sizeof(double));
-        d->depths = need((size_t)d->points, sizeof(double));
+        ready_points(d, integer());
         for (int i = 0; i < d->points; i++) {
             d->arc[i] = num();
             d->widths[i] = num();
@@ -160,15 +180,15 @@ void read_model(const char *path)
     static const char *starts[] = {"rolling", "rest", "equilibrium"};
     static const char *rings[] = {"inner-ring", "outer-ring"};
     static const char *models[] = {"full", "lumped", "tilting"};
-    static const char *laws[] = {"ecl", "sliced", "half-space"};
+    static const char *laws[] = {"ecl", "half-space"};
     static const char *paths[] = {"point", "envelope"};
-    static const char *edges[] = {"none", "conservative"};
     static const char *geometries[] = {"centred", "exact"};
     static const char *elements[] = {"roller", "ball"};
     static const char *walls[] = {"linear", "oiled"};
     static const char *pockets[] = {"slot", "round"};
     const int count = (int)(sizeof reals / sizeof reals[0]);
     char w[64];
+    double groove[4] = {0.0, 0.0, 0.0, 0.0}; /* conformities, inner and outer; Young's modulus, Poisson's ratio */
     M.tau = -1.0;
     open_text(path);
     while (fscanf(in, "%63s", w) == 1) {
@@ -187,17 +207,17 @@ void read_model(const char *path)
             M.reference = model == 1;
             M.tilting = model == 2;
         }
-        else if (!strcmp(w, "law")) { word(w); M.law = pick(w, laws, 3); }
+        else if (!strcmp(w, "law")) { word(w); M.law = pick(w, laws, 2); }
         else if (!strcmp(w, "geometry")) { word(w); M.geometry = pick(w, geometries, 2); }
         else if (!strcmp(w, "element")) { word(w); M.element = pick(w, elements, 2); }
         else if (!strcmp(w, "walls")) { word(w); M.walls = pick(w, walls, 2); }
         else if (!strcmp(w, "pockets")) { word(w); M.pockets = pick(w, pockets, 2); }
+        else if (!strcmp(w, "grooves")) for (int k = 0; k < 4; k++) groove[k] = num();
         else if (!strcmp(w, "profile")) read_profile();
         else if (!strcmp(w, "raceway_waves")) read_waves(&M.raceway_waves);
         else if (!strcmp(w, "element_waves")) read_waves(&M.element_waves);
         else if (!strcmp(w, "damage")) read_damage();
         else if (!strcmp(w, "roller_path")) { word(w); M.path = pick(w, paths, 2); }
-        else if (!strcmp(w, "edge_reaction")) { word(w); M.edge = pick(w, edges, 2); }
         else if (!strcmp(w, "slices")) M.slices = integer();
         else if (!strcmp(w, "defect")) read_defect();
         else if (!strcmp(w, "speed")) {
@@ -219,6 +239,11 @@ void read_model(const char *path)
     M.total = M.rows * M.Z;
     M.Ri = 0.5 * M.Di;
     M.Ro = 0.5 * M.Do;
+    if (groove[2] > 0.0) {
+        double kappa;
+        if (M.Kin == 0.0) M.Kin = groove_stiffness(INNER, groove[0], groove[2], groove[3], &kappa);
+        if (M.Kout == 0.0) M.Kout = groove_stiffness(OUTER, groove[1], groove[2], groove[3], &kappa);
+    }
     M.Ir = (M.element == ELEMENT_BALL ? 0.4 : 0.5) * M.m * M.r * M.r;
     M.Jr = M.m * (3.0 * M.r * M.r + M.L * M.L) / 12.0;
     M.Jring[0] = M.mi * (0.5 * M.Ri * M.Ri + M.width * M.width / 12.0);
@@ -229,7 +254,7 @@ void read_model(const char *path)
     for (int i = 0; i < M.defects; i++) {
         Defect *d = &M.defect[i];
         d->radius = d->on == OUTER ? M.Ro : d->on == INNER ? M.Ri : M.r;
-        build_floors(d);
+        build_floor(d);
     }
     for (int i = 0; i < M.damages; i++)
         M.damage[i].radius = M.damage[i].on == OUTER ? M.Ro : M.damage[i].on == INNER ? M.Ri : M.r;
@@ -237,11 +262,15 @@ void read_model(const char *path)
         if (M.defects) die("exact geometry:", "damage by tables only");
         if (M.tilting && (M.damages || M.element == ELEMENT_BALL)) die("tilting:", "healthy rollers only");
         if (M.start == START_EQUILIBRIUM) die("exact geometry:", "no equilibrium start");
-        slice_profile();
         ready_waves();
-    } else if (M.damages || M.tilting || M.tau >= 0.0 || M.walls || M.pockets || M.rolling > 0.0 || M.profile
-               || M.raceway_waves.amplitude > 0.0 || M.element_waves.amplitude > 0.0 || M.law > LAW_SLICED)
+    } else if (M.damages || M.tau >= 0.0 || M.walls || M.pockets || M.rolling > 0.0 || M.raceway_waves.amplitude > 0.0
+               || M.element_waves.amplitude > 0.0 || M.law == LAW_HALF_SPACE)
         die("Part II", "is written for exact geometry");
-    if (M.edge && !(M.law == LAW_SLICED && M.path == PATH_ENVELOPE)) die("edge reaction:", "sliced and envelope only");
-    if (M.reference && (M.law || M.path)) die("the lumped model", "is written for ecl and point");
+    else {
+        const int ball = M.element == ELEMENT_BALL;
+        if (M.defects && (M.tilting || M.profile || (ball && !M.reference))) die("centred geometry:", "damage of straight, planar rollers and in the lumped model only");
+        if (M.tilting && (ball || M.start == START_EQUILIBRIUM)) die("tilting:", "rollers, no equilibrium start");
+        if (M.reference && (M.path || M.profile)) die("the lumped model", "is written for point, without profiles");
+    }
+    slice_profile();
 }

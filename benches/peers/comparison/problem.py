@@ -41,8 +41,8 @@ class Problem:
 
     def numbers(self):
         """One number to a name: what the peers read."""
-        words = ("guidance", "guidance_film", "law", "roller_path", "edge_reaction", "slices", "load_on", "model",
-                 "start", "speed", "defect", "record", "step", "perturb")
+        words = ("element", "profile", "guidance", "guidance_film", "law", "roller_path", "slices", "load_on", "model",
+                 "start", "speed", "defect", "record", "step", "perturb", "tolerance")
         sc = self.scenario
         (defect,), o = sc["defects"], sc["operation"]
         expected = {
