@@ -2,9 +2,10 @@
 
 use brinell::Scenario;
 use brinell::defect::{Defect, SIDES};
-use brinell::half_space::build::{Accuracy, Range, table};
+use brinell::half_space::build::{Range, table};
 use brinell::half_space::damage::{Damage, gather};
 use brinell::half_space::geometry::Geometry;
+use brinell::scenario::Tables;
 use std::error::Error;
 use std::num::NonZeroUsize;
 use std::sync::atomic::AtomicBool;
@@ -29,7 +30,7 @@ fn main() -> Result<(), Box<dyn Error>> {
                 continue;
             }
             let start = Instant::now();
-            let built = table(&geometry, &damage.raster, &range, Accuracy::Standard, threads, &AtomicBool::new(false))?;
+            let built = table(&geometry, &damage.raster, &range, Tables::Standard, threads, &AtomicBool::new(false))?;
             let seconds = start.elapsed().as_secs_f64();
             let (s, delta) = (built.table.range_s(), built.table.last_delta());
             const LOOKED_UP: u32 = 2_000_000;

@@ -134,6 +134,7 @@ center_deg = -90.0
 depth_um = 20.0
 shape = { rectangle = { length_mm = 0.4, width_mm = 0.2 } }
 [simulation]
+geometry = \"exact\"
 duration_s = 0.5
 ";
 

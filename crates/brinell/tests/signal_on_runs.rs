@@ -69,6 +69,12 @@ fn found(on: Surface, component: Component) {
     assert_eq!(first, Some(component), "{}", analysis.verdict());
 }
 
+/// A scenario under the default laws, tables as data sets have them.
+fn under_the_default(text: &str) -> Scenario {
+    let tables = [("contact.tables".to_owned(), "coarse".to_owned())];
+    brinell::document::read(text, &tables).unwrap().scenario
+}
+
 #[test]
 fn analytic_outer_race_damage() {
     found(Surface::OuterRaceway, Component::OuterRace);
@@ -174,7 +180,7 @@ fn regress_verdicts_on_the_examples() {
     ] {
         let path = format!("{}/../../examples/{name}.toml", env!("CARGO_MANIFEST_DIR"));
         let text = std::fs::read_to_string(path).unwrap();
-        let mut s = crate::common::read_li2023(&text, &[]).unwrap().scenario;
+        let mut s = under_the_default(&text);
         if component.is_none() {
             s.defects.clear();
         }
@@ -212,7 +218,7 @@ fn regress_passing_rollers_are_no_damage() {
              simulation = {{ duration_s = 1.0, sample_rate_hz = 25600.0 }}\n{}",
             if damaged { defect } else { "" }
         );
-        let s = crate::common::read_li2023(&text, &[]).unwrap().scenario;
+        let s = under_the_default(&text);
         let (_, signals) = brinell::record(&s).unwrap();
         let stretch = Stretch { channel: "sensor_ax", from_s: 0.1, to_si: 1.0 };
         let x = &signals.get("sensor_ax").unwrap()[2560..];
@@ -235,7 +241,7 @@ fn regress_a_damaged_roller_is_named_alone() {
                 simulation = { duration_s = 2.0, sample_rate_hz = 25600.0 }\n\
                 [[defects]]\non = \"roller\"\nroller = 1\ncenter_deg = 90.0\ndepth_um = 20.0\n\
                 shape = { rectangle = { length_mm = 1.0, width_mm = 4.4 } }\n";
-    let s = crate::common::read_li2023(text, &[]).unwrap().scenario;
+    let s = under_the_default(text);
     let (_, signals) = brinell::record(&s).unwrap();
     let orders = orders_of(&s.bearing);
     for channel in ["sensor_ax", "sensor_ay"] {
@@ -262,7 +268,7 @@ fn regress_a_roller_in_a_short_record_is_no_outer_race() {
              [[defects]]\non = \"roller\"\nroller = {roller}\ndepth_um = {depth}\n\
              shape = {{ rectangle = {{ length_mm = {length}, width_mm = {width} }} }}\n"
         );
-        let s = crate::common::read_li2023(&text, &[]).unwrap().scenario;
+        let s = under_the_default(&text);
         let (_, signals) = brinell::record(&s).unwrap();
         let orders = orders_of(&s.bearing);
         let options = Options { silent: Some(MACHINE_NOISE), exact: true, ..Options::new(rpm / 60.0, orders) };
@@ -286,7 +292,7 @@ fn regress_an_inner_race_of_balls_is_no_outer_one() {
                  [[defects]]\non = \"inner-raceway\"\ncenter_deg = -90.0\ndepth_um = 10.0\n\
                  shape = {{ rectangle = {{ length_mm = 1.0, width_mm = 1.0 }} }}\n"
             );
-            let s = crate::common::read_li2023(&text, &[]).unwrap().scenario;
+            let s = under_the_default(&text);
             let (_, signals) = brinell::record(&s).unwrap();
             let orders = orders_of(&s.bearing);
             let options = Options { silent: Some(MACHINE_NOISE), exact: true, ..Options::new(10.0, orders) };
@@ -311,7 +317,7 @@ fn regress_an_inner_race_of_balls_is_no_outer_one() {
 fn regress_the_verdict_on_the_run_up() {
     let path = format!("{}/../../examples/run-up.toml", env!("CARGO_MANIFEST_DIR"));
     let text = std::fs::read_to_string(path).unwrap();
-    let mut s = crate::common::read_li2023(&text, &[]).unwrap().scenario;
+    let mut s = under_the_default(&text);
     let orders = orders_of(&s.bearing);
     let (rate, seconds, start) = (s.simulation.sample_rate_hz, s.simulation.duration_s, 0.02);
     let x = recorded(&mut s, rate, seconds, start);
@@ -342,7 +348,7 @@ fn regress_bpfo_of_healthy_bearings() {
             let text = format!(
                 "bearing.preset = \"{preset}\"\noperation = {{ speed_rpm = {rpm:?}, load_n = [{load:?}, 0.0], load_on = \"outer-ring\" }}\n"
             );
-            let mut s = crate::common::read_li2023(&text, &[]).unwrap().scenario;
+            let mut s = under_the_default(&text);
             let orders = orders_of(&s.bearing);
             let x = recorded(&mut s, 25_600.0, 2.12, 0.02 + 60.0 / rpm);
             let options = Options { silent: Some(MACHINE_NOISE), exact: true, ..Options::new(rpm / 60.0, orders) };

@@ -92,6 +92,7 @@ pub(super) fn bearing<K: Keys>(k: &mut K, (model, laws): (ModelKind, Laws), b: &
     let profile = match (model, k.foretold("contact", "law")) {
         (ModelKind::Lumped, _) => unsliced("the lumped model has no slices, and so no profile"),
         (ModelKind::Full, Some(Law::Ecl)) => unsliced("law \"ecl\" has no slices, and so no profile"),
+        (ModelKind::Full, None) if laws == Laws::Li2023 => unsliced("the paper's rollers are straight"),
         _ => stated(RollerProfile::Straight, PAPER),
     };
     k.key_where(

@@ -5,22 +5,10 @@ use super::level::{self, Fineness, Level, Place};
 use super::raster::Raster;
 use crate::effective::spline;
 use crate::effective::table::{FEWEST_NODES, Table, TableError};
+use crate::scenario::Tables;
 use brinell_signal::parallel;
 use std::num::NonZeroUsize;
 use std::sync::atomic::{AtomicBool, Ordering};
-
-/// How exact a table is.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum Accuracy {
-    /// delta_eff within 0.5 % of delta at nodes, Q within 1 % of the healthy Q between them.
-    #[default]
-    Standard,
-    /// delta_eff within 1.3 % of delta at nodes, Q within 4.5 % of the healthy Q between them (rectangles, pits and irregular outlines
-    /// under NN3007 and 6205); within 8 % over a measured scan.
-    Coarse,
-    /// A first look while damage is drawn: errors several times those.
-    Quick,
-}
 
 /// Deformations that a table covers.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -68,7 +56,7 @@ pub struct Built {
     pub convolutions: usize,
 }
 
-impl Accuracy {
+impl Tables {
     pub(super) fn fineness(self) -> Fineness {
         match self {
             Self::Standard => Fineness { along: 8.0, rows: 40, tolerance: 3e-4, between: [1.5e-3, 5e-3] },
@@ -89,12 +77,12 @@ impl Accuracy {
 
 /// Nodes of delta: without a rim 0, then equal ratios from a tenth of the static deformation on; under a rim of the height `raised`
 /// squares of equal steps from -H on, where contact begins.
-pub fn deformations(range: &Range, raised: f64, accuracy: Accuracy) -> Vec<f64> {
+pub fn deformations(range: &Range, raised: f64, accuracy: Tables) -> Vec<f64> {
     if raised > 0.0 {
         let steps = match accuracy {
-            Accuracy::Standard => 22,
-            Accuracy::Coarse => 14,
-            Accuracy::Quick => 8,
+            Tables::Standard => 22,
+            Tables::Coarse => 14,
+            Tables::Quick => 8,
         };
         let square = |k: i32| (f64::from(k) / f64::from(steps)).powi(2);
         return (0..=steps).map(|k| -raised + (range.largest + raised) * square(k)).collect();
@@ -113,7 +101,7 @@ pub fn table(
     geometry: &Geometry,
     raster: &Raster,
     range: &Range,
-    accuracy: Accuracy,
+    accuracy: Tables,
     threads: NonZeroUsize,
     stop: &AtomicBool,
 ) -> Result<Built, BuildError> {
@@ -138,7 +126,7 @@ pub fn table_at(
     geometry: &Geometry,
     raster: &Raster,
     delta: &[f64],
-    accuracy: Accuracy,
+    accuracy: Tables,
     threads: NonZeroUsize,
     stop: &AtomicBool,
 ) -> Result<Built, BuildError> {

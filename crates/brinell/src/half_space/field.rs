@@ -1,9 +1,9 @@
 //! Pressures of one damaged contact: for pictures, not for motion.
 
-use super::build::Accuracy;
 use super::geometry::Geometry;
 use super::level::{Fineness, Grid, Presser, cell_length};
 use super::raster::{Bounds, Raster};
+use crate::scenario::Tables;
 use std::f64::consts::PI;
 
 /// Pressures on a grid over the contact's window.
@@ -43,7 +43,7 @@ struct Window {
 
 impl Window {
     /// `None` where nothing touches.
-    fn new(geometry: &Geometry, raster: &Raster, delta: f64, accuracy: Accuracy) -> Option<Self> {
+    fn new(geometry: &Geometry, raster: &Raster, delta: f64, accuracy: Tables) -> Option<Self> {
         let fineness: Fineness = accuracy.fineness();
         let pressed_by = delta + raster.raised();
         if !(pressed_by > 0.0 && pressed_by.is_finite()) {
@@ -91,7 +91,7 @@ impl Window {
 }
 
 /// Pressures at the deformation `delta` (m) with the contact's middle at `s` (m), to the nearest cell. `None` where nothing touches.
-pub fn pressure_at(geometry: &Geometry, raster: &Raster, delta: f64, s: f64, accuracy: Accuracy) -> Option<Field> {
+pub fn pressure_at(geometry: &Geometry, raster: &Raster, delta: f64, s: f64, accuracy: Tables) -> Option<Field> {
     let window = Window::new(geometry, raster, delta, accuracy).filter(|_| s.is_finite())?;
     window.field((s / window.size[0]).round() as i64)
 }
@@ -115,16 +115,16 @@ impl Field {
 /// The largest pressure of the healthy contact at `delta` (m) on the same grid, Pa.
 pub(super) fn healthy(geometry: &Geometry, delta: f64) -> Option<f64> {
     let whole = Raster::of_depths(Bounds { s: [-1e-3, 1e-3], z: [-1e-3, 1e-3] }, 0.0, |_, _| 0.0);
-    pressure_at(geometry, &whole, delta, 0.0, Accuracy::Standard).map(|field| field.largest)
+    pressure_at(geometry, &whole, delta, 0.0, Tables::Standard).map(|field| field.largest)
 }
 
 /// Places between the first and the last edge at the most.
 const PLACES: i64 = 160;
 
 /// Pressures at `delta` (m) where they are largest while the contact passes between two s (m). The place is found on the grid of
-/// [`Accuracy::Coarse`] in steps of a quarter of the contact's half-width, or longer ones in long damage.
+/// [`Tables::Coarse`] in steps of a quarter of the contact's half-width, or longer ones in long damage.
 pub fn largest_pressure(geometry: &Geometry, raster: &Raster, delta: f64, between: [f64; 2]) -> Option<Field> {
-    let coarse = Window::new(geometry, raster, delta, Accuracy::Coarse)?;
+    let coarse = Window::new(geometry, raster, delta, Tables::Coarse)?;
     let dx = coarse.size[0];
     let reach = geometry.reach(delta.max(0.0));
     let [first, last] = [((between[0] - reach) / dx).floor() as i64, ((between[1] + reach) / dx).ceil() as i64];
@@ -144,5 +144,5 @@ pub fn largest_pressure(geometry: &Geometry, raster: &Raster, delta: f64, betwee
             largest = Some((field.largest, middle));
         }
     }
-    pressure_at(geometry, raster, delta, largest?.1 as f64 * dx, Accuracy::Standard)
+    pressure_at(geometry, raster, delta, largest?.1 as f64 * dx, Tables::Standard)
 }

@@ -1,6 +1,6 @@
 //! The tables of a bearing's damage, and the pressures over it.
 
-use super::build::{self, Accuracy, BuildError, Range};
+use super::build::{self, BuildError, Range};
 use super::damage::{Damage, gather, offset};
 use super::field::{self, Field};
 use super::geometry::Geometry;
@@ -20,7 +20,7 @@ struct Met<'a> {
     range: &'a Range,
     /// Length over which edges are rounded, m.
     edge: f64,
-    accuracy: Accuracy,
+    accuracy: Tables,
     /// What the damage is made of, as far as a table depends on it.
     of: String,
 }
@@ -66,11 +66,7 @@ pub fn add_tables(
                 let d = &to_make[*m];
                 (&d.shape, d.depth, d.middle, d.center - to_make[first].center, d.radius)
             });
-            let accuracy = match contact.tables {
-                Tables::Standard => Accuracy::Standard,
-                Tables::Coarse => Accuracy::Coarse,
-                Tables::Quick => Accuracy::Quick,
-            };
+            let accuracy = contact.tables;
             let met = Met { geometry, range, edge, accuracy, of: format!("{:?}", members.collect::<Vec<_>>()) };
             let upright = met.table(&to_make, &group, 0.0)?;
             if tilts {

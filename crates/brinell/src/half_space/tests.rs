@@ -1,6 +1,6 @@
 //! Tables against other solvers and closed forms.
 
-use super::build::{self, Accuracy, Built, Range};
+use super::build::{self, Built, Range};
 use super::damage::{Damage, gather};
 use super::field::pressure_at;
 use super::geometry::Geometry;
@@ -8,7 +8,7 @@ use super::level::{self, Fineness};
 use super::raster::{Bounds, Raster};
 use super::{healthy_pressure, pressure_over};
 use crate::defect::{Defect, Side};
-use crate::scenario::{self, Scenario, Shape, Surface};
+use crate::scenario::{self, Scenario, Shape, Surface, Tables};
 use std::num::NonZeroUsize;
 use std::sync::atomic::AtomicBool;
 
@@ -35,7 +35,7 @@ fn threads(n: usize) -> NonZeroUsize {
 
 fn built(geometry: &Geometry, raster: &Raster, delta_um: &[f64]) -> Built {
     let delta: Vec<f64> = delta_um.iter().map(|x| 1e-6 * x).collect();
-    build::table_at(geometry, raster, &delta, Accuracy::Standard, threads(2), &AtomicBool::new(false)).unwrap()
+    build::table_at(geometry, raster, &delta, Tables::Standard, threads(2), &AtomicBool::new(false)).unwrap()
 }
 
 /// Q/Q_0 where the healthy force is a power of delta.
@@ -123,7 +123,7 @@ fn xval_a_roller_on_two_thirds_of_its_length() {
 fn xval_the_healthy_ball_is_hertz() {
     // 424.37 N and 1069.4 uJ at 6.3 um (section 19); Hertz gives 2.68371e10 * 6.3e-6^1.5 = 424.37 N and 2/5 of that times delta.
     let healthy = rectangle(1e-3, 1e-3, 0.0, EDGE);
-    let field = pressure_at(&geometry("6205"), &healthy, 6.3e-6, 0.0, Accuracy::Standard).unwrap();
+    let field = pressure_at(&geometry("6205"), &healthy, 6.3e-6, 0.0, Tables::Standard).unwrap();
     assert!((field.force / 424.37 - 1.0).abs() < 1e-3, "{}", field.force);
     assert!((field.energy / 1069.4e-6 - 1.0).abs() < 1e-3, "{}", field.energy);
     let hertz = 1.5 * 424.37 / (std::f64::consts::PI * 132.2e-6 * 960.6e-6);
@@ -210,7 +210,7 @@ fn analytic_no_depth_is_healthy_and_a_wide_floor_is_its_depth() {
 #[test]
 fn prop_a_grid_twice_as_fine_changes_little() {
     let pit = rectangle(2e-3, 1e-3, 100e-6, EDGE);
-    let standard = Accuracy::Standard.fineness();
+    let standard = Tables::Standard.fineness();
     let fine = Fineness { along: 2.0 * standard.along, rows: 2 * standard.rows, ..standard };
     let ball = geometry("6205");
     let [one, other] = [standard, fine].map(|f| level::solve(&ball, &pit, 6e-6, &f, &AtomicBool::new(false)));
@@ -258,7 +258,7 @@ fn prop_under_a_rim_contact_begins_above_the_surface() {
     });
     assert!((rim.raised() - 2e-6).abs() < 1e-8);
     let (ball, range) = (geometry("6205"), Range { static_deflection: 3e-6, largest: 12e-6 });
-    let built = build::table(&ball, &rim, &range, Accuracy::Coarse, threads(2), &AtomicBool::new(false)).unwrap();
+    let built = build::table(&ball, &rim, &range, Tables::Coarse, threads(2), &AtomicBool::new(false)).unwrap();
     let table = built.table;
     assert_eq!(table.first_delta(), -rim.raised());
     // The rim is at 0.4 mm.
@@ -278,13 +278,13 @@ fn prop_threads_change_no_bit_and_a_flag_stops() {
     let (roller, damage) = (geometry("NN3007"), rectangle(0.5e-3, 2e-3, 20e-6, EDGE));
     let range = Range { static_deflection: 2.5e-6, largest: 10e-6 };
     let go = |n: usize, stop: bool| {
-        build::table(&roller, &damage, &range, Accuracy::Coarse, threads(n), &AtomicBool::new(stop))
+        build::table(&roller, &damage, &range, Tables::Coarse, threads(n), &AtomicBool::new(stop))
     };
     let one = go(1, false).unwrap();
     assert_eq!(one, go(3, false).unwrap());
     assert_eq!(go(1, true), Err(build::BuildError::Stopped));
     let nothing = Range { static_deflection: 0.0, largest: 1e-5 };
-    let error = build::table(&roller, &damage, &nothing, Accuracy::Coarse, threads(1), &AtomicBool::new(false));
+    let error = build::table(&roller, &damage, &nothing, Tables::Coarse, threads(1), &AtomicBool::new(false));
     assert!(matches!(error, Err(build::BuildError::NotPositive { .. })));
 }
 

@@ -82,7 +82,7 @@ pub fn every_term() -> Vec<(&'static str, Scenario)> {
 /// A catalogue bearing so slow that its profiled rollers fall through the clearance onto the film.
 pub fn raceway_film() -> Scenario {
     let text = "[bearing]\npreset = \"NU206\"\n[operation]\nspeed_rpm = 300\nload_n = [0, -1000]\nload_on = \"inner-ring\"\n\
-                gravity_m_per_s2 = [0, -9.81]\nload_ramp_s = 0\n";
+                gravity_m_per_s2 = [0, -9.81]\nload_ramp_s = 0\n[contact]\nlaw = \"half-space\"\n";
     crate::common::read_li2023(text, &[]).unwrap().scenario
 }
 

@@ -264,7 +264,10 @@ fn scenarios() -> impl Strategy<Value = Scenario> {
     let balls = |words: (usize, usize, usize, usize, usize)| words.1 == 0 && words.2 != 2 && words.4 == 1;
     // The lumped model is the paper's.
     let mechanics = |words: (usize, usize, usize, usize, usize)| words.2 != 1 && words.3 == 2;
-    let half_space = move |words: (usize, usize, usize, usize, usize)| mechanics(words) && words.0 != 1 && words.2 == 0;
+    // What the law `ecl` does not know: tilt, and balls but for the lumped model.
+    let half_space = move |words: (usize, usize, usize, usize, usize)| {
+        words.2 == 2 || (words.2 == 0 && (balls(words) || (mechanics(words) && words.0 != 1)))
+    };
     let words = (0..3usize, 0..2usize, 0..3usize, 0..3usize, 0..2usize);
     let numbers = prop::collection::vec(1e-9..1e9f64, 16);
     let text = (any::<String>(), prop::collection::vec("[a-z0-9_*]{1,9}", 0..4));
