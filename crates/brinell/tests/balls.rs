@@ -34,7 +34,7 @@ fn law() -> LoadDeflection {
 }
 
 fn bearing() -> Scenario {
-    case("reference/ball-6205-outer")
+    case("xval/balls")
 }
 
 /// Defects on the outer raceway of the 6205, each a shape, an offset (mm) and a depth (um).

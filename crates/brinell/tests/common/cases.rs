@@ -73,9 +73,9 @@ pub fn every_term() -> Vec<(&'static str, Scenario)> {
         ("reference-model", lumped),
         ("rest", case("xval/rest-speed-profile")),
         ("heavy", case("xval/heavy-load-profile")),
-        ("tilting", case("reference/tilting-edge")),
+        ("tilting", case("xval/tilting")),
         ("tilting-offset", tilting_offset()),
-        ("balls", case("reference/ball-6205-outer")),
+        ("balls", case("xval/balls")),
     ]
 }
 

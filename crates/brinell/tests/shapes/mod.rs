@@ -60,7 +60,7 @@ fn at(orbit: f64) -> Angles {
     Angles { orbit, spin: 0.0, ring: 0.0 }
 }
 
-/// The outline of `tests/reference/slices-oblique.toml`, moved as there.
+/// An outline with slanted edges off the middle of the row.
 fn oblique() -> scenario::Shape {
     let corners = [[-1.7, 0.15], [0.4, -0.65], [1.6, 0.9], [1.1, 2.75], [-0.3, 1.35], [-1.2, 2.4]];
     scenario::Shape::Outline { polygons_mm: vec![corners.map(|[s, z]| [s, z - 0.3]).to_vec()] }
