@@ -395,10 +395,10 @@ fn xval_tsit45_equilibrium() {
     tsit45("xval/equilibrium.toml");
 }
 
-/// Rollers and rings that tilt, damage at one side of row 1.
+/// Rollers and rings that tilt, load off the middle.
 #[test]
-fn xval_tsit45_tilting_edge() {
-    explicit("reference/tilting-edge.toml").check(&TILTING);
+fn xval_tsit45_tilting() {
+    explicit("xval/tilting.toml").check(&TILTING);
 }
 
 /// The same with the load off the middle, cages on the inner ring in a dynamic film, and an oblique dent on a roller.

@@ -16,7 +16,7 @@ const ALONG: f64 = 1.0 / (1.0 / 3.97e-3 - 1.0 / 23.49e-3);
 const RACEWAY: f64 = 23.49e-3;
 
 fn bearing() -> Scenario {
-    case("ball-6205")
+    case("xval/balls")
 }
 
 #[test]
@@ -88,7 +88,8 @@ fn analytic_depth_at_the_bottom_by_the_path() {
         let mut s = bearing();
         (s.simulation.model, s.contact.law, s.contact.roller_path) = (ModelKind::Lumped, Law::Ecl, path);
         let text = format!("[[defects]]\non = \"outer-raceway\"\ncenter_deg = 0\ndepth_um = 80\nshape = {{ {shape} }}");
-        let loaded = read(&format!("bearing.preset = \"6205\"\n{OPERATION}{text}"), &[]).unwrap().scenario;
+        let loaded =
+            brinell::document::read(&format!("bearing.preset = \"6205\"\n{OPERATION}{text}"), &[]).unwrap().scenario;
         let of = scenario::Defect { axial_offset_mm: offset_mm, ..loaded.defects[0].clone() };
         let defect = Defect::new(&of, &s.bearing, &s.contact).unwrap();
         let angles = Angles { orbit: at / RACEWAY, spin: 0.0, ring: 0.0 };

@@ -33,7 +33,7 @@ fn xval_kernels_agree_to_round_off() {
     for name in [
         "reference/outer-rectangle",
         "reference/inner-defect-gravity",
-        "reference/ball-6205-outer",
+        "xval/balls",
         "xval/three-rows-drag-gap",
         "xval/single-row-inner-guided",
         "xval/linear-circle",

@@ -27,7 +27,7 @@ fn cases() -> Vec<(&'static str, Scenario)> {
     let mut slotted = case("reference/mechanics-ball-outer");
     slotted.cage.pockets = Pockets::Slot;
     slotted.contact.damping = ContactDamping::Constant { ns_per_m: 150.0 };
-    let mut tilting_damaged = case("tilting-mechanics");
+    let mut tilting_damaged = case("xval/mechanics-tilting");
     tilting_damaged.defects = case("reference/mechanics-rectangle").defects;
     tilting_damaged.defects[0].table = None;
     tilting_damaged.defects[0].axial_offset_mm = 1.0;
@@ -41,7 +41,7 @@ fn cases() -> Vec<(&'static str, Scenario)> {
         ("guided-inside", guided_inside),
         ("two-surfaces", two_surfaces),
         ("slotted", slotted),
-        ("tilting", case("tilting-mechanics")),
+        ("tilting", case("xval/mechanics-tilting")),
     ]
 }
 

@@ -10,7 +10,10 @@ use brinell::slices::drop;
 use brinell::statics::{Problem, solve};
 
 fn edge() -> Scenario {
-    case("tilting-edge")
+    let mut s = case("xval/tilting");
+    s.contact.slices = 32;
+    s.operation.gravity_m_per_s2 = [0.0; 2];
+    s
 }
 
 /// Accelerations at a state.

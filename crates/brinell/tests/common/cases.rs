@@ -73,9 +73,9 @@ pub fn every_term() -> Vec<(&'static str, Scenario)> {
         ("reference-model", lumped),
         ("rest", case("xval/rest-speed-profile")),
         ("heavy", case("xval/heavy-load-profile")),
-        ("tilting", case("tilting-edge")),
+        ("tilting", case("xval/tilting")),
         ("tilting-offset", tilting_offset()),
-        ("balls", case("ball-6205")),
+        ("balls", case("xval/balls")),
     ]
 }
 
