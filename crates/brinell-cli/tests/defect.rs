@@ -57,7 +57,7 @@ fn analytic_preview_measures_closed_forms() {
     assert!(damaged.iter().zip(&left).all(|(a, b)| (a + b - 6.0).abs() < 1e-12));
     assert!(damaged.iter().all(|x| [0.0, 2.0, 4.0].iter().any(|y| (x - y).abs() < 1e-9)));
     // Below the floor K is that of the remaining length, Eq. (23).
-    let k = curve("stiffness_k_ecl_point_n_m_10_9");
+    let k = curve("stiffness_k_point_n_m_10_9");
     let healthy = k[0];
     for (k, l) in k.iter().zip(&left) {
         assert!((k / healthy - (l / 6.0).powf(8.0 / 9.0)).abs() < 1e-9);
@@ -89,7 +89,7 @@ fn analytic_a_rollers_preview_holds_both_contacts() {
         let least = k.iter().copied().fold(f64::INFINITY, f64::min);
         assert!((least / k[0] - (2.0f64 / 6.0).powf(8.0 / 9.0)).abs() < 1e-9);
     }
-    assert!((curve("k_outer_contact_ecl_point_n_m_10_9")[0] / 1.898e8 - 1.0).abs() < 1e-9);
+    assert!((curve("k_outer_contact_point_n_m_10_9")[0] / 1.898e8 - 1.0).abs() < 1e-9);
     assert!((curve("k_inner_contact_ecl_point_n_m_10_9")[0] / 1.828e8 - 1.0).abs() < 1e-9);
     assert!(!folder.path().join("preview/damage-1-section.svg").exists());
 }

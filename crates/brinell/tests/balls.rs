@@ -16,7 +16,9 @@ const ALONG: f64 = 1.0 / (1.0 / 3.97e-3 - 1.0 / 23.49e-3);
 const RACEWAY: f64 = 23.49e-3;
 
 fn bearing() -> Scenario {
-    case("xval/balls")
+    let mut s = case("xval/balls");
+    s.operation.gravity_m_per_s2 = [0.0; 2];
+    s
 }
 
 #[test]
@@ -101,7 +103,8 @@ fn analytic_depth_at_the_bottom_by_the_path() {
         for shape in ["rectangle = { length_mm = 1, width_mm = 0.9 }", drawn] {
             let depth = deep(path, shape, 0.0, 0.3e-3).unwrap();
             assert!((depth / expected - 1.0).abs() < 1e-9, "{path:?} {shape}: {depth}");
-            assert_eq!(deep(path, shape, 0.3, 0.3e-3).map(|h| (1e9 * h).round()), Some((1e9 * depth).round()));
+            let moved = deep(path, shape, 0.3, 0.3e-3).unwrap();
+            assert!((moved / depth - 1.0).abs() < 1e-9, "{path:?} {shape}: {moved} and {depth}");
             // Beside the bottom the lumped model knows of none; off the arc none is met.
             assert_eq!(deep(path, shape, 0.5, 0.3e-3), None);
             assert_eq!(deep(path, shape, 0.0, 0.6e-3), None);

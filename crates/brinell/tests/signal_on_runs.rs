@@ -6,7 +6,7 @@ use brinell::analysis::{Component, MACHINE_NOISE, Options, Verdict, analyze};
 use brinell::bearing::orders_of;
 use brinell::random::Random;
 use brinell::result::{Stretch, beside_healthy};
-use brinell::scenario::{Scenario, Shape, Speed, Surface, Tables};
+use brinell::scenario::{Law, Scenario, Shape, Speed, Surface, Tables};
 use brinell::signal::Rotation;
 use brinell::simulate::{End, Observer, Simulation};
 
@@ -72,7 +72,9 @@ fn found(on: Surface, component: Component) {
 /// A scenario under the laws that it names, else the default ones; tables as data sets have them.
 fn read(text: &str) -> Scenario {
     let mut s = brinell::document::read(text, &[]).unwrap().scenario;
-    s.contact.tables = Tables::Coarse;
+    if s.contact.law == Law::HalfSpace {
+        s.contact.tables = Tables::Coarse;
+    }
     s
 }
 

@@ -193,7 +193,11 @@ pub(crate) fn filled(text: &str, values: &[f64], dt: f64, frequency: f64) -> Rep
             stiffness_unit: text.into(),
             contact: text.into(),
         }],
-        along: Some(damage_view(text, values).section),
+        // As many as slices at most.
+        along: Some(DamageCurves {
+            along: values.iter().take(200).copied().collect(),
+            ..damage_view(text, values).section
+        }),
         load_distribution: vec![RowLoad {
             title: text.into(),
             mean_n: values.to_vec(),

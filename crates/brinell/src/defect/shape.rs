@@ -194,8 +194,6 @@ impl Shape {
 
     /// The same along the line z = 0 alone, which a width about z = `middle` (m) may miss.
     pub(super) fn depths_at_bottom(&self, depth: f64, middle: f64) -> Vec<Line> {
-        /// Pieces of which each is on the damage or beside it, of a width that is not centred.
-        const PIECES: u32 = 2048;
         match self {
             Self::DepthMap(grid) => grid.along(0.0).iter().flat_map(sunk).collect(),
             Self::Outline(outline) => {
@@ -204,11 +202,9 @@ impl Shape {
             }
             _ if middle == 0.0 => self.depths(depth),
             _ => {
-                let (first, last) = self.arc();
-                let step = (last - first) / f64::from(PIECES);
-                let pieces = (0..PIECES).map(|k| first + (f64::from(k) + 0.5) * step);
-                let met = pieces.filter(|s| 0.5 * self.damaged_length(*s) >= middle.abs());
-                met.map(|s| Line::flat(s - 0.5 * step, s + 0.5 * step, self.own_depth(s).unwrap_or(depth))).collect()
+                let on = |s: f64| 0.5 * self.damaged_length(s) >= middle.abs();
+                let lines = self.depths(depth);
+                lines.iter().flat_map(|line| parts_where(line, on)).collect()
             }
         }
     }
@@ -281,6 +277,28 @@ fn sunk(line: &Line) -> impl Iterator<Item = Line> + use<> {
         [part(line.from, line.to, a.max(0.0), b.max(0.0)), None]
     };
     parts.into_iter().flatten()
+}
+
+/// The parts of a straight piece where something holds: looked for at many places, their ends found to round-off.
+fn parts_where(line: &Line, holds: impl Fn(f64) -> bool) -> Vec<Line> {
+    const PLACES: u32 = 1024;
+    let place = |k: u32| line.from + (line.to - line.from) * f64::from(k) / f64::from(PLACES);
+    // A jump's value is that of the right-hand side.
+    let at = |k: u32| holds(if k == PLACES { line.to.next_down() } else { place(k) });
+    let change = |k: u32| {
+        let (mut before, mut after) = (place(k - 1), place(k));
+        for _ in 0..60 {
+            let middle = 0.5 * (before + after);
+            if holds(middle) == at(k - 1) { before = middle } else { after = middle }
+        }
+        0.5 * (before + after)
+    };
+    let mut ends: Vec<f64> = at(0).then_some(line.from).into_iter().collect();
+    ends.extend((1..=PLACES).filter(|k| at(k - 1) != at(*k)).map(change));
+    ends.extend((ends.len() % 2 == 1).then_some(line.to));
+    let value = |s: f64| line.at_from + line.slope() * (s - line.from);
+    let part = |e: &[f64]| Line { from: e[0], to: e[1], at_from: value(e[0]), at_to: value(e[1]) };
+    ends.chunks_exact(2).map(part).collect()
 }
 
 fn outline(polygons_mm: &[Vec<[f64; 2]>]) -> Option<Outline> {

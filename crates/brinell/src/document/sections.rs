@@ -47,7 +47,10 @@ pub(crate) fn scenario<K: Keys>(k: &mut K, s: &mut Scenario) {
     k.section(key("sensor", "from the outer ring to the record: nothing, unless a key says so"), |k| {
         sensor(k, &mut s.sensor)
     });
-    k.section(key("simulation", "what to compute and to record"), |k| simulation(k, &s.operation, &mut s.simulation));
+    let pushes = s.contact.law == Law::HalfSpace && !s.defects.is_empty();
+    k.section(key("simulation", "what to compute and to record"), |k| {
+        simulation(k, (&s.operation, pushes), &mut s.simulation)
+    });
 }
 
 fn friction<K: Keys>(k: &mut K, laws: Laws, f: &mut Friction) {
@@ -227,7 +230,7 @@ fn duration(laws: Laws, o: &Operation) -> Fallback<f64> {
     }
 }
 
-fn simulation<K: Keys>(k: &mut K, o: &Operation, s: &mut Simulation) {
+fn simulation<K: Keys>(k: &mut K, (o, pushes): (&Operation, bool), s: &mut Simulation) {
     let laws = match s.model {
         ModelKind::Lumped => "the lumped model is the paper's",
         ModelKind::Full | ModelKind::Tilting => "the usual set",
@@ -239,6 +242,7 @@ fn simulation<K: Keys>(k: &mut K, o: &Operation, s: &mut Simulation) {
     );
     let geometry = match s.laws {
         Laws::Mechanics => stated(GeometryLaw::Exact, "of the set \"mechanics\""),
+        Laws::Li2023 if pushes => stated(GeometryLaw::Exact, "damage on a half-space pushes back on every body"),
         Laws::Li2023 => stated(GeometryLaw::Centred, PAPER),
     };
     k.key(key("geometry", "normals and levers of contacts"), geometry, &mut s.geometry);
