@@ -108,17 +108,12 @@ impl Facts<'_> {
         ))
     }
 
-    /// How much of the work comes from nowhere in the two cases of Fig. 14, and what the factor is without such work.
+    /// How much of the work comes from nowhere in the two cases of Fig. 14.
     fn without_source(&self, name: &str) -> Option<String> {
         let percent = |case: &str| self.plain(case, "parametric_share").map(|share| short(100.0 * share, 2));
-        let of = |case: &str| self.0.sensitivity.as_ref()?.value("law-half-space", case, name);
-        let ratio = of("simplified").zip(of("irregular")).map(|(simplified, irregular)| simplified / irregular);
-        let ratio = ratio.map_or(String::new(), |ratio| {
-            format!(" Under a law without such work (half-space in exact geometry) the factor is {}.", short(ratio, 3))
-        });
         Some(format!(
             " The law of effective contact length takes part in it: damage that passes under rollers puts work into the bearing without a source, \
-             {} % of what the damping of contacts dissipates with the rectangle and {} % with the irregular shape (below 0: it takes it out).{ratio}",
+             {} % of what the damping of contacts dissipates with the rectangle and {} % with the irregular shape (below 0: it takes it out).",
             percent("simplified")?,
             percent("irregular")?
         ))

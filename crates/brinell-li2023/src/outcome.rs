@@ -40,7 +40,7 @@ impl Outcome {
         all
     }
 
-    /// Assumptions that turn it, by their ids: "outer-soft; law-half-space". Empty too where that is not known.
+    /// Assumptions that turn it, by their ids: "outer-soft; path-envelope". Empty too where that is not known.
     fn turned_by(&self) -> String {
         self.flips.iter().map(|flip| flip.variant.id).collect::<Vec<_>>().join("; ")
     }

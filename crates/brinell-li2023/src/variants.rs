@@ -40,7 +40,7 @@ impl Variant {
 const SEVERAL: &str = "several at once";
 
 /// Variants that change another assumption with the one that they are about.
-const MORE: [&str; 3] = ["start-rest-no-ramp", "outer-hard", "law-half-space"];
+const MORE: [&str; 2] = ["start-rest-no-ramp", "outer-hard"];
 
 /// The film of Eq. (42).
 pub(crate) const PRINTED_FILM: (&str, &str) = ("cage.guidance_film", "quasi-static");
@@ -77,7 +77,6 @@ mod tests {
             "together-palmgren",
             "together-no-ramp",
             "outer-hard",
-            "law-half-space",
             "paper-4-1",
         ];
         assert_eq!(others.map(|variant| variant.id).collect::<Vec<_>>(), wanted);
