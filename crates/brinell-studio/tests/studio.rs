@@ -222,7 +222,10 @@ fn prop_a_stroke_taken_back_leaves_no_damage() {
 #[test]
 fn regress_length_under_a_profile_is_what_touches() {
     let mut studio = Studio::new();
-    let text = format!("{}[contact]\nslices = 100\n{SPALL}", HEALTHY.replace("NN3007", "NU206").replace("li2023", "mechanics"));
+    let text = format!(
+        "{}[contact]\nslices = 100\n{SPALL}",
+        HEALTHY.replace("NN3007", "NU206").replace("li2023", "mechanics")
+    );
     good(&mut studio, json!({ "do": "open", "slot": 0, "toml": text }));
     let passage = good(&mut studio, json!({ "do": "passage", "slot": 0, "defect": 1 }));
     let lengths = singles(&passage, &passage.json["length_mm"]);

@@ -36,10 +36,13 @@ const SHARE: f64 = 0.005;
 /// The counts' names, as in the file.
 const COUNTS: [&str; 3] = ["steps", "rejections", "right_hand_sides"];
 
-fn example(name: &str) -> Scenario {
+fn text(name: &str) -> String {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../examples").join(name).with_extension("toml");
-    let text = std::fs::read_to_string(path).unwrap();
-    crate::common::read_li2023(&text, &[]).unwrap().scenario
+    std::fs::read_to_string(path).unwrap()
+}
+
+fn example(name: &str) -> Scenario {
+    crate::common::read_li2023(&text(name), &[]).unwrap().scenario
 }
 
 fn scenarios() -> Vec<(&'static str, Scenario)> {
@@ -48,6 +51,9 @@ fn scenarios() -> Vec<(&'static str, Scenario)> {
     // The load that its counts were recorded under.
     let mut inner_race = example("inner-race");
     inner_race.operation.load_n = [300.0, 0.0];
+    // Of a profile: under the default laws.
+    let tables = [("contact.tables".to_owned(), "coarse".to_owned())];
+    let single_row = brinell::document::read(&text("single-row"), &tables).unwrap().scenario;
     vec![
         ("rectangle", example("rectangle")),
         ("rectangle-reference", reference),
@@ -55,7 +61,7 @@ fn scenarios() -> Vec<(&'static str, Scenario)> {
         ("irregular", example("irregular")),
         ("inner-race", inner_race),
         ("roller", example("roller")),
-        ("single-row", example("single-row")),
+        ("single-row", single_row),
         ("healthy", healthy()),
         ("heavy", case("xval/heavy-load-profile")),
     ]
