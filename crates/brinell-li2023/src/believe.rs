@@ -85,7 +85,7 @@ impl Facts<'_> {
         let (irregular, simplified) = (self.value("irregular", name)?, self.value("simplified", name)?);
         let ratio = self.plain("simplified", name)? / self.plain("irregular", name)?;
         let range = self.0.sensitivity.as_ref().and_then(|s| s.ratios("simplified", "irregular", name));
-        let source = self.without_source(name).unwrap_or_default();
+        let source = self.without_source().unwrap_or_default();
         let range = range.map_or(String::new(), |(low, high)| {
             let sign = if low < 1.0 {
                 "the lowest belong to readings of Eq. (27) that make another shape of it; believe the sign for the shape as drawn, and no size"
@@ -109,7 +109,7 @@ impl Facts<'_> {
     }
 
     /// How much of the work comes from nowhere in the two cases of Fig. 14.
-    fn without_source(&self, name: &str) -> Option<String> {
+    fn without_source(&self) -> Option<String> {
         let percent = |case: &str| self.plain(case, "parametric_share").map(|share| short(100.0 * share, 2));
         Some(format!(
             " The law of effective contact length takes part in it: damage that passes under rollers puts work into the bearing without a source, \

@@ -2,6 +2,7 @@
 
 use super::geometry::Geometry;
 use super::level::{self, Fineness, Level, Place};
+use super::onset::Onset;
 use super::raster::Raster;
 use crate::effective::spline;
 use crate::effective::table::{FEWEST_NODES, Table, TableError};
@@ -139,7 +140,8 @@ pub fn table_at(
         return Err(BuildError::Stopped);
     }
     let [solutions, convolutions] = [0, 1].map(|k| levels.iter().map(|level| level.work[k]).sum());
-    Ok(Built { table: join(delta, levels)?, solutions, convolutions })
+    let onset = Onset::new(geometry, raster);
+    Ok(Built { table: join(delta, levels, |s| onset.at(s))?, solutions, convolutions })
 }
 
 /// A level as splines along s.
@@ -171,8 +173,9 @@ impl Spline {
     }
 }
 
-/// Joins the levels (the deepest first) to a table. Where nothing touches, delta_eff goes on straight in delta from the level above.
-fn join(delta: &[f64], levels: Vec<Level>) -> Result<Table, TableError> {
+/// Joins the levels (the deepest first) to a table. Where nothing touches, delta_eff goes on straight in delta from the level above; from
+/// the deepest on to `onset`, delta_0(s).
+fn join(delta: &[f64], levels: Vec<Level>, onset: impl Fn(f64) -> f64) -> Result<Table, TableError> {
     let mut s: Vec<f64> = levels.iter().flat_map(|level| level.places.iter().map(|place| place.s)).collect();
     s.sort_by(f64::total_cmp);
     s.dedup();
@@ -180,11 +183,15 @@ fn join(delta: &[f64], levels: Vec<Level>) -> Result<Table, TableError> {
     let mut splines: Vec<Spline> = Vec::with_capacity(levels.len());
     for level in levels {
         let mut places = level.places;
-        if let Some(above) = splines.last() {
-            for place in places.iter_mut().filter(|place| !place.touches) {
-                let [value, slope] = above.at(place.s);
-                (place.value, place.slope) = (value - slope * (above.delta - level.delta), slope);
-            }
+        for place in places.iter_mut().filter(|place| !place.touches) {
+            (place.value, place.slope) = match splines.last() {
+                // At a floor in reach of rounding nothing may touch yet.
+                None => ((level.delta - onset(place.s)).min(0.0), 1.0),
+                Some(above) => {
+                    let [value, slope] = above.at(place.s);
+                    (value - slope * (above.delta - level.delta), slope)
+                }
+            };
         }
         splines.push(Spline::new(level.delta, &places));
     }

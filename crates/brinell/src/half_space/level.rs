@@ -61,6 +61,8 @@ pub(super) struct Grid {
 
 /// Share of delta below which a contact's energy stands for nothing but a cell or two.
 const LEAST: f64 = 0.01;
+/// Slope of delta_eff in delta beyond which a place of damage that rises nowhere counts as not touching: on floors and beside pits it is near 1.
+const STEEPEST: f64 = 4.0;
 /// Halvings of the steps along s, from eight times half the contact's width to a quarter of it.
 const HALVINGS: u32 = 5;
 
@@ -221,9 +223,11 @@ pub(super) fn solve(geometry: &Geometry, raster: &Raster, delta: f64, fineness: 
         work[0] += 2;
         work[1] += convolutions[0] + convolutions[1];
         let [coarse, fine] = found;
-        let touches = fine[0] > least;
-        let both = coarse[0] > least && touches;
-        let [value, slope] = if both { [2.0 * fine[0] - coarse[0], 2.0 * fine[1] - coarse[1]] } else { fine };
+        // Of energies near nothing the healthy force is not known: their slopes may come out a hundred times too steep.
+        let sound = |[value, slope]: [f64; 2]| value > least && (raised > 0.0 || (0.0..STEEPEST).contains(&slope));
+        let touches = sound(fine);
+        let both = [2.0 * fine[0] - coarse[0], 2.0 * fine[1] - coarse[1]];
+        let [value, slope] = if touches && sound(coarse) && sound(both) { both } else { fine };
         let place = Place { s, value, slope, touches };
         known.insert(key, place);
         place

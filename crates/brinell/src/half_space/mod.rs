@@ -7,6 +7,7 @@ pub mod geometry;
 mod healthy;
 pub mod influence;
 mod level;
+mod onset;
 pub mod raster;
 mod shelf;
 pub mod solver;

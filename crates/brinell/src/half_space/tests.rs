@@ -316,3 +316,28 @@ fn prop_defects_that_are_met_together_are_one_surface() {
     }
     assert!(raster.is_mirrored());
 }
+
+/// Deeper than the table reaches, over the whole width, a floor is where it is: delta_eff = delta - h.
+#[test]
+fn analytic_a_floor_beyond_the_table_holds() {
+    let geometry = geometry("NN3007");
+    for (depth, length) in [(20e-6, 3e-3), (500e-6, 9e-3)] {
+        let raster = rectangle(length, 8e-3, depth, 10e-6);
+        let range = Range { static_deflection: 1.3e-6, largest: 10e-6 };
+        let stop = AtomicBool::new(false);
+        let table = build::table(&geometry, &raster, &range, Tables::Quick, threads(2), &stop).unwrap().table;
+        for above in [-5e-6, 1e-6, 5e-6] {
+            let met = table.at(depth + above, 0.0);
+            assert!((met.delta - above).abs() < 1e-9 && (met.by_delta - 1.0).abs() < 1e-9, "{depth}: {met:?}");
+            assert!(met.by_s.abs() < 1e-6, "{depth}: {met:?}");
+        }
+        // On the way to the wall the roller leans on the edge: never more than healthy, never less than on the floor.
+        for k in 0..=400 {
+            let s = 1.2 * length * (f64::from(k) / 400.0 - 0.5);
+            for delta in [2e-6, 8e-6] {
+                let met = table.at(delta, s);
+                assert!(met.delta <= delta + 1e-9 && met.delta >= delta - depth - 1e-9, "{depth}, s = {s}: {met:?}");
+            }
+        }
+    }
+}
