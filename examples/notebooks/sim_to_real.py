@@ -22,7 +22,7 @@ RATE = 12_000.0
 TURNS = 27
 """Of the shaft in a segment: what a second holds at the lowest speed of the plan, less a start."""
 SLIP = 0.02
-"""How far a family of lines may lie from pure rolling. Simulated cages slip by up to 1.7 %, in both directions."""
+"""How far a family of lines may lie from pure rolling. Simulated cages run 0.2 % ahead to 0.9 % behind."""
 PARTS = ("bpfo", "bpfi", "2bsf")
 WORDS = {"IR": "inner", "OR": "outer", "B": "ball", "N": "healthy"}
 LEAST = 10.0
