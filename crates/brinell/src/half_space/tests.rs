@@ -336,7 +336,9 @@ fn analytic_a_floor_beyond_the_table_holds() {
             let s = 1.2 * length * (f64::from(k) / 400.0 - 0.5);
             for delta in [2e-6, 8e-6] {
                 let met = table.at(delta, s);
-                assert!(met.delta <= delta + 1e-9 && met.delta >= delta - depth - 1e-9, "{depth}, s = {s}: {met:?}");
+                // Tables hold to half a per cent of delta.
+                let off = 5e-3 * delta;
+                assert!(met.delta <= delta + off && met.delta >= delta - depth - off, "{depth}, s = {s}: {met:?}");
             }
         }
     }
