@@ -28,7 +28,7 @@ const STARTS: usize = 4;
 /// Starts of each kernel when recording.
 const RECORDED: usize = 16;
 /// Mean and recorded mean may differ by this many times the standard deviation of that difference: one of 10^4
-/// differences between runs of the same process does, and the file has 27.
+/// differences between runs of the same process does, and the file has 24.
 const DEVIATIONS: f64 = 4.5;
 /// And by this share of the mean, where nothing scatters.
 const SHARE: f64 = 0.005;
@@ -36,13 +36,10 @@ const SHARE: f64 = 0.005;
 /// The counts' names, as in the file.
 const COUNTS: [&str; 3] = ["steps", "rejections", "right_hand_sides"];
 
-fn text(name: &str) -> String {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../examples").join(name).with_extension("toml");
-    std::fs::read_to_string(path).unwrap()
-}
-
 fn example(name: &str) -> Scenario {
-    crate::common::read_li2023(&text(name), &[]).unwrap().scenario
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../examples").join(name).with_extension("toml");
+    let text = std::fs::read_to_string(path).unwrap();
+    crate::common::read_li2023(&text, &[]).unwrap().scenario
 }
 
 fn scenarios() -> Vec<(&'static str, Scenario)> {
@@ -51,9 +48,6 @@ fn scenarios() -> Vec<(&'static str, Scenario)> {
     // The load that its counts were recorded under.
     let mut inner_race = example("inner-race");
     inner_race.operation.load_n = [300.0, 0.0];
-    // Of a profile: under the default laws.
-    let tables = [("contact.tables".to_owned(), "coarse".to_owned())];
-    let single_row = brinell::document::read(&text("single-row"), &tables).unwrap().scenario;
     vec![
         ("rectangle", example("rectangle")),
         ("rectangle-reference", reference),
@@ -61,7 +55,6 @@ fn scenarios() -> Vec<(&'static str, Scenario)> {
         ("irregular", example("irregular")),
         ("inner-race", inner_race),
         ("roller", example("roller")),
-        ("single-row", single_row),
         ("healthy", healthy()),
         ("heavy", case("xval/heavy-load-profile")),
     ]
