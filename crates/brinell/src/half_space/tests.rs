@@ -328,7 +328,8 @@ fn analytic_a_floor_beyond_the_table_holds() {
         let table = build::table(&geometry, &raster, &range, Tables::Quick, threads(2), &stop).unwrap().table;
         for above in [-5e-6, 1e-6, 5e-6] {
             let met = table.at(depth + above, 0.0);
-            assert!((met.delta - above).abs() < 1e-9 && (met.by_delta - 1.0).abs() < 1e-9, "{depth}: {met:?}");
+            // The splines along s still feel the walls by some 1e-5 of the depth.
+            assert!((met.delta - above).abs() < 1e-4 * depth && (met.by_delta - 1.0).abs() < 1e-9, "{depth}: {met:?}");
             assert!(met.by_s.abs() < 1e-6, "{depth}: {met:?}");
         }
         // On the way to the wall the roller leans on the edge: never more than healthy, never less than on the floor.
