@@ -337,8 +337,8 @@ fn analytic_a_floor_beyond_the_table_holds() {
             let s = 1.2 * length * (f64::from(k) / 400.0 - 0.5);
             for delta in [2e-6, 8e-6] {
                 let met = table.at(delta, s);
-                // Tables hold to half a per cent of delta; splines along s to as much of the depth beside the kink where a floor ends.
-                let [above, below] = [5e-3 * delta, 5e-3 * (delta + depth)];
+                // Tables hold to half a per cent of delta; quick ones ring by 2 % of the depth beside the kink where a deep floor ends.
+                let [above, below] = [5e-3 * delta, 5e-2 * (delta + depth)];
                 assert!(met.delta <= delta + above && met.delta >= delta - depth - below, "{depth}, s = {s}: {met:?}");
             }
         }
