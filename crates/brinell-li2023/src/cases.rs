@@ -1,12 +1,14 @@
 //! The scenarios behind the paper's figures. They are in `cases.toml`.
 
 use crate::outline::Outline;
-use crate::variants::NOT_LUMPED;
 use serde::Deserialize;
 use std::sync::LazyLock;
 
 /// The scenario that every case changes (TOML).
 pub const BASE: &str = include_str!("nn3007.toml");
+
+/// Keys of the models beside it that the lumped model has not: it knows the law `ecl` alone, and no exact geometry.
+const NOT_LUMPED: [&str; 2] = ["contact.law", "simulation.geometry"];
 
 /// One scenario: [`BASE`] with settings over it.
 #[derive(Debug, Clone, PartialEq, Deserialize)]

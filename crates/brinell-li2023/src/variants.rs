@@ -45,9 +45,6 @@ const MORE: [&str; 2] = ["start-rest-no-ramp", "outer-hard"];
 /// The film of Eq. (42).
 pub(crate) const PRINTED_FILM: (&str, &str) = ("cage.guidance_film", "quasi-static");
 
-/// The lumped model knows the law `ecl` alone, and no exact geometry.
-pub(crate) const NOT_LUMPED: [&str; 2] = ["contact.law", "simulation.geometry"];
-
 /// Every variant; the first changes nothing, at the length of the others. Those of filter and record need no run of
 /// their own.
 pub(crate) static VARIANTS: LazyLock<Vec<Variant>> = LazyLock::new(|| {

@@ -37,7 +37,7 @@ pub(super) struct Piece {
 
 /// Finds the piece that holds s in constant time, whatever the pieces hold.
 #[derive(Debug, Clone, PartialEq, Default)]
-pub(super) struct Lookup {
+struct Lookup {
     first: f64,
     last: f64,
     pieces: usize,
@@ -48,7 +48,7 @@ pub(super) struct Lookup {
 
 impl Lookup {
     /// For `pieces` that follow one another from `first` to `last` (m); `start` says where each begins.
-    pub(super) fn new(first: f64, last: f64, pieces: usize, start: impl Fn(usize) -> f64) -> Self {
+    fn new(first: f64, last: f64, pieces: usize, start: impl Fn(usize) -> f64) -> Self {
         let buckets = 2 * pieces;
         let width = (last - first) / buckets as f64;
         let mut k = 0;
@@ -66,13 +66,13 @@ impl Lookup {
     }
 
     /// First and last s, m.
-    pub(super) fn span(&self) -> (f64, f64) {
+    fn span(&self) -> (f64, f64) {
         (self.first, self.last)
     }
 
     /// The piece that holds s, the right-hand one at a breakpoint.
     #[inline]
-    pub(super) fn find(&self, s: f64, start: impl Fn(usize) -> f64) -> Option<usize> {
+    fn find(&self, s: f64, start: impl Fn(usize) -> f64) -> Option<usize> {
         if !(s >= self.first && s <= self.last) || self.pieces == 0 {
             return None;
         }

@@ -20,6 +20,22 @@ pub fn relative_radius(bearing: &scenario::Bearing, side: Side) -> f64 {
     }
 }
 
+/// Whether damage of a surface meets rolling elements on `side`.
+#[inline]
+fn meets(surface: Surface, side: Side) -> bool {
+    match surface {
+        Surface::OuterRaceway => side == Side::Outer,
+        Surface::InnerRaceway => side == Side::Inner,
+        Surface::Roller(_) => true,
+    }
+}
+
+/// Local angles (rad) of what lies between two s (m) on a surface of a radius (m), a little wider, so that round-off decides in
+/// `floor` alone.
+fn angles_between([first, last]: [f64; 2], radius: f64) -> (f64, f64) {
+    (first / radius - 1e-9, last / radius + 1e-9)
+}
+
 /// One defect on its surface, SI.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Defect {
@@ -45,8 +61,6 @@ pub struct Defect {
     tables: [Option<Arc<Table>>; 2],
     /// The same over tilt, where rollers tilt.
     tilted: [Option<Arc<Tilted>>; 2],
-    /// Which sides of rolling elements the defect meets, indexed by `Side as usize`.
-    met: [bool; 2],
     /// The law `ecl`: depth along the path where that is the envelope, and under balls, of which the lumped model knows the groove's
     /// bottom alone.
     floors: [Option<PiecewisePolynomial>; 2],
@@ -78,13 +92,8 @@ impl Defect {
         let offset = 1e-3 * defect.axial_offset_mm;
         let shape = Shape::new(&defect.shape, depth)?.placed(offset, roller_length);
         let middle = if shape.is_width() { offset } else { 0.0 };
-        let met = SIDES.map(|side| match surface {
-            Surface::OuterRaceway => side == Side::Outer,
-            Surface::InnerRaceway => side == Side::Inner,
-            Surface::Roller(_) => true,
-        });
         let floors = SIDES.map(|side| {
-            if contact.law != Law::Ecl || !met[side as usize] {
+            if contact.law != Law::Ecl || !meets(surface, side) {
                 return None;
             }
             let lines = match bearing.element {
@@ -98,11 +107,8 @@ impl Defect {
             }
         });
         let radius = 0.5e-3 * bearing.diameter_mm(surface);
-        let (first, last) = shape.arc();
-        // A little wider, so that round-off decides in `floor` alone.
-        let window = (first / radius - 1e-9, last / radius + 1e-9);
         Some(Self {
-            windows: [window; 2],
+            windows: [angles_between(shape.arc().into(), radius); 2],
             element: bearing.element,
             surface,
             row: defect.row.checked_sub(1)?,
@@ -114,7 +120,6 @@ impl Defect {
             roller_length,
             tables: [None, None],
             tilted: [None, None],
-            met,
             floors,
         })
     }
@@ -141,8 +146,8 @@ impl Defect {
     /// The same at its contacts on one side alone.
     pub(crate) fn use_table_at(&mut self, side: Side, table: Arc<Table>) {
         let k = side as usize;
-        if self.met[k] {
-            self.windows[k] = self.angles_between(table.range_s());
+        if self.meets_side(side) {
+            self.windows[k] = angles_between(table.range_s(), self.radius);
             self.tables[k] = Some(table);
         }
     }
@@ -151,15 +156,10 @@ impl Defect {
     pub(crate) fn use_tilted_at(&mut self, side: Side, upright: Arc<Table>, tables: Tilted) {
         self.use_table_at(side, upright);
         let k = side as usize;
-        if self.met[k] {
-            self.windows[k] = self.angles_between(tables.range_s());
+        if self.meets_side(side) {
+            self.windows[k] = angles_between(tables.range_s(), self.radius);
             self.tilted[k] = Some(Arc::new(tables));
         }
-    }
-
-    /// Local angles of what lies between two s (m), a little wider.
-    fn angles_between(&self, [first, last]: [f64; 2]) -> (f64, f64) {
-        (first / self.radius - 1e-9, last / self.radius + 1e-9)
     }
 
     /// Height of what is raised highest, m.
@@ -173,7 +173,7 @@ impl Defect {
     /// Whether the defect meets rolling elements on `side`.
     #[inline]
     pub fn meets_side(&self, side: Side) -> bool {
-        self.met[side as usize]
+        meets(self.surface, side)
     }
 
     /// Lowest and highest z, m.
@@ -183,12 +183,8 @@ impl Defect {
 
     /// Whether the defect meets roller `roller` (from 0) of row `row` on `side` at all.
     pub fn meets(&self, row: usize, roller: usize, side: Side) -> bool {
-        self.row == row
-            && match self.surface {
-                Surface::OuterRaceway => side == Side::Outer,
-                Surface::InnerRaceway => side == Side::Inner,
-                Surface::Roller(k) => k == roller,
-            }
+        let is_on_another = matches!(self.surface, Surface::Roller(k) if k != roller);
+        self.row == row && self.meets_side(side) && !is_on_another
     }
 
     /// Local angle u of a roller on `side`, rad.

@@ -8,6 +8,7 @@ use crate::effective::spline;
 use crate::effective::table::{FEWEST_NODES, Table, TableError};
 use crate::scenario::Tables;
 use brinell_signal::parallel;
+use std::cell::LazyCell;
 use std::num::NonZeroUsize;
 use std::sync::atomic::{AtomicBool, Ordering};
 
@@ -140,7 +141,8 @@ pub fn table_at(
         return Err(BuildError::Stopped);
     }
     let [solutions, convolutions] = [0, 1].map(|k| levels.iter().map(|level| level.work[k]).sum());
-    let onset = Onset::new(geometry, raster);
+    // Asked for only where the deepest level leaves a place untouched.
+    let onset = LazyCell::new(|| Onset::new(geometry, raster));
     Ok(Built { table: join(delta, levels, |s| onset.at(s))?, solutions, convolutions })
 }
 

@@ -125,14 +125,6 @@ impl Geometry {
         }
     }
 
-    /// Half a roller's length, m; a ball has none.
-    pub(super) fn half_length(&self) -> Option<f64> {
-        match &self.across {
-            Across::Groove { .. } => None,
-            Across::Roller { length, .. } => Some(0.5 * length),
-        }
-    }
-
     /// Whether gap and damage are alike on both sides of z = 0.
     pub(super) fn is_mirrored(&self, raster: &Raster) -> bool {
         let profile = match &self.across {

@@ -25,7 +25,8 @@ pub(super) struct Onset {
 impl Onset {
     pub(super) fn new(geometry: &Geometry, raster: &Raster) -> Self {
         let reach = raster.reach();
-        let end = geometry.half_length().unwrap_or(f64::INFINITY);
+        // Of a ball without end.
+        let end = geometry.half_across(f64::INFINITY);
         let [low, high] = reach.z.map(|z| z.clamp(-end, end));
         let across = |z: f64| geometry.gap(0.0, [z, z]);
         // Beside the damage the nearest to the middle is the highest.
@@ -35,9 +36,10 @@ impl Onset {
         let columns = ((last - first) / (2.0 * geometry.along * SHARP).sqrt()).ceil().clamp(1.0, MOST);
         let step = (last - first) / columns;
         let place = |k: u32| low + (high - low) * (f64::from(k) + 0.5) / f64::from(ACROSS);
+        let places: Vec<[f64; 2]> = (0..ACROSS).map(|k| [place(k), across(place(k))]).collect();
         let least = (0..=columns as usize).map(|column| {
             let s = first + column as f64 * step;
-            let within = (0..ACROSS).map(|k| across(place(k)) + raster.rounded(s, place(k)));
+            let within = places.iter().map(|[z, gap]| gap + raster.rounded(s, *z));
             within.fold(beside, f64::min)
         });
         Self { ends: [first, last], step, least: least.collect(), radius: geometry.along }

@@ -52,12 +52,11 @@ impl Distribution {
     /// Every error among [`Scenario::problems`]; where the scenario makes no model, or nothing holds the rings against the load.
     pub fn of(s: &Scenario) -> Result<Self, Error> {
         refuse(s.problems())?;
-        Self::unchecked(s)
+        Self::unchecked(&Scenario { defects: Vec::new(), ..s.clone() })
     }
 
-    /// The same of a scenario that was checked.
+    /// The same of a scenario that was checked and has no damage.
     pub(super) fn unchecked(s: &Scenario) -> Result<Self, Error> {
-        let s = &Scenario { defects: Vec::new(), ..s.clone() };
         Ok(distribution(&Model::new(s)?, s)?)
     }
 

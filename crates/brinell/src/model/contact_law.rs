@@ -2,7 +2,7 @@
 //! paper's `ecl` (section 3).
 
 use super::Model;
-use crate::defect::{Angles, Defect, Defects, Side, ecl};
+use crate::defect::{Angles, Defect, Defects, Met, Side, ecl};
 use crate::scenario::Law;
 use crate::slices::{Approach, Healthy, Slices};
 
@@ -20,8 +20,24 @@ pub struct Resting {
     pub force: f64,
     /// dQ/d(delta), N/m.
     pub tangent: f64,
-    /// P = dE/du, what it pushes along the damaged surface, N m; 0 under `ecl`.
+    /// P = dE/du, what it pushes along the damaged surfaces, N m; 0 under `ecl`.
     pub push: f64,
+    /// What of that a damaged rolling element pushes.
+    pub push_element: f64,
+}
+
+impl Resting {
+    /// On damage by its table: section 19.
+    #[inline]
+    pub(super) fn on_table(healthy: &Healthy, met: &Met) -> Self {
+        let [force, tangent] = healthy.force_and_tangent(met.delta);
+        Self {
+            force: force * met.by_delta,
+            tangent: tangent * met.by_delta * met.by_delta + force * met.by_delta2,
+            push: force * (met.by_raceway + met.by_element),
+            push_element: force * met.by_element,
+        }
+    }
 }
 
 impl ContactLaw<'_> {
@@ -32,14 +48,7 @@ impl ContactLaw<'_> {
         match self.law {
             Law::HalfSpace => match defects.effective(angles, delta, None) {
                 None => self.undamaged(delta),
-                Some(met) => {
-                    let [force, tangent] = healthy.force_and_tangent(met.delta);
-                    Resting {
-                        force: force * met.by_delta,
-                        tangent: tangent * met.by_delta * met.by_delta + force * met.by_delta2,
-                        push: force * (met.by_raceway + met.by_element),
-                    }
-                }
+                Some(met) => Resting::on_table(&healthy, &met),
             },
             Law::Ecl => {
                 let power = healthy.law.exponent.of(delta);
@@ -49,6 +58,7 @@ impl ContactLaw<'_> {
                         force: damaged.elastic,
                         tangent: healthy.law.damaged_tangent(delta, &damaged.floor),
                         push: 0.0,
+                        push_element: 0.0,
                     },
                 }
             }
@@ -57,7 +67,7 @@ impl ContactLaw<'_> {
 
     fn undamaged(&self, delta: f64) -> Resting {
         let [force, tangent] = self.healthy.force_and_tangent(delta);
-        Resting { force, tangent, push: 0.0 }
+        Resting { force, tangent, push: 0.0, push_element: 0.0 }
     }
 
     /// Its elastic energy, J.

@@ -72,6 +72,11 @@ impl Scenario {
     pub fn has_even_contacts(&self) -> bool {
         self.bearing.profile == RollerProfile::Straight && self.simulation.model != ModelKind::Tilting
     }
+
+    /// Whether damage pushes along its surface, with a reaction on every body: on a half-space.
+    pub(crate) fn has_damage_that_pushes(&self) -> bool {
+        self.contact.law == Law::HalfSpace && !self.defects.is_empty()
+    }
 }
 
 impl Element {

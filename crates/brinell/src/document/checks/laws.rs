@@ -54,8 +54,7 @@ impl Checker<'_> {
     /// Laws that need each other.
     fn together(&mut self) {
         let s = self.s;
-        let pushes = s.contact.law == Law::HalfSpace && !s.defects.is_empty();
-        if pushes && s.simulation.geometry == GeometryLaw::Centred {
+        if s.has_damage_that_pushes() && s.simulation.geometry == GeometryLaw::Centred {
             self.error(
                 LAW,
                 "damage on a half-space pushes along the surface, for which levers of the centred bearing have no reaction"

@@ -8,7 +8,7 @@ use crate::defect::{Angles, SIDES, Side, ecl};
 use crate::lanes::Lanes;
 use crate::model::leaning::{Leaned, positive};
 use crate::model::workspace::Contacts;
-use crate::model::{Model, Workspace};
+use crate::model::{Model, Resting, Workspace};
 use crate::scenario::Law;
 use crate::slices::{Pressed, Slices};
 
@@ -314,15 +314,13 @@ fn half_space(
         let Some(met) = model.defects_of(slot, side).effective(&angles, delta, None) else {
             continue;
         };
-        let [force, stiffness] = healthy.force_and_tangent(met.delta);
-        let elastic = force * met.by_delta;
-        let tangent = stiffness * met.by_delta * met.by_delta + force * met.by_delta2;
-        contacts.elastic[slot] = elastic;
-        contacts.damper[slot] = healthy.law.damping.of(tangent, delta.max(met.delta));
-        contacts.push[slot] = force * (met.by_raceway + met.by_element);
-        contacts.push_element[slot] = force * met.by_element;
+        let resting = Resting::on_table(&healthy, &met);
+        contacts.elastic[slot] = resting.force;
+        contacts.damper[slot] = healthy.law.damping.of(resting.tangent, delta.max(met.delta));
+        contacts.push[slot] = resting.push;
+        contacts.push_element[slot] = resting.push_element;
         contacts.on_damage[slot] = true;
-        contacts.damaged_length[slot] = healthy.lost_length(delta, elastic);
+        contacts.damaged_length[slot] = healthy.lost_length(delta, resting.force);
     }
 }
 
