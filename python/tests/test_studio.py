@@ -182,8 +182,7 @@ def test_prop_each_page_has_an_engine_and_the_oldest_loses_it(studio):
 
 def test_prop_files_of_damage_go_with_the_scenario(examples):
     pytest.importorskip("anywidget")
-    with pytest.warns(brinell.ScenarioWarning, match="points were missing"):
-        scenario = brinell.Scenario.from_file(examples / "scan.toml", SHORT)
+    scenario = brinell.Scenario.from_file(examples / "scan.toml", SHORT)
     studio = brinell.studio(scenario)
     assert ask(_brinell.StudioEngine(), do="open", toml=studio.scenario, carry=False)["ok"]
     studio.close()

@@ -59,10 +59,14 @@ pub fn read_depth_map(bytes: &[u8], format: Option<FileKind>, options: &ScanFile
     set_zero(&mut scan, options);
     if missing > 0 {
         let (count, layers) = fill(&mut scan);
-        warnings.push(format!(
-            "{count} of {} points were missing and are filled from their neighbours, up to {layers} points deep",
-            scan.depth_um.len()
-        ));
+        let filled = format!("{count} of {} points were missing and are filled from their neighbours", scan.depth_um.len());
+        // With a measured point beside each there is nothing to doubt: `fill` asks for it.
+        match layers {
+            0 | 1 => notes.push(filled),
+            _ => warnings.push(format!(
+                "{filled}; some lie up to {layers} points from any measured one, where the surface is a guess: look at it, or scan again"
+            )),
+        }
     }
     finish_depths(&mut scan, options, &mut warnings)?;
     warnings.extend(hint.into_iter().chain(raised(&scan, options)));

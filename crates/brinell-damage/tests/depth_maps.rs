@@ -237,12 +237,14 @@ fn analytic_the_drawn_scan_gives_its_raceway_and_its_spall() {
         speck_mm2: 0.05,
         ..Default::default()
     };
-    let DepthMap { grid, warnings, .. } = read_depth_map(scan, Some(FileKind::Csv), &options).unwrap();
+    let DepthMap { grid, warnings, notes, .. } = read_depth_map(scan, Some(FileKind::Csv), &options).unwrap();
     // See examples/draw_examples.rs.
     let mut deep: Vec<f64> = grid.depth_um.iter().copied().filter(|&d| d > 20.0).collect();
     deep.sort_by(f64::total_cmp);
     assert!((deep[deep.len() / 2] - 25.0).abs() < 0.5);
-    assert!(warnings.iter().any(|w| w.contains("points were missing and are filled")));
+    // One point deep: a note, as it was asked for.
+    assert_eq!(warnings, [""; 0]);
+    assert!(notes.iter().any(|note| note == "80 of 8000 points were missing and are filled from their neighbours"));
     assert!(read_depth_map(scan, None, &ScanFile { fill: ScanFill::None, ..options }).is_err());
 }
 
@@ -267,7 +269,11 @@ fn analytic_missing_points_of_a_slope_are_filled_on_it() {
     for (row, column) in [(6, 6), (5, 7), (12, 12), (12, 14)] {
         assert!((grid.at(column, row) - (2 * row + column) as f64).abs() < 1e-3, "{}", grid.at(column, row));
     }
-    assert_eq!(warnings[0], "13 of 400 points were missing and are filled from their neighbours, up to 2 points deep");
+    assert_eq!(
+        warnings[0],
+        "13 of 400 points were missing and are filled from their neighbours; some lie up to 2 points from any measured one, where the surface \
+         is a guess: look at it, or scan again"
+    );
     // A slope that nobody takes off.
     assert!(warnings[1].contains("as a tilted part does"));
     assert_eq!(
