@@ -59,7 +59,8 @@ pub fn read_depth_map(bytes: &[u8], format: Option<FileKind>, options: &ScanFile
     set_zero(&mut scan, options);
     if missing > 0 {
         let (count, layers) = fill(&mut scan);
-        let filled = format!("{count} of {} points were missing and are filled from their neighbours", scan.depth_um.len());
+        let filled =
+            format!("{count} of {} points were missing and are filled from their neighbours", scan.depth_um.len());
         // With a measured point beside each there is nothing to doubt: `fill` asks for it.
         match layers {
             0 | 1 => notes.push(filled),

@@ -62,7 +62,7 @@ impl Paint {
     pub(crate) const fn line(stroke: &'static str, width: f64) -> Self {
         Self { stroke, width, dash: &[], fill: None, opacity: 1.0 }
     }
-    pub(crate) fn fill(color: &'static str, opacity: f64) -> Self {
+    pub(crate) const fn fill(color: &'static str, opacity: f64) -> Self {
         Self { stroke: color, width: 0.0, dash: &[], fill: Some((color, opacity)), opacity: 1.0 }
     }
     pub(crate) fn dashed(self, dash: &'static [f64]) -> Self {

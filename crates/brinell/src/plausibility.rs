@@ -7,6 +7,7 @@
 
 mod after;
 mod damage;
+mod table;
 mod tilting;
 mod warning;
 
@@ -68,6 +69,7 @@ pub fn before(scenario: &Scenario, model: &Model, statics: &Result<StaticLoadZon
             warnings.extend(sunk(scenario, model, zone));
             warnings.extend(wide_ellipses(scenario, model, zone));
             warnings.extend(displaced(scenario, zone));
+            warnings.extend(table::warnings(scenario, model, zone));
         }
         Err(error) => warnings.push(warning(LOAD, list(scenario.operation.load_n), error.to_string(), "")),
     }

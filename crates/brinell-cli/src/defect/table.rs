@@ -7,7 +7,7 @@ use crate::files::Source;
 use crate::say::{say, short};
 use brinell::defect::{SIDES, Side};
 use brinell::model::Model;
-use brinell::scenario::{Law, Surface};
+use brinell::scenario::{Law, ModelKind, Surface};
 use brinell_io::atomic_write;
 
 pub(super) fn table(args: &TableArgs) -> Result<(), Failure> {
@@ -21,10 +21,24 @@ pub(super) fn table(args: &TableArgs) -> Result<(), Failure> {
             s.contact.law.word()
         )));
     }
+    if s.simulation.model == ModelKind::Tilting {
+        return Err(Failure::Usage(
+            "simulation.model = \"tilting\": contacts that tilt take tables at several tilts, and a file holds one (a defect's `table` is refused \
+             there); allowed: \"full\", as by --set simulation.model=full"
+                .into(),
+        ));
+    }
+    if let (Surface::InnerRaceway | Surface::OuterRaceway, true) = (of.on, args.inner) {
+        return Err(Failure::Usage(format!(
+            "--inner: defect {} is on the {}, which has one contact; leave it out, as it is for damage on a rolling element, which has two",
+            args.defect,
+            of.on.word()
+        )));
+    }
     let index = args.defect - 1;
     let side = match (of.on, args.inner) {
         (Surface::InnerRaceway, _) | (Surface::Roller(_), true) => Side::Inner,
-        (Surface::OuterRaceway | Surface::Roller(_), _) => Side::Outer,
+        (Surface::OuterRaceway, _) | (Surface::Roller(_), false) => Side::Outer,
     };
     let model = Model::new(s).map_err(|error| Failure::Usage(error.to_string()))?;
     let Some(table) = model.defects[index].table(side) else {

@@ -132,9 +132,9 @@ pub fn damage_pressure(view: &DamageView, of: &PressureView, index: usize, layou
         entries.push((format!("beyond {} MPa", short(of.yield_mpa, 4)), YIELD));
     }
     if of.largest_mpa.is_finite() {
-        let (at, arm) = (place(&of.at_mm), 6.0);
-        let cross = [(arm, arm), (arm, -arm)].map(|(a, b)| vec![(at.0 - a, at.1 - b), (at.0 + a, at.1 + b)]);
-        draw(&cross, false, LARGEST);
+        let (x, y) = place(&of.at_mm);
+        // A disc, as the legend has it.
+        chart.picture.shapes.push(Shape::Circle { x, y, r: 3.5, paint: LARGEST });
         entries.push((format!("largest, {} MPa", short(of.largest_mpa, 4)), LARGEST));
     }
     let entries: Vec<(&str, Paint)> = entries.iter().map(|(words, paint)| (words.as_str(), *paint)).collect();
@@ -147,4 +147,4 @@ pub fn damage_pressure(view: &DamageView, of: &PressureView, index: usize, layou
 
 const DAMAGE: Paint = Paint::line(ink::BLACK, 1.6);
 const YIELD: Paint = Paint::line(ink::VERMILLION, 1.8);
-const LARGEST: Paint = Paint::line(ink::GREEN, 2.2);
+const LARGEST: Paint = Paint::fill(ink::GREEN, 1.0);

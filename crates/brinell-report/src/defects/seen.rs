@@ -185,7 +185,7 @@ impl<'a> Seen<'a> {
         };
         match self.scenario.contact.law {
             Law::HalfSpace => format!("{contacts}; law half-space, at a static deformation of {deformation}"),
-            Law::Ecl => format!("{contacts}; K at a deformation of {deformation}"),
+            Law::Ecl => format!("{contacts}; law ecl, K at a deformation of {deformation}"),
         }
     }
 
@@ -198,13 +198,17 @@ impl<'a> Seen<'a> {
             None => "",
         };
         let deformation = self.deformation();
+        let damage = match self.scenario.defects[self.index].table {
+            Some(_) => "by the table of its file, which has no pressures to draw",
+            None => "with all damage of this surface",
+        };
         match self.scenario.contact.law {
             Law::HalfSpace => format!(
                 "law half-space, as the run takes it: the effective δ is that at which the healthy contact stores the energy that the damaged one \
-                 stores at δ; Q over the healthy Q_0 at the same δ, the static {deformation} ({by_force}) and twice it; with all damage of this surface{profile}"
+                 stores at δ; Q over the healthy Q_0 at the same δ, the static {deformation} ({by_force}) and twice it; {damage}{profile}"
             ),
             Law::Ecl => format!(
-                "stiffness Q/δⁿ at a deformation of {deformation} ({by_force}); this defect alone, the paths side by side{profile}"
+                "law ecl: stiffness Q/δⁿ at a deformation of {deformation} ({by_force}); this defect alone, the paths side by side{profile}"
             ),
         }
     }

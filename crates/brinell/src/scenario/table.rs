@@ -41,6 +41,10 @@ impl std::error::Error for TableFault {}
 const COLUMNS: [&str; 3] = ["s_mm", "delta_um", "delta_eff_um"];
 /// Nodes of a table at most: a scenario that has them written out still reads (`document/source.rs`).
 const MOST_NODES: usize = 400_000;
+/// Shares of delta by which delta_eff may differ at a table's ends: within it a table's nodes are known (section 19).
+const HEALTHY_SHARE: f64 = 0.005;
+/// The same in um, for deltas near 0: digits of a file.
+const HEALTHY_UM: f64 = 0.001;
 
 fn fault(line: Option<usize>, message: impl Into<String>, allowed: impl Into<String>) -> TableFault {
     TableFault { line, message: message.into(), allowed: allowed.into() }
@@ -110,6 +114,31 @@ impl TableData {
                     self.delta_um[k + 1]
                 );
                 return Err(fault(None, message, "delta_eff_um that never falls where delta_um rises"));
+            }
+        }
+        self.is_healthy_at_its_ends()
+    }
+
+    /// Outside its s a contact is healthy: at both ends delta_eff is delta, or the force would jump there.
+    fn is_healthy_at_its_ends(&self) -> Result<(), TableFault> {
+        let rows = || self.s_mm.iter().zip(self.delta_eff_um.chunks(self.delta_um.len()));
+        for (s, of_s) in rows().take(1).chain(rows().last()) {
+            // Nothing touches below 0, however far.
+            let off = |(delta, effective): &(&f64, &f64)| {
+                (effective.max(0.0) - delta.max(0.0)).abs() > HEALTHY_SHARE * delta.abs() + HEALTHY_UM
+            };
+            if let Some((delta, effective)) = self.delta_um.iter().zip(of_s).find(off) {
+                return Err(fault(
+                    None,
+                    format!(
+                        "at its end s_mm = {s} delta_eff_um is {effective} where delta_um is {delta}, and beyond it the contact is healthy: the \
+                         force would jump there; look at the units (mm, um) of all columns, and whether the table was cut short"
+                    ),
+                    format!(
+                        "delta_eff_um within {} % and {HEALTHY_UM} um of delta_um at the first and the last s_mm",
+                        100.0 * HEALTHY_SHARE
+                    ),
+                ));
             }
         }
         Ok(())

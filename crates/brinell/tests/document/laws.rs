@@ -161,16 +161,32 @@ fn prop_a_table_is_a_file_or_what_stands_in_it() {
     let loaded = mechanics(&text, &[("defects.0.table", "pit.csv")]);
     assert_eq!(loaded.scenario.defects[0].table, Some(DefectTable::File("pit.csv".into())));
     assert_eq!(Model::new(&loaded.scenario).unwrap_err().key, "defects.0.table");
-    let inline = "{ s_mm = [-1, 1], delta_um = [0, 1, 5], delta_eff_um = [0, 0.5, 4, 0, 0.4, 3.9] }";
+    let inline = "{ s_mm = [-2, 0, 2], delta_um = [0, 1, 5], delta_eff_um = [0, 1, 5, 0, 0.4, 3.9, 0, 1, 5] }";
     let loaded = mechanics(&text, &[("defects.0.table", inline)]);
     let Some(DefectTable::Read(table)) = &loaded.scenario.defects[0].table else { panic!("no table") };
-    assert_eq!((table.s_mm.len(), table.delta_um.len(), table.delta_eff_um[4]), (2, 3, 0.4));
+    assert_eq!((table.s_mm.len(), table.delta_um.len(), table.delta_eff_um[4]), (3, 3, 0.4));
     assert_eq!(good(&loaded.to_toml()).scenario, loaded.scenario);
     refused(&text, &[LAWS, ("contact.law", "ecl"), ("defects.0.table", inline)], "defects.0.table", "ecl");
+    // Of half a per cent's accuracy, raised by 1 um.
+    let rim = "{ s_mm = [-2, 0, 2], delta_um = [-1, 0, 5], delta_eff_um = [-1, 0, 5.02, 0, 1, 6, -0.5, 0, 4.98] }";
+    mechanics(&text, &[("defects.0.table", rim)]);
     for (value, words) in [
         ("{ s_mm = [1, -1], delta_um = [0, 1], delta_eff_um = [0, 1, 0, 1] }", "s_mm rising"),
         ("{ s_mm = [0, 1], delta_um = [0, 1], delta_eff_um = [0, 1, 0] }", "3 delta_eff_um"),
         ("{ s_mm = [0, 1], delta_um = [0, 1] }", "make no table"),
+        // In mm where um are asked for, cut short, and beyond half a per cent.
+        (
+            "{ s_mm = [0, 1], delta_um = [0, 5], delta_eff_um = [0, 0.005, 0, 0.005] }",
+            "the units (mm, um) of all columns",
+        ),
+        (
+            "{ s_mm = [0, 1], delta_um = [0, 5], delta_eff_um = [0, 5, 0, 4] }",
+            "end s_mm = 1 delta_eff_um is 4 where delta_um is 5",
+        ),
+        (
+            "{ s_mm = [0, 1], delta_um = [0, 5], delta_eff_um = [0, 5.03, 0, 5] }",
+            "within 0.5 % and 0.001 um of delta_um",
+        ),
         ("3", "FILE"),
     ] {
         refused(&text, &[LAWS, ("defects.0.table", value)], "defects.0.table", words);

@@ -1,7 +1,7 @@
 //! Which laws go together.
 
 use super::Checker;
-use crate::scenario::{DefectTable, GeometryLaw, Law, Laws, ModelKind, RacewayFilm};
+use crate::scenario::{DefectTable, GeometryLaw, Law, Laws, ModelKind, RacewayFilm, RollerProfile};
 
 const LAW: &str = "contact.law";
 const LAWS: &str = "simulation.laws";
@@ -59,7 +59,13 @@ impl Checker<'_> {
                 LAW,
                 "damage on a half-space pushes along the surface, for which levers of the centred bearing have no reaction"
                     .into(),
-                "simulation.geometry = \"exact\"; \"ecl\" for straight rollers that do not tilt".into(),
+                match (s.bearing.profile, s.simulation.model) {
+                    (RollerProfile::Straight, ModelKind::Full) if !s.bearing.has_balls() => {
+                        "\"ecl\", or simulation.geometry = \"exact\"".into()
+                    }
+                    // Laws without a push have no ball, no profile and no tilt.
+                    _ => "simulation.geometry = \"exact\"".into(),
+                },
                 &["simulation.geometry"],
             );
         }
