@@ -59,7 +59,7 @@ impl Checker<'_> {
                 LAW,
                 "damage on a half-space pushes along the surface, for which levers of the centred bearing have no reaction"
                     .into(),
-                match (s.bearing.profile, s.simulation.model) {
+                match (&s.bearing.profile, s.simulation.model) {
                     (RollerProfile::Straight, ModelKind::Full) if !s.bearing.has_balls() => {
                         "\"ecl\", or simulation.geometry = \"exact\"".into()
                     }
