@@ -219,3 +219,55 @@ fn regress_bad_input_ends_with_two_and_says_what_is_allowed() {
         brinell(Path::new("."), &[&["defect"], args].concat()).exits(2).complains(&[words]);
     }
 }
+
+#[test]
+fn prop_a_table_is_refused_where_no_file_can_hold_it() {
+    let folder = tempfile::tempdir().unwrap();
+    let refused = |name: &str, more: &[&str], words: &[&str]| {
+        let args = [&["defect", "table", &example(name), "-o", "t.csv"], more].concat();
+        brinell(folder.path(), &args).exits(2).complains(words);
+        assert!(!folder.path().join("t.csv").exists());
+    };
+    refused(
+        "one-sided.toml",
+        &[],
+        &["simulation.model = \"tilting\"", "a file holds one", "--set simulation.model=full"],
+    );
+    refused("rectangle.toml", &["--inner"], &["--inner: defect 1 is on the outer-raceway, which has one contact"]);
+}
+
+#[test]
+fn prop_a_table_that_does_not_fit_is_refused_or_said_and_has_no_pressures() {
+    let folder = tempfile::tempdir().unwrap();
+    let with_table = |rows: &str| {
+        std::fs::write(folder.path().join("t.csv"), format!("s_mm,delta_um,delta_eff_um\n{rows}")).unwrap();
+        let text = format!(
+            "{}[[defects]]\non = \"outer-raceway\"\ncenter_deg = 0.0\ndepth_um = 20.0\n\
+             shape = {{ rectangle = {{ length_mm = 3.0, width_mm = 4.0 }} }}\ntable = \"t.csv\"\n",
+            HEAD.replace("li2023", "mechanics")
+        );
+        std::fs::write(folder.path().join("t.toml"), text).unwrap();
+    };
+    let grid = |ends: f64, half_mm: f64| {
+        let of = |(s, share): (f64, f64)| (0..5).map(move |k| format!("{s},{k},{}\n", share * f64::from(k)));
+        let rows = [(-1.0, ends), (-0.5, 0.6), (0.5, 0.6), (1.0, ends)].map(|(s, share)| (s * half_mm, share));
+        rows.into_iter().flat_map(of).collect::<String>()
+    };
+    // Cut short: an error; of shorter damage: a warning; of this: none, and no pressures, which is said.
+    with_table(&grid(0.9, 2.0));
+    brinell(folder.path(), &["check", "t.toml"]).exits(2).complains(&[
+        "table = \"t.csv\"",
+        "the force would jump there",
+        "0.5 %",
+    ]);
+    with_table(&grid(1.0, 1.0));
+    brinell(folder.path(), &["check", "t.toml"])
+        .exits(0)
+        .complains(&["defects.0.table (defect 1): it ends at s = -1.00 and 1.00 mm"]);
+    with_table(&grid(1.0, 2.0));
+    brinell(folder.path(), &["check", "t.toml"]).exits(0).keeps_quiet();
+    brinell(folder.path(), &["defect", "preview", "t.toml", "-o", "p", "--formats", "svg"])
+        .exits(0)
+        .says(&["by the table of its file, which has no pressures to draw"]);
+    assert!(!folder.path().join("p/damage-1-pressure.svg").exists());
+}

@@ -2,16 +2,18 @@
 
 use crate::accuracy::METHOD;
 use crate::channel::Channel;
+use crate::defect::{Defect, SIDES};
 use crate::document::{Loaded, Provenance};
 use crate::kernel::Kernel;
 use crate::model::Model;
 use crate::observe::load_zone::BINS;
+use crate::observe::slip::RowSlip;
 use crate::observe::{Drift, Findings, passes};
 use crate::plausibility::{self, Beforehand};
 use crate::result::fields::{self, Field};
 use crate::scenario::{Accuracy, ModelKind, Scenario, Speed};
 use crate::sensor::{Chain, ChannelRecord};
-use crate::signal::{Estimate, Indicator};
+use crate::signal::{self, Estimate, Indicator};
 use crate::simulate::{End, Outcome, Simulation};
 use serde_json::{Map, Value, json};
 use std::f64::consts::TAU;
@@ -161,9 +163,68 @@ pub fn warnings(parts: &Parts) -> Vec<String> {
 /// What a run shows that its reader should know; what kind of warning it is stands before the colon.
 #[doc(hidden)]
 pub fn afterwards(scenario: &Scenario, simulation: &Simulation, outcome: &Outcome, findings: &Findings) -> Vec<String> {
-    let strayed = strayed(scenario, findings);
-    [converted(simulation, outcome), unsettled(findings), strayed, plausibility::after(scenario, &outcome.energy)]
+    [converted(simulation, outcome), unsettled(findings), doubtful(scenario, simulation, outcome, findings)].concat()
+}
+
+/// What a run shows that its scenario or the model should not: in words.
+#[doc(hidden)]
+pub fn doubtful(scenario: &Scenario, simulation: &Simulation, outcome: &Outcome, findings: &Findings) -> Vec<String> {
+    let sunk = sunk_too_deep(simulation.model(), findings);
+    [strayed(scenario, findings), skidding(scenario, findings), sunk, plausibility::after(scenario, &outcome.energy)]
         .concat()
+}
+
+/// Slip of a cage beyond which elements skid rather than roll: bearings whose load drives them slip by a few per cent.
+const SKIDDING: f64 = 0.5;
+
+/// Cages that stand still or nearly so while elements are loaded, in words.
+#[doc(hidden)]
+pub fn skidding(scenario: &Scenario, findings: &Findings) -> Vec<String> {
+    let words = |(k, row): (usize, &RowSlip)| {
+        let (cage, element) = (row.cage()?.value, scenario.bearing.element.word());
+        let loaded = row.loaded_surface()?.value;
+        (cage > SKIDDING).then(|| {
+            format!(
+                "skidding: the cage of row {} turned at {:.0} % of its pure-rolling speed on average, and loaded {element}s slipped over {:.0} % of the inner \
+                 raceway's way: friction does not drive them. BPFO, BPFI and FTF are far from pure rolling, and raceways would be smeared. Look at \
+                 operation.load_n, the friction and lubricant keys (lubricant.drag_coefficient) and the cage's clearances",
+                k + 1,
+                100.0 * (1.0 - cage),
+                100.0 * loaded,
+            )
+        })
+    };
+    findings.slip.rows.iter().enumerate().filter_map(words).collect()
+}
+
+/// Shares of a damage's depth, and of the deformation (the accuracy of tables), by which a contact may sink deeper than the damage is.
+const DEEPER: [f64; 2] = [0.1, 0.01];
+
+/// Elements that sank deeper into damage than it is deep: its table goes on straight beyond its last deformation, as if there were no floor.
+/// In words.
+fn sunk_too_deep(model: &Model, findings: &Findings) -> Vec<String> {
+    let deepest = |of: &Defect| {
+        // Damage near each other is one surface with one table.
+        let near = model.defects.iter().filter(|other| (other.surface, other.row) == (of.surface, of.row));
+        near.map(Defect::deepest).fold(0.0, f64::max)
+    };
+    let words = |(k, defect): (usize, &Defect)| {
+        let table = SIDES.into_iter().find_map(|side| defect.table(side)).filter(|_| model.tilt.is_none())?;
+        let (sunk, depth, last) = (findings.passes.extremes(k)?.sunk, deepest(defect), table.last_delta());
+        let um = |x: f64| signal::short(1e6 * x, 3);
+        (sunk > (1.0 + DEEPER[0]) * depth + DEEPER[1] * last).then(|| {
+            format!(
+                "sunk too deep: at defect {} contacts yielded by {} um more than healthy ones, and the damage is {} um deep: its table ends at a deformation \
+                 of {} um and goes on straight, beneath the floor. Forces there are too small: the load at rest (operation.load_n), which tables are \
+                 made for, is far below that of the motion",
+                k + 1,
+                um(sunk),
+                um(depth),
+                um(last),
+            )
+        })
+    };
+    model.defects.iter().enumerate().filter_map(words).collect()
 }
 
 /// Mean distance of a cage from its land's centre, over the clearance, beyond which its stop is too soft: at the

@@ -9,6 +9,7 @@ mod conservation;
 mod convergence;
 mod damage;
 mod document;
+mod doubts;
 mod examples;
 mod film;
 mod kernels;

@@ -1,12 +1,15 @@
 //! The default laws (sections 18 to 24): exact geometry, half-space contacts by given tables, viscoelastic damping, oiled walls,
 //! rolling resistance, waviness and housing.
 
-use crate::common::cases::{case, random_state};
+use crate::common::cases::{case, random_state, rectangle};
 use crate::common::simulate;
 use brinell::defect::Side;
 use brinell::model::{Energy, Model, Motion, imbalance};
-use brinell::scenario::{ContactDamping, Pockets, Scenario, Waviness};
+use brinell::scenario::{ContactDamping, GeometryLaw, Pockets, RollerPath, Scenario, Shape, Start, Waviness};
 use brinell::simulate::{End, Simulation};
+use brinell::solver::System;
+use brinell::start;
+use brinell::statics::{Problem, solve};
 
 /// The given cases with every body damaged or wavy that can be.
 fn cases() -> Vec<(&'static str, Scenario)> {
@@ -261,4 +264,36 @@ fn prop_two_accuracies_agree_where_forces_are_smooth() {
     let off = norm(&|k| a[k] - b[k]) / norm(&|k| a[k]);
     println!("standard against reference: {off:.1e}");
     assert!(off < 0.05, "{off:e}");
+}
+
+/// Under `ecl` nothing pushes along the surface, so seen from displaced centres its forces have no potential: a balance all the same.
+#[test]
+fn prop_a_balance_over_deep_damage_under_ecl_in_exact_geometry_leaves_no_force() {
+    for (depth_um, length_mm) in [(20.0, 3.0), (500.0, 3.0), (500.0, 5.0), (2000.0, 5.0)] {
+        for center_deg in [0.0, 7.3] {
+            let mut s = rectangle();
+            s.simulation.start = Start::Equilibrium;
+            s.simulation.geometry = GeometryLaw::Exact;
+            s.contact.roller_path = RollerPath::Envelope;
+            s.friction.raceway_coefficient = 0.0;
+            s.defects[0].depth_um = depth_um;
+            s.defects[0].center_deg = center_deg;
+            s.defects[0].shape = Shape::Rectangle { length_mm, width_mm: 6.0 };
+            let model = Model::new(&s).unwrap();
+            let b = solve(&model, &Problem::at_start(&model)).unwrap();
+            // The forces of the motion there, all bodies held: no dampers and no film.
+            let mut y = start::state(&model).unwrap();
+            let mut motion = Motion::new(&model);
+            let mut dy = vec![0.0; motion.size()];
+            let l = &model.layout;
+            y[l.dof()..].fill(0.0);
+            motion.derivative(s.operation.load_ramp_s, &y, &mut dy);
+            let a = &dy[l.dof()..];
+            let [inner, outer] = [(l.inner(), model.inertia.inner_ring), (l.outer(), model.inertia.outer_ring)]
+                .map(|(at, m)| m * a[at].hypot(a[at + 1]));
+            // 1e-7 of the load is the solver's, and 1e-10 m along a wall of slope 0.7 changes a force by 0.02 N.
+            assert!(inner.max(outer) < 0.02, "{depth_um} um, {length_mm} mm, {center_deg} deg: {inner} and {outer} N");
+            assert!(b.residual < 1e-7 * 600.0);
+        }
+    }
 }

@@ -6,7 +6,7 @@ use brinell::document::Loaded;
 use brinell::model::Model;
 use brinell::plausibility::{after, before};
 use brinell::pressure::{STATIC_LIMIT, pressure_beside, pressures};
-use brinell::scenario::{DefectTable, Scenario, TableData};
+use brinell::scenario::Scenario;
 use brinell::simulate::EnergyAudit;
 use brinell::statics::static_load_zone;
 
@@ -438,49 +438,4 @@ fn analytic_a_tenth_of_the_dissipation_is_the_limit_in_both_directions() {
     energy.flows.load = 3.0;
     let told = after(&lumped, &energy).join("\n");
     assert!(told.contains("parametric work") && !told.contains("mechanics"), "{told}");
-}
-
-/// The base under a half-space with a table whose contact sinks by up to 60 % within `half` mm of its middle and is known to `most` um,
-/// out to `end` mm.
-fn tabled(half: f64, end: f64, most: f64, settings: &[(&str, &str)]) -> Vec<String> {
-    let mut loaded = base(&[&[("simulation.laws", "mechanics")], settings].concat());
-    let s_mm: Vec<f64> = (-40..=40).map(|k| f64::from(k) * end / 40.0).collect();
-    let delta_um: Vec<f64> = (0..=12).map(|k| f64::from(k) / 12.0 * most).collect();
-    let inside = |s: f64| (1.0 - (s / half).powi(2)).max(0.0).powi(2);
-    let delta_eff_um =
-        s_mm.iter().flat_map(|s| delta_um.iter().map(|delta| delta * (1.0 - 0.6 * inside(*s)))).collect();
-    loaded.scenario.defects[0].table = Some(DefectTable::Read(TableData { s_mm, delta_um, delta_eff_um }));
-    assert_eq!(loaded.scenario.problems(), []);
-    warnings(&loaded.scenario)
-}
-
-#[test]
-fn prop_the_table_of_this_damage_and_load_earns_no_word() {
-    assert_eq!(tabled(1.6, 2.5, 20.0, &[]), [""; 0]);
-    for surface in ["inner-raceway", "roller"] {
-        let on = [("defects.0.on", surface), ("defects.0.roller", "3"), ("defects.0.center_deg", "0")];
-        let keys = if surface == "roller" { &on[..] } else { &on[..1] };
-        assert_eq!(tabled(1.6, 2.5, 20.0, keys), [""; 0], "{surface}");
-    }
-}
-
-#[test]
-fn regress_a_table_of_other_damage_load_or_units_is_said() {
-    let cases: &[(f64, f64, f64, &[(&str, &str)], &str)] = &[
-        // Of damage 0.8 mm and 8 mm long, and in metres.
-        (0.4, 1.0, 20.0, &[], "it ends at s = -1.00 and 1.00 mm, and the damage's shape lies at s = -1.50 to 1.50 mm"),
-        (4.0, 5.0, 20.0, &[], "from which contacts reach"),
-        (1.6e-3, 2.5e-3, 20.0, &[], "look at their unit"),
-        // Of a load of a hundredth; in mm; in nm.
-        (1.6, 2.5, 0.3, &[], "its delta_um end at 0.300, and the heaviest contact deforms by"),
-        (1.6, 2.5, 0.02, &[], "beyond its end the table is straight"),
-        (1.6, 2.5, 20e3, &[], "its delta_um begin with"),
-    ];
-    for (half, end, most, settings, words) in cases {
-        let said = tabled(*half, *end, *most, settings);
-        assert!(
-            said.len() == 1 && said[0].contains("defects.0.table") && said[0].contains(words),
-            "{words}: {said:#?}"
-        );
-    }
 }

@@ -36,12 +36,13 @@ pub(super) fn print(s: &Scenario, top_speed: f64) -> Result<(), Failure> {
 const NO_TILT: f64 = 1e-9;
 
 fn tilts(d: &Distribution, stiffness: &[[f64; 4]; 4]) {
-    let [x, y] = d.tilt.map(|tau| if tau.abs() < NO_TILT { 0.0 } else { 1e6 * tau });
+    let urad = |tilt: f64| if tilt.abs() < NO_TILT { 0.0 } else { 1e6 * tilt };
+    let [x, y] = d.tilt.map(urad);
     say!(
         "  inner ring from outer   tilted by ({}, {}) urad; rollers by up to {} urad",
         significant(x, x.hypot(y), 3),
         significant(y, x.hypot(y), 3),
-        short(1e6 * d.roller_tilt, 3)
+        short(urad(d.roller_tilt), 3)
     );
     say!(
         "  bearing stiffness       over (x, y, tau_x, tau_y) in N/m, N/rad and N m/rad; along the axis and about it cylindrical rollers hold nothing"

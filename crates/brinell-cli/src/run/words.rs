@@ -2,7 +2,6 @@
 
 use crate::say::{one_line, short};
 use brinell::observe::{DefectLine, Findings, Kind};
-use brinell::plausibility;
 use brinell::result::fields;
 use brinell::signal::Indicator;
 use brinell::simulate::End;
@@ -46,7 +45,7 @@ pub(super) fn tell(parts: &Parts, elapsed: f64, written: &[PathBuf]) -> Vec<Stri
         (fields::MOMENTUM_IMBALANCE.of)(outcome).map_or("(rigid mount)".into(), |x| short(x, 1)),
     ));
     let scenario = &loaded.scenario;
-    let after = [summary::strayed(scenario, findings), plausibility::after(scenario, &outcome.energy)].concat();
+    let after = summary::doubtful(scenario, simulation, outcome, findings);
     printed.extend(after.into_iter().map(|words| format!("warning: {words}")));
     for path in written {
         printed.push(format!("  wrote {}", path.display()));

@@ -243,6 +243,14 @@ impl Defect {
         (PiecewisePolynomial::of_lines(&floor).largest(), envelope(&floor, radius).largest())
     }
 
+    /// Depth of its deepest point, m.
+    pub fn deepest(&self) -> f64 {
+        match &self.shape {
+            Shape::DepthMap(grid) => grid.extremes().0,
+            _ => self.reach(self.radius).0,
+        }
+    }
+
     /// What the damage leaves at the local angle u under the law `ecl`; `None` outside its arc.
     ///
     /// Along an envelope L_s stays that of the point under the contact line and h_s is replaced by its envelope, which

@@ -41,6 +41,11 @@ impl Resting {
 }
 
 impl ContactLaw<'_> {
+    /// Whether damage pushes along the surface where it changes a contact's energy; under `ecl` it does not.
+    pub fn pushes(&self) -> bool {
+        self.law == Law::HalfSpace
+    }
+
     /// A contact that may be on any of `defects` at a deformation, m.
     #[inline]
     pub fn at(&self, defects: Defects, angles: &Angles, delta: f64) -> Resting {

@@ -46,6 +46,8 @@ pub struct Extremes {
     pub stiffness: f64,
     /// Largest Q, N.
     pub force: f64,
+    /// Beyond the end of the damage's table, where it goes on straight, the largest delta - delta_eff, m; 0 where no contact came there.
+    pub sunk: f64,
 }
 
 /// Defect entry or exit of a roller.
@@ -243,11 +245,13 @@ impl Watch {
         pass.peak = pass.peak.max(point.force);
         if analysed {
             let PassPoint { length, stiffness, force, .. } = point;
-            let so_far = self.extremes.unwrap_or(Extremes { length, stiffness, force });
+            let sunk = sunk(&f.model.defects[pass.defect], pass.side, (u, c.deformation[pass.slot]));
+            let so_far = self.extremes.unwrap_or(Extremes { length, stiffness, force, sunk });
             self.extremes = Some(Extremes {
                 length: so_far.length.min(length),
                 stiffness: so_far.stiffness.min(stiffness),
                 force: so_far.force.max(force),
+                sunk: so_far.sunk.max(sunk),
             });
         }
         self.skipped += 1;
@@ -265,6 +269,14 @@ impl Watch {
             self.stride *= 2;
         }
         pass.points.push(point);
+    }
+}
+
+/// delta - delta_eff at the angle u (rad) on damage where the deformation delta (m) is beyond its table; else 0.
+fn sunk(defect: &Defect, side: Side, (u, delta): (f64, f64)) -> f64 {
+    match defect.table(side).filter(|table| delta > table.last_delta()) {
+        Some(table) => delta - table.at(delta, u * defect.radius).delta,
+        None => 0.0,
     }
 }
 

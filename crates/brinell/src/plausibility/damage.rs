@@ -2,7 +2,7 @@
 //! of it.
 
 use super::warning::{short, warning};
-use crate::defect::{Defect, SIDES, Shape, Side, relative_radius, wrap};
+use crate::defect::{Defect, SIDES, Side, relative_radius, wrap};
 use crate::document::{Problem, toml_float};
 use crate::model::Model;
 use crate::scenario::{Law, ModelKind, RollerPath, Scenario};
@@ -29,10 +29,7 @@ pub(super) fn warnings(scenario: &Scenario, model: &Model, zone: Option<&StaticL
 /// Damage of less depth than a raceway is rough, which the model leaves out.
 fn hardly_any(scenario: &Scenario, model: &Model) -> Vec<Problem> {
     let of_key = |(k, defect): (usize, &Defect)| {
-        let largest = match &defect.shape {
-            Shape::DepthMap(grid) => grid.extremes().0.max(defect.shape.raised()),
-            _ => defect.reach(defect.radius).0,
-        };
+        let largest = defect.deepest().max(defect.shape.raised());
         (largest < ROUGHNESS).then(|| {
             warning(
                 &format!("defects.{k}.depth_um"),

@@ -25,8 +25,44 @@ struct Roller {
     push: [[f64; 2]; 2],
 }
 
+/// Balances at angles held, at most.
+const MOST_TURNS: usize = 20;
+/// A change of the place on a raceway that no damage notices, m.
+const SAME_PLACE: f64 = 1e-10;
+
+/// By how much rollers are seen from the inner and the outer ring's centre farther on than their orbit angle, rad.
+type Turned = [f64; 2];
+
 /// As [`super::solve`], for rings that do not tilt.
+///
+/// The law `ecl` knows no force for the energy that a contact gains or loses along the surface, so with angles seen from displaced centres
+/// its forces have no potential. There the angles are held while the balance is found, and those of that balance are held for the next.
 pub(super) fn solve(model: &Model, problem: &Problem) -> Result<Balance, NoBalance> {
+    let moves_damage = model.exact && !model.defects.is_empty() && model.kind.moves_every_part();
+    if !moves_damage || model.contact_law(Side::Outer).pushes() {
+        return solve_held(model, problem, None);
+    }
+    let mut held: Vec<Turned> = vec![[0.0; 2]; model.layout.rollers()];
+    let mut found = solve_held(model, problem, Some(&held))?;
+    for _ in 1..MOST_TURNS {
+        let at = [found.inner, found.outer];
+        let seen = |slot: usize| rings_at(model, problem, slot, at).map(|ring| ring.turned(found.r[slot]));
+        let next: Vec<Turned> = (0..held.len()).map(seen).collect();
+        let moved = held.iter().flatten().zip(next.iter().flatten()).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+        if moved * model.geometry.pitch_radius < SAME_PLACE {
+            break;
+        }
+        held = next;
+        let iterations = found.iterations;
+        found = solve_held(model, &Problem { guess: at, ..problem.clone() }, Some(&held))?;
+        found.iterations += iterations;
+    }
+    // Where the law jumps between two places neither has a balance at its own angles: the last one counts.
+    Ok(found)
+}
+
+/// The same with the angles at which damage is met `held`, or as the rings move them.
+fn solve_held(model: &Model, problem: &Problem, held: Option<&[Turned]>) -> Result<Balance, NoBalance> {
     let free = [!problem.fix_inner, !problem.fix_inner, !problem.fix_outer, !problem.fix_outer];
     let guess: Offsets = std::array::from_fn(|k| problem.guess[k / 2][k % 2]);
     let mut rollers = vec![Roller::default(); model.layout.rollers()];
@@ -42,7 +78,9 @@ pub(super) fn solve(model: &Model, problem: &Problem) -> Result<Balance, NoBalan
         }
         for (slot, roller) in rollers.iter_mut().enumerate() {
             *roller = match model.kind {
-                ModelKind::Full | ModelKind::Tilting => between_raceways(model, problem, slot, x),
+                ModelKind::Full | ModelKind::Tilting => {
+                    between_raceways(model, problem, (slot, held.map(|of| of[slot])), x)
+                }
                 ModelKind::Lumped => in_series(model, problem, slot, x),
             };
             state.potential += roller.energy;
@@ -99,17 +137,15 @@ fn in_series(model: &Model, problem: &Problem, slot: usize, x: &Offsets) -> Roll
 }
 
 /// The roller's equilibrium: the r at which Q_in - Q_out and its own radial force N balance.
-fn between_raceways(model: &Model, problem: &Problem, slot: usize, x: &Offsets) -> Roller {
+fn between_raceways(model: &Model, problem: &Problem, (slot, held): (usize, Option<Turned>), x: &Offsets) -> Roller {
     let angles = angles(problem, slot);
     let (sin, cos) = angles.orbit.sin_cos();
     let between = Between {
         model,
         slot,
         angles,
-        sides: [
-            RingAt::new(model, (sin, cos), [x[0], x[1]], -model.geometry.clearance),
-            RingAt::new(model, (sin, cos), [x[2], x[3]], model.geometry.outer_gap),
-        ],
+        held,
+        sides: rings_at(model, problem, slot, [[x[0], x[1]], [x[2], x[3]]]),
         own: own_force(model, problem, slot),
     };
     let r = between.equilibrium();
@@ -133,6 +169,12 @@ fn between_raceways(model: &Model, problem: &Problem, slot: usize, x: &Offsets) 
             [-n_y * per_rho, n_x * per_rho]
         }),
     }
+}
+
+/// Both rings as a roller meets them.
+fn rings_at(model: &Model, problem: &Problem, slot: usize, [inner, outer]: [[f64; 2]; 2]) -> [RingAt; 2] {
+    let at = problem.orbit[slot].sin_cos();
+    [RingAt::new(model, at, inner, -model.geometry.clearance), RingAt::new(model, at, outer, model.geometry.outer_gap)]
 }
 
 /// A ring that is held, as a roller at one orbit angle meets it: e_r . x_g and -e_t . x_g (0 in centred geometry), the gap with the
@@ -186,11 +228,20 @@ impl RingAt {
     }
 }
 
+impl RingAt {
+    /// How much farther on than its orbit angle a roller at r is seen from the ring's centre, rad.
+    fn turned(&self, r: f64) -> f64 {
+        let [n_r, n_t] = self.normal(r);
+        (n_t / n_r).atan()
+    }
+}
+
 /// One roller between raceways that are held.
 struct Between<'a> {
     model: &'a Model,
     slot: usize,
     angles: Angles,
+    held: Option<Turned>,
     /// The inner ring and the outer one.
     sides: [RingAt; 2],
     /// Its own radial force, N.
@@ -204,8 +255,11 @@ impl Between<'_> {
 
     /// The roller's angles as seen from the centre of a ring.
     fn seen(&self, side: Side, r: f64) -> Angles {
-        let [n_r, n_t] = self.sides[side as usize].normal(r);
-        Angles { orbit: self.angles.orbit + (n_t / n_r).atan(), ..self.angles }
+        let turned = match self.held {
+            Some(held) => held[side as usize],
+            None => self.sides[side as usize].turned(r),
+        };
+        Angles { orbit: self.angles.orbit + turned, ..self.angles }
     }
 
     /// Both contacts of the roller at r.

@@ -124,6 +124,12 @@ fn prop_damage_beyond_the_ball_is_refused() {
     for mm in ["4.15", "-3"] {
         assert!(with(BARE, &at(mm)).is_ok(), "{mm}");
     }
+    // The offset is at fault, and its range is told, of balls and of rollers.
+    refused(BARE, &at("9"), "defects.0.axial_offset_mm", "above -4.219 and below 4.219, in mm");
+    let wide = "{ on = \"outer-raceway\", depth_um = 20, shape = { rectangle = { length_mm = 3, width_mm = 4 } } }";
+    let moved = [("defects.0", wide), ("defects.0.axial_offset_mm", "8")];
+    refused(super::BARE, &moved, "defects.0.axial_offset_mm", "off the raceway's edge: z from 6 to 10 mm");
+    refused(super::BARE, &moved, "defects.0.axial_offset_mm", "above -5 and below 5, in mm");
     let outline = "{ outline = { points_mm = [[0, 4], [1, 4], [0, 5]] } }";
     refused(BARE, &[("defects.0.shape", outline)], "defects.0.shape.outline.points_mm", "into z from -3.97 to 3.97 mm");
     let map = "{ depth_map = { ds_mm = 1, dz_mm = 1, z0_mm = 5, columns = 2, rows = 2, depth_um = [1, 2, 3, 4] } }";

@@ -264,3 +264,21 @@ fn prop_the_schema_has_every_key_of_the_laws() {
     }
     assert!(schema["properties"]["defects"]["items"]["properties"]["table"].is_object());
 }
+
+#[test]
+fn regress_the_centred_bearing_is_offered_ecl_where_it_can_be_used() {
+    let centred = [LAWS, ("simulation.geometry", "centred"), ("contact.law", "half-space")];
+    let text = format!("{BARE}{DAMAGED}");
+    refused(&text, &centred, "contact.law", "\"ecl\", or simulation.geometry = \"exact\"");
+    let keys = [("bearing.profile", "logarithmic"), ("simulation.model", "tilting")];
+    for key in keys {
+        let problems = with(&text, &[&centred[..], &[key]].concat()).unwrap_err();
+        let of_law =
+            problems.iter().find(|p| p.key == "contact.law").unwrap_or_else(|| panic!("{key:?}: {problems:?}"));
+        assert!(!of_law.to_string().contains("ecl"), "{of_law}");
+    }
+    let ball = "[bearing]\npreset = \"6205\"\n[operation]\nspeed_rpm = 1800.0\nload_n = [800.0, 0.0]\n[simulation]\nduration_s = 0.1\n";
+    let pit = "[[defects]]\non = \"outer-raceway\"\ndepth_um = 20.0\nshape = { rectangle = { length_mm = 1.0, width_mm = 1.0 } }\n";
+    let problems = with(&format!("{ball}{pit}"), &[("simulation.geometry", "centred")]).unwrap_err();
+    assert!(problems.iter().all(|p| !p.to_string().contains("ecl")), "{problems:?}");
+}

@@ -128,9 +128,16 @@ impl Checker<'_> {
                 short(high),
                 short(touched)
             );
-            let offset_key = format!("defects.{i}.axial_offset_mm");
-            let (key, also) = if offset == 0.0 { (key, &[BALL][..]) } else { (&*offset_key, &[key, BALL][..]) };
-            self.error(key, message, format!("damage that reaches into z from -{0} to {0} mm", short(touched)), also);
+            if offset != 0.0 {
+                self.moved_off(i, message, (low - offset, high - offset, touched), &[key, BALL]);
+            } else {
+                self.error(
+                    key,
+                    message,
+                    format!("damage that reaches into z from -{0} to {0} mm", short(touched)),
+                    &[BALL],
+                );
+            }
             return;
         }
         // What an offset carries over the edge is left out, as long as anything stays.
@@ -151,19 +158,28 @@ impl Checker<'_> {
             return;
         }
         if low < -half - EDGE_SLACK || high > half + EDGE_SLACK {
-            self.error(
-                key,
+            let covers = |hint: &str| {
                 format!(
-                    "off the raceway's edge: z from {} to {} mm, and the roller covers -{3} to {3} mm{2}",
+                    "off the raceway's edge: z from {} to {} mm, and the roller covers -{2} to {2} mm{hint}",
                     short(low),
                     short(high),
-                    hint_of_scale(high - low, 2.0 * half),
                     short(half)
-                ),
-                format!("z from -{0} to {0} mm", short(half)),
-                &[LENGTH],
-            );
+                )
+            };
+            // Here nothing is left of what was moved.
+            if offset != 0.0 {
+                self.moved_off(i, covers(""), (low - offset, high - offset, half), &[key, LENGTH]);
+            } else {
+                let message = covers(&hint_of_scale(high - low, 2.0 * half));
+                self.error(key, message, format!("z from -{0} to {0} mm", short(half)), &[LENGTH]);
+            }
         }
+    }
+
+    /// Damage from `low` to `high` that its offset moves out of -`reach` to `reach`, all in mm.
+    fn moved_off(&mut self, i: usize, message: String, (low, high, reach): (f64, f64, f64), also: &[&str]) {
+        let allowed = format!("above {} and below {}", short(-reach - high), short(reach - low));
+        self.error(&format!("defects.{i}.axial_offset_mm"), message, allowed, also);
     }
 
     pub(super) fn grown(&mut self, i: usize, defect: &Defect) {
