@@ -1,7 +1,8 @@
 //! What `brinell check` says of a scenario, and that `brinell run` repeats its warnings.
 
-use crate::common::{Call, SHORT, brinell, folder_with, parsed, typed};
+use crate::common::{Call, SHORT, brinell, example, folder_with, parsed, typed};
 use std::fs;
+use std::path::Path;
 
 /// `check` of SHORT, long enough to settle, with settings.
 fn check(settings: &[&str]) -> Call {
@@ -149,4 +150,12 @@ fn regress_damage_outside_the_load_zone_has_no_pressure_of_the_heaviest_roller()
 fn regress_a_held_ring_has_no_support_frequency() {
     let held = check(&["simulation.model=lumped", "operation.load_on=inner-ring"]).exits(0).out;
     assert!(held.contains("ring on its support     inner ") && !held.contains("rings on their supports"), "{held}");
+}
+
+#[test]
+fn regress_round_off_is_no_tilt() {
+    let tilting = ["--set", "simulation.model=tilting", "--set", "defects=[]"];
+    let file = example("single-row.toml");
+    let args = [&["check", &file[..]], &tilting[..]].concat();
+    brinell(Path::new("."), &args).exits(0).says(&["tilted by (0, 0) urad; rollers by up to 0 urad"]);
 }

@@ -132,7 +132,7 @@ pub(super) fn audits(parts: &Parts) -> Vec<Fact> {
     let mut facts = Vec::new();
     if let Some(x) = (fields::MOMENTUM_IMBALANCE.of)(parts.outcome) {
         let value = short(x, 2);
-        let note = "largest force without a reaction, relative to all forces; round-off is about 1e-15";
+        let note = "largest force or torque without a reaction, relative to all; round-off is about 1e-15";
         facts.push(Fact::new("Momentum imbalance", value, "", note).judged(x < MOMENTUM_LIMIT));
     }
     // Where nothing moved, no residual is left over.

@@ -1,11 +1,12 @@
-//! Momentum: every internal force has its reaction, so the bodies' mass times acceleration adds up to the external
-//! forces, and where rings tilt the same holds for the moments Z x force about the bearing's middle.
+//! Momentum, linear and angular: every internal force has its reaction, so the bodies' mass times acceleration adds up to the external
+//! forces; in exact geometry the change of angular momentum adds up to their torques (section 18), and where rings tilt the same holds for
+//! the moments Z x force about the bearing's middle.
 
 use super::{Model, Tilt, Workspace};
 
 /// Force that appears from nowhere, relative to the forces at play: |sum m a - external| / (sum of |internal| and
 /// |external|). Round-off where Newton's third law holds. `None` where the outer ring's mount takes unknown forces (the
-/// lumped model with a fixed outer ring). Where rings tilt, the larger one of that and the same of the moments.
+/// lumped model with a fixed outer ring). In exact geometry the larger one of that and the same of torques, and where rings tilt of moments.
 pub fn imbalance(model: &Model, t: f64, y: &[f64], a: &[f64], ws: &Workspace) -> Option<f64> {
     if model.outer_ring_is_fixed() {
         return None;

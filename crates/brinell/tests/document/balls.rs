@@ -125,7 +125,7 @@ fn prop_damage_beyond_the_ball_is_refused() {
         assert!(with(BARE, &at(mm)).is_ok(), "{mm}");
     }
     // The offset is at fault, and its range is told, of balls and of rollers.
-    refused(BARE, &at("9"), "defects.0.axial_offset_mm", "above -4.219 and below 4.219, in mm");
+    refused(BARE, &at("9"), "defects.0.axial_offset_mm", "above -4.22 and below 4.22, in mm");
     let wide = "{ on = \"outer-raceway\", depth_um = 20, shape = { rectangle = { length_mm = 3, width_mm = 4 } } }";
     let moved = [("defects.0", wide), ("defects.0.axial_offset_mm", "8")];
     refused(super::BARE, &moved, "defects.0.axial_offset_mm", "off the raceway's edge: z from 6 to 10 mm");
