@@ -122,7 +122,7 @@ impl TableData {
     /// Outside its s a contact is healthy: at both ends delta_eff is delta, or the force would jump there.
     fn is_healthy_at_its_ends(&self) -> Result<(), TableFault> {
         let rows = || self.s_mm.iter().zip(self.delta_eff_um.chunks(self.delta_um.len()));
-        for (s, of_s) in rows().take(1).chain(rows().last()) {
+        for (s, of_s) in rows().take(1).chain(rows().next_back()) {
             // Nothing touches below 0, however far.
             let off = |(delta, effective): &(&f64, &f64)| {
                 (effective.max(0.0) - delta.max(0.0)).abs() > HEALTHY_SHARE * delta.abs() + HEALTHY_UM

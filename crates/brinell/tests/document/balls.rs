@@ -126,8 +126,8 @@ fn prop_damage_beyond_the_ball_is_refused() {
     }
     // The offset is at fault, and its range is told, of balls and of rollers.
     refused(BARE, &at("9"), "defects.0.axial_offset_mm", "above -4.22 and below 4.22, in mm");
-    let wide = "{ on = \"outer-raceway\", depth_um = 20, shape = { rectangle = { length_mm = 3, width_mm = 4 } } }";
-    let moved = [("defects.0", wide), ("defects.0.axial_offset_mm", "8")];
+    let wide = "[{ on = \"outer-raceway\", depth_um = 20, axial_offset_mm = 8, shape = { rectangle = { length_mm = 3, width_mm = 4 } } }]";
+    let moved = [("defects", wide)];
     refused(super::BARE, &moved, "defects.0.axial_offset_mm", "off the raceway's edge: z from 6 to 10 mm");
     refused(super::BARE, &moved, "defects.0.axial_offset_mm", "above -5 and below 5, in mm");
     let outline = "{ outline = { points_mm = [[0, 4], [1, 4], [0, 5]] } }";

@@ -170,7 +170,7 @@ impl Checker<'_> {
             if offset != 0.0 {
                 self.moved_off(i, covers(""), (low - offset, high - offset, half), &[key, LENGTH]);
             } else {
-                let message = covers(&hint_of_scale(high - low, 2.0 * half));
+                let message = covers(hint_of_scale(high - low, 2.0 * half));
                 self.error(key, message, format!("z from -{0} to {0} mm", short(half)), &[LENGTH]);
             }
         }
