@@ -300,10 +300,13 @@ fn prop_ring_that_nothing_holds_is_refused() {
 #[test]
 fn regress_no_balance_is_reported_without_a_nan() {
     let told = |residual: f64| {
-        let none = brinell::statics::NoBalance { residual, iterations: 200 };
+        let none = brinell::statics::NoBalance { residual, scale: 300.0, iterations: 200 };
         none.to_string()
     };
     assert!(told(12.5).starts_with("no static balance: 1.250e1 N are left on a ring after 200"));
+    assert!(told(12.5).contains("a free ring needs a support"));
+    // A hundredth of it holds no ring; less is the search's.
+    assert!(told(0.06).contains("that is 2.0e-4 of the largest force"), "{}", told(0.06));
     for residual in [f64::NAN, f64::INFINITY] {
         let words = "no static balance: a force beyond any number is left on a ring after 200";
         assert!(told(residual).starts_with(words), "{}", told(residual));

@@ -115,16 +115,34 @@ pub struct Tilted {
 
 /// No balance was found.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
-#[error(
-    "no static balance: {} left on a ring after {iterations} iterations; a free ring needs a support or a loaded contact against \
-     the load, and where it tilts against its moment (support.*_tilt_stiffness_nm_per_rad)",
-    newton(*.residual)
-)]
+#[error("no static balance: {} left on a ring after {iterations} iterations; {}", newton(*.residual), self.remedy())]
 pub struct NoBalance {
     /// Force left over, N; not a number where a contact force was none.
     pub residual: f64,
+    /// The largest force at play, N.
+    pub scale: f64,
     /// Iterations made.
     pub iterations: usize,
+}
+
+impl NoBalance {
+    /// What may be the matter.
+    fn remedy(&self) -> String {
+        /// Share of the largest force below which a ring is held, and the search alone ended.
+        const HELD: f64 = 0.01;
+        let share = self.residual / self.scale;
+        if share < HELD {
+            format!(
+                "that is {:.1e} of the largest force: the search ended beside a force that jumps, as at the edge of damage under contact.law = \"ecl\" \
+                 (contact.roller_path = \"point\")",
+                share
+            )
+        } else {
+            "a free ring needs a support or a loaded contact against the load, and where it tilts against its moment \
+             (support.*_tilt_stiffness_nm_per_rad)"
+                .into()
+        }
+    }
 }
 
 fn newton(force: f64) -> String {

@@ -85,10 +85,10 @@ pub(super) fn minimise<const N: usize>(
             if residual <= 1e-7 * scale {
                 return Ok(Minimum { x, residual, iterations });
             }
-            return Err(NoBalance { residual, iterations });
+            return Err(NoBalance { residual, scale, iterations });
         }
     }
-    Err(NoBalance { residual, iterations: MAX_ITERATIONS })
+    Err(NoBalance { residual, scale, iterations: MAX_ITERATIONS })
 }
 
 /// Gaussian elimination with partial pivoting; `None` where the matrix is singular.
