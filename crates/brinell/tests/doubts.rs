@@ -66,6 +66,9 @@ fn regress_a_table_of_other_damage_load_or_units_is_said() {
         (0.4, 1.0, 20.0, "it ends at s = -1.00 and 1.00 mm, and the damage's shape lies at s = -1.50 to 1.50 mm"),
         (4.0, 5.0, 20.0, "from which contacts reach"),
         (1.6e-3, 2.5e-3, 20.0, "look at their unit"),
+        (0.5, 2.5, 20.0, "alone, and the damage's shape lies at s = -1.50 to 1.50 mm"),
+        // 60 % of 60 um.
+        (1.6, 2.5, 60.0, "by 35.4 um more than a healthy one, and the damage is 20.0 um deep"),
         // Of a load of a hundredth; in mm; in nm.
         (1.6, 2.5, 0.3, "its delta_um end at 0.300, and the heaviest contact deforms by"),
         (1.6, 2.5, 0.02, "beyond its end the table is straight"),
@@ -73,10 +76,8 @@ fn regress_a_table_of_other_damage_load_or_units_is_said() {
     ];
     for (half, end, most, words) in cases {
         let said = tabled(half, end, most, &[]);
-        assert!(
-            said.len() == 1 && said[0].contains("defects.0.table") && said[0].contains(words),
-            "{words}: {said:#?}"
-        );
+        assert!(said.iter().all(|w| w.contains("defects.0.table")), "{said:#?}");
+        assert!(said.iter().any(|w| w.contains(words)), "{words}: {said:#?}");
     }
 }
 

@@ -17,6 +17,10 @@ const FELT: f64 = 0.01;
 const COARSE: f64 = 4.0;
 /// And by this much at least, m: digits of a file.
 const DIGITS: f64 = 1e-9;
+/// Share of the shape's length over which the contact has to be changed: thin and flat ends may be felt by none.
+const LEAST_COVERED: f64 = 0.5;
+/// Depths that a contact may sink by: a floor as deep bears it.
+const DEEPER: f64 = 1.1;
 /// What damage may reach beyond its shape and the contact's own reach, m: a length that its edges are rounded over, a cell of a grid.
 const ROUNDED: f64 = 0.1e-3;
 
@@ -86,19 +90,35 @@ fn of_shape((defect, alone): (&Defect, bool), table: &Table, radius: f64) -> Opt
             "delta_eff_um other than delta_um over the damage".into(),
         ));
     };
-    let words = if to < first || from > last {
-        format!("the contact is changed at s = {} to {} mm alone, and {shape}", mm(from), mm(to))
+    let changed = format!("the contact is changed at s = {} to {} mm", mm(from), mm(to));
+    let words = if to.min(last) - from.max(first) < LEAST_COVERED * (last - first) {
+        format!("{changed} alone, and {shape}: this is the table of other damage")
     } else if alone && (from < first - reach || to > last + reach) {
         format!(
-            "the contact is changed at s = {} to {} mm, and {shape}, from which contacts reach {} mm farther at most: this is the table of other damage",
-            mm(from),
-            mm(to),
+            "{changed}, and {shape}, from which contacts reach {} mm farther at most: this is the table of other damage",
             mm(reach)
+        )
+    } else if let Some(sunk) = sunk(table).filter(|sunk| alone && *sunk > DEEPER * defect.deepest() + DIGITS) {
+        format!(
+            "a contact yields by {} um more than a healthy one, and the damage is {} um deep: this is the table of deeper damage",
+            short(1e6 * sunk),
+            short(1e6 * defect.deepest())
         )
     } else {
         return None;
     };
-    Some((words, "the table of this damage, s counted from its center_deg".into()))
+    Some((words, "the table of this damage, s counted from its center_deg; look at the units".into()))
+}
+
+/// Largest delta - delta_eff beyond the accuracy of tables, m.
+fn sunk(table: &Table) -> Option<f64> {
+    let deltas = table.delta_nodes().iter().enumerate();
+    let of = |(column, delta): (usize, &f64)| {
+        let at = (0..table.s_nodes().len()).map(|row| table.node(row, column).0);
+        Some(delta - at.reduce(f64::min)?.max(0.0) - FELT * delta)
+    };
+    // Where delta_eff is below 0 nothing touches.
+    deltas.filter(|(_, delta)| **delta > 0.0).filter_map(of).reduce(f64::max)
 }
 
 /// First and last s at which a contact is not the healthy one, m.
