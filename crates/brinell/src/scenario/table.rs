@@ -199,12 +199,12 @@ mod tests {
 
     #[test]
     fn prop_a_table_is_read_in_any_order_of_its_lines() {
-        let ordered = "s_mm,delta_um,delta_eff_um\n-1,0,0\n-1,2,2\n0.5,0,-1\n0.5,2,0.8\n";
-        let mixed = "\u{feff}# from a solver\r\nnote, delta_eff_um,delta_um,s_mm\r\nx,0.8,2,0.5\r\n\r\n,0,-0.0,-1\r\n,2,2,-1\r\n,-1,0,0.5\r\n";
+        let ordered = "s_mm,delta_um,delta_eff_um\n-1,0,0\n-1,2,2\n0.5,0,-1\n0.5,2,0.8\n1,0,0\n1,2,2\n";
+        let mixed = "\u{feff}# from a solver\r\nnote, delta_eff_um,delta_um,s_mm\r\nx,0.8,2,0.5\r\n\r\n,0,-0.0,-1\r\n,2,2,-1\r\n,0,0,1\r\n,-1,0,0.5\r\n,2,2,1\r\n";
         let table = TableData::from_csv_text(ordered).unwrap();
-        assert_eq!(table.s_mm, [-1.0, 0.5]);
+        assert_eq!(table.s_mm, [-1.0, 0.5, 1.0]);
         assert_eq!(table.delta_um, [0.0, 2.0]);
-        assert_eq!(table.delta_eff_um, [0.0, 2.0, -1.0, 0.8]);
+        assert_eq!(table.delta_eff_um, [0.0, 2.0, -1.0, 0.8, 0.0, 2.0]);
         assert_eq!(TableData::from_csv_text(mixed).unwrap(), table);
     }
 
