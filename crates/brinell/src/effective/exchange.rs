@@ -42,7 +42,7 @@ mod tests {
     fn prop_a_table_is_the_same_after_writing() {
         let full = || (0..5).flat_map(|s| (0..4).map(move |delta| (s, delta)));
         // Healthy at both ends.
-        let effective = |s: usize, delta: f64| if s % 4 == 0 { delta } else { delta * 0.9 - (s - 1) as f64 };
+        let effective = |s: usize, delta: f64| if s.is_multiple_of(4) { delta } else { delta * 0.9 - (s - 1) as f64 };
         let lines = full().map(|(s, delta)| format!("{},{delta},{}\n", s as f64 * 0.1, effective(s, delta as f64)));
         let table = read(&("s_mm,delta_um,delta_eff_um\n".to_owned() + &lines.collect::<String>()));
         let written = table.to_csv_text(|delta| delta * delta.sqrt());
