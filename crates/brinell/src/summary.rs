@@ -2,7 +2,7 @@
 
 use crate::accuracy::METHOD;
 use crate::channel::Channel;
-use crate::defect::{Defect, SIDES};
+use crate::defect::{Defect, Defects, SIDES, Side};
 use crate::document::{Loaded, Provenance};
 use crate::kernel::Kernel;
 use crate::model::Model;
@@ -178,8 +178,7 @@ pub fn doubtful(scenario: &Scenario, simulation: &Simulation, outcome: &Outcome,
 const SKIDDING: f64 = 0.5;
 
 /// Cages that stand still or nearly so while elements are loaded, in words.
-#[doc(hidden)]
-pub fn skidding(scenario: &Scenario, findings: &Findings) -> Vec<String> {
+fn skidding(scenario: &Scenario, findings: &Findings) -> Vec<String> {
     let words = |(k, row): (usize, &RowSlip)| {
         let (cage, element) = (row.cage()?.value, scenario.bearing.element.word());
         let loaded = row.loaded_surface()?.value;
@@ -203,14 +202,16 @@ const DEEPER: [f64; 2] = [0.1, 0.01];
 /// Elements that sank deeper into damage than it is deep: its table goes on straight beyond its last deformation, as if there were no floor.
 /// In words.
 fn sunk_too_deep(model: &Model, findings: &Findings) -> Vec<String> {
-    let deepest = |of: &Defect| {
-        // Damage near each other is one surface with one table.
-        let near = model.defects.iter().filter(|other| (other.surface, other.row) == (of.surface, of.row));
-        near.map(Defect::deepest).fold(0.0, f64::max)
+    if model.tilt.is_some() {
+        return Vec::new();
+    }
+    // Damage near each other is one surface with one table.
+    let deepest = |of: &Defect, side: Side| {
+        Defects::beside(&model.defects, of, side).iter().map(Defect::deepest).fold(0.0, f64::max)
     };
     let words = |(k, defect): (usize, &Defect)| {
-        let table = SIDES.into_iter().find_map(|side| defect.table(side)).filter(|_| model.tilt.is_none())?;
-        let (sunk, depth, last) = (findings.passes.extremes(k)?.sunk, deepest(defect), table.last_delta());
+        let (side, table) = SIDES.into_iter().find_map(|side| Some((side, defect.table(side)?)))?;
+        let (sunk, depth, last) = (findings.passes.extremes(k)?.sunk, deepest(defect, side), table.last_delta());
         let um = |x: f64| signal::short(1e6 * x, 3);
         (sunk > (1.0 + DEEPER[0]) * depth + DEEPER[1] * last).then(|| {
             format!(

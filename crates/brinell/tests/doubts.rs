@@ -1,44 +1,13 @@
 //! Warnings about tables of files that are those of something else, and about what runs show.
 
-use crate::common::read_li2023 as read;
-use brinell::document::Loaded;
-use brinell::model::Model;
-use brinell::plausibility::before;
+use crate::common::{rectangle_with, warnings};
 use brinell::scenario::{DefectTable, Scenario, TableData};
-use brinell::statics::static_load_zone;
 use brinell::summary::doubtful;
-
-/// The rectangle of `examples/`, half a second long.
-const BASE: &str = "\
-[bearing]
-preset = \"NN3007\"
-[operation]
-speed_rpm = 1800.0
-load_n = [300.0, 0.0]
-[[defects]]
-on = \"outer-raceway\"
-center_deg = 0.0
-depth_um = 20.0
-shape = { rectangle = { length_mm = 3.0, width_mm = 4.0 } }
-[simulation]
-duration_s = 0.5
-";
-
-fn base(settings: &[(&str, &str)]) -> Loaded {
-    let settings: Vec<_> = settings.iter().map(|(key, value)| ((*key).to_owned(), (*value).to_owned())).collect();
-    read(BASE, &settings).unwrap_or_else(|problems| panic!("{settings:?}: {problems:?}"))
-}
-
-fn warnings(s: &Scenario) -> Vec<String> {
-    let model = Model::new(s).unwrap();
-    let told = before(s, &model, &static_load_zone(&model));
-    told.iter().map(ToString::to_string).collect()
-}
 
 /// The base under a half-space with a table whose contact sinks by up to 60 % within `half` mm of its middle and is known to `most` um,
 /// out to `end` mm.
 fn tabled(half: f64, end: f64, most: f64, settings: &[(&str, &str)]) -> Vec<String> {
-    let mut loaded = base(&[&[("simulation.laws", "mechanics")], settings].concat());
+    let mut loaded = rectangle_with(&[&[("simulation.laws", "mechanics")], settings].concat());
     let s_mm: Vec<f64> = (-40..=40).map(|k| f64::from(k) * end / 40.0).collect();
     let delta_um: Vec<f64> = (0..=12).map(|k| f64::from(k) / 12.0 * most).collect();
     let inside = |s: f64| (1.0 - (s / half).powi(2)).max(0.0).powi(2);
@@ -84,7 +53,7 @@ fn regress_a_table_of_other_damage_load_or_units_is_said() {
 /// What a run of 0.2 s of the base under the default laws gives to doubt, changed by `settings` and `change`.
 fn doubts(settings: &[(&str, &str)], change: impl Fn(&mut Scenario)) -> Vec<String> {
     let of = [&[("simulation.laws", "mechanics"), ("simulation.duration_s", "0.15")], settings].concat();
-    let mut s = base(&of).scenario;
+    let mut s = rectangle_with(&of).scenario;
     change(&mut s);
     let run = brinell::simulate(&s).unwrap();
     doubtful(&s, &run.simulation, &run.outcome, &run.findings)

@@ -1,51 +1,23 @@
 //! Warnings about scenarios that run and mean little, and about the energy of runs.
 
 use crate::common::read_li2023 as read;
-use crate::common::simulate;
-use brinell::document::Loaded;
+use crate::common::{rectangle_with, simulate, warnings};
 use brinell::model::Model;
-use brinell::plausibility::{after, before};
+use brinell::plausibility::after;
 use brinell::pressure::{STATIC_LIMIT, pressure_beside, pressures};
 use brinell::scenario::Scenario;
 use brinell::simulate::EnergyAudit;
 use brinell::statics::static_load_zone;
 
-/// The rectangle of `examples/`, half a second long.
-const BASE: &str = "\
-[bearing]
-preset = \"NN3007\"
-[operation]
-speed_rpm = 1800.0
-load_n = [300.0, 0.0]
-[[defects]]
-on = \"outer-raceway\"
-center_deg = 0.0
-depth_um = 20.0
-shape = { rectangle = { length_mm = 3.0, width_mm = 4.0 } }
-[simulation]
-duration_s = 0.5
-";
-
-fn base(settings: &[(&str, &str)]) -> Loaded {
-    let settings: Vec<_> = settings.iter().map(|(key, value)| ((*key).to_owned(), (*value).to_owned())).collect();
-    read(BASE, &settings).unwrap_or_else(|problems| panic!("{settings:?}: {problems:?}"))
-}
-
-fn warnings(s: &Scenario) -> Vec<String> {
-    let model = Model::new(s).unwrap();
-    let told = before(s, &model, &static_load_zone(&model));
-    told.iter().map(ToString::to_string).collect()
-}
-
 /// The one warning of a changed scenario.
 fn warning(settings: &[(&str, &str)]) -> String {
-    let mut all = warnings(&base(settings).scenario);
+    let mut all = warnings(&rectangle_with(settings).scenario);
     assert_eq!(all.len(), 1, "{settings:?}: {all:#?}");
     all.remove(0)
 }
 
 fn silent(settings: &[(&str, &str)]) {
-    assert_eq!(warnings(&base(settings).scenario), Vec::<String>::new(), "{settings:?}");
+    assert_eq!(warnings(&rectangle_with(settings).scenario), Vec::<String>::new(), "{settings:?}");
 }
 
 #[test]
@@ -106,7 +78,7 @@ fn prop_a_ridge_higher_than_the_gap_is_loaded_outside_the_load_zone() {
     };
     let at = |shape: &str| {
         warnings(
-            &base(&[
+            &rectangle_with(&[
                 ("defects.0.center_deg", "180"),
                 ("contact.law", "half-space"),
                 ("simulation.geometry", "exact"),
@@ -185,7 +157,7 @@ fn analytic_a_ring_displaced_by_more_than_a_roller_is_said() {
         ("support.outer_stiffness_n_per_m", "0"),
         ("defects", "[]"),
     ];
-    let all = warnings(&base(&soft).scenario);
+    let all = warnings(&rectangle_with(&soft).scenario);
     assert!(
         all.iter()
             .any(|told| told.contains("contact.inner_stiffness") && told.contains("the roller's diameter of 6.00 mm")),
@@ -195,7 +167,7 @@ fn analytic_a_ring_displaced_by_more_than_a_roller_is_said() {
 
 #[test]
 fn analytic_a_preloaded_zone_is_a_full_turn() {
-    let s = base(&[("bearing.radial_clearance_um", "-10")]).scenario;
+    let s = rectangle_with(&[("bearing.radial_clearance_um", "-10")]).scenario;
     let zone = static_load_zone(&Model::new(&s).unwrap()).unwrap();
     assert_eq!(zone.extent, std::f64::consts::TAU);
 }
@@ -221,7 +193,7 @@ fn prop_pressure_and_rating_are_held_against_the_load() {
     assert!(told[0].contains("C0 = 36.5 kN (SKF"), "{}", told[0]);
     assert!(told[1].contains("at the inner raceway") && told[1].contains("4000 MPa"), "{}", told[1]);
     // Hertz: the pressure grows with the root of the force.
-    let s = base(&[]).scenario;
+    let s = rectangle_with(&[]).scenario;
     let [one, four] = [100.0, 400.0].map(|force| pressures(&s, [force; 2])[0]);
     assert!((four / one - 2.0).abs() < 1e-12);
 }
@@ -229,7 +201,7 @@ fn prop_pressure_and_rating_are_held_against_the_load() {
 #[test]
 fn regress_a_load_beyond_an_estimated_rating_is_said() {
     // ISO 76: 44 (1 - 6/49) 38 x 6 x 6 = 52.8 kN.
-    let all = warnings(&base(&[("operation.load_n", "[60000, 0]")]).scenario);
+    let all = warnings(&rectangle_with(&[("operation.load_n", "[60000, 0]")]).scenario);
     let said = |words: &str| all.iter().any(|told| told.contains(words));
     assert!(said("C0 = 52.8 kN (estimated by the formula of ISO 76)"), "{all:#?}");
     silent(&[("operation.load_n", "[5000, 0]"), ("contact.roller_path", "envelope")]);
@@ -251,7 +223,7 @@ fn prop_a_deep_step_over_the_whole_width_is_said_of_a_point_alone() {
 
 #[test]
 fn analytic_pressure_beside_damage_is_that_of_the_length_left() {
-    let s = base(&[]).scenario;
+    let s = rectangle_with(&[]).scenario;
     let model = Model::new(&s).unwrap();
     let (left, pressure) = pressure_beside(&model, &s.bearing, 0, [50.0; 2]).unwrap();
     assert!((left - 2e-3).abs() < 1e-12);
@@ -264,7 +236,7 @@ fn analytic_pressure_beside_damage_is_that_of_the_length_left() {
         // The roller is pressed down to the floor.
         ("defects.0.depth_um", "0.1"),
     ] {
-        let s = base(&[shape]).scenario;
+        let s = rectangle_with(&[shape]).scenario;
         let model = Model::new(&s).unwrap();
         assert_eq!(pressure_beside(&model, &s.bearing, 0, [50.0; 2]), None);
     }
@@ -304,7 +276,7 @@ fn regress_a_sensor_on_a_fixed_ring_is_said() {
 #[test]
 fn analytic_weight_alone_is_held_against_the_support() {
     // 0.0791 kg: 0.776 N on the outer ring; the support takes 10 N before the clearance is closed.
-    let loaded = base(&[("operation.load_n", "[0, 0]"), ("operation.gravity_m_per_s2", "[0, -9.81]")]);
+    let loaded = rectangle_with(&[("operation.load_n", "[0, 0]"), ("operation.gravity_m_per_s2", "[0, -9.81]")]);
     let told: Vec<_> = loaded.warnings.iter().map(ToString::to_string).collect();
     assert_eq!(told.len(), 1, "{told:?}");
     assert!(told[0].contains("k C_r = 10 N against 0.776 N, the ring's weight included"), "{}", told[0]);
@@ -369,7 +341,7 @@ fn prop_energy_from_nowhere_is_said_with_what_conserves_it() {
         ("defects.0.depth_um", "2000"),
         ("simulation.duration_s", "0.06"),
     ];
-    let s = base(&pit).scenario;
+    let s = rectangle_with(&pit).scenario;
     let (_, outcome) = simulate(&s);
     let told = after(&s, &outcome.energy);
     assert_eq!(told.len(), 1, "{told:?}");
@@ -383,19 +355,19 @@ fn prop_energy_from_nowhere_is_said_with_what_conserves_it() {
     }
     // The set that it names has none.
     let conserving = [pit[0], pit[1], pit[2], ("simulation.laws", "mechanics")];
-    let s = base(&conserving).scenario;
+    let s = rectangle_with(&conserving).scenario;
     let (_, outcome) = simulate(&s);
     assert_eq!(outcome.energy.parametric, 0.0);
     assert!(after(&s, &outcome.energy).is_empty());
     // A healthy bearing has none either.
-    let s = base(&[("defects", "[]"), ("simulation.duration_s", "0.02")]).scenario;
+    let s = rectangle_with(&[("defects", "[]"), ("simulation.duration_s", "0.02")]).scenario;
     let (_, outcome) = simulate(&s);
     assert!(after(&s, &outcome.energy).is_empty());
 }
 
 #[test]
 fn regress_an_audit_that_does_not_close_is_said() {
-    let s = base(&[]).scenario;
+    let s = rectangle_with(&[]).scenario;
     let mut energy = EnergyAudit::default();
     energy.flows.load = 1.0;
     energy.parametric = -0.985;
@@ -413,7 +385,7 @@ fn regress_an_audit_that_does_not_close_is_said() {
 
 #[test]
 fn analytic_a_tenth_of_the_dissipation_is_the_limit_in_both_directions() {
-    let s = base(&[]).scenario;
+    let s = rectangle_with(&[]).scenario;
     let mut energy = EnergyAudit::default();
     energy.flows.contact = 4.0;
     for (work, words) in [

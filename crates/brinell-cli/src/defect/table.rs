@@ -28,18 +28,18 @@ pub(super) fn table(args: &TableArgs) -> Result<(), Failure> {
                 .into(),
         ));
     }
-    if let (Surface::InnerRaceway | Surface::OuterRaceway, true) = (of.on, args.inner) {
-        return Err(Failure::Usage(format!(
-            "--inner: defect {} is on the {}, which has one contact; leave it out, as it is for damage on a rolling element, which has two",
-            args.defect,
-            of.on.word()
-        )));
-    }
-    let index = args.defect - 1;
     let side = match (of.on, args.inner) {
-        (Surface::InnerRaceway, _) | (Surface::Roller(_), true) => Side::Inner,
-        (Surface::OuterRaceway, _) | (Surface::Roller(_), false) => Side::Outer,
+        (Surface::InnerRaceway, false) | (Surface::Roller(_), true) => Side::Inner,
+        (Surface::OuterRaceway | Surface::Roller(_), false) => Side::Outer,
+        (Surface::InnerRaceway | Surface::OuterRaceway, true) => {
+            return Err(Failure::Usage(format!(
+                "--inner: defect {} is on the {}, which has one contact; leave it out, as it is for damage on a rolling element, which has two",
+                args.defect,
+                of.on.word()
+            )));
+        }
     };
+    let index = args.defect - 1;
     let model = Model::new(s).map_err(|error| Failure::Usage(error.to_string()))?;
     let Some(table) = model.defects[index].table(side) else {
         let other = (0..index).find(|k| SIDES.iter().any(|side| model.defects[*k].table(*side).is_some()));

@@ -4,7 +4,7 @@
 //! reach or its deformations differ.
 
 use super::warning::short;
-use crate::defect::{Defect, SIDES, Side, relative_radius};
+use crate::defect::{Defect, Defects, SIDES, Side, relative_radius};
 use crate::document::Problem;
 use crate::effective::Table;
 use crate::model::Model;
@@ -35,8 +35,7 @@ pub(super) fn warnings(scenario: &Scenario, model: &Model, zone: &StaticLoadZone
         let Some(side) = met.max_by(|a, b| heaviest(a).total_cmp(&heaviest(b))) else { continue };
         let Some(table) = defect.table(side) else { continue };
         let radius = relative_radius(&scenario.bearing, side);
-        let alone = |(j, other): (usize, &Defect)| j == k || (other.surface, other.row) != (defect.surface, defect.row);
-        let alone = model.defects.iter().enumerate().all(alone);
+        let alone = Defects::beside(&model.defects, defect, side).iter().count() == 1;
         let said = [of_load(table, heaviest(&side)), of_shape((defect, alone), table, radius)];
         let problem = |(words, allowed)| Problem::warning(format!("defects.{k}.table"), words).allowed(allowed);
         all.extend(said.into_iter().flatten().map(problem));

@@ -38,7 +38,7 @@ type Turned = [f64; 2];
 /// The law `ecl` knows no force for the energy that a contact gains or loses along the surface, so with angles seen from displaced centres
 /// its forces have no potential. There the angles are held while the balance is found, and those of that balance are held for the next.
 pub(super) fn solve(model: &Model, problem: &Problem) -> Result<Balance, NoBalance> {
-    let moves_damage = model.exact && !model.defects.is_empty() && model.kind.moves_every_part();
+    let moves_damage = model.exact && !model.defects.is_empty();
     if !moves_damage || model.contact_law(Side::Outer).pushes() {
         return solve_held(model, problem, None);
     }
@@ -46,7 +46,8 @@ pub(super) fn solve(model: &Model, problem: &Problem) -> Result<Balance, NoBalan
     let mut found = solve_held(model, problem, Some(&held))?;
     for _ in 1..MOST_TURNS {
         let at = [found.inner, found.outer];
-        let seen = |slot: usize| rings_at(model, problem, slot, at).map(|ring| ring.turned(found.r[slot]));
+        let seen =
+            |slot: usize| rings_at(model, problem.orbit[slot].sin_cos(), at).map(|ring| ring.turned(found.r[slot]));
         let next: Vec<Turned> = (0..held.len()).map(seen).collect();
         let moved = held.iter().flatten().zip(next.iter().flatten()).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
         if moved * model.geometry.pitch_radius < SAME_PLACE {
@@ -145,7 +146,7 @@ fn between_raceways(model: &Model, problem: &Problem, (slot, held): (usize, Opti
         slot,
         angles,
         held,
-        sides: rings_at(model, problem, slot, [[x[0], x[1]], [x[2], x[3]]]),
+        sides: rings_at(model, (sin, cos), [[x[0], x[1]], [x[2], x[3]]]),
         own: own_force(model, problem, slot),
     };
     let r = between.equilibrium();
@@ -172,8 +173,7 @@ fn between_raceways(model: &Model, problem: &Problem, (slot, held): (usize, Opti
 }
 
 /// Both rings as a roller meets them.
-fn rings_at(model: &Model, problem: &Problem, slot: usize, [inner, outer]: [[f64; 2]; 2]) -> [RingAt; 2] {
-    let at = problem.orbit[slot].sin_cos();
+fn rings_at(model: &Model, at: (f64, f64), [inner, outer]: [[f64; 2]; 2]) -> [RingAt; 2] {
     [RingAt::new(model, at, inner, -model.geometry.clearance), RingAt::new(model, at, outer, model.geometry.outer_gap)]
 }
 
@@ -226,9 +226,7 @@ impl RingAt {
         let rho = along.hypot(self.across);
         [along / rho, self.across / rho]
     }
-}
 
-impl RingAt {
     /// How much farther on than its orbit angle a roller at r is seen from the ring's centre, rad.
     fn turned(&self, r: f64) -> f64 {
         let [n_r, n_t] = self.normal(r);

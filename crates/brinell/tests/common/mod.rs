@@ -6,8 +6,11 @@ pub mod cases;
 pub mod counting;
 
 use brinell::document::{Loaded, Problem, read};
+use brinell::model::Model;
+use brinell::plausibility::before;
 use brinell::scenario::Scenario;
 use brinell::simulate::{End, Outcome, Signals, Simulation};
+use brinell::statics::static_load_zone;
 
 /// A scenario under the laws of Li et al. 2023 where its text names no set: for what is about those laws, or was recorded under them.
 pub fn read_li2023(text: &str, overrides: &[(String, String)]) -> Result<Loaded, Vec<Problem>> {
@@ -31,6 +34,35 @@ pub fn example() -> Scenario {
          shape = { rectangle = { length_mm = 3.0, width_mm = 4.0 } }\n\
          [simulation]\nlaws = \"li2023\"\nduration_s = 0.5\nsample_rate_hz = 25600.0\n",
     )
+}
+
+/// The rectangle of `examples/`, half a second long.
+const RECTANGLE: &str = "\
+[bearing]
+preset = \"NN3007\"
+[operation]
+speed_rpm = 1800.0
+load_n = [300.0, 0.0]
+[[defects]]
+on = \"outer-raceway\"
+center_deg = 0.0
+depth_um = 20.0
+shape = { rectangle = { length_mm = 3.0, width_mm = 4.0 } }
+[simulation]
+duration_s = 0.5
+";
+
+/// The rectangle of `examples/` with settings over it, by the paper's laws unless they say otherwise.
+pub fn rectangle_with(settings: &[(&str, &str)]) -> Loaded {
+    let settings: Vec<_> = settings.iter().map(|(key, value)| ((*key).to_owned(), (*value).to_owned())).collect();
+    read_li2023(RECTANGLE, &settings).unwrap_or_else(|problems| panic!("{settings:?}: {problems:?}"))
+}
+
+/// What is said of a scenario beforehand.
+pub fn warnings(s: &Scenario) -> Vec<String> {
+    let model = Model::new(s).unwrap();
+    let told = before(s, &model, &static_load_zone(&model));
+    told.iter().map(ToString::to_string).collect()
 }
 
 /// Named columns.
