@@ -134,10 +134,10 @@ def main():
     plain = stages(rates, rates)
     square = [[dot(row, [plain[1][j][k] for j in range(3)]) for k in range(3)] for row in [*plain[1], plain[3]]]
     other = (plain[0], plain[1], square[:3], plain[3], square[3])
-    print("Root of the sum of squares of the conditions of order 4, and stability limits h |lambda| at zeta 0, 0.3, 0.6, 1, 1.4")
+    print("Root of the sum of squares of the conditions of order 4, and stability limits h |lambda| at zeta 0, 0.1, 0.3, 0.6, 1, 1.4")
     for name, method in (("this pair", pair), ("Bogacki and Shampine", other)):
         size = mp.sqrt(sum(r * r for r in order_four(*method)))
-        limits = [f"{stability_limit(method, z):.2f}" for z in (0, 0.3, 0.6, 1, 1.4)]
+        limits = [f"{stability_limit(method, z):.2f}" for z in (0, 0.1, 0.3, 0.6, 1, 1.4)]
         print(f"{name:44} {mp.nstr(size, 3)}; {', '.join(limits)}")
     sys.exit(not good)
 

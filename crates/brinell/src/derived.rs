@@ -4,7 +4,7 @@ mod json;
 
 use crate::accuracy::settings;
 use crate::bearing::Kinematics;
-use crate::defect::{Defect, SIDES};
+use crate::defect::{Defect, SIDES, Side};
 use crate::model::Model;
 use crate::scenario::{Accuracy, Surface};
 use crate::statics::{NoBalance, StaticLoadZone, static_load_zone};
@@ -113,8 +113,11 @@ impl Derived {
         let contact_stiffness = SIDES.map(|side| model.stiffness_at(side, contact_force));
         let between = contact_stiffness[0] + contact_stiffness[1];
         let roller_angular = (between / m.roller).sqrt();
-        let damping: f64 =
-            SIDES.iter().zip(contact_stiffness).map(|(side, k)| model.contact(*side).damping.at_most(k)).sum();
+        let damper = |(side, k): (&Side, f64)| {
+            let law = model.contact(*side);
+            law.damping.of(k, law.deflection(contact_force))
+        };
+        let damping: f64 = SIDES.iter().zip(contact_stiffness).map(damper).sum();
         let natural = |stiffness: f64, mass: f64| (stiffness / mass).sqrt() / TAU;
         Self {
             top_speed,

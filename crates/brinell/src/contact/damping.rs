@@ -34,14 +34,6 @@ impl Damping {
         }
     }
 
-    /// The most that it comes to at a tangent stiffness, N s/m.
-    pub fn at_most(self, tangent: f64) -> f64 {
-        match self {
-            Self::Constant(c) => c,
-            Self::Time { tau, .. } => tau * tangent,
-        }
-    }
-
     /// The same of both contacts in series.
     pub fn in_series(self) -> Self {
         match self {
