@@ -39,6 +39,7 @@ pub(super) fn table(args: &TableArgs) -> Result<(), Failure> {
             )));
         }
     };
+    source.inputs().spare(&args.output)?;
     let index = args.defect - 1;
     let model = Model::new(s).map_err(|error| Failure::Usage(error.to_string()))?;
     let Some(table) = model.defects[index].table(side) else {

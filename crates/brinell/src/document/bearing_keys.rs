@@ -6,7 +6,7 @@ use super::keys::Fallback::{self, Catalogued};
 use super::keys::{Keys, PAPER, assumed, derived, stated};
 use super::spec::{Spec, key};
 use crate::bearing::USUAL_CONFORMITY;
-use crate::bearing::clearance::{ClearanceClass, bore_diameter_mm};
+use crate::bearing::clearance::{ClearanceClass, bore_diameter_mm, largest_bore_mm};
 use crate::scenario::*;
 
 /// Rolling bearing steel, kg/mm^3.
@@ -168,7 +168,10 @@ fn grooves<K: Keys>(k: &mut K, b: &mut Bearing) {
 /// C_r of class CN; `None` for a bore beyond ISO 5753-1.
 fn usual_clearance_um(b: &Bearing) -> Option<f64> {
     let bore = bore_diameter_mm(b).unwrap_or(b.inner_raceway_diameter_mm - 2.0 * ring_wall_mm(b));
-    ClearanceClass::CN.one_sided_middle(b.element, bore)
+    let largest = f64::from(largest_bore_mm(b.element));
+    // Beyond the standard's table in proportion to the bore, as it grows within.
+    let (within, beyond) = (bore.min(largest), (bore / largest).max(1.0));
+    ClearanceClass::CN.one_sided_middle(b.element, within).map(|gap| gap * beyond)
 }
 
 /// Wall of a ring under its raceway, mm.
@@ -219,7 +222,7 @@ fn clearance<K: Keys>(k: &mut K, laws: Laws, b: &mut Bearing) {
         },
         (None, None) if let (Laws::Mechanics, Some(gap)) = (laws, usual_clearance_um(b)) => derived(
             gap,
-            "half of the middle of class CN of ISO 5753-1 for the bore, one that leaves the inner ring's usual wall if none is given",
+            "half of the middle of class CN of ISO 5753-1 for the bore, beyond its table in proportion; a bore that leaves the inner ring's usual wall if none is given",
         ),
         (None, None) => match b.element {
             Element::Roller => assumed(10.0, "a small bearing's usual gap, and the NN3007's"),

@@ -47,7 +47,7 @@ pub(crate) fn scenario<K: Keys>(k: &mut K, s: &mut Scenario) {
     k.section(key("sensor", "from the outer ring to the record: nothing, unless a key says so"), |k| {
         sensor(k, &mut s.sensor)
     });
-    let pushes = s.has_damage_that_pushes();
+    let pushes = s.has_damage_that_pushes() || s.has_waves();
     k.section(key("simulation", "what to compute and to record"), |k| {
         simulation(k, (&s.operation, pushes), &mut s.simulation)
     });
@@ -242,7 +242,9 @@ fn simulation<K: Keys>(k: &mut K, (o, pushes): (&Operation, bool), s: &mut Simul
     );
     let geometry = match s.laws {
         Laws::Mechanics => stated(GeometryLaw::Exact, "of the set \"mechanics\""),
-        Laws::Li2023 if pushes => stated(GeometryLaw::Exact, "damage on a half-space pushes back on every body"),
+        Laws::Li2023 if pushes => {
+            stated(GeometryLaw::Exact, "waves, and damage on a half-space, push back on every body")
+        }
         Laws::Li2023 => stated(GeometryLaw::Centred, PAPER),
     };
     k.key(key("geometry", "normals and levers of contacts"), geometry, &mut s.geometry);

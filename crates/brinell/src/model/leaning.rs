@@ -1,4 +1,4 @@
-//! A tilting contact by its tables (section 19): E = E_H([delta_eff(delta, tilt, s)]_+, tilt), with the healthy slices' E_H.
+//! A tilting contact by its tables (section 19): E = E_H(delta_eff(delta, tilt, s), tilt), with the healthy slices' E_H.
 //!
 //! Forces are the gradient of E: Q along delta, the moment T along tilt, the push P along the damaged surface.
 

@@ -77,6 +77,11 @@ impl Scenario {
     pub(crate) fn has_damage_that_pushes(&self) -> bool {
         self.contact.law == Law::HalfSpace && !self.defects.is_empty()
     }
+
+    /// Whether a surface has waves, which push likewise.
+    pub(crate) fn has_waves(&self) -> bool {
+        self.bearing.waviness.is_some() || self.bearing.element_waviness.is_some()
+    }
 }
 
 impl Element {

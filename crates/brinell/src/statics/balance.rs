@@ -134,7 +134,7 @@ impl NoBalance {
         if share < HELD {
             format!(
                 "that is {:.1e} of the largest force: the search ended beside a force that jumps, as at the edge of damage under contact.law = \"ecl\" \
-                 (contact.roller_path = \"point\")",
+                 (contact.roller_path = \"point\"), or at an end of a file's table where damage still acts",
                 share
             )
         } else {

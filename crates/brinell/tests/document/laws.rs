@@ -266,6 +266,33 @@ fn prop_the_schema_has_every_key_of_the_laws() {
 }
 
 #[test]
+fn regress_clearance_grows_beyond_the_standards_table() {
+    // A ball bearing of 400 mm bore: the standard has 55 to 145 um for class CN on the diameter.
+    let text = "[bearing]\nelement = \"ball\"\nbore_diameter_mm = 400.0\ninner_raceway_diameter_mm = 436.5\n\
+                outer_raceway_diameter_mm = 563.5\nroller_diameter_mm = 63.5\nrollers_per_row = 15\n[operation]\n\
+                speed_rpm = 500.0\nload_n = [0.0, -60000.0]\n";
+    let clearance = good(text).scenario.bearing.radial_clearance_um;
+    assert!((27.5..72.5).contains(&clearance), "{clearance}");
+}
+
+#[test]
+fn prop_what_levers_of_the_centred_bearing_leave_out_is_refused() {
+    let centred = [("simulation.laws", "li2023"), ("simulation.geometry", "centred")];
+    for (key, value) in [
+        ("bearing.waviness", "{ amplitude_um = 0.1 }"),
+        ("friction.rolling_coefficient", "1e-3"),
+        ("cage.pockets", "round"),
+    ] {
+        let problems = with(BARE, &[&centred[..], &[(key, value)]].concat()).unwrap_err();
+        assert!(problems.len() == 1 && problems[0].key == key, "{problems:?}");
+        assert!(problems[0].to_string().contains("simulation.geometry = \"exact\""), "{problems:?}");
+    }
+    // Waves alone ask for the exact one.
+    let waves = with(BARE, &[centred[0], ("bearing.waviness", "{ amplitude_um = 0.1 }")]).unwrap();
+    assert_eq!(waves.scenario.simulation.geometry, GeometryLaw::Exact);
+}
+
+#[test]
 fn regress_the_centred_bearing_is_offered_ecl_where_it_can_be_used() {
     let centred = [LAWS, ("simulation.geometry", "centred"), ("contact.law", "half-space")];
     let text = format!("{BARE}{DAMAGED}");

@@ -268,6 +268,9 @@ fn scenarios() -> impl Strategy<Value = Scenario> {
     let half_space = move |words: (usize, usize, usize, usize, usize)| {
         words.2 == 2 || (words.2 == 0 && (balls(words) || (mechanics(words) && words.0 != 1)))
     };
+    // Whose levers leave out what pushes along the surface.
+    let centred =
+        move |words: (usize, usize, usize, usize, usize)| words.4 == 1 && !half_space(words) && !mechanics(words);
     let words = (0..3usize, 0..2usize, 0..3usize, 0..3usize, 0..2usize);
     let numbers = prop::collection::vec(1e-9..1e9f64, 16);
     let text = (any::<String>(), prop::collection::vec("[a-z0-9_*]{1,9}", 0..4));
@@ -325,7 +328,7 @@ fn scenarios() -> impl Strategy<Value = Scenario> {
                 guide_clearance_mm: x[7],
                 guide_width_mm: x[8],
                 walls: if mechanics(words) { Walls::Oiled } else { Walls::Linear },
-                pockets: [Pockets::Slot, Pockets::Round][words.4],
+                pockets: if centred(words) { Pockets::Slot } else { [Pockets::Slot, Pockets::Round][words.4] },
                 friction_coefficient: if mechanics(words) { x[11] } else { 0.05 },
                 contact_stiffness_n_per_m: walls(mechanics(words), d, &x)[0],
                 contact_damping_ns_per_m: walls(mechanics(words), d, &x)[1],
@@ -352,7 +355,7 @@ fn scenarios() -> impl Strategy<Value = Scenario> {
             friction: Friction {
                 raceway_coefficient: x[14] / 1e9,
                 slip_velocity_m_per_s: x[15],
-                rolling_coefficient: x[13],
+                rolling_coefficient: if centred(words) { 0.0 } else { x[13] },
             },
             lubricant: Lubricant {
                 viscosity_pa_s: x[1],
@@ -385,7 +388,7 @@ fn scenarios() -> impl Strategy<Value = Scenario> {
             sensor: sensor(words.0, &x),
             simulation: Simulation {
                 laws: if mechanics(words) { Laws::Mechanics } else { Laws::Li2023 },
-                geometry: [GeometryLaw::Exact, GeometryLaw::Centred][if half_space(words) { 0 } else { words.4 }],
+                geometry: if centred(words) { GeometryLaw::Centred } else { GeometryLaw::Exact },
                 seed: x[6].to_bits(),
                 model: [ModelKind::Full, ModelKind::Lumped, ModelKind::Tilting][words.2],
                 duration_s: 1.0 + x[12] / 1e9,

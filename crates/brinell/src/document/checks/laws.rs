@@ -1,11 +1,17 @@
 //! Which laws go together.
 
 use super::Checker;
-use crate::scenario::{DefectTable, GeometryLaw, Law, Laws, ModelKind, RacewayFilm, RollerProfile};
+use crate::scenario::{DefectTable, GeometryLaw, Law, Laws, ModelKind, Pockets, RacewayFilm, RollerProfile, Scenario};
 
 const LAW: &str = "contact.law";
 const LAWS: &str = "simulation.laws";
 const MODEL: &str = "simulation.model";
+
+/// Keys of the waves that there are.
+fn waves(s: &Scenario) -> impl Iterator<Item = &'static str> {
+    let keys = [("bearing.waviness", &s.bearing.waviness), ("bearing.element_waviness", &s.bearing.element_waviness)];
+    keys.into_iter().filter_map(|(key, waves)| waves.as_ref().map(|_| key))
+}
 
 impl Checker<'_> {
     pub(super) fn laws(&mut self) {
@@ -69,6 +75,9 @@ impl Checker<'_> {
                 &["simulation.geometry"],
             );
         }
+        if s.simulation.geometry == GeometryLaw::Centred && s.simulation.model != ModelKind::Lumped {
+            self.without_levers();
+        }
         if s.lubricant.raceway_film == RacewayFilm::Squeeze && s.contact.damping.time_us().is_some() {
             self.error(
                 "lubricant.raceway_film",
@@ -77,6 +86,25 @@ impl Checker<'_> {
                 &["contact.damping_time_us"],
             );
         }
+    }
+
+    /// What levers of the centred bearing leave out.
+    fn without_levers(&mut self) {
+        let s = self.s;
+        let mut refuse = |acts: bool, key: &str, what: &str, without: &str| {
+            if acts {
+                let message = format!("{what}, for which levers of the centred bearing have no reaction");
+                let allowed = format!("{without}, or simulation.geometry = \"exact\"");
+                self.error(key, message, allowed, &["simulation.geometry"]);
+            }
+        };
+        for key in waves(s) {
+            refuse(true, key, "waves push along the surface", "the key left out");
+        }
+        let rolls = s.friction.rolling_coefficient > 0.0;
+        refuse(rolls, "friction.rolling_coefficient", "a couple resists rolling at each contact", "0");
+        let round = s.cage.pockets == Pockets::Round;
+        refuse(round, "cage.pockets", "a round pocket holds its element in every direction", "\"slot\"");
     }
 
     /// What the lumped model does not have, as the paper has it.
@@ -99,9 +127,7 @@ impl Checker<'_> {
                 &[MODEL],
             );
         }
-        let waves =
-            [("bearing.waviness", &s.bearing.waviness), ("bearing.element_waviness", &s.bearing.element_waviness)];
-        for (key, _) in waves.into_iter().filter(|(_, waves)| waves.is_some()) {
+        for key in waves(s) {
             let allowed = "the key left out where simulation.model = \"lumped\"";
             self.error(key, "the lumped model's surfaces are smooth".into(), allowed.into(), &[MODEL]);
         }

@@ -1,7 +1,7 @@
 //! The equations of motion of every part, section 8 of the model: Eqs. (28), (35), (41), (51).
 //!
-//! Levers are those of the centred bearing, as in the paper; the energy that this leaves over is booked as
-//! [`Power::lever`]. All is written once, over lanes: as many rollers at a time as the kernel has, or one.
+//! Levers are those of displaced rings (section 18, [`exact`]), or of the centred bearing, as in the paper; the energy that
+//! these leave over is booked as [`Power::lever`]. All is written once, over lanes: as many rollers at a time as the kernel has, or one.
 
 mod bodies;
 mod contacts;
