@@ -128,7 +128,7 @@ impl<'a> Run<'a> {
     /// What the energy audit of a run that came to its end warns of.
     pub(crate) fn warnings(&self) -> Option<Vec<String>> {
         self.gathered()?;
-        Some(plausibility::after(self.scenario()?, &self.outcome()?.energy))
+        Some(plausibility::of_energy(self.scenario()?, &self.outcome()?.energy))
     }
 
     /// What was recorded of a run that came to its end.
