@@ -225,7 +225,7 @@ fn prop_a_deep_step_over_the_whole_width_is_said_of_a_point_alone() {
 fn analytic_pressure_beside_damage_is_that_of_the_length_left() {
     let s = rectangle_with(&[]).scenario;
     let model = Model::new(&s).unwrap();
-    let (left, pressure) = pressure_beside(&model, &s.bearing, 0, [50.0; 2]).unwrap();
+    let (left, pressure) = pressure_beside(&model, &s, 0, [50.0; 2]).unwrap();
     assert!((left - 2e-3).abs() < 1e-12);
     // A third of the length carries all: the root of three times the pressure.
     let whole = pressures(&s, [50.0; 2])[1];
@@ -238,7 +238,7 @@ fn analytic_pressure_beside_damage_is_that_of_the_length_left() {
     ] {
         let s = rectangle_with(&[shape]).scenario;
         let model = Model::new(&s).unwrap();
-        assert_eq!(pressure_beside(&model, &s.bearing, 0, [50.0; 2]), None);
+        assert_eq!(pressure_beside(&model, &s, 0, [50.0; 2]), None);
     }
 }
 
