@@ -9,7 +9,6 @@ use brinell::channel::SENSOR;
 use brinell::plausibility::{self, Beforehand};
 use brinell::result::{Spread, quantities};
 use brinell::scenario::Scenario;
-use brinell::summary;
 use serde_json::{Value, json};
 use std::sync::{Mutex, PoisonError};
 
