@@ -50,12 +50,12 @@ pub(crate) fn pressures<'py>(py: Python<'py>, scenario: &Scenario, defect: i64) 
     let to_python = |of: PressureView| {
         let dict = PyDict::new(py);
         let [s, z] = of.middles_mm();
-        dict.set_item("contact", of.contact)?;
-        dict.set_item("s_mm", array(py, s))?;
-        dict.set_item("z_mm", array(py, z))?;
         for (name, value) in of.numbers() {
             dict.set_item(name, value)?;
         }
+        dict.set_item("contact", of.contact)?;
+        dict.set_item("s_mm", array(py, s))?;
+        dict.set_item("z_mm", array(py, z))?;
         dict.set_item("pressure_mpa", array(py, of.pressure_mpa))?;
         dict.set_item("at_mm", of.at_mm.to_vec())?;
         dict.set_item("note", of.note)?;
