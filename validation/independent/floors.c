@@ -5,6 +5,7 @@
 #include <stdlib.h>
 
 #include "defects.h"
+#include "hertz.h"
 
 static void add_piece(Floor *f, double a, double b, double ha, double hb)
 {
@@ -67,16 +68,11 @@ void build_floor(Defect *d)
 }
 
 /* R_eq of a roller on the raceway of `side`, also for damage on the roller itself. */
-static double equivalent_radius(int side)
-{
-    return 1.0 / (side == OUTER ? 1.0 / M.r - 1.0 / M.Ro : 1.0 / M.r + 1.0 / M.Ri);
-}
-
 /* h_env(s) = min over s' of h(s') + (s - s')^2 / (2 R), exactly: within a piece the minimum is at s - R dh/ds or at an
  * end, outside them at s itself or at the nearest end. */
 double envelope_depth(const Floor *f, int side, double s)
 {
-    const double R = equivalent_radius(side);
+    const double R = 1.0 / curvature_along(side);
     double best = INFINITY;
     double gap = -INFINITY; /* where undamaged surface begins; it ends at the next piece */
     for (int i = 0; i <= f->count; i++) {

@@ -28,9 +28,14 @@ static double excess(double kappa, double gamma)
     return (2.0 * F1 - E2 * (1.0 + gamma)) / (E2 * (1.0 - gamma)) / (kappa * kappa);
 }
 
+double curvature_along(int side)
+{
+    return side == OUTER ? 1.0 / M.r - 1.0 / M.Ro : 1.0 / M.r + 1.0 / M.Ri;
+}
+
 double groove_stiffness(int side, double conformity, double youngs_modulus, double poisson_ratio, double *kappa)
 {
-    const double along = side == OUTER ? 1.0 / M.r - 1.0 / M.Ro : 1.0 / M.r + 1.0 / M.Ri;
+    const double along = curvature_along(side);
     const double across = 1.0 / M.r - 1.0 / (2.0 * M.r * conformity), R = 1.0 / (along + across);
     const double gamma = R * (along - across), E = youngs_modulus / (1.0 - poisson_ratio * poisson_ratio);
     double lo = 1.0 + 1e-9, hi = 1e3, F1, E2;

@@ -271,7 +271,7 @@ fn even_pressures(s: &Scenario, model: &Model, zone: &StaticLoadZone) {
         plain_number(1e-6 * static_limit(&s.bearing))
     );
     for (k, defect) in model.defects.iter().enumerate().filter(|(_, defect)| zone.reaches(model, defect)) {
-        if let Some((left, pressure)) = pressure_beside(model, &s.bearing, k, zone.heaviest()) {
+        if let Some((left, pressure)) = pressure_beside(model, s, k, zone.heaviest()) {
             say!(
                 "  beside the damage       {} MPa at most on the {} mm of contact left on the {}",
                 short(1e-6 * pressure, 4),

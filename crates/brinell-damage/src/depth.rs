@@ -11,7 +11,7 @@ use crate::geometry::DepthMap;
 use crate::holes::{drop_specks, fill};
 use crate::kind::{FileKind, describe};
 use crate::numbers::quantile;
-use crate::scan::{Raw, Scan};
+use crate::scan::{Raw, SAME, Scan};
 use crate::{depth_csv, depth_npy, surface};
 use brinell::scenario::{DepthGrid, FirstRow, ScanFile, ScanFill, ScanUnit, ScanZero};
 
@@ -142,8 +142,6 @@ fn stated(options: &ScanFile) -> [Option<f64>; 2] {
 
 /// Distances along s and z, mm: as the file says, or as stated.
 fn spacing(raw: &Raw, options: &ScanFile) -> Result<[f64; 2], DamageError> {
-    /// How far what is stated may be from what the file says.
-    const SAME: f64 = 0.01;
     let own = raw.spacing_mm.map(|[x, y]| match along_rows(options.rolling_direction) {
         true => [x, y],
         false => [y, x],

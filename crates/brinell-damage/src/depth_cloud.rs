@@ -2,7 +2,7 @@
 //! and column.
 
 use crate::error::DamageError;
-use crate::scan::{MAX_POINTS, Raw};
+use crate::scan::{MAX_POINTS, Raw, SAME};
 
 /// Points under which three columns are taken for a narrow grid.
 const LEAST_POINTS: usize = 9;
@@ -10,8 +10,6 @@ const LEAST_POINTS: usize = 9;
 const OFF_NODE: f64 = 0.1;
 /// Share of the nodes that must have a point.
 const LEAST_FILLED: f64 = 0.5;
-/// How far a spacing may be from the one that is stated.
-const SAME: f64 = 0.01;
 
 /// A point cloud put on its grid, x to the right and y upwards; another table as it is. `names`: the cells of its line
 /// of names; `stated_mm`: the distances of x and of y where they are known.

@@ -4,6 +4,8 @@ use crate::error::DamageError;
 
 /// The largest grid that is read: 4096 x 4096.
 pub(crate) const MAX_POINTS: usize = 1 << 24;
+/// How far a spacing may be from the one that is stated, relative.
+pub(crate) const SAME: f64 = 0.01;
 
 /// Numbers as written in a file; NaN is missing.
 #[derive(Default)]

@@ -3,6 +3,7 @@
 //! Half-widths h in mm over six arcs, as in section 12 of the model. Joined, they are
 //! [`brinell::defect::Shape::Li2023Irregular`].
 
+use brinell::defect::li2023_half_width_mm;
 use serde::Deserialize;
 use std::f64::consts::{FRAC_PI_2, PI};
 
@@ -101,18 +102,12 @@ impl Outline {
     }
 
     /// Half-width on an arc at the fraction s of it, mm.
-    #[expect(clippy::approx_constant, reason = "the paper's printed digits")]
     fn half_width_mm(self, arc: usize, s: f64) -> f64 {
-        let joined = matches!(self, Self::Inverted | Self::Depth);
-        match arc {
-            0 => 3.8284 - (16.0 - (1.6695 * s + 1.1589).powi(2)).sqrt(),
-            1 => 1.0,
+        match (self, arc) {
+            (Self::Inverted | Self::Depth, _) => li2023_half_width_mm(arc, s),
             // (0.7071e-3 s)^2 m is 0.5e-3 s^2 mm.
-            2 if !joined => 1.0 + 0.5e-3 * s * s,
-            2 => 1.0 + 0.7071 * s,
-            3 => 1.0 + (1.0 - (1.4142 * s - 0.7071).powi(2)).max(0.0).sqrt(),
-            4 => 1.7071 - 0.7071 * s,
-            _ => (1.0 - s * s).max(0.0).sqrt(),
+            (_, 2) => 1.0 + 0.5e-3 * s * s,
+            _ => li2023_half_width_mm(arc, s),
         }
     }
 }

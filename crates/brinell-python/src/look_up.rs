@@ -50,18 +50,14 @@ pub(crate) fn pressures<'py>(py: Python<'py>, scenario: &Scenario, defect: i64) 
     let to_python = |of: PressureView| {
         let dict = PyDict::new(py);
         let [s, z] = of.middles_mm();
+        for (name, value) in of.numbers() {
+            dict.set_item(name, value)?;
+        }
         dict.set_item("contact", of.contact)?;
         dict.set_item("s_mm", array(py, s))?;
         dict.set_item("z_mm", array(py, z))?;
         dict.set_item("pressure_mpa", array(py, of.pressure_mpa))?;
-        dict.set_item("largest_pressure_mpa", of.largest_mpa)?;
         dict.set_item("at_mm", of.at_mm.to_vec())?;
-        dict.set_item("contact_at_s_mm", of.middle_mm)?;
-        dict.set_item("deformation_um", of.deformation_um)?;
-        dict.set_item("force_n", of.force_n)?;
-        dict.set_item("healthy_pressure_mpa", of.healthy_mpa)?;
-        dict.set_item("yield_begins_at_mpa", of.yield_mpa)?;
-        dict.set_item("share_beyond_yield", of.share_beyond_yield)?;
         dict.set_item("note", of.note)?;
         Ok(dict)
     };

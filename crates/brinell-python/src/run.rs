@@ -9,7 +9,7 @@ use brinell::Error;
 use brinell::channel::{Frame, stiffness_unit};
 use brinell::many::go_on;
 use brinell::observe::passes::{Event, Passes};
-use brinell::plausibility::Beforehand;
+use brinell::plausibility::{self, Beforehand};
 use brinell::result::{self, RunResult};
 use brinell::simulate::{End, Observer, Signals, Simulation, SolverWork};
 use brinell::summary::{self, Parts};
@@ -150,7 +150,7 @@ pub(crate) fn simulate_many(
         |py, k, ran| {
             if let Ran::Over(finished, _, _, known) = &ran {
                 let RunResult { scenario, simulation, outcome, findings } = &**finished;
-                after.push((k, summary::afterwards(scenario, simulation, outcome, findings)));
+                after.push((k, plausibility::after(scenario, simulation, outcome, findings)));
                 looked += usize::from(known.is_some());
                 let known = known.iter().flat_map(|known| &known.warnings);
                 before.extend(known.map(|problem| (k, problem.clone())));

@@ -7,14 +7,12 @@ use brinell::defect::simplify::Extent;
 use brinell::defect::{Defect, Side};
 use brinell::model::Model;
 use brinell::scenario::{self, Surface};
-use brinell::statics::static_load_zone;
+use brinell::statics::{FALLBACK_APPROACH, static_load_zone};
 use brinell_damage::plan::{CORNERS, depth_grid, polygons_mm};
 use serde_json::{Value, json};
 
 /// Points of a passage.
 const POINTS: usize = 401;
-/// Approach where no static balance gives one, m.
-const FALLBACK_APPROACH: f64 = 10e-6;
 
 /// Every defect seen from above.
 pub(crate) fn seen(bench: &Bench, arrays: &mut Arrays) -> Value {

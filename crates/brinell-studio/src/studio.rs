@@ -6,10 +6,9 @@ use crate::report::{Answer, Trouble};
 use crate::{about, damage, differ, judged, measured, pen, spectra, text};
 use brinell::bearing::orders_of;
 use brinell::channel::SENSOR;
-use brinell::plausibility::Beforehand;
+use brinell::plausibility::{self, Beforehand};
 use brinell::result::{Spread, quantities};
 use brinell::scenario::Scenario;
-use brinell::summary;
 use serde_json::{Value, json};
 use std::sync::{Mutex, PoisonError};
 
@@ -234,9 +233,9 @@ fn indicators(bench: &Bench) -> Value {
         })
         .collect();
     json!({
-        "settled": summary::unsettled(findings).is_empty(),
+        "settled": findings.drifts.is_empty(),
         "quantities": all,
-        "warnings": summary::afterwards(&bench.loaded.scenario, bench.simulation(), outcome, findings),
+        "warnings": plausibility::after(&bench.loaded.scenario, bench.simulation(), outcome, findings),
         "steps": outcome.work.solver.steps,
         "evaluations": outcome.work.solver.evaluations,
     })

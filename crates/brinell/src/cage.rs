@@ -153,6 +153,19 @@ pub struct GuideForce {
     pub damping: f64,
 }
 
+impl GuideForce {
+    /// The land's push on a cage that is `e` off its centre, m: `law` gives it, and its elastic part, at e and its rate.
+    fn push(&mut self, offset: [f64; 2], velocity: [f64; 2], e: f64, law: impl FnOnce(f64, f64) -> (f64, f64)) {
+        if e > 0.0 {
+            let n = offset.map(|x| x / e);
+            let rate = velocity[0] * n[0] + velocity[1] * n[1];
+            let (push, elastic) = law(e, rate);
+            self.land = n.map(|x| -push * x);
+            self.land_loss = (push - elastic) * rate;
+        }
+    }
+}
+
 impl Guide {
     /// Force and moment for the cage's `offset` (m) and `velocity` (m/s) from its guiding ring, its speed and the
     /// ring's (rad/s): Ocvirk's short bearing with the half film that pushes (Guembel). Valid to an eccentricity ratio
@@ -169,10 +182,12 @@ impl Guide {
         match self.wall {
             LandLaw::None => {}
             LandLaw::Linear if square <= self.clearance * self.clearance => {}
-            LandLaw::Linear => self.land(&mut f, offset, velocity, square.sqrt()),
+            LandLaw::Linear => self.dry_land(&mut f, offset, velocity, square.sqrt()),
             // Without oil of its own nothing before the wall.
             LandLaw::Oiled(wall) if wall.film == 0.0 && square <= self.clearance * self.clearance => {}
-            LandLaw::Oiled(wall) => self.oiled_land(&mut f, &wall, offset, velocity, square.sqrt()),
+            LandLaw::Oiled(wall) => {
+                f.push(offset, velocity, square.sqrt(), |e, rate| wall.press(e, self.clearance, rate))
+            }
         }
         let Some(film) = self.film else {
             return f;
@@ -220,24 +235,11 @@ impl Guide {
 
     /// The land's push on a cage that is `e` > C_g, m, off its centre.
     #[cold]
-    fn land(&self, f: &mut GuideForce, offset: [f64; 2], velocity: [f64; 2], e: f64) {
-        let n = offset.map(|x| x / e);
-        let rate = velocity[0] * n[0] + velocity[1] * n[1];
-        let elastic = self.land_stiffness * (e - self.clearance);
-        let push = (elastic + self.land_damping * rate).max(0.0);
-        f.land = n.map(|x| -push * x);
-        f.land_loss = (push - elastic) * rate;
-    }
-
-    /// The push of an oiled land on a cage that is `e` off its centre, m.
-    fn oiled_land(&self, f: &mut GuideForce, wall: &OiledWall, offset: [f64; 2], velocity: [f64; 2], e: f64) {
-        if e > 0.0 {
-            let n = offset.map(|x| x / e);
-            let rate = velocity[0] * n[0] + velocity[1] * n[1];
-            let (push, elastic) = wall.press(e, self.clearance, rate);
-            f.land = n.map(|x| -push * x);
-            f.land_loss = (push - elastic) * rate;
-        }
+    fn dry_land(&self, f: &mut GuideForce, offset: [f64; 2], velocity: [f64; 2], e: f64) {
+        f.push(offset, velocity, e, |e, rate| {
+            let elastic = self.land_stiffness * (e - self.clearance);
+            ((elastic + self.land_damping * rate).max(0.0), elastic)
+        });
     }
 
     /// Elastic energy of the land, J.

@@ -163,6 +163,7 @@ pub mod solver;
 #[doc(hidden)]
 pub mod start;
 pub mod statics;
+mod steel;
 pub mod summary;
 mod waviness;
 

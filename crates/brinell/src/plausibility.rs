@@ -2,8 +2,8 @@
 //! the run is long enough.
 //!
 //! These are warnings, not errors. [`before`] needs the model and its static balance, and takes milliseconds; `brinell
-//! check`, `run`, `sweep`, `compare` and `dataset` say it, and `summary.json` holds it. [`after`] needs the energy audit
-//! of a run. What a scenario file alone can say is in [`crate::document`].
+//! check`, `run`, `sweep`, `compare` and `dataset` say it, and `summary.json` holds it. [`after`] is of a run that is over.
+//! What a scenario file alone can say is in [`crate::document`].
 
 mod after;
 mod damage;
@@ -22,7 +22,7 @@ use crate::operation::Rotation;
 use crate::pressure::{pressures, static_limit};
 use crate::scenario::{Choice, GeometryLaw, LoadOn, Scenario, Speed};
 use crate::statics::{NoBalance, StaticLoadZone, static_load_zone};
-pub use after::after;
+pub use after::{after, converted, doubtful, of_energy, strayed, unsettled};
 use std::f64::consts::TAU;
 use warning::{short, warning};
 

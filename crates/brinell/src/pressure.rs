@@ -5,13 +5,10 @@
 use crate::contact::{ball, remaining_share};
 use crate::defect::{SIDES, relative_radius};
 use crate::model::Model;
-use crate::scenario::{Bearing, Element, Scenario};
+use crate::scenario::{Bearing, Contact, Element, Scenario};
+use crate::steel;
 use std::f64::consts::PI;
 
-/// Young's modulus of rolling bearing steel, Pa.
-pub(crate) const YOUNGS_MODULUS: f64 = 206e9;
-/// Poisson's ratio of steel.
-pub(crate) const POISSONS_RATIO: f64 = 0.3;
 /// Largest contact pressure under the static load rating of roller bearings, Pa (ISO 76): there the roller and the
 /// raceway together keep a permanent deformation of about 1/10000 of the roller's diameter.
 pub const STATIC_LIMIT: f64 = 4.0e9;
@@ -26,27 +23,23 @@ pub fn static_limit(bearing: &Bearing) -> f64 {
     }
 }
 
-/// Yield strength of hardened bearing steel, Pa: an assumption.
-const YIELD: f64 = 1.9e9;
-
 /// Largest pressure of a smooth contact at which bearing steel begins to yield, below its surface, Pa (Johnson, Contact Mechanics, 4.2,
 /// 6.1): 1.6 Y in a circle, which is taken for a ball's ellipse, and about 1.8 Y in a line.
 pub fn yields_at(bearing: &Bearing) -> f64 {
     match bearing.element {
-        Element::Roller => 1.8 * YIELD,
-        Element::Ball => 1.6 * YIELD,
+        Element::Roller => 1.8 * steel::YIELD,
+        Element::Ball => 1.6 * steel::YIELD,
     }
 }
 
-/// Largest pressure of a line contact of two steel bodies, Pa: Hertz's p = sqrt(E* w / (pi R)) with the line load w =
-/// Q/L and E* = E / (2 (1 - nu^2)). `force` is Q (N), `length` is L (m), `radius` is R with 1/R = 1/r +- 1/R_raceway
-/// (m).
+/// Largest pressure of a line contact of two bodies alike, Pa: Hertz's p = sqrt(E* w / (pi R)) with the line load w = Q/L and E* = E / (2 (1 - nu^2)), of
+/// `contact` where it has a material, else of steel. `force` is Q (N), `length` is L (m), `radius` is R with 1/R = 1/r +- 1/R_raceway (m).
 ///
-/// With E = 206 GPa and nu = 0.3 this is Harris's 190 sqrt(Q Sigma-rho / L) N/mm^2, in N and mm (Rolling Bearing
+/// With steel's E = 206 GPa and nu = 0.3 this is Harris's 190 sqrt(Q Sigma-rho / L) N/mm^2, in N and mm (Rolling Bearing
 /// Analysis, chapter on contact stress). The pressure is even along L: it knows neither edge stress nor crowning nor
 /// tilt. It is elastic, so a value far above [`STATIC_LIMIT`] says that the steel yields, not how hard it is pressed.
-pub(crate) fn line_pressure(force: f64, length: f64, radius: f64) -> f64 {
-    let modulus = 0.5 * YOUNGS_MODULUS / (1.0 - POISSONS_RATIO * POISSONS_RATIO);
+pub(crate) fn line_pressure(contact: &Contact, force: f64, length: f64, radius: f64) -> f64 {
+    let modulus = 0.5 * contact.modulus().unwrap_or(steel::MODULUS);
     (modulus * force.max(0.0) / length / (PI * radius)).sqrt()
 }
 
@@ -58,15 +51,16 @@ pub fn pressures(scenario: &Scenario, forces: [f64; 2]) -> [f64; 2] {
     }
     SIDES.map(|side| {
         let length = 1e-3 * bearing.roller_length_mm;
-        line_pressure(forces[side as usize], length, relative_radius(bearing, side))
+        line_pressure(&scenario.contact, forces[side as usize], length, relative_radius(bearing, side))
     })
 }
 
 /// Pressure on what a defect leaves of a contact at its widest place, under `forces` (N) on the inner and the outer
 /// contact: the length left (m) and the pressure (Pa), the larger one of the sides that it meets. `None` where nothing is left, or where
 /// the roller is pressed down to the damage's floor, which then carries its share.
-pub fn pressure_beside(model: &Model, bearing: &Bearing, defect: usize, forces: [f64; 2]) -> Option<(f64, f64)> {
+pub fn pressure_beside(model: &Model, scenario: &Scenario, defect: usize, forces: [f64; 2]) -> Option<(f64, f64)> {
     // Under a ball there is no length beside the damage that an even pressure would stand for.
+    let (bearing, contact) = (&scenario.bearing, &scenario.contact);
     if bearing.has_balls() {
         return None;
     }
@@ -88,7 +82,7 @@ pub fn pressure_beside(model: &Model, bearing: &Bearing, defect: usize, forces: 
         .map(|side| {
             let force = forces[side as usize];
             let sunk = model.contact(side).deflection(force / share);
-            let pressure = line_pressure(force, left, relative_radius(bearing, side));
+            let pressure = line_pressure(contact, force, left, relative_radius(bearing, side));
             (sunk <= defect.depth_at(widest)).then_some((left, pressure))
         })
         .collect::<Option<Vec<_>>>()?
@@ -115,7 +109,7 @@ mod tests {
         let curvature = 1.0 / r + 1.0 / raceway;
         let half_width = 3.35e-3 * (force / (8.8 * 1e-3 * curvature)).sqrt();
         let harris = 2.0 * force / (PI * 8.8 * half_width);
-        let ours = 1e-6 * line_pressure(force, length, 1.0 / curvature);
+        let ours = 1e-6 * line_pressure(&Scenario::example().contact, force, length, 1.0 / curvature);
         assert!((ours / harris - 1.0).abs() < 2e-3, "{ours} against {harris}");
     }
 

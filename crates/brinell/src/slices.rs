@@ -97,30 +97,43 @@ impl Approach {
     }
 }
 
-/// What the slices of a moving contact carry together, or the slices in each lane.
+/// What the slices of a moving contact carry together.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
-pub struct Pressed<T = f64> {
+pub struct Pressed {
     /// Elastic sum, N.
-    pub elastic: T,
+    pub elastic: f64,
     /// Q with each slice's own damping, N.
-    pub force: T,
+    pub force: f64,
     /// T = sum of z_k q_k, N m.
-    pub moment: T,
+    pub moment: f64,
     /// What the damping takes, W.
-    pub loss: T,
+    pub loss: f64,
     /// Share of the roller's length that touches.
-    pub touching: T,
+    pub touching: f64,
     /// K_t, N/m, where nothing tilts.
-    pub tangent: T,
+    pub tangent: f64,
 }
 
-/// The slices in each lane of a contact that is damped with its stiffness.
+/// What slices of a moving contact do beside their elastic sum, added up lane by lane.
+trait Sums<L> {
+    /// Adds a group of slices at z whose deformation is `delta` and grows at `d`: their share of the length and elastic force. A function, since a
+    /// closure would not be compiled for the kernel's instructions.
+    fn add(&mut self, law: &LoadDeflection, z_and_d: (L, L), delta: L, share_and_spring: (L, L));
+}
+
+/// Of slices that are damped with c each.
+struct Damped<L> {
+    c: f64,
+    force: L,
+    moment: L,
+    loss: L,
+}
+
+/// Of slices that are damped with their stiffness.
 struct Timed<L> {
-    elastic: L,
     moment: L,
     /// The Hessian of the energy in (delta, tilt) times their rates, N/s and N m/s.
     rates: [L; 2],
-    touching: L,
     /// Largest delta_k, m.
     deepest: L,
 }
@@ -183,41 +196,42 @@ impl Slices {
             Damping::Constant(c) => c,
             Damping::Time { tau, roughness } => return self.press_timed::<L>(law, at, [tau, roughness]),
         };
+        let zero = L::zero();
+        let mut sums = Damped { c, force: zero, moment: zero, loss: zero };
+        let [elastic, touching] = self.sum_up(law, at, &mut sums);
+        let [force, moment, loss] = [sums.force, sums.moment, sums.loss].map(L::sum);
+        Pressed { elastic, force, moment, loss, touching, tangent: 0.0 }
+    }
+
+    /// Elastic sum (N) and touching share of the slices of a moving contact; what else they do, into `sums`.
+    #[inline(always)]
+    fn sum_up<L: Lanes>(&self, law: &LoadDeflection, at: &Approach, sums: &mut impl Sums<L>) -> [f64; 2] {
+        let zero = L::zero();
         let (deformation, tilt) = (L::splat(at.deformation), L::splat(at.tilt));
         let (rate, tilt_rate) = (L::splat(at.rate), L::splat(at.tilt_rate));
-        let mut sums = Pressed::<L>::nothing();
+        let (mut elastic, mut touching) = (zero, zero);
         for k in 0..self.z.len() / L::COUNT {
             let z = L::new(L::groups(&self.z)[k]);
-            let weight = L::new(L::groups(&self.weight)[k]);
+            let share = L::new(L::groups(&self.weight)[k]);
             let delta = tilt.times_plus(z, deformation - L::new(L::groups(&self.drop)[k]));
-            let d = tilt_rate.times_plus(z, rate);
-            sums.add(law, (z, d), delta, (weight, c));
+            if !delta.any_positive() {
+                continue;
+            }
+            let spring = share * law.healthy(delta);
+            elastic += spring;
+            touching += delta.if_above(zero, share, zero);
+            sums.add(law, (z, tilt_rate.times_plus(z, rate)), delta, (share, spring));
         }
-        Pressed {
-            elastic: sums.elastic.sum(),
-            force: sums.force.sum(),
-            moment: sums.moment.sum(),
-            loss: sums.loss.sum(),
-            touching: sums.touching.sum(),
-            tangent: 0.0,
-        }
+        [elastic.sum(), touching.sum()]
     }
 
     /// The same where damping goes with the stiffness (section 20): tau sigma times the Hessian of the energy times the rates, sigma at the slice that is deformed most where that is more than the middle.
     #[inline(always)]
     fn press_timed<L: Lanes>(&self, law: &LoadDeflection, at: &Approach, [tau, roughness]: [f64; 2]) -> Pressed {
         let zero = L::zero();
-        let (deformation, tilt) = (L::splat(at.deformation), L::splat(at.tilt));
-        let (rate, tilt_rate) = (L::splat(at.rate), L::splat(at.tilt_rate));
-        let mut sums = Timed { elastic: zero, moment: zero, rates: [zero; 2], touching: zero, deepest: zero };
-        for k in 0..self.z.len() / L::COUNT {
-            let z = L::new(L::groups(&self.z)[k]);
-            let weight = L::new(L::groups(&self.weight)[k]);
-            let delta = tilt.times_plus(z, deformation - L::new(L::groups(&self.drop)[k]));
-            let d = tilt_rate.times_plus(z, rate);
-            sums.add(law, (z, d), delta, weight);
-        }
-        let (elastic, moment) = (sums.elastic.sum(), sums.moment.sum());
+        let mut sums = Timed { moment: zero, rates: [zero; 2], deepest: zero };
+        let [elastic, touching] = self.sum_up(law, at, &mut sums);
+        let moment = sums.moment.sum();
         let x = sums.deepest.array().as_ref().iter().fold(at.deformation, |a, b| a.max(*b));
         let damping = if x > 0.0 { tau * x / (x + roughness) } else { 0.0 };
         let added = sums.rates.map(|rate| damping * rate.sum());
@@ -229,7 +243,7 @@ impl Slices {
             force: elastic + by_force,
             moment: moment + by_moment,
             loss: by_force * at.rate + by_moment * at.tilt_rate,
-            touching: sums.touching.sum(),
+            touching,
             tangent: 0.0,
         }
     }
@@ -314,49 +328,28 @@ impl Slices {
     }
 }
 
-impl<L: Lanes> Timed<L> {
-    /// Adds `share` of a group of slices at z whose deformation is `delta` and grows at `d`.
+impl<L: Lanes> Sums<L> for Timed<L> {
     #[inline(always)]
-    fn add(&mut self, law: &LoadDeflection, (z, d): (L, L), delta: L, share: L) {
-        if !delta.any_positive() {
-            return;
-        }
+    fn add(&mut self, law: &LoadDeflection, (z, d): (L, L), delta: L, (share, spring): (L, L)) {
         let zero = L::zero();
-        let spring = share * law.healthy(delta);
         let stiffness = L::splat(law.exponent.value()) * spring / delta.if_above(zero, delta, L::splat(1.0));
         let stiffening = stiffness * d;
-        self.elastic += spring;
         self.moment = z.times_plus(spring, self.moment);
         self.rates[0] += stiffening;
         self.rates[1] = z.times_plus(stiffening, self.rates[1]);
-        self.touching += delta.if_above(zero, share, zero);
         self.deepest = self.deepest.at_least(share.if_above(zero, delta, zero));
     }
 }
 
-impl<L: Lanes> Pressed<L> {
+impl<L: Lanes> Sums<L> for Damped<L> {
     #[inline(always)]
-    fn nothing() -> Self {
+    fn add(&mut self, _: &LoadDeflection, (z, d): (L, L), delta: L, (share, spring): (L, L)) {
         let zero = L::zero();
-        Self { elastic: zero, force: zero, moment: zero, loss: zero, touching: zero, tangent: zero }
-    }
-
-    /// Adds `share` of a group of slices at z whose deformation is `delta` and grows at `d`. A function, since a
-    /// closure would not be compiled for the kernel's instructions.
-    #[inline(always)]
-    fn add(&mut self, law: &LoadDeflection, (z, d): (L, L), delta: L, (share, c): (L, f64)) {
-        if !delta.any_positive() {
-            return;
-        }
-        let zero = L::zero();
-        let spring = share * law.healthy(delta);
-        let pressed = (share * L::splat(c)).times_plus(d, spring);
+        let pressed = (share * L::splat(self.c)).times_plus(d, spring);
         let pressed = delta.if_above(zero, pressed.positive_part(), zero);
-        self.elastic += spring;
         self.force += pressed;
         self.moment = z.times_plus(pressed, self.moment);
         self.loss = (pressed - spring).times_plus(d, self.loss);
-        self.touching += delta.if_above(zero, share, zero);
     }
 }
 

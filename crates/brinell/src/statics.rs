@@ -18,6 +18,10 @@ pub(crate) use load_zone::PHASES;
 pub use load_zone::{StaticLoadZone, static_load_zone};
 pub(crate) use planar::RingAt;
 
+/// Approach to draw contacts at where no static balance gives one, m.
+#[doc(hidden)]
+pub const FALLBACK_APPROACH: f64 = 10e-6;
+
 /// Solves a static problem.
 ///
 /// # Errors

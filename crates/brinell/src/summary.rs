@@ -1,19 +1,15 @@
 //! `summary.json`: what a run found, what it cost, what it assumed. SI units unless a key says otherwise.
 
 use crate::accuracy::METHOD;
-use crate::channel::Channel;
-use crate::defect::{Defect, Defects, SIDES, Side};
 use crate::document::{Loaded, Provenance};
 use crate::kernel::Kernel;
 use crate::model::Model;
 use crate::observe::load_zone::BINS;
-use crate::observe::slip::RowSlip;
-use crate::observe::{Drift, Findings, passes};
-use crate::plausibility::{self, Beforehand};
+use crate::observe::{Findings, passes};
+use crate::plausibility::{Beforehand, after};
 use crate::result::fields::{self, Field};
 use crate::scenario::{Accuracy, ModelKind, Scenario, Speed};
-use crate::sensor::{Chain, ChannelRecord};
-use crate::signal::{self, Estimate, Indicator};
+use crate::signal::{Estimate, Indicator};
 use crate::simulate::{End, Outcome, Simulation};
 use serde_json::{Map, Value, json};
 use std::f64::consts::TAU;
@@ -121,27 +117,6 @@ fn sensor(parts: &Parts) -> Option<Value> {
     }))
 }
 
-/// Which sensor channels went beyond the ADC's full scale, or stayed within one of its steps, in words.
-#[doc(hidden)]
-pub fn converted(simulation: &Simulation, outcome: &Outcome) -> Vec<String> {
-    let step = simulation.sensor().and_then(Chain::step).unwrap_or(f64::NAN);
-    // Four digits.
-    let step: f64 = format!("{step:.3e}").parse().unwrap_or(step);
-    let words = |(channel, record): (&Channel, &ChannelRecord)| {
-        let (name, rows) = (&channel.name, outcome.rows);
-        if record.is_constant() && record.clipped == 0 {
-            return Some(format!(
-                "all {rows} samples of {name} are one value: the ADC's step of {step} m/s^2 is larger than the signal; give sensor.converter_bits \
-                 more bits or a smaller range"
-            ));
-        }
-        (record.clipped > 0).then(|| {
-            format!("{} of {rows} samples of {name} are beyond the ADC's range and are clipped", record.clipped)
-        })
-    };
-    simulation.filtered().iter().zip(&outcome.sensor).filter_map(words).collect()
-}
-
 /// Words for how a run ended.
 #[doc(hidden)]
 pub fn status(end: &End) -> Value {
@@ -157,122 +132,7 @@ pub fn status(end: &End) -> Value {
 pub fn warnings(parts: &Parts) -> Vec<String> {
     let Parts { loaded, simulation, outcome, findings, beforehand, .. } = *parts;
     let before = loaded.warnings.iter().chain(&beforehand.warnings);
-    before.map(ToString::to_string).chain(afterwards(&loaded.scenario, simulation, outcome, findings)).collect()
-}
-
-/// What a run shows that its reader should know; what kind of warning it is stands before the colon.
-#[doc(hidden)]
-pub fn afterwards(scenario: &Scenario, simulation: &Simulation, outcome: &Outcome, findings: &Findings) -> Vec<String> {
-    [converted(simulation, outcome), unsettled(findings), doubtful(scenario, simulation, outcome, findings)].concat()
-}
-
-/// What a run shows that its scenario or the model should not: in words.
-#[doc(hidden)]
-pub fn doubtful(scenario: &Scenario, simulation: &Simulation, outcome: &Outcome, findings: &Findings) -> Vec<String> {
-    let sunk = sunk_too_deep(simulation.model(), findings);
-    [strayed(scenario, findings), skidding(scenario, findings), sunk, plausibility::after(scenario, &outcome.energy)]
-        .concat()
-}
-
-/// Slip of a cage beyond which elements skid rather than roll: bearings whose load drives them slip by a few per cent.
-const SKIDDING: f64 = 0.5;
-
-/// Cages that stand still or nearly so while elements are loaded, in words.
-fn skidding(scenario: &Scenario, findings: &Findings) -> Vec<String> {
-    let words = |(k, row): (usize, &RowSlip)| {
-        let (cage, element) = (row.cage()?.value, scenario.bearing.element.word());
-        let loaded = row.loaded_surface()?.value;
-        (cage > SKIDDING).then(|| {
-            format!(
-                "skidding: the cage of row {} turned at {:.0} % of its pure-rolling speed on average, and loaded {element}s slipped over {:.0} % of the inner \
-                 raceway's way: friction does not drive them. BPFO, BPFI and FTF are far from pure rolling, and raceways would be smeared. Look at \
-                 operation.load_n, the friction and lubricant keys (lubricant.drag_coefficient) and the cage's clearances",
-                k + 1,
-                100.0 * (1.0 - cage),
-                100.0 * loaded,
-            )
-        })
-    };
-    findings.slip.rows.iter().enumerate().filter_map(words).collect()
-}
-
-/// Shares of a damage's depth, and of the deformation (the accuracy of tables), by which a contact may sink deeper than the damage is.
-const DEEPER: [f64; 2] = [0.1, 0.01];
-
-/// Elements that sank deeper into damage than it is deep: its table goes on straight beyond its last deformation, as if there were no floor.
-/// In words.
-fn sunk_too_deep(model: &Model, findings: &Findings) -> Vec<String> {
-    if model.tilt.is_some() {
-        return Vec::new();
-    }
-    // Damage near each other is one surface with one table.
-    let deepest = |of: &Defect, side: Side| {
-        Defects::beside(&model.defects, of, side).iter().map(Defect::deepest).fold(0.0, f64::max)
-    };
-    let words = |(k, defect): (usize, &Defect)| {
-        let (side, table) = SIDES.into_iter().find_map(|side| Some((side, defect.table(side)?)))?;
-        let (sunk, depth, last) = (findings.passes.extremes(k)?.sunk, deepest(defect, side), table.last_delta());
-        let um = |x: f64| signal::short(1e6 * x, 3);
-        (sunk > (1.0 + DEEPER[0]) * depth + DEEPER[1] * last).then(|| {
-            format!(
-                "sunk too deep: at defect {} contacts yielded by {} um more than healthy ones, and the damage is {} um deep: its table ends at a deformation \
-                 of {} um and goes on straight, beneath the floor. Forces there are too small: the load at rest (operation.load_n), which tables are \
-                 made for, is far below that of the motion",
-                k + 1,
-                um(sunk),
-                um(depth),
-                um(last),
-            )
-        })
-    };
-    model.defects.iter().enumerate().filter_map(words).collect()
-}
-
-/// Mean distance of a cage from its land's centre, over the clearance, beyond which its stop is too soft: at the
-/// defaults cages of small bearings lie 1.0 to 1.1 times the clearance away.
-const STRAYED: f64 = 1.2;
-
-/// Cages that push their soft stop far beyond their clearance, in words.
-#[doc(hidden)]
-pub fn strayed(scenario: &Scenario, findings: &Findings) -> Vec<String> {
-    let (orbit, cage) = (&findings.cage_orbit, &scenario.cage);
-    let words = |row: usize| {
-        let (count, sum) = orbit.points(row).fold((0.0, 0.0), |(n, sum), (_, [x, y])| (n + 1.0, sum + x.hypot(y)));
-        let distance = 1e3 * sum / count;
-        (distance > STRAYED * cage.guide_clearance_mm).then(|| {
-            format!(
-                "cage beyond its clearance: the centre of the cage of row {} lay {distance:.3} mm from its land's in its last turns, on average, and \
-                 cage.guide_clearance_mm is {:.3}: cage.land_stiffness_n_per_m, {:.1e} N/m, is too soft for its {:.2} kg, and BPFO and slip shift with \
-                 it; steel on steel is 1e7, with a cage.land_damping_ns_per_m of 20 to 200, on which the cage strikes, and levels and kurtosis rise",
-                row + 1,
-                cage.guide_clearance_mm,
-                cage.land_stiffness_n_per_m,
-                cage.mass_kg,
-            )
-        })
-    };
-    (0..orbit.rows()).filter_map(words).collect()
-}
-
-/// What had not settled when statistics began, in words.
-#[doc(hidden)]
-pub fn unsettled(findings: &Findings) -> Vec<String> {
-    let change = |x: f64| format!("{:.1} % {}", 100.0 * x.abs(), if x > 0.0 { "higher" } else { "lower" });
-    let words = findings.drifts.iter().map(|drift| match drift {
-        Drift::CageSlip(row, by) => format!(
-            "not settled: the cage of row {} was {:.2} % of its pure-rolling speed {} in the first fifth of the analysed time than in its last half; \
-             averages and their intervals hold part of the start: simulate longer",
-            row + 1,
-            100.0 * by.abs(),
-            if *by > 0.0 { "slower" } else { "faster" },
-        ),
-        Drift::Level(channel, by) => format!(
-            "not settled: the RMS of {channel} was {} in the first fifth of the analysed time than in its last half; averages and their intervals \
-             hold part of the start: simulate longer",
-            change(*by),
-        ),
-    });
-    words.collect()
+    before.map(ToString::to_string).chain(after(&loaded.scenario, simulation, outcome, findings)).collect()
 }
 
 fn assumption(p: &Provenance) -> Value {

@@ -5,10 +5,9 @@ use crate::common::read_li2023 as read;
 use brinell::defect::ecl::depth_at_bottom;
 use brinell::defect::{Angles, Defect, Defects, Side};
 use brinell::model::Model;
-use brinell::plausibility::before;
+use brinell::plausibility::{before, strayed};
 use brinell::scenario::{self, Law, ModelKind, RollerPath, Scenario};
 use brinell::statics::{Problem, solve, static_load_zone};
-use brinell::summary::strayed;
 use std::f64::consts::PI;
 
 /// R_eq that the balls of a 6205 have at its outer contact, and R_o, m.

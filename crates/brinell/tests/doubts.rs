@@ -1,8 +1,8 @@
 //! Warnings about tables of files that are those of something else, and about what runs show.
 
 use crate::common::{rectangle_with, warnings};
+use brinell::plausibility::doubtful;
 use brinell::scenario::{DefectTable, Scenario, TableData};
-use brinell::summary::doubtful;
 
 /// The base under a half-space with a table whose contact sinks by up to 60 % within `half` mm of its middle and is known to `most` um,
 /// out to `end` mm.

@@ -3,7 +3,7 @@
 use crate::common::read_li2023 as read;
 use crate::common::{rectangle_with, simulate, warnings};
 use brinell::model::Model;
-use brinell::plausibility::after;
+use brinell::plausibility::of_energy;
 use brinell::pressure::{STATIC_LIMIT, pressure_beside, pressures};
 use brinell::scenario::Scenario;
 use brinell::simulate::EnergyAudit;
@@ -225,7 +225,7 @@ fn prop_a_deep_step_over_the_whole_width_is_said_of_a_point_alone() {
 fn analytic_pressure_beside_damage_is_that_of_the_length_left() {
     let s = rectangle_with(&[]).scenario;
     let model = Model::new(&s).unwrap();
-    let (left, pressure) = pressure_beside(&model, &s.bearing, 0, [50.0; 2]).unwrap();
+    let (left, pressure) = pressure_beside(&model, &s, 0, [50.0; 2]).unwrap();
     assert!((left - 2e-3).abs() < 1e-12);
     // A third of the length carries all: the root of three times the pressure.
     let whole = pressures(&s, [50.0; 2])[1];
@@ -238,7 +238,7 @@ fn analytic_pressure_beside_damage_is_that_of_the_length_left() {
     ] {
         let s = rectangle_with(&[shape]).scenario;
         let model = Model::new(&s).unwrap();
-        assert_eq!(pressure_beside(&model, &s.bearing, 0, [50.0; 2]), None);
+        assert_eq!(pressure_beside(&model, &s, 0, [50.0; 2]), None);
     }
 }
 
@@ -343,7 +343,7 @@ fn prop_energy_from_nowhere_is_said_with_what_conserves_it() {
     ];
     let s = rectangle_with(&pit).scenario;
     let (_, outcome) = simulate(&s);
-    let told = after(&s, &outcome.energy);
+    let told = of_energy(&s, &outcome.energy);
     assert_eq!(told.len(), 1, "{told:?}");
     for words in [
         "parametric work",
@@ -358,11 +358,11 @@ fn prop_energy_from_nowhere_is_said_with_what_conserves_it() {
     let s = rectangle_with(&conserving).scenario;
     let (_, outcome) = simulate(&s);
     assert_eq!(outcome.energy.parametric, 0.0);
-    assert!(after(&s, &outcome.energy).is_empty());
+    assert!(of_energy(&s, &outcome.energy).is_empty());
     // A healthy bearing has none either.
     let s = rectangle_with(&[("defects", "[]"), ("simulation.duration_s", "0.02")]).scenario;
     let (_, outcome) = simulate(&s);
-    assert!(after(&s, &outcome.energy).is_empty());
+    assert!(of_energy(&s, &outcome.energy).is_empty());
 }
 
 #[test]
@@ -372,7 +372,7 @@ fn regress_an_audit_that_does_not_close_is_said() {
     energy.flows.load = 1.0;
     energy.parametric = -0.985;
     // Nothing holds what flowed in but the parametric work: 15 mJ of 1.985 J are missing.
-    let told = |s: &Scenario, energy: EnergyAudit| after(s, &energy).join("\n");
+    let told = |s: &Scenario, energy: EnergyAudit| of_energy(s, &energy).join("\n");
     assert!(!told(&s, energy).contains("audit"), "0.8 % is no word");
     energy.parametric = -0.95;
     let words = "the energy audit closes to 2.6 % of the turnover";
@@ -398,7 +398,7 @@ fn analytic_a_tenth_of_the_dissipation_is_the_limit_in_both_directions() {
         energy.parametric = work;
         // The audit closes.
         energy.flows.load = 4.0 - work;
-        let told = after(&s, &energy).join("\n");
+        let told = of_energy(&s, &energy).join("\n");
         match words {
             Some(words) => assert!(told.contains(words), "{work}: {told}"),
             None => assert_eq!(told, "", "{work}"),
@@ -408,6 +408,6 @@ fn analytic_a_tenth_of_the_dissipation_is_the_limit_in_both_directions() {
     lumped.simulation.model = brinell::scenario::ModelKind::Lumped;
     energy.parametric = 1.0;
     energy.flows.load = 3.0;
-    let told = after(&lumped, &energy).join("\n");
+    let told = of_energy(&lumped, &energy).join("\n");
     assert!(told.contains("parametric work") && !told.contains("mechanics"), "{told}");
 }

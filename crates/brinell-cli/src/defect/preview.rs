@@ -173,20 +173,17 @@ fn csv(axis: &str, curves: &DamageCurves) -> String {
 /// Largest pressure on one contact, and all of them with the cells' middles.
 fn pressure(of: &PressureView) -> serde_json::Value {
     let [s, z] = of.middles_mm();
-    json!({
+    let mut all = json!({
         "contact": of.contact,
-        "deformation_um": of.deformation_um,
-        "force_n": of.force_n,
-        "contact_at_s_mm": of.middle_mm,
-        "largest_pressure_mpa": of.largest_mpa,
         "s_mm": of.at_mm[0],
         "z_mm": of.at_mm[1],
-        "healthy_pressure_mpa": of.healthy_mpa,
-        "yield_begins_at_mpa": of.yield_mpa,
-        "share_beyond_yield": of.share_beyond_yield,
         "note": plain(&of.note),
         "cells": { "s_mm": s, "z_mm": z, "pressure_mpa": of.pressure_mpa.chunks(of.columns.max(1)).collect::<Vec<_>>() },
-    })
+    });
+    for (name, value) in of.numbers() {
+        all[name] = value.into();
+    }
+    all
 }
 
 fn entry(index: usize, damage: &Damage) -> serde_json::Value {

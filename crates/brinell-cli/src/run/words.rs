@@ -2,10 +2,11 @@
 
 use crate::say::{one_line, short};
 use brinell::observe::{DefectLine, Findings, Kind};
+use brinell::plausibility::{converted, doubtful, unsettled};
 use brinell::result::fields;
 use brinell::signal::Indicator;
 use brinell::simulate::End;
-use brinell::summary::{self, Parts};
+use brinell::summary::Parts;
 use std::path::PathBuf;
 
 /// A few lines on what came out.
@@ -29,7 +30,7 @@ pub(super) fn tell(parts: &Parts, elapsed: f64, written: &[PathBuf]) -> Vec<Stri
     printed.push(format!("  laws: {}", loaded.scenario.laws_and_differences()));
     printed.extend(sensor_lines(findings));
     printed.extend(healthy_line(parts));
-    let heed = summary::converted(simulation, outcome).into_iter().chain(summary::unsettled(findings));
+    let heed = converted(simulation, outcome).into_iter().chain(unsettled(findings));
     printed.extend(heed.map(|words| format!("  {words}")));
     printed.extend(findings.lines.iter().map(defect_line));
     let same = |h| findings.over_healthy(h).and_then(|r| r.interval).is_some_and(|(low, high)| low < 1.0 && high > 1.0);
@@ -45,7 +46,7 @@ pub(super) fn tell(parts: &Parts, elapsed: f64, written: &[PathBuf]) -> Vec<Stri
         (fields::MOMENTUM_IMBALANCE.of)(outcome).map_or("(rigid mount)".into(), |x| short(x, 1)),
     ));
     let scenario = &loaded.scenario;
-    let after = summary::doubtful(scenario, simulation, outcome, findings);
+    let after = doubtful(scenario, simulation, outcome, findings);
     printed.extend(after.into_iter().map(|words| format!("warning: {words}")));
     for path in written {
         printed.push(format!("  wrote {}", path.display()));

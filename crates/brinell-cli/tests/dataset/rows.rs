@@ -34,6 +34,15 @@ fn prop_a_row_is_the_run_that_its_scenario_gives() {
     assert_eq!(whole.len(), 513);
     let expected: Vec<f64> = whole[..512].iter().map(|x| f64::from(*x as f32)).collect();
     assert_eq!(list(row, "sensor_ax").unwrap(), expected);
+    // And warns of the same.
+    let Field::ListInternal(warnings) = cell(row, "warnings") else { panic!("no list") };
+    let warnings = warnings.elements().iter().map(|words| match words {
+        Field::Str(words) => words.as_str(),
+        other => panic!("{other}"),
+    });
+    let warnings: Vec<&str> = warnings.collect();
+    assert!(!warnings.is_empty());
+    assert_eq!(json(&folder.path().join("again/summary.json"))["warnings"], serde_json::json!(warnings));
     let about = json(&folder.path().join("out/dataset.json"));
     assert_eq!(about["licence"], "CC0-1.0");
     assert_eq!(about["rate"]["sample_rate_hz"], 25600.0);

@@ -46,6 +46,19 @@ impl PressureView {
         self.pressure_mpa.len().checked_div(self.columns).unwrap_or(0)
     }
 
+    /// What it is in single numbers: names, as files and Python have them, and values.
+    pub fn numbers(&self) -> [(&'static str, f64); 7] {
+        [
+            ("largest_pressure_mpa", self.largest_mpa),
+            ("contact_at_s_mm", self.middle_mm),
+            ("deformation_um", self.deformation_um),
+            ("force_n", self.force_n),
+            ("healthy_pressure_mpa", self.healthy_mpa),
+            ("yield_begins_at_mpa", self.yield_mpa),
+            ("share_beyond_yield", self.share_beyond_yield),
+        ]
+    }
+
     /// Middles of the cells along s and z, mm.
     pub fn middles_mm(&self) -> [Vec<f64>; 2] {
         let middles = |axis: usize, cells: usize| {

@@ -6,7 +6,7 @@ use brinell::defect::section::{Section, sections};
 use brinell::defect::{Defect, Shape};
 
 /// Points of a curve.
-const POINTS: usize = 1601;
+pub(super) const POINTS: usize = 1601;
 /// Nodes of a shaded picture, along and across.
 const SHADED: [usize; 2] = [161, 121];
 

@@ -1,15 +1,13 @@
 //! Contact conditions during roller passage over a defect: under `ecl` lengths, depths and stiffness by path, under `half-space` what the
 //! tables hold (section 19).
 
-use super::curves::curve;
+use super::curves::{POINTS, curve};
 use crate::{DamageCurve, DamagePanel};
 use brinell::defect::{Defect, Shape, Side};
 use brinell::half_space::geometry::Geometry;
 use brinell::model::Model;
 use brinell::scenario::{self, Contact, Law, RollerPath, Scenario};
 
-/// Points of a curve.
-const POINTS: usize = 1601;
 /// The second deformation that Q/Q_0 is drawn at, over the static one.
 const TWICE: f64 = 2.0;
 /// One defect under a roller that does not tilt, alone under `ecl`; `sides` with the deformation of each, m.

@@ -12,14 +12,12 @@ use brinell::derived::Passing;
 use brinell::model::Model;
 use brinell::observe::passes::place;
 use brinell::scenario::{self, Law, Scenario, Surface};
-use brinell::statics::StaticLoadZone;
+use brinell::statics::{FALLBACK_APPROACH, StaticLoadZone};
 use brinell_damage::plan::{CORNERS, polygons_mm};
 use std::f64::consts::TAU;
 
 /// Thickness of a ring that nobody stated, over the roller's diameter.
 const THICKNESS_SHARE: f64 = 0.6;
-/// Approach where no static balance gives one, m.
-const FALLBACK_APPROACH: f64 = 10e-6;
 
 /// One defect with its pictures' data.
 #[derive(Debug, Clone)]

@@ -10,9 +10,9 @@ use crate::study::{Chapter, Study};
 use crate::tables::Table;
 use brinell::document::Loaded;
 use brinell::observe::passes::place;
+use brinell::plausibility::after;
 use brinell::result::{Quantity, RunResult};
 use brinell::signal::ratio::Ratio;
-use brinell::summary::afterwards;
 use brinell_study::campaign::{
     self, BANDWIDTHS, Beforehand, Compared, Differing, Misses, Side, bandwidth, count, of_results,
 };
@@ -136,7 +136,7 @@ fn facts(names: &[String], headlines: &[Headline]) -> Vec<Fact> {
 pub fn doubts(sides: &[Side], runs: &[&RunResult]) -> Vec<String> {
     let of = |(k, run): (usize, &&RunResult)| {
         let RunResult { scenario, simulation, outcome, findings } = run;
-        (k, afterwards(scenario, simulation, outcome, findings))
+        (k, after(scenario, simulation, outcome, findings))
     };
     let told = of_results(runs.iter().enumerate().map(of), "run", |k| &sides[k].label);
     [told, unlike(sides, runs)].concat()

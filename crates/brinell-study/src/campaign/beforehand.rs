@@ -58,12 +58,12 @@ pub fn join(all: &mut Vec<Misses>, later: Misses) {
     }
 }
 
-/// What a run that is over should be warned of, by [`brinell::summary::afterwards`].
+/// What a run that is over should be warned of, by [`brinell::plausibility::after`].
 fn count_result(all: &mut Vec<Misses>, warnings: Vec<String>, run: usize) {
     warnings.into_iter().for_each(|words| count(all, Problem::warning("", words), run));
 }
 
-/// What results should be warned of, each kind once with how many have it: of run k by [`brinell::summary::afterwards`].
+/// What results should be warned of, each kind once with how many have it: of run k by [`brinell::plausibility::after`].
 /// `one` is what each is, and `name` what it is called.
 pub fn of_results<N: Display>(
     results: impl IntoIterator<Item = (usize, Vec<String>)>,

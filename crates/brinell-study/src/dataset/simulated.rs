@@ -7,13 +7,16 @@ use brinell::bearing::kinematics::Kinematics;
 use brinell::channel::Channel;
 use brinell::defect::Defect;
 use brinell::document::{Loaded, Problem, on_one_line, one_line};
-use brinell::model::Layout;
+use brinell::model::{Layout, Model};
+use brinell::observe::Findings;
 use brinell::observe::slip::RowSlip;
-use brinell::plausibility;
+use brinell::plausibility::Beforehand;
+use brinell::result::{RunResult, finish};
 use brinell::scenario::{self, Scenario, Speed};
 use brinell::sensor::ChannelRecord;
 use brinell::signal::Estimate;
 use brinell::simulate::{End, Outcome, Simulation};
+use brinell::summary::{self, Parts};
 use brinell_io::Column;
 use serde_json::{Map, Value as Json};
 
@@ -23,8 +26,8 @@ pub(crate) struct Run<'a> {
     pub(crate) index: usize,
     pub(crate) draw: Option<Draw>,
     pub(crate) loaded: Option<Loaded>,
-    /// The run as prepared, its outcome, and what was recorded.
-    ended: Option<(Simulation, Outcome, Truth<'a>)>,
+    /// The run with its outcome and findings, and what was recorded.
+    ended: Option<(RunResult, Truth<'a>)>,
     /// Why it failed.
     pub(crate) failed: Option<String>,
 }
@@ -75,9 +78,9 @@ impl<'a> Run<'a> {
         }
         let listener = listener.begin(self.index, scenario.simulation.duration_s);
         let mut truth = Truth::new(scenario, &simulation, signals, listener);
-        let outcome = simulation.run(&mut truth);
-        let (end, too_large) = (outcome.end.clone(), truth.too_large);
-        self.ended = Some((simulation, outcome, truth));
+        let result = finish(scenario.clone(), simulation, &mut truth);
+        let (end, too_large) = (result.outcome.end.clone(), truth.too_large);
+        self.ended = Some((result, truth));
         if let Some((k, value)) = too_large {
             let name = &signals[k].name;
             return Err(Short::Failed(format!("{name} reaches {value:.1e}, more than the files' 32-bit floats hold")));
@@ -98,18 +101,18 @@ impl<'a> Run<'a> {
     }
 
     pub(crate) fn outcome(&self) -> Option<&Outcome> {
-        self.ended.as_ref().map(|(_, outcome, _)| outcome)
+        self.ended.as_ref().map(|(result, _)| &result.outcome)
     }
 
     /// Samples of a signal.
     pub(crate) fn kept(&self) -> Option<usize> {
-        self.ended.as_ref().map(|(.., truth)| truth.kept as usize)
+        self.ended.as_ref().map(|(_, truth)| truth.kept as usize)
     }
 
     /// What became of the sensor's signals that are kept, in their order; none without a sensor.
     fn sensor(&self) -> Option<impl Iterator<Item = &ChannelRecord>> {
         self.gathered()?;
-        let (simulation, outcome, _) = self.ended.as_ref()?;
+        let RunResult { simulation, outcome, .. } = &self.ended.as_ref()?.0;
         let kept = |name: &str| simulation.channels().iter().any(|c| c.name == name);
         let channels = simulation.filtered().iter().zip(&outcome.sensor);
         Some(channels.filter(move |(channel, _)| kept(&channel.name)).map(|(_, record)| record))
@@ -125,21 +128,34 @@ impl<'a> Run<'a> {
         self.sensor()?.map(ChannelRecord::signal_to_noise_db).collect()
     }
 
-    /// What the energy audit of a run that came to its end warns of.
+    /// What a run that came to its end warns of, as its summary has it.
     pub(crate) fn warnings(&self) -> Option<Vec<String>> {
+        let findings = self.findings()?;
+        let (loaded, RunResult { scenario, simulation, outcome, .. }) =
+            (self.loaded.as_ref()?, &self.ended.as_ref()?.0);
+        let beforehand = &Beforehand::of(scenario, simulation.model());
+        Some(summary::warnings(&Parts { loaded, simulation, outcome, findings, beforehand, healthy: None }))
+    }
+
+    /// What was found of a run that came to its end.
+    pub(crate) fn findings(&self) -> Option<&Findings> {
         self.gathered()?;
-        Some(plausibility::after(self.scenario()?, &self.outcome()?.energy))
+        Some(&self.ended.as_ref()?.0.findings)
     }
 
     /// What was recorded of a run that came to its end.
     pub(crate) fn gathered(&self) -> Option<&Truth<'a>> {
         let ended = self.ended.as_ref().filter(|_| self.failed.is_none());
-        ended.map(|(.., truth)| truth)
+        ended.map(|(_, truth)| truth)
+    }
+
+    fn model(&self) -> Option<&Model> {
+        self.ended.as_ref().map(|(result, _)| result.simulation.model())
     }
 
     /// Of pure rolling, at constant speed.
     pub(crate) fn kinematics(&self) -> Option<Kinematics> {
-        let model = self.ended.as_ref()?.0.model();
+        let model = self.model()?;
         match self.scenario()?.operation.speed_rpm {
             Speed::Constant(_) => Some(model.kinematics(model.rotation.at(0.0).0)),
             Speed::Profile(_) => None,
@@ -148,14 +164,14 @@ impl<'a> Run<'a> {
 
     /// Of each defect, as written and as made.
     pub(crate) fn defects<T>(&self, of: impl Fn(&scenario::Defect, &Defect) -> T) -> Option<Vec<T>> {
-        let made = self.ended.as_ref()?.0.model().defects.iter();
+        let made = self.model()?.defects.iter();
         let pairs = self.scenario()?.defects.iter().zip(made);
         Some(pairs.map(|(written, defect)| of(written, defect)).collect())
     }
 
     /// Of each entry or exit.
     pub(crate) fn instants<T>(&self, enters: bool, of: impl Fn(&Instant, &Layout) -> T) -> Option<Vec<T>> {
-        let layout = &self.ended.as_ref()?.0.model().layout;
+        let layout = &self.model()?.layout;
         let these = self.gathered()?.instants.iter();
         let these = these.filter(|i| i.event.enters == enters);
         Some(these.map(|i| of(i, layout)).collect())
@@ -163,14 +179,14 @@ impl<'a> Run<'a> {
 
     /// Of each row; nothing where a row has none.
     pub(crate) fn slip(&self, of: fn(&RowSlip) -> Option<Estimate>) -> Option<Vec<f64>> {
-        let rows = self.gathered()?.slip.rows.iter();
+        let rows = self.findings()?.slip.rows.iter();
         rows.map(|row| Some(of(row)?.value)).collect()
     }
 
     /// A signal, which moves out; where the run came to its end and has it.
     pub(crate) fn signal(&mut self, k: usize) -> Option<Vec<f32>> {
         self.gathered()?;
-        self.ended.as_mut()?.2.signal(k)
+        self.ended.as_mut()?.1.signal(k)
     }
 
     /// A drawn value.

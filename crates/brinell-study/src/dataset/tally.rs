@@ -113,7 +113,7 @@ impl Tally {
             "the sensor reads nothing, or the ADC's step is larger than the signal: then give sensor.converter_bits more bits or a smaller range",
         );
         let warned = and(
-            of(warned, "an energy audit with a warning"),
+            of(warned, "a result with warnings"),
             "the column warnings says which; where it names parametric work, levels depend on the contact law",
         );
         [failed, clipped, constant, warned].into_iter().flatten().collect()
@@ -154,6 +154,6 @@ mod tests {
         assert!(words[0].starts_with("1 of 3 runs has failed, without a signal (outer 1 of 2): "), "{words:?}");
         assert!(words[1].contains("clipped (outer 1 of 2): the column clipped_samples"), "{words:?}");
         assert!(words[2].contains("one value throughout (healthy 1 of 1): "), "{words:?}");
-        assert!(words[3].contains("an energy audit with a warning (outer 1 of 2): the column warnings"), "{words:?}");
+        assert!(words[3].contains("a result with warnings (outer 1 of 2): the column warnings"), "{words:?}");
     }
 }

@@ -4,9 +4,7 @@
 use crate::listener::RunListener;
 use brinell::channel::Frame;
 use brinell::defect::{SIDES, Side};
-use brinell::observe::load_zone::{LoadZone, Places};
 use brinell::observe::passes::{Event, Passes};
-use brinell::observe::slip::Slip;
 use brinell::scenario::Scenario;
 use brinell::simulate::{Observer, Simulation, SolverWork};
 use brinell_io::Column;
@@ -34,9 +32,6 @@ pub(crate) struct Truth<'a> {
     pub(crate) instants: Vec<Instant>,
     /// The analysed time begins here, s.
     pub(crate) from: Option<f64>,
-    rollers: Places,
-    pub(crate) load_zone: LoadZone,
-    pub(crate) slip: Slip,
     /// Of each roller's outer contact: sum and largest force over samples, N.
     pub(crate) outer: Vec<(f64, f64)>,
     pub(crate) samples: u64,
@@ -75,9 +70,6 @@ impl<'a> Truth<'a> {
             before: [0; 2].map(|_| vec![0.0; layout.rollers()]),
             instants: Vec::new(),
             from: None,
-            rollers: Places::default(),
-            load_zone: LoadZone::new(layout),
-            slip: Slip::new(layout),
             outer: vec![(0.0, 0.0); layout.rollers()],
             samples: 0,
             largest: 0.0,
@@ -116,8 +108,6 @@ impl Observer for Truth<'_> {
         if self.from.is_none() {
             return;
         }
-        self.load_zone.take(frame, self.rollers.at(frame));
-        self.slip.take(frame);
         self.samples += 1;
         for side in SIDES {
             let force = &frame.ws.contacts[side as usize].force;

@@ -3,10 +3,10 @@
 use super::{Ledger, Recorder, RunnerError};
 use crate::campaign::{Row, fingerprint};
 use crate::listener::Listener;
+use brinell::plausibility::after;
 use brinell::result::{Quantity, RunResult, finish};
 use brinell::scenario::Scenario;
 use brinell::simulate::{End, Observer, Simulation};
-use brinell::summary::afterwards;
 use brinell_io::SignalWriter;
 use std::collections::HashSet;
 use std::num::NonZeroUsize;
@@ -174,6 +174,6 @@ fn one<W: Work>(
         }
     };
     let RunResult { scenario, simulation, outcome, findings } = &finished;
-    let warnings = if numbers.is_ok() { afterwards(scenario, simulation, outcome, findings) } else { Vec::new() };
+    let warnings = if numbers.is_ok() { after(scenario, simulation, outcome, findings) } else { Vec::new() };
     Ok(Some(row(numbers, warnings)))
 }

@@ -120,8 +120,7 @@ fn elliptic_integrals(kappa: f64) -> [f64; 2] {
 /// The ellipses at the inner and the outer groove; `None` for rollers, or where radii make no ellipse.
 pub fn ellipses(bearing: &Bearing, contact: &Contact) -> Option<[Ellipse; 2]> {
     let [inner, outer] = [bearing.inner_groove_conformity?, bearing.outer_groove_conformity?];
-    let ratio = contact.poisson_ratio?;
-    let modulus = 1e9 * contact.youngs_modulus_gpa? / (1.0 - ratio * ratio);
+    let modulus = contact.modulus()?;
     let of = |raceway_mm: f64, conformity: f64| {
         let of = Curvature::new(1e-3 * bearing.roller_diameter_mm, 1e-3 * raceway_mm, conformity);
         Ellipse::new(of, modulus)

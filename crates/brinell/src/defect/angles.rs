@@ -1,5 +1,6 @@
 //! Angles of a roller, and the side on which it meets damage.
 
+use crate::lanes::functions::ROUNDER;
 use std::f64::consts::{PI, TAU};
 
 /// Side of a roller: the raceway that it meets there.
@@ -27,8 +28,7 @@ pub const SIDES: [Side; 2] = [Side::Inner, Side::Outer];
 /// An angle mapped to [-pi, pi).
 #[inline]
 pub fn wrap(angle: f64) -> f64 {
-    // Adding 1.5 * 2^52 leaves the nearest whole number of turns: `floor` is a function call on processors of old.
-    const ROUNDER: f64 = 6_755_399_441_055_744.0;
+    // Adding it leaves the nearest whole number of turns: `floor` is a function call on processors of old.
     let turns = (angle * (1.0 / TAU) + ROUNDER) - ROUNDER;
     let wrapped = angle - TAU * turns;
     if wrapped >= PI {

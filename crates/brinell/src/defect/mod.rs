@@ -32,4 +32,4 @@ pub use piecewise::{Line, PiecewisePolynomial};
 pub use placed::{Defect, Defects, relative_radius};
 pub use profile::Profile;
 pub use random::spall;
-pub use shape::Shape;
+pub use shape::{Shape, li2023_half_width_mm};

@@ -122,24 +122,13 @@ impl PiecewisePolynomial {
         self.lookup.span()
     }
 
-    /// The piece that holds s, and how far into it s lies.
-    #[inline]
-    fn at(&self, s: f64) -> Option<(&Piece, f64)> {
-        let k = self.lookup.find(s, |k| self.pieces[k].start)?;
-        let piece = &self.pieces[k];
-        Some((piece, s - piece.start))
-    }
-
     /// Value at s, m.
     #[inline]
     pub fn value(&self, s: f64) -> f64 {
-        self.at(s).map_or(0.0, |(p, x)| p.c[0] + x * (p.c[1] + x * p.c[2]))
-    }
-
-    /// Derivative at s, right-hand at a kink.
-    #[inline]
-    pub fn slope(&self, s: f64) -> f64 {
-        self.at(s).map_or(0.0, |(p, x)| p.c[1] + 2.0 * x * p.c[2])
+        let Some(k) = self.lookup.find(s, |k| self.pieces[k].start) else { return 0.0 };
+        let Piece { start, c } = &self.pieces[k];
+        let x = s - start;
+        c[0] + x * (c[1] + x * c[2])
     }
 
     /// Each piece and where it ends, m.
@@ -195,7 +184,6 @@ mod tests {
             assert!((c.value(s) - value).abs() < 1e-14, "at {s}");
         }
         assert!((c.integral() - (1.0 + 2.5 + 3.0)).abs() < 1e-14);
-        assert_eq!(c.slope(-0.3), 2.0);
         assert_eq!(PiecewisePolynomial::of_lines(&[]).value(0.0), 0.0);
     }
 

@@ -17,9 +17,10 @@ const LI2023_ARCS_MM: [f64; 6] = [1.6695, 1.5, 0.7071, 1.4142, 0.7071, 1.0];
 /// Largest width of the irregular shape as tabulated, mm.
 const LI2023_WIDTH_MM: f64 = 4.0;
 
-/// Half-width in mm on arc `index` at the fraction `s` of it.
+/// Half-width in mm on arc `index` (from 0) of the paper's irregular defect at the fraction `s` of it.
+#[doc(hidden)]
 #[expect(clippy::approx_constant, reason = "the paper's printed digits")]
-fn li2023_half_width_mm(index: usize, s: f64) -> f64 {
+pub fn li2023_half_width_mm(index: usize, s: f64) -> f64 {
     match index {
         0 => 3.8284 - (16.0 - (1.6695 * s + 1.1589).powi(2)).sqrt(),
         1 => 1.0,

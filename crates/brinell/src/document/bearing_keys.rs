@@ -8,9 +8,8 @@ use super::spec::{Spec, key};
 use crate::bearing::USUAL_CONFORMITY;
 use crate::bearing::clearance::{ClearanceClass, bore_diameter_mm, largest_bore_mm};
 use crate::scenario::*;
+use crate::steel::DENSITY;
 
-/// Rolling bearing steel, kg/mm^3.
-pub(super) const STEEL: f64 = 7.85e-6;
 /// Where some keys have a meaning.
 pub(super) const ROLLERS: &str = "bearing.element is \"roller\"";
 pub(super) const BALLS: &str = "bearing.element is \"ball\"";
@@ -19,8 +18,8 @@ pub(super) const BALLS: &str = "bearing.element is \"ball\"";
 pub(super) fn steel_element_kg(b: &Bearing) -> f64 {
     let d = b.roller_diameter_mm;
     match b.element {
-        Element::Roller => STEEL * PI / 4.0 * d.powi(2) * b.roller_length_mm,
-        Element::Ball => STEEL * PI / 6.0 * d.powi(3),
+        Element::Roller => DENSITY * PI / 4.0 * d.powi(2) * b.roller_length_mm,
+        Element::Ball => DENSITY * PI / 6.0 * d.powi(3),
     }
 }
 
@@ -72,7 +71,7 @@ pub(super) fn bearing<K: Keys>(k: &mut K, (model, laws): (ModelKind, Laws), b: &
         Element::Ball => (1.75, "steel ring, wall 0.45 and width 1.75 ball diameters"),
     };
     let wall = ring_wall_mm(b);
-    let ring = |mean_diameter: f64| STEEL * PI * mean_diameter * wall * width * b.roller_length_mm * b.rows as f64;
+    let ring = |mean_diameter: f64| DENSITY * PI * mean_diameter * wall * width * b.roller_length_mm * b.rows as f64;
     let inner_ring = ring(b.inner_raceway_diameter_mm - wall);
     let outer_ring = ring(b.outer_raceway_diameter_mm + wall);
     k.key(

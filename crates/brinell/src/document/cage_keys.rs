@@ -2,11 +2,11 @@
 
 use std::f64::consts::PI;
 
-use super::bearing_keys::STEEL;
 use super::keys::Fallback;
 use super::keys::{Keys, PAPER, assumed, derived, stated};
 use super::spec::{Spec, key};
 use crate::scenario::*;
+use crate::steel::DENSITY;
 
 /// Force of an oiled pocket whose clearance is used up, N: the linear law that models of ball bearings take from Meeks
 /// and Ng (1985), K_c = 11/C_p. Taken for rollers too, of which no such number was found.
@@ -32,12 +32,12 @@ pub(super) fn cage<K: Keys>(k: &mut K, (laws, b): (Laws, &Bearing), c: &mut Cage
         Element::Roller => {
             let area = 1.25 * PI * b.pitch_diameter_mm - b.rollers_per_row as f64 * d;
             derived(
-                STEEL * thickness * b.roller_length_mm * area,
+                DENSITY * thickness * b.roller_length_mm * area,
                 "steel ring, width 1.25 roller lengths, pockets cut out",
             )
         }
         Element::Ball => derived(
-            STEEL * thickness * 0.2 * d * PI * b.pitch_diameter_mm,
+            DENSITY * thickness * 0.2 * d * PI * b.pitch_diameter_mm,
             "two pressed steel strips, each 0.1 ball diameters thick",
         ),
     };

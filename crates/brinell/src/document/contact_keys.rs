@@ -7,6 +7,7 @@ use super::keys::{Keys, PAPER, assumed, derived, stated};
 use super::spec::key;
 use crate::contact::{ball, is_line_exponent, palmgren_stiffness};
 use crate::scenario::*;
+use crate::steel::{POISSONS_RATIO, YOUNGS_MODULUS_GPA};
 
 /// Exponent of a line contact (`docs/src/theory/contact.md`).
 const LINE_EXPONENT: f64 = 10.0 / 9.0;
@@ -124,14 +125,14 @@ fn steel<K: Keys>(k: &mut K, b: &Bearing, c: &mut Contact) {
     k.key_where(
         key("youngs_modulus_gpa", "E of elements and rings").above(0.0),
         wanted,
-        stated(206.0, "rolling bearing steel (ISO/TS 16281)"),
+        stated(YOUNGS_MODULUS_GPA, "rolling bearing steel (ISO/TS 16281)"),
         &mut modulus,
     );
     let mut ratio = c.poisson_ratio.unwrap_or(f64::NAN);
     k.key_where(
         key("poisson_ratio", "Poisson's ratio of elements and rings").from(0.0).to(0.5),
         wanted,
-        stated(0.3, "steel"),
+        stated(POISSONS_RATIO, "steel"),
         &mut ratio,
     );
     c.youngs_modulus_gpa = wanted.0.then_some(modulus);

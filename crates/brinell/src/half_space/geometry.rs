@@ -5,6 +5,7 @@ use crate::contact::ball::{Curvature, Ellipse};
 use crate::defect::{Side, relative_radius};
 use crate::scenario::{Bearing, Contact, Element, RollerProfile};
 use crate::slices;
+use crate::steel;
 
 /// Bodies in contact.
 #[derive(Debug, Clone, PartialEq)]
@@ -43,8 +44,6 @@ const CELLS_OVER_DAMAGE: f64 = 4.0;
 /// Rows on one side at the most.
 const MOST_ROWS: usize = 64;
 
-/// Young's modulus (GPa) and Poisson's ratio of rolling bearing steel, where a scenario gives none.
-const STEEL: [f64; 2] = [206.0, 0.3];
 /// Steps of a roller's profile.
 const PROFILE_STEPS: usize = 512;
 /// z of a profile's ends over L/2: the logarithm has none at 1.
@@ -53,9 +52,7 @@ const PROFILE_END: f64 = 1.0 - 1e-3;
 impl Geometry {
     /// One contact of a bearing. `None` where a ball does not touch its groove in an ellipse, or lacks a conformity.
     pub fn of_bearing(bearing: &Bearing, contact: &Contact, side: Side) -> Option<Self> {
-        let young = 1e9 * contact.youngs_modulus_gpa.unwrap_or(STEEL[0]);
-        let poisson = contact.poisson_ratio.unwrap_or(STEEL[1]);
-        let modulus = 0.5 * young / (1.0 - poisson * poisson);
+        let modulus = 0.5 * contact.modulus().unwrap_or(steel::MODULUS);
         if bearing.element == Element::Roller {
             let (length, diameter) = (1e-3 * bearing.roller_length_mm, 1e-3 * bearing.roller_diameter_mm);
             let drops = match &bearing.profile {

@@ -41,7 +41,7 @@ impl LoadAlong {
         Ok(Some(Self {
             z: slices.z[..slices.count].to_vec(),
             drop: slices.drop[..slices.count].to_vec(),
-            contacts: lines(&model, &s.bearing, &slices, (&problem, &balance), slot),
+            contacts: lines(&model, &s, &slices, (&problem, &balance), slot),
         }))
     }
 }

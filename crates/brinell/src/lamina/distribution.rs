@@ -105,7 +105,7 @@ fn distribution(model: &Model, s: &Scenario) -> Result<Distribution, NoBalance> 
         let balance = solve(model, &problem)?;
         problem.guess = [balance.inner, balance.outer];
         for slot in 0..l.rollers() {
-            let pair = lines(model, &s.bearing, &slices, (&problem, &balance), slot);
+            let pair = lines(model, s, &slices, (&problem, &balance), slot);
             all.contacts.push(pair);
         }
         let Some(tilted) = &balance.tilting else {

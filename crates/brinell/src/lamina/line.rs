@@ -3,7 +3,7 @@
 use crate::defect::{SIDES, Side, relative_radius, wrap};
 use crate::model::Model;
 use crate::pressure::line_pressure;
-use crate::scenario::{Bearing, Scenario};
+use crate::scenario::{Contact, Scenario};
 use crate::slices::{Approach, Slices};
 use crate::statics::{Balance, Problem, RingAt};
 
@@ -71,24 +71,24 @@ fn approach(model: &Model, balance: &Balance, orbit: f64, (slot, side): (usize, 
 /// Inner and outer contact of a roller in a balance.
 pub(super) fn lines(
     model: &Model,
-    bearing: &Bearing,
+    s: &Scenario,
     slices: &Slices,
     balanced: (&Problem, &Balance),
     slot: usize,
 ) -> [ContactLine; 2] {
     SIDES.map(|side| {
-        let radius = relative_radius(bearing, side);
-        line(model, slices, balanced, (slot, side), radius)
+        let radius = relative_radius(&s.bearing, side);
+        line(model, slices, balanced, (slot, side), (&s.contact, radius))
     })
 }
 
-/// One contact of a balance; `radius` is R_eq.
+/// One contact of a balance; `radius` is R_eq, and `of` has its material.
 fn line(
     model: &Model,
     slices: &Slices,
     (problem, balance): (&Problem, &Balance),
     (slot, side): (usize, Side),
-    radius: f64,
+    (of, radius): (&Contact, f64),
 ) -> ContactLine {
     let orbit = problem.orbit[slot];
     let at = approach(model, balance, orbit, (slot, side));
@@ -109,7 +109,7 @@ fn line(
         contact.force += force;
         contact.moment += z * force;
         contact.line_load.push(force / width);
-        contact.pressure.push(line_pressure(force, width, radius));
+        contact.pressure.push(line_pressure(of, force, width, radius));
         contact.touching += if delta > 0.0 { width } else { 0.0 };
     }
     contact

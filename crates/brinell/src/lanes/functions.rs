@@ -4,7 +4,7 @@ use super::Lanes;
 use super::ninth::{EIGHT, FIT, ORIGIN};
 
 /// 1.5 * 2^52: added to a number of moderate size, it leaves the nearest integer in the low bits of the sum.
-const ROUNDER: f64 = 6_755_399_441_055_744.0;
+pub const ROUNDER: f64 = 6_755_399_441_055_744.0;
 
 /// A polynomial, highest coefficient first: odd and even powers apart, each by Horner's rule in x^2, so that the two do
 /// not wait for each other.

@@ -48,7 +48,11 @@ impl Model {
     /// # Errors
     /// Where damage is still a file or has no shape, grooves make no ellipse, or the process's kernel is not there.
     pub fn new(s: &Scenario) -> Result<Self, ModelError> {
-        Self::made(s, true)
+        let mut model = Self::planned(s)?;
+        if s.contact.law == Law::HalfSpace {
+            model.add_tables(s)?;
+        }
+        Ok(model)
     }
 
     /// The same before the tables of damage are made, without which damage does nothing: for what is said of many scenarios beforehand.
@@ -57,10 +61,6 @@ impl Model {
     /// As [`Self::new`].
     #[doc(hidden)]
     pub fn planned(s: &Scenario) -> Result<Self, ModelError> {
-        Self::made(s, false)
-    }
-
-    fn made(s: &Scenario, with_tables: bool) -> Result<Self, ModelError> {
         Kernel::chosen().map_err(|error| ModelError {
             key: kernel::SETTING.into(),
             value: format!("{:?}", error.value),
@@ -72,22 +72,7 @@ impl Model {
         let [inner_contact, outer_contact, series_contact] = contacts(s)?;
         let tilts = s.simulation.model == ModelKind::Tilting;
         let layout = Layout::new(b.rows, b.rollers_per_row, tilts);
-        let mut defects = defects(s)?;
-        if s.contact.law == Law::HalfSpace && with_tables {
-            tables(s, &mut defects)?;
-            let contacts = [&inner_contact, &outer_contact];
-            let deflection = |side: Side| {
-                let slices = slices(s, &geometry);
-                let (law, force) = (contacts[side as usize], heaviest(s, &geometry, &inertia));
-                let least = law.deflection(force);
-                slices.map_or(least, |slices| slices.deflection(law, force, least))
-            };
-            half_space::add_tables(&mut defects, (b, &s.contact), tilts, deflection).map_err(|error| ModelError {
-                key: "defects".into(),
-                value: error.to_string(),
-                requirement: "damage that a table of the half-space can hold",
-            })?;
-        }
+        let defects = defects(s)?;
         let by_slot = |roller: f64, padding: f64| {
             let mut column = Column::new(layout.slots, padding);
             column[..layout.rollers()].fill(roller);
@@ -144,6 +129,27 @@ impl Model {
             defects,
             law: s.contact.law,
         })
+    }
+
+    /// Gives damage its tables (section 19), which say where its contacts are no longer healthy.
+    fn add_tables(&mut self, s: &Scenario) -> Result<(), ModelError> {
+        tables(s, &mut self.defects)?;
+        let force = heaviest(s, &self.geometry, &self.inertia);
+        let contacts = [&self.inner_contact, &self.outer_contact];
+        let deflection = |side: Side| {
+            let law = contacts[side as usize];
+            let least = law.deflection(force);
+            self.slices.as_ref().map_or(least, |slices| slices.deflection(law, force, least))
+        };
+        half_space::add_tables(&mut self.defects, (&s.bearing, &s.contact), self.tilt.is_some(), deflection).map_err(
+            |error| ModelError {
+                key: "defects".into(),
+                value: error.to_string(),
+                requirement: "damage that a table of the half-space can hold",
+            },
+        )?;
+        self.broad_phase = SIDES.map(|side| BroadPhase::new(&self.layout, &self.defects, side));
+        Ok(())
     }
 }
 
@@ -257,7 +263,7 @@ fn heaviest(s: &Scenario, g: &Geometry, m: &Inertia) -> f64 {
     (s.bearing.element.stribeck() * load / count).max(m.roller * g.pitch_radius * orbit * orbit)
 }
 
-/// Gives damage its tables (section 19): those of files as they are.
+/// Gives damage the tables of files, as they are.
 fn tables(s: &Scenario, defects: &mut [Defect]) -> Result<(), ModelError> {
     for (k, defect) in s.defects.iter().enumerate() {
         let fault = |value: String, requirement| ModelError { key: format!("defects.{k}.table"), value, requirement };

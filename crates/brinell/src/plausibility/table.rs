@@ -11,15 +11,15 @@ use crate::model::Model;
 use crate::scenario::Scenario;
 use crate::statics::StaticLoadZone;
 
-/// Share of delta by which delta_eff differs where damage is felt.
-const FELT: f64 = 0.01;
+/// Share of delta by which delta_eff differs where damage is felt: the accuracy of tables.
+pub(super) const FELT: f64 = 0.01;
 /// Static deformations that the first delta above 0 may be.
 const COARSE: f64 = 4.0;
 /// And by this much at least, m: digits of a file.
 const DIGITS: f64 = 1e-9;
 /// Share of the shape's length over which the contact has to be changed: thin and flat ends may be felt by none.
 const LEAST_COVERED: f64 = 0.5;
-/// Depths that a contact may sink by: a floor as deep bears it.
+/// Depths of damage that a contact may sink by: a floor as deep bears it.
 const DEEPER: f64 = 1.1;
 /// What damage may reach beyond its shape and the contact's own reach, m: a length that its edges are rounded over, a cell of a grid.
 const ROUNDED: f64 = 0.1e-3;
@@ -97,7 +97,7 @@ fn of_shape((defect, alone): (&Defect, bool), table: &Table, radius: f64) -> Opt
             "{changed}, and {shape}, from which contacts reach {} mm farther at most: this is the table of other damage",
             mm(reach)
         )
-    } else if let Some(sunk) = sunk(table).filter(|sunk| alone && *sunk > DEEPER * defect.deepest() + DIGITS) {
+    } else if let Some(sunk) = sunk(table).filter(|sunk| alone && is_beneath(*sunk, defect.deepest())) {
         format!(
             "a contact yields by {} um more than a healthy one, and the damage is {} um deep: this is the table of deeper damage",
             short(1e6 * sunk),
@@ -107,6 +107,11 @@ fn of_shape((defect, alone): (&Defect, bool), table: &Table, radius: f64) -> Opt
         return None;
     };
     Some((words, "the table of this damage, s counted from its center_deg; look at the units".into()))
+}
+
+/// Whether a contact that yields by so much more than a healthy one, beyond the accuracy of tables, is beneath the floor of damage, m.
+pub(super) fn is_beneath(sunk: f64, depth: f64) -> bool {
+    sunk > DEEPER * depth + DIGITS
 }
 
 /// Largest delta - delta_eff beyond the accuracy of tables, m.

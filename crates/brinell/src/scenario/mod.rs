@@ -225,9 +225,9 @@ pub struct Contact {
     pub slices: usize,
     /// n; 3/2 of balls, which have no key for it.
     pub exponent: f64,
-    /// E of balls and grooves, GPa; `None` for rollers.
+    /// E of elements and rings, GPa; `None` where neither balls nor a half-space need it.
     pub youngs_modulus_gpa: Option<f64>,
-    /// Poisson's ratio of both; `None` for rollers.
+    /// Poisson's ratio of both, likewise.
     pub poisson_ratio: Option<f64>,
     /// K_in of a healthy contact, N/m^n.
     pub inner_stiffness: f64,
@@ -256,6 +256,14 @@ pub enum ContactDamping {
         /// c, N s/m.
         ns_per_m: f64,
     },
+}
+
+impl Contact {
+    /// E' = E/(1 - nu^2) of elements and rings, Pa, where the scenario has both.
+    pub(crate) fn modulus(&self) -> Option<f64> {
+        let ratio = self.poisson_ratio?;
+        Some(1e9 * self.youngs_modulus_gpa? / (1.0 - ratio * ratio))
+    }
 }
 
 impl ContactDamping {
