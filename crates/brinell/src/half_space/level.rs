@@ -23,6 +23,8 @@ pub(super) struct Fineness {
     /// What a cubic through four places may miss half-way between two, for these not to be halved again: of delta_eff over delta, and of its slope. What is
     /// left after that halving is a sixteenth.
     pub(super) between: [f64; 2],
+    /// By how much grid and steps are finer than the class's own, to show that nothing hangs on them.
+    pub(super) refinement: u32,
 }
 
 /// delta_eff at one place, and its slope in delta.
@@ -63,12 +65,12 @@ pub(super) struct Grid {
 const LEAST: f64 = 0.01;
 /// Slope of delta_eff in delta beyond which a place of damage that rises nowhere counts as not touching: on floors and beside pits it is near 1.
 const STEEPEST: f64 = 4.0;
-/// Halvings of the steps along s, from eight times half the contact's width to a quarter of it.
+/// Halvings of the steps along s, from eight times half the contact's width to a quarter of it; one more for each doubling of the grid.
 const HALVINGS: u32 = 5;
 
 /// The cell along s (m) at a deformation whose contact has this half-width: a power of two, so that steps of all deformations nest.
 pub(super) fn cell_length(half_width: f64, fineness: &Fineness) -> f64 {
-    2f64.powi((half_width / fineness.along).log2().floor() as i32)
+    2f64.powi((half_width / (fineness.along * f64::from(fineness.refinement))).log2().floor() as i32)
 }
 
 impl Grid {
@@ -112,7 +114,7 @@ impl Grid {
         for k in first..last {
             let s = [k as f64 * dx, (k + 1) as f64 * dx];
             let column: Vec<Seen> = (0..across)
-                .map(|row| raster.seen(&Cell { s, z: [z(row), z(row + 1)], levelled, half_width }))
+                .map(|row| raster.seen(&Cell { s, z: [z(row), z(row + 1)], levelled, half_width, deepest: delta }))
                 .collect();
             let kind = *known.entry(bits(&column)).or_insert_with(|| {
                 kinds.push(column);
@@ -189,7 +191,7 @@ pub(super) fn solve(geometry: &Geometry, raster: &Raster, delta: f64, fineness: 
     let least = LEAST * (delta + raised);
     // Whole cells of the coarser grid to either side.
     let half = ((geometry.reach(delta + raised) / (2.0 * cell)).ceil() as usize).max(2);
-    let rows = geometry.rows(raster, delta + raised, fineness.rows);
+    let rows = fineness.refinement as usize * geometry.rows(raster, delta + raised, fineness.rows);
     let dz = geometry.half_across(delta + raised) / (2 * rows) as f64;
     let grids = [
         Grid::new(geometry, raster, delta, [2.0 * cell, 2.0 * dz], half, fineness),
@@ -232,24 +234,25 @@ pub(super) fn solve(geometry: &Geometry, raster: &Raster, delta: f64, fineness: 
         known.insert(key, place);
         place
     };
+    let halvings = HALVINGS + fineness.refinement.ilog2();
     let span = raster.reach().s;
     let step = 2.0 * cell;
     let [first, last] =
         [(span[0] / step).floor() as i64 - half as i64 - 1, (span[1] / step).ceil() as i64 + half as i64 + 1];
-    let places = along([first, last], [(delta + raised) * fineness.between[0], fineness.between[1]], &mut at);
+    let places = along(halvings, [first, last], [(delta + raised) * fineness.between[0], fineness.between[1]], &mut at);
     Level { delta, places, work }
 }
 
 /// Places from `first` on past `last`, in steps of 2^[`HALVINGS`] that are halved where a cubic through four neighbours misses what lies between
 /// by more than `errors`.
-fn along([first, last]: [i64; 2], errors: [f64; 2], at: &mut impl FnMut(i64) -> Place) -> Vec<Place> {
-    let coarse = 1i64 << HALVINGS;
+fn along(halvings: u32, [first, last]: [i64; 2], errors: [f64; 2], at: &mut impl FnMut(i64) -> Place) -> Vec<Place> {
+    let coarse = 1i64 << halvings;
     // Multiples of the largest step, so that steps of all deformations nest, and healthy places at both ends.
     let [first, last] = [first.div_euclid(coarse) - 1, last.div_euclid(coarse) + 2];
     let mut places: Vec<(i64, Place)> = (first..=last).map(|k| (k * coarse, at(k * coarse))).collect();
     // Intervals to be halved, by their first place.
     let mut wanted: Vec<bool> = vec![true; places.len() - 1];
-    for level in 0..HALVINGS {
+    for level in 0..halvings {
         let step = coarse >> level;
         let mut finer = Vec::with_capacity(2 * places.len());
         let mut next: Vec<bool> = Vec::with_capacity(2 * places.len());

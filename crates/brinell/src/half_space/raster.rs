@@ -6,8 +6,10 @@
 const MOST_CELLS: usize = 3_000_000;
 /// Steps of a raster, m, where it is not too large.
 const STEP: f64 = 2.5e-6;
-/// Samples of a cell of the solver along each axis at the most.
+/// Samples of a cell of the solver along each axis, and those of a cell whose depths differ by less than a share of what its pressure levels.
 const MOST_SAMPLES: usize = 12;
+const FEWEST_SAMPLES: usize = 4;
+const SMOOTH: f64 = 0.25;
 /// Step of these samples, m, where that many are enough.
 const SAMPLE: f64 = 0.5e-6;
 /// Halvings of a step of samples in which an edge lies.
@@ -53,9 +55,14 @@ pub struct Raster {
     sums: Vec<f64>,
     /// Cells before a corner that are not as deep as the one before them along either axis.
     changes: Vec<u32>,
+    /// Least and greatest depth of every block of cells, column by column of s.
+    extremes: Vec<[f64; 2]>,
     /// Height of the highest raised place, m.
     raised: f64,
 }
+
+/// Raster cells along either side of a block.
+const BLOCK: usize = 8;
 
 /// What a cell of the solver sees.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
@@ -74,6 +81,8 @@ pub(super) struct Cell {
     pub(super) levelled: f64,
     /// Half the contact's width along s, m.
     pub(super) half_width: f64,
+    /// Depth from which on nothing can touch, m.
+    pub(super) deepest: f64,
 }
 
 impl Raster {
@@ -94,6 +103,7 @@ impl Raster {
             column([from, from + step[0]], column_depth);
         }
         let raised = depth.iter().fold(0.0_f64, |most, h| most.max(-h));
+        let extremes = extremes(cells, &depth);
         let [sums, changes] = [0, 1].map(|_| (cells[0] + 1) * (cells[1] + 1));
         let (mut sums, mut changes) = (vec![0.0; sums], vec![0u32; changes]);
         let wide = cells[1] + 1;
@@ -109,7 +119,7 @@ impl Raster {
                 changes[(k + 1) * wide + j + 1] = changes[k * wide + j + 1] + change;
             }
         }
-        Self { bounds, step, cells, edge, depth, sums, changes, raised }
+        Self { bounds, step, cells, edge, depth, sums, changes, extremes, raised }
     }
 
     /// From depths at points, m: the mean of 4 by 4 of every raster cell.
@@ -204,6 +214,24 @@ impl Raster {
         (depth == 0.0 && count(k0, j0) == 0).then_some(0.0)
     }
 
+    /// Bounds of the depths that a cell sees.
+    fn between(&self, cell: &Cell) -> [f64; 2] {
+        let (Some([k0, k1]), Some([j0, j1])) = (self.touched(cell.s, 0), self.touched(cell.z, 1)) else {
+            return [0.0; 2];
+        };
+        let half = 0.5 * self.edge;
+        let within = |span: [f64; 2], of: [f64; 2]| span[0] - half >= of[0] && span[1] + half <= of[1];
+        let inside = within(cell.s, self.bounds.s) && within(cell.z, self.bounds.z);
+        let mut all = if inside { [f64::INFINITY, f64::NEG_INFINITY] } else { [0.0; 2] };
+        let wide = self.cells[1].div_ceil(BLOCK);
+        for k in k0 / BLOCK..k1.div_ceil(BLOCK) {
+            for [low, high] in &self.extremes[k * wide..][j0 / BLOCK..j1.div_ceil(BLOCK)] {
+                all = [all[0].min(*low), all[1].max(*high)];
+            }
+        }
+        all
+    }
+
     /// What a cell sees of the surface.
     ///
     /// Within it the deep parts next to an edge carry nothing; what is left has a place and a share, and is softer than a whole cell.
@@ -211,8 +239,13 @@ impl Raster {
         if let Some(depth) = self.uniform(cell) {
             return Seen { depth, soft: 0.0 };
         }
+        let [least, most] = self.between(cell);
+        if least >= cell.deepest {
+            return Seen { depth: cell.deepest, soft: 0.0 };
+        }
         let size = [cell.s[1] - cell.s[0], cell.z[1] - cell.z[0]];
-        let samples = size.map(|size| ((size / SAMPLE).ceil() as usize).clamp(4, MOST_SAMPLES));
+        let finest = if most - least < SMOOTH * cell.levelled { FEWEST_SAMPLES } else { MOST_SAMPLES };
+        let samples = size.map(|size| ((size / SAMPLE).ceil() as usize).clamp(FEWEST_SAMPLES, finest));
         let middle = |k: usize, axis: usize| (k as f64 + 0.5) / samples[axis] as f64;
         let at = |a: f64, b: f64| self.rounded(cell.s[0] + a * size[0], cell.z[0] + b * size[1]);
         let mut depths = [0.0; MOST_SAMPLES * MOST_SAMPLES];
@@ -253,6 +286,20 @@ impl Raster {
         let softness = SOFTNESS * across / (1.0 + SPREAD * wide / cell.half_width) / size[0];
         Seen { depth: alike(sum, SAME_DEPTH), soft: alike(softness, SAME_SHARE) * (1.0 - share) / share }
     }
+}
+
+/// Least and greatest depth of every block of cells, column by column.
+fn extremes(cells: [usize; 2], depth: &[f64]) -> Vec<[f64; 2]> {
+    let wide = cells[1].div_ceil(BLOCK);
+    let mut all = vec![[f64::INFINITY, f64::NEG_INFINITY]; cells[0].div_ceil(BLOCK) * wide];
+    for (k, column) in depth.chunks_exact(cells[1]).enumerate() {
+        for (j, block) in column.chunks(BLOCK).enumerate() {
+            let [low, high] = &mut all[k / BLOCK * wide + j];
+            *low = block.iter().copied().fold(*low, f64::min);
+            *high = block.iter().copied().fold(*high, f64::max);
+        }
+    }
+    all
 }
 
 /// How much of a cell is left: wholly what is as high as its highest place, nothing of what is far deeper than its pressure levels.
