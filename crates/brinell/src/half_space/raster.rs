@@ -236,6 +236,12 @@ impl Raster {
     ///
     /// Within it the deep parts next to an edge carry nothing; what is left has a place and a share, and is softer than a whole cell.
     pub(super) fn seen(&self, cell: &Cell) -> Seen {
+        let seen = self.sampled(cell);
+        // What cannot touch is alike, so that columns that differ in it are solved once.
+        if seen.depth < cell.deepest { seen } else { Seen { depth: cell.deepest, soft: 0.0 } }
+    }
+
+    fn sampled(&self, cell: &Cell) -> Seen {
         if let Some(depth) = self.uniform(cell) {
             return Seen { depth, soft: 0.0 };
         }
