@@ -73,6 +73,9 @@ pub(super) struct Seen {
     pub(super) soft: f64,
 }
 
+/// Corner before either end of what is averaged, and how far beyond it.
+type Around = [(usize, f64); 2];
+
 /// A cell of the solver, the depth difference within it that its pressure levels (m), and the contact.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Cell {
@@ -159,29 +162,43 @@ impl Raster {
             })
     }
 
+    /// The corner before a place on an axis, and how far beyond it, in raster cells.
+    fn place(&self, x: f64, axis: usize) -> (usize, f64) {
+        let first = if axis == 0 { self.bounds.s[0] } else { self.bounds.z[0] };
+        let x = ((x - first) / self.step[axis]).clamp(0.0, self.cells[axis] as f64);
+        let k = (x as usize).min(self.cells[axis] - 1);
+        (k, x - k as f64)
+    }
+
     /// Sum of the depths before a place along both axes, in raster cells: exact for depths constant in each.
-    fn sum(&self, s: f64, z: f64) -> f64 {
+    fn sum(&self, (k, a): (usize, f64), (j, b): (usize, f64)) -> f64 {
         let wide = self.cells[1] + 1;
-        let place = |x: f64, cells: usize| {
-            let x = x.clamp(0.0, cells as f64);
-            let k = (x as usize).min(cells - 1);
-            (k, x - k as f64)
-        };
-        let (k, a) = place((s - self.bounds.s[0]) / self.step[0], self.cells[0]);
-        let (j, b) = place((z - self.bounds.z[0]) / self.step[1], self.cells[1]);
         let at = |k: usize, j: usize| self.sums[k * wide + j];
         let low = at(k, j) + b * (at(k, j + 1) - at(k, j));
         let high = at(k + 1, j) + b * (at(k + 1, j + 1) - at(k + 1, j));
         low + a * (high - low)
     }
 
+    /// Half the length over which depths are averaged, m.
+    fn half(&self) -> f64 {
+        (0.5 * self.edge).max(0.25 * self.step[0].min(self.step[1]))
+    }
+
+    /// Both ends of what is averaged about a place on an axis.
+    fn around(&self, x: f64, axis: usize) -> Around {
+        [x - self.half(), x + self.half()].map(|x| self.place(x, axis))
+    }
+
+    /// Depth with rounded edges, m.
+    fn mean(&self, [from, to]: Around, [low, high]: Around) -> f64 {
+        let sum = self.sum(to, high) - self.sum(to, low) - self.sum(from, high) + self.sum(from, low);
+        let half = self.half();
+        sum * self.step[0] * self.step[1] / (4.0 * half * half)
+    }
+
     /// Depth at a point with rounded edges, m.
     pub fn rounded(&self, s: f64, z: f64) -> f64 {
-        let half = (0.5 * self.edge).max(0.25 * self.step[0].min(self.step[1]));
-        let [from, to] = [s - half, s + half];
-        let [low, high] = [z - half, z + half];
-        let sum = self.sum(to, high) - self.sum(to, low) - self.sum(from, high) + self.sum(from, low);
-        sum * self.step[0] * self.step[1] / (4.0 * half * half)
+        self.mean(self.around(s, 0), self.around(z, 1))
     }
 
     /// Raster cells that a span touches, widened by the rounding; `None` where it lies beyond.
@@ -253,11 +270,18 @@ impl Raster {
         let finest = if most - least < SMOOTH * cell.levelled { FEWEST_SAMPLES } else { MOST_SAMPLES };
         let samples = size.map(|size| ((size / SAMPLE).ceil() as usize).clamp(FEWEST_SAMPLES, finest));
         let middle = |k: usize, axis: usize| (k as f64 + 0.5) / samples[axis] as f64;
-        let at = |a: f64, b: f64| self.rounded(cell.s[0] + a * size[0], cell.z[0] + b * size[1]);
+        let around = [0, 1].map(|axis| {
+            let from = if axis == 0 { cell.s[0] } else { cell.z[0] };
+            let mut all = [Around::default(); MOST_SAMPLES];
+            for (k, around) in all[..samples[axis]].iter_mut().enumerate() {
+                *around = self.around(from + middle(k, axis) * size[axis], axis);
+            }
+            all
+        });
         let mut depths = [0.0; MOST_SAMPLES * MOST_SAMPLES];
         let depths = &mut depths[..samples[0] * samples[1]];
         for (k, depth) in depths.iter_mut().enumerate() {
-            *depth = at(middle(k / samples[1], 0), middle(k % samples[1], 1));
+            *depth = self.mean(around[0][k / samples[1]], around[1][k % samples[1]]);
         }
         let left_of = Left { highest: depths.iter().copied().fold(f64::INFINITY, f64::min), levelled: cell.levelled };
         let mut lean = [0.0; 2];
@@ -272,7 +296,12 @@ impl Raster {
         let along = usize::from(lean[1] / size[1] > lean[0] / size[0]);
         let (mut left, mut sum) = (0.0, 0.0);
         for k in 0..samples[1 - along] {
-            let line = |x: f64| if along == 0 { at(x, middle(k, 1)) } else { at(middle(k, 0), x) };
+            let beside = around[1 - along][k];
+            let line = |x: f64| {
+                let from = if along == 0 { cell.s[0] } else { cell.z[0] };
+                let across = self.around(from + x * size[along], along);
+                if along == 0 { self.mean(across, beside) } else { self.mean(beside, across) }
+            };
             let mut from = (0.0, line(0.0));
             for j in 1..=samples[along] {
                 let x = j as f64 / samples[along] as f64;
