@@ -294,4 +294,30 @@ mod tests {
             }
         }
     }
+
+    #[test]
+    fn analytic_short_waves_that_do_not_reach_across_are_not_missed() {
+        // A roller's cells: what is left out is of waves that have fallen to 1e-7, and as much again where it would come around the other way.
+        let (along, across, aspect) = (24, 16, 6.0);
+        for mirrored in [false, true] {
+            let influence = Influence::new(Cells { along, across, aspect, mirrored });
+            assert!(influence.farthest.iter().any(|rows| *rows < across / 3), "{:?}", influence.farthest);
+            let at = |k: usize| [(k % along) as f64, (k / along) as f64];
+            let pressed = |k: usize| (at(k)[0] - 11.5).abs() < 7.0;
+            let p: Vec<f64> = (0..along * across).map(|k| if pressed(k) { 1.0 + ((k * k) % 7) as f64 } else { 0.0 }).collect();
+            let mut u = vec![0.0; p.len()];
+            let rows: Vec<usize> = (0..across).collect();
+            influence.apply(&p, &mut u, &rows, &mut influence.scratch());
+            for (k, u) in u.iter().enumerate() {
+                let sum: f64 = (0..p.len())
+                    .map(|m| {
+                        let ([x, to], [other, from]) = (at(k), at(m));
+                        let far = if mirrored { love(x - other, aspect * (to + from + 1.0), aspect) } else { 0.0 };
+                        p[m] * (love(x - other, aspect * (to - from), aspect) + far)
+                    })
+                    .sum();
+                assert!((u - sum).abs() < 2e-5 * sum, "{k}: {u} {sum}");
+            }
+        }
+    }
 }
