@@ -10,3 +10,4 @@ mod outlines;
 mod photos;
 mod resolve;
 mod surfaces;
+mod table_errors;

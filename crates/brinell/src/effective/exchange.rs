@@ -1,16 +1,25 @@
 //! Tables as text: CSV with the columns `s_mm,delta_um,delta_eff_um` on a full grid (section 19); read by [`crate::scenario::TableData`].
 
-use super::table::Table;
+use super::spline;
+use super::table::{MOST_NODES, Table};
 use std::fmt::Write;
 
+/// What the splines through a file's values may miss of the slope in delta, and of delta_eff over delta.
+const MISSED: [f64; 2] = [1e-3, 2e-4];
+/// Halvings of the steps of delta at the most.
+const HALVINGS: usize = 6;
+
 impl Table {
-    /// CSV of the nodes, as a defect's `table` reads it, with the force over the healthy one at the same delta:
+    /// CSV, as a defect's `table` reads it, with the force over the healthy one at the same delta:
     /// Q/Q_h = E_H'(delta_eff) (d delta_eff/d delta) / E_H'(delta), where `force` is E_H' (N of m).
+    ///
+    /// A file has no slopes: between the nodes of delta it has further ones where the splines through values alone would miss them.
     pub fn to_csv_text(&self, force: impl Fn(f64) -> f64) -> String {
         let mut text = String::from("s_mm,delta_um,delta_eff_um,q_over_q_healthy\n");
+        let deltas = self.denser();
         for (row, s) in self.s_nodes().iter().enumerate() {
-            for (column, delta) in self.delta_nodes().iter().enumerate() {
-                let (effective, slope) = self.node(row, column);
+            for delta in &deltas {
+                let (effective, slope) = self.in_row(row, *delta);
                 let healthy = force(delta.max(0.0));
                 let share = if healthy > 0.0 { force(effective.max(0.0)) * slope / healthy } else { 0.0 };
                 // Shortest digits that give the number back; writing to a string cannot fail.
@@ -18,6 +27,60 @@ impl Table {
             }
         }
         text
+    }
+
+    /// Its nodes of delta, and as many between them as splines through values take, as far as a file may have so many.
+    fn denser(&self) -> Vec<f64> {
+        let mut deltas = self.delta_nodes().to_vec();
+        for _ in 0..HALVINGS {
+            let missed = self.missed(&deltas);
+            let wanted = missed.iter().filter(|missed| **missed).count();
+            if wanted == 0 || (deltas.len() + wanted) * self.s_nodes().len() > MOST_NODES {
+                break;
+            }
+            let mut finer = Vec::with_capacity(deltas.len() + wanted);
+            for (k, delta) in deltas.iter().enumerate() {
+                finer.push(*delta);
+                if k < missed.len() && missed[k] {
+                    // A place that the file's digits give back.
+                    finer.push(1e-6 * rounded(0.5e6 * (delta + deltas[k + 1])));
+                }
+            }
+            deltas = finer;
+        }
+        deltas
+    }
+
+    /// Between which of these delta natural cubic splines through the values there miss too much.
+    fn missed(&self, deltas: &[f64]) -> Vec<bool> {
+        let mut missed = vec![false; deltas.len() - 1];
+        for row in 0..self.s_nodes().len() {
+            let values: Vec<f64> = deltas.iter().map(|delta| self.in_row(row, *delta).0).collect();
+            let seconds = spline::curvatures(deltas, &values);
+            for (k, missed) in missed.iter_mut().enumerate() {
+                for part in [0.0, 0.25, 0.5, 0.75, 1.0] {
+                    let at = deltas[k] + part * (deltas[k + 1] - deltas[k]);
+                    let weights = spline::Weights::at(deltas, k, at);
+                    let (value, slope) = self.in_row(row, at);
+                    // No force, no error.
+                    if value <= 0.0 {
+                        continue;
+                    }
+                    let [splined, by_delta] = weights.sums(&values, &seconds);
+                    *missed |= (by_delta - slope).abs() > MISSED[0] || (splined - value).abs() > MISSED[1] * at.abs();
+                }
+            }
+        }
+        missed
+    }
+
+    /// delta_eff and its slope in delta at a node of s.
+    fn in_row(&self, row: usize, delta: f64) -> (f64, f64) {
+        if let Ok(column) = self.delta_nodes().binary_search_by(|node| node.total_cmp(&delta)) {
+            return self.node(row, column);
+        }
+        let at = self.straight(delta, self.s_nodes()[row]);
+        (at.delta, at.by_delta)
     }
 }
 

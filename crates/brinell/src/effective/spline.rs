@@ -78,6 +78,15 @@ impl Weights {
         }
     }
 
+    /// Value and slope there of the spline through `y` with these second derivatives at the nodes.
+    pub(crate) fn sums(&self, y: &[f64], seconds: &[f64]) -> [f64; 2] {
+        let k = self.lower;
+        [0, 1].map(|n| {
+            let ([a, b], [c, d]) = (self.values[n], self.seconds[n]);
+            a * y[k] + b * y[k + 1] + (c * seconds[k] + d * seconds[k + 1])
+        })
+    }
+
     /// Value and first two derivatives there of the spline that is 1 at node `j`, 0 at the others, and has these second derivatives at the nodes.
     pub(crate) fn of(&self, j: usize, seconds: &[f64]) -> [f64; 3] {
         let k = self.lower;

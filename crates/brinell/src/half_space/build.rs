@@ -61,9 +61,9 @@ pub struct Built {
 impl Tables {
     pub(super) fn fineness(self) -> Fineness {
         match self {
-            Self::Standard => Fineness { along: 8.0, rows: 40, tolerance: 3e-4, between: [1.5e-3, 5e-3] },
-            Self::Coarse => Fineness { along: 5.0, rows: 24, tolerance: 1e-3, between: [5e-3, 2e-2] },
-            Self::Quick => Fineness { along: 3.0, rows: 10, tolerance: 1e-2, between: [2e-2, 1e-1] },
+            Self::Standard => Fineness { along: 8.0, rows: 40, tolerance: 8e-4, between: [1.5e-3, 5e-3], refinement: 1 },
+            Self::Coarse => Fineness { along: 5.0, rows: 24, tolerance: 1e-3, between: [5e-3, 2e-2], refinement: 1 },
+            Self::Quick => Fineness { along: 3.0, rows: 10, tolerance: 1e-2, between: [2e-2, 1e-1], refinement: 1 },
         }
     }
 
@@ -116,8 +116,38 @@ pub fn table(
     if let Some((what, value)) = lengths.into_iter().find(|(_, x)| !(x.is_finite() && *x > 0.0)) {
         return Err(BuildError::NotPositive { what, value });
     }
-    let delta = deformations(range, raster.raised(), accuracy);
-    table_at(geometry, raster, &delta, accuracy, threads, stop)
+    refined_table(geometry, raster, range, (accuracy, 1), threads, stop)
+}
+
+/// As [`table()`], with grid and nodes finer than the class's own by a power of two: what shows that nothing hangs on them.
+///
+/// # Errors
+/// As [`table()`].
+pub fn refined_table(
+    geometry: &Geometry,
+    raster: &Raster,
+    range: &Range,
+    (accuracy, refinement): (Tables, u32),
+    threads: NonZeroUsize,
+    stop: &AtomicBool,
+) -> Result<Built, BuildError> {
+    let mut delta = deformations(range, raster.raised(), accuracy);
+    for _ in 0..refinement.ilog2() {
+        delta = halved(&delta);
+    }
+    let own = accuracy.fineness();
+    let shrink = f64::from(refinement.pow(4));
+    let between = own.between.map(|error| error / shrink);
+    let fineness = Fineness { tolerance: own.tolerance / f64::from(refinement), between, refinement, ..own };
+    levels(geometry, raster, &delta, &fineness, threads, stop)
+}
+
+/// With a node in the middle of every two: the geometric one, but the arithmetic one where either is at or below 0.
+fn halved(delta: &[f64]) -> Vec<f64> {
+    let middle = |w: &[f64]| if w[0] > 0.0 { (w[0] * w[1]).sqrt() } else { 0.5 * (w[0] + w[1]) };
+    let mut all: Vec<f64> = delta.windows(2).flat_map(|w| [w[0], middle(w)]).collect();
+    all.extend(delta.last());
+    all
 }
 
 /// As [`table()`], with nodes at the given rising delta (m): at the first nothing touches.
@@ -132,10 +162,20 @@ pub fn table_at(
     threads: NonZeroUsize,
     stop: &AtomicBool,
 ) -> Result<Built, BuildError> {
-    let fineness = accuracy.fineness();
+    levels(geometry, raster, delta, &accuracy.fineness(), threads, stop)
+}
+
+fn levels(
+    geometry: &Geometry,
+    raster: &Raster,
+    delta: &[f64],
+    fineness: &Fineness,
+    threads: NonZeroUsize,
+    stop: &AtomicBool,
+) -> Result<Built, BuildError> {
     let levels = parallel::map(delta.len() - 1, threads, |k| {
         // The deepest first: they take longest.
-        level::solve(geometry, raster, delta[delta.len() - 1 - k], &fineness, stop)
+        level::solve(geometry, raster, delta[delta.len() - 1 - k], fineness, stop)
     });
     if stop.load(Ordering::Relaxed) {
         return Err(BuildError::Stopped);

@@ -23,6 +23,8 @@ pub(super) struct Fineness {
     /// What a cubic through four places may miss half-way between two, for these not to be halved again: of delta_eff over delta, and of its slope. What is
     /// left after that halving is a sixteenth.
     pub(super) between: [f64; 2],
+    /// By how much grid and steps are finer than the class's own, to show that nothing hangs on them.
+    pub(super) refinement: u32,
 }
 
 /// delta_eff at one place, and its slope in delta.
@@ -47,6 +49,8 @@ pub(super) struct Level {
 /// One of the two grids.
 pub(super) struct Grid {
     pub(super) influence: Influence,
+    /// The same over some of the columns, rising: where contacts are narrow, most of the window carries nothing.
+    narrow: Vec<Influence>,
     /// Cells to either side of the contact's middle.
     half: usize,
     /// Gap of the healthy contact.
@@ -63,12 +67,17 @@ pub(super) struct Grid {
 const LEAST: f64 = 0.01;
 /// Slope of delta_eff in delta beyond which a place of damage that rises nowhere counts as not touching: on floors and beside pits it is near 1.
 const STEEPEST: f64 = 4.0;
-/// Halvings of the steps along s, from eight times half the contact's width to a quarter of it.
+/// Columns of narrow windows over half of those of the whole one, and their least number.
+const NARROW: [f64; 4] = [0.35, 0.55, 0.85, 1.25];
+const LEAST_COLUMNS: usize = 8;
+/// Columns beside those that press in a narrow window.
+const MARGIN: usize = 2;
+/// Halvings of the steps along s, from eight times half the contact's width to a quarter of it; one more for each doubling of the grid.
 const HALVINGS: u32 = 5;
 
 /// The cell along s (m) at a deformation whose contact has this half-width: a power of two, so that steps of all deformations nest.
 pub(super) fn cell_length(half_width: f64, fineness: &Fineness) -> f64 {
-    2f64.powi((half_width / fineness.along).log2().floor() as i32)
+    2f64.powi((half_width / (fineness.along * f64::from(fineness.refinement))).log2().floor() as i32)
 }
 
 impl Grid {
@@ -86,7 +95,11 @@ impl Grid {
         let mirrored = geometry.is_mirrored(raster);
         let half_rows = (geometry.half_across(delta + raised) / dz).round().max(1.0) as usize;
         let across = if mirrored { half_rows } else { 2 * half_rows };
-        let influence = Influence::new(Cells { along: 2 * half, across, aspect: dz / dx, mirrored });
+        let cells = |along: usize| Cells { along, across, aspect: dz / dx, mirrored };
+        let influence = Influence::new(cells(2 * half));
+        let narrow = NARROW.map(|share| (share * half as f64).ceil() as usize);
+        let narrow = narrow.into_iter().filter(|along| *along >= LEAST_COLUMNS).map(|along| Influence::new(cells(along)));
+        let narrow = narrow.collect();
         let z = |row: usize| if mirrored { row as f64 * dz } else { (row as f64 - half_rows as f64) * dz };
         let gap: Vec<f64> = (0..2 * half * across)
             .map(|k| {
@@ -112,7 +125,7 @@ impl Grid {
         for k in first..last {
             let s = [k as f64 * dx, (k + 1) as f64 * dx];
             let column: Vec<Seen> = (0..across)
-                .map(|row| raster.seen(&Cell { s, z: [z(row), z(row + 1)], levelled, half_width }))
+                .map(|row| raster.seen(&Cell { s, z: [z(row), z(row + 1)], levelled, half_width, deepest: delta }))
                 .collect();
             let kind = *known.entry(bits(&column)).or_insert_with(|| {
                 kinds.push(column);
@@ -120,7 +133,7 @@ impl Grid {
             });
             columns.push(kind);
         }
-        Self { influence, half, gap, energies, first, columns, kinds }
+        Self { influence, narrow, half, gap, energies, first, columns, kinds }
     }
 
     /// Columns under a contact whose middle lies before cell `middle`.
@@ -146,29 +159,85 @@ impl Grid {
 pub(super) struct Presser<'a> {
     grid: &'a Grid,
     pub(super) contact: Contact<'a>,
+    narrow: Vec<Contact<'a>>,
     gap: Vec<f64>,
     soft: Vec<f64>,
+    /// Gaps and softness of a narrow window.
+    cut: [Vec<f64>; 2],
 }
+
+/// Pressures that a place was solved with.
+type Solved = Vec<f32>;
 
 impl<'a> Presser<'a> {
     pub(super) fn new(grid: &'a Grid) -> Self {
         let zeros = || vec![0.0; grid.gap.len()];
-        Self { grid, contact: Contact::new(&grid.influence), gap: zeros(), soft: zeros() }
+        let contact = Contact::new(&grid.influence);
+        let narrow = grid.narrow.iter().map(Contact::new).collect();
+        Self { grid, contact, narrow, gap: zeros(), soft: zeros(), cut: [zeros(), zeros()] }
     }
 
-    /// The pressures of a grid whose cells are twice as large, as a start.
-    fn begin_with(&mut self, coarse: &Contact<'_>) {
-        let along = 2 * self.grid.half;
-        for (k, p) in self.contact.p.iter_mut().enumerate() {
-            // Half the pressure's unit, which is of a cell's length.
-            *p = 0.5 * coarse.p[k / along / 2 * (along / 2) + k % along / 2];
+    /// Starts with the mean of two places.
+    fn begin_between(&mut self, [a, b]: [&Solved; 2]) {
+        for (p, (a, b)) in self.contact.p.iter_mut().zip(a.iter().zip(b)) {
+            *p = 0.5 * (f64::from(*a) + f64::from(*b));
         }
     }
 
-    /// Presses what a window sees.
+    /// Starts with the pressures of a grid whose cells are twice as large; with what this grid's have beyond them in the mean of two places beside, each
+    /// given by the coarse and the fine pressures.
+    fn begin_with(&mut self, coarse: &Contact<'_>, beside: Option<[&[Solved; 2]; 2]>) {
+        let along = 2 * self.grid.half;
+        for (k, p) in self.contact.p.iter_mut().enumerate() {
+            // Half the pressure's unit, which is of a cell's length.
+            let below = k / along / 2 * (along / 2) + k % along / 2;
+            *p = 0.5 * coarse.p[below];
+            if let Some(beside) = beside {
+                let more: f32 = beside.iter().map(|[coarse, fine]| fine[k] - 0.5 * coarse[below]).sum();
+                *p = (*p + 0.5 * f64::from(more)).max(0.0);
+            }
+        }
+    }
+
+    /// Presses what a window sees: first, where few columns press in what it begins with, these alone.
     pub(super) fn pressed(&mut self, window: &[usize], delta: f64, tolerance: f64) -> Pressed {
         self.grid.over(window, &mut self.gap, &mut self.soft);
-        self.contact.press(&self.gap, &self.soft, delta, tolerance)
+        let within = self.press_narrow(delta, tolerance);
+        let pressed = self.contact.press(&self.gap, &self.soft, delta, tolerance);
+        Pressed { convolutions: within + pressed.convolutions, ..pressed }
+    }
+
+    /// Presses some of the columns and leaves their pressures as the start of all; the convolutions that it took.
+    fn press_narrow(&mut self, delta: f64, tolerance: f64) -> usize {
+        let along = 2 * self.grid.half;
+        let presses = |column: &usize| self.contact.p[*column..].iter().step_by(along).any(|p| *p > 0.0);
+        let (Some(first), Some(last)) = ((0..along).find(presses), (0..along).rev().find(presses)) else {
+            return 0;
+        };
+        let wanted = last + 1 - first + 2 * MARGIN;
+        let Some(narrow) = self.grid.narrow.iter().position(|influence| influence.cells().along >= wanted) else {
+            return 0;
+        };
+        let columns = self.grid.narrow[narrow].cells().along;
+        let narrow = &mut self.narrow[narrow];
+        let first = ((first + last + 1).saturating_sub(columns) / 2).min(along - columns);
+        let cut = |from: &[f64], to: &mut Vec<f64>| {
+            to.clear();
+            to.extend(from.chunks_exact(along).flat_map(|row| &row[first..first + columns]));
+        };
+        cut(&self.gap, &mut self.cut[0]);
+        cut(&self.soft, &mut self.cut[1]);
+        cut(&self.contact.p, &mut narrow.p);
+        let pressed = narrow.press(&self.cut[0], &self.cut[1], delta, tolerance);
+        for (all, own) in self.contact.p.chunks_exact_mut(along).zip(narrow.p.chunks_exact(columns)) {
+            all[first..first + columns].copy_from_slice(own);
+        }
+        pressed.convolutions
+    }
+
+    /// Its pressures, kept.
+    fn solved(&self) -> Solved {
+        self.contact.p.iter().map(|p| *p as f32).collect()
     }
 
     /// delta_eff, its slope, and the convolutions that it took. 0 where nothing touches.
@@ -189,7 +258,7 @@ pub(super) fn solve(geometry: &Geometry, raster: &Raster, delta: f64, fineness: 
     let least = LEAST * (delta + raised);
     // Whole cells of the coarser grid to either side.
     let half = ((geometry.reach(delta + raised) / (2.0 * cell)).ceil() as usize).max(2);
-    let rows = geometry.rows(raster, delta + raised, fineness.rows);
+    let rows = fineness.refinement as usize * geometry.rows(raster, delta + raised, fineness.rows);
     let dz = geometry.half_across(delta + raised) / (2 * rows) as f64;
     let grids = [
         Grid::new(geometry, raster, delta, [2.0 * cell, 2.0 * dz], half, fineness),
@@ -197,9 +266,10 @@ pub(super) fn solve(geometry: &Geometry, raster: &Raster, delta: f64, fineness: 
     ];
     let mut pressers = grids.each_ref().map(Presser::new);
     let mut known: HashMap<Vec<usize>, Place> = HashMap::new();
+    let mut solved: HashMap<i64, [Solved; 2]> = HashMap::new();
     let mut work = [0; 2];
     let healthy = Place { s: 0.0, value: delta, slope: 1.0, touches: delta > 0.0 };
-    let mut at = |k: i64| -> Place {
+    let mut at = |k: i64, step: i64| -> Place {
         let s = k as f64 * 2.0 * cell;
         let window = grids[1].window(2 * k);
         if window.iter().all(|kind| *kind == 0) || stop.load(Ordering::Relaxed) {
@@ -215,11 +285,17 @@ pub(super) fn solve(geometry: &Geometry, raster: &Raster, delta: f64, fineness: 
         }
         let windows = [grids[0].window(k), window];
         let mut found = [[0.0; 2]; 2];
+        let beside = solved.get(&(k - step)).zip(solved.get(&(k + step))).map(|(a, b)| [a, b]);
         let [coarse, fine] = &mut pressers;
         let mut convolutions = [0; 2];
+        if let Some([a, b]) = beside {
+            coarse.begin_between([&a[0], &b[0]]);
+        }
         (found[0], convolutions[0]) = coarse.press(&windows[0], delta, fineness.tolerance);
-        fine.begin_with(&coarse.contact);
+        fine.begin_with(&coarse.contact, beside);
         (found[1], convolutions[1]) = fine.press(&windows[1], delta, fineness.tolerance);
+        let pressures = [coarse.solved(), fine.solved()];
+        solved.insert(k, pressures);
         work[0] += 2;
         work[1] += convolutions[0] + convolutions[1];
         let [coarse, fine] = found;
@@ -232,24 +308,25 @@ pub(super) fn solve(geometry: &Geometry, raster: &Raster, delta: f64, fineness: 
         known.insert(key, place);
         place
     };
+    let halvings = HALVINGS + fineness.refinement.ilog2();
     let span = raster.reach().s;
     let step = 2.0 * cell;
     let [first, last] =
         [(span[0] / step).floor() as i64 - half as i64 - 1, (span[1] / step).ceil() as i64 + half as i64 + 1];
-    let places = along([first, last], [(delta + raised) * fineness.between[0], fineness.between[1]], &mut at);
+    let places = along(halvings, [first, last], [(delta + raised) * fineness.between[0], fineness.between[1]], &mut at);
     Level { delta, places, work }
 }
 
-/// Places from `first` on past `last`, in steps of 2^[`HALVINGS`] that are halved where a cubic through four neighbours misses what lies between
+/// `at` is asked for a place and how far from it its neighbours are, which have been found where there are some. Places from `first` on past `last`, in steps of 2^[`HALVINGS`] that are halved where a cubic through four neighbours misses what lies between
 /// by more than `errors`.
-fn along([first, last]: [i64; 2], errors: [f64; 2], at: &mut impl FnMut(i64) -> Place) -> Vec<Place> {
-    let coarse = 1i64 << HALVINGS;
+fn along(halvings: u32, [first, last]: [i64; 2], errors: [f64; 2], at: &mut impl FnMut(i64, i64) -> Place) -> Vec<Place> {
+    let coarse = 1i64 << halvings;
     // Multiples of the largest step, so that steps of all deformations nest, and healthy places at both ends.
     let [first, last] = [first.div_euclid(coarse) - 1, last.div_euclid(coarse) + 2];
-    let mut places: Vec<(i64, Place)> = (first..=last).map(|k| (k * coarse, at(k * coarse))).collect();
+    let mut places: Vec<(i64, Place)> = (first..=last).map(|k| (k * coarse, at(k * coarse, coarse))).collect();
     // Intervals to be halved, by their first place.
     let mut wanted: Vec<bool> = vec![true; places.len() - 1];
-    for level in 0..HALVINGS {
+    for level in 0..halvings {
         let step = coarse >> level;
         let mut finer = Vec::with_capacity(2 * places.len());
         let mut next: Vec<bool> = Vec::with_capacity(2 * places.len());
@@ -260,7 +337,7 @@ fn along([first, last]: [i64; 2], errors: [f64; 2], at: &mut impl FnMut(i64) -> 
                 continue;
             }
             let middle = places[k].0 + step / 2;
-            let found = at(middle);
+            let found = at(middle, step / 2);
             let [value, slope] = guess(&places, k, middle);
             let alike = places[k].1.touches == found.touches && places[k + 1].1.touches == found.touches;
             let missed = (value - found.value).abs() > errors[0] || (slope - found.slope).abs() > errors[1] || !alike;

@@ -6,8 +6,10 @@
 const MOST_CELLS: usize = 3_000_000;
 /// Steps of a raster, m, where it is not too large.
 const STEP: f64 = 2.5e-6;
-/// Samples of a cell of the solver along each axis at the most.
+/// Samples of a cell of the solver along each axis, and those of a cell whose depths differ by less than a share of what its pressure levels.
 const MOST_SAMPLES: usize = 12;
+const FEWEST_SAMPLES: usize = 4;
+const SMOOTH: f64 = 0.25;
 /// Step of these samples, m, where that many are enough.
 const SAMPLE: f64 = 0.5e-6;
 /// Halvings of a step of samples in which an edge lies.
@@ -53,9 +55,14 @@ pub struct Raster {
     sums: Vec<f64>,
     /// Cells before a corner that are not as deep as the one before them along either axis.
     changes: Vec<u32>,
+    /// Least and greatest depth of every block of cells, column by column of s.
+    extremes: Vec<[f64; 2]>,
     /// Height of the highest raised place, m.
     raised: f64,
 }
+
+/// Raster cells along either side of a block.
+const BLOCK: usize = 8;
 
 /// What a cell of the solver sees.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
@@ -66,6 +73,9 @@ pub(super) struct Seen {
     pub(super) soft: f64,
 }
 
+/// Corner before either end of what is averaged, and how far beyond it.
+type Around = [(usize, f64); 2];
+
 /// A cell of the solver, the depth difference within it that its pressure levels (m), and the contact.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Cell {
@@ -74,6 +84,8 @@ pub(super) struct Cell {
     pub(super) levelled: f64,
     /// Half the contact's width along s, m.
     pub(super) half_width: f64,
+    /// Depth from which on nothing can touch, m.
+    pub(super) deepest: f64,
 }
 
 impl Raster {
@@ -94,6 +106,7 @@ impl Raster {
             column([from, from + step[0]], column_depth);
         }
         let raised = depth.iter().fold(0.0_f64, |most, h| most.max(-h));
+        let extremes = extremes(cells, &depth);
         let [sums, changes] = [0, 1].map(|_| (cells[0] + 1) * (cells[1] + 1));
         let (mut sums, mut changes) = (vec![0.0; sums], vec![0u32; changes]);
         let wide = cells[1] + 1;
@@ -109,7 +122,7 @@ impl Raster {
                 changes[(k + 1) * wide + j + 1] = changes[k * wide + j + 1] + change;
             }
         }
-        Self { bounds, step, cells, edge, depth, sums, changes, raised }
+        Self { bounds, step, cells, edge, depth, sums, changes, extremes, raised }
     }
 
     /// From depths at points, m: the mean of 4 by 4 of every raster cell.
@@ -149,29 +162,43 @@ impl Raster {
             })
     }
 
+    /// The corner before a place on an axis, and how far beyond it, in raster cells.
+    fn place(&self, x: f64, axis: usize) -> (usize, f64) {
+        let first = if axis == 0 { self.bounds.s[0] } else { self.bounds.z[0] };
+        let x = ((x - first) / self.step[axis]).clamp(0.0, self.cells[axis] as f64);
+        let k = (x as usize).min(self.cells[axis] - 1);
+        (k, x - k as f64)
+    }
+
     /// Sum of the depths before a place along both axes, in raster cells: exact for depths constant in each.
-    fn sum(&self, s: f64, z: f64) -> f64 {
+    fn sum(&self, (k, a): (usize, f64), (j, b): (usize, f64)) -> f64 {
         let wide = self.cells[1] + 1;
-        let place = |x: f64, cells: usize| {
-            let x = x.clamp(0.0, cells as f64);
-            let k = (x as usize).min(cells - 1);
-            (k, x - k as f64)
-        };
-        let (k, a) = place((s - self.bounds.s[0]) / self.step[0], self.cells[0]);
-        let (j, b) = place((z - self.bounds.z[0]) / self.step[1], self.cells[1]);
         let at = |k: usize, j: usize| self.sums[k * wide + j];
         let low = at(k, j) + b * (at(k, j + 1) - at(k, j));
         let high = at(k + 1, j) + b * (at(k + 1, j + 1) - at(k + 1, j));
         low + a * (high - low)
     }
 
+    /// Half the length over which depths are averaged, m.
+    fn half(&self) -> f64 {
+        (0.5 * self.edge).max(0.25 * self.step[0].min(self.step[1]))
+    }
+
+    /// Both ends of what is averaged about a place on an axis.
+    fn around(&self, x: f64, axis: usize) -> Around {
+        [x - self.half(), x + self.half()].map(|x| self.place(x, axis))
+    }
+
+    /// Depth with rounded edges, m.
+    fn mean(&self, [from, to]: Around, [low, high]: Around) -> f64 {
+        let sum = self.sum(to, high) - self.sum(to, low) - self.sum(from, high) + self.sum(from, low);
+        let half = self.half();
+        sum * self.step[0] * self.step[1] / (4.0 * half * half)
+    }
+
     /// Depth at a point with rounded edges, m.
     pub fn rounded(&self, s: f64, z: f64) -> f64 {
-        let half = (0.5 * self.edge).max(0.25 * self.step[0].min(self.step[1]));
-        let [from, to] = [s - half, s + half];
-        let [low, high] = [z - half, z + half];
-        let sum = self.sum(to, high) - self.sum(to, low) - self.sum(from, high) + self.sum(from, low);
-        sum * self.step[0] * self.step[1] / (4.0 * half * half)
+        self.mean(self.around(s, 0), self.around(z, 1))
     }
 
     /// Raster cells that a span touches, widened by the rounding; `None` where it lies beyond.
@@ -204,21 +231,57 @@ impl Raster {
         (depth == 0.0 && count(k0, j0) == 0).then_some(0.0)
     }
 
+    /// Bounds of the depths that a cell sees.
+    fn between(&self, cell: &Cell) -> [f64; 2] {
+        let (Some([k0, k1]), Some([j0, j1])) = (self.touched(cell.s, 0), self.touched(cell.z, 1)) else {
+            return [0.0; 2];
+        };
+        let half = 0.5 * self.edge;
+        let within = |span: [f64; 2], of: [f64; 2]| span[0] - half >= of[0] && span[1] + half <= of[1];
+        let inside = within(cell.s, self.bounds.s) && within(cell.z, self.bounds.z);
+        let mut all = if inside { [f64::INFINITY, f64::NEG_INFINITY] } else { [0.0; 2] };
+        let wide = self.cells[1].div_ceil(BLOCK);
+        for k in k0 / BLOCK..k1.div_ceil(BLOCK) {
+            for [low, high] in &self.extremes[k * wide..][j0 / BLOCK..j1.div_ceil(BLOCK)] {
+                all = [all[0].min(*low), all[1].max(*high)];
+            }
+        }
+        all
+    }
+
     /// What a cell sees of the surface.
     ///
     /// Within it the deep parts next to an edge carry nothing; what is left has a place and a share, and is softer than a whole cell.
     pub(super) fn seen(&self, cell: &Cell) -> Seen {
+        let seen = self.sampled(cell);
+        // What cannot touch is alike, so that columns that differ in it are solved once.
+        if seen.depth < cell.deepest { seen } else { Seen { depth: cell.deepest, soft: 0.0 } }
+    }
+
+    fn sampled(&self, cell: &Cell) -> Seen {
         if let Some(depth) = self.uniform(cell) {
             return Seen { depth, soft: 0.0 };
         }
+        let [least, most] = self.between(cell);
+        if least >= cell.deepest {
+            return Seen { depth: cell.deepest, soft: 0.0 };
+        }
         let size = [cell.s[1] - cell.s[0], cell.z[1] - cell.z[0]];
-        let samples = size.map(|size| ((size / SAMPLE).ceil() as usize).clamp(4, MOST_SAMPLES));
+        let finest = if most - least < SMOOTH * cell.levelled { FEWEST_SAMPLES } else { MOST_SAMPLES };
+        let samples = size.map(|size| ((size / SAMPLE).ceil() as usize).clamp(FEWEST_SAMPLES, finest));
         let middle = |k: usize, axis: usize| (k as f64 + 0.5) / samples[axis] as f64;
-        let at = |a: f64, b: f64| self.rounded(cell.s[0] + a * size[0], cell.z[0] + b * size[1]);
+        let around = [0, 1].map(|axis| {
+            let from = if axis == 0 { cell.s[0] } else { cell.z[0] };
+            let mut all = [Around::default(); MOST_SAMPLES];
+            for (k, around) in all[..samples[axis]].iter_mut().enumerate() {
+                *around = self.around(from + middle(k, axis) * size[axis], axis);
+            }
+            all
+        });
         let mut depths = [0.0; MOST_SAMPLES * MOST_SAMPLES];
         let depths = &mut depths[..samples[0] * samples[1]];
         for (k, depth) in depths.iter_mut().enumerate() {
-            *depth = at(middle(k / samples[1], 0), middle(k % samples[1], 1));
+            *depth = self.mean(around[0][k / samples[1]], around[1][k % samples[1]]);
         }
         let left_of = Left { highest: depths.iter().copied().fold(f64::INFINITY, f64::min), levelled: cell.levelled };
         let mut lean = [0.0; 2];
@@ -233,7 +296,12 @@ impl Raster {
         let along = usize::from(lean[1] / size[1] > lean[0] / size[0]);
         let (mut left, mut sum) = (0.0, 0.0);
         for k in 0..samples[1 - along] {
-            let line = |x: f64| if along == 0 { at(x, middle(k, 1)) } else { at(middle(k, 0), x) };
+            let beside = around[1 - along][k];
+            let line = |x: f64| {
+                let from = if along == 0 { cell.s[0] } else { cell.z[0] };
+                let across = self.around(from + x * size[along], along);
+                if along == 0 { self.mean(across, beside) } else { self.mean(beside, across) }
+            };
             let mut from = (0.0, line(0.0));
             for j in 1..=samples[along] {
                 let x = j as f64 / samples[along] as f64;
@@ -253,6 +321,20 @@ impl Raster {
         let softness = SOFTNESS * across / (1.0 + SPREAD * wide / cell.half_width) / size[0];
         Seen { depth: alike(sum, SAME_DEPTH), soft: alike(softness, SAME_SHARE) * (1.0 - share) / share }
     }
+}
+
+/// Least and greatest depth of every block of cells, column by column.
+fn extremes(cells: [usize; 2], depth: &[f64]) -> Vec<[f64; 2]> {
+    let wide = cells[1].div_ceil(BLOCK);
+    let mut all = vec![[f64::INFINITY, f64::NEG_INFINITY]; cells[0].div_ceil(BLOCK) * wide];
+    for (k, column) in depth.chunks_exact(cells[1]).enumerate() {
+        for (j, block) in column.chunks(BLOCK).enumerate() {
+            let [low, high] = &mut all[k / BLOCK * wide + j];
+            *low = block.iter().copied().fold(*low, f64::min);
+            *high = block.iter().copied().fold(*high, f64::max);
+        }
+    }
+    all
 }
 
 /// How much of a cell is left: wholly what is as high as its highest place, nothing of what is far deeper than its pressure levels.

@@ -98,6 +98,7 @@ impl<'a> Contact<'a> {
         Pressed { energy, force, convolutions }
     }
 
+    #[inline(always)]
     fn find_residual(&mut self, gap: &[f64], soft: &[f64], delta: f64) {
         self.influence.apply(&self.p, &mut self.residual, &self.rows, &mut self.room);
         for (((r, g), p), soft) in self.residual.iter_mut().zip(gap).zip(&self.p).zip(soft) {
@@ -106,6 +107,7 @@ impl<'a> Contact<'a> {
     }
 
     /// Which cells touch, with the sum of their squared residuals and their number; whether residuals are below `limit`.
+    #[inline(always)]
     fn find_free(&mut self, gap: &[f64], soft: &[f64], delta: f64, limit: f64) -> (f64, usize, bool) {
         let own = self.influence.own();
         let (mut cells, mut done) = (0usize, true);
@@ -120,8 +122,24 @@ impl<'a> Contact<'a> {
         (square, cells, done && square <= limit * limit * cells as f64)
     }
 
-    /// Turns until residuals are below `limit`; the convolutions that they took.
+    /// Turns until residuals are below `limit`; the convolutions that they took. The same to the bit with any instructions, for no product is fused.
     fn iterate(&mut self, gap: &[f64], soft: &[f64], delta: f64, limit: f64) -> usize {
+        #[cfg(target_arch = "x86_64")]
+        {
+            #[target_feature(enable = "avx2")]
+            fn with_avx2(of: &mut Contact<'_>, gap: &[f64], soft: &[f64], delta: f64, limit: f64) -> usize {
+                of.iterate_in_lanes(gap, soft, delta, limit)
+            }
+            if is_x86_feature_detected!("avx2") {
+                // SAFETY: the processor has been asked.
+                return unsafe { with_avx2(self, gap, soft, delta, limit) };
+            }
+        }
+        self.iterate_in_lanes(gap, soft, delta, limit)
+    }
+
+    #[inline(always)]
+    fn iterate_in_lanes(&mut self, gap: &[f64], soft: &[f64], delta: f64, limit: f64) -> usize {
         self.find_residual(gap, soft, delta);
         let mut convolutions = 1;
         while convolutions < MOST_CONVOLUTIONS {
@@ -145,6 +163,7 @@ impl<'a> Contact<'a> {
     }
 
     /// Conjugate gradients on the cells that touch, scaled by each cell's own compliance, until the sum of squared residuals is below `goal`.
+    #[inline(always)]
     fn equalise(&mut self, soft: &[f64], goal: f64, most: usize) -> usize {
         let mut before = f64::INFINITY;
         self.direction.fill(0.0);
@@ -176,6 +195,7 @@ impl<'a> Contact<'a> {
 }
 
 /// Sum of a b c, in the same order with any instructions.
+#[inline(always)]
 fn sum_of_products(a: &[f64], b: &[f64], c: &[f64]) -> f64 {
     const LANES: usize = 8;
     let mut sums = [0.0; LANES];
