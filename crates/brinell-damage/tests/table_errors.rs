@@ -65,7 +65,8 @@ fn force_errors(model: &Model, side: Side, [one, other]: [&Table; 2]) -> [f64; 2
     const PLACES: [u32; 2] = [1200, 150];
     let healthy = model.healthy(side);
     let force = |delta: f64| healthy.force_and_tangent(delta.max(0.0))[0];
-    let ([from, to], last, tenth) = (other.range_s(), other.last_delta(), model.defects[0].table(side).unwrap().delta_nodes()[1]);
+    let ([from, to], last, tenth) =
+        (other.range_s(), other.last_delta(), model.defects[0].table(side).unwrap().delta_nodes()[1]);
     let (mut worst, mut sum) = (0.0_f64, 0.0);
     for k in 0..PLACES[0] {
         let s = from + (to - from) * (f64::from(k) + 0.5) / f64::from(PLACES[0]);

@@ -61,7 +61,9 @@ pub struct Built {
 impl Tables {
     pub(super) fn fineness(self) -> Fineness {
         match self {
-            Self::Standard => Fineness { along: 8.0, rows: 40, tolerance: 8e-4, between: [1.5e-3, 5e-3], refinement: 1 },
+            Self::Standard => {
+                Fineness { along: 8.0, rows: 40, tolerance: 8e-4, between: [1.5e-3, 5e-3], refinement: 1 }
+            }
             Self::Coarse => Fineness { along: 5.0, rows: 24, tolerance: 1e-3, between: [5e-3, 2e-2], refinement: 1 },
             Self::Quick => Fineness { along: 3.0, rows: 10, tolerance: 1e-2, between: [2e-2, 1e-1], refinement: 1 },
         }
@@ -70,7 +72,7 @@ impl Tables {
     /// Ratio of deformations that follow each other.
     fn ratio(self) -> f64 {
         match self {
-            Self::Standard => 1.4,
+            Self::Standard => 1.5,
             Self::Coarse => 1.7,
             Self::Quick => 2.5,
         }

@@ -304,7 +304,8 @@ mod tests {
             assert!(influence.farthest.iter().any(|rows| *rows < across / 3), "{:?}", influence.farthest);
             let at = |k: usize| [(k % along) as f64, (k / along) as f64];
             let pressed = |k: usize| (at(k)[0] - 11.5).abs() < 7.0;
-            let p: Vec<f64> = (0..along * across).map(|k| if pressed(k) { 1.0 + ((k * k) % 7) as f64 } else { 0.0 }).collect();
+            let p: Vec<f64> =
+                (0..along * across).map(|k| if pressed(k) { 1.0 + ((k * k) % 7) as f64 } else { 0.0 }).collect();
             let mut u = vec![0.0; p.len()];
             let rows: Vec<usize> = (0..across).collect();
             influence.apply(&p, &mut u, &rows, &mut influence.scratch());

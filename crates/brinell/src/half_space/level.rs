@@ -98,7 +98,8 @@ impl Grid {
         let cells = |along: usize| Cells { along, across, aspect: dz / dx, mirrored };
         let influence = Influence::new(cells(2 * half));
         let narrow = NARROW.map(|share| (share * half as f64).ceil() as usize);
-        let narrow = narrow.into_iter().filter(|along| *along >= LEAST_COLUMNS).map(|along| Influence::new(cells(along)));
+        let narrow =
+            narrow.into_iter().filter(|along| *along >= LEAST_COLUMNS).map(|along| Influence::new(cells(along)));
         let narrow = narrow.collect();
         let z = |row: usize| if mirrored { row as f64 * dz } else { (row as f64 - half_rows as f64) * dz };
         let gap: Vec<f64> = (0..2 * half * across)
@@ -319,7 +320,12 @@ pub(super) fn solve(geometry: &Geometry, raster: &Raster, delta: f64, fineness: 
 
 /// `at` is asked for a place and how far from it its neighbours are, which have been found where there are some. Places from `first` on past `last`, in steps of 2^[`HALVINGS`] that are halved where a cubic through four neighbours misses what lies between
 /// by more than `errors`.
-fn along(halvings: u32, [first, last]: [i64; 2], errors: [f64; 2], at: &mut impl FnMut(i64, i64) -> Place) -> Vec<Place> {
+fn along(
+    halvings: u32,
+    [first, last]: [i64; 2],
+    errors: [f64; 2],
+    at: &mut impl FnMut(i64, i64) -> Place,
+) -> Vec<Place> {
     let coarse = 1i64 << halvings;
     // Multiples of the largest step, so that steps of all deformations nest, and healthy places at both ends.
     let [first, last] = [first.div_euclid(coarse) - 1, last.div_euclid(coarse) + 2];

@@ -167,37 +167,96 @@ impl<'a> Contact<'a> {
     fn equalise(&mut self, soft: &[f64], goal: f64, most: usize) -> usize {
         let mut before = f64::INFINITY;
         self.direction.fill(0.0);
+        let mut scaled = sum_of_products(&self.residual, &self.residual, &self.yields);
         for convolutions in 1..=most {
-            let scaled = sum_of_products(&self.residual, &self.residual, &self.yields);
             let share = scaled / before;
             before = scaled;
             for ((d, r), yields) in self.direction.iter_mut().zip(&self.residual).zip(&self.yields) {
                 *d = r * yields + share * *d;
             }
             self.influence.apply(&self.direction, &mut self.image, &self.rows, &mut self.room);
-            for ((q, d), soft) in self.image.iter_mut().zip(&self.direction).zip(soft) {
-                *q += soft * d;
-            }
-            let stiff = sum_of_products(&self.image, &self.direction, &self.free);
+            let stiff = stiffness(&mut self.image, &self.direction, soft, &self.free);
             let step = if stiff > 0.0 { scaled / stiff } else { 0.0 };
-            for (r, q) in self.residual.iter_mut().zip(&self.image) {
-                *r -= step * q;
-            }
-            for (p, d) in self.p.iter_mut().zip(&self.direction) {
-                *p -= step * d;
-            }
-            if sum_of_products(&self.residual, &self.residual, &self.free) <= goal {
+            let square;
+            [square, scaled] = self.go(step);
+            if square <= goal {
                 return convolutions;
             }
         }
         most
     }
+
+    /// A step along the direction; sums of squared residuals, of cells that touch and over their compliance.
+    #[inline(always)]
+    fn go(&mut self, step: f64) -> [f64; 2] {
+        let mut sums = [[0.0; LANES]; 2];
+        let ((r, r_end), (p, p_end)) = (self.residual.as_chunks_mut::<LANES>(), self.p.as_chunks_mut::<LANES>());
+        let ((q, q_end), (d, d_end)) = (self.image.as_chunks::<LANES>(), self.direction.as_chunks::<LANES>());
+        let ((free, free_end), (yields, yields_end)) =
+            (self.free.as_chunks::<LANES>(), self.yields.as_chunks::<LANES>());
+        for ((r, p), ((q, d), (free, yields))) in r.iter_mut().zip(p).zip(q.iter().zip(d).zip(free.iter().zip(yields)))
+        {
+            for k in 0..LANES {
+                step_one(
+                    (&mut r[k], &mut p[k]),
+                    step,
+                    (q[k], d[k]),
+                    (free[k], yields[k]),
+                    sums.each_mut().map(|s| &mut s[k]),
+                );
+            }
+        }
+        for k in 0..r_end.len() {
+            let (at, of, cell) = ((&mut r_end[k], &mut p_end[k]), (q_end[k], d_end[k]), (free_end[k], yields_end[k]));
+            step_one(at, step, of, cell, sums.each_mut().map(|s| &mut s[k]));
+        }
+        sums.map(|sums| sums.iter().sum())
+    }
+}
+
+/// A step of one cell's residual and pressure, added to the sums of [`Contact::go`].
+#[inline(always)]
+fn step_one(
+    (r, p): (&mut f64, &mut f64),
+    step: f64,
+    (q, d): (f64, f64),
+    (free, yields): (f64, f64),
+    sums: [&mut f64; 2],
+) {
+    *r -= step * q;
+    *p -= step * d;
+    let square = *r * *r;
+    *sums[0] += square * free;
+    *sums[1] += square * yields;
+}
+
+/// Numbers that are summed side by side, so that sums have the same order with any instructions.
+const LANES: usize = 8;
+
+/// Adds what soft cells yield to the image of a direction; the product of both over cells that touch.
+#[inline(always)]
+fn stiffness(image: &mut [f64], direction: &[f64], soft: &[f64], free: &[f64]) -> f64 {
+    let mut sums = [0.0; LANES];
+    let add = |q: &mut f64, d: f64, soft: f64, free: f64, sum: &mut f64| {
+        *q += soft * d;
+        *sum += *q * d * free;
+    };
+    let ((q, q_end), (d, d_end)) = (image.as_chunks_mut::<LANES>(), direction.as_chunks::<LANES>());
+    let ((soft, soft_end), (free, free_end)) = (soft.as_chunks::<LANES>(), free.as_chunks::<LANES>());
+    for ((q, d), (soft, free)) in q.iter_mut().zip(d).zip(soft.iter().zip(free)) {
+        for k in 0..LANES {
+            add(&mut q[k], d[k], soft[k], free[k], &mut sums[k]);
+        }
+    }
+    for k in 0..q_end.len() {
+        add(&mut q_end[k], d_end[k], soft_end[k], free_end[k], &mut sums[k]);
+    }
+    sums.iter().sum()
 }
 
 /// Sum of a b c, in the same order with any instructions.
 #[inline(always)]
 fn sum_of_products(a: &[f64], b: &[f64], c: &[f64]) -> f64 {
-    const LANES: usize = 8;
     let mut sums = [0.0; LANES];
     for ((a, b), c) in a.chunks(LANES).zip(b.chunks(LANES)).zip(c.chunks(LANES)) {
         for (((sum, a), b), c) in sums.iter_mut().zip(a).zip(b).zip(c) {
