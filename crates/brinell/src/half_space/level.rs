@@ -74,6 +74,8 @@ const LEAST_COLUMNS: usize = 8;
 const MARGIN: usize = 2;
 /// Halvings of the steps along s, from eight times half the contact's width to a quarter of it; one more for each doubling of the grid.
 const HALVINGS: u32 = 5;
+/// First steps along all s that see damage, at the least.
+const LEAST_STEPS: u64 = 8;
 
 /// The cell along s (m) at a deformation whose contact has this half-width: a power of two, so that steps of all deformations nest.
 pub(super) fn cell_length(half_width: f64, fineness: &Fineness) -> f64 {
@@ -309,11 +311,13 @@ pub(super) fn solve(geometry: &Geometry, raster: &Raster, delta: f64, fineness: 
         known.insert(key, place);
         place
     };
-    let halvings = HALVINGS + fineness.refinement.ilog2();
     let span = raster.reach().s;
     let step = 2.0 * cell;
     let [first, last] =
         [(span[0] / step).floor() as i64 - half as i64 - 1, (span[1] / step).ceil() as i64 + half as i64 + 1];
+    // No first steps that could miss damage shorter than they are.
+    let longest = ((last - first) as u64 / LEAST_STEPS).max(1).ilog2();
+    let halvings = (HALVINGS + fineness.refinement.ilog2()).min(longest);
     let places = along(halvings, [first, last], [(delta + raised) * fineness.between[0], fineness.between[1]], &mut at);
     Level { delta, places, work }
 }
