@@ -39,10 +39,13 @@ pub enum Across {
     },
 }
 
-/// Least cells across damage that is narrower than the contact.
+/// Least cells across damage that is narrower than the contact; of balls also those over a class's rows: what a small pit takes of the
+/// force, a per cent or two, is all that shakes, so that 0.1 % of the force is 5 % of a run's accelerations.
 const CELLS_OVER_DAMAGE: f64 = 4.0;
-/// Rows on one side at the most.
-const MOST_ROWS: usize = 64;
+const CELLS_UNDER_BALLS: f64 = 0.45;
+/// Rows of the coarser grid on one side at the most; of balls over a class's rows.
+const MOST_ROWS: usize = 32;
+const MOST_UNDER_BALLS: f64 = 1.3;
 
 /// Steps of a roller's profile.
 const PROFILE_STEPS: usize = 512;
@@ -134,8 +137,12 @@ impl Geometry {
     /// Rows of the coarser grid on one side of z = 0.
     pub(super) fn rows(&self, raster: &Raster, delta: f64, least: usize) -> usize {
         let [low, high] = raster.reach().z;
-        let narrow = CELLS_OVER_DAMAGE * self.half_across(delta) / (high - low).max(1e-9);
-        (narrow.ceil() as usize).clamp(least / 2, (MOST_ROWS / 2).max(least / 2))
+        let (cells, most) = match self.across {
+            Across::Groove { .. } => (CELLS_UNDER_BALLS * least as f64, (MOST_UNDER_BALLS * least as f64) as usize),
+            Across::Roller { .. } => (CELLS_OVER_DAMAGE, MOST_ROWS),
+        };
+        let narrow = cells.max(CELLS_OVER_DAMAGE) * self.half_across(delta) / (high - low).max(1e-9);
+        (narrow.ceil() as usize).clamp(least / 2, most.max(MOST_ROWS).max(least / 2))
     }
 
     /// Gap of the healthy contact at x, mean between two z, m; infinite off a roller.

@@ -290,15 +290,15 @@ mod tests {
                         p[m] * (love(x, 1.7 * (to - from), 1.7) + other)
                     })
                     .sum();
-                // What is left out of short waves.
-                assert!((u - sum).abs() < 1e-5 * sum.abs().max(1.0), "{k}: {u} {sum}");
+                // What is left out of short waves, most at the ends of the window, where waves come around the other way.
+                assert!((u - sum).abs() < 1e-4 * sum.abs().max(1.0), "{k}: {u} {sum}");
             }
         }
     }
 
     #[test]
     fn analytic_short_waves_that_do_not_reach_across_are_not_missed() {
-        // A roller's cells: what is left out is of waves that have fallen to 1e-7, and as much again where it would come around the other way.
+        // A roller's cells: what is left out is of waves that have fallen to 1e-7.
         let (along, across, aspect) = (24, 16, 6.0);
         for mirrored in [false, true] {
             let influence = Influence::new(Cells { along, across, aspect, mirrored });
@@ -319,7 +319,7 @@ mod tests {
                     })
                     .sum();
                 // Ends of the window are where waves come around the other way.
-                let tolerance = if pressed(k) { 1e-5 } else { 1e-4 };
+                let tolerance = if pressed(k) { 3e-5 } else { 2e-4 };
                 assert!((u - sum).abs() < tolerance * sum, "{k}: {u} {sum}");
             }
         }

@@ -103,8 +103,8 @@ choices! {
 
     /// How exact the tables of damaged contacts are.
     pub enum Tables {
-        Standard = "standard", "the effective deformation within 0.5 % of the deformation, the force within 1 % of the healthy one between nodes";
-        Coarse = "coarse", "within 1.3 % and 4.5 % (8 % over scans), for data sets whose damage is drawn anew for every run";
+        Standard = "standard", "the effective deformation within 0.5 % of the deformation, the force within 2 % of the healthy one between nodes";
+        Coarse = "coarse", "within 1.3 % and 5 %, for data sets whose damage is drawn anew for every run";
         Quick = "quick", "a first look: errors several times those, in a moment";
     }
 
