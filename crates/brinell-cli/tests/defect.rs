@@ -133,7 +133,10 @@ fn prop_a_preview_under_half_space_is_of_its_tables() {
     assert_eq!(rows[row][column], value("largest_pressure_mpa"));
     assert!(rows.iter().flatten().all(|p| (0.0..=value("largest_pressure_mpa")).contains(p)));
     assert!(value("largest_pressure_mpa") > 1.5 * value("healthy_pressure_mpa"));
-    assert!((value("yield_begins_at_mpa"), value("share_beyond_yield")) == (3040.0, 0.0));
+    // At the pit's edge it grows as cells shrink: whether a few of them are beyond hangs on the grid.
+    let beyond = rows.iter().flatten().any(|p| *p > 3040.0);
+    let share = value("share_beyond_yield");
+    assert!(value("yield_begins_at_mpa") == 3040.0 && (share > 0.0) == beyond && share < 0.02, "{share}");
     let picture = folder.path().join("preview/damage-1-pressure.svg");
     assert!(picture.exists());
     // The paper's laws know none.
