@@ -1,5 +1,6 @@
 //! A scenario as the model it stands for: from the file's names and units to SI.
 
+use super::stable_steps::StableSteps;
 use super::{BroadPhase, Geometry, Inertia, Kernel, Layout, Model, Support, Tilt};
 use crate::cage::{Guide, LandLaw, OIL_FORCE, OiledWall, Pocket};
 use crate::contact::ball;
@@ -90,6 +91,7 @@ impl Model {
             broad_phase: SIDES.map(|side| BroadPhase::new(&layout, &defects, side)),
             row_lanes: row_lanes(&layout),
             pocket_angle: pocket_angles(b, &layout),
+            stable_steps: StableSteps::new([&inner_contact, &outer_contact], inertia.roller),
             inner_contact,
             outer_contact,
             series_contact,

@@ -17,6 +17,7 @@ mod motion;
 mod parameters;
 mod power;
 mod stability;
+mod stable_steps;
 mod tilt;
 mod workspace;
 

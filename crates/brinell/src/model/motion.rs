@@ -40,7 +40,7 @@ impl<W: BorrowMut<Workspace>> System for Motion<'_, W> {
 
     fn stable_step(&self) -> f64 {
         let ws = self.ws.borrow();
-        stable_step(self.model, &ws.stable_steps, ws.max_elastic(), ws.film_damping())
+        stable_step(self.model, ws.max_elastic(), ws.film_damping())
     }
 
     fn flow(&self) -> Power {

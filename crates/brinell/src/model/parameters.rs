@@ -3,6 +3,7 @@
 use super::broad_phase::BroadPhase;
 use super::geometry::{Geometry, Inertia, Support};
 use super::layout::Layout;
+use super::stable_steps::StableSteps;
 use super::tilt::Tilt;
 use crate::bearing::kinematics::{self, Kinematics};
 use crate::cage::{Guide, Pocket};
@@ -55,6 +56,8 @@ pub struct Model {
     pub outer_contact: LoadDeflection,
     /// Law of both contacts in series, damping c/2 (section 10).
     pub series_contact: LoadDeflection,
+    /// Longest steps of the solver by the largest contact force.
+    pub(super) stable_steps: StableSteps,
     /// Whether levers and rates are those of displaced bodies (section 18), or the centred bearing's.
     pub exact: bool,
     /// Raceway friction.

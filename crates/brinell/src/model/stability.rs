@@ -1,66 +1,21 @@
 //! Stability limit of the explicit solver: the longest step in which it damps the fastest motions.
 
 use super::Model;
-use crate::contact::LoadDeflection;
 use crate::defect::{SIDES, Side};
 use crate::scenario::ModelKind;
 use crate::solver::DAMPED_CONTACT;
-
-/// Binary orders of the contact forces that [`StableSteps`] lists: 1 mN to 16 MN.
-const LEAST: i32 = -10;
-const ORDERS: usize = 35;
-/// Orders by which lighter loads count: what grows at a hundredth of the load opens its contact, and stays as small.
-const LIGHTER: usize = 7;
-
-/// Longest steps, s, of a roller under any contact forces up to a largest.
-///
-/// Under a lighter load a contact is softer, but section 20 damps it less, and the solver's limit is least at damping ratios of 0.2 to
-/// 0.4: the heaviest contact is not always the one that sets the step.
-#[derive(Debug, Clone, PartialEq)]
-pub(super) struct StableSteps {
-    /// By the largest force, 2^(LEAST + k) N.
-    steps: [f64; ORDERS],
-}
-
-impl StableSteps {
-    pub(super) fn new(model: &Model) -> Self {
-        let mass = model.inertia.roller;
-        let of_one: [f64; ORDERS] = std::array::from_fn(|k| {
-            let force = f64::from(LEAST + k as i32).exp2();
-            let [inner, outer] = [&model.inner_contact, &model.outer_contact].map(|law| spring(law, force));
-            // Between the raceways, or on one of them.
-            let springs = [[inner[0] + outer[0], inner[1] + outer[1]], inner, outer];
-            springs.map(|spring| decaying_step(spring, mass)).into_iter().fold(f64::INFINITY, f64::min)
-        });
-        Self {
-            steps: std::array::from_fn(|k| {
-                of_one[k.saturating_sub(LIGHTER)..=k].iter().copied().fold(f64::INFINITY, f64::min)
-            }),
-        }
-    }
-
-    /// Where no contact carries more than `force`, N.
-    fn up_to(&self, force: f64) -> f64 {
-        if force <= 0.0 {
-            return f64::INFINITY;
-        }
-        let at = (f64::from((force as f32).log2()) - f64::from(LEAST)).clamp(0.0, (ORDERS - 1) as f64);
-        let k = (at as usize).min(ORDERS - 2);
-        self.steps[k] + (at - k as f64) * (self.steps[k + 1] - self.steps[k])
-    }
-}
 
 impl Model {
     /// Stability limit of the step, s, of a roller whose contacts carry the elastic forces `elastic` (inner and outer,
     /// N) at most, and of the cages without a dynamic film.
     pub(crate) fn stable_step_at(&self, elastic: [f64; 2]) -> f64 {
-        stable_step(self, &StableSteps::new(self), elastic, 0.0)
+        stable_step(self, elastic, 0.0)
     }
 }
 
 /// Stability limit of the step, s: of a roller whose contacts carry the elastic forces `max_elastic` (inner and outer,
 /// N) at most, and of the cages in films that damp them by at most `film_damping`, N s/m.
-pub(super) fn stable_step(model: &Model, steps: &StableSteps, max_elastic: [f64; 2], film_damping: f64) -> f64 {
+pub(super) fn stable_step(model: &Model, max_elastic: [f64; 2], film_damping: f64) -> f64 {
     if model.kind == ModelKind::Lumped {
         // The lumped model's rollers have no inertia.
         return f64::INFINITY;
@@ -79,18 +34,6 @@ pub(super) fn stable_step(model: &Model, steps: &StableSteps, max_elastic: [f64;
     let open =
         SIDES.map(|side| model.film.map_or(0.0, |_| model.contact(side).damping.constant()) / model.inertia.roller);
     let first_order = open.into_iter().fold(rolling.max(film), f64::max);
-    steps.up_to(max_elastic[0].max(max_elastic[1])).min(DAMPED_CONTACT.stability_limit(first_order, f64::INFINITY))
-}
-
-/// Tangent stiffness (N/m) and damping (N s/m) of a healthy contact under an elastic force, N.
-fn spring(law: &LoadDeflection, force: f64) -> [f64; 2] {
-    let tangent = law.tangent_at(force);
-    [tangent, law.damping.of(tangent, law.deflection(force))]
-}
-
-/// Longest step in which m x'' + c x' + k x = 0 decays, s.
-fn decaying_step([k, c]: [f64; 2], m: f64) -> f64 {
-    let under_root = 0.25 * c * c - k * m;
-    let rate = if under_root > 0.0 { (0.5 * c + under_root.sqrt()) / m } else { (k / m).sqrt() };
-    DAMPED_CONTACT.stability_limit(rate, 0.5 * c / (k * m).sqrt())
+    let of_contacts = model.stable_steps.up_to(max_elastic[0].max(max_elastic[1]));
+    of_contacts.min(DAMPED_CONTACT.stability_limit(first_order, f64::INFINITY))
 }

@@ -1,6 +1,5 @@
 //! What one evaluation of the equations of motion leaves behind: forces of every contact and the flows of energy.
 
-use super::stability::StableSteps;
 use super::{Model, Power};
 use crate::cage::GuideForce;
 use crate::kernel::Kernel;
@@ -146,8 +145,6 @@ pub struct Workspace {
     pub kinematic_spin: f64,
     /// Largest elastic force of each side's contacts, N, in each lane.
     pub(super) max_elastic: [[f64; WIDTH]; 2],
-    /// Longest steps by the largest force.
-    pub(super) stable_steps: StableSteps,
     /// What guides each row's cage.
     pub(super) guidance: Vec<GuideForce>,
     /// Flows of energy at this instant, W.
@@ -180,7 +177,6 @@ impl Workspace {
             kinematic_orbit: vec![0.0; slots],
             kinematic_spin: 0.0,
             max_elastic: [[0.0; WIDTH]; 2],
-            stable_steps: StableSteps::new(model),
             guidance: vec![GuideForce::default(); model.layout.rows],
             power: Power::default(),
         }
