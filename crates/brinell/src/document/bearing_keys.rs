@@ -164,7 +164,7 @@ fn grooves<K: Keys>(k: &mut K, b: &mut Bearing) {
     }
 }
 
-/// C_r of class CN; `None` for a bore beyond ISO 5753-1.
+/// C_r of class CN; `None` where there is no bore.
 fn usual_clearance_um(b: &Bearing) -> Option<f64> {
     let bore = bore_diameter_mm(b).unwrap_or(b.inner_raceway_diameter_mm - 2.0 * ring_wall_mm(b));
     let largest = f64::from(largest_bore_mm(b.element));

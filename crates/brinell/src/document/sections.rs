@@ -47,7 +47,7 @@ pub(crate) fn scenario<K: Keys>(k: &mut K, s: &mut Scenario) {
     k.section(key("sensor", "from the outer ring to the record: nothing, unless a key says so"), |k| {
         sensor(k, &mut s.sensor)
     });
-    let pushes = s.has_damage_that_pushes() || s.has_waves();
+    let pushes = s.has_damage_that_pushes() || s.waves().next().is_some();
     k.section(key("simulation", "what to compute and to record"), |k| {
         simulation(k, (&s.operation, pushes), &mut s.simulation)
     });

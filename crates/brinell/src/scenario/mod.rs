@@ -78,9 +78,11 @@ impl Scenario {
         self.contact.law == Law::HalfSpace && !self.defects.is_empty()
     }
 
-    /// Whether a surface has waves, which push likewise.
-    pub(crate) fn has_waves(&self) -> bool {
-        self.bearing.waviness.is_some() || self.bearing.element_waviness.is_some()
+    /// Keys of the waves that there are, which push likewise.
+    pub(crate) fn waves(&self) -> impl Iterator<Item = &'static str> {
+        let b = &self.bearing;
+        let keys = [("bearing.waviness", &b.waviness), ("bearing.element_waviness", &b.element_waviness)];
+        keys.into_iter().filter_map(|(key, waves)| waves.as_ref().map(|_| key))
     }
 }
 

@@ -1,17 +1,11 @@
 //! Which laws go together.
 
 use super::Checker;
-use crate::scenario::{DefectTable, GeometryLaw, Law, Laws, ModelKind, Pockets, RacewayFilm, RollerProfile, Scenario};
+use crate::scenario::{DefectTable, GeometryLaw, Law, Laws, ModelKind, Pockets, RacewayFilm, RollerProfile};
 
 const LAW: &str = "contact.law";
 const LAWS: &str = "simulation.laws";
 const MODEL: &str = "simulation.model";
-
-/// Keys of the waves that there are.
-fn waves(s: &Scenario) -> impl Iterator<Item = &'static str> {
-    let keys = [("bearing.waviness", &s.bearing.waviness), ("bearing.element_waviness", &s.bearing.element_waviness)];
-    keys.into_iter().filter_map(|(key, waves)| waves.as_ref().map(|_| key))
-}
 
 impl Checker<'_> {
     pub(super) fn laws(&mut self) {
@@ -98,7 +92,7 @@ impl Checker<'_> {
                 self.error(key, message, allowed, &["simulation.geometry"]);
             }
         };
-        for key in waves(s) {
+        for key in s.waves() {
             refuse(true, key, "waves push along the surface", "the key left out");
         }
         let rolls = s.friction.rolling_coefficient > 0.0;
@@ -127,7 +121,7 @@ impl Checker<'_> {
                 &[MODEL],
             );
         }
-        for key in waves(s) {
+        for key in s.waves() {
             let allowed = "the key left out where simulation.model = \"lumped\"";
             self.error(key, "the lumped model's surfaces are smooth".into(), allowed.into(), &[MODEL]);
         }
