@@ -67,7 +67,6 @@ void build_floor(Defect *d)
                 add_piece(&d->floor, d->arc[i], d->arc[i + 1], d->depths[i], d->depths[i + 1]);
 }
 
-/* R_eq of a roller on the raceway of `side`, also for damage on the roller itself. */
 /* h_env(s) = min over s' of h(s') + (s - s')^2 / (2 R), exactly: within a piece the minimum is at s - R dh/ds or at an
  * end, outside them at s itself or at the nearest end. */
 double envelope_depth(const Floor *f, int side, double s)

@@ -39,12 +39,14 @@ pub enum Across {
     },
 }
 
-/// Least cells across damage that is narrower than the contact; of balls also those over a class's rows: what a small pit takes of the
-/// force, a per cent or two, is all that shakes, so that 0.1 % of the force is 5 % of a run's accelerations.
+/// Least cells across damage that is narrower than the contact.
 const CELLS_OVER_DAMAGE: f64 = 4.0;
+/// The same under balls, over a class's rows: what a small pit takes of the force, a per cent or two, is all that shakes, so that 0.1 % of the
+/// force is 5 % of a run's accelerations.
 const CELLS_UNDER_BALLS: f64 = 0.45;
-/// Rows of the coarser grid on one side at the most; of balls over a class's rows.
+/// Rows of the coarser grid on one side at the most.
 const MOST_ROWS: usize = 32;
+/// The same under balls, over a class's rows.
 const MOST_UNDER_BALLS: f64 = 1.3;
 
 /// Steps of a roller's profile.
@@ -137,12 +139,13 @@ impl Geometry {
     /// Rows of the coarser grid on one side of z = 0.
     pub(super) fn rows(&self, raster: &Raster, delta: f64, least: usize) -> usize {
         let [low, high] = raster.reach().z;
-        let (cells, most) = match self.across {
-            Across::Groove { .. } => (CELLS_UNDER_BALLS * least as f64, (MOST_UNDER_BALLS * least as f64) as usize),
-            Across::Roller { .. } => (CELLS_OVER_DAMAGE, MOST_ROWS),
-        };
-        let narrow = cells.max(CELLS_OVER_DAMAGE) * self.half_across(delta) / (high - low).max(1e-9);
-        (narrow.ceil() as usize).clamp(least / 2, most.max(MOST_ROWS).max(least / 2))
+        let [mut cells, mut most] = [CELLS_OVER_DAMAGE, MOST_ROWS as f64];
+        if let Across::Groove { .. } = self.across {
+            cells = cells.max(CELLS_UNDER_BALLS * least as f64);
+            most = most.max(MOST_UNDER_BALLS * least as f64);
+        }
+        let narrow = cells * self.half_across(delta) / (high - low).max(1e-9);
+        (narrow.ceil() as usize).clamp(least / 2, (most as usize).max(least / 2))
     }
 
     /// Gap of the healthy contact at x, mean between two z, m; infinite off a roller.

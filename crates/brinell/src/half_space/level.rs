@@ -322,8 +322,8 @@ pub(super) fn solve(geometry: &Geometry, raster: &Raster, delta: f64, fineness: 
     Level { delta, places, work }
 }
 
-/// `at` is asked for a place and how far from it its neighbours are, which have been found where there are some. Places from `first` on past `last`, in steps of 2^[`HALVINGS`] that are halved where a cubic through four neighbours misses what lies between
-/// by more than `errors`.
+/// Places from `first` on past `last`, in steps of 2^`halvings` that are halved where a cubic through four neighbours misses what lies between
+/// by more than `errors`. `at` is asked for a place and how far from it its neighbours lie, which are found before it.
 fn along(
     halvings: u32,
     [first, last]: [i64; 2],

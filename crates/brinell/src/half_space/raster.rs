@@ -264,17 +264,17 @@ impl Raster {
         }
         let [least, most] = self.between(cell);
         if least >= cell.deepest {
-            return Seen { depth: cell.deepest, soft: 0.0 };
+            return Seen { depth: least, soft: 0.0 };
         }
+        let start = [cell.s[0], cell.z[0]];
         let size = [cell.s[1] - cell.s[0], cell.z[1] - cell.z[0]];
         let finest = if most - least < SMOOTH * cell.levelled { FEWEST_SAMPLES } else { MOST_SAMPLES };
         let samples = size.map(|size| ((size / SAMPLE).ceil() as usize).clamp(FEWEST_SAMPLES, finest));
         let middle = |k: usize, axis: usize| (k as f64 + 0.5) / samples[axis] as f64;
         let around = [0, 1].map(|axis| {
-            let from = if axis == 0 { cell.s[0] } else { cell.z[0] };
             let mut all = [Around::default(); MOST_SAMPLES];
             for (k, around) in all[..samples[axis]].iter_mut().enumerate() {
-                *around = self.around(from + middle(k, axis) * size[axis], axis);
+                *around = self.around(start[axis] + middle(k, axis) * size[axis], axis);
             }
             all
         });
@@ -298,8 +298,7 @@ impl Raster {
         for k in 0..samples[1 - along] {
             let beside = around[1 - along][k];
             let line = |x: f64| {
-                let from = if along == 0 { cell.s[0] } else { cell.z[0] };
-                let across = self.around(from + x * size[along], along);
+                let across = self.around(start[along] + x * size[along], along);
                 if along == 0 { self.mean(across, beside) } else { self.mean(beside, across) }
             };
             let mut from = (0.0, line(0.0));

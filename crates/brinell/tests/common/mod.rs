@@ -28,12 +28,7 @@ pub fn li2023(text: &str) -> Scenario {
 
 /// The scenario of `Scenario::example`, the NN3007 with the rectangle, under the paper's laws.
 pub fn example() -> Scenario {
-    li2023(
-        "name = \"nn3007-rectangle\"\n[bearing]\npreset = \"NN3007\"\n[operation]\nspeed_rpm = 1800.0\nload_n = [300.0, 0.0]\n\
-         [[defects]]\non = \"outer-raceway\"\nrow = 1\ncenter_deg = 0.0\ndepth_um = 20.0\n\
-         shape = { rectangle = { length_mm = 3.0, width_mm = 4.0 } }\n\
-         [simulation]\nlaws = \"li2023\"\nduration_s = 0.5\nsample_rate_hz = 25600.0\n",
-    )
+    rectangle_with(&[("name", "nn3007-rectangle")]).scenario
 }
 
 /// The rectangle of `examples/`, half a second long.
