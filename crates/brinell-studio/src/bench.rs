@@ -6,7 +6,7 @@ use crate::report::{Answer, Trouble};
 use brinell::channel::Frame;
 use brinell::document::Loaded;
 use brinell::observe::{Findings, Watch};
-use brinell::scenario::{Bearing, Law, Scenario, Speed, Tables};
+use brinell::scenario::{Bearing, Scenario, Speed, Tables};
 use brinell::signal::Moments;
 use brinell::simulate::{End, Observer, Outcome, Run, Signals, Simulation, SolverWork};
 use serde_json::json;
@@ -32,6 +32,8 @@ pub(crate) struct Bench {
     pub(crate) finished: Option<(Outcome, Findings)>,
     /// Whether it is no run from t = 0 with its scenario.
     pub(crate) live: bool,
+    /// Whether damage acts by quick tables in place of the scenario's.
+    pub(crate) quick: bool,
     course: Option<Course>,
 }
 
@@ -149,19 +151,20 @@ impl Observer for Recording {
     }
 }
 
-/// What is shown while damage is drawn: a scenario with quick tables.
-fn at_once(of: &Scenario) -> Scenario {
-    let mut quick = of.clone();
-    if quick.contact.law == Law::HalfSpace {
-        quick.contact.tables = Tables::Quick;
+/// With the scenario's own tables where they are at hand; else (`true`) by quick ones, a first look while damage is drawn.
+fn at_once(of: &Scenario) -> Answer<(Arc<Simulation>, bool)> {
+    if let Some(own) = Simulation::at_hand(of)? {
+        return Ok((Arc::new(own), false));
     }
-    quick
+    let mut quick = of.clone();
+    quick.contact.tables = Tables::Quick;
+    Ok((Arc::new(Simulation::unchecked(&quick)?), of.contact.tables != Tables::Quick))
 }
 
 impl Bench {
     /// At t = 0.
     pub(crate) fn start(loaded: Loaded, text: String) -> Answer<Self> {
-        let simulation = Arc::new(Simulation::unchecked(&at_once(&loaded.scenario))?);
+        let (simulation, quick) = at_once(&loaded.scenario)?;
         let shaft = shaft_of(&loaded);
         let mut recording = Recording::new(Arc::clone(&simulation), 0, shaft);
         recording.watch = Some(Watch::new(&loaded.scenario, &simulation));
@@ -174,6 +177,7 @@ impl Bench {
             text,
             finished: None,
             live: false,
+            quick,
         })
     }
 
@@ -191,7 +195,7 @@ impl Bench {
         }
         let mut scenario = loaded.scenario.clone();
         scenario.operation.speed_rpm = course.speed();
-        let simulation = Arc::new(Simulation::unchecked(&at_once(&scenario))?);
+        let (simulation, quick) = at_once(&scenario)?;
         if !self.run.go_on_in(Arc::clone(&simulation)) {
             return Ok(false);
         }
@@ -201,6 +205,7 @@ impl Bench {
         text.clone_into(&mut self.text);
         self.finished = None;
         self.live = true;
+        self.quick = quick;
         Ok(true)
     }
 

@@ -19,6 +19,7 @@ mod pen;
 mod report;
 mod spectra;
 mod studio;
+mod tables;
 mod text;
 
 pub use about::example_file;

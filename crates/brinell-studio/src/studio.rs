@@ -3,7 +3,7 @@
 use crate::bench::Bench;
 use crate::message::{Arrays, Message};
 use crate::report::{Answer, Trouble};
-use crate::{about, damage, differ, judged, measured, pen, spectra, text};
+use crate::{about, damage, differ, judged, measured, pen, spectra, tables, text};
 use brinell::bearing::orders_of;
 use brinell::channel::SENSOR;
 use brinell::plausibility::{self, Beforehand};
@@ -32,6 +32,13 @@ pub struct SharedStudio(Mutex<Studio>);
 impl SharedStudio {
     /// As [`Studio::ask`]. An engine that panicked is replaced: the page opens its bearing anew.
     pub fn ask(&self, request: &[u8]) -> Vec<u8> {
+        let request = match Message::read(request) {
+            // It belongs to no bearing, and takes up to seconds: those that run are asked meanwhile.
+            Ok(request) if request.json["do"] == "tables" => {
+                return answered(|arrays| tables::made(&request.json, arrays));
+            }
+            request => request,
+        };
         let mut studio = self.0.lock().unwrap_or_else(|poisoned| {
             let mut studio = PoisonError::into_inner(poisoned);
             // What a request left half done is not used.
@@ -39,8 +46,24 @@ impl SharedStudio {
             self.0.clear_poison();
             studio
         });
-        studio.ask(request)
+        studio.ask_read(request)
     }
+}
+
+/// The bytes of an answer that may refer to arrays.
+fn answered(of: impl FnOnce(&mut Arrays) -> Answer<Value>) -> Vec<u8> {
+    let mut arrays = Arrays::default();
+    let json = match of(&mut arrays) {
+        Ok(mut json) => {
+            json["ok"] = json!(true);
+            json
+        }
+        Err(Trouble(problems)) => {
+            arrays = Arrays::default();
+            json!({ "ok": false, "problems": problems })
+        }
+    };
+    Message { json, arrays }.bytes()
 }
 
 impl Studio {
@@ -51,22 +74,11 @@ impl Studio {
 
     /// Answers one message.
     pub fn ask(&mut self, request: &[u8]) -> Vec<u8> {
-        let mut arrays = Arrays::default();
-        let answer = match Message::read(request) {
-            Ok(request) => self.answer(&request, &mut arrays),
-            Err(words) => Err(Trouble::of(words)),
-        };
-        let json = match answer {
-            Ok(mut json) => {
-                json["ok"] = json!(true);
-                json
-            }
-            Err(Trouble(problems)) => {
-                arrays = Arrays::default();
-                json!({ "ok": false, "problems": problems })
-            }
-        };
-        Message { json, arrays }.bytes()
+        self.ask_read(Message::read(request))
+    }
+
+    fn ask_read(&mut self, request: Result<Message, String>) -> Vec<u8> {
+        answered(|arrays| self.answer(&request.map_err(Trouble::of)?, arrays))
     }
 
     fn answer(&mut self, message: &Message, arrays: &mut Arrays) -> Answer<Value> {
@@ -83,6 +95,8 @@ impl Studio {
             "judge" => measured::judge(request, given, arrays),
             "differ" => differ::differ(request),
             "save" => judged::save(request, self.bench(request)?, arrays),
+            "tables" => tables::made(request, arrays),
+            "take" => tables::taken(request, given),
             "open" => self.open(request),
             "advance" => self.advance(request, arrays),
             "spectra" => {
@@ -177,6 +191,7 @@ fn opened(bench: &Bench) -> Value {
     let load = model.load.full;
     json!({
         "live": bench.live,
+        "quick": bench.quick,
         "toml": bench.text,
         "scenario": text::stated(&bench.text),
         "all": text::stated(&scenario.to_toml()),

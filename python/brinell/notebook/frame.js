@@ -30,8 +30,8 @@
       waiting.set(id, { done, failed });
       port.postMessage({ id, bytes }, [bytes.buffer]);
     });
-    // The kernel serves all bearings and stays.
-    return { slots: true, ask, close() {}, kill: () => refuse("the request was given up") };
+    // The kernel serves all bearings and stays; it answers one request after the other.
+    return { slots: true, ask, aside: ask, close() {}, kill: () => refuse("the request was given up") };
   }
 
   const started = new Promise((done) => {

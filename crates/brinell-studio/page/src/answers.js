@@ -1,7 +1,8 @@
 // Answers of an engine, and how they fail.
 
 /** @typedef {{key: string | null, line: number | null, message: string}} Trouble */
-/** @typedef {{ask: (request: Record<string, unknown>) => Promise<any>, close: () => void, kill: () => void, slots: boolean}} Engine */
+// `aside` asks what belongs to no bearing, while those that run are asked; who has `left` waits for no answer.
+/** @typedef {{ask: (request: Record<string, unknown>) => Promise<any>, aside: (request: Record<string, unknown>, left: AbortSignal) => Promise<any>, close: () => void, kill: () => void, slots: boolean}} Engine */
 
 /** The engine refused a request, in its own words. */
 export class Refused extends Error {

@@ -4,7 +4,7 @@ import { Pace } from "./pace.js";
 
 /** @typedef {import("./answers.js").Engine} Engine */
 /** @typedef {import("./state.js").Scenario} Scenario */
-/** @typedef {{scenario?: Scenario, toml?: string, file?: string, carry: boolean, made: number, again?: boolean}} Edit  file: that it is from; again: nothing was edited, the same bearing goes on */
+/** @typedef {{scenario?: Scenario, toml?: string, file?: string, carry: boolean, made: number, again?: boolean, own?: boolean}} Edit  file: that it is from; again: nothing was edited, the same bearing goes on; own: by tables that are made now */
 /** @typedef {"loading" | "live" | "paused" | "running" | "done" | "lost"} State */
 /** @typedef {(kind: string, data?: any) => void} Report */
 
@@ -13,6 +13,8 @@ const ROWS = 256, RUN_ROWS = 1024, FIRST_WINDOW = 1024, LAST_WINDOW = 32768;
 const SENTENCE = 8192, LONGEST_SENTENCE = 65536;
 // An answer that takes longer is waited for in sight.
 const LATE_MS = 1000;
+// After so long without an edit the scenario's own tables of damage are made.
+const DRAWN_MS = 400;
 // A bearing that loses its engine so often on one scenario is not tried again.
 const TRIES = 2;
 
@@ -38,6 +40,8 @@ export class Live {
   #unanswered = null;
   #opening = false;
   #pace = new Pace();
+  /** While the tables of the opened bearing are made. @type {AbortController | null} */
+  #making = null;
   /** Requests that are late. */
   #late = 0;
   /** @type {(() => void)[]} */
@@ -82,10 +86,15 @@ export class Live {
 
   /** Whether an answer is late. */
   get working() { return this.#late > 0; }
+  /** Whether damage acts by quick tables while the scenario's own are made. */
+  get making() { return this.#making !== null; }
   /** Whether it is a run from t = 0 to its end. */
   get whole() { return this.#run; }
   /** The edit that the engine has neither opened nor refused yet. */
   get unanswered() { return this.#unanswered; }
+
+  /** The edit that is opened next: other tables do not take the picture of a paused bearing away. */
+  get #due() { return this.#edit?.own && this.#paused ? null : this.#edit; }
 
   /** The run from t = 0 is not gone on with. */
   #leave() {
@@ -118,7 +127,7 @@ export class Live {
 
   /** Resolves when no edit waits for the engine or is being made by it: whether the last one has been opened or refused, and is not one that lost the engine. */
   async settled() {
-    if (!this.#closed && (this.#edit || this.#opening || this.#urgent)) await new Promise((done) => { this.#settling.push(() => done(null)); });
+    if (!this.#closed && (this.#due || this.#opening || this.#urgent)) await new Promise((done) => { this.#settling.push(() => done(null)); });
     return !this.#unanswered;
   }
 
@@ -152,6 +161,7 @@ export class Live {
 
   close() {
     this.#closed = true;
+    this.#making?.abort();
     this.#wake();
     this.engine.then((engine) => { if (!engine.slots) engine.close(); }, () => {});
   }
@@ -166,11 +176,11 @@ export class Live {
 
   async #loop() {
     while (!this.#closed) {
-      this.#opening = this.#edit !== null;
+      this.#opening = this.#due !== null;
       if (!this.#opening && !this.#urgent) this.#settle();
       try {
-        if (this.#edit) await this.#open(this.#edit);
-        else if (!this.opened || this.#paused || this.#urgent || this.state === "done"
+        if (this.#due) await this.#open(this.#due);
+        else if (!this.opened || this.#paused || this.#urgent || this.state === "done" || (this.#run && this.#making)
           || this.state === "lost") await new Promise((done) => { this.#wake = () => done(null); });
         else await this.#slice();
       } catch (error) {
@@ -199,6 +209,10 @@ export class Live {
   /** @param {Edit} edit */
   async #open(edit) {
     this.#edit = null;
+    if (!edit.again) {
+      this.#making?.abort();
+      this.#making = null;
+    }
     let opened;
     try {
       const { scenario, toml } = edit;
@@ -223,7 +237,29 @@ export class Live {
     [this.#window, this.#spoken, this.#judged] = [FIRST_WINDOW, 0, 0];
     this.report("opened", { opened, edit, took: performance.now() - edit.made });
     this.#say(this.#paused ? "paused" : this.#run ? "running" : "live", { part: 0 });
+    if (opened.quick && !edit.own && !this.#making) this.#makeTables(opened.scenario);
     this.report("damage", (await this.ask({ do: "damage" })).defects);
+  }
+
+  /** Makes the tables of the opened bearing beside it; then it goes on by them. A run from t = 0 waits. @param {Scenario} scenario */
+  async #makeTables(scenario) {
+    const making = this.#making = new AbortController(), left = making.signal;
+    if (!this.#run) await new Promise((done) => { setTimeout(done, DRAWN_MS); });
+    let own = false;
+    try {
+      if (!left.aborted) {
+        const { tables } = await (await this.engine).aside({ do: "tables", scenario }, left);
+        if (!left.aborted) await this.ask({ do: "take", tables });
+        own = true;
+      }
+    } catch {
+      // Where they cannot be made, quick ones stay.
+    }
+    if (left.aborted) return;
+    this.#making = null;
+    if (own && this.#good) this.#edit ??= { ...this.#good, again: true, own, carry: !this.#run };
+    this.report("working");
+    this.#wake();
   }
 
   async #slice() {

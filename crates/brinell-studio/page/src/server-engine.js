@@ -25,6 +25,9 @@ export class ServerEngine {
     return answer;
   }
 
+  /** The server answers it beside others. @param {Record<string, unknown>} request @returns {Promise<any>} */
+  aside(request) { return this.#send(request); }
+
   /** @param {"new" | "page" | "closed"} how */
   #address(how) {
     const query = new URLSearchParams(location.search);

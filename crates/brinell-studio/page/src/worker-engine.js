@@ -12,6 +12,7 @@ const SHORT = new Set(["advance", "open", "spectra", "indicators", "sound", "dam
 
 export class WorkerEngine {
   slots = false;
+  #parts;
   #worker;
   /** @type {Waiting[]} */
   #waiting = [];
@@ -23,8 +24,9 @@ export class WorkerEngine {
   /** @type {Lost | null} */
   #lost = null;
 
-  /** @param {Assets} assets */
-  constructor({ module, worker }) {
+  /** @param {Assets} parts */
+  constructor(parts) {
+    const { module, worker } = this.#parts = parts;
     this.#worker = new Worker(worker);
     this.#worker.onmessage = ({ data }) => this.#hear(data);
     this.#worker.onerror = (event) => {
@@ -45,6 +47,19 @@ export class WorkerEngine {
       if (this.#waiting.length === 1) this.#ticks = 0;
       this.#worker.postMessage({ id, bytes }, [bytes.buffer]);
     });
+  }
+
+  /** In a Worker of its own. @param {Record<string, unknown>} request @param {AbortSignal} left @returns {Promise<any>} */
+  async aside(request, left) {
+    const other = new WorkerEngine(this.#parts), lose = () => other.#lose("nobody waits for it");
+    left.addEventListener("abort", lose);
+    try {
+      // Its memory is not this one's.
+      return await other.ask({ ...request, bytes: true });
+    } finally {
+      left.removeEventListener("abort", lose);
+      other.close();
+    }
   }
 
   /** @param {{id: number, bytes?: Uint8Array<ArrayBuffer>, trap?: string}} data */

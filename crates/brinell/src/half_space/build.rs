@@ -39,6 +39,9 @@ pub enum BuildError {
         /// Its value, m.
         value: f64,
     },
+    /// It has to be made first.
+    #[error("not made yet")]
+    NotAtHand,
     /// The flag was set.
     #[error("stopped before its end")]
     Stopped,

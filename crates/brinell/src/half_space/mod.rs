@@ -13,8 +13,9 @@ mod shelf;
 pub mod solver;
 mod surfaces;
 
-pub use shelf::{Shelf, keep_on};
-pub use surfaces::{add_tables, healthy_pressure, pressure_over};
+pub use shelf::{Shelf, in_bytes, keep_on, take_in};
+pub(crate) use surfaces::add_tables;
+pub use surfaces::{healthy_pressure, pressure_over};
 
 #[cfg(test)]
 mod tests;

@@ -7,7 +7,7 @@ use std::fmt::{self, Write};
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
 /// Changes with what makes tables, so that none of before is taken for one of now.
-const VERSION: u32 = 5;
+const VERSION: u32 = 6;
 /// Tables that a process keeps, at most 2 MB each; the oldest goes first.
 const MOST: usize = 64;
 
@@ -42,6 +42,11 @@ impl Key {
     fn name(self) -> String {
         format!("{:016x}{:016x}", self.0[0], self.0[1])
     }
+
+    fn from_name(name: &str) -> Option<Self> {
+        let half = |digits: Option<&str>| u64::from_str_radix(digits?, 16).ok();
+        Some(Self([half(name.get(..16))?, half(name.get(16..))?])).filter(|key| key.name() == name)
+    }
 }
 
 struct Hasher([u64; 2]);
@@ -61,35 +66,68 @@ type Cell = Arc<OnceLock<Result<Arc<Table>, BuildError>>>;
 
 static TABLES: Mutex<Vec<(Key, Cell)>> = Mutex::new(Vec::new());
 
+/// The place of a table in this process; a new one where it has none.
+fn cell(key: Key) -> Cell {
+    let mut tables = TABLES.lock().unwrap_or_else(PoisonError::into_inner);
+    match tables.iter().find(|(known, _)| *known == key) {
+        Some((_, cell)) => cell.clone(),
+        None => {
+            if tables.len() == MOST {
+                tables.remove(0);
+            }
+            let cell = Cell::default();
+            tables.push((key, cell.clone()));
+            cell
+        }
+    }
+}
+
+fn from_shelf(key: Key) -> Option<Arc<Table>> {
+    let bytes = SHELF.get()?.take(&key.name())?;
+    Table::from_bytes(&bytes).map(Arc::new)
+}
+
 /// The table of `key`; made once, whoever asks meanwhile waits for it.
 pub(super) fn table(key: Key, make: impl FnOnce() -> Result<Table, BuildError>) -> Result<Arc<Table>, BuildError> {
-    let cell = {
-        let mut tables = TABLES.lock().unwrap_or_else(PoisonError::into_inner);
-        match tables.iter().find(|(known, _)| *known == key) {
-            Some((_, cell)) => cell.clone(),
-            None => {
-                if tables.len() == MOST {
-                    tables.remove(0);
-                }
-                let cell = Cell::default();
-                tables.push((key, cell.clone()));
-                cell
-            }
-        }
-    };
     let made = || {
-        let name = key.name();
-        let kept = SHELF.get().and_then(|shelf| shelf.take(&name)).and_then(|bytes| Table::from_bytes(&bytes));
-        if let Some(table) = kept {
-            return Ok(Arc::new(table));
+        if let Some(table) = from_shelf(key) {
+            return Ok(table);
         }
         let table = make()?;
         if let Some(shelf) = SHELF.get() {
-            shelf.put(&name, &table.to_bytes());
+            shelf.put(&key.name(), &table.to_bytes());
         }
         Ok(Arc::new(table))
     };
-    cell.get_or_init(made).clone()
+    cell(key).get_or_init(made).clone()
+}
+
+/// The table of `key` where it was made before, or why it cannot be; waits for nobody who makes it.
+pub(super) fn at_hand(key: Key) -> Option<Result<Arc<Table>, BuildError>> {
+    let cell = cell(key);
+    if cell.get().is_none()
+        && let Some(table) = from_shelf(key)
+    {
+        let _ = cell.set(Ok(table));
+    }
+    cell.get().cloned()
+}
+
+/// The tables that this process has, as bytes by their names: for another process of the same version, which [`take_in`]s them.
+pub fn in_bytes() -> Vec<(String, Vec<u8>)> {
+    let tables = TABLES.lock().unwrap_or_else(PoisonError::into_inner);
+    let made = tables.iter().filter_map(|(key, cell)| Some((key, cell.get()?.as_ref().ok()?)));
+    made.map(|(key, table)| (key.name(), table.to_bytes())).collect()
+}
+
+/// A table that another process gave by [`in_bytes`]. `false`: it is none.
+pub fn take_in(name: &str, bytes: &[u8]) -> bool {
+    let taken = Key::from_name(name).zip(Table::from_bytes(bytes));
+    // Where it was made meanwhile, that one stays.
+    taken.is_some_and(|(key, table)| {
+        let _ = cell(key).set(Ok(Arc::new(table)));
+        true
+    })
 }
 
 #[cfg(test)]
@@ -112,9 +150,15 @@ mod tests {
         let make = || Ok(Table::from_grid(&s, &delta, &eff)?);
         let first = table(key, make).unwrap();
         let again = table(key, || panic!("made twice")).unwrap();
-        assert!(Arc::ptr_eq(&first, &again));
+        assert!(Arc::ptr_eq(&first, &again) && Arc::ptr_eq(&first, &at_hand(key).unwrap().unwrap()));
         let bytes = first.to_bytes();
         assert_eq!(Table::from_bytes(&bytes).as_ref(), Some(&*first));
+        // Of another process.
+        assert!(in_bytes().contains(&(key.name(), bytes.clone())));
+        let other = Key::of(format_args!("a table of another process"));
+        assert!(at_hand(other).is_none() && take_in(&other.name(), &bytes));
+        assert_eq!(at_hand(other).unwrap().unwrap(), first);
+        assert!(!take_in("no name of a table", &bytes) && !take_in(&other.name(), &bytes[1..]));
         // What is cut or changed is no table.
         assert_eq!(Table::from_bytes(&bytes[..bytes.len() - 3]), None);
         let mut torn = bytes;

@@ -21,6 +21,8 @@ struct Met<'a> {
     /// Length over which edges are rounded, m.
     edge: f64,
     accuracy: Tables,
+    /// Whether what is not at hand is made.
+    may_make: bool,
     /// What the damage is made of, as far as a table depends on it.
     of: String,
 }
@@ -30,11 +32,12 @@ struct Met<'a> {
 /// healthy contact on a side, m.
 ///
 /// # Errors
-/// Where the contact makes no table: lengths that are not positive, damage too large for a table.
-pub fn add_tables(
+/// Where the contact makes no table: lengths that are not positive, damage too large for a table; unless it `may_make` them, where one is not
+/// at hand.
+pub(crate) fn add_tables(
     defects: &mut [Defect],
     (bearing, contact): (&Bearing, &Contact),
-    tilts: bool,
+    (tilts, may_make): (bool, bool),
     deflection: impl Fn(Side) -> f64,
 ) -> Result<(), BuildError> {
     let own: Vec<usize> =
@@ -67,7 +70,8 @@ pub fn add_tables(
                 (&d.shape, d.depth, d.middle, d.center - to_make[first].center, d.radius)
             });
             let accuracy = contact.tables;
-            let met = Met { geometry, range, edge, accuracy, of: format!("{:?}", members.collect::<Vec<_>>()) };
+            let met =
+                Met { geometry, range, edge, accuracy, may_make, of: format!("{:?}", members.collect::<Vec<_>>()) };
             let upright = met.table(&to_make, &group, 0.0)?;
             if tilts {
                 let tables = met.tilted(&to_make, &group, &upright, 0.5 * defects[own[first]].roller_length)?;
@@ -88,6 +92,9 @@ impl Met<'_> {
         let range = Range { largest: self.range.largest + lead.abs(), ..*self.range };
         let (edge, accuracy) = (self.edge, self.accuracy);
         let key = Key::of(format_args!("{geometry:?} {range:?} {edge:?} {accuracy:?} {}", self.of));
+        if !self.may_make {
+            return shelf::at_hand(key).unwrap_or(Err(BuildError::NotAtHand));
+        }
         shelf::table(key, || {
             let damage = Damage::of(defects, group, edge);
             let threads = brinell_signal::parallel::threads(usize::MAX);

@@ -10,7 +10,7 @@ use crate::defect::{Defect, SIDES, Side, relative_radius};
 use crate::effective::Table;
 use crate::elementary::Exponent;
 use crate::friction::{Friction, drag_factor};
-use crate::half_space;
+use crate::half_space::{self, build::BuildError};
 use crate::kernel;
 use crate::lanes::Column;
 use crate::operation::{Load, Rotation};
@@ -51,9 +51,20 @@ impl Model {
     pub fn new(s: &Scenario) -> Result<Self, ModelError> {
         let mut model = Self::planned(s)?;
         if s.contact.law == Law::HalfSpace {
-            model.add_tables(s)?;
+            model.add_tables(s, true)?;
         }
         Ok(model)
+    }
+
+    /// The same where the tables of damage are at hand; `None` where one has to be made first, which takes up to seconds.
+    ///
+    /// # Errors
+    /// As [`Self::new`].
+    #[doc(hidden)]
+    pub fn at_hand(s: &Scenario) -> Result<Option<Self>, ModelError> {
+        let mut model = Self::planned(s)?;
+        let whole = s.contact.law != Law::HalfSpace || model.add_tables(s, false)?;
+        Ok(whole.then_some(model))
     }
 
     /// The same before the tables of damage are made, without which damage does nothing: for what is said of many scenarios beforehand.
@@ -133,8 +144,9 @@ impl Model {
         })
     }
 
-    /// Gives damage its tables (section 19), which say where its contacts are no longer healthy.
-    fn add_tables(&mut self, s: &Scenario) -> Result<(), ModelError> {
+    /// Gives damage its tables (section 19), which say where its contacts are no longer healthy. `false`: one is not at hand, and
+    /// `may_make` forbids to make it.
+    fn add_tables(&mut self, s: &Scenario, may_make: bool) -> Result<bool, ModelError> {
         tables(s, &mut self.defects)?;
         let force = heaviest(s, &self.geometry, &self.inertia);
         let contacts = [&self.inner_contact, &self.outer_contact];
@@ -143,15 +155,20 @@ impl Model {
             let least = law.deflection(force);
             self.slices.as_ref().map_or(least, |slices| slices.deflection(law, force, least))
         };
-        half_space::add_tables(&mut self.defects, (&s.bearing, &s.contact), self.tilt.is_some(), deflection).map_err(
-            |error| ModelError {
-                key: "defects".into(),
-                value: error.to_string(),
-                requirement: "damage that a table of the half-space can hold",
-            },
-        )?;
+        let how = (self.tilt.is_some(), may_make);
+        match half_space::add_tables(&mut self.defects, (&s.bearing, &s.contact), how, deflection) {
+            Ok(()) => {}
+            Err(BuildError::NotAtHand) => return Ok(false),
+            Err(error) => {
+                return Err(ModelError {
+                    key: "defects".into(),
+                    value: error.to_string(),
+                    requirement: "damage that a table of the half-space can hold",
+                });
+            }
+        }
         self.broad_phase = SIDES.map(|side| BroadPhase::new(&self.layout, &self.defects, side));
-        Ok(())
+        Ok(true)
     }
 }
 

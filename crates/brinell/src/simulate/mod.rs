@@ -183,6 +183,15 @@ impl Simulation {
         Self::of(scenario, Model::new(scenario)?)
     }
 
+    /// The same where the tables of damage are at hand, by [`Model::at_hand`].
+    ///
+    /// # Errors
+    /// As [`Self::unchecked`].
+    #[doc(hidden)]
+    pub fn at_hand(scenario: &Scenario) -> Result<Option<Self>, Error> {
+        Model::at_hand(scenario)?.map(|model| Self::of(scenario, model)).transpose()
+    }
+
     /// The same to plan with, by [`Model::planned`]: not to be run.
     ///
     /// # Errors
