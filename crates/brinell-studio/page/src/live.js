@@ -209,10 +209,6 @@ export class Live {
   /** @param {Edit} edit */
   async #open(edit) {
     this.#edit = null;
-    if (!edit.again) {
-      this.#making?.abort();
-      this.#making = null;
-    }
     let opened;
     try {
       const { scenario, toml } = edit;
@@ -230,6 +226,7 @@ export class Live {
       return;
     }
     this.#answered(edit);
+    if (!edit.again) this.#leaveTables();
     if (this.state === "lost") this.report("recovered");
     this.#good = { scenario: opened.scenario, carry: true, made: edit.made };
     this.opened = opened;
@@ -239,6 +236,13 @@ export class Live {
     this.#say(this.#paused ? "paused" : this.#run ? "running" : "live", { part: 0 });
     if (opened.quick && !edit.own && !this.#making) this.#makeTables(opened.scenario);
     this.report("damage", (await this.ask({ do: "damage" })).defects);
+  }
+
+  /** Tables of the bearing before are of no use. */
+  #leaveTables() {
+    this.#making?.abort();
+    this.#making = null;
+    if (this.#edit?.own) this.#edit = null;
   }
 
   /** Makes the tables of the opened bearing beside it; then it goes on by them. A run from t = 0 waits. @param {Scenario} scenario */
