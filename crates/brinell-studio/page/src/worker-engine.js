@@ -3,8 +3,8 @@ import { Lost, accepted } from "./answers.js";
 import { decode, encode } from "./message.js";
 
 const TICK_MS = 100;
-// A slice is asked to take a tenth of a second, and may take several times that after an edit; what else a bearing is asked hardly more; reading a file or judging a signal may take long.
-const SLICE_TICKS = 20, SHORT_TICKS = 30, LONG_TICKS = 600, SLACK = 4;
+// A slice is asked to take a tenth of a second, and may take several times that after an edit; what else a bearing is asked hardly more, but tables that are made beside it take a core; reading a file or judging a signal may take long.
+const SLICE_TICKS = 20, SHORT_TICKS = 60, LONG_TICKS = 600, SLACK = 4;
 const SHORT = new Set(["advance", "open", "spectra", "indicators", "sound", "damage", "passage", "scratch", "brush", "normal"]);
 
 /** @typedef {{id: number, done: (answer: any) => void, failed: (error: Error) => void, slice: boolean, short: boolean, asked: number}} Waiting */
