@@ -258,12 +258,16 @@ fn prop_two_accuracies_agree_where_forces_are_smooth() {
     let (tight, _) = simulate(&s);
     s.simulation.accuracy = brinell::scenario::Accuracy::Standard;
     let (standard, _) = simulate(&s);
-    let (a, b) = (tight.column("outer_ay"), standard.column("outer_ay"));
-    let from = a.len() / 10;
-    let norm = |of: &dyn Fn(usize) -> f64| (from..a.len()).map(|k| of(k).powi(2)).sum::<f64>().sqrt();
-    let off = norm(&|k| a[k] - b[k]) / norm(&|k| a[k]);
-    println!("standard against reference: {off:.1e}");
-    assert!(off < 0.05, "{off:e}");
+    // Found with three kernels alike: 1.7e-2 and 4.6e-6. It is what `standard` leaves of the ring's ringing after the drop of the first 5 ms, whose phase
+    // its steps shift; later 3e-3 to 7e-3 is left.
+    for (name, limit) in [("outer_ay", 2.5e-2), ("outer_y", 2e-5)] {
+        let (a, b) = (tight.column(name), standard.column(name));
+        let from = a.len() / 10;
+        let norm = |of: &dyn Fn(usize) -> f64| (from..a.len()).map(|k| of(k).powi(2)).sum::<f64>().sqrt();
+        let off = norm(&|k| a[k] - b[k]) / norm(&|k| a[k]);
+        println!("{name}, standard against reference: {off:.1e}");
+        assert!(off < limit, "{name}: {off:e}");
+    }
 }
 
 /// Under `ecl` nothing pushes along the surface, so seen from displaced centres its forces have no potential: a balance all the same.

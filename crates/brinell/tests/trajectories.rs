@@ -62,6 +62,10 @@ fn is_acceleration(name: &str) -> bool {
     name.ends_with("_ax") || name.ends_with("_ay")
 }
 
+fn is_dynamic(name: &str) -> bool {
+    is_acceleration(name) || ["_force", "_torque", "_moment"].iter().any(|end| name.ends_with(end))
+}
+
 fn given(name: &str, position: f64, acceleration: f64) {
     let (differences, _) = compare(&folder("reference").join(name));
     for (channel, all, _) in differences {
@@ -75,8 +79,9 @@ fn xval_given_outer_rectangle() {
     given("outer-rectangle", 1e-3, 1e-2);
 }
 
-/// The default laws, all samples: smooth forces make a trajectory well-posed (section 26).
-fn given_mechanics(name: &str) {
+/// The default laws, all samples: smooth forces make a trajectory well-posed (section 26). `most`: of displacements and rates; of accelerations,
+/// forces and torques.
+fn given_mechanics(name: &str, most: [f64; 2]) {
     let path = folder("reference").join(name);
     let golden = columns(&std::fs::read_to_string(path.with_extension("csv")).unwrap());
     let mut s = crate::common::cases::case(&format!("reference/{name}"));
@@ -84,30 +89,29 @@ fn given_mechanics(name: &str) {
     let ours = simulate_rows(&s);
     let t = golden.column("t");
     for channel in &golden.names {
-        let limit = match channel.as_str() {
-            c if is_acceleration(c) || c.ends_with("_torque") => 1e-2,
-            c if c.ends_with("_force") => 5e-3,
-            _ => 2e-3,
-        };
+        let limit = most[usize::from(is_dynamic(channel))];
         let off = difference(ours.column(channel), golden.column(channel), t, f64::INFINITY, 0.0);
         println!("{name}: {channel} differs by {off:.1e}");
         assert!(off <= limit, "{name}: {channel} differs by {off:.2e}, limit {limit:.0e}");
     }
 }
 
+/// Found with three kernels: 1.3e-6, and 2.3e-3 in the force of a roller out of the load zone, which rattles.
 #[test]
 fn xval_given_mechanics_healthy_roller() {
-    given_mechanics("mechanics-healthy-roller");
+    given_mechanics("mechanics-healthy-roller", [1e-5, 5e-3]);
 }
 
+/// Found: 2.7e-7 and 5.1e-6.
 #[test]
 fn xval_given_mechanics_ball_outer() {
-    given_mechanics("mechanics-ball-outer");
+    given_mechanics("mechanics-ball-outer", [2e-6, 3e-5]);
 }
 
+/// Found: 2.8e-7 and 2.2e-5.
 #[test]
 fn xval_given_mechanics_rectangle() {
-    given_mechanics("mechanics-rectangle");
+    given_mechanics("mechanics-rectangle", [2e-6, 2e-4]);
 }
 
 #[test]
@@ -140,6 +144,53 @@ fn xval_given_film_dynamic() {
 const SELF_FACTOR: f64 = 10.0;
 /// ... or by this much, the larger: our own tolerance (`reference` accuracy) and dense output come on top of theirs.
 const FLOOR: f64 = 2e-3;
+/// And in no case by more than this: displacements and rates; accelerations, forces and torques. Five times the worst channel with any of three
+/// kernels, eight times where these, which differ by round-off alone, scatter by more than a fifth; not below 1e-6 and 1e-5, for the calmest channels
+/// scatter by a factor of thirty (8e-9 to 2e-7 in `mechanics-inner-ramp`). Smooth forces (`mechanics-*`) leave 1e-6 to 2e-4 of accelerations; where
+/// a damper's force jumps, all of a jump at one sample can be left (`floor-contact`, 0.12; `mechanics-damper`, 0.03; `tilting`, 0.01).
+const OF_CASES: [(&str, [f64; 2]); 36] = [
+    ("balls", [5e-6, 2e-3]),
+    ("damped-land", [6e-3, 2e-2]),
+    ("depth-map", [2e-6, 3e-3]),
+    ("ecl-envelope-inner", [1e-4, 3e-3]),
+    ("envelope-inner-roller", [1e-6, 2e-3]),
+    ("envelope-neighbours", [2e-4, 2e-3]),
+    ("envelope-outlines", [2e-4, 5e-3]),
+    ("envelope-roller", [2e-6, 2e-4]),
+    ("equilibrium", [4e-5, 4e-3]),
+    ("film-inner-guided", [3e-5, 8e-4]),
+    ("floor-contact", [9e-5, 2e-1]),
+    ("full-width", [1e-3, 4e-3]),
+    ("heavy-load-profile", [2e-5, 4e-2]),
+    ("inner-defect-circle", [9e-5, 9e-3]),
+    ("linear-circle", [2e-3, 4e-3]),
+    ("lumped-balls", [3e-6, 1e-4]),
+    ("mechanics-damper", [9e-4, 2e-1]),
+    ("mechanics-inner-guided", [1e-6, 2e-5]),
+    ("mechanics-inner-ramp", [2e-6, 2e-5]),
+    ("mechanics-profile", [1e-6, 2e-5]),
+    ("mechanics-raised-rim", [1e-6, 1e-5]),
+    ("mechanics-rest", [3e-6, 2e-4]),
+    ("mechanics-roller", [3e-5, 2e-3]),
+    ("mechanics-tilting", [1e-6, 6e-4]),
+    ("mechanics-two-surfaces", [1e-6, 3e-5]),
+    ("mechanics-waviness", [1e-6, 3e-4]),
+    ("outline-hole", [5e-4, 2e-3]),
+    ("overlapping-defects", [2e-5, 1e-2]),
+    ("profile", [3e-4, 2e-2]),
+    ("reference-inner-roller", [4e-4, 4e-4]),
+    ("reference-outer", [3e-4, 4e-4]),
+    ("rest-speed-profile", [2e-4, 2e-2]),
+    ("roller-defect", [2e-6, 4e-3]),
+    ("single-row-inner-guided", [3e-5, 7e-3]),
+    ("three-rows-drag-gap", [6e-5, 2e-2]),
+    ("tilting", [2e-4, 8e-2]),
+];
+
+fn of_case(name: &str, channel: &str) -> f64 {
+    let (_, limits) = OF_CASES.iter().find(|(case, _)| *case == name).unwrap_or_else(|| panic!("no limits of {name}"));
+    limits[usize::from(is_dynamic(channel))]
+}
 
 #[test]
 fn xval_independent_implementation() {
@@ -156,7 +207,7 @@ fn xval_independent_implementation() {
         .map(|p| p.file_stem().unwrap().to_string_lossy().into_owned())
         .collect();
     names.sort();
-    assert_eq!(names.len(), 36);
+    assert_eq!(names.len(), OF_CASES.len());
     let mut failures = Vec::new();
     for name in names {
         let (differences, _) = compare(&folder("xval").join(&name));
@@ -166,10 +217,11 @@ fn xval_independent_implementation() {
                 continue;
             }
             let own = limits.get(&(name.clone(), channel.clone())).unwrap_or_else(|| panic!("{name} {channel}"));
-            let limit = |own: f64| (SELF_FACTOR * own).max(FLOOR);
+            let most = of_case(&name, &channel);
+            let limit = |own: f64| (SELF_FACTOR * own).max(FLOOR).min(most);
             if all > limit(own[0]) || kept > limit(own[1]) {
                 failures.push(format!(
-                    "{name}: {channel} differs by {all:.2e} ({kept:.2e} without the worst 2 %), own {own:?}"
+                    "{name}: {channel} differs by {all:.2e} ({kept:.2e} without the worst 2 %), own {own:?}, at most {most:.0e}"
                 ));
             }
             if all > worst.0 {
