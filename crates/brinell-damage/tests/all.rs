@@ -11,3 +11,4 @@ mod photos;
 mod resolve;
 mod surfaces;
 mod table_errors;
+mod table_outlines;
