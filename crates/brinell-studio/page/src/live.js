@@ -84,10 +84,8 @@ export class Live {
     this.report("working");
   }
 
-  /** Whether an answer is late. */
-  get working() { return this.#late > 0; }
-  /** Whether damage acts by quick tables while the scenario's own are made. */
-  get making() { return this.#making !== null; }
+  /** Whether an answer is late, or a run waits for tables. */
+  get working() { return this.#late > 0 || this.#waits; }
   /** Whether it is a run from t = 0 to its end. */
   get whole() { return this.#run; }
   /** The edit that the engine has neither opened nor refused yet. */
@@ -95,6 +93,9 @@ export class Live {
 
   /** The edit that is opened next: other tables do not take the picture of a paused bearing away. */
   get #due() { return this.#edit?.own && this.#paused ? null : this.#edit; }
+
+  /** Whether a run from t = 0 waits for the scenario's own tables. */
+  get #waits() { return this.state === "running" && this.#making !== null; }
 
   /** The run from t = 0 is not gone on with. */
   #leave() {
@@ -119,6 +120,7 @@ export class Live {
 
   /** The scenario from now on. Only the newest of those that wait is opened. @param {{scenario?: Scenario, toml?: string, file?: string}} what */
   edit(what, carry = true) {
+    this.#leaveTables();
     // An edit that starts anew is not undone by a later one that would carry.
     this.#unanswered = this.#edit = { ...what, carry: carry && this.#edit?.carry !== false, made: performance.now() };
     this.#leave();
@@ -180,7 +182,7 @@ export class Live {
       if (!this.#opening && !this.#urgent) this.#settle();
       try {
         if (this.#due) await this.#open(this.#due);
-        else if (!this.opened || this.#paused || this.#urgent || this.state === "done" || (this.#run && this.#making)
+        else if (!this.opened || this.#paused || this.#urgent || this.state === "done" || this.#waits
           || this.state === "lost") await new Promise((done) => { this.#wake = () => done(null); });
         else await this.#slice();
       } catch (error) {
@@ -223,10 +225,10 @@ export class Live {
       this.#run = false;
       this.#answered(edit);
       this.report("problems", { problems: error.problems, edit });
+      if (this.opened?.quick && !this.#making && !this.#edit) this.#makeTables(this.opened.scenario);
       return;
     }
     this.#answered(edit);
-    if (!edit.again) this.#leaveTables();
     if (this.state === "lost") this.report("recovered");
     this.#good = { scenario: opened.scenario, carry: true, made: edit.made };
     this.opened = opened;
@@ -234,28 +236,27 @@ export class Live {
     [this.#window, this.#spoken, this.#judged] = [FIRST_WINDOW, 0, 0];
     this.report("opened", { opened, edit, took: performance.now() - edit.made });
     this.#say(this.#paused ? "paused" : this.#run ? "running" : "live", { part: 0 });
-    if (opened.quick && !edit.own && !this.#making) this.#makeTables(opened.scenario);
+    if (opened.quick && !edit.own && !this.#making && !this.#edit) this.#makeTables(opened.scenario);
     this.report("damage", (await this.ask({ do: "damage" })).defects);
   }
 
-  /** Tables of the bearing before are of no use. */
+  /** Tables of another bearing than the one that is wanted now are of no use. */
   #leaveTables() {
     this.#making?.abort();
     this.#making = null;
-    if (this.#edit?.own) this.#edit = null;
   }
 
   /** Makes the tables of the opened bearing beside it; then it goes on by them. A run from t = 0 waits. @param {Scenario} scenario */
   async #makeTables(scenario) {
     const making = this.#making = new AbortController(), left = making.signal;
     if (!this.#run) await new Promise((done) => { setTimeout(done, DRAWN_MS); });
+    if (left.aborted) return;
     let own = false;
     try {
-      if (!left.aborted) {
-        const { tables } = await (await this.engine).aside({ do: "tables", scenario }, left);
-        if (!left.aborted) await this.ask({ do: "take", tables });
-        own = true;
-      }
+      const { tables } = await (await this.engine).aside({ do: "tables", scenario }, left);
+      if (left.aborted) return;
+      await this.ask({ do: "take", tables });
+      own = true;
     } catch {
       // Where they cannot be made, quick ones stay.
     }

@@ -356,7 +356,7 @@ class Studio {
 
   #state() {
     const side = this.side, { state } = side.live, bad = side.problems.length > 0, node = byId("state");
-    const words = state === "lost" ? "engine lost" : side.live.working || (side.live.making && state === "running") ? "working" : state === "running" ? `running ${side.percent} %` : state;
+    const words = state === "lost" ? "engine lost" : side.live.working ? "working" : state === "running" ? `running ${side.percent} %` : state;
     node.textContent = words !== "live" ? words : bad ? "live, last good one" : side.opened.quick ? "live, quick tables" : words;
     node.title = side.opened.quick ? "Damage acts by quick tables until the scenario's own are made" : "";
     node.dataset.state = state;
