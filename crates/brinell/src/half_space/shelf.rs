@@ -102,15 +102,18 @@ pub(super) fn table(key: Key, make: impl FnOnce() -> Result<Table, BuildError>) 
     cell(key).get_or_init(made).clone()
 }
 
-/// The table of `key` where it was made before, or why it cannot be; waits for nobody who makes it.
+/// The table of `key` where it was made before, or why it cannot be. One that is not takes no table's place.
 pub(super) fn at_hand(key: Key) -> Option<Result<Arc<Table>, BuildError>> {
-    let cell = cell(key);
-    if cell.get().is_none()
-        && let Some(table) = from_shelf(key)
-    {
-        let _ = cell.set(Ok(table));
-    }
-    cell.get().cloned()
+    let tables = TABLES.lock().unwrap_or_else(PoisonError::into_inner);
+    let made = tables.iter().find(|(known, _)| *known == key).and_then(|(_, cell)| cell.get().cloned());
+    drop(tables);
+    made.or_else(|| Some(Ok(keep(key, from_shelf(key)?))))
+}
+
+/// Keeps a table that came from elsewhere; where it was made meanwhile, that one stays.
+fn keep(key: Key, table: Arc<Table>) -> Arc<Table> {
+    let _ = cell(key).set(Ok(table.clone()));
+    table
 }
 
 /// The tables that this process has, as bytes by their names: for another process of the same version, which [`take_in`]s them.
@@ -123,11 +126,7 @@ pub fn in_bytes() -> Vec<(String, Vec<u8>)> {
 /// A table that another process gave by [`in_bytes`]. `false`: it is none.
 pub fn take_in(name: &str, bytes: &[u8]) -> bool {
     let taken = Key::from_name(name).zip(Table::from_bytes(bytes));
-    // Where it was made meanwhile, that one stays.
-    taken.is_some_and(|(key, table)| {
-        let _ = cell(key).set(Ok(Arc::new(table)));
-        true
-    })
+    taken.map(|(key, table)| keep(key, Arc::new(table))).is_some()
 }
 
 #[cfg(test)]
@@ -156,7 +155,8 @@ mod tests {
         // Of another process.
         assert!(in_bytes().contains(&(key.name(), bytes.clone())));
         let other = Key::of(format_args!("a table of another process"));
-        assert!(at_hand(other).is_none() && take_in(&other.name(), &bytes));
+        let count = || TABLES.lock().unwrap().iter().filter(|(key, _)| *key == other).count();
+        assert!(at_hand(other).is_none() && count() == 0 && take_in(&other.name(), &bytes));
         assert_eq!(at_hand(other).unwrap().unwrap(), first);
         assert!(!take_in("no name of a table", &bytes) && !take_in(&other.name(), &bytes[1..]));
         // What is cut or changed is no table.
