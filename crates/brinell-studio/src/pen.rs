@@ -130,9 +130,10 @@ pub(crate) fn outlined(request: &Value, arrays: &Arrays) -> Answer<Value> {
     }))
 }
 
-/// Refuses a scenario whose damage is in a file: a page has no folder to look into.
-pub(crate) fn whole(loaded: Loaded, text: String) -> Answer<(Loaded, String)> {
-    resolved(loaded, text, |_| None)
+/// The scenario of a request, and its text. Refuses one whose damage is in a file: a page has no folder to look into.
+pub(crate) fn asked(request: &Value) -> Answer<(Loaded, String)> {
+    let text = text::of_request(request)?;
+    resolved(text::read(&text)?, text, |_| None)
 }
 
 /// Puts what files hold into a scenario and its text; `find` gives a file's bytes.

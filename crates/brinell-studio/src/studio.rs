@@ -130,8 +130,7 @@ impl Studio {
 
     fn open(&mut self, request: &Value) -> Answer<Value> {
         let slot = Self::slot(request)?;
-        let text = text::of_request(request)?;
-        let (loaded, text) = pen::whole(text::read(&text)?, text)?;
+        let (loaded, text) = pen::asked(request)?;
         let text = text::plain(&text)?;
         let carried = match (&mut self.slots[slot], request["carry"] == json!(true)) {
             (Some(bench), true) => bench.carry(&loaded, &text)?,
@@ -170,8 +169,7 @@ impl Studio {
 
 /// `normal`: a scenario's text with all that is stated, and its stated keys.
 fn normal(request: &Value) -> Answer<Value> {
-    let text = text::of_request(request)?;
-    let (loaded, text) = pen::whole(text::read(&text)?, text)?;
+    let (loaded, text) = pen::asked(request)?;
     let text = text::plain(&text)?;
     Ok(json!({
         "toml": text,

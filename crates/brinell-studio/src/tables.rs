@@ -1,8 +1,8 @@
 //! The tables of damage (section 19) made beside the bearings that run: by another engine, whose tables are handed over.
 
 use crate::message::Arrays;
+use crate::pen;
 use crate::report::{Answer, Trouble};
-use crate::{pen, text};
 use brinell::Error;
 use brinell::half_space::{in_bytes, take_in};
 use brinell::model::Model;
@@ -10,8 +10,7 @@ use serde_json::{Value, json};
 
 /// `tables`: makes those of a scenario. Their bytes are for an engine in another process.
 pub(crate) fn made(request: &Value, arrays: &mut Arrays) -> Answer<Value> {
-    let text = text::of_request(request)?;
-    let (loaded, _) = pen::whole(text::read(&text)?, text)?;
+    let (loaded, _) = pen::asked(request)?;
     Model::new(&loaded.scenario).map_err(Error::from)?;
     let all = if request["bytes"] == json!(true) { in_bytes() } else { Vec::new() };
     let tables: Vec<Value> =
