@@ -50,16 +50,21 @@ fn tables(of: &Scenario, class: Tables, refinement: u32) -> Vec<(Side, Table)> {
     let model = Model::new(&quick).unwrap();
     let met = SIDES.into_iter().filter(|side| defects[0].meets_side(*side));
     met.map(|side| {
-        let geometry = Geometry::of_bearing(&of.bearing, &of.contact, side).unwrap();
         // Without a rim the first deformation is a tenth of the static one.
         let range = Range::of(10.0 * model.defects[0].table(side).unwrap().delta_nodes()[1]);
-        let groups = gather(&defects, |_| geometry.reach(range.largest));
-        let damage = Damage::of(&defects, &groups[0], 1e-6 * of.contact.edge_radius_um);
-        let (threads, stop) = (brinell::many::threads(usize::MAX), AtomicBool::new(false));
-        let built = refined_table(&geometry, &damage.raster, &range, (class, refinement), threads, &stop).unwrap();
-        (side, built.table)
+        (side, table_of(of, side, &range, (class, refinement)))
     })
     .collect()
+}
+
+/// The table of the only damage that meets a side.
+pub(crate) fn table_of(of: &Scenario, side: Side, range: &Range, fineness: (Tables, u32)) -> Table {
+    let defects = Defect::all(&of.defects, &of.bearing, &of.contact).unwrap();
+    let geometry = Geometry::of_bearing(&of.bearing, &of.contact, side).unwrap();
+    let groups = gather(&defects, |_| geometry.reach(range.largest));
+    let damage = Damage::of(&defects, &groups[0], 1e-6 * of.contact.edge_radius_um);
+    let (threads, stop) = (brinell::many::threads(usize::MAX), AtomicBool::new(false));
+    refined_table(&geometry, &damage.raster, range, fineness, threads, &stop).unwrap().table
 }
 
 /// Worst and RMS difference of Q, % of the healthy Q at delta or at a tenth of the static deformation, whichever is more.

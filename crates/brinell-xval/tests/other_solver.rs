@@ -7,7 +7,7 @@
 
 use brinell::channel::{self, Channel, Frame};
 use brinell::model::{Model, Motion};
-use brinell::scenario::{Accuracy, DefectTable, Sensor, TableData};
+use brinell::scenario::{Accuracy, Sensor};
 use brinell::solver::Stepper;
 use brinell::{accuracy, document, start};
 use diffsol::{NalgebraLU, NalgebraMat, OdeBuilder, OdeEquations, OdeSolverMethod, OdeSolverProblem};
@@ -24,12 +24,7 @@ fn model(path: &str) -> (Model, f64) {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../brinell/tests").join(path);
     let text = std::fs::read_to_string(&path).unwrap();
     let mut loaded = document::read(&text, &[]).unwrap_or_else(|p| panic!("{}: {p:?}", path.display()));
-    for defect in &mut loaded.scenario.defects {
-        if let Some(DefectTable::File(file)) = &defect.table {
-            let table = std::fs::read_to_string(path.with_file_name(file)).unwrap();
-            defect.table = Some(DefectTable::Read(TableData::from_csv_text(&table).unwrap()));
-        }
-    }
+    brinell_damage::resolve(&mut loaded.scenario, path.parent().unwrap()).unwrap();
     let model = Model::new(&loaded.scenario).unwrap();
     (model, loaded.scenario.simulation.sample_rate_hz)
 }

@@ -1,6 +1,5 @@
 //! Scenarios and states that several test programs start from.
 
-use super::columns;
 use brinell::model::Model;
 use brinell::scenario::{DefectTable, Guidance, GuidanceFilm, ModelKind, Scenario, TableData};
 use brinell::start;
@@ -18,19 +17,8 @@ pub fn case(path: &str) -> Scenario {
 pub fn with_tables(s: &mut Scenario, folder: &std::path::Path) {
     for defect in &mut s.defects {
         if let Some(DefectTable::File(file)) = &defect.table {
-            let rows = columns(&std::fs::read_to_string(folder.join(file)).unwrap());
-            let all = |name: &str| rows.column(name).to_vec();
-            let distinct = |name: &str| {
-                let mut all = all(name);
-                all.sort_by(f64::total_cmp);
-                all.dedup();
-                all
-            };
-            defect.table = Some(DefectTable::Read(TableData {
-                s_mm: distinct("s_mm"),
-                delta_um: distinct("delta_um"),
-                delta_eff_um: all("delta_eff_um"),
-            }));
+            let table = std::fs::read_to_string(folder.join(file)).unwrap();
+            defect.table = Some(DefectTable::Read(TableData::from_csv_text(&table).unwrap()));
         }
     }
 }
