@@ -117,9 +117,12 @@ pub fn exp<L: Lanes>(x: L) -> L {
 /// tanh x, error below 4e-16 relative.
 #[inline(always)]
 pub fn tanh<L: Lanes>(x: L) -> L {
-    // Beyond 20 the result is 1 to the last bit.
+    // Beyond 20 the result is 1 to the last bit; where it is in every lane, as of slips of spinning rollers, that is all.
     let limit = L::splat(20.0);
     let size = x.abs().at_most(limit);
+    if limit.above(size) == 0 {
+        return L::splat(1.0).with_sign(x);
+    }
     let (rest, scale) = exp_parts(size + size);
     let less_one = rest + (scale - L::splat(1.0));
     (less_one / (less_one + L::splat(2.0))).with_sign(x)
