@@ -50,12 +50,12 @@ pub struct Pocket {
 
 impl Pocket {
     /// |F_c| and its elastic part in each lane, N, at the distance x >= 0 of the element from the pocket's middle (m), the play
-    /// (C_p, so wide for padding that it never closes) and the rate of x, m/s.
+    /// (C_p, so wide for padding that it never closes) with 1/C_p, and the rate of x, m/s.
     #[inline(always)]
-    pub fn wall_force<L: Lanes>(&self, x: L, play: L, rate: L) -> (L, L) {
+    pub fn wall_force<L: Lanes>(&self, x: L, play: (L, L), rate: L) -> (L, L) {
         match &self.wall {
             Some((wall, _)) => wall.press(x, play, rate),
-            None => self.press((x - play).positive_part(), rate),
+            None => self.press((x - play.0).positive_part(), rate),
         }
     }
 
@@ -186,7 +186,8 @@ impl Guide {
             // Without oil of its own nothing before the wall.
             LandLaw::Oiled(wall) if wall.film == 0.0 && square <= self.clearance * self.clearance => {}
             LandLaw::Oiled(wall) => {
-                f.push(offset, velocity, square.sqrt(), |e, rate| wall.press(e, self.clearance, rate))
+                let play = (self.clearance, 1.0 / self.clearance);
+                f.push(offset, velocity, square.sqrt(), |e, rate| wall.press(e, play, rate))
             }
         }
         let Some(film) = self.film else {

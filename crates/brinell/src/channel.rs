@@ -227,7 +227,12 @@ pub fn contact_length(model: &Model, ws: &Workspace, side: Side, slot: usize) ->
         // One contact in series for both sides.
         ModelKind::Lumped => law.deflection(c.elastic[slot]),
     };
-    law.axis_across(delta).unwrap_or(model.geometry.roller_length) - c.damaged_length[slot]
+    let whole = law.axis_across(delta).unwrap_or(model.geometry.roller_length);
+    // Nothing moves by it, so that it is made where it is asked for.
+    if model.kind == ModelKind::Full && model.law == Law::HalfSpace && c.on_damage[slot] {
+        return whole - model.healthy(side).lost_length(c.pressed_or_deformed()[slot], c.elastic[slot]);
+    }
+    whole - c.damaged_length[slot]
 }
 
 /// Time-varying contact stiffness Q_elastic / delta^n of a closed contact, N/m^n; of an open one, the stiffness with

@@ -8,7 +8,7 @@ use super::kinematics::Geometry;
 use crate::did_you_mean::did_you_mean;
 use crate::scenario::{Choice, Laws};
 use serde_json::Value as Json;
-use std::sync::LazyLock;
+use std::sync::{LazyLock, OnceLock};
 
 /// One bearing.
 #[derive(Debug, Clone, PartialEq)]
@@ -106,8 +106,26 @@ impl Entry {
     }
 }
 
-static ENTRIES: LazyLock<Vec<Entry>> =
-    LazyLock::new(|| parse(include_str!("catalogue.toml")).unwrap_or_else(|fault| panic!("catalogue.toml: {fault}")));
+const TEXT: &str = include_str!("catalogue.toml");
+
+static ENTRIES: LazyLock<Vec<Entry>> = LazyLock::new(|| own(TEXT));
+
+/// One bearing's lines, read where it is asked for: to read all takes as long as many a run.
+struct Lines {
+    name: &'static str,
+    text: &'static str,
+    entry: OnceLock<Entry>,
+}
+
+static LINES: LazyLock<Vec<Lines>> = LazyLock::new(|| {
+    let begins = TEXT.match_indices("\n[\"").map(|(at, _)| at + 1);
+    let ends = begins.clone().skip(1).chain([TEXT.len()]);
+    let lines = begins.zip(ends).filter_map(|(from, to)| {
+        let text = &TEXT[from..to];
+        Some(Lines { name: text[2..].split_once('"')?.0, text, entry: OnceLock::new() })
+    });
+    lines.collect()
+});
 
 /// Every bearing, in the file's order.
 pub fn all() -> &'static [Entry] {
@@ -125,7 +143,8 @@ pub fn find(name: &str) -> Option<&'static Entry> {
 #[doc(hidden)]
 pub fn find_exactly(name: &str) -> Option<&'static Entry> {
     let wanted = plain(name);
-    all().iter().find(|entry| plain(&entry.name) == wanted)
+    let lines = LINES.iter().find(|lines| plain(lines.name) == wanted)?;
+    Some(lines.entry.get_or_init(|| own(lines.text).swap_remove(0)))
 }
 
 /// The name of the catalogue that is nearest to one that it does not have.
@@ -136,6 +155,11 @@ pub fn nearest_name(name: &str) -> Option<&'static str> {
     let base = readings(name).into_iter().next().map(|(base, _)| base);
     let base = base.unwrap_or_else(|| plain(name));
     did_you_mean(&base, all().iter().map(|entry| entry.name.as_str()).filter(|known| of_one_kind(name, known)))
+}
+
+/// Of the file that is part of the program.
+fn own(text: &str) -> Vec<Entry> {
+    parse(text).unwrap_or_else(|fault| panic!("catalogue.toml: {fault}"))
 }
 
 fn parse(text: &str) -> Result<Vec<Entry>, String> {

@@ -18,15 +18,18 @@ pub struct OiledWall {
 }
 
 impl OiledWall {
-    /// N and its elastic part in each lane, N: of the distance x >= 0 and the play C > 0 (m) and the rate of x, m/s.
+    /// N and its elastic part in each lane, N: of the distance x >= 0, the play C > 0 (m) with 1/C, and the rate of x, m/s.
     #[inline(always)]
-    pub fn press<L: Lanes>(&self, x: L, play: L, rate: L) -> (L, L) {
-        let per_play = L::splat(1.0) / play;
+    pub fn press<L: Lanes>(&self, x: L, (play, per_play): (L, L), rate: L) -> (L, L) {
         let share = x * per_play;
         let fourth = (share * share) * (share * share);
         let oil = L::splat(self.film) * fourth;
         let beyond = (x - play).positive_part();
-        let root = L::splat(HERTZ) * beyond.sqrt();
+        let mut root = L::zero();
+        // Elements seldom come through the oil to the steel.
+        if beyond.any_positive() {
+            root = L::splat(HERTZ) * beyond.sqrt();
+        }
         let elastic = oil.times_plus(share, root * beyond);
         let slope = root.times_plus(L::splat(1.5), L::splat(5.0) * oil * per_play);
         let size = (slope * L::splat(TIME)).times_plus(rate, elastic);
@@ -47,14 +50,15 @@ mod tests {
     #[test]
     fn analytic_the_oil_carries_its_force_at_the_wall_and_steel_beyond() {
         let (wall, play) = (OiledWall { film: OIL_FORCE }, 9e-5);
-        assert_eq!(wall.press(0.0, play, 1.0), (0.0, 0.0));
-        assert!((wall.press(play, play, 0.0).0 - 11.0).abs() < 1e-12);
-        assert!((wall.press(0.5 * play, play, 0.0).0 - 11.0 / 32.0).abs() < 1e-12);
+        let press = |x: f64, rate: f64| wall.press(x, (play, 1.0 / play), rate).0;
+        assert_eq!(wall.press(0.0, (play, 1.0 / play), 1.0), (0.0, 0.0));
+        assert!((press(play, 0.0) - 11.0).abs() < 1e-12);
+        assert!((press(0.5 * play, 0.0) - 11.0 / 32.0).abs() < 1e-12);
         let beyond = 1e-5_f64;
         let expected = 11.0 * (1.0 + beyond / play).powi(5) + 2e9 * beyond.powf(1.5);
-        assert!((wall.press(play + beyond, play, 0.0).0 / expected - 1.0).abs() < 1e-13);
+        assert!((press(play + beyond, 0.0) / expected - 1.0).abs() < 1e-13);
         // Never pulls.
-        assert_eq!(wall.press(play, play, -10.0).0, 0.0);
+        assert_eq!(press(play, -10.0), 0.0);
     }
 
     #[test]
@@ -62,7 +66,7 @@ mod tests {
         let (wall, play) = (OiledWall { film: OIL_FORCE }, 9e-5);
         let (top, steps) = (1.2e-4, 100_000);
         let dx = top / f64::from(steps);
-        let work: f64 = (0..steps).map(|k| wall.press((f64::from(k) + 0.5) * dx, play, 0.0).1 * dx).sum();
+        let work: f64 = (0..steps).map(|k| wall.press((f64::from(k) + 0.5) * dx, (play, 1.0 / play), 0.0).1 * dx).sum();
         assert!((wall.energy(top, play) / work - 1.0).abs() < 1e-7);
     }
 }

@@ -103,15 +103,13 @@ impl BroadPhase {
         directions: &[[f64; 2]],
         candidates: &mut [u8],
     ) {
-        candidates.fill(0);
-        for (candidates, rollers) in candidates.iter_mut().zip(L::groups(&self.rollers)) {
-            *candidates = L::new(*rollers).above(L::zero());
-        }
-        for (window, [x, y]) in self.windows.iter().zip(directions) {
-            let (x, y, least) = (L::splat(*x), L::splat(*y), L::groups(&window.least));
-            for (((candidates, sin), cos), least) in candidates.iter_mut().zip(sin).zip(cos).zip(least) {
-                let along = L::new(*cos).times_plus(x, L::new(*sin) * y);
-                *candidates |= along.above(L::new(*least));
+        let rollers = L::groups(&self.rollers);
+        for (group, candidates) in candidates.iter_mut().enumerate() {
+            let (sin, cos) = (L::new(sin[group]), L::new(cos[group]));
+            *candidates = rollers.get(group).map_or(0, |rollers| L::new(*rollers).above(L::zero()));
+            for (window, [x, y]) in self.windows.iter().zip(directions) {
+                let along = cos.times_plus(L::splat(*x), sin * L::splat(*y));
+                *candidates |= along.above(L::new(L::groups(&window.least)[group]));
             }
         }
     }

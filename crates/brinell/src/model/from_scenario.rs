@@ -99,6 +99,7 @@ impl Model {
             pocket_direction: [f64::sin, f64::cos].map(|of| pocket_angles(b, &layout).iter().map(|a| of(*a)).collect()),
             waviness: waviness(s),
             pocket_gap: by_slot(1e-3 * c.pocket_clearance_mm, NEVER_CLOSES),
+            per_pocket_gap: by_slot(1.0 / (1e-3 * c.pocket_clearance_mm), 1.0 / NEVER_CLOSES),
             broad_phase: SIDES.map(|side| BroadPhase::new(&layout, &defects, side)),
             row_lanes: row_lanes(&layout),
             pocket_angle: pocket_angles(b, &layout),

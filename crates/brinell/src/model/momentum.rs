@@ -42,7 +42,7 @@ pub fn imbalance(model: &Model, t: f64, y: &[f64], a: &[f64], ws: &Workspace) ->
     let mut forces = sum.relative(pressed);
     // Where rings tilt their forces act at the rows' middles: a torque of second order in small slopes has no body to turn.
     if model.exact && model.tilt.is_none() {
-        forces = forces.max(turning(model, t, (q, v, a), ws));
+        forces = forces.max(turning(model, t, (q, v, a), (ws, pressed)));
     }
     Some(match &model.tilt {
         None => forces,
@@ -73,8 +73,8 @@ impl Sum {
 }
 
 /// Torque about the bearing's centre that appears from nowhere, relative to those at play: angular momentum of all bodies changes
-/// by the torques of loads, supports, gravity, drag, the drive and the housing alone (section 18).
-fn turning(model: &Model, t: f64, (q, v, a): (&[f64], &[f64], &[f64]), ws: &Workspace) -> f64 {
+/// by the torques of loads, supports, gravity, drag, the drive and the housing alone (section 18). All contacts press with `pressed` together, N.
+fn turning(model: &Model, t: f64, (q, v, a): (&[f64], &[f64], &[f64]), (ws, pressed): (&Workspace, f64)) -> f64 {
     let (l, m) = (&model.layout, &model.inertia);
     let (mut left, mut scale) = (0.0, 0.0);
     let mut add = |torque: f64, size: f64| {
@@ -114,7 +114,6 @@ fn turning(model: &Model, t: f64, (q, v, a): (&[f64], &[f64], &[f64]), ws: &Work
     }
     // Of the drive and of the housing.
     ws.torques.into_iter().for_each(|torque| add(-torque, torque.abs()));
-    let pressed = ws.contacts.iter().flat_map(|c| &c.force).sum::<f64>();
     let scale = scale + pressed * model.geometry.pitch_radius;
     if scale > 0.0 { left.abs() / scale } else { 0.0 }
 }

@@ -92,6 +92,8 @@ pub struct Model {
     pub(crate) gaps: [Column; 2],
     /// C_p of each slot, m; so wide for padding that it never closes.
     pub(crate) pocket_gap: Column,
+    /// 1/C_p of each slot, 1/m.
+    pub(crate) per_pocket_gap: Column,
     /// Damage.
     pub defects: Vec<Defect>,
     /// Where damage can meet the contacts of each side, indexed by `Side as usize`.

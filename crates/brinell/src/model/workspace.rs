@@ -3,7 +3,7 @@
 use super::{Model, Power};
 use crate::cage::GuideForce;
 use crate::kernel::Kernel;
-use crate::lanes::{Column, WIDTH};
+use crate::lanes::{Column, Lanes, WIDTH};
 use crate::slices::Approach;
 
 /// Contact of one side, structure of arrays over slots.
@@ -41,7 +41,7 @@ pub struct Contacts {
     pub push: Column,
     /// See above.
     pub push_element: Column,
-    /// L_s at the contact, m.
+    /// L_s at the contact, m; under `half-space`, where nothing tilts, of the profile alone: [`crate::channel::contact_length`].
     pub damaged_length: Column,
     /// Whether the contact is on damage.
     pub on_damage: Vec<bool>,
@@ -84,6 +84,16 @@ impl Contacts {
             damaged_length: zeros(),
             on_damage: vec![false; slots],
         }
+    }
+
+    /// Takes the slots from `first` on off damage.
+    #[inline(always)]
+    pub(super) fn heal<L: Lanes>(&mut self, first: usize) {
+        let group = first / L::COUNT;
+        for column in [&mut self.push, &mut self.push_element] {
+            L::groups_mut(column)[group] = L::zero().array();
+        }
+        self.on_damage[first..first + L::COUNT].fill(false);
     }
 
     /// Angle from the direction of the bearing's centre to that of the ring's, alpha - theta, rad: section 18; 0 in centred
@@ -134,6 +144,8 @@ pub struct Workspace {
     /// Lanes of each group whose contact may be on damage, a bit each; as many groups as the kernel's pairs make of the
     /// slots.
     pub(super) candidates: [Vec<u8>; 2],
+    /// The same of the evaluation before: groups whose contacts were written as on damage.
+    pub(super) written: [Vec<u8>; 2],
     /// Groups of which some contact may be closed.
     pub(super) maybe_closed: [Vec<bool>; 2],
     /// Sine and cosine of the directions from a ring's centre, of the side that is being looked at.
@@ -171,6 +183,7 @@ impl Workspace {
             pocket_force: zeros(),
             pocket_friction: zeros(),
             candidates: [vec![0; slots], vec![0; slots]],
+            written: [vec![0; slots], vec![0; slots]],
             maybe_closed: [vec![false; slots], vec![false; slots]],
             directions: [0, 1].map(|side| model.broad_phase[side].directions()),
             kernel: if kernel.is_there() { kernel } else { Kernel::fastest() },

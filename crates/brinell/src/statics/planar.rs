@@ -5,7 +5,7 @@ use super::balance::{
     Balance, NoBalance, Offsets, Problem, angles, by_slot, external, force_scale, own_force, softest,
 };
 use super::newton::{State, minimise};
-use crate::defect::{Angles, Side};
+use crate::defect::{Angles, SIDES, Side};
 use crate::model::{Model, Resting, lumped};
 use crate::scenario::ModelKind;
 
@@ -150,23 +150,20 @@ fn between_raceways(model: &Model, problem: &Problem, (slot, held): (usize, Opti
         own: own_force(model, problem, slot),
     };
     let r = between.equilibrium();
-    let contacts = between.contacts(r);
+    let (seen, contacts) = between.contacts(r);
     let [(q_in, k_in), (q_out, k_out)] = contacts.map(|c| (c.force, c.tangent));
-    let along = between.sides.map(|side| {
-        let [n_r, n_t] = side.normal(r);
-        [cos * n_r - sin * n_t, sin * n_r + cos * n_t]
-    });
+    let along = seen.map(|Seen { normal: [n_r, n_t], .. }| [cos * n_r - sin * n_t, sin * n_r + cos * n_t]);
     Roller {
         along,
         r,
         inner: q_in,
         outer: q_out,
         tangent: if k_in + k_out > 0.0 { k_in * k_out / (k_in + k_out) } else { 0.0 },
-        energy: between.energy(r),
+        energy: between.energy(r, &seen),
         // (P/rho) t on either ring, turned into the plane.
         push: [0, 1].map(|k: usize| {
             let [n_x, n_y] = along[k];
-            let per_rho = contacts[k].push / between.sides[k].distance(r);
+            let per_rho = contacts[k].push / seen[k].distance;
             [-n_y * per_rho, n_x * per_rho]
         }),
     }
@@ -212,24 +209,32 @@ impl RingAt {
         self.along + (self.gap * (2.0 * self.pitch + self.gap) - square) / (root + self.pitch)
     }
 
-    /// rho, m.
-    fn distance(&self, r: f64) -> f64 {
-        (self.pitch + r - self.along).hypot(self.across)
-    }
-
-    /// n along e_r and e_t.
-    fn normal(&self, r: f64) -> [f64; 2] {
-        if self.across == 0.0 {
-            return [1.0, 0.0];
-        }
+    /// A roller at r as it is seen from the ring's centre.
+    fn see(&self, r: f64) -> Seen {
         let along = self.pitch + r - self.along;
-        let rho = along.hypot(self.across);
-        [along / rho, self.across / rho]
+        let distance = along.hypot(self.across);
+        let normal = if self.across == 0.0 { [1.0, 0.0] } else { [along / distance, self.across / distance] };
+        Seen { distance, normal }
     }
 
     /// How much farther on than its orbit angle a roller at r is seen from the ring's centre, rad.
     fn turned(&self, r: f64) -> f64 {
-        let [n_r, n_t] = self.normal(r);
+        self.see(r).turned()
+    }
+}
+
+/// A roller as it is seen from a ring's centre.
+#[derive(Debug, Clone, Copy)]
+struct Seen {
+    /// rho, m.
+    distance: f64,
+    /// n along e_r and e_t.
+    normal: [f64; 2],
+}
+
+impl Seen {
+    fn turned(&self) -> f64 {
+        let [n_r, n_t] = self.normal;
         (n_t / n_r).atan()
     }
 }
@@ -247,29 +252,36 @@ struct Between<'a> {
 }
 
 impl Between<'_> {
-    fn contact(&self, side: Side, delta: f64, r: f64) -> Resting {
-        self.model.contact_law(side).at(self.model.defects_of(self.slot, side), &self.seen(side, r), delta)
-    }
-
-    /// The roller's angles as seen from the centre of a ring.
-    fn seen(&self, side: Side, r: f64) -> Angles {
-        let turned = match self.held {
-            Some(held) => held[side as usize],
-            None => self.sides[side as usize].turned(r),
-        };
+    /// The roller's angles as seen from the centre of a ring. Where nothing is damaged they do not matter.
+    fn angles(&self, side: Side, seen: &Seen) -> Angles {
+        if self.model.defects.is_empty() {
+            return self.angles;
+        }
+        let turned = self.held.map_or_else(|| seen.turned(), |held| held[side as usize]);
         Angles { orbit: self.angles.orbit + turned, ..self.angles }
     }
 
-    /// Both contacts of the roller at r.
-    fn contacts(&self, r: f64) -> [Resting; 2] {
-        [self.contact(Side::Inner, -self.sides[0].beyond(r), r), self.contact(Side::Outer, self.sides[1].beyond(r), r)]
+    /// Deformations of both contacts of the roller at r, m.
+    fn deformations(&self, r: f64) -> [f64; 2] {
+        [-self.sides[0].beyond(r), self.sides[1].beyond(r)]
+    }
+
+    /// The roller at r as both rings see it, and its contacts.
+    fn contacts(&self, r: f64) -> ([Seen; 2], [Resting; 2]) {
+        let (seen, deltas) = (self.sides.map(|side| side.see(r)), self.deformations(r));
+        let contact = |side: Side| {
+            let (seen, delta) = (&seen[side as usize], deltas[side as usize]);
+            self.model.contact_law(side).at(self.model.defects_of(self.slot, side), &self.angles(side, seen), delta)
+        };
+        (seen, SIDES.map(contact))
     }
 
     /// Q_in - Q_out + N, which falls with r, and how steeply.
     fn balance(&self, r: f64) -> (f64, f64) {
-        let [(q_in, k_in, p_in), (q_out, k_out, p_out)] = self.contacts(r).map(|c| (c.force, c.tangent, c.push));
-        let [[n_in, t_in], [n_out, t_out]] = self.sides.map(|side| side.normal(r));
-        let pushed = p_in * t_in / self.sides[0].distance(r) + p_out * t_out / self.sides[1].distance(r);
+        let (seen, contacts) = self.contacts(r);
+        let [(q_in, k_in, p_in), (q_out, k_out, p_out)] = contacts.map(|c| (c.force, c.tangent, c.push));
+        let [Seen { normal: [n_in, t_in], .. }, Seen { normal: [n_out, t_out], .. }] = seen;
+        let pushed = p_in * t_in / seen[0].distance + p_out * t_out / seen[1].distance;
         (q_in * n_in - q_out * n_out + pushed + self.own, k_in * n_in * n_in + k_out * n_out * n_out)
     }
 
@@ -323,10 +335,12 @@ impl Between<'_> {
     }
 
     /// Potential energy at r, J.
-    fn energy(&self, r: f64) -> f64 {
-        let model = self.model;
-        let stored =
-            |side, delta| model.contact_law(side).energy(model.defects_of(self.slot, side), &self.seen(side, r), delta);
-        stored(Side::Inner, -self.sides[0].beyond(r)) + stored(Side::Outer, self.sides[1].beyond(r)) - self.own * r
+    fn energy(&self, r: f64, seen: &[Seen; 2]) -> f64 {
+        let (model, deltas) = (self.model, self.deformations(r));
+        let stored = |side: Side| {
+            let (law, defects) = (model.contact_law(side), model.defects_of(self.slot, side));
+            law.energy(defects, &self.angles(side, &seen[side as usize]), deltas[side as usize])
+        };
+        stored(Side::Inner) + stored(Side::Outer) - self.own * r
     }
 }

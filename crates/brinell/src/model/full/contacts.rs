@@ -237,14 +237,17 @@ pub(super) fn damage<L: Lanes, const TILT: bool>(model: &Model, q: &[f64], ring_
             continue;
         }
         let contacts = &mut ws.contacts[k];
-        contacts.on_damage.fill(false);
-        if model.slices.is_none() {
+        if model.law == Law::Ecl {
             contacts.damaged_length.fill(0.0);
         }
-        contacts.push.fill(0.0);
-        contacts.push_element.fill(0.0);
         let count = model.layout.slots / L::COUNT;
-        for (group, candidates) in ws.candidates[k][..count].iter().enumerate() {
+        let groups = ws.candidates[k][..count].iter().zip(&mut ws.written[k][..count]);
+        for (group, (candidates, written)) in groups.enumerate() {
+            // Waves push everywhere.
+            if *written != 0 || model.waviness.is_some() {
+                contacts.heal::<L>(group * L::COUNT);
+            }
+            *written = *candidates;
             if *candidates != 0 {
                 let at = (side, group * L::COUNT, *candidates);
                 match model.law {
@@ -320,7 +323,6 @@ fn half_space(
         contacts.push[slot] = resting.push;
         contacts.push_element[slot] = resting.push_element;
         contacts.on_damage[slot] = true;
-        contacts.damaged_length[slot] = healthy.lost_length(delta, resting.force);
     }
 }
 

@@ -49,7 +49,7 @@ pub(super) fn pockets<L: Lanes>(model: &Model, q: &[f64], v: &[f64], a: &mut [f6
     let theta = column::<L>(q, 1, count);
     let [v_r, v_theta, v_phi] = columns::<L>(v, count);
     let pocket_angle = column::<L>(&model.pocket_angle, 0, count);
-    let pocket_gap = column::<L>(&model.pocket_gap, 0, count);
+    let [pocket_gap, per_gap] = [&model.pocket_gap, &model.per_pocket_gap].map(|c| column::<L>(c, 0, count));
     let Workspace { sin, cos, pocket_force, pocket_friction, .. } = ws;
     let sin = column::<L>(sin, 0, count);
     let cos = column::<L>(cos, 0, count);
@@ -81,7 +81,7 @@ pub(super) fn pockets<L: Lanes>(model: &Model, q: &[f64], v: &[f64], a: &mut [f6
                 let ds = dtheta.minus_times(xc_r, pitch.times_plus(cage.dtheta - dtheta, vc_t));
                 // Both sides at once: what closes on the side of s, with its sign.
                 let closing = ds * one.with_sign(s);
-                let (size, elastic) = pocket.wall_force(s.abs(), play, closing);
+                let (size, elastic) = pocket.wall_force(s.abs(), (play, L::new(per_gap[group])), closing);
                 normal = size.with_sign(s);
                 // sigma = -sign(F_c), 0 where the pocket is open.
                 let sigma = size.if_above(L::zero(), one.with_sign(-normal), L::zero());

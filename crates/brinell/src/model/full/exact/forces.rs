@@ -83,7 +83,10 @@ impl<L: Lanes> Columns<'_, L> {
         let (mut spin, mut ring, mut moment) = (-rolling, rolling, L::zero());
         if of.has_damage {
             let (push, element) = (L::new(self.push[k]), L::new(self.push_element[k]));
-            across = -(push / rho);
+            // Few groups have a contact that is pushed.
+            if push.abs().any_positive() {
+                across = -(push / rho);
+            }
             spin += element;
             ring += push - element;
         }

@@ -60,7 +60,7 @@ pub(super) fn pockets<L: Lanes>(model: &Model, q: &[f64], v: &[f64], a: &mut [f6
     let q_r = column::<L>(q, 0, count);
     let [v_r, v_theta, v_phi] = columns::<L>(v, count);
     let [sin_a, cos_a] = [&model.pocket_direction[0], &model.pocket_direction[1]].map(|c| column::<L>(c, 0, count));
-    let play = column::<L>(&model.pocket_gap, 0, count);
+    let [play, per_play] = [&model.pocket_gap, &model.per_pocket_gap].map(|c| column::<L>(c, 0, count));
     let Workspace { sin, cos, pocket_force, on_roller, .. } = ws;
     let sin = column::<L>(sin, 0, count);
     let cos = column::<L>(cos, 0, count);
@@ -94,7 +94,8 @@ pub(super) fn pockets<L: Lanes>(model: &Model, q: &[f64], v: &[f64], a: &mut [f6
             let lever = u_r.times_plus(w_t, -(u_t * w_r));
             let reach = u_r.times_plus(w_r, u_t.times_plus(w_t, radius));
             let rate = cage.dtheta.times_plus(lever, u_r.times_plus(d_r, u_t * d_t));
-            let (normal, elastic) = pocket.wall_force(at.distance, L::new(play[group]), rate);
+            let (normal, elastic) =
+                pocket.wall_force(at.distance, (L::new(play[group]), L::new(per_play[group])), rate);
             let across = u_r.times_plus(d_t, -(u_t * d_r));
             let slip = cage.dtheta.minus_times(reach, radius.times_plus(L::new(v_phi[group]), across));
             let friction = pocket.friction(normal, slip, per_slip);
