@@ -91,10 +91,11 @@ fn list([x, y]: [f64; 2]) -> String {
     format!("[{}, {}]", toml_float(x), toml_float(y))
 }
 
-/// Weight of everything that moves, N.
-fn weight(model: &Model) -> f64 {
+/// Weight of the bearing, N: of its rings, cages and elements. What its housing weighs rests on the machine.
+fn weight(scenario: &Scenario, model: &Model) -> f64 {
     let (m, l) = (&model.inertia, &model.layout);
-    let mass = m.inner_ring + m.outer_ring + m.cage * l.rows as f64 + m.roller * l.rollers() as f64;
+    let outer_ring = m.outer_ring - scenario.housing.mass_kg;
+    let mass = m.inner_ring + outer_ring + m.cage * l.rows as f64 + m.roller * l.rollers() as f64;
     STANDARD_GRAVITY * mass
 }
 
@@ -119,14 +120,14 @@ fn no_load(scenario: &Scenario, model: &Model) -> Option<Problem> {
 
 fn weight_left_out(scenario: &Scenario, model: &Model) -> Option<Problem> {
     let o = &scenario.operation;
-    let (load, weight) = (o.load_n[0].hypot(o.load_n[1]), weight(model));
+    let (load, weight) = (o.load_n[0].hypot(o.load_n[1]), weight(scenario, model));
     let counts = o.gravity_m_per_s2 == [0.0; 2] && load > 0.0 && weight > WEIGHT_SHARE * load;
     counts.then(|| {
         warning(
             "operation.gravity_m_per_s2",
             list(o.gravity_m_per_s2),
             format!(
-                "the moving parts weigh {} N, {:.0} % of the load of {} N, and gravity is left out",
+                "the bearing weighs {} N, {:.0} % of the load of {} N, and gravity is left out",
                 short(weight),
                 100.0 * weight / load,
                 short(load)

@@ -250,7 +250,7 @@ fn prop_no_load_and_weight_left_out_are_said() {
     // Rings, two cages and 38 rollers: 0.259 kg, 2.54 N.
     let soft = ("support.outer_stiffness_n_per_m", "1e4");
     let told = warning(&[("operation.load_n", "[10, 0]"), ("defects", "[]"), soft]);
-    assert!(told.contains("weigh 2.54 N, 25 % of the load"), "{told}");
+    assert!(told.contains("weighs 2.54 N, 25 % of the load"), "{told}");
     silent(&[("operation.load_n", "[26, 0]"), ("defects", "[]"), soft]);
 }
 

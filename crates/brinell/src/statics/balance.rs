@@ -133,8 +133,7 @@ impl NoBalance {
         let share = self.residual / self.scale;
         if share < HELD {
             format!(
-                "that is {:.1e} of the largest force: the search ended beside a force that jumps, as at the edge of damage under contact.law = \"ecl\" \
-                 (contact.roller_path = \"point\"), or at an end of a file's table where damage still acts",
+                "that is {:.1e} of the largest force: the search ended beside a force that jumps, as it may at the edge of damage",
                 share
             )
         } else {
@@ -160,6 +159,14 @@ pub(super) fn force_scale(model: &Model, problem: &Problem, forces: &[f64]) -> f
     let count = model.layout.rollers() as f64;
     let weight = count * model.inertia.roller * centrifugal(model, problem.speed).abs();
     forces.iter().fold(0.0_f64, |m, f| m.max(f.abs())).max(weight).max(1e-9)
+}
+
+/// The residual, N, with which a search that gets no farther has found the balance: what round-off leaves, or what an element pushes that only
+/// its own force presses, of its centrifugal force and weight. One on the edge of damage stands on it or beside it, and no ring is held by
+/// so little; as it counts no more than a ten-thousandth of the largest force `scale` does.
+pub(super) fn stalled(model: &Model, problem: &Problem, scale: f64) -> f64 {
+    let own = (0..problem.orbit.len()).map(|slot| own_force(model, problem, slot).abs()).fold(0.0, f64::max);
+    own.clamp(1e-7 * scale, 1e-4 * scale)
 }
 
 /// Where the damping of Newton's method begins, N/m: the series stiffness at a deflection of a micrometre. Any value of

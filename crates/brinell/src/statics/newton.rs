@@ -32,11 +32,11 @@ pub(super) struct Minimum<const N: usize> {
 }
 
 /// The minimum near `guess` over the coordinates that are `free`; the others stay at 0. `scale` is the largest force at
-/// play, `damping` what is added to the Hessian at first.
+/// play, `stalled` the residual with which a search that gets no farther has found it, `damping` what is added to the Hessian at first.
 pub(super) fn minimise<const N: usize>(
     guess: [f64; N],
     free: &[bool; N],
-    (scale, mut damping): (f64, f64),
+    (scale, stalled, mut damping): (f64, f64, f64),
     mut evaluate: impl FnMut(&[f64; N]) -> State<N>,
 ) -> Result<Minimum<N>, NoBalance> {
     let mut held = |x: &[f64; N]| {
@@ -48,6 +48,10 @@ pub(super) fn minimise<const N: usize>(
             }
         }
         state
+    };
+    let ended = |x, residual, iterations| match residual <= stalled {
+        true => Ok(Minimum { x, residual, iterations }),
+        false => Err(NoBalance { residual, scale, iterations }),
     };
     let largest = |gradient: &[f64; N]| gradient.iter().fold(0.0_f64, |m, g| m.max(g.abs()));
     let mut x: [f64; N] = std::array::from_fn(|k| if free[k] { guess[k] } else { 0.0 });
@@ -82,13 +86,10 @@ pub(super) fn minimise<const N: usize>(
             damping = (damping * 10.0).max(1e-6);
         }
         if !improved {
-            if residual <= 1e-7 * scale {
-                return Ok(Minimum { x, residual, iterations });
-            }
-            return Err(NoBalance { residual, scale, iterations });
+            return ended(x, residual, iterations);
         }
     }
-    Err(NoBalance { residual, scale, iterations: MAX_ITERATIONS })
+    ended(x, residual, MAX_ITERATIONS)
 }
 
 /// Gaussian elimination with partial pivoting; `None` where the matrix is singular.

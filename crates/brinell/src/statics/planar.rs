@@ -2,7 +2,7 @@
 //! offsets.
 
 use super::balance::{
-    Balance, NoBalance, Offsets, Problem, angles, by_slot, external, force_scale, own_force, softest,
+    Balance, NoBalance, Offsets, Problem, angles, by_slot, external, force_scale, own_force, softest, stalled,
 };
 use super::newton::{State, minimise};
 use crate::defect::{Angles, SIDES, Side};
@@ -97,7 +97,7 @@ fn solve_held(model: &Model, problem: &Problem, held: Option<&[Turned]>) -> Resu
         }
         state
     };
-    let found = minimise(guess, &free, (scale, softest(model)), &mut evaluate)?;
+    let found = minimise(guess, &free, (scale, stalled(model, problem, scale), softest(model)), &mut evaluate)?;
     evaluate(&found.x);
     let mut stiffness = [[0.0; 2]; 2];
     for roller in &rollers {

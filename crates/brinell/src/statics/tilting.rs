@@ -1,7 +1,9 @@
 //! Static balance where rollers and rings tilt (section 16): each roller's (r, beta) is eliminated, the rings' eight
 //! coordinates are searched.
 
-use super::balance::{Balance, NoBalance, Problem, Tilted, angles, by_slot, external, force_scale, own_force, softest};
+use super::balance::{
+    Balance, NoBalance, Problem, Tilted, angles, by_slot, external, force_scale, own_force, softest, stalled,
+};
 use super::newton::{State, eliminate, minimise};
 use crate::defect::Side;
 use crate::model::{Model, Tilt};
@@ -62,7 +64,7 @@ pub(super) fn solve(model: &Model, tilt: &Tilt, problem: &Problem) -> Result<Bal
         }
         state
     };
-    let found = minimise(guess, &free, (scale, softest(model)), &mut evaluate)?;
+    let found = minimise(guess, &free, (scale, stalled(model, problem, scale), softest(model)), &mut evaluate)?;
     evaluate(&found.x);
     if let Some(failed) = rollers.iter().find_map(|roller| roller.failed.clone()) {
         return Err(failed);
@@ -182,7 +184,7 @@ fn between_raceways(
     // A tilted roller may touch at one end alone.
     let nearest = inner - outer + half * (inner_slope - outer_slope).abs();
     let scale = own.abs().max(model.series_contact.healthy(nearest.max(0.0))).max(LIGHT * load);
-    let found = minimise(guess, &[true, true], (scale, softest(model)), evaluate);
+    let found = minimise(guess, &[true, true], (scale, 1e-7 * scale, softest(model)), evaluate);
     let failed = found.as_ref().err().cloned();
     let x = found.map_or(guess, |found| found.x);
     let (r, beta) = (x[0], x[1] / half);
