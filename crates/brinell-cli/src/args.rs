@@ -68,6 +68,10 @@ pub(crate) struct RunArgs {
     /// Do not run the scenario without its damage as well, which the page shows in grey
     #[arg(long)]
     pub(crate) no_healthy: bool,
+    /// Also run every assumed value at both ends of its plausible range, one at a time, and say how far the levels move
+    /// by it: some 30 runs more
+    #[arg(long)]
+    pub(crate) spread: bool,
     /// Open report.html in the browser when the run is over; of one scenario
     #[arg(long, conflicts_with = "no_report")]
     pub(crate) open: bool,

@@ -23,5 +23,6 @@ mod outputs;
 mod reproduce;
 mod rerun;
 mod shell;
+mod spread;
 mod sweep;
 mod terminal;

@@ -213,7 +213,7 @@ fn indicators(findings: &Findings) -> Value {
         entry[channel.kind.name()] = values.into();
     }
     json!({
-        "meaning": "value, and low to high, its 95 % interval, of averages over whole revolutions of the inner ring; peaks are those of a revolution, record_* those of the whole record",
+        "meaning": "value, and low to high, its 95 % interval, scatter only: what is assumed is not in it; of averages over whole revolutions of the inner ring; peaks are those of a revolution, record_* those of the whole record",
         "revolutions": (fields::ANALYSED_TURNS.of)(findings) as u64,
         "channels": channels,
     })

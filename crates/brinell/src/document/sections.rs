@@ -57,9 +57,13 @@ pub(crate) fn scenario<K: Keys>(k: &mut K, s: &mut Scenario) {
 }
 
 fn friction<K: Keys>(k: &mut K, (laws, geometry): (Laws, GeometryLaw), f: &mut Friction) {
-    k.key(key("raceway_coefficient", "mu").from(0.0), assumed(0.02, PAPER), &mut f.raceway_coefficient);
     k.key(
-        key("slip_velocity_m_per_s", "v_s of tanh(slip / v_s)").above(0.0),
+        key("raceway_coefficient", "mu").plausible(0.005, 0.1).from(0.0),
+        assumed(0.02, PAPER),
+        &mut f.raceway_coefficient,
+    );
+    k.key(
+        key("slip_velocity_m_per_s", "v_s of tanh(slip / v_s)").plausible_times(0.2, 5.0).above(0.0),
         assumed(0.05, "regularises friction; the paper does not state it"),
         &mut f.slip_velocity_m_per_s,
     );
@@ -72,7 +76,9 @@ fn friction<K: Keys>(k: &mut K, (laws, geometry): (Laws, GeometryLaw), f: &mut F
         Laws::Li2023 => stated(0.0, PAPER),
     };
     k.key(
-        key("rolling_coefficient", "k_r of the couple k_r r Q that resists rolling at each contact").from(0.0),
+        key("rolling_coefficient", "k_r of the couple k_r r Q that resists rolling at each contact")
+            .plausible_times(0.5, 2.0)
+            .from(0.0),
         rolling,
         &mut f.rolling_coefficient,
     );
@@ -80,7 +86,9 @@ fn friction<K: Keys>(k: &mut K, (laws, geometry): (Laws, GeometryLaw), f: &mut F
 
 fn lubricant<K: Keys>(k: &mut K, b: &Bearing, l: &mut Lubricant) {
     k.key(
-        key("viscosity_pa_s", "eta of the cage's guidance film and of the raceway film").from(0.0),
+        key("viscosity_pa_s", "eta of the cage's guidance film and of the raceway film")
+            .plausible(0.003, 0.1)
+            .from(0.0),
         assumed(0.01, "warm spindle oil; the paper does not state it"),
         &mut l.viscosity_pa_s,
     );
@@ -186,11 +194,27 @@ fn support<K: Keys>(
         Laws::Mechanics => derived(0.2 * (5e7 * scale * mass).sqrt(), "a tenth of critical on the stiff support"),
         Laws::Li2023 => assumed(500.0, "the paper does not state it"),
     });
-    k.key(key("inner_stiffness_n_per_m", "k_i").from(0.0), assumed(inner, why), &mut s.inner_stiffness_n_per_m);
+    k.key(
+        key("inner_stiffness_n_per_m", "k_i").plausible_times(0.2, 5.0).from(0.0),
+        assumed(inner, why),
+        &mut s.inner_stiffness_n_per_m,
+    );
     let [of_inner, of_outer] = damping;
-    k.key(key("inner_damping_ns_per_m", "c_i").from(0.0), of_inner, &mut s.inner_damping_ns_per_m);
-    k.key(key("outer_stiffness_n_per_m", "k_o").from(0.0), assumed(outer, why), &mut s.outer_stiffness_n_per_m);
-    k.key(key("outer_damping_ns_per_m", "c_o").from(0.0), of_outer, &mut s.outer_damping_ns_per_m);
+    k.key(
+        key("inner_damping_ns_per_m", "c_i").plausible_times(0.2, 5.0).from(0.0),
+        of_inner,
+        &mut s.inner_damping_ns_per_m,
+    );
+    k.key(
+        key("outer_stiffness_n_per_m", "k_o").plausible_times(0.2, 5.0).from(0.0),
+        assumed(outer, why),
+        &mut s.outer_stiffness_n_per_m,
+    );
+    k.key(
+        key("outer_damping_ns_per_m", "c_o").plausible_times(0.2, 5.0).from(0.0),
+        of_outer,
+        &mut s.outer_damping_ns_per_m,
+    );
     let lever = (0.5e-3 * b.pitch_diameter_mm).powi(2);
     let (stiffness, damping) = ("k R_m^2 of the same ring", "c R_m^2 of the same ring");
     let mut tilt = |name, symbol, own: f64, how, value: &mut f64| {
@@ -232,7 +256,11 @@ fn housing<K: Keys>(k: &mut K, (laws, b): (Laws, &Bearing), h: &mut Housing) {
         Laws::Mechanics => derived(20.0 * b.outer_ring_mass_kg, "20 times the outer ring's, a small plummer block"),
         Laws::Li2023 => stated(0.0, PAPER),
     };
-    k.key(key("mass_kg", "of what moves with the outer ring").from(0.0), mass, &mut h.mass_kg);
+    k.key(
+        key("mass_kg", "of what moves with the outer ring").plausible_times(0.1, 5.0).from(0.0),
+        mass,
+        &mut h.mass_kg,
+    );
 }
 
 /// Half a second; of a slow bearing four turns of the shaft after the load's ramp, in which every element passes the load
