@@ -21,6 +21,7 @@ use brinell_study::listener::RunListener;
 use serde_json::Value;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
+use std::sync::atomic::AtomicBool;
 use std::sync::{Mutex, PoisonError};
 
 const CSV: &str = "compare.csv";
@@ -52,7 +53,8 @@ pub(crate) fn compare(args: &CompareArgs) -> Result<ExitCode, Failure> {
     for (path, side) in scenarios.iter().zip(sides) {
         ready.push(atomic_prepare(path, side.loaded.to_toml())?);
     }
-    let Some(runs) = run(args, sides)? else {
+    let stop = stop_flag()?;
+    let Some(runs) = run(args, sides, &stop) else {
         // Results of nothing.
         drop(ready);
         let _ = std::fs::remove_dir(folder.join(SCENARIOS));
@@ -61,7 +63,7 @@ pub(crate) fn compare(args: &CompareArgs) -> Result<ExitCode, Failure> {
     let all: Vec<&RunResult> = runs.iter().collect();
     let compared = campaign::compare(&all);
     let survives = match args.spread {
-        true => spread::of(args, &read, &all)?,
+        true => spread::of(args, &read, &all, &stop),
         false => Some(Vec::new()),
     };
     let Some(survives) = survives else {
@@ -112,14 +114,13 @@ fn earlier(args: &CompareArgs, sides: &[Side], folder: &Path, inputs: &Inputs) -
 }
 
 /// All runs, or `None` with the errors printed.
-fn run(args: &CompareArgs, sides: &[Side]) -> Result<Option<Vec<RunResult>>, Failure> {
-    let stop = stop_flag()?;
+fn run(args: &CompareArgs, sides: &[Side], stop: &AtomicBool) -> Option<Vec<RunResult>> {
     let scenario = |side: &Side| side.loaded.scenario.clone();
     let list: Vec<_> = sides.iter().map(scenario).collect();
     let threads = brinell::many::threads(list.len());
     let duration = |side: &Side| side.loaded.scenario.simulation.duration_s;
     let joint = Joint::new(list.len(), sides.iter().map(duration).sum(), args.quiet);
-    let parts: Vec<_> = sides.iter().map(|side| Mutex::new(joint.part(duration(side), &stop))).collect();
+    let parts: Vec<_> = sides.iter().map(|side| Mutex::new(joint.part(duration(side), stop))).collect();
     let results = run_all(&list, args.jobs.unwrap_or(threads), |k, t| {
         parts[k].lock().unwrap_or_else(PoisonError::into_inner).at(t)
     });
@@ -136,7 +137,7 @@ fn run(args: &CompareArgs, sides: &[Side]) -> Result<Option<Vec<RunResult>>, Fai
     if stopped {
         complain!("{NOTHING_WRITTEN}");
     }
-    Ok((runs.len() == sides.len()).then_some(runs))
+    (runs.len() == sides.len()).then_some(runs)
 }
 
 /// What matters most of the comparison.

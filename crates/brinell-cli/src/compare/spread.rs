@@ -2,18 +2,15 @@
 
 use super::CompareArgs;
 use super::sides::Sides;
-use crate::failure::Failure;
 use crate::say::{complain, plural, short};
-use crate::stop::stop_flag;
 use brinell::RunResult;
 use brinell::many;
 use brinell_study::campaign::{Level, SPREAD_MEANING, Side, assumed, levels_json, ratios, run_ends};
 use serde_json::{Value, json};
-use std::sync::atomic::Ordering;
+use std::sync::atomic::{AtomicBool, Ordering};
 
 /// Of each side but the baseline its ratios to the baseline with their bands, over the values that both assume. `None` where Ctrl-C ended it.
-pub(super) fn of(args: &CompareArgs, read: &Sides, runs: &[&RunResult]) -> Result<Option<Vec<Vec<Level>>>, Failure> {
-    let stop = stop_flag()?;
+pub(super) fn of(args: &CompareArgs, read: &Sides, runs: &[&RunResult], stop: &AtomicBool) -> Option<Vec<Vec<Level>>> {
     let numbers: Vec<_> = runs.iter().map(|run| run.quantities()).collect();
     let of_side = |k: usize| assumed(&read.sides[k].loaded.provenance);
     let ends = |k: usize, keys: &[_]| {
@@ -21,7 +18,7 @@ pub(super) fn of(args: &CompareArgs, read: &Sides, runs: &[&RunResult]) -> Resul
             complain!("spread of {}: {} at both ends", read.sides[k].label, plural(keys.len(), "assumed value"));
         }
         let threads = args.jobs.unwrap_or(many::threads(2 * keys.len()));
-        run_ends(keys, &numbers[k], |key, value| read.with(k, key, value), threads, &stop)
+        run_ends(keys, &numbers[k], |key, value| read.with(k, key, value), threads, stop)
     };
     let baseline = of_side(0);
     let of_baseline = ends(0, &baseline);
@@ -33,7 +30,7 @@ pub(super) fn of(args: &CompareArgs, read: &Sides, runs: &[&RunResult]) -> Resul
         ratios(&keys, [&numbers[k], &numbers[0]], [&ends(k, &keys), &same])
     };
     let ratios = (1..runs.len()).map(ratio).collect();
-    Ok((!stop.load(Ordering::Relaxed)).then_some(ratios))
+    (!stop.load(Ordering::Relaxed)).then_some(ratios)
 }
 
 /// A ratio's band in words, and whether it stays on its side of 1.
