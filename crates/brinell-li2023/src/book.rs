@@ -128,7 +128,7 @@ mod tests {
         all.push(format!("```toml\n{BASE}```\n"));
         all.push(format!("\n{}\n", intro(Length::VARIANT)));
         all.push(written(&ranges()));
-        all.push(written(&page::runs(&Request::new(&[], Length::FULL).unwrap())));
+        all.push(written(&page::runs(&Request::new(&[], Length::FULL, Laws::Li2023).unwrap())));
         for experiment in EXPERIMENTS.iter() {
             all.push(format!("\n## {}: {}\n\n{}\n", figures(experiment), experiment.title, experiment.words));
         }

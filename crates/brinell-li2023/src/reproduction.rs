@@ -31,7 +31,7 @@ impl Reproduction {
         let plan = request.plan.as_ref();
         let varied = plan.into_iter().flat_map(Plan::points);
         let others = request.models.iter().flat_map(OtherRuns::points);
-        let points = request.starts().chain(varied).chain(others);
+        let points = request.starts().chain(&request.defaults).chain(varied).chain(others);
         let points: Vec<&Point> = points.collect();
         let mut flow = runs.make(&points, Stage::Cases)?;
         let mut sensitivity = None;

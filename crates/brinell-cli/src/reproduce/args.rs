@@ -38,6 +38,13 @@ pub(crate) struct ReproduceArgs {
     /// Also make every case with this model, and in slices, and show the verdicts side by side
     #[arg(long, value_name = "MODEL", value_parser = [PossibleValue::new("tilting").help("Rollers and rings tilt")])]
     pub(crate) model: Option<String>,
+    /// Laws that every case is made under; with mechanics, the program's default ones, what the paper's laws gave is put
+    /// beside
+    #[arg(long, value_name = "LAWS", default_value = "li2023", value_parser = [
+        PossibleValue::new("li2023").help("The paper's"),
+        PossibleValue::new("mechanics").help("Exact geometry, damage as on elastic steel, and the default values of this set")
+    ])]
+    pub(crate) laws: String,
     /// Turns of the shaft whose statistics count, of every run [default: 240, with --quick 40]
     #[arg(long, value_name = "N", conflicts_with = "quick", value_parser = turns)]
     pub(crate) turns: Option<u32>,
