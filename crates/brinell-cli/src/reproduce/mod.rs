@@ -201,11 +201,12 @@ fn write(
 
 fn tell(reproduction: &Reproduction, written: &[PathBuf], done: usize, begin: Instant) {
     say!("{} in {:.1} s", plural(done, "run"), begin.elapsed().as_secs_f64());
+    let width = if reproduction.laws_result().is_some() { 27 } else { 15 };
     for outcome in &reproduction.outcomes {
         let claim = outcome.claim;
-        say!("  {:<15} {} ({}; {})", outcome.words(), claim.sentence, claim.place, claim.id);
+        say!("  {:<width$} {} ({}; {})", reproduction.words(outcome), claim.sentence, claim.place, claim.id);
     }
-    let found = [reproduction.search_result(), reproduction.tilting_result()];
+    let found = [reproduction.search_result(), reproduction.tilting_result(), reproduction.laws_result()];
     for found in found.into_iter().flatten() {
         say!("{found}");
     }
