@@ -135,7 +135,8 @@ mod tests {
 
     /// What the program writes without a run, piece by piece.
     fn pieces() -> Vec<String> {
-        let mut all: Vec<String> = page::rules(Length::FULL, Laws::Li2023).iter().map(|words| format!("\n{words}\n")).collect();
+        let mut all: Vec<String> =
+            page::rules(Length::FULL, Laws::Li2023).iter().map(|words| format!("\n{words}\n")).collect();
         all.push(format!("```toml\n{BASE}```\n"));
         all.push(format!("\n{}\n", intro(Length::VARIANT)));
         all.push(written(&ranges()));

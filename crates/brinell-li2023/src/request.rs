@@ -95,3 +95,40 @@ impl Request {
         })
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::BASE;
+
+    #[test]
+    fn prop_cases_under_mechanics_are_sound_scenarios_without_warnings() {
+        let request = Request::new(&[], Length::QUICK, Laws::Mechanics).unwrap();
+        assert_eq!(request.points.len(), request.defaults.len());
+        for (kept, defaults) in request.points.iter().zip(&request.defaults) {
+            assert_eq!(kept.case, defaults.case);
+            let [a, b] = [kept, defaults].map(|point| {
+                let loaded = brinell::document::read(BASE, &point.task.settings).unwrap();
+                assert!(loaded.warnings.is_empty(), "{}: {:?}", point.case.id, loaded.warnings);
+                loaded.scenario
+            });
+            let laws = if kept.case.is_lumped() { Laws::Li2023 } else { Laws::Mechanics };
+            assert_eq!([a.simulation.laws, b.simulation.laws], [laws, laws], "{}", kept.case.id);
+            // What is kept is the bearing's, so the paper's cases have it too.
+            let case = Point::new(kept.case, &[], Outline::Joined, Length::QUICK).unwrap();
+            let paper = brinell::document::read(BASE, &case.task.settings).unwrap().scenario;
+            assert_eq!((a.support.clone(), a.housing.clone()), (paper.support, paper.housing));
+            assert_eq!(a.cage.guide_clearance_mm, paper.cage.guide_clearance_mm);
+            assert_eq!((a.cage.guidance, a.cage.guidance_film), (paper.cage.guidance, paper.cage.guidance_film));
+            assert_eq!((a.operation, a.defects), (paper.operation, paper.defects));
+        }
+    }
+
+    #[test]
+    fn prop_the_papers_laws_need_no_setting() {
+        let request = Request::new(&[], Length::FULL, Laws::Li2023).unwrap();
+        assert!(request.defaults.is_empty());
+        let mut settings = request.starts().flat_map(|point| &point.task.settings);
+        assert!(settings.all(|(key, _)| key != "simulation.laws"));
+    }
+}

@@ -233,7 +233,9 @@ mod tests {
         let cases = claims().flat_map(|claim| claim.cases()).collect::<std::collections::BTreeSet<_>>();
         for case in cases {
             for channel in ["outer_ax", "outer_ay", "inner_ax", "inner_ay", "cage1_ax", "cage1_ay"] {
-                numbers.insert(case, &format!("{channel}.rms"), exact(3.25));
+                for indicator in ["rms", "peak_to_peak"] {
+                    numbers.insert(case, &format!("{channel}.{indicator}"), exact(3.25));
+                }
             }
             for name in ["entry_peak", "exit_peak", "frequency"] {
                 numbers.insert(case, &format!("defect1.{name}"), exact(3.25));
@@ -246,7 +248,11 @@ mod tests {
         for sentence in &sentences {
             assert!(sentence.contains("(li2023: ") && !sentence.contains("–"), "{sentence}");
         }
-        assert!(sentences[0].contains("is along the load 1.000 (li2023: 15.62 [15.49, 15.74]) times"), "{}", sentences[0]);
+        assert!(
+            sentences[0].contains("is along the load 1.000 (li2023: 15.62 [15.49, 15.74]) times"),
+            "{}",
+            sentences[0]
+        );
         assert!(sentences[0].ends_with("it turns over and does not hold (li2023: holds)."), "{}", sentences[0]);
         assert!(Facts(&[]).sentences().is_empty());
         assert_eq!(interval("18.5 [18.3, 18.7]"), Some((18.3, 18.7)));

@@ -1,8 +1,8 @@
 //! A reproduction as files: the page, the tables of claims, and the book's chapter.
 
 use crate::curve_files::{CurveFiles, make_folder};
-use crate::reproduction::Reproduction;
 use crate::recorded::{self, Recorded};
+use crate::reproduction::Reproduction;
 use crate::{BASE, Error, beside, book, outcome, page};
 use brinell::scenario::Scenario;
 use brinell_io::atomic_write;

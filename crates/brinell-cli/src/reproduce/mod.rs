@@ -79,7 +79,9 @@ fn laws(args: &ReproduceArgs) -> Result<Laws, Failure> {
     }
     let other = [("--sensitivity", args.sensitivity), ("--model", args.model.is_some())];
     match other.into_iter().find(|(_, given)| *given) {
-        Some((option, _)) => Err(Failure::Usage(format!("{option} varies the paper's laws: leave out --laws mechanics"))),
+        Some((option, _)) => {
+            Err(Failure::Usage(format!("{option} varies the paper's laws: leave out --laws mechanics")))
+        }
         None => Ok(Laws::Mechanics),
     }
 }
