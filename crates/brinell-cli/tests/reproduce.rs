@@ -88,8 +88,8 @@ fn prop_the_start_up_is_read_and_said_with_fig_20() {
 fn prop_the_papers_laws_are_the_default_and_others_are_put_beside() {
     let folder = tempdir().unwrap();
     let run = |more: &str| {
-        let args = typed(&format!("reproduce --figure 13 --turns 3 {more}"));
-        brinell(folder.path(), &args).exits(0)
+        let line = format!("reproduce --figure 13 --turns 3 {more}");
+        brinell(folder.path(), &typed(&line)).exits(0)
     };
     run("--quiet -o a --book a/book");
     run("--quiet -o b --book b/book --laws li2023");
