@@ -62,7 +62,7 @@ impl Facts<'_> {
     /// Numbers of a statement, and those under the paper's laws: "18.5 [18.3, 18.7] (li2023: 15.6 [15.5, 15.7])".
     fn numbers(&self, id: &str, statement: &str) -> Option<String> {
         let (joined, at) = self.place(id, statement)?;
-        let [paper, own] = [&joined.paper, &joined.own].map(|all| brief(&all.statements[at].ours));
+        let [paper, own] = [joined.paper, &joined.own].map(|all| brief(&all.statements[at].ours));
         Some(format!("{own} (li2023: {paper})"))
     }
 
