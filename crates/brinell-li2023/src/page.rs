@@ -1,6 +1,6 @@
 //! The reproduction as one page.
 
-use crate::cases::RAMP_MS;
+use crate::cases::{RAMP_MS, under};
 use crate::curves::Curves;
 use crate::outcome::{self, Outcome, card, counts};
 use crate::reproduction::Reproduction;
@@ -190,5 +190,12 @@ pub(crate) fn runs(request: &Request) -> Table {
         let settings: Vec<String> = own.map(|(k, v)| format!("{k} = {v}")).collect();
         vec![point.case.id.into(), point.case.label.into(), settings.join("; "), format!("{}", point.task.duration_s)]
     });
-    Table::new("Runs", ["Case", "What", "Settings over the base scenario", "#Duration (s)"], rows, "")
+    let more = match request.laws {
+        Laws::Li2023 => String::new(),
+        laws => {
+            let all: Vec<String> = under(laws).iter().map(|(k, v)| format!("{k} = {v}")).collect();
+            format!("Every case but the reference model’s also sets {}.", all.join("; "))
+        }
+    };
+    Table::new("Runs", ["Case", "What", "Settings over the base scenario", "#Duration (s)"], rows, more)
 }

@@ -24,6 +24,7 @@ struct Facts<'a>(&'a [Joined]);
 /// Statements of two directions of the rings.
 const OUTER_X: &str = "RMS of the outer ring, x";
 const OUTER_Y: &str = "RMS of the outer ring, y";
+const LARGEST: &str = "RMS of the outer ring, x: largest at least 1.5 times the smallest";
 
 impl Facts<'_> {
     fn sentences(&self) -> Vec<String> {
@@ -46,10 +47,10 @@ impl Facts<'_> {
         self.0.iter().find(|joined| joined.claim.id == id)
     }
 
-    /// "does not hold, turned over (li2023: holds)".
+    /// "it turns over and does not hold (li2023: holds; with default values: holds in part)".
     fn verdict(&self, id: &str) -> Option<String> {
-        let joined = self.joined(id)?;
-        Some(changed(&joined.paper.verdict, &joined.own.verdict))
+        let Joined { paper, own, defaults, .. } = self.joined(id)?;
+        Some(changed(&paper.verdict, &own.verdict, &defaults.verdict))
     }
 
     /// A statement's place in its claim.
@@ -66,6 +67,12 @@ impl Facts<'_> {
         Some(format!("{own} (li2023: {paper})"))
     }
 
+    /// Those under the laws of mechanics alone.
+    fn own(&self, id: &str, statement: &str) -> Option<String> {
+        let (joined, at) = self.place(id, statement)?;
+        Some(brief(&joined.own.statements[at].ours))
+    }
+
     /// The same with the default values of the laws.
     fn defaults(&self, id: &str, statement: &str) -> Option<String> {
         let (joined, at) = self.place(id, statement)?;
@@ -74,7 +81,9 @@ impl Facts<'_> {
 
     fn statement_verdict(&self, id: &str, statement: &str) -> Option<String> {
         let (joined, at) = self.place(id, statement)?;
-        Some(changed(&joined.paper.statements[at].verdict, &joined.own.statements[at].verdict))
+        let [paper, own, defaults] =
+            [joined.paper, &joined.own, &joined.defaults].map(|all| &all.statements[at].verdict);
+        Some(changed(paper, own, defaults))
     }
 
     fn acceleration(&self) -> Option<String> {
@@ -102,9 +111,7 @@ impl Facts<'_> {
     fn size(&self) -> Option<String> {
         let (id, size) = ("reference-defect-higher", "by 0 to 10 %, as the printed 5.4 %");
         let defaults = self.defaults(id, size)?;
-        let (joined, at) = self.place(id, size)?;
-        let own = brief(&joined.own.statements[at].ours);
-        let apart = match (interval(&own), interval(&defaults)) {
+        let apart = match (interval(&self.own(id, size)?), interval(&defaults)) {
             (Some(a), Some(b)) => a.0 > b.1 || b.0 > a.1,
             _ => false,
         };
@@ -134,8 +141,8 @@ impl Facts<'_> {
         Some(format!(
             "From 3 to 4 to 5 mm of greatest width the outer ring’s RMS along the load is {}, across it {}. That the rings’ RMS rises with the width \
              (4.3): {}.",
-            self.numbers(id, OUTER_X)?,
-            self.numbers(id, OUTER_Y)?,
+            self.own(id, OUTER_X)?,
+            self.own(id, OUTER_Y)?,
             self.verdict(id)?
         ))
     }
@@ -167,9 +174,10 @@ impl Facts<'_> {
     fn speed(&self) -> Option<String> {
         let id = "speed-rings";
         Some(format!(
-            "At 1000, 2000, 3000, 4000 and 5000 r/min the outer ring’s RMS along the load is {}. That the rings’ rises and then falls (4.4): {}; that \
-             the cage’s rises: {}.",
-            self.numbers(id, OUTER_X)?,
+            "At 1000, 2000, 3000, 4000 and 5000 r/min the outer ring’s RMS along the load is {}, largest over smallest {}. That the rings’ rises and \
+             then falls (4.4): {}; that the cage’s rises: {}.",
+            self.own(id, OUTER_X)?,
+            self.numbers("speed-matters", LARGEST)?,
             self.verdict(id)?,
             self.verdict("speed-cage")?
         ))
@@ -178,9 +186,10 @@ impl Facts<'_> {
     fn load(&self) -> Option<String> {
         let id = "load-outer-x";
         Some(format!(
-            "At 500, 1000, 1500, 2000 and 2500 N the outer ring’s RMS along the load is {}. That it rises and then falls (4.4): {}; that the one across \
-             rises: {}; that the inner ring’s rise: {}; that the cage’s rise and then fall: {}.",
-            self.numbers(id, OUTER_X)?,
+            "At 500, 1000, 1500, 2000 and 2500 N the outer ring’s RMS along the load is {}, largest over smallest {}. That it rises and then falls \
+             (4.4): {}; that the one across rises: {}; that the inner ring’s rise: {}; that the cage’s rise and then fall: {}.",
+            self.own(id, OUTER_X)?,
+            self.numbers("load-matters", LARGEST)?,
             self.verdict(id)?,
             self.verdict("load-outer-y")?,
             self.verdict("load-inner")?,
@@ -208,13 +217,19 @@ fn interval(numbers: &str) -> Option<(f64, f64)> {
     Some((low.parse().ok()?, high.parse().ok()?))
 }
 
-/// A verdict and what becomes of it: "holds, as under li2023".
-fn changed(from: &str, to: &str) -> String {
-    match Change::between(from, to) {
-        Change::Same => format!("{to}, as under li2023"),
-        Change::TurnsOver => format!("it turns over and {to} (li2023: {from})"),
-        Change::Changes => format!("{to} (li2023: {from})"),
-        Change::NotDecided => format!("not decided (li2023: {from})"),
+/// A verdict and what becomes of it, and what it is with default values where that is another: "holds, as under li2023".
+fn changed(paper: &str, own: &str, defaults: &str) -> String {
+    let decided = |words: &str| words.replacen("undecided", "not decided", 1);
+    let more = match Change::between(own, defaults) {
+        Change::Same => String::new(),
+        _ if decided(own) == decided(defaults) => String::new(),
+        _ => format!("; with default values: {}", decided(defaults)),
+    };
+    let own_words = decided(own);
+    match Change::between(paper, own) {
+        Change::Same => format!("{own_words}, as under li2023{more}"),
+        Change::TurnsOver => format!("it turns over and {own_words} (li2023: {paper}{more})"),
+        Change::Changes | Change::NotDecided => format!("{own_words} (li2023: {}{more})", decided(paper)),
         Change::Missing => "not computed".into(),
     }
 }
@@ -246,7 +261,7 @@ mod tests {
         let sentences = Facts(&join(&all, &numbers)).sentences();
         assert_eq!(sentences.len(), 10);
         for sentence in &sentences {
-            assert!(sentence.contains("(li2023: ") && !sentence.contains("–"), "{sentence}");
+            assert!(sentence.contains("li2023") && !sentence.contains("–"), "{sentence}");
         }
         assert!(
             sentences[0].contains("is along the load 1.000 (li2023: 15.62 [15.49, 15.74]) times"),
@@ -257,5 +272,9 @@ mod tests {
         assert!(Facts(&[]).sentences().is_empty());
         assert_eq!(interval("18.5 [18.3, 18.7]"), Some((18.3, 18.7)));
         assert_eq!(interval("18.5"), None);
+        assert_eq!(
+            changed("holds", "undecided: in part", "fails"),
+            "not decided: in part (li2023: holds; with default values: fails)"
+        );
     }
 }
