@@ -1,12 +1,12 @@
 //! A file that appears whole or not at all.
 //!
-//! The order is: lock and empty `NAME.partial`, write, force to the disk, rename to `NAME`, force the folder to
+//! The order is: make and lock `NAME.partial`, write, force to the disk, rename to `NAME`, force the folder to
 //! the disk. After a crash at any point `NAME` is either absent, the old file, or the whole new one.
 //!
 //! The same writers make the bytes of a file in memory, where nothing of this is needed.
 
 use std::fs::{File, OpenOptions, TryLockError};
-use std::io::{self, Cursor, Seek, SeekFrom, Write};
+use std::io::{self, Cursor, ErrorKind, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 
 use crate::IoError;
@@ -41,7 +41,7 @@ enum Place {
 }
 
 impl PartialFile {
-    /// Opens `path`.partial, emptied of what a killed run may have left in it.
+    /// Makes `path`.partial, in place of what a killed run may have left.
     pub(crate) fn create(path: &Path) -> Result<Self, IoError> {
         let Some(name) = path.file_name().filter(|_| !path.is_dir()) else {
             return Err(IoError::NotAFileName { path: path.to_owned() });
@@ -50,15 +50,7 @@ impl PartialFile {
         name.push(".partial");
         let partial = path.with_file_name(name);
         let file = open_alone(&partial, path)?;
-        let empty = || match file.metadata()?.len() {
-            0 => Ok(()),
-            _ => file.set_len(0),
-        };
-        let emptied = empty();
-        let this =
-            Self { place: Place::Disk { file, partial, committed: false }, path: path.to_owned(), failed: false };
-        emptied.map_err(|e| IoError::writing(path, e))?;
-        Ok(this)
+        Ok(Self { place: Place::Disk { file, partial, committed: false }, path: path.to_owned(), failed: false })
     }
 
     /// Opens a file on the disk as [`PartialFile::create`] does, or begins one in memory.
@@ -215,23 +207,48 @@ impl Drop for PartialFile {
     }
 }
 
-/// Opens the partial file and holds its lock, so that two runs into one folder cannot mix their rows.
+/// Makes the partial file anew and holds its lock, so that two runs into one folder cannot mix their rows. Never through
+/// a link: what it names is another's file. A link to a device is opened as it is: nothing is kept there.
 fn open_alone(partial: &Path, path: &Path) -> Result<File, IoError> {
+    let failed = |e| IoError::writing(path, e);
+    if is_device(partial) {
+        return OpenOptions::new().write(true).open(partial).map_err(failed);
+    }
     loop {
-        let file = OpenOptions::new()
-            .write(true)
-            .create(true)
-            .truncate(false)
-            .open(partial)
-            .map_err(|e| IoError::writing(path, e))?;
-        if !lock(&file, path)? {
-            return Ok(file);
-        }
-        // Between our open and our lock the former owner may have renamed or removed it; then start over.
-        if is_still_at(&file, partial) {
-            return Ok(file);
+        match OpenOptions::new().write(true).create_new(true).open(partial) {
+            // Between our open and our lock another may have taken it for a killed run's; then start over.
+            Ok(file) if !lock(&file, path)? || is_still_at(&file, partial) => return Ok(file),
+            Ok(_) => {}
+            Err(error) if error.kind() == ErrorKind::AlreadyExists => clear(partial, path)?,
+            Err(error) => return Err(failed(error)),
         }
     }
+}
+
+/// Removes what a killed run left, or a link.
+///
+/// # Errors
+/// [`IoError::Busy`] where a run that goes on has it.
+fn clear(partial: &Path, path: &Path) -> Result<(), IoError> {
+    let gone = |result: io::Result<()>| match result {
+        Err(error) if error.kind() != ErrorKind::NotFound => Err(IoError::writing(path, error)),
+        _ => Ok(()),
+    };
+    if !partial.is_symlink() {
+        let left = match OpenOptions::new().write(true).open(partial) {
+            Ok(left) => left,
+            Err(error) => return gone(Err(error)),
+        };
+        // Renamed or removed meanwhile: what is there now is another's.
+        if lock(&left, path)? && !is_still_at(&left, partial) {
+            return Ok(());
+        }
+    }
+    gone(std::fs::remove_file(partial))
+}
+
+fn is_device(path: &Path) -> bool {
+    path.metadata().is_ok_and(|there| !there.is_file() && !there.is_dir())
 }
 
 /// Keeps other processes away from an open file, for as long as it is open; `path` is what they would be told is busy.
@@ -253,7 +270,7 @@ fn is_still_at(file: &File, path: &Path) -> bool {
     use std::os::unix::fs::MetadataExt;
     let id = |m: io::Result<std::fs::Metadata>| m.ok().map(|m| (m.dev(), m.ino()));
     let here = id(file.metadata());
-    here.is_some() && here == id(std::fs::metadata(path))
+    here.is_some() && here == id(std::fs::symlink_metadata(path))
 }
 
 #[cfg(not(unix))]
@@ -284,8 +301,7 @@ pub fn atomic_copy(from: impl AsRef<Path>, to: impl AsRef<Path>) -> Result<(), I
 /// Writes a small file (JSON, TOML, HTML) that appears whole or not at all, replacing one of the same name. To a device
 /// or a pipe the bytes go as they are.
 pub fn atomic_write(path: impl AsRef<Path>, bytes: impl AsRef<[u8]>) -> Result<(), IoError> {
-    let there = path.as_ref().metadata();
-    if there.is_ok_and(|m| !m.is_file() && !m.is_dir()) {
+    if is_device(path.as_ref()) {
         // A device or a pipe: a file in its place would be the end of it.
         let device = OpenOptions::new().write(true).open(path.as_ref());
         let written = device.and_then(|mut device| device.write_all(bytes.as_ref()));

@@ -84,6 +84,29 @@ fn regress_a_folder_that_cannot_be_written_is_named() {
     assert_eq!(names_in(folder.path()), ["file"]);
 }
 
+/// A link in the partial file's place goes; what it names, or would make, is nobody's to write.
+#[cfg(unix)]
+#[test]
+fn regress_a_link_as_partial_file_is_not_followed() {
+    let (folder, elsewhere) = (tempfile::tempdir().unwrap(), tempfile::tempdir().unwrap());
+    let (mine, none) = (elsewhere.path().join("mine.txt"), elsewhere.path().join("none.txt"));
+    std::fs::write(&mine, "mine").unwrap();
+    let partial = folder.path().join("summary.json.partial");
+    for target in [&mine, &none] {
+        std::os::unix::fs::symlink(target, &partial).unwrap();
+        atomic_write(folder.path().join("summary.json"), "{}").unwrap();
+        assert_eq!(std::fs::read_to_string(folder.path().join("summary.json")).unwrap(), "{}");
+        assert_eq!(names_in(folder.path()), ["summary.json"]);
+        assert!(!folder.path().join("summary.json").is_symlink());
+        assert_eq!((std::fs::read_to_string(&mine).unwrap().as_str(), none.exists()), ("mine", false));
+    }
+    // Nor is a file of two names written over by the other one.
+    std::fs::hard_link(&mine, &partial).unwrap();
+    atomic_write(folder.path().join("summary.json"), "[]").unwrap();
+    assert_eq!(std::fs::read_to_string(&mine).unwrap(), "mine");
+    assert_eq!(names_in(elsewhere.path()), ["mine.txt"]);
+}
+
 /// `/dev/full` takes the partial file's place: every write to it finds the disk full.
 #[cfg(target_os = "linux")]
 #[test]

@@ -7,7 +7,7 @@ use brinell::defect::simplify::Extent;
 use brinell::document::Loaded;
 use brinell::scenario::{self, Scenario, Shape, Surface, TableData};
 use brinell_damage::{Stroke, brush, scratch, shape_of_bytes, table_of_bytes};
-use serde_json::{Value, json};
+use serde_json::{Map, Value, json};
 
 /// A bearing that any shape of damage fits on, to read and write shapes with.
 const WIDE: &str = "[bearing]\npreset = \"NN3007\"\n[operation]\nspeed_rpm = 1800\nload_n = [300, 0]\n";
@@ -113,8 +113,12 @@ pub(crate) fn outlined(request: &Value, arrays: &Arrays) -> Answer<Value> {
             return Err(Trouble::of("\"kind\" must be \"photo\", \"svg\" or \"depth\""));
         }
     };
-    let mut options = request.get("options").cloned().unwrap_or_else(|| json!({}));
-    options["file"] = json!(name);
+    let mut options = match request.get("options") {
+        None | Some(Value::Null) => Map::new(),
+        Some(Value::Object(stated)) => stated.clone(),
+        Some(_) => return Err(Trouble::of("\"options\" must be an object")),
+    };
+    options.insert("file".into(), json!(name));
     let scenario = read(&json!({ key: options }))?;
     let read = shape_of_bytes(&scenario, bytes).map_err(Trouble::of)?;
     let (shape, notes) = (read.shape, [read.warnings, read.notes].concat());

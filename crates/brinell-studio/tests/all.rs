@@ -1,4 +1,5 @@
 //! Every test of the crate in one program.
 
+mod malformed;
 mod measured;
 mod studio;

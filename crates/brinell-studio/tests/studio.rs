@@ -7,9 +7,9 @@ use serde_json::{Value, json};
 use std::fs;
 use std::path::Path;
 
-const HEALTHY: &str = "[bearing]\npreset = \"NN3007\"\n[operation]\nspeed_rpm = 1800\nload_n = [300, 0]\n\
+pub(crate) const HEALTHY: &str = "[bearing]\npreset = \"NN3007\"\n[operation]\nspeed_rpm = 1800\nload_n = [300, 0]\n\
     [simulation]\nlaws = \"li2023\"\nduration_s = 0.06\n";
-const SPALL: &str = "[[defects]]\non = \"outer-raceway\"\ncenter_deg = 0\ndepth_um = 20\n\
+pub(crate) const SPALL: &str = "[[defects]]\non = \"outer-raceway\"\ncenter_deg = 0\ndepth_um = 20\n\
     shape = { rectangle = { length_mm = 3, width_mm = 4 } }\n";
 
 fn ask(studio: &mut Studio, json: Value) -> Message {

@@ -4,7 +4,7 @@ use crate::campaign::other_kernel;
 use crate::dataset::error::DatasetError;
 use brinell_io::{IoError, Metadata, RecordFacts, atomic_write, lock, record_facts, sha256_of};
 use serde_json::{Value, json};
-use std::fs::File;
+use std::fs::{File, OpenOptions};
 use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
@@ -269,7 +269,9 @@ impl Folder {
     /// Where somebody else holds them.
     pub(crate) fn lock(&self, part: usize) -> Result<File, DatasetError> {
         let path = self.spool(part).join("lock");
-        let file = File::create(&path).map_err(|source| IoError::Write { path: path.clone(), source })?;
+        // Not emptied: it may be a link to a file that is somebody's.
+        let file = OpenOptions::new().write(true).create(true).truncate(false).open(&path);
+        let file = file.map_err(|source| IoError::Write { path: path.clone(), source })?;
         match lock(&file, &path) {
             Ok(_) => Ok(file),
             Err(IoError::Busy { .. }) => Err(DatasetError::Refused(format!(
