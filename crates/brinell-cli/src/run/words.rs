@@ -10,6 +10,9 @@ use brinell::summary::Parts;
 use brinell_study::campaign::Spread;
 use std::path::PathBuf;
 
+/// Where it is said how far results can be trusted.
+const TRUST: &str = "  frequencies hold, levels hang on what is assumed (--spread): docs/src/trust.md";
+
 /// A few lines on what came out.
 pub(super) fn tell(parts: &Parts, elapsed: f64, spread: Option<&Spread>, written: &[PathBuf]) -> Vec<String> {
     let mut printed = Vec::new();
@@ -53,6 +56,7 @@ pub(super) fn tell(parts: &Parts, elapsed: f64, spread: Option<&Spread>, written
     for path in written {
         printed.push(format!("  wrote {}", path.display()));
     }
+    printed.push(TRUST.into());
     printed
 }
 
