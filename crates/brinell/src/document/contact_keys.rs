@@ -78,7 +78,7 @@ pub(super) fn contact<K: Keys>(k: &mut K, (laws, model, b): (Laws, ModelKind, &B
         assumed(10.0, "edges of spalls are no sharper"),
         &mut c.edge_radius_um,
     );
-    k.key_where(
+    k.key_acting_where(
         key("tables", "how exact the tables of damage are"),
         (c.law == Law::HalfSpace, HALF_SPACE),
         stated(Tables::Standard, "0.5 % of the deformation"),
