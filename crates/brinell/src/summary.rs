@@ -136,7 +136,7 @@ pub fn warnings(parts: &Parts) -> Vec<String> {
 }
 
 fn assumption(p: &Provenance) -> Value {
-    json!({ "key": p.key, "value": p.value, "unit": p.unit, "why": p.reason() })
+    json!({ "key": p.key, "value": p.value, "unit": p.unit, "why": p.reason(), "plausible": p.plausible })
 }
 
 fn frequencies(model: &Model, speed: &Speed) -> Value {
