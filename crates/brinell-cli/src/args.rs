@@ -33,7 +33,7 @@ pub(crate) struct ScenarioArgs {
     before any runs; one that fails stops no other.\n\n\
     Ctrl-C ends runs cleanly: what was computed is kept and marked partial.\n\n\
     BRINELL_KERNEL=plain|portable|avx2|avx512 in the environment chooses the instructions of the simulation's arithmetic [default: the \
-    fastest that the processor has]. They differ in round-off alone, which impacts amplify.")]
+    fastest that the processor has]. They differ in round-off alone, which a run amplifies: compare indicators, not samples.")]
 pub(crate) struct RunArgs {
     /// The scenarios (TOML); `-` reads standard input
     #[arg(required = true, value_name = "SCENARIO")]
