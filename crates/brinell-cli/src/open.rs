@@ -28,25 +28,35 @@ pub(crate) fn open(args: &OpenArgs) -> Result<ExitCode, Failure> {
     Ok(ExitCode::SUCCESS)
 }
 
-/// The page itself, or that of a folder of results.
+/// The page itself, or that of a folder of results. Never a link: whose folder it is may have it name anything, and the
+/// system starts what it is given.
 fn page_of(place: &Path) -> Result<PathBuf, Failure> {
     let there = place.metadata();
     let there = there.map_err(|error| Failure::Read(place.to_owned(), error))?;
-    if there.is_dir() {
+    let page = if there.is_dir() {
         let page = pages().map(|name| place.join(name)).find(|p| p.is_file());
-        return page.ok_or_else(|| {
+        page.ok_or_else(|| {
             let names: Vec<&str> = pages().collect();
             Failure::Usage(format!("{} holds no page of results: none of {}", place.display(), names.join(", ")))
-        });
-    }
-    let ending = place.extension().unwrap_or_default();
+        })?
+    } else {
+        place.to_owned()
+    };
+    let ending = page.extension().unwrap_or_default();
     if ending != "html" && ending != "htm" {
         return Err(Failure::Usage(format!(
             "{} is no page: expected a folder of results or an .html file",
-            place.display()
+            page.display()
         )));
     }
-    Ok(place.to_owned())
+    match page.read_link() {
+        Ok(target) => Err(Failure::Usage(format!(
+            "{} is a link, to {}; links are not opened: give the page that it names",
+            page.display(),
+            target.display()
+        ))),
+        Err(_) => Ok(page),
+    }
 }
 
 /// Hands a page to the system's opener.

@@ -69,9 +69,13 @@ fn put(text: &str) {
 
 /// Keeps what became of a text for standard output.
 pub(crate) fn note(result: Result<()>) {
+    keep(not_closed(result));
+}
+
+fn not_closed(result: Result<()>) -> Result<()> {
     match CLOSED.load(Ordering::Relaxed) {
-        true => keep(Err(std::io::Error::other("it is closed"))),
-        false => keep(result),
+        true => Err(std::io::Error::other("it is closed")),
+        false => result,
     }
 }
 
@@ -90,6 +94,15 @@ fn keep(result: Result<()>) {
 pub(crate) fn arrived() -> std::result::Result<(), String> {
     keep(std::io::stdout().flush());
     FAILED.get().map_or(Ok(()), |error| Err(error.to_string()))
+}
+
+/// Writes one line of words to standard output, for a command that goes on without end.
+///
+/// # Errors
+/// Where it did not arrive, a closed pipe not aside: what the system said.
+pub(crate) fn at_once(text: &str) -> std::result::Result<(), String> {
+    let mut out = std::io::stdout().lock();
+    not_closed(writeln!(out, "{text}").and_then(|()| out.flush())).map_err(|error| error.to_string())
 }
 
 /// Writes one line to standard error.

@@ -24,5 +24,6 @@ mod reproduce;
 mod rerun;
 mod shell;
 mod spread;
+mod studio;
 mod sweep;
 mod terminal;

@@ -233,4 +233,9 @@ fn regress_bad_input_is_reported_with_key_value_and_range() {
         .exits(0)
         .says(&["1 key to 1 target", "up to 30 runs"])
         .says(&["  sensor_ax.rms = 30.0 ~ 1.0 m/s^2\n"]);
+    let plan = brinell(folder.path(), &call(&[&plan[..], &["--json"]].concat())).exits(0).keeps_quiet();
+    let plan: serde_json::Value = serde_json::from_str(&plan.out).unwrap();
+    assert_eq!(plan["keys"][0]["key"], "operation.speed_rpm", "{plan}");
+    assert_eq!((&plan["targets"][0]["name"], &plan["targets"][0]["value"]), (&"sensor_ax.rms".into(), &30.0.into()));
+    assert_eq!((&plan["runs"], &plan["warnings"]), (&30.into(), &serde_json::json!([])));
 }

@@ -118,6 +118,16 @@ fn prop_pages_are_handed_to_the_systems_opener() {
     fs::remove_file(&note).unwrap();
     call(&["open", "o"], &bin).exits(0).says(&["opened o/report.html"]);
     assert_eq!(noted(), page.display().to_string());
+    // A link may name anything, and the system would start it.
+    fs::remove_file(&note).unwrap();
+    fs::create_dir(here.join("theirs")).unwrap();
+    std::os::unix::fs::symlink(here.join("s.toml"), here.join("theirs/report.html")).unwrap();
+    for place in ["theirs", "theirs/report.html"] {
+        call(&["open", place], &bin)
+            .exits(2)
+            .complains(&["theirs/report.html is a link, to ", "s.toml; links are not opened"]);
+    }
+    assert!(!note.exists());
     // No opener: the page's place is printed; a run is not failed by that.
     let none = here.join("none");
     fs::create_dir(&none).unwrap();

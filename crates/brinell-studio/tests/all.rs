@@ -2,4 +2,5 @@
 
 mod malformed;
 mod measured;
+mod messages;
 mod studio;

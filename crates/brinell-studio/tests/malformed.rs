@@ -5,7 +5,7 @@ use brinell_studio::Studio;
 use serde_json::{Value, json};
 
 /// One good request of each kind, on a slot that runs.
-fn good() -> Vec<Value> {
+pub(crate) fn good() -> Vec<Value> {
     let (stroke, bytes) = (json!({ "$": ["f64", 0, 6] }), json!({ "$": ["u8", 0, 48] }));
     let scenario: Value = toml::from_str(HEALTHY).unwrap();
     let verdict = json!({ "damage": [{ "name": "BPFO", "hz": 1.0 }],
@@ -32,7 +32,7 @@ fn good() -> Vec<Value> {
         json!({ "do": "brush", "grid": null, "points_mm": stroke, "width_mm": 0.8, "depth_um": 12, "raise": false }),
         json!({ "do": "save", "slot": 0, "format": "csv" }),
         json!({ "do": "listen", "name": "a.csv", "bytes": bytes }),
-        json!({ "do": "judge", "name": "a.csv", "bytes": bytes, "channel": "x", "rate_hz": 1000, "unit": "g", "of": HEALTHY,
+        json!({ "do": "judge", "name": "a.csv", "bytes": bytes, "channel": "x", "rate_hz": 12000, "unit": "g", "of": HEALTHY,
             "rpm": 1500, "from_s": 0 }),
     ]
 }

@@ -77,7 +77,7 @@ pub(crate) struct CalibrateArgs {
     /// Print the plan and what it costs; run nothing
     #[arg(long)]
     pub(crate) dry_run: bool,
-    /// Print the numbers of calibrate.json as JSON, and no words
+    /// Print the numbers of calibrate.json as JSON, and no words; with --dry-run those of the plan
     #[arg(long)]
     pub(crate) json: bool,
     /// Print nothing but errors

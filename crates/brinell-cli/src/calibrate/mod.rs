@@ -9,7 +9,7 @@ use crate::files::make_folder;
 use crate::files::{Source, stem};
 use crate::progress::Joint;
 use crate::results::{Place, Results, put};
-use crate::say::{self, complain, plural, pretty, say, short};
+use crate::say::{self, complain, plural, pretty, say, short, twelve_digits};
 use crate::stop::stop_flag;
 use crate::sweep::duration;
 pub(crate) use args::CalibrateArgs;
@@ -17,7 +17,7 @@ use brinell::simulate::Simulation;
 use brinell_report::{Study, calibration_undetermined, calibration_verdict, digits_beside, interval_text};
 use brinell_study::calibrate::search::latin_hypercube;
 use brinell_study::calibrate::{
-    CalibrateError, Key, Load, Outcome, Plan, Points, Target, Unfinished, Unfit, bounds, check_keys, middle,
+    CalibrateError, Key, Load, Outcome, Plan, Points, Settings, Target, Unfinished, Unfit, bounds, check_keys, middle,
 };
 use brinell_study::campaign::is_inside;
 use brinell_study::runner::{JOURNAL, Ledger, Task, estimate};
@@ -35,7 +35,10 @@ pub(crate) fn calibrate(args: &CalibrateArgs) -> Result<ExitCode, Failure> {
     let load: &Load<'_> = &|settings| source.load(settings, true).map_err(|failure| crate::sweep::reason(&failure));
     let points = Points { load, plan: &plan };
     if args.dry_run {
-        tell_plan(&points, &warnings, threads, None);
+        match args.json {
+            true => say::json(&plan_json(&points, &warnings, threads)),
+            false => tell_plan(&points, &warnings, threads, None),
+        }
         return Ok(ExitCode::SUCCESS);
     }
     let named = || Path::new("out").join(format!("calibrate-{}", stem(&args.scenario)));
@@ -164,17 +167,45 @@ fn tell_plan(points: &Points, warnings: &[String], threads: NonZeroUsize, ledger
         say!("  {}", format!("{} = {value} ~ {} {unit}", target.name, short(target.uncertainty, 2)).trim_end());
     }
     let budget = plan.settings.budget;
-    let sample = latin_hypercube(plan.settings.seed, plan.keys.len(), budget.min(100));
-    let tasks: Vec<Task> = sample.iter().filter_map(|p| points.task(p).ok()).collect();
-    let scale = budget as f64 / tasks.len().max(1) as f64;
-    let cost = estimate(&tasks, points, threads)
-        .map_or(String::new(), |seconds| format!(", about {}", duration(scale * seconds)));
-    let simulated = plan.middle.scenario.simulation.duration_s * budget as f64;
+    let cost = wall_s(points, threads).map_or(String::new(), |seconds| format!(", about {}", duration(seconds)));
+    let simulated = simulated_s(plan);
     say!("  up to {}: {} s simulated, {} at a time{cost}", plural(budget, "run"), short(simulated, 3), threads);
     let kept = ledger.map_or(0, |l| l.kept.len());
     if kept > 0 {
         say!("  {} in the journal, not to be run again", plural(kept, "run"));
     }
+}
+
+/// The same as JSON.
+fn plan_json(points: &Points, warnings: &[String], threads: NonZeroUsize) -> Value {
+    let plan = points.plan;
+    let mut json = plan.header();
+    let of_keys = plan.units.iter().enumerate().map(|(k, unit)| ("keys", k, *unit));
+    let of_targets = plan.target_units.iter().enumerate().map(|(k, unit)| ("targets", k, unit.as_str()));
+    for (list, k, unit) in of_keys.chain(of_targets) {
+        json[list][k]["unit"] = unit.into();
+    }
+    json["notes"] = plan.pattern.iter().flat_map(|pattern| pattern.notes.clone()).collect();
+    json["runs"] = plan.settings.budget.into();
+    json["simulated_s"] = twelve_digits(simulated_s(plan)).into();
+    json["at_a_time"] = threads.get().into();
+    json["wall_s"] = wall_s(points, threads).map(f64::ceil).into();
+    json["warnings"] = warnings.into();
+    json
+}
+
+/// What all runs simulate, s.
+fn simulated_s(plan: &Plan) -> f64 {
+    plan.middle.scenario.simulation.duration_s * plan.settings.budget as f64
+}
+
+/// What they take, s; `None` where no trial ran.
+fn wall_s(points: &Points, threads: NonZeroUsize) -> Option<f64> {
+    let Settings { seed, budget } = points.plan.settings;
+    let sample = latin_hypercube(seed, points.plan.keys.len(), budget.min(100));
+    let tasks: Vec<Task> = sample.iter().filter_map(|p| points.task(p).ok()).collect();
+    let scale = budget as f64 / tasks.len().max(1) as f64;
+    estimate(&tasks, points, threads).map(|seconds| scale * seconds)
 }
 
 /// The folder's journal is of something else.

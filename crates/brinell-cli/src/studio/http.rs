@@ -1,23 +1,49 @@
 //! As much of HTTP/1.1 as one page on this machine needs: a request and its reply, then the connection ends.
 
-use std::io::{Read, Result, Write};
+use super::limits::{BODY, BODY_TIME, FIELDS, HEAD, HEAD_TIME};
+use std::io::{ErrorKind, Read, Result, Write};
 use std::net::TcpStream;
+use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-/// Longest head of a request, bytes.
-const LONGEST_HEAD: usize = 16 << 10;
-/// Longest body, bytes: a photo, or a measured signal.
-const LONGEST_BODY: u64 = 256 << 20;
-/// Most header fields.
-const FIELDS: usize = 64;
-/// A page on this machine is not slower between two pieces.
-const PATIENCE: Duration = Duration::from_secs(10);
-/// Nor for a whole head. A browser opens connections before it needs them; they hold no place for longer.
-const HEAD_PATIENCE: Duration = Duration::from_secs(2);
+/// A stream until a moment, however its bytes are spread over the time before.
+struct Until<'a> {
+    stream: &'a TcpStream,
+    end: Instant,
+}
+
+impl<'a> Until<'a> {
+    fn new(stream: &'a TcpStream, time: Duration) -> Self {
+        Self { stream, end: Instant::now() + time }
+    }
+
+    fn left(&self) -> Result<Option<Duration>> {
+        let left = self.end.saturating_duration_since(Instant::now());
+        if left.is_zero() { Err(ErrorKind::TimedOut.into()) } else { Ok(Some(left)) }
+    }
+}
+
+impl Read for Until<'_> {
+    fn read(&mut self, bytes: &mut [u8]) -> Result<usize> {
+        self.stream.set_read_timeout(self.left()?)?;
+        self.stream.read(bytes)
+    }
+}
+
+impl Write for Until<'_> {
+    fn write(&mut self, bytes: &[u8]) -> Result<usize> {
+        self.stream.set_write_timeout(self.left()?)?;
+        self.stream.write(bytes)
+    }
+
+    fn flush(&mut self) -> Result<()> {
+        self.stream.flush()
+    }
+}
 
 /// A request whose body is not read yet.
 pub(super) struct Request {
-    pub(super) stream: TcpStream,
+    pub(super) stream: Arc<TcpStream>,
     pub(super) method: String,
     pub(super) url: String,
     pub(super) host: Option<String>,
@@ -29,14 +55,12 @@ pub(super) struct Request {
 
 impl Request {
     /// Reads the head. The inner error is the reply to one that makes no sense.
-    pub(super) fn read(mut stream: TcpStream) -> Result<std::result::Result<Self, Reply>> {
-        stream.set_read_timeout(Some(HEAD_PATIENCE))?;
-        stream.set_write_timeout(Some(PATIENCE))?;
-        let begun = Instant::now();
+    pub(super) fn read(stream: Arc<TcpStream>) -> Result<std::result::Result<Self, Reply>> {
+        let mut until = Until::new(&stream, HEAD_TIME);
         let mut bytes = Vec::new();
         let mut piece = [0; 4096];
         loop {
-            let n = stream.read(&mut piece)?;
+            let n = until.read(&mut piece)?;
             bytes.extend(&piece[..n]);
             let mut fields = [httparse::EMPTY_HEADER; FIELDS];
             let mut head = httparse::Request::new(&mut fields);
@@ -58,32 +82,34 @@ impl Request {
                     stream,
                 }));
             }
-            let late = begun.elapsed() > HEAD_PATIENCE;
-            if parsed.is_err() || n == 0 || bytes.len() > LONGEST_HEAD || late {
+            if parsed.is_err() || n == 0 || bytes.len() > HEAD {
                 let words = "this is no request that is answered here";
                 return Ok(Err(Reply::refusal(stream, "400 Bad Request", words)));
             }
         }
     }
 
-    /// Reads the body, whose length must be stated.
-    pub(super) fn body(mut self) -> Result<std::result::Result<(TcpStream, Vec<u8>), Reply>> {
-        let Some(length) = self.length else {
-            let words = "the request does not state its length";
-            return Ok(Err(Reply::refusal(self.stream, "411 Length Required", words)));
+    /// Reads the body, whose length must be stated. The error is the reply to one that is not as it should be.
+    pub(super) fn body(self) -> std::result::Result<(Arc<TcpStream>, Vec<u8>), Reply> {
+        let Self { stream, length, begun: mut body, .. } = self;
+        let Some(length) = length else {
+            return Err(Reply::refusal(stream, "411 Length Required", "the request does not state its length"));
         };
-        if length > LONGEST_BODY {
-            let words = "the request is longer than 256 MiB";
-            return Ok(Err(Reply::refusal(self.stream, "413 Content Too Large", words)));
+        if length > BODY {
+            let words = format!("the request is longer than {} MiB", BODY >> 20);
+            return Err(Reply::refusal(stream, "413 Content Too Large", &words));
         }
-        self.stream.set_read_timeout(Some(PATIENCE))?;
-        let missing = length.saturating_sub(self.begun.len() as u64);
-        (&mut self.stream).take(missing).read_to_end(&mut self.begun)?;
-        if self.begun.len() as u64 != length {
-            let words = format!("the request has {} bytes, not the {length} that it states", self.begun.len());
-            return Ok(Err(Reply::refusal(self.stream, "400 Bad Request", &words)));
+        let missing = length.saturating_sub(body.len() as u64);
+        let read = Until::new(&stream, BODY_TIME).take(missing).read_to_end(&mut body);
+        if read.is_err_and(|error| matches!(error.kind(), ErrorKind::TimedOut | ErrorKind::WouldBlock)) {
+            let words = format!("the request took longer than {} s", BODY_TIME.as_secs());
+            return Err(Reply::refusal(stream, "408 Request Timeout", &words));
         }
-        Ok(Ok((self.stream, self.begun)))
+        if body.len() as u64 != length {
+            let words = format!("the request has {} bytes, not the {length} that it states", body.len());
+            return Err(Reply::refusal(stream, "400 Bad Request", &words));
+        }
+        Ok((stream, body))
     }
 }
 
@@ -97,29 +123,30 @@ const FIELDS_OF_REPLIES: &str = "Connection: close\r\n\
 
 /// What a request gets.
 pub(super) struct Reply {
-    stream: TcpStream,
+    stream: Arc<TcpStream>,
     status: &'static str,
     kind: String,
     body: Vec<u8>,
 }
 
 impl Reply {
-    pub(super) fn of(stream: TcpStream, kind: &str, body: Vec<u8>) -> Self {
+    pub(super) fn of(stream: Arc<TcpStream>, kind: &str, body: Vec<u8>) -> Self {
         Self { stream, status: "200 OK", kind: kind.to_owned(), body }
     }
 
-    pub(super) fn refusal(stream: TcpStream, status: &'static str, words: &str) -> Self {
+    pub(super) fn refusal(stream: Arc<TcpStream>, status: &'static str, words: &str) -> Self {
         Self { status, ..Self::of(stream, "text/plain; charset=utf-8", words.into()) }
     }
 
-    pub(super) fn send(mut self) -> Result<()> {
+    pub(super) fn send(self) -> Result<()> {
         let (status, kind, length) = (self.status, &self.kind, self.body.len());
+        let mut until = Until::new(&self.stream, BODY_TIME);
         write!(
-            self.stream,
+            until,
             "HTTP/1.1 {status}\r\nContent-Type: {kind}\r\nContent-Length: {length}\r\n{FIELDS_OF_REPLIES}\r\n"
         )?;
-        self.stream.write_all(&self.body)?;
-        self.stream.flush()
+        until.write_all(&self.body)?;
+        until.flush()
     }
 }
 
@@ -135,7 +162,7 @@ mod tests {
         client.write_all(text.as_bytes()).unwrap();
         client.shutdown(Shutdown::Write).unwrap();
         let (server, _) = listener.accept().unwrap();
-        Request::read(server).unwrap()?.body().unwrap().map(|(_, body)| body)
+        Request::read(Arc::new(server)).unwrap()?.body().map(|(_, body)| body)
     }
 
     #[test]
@@ -152,7 +179,26 @@ mod tests {
         let listener = TcpListener::bind((Ipv4Addr::LOCALHOST, 0)).unwrap();
         let _idle = TcpStream::connect(listener.local_addr().unwrap()).unwrap();
         let (server, from) = (listener.accept().unwrap().0, Instant::now());
-        assert!(Request::read(server).is_err());
-        assert!(from.elapsed() < PATIENCE / 2);
+        assert!(Request::read(Arc::new(server)).is_err());
+        assert!(from.elapsed() < 5 * HEAD_TIME / 2);
+    }
+
+    /// However often a byte comes.
+    #[test]
+    fn regress_a_client_that_sends_byte_by_byte_has_no_more_time() {
+        let listener = TcpListener::bind((Ipv4Addr::LOCALHOST, 0)).unwrap();
+        let mut client = TcpStream::connect(listener.local_addr().unwrap()).unwrap();
+        let (server, _) = listener.accept().unwrap();
+        let drips = std::thread::spawn(move || {
+            while client.write_all(b"x").is_ok() {
+                std::thread::sleep(Duration::from_millis(20));
+            }
+        });
+        let mut bytes = Vec::new();
+        let read = Until::new(&server, Duration::from_millis(300)).read_to_end(&mut bytes);
+        assert!(matches!(read.unwrap_err().kind(), ErrorKind::TimedOut | ErrorKind::WouldBlock));
+        assert!(!bytes.is_empty());
+        drop(server);
+        drips.join().unwrap();
     }
 }

@@ -2,7 +2,9 @@
 
 mod answer;
 mod http;
+mod limits;
 mod pages;
+mod places;
 
 use crate::failure::Failure;
 use answer::{Door, Route};
@@ -11,10 +13,10 @@ use brinell_studio::PAGE;
 use clap::Args;
 use http::{Reply, Request};
 use pages::Pages;
+use places::{Place, Places};
 use std::net::{Ipv4Addr, TcpListener, TcpStream};
 use std::process::ExitCode;
 use std::sync::Arc;
-use std::sync::atomic::{AtomicUsize, Ordering};
 use std::thread;
 use std::time::Duration;
 
@@ -29,23 +31,10 @@ pub(crate) struct StudioArgs {
 const PORT: u16 = 7178;
 /// After a connection that the system could not give.
 const PAUSE: Duration = Duration::from_millis(50);
-/// Connections at a time: a browser opens six. More are closed.
-const MOST: usize = 32;
-
 /// What every connection shares.
 struct Shared {
     door: Door,
     pages: Pages,
-    connections: AtomicUsize,
-}
-
-/// A connection under way.
-struct Counted(Arc<Shared>);
-
-impl Drop for Counted {
-    fn drop(&mut self) {
-        self.0.connections.fetch_sub(1, Ordering::Relaxed);
-    }
 }
 
 /// Serves until the process ends.
@@ -59,24 +48,21 @@ pub(crate) fn studio(args: &StudioArgs) -> Result<ExitCode, Failure> {
     };
     let listener = listener.map_err(no_port)?;
     let port = listener.local_addr().map_err(no_port)?.port();
-    let shared =
-        Arc::new(Shared { door: Door::new(port, token()?), pages: Pages::default(), connections: AtomicUsize::new(0) });
-    crate::say::line(format_args!(
-        "The studio is at {} until Ctrl-C. Only this machine can reach it.",
-        shared.door.address()
-    ));
+    let shared = Arc::new(Shared { door: Door::new(port, token()?), pages: Pages::default() });
+    let words = format!("The studio is at {} until Ctrl-C. Only this machine can reach it.", shared.door.address());
+    // Nobody could find it otherwise.
+    crate::say::at_once(&words).map_err(Failure::Output)?;
+    let places = Arc::<Places>::default();
     loop {
-        let accepted = listener.accept();
-        let busy = shared.connections.fetch_add(1, Ordering::Relaxed) >= MOST;
-        let counted = Counted(Arc::clone(&shared));
-        match accepted {
-            // A page that went away is no failure, and one that finds no thread asks again.
-            Ok((stream, _)) if !busy => {
-                let serving = move || drop(serve(&counted.0, stream));
+        match listener.accept() {
+            // A page that went away is no failure, and one that finds no place or no thread asks again.
+            Ok((stream, _)) => {
+                let stream = Arc::new(stream);
+                let Some(place) = places.take(&stream) else { continue };
+                let shared = Arc::clone(&shared);
+                let serving = move || drop(serve(&shared, &place, stream));
                 drop(thread::Builder::new().spawn(serving));
             }
-            // Dropped: whoever holds so many open is no page.
-            Ok(_) => {}
             // No file is left for a connection, for one.
             Err(_) => thread::sleep(PAUSE),
         }
@@ -91,7 +77,7 @@ fn token() -> Result<String, Failure> {
 }
 
 /// One connection: one request and its reply.
-fn serve(shared: &Shared, stream: TcpStream) -> std::io::Result<()> {
+fn serve(shared: &Shared, place: &Place, stream: Arc<TcpStream>) -> std::io::Result<()> {
     let mut request = match Request::read(stream)? {
         Ok(request) => request,
         Err(reply) => return reply.send(),
@@ -106,12 +92,15 @@ fn serve(shared: &Shared, stream: TcpStream) -> std::io::Result<()> {
             None => Reply::refusal(request.stream, "404 Not Found", "there is no such file"),
         },
         Route::Engine { page, begins } => {
-            let (stream, body) = match request.body()? {
+            let (stream, body) = match request.body() {
                 Ok(body) => body,
                 Err(reply) => return reply.send(),
             };
             match shared.pages.engine(page, begins) {
-                Some(engine) => Reply::of(stream, "application/octet-stream", engine.ask(&body)),
+                Some(engine) => match place.work(|| engine.ask(&body)) {
+                    Some(answer) => Reply::of(stream, "application/octet-stream", answer),
+                    None => return Ok(()),
+                },
                 None => Reply::refusal(stream, "410 Gone", "the engine of this page is gone: new= begins another"),
             }
         }

@@ -1,11 +1,9 @@
 //! Which page has which engine. Each has one of its own, so no page sees another's bearings.
 
+use super::limits::PAGES;
 use brinell_studio::SharedStudio;
 use std::collections::VecDeque;
 use std::sync::{Arc, Mutex, PoisonError};
-
-/// Pages that have an engine at a time. One more gets the place of the page that has asked for nothing the longest.
-const MOST: usize = 4;
 
 /// Engines with the names of their pages, the one that was asked last at the end.
 #[derive(Debug, Default)]
@@ -21,7 +19,7 @@ impl Pages {
             None if begins => Arc::default(),
             None => return None,
         };
-        if all.len() == MOST {
+        if all.len() == PAGES {
             all.pop_front();
         }
         all.push_back((page.to_owned(), Arc::clone(&engine)));
@@ -58,6 +56,6 @@ mod tests {
         pages.engine("b", true).unwrap();
         assert!(pages.engine("c", false).is_some());
         assert!(pages.engine("e", false).is_none());
-        assert_eq!(pages.0.lock().unwrap().len(), MOST);
+        assert_eq!(pages.0.lock().unwrap().len(), PAGES);
     }
 }

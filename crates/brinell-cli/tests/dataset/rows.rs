@@ -282,6 +282,15 @@ fn prop_classes_are_counted_by_split_and_a_missing_one_is_said() {
 }
 
 #[test]
+fn regress_a_name_with_a_line_break_is_one_line_of_the_card() {
+    let folder =
+        folder_with(&PLAN.replace("\"outer\"", "\"outer\\n\\n# all | healthy\"").replace("runs = 7", "runs = 2"));
+    make(folder.path(), &["-o", "out", "-q"]).exits(0);
+    let card = fs::read_to_string(folder.path().join("out/README.md")).unwrap();
+    assert!(card.contains("\n| outer # all \\| healthy | 1 | 1 |\n"), "{card}");
+}
+
+#[test]
 fn regress_analyze_says_that_a_data_set_is_one() {
     let folder = folder_with(&PLAN.replace("runs = 7", "runs = 2"));
     make(folder.path(), &["-o", "out", "-q"]).exits(0);

@@ -32,6 +32,11 @@ fn text<'a>(value: &'a Value, key: &str) -> &'a str {
     value[key].as_str().unwrap_or("")
 }
 
+/// A name on one line: neither a table nor a heading has another.
+fn one_line(name: &str) -> String {
+    name.split_whitespace().collect::<Vec<_>>().join(" ")
+}
+
 fn list<'a>(value: &'a Value, key: &str) -> impl Iterator<Item = &'a Value> {
     value[key].as_array().into_iter().flatten()
 }
@@ -80,7 +85,7 @@ fn counts(about: &Value) -> String {
     for (k, class) in list(about, "classes").enumerate() {
         let good = |split: &Value| number(&split["runs_of_classes"][k]) - number(&split["failed_of_classes"][k]);
         let runs: String = open().map(|split| format!(" {} |", good(split))).collect();
-        let name = text(class, "name").replace('|', "\\|");
+        let name = one_line(text(class, "name")).replace('|', "\\|");
         let failed = failed(tally.0[1].get(k).copied().unwrap_or(0));
         card += &format!("| {name} | {} |{runs}{failed}\n", class["label"]);
     }
@@ -90,7 +95,7 @@ fn counts(about: &Value) -> String {
         let (name, good) = (split_name(text(split, "name")), number(&split["runs"]) - without);
         card += &format!("| {name} | {good} |{}\n", failed(without));
     }
-    let names: Vec<String> = list(about, "classes").map(|class| text(class, "name").to_owned()).collect();
+    let names: Vec<String> = list(about, "classes").map(|class| one_line(text(class, "name"))).collect();
     for words in tally.words(&names) {
         card += &format!("\n{words}.\n");
     }
@@ -125,7 +130,7 @@ fn card(about: &Value) -> String {
             let _ = writeln!(card, "    - {}", quoted(path));
         }
     }
-    let _ = write!(card, "---\n\n# {}\n\n{}\n\n", text(about, "name"), description(about));
+    let _ = write!(card, "---\n\n# {}\n\n{}\n\n", one_line(text(about, "name")), description(about));
     card += &counts(about);
     let signals: Vec<String> = list(about, "columns")
         .filter(|c| text(c, "type") == "list<float>")

@@ -32,6 +32,11 @@ impl Energy {
         self.kinetic + self.contacts + self.cage + self.supports + self.gravity
     }
 
+    /// The sum of their sizes: what round-off is a share of.
+    pub(crate) fn size(&self) -> f64 {
+        [self.kinetic, self.contacts, self.cage, self.supports, self.gravity].iter().map(|e| e.abs()).sum()
+    }
+
     /// Energy of the state `y` at `t`; `ws` must hold the evaluation at that state.
     pub fn of(model: &Model, t: f64, y: &[f64], ws: &Workspace) -> Self {
         let l = &model.layout;

@@ -169,8 +169,7 @@ pub fn of_energy(scenario: &Scenario, energy: &EnergyAudit) -> Vec<String> {
 
 /// An energy audit that does not close: the steps were too long for the motion.
 fn residual(scenario: &Scenario, energy: &EnergyAudit) -> Option<String> {
-    let share = energy.residual().abs() / energy.turnover();
-    // Where nothing moved there is no share.
+    let share = energy.relative_residual()?.abs();
     (share > RESIDUAL_SHARE).then(|| {
         let remedy = match scenario.simulation.accuracy {
             Accuracy::Standard => "raise simulation.accuracy (allowed: \"reference\")",

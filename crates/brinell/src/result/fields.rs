@@ -93,7 +93,7 @@ fields! {
     AUDITS: fn(&Outcome) -> Option<f64>;
     ENERGY_RESIDUAL "energy_residual" "J" Exact "energy that no entry of the audit explains" |o| Some(o.energy.residual());
     RELATIVE_RESIDUAL "energy_residual_over_turnover" "1" Exact "energy that no entry of the audit explains, over all that moved"
-        |o| (o.energy.turnover() > 0.0).then(|| o.energy.residual() / o.energy.turnover());
+        |o| o.energy.relative_residual();
     MOMENTUM_IMBALANCE "momentum_imbalance" "1" Extreme "largest relative imbalance of momentum, linear and angular" |o| o.momentum_imbalance;
 }
 

@@ -81,6 +81,9 @@ pub struct SolverWork {
     pub damage_switches: u64,
 }
 
+/// Share of the energy held that a sum of it is exact to: an audit of smaller flows compares round-off.
+const ROUND_OFF: f64 = 1e-9;
+
 /// The energy audit of a run, J: the change of the energy compared with everything that flowed.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct EnergyAudit {
@@ -111,6 +114,14 @@ impl EnergyAudit {
     pub fn turnover(&self) -> f64 {
         let f = &self.flows;
         f.load.abs() + f.drive.abs() + f.film.abs() + f.lever.abs() + f.dissipated() + self.parametric.abs()
+    }
+
+    /// The residual over the turnover; over the round-off of what is held, where less than that flowed. `None` where
+    /// there is no energy.
+    pub fn relative_residual(&self) -> Option<f64> {
+        let held = self.initial.size().max(self.last.size());
+        let scale = self.turnover().max(ROUND_OFF * held);
+        (scale > 0.0).then(|| self.residual() / scale)
     }
 }
 
