@@ -132,6 +132,20 @@ class Result:
         """What ``summary.json`` holds: indicators with intervals, defect frequencies, slip, load zone, audits, assumptions."""
         return self._native().summary()
 
+    def spread(self, *, jobs: int | None = None) -> dict[str, Any]:
+        """How far the levels hang on what is assumed, as ``brinell run --spread`` has it.
+
+        Every assumed value is run at both ends of its plausible range, one at a time: some 30 runs more, ``jobs`` at a time (None: one a core).
+        Intervals of `quantities` are scatter only; these bands are what nobody stated, and no confidence intervals.
+
+        Returns
+        -------
+        dict
+            ``assumed``: the keys with ``value``, ``low`` and ``high``; ``levels``: name, unit, value, the band ``low`` to ``high``, and ``by``, what each key
+            does to it, the largest first.
+        """
+        return self._native().spread(jobs)
+
     @cached_property
     def quantities(self) -> dict[str, float]:
         """Every number of the run by name (``sensor_ax.rms``), as in the tables of sweeps; NaN where there is none.

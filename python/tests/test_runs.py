@@ -219,3 +219,14 @@ def test_regress_frames(result):
     dataset = result.to_xarray()
     assert dataset.outer_x.attrs["units"] == "m" and dataset.outer_x.dims == ("t",)
     assert dataset.attrs["scenario"] == result.scenario.to_toml()
+
+
+def test_prop_the_spread_of_a_run_has_what_was_run_by_hand(base):
+    healthy = base.replace({"simulation.laws": "mechanics", "simulation.duration_s": 0.05, "defects": []})
+    spread = brinell.simulate(healthy).spread()
+    level = next(level for level in spread["levels"] if level["name"] == "sensor_ax.rms")
+    key = next(key for key in spread["assumed"] if key["key"] == "contact.damping_time_us")
+    bar = next(bar for bar in level["by"] if bar["key"] == key["key"])
+    by_hand = brinell.simulate(healthy.replace({key["key"]: key["high"]}))
+    assert by_hand.quantities["sensor_ax.rms"] == bar["at_high"]
+    assert level["low"] <= level["value"] <= level["high"]

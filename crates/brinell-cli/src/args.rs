@@ -33,7 +33,7 @@ pub(crate) struct ScenarioArgs {
     before any runs; one that fails stops no other.\n\n\
     Ctrl-C ends runs cleanly: what was computed is kept and marked partial.\n\n\
     BRINELL_KERNEL=plain|portable|avx2|avx512 in the environment chooses the instructions of the simulation's arithmetic [default: the \
-    fastest that the processor has]. They differ in round-off alone, which impacts amplify.")]
+    fastest that the processor has]. They differ in round-off alone, which a run amplifies: compare indicators, not samples.")]
 pub(crate) struct RunArgs {
     /// The scenarios (TOML); `-` reads standard input
     #[arg(required = true, value_name = "SCENARIO")]
@@ -68,6 +68,10 @@ pub(crate) struct RunArgs {
     /// Do not run the scenario without its damage as well, which the page shows in grey
     #[arg(long)]
     pub(crate) no_healthy: bool,
+    /// Also run every assumed value at both ends of its plausible range, one at a time, and say how far the levels move
+    /// by it: some 30 runs more
+    #[arg(long)]
+    pub(crate) spread: bool,
     /// Open report.html in the browser when the run is over; of one scenario
     #[arg(long, conflicts_with = "no_report")]
     pub(crate) open: bool,

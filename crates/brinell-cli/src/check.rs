@@ -159,7 +159,9 @@ fn assumptions(loaded: &Loaded, listed: bool) {
     if listed {
         say!("Assumed, because it was not given:");
         for p in &assumed {
-            say!("  {} = {} {}  ({})", p.key, rounded(&p.value), p.unit, p.reason());
+            let ends = |[low, high]: [f64; 2]| format!("; plausible {} to {}", short(low, 3), short(high, 3));
+            let plausible = p.plausible.map_or(String::new(), ends);
+            say!("  {} = {} {}  ({}{plausible})", p.key, rounded(&p.value), p.unit, p.reason());
         }
     } else {
         say!("{} values are assumed; --assumptions lists them", assumed.len());

@@ -4,6 +4,7 @@ mod healthy;
 mod line_loads;
 mod many;
 mod spectra;
+mod spread;
 mod task;
 mod words;
 

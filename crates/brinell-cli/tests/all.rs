@@ -23,6 +23,7 @@ mod outputs;
 mod reproduce;
 mod rerun;
 mod shell;
+mod spread;
 mod studio;
 mod sweep;
 mod terminal;

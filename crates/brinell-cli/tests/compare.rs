@@ -22,7 +22,7 @@ fn regress_files_and_variants_come_side_by_side() {
     brinell(folder.path(), &typed(&args))
         .exits(0)
         .says(&["simple over actual (the baseline), ratios:", "lumped over actual (the baseline), ratios:"])
-        .says(&["sensor_ax.rms: ", "(95 %: "]);
+        .says(&["sensor_ax.rms: ", "(95 %, scatter only: "]);
     let out = folder.path().join("out");
     let names = files(&out);
     let results =

@@ -85,6 +85,37 @@ fn prop_the_start_up_is_read_and_said_with_fig_20() {
 }
 
 #[test]
+fn prop_the_papers_laws_are_the_default_and_others_are_put_beside() {
+    let folder = tempdir().unwrap();
+    let run = |more: &str| {
+        let line = format!("reproduce --figure 13 --turns 3 {more}");
+        brinell(folder.path(), &typed(&line)).exits(0)
+    };
+    run("--quiet -o a --book a/book");
+    run("--quiet -o b --book b/book --laws li2023");
+    let [a, b] = ["a", "b"].map(|name| results(&folder.path().join(name)));
+    assert!(a == b, "the default is another");
+    assert!(a.iter().all(|file| !file.0.contains("laws.csv") && !file.0.contains("verdicts.json")));
+    // The same figure under other laws, in the same folder, so with the same journal.
+    let call = run("-o a --book a/book --laws mechanics --plots svg");
+    assert!(call.out.contains("4 runs: "), "{}", call.out);
+    assert!(call.out.contains("sentences that numbers decide"), "{}", call.out);
+    let claims = json(&folder.path().join("a/claims.json"));
+    assert_eq!(claims["laws"], "mechanics");
+    let table = fs::read_to_string(folder.path().join("a/laws.csv")).unwrap();
+    let lines: Vec<&str> = table.lines().filter(|line| line.contains("simplified-acceleration")).collect();
+    assert_eq!(lines.len(), 4, "{table}");
+    assert!(lines[0].contains("ratio 15.62 [15.49, 15.74]"), "{}", lines[0]);
+    let book = fs::read_to_string(folder.path().join("a/book/survives.md")).unwrap();
+    assert!(book.contains("\n1. The outer ring’s RMS with the simplified shape") && !book.contains("!["));
+    // Again: nothing is run, and nothing changes.
+    let before = results(&folder.path().join("a"));
+    let call = run("-o a --book a/book --laws mechanics --plots svg");
+    assert!(call.out.contains("0 runs in"), "{}", call.out);
+    assert!(results(&folder.path().join("a")) == before);
+}
+
+#[test]
 fn regress_what_is_refused() {
     let folder = tempdir().unwrap();
     for (args, part) in [
@@ -94,6 +125,8 @@ fn regress_what_is_refused() {
         (vec!["reproduce", "--jobs", "0"], "expected a whole number of runs at a time, 1 or more"),
         (vec!["reproduce", "--width", "90mm"], "say which with --plots"),
         (vec!["reproduce", "--figure", "9", "--sensitivity"], "cannot be used with"),
+        (vec!["reproduce", "--laws", "mechanics", "--sensitivity"], "--sensitivity varies the paper's laws"),
+        (vec!["reproduce", "--laws", "mechanics", "--model", "tilting"], "--model varies the paper's laws"),
     ] {
         let call = brinell(folder.path(), &args).exits(2);
         assert!(call.err.contains(part), "{args:?}: {}", call.err);

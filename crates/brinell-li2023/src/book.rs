@@ -2,23 +2,33 @@
 
 use crate::outcome::{Outcome, counts, not_counted, ours};
 use crate::reproduction::Reproduction;
-use brinell_report::{Study, StudyPiece, Table};
+use brinell_report::{Chapter, Study, StudyPiece, Table};
 use std::fmt::Write as _;
 use std::path::Path;
 
 /// The text. Pictures are linked as from the folder above `book`, where the file that includes this one is.
 pub(crate) fn text(study: &Study, reproduction: &Reproduction, book: &Path) -> String {
     let folder = book.file_name().map_or(String::new(), |name| format!("{}/", name.to_string_lossy()));
-    let mut text = String::from("<!-- Written by `brinell reproduce --book`; edits are lost. -->\n\n");
+    let beside = reproduction.beside.is_some();
+    let laws = if beside { " --laws mechanics" } else { "" };
+    let mut text = format!("<!-- Written by `brinell reproduce{laws} --book`; edits are lost. -->\n\n");
     let counts: Vec<String> =
         counts(&reproduction.outcomes).iter().map(|(verdict, n)| format!("{} {n}", verdict.words())).collect();
     let rest = not_counted(&reproduction.outcomes);
-    let _ = writeln!(text, "{}. Claims: {}.{rest}\n", study.subtitle, counts.join(", "));
+    let _ = match beside {
+        // Its chapter counts by itself.
+        true => writeln!(text, "{}.\n", study.subtitle),
+        false => writeln!(text, "{}. Claims: {}.{rest}\n", study.subtitle, counts.join(", ")),
+    };
     for warning in &study.warnings {
         let _ = writeln!(text, "> {warning}\n");
     }
-    for chapter in &study.chapters {
-        let _ = writeln!(text, "## {}\n", chapter.title);
+    // The chapter on other laws has no figures.
+    let shown = |chapter: &&Chapter| !beside || ["survives", "beside", "rules"].contains(&chapter.id.as_str());
+    for chapter in study.chapters.iter().filter(shown) {
+        if !chapter.title.is_empty() {
+            let _ = writeln!(text, "## {}\n", chapter.title);
+        }
         for piece in &chapter.pieces {
             match piece {
                 StudyPiece::Words(words) | StudyPiece::Note(words) => {
@@ -108,6 +118,7 @@ mod tests {
     use crate::figures::figures;
     use crate::sensitivity::{intro, ranges};
     use crate::{BASE, EXPERIMENTS, Length, Request, VARIANTS, claims, page};
+    use brinell::scenario::Laws;
     use brinell_report::Table;
 
     /// The book's chapter; `None` where the book is not beside the crate.
@@ -124,11 +135,12 @@ mod tests {
 
     /// What the program writes without a run, piece by piece.
     fn pieces() -> Vec<String> {
-        let mut all: Vec<String> = page::rules(Length::FULL).iter().map(|words| format!("\n{words}\n")).collect();
+        let mut all: Vec<String> =
+            page::rules(Length::FULL, Laws::Li2023).iter().map(|words| format!("\n{words}\n")).collect();
         all.push(format!("```toml\n{BASE}```\n"));
         all.push(format!("\n{}\n", intro(Length::VARIANT)));
         all.push(written(&ranges()));
-        all.push(written(&page::runs(&Request::new(&[], Length::FULL).unwrap())));
+        all.push(written(&page::runs(&Request::new(&[], Length::FULL, Laws::Li2023).unwrap())));
         for experiment in EXPERIMENTS.iter() {
             all.push(format!("\n## {}: {}\n\n{}\n", figures(experiment), experiment.title, experiment.words));
         }

@@ -1,14 +1,32 @@
 //! The scenarios behind the paper's figures. They are in `cases.toml`.
 
 use crate::outline::Outline;
+use brinell::scenario::Laws;
 use serde::Deserialize;
 use std::sync::LazyLock;
 
 /// The scenario that every case changes (TOML).
 pub const BASE: &str = include_str!("nn3007.toml");
 
-/// Keys of the models beside it that the lumped model has not: it knows the law `ecl` alone, and no exact geometry.
-const NOT_LUMPED: [&str; 2] = ["contact.law", "simulation.geometry"];
+/// The set of laws, which [`BASE`] names.
+const LAWS: &str = "simulation.laws";
+
+/// Keys that the lumped model has not: it knows the paper's laws, of them the law `ecl` alone, and no exact geometry.
+const NOT_LUMPED: [&str; 3] = ["contact.law", "simulation.geometry", LAWS];
+
+/// Keys of cases that the laws of mechanics have not: n = 1 is a reading of the printed stiffness, and a half-space is a
+/// line contact's.
+const NOT_MECHANICS: [&str; 1] = ["contact.exponent"];
+
+/// What the paper states, or the baseline assumes for it, and the laws of mechanics have another default for: the outer
+/// ring alone on its support, both supports' damping, and the cage with its film on the outer ring.
+const KEPT: [(&str, &str); 5] = [
+    ("housing.mass_kg", "0.0"),
+    ("support.inner_damping_ns_per_m", "500.0"),
+    ("support.outer_damping_ns_per_m", "500.0"),
+    ("cage.guidance", "outer-ring"),
+    ("cage.guide_clearance_mm", "1.0"),
+];
 
 /// One scenario: [`BASE`] with settings over it.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
@@ -28,12 +46,19 @@ pub struct Case {
 }
 
 impl Case {
+    /// Whether it is of the reference model.
+    pub(crate) fn is_lumped(&self) -> bool {
+        self.settings.contains(&("simulation.model", "lumped"))
+    }
+
     /// Everything that it sets over [`BASE`], `more` below its own, its irregular defect in a reading of Eq. (27). What
     /// its model has not is left out.
     pub fn over(&self, more: &[(String, String)], outline: Outline) -> Vec<(String, String)> {
         let mut settings = [more, &owned(&self.settings)].concat();
-        if self.settings.contains(&("simulation.model", "lumped")) {
+        if self.is_lumped() {
             settings.retain(|(key, _)| !NOT_LUMPED.contains(&key.as_str()));
+        } else if more.contains(&(LAWS.to_owned(), Laws::Mechanics.word().to_owned())) {
+            settings.retain(|(key, _)| !NOT_MECHANICS.contains(&key.as_str()));
         }
         if let Some(shape) = self.irregular_width_mm.and_then(|mm| outline.shape(mm)) {
             settings.retain(|(key, _)| key != SHAPE);
@@ -102,6 +127,19 @@ impl Length {
 pub(crate) fn owned(settings: &[(&str, &str)]) -> Vec<(String, String)> {
     let own = |(key, value): &(&str, &str)| ((*key).to_owned(), (*value).to_owned());
     settings.iter().map(own).collect()
+}
+
+/// What a set of laws sets over [`BASE`], whose set is the paper's: the laws, all else as there.
+pub(crate) fn under(laws: Laws) -> Vec<(String, String)> {
+    match laws {
+        Laws::Li2023 => vec![],
+        Laws::Mechanics => [defaults(laws), owned(&KEPT)].concat(),
+    }
+}
+
+/// The same with the set's own default values.
+pub(crate) fn defaults(laws: Laws) -> Vec<(String, String)> {
+    owned(&[(LAWS, laws.word())])
 }
 
 /// Load ramp of [`BASE`], ms: the default of the key, which it leaves out.

@@ -5,7 +5,7 @@ use crate::curve_kind::CurveKind;
 use crate::curves::Curves;
 use crate::points::scenario;
 use crate::{Case, Experiment, Numbers, Outline, RMS, case};
-use brinell::scenario::Scenario;
+use brinell::scenario::{Laws, Scenario};
 use brinell::signal::Estimate;
 use brinell_report::short;
 use brinell_report::{
@@ -59,6 +59,7 @@ pub(crate) fn figures(experiment: &Experiment) -> String {
 /// An experiment's chapter.
 pub(crate) fn chapter(
     experiment: &Experiment,
+    laws: Laws,
     numbers: &Numbers,
     curves: impl Fn(&str) -> Option<Curves>,
     plan: &dyn Fn(&Scenario) -> Option<DamageView>,
@@ -70,7 +71,11 @@ pub(crate) fn chapter(
     let mut drawn = Drawn {
         names: cases.iter().map(|case| case.label.to_owned()).collect(),
         curves: cases.iter().map(|case| curves(case.id)).collect(),
-        pieces: vec![StudyPiece::Words(experiment.words.into())],
+        // They tell of the paper's laws.
+        pieces: match laws {
+            Laws::Li2023 => vec![StudyPiece::Words(experiment.words.into())],
+            Laws::Mechanics => vec![],
+        },
     };
     drawn.figures(first, &cases, plan);
     if first == 20 {
@@ -99,7 +104,7 @@ pub(crate) fn chapter(
     }
     pieces.push(StudyPiece::Table(table(&cases, numbers)));
     if !starts.is_empty() {
-        pieces.push(StudyPiece::Table(start_table(&starts, numbers)));
+        pieces.push(StudyPiece::Table(start_table(&starts, laws, numbers)));
     }
     let short = figures(experiment);
     Chapter::new(&format!("fig{first:02}"), &short, &format!("{short}: {}", experiment.title), pieces)
@@ -344,7 +349,7 @@ fn table(cases: &[&Case], numbers: &Numbers) -> Table {
 }
 
 /// Cases from t = 0 on.
-fn start_table(cases: &[&Case], numbers: &Numbers) -> Table {
+fn start_table(cases: &[&Case], laws: Laws, numbers: &Numbers) -> Table {
     let columns = [
         ("0 to 0.285 s, filtered", "sensor_ax.first_285ms.rms"),
         ("0 to 0.3 s, filtered", "sensor_ax.first_300ms.rms"),
@@ -358,13 +363,17 @@ fn start_table(cases: &[&Case], numbers: &Numbers) -> Table {
     };
     let heads = columns.iter().map(|(head, _)| format!("#{head}"));
     let [irregular, simplified, reference] = RMS;
+    let first = match laws {
+        Laws::Li2023 => "printed stiffness with n = 1 and a load ramp of 8 ms, chosen knowing these figures",
+        Laws::Mechanics => "a load ramp of 8 ms; those of the reference model have n = 1 too",
+    };
     Table::new(
         "With the start-up: RMS of the outer ring, x (m/s²)",
         ["Case".to_owned()].into_iter().chain(heads),
         cases.iter().map(row),
         format!(
             "The paper prints {irregular} (full model, irregular), {simplified} (full model, simplified) and {reference} (reference model, \
-             simplified). The first five: printed stiffness with n = 1 and a load ramp of 8 ms, chosen knowing these figures. The others: \
+             simplified). The first five: {first}. The others: \
              nothing changed but that the load is on at once. One start a record: no intervals."
         ),
     )

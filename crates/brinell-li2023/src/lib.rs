@@ -7,6 +7,7 @@
 #![cfg_attr(not(test), deny(clippy::print_stdout, clippy::print_stderr))]
 
 mod believe;
+mod beside;
 mod book;
 mod cases;
 mod claim;
@@ -25,11 +26,13 @@ mod points;
 mod ranges;
 mod reading;
 mod record;
+mod recorded;
 mod reproduction;
 mod request;
 mod runs;
 mod search;
 mod sensitivity;
+mod survives;
 mod variants;
 mod verdict;
 mod written;

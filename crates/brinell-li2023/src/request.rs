@@ -1,9 +1,10 @@
 //! What is to be reproduced: figures of the paper, and the runs that decide what is said of them.
 
-use crate::cases::{about_start, start};
+use crate::cases::{about_start, defaults, start, under};
 use crate::models::OtherRuns;
 use crate::sensitivity::Plan;
 use crate::{Case, EXPERIMENTS, Error, Experiment, Length, Outline, Point, case};
+use brinell::scenario::Laws;
 
 /// What is to be reproduced.
 pub struct Request {
@@ -12,7 +13,11 @@ pub struct Request {
     pub(crate) points: Vec<Point>,
     /// The same from further starts.
     pub(crate) repeats: Vec<Point>,
+    /// The same with the default values of other laws than the paper's, once.
+    pub(crate) defaults: Vec<Point>,
     pub(crate) length: Length,
+    /// Those that every case is made under, but for the lumped model, which knows the paper's alone.
+    pub(crate) laws: Laws,
     /// Whether it is all of section 4.
     pub(crate) whole: bool,
     pub(crate) plan: Option<Plan>,
@@ -20,12 +25,12 @@ pub struct Request {
 }
 
 impl Request {
-    /// Some figures of the paper, or all where `figures` is empty; runs last `length`. Full runs are made from several
-    /// starts.
+    /// Some figures of the paper, or all where `figures` is empty, under a set of laws; runs last `length`. Full runs are
+    /// made from several starts.
     ///
     /// # Errors
     /// Where a case is no scenario.
-    pub fn new(figures: &[u32], length: Length) -> Result<Self, Error> {
+    pub fn new(figures: &[u32], length: Length, laws: Laws) -> Result<Self, Error> {
         let wanted = |e: &&Experiment| figures.is_empty() || e.figures.iter().any(|f| figures.contains(f));
         let experiments: Vec<&Experiment> = EXPERIMENTS.iter().filter(wanted).collect();
         let mut cases: Vec<&'static Case> = Vec::new();
@@ -35,18 +40,25 @@ impl Request {
                 _ => {}
             }
         }
-        let points = cases.iter().map(|case| Point::new(case, &[], Outline::Joined, length));
+        // The lumped model is the paper's, and has its laws.
+        let laws_of = |case: &Case| if case.is_lumped() { Laws::Li2023 } else { laws };
+        let point = |case: &'static Case, more: &[(String, String)]| Point::new(case, more, Outline::Joined, length);
+        let points = cases.iter().map(|case| point(case, &under(laws_of(case))));
         let steady = cases.iter().filter(|case| !about_start(case));
         let repeats = steady.flat_map(|case| {
             let further = 1..length.starts();
-            further.map(move |k| Point::new(case, &start(k), Outline::Joined, length))
+            further.map(move |k| point(case, &[under(laws_of(case)), start(k)].concat()))
         });
+        let others = if laws == Laws::Li2023 { &[] } else { cases.as_slice() };
+        let defaults = others.iter().map(|case| point(case, &defaults(laws_of(case))));
         Ok(Self {
             whole: figures.is_empty(),
             points: points.collect::<Result<_, Error>>()?,
             repeats: repeats.collect::<Result<_, Error>>()?,
+            defaults: defaults.collect::<Result<_, Error>>()?,
             experiments,
             length,
+            laws,
             plan: None,
             models: None,
         })
@@ -81,5 +93,42 @@ impl Request {
             let mut experiments = self.experiments.iter().filter(has_curves);
             experiments.any(|e| e.cases.contains(&p.case.id))
         })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::BASE;
+
+    #[test]
+    fn prop_cases_under_mechanics_are_sound_scenarios_without_warnings() {
+        let request = Request::new(&[], Length::QUICK, Laws::Mechanics).unwrap();
+        assert_eq!(request.points.len(), request.defaults.len());
+        for (kept, defaults) in request.points.iter().zip(&request.defaults) {
+            assert_eq!(kept.case, defaults.case);
+            let [a, b] = [kept, defaults].map(|point| {
+                let loaded = brinell::document::read(BASE, &point.task.settings).unwrap();
+                assert!(loaded.warnings.is_empty(), "{}: {:?}", point.case.id, loaded.warnings);
+                loaded.scenario
+            });
+            let laws = if kept.case.is_lumped() { Laws::Li2023 } else { Laws::Mechanics };
+            assert_eq!([a.simulation.laws, b.simulation.laws], [laws, laws], "{}", kept.case.id);
+            // What is kept is the bearing's, so the paper's cases have it too.
+            let case = Point::new(kept.case, &[], Outline::Joined, Length::QUICK).unwrap();
+            let paper = brinell::document::read(BASE, &case.task.settings).unwrap().scenario;
+            assert_eq!((a.support.clone(), a.housing.clone()), (paper.support, paper.housing));
+            assert_eq!(a.cage.guide_clearance_mm, paper.cage.guide_clearance_mm);
+            assert_eq!((a.cage.guidance, a.cage.guidance_film), (paper.cage.guidance, paper.cage.guidance_film));
+            assert_eq!((a.operation, a.defects), (paper.operation, paper.defects));
+        }
+    }
+
+    #[test]
+    fn prop_the_papers_laws_need_no_setting() {
+        let request = Request::new(&[], Length::FULL, Laws::Li2023).unwrap();
+        assert!(request.defaults.is_empty());
+        let mut settings = request.starts().flat_map(|point| &point.task.settings);
+        assert!(settings.all(|(key, _)| key != "simulation.laws"));
     }
 }

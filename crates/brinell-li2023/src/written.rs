@@ -1,8 +1,9 @@
 //! A reproduction as files: the page, the tables of claims, and the book's chapter.
 
 use crate::curve_files::{CurveFiles, make_folder};
+use crate::recorded::{self, Recorded};
 use crate::reproduction::Reproduction;
-use crate::{BASE, Error, book, outcome, page};
+use crate::{BASE, Error, beside, book, outcome, page};
 use brinell::scenario::Scenario;
 use brinell_io::atomic_write;
 use brinell_report::{DamageView, Picture, Study};
@@ -19,7 +20,8 @@ impl Reproduction {
         page::study(self, curves, plan)
     }
 
-    /// Writes `claims.csv`, `claims.json` and, with other models, `models.csv` into a folder, which exists.
+    /// Writes `claims.csv`, `claims.json` and, with other models, `models.csv`, under other laws, `laws.csv`, into a
+    /// folder, which exists.
     ///
     /// # Errors
     /// Where a file cannot be written.
@@ -31,21 +33,35 @@ impl Reproduction {
         if let Some(sensitivity) = &self.sensitivity {
             header["sensitivity"] = sensitivity.json();
         }
+        if self.beside.is_some() {
+            header["laws"] = json!(self.request.laws.word());
+        }
         let mut written = outcome::write(&self.outcomes, &header, folder)?;
         if let Some(models) = &self.models {
             written.push(models.write(folder)?);
         }
+        if let Some(all) = &self.beside {
+            written.push(beside::write(all, folder)?);
+        }
         Ok(written)
     }
 
-    /// Writes `reproduction.md`, the book's chapter, and its pictures into the folder `book`.
+    /// Writes into the folder `book` the book's chapter: `reproduction.md` with its pictures and, of the whole, the
+    /// verdicts as they are kept, `verdicts.json`; under other laws than the paper's `survives.md`.
     ///
     /// # Errors
     /// Where the folder cannot be made or a file cannot be written.
     pub fn write_book(&self, study: &Study, pictures: &[Picture], book: &Path) -> Result<Vec<PathBuf>, Error> {
         make_folder(book)?;
         let text = book::text(study, self, book);
+        if self.beside.is_some() {
+            return Ok(vec![put(book, "survives.md", &text)?]);
+        }
         let mut written = vec![put(book, "reproduction.md", &text)?];
+        if self.request.whole {
+            let all: Vec<Recorded> = self.outcomes.iter().map(Recorded::of).collect();
+            written.push(put(book, "verdicts.json", &recorded::text(&all))?);
+        }
         for picture in pictures {
             written.push(put(book, &format!("{}.svg", picture.name), &picture.svg())?);
         }

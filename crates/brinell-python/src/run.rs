@@ -4,9 +4,10 @@ use crate::bad_value::bad_value;
 use crate::convert::{array, json_to_python};
 use crate::errors::run_error;
 use crate::scenario::Scenario;
-use crate::wait::{PATIENCE, over_threads};
+use crate::wait::{PATIENCE, over_threads, threads};
 use brinell::Error;
 use brinell::channel::{Frame, stiffness_unit};
+use brinell::document::on_one_line;
 use brinell::many::go_on;
 use brinell::observe::passes::{Event, Passes};
 use brinell::plausibility::{self, Beforehand};
@@ -14,12 +15,13 @@ use brinell::result::{self, RunResult};
 use brinell::simulate::{End, Observer, Signals, Simulation, SolverWork};
 use brinell::summary::{self, Parts};
 use brinell_report::{Report, html};
-use brinell_study::campaign::{BALANCED, Misses, count, of_results};
+use brinell_study::campaign::{BALANCED, Misses, assumed, count, of_results, run_spread};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
-use serde_json::json;
+use serde_json::{Value, json};
 use std::ops::ControlFlow;
 use std::sync::OnceLock;
+use std::sync::atomic::AtomicBool;
 use std::time::Instant;
 
 /// Keeps every row, and every entry and exit, of which a run's findings keep the latest; asks now and then whether to
@@ -274,6 +276,28 @@ impl Run {
             (q.name, q.unit, q.value, ends.map(|i| i.0), ends.map(|i| i.1))
         })
         .collect()
+    }
+
+    /// What `summary.json` holds under `spread`: the assumed values at both ends of their plausible ranges, `jobs` runs at a time.
+    #[pyo3(signature = (jobs=None))]
+    fn spread<'py>(&self, py: Python<'py>, jobs: Option<isize>) -> PyResult<Bound<'py, PyAny>> {
+        if self.finished.outcome.end != End::Complete {
+            return Err(bad_value("the run did not come to its end, and its levels are those of a part"));
+        }
+        let (scenario, base) = (self.scenario.get(), self.finished.quantities());
+        let keys = assumed(&scenario.loaded.provenance);
+        let threads = threads(jobs, 2 * keys.len())?;
+        let load = |key: &str, value: f64| {
+            let read = scenario.source.with(&[(key.to_owned(), value.to_string())]).load();
+            read.map(|(loaded, _)| loaded.scenario).map_err(|problems| on_one_line(&problems))
+        };
+        let mut found = None;
+        let run = |_, stop: &AtomicBool| run_spread(keys.clone(), &base, load, threads, stop);
+        over_threads(py, 1, None, run, |_, _, spread| {
+            found = spread;
+            Ok(())
+        })?;
+        json_to_python(py, &found.map_or(Value::Null, |spread| spread.to_json()))
     }
 
     /// Averaged spectrum of the sensor acceleration: channel, distance of bins (Hz), amplitudes, densities. None of a

@@ -13,6 +13,7 @@ use crate::slip::SlipRow;
 use crate::spectrogram::Spectrogram;
 use brinell::document::Provenance;
 use brinell::observe::passes::PassPoint;
+use brinell_study::campaign::Level;
 
 /// Where the values of a curve are.
 #[derive(Clone, Debug, PartialEq)]
@@ -111,6 +112,8 @@ pub struct Report {
     pub solver_work: Vec<Fact>,
     /// What was given and what was assumed.
     pub assumptions: Vec<Provenance>,
+    /// The sensor's levels and what defects show, with what assumed values do to them, where that was run.
+    pub spread: Option<Vec<Level>>,
     /// The scenario, complete.
     pub scenario_toml: String,
 }

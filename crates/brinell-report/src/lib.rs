@@ -49,6 +49,7 @@ mod sheet;
 mod side_by_side;
 mod slip;
 mod spectrogram;
+mod spread;
 mod study;
 mod sweep;
 mod tables;

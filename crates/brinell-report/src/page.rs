@@ -39,6 +39,7 @@ pub fn html(report: &Report) -> String {
         ("orbit", "Orbit", "Cage orbit", crate::sections::orbit),
         ("indicators", "Indicators", "Indicators", indicators),
         ("slip", "Slip", "Slip", crate::sections::slip),
+        ("spread", "Spread", "What assumed values do to the levels", crate::spread::spread),
         ("assumptions", "Assumptions", "Assumptions", assumptions),
         ("audits", "Audits", "Appendix: audits", |page, r| fact_table(page, &r.audits, "No audit was made.")),
         ("work", "Solver", "Appendix: solver work", |page, r| {
@@ -48,6 +49,9 @@ pub fn html(report: &Report) -> String {
     ];
     if report.envelope_orders.amplitude.is_empty() {
         sections.retain(|(id, ..)| *id != "orders");
+    }
+    if report.spread.is_none() {
+        sections.retain(|(id, ..)| *id != "spread");
     }
     if !report.sensor.is_there() {
         sections.retain(|(id, ..)| *id != "sensor");

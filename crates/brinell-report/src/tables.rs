@@ -162,7 +162,8 @@ pub(crate) fn assumptions(page: &mut String, report: &Report) {
     let estimated = report.assumptions.iter().filter(|a| a.assumed).count();
     let _ = writeln!(
         page,
-        "<p>{estimated} of {} values were assumed or estimated; the others were stated by the source named.</p>",
+        "<p>{estimated} of {} values were assumed or estimated; the others were stated by the source named. What the assumed ones do to the levels: \
+         <code>brinell run --spread</code>; how far to trust a number: <code>docs/src/trust.md</code>.</p>",
         report.assumptions.len()
     );
     let part = |estimated: bool| report.assumptions.iter().filter(move |a| a.assumed == estimated);

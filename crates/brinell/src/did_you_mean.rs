@@ -76,6 +76,8 @@ pub(crate) fn left_out(word: &str) -> Option<&'static str> {
         Some("a preload is a negative clearance, such as bearing.radial_clearance_um = -2; an axial one is left out")
     } else if (has("axial") && (has("load") || has("force"))) || has("thrust") {
         Some("axial load is left out: the load is radial, and no part moves along the axis")
+    } else if word == "sliced" || word == "strips" {
+        Some("the laws by slices and strips are gone: \"half-space\" has damage of part of the width, too")
     } else if has("edge_reaction") || has("conservative") {
         Some(
             "damage pushes with a reaction on every body under contact.law = \"half-space\", and under \"ecl\" not at all",

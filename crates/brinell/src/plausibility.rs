@@ -132,7 +132,7 @@ fn weight_left_out(scenario: &Scenario, model: &Model) -> Option<Problem> {
                 100.0 * weight / load,
                 short(load)
             ),
-            "[0.0, -9.81] for a horizontal shaft",
+            "[0.0, -9.81] m/s^2 for a horizontal shaft",
         )
     })
 }

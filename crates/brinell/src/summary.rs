@@ -136,7 +136,7 @@ pub fn warnings(parts: &Parts) -> Vec<String> {
 }
 
 fn assumption(p: &Provenance) -> Value {
-    json!({ "key": p.key, "value": p.value, "unit": p.unit, "why": p.reason() })
+    json!({ "key": p.key, "value": p.value, "unit": p.unit, "why": p.reason(), "plausible": p.plausible })
 }
 
 fn frequencies(model: &Model, speed: &Speed) -> Value {
@@ -213,7 +213,7 @@ fn indicators(findings: &Findings) -> Value {
         entry[channel.kind.name()] = values.into();
     }
     json!({
-        "meaning": "value, and low to high, its 95 % interval, of averages over whole revolutions of the inner ring; peaks are those of a revolution, record_* those of the whole record",
+        "meaning": "value, and low to high, its 95 % interval, scatter only: what is assumed is not in it; of averages over whole revolutions of the inner ring; peaks are those of a revolution, record_* those of the whole record",
         "revolutions": (fields::ANALYSED_TURNS.of)(findings) as u64,
         "channels": channels,
     })

@@ -7,6 +7,10 @@ use brinell::scenario::{DefectTable, Scenario, TableData};
 /// The base under a half-space with a table whose contact sinks by up to 60 % within `half` mm of its middle and is known to `most` um,
 /// out to `end` mm.
 fn tabled(half: f64, end: f64, most: f64, settings: &[(&str, &str)]) -> Vec<String> {
+    warnings(&with_table([half, end, most], settings))
+}
+
+fn with_table([half, end, most]: [f64; 3], settings: &[(&str, &str)]) -> Scenario {
     let mut loaded = rectangle_with(&[&[("simulation.laws", "mechanics")], settings].concat());
     let s_mm: Vec<f64> = (-40..=40).map(|k| f64::from(k) * end / 40.0).collect();
     let delta_um: Vec<f64> = (0..=12).map(|k| f64::from(k) / 12.0 * most).collect();
@@ -15,7 +19,7 @@ fn tabled(half: f64, end: f64, most: f64, settings: &[(&str, &str)]) -> Vec<Stri
         s_mm.iter().flat_map(|s| delta_um.iter().map(|delta| delta * (1.0 - 0.6 * inside(*s)))).collect();
     loaded.scenario.defects[0].table = Some(DefectTable::Read(TableData { s_mm, delta_um, delta_eff_um }));
     assert_eq!(loaded.scenario.problems(), []);
-    warnings(&loaded.scenario)
+    loaded.scenario
 }
 
 #[test]
@@ -31,22 +35,32 @@ fn prop_the_table_of_this_damage_and_load_earns_no_word() {
 #[test]
 fn regress_a_table_of_other_damage_load_or_units_is_said() {
     let cases = [
-        // Of damage 0.8 mm and 8 mm long, and in metres.
+        // Of damage 0.8 mm and 8 mm long.
         (0.4, 1.0, 20.0, "it ends at s = -1.00 and 1.00 mm, and the damage's shape lies at s = -1.50 to 1.50 mm"),
         (4.0, 5.0, 20.0, "from which contacts reach"),
-        (1.6e-3, 2.5e-3, 20.0, "look at their unit"),
         (0.5, 2.5, 20.0, "alone, and the damage's shape lies at s = -1.50 to 1.50 mm"),
         // 60 % of 60 um.
         (1.6, 2.5, 60.0, "by 35.4 um more than a healthy one, and the damage is 20.0 um deep"),
-        // Of a load of a hundredth; in mm; in nm.
+        // Of a load of a hundredth; in nm.
         (1.6, 2.5, 0.3, "its delta_um end at 0.300, and the heaviest contact deforms by"),
-        (1.6, 2.5, 0.02, "beyond its end the table is straight"),
         (1.6, 2.5, 20e3, "its delta_um begin with"),
     ];
     for (half, end, most, words) in cases {
         let said = tabled(half, end, most, &[]);
         assert!(said.iter().all(|w| w.contains("defects.0.table")), "{said:#?}");
         assert!(said.iter().any(|w| w.contains(words)), "{words}: {said:#?}");
+    }
+}
+
+/// Metres in place of millimetres, millimetres in place of micrometres: no table of this damage.
+#[test]
+fn regress_a_table_in_other_units_is_refused() {
+    for (sizes, words) in [
+        ([1.6e-3, 2.5e-3, 20.0], "its s_mm go over 5.000e-3 mm"),
+        ([1.6, 2.5, 0.02], "its delta_um end at 2.000e-2 um"),
+    ] {
+        let error = brinell::simulate(&with_table(sizes, &[])).unwrap_err().to_string();
+        assert!(error.contains("defects.0.table") && error.contains(words), "{error}");
     }
 }
 

@@ -2,6 +2,7 @@
 
 mod args;
 mod sides;
+mod spread;
 
 use crate::failure::Failure;
 use crate::files::{make_folder, safe_name, stem};
@@ -15,41 +16,45 @@ use brinell::simulate::Simulation;
 use brinell::{Error, RunResult};
 use brinell_io::{Metadata, atomic_prepare, keys};
 use brinell_report::Study;
-use brinell_study::campaign::{self, Compared, Side, run_all, sides_json, sides_scenarios, sides_table};
+use brinell_study::campaign::{self, Compared, Level, Side, run_all, sides_json, sides_scenarios, sides_table};
 use brinell_study::listener::RunListener;
 use serde_json::Value;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
+use std::sync::atomic::AtomicBool;
 use std::sync::{Mutex, PoisonError};
 
 const CSV: &str = "compare.csv";
 const PARQUET: &str = "compare.parquet";
 const PAGE: &str = "compare.html";
+const NOTHING_WRITTEN: &str = "interrupted: nothing is written; the same command begins anew";
 /// Folder of the scenarios.
 const SCENARIOS: &str = "scenarios";
 
 pub(crate) fn compare(args: &CompareArgs) -> Result<ExitCode, Failure> {
     let layout = args.print.layout(&args.plots)?;
     let mut inputs = Inputs::default();
-    let sides = sides::read(args, &mut inputs)?;
-    for side in &sides {
+    let read = sides::read(args, &mut inputs)?;
+    let sides = &read.sides;
+    for side in sides {
         Simulation::planned(&side.loaded.scenario)?;
     }
-    let beforehand = brinell_report::beforehand(&sides);
+    let beforehand = brinell_report::beforehand(sides);
     if !args.quiet {
         beforehand.iter().for_each(|warning| complain!("{warning}"));
     }
     let named = || Path::new("out").join(format!("compare-{}", stem(&args.scenarios[0])));
     let folder = args.output.clone().unwrap_or_else(named);
-    let scenarios = scenario_files(&sides, &folder);
-    let earlier = earlier(args, &sides, &folder, &inputs)?;
+    let scenarios = scenario_files(sides, &folder);
+    let earlier = earlier(args, sides, &folder, &inputs)?;
     make_folder(&folder.join(SCENARIOS))?;
     // Before the runs: a folder that takes no files is reported now.
     let mut ready = Vec::new();
-    for (path, side) in scenarios.iter().zip(&sides) {
+    for (path, side) in scenarios.iter().zip(sides) {
         ready.push(atomic_prepare(path, side.loaded.to_toml())?);
     }
-    let Some(runs) = run(args, &sides)? else {
+    let stop = stop_flag()?;
+    let Some(runs) = run(args, sides, &stop) else {
         // Results of nothing.
         drop(ready);
         let _ = std::fs::remove_dir(folder.join(SCENARIOS));
@@ -57,11 +62,22 @@ pub(crate) fn compare(args: &CompareArgs) -> Result<ExitCode, Failure> {
     };
     let all: Vec<&RunResult> = runs.iter().collect();
     let compared = campaign::compare(&all);
-    let doubts = brinell_report::doubts(&sides, &all);
+    let survives = match args.spread {
+        true => spread::of(args, &read, &all, &stop),
+        false => Some(Vec::new()),
+    };
+    let Some(survives) = survives else {
+        complain!("{NOTHING_WRITTEN}");
+        return Ok(ExitCode::FAILURE);
+    };
+    let doubts = brinell_report::doubts(sides, &all);
     let warnings = [&beforehand[..], &doubts].concat();
-    let json = (COMPARISON, sides_json(&sides, &compared, &warnings));
-    let report = Study::of_runs(&sides, &all, &compared, warnings);
-    let table = sides_table(&sides, &compared);
+    let mut json = (COMPARISON, sides_json(sides, &compared, &warnings));
+    if args.spread {
+        json.1["spread"] = spread::json(sides, &survives);
+    }
+    let report = Study::of_runs(sides, &all, &compared, warnings);
+    let table = sides_table(sides, &compared);
     ready.push(table.prepare_csv(folder.join(CSV))?);
     let metadata = Metadata::default().with(keys::VERSION, brinell::VERSION);
     ready.push(table.prepare_parquet(folder.join(PARQUET), &metadata)?);
@@ -76,7 +92,7 @@ pub(crate) fn compare(args: &CompareArgs) -> Result<ExitCode, Failure> {
     }
     if !args.quiet {
         doubts.iter().for_each(|warning| complain!("{warning}"));
-        tell(&sides, &compared);
+        tell(sides, &compared, &survives);
         say::wrote(&written);
     }
     Ok(ExitCode::SUCCESS)
@@ -98,14 +114,13 @@ fn earlier(args: &CompareArgs, sides: &[Side], folder: &Path, inputs: &Inputs) -
 }
 
 /// All runs, or `None` with the errors printed.
-fn run(args: &CompareArgs, sides: &[Side]) -> Result<Option<Vec<RunResult>>, Failure> {
-    let stop = stop_flag()?;
+fn run(args: &CompareArgs, sides: &[Side], stop: &AtomicBool) -> Option<Vec<RunResult>> {
     let scenario = |side: &Side| side.loaded.scenario.clone();
     let list: Vec<_> = sides.iter().map(scenario).collect();
     let threads = brinell::many::threads(list.len());
     let duration = |side: &Side| side.loaded.scenario.simulation.duration_s;
     let joint = Joint::new(list.len(), sides.iter().map(duration).sum(), args.quiet);
-    let parts: Vec<_> = sides.iter().map(|side| Mutex::new(joint.part(duration(side), &stop))).collect();
+    let parts: Vec<_> = sides.iter().map(|side| Mutex::new(joint.part(duration(side), stop))).collect();
     let results = run_all(&list, args.jobs.unwrap_or(threads), |k, t| {
         parts[k].lock().unwrap_or_else(PoisonError::into_inner).at(t)
     });
@@ -120,13 +135,13 @@ fn run(args: &CompareArgs, sides: &[Side]) -> Result<Option<Vec<RunResult>>, Fai
         }
     }
     if stopped {
-        complain!("interrupted: nothing is written; the same command begins anew");
+        complain!("{NOTHING_WRITTEN}");
     }
-    Ok((runs.len() == sides.len()).then_some(runs))
+    (runs.len() == sides.len()).then_some(runs)
 }
 
 /// What matters most of the comparison.
-fn tell(sides: &[Side], compared: &[Compared]) {
+fn tell(sides: &[Side], compared: &[Compared], survives: &[Vec<Level>]) {
     let headline = brinell_report::compared_headline(sides, compared);
     for (k, side) in sides.iter().enumerate().skip(1) {
         if headline.iter().all(|one| one.ratios[k].is_none()) {
@@ -139,10 +154,11 @@ fn tell(sides: &[Side], compared: &[Compared]) {
                 continue;
             };
             let over = one.over[k].map_or(String::new(), |(of, to)| format!(" ({of} over {to})"));
-            let interval = ratio
-                .interval
-                .map_or(String::new(), |(low, high)| format!(" (95 %: {} x to {} x)", short(low, 3), short(high, 3)));
-            say!("  {}{over}: {} x{interval}", one.name, short(ratio.value, 3));
+            let interval = ratio.interval.map_or(String::new(), |(low, high)| {
+                format!(" (95 %, scatter only: {} x to {} x)", short(low, 3), short(high, 3))
+            });
+            let assumed = survives.get(k - 1).and_then(|levels| spread::words(levels, &one.name));
+            say!("  {}{over}: {} x{interval}{}", one.name, short(ratio.value, 3), assumed.unwrap_or_default());
         }
     }
 }

@@ -5,11 +5,31 @@ use crate::failure::Failure;
 use crate::files::{Source, setting, stem};
 use crate::inputs::Inputs;
 use crate::results::scenario_file;
+use crate::sweep::reason;
+use brinell::scenario::Scenario;
 use brinell_study::campaign::{Side, SidesError, check_labels, split};
 use std::path::{Path, PathBuf};
 
+/// The scenarios and variants, with what each was read from.
+pub(super) struct Sides {
+    pub(super) sides: Vec<Side>,
+    sources: Vec<Source>,
+    /// Of each side its source and what is set over it.
+    from: Vec<(usize, Vec<(String, String)>)>,
+}
+
+impl Sides {
+    /// Side `k` with one value more set; the reason where it is no scenario.
+    pub(super) fn with(&self, k: usize, key: &str, value: f64) -> Result<Scenario, String> {
+        let (source, settings) = &self.from[k];
+        let settings = [&settings[..], &[(key.to_owned(), value.to_string())]].concat();
+        let loaded = self.sources[*source].load(&settings, true);
+        loaded.map(|loaded| loaded.scenario).map_err(|failure| reason(&failure))
+    }
+}
+
 /// Every scenario and variant, read and checked.
-pub(super) fn read(args: &CompareArgs, inputs: &mut Inputs) -> Result<Vec<Side>, Failure> {
+pub(super) fn read(args: &CompareArgs, inputs: &mut Inputs) -> Result<Sides, Failure> {
     let variants = args.variant.iter().map(|text| variant(text)).collect::<Result<Vec<_>, _>>()?;
     let labels = labels(&args.scenarios).into_iter().chain(variants.iter().map(|v| v.0.clone()));
     let labels: Vec<String> = labels.collect();
@@ -22,15 +42,15 @@ pub(super) fn read(args: &CompareArgs, inputs: &mut Inputs) -> Result<Vec<Side>,
     })?;
     let sources = args.scenarios.iter().map(|path| Source::open(&scenario_file(path), &args.set));
     let sources = sources.collect::<Result<Vec<_>, _>>()?;
-    let given = sources.iter().map(|source| (source, &[][..]));
-    let changed = variants.iter().map(|(_, settings)| (&sources[0], &settings[..]));
-    let sides = labels.into_iter().zip(given.chain(changed)).map(|(label, (source, settings))| {
-        let loaded = source.load(settings, args.quiet)?;
+    let given = (0..sources.len()).map(|k| (k, Vec::new()));
+    let from: Vec<_> = given.chain(variants.into_iter().map(|(_, settings)| (0, settings))).collect();
+    let sides = labels.into_iter().zip(&from).map(|(label, (source, settings))| {
+        let loaded = sources[*source].load(settings, args.quiet)?;
         Ok(Side { label, loaded })
     });
     let sides = sides.collect::<Result<_, Failure>>()?;
     sources.iter().for_each(|source| inputs.add_all(&source.inputs()));
-    Ok(sides)
+    Ok(Sides { sides, sources, from })
 }
 
 /// Names of scenario files; of those that are called alike in folders that are not, the folder's where it has one;

@@ -52,13 +52,14 @@ pub(super) fn table(args: &TableArgs) -> Result<(), Failure> {
     };
     let healthy = model.healthy(side);
     let text = table.to_csv_text(|delta| healthy.force_and_tangent(delta)[0]);
+    let nodes = text.lines().count() - 1;
     atomic_write(&args.output, text)?;
     let [first, last] = table.range_s();
     say!(
         "{}: {} x {} nodes, s from {} to {} mm, delta to {} um, at the {} contact",
         args.output.display(),
         table.s_nodes().len(),
-        table.delta_nodes().len(),
+        nodes / table.s_nodes().len(),
         short(1e3 * first, 4),
         short(1e3 * last, 4),
         short(1e6 * table.last_delta(), 4),

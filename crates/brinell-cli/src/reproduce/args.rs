@@ -14,6 +14,7 @@ use std::path::PathBuf;
     reproduce.html       the claims and the figures; one file, no network\n  \
     claims.csv, claims.json   each statement with its verdict, numbers and intervals\n  \
     models.csv           with --model: each claim's verdict by each model\n  \
+    laws.csv             with --laws mechanics: each statement under the paper's laws, under these, and with their default values\n  \
     plots/               with --plots\n  \
     journal.jsonl        finished runs, each on the disk when it is done; curves/ beside it holds what pictures need of them\n\n\
     The same command again resumes where it stopped; runs of the same scenario and the same version of brinell are not run again, so \
@@ -38,6 +39,13 @@ pub(crate) struct ReproduceArgs {
     /// Also make every case with this model, and in slices, and show the verdicts side by side
     #[arg(long, value_name = "MODEL", value_parser = [PossibleValue::new("tilting").help("Rollers and rings tilt")])]
     pub(crate) model: Option<String>,
+    /// Laws that every case is made under; with mechanics, the program's default ones, what the paper's laws gave is put
+    /// beside
+    #[arg(long, value_name = "LAWS", default_value = "li2023", value_parser = [
+        PossibleValue::new("li2023").help("The paper's"),
+        PossibleValue::new("mechanics").help("Exact geometry, damage as on elastic steel, and the default values of this set")
+    ])]
+    pub(crate) laws: String,
     /// Turns of the shaft whose statistics count, of every run [default: 240, with --quick 40]
     #[arg(long, value_name = "N", conflicts_with = "quick", value_parser = turns)]
     pub(crate) turns: Option<u32>,
@@ -52,8 +60,8 @@ pub(crate) struct ReproduceArgs {
     pub(crate) plots: Vec<PlotFormat>,
     #[command(flatten)]
     pub(crate) print: Print,
-    /// Also write reproduction.md and its pictures (SVG) into this folder; the file is meant to be included from the
-    /// folder above
+    /// Also write reproduction.md and its pictures (SVG), with --laws mechanics survives.md, into this folder; the file is
+    /// meant to be included from the folder above
     #[arg(long, value_name = "FOLDER")]
     pub(crate) book: Option<PathBuf>,
     /// Print the numbers of claims.json as JSON, and no words

@@ -12,7 +12,7 @@ use crate::say::{self, complain, document, plural, say, short};
 use crate::stop::stop_flag;
 pub(crate) use args::ReproduceArgs;
 use brinell::result::{Quantity, RunResult};
-use brinell::scenario::Scenario;
+use brinell::scenario::{Laws, Scenario};
 use brinell::simulate::Simulation;
 use brinell_li2023::{
     BASE, CaseObserver, CurveFiles, Error, Length, Point, Reproduction, Request, Runs, Stage, scenario, write_page,
@@ -31,7 +31,7 @@ pub(crate) fn reproduce(args: &ReproduceArgs) -> Result<ExitCode, Failure> {
     let begin = Instant::now();
     let layout = args.print.layout(&args.plots)?;
     let usual = if args.quick { Length::QUICK } else { Length::FULL };
-    let mut request = Request::new(&args.figure, args.turns.map_or(usual, Length::Turns))?;
+    let mut request = Request::new(&args.figure, args.turns.map_or(usual, Length::Turns), laws(args)?)?;
     if args.sensitivity {
         request = request.with_sensitivity(args.quick)?;
     }
@@ -70,6 +70,20 @@ pub(crate) fn reproduce(args: &ReproduceArgs) -> Result<ExitCode, Failure> {
     } else {
         ExitCode::SUCCESS
     })
+}
+
+/// Those of the command line; what varies the paper's laws goes with these alone.
+fn laws(args: &ReproduceArgs) -> Result<Laws, Failure> {
+    if args.laws != Laws::Mechanics.word() {
+        return Ok(Laws::Li2023);
+    }
+    let other = [("--sensitivity", args.sensitivity), ("--model", args.model.is_some())];
+    match other.into_iter().find(|(_, given)| *given) {
+        Some((option, _)) => {
+            Err(Failure::Usage(format!("{option} varies the paper's laws: leave out --laws mechanics")))
+        }
+        None => Ok(Laws::Mechanics),
+    }
 }
 
 impl From<Error> for Failure {
@@ -189,11 +203,12 @@ fn write(
 
 fn tell(reproduction: &Reproduction, written: &[PathBuf], done: usize, begin: Instant) {
     say!("{} in {:.1} s", plural(done, "run"), begin.elapsed().as_secs_f64());
+    let width = if reproduction.laws_result().is_some() { 27 } else { 15 };
     for outcome in &reproduction.outcomes {
         let claim = outcome.claim;
-        say!("  {:<15} {} ({}; {})", outcome.words(), claim.sentence, claim.place, claim.id);
+        say!("  {:<width$} {} ({}; {})", reproduction.words(outcome), claim.sentence, claim.place, claim.id);
     }
-    let found = [reproduction.search_result(), reproduction.tilting_result()];
+    let found = [reproduction.search_result(), reproduction.tilting_result(), reproduction.laws_result()];
     for found in found.into_iter().flatten() {
         say!("{found}");
     }

@@ -1,7 +1,7 @@
 //! One run: its scenario read and tried, earlier results that it may replace, and the run with its files.
 
 use super::words::tell;
-use super::{healthy, line_loads, spectra};
+use super::{healthy, line_loads, spectra, spread};
 use crate::args::RunArgs;
 use crate::failure::{Failure, print_problems};
 use crate::files::{Source, make_folder};
@@ -18,6 +18,7 @@ use brinell_damage::Photo;
 use brinell_io::{Format, SignalWriter, atomic_prepare};
 use brinell_report::Report;
 use brinell_studio::signal_table;
+use brinell_study::campaign::Spread;
 use brinell_study::runner::Recorder;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -25,6 +26,8 @@ use std::sync::atomic::{AtomicBool, Ordering};
 /// A scenario that was read and tried, with what is known of it before it runs.
 pub(super) struct Ready {
     pub(super) loaded: Loaded,
+    /// What it was read from, to be read again with other values.
+    source: Source,
     beforehand: Beforehand,
     /// The photos that its defects' outlines were read from.
     photos: Vec<Option<Photo>>,
@@ -62,7 +65,7 @@ pub(super) fn ready(args: &RunArgs, path: &Path, inputs: &mut Inputs) -> Result<
         true => Vec::new(),
         false => source.photos(),
     };
-    Ok(Ready { photos, loaded, beforehand })
+    Ok(Ready { photos, loaded, source, beforehand })
 }
 
 /// A run that is over, its files written.
@@ -103,7 +106,7 @@ pub(super) fn earlier(args: &RunArgs, loaded: &Loaded, folder: &Path, inputs: &I
 
 /// Runs, and writes everything that was requested into the folder, in place of the earlier results.
 pub(super) fn execute(args: &RunArgs, task: &Task, mut progress: Progress, stop: &AtomicBool) -> Result<Done, Failure> {
-    let Task { ready: Ready { loaded, beforehand, photos }, folder, earlier } = task;
+    let Task { ready: Ready { loaded, source, beforehand, photos }, folder, earlier } = task;
     let simulation = Simulation::unchecked(&loaded.scenario)?;
     let layout = args.print.layout(&args.plots)?;
     let mut loads = line_loads::requested(args, &simulation, task.duration_s())?;
@@ -127,6 +130,7 @@ pub(super) fn execute(args: &RunArgs, task: &Task, mut progress: Progress, stop:
     if formats(args).contains(&Format::Parquet) {
         ready.extend(spectra::ready(&finished.findings, folder)?);
     }
+    let spread = spread::of(args, (source, loaded), &finished, stop);
     let RunResult { simulation, outcome, findings, .. } = finished;
     let interrupted = stop.load(Ordering::Relaxed) && outcome.end == End::Stopped;
     let parts = Parts {
@@ -137,20 +141,25 @@ pub(super) fn execute(args: &RunArgs, task: &Task, mut progress: Progress, stop:
         beforehand,
         healthy: healthy.as_ref(),
     };
-    let report = (!args.no_report || !args.plots.is_empty()).then(|| report(&parts, photos));
+    let report = (!args.no_report || !args.plots.is_empty()).then(|| report(&parts, photos, spread.as_ref()));
     let pictures = match &report {
         Some(report) if !args.plots.is_empty() => brinell_report::pictures(report, layout),
         _ => Vec::new(),
     };
     let page = report.filter(|_| !args.no_report).map(|report| brinell_report::html(&report));
     let page = page.as_deref().map(|page| (REPORT, page));
-    let json = (SUMMARY, summary::to_json(&parts));
+    let mut json = (SUMMARY, summary::to_json(&parts));
+    if let Some(spread) = &spread {
+        json.1["spread"] = spread.to_json();
+    }
     let (written, summary) = earlier.publish(ready, json, page, (&pictures, &args.plots))?;
-    Ok(Done { printed: tell(&parts, elapsed, &written), end: outcome.end, interrupted, summary })
+    let printed = tell(&parts, elapsed, spread.as_ref(), &written);
+    Ok(Done { printed, end: outcome.end, interrupted, summary })
 }
 
-fn report(parts: &Parts, photos: &[Option<Photo>]) -> Report {
+fn report(parts: &Parts, photos: &[Option<Photo>], spread: Option<&Spread>) -> Report {
     let mut report = Report::of_run(parts);
+    report.spread = spread.map(|spread| spread.levels.clone());
     for (view, photo) in report.damage.iter_mut().zip(photos) {
         view.photo = photo.clone();
     }

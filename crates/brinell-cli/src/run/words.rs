@@ -7,10 +7,14 @@ use brinell::result::fields;
 use brinell::signal::Indicator;
 use brinell::simulate::End;
 use brinell::summary::Parts;
+use brinell_study::campaign::Spread;
 use std::path::PathBuf;
 
+/// Where it is said how far results can be trusted.
+const TRUST: &str = "  frequencies hold, levels hang on what is assumed (--spread): docs/src/trust.md";
+
 /// A few lines on what came out.
-pub(super) fn tell(parts: &Parts, elapsed: f64, written: &[PathBuf]) -> Vec<String> {
+pub(super) fn tell(parts: &Parts, elapsed: f64, spread: Option<&Spread>, written: &[PathBuf]) -> Vec<String> {
     let mut printed = Vec::new();
     let Parts { outcome, findings, loaded, simulation, .. } = *parts;
     let reached = outcome.reached;
@@ -30,6 +34,7 @@ pub(super) fn tell(parts: &Parts, elapsed: f64, written: &[PathBuf]) -> Vec<Stri
     printed.push(format!("  laws: {}", loaded.scenario.laws_and_differences()));
     printed.extend(sensor_lines(findings));
     printed.extend(healthy_line(parts));
+    printed.extend(spread.map(super::spread::lines).into_iter().flatten());
     let heed = converted(simulation, outcome).into_iter().chain(unsettled(findings));
     printed.extend(heed.map(|words| format!("  {words}")));
     printed.extend(findings.lines.iter().map(defect_line));
@@ -51,6 +56,7 @@ pub(super) fn tell(parts: &Parts, elapsed: f64, written: &[PathBuf]) -> Vec<Stri
     for path in written {
         printed.push(format!("  wrote {}", path.display()));
     }
+    printed.push(TRUST.into());
     printed
 }
 
@@ -64,8 +70,9 @@ fn sensor_lines(findings: &Findings) -> Vec<String> {
         let Some(rms) = channel.blocks.estimate(Indicator::Rms) else {
             continue;
         };
-        let interval =
-            rms.interval.map_or(String::new(), |i| format!(" (95 %: {} to {})", short(i.low, 3), short(i.high, 3)));
+        let interval = rms
+            .interval
+            .map_or(String::new(), |i| format!(" (95 %, scatter only: {} to {})", short(i.low, 3), short(i.high, 3)));
         let of = if channel.blocks.revolutions() > 0 { "a revolution" } else { "of the record" };
         let other = |i: Indicator| channel.blocks.estimate(i).map_or("-".into(), |e| short(e.value, 3));
         printed.push(format!(
@@ -84,8 +91,9 @@ fn sensor_lines(findings: &Findings) -> Vec<String> {
 fn healthy_line(parts: &Parts) -> Option<String> {
     let healthy = parts.healthy?;
     let (rms, ratio) = (healthy.rms()?, parts.findings.over_healthy(healthy)?);
-    let interval =
-        ratio.interval.map_or(String::new(), |(low, high)| format!(" (95 %: {} to {})", short(low, 3), short(high, 3)));
+    let interval = ratio
+        .interval
+        .map_or(String::new(), |(low, high)| format!(" (95 %, scatter only: {} to {})", short(low, 3), short(high, 3)));
     Some(format!(
         "  {} without the damage: RMS {} m/s^2; with it {} x that{interval}",
         healthy.sensor_name(),

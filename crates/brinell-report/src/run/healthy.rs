@@ -45,8 +45,9 @@ fn lines(of: Option<&Spectrum>, healthy: Option<&Spectrum>) -> Vec<f64> {
 /// "4.1 times the healthy bearing's", and its interval; `None` where there is no healthy bearing or no level.
 pub(super) fn times(parts: &Parts) -> Option<(String, String)> {
     let ratio = parts.findings.over_healthy(parts.healthy?)?;
-    let interval =
-        ratio.interval.map_or(String::new(), |(low, high)| format!("95 %: {} to {}", short(low, 2), short(high, 2)));
+    let interval = ratio
+        .interval
+        .map_or(String::new(), |(low, high)| format!("95 %, scatter only: {} to {}", short(low, 2), short(high, 2)));
     let words = format!("{} times the healthy bearing’s", short(ratio.value, 2));
     Some((words, interval))
 }

@@ -65,6 +65,7 @@ impl Report {
             audits: audits(parts),
             solver_work: solver_work(parts),
             assumptions: parts.loaded.provenance.clone(),
+            spread: None,
             scenario_toml: parts.loaded.to_toml(),
         }
     }

@@ -171,7 +171,9 @@ pub(super) fn indicators(parts: &Parts) -> IndicatorTable {
     rows.sort_by_key(|r| (!r.channel.starts_with("sensor"), r.kind == "instantaneous"));
     let of = match parts.findings.sensor().is_some_and(|c| c.blocks.revolutions() == 0) {
         true => "No whole revolution was analysed: averages and peaks are those of the record.",
-        false => "Averages over whole revolutions, in brackets their 95 % intervals; peaks are those of a revolution.",
+        false => {
+            "Averages over whole revolutions, in brackets their 95 % intervals, scatter only: what is assumed is not in them (`brinell run --spread`); peaks are those of a revolution."
+        }
     };
     IndicatorTable {
         columns: COLUMNS.iter().map(|(_, name)| (*name).to_owned()).collect(),

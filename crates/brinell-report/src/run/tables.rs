@@ -29,7 +29,7 @@ pub(super) fn facts(parts: &Parts) -> Vec<Fact> {
             };
             let unit = indicator.unit(channel.unit);
             let note = e.interval.map_or("anti-aliased".to_owned(), |i| {
-                format!("anti-aliased; 95 %: {} to {}", short(i.low, 3), short(i.high, 3))
+                format!("anti-aliased; 95 %, scatter only: {} to {}", short(i.low, 3), short(i.high, 3))
             });
             facts.push(Fact::new(label, short(e.value, 3), unit, note));
         }

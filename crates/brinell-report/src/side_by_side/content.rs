@@ -122,7 +122,7 @@ fn facts(names: &[String], headlines: &[Headline]) -> Vec<Fact> {
         };
         let mut note = format!("of {}", names[0]);
         if let Some((low, high)) = first.interval {
-            note = format!("{note}; 95 %: {} to {}", short(low, 3), short(high, 3));
+            note = format!("{note}; 95 %, scatter only: {} to {}", short(low, 3), short(high, 3));
         }
         for (name, more) in rest {
             note = format!("{note}; {name}: {}", with_interval(*more));
@@ -254,7 +254,7 @@ fn numbers(id: &str, title: &str, names: &[String], rows: &[&Compared]) -> Table
         row.extend(c.ratios.iter().skip(1).map(ratio));
         row
     });
-    let mut note = "Averages over whole revolutions (of impacts: over instants), in brackets 95 % intervals; peaks are those of a revolution. \
+    let mut note = "Averages over whole revolutions (of impacts: over instants), in brackets 95 % intervals, scatter only; peaks are those of a revolution. \
          Ratios are of the values beside them; their intervals suppose runs that scatter independently."
         .to_owned();
     if of_channels {

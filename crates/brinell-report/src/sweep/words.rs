@@ -45,7 +45,7 @@ pub fn sweep_legend(plots: &[IndicatorPlot]) -> String {
     let points = || lines().flat_map(|line| &line.points);
     let mut parts = Vec::new();
     if points().any(|p| p.interval.is_some()) {
-        parts.push("Dots: averages over whole revolutions, with their 95 % intervals.");
+        parts.push("Dots: averages over whole revolutions, with their 95 % intervals, scatter only.");
     }
     if points().any(|p| p.interval.is_none() && p.value.is_finite()) {
         parts.push("Rings: a value without an interval.");

@@ -38,7 +38,7 @@ fn regress_the_result_comes_first_and_assumptions_before_statements() {
     report.lead = "3 × 4 mm defect <b>".into();
     let one = |key: &str, assumed| {
         let origin = Origin::Recorded(String::new());
-        Provenance { key: key.into(), value: "1".into(), unit: "", origin, assumed }
+        Provenance { key: key.into(), value: "1".into(), unit: "", origin, assumed, plausible: None }
     };
     report.assumptions = vec![one("stated.key", false), one("assumed.key", true)];
     report.envelope_orders = report.envelope_spectrum.clone();

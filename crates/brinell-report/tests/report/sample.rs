@@ -248,12 +248,14 @@ pub(crate) fn filled(text: &str, values: &[f64], dt: f64, frequency: f64) -> Rep
         },
         audits: vec![fact()],
         solver_work: vec![fact()],
+        spread: None,
         assumptions: vec![Provenance {
             key: text.into(),
             value: text.into(),
             unit: "m/s^2",
             origin: Origin::Recorded(text.into()),
             assumed: true,
+            plausible: None,
         }],
         scenario_toml: text.into(),
     }

@@ -116,7 +116,7 @@ export function mainSpecs(schema) {
       refuse: (v) => (v === undefined ? "an angle is missing" : ""),
     }),
     spec(schema, ["bearing", "radial_clearance_um"], { label: "Clearance", span: [-5, 50], log: false }),
-    spec(schema, ["contact", "damping_ns_per_m"], { label: "Contact damping", span: [0, 1000], log: false }),
+    spec(schema, ["contact", "damping_time_us"], { label: "Contact damping", span: [0.25, 25], log: true }),
     spec(schema, ["sensor", "noise_rms_m_per_s2"], { label: "Noise, RMS", span: [0, 50], log: false, fallback: 0 }),
     spec(schema, ["simulation", "accuracy"], { label: "Accuracy" }),
   ];

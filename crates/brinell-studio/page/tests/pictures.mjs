@@ -24,10 +24,10 @@ try {
     await drag(page, [from, 0.25], [to, 0.7], 10);
     await settled(page);
     await until(page, () => globalThis.brinellStudio.side.opened.scenario.defects.length === 2);
-    // Half a second of it, a verdict, and the healthy bearing behind.
+    // By the scenario's own tables: half a second of it, a verdict, and the healthy bearing behind.
     await until(page, () => {
       const { side, healthy } = globalThis.brinellStudio;
-      return side.moments.samples > 34000 && side.verdict?.table && side.indicators && side.spectra.lines?.some((l) => l.found) && healthy.curves;
+      return !side.opened.quick && side.moments.samples > 34000 && side.verdict?.table && side.indicators && side.spectra.lines?.some((l) => l.found) && healthy.curves;
     });
     await page.evaluate(() => {
       // Its times are those of the machine that makes the pictures, among other work.

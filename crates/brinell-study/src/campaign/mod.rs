@@ -16,6 +16,7 @@ mod plan;
 mod row;
 mod run;
 mod sides;
+mod spread;
 
 pub use axis::Axis;
 #[doc(hidden)]
@@ -38,3 +39,7 @@ pub use row::{Row, fingerprint};
 pub use run::run_all;
 #[doc(hidden)]
 pub use sides::{Differing, Side, SidesError, check_labels, differing, sides_json, sides_scenarios, sides_table};
+#[doc(hidden)]
+pub use spread::{
+    Assumed, Bar, Ends, Level, SPREAD_MEANING, Spread, assumed, levels_json, ratios, run_ends, run_spread,
+};

@@ -40,7 +40,7 @@ pub(super) fn bearing<K: Keys>(k: &mut K, (model, laws): (ModelKind, Laws), b: &
     );
     k.key(key("roller_diameter_mm", "d").above(0.0), Catalogued, &mut b.roller_diameter_mm);
     k.key_where(
-        key("roller_length_mm", "L, effective contact length").above(0.0),
+        key("roller_length_mm", "L, effective contact length").plausible_times(0.9, 1.1).above(0.0),
         (!b.has_balls(), ROLLERS),
         Catalogued,
         &mut b.roller_length_mm,
@@ -75,12 +75,12 @@ pub(super) fn bearing<K: Keys>(k: &mut K, (model, laws): (ModelKind, Laws), b: &
     let inner_ring = ring(b.inner_raceway_diameter_mm - wall);
     let outer_ring = ring(b.outer_raceway_diameter_mm + wall);
     k.key(
-        key("inner_ring_mass_kg", "m_i, with all that moves with it").above(0.0),
+        key("inner_ring_mass_kg", "m_i, with all that moves with it").plausible_times(0.7, 1.5).above(0.0),
         derived(inner_ring, ring_how),
         &mut b.inner_ring_mass_kg,
     );
     k.key(
-        key("outer_ring_mass_kg", "m_o, with all that moves with it").above(0.0),
+        key("outer_ring_mass_kg", "m_o, with all that moves with it").plausible_times(0.7, 1.5).above(0.0),
         derived(outer_ring, ring_how),
         &mut b.outer_ring_mass_kg,
     );
@@ -145,11 +145,13 @@ fn grooves<K: Keys>(k: &mut K, b: &mut Bearing) {
     let has_balls = b.has_balls();
     for (spec, value) in [
         (
-            key("inner_groove_conformity", "radius of the inner groove's cross-section over the ball's diameter"),
+            key("inner_groove_conformity", "radius of the inner groove's cross-section over the ball's diameter")
+                .plausible(0.51, 0.53),
             &mut b.inner_groove_conformity,
         ),
         (
-            key("outer_groove_conformity", "radius of the outer groove's cross-section over the ball's diameter"),
+            key("outer_groove_conformity", "radius of the outer groove's cross-section over the ball's diameter")
+                .plausible(0.51, 0.54),
             &mut b.outer_groove_conformity,
         ),
     ] {
@@ -229,7 +231,8 @@ fn clearance<K: Keys>(k: &mut K, laws: Laws, b: &mut Bearing) {
         },
     };
     k.key(
-        key("radial_clearance_um", "C_r, gap on one side, half of ISO 5753's; negative is preload"),
+        key("radial_clearance_um", "C_r, gap on one side, half of ISO 5753's; negative is preload")
+            .plausible_times(0.4, 1.6),
         default,
         &mut b.radial_clearance_um,
     );

@@ -41,9 +41,9 @@ pub(super) fn cage<K: Keys>(k: &mut K, (laws, b): (Laws, &Bearing), c: &mut Cage
             "two pressed steel strips, each 0.1 ball diameters thick",
         ),
     };
-    k.key(key("mass_kg", "m_c").above(0.0), mass, &mut c.mass_kg);
+    k.key(key("mass_kg", "m_c").plausible_times(0.5, 2.0).above(0.0), mass, &mut c.mass_kg);
     k.key(
-        key("pocket_clearance_mm", "C_p, to each side").from(0.0),
+        key("pocket_clearance_mm", "C_p, to each side").plausible_times(0.3, 2.0).from(0.0),
         derived(15.0 * d / 1000.0, "1.5 % of the roller diameter"),
         &mut c.pocket_clearance_mm,
     );
@@ -69,12 +69,12 @@ pub(super) fn cage<K: Keys>(k: &mut K, (laws, b): (Laws, &Bearing), c: &mut Cage
         }
     };
     k.key(
-        key("guide_clearance_mm", "C_g, radial gap of the land").above(0.0),
+        key("guide_clearance_mm", "C_g, radial gap of the land").plausible_times(0.5, 2.0).above(0.0),
         derived(gap, how),
         &mut c.guide_clearance_mm,
     );
     k.key(
-        key("guide_width_mm", "L_1, width of the land").above(0.0),
+        key("guide_width_mm", "L_1, width of the land").plausible_times(0.5, 2.0).above(0.0),
         match b.element {
             Element::Roller => derived(b.roller_length_mm, "the roller's length"),
             Element::Ball => derived(0.25 * d, "a quarter of the ball's diameter"),
@@ -99,7 +99,7 @@ fn walls<K: Keys>(k: &mut K, (laws, b): (Laws, &Bearing), c: &mut Cage) {
     k.key(key("pockets", "shape of the pockets"), pockets, &mut c.pockets);
     let oiled = (c.walls == Walls::Oiled, OILED);
     k.key_acting_where(
-        key("friction_coefficient", "mu_p, of elements in pockets").from(0.0),
+        key("friction_coefficient", "mu_p, of elements in pockets").plausible(0.02, 0.15).from(0.0),
         oiled,
         assumed(0.05, "boundary lubrication between steel and a cage"),
         &mut c.friction_coefficient,
@@ -108,7 +108,7 @@ fn walls<K: Keys>(k: &mut K, (laws, b): (Laws, &Bearing), c: &mut Cage) {
     linear_key(
         k,
         linear,
-        key("contact_stiffness_n_per_m", "k_c, of pockets").above(0.0),
+        key("contact_stiffness_n_per_m", "k_c, of pockets").plausible_times(0.2, 5.0).above(0.0),
         assumed(
             OILED_POCKET_N / (1e-3 * c.pocket_clearance_mm.max(0.01)),
             "11 N over the pocket's clearance: oil cushions it (Meeks)",
@@ -118,7 +118,7 @@ fn walls<K: Keys>(k: &mut K, (laws, b): (Laws, &Bearing), c: &mut Cage) {
     linear_key(
         k,
         linear,
-        key("contact_damping_ns_per_m", "c_c, of pockets").from(0.0),
+        key("contact_damping_ns_per_m", "c_c, of pockets").plausible_times(0.2, 5.0).from(0.0),
         assumed(
             20.0 * (c.contact_stiffness_n_per_m / STEEL_POCKET).sqrt(),
             "as large a share of the critical damping as 20 N s/m are at 1e7 N/m",

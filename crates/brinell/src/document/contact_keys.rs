@@ -58,16 +58,27 @@ pub(super) fn contact<K: Keys>(k: &mut K, (laws, model, b): (Laws, ModelKind, &B
     }
     steel(k, b, c);
     let [inner, outer] = stiffness(b, c);
-    k.key(key("inner_stiffness", "K_in of a healthy contact").above(0.0).unit("N/m^n"), inner, &mut c.inner_stiffness);
-    k.key(key("outer_stiffness", "K_out of a healthy contact").above(0.0).unit("N/m^n"), outer, &mut c.outer_stiffness);
+    k.key(
+        key("inner_stiffness", "K_in of a healthy contact").plausible_times(0.8, 1.25).above(0.0).unit("N/m^n"),
+        inner,
+        &mut c.inner_stiffness,
+    );
+    k.key(
+        key("outer_stiffness", "K_out of a healthy contact").plausible_times(0.8, 1.25).above(0.0).unit("N/m^n"),
+        outer,
+        &mut c.outer_stiffness,
+    );
     damping(k, laws, c);
     k.key_acting_where(
-        key("edge_radius_um", "length of the running mean that rounds the edges of damage").from(0.0).to(1000.0),
+        key("edge_radius_um", "length of the running mean that rounds the edges of damage")
+            .plausible(2.0, 50.0)
+            .from(0.0)
+            .to(1000.0),
         (c.law == Law::HalfSpace, HALF_SPACE),
         assumed(10.0, "edges of spalls are no sharper"),
         &mut c.edge_radius_um,
     );
-    k.key_where(
+    k.key_acting_where(
         key("tables", "how exact the tables of damage are"),
         (c.law == Law::HalfSpace, HALF_SPACE),
         stated(Tables::Standard, "0.5 % of the deformation"),
@@ -96,20 +107,23 @@ fn damping<K: Keys>(k: &mut K, laws: Laws, c: &mut Contact) {
         ContactDamping::Constant { ns_per_m } => (f64::NAN, ns_per_m),
     };
     k.key_where(
-        key(TIME, "tau, damping is tau times the contact's stiffness; or damping_ns_per_m").above(0.0).to(1e4),
+        key(TIME, "tau, damping is tau times the contact's stiffness; or damping_ns_per_m")
+            .above(0.0)
+            .to(1e4)
+            .plausible(2.5, 25.0),
         (by_time, "contact.damping_ns_per_m is left out, or by default with the laws \"mechanics\""),
         assumed(2.5, "of whole bearings 2.5 to 25 us were measured (Kraemer): levels are known to some 6 dB"),
         &mut us,
     );
     k.key_where(
-        key(CONSTANT, "c, at each raceway; or damping_time_us").from(0.0),
+        key(CONSTANT, "c, at each raceway; or damping_time_us").from(0.0).plausible_times(0.2, 5.0),
         (by_constant, "contact.damping_time_us is left out, or by default with the laws \"li2023\""),
         assumed(200.0, PAPER),
         &mut ns_per_m,
     );
     c.damping = if by_time { ContactDamping::Time { us } } else { ContactDamping::Constant { ns_per_m } };
     k.key_acting_where(
-        key("roughness_um", "delta_s, over which damping sets in").above(0.0).to(100.0),
+        key("roughness_um", "delta_s, over which damping sets in").plausible(0.03, 0.4).above(0.0).to(100.0),
         (by_time, "the damping is contact.damping_time_us"),
         assumed(0.1, "ground and honed raceways"),
         &mut c.roughness_um,

@@ -89,6 +89,7 @@ impl Loaded {
             unit: if name.ends_with("um") { "um" } else { "mm" },
             origin: Origin::DamageFile(file.to_string()),
             assumed: false,
+            plausible: None,
         });
     }
 
@@ -117,7 +118,7 @@ impl Loaded {
         let of_shape = format!("defects.{defect}.shape.{kind}.");
         let place = self.provenance.iter().rposition(|p| p.key.starts_with(&of_shape));
         let key = of_shape + name;
-        let found = Provenance { key, value: toml_text::float(value), unit, origin, assumed: true };
+        let found = Provenance { key, value: toml_text::float(value), unit, origin, assumed: true, plausible: None };
         self.provenance.insert(place.map_or(self.provenance.len(), |place| place + 1), found);
     }
 

@@ -32,7 +32,7 @@ pub enum Origin {
 }
 
 /// Origin of one key's value.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Provenance {
     /// Path of the key, `defects.0.depth_um`.
     pub key: String,
@@ -44,6 +44,8 @@ pub struct Provenance {
     pub origin: Origin,
     /// True where neither the user nor a cited source states the value.
     pub assumed: bool,
+    /// Between which values it may lie, where it is assumed and a number of which that can be said.
+    pub plausible: Option<[f64; 2]>,
 }
 
 impl Provenance {

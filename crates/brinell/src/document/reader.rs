@@ -173,7 +173,9 @@ impl<'a> Reader<'a> {
     }
 
     fn record(&mut self, path: &str, spec: &Spec, value: String, origin: Origin, assumed: bool) {
-        self.provenance.push(Provenance { key: path.to_string(), value, unit: spec.unit, origin, assumed });
+        let about = || Some(spec.plausible?.about(value.parse().ok()?, &spec.range));
+        let plausible = if assumed { about() } else { None };
+        self.provenance.push(Provenance { key: path.to_string(), value, unit: spec.unit, origin, assumed, plausible });
     }
 
     /// Reads a key that the file gives.
@@ -258,6 +260,7 @@ impl<'a> Reader<'a> {
             unit: unit_of_key(&entry.key),
             origin: Origin::Recorded(entry.reason.clone()),
             assumed: true,
+            plausible: None,
         });
         self.provenance.extend(kept.collect::<Vec<_>>());
     }

@@ -80,6 +80,9 @@ impl Schema {
                 doc.push_str(&format!("; default: {why}"));
             }
         }
+        if let Some(plausible) = spec.plausible {
+            doc.push_str(&format!("; where it is assumed, plausible from {plausible}"));
+        }
         self.put(spec, schema, doc);
     }
 

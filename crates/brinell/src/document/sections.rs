@@ -29,18 +29,21 @@ pub(crate) fn scenario<K: Keys>(k: &mut K, s: &mut Scenario) {
         None => {}
     }
     let laws = s.simulation.laws;
+    let geometry = k.foretold("simulation", "geometry").unwrap_or(s.simulation.geometry);
     k.section(key("bearing", "geometry and masses"), |k| bearing(k, (model, laws), &mut s.bearing));
     k.section(key("cage", "one cage for each row"), |k| cage(k, (laws, &s.bearing), &mut s.cage));
     k.section(key("contact", "rollers on raceways, along the normal"), |k| {
         contact(k, (laws, model, &s.bearing), &mut s.contact)
     });
-    k.section(key("friction", "rollers on raceways, along the surface"), |k| friction(k, laws, &mut s.friction));
+    k.section(key("friction", "rollers on raceways, along the surface"), |k| {
+        friction(k, (laws, geometry), &mut s.friction)
+    });
     k.section(key("lubricant", "oil"), |k| lubricant(k, &s.bearing, &mut s.lubricant));
     k.section(key("operation", "speed, load and gravity"), |k| operation(k, (model, &s.bearing), &mut s.operation));
     k.section(key("housing", "fixed to the outer ring"), |k| housing(k, (laws, &s.bearing), &mut s.housing));
     let masses = [s.bearing.inner_ring_mass_kg, s.bearing.outer_ring_mass_kg + s.housing.mass_kg];
     k.section(key("support", "springs and dampers that hold the rings"), |k| {
-        support(k, (laws, model, &s.bearing, s.operation.load_on), masses, &mut s.support)
+        support(k, (laws, model, &s.bearing, &s.operation), masses, &mut s.support)
     });
     let load = s.operation.load_n;
     k.tables(key("defects", "damage: none, one or many"), &mut s.defects, unset::defect, |k, d| defect(k, load, d));
@@ -53,21 +56,29 @@ pub(crate) fn scenario<K: Keys>(k: &mut K, s: &mut Scenario) {
     });
 }
 
-fn friction<K: Keys>(k: &mut K, laws: Laws, f: &mut Friction) {
-    k.key(key("raceway_coefficient", "mu").from(0.0), assumed(0.02, PAPER), &mut f.raceway_coefficient);
+fn friction<K: Keys>(k: &mut K, (laws, geometry): (Laws, GeometryLaw), f: &mut Friction) {
     k.key(
-        key("slip_velocity_m_per_s", "v_s of tanh(slip / v_s)").above(0.0),
+        key("raceway_coefficient", "mu").plausible(0.005, 0.1).from(0.0),
+        assumed(0.02, PAPER),
+        &mut f.raceway_coefficient,
+    );
+    k.key(
+        key("slip_velocity_m_per_s", "v_s of tanh(slip / v_s)").plausible_times(0.2, 5.0).above(0.0),
         assumed(0.05, "regularises friction; the paper does not state it"),
         &mut f.slip_velocity_m_per_s,
     );
     let rolling = match laws {
+        // Levers of the centred bearing have no reaction for it.
+        Laws::Mechanics if geometry == GeometryLaw::Centred => stated(0.0, "of centred geometry"),
         Laws::Mechanics => {
             assumed(7e-4, "drive torques of whole bearings in the makers' estimates, within a factor of two")
         }
         Laws::Li2023 => stated(0.0, PAPER),
     };
     k.key(
-        key("rolling_coefficient", "k_r of the couple k_r r Q that resists rolling at each contact").from(0.0),
+        key("rolling_coefficient", "k_r of the couple k_r r Q that resists rolling at each contact")
+            .plausible_times(0.5, 2.0)
+            .from(0.0),
         rolling,
         &mut f.rolling_coefficient,
     );
@@ -75,7 +86,9 @@ fn friction<K: Keys>(k: &mut K, laws: Laws, f: &mut Friction) {
 
 fn lubricant<K: Keys>(k: &mut K, b: &Bearing, l: &mut Lubricant) {
     k.key(
-        key("viscosity_pa_s", "eta of the cage's guidance film and of the raceway film").from(0.0),
+        key("viscosity_pa_s", "eta of the cage's guidance film and of the raceway film")
+            .plausible(0.003, 0.1)
+            .from(0.0),
         assumed(0.01, "warm spindle oil; the paper does not state it"),
         &mut l.viscosity_pa_s,
     );
@@ -143,10 +156,20 @@ fn support_scale(b: &Bearing) -> f64 {
     (size / NN3007_MM).max(1.0)
 }
 
+/// A stiffness (N/m) with which the support of the loaded ring, of the mass `mass` (kg), takes little of its load over the clearance and the contacts'
+/// deformations, some 0.02 mm: what presses the ring over 0.3 mm. `None` where nothing does.
+fn least_of_load(o: &Operation, mass: f64) -> Option<f64> {
+    let size = |[x, y]: [f64; 2]| x.hypot(y);
+    let presses = size(o.load_n) + mass * size(o.gravity_m_per_s2);
+    // Of four digits, as it is printed.
+    let stiffness: f64 = format!("{:.3e}", presses / 0.3e-3).parse().unwrap_or(f64::NAN);
+    (stiffness > 0.0).then_some(stiffness)
+}
+
 /// `masses` are those of the inner ring and of the outer one with its housing, kg.
 fn support<K: Keys>(
     k: &mut K,
-    (laws, model, b, load_on): (Laws, ModelKind, &Bearing, LoadOn),
+    (laws, model, b, o): (Laws, ModelKind, &Bearing, &Operation),
     masses: [f64; 2],
     s: &mut Support,
 ) {
@@ -155,23 +178,43 @@ fn support<K: Keys>(
     let (scale, why) = match laws {
         Laws::Mechanics => (
             support_scale(b),
-            "soft on the loaded ring, stiff on the other; larger bearings than the NN3007 on stiffer ones",
+            "soft on the loaded ring, no stiffer than its load over 0.3 mm, and stiff on the other; larger bearings than the NN3007 on stiffer ones",
         ),
         Laws::Li2023 => (1.0, "soft on the loaded ring, stiff on the other; the paper does not state it"),
     };
-    let (inner, outer) = match load_on {
-        LoadOn::OuterRing => (5e7 * scale, 1e6 * scale),
-        LoadOn::InnerRing => (1e6 * scale, 5e7 * scale),
+    let soft = |mass: f64| match laws {
+        Laws::Mechanics => least_of_load(o, mass).map_or(1e6 * scale, |most| (1e6 * scale).min(most)),
+        Laws::Li2023 => 1e6,
+    };
+    let (inner, outer) = match o.load_on {
+        LoadOn::OuterRing => (5e7 * scale, soft(masses[1])),
+        LoadOn::InnerRing => (soft(masses[0]), 5e7 * scale),
     };
     let damping = masses.map(|mass| match laws {
         Laws::Mechanics => derived(0.2 * (5e7 * scale * mass).sqrt(), "a tenth of critical on the stiff support"),
         Laws::Li2023 => assumed(500.0, "the paper does not state it"),
     });
-    k.key(key("inner_stiffness_n_per_m", "k_i").from(0.0), assumed(inner, why), &mut s.inner_stiffness_n_per_m);
+    k.key(
+        key("inner_stiffness_n_per_m", "k_i").plausible_times(0.2, 5.0).from(0.0),
+        assumed(inner, why),
+        &mut s.inner_stiffness_n_per_m,
+    );
     let [of_inner, of_outer] = damping;
-    k.key(key("inner_damping_ns_per_m", "c_i").from(0.0), of_inner, &mut s.inner_damping_ns_per_m);
-    k.key(key("outer_stiffness_n_per_m", "k_o").from(0.0), assumed(outer, why), &mut s.outer_stiffness_n_per_m);
-    k.key(key("outer_damping_ns_per_m", "c_o").from(0.0), of_outer, &mut s.outer_damping_ns_per_m);
+    k.key(
+        key("inner_damping_ns_per_m", "c_i").plausible_times(0.2, 5.0).from(0.0),
+        of_inner,
+        &mut s.inner_damping_ns_per_m,
+    );
+    k.key(
+        key("outer_stiffness_n_per_m", "k_o").plausible_times(0.2, 5.0).from(0.0),
+        assumed(outer, why),
+        &mut s.outer_stiffness_n_per_m,
+    );
+    k.key(
+        key("outer_damping_ns_per_m", "c_o").plausible_times(0.2, 5.0).from(0.0),
+        of_outer,
+        &mut s.outer_damping_ns_per_m,
+    );
     let lever = (0.5e-3 * b.pitch_diameter_mm).powi(2);
     let (stiffness, damping) = ("k R_m^2 of the same ring", "c R_m^2 of the same ring");
     let mut tilt = |name, symbol, own: f64, how, value: &mut f64| {
@@ -213,7 +256,11 @@ fn housing<K: Keys>(k: &mut K, (laws, b): (Laws, &Bearing), h: &mut Housing) {
         Laws::Mechanics => derived(20.0 * b.outer_ring_mass_kg, "20 times the outer ring's, a small plummer block"),
         Laws::Li2023 => stated(0.0, PAPER),
     };
-    k.key(key("mass_kg", "of what moves with the outer ring").from(0.0), mass, &mut h.mass_kg);
+    k.key(
+        key("mass_kg", "of what moves with the outer ring").plausible_times(0.1, 5.0).from(0.0),
+        mass,
+        &mut h.mass_kg,
+    );
 }
 
 /// Half a second; of a slow bearing four turns of the shaft after the load's ramp, in which every element passes the load

@@ -23,7 +23,7 @@ pub(super) fn sensor<K: Keys>(k: &mut K, s: &mut Sensor) {
     );
     let mounted = s.mounting_resonance_hz.is_some();
     k.key_where(
-        key("mounting_damping_ratio", "share of critical damping").above(0.0).to(MOST_DAMPED),
+        key("mounting_damping_ratio", "share of critical damping").plausible(0.005, 0.1).above(0.0).to(MOST_DAMPED),
         (mounted, "mounting_resonance_hz is given"),
         assumed(0.02, "a lightly damped sensor"),
         &mut s.mounting_damping_ratio,
@@ -84,7 +84,7 @@ fn path_mode<K: Keys>(k: &mut K, m: &mut PathMode) {
     use super::keys::Fallback::Required;
     k.key(key("frequency_hz", "undamped natural frequency").above(0.0), Required, &mut m.frequency_hz);
     k.key(
-        key("damping_ratio", "share of critical damping").above(0.0).to(MOST_DAMPED),
+        key("damping_ratio", "share of critical damping").plausible(0.005, 0.1).above(0.0).to(MOST_DAMPED),
         assumed(0.02, "steel, bolted together"),
         &mut m.damping_ratio,
     );

@@ -9,11 +9,47 @@ pub struct Spec {
     pub(crate) doc: &'static str,
     pub(crate) unit: &'static str,
     pub(crate) range: Range,
+    pub(crate) plausible: Option<Plausible>,
+}
+
+/// Where the value of a key may lie that neither its author nor a source states.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) enum Plausible {
+    /// So many times the default.
+    Times([f64; 2]),
+    /// Between two values, and at the default where that is beyond.
+    Between([f64; 2]),
+}
+
+impl Plausible {
+    /// Both ends about a value, within what the key may hold.
+    pub(crate) fn about(self, value: f64, range: &Range) -> [f64; 2] {
+        let [low, high] = match self {
+            Self::Times(factors) => factors.map(|factor| rounded(factor * value)),
+            Self::Between([low, high]) => [low.min(value), high.max(value)],
+        };
+        let inside = |x: f64| if range.contains(x) { x } else { value };
+        [inside(low.min(high)), inside(high.max(low))]
+    }
+}
+
+/// To six digits, as a reader types it.
+fn rounded(x: f64) -> f64 {
+    format!("{x:.5e}").parse().unwrap_or(x)
+}
+
+impl fmt::Display for Plausible {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Times([low, high]) => write!(f, "{low} to {high} times the default"),
+            Self::Between([low, high]) => write!(f, "{low} to {high}"),
+        }
+    }
 }
 
 /// A key without a range; its unit is the one in its name.
 pub const fn key(name: &'static str, doc: &'static str) -> Spec {
-    Spec { name, doc, unit: unit_of(name), range: Range::ANY }
+    Spec { name, doc, unit: unit_of(name), range: Range::ANY, plausible: None }
 }
 
 impl Spec {
@@ -26,6 +62,18 @@ impl Spec {
     /// A unit that the name does not carry.
     pub const fn unit(mut self, unit: &'static str) -> Spec {
         self.unit = unit;
+        self
+    }
+
+    /// Where it is assumed, plausible from `low` to `high` times the default.
+    pub const fn plausible_times(mut self, low: f64, high: f64) -> Spec {
+        self.plausible = Some(Plausible::Times([low, high]));
+        self
+    }
+
+    /// Where it is assumed, plausible between `low` and `high`.
+    pub const fn plausible(mut self, low: f64, high: f64) -> Spec {
+        self.plausible = Some(Plausible::Between([low, high]));
         self
     }
 

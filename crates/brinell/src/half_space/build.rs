@@ -1,5 +1,6 @@
 //! A table from geometry and damage: deformations, the solutions along s at each, and how they are joined (section 19).
 
+use super::error::BuildError;
 use super::geometry::Geometry;
 use super::level::{self, Fineness, Level, Place};
 use super::onset::Onset;
@@ -26,28 +27,6 @@ impl Range {
     pub fn of(static_deflection: f64) -> Self {
         Self { static_deflection, largest: (4.0 * static_deflection).max(10e-6) }
     }
-}
-
-/// Why there is no table.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
-pub enum BuildError {
-    /// Nothing to build from.
-    #[error("{what} is {value:e} m; it must be finite and above 0")]
-    NotPositive {
-        /// What.
-        what: &'static str,
-        /// Its value, m.
-        value: f64,
-    },
-    /// It has to be made first.
-    #[error("not made yet")]
-    NotAtHand,
-    /// The flag was set.
-    #[error("stopped before its end")]
-    Stopped,
-    /// The solutions make no table.
-    #[error(transparent)]
-    Table(#[from] TableError),
 }
 
 /// A table and what it took.
@@ -185,6 +164,7 @@ fn levels(
     if stop.load(Ordering::Relaxed) {
         return Err(BuildError::Stopped);
     }
+    let levels = levels.into_iter().collect::<Result<Vec<_>, _>>()?;
     let [solutions, convolutions] = [0, 1].map(|k| levels.iter().map(|level| level.work[k]).sum());
     // Asked for only where the deepest level leaves a place untouched.
     let onset = LazyCell::new(|| Onset::new(geometry, raster));

@@ -42,7 +42,7 @@ struct Window {
 }
 
 impl Window {
-    /// `None` where nothing touches.
+    /// `None` where nothing touches, or the damage is too ragged for a table.
     fn new(geometry: &Geometry, raster: &Raster, delta: f64, accuracy: Tables) -> Option<Self> {
         let fineness: Fineness = accuracy.fineness();
         let pressed_by = delta + raster.raised();
@@ -53,7 +53,7 @@ impl Window {
         let half = ((geometry.reach(pressed_by) / dx).ceil() as usize).max(4);
         let rows = 2 * geometry.rows(raster, pressed_by, fineness.rows);
         let size = [dx, geometry.half_across(pressed_by) / rows as f64];
-        let grid = Grid::new(geometry, raster, delta, size, half, &fineness);
+        let grid = Grid::new(geometry, raster, delta, size, half, &fineness).ok()?;
         Some(Self { grid, half, size, delta, unit: PI * geometry.modulus / dx, tolerance: fineness.tolerance })
     }
 

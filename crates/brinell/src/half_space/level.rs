@@ -3,12 +3,14 @@
 //! Cells are fixed to the surface and s goes in whole cells, so that the energy has no ripple along s. Two grids, one of cells twice as
 //! large: at sharp edges the error is of first order in the cell, and both together extrapolate to none.
 
+use super::error::BuildError;
 use super::geometry::Geometry;
 use super::healthy::Energies;
 use super::influence::{Cells, Influence};
 use super::raster::{Cell, Raster, Seen};
 use super::solver::{Contact, Pressed};
 use std::collections::HashMap;
+use std::hash::{DefaultHasher, Hash, Hasher};
 use std::sync::atomic::{AtomicBool, Ordering};
 
 /// Settings of a class of accuracy.
@@ -84,6 +86,9 @@ pub(super) fn cell_length(half_width: f64, fineness: &Fineness) -> f64 {
 
 impl Grid {
     /// Over all of the surface's damage; `half` cells to either side of the contact's middle.
+    ///
+    /// # Errors
+    /// [`BuildError::TooFine`].
     pub(super) fn new(
         geometry: &Geometry,
         raster: &Raster,
@@ -91,7 +96,7 @@ impl Grid {
         cell: [f64; 2],
         half: usize,
         fine: &Fineness,
-    ) -> Self {
+    ) -> Result<Self, BuildError> {
         let [dx, dz] = cell;
         let raised = raster.raised();
         let mirrored = geometry.is_mirrored(raster);
@@ -120,23 +125,31 @@ impl Grid {
         let half_width = geometry.half_width(delta + raised);
         let levelled = 0.5 * half_width * dx / geometry.along;
         let (mut kinds, mut columns): (Vec<Vec<Seen>>, Vec<usize>) = (vec![vec![Seen::default(); across]], Vec::new());
-        let mut known: HashMap<Vec<[u64; 2]>, usize> = HashMap::new();
-        let bits = |column: &[Seen]| -> Vec<[u64; 2]> {
-            column.iter().map(|seen| [seen.depth.to_bits(), seen.soft.to_bits()]).collect()
+        // Where columns of a hash are among the kinds, which hold what is compared.
+        let mut known: HashMap<u64, Vec<usize>> = HashMap::new();
+        let hash = |column: &[Seen]| {
+            let mut hasher = DefaultHasher::new();
+            column.iter().for_each(|seen| [seen.depth, seen.soft].map(f64::to_bits).hash(&mut hasher));
+            hasher.finish()
         };
-        known.insert(bits(&kinds[0]), 0);
+        known.insert(hash(&kinds[0]), vec![0]);
         for k in first..last {
             let s = [k as f64 * dx, (k + 1) as f64 * dx];
             let column: Vec<Seen> = (0..across)
                 .map(|row| raster.seen(&Cell { s, z: [z(row), z(row + 1)], levelled, half_width, deepest: delta }))
                 .collect();
-            let kind = *known.entry(bits(&column)).or_insert_with(|| {
+            let alike = known.entry(hash(&column)).or_default();
+            let kind = alike.iter().find(|kind| kinds[**kind] == column).copied().unwrap_or_else(|| {
+                alike.push(kinds.len());
                 kinds.push(column);
                 kinds.len() - 1
             });
             columns.push(kind);
+            if kinds.len() * across > MOST_CELLS {
+                return Err(BuildError::TooFine { reached: s[1] - reach[0], delta });
+            }
         }
-        Self { influence, narrow, half, gap, energies, first, columns, kinds }
+        Ok(Self { influence, narrow, half, gap, energies, first, columns, kinds })
     }
 
     /// Columns under a contact whose middle lies before cell `middle`.
@@ -254,8 +267,22 @@ impl<'a> Presser<'a> {
     }
 }
 
+/// Bytes of pressures that are kept as starts for the places between, at the most; what comes after starts from its coarser grid alone.
+const MOST_KEPT: usize = 20 << 20;
+/// Cells of all different columns of a grid, at the most: 64 MB.
+const MOST_CELLS: usize = 4 << 20;
+
 /// Solves one deformation along all s that see damage. Once `stop` is set the rest counts as healthy.
-pub(super) fn solve(geometry: &Geometry, raster: &Raster, delta: f64, fineness: &Fineness, stop: &AtomicBool) -> Level {
+///
+/// # Errors
+/// [`BuildError::TooFine`].
+pub(super) fn solve(
+    geometry: &Geometry,
+    raster: &Raster,
+    delta: f64,
+    fineness: &Fineness,
+    stop: &AtomicBool,
+) -> Result<Level, BuildError> {
     let raised = raster.raised();
     let cell = cell_length(geometry.half_width(delta + raised), fineness);
     let least = LEAST * (delta + raised);
@@ -264,8 +291,8 @@ pub(super) fn solve(geometry: &Geometry, raster: &Raster, delta: f64, fineness: 
     let rows = fineness.refinement as usize * geometry.rows(raster, delta + raised, fineness.rows);
     let dz = geometry.half_across(delta + raised) / (2 * rows) as f64;
     let grids = [
-        Grid::new(geometry, raster, delta, [2.0 * cell, 2.0 * dz], half, fineness),
-        Grid::new(geometry, raster, delta, [cell, dz], 2 * half, fineness),
+        Grid::new(geometry, raster, delta, [2.0 * cell, 2.0 * dz], half, fineness)?,
+        Grid::new(geometry, raster, delta, [cell, dz], 2 * half, fineness)?,
     ];
     let mut pressers = grids.each_ref().map(Presser::new);
     let mut known: HashMap<Vec<usize>, Place> = HashMap::new();
@@ -298,7 +325,10 @@ pub(super) fn solve(geometry: &Geometry, raster: &Raster, delta: f64, fineness: 
         fine.begin_with(&coarse.contact, beside);
         (found[1], convolutions[1]) = fine.press(&windows[1], delta, fineness.tolerance);
         let pressures = [coarse.solved(), fine.solved()];
-        solved.insert(k, pressures);
+        let bytes = 4 * (pressures[0].len() + pressures[1].len());
+        if (solved.len() + 1) * bytes <= MOST_KEPT {
+            solved.insert(k, pressures);
+        }
         work[0] += 2;
         work[1] += convolutions[0] + convolutions[1];
         let [coarse, fine] = found;
@@ -319,7 +349,7 @@ pub(super) fn solve(geometry: &Geometry, raster: &Raster, delta: f64, fineness: 
     let longest = ((last - first) as u64 / LEAST_STEPS).max(1).ilog2();
     let halvings = (HALVINGS + fineness.refinement.ilog2()).min(longest);
     let places = along(halvings, [first, last], [(delta + raised) * fineness.between[0], fineness.between[1]], &mut at);
-    Level { delta, places, work }
+    Ok(Level { delta, places, work })
 }
 
 /// Places from `first` on past `last`, in steps of 2^`halvings` that are halved where a cubic through four neighbours misses what lies between

@@ -2,6 +2,7 @@
 
 pub mod build;
 pub mod damage;
+pub mod error;
 pub mod field;
 pub mod geometry;
 mod healthy;

@@ -1,6 +1,6 @@
 //! Tables that were made before: in this process, and where its user keeps them.
 
-use super::build::BuildError;
+use super::error::BuildError;
 use crate::effective::Table;
 use crate::random::mix;
 use std::fmt::{self, Write};

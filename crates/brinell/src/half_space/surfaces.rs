@@ -1,7 +1,8 @@
 //! The tables of a bearing's damage, and the pressures over it.
 
-use super::build::{self, BuildError, Range};
+use super::build::{self, Range};
 use super::damage::{Damage, gather, offset};
+use super::error::BuildError;
 use super::field::{self, Field};
 use super::geometry::Geometry;
 use super::shelf::{self, Key};

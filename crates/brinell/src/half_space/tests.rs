@@ -214,7 +214,8 @@ fn prop_a_grid_twice_as_fine_changes_little() {
     let standard = Tables::Standard.fineness();
     let fine = Fineness { along: 2.0 * standard.along, rows: 2 * standard.rows, ..standard };
     let ball = geometry("6205");
-    let [one, other] = [standard, fine].map(|f| level::solve(&ball, &pit, 6e-6, &f, &AtomicBool::new(false)));
+    let solve = |f| level::solve(&ball, &pit, 6e-6, &f, &AtomicBool::new(false)).unwrap();
+    let [one, other] = [standard, fine].map(solve);
     let mut common = 0;
     for place in &one.places {
         let Some(same) = other.places.iter().find(|other| other.s == place.s) else { continue };
@@ -308,10 +309,10 @@ fn prop_threads_change_no_bit_and_a_flag_stops() {
     };
     let one = go(1, false).unwrap();
     assert_eq!(one, go(3, false).unwrap());
-    assert_eq!(go(1, true), Err(build::BuildError::Stopped));
+    assert_eq!(go(1, true), Err(super::error::BuildError::Stopped));
     let nothing = Range { static_deflection: 0.0, largest: 1e-5 };
     let error = build::table(&roller, &damage, &nothing, Tables::Coarse, threads(1), &AtomicBool::new(false));
-    assert!(matches!(error, Err(build::BuildError::NotPositive { .. })));
+    assert!(matches!(error, Err(super::error::BuildError::NotPositive { .. })));
 }
 
 #[test]

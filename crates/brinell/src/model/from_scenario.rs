@@ -10,7 +10,7 @@ use crate::defect::{Defect, SIDES, Side, relative_radius};
 use crate::effective::Table;
 use crate::elementary::Exponent;
 use crate::friction::{Friction, drag_factor};
-use crate::half_space::{self, build::BuildError};
+use crate::half_space::{self, error::BuildError};
 use crate::kernel;
 use crate::lanes::Column;
 use crate::operation::{Load, Rotation};
@@ -157,6 +157,7 @@ impl Model {
             self.slices.as_ref().map_or(least, |slices| slices.deflection(law, force, least))
         };
         let how = (self.tilt.is_some(), may_make);
+        in_its_units(&self.defects, deflection)?;
         match half_space::add_tables(&mut self.defects, (&s.bearing, &s.contact), how, deflection) {
             Ok(()) => {}
             Err(BuildError::NotAtHand) => return Ok(false),
@@ -164,7 +165,7 @@ impl Model {
                 return Err(ModelError {
                     key: "defects".into(),
                     value: error.to_string(),
-                    requirement: "damage that a table of the half-space can hold",
+                    requirement: "damage that a table of the half-space can hold: shorter, of a smoother outline, or with contact.tables = \"coarse\"",
                 });
             }
         }
@@ -297,6 +298,37 @@ fn tables(s: &Scenario, defects: &mut [Defect]) -> Result<(), ModelError> {
                 defects[k].use_table(Arc::new(table));
             }
             Some(DefectTable::File(_)) | None => {}
+        }
+    }
+    Ok(())
+}
+
+/// That tables of files are in their units: none is meant for damage or a heaviest deformation ten times as large.
+fn in_its_units(defects: &[Defect], deflection: impl Fn(Side) -> f64) -> Result<(), ModelError> {
+    const SMALLEST: f64 = 0.1;
+    for (k, defect) in defects.iter().enumerate() {
+        let met = SIDES.into_iter().filter(|side| defect.meets_side(*side));
+        let Some((side, table)) = met.filter_map(|side| Some((side, defect.table(side)?))).next() else { continue };
+        let [begin, end] = table.range_s();
+        let (from, to) = defect.shape.arc();
+        let wrong = [
+            ("s_mm go over", 1e3 * (end - begin), "the damage's length along the surface is", 1e3 * (to - from), "mm"),
+            (
+                "delta_um end at",
+                1e6 * table.last_delta(),
+                "the heaviest contact deforms by some",
+                1e6 * deflection(side),
+                "um",
+            ),
+        ];
+        for (what, is, of, should, unit) in wrong {
+            if is < SMALLEST * should {
+                return Err(ModelError {
+                    key: format!("defects.{k}.table"),
+                    value: format!("its {what} {is:.3e} {unit}, and {of} {should:.3} {unit}"),
+                    requirement: "columns in the units of their names: s_mm in mm, delta_um and delta_eff_um in um",
+                });
+            }
         }
     }
     Ok(())

@@ -8,7 +8,7 @@ use crate::defect::{Defect, Defects, SIDES, Side};
 use crate::model::Model;
 use crate::observe::slip::RowSlip;
 use crate::observe::{Drift, Findings};
-use crate::scenario::{Accuracy, ModelKind, Scenario};
+use crate::scenario::{Accuracy, Laws, ModelKind, Scenario};
 use crate::sensor::{Chain, ChannelRecord};
 use crate::simulate::{EnergyAudit, Outcome, Simulation};
 
@@ -31,8 +31,10 @@ pub fn after(scenario: &Scenario, simulation: &Simulation, outcome: &Outcome, fi
 /// What a run shows that its scenario or the model should not: in words.
 #[doc(hidden)]
 pub fn doubtful(scenario: &Scenario, simulation: &Simulation, outcome: &Outcome, findings: &Findings) -> Vec<String> {
-    let sunk = sunk_too_deep(simulation.model(), findings);
-    [strayed(scenario, findings), skidding(scenario, findings), sunk, of_energy(scenario, &outcome.energy)].concat()
+    let model = simulation.model();
+    let sunk = sunk_too_deep(model, findings);
+    [strayed(scenario, findings), skidding(scenario, model, findings), sunk, of_energy(scenario, &outcome.energy)]
+        .concat()
 }
 
 /// Which sensor channels went beyond the ADC's full scale, or stayed within one of its steps, in words.
@@ -57,10 +59,21 @@ pub fn converted(simulation: &Simulation, outcome: &Outcome) -> Vec<String> {
 }
 
 /// Cages that stand still or nearly so while elements are loaded, in words.
-fn skidding(scenario: &Scenario, findings: &Findings) -> Vec<String> {
+fn skidding(scenario: &Scenario, model: &Model, findings: &Findings) -> Vec<String> {
+    let rim = model.defects.iter().map(|defect| 1e6 * defect.shape.raised()).fold(0.0, f64::max);
     let words = |(k, row): (usize, &RowSlip)| {
         let (cage, element) = (row.cage()?.value, scenario.bearing.element.word());
         let loaded = row.loaded_surface()?.value;
+        let held = cage > SKIDDING && rim > 0.0;
+        if held {
+            return Some(format!(
+                "skidding: the cage of row {} turned at {:.0} % of its pure-rolling speed on average. Edges raised by {} um may hold its {element}s: look at \
+                 the damage's depths below 0 and at bearing.radial_clearance_um",
+                k + 1,
+                100.0 * (1.0 - cage),
+                short(rim),
+            ));
+        }
         (cage > SKIDDING).then(|| {
             format!(
                 "skidding: the cage of row {} turned at {:.0} % of its pure-rolling speed on average, and loaded {element}s slipped over {:.0} % of the inner \
@@ -196,6 +209,9 @@ fn parametric(scenario: &Scenario, energy: &EnergyAudit) -> Option<String> {
         format!("{:.0} times the {} that contact damping dissipates", work.abs() / dissipated, joule(dissipated))
     };
     let remedy = match scenario.simulation.model {
+        _ if scenario.simulation.laws == Laws::Mechanics => {
+            " simulation.laws = \"mechanics\" with the keys that differ from it left out has no such error."
+        }
         ModelKind::Full | ModelKind::Tilting => " simulation.laws = \"mechanics\" has no such error.",
         ModelKind::Lumped => "",
     };

@@ -5,7 +5,7 @@ use super::warning::{short, warning};
 use crate::defect::{Defect, SIDES, Side, relative_radius, wrap};
 use crate::document::{Problem, toml_float};
 use crate::model::Model;
-use crate::scenario::{Law, ModelKind, RollerPath, Scenario};
+use crate::scenario::{Law, ModelKind, RollerPath, Scenario, Shape};
 use crate::statics::StaticLoadZone;
 
 /// Share of a defect's depth that a roller must reach: the deepest point of a rough floor is nobody's.
@@ -31,9 +31,14 @@ fn hardly_any(scenario: &Scenario, model: &Model) -> Vec<Problem> {
     let of_key = |(k, defect): (usize, &Defect)| {
         let largest = defect.deepest().max(defect.shape.raised());
         (largest < ROUGHNESS).then(|| {
+            // Depths of a map are in its shape.
+            let (key, value) = match &scenario.defects[k].shape {
+                Shape::DepthMap { .. } => (format!("defects.{k}.shape.depth_map.depth_um"), "the map's".into()),
+                _ => (format!("defects.{k}.depth_um"), toml_float(scenario.defects[k].depth_um)),
+            };
             warning(
-                &format!("defects.{k}.depth_um"),
-                toml_float(scenario.defects[k].depth_um),
+                &key,
+                value,
                 match largest > 0.0 {
                     true => format!(
                         "this damage is {} um deep at most: a machine's raceways are rougher and would hide it, these have no roughness and may show it",

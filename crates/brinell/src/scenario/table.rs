@@ -69,11 +69,17 @@ impl TableData {
         let mut places = [0; 3];
         for (place, column) in places.iter_mut().zip(COLUMNS) {
             let found = names.iter().position(|name| *name == column);
-            *place = found.ok_or_else(|| fault(Some(number), format!("there is no column {column}"), needed))?;
+            let missing = || match head.contains([';', '\t']) {
+                true => format!(
+                    "there is no column {column}: columns are separated by commas, and this line has semicolons or tabs"
+                ),
+                false => format!("there is no column {column}"),
+            };
+            *place = found.ok_or_else(|| fault(Some(number), missing(), needed))?;
         }
         let rows: Vec<Row> = lines.map(|(number, line)| row(number, line, places)).collect::<Result<_, _>>()?;
         if rows.len() > MOST_NODES {
-            return Err(fault(None, format!("{} nodes", rows.len()), format!("at most {MOST_NODES} of them")));
+            return Err(fault(Some(number), format!("{} nodes", rows.len()), format!("at most {MOST_NODES} of them")));
         }
         let table = on_grid(&rows)?;
         table.check()?;

@@ -81,7 +81,7 @@ pub struct SolverWork {
     pub damage_switches: u64,
 }
 
-/// Share of the energy that is held below which flows tell nothing: ...
+/// Share of the energy held that a sum of it is exact to: an audit of smaller flows compares round-off.
 const ROUND_OFF: f64 = 1e-9;
 
 /// The energy audit of a run, J: the change of the energy compared with everything that flowed.

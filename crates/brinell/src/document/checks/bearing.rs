@@ -22,14 +22,12 @@ const CLEARANCE: &str = "bearing.radial_clearance_um";
 const DIAMETRAL: &str = "bearing.diametral_clearance_um";
 const CLASS: &str = "bearing.clearance_class";
 const BORE: &str = "bearing.bore_diameter_mm";
-const WIDTH: &str = "bearing.width_mm";
 /// One-sided clearance (um) below which a value other than 0 is taken for mm: less than a raceway's own roundness
 /// error.
 const SMALLEST_CLEARANCE: f64 = 0.2;
 const CAGE_INNER: &str = "cage.inner_diameter_mm";
 const CAGE_OUTER: &str = "cage.outer_diameter_mm";
 const POCKET: &str = "cage.pocket_clearance_mm";
-const LAND: &str = "cage.guide_width_mm";
 
 impl Checker<'_> {
     pub(super) fn bearing(&mut self) {
@@ -225,21 +223,7 @@ impl Checker<'_> {
         }
     }
 
-    /// Whether the ring is wide enough for its land.
-    fn land(&mut self) {
-        let (land, width) = (self.s.cage.guide_width_mm, self.s.bearing.width_mm);
-        if land > width {
-            self.error(
-                LAND,
-                format!("a land of {} mm is wider than the bearing's rings, {} mm", short(land), short(width)),
-                format!("<= {}", short(width)),
-                &[WIDTH],
-            );
-        }
-    }
-
     pub(super) fn cage(&mut self) {
-        self.land();
         let b = &self.s.bearing;
         let c = &self.s.cage;
         if b.outer_raceway_diameter_mm <= b.inner_raceway_diameter_mm {

@@ -271,7 +271,7 @@ impl Checker<'_> {
         let highest = -1e6 * map.extremes().1;
         let b = &self.s.bearing;
         // Under the static load rating both contacts of an element give way by 0.3 to 0.7 % of its diameter.
-        let most = 2.0 * (b.radial_clearance_um + b.outer_gap_um).max(0.0) + 1e-2 * (1e3 * b.roller_diameter_mm);
+        let most = 2.0 * (b.radial_clearance_um + b.outer_gap_um).max(0.0) + 7e-3 * (1e3 * b.roller_diameter_mm);
         if highest > 0.0 && self.s.contact.law == Law::Ecl {
             self.error(
                 key,
@@ -286,7 +286,7 @@ impl Checker<'_> {
                     "edges raised by {} um never let an element go: the clearance and both contacts give way by less",
                     short(highest)
                 ),
-                format!(">= -{} um, the clearance and a hundredth of the element's diameter", short(most)),
+                format!(">= -{} um, the clearance and 0.7 % of the element's diameter", short(most)),
                 &["bearing.radial_clearance_um", "bearing.roller_diameter_mm"],
             );
         }

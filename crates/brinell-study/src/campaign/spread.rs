@@ -1,0 +1,222 @@
+//! How far levels hang on what nobody stated: every assumed value at both ends of its plausible range, one at a time.
+//!
+//! The band of a number takes its changes for independent: the logarithms of what each value does to it, up and down apart, added as squares.
+//! It is no confidence interval: the ends of the ranges are judgement, not statistics.
+
+use brinell::document::Provenance;
+use brinell::many;
+use brinell::result::{Quantity, can_be_negative, simulate_with};
+use brinell::scenario::Scenario;
+use brinell::simulate::Progress;
+use serde_json::{Value, json};
+use std::num::NonZeroUsize;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+/// What the numbers of a spread are.
+pub const SPREAD_MEANING: &str = "value, and low to high, the band of what is assumed: each assumed value at both ends of its plausible range, one at a \
+                                  time, their changes added as squares of logarithms; no confidence interval";
+
+/// An assumed value and where it may lie.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Assumed {
+    /// Path of its key.
+    pub key: String,
+    /// Its unit, empty where it has none.
+    pub unit: &'static str,
+    /// The value, and both ends.
+    pub value: f64,
+    /// Both ends; one may be the value.
+    pub ends: [f64; 2],
+}
+
+/// The assumed values of a scenario of which a plausible range is known.
+pub fn assumed(provenance: &[Provenance]) -> Vec<Assumed> {
+    let of = |p: &Provenance| {
+        let (value, ends) = (p.value.parse().ok()?, p.plausible?);
+        (ends[0] < ends[1]).then(|| Assumed { key: p.key.clone(), unit: p.unit, value, ends })
+    };
+    provenance.iter().filter_map(of).collect()
+}
+
+/// One number at both ends of one assumed value; `None` where a run there has no such number.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Bar {
+    /// Path of the key.
+    pub key: String,
+    /// The number at the low and at the high end.
+    pub at: [Option<f64>; 2],
+}
+
+/// One number of a run, with what every assumed value does to it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Level {
+    /// What it is.
+    pub name: String,
+    /// SI unit; 1 where it has none.
+    pub unit: String,
+    /// As the scenario has it.
+    pub value: f64,
+    /// The band.
+    pub band: [f64; 2],
+    /// Of each assumed value that changes it, what changes it most first: the tornado.
+    pub bars: Vec<Bar>,
+}
+
+/// The numbers of the run at both ends of each assumed value; the reason where there are none.
+pub type Ends = Vec<[Result<Vec<Quantity>, String>; 2]>;
+
+/// What the assumed values of a scenario do to its numbers.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Spread {
+    /// The assumed values.
+    pub keys: Vec<Assumed>,
+    /// The runs at both ends of each.
+    pub ends: Ends,
+    /// The numbers with their bands.
+    pub levels: Vec<Level>,
+}
+
+/// Runs `keys` at both ends as [`run_ends`]; `None` once `stop` is set.
+pub fn run_spread(
+    keys: Vec<Assumed>,
+    base: &[Quantity],
+    load: impl Fn(&str, f64) -> Result<Scenario, String> + Sync,
+    threads: NonZeroUsize,
+    stop: &AtomicBool,
+) -> Option<Spread> {
+    let ends = run_ends(&keys, base, load, threads, stop);
+    let levels = levels(&keys, base, &ends);
+    (!stop.load(Ordering::Relaxed)).then_some(Spread { keys, ends, levels })
+}
+
+/// Runs `keys` at both ends, up to `threads` runs at a time. `load` reads the scenario with one value set. An end that is the value itself is
+/// `base`, and not run.
+pub fn run_ends(
+    keys: &[Assumed],
+    base: &[Quantity],
+    load: impl Fn(&str, f64) -> Result<Scenario, String> + Sync,
+    threads: NonZeroUsize,
+    stop: &AtomicBool,
+) -> Ends {
+    let run = |k: usize| {
+        let (key, end) = (&keys[k / 2], keys[k / 2].ends[k % 2]);
+        if end == key.value {
+            return Ok(base.to_vec());
+        }
+        let mut scenario = load(&key.key, end)?;
+        // Of each run only what the sensor reads and what defects show is kept.
+        scenario.simulation.record.clear();
+        let run = simulate_with(&scenario, &mut Progress(|_| many::go_on(stop)));
+        run.map(|run| run.quantities()).map_err(|error| error.to_string())
+    };
+    let mut all = many::map(2 * keys.len(), threads, run).into_iter();
+    keys.iter().filter_map(|_| Some([all.next()?, all.next()?])).collect()
+}
+
+/// Whether a number is a level of the sensor, or one of what a defect shows.
+fn is_told(name: &str) -> bool {
+    (name.starts_with("sensor_") || name.starts_with("defect")) && !can_be_negative(name)
+}
+
+/// Numbers above 0 of a run with their bands, in the order of the run.
+fn levels(keys: &[Assumed], base: &[Quantity], ends: &Ends) -> Vec<Level> {
+    let of = |quantity: &Quantity| {
+        let value = quantity.value.filter(|x| *x > 0.0)?;
+        let find = |run: &Result<Vec<Quantity>, String>| {
+            let found = run.as_ref().ok()?.iter().find(|other| other.name == quantity.name);
+            found?.value.filter(|x| *x > 0.0)
+        };
+        let bars = keys.iter().zip(ends).map(|(key, pair)| (key.key.clone(), pair.each_ref().map(find)));
+        Some(level((&quantity.name, &quantity.unit), value, bars))
+    };
+    base.iter().filter(|quantity| is_told(&quantity.name)).filter_map(of).collect()
+}
+
+/// A number with its values at the ends of each key.
+fn level((name, unit): (&str, &str), value: f64, bars: impl Iterator<Item = (String, [Option<f64>; 2])>) -> Level {
+    let mut bars: Vec<Bar> = bars.map(|(key, at)| Bar { key, at }).collect();
+    let change = |x: &Option<f64>| x.map_or(0.0, |x| (x / value).ln());
+    let reach = |bar: &Bar| bar.at.iter().map(|x| change(x).abs()).fold(0.0, f64::max);
+    bars.retain(|bar| reach(bar) > 0.0);
+    bars.sort_by(|a, b| reach(b).total_cmp(&reach(a)));
+    let sum = |sign: f64| {
+        let farthest = |bar: &Bar| bar.at.iter().map(|x| sign * change(x)).fold(0.0, f64::max);
+        bars.iter().map(|bar| farthest(bar).powi(2)).sum::<f64>().sqrt()
+    };
+    let band = [value * (-sum(-1.0)).exp(), value * sum(1.0).exp()];
+    Level { name: name.to_owned(), unit: unit.to_owned(), value, band, bars }
+}
+
+/// The same of the ratio of two runs' numbers, over the keys that both assume: each is moved in both at once.
+pub fn ratios(keys: &[Assumed], [of, to]: [&[Quantity]; 2], [of_ends, to_ends]: [&Ends; 2]) -> Vec<Level> {
+    let number = |run: &[Quantity], name: &str| run.iter().find(|q| q.name == name)?.value.filter(|x| *x > 0.0);
+    let ratio = |quantity: &Quantity| {
+        let name = &quantity.name;
+        let value = number(of, name)? / number(to, name)?;
+        let at = |k: usize, end: usize| {
+            let run = |ends: &Ends| number(ends[k][end].as_ref().ok()?, name);
+            Some(run(of_ends)? / run(to_ends)?)
+        };
+        let bars = keys.iter().enumerate().map(|(k, key)| (key.key.clone(), [0, 1].map(|end| at(k, end))));
+        Some(level((name, "1"), value, bars))
+    };
+    of.iter().filter(|quantity| is_told(&quantity.name)).filter_map(ratio).collect()
+}
+
+impl Spread {
+    /// As JSON: the keys with their ends and the reason of each run that failed, and the numbers with band and bars.
+    pub fn to_json(&self) -> Value {
+        let key = |(key, pair): (&Assumed, &[Result<_, String>; 2])| {
+            let failed: Vec<Value> = (pair.iter().zip(key.ends))
+                .filter_map(|(run, end)| Some(json!({ "at": end, "why": run.as_ref().err()? })))
+                .collect();
+            json!({ "key": key.key, "unit": key.unit, "value": key.value, "low": key.ends[0], "high": key.ends[1], "failed": failed })
+        };
+        json!({
+            "meaning": SPREAD_MEANING,
+            "assumed": self.keys.iter().zip(&self.ends).map(key).collect::<Vec<_>>(),
+            "levels": levels_json(&self.levels),
+        })
+    }
+}
+
+/// Numbers with bands and bars.
+pub fn levels_json(levels: &[Level]) -> Value {
+    let level = |level: &Level| {
+        let bar = |bar: &Bar| json!({ "key": bar.key, "at_low": bar.at[0], "at_high": bar.at[1] });
+        json!({
+            "name": level.name, "unit": level.unit, "value": level.value, "low": level.band[0], "high": level.band[1],
+            "by": level.bars.iter().map(bar).collect::<Vec<_>>(),
+        })
+    };
+    levels.iter().map(level).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn bars(of: &[(&str, [f64; 2])]) -> Vec<(String, [Option<f64>; 2])> {
+        of.iter().map(|(key, at)| ((*key).to_owned(), at.map(Some))).collect()
+    }
+
+    /// Factors of 2 and 4 up: the root of 1 + 4 powers of 2; down by 2 alone.
+    #[test]
+    fn analytic_independent_factors_add_as_squares_of_logarithms() {
+        let found = level(("a", "1"), 3.0, bars(&[("x", [6.0, 1.5]), ("y", [3.0, 12.0]), ("z", [3.0; 2])]).into_iter());
+        assert!((found.band[1] - 3.0 * 2f64.powf(5f64.sqrt())).abs() < 1e-12, "{found:?}");
+        assert!((found.band[0] - 1.5).abs() < 1e-12, "{found:?}");
+        // The largest first, and nothing that changes nothing.
+        assert_eq!(found.bars.iter().map(|bar| &*bar.key).collect::<Vec<_>>(), ["y", "x"]);
+    }
+
+    /// One key alone: the band is what it does.
+    #[test]
+    fn analytic_the_band_of_one_key_is_its_bar() {
+        let found = level(("a", "1"), 2.0, bars(&[("x", [1.0, 5.0])]).into_iter());
+        assert!((found.band[0] - 1.0).abs() < 1e-15 && (found.band[1] - 5.0).abs() < 1e-14, "{found:?}");
+        // Both ends above: nothing goes down.
+        let found = level(("a", "1"), 2.0, bars(&[("x", [4.0, 3.0])]).into_iter());
+        assert_eq!(found.band[0], 2.0);
+    }
+}
