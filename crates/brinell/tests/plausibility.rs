@@ -383,6 +383,25 @@ fn regress_an_audit_that_does_not_close_is_said() {
     assert!(told(&tight, energy).contains("\"reference\" already"));
 }
 
+/// Round-off over round-off was "closes to 100 %".
+#[test]
+fn regress_an_audit_of_a_run_in_which_nothing_flows_is_closed() {
+    let text = "[bearing]\npreset = \"NU206\"\n[operation]\nspeed_rpm = 0.01\nload_n = [0, 0]\n[friction]\nraceway_coefficient = 0\n\
+        [contact]\ndamping_ns_per_m = 0\n[simulation]\nlaws = \"li2023\"\nduration_s = 0.05\nstart = \"equilibrium\"\n";
+    let s = Scenario::from_toml(text).unwrap();
+    let (_, outcome) = simulate(&s);
+    let mut energy = outcome.energy;
+    let held = energy.last.total();
+    assert!(held > 0.0 && energy.turnover() < 1e-12 * held, "{energy:?}");
+    assert!(of_energy(&s, &energy).is_empty(), "{:?}", of_energy(&s, &energy));
+    // More than flowed, by far, and less than a sum of what is held is exact to.
+    energy.last.kinetic += 1e-14 * held;
+    assert!(of_energy(&s, &energy).is_empty(), "{:?}", of_energy(&s, &energy));
+    // Energy from nowhere is no round-off.
+    energy.last.kinetic += 1e-6 * held;
+    assert!(of_energy(&s, &energy).join("\n").contains("the energy audit closes to"));
+}
+
 #[test]
 fn analytic_a_fifth_of_the_dissipation_is_the_limit_in_both_directions() {
     let s = rectangle_with(&[]).scenario;
