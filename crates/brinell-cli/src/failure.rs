@@ -1,7 +1,7 @@
 //! What can go wrong, and how it is reported.
 
 use crate::say::complain;
-use brinell::document::{Problem, render_diagnostics};
+use brinell::document::{Problem, on_one_line, one_line, render_diagnostics};
 use brinell::model::ModelError;
 use brinell_io::IoError;
 use std::path::PathBuf;
@@ -57,6 +57,14 @@ impl Failure {
             ) => BAD_INPUT,
             Self::Write(_) | Self::Picture(_) | Self::Run(_) | Self::NotOpened(_) | Self::Output(_) => 1,
         })
+    }
+
+    /// On one line, as tables and reasons have it.
+    pub(crate) fn on_one_line(&self) -> String {
+        match self {
+            Self::Scenario { problems, .. } => on_one_line(problems),
+            other => one_line(&other.to_string()),
+        }
     }
 
     /// To standard error.

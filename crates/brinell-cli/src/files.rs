@@ -78,6 +78,11 @@ impl Source {
         })
     }
 
+    /// A variant with `settings` over the overrides, without a word; the reason on one line where it is no scenario.
+    pub(crate) fn variant(&self, settings: &[(String, String)]) -> Result<Loaded, String> {
+        self.load(settings, true).map_err(|failure| failure.on_one_line())
+    }
+
     /// The scenario with `settings` over the overrides; its warnings go to standard error unless `quiet`.
     pub(crate) fn load(&self, settings: &[(String, String)], quiet: bool) -> Result<Loaded, Failure> {
         let overrides = [&self.overrides, settings].concat();

@@ -32,7 +32,7 @@ pub(crate) fn calibrate(args: &CalibrateArgs) -> Result<ExitCode, Failure> {
     let begin = Instant::now();
     let (source, plan, warnings) = read(args)?;
     let threads = args.jobs.unwrap_or(brinell::many::threads(usize::MAX));
-    let load: &Load<'_> = &|settings| source.load(settings, true).map_err(|failure| crate::sweep::reason(&failure));
+    let load: &Load<'_> = &|settings| source.variant(settings);
     let points = Points { load, plan: &plan };
     if args.dry_run {
         match args.json {

@@ -62,19 +62,16 @@ pub(crate) fn compare(args: &CompareArgs) -> Result<ExitCode, Failure> {
     };
     let all: Vec<&RunResult> = runs.iter().collect();
     let compared = campaign::compare(&all);
-    let survives = match args.spread {
-        true => spread::of(args, &read, &all, &stop),
-        false => Some(Vec::new()),
-    };
-    let Some(survives) = survives else {
+    let survives = if args.spread { spread::of(args, &read, &all, &stop) } else { None };
+    if args.spread && survives.is_none() {
         complain!("{NOTHING_WRITTEN}");
         return Ok(ExitCode::FAILURE);
-    };
+    }
     let doubts = brinell_report::doubts(sides, &all);
     let warnings = [&beforehand[..], &doubts].concat();
     let mut json = (COMPARISON, sides_json(sides, &compared, &warnings));
-    if args.spread {
-        json.1["spread"] = spread::json(sides, &survives);
+    if let Some(survives) = &survives {
+        json.1["spread"] = spread::json(sides, survives);
     }
     let report = Study::of_runs(sides, &all, &compared, warnings);
     let table = sides_table(sides, &compared);
@@ -92,7 +89,7 @@ pub(crate) fn compare(args: &CompareArgs) -> Result<ExitCode, Failure> {
     }
     if !args.quiet {
         doubts.iter().for_each(|warning| complain!("{warning}"));
-        tell(sides, &compared, &survives);
+        tell(sides, &compared, survives.as_deref().unwrap_or_default());
         say::wrote(&written);
     }
     Ok(ExitCode::SUCCESS)

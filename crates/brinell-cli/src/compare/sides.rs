@@ -5,7 +5,6 @@ use crate::failure::Failure;
 use crate::files::{Source, setting, stem};
 use crate::inputs::Inputs;
 use crate::results::scenario_file;
-use crate::sweep::reason;
 use brinell::scenario::Scenario;
 use brinell_study::campaign::{Side, SidesError, check_labels, split};
 use std::path::{Path, PathBuf};
@@ -23,8 +22,7 @@ impl Sides {
     pub(super) fn with(&self, k: usize, key: &str, value: f64) -> Result<Scenario, String> {
         let (source, settings) = &self.from[k];
         let settings = [&settings[..], &[(key.to_owned(), value.to_string())]].concat();
-        let loaded = self.sources[*source].load(&settings, true);
-        loaded.map(|loaded| loaded.scenario).map_err(|failure| reason(&failure))
+        Ok(self.sources[*source].variant(&settings)?.scenario)
     }
 }
 

@@ -3,7 +3,6 @@
 use crate::args::RunArgs;
 use crate::files::Source;
 use crate::say::{complain, plural, short};
-use crate::sweep::reason;
 use brinell::document::Loaded;
 use brinell::many;
 use brinell::result::RunResult;
@@ -24,10 +23,7 @@ pub(super) fn of(
     if !args.spread || run.outcome.end != End::Complete {
         return None;
     }
-    let load = |key: &str, value: f64| {
-        let loaded = source.load(&[(key.to_owned(), value.to_string())], true);
-        loaded.map(|loaded| loaded.scenario).map_err(|failure| reason(&failure))
-    };
+    let load = |key: &str, value: f64| Ok(source.variant(&[(key.to_owned(), value.to_string())])?.scenario);
     let keys = brinell_study::campaign::assumed(&loaded.provenance);
     if !args.quiet {
         complain!("spread: {} at both ends of their plausible ranges", plural(keys.len(), "assumed value"));

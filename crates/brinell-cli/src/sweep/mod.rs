@@ -23,7 +23,6 @@ use brinell_study::campaign::fingerprint;
 use brinell_study::runner::{JOURNAL, Kept, Task, estimate, to_run};
 
 use page::usual;
-pub(crate) use points::reason;
 use points::{FromSource, Points};
 use serde_json::{Value, json};
 use std::num::NonZeroUsize;

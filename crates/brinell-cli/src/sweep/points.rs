@@ -4,7 +4,6 @@ use super::SweepArgs;
 use crate::failure::Failure;
 use crate::files::Source;
 use crate::files::make_folder;
-use brinell::document::{on_one_line, one_line};
 use brinell::scenario::Scenario;
 use brinell::simulate::Simulation;
 use brinell_io::{ParquetWriter, SignalWriter};
@@ -50,7 +49,7 @@ impl Points {
                 )));
             }
         }
-        let read = ReadPoints::of(&plan, threads, |settings| source.load(settings, true), reason)?;
+        let read = ReadPoints::of(&plan, threads, |settings| source.load(settings, true), Failure::on_one_line)?;
         let first_good = read.tasks.iter().position(Result::is_ok).unwrap_or(0);
         let example = source.load(&plan.settings(first_good), true)?.scenario;
         Ok(Self { source, plan, read, example })
@@ -61,14 +60,6 @@ impl Points {
         let tasks = self.read.tasks.iter();
         let prints = tasks.map(|task| task.as_ref().ok().map(|t| &*t.fingerprint));
         self.plan.header(prints)
-    }
-}
-
-/// A failure on one line.
-pub(crate) fn reason(failure: &Failure) -> String {
-    match failure {
-        Failure::Scenario { problems, .. } => on_one_line(problems),
-        other => one_line(&other.to_string()),
     }
 }
 

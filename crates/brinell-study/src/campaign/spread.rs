@@ -113,28 +113,35 @@ pub fn run_ends(
     keys.iter().filter_map(|_| Some([all.next()?, all.next()?])).collect()
 }
 
-/// Whether a number is a level of the sensor, or one of what a defect shows.
-fn is_told(name: &str) -> bool {
-    (name.starts_with("sensor_") || name.starts_with("defect")) && !can_be_negative(name)
+/// The levels of the sensor, and what a defect shows.
+fn told(run: &[Quantity]) -> impl Iterator<Item = &Quantity> {
+    let is_told = |name: &str| (name.starts_with("sensor_") || name.starts_with("defect")) && !can_be_negative(name);
+    run.iter().filter(move |quantity| is_told(&quantity.name))
+}
+
+/// A number of a run above 0.
+fn number(run: &[Quantity], name: &str) -> Option<f64> {
+    run.iter().find(|quantity| quantity.name == name)?.value.filter(|x| *x > 0.0)
 }
 
 /// Numbers above 0 of a run with their bands, in the order of the run.
 fn levels(keys: &[Assumed], base: &[Quantity], ends: &Ends) -> Vec<Level> {
     let of = |quantity: &Quantity| {
-        let value = quantity.value.filter(|x| *x > 0.0)?;
-        let find = |run: &Result<Vec<Quantity>, String>| {
-            let found = run.as_ref().ok()?.iter().find(|other| other.name == quantity.name);
-            found?.value.filter(|x| *x > 0.0)
-        };
-        let bars = keys.iter().zip(ends).map(|(key, pair)| (key.key.clone(), pair.each_ref().map(find)));
-        Some(level((&quantity.name, &quantity.unit), value, bars))
+        let name = &quantity.name;
+        let at = |k: usize, end: usize| number(ends[k][end].as_ref().ok()?, name);
+        Some(level((name, &quantity.unit), number(base, name)?, bars(keys, at)))
     };
-    base.iter().filter(|quantity| is_told(&quantity.name)).filter_map(of).collect()
+    told(base).filter_map(of).collect()
 }
 
-/// A number with its values at the ends of each key.
-fn level((name, unit): (&str, &str), value: f64, bars: impl Iterator<Item = (String, [Option<f64>; 2])>) -> Level {
-    let mut bars: Vec<Bar> = bars.map(|(key, at)| Bar { key, at }).collect();
+/// A bar of each key; `at` gives the number by the key's place and the end.
+fn bars(keys: &[Assumed], at: impl Fn(usize, usize) -> Option<f64>) -> Vec<Bar> {
+    let bar = |(k, key): (usize, &Assumed)| Bar { key: key.key.clone(), at: [0, 1].map(|end| at(k, end)) };
+    keys.iter().enumerate().map(bar).collect()
+}
+
+/// A number with its band.
+fn level((name, unit): (&str, &str), value: f64, mut bars: Vec<Bar>) -> Level {
     let change = |x: &Option<f64>| x.map_or(0.0, |x| (x / value).ln());
     let reach = |bar: &Bar| bar.at.iter().map(|x| change(x).abs()).fold(0.0, f64::max);
     bars.retain(|bar| reach(bar) > 0.0);
@@ -149,7 +156,6 @@ fn level((name, unit): (&str, &str), value: f64, bars: impl Iterator<Item = (Str
 
 /// The same of the ratio of two runs' numbers, over the keys that both assume: each is moved in both at once.
 pub fn ratios(keys: &[Assumed], [of, to]: [&[Quantity]; 2], [of_ends, to_ends]: [&Ends; 2]) -> Vec<Level> {
-    let number = |run: &[Quantity], name: &str| run.iter().find(|q| q.name == name)?.value.filter(|x| *x > 0.0);
     let ratio = |quantity: &Quantity| {
         let name = &quantity.name;
         let value = number(of, name)? / number(to, name)?;
@@ -157,10 +163,9 @@ pub fn ratios(keys: &[Assumed], [of, to]: [&[Quantity]; 2], [of_ends, to_ends]: 
             let run = |ends: &Ends| number(ends[k][end].as_ref().ok()?, name);
             Some(run(of_ends)? / run(to_ends)?)
         };
-        let bars = keys.iter().enumerate().map(|(k, key)| (key.key.clone(), [0, 1].map(|end| at(k, end))));
-        Some(level((name, "1"), value, bars))
+        Some(level((name, "1"), value, bars(keys, at)))
     };
-    of.iter().filter(|quantity| is_told(&quantity.name)).filter_map(ratio).collect()
+    told(of).filter_map(ratio).collect()
 }
 
 impl Spread {
@@ -196,14 +201,14 @@ pub fn levels_json(levels: &[Level]) -> Value {
 mod tests {
     use super::*;
 
-    fn bars(of: &[(&str, [f64; 2])]) -> Vec<(String, [Option<f64>; 2])> {
-        of.iter().map(|(key, at)| ((*key).to_owned(), at.map(Some))).collect()
+    fn made(of: &[(&str, [f64; 2])]) -> Vec<Bar> {
+        of.iter().map(|(key, at)| Bar { key: (*key).to_owned(), at: at.map(Some) }).collect()
     }
 
     /// Factors of 2 and 4 up: the root of 1 + 4 powers of 2; down by 2 alone.
     #[test]
     fn analytic_independent_factors_add_as_squares_of_logarithms() {
-        let found = level(("a", "1"), 3.0, bars(&[("x", [6.0, 1.5]), ("y", [3.0, 12.0]), ("z", [3.0; 2])]).into_iter());
+        let found = level(("a", "1"), 3.0, made(&[("x", [6.0, 1.5]), ("y", [3.0, 12.0]), ("z", [3.0; 2])]));
         assert!((found.band[1] - 3.0 * 2f64.powf(5f64.sqrt())).abs() < 1e-12, "{found:?}");
         assert!((found.band[0] - 1.5).abs() < 1e-12, "{found:?}");
         // The largest first, and nothing that changes nothing.
@@ -213,10 +218,10 @@ mod tests {
     /// One key alone: the band is what it does.
     #[test]
     fn analytic_the_band_of_one_key_is_its_bar() {
-        let found = level(("a", "1"), 2.0, bars(&[("x", [1.0, 5.0])]).into_iter());
+        let found = level(("a", "1"), 2.0, made(&[("x", [1.0, 5.0])]));
         assert!((found.band[0] - 1.0).abs() < 1e-15 && (found.band[1] - 5.0).abs() < 1e-14, "{found:?}");
         // Both ends above: nothing goes down.
-        let found = level(("a", "1"), 2.0, bars(&[("x", [4.0, 3.0])]).into_iter());
+        let found = level(("a", "1"), 2.0, made(&[("x", [4.0, 3.0])]));
         assert_eq!(found.band[0], 2.0);
     }
 }
