@@ -14,7 +14,7 @@ pub(crate) fn bracketed(value: String, interval: Option<(f64, f64)>) -> String {
 
 /// A number to 12 digits, without what computing leaves behind them: 0.165, not 0.16499999999999998.
 pub fn twelve_digits(x: f64) -> f64 {
-    format!("{x:.11e}").parse().unwrap_or(x)
+    brinell::signal::rounded(x, 12)
 }
 
 /// "1 run", "2 runs".

@@ -1,4 +1,9 @@
-//! Numbers in sentences.
+//! Numbers to some digits: rounded, and in sentences.
+
+/// A number to `digits` significant digits, at least 1, without what computing leaves behind them: 0.165, not 0.16499999999999998.
+pub fn rounded(x: f64, digits: usize) -> f64 {
+    format!("{x:.*e}", digits - 1).parse().unwrap_or(x)
+}
 
 /// A number with `digits` significant digits, plain where that is short: "1800", "0.0123", "1.90e8". For text that is
 /// copied or searched, so without spaces and raised digits.

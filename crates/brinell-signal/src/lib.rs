@@ -90,7 +90,7 @@ pub use band::Band;
 pub use blocks::{Blocks, RECORD_CREST_FACTOR, RECORD_PEAK, RECORD_PEAK_TO_PEAK};
 pub use decimate::kaiser_lowpass;
 #[doc(hidden)]
-pub use digits::short;
+pub use digits::{rounded, short};
 pub use envelope::{EnvelopeSpectrum, envelope, envelope_spectrum};
 pub use error::SignalError;
 pub use estimate::{Estimate, Interval};

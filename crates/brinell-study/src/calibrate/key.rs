@@ -2,6 +2,7 @@
 
 use super::CalibrateError;
 use crate::campaign::{PlanError, assigned, clash, number, syntax};
+use brinell::signal::rounded;
 
 /// A key and its bounds.
 #[derive(Debug, Clone, PartialEq)]
@@ -71,8 +72,7 @@ impl Key {
         } else {
             self.low + unit * (self.high - self.low)
         };
-        let rounded = format!("{exact:.*e}", DIGITS - 1).parse().unwrap_or(exact);
-        rounded.clamp(self.low, self.high)
+        rounded(exact, DIGITS).clamp(self.low, self.high)
     }
 
     /// The place of a value in the unit interval, beyond it where the value lies outside the bounds.

@@ -3,6 +3,7 @@
 use crate::campaign::{Axis, PlanError};
 use brinell::document::reading::{Misfit, Node, Toml, comparable, in_unit_of};
 use brinell::signal::distribution::{normal_quantile, normal_tail};
+use brinell::signal::rounded;
 use std::collections::HashMap;
 
 /// Significant digits of a drawn number: finer ones mean nothing, and the last bit of a logarithm is not the same on
@@ -22,7 +23,7 @@ pub struct Value {
 
 impl Value {
     fn float(x: f64) -> Self {
-        let x: f64 = format!("{x:.*e}", DIGITS - 1).parse().unwrap_or(x);
+        let x = rounded(x, DIGITS);
         Self { toml: format!("{x:?}"), number: Some(x) }
     }
 

@@ -5,6 +5,7 @@
 //! acceleration is wanted.
 
 use crate::analysis::STANDARD_GRAVITY;
+use crate::signal::rounded;
 use std::f64::consts::{PI, TAU};
 
 /// Powers of metre, kilogram, second, volt, radian.
@@ -129,12 +130,8 @@ pub fn read(text: &str, wanted: &str) -> Result<f64, String> {
     if from.powers != to.powers {
         return Err(format!("{unit:?} does not convert to {wanted}"));
     }
-    Ok(rounded(value * (from.factor / to.factor)))
-}
-
-/// To 14 digits: what conversion adds in the last ones is gone.
-fn rounded(x: f64) -> f64 {
-    format!("{x:.13e}").parse().unwrap_or(x)
+    // What conversion adds in the last digits is gone.
+    Ok(rounded(value * (from.factor / to.factor), 14))
 }
 
 /// Where a number that begins a text ends.

@@ -12,6 +12,7 @@ use super::sensor::sensor;
 use super::spec::key;
 use super::unset;
 use crate::scenario::*;
+use crate::signal::rounded;
 
 const POINT_OF_SCOPE: &str = "not in the paper's model";
 
@@ -162,7 +163,7 @@ fn least_of_load(o: &Operation, mass: f64) -> Option<f64> {
     let size = |[x, y]: [f64; 2]| x.hypot(y);
     let presses = size(o.load_n) + mass * size(o.gravity_m_per_s2);
     // Of four digits, as it is printed.
-    let stiffness: f64 = format!("{:.3e}", presses / 0.3e-3).parse().unwrap_or(f64::NAN);
+    let stiffness = rounded(presses / 0.3e-3, 4);
     (stiffness > 0.0).then_some(stiffness)
 }
 

@@ -1,5 +1,6 @@
 //! What a key is called, means and may hold.
 
+use crate::signal::rounded;
 use std::fmt;
 
 /// Name, meaning, unit and range of one key.
@@ -21,21 +22,19 @@ pub(crate) enum Plausible {
     Between([f64; 2]),
 }
 
+/// Digits that a reader types.
+const TYPED: usize = 6;
+
 impl Plausible {
     /// Both ends about a value, within what the key may hold.
     pub(crate) fn about(self, value: f64, range: &Range) -> [f64; 2] {
         let [low, high] = match self {
-            Self::Times(factors) => factors.map(|factor| rounded(factor * value)),
+            Self::Times(factors) => factors.map(|factor| rounded(factor * value, TYPED)),
             Self::Between([low, high]) => [low.min(value), high.max(value)],
         };
         let inside = |x: f64| if range.contains(x) { x } else { value };
         [inside(low.min(high)), inside(high.max(low))]
     }
-}
-
-/// To six digits, as a reader types it.
-fn rounded(x: f64) -> f64 {
-    format!("{x:.5e}").parse().unwrap_or(x)
 }
 
 impl fmt::Display for Plausible {

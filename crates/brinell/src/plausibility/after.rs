@@ -10,6 +10,7 @@ use crate::observe::slip::RowSlip;
 use crate::observe::{Drift, Findings};
 use crate::scenario::{Accuracy, Laws, ModelKind, Scenario};
 use crate::sensor::{Chain, ChannelRecord};
+use crate::signal::rounded;
 use crate::simulate::{EnergyAudit, Outcome, Simulation};
 
 /// Share of the dissipation in contacts beyond which the parametric work of damage is worth a warning. A fifth more or less of the power
@@ -40,9 +41,7 @@ pub fn doubtful(scenario: &Scenario, simulation: &Simulation, outcome: &Outcome,
 /// Which sensor channels went beyond the ADC's full scale, or stayed within one of its steps, in words.
 #[doc(hidden)]
 pub fn converted(simulation: &Simulation, outcome: &Outcome) -> Vec<String> {
-    let step = simulation.sensor().and_then(Chain::step).unwrap_or(f64::NAN);
-    // Four digits.
-    let step: f64 = format!("{step:.3e}").parse().unwrap_or(step);
+    let step = rounded(simulation.sensor().and_then(Chain::step).unwrap_or(f64::NAN), 4);
     let words = |(channel, record): (&Channel, &ChannelRecord)| {
         let (name, rows) = (&channel.name, outcome.rows);
         if record.is_constant() && record.clipped == 0 {
