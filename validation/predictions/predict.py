@@ -30,39 +30,22 @@ RAMP_S = 0.02
 # Diameter of the N208's outer raceway.
 OUTER_MM = 71.5
 
-ADELAIDE = """name = "adelaide-{edge}-{speed}-{load}"
+SCENARIO = """name = "{name}"
 [bearing]
-preset = "N208"
+preset = "{bearing}"
 [operation]
 speed_rpm = {rpm}
 load_n = [0.0, {down}]
 load_on = "inner-ring"
 gravity_m_per_s2 = [0.0, -9.81]
 [[defects]]
-on = "outer-raceway"
-center_deg = -90.0
+on = "{on}"
+center_deg = {center}
 depth_um = {depth}
-shape = {{ profile = {{ arc_mm = {arc}, width_mm = {width}, depth_um = {depths} }} }}
+shape = {{ {shape} }}
 [simulation]
 duration_s = {duration}
 record = ["inner_y", "outer_y", "sensor_ay"]
-"""
-
-SAARLAND = """name = "saarland-{speed}-{load}"
-[bearing]
-preset = "NU206"
-[operation]
-speed_rpm = {speed}
-load_n = [0.0, {down}]
-load_on = "inner-ring"
-gravity_m_per_s2 = [0.0, -9.81]
-[[defects]]
-on = "inner-raceway"
-center_deg = 0.0
-depth_um = 100.0
-shape = {{ rectangle = {{ length_mm = 2.0, width_mm = 3.0 }} }}
-[simulation]
-duration_s = {duration}
 """
 
 
@@ -110,11 +93,12 @@ def interval(values):
 
 def adelaide(brinell, work, edge, speed, load, *options):
     arc, width, depths = profile(edge)
-    text = ADELAIDE.format(
-        edge=edge, speed=speed, load=load, rpm=60.0 * speed, down=-load, depth=DEPTH_UM, arc=arc, width=width, depths=depths,
-        duration=round(RAMP_S + TURNS / speed, 6),
+    name = f"adelaide-{edge}-{speed}-{load}"
+    text = SCENARIO.format(
+        name=name, bearing="N208", rpm=60.0 * speed, down=-load, on="outer-raceway", center=-90.0, depth=DEPTH_UM,
+        shape=f"profile = {{ arc_mm = {arc}, width_mm = {width}, depth_um = {depths} }}", duration=round(RAMP_S + TURNS / speed, 6),
     )
-    summary, out = run(brinell, work / f"adelaide-{edge}-{speed}-{load}", text, "--no-healthy", "--signals", "csv", *options)
+    summary, out = run(brinell, work / name, text, "--no-healthy", "--signals", "csv", *options)
     columns = signals(out)
     t, across = columns["t"], 1e6 * (columns["inner_y"] - columns["outer_y"])
     acceleration = columns["sensor_ay"]
@@ -141,8 +125,12 @@ def adelaide(brinell, work, edge, speed, load, *options):
 
 
 def saarland(brinell, work, speed, load, *options):
-    text = SAARLAND.format(speed=speed, load=load, down=-load, duration=round(RAMP_S + 2.0 + 600.0 / speed, 6))
-    summary, _ = run(brinell, work / f"saarland-{speed}-{load}", text, "--signals", "none", *options)
+    name = f"saarland-{speed}-{load}"
+    text = SCENARIO.format(
+        name=name, bearing="NU206", rpm=speed, down=-load, on="inner-raceway", center=0.0, depth=100.0,
+        shape="rectangle = { length_mm = 2.0, width_mm = 3.0 }", duration=round(RAMP_S + 2.0 + 600.0 / speed, 6),
+    )
+    summary, _ = run(brinell, work / name, text, "--signals", "none", *options)
     line, healthy = summary["defects"][0]["frequency"], summary["healthy"]
     return {
         "speed_rpm": speed, "load_n": load, "bpfi_hz": line["pure_rolling_hz"], "found_hz": line["found_hz"],
@@ -219,7 +207,6 @@ def main(brinell, folder):
     write(folder / "adelaide.csv", adelaides)
     write(folder / "saarland.csv", saarlands)
     (folder / "table.md").write_text(tables(adelaides, saarlands, spreads))
-
 
 
 if __name__ == "__main__":
