@@ -86,8 +86,8 @@ fn row(page: &mut String, k: usize, name: &str, [low, high]: [f64; 2], (colour, 
     let (from, to, y) = (x(low), x(high), ROW * k as f64);
     let _ = write!(
         page,
-        "<text x=\"{:.1}\" y=\"{:.1}\" text-anchor=\"end\">{}</text><rect x=\"{from:.1}\" y=\"{:.1}\" width=\"{:.1}\" height=\"{:.1}\" fill=\"{colour}\"/>\
-         <title>{}: {} to {}</title>",
+        "<text x=\"{:.1}\" y=\"{:.1}\" text-anchor=\"end\">{}</text><rect x=\"{from:.1}\" y=\"{:.1}\" width=\"{:.1}\" height=\"{:.1}\" fill=\"{colour}\">\
+         <title>{}: {} to {}</title></rect>",
         LABELS - 8.0,
         y + 0.65 * ROW,
         escape(name),

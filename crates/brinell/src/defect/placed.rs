@@ -162,14 +162,6 @@ impl Defect {
         }
     }
 
-    /// Height of what is raised highest, m.
-    pub(crate) fn raised(&self) -> f64 {
-        match &self.shape {
-            Shape::DepthMap(grid) => (-grid.extremes().1).max(0.0),
-            _ => 0.0,
-        }
-    }
-
     /// Whether the defect meets rolling elements on `side`.
     #[inline]
     pub fn meets_side(&self, side: Side) -> bool {

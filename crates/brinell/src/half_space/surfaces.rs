@@ -52,7 +52,7 @@ pub(crate) fn add_tables(
         let of = |side: Side| {
             let (geometry, range) = (&geometries[side as usize], &ranges[side as usize]);
             let met = defect.meets_side(side);
-            let most = range.largest + most_lead(range) + defect.raised();
+            let most = range.largest + most_lead(range) + defect.shape.raised();
             geometry.as_ref().filter(|_| met).map_or(0.0, |g| g.reach(most))
         };
         of(Side::Inner).max(of(Side::Outer))
@@ -138,7 +138,7 @@ pub fn pressure_over(
         return None;
     }
     let geometry = Geometry::of_bearing(bearing, contact, side)?;
-    let groups = gather(defects, |d| geometry.reach(delta + d.raised()));
+    let groups = gather(defects, |d| geometry.reach(delta + d.shape.raised()));
     let group = groups.into_iter().find(|group| group.contains(&of))?;
     let damage = Damage::of(defects, &group, 1e-6 * contact.edge_radius_um);
     let apart = offset(defect, &defects[group[0]]);

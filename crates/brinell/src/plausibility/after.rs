@@ -63,26 +63,24 @@ fn skidding(scenario: &Scenario, model: &Model, findings: &Findings) -> Vec<Stri
     let words = |(k, row): (usize, &RowSlip)| {
         let (cage, element) = (row.cage()?.value, scenario.bearing.element.word());
         let loaded = row.loaded_surface()?.value;
-        let held = cage > SKIDDING && rim > 0.0;
-        if held {
-            return Some(format!(
-                "skidding: the cage of row {} turned at {:.0} % of its pure-rolling speed on average. Edges raised by {} um may hold its {element}s: look at \
-                 the damage's depths below 0 and at bearing.radial_clearance_um",
-                k + 1,
-                100.0 * (1.0 - cage),
-                short(rim),
-            ));
-        }
-        (cage > SKIDDING).then(|| {
-            format!(
-                "skidding: the cage of row {} turned at {:.0} % of its pure-rolling speed on average, and loaded {element}s slipped over {:.0} % of the inner \
-                 raceway's way: friction does not drive them. BPFO, BPFI and FTF are far from pure rolling, and raceways would be smeared. Look at \
-                 operation.load_n, the friction and lubricant keys (lubricant.drag_coefficient) and the cage's clearances",
-                k + 1,
-                100.0 * (1.0 - cage),
-                100.0 * loaded,
-            )
-        })
+        let cause = match rim > 0.0 {
+            true => format!(
+                ". Edges raised by {} um may hold its {element}s: look at the damage's depths below 0 and at bearing.radial_clearance_um",
+                short(rim)
+            ),
+            false => format!(
+                ", and loaded {element}s slipped over {:.0} % of the inner raceway's way: friction does not drive them. BPFO, BPFI and FTF are far from \
+                 pure rolling, and raceways would be smeared. Look at operation.load_n, the friction and lubricant keys (lubricant.drag_coefficient) \
+                 and the cage's clearances",
+                100.0 * loaded
+            ),
+        };
+        let turned = 100.0 * (1.0 - cage);
+        let said = format!(
+            "skidding: the cage of row {} turned at {turned:.0} % of its pure-rolling speed on average{cause}",
+            k + 1
+        );
+        (cage > SKIDDING).then_some(said)
     };
     findings.slip.rows.iter().enumerate().filter_map(words).collect()
 }
