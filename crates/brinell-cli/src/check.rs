@@ -6,6 +6,7 @@ use crate::args::CheckArgs;
 use crate::failure::{Failure, print_problems};
 use crate::files;
 use crate::say::{self, one_line, plain_number, say, short, significant};
+use crate::sweep::duration;
 use brinell::bearing::clearance::{bore_diameter_mm, classes_of};
 use brinell::bearing::rating::static_rating;
 use brinell::channel;
@@ -17,20 +18,31 @@ use brinell::observe::passes::place;
 use brinell::plausibility;
 use brinell::pressure::{pressure_beside, pressures, static_limit};
 use brinell::scenario::{Bearing, ContactDamping, Element, GeometryLaw, Scenario, Speed, Surface};
+use brinell::simulate::Simulation;
 use brinell::statics::StaticLoadZone;
+use brinell_study::runner::forecast;
+use serde_json::json;
 use std::f64::consts::TAU;
 use std::process::ExitCode;
 
 pub(crate) fn check(args: &CheckArgs) -> Result<ExitCode, Failure> {
     let loaded = files::scenario(&args.scenario.scenario, &args.scenario.set, false)?;
     let s = &loaded.scenario;
-    let model = Model::new(s)?;
-    let d = Derived::new(&model, s.simulation.accuracy);
+    let simulation = Simulation::unchecked(s)?;
+    let model = simulation.model();
+    let d = Derived::new(model, s.simulation.accuracy);
+    // Of a run that fails at once the run itself tells.
+    let cost = match forecast(&simulation) {
+        Err(error) if error.is_bad_input() => return Err(error.into()),
+        tried => tried.ok(),
+    };
     if args.json {
-        say::json(&brinell::derived::to_json(s, &model, &d));
+        let mut json = brinell::derived::to_json(s, model, &d);
+        json["steps"] = json!(cost.map(|cost| cost.steps.round()));
+        say::json(&json);
         return Ok(ExitCode::SUCCESS);
     }
-    let warnings = plausibility::before(s, &model, &d.statics);
+    let warnings = plausibility::before(s, model, &d.statics);
     print_problems("", "", &warnings);
     say!("{}: the scenario is valid", one_line(&s.name));
     say!("");
@@ -39,7 +51,7 @@ pub(crate) fn check(args: &CheckArgs) -> Result<ExitCode, Failure> {
     frequencies(s, &d);
     say!("");
     match &d.statics {
-        Ok(zone) => static_balance(s, &model, zone),
+        Ok(zone) => static_balance(s, model, zone),
         Err(error) => say!("Static balance: {error}"),
     }
     say!("");
@@ -48,9 +60,12 @@ pub(crate) fn check(args: &CheckArgs) -> Result<ExitCode, Failure> {
     }
     stiffnesses(s, &d);
     say!("");
-    time_scales(s, &model, &d);
+    time_scales(s, model, &d);
     say!("");
-    recording(s, &model);
+    recording(s, model);
+    if let Some(cost) = cost {
+        say!("Cost      about {} steps, {} on this machine", short(cost.steps, 2), duration(cost.seconds));
+    }
     say!("");
     assumptions(&loaded, args.assumptions);
     Ok(ExitCode::SUCCESS)

@@ -34,6 +34,12 @@ struct Recorder<'a, F> {
 }
 
 impl<F: FnMut(f64) -> ControlFlow<()>> Observer for Recorder<'_, F> {
+    fn again(&mut self, simulation: &Simulation) -> ControlFlow<()> {
+        self.passes = Passes::new(simulation.model());
+        self.events.clear();
+        self.signals.again(simulation)
+    }
+
     fn step(&mut self, frame: &Frame) {
         self.passes.take(frame, false, false);
         self.events.extend(self.passes.events.drain(..));

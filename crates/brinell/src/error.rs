@@ -2,6 +2,7 @@
 
 use crate::document::{Problem, Severity};
 use crate::model::ModelError;
+use crate::signal::rounded;
 use crate::statics::NoBalance;
 
 /// Why a run ended before its time, or never began.
@@ -46,6 +47,22 @@ pub enum Error {
         /// The contact that is pressed hardest.
         contact: String,
     },
+    /// The run would take more steps than `simulation.most_steps` allows.
+    #[error(
+        "simulation.most_steps = {most}: the run would take about {steps:.0e} steps of {} us, set by {held}; run shorter, soften what makes steps so \
+         short, or allow more steps",
+        rounded(1e6 * *.step, 2)
+    )]
+    TooLong {
+        /// What it would take.
+        steps: f64,
+        /// What it may take.
+        most: u64,
+        /// Mean step so far seen, s.
+        step: f64,
+        /// What sets their length, in words.
+        held: String,
+    },
     /// The observer stopped the run.
     #[error("stopped before its end")]
     Stopped,
@@ -61,7 +78,10 @@ impl Error {
     /// assert!(error.to_string().contains("operation.speed_rpm"));
     /// ```
     pub fn is_bad_input(&self) -> bool {
-        matches!(self, Self::Scenario(_) | Self::Model(_) | Self::NoBalance(_) | Self::TooLarge { .. })
+        matches!(
+            self,
+            Self::Scenario(_) | Self::Model(_) | Self::NoBalance(_) | Self::TooLarge { .. } | Self::TooLong { .. }
+        )
     }
 }
 

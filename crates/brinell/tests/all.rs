@@ -2,6 +2,7 @@
 //! `damage_allocations.rs` need processes of their own.
 
 mod accuracy;
+mod any_scenario;
 mod architecture;
 mod balls;
 mod common;

@@ -343,7 +343,7 @@ fn prop_energy_from_nowhere_is_said_with_what_conserves_it() {
     ];
     let s = rectangle_with(&pit).scenario;
     let (_, outcome) = simulate(&s);
-    let told = of_energy(&s, &outcome.energy);
+    let told = of_energy(&s, &outcome.energy, None);
     assert_eq!(told.len(), 1, "{told:?}");
     for words in [
         "parametric work",
@@ -358,11 +358,11 @@ fn prop_energy_from_nowhere_is_said_with_what_conserves_it() {
     let s = rectangle_with(&conserving).scenario;
     let (_, outcome) = simulate(&s);
     assert_eq!(outcome.energy.parametric, 0.0);
-    assert!(of_energy(&s, &outcome.energy).is_empty());
+    assert!(of_energy(&s, &outcome.energy, None).is_empty());
     // A healthy bearing has none either.
     let s = rectangle_with(&[("defects", "[]"), ("simulation.duration_s", "0.02")]).scenario;
     let (_, outcome) = simulate(&s);
-    assert!(of_energy(&s, &outcome.energy).is_empty());
+    assert!(of_energy(&s, &outcome.energy, None).is_empty());
 }
 
 #[test]
@@ -372,7 +372,7 @@ fn regress_an_audit_that_does_not_close_is_said() {
     energy.flows.load = 1.0;
     energy.parametric = -0.985;
     // Nothing holds what flowed in but the parametric work: 15 mJ of 1.985 J are missing.
-    let told = |s: &Scenario, energy: EnergyAudit| of_energy(s, &energy).join("\n");
+    let told = |s: &Scenario, energy: EnergyAudit| of_energy(s, &energy, None).join("\n");
     assert!(!told(&s, energy).contains("audit"), "0.8 % is no word");
     energy.parametric = -0.95;
     let words = "the energy audit closes to 2.6 % of the turnover";
@@ -393,13 +393,13 @@ fn regress_an_audit_of_a_run_in_which_nothing_flows_is_closed() {
     let mut energy = outcome.energy;
     let held = energy.last.total();
     assert!(held > 0.0 && energy.turnover() < 1e-12 * held, "{energy:?}");
-    assert!(of_energy(&s, &energy).is_empty(), "{:?}", of_energy(&s, &energy));
+    assert!(of_energy(&s, &energy, None).is_empty(), "{:?}", of_energy(&s, &energy, None));
     // More than flowed, by far, and less than a sum of what is held is exact to.
     energy.last.kinetic += 1e-14 * held;
-    assert!(of_energy(&s, &energy).is_empty(), "{:?}", of_energy(&s, &energy));
+    assert!(of_energy(&s, &energy, None).is_empty(), "{:?}", of_energy(&s, &energy, None));
     // Energy from nowhere is no round-off.
     energy.last.kinetic += 1e-6 * held;
-    assert!(of_energy(&s, &energy).join("\n").contains("the energy audit closes to"));
+    assert!(of_energy(&s, &energy, None).join("\n").contains("the energy audit closes to"));
 }
 
 #[test]
@@ -417,7 +417,7 @@ fn analytic_a_fifth_of_the_dissipation_is_the_limit_in_both_directions() {
         energy.parametric = work;
         // The audit closes.
         energy.flows.load = 4.0 - work;
-        let told = of_energy(&s, &energy).join("\n");
+        let told = of_energy(&s, &energy, None).join("\n");
         match words {
             Some(words) => assert!(told.contains(words), "{work}: {told}"),
             None => assert_eq!(told, "", "{work}"),
@@ -427,6 +427,6 @@ fn analytic_a_fifth_of_the_dissipation_is_the_limit_in_both_directions() {
     lumped.simulation.model = brinell::scenario::ModelKind::Lumped;
     energy.parametric = 1.0;
     energy.flows.load = 3.0;
-    let told = of_energy(&lumped, &energy).join("\n");
+    let told = of_energy(&lumped, &energy, None).join("\n");
     assert!(told.contains("parametric work") && !told.contains("mechanics"), "{told}");
 }

@@ -6,6 +6,7 @@ use brinell::channel::Frame;
 use brinell::observe::line_load::{LineLoadRow, LineLoads};
 use brinell::simulate::{Observer, Simulation};
 use brinell_io::{Cells, Column, Complete, Table};
+use std::ops::ControlFlow;
 use std::path::Path;
 
 /// File in the folder of a run.
@@ -34,6 +35,11 @@ pub(super) fn requested(args: &RunArgs, simulation: &Simulation, end: f64) -> Re
 pub(super) struct Reading(pub(super) LineLoads);
 
 impl Observer for Reading {
+    fn again(&mut self, _: &Simulation) -> ControlFlow<()> {
+        self.0.rows.clear();
+        ControlFlow::Continue(())
+    }
+
     fn sample(&mut self, index: u64, frame: &Frame) {
         self.0.take(index, frame);
     }

@@ -8,20 +8,24 @@ use crate::files::{Source, make_folder};
 use crate::inputs::Inputs;
 use crate::progress::Progress;
 use crate::results::{Earlier, Place, REPORT, Results, SCENARIO, SPECTRA, SUMMARY, is_of, is_written};
-use crate::say::complain;
+use crate::say::{complain, short};
+use crate::sweep::duration;
 use brinell::document::Loaded;
 use brinell::plausibility::Beforehand;
 use brinell::result::{RunResult, finish};
 use brinell::simulate::{End, Observer, Simulation};
 use brinell::summary::{self, Parts};
 use brinell_damage::Photo;
-use brinell_io::{Format, SignalWriter, atomic_prepare};
+use brinell_io::{Format, atomic_prepare};
 use brinell_report::Report;
 use brinell_studio::signal_table;
 use brinell_study::campaign::Spread;
-use brinell_study::runner::Recorder;
+use brinell_study::runner::{Make, Recorder, forecast};
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
+
+/// Wall time of a run that is said before it begins, s.
+const LONG: f64 = 10.0;
 
 /// A scenario that was read and tried, with what is known of it before it runs.
 pub(super) struct Ready {
@@ -55,11 +59,18 @@ pub(super) fn ready(args: &RunArgs, path: &Path, inputs: &mut Inputs) -> Result<
     inputs.add_all(&source.inputs());
     let simulation = Simulation::unchecked(&loaded.scenario)?;
     let beforehand = Beforehand::of(&loaded.scenario, simulation.model());
+    let cost = match forecast(&simulation) {
+        Err(error) if error.is_bad_input() => return Err(error.into()),
+        tried => tried.ok().filter(|cost| cost.seconds > LONG),
+    };
     if !args.quiet {
         if args.scenarios.len() > 1 && !beforehand.warnings.is_empty() {
             complain!("{}:", path.display());
         }
         print_problems("", "", &beforehand.warnings);
+        if let Some(cost) = cost {
+            complain!("{}: about {} steps, about {}", path.display(), short(cost.steps, 2), duration(cost.seconds));
+        }
     }
     let photos = match args.no_report && args.plots.is_empty() {
         true => Vec::new(),
@@ -111,13 +122,13 @@ pub(super) fn execute(args: &RunArgs, task: &Task, mut progress: Progress, stop:
     let layout = args.print.layout(&args.plots)?;
     let mut loads = line_loads::requested(args, &simulation, task.duration_s())?;
     make_folder(folder)?;
-    // These lock their files: another run into the same folder ends here, before anything is removed.
-    let writers = writers(args, loaded, &simulation, folder)?;
+    let files = files(args, loaded, &simulation, folder);
+    let beside = loads.as_mut().map(|loads| loads as &mut dyn Observer);
+    // This locks its files: another run into the same folder ends here, before anything is removed.
+    let mut recorder = Recorder::new(&simulation, &*files, &mut progress)?.beside(beside);
     // What a reader needs to make sense of a partial run comes first.
     let mut ready = vec![atomic_prepare(folder.join(SCENARIO), loaded.to_toml())?];
 
-    let beside = loads.as_mut().map(|loads| loads as &mut dyn Observer);
-    let mut recorder = Recorder::new(&simulation, writers, &mut progress).beside(beside);
     let (finished, healthy) =
         healthy::beside(args, &loaded.scenario, stop, || finish(loaded.scenario.clone(), simulation, &mut recorder));
     let files = recorder.close(&finished.outcome.end, true);
@@ -166,15 +177,11 @@ fn report(parts: &Parts, photos: &[Option<Photo>], spread: Option<&Spread>) -> R
     report
 }
 
-fn writers(
-    args: &RunArgs,
-    loaded: &Loaded,
-    simulation: &Simulation,
-    folder: &Path,
-) -> Result<Vec<Box<dyn SignalWriter>>, Failure> {
+/// Begins the files of signals.
+fn files(args: &RunArgs, loaded: &Loaded, simulation: &Simulation, folder: &Path) -> Box<Make> {
     let (columns, metadata) = signal_table(loaded.to_toml(), simulation);
-    let make = |format: Format| format.create(folder, &columns, &metadata).map_err(Failure::from);
-    formats(args).into_iter().map(make).collect()
+    let (formats, folder) = (formats(args), folder.to_owned());
+    Box::new(move || formats.iter().map(|format| format.create(&folder, &columns, &metadata)).collect())
 }
 
 /// Formats of signals that are requested, each once.

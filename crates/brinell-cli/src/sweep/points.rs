@@ -6,10 +6,10 @@ use crate::files::Source;
 use crate::files::make_folder;
 use brinell::scenario::Scenario;
 use brinell::simulate::Simulation;
-use brinell_io::{ParquetWriter, SignalWriter};
+use brinell_io::ParquetWriter;
 use brinell_studio::signal_table;
 use brinell_study::campaign::{Axis, Plan, is_inside};
-use brinell_study::runner::{ReadPoints, Task, Work};
+use brinell_study::runner::{Make, ReadPoints, Task, Work};
 use serde_json::Value;
 use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
@@ -88,14 +88,13 @@ impl Work for FromSource<'_> {
         Ok(self.source.load(&task.settings, true)?.scenario)
     }
 
-    fn signals(&self, task: &Task, simulation: &Simulation) -> Result<Option<Box<dyn SignalWriter>>, Failure> {
+    fn signals(&self, task: &Task, simulation: &Simulation) -> Result<Box<Make>, Failure> {
         let (Some(folder), Some(path)) = (&self.signals, self.path(&task.fingerprint)) else {
-            return Ok(None);
+            return Ok(Box::new(|| Ok(Vec::new())));
         };
         make_folder(folder)?;
         let text = self.source.load(&task.settings, true)?.to_toml();
         let (columns, metadata) = signal_table(text, simulation);
-        let writer = ParquetWriter::create(path, &columns, &metadata)?;
-        Ok(Some(Box::new(writer)))
+        Ok(Box::new(move || Ok(vec![Box::new(ParquetWriter::create(&path, &columns, &metadata)?)])))
     }
 }

@@ -78,6 +78,11 @@ struct Sensor<'a> {
 }
 
 impl Observer for Sensor<'_> {
+    fn again(&mut self, _: &Simulation) -> ControlFlow<()> {
+        self.signal.clear();
+        ControlFlow::Continue(())
+    }
+
     fn row(&mut self, _: u64, _: &[f64], filtered: &[f64]) -> ControlFlow<()> {
         self.signal.extend(filtered.get(self.pattern.axis));
         ControlFlow::Continue(())

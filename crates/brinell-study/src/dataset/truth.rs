@@ -88,6 +88,16 @@ impl<'a> Truth<'a> {
 }
 
 impl Observer for Truth<'_> {
+    fn again(&mut self, simulation: &Simulation) -> ControlFlow<()> {
+        self.passes = Passes::new(simulation.model());
+        self.before.iter_mut().for_each(|forces| forces.fill(0.0));
+        self.instants.clear();
+        self.outer.fill((0.0, 0.0));
+        self.signals.iter_mut().for_each(Vec::clear);
+        (self.from, self.samples, self.largest, self.kept) = (None, 0, 0.0, 0);
+        ControlFlow::Continue(())
+    }
+
     fn step(&mut self, frame: &Frame) {
         self.passes.take(frame, false, false);
         while let Some(event) = self.passes.events.pop_front() {

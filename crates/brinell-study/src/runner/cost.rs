@@ -1,18 +1,34 @@
-//! What a campaign will cost: some of its runs are made for a moment, and the clock is read. Nothing of that enters the
-//! results.
+//! What runs will cost: the first steps of some of them are made, and the clock is read. Nothing of that enters the results.
 
 use super::{Task, Work};
-use brinell::result::finish;
+use brinell::Error;
 use brinell::scenario::Scenario;
-use brinell::simulate::{Progress, Simulation};
+use brinell::simulate::Simulation;
 use std::num::NonZeroUsize;
-use std::ops::ControlFlow;
-use std::time::{Duration, Instant};
+use std::time::Instant;
 
 /// Runs that are tried: the first, the last, and some between.
 const TRIED: usize = 5;
-/// Wall time of one trial.
-const MOMENT: Duration = Duration::from_millis(60);
+
+/// What a run will cost.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Forecast {
+    /// Steps.
+    pub steps: f64,
+    /// Wall time on this machine, s.
+    pub seconds: f64,
+}
+
+/// What a run will cost.
+///
+/// # Errors
+/// As [`Simulation::cost`].
+pub fn forecast(simulation: &Simulation) -> Result<Forecast, Error> {
+    let begin = Instant::now();
+    let cost = simulation.cost()?;
+    let each = begin.elapsed().as_secs_f64() / cost.tried.max(1) as f64;
+    Ok(Forecast { steps: cost.steps, seconds: each * cost.steps })
+}
 
 /// Wall time of all tasks, s; `None` where no trial ran.
 pub fn estimate(tasks: &[Task], work: &impl Work, threads: NonZeroUsize) -> Option<f64> {
@@ -33,13 +49,5 @@ pub fn mean_pace(count: usize, scenario: impl Fn(usize) -> Option<Scenario>) -> 
 /// Wall time of a simulated second, s; `None` where the scenario does not run.
 fn pace(scenario: Scenario) -> Option<f64> {
     let simulation = Simulation::unchecked(&scenario).ok()?;
-    let (begin, duration) = (Instant::now(), scenario.simulation.duration_s);
-    let mut reached = 0.0;
-    let mut trial = Progress(|t| {
-        reached = t;
-        if begin.elapsed() > MOMENT { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
-    });
-    finish(scenario, simulation, &mut trial);
-    let reached = f64::min(reached, duration);
-    (reached > 0.0).then(|| begin.elapsed().as_secs_f64() / reached)
+    Some(forecast(&simulation).ok()?.seconds / scenario.simulation.duration_s)
 }

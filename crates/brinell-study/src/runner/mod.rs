@@ -11,13 +11,13 @@ mod recorder;
 mod run;
 
 #[doc(hidden)]
-pub use cost::{estimate, mean_pace};
+pub use cost::{Forecast, estimate, forecast, mean_pace};
 #[doc(hidden)]
 pub use ledger::JOURNAL;
 pub use ledger::{Kept, Ledger};
 pub use read_points::ReadPoints;
 #[doc(hidden)]
-pub use recorder::Recorder;
+pub use recorder::{Make, Recorder};
 pub use run::{Beside, Task, Work, run, to_run};
 
 use crate::campaign::other_kernel;

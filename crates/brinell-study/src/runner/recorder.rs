@@ -10,27 +10,31 @@ use std::ops::ControlFlow;
 pub struct Recorder<'a> {
     row: Vec<f64>,
     sample_rate: f64,
+    make: &'a Make,
     writers: Vec<Box<dyn SignalWriter>>,
     failed: Option<IoError>,
     listener: &'a mut dyn RunListener,
     beside: Option<&'a mut dyn Observer>,
 }
 
+/// Begins the files of a run.
+pub type Make = dyn Fn() -> Result<Vec<Box<dyn SignalWriter>>, IoError>;
+
 impl<'a> Recorder<'a> {
-    /// Rows go to every one of `writers`; `listener` may break the run off.
-    pub fn new(
-        simulation: &Simulation,
-        writers: Vec<Box<dyn SignalWriter>>,
-        listener: &'a mut dyn RunListener,
-    ) -> Self {
-        Self {
+    /// Rows go to every file that `make` begins; `listener` may break the run off.
+    ///
+    /// # Errors
+    /// Where a file cannot be begun.
+    pub fn new(simulation: &Simulation, make: &'a Make, listener: &'a mut dyn RunListener) -> Result<Self, IoError> {
+        Ok(Self {
             row: vec![0.0; simulation.channels().len() + 1],
             sample_rate: simulation.sample_rate(),
-            writers,
+            make,
+            writers: make()?,
             failed: None,
             listener,
             beside: None,
-        }
+        })
     }
 
     /// Another observer of the same run. The time goes to the listener alone.
@@ -64,6 +68,19 @@ impl<'a> Recorder<'a> {
 }
 
 impl Observer for Recorder<'_> {
+    fn again(&mut self, simulation: &Simulation) -> ControlFlow<()> {
+        if let Some(beside) = &mut self.beside {
+            beside.again(simulation)?;
+        }
+        // The files begun are removed first: their names are locked until then.
+        self.writers.clear();
+        match (self.make)() {
+            Ok(writers) => self.writers = writers,
+            Err(error) => self.failed = Some(error),
+        }
+        ControlFlow::Continue(())
+    }
+
     fn step(&mut self, frame: &Frame) {
         if let Some(beside) = &mut self.beside {
             beside.step(frame);
@@ -79,6 +96,9 @@ impl Observer for Recorder<'_> {
     fn row(&mut self, index: u64, row: &[f64], filtered: &[f64]) -> ControlFlow<()> {
         if let Some(beside) = &mut self.beside {
             beside.row(index, row, filtered)?;
+        }
+        if self.failed.is_some() {
+            return ControlFlow::Break(());
         }
         if self.writers.is_empty() {
             return ControlFlow::Continue(());

@@ -1,13 +1,12 @@
 //! Tasks made side by side.
 
-use super::{Ledger, Recorder, RunnerError};
+use super::{Ledger, Make, Recorder, RunnerError};
 use crate::campaign::{Row, fingerprint};
 use crate::listener::Listener;
 use brinell::plausibility::after;
 use brinell::result::{Quantity, RunResult, finish};
 use brinell::scenario::Scenario;
 use brinell::simulate::{End, Observer, Simulation};
-use brinell_io::SignalWriter;
 use std::collections::HashSet;
 use std::num::NonZeroUsize;
 use std::ops::ControlFlow;
@@ -67,8 +66,8 @@ pub trait Work: Sync {
     ///
     /// # Errors
     /// Where they cannot go there.
-    fn signals(&self, _: &Task, _: &Simulation) -> Result<Option<Box<dyn SignalWriter>>, Self::Error> {
-        Ok(None)
+    fn signals(&self, _: &Task, _: &Simulation) -> Result<Box<Make>, Self::Error> {
+        Ok(Box::new(|| Ok(Vec::new())))
     }
 
     /// What else observes the task's run, if anything.
@@ -151,11 +150,11 @@ fn one<W: Work>(
         Ok(simulation) => simulation,
         Err(error) => return Ok(Some(row(Err(error.to_string()), Vec::new()))),
     };
-    let writers = work.signals(task, &simulation)?;
+    let files = work.signals(task, &simulation)?;
     let mut hearer = listener.begin(k, task.duration_s);
-    let writers = writers.into_iter().collect();
     let mut beside = work.beside(task, &simulation);
-    let mut recorder = Recorder::new(&simulation, writers, hearer.as_mut())
+    let mut recorder = Recorder::new(&simulation, &*files, hearer.as_mut())
+        .map_err(RunnerError::from)?
         .beside(beside.as_deref_mut().map(|other| other as &mut dyn Observer));
     let finished = finish(scenario, simulation, &mut recorder);
     let files = recorder.close(&finished.outcome.end, false);

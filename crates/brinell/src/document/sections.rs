@@ -14,6 +14,9 @@ use super::unset;
 use crate::scenario::*;
 use crate::signal::rounded;
 
+/// Default of `simulation.most_steps`.
+const MOST_STEPS: u64 = 100_000_000;
+
 const POINT_OF_SCOPE: &str = "not in the paper's model";
 
 pub(crate) fn scenario<K: Keys>(k: &mut K, s: &mut Scenario) {
@@ -309,6 +312,11 @@ fn simulation<K: Keys>(k: &mut K, (o, pushes): (&Operation, bool), s: &mut Simul
         key("accuracy", "tolerance of the integrator"),
         assumed(Accuracy::Standard, "the paper does not state its integrator"),
         &mut s.accuracy,
+    );
+    k.key(
+        key("most_steps", "steps that the run may take: one that would take more is refused"),
+        stated(MOST_STEPS, "minutes to an hour; a second of most bearings takes some 1e5"),
+        &mut s.most_steps,
     );
     let usual = ["inner_*", "outer_*", "cage*", "sensor_*"].map(String::from);
     k.key(

@@ -11,13 +11,11 @@ use crate::observe::{Drift, Findings};
 use crate::scenario::{Accuracy, Laws, ModelKind, Scenario};
 use crate::sensor::{Chain, ChannelRecord};
 use crate::signal::rounded;
-use crate::simulate::{EnergyAudit, Outcome, Simulation};
+use crate::simulate::{EnergyAudit, Outcome, RESIDUAL_SHARE, Simulation};
 
 /// Share of the dissipation in contacts beyond which the parametric work of damage is worth a warning. A fifth more or less of the power
 /// that vibration loses is 1 dB of its level.
 const PARAMETRIC_SHARE: f64 = 0.2;
-/// Share of the turnover that an energy audit may miss before the run is worth a warning; sound runs stay far below.
-const RESIDUAL_SHARE: f64 = 0.01;
 /// Slip of a cage beyond which elements skid rather than roll: bearings whose load drives them slip by a few per cent.
 const SKIDDING: f64 = 0.5;
 /// Mean distance of a cage from its land's centre, over the clearance, beyond which its stop is too soft: at the
@@ -34,8 +32,13 @@ pub fn after(scenario: &Scenario, simulation: &Simulation, outcome: &Outcome, fi
 pub fn doubtful(scenario: &Scenario, simulation: &Simulation, outcome: &Outcome, findings: &Findings) -> Vec<String> {
     let model = simulation.model();
     let sunk = sunk_too_deep(model, findings);
-    [strayed(scenario, findings), skidding(scenario, model, findings), sunk, of_energy(scenario, &outcome.energy)]
-        .concat()
+    [
+        strayed(scenario, findings),
+        skidding(scenario, model, findings),
+        sunk,
+        of_energy(scenario, &outcome.energy, outcome.refined),
+    ]
+    .concat()
 }
 
 /// Which sensor channels went beyond the ADC's full scale, or stayed within one of its steps, in words.
@@ -157,25 +160,37 @@ pub fn unsettled(findings: &Findings) -> Vec<String> {
     words.collect()
 }
 
-/// What the energy audit says.
+/// What the energy audit says; `refined`: what it was left open by before the run was made again.
 #[doc(hidden)]
-pub fn of_energy(scenario: &Scenario, energy: &EnergyAudit) -> Vec<String> {
-    let all = [parametric(scenario, energy), residual(scenario, energy)];
+pub fn of_energy(scenario: &Scenario, energy: &EnergyAudit, refined: Option<f64>) -> Vec<String> {
+    let all = [parametric(scenario, energy), residual(scenario, energy, refined)];
     all.into_iter().flatten().collect()
 }
 
 /// An energy audit that does not close: the steps were too long for the motion.
-fn residual(scenario: &Scenario, energy: &EnergyAudit) -> Option<String> {
-    let share = energy.relative_residual()?.abs();
-    (share > RESIDUAL_SHARE).then(|| {
-        let remedy = match scenario.simulation.accuracy {
-            Accuracy::Standard => "raise simulation.accuracy (allowed: \"reference\")",
-            Accuracy::Reference => {
-                "simulation.accuracy is \"reference\" already: look for damage that the roller falls into at once (contact.roller_path)"
-            }
-        };
+fn residual(scenario: &Scenario, energy: &EnergyAudit, refined: Option<f64>) -> Option<String> {
+    let percent = |share: f64| short(100.0 * share);
+    let limit = percent(RESIDUAL_SHARE);
+    let left = energy.left_open();
+    if let Some(first) = refined {
+        let now = energy.relative_residual().map_or(0.0, f64::abs);
+        let judged = if left.is_some() { "still more than" } else { "below" };
+        return Some(format!(
+            "refined: at simulation.accuracy = \"standard\" the energy audit closed to {} % of the turnover, so the run was made again at \"reference\"; \
+             there it closes to {} %, {judged} the {limit} % of a run to rely on",
+            percent(first),
+            percent(now)
+        ));
+    }
+    let remedy = match scenario.simulation.accuracy {
+        Accuracy::Standard => "raise simulation.accuracy (allowed: \"reference\")",
+        Accuracy::Reference => {
+            "simulation.accuracy is \"reference\" already: look for damage that the roller falls into at once (contact.roller_path)"
+        }
+    };
+    left.map(|share| {
         format!(
-            "the energy audit closes to {:.1} % of the turnover, and 1 % is the limit of a run to rely on: {remedy}",
+            "the energy audit closes to {:.1} % of the turnover, and {limit} % is the limit of a run to rely on: {remedy}",
             100.0 * share
         )
     })

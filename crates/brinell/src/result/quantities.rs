@@ -194,6 +194,7 @@ fn rows(findings: &Findings, all: &mut Vec<Quantity>) {
 pub fn listed(scenario: &Scenario, simulation: &Simulation) -> Vec<Quantity> {
     let findings = crate::observe::Watch::new(scenario, simulation).finish(simulation);
     let outcome = Outcome {
+        refined: None,
         end: crate::simulate::End::Stopped,
         rows: 0,
         t: 0.0,

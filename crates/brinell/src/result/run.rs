@@ -58,12 +58,24 @@ impl RunResult {
     }
 }
 
-/// Runs a simulation and gathers its findings; `observer` is informed of the run as it goes, and may stop it.
-pub fn finish(scenario: Scenario, simulation: Simulation, observer: &mut dyn Observer) -> RunResult {
-    let mut watched = WithWatch { watch: Watch::new(&scenario, &simulation), simulation: &simulation, observer };
-    let outcome = simulation.run(&mut watched);
-    let findings = watched.watch.finish(&simulation);
+/// Runs a simulation and gathers its findings; `observer` is informed of the run as it goes, and may stop it. A run at
+/// `standard` whose energy audit stays open is made again at `reference`, where [`Observer::again`] allows it.
+pub fn finish(scenario: Scenario, mut simulation: Simulation, observer: &mut dyn Observer) -> RunResult {
+    let (mut outcome, mut findings) = watched(&scenario, &simulation, observer);
+    if outcome.end == End::Complete
+        && let Some(open) = simulation.refined(&outcome.energy)
+        && observer.again(&simulation).is_continue()
+    {
+        (outcome, findings) = watched(&scenario, &simulation, observer);
+        outcome.refined = Some(open);
+    }
     RunResult { scenario, simulation, outcome, findings }
+}
+
+fn watched(scenario: &Scenario, simulation: &Simulation, observer: &mut dyn Observer) -> (Outcome, Findings) {
+    let mut watched = WithWatch { watch: Watch::new(scenario, simulation), simulation, observer };
+    let outcome = simulation.run(&mut watched);
+    (outcome, watched.watch.finish(simulation))
 }
 
 /// Runs one scenario to its end.

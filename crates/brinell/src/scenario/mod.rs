@@ -422,6 +422,8 @@ pub struct Simulation {
     pub start: Start,
     /// Tolerance.
     pub accuracy: Accuracy,
+    /// Steps that a run may take.
+    pub most_steps: u64,
     /// Channel names to record, `*` matches any run of characters.
     pub record: Vec<String>,
 }

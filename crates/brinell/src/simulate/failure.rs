@@ -8,11 +8,16 @@ use crate::solver::StepError;
 /// What the solver ran into, in words.
 pub(super) fn explain(error: StepError, model: &Model, ws: &Workspace) -> Error {
     let contact = suspect(model, ws);
-    let body = |index: usize| model.layout.name(index % model.layout.dof(), model.element);
+    let body = |index: usize| body(model, index);
     match error {
         StepError::NonFinite { t, index } => Error::NonFinite { t, body: body(index), contact },
         StepError::Vanished { t, index } => Error::StepVanished { t, body: body(index), contact },
     }
+}
+
+/// Body and coordinate of an entry of the state, in words.
+pub(super) fn body(model: &Model, index: usize) -> String {
+    model.layout.name(index % model.layout.dof(), model.element)
 }
 
 /// The contact that is not finite, or else the one pressed hardest, in words.

@@ -7,6 +7,7 @@
 
 mod anti_alias;
 mod averages;
+mod cost;
 mod failure;
 mod run_loop;
 mod signals;
@@ -24,6 +25,7 @@ use std::ops::ControlFlow;
 
 #[doc(hidden)]
 pub use anti_alias::Decimator;
+pub use cost::Cost;
 pub use run_loop::Run;
 pub use signals::Signals;
 
@@ -46,6 +48,13 @@ pub trait Observer {
         ControlFlow::Continue(())
     }
 
+    /// The run is made again from t = 0, held tighter, because its energy audit stayed open: what was kept of it is void.
+    /// Breaking, which is what happens by default, leaves the run as it was.
+    fn again(&mut self, simulation: &Simulation) -> ControlFlow<()> {
+        let _ = simulation;
+        ControlFlow::Break(())
+    }
+
     /// Every few dozen steps: the simulated time reached. Breaking ends the run.
     fn progress(&mut self, t: f64, work: &SolverWork) -> ControlFlow<()> {
         let _ = (t, work);
@@ -54,13 +63,21 @@ pub trait Observer {
 }
 
 /// Observes nothing.
-impl Observer for () {}
+impl Observer for () {
+    fn again(&mut self, _: &Simulation) -> ControlFlow<()> {
+        ControlFlow::Continue(())
+    }
+}
 
 /// An observer of the simulated time reached, s; its answer may break the run off.
 #[derive(Debug, Clone)]
 pub struct Progress<F>(pub F);
 
 impl<F: FnMut(f64) -> ControlFlow<()>> Observer for Progress<F> {
+    fn again(&mut self, _: &Simulation) -> ControlFlow<()> {
+        ControlFlow::Continue(())
+    }
+
     fn progress(&mut self, t: f64, _: &SolverWork) -> ControlFlow<()> {
         (self.0)(t)
     }
@@ -81,6 +98,8 @@ pub struct SolverWork {
     pub damage_switches: u64,
 }
 
+/// Share of the turnover that an energy audit may miss in a run to rely on; sound runs stay far below.
+pub const RESIDUAL_SHARE: f64 = 0.01;
 /// Share of the energy held that a sum of it is exact to: an audit of smaller flows compares round-off.
 const ROUND_OFF: f64 = 1e-9;
 
@@ -123,6 +142,12 @@ impl EnergyAudit {
         let scale = self.turnover().max(ROUND_OFF * held);
         (scale > 0.0).then(|| self.residual() / scale)
     }
+
+    /// The size of [`EnergyAudit::relative_residual`] where it is more than [`RESIDUAL_SHARE`]: steps were too long for
+    /// the motion.
+    pub fn left_open(&self) -> Option<f64> {
+        self.relative_residual().map(f64::abs).filter(|share| *share > RESIDUAL_SHARE)
+    }
 }
 
 /// How a run ended.
@@ -151,6 +176,8 @@ pub struct Outcome {
     pub work: SolverWork,
     /// Energy audit.
     pub energy: EnergyAudit,
+    /// What the audit was left open by at `standard`, where the run was made again at `reference` for that.
+    pub refined: Option<f64>,
     /// Largest relative momentum imbalance over the samples; `None` where it is not defined.
     pub momentum_imbalance: Option<f64>,
     /// What the sensor did to each of its channels, in the order of [`Simulation::filtered`]; empty without one.
@@ -173,6 +200,8 @@ pub struct Simulation {
     sample_rate: f64,
     samples: u64,
     accuracy: Accuracy,
+    /// Steps that a run may take.
+    most_steps: u64,
 }
 
 impl Simulation {
@@ -235,6 +264,7 @@ impl Simulation {
             sample_rate,
             samples: (scenario.simulation.duration_s * sample_rate * (1.0 + 1e-12)).floor() as u64 + 1,
             accuracy: scenario.simulation.accuracy,
+            most_steps: scenario.simulation.most_steps,
             model,
         })
     }
@@ -278,6 +308,21 @@ impl Simulation {
     /// Samples of a complete run, t = 0 included.
     pub fn samples(&self) -> u64 {
         self.samples
+    }
+
+    /// The same at `reference`, where a run at `standard` left its energy audit open.
+    pub(crate) fn refined(&mut self, audit: &EnergyAudit) -> Option<f64> {
+        let open = audit.left_open().filter(|_| self.accuracy == Accuracy::Standard)?;
+        self.accuracy = Accuracy::Reference;
+        Some(open)
+    }
+
+    /// What a run will cost, by its first steps; where they say that it would take more than it may, by more of them.
+    ///
+    /// # Errors
+    /// [`Error::TooLong`], and where the run fails in its first steps.
+    pub fn cost(&self) -> Result<Cost, Error> {
+        cost::tried(self)
     }
 
     /// Runs to the end, or until the observer breaks off or the solver fails.

@@ -2,16 +2,18 @@
 
 use super::Decimator;
 use super::averages::{Averages, LAG};
-use super::failure::explain;
+use super::cost::Pace;
+use super::failure::{body, explain};
 use super::switches::Switches;
 use super::{End, EnergyAudit, Observer, Outcome, Simulation, SolverWork};
 use crate::accuracy::settings;
 use crate::channel::Frame;
+use crate::error::Error;
 use crate::model::energy::{ContactState, parametric_work};
 use crate::model::{Energy, Motion, Power, Workspace, imbalance};
 use crate::sensor::Sensing;
 use crate::signal::decimate::FACTOR;
-use crate::solver::{Stepper, System};
+use crate::solver::{Stepper, System, Work};
 use std::ops::{ControlFlow, Deref};
 
 /// Steps between two reports of progress.
@@ -60,6 +62,7 @@ pub struct Run<S> {
     /// Rows of a complete run.
     last: u64,
     work: SolverWork,
+    pace: Pace,
     energy: EnergyAudit,
     imbalance: Option<f64>,
     contact_states: [ContactState; 2],
@@ -95,6 +98,7 @@ impl<S: Deref<Target = Simulation>> Run<S> {
             rows: 0,
             last: simulation.samples,
             work: SolverWork::default(),
+            pace: Pace::new(simulation.samples as f64 / simulation.sample_rate, simulation.most_steps),
             energy: EnergyAudit::from(Energy::of(model, 0.0, &simulation.initial, &ws)),
             imbalance: (!model.outer_ring_is_fixed()).then_some(0.0),
             contact_states: [contact_state.clone(), contact_state],
@@ -151,9 +155,15 @@ impl<S: Deref<Target = Simulation>> Run<S> {
                     self.book(flows, observer);
                     // Steps rather than samples: a stiff run may take minutes from one sample to the next.
                     self.work.solver = self.stepper.work();
-                    let due = self.work.solver.steps.is_multiple_of(PROGRESS);
-                    if due && observer.progress(self.stepper.t(), &self.work).is_break() {
+                    let (steps, t) = (self.work.solver.steps, self.stepper.t());
+                    if !steps.is_multiple_of(PROGRESS) {
+                        continue;
+                    }
+                    if observer.progress(t, &self.work).is_break() {
                         return Some(End::Stopped);
+                    }
+                    if let Some(told) = self.pace.too_long(steps, t) {
+                        return Some(End::Failed(self.too_long(told)));
                     }
                 }
                 Err(error) => {
@@ -178,6 +188,7 @@ impl<S: Deref<Target = Simulation>> Run<S> {
             reached: self.rows.saturating_sub(1) as f64 / self.simulation.sample_rate,
             work: self.work,
             energy: self.energy,
+            refined: None,
             momentum_imbalance: self.imbalance,
             sensor: (self.sensing.as_ref()).map_or(Vec::new(), |s| s.records().to_vec()),
         }
@@ -212,9 +223,30 @@ impl<S: Deref<Target = Simulation>> Run<S> {
         self.pending = Pending::new(&other, &self.decimator);
         self.sensing = other.sensor.as_ref().map(Sensing::new);
         self.last = u64::MAX;
+        self.pace = Pace::unbounded();
         self.ws = ws;
         self.simulation = other;
         true
+    }
+
+    /// How fast it goes.
+    pub(super) fn pace(&self) -> &Pace {
+        &self.pace
+    }
+
+    /// What the solver has done.
+    pub(super) fn work(&self) -> Work {
+        self.work.solver
+    }
+
+    /// Why a run of so many steps of such a length does not go on.
+    fn too_long(&mut self, (steps, step): (f64, f64)) -> Error {
+        let model = &self.simulation.model;
+        let held = match self.stepper.hardest() {
+            None => String::from("stability: the stiffest contacts, dampers and friction on the lightest parts"),
+            Some(index) => format!("how fast {} changes", body(model, index)),
+        };
+        Error::TooLong { steps, most: self.simulation.most_steps, step, held }
     }
 
     /// Audits of an accepted step.

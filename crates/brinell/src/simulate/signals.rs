@@ -62,6 +62,11 @@ impl IntoIterator for Signals {
 }
 
 impl Observer for Signals {
+    fn again(&mut self, _: &Simulation) -> ControlFlow<()> {
+        self.columns.iter_mut().for_each(Vec::clear);
+        ControlFlow::Continue(())
+    }
+
     fn row(&mut self, index: u64, row: &[f64], _: &[f64]) -> ControlFlow<()> {
         self.columns[0].push(index as f64 / self.rate_hz);
         for (column, value) in self.columns[1..].iter_mut().zip(row) {

@@ -275,13 +275,26 @@ impl<F: Flow> Stepper<F> {
             let index = if index < 2 * half { index } else { index - half };
             return StepError::NonFinite { t: self.t, index };
         }
+        StepError::Vanished { t: self.t, index: half + self.largest_error() }
+    }
+
+    /// Entry of the rates with the largest share of the last error.
+    fn largest_error(&self) -> usize {
         let share = |k: usize| {
             let weights = DAMPED_CONTACT.error.iter();
             let e: f64 = weights.zip(&self.stages).map(|(w, s)| w * s[k]).sum();
             self.mass[k] * e * e
         };
-        let index = (0..half).max_by(|&a, &b| share(a).total_cmp(&share(b))).unwrap_or(0);
-        StepError::Vanished { t: self.t, index: half + index }
+        (0..self.mass.len()).max_by(|&a, &b| share(a).total_cmp(&share(b))).unwrap_or(0)
+    }
+
+    /// Entry of the rates whose error sets the length of steps; `None` where the stability limit or the longest step does.
+    pub fn hardest(&mut self) -> Option<usize> {
+        // As they were before the last step was accepted.
+        self.stages.swap(0, STAGES);
+        let index = self.largest_error();
+        self.stages.swap(0, STAGES);
+        (self.step < self.limit.min(self.max_step)).then_some(index)
     }
 
     /// How far into the last step `t` lies, as a share of it, and the step.

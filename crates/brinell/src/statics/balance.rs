@@ -161,12 +161,12 @@ pub(super) fn force_scale(model: &Model, problem: &Problem, forces: &[f64]) -> f
     forces.iter().fold(0.0_f64, |m, f| m.max(f.abs())).max(weight).max(1e-9)
 }
 
-/// The residual, N, with which a search that gets no farther has found the balance: what round-off leaves, or what an element pushes that only
+/// The residual, N, with which a search that gets no farther has found the balance: what round-off and a table leave, or what an element pushes that only
 /// its own force presses, of its centrifugal force and weight. One on the edge of damage stands on it or beside it, and no ring is held by
 /// so little; as it counts no more than a ten-thousandth of the largest force `scale` does.
 pub(super) fn stalled(model: &Model, problem: &Problem, scale: f64) -> f64 {
     let own = (0..problem.orbit.len()).map(|slot| own_force(model, problem, slot).abs()).fold(0.0, f64::max);
-    own.clamp(1e-7 * scale, 1e-4 * scale)
+    own.clamp(1e-6 * scale, 1e-4 * scale)
 }
 
 /// Where the damping of Newton's method begins, N/m: the series stiffness at a deflection of a micrometre. Any value of

@@ -5,6 +5,7 @@ use std::f64::consts::PI;
 use super::{Checker, short};
 use crate::analysis::most_elements;
 use crate::bearing::clearance::{ClearanceClass, bore_diameter_mm, largest_bore_mm};
+use crate::scenario::Walls;
 
 /// Share of a roller's diameter by which rounded catalogue diameters may miss each other.
 const GEOMETRY_TOLERANCE: f64 = 0.02;
@@ -226,6 +227,14 @@ impl Checker<'_> {
     pub(super) fn cage(&mut self) {
         let b = &self.s.bearing;
         let c = &self.s.cage;
+        if c.pocket_clearance_mm == 0.0 && c.walls == Walls::Oiled {
+            self.error(
+                POCKET,
+                "oil between element and pocket needs room (cage.walls = \"oiled\")".into(),
+                "> 0".into(),
+                &[],
+            );
+        }
         if b.outer_raceway_diameter_mm <= b.inner_raceway_diameter_mm {
             return;
         }
