@@ -8,7 +8,7 @@ use crate::observe::load_zone::BINS;
 use crate::observe::{Findings, passes};
 use crate::plausibility::{Beforehand, after};
 use crate::result::fields::{self, Field};
-use crate::scenario::{Accuracy, ModelKind, Scenario, Speed};
+use crate::scenario::{ModelKind, Scenario, Speed};
 use crate::signal::{Estimate, Indicator};
 use crate::simulate::{End, Outcome, Simulation};
 use serde_json::{Map, Value, json};
@@ -42,7 +42,7 @@ pub fn to_json(parts: &Parts) -> Value {
         "status": status(&outcome.end),
         "simulated": {
             "model": match scenario.simulation.model { ModelKind::Full => "full", ModelKind::Lumped => "lumped", ModelKind::Tilting => "tilting" },
-            "accuracy": match scenario.simulation.accuracy { Accuracy::Standard => "standard", Accuracy::Reference => "reference" },
+            "accuracy": simulation.accuracy().word(),
             "duration_s": scenario.simulation.duration_s,
             "reached_s": outcome.reached,
             "samples": (fields::SAMPLES.of)(outcome),

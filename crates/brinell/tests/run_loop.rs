@@ -1,8 +1,9 @@
 //! A run in slices, and a run that goes on in another simulation.
 
 use crate::common::li2023;
-use brinell::scenario::Speed;
-use brinell::simulate::{End, Observer, Run, Signals, Simulation};
+use brinell::result::record;
+use brinell::scenario::{Accuracy, Speed};
+use brinell::simulate::{End, Observer, Run, Signals, Simulation, cost};
 use brinell::{Error, Scenario};
 use std::ops::ControlFlow;
 
@@ -29,6 +30,41 @@ impl Observer for Sensor {
 
 fn rms(x: &[f64]) -> f64 {
     (x.iter().map(|v| v * v).sum::<f64>() / x.len() as f64).sqrt()
+}
+
+/// A light outer ring that a fast run-up meets within two milliseconds: `standard` is held by the force of the top speed.
+const OPEN: &str = "[bearing]\nelement = \"ball\"\ninner_raceway_diameter_mm = 443.59\nouter_raceway_diameter_mm = 945.558\n\
+    roller_diameter_mm = 250.984\nrollers_per_row = 6\ninner_groove_conformity = 0.583\nouter_ring_mass_kg = 0.440201\n\
+    [operation]\nspeed_rpm = [[0.0, 60.0], [0.0028, 7200.0]]\nload_n = [0.0, 0.0]\nload_on = \"inner-ring\"\n\
+    gravity_m_per_s2 = [0.0, -9.81]\n[contact]\nyoungs_modulus_gpa = 5.5\n[friction]\nraceway_coefficient = 0.0\n\
+    [support]\ninner_stiffness_n_per_m = 443045000.0\nouter_stiffness_n_per_m = 5975120000.0\n\
+    [simulation]\nduration_s = 0.00205\nrecord = [\"*\"]\n";
+
+#[test]
+fn prop_a_run_whose_audit_stays_open_is_made_again_as_at_reference() {
+    let standard = Scenario::from_toml(OPEN).unwrap();
+    let (again, signals) = record(&standard).unwrap();
+    let open = Simulation::new(&standard).unwrap().run(&mut ()).energy.left_open();
+    assert!(open.is_some() && again.outcome.refined == open, "{open:?}, {:?}", again.outcome.refined);
+    let mut reference = standard.clone();
+    reference.simulation.accuracy = Accuracy::Reference;
+    let (known, expected) = record(&reference).unwrap();
+    assert_eq!(signals, expected);
+    assert_eq!((known.outcome.refined, again.outcome.energy), (None, known.outcome.energy));
+    assert!(known.outcome.energy.left_open().is_none());
+}
+
+#[test]
+fn prop_a_run_of_more_steps_than_allowed_is_refused() {
+    let mut scenario = li2023(&format!("{BEARING}{SPALL}[simulation]\nduration_s = 0.2\n"));
+    let cost = cost(&Simulation::new(&scenario).unwrap()).unwrap();
+    let steps = Simulation::new(&scenario).unwrap().run(&mut ()).work.solver.steps;
+    assert!((0.5..2.0).contains(&(cost.steps / steps as f64)), "{cost:?} for {steps} steps");
+    scenario.simulation.most_steps = steps / 2;
+    let outcome = Simulation::new(&scenario).unwrap().run(&mut ());
+    let End::Failed(error @ Error::TooLong { most, .. }) = outcome.end else { panic!("{:?}", outcome.end) };
+    assert!(error.is_bad_input() && most == steps / 2 && error.to_string().contains("simulation.most_steps"));
+    assert!(outcome.work.solver.steps <= most + 32);
 }
 
 #[test]

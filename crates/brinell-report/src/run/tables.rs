@@ -167,7 +167,7 @@ pub(super) fn solver_work(parts: &Parts) -> Vec<Fact> {
         let n = (field.of)(parts.outcome).to_string();
         Fact::new(label, n, "", note)
     };
-    let accuracy = parts.loaded.scenario.simulation.accuracy.word();
+    let accuracy = parts.simulation.accuracy().word();
     vec![
         Fact::new("Accuracy", accuracy, "", METHOD),
         count("Steps", fields::STEPS, ""),

@@ -3,7 +3,7 @@
 use super::{Task, Work};
 use brinell::Error;
 use brinell::scenario::Scenario;
-use brinell::simulate::Simulation;
+use brinell::simulate::{Simulation, cost};
 use std::num::NonZeroUsize;
 use std::time::Instant;
 
@@ -22,10 +22,10 @@ pub struct Forecast {
 /// What a run will cost.
 ///
 /// # Errors
-/// As [`Simulation::cost`].
+/// As [`cost`].
 pub fn forecast(simulation: &Simulation) -> Result<Forecast, Error> {
     let begin = Instant::now();
-    let cost = simulation.cost()?;
+    let cost = cost(simulation)?;
     let each = begin.elapsed().as_secs_f64() / cost.tried.max(1) as f64;
     Ok(Forecast { steps: cost.steps, seconds: each * cost.steps })
 }

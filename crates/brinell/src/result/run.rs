@@ -4,7 +4,7 @@ use crate::channel::Frame;
 use crate::document;
 use crate::error::Error;
 use crate::observe::{Findings, Watch};
-use crate::scenario::Scenario;
+use crate::scenario::{Accuracy, Scenario};
 use crate::simulate::{End, Observer, Outcome, Signals, Simulation, SolverWork};
 use std::ops::ControlFlow;
 
@@ -63,9 +63,11 @@ impl RunResult {
 pub fn finish(scenario: Scenario, mut simulation: Simulation, observer: &mut dyn Observer) -> RunResult {
     let (mut outcome, mut findings) = watched(&scenario, &simulation, observer);
     if outcome.end == End::Complete
-        && let Some(open) = simulation.refined(&outcome.energy)
+        && simulation.accuracy() == Accuracy::Standard
+        && let Some(open) = outcome.energy.left_open()
         && observer.again(&simulation).is_continue()
     {
+        simulation.hold(Accuracy::Reference);
         (outcome, findings) = watched(&scenario, &simulation, observer);
         outcome.refined = Some(open);
     }

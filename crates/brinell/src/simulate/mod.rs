@@ -9,6 +9,7 @@ mod anti_alias;
 mod averages;
 mod cost;
 mod failure;
+mod pace;
 mod run_loop;
 mod signals;
 mod switches;
@@ -25,7 +26,7 @@ use std::ops::ControlFlow;
 
 #[doc(hidden)]
 pub use anti_alias::Decimator;
-pub use cost::Cost;
+pub use cost::{Cost, cost};
 pub use run_loop::Run;
 pub use signals::Signals;
 
@@ -310,19 +311,14 @@ impl Simulation {
         self.samples
     }
 
-    /// The same at `reference`, where a run at `standard` left its energy audit open.
-    pub(crate) fn refined(&mut self, audit: &EnergyAudit) -> Option<f64> {
-        let open = audit.left_open().filter(|_| self.accuracy == Accuracy::Standard)?;
-        self.accuracy = Accuracy::Reference;
-        Some(open)
+    /// How tight the solver is held.
+    pub fn accuracy(&self) -> Accuracy {
+        self.accuracy
     }
 
-    /// What a run will cost, by its first steps; where they say that it would take more than it may, by more of them.
-    ///
-    /// # Errors
-    /// [`Error::TooLong`], and where the run fails in its first steps.
-    pub fn cost(&self) -> Result<Cost, Error> {
-        cost::tried(self)
+    /// Holds the solver otherwise than the scenario says.
+    pub(crate) fn hold(&mut self, accuracy: Accuracy) {
+        self.accuracy = accuracy;
     }
 
     /// Runs to the end, or until the observer breaks off or the solver fails.

@@ -2,8 +2,8 @@
 
 use super::Decimator;
 use super::averages::{Averages, LAG};
-use super::cost::Pace;
 use super::failure::{body, explain};
+use super::pace::Pace;
 use super::switches::Switches;
 use super::{End, EnergyAudit, Observer, Outcome, Simulation, SolverWork};
 use crate::accuracy::settings;
@@ -86,6 +86,9 @@ impl<S: Deref<Target = Simulation>> Run<S> {
         let mut switches = Switches::new(&model.layout);
         switches.store(&ws);
         let decimator = Decimator::new(simulation.filtered.len());
+        // The filter has its last sample by then.
+        let end = simulation.samples as f64 / simulation.sample_rate
+            + decimator.half_length() as f64 / simulation.fast_rate();
         Self {
             pending: Pending::new(&simulation, &decimator),
             averages: Averages::new(&simulation.filtered_entries, 1.0 / simulation.fast_rate(), rates),
@@ -98,7 +101,7 @@ impl<S: Deref<Target = Simulation>> Run<S> {
             rows: 0,
             last: simulation.samples,
             work: SolverWork::default(),
-            pace: Pace::new(simulation.samples as f64 / simulation.sample_rate, simulation.most_steps),
+            pace: Pace::new(end, simulation.most_steps),
             energy: EnergyAudit::from(Energy::of(model, 0.0, &simulation.initial, &ws)),
             imbalance: (!model.outer_ring_is_fixed()).then_some(0.0),
             contact_states: [contact_state.clone(), contact_state],

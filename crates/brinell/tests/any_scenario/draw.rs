@@ -213,10 +213,9 @@ impl Draw {
     fn keys(&mut self, table: &Json) {
         let Some(keys) = table["properties"].as_object() else { return };
         for (name, key) in keys {
-            if !TOGETHER.contains(&name.as_str()) && self.chance(STATED) {
-                if let Some(value) = self.value(key) {
-                    self.line(name, value);
-                }
+            let drawn = !TOGETHER.contains(&name.as_str()) && self.chance(STATED);
+            if let Some(value) = drawn.then(|| self.value(key)).flatten() {
+                self.line(name, value);
             }
         }
     }

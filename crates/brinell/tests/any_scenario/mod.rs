@@ -7,7 +7,7 @@ mod draw;
 use brinell::document::{self, Loaded, Severity};
 use brinell::many;
 use brinell::result::finish;
-use brinell::simulate::{Cost, End, Observer, Simulation};
+use brinell::simulate::{Cost, End, Observer, Simulation, cost};
 use std::ops::{ControlFlow, Range};
 
 /// Longer runs are not made here: that they would be long is known.
@@ -29,6 +29,7 @@ impl Observer for Finite {
 
 /// What became of one.
 #[derive(Debug)]
+#[expect(dead_code, reason = "printed")]
 enum Fate {
     /// With every key of its errors left out it is none still.
     NoScenario,
@@ -95,7 +96,7 @@ fn fate(seed: u64) -> Fate {
             return Fate::NoModel(error.to_string());
         }
     };
-    let cost = match simulation.cost() {
+    let cost = match cost(&simulation) {
         Ok(cost) if cost.steps <= LONG => cost,
         Ok(cost) => return Fate::Long(cost.steps),
         Err(error) => return Fate::Failed(error.to_string()),
