@@ -47,7 +47,7 @@ pub use options::{MACHINE_NOISE, Options, SUPPLY_HZ};
 pub use recorded::{
     Called, Given, NoUnit, Numbers, Scaled, beyond_full_scale, once, other_bearing, other_speed, unit_of,
 };
-pub use result::{Analysis, Verdict, View};
+pub use result::{Analysis, Unexplained, Verdict, View};
 pub use sensitivity::{FullScale, Sensitivity};
 pub use severity::{BandLevel, MachineClass, NoVelocity, NoZone, SEVERITY_BAND, Zone, band_level, severity};
 pub use soundness::{Flaw, repetition};
@@ -125,6 +125,8 @@ pub fn analyze(x: &[f64], fs: f64, options: &Options) -> Result<Analysis, Analys
         passing_known: false,
         level_growth: None,
         level_range: None,
+        kurtosis_beside: None,
+        beside_damage: false,
         options: record.options,
     })
 }

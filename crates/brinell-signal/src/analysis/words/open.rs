@@ -3,8 +3,10 @@
 use super::super::drift::Drift;
 use super::super::family::{Family, Finding, reach};
 use super::super::together::{MAINS_HZ, REVOLUTIONS};
-use super::super::{Analysis, Component, Elsewhere};
+use super::super::{Analysis, Component, Elsewhere, Unexplained};
 use super::evidence::evidence_of;
+use super::within;
+use crate::digits;
 
 /// What is open of the verdict, and why.
 pub(super) fn cannot_tell(analysis: &Analysis, text: &mut Vec<String>) {
@@ -43,6 +45,28 @@ pub(super) fn cannot_tell(analysis: &Analysis, text: &mut Vec<String>) {
     let led = open().any(Family::may_be_anothers);
     let asked = open().filter(|f| !hides(f) && (f.may_be_anothers() || !led || !f.is_damage()));
     text.extend(asked.map(|family| undecided(analysis, family)));
+    text.extend(analysis.unexplained().map(|what| not_explained(analysis, what)));
+}
+
+/// What shows in the signal itself, and what may cause it.
+fn not_explained(analysis: &Analysis, what: Unexplained) -> String {
+    match what {
+        Unexplained::Impacts(kurtosis) => format!(
+            "Cannot tell: the record has impacts (kurtosis {}, {}) that no line of this bearing explains: damage too weak to call, another part, another \
+             bearing than the one given, or a wrong speed.",
+            digits::short(kurtosis, 3),
+            match analysis.kurtosis_beside {
+                Some([_, healthy]) => format!("{} in the healthy record", digits::short(healthy, 3)),
+                None => "3 for noise".into(),
+            }
+        ),
+        Unexplained::Level(growth) => format!(
+            "Cannot tell: the RMS{} is {growth:.1} times that of the healthy record ({:+.0} dB), and no line of this bearing explains it: another load, \
+             speed or part, or damage too weak to call.",
+            within(analysis),
+            20.0 * growth.log10()
+        ),
+    }
 }
 
 /// A speed that changes so that damage may be missed.
