@@ -41,6 +41,8 @@ const SIDEBANDS: i32 = 2;
 pub(super) const AHEAD: f64 = 0.01;
 /// So many times the tolerance a cage may slip where speed and bearing are exact.
 const SLIPS: f64 = 3.0;
+/// How far slip of the cage moves BPFO and 2 BSF down, and BPFI up, at most, relative.
+const SLIP: f64 = 0.05;
 /// FTF over the shaft's frequency where nobody said.
 const USUAL_FTF: f64 = 0.4;
 
@@ -244,6 +246,18 @@ impl Family {
             Finding::Silent
         }
     }
+}
+
+/// By how much the cage lags pure rolling where that moves the lines of a part beyond the tolerance, by `shift`: the slip
+/// s makes BPFO and 2 BSF (1 - s), and BPFI (1 + s f_c / (f_s - f_c)).
+pub(super) fn lag(component: Component, shift: f64, options: &Options) -> Option<f64> {
+    let turns = options.orders.ftf.unwrap_or(USUAL_FTF);
+    let (moved, lag) = match component {
+        Component::OuterRace | Component::Element => (-shift, -shift),
+        Component::InnerRace => (shift, shift * (1.0 - turns) / turns),
+        Component::Cage => return None,
+    };
+    (moved > options.tolerance && moved <= SLIP).then_some(lag)
 }
 
 /// The cage's frequency, Hz.

@@ -27,7 +27,7 @@ pub fn to_json(
         "at_given": analysis.at_given.as_ref().map(|f| family(analysis, f)),
         "elsewhere": analysis.elsewhere.map(|e| json!({
             "frequency_hz": e.frequency, "order": e.frequency / analysis.shaft, "score": e.score, "modulation": e.modulation,
-            "nearest": e.nearest.map(|n| json!({ "component": n.component.key(), "name": n.name, "shift": n.shift, "shaft_hz_if_its": n.shaft })),
+            "nearest": e.nearest.map(|n| json!({ "component": n.component.key(), "name": n.name, "shift": n.shift, "shaft_hz_if_its": n.shaft, "slip_if_its": n.slip })),
         })),
         "tolerance": analysis.options.tolerance,
         "signal": {

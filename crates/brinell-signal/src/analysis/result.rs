@@ -2,11 +2,11 @@
 
 use super::bands::BandChoice;
 use super::drift::Drift;
-use super::family::{Family, Finding};
+use super::elsewhere::Elsewhere;
+use super::family::{Family, Finding, lag};
 use super::frequencies::Component;
 use super::options::Options;
 use super::soundness::Flaw;
-use super::verdict::Elsewhere;
 use crate::{Band, Estimate, Indicator, Kurtogram, KurtogramBand, Spectrum};
 
 /// Rollers that enter the load of a healthy bearing strike the resting race at the same rate as its damage is struck
@@ -200,6 +200,11 @@ impl Analysis {
     pub fn may_be_passing(&self, family: &Family) -> bool {
         let outer = family.component == Component::OuterRace;
         self.options.silent.is_some() && !self.passing_known && outer && family.modulation < PASSING
+    }
+
+    /// By how much the cage lags, relative, where that and nothing else puts a family beyond the tolerance.
+    pub(super) fn slips(&self, family: &Family) -> Option<f64> {
+        lag(family.component, family.shift(), &self.options).filter(|_| !self.options.exact)
     }
 
     /// A drift for which damage may be missed.

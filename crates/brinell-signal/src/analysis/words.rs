@@ -7,7 +7,7 @@ use super::bands::LOWEST_TOP;
 use super::drift::Drift;
 use super::family::{Family, Finding};
 use super::result::CHANGED;
-use super::{Analysis, Unexplained, Verdict};
+use super::{Analysis, Flaw, Unexplained, Verdict};
 use crate::Indicator;
 use crate::digits;
 
@@ -52,7 +52,9 @@ impl Analysis {
     pub fn clarity(&self, family: &Family) -> &'static str {
         let may_be_other = self.may_be_passing(family) || self.impacts_a_turn(family).is_some();
         let lost = self.drift.as_ref().is_some_and(Drift::is_lost);
-        let is_sure = self.speed_is_told() && self.speed_used().is_none() && !lost;
+        let other_rate = self.flaws.iter().any(|f| matches!(f, Flaw::OtherRate { .. }));
+        let doubt = lost || other_rate || self.speed_used().is_some() || self.slips(family).is_some();
+        let is_sure = self.speed_is_told() && !doubt;
         match (may_be_other, family.is_very_clear() && is_sure) {
             (true, _) => "weak",
             (_, true) => "very clear",
@@ -250,6 +252,13 @@ fn damage(analysis: &Analysis, text: &mut Vec<String>) {
         if family.name == "FTF" {
             text.push("One element causes an impact once a turn of the cage, in the load zone; damage of the cage shows the same.".into());
         }
+        text.extend(analysis.slips(family).map(|lag| {
+            format!(
+                "The cage slips: {:.1} % behind pure rolling it has these lines there, and {} the speed. A light load lets it.",
+                100.0 * lag,
+                if analysis.has_record_of_speed() { "a record tells" } else { "the shaft's own lines agree with" }
+            )
+        }));
         if analysis.may_be_passing(family) {
             text.push(PASSING.into());
         }

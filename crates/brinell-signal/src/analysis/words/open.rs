@@ -36,9 +36,11 @@ pub(super) fn cannot_tell(analysis: &Analysis, text: &mut Vec<String>) {
     text.extend(analysis.hiding_drift().map(|drift| hidden_by(analysis, drift)));
     let open = || (analysis.families.iter()).filter(|f| f.finding == Finding::Open);
     let hides = |family: &&Family| analysis.elsewhere.is_some() && family.is_damage();
+    // Where slip of the cage may put the comb, the bearing's own frequencies are not where pure rolling has them.
+    let may_slip = analysis.elsewhere.and_then(|e| e.nearest).is_some_and(|n| n.slip.is_some());
     let hidden: Vec<String> =
         open().filter(hides).map(|f| format!("{} damage ({})", f.component.words(), evidence_of(f))).collect();
-    if !hidden.is_empty() {
+    if !hidden.is_empty() && !may_slip {
         text.push(format!("By its own frequencies alone the verdict would be {}.", hidden.join(", and ")));
     }
     // Where the one that leads is open, those that would be damage beside it are not the question.
@@ -172,11 +174,12 @@ fn masking(analysis: &Analysis, family: &Family) -> String {
 fn other_lines(analysis: &Analysis, elsewhere: &Elsewhere) -> String {
     let nearest = elsewhere.nearest.map_or(String::new(), |n| {
         format!(
-            " {} is {:.2} % {}: at {:.0} r/min it would be there.",
+            " {} is {:.2} % {}: at {:.0} r/min{} it would be there.",
             n.name,
             100.0 * n.shift.abs(),
             if n.shift > 0.0 { "lower" } else { "higher" },
-            60.0 * n.shaft
+            60.0 * n.shaft,
+            n.slip.map_or(String::new(), |slip| format!(", or a cage that slips by {:.1} %,", 100.0 * slip))
         )
     });
     // The shaft's own lines tell its speed.
