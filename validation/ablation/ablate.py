@@ -47,7 +47,7 @@ variant("no modulation asked of a high score", ("family.rs", "const FAINT: f64 =
 variant("no score limit: 14 % suffices beyond noise", ("family.rs", "limit: SCORE.max(noise),", "limit: noise,"))
 variant("a high score is no way to damage", ("family.rs", "        high || deep\n", "        deep\n"))
 variant("deep modulation is no way to damage", ("family.rs", "        high || deep\n", "        high\n"))
-variant("a comb elsewhere not sought", ("verdict.rs", "let elsewhere = if is_open { None } else { self.elsewhere(lead.map(|k| &all[k])) };", "let elsewhere: Option<Elsewhere> = None;"))
+variant("a comb elsewhere not sought", ("verdict.rs", "if is_open { None } else { self.search().comb(lead.map(|k| &all[k])) };", "None;"))
 variant("sidebands of another shaft not sought", ("verdict.rs", "of_other_shaft(&self.together, &all[lead], self.shaft, &self.options);", "None;"))
 variant("outer race and element not exchanged by slip", ("verdict.rs", "self.others_slip(&all[lead]);", "None;"))
 variant("damage beyond the tolerance passed over", ("verdict.rs", "f.finding == Finding::Silent && f.is_damage_beyond()", "f.is_damage_beyond() && false"))
@@ -61,12 +61,11 @@ variant("shaft and mains not hidden", ("together.rs", "together.hide_known(shaft
 variant("shaft's comb not placed anew", ("together.rs", "let of_shaft = (shaft.tolerance > 0.0)", "let of_shaft = false"))
 variant(
     "speed as given",
-    ("known_lines.rs", "Ok((near.score > 0.0).then(", "Ok((near.score > f64::INFINITY).then("),
-    ("known_lines.rs", "if could_be_wrong && ", "if could_be_wrong && false && "),
+    ("known_lines.rs", "Ok(told.is_own().then(", "Ok((told.is_own() && false).then("),
 )
 variant(
     "no speed beyond the tolerance",
-    ("known_lines.rs", "if could_be_wrong && ", "if could_be_wrong && false && "),
+    ("known_lines.rs", "if is_told && ", "if is_told && false && "),
 )
 variant("an element needs no sidebands", ("family.rs", "        !self.lacks_sidebands()\n            && detected", "        detected"))
 variant("an element needs no lead", ("verdict.rs", "const LEAD: f64 = 2.0;", "const LEAD: f64 = 0.0;"))
@@ -83,9 +82,11 @@ for turns in (60, 30):
         f"segments of {turns} revolutions",
         ("together.rs", "const REVOLUTIONS: f64 = 120.0;", f"const REVOLUTIONS: f64 = {turns}.0;"),
     )
+variant("slip beyond the tolerance is no damage", ("verdict.rs", "elsewhere.and_then(|comb| self.by_slip(&comb, &mut all))", "None"))
+variant("a speed by two lines of ten", ("known_lines.rs", "let told = lines.dense(lines.chosen_comb());", "let told = lines.chosen_comb();"))
 variant("a family needs neither first nor second harmonic", ("family.rs", "const FIRST: usize = 2;", "const FIRST: usize = 5;"))
 variant("damage at the speed given not said", ("hypotheses.rs", "self.at_given = as_given.lead().cloned();", ""))
-variant("a slower comb not sought", ("verdict.rs", "if let Some(slower) = lead.and_then(|lead| self.slower(lead)) {", "if let Some(slower) = lead.and_then(|lead| self.slower(lead)).filter(|_| false) {"))
+variant("a slower comb not sought", ("elsewhere.rs", "if let Some(slower) = lead.and_then(|lead| self.slower(lead)) {", "if let Some(slower) = lead.and_then(|lead| self.slower(lead)).filter(|_| false) {"))
 variant("another slip is no reason", ("verdict.rs", "        one_slip(&mut all, self.shaft, self.options.tolerance);\n", ""))
 constant("score limit", "family.rs", "SCORE", "14.5", (12.0, 13.0, 16.0))
 constant("bins hidden beside a line", "together.rs", "ASIDE", "2.0", (3.0,))

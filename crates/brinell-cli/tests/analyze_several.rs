@@ -130,3 +130,29 @@ fn regress_what_contradicts_what_was_given_is_on_the_page_of_several_files_too()
     assert_eq!(page.matches(warned).count(), 1);
     assert!(page.contains("(in 2 of 2 files looked at, the first of them file w1.csv)"));
 }
+
+/// Impacts at times that no frequency explains: headline, table, page and JSON say so.
+#[test]
+fn regress_impacts_that_no_line_explains_head_no_clean_bill() {
+    let folder = tempdir().unwrap();
+    let mut x = impacts(0.0);
+    // Steps of no pattern.
+    let mut at = 100;
+    let mut step = 1_usize;
+    while at < x.len() {
+        x[at] += 15.0;
+        step = step * 1_103 % 997;
+        at += 20 + step;
+    }
+    column(&folder.path().join("a.csv"), &x);
+    column(&folder.path().join("b.csv"), &impacts(0.0));
+    brinell(folder.path(), &call(&["a.csv"], &[])).exits(0).says(&["Cannot tell: the record has impacts (kurtosis "]);
+    let done = brinell(folder.path(), &call(&["a.csv", "b.csv"], &["--json", "all.json", "-o", "look"])).exits(0);
+    let rows: Vec<&str> = done.out.lines().filter(|l| l.starts_with("a.csv") || l.starts_with("b.csv")).collect();
+    assert!(rows[0].contains("cannot tell, impacts") && rows[1].contains("no damage found"), "{}", done.out);
+    let all = json(&folder.path().join("all.json"));
+    let verdict = &all["records"][0]["verdict"];
+    assert_eq!((&verdict["says"], &verdict["unexplained"]), (&"cannot_tell".into(), &"impacts".into()));
+    let page = fs::read_to_string(folder.path().join("look/report.html")).unwrap();
+    assert!(page.contains("cannot tell, impacts (kurtosis "));
+}

@@ -2,7 +2,8 @@
 
 use crate::analysis::{Damage, SHAFT, damaged, healthy, look};
 use brinell_signal::Indicator;
-use brinell_signal::analysis::{Finding, NamedBearing, Options, Side, analyze, compare};
+use brinell_signal::analysis::{Finding, NamedBearing, Options, Side, Unexplained, Verdict, analyze, compare};
+use brinell_signal::random::Random;
 use std::f64::consts::TAU;
 
 const FS: f64 = 12_000.0;
@@ -132,4 +133,50 @@ fn prop_samples_that_were_not_analysed_are_refused() {
     let (whole, none) = (Side { x: &x, analysis: &a }, Side { x: &[], analysis: &a });
     assert!(compare(whole, none).is_err() && compare(none, whole).is_err());
     assert!(a.clone().beside_healthy(&[], whole).is_err() && a.clone().beside_healthy(&x, none).is_err());
+}
+
+/// Impacts at random times have no line. They and a level that has doubled leave the verdict open, unless the healthy
+/// machine has them too or another bearing is damaged.
+#[test]
+fn prop_impacts_and_levels_that_no_line_explains_leave_the_verdict_open() {
+    let struck = |seed: u64, height: f64| -> Vec<f64> {
+        let mut random = Random::new(seed);
+        let mut x = healthy(FS, 4.0, seed);
+        for _ in 0..400 {
+            let at = (random.uniform() * 47_900.0) as usize;
+            for (k, v) in x[at..at + 60].iter_mut().enumerate() {
+                *v += height * (-(k as f64) / 12.0).exp() * (1.6 * k as f64).sin();
+            }
+        }
+        x
+    };
+    let of = |x: &[f64], before: Option<&[f64]>| {
+        let mut a = look(x, FS);
+        if let Some(before) = before {
+            a.beside_healthy(x, Side { x: before, analysis: &look(before, FS) }).unwrap();
+        }
+        a
+    };
+    let (sound, impacts) = (healthy(FS, 4.0, 1), struck(2, 20.0));
+    let mut a = of(&impacts, None);
+    let kurtosis = a.indicator(Indicator::Kurtosis).unwrap().value;
+    assert!(kurtosis > 6.0, "{kurtosis}");
+    assert_eq!((a.conclusion(), a.unexplained()), (Verdict::CannotTell, Some(Unexplained::Impacts(kurtosis))));
+    assert!(a.verdict().starts_with("Cannot tell: the record has impacts (kurtosis "), "{}", a.verdict());
+    a.beside_damage = true;
+    assert_eq!(a.conclusion(), Verdict::NothingFound, "{}", a.verdict());
+    let beside = of(&impacts, Some(&sound));
+    assert_eq!(beside.conclusion(), Verdict::CannotTell, "{}", beside.verdict());
+    assert!(beside.verdict().contains(" in the healthy record) that no line"), "{}", beside.verdict());
+    // The healthy machine has them too; the level has not doubled; it has.
+    for (x, before, expected) in [
+        (&impacts, &struck(3, 18.0), None),
+        (&sound.iter().map(|v| 1.9 * v).collect(), &healthy(FS, 4.0, 4), None),
+        (&sound.iter().map(|v| 2.1 * v).collect(), &healthy(FS, 4.0, 4), Some("level")),
+    ] {
+        let a = of(x, Some(before));
+        assert_eq!(a.unexplained().map(Unexplained::key), expected, "{}", a.verdict());
+        let open = if expected.is_some() { Verdict::CannotTell } else { Verdict::NothingFound };
+        assert_eq!(a.conclusion(), open, "{}", a.verdict());
+    }
 }

@@ -100,3 +100,48 @@ fn prop_damage_at_the_speed_given_is_said_beside_another_shafts_lines() {
         assert!(a.verdict().contains("A record of the speed would tell."), "{}", a.verdict());
     }
 }
+
+/// A cage that slips takes BPFO down and BPFI up, farther than the tolerance: damage where the shaft's lines tell its
+/// speed, and the verdict names the slip. The other way, or where nothing tells the speed, it is none.
+#[test]
+fn prop_slip_of_the_cage_has_one_sign() {
+    let fs = 12_000.0;
+    let orders = NamedBearing::find("6205-2RS").unwrap().orders();
+    let turns = orders.ftf.unwrap();
+    let told = |slip: f64, (bpf, modulation): (f64, f64), own_lines: bool| {
+        // The rig slips by half a per cent.
+        let damage = Damage { order: bpf / 0.995, modulation, jitter: 0.002, snr_db: 3.0 };
+        let mut x = damaged(fs, 4.0, 7, &damage);
+        if !own_lines {
+            let mut noise = Random::new(8);
+            x = x.iter().zip(healthy(fs, 4.0, 7)).map(|(all, without)| all - without + 0.1 * noise.normal()).collect();
+        }
+        (analyze(&x, fs, &Options::new(SHAFT, orders)).unwrap(), slip)
+    };
+    let outer = |slip: f64| ((1.0 - slip) * orders.bpfo.unwrap(), 0.0);
+    let inner = |slip: f64| ((1.0 + slip * turns / (1.0 - turns)) * orders.bpfi.unwrap(), 1.0);
+    for (slip, lines, part) in [
+        (0.025, outer(0.025), Component::OuterRace),
+        (0.03, outer(0.03), Component::OuterRace),
+        (0.045, outer(0.045), Component::OuterRace),
+        (0.045, inner(0.045), Component::InnerRace),
+        (0.07, inner(0.07), Component::InnerRace),
+    ] {
+        let (a, slip) = told(slip, lines, true);
+        assert_eq!((first(&a), a.shaft_lines.is_empty()), (Some(part), false), "{}", a.verdict());
+        let words = format!("The cage slips: {:.1} % behind pure rolling", 100.0 * slip);
+        assert!(a.verdict().contains(&words), "{slip}: {}", a.verdict());
+        assert_eq!(a.clarity(a.causes().next().unwrap()), "clear");
+    }
+    for (slip, lines, own) in [
+        (-0.03, outer(-0.03), true),
+        (-0.05, inner(-0.05), true),
+        (0.06, outer(0.06), true),
+        (0.03, outer(0.03), false),
+    ] {
+        let (a, _) = told(slip, lines, own);
+        assert_eq!((first(&a), a.conclusion()), (None, Verdict::CannotTell), "{slip}: {}", a.verdict());
+        let names_slip = a.verdict().contains("or a cage that slips by 3.0 %");
+        assert_eq!(names_slip, !own, "{slip}: {}", a.verdict());
+    }
+}

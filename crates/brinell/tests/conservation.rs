@@ -1,14 +1,15 @@
 //! Momentum and energy: what the bodies gain is what flowed in.
 
-use crate::common::cases::{every_term, random_state, rectangle};
+use crate::common::cases::{case, every_term, random_state, rectangle};
 use crate::common::simulate;
 use brinell::accuracy::{settings, tolerance};
 use brinell::defect::{Angles, SIDES};
 use brinell::model::{Energy, Model, Motion, imbalance};
 use brinell::scenario::{Accuracy, Guidance, Law, LoadOn, ModelKind, Scenario};
-use brinell::solver::Stepper;
+use brinell::solver::{DAMPED_CONTACT, Stepper, System};
 use brinell::start;
 use proptest::prelude::*;
+use std::f64::consts::PI;
 
 /// Sum of m a of all bodies less loads, weights, supports and drag, in X and Y, and the sum of their sizes; N. Written
 /// from section 8 with the scenario's numbers, rollers as point masses on Cartesian paths.
@@ -58,7 +59,10 @@ fn unexplained_force(s: &Scenario, model: &Model, t: f64, y: &[f64], dy: &[f64])
     let m = b.roller_mass_kg;
     let pitch = 0.5e-3 * b.pitch_diameter_mm;
     let o = &s.lubricant;
-    let drag = 0.5e-6 * o.drag_coefficient * o.effective_density_kg_per_m3 * b.roller_length_mm * b.roller_diameter_mm;
+    let d = b.roller_diameter_mm;
+    // The section that meets the oil.
+    let section = if b.has_balls() { PI * d * d / 4.0 } else { b.roller_length_mm * d };
+    let drag = 0.5e-6 * o.drag_coefficient * o.effective_density_kg_per_m3 * section;
     for slot in 0..l.rollers() {
         let (sin, cos) = q[l.theta() + slot].sin_cos();
         let radius = pitch + q[l.r() + slot];
@@ -100,6 +104,40 @@ proptest! {
         dy[at] += 1e-9 * size / model.inertia.outer_ring;
         let seen = imbalance(&model, t, &y, &dy[model.layout.dof()..], &motion.ws).unwrap();
         prop_assert!(seen > 1e-11, "{name}: a lost force left {seen:e}");
+    }
+}
+
+/// Friction of an element that nearly rolls slows its slip at a rate, and the step is limited by it: the rate of the
+/// equations of motion, by difference at a slip far below v_s, is that of the limit where v_s is small.
+#[test]
+fn analytic_frictions_slope_limits_the_step() {
+    for (name, s) in [("rectangle", rectangle()), ("balls", case("xval/balls"))] {
+        let with = |slip_velocity: f64| {
+            let mut s = s.clone();
+            (s.friction.slip_velocity_m_per_s, s.lubricant.drag_coefficient) = (slip_velocity, 0.0);
+            Model::new(&s).unwrap()
+        };
+        let (wide, narrow) = (1e3, 1e-9);
+        let model = with(wide);
+        let y = start::state(&model).unwrap();
+        let dof = model.layout.dof();
+        let mut rate: f64 = 0.0;
+        for slot in 0..model.layout.rollers() {
+            let at = model.layout.phi() + slot;
+            let spun = |by: f64| {
+                let (mut y, mut a) = (y.clone(), vec![0.0; dof]);
+                y[dof + at] += by;
+                Motion::new(&model).accelerations(0.0, &y, &mut a);
+                a[at]
+            };
+            rate = rate.max((spun(-1.0) - spun(1.0)) / 2.0);
+        }
+        let limit = DAMPED_CONTACT.stability_limit(rate * wide / narrow, f64::INFINITY);
+        let model = with(narrow);
+        let mut motion = Motion::new(&model);
+        motion.accelerations(0.0, &y, &mut vec![0.0; dof]);
+        let step = motion.stable_step();
+        assert!((step / limit - 1.0).abs() < 0.01, "{name}: {step:e} s, expected {limit:e}");
     }
 }
 

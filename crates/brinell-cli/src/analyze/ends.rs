@@ -33,8 +33,9 @@ pub(super) fn set_beside(results: &mut [Diagnosis]) {
     let lead = lead(results);
     let all = 0..results.len();
     let said: Vec<_> = all.map(|k| (beside(results, k, lead), lines_of(results, k, lead))).collect();
-    for (result, (beside, lines_of)) in results.iter_mut().zip(said) {
+    for (k, (result, (beside, lines_of))) in results.iter_mut().zip(said).enumerate() {
         (result.beside, result.lines_of) = (beside, lines_of);
+        result.analysis.beside_damage = lead.is_some_and(|l| l != k);
     }
 }
 
@@ -82,6 +83,9 @@ fn beside(results: &[Diagnosis], k: usize, lead: Option<usize>) -> Option<String
                     "The lines at {hz:.2} Hz {are} {name}'s, whose {} is called damage: one sensor records both.",
                     first.name
                 ))
+            }
+            (None, None) if this.analysis.unexplained().is_some() => {
+                Some(format!("Impacts and level of the record may be {name}'s, whose {} is called damage.", first.name))
             }
             (None, None) => None,
         });

@@ -1,7 +1,7 @@
 //! Words of an analysis that its page and the terminal share.
 
 use crate::number::short;
-use brinell::analysis::{Analysis, Difference, Family, Finding, Verdict};
+use brinell::analysis::{Analysis, Difference, Family, Finding, Unexplained, Verdict};
 use brinell::signal::Indicator;
 
 /// This over the other, where that says anything: skewness lies about zero.
@@ -31,7 +31,13 @@ pub fn called(a: &Analysis) -> String {
         Verdict::Damage => parts.join("; "),
         Verdict::CannotTell => {
             let grown = a.families.iter().filter(|f| f.finding == Finding::Grown);
-            "cannot tell".to_owned() + &grown.map(|f| format!(", {} has grown", f.name)).collect::<String>()
+            let unexplained = a.unexplained().map(|what| match what {
+                Unexplained::Impacts(kurtosis) => format!(", impacts (kurtosis {})", short(kurtosis, 3)),
+                Unexplained::Level(growth) => format!(", RMS {growth:.1} times the healthy record's"),
+            });
+            "cannot tell".to_owned()
+                + &unexplained.unwrap_or_default()
+                + &grown.map(|f| format!(", {} has grown", f.name)).collect::<String>()
         }
         Verdict::NothingFound => "no damage found".into(),
     }

@@ -17,8 +17,8 @@ impl Analysis {
     /// least doubled their modulation have grown ([`Finding::Grown`]).
     ///
     /// Families and levels are compared in the range that both sample rates hold. How high their lines are goes by modulation
-    /// times the signal's RMS. A level that has merely risen says nothing of the part: load, speed and other parts
-    /// raise it.
+    /// times the signal's RMS. A level that has merely risen says nothing of the part (load, speed and other parts raise
+    /// it), so that it leaves the verdict open, as new impacts do ([`Analysis::unexplained`]).
     ///
     /// # Errors
     /// As [`analyze()`], and where the samples are fewer than were analysed.
@@ -26,12 +26,14 @@ impl Analysis {
         [Side { x, analysis: self }, healthy].iter().try_for_each(Side::check)?;
         let top = 0.5 * self.sample_rate.min(healthy.analysis.sample_rate);
         let range = common_range(self, healthy.analysis);
-        let level = |side| {
-            let found = indicators_in(range, side).into_iter().find(|(i, _)| *i == Indicator::Rms);
-            found.map_or(1.0, |(_, e)| e.value)
+        let levels = [Side { x, analysis: self }, healthy].map(|side| indicators_in(range, side));
+        let both = |wanted| {
+            let of = |k: usize| levels[k].iter().find(|(i, _)| *i == wanted).map(|(_, e)| e.value);
+            Some([of(0)?, of(1)?])
         };
-        let growth = level(Side { x, analysis: self }) / level(healthy);
+        let growth = both(Indicator::Rms).map_or(1.0, |[own, healthy]| own / healthy);
         (self.level_growth, self.level_range) = (Some(growth), range);
+        self.kurtosis_beside = both(Indicator::Kurtosis);
         let louder = growth.max(1.0);
         let own = families_up_to(top, Side { x, analysis: self })?;
         let healthy = families_up_to(top, healthy)?;

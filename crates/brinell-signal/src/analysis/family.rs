@@ -11,6 +11,9 @@
 //! of three rigs (docs/src/results/analyze.md): of 31 of sound bearings none scores more than 10.1 or, at a score
 //! beyond noise, modulates by more than 18 %.
 
+#[cfg(test)]
+mod replay;
+
 use super::Options;
 use super::frequencies::Component;
 use super::together::{HARMONICS, Highest, Place, Together};
@@ -41,6 +44,8 @@ const SIDEBANDS: i32 = 2;
 pub(super) const AHEAD: f64 = 0.01;
 /// So many times the tolerance a cage may slip where speed and bearing are exact.
 const SLIPS: f64 = 3.0;
+/// How far slip of the cage moves BPFO and 2 BSF down, and BPFI up, at most, relative.
+const SLIP: f64 = 0.05;
 /// FTF over the shaft's frequency where nobody said.
 const USUAL_FTF: f64 = 0.4;
 
@@ -246,6 +251,18 @@ impl Family {
     }
 }
 
+/// By how much the cage lags pure rolling where that moves the lines of a part beyond the tolerance, by `shift`: the slip
+/// s makes BPFO and 2 BSF (1 - s), and BPFI (1 + s f_c / (f_s - f_c)).
+pub(super) fn lag(component: Component, shift: f64, options: &Options) -> Option<f64> {
+    let turns = options.orders.ftf.unwrap_or(USUAL_FTF);
+    let (moved, lag) = match component {
+        Component::OuterRace | Component::Element => (-shift, -shift),
+        Component::InnerRace => (shift, shift * (1.0 - turns) / turns),
+        Component::Cage => return None,
+    };
+    (moved > options.tolerance && moved <= SLIP).then_some(lag)
+}
+
 /// The cage's frequency, Hz.
 pub(super) fn cage(shaft: f64, options: &Options) -> f64 {
     options.orders.ftf.unwrap_or(USUAL_FTF) * shaft
@@ -275,6 +292,25 @@ pub(super) fn at_slip(together: &Together, shaft: f64, options: &Options, family
     family
 }
 
+/// What a family's score and modulation are held against.
+struct Limits {
+    noise: f64,
+    limit: f64,
+    faint: f64,
+}
+
+/// Those of a part, where noise reaches a score of `of_noise`.
+fn limits(component: Component, of_noise: f64, options: &Options) -> Limits {
+    let noise = of_noise.max(LEAST_SCORE);
+    let faint = match component {
+        Component::Cage => f64::INFINITY,
+        // Rollers that enter the load strike the race of a healthy bearing too, and little drowns them in a simulation.
+        Component::OuterRace if options.silent.is_some() || options.exact => DEEP,
+        _ => FAINT,
+    };
+    Limits { noise, limit: SCORE.max(noise), faint }
+}
+
 /// A family where its score is highest, from so far below to so far above pure rolling, relative.
 fn within(
     together: &Together,
@@ -283,7 +319,7 @@ fn within(
     (component, name, expected): (Component, &'static str, f64),
     (behind, ahead): (f64, f64),
 ) -> Family {
-    let noise = (HARMONICS as f64 * together.noise.ln()).max(LEAST_SCORE);
+    let Limits { noise, limit, faint } = limits(component, HARMONICS as f64 * together.noise.ln(), options);
     let step = 0.25 * together.step() / (HARMONICS as f64 * expected);
     let steps = ((ahead + behind) / step) as usize;
     let places = (0..=steps).map(|k| expected * (1.0 - behind + k as f64 * step));
@@ -311,15 +347,9 @@ fn within(
         expected,
         frequency,
         score,
-        limit: SCORE.max(noise),
+        limit,
         noise,
-        faint: match component {
-            Component::Cage => f64::INFINITY,
-            // Rollers that enter the load strike the race of a healthy bearing too, and little drowns them in a
-            // simulation.
-            Component::OuterRace if options.silent.is_some() || options.exact => DEEP,
-            _ => FAINT,
-        },
+        faint,
         modulation: lines.modulation,
         harmonics: lines.harmonics,
         sidebands: lines.sidebands,

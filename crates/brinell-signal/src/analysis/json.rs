@@ -1,6 +1,6 @@
 //! An analysis as JSON. Frequencies in Hz; amplitudes in the unit named.
 
-use super::{Analysis, Comparison, Family, Finding, Unit};
+use super::{Analysis, Comparison, Family, Finding, Unexplained, Unit};
 use crate::{RECORD_CREST_FACTOR, RECORD_PEAK, VelocityBands};
 use serde_json::{Map, Value, json};
 
@@ -16,6 +16,8 @@ pub fn to_json(
         "verdict": {
             "text": analysis.verdict(),
             "says": analysis.conclusion().key(),
+            "unexplained": analysis.unexplained().map(Unexplained::key),
+            "kurtosis_beside_healthy": analysis.kurtosis_beside,
             "rms_over_healthy": analysis.level_growth,
             "rms_over_healthy_range_hz": analysis.level_range.map(|range| [range.low, range.high]),
             "damage": analysis.causes().map(|f| f.component.key()).collect::<Vec<_>>(),
@@ -25,7 +27,7 @@ pub fn to_json(
         "at_given": analysis.at_given.as_ref().map(|f| family(analysis, f)),
         "elsewhere": analysis.elsewhere.map(|e| json!({
             "frequency_hz": e.frequency, "order": e.frequency / analysis.shaft, "score": e.score, "modulation": e.modulation,
-            "nearest": e.nearest.map(|n| json!({ "component": n.component.key(), "name": n.name, "shift": n.shift, "shaft_hz_if_its": n.shaft })),
+            "nearest": e.nearest.map(|n| json!({ "component": n.component.key(), "name": n.name, "shift": n.shift, "shaft_hz_if_its": n.shaft, "slip_if_its": n.slip })),
         })),
         "tolerance": analysis.options.tolerance,
         "signal": {

@@ -5,7 +5,7 @@ use super::together::{FLOOR, MAINS_HZ, REVOLUTIONS};
 use super::{AnalysisError, Options};
 use crate::distribution::chi_square_quantile;
 use crate::lengths::fast_up_to;
-use crate::{Segments, peak_near, psd};
+use crate::{Segments, parallel, peak_near, psd};
 
 /// Chance under noise at which a peak counts as a line.
 const LEVEL: f64 = 1e-4;
@@ -22,6 +22,9 @@ const FARTHEST: f64 = 0.12;
 const FEWEST: usize = 2;
 /// The same of one beyond.
 const FEWEST_FAR: usize = 4;
+/// The same of one at another sample rate, of which there are many.
+const FEWEST_RATE: usize = 5;
+const CHANCE_RATE: f64 = 1e-3;
 /// Chance at most that lines of other sources, as many as there are, agree so well with any speed tried.
 const CHANCE: f64 = 0.1;
 /// What a line counts for at most, ln(power over floor): otherwise one that many places share would decide. A comb
@@ -29,6 +32,14 @@ const CHANCE: f64 = 0.1;
 const LINE: f64 = 4.0;
 /// Bins that the tolerance spans at the fundamental; in a shorter record combs beyond it are not told apart.
 const TELLING: f64 = 0.5;
+
+/// Sample rates of usual instruments, Hz, from the highest down.
+const RATES: [f64; 27] = [
+    200e3, 102.4e3, 100e3, 97_656.25, 96e3, 65_536.0, 64e3, 51.2e3, 50e3, 48e3, 44.1e3, 40e3, 32e3, 25.6e3, 25e3, 24e3,
+    20.48e3, 20e3, 16e3, 12.8e3, 12e3, 10.24e3, 10e3, 8e3, 6.4e3, 5.12e3, 5e3,
+];
+/// Speeds this near, relative, say nothing of which of two rates is right.
+const ALIKE: f64 = 0.005;
 
 /// A shaft's speed by lines at its harmonics.
 pub(super) struct ShaftLines {
@@ -44,15 +55,38 @@ pub(super) struct ShaftLines {
 /// Another shaft's lines there look the same: nothing in the signal tells the two apart.
 pub(super) fn shaft(x: &[f64], fs: f64, options: &Options) -> Result<Option<ShaftLines>, AnalysisError> {
     let lines = Lines::of(x, fs, options)?;
-    let near = lines.nearest_comb();
-    let could_be_wrong = !lines.is_whole(&near, FEWEST);
-    if could_be_wrong && options.tolerance * options.shaft >= TELLING * lines.step {
-        let far = lines.highest_comb();
-        if far.score >= near.score + LINE && lines.is_whole(&far, FEWEST_FAR) && lines.chance(&far) <= CHANCE {
-            return Ok(Some(lines.told_by(&far)));
-        }
+    let told = lines.dense(lines.chosen_comb());
+    Ok(told.is_own().then(|| lines.told_by(&told)))
+}
+
+/// The sample rate of an instrument at which lines are the shaft's at the speed given, where they tell no speed at the
+/// rate given; and how many of ten they are.
+pub(super) fn other_rate(x: &[f64], fs: f64, options: &Options) -> Result<Option<(f64, usize)>, AnalysisError> {
+    let lines = Lines::of(x, fs, options)?;
+    let given = lines.chosen_comb();
+    if lines.is_whole(&given, FEWEST_FAR) {
+        return Ok(None);
     }
-    Ok((near.score > 0.0).then(|| lines.told_by(&near)))
+    let at = |rate: f64| -> Result<Option<(f64, Comb)>, AnalysisError> {
+        let mut lines = Lines::of(x, rate, options)?;
+        // Those that are the mains' at the rate given.
+        let (given_hz, width) = (fs / rate, 2.0 * lines.step * fs / rate);
+        lines.each.retain(|(f, _)| !near_mains(f * given_hz, width));
+        let comb = lines.nearest_comb();
+        // Every second or third line of one that is as dense tells nothing.
+        let is_part = [2.0, 3.0].iter().any(|m| lines.comb(comb.speed / m).score >= comb.score);
+        let fits = comb.score >= given.score + LINE && lines.is_whole(&comb, FEWEST_RATE) && !is_part;
+        let is_chance = lines.chance(&comb) > CHANCE_RATE;
+        Ok(Some((rate, comb)).filter(|_| fits && !is_chance))
+    };
+    let rates: Vec<f64> = RATES.into_iter().filter(|rate| (rate / fs - 1.0).abs() > FARTHEST).collect();
+    let found = parallel::map(rates.len(), parallel::threads(rates.len()), |k| at(rates[k]));
+    let found = found.into_iter().flat_map(Result::transpose).collect::<Result<Vec<_>, _>>()?;
+    let highest = found.iter().map(|(_, comb)| comb.score).fold(0.0, f64::max);
+    // At half the rate every second line is a harmonic.
+    let off = |comb: &Comb| ((comb.speed / options.shaft - 1.0).abs() / ALIKE) as u32;
+    let alike = found.iter().filter(|(_, comb)| comb.score > highest - LINE);
+    Ok(alike.min_by_key(|(_, comb)| off(comb)).map(|(rate, comb)| (*rate, comb.orders.len())))
 }
 
 /// The lines of a spectrum that no mains make, up to the highest harmonic of the fastest shaft.
@@ -75,7 +109,7 @@ struct Comb {
 impl Comb {
     /// Every second or third of the shaft's lines may be another part's, and so may its higher ones.
     fn is_own(&self) -> bool {
-        self.orders.len() >= 2 && self.orders[0] <= 2 && self.orders.iter().fold(0, |d, h| divisor(d, *h)) == 1
+        self.orders.len() >= FEWEST && self.orders[0] <= 2 && self.orders.iter().fold(0, |d, h| divisor(d, *h)) == 1
     }
 }
 
@@ -172,6 +206,19 @@ impl<'a> Lines<'a> {
         alike.min_by(|a, b| off(a).total_cmp(&off(b))).unwrap_or(self.no_comb())
     }
 
+    /// The nearest, or where it may be another's the highest.
+    fn chosen_comb(&self) -> Comb {
+        let near = self.nearest_comb();
+        let is_told = self.options.tolerance * self.options.shaft >= TELLING * self.step;
+        if is_told && !self.is_whole(&near, FEWEST) {
+            let far = self.highest_comb();
+            if far.score >= near.score + LINE && self.is_whole(&far, FEWEST_FAR) && self.chance(&far) <= CHANCE {
+                return far;
+            }
+        }
+        near
+    }
+
     fn no_comb(&self) -> Comb {
         Comb { speed: self.options.shaft, score: 0.0, orders: Vec::new() }
     }
@@ -182,6 +229,13 @@ impl<'a> Lines<'a> {
             return false;
         };
         comb.orders.len() >= fewest && comb.orders[0] == 1 && 2 * comb.orders.len() >= self.seen(comb, *last)
+    }
+
+    /// Of a comb, the lines up to which half are there: what lies above may be anybody's.
+    fn dense(&self, mut comb: Comb) -> Comb {
+        let most = comb.orders.iter().zip(1..).take_while(|(order, so_far)| 2 * so_far >= self.seen(&comb, **order));
+        comb.orders.truncate(most.count());
+        comb
     }
 
     /// How many harmonics up to one nothing hides.
@@ -225,15 +279,19 @@ mod tests {
 
     const FS: f64 = 6000.0;
 
-    /// Four seconds of noise, with sines at the frequencies.
-    fn speed(given: f64, sines: &[f64]) -> Option<f64> {
+    /// Four seconds of noise, with sines at the frequencies, and what is known.
+    fn record(given: f64, sines: &[f64]) -> (Vec<f64>, Options) {
         let mut x = Noise::new(3).normals(24_000);
         for f in sines {
             for (i, v) in x.iter_mut().enumerate() {
                 *v += 0.3 * (std::f64::consts::TAU * f * i as f64 / FS).sin();
             }
         }
-        let options = Options::new(given, DefectOrders { bpfo: Some(3.6), ..DefectOrders::default() });
+        (x, Options::new(given, DefectOrders { bpfo: Some(3.6), ..DefectOrders::default() }))
+    }
+
+    fn speed(given: f64, sines: &[f64]) -> Option<f64> {
+        let (x, options) = record(given, sines);
         shaft(&x, FS, &options).unwrap().map(|s| s.speed)
     }
 
@@ -250,5 +308,30 @@ mod tests {
         assert_eq!(speed(47.5, &[50.0, 100.0, 150.0, 200.0, 250.0]), None);
         assert_eq!(speed(29.8, &[31.3, 62.6, 93.9]), None);
         assert_eq!(speed(29.8, &[]), None);
+        // Two of ten, or none below the half of them, say nothing; what lies above two that do moves nothing.
+        assert_eq!(speed(31.3, &[31.6, 316.0]), None);
+        assert_eq!(speed(31.3, &[31.6, 7.0 * 31.6, 9.0 * 31.6]), None);
+        let two = [31.6, 63.2];
+        assert!((speed(31.3, &two).unwrap() / 31.6 - 1.0).abs() < 2e-3);
+        let moved = speed(31.3, &[31.6, 63.2, 10.0 * 31.605]).unwrap() / speed(31.3, &two).unwrap() - 1.0;
+        assert!(moved.abs() < 1e-6, "{moved}");
+    }
+
+    /// Seven harmonics of the shaft's, as they lie where the rate given is too high or too low.
+    #[test]
+    fn analytic_lines_tell_another_sample_rate() {
+        let at = |times: f64, harmonics: &[f64]| {
+            let sines: Vec<f64> = harmonics.iter().map(|h| times * h * 31.3).collect();
+            let (x, options) = record(31.3, &sines);
+            other_rate(&x, FS, &options).unwrap()
+        };
+        let seven = [1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0];
+        for rate in [12_000.0, 25_600.0] {
+            assert_eq!(at(FS / rate, &seven), Some((rate, 7)));
+        }
+        // At the rate given they are the shaft's; four say too little; every second one is not the shaft's.
+        assert_eq!(at(1.0, &seven), None);
+        assert_eq!(at(0.5, &seven[..4]), None);
+        assert_eq!(at(2.0, &seven[..4]), None);
     }
 }

@@ -15,6 +15,7 @@ mod bands;
 mod baseline;
 mod compare;
 mod drift;
+mod elsewhere;
 mod error;
 mod family;
 mod frequencies;
@@ -38,6 +39,7 @@ mod words;
 pub use bands::BandChoice;
 pub use compare::{Comparison, Difference, LineDifference, Side, compare};
 pub use drift::Drift;
+pub use elsewhere::Elsewhere;
 pub use error::{AnalysisError, FEWEST_REVOLUTIONS};
 pub use family::{Family, Finding, Harmonic, Sidebands};
 pub use frequencies::{Component, DefectOrders, NAMED, NamedBearing, Wording, most_elements};
@@ -47,13 +49,12 @@ pub use options::{MACHINE_NOISE, Options, SUPPLY_HZ};
 pub use recorded::{
     Called, Given, NoUnit, Numbers, Scaled, beyond_full_scale, once, other_bearing, other_speed, unit_of,
 };
-pub use result::{Analysis, Verdict, View};
+pub use result::{Analysis, Unexplained, Verdict, View};
 pub use sensitivity::{FullScale, Sensitivity};
 pub use severity::{BandLevel, MachineClass, NoVelocity, NoZone, SEVERITY_BAND, Zone, band_level, severity};
 pub use soundness::{Flaw, repetition};
 pub use together::HARMONICS;
 pub use unit::{Quantity, STANDARD_GRAVITY, Unit};
-pub use verdict::Elsewhere;
 pub use words::{COLUMNS, HEADLINES, indicator_words, level_words};
 
 use crate::error::require;
@@ -69,7 +70,7 @@ use verdict::Record;
 const DITHER: f64 = 1.0 / 4_294_967_296.0;
 /// Halvings of the kurtogram.
 const DEPTH: usize = 6;
-/// Longest part of a signal that the kurtogram looks at, samples: it is for the eye, and that takes no more.
+/// Longest part of a signal that the kurtogram and other sample rates are looked at in, samples: it takes no more.
 const LONGEST: usize = 1 << 18;
 
 /// Analyses `x`, sampled at `fs` Hz.
@@ -97,7 +98,8 @@ pub fn analyze(x: &[f64], fs: f64, options: &Options) -> Result<Analysis, Analys
     flaws.extend(repeats.map(|samples| Flaw::Repeats { every: samples as f64 / fs }));
     // What is missing has no speed.
     let whole = !(flaws.iter()).any(|f| matches!(f, Flaw::Held { .. }));
-    let Prepared { map, evidence, transformed } = prepare(&x, fs, options, whole)?;
+    let Prepared { map, evidence, transformed, other_rate } = prepare(&x, fs, options, whole)?;
+    flaws.extend(other_rate.map(|(fits, lines)| Flaw::OtherRate { fits, given: fs, lines }));
     let samples = x.len();
     let record_peak = x.iter().fold(0.0, |m: f64, v| m.max(v.abs()));
     let Best { record, envelopes, shaft_lines, drift, at_given } = hypotheses::best(&transformed, evidence, options)?;
@@ -125,6 +127,8 @@ pub fn analyze(x: &[f64], fs: f64, options: &Options) -> Result<Analysis, Analys
         passing_known: false,
         level_growth: None,
         level_range: None,
+        kurtosis_beside: None,
+        beside_damage: false,
         options: record.options,
     })
 }
@@ -134,28 +138,32 @@ struct Prepared {
     map: Option<Kurtogram>,
     evidence: SpeedEvidence,
     transformed: Transformed,
+    /// Sample rate at which lines would be the shaft's, Hz, and how many.
+    other_rate: Option<(f64, usize)>,
 }
 
 /// All that asks for nothing but the samples, side by side; the speed's drift is sought where the record is `whole`.
 fn prepare(x: &[f64], fs: f64, options: &Options, whole: bool) -> Result<Prepared, AnalysisError> {
     let may_drift = whole && options.rotation.is_none() && !options.exact;
+    let part = &x[..x.len().min(LONGEST)];
     let map = || match options.band {
         Some(_) => Ok(None),
-        None => kurtogram(&x[..x.len().min(LONGEST)], fs, DEPTH).map(Some),
+        None => kurtogram(part, fs, DEPTH).map(Some),
     };
     // Followed or exact, it is known: a fifth of BPFI is near the speed of many shafts.
-    let lines = || match options.rotation.is_some() || options.exact {
-        true => Ok(None),
-        false => known_lines::shaft(x, fs, options),
-    };
+    let is_known = options.rotation.is_some() || options.exact;
+    let lines = || if is_known { Ok(None) } else { known_lines::shaft(x, fs, options) };
+    let other_rate = || if is_known { Ok(None) } else { known_lines::other_rate(part, fs, options) };
     let drift = || may_drift.then(|| drift::by_shaft(x, fs, options))?;
     // As much as is transformed fast, with a trace of noise, and a machine's where a simulation has none.
     let noise = options.silent.unwrap_or(0.0);
     let transformed = || Transformed::of(&x[..fast_up_to(x.len())], fs);
-    let (map, (lines, (drift, transformed))) = join(map, || join(lines, || join(drift, transformed)));
+    let rest = || join(other_rate, || join(drift, transformed));
+    let (map, (lines, (other_rate, (drift, transformed)))) = join(map, || join(lines, rest));
     Ok(Prepared {
         map: map?,
         evidence: SpeedEvidence { lines: lines?, drift, may_drift },
+        other_rate: other_rate?,
         transformed: transformed?.dithered(DITHER, noise),
     })
 }

@@ -46,6 +46,15 @@ pub enum Flaw {
         /// Of the energy, 0 to 1.
         share: f64,
     },
+    /// Lines are the shaft's at another sample rate than the one given.
+    OtherRate {
+        /// Hz.
+        fits: f64,
+        /// Hz.
+        given: f64,
+        /// How many of the shaft's first ten.
+        lines: usize,
+    },
     /// One stretch again and again, to the bit.
     Repeats {
         /// Its length, s.
@@ -77,6 +86,12 @@ impl fmt::Display for Flaw {
                 f,
                 "{:.0} % of the signal's energy lie in one revolution, from {at:.3} s on: levels are that event's, and lines may be lost in it; analyse a stretch without it",
                 100.0 * share
+            ),
+            Flaw::OtherRate { fits, given, lines } => write!(
+                f,
+                "{lines} lines would be the shaft's first ten at a sample rate of {fits} Hz, and hardly any are at the {given} Hz given: is the rate right? \
+                 A shaft that turns {} times as fast has the same lines",
+                short(given / fits, 3)
             ),
             Flaw::Repeats { every } => write!(f, "the record repeats the same {every:.3} s: these alone are judged"),
         }

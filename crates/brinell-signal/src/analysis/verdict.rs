@@ -1,12 +1,11 @@
 //! From families to a verdict: which of them is damage, and which merely shares another's lines.
 
-use super::family::{
-    AHEAD, DEEP, FAINT, Family, Finding, SCORE, at_slip, by_lines, cage, lines, read, score, score_by,
-};
+use super::elsewhere::{Elsewhere, SIDES, SLOWER, Search, slower_comb};
+use super::family::{AHEAD, DEEP, FAINT, Family, Finding, at_slip, cage, lag, read, score};
 use super::frequencies::Component;
 use super::known_lines::near_multiple;
 use super::spacing::of_other_shaft;
-use super::together::{Envelopes, HARMONICS, Highest, SUPPLY_KNOWN, Shaft, Together};
+use super::together::{Envelopes, SUPPLY_KNOWN, Shaft, Together};
 use super::{AnalysisError, Options};
 
 /// Harmonics of a race that shaft or mains hide from which it may be damaged unseen.
@@ -16,26 +15,6 @@ const LEAD: f64 = 2.0;
 /// How far BPFO + BPFI of two damaged races may lie from so many times the shaft's speed as there are elements,
 /// relative.
 const ONE_SLIP: f64 = 0.002;
-/// Multiples of the shaft's or the cage's frequency about the first's harmonics that are taken out before a second one
-/// is sought.
-const SIDES: i32 = 3;
-/// So many times the tolerance off, a comb may be the bearing's at another speed.
-const FARTHER: f64 = 3.0;
-/// A comb elsewhere may have so much less than the score of the family that leads.
-const HARDLY: f64 = 3.0;
-/// Depth over that of the family that leads from which such a comb counts: the sidebands of a turning source may be as
-/// deep as its own lines.
-const DEEPER: f64 = 1.25;
-/// And this score at least: of some ten thousand places the highest shows as much by chance.
-const LEAST_ELSEWHERE: f64 = 8.0;
-/// The lowest fundamental of such a comb, over the shaft's frequency. No raceway is passed more slowly.
-const LOWEST: f64 = 1.5;
-/// Harmonics of such a comb that the spectrum holds.
-const FEWEST_HARMONICS: f64 = 3.0;
-/// Of a comb so many times as slow at most, a race's lines may be every second, third...
-const SLOWER: usize = 8;
-/// Bins within which two combs are one.
-const WIDTH: f64 = 3.0;
 /// Bins within which two lines are one: half the main lobe of Hann's window.
 const ONE_LINE: f64 = 2.0;
 /// Turns of the cage from which sidebands at its frequency are told from other lines: in a shorter record they fill the
@@ -43,32 +22,6 @@ const ONE_LINE: f64 = 2.0;
 const TELLING: f64 = 20.0;
 /// The same for the cage's own lines.
 const TELLING_CAGE: f64 = 40.0;
-
-/// A comb of lines that is deeper than any of the bearing's, where the bearing has no frequency.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Elsewhere {
-    /// Its fundamental, Hz.
-    pub frequency: f64,
-    /// Its score.
-    pub score: f64,
-    /// Depth to which its lines modulate the envelopes, in the root mean square over all bands.
-    pub modulation: f64,
-    /// The frequency of the bearing that lies nearest, where that is within three tolerances.
-    pub nearest: Option<Nearest>,
-}
-
-/// A frequency of the bearing near a comb, farther off than the tolerance.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Nearest {
-    /// Whose.
-    pub component: Component,
-    /// `BPFO`, `BPFI` or `2 BSF`.
-    pub name: &'static str,
-    /// By how much the comb lies above it, relative.
-    pub shift: f64,
-    /// The shaft speed at which it would be there, Hz.
-    pub shaft: f64,
-}
 
 /// What was looked at, how long it is, and what was found.
 pub(super) struct Record {
@@ -133,10 +86,13 @@ impl Record {
         }
         one_slip(&mut all, self.shaft, self.options.tolerance);
         self.within_first(&mut all);
-        let lead = leading(&all, self.options.exact);
+        let mut lead = leading(&all, self.options.exact);
         // A damaged element's sidebands reach the races' lines.
         let is_open = lead.is_some_and(|k| !is_turning(all[k].component) && undecided > all[k].score + LEAD);
-        let elsewhere = if is_open { None } else { self.elsewhere(lead.map(|k| &all[k])) };
+        let mut elsewhere = if is_open { None } else { self.search().comb(lead.map(|k| &all[k])) };
+        if let Some(slips) = elsewhere.and_then(|comb| self.by_slip(&comb, &mut all)) {
+            (lead, elsewhere) = (Some(slips), None);
+        }
         if let Some(lead) = lead.filter(|_| elsewhere.is_none() && !self.options.exact) {
             all[lead].others_slip = self.others_slip(&all[lead]);
             // A cage that slips has sidebands at a speed of its own.
@@ -194,6 +150,35 @@ impl Record {
         let spacing = (1.0 - slip) * turns * self.shaft;
         let could_be = lead.component == Component::Element || lead.could_be_elements(&self.together, spacing);
         could_be.then_some(slip)
+    }
+
+    fn search(&self) -> Search<'_> {
+        let Record { together, shaft, by_lines, options, .. } = self;
+        Search { together, shaft: *shaft, by_lines: *by_lines, options }
+    }
+
+    /// The race whose lines a comb elsewhere is where the cage slips, if it is deep damage there: slip of the cage goes
+    /// farther than the tolerance, one way. Only where the shaft's speed is known does a shift say so, and where lines
+    /// of the cage do not say otherwise. An element's lines there are other bearings' more often.
+    fn by_slip(&self, comb: &Elsewhere, all: &mut [Family]) -> Option<usize> {
+        let options = &self.options;
+        if !self.by_lines && options.rotation.is_none() && !options.measured_speed || options.is_other_speed(self.shaft)
+        {
+            return None;
+        }
+        let there = |f: &Family| at_slip(&self.together, self.shaft, options, f, comb.frequency / f.expected - 1.0);
+        let slips = |f: &Family| {
+            let is_race = !is_turning(f.component) && lag(f.component, f.shift(), options).is_some();
+            is_race && f.is_damage() && f.modulation >= DEEP
+        };
+        let mut found = all.iter().map(there).enumerate().filter(|(_, f)| slips(f));
+        let (k, family) = found.next().filter(|_| found.next().is_none())?;
+        let cage = all.iter().find(|f| f.component == Component::Cage).cloned();
+        let mut both: Vec<Family> = cage.into_iter().chain([family]).collect();
+        one_slip(&mut both, self.shaft, options.tolerance);
+        let family = both.pop().filter(|f| f.finding == Finding::Damage)?;
+        all[k] = family;
+        Some(k)
     }
 
     /// The cage carries the elements past an outer race at rest, so its lines are where BPFO's slip puts them: what is
@@ -302,102 +287,6 @@ impl Record {
         self.revolutions * cage(self.shaft, &self.options) < needed * self.shaft
     }
 
-    /// The deepest comb that is deeper than the family that leads and hardly lower in score, at no frequency of the
-    /// bearing: then the bearing or the speed is not the one given, or the lines are another machine part's. Without a
-    /// family that leads, one that would be damage.
-    ///
-    /// A simulation has nothing else that turns.
-    fn elsewhere(&self, lead: Option<&Family>) -> Option<Elsewhere> {
-        if self.options.exact {
-            return None;
-        }
-        if let Some(slower) = lead.and_then(|lead| self.slower(lead)) {
-            return Some(slower);
-        }
-        let together = &self.together;
-        let least = lead.map_or(SCORE, |l| (l.score - HARDLY).max(LEAST_ELSEWHERE));
-        // A cage modulates whatever rolls, as deep as that goes: its depth says nothing against others.
-        let shallow = match lead {
-            Some(lead) if lead.component != Component::Cage => DEEPER * lead.modulation,
-            Some(_) => DEEP,
-            None => FAINT,
-        };
-        // Measured alike: with sidebands where the leading family has any.
-        let spacing = lead.and_then(|l| l.sidebands.as_ref()).map(|s| s.spacing);
-        let depth = |f: f64| lines(together, f, spacing).modulation;
-        let step = 0.25 * together.step() / HARMONICS as f64;
-        let top = together.top() / (FEWEST_HARMONICS + 0.5);
-        let places = (0..).map(|k| LOWEST * self.shaft + f64::from(k) * step).take_while(|f| *f < top);
-        let places = places.filter(|f| score(together, *f) >= least && !self.is_explained(*f, lead));
-        let highest = Highest::of(places, depth).filter(|h| h.height > shallow)?;
-        let (frequency, modulation) = (by_lines(together, highest.middle()), highest.height);
-        Some(Elsewhere { frequency, score: score(together, frequency), modulation, nearest: self.nearest(frequency) })
-    }
-
-    /// The comb of which a race's lines are every second, third... and which scores hardly less: nothing that excites a
-    /// race at equal distances leaves the lines between so high. (Where elements differ the cage's lines are there
-    /// too: in measured records at most three quarters as high in score.)
-    ///
-    /// The shaft itself impacts at every fifth of BPFI where that is near five times its speed: where no lines told the
-    /// speed, its own lines may be anywhere within the tolerance, and those that are hidden about the speed given
-    /// count.
-    fn slower(&self, lead: &Family) -> Option<Elsewhere> {
-        let races = [Component::OuterRace, Component::InnerRace];
-        if !races.contains(&lead.component) {
-            return None;
-        }
-        let together = &self.together;
-        let height = |f: f64| match !self.by_lines && (f / self.shaft - 1.0).abs() <= self.options.tolerance {
-            true => score_by(f, |f| together.unhidden(f)),
-            false => score(together, f),
-        };
-        slower_comb(lead, SLOWER, height).map(|(frequency, score)| Elsewhere {
-            frequency,
-            score,
-            modulation: lines(together, frequency, None).modulation,
-            nearest: None,
-        })
-    }
-
-    fn nearest(&self, frequency: f64) -> Option<Nearest> {
-        let raceways = (self.options.orders.defect_frequencies())
-            .filter(|(component, name, _)| *component != Component::Cage && *name != "BSF");
-        raceways
-            .map(|(component, name, order)| Nearest {
-                component,
-                name,
-                shift: frequency / (order * self.shaft) - 1.0,
-                shaft: frequency / order,
-            })
-            .filter(|n| n.shift.abs() <= FARTHER * self.options.tolerance)
-            .min_by(|a, b| a.shift.abs().total_cmp(&b.shift.abs()))
-    }
-
-    /// Whether a comb lies at a frequency of the bearing, or at lines that the damage of the family that leads has.
-    fn is_explained(&self, frequency: f64, lead: Option<&Family>) -> bool {
-        let width = WIDTH * self.together.step();
-        let near = |at: f64| (frequency - at).abs() <= width;
-        let own = |order: f64| {
-            let at = order * self.shaft;
-            (frequency - at).abs() <= self.options.tolerance * at + self.together.step()
-        };
-        let mut all = self.options.orders.defect_frequencies();
-        let cage = cage(self.shaft, &self.options);
-        all.any(|(_, _, order)| own(order))
-            || lead.is_some_and(|lead| {
-                let f = lead.frequency;
-                (2..=HARMONICS).any(|m| {
-                    let m = m as f64;
-                    near(m * f) || near(f / m)
-                }) || near(f)
-                    || lead.component == Component::Element
-                        && (1..=SIDES).any(|k| {
-                            let aside = f64::from(k) * cage;
-                            near(f + aside) || near(f - aside)
-                        })
-            })
-    }
-
     /// Harmonics of a frequency and their sidebands are nobody's from now on. Sums of shaft and cage are not taken:
     /// nine elements pass the inner race at nine times the shaft's frequency less that at which they pass the outer
     /// one, and the cage turns at two fifths of it or so, so that their places are those of the other race's lines.
@@ -417,13 +306,6 @@ impl Record {
             k += 1.0;
         }
     }
-}
-
-/// The comb of which a family's lines are every second, third... to `most`th, and which scores hardly less: its
-/// fundamental and score.
-fn slower_comb(family: &Family, most: usize, score: impl Fn(f64) -> f64) -> Option<(f64, f64)> {
-    let combs = (2..=most).map(|m| family.frequency / m as f64).map(|f| (f, score(f)));
-    combs.rev().find(|(_, score)| *score >= family.score - HARDLY)
 }
 
 /// The cage carries the elements past both races: the slip s of FTF is that of BPFO, and BPFI has -s f_c/(f_s - f_c). A

@@ -6,7 +6,8 @@ mod open;
 use super::bands::LOWEST_TOP;
 use super::drift::Drift;
 use super::family::{Family, Finding};
-use super::{Analysis, Verdict};
+use super::result::CHANGED;
+use super::{Analysis, Flaw, Unexplained, Verdict};
 use crate::Indicator;
 use crate::digits;
 
@@ -39,14 +40,9 @@ pub fn level_words(name: &str, indicator: Indicator, value: f64, unit: &str) -> 
 const SHAFT_DOUBT: f64 = 0.005;
 /// Slip of a loaded induction motor, at most.
 const MOST_SLIP: f64 = 0.05;
-/// Change of the RMS since the machine was healthy that is reported.
-const CHANGED: f64 = 2.0;
 /// Turns of the shaft below which less damage is found: of what is found in four seconds (60 to 120 turns) of the
 /// records of results/analyze.md nine tenths in two, five sixths in one, three quarters in 0.6.
 const SHORT: f64 = 60.0;
-/// Kurtosis from which a record has impacts: of the sound machines among those records it is 2.8 to 3.8, of the sound
-/// bearings beside a damaged one up to 13.
-const IMPULSIVE: f64 = 5.0;
 /// What else may excite the race at rest.
 const PASSING: &str = "Rollers that enter the load of a healthy bearing cause lines of its race too, and modulate the envelope as much where \
                        there is little noise: compare with a run of the healthy bearing.";
@@ -56,7 +52,9 @@ impl Analysis {
     pub fn clarity(&self, family: &Family) -> &'static str {
         let may_be_other = self.may_be_passing(family) || self.impacts_a_turn(family).is_some();
         let lost = self.drift.as_ref().is_some_and(Drift::is_lost);
-        let is_sure = self.speed_is_told() && self.speed_used().is_none() && !lost;
+        let other_rate = self.flaws.iter().any(|f| matches!(f, Flaw::OtherRate { .. }));
+        let doubt = lost || other_rate || self.speed_used().is_some() || self.slips(family).is_some();
+        let is_sure = self.speed_is_told() && !doubt;
         match (may_be_other, family.is_very_clear() && is_sure) {
             (true, _) => "weak",
             (_, true) => "very clear",
@@ -200,11 +198,10 @@ fn half_speed(analysis: &Analysis) -> Option<String> {
 
 /// How the level has changed since the machine was healthy, where it has doubled or halved.
 fn level(analysis: &Analysis) -> Option<String> {
-    let growth = analysis.level_growth.filter(|g| *g >= CHANGED || *g <= 1.0 / CHANGED)?;
+    let is_said = matches!(analysis.unexplained(), Some(Unexplained::Level(_)));
+    let growth = analysis.level_growth.filter(|g| !is_said && (*g >= CHANGED || *g <= 1.0 / CHANGED))?;
     let db = 20.0 * growth.log10();
-    let within = analysis.level_range.map_or(String::new(), |range| {
-        format!(" from {:.0} to {:.0} Hz, which both records hold,", range.low, range.high)
-    });
+    let within = within(analysis);
     Some(match growth > 1.0 {
         true => format!("The RMS{within} is {growth:.1} times that of the healthy record ({db:+.0} dB)."),
         false => {
@@ -215,21 +212,21 @@ fn level(analysis: &Analysis) -> Option<String> {
     })
 }
 
-/// What a record without damage leaves open: whose impacts it has, and what a slowly sampled or a short one may miss.
+/// The range in which a level is compared with the healthy machine's, where it is not the whole.
+fn within(analysis: &Analysis) -> String {
+    analysis.level_range.map_or(String::new(), |range| {
+        format!(" from {:.0} to {:.0} Hz, which both records hold,", range.low, range.high)
+    })
+}
+
+/// What a record without damage leaves open: what a slowly sampled or a short one may miss.
 fn left_open(analysis: &Analysis) -> Vec<String> {
     if analysis.causes().next().is_some() {
         return Vec::new();
     }
     let mut text = Vec::new();
-    let (kurtosis, exact) = (analysis.indicator(Indicator::Kurtosis).map_or(0.0, |k| k.value), analysis.options.exact);
-    if kurtosis >= IMPULSIVE && !exact && analysis.conclusion() == Verdict::NothingFound {
-        text.push(format!(
-            "The record has impacts (kurtosis {}, 3 for noise) that no damage found explains: damage too weak to call, another part, another bearing than the one given, or a wrong speed.",
-            digits::short(kurtosis, 3)
-        ));
-    }
     let top = 0.5 * analysis.sample_rate;
-    if !exact && top < LOWEST_TOP {
+    if !analysis.options.exact && top < LOWEST_TOP {
         text.push(format!("The record holds nothing above {top:.0} Hz: damage that rings higher is not seen in it."));
     }
     let turns = (analysis.duration() * analysis.shaft).round();
@@ -255,6 +252,13 @@ fn damage(analysis: &Analysis, text: &mut Vec<String>) {
         if family.name == "FTF" {
             text.push("One element causes an impact once a turn of the cage, in the load zone; damage of the cage shows the same.".into());
         }
+        text.extend(analysis.slips(family).map(|lag| {
+            format!(
+                "The cage slips: {:.1} % behind pure rolling it has these lines there, and {} the speed. A light load lets it.",
+                100.0 * lag,
+                if analysis.has_record_of_speed() { "a record tells" } else { "the shaft's own lines agree with" }
+            )
+        }));
         if analysis.may_be_passing(family) {
             text.push(PASSING.into());
         }

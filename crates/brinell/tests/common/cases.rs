@@ -47,9 +47,6 @@ pub fn every_term() -> Vec<(&'static str, Scenario)> {
     // So narrow that the cage falls onto its land.
     roller_guided.cage.guide_clearance_mm = 0.02;
     roller_guided.operation.gravity_m_per_s2 = [0.0, -9.81];
-    // Its drag is that of a ball's section.
-    let mut balls = case("xval/balls");
-    balls.lubricant.drag_coefficient = 0.0;
     vec![
         ("healthy", healthy()),
         ("rectangle", rectangle()),
@@ -66,7 +63,7 @@ pub fn every_term() -> Vec<(&'static str, Scenario)> {
         ("heavy", case("xval/heavy-load-profile")),
         ("tilting", case("xval/tilting")),
         ("tilting-offset", tilting_offset()),
-        ("balls", balls),
+        ("balls", case("xval/balls")),
     ]
 }
 

@@ -3,8 +3,10 @@
 use super::super::drift::Drift;
 use super::super::family::{Family, Finding, reach};
 use super::super::together::{MAINS_HZ, REVOLUTIONS};
-use super::super::{Analysis, Component, Elsewhere};
+use super::super::{Analysis, Component, Elsewhere, Unexplained};
 use super::evidence::evidence_of;
+use super::within;
+use crate::digits;
 
 /// What is open of the verdict, and why.
 pub(super) fn cannot_tell(analysis: &Analysis, text: &mut Vec<String>) {
@@ -34,15 +36,39 @@ pub(super) fn cannot_tell(analysis: &Analysis, text: &mut Vec<String>) {
     text.extend(analysis.hiding_drift().map(|drift| hidden_by(analysis, drift)));
     let open = || (analysis.families.iter()).filter(|f| f.finding == Finding::Open);
     let hides = |family: &&Family| analysis.elsewhere.is_some() && family.is_damage();
+    // Where slip of the cage may put the comb, the bearing's own frequencies are not where pure rolling has them.
+    let may_slip = analysis.elsewhere.and_then(|e| e.nearest).is_some_and(|n| n.slip.is_some());
     let hidden: Vec<String> =
         open().filter(hides).map(|f| format!("{} damage ({})", f.component.words(), evidence_of(f))).collect();
-    if !hidden.is_empty() {
+    if !hidden.is_empty() && !may_slip {
         text.push(format!("By its own frequencies alone the verdict would be {}.", hidden.join(", and ")));
     }
     // Where the one that leads is open, those that would be damage beside it are not the question.
     let led = open().any(Family::may_be_anothers);
     let asked = open().filter(|f| !hides(f) && (f.may_be_anothers() || !led || !f.is_damage()));
     text.extend(asked.map(|family| undecided(analysis, family)));
+    text.extend(analysis.unexplained().map(|what| not_explained(analysis, what)));
+}
+
+/// What shows in the signal itself, and what may cause it.
+fn not_explained(analysis: &Analysis, what: Unexplained) -> String {
+    match what {
+        Unexplained::Impacts(kurtosis) => format!(
+            "Cannot tell: the record has impacts (kurtosis {}, {}) that no line of this bearing explains: damage too weak to call, another part, another \
+             bearing than the one given, or a wrong speed.",
+            digits::short(kurtosis, 3),
+            match analysis.kurtosis_beside {
+                Some([_, healthy]) => format!("{} in the healthy record", digits::short(healthy, 3)),
+                None => "3 for noise".into(),
+            }
+        ),
+        Unexplained::Level(growth) => format!(
+            "Cannot tell: the RMS{} is {growth:.1} times that of the healthy record ({:+.0} dB), and no line of this bearing explains it: another load, \
+             speed or part, or damage too weak to call.",
+            within(analysis),
+            20.0 * growth.log10()
+        ),
+    }
 }
 
 /// A speed that changes so that damage may be missed.
@@ -148,11 +174,12 @@ fn masking(analysis: &Analysis, family: &Family) -> String {
 fn other_lines(analysis: &Analysis, elsewhere: &Elsewhere) -> String {
     let nearest = elsewhere.nearest.map_or(String::new(), |n| {
         format!(
-            " {} is {:.2} % {}: at {:.0} r/min it would be there.",
+            " {} is {:.2} % {}: at {:.0} r/min{} it would be there.",
             n.name,
             100.0 * n.shift.abs(),
             if n.shift > 0.0 { "lower" } else { "higher" },
-            60.0 * n.shaft
+            60.0 * n.shaft,
+            n.slip.map_or(String::new(), |slip| format!(", or a cage that slips by {:.1} %,", 100.0 * slip))
         )
     });
     // The shaft's own lines tell its speed.
