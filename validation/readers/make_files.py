@@ -56,6 +56,29 @@ paderborn = {
         ),
     }
 }
+raster = {
+    "N15": {
+        "X": structs(
+            ["Name", "Data", "Unit", "Raster"],
+            [["Time", i[None, :] / 4000, "s", "HostService"], ["Time", i[None, :20] / 250, "s", "Mech_4kHz"]],
+        ),
+        "Y": structs(
+            ["Name", "Data", "Unit", "Raster", "XIndex"],
+            [
+                ["speed", signal(5)[None, :20], "rpm", "Mech_4kHz", 2.0],
+                ["vibration_1", signal(6)[None, :], "m/s^2", "HostService", 1.0],
+            ],
+        ),
+    }
+}
+scipy.io.savemat(out / "raster.mat", raster, do_compression=True)
+testlab = {
+    "Signal_0": {
+        "x_values": {"start_value": 0.0, "increment": 1 / 51200, "number_of_values": 300.0, "quantity": {"label": "s"}},
+        "y_values": {"values": column(7), "quantity": {"label": "g"}},
+    }
+}
+scipy.io.savemat(out / "testlab.mat", testlab, do_compression=True)
 scipy.io.savemat(out / "paderborn.mat", paderborn, do_compression=True, long_field_names=True)
 scipy.io.savemat(out / "paderborn_v6.mat", paderborn, do_compression=False, long_field_names=True)
 cell = np.empty((1, 2), dtype=object)
@@ -139,6 +162,19 @@ with h5py.File(out / "latest.h5", "w", libver=("v110", "v110")) as file:
     file.create_dataset("run/matrix", data=np.column_stack([signal(3), signal(4)]), chunks=(64, 2), compression=4)
     file.create_dataset("run/fs", data=51200.0)
     file.create_dataset("run/half", shape=(100,), chunks=(10,), dtype="f8")[:10] = 1.0
+
+# Packed as netCDF does it, and with a factor of nobody's convention.
+with h5py.File(out / "packed.h5", "w", libver="earliest") as file:
+    counts = (8 * signal(0)).astype("<i2")
+    file.attrs["sample_rate"] = 4000
+    acc = file.create_dataset("acc", data=counts)
+    acc.attrs.update(scale_factor=0.25, add_offset=1.5, units="g")
+    counts[7] = -999
+    chunked = file.create_dataset("chunked", data=counts, chunks=(64,), compression="gzip")
+    chunked.attrs.update(scale_factor=np.float32(0.25), _FillValue=np.int16(-999), units="g")
+    gained = file.create_dataset("gained", data=counts)
+    gained.attrs.update(gain=0.25, units="g")
+    file.create_dataset("counts", data=(8 * signal(0)).astype("<i2")).attrs["gain"] = 0.25
 
 with h5py.File(out / "groups.h5", "w", libver="earliest") as file:
     for group, hz in [("fast", 12000), ("slow", 6000)]:

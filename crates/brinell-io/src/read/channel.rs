@@ -1,6 +1,7 @@
 //! What a file says of its channels.
 
 use super::numbers::Number;
+use super::times::seconds_in;
 use crate::Metadata;
 use serde_json::Value;
 use std::collections::{HashMap, HashSet};
@@ -148,17 +149,18 @@ pub(crate) fn lend_units(channels: &mut [Channel], metadata: &Metadata, key: &st
     }
 }
 
-/// Gives every signal the name that lies beside it as a text called `Name`, where it is the only signal there. `texts`
+/// Gives every signal what lies beside it as texts called `Name` and `Unit`, where it is the only signal there. `texts`
 /// holds paths and texts.
 pub(crate) fn lend_labels(channels: &mut [Channel], texts: &[(String, String)]) {
-    let labels: HashMap<&str, &str> = texts
-        .iter()
-        .filter_map(|(path, text)| {
+    let called = |names: &[&str]| -> HashMap<&str, &str> {
+        let named = texts.iter().filter_map(|(path, text)| {
             let (folder, last) = path.rsplit_once('.')?;
-            let text = text.trim();
-            (last.eq_ignore_ascii_case("name") && !text.is_empty()).then_some((folder, text))
-        })
-        .collect();
+            let is_called = names.iter().any(|name| last.eq_ignore_ascii_case(name));
+            (is_called && !text.trim().is_empty()).then_some((folder, text.trim()))
+        });
+        named.collect()
+    };
+    let (labels, units) = (called(&["name"]), called(&["unit", "units"]));
     let folder = |c: &Channel| c.name.rsplit_once('.').map(|(folder, _)| folder.to_owned());
     let mut signals = HashMap::<String, usize>::new();
     for channel in channels.iter().filter(|c| c.may_be_signal()) {
@@ -169,8 +171,47 @@ pub(crate) fn lend_labels(channels: &mut [Channel], texts: &[(String, String)]) 
             && signals.get(&folder) == Some(&1)
         {
             channel.label = labels.get(folder.as_str()).map(|&l| l.to_owned());
+            channel.unit = channel.unit.take().or_else(|| units.get(folder.as_str()).map(|&u| u.to_owned()));
         }
     }
+}
+
+/// Whether a path is that of the step of abscissae beside ordinates, as Simcenter Testlab exports them:
+/// `Signal.x_values.increment` and `Signal.y_values.values`.
+pub(crate) fn is_increment(path: &str) -> bool {
+    path.ends_with(&format!("{X_VALUES}increment"))
+}
+
+const X_VALUES: &str = ".x_values.";
+const Y_VALUES: &str = ".y_values.";
+
+/// Gives such ordinates the rate that an increment of times makes, and their unit. `steps` holds paths and values,
+/// `texts` paths and texts.
+pub(crate) fn lend_increments(channels: &mut [Channel], steps: &[(String, f64)], texts: &[(String, String)]) {
+    let label = |of: &str, values: &str| {
+        let path = format!("{of}{values}quantity.label");
+        texts.iter().find(|(name, _)| *name == path).map(|(_, text)| text.trim())
+    };
+    for channel in channels.iter_mut().filter(|c| c.may_be_signal()) {
+        let Some((of, _)) = channel.name.split_once(Y_VALUES) else {
+            continue;
+        };
+        let seconds = label(of, X_VALUES).map_or(Some(1.0), seconds_in);
+        let unit = label(of, Y_VALUES).filter(|unit| !unit.is_empty()).map(str::to_owned);
+        let path = format!("{of}{X_VALUES}increment");
+        let step = steps.iter().find(|(name, step)| *name == path && step.is_finite() && *step > 0.0);
+        if let (None, Some((_, step)), Some(seconds)) = (&channel.rate, step, seconds) {
+            channel.rate = Some(Rate { hz: hertz(step * seconds), source: RateSource::Variable(path) });
+        }
+        channel.unit = channel.unit.take().or(unit);
+    }
+}
+
+/// 1/0.0001 is 10000 but for the last digit.
+pub(crate) fn hertz(step_s: f64) -> f64 {
+    let hz = 1.0 / step_s;
+    let round = hz.round();
+    if (hz / round - 1.0).abs() < 1e-12 { round } else { hz }
 }
 
 /// Makes names unique: the second `a` becomes `a#2`, or the next number that no channel of the file has.

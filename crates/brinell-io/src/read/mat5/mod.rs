@@ -9,7 +9,7 @@ mod walk;
 
 use std::io::{Read, Seek, SeekFrom};
 
-use super::channel::{lend_labels, lend_rates, lend_units};
+use super::channel::{lend_increments, lend_labels, lend_rates, lend_units};
 use super::contents::Contents;
 use super::fault::{Fault, damaged};
 use super::listing::{Listing, Source};
@@ -76,11 +76,12 @@ pub(super) fn list(mut contents: Contents) -> Result<Listing, Fault> {
         }
         at = start + bytes;
     }
-    let Found { mut channels, rates, texts, .. } = found;
+    let Found { mut channels, rates, steps, texts } = found;
     lend_rates(&mut channels, &rates);
-    lend_labels(&mut channels, &texts);
     let metadata = Metadata { pairs: texts };
     lend_units(&mut channels, &metadata, keys::UNITS_VARIABLE);
+    lend_labels(&mut channels, &metadata.pairs);
+    lend_increments(&mut channels, &steps, &metadata.pairs);
     Ok(Listing { channels, metadata, source: Box::new(mat) })
 }
 
