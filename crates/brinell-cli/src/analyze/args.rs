@@ -38,6 +38,12 @@ pub(crate) struct AnalyzeArgs {
     /// it is followed (order tracking), else its mean counts
     #[arg(long, value_name = "NAME|N", conflicts_with = "speed")]
     pub(crate) speed_channel: Option<String>,
+    /// Channel of pulses that gives the speed, a tachometer's or an encoder's: rising edges, followed as a speed channel
+    #[arg(long, value_name = "NAME|N", conflicts_with_all = ["speed", "speed_channel"])]
+    pub(crate) tacho: Option<String>,
+    /// Its pulses a turn
+    #[arg(long, value_name = "N", default_value_t = 1, requires = "tacho", value_parser = clap::value_parser!(u32).range(1..=100_000))]
+    pub(crate) pulses: u32,
     /// Bearing by name, or a scenario file that has it; again for a further one of the same shaft, as at a motor's other end: each is judged
     #[arg(long, value_name = "NAME")]
     pub(crate) bearing: Vec<String>,

@@ -5,6 +5,7 @@ use super::diagnosis::Diagnosis;
 use super::ends;
 use super::examine::{load, results};
 use super::json::as_json;
+use super::short::{Short, short};
 use super::written::{earlier, put_json, put_pages};
 use crate::failure::Failure;
 use crate::results::Earlier;
@@ -29,6 +30,8 @@ struct Row {
 struct Found {
     seconds: f64,
     verdict: String,
+    /// Whether a verdict takes a longer record.
+    too_short: bool,
     /// The same in whole, of each bearing.
     sentences: Vec<String>,
     damage: bool,
@@ -123,6 +126,12 @@ pub(super) fn analyze(args: &AnalyzeArgs, files: &[PathBuf]) -> Result<ExitCode,
         complain!("error: {failed} of {} files could not be analysed", rows.len());
     }
     if !quiet {
+        let mut short = rows.iter().filter(|r| r.found.as_ref().is_ok_and(|f| f.too_short));
+        if let Some(Row { name, found: Ok(first) }) = short.next() {
+            let more = short.count();
+            let others = if more > 0 { format!(" and {more} more") } else { String::new() };
+            say!("  {}{others}: {}", one_line(name), first.sentences.join(" "));
+        }
         for (name, speed) in speeds_used(&rows) {
             say!("  {}: {speed}", one_line(name));
         }
@@ -168,7 +177,10 @@ fn wrapped(text: &str, width: usize) -> Vec<String> {
 }
 
 fn one(args: &AnalyzeArgs, path: &Path) -> Result<Found, Failure> {
-    let found = Found::of(&results(args, path, load(args, path)?)?);
+    let found = match short(args, load(args, path)?)? {
+        Ok(short) => Found::of_short(short),
+        Err(measured) => Found::of(&results(args, path, measured)?),
+    };
     if !args.quiet {
         found.warnings.iter().for_each(|warning| complain!("warning: {}: {warning}", path.display()));
     }
@@ -191,6 +203,32 @@ fn names(files: &[PathBuf]) -> Vec<String> {
 }
 
 impl Found {
+    fn of_short(short: Short) -> Self {
+        Found {
+            seconds: short.seconds,
+            json: short.to_json(),
+            verdict: "too short".into(),
+            too_short: true,
+            sentences: vec![short.why],
+            damage: false,
+            unit: short.measured.unit,
+            rms: short.rms,
+            peak: Some(Estimate { value: short.peak, interval: None }),
+            kurtosis: short.kurtosis,
+            velocity: short.velocity.map(|v| scaled(&v, 1e3)),
+            zone: None,
+            scores: Vec::new(),
+            speed_used: None,
+            said: format!("{}; bearing: {}", short.speed, short.bearing),
+            class: None,
+            high: 0.0,
+            noise: 0.0,
+            other: None,
+            rms_over_other: None,
+            warnings: short.measured.warnings,
+        }
+    }
+
     /// Levels are those of the bearing that leads: its band is the one shown.
     fn of(results: &[Diagnosis]) -> Self {
         let lead = ends::lead(results);
@@ -220,6 +258,7 @@ impl Found {
         Found {
             seconds: a.duration(),
             verdict: verdicts.collect::<Vec<_>>().join("; "),
+            too_short: false,
             sentences: match results {
                 [only] => vec![only.verdict_text()],
                 _ => results.iter().map(|r| format!("{}: {}", r.name, r.verdict_text())).collect(),
@@ -344,7 +383,7 @@ fn report(rows: &[Row]) -> Study {
     chapters.extend(Chapter::failures("Files without a result", "File", failures));
     chapters.push(Chapter::new("trend", "Trend", "Trend", trend));
     Study {
-        title: "Several signals".into(),
+        title: if rows.len() == 1 { "A signal too short for a verdict" } else { "Several signals" }.into(),
         subtitle,
         analysed: true,
         version: brinell::VERSION.into(),
@@ -456,6 +495,9 @@ fn plots(rows: &[Row]) -> Vec<IndicatorPlot> {
     let most = |of: fn(&Found) -> f64| found().map(of).fold(0.0, f64::max);
     let limits = [(most(|f| f.noise), "noise"), (most(|f| f.high), "high")];
     let limits = limits.map(|(limit, words)| (limit, format!("{words} {limit:.1}"))).to_vec();
+    if lines.len() == 0 {
+        return plots;
+    }
     plots.push(IndicatorPlot { limits, ..plot("score", "Score of a family", "", lines.collect()) });
     plots
 }
