@@ -8,6 +8,7 @@ from pathlib import Path
 
 import h5py
 import hdf5storage
+import nptdms
 import numpy as np
 import pyarrow as pa
 import pyarrow.parquet as pq
@@ -296,3 +297,40 @@ Delta_X\t0,000040\t0,000040\t
 X_Value\tAcceleration\tVoltage\tComment
 """
 (out / "labview.lvm").write_text(lvm + "".join(f"\t{a:.6f}\t{b:.6f}\n".replace(".", ",") for a, b in zip(*pair)))
+
+# --- TDMS: two segments, a waveform in g, counts with a linear scaling, single values, texts.
+counts = (8 * signal(1)).astype(np.int16)
+scaled = {
+    "NI_Number_Of_Scales": np.int32(1),
+    "NI_Scale[0]_Scale_Type": "Linear",
+    "NI_Scale[0]_Linear_Slope": 0.125,
+    "NI_Scale[0]_Linear_Y_Intercept": 1.5,
+    "NI_Scale[0]_Linear_Input_Source": np.uint32(0xFFFFFFFF),
+    "NI_Scaling_Status": "unscaled",
+    "unit_string": "V",
+}
+polynomial = {"NI_Number_Of_Scales": np.int32(1), "NI_Scale[0]_Scale_Type": "Polynomial"}
+wave = {"wf_increment": 1 / 25600, "wf_start_offset": 0.0, "unit_string": "g"}
+with nptdms.TdmsWriter(str(out / "segments.tdms")) as file:
+    root = nptdms.RootObject(properties={"title": "made up", "runs": np.int32(2)})
+    for part in np.split(i, [100]):
+        file.write_segment([
+            root,
+            nptdms.ChannelObject("it's a rig", "acc", signal(0)[part], properties=wave),
+            nptdms.ChannelObject("it's a rig", "counts", counts[part], properties=scaled),
+            nptdms.ChannelObject("it's a rig", "bent", counts[part], properties=polynomial),
+            nptdms.ChannelObject("it's a rig", "remarks", ["one", "two"]),
+        ])
+# Values in turns, which no other library writes: made of a segment of values one after the other.
+with nptdms.TdmsWriter(str(out / "interleaved.tdms")) as file:
+    file.write_segment([
+        nptdms.ChannelObject("rig", "a", counts, properties=wave),
+        nptdms.ChannelObject("rig", "b", signal(2)),
+    ])
+data = bytearray((out / "interleaved.tdms").read_bytes())
+start = 28 + int.from_bytes(data[20:28], "little")
+data[start:] = b"".join(a.tobytes() + b.tobytes() for a, b in zip(counts, signal(2)))
+data[4] |= 1 << 5
+(out / "interleaved.tdms").write_bytes(data)
+with nptdms.TdmsFile(out / "interleaved.tdms") as file:
+    assert np.array_equal(file["rig"]["a"][:], counts) and np.array_equal(file["rig"]["b"][:], signal(2))

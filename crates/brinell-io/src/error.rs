@@ -171,7 +171,7 @@ pub enum IoError {
         content_is: String,
     },
     /// A file that is none of the formats that can be read.
-    #[error("{}: cannot read: {what}; known are csv and other text, parquet, mat, hdf5, npy, npz, wav and uff", path.display())]
+    #[error("{}: cannot read: {what}; known are csv and other text, parquet, mat, hdf5, npy, npz, wav, uff and tdms", path.display())]
     UnknownContent {
         /// The file.
         path: PathBuf,

@@ -57,7 +57,7 @@ fn regress_mislabelled_files_name_both() {
     );
     assert_eq!(
         here.says("a.dat", b"\x1f\x8b\x08\0\0\0\0"),
-        "a.dat: cannot read: a gzip archive; known are csv and other text, parquet, mat, hdf5, npy, npz, wav and uff"
+        "a.dat: cannot read: a gzip archive; known are csv and other text, parquet, mat, hdf5, npy, npz, wav, uff and tdms"
     );
     assert_eq!(here.says("a.csv", ""), "a.csv: the file is empty");
     assert!(matches!(open(here.0.path()), Err(IoError::NotAFileName { .. })));

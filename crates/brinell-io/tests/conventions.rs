@@ -152,7 +152,7 @@ fn analytic_text_in_utf_16() {
 
 #[test]
 fn regress_what_is_not_read_is_called_by_its_name() {
-    let known = "; known are csv and other text, parquet, mat, hdf5, npy, npz, wav and uff";
+    let known = "; known are csv and other text, parquet, mat, hdf5, npy, npz, wav, uff and tdms";
     for json in ["{\"fs\": 4000, \"data\": [1, 2]}", " [ [0.1, 2], [3, 4]]", "[{\"a\": 1}]"] {
         let said = refusal("a.dat", json);
         assert_eq!(said, format!("a.dat: cannot read: JSON, which is not read; save the numbers as CSV, a column each{known}"));
@@ -239,4 +239,37 @@ fn xval_an_increment_of_times_is_a_rate() {
     let source = RateSource::Variable("Signal_0.x_values.increment".into());
     assert_eq!(values.rate.as_ref().map(|r| (r.hz, &r.source)), Some((51_200.0, &source)));
     assert_eq!(values.unit.as_deref(), Some("g"));
+}
+
+/// Made by nptdms: two segments, waveform properties, a linear scaling, one that is not read, texts, and values in turns.
+#[test]
+fn xval_tdms_with_its_scalings_and_segments() {
+    let signal = |k: i64| (0..300).map(|i| ((i * (37 + k) + 11 * k) % 101 - 50) as f64 / 8.0).collect::<Vec<f64>>();
+    let mut file = made("segments.tdms");
+    let acc = channel(&file, "it's a rig/acc");
+    let source = RateSource::Header("wf_increment".into());
+    assert_eq!(acc.rate.as_ref().map(|r| (r.hz, &r.source)), Some((25_600.0, &source)));
+    assert_eq!((acc.unit.as_deref(), acc.length), (Some("g"), Some(300)));
+    assert_eq!(file.metadata().get("title"), Some("made up"));
+    assert_eq!(file.read("it's a rig/acc").unwrap(), signal(0));
+    let volts: Vec<f64> = signal(1).iter().map(|v| 0.125 * (8.0 * v) + 1.5).collect();
+    assert_eq!(file.read("it's a rig/counts").unwrap(), volts);
+    let said = file.read("it's a rig/bent").unwrap_err().to_string();
+    assert!(said.contains("is scaled by `Polynomial`, of which only `Linear` is read"), "{said}");
+    assert!(!channel(&file, "it's a rig/remarks").may_be_signal());
+    let mut file = made("interleaved.tdms");
+    assert_eq!(file.read("rig/a").unwrap(), signal(1).iter().map(|v| 8.0 * v).collect::<Vec<_>>());
+    assert_eq!(file.read("rig/b").unwrap(), signal(2));
+}
+
+/// A file that was cut, and one whose segments claim more than there is.
+#[test]
+fn prop_damaged_tdms_files_are_refused() {
+    let path = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/data/segments.tdms");
+    let bytes = std::fs::read(path).unwrap();
+    assert!(refusal("a.tdms", &bytes[..bytes.len() - 10]).contains("damaged TDMS file: the segment at byte"));
+    assert!(refusal("a.tdms", &bytes[..100]).contains("damaged TDMS file"));
+    let mut other = bytes.clone();
+    other[28] = 0xff;
+    assert!(refusal("a.tdms", other).contains("damaged TDMS file"));
 }

@@ -24,7 +24,7 @@ use std::path::PathBuf;
     Exit codes: 0 analysed (whatever the verdict), 1 a result could not be written, or one of several files could not be analysed, 2 bad input."
 )]
 pub(crate) struct AnalyzeArgs {
-    /// Signals: csv and other text, parquet, mat (v5 to v7.3), hdf5, npy, npz, wav, uff; or the folder of a run.
+    /// Signals: csv and other text, parquet, mat (v5 to v7.3), hdf5, npy, npz, wav, uff, tdms; or the folder of a run.
     /// Several files, or a folder of them, are analysed with the same options, one after the other; a folder's by name,
     /// with 2 before 10
     #[arg(required = true, value_name = "FILE")]

@@ -52,13 +52,16 @@ fn from_content(head: &[u8]) -> Result<FileKind, &'static str> {
     if at(126, b"IM") && at(125, &[1]) || at(126, b"MI") && at(124, &[1]) {
         return Ok(FileKind::Mat5);
     }
+    if at(0, b"TDSm") {
+        return Ok(FileKind::Tdms);
+    }
     if at(0, b"\xff\xfe") || at(0, b"\xfe\xff") {
         return Ok(FileKind::Text);
     }
     for (sign, what) in [
         (&b"\x1f\x8b"[..], "a gzip archive"),
         (b"\xd0\xcf\x11\xe0", "an old Office document, as an Excel workbook (.xls) is; save it as CSV"),
-        (b"TDSm", "a LabVIEW TDMS file"),
+        (b"TDSh", "the index of a LabVIEW TDMS file; the signals are in the file whose name ends in .tdms"),
         (b"\x28\xb5\x2f\xfd", "a Zstandard archive"),
         (b"RIFX", "a big-endian RIFF file"),
     ] {

@@ -29,6 +29,7 @@ pub(crate) mod records;
 #[cfg(feature = "hdf5")]
 mod soft_links;
 mod stated;
+mod tdms;
 mod text;
 mod timed;
 mod times;
@@ -128,6 +129,7 @@ fn listed(path: &Path, kind: FileKind, contents: Contents) -> Result<SignalFile,
         FileKind::Npz => npz::list(contents),
         FileKind::Wav => wav::list(contents),
         FileKind::Uff58 => uff::list(contents),
+        FileKind::Tdms => tdms::list(contents),
         #[cfg(not(all(feature = "parquet", feature = "hdf5", feature = "npz")))]
         _ => Err(fault::unsupported("this build leaves the format out; build brinell-io with its default features")),
     };
