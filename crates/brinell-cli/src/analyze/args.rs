@@ -17,6 +17,7 @@ use std::path::PathBuf;
     brinell analyze rig.csv --channel 2 --rate 25600 --unit m/s^2 --speed 1500 --rollers 13 --pitch 39 --diameter 7.5\n  \
     brinell analyze pump.wav --full-scale 5V --sensitivity 100mV/g --speed 1480 --bearing 6205\n  \
     brinell analyze rig.csv --channel acc --rate 25600 --unit g --speed 1500 --bpfo 89.6 --bpfi 5.415x\n  \
+    brinell analyze rig.tdms --channel acc --tacho tach --pulses 60 --bearing 6205    speed by an encoder\n  \
     brinell analyze out/my-bearing -o look              a run of brinell's own\n  \
     brinell analyze measured.mat ... --against out/my-bearing -o look\n  \
     brinell analyze records/ --rate 25600 --unit g --speed 1480 --bearing 6205 -o trend    a row a file, and a trend\n\n\

@@ -53,7 +53,7 @@ pub(crate) fn analyze(args: &AnalyzeArgs) -> Result<ExitCode, Failure> {
 
 /// Of one file, with all that is known of it.
 fn one(args: &AnalyzeArgs, path: &Path) -> Result<ExitCode, Failure> {
-    let measured = match short::short(args, load(args, path)?)? {
+    let measured = match short::too_short(args, load(args, path)?)? {
         // Its levels, as a row.
         Ok(_) => return several::analyze(args, &[path.to_owned()]),
         Err(measured) => measured,

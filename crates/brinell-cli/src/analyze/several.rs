@@ -5,7 +5,7 @@ use super::diagnosis::Diagnosis;
 use super::ends;
 use super::examine::{load, results};
 use super::json::as_json;
-use super::short::{Short, short};
+use super::short::{Short, too_short};
 use super::written::{earlier, put_json, put_pages};
 use crate::failure::Failure;
 use crate::results::Earlier;
@@ -177,7 +177,7 @@ fn wrapped(text: &str, width: usize) -> Vec<String> {
 }
 
 fn one(args: &AnalyzeArgs, path: &Path) -> Result<Found, Failure> {
-    let found = match short(args, load(args, path)?)? {
+    let found = match too_short(args, load(args, path)?)? {
         Ok(short) => Found::of_short(short),
         Err(measured) => Found::of(&results(args, path, measured)?),
     };

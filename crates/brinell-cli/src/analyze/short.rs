@@ -6,7 +6,7 @@ use super::examine::{is_bare, speed};
 use super::measured::Measured;
 use crate::failure::Failure;
 use brinell::analysis::{AnalysisError, FEWEST_REVOLUTIONS, severity};
-use brinell::signal::{Blocks, Estimate, Indicator};
+use brinell::signal::{Blocks, Estimate, Indicator, RECORD_PEAK};
 use serde_json::{Value, json};
 
 /// What is known of it.
@@ -26,7 +26,7 @@ pub(super) struct Short {
 }
 
 /// The record as one that is too short; else as it was.
-pub(super) fn short(args: &AnalyzeArgs, measured: Measured) -> Result<Result<Short, Measured>, Failure> {
+pub(super) fn too_short(args: &AnalyzeArgs, measured: Measured) -> Result<Result<Short, Measured>, Failure> {
     let (rpm, speed) = speed(args, &measured)?;
     let shaft = rpm.abs() / 60.0;
     let (samples, rate) = (measured.x.len(), measured.rate);
@@ -59,9 +59,9 @@ pub(super) fn short(args: &AnalyzeArgs, measured: Measured) -> Result<Result<Sho
 impl Short {
     pub(super) fn to_json(&self) -> Value {
         let m = &self.measured;
-        let indicator = |name: &str, e: Option<Estimate>, unit: &str| {
+        let indicator = |e: Option<Estimate>, unit: &str| {
             let interval = e.and_then(|e| e.interval).map(|i| [i.low, i.high]);
-            json!({ "name": name, "value": e.map(|e| e.value), "unit": unit, "interval_95": interval })
+            json!({ "value": e.map(|e| e.value), "unit": unit, "interval_95": interval })
         };
         let peak = Estimate { value: self.peak, interval: None };
         json!({
@@ -72,11 +72,11 @@ impl Short {
                 "samples": m.x.len(),
                 "duration_s": self.seconds,
             },
-            "indicators": [
-                indicator("rms", self.rms, &m.unit.name),
-                indicator("record_peak", Some(peak), &m.unit.name),
-                indicator("kurtosis", self.kurtosis, ""),
-            ],
+            "indicators": {
+                Indicator::Rms.name(): indicator(self.rms, &m.unit.name),
+                RECORD_PEAK: indicator(Some(peak), &m.unit.name),
+                Indicator::Kurtosis.name(): indicator(self.kurtosis, ""),
+            },
             "severity": { "velocity_rms_10_1000_hz": { "value": self.velocity.map(|v| 1e3 * v.value), "unit": "mm/s" } },
             "file": {
                 "path": m.path.display().to_string(),
