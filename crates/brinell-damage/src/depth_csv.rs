@@ -28,7 +28,9 @@ pub(crate) fn read(bytes: &[u8], stated_mm: [Option<f64>; 2]) -> Result<Raw, Dam
     let stated = Stated::of(text);
     let lines = || {
         let lines = text.lines().enumerate().map(|(i, line)| (i + 1, line.trim_end_matches('\r')));
-        lines.filter(|(_, line)| !line.trim().is_empty() && !line.trim_start().starts_with(['#', '%']) && !Stated::says(line))
+        lines.filter(|(_, line)| {
+            !line.trim().is_empty() && !line.trim_start().starts_with(['#', '%']) && !Stated::says(line)
+        })
     };
     let layout = Layout::of(lines().map(|(_, line)| line));
     let mut raw = Raw::default();

@@ -65,7 +65,8 @@ fn said(line: &str) -> Option<Said> {
     let line = line.trim().trim_start_matches(['#', '%', '/']).trim();
     let (key, value) = line.split_once([':', '=', ';', '\t'])?;
     // A unit may stand beside the key: `Width [mm]: 3`.
-    let (key, beside) = key.split_once(['[', '(']).map_or((key, ""), |(key, unit)| (key, unit.trim_end_matches([']', ')', ' '])));
+    let (key, beside) =
+        key.split_once(['[', '(']).map_or((key, ""), |(key, unit)| (key, unit.trim_end_matches([']', ')', ' '])));
     let value = value.trim().trim_end_matches([';', ',', '\t']).trim();
     let key = key.trim().to_lowercase().replace(['-', '_'], " ");
     let length = || {
@@ -78,10 +79,16 @@ fn said(line: &str) -> Option<Said> {
     match key.as_str() {
         "width" | "x range" | "x size" | "x length" | "scan width" => Some(Said::Size(0, length()?)),
         "height" | "y range" | "y size" | "y length" | "scan height" => Some(Said::Size(1, length()?)),
-        "x step" | "dx" | "x spacing" | "x pixel size" | "x increment" | "pixel width" => Some(Said::Step(0, length()?)),
-        "y step" | "dy" | "y spacing" | "y pixel size" | "y increment" | "pixel height" => Some(Said::Step(1, length()?)),
+        "x step" | "dx" | "x spacing" | "x pixel size" | "x increment" | "pixel width" => {
+            Some(Said::Step(0, length()?))
+        }
+        "y step" | "dy" | "y spacing" | "y pixel size" | "y increment" | "pixel height" => {
+            Some(Said::Step(1, length()?))
+        }
         "pixel size" | "lateral resolution" | "xy calibration" => Some(Said::Steps(length()?)),
-        "value units" | "value unit" | "z unit" | "z units" | "height unit" | "height units" | "data unit" => Some(Said::Unit(um(value)?)),
+        "value units" | "value unit" | "z unit" | "z units" | "height unit" | "height units" | "data unit" => {
+            Some(Said::Unit(um(value)?))
+        }
         _ => None,
     }
 }

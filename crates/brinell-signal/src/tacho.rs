@@ -27,7 +27,9 @@ pub enum NoSpeed {
     #[error("it has {0} rising edges, and a speed takes {FEWEST} or more")]
     Few(usize),
     /// They follow each other too fast for the sample rate.
-    #[error("its pulses are {0:.1} samples apart, and they can be told apart from {LEAST_SAMPLES} on: record it faster")]
+    #[error(
+        "its pulses are {0:.1} samples apart, and they can be told apart from {LEAST_SAMPLES} on: record it faster"
+    )]
     Fast(f64),
     /// They do not follow each other evenly.
     #[error(

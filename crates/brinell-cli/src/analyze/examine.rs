@@ -144,7 +144,7 @@ pub(super) fn is_bare(args: &AnalyzeArgs, measured: &Measured, rpm: f64) -> bool
 }
 
 /// A warning, where a number without a unit is so low that it may be in Hz.
-fn may_be_hz(args: &AnalyzeArgs, measured: &Measured) -> Option<String> {
+pub(super) fn may_be_hz(args: &AnalyzeArgs, measured: &Measured) -> Option<String> {
     let words = |rpm: f64| format!("{rpm:.4} r/min is {:.2} Hz", rpm / 60.0);
     match (&args.speed, &measured.speed) {
         (Some(given), _) if is_bare(args, measured, given.rpm) => {

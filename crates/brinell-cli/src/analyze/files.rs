@@ -68,7 +68,9 @@ fn inside(folder: &Path) -> Result<Vec<PathBuf>, Failure> {
         let hidden = (path.file_name()).is_some_and(|n| n.to_string_lossy().starts_with('.'));
         let is_signal =
             (path.extension()).is_some_and(|e| FileKind::extensions().any(|known| e.eq_ignore_ascii_case(known)));
-        if !hidden && path.is_file() && !(of_run && path.ends_with(SPECTRA)) {
+        // Its words may look like a table.
+        let is_notice = (path.file_stem()).is_some_and(|stem| stem.eq_ignore_ascii_case("readme"));
+        if !hidden && !is_notice && path.is_file() && !(of_run && path.ends_with(SPECTRA)) {
             if is_signal { &mut found } else { &mut others }.push(path);
         }
     }

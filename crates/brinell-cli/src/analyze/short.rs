@@ -2,7 +2,7 @@
 
 use super::args::AnalyzeArgs;
 use super::bearing;
-use super::examine::{is_bare, speed};
+use super::examine::{is_bare, may_be_hz, speed};
 use super::measured::Measured;
 use crate::failure::Failure;
 use brinell::analysis::{AnalysisError, FEWEST_REVOLUTIONS, severity};
@@ -26,7 +26,7 @@ pub(super) struct Short {
 }
 
 /// The record as one that is too short; else as it was.
-pub(super) fn too_short(args: &AnalyzeArgs, measured: Measured) -> Result<Result<Short, Measured>, Failure> {
+pub(super) fn too_short(args: &AnalyzeArgs, mut measured: Measured) -> Result<Result<Short, Measured>, Failure> {
     let (rpm, speed) = speed(args, &measured)?;
     let shaft = rpm.abs() / 60.0;
     let (samples, rate) = (measured.x.len(), measured.rate);
@@ -34,11 +34,13 @@ pub(super) fn too_short(args: &AnalyzeArgs, measured: Measured) -> Result<Result
     let revolutions = seconds * shaft;
     let is_constant = measured.x.iter().all(|v| *v == measured.x[0]);
     // As many r/min would be enough as Hz.
-    let may_be_hz = is_bare(args, &measured, rpm) && 60.0 * revolutions >= FEWEST_REVOLUTIONS;
-    if revolutions >= FEWEST_REVOLUTIONS || is_constant || may_be_hz || measured.repeats.is_some() {
+    let is_doubted = is_bare(args, &measured, rpm) && 60.0 * revolutions >= FEWEST_REVOLUTIONS;
+    if revolutions >= FEWEST_REVOLUTIONS || is_constant || is_doubted || measured.repeats.is_some() {
         return Ok(Err(measured));
     }
     let (_, bearing) = bearing::orders(args, args.bearing.first().map(String::as_str), &measured, shaft)?;
+    let doubt = may_be_hz(args, &measured);
+    measured.warnings.extend(doubt);
     let mean = measured.x.iter().sum::<f64>() / samples as f64;
     let x: Vec<f64> = measured.x.iter().map(|v| v - mean).collect();
     let blocks = Blocks::of(&x, rate / shaft);

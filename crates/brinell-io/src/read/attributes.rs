@@ -107,10 +107,12 @@ impl Packing {
     pub(super) fn of(attributes: &Attributes, are_counts: bool) -> Result<Self, String> {
         let number = |key: &str, none: f64| match attributes.get(key) {
             None => Ok(none),
-            Some(value) => match numbers(value).as_deref().and_then(single).filter(|v| v.is_finite() || none.is_nan()) {
-                Some(number) => Ok(number),
-                None => Err(format!("has an attribute `{key}` that is no single number")),
-            },
+            Some(value) => {
+                match numbers(value).as_deref().and_then(single).filter(|v| v.is_finite() || none.is_nan()) {
+                    Some(number) => Ok(number),
+                    None => Err(format!("has an attribute `{key}` that is no single number")),
+                }
+            }
         };
         let packing = Self {
             scale: number("scale_factor", 1.0)?,

@@ -210,7 +210,7 @@ impl SignalFile {
     }
 
     /// [`read_pieces`](Self::read_pieces), where a line of a text file that [holds no number](IoError::is_of_a_line)
-    /// counts as a missing value, NaN, and a further segment as the end.
+    /// counts as a missing value, NaN, as a further segment does, which ends it.
     pub fn read_around(&mut self, name: &str, sink: impl FnMut(&[f64]) -> ControlFlow<()>) -> Result<(), IoError> {
         self.source.set_lenient(true);
         let read = self.read_pieces(name, sink);

@@ -293,9 +293,8 @@ impl Walk {
 
     /// The values of a segment from `at` to `end`: the channels' one after the other, again and again.
     fn values(&mut self, at: u64, end: u64, interleaved: bool, big_endian: bool) -> Result<(), Fault> {
-        let indices: Vec<(String, Index)> = (self.active.iter())
-            .filter_map(|path| Some((path.clone(), self.objects.get(path)?.index?)))
-            .collect();
+        let indices: Vec<(String, Index)> =
+            (self.active.iter()).filter_map(|path| Some((path.clone(), self.objects.get(path)?.index?))).collect();
         let chunk: u64 = indices.iter().map(|(_, index)| index.bytes).fold(0, u64::saturating_add);
         if chunk == 0 {
             return Ok(());
@@ -315,7 +314,10 @@ impl Walk {
                     (row, (room / row).min(index.count))
                 } else {
                     // Of one value a time all lie a chunk apart.
-                    (if index.count == 1 { chunk } else { width }, ((from + room).saturating_sub(place) / width).min(index.count))
+                    (
+                        if index.count == 1 { chunk } else { width },
+                        ((from + room).saturating_sub(place) / width).min(index.count),
+                    )
                 };
                 object.keep(stored, Part { start: place, count: most, stride, big_endian });
                 place += if interleaved { width } else { index.bytes };
@@ -384,10 +386,9 @@ impl Object {
         channel.unit = self.text("unit_string").or_else(|| self.text("NI_UnitDescription"));
         let step = self.number("wf_increment").filter(|step| *step > 0.0 && step.is_finite());
         let is_time = self.text("wf_xunit_string").is_none_or(|unit| super::seconds_in(&unit) == Some(1.0));
-        channel.rate = step.filter(|_| is_time).map(|step| Rate {
-            hz: hertz(step),
-            source: RateSource::Header("wf_increment".into()),
-        });
+        channel.rate = step
+            .filter(|_| is_time)
+            .map(|step| Rate { hz: hertz(step), source: RateSource::Header("wf_increment".into()) });
         let scaling = self.scaling();
         channel.unreadable = (self.unreadable.clone()).or_else(|| scaling.as_ref().err().cloned());
         let Some(stored) = self.stored else {
@@ -396,7 +397,8 @@ impl Object {
             }
             return (channel, None);
         };
-        let source = scaling.ok().map(|(slope, intercept)| Stored { stored, parts: self.parts.clone(), slope, intercept });
+        let source =
+            scaling.ok().map(|(slope, intercept)| Stored { stored, parts: self.parts.clone(), slope, intercept });
         (channel, source)
     }
 
@@ -417,7 +419,9 @@ impl Object {
             let first = k == 0 && input.is_none_or(|from| from == f64::from(NO_RAW) || from == 0.0);
             let (a, b) = match (kind.as_str(), number("Linear_Slope"), number("Linear_Y_Intercept")) {
                 ("Linear", Some(a), Some(b)) if first || input == k.checked_sub(1).map(f64::from) => (a, b),
-                _ => return Err(format!("is scaled by `{kind}`, of which only `Linear` is read; save it as CSV or MAT")),
+                _ => {
+                    return Err(format!("is scaled by `{kind}`, of which only `Linear` is read; save it as CSV or MAT"));
+                }
             };
             (slope, intercept) = (a * slope, a * intercept + b);
         }

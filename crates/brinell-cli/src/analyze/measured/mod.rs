@@ -107,7 +107,10 @@ pub(crate) fn load(path: &Path, wanted: &Wanted) -> Result<Measured, Failure> {
         let why = AnalysisError::NotFinite { count, samples: x.len(), first: first + 1 };
         let text = if text.is_empty() { "empty".into() } else { format!("`{text}`") };
         let without = part.without(first);
-        return Err(Failure::Usage(format!("{}, `{name}`: {why}; on line {line} it is {text}; {without}", path.display())));
+        return Err(Failure::Usage(format!(
+            "{}, `{name}`: {why}; on line {line} it is {text}; {without}",
+            path.display()
+        )));
     }
     warnings.extend(beyond(&x, channel.stored_as, wanted));
     scale(&mut x, factor);

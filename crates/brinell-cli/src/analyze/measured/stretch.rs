@@ -30,7 +30,8 @@ impl Part {
         let from = (self.skip + at + 1) as f64 / self.rate;
         let before = at as f64 / self.rate;
         let start = self.skip as f64 / self.rate;
-        let earlier = if start > 0.0 { format!("--start {start} --duration {before}") } else { format!("--duration {before}") };
+        let earlier =
+            if start > 0.0 { format!("--start {start} --duration {before}") } else { format!("--duration {before}") };
         format!("{earlier} takes what is before it, --start {from} what follows")
     }
 }

@@ -45,7 +45,8 @@ fn split(cell: &[u8]) -> Option<(f64, &str)> {
     let cell = cell.trim_ascii();
     let numeric = |b: &u8| b.is_ascii_digit() || matches!(b, b'+' | b'-' | b'.' | b',');
     let exponent = |i: usize| {
-        matches!(cell[i], b'e' | b'E') && cell.get(i + 1).is_some_and(|b| b.is_ascii_digit() || matches!(b, b'+' | b'-'))
+        matches!(cell[i], b'e' | b'E')
+            && cell.get(i + 1).is_some_and(|b| b.is_ascii_digit() || matches!(b, b'+' | b'-'))
     };
     let end = (0..cell.len()).find(|&i| !numeric(&cell[i]) && !exponent(i)).unwrap_or(cell.len());
     let value = number(&cell[..end], None).filter(|v| v.is_finite())?;

@@ -316,7 +316,12 @@ pub(super) fn shown(field: &[u8]) -> String {
 pub(super) fn row(bytes: &[u8], layout: &Layout, field: usize, line: u64, values: &mut Vec<f64>) -> Result<(), Fault> {
     let bytes = bytes.strip_suffix(b"\r").unwrap_or(bytes);
     if layout.is_lvm && begins_segment(bytes) {
-        return Err(if layout.lenient { Fault::Stopped } else { Fault::Segment { line } });
+        if !layout.lenient {
+            return Err(Fault::Segment { line });
+        }
+        // Something follows, and is not read.
+        values.push(f64::NAN);
+        return Err(Fault::Stopped);
     }
     let (wanted, count) = field_of(bytes, layout, field);
     let value = wanted.and_then(|text| layout.columns[field].value(text, layout.decimal));

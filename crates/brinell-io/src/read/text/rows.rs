@@ -3,11 +3,11 @@
 use super::format::{Delimiter, TextFormat};
 use super::layout::{ORDER, bracketed, decimal, rate, score, split, text};
 use super::number::number;
+use crate::Metadata;
 use crate::read::channel::{Channel, Rate, RateSource};
 use crate::read::fault::Fault;
 use crate::read::listing::{Listing, Source};
 use crate::read::numbers::{Sink, give};
-use crate::Metadata;
 
 /// Numbers that make a line a signal, where a file has so few lines.
 const FEWEST: usize = 100;
@@ -34,7 +34,8 @@ pub(super) fn list(whole: &[u8]) -> Option<Listing> {
     let stated = lines.iter().find_map(|line| rate(line));
     for line in lines {
         let fields = |d: &Delimiter| split(line, *d).len();
-        let Some(delimiter) = ORDER.into_iter().filter(|d| fields(d) >= FEWEST).max_by_key(|d| score(line, *d, &TextFormat::default()).0)
+        let Some(delimiter) =
+            ORDER.into_iter().filter(|d| fields(d) >= FEWEST).max_by_key(|d| score(line, *d, &TextFormat::default()).0)
         else {
             continue;
         };
