@@ -84,7 +84,9 @@ fn analytic_short_records_have_levels_and_no_verdict() {
         (record["verdict"]["says"].as_str(), record["signal"]["samples"].as_u64()),
         (Some("too_short"), Some(1200))
     );
-    brinell(folder.path(), &typed(&format!("analyze a.csv {given}"))).exits(0).says(&["too short", words]);
+    let alone = format!("analyze a.csv {given} --json alone.json");
+    brinell(folder.path(), &typed(&alone)).exits(0).says(&["too short", words]);
+    assert_eq!(json(&folder.path().join("alone.json"))["verdict"]["says"].as_str(), Some("too_short"));
     // A speed that may be in Hz is doubted first.
     column(&folder.path().join("c.csv"), &x[..12_000]);
     brinell(folder.path(), &typed(&format!("analyze c.csv {RATE} --speed 30")))

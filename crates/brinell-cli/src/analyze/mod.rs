@@ -2,6 +2,7 @@
 
 mod args;
 mod bearing;
+mod columns;
 mod diagnosis;
 mod ends;
 mod examine;

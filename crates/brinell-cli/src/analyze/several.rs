@@ -1,6 +1,7 @@
 //! Several files with the same options: a row for each, one after the other, so that no more than one signal is held.
 
 use super::args::AnalyzeArgs;
+use super::columns::{COLUMNS, in_columns};
 use super::diagnosis::Diagnosis;
 use super::ends;
 use super::examine::{load, results};
@@ -61,9 +62,6 @@ struct Found {
     json: Value,
 }
 
-/// Columns after the name, with their widths on the terminal.
-const COLUMNS: [(&str, usize); 7] =
-    [("s", 8), ("damage", 28), ("RMS", 16), ("peak", 16), ("kurtosis", 9), ("mm/s", 9), ("zone", 5)];
 /// Longest name that the terminal's table makes room for.
 const WIDEST: usize = 48;
 
@@ -138,42 +136,6 @@ pub(super) fn analyze(args: &AnalyzeArgs, files: &[PathBuf]) -> Result<ExitCode,
         say::wrote(written);
     }
     Ok(ExitCode::from(u8::from(failed > 0)))
-}
-
-/// A row on as many lines as its longest cell needs.
-fn in_columns(name: &str, width: usize, cells: &[String; 7], columns: &[(&str, usize); 7]) -> Vec<String> {
-    let name = wrapped(name, width);
-    let cells: Vec<(Vec<String>, usize)> =
-        cells.iter().zip(columns).map(|(cell, (_, width))| (wrapped(cell, *width), *width)).collect();
-    let lines = cells.iter().map(|(lines, _)| lines.len()).chain([name.len()]).max().unwrap_or(0);
-    let at = |lines: &[String], i: usize| lines.get(i).cloned().unwrap_or_default();
-    let line = |i: usize| {
-        let cells: Vec<String> = cells.iter().map(|(lines, width)| format!("{:>width$}", at(lines, i))).collect();
-        format!("{:<width$} {}", at(&name, i), cells.join(" ")).trim_end().to_owned()
-    };
-    (0..lines).map(line).collect()
-}
-
-/// The words of a cell on lines of at most `width` characters; a longer word is cut.
-fn wrapped(text: &str, width: usize) -> Vec<String> {
-    let mut lines = vec![String::new()];
-    let mut length = 0;
-    for word in text.split(' ') {
-        let word: Vec<char> = word.chars().collect();
-        for (k, piece) in word.chunks(width).enumerate() {
-            let space = usize::from(k == 0 && length > 0);
-            if length + space + piece.len() > width {
-                lines.push(String::new());
-                length = 0;
-            } else if space == 1 {
-                lines.last_mut().into_iter().for_each(|line| line.push(' '));
-                length += 1;
-            }
-            lines.last_mut().into_iter().for_each(|line| line.extend(piece));
-            length += piece.len();
-        }
-    }
-    lines
 }
 
 fn one(args: &AnalyzeArgs, path: &Path) -> Result<Found, Failure> {
@@ -292,6 +254,13 @@ impl Found {
         }
     }
 
+    /// Its JSON, of itself.
+    fn whole(&self) -> Value {
+        let mut json = self.json.clone();
+        json["brinell"] = brinell::VERSION.into();
+        json
+    }
+
     /// In the order of [`COLUMNS`].
     fn cells(&self) -> [String; 7] {
         let number = |e: &Option<Estimate>, unit: &str| match e {
@@ -339,7 +308,12 @@ fn write(args: &AnalyzeArgs, rows: &[Row], paths: &[String], earlier: &Earlier) 
             earlier,
         )?;
     }
-    put_json(args, &json, &mut written)?;
+    // Of one file that is too short it is an object as of any one file.
+    let alone = match rows {
+        [Row { found: Ok(found), .. }] if args.files.first().is_some_and(|file| file.is_file()) => Some(found.whole()),
+        _ => None,
+    };
+    put_json(args, alone.as_ref().unwrap_or(&json), &mut written)?;
     Ok(written)
 }
 
@@ -500,26 +474,4 @@ fn plots(rows: &[Row]) -> Vec<IndicatorPlot> {
     }
     plots.push(IndicatorPlot { limits, ..plot("score", "Score of a family", "", lines.collect()) });
     plots
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// A long cell goes on below itself: every cell ends where its column does, and no word is lost.
-    #[test]
-    fn prop_a_long_cell_stays_in_its_column() {
-        let cells = ["1.000", "outer race, very clear, and inner race, clear", "1.2 m/s^2", "8 m/s^2", "3", "-", "-"];
-        let name = "a_name_that_is_longer_than_the_column_it_is_in.csv";
-        let lines = in_columns(name, 20, &cells.map(String::from), &COLUMNS);
-        assert_eq!(lines.len(), 3, "{lines:#?}");
-        assert_eq!(lines[0].chars().count(), 20 + COLUMNS.iter().map(|c| c.1 + 1).sum::<usize>());
-        assert_eq!(lines[0].split_whitespace().last(), Some("-"));
-        let column = |line: &String| line.chars().skip(20 + 10).take(28).collect::<String>().trim().to_owned();
-        let words: Vec<String> = lines.iter().map(column).filter(|words| !words.is_empty()).collect();
-        assert_eq!(words.join(" "), cells[1]);
-        let whole: String =
-            lines.iter().map(|line| line.chars().take(20).collect::<String>().trim().to_owned()).collect();
-        assert_eq!(whole, name);
-    }
 }

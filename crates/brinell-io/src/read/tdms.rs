@@ -102,7 +102,8 @@ pub(super) fn list(mut contents: Contents) -> Result<Listing, Fault> {
         let names = names(path);
         for (key, property) in &object.properties {
             if let (Property::Text(text), true) = (property, names.len() < 2) {
-                metadata.pairs.push(([&names[..], &[key.clone()]].concat().join("/"), text.clone()));
+                let path: Vec<&str> = names.iter().chain([key]).map(String::as_str).collect();
+                metadata.pairs.push((path.join("/"), text.clone()));
             }
         }
         if names.len() == 2 {
@@ -420,7 +421,9 @@ impl Object {
             let (a, b) = match (kind.as_str(), number("Linear_Slope"), number("Linear_Y_Intercept")) {
                 ("Linear", Some(a), Some(b)) if first || input == k.checked_sub(1).map(f64::from) => (a, b),
                 _ => {
-                    return Err(format!("is scaled by `{kind}`, of which only `Linear` is read; save it as CSV or MAT"));
+                    return Err(format!(
+                        "is scaled by `{kind}`, of which only `Linear` is read; save it as CSV or MAT"
+                    ));
                 }
             };
             (slope, intercept) = (a * slope, a * intercept + b);
