@@ -28,11 +28,14 @@ impl Part {
     /// Options that choose a stretch without the sample `at` after the part's first, in words.
     pub(super) fn without(self, at: usize) -> String {
         let from = (self.skip + at + 1) as f64 / self.rate;
-        let before = at as f64 / self.rate;
+        format!("{}, --start {from} what follows", self.before(at))
+    }
+
+    /// Those that choose what is before it.
+    fn before(self, at: usize) -> String {
         let start = self.skip as f64 / self.rate;
-        let earlier =
-            if start > 0.0 { format!("--start {start} --duration {before}") } else { format!("--duration {before}") };
-        format!("{earlier} takes what is before it, --start {from} what follows")
+        let start = if start > 0.0 { format!("--start {start} ") } else { String::new() };
+        format!("{start}--duration {} takes what is before it", at as f64 / self.rate)
     }
 }
 
@@ -54,7 +57,11 @@ pub(super) fn stretch(
             warnings.push(format!("{error}; that lies beyond the stretch which is analysed"));
             Ok(read)
         }
-        Some(at) => Err(Failure::Usage(format!("{error}; {}", part.without(at)))),
+        Some(at) => {
+            let nothing_follows = matches!(error, IoError::Segment { .. });
+            let options = if nothing_follows { part.before(at) } else { part.without(at) };
+            Err(Failure::Usage(format!("{error}; {options}")))
+        }
     }
 }
 
