@@ -11,9 +11,10 @@ use flate2::read::ZlibDecoder;
 use hdf5_pure::{DType, Dataset, File as Hdf5, Group, Layout, Object, ReadSeekSource};
 
 use super::attributes::{self, Packing};
-use super::channel::{Channel, Rate, is_increment, lend_increments, lend_labels, lend_rates, names_a_rate};
+use super::channel::{Channel, Rate, lend_labels, lend_rates, names_a_rate};
 use super::contents::Contents;
 use super::fault::{Fault, damaged, unsupported};
+use super::increments::{is_increment, lend_increments};
 use super::listing::{Listing, Source};
 use super::numbers::{Number, Sink, give};
 use super::soft_links::WithoutSoftLinks;

@@ -13,6 +13,7 @@ mod contents;
 mod fault;
 #[cfg(feature = "hdf5")]
 mod hdf5;
+mod increments;
 mod kind;
 mod listing;
 mod mat5;

@@ -12,6 +12,7 @@ use super::contents::Contents;
 use super::fault::{Fault, damaged, unsupported};
 use super::listing::{Listing, Source};
 use super::numbers::{Number, Sink};
+use super::times::seconds_in;
 use crate::Metadata;
 
 const LEAD: u64 = 28;
@@ -386,7 +387,7 @@ impl Object {
         let mut channel = Channel::array(name, vec![self.count], self.stored.unwrap_or(Number::U8));
         channel.unit = self.text("unit_string").or_else(|| self.text("NI_UnitDescription"));
         let step = self.number("wf_increment").filter(|step| *step > 0.0 && step.is_finite());
-        let is_time = self.text("wf_xunit_string").is_none_or(|unit| super::seconds_in(&unit) == Some(1.0));
+        let is_time = self.text("wf_xunit_string").is_none_or(|unit| seconds_in(&unit) == Some(1.0));
         channel.rate = step
             .filter(|_| is_time)
             .map(|step| Rate { hz: hertz(step), source: RateSource::Header("wf_increment".into()) });

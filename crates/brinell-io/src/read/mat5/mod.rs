@@ -9,9 +9,10 @@ mod walk;
 
 use std::io::{Read, Seek, SeekFrom};
 
-use super::channel::{lend_increments, lend_labels, lend_rates, lend_units};
+use super::channel::{lend_labels, lend_rates, lend_units};
 use super::contents::Contents;
 use super::fault::{Fault, damaged};
+use super::increments::lend_increments;
 use super::listing::{Listing, Source};
 use super::numbers::Sink;
 use crate::{Metadata, keys};

@@ -3,8 +3,9 @@
 use std::ops::ControlFlow;
 
 use super::input::{Input, MATRIX, Tag};
-use crate::read::channel::{Channel, is_increment, names_a_rate};
+use crate::read::channel::{Channel, names_a_rate};
 use crate::read::fault::{Fault, damaged};
+use crate::read::increments::is_increment;
 use crate::read::numbers::{Number, Sink};
 
 const MAX_DEPTH: usize = 24;
