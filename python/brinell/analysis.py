@@ -81,7 +81,9 @@ def analyze(
     *,
     rate_hz: float | None = None,
     unit: str | None = None,
-    speed_rpm: float,
+    speed_rpm: float | None = None,
+    tacho: npt.ArrayLike | Signal | None = None,
+    pulses: int = 1,
     bearing: str | os.PathLike[str] | Scenario | None = None,
     rollers: int | None = None,
     pitch_mm: float | None = None,
@@ -112,6 +114,11 @@ def analyze(
         As in `psd`; of a `Signal` its own by default.
     speed_rpm : float
         Of the shaft.
+    tacho : array_like or Signal, optional
+        In place of `speed_rpm`, a channel of pulses of the same length, a tachometer's or an encoder's: rising edges give the speed, which is followed
+        where it varies. Its rate is the signal's unless it is a `Signal` of its own.
+    pulses : int
+        Pulses of `tacho` a turn.
     bearing : str, path or Scenario, optional
         A name that ``brinell analyze --bearing`` takes, or a scenario with this bearing, or its file.
     rollers, pitch_mm, diameter_mm, contact_angle_deg : optional
@@ -160,13 +167,18 @@ def analyze(
     def perhaps(value: float | None, name: str, what: str) -> float | None:
         return None if value is None else number_of(value, name, what)
 
+    train = None
+    if tacho is not None:
+        tacho_hz, tacho = (tacho.rate_hz, tacho.values) if isinstance(tacho, Signal) else (rate_hz, tacho)
+        train = samples_of(tacho), rate_of(tacho_hz), whole_of(pulses, "pulses", "pulses a turn")
     measures = [perhaps(pitch_mm, "pitch_mm", "mm"), perhaps(diameter_mm, "diameter_mm", "mm"), perhaps(contact_angle_deg, "contact_angle_deg", "degrees")]
     given = {"bpfo": bpfo, "bpfi": bpfi, "bsf": bsf, "ftf": ftf}
     report, found, findings = _brinell.analyze(
         samples,
         rate_of(rate_hz),
         unit_of(unit),
-        number_of(speed_rpm, "speed_rpm", "r/min"),
+        perhaps(speed_rpm, "speed_rpm", "r/min"),
+        train,
         name,
         scenario,
         (elements, measures),

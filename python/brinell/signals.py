@@ -373,7 +373,7 @@ class Signal:
 
 
 def read_signal(path: str | os.PathLike[str], channel: str | int | None = None) -> Signal:
-    """One channel of a measured signal's file: CSV and text, Parquet, MAT, HDF5, NPY, NPZ, UFF 58 or WAV.
+    """One channel of a measured signal's file: CSV and text, Parquet, MAT, HDF5, NPY, NPZ, TDMS, UFF 58 or WAV.
 
     Parameters
     ----------

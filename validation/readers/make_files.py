@@ -8,6 +8,7 @@ from pathlib import Path
 
 import h5py
 import hdf5storage
+import nptdms
 import numpy as np
 import pyarrow as pa
 import pyarrow.parquet as pq
@@ -56,6 +57,29 @@ paderborn = {
         ),
     }
 }
+raster = {
+    "N15": {
+        "X": structs(
+            ["Name", "Data", "Unit", "Raster"],
+            [["Time", i[None, :] / 4000, "s", "HostService"], ["Time", i[None, :20] / 250, "s", "Mech_4kHz"]],
+        ),
+        "Y": structs(
+            ["Name", "Data", "Unit", "Raster", "XIndex"],
+            [
+                ["speed", signal(5)[None, :20], "rpm", "Mech_4kHz", 2.0],
+                ["vibration_1", signal(6)[None, :], "m/s^2", "HostService", 1.0],
+            ],
+        ),
+    }
+}
+scipy.io.savemat(out / "raster.mat", raster, do_compression=True)
+testlab = {
+    "Signal_0": {
+        "x_values": {"start_value": 0.0, "increment": 1 / 51200, "number_of_values": 300.0, "quantity": {"label": "s"}},
+        "y_values": {"values": column(7), "quantity": {"label": "g"}},
+    }
+}
+scipy.io.savemat(out / "testlab.mat", testlab, do_compression=True)
 scipy.io.savemat(out / "paderborn.mat", paderborn, do_compression=True, long_field_names=True)
 scipy.io.savemat(out / "paderborn_v6.mat", paderborn, do_compression=False, long_field_names=True)
 cell = np.empty((1, 2), dtype=object)
@@ -139,6 +163,19 @@ with h5py.File(out / "latest.h5", "w", libver=("v110", "v110")) as file:
     file.create_dataset("run/matrix", data=np.column_stack([signal(3), signal(4)]), chunks=(64, 2), compression=4)
     file.create_dataset("run/fs", data=51200.0)
     file.create_dataset("run/half", shape=(100,), chunks=(10,), dtype="f8")[:10] = 1.0
+
+# Packed as netCDF does it, and with a factor of nobody's convention.
+with h5py.File(out / "packed.h5", "w", libver="earliest") as file:
+    counts = (8 * signal(0)).astype("<i2")
+    file.attrs["sample_rate"] = 4000
+    acc = file.create_dataset("acc", data=counts)
+    acc.attrs.update(scale_factor=0.25, add_offset=1.5, units="g")
+    counts[7] = -999
+    chunked = file.create_dataset("chunked", data=counts, chunks=(64,), compression="gzip")
+    chunked.attrs.update(scale_factor=np.float32(0.25), _FillValue=np.int16(-999), units="g")
+    gained = file.create_dataset("gained", data=counts)
+    gained.attrs.update(gain=0.25, units="g")
+    file.create_dataset("counts", data=(8 * signal(0)).astype("<i2")).attrs["gain"] = 0.25
 
 with h5py.File(out / "groups.h5", "w", libver="earliest") as file:
     for group, hz in [("fast", 12000), ("slow", 6000)]:
@@ -260,3 +297,40 @@ Delta_X\t0,000040\t0,000040\t
 X_Value\tAcceleration\tVoltage\tComment
 """
 (out / "labview.lvm").write_text(lvm + "".join(f"\t{a:.6f}\t{b:.6f}\n".replace(".", ",") for a, b in zip(*pair)))
+
+# --- TDMS: two segments, a waveform in g, counts with a linear scaling, single values, texts.
+counts = (8 * signal(1)).astype(np.int16)
+scaled = {
+    "NI_Number_Of_Scales": np.int32(1),
+    "NI_Scale[0]_Scale_Type": "Linear",
+    "NI_Scale[0]_Linear_Slope": 0.125,
+    "NI_Scale[0]_Linear_Y_Intercept": 1.5,
+    "NI_Scale[0]_Linear_Input_Source": np.uint32(0xFFFFFFFF),
+    "NI_Scaling_Status": "unscaled",
+    "unit_string": "V",
+}
+polynomial = {"NI_Number_Of_Scales": np.int32(1), "NI_Scale[0]_Scale_Type": "Polynomial"}
+wave = {"wf_increment": 1 / 25600, "wf_start_offset": 0.0, "unit_string": "g"}
+with nptdms.TdmsWriter(str(out / "segments.tdms")) as file:
+    root = nptdms.RootObject(properties={"title": "made up", "runs": np.int32(2)})
+    for part in np.split(i, [100]):
+        file.write_segment([
+            root,
+            nptdms.ChannelObject("it's a rig", "acc", signal(0)[part], properties=wave),
+            nptdms.ChannelObject("it's a rig", "counts", counts[part], properties=scaled),
+            nptdms.ChannelObject("it's a rig", "bent", counts[part], properties=polynomial),
+            nptdms.ChannelObject("it's a rig", "remarks", ["one", "two"]),
+        ])
+# Values in turns, which no other library writes: made of a segment of values one after the other.
+with nptdms.TdmsWriter(str(out / "interleaved.tdms")) as file:
+    file.write_segment([
+        nptdms.ChannelObject("rig", "a", counts, properties=wave),
+        nptdms.ChannelObject("rig", "b", signal(2)),
+    ])
+data = bytearray((out / "interleaved.tdms").read_bytes())
+start = 28 + int.from_bytes(data[20:28], "little")
+data[start:] = b"".join(a.tobytes() + b.tobytes() for a, b in zip(counts, signal(2)))
+data[4] |= 1 << 5
+(out / "interleaved.tdms").write_bytes(data)
+with nptdms.TdmsFile(out / "interleaved.tdms") as file:
+    assert np.array_equal(file["rig"]["a"][:], counts) and np.array_equal(file["rig"]["b"][:], signal(2))

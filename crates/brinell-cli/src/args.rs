@@ -3,6 +3,7 @@
 use crate::failure::Failure;
 use crate::figures::{PlotFormat, Print};
 use brinell::analysis::{DefectOrders, Wording};
+use brinell::bearing::KnownBearing;
 use brinell_io::Format;
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use clap::{Args, Subcommand, ValueEnum};
@@ -151,7 +152,7 @@ pub(crate) struct FrequenciesArgs {
         long = "bearing",
         id = "name",
         value_name = "NAME",
-        conflicts_with_all = ["bearing", "rollers", "pitch", "diameter", "contact_angle"]
+        conflicts_with_all = ["bearing", "rollers", "pitch", "diameter"]
     )]
     pub(crate) name: Option<String>,
     /// Shaft speed [default: the scenario's, or 60 r/min so that Hz are orders]
@@ -187,17 +188,36 @@ pub(crate) struct Elements {
         conflicts_with = "bearing"
     )]
     pub(crate) diameter: Option<f64>,
-    /// Contact angle
+    /// Contact angle; with a bearing by name, under its load in place of the bearing's own
     #[arg(
         long,
         value_parser = quantity("deg", "0 to below 90 degrees, as 15 or 15deg"),
-        value_name = "DEG",
-        conflicts_with = "bearing"
+        value_name = "DEG"
     )]
     pub(crate) contact_angle: Option<f64>,
 }
 
 impl Elements {
+    /// Orders of a bearing by name, with the contact angle given in place of its own; and where they come from.
+    pub(crate) fn of_known(&self, known: KnownBearing) -> Result<(DefectOrders, String), Failure> {
+        let (orders, source) = known.orders().map_err(Failure::Usage)?;
+        let Some(angle) = self.contact_angle else {
+            return Ok((orders, source));
+        };
+        let orders = known.orders_at(angle).map_err(|why| Failure::Usage(format!("--contact-angle {angle}: {why}")))?;
+        Ok((orders, format!("{source}; contact angle {angle} degrees, as given")))
+    }
+
+    /// That no angle is given beside a scenario, which has its own.
+    pub(crate) fn no_angle_of(&self, scenario: &str) -> Result<(), Failure> {
+        match self.contact_angle {
+            None => Ok(()),
+            Some(angle) => Err(Failure::Usage(format!(
+                "--contact-angle {angle}: expected it with a bearing by name; {scenario} is a scenario, which has its own"
+            ))),
+        }
+    }
+
     /// Their orders, and their numbers in words; `None` where none is given.
     pub(crate) fn orders(&self) -> Result<Option<(DefectOrders, String)>, Failure> {
         let names = ["--rollers", "--pitch", "--diameter", "--contact-angle"];

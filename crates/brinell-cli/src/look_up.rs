@@ -236,19 +236,21 @@ struct Asked {
 
 fn asked(args: &FrequenciesArgs) -> Result<Asked, Failure> {
     let of = |(orders, source)| Asked { orders, source, speed_rpm: None };
-    let known = |name: &str| Ok(of(find(name)?.orders().map_err(Failure::Usage)?));
+    let known = |name: &str| Ok(of(args.elements.of_known(find(name)?)?));
     let Some(bearing) = &args.bearing else {
-        return match (&args.name, args.elements.orders()?) {
-            (Some(name), _) => known(name),
-            (None, Some(given)) => Ok(of(given)),
-            (None, None) => Err(Failure::Usage(
+        return match &args.name {
+            Some(name) => known(name),
+            None => match args.elements.orders()? {
+            Some(given) => Ok(of(given)),
+            None => Err(Failure::Usage(
                 "which bearing? Give a name (`brinell bearing list`), a scenario file, or --rollers, --pitch and --diameter"
                     .into(),
             )),
+            },
         };
     };
     match scenario_meant(bearing)? {
-        Some(Scenario { bearing: own, operation, .. }) => Ok(Asked {
+        Some(Scenario { bearing: own, operation, .. }) => args.elements.no_angle_of(bearing).map(|()| Asked {
             orders: orders_of(&own),
             source: format!("the scenario {bearing}"),
             speed_rpm: operation.speed_rpm.constant(),

@@ -5,6 +5,7 @@ use crate::depth_cloud::{gridded, refuse_axes};
 use crate::error::{DamageError, excerpt};
 use crate::kind::FileKind;
 use crate::scan::{MAX_POINTS, Raw};
+use crate::scan_header::Stated;
 
 const MAX_BYTES: usize = 512 << 20;
 
@@ -24,9 +25,12 @@ pub(crate) fn read(bytes: &[u8], stated_mm: [Option<f64>; 2]) -> Result<Raw, Dam
         why: "not UTF-8".to_owned(),
     })?;
     let text = text.trim_start_matches('\u{feff}');
+    let stated = Stated::of(text);
     let lines = || {
         let lines = text.lines().enumerate().map(|(i, line)| (i + 1, line.trim_end_matches('\r')));
-        lines.filter(|(_, line)| !line.trim().is_empty() && !line.trim_start().starts_with('#'))
+        lines.filter(|(_, line)| {
+            !line.trim().is_empty() && !line.trim_start().starts_with(['#', '%']) && !Stated::says(line)
+        })
     };
     let layout = Layout::of(lines().map(|(_, line)| line));
     let mut raw = Raw::default();
@@ -73,6 +77,7 @@ pub(crate) fn read(bytes: &[u8], stated_mm: [Option<f64>; 2]) -> Result<Raw, Dam
         layout.cells(content).map(|cell| cell.trim().trim_matches('"').trim().to_owned()).collect()
     });
     let mut raw = gridded(raw, &names, stated_mm)?;
+    stated.put_in(&mut raw);
     if let (Some((line, _)), None) = (header, raw.spacing_mm) {
         raw.notes.push(format!("line {line} was taken as names and passed over"));
     }

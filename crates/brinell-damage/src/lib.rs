@@ -64,6 +64,7 @@ pub mod plan;
 mod region;
 mod resolve;
 mod scan;
+mod scan_header;
 mod segment;
 mod stroke;
 mod surface;

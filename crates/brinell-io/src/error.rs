@@ -146,6 +146,14 @@ pub enum IoError {
         /// Values of this line.
         got: usize,
     },
+    /// A second header among the numbers of a LabVIEW measurement file.
+    #[error("{}: on line {line} a second segment begins, a recording with a header of its own; save each segment as a file", path.display())]
+    Segment {
+        /// The file.
+        path: PathBuf,
+        /// The line, from 1.
+        line: u64,
+    },
     /// A file of no bytes.
     #[error("{}: the file is empty", path.display())]
     EmptyFile {
@@ -163,7 +171,7 @@ pub enum IoError {
         content_is: String,
     },
     /// A file that is none of the formats that can be read.
-    #[error("{}: cannot read: {what}; known are csv and other text, parquet, mat, hdf5, npy, npz, wav and uff", path.display())]
+    #[error("{}: cannot read: {what}; known are csv and other text, parquet, mat, hdf5, npy, npz, wav, uff and tdms", path.display())]
     UnknownContent {
         /// The file.
         path: PathBuf,
@@ -263,6 +271,16 @@ fn without(line: usize) -> &'static str {
 }
 
 impl IoError {
+    /// Whether it is about one line of a text file, which [`crate::SignalFile::read_around`] takes as a missing value.
+    pub fn is_of_a_line(&self) -> bool {
+        self.is_of_a_row() || matches!(self, Self::CsvNumber { .. } | Self::DecimalPoint { .. })
+    }
+
+    /// Whether such a line is no row of the table: it has another number of cells, or begins another segment.
+    pub(crate) fn is_of_a_row(&self) -> bool {
+        matches!(self, Self::TextRow { .. } | Self::Segment { .. })
+    }
+
     /// Sorts a system error met while writing `path` by what its reader can do about it.
     pub(crate) fn writing(path: &Path, source: io::Error) -> Self {
         use io::ErrorKind as K;

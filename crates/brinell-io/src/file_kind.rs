@@ -23,6 +23,8 @@ pub enum FileKind {
     Wav,
     /// Universal File Format, dataset 58, as text or binary (58b).
     Uff58,
+    /// LabVIEW TDMS.
+    Tdms,
 }
 
 impl fmt::Display for FileKind {
@@ -36,12 +38,13 @@ impl fmt::Display for FileKind {
             Self::Npz => "NumPy npz",
             Self::Wav => "WAV",
             Self::Uff58 => "UFF",
+            Self::Tdms => "TDMS",
         })
     }
 }
 
 /// What file extensions promise: the kinds, and how to call them. `txt`, `dat` and others promise nothing.
-const PROMISED: [(&[&str], &[FileKind], &str); 8] = {
+const PROMISED: [(&[&str], &[FileKind], &str); 9] = {
     use FileKind as K;
     [
         (&["csv", "tsv", "lvm"], &[K::Text], "text"),
@@ -52,6 +55,7 @@ const PROMISED: [(&[&str], &[FileKind], &str); 8] = {
         (&["npz"], &[K::Npz], "NumPy npz"),
         (&["wav", "wave"], &[K::Wav], "WAV"),
         (&["uff", "unv", "uf", "uf58", "bunv"], &[K::Uff58], "UFF"),
+        (&["tdms"], &[K::Tdms], "TDMS"),
     ]
 };
 

@@ -3,6 +3,7 @@
 mod atomic;
 mod bad_files;
 mod common;
+mod conventions;
 mod csv;
 mod documented;
 mod measured;

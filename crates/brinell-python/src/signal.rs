@@ -10,7 +10,8 @@ use brinell::analysis::{
 };
 use brinell::bearing::{KnownBearing, orders_of};
 use brinell::result::{Stretch, beside_healthy};
-use brinell::signal::{self, Band, Blocks, Detrend, Indicator, Segments, Spectrum, VelocityBands, Window};
+use brinell::signal::tacho::{course, speed_by_pulses};
+use brinell::signal::{self, Band, Blocks, Detrend, Indicator, Rotation, Segments, Spectrum, VelocityBands, Window};
 use brinell_report::{AnalysisReport, Analyzed, analysis_html};
 use numpy::{PyArray1, PyArrayMethods};
 use pyo3::prelude::*;
@@ -306,6 +307,23 @@ fn supply(hz: f64) -> PyResult<f64> {
     }
 }
 
+/// Mean speed, r/min, by a channel of pulses that lasts as long as the signal, and the shaft's angle where it varies.
+fn by_pulses(x: &[f64], rate_hz: f64, a_turn: u32, seconds: f64) -> PyResult<(f64, Option<Rotation>)> {
+    let refused = |why: String| failed(format!("tacho: {why}"));
+    let covers = x.len() as f64 / rate_hz;
+    if (covers / seconds - 1.0).abs() > 0.02 {
+        return Err(refused(format!("its {} values last {covers:.3} s and the signal {seconds:.3} s", x.len())));
+    }
+    let mut speeds = speed_by_pulses(x, rate_hz, a_turn).map_err(|why| refused(why.to_string()))?;
+    speeds.iter_mut().for_each(|v| *v *= 60.0);
+    let mean = speeds.iter().sum::<f64>() / speeds.len() as f64;
+    let points: Vec<(f64, f64)> = course(&speeds, rate_hz, mean).into_iter().map(|(t, rpm)| (t, rpm / 60.0)).collect();
+    let rotation = (!points.is_empty()).then(|| Rotation::from_speeds(&points)).transpose();
+    // A mean has more digits than anybody reads.
+    let mean = (100.0 * mean).round() / 100.0;
+    Ok((mean, rotation.map_err(|why| refused(why.to_string()))?))
+}
+
 /// Which component's defect frequencies are detected: the JSON of `brinell analyze`, the envelope spectrum that shows
 /// most, and what the page is made of.
 #[pyfunction]
@@ -315,7 +333,8 @@ pub(crate) fn analyze<'py>(
     x: Samples<'py>,
     rate_hz: f64,
     unit: &str,
-    speed_rpm: f64,
+    speed_rpm: Option<f64>,
+    tacho: Option<(Samples<'py>, f64, u32)>,
     bearing: Option<&str>,
     scenario: Option<&crate::scenario::Scenario>,
     elements: (Option<i128>, [Option<f64>; 3]),
@@ -344,6 +363,13 @@ pub(crate) fn analyze<'py>(
         x.iter_mut().for_each(|v| *v *= factor);
         unit = of;
     }
+    let seconds = x.len() as f64 / rate_hz;
+    let pulses = tacho.map(|(of, rate, a_turn)| by_pulses(&slice(&of), rate, a_turn, seconds)).transpose()?;
+    let (speed_rpm, rotation, source) = match (speed_rpm, pulses) {
+        (Some(rpm), None) => (rpm, None, "as given"),
+        (None, Some((rpm, rotation))) => (rpm, rotation, "from the pulses of tacho"),
+        _ => return Err(bad_value("speed_rpm: expected either it or tacho")),
+    };
     if !(speed_rpm.is_finite() && speed_rpm != 0.0) {
         return Err(failed(format!("speed_rpm = {speed_rpm}: expected a speed other than 0, in r/min")));
     }
@@ -353,6 +379,8 @@ pub(crate) fn analyze<'py>(
     options.supply = supply_hz.map(supply).transpose()?;
     options.tolerance = tolerance;
     options.exact = simulated;
+    options.measured_speed = source != "as given";
+    options.rotation = rotation;
     if simulated {
         let own = scenario.and_then(|s| s.loaded.scenario.sensor.noise_rms());
         options.silent = unit.missing_noise(own);
@@ -386,7 +414,7 @@ pub(crate) fn analyze<'py>(
         unit,
         rate: rate_hz,
         notes,
-        speed: format!("shaft speed {speed_rpm} r/min, as given"),
+        speed: format!("shaft speed {speed_rpm} r/min, {source}"),
         bearing,
         analysis,
         levels,

@@ -40,7 +40,7 @@
 //! allocated per sample.
 //!
 //! Of a signal held as a slice, with its sample rate in Hz: [`window`], [`mod@psd`] (Welch with any window),
-//! [`mod@envelope`], [`mod@spectrogram`], [`mod@kurtogram`] (which band to demodulate), [`order`] (varying speed), [`decimate`] (its low-pass),
+//! [`mod@envelope`], [`mod@spectrogram`], [`mod@kurtogram`] (which band to demodulate), [`order`] (varying speed), [`tacho`] (speed from pulses), [`decimate`] (its low-pass),
 //! [`integrate`] (acceleration to velocity), [`mod@velocity_bands`], [`lines`] (harmonics over the local noise), and
 //! [`distribution`] (what powers of noise follow). Functions of a signal return [`SignalError`] for input that
 //! they cannot use, and do not panic; the few others that do say so, as [`kaiser_lowpass`] of edges out of order.
@@ -79,6 +79,7 @@ pub mod series;
 pub mod spectrogram;
 pub mod spectrum;
 pub mod stream;
+pub mod tacho;
 pub mod transformed;
 pub mod velocity_bands;
 pub mod window;

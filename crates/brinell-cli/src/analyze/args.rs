@@ -17,6 +17,7 @@ use std::path::PathBuf;
     brinell analyze rig.csv --channel 2 --rate 25600 --unit m/s^2 --speed 1500 --rollers 13 --pitch 39 --diameter 7.5\n  \
     brinell analyze pump.wav --full-scale 5V --sensitivity 100mV/g --speed 1480 --bearing 6205\n  \
     brinell analyze rig.csv --channel acc --rate 25600 --unit g --speed 1500 --bpfo 89.6 --bpfi 5.415x\n  \
+    brinell analyze rig.tdms --channel acc --tacho tach --pulses 60 --bearing 6205    speed by an encoder\n  \
     brinell analyze out/my-bearing -o look              a run of brinell's own\n  \
     brinell analyze measured.mat ... --against out/my-bearing -o look\n  \
     brinell analyze records/ --rate 25600 --unit g --speed 1480 --bearing 6205 -o trend    a row a file, and a trend\n\n\
@@ -24,7 +25,7 @@ use std::path::PathBuf;
     Exit codes: 0 analysed (whatever the verdict), 1 a result could not be written, or one of several files could not be analysed, 2 bad input."
 )]
 pub(crate) struct AnalyzeArgs {
-    /// Signals: csv and other text, parquet, mat (v5 to v7.3), hdf5, npy, npz, wav, uff; or the folder of a run.
+    /// Signals: csv and other text, parquet, mat (v5 to v7.3), hdf5, npy, npz, wav, uff, tdms; or the folder of a run.
     /// Several files, or a folder of them, are analysed with the same options, one after the other; a folder's by name,
     /// with 2 before 10
     #[arg(required = true, value_name = "FILE")]
@@ -38,6 +39,12 @@ pub(crate) struct AnalyzeArgs {
     /// it is followed (order tracking), else its mean counts
     #[arg(long, value_name = "NAME|N", conflicts_with = "speed")]
     pub(crate) speed_channel: Option<String>,
+    /// Channel of pulses that gives the speed, a tachometer's or an encoder's: rising edges, followed as a speed channel
+    #[arg(long, value_name = "NAME|N", conflicts_with_all = ["speed", "speed_channel"])]
+    pub(crate) tacho: Option<String>,
+    /// Its pulses a turn
+    #[arg(long, value_name = "N", default_value_t = 1, requires = "tacho", value_parser = clap::value_parser!(u32).range(1..=100_000))]
+    pub(crate) pulses: u32,
     /// Bearing by name, or a scenario file that has it; again for a further one of the same shaft, as at a motor's other end: each is judged
     #[arg(long, value_name = "NAME")]
     pub(crate) bearing: Vec<String>,

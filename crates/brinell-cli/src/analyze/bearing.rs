@@ -49,6 +49,7 @@ fn bsf_of_races(orders: &DefectOrders) -> Option<f64> {
 fn base(args: &AnalyzeArgs, name: Option<&str>, measured: &Measured) -> Result<(DefectOrders, String), Failure> {
     if let Some(name) = name {
         if let Some(scenario) = scenario_meant(name)? {
+            args.elements.no_angle_of(name)?;
             return Ok((orders_of(&scenario.bearing), format!("the scenario {name}")));
         }
         let Some(known) = KnownBearing::find(name) else {
@@ -57,7 +58,7 @@ fn base(args: &AnalyzeArgs, name: Option<&str>, measured: &Measured) -> Result<(
                 KnownBearing::unknown(name)
             )));
         };
-        let (orders, source) = known.orders().map_err(Failure::Usage)?;
+        let (orders, source) = args.elements.of_known(known)?;
         let is_its_name = known.name().eq_ignore_ascii_case(name);
         return Ok((orders, if is_its_name { source } else { format!("{source} (found for {name})") }));
     }

@@ -44,6 +44,7 @@ pub(super) fn load(args: &AnalyzeArgs, path: &Path) -> Result<Measured, Failure>
         path,
         &Wanted {
             speed_channel: args.speed_channel.as_deref(),
+            tacho: args.tacho.as_deref().map(|name| (name, args.pulses)),
             ask_speed: args.speed.is_none(),
             ask_bearing: !args.names_a_bearing(),
             ..Wanted::of(&args.signal)
@@ -120,7 +121,7 @@ fn examine(args: &AnalyzeArgs, mut measured: Measured, name: Option<&str>) -> Re
     })
 }
 
-fn speed(args: &AnalyzeArgs, measured: &Measured) -> Result<(f64, String), Failure> {
+pub(super) fn speed(args: &AnalyzeArgs, measured: &Measured) -> Result<(f64, String), Failure> {
     let (rpm, source) = match (args.speed, &measured.speed) {
         (Some(given), _) => (given.rpm, "--speed".to_owned()),
         (None, Some(stated)) => (stated.rpm, stated.source.clone()),
@@ -136,16 +137,21 @@ fn stated_speed(args: &AnalyzeArgs, measured: &Measured) -> Option<String> {
     other_speed(&format!("--speed {given}"), given, stated.rpm, &stated.source, 0.01 * args.tolerance)
 }
 
+/// Whether the speed is a number without a unit that is so low that it may be in Hz.
+pub(super) fn is_bare(args: &AnalyzeArgs, measured: &Measured, rpm: f64) -> bool {
+    let bare = args.speed.map_or(measured.speed.as_ref().is_some_and(|s| s.is_bare), |given| given.is_bare);
+    bare && rpm.abs() < MAY_BE_HZ
+}
+
 /// A warning, where a number without a unit is so low that it may be in Hz.
-fn may_be_hz(args: &AnalyzeArgs, measured: &Measured) -> Option<String> {
-    let is_low = |rpm: f64| rpm.abs() < MAY_BE_HZ;
+pub(super) fn may_be_hz(args: &AnalyzeArgs, measured: &Measured) -> Option<String> {
     let words = |rpm: f64| format!("{rpm:.4} r/min is {:.2} Hz", rpm / 60.0);
     match (&args.speed, &measured.speed) {
-        (Some(given), _) if given.is_bare && is_low(given.rpm) => {
+        (Some(given), _) if is_bare(args, measured, given.rpm) => {
             let rpm = given.rpm;
             Some(format!("--speed {rpm}: {rpm} r/min is {:.2} Hz; if it is in Hz write {rpm}Hz", rpm / 60.0))
         }
-        (None, Some(stated)) if stated.is_bare && is_low(stated.rpm) => Some(format!(
+        (None, Some(stated)) if is_bare(args, measured, stated.rpm) => Some(format!(
             "{}: a mean of {}; if it is in Hz let the channel say so (`speed [Hz]`, `speed_hz`), or give --speed {:.4}Hz",
             stated.source,
             words(stated.rpm),

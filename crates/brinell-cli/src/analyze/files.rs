@@ -65,10 +65,12 @@ fn inside(folder: &Path) -> Result<Vec<PathBuf>, Failure> {
     let (mut found, mut others) = (Vec::new(), Vec::new());
     for entry in std::fs::read_dir(folder).map_err(failed)? {
         let path = entry.map_err(failed)?.path();
-        let hidden = (path.file_name()).is_some_and(|n| n.to_string_lossy().starts_with('.'));
         let is_signal =
             (path.extension()).is_some_and(|e| FileKind::extensions().any(|known| e.eq_ignore_ascii_case(known)));
-        if !hidden && path.is_file() && !(of_run && path.ends_with(SPECTRA)) {
+        // Its words may look like a table.
+        let is_passed_over = (path.file_stem())
+            .is_some_and(|stem| stem.eq_ignore_ascii_case("readme") || stem.to_string_lossy().starts_with('.'));
+        if !is_passed_over && path.is_file() && !(of_run && path.ends_with(SPECTRA)) {
             if is_signal { &mut found } else { &mut others }.push(path);
         }
     }

@@ -2,6 +2,7 @@
 
 mod args;
 mod bearing;
+mod columns;
 mod diagnosis;
 mod ends;
 mod examine;
@@ -10,6 +11,7 @@ mod json;
 pub(crate) mod measured;
 mod page;
 mod several;
+mod short;
 mod words;
 mod written;
 
@@ -52,7 +54,11 @@ pub(crate) fn analyze(args: &AnalyzeArgs) -> Result<ExitCode, Failure> {
 
 /// Of one file, with all that is known of it.
 fn one(args: &AnalyzeArgs, path: &Path) -> Result<ExitCode, Failure> {
-    let measured = load(args, path)?;
+    let measured = match short::too_short(args, load(args, path)?)? {
+        // Its levels, as a row.
+        Ok(_) => return several::analyze(args, &[path.to_owned()]),
+        Err(measured) => measured,
+    };
     let name = measured.path.display().to_string();
     let same = |previous: &Value| previous.is_null() || previous["file"]["path"] == name.as_str();
     let earlier = earlier(args, &[path.to_owned(), measured.path.clone()], same)?;

@@ -1,10 +1,12 @@
 //! Several files with the same options: a row for each, one after the other, so that no more than one signal is held.
 
 use super::args::AnalyzeArgs;
+use super::columns::{COLUMNS, in_columns};
 use super::diagnosis::Diagnosis;
 use super::ends;
 use super::examine::{load, results};
 use super::json::as_json;
+use super::short::{Short, too_short};
 use super::written::{earlier, put_json, put_pages};
 use crate::failure::Failure;
 use crate::results::Earlier;
@@ -29,6 +31,8 @@ struct Row {
 struct Found {
     seconds: f64,
     verdict: String,
+    /// Whether a verdict takes a longer record.
+    too_short: bool,
     /// The same in whole, of each bearing.
     sentences: Vec<String>,
     damage: bool,
@@ -58,9 +62,6 @@ struct Found {
     json: Value,
 }
 
-/// Columns after the name, with their widths on the terminal.
-const COLUMNS: [(&str, usize); 7] =
-    [("s", 8), ("damage", 28), ("RMS", 16), ("peak", 16), ("kurtosis", 9), ("mm/s", 9), ("zone", 5)];
 /// Longest name that the terminal's table makes room for.
 const WIDEST: usize = 48;
 
@@ -123,6 +124,12 @@ pub(super) fn analyze(args: &AnalyzeArgs, files: &[PathBuf]) -> Result<ExitCode,
         complain!("error: {failed} of {} files could not be analysed", rows.len());
     }
     if !quiet {
+        let mut short = rows.iter().filter(|r| r.found.as_ref().is_ok_and(|f| f.too_short));
+        if let Some(Row { name, found: Ok(first) }) = short.next() {
+            let more = short.count();
+            let others = if more > 0 { format!(" and {more} more") } else { String::new() };
+            say!("  {}{others}: {}", one_line(name), first.sentences.join(" "));
+        }
         for (name, speed) in speeds_used(&rows) {
             say!("  {}: {speed}", one_line(name));
         }
@@ -131,44 +138,11 @@ pub(super) fn analyze(args: &AnalyzeArgs, files: &[PathBuf]) -> Result<ExitCode,
     Ok(ExitCode::from(u8::from(failed > 0)))
 }
 
-/// A row on as many lines as its longest cell needs.
-fn in_columns(name: &str, width: usize, cells: &[String; 7], columns: &[(&str, usize); 7]) -> Vec<String> {
-    let name = wrapped(name, width);
-    let cells: Vec<(Vec<String>, usize)> =
-        cells.iter().zip(columns).map(|(cell, (_, width))| (wrapped(cell, *width), *width)).collect();
-    let lines = cells.iter().map(|(lines, _)| lines.len()).chain([name.len()]).max().unwrap_or(0);
-    let at = |lines: &[String], i: usize| lines.get(i).cloned().unwrap_or_default();
-    let line = |i: usize| {
-        let cells: Vec<String> = cells.iter().map(|(lines, width)| format!("{:>width$}", at(lines, i))).collect();
-        format!("{:<width$} {}", at(&name, i), cells.join(" ")).trim_end().to_owned()
-    };
-    (0..lines).map(line).collect()
-}
-
-/// The words of a cell on lines of at most `width` characters; a longer word is cut.
-fn wrapped(text: &str, width: usize) -> Vec<String> {
-    let mut lines = vec![String::new()];
-    let mut length = 0;
-    for word in text.split(' ') {
-        let word: Vec<char> = word.chars().collect();
-        for (k, piece) in word.chunks(width).enumerate() {
-            let space = usize::from(k == 0 && length > 0);
-            if length + space + piece.len() > width {
-                lines.push(String::new());
-                length = 0;
-            } else if space == 1 {
-                lines.last_mut().into_iter().for_each(|line| line.push(' '));
-                length += 1;
-            }
-            lines.last_mut().into_iter().for_each(|line| line.extend(piece));
-            length += piece.len();
-        }
-    }
-    lines
-}
-
 fn one(args: &AnalyzeArgs, path: &Path) -> Result<Found, Failure> {
-    let found = Found::of(&results(args, path, load(args, path)?)?);
+    let found = match too_short(args, load(args, path)?)? {
+        Ok(short) => Found::of_short(short),
+        Err(measured) => Found::of(&results(args, path, measured)?),
+    };
     if !args.quiet {
         found.warnings.iter().for_each(|warning| complain!("warning: {}: {warning}", path.display()));
     }
@@ -191,6 +165,32 @@ fn names(files: &[PathBuf]) -> Vec<String> {
 }
 
 impl Found {
+    fn of_short(short: Short) -> Self {
+        Found {
+            seconds: short.seconds,
+            json: short.to_json(),
+            verdict: "too short".into(),
+            too_short: true,
+            sentences: vec![short.why],
+            damage: false,
+            unit: short.measured.unit,
+            rms: short.rms,
+            peak: Some(Estimate { value: short.peak, interval: None }),
+            kurtosis: short.kurtosis,
+            velocity: short.velocity.map(|v| scaled(&v, 1e3)),
+            zone: None,
+            scores: Vec::new(),
+            speed_used: None,
+            said: format!("{}; bearing: {}", short.speed, short.bearing),
+            class: None,
+            high: 0.0,
+            noise: 0.0,
+            other: None,
+            rms_over_other: None,
+            warnings: short.measured.warnings,
+        }
+    }
+
     /// Levels are those of the bearing that leads: its band is the one shown.
     fn of(results: &[Diagnosis]) -> Self {
         let lead = ends::lead(results);
@@ -220,6 +220,7 @@ impl Found {
         Found {
             seconds: a.duration(),
             verdict: verdicts.collect::<Vec<_>>().join("; "),
+            too_short: false,
             sentences: match results {
                 [only] => vec![only.verdict_text()],
                 _ => results.iter().map(|r| format!("{}: {}", r.name, r.verdict_text())).collect(),
@@ -251,6 +252,13 @@ impl Found {
             warnings: m.warnings.clone(),
             json,
         }
+    }
+
+    /// Its JSON, of itself.
+    fn whole(&self) -> Value {
+        let mut json = self.json.clone();
+        json["brinell"] = brinell::VERSION.into();
+        json
     }
 
     /// In the order of [`COLUMNS`].
@@ -300,7 +308,12 @@ fn write(args: &AnalyzeArgs, rows: &[Row], paths: &[String], earlier: &Earlier) 
             earlier,
         )?;
     }
-    put_json(args, &json, &mut written)?;
+    // Of one file that is too short it is an object as of any one file.
+    let alone = match rows {
+        [Row { found: Ok(found), .. }] if args.files.first().is_some_and(|file| file.is_file()) => Some(found.whole()),
+        _ => None,
+    };
+    put_json(args, alone.as_ref().unwrap_or(&json), &mut written)?;
     Ok(written)
 }
 
@@ -344,7 +357,7 @@ fn report(rows: &[Row]) -> Study {
     chapters.extend(Chapter::failures("Files without a result", "File", failures));
     chapters.push(Chapter::new("trend", "Trend", "Trend", trend));
     Study {
-        title: "Several signals".into(),
+        title: if rows.len() == 1 { "A signal too short for a verdict" } else { "Several signals" }.into(),
         subtitle,
         analysed: true,
         version: brinell::VERSION.into(),
@@ -456,28 +469,9 @@ fn plots(rows: &[Row]) -> Vec<IndicatorPlot> {
     let most = |of: fn(&Found) -> f64| found().map(of).fold(0.0, f64::max);
     let limits = [(most(|f| f.noise), "noise"), (most(|f| f.high), "high")];
     let limits = limits.map(|(limit, words)| (limit, format!("{words} {limit:.1}"))).to_vec();
+    if lines.len() == 0 {
+        return plots;
+    }
     plots.push(IndicatorPlot { limits, ..plot("score", "Score of a family", "", lines.collect()) });
     plots
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// A long cell goes on below itself: every cell ends where its column does, and no word is lost.
-    #[test]
-    fn prop_a_long_cell_stays_in_its_column() {
-        let cells = ["1.000", "outer race, very clear, and inner race, clear", "1.2 m/s^2", "8 m/s^2", "3", "-", "-"];
-        let name = "a_name_that_is_longer_than_the_column_it_is_in.csv";
-        let lines = in_columns(name, 20, &cells.map(String::from), &COLUMNS);
-        assert_eq!(lines.len(), 3, "{lines:#?}");
-        assert_eq!(lines[0].chars().count(), 20 + COLUMNS.iter().map(|c| c.1 + 1).sum::<usize>());
-        assert_eq!(lines[0].split_whitespace().last(), Some("-"));
-        let column = |line: &String| line.chars().skip(20 + 10).take(28).collect::<String>().trim().to_owned();
-        let words: Vec<String> = lines.iter().map(column).filter(|words| !words.is_empty()).collect();
-        assert_eq!(words.join(" "), cells[1]);
-        let whole: String =
-            lines.iter().map(|line| line.chars().take(20).collect::<String>().trim().to_owned()).collect();
-        assert_eq!(whole, name);
-    }
 }

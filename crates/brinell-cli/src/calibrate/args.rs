@@ -47,7 +47,7 @@ pub(crate) struct CalibrateArgs {
     /// Override any key, in every run
     #[arg(long = "set", value_name = "KEY=VALUE")]
     pub(crate) set: Vec<String>,
-    /// A measured acceleration to fit to: csv and other text, parquet, mat, hdf5, npy, npz, wav, uff; or the folder of
+    /// A measured acceleration to fit to: csv and other text, parquet, mat, hdf5, npy, npz, wav, uff, tdms; or the folder of
     /// a run
     #[arg(long, value_name = "FILE|FOLDER")]
     pub(crate) measured: Option<PathBuf>,

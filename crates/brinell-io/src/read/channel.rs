@@ -148,17 +148,18 @@ pub(crate) fn lend_units(channels: &mut [Channel], metadata: &Metadata, key: &st
     }
 }
 
-/// Gives every signal the name that lies beside it as a text called `Name`, where it is the only signal there. `texts`
+/// Gives every signal what lies beside it as texts called `Name` and `Unit`, where it is the only signal there. `texts`
 /// holds paths and texts.
 pub(crate) fn lend_labels(channels: &mut [Channel], texts: &[(String, String)]) {
-    let labels: HashMap<&str, &str> = texts
-        .iter()
-        .filter_map(|(path, text)| {
+    let called = |names: &[&str]| -> HashMap<&str, &str> {
+        let named = texts.iter().filter_map(|(path, text)| {
             let (folder, last) = path.rsplit_once('.')?;
-            let text = text.trim();
-            (last.eq_ignore_ascii_case("name") && !text.is_empty()).then_some((folder, text))
-        })
-        .collect();
+            let is_called = names.iter().any(|name| last.eq_ignore_ascii_case(name));
+            (is_called && !text.trim().is_empty()).then_some((folder, text.trim()))
+        });
+        named.collect()
+    };
+    let (labels, units) = (called(&["name"]), called(&["unit", "units"]));
     let folder = |c: &Channel| c.name.rsplit_once('.').map(|(folder, _)| folder.to_owned());
     let mut signals = HashMap::<String, usize>::new();
     for channel in channels.iter().filter(|c| c.may_be_signal()) {
@@ -169,8 +170,16 @@ pub(crate) fn lend_labels(channels: &mut [Channel], texts: &[(String, String)]) 
             && signals.get(&folder) == Some(&1)
         {
             channel.label = labels.get(folder.as_str()).map(|&l| l.to_owned());
+            channel.unit = channel.unit.take().or_else(|| units.get(folder.as_str()).map(|&u| u.to_owned()));
         }
     }
+}
+
+/// 1/0.0001 is 10000 but for the last digit.
+pub(crate) fn hertz(step_s: f64) -> f64 {
+    let hz = 1.0 / step_s;
+    let round = hz.round();
+    if (hz / round - 1.0).abs() < 1e-12 { round } else { hz }
 }
 
 /// Makes names unique: the second `a` becomes `a#2`, or the next number that no channel of the file has.

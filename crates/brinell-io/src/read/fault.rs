@@ -21,6 +21,8 @@ pub(crate) enum Fault {
     Row { line: u64, expected: usize, got: usize },
     /// A line without a number among those of one column; it is blank or a comment.
     Between { line: u64, blank: bool },
+    /// A header among the numbers of a LabVIEW file: a further segment.
+    Segment { line: u64 },
 }
 
 impl Fault {
@@ -29,7 +31,8 @@ impl Fault {
         if let Self::Number { line, .. }
         | Self::Point { line, .. }
         | Self::Row { line, .. }
-        | Self::Between { line, .. } = &mut self
+        | Self::Between { line, .. }
+        | Self::Segment { line } = &mut self
         {
             *line += lines;
         }

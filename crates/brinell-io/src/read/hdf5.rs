@@ -8,11 +8,13 @@ use std::io::{Read, Seek, SeekFrom};
 use std::ops::ControlFlow;
 
 use flate2::read::ZlibDecoder;
-use hdf5_pure::{AttrValue, DType, Dataset, File as Hdf5, Group, Layout, Object, ReadSeekSource};
+use hdf5_pure::{DType, Dataset, File as Hdf5, Group, Layout, Object, ReadSeekSource};
 
-use super::channel::{Channel, lend_rates, names_a_rate};
+use super::attributes::{self, Packing};
+use super::channel::{Channel, Rate, lend_labels, lend_rates, names_a_rate};
 use super::contents::Contents;
 use super::fault::{Fault, damaged, unsupported};
+use super::increments::{is_increment, lend_increments};
 use super::listing::{Listing, Source};
 use super::numbers::{Number, Sink, give};
 use super::soft_links::WithoutSoftLinks;
@@ -36,6 +38,7 @@ struct Array {
     dataset: Dataset,
     stored: Number,
     big_endian: bool,
+    packing: Packing,
 }
 
 struct Source5 {
@@ -54,6 +57,8 @@ struct Walk {
     visits: usize,
     /// Where values of the groups around lie: a group with the same ones is one of them.
     around: Vec<Option<u64>>,
+    /// The sample rates that the groups around state.
+    rates: Vec<Option<Rate>>,
 }
 
 impl From<hdf5_pure::Error> for Fault {
@@ -75,30 +80,27 @@ pub(super) fn list(mut contents: Contents) -> Result<Listing, Fault> {
         most: contents.length().saturating_mul(MOST),
         visits: 0,
         around: Vec::new(),
+        rates: Vec::new(),
     };
     walk.group(&tree.root(), "", 0)?;
     let mut source = Source5 { contents, arrays: walk.arrays };
-    let mut rates = Vec::new();
+    let (mut rates, mut steps) = (Vec::new(), Vec::new());
     for (index, channel) in walk.channels.iter().enumerate() {
-        if channel.length == Some(1) && names_a_rate(&channel.name) && channel.unreadable.is_none() {
+        let (is_rate, is_step) = (names_a_rate(&channel.name), is_increment(&channel.name));
+        if channel.length == Some(1) && (is_rate || is_step) && channel.unreadable.is_none() {
+            let list = if is_rate { &mut rates } else { &mut steps };
             source.stream(index, &mut |v: &[f64]| {
-                rates.extend(v.iter().map(|&hz| (channel.name.clone(), hz)));
+                list.extend(v.iter().map(|&hz| (channel.name.clone(), hz)));
                 ControlFlow::Continue(())
             })?;
         }
     }
     lend_rates(&mut walk.channels, &rates);
-    Ok(Listing { channels: walk.channels, metadata: walk.metadata, source: Box::new(source) })
-}
-
-/// The text of an attribute.
-fn text_of(attributes: &std::collections::HashMap<String, AttrValue>, key: &str) -> Option<String> {
-    match attributes.get(key)? {
-        AttrValue::String(text) | AttrValue::AsciiString(text) | AttrValue::VarLenString(text) => {
-            Some(text.trim_end_matches('\0').to_owned())
-        }
-        _ => None,
+    if walk.matlab {
+        lend_labels(&mut walk.channels, &walk.metadata.pairs);
+        lend_increments(&mut walk.channels, &steps, &walk.metadata.pairs);
     }
+    Ok(Listing { channels: walk.channels, metadata: walk.metadata, source: Box::new(source) })
 }
 
 impl Walk {
@@ -138,6 +140,7 @@ impl Walk {
             return Ok(());
         }
         self.around.push(at);
+        self.rates.push(attributes::rate(&group.attrs().unwrap_or_default()));
         let mut seen = HashSet::new();
         for (name, dataset) in datasets {
             if seen.insert(name.clone()) {
@@ -150,6 +153,7 @@ impl Walk {
             }
         }
         self.around.pop();
+        self.rates.pop();
         Ok(())
     }
 
@@ -165,7 +169,7 @@ impl Walk {
             return Err(damaged(format!("`{name}` claims {bytes} bytes of values, more than the file can hold")));
         }
         let attributes = dataset.attrs().unwrap_or_default();
-        let class = text_of(&attributes, "MATLAB_class");
+        let class = attributes::text(&attributes, "MATLAB_class");
         let empty = attributes.contains_key("MATLAB_empty");
         if class.as_deref() == Some("char") && !empty {
             return self.text(&dataset, name, count);
@@ -188,8 +192,11 @@ impl Walk {
         channel.column_major = self.matlab;
         channel.unit = ["units", "unit", "Units", "Unit"]
             .iter()
-            .find_map(|key| text_of(&attributes, key))
+            .find_map(|key| attributes::text(&attributes, key))
             .filter(|unit| !unit.is_empty());
+        channel.rate = attributes::rate(&attributes).or_else(|| self.rates.iter().rev().find_map(Clone::clone));
+        let packing = Packing::of(&attributes, channel.unit.is_some() && stored.is_some_and(Number::is_whole));
+        channel.unreadable = packing.as_ref().err().cloned();
         if empty {
             channel.length = Some(0);
             channel.shape = vec![0, 0];
@@ -201,7 +208,8 @@ impl Walk {
         }
         let big_endian = is_big_endian(&dataset)?;
         self.channels.push(channel);
-        self.arrays.push(stored.map(|stored| Array { dataset, stored, big_endian }));
+        let packing = packing.unwrap_or_default();
+        self.arrays.push(stored.map(|stored| Array { dataset, stored, big_endian, packing }));
         Ok(())
     }
 
@@ -241,6 +249,14 @@ impl Source for Source5 {
         let Some(array) = &self.arrays[index] else {
             return Ok(());
         };
+        let packing = array.packing;
+        let (mut unpacked, stored) = (Vec::new(), sink);
+        let mut unpack = |values: &[f64]| {
+            unpacked.clear();
+            unpacked.extend(values.iter().map(|v| packing.value(*v)));
+            stored(&unpacked)
+        };
+        let sink: Sink<'_> = &mut unpack;
         let shape = array.dataset.shape()?;
         let count = shape.iter().copied().fold(1, u64::saturating_mul);
         match array.dataset.layout()? {

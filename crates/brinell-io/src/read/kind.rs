@@ -8,6 +8,8 @@ use crate::file_kind::{FileKind, promised};
 
 /// Enough to see any signature: HDF5's may be behind a user block of 512, 1024, ... bytes.
 const HEAD: u64 = 8 << 10;
+/// A zip file that is no archive of arrays.
+pub(super) const OFFICE: &str = "an Excel workbook or other Office document; save the sheet as CSV";
 const HDF5: &[u8] = b"\x89HDF\r\n\x1a\n";
 
 /// The kind of a file; an error where content and name disagree.
@@ -39,7 +41,7 @@ fn from_content(head: &[u8]) -> Result<FileKind, &'static str> {
     }
     if at(0, b"PK\x03\x04") || at(0, b"PK\x05\x06") {
         let office = memchr::memmem::find(head, b"[Content_Types].xml").is_some();
-        return if office { Err("a spreadsheet or other Office document") } else { Ok(FileKind::Npz) };
+        return if office { Err(OFFICE) } else { Ok(FileKind::Npz) };
     }
     if (at(0, b"RIFF") || at(0, b"RF64") || at(0, b"BW64")) && at(8, b"WAVE") {
         return Ok(FileKind::Wav);
@@ -50,12 +52,16 @@ fn from_content(head: &[u8]) -> Result<FileKind, &'static str> {
     if at(126, b"IM") && at(125, &[1]) || at(126, b"MI") && at(124, &[1]) {
         return Ok(FileKind::Mat5);
     }
+    if at(0, b"TDSm") {
+        return Ok(FileKind::Tdms);
+    }
+    if at(0, b"\xff\xfe") || at(0, b"\xfe\xff") {
+        return Ok(FileKind::Text);
+    }
     for (sign, what) in [
         (&b"\x1f\x8b"[..], "a gzip archive"),
-        (b"\xff\xfe", "text in UTF-16; save it as UTF-8"),
-        (b"\xfe\xff", "text in UTF-16; save it as UTF-8"),
-        (b"\xd0\xcf\x11\xe0", "an old Office document"),
-        (b"TDSm", "a LabVIEW TDMS file"),
+        (b"\xd0\xcf\x11\xe0", "an old Office document, as an Excel workbook (.xls) is; save it as CSV"),
+        (b"TDSh", "the index of a LabVIEW TDMS file; the signals are in the file whose name ends in .tdms"),
         (b"\x28\xb5\x2f\xfd", "a Zstandard archive"),
         (b"RIFX", "a big-endian RIFF file"),
     ] {
@@ -64,6 +70,14 @@ fn from_content(head: &[u8]) -> Result<FileKind, &'static str> {
         }
     }
     let text = String::from_utf8_lossy(head);
+    let begin = text.trim_start_matches('\u{feff}').trim_start();
+    let within_array = begin.strip_prefix('[').map(|rest| rest.trim_start().chars().next());
+    if begin.starts_with('{') || within_array.is_some_and(|c| c.is_some_and(|c| "[{\"-0123456789".contains(c))) {
+        return Err("JSON, which is not read; save the numbers as CSV, a column each");
+    }
+    if begin.starts_with("<?xml") || begin.starts_with("<!DOCTYPE") || begin.starts_with("<html") {
+        return Err("XML or HTML, which is not read; save the numbers as CSV");
+    }
     let mut lines = text.lines().filter(|line| !line.trim().is_empty());
     let delimiter = lines.next().is_some_and(|line| line.trim_end() == "    -1");
     let number = |line: &str| line.get(..6).is_some_and(|n| n.trim().parse::<u16>().is_ok());

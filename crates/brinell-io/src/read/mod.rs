@@ -6,11 +6,14 @@
 //!
 //! Sample rates and units are what the file states, with the place where it does; there are no guesses.
 
+#[cfg(feature = "hdf5")]
+mod attributes;
 mod channel;
 mod contents;
 mod fault;
 #[cfg(feature = "hdf5")]
 mod hdf5;
+mod increments;
 mod kind;
 mod listing;
 mod mat5;
@@ -27,6 +30,7 @@ pub(crate) mod records;
 #[cfg(feature = "hdf5")]
 mod soft_links;
 mod stated;
+mod tdms;
 mod text;
 mod timed;
 mod times;
@@ -115,7 +119,7 @@ pub fn open_bytes(name: &str, bytes: impl AsRef<[u8]> + Send + 'static) -> Resul
 /// The file with its channels.
 fn listed(path: &Path, kind: FileKind, contents: Contents) -> Result<SignalFile, IoError> {
     let list = || match kind {
-        FileKind::Text => text::list(contents),
+        FileKind::Text => text::list(text::in_utf8(contents)?),
         #[cfg(feature = "parquet")]
         FileKind::Parquet => parquet::list(contents),
         FileKind::Mat5 => mat5::list(contents),
@@ -126,6 +130,7 @@ fn listed(path: &Path, kind: FileKind, contents: Contents) -> Result<SignalFile,
         FileKind::Npz => npz::list(contents),
         FileKind::Wav => wav::list(contents),
         FileKind::Uff58 => uff::list(contents),
+        FileKind::Tdms => tdms::list(contents),
         #[cfg(not(all(feature = "parquet", feature = "hdf5", feature = "npz")))]
         _ => Err(fault::unsupported("this build leaves the format out; build brinell-io with its default features")),
     };
@@ -205,6 +210,15 @@ impl SignalFile {
         self.source.cell(index, value)
     }
 
+    /// [`read_pieces`](Self::read_pieces), where a line of a text file that [holds no number](IoError::is_of_a_line)
+    /// counts as a missing value, NaN, as a further segment does, which ends it.
+    pub fn read_around(&mut self, name: &str, sink: impl FnMut(&[f64]) -> ControlFlow<()>) -> Result<(), IoError> {
+        self.source.set_lenient(true);
+        let read = self.read_pieces(name, sink);
+        self.source.set_lenient(false);
+        read
+    }
+
     /// Hands the values of a channel to `sink` in order, piece by piece, until the end or until it breaks off.
     pub fn read_pieces(&mut self, name: &str, sink: impl FnMut(&[f64]) -> ControlFlow<()>) -> Result<(), IoError> {
         let find = |name: &str| {
@@ -280,6 +294,7 @@ fn located(path: &Path, kind: FileKind, fault: Fault) -> IoError {
             let why = format!("line {line} is {what}, among numbers; take it out if no number is missing there");
             IoError::Damaged { path, kind, why }
         }
+        Fault::Segment { line } => IoError::Segment { path, line },
         Fault::Row { line, expected, got } => IoError::TextRow { path, line, expected, got },
         // Only `read_pieces` has a receiver, and takes this out before.
         Fault::Stopped => IoError::Damaged { path, kind, why: "reading stopped".into() },

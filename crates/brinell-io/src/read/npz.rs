@@ -10,7 +10,8 @@ use zip::result::ZipError;
 
 use super::channel::{Channel, lend_rates, lend_units, names_a_rate};
 use super::contents::Contents;
-use super::fault::{Fault, damaged};
+use super::fault::{Fault, damaged, unsupported};
+use super::kind::OFFICE;
 use super::listing::{Listing, Source};
 use super::npy::{Array, header};
 use super::numbers::{Number, Sink};
@@ -41,6 +42,12 @@ pub(super) fn list(contents: Contents) -> Result<Listing, Fault> {
     let mut archive = ZipArchive::new(BufReader::new(contents))?;
     if archive.len() > MAX_ENTRIES {
         return Err(damaged(format!("it claims {} arrays", archive.len())));
+    }
+    let is_office = |name: &str| name == "[Content_Types].xml" || name == "content.xml";
+    for index in 0..archive.len() {
+        if is_office(&archive.by_index_raw(index)?.name()?) {
+            return Err(unsupported(OFFICE));
+        }
     }
     let (mut channels, mut entries, mut rates) = (Vec::<Channel>::new(), Vec::new(), Vec::new());
     let mut metadata = Metadata::default();

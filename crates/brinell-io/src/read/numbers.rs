@@ -42,6 +42,11 @@ impl Number {
         }
     }
 
+    /// Whether it has no fraction.
+    pub(crate) fn is_whole(self) -> bool {
+        !matches!(self, Self::F16 | Self::F32 | Self::F64)
+    }
+
     /// NumPy's word for it.
     pub(crate) fn name(self) -> &'static str {
         match self {

@@ -48,7 +48,18 @@ impl SignalFile {
     /// Where it cannot be read; within, where its times are not even.
     pub fn rate_of(&mut self, times: &str, seconds: f64) -> Result<Result<f64, NoRate>, IoError> {
         let mut clock = Clock::new();
-        self.read_pieces(times, |piece| clock.take(piece))?;
+        match self.read_pieces(times, |piece| clock.take(piece)) {
+            // Times up to the end of a table have its rate, whatever follows.
+            Err(error) if error.is_of_a_row() => {
+                clock = Clock::new();
+                self.read_around(times, |piece| {
+                    let end = piece.iter().position(|t| !t.is_finite());
+                    let more = clock.take(&piece[..end.unwrap_or(piece.len())]);
+                    if end.is_some() { ControlFlow::Break(()) } else { more }
+                })?;
+            }
+            read => read?,
+        }
         Ok(clock.rate(seconds))
     }
 

@@ -82,7 +82,7 @@ impl SignalFile {
 
     /// The groups that a channel lies in.
     fn groups<'a>(&self, channel: &'a Channel) -> Vec<&'a str> {
-        if !matches!(self.kind(), FileKind::Mat5 | FileKind::Hdf5 | FileKind::Npz) {
+        if !matches!(self.kind(), FileKind::Mat5 | FileKind::Hdf5 | FileKind::Npz | FileKind::Tdms) {
             return Vec::new();
         }
         let mut parts: Vec<&str> = channel.name.split(['.', '/']).collect();

@@ -47,7 +47,9 @@ impl Channel {
     pub fn time_unit(&self) -> Option<String> {
         let within = |name: &str| {
             let (_, unit) = name.split_once(['[', '('])?;
-            Some(unit.split([']', ')']).next()?.trim().to_owned()).filter(|unit| !unit.is_empty())
+            // An index is no unit: `X[1].Data`.
+            let unit = unit.split([']', ')']).next()?.trim();
+            Some(unit.to_owned()).filter(|unit| !unit.is_empty() && unit.parse::<f64>().is_err())
         };
         self.unit.clone().or_else(|| within(self.own_name()))
     }
@@ -79,6 +81,8 @@ fn named_unit(bare: &str) -> Option<f64> {
 
 /// Seconds in one of a unit of time, by its name: min, s, ms, us or ns.
 pub fn seconds_in(unit: &str) -> Option<f64> {
+    // CF conventions: `seconds since 2024-03-05 10:00`.
+    let unit = unit.split_once(" since ").map_or(unit, |(unit, _)| unit);
     Some(match unit.trim().to_lowercase().as_str() {
         "min" | "minute" | "minutes" => 60.0,
         "s" | "sec" | "secs" | "second" | "seconds" | "sekunden" => 1.0,

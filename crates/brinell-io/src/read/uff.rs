@@ -8,13 +8,15 @@ use std::io::{BufRead, BufReader, Read, Seek, SeekFrom};
 
 use super::channel::{Channel, Rate, RateSource};
 use super::contents::Contents;
-use super::fault::{Fault, damaged};
+use super::fault::{Fault, damaged, unsupported};
 use super::listing::{Listing, Source};
 use super::numbers::{Number, Sink, give};
 use crate::Metadata;
 
 const MAX_LINE: u64 = 64 << 10;
 const MAX_FUNCTIONS: usize = 100_000;
+/// Other datasets that a message names.
+const MAX_NAMED: usize = 20;
 /// Values handed on at a time.
 const PIECE: usize = 8 << 10;
 
@@ -85,6 +87,7 @@ pub(super) fn list(contents: Contents) -> Result<Listing, Fault> {
     let mut lines = Lines { reader: BufReader::new(contents), at: 0, number: 0 };
     let (mut channels, mut functions) = (Vec::new(), Vec::new());
     let mut metadata = Metadata::default();
+    let mut others = Vec::new();
     // Outside of datasets; each begins and ends with a line of -1.
     while let Some(line) = lines.next()? {
         if line.trim() != "-1" {
@@ -93,6 +96,10 @@ pub(super) fn list(contents: Contents) -> Result<Listing, Fault> {
         let Some(head) = lines.next()? else { break };
         let binary = head.get(6..7) == Some("b");
         if field(&head, 0, 6) != "58" {
+            let number = field(&head, 0, 6).to_owned();
+            if others.len() < MAX_NAMED && !others.contains(&number) {
+                others.push(number);
+            }
             while lines.expect()?.trim_end() != "    -1" {}
             continue;
         }
@@ -111,7 +118,13 @@ pub(super) fn list(contents: Contents) -> Result<Listing, Fault> {
         functions.push((function, false));
     }
     if channels.is_empty() {
-        return Err(damaged("it has no dataset 58"));
+        return Err(match others.is_empty() {
+            true => damaged("it has no dataset"),
+            false => unsupported(format!(
+                "a universal file without functions (dataset 58), so no signal is in it: datasets {}",
+                others.join(", ")
+            )),
+        });
     }
     Ok(Listing { channels, metadata, source: Box::new(Uff { contents: lines.reader.into_inner(), functions }) })
 }

@@ -101,6 +101,23 @@ impl KnownBearing {
         }
     }
 
+    /// Its orders at another contact angle, degrees, as a ball bearing has it under an axial load.
+    ///
+    /// # Errors
+    /// In words, where the angle is out of range.
+    pub fn orders_at(self, contact_angle_deg: f64) -> Result<DefectOrders, String> {
+        let of = |z, d, pitch| {
+            DefectOrders::of_geometry(z, d, pitch, contact_angle_deg).ok_or("expected 0 to below 90 degrees".to_owned())
+        };
+        match self {
+            Self::Catalogue(entry) => {
+                let g = entry.geometry()?;
+                of(g.rollers_per_row, g.roller_diameter, g.pitch_diameter)
+            }
+            Self::DataSet(bearing) => of(bearing.elements, bearing.diameter_mm, bearing.pitch_mm),
+        }
+    }
+
     /// Its orders, and where they come from: also how they were estimated, where they were.
     ///
     /// # Errors

@@ -65,7 +65,9 @@ pub(super) fn channel(
         notes.push(format!("channel {}, as the first signal's; else give {option}", found.name));
         return Ok(one((found.name.clone(), found.clone())));
     }
-    let of_speed = wanted.speed_channel.and_then(|text| file.named(text).ok()).map(|(name, _)| name);
+    let of_speed = (wanted.speed_channel.or(wanted.tacho.map(|(name, _)| name)))
+        .and_then(|text| file.named(text).ok())
+        .map(|(name, _)| name);
     let may_be = |c: &&Channel| c.may_be_signal() && !c.is_time() && of_speed.as_ref() != Some(&c.name);
     let signals: Vec<&Channel> = file.channels().iter().filter(may_be).collect();
     let among = |words: String| {

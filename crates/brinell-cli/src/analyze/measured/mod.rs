@@ -21,7 +21,7 @@ use speed::{speed, states_speed};
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 pub(crate) use stretch::{Beyond, MOST, Reading, Rest};
-use stretch::{bad, scale, stretch};
+use stretch::{Part, bad, scale, stretch};
 use unit::{beyond, unit};
 pub(crate) use wanted::{Like, Wanted};
 
@@ -69,8 +69,8 @@ impl Measured {
 }
 
 /// The request for a missing shaft speed.
-pub(super) const ASK_SPEED: &str =
-    "the file states no shaft speed, and defect frequencies follow from it; give --speed RPM, or --speed-channel NAME";
+pub(super) const ASK_SPEED: &str = "the file states no shaft speed, and defect frequencies follow from it; give --speed RPM, --speed-channel NAME, or \
+     --tacho NAME for a channel of pulses";
 /// The request for a missing bearing.
 pub(super) const ASK_BEARING: &str = "which bearing? Give --bearing NAME, or --rollers, --pitch and --diameter, or frequencies (--bpfo, --bpfi, --bsf, --ftf)";
 
@@ -98,14 +98,19 @@ pub(crate) fn load(path: &Path, wanted: &Wanted) -> Result<Measured, Failure> {
         Some(d) => ((d * rate).round() as usize).max(1),
         None => MOST,
     };
-    let (mut x, more) = stretch(&mut file, &name, skip, most)?;
+    let part = Part { skip, most, rate };
+    let (mut x, more) = stretch(&mut file, &name, part, &mut warnings)?;
     if let Some(first) = x.iter().position(|v| !v.is_finite())
         && let Some((line, text)) = file.cell(&name, (skip + first) as u64)
     {
         let count = x.iter().filter(|v| !v.is_finite()).count();
         let why = AnalysisError::NotFinite { count, samples: x.len(), first: first + 1 };
         let text = if text.is_empty() { "empty".into() } else { format!("`{text}`") };
-        return Err(Failure::Usage(format!("{}, `{name}`: {why}; on line {line} it is {text}", path.display())));
+        let without = part.without(first);
+        return Err(Failure::Usage(format!(
+            "{}, `{name}`: {why}; on line {line} it is {text}; {without}",
+            path.display()
+        )));
     }
     warnings.extend(beyond(&x, channel.stored_as, wanted));
     scale(&mut x, factor);

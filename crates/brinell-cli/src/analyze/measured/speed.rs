@@ -1,17 +1,15 @@
 //! The shaft's speed, as far as the file states it.
 
 use super::channel::resolve;
-use super::stretch::{MOST, bad, stretch};
+use super::stretch::{MOST, Part, bad, stretch};
 use super::wanted::Wanted;
 use crate::failure::Failure;
 use brinell::document::{Loaded, reading};
 use brinell::operation::Rotation;
 use brinell::scenario::Speed;
+use brinell::signal::tacho::{are_pulses, course, speed_by_pulses, varies};
 use brinell_io::{Channel, SignalFile};
 use std::f64::consts::PI;
-
-/// A speed that strays from its mean by more than this share is followed; below, the tolerance covers it.
-const VARIES: f64 = 0.005;
 
 /// Said of a speed without a unit.
 const TAKEN: &str = "taken as r/min";
@@ -24,7 +22,7 @@ pub(crate) struct StatedSpeed {
     pub(crate) source: String,
     /// Whether its unit was stated by nobody.
     pub(crate) is_bare: bool,
-    /// Time (s, from the stretch's beginning) and speed (r/min), where it varies by more than [`VARIES`].
+    /// Time (s, from the stretch's beginning) and speed (r/min), where it [varies].
     pub(crate) course: Vec<(f64, f64)>,
 }
 
@@ -43,8 +41,13 @@ pub(super) fn speed(
     (signal, of): (&str, &Channel),
     (start, seconds, rate): (f64, f64, f64),
 ) -> Result<Option<StatedSpeed>, Failure> {
-    if let Some(text) = wanted.speed_channel {
-        return by_channel(file, text, of, (start, seconds, rate)).map(Some);
+    let whose = match (wanted.speed_channel, wanted.tacho) {
+        (Some(text), _) => Some(SpeedChannel { option: "--speed-channel", text, a_turn: None }),
+        (None, Some((text, a_turn))) => Some(SpeedChannel { option: "--tacho", text, a_turn: Some(a_turn) }),
+        (None, None) => None,
+    };
+    if let Some(whose) = whose {
+        return whose.speed(file, of, (start, seconds, rate)).map(Some);
     }
     if let Some(run) = run {
         let source = "the scenario of the run in the file";
@@ -61,48 +64,77 @@ pub(super) fn speed(
     Ok(stated.map(|(rpm, source)| StatedSpeed::steady(rpm, source)))
 }
 
-/// The speed by a channel that was named, of the stretch of the signal `of`.
-fn by_channel(
-    file: &mut SignalFile,
-    text: &str,
-    of: &Channel,
-    (start, seconds, rate): (f64, f64, f64),
-) -> Result<StatedSpeed, Failure> {
-    let (name, channel) = resolve(file, text, "--speed-channel")?;
-    let own = own_rate(file, &channel, of)?.unwrap_or(rate);
-    let skip = (start * own).round() as usize;
-    let most = ((seconds * own).round() as usize).clamp(1, MOST);
-    let (mut values, _) = stretch(file, &name, skip, most)?;
-    if values.is_empty() {
-        return Err(Failure::Usage(format!("--speed-channel {name}: holds no values {start} s from its beginning")));
+/// A channel that was named, of speeds or of pulses.
+struct SpeedChannel<'a> {
+    option: &'static str,
+    text: &'a str,
+    /// Pulses a turn.
+    a_turn: Option<u32>,
+}
+
+impl SpeedChannel<'_> {
+    /// The speed during the stretch of the signal `of`.
+    fn speed(
+        &self,
+        file: &mut SignalFile,
+        of: &Channel,
+        (start, seconds, rate): (f64, f64, f64),
+    ) -> Result<StatedSpeed, Failure> {
+        let (name, channel) = resolve(file, self.text, self.option)?;
+        let called = format!("{} {name}", self.option);
+        let refused = |why: String| Failure::Usage(format!("{called}: {why}"));
+        let own = own_rate(file, &channel, of, &called)?.unwrap_or(rate);
+        let skip = (start * own).round() as usize;
+        let most = ((seconds * own).round() as usize).clamp(1, MOST);
+        let (values, _) = stretch(file, &name, Part { skip, most, rate: own }, &mut Vec::new())?;
+        if values.is_empty() {
+            return Err(refused(format!("holds no values {start} s from its beginning")));
+        }
+        if let Some(bad) = values.iter().find(|v| !v.is_finite()) {
+            return Err(refused(format!("holds the value {bad}; expected speeds")));
+        }
+        let (speeds, said) = match self.a_turn {
+            Some(a_turn) => {
+                let speeds = speed_by_pulses(&values, own, a_turn).map_err(|why| refused(why.to_string()))?;
+                let pulses = if a_turn == 1 { "a pulse".into() } else { format!("{a_turn} pulses") };
+                (speeds.into_iter().map(|hz| 60.0 * hz).collect(), format!("{pulses} a turn"))
+            }
+            None => in_rpm(values, &name, &channel, own)?,
+        };
+        let is_bare = said == TAKEN;
+        let mean = speeds.iter().sum::<f64>() / speeds.len() as f64;
+        let covers = speeds.len() as f64 / own;
+        let source = format!("the channel `{name}`, {said}");
+        let course = course(&speeds, own, mean);
+        if course.is_empty() {
+            let source = format!("the mean of {source}");
+            return Ok(StatedSpeed { is_bare, ..StatedSpeed::steady(mean, source) });
+        }
+        if covers < 0.98 * seconds {
+            return Err(refused(format!(
+                "its {} values last {covers:.3} s at {own} Hz and the signal {seconds:.3} s; a speed that varies has to be known all along",
+                speeds.len()
+            )));
+        }
+        let followed = followed(mean, course, &source, &called)?;
+        Ok(StatedSpeed { is_bare, ..followed })
     }
-    if let Some(bad) = values.iter().find(|v| !v.is_finite()) {
-        return Err(Failure::Usage(format!("--speed-channel {name}: holds the value {bad}; expected speeds")));
-    }
-    let (unit, rpm) = unit_of(&name, &channel)?;
-    let is_bare = unit == TAKEN;
-    values.iter_mut().for_each(|v| *v *= rpm);
-    let mean = values.iter().sum::<f64>() / values.len() as f64;
-    let covers = values.len() as f64 / own;
-    let source = format!("the channel `{name}`, {unit}");
-    let course = course(&values, own, mean);
-    if course.is_empty() {
-        let source = format!("the mean of {source}");
-        return Ok(StatedSpeed { is_bare, ..StatedSpeed::steady(mean, source) });
-    }
-    if covers < 0.98 * seconds {
+}
+
+/// Speeds in r/min, and the words on their unit.
+fn in_rpm(mut values: Vec<f64>, name: &str, channel: &Channel, rate: f64) -> Result<(Vec<f64>, String), Failure> {
+    let (unit, rpm) = unit_of(name, channel)?;
+    if unit == TAKEN && are_pulses(&values, rate) {
         return Err(Failure::Usage(format!(
-            "--speed-channel {name}: its {} values last {covers:.3} s at {own} Hz and the signal {seconds:.3} s; a speed that varies has to be \
-             known all along",
-            values.len()
+            "--speed-channel {name}: it holds pulses, not speeds in r/min; give --tacho {name}, with --pulses N where there are N a turn"
         )));
     }
-    let followed = followed(mean, course, &source, &format!("--speed-channel {name}"))?;
-    Ok(StatedSpeed { is_bare, ..followed })
+    values.iter_mut().for_each(|v| *v *= rpm);
+    Ok((values, unit))
 }
 
 /// The rate that the file states of a channel of speeds alone; else it is sampled with the signal `of`, and as long.
-fn own_rate(file: &mut SignalFile, speeds: &Channel, of: &Channel) -> Result<Option<f64>, Failure> {
+fn own_rate(file: &mut SignalFile, speeds: &Channel, of: &Channel, called: &str) -> Result<Option<f64>, Failure> {
     // One that both have is the signal's, where there are not as many speeds.
     if let Some(rate) = &speeds.rate
         && of.rate.as_ref() != Some(rate)
@@ -123,8 +155,7 @@ fn own_rate(file: &mut SignalFile, speeds: &Channel, of: &Channel) -> Result<Opt
     }
     let count = |c: &Channel| c.length.unwrap_or_default();
     Err(Failure::Usage(format!(
-        "--speed-channel {}: it has {} values and `{}` {}; expected as many, or a sample rate of its own in the file",
-        speeds.name,
+        "{called}: it has {} values and `{}` {}; expected as many, or a sample rate of its own in the file",
         count(speeds),
         of.name,
         count(of)
@@ -140,14 +171,15 @@ fn unit_of(name: &str, channel: &Channel) -> Result<(String, f64), Failure> {
     match reading::quantity(&format!("1 {unit}"), "r/min") {
         Ok(rpm) => Ok((format!("in {unit}"), rpm)),
         Err(_) => Err(Failure::Usage(format!(
-            "--speed-channel {name}: its unit is {unit}; expected r/min, rpm, 1/min, Hz, 1/s or rad/s, or no unit, which is r/min"
+            "--speed-channel {name}: its unit is {unit}; expected r/min, rpm, 1/min, Hz, 1/s or rad/s, or no unit, which is r/min; \
+             a channel of pulses is given by --tacho {name}"
         ))),
     }
 }
 
 /// Whether a speed follows from the file, or from a channel that was named.
 pub(super) fn states_speed(file: &SignalFile, wanted: &Wanted, run: Option<&Loaded>, signal: &str) -> bool {
-    wanted.speed_channel.is_some() || run.is_some() || file.speed_variable(signal).is_some()
+    wanted.speed_channel.is_some() || wanted.tacho.is_some() || run.is_some() || file.speed_variable(signal).is_some()
 }
 
 /// A speed that varies, which has to keep its sign: `of` is what states it.
@@ -176,22 +208,4 @@ fn prescribed(speed: &Speed, start: f64, seconds: f64) -> (f64, Vec<(f64, f64)>)
     let course = course.map(|t| (t - start, rotation.at(t).0 * 30.0 / PI)).collect();
     let turned = rotation.at(end).1 - rotation.at(start).1;
     (turned * 30.0 / PI / seconds, course)
-}
-
-fn varies(course: &[(f64, f64)], mean: f64) -> bool {
-    (course.iter()).any(|(_, v)| (v - mean).abs() > VARIES * mean.abs())
-}
-
-/// Means over a tenth of a second or two turns, whichever is longer; none where they stay within [`VARIES`] of the
-/// mean.
-fn course(values: &[f64], rate: f64, mean: f64) -> Vec<(f64, f64)> {
-    let seconds = f64::max(0.1, 120.0 / mean.abs().max(1.0));
-    let each = ((seconds * rate).round() as usize).max(1);
-    let points: Vec<(f64, f64)> = (values.chunks(each).enumerate())
-        .map(|(i, part)| {
-            let middle = (i * each) as f64 + 0.5 * part.len() as f64;
-            (middle / rate, part.iter().sum::<f64>() / part.len() as f64)
-        })
-        .collect();
-    if varies(&points, mean) { points } else { Vec::new() }
 }

@@ -15,24 +15,69 @@ pub(super) fn bad(error: IoError) -> Failure {
     Failure::Usage(error.to_string())
 }
 
-/// Up to `most` samples after the first `skip`, and whether there are more.
+/// What follows so many samples of a channel, and how many at most.
+#[derive(Clone, Copy)]
+pub(super) struct Part {
+    pub(super) skip: usize,
+    pub(super) most: usize,
+    /// Hz.
+    pub(super) rate: f64,
+}
+
+impl Part {
+    /// Options that choose a stretch without the sample `at` after the part's first, in words.
+    pub(super) fn without(self, at: usize) -> String {
+        let from = (self.skip + at + 1) as f64 / self.rate;
+        format!("{}, --start {from} what follows", self.before(at))
+    }
+
+    /// Those that choose what is before it.
+    fn before(self, at: usize) -> String {
+        let start = self.skip as f64 / self.rate;
+        let start = if start > 0.0 { format!("--start {start} ") } else { String::new() };
+        format!("{start}--duration {} takes what is before it", at as f64 / self.rate)
+    }
+}
+
+/// The part's samples, and whether there are more. Lines of a text file that hold no number may lie about it, with a
+/// warning.
 pub(super) fn stretch(
     file: &mut SignalFile,
     name: &str,
-    skip: usize,
-    most: usize,
+    part: Part,
+    warnings: &mut Vec<String>,
 ) -> Result<(Vec<f64>, bool), Failure> {
+    let error = match samples(part, |sink| file.read_pieces(name, sink)) {
+        Err(error) if error.is_of_a_line() => error,
+        read => return read.map_err(bad),
+    };
+    let read = samples(part, |sink| file.read_around(name, sink)).map_err(bad)?;
+    match read.0.iter().position(|v| !v.is_finite()) {
+        None => {
+            warnings.push(format!("{error}; that lies beyond the stretch which is analysed"));
+            Ok(read)
+        }
+        Some(at) => {
+            let nothing_follows = matches!(error, IoError::Segment { .. });
+            let options = if nothing_follows { part.before(at) } else { part.without(at) };
+            Err(Failure::Usage(format!("{error}; {options}")))
+        }
+    }
+}
+
+type Sink<'a> = &'a mut dyn FnMut(&[f64]) -> ControlFlow<()>;
+
+fn samples(part: Part, read: impl FnOnce(Sink<'_>) -> Result<(), IoError>) -> Result<(Vec<f64>, bool), IoError> {
     let (mut values, mut passed, mut more) = (Vec::new(), 0, false);
-    file.read_pieces(name, |piece| {
-        let from = skip.saturating_sub(passed).min(piece.len());
+    read(&mut |piece| {
+        let from = part.skip.saturating_sub(passed).min(piece.len());
         passed += piece.len();
-        let room = most - values.len();
+        let room = part.most - values.len();
         let rest = &piece[from..];
         more = rest.len() > room;
         values.extend_from_slice(&rest[..rest.len().min(room)]);
         if more { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
-    })
-    .map_err(bad)?;
+    })?;
     Ok((values, more))
 }
 

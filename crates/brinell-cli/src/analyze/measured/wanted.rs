@@ -7,6 +7,8 @@ use brinell::analysis::Unit;
 pub(crate) struct Wanted<'a> {
     pub(crate) signal: &'a SignalArgs,
     pub(crate) speed_channel: Option<&'a str>,
+    /// A channel of pulses, and how many come a turn.
+    pub(crate) tacho: Option<(&'a str, u32)>,
     /// What the options of this file begin with: `against-` in `--against-rate`, or nothing.
     pub(crate) whose: &'static str,
     /// What a file of the same format is taken to be like where neither it nor an option says.
@@ -20,7 +22,7 @@ pub(crate) struct Wanted<'a> {
 impl<'a> Wanted<'a> {
     /// What its options say, and nothing else.
     pub(crate) fn of(signal: &'a SignalArgs) -> Self {
-        Self { signal, speed_channel: None, whose: "", like: None, ask_speed: false, ask_bearing: false }
+        Self { signal, speed_channel: None, tacho: None, whose: "", like: None, ask_speed: false, ask_bearing: false }
     }
 }
 

@@ -12,6 +12,7 @@ use std::io::{Read, Seek, SeekFrom};
 use super::channel::{lend_labels, lend_rates, lend_units};
 use super::contents::Contents;
 use super::fault::{Fault, damaged};
+use super::increments::lend_increments;
 use super::listing::{Listing, Source};
 use super::numbers::Sink;
 use crate::{Metadata, keys};
@@ -76,11 +77,12 @@ pub(super) fn list(mut contents: Contents) -> Result<Listing, Fault> {
         }
         at = start + bytes;
     }
-    let Found { mut channels, rates, texts, .. } = found;
+    let Found { mut channels, rates, steps, texts } = found;
     lend_rates(&mut channels, &rates);
-    lend_labels(&mut channels, &texts);
     let metadata = Metadata { pairs: texts };
     lend_units(&mut channels, &metadata, keys::UNITS_VARIABLE);
+    lend_labels(&mut channels, &metadata.pairs);
+    lend_increments(&mut channels, &steps, &metadata.pairs);
     Ok(Listing { channels, metadata, source: Box::new(mat) })
 }
 

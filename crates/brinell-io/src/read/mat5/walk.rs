@@ -5,6 +5,7 @@ use std::ops::ControlFlow;
 use super::input::{Input, MATRIX, Tag};
 use crate::read::channel::{Channel, names_a_rate};
 use crate::read::fault::{Fault, damaged};
+use crate::read::increments::is_increment;
 use crate::read::numbers::{Number, Sink};
 
 const MAX_DEPTH: usize = 24;
@@ -28,6 +29,8 @@ pub(super) struct Found {
     pub(super) texts: Vec<(String, String)>,
     /// Paths and values of single numbers that are called like a sample rate.
     pub(super) rates: Vec<(String, f64)>,
+    /// Likewise of those that are the step of abscissae.
+    pub(super) steps: Vec<(String, f64)>,
 }
 
 pub(super) struct Walk<'w, 'f, 'a> {
@@ -145,13 +148,14 @@ impl Walk<'_, '_, '_> {
                     channel.unreadable = Some("holds complex numbers".into());
                 }
                 found.channels.push(channel);
-                if count == 1 && names_a_rate(&name) {
+                if count == 1 && (names_a_rate(&name) || is_increment(&name)) {
                     let mut value = 0.0;
                     values(self.input, stored, tag, &mut |v: &[f64]| {
                         value = v[0];
                         ControlFlow::Continue(())
                     })?;
-                    found.rates.push((name, value));
+                    let list = if is_increment(&name) { &mut found.steps } else { &mut found.rates };
+                    list.push((name, value));
                 } else if depth == 0 {
                     // Nothing follows that a listing needs, so a compressed one is not inflated.
                     return Err(Fault::Stopped);

@@ -1,5 +1,7 @@
 //! How the lines of a text file are made, from the first of them.
 
+use super::cells;
+use super::clock;
 use super::format::{Decimal, Delimiter, TextFormat};
 use super::lvm::{self, Lvm};
 use super::number::{may_be_grouped, number};
@@ -18,6 +20,10 @@ pub(super) struct Layout {
     pub(super) first_line: u64,
     /// From a header that states it, with what it is called there.
     pub(super) rate: Option<(f64, String)>,
+    /// A LabVIEW file, in which a further segment may begin.
+    pub(super) is_lvm: bool,
+    /// What is no number counts as a value that is missing, and a further segment as the end.
+    pub(super) lenient: bool,
 }
 
 /// One field of every line.
@@ -31,6 +37,23 @@ pub(super) struct Column {
     pub(super) absent: bool,
     /// The abscissa, which has no sample rate.
     pub(super) is_x: bool,
+    /// Of this column alone, from a LabVIEW header.
+    pub(super) rate_hz: Option<f64>,
+    /// What stands behind each of its numbers, as ` g` does; not part of them.
+    pub(super) suffix: String,
+    /// A column of date-times: the day from which its seconds count.
+    pub(super) clock: Option<i64>,
+}
+
+impl Column {
+    /// A field's number, or NaN where it is empty; `None` for anything else.
+    pub(super) fn value(&self, field: &[u8], decimal: Option<Decimal>) -> Option<f64> {
+        match self.clock {
+            Some(first) => clock::read(field).map(|(day, seconds)| (day - first) as f64 * 86_400.0 + seconds),
+            None if self.suffix.is_empty() => number(field, decimal),
+            None => number(cells::without(field, &self.suffix)?, decimal),
+        }
+    }
 }
 
 struct Line<'a> {
@@ -40,13 +63,15 @@ struct Line<'a> {
     comment: bool,
 }
 
-const ORDER: [Delimiter; 4] = [Delimiter::Tab, Delimiter::Semicolon, Delimiter::Comma, Delimiter::Blanks];
+pub(super) const ORDER: [Delimiter; 4] = [Delimiter::Tab, Delimiter::Semicolon, Delimiter::Comma, Delimiter::Blanks];
 /// Lines of numbers that are looked at.
 const LOOK: usize = 200;
 
 /// Finds the layout in the first lines of a file, all of them whole.
 pub(super) fn find(sample: &[u8]) -> Result<Layout, Fault> {
-    let lines = lines(sample);
+    let mut sample = sample.to_vec();
+    let suffixes = cells::blank_units(&mut sample);
+    let lines = lines(&sample);
     let lvm = lvm::header(&lines.iter().map(|l| l.text).collect::<Vec<_>>());
     let from = lvm.as_ref().map_or(0, |lvm| lvm.lines);
     let format = lvm.as_ref().map_or(TextFormat::default(), |lvm| lvm.format);
@@ -81,15 +106,20 @@ pub(super) fn find(sample: &[u8]) -> Result<Layout, Fault> {
         .rfind(|l| l.comment && l.start < start.start && self::rate(l.text).is_none())
         .map(|l| l.text.trim_ascii_start().get(1..).unwrap_or_default());
     name(&mut columns, delimiter, &above, comment, lvm.is_some());
-    if let Some(lvm) = lvm {
-        rate = lvm.rate_hz().map(|hz| (hz, "Delta_X".into()));
+    if let Some(lvm) = &lvm {
+        rate = None;
         dress(&mut columns, lvm);
     }
-    Ok(Layout { delimiter, decimal, columns, start: start.start as u64, first_line: start.number, rate })
+    for (column, suffix) in columns.iter_mut().zip(suffixes.into_iter().flatten()) {
+        column.unit = Some(suffix.clone()).filter(|unit| !unit.is_empty()).or(column.unit.take());
+        column.suffix = suffix;
+    }
+    let (start, first_line) = (start.start as u64, start.number);
+    Ok(Layout { delimiter, decimal, columns, start, first_line, rate, is_lvm: lvm.is_some(), lenient: false })
 }
 
 /// A line such as `Sample rate: 12000 Hz` or `# fs = 25.6 kHz`: hertz, and what the rate is called there.
-fn rate(line: &[u8]) -> Option<(f64, String)> {
+pub(super) fn rate(line: &[u8]) -> Option<(f64, String)> {
     let line = text(line);
     let line = line.trim_start_matches(['#', '%', '/']);
     let (name, value) = line.split_once([':', '=', ';', ',', '\t'])?;
@@ -127,12 +157,12 @@ fn lines(sample: &[u8]) -> Vec<Line<'_>> {
     lines
 }
 
-fn split(line: &[u8], delimiter: Delimiter) -> Vec<&[u8]> {
+pub(super) fn split(line: &[u8], delimiter: Delimiter) -> Vec<&[u8]> {
     delimiter.fields(line).map(<[u8]>::trim_ascii).collect()
 }
 
 /// How many fields are numbers, and how many are neither numbers nor empty.
-fn score(line: &[u8], delimiter: Delimiter, format: &TextFormat) -> (usize, usize) {
+pub(super) fn score(line: &[u8], delimiter: Delimiter, format: &TextFormat) -> (usize, usize) {
     // Between commas, a decimal one is in quotes.
     let decimal = |f: &[u8]| match delimiter == Delimiter::Comma && !f.starts_with(b"\"") {
         true => Some(Decimal::Point),
@@ -140,6 +170,7 @@ fn score(line: &[u8], delimiter: Delimiter, format: &TextFormat) -> (usize, usiz
     };
     split(line, delimiter).iter().filter(|f| !f.is_empty()).fold((0, 0), |(good, bad), f| match number(f, decimal(f)) {
         Some(_) => (good + 1, bad),
+        None if clock::read(f).is_some() => (good, bad),
         None => (good, bad + 1),
     })
 }
@@ -222,7 +253,7 @@ fn comma_or_fraction(
 
 /// Where points and commas are both there, the comma is decimal if it is no sign between thousands anywhere: a point
 /// beside it is no decimal point then, and what is no number with points between thousands is refused.
-fn decimal(delimiter: Delimiter, format: &TextFormat, data: &[&[u8]]) -> Option<Decimal> {
+pub(super) fn decimal(delimiter: Delimiter, format: &TextFormat, data: &[&[u8]]) -> Option<Decimal> {
     let fields = || data.iter().flat_map(|line| split(line, delimiter));
     let shows = |sign: u8, decimal| fields().any(|f| f.contains(&sign) && number(f, Some(decimal)).is_some());
     let is_point =
@@ -310,10 +341,10 @@ fn columns(delimiter: Delimiter, decimal: Option<Decimal>, data: &[&[u8]]) -> Re
     let fields = split(first, delimiter);
     let mut columns: Vec<Column> = fields
         .iter()
-        .map(|field| Column {
-            words: number(field, decimal).is_none().then(|| held(field, decimal)),
-            absent: true,
-            ..Column::default()
+        .map(|field| {
+            let clock = clock::read(field).map(|(day, _)| day);
+            let words = (number(field, decimal).is_none() && clock.is_none()).then(|| held(field, decimal));
+            Column { words, clock, absent: true, ..Column::default() }
         })
         .collect();
     for line in data {
@@ -334,7 +365,7 @@ fn held(field: &[u8], decimal: Option<Decimal>) -> String {
 }
 
 /// UTF-8, or else Latin-1, where a µ is one byte.
-fn text(bytes: &[u8]) -> String {
+pub(super) fn text(bytes: &[u8]) -> String {
     let text = match std::str::from_utf8(bytes) {
         Ok(text) => text.to_owned(),
         Err(_) => bytes.iter().map(|&b| char::from(b)).collect(),
@@ -371,6 +402,9 @@ fn name(columns: &mut [Column], delimiter: Delimiter, above: &[&[u8]], comment: 
         let below = units.get(i).map(|u| bare(u)).filter(|u| !u.is_empty());
         column.unit = below.or(own);
         column.name = if given.is_empty() { format!("column{}", i + 1) } else { given };
+        if column.clock.is_some() {
+            column.unit = Some("s".into());
+        }
     }
 }
 
@@ -384,7 +418,7 @@ fn bare(unit: &str) -> String {
 }
 
 /// The unit in `name [unit]`, or in `name (unit)` where it is a known one.
-fn bracketed(name: &str) -> Option<String> {
+pub(super) fn bracketed(name: &str) -> Option<String> {
     let (_, square) = name.strip_suffix(']').and_then(|n| n.rsplit_once('[')).unzip();
     let (_, round) = name.strip_suffix(')').and_then(|n| n.rsplit_once('(')).unzip();
     square.or(round.filter(|u| KNOWN.contains(&u.trim()))).map(|u| u.trim().to_owned()).filter(|u| !u.is_empty())
@@ -404,18 +438,20 @@ fn is_unit(text: &str) -> bool {
 }
 
 /// Adds what a LabVIEW header says of the columns.
-fn dress(columns: &mut [Column], lvm: Lvm) {
-    let mut units = lvm.units.into_iter();
-    for column in columns {
-        let name = column.name.as_str();
-        column.is_x = name == "X_Value" || name.starts_with("X_Value");
-        if name == "Comment" {
+fn dress(columns: &mut [Column], lvm: &Lvm) {
+    let is_x: Vec<bool> = columns.iter().map(|c| c.name == "X_Value" || c.name.starts_with("X_Value")).collect();
+    for ((column, said), is_x) in columns.iter_mut().zip(lvm.columns(&is_x)).zip(is_x) {
+        column.is_x = is_x;
+        if column.name == "Comment" {
             column.absent = true;
-        } else if column.is_x {
+        } else if is_x {
             // Empty where `X_Columns` says that there are none.
             column.absent = lvm.no_x;
-        } else if let Some(unit) = units.next() {
-            column.unit = Some(unit).filter(|u| !u.is_empty());
+        } else {
+            (column.unit, column.rate_hz) = (said.unit, said.rate_hz);
+            if said.is_unused {
+                column.words = Some("has 0 samples, as its header says".into());
+            }
         }
     }
 }

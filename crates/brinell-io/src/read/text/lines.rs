@@ -8,6 +8,7 @@ use memchr::{memchr, memchr_iter, memchr2, memrchr};
 
 use super::format::{Decimal, Delimiter};
 use super::layout::Layout;
+use super::lvm::begins_segment;
 use super::number::number;
 use crate::read::fault::{Fault, damaged};
 use crate::read::numbers::{Sink, give};
@@ -79,6 +80,9 @@ fn in_blocks(reader: &mut (impl Read + Send), wanted: &Wanted, sink: Sink<'_>, c
                 give(sink, piece)?;
             }
             values.drain(..values.len() - left);
+            if matches!(fault, Err(Fault::Stopped)) {
+                return give(sink, &values);
+            }
             fault?;
         }
         match read {
@@ -138,7 +142,7 @@ impl<'a> Wanted<'a> {
     fn of(layout: &'a Layout, field: usize) -> Self {
         // Runs of blanks and decimal commas are `row`'s business.
         let runs = layout.delimiter == Delimiter::Blanks && layout.columns.len() > 1;
-        let plain = !runs && layout.decimal != Some(Decimal::Comma);
+        let plain = !runs && layout.decimal != Some(Decimal::Comma) && layout.columns[field].clock.is_none();
         Wanted {
             layout,
             field,
@@ -246,7 +250,8 @@ impl Plain {
     /// nothing: see [`row`].
     #[inline]
     fn value(&self, text: &[u8], from: usize) -> Option<(f64, usize)> {
-        if matches!(text[from], b'#' | b'%') {
+        // A letter begins the header of a further segment of a LabVIEW file, or NaN.
+        if matches!(text[from], b'#' | b'%' | b'A'..=b'Z') {
             return None;
         }
         let mut at = from;
@@ -310,8 +315,16 @@ pub(super) fn shown(field: &[u8]) -> String {
 
 pub(super) fn row(bytes: &[u8], layout: &Layout, field: usize, line: u64, values: &mut Vec<f64>) -> Result<(), Fault> {
     let bytes = bytes.strip_suffix(b"\r").unwrap_or(bytes);
+    if layout.is_lvm && begins_segment(bytes) {
+        if !layout.lenient {
+            return Err(Fault::Segment { line });
+        }
+        // Something follows, and is not read.
+        values.push(f64::NAN);
+        return Err(Fault::Stopped);
+    }
     let (wanted, count) = field_of(bytes, layout, field);
-    let value = wanted.and_then(|text| number(text, layout.decimal));
+    let value = wanted.and_then(|text| layout.columns[field].value(text, layout.decimal));
     if let Some(value) = value
         && count == layout.columns.len()
         && !matches!(bytes.first(), Some(b'#' | b'%'))
@@ -321,6 +334,10 @@ pub(super) fn row(bytes: &[u8], layout: &Layout, field: usize, line: u64, values
     }
     let trimmed = bytes.trim_ascii();
     if trimmed.is_empty() || matches!(trimmed[0], b'#' | b'%') {
+        return Ok(());
+    }
+    if layout.lenient {
+        values.push(f64::NAN);
         return Ok(());
     }
     if count != layout.columns.len() {

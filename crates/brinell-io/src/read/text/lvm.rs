@@ -2,6 +2,7 @@
 //! Measurement File".
 
 use super::format::{Decimal, Delimiter, TextFormat};
+use crate::read::channel::hertz;
 
 const END: &[u8] = b"***End_of_Header***";
 
@@ -11,23 +12,60 @@ pub(super) struct Lvm {
     /// Lines that the headers take.
     pub(super) lines: usize,
     pub(super) format: TextFormat,
-    /// One unit per channel.
-    pub(super) units: Vec<String>,
     /// Whether the abscissa's column is left empty.
     pub(super) no_x: bool,
-    step: Option<f64>,
+    units: Vec<String>,
+    steps: Vec<String>,
+    samples: Vec<String>,
     seconds: bool,
 }
 
+/// What the headers say of one column of values.
+#[derive(Debug, Default)]
+pub(super) struct OfColumn {
+    pub(super) unit: Option<String>,
+    pub(super) rate_hz: Option<f64>,
+    /// A channel without samples.
+    pub(super) is_unused: bool,
+}
+
 impl Lvm {
-    /// The sample rate, where the abscissa is time in even steps.
-    pub(super) fn rate_hz(&self) -> Option<f64> {
-        let hz = 1.0 / self.step?;
-        // 1/0.0001 is 10000 but for the last digit.
-        let round = hz.round();
-        let hz = if (hz / round - 1.0).abs() < 1e-12 { round } else { hz };
+    /// Of every column, of which `is_x` says whether it holds abscissae. A header's cells stand above the columns, the
+    /// key above the first, with an empty cell above each further abscissa (`X_Columns Multi`); where one stands above
+    /// an abscissa, there is one per channel.
+    pub(super) fn columns(&self, is_x: &[bool]) -> Vec<OfColumn> {
+        let cells = |values: &[String]| -> Vec<String> {
+            let stated = |i: usize| values.get(i).filter(|v| !v.is_empty());
+            let dense = (1..is_x.len()).any(|i| is_x[i] && stated(i - 1).is_some());
+            let mut channel = 0;
+            let mut of = |i: usize| {
+                channel += usize::from(!is_x[i]);
+                let at = if dense { channel.checked_sub(1) } else { i.checked_sub(1) };
+                at.filter(|_| !is_x[i]).and_then(stated).cloned().unwrap_or_default()
+            };
+            (0..is_x.len()).map(&mut of).collect()
+        };
+        let (units, steps, samples) = (cells(&self.units), cells(&self.steps), cells(&self.samples));
+        let each = units.into_iter().zip(steps).zip(samples);
+        each.map(|((unit, step), samples)| OfColumn {
+            unit: Some(unit).filter(|unit| !unit.is_empty()),
+            rate_hz: self.rate_hz(&step),
+            is_unused: samples == "0",
+        })
+        .collect()
+    }
+
+    /// The sample rate, where the abscissa is time in steps of this width.
+    fn rate_hz(&self, step: &str) -> Option<f64> {
+        let hz = hertz(step.replace(',', ".").parse::<f64>().ok()?);
         (self.seconds && hz.is_finite() && hz > 0.0).then_some(hz)
     }
+}
+
+/// Whether a line among the numbers begins the header of a further segment.
+pub(super) fn begins_segment(line: &[u8]) -> bool {
+    let key = line.split(|b| matches!(b, b'\t' | b',')).next().unwrap_or_default().trim_ascii();
+    [&b"Channels"[..], b"Samples", b"Notes", b"Date", b"Time", b"X_Dimension", b"Delta_X", END].contains(&key)
 }
 
 /// The headers; `None` where the file is no such file.
@@ -67,13 +105,9 @@ pub(super) fn header(lines: &[&[u8]]) -> Option<Lvm> {
             }
             "X_Columns" => lvm.no_x = first == "No",
             "Y_Unit_Label" => lvm.units = values.iter().map(|u| (*u).to_owned()).collect(),
+            "Delta_X" => lvm.steps = values.iter().map(|u| (*u).to_owned()).collect(),
+            "Samples" => lvm.samples = values.iter().map(|u| (*u).to_owned()).collect(),
             "X_Dimension" => lvm.seconds = first == "Time",
-            "Delta_X" => {
-                let mut steps =
-                    values.iter().filter(|v| !v.is_empty()).map(|v| v.replace(',', ".").parse::<f64>().ok());
-                let step = steps.next().flatten();
-                lvm.step = step.filter(|_| steps.all(|s| s == step));
-            }
             _ => {}
         }
     }

@@ -7,17 +7,20 @@
 //! quotes, `"0,5","-1,2"`. A line above the numbers such as `Sample rate: 12000 Hz` states the rate.
 
 mod cell;
+mod cells;
+mod clock;
 mod format;
 mod layout;
 mod lines;
 mod lvm;
 mod number;
+mod rows;
 
 use std::io::{Read, Seek, SeekFrom};
 
 use super::channel::{Channel, Rate, RateSource};
 use super::contents::Contents;
-use super::fault::{Fault, damaged};
+use super::fault::{Fault, damaged, unsupported};
 use super::listing::{Listing, Source};
 use super::numbers::Sink;
 use crate::Metadata;
@@ -33,9 +36,41 @@ struct Text {
     fields: Vec<usize>,
 }
 
+/// The most bytes of a file whose signals lie along lines: it is held whole.
+const MAX_ROWS: u64 = 64 << 20;
+/// The most bytes of UTF-16, which is decoded whole.
+const MAX_UTF16: u64 = 512 << 20;
+
+/// The same as UTF-8 where a byte-order mark says that it is UTF-16, as Excel's "Unicode text" is.
+pub(super) fn in_utf8(mut contents: Contents) -> Result<Contents, Fault> {
+    let mut mark = Vec::new();
+    (&mut contents).take(2).read_to_end(&mut mark)?;
+    contents.seek(SeekFrom::Start(0))?;
+    let decode = match mark[..] {
+        [0xff, 0xfe] => u16::from_le_bytes,
+        [0xfe, 0xff] => u16::from_be_bytes,
+        _ => return Ok(contents),
+    };
+    if contents.length() > MAX_UTF16 {
+        return Err(unsupported(format!("more than {} MiB of text in UTF-16; save it as UTF-8", MAX_UTF16 >> 20)));
+    }
+    let mut bytes = Vec::new();
+    contents.read_to_end(&mut bytes)?;
+    let units = bytes[2..].as_chunks::<2>().0.iter().map(|unit| decode(*unit));
+    let text: String = char::decode_utf16(units).map(|c| c.unwrap_or(char::REPLACEMENT_CHARACTER)).collect();
+    Ok(Contents::of_bytes(text.into_bytes()))
+}
+
 pub(super) fn list(mut contents: Contents) -> Result<Listing, Fault> {
     let mut sample = Vec::new();
     (&mut contents).take(SAMPLE).read_to_end(&mut sample)?;
+    if sample.iter().filter(|b| **b == b'\n').count() <= rows::MOST_LINES && contents.length() <= MAX_ROWS {
+        let mut whole = sample.clone();
+        (&mut contents).take(MAX_ROWS).read_to_end(&mut whole)?;
+        if let Some(listing) = rows::list(&whole) {
+            return Ok(listing);
+        }
+    }
     if sample.len() as u64 == SAMPLE {
         // The last line is cut.
         match memchr::memrchr(b'\n', &sample) {
@@ -54,7 +89,8 @@ pub(super) fn list(mut contents: Contents) -> Result<Listing, Fault> {
             name: column.name.clone(),
             stored_as: "text",
             unit: column.unit.clone(),
-            rate: (layout.rate.clone().filter(|_| !column.is_x))
+            rate: (column.rate_hz.map(|hz| (hz, "Delta_X".into())))
+                .or_else(|| layout.rate.clone().filter(|_| !column.is_x))
                 .map(|(hz, name)| Rate { hz, source: RateSource::Header(name) }),
             unreadable: column.words.clone(),
             ..Channel::default()
@@ -68,6 +104,10 @@ impl Source for Text {
         self.contents.seek(SeekFrom::Start(self.layout.start))?;
         lines::column(&mut self.contents, &self.layout, self.fields[index], sink)
     }
+    fn set_lenient(&mut self, lenient: bool) {
+        self.layout.lenient = lenient;
+    }
+
     fn cell(&mut self, index: usize, value: u64) -> Option<(u64, String)> {
         self.contents.seek(SeekFrom::Start(self.layout.start)).ok()?;
         cell::find(&mut self.contents, &self.layout, self.fields[index], value)
