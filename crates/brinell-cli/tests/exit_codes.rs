@@ -205,7 +205,8 @@ mod interrupted {
     #[test]
     fn regress_an_interrupted_run_exits_130_and_keeps_what_it_has() {
         let (folder, call) = interrupt(&[], 1);
-        let call = call.exits(130).says(&["Interrupted: the results are partial, up to t = "]).complains(&["s.toml: about "]);
+        let call =
+            call.exits(130).says(&["Interrupted: the results are partial, up to t = "]).complains(&["s.toml: about "]);
         assert!(call.out.contains("wrote o/signals.csv"));
         let output = folder.path().join("o");
         let (_, rows) = csv(&output.join("signals.csv"));
@@ -227,7 +228,8 @@ mod interrupted {
     #[test]
     fn regress_ctrl_c_is_noticed_between_samples() {
         let begin = Instant::now();
-        let (_folder, call) = interrupt(&["--set", "simulation.sample_rate_hz=0.005", "--set", "simulation.most_steps=1000000000000"], 0);
+        let (_folder, call) =
+            interrupt(&["--set", "simulation.sample_rate_hz=0.005", "--set", "simulation.most_steps=1000000000000"], 0);
         call.exits(130).says(&["Interrupted: the results are partial, up to t = 0.0000 s."]);
         assert!(begin.elapsed() < Duration::from_secs(20));
     }
