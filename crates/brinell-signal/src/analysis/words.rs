@@ -201,7 +201,7 @@ fn level(analysis: &Analysis) -> Option<String> {
     let is_said = matches!(analysis.unexplained(), Some(Unexplained::Level(_)));
     let growth = analysis.level_growth.filter(|g| !is_said && (*g >= CHANGED || *g <= 1.0 / CHANGED))?;
     let db = 20.0 * growth.log10();
-    let within = within(analysis);
+    let within = evidence::within_range(analysis);
     Some(match growth > 1.0 {
         true => format!("The RMS{within} is {growth:.1} times that of the healthy record ({db:+.0} dB)."),
         false => {
@@ -209,13 +209,6 @@ fn level(analysis: &Analysis) -> Option<String> {
                 "The RMS{within} is {db:+.0} dB from that of the healthy record: are unit, gain and place the same?"
             )
         }
-    })
-}
-
-/// The range in which a level is compared with the healthy machine's, where it is not the whole.
-fn within(analysis: &Analysis) -> String {
-    analysis.level_range.map_or(String::new(), |range| {
-        format!(" from {:.0} to {:.0} Hz, which both records hold,", range.low, range.high)
     })
 }
 

@@ -1,5 +1,6 @@
-//! What was found of a family, in words.
+//! What was found of a family, and where levels are compared, in words.
 
+use super::super::Analysis;
 use super::super::family::Family;
 
 /// Its frequency, harmonics, sidebands and modulation.
@@ -29,4 +30,11 @@ fn harmonics(family: &Family) -> String {
         [one] => format!("harmonic {one}"),
         orders => format!("harmonics {}", orders.join(", ")),
     }
+}
+
+/// The range in which a level is compared with the healthy machine's, where it is not the whole.
+pub(super) fn within_range(analysis: &Analysis) -> String {
+    analysis.level_range.map_or(String::new(), |range| {
+        format!(" from {:.0} to {:.0} Hz, which both records hold,", range.low, range.high)
+    })
 }

@@ -4,8 +4,7 @@ use super::super::drift::Drift;
 use super::super::family::{Family, Finding, reach};
 use super::super::together::{MAINS_HZ, REVOLUTIONS};
 use super::super::{Analysis, Component, Elsewhere, Unexplained};
-use super::evidence::evidence_of;
-use super::within;
+use super::evidence::{evidence_of, within_range};
 use crate::digits;
 
 /// What is open of the verdict, and why.
@@ -65,7 +64,7 @@ fn not_explained(analysis: &Analysis, what: Unexplained) -> String {
         Unexplained::Level(growth) => format!(
             "Cannot tell: the RMS{} is {growth:.1} times that of the healthy record ({:+.0} dB), and no line of this bearing explains it: another load, \
              speed or part, or damage too weak to call.",
-            within(analysis),
+            within_range(analysis),
             20.0 * growth.log10()
         ),
     }
