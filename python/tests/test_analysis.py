@@ -68,6 +68,24 @@ def outer_race(seconds: float = 2.0) -> np.ndarray:
 KNOWN = {"rate_hz": 12000.0, "speed_rpm": 1800.0, "bearing": "6205-2RS"}
 
 
+def test_analytic_pulses_give_the_speed():
+    x = outer_race()
+    turns = 30.0 * np.arange(len(x)) / 12000.0
+    given = {key: value for key, value in KNOWN.items() if key != "speed_rpm"}
+    for pulses in (1, 8):
+        train = 5.0 * ((pulses * turns) % 1.0 < 0.3)
+        found = brinell.analyze(x, unit="g", tacho=train, pulses=pulses, **given)
+        assert (found.says, found.damage) == ("damage", ["outer_race"])
+        signal = brinell.Signal(train, 12000.0, "V", "tacho")
+        assert brinell.analyze(x, unit="g", tacho=signal, pulses=pulses, **given).verdict == found.verdict
+    with pytest.raises(brinell.SignalError, match="tacho: it has 0 rising edges"):
+        brinell.analyze(x, unit="g", tacho=0.0 * x, **given)
+    with pytest.raises(brinell.SignalError, match="tacho: its 12000 values last"):
+        brinell.analyze(x, unit="g", tacho=train[:12000], **given)
+    with pytest.raises(ValueError, match="either it or tacho"):
+        brinell.analyze(x, unit="g", tacho=train, **KNOWN)
+
+
 def test_analytic_a_sensitivity_turns_volts_into_vibration():
     x = outer_race()
     plain = brinell.analyze(x, unit="g", **KNOWN)

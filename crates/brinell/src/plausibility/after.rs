@@ -170,7 +170,7 @@ pub fn of_energy(scenario: &Scenario, energy: &EnergyAudit, refined: Option<f64>
 /// An energy audit that does not close: the steps were too long for the motion.
 fn residual(scenario: &Scenario, energy: &EnergyAudit, refined: Option<f64>) -> Option<String> {
     let percent = |share: f64| short(100.0 * share);
-    let limit = percent(RESIDUAL_SHARE);
+    let limit = 100.0 * RESIDUAL_SHARE;
     let left = energy.left_open();
     if let Some(first) = refined {
         let now = energy.relative_residual().map_or(0.0, f64::abs);
