@@ -166,7 +166,7 @@ pub(crate) struct FrequenciesArgs {
 }
 
 /// A bearing by its numbers.
-#[derive(Debug, Args)]
+#[derive(Debug, Clone, Args)]
 pub(crate) struct Elements {
     /// Rolling elements in a row
     #[arg(long, value_name = "Z", value_parser = rollers, conflicts_with = "bearing")]

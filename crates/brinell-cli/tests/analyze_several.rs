@@ -156,3 +156,25 @@ fn regress_impacts_that_no_line_explains_head_no_clean_bill() {
     let page = fs::read_to_string(folder.path().join("look/report.html")).unwrap();
     assert!(page.contains("cannot tell, impacts (kurtosis "));
 }
+
+#[test]
+fn regress_several_channels_are_a_row_each_and_the_clearest_leads() {
+    let folder = tempdir().unwrap();
+    let rows = impacts(0.0).into_iter().zip(impacts(6.0)).map(|(x, y)| format!("{x},{y}\n"));
+    fs::write(folder.path().join("rig.csv"), format!("radial,axial\n{}", rows.collect::<String>())).unwrap();
+    let more = ["--channel", "radial", "--channel", "2", "--json", "all.json", "-o", "look"];
+    let done = brinell(folder.path(), &call(&["rig.csv"], &more)).exits(0);
+    done.says(&["signal", "no damage found", "2 leads: Outer race damage"]);
+    let all = json(&folder.path().join("all.json"));
+    let channels: Vec<&str> =
+        all["records"].as_array().unwrap().iter().map(|r| r["file"]["channel"].as_str().unwrap()).collect();
+    assert_eq!(channels, ["radial", "axial"]);
+    assert!(all["leading"].as_str().unwrap().starts_with("2 leads: Outer race damage"));
+    let page = fs::read_to_string(folder.path().join("look/report.html")).unwrap();
+    assert!(page.contains("2 signals, damage called in 1") && page.contains("2 leads: Outer race"));
+    // One that is not there, beside one that is; and calibrate fits to one.
+    let more = ["--channel", "radial", "--channel", "tangential"];
+    brinell(folder.path(), &call(&["rig.csv"], &more))
+        .exits(1)
+        .complains(&["error: 1 of 2 signals could not be analysed"]);
+}

@@ -9,7 +9,7 @@ use clap::Args;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use std::path::PathBuf;
 
-#[derive(Debug, Args)]
+#[derive(Debug, Clone, Args)]
 #[command(
     after_help = "What the file does not state has to be given: brinell takes no rate, unit, speed or bearing for granted.\n\n\
     Examples:\n  \
@@ -18,6 +18,7 @@ use std::path::PathBuf;
     brinell analyze pump.wav --full-scale 5V --sensitivity 100mV/g --speed 1480 --bearing 6205\n  \
     brinell analyze rig.csv --channel acc --rate 25600 --unit g --speed 1500 --bpfo 89.6 --bpfi 5.415x\n  \
     brinell analyze rig.tdms --channel acc --tacho tach --pulses 60 --bearing 6205    speed by an encoder\n  \
+    brinell analyze triaxial.csv --channel x --channel y --channel z --speed 1480 --bearing 6205    a row a channel\n  \
     brinell analyze out/my-bearing -o look              a run of brinell's own\n  \
     brinell analyze measured.mat ... --against out/my-bearing -o look\n  \
     brinell analyze records/ --rate 25600 --unit g --speed 1480 --bearing 6205 -o trend    a row a file, and a trend\n\n\

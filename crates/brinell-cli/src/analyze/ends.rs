@@ -14,9 +14,14 @@ fn call(result: &Diagnosis) -> Option<&Family> {
     (result.analysis.causes()).max_by(|a, b| a.score.total_cmp(&b.score))
 }
 
+/// Its score.
+pub(super) fn score(result: &Diagnosis) -> Option<f64> {
+    call(result).map(|family| family.score)
+}
+
 /// The bearing whose damage scores highest, by index; the first of equals.
 pub(super) fn lead(results: &[Diagnosis]) -> Option<usize> {
-    let score = |k: usize| call(&results[k]).map(|f| f.score);
+    let score = |k: usize| score(&results[k]);
     let mut best: Option<(usize, f64)> = None;
     for k in 0..results.len() {
         if let Some(score) = score(k)

@@ -240,7 +240,7 @@ fn velocities(measured: &Measured, shaft: f64) -> Option<VelocityBands> {
 fn lay_over(path: &Path, args: &AnalyzeArgs, measured: &Measured, analysis: &mut Analysis) -> Result<Against, Failure> {
     let alike = Like { channel: &measured.channel, rate: measured.rate, unit: &measured.unit };
     let signal = SignalArgs {
-        channel: args.against_channel.clone(),
+        channel: args.against_channel.iter().cloned().collect(),
         rate: args.against_rate,
         unit: args.against_unit.clone(),
         sensitivity: args.against_sensitivity.clone(),

@@ -10,6 +10,7 @@ mod files;
 mod json;
 pub(crate) mod measured;
 mod page;
+mod records;
 mod several;
 mod short;
 mod words;
@@ -47,7 +48,8 @@ pub(crate) fn analyze(args: &AnalyzeArgs) -> Result<ExitCode, Failure> {
         }
     }
     match files(&args.files)? {
-        Files::One(path) => one(args, &path),
+        Files::One(path) if args.signal.channel.len() < 2 => one(args, &path),
+        Files::One(path) => several::analyze(args, &[path]),
         Files::Several(paths) => several::analyze(args, &paths),
     }
 }

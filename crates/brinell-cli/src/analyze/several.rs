@@ -6,6 +6,7 @@ use super::diagnosis::Diagnosis;
 use super::ends;
 use super::examine::{load, results};
 use super::json::as_json;
+use super::records::{Record, records};
 use super::short::{Short, too_short};
 use super::written::{earlier, put_json, put_pages};
 use crate::failure::Failure;
@@ -36,6 +37,8 @@ struct Found {
     /// The same in whole, of each bearing.
     sentences: Vec<String>,
     damage: bool,
+    /// Score of the damage that leads.
+    lead: Option<f64>,
     unit: Unit,
     rms: Option<Estimate>,
     peak: Option<Estimate>,
@@ -66,7 +69,9 @@ struct Found {
 const WIDEST: usize = 48;
 
 pub(super) fn analyze(args: &AnalyzeArgs, files: &[PathBuf]) -> Result<ExitCode, Failure> {
-    let paths: Vec<String> = files.iter().map(|f| f.display().to_string()).collect();
+    let records = records(args, files);
+    let paths: Vec<String> = records.iter().map(|record| record.path.display().to_string()).collect();
+    let what = if args.signal.channel.len() < 2 { "file" } else { "signal" };
     let of_same = |previous: &Value| {
         let records = previous["records"].as_array();
         records.is_some_and(|all| {
@@ -76,8 +81,7 @@ pub(super) fn analyze(args: &AnalyzeArgs, files: &[PathBuf]) -> Result<ExitCode,
     };
     let earlier = earlier(args, files, of_same)?;
     let quiet = args.quiet || args.json.as_deref() == Some(Path::new("-"));
-    let names = names(files);
-    let width = names.iter().map(|n| n.chars().count()).max().unwrap_or(0);
+    let width = records.iter().map(|r| r.name.chars().count()).max().unwrap_or(0);
     let width = width.clamp(4, WIDEST);
     let mut columns = COLUMNS;
     // Of several each has its name, and may have another's.
@@ -89,17 +93,17 @@ pub(super) fn analyze(args: &AnalyzeArgs, files: &[PathBuf]) -> Result<ExitCode,
     }
     if !quiet {
         let heads = columns.map(|(head, width)| format!("{head:>width$}"));
-        say!("{:<width$} {}", "file", heads.join(" "));
+        say!("{what:<width$} {}", heads.join(" "));
     }
     let mut rows: Vec<Row> = Vec::new();
-    for (path, name) in files.iter().zip(names) {
-        let found = one(args, path).map_err(|error| {
+    for record in records {
+        let found = one(&record).map_err(|error| {
             let words = error.to_string().replace('\n', " ");
             // The row has its name.
-            let named = format!("{}: ", path.display());
+            let named = format!("{}: ", record.path.display());
             words.strip_prefix(&named).map_or(words.clone(), str::to_owned)
         });
-        let row = Row { name, found };
+        let row = Row { name: record.name, found };
         if !quiet {
             match &row.found {
                 Ok(found) => {
@@ -117,11 +121,13 @@ pub(super) fn analyze(args: &AnalyzeArgs, files: &[PathBuf]) -> Result<ExitCode,
         && failed == rows.len()
     {
         // Most often an option that is missing.
-        return Err(Failure::Usage(format!("none of the {failed} files could be analysed; the first, {name}: {why}")));
+        return Err(Failure::Usage(format!(
+            "none of the {failed} {what}s could be analysed; the first, {name}: {why}"
+        )));
     }
     let written = write(args, &rows, &paths, &earlier)?;
     if failed > 0 {
-        complain!("error: {failed} of {} files could not be analysed", rows.len());
+        complain!("error: {failed} of {} {what}s could not be analysed", rows.len());
     }
     if !quiet {
         let mut short = rows.iter().filter(|r| r.found.as_ref().is_ok_and(|f| f.too_short));
@@ -129,6 +135,9 @@ pub(super) fn analyze(args: &AnalyzeArgs, files: &[PathBuf]) -> Result<ExitCode,
             let more = short.count();
             let others = if more > 0 { format!(" and {more} more") } else { String::new() };
             say!("  {}{others}: {}", one_line(name), first.sentences.join(" "));
+        }
+        if let Some(words) = leading(args, &rows) {
+            say!("{words}");
         }
         for (name, speed) in speeds_used(&rows) {
             say!("  {}: {speed}", one_line(name));
@@ -138,7 +147,20 @@ pub(super) fn analyze(args: &AnalyzeArgs, files: &[PathBuf]) -> Result<ExitCode,
     Ok(ExitCode::from(u8::from(failed > 0)))
 }
 
-fn one(args: &AnalyzeArgs, path: &Path) -> Result<Found, Failure> {
+/// The verdict of several channels of one machine: that of the highest score.
+fn leading(args: &AnalyzeArgs, rows: &[Row]) -> Option<String> {
+    let score = |row: &Row| row.found.as_ref().ok().and_then(|found| found.lead);
+    let calls = rows.iter().filter(|row| score(row).is_some());
+    let lead = calls.max_by(|a, b| score(a).unwrap_or(0.0).total_cmp(&score(b).unwrap_or(0.0)));
+    let several = args.signal.channel.len() > 1;
+    let words = lead.map(|row| {
+        let sentences = row.found.as_ref().map_or(Vec::new(), |found| found.sentences.clone());
+        format!("{} leads: {}", one_line(&row.name), sentences.join(" "))
+    });
+    several.then(|| words.unwrap_or_else(|| "No damage is called in any of them.".into()))
+}
+
+fn one(Record { args, path, .. }: &Record) -> Result<Found, Failure> {
     let found = match too_short(args, load(args, path)?)? {
         Ok(short) => Found::of_short(short),
         Err(measured) => Found::of(&results(args, path, measured)?),
@@ -147,21 +169,6 @@ fn one(args: &AnalyzeArgs, path: &Path) -> Result<Found, Failure> {
         found.warnings.iter().for_each(|warning| complain!("warning: {}: {warning}", path.display()));
     }
     Ok(found)
-}
-
-/// File names, or whole paths where two are called alike.
-fn names(files: &[PathBuf]) -> Vec<String> {
-    let short = |path: &PathBuf| (path.file_name()).map(|n| n.to_string_lossy().into_owned());
-    let mut all: Vec<Option<String>> = files.iter().map(short).collect();
-    let own = all.clone();
-    all.sort();
-    let alike = all.windows(2).any(|pair| pair[0] == pair[1]);
-    (files.iter().zip(own))
-        .map(|(path, name)| match name {
-            Some(name) if !alike => name,
-            _ => path.display().to_string(),
-        })
-        .collect()
 }
 
 impl Found {
@@ -173,6 +180,7 @@ impl Found {
             too_short: true,
             sentences: vec![short.why],
             damage: false,
+            lead: None,
             unit: short.measured.unit,
             rms: short.rms,
             peak: Some(Estimate { value: short.peak, interval: None }),
@@ -226,6 +234,7 @@ impl Found {
                 _ => results.iter().map(|r| format!("{}: {}", r.name, r.verdict_text())).collect(),
             },
             damage: lead.is_some(),
+            lead: lead.and_then(|k| ends::score(&results[k])),
             unit: m.unit.clone(),
             rms: a.indicator(Indicator::Rms),
             // The record's own, which has no interval.
@@ -295,10 +304,13 @@ fn write(args: &AnalyzeArgs, rows: &[Row], paths: &[String], earlier: &Earlier) 
             Err(why) => json!({ "file": { "path": path }, "error": why }),
         })
         .collect();
-    let json = json!({ "brinell": brinell::VERSION, "records": records });
+    let mut json = json!({ "brinell": brinell::VERSION, "records": records });
+    if let Some(words) = leading(args, rows) {
+        json["leading"] = words.into();
+    }
     let mut written = Vec::new();
     if let Some(folder) = &args.output {
-        let report = report(rows);
+        let report = report(args, rows);
         written = put_pages(
             folder,
             &args.plots,
@@ -324,7 +336,7 @@ const TREND: &str = "In the order of the table; numbers on the axis are those of
     harmonics rise over the noise; the verdict also takes how deep they modulate the envelope, and leaves out lines that \
     another part's damage accounts for: a high score alone is no damage.";
 
-fn report(rows: &[Row]) -> Study {
+fn report(args: &AnalyzeArgs, rows: &[Row]) -> Study {
     let found = || rows.iter().filter_map(|r| r.found.as_ref().ok());
     let failures = rows.iter().filter_map(|r| Some((r.name.clone(), r.found.as_ref().err()?.clone())));
     let failures: Vec<(String, String)> = failures.collect();
@@ -349,7 +361,10 @@ fn report(rows: &[Row]) -> Study {
     let verdicts = Table::new("Verdicts", ["File", "Verdict"], verdicts, "");
     let mut trend = vec![StudyPiece::Note(TREND.into())];
     trend.extend(plots(rows).into_iter().map(StudyPiece::Trend));
-    let subtitle = format!("{} files, damage called in {damaged}, no result from {}", rows.len(), failures.len());
+    let leading = leading(args, rows);
+    let what = if leading.is_some() { "signals" } else { "files" };
+    let mut subtitle = format!("{} {what}, damage called in {damaged}, no result from {}", rows.len(), failures.len());
+    subtitle += &leading.map_or(String::new(), |words| format!(". {words}"));
     let mut chapters = vec![Chapter::table("files", "Files", table)];
     if !verdicts.rows.is_empty() {
         chapters.push(Chapter::table("verdicts", "Verdicts", verdicts));

@@ -25,6 +25,9 @@ pub(super) fn pattern(
         }
         return Ok(None);
     };
+    if args.signal.channel.len() > 1 {
+        return Err(Failure::Usage("--channel: expected one channel to fit to, and there are several".into()));
+    }
     let signal = load(file, &Wanted::of(&args.signal))?;
     let name = signal.path.display();
     let measured = Measured { x: &signal.x, rate: signal.rate, unit: &signal.unit };

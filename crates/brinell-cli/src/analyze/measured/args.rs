@@ -4,11 +4,12 @@ use crate::args::quantity;
 use clap::Args;
 
 /// The options about the signal in a file.
-#[derive(Debug, Default, PartialEq, Args)]
+#[derive(Debug, Clone, Default, PartialEq, Args)]
 pub(crate) struct SignalArgs {
-    /// Channel: its name, words of it that no other has (DE of X098_DE_time), or its number from 1; `X(:,2)` takes a matrix's column
+    /// Channel: its name, words of it that no other has (DE of X098_DE_time), or its number from 1; `X(:,2)` takes a matrix's column. `analyze` takes
+    /// it again for further ones of the same machine, as of a triaxial sensor or of both ends: each is judged, and the clearest leads
     #[arg(long, value_name = "NAME|N")]
-    pub(crate) channel: Option<String>,
+    pub(crate) channel: Vec<String>,
     /// Sample rate
     #[arg(
         long,

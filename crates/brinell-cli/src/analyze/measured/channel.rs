@@ -43,7 +43,7 @@ pub(super) fn channel(
 ) -> Result<Chosen, Failure> {
     let option = format!("--{}channel", wanted.whose);
     let one = |(name, channel)| Chosen::One(name, channel);
-    if let Some(text) = wanted.signal.channel.as_deref() {
+    if let Some(text) = wanted.signal.channel.first().map(String::as_str) {
         let (name, channel) = resolve(file, text, &option)?;
         let others = || file.channels().iter().filter(|c| c.may_be_signal() && !c.is_time());
         if channel.is_time() && others().next().is_some() {
