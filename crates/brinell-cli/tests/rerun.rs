@@ -23,13 +23,7 @@ fn text(folder: &Path, name: &str) -> String {
     fs::read_to_string(folder.join(name)).unwrap()
 }
 
-/// A fast run-up of soft balls under their weight, which `standard` leaves open.
-const OPEN: &str = "[bearing]\nelement = \"ball\"\ninner_raceway_diameter_mm = 443.59\nouter_raceway_diameter_mm = 945.558\n\
-    roller_diameter_mm = 250.984\nrollers_per_row = 6\ninner_groove_conformity = 0.583\nouter_ring_mass_kg = 0.440201\n\
-    [operation]\nspeed_rpm = [[0.0, 60.0], [0.0028, 7200.0]]\nload_n = [0.0, 0.0]\nload_on = \"inner-ring\"\n\
-    gravity_m_per_s2 = [0.0, -9.81]\n[contact]\nyoungs_modulus_gpa = 5.5\n[friction]\nraceway_coefficient = 0.0\n\
-    [support]\ninner_stiffness_n_per_m = 443045000.0\nouter_stiffness_n_per_m = 5975120000.0\n\
-    [simulation]\nduration_s = 0.00205\nrecord = [\"*\"]\n";
+const OPEN: &str = include_str!("../../brinell/tests/open-audit.toml");
 
 #[test]
 fn prop_files_of_a_run_that_is_made_again_are_those_at_reference() {
