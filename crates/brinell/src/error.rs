@@ -49,15 +49,16 @@ pub enum Error {
     },
     /// The run would take more steps than `simulation.most_steps` allows.
     #[error(
-        "simulation.most_steps = {most}: the run would take about {steps:.0e} steps of {} us, set by {held}; run shorter, soften what makes steps so \
-         short, or allow more steps",
+        "simulation.most_steps = {most:e}: the run would take about {:e} steps of {} us, set by {held}; run shorter, soften what makes steps so short, \
+         or allow as many",
+        round_up(*.steps),
         rounded(1e6 * *.step, 2)
     )]
     TooLong {
         /// What it would take.
         steps: f64,
         /// What it may take.
-        most: u64,
+        most: f64,
         /// Mean step so far seen, s.
         step: f64,
         /// What sets their length, in words.
@@ -95,6 +96,12 @@ impl From<Vec<Problem>> for Error {
     fn from(problems: Vec<Problem>) -> Self {
         Self::Scenario(problems)
     }
+}
+
+/// To one digit, up.
+fn round_up(x: f64) -> f64 {
+    let unit = 10_f64.powf(x.log10().floor());
+    rounded((x / unit).ceil() * unit, 2)
 }
 
 fn lines(problems: &[Problem]) -> String {

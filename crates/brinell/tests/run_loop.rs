@@ -54,11 +54,11 @@ fn prop_a_run_of_more_steps_than_allowed_is_refused() {
     let cost = cost(&Simulation::new(&scenario).unwrap()).unwrap();
     let steps = Simulation::new(&scenario).unwrap().run(&mut ()).work.solver.steps;
     assert!((0.5..2.0).contains(&(cost.steps / steps as f64)), "{cost:?} for {steps} steps");
-    scenario.simulation.most_steps = steps / 2;
+    scenario.simulation.most_steps = 0.5 * steps as f64;
     let outcome = Simulation::new(&scenario).unwrap().run(&mut ());
     let End::Failed(error @ Error::TooLong { most, .. }) = outcome.end else { panic!("{:?}", outcome.end) };
-    assert!(error.is_bad_input() && most == steps / 2 && error.to_string().contains("simulation.most_steps"));
-    assert!(outcome.work.solver.steps <= most + 32);
+    assert!(error.is_bad_input() && most == 0.5 * steps as f64 && error.to_string().contains("simulation.most_steps"));
+    assert!(outcome.work.solver.steps as f64 <= most + 32.0);
 }
 
 #[test]

@@ -3,6 +3,7 @@
 use crate::args::RunArgs;
 use crate::files::Source;
 use crate::say::{complain, plural, short};
+use crate::sweep::duration;
 use brinell::document::Loaded;
 use brinell::many;
 use brinell::result::RunResult;
@@ -17,7 +18,7 @@ const PRINTED: usize = 5;
 pub(super) fn of(
     args: &RunArgs,
     (source, loaded): (&Source, &Loaded),
-    run: &RunResult,
+    (run, seconds): (&RunResult, Option<f64>),
     stop: &AtomicBool,
 ) -> Option<Spread> {
     if !args.spread || run.outcome.end != End::Complete {
@@ -25,10 +26,13 @@ pub(super) fn of(
     }
     let load = |key: &str, value: f64| Ok(source.variant(&[(key.to_owned(), value.to_string())])?.scenario);
     let keys = brinell_study::campaign::assumed(&loaded.provenance);
-    if !args.quiet {
-        complain!("spread: {} at both ends of their plausible ranges", plural(keys.len(), "assumed value"));
-    }
     let threads = args.jobs.unwrap_or(many::threads(2 * keys.len()));
+    if !args.quiet {
+        let all =
+            |seconds: f64| format!(", about {}", duration(seconds * (2 * keys.len()) as f64 / threads.get() as f64));
+        let cost = seconds.map_or(String::new(), all);
+        complain!("spread: {} at both ends of their plausible ranges{cost}", plural(keys.len(), "assumed value"));
+    }
     run_spread(keys, &run.quantities(), load, threads, stop)
 }
 

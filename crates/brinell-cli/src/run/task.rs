@@ -33,6 +33,8 @@ pub(super) struct Ready {
     /// What it was read from, to be read again with other values.
     source: Source,
     beforehand: Beforehand,
+    /// Wall time that it will take, about.
+    seconds: Option<f64>,
     /// The photos that its defects' outlines were read from.
     photos: Vec<Option<Photo>>,
 }
@@ -61,14 +63,14 @@ pub(super) fn ready(args: &RunArgs, path: &Path, inputs: &mut Inputs) -> Result<
     let beforehand = Beforehand::of(&loaded.scenario, simulation.model());
     let cost = match forecast(&simulation) {
         Err(error) if error.is_bad_input() => return Err(error.into()),
-        tried => tried.ok().filter(|cost| cost.seconds > LONG),
+        tried => tried.ok(),
     };
     if !args.quiet {
         if args.scenarios.len() > 1 && !beforehand.warnings.is_empty() {
             complain!("{}:", path.display());
         }
         print_problems("", "", &beforehand.warnings);
-        if let Some(cost) = cost {
+        if let Some(cost) = cost.filter(|cost| cost.seconds > LONG) {
             complain!("{}: about {} steps, about {}", path.display(), short(cost.steps, 2), duration(cost.seconds));
         }
     }
@@ -76,7 +78,7 @@ pub(super) fn ready(args: &RunArgs, path: &Path, inputs: &mut Inputs) -> Result<
         true => Vec::new(),
         false => source.photos(),
     };
-    Ok(Ready { photos, loaded, source, beforehand })
+    Ok(Ready { photos, loaded, source, beforehand, seconds: cost.map(|cost| cost.seconds) })
 }
 
 /// A run that is over, its files written.
@@ -117,7 +119,7 @@ pub(super) fn earlier(args: &RunArgs, loaded: &Loaded, folder: &Path, inputs: &I
 
 /// Runs, and writes everything that was requested into the folder, in place of the earlier results.
 pub(super) fn execute(args: &RunArgs, task: &Task, mut progress: Progress, stop: &AtomicBool) -> Result<Done, Failure> {
-    let Task { ready: Ready { loaded, source, beforehand, photos }, folder, earlier } = task;
+    let Task { ready: Ready { loaded, source, beforehand, seconds, photos }, folder, earlier } = task;
     let simulation = Simulation::unchecked(&loaded.scenario)?;
     let layout = args.print.layout(&args.plots)?;
     let mut loads = line_loads::requested(args, &simulation, task.duration_s())?;
@@ -141,7 +143,7 @@ pub(super) fn execute(args: &RunArgs, task: &Task, mut progress: Progress, stop:
     if formats(args).contains(&Format::Parquet) {
         ready.extend(spectra::ready(&finished.findings, folder)?);
     }
-    let spread = spread::of(args, (source, loaded), &finished, stop);
+    let spread = spread::of(args, (source, loaded), (&finished, *seconds), stop);
     let RunResult { simulation, outcome, findings, .. } = finished;
     let interrupted = stop.load(Ordering::Relaxed) && outcome.end == End::Stopped;
     let parts = Parts {

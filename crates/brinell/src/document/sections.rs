@@ -15,7 +15,7 @@ use crate::scenario::*;
 use crate::signal::rounded;
 
 /// Default of `simulation.most_steps`.
-const MOST_STEPS: u64 = 100_000_000;
+const MOST_STEPS: f64 = 1e8;
 
 const POINT_OF_SCOPE: &str = "not in the paper's model";
 
@@ -314,7 +314,7 @@ fn simulation<K: Keys>(k: &mut K, (o, pushes): (&Operation, bool), s: &mut Simul
         &mut s.accuracy,
     );
     k.key(
-        key("most_steps", "steps that the run may take: one that would take more is refused"),
+        key("most_steps", "steps that the run may take: one that would take more is refused").from(1.0),
         stated(MOST_STEPS, "minutes to an hour; a second of most bearings takes some 1e5"),
         &mut s.most_steps,
     );

@@ -101,7 +101,7 @@ pub(crate) fn scenario() -> Scenario {
             sample_rate_hz: NONE,
             start: ValueType::blank(),
             accuracy: ValueType::blank(),
-            most_steps: 0,
+            most_steps: NONE,
             record: Vec::new(),
         },
     }

@@ -59,7 +59,7 @@ impl RunResult {
 }
 
 /// Steps at `reference` over those at `standard`, about: a run that would take too many is left as it is.
-const TIGHTER: u64 = 12;
+const TIGHTER: f64 = 12.0;
 
 /// Runs a simulation and gathers its findings; `observer` is informed of the run as it goes, and may stop it. A run at
 /// `standard` whose energy audit stays open is made again at `reference`, where [`Observer::again`] allows it.
@@ -68,7 +68,7 @@ pub fn finish(scenario: Scenario, mut simulation: Simulation, observer: &mut dyn
     if outcome.end == End::Complete
         && simulation.accuracy() == Accuracy::Standard
         && let Some(open) = outcome.energy.left_open()
-        && TIGHTER * outcome.work.solver.steps <= scenario.simulation.most_steps
+        && TIGHTER * outcome.work.solver.steps as f64 <= scenario.simulation.most_steps
         && observer.again(&simulation).is_continue()
     {
         simulation.hold(Accuracy::Reference);

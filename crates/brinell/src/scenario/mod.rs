@@ -423,7 +423,7 @@ pub struct Simulation {
     /// Tolerance.
     pub accuracy: Accuracy,
     /// Steps that a run may take.
-    pub most_steps: u64,
+    pub most_steps: f64,
     /// Channel names to record, `*` matches any run of characters.
     pub record: Vec<String>,
 }

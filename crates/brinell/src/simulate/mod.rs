@@ -202,7 +202,7 @@ pub struct Simulation {
     samples: u64,
     accuracy: Accuracy,
     /// Steps that a run may take.
-    most_steps: u64,
+    most_steps: f64,
 }
 
 impl Simulation {

@@ -1,46 +1,63 @@
 //! How fast a run goes: how many steps it will take, and whether it may.
 
-/// Steps after which a run that would take too many is refused: the start may be stiffer than what follows.
-const WATCHED: std::ops::Range<u64> = 65_536..131_072;
+/// Steps from which on a run that would take too many is refused where its pace is steady: the start may be stiffer than what follows.
+const WATCHED: u64 = 65_536;
+/// The same however its pace is.
+const SURE: u64 = 8 * WATCHED;
+/// Factor between the mean steps of one stretch and of the next, twice as long, up to which the pace is steady.
+const STEADY: f64 = 1.5;
 
-/// How fast time goes: the pace of the later half of the steps so far.
+/// How fast time goes.
 #[derive(Debug, Clone)]
 pub(super) struct Pace {
     /// Steps, of a number that doubles, and the time then reached, s.
     marks: [(u64, f64); 2],
     /// End of the run, s.
     end: f64,
-    most: u64,
+    /// Steps that the run may take.
+    pub(super) most: f64,
+}
+
+/// What the later half of the steps so far tells.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Told {
+    /// Steps of the whole run.
+    pub(super) steps: f64,
+    /// Mean length of a step, s.
+    pub(super) step: f64,
+    /// Whether the quarter before went as fast.
+    pub(super) steady: bool,
 }
 
 impl Pace {
-    pub(super) fn new(end: f64, most: u64) -> Self {
+    pub(super) fn new(end: f64, most: f64) -> Self {
         Self { marks: [(0, 0.0); 2], end, most }
     }
 
     /// Without bound, of a run without end.
     pub(super) fn unbounded() -> Self {
-        Self::new(0.0, u64::MAX)
+        Self::new(0.0, f64::INFINITY)
     }
 
-    /// After so many steps at the time `t`: all the steps that the run takes, and the mean of the later ones, s.
-    pub(super) fn expected(&self, steps: u64, t: f64) -> (f64, f64) {
-        let (before, from) = self.marks[0];
-        let step = (t - from) / (steps - before).max(1) as f64;
-        (steps as f64 + (self.end - t).max(0.0) / step, step)
-    }
-
-    /// Steps that the run may take.
-    pub(super) fn most(&self) -> f64 {
-        self.most as f64
-    }
-
-    /// What they are where a run is to be refused: it has taken too many steps, or soon will have.
-    pub(super) fn too_long(&mut self, steps: u64, t: f64) -> Option<(f64, f64)> {
-        let told = self.expected(steps, t);
-        if steps >= 2 * self.marks[1].0 {
-            self.marks = [self.marks[1], (steps, t)];
+    /// After so many steps at the time `t`, each time that their number has doubled.
+    pub(super) fn told(&mut self, steps: u64, t: f64) -> Option<Told> {
+        if steps < 2 * self.marks[1].0 {
+            return None;
         }
-        (steps >= self.most || WATCHED.contains(&steps) && told.0 > self.most()).then_some(told)
+        let mean = |(n, t): (u64, f64), (before, from): (u64, f64)| (t - from) / (n - before).max(1) as f64;
+        let (step, before) = (mean((steps, t), self.marks[1]), mean(self.marks[1], self.marks[0]));
+        self.marks = [self.marks[1], (steps, t)];
+        let steady = step < STEADY * before && before < STEADY * step;
+        Some(Told { steps: steps as f64 + (self.end - t).max(0.0) / step, step, steady })
+    }
+
+    /// What is told where the run is to be refused: it has taken too many steps, or will have.
+    pub(super) fn too_long(&mut self, steps: u64, t: f64) -> Option<Told> {
+        let told = self.told(steps, t);
+        if steps as f64 >= self.most {
+            let step = t / steps as f64;
+            return Some(Told { steps: steps as f64 + (self.end - t).max(0.0) / step, step, steady: false });
+        }
+        told.filter(|told| told.steps > self.most && (steps >= SURE || steps >= WATCHED && told.steady))
     }
 }

@@ -3,7 +3,7 @@
 use super::Decimator;
 use super::averages::{Averages, LAG};
 use super::failure::{body, explain};
-use super::pace::Pace;
+use super::pace::{Pace, Told};
 use super::switches::Switches;
 use super::{End, EnergyAudit, Observer, Outcome, Simulation, SolverWork};
 use crate::accuracy::settings;
@@ -243,7 +243,7 @@ impl<S: Deref<Target = Simulation>> Run<S> {
     }
 
     /// Why a run of so many steps of such a length does not go on.
-    fn too_long(&mut self, (steps, step): (f64, f64)) -> Error {
+    pub(super) fn too_long(&mut self, Told { steps, step, .. }: Told) -> Error {
         let model = &self.simulation.model;
         let held = match self.stepper.hardest() {
             None => String::from("stability: the stiffest contacts, dampers and friction on the lightest parts"),

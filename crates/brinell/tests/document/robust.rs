@@ -395,7 +395,7 @@ fn scenarios() -> impl Strategy<Value = Scenario> {
                 sample_rate_hz: 1.0 + x[13],
                 start: [Start::Rolling, Start::Rest, Start::Equilibrium][words.3],
                 accuracy: [Accuracy::Standard, Accuracy::Reference][words.4],
-                most_steps: x[7].to_bits(),
+                most_steps: 1.0 + x[7],
                 record,
             },
         },
