@@ -121,7 +121,7 @@ def test_prop_ctrl_c_stops_a_run(call, examples):
     program = f"""
         import brinell, os, signal, sys, threading
         # Hours of simulated time.
-        base = brinell.Scenario.from_file({str(examples / "rectangle.toml")!r}, {{"simulation.duration_s": 20000.0,
+        base = brinell.Scenario.from_file({str(examples / "rectangle.toml")!r}, {{"simulation.duration_s": 20000.0, "simulation.most_steps": 1e12,
             "simulation.record": ["sensor_ax"], "simulation.sample_rate_hz": 25600.0}})
         threading.Timer(1.0, os.kill, (os.getpid(), signal.SIGINT)).start()
         try:
