@@ -3,6 +3,7 @@
 /// Columns after the name, with their widths on the terminal.
 pub(super) const COLUMNS: [(&str, usize); 7] =
     [("s", 8), ("damage", 28), ("RMS", 16), ("peak", 16), ("kurtosis", 9), ("mm/s", 9), ("zone", 5)];
+
 /// A row on as many lines as its longest cell needs.
 pub(super) fn in_columns(name: &str, width: usize, cells: &[String; 7], columns: &[(&str, usize); 7]) -> Vec<String> {
     let name = wrapped(name, width);

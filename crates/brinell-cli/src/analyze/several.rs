@@ -36,8 +36,7 @@ struct Found {
     too_short: bool,
     /// The same in whole, of each bearing.
     sentences: Vec<String>,
-    damage: bool,
-    /// Score of the damage that leads.
+    /// Score of the damage that leads; `None` where none is called.
     lead: Option<f64>,
     unit: Unit,
     rms: Option<Estimate>,
@@ -149,15 +148,15 @@ pub(super) fn analyze(args: &AnalyzeArgs, files: &[PathBuf]) -> Result<ExitCode,
 
 /// The verdict of several channels of one machine: that of the highest score.
 fn leading(args: &AnalyzeArgs, rows: &[Row]) -> Option<String> {
-    let score = |row: &Row| row.found.as_ref().ok().and_then(|found| found.lead);
-    let calls = rows.iter().filter(|row| score(row).is_some());
-    let lead = calls.max_by(|a, b| score(a).unwrap_or(0.0).total_cmp(&score(b).unwrap_or(0.0)));
-    let several = args.signal.channel.len() > 1;
-    let words = lead.map(|row| {
-        let sentences = row.found.as_ref().map_or(Vec::new(), |found| found.sentences.clone());
-        format!("{} leads: {}", one_line(&row.name), sentences.join(" "))
-    });
-    several.then(|| words.unwrap_or_else(|| "No damage is called in any of them.".into()))
+    if args.signal.channel.len() < 2 {
+        return None;
+    }
+    let found = rows.iter().filter_map(|row| Some((row, row.found.as_ref().ok()?)));
+    let calls = found.filter_map(|(row, found)| Some((row, found, found.lead?)));
+    Some(match calls.max_by(|a, b| a.2.total_cmp(&b.2)) {
+        Some((row, found, _)) => format!("{} leads: {}", one_line(&row.name), found.sentences.join(" ")),
+        None => "No damage is called in any of them.".into(),
+    })
 }
 
 fn one(Record { args, path, .. }: &Record) -> Result<Found, Failure> {
@@ -179,7 +178,6 @@ impl Found {
             verdict: "too short".into(),
             too_short: true,
             sentences: vec![short.why],
-            damage: false,
             lead: None,
             unit: short.measured.unit,
             rms: short.rms,
@@ -233,7 +231,6 @@ impl Found {
                 [only] => vec![only.verdict_text()],
                 _ => results.iter().map(|r| format!("{}: {}", r.name, r.verdict_text())).collect(),
             },
-            damage: lead.is_some(),
             lead: lead.and_then(|k| ends::score(&results[k])),
             unit: m.unit.clone(),
             rms: a.indicator(Indicator::Rms),
@@ -340,7 +337,7 @@ fn report(args: &AnalyzeArgs, rows: &[Row]) -> Study {
     let found = || rows.iter().filter_map(|r| r.found.as_ref().ok());
     let failures = rows.iter().filter_map(|r| Some((r.name.clone(), r.found.as_ref().err()?.clone())));
     let failures: Vec<(String, String)> = failures.collect();
-    let damaged = found().filter(|f| f.damage).count();
+    let damaged = found().filter(|f| f.lead.is_some()).count();
     let table = Table::new(
         "Files",
         ["#No.", "File", "#Length, s", "Damage", "#RMS", "#Peak", "#Kurtosis", "#RMS velocity, mm/s", "Zone"],

@@ -48,7 +48,12 @@ impl Pace {
         let (step, before) = (mean((steps, t), self.marks[1]), mean(self.marks[1], self.marks[0]));
         self.marks = [self.marks[1], (steps, t)];
         let steady = step < STEADY * before && before < STEADY * step;
-        Some(Told { steps: steps as f64 + (self.end - t).max(0.0) / step, step, steady })
+        Some(Told { steps: self.whole(steps, t, step), step, steady })
+    }
+
+    /// Steps of the whole run, where those to come are as long as `step`, s.
+    fn whole(&self, steps: u64, t: f64, step: f64) -> f64 {
+        steps as f64 + (self.end - t).max(0.0) / step
     }
 
     /// What is told where the run is to be refused: it has taken too many steps, or will have.
@@ -56,7 +61,7 @@ impl Pace {
         let told = self.told(steps, t);
         if steps as f64 >= self.most {
             let step = t / steps as f64;
-            return Some(Told { steps: steps as f64 + (self.end - t).max(0.0) / step, step, steady: false });
+            return Some(Told { steps: self.whole(steps, t, step), step, steady: false });
         }
         told.filter(|told| told.steps > self.most && (steps >= SURE || steps >= WATCHED && told.steady))
     }
