@@ -1,10 +1,12 @@
 """What each part of the verdict of `brinell analyze` adds, counted on measured records.
 
     python3 validation/ablation/ablate.py SCORE.PY [--harder] [--target FOLDER] [WORDS OF A VARIANT ...]
+    python3 validation/ablation/ablate.py --tests [--target FOLDER] [WORDS OF A VARIANT ...]
     python3 validation/ablation/ablate.py --check
 
 Copies the tracked files to a temporary folder, takes one part out of crates/brinell-signal/src/analysis/ for each variant, builds the command there and
-runs SCORE.PY on it; with --harder ../robustness/robustness.py too, on the records beside SCORE.PY. Prints a row of a Markdown table a variant.
+runs SCORE.PY on it; with --harder ../robustness/robustness.py too, on the records beside SCORE.PY. Prints a row of a Markdown table a variant. With --tests
+it runs the tests of the analysis on synthetic rigs, known evidence and simulated runs instead, and names those that fail.
 Standard library only, but for --harder; see README.md.
 """
 
@@ -144,6 +146,19 @@ def build(folder, target):
     return target / "release" / "brinell"
 
 
+def failing(folder, target):
+    """Names of the tests that fail: on rigs and known evidence, then on simulated runs."""
+    env = os.environ | {"CARGO_TARGET_DIR": str(target), "CARGO_INCREMENTAL": "1"}
+    failed = []
+    for package in (["brinell-signal"], ["brinell", "--test", "all", "--", "signal_on_runs"]):
+        command = ["cargo", "test", "--locked", "--no-fail-fast", "-p", *package]
+        done = subprocess.run(command, cwd=folder, env=env, capture_output=True, text=True)
+        if "test result:" not in done.stdout:
+            raise SystemExit(done.stderr)
+        failed += re.findall(r"^test (?:\w+::)*(\w+) \.\.\. FAILED", done.stdout, re.MULTILINE)
+    return failed
+
+
 def score(script, binary):
     """Counts by group, as the script's last line has them."""
     done = subprocess.run([sys.executable, script, binary], check=True, capture_output=True, text=True)
@@ -164,19 +179,24 @@ def cells(groups):
     return [found("fault"), alarms("healthy"), alarms("other-end"), found("uestc"), alarms("uestc-healthy")]
 
 
-HARDER = {"cut": "cut to 0.6 to 3 s", "speed given": "speed 1 to 10 % off", "sampled": "sampled 2 to 8 times as fast", "asked": "other bearings"}
+HARDER = {
+    "cut": "cut to 0.6 to 3 s", "speed given": "speed 1 to 10 % off", "far": "speed 17 to 50 % off", "sampled": "sampled 2 to 8 times as fast",
+    "asked": "other bearings",
+}
 
 
 def harder(records, binary):
     """Sums over the rows of robustness.py: right / wrong / not called; called of sound ones."""
     script = ROOT / "validation/robustness/robustness.py"
-    done = subprocess.run([sys.executable, script, records, binary, "cut,speed,rate,bearing"], check=True, capture_output=True, text=True)
+    done = subprocess.run([sys.executable, script, records, binary, "cut,speed,far,rate,bearing"], check=True, capture_output=True, text=True)
     sums = {start: [0] * 4 for start in HARDER}
     for line in done.stdout.splitlines()[2:]:
         way, damaged, sound, _ = (cell.strip() for cell in line.strip("|\n ").split("|"))
         counts = [int(n) for n in damaged.split(" / ")] if "/" in damaged else [0, 0, 0]
         counts.append(int(sound.split(" of ")[0]) if "of" in sound else 0)
         start = next((start for start in HARDER if way.startswith(start)), None)
+        if start == "speed given" and abs(float(way.split()[2])) > 10.0:
+            start = "far"
         if start is None:
             continue
         sums[start] = [a + b for a, b in zip(sums[start], counts)]
@@ -188,11 +208,14 @@ def main():
     parser = argparse.ArgumentParser(description="What each part of the verdict adds, counted on measured records.")
     parser.add_argument("score", type=Path, nargs="?", help="score.py beside its records")
     parser.add_argument("--check", action="store_true", help="only see that every variant still applies")
+    parser.add_argument("--tests", action="store_true", help="name the tests that fail instead")
     parser.add_argument("--harder", action="store_true", help="also count the records made harder, by robustness.py")
     parser.add_argument("--target", type=Path, help="folder for what is built, kept [default: a temporary one]")
     parser.add_argument("words", nargs="*", help="only the variants that have one of these in their name")
     args = parser.parse_intermixed_args()
-    if not args.check and args.score is None:
+    if args.tests and args.score is not None:
+        args.words.insert(0, str(args.score))
+    elif not args.check and args.score is None:
         parser.error("SCORE.PY is missing")
     chosen = [v for v in VARIANTS if not args.words or any(word in v[0] for word in args.words)]
     with tempfile.TemporaryDirectory() as temporary:
@@ -206,6 +229,13 @@ def main():
             return
         built = set()
         target = (args.target or Path(temporary) / "target").resolve()
+        if args.tests:
+            print("| | tests that fail |\n| --- | --- |", flush=True)
+            for words, changes in chosen:
+                before = apply(changes, folder)
+                print(f"| {words} | {', '.join(f'`{name}`' for name in failing(folder, target)) or 'none'} |", flush=True)
+                restore(before)
+            return
         heads = ["", "right / second / wrong / missed", "healthy called", "other end called", "speed off", "its healthy called"]
         heads += [f"{words}: right / wrong / not called; sound called" for words in HARDER.values()] if args.harder else []
         print("| " + " | ".join(heads) + " |")

@@ -341,7 +341,7 @@ fn regress_the_verdict_on_the_run_up() {
 }
 
 /// How deep the passing rollers of healthy bearings modulate the envelope at BPFO in two seconds: what
-/// docs/src/results/analyze.md says of it.
+/// docs/src/results/analyze-evidence.md says of it.
 #[test]
 #[ignore = "prints a table; 28 runs of two seconds"]
 fn regress_bpfo_of_healthy_bearings() {

@@ -8,7 +8,7 @@
 //!
 //! In measured records of sound bearings families are present too, some of them high, and none of them modulates; of
 //! those that do, none is high. So damage takes both ([`Family::is_damage`]). The limits were set on 72 public records
-//! of three rigs (docs/src/results/analyze.md): of 31 of sound bearings none scores more than 10.1 or, at a score
+//! of three rigs (docs/src/results/analyze-evidence.md): of 31 of sound bearings none scores more than 10.1 or, at a score
 //! beyond noise, modulates by more than 18 %.
 
 #[cfg(test)]

@@ -13,7 +13,7 @@ use crate::{Band, Estimate, Indicator, Kurtogram, KurtogramBand, Spectrum};
 /// (varying compliance), which simulations without noise show. Evidence that modulates by less is weak there; some
 /// healthy single-row bearings go beyond.
 const PASSING: f64 = 0.4;
-/// Kurtosis from which a record has impacts: of the sound machines among the records of results/analyze.md it is 2.8 to
+/// Kurtosis from which a record has impacts: of the sound machines among the records of results/analyze-evidence.md it is 2.8 to
 /// 3.8, of the sound bearings beside a damaged one up to 13.
 const IMPULSIVE: f64 = 5.0;
 /// Kurtosis of noise.

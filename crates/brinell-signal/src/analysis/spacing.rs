@@ -10,7 +10,7 @@ const CARRIERS: i32 = 3;
 /// Distances tried, over the shaft's frequency.
 const TRIED: (f64, f64) = (0.2, 1.4);
 /// Height from which sidebands say how fast the shaft turns: 13 dB over noise on both sides of each harmonic. Those of
-/// races, in the records of docs/src/results/analyze.md at their true speeds, are 7 to 17 high and all at the shaft's
+/// races, in the records of docs/src/results/analyze-evidence.md at their true speeds, are 7 to 17 high and all at the shaft's
 /// frequency, within 1 %.
 const TELLS: f64 = 9.0;
 /// And over the height of the lines themselves: about very high ones whatever is there stands out.

@@ -41,7 +41,7 @@ const SHAFT_DOUBT: f64 = 0.005;
 /// Slip of a loaded induction motor, at most.
 const MOST_SLIP: f64 = 0.05;
 /// Turns of the shaft below which less damage is found: of what is found in four seconds (60 to 120 turns) of the
-/// records of results/analyze.md nine tenths in two, five sixths in one, three quarters in 0.6.
+/// records of results/analyze-evidence.md nine tenths in two, five sixths in one, three quarters in 0.6.
 const SHORT: f64 = 60.0;
 /// What else may excite the race at rest.
 const PASSING: &str = "Rollers that enter the load of a healthy bearing cause lines of its race too, and modulate the envelope as much where \
