@@ -38,7 +38,7 @@ class Analysis:
     families: list[dict[str, Any]]
     """Each defect frequency with its harmonics and sidebands, score and modulation; what is damage comes first."""
     severity: dict[str, Any]
-    """``velocity_rms_10_1000_hz`` with ``value``, ``unit`` and ``interval_95``, or ``why`` there is none; ``iso_20816_3`` with the ``zone`` where a
+    """``velocity_rms_10_1000_hz`` with ``value``, ``unit``, ``low`` and ``high``, or ``why`` there is none; ``iso_20816_3`` with the ``zone`` where a
     machine's class was given; levels of the ``band_shown``."""
     drift: dict[str, Any] | None
     """How the shaft's speed changes during the record, ``lowest`` and ``highest`` in r/min and when, where lines tell it; None where it is steady."""

@@ -18,7 +18,7 @@ use brinell_report::{Report, html};
 use brinell_study::campaign::{BALANCED, Misses, assumed, count, of_results, run_spread};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
-use serde_json::{Value, json};
+use serde_json::Value;
 use std::ops::ControlFlow;
 use std::sync::OnceLock;
 use std::sync::atomic::AtomicBool;
@@ -273,17 +273,6 @@ impl Run {
         self.with_parts(py, healthy, |parts| html(&Report::of_run(parts)))
     }
 
-    /// Every number of the run: name, unit, value, low and high end.
-    #[expect(clippy::type_complexity, reason = "a row of a table")]
-    fn quantities(&self) -> Vec<(String, String, Option<f64>, Option<f64>, Option<f64>)> {
-        let all = self.finished.quantities().into_iter();
-        all.map(|q| {
-            let ends = q.interval();
-            (q.name, q.unit, q.value, ends.map(|i| i.0), ends.map(|i| i.1))
-        })
-        .collect()
-    }
-
     /// What `summary.json` holds under `spread`: the assumed values at both ends of their plausible ranges, `jobs` runs at a time.
     #[pyo3(signature = (jobs=None))]
     fn spread<'py>(&self, py: Python<'py>, jobs: Option<isize>) -> PyResult<Bound<'py, PyAny>> {
@@ -368,29 +357,5 @@ impl Run {
             list.append(dict)?;
         }
         Ok(list)
-    }
-
-    /// Surface, row and centre of each defect, and the frequency of its impacts in pure rolling.
-    fn defects<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
-        let list: Vec<_> = self
-            .finished
-            .scenario
-            .defects
-            .iter()
-            .enumerate()
-            .map(|(k, d)| {
-                let line = self.finished.findings.lines.iter().find(|l| l.defect == k);
-                json!({
-                    "on": d.on.word(),
-                    "row": d.row,
-                    "center_deg": d.center_deg,
-                    "frequency": line.map(|l| l.name),
-                    "pure_rolling_hz": line.map(|l| l.nominal),
-                    "found_hz": line.and_then(|l| l.found).map(|f| f.frequency),
-                    "too_short": line.and_then(|l| l.too_short.as_ref()),
-                })
-            })
-            .collect();
-        json_to_python(py, &list.into())
     }
 }

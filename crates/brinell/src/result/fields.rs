@@ -94,13 +94,13 @@ fields! {
     ENERGY_RESIDUAL "energy_residual" "J" Exact "energy that no entry of the audit explains" |o| Some(o.energy.residual());
     RELATIVE_RESIDUAL "energy_residual_over_turnover" "1" Exact "energy that no entry of the audit explains, over all that moved"
         |o| o.energy.relative_residual();
+    PARAMETRIC_ENERGY "energy_parametric" "J" Exact "work of damage passing under rollers" |o| Some(o.energy.parametric);
     MOMENTUM_IMBALANCE "momentum_imbalance" "1" Extreme "largest relative imbalance of momentum, linear and angular" |o| o.momentum_imbalance;
 }
 
 fields! {
-    "What `summary.json` and data sets give in addition."
+    "How far the run came."
     COURSE: fn(&Outcome) -> Option<f64>;
-    PARAMETRIC_ENERGY "energy_parametric" "J" Exact "work of damage passing under rollers" |o| Some(o.energy.parametric);
     REACHED "reached" "s" Exact "simulated time that the run reached: its duration where it is complete" |o| Some(o.reached);
 }
 

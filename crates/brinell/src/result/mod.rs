@@ -15,5 +15,5 @@ pub use healthy::{Stretch, beside_healthy};
 pub use impacts::{Impacts, impacts};
 pub use quantities::{Quantity, Spread};
 #[doc(hidden)]
-pub use quantities::{UnknownName, check_name, listed, names, quantities};
+pub use quantities::{UnknownName, by_name, check_name, listed, names, quantities};
 pub use run::{RunResult, finish, record, simulate, simulate_with};
