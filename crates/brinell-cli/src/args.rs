@@ -119,6 +119,9 @@ pub(crate) struct SchemaArgs {
     /// Of the plans of `brinell dataset`
     #[arg(long)]
     pub(crate) plan: bool,
+    /// Of summary.json, which every run writes
+    #[arg(long, conflicts_with = "plan")]
+    pub(crate) summary: bool,
 }
 
 #[derive(Debug, Subcommand)]

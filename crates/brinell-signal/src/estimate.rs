@@ -1,10 +1,11 @@
 //! A number with its 95 % interval, by the scatter of what it is an average of.
 
 use super::scatter::{Scatter, scatter};
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// A 95 % interval.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Interval {
     /// Lower end.
     pub low: f64,
@@ -34,7 +35,7 @@ pub const MOST_FREEDOM: u32 = 1000;
 pub const NORMAL: f64 = 1.959_963_984_540_054;
 
 /// A number as every file of results has it: its value, and `low` and `high`, the ends of its 95 % interval, where there is one.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
 pub struct Written {
     value: Option<f64>,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -58,7 +59,7 @@ impl Written {
 }
 
 /// The same with its unit; empty where it has none.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
 pub struct InUnit<'a> {
     /// The number.
     #[serde(flatten)]
@@ -74,7 +75,7 @@ impl From<Estimate> for Written {
 }
 
 /// An indicator with its scatter.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
 #[serde(into = "Written")]
 pub struct Estimate {
     /// The value, within the interval.

@@ -14,10 +14,11 @@
 
 use super::estimate::{Estimate, Interval, Written};
 use super::scatter::student_t_quantile;
+use schemars::JsonSchema;
 use serde::Serialize;
 
 /// Ratio of one run's quantity to another's.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
 #[serde(into = "Written")]
 pub struct Ratio {
     /// Ratio of the values.

@@ -8,11 +8,12 @@ use crate::model::{self, Model};
 use crate::observe::load_zone::{BINS, RowLoad};
 use crate::observe::{Findings, passes};
 use crate::plausibility::{Beforehand, after};
-use crate::result::{by_name, quantities};
+use crate::result::{Quantity, by_name, fields, quantities};
 use crate::scenario::{Choice, Scenario, Speed};
 use crate::signal::Estimate;
 use crate::signal::ratio::Ratio;
 use crate::simulate::{End, Outcome, Simulation};
+use schemars::JsonSchema;
 use serde::Serialize;
 use serde_json::{Map, Value};
 use std::collections::BTreeMap;
@@ -39,7 +40,7 @@ pub struct Parts<'a> {
 }
 
 /// The file, in its order.
-#[derive(Debug, Serialize)]
+#[derive(Debug, Serialize, JsonSchema)]
 struct Summary<'a> {
     form: u32,
     brinell: &'static str,
@@ -50,6 +51,7 @@ struct Summary<'a> {
     defect_frequencies: Frequencies,
     defects: Vec<DefectPlace>,
     /// By name, as in `sweep.csv`, data sets and Python.
+    #[schemars(schema_with = "numbers")]
     quantities: Map<String, Value>,
     load_zone: LoadZone,
     solver: Solver,
@@ -92,8 +94,27 @@ pub fn to_json(parts: &Parts) -> Value {
     serde_json::to_value(summary).unwrap_or_default()
 }
 
+/// The schema of [`to_json`].
+pub fn json_schema() -> Value {
+    schemars::schema_for!(Summary).to_value()
+}
+
+/// Every number that a run may have, by the form of its name.
+fn numbers(generator: &mut schemars::SchemaGenerator) -> schemars::Schema {
+    let of = generator.subschema_for::<Quantity>();
+    let forms = fields::forms().map(|(form, unit, meaning)| {
+        let mut schema = serde_json::json!({ "allOf": [of], "description": meaning });
+        if let Some(unit) = unit {
+            schema["properties"] = serde_json::json!({ "unit": { "const": unit } });
+        }
+        (form, schema)
+    });
+    let forms: Map<String, Value> = forms.collect();
+    schemars::json_schema!({ "type": "object", "patternProperties": forms, "additionalProperties": false })
+}
+
 /// How a run ended.
-#[derive(Debug, Serialize)]
+#[derive(Debug, Serialize, JsonSchema)]
 struct Status {
     complete: bool,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -110,7 +131,7 @@ fn status(end: &End) -> Status {
     Status { complete: reason.is_none(), reason }
 }
 
-#[derive(Debug, Serialize)]
+#[derive(Debug, Serialize, JsonSchema)]
 struct Simulated {
     model: &'static str,
     accuracy: &'static str,
@@ -119,7 +140,7 @@ struct Simulated {
 }
 
 /// The set of laws, and the keys that hold something else than it has.
-#[derive(Debug, Serialize)]
+#[derive(Debug, Serialize, JsonSchema)]
 struct Laws {
     set: &'static str,
     differences: Vec<Difference>,
@@ -131,14 +152,14 @@ fn laws(scenario: &Scenario) -> Laws {
 }
 
 /// Of pure rolling.
-#[derive(Debug, Serialize)]
+#[derive(Debug, Serialize, JsonSchema)]
 struct Frequencies {
     /// Of the shaft and of each part; none where the speed varies.
     hz: Option<Orders>,
     per_shaft_turn: Orders,
 }
 
-#[derive(Debug, Serialize)]
+#[derive(Debug, Serialize, JsonSchema)]
 struct Orders {
     #[serde(skip_serializing_if = "Option::is_none")]
     shaft: Option<f64>,
@@ -165,7 +186,7 @@ fn frequencies(model: &Model, speed: &Speed) -> Frequencies {
 
 /// Where a defect is, how large, and what its line in the envelope is called; what was found of it is under `defectN.` of the
 /// quantities.
-#[derive(Debug, Serialize)]
+#[derive(Debug, Serialize, JsonSchema)]
 struct DefectPlace {
     at: String,
     on: &'static str,
@@ -178,7 +199,7 @@ struct DefectPlace {
     line: Option<Line>,
 }
 
-#[derive(Debug, Serialize)]
+#[derive(Debug, Serialize, JsonSchema)]
 struct Line {
     name: &'static str,
     resolution_hz: Option<f64>,
@@ -210,14 +231,14 @@ fn defects(parts: &Parts) -> Vec<DefectPlace> {
 }
 
 /// Force of the outer contacts over the place in the bearing.
-#[derive(Debug, Serialize)]
+#[derive(Debug, Serialize, JsonSchema)]
 struct LoadZone {
     r#static: Option<StaticBalance>,
     bin_centers_deg: Vec<f64>,
     outer_contacts_by_row: Vec<RowForces>,
 }
 
-#[derive(Debug, Serialize)]
+#[derive(Debug, Serialize, JsonSchema)]
 struct StaticBalance {
     largest_contact_force_n: f64,
     extent_deg: f64,
@@ -227,7 +248,7 @@ struct StaticBalance {
     sunk_um: f64,
 }
 
-#[derive(Debug, Serialize)]
+#[derive(Debug, Serialize, JsonSchema)]
 struct RowForces {
     mean_n: Vec<f64>,
     max_n: Vec<f64>,
@@ -249,14 +270,14 @@ fn load_zone(parts: &Parts) -> LoadZone {
     }
 }
 
-#[derive(Debug, Serialize)]
+#[derive(Debug, Serialize, JsonSchema)]
 struct Solver {
     method: &'static str,
     kernel: &'static str,
 }
 
 /// Every entry of the audit; what is left is the quantity `audit.energy_residual`.
-#[derive(Debug, Serialize)]
+#[derive(Debug, Serialize, JsonSchema)]
 struct EnergyAudit {
     held_at_start: Held,
     held_at_end: Held,
@@ -266,7 +287,7 @@ struct EnergyAudit {
     centred_levers: f64,
 }
 
-#[derive(Debug, Serialize)]
+#[derive(Debug, Serialize, JsonSchema)]
 struct Held {
     kinetic: f64,
     contacts: f64,
@@ -279,14 +300,14 @@ fn held(e: &model::Energy) -> Held {
     Held { kinetic: e.kinetic, contacts: e.contacts, cage_contacts: e.cage, supports: e.supports, gravity: e.gravity }
 }
 
-#[derive(Debug, Serialize)]
+#[derive(Debug, Serialize, JsonSchema)]
 struct Input {
     drive: f64,
     load: f64,
     guidance_film: f64,
 }
 
-#[derive(Debug, Serialize)]
+#[derive(Debug, Serialize, JsonSchema)]
 struct Dissipated {
     contact_damping: f64,
     raceway_friction: f64,
@@ -321,7 +342,7 @@ fn energy(outcome: &Outcome) -> EnergyAudit {
 }
 
 /// A value that no source states.
-#[derive(Debug, Serialize)]
+#[derive(Debug, Serialize, JsonSchema)]
 struct Assumption<'a> {
     key: &'a str,
     value: &'a str,
@@ -344,7 +365,7 @@ pub fn warnings(parts: &Parts) -> Vec<String> {
 
 /// What the sensor did: of the signal before noise and ADC, and of the noise added, from `analysed_from` on; clipped samples of the
 /// whole record.
-#[derive(Debug, Serialize)]
+#[derive(Debug, Serialize, JsonSchema)]
 struct Sensor {
     /// The level asked for.
     noise_rms_m_per_s2: Option<f64>,
@@ -352,7 +373,7 @@ struct Sensor {
     channels: BTreeMap<String, SensorChannel>,
 }
 
-#[derive(Debug, Serialize)]
+#[derive(Debug, Serialize, JsonSchema)]
 struct SensorChannel {
     unit: &'static str,
     signal_rms_m_per_s2: Option<f64>,
@@ -379,7 +400,7 @@ fn sensor(parts: &Parts) -> Option<Sensor> {
 
 /// The level beside that of the same scenario without its damage: RMS of the sensor acceleration along the axis that the spectra
 /// show, and that of the damaged bearing over it.
-#[derive(Debug, Serialize)]
+#[derive(Debug, Serialize, JsonSchema)]
 struct Healthy {
     channel: &'static str,
     unit: &'static str,

@@ -164,6 +164,30 @@ fields! {
     EXIT_PEAK "exit_peak" "m/s^2" Passes "largest |acceleration| of the sensor after a roller leaves the defect, within half its pass and before the next one enters; none where that is mostly too soon; other rollers and defects add to it" |i| i.peak;
 }
 
+/// A regular expression of a number's name, its unit (`None`: the channel's), what it is.
+pub type Form = (String, Option<&'static str>, &'static str);
+
+/// The numbers that a run may have.
+pub fn forms() -> impl Iterator<Item = Form> {
+    fn of<F>(subject: &'static str, list: &'static [Field<F>]) -> impl Iterator<Item = Form> {
+        list.iter().map(move |field| (format!("^{subject}{}$", field.name), Some(field.unit), field.meaning))
+    }
+    let channel = r"[a-z]\w*(\.anti_aliased)?\.";
+    let own = |name: &str, meaning| (format!("^{channel}{name}$"), None, meaning);
+    let indicators = Indicator::ALL.map(|i| own(i.name(), i.meaning()));
+    let records = record("").map(|field| own(field.name, field.meaning));
+    (indicators.into_iter().chain(records))
+        .chain(of(r"envelope\.", LINES))
+        .chain(of(r"defect\d+\.", DEFECT))
+        .chain(of(r"defect\d+\.", IMPACTS))
+        .chain(of(r"row\d+\.", SLIP))
+        .chain(of(r"row\d+\.", LOAD))
+        .chain(of(r"audit\.", AUDITS))
+        .chain(of(r"work\.", WORK))
+        .chain(of("", ANALYSED))
+        .chain(of("", COURSE))
+}
+
 /// Whether a number, by its name, can be below 0.
 pub fn can_be_negative(name: &str) -> bool {
     let signed = [

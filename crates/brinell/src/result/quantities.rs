@@ -17,12 +17,13 @@ use crate::scenario::Scenario;
 use crate::signal::spectrum::{Peak, peak_near};
 use crate::signal::{Estimate, Indicator, Interval, LineSearch};
 use crate::simulate::{Outcome, Simulation};
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value};
 
 /// One number of a run. Files have it by its name, as `{"unit", "value", "low", "high", "freedom"}`: `low` and `high` are the ends of its 95 %
 /// interval, null where the run is too short to tell, and not there where the number never has one.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Quantity {
     /// What it is: `sensor_ax.rms`.
     #[serde(skip)]
@@ -37,7 +38,7 @@ pub struct Quantity {
 }
 
 /// Whether a number comes with an interval.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(from = "Ends", into = "Ends")]
 pub enum Spread {
     /// It never does: a count, an extreme.
@@ -49,7 +50,7 @@ pub enum Spread {
 }
 
 /// [`Spread`] in a file.
-#[derive(Serialize, Deserialize)]
+#[derive(Serialize, Deserialize, JsonSchema)]
 #[serde(untagged)]
 enum Ends {
     Known(Interval),
