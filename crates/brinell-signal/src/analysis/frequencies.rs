@@ -317,9 +317,13 @@ mod tests {
             assert!((bpfo + bpfi - z).abs() < 3e-3, "{}", b.name);
             assert!((ftf.unwrap() * z - bpfo).abs() < 6e-4 * z, "{}", b.name);
             let g = (bpfi - bpfo) / z;
+            // A thrust bearing's.
+            if g == 0.0 {
+                continue;
+            }
             if let Some(bsf) = bsf {
                 let cosine = 2.0 * bsf * g / (1.0 - g * g);
-                assert!((35.5_f64.to_radians().cos()..1.005).contains(&cosine), "{}: {cosine}", b.name);
+                assert!((40.1_f64.to_radians().cos()..1.005).contains(&cosine), "{}: {cosine}", b.name);
             }
             assert!(b.source.len() > 30 && (0.08..0.35).contains(&g), "{}", b.name);
         }

@@ -32,12 +32,21 @@ pub fn frequencies_of(orders: DefectOrders, speed_rpm: f64) -> [(&'static str, f
 const INSTEAD: &str = "For another give what its maker's page tells: the number of rolling elements, their diameter, the pitch diameter and \
      the contact angle; or BPFO, BPFI, BSF and FTF over the shaft's frequency";
 
-/// The insert of a bearing unit, for its housing: `UC205` of `UCP205` and `UCFL205`.
-fn insert_of_unit(base: String) -> String {
-    match base.strip_prefix("UC") {
-        Some(rest) => format!("UC{}", rest.trim_start_matches(|c: char| c.is_ascii_alphabetic())),
-        None => base,
-    }
+/// What names of one bearing begin with: a unit's is its insert's (`UC205` of `UCP205` and `UCFL205`), and that of an angular
+/// contact ball bearing has the letters of its angle (`7205B` of `7205 BEP`).
+fn bases(name: &str) -> Vec<String> {
+    let of = |(base, suffix): (String, String)| {
+        if let Some(rest) = base.strip_prefix("UC") {
+            return format!("UC{}", rest.trim_start_matches(|c: char| c.is_ascii_alphabetic()));
+        }
+        if kind(&base) != Some("angular contact ball bearing") {
+            return base;
+        }
+        let letters = suffix.trim_start_matches(|c: char| !c.is_ascii_alphabetic());
+        let angle = if letters.starts_with("AC") { "AC" } else { letters.get(..1).unwrap_or("") };
+        format!("{base}{angle}")
+    };
+    readings(name).into_iter().map(of).collect()
 }
 
 /// A bearing that every command knows by its name. A preset of a scenario is one of the catalogue.
@@ -63,12 +72,11 @@ impl KnownBearing {
         let catalogued = |found: fn(&str) -> Option<&'static Entry>| found(name).map(Self::Catalogue);
         let named = || NamedBearing::find(name).map(Self::DataSet);
         let of_base = || {
-            let bases = |name: &str| readings(name).into_iter().map(|(base, _)| insert_of_unit(base));
-            let known = |base: String| match NAMED.iter().find(|b| bases(b.name).any(|own| own == base)) {
+            let known = |base: String| match NAMED.iter().find(|b| bases(b.name).contains(&base)) {
                 Some(bearing) => Some(Self::DataSet(bearing)),
                 None => catalogue::find_exactly(&base).map(Self::Catalogue),
             };
-            bases(name).find_map(known)
+            bases(name).into_iter().find_map(known)
         };
         catalogued(catalogue::find_exactly).or_else(named).or_else(|| catalogued(catalogue::find)).or_else(of_base)
     }
@@ -204,15 +212,25 @@ mod tests {
             ("UCFL 208", "UC208"),
             ("UCP 204", "UC204"),
             ("30204 J2/Q", "30204"),
+            ("SKF 7205 BECBP", "7205-B"),
+            ("7208C", "7208-C"),
+            ("51208", "51208"),
             ("6205-2RS", "6205-2RS"),
             ("6205 2RSH/C3", "6205"),
         ] {
             assert_eq!(KnownBearing::find(name).map(KnownBearing::name), Some(known), "{name}");
         }
-        for name in ["2221", "22210", "62052", "ER-20K", "UC216", "120", "7205", "51105", "3020"] {
+        for name in ["2221", "22210", "62052", "ER-20K", "UC216", "120", "7205", "7205 ACD", "51105", "3020"] {
             let words = KnownBearing::named(name).unwrap_err();
             assert!(words.contains("the number of rolling elements, their diameter"), "{words}");
         }
+    }
+
+    #[test]
+    fn lit_thrust_bearings_are_passed_by_half_of_their_balls_and_no_race_can_be_told() {
+        let (orders, _) = KnownBearing::find("51208").unwrap().orders().unwrap();
+        assert_eq!((orders.bpfo, orders.bpfi, orders.ftf), (Some(7.5), Some(7.5), Some(0.5)));
+        assert!(orders.with_given([None; 4]).unwrap_err().to_string().contains("passed more often"));
     }
 
     #[test]

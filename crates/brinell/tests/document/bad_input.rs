@@ -276,6 +276,32 @@ fn analytic_sample_rate_is_held_against_the_defect_frequencies() {
     }
 }
 
+/// The roller of the model is 6 mm long.
+#[test]
+fn prop_damage_wider_than_the_roller_is_that_cut_to_it() {
+    for (wide, cut) in [
+        ("{ rectangle = { length_mm = 3, width_mm = 20 } }", "{ rectangle = { length_mm = 3, width_mm = 6 } }"),
+        (
+            "{ profile = { arc_mm = [-1, 1], width_mm = [8, 40] } }",
+            "{ profile = { arc_mm = [-1, 1], width_mm = [6, 6] } }",
+        ),
+        (
+            "{ outline = { points_mm = [[-1, -9], [1, -9], [1, 2], [-1, 2]] } }",
+            "{ outline = { points_mm = [[-1, -3], [1, -3], [1, 2], [-1, 2]] } }",
+        ),
+    ] {
+        let [wide, cut] = [wide, cut].map(|shape| {
+            let loaded = with(OUTER, &[("defects.0.shape", shape)]).unwrap_or_else(|p| panic!("{}", report(&p)));
+            brinell::model::Model::new(&loaded.scenario).unwrap()
+        });
+        for k in -20..=20 {
+            let s = 1e-4 * f64::from(k);
+            let [wide, cut] = [&wide, &cut].map(|model| model.defects[0].damaged_length(s));
+            assert!((wide - cut).abs() < 1e-12 && cut <= 6e-3, "{wide} {cut} at {s}");
+        }
+    }
+}
+
 /// Where no number of rollers fits, no range of numbers is named.
 #[test]
 fn regress_a_row_without_room_has_no_range() {
@@ -291,6 +317,7 @@ fn regress_overlaps_crossings_and_overhang_are_said_and_run() {
     let outline = |points: &str| format!("{{ outline = {{ polygons_mm = {points} }} }}");
     let crossing = outline("[[[-1,-1],[1,-1],[1,1],[-1,1]],[[0,0],[2,0],[2,2],[0,2]]]");
     let bow = outline("[[[0,0],[1,1],[1,0],[0,1]]]");
+    let long = outline("[[[-1,-9],[1,-9],[1,9],[-1,9]]]");
     let map = "{ depth_map = { ds_mm = 1, dz_mm = 1, columns = 3, rows = 12, depth_um = [REST] } }"
         .replace("REST", &["5"; 36].join(", "));
     let second = "{ on = \"outer-raceway\", depth_um = 5, center_deg = 1, shape = { circle = { diameter_mm = 2 } } }";
@@ -305,6 +332,20 @@ fn regress_overlaps_crossings_and_overhang_are_said_and_run() {
             "crosses itself at s = 0.5 mm, z = 0.5 mm",
         ),
         ("defects.0.axial_offset_mm", "2.5", "defects.0.axial_offset_mm", "what is beyond is left out"),
+        (
+            "defects.0.shape",
+            "{ rectangle = { length_mm = 3, width_mm = 20 } }",
+            "defects.0.shape.rectangle.width_mm",
+            "20 mm is wider than the roller, whose length is 6 mm; it acts over 6 mm",
+        ),
+        ("defects.0.shape", "{ circle = { diameter_mm = 7 } }", "defects.0.shape.circle.diameter_mm", "7 mm is wider"),
+        (
+            "defects.0.shape",
+            "{ random = { length_mm = 3, width_mm = 7 } }",
+            "defects.0.shape.random.width_mm",
+            "it acts over 6 mm",
+        ),
+        ("defects.0.shape", long.as_str(), "defects.0.shape.outline.polygons_mm", "and the roller covers -3 to 3 mm"),
     ] {
         let loaded = with(OUTER, &[(key, value)]).unwrap_or_else(|p| panic!("{}", report(&p)));
         let warning = problem_of(&loaded.warnings, at);

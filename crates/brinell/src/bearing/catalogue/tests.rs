@@ -313,6 +313,28 @@ fn lit_balls_follow_from_the_static_rating() {
     }
 }
 
+/// f_c of ISO 281 for radial ball bearings by d cos a / D_m.
+const FACTORS: [(f64, f64); 12] = [
+    (0.10, 55.5),
+    (0.12, 57.5),
+    (0.14, 58.8),
+    (0.16, 59.6),
+    (0.18, 59.9),
+    (0.20, 59.9),
+    (0.22, 59.6),
+    (0.24, 59.0),
+    (0.26, 58.2),
+    (0.28, 57.1),
+    (0.30, 56.0),
+    (0.32, 54.6),
+];
+
+fn factor(ratio: f64) -> f64 {
+    let above = FACTORS.iter().position(|(r, _)| *r > ratio).unwrap();
+    let [(r0, f0), (r1, f1)] = [FACTORS[above - 1], FACTORS[above]];
+    f0 + (f1 - f0) * (ratio - r0) / (r1 - r0)
+}
+
 #[test]
 fn lit_numbers_of_balls_follow_from_the_dynamic_rating() {
     // The static rating alone leaves the number of balls open: with d from C0 = f0 Z d^2, one ball more or less keeps it.
@@ -320,20 +342,6 @@ fn lit_numbers_of_balls_follow_from_the_dynamic_rating() {
     // SKF prints 4 to 7 % more than it, the same for every number known from elsewhere (6203 to 6206); of what it does
     // not call Explorer, and NSK of the 6804 whose 13 balls are known, what it is.
     const AS_ISO: [&str; 7] = ["6030", "6320", "6321", "6322", "6324", "6804", "16005"];
-    const FACTORS: [(f64, f64); 12] = [
-        (0.10, 55.5),
-        (0.12, 57.5),
-        (0.14, 58.8),
-        (0.16, 59.6),
-        (0.18, 59.9),
-        (0.20, 59.9),
-        (0.22, 59.6),
-        (0.24, 59.0),
-        (0.26, 58.2),
-        (0.28, 57.1),
-        (0.30, 56.0),
-        (0.32, 54.6),
-    ];
     let mut held = 0;
     for entry in all().iter().filter(|entry| entry.has_balls()) {
         let Some(printed) = entry.fact(DYNAMIC_RATING) else {
@@ -341,9 +349,7 @@ fn lit_numbers_of_balls_follow_from_the_dynamic_rating() {
         };
         let (number, d) = (bearing(entry, "rollers_per_row"), bearing(entry, "roller_diameter_mm"));
         let ratio = d / bearing(entry, "pitch_diameter_mm");
-        let above = FACTORS.iter().position(|(r, _)| *r > ratio).unwrap();
-        let [(r0, f0), (r1, f1)] = [FACTORS[above - 1], FACTORS[above]];
-        let factor = f0 + (f1 - f0) * (ratio - r0) / (r1 - r0);
+        let factor = factor(ratio);
         let size = if d > 25.4 { 3.647 * d.powf(1.4) } else { d.powf(1.8) };
         let share = printed / (1.3 * factor * number.powf(2.0 / 3.0) * size);
         let may = if AS_ISO.contains(&entry.name.as_str()) { 0.985..1.012 } else { 1.035..1.072 };
@@ -454,5 +460,56 @@ fn lit_6203_orders_of_paderborn_and_uer204s_of_xjtu() {
     for (name, bpfo, bpfi) in [("6203", 3.05, 4.95), ("UER204", 3.083, 4.917)] {
         let k = per_turn(name);
         assert!((k.bpfo / bpfo - 1.0).abs() < 2e-3 && (k.bpfi / bpfi - 1.0).abs() < 2e-3);
+    }
+}
+
+#[test]
+fn lit_angular_contact_and_thrust_balls_follow_from_nsks_ratings() {
+    // NSK's catalogue of rolling bearings, pp. B50-55: C and C0 by ISO 281 and ISO 76 (cos a beside the radial bearing's).
+    for (name, c, c0) in [
+        ("7204-A", 14500.0, 8300.0),
+        ("7204-B", 13300.0, 7650.0),
+        ("7204-C", 14600.0, 8050.0),
+        ("7205-A", 16200.0, 10300.0),
+        ("7205-B", 14800.0, 9400.0),
+        ("7205-C", 16600.0, 10200.0),
+        ("7206-A", 22500.0, 14800.0),
+        ("7206-B", 20500.0, 13500.0),
+        ("7206-C", 23000.0, 14700.0),
+        ("7207-A", 29700.0, 20100.0),
+        ("7207-B", 27100.0, 18400.0),
+        ("7207-C", 30500.0, 19900.0),
+        ("7208-A", 35500.0, 25100.0),
+        ("7208-B", 32000.0, 23000.0),
+        ("7208-C", 36500.0, 25200.0),
+        ("7209-A", 39500.0, 28700.0),
+        ("7209-B", 36000.0, 26200.0),
+        ("7209-C", 41000.0, 28800.0),
+    ] {
+        let b = crate::analysis::NamedBearing::find(name).unwrap();
+        let m = b.measures.unwrap();
+        let (z, cosine) = (b.elements as f64, m.contact_angle_deg.to_radians().cos());
+        let ratio = m.diameter_mm * cosine / m.pitch_mm;
+        let of_static = crate::bearing::rating::ball_factor(ratio) * z * m.diameter_mm.powi(2) * cosine / c0;
+        let of_dynamic = 1.3 * factor(ratio) * cosine.powf(0.7) * z.powf(2.0 / 3.0) * m.diameter_mm.powf(1.8) / c;
+        assert!((of_static - 1.0).abs() < 7e-3 && (of_dynamic - 1.0).abs() < 1e-2, "{name} {of_static} {of_dynamic}");
+    }
+    // p. B215: C0a = 61.6 Z d^2 (ISO 76, table of thrust ball bearings, d cos a / D_m = 0); d by BSF = D_m / (2 d).
+    for (name, c0) in [
+        ("51206", 58000.0),
+        ("51207", 78000.0),
+        ("51208", 98500.0),
+        ("51209", 105000.0),
+        ("51210", 111000.0),
+        ("51211", 159000.0),
+        ("51212", 169000.0),
+        ("51213", 189000.0),
+        ("51214", 189000.0),
+    ] {
+        let b = crate::analysis::NamedBearing::find(name).unwrap();
+        let bore = 5.0 * name[3..].parse::<f64>().unwrap();
+        let outside = [52.0, 62.0, 68.0, 73.0, 78.0, 90.0, 95.0, 100.0, 105.0][name[3..].parse::<usize>().unwrap() - 6];
+        let d = 0.25 * (bore + outside) / b.orders().bsf.unwrap();
+        assert!((61.6 * b.elements as f64 * d * d / c0 - 1.0).abs() < 6e-3, "{name}");
     }
 }
