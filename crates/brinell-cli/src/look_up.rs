@@ -228,7 +228,8 @@ pub(crate) fn frequencies(args: &FrequenciesArgs) -> Result<ExitCode, Failure> {
         document(&Value::Object(values).to_string());
     } else {
         say!("Pure rolling at {} r/min, outer ring at rest", plain_number(rpm));
-        for (name, hz, meaning) in rows {
+        // Of a bearing known by its orders alone one may be missing.
+        for (name, hz, meaning) in rows.into_iter().filter(|row| row.1.is_finite()) {
             say!("  {name:<7} {hz:>11.4} Hz  {:>9.5} x shaft  {meaning}", hz / (rpm.abs() / 60.0));
         }
         say!("{source}");

@@ -110,7 +110,9 @@ impl KnownBearing {
             (zeros.map(Self::name)).or_else(|| catalogue::nearest_name(name)).or_else(|| did_you_mean(name, alike()));
         let hint = meant.map_or(String::new(), |name| format!("; did you mean {name}?"));
         let joint = if hint.is_empty() { "; there" } else { " There" };
-        format!("no bearing {name:?}{hint}{joint} are {}. {INSTEAD}", nearest_few(name, names.iter().copied()))
+        // Of its type, where the name tells one.
+        let near: Vec<&str> = alike().collect();
+        format!("no bearing {name:?}{hint}{joint} are {}. {INSTEAD}", nearest_few(name, near.into_iter()))
     }
 
     /// Its name.

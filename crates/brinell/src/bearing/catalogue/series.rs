@@ -63,6 +63,10 @@ impl Common {
             ("C0", decimal((1e3 * self.c0).round())),
             ("mass", decimal(self.mass)),
             ("clearance", decimal(0.25 * (self.least + self.largest))),
+            // In words, as no decimal.
+            ("d_", whole(self.d)),
+            ("D_", whole(self.outside)),
+            ("B_", whole(self.width)),
             ("least", whole(self.least)),
             ("largest", whole(self.largest)),
         ]
