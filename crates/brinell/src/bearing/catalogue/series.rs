@@ -23,12 +23,12 @@ pub(super) fn rows() -> impl Iterator<Item = (&'static str, &'static str)> {
 pub(super) fn text(row: &str) -> Option<String> {
     let cells: Vec<&str> = row.split(';').collect();
     let numbers = cells.get(3..)?.iter().map(|cell| cell.parse().ok()).collect::<Option<Vec<f64>>>()?;
-    let (template, second, values) = match numbers.as_slice() {
-        &[d, outside, width, c, c0, mass, f, e, rib, least, largest] => {
+    let (template, second, values) = match *numbers.as_slice() {
+        [d, outside, width, c, c0, mass, f, e, rib, least, largest] => {
             let common = Common { d, outside, width, c, c0, mass, least, largest };
             (ROLLERS, "{designation}", rollers(&common, [f, e, rib]))
         }
-        &[d, outside, width, c, c0, mass, d1, d2, number, ball, least, largest] => {
+        [d, outside, width, c, c0, mass, d1, d2, number, ball, least, largest] => {
             let common = Common { d, outside, width, c, c0, mass, least, largest };
             (BALLS, "{note}", balls(&common, [d1, d2], number, ball))
         }

@@ -465,51 +465,32 @@ fn lit_6203_orders_of_paderborn_and_uer204s_of_xjtu() {
 
 #[test]
 fn lit_angular_contact_and_thrust_balls_follow_from_nsks_ratings() {
-    // NSK's catalogue of rolling bearings, pp. B50-55: C and C0 by ISO 281 and ISO 76 (cos a beside the radial bearing's).
-    for (name, c, c0) in [
-        ("7204-A", 14500.0, 8300.0),
-        ("7204-B", 13300.0, 7650.0),
-        ("7204-C", 14600.0, 8050.0),
-        ("7205-A", 16200.0, 10300.0),
-        ("7205-B", 14800.0, 9400.0),
-        ("7205-C", 16600.0, 10200.0),
-        ("7206-A", 22500.0, 14800.0),
-        ("7206-B", 20500.0, 13500.0),
-        ("7206-C", 23000.0, 14700.0),
-        ("7207-A", 29700.0, 20100.0),
-        ("7207-B", 27100.0, 18400.0),
-        ("7207-C", 30500.0, 19900.0),
-        ("7208-A", 35500.0, 25100.0),
-        ("7208-B", 32000.0, 23000.0),
-        ("7208-C", 36500.0, 25200.0),
-        ("7209-A", 39500.0, 28700.0),
-        ("7209-B", 36000.0, 26200.0),
-        ("7209-C", 41000.0, 28800.0),
+    let named = |name: &str| crate::analysis::NamedBearing::find(name).unwrap();
+    // NSK's catalogue of rolling bearings, pp. B50-55: C and C0 of A, B and C in N, by ISO 281 and ISO 76.
+    for (size, c, c0) in [
+        ("7204", [14500.0, 13300.0, 14600.0], [8300.0, 7650.0, 8050.0]),
+        ("7205", [16200.0, 14800.0, 16600.0], [10300.0, 9400.0, 10200.0]),
+        ("7206", [22500.0, 20500.0, 23000.0], [14800.0, 13500.0, 14700.0]),
+        ("7207", [29700.0, 27100.0, 30500.0], [20100.0, 18400.0, 19900.0]),
+        ("7208", [35500.0, 32000.0, 36500.0], [25100.0, 23000.0, 25200.0]),
+        ("7209", [39500.0, 36000.0, 41000.0], [28700.0, 26200.0, 28800.0]),
     ] {
-        let b = crate::analysis::NamedBearing::find(name).unwrap();
-        let m = b.measures.unwrap();
-        let (z, cosine) = (b.elements as f64, m.contact_angle_deg.to_radians().cos());
-        let ratio = m.diameter_mm * cosine / m.pitch_mm;
-        let of_static = crate::bearing::rating::ball_factor(ratio) * z * m.diameter_mm.powi(2) * cosine / c0;
-        let of_dynamic = 1.3 * factor(ratio) * cosine.powf(0.7) * z.powf(2.0 / 3.0) * m.diameter_mm.powf(1.8) / c;
-        assert!((of_static - 1.0).abs() < 7e-3 && (of_dynamic - 1.0).abs() < 1e-2, "{name} {of_static} {of_dynamic}");
+        for (k, letter) in ["A", "B", "C"].into_iter().enumerate() {
+            let b = named(&format!("{size}{letter}"));
+            let m = b.measures.unwrap();
+            let (z, cosine) = (b.elements as f64, m.contact_angle_deg.to_radians().cos());
+            let ratio = m.diameter_mm * cosine / m.pitch_mm;
+            let at_rest = crate::bearing::rating::ball_factor(ratio) * z * m.diameter_mm.powi(2) * cosine / c0[k];
+            let turning = 1.3 * factor(ratio) * cosine.powf(0.7) * z.powf(2.0 / 3.0) * m.diameter_mm.powf(1.8) / c[k];
+            assert!((at_rest - 1.0).abs() < 7e-3 && (turning - 1.0).abs() < 1e-2, "{} {at_rest} {turning}", b.name);
+        }
     }
-    // p. B215: C0a = 61.6 Z d^2 (ISO 76, table of thrust ball bearings, d cos a / D_m = 0); d by BSF = D_m / (2 d).
-    for (name, c0) in [
-        ("51206", 58000.0),
-        ("51207", 78000.0),
-        ("51208", 98500.0),
-        ("51209", 105000.0),
-        ("51210", 111000.0),
-        ("51211", 159000.0),
-        ("51212", 169000.0),
-        ("51213", 189000.0),
-        ("51214", 189000.0),
-    ] {
-        let b = crate::analysis::NamedBearing::find(name).unwrap();
-        let bore = 5.0 * name[3..].parse::<f64>().unwrap();
-        let outside = [52.0, 62.0, 68.0, 73.0, 78.0, 90.0, 95.0, 100.0, 105.0][name[3..].parse::<usize>().unwrap() - 6];
-        let d = 0.25 * (bore + outside) / b.orders().bsf.unwrap();
-        assert!((61.6 * b.elements as f64 * d * d / c0 - 1.0).abs() < 6e-3, "{name}");
+    // p. B215: D and C0a = 61.6 Z d^2 (ISO 76, thrust ball bearings); d by BSF = D_m / (2 d).
+    let outsides = [52.0, 62.0, 68.0, 73.0, 78.0, 90.0, 95.0, 100.0, 105.0];
+    let ratings = [58e3, 78e3, 98.5e3, 105e3, 111e3, 159e3, 169e3, 189e3, 189e3];
+    for (code, (outside, c0)) in (6..).zip(outsides.into_iter().zip(ratings)) {
+        let b = named(&format!("512{code:02}"));
+        let d = 0.25 * (5.0 * f64::from(code) + outside) / b.orders().bsf.unwrap();
+        assert!((61.6 * b.elements as f64 * d * d / c0 - 1.0).abs() < 6e-3, "{}", b.name);
     }
 }
