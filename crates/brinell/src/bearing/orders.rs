@@ -106,8 +106,12 @@ impl KnownBearing {
         }
         let zeros = with_zeros(name).and_then(|name| Self::find(&name));
         let alike = || names.iter().copied().filter(|known| of_one_kind(name, known));
-        let meant =
-            (zeros.map(Self::name)).or_else(|| catalogue::nearest_name(name)).or_else(|| did_you_mean(name, alike()));
+        // Of a type that is known a size is no slip of the finger for another.
+        let digits = |name: &str| name.chars().filter(char::is_ascii_digit).collect::<String>();
+        let of_the_size = || alike().filter(|known| kind(name).is_none() || digits(known) == digits(name));
+        let meant = (zeros.map(Self::name))
+            .or_else(|| catalogue::nearest_name(name))
+            .or_else(|| did_you_mean(name, of_the_size()));
         let hint = meant.map_or(String::new(), |name| format!("; did you mean {name}?"));
         let joint = if hint.is_empty() { "; there" } else { " There" };
         // Of its type, where the name tells one.
