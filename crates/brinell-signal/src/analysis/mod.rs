@@ -42,7 +42,7 @@ pub use drift::Drift;
 pub use elsewhere::Elsewhere;
 pub use error::{AnalysisError, FEWEST_REVOLUTIONS};
 pub use family::{Family, Finding, Harmonic, Sidebands};
-pub use frequencies::{Component, DefectOrders, NAMED, NamedBearing, Wording, most_elements};
+pub use frequencies::{Component, DefectOrders, Measures, NAMED, NamedBearing, Wording, most_elements};
 pub use json::to_json;
 pub use levels::Levels;
 pub use options::{MACHINE_NOISE, Options, SUPPLY_HZ};
