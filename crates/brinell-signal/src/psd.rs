@@ -5,6 +5,7 @@
 //! half overlap.
 
 use super::error::{SignalError, check, check_squares, require};
+use super::lengths::fast_up_to;
 use super::spectrum::{FEWEST_SAMPLES, PowerAverage, SegmentTransform, Spectrum};
 use super::window::Window;
 
@@ -88,6 +89,18 @@ pub fn psd(x: &[f64], fs: f64, segments: &Segments) -> Result<Spectrum, SignalEr
         average.add(transform.windowed_input());
     }
     Ok(average.finish(fs, &transform.window, step))
+}
+
+/// The spectrum of several records, each with its own rate (Hz), in segments that no two records share: of at most
+/// `turns` periods of `hz`, as long as the shortest record allows, and fast to transform.
+pub(super) fn of_records(records: &[(&[f64], f64)], (turns, hz): (f64, f64)) -> Result<Spectrum, SignalError> {
+    let duration = |(x, fs): &(&[f64], f64)| x.len() as f64 / fs;
+    let shortest = records.iter().copied().min_by(|a, b| duration(a).total_cmp(&duration(b)));
+    let (x, fs) = shortest.unwrap_or((&[], 1.0));
+    let length = fast_up_to(((turns * fs / hz) as usize).min(x.len()));
+    let seconds = length as f64 / fs;
+    let each = records.iter().map(|(x, fs)| psd(x, *fs, &Segments::of((seconds * fs).round() as usize)));
+    Ok(Spectrum::averaged(each.collect::<Result<_, _>>()?))
 }
 
 #[cfg(test)]
