@@ -87,3 +87,22 @@ impl Estimate {
         mean.is_finite().then(|| Self::positive(mean, scatter(&relative)))
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn analytic_n_alike_have_an_interval_narrower_by_the_root_of_n() {
+        let one = Estimate { value: 3.0, interval: Some(Interval { low: 2.8, high: 3.4, freedom: 4 }) };
+        let pooled = Estimate::pooled(&[(one, 0.25); 4], 1);
+        let interval = pooled.interval.unwrap();
+        assert!((pooled.value - 3.0).abs() < 1e-12);
+        assert!((interval.low - 2.9).abs() < 1e-12 && (interval.high - 3.2).abs() < 1e-12, "{interval:?}");
+        assert_eq!(Estimate::pooled(&[(one, 1.0)], 2), one);
+        // Root mean square, and no interval where one has none.
+        let bare = |value| Estimate { value, interval: None };
+        let rms = Estimate::pooled(&[(bare(1.0), 0.5), (bare(7.0), 0.5)], 2);
+        assert!((rms.value - 5.0).abs() < 1e-12 && rms.interval.is_none());
+    }
+}

@@ -148,6 +148,29 @@ mod tests {
         }
     }
 
+    /// Records of several lengths and rates, one of them shorter than a segment may be.
+    #[test]
+    fn analytic_records_are_averaged_in_segments_of_their_own() {
+        let noise = Noise::new(9).normals(60_000);
+        let records = [(&noise[..500], FS), (&noise[500..9_000], 1.01 * FS), (&noise[9_000..60_000], 0.99 * FS)];
+        let s = of_records(&records, (64.0, 100.0)).unwrap();
+        // 500 samples are the longest that all have.
+        assert_eq!((s.segment_length, s.frequency_step), (500, FS / 500.0));
+        let each = records.map(|(x, fs)| psd(x, fs, &Segments::of((500.0 * fs / FS).round() as usize)).unwrap());
+        assert_eq!(s.segments, each.iter().map(|s| s.segments).sum::<usize>());
+        let freedom: f64 = each.iter().map(|s| s.degrees_of_freedom).sum();
+        assert!((s.degrees_of_freedom / freedom - 1.0).abs() < 1e-12);
+        // Of white noise each bin scatters as chi-square with so many degrees of freedom.
+        let inner = &s.amplitude[5..240];
+        let power: Vec<f64> = inner.iter().map(|a| a * a).collect();
+        let mean = power.iter().sum::<f64>() / power.len() as f64;
+        let variance = power.iter().map(|p| (p / mean - 1.0).powi(2)).sum::<f64>() / power.len() as f64;
+        assert!((variance * freedom / 2.0 - 1.0).abs() < 0.3, "{variance} {freedom}");
+        // One alone is its own.
+        let one = of_records(&records[1..2], (64.0, 100.0)).unwrap();
+        assert_eq!(one, psd(records[1].0, records[1].1, &Segments::of(one.segment_length)).unwrap());
+    }
+
     #[test]
     fn analytic_parseval_with_detrending() {
         for n in [300, 301] {

@@ -70,6 +70,9 @@ pub(super) struct Together {
     each: Vec<Vec<f64>>,
     /// Power over floor that noise alone hardly shows at a place.
     pub(super) noise: f64,
+    /// How high a line rises over the noise, over what it does in segments of [`REVOLUTIONS`]: of several records, which
+    /// average chance lines away; of one it is 1, whatever its length.
+    pub(super) rise: f64,
 }
 
 /// What is at a frequency.
@@ -96,6 +99,10 @@ impl Together {
             hidden: vec![false; bins],
             each: Vec::new(),
             noise: chi_square_quantile(NOISE, apart * freedom) / (apart * freedom),
+            rise: match envelopes.rates.len() {
+                1 => 1.0,
+                _ => (shaft.hz / (step * REVOLUTIONS)).min(1.0),
+            },
         };
         // The median of a power with few degrees of freedom lies below its mean.
         let unbiased = 1.0 / (1.0 - 2.0 / (9.0 * freedom)).powi(3);
