@@ -33,7 +33,7 @@ BEARINGS = [
 OWN = (9, 7.94, 39.04, 0)
 CUTS = {0.6: 2, 1.0: 3, 2.0: 2, 3.0: 1}
 # Seconds, and the RMS of white noise over the record's.
-PIECES = [(1.0, 0), (0.6, 0), (1.0, 2), (0.6, 2), (1.0, 4)]
+PIECES = [(1.0, 0), (0.6, 0), (1.0, 2), (0.6, 2), (1.0, 3)]
 SPEEDS = [1, -1, 2, -2, 3, -3, 5, -5, 10, -10]
 # Of another number of poles, and of a shaft that turns otherwise.
 FAR = [20, -17, 50, -50]

@@ -66,7 +66,10 @@ fn regress_what_is_no_record_of_the_machine_is_refused_by_name() {
     };
     let other = &impacts(6.0)[3000..9000];
     at("short.csv", &other[..2000]);
-    refused(&["short.csv"], &["short.csv, `column 1`: 0.1667 s are 5.00 revolutions", "0.2667 s or more", "however many"]);
+    refused(
+        &["short.csv"],
+        &["short.csv, `column 1`: 0.1667 s are 5.00 revolutions", "0.2667 s or more", "however many"],
+    );
     at("still.csv", &[1.0; 6000]);
     refused(&["still.csv"], &["still.csv, `column 1`: all 6000 samples are 1"]);
     fs::copy(folder.path().join("all/r1.csv"), folder.path().join("twin.csv")).unwrap();
@@ -98,5 +101,9 @@ fn regress_rate_unit_and_speed_have_to_agree() {
     look("alike.csv").exits(0).says(&["first.csv and 1 more", "shaft speed 1800 r/min"]);
     look("rate.csv").exits(2).complains(&["rate.csv", "sample rate 12800", "expected 12000", "first.csv"]);
     look("unit.csv").exits(2).complains(&["unit.csv", "unit m/s^2, expected g, that of first.csv"]);
-    look("speed.csv").exits(2).complains(&["speed.csv", "1850.00 r/min, expected 1800.00 r/min", "within 2 % (--tolerance)"]);
+    look("speed.csv").exits(2).complains(&[
+        "speed.csv",
+        "1850.00 r/min, expected 1800.00 r/min",
+        "within 2 % (--tolerance)",
+    ]);
 }
