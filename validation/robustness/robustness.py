@@ -202,6 +202,7 @@ def of_pieces(folder, brinell, verbose):
     """The first four seconds of each record in pieces, with noise."""
     random = np.random.default_rng(2)
     counts, off = collections.defaultdict(collections.Counter), collections.defaultdict(collections.Counter)
+    only = collections.Counter()
 
     def jobs():
         for r in records(folder):
@@ -228,6 +229,8 @@ def of_pieces(folder, brinell, verbose):
     with ThreadPoolExecutor(2) as pool:
         for row, truth, found in pool.map(one, jobs()):
             whole = found["the whole"][0]
+            alone = [outcome(result, truth) for result in found["one by one"]]
+            only[row] += outcome(found["together"][0], truth) == "right" and "right" not in alone
             for way, each in found.items():
                 counts[row, way].update(outcome(result, truth) for result in each)
                 if whole and whole["shaft"]["found_in_signal"]:
@@ -238,6 +241,7 @@ def of_pieces(folder, brinell, verbose):
         sound, told = c["called"] + c["not called"], off[(seconds, noise), way]
         damaged = f"{c['right']} / {c['wrong']} / {c['missed']}"
         print(f"| {seconds} s | {noise} | {way} | {damaged} | {c['called']} of {sound} | {told[True]} of {told[True] + told[False]} |")
+    print("told together and by no piece alone:", "; ".join(f"{seconds} s, noise {noise}: {only[seconds, noise]}" for seconds, noise in PIECES))
 
 
 def main():

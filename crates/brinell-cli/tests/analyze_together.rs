@@ -22,7 +22,7 @@ fn call<'a>(what: &[&'a str], more: &[&'a str]) -> Vec<&'a str> {
 fn regress_a_folder_is_one_verdict() {
     let folder = records();
     let done = brinell(folder.path(), &call(&["all"], &["-o", "look", "--json", "all.json"])).exits(0).says(&[
-        "all/r1.csv and 3 more, channel column 1: 2.000 s, 24000 samples",
+        "all/r1.csv and 3 more, channel column1: 2.000 s, 24000 samples",
         "4 records of one machine, their evidence averaged: the others are all/r2.csv, all/r3.csv, all/r4.csv",
         "Outer race damage",
         "wrote look/report.html",
@@ -68,10 +68,10 @@ fn regress_what_is_no_record_of_the_machine_is_refused_by_name() {
     at("short.csv", &other[..2000]);
     refused(
         &["short.csv"],
-        &["short.csv, `column 1`: 0.1667 s are 5.00 revolutions", "0.2667 s or more", "however many"],
+        &["short.csv, `column1`: 0.1667 s are 5.00 revolutions", "0.2667 s or more", "however many"],
     );
     at("still.csv", &[1.0; 6000]);
-    refused(&["still.csv"], &["still.csv, `column 1`: all 6000 samples are 1"]);
+    refused(&["still.csv"], &["still.csv, `column1`: all 6000 samples are 1"]);
     fs::copy(folder.path().join("all/r1.csv"), folder.path().join("twin.csv")).unwrap();
     refused(&["twin.csv"], &["--together: twin.csv", "the same samples as all/r1.csv"]);
     refused(&["all/r2.csv", "--against", "all/r3.csv"], &["--against"]);

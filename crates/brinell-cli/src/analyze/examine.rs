@@ -199,15 +199,15 @@ fn look(measured: &Measured, options: &Options) -> Result<Analysis, Failure> {
         let record = record.unwrap_or(measured);
         let hint = match (&error, &record.repeats) {
             (AnalysisError::TooShort { .. }, Some(why)) => format!("; {why}"),
+            (AnalysisError::TooShort { .. }, None) if among => {
+                ", however many are averaged: a shorter record does not tell a bearing's lines from the shaft's".into()
+            }
             // As many r/min would be enough as Hz.
             (AnalysisError::TooShort { revolutions, .. }, None)
                 if measured.speed.is_none() && 60.0 * revolutions >= FEWEST_REVOLUTIONS =>
             {
                 let rpm = 60.0 * options.shaft;
                 format!(", at {rpm:.2} r/min; a speed in Hz is written {rpm:.2}Hz")
-            }
-            (AnalysisError::TooShort { .. }, None) if among => {
-                ", however many are averaged: a shorter record does not tell a bearing's lines from the shaft's".into()
             }
             _ => String::new(),
         };
